@@ -1,0 +1,34 @@
+/* What a call can answer and what can be said of a result.
+ *
+ * Every function of the core that can refuse returns a brace_status_t. BRACE_OK is 0, every refusal is
+ * negative and its value never changes. A refused call leaves its outputs untouched.
+ */
+#ifndef BRACE_STATUS_H
+#define BRACE_STATUS_H
+
+typedef enum {
+    BRACE_OK = 0,
+    BRACE_E_NULL = -1,        /* a pointer that must be given is null */
+    BRACE_E_NOT_FINITE = -2,  /* an input is NaN or infinite */
+    BRACE_E_RANGE = -3,       /* an input lies outside its stated range */
+    BRACE_E_UNREACHABLE = -4, /* no posture of this limb puts the tip there */
+    BRACE_E_PARAMETER = -5,   /* a limb parameter that no limb can have */
+    BRACE_E_SINGULAR = -6,    /* the compliance has no inverse: nothing yields in some direction */
+    BRACE_E_TOO_FEW = -7,     /* not enough samples for an answer */
+    BRACE_E_UNSUPPORTED = -8  /* this limb needs the general path; see the function's header */
+} brace_status_t;
+
+/* Quality of a result that was given all the same; bits, carried with the value. */
+enum {
+    BRACE_FLAG_UNCALIBRATED = 1u << 0,  /* parameters are defaults, not this limb's */
+    BRACE_FLAG_NEAR_SINGULAR = 1u << 1, /* the stated accuracy is not promised for this limb or posture */
+    BRACE_FLAG_SATURATED = 1u << 2,     /* a value was limited to its representable range */
+    BRACE_FLAG_GAP_OPEN = 1u << 3,      /* a joint carries nothing: its play is being crossed */
+    BRACE_FLAG_STALE = 1u << 4,         /* older than its stated age limit */
+    BRACE_FLAG_OUT_OF_RANGE = 1u << 5   /* outside the range in which the model was identified */
+};
+
+/* One line of English for a status, never null; constant storage. */
+const char *brace_status_text(brace_status_t status);
+
+#endif
