@@ -153,9 +153,11 @@ int32_t brace_reference_posture(const brace_plant_model_t *model, double r_mm, d
 /* ------------------------------------------------------------------------------------ loading, plant -- */
 
 /* A loading record's inputs, one entry per row, in the order of the record. A run starts wherever run[]
- * changes: joints' play centred, friction relaxed; time, creep and temperature run on. t_s must not fall. */
+ * changes: joints' play centred, friction relaxed; time and temperature run on. t_s must not fall. */
 typedef struct {
     size_t count;
+    int32_t runs_rested;    /* 0: creep runs on through the record; 1: it too starts afresh with each run */
+    int32_t zeroed_per_run; /* 1: each run's first reading is taken from its readings */
     const int32_t *run;
     const double *theta1_rad; /* commanded; zero offsets are added */
     const double *theta2_rad;
@@ -200,10 +202,11 @@ typedef struct {
     const double *input;
     int32_t torque_imposed;
     int32_t joint_index; /* 0 coxa, 1 femur, 2 tibia */
+    double reversal_rad; /* [0, 1] imposed angle only: turning over which friction changes sign (0: at once) */
 } brace_joint_rows_t;
 
-/* out: torque [N mm] for imposed angles (the model's zero_offset_rad is subtracted from the angle first),
- * angle [rad] for imposed torques. A joint of compliance 0 refuses an imposed angle with E_SINGULAR.
+/* out: torque [N mm] for imposed angles, angle [rad] for imposed torques; deflection = angle + the joint's
+ * zero_offset_rad. A joint of compliance 0 refuses an imposed angle with E_SINGULAR.
  * returns OK, E_NULL, E_NOT_FINITE, E_RANGE, E_PARAMETER, E_SINGULAR */
 int32_t brace_plant_joint(const brace_plant_model_t *model, const brace_joint_rows_t *rows, double *out);
 
