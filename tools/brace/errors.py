@@ -1,0 +1,68 @@
+"""What can go wrong, as the person at the keyboard will read it.
+
+Every error says what, where (file:line, column or field), why, and the next thing to try, and carries the
+exit code that scripts test for.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from pathlib import Path
+
+EXIT_OK = 0
+EXIT_CHECK_FAILED = 1
+EXIT_USAGE = 2
+EXIT_BAD_FILE = 3
+EXIT_INTERRUPTED = 130
+
+
+class BraceError(Exception):
+    """An error with its place, its reason and a way on."""
+
+    exit_code = EXIT_CHECK_FAILED
+
+    def __init__(self, what: str, *, where: str = "", why: str = "", next_step: str = "") -> None:
+        super().__init__(what)
+        self.what = what
+        self.where = where
+        self.why = why
+        self.next_step = next_step
+
+    def render(self) -> str:
+        """The message as printed on stderr: one line, then the reason and the way on."""
+        lines = [": ".join(part for part in ("brace", self.where, self.what) if part)]
+        if self.why:
+            lines.append(f"  why: {self.why}")
+        if self.next_step:
+            lines.append(f"  try: {self.next_step}")
+        return "\n".join(lines)
+
+
+class UsageError(BraceError):
+    """The command line asks for something that cannot be."""
+
+    exit_code = EXIT_USAGE
+
+
+class MissingLibraryError(UsageError):
+    """The firmware's own C is not where it is looked for."""
+
+
+class BadFileError(BraceError):
+    """A model, rig or data file that is wrong, missing, contradictory or hostile."""
+
+    exit_code = EXIT_BAD_FILE
+
+
+def place(path: Path | str, line: int | None = None) -> str:
+    """`file:line`, or the file alone when the line is not known."""
+    return f"{path}:{line}" if line else str(path)
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """The known word nearest to a misspelt one, or an empty string."""
+    choices = list(known)
+    lowered = {choice.lower(): choice for choice in choices}
+    near = difflib.get_close_matches(word.lower(), list(lowered), n=1, cutoff=0.6)
+    return lowered[near[0]] if near else ""

@@ -1,0 +1,141 @@
+"""Reading files that may be anything, and writing files so that a failure leaves the old ones alone."""
+
+from __future__ import annotations
+
+import os
+import stat
+import tempfile
+from pathlib import Path
+
+from brace.errors import BadFileError, UsageError
+
+TOML_LIMIT_BYTES = 1 << 20
+DATA_LIMIT_BYTES = 1 << 30
+
+
+def read_bytes(path: Path, limit_bytes: int, what: str) -> bytes:
+    """The content of a regular file of at most `limit_bytes`; `what` names it in the refusal."""
+    try:
+        info = path.stat()
+    except FileNotFoundError:
+        raise BadFileError(f"no such {what}", where=str(path), why="the file does not exist",
+                           next_step=_nearby(path)) from None
+    except (OSError, ValueError) as error:
+        raise BadFileError(f"the {what} cannot be opened", where=repr(str(path))[1:-1],
+                           why=getattr(error, "strerror", None) or str(error),
+                           next_step="check the path and its permissions") from None
+    if stat.S_ISDIR(info.st_mode):
+        raise BadFileError(f"a folder, where a {what} is wanted", where=str(path),
+                           why="a folder has no text to read", next_step=f"name the {what} inside it")
+    if not stat.S_ISREG(info.st_mode):
+        raise BadFileError(f"not a regular file, where a {what} is wanted", where=str(path),
+                           why="devices, pipes and sockets may never end", next_step="save it to a file first")
+    if info.st_size > limit_bytes:
+        raise BadFileError(f"too large for a {what}: {info.st_size} bytes", where=str(path),
+                           why=f"at most {limit_bytes} bytes are read", next_step=f"check that this is the {what}")
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise BadFileError(f"the {what} cannot be read", where=str(path), why=error.strerror or str(error),
+                           next_step="check its permissions") from None
+
+
+def read_text(path: Path, limit_bytes: int, what: str) -> str:
+    """The same as UTF-8 text; a byte-order mark is dropped, binary content is refused."""
+    data = read_bytes(path, limit_bytes, what)
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise BadFileError(f"not text: byte 0x{data[error.start]:02x} at offset {error.start}",
+                           where=f"{path}:{line}", why=f"a {what} is UTF-8 text",
+                           next_step=f"check that this is the {what}, and save it as UTF-8") from None
+    if "\0" in text:
+        line = text.count("\n", 0, text.index("\0")) + 1
+        raise BadFileError("not text: it holds a zero byte", where=f"{path}:{line}",
+                           why=f"a {what} is UTF-8 text", next_step=f"check that this is the {what}")
+    return text
+
+
+def _nearby(path: Path) -> str:
+    """A suggestion built from what lies beside a missing file."""
+    from brace.errors import did_you_mean
+
+    if not path.parent.is_dir():
+        return f"the folder {path.parent} does not exist either; check the path"
+    near = did_you_mean(path.name, sorted(entry.name for entry in path.parent.iterdir())[:1000])
+    return f"did you mean {path.parent / near}?" if near else "check the path"
+
+
+class OutputSet:
+    """Files that appear together or not at all.
+
+    `add` stages content beside its destination; `commit` puts everything in place by renaming. Leaving the
+    `with` block without `commit` removes what was staged and touches nothing else.
+    """
+
+    def __init__(self) -> None:
+        self._staged: list[tuple[Path, Path]] = []
+
+    def __enter__(self) -> OutputSet:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for temporary, _final in self._staged:
+            temporary.unlink(missing_ok=True)
+
+    def add(self, final: Path, content: bytes | str) -> None:
+        """Stage one file; an existing destination is replaced at commit."""
+        if final.is_dir():
+            raise UsageError("a folder is in the way of the output file", where=str(final),
+                             why="a folder is not replaced by a file", next_step="choose another --out")
+        data = content.encode() if isinstance(content, str) else content
+        anchor = _existing_parent(final)
+        try:
+            handle, name = tempfile.mkstemp(prefix=f".{final.name}.", dir=anchor)
+            temporary = Path(name)
+            self._staged.append((temporary, final))
+            with os.fdopen(handle, "wb") as file:
+                file.write(data)
+                file.flush()
+                os.fsync(file.fileno())
+            os.chmod(temporary, 0o666 & ~_umask())
+        except OSError as error:
+            raise UsageError("the output cannot be written", where=str(final),
+                             why=error.strerror or str(error),
+                             next_step="check the folder's permissions and free space") from None
+
+    def commit(self) -> None:
+        """Put every staged file in place."""
+        try:
+            for temporary, final in self._staged:
+                final.parent.mkdir(parents=True, exist_ok=True)
+                os.replace(temporary, final)
+        except OSError as error:
+            raise UsageError("the output cannot be put in place", where=str(error.filename2 or error.filename),
+                             why=error.strerror or str(error), next_step="choose another --out") from None
+        self._staged.clear()
+
+
+def write_file(path: Path, content: bytes | str) -> None:
+    """One file, whole or not at all."""
+    with OutputSet() as outputs:
+        outputs.add(path, content)
+        outputs.commit()
+
+
+def _existing_parent(path: Path) -> Path:
+    """The nearest folder above `path` that exists (staging there keeps the rename on one file system)."""
+    for parent in path.absolute().parents:
+        if parent.is_dir():
+            return parent
+        if parent.exists():
+            raise UsageError("a file is in the way of the output folder", where=str(parent),
+                             why="the output needs a folder of that name", next_step="choose another --out")
+    return Path("/")
+
+
+def _umask() -> int:
+    current = os.umask(0)
+    os.umask(current)
+    return current

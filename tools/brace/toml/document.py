@@ -1,0 +1,92 @@
+"""A parsed TOML file with the line on which each key stands."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from brace.errors import BadFileError, place
+from brace.files import TOML_LIMIT_BYTES, read_text
+
+_BARE_OR_QUOTED = r"""(?:[A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*')"""
+_KEY = rf"{_BARE_OR_QUOTED}(?:\s*\.\s*{_BARE_OR_QUOTED})*"
+_TABLE_LINE = re.compile(rf"^\s*\[(\[)?\s*({_KEY})\s*\]")
+_KEY_LINE = re.compile(rf"^\s*({_KEY})\s*=")
+_ERROR_LINE = re.compile(r"\(at line (\d+), column \d+\)|\(at end of document\)")
+
+
+@dataclass(frozen=True)
+class Document:
+    """`content` as tomllib gives it; `lines` maps dotted keys ("link.femur.tilt_rad", "configuration.0.r_mm")
+    to 1-based line numbers."""
+
+    path: Path
+    content: dict[str, Any]
+    lines: dict[str, int] = field(default_factory=dict)
+
+    def where(self, key: str = "") -> str:
+        """`file:line` of a dotted key, or of the nearest table above it, or the file."""
+        parts = key.split(".") if key else []
+        while parts:
+            line = self.lines.get(".".join(parts))
+            if line is not None:
+                return place(self.path, line)
+            parts.pop()
+        return str(self.path)
+
+
+def read(path: Path, what: str) -> Document:
+    """Reads and parses a TOML file; `what` names it in refusals ("limb model")."""
+    return parse(read_text(path, TOML_LIMIT_BYTES, what), path, what)
+
+
+def parse(text: str, path: Path, what: str) -> Document:
+    """Parses TOML text; a syntax error or a duplicate key is refused with its line."""
+    try:
+        content = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise _syntax_error(str(error), text, path, what) from None
+    except (RecursionError, ValueError) as error:
+        raise BadFileError(f"not a {what}", where=str(path), why=str(error) or "nested too deeply",
+                           next_step="write plain tables of plain values") from None
+    return Document(path, content, _locate(text))
+
+
+def _syntax_error(message: str, text: str, path: Path, what: str) -> BadFileError:
+    found = _ERROR_LINE.search(message)
+    line = int(found.group(1)) if found and found.group(1) else text.count("\n") + 1
+    reason = _ERROR_LINE.sub("", message).strip()
+    lines = text.splitlines()
+    shown = lines[line - 1].strip()[:80] if 0 < line <= len(lines) else ""
+    if "overwrite a value" in reason.lower() or "declare" in reason.lower():
+        next_step = "keep one of the two entries"
+        reason = f"a key or table is given twice ({reason})"
+    else:
+        next_step = "see docs for the file's format; text needs quotes, numbers a point, tables [brackets]"
+    return BadFileError(f"not valid TOML: {shown!r}", where=place(path, line),
+                        why=f"a {what} is a TOML file: {reason}", next_step=next_step)
+
+
+def _locate(text: str) -> dict[str, int]:
+    """Line of every key in a well-formed document (inline tables count as their key's line)."""
+    lines: dict[str, int] = {}
+    table = ""
+    counts: dict[str, int] = {}
+    for number, line in enumerate(text.splitlines(), start=1):
+        if header := _TABLE_LINE.match(line):
+            table = _plain(header.group(2))
+            if header.group(1):
+                counts[table] = counts.get(table, -1) + 1
+                table = f"{table}.{counts[table]}"
+            lines.setdefault(table, number)
+        elif key := _KEY_LINE.match(line):
+            dotted = _plain(key.group(1))
+            lines.setdefault(f"{table}.{dotted}" if table else dotted, number)
+    return lines
+
+
+def _plain(key: str) -> str:
+    return ".".join(part.strip().strip("\"'") for part in re.findall(_BARE_OR_QUOTED, key))

@@ -1,0 +1,166 @@
+"""One entry a key: type, unit, range, default, meaning. The check names line, field, reason and remedy."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from brace.errors import BadFileError, did_you_mean
+from brace.toml.document import Document
+
+Value = float | str | bool | int
+
+
+@dataclass(frozen=True)
+class Key:
+    """A key that a file may have. Numbers are `low <= value <= high` (`low < value` when `open_low`)."""
+
+    name: str  # dotted: "link.femur.bending_mm_per_n"
+    default: Any  # None: must be given
+    meaning: str
+    unit: str = ""
+    low: float = -math.inf
+    high: float = math.inf
+    open_low: bool = False
+    infinite: bool = False  # may inf be written?
+    kind: str = "number"  # number, integer, text, flag, ratio (a number in [0, 1] or true/false), list
+    choices: tuple[str, ...] = ()
+
+    @property
+    def range_text(self) -> str:
+        """The allowed values in words."""
+        if self.choices:
+            return " or ".join(f'"{choice}"' for choice in self.choices)
+        if self.kind in ("text", "flag", "list"):
+            return {"text": "text in quotes", "flag": "true or false", "list": "a list"}[self.kind]
+        unit = f" {self.unit}" if self.unit else ""
+        if self.infinite and self.high == math.inf:
+            right = "inf]"
+        else:
+            right = f"{self.high:g}]" if self.high < math.inf else "inf)"
+        left = "(" if self.open_low or self.low == -math.inf else "["
+        noun = "a whole number" if self.kind == "integer" else "a number"
+        also = ", or true/false" if self.kind == "ratio" else ""
+        return f"{noun} in {left}{self.low:g}, {right}{unit}{also}"
+
+
+def check(document: Document, keys: Sequence[Key], what: str, *, prefix: str = "",
+          content: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """Values of all `keys` (defaults filled in) from a document, or from one table of it under `prefix`.
+
+    Refuses unknown keys and tables, wrong types, values out of range, missing keys; with file:line."""
+    known = {key.name: key for key in keys}
+    given = dict(_flatten(document.content if content is None else content))
+    tables = {".".join(key.split(".")[:depth]) for key in known for depth in range(1, key.count(".") + 1)}
+    for name, value in given.items():
+        if name in known:
+            continue
+        if name in tables and value == {}:
+            continue  # an empty table says nothing
+        raise _unknown(document, prefix, name, value, known, tables, what)
+    values: dict[str, Any] = {}
+    for key in keys:
+        if key.name in given:
+            values[key.name] = _checked(document, prefix + key.name, key, given[key.name])
+        elif key.default is None:
+            raise BadFileError(f"{prefix}{key.name} is missing", where=document.where((prefix + key.name)),
+                               why=f"a {what} needs it: {key.meaning}",
+                               next_step=f"add {key.name.rpartition('.')[2]} = ... ({key.range_text})"
+                               + (f" under [{prefix}{key.name.rpartition('.')[0]}]" if "." in key.name else ""))
+        else:
+            values[key.name] = key.default
+    return values
+
+
+def _flatten(content: Mapping[str, Any], prefix: str = "") -> Iterable[tuple[str, Any]]:
+    for name, value in content.items():
+        dotted = f"{prefix}{name}"
+        if isinstance(value, Mapping) and value:
+            yield from _flatten(value, f"{dotted}.")
+        else:
+            yield dotted, value
+
+
+def _unknown(document: Document, prefix: str, name: str, value: Any, known: Mapping[str, Key], tables: set[str],
+             what: str) -> BadFileError:
+    where = document.where(prefix + name)
+    if name in tables:
+        return BadFileError(f"[{name}] is a table, not a value", where=where, why=f"found {_shown(value)}",
+                            next_step=f"write [{name}] on its own line and its keys below it")
+    table, _, leaf = name.rpartition(".")
+    siblings = {key.rpartition(".")[2]: key for key in known if key.rpartition(".")[0] == table}
+    near = did_you_mean(leaf, siblings)
+    better = siblings[near] if near else did_you_mean(name, known)
+    if table and table not in tables and not near:
+        near_table = did_you_mean(table, tables)
+        better = f"[{near_table}]" if near_table else better
+    listed = ", ".join(sorted(siblings)[:12])
+    next_step = f"did you mean {better}?" if better else (f"known here: {listed}" if listed else
+                                                          f"known tables: {', '.join(sorted(tables))}")
+    return BadFileError(f"unknown key {prefix}{name}", where=where,
+                        why=f"a {what} has no such key; a misspelt one would silently do nothing",
+                        next_step=next_step)
+
+
+def _checked(document: Document, name: str, key: Key, value: Any) -> Any:
+    def refuse(why: str) -> BadFileError:
+        return BadFileError(f"{name} = {_shown(value)} cannot be", where=document.where(name),
+                            why=f"{why}; {name.rpartition('.')[2]} is {key.meaning}",
+                            next_step=f"write {key.range_text}")
+
+    if key.kind == "text":
+        if not isinstance(value, str):
+            raise refuse("it must be text")
+        if key.choices and value not in key.choices:
+            raise refuse("it is not one of the choices")
+        return value
+    if key.kind == "flag":
+        if not isinstance(value, bool):
+            raise refuse("it must be true or false")
+        return value
+    if key.kind == "list":
+        if not isinstance(value, list) or not value or any(item not in key.choices for item in value):
+            raise refuse("it must be a list of " + ", ".join(key.choices))
+        return list(value)
+    if key.kind == "ratio" and isinstance(value, bool):
+        return 1.0 if value else 0.0
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise refuse(f"it must be a number, not {_type_name(value)}")
+    if key.kind == "integer" and not isinstance(value, int):
+        raise refuse("it must be a whole number")
+    try:
+        number = float(value)
+    except OverflowError:
+        raise refuse("it is too large") from None
+    if math.isnan(number):
+        raise refuse("it is not a number")
+    if math.isinf(number) and not key.infinite:
+        raise refuse("it must be finite")
+    if number < key.low or (key.open_low and number == key.low):
+        raise refuse("it is too small" if number >= 0 or key.low < 0 else "it is negative")
+    if number > key.high:
+        raise refuse("it is too large")
+    return value if key.kind == "integer" else number
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (int, float, str)):
+        try:
+            text = repr(value)
+        except ValueError:  # an integer of thousands of digits
+            return "a number of thousands of digits"
+        return text if len(text) <= 60 else text[:57] + "..."
+    return _type_name(value)
+
+
+def _type_name(value: Any) -> str:
+    if isinstance(value, bool):
+        return "true/false"
+    for kind, name in ((str, "text"), (list, "a list"), (dict, "a table")):
+        if isinstance(value, kind):
+            return name
+    return "a date or time" if not isinstance(value, (int, float)) else "a number"
