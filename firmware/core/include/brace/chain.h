@@ -1,11 +1,12 @@
 /* The compliance chain of a limb in its plane, and what follows from it.
  *
- * Every source of compliance is one or two rank-one elements: a compliance s and a vector v(posture), so that
- *     C = iso I + sum_i s_i v_i v_i',    v_i = R(theta1) femur_i + R(theta1 - theta2) tibia_i + base_i.
- * An ellipsoid is its smaller compliance in every direction (iso) and the excess along its longer axis; a
- * joint spring is the lever of the tip force about the joint; a moment-carrying femur adds the element
- * 0.75 kappa b (n + (2/L) p_knee). A richer limb is a longer list, never another formula. The list has
- *     det C = iso^2 + iso sum_i s_i |v_i|^2 + sum_{i<j} s_i s_j (v_i x v_j)^2,
+ * Every source of compliance is one or two rank-one elements, each a vector v(posture), so that
+ *     C = iso I + sum_i v_i v_i',    v_i = R(theta1) femur_i + R(theta1 - theta2) tibia_i + base_i.
+ * With s the element's compliance: an ellipsoid is its smaller compliance in every direction (iso) and
+ * v = sqrt(excess) times its longer axis; a joint spring is v = sqrt(s) times the lever of the tip force about
+ * the joint; a femur that passes moments on adds v = sqrt(0.75 kappa b) (n + (2/L) p_knee), n across the femur.
+ * A richer limb is a longer list, never another formula. The list has
+ *     det C = iso^2 + iso sum_i |v_i|^2 + sum_{i<j} (v_i x v_j)^2,
  * in which nothing cancels however slender the ellipsoids are.
  *
  * Formulas: docs/physics.md (C = sum T' S T); the harmonic form is derived in docs/kernel.md.
@@ -27,9 +28,8 @@ typedef struct {
     float x, z;
 } brace_vec_t;
 
-/* One element. Vectors are unit directions (compliance in mm/N) or levers in mm (compliance in rad/(N mm)). */
+/* One element, in sqrt(mm/N). */
 typedef struct {
-    float compliance;  /* s >= 0 */
     brace_vec_t femur; /* part of v turning with the femur, at theta1 */
     brace_vec_t tibia; /* part of v turning with the tibia, at theta1 - theta2 */
     brace_vec_t base;  /* part of v that does not turn */
@@ -61,8 +61,9 @@ brace_status_t brace_chain_compliance(const brace_chain_t *chain, float theta1_r
 brace_status_t brace_chain_stiffness(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
                                      brace_stiffness_t *stiffness);
 
-/* A function of the knee angle alone: at_fold + per_cos (1 + cos theta2) + per_sin sin theta2.
- * Anchored at the folded knee, where the levers nearly cancel, so that nothing is lost there. */
+/* A function of the knee angle alone: at_fold + per_cos (1 + cos theta2) + per_sin sin theta2. Anchored
+ * at the folded knee, where the levers nearly cancel: (at_fold + per_cos), added up in more than a float, is
+ * the constant of the plain form, and nothing is lost at the fold. */
 typedef struct {
     float at_fold, per_cos, per_sin;
 } brace_harmonic_t;

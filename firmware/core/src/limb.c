@@ -1,0 +1,68 @@
+#include "brace/limb.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define HALF_TURN_RAD_MAX 1.5707965f
+
+/* What a field may be; every field of brace_limb_t has one of these ranges. */
+enum { COXA_MM, LENGTH_MM, LINEAR, ANGULAR, RATIO, TILT, ANGLE, OFFSET, LENGTH_SIGMA };
+
+static const struct {
+    float low, high;
+} range[] = {[COXA_MM] = {0.0f, 1e4f},     [LENGTH_MM] = {1.0f, 1e4f},
+             [LINEAR] = {0.0f, 1e3f},      [ANGULAR] = {0.0f, 1.0f},
+             [RATIO] = {0.0f, 1.0f},       [TILT] = {-HALF_TURN_RAD_MAX, HALF_TURN_RAD_MAX},
+             [ANGLE] = {0.0f, 0.5f},       [OFFSET] = {-0.5f, 0.5f},
+             [LENGTH_SIGMA] = {0.0f, 100.0f}};
+
+#define LINK_FIELDS LINEAR, LINEAR, TILT, LINEAR, ANGULAR, RATIO
+#define JOINT_FIELDS ANGULAR, ANGLE, OFFSET
+
+/* The fields in the order of brace_limb_t. */
+static const uint8_t kind[] = {COXA_MM,      LENGTH_MM,    LENGTH_MM,    LINK_FIELDS, LINK_FIELDS,
+                               LINK_FIELDS,  JOINT_FIELDS, JOINT_FIELDS, JOINT_FIELDS, LINEAR,
+                               LINEAR,       ANGULAR,      LENGTH_SIGMA, ANGLE,       RATIO,
+                               RATIO};
+
+_Static_assert(sizeof kind * sizeof(float) == sizeof(brace_limb_t), "one kind for each field of the limb");
+
+/* Does C have an inverse at some posture: are there two sources of compliance that do not always act along
+ * the same line? Tibia bending and knee joint do, unless the tibia's ellipsoid is tilted. */
+static bool yields_in_two_directions(const brace_limb_t *limb)
+{
+    const brace_link_t *femur = &limb->link[BRACE_FEMUR];
+    const brace_link_t *tibia = &limb->link[BRACE_TIBIA];
+    const bool knee = limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm > 0.0f;
+    const bool tibia_bends = tibia->bending_mm_per_n > 0.0f;
+    const bool same_line = knee && tibia_bends && tibia->tilt_rad == 0.0f;
+    const int sources =
+        (femur->axial_mm_per_n > 0.0f) + (femur->bending_mm_per_n > 0.0f) +
+        (femur->bending_mm_per_n > 0.0f && femur->moment_transfer_ratio > 0.0f) +
+        (tibia->axial_mm_per_n > 0.0f) + (same_line ? 1 : tibia_bends + knee) +
+        (limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm + limb->base.rotation_rad_per_n_mm > 0.0f) +
+        (limb->base.x_mm_per_n > 0.0f) + (limb->base.z_mm_per_n > 0.0f);
+    return sources >= 2;
+}
+
+brace_status_t brace_limb_check(const brace_limb_t *limb)
+{
+    if (limb == NULL) {
+        return BRACE_E_NULL;
+    }
+    const float *field = &limb->coxa_mm;
+    bool inside = true;
+    for (size_t i = 0; i < sizeof kind; i++) {
+        if (!(__builtin_fabsf(field[i]) <= 3.4028234e38f)) {
+            return BRACE_E_NOT_FINITE;
+        }
+        inside = inside && field[i] >= range[kind[i]].low && field[i] <= range[kind[i]].high;
+    }
+    return inside && yields_in_two_directions(limb) ? BRACE_OK : BRACE_E_PARAMETER;
+}
+
+float brace_limb_true_angle(const brace_limb_t *limb, int index, float commanded_rad)
+{
+    return commanded_rad + limb->joint[index].zero_offset_rad;
+}
