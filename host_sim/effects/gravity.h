@@ -1,0 +1,32 @@
+// The weights of femur and tibia (at mid-length) and knee load the joints by posture; links and base are not
+// loaded by them.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "effects/effect.h"
+
+namespace brace::effects::gravity {
+
+// Torques about the femur joint and the knee, in the sense of theta1 and theta2 [N mm]: minus the slope of the
+// weights' potential energy.
+inline Eigen::Vector2d torques_n_mm(const Model &model, const Eigen::Vector2d &femur_mm,
+                                    const Eigen::Vector2d &tibia_mm)
+{
+    const auto &weight = model.gravity;
+    const double beyond_knee = weight.tibia_n * 0.5 * tibia_mm.x();
+    const double at_knee = (0.5 * weight.femur_n + weight.knee_n + weight.tibia_n) * femur_mm.x();
+    return {-(at_knee + beyond_knee), beyond_knee};
+}
+
+inline void none(Model &model)
+{
+    model.gravity = {0.0, 0.0, 0.0};
+}
+
+inline constexpr Entry kEntries[] = {
+    {"gravity", "gravity", "gravity.femur_n gravity.tibia_n gravity.knee_n",
+     "weights at mid-femur, mid-tibia and knee act along -z on the joints"},
+};
+
+}  // namespace brace::effects::gravity

@@ -1,0 +1,27 @@
+// Each of the sensor's axes reads a share of the other's force.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "effects/effect.h"
+
+namespace brace::effects::sensor_crosstalk {
+
+inline Eigen::Vector2d mixed_n(const Model &model, const Eigen::Vector2d &force_n)
+{
+    return {force_n.x() + model.sensor.crosstalk_xz * force_n.y(),
+            model.sensor.crosstalk_zx * force_n.x() + force_n.y()};
+}
+
+inline void none(Model &model)
+{
+    model.sensor.crosstalk_xz = 0.0;
+    model.sensor.crosstalk_zx = 0.0;
+}
+
+inline constexpr Entry kEntries[] = {
+    {"sensor_crosstalk", "sensor", "sensor.crosstalk_xz sensor.crosstalk_zx",
+     "reading = [[1, xz], [zx, 1]] * force"},
+};
+
+}  // namespace brace::effects::sensor_crosstalk

@@ -1,0 +1,207 @@
+#include "plant/equilibrium.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace brace::plant {
+namespace {
+
+using Pair = std::array<double, 2>;
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+
+constexpr int kMaxSteps = 200;
+constexpr int kMaxSearch = 80;
+constexpr double kGoodBalance_n = 1e-10;
+constexpr double kPromisedBalance_n = 1e-9;
+constexpr double kDamping = 1e-9; // of each spring: keeps a joint within its play, where nothing pushes back, solvable
+
+// Slope of the energy without friction, and its curvature.
+struct Slope {
+    Pair torque_n_mm{};
+    Matrix2d curvature = Matrix2d::Zero();
+    Vector2d force_n;
+};
+
+Slope slope_at(const RestProblem &problem, const Pair &deflection)
+{
+    Vector2d displacement = problem.displacement_mm;
+    for (int i = 0; i < problem.joint_count; ++i) {
+        displacement -= problem.joint[i].lever_mm * deflection[i];
+    }
+    const ContactForce contact = contact_force(problem.structure, problem.half_play_mm, displacement);
+    Slope slope;
+    slope.force_n = contact.force_n;
+    for (int i = 0; i < problem.joint_count; ++i) {
+        const JointUnknown &joint = problem.joint[i];
+        slope.torque_n_mm[i] = spring_torque_n_mm(joint.law, deflection[i]) - joint.load_n_mm
+                               - joint.lever_mm.dot(contact.force_n);
+        const Vector2d pushed = contact.stiffness_n_per_mm * joint.lever_mm;
+        for (int j = 0; j < problem.joint_count; ++j) {
+            slope.curvature(i, j) = problem.joint[j].lever_mm.dot(pushed);
+        }
+        slope.curvature(i, i) += spring_stiffness_n_mm_per_rad(joint.law, deflection[i])
+                                 + kDamping / joint.law.compliance_rad_per_n_mm;
+    }
+    return slope;
+}
+
+// Which way each joint would move: the sign of friction's slope there; 0 where friction holds it.
+Pair moving_sign(const RestProblem &problem, const Pair &deflection, const Pair &torque)
+{
+    Pair sign{};
+    for (int i = 0; i < problem.joint_count; ++i) {
+        const JointUnknown &joint = problem.joint[i];
+        const double moved = deflection[i] - joint.before_rad;
+        if (moved != 0.0) {
+            sign[i] = std::copysign(1.0, moved);
+        } else if (std::fabs(torque[i]) > joint.law.coulomb_n_mm) {
+            sign[i] = -std::copysign(1.0, torque[i]);
+        }
+    }
+    return sign;
+}
+
+// Newton's direction among the joints that move.
+Pair direction_of(const Slope &slope, const Pair &torque, const Pair &sign, int count)
+{
+    const auto &h = slope.curvature;
+    const bool both = count == 2 && sign[0] != 0.0 && sign[1] != 0.0;
+    if (both) {
+        const double determinant = h(0, 0) * h(1, 1) - h(0, 1) * h(1, 0);
+        if (determinant > 1e-14 * h(0, 0) * h(1, 1)) {
+            return {(h(0, 1) * torque[1] - h(1, 1) * torque[0]) / determinant,
+                    (h(1, 0) * torque[0] - h(0, 0) * torque[1]) / determinant};
+        }
+    }
+    Pair direction{};
+    for (int i = 0; i < count; ++i) {
+        direction[i] = sign[i] != 0.0 ? -torque[i] / h(i, i) : 0.0;
+    }
+    return direction;
+}
+
+// The energy along a direction from a point, up to the first place where a joint's friction would turn round.
+class Line {
+public:
+    Line(const RestProblem &problem, const Pair &from, const Pair &direction, const Pair &sign)
+        : problem_(problem), from_(from), direction_(direction), sign_(sign)
+    {
+        for (int i = 0; i < problem.joint_count; ++i) {
+            const double moved = from[i] - problem.joint[i].before_rad;
+            if (problem.joint[i].law.coulomb_n_mm > 0.0 && moved * direction[i] < 0.0
+                && -moved / direction[i] < end_) {
+                end_ = -moved / direction[i];
+                turning_ = i;
+            }
+        }
+    }
+
+    double end() const { return end_; }
+
+    Pair at(double length) const
+    {
+        Pair point = from_;
+        for (int i = 0; i < problem_.joint_count; ++i) {
+            point[i] += length * direction_[i];
+        }
+        if (length == end_) {
+            point[turning_] = problem_.joint[turning_].before_rad;
+        }
+        return point;
+    }
+
+    double slope(double length) const
+    {
+        const Slope here = slope_at(problem_, at(length));
+        double sum = 0.0;
+        for (int i = 0; i < problem_.joint_count; ++i) {
+            sum += direction_[i] * (here.torque_n_mm[i] + sign_[i] * problem_.joint[i].law.coulomb_n_mm);
+        }
+        return sum;
+    }
+
+private:
+    const RestProblem &problem_;
+    const Pair from_;
+    const Pair direction_;
+    const Pair sign_;
+    double end_ = std::numeric_limits<double>::infinity();
+    int turning_ = 0;
+};
+
+// How far to go along the line: all of Newton's step where that is good, else to the least energy on it.
+double length_of(const Line &line)
+{
+    const double start = line.slope(0.0);
+    double high = std::min(1.0, line.end());
+    double high_slope = line.slope(high);
+    if (std::fabs(high_slope) <= 0.5 * std::fabs(start) || (high_slope < 0.0 && high == line.end())) {
+        return high;
+    }
+    double low = 0.0;
+    double low_slope = start;
+    while (high_slope < 0.0 && high < 1e12) { // still falling: look further on
+        low = high;
+        low_slope = high_slope;
+        if (high == line.end()) {
+            return high;
+        }
+        high = std::min(2.0 * high, line.end());
+        high_slope = line.slope(high);
+    }
+    for (int i = 0; i < kMaxSearch; ++i) {
+        // Secant while it shortens the bracket, halving every other time.
+        const double secant = low - low_slope * (high - low) / (high_slope - low_slope);
+        const double middle = i % 2 == 0 ? secant : 0.5 * (low + high);
+        const double slope = line.slope(middle);
+        if (std::fabs(slope) <= 1e-3 * std::fabs(start)) {
+            return middle;
+        }
+        (slope < 0.0 ? low : high) = middle;
+        (slope < 0.0 ? low_slope : high_slope) = slope;
+    }
+    return low > 0.0 ? low : high;
+}
+
+}  // namespace
+
+void find_rest(const RestProblem &problem, RestState &state)
+{
+    Pair deflection = state.deflection_rad;
+    double longest_mm = 0.0;
+    for (int i = 0; i < problem.joint_count; ++i) {
+        longest_mm = std::max(longest_mm, problem.joint[i].lever_mm.norm());
+    }
+    for (int step = 0;; ++step) {
+        const Slope slope = slope_at(problem, deflection);
+        const Pair sign = moving_sign(problem, deflection, slope.torque_n_mm);
+        Pair torque{};
+        double worst = 0.0;
+        double reach_mm = problem.displacement_mm.norm();
+        double spring_n_mm = 0.0;
+        for (int i = 0; i < problem.joint_count; ++i) {
+            const JointUnknown &joint = problem.joint[i];
+            torque[i] = sign[i] != 0.0 ? slope.torque_n_mm[i] + sign[i] * joint.law.coulomb_n_mm : 0.0;
+            worst = std::max(worst, std::fabs(torque[i]));
+            reach_mm += std::fabs(deflection[i]) * joint.lever_mm.norm();
+            spring_n_mm += std::fabs(deflection[i]) * slope.curvature(i, i);
+        }
+        // A zero lever leaves nothing to weigh a torque by.
+        state.unbalance_n = longest_mm > 0.0 ? worst / longest_mm : 0.0;
+        const double rounding_n = 1e-15 * (problem.structure.stiffness_n_per_mm.norm() * reach_mm
+                                           + (longest_mm > 0.0 ? spring_n_mm / longest_mm : 0.0));
+        if (state.unbalance_n <= std::max(kGoodBalance_n, rounding_n) || step == kMaxSteps) {
+            state.solved = state.unbalance_n <= std::max(kPromisedBalance_n, 8.0 * rounding_n);
+            state.deflection_rad = deflection;
+            state.force_n = slope.force_n;
+            return;
+        }
+        const Pair direction = direction_of(slope, torque, sign, problem.joint_count);
+        const Line line(problem, deflection, direction, sign);
+        deflection = line.at(length_of(line));
+    }
+}
+
+}  // namespace brace::plant

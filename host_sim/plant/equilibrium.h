@@ -1,0 +1,39 @@
+// Where the limb comes to rest under an imposed tip displacement: the joint deflections of least energy.
+//
+// Energy of deflections e: phi(d - sum lever_i e_i) + sum spring_i(e_i) - load_i e_i + coulomb_i |e_i - before_i|,
+// phi the energy of the structure behind its contact clearance. Convex, so what is found is the one rest state.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "plant/contact.h"
+#include "plant/joint_law.h"
+
+namespace brace::plant {
+
+struct JointUnknown {
+    Eigen::Vector2d lever_mm; // tip displacement per deflection
+    JointLaw law;             // compliance > 0
+    double load_n_mm;         // torque that acts on it besides the tip force's
+    double before_rad;        // deflection that friction holds it at
+};
+
+struct RestProblem {
+    Elastic structure;
+    double half_play_mm;
+    Eigen::Vector2d displacement_mm;
+    int joint_count;
+    std::array<JointUnknown, 2> joint;
+};
+
+struct RestState {
+    std::array<double, 2> deflection_rad; // in: where to start; out: at rest
+    Eigen::Vector2d force_n;
+    double unbalance_n;                   // largest torque out of balance over the longest lever
+    bool solved;                          // unbalance within 1e-9 N, or within rounding where that is more
+};
+
+void find_rest(const RestProblem &problem, RestState &state);
+
+}  // namespace brace::plant

@@ -1,0 +1,79 @@
+#include "plant/joint_test.h"
+
+#include <algorithm>
+
+#include "effects/coulomb_friction.h"
+#include "effects/creep.h"
+#include "plant/joint_law.h"
+
+namespace brace::plant {
+namespace {
+
+using effects::Model;
+
+struct JointState {
+    double instant_rad = 0.0; // deflection without creep
+    double delayed_rad = 0.0; // creep
+    double friction_n_mm = 0.0;
+};
+
+double torque_at(const JointLaw &law, double deflection_rad, double reversal_rad, JointState &state)
+{
+    const double before = state.instant_rad;
+    state.instant_rad = deflection_rad - state.delayed_rad;
+    state.friction_n_mm = effects::coulomb_friction::turned_n_mm(state.friction_n_mm, law.coulomb_n_mm,
+                                                                 state.instant_rad - before, reversal_rad);
+    return spring_torque_n_mm(law, state.instant_rad) + state.friction_n_mm;
+}
+
+// The deflections, play and all, at which the spring carries this torque: from least to most.
+double least_deflection(const JointLaw &law, double torque_n_mm)
+{
+    const double side = torque_n_mm > 0.0 ? 0.5 : -0.5;
+    return elastic_under_torque_rad(law, torque_n_mm) + side * law.gap_rad;
+}
+
+double most_deflection(const JointLaw &law, double torque_n_mm)
+{
+    const double side = torque_n_mm < 0.0 ? -0.5 : 0.5;
+    return elastic_under_torque_rad(law, torque_n_mm) + side * law.gap_rad;
+}
+
+// Friction lets the deflection stay anywhere between what the torque less friction and plus friction would make.
+double deflection_under(const JointLaw &law, double torque_n_mm, JointState &state)
+{
+    state.instant_rad = std::clamp(state.instant_rad, least_deflection(law, torque_n_mm - law.coulomb_n_mm),
+                                   most_deflection(law, torque_n_mm + law.coulomb_n_mm));
+    return state.instant_rad + state.delayed_rad;
+}
+
+}  // namespace
+
+void play_joint(const Model &model, const brace_joint_rows_t &rows, double *out)
+{
+    const double offset = model.joint[rows.joint_index].zero_offset_rad;
+    JointState state;
+    JointLaw law;
+    for (std::size_t i = 0; i < rows.count; ++i) {
+        const bool starts = i == 0 || (rows.test != nullptr && rows.test[i] != rows.test[i - 1]);
+        if (starts) {
+            state = {};
+        } else {
+            const double approach = effects::creep::approach(model.creep.time_constant_s, rows.t_s[i] - rows.t_s[i - 1]);
+            state.delayed_rad = effects::creep::delayed_rad(state.delayed_rad, model.creep.ratio,
+                                                            elastic_rad(law, state.instant_rad), approach);
+        }
+        law = joint_law(model, rows.joint_index,
+                        rows.temp_degc != nullptr ? rows.temp_degc[i] : model.thermal.reference_degc);
+        if (rows.torque_imposed != 0) {
+            out[i] = deflection_under(law, rows.input[i], state) - offset;
+        } else {
+            if (starts) {
+                state.instant_rad = rows.input[i] + offset; // friction relaxed where the test starts
+            }
+            out[i] = torque_at(law, rows.input[i] + offset, rows.reversal_rad, state);
+        }
+    }
+}
+
+}  // namespace brace::plant

@@ -1,0 +1,47 @@
+// The limb from one reading to the next: what it remembers, and its rest state under the next displacement.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "plant/equilibrium.h"
+#include "plant/structure.h"
+
+namespace brace::plant {
+
+struct LimbRest {
+    Eigen::Vector2d force_n;                    // on the limb's tip
+    std::array<double, 2> joint_deflection_rad; // elastic, play and creep
+    bool solved;
+};
+
+class LimbState {
+public:
+    explicit LimbState(const Model &model) : model_(model) {}
+
+    // A posture, time and temperature to work at. False when nothing yields in some direction.
+    bool move_to(double theta1_rad, double theta2_rad, double t_s, double temp_degc);
+
+    // Play centred, friction relaxed; creep too when asked.
+    void start_run(bool creep_gone);
+
+    LimbRest hold_tip(const Eigen::Vector2d &displacement_mm);
+
+private:
+    void let_creep(double t_s);
+    bool prepare();
+
+    const Model &model_;
+    bool placed_ = false;
+    double theta1_rad_ = 0.0, theta2_rad_ = 0.0, t_s_ = 0.0, temp_degc_ = 0.0;
+    Structure structure_{};
+    RestProblem problem_{};                   // joints that are more than springs; the others are in its structure
+    std::array<int, 2> unknown_joint_{};      // which joint each of its unknowns is
+    std::array<JointLaw, 2> law_{};
+    std::array<bool, 2> is_spring_{};
+    std::array<double, 2> instant_rad_{};     // deflection without creep
+    std::array<double, 2> delayed_rad_{};     // creep
+    double creep_dt_s_ = -1.0, creep_approach_ = 0.0;
+};
+
+}  // namespace brace::plant
