@@ -1,0 +1,45 @@
+"""A doubt about an entry: which one, why, and what it should probably read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from brace.errors import BadFileError
+
+
+@dataclass(frozen=True)
+class DataFault:
+    """`row` is 1-based without the header, None for a whole column or file. `repair` says whether `suggestion`
+    follows from the rest of the record alone, so that it may stand in for the entry once it is said aloud.
+    `blocking` says that no result may be drawn from the record while the fault stands."""
+
+    row: int | None
+    field: str
+    why: str
+    suggestion: float | str | None = None
+    repair: bool = False
+    blocking: bool = True
+
+    def as_json(self) -> dict[str, Any]:
+        """The entry of `data_faults` in every --json report."""
+        return {"row": self.row, "field": self.field, "why": self.why, "suggestion": self.suggestion}
+
+    def place(self, path: Path) -> str:
+        """`data.csv:line, row N, column F` (the header is line 1)."""
+        if self.row is None:
+            return f"{path}, {self.field}"
+        return f"{path}:{self.row + 1} (row {self.row}), {self.field}"
+
+    def sentence(self, path: Path) -> str:
+        """One line for people."""
+        hint = "" if self.suggestion is None else f"; probably {self.suggestion}"
+        return f"{self.place(path)}: {self.why}{hint}"
+
+    def error(self, path: Path, more: int = 0) -> BadFileError:
+        """The refusal for this fault; `more` counts the others behind it."""
+        behind = f" (and {more} more fault{'s' if more > 1 else ''})" if more else ""
+        return BadFileError(f"faulty data{behind}", where=self.place(path), why=self.why,
+                            next_step="correct it" if self.suggestion is None else
+                            f"it should probably be {self.suggestion}; correct the file")

@@ -1,0 +1,74 @@
+"""A dataset through the gate: files read, columns typed, faults named before anybody computes with it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+
+from brace.dataset import check_joint_test, check_loading, check_table
+from brace.dataset.columns import KINDS
+from brace.dataset.csv_table import read_columns
+from brace.dataset.faults import DataFault
+from brace.dataset.meta import Meta, read_meta
+
+
+@dataclass(frozen=True)
+class Dataset:
+    """`columns` maps a column's name to an array with one entry per row; `faults` is what was found wrong.
+    `decimals` (tables only) counts the printed decimals per column."""
+
+    folder: Path
+    meta: Meta
+    columns: Mapping[str, np.ndarray]
+    faults: Sequence[DataFault] = ()
+    decimals: Mapping[str, int] = field(default_factory=dict)
+
+    @property
+    def kind(self) -> str:
+        return self.meta.kind
+
+    @property
+    def csv_path(self) -> Path:
+        return self.folder / "data.csv"
+
+    @property
+    def rows(self) -> int:
+        """Number of rows."""
+        return len(next(iter(self.columns.values())))
+
+    def __getitem__(self, column: str) -> np.ndarray:
+        return self.columns[column]
+
+    def __contains__(self, column: str) -> bool:
+        return column in self.columns
+
+    def select(self, keep: np.ndarray) -> Dataset:
+        """The rows where `keep` is true; faults are dropped with their rows' numbers."""
+        return replace(self, columns={name: values[keep] for name, values in self.columns.items()}, faults=())
+
+    def with_columns(self, changes: Mapping[str, np.ndarray]) -> Dataset:
+        """The same record with some columns replaced."""
+        return replace(self, columns={**self.columns, **changes})
+
+    def require_sound(self) -> None:
+        """Refuses the record while a blocking fault stands."""
+        blocking = [fault for fault in self.faults if fault.blocking]
+        if blocking:
+            raise blocking[0].error(self.csv_path, len(blocking) - 1)
+
+
+def load_dataset(folder: Path) -> Dataset:
+    """Reads FOLDER/meta.toml and FOLDER/data.csv. What cannot be a record at all is refused; doubts about a
+    record that can be read are in `faults`."""
+    meta = read_meta(folder)
+    columns, raw_rows = read_columns(folder / "data.csv", KINDS[meta.kind])
+    dataset = Dataset(folder, meta, columns)
+    if meta.kind == "loading":
+        return replace(dataset, faults=check_loading.faults(columns, meta))
+    if meta.kind == "joint_test":
+        return replace(dataset, faults=check_joint_test.faults(columns))
+    decimals = check_table.printed_decimals(folder / "data.csv", raw_rows)
+    return replace(dataset, faults=check_table.faults(columns, decimals, meta), decimals=decimals)

@@ -1,0 +1,91 @@
+"""meta.toml: what kind of record this is and how it was taken. Unknown keys are kept."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from brace import toml
+from brace.dataset.columns import KINDS
+from brace.errors import BadFileError, did_you_mean
+from brace.toml import Key
+
+WHAT = "dataset's meta.toml"
+
+_KNOWN = (
+    Key("format", None, "the version of the format, 1", "", 1, 1, kind="integer"),
+    Key("kind", None, "the kind of record", kind="text", choices=tuple(KINDS)),
+    Key("title", "", "a title", kind="text"),
+    Key("zeroed", "never", "when the sensor was zeroed", kind="text", choices=("never", "per_run")),
+    Key("joint", "femur", "the joint under test", kind="text", choices=("coxa", "femur", "tibia")),
+    Key("sensor.resolution_n", 0.0, "the smallest step of the sensor", "N", 0.0, 1e6),
+    Key("sensor.range_n", math.inf, "the largest force that the sensor can read", "N", 0.0, open_low=True,
+        infinite=True),
+    Key("rig.step_mm", 0.0, "the step of the imposed displacement", "mm", 0.0, 1e3),
+    Key("rig.dwell_s", 0.0, "the wait before each reading", "s", 0.0, 1e6),
+)
+
+
+@dataclass(frozen=True)
+class Meta:
+    """The known keys, typed, and the whole document."""
+
+    values: Mapping[str, Any]
+    document: toml.Document
+
+    @property
+    def kind(self) -> str:
+        return str(self.values["kind"])
+
+    @property
+    def title(self) -> str:
+        return str(self.values["title"])
+
+    @property
+    def zeroed_per_run(self) -> bool:
+        return bool(self.values["zeroed"] == "per_run")
+
+    @property
+    def joint(self) -> str:
+        return str(self.values["joint"])
+
+    @property
+    def unit_as_printed(self) -> str:
+        """The unit that a table's source prints, if the record says so; empty: N/mm."""
+        source = self.document.content.get("source", {})
+        unit = source.get("unit_as_printed", "") if isinstance(source, dict) else ""
+        return unit if isinstance(unit, str) else ""
+
+    def number(self, key: str) -> float:
+        """`sensor.range_n` and the like."""
+        return float(self.values[key])
+
+
+def read_meta(folder: Path) -> Meta:
+    """Reads and checks FOLDER/meta.toml."""
+    if not folder.is_dir():
+        reason = "it is a file" if folder.exists() else "it does not exist"
+        near = did_you_mean(folder.name, [entry.name for entry in folder.parent.iterdir()][:1000]) \
+            if folder.parent.is_dir() else ""
+        raise BadFileError("no such dataset", where=str(folder),
+                           why=f"a dataset is a folder with meta.toml and data.csv; {reason}",
+                           next_step=f"did you mean {folder.parent / near}?" if near and near != folder.name else
+                           "name the folder")
+    document = toml.read(folder / "meta.toml", WHAT)
+    return Meta(toml.check(document, _KNOWN, WHAT, content=_known_part(document.content)), document)
+
+
+def _known_part(content: Mapping[str, Any]) -> dict[str, Any]:
+    """The document without keys and tables that are merely kept."""
+    names = {key.name for key in _KNOWN}
+    tables = {name.partition(".")[0] for name in names if "." in name}
+    kept: dict[str, Any] = {}
+    for name, value in content.items():
+        if name in tables and isinstance(value, Mapping):
+            kept[name] = {leaf: item for leaf, item in value.items() if f"{name}.{leaf}" in names}
+        elif name in names or name in tables:
+            kept[name] = value
+    return kept
