@@ -3,7 +3,8 @@
  * Arguments: entry=ADDRESS out=FILE [trace=CALL]. A call is counted from the function's first instruction up to,
  * and without, the instruction after the one that called it. The instruction that led to the entry must be a
  * Thumb BL or BLX (not a tail call); the plugin says so in the output if it is not.
- * Output, one line each: "call COUNT" per call, in order; with trace, "at ADDRESS" per instruction of that call.
+ * Output, one line each: "call COUNT PATH" per call, in order, PATH a digest of the addresses executed: equal
+ * digests, equal paths; with trace, "at ADDRESS" per instruction of that call.
  * An instruction under a failed IT condition is counted: it takes its slot in the processor as well.
  */
 #include <stdbool.h>
@@ -32,6 +33,7 @@ static const instruction_t *previous;
 static bool counting;
 static uint64_t return_address;
 static uint64_t count;
+static uint64_t path; /* FNV-1a over the addresses */
 static long calls_seen;
 
 static bool is_call(const uint8_t *bytes, size_t size)
@@ -49,7 +51,7 @@ static void on_instruction(unsigned vcpu, void *data)
     (void)vcpu;
     const instruction_t *now = data;
     if (counting && now->address == return_address) {
-        fprintf(out, "call %llu\n", (unsigned long long)count);
+        fprintf(out, "call %llu %016llx\n", (unsigned long long)count, (unsigned long long)path);
         counting = false;
         calls_seen++;
     }
@@ -59,11 +61,13 @@ static void on_instruction(unsigned vcpu, void *data)
         } else {
             counting = true;
             count = 0;
+            path = 0xcbf29ce484222325u;
             return_address = previous->address + previous->size;
         }
     }
     if (counting) {
         count++;
+        path = (path ^ now->address) * 0x100000001b3u;
         if (calls_seen == traced_call) {
             fprintf(out, "at %llx\n", (unsigned long long)now->address);
         }

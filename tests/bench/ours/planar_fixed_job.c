@@ -1,0 +1,30 @@
+/* The bench's job for brace_planar_fixed_stiffness. */
+#include <stdlib.h>
+
+#include "bench_data.h"
+#include "brace/planar_fixed.h"
+#include "job.h"
+#include "result.h"
+
+static const int32_t postures[BENCH_ALL_COUNT][3] = BENCH_ALL_Q28;
+static brace_planar_fixed_t planar;
+
+const int job_runs = BENCH_ALL_COUNT;
+const int job_out_count = 6;
+
+void job_setup(void)
+{
+    static const brace_limb_t limb = BENCH_LIMB;
+    if (brace_planar_fixed_collapse(&limb, &planar) != BRACE_OK) {
+        exit(1);
+    }
+}
+
+void job_run(int index, float *out)
+{
+    brace_stiffness_t stiffness;
+    if (brace_planar_fixed_stiffness(&planar, postures[index][1], postures[index][2], &stiffness) != BRACE_OK) {
+        exit(1);
+    }
+    put_result(&stiffness, out);
+}
