@@ -1,0 +1,21 @@
+/* Loops over postures, so that Python asks once per limb. Rows of seven floats: K_xx, K_xz, K_zz, lambda_min,
+ * lambda_max, stiff axis, flags. */
+#include <stddef.h>
+
+#include "brace/planar_fixed.h"
+
+int fixed_rows(const brace_limb_t *limb, size_t n, const int32_t *theta1_rad_q28, const int32_t *theta2_rad_q28,
+               float *rows)
+{
+    brace_planar_fixed_t fixed;
+    int status = brace_planar_fixed_collapse(limb, &fixed);
+    for (size_t i = 0; status == BRACE_OK && i < n; i++) {
+        brace_stiffness_t k;
+        status = brace_planar_fixed_stiffness(&fixed, theta1_rad_q28[i], theta2_rad_q28[i], &k);
+        float *row = rows + 7 * i;
+        row[0] = k.k_xx_n_per_mm, row[1] = k.k_xz_n_per_mm, row[2] = k.k_zz_n_per_mm;
+        row[3] = k.lambda_min_n_per_mm, row[4] = k.lambda_max_n_per_mm, row[5] = k.stiff_axis_rad;
+        row[6] = (float)k.flags;
+    }
+    return status;
+}
