@@ -141,7 +141,8 @@ int32_t brace_reference_planar(const brace_plant_model_t *model, size_t count, c
 int32_t brace_reference_spatial(const brace_plant_model_t *model, size_t count, const double *theta0_rad,
                                 const double *theta1_rad, const double *theta2_rad, double *out);
 
-/* out: count x 3: x y z of the tip [mm] from the femur axis at theta0 = 0 ... the yaw axis is at x = -coxa. */
+/* out: count x 3: x y z of the tip [mm] in the robot's base frame, origin on the yaw axis at the height of the
+ * femur axis (in the limb's plane the femur axis is at x = coxa). */
 int32_t brace_reference_tip(const brace_plant_model_t *model, size_t count, const double *theta0_rad,
                             const double *theta1_rad, const double *theta2_rad, double *out);
 
@@ -163,8 +164,9 @@ typedef struct {
     const double *theta2_rad;
     const double *t_s;
     const double *temp_degc; /* may be null: the model's reference temperature */
-    const double *dx_mm;     /* imposed displacement of the tip */
+    const double *dx_mm;      /* imposed displacement of the tip */
     const double *dz_mm;
+    const int32_t *free_axis; /* may be null; 0: both axes imposed, 1: x is free, 2: z is free, its force 0 */
 } brace_loading_rows_t;
 
 /* What the rig would read; every pointer optional, each with room for one entry per row. */
@@ -185,7 +187,8 @@ int32_t brace_plant_loading(const brace_plant_model_t *model, const brace_loadin
                             const brace_loading_reading_t *reading, size_t *unsolved_rows);
 
 /* The same for many models (array of model_count) on one record: fx_n, fz_n are model_count x count,
- * row-major; status (optional) has one entry per model; refused models leave NaN. */
+ * row-major; status (optional) has one entry per model; refused models leave NaN. Returns the first status
+ * that is not OK. */
 int32_t brace_plant_loading_many(const brace_plant_model_t *models, size_t model_count,
                                  const brace_loading_rows_t *rows, double *fx_n, double *fz_n,
                                  int32_t *status);
@@ -222,6 +225,7 @@ typedef struct {
     int32_t repeats;        /* [1, 1000] */
     int32_t steps_per_side; /* [1, 10000] */
     int32_t cyclic;
+    int32_t transverse_free;  /* 1: the tip may move across the run's axis; 0: held there, as the paper's rig */
     int32_t zeroed;           /* 0 never, 1 per run: the run's first reading is taken from all */
     int32_t shuffled;         /* runs in random order (from the seed) instead of one configuration at a time */
     double step_mm;           /* (0, 100] */
@@ -280,9 +284,10 @@ int32_t brace_rig_slopes(const brace_plant_model_t *model, size_t count, const d
                          const double *theta2_rad, double step_mm, int32_t steps_per_side,
                          int32_t least_squares, double *k);
 
-/* Fig. 12's number: where the imposed displacement along the axis (0 x, 1 z) crosses zero force after
- * unloading from +n less where it does after -n [mm]; the second cycle is used. Gap alone: gap times lever
- * along the axis, for a limb whose cross force vanishes. */
+/* Fig. 12's number [mm]: in the cyclic test along the axis (0 x, 1 z), the tip free across it, where the force
+ * comes back to zero after unloading from +n, less where it does after -n. Play alone gives gap times lever
+ * along the axis; friction adds to it. (With the tip held across the axis, play without friction shifts
+ * nothing: it only lowers the slope.) E_RANGE when the force does not come back. */
 int32_t brace_rig_zero_force_shift(const brace_plant_model_t *model, double theta1_rad, double theta2_rad,
                                    int32_t axis, double step_mm, int32_t steps_per_side, double *shift_mm);
 

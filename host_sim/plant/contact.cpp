@@ -19,16 +19,21 @@ Elastic elastic_of(const Matrix2d &compliance)
     return {compliance, stiffness};
 }
 
-ContactForce contact_force(const Elastic &structure, double half, const Vector2d &displacement)
+ContactForce contact_force(const Elastic &structure, const Vector2d &half, const Vector2d &displacement)
 {
-    if (half == 0.0) {
+    if (half.isZero(0.0)) {
         return {structure.stiffness_n_per_mm * displacement, structure.stiffness_n_per_mm};
     }
     const Matrix2d &compliance = structure.compliance_mm_per_n;
     // Both axes taken up: the force on each must press the side it is on.
+    const bool any_free = !half.allFinite();
     for (const double side_x : {1.0, -1.0}) {
         for (const double side_z : {1.0, -1.0}) {
-            const Vector2d force = structure.stiffness_n_per_mm * (displacement - half * Vector2d(side_x, side_z));
+            if (any_free) {
+                break;
+            }
+            const Vector2d slip(side_x * half.x(), side_z * half.y());
+            const Vector2d force = structure.stiffness_n_per_mm * (displacement - slip);
             if (force.x() * side_x >= 0.0 && force.y() * side_z >= 0.0) {
                 return {force, structure.stiffness_n_per_mm};
             }
@@ -39,13 +44,13 @@ ContactForce contact_force(const Elastic &structure, double half, const Vector2d
     ContactForce result{Vector2d::Zero(), Matrix2d::Zero()};
     double least_excess = std::numeric_limits<double>::infinity();
     for (const int taken : {0, 1}) {
-        const double beyond = std::fabs(displacement[taken]) - half;
+        const double beyond = std::fabs(displacement[taken]) - half[taken];
         if (beyond <= 0.0) {
             continue;
         }
         const int free = 1 - taken;
         const double force = std::copysign(beyond / compliance(taken, taken), displacement[taken]);
-        const double excess = std::fabs(displacement[free] - compliance(free, taken) * force) - half;
+        const double excess = std::fabs(displacement[free] - compliance(free, taken) * force) - half[free];
         if (excess < least_excess) {
             least_excess = excess;
             result = {Vector2d::Zero(), Matrix2d::Zero()};

@@ -18,8 +18,9 @@ struct Elastic {
 
 Elastic elastic_of(const Eigen::Matrix2d &compliance_mm_per_n);
 
-// Force for a displacement of the socket when the tip slips freely within +-half_play along each axis: the
-// slip that stores least energy.
-ContactForce contact_force(const Elastic &structure, double half_play_mm, const Eigen::Vector2d &displacement_mm);
+// Force for a displacement of the socket when the tip slips freely within +-half_play along each axis (infinite: free
+// along it): the slip that stores least energy.
+ContactForce contact_force(const Elastic &structure, const Eigen::Vector2d &half_play_mm,
+                           const Eigen::Vector2d &displacement_mm);
 
 }  // namespace brace::plant

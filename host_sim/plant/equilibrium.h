@@ -21,7 +21,7 @@ struct JointUnknown {
 
 struct RestProblem {
     Elastic structure;
-    double half_play_mm;
+    Eigen::Vector2d half_play_mm; // infinite: the tip is free along that axis
     Eigen::Vector2d displacement_mm;
     int joint_count;
     std::array<JointUnknown, 2> joint;

@@ -1,6 +1,7 @@
 #include "plant/limb_state.h"
 
-#include <cmath>
+#include <algorithm>
+#include <limits>
 
 #include "effects/contact_play.h"
 #include "effects/creep.h"
@@ -95,7 +96,6 @@ bool LimbState::prepare()
         compliance += kRigidCompliance * whole.trace() * Matrix2d::Identity();
     }
     problem_.structure = elastic_of(compliance);
-    problem_.half_play_mm = effects::contact_play::half_mm(model_);
     return true;
 }
 
@@ -123,8 +123,12 @@ void LimbState::let_creep(double t_s)
     }
 }
 
-LimbRest LimbState::hold_tip(const Vector2d &displacement_mm)
+LimbRest LimbState::hold_tip(const Vector2d &displacement_mm, int free_axis)
 {
+    problem_.half_play_mm = Vector2d::Constant(effects::contact_play::half_mm(model_));
+    if (free_axis != 0) {
+        problem_.half_play_mm[free_axis - 1] = std::numeric_limits<double>::infinity();
+    }
     Vector2d rest_mm = displacement_mm; // left for force to make
     for (const int i : {0, 1}) {
         double without_force = delayed_rad_[i];

@@ -25,7 +25,8 @@ public:
     // Play centred, friction relaxed; creep too when asked.
     void start_run(bool creep_gone);
 
-    LimbRest hold_tip(const Eigen::Vector2d &displacement_mm);
+    // free_axis: 0 both axes are held, 1 x is free, 2 z is free.
+    LimbRest hold_tip(const Eigen::Vector2d &displacement_mm, int free_axis = 0);
 
 private:
     void let_creep(double t_s);

@@ -31,7 +31,8 @@ brace_host_status_t play_loading(const effects::Model &model, const brace_loadin
         if (starts_run) {
             limb.start_run(rows.runs_rested != 0);
         }
-        const LimbRest rest = limb.hold_tip({rows.dx_mm[i], rows.dz_mm[i]});
+        const LimbRest rest = limb.hold_tip({rows.dx_mm[i], rows.dz_mm[i]},
+                                            rows.free_axis != nullptr ? rows.free_axis[i] : 0);
         unsolved_rows += rest.solved ? 0 : 1;
         Vector2d read_n = sensor_reading_n(model, rest.force_n, rows.t_s[i]);
         if (starts_run) {

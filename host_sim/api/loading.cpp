@@ -1,0 +1,89 @@
+#include <limits>
+
+#include "api/checks.h"
+#include "plant/loading.h"
+#include "plant/model_keys.h"
+
+namespace brace::api {
+
+brace_host_status_t check_loading_rows(const brace_loading_rows_t &rows)
+{
+    const double *given[] = {rows.theta1_rad, rows.theta2_rad, rows.t_s, rows.dx_mm, rows.dz_mm};
+    for (const double *column : given) {
+        if (column == nullptr) {
+            return BRACE_HOST_E_NULL;
+        }
+        if (!all_finite(column, rows.count)) {
+            return BRACE_HOST_E_NOT_FINITE;
+        }
+    }
+    if (rows.run == nullptr) {
+        return BRACE_HOST_E_NULL;
+    }
+    if (!all_finite_if_given(rows.temp_degc, rows.count)) {
+        return BRACE_HOST_E_NOT_FINITE;
+    }
+    for (size_t i = 0; rows.free_axis != nullptr && i < rows.count; ++i) {
+        if (rows.free_axis[i] < 0 || rows.free_axis[i] > 2) {
+            return BRACE_HOST_E_RANGE;
+        }
+    }
+    return never_falls(rows.t_s, rows.count) ? BRACE_HOST_OK : BRACE_HOST_E_RANGE;
+}
+
+}  // namespace brace::api
+
+extern "C" int32_t brace_plant_loading(const brace_plant_model_t *model, const brace_loading_rows_t *rows,
+                                       const brace_loading_reading_t *reading, size_t *unsolved_rows)
+{
+    if (model == nullptr || rows == nullptr || reading == nullptr) {
+        return BRACE_HOST_E_NULL;
+    }
+    const brace_host_status_t status = brace::api::check_loading_rows(*rows);
+    if (status != BRACE_HOST_OK) {
+        return status;
+    }
+    if (brace::plant::first_fault(*model) != nullptr) {
+        return BRACE_HOST_E_PARAMETER;
+    }
+    size_t unsolved = 0;
+    const brace_host_status_t played = brace::plant::play_loading(*model, *rows, *reading, unsolved);
+    if (unsolved_rows != nullptr && played != BRACE_HOST_E_SINGULAR) {
+        *unsolved_rows = unsolved;
+    }
+    return played;
+}
+
+extern "C" int32_t brace_plant_loading_many(const brace_plant_model_t *models, size_t model_count,
+                                            const brace_loading_rows_t *rows, double *fx_n, double *fz_n,
+                                            int32_t *status)
+{
+    if (models == nullptr || rows == nullptr || fx_n == nullptr || fz_n == nullptr) {
+        return BRACE_HOST_E_NULL;
+    }
+    const brace_host_status_t sound = brace::api::check_loading_rows(*rows);
+    if (sound != BRACE_HOST_OK) {
+        return sound;
+    }
+    brace_host_status_t worst = BRACE_HOST_OK;
+    for (size_t m = 0; m < model_count; ++m) {
+        brace_loading_reading_t reading{};
+        reading.fx_n = fx_n + m * rows->count;
+        reading.fz_n = fz_n + m * rows->count;
+        brace_host_status_t one = BRACE_HOST_E_PARAMETER;
+        if (brace::plant::first_fault(models[m]) == nullptr) {
+            size_t unsolved = 0;
+            one = brace::plant::play_loading(models[m], *rows, reading, unsolved);
+        }
+        if (one == BRACE_HOST_E_PARAMETER || one == BRACE_HOST_E_SINGULAR) {
+            for (size_t i = 0; i < rows->count; ++i) {
+                reading.fx_n[i] = reading.fz_n[i] = std::numeric_limits<double>::quiet_NaN();
+            }
+        }
+        if (status != nullptr) {
+            status[m] = one;
+        }
+        worst = one != BRACE_HOST_OK && worst == BRACE_HOST_OK ? one : worst;
+    }
+    return worst;
+}

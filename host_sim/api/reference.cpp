@@ -1,0 +1,138 @@
+#include <algorithm>
+#include <vector>
+
+#include "api/checks.h"
+#include "plant/model_keys.h"
+#include "reference/kinematics.h"
+#include "reference/stiffness.h"
+
+namespace {
+
+using brace::api::all_finite;
+using brace::reference::Limb;
+using brace::reference::Posture;
+
+brace::reference::LinkCompliance link_of(const brace_plant_link_t &link)
+{
+    return {link.axial_mm_per_n,   link.bending_mm_per_n,     link.tilt_rad,
+            link.lateral_mm_per_n, link.torsion_rad_per_n_mm, link.moment_transfer_ratio};
+}
+
+brace::reference::Lengths lengths_of(const brace_plant_model_t &model)
+{
+    return {model.geometry.coxa_mm, model.geometry.femur_mm, model.geometry.tibia_mm};
+}
+
+Limb limb_of(const brace_plant_model_t &model)
+{
+    Limb limb;
+    limb.lengths = lengths_of(model);
+    limb.coxa = link_of(model.link[0]);
+    limb.femur = link_of(model.link[1]);
+    limb.tibia = link_of(model.link[2]);
+    limb.coxa_joint_rad_per_n_mm = model.joint[0].compliance_rad_per_n_mm;
+    limb.femur_joint_rad_per_n_mm = model.joint[1].compliance_rad_per_n_mm;
+    limb.tibia_joint_rad_per_n_mm = model.joint[2].compliance_rad_per_n_mm;
+    limb.base_x_mm_per_n = model.base.x_mm_per_n;
+    limb.base_z_mm_per_n = model.base.z_mm_per_n;
+    limb.base_rotation_rad_per_n_mm = model.base.rotation_rad_per_n_mm;
+    return limb;
+}
+
+brace_host_status_t check(const brace_plant_model_t *model, size_t count, const double *theta1,
+                          const double *theta2, const double *out)
+{
+    if (model == nullptr || theta1 == nullptr || theta2 == nullptr || out == nullptr) {
+        return BRACE_HOST_E_NULL;
+    }
+    if (brace::plant::first_fault(*model) != nullptr) {
+        return BRACE_HOST_E_PARAMETER;
+    }
+    return all_finite(theta1, count) && all_finite(theta2, count) ? BRACE_HOST_OK : BRACE_HOST_E_NOT_FINITE;
+}
+
+}  // namespace
+
+extern "C" int32_t brace_reference_planar(const brace_plant_model_t *model, size_t count, const double *theta1_rad,
+                                          const double *theta2_rad, double *out)
+{
+    const brace_host_status_t status = check(model, count, theta1_rad, theta2_rad, out);
+    if (status != BRACE_HOST_OK) {
+        return status;
+    }
+    const Limb limb = limb_of(*model);
+    std::vector<std::array<double, 9>> rows(count);
+    for (size_t i = 0; i < count; ++i) {
+        if (!brace::reference::planar(limb, Posture{theta1_rad[i], theta2_rad[i]}, rows[i])) {
+            return BRACE_HOST_E_SINGULAR;
+        }
+    }
+    for (size_t i = 0; i < count; ++i) {
+        std::copy(rows[i].begin(), rows[i].end(), out + i * rows[i].size());
+    }
+    return BRACE_HOST_OK;
+}
+
+extern "C" int32_t brace_reference_spatial(const brace_plant_model_t *model, size_t count, const double *theta0_rad,
+                                           const double *theta1_rad, const double *theta2_rad, double *out)
+{
+    if (theta0_rad == nullptr) {
+        return BRACE_HOST_E_NULL;
+    }
+    const brace_host_status_t status = check(model, count, theta1_rad, theta2_rad, out);
+    if (status != BRACE_HOST_OK) {
+        return status;
+    }
+    if (!all_finite(theta0_rad, count)) {
+        return BRACE_HOST_E_NOT_FINITE;
+    }
+    const Limb limb = limb_of(*model);
+    std::vector<std::array<double, 18>> rows(count);
+    for (size_t i = 0; i < count; ++i) {
+        if (!brace::reference::spatial(limb, theta0_rad[i], Posture{theta1_rad[i], theta2_rad[i]}, rows[i])) {
+            return BRACE_HOST_E_SINGULAR;
+        }
+    }
+    for (size_t i = 0; i < count; ++i) {
+        std::copy(rows[i].begin(), rows[i].end(), out + i * rows[i].size());
+    }
+    return BRACE_HOST_OK;
+}
+
+extern "C" int32_t brace_reference_tip(const brace_plant_model_t *model, size_t count, const double *theta0_rad,
+                                       const double *theta1_rad, const double *theta2_rad, double *out)
+{
+    if (theta0_rad == nullptr) {
+        return BRACE_HOST_E_NULL;
+    }
+    const brace_host_status_t status = check(model, count, theta1_rad, theta2_rad, out);
+    if (status != BRACE_HOST_OK) {
+        return status;
+    }
+    if (!all_finite(theta0_rad, count)) {
+        return BRACE_HOST_E_NOT_FINITE;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        const auto tip = brace::reference::tip_mm(lengths_of(*model), theta0_rad[i], {theta1_rad[i], theta2_rad[i]});
+        for (int axis = 0; axis < 3; ++axis) {
+            out[3 * i + axis] = static_cast<double>(tip[axis]);
+        }
+    }
+    return BRACE_HOST_OK;
+}
+
+extern "C" int32_t brace_reference_posture(const brace_plant_model_t *model, double r_mm, double phi_rad,
+                                           int32_t knee_up, double *theta_rad)
+{
+    const brace_host_status_t status = check(model, 1, &r_mm, &phi_rad, theta_rad);
+    if (status != BRACE_HOST_OK) {
+        return status;
+    }
+    Posture posture{};
+    if (!brace::reference::posture_at(lengths_of(*model), r_mm, phi_rad, knee_up != 0, posture)) {
+        return BRACE_HOST_E_UNREACHABLE;
+    }
+    theta_rad[0] = static_cast<double>(posture.theta1_rad);
+    theta_rad[1] = static_cast<double>(posture.theta2_rad);
+    return BRACE_HOST_OK;
+}
