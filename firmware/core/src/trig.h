@@ -1,19 +1,20 @@
-/* Sine, cosine, angle and root for the core's own use: single precision, no libm, the same bits on every
- * target (plain multiplications and additions, no fusing). Not for the tick paths, which carry their own.
+/* Directions, angles and roots for what is not on the tick path: single precision, no libm, the same bits on
+ * every target.
  */
-#ifndef BRACE_CORE_TRIG_H
-#define BRACE_CORE_TRIG_H
+#ifndef BRACE_TRIG_H
+#define BRACE_TRIG_H
+
+#include "brace/chain.h"
 
 #define BRACE_PI 3.14159265f
 #define BRACE_HALF_PI 1.57079633f
 
-typedef struct {
-    float sine;
-    float cosine;
-} brace_sincos_t;
+/* Fraction of a turn (2^32 = 2 pi) from an angle in [-7.99, 7.99] rad, within 2e-9 rad. Turns add, subtract and
+ * wrap as integers, without loss. */
+uint32_t brace_turn(float angle_rad);
 
-/* angle_rad [-30, 30]; each within 1.0e-7. About 45 instructions on a Cortex-M4F. */
-brace_sincos_t brace_sincos(float angle_rad);
+/* Unit vector {cosine, sine} of an angle given as a turn; each within 4e-8. About 40 instructions. */
+brace_vec_t brace_direction(uint32_t turn);
 
 /* Angle of (x, y) from +x, [-pi, pi], within 3e-7 rad; 0 for the zero vector. x, y [-1e37, 1e37].
  * About 50 instructions. */
@@ -23,6 +24,11 @@ float brace_atan2(float y, float x);
 static inline float brace_sqrt(float value)
 {
     return __builtin_sqrtf(value);
+}
+
+static inline float brace_length(float x, float z)
+{
+    return brace_sqrt(x * x + z * z);
 }
 
 #endif

@@ -1,0 +1,110 @@
+/* Joint angles <-> tip, levers of the joints, polar form; in the limb's plane and in space.
+ *
+ * Frames and signs as in docs/physics.md: origin on the femur joint's axis, x outwards, z up; theta1 is the
+ * femur's angle from +x; theta2 the knee's flexion, the tibia points along theta1 - theta2. In space the
+ * limb's plane stands on the coxa and is carried round z by theta0; there the origin lies on the yaw axis.
+ *
+ * Angles are true joint angles; add zero offsets first (brace_limb_true_angle).
+ *
+ * Every function: pure, re-entrant, callable from any thread or interrupt; no loop; stack at most 120 bytes.
+ * A refused call leaves its outputs untouched.
+ */
+#ifndef BRACE_KINEMATICS_H
+#define BRACE_KINEMATICS_H
+
+#include "brace/limb.h"
+
+/* Joint angles are taken in [-BRACE_ANGLE_LIMIT_RAD, +BRACE_ANGLE_LIMIT_RAD]: a turn and a bit. */
+#define BRACE_ANGLE_LIMIT_RAD 7.9f
+
+typedef struct {
+    float x_mm;
+    float z_mm;
+} brace_point_t;
+
+typedef struct {
+    float x_mm;
+    float y_mm;
+    float z_mm;
+} brace_point_spatial_t;
+
+/* The paper's coordinates of the tip. */
+typedef struct {
+    float r_mm;    /* distance from the femur joint's axis, >= 0 */
+    float phi_rad; /* direction from +x, [-pi, pi] */
+} brace_polar_t;
+
+typedef struct {
+    brace_point_t knee;
+    brace_point_t tip;
+    /* The tip's shift for a unit turn (1 rad, counter-clockwise) of what hangs on the joint: the vector from
+     * the joint to the tip, turned by +90 degrees. A force f at the tip loads the joint with lever . f. */
+    brace_point_t lever_femur;
+    brace_point_t lever_tibia;
+} brace_pose_t;
+
+/* Which of the two postures that reach a point: the knee's side of the line from the origin to the tip. */
+typedef enum {
+    BRACE_KNEE_UP = 0,  /* theta2 in [0, pi]: knee to the left of the line, above it for a tip in front */
+    BRACE_KNEE_DOWN = 1 /* theta2 in [-pi, 0] */
+} brace_knee_t;
+
+/* Which of the two yaw angles whose plane holds a point. */
+typedef enum {
+    BRACE_YAW_TOWARDS = 0, /* the limb's +x side faces the tip */
+    BRACE_YAW_AWAY = 1     /* theta0 is half a turn further: the limb reaches back over the yaw axis */
+} brace_yaw_t;
+
+/* Where knee and tip are, and the levers of both joints.
+ *   theta1_rad, theta2_rad [+-7.9 rad]
+ *   pose (out): accuracy 5e-7 of femur + tibia in every component
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_PARAMETER (a length no limb has), BRACE_E_NOT_FINITE, BRACE_E_RANGE
+ * cost: at most 160 instructions on a Cortex-M4F. */
+brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
+                                        brace_pose_t *pose);
+
+/* Distance and direction of a point; phi 0 for the origin itself.
+ *   point [+-1e6 mm]; polar (out): r within 2e-7 relative, phi within 3e-7 rad
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE; at most 120 instructions. */
+brace_status_t brace_kinematics_polar(brace_point_t point, brace_polar_t *polar);
+
+/* The angles that put the tip at a point.
+ *   tip [+-1e6 mm]
+ *   knee: which of the two postures
+ *   theta1_rad (out) [-pi, pi]; theta2_rad (out) [0, pi] knee up, [-pi, 0] knee down
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_PARAMETER, BRACE_E_NOT_FINITE, BRACE_E_RANGE (also for a knee that
+ *   is neither), BRACE_E_UNREACHABLE: |tip| outside [|femur - tibia|, femur + tibia] by more than 5e-7 of femur + tibia;
+ *   a tip outside by less, such as the rounded tip of a straight limb, is taken as straight or folded.
+ * A tip at the origin is reached when both links are equally long, with theta2 = +-pi and theta1 = 0.
+ * accuracy: the returned angles put the tip within 2e-6 of femur + tibia of where it was asked for, straight
+ *   and folded included. The angles themselves are as sharp as the question: for a tip known to e,
+ *   theta2 is known to e r / (femur tibia |sin theta2|), and at sin theta2 = 0 to the root of twice that
+ *   without the sine.
+ * cost: at most 330 instructions.
+ * source: half-angle form of the law of cosines; every factor is a difference of two given lengths. */
+brace_status_t brace_kinematics_inverse(const brace_limb_t *limb, brace_point_t tip, brace_knee_t knee,
+                                        float *theta1_rad, float *theta2_rad);
+
+/* The same for a tip in the paper's coordinates; tip.r_mm [0, 2e6 mm], tip.phi_rad [+-7.9 rad].
+ * returns the same; at most 240 instructions. */
+brace_status_t brace_kinematics_inverse_polar(const brace_limb_t *limb, brace_polar_t tip, brace_knee_t knee,
+                                              float *theta1_rad, float *theta2_rad);
+
+/* Where the tip is in the robot's base frame, origin on the yaw axis at the height of the femur's axis.
+ *   theta0_rad, theta1_rad, theta2_rad [+-7.9 rad]
+ *   tip (out): accuracy 7e-7 of coxa + femur + tibia
+ * returns as brace_kinematics_forward; at most 260 instructions. */
+brace_status_t brace_kinematics_forward_spatial(const brace_limb_t *limb, float theta0_rad, float theta1_rad,
+                                                float theta2_rad, brace_point_spatial_t *tip);
+
+/* The three angles that put the tip at a point in space.
+ *   tip [+-1e6 mm]; yaw, knee: which of the four postures
+ *   theta0_rad (out) [-pi, pi], 0 (or pi, facing away) for a tip on the yaw axis, where any would do
+ *   theta1_rad, theta2_rad (out) as for brace_kinematics_inverse
+ * returns as brace_kinematics_inverse; accuracy 3e-6 of coxa + femur + tibia at the tip; at most 430
+ * instructions. */
+brace_status_t brace_kinematics_inverse_spatial(const brace_limb_t *limb, brace_point_spatial_t tip,
+                                                brace_yaw_t yaw, brace_knee_t knee, float *theta0_rad,
+                                                float *theta1_rad, float *theta2_rad);
+
+#endif

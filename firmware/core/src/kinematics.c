@@ -1,0 +1,175 @@
+#include "brace/kinematics.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "check.h"
+#include "trig.h"
+
+#define TIP_LIMIT_MM 1e6f
+
+/* A tip this far outside the reach, as a fraction of the reach, is the rounding of one on its edge. */
+#define EDGE_RATIO 5e-7f
+
+static float wrapped(float angle_rad)
+{
+    if (angle_rad > BRACE_PI) {
+        return angle_rad - 2.0f * BRACE_PI;
+    }
+    if (angle_rad < -BRACE_PI) {
+        return angle_rad + 2.0f * BRACE_PI;
+    }
+    return angle_rad;
+}
+
+brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
+                                        brace_pose_t *pose)
+{
+    if (pose == NULL) {
+        return BRACE_E_NULL;
+    }
+    brace_status_t status = brace_check_lengths(limb);
+    if (status == BRACE_OK) {
+        status = brace_check_two(theta1_rad, theta2_rad, BRACE_ANGLE_LIMIT_RAD);
+    }
+    if (status != BRACE_OK) {
+        return status;
+    }
+    const uint32_t femur_turn = brace_turn(theta1_rad);
+    const brace_vec_t femur = brace_direction(femur_turn);
+    const brace_vec_t tibia = brace_direction(femur_turn - brace_turn(theta2_rad));
+    const brace_point_t knee = {limb->femur_mm * femur.x, limb->femur_mm * femur.z};
+    const brace_point_t shank = {limb->tibia_mm * tibia.x, limb->tibia_mm * tibia.z};
+    const brace_point_t tip = {knee.x_mm + shank.x_mm, knee.z_mm + shank.z_mm};
+    pose->knee = knee;
+    pose->tip = tip;
+    pose->lever_femur = (brace_point_t){-tip.z_mm, tip.x_mm};
+    pose->lever_tibia = (brace_point_t){-shank.z_mm, shank.x_mm};
+    return BRACE_OK;
+}
+
+brace_status_t brace_kinematics_polar(brace_point_t point, brace_polar_t *polar)
+{
+    if (polar == NULL) {
+        return BRACE_E_NULL;
+    }
+    const brace_status_t status = brace_check_two(point.x_mm, point.z_mm, TIP_LIMIT_MM);
+    if (status == BRACE_OK) {
+        polar->r_mm = brace_length(point.x_mm, point.z_mm);
+        polar->phi_rad = brace_atan2(point.z_mm, point.x_mm);
+    }
+    return status;
+}
+
+/* The triangle femur, tibia, r by half angles: the tangents of half the flexion and of half the angle between
+ * femur and tip are roots of ratios of four lengths, in which nothing cancels but lengths as they were given.
+ * False where there is no such triangle. */
+static bool solve_triangle(const brace_limb_t *limb, float r_mm, float *flexion_rad, float *femur_from_tip_rad)
+{
+    const float reach = limb->femur_mm + limb->tibia_mm;
+    const float surplus = limb->femur_mm - limb->tibia_mm;
+    const float edge = EDGE_RATIO * reach;
+    float to_straight = reach - r_mm;
+    float beyond_surplus = r_mm - surplus;
+    float beyond_deficit = r_mm + surplus;
+    if (to_straight < -edge || beyond_surplus < -edge || beyond_deficit < -edge) {
+        return false;
+    }
+    to_straight = to_straight > 0.0f ? to_straight : 0.0f;
+    beyond_surplus = beyond_surplus > 0.0f ? beyond_surplus : 0.0f;
+    beyond_deficit = beyond_deficit > 0.0f ? beyond_deficit : 0.0f;
+
+    const float perimeter = reach + r_mm;
+    *flexion_rad =
+        2.0f * brace_atan2(brace_sqrt(to_straight * perimeter), brace_sqrt(beyond_surplus * beyond_deficit));
+    *femur_from_tip_rad =
+        2.0f * brace_atan2(brace_sqrt(to_straight * beyond_surplus), brace_sqrt(perimeter * beyond_deficit));
+    return true;
+}
+
+brace_status_t brace_kinematics_inverse_polar(const brace_limb_t *limb, brace_polar_t tip, brace_knee_t knee,
+                                              float *theta1_rad, float *theta2_rad)
+{
+    if (theta1_rad == NULL || theta2_rad == NULL) {
+        return BRACE_E_NULL;
+    }
+    brace_status_t status = brace_check_lengths(limb);
+    if (status == BRACE_OK) {
+        status = brace_check_magnitude(tip.phi_rad, BRACE_ANGLE_LIMIT_RAD);
+    }
+    if (status == BRACE_OK) {
+        status = brace_check_magnitude(tip.r_mm, 2.0f * TIP_LIMIT_MM);
+    }
+    if (status == BRACE_OK && (tip.r_mm < 0.0f || (knee != BRACE_KNEE_UP && knee != BRACE_KNEE_DOWN))) {
+        status = BRACE_E_RANGE;
+    }
+    if (status != BRACE_OK) {
+        return status;
+    }
+    float flexion_rad;
+    float femur_from_tip_rad;
+    if (!solve_triangle(limb, tip.r_mm, &flexion_rad, &femur_from_tip_rad)) {
+        return BRACE_E_UNREACHABLE;
+    }
+    const float side = knee == BRACE_KNEE_UP ? 1.0f : -1.0f;
+    *theta1_rad = wrapped(wrapped(tip.phi_rad) + side * femur_from_tip_rad);
+    *theta2_rad = side * flexion_rad;
+    return BRACE_OK;
+}
+
+brace_status_t brace_kinematics_inverse(const brace_limb_t *limb, brace_point_t tip, brace_knee_t knee,
+                                        float *theta1_rad, float *theta2_rad)
+{
+    brace_polar_t polar;
+    const brace_status_t status = brace_kinematics_polar(tip, &polar);
+    if (status != BRACE_OK) {
+        return status;
+    }
+    return brace_kinematics_inverse_polar(limb, polar, knee, theta1_rad, theta2_rad);
+}
+
+brace_status_t brace_kinematics_forward_spatial(const brace_limb_t *limb, float theta0_rad, float theta1_rad,
+                                                float theta2_rad, brace_point_spatial_t *tip)
+{
+    if (tip == NULL) {
+        return BRACE_E_NULL;
+    }
+    brace_pose_t pose;
+    brace_status_t status = brace_kinematics_forward(limb, theta1_rad, theta2_rad, &pose);
+    if (status == BRACE_OK) {
+        status = brace_check_magnitude(theta0_rad, BRACE_ANGLE_LIMIT_RAD);
+    }
+    if (status != BRACE_OK) {
+        return status;
+    }
+    const brace_vec_t yaw = brace_direction(brace_turn(theta0_rad));
+    const float outwards_mm = limb->coxa_mm + pose.tip.x_mm;
+    tip->x_mm = outwards_mm * yaw.x;
+    tip->y_mm = outwards_mm * yaw.z;
+    tip->z_mm = pose.tip.z_mm;
+    return BRACE_OK;
+}
+
+brace_status_t brace_kinematics_inverse_spatial(const brace_limb_t *limb, brace_point_spatial_t tip,
+                                                brace_yaw_t yaw, brace_knee_t knee, float *theta0_rad,
+                                                float *theta1_rad, float *theta2_rad)
+{
+    if (limb == NULL || theta0_rad == NULL) {
+        return BRACE_E_NULL;
+    }
+    if (yaw != BRACE_YAW_TOWARDS && yaw != BRACE_YAW_AWAY) {
+        return BRACE_E_RANGE;
+    }
+    brace_polar_t plan; /* the tip seen from above */
+    brace_status_t status = brace_kinematics_polar((brace_point_t){tip.x_mm, tip.y_mm}, &plan);
+    if (status != BRACE_OK) {
+        return status;
+    }
+    const float outwards_mm = yaw == BRACE_YAW_TOWARDS ? plan.r_mm : -plan.r_mm;
+    const brace_point_t in_plane = {outwards_mm - limb->coxa_mm, tip.z_mm};
+    status = brace_kinematics_inverse(limb, in_plane, knee, theta1_rad, theta2_rad);
+    if (status == BRACE_OK) {
+        *theta0_rad = yaw == BRACE_YAW_TOWARDS ? plan.phi_rad : wrapped(plan.phi_rad + BRACE_PI);
+    }
+    return status;
+}
