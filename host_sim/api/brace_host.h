@@ -95,7 +95,7 @@ typedef struct {
 } brace_plant_thermal_t;
 
 typedef struct {
-    double play_mm; /* [0, 1e3] full clearance of the tip, each axis */
+    double play_mm; /* [0, 1e3] full clearance of the tip's joint, each axis; it drags the tip along */
 } brace_plant_contact_t;
 
 typedef struct {
@@ -154,10 +154,10 @@ int32_t brace_reference_posture(const brace_plant_model_t *model, double r_mm, d
 /* ------------------------------------------------------------------------------------ loading, plant -- */
 
 /* A loading record's inputs, one entry per row, in the order of the record. A run starts wherever run[]
- * changes: joints' play centred, friction relaxed; time and temperature run on. t_s must not fall. */
+ * changes: joints' and contact's play centred, friction relaxed, creep gone; time and temperature run on. t_s must not fall. */
 typedef struct {
     size_t count;
-    int32_t runs_rested;    /* 0: creep runs on through the record; 1: it too starts afresh with each run */
+    int32_t creep_runs_on;  /* 0: each run starts with creep gone; 1: creep runs on from run to run */
     int32_t zeroed_per_run; /* 1: each run's first reading is taken from its readings */
     const int32_t *run;
     const double *theta1_rad; /* commanded; zero offsets are added */
@@ -173,8 +173,8 @@ typedef struct {
 typedef struct {
     double *fx_n; /* the sensor's reading of the force on the limb, before resolution and noise */
     double *fz_n;
-    double *enc1_rad; /* joint deflection on the output side: elastic, gap and creep */
-    double *enc2_rad;
+    double *enc1_rad; /* joint deflection on the output side: elastic, play and creep; counter-clockwise */
+    double *enc2_rad; /* positive, so that enc2 opens the knee (theta2 falls) */
     double *base_x_mm; /* deflection of the base at the femur axis */
     double *base_z_mm;
 } brace_loading_reading_t;

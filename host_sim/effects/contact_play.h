@@ -1,13 +1,18 @@
-// The tip's ball joint has clearance: along each axis the tip slips freely within half of it to either side.
+// The tip's ball joint has clearance, and drags the tip along: along each axis the tip stays where it is until the
+// clearance is taken up on that side. So the slip depends on which way the rig last moved, not on the force.
 #pragma once
+
+#include <Eigen/Core>
 
 #include "effects/effect.h"
 
 namespace brace::effects::contact_play {
 
-inline double half_mm(const Model &model)
+// Where the tip goes when its socket moves to a displacement: no further than half the clearance behind it.
+inline Eigen::Vector2d dragged_mm(const Model &model, const Eigen::Vector2d &tip_mm, const Eigen::Vector2d &socket_mm)
 {
-    return 0.5 * model.contact.play_mm;
+    const Eigen::Array2d half = Eigen::Array2d::Constant(0.5 * model.contact.play_mm);
+    return tip_mm.array().max(socket_mm.array() - half).min(socket_mm.array() + half);
 }
 
 inline void none(Model &model)
@@ -16,7 +21,8 @@ inline void none(Model &model)
 }
 
 inline constexpr Entry kEntries[] = {
-    {"contact_play", "contact", "contact.play_mm", "free slip of the tip within +-play/2 along each axis"},
+    {"contact_play", "contact", "contact.play_mm",
+     "along each axis the tip stays until the imposed displacement is play/2 ahead of it"},
 };
 
 }  // namespace brace::effects::contact_play

@@ -8,15 +8,14 @@
 
 namespace brace::effects::gravity {
 
-// Torques about the femur joint and the knee, in the sense of theta1 and theta2 [N mm]: minus the slope of the
-// weights' potential energy.
+// Torques of the weights about the femur joint and the knee [N mm], counter-clockwise positive.
 inline Eigen::Vector2d torques_n_mm(const Model &model, const Eigen::Vector2d &femur_mm,
                                     const Eigen::Vector2d &tibia_mm)
 {
     const auto &weight = model.gravity;
     const double beyond_knee = weight.tibia_n * 0.5 * tibia_mm.x();
     const double at_knee = (0.5 * weight.femur_n + weight.knee_n + weight.tibia_n) * femur_mm.x();
-    return {-(at_knee + beyond_knee), beyond_knee};
+    return {-(at_knee + beyond_knee), -beyond_knee};
 }
 
 inline void none(Model &model)

@@ -30,14 +30,13 @@ Slope slope_at(const RestProblem &problem, const Pair &deflection)
     for (int i = 0; i < problem.joint_count; ++i) {
         displacement -= problem.joint[i].lever_mm * deflection[i];
     }
-    const ContactForce contact = contact_force(problem.structure, problem.half_play_mm, displacement);
     Slope slope;
-    slope.force_n = contact.force_n;
+    slope.force_n = problem.stiffness_n_per_mm * displacement;
     for (int i = 0; i < problem.joint_count; ++i) {
         const JointUnknown &joint = problem.joint[i];
         slope.torque_n_mm[i] = spring_torque_n_mm(joint.law, deflection[i]) - joint.load_n_mm
-                               - joint.lever_mm.dot(contact.force_n);
-        const Vector2d pushed = contact.stiffness_n_per_mm * joint.lever_mm;
+                               - joint.lever_mm.dot(slope.force_n);
+        const Vector2d pushed = problem.stiffness_n_per_mm * joint.lever_mm;
         for (int j = 0; j < problem.joint_count; ++j) {
             slope.curvature(i, j) = problem.joint[j].lever_mm.dot(pushed);
         }
@@ -190,7 +189,7 @@ void find_rest(const RestProblem &problem, RestState &state)
         }
         // A zero lever leaves nothing to weigh a torque by.
         state.unbalance_n = longest_mm > 0.0 ? worst / longest_mm : 0.0;
-        const double rounding_n = 1e-15 * (problem.structure.stiffness_n_per_mm.norm() * reach_mm
+        const double rounding_n = 1e-15 * (problem.stiffness_n_per_mm.norm() * reach_mm
                                            + (longest_mm > 0.0 ? spring_n_mm / longest_mm : 0.0));
         if (state.unbalance_n <= std::max(kGoodBalance_n, rounding_n) || step == kMaxSteps) {
             state.solved = state.unbalance_n <= std::max(kPromisedBalance_n, 8.0 * rounding_n);

@@ -1,13 +1,12 @@
 // Where the limb comes to rest under an imposed tip displacement: the joint deflections of least energy.
 //
-// Energy of deflections e: phi(d - sum lever_i e_i) + sum spring_i(e_i) - load_i e_i + coulomb_i |e_i - before_i|,
-// phi the energy of the structure behind its contact clearance. Convex, so what is found is the one rest state.
+// Energy of deflections e: 1/2 x'Kx + sum spring_i(e_i) - load_i e_i + coulomb_i |e_i - before_i| with
+// x = d - sum lever_i e_i, the first term being the structure's. Convex, so what is found is the one rest state.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 
-#include "plant/contact.h"
 #include "plant/joint_law.h"
 
 namespace brace::plant {
@@ -20,8 +19,7 @@ struct JointUnknown {
 };
 
 struct RestProblem {
-    Elastic structure;
-    Eigen::Vector2d half_play_mm; // infinite: the tip is free along that axis
+    Eigen::Matrix2d stiffness_n_per_mm; // of the structure
     Eigen::Vector2d displacement_mm;
     int joint_count;
     std::array<JointUnknown, 2> joint;

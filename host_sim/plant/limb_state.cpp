@@ -1,7 +1,7 @@
 #include "plant/limb_state.h"
 
+#include <Eigen/LU>
 #include <algorithm>
-#include <limits>
 
 #include "effects/contact_play.h"
 #include "effects/creep.h"
@@ -28,6 +28,18 @@ double determinant_ratio(const Matrix2d &compliance)
 {
     const double trace = compliance.trace();
     return trace > 0.0 ? compliance.determinant() / (trace * trace) : 0.0;
+}
+
+// K where the tip is held along both axes, or along one with no force along the other.
+Matrix2d stiffness_held(const Matrix2d &compliance, int free_axis)
+{
+    if (free_axis == 0) {
+        return compliance.inverse();
+    }
+    const int held = 2 - free_axis;
+    Matrix2d stiffness = Matrix2d::Zero();
+    stiffness(held, held) = 1.0 / compliance(held, held);
+    return stiffness;
 }
 
 }  // namespace
@@ -63,7 +75,6 @@ bool LimbState::prepare()
 {
     Matrix2d compliance = structure_.compliance_mm_per_n;
     Matrix2d whole = compliance;
-    bool any_play = effects::contact_play::half_mm(model_) > 0.0;
     for (const int i : {0, 1}) {
         const Vector2d &lever = structure_.lever_mm[i];
         const Matrix2d turned = law_[i].compliance_rad_per_n_mm * lever * lever.transpose();
@@ -71,7 +82,6 @@ bool LimbState::prepare()
         if (is_spring_[i]) {
             compliance += turned;
         }
-        any_play = any_play || law_[i].gap_rad > 0.0;
     }
     if (!(determinant_ratio(whole) > 1e-15)) {
         return false;
@@ -92,15 +102,16 @@ bool LimbState::prepare()
             unknown.law.compliance_rad_per_n_mm = kStopCompliance * whole.trace() / std::max(lever.squaredNorm(), 1.0);
         }
     }
-    if ((problem_.joint_count > 0 || any_play) && !(determinant_ratio(compliance) > 1e-12)) {
+    if (problem_.joint_count > 0 && !(determinant_ratio(compliance) > 1e-12)) {
         compliance += kRigidCompliance * whole.trace() * Matrix2d::Identity();
     }
-    problem_.structure = elastic_of(compliance);
+    compliance_mm_per_n_ = compliance;
     return true;
 }
 
 void LimbState::start_run(bool creep_gone)
 {
+    tip_mm_ = Vector2d::Zero();
     instant_rad_ = {};
     if (creep_gone) {
         delayed_rad_ = {};
@@ -125,11 +136,9 @@ void LimbState::let_creep(double t_s)
 
 LimbRest LimbState::hold_tip(const Vector2d &displacement_mm, int free_axis)
 {
-    problem_.half_play_mm = Vector2d::Constant(effects::contact_play::half_mm(model_));
-    if (free_axis != 0) {
-        problem_.half_play_mm[free_axis - 1] = std::numeric_limits<double>::infinity();
-    }
-    Vector2d rest_mm = displacement_mm; // left for force to make
+    tip_mm_ = effects::contact_play::dragged_mm(model_, tip_mm_, displacement_mm);
+    problem_.stiffness_n_per_mm = stiffness_held(compliance_mm_per_n_, free_axis);
+    Vector2d rest_mm = tip_mm_; // left for force to make
     for (const int i : {0, 1}) {
         double without_force = delayed_rad_[i];
         if (is_spring_[i]) {
@@ -139,7 +148,7 @@ LimbRest LimbState::hold_tip(const Vector2d &displacement_mm, int free_axis)
     }
     RestState state{};
     if (problem_.joint_count == 0) {
-        state.force_n = contact_force(problem_.structure, problem_.half_play_mm, rest_mm).force_n;
+        state.force_n = problem_.stiffness_n_per_mm * rest_mm;
         state.solved = true;
     } else {
         problem_.displacement_mm = rest_mm;

@@ -29,7 +29,7 @@ brace_host_status_t play_loading(const effects::Model &model, const brace_loadin
         const double temp = rows.temp_degc != nullptr ? rows.temp_degc[i] : model.thermal.reference_degc;
         limb.move_to(rows.theta1_rad[i], rows.theta2_rad[i], rows.t_s[i], temp);
         if (starts_run) {
-            limb.start_run(rows.runs_rested != 0);
+            limb.start_run(rows.creep_runs_on == 0);
         }
         const LimbRest rest = limb.hold_tip({rows.dx_mm[i], rows.dz_mm[i]},
                                             rows.free_axis != nullptr ? rows.free_axis[i] : 0);

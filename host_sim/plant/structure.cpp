@@ -39,7 +39,7 @@ Structure structure_at(const Model &model, double theta1_rad, double theta2_rad,
     const Vector2d tibia = model.geometry.tibia_mm * tibia_axis;
 
     Structure structure;
-    structure.lever_mm = {quarter_turn(femur + tibia), -quarter_turn(tibia)};
+    structure.lever_mm = {quarter_turn(femur + tibia), quarter_turn(tibia)};
     structure.gravity_n_mm = effects::gravity::torques_n_mm(model, femur, tibia);
 
     Matrix2d compliance = Matrix2d::Zero();
@@ -56,7 +56,7 @@ Structure structure_at(const Model &model, double theta1_rad, double theta2_rad,
             // Only the femur has something beyond its end that turns the tip force into a moment there.
             using namespace effects::moment_transfer;
             const double length = model.geometry.femur_mm;
-            const Vector2d arm = quarter_turn(tibia);
+            const Vector2d &arm = structure.lever_mm[1];
             const Matrix2d coupled = axes.col(1) * arm.transpose();
             compliance += coupling_per_n(bending, length, link.moment_transfer_ratio)
                           * (coupled + coupled.transpose());

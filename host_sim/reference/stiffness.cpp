@@ -1,6 +1,7 @@
 #include "reference/stiffness.h"
 
 #include <Eigen/LU>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
