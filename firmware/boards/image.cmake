@@ -2,21 +2,16 @@
 # BRACE_CORE_NAME comes from the toolchain file (firmware/boards/toolchain/).
 set(BRACE_BOARDS_DIR ${CMAKE_CURRENT_LIST_DIR})
 
+# The MPS2 board carries either processor. Cortex-M0+ code runs on its Cortex-M3, with unaligned access made a fault.
 set(BRACE_MACHINE_m4f mps2-an386)
 set(BRACE_MACHINE_m3 mps2-an385)
-set(BRACE_MACHINE_m0plus microbit)
-set(BRACE_BOARD_m4f mps2)
-set(BRACE_BOARD_m3 mps2)
-set(BRACE_BOARD_m0plus microbit)
-
+set(BRACE_MACHINE_m0plus mps2-an385)
 set(BRACE_MACHINE ${BRACE_MACHINE_${BRACE_CORE_NAME}})
-set(BRACE_BOARD ${BRACE_BOARD_${BRACE_CORE_NAME}})
 
 function(brace_board_image target)
     add_executable(${target} ${ARGN} ${BRACE_BOARDS_DIR}/common/startup.c)
     set_target_properties(${target} PROPERTIES SUFFIX .elf
-        LINK_DEPENDS "${BRACE_BOARDS_DIR}/common/sections.ld;${BRACE_BOARDS_DIR}/${BRACE_BOARD}/memory.ld")
+        LINK_DEPENDS "${BRACE_BOARDS_DIR}/common/sections.ld;${BRACE_BOARDS_DIR}/mps2/memory.ld")
     target_link_options(${target} PRIVATE -nostartfiles --specs=nano.specs --specs=rdimon.specs -u _printf_float
-        -L${BRACE_BOARDS_DIR}/common -T${BRACE_BOARDS_DIR}/${BRACE_BOARD}/memory.ld)
-    target_link_libraries(${target} PRIVATE m)
+        -L${BRACE_BOARDS_DIR}/common -T${BRACE_BOARDS_DIR}/mps2/memory.ld)
 endfunction()

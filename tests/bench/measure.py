@@ -9,7 +9,7 @@ import numpy as np
 
 import reference
 from emulate import Counted, count, trace
-from postures import COUNT, postures, q28, workspace
+from postures import COUNT, Limb, postures, q28, workspace
 from stack import worst_stack_bytes
 from timing import Cycles, estimate
 from toolchain import BENCH, BOARDS, BUILD, HARNESS_FLAGS, Processor, compile_source, flash_bytes, link_image, section_sizes
@@ -36,6 +36,8 @@ class Measured:
     minimum: int
     median: int
     maximum: int
+    minimum_anywhere: int  # over the whole workspace as well, where the version is run there
+    maximum_anywhere: int
     one_path: bool  # the same instructions, address by address, at every posture of the whole workspace
     cycles: Cycles | None
     flash_bytes: int
@@ -46,7 +48,8 @@ class Measured:
     workspace_error: Error | None
 
 
-def _object(source: Path, processor: Processor, flags: tuple[str, ...]) -> Path:
+def object_of(source: Path, processor: Processor, flags: tuple[str, ...]) -> Path:
+    """The source compiled, once a run."""
     key = (processor, source, flags)
     if key not in _objects:
         digest = hashlib.sha256(" ".join((processor.name, str(source), *flags)).encode()).hexdigest()[:12]
@@ -59,9 +62,9 @@ def _axis_error(mine: np.ndarray, exact: np.ndarray) -> float:
     return float(np.max(np.abs(np.sin(mine - exact))))
 
 
-def _planar_error(version: Version, rows: np.ndarray, angles: np.ndarray) -> Error:
-    assert version.limb is not None
-    exact = reference.planar(version.limb, angles[:, 1], angles[:, 2])
+def planar_error(limb: Limb, rows: np.ndarray, angles: np.ndarray) -> Error:
+    """Errors of rows (n, 6) of planar results at angles (n, 3) [rad]."""
+    exact = reference.planar(limb, angles[:, 1], angles[:, 2])
     k = np.stack([exact.k[:, 0, 0], exact.k[:, 0, 1], exact.k[:, 1, 1]], -1)
     largest = exact.eigenvalues[:, 1:]
     return Error(float(np.max(np.abs(rows[:, :3] - k) / largest)),
@@ -69,9 +72,9 @@ def _planar_error(version: Version, rows: np.ndarray, angles: np.ndarray) -> Err
                  _axis_error(rows[:, 5], exact.axis_rad))
 
 
-def _spatial_error(version: Version, rows: np.ndarray, angles: np.ndarray) -> Error:
-    assert version.limb is not None
-    exact = reference.spatial(version.limb, *angles.T)
+def spatial_error(limb: Limb, rows: np.ndarray, angles: np.ndarray) -> Error:
+    """Errors of rows (n, 12) of spatial results at angles (n, 3) [rad]."""
+    exact = reference.spatial(limb, *angles.T)
     upper = np.triu_indices(3)
     k = exact.k[:, upper[0], upper[1]]
     largest = exact.eigenvalues[:, 2:]
@@ -85,7 +88,8 @@ def _error(version: Version, rows: np.ndarray, angles: np.ndarray) -> Error:
     seen = angles.astype(np.float64)
     if version.group == PLANAR_NO_FPU and version.ours:
         seen = q28(angles).astype(np.float64) / 2.0**28
-    return (_spatial_error if version.group == SPATIAL else _planar_error)(version, rows, seen)
+    assert version.limb is not None
+    return (spatial_error if version.group == SPATIAL else planar_error)(version.limb, rows, seen)
 
 
 def _stack(version: Version, counted: Counted, sources: list[Path], job: Path) -> tuple[int, tuple[str, ...]]:
@@ -98,9 +102,9 @@ def _stack(version: Version, counted: Counted, sources: list[Path], job: Path) -
 
 def measure(version: Version, plugin: Path) -> Measured:
     """Build, count, judge and weigh one version."""
-    sources = [_object(source, version.processor, version.flags) for source in version.sources]
-    job = _object(version.job, version.processor, (*HARNESS_FLAGS, *version.job_flags))
-    frame = [_object(path, version.processor, HARNESS_FLAGS) for path in
+    sources = [object_of(source, version.processor, version.flags) for source in version.sources]
+    job = object_of(version.job, version.processor, (*HARNESS_FLAGS, *version.job_flags))
+    frame = [object_of(path, version.processor, HARNESS_FLAGS) for path in
              (BENCH / "image" / "harness.c", BOARDS / "common" / "startup.c")]
     image = link_image([*sources, job, *frame], BUILD / "images" / f"{version.key}.elf", version.processor)
     counted = count(image, version.processor, plugin, version.function)
@@ -122,5 +126,6 @@ def measure(version: Version, plugin: Path) -> Measured:
     flash = flash_bytes(sources, (version.function, *version.flash_with), linked, version.processor)
     sections = section_sizes(linked)
     stack, chain = _stack(version, counted, sources, job)
-    return Measured(version, min(first), middle, max(first), len(set(counted.paths)) == 1, cycles, flash,
+    return Measured(version, min(first), middle, max(first), min(counted.instructions), max(counted.instructions),
+                    len(set(counted.paths)) == 1, cycles, flash,
                     sections.get(".data", 0) + sections.get(".bss", 0), stack, chain, error, whole)

@@ -4,6 +4,8 @@ Writes docs/bench.json and docs/bench.md. Exit codes: 0 every limit kept, 1 one 
 """
 
 import argparse
+import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -15,8 +17,12 @@ import fetch  # noqa: E402
 import postures  # noqa: E402
 import versions  # noqa: E402
 from emulate import build_plugin  # noqa: E402
-from measure import Measured, measure  # noqa: E402
-from toolchain import BUILD, run  # noqa: E402
+from limits import Limits  # noqa: E402
+from measure import measure  # noqa: E402
+from report import Bench, as_data, as_markdown, as_text  # noqa: E402
+from throughput import measure_rates  # noqa: E402
+from toolchain import BUILD, PREFIX, run  # noqa: E402
+from weights import weigh_core  # noqa: E402
 
 
 def say(text: str) -> None:
@@ -32,3 +38,52 @@ def generate() -> Path:
     (generated / "bench_data.h").write_text(postures.header())
     run(["env", f"PYTHONPATH={fetch.casadi()}", sys.executable, BENCH / "peers" / "casadi_generate.py", generated])
     return generated
+
+
+def tools() -> dict[str, str]:
+    """Program -> version, for the record."""
+    commands = {"arm-none-eabi-gcc": [PREFIX + "gcc", "--version"], "gcc": ["gcc", "--version"],
+                "qemu-system-arm": ["qemu-system-arm", "--version"]}
+    found = {name: re.search(r"\d+\.\d+(\.\d+)?", run(command).splitlines()[0]) for name, command in commands.items()}
+    return {**{name: match[0] for name, match in found.items() if match},
+            **{package.rpartition("==")[0]: package.rpartition("==")[2] for package in (fetch.CASADI, fetch.CMSIS_DSP)}}
+
+
+def bench() -> Bench:
+    """The whole run."""
+    say("fetching peers and the plugin header (first time only)")
+    generated = generate()
+    plugin = build_plugin()
+    measured = []
+    for version in [*versions.ours(), *versions.peers(generated)]:
+        say(f"counting: {version.group}: {version.name}")
+        measured.append(measure(version, plugin))
+    say("host throughput")
+    rates = measure_rates()
+    say("weighing the core")
+    weights = weigh_core()
+    return Bench(measured, rates, weights, Limits(measured, rates, weights).checks(), tools())
+
+
+def main() -> int:
+    """Run, print, write; the exit code."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--out", type=Path, default=fetch.ROOT / "docs", help="folder for bench.json and bench.md")
+    out = parser.parse_args().out
+    try:
+        result = bench()
+    except fetch.Missing as missing:
+        say(f"bench: missing: {missing}")
+        return 4
+    print(as_text(result))
+    out.mkdir(parents=True, exist_ok=True)
+    (out / "bench.json").write_text(json.dumps(as_data(result), indent=1) + "\n")
+    (out / "bench.md").write_text(as_markdown(result))
+    missed = [check for check in result.checks if not check.passed]
+    print(f"\n{len(result.checks) - len(missed)} limits kept, {len(missed)} missed; "
+          f"written: {out.name}/bench.json, {out.name}/bench.md")
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -122,18 +122,25 @@ def by_manual(executed: list[Instruction], after: int | None = None) -> tuple[in
     return plain, plain + delays
 
 
+def _for_mca(instruction: Instruction) -> str:
+    """An executed instruction as llvm-mca 14 takes it.
+
+    Branch targets mean nothing in a trace; the assembler refuses .w where no other form exists; and a call costs a
+    flat 100 cycles there for the callee it cannot see, which here is in the sequence: it becomes a branch.
+    """
+    mnemonic = re.sub("[.][wn]$", "", instruction.mnemonic)
+    stem = _stem(mnemonic)
+    if stem in ("bl", "blx"):
+        return f"b{mnemonic[len(stem):]} elsewhere"
+    operands = re.sub(r"0x[0-9a-f]+ <[^>]*>", "elsewhere", instruction.operands)
+    return f"{mnemonic} {re.sub(' <[^>]*>$', '', operands)}"
+
+
 def by_mca(executed: list[Instruction], processor: Processor) -> int:
     """Total cycles by llvm-mca on the executed sequence, run once."""
-    lines = []
-    for instruction in executed:
-        # Branch targets mean nothing in a trace; the assembler refuses .w on some instructions that have no other form.
-        operands = re.sub(r"0x[0-9a-f]+ <[^>]*>", "elsewhere", instruction.operands)
-        operands = re.sub(r" <[^>]*>$", "", operands)
-        # llvm-mca 14 takes 100 cycles for any call, the callee it cannot see; here the callee is in the sequence.
-        is_call = _stem(instruction.mnemonic) in ("bl", "blx")
-        lines.append("b elsewhere\n" if is_call else f"{re.sub('[.][wn]$', '', instruction.mnemonic)} {operands}\n")
+    sequence = "".join(_for_mca(instruction) + "\n" for instruction in executed)
     report = _llvm("llvm-mca", [f"-mtriple={processor.triple}", f"-mcpu={processor.mca_cpu}", "-iterations=1"],
-                   "".join(lines))
+                   sequence)
     total = re.search(r"^Total Cycles:\s+(\d+)$", report, re.MULTILINE)
     assert total is not None
     return int(total[1])

@@ -33,7 +33,7 @@ class Version:
 
 PEERS = BENCH / "peers"
 OURS = BENCH / "ours"
-EIGEN_INCLUDE = "-I/usr/include/eigen3"
+EIGEN_FLAGS = ("-DNDEBUG", "-I/usr/include/eigen3")
 SPATIAL_LIMB = "-DBENCH_PEER_LIMB=BENCH_COXA_LIMB"
 
 PLANAR = "planar K, Cortex-M4F"
@@ -100,8 +100,8 @@ def peers(casadi_code: Path) -> list[Version]:
     return [
         _peer("CasADi C, float functions", PLANAR, "casadi_planar", (planar_text,), casadi, ("-O2", *float_functions)),
         _peer("CasADi C, as generated", PLANAR, "casadi_planar", (planar_text,), casadi, ("-O2",)),
-        _peer("Eigen fixed size, -O2", PLANAR, eigen_planar, (PEERS / "eigen.cpp",), eigen, ("-O2", EIGEN_INCLUDE)),
-        _peer("Eigen fixed size, -O3", PLANAR, eigen_planar, (PEERS / "eigen.cpp",), eigen, ("-O3", EIGEN_INCLUDE)),
+        _peer("Eigen fixed size, -O2", PLANAR, eigen_planar, (PEERS / "eigen.cpp",), eigen, ("-O2", *EIGEN_FLAGS)),
+        _peer("Eigen fixed size, -O3", PLANAR, eigen_planar, (PEERS / "eigen.cpp",), eigen, ("-O3", *EIGEN_FLAGS)),
         _peer("CMSIS-DSP", PLANAR, "cmsis_dsp_stiffness", (PEERS / "cmsis_dsp.c", *dsp_sources), plain, dsp_flags),
         _peer("plain C, newlib, -O2", PLANAR, "plain_stiffness", (PEERS / "plain.c",), plain, ("-O2",)),
         _peer("plain C, newlib, -O3", PLANAR, "plain_stiffness", (PEERS / "plain.c",), plain, ("-O3",)),
@@ -110,6 +110,6 @@ def peers(casadi_code: Path) -> list[Version]:
               M3),
         _peer("CasADi C, float functions", SPATIAL, "casadi_spatial", (spatial_text,), casadi,
               ("-O2", *float_functions)),
-        _peer("Eigen fixed size, -O2", SPATIAL, eigen_spatial, (PEERS / "eigen.cpp",), eigen, ("-O2", EIGEN_INCLUDE)),
+        _peer("Eigen fixed size, -O2", SPATIAL, eigen_spatial, (PEERS / "eigen.cpp",), eigen, ("-O2", *EIGEN_FLAGS)),
         _peer("plain C, newlib, -O2", SPATIAL, "plain_spatial_stiffness", (PEERS / "plain_spatial.c",), plain, ("-O2",)),
     ]

@@ -12,6 +12,11 @@ extern int main(void);
 extern void initialise_monitor_handles(void);
 extern void __libc_init_array(void);
 
+void reset_handler(void);
+void _init(void);
+void _fini(void);
+_Noreturn void _exit(int code);
+
 /* newlib's constructor and destructor arrays call these; crti.o is not linked. */
 void _init(void) {}
 void _fini(void) {}
@@ -48,10 +53,21 @@ static void enable_fpu(void)
 }
 #endif
 
+#if defined(__ARM_ARCH_6M__)
+static void forbid_unaligned_access(void)
+{
+    volatile uint32_t *const ccr = (volatile uint32_t *)0xE000ED14u;
+    *ccr |= 1u << 3; /* UNALIGN_TRP: the emulated Cortex-M3 faults where a Cortex-M0+ would */
+}
+#endif
+
 void reset_handler(void)
 {
 #if defined(__ARM_FP)
     enable_fpu();
+#endif
+#if defined(__ARM_ARCH_6M__)
+    forbid_unaligned_access();
 #endif
     const uint32_t *from = &_data_load;
     for (uint32_t *to = &_data_start; to < &_data_end; to++) {

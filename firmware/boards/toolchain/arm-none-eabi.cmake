@@ -15,6 +15,8 @@ set(CMAKE_C_FLAGS_INIT "${BRACE_CPU_FLAGS} -ffunction-sections -fdata-sections")
 set(CMAKE_CXX_FLAGS_INIT "${CMAKE_C_FLAGS_INIT} -fno-exceptions -fno-rtti")
 set(CMAKE_ASM_FLAGS_INIT "${BRACE_CPU_FLAGS}")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-Wl,--gc-sections")
+set(CMAKE_C_STANDARD_LIBRARIES_INIT "-lm") # after every library that may need it
+set(CMAKE_CXX_STANDARD_LIBRARIES_INIT "-lm")
 
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)

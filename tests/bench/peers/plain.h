@@ -28,7 +28,15 @@ typedef struct {
     float stiff_axis[3];
 } plain_spatial_t;
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 void plain_stiffness(const plain_limb_t *limb, float theta1, float theta2, plain_stiffness_t *out);
 void plain_spatial_stiffness(const plain_limb_t *limb, float theta0, float theta1, float theta2, plain_spatial_t *out);
+
+#ifdef __cplusplus
+}
+#endif
 
 #endif

@@ -1,0 +1,164 @@
+// Postures per second on one core of this host, batch after batch, each version in turn, round by round.
+// Prints for each version: "version NAME", its six numbers at the bench's postures as "run ...", "rate POSTURES/S".
+// Rates are the best round's, by the thread's own processor time: other work on the machine lengthens the rest.
+#include "bench_data.h"
+#include "peer_eigen.hpp"
+
+extern "C" {
+#include "brace/planar.h"
+#include "brace/planar_batch.h"
+}
+#include "plain_limb.h"
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace {
+
+constexpr std::size_t batch_size = 4096;
+constexpr int rounds = 40;
+constexpr double round_s = 4e-3;
+
+const float bench_postures[BENCH_POSTURE_COUNT][3] = BENCH_POSTURES;
+
+struct Inputs {
+    std::vector<float> theta1_rad, theta2_rad;
+};
+
+using Six = std::array<float, 6>;
+
+struct Version {
+    std::string name;
+    std::function<void(const Inputs&)> run;   // one batch
+    std::function<Six(std::size_t)> result;   // at an index of the last batch
+    double best_postures_per_s = 0.0;
+};
+
+double thread_time_s()
+{
+    timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// The bench's postures first, then more from the same ranges (a fixed sequence).
+Inputs inputs()
+{
+    Inputs in;
+    std::uint32_t state = 20170u;
+    const auto uniform = [&state](float low, float high) {
+        state = state * 1664525u + 1013904223u;
+        return low + (high - low) * static_cast<float>(state >> 8) / 16777216.0f;
+    };
+    for (std::size_t i = 0; i < batch_size; i++) {
+        const bool given = i < BENCH_POSTURE_COUNT;
+        in.theta1_rad.push_back(given ? bench_postures[i][1] : uniform(-1.0f, 1.5f));
+        in.theta2_rad.push_back(given ? bench_postures[i][2] : uniform(0.2f, 2.9f));
+    }
+    return in;
+}
+
+Six six(const plain_stiffness_t& k) { return {k.k_xx, k.k_xz, k.k_zz, k.lambda_min, k.lambda_max, k.stiff_axis}; }
+
+Six six(const brace_stiffness_t& k)
+{
+    return {k.k_xx_n_per_mm,       k.k_xz_n_per_mm,       k.k_zz_n_per_mm,
+            k.lambda_min_n_per_mm, k.lambda_max_n_per_mm, k.stiff_axis_rad};
+}
+
+void require(bool ok, const char* what)
+{
+    if (!ok) {
+        std::fprintf(stderr, "throughput: %s failed\n", what);
+        std::exit(1);
+    }
+}
+
+void measure_round(Version& version, const Inputs& in)
+{
+    std::size_t batches = 0;
+    const double start = thread_time_s();
+    double elapsed = 0.0;
+    while (elapsed < round_s) {
+        version.run(in);
+        batches++;
+        elapsed = thread_time_s() - start;
+    }
+    const double rate = static_cast<double>(batches * batch_size) / elapsed;
+    if (rate > version.best_postures_per_s) {
+        version.best_postures_per_s = rate;
+    }
+}
+
+void print(const Version& version)
+{
+    std::printf("version %s\n", version.name.c_str());
+    for (std::size_t i = 0; i < BENCH_POSTURE_COUNT; i++) {
+        std::printf("run");
+        for (const float number : version.result(i)) {
+            std::uint32_t bits;
+            std::memcpy(&bits, &number, sizeof bits);
+            std::printf(" %08lx", static_cast<unsigned long>(bits));
+        }
+        std::printf("\n");
+    }
+    std::printf("rate %.0f\n", version.best_postures_per_s);
+}
+
+} // namespace
+
+int main()
+{
+    static const brace_limb_t limb = BENCH_PAPER_LIMB;
+    const Inputs in = inputs();
+    plain_limb_t plain_limb;
+    plain_limb_from_bench(&plain_limb);
+
+    std::vector<plain_stiffness_t> by_eigen(batch_size), by_plain(batch_size);
+    std::vector<brace_stiffness_t> by_tick(batch_size);
+    std::array<std::vector<float>, 6> columns;
+    columns.fill(std::vector<float>(batch_size));
+
+    brace_planar_t tick;
+    require(brace_planar_collapse(&limb, &tick) == BRACE_OK, "brace_planar_collapse");
+#include "batch_setup.inc"
+
+    std::vector<Version> versions;
+    versions.push_back({"Eigen fixed size, -O3 -march=native",
+                        [&](const Inputs& x) {
+                            for (std::size_t i = 0; i < batch_size; i++) {
+                                eigen_stiffness(plain_limb, x.theta1_rad[i], x.theta2_rad[i], by_eigen[i]);
+                            }
+                        },
+                        [&](std::size_t i) { return six(by_eigen[i]); }});
+    versions.push_back({"plain C, -O3 -march=native",
+                        [&](const Inputs& x) {
+                            for (std::size_t i = 0; i < batch_size; i++) {
+                                plain_stiffness(&plain_limb, x.theta1_rad[i], x.theta2_rad[i], &by_plain[i]);
+                            }
+                        },
+                        [&](std::size_t i) { return six(by_plain[i]); }});
+    versions.push_back({"Brace, one at a time",
+                        [&](const Inputs& x) {
+                            for (std::size_t i = 0; i < batch_size; i++) {
+                                (void)brace_planar_stiffness(&tick, x.theta1_rad[i], x.theta2_rad[i], &by_tick[i]);
+                            }
+                        },
+                        [&](std::size_t i) { return six(by_tick[i]); }});
+    for (int round = 0; round < rounds; round++) {
+        for (Version& version : versions) {
+            measure_round(version, in);
+        }
+    }
+    for (const Version& version : versions) {
+        print(version);
+    }
+    return 0;
+}

@@ -1,0 +1,116 @@
+"""The limits the project has set itself, each checked against what this run measured."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from measure import Measured
+from throughput import Rate
+from versions import COLLAPSE, PLANAR, PLANAR_NO_FPU, SPATIAL
+from weights import CORE_FLASH, CORE_STACK, FIXED_RAM, PLANAR_RAM, SPATIAL_RAM
+
+
+@dataclass(frozen=True)
+class Check:
+    """One limit."""
+
+    name: str
+    measured: str
+    required: str
+    passed: bool
+
+    @property
+    def verdict(self) -> str:
+        """PASS or MISS."""
+        return "PASS" if self.passed else "MISS"
+
+
+def _at_most(name: str, value: float, limit: float, unit: str = "", text: Callable[[float], str] = "{:,.0f}".format) -> Check:
+    return Check(name, text(value) + unit, f"at most {text(limit)}{unit}", value <= limit)
+
+
+def _at_least(name: str, value: float, limit: float, unit: str = "") -> Check:
+    return Check(name, f"{value:.2f}{unit}", f"at least {limit:g}{unit}", value >= limit)
+
+
+def _error_text(value: float) -> str:
+    return f"{value:.1e}"
+
+
+class Limits:
+    """Looks versions up by group and name."""
+
+    def __init__(self, measured: list[Measured], rates: list[Rate], weights: dict[str, int]) -> None:
+        self.measured, self.rates, self.weights = measured, rates, weights
+
+    def _ours(self, group: str, name: str = "") -> list[Measured]:
+        return [m for m in self.measured if m.version.group == group and m.version.ours and name in m.version.name]
+
+    def _peers(self, group: str, name: str = "") -> list[Measured]:
+        return [m for m in self.measured if m.version.group == group and not m.version.ours and name in m.version.name]
+
+    def _planar(self) -> list[Check]:
+        table = self._ours(PLANAR, "table")
+        ticks = [m for m in self._ours(PLANAR) if m not in table]
+        most = max(m.maximum for m in ticks)
+        best = min(self._peers(PLANAR), key=lambda m: m.median)
+        cycles = [m.cycles for m in ticks if m.cycles]
+        return [
+            _at_most("planar K, instructions at every posture", most, 140),
+            _at_most("planar K, cycles by the manual", max(c.manual for c in cycles), 230),
+            _at_least(f"planar K, times fewer instructions than the best peer ({best.version.name}, median)",
+                      best.median / most, 3.3),
+            _at_most("planar K from a table, instructions at every posture", max(m.maximum for m in table), 80),
+        ]
+
+    def _others(self) -> list[Check]:
+        fixed = max(m.maximum for m in self._ours(PLANAR_NO_FPU))
+        soft = min(m.median for m in self._peers(PLANAR_NO_FPU))
+        spatial = max(m.maximum for m in self._ours(SPATIAL))
+        casadi = min(m.median for m in self._peers(SPATIAL, "CasADi"))
+        return [
+            _at_most("fixed point on Cortex-M3, instructions at every posture", fixed, 260),
+            _at_least("fixed point, times fewer instructions than soft float (best median)", soft / fixed, 35),
+            _at_most("spatial K, instructions, worst posture and limb", spatial, 900),
+            _at_least("spatial K, times fewer instructions than CasADi's median", casadi / spatial, 2),
+            _at_most("parameter change, instructions, worst limb", max(m.maximum for m in self._ours(COLLAPSE)), 3000),
+        ]
+
+    def _paths(self) -> list[Check]:
+        checks = []
+        for m in [*self._ours(PLANAR), *self._ours(PLANAR_NO_FPU)]:
+            ratio = m.maximum_anywhere / m.minimum_anywhere
+            checks.append(Check(f"{m.version.group}, {m.version.name}: worst over best, whole workspace",
+                                f"{ratio:.2f}, {'one path' if m.one_path else 'paths differ'}", "1.00, one path",
+                                ratio == 1.0 and m.one_path))
+        return checks
+
+    def _accuracy(self) -> list[Check]:
+        checks = []
+        for group, k_limit, lambda_limit in ((PLANAR, 2e-6, 2e-6), (PLANAR_NO_FPU, 2e-6, 5e-6), (SPATIAL, 1e-5, 1e-5)):
+            errors = [e for m in self._ours(group) for e in (m.error, m.workspace_error) if e]
+            worst_lambda = max(max(e.eigenvalues) if group == SPATIAL else e.eigenvalues[0] for e in errors)
+            checks.append(_at_most(f"{group}: error of K over lambda_max", max(e.k for e in errors), k_limit,
+                                   text=_error_text))
+            checks.append(_at_most(f"{group}: relative error of {'eigenvalues' if group == SPATIAL else 'lambda_min'}",
+                                   worst_lambda, lambda_limit, text=_error_text))
+        return checks
+
+    def _weight(self) -> list[Check]:
+        planar = max(m.flash_bytes for m in self._ours(PLANAR) if "table" not in m.version.name)
+        stack = next(value for name, value in self.weights.items() if name.startswith(CORE_STACK))
+        return [
+            _at_most(CORE_FLASH, self.weights[CORE_FLASH], 6 * 1024, " B"),
+            _at_most("flash, planar float path with the parameter change", planar, 2560, " B"),
+            *(_at_most(name, self.weights[name], 512, " B") for name in (PLANAR_RAM, FIXED_RAM, SPATIAL_RAM)),
+            _at_most(CORE_STACK, stack, 256, " B"),
+        ]
+
+    def _host(self) -> list[Check]:
+        eigen = next(r for r in self.rates if r.name.startswith("Eigen"))
+        batch = next(r for r in self.rates if "batch" in r.name)
+        return [_at_least("host batches, times Eigen's throughput", batch.postures_per_s / eigen.postures_per_s, 40),
+                _at_most("host batches: error of K over lambda_max", batch.error.k, 2e-6, text=_error_text)]
+
+    def checks(self) -> list[Check]:
+        """All limits, in the order a reader wants them."""
+        return [*self._planar(), *self._others(), *self._host(), *self._paths(), *self._accuracy(), *self._weight()]
