@@ -16,6 +16,7 @@ sys.path.insert(0, str(BENCH))
 import fetch  # noqa: E402
 import postures  # noqa: E402
 import versions  # noqa: E402
+from calibrate import calibrate  # noqa: E402
 from emulate import build_plugin  # noqa: E402
 from limits import Limits  # noqa: E402
 from measure import measure  # noqa: E402
@@ -54,6 +55,7 @@ def bench() -> Bench:
     say("fetching peers and the plugin header (first time only)")
     generated = generate()
     plugin = build_plugin()
+    calibrate(plugin)
     measured = []
     for version in [*versions.ours(), *versions.peers(generated)]:
         say(f"counting: {version.group}: {version.name}")
