@@ -19,13 +19,13 @@
 
 typedef enum {
     BRACE_HOST_OK = 0,
-    BRACE_HOST_E_NULL = -1,          /* a pointer that must be given is null */
-    BRACE_HOST_E_NOT_FINITE = -2,    /* an input is NaN or infinite where it may not be */
-    BRACE_HOST_E_RANGE = -3,         /* an input lies outside its stated range, time runs backwards */
-    BRACE_HOST_E_UNREACHABLE = -4,   /* no posture of this limb puts the tip there */
-    BRACE_HOST_E_PARAMETER = -5,     /* a model that no limb can have; brace_plant_model_fault names the key */
-    BRACE_HOST_E_SINGULAR = -6,      /* nothing yields in some direction of the plane */
-    BRACE_HOST_E_NO_CONVERGENCE = -9 /* the equilibrium of some row was not found to its tolerance */
+    BRACE_HOST_E_NULL = -1,        /* a pointer that must be given is null */
+    BRACE_HOST_E_NOT_FINITE = -2,  /* an input is NaN or infinite where it may not be */
+    BRACE_HOST_E_RANGE = -3,       /* an input lies outside its stated range, time runs backwards */
+    BRACE_HOST_E_UNREACHABLE = -4, /* no posture of this limb puts the tip there */
+    BRACE_HOST_E_PARAMETER = -5,   /* a model that no limb can have; brace_plant_model_fault names the key */
+    BRACE_HOST_E_SINGULAR = -6,    /* nothing yields in some direction */
+    BRACE_HOST_E_NO_CONVERGENCE = -9 /* some row's rest state was not found to tolerance */
 } brace_host_status_t;
 
 /* One line of English for a status; constant storage, never null. */
@@ -53,11 +53,11 @@ typedef struct {
 } brace_plant_link_t;
 
 typedef struct {
-    double compliance_rad_per_n_mm;     /* [0, 1] */
-    double gap_rad;                     /* [0, 0.5], full play: no torque within +-gap/2 */
-    double coulomb_n_mm;                /* [0, 1e9] */
-    double hardening_n_mm_per_rad3;     /* [0, inf): torque = deflection / compliance + hardening * deflection^3 */
-    double zero_offset_rad;             /* [-0.5, 0.5], true angle = commanded + offset */
+    double compliance_rad_per_n_mm; /* [0, 1] */
+    double gap_rad;                 /* [0, 0.5], full play: no torque within +-gap/2 */
+    double coulomb_n_mm;            /* [0, 1e9] */
+    double hardening_n_mm_per_rad3; /* [0, 1e30], torque = deflection / compliance + this * deflection^3 */
+    double zero_offset_rad;         /* [-0.5, 0.5], true angle = commanded + offset */
 } brace_plant_joint_t;
 
 typedef struct {
@@ -90,7 +90,7 @@ typedef struct {
 } brace_plant_creep_t;
 
 typedef struct {
-    double joint_compliance_per_degc; /* joint compliance times 1 + this * (temperature - reference), kept > 0 */
+    double joint_compliance_per_degc; /* compliance times 1 + this * (temperature - reference), > 0 */
     double reference_degc;
 } brace_plant_thermal_t;
 
@@ -141,20 +141,21 @@ int32_t brace_reference_planar(const brace_plant_model_t *model, size_t count, c
 int32_t brace_reference_spatial(const brace_plant_model_t *model, size_t count, const double *theta0_rad,
                                 const double *theta1_rad, const double *theta2_rad, double *out);
 
-/* out: count x 3: x y z of the tip [mm] in the robot's base frame, origin on the yaw axis at the height of the
- * femur axis (in the limb's plane the femur axis is at x = coxa). */
+/* out: count x 3: x y z of the tip [mm] in the robot's base frame, origin on the yaw axis at the height of
+ * the femur axis (in the limb's plane the femur axis is at x = coxa). */
 int32_t brace_reference_tip(const brace_plant_model_t *model, size_t count, const double *theta0_rad,
                             const double *theta1_rad, const double *theta2_rad, double *out);
 
 /* The posture at r [mm] from the femur axis, in direction phi [rad]. knee_up != 0 takes the branch with
  * theta2 >= 0, the other its mirror. theta_rad: theta1, theta2. Adds E_UNREACHABLE. */
-int32_t brace_reference_posture(const brace_plant_model_t *model, double r_mm, double phi_rad, int32_t knee_up,
-                                double *theta_rad);
+int32_t brace_reference_posture(const brace_plant_model_t *model, double r_mm, double phi_rad,
+                                int32_t knee_up, double *theta_rad);
 
 /* ------------------------------------------------------------------------------------ loading, plant -- */
 
 /* A loading record's inputs, one entry per row, in the order of the record. A run starts wherever run[]
- * changes: joints' and contact's play centred, friction relaxed, creep gone; time and temperature run on. t_s must not fall. */
+ * changes: joints' and contact's play centred, friction relaxed, creep gone; time and temperature run on. t_s
+ * must not fall. */
 typedef struct {
     size_t count;
     int32_t creep_runs_on;  /* 0: each run starts with creep gone; 1: creep runs on from run to run */
@@ -164,7 +165,7 @@ typedef struct {
     const double *theta2_rad;
     const double *t_s;
     const double *temp_degc; /* may be null: the model's reference temperature */
-    const double *dx_mm;      /* imposed displacement of the tip */
+    const double *dx_mm;     /* imposed displacement of the tip */
     const double *dz_mm;
     const int32_t *free_axis; /* may be null; 0: both axes imposed, 1: x is free, 2: z is free, its force 0 */
 } brace_loading_rows_t;
@@ -173,16 +174,16 @@ typedef struct {
 typedef struct {
     double *fx_n; /* the sensor's reading of the force on the limb, before resolution and noise */
     double *fz_n;
-    double *enc1_rad; /* joint deflection on the output side: elastic, play and creep; counter-clockwise */
-    double *enc2_rad; /* positive, so that enc2 opens the knee (theta2 falls) */
-    double *base_x_mm; /* deflection of the base at the femur axis */
+    double *enc1_rad;  /* joint deflection on the output side: elastic, play and creep; counter-clockwise */
+    double *enc2_rad;  /* positive, so that enc2 opens the knee (theta2 falls) */
+    double *base_x_mm; /* deflection of the base, its rotation left out */
     double *base_z_mm;
 } brace_loading_reading_t;
 
 /* The quasi-static limb under the imposed displacements. On E_NO_CONVERGENCE the outputs are written all the
  * same and unsolved_rows (optional) counts the rows above tolerance (1e-9 N of unbalance).
  * returns OK, E_NULL, E_NOT_FINITE, E_RANGE, E_PARAMETER, E_SINGULAR, E_NO_CONVERGENCE
- * cost: about 0.3 us a row for a linear limb, 1-3 us with gaps, friction, hardening or contact play. */
+ * cost: about 0.05 us a row for a linear limb, 0.2-0.5 us with play, friction or hardening. */
 int32_t brace_plant_loading(const brace_plant_model_t *model, const brace_loading_rows_t *rows,
                             const brace_loading_reading_t *reading, size_t *unsolved_rows);
 
@@ -196,7 +197,8 @@ int32_t brace_plant_loading_many(const brace_plant_model_t *models, size_t model
 /* --------------------------------------------------------------------------------- joint test, plant -- */
 
 /* One joint alone, output locked or loaded. input is the other quantity: with torque_imposed == 0 the
- * imposed deflection [rad], else the torque [N mm]. A test starts wherever test[] changes (null: one test). */
+ * imposed deflection [rad], else the torque [N mm]. A test starts wherever test[] changes (null: one test).
+ */
 typedef struct {
     size_t count;
     const int32_t *test;
@@ -205,7 +207,7 @@ typedef struct {
     const double *input;
     int32_t torque_imposed;
     int32_t joint_index; /* 0 coxa, 1 femur, 2 tibia */
-    double reversal_rad; /* [0, 1] imposed angle only: turning over which friction changes sign (0: at once) */
+    double reversal_rad; /* [0, 1] imposed angle: turning over which friction changes sign */
 } brace_joint_rows_t;
 
 /* out: torque [N mm] for imposed angles, angle [rad] for imposed torques; deflection = angle + the joint's
@@ -225,15 +227,15 @@ typedef struct {
     int32_t repeats;        /* [1, 1000] */
     int32_t steps_per_side; /* [1, 10000] */
     int32_t cyclic;
-    int32_t transverse_free;  /* 1: the tip may move across the run's axis; 0: held there, as the paper's rig */
-    int32_t zeroed;           /* 0 never, 1 per run: the run's first reading is taken from all */
-    int32_t shuffled;         /* runs in random order (from the seed) instead of one configuration at a time */
-    double step_mm;           /* (0, 100] */
-    double preload_x_mm;      /* displacement that every step of a run is taken from */
+    int32_t transverse_free; /* 1: the tip is free across the run's axis; 0: held, as in the paper */
+    int32_t zeroed;          /* 0 never, 1 per run: the run's first reading is taken from all */
+    int32_t shuffled;        /* runs in random order (from the seed) instead of one configuration at a time */
+    double step_mm;          /* (0, 100] */
+    double preload_x_mm;     /* displacement that every step of a run is taken from */
     double preload_z_mm;
-    double dwell_s;           /* [0, 1e6] between readings */
-    double pause_s;           /* [0, 1e6] between runs, on top of dwell */
-    double temp_start_degc;   /* temperature = start + rise * (1 - exp(-t / time constant)) */
+    double dwell_s;         /* [0, 1e6] between readings */
+    double pause_s;         /* [0, 1e6] between runs, on top of dwell */
+    double temp_start_degc; /* temperature = start + rise * (1 - exp(-t / time constant)) */
     double temp_rise_degc;
     double temp_time_constant_s; /* (0, inf) */
     double noise_n;              /* one sigma of each force reading, before rounding */
@@ -284,9 +286,9 @@ int32_t brace_rig_slopes(const brace_plant_model_t *model, size_t count, const d
                          const double *theta2_rad, double step_mm, int32_t steps_per_side,
                          int32_t least_squares, double *k);
 
-/* Fig. 12's number [mm]: in the cyclic test along the axis (0 x, 1 z), the tip free across it, where the force
- * comes back to zero after unloading from +n, less where it does after -n. Play alone gives gap times lever
- * along the axis; friction adds to it. (With the tip held across the axis, play without friction shifts
+/* Fig. 12's number [mm]: in the cyclic test along the axis (0 x, 1 z), the tip free across it, where the
+ * force comes back to zero after unloading from +n, less where it does after -n. Play alone gives gap times
+ * lever along the axis; friction adds to it. (With the tip held across the axis, play without friction shifts
  * nothing: it only lowers the slope.) E_RANGE when the force does not come back. */
 int32_t brace_rig_zero_force_shift(const brace_plant_model_t *model, double theta1_rad, double theta2_rad,
                                    int32_t axis, double step_mm, int32_t steps_per_side, double *shift_mm);
@@ -306,8 +308,8 @@ typedef struct {
 size_t brace_effect_count(void);
 int32_t brace_effect_at(size_t index, brace_effect_t *effect);
 
-/* The value of a key of limb.toml ("joint.femur.gap_rad", "change.link_index", ...): byte offset of its double
- * in brace_plant_model_t, or -1 for a key that the model does not have. */
+/* The value of a key of limb.toml ("joint.femur.gap_rad", "change.link_index", ...): byte offset of its
+ * double in brace_plant_model_t, or -1 for a key that the model does not have. */
 int64_t brace_plant_key_offset(const char *key);
 
 #endif

@@ -38,4 +38,4 @@ inline bool never_falls(const double *values, std::size_t count)
 
 brace_host_status_t check_loading_rows(const brace_loading_rows_t &rows);
 
-}  // namespace brace::api
+} // namespace brace::api

@@ -31,7 +31,7 @@ brace_host_status_t check_loading_rows(const brace_loading_rows_t &rows)
     return never_falls(rows.t_s, rows.count) ? BRACE_HOST_OK : BRACE_HOST_E_RANGE;
 }
 
-}  // namespace brace::api
+} // namespace brace::api
 
 extern "C" int32_t brace_plant_loading(const brace_plant_model_t *model, const brace_loading_rows_t *rows,
                                        const brace_loading_reading_t *reading, size_t *unsolved_rows)

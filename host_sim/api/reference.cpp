@@ -51,10 +51,10 @@ brace_host_status_t check(const brace_plant_model_t *model, size_t count, const 
     return all_finite(theta1, count) && all_finite(theta2, count) ? BRACE_HOST_OK : BRACE_HOST_E_NOT_FINITE;
 }
 
-}  // namespace
+} // namespace
 
-extern "C" int32_t brace_reference_planar(const brace_plant_model_t *model, size_t count, const double *theta1_rad,
-                                          const double *theta2_rad, double *out)
+extern "C" int32_t brace_reference_planar(const brace_plant_model_t *model, size_t count,
+                                          const double *theta1_rad, const double *theta2_rad, double *out)
 {
     const brace_host_status_t status = check(model, count, theta1_rad, theta2_rad, out);
     if (status != BRACE_HOST_OK) {
@@ -73,8 +73,9 @@ extern "C" int32_t brace_reference_planar(const brace_plant_model_t *model, size
     return BRACE_HOST_OK;
 }
 
-extern "C" int32_t brace_reference_spatial(const brace_plant_model_t *model, size_t count, const double *theta0_rad,
-                                           const double *theta1_rad, const double *theta2_rad, double *out)
+extern "C" int32_t brace_reference_spatial(const brace_plant_model_t *model, size_t count,
+                                           const double *theta0_rad, const double *theta1_rad,
+                                           const double *theta2_rad, double *out)
 {
     if (theta0_rad == nullptr) {
         return BRACE_HOST_E_NULL;
@@ -99,8 +100,9 @@ extern "C" int32_t brace_reference_spatial(const brace_plant_model_t *model, siz
     return BRACE_HOST_OK;
 }
 
-extern "C" int32_t brace_reference_tip(const brace_plant_model_t *model, size_t count, const double *theta0_rad,
-                                       const double *theta1_rad, const double *theta2_rad, double *out)
+extern "C" int32_t brace_reference_tip(const brace_plant_model_t *model, size_t count,
+                                       const double *theta0_rad, const double *theta1_rad,
+                                       const double *theta2_rad, double *out)
 {
     if (theta0_rad == nullptr) {
         return BRACE_HOST_E_NULL;
@@ -113,7 +115,8 @@ extern "C" int32_t brace_reference_tip(const brace_plant_model_t *model, size_t 
         return BRACE_HOST_E_NOT_FINITE;
     }
     for (size_t i = 0; i < count; ++i) {
-        const auto tip = brace::reference::tip_mm(lengths_of(*model), theta0_rad[i], {theta1_rad[i], theta2_rad[i]});
+        const auto tip =
+            brace::reference::tip_mm(lengths_of(*model), theta0_rad[i], {theta1_rad[i], theta2_rad[i]});
         for (int axis = 0; axis < 3; ++axis) {
             out[3 * i + axis] = static_cast<double>(tip[axis]);
         }

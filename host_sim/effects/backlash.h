@@ -28,4 +28,4 @@ inline constexpr Entry kEntries[] = {
     {"backlash", "joint.tibia", "joint.tibia.gap_rad", kLaw},
 };
 
-}  // namespace brace::effects::backlash
+} // namespace brace::effects::backlash

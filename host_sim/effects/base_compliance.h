@@ -16,4 +16,4 @@ inline constexpr Entry kEntries[] = {
      "base displacement = compliance * force; base rotation = compliance * moment about the femur axis"},
 };
 
-}  // namespace brace::effects::base_compliance
+} // namespace brace::effects::base_compliance

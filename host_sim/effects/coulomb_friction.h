@@ -41,4 +41,4 @@ inline constexpr Entry kEntries[] = {
     {"coulomb_friction", "joint.tibia", "joint.tibia.coulomb_n_mm", kLaw},
 };
 
-}  // namespace brace::effects::coulomb_friction
+} // namespace brace::effects::coulomb_friction

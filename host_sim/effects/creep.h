@@ -1,5 +1,5 @@
-// A joint's further, delayed deflection runs after ratio * elastic with one time constant; the elastic deflection
-// is held between readings, so the step is exact.
+// A joint's further, delayed deflection runs after ratio * elastic with one time constant; the elastic
+// deflection is held between readings, so the step is exact.
 #pragma once
 
 #include <cmath>
@@ -29,4 +29,4 @@ inline constexpr Entry kEntries[] = {
      "delayed' = (ratio * elastic - delayed) / time constant, for each joint"},
 };
 
-}  // namespace brace::effects::creep
+} // namespace brace::effects::creep

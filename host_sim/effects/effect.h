@@ -14,4 +14,4 @@ inline constexpr int kCoxa = 0;
 inline constexpr int kFemur = 1;
 inline constexpr int kTibia = 2;
 
-}  // namespace brace::effects
+} // namespace brace::effects

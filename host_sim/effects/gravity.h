@@ -28,4 +28,4 @@ inline constexpr Entry kEntries[] = {
      "weights at mid-femur, mid-tibia and knee act along -z on the joints"},
 };
 
-}  // namespace brace::effects::gravity
+} // namespace brace::effects::gravity

@@ -23,4 +23,4 @@ inline constexpr Entry kEntries[] = {
     {"joint_compliance", "joint.tibia", "joint.tibia.compliance_rad_per_n_mm", kLaw},
 };
 
-}  // namespace brace::effects::joint_compliance
+} // namespace brace::effects::joint_compliance

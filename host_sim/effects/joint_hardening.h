@@ -28,4 +28,4 @@ inline constexpr Entry kEntries[] = {
     {"joint_hardening", "joint.tibia", "joint.tibia.hardening_n_mm_per_rad3", kLaw},
 };
 
-}  // namespace brace::effects::joint_hardening
+} // namespace brace::effects::joint_hardening

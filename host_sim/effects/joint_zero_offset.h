@@ -23,4 +23,4 @@ inline constexpr Entry kEntries[] = {
     {"joint_zero_offset", "joint.tibia", "joint.tibia.zero_offset_rad", kLaw},
 };
 
-}  // namespace brace::effects::joint_zero_offset
+} // namespace brace::effects::joint_zero_offset

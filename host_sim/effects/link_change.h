@@ -24,4 +24,4 @@ inline constexpr Entry kEntries[] = {
     {"link_change", "link.tibia", "change.at_s change.bending_factor", kLaw},
 };
 
-}  // namespace brace::effects::link_change
+} // namespace brace::effects::link_change

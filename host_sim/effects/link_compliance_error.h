@@ -1,5 +1,5 @@
-// A link's compliance ellipsoid: principal compliances of its far end, its axes turned by tilt from the link's.
-// The effect of this name is the ellipsoid being another than the calibration says.
+// A link's compliance ellipsoid: principal compliances of its far end, its axes turned by tilt from the
+// link's. The effect of this name is the ellipsoid being another than the calibration says.
 #pragma once
 
 #include <Eigen/Core>
@@ -42,4 +42,4 @@ inline constexpr Entry kEntries[] = {
      "link.tibia.axial_mm_per_n link.tibia.bending_mm_per_n link.tibia.tilt_rad", kLaw},
 };
 
-}  // namespace brace::effects::link_compliance_error
+} // namespace brace::effects::link_compliance_error

@@ -12,7 +12,8 @@ inline void none(Model &model)
 }
 
 inline constexpr Entry kEntries[] = {
-    {"link_length_error", "geometry", "geometry.femur_mm geometry.tibia_mm", "levers follow the true lengths"},
+    {"link_length_error", "geometry", "geometry.femur_mm geometry.tibia_mm",
+     "levers follow the true lengths"},
 };
 
-}  // namespace brace::effects::link_length_error
+} // namespace brace::effects::link_length_error

@@ -1,5 +1,6 @@
 // A uniform beam's end deflection and rotation are coupled: bending compliance b and length L give
-// [[b, 3b/2L], [3b/2L, 3b/L^2]] for [force; moment]. The moment is that of the tip force about the beam's end.
+// [[b, 3b/2L], [3b/2L, 3b/L^2]] for [force; moment]. The moment is that of the tip force about the beam's
+// end.
 #pragma once
 
 #include "effects/effect.h"
@@ -30,4 +31,4 @@ inline constexpr Entry kEntries[] = {
      "end [deflection; rotation] = [[b, 3b/2L], [3b/2L, 3b/L^2]] [force; moment]"},
 };
 
-}  // namespace brace::effects::moment_transfer
+} // namespace brace::effects::moment_transfer

@@ -58,7 +58,7 @@ constexpr Range kRanges[] = {
     range(contact_play::kEntries),
 };
 
-}  // namespace
+} // namespace
 
 std::size_t count()
 {
@@ -106,4 +106,4 @@ Model without_any()
     return model;
 }
 
-}  // namespace brace::effects
+} // namespace brace::effects

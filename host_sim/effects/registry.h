@@ -15,4 +15,4 @@ const Entry *at(std::size_t index);
 // A limb with none of them: rigid, and an honest sensor.
 Model without_any();
 
-}  // namespace brace::effects
+} // namespace brace::effects

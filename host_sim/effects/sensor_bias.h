@@ -19,8 +19,7 @@ inline void none(Model &model)
 }
 
 inline constexpr Entry kEntries[] = {
-    {"sensor_bias", "sensor", "sensor.bias_x_n sensor.bias_z_n",
-     "reading = force + bias"},
+    {"sensor_bias", "sensor", "sensor.bias_x_n sensor.bias_z_n", "reading = force + bias"},
 };
 
-}  // namespace brace::effects::sensor_bias
+} // namespace brace::effects::sensor_bias

@@ -24,4 +24,4 @@ inline constexpr Entry kEntries[] = {
      "reading = [[1, xz], [zx, 1]] * force"},
 };
 
-}  // namespace brace::effects::sensor_crosstalk
+} // namespace brace::effects::sensor_crosstalk

@@ -23,4 +23,4 @@ inline constexpr Entry kEntries[] = {
      "reading = force + drift * t"},
 };
 
-}  // namespace brace::effects::sensor_drift
+} // namespace brace::effects::sensor_drift

@@ -18,8 +18,7 @@ inline void none(Model &model)
 }
 
 inline constexpr Entry kEntries[] = {
-    {"sensor_gain", "sensor", "sensor.gain",
-     "reading = gain * force"},
+    {"sensor_gain", "sensor", "sensor.gain", "reading = gain * force"},
 };
 
-}  // namespace brace::effects::sensor_gain
+} // namespace brace::effects::sensor_gain

@@ -21,8 +21,7 @@ inline void none(Model &model)
 }
 
 inline constexpr Entry kEntries[] = {
-    {"sensor_rotation", "sensor", "sensor.rotation_rad",
-     "reading = [[cos, -sin], [sin, cos]] * force"},
+    {"sensor_rotation", "sensor", "sensor.rotation_rad", "reading = [[cos, -sin], [sin, cos]] * force"},
 };
 
-}  // namespace brace::effects::sensor_rotation
+} // namespace brace::effects::sensor_rotation

@@ -20,8 +20,7 @@ inline void none(Model &model)
 }
 
 inline constexpr Entry kEntries[] = {
-    {"sensor_saturation", "sensor", "sensor.saturation_n",
-     "each axis of the reading within +-limit"},
+    {"sensor_saturation", "sensor", "sensor.saturation_n", "each axis of the reading within +-limit"},
 };
 
-}  // namespace brace::effects::sensor_saturation
+} // namespace brace::effects::sensor_saturation

@@ -10,7 +10,8 @@ namespace brace::effects::thermal_softening {
 // Kept above zero: no temperature makes a spring push the wrong way.
 inline double factor(const Model &model, double temp_degc)
 {
-    const double linear = 1.0 + model.thermal.joint_compliance_per_degc * (temp_degc - model.thermal.reference_degc);
+    const double linear =
+        1.0 + model.thermal.joint_compliance_per_degc * (temp_degc - model.thermal.reference_degc);
     return std::max(linear, 1e-3);
 }
 
@@ -24,4 +25,4 @@ inline constexpr Entry kEntries[] = {
      "joint compliance * (1 + rate * (temperature - reference))"},
 };
 
-}  // namespace brace::effects::thermal_softening
+} // namespace brace::effects::thermal_softening

@@ -15,7 +15,8 @@ constexpr int kMaxSteps = 200;
 constexpr int kMaxSearch = 80;
 constexpr double kGoodBalance_n = 1e-10;
 constexpr double kPromisedBalance_n = 1e-9;
-constexpr double kDamping = 1e-9; // of each spring: keeps a joint within its play, where nothing pushes back, solvable
+constexpr double kDamping =
+    1e-9; // of each spring: keeps a joint within its play, where nothing pushes back, solvable
 
 // Slope of the energy without friction, and its curvature.
 struct Slope {
@@ -164,7 +165,7 @@ double length_of(const Line &line)
     return low > 0.0 ? low : high;
 }
 
-}  // namespace
+} // namespace
 
 void find_rest(const RestProblem &problem, RestState &state)
 {
@@ -189,8 +190,9 @@ void find_rest(const RestProblem &problem, RestState &state)
         }
         // A zero lever leaves nothing to weigh a torque by.
         state.unbalance_n = longest_mm > 0.0 ? worst / longest_mm : 0.0;
-        const double rounding_n = 1e-15 * (problem.stiffness_n_per_mm.norm() * reach_mm
-                                           + (longest_mm > 0.0 ? spring_n_mm / longest_mm : 0.0));
+        const double rounding_n = 1e-15
+                                  * (problem.stiffness_n_per_mm.norm() * reach_mm
+                                     + (longest_mm > 0.0 ? spring_n_mm / longest_mm : 0.0));
         if (state.unbalance_n <= std::max(kGoodBalance_n, rounding_n) || step == kMaxSteps) {
             state.solved = state.unbalance_n <= std::max(kPromisedBalance_n, 8.0 * rounding_n);
             state.deflection_rad = deflection;
@@ -203,4 +205,4 @@ void find_rest(const RestProblem &problem, RestState &state)
     }
 }
 
-}  // namespace brace::plant
+} // namespace brace::plant

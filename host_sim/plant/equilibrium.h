@@ -1,7 +1,8 @@
 // Where the limb comes to rest under an imposed tip displacement: the joint deflections of least energy.
 //
 // Energy of deflections e: 1/2 x'Kx + sum spring_i(e_i) - load_i e_i + coulomb_i |e_i - before_i| with
-// x = d - sum lever_i e_i, the first term being the structure's. Convex, so what is found is the one rest state.
+// x = d - sum lever_i e_i, the first term being the structure's. Convex, so what is found is the one rest
+// state.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,10 +29,10 @@ struct RestProblem {
 struct RestState {
     std::array<double, 2> deflection_rad; // in: where to start; out: at rest
     Eigen::Vector2d force_n;
-    double unbalance_n;                   // largest torque out of balance over the longest lever
-    bool solved;                          // unbalance within 1e-9 N, or within rounding where that is more
+    double unbalance_n; // largest torque out of balance over the longest lever
+    bool solved;        // unbalance within 1e-9 N, or within rounding where that is more
 };
 
 void find_rest(const RestProblem &problem, RestState &state);
 
-}  // namespace brace::plant
+} // namespace brace::plant

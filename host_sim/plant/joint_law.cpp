@@ -64,4 +64,4 @@ double elastic_under_torque_rad(const JointLaw &law, double torque_n_mm)
     return std::copysign(q, torque_n_mm);
 }
 
-}  // namespace brace::plant
+} // namespace brace::plant

@@ -27,4 +27,4 @@ double elastic_rad(const JointLaw &law, double deflection_rad);
 // Elastic deflection under a torque, friction left out.
 double elastic_under_torque_rad(const JointLaw &law, double torque_n_mm);
 
-}  // namespace brace::plant
+} // namespace brace::plant

@@ -39,7 +39,8 @@ double most_deflection(const JointLaw &law, double torque_n_mm)
     return elastic_under_torque_rad(law, torque_n_mm) + side * law.gap_rad;
 }
 
-// Friction lets the deflection stay anywhere between what the torque less friction and plus friction would make.
+// Friction lets the deflection stay anywhere between what the torque less friction and plus friction would
+// make.
 double deflection_under(const JointLaw &law, double torque_n_mm, JointState &state)
 {
     state.instant_rad = std::clamp(state.instant_rad, least_deflection(law, torque_n_mm - law.coulomb_n_mm),
@@ -47,7 +48,7 @@ double deflection_under(const JointLaw &law, double torque_n_mm, JointState &sta
     return state.instant_rad + state.delayed_rad;
 }
 
-}  // namespace
+} // namespace
 
 void play_joint(const Model &model, const brace_joint_rows_t &rows, double *out)
 {
@@ -59,7 +60,8 @@ void play_joint(const Model &model, const brace_joint_rows_t &rows, double *out)
         if (starts) {
             state = {};
         } else {
-            const double approach = effects::creep::approach(model.creep.time_constant_s, rows.t_s[i] - rows.t_s[i - 1]);
+            const double approach =
+                effects::creep::approach(model.creep.time_constant_s, rows.t_s[i] - rows.t_s[i - 1]);
             state.delayed_rad = effects::creep::delayed_rad(state.delayed_rad, model.creep.ratio,
                                                             elastic_rad(law, state.instant_rad), approach);
         }
@@ -76,4 +78,4 @@ void play_joint(const Model &model, const brace_joint_rows_t &rows, double *out)
     }
 }
 
-}  // namespace brace::plant
+} // namespace brace::plant

@@ -8,4 +8,4 @@ namespace brace::plant {
 // Inputs must be sound (see api/joint.cpp). Writes rows.count entries.
 void play_joint(const effects::Model &model, const brace_joint_rows_t &rows, double *out);
 
-}  // namespace brace::plant
+} // namespace brace::plant

@@ -16,7 +16,8 @@ using Eigen::Vector2d;
 // A rigid joint with play is given this share of the limb's compliance, so that its stop is a spring.
 constexpr double kStopCompliance = 1e-9;
 
-// A structure that is rigid in one direction while joints stick in it is given this share of the limb's compliance.
+// A structure that is rigid in one direction while joints stick in it is given this share of the limb's
+// compliance.
 constexpr double kRigidCompliance = 1e-9;
 
 bool has_changed(const Model &model, double t_s)
@@ -42,14 +43,14 @@ Matrix2d stiffness_held(const Matrix2d &compliance, int free_axis)
     return stiffness;
 }
 
-}  // namespace
+} // namespace
 
 bool LimbState::move_to(double theta1_rad, double theta2_rad, double t_s, double temp_degc)
 {
     const bool same_structure = placed_ && theta1_rad == theta1_rad_ && theta2_rad == theta2_rad_
                                 && has_changed(model_, t_s) == has_changed(model_, t_s_);
-    const bool same_joints = placed_
-                             && (temp_degc == temp_degc_ || model_.thermal.joint_compliance_per_degc == 0.0);
+    const bool same_joints =
+        placed_ && (temp_degc == temp_degc_ || model_.thermal.joint_compliance_per_degc == 0.0);
     if (placed_) {
         let_creep(t_s);
     }
@@ -70,7 +71,8 @@ bool LimbState::move_to(double theta1_rad, double theta2_rad, double t_s, double
     return (same_structure && same_joints) || prepare();
 }
 
-// Springs go into the structure; a joint with more to it becomes an unknown, unless it is rigid and without play.
+// Springs go into the structure; a joint with more to it becomes an unknown, unless it is rigid and without
+// play.
 bool LimbState::prepare()
 {
     Matrix2d compliance = structure_.compliance_mm_per_n;
@@ -99,7 +101,8 @@ bool LimbState::prepare()
         unknown.law = law_[i];
         unknown.load_n_mm = structure_.gravity_n_mm[i];
         if (rigid) {
-            unknown.law.compliance_rad_per_n_mm = kStopCompliance * whole.trace() / std::max(lever.squaredNorm(), 1.0);
+            unknown.law.compliance_rad_per_n_mm =
+                kStopCompliance * whole.trace() / std::max(lever.squaredNorm(), 1.0);
         }
     }
     if (problem_.joint_count > 0 && !(determinant_ratio(compliance) > 1e-12)) {
@@ -130,7 +133,8 @@ void LimbState::let_creep(double t_s)
     }
     for (const int i : {0, 1}) {
         const double elastic = elastic_rad(law_[i], instant_rad_[i]);
-        delayed_rad_[i] = effects::creep::delayed_rad(delayed_rad_[i], model_.creep.ratio, elastic, creep_approach_);
+        delayed_rad_[i] =
+            effects::creep::delayed_rad(delayed_rad_[i], model_.creep.ratio, elastic, creep_approach_);
     }
 }
 
@@ -167,9 +171,8 @@ LimbRest LimbState::hold_tip(const Vector2d &displacement_mm, int free_axis)
     for (int k = 0; k < problem_.joint_count; ++k) {
         instant_rad_[unknown_joint_[k]] = state.deflection_rad[k];
     }
-    return {state.force_n,
-            {instant_rad_[0] + delayed_rad_[0], instant_rad_[1] + delayed_rad_[1]},
-            state.solved};
+    return {
+        state.force_n, {instant_rad_[0] + delayed_rad_[0], instant_rad_[1] + delayed_rad_[1]}, state.solved};
 }
 
-}  // namespace brace::plant
+} // namespace brace::plant

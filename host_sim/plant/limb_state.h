@@ -36,15 +36,15 @@ private:
     bool placed_ = false;
     double theta1_rad_ = 0.0, theta2_rad_ = 0.0, t_s_ = 0.0, temp_degc_ = 0.0;
     Structure structure_{};
-    Eigen::Matrix2d compliance_mm_per_n_;     // of the structure, with the joints that are but springs
-    RestProblem problem_{};                   // its unknowns are the other joints
-    std::array<int, 2> unknown_joint_{};      // which joint each of its unknowns is
+    Eigen::Matrix2d compliance_mm_per_n_; // of the structure, with the joints that are but springs
+    RestProblem problem_{};               // its unknowns are the other joints
+    std::array<int, 2> unknown_joint_{};  // which joint each of its unknowns is
     std::array<JointLaw, 2> law_{};
     std::array<bool, 2> is_spring_{};
     Eigen::Vector2d tip_mm_ = Eigen::Vector2d::Zero(); // where the contact has dragged the tip
-    std::array<double, 2> instant_rad_{};     // deflection without creep
-    std::array<double, 2> delayed_rad_{};     // creep
+    std::array<double, 2> instant_rad_{};              // deflection without creep
+    std::array<double, 2> delayed_rad_{};              // creep
     double creep_dt_s_ = -1.0, creep_approach_ = 0.0;
 };
 
-}  // namespace brace::plant
+} // namespace brace::plant

@@ -12,11 +12,13 @@ brace_host_status_t play_loading(const effects::Model &model, const brace_loadin
 {
     // Poses first, so that a refused record leaves nothing half-written.
     for (std::size_t i = 0; i < rows.count; ++i) {
-        if (i > 0 && rows.theta1_rad[i] == rows.theta1_rad[i - 1] && rows.theta2_rad[i] == rows.theta2_rad[i - 1]) {
+        if (i > 0 && rows.theta1_rad[i] == rows.theta1_rad[i - 1]
+            && rows.theta2_rad[i] == rows.theta2_rad[i - 1]) {
             continue;
         }
         LimbState probe(model);
-        if (!probe.move_to(rows.theta1_rad[i], rows.theta2_rad[i], rows.t_s[i], model.thermal.reference_degc)) {
+        if (!probe.move_to(rows.theta1_rad[i], rows.theta2_rad[i], rows.t_s[i],
+                           model.thermal.reference_degc)) {
             return BRACE_HOST_E_SINGULAR;
         }
     }
@@ -31,8 +33,8 @@ brace_host_status_t play_loading(const effects::Model &model, const brace_loadin
         if (starts_run) {
             limb.start_run(rows.creep_runs_on == 0);
         }
-        const LimbRest rest = limb.hold_tip({rows.dx_mm[i], rows.dz_mm[i]},
-                                            rows.free_axis != nullptr ? rows.free_axis[i] : 0);
+        const LimbRest rest =
+            limb.hold_tip({rows.dx_mm[i], rows.dz_mm[i]}, rows.free_axis != nullptr ? rows.free_axis[i] : 0);
         unsolved_rows += rest.solved ? 0 : 1;
         Vector2d read_n = sensor_reading_n(model, rest.force_n, rows.t_s[i]);
         if (starts_run) {
@@ -54,4 +56,4 @@ brace_host_status_t play_loading(const effects::Model &model, const brace_loadin
     return unsolved_rows == 0 ? BRACE_HOST_OK : BRACE_HOST_E_NO_CONVERGENCE;
 }
 
-}  // namespace brace::plant
+} // namespace brace::plant

@@ -12,4 +12,4 @@ namespace brace::plant {
 brace_host_status_t play_loading(const effects::Model &model, const brace_loading_rows_t &rows,
                                  const brace_loading_reading_t &reading, std::size_t &unsolved_rows);
 
-}  // namespace brace::plant
+} // namespace brace::plant

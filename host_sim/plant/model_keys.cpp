@@ -21,20 +21,22 @@ struct Key {
     double most;
 };
 
-#define LINK_KEYS(table, index)                                                                                   \
-    {"link." table ".axial_mm_per_n", offsetof(Model, link[index].axial_mm_per_n), 0.0, 1e3},                    \
-    {"link." table ".bending_mm_per_n", offsetof(Model, link[index].bending_mm_per_n), 0.0, 1e3},                \
-    {"link." table ".tilt_rad", offsetof(Model, link[index].tilt_rad), -kQuarterTurn, kQuarterTurn},             \
-    {"link." table ".moment_transfer", offsetof(Model, link[index].moment_transfer_ratio), 0.0, 1.0},            \
-    {"link." table ".lateral_mm_per_n", offsetof(Model, link[index].lateral_mm_per_n), 0.0, 1e3},                \
-    {"link." table ".torsion_rad_per_n_mm", offsetof(Model, link[index].torsion_rad_per_n_mm), 0.0, 1.0}
+#define LINK_KEYS(table, index)                                                                           \
+    {"link." table ".axial_mm_per_n", offsetof(Model, link[index].axial_mm_per_n), 0.0, 1e3},             \
+        {"link." table ".bending_mm_per_n", offsetof(Model, link[index].bending_mm_per_n), 0.0, 1e3},     \
+        {"link." table ".tilt_rad", offsetof(Model, link[index].tilt_rad), -kQuarterTurn, kQuarterTurn},  \
+        {"link." table ".moment_transfer", offsetof(Model, link[index].moment_transfer_ratio), 0.0, 1.0}, \
+        {"link." table ".lateral_mm_per_n", offsetof(Model, link[index].lateral_mm_per_n), 0.0, 1e3},     \
+        {"link." table ".torsion_rad_per_n_mm", offsetof(Model, link[index].torsion_rad_per_n_mm), 0.0, 1.0}
 
-#define JOINT_KEYS(table, index)                                                                                  \
-    {"joint." table ".compliance_rad_per_n_mm", offsetof(Model, joint[index].compliance_rad_per_n_mm), 0.0, 1.0}, \
-    {"joint." table ".gap_rad", offsetof(Model, joint[index].gap_rad), 0.0, 0.5},                                \
-    {"joint." table ".coulomb_n_mm", offsetof(Model, joint[index].coulomb_n_mm), 0.0, 1e9},                      \
-    {"joint." table ".hardening_n_mm_per_rad3", offsetof(Model, joint[index].hardening_n_mm_per_rad3), 0.0, 1e30}, \
-    {"joint." table ".zero_offset_rad", offsetof(Model, joint[index].zero_offset_rad), -0.5, 0.5}
+#define JOINT_KEYS(table, index)                                                                            \
+    {"joint." table ".compliance_rad_per_n_mm", offsetof(Model, joint[index].compliance_rad_per_n_mm), 0.0, \
+     1.0},                                                                                                  \
+        {"joint." table ".gap_rad", offsetof(Model, joint[index].gap_rad), 0.0, 0.5},                       \
+        {"joint." table ".coulomb_n_mm", offsetof(Model, joint[index].coulomb_n_mm), 0.0, 1e9},             \
+        {"joint." table ".hardening_n_mm_per_rad3", offsetof(Model, joint[index].hardening_n_mm_per_rad3),  \
+         0.0, 1e30},                                                                                        \
+        {"joint." table ".zero_offset_rad", offsetof(Model, joint[index].zero_offset_rad), -0.5, 0.5}
 
 constexpr Key kKeys[] = {
     {"geometry.coxa_mm", offsetof(Model, geometry.coxa_mm), 0.0, 1e4},
@@ -81,7 +83,7 @@ double value_of(const Model &model, const Key &key)
     return value;
 }
 
-}  // namespace
+} // namespace
 
 std::int64_t key_offset(std::string_view name)
 {
@@ -105,4 +107,4 @@ const char *first_fault(const Model &model)
     return link == std::floor(link) ? nullptr : "change.link";
 }
 
-}  // namespace brace::plant
+} // namespace brace::plant

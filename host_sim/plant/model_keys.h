@@ -15,4 +15,4 @@ std::int64_t key_offset(std::string_view key);
 // Name of the first key whose value no limb can have; null when all are sound.
 const char *first_fault(const effects::Model &model);
 
-}  // namespace brace::plant
+} // namespace brace::plant

@@ -10,7 +10,8 @@
 
 namespace brace::plant {
 
-inline Eigen::Vector2d sensor_reading_n(const effects::Model &model, const Eigen::Vector2d &force_n, double t_s)
+inline Eigen::Vector2d sensor_reading_n(const effects::Model &model, const Eigen::Vector2d &force_n,
+                                        double t_s)
 {
     using namespace effects;
     Eigen::Vector2d reading = sensor_crosstalk::mixed_n(model, force_n);
@@ -20,4 +21,4 @@ inline Eigen::Vector2d sensor_reading_n(const effects::Model &model, const Eigen
     return sensor_saturation::clipped_n(model, reading);
 }
 
-}  // namespace brace::plant
+} // namespace brace::plant

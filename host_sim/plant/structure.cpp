@@ -27,7 +27,7 @@ Vector2d quarter_turn(const Vector2d &v)
     return {-v.y(), v.x()};
 }
 
-}  // namespace
+} // namespace
 
 Structure structure_at(const Model &model, double theta1_rad, double theta2_rad, double t_s)
 {
@@ -44,7 +44,8 @@ Structure structure_at(const Model &model, double theta1_rad, double theta2_rad,
 
     Matrix2d compliance = Matrix2d::Zero();
     compliance.diagonal() << model.base.x_mm_per_n, model.base.z_mm_per_n;
-    compliance += model.base.rotation_rad_per_n_mm * structure.lever_mm[0] * structure.lever_mm[0].transpose();
+    compliance +=
+        model.base.rotation_rad_per_n_mm * structure.lever_mm[0] * structure.lever_mm[0].transpose();
 
     const Vector2d link_axis[] = {{}, femur_axis, tibia_axis};
     for (const int index : {kFemur, kTibia}) {
@@ -58,13 +59,14 @@ Structure structure_at(const Model &model, double theta1_rad, double theta2_rad,
             const double length = model.geometry.femur_mm;
             const Vector2d &arm = structure.lever_mm[1];
             const Matrix2d coupled = axes.col(1) * arm.transpose();
-            compliance += coupling_per_n(bending, length, link.moment_transfer_ratio)
-                          * (coupled + coupled.transpose());
-            compliance += rotation_rad_per_n_mm(bending, length, link.moment_transfer_ratio) * arm * arm.transpose();
+            compliance +=
+                coupling_per_n(bending, length, link.moment_transfer_ratio) * (coupled + coupled.transpose());
+            compliance +=
+                rotation_rad_per_n_mm(bending, length, link.moment_transfer_ratio) * arm * arm.transpose();
         }
     }
     structure.compliance_mm_per_n = compliance;
     return structure;
 }
 
-}  // namespace brace::plant
+} // namespace brace::plant

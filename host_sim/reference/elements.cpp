@@ -92,7 +92,7 @@ Element base_translation(Real x, Real z)
     return element;
 }
 
-}  // namespace
+} // namespace
 
 std::vector<Element> elements_of(const Limb &limb, const Posture &posture, bool with_coxa)
 {
@@ -125,4 +125,4 @@ Matrix3 compliance(const std::vector<Element> &elements)
     return sum;
 }
 
-}  // namespace brace::reference
+} // namespace brace::reference

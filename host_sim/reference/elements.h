@@ -1,9 +1,10 @@
-// The compliance chain as physics.md writes it: elements, each a compliance S in its own frame and the map T from
-// the tip force to the wrench there; C = sum T' S T. Written apart from the firmware, in long double.
+// The compliance chain as physics.md writes it: elements, each a compliance S in its own frame and the map T
+// from the tip force to the wrench there; C = sum T' S T. Written apart from the firmware, in long double.
 //
-// Wrench and motion at an element, in its own frame: [along, across, sideways; twist, turn in plane, turn sideways]:
-// forces (motions) along the element's axis, across it in the limb's plane, along y; moments (turns) about the axis,
-// about y, and about the remaining axis, each positive where it moves a point further along the axis the positive way.
+// Wrench and motion at an element, in its own frame: [along, across, sideways; twist, turn in plane, turn
+// sideways]: forces (motions) along the element's axis, across it in the limb's plane, along y; moments
+// (turns) about the axis, about y, and about the remaining axis, each positive where it moves a point further
+// along the axis the positive way.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,7 +19,8 @@ using Matrix6 = Eigen::Matrix<Real, 6, 6>;
 using WrenchMap = Eigen::Matrix<Real, 6, 3>;
 
 struct LinkCompliance {
-    Real axial_mm_per_n, bending_mm_per_n, tilt_rad, lateral_mm_per_n, torsion_rad_per_n_mm, moment_transfer_ratio;
+    Real axial_mm_per_n, bending_mm_per_n, tilt_rad, lateral_mm_per_n, torsion_rad_per_n_mm,
+        moment_transfer_ratio;
 };
 
 struct Limb {
@@ -39,4 +41,4 @@ std::vector<Element> elements_of(const Limb &limb, const Posture &posture, bool 
 // C in the limb's plane frame; y belongs to spatial limbs only.
 Matrix3 compliance(const std::vector<Element> &elements);
 
-}  // namespace brace::reference
+} // namespace brace::reference

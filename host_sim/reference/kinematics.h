@@ -25,4 +25,4 @@ Vector3 tip_mm(const Lengths &lengths, Real theta0_rad, const Posture &posture);
 // False: out of reach.
 bool posture_at(const Lengths &lengths, Real r_mm, Real phi_rad, bool knee_up, Posture &posture);
 
-}  // namespace brace::reference
+} // namespace brace::reference

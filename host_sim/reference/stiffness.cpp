@@ -82,7 +82,7 @@ Real principal(Real angle)
     return angle;
 }
 
-}  // namespace
+} // namespace
 
 bool planar(const Limb &limb, const Posture &posture, std::array<double, 9> &row)
 {
@@ -94,8 +94,8 @@ bool planar(const Limb &limb, const Posture &posture, std::array<double, 9> &row
         return false;
     }
     const Real axis = principal(std::atan2(spectrum.stiff_axis[1], spectrum.stiff_axis[0]));
-    const Real values[] = {spectrum.k(0, 0), spectrum.k(0, 1), spectrum.k(1, 1), c(0, 0), c(0, 1), c(1, 1),
-                           spectrum.lambda[0], spectrum.lambda[1], axis};
+    const Real values[] = {spectrum.k(0, 0), spectrum.k(0, 1),   spectrum.k(1, 1),   c(0, 0), c(0, 1),
+                           c(1, 1),          spectrum.lambda[0], spectrum.lambda[1], axis};
     std::copy(std::begin(values), std::end(values), row.begin());
     return true;
 }
@@ -129,4 +129,4 @@ bool spatial(const Limb &limb, Real theta0_rad, const Posture &posture, std::arr
     return true;
 }
 
-}  // namespace brace::reference
+} // namespace brace::reference

@@ -11,4 +11,4 @@ namespace brace::reference {
 bool planar(const Limb &limb, const Posture &posture, std::array<double, 9> &row);
 bool spatial(const Limb &limb, Real theta0_rad, const Posture &posture, std::array<double, 18> &row);
 
-}  // namespace brace::reference
+} // namespace brace::reference

@@ -38,4 +38,4 @@ std::uint64_t Noise::below(std::uint64_t count)
     return bits() % count;
 }
 
-}  // namespace brace::rig
+} // namespace brace::rig

@@ -1,5 +1,5 @@
-// Repeatable noise: SplitMix64 for the bits, Box-Muller for the bell. The standard library's distributions differ
-// between implementations; this does not.
+// Repeatable noise: SplitMix64 for the bits, Box-Muller for the bell. The standard library's distributions
+// differ between implementations; this does not.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@ public:
     explicit Noise(std::uint64_t seed) : state_(seed) {}
 
     std::uint64_t bits();
-    double uniform();               // (0, 1)
-    double normal();                // mean 0, sigma 1
+    double uniform();                         // (0, 1)
+    double normal();                          // mean 0, sigma 1
     std::uint64_t below(std::uint64_t count); // [0, count)
 
 private:
@@ -21,4 +21,4 @@ private:
     bool has_spare_ = false;
 };
 
-}  // namespace brace::rig
+} // namespace brace::rig

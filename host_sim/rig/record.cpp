@@ -65,7 +65,7 @@ void write(T *column, std::size_t row, V value)
     }
 }
 
-}  // namespace
+} // namespace
 
 brace_host_status_t play(const brace_rig_design_t &design, const effects::Model *model,
                          const brace_rig_record_t &record)
@@ -91,7 +91,8 @@ brace_host_status_t play(const brace_rig_design_t &design, const effects::Model 
     double zero_z = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
         const Reading &each = readings[i];
-        // Every instrument draws its noise for every row, wanted or not: columns asked for do not change others.
+        // Every instrument draws its noise for every row, wanted or not: columns asked for do not change
+        // others.
         double read_x = instrument_n(design, fx[i], noise);
         double read_z = instrument_n(design, fz[i], noise);
         const double read_enc1 = enc1[i] + design.encoder_noise_rad * noise.normal();
@@ -125,4 +126,4 @@ brace_host_status_t play(const brace_rig_design_t &design, const effects::Model 
     return status;
 }
 
-}  // namespace brace::rig
+} // namespace brace::rig

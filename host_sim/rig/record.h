@@ -9,4 +9,4 @@ namespace brace::rig {
 brace_host_status_t play(const brace_rig_design_t &design, const effects::Model *model,
                          const brace_rig_record_t &record);
 
-}  // namespace brace::rig
+} // namespace brace::rig

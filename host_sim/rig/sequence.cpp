@@ -51,7 +51,7 @@ bool is_between(double value, double least, double most)
     return value >= least && value <= most; // NaN is not
 }
 
-}  // namespace
+} // namespace
 
 brace_rig_design_t paper_design()
 {
@@ -131,11 +131,12 @@ std::vector<Reading> sequence(const brace_rig_design_t &design)
             const double along_mm = steps[i] * design.step_mm;
             readings.push_back({number, run.config, run.axis, run.rep, static_cast<int>(i),
                                 design.theta1_rad[run.config - 1], design.theta2_rad[run.config - 1], t_s,
-                                temperature(design, t_s), design.preload_x_mm + (run.axis == 0 ? along_mm : 0.0),
+                                temperature(design, t_s),
+                                design.preload_x_mm + (run.axis == 0 ? along_mm : 0.0),
                                 design.preload_z_mm + (run.axis == 1 ? along_mm : 0.0)});
         }
     }
     return readings;
 }
 
-}  // namespace brace::rig
+} // namespace brace::rig

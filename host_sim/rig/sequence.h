@@ -23,4 +23,4 @@ std::vector<Reading> sequence(const brace_rig_design_t &design);
 // Multiples of the step that one run passes through.
 std::vector<int> run_steps(int steps_per_side, bool cyclic);
 
-}  // namespace brace::rig
+} // namespace brace::rig

@@ -33,7 +33,8 @@ brace_rig_design_t exact_design(const double *theta1_rad, const double *theta2_r
     return design;
 }
 
-brace_host_status_t sweep_along(const brace_rig_design_t &design, const effects::Model &model, int axis, Sweep &sweep)
+brace_host_status_t sweep_along(const brace_rig_design_t &design, const effects::Model &model, int axis,
+                                Sweep &sweep)
 {
     const std::size_t count = reading_count(design);
     sweep.displacement_mm.resize(count);
@@ -66,8 +67,8 @@ double slope(const std::vector<double> &displacement, const std::vector<double> 
     return rule == SlopeRule::MeanOfRatios ? ratios / static_cast<double>(count) : products / squares;
 }
 
-// Displacement at which the force first comes to zero between rows from and to, by straight lines; false: nowhere.
-// Where it stays at zero, as within play, the line is that of the readings before.
+// Displacement at which the force first comes to zero between rows from and to, by straight lines; false:
+// nowhere. Where it stays at zero, as within play, the line is that of the readings before.
 bool comes_to_zero(const Sweep &sweep, int axis, std::size_t from, std::size_t to, double &at_mm)
 {
     const std::vector<double> &force = sweep.force_n[axis];
@@ -85,10 +86,11 @@ bool comes_to_zero(const Sweep &sweep, int axis, std::size_t from, std::size_t t
     return false;
 }
 
-}  // namespace
+} // namespace
 
 brace_host_status_t measure_stiffness(const effects::Model &model, double theta1_rad, double theta2_rad,
-                                      double step_mm, int steps_per_side, SlopeRule rule, std::array<double, 4> &k)
+                                      double step_mm, int steps_per_side, SlopeRule rule,
+                                      std::array<double, 4> &k)
 {
     std::array<double, 4> measured{};
     for (const int axis : {0, 1}) {
@@ -106,8 +108,8 @@ brace_host_status_t measure_stiffness(const effects::Model &model, double theta1
     return BRACE_HOST_OK;
 }
 
-brace_host_status_t zero_force_shift(const effects::Model &model, double theta1_rad, double theta2_rad, int axis,
-                                     double step_mm, int steps_per_side, double &shift_mm)
+brace_host_status_t zero_force_shift(const effects::Model &model, double theta1_rad, double theta2_rad,
+                                     int axis, double step_mm, int steps_per_side, double &shift_mm)
 {
     brace_rig_design_t design = exact_design(&theta1_rad, &theta2_rad, axis, step_mm, steps_per_side, true);
     design.transverse_free = 1;
@@ -127,4 +129,4 @@ brace_host_status_t zero_force_shift(const effects::Model &model, double theta1_
     return BRACE_HOST_OK;
 }
 
-}  // namespace brace::rig
+} // namespace brace::rig
