@@ -4,20 +4,22 @@
 
 #include <stdint.h>
 
-/* With u = d/(pi/64), |u| <= 1: sin d = u (s1 - s3 u^2) within 2e-10, cos d = 1 - c2 u^2 within 4.2e-8 (of the
- * sum's length: it turns no angle). */
+/* With u = d/(pi/64), |u| <= 1: sin d = u (s1 - s3 u^2) within 2e-10; cos d - 1 = u^2 (c2 + c4 u^2) within 1e-12, or
+ * c2_alone u^2 within 4.2e-8. */
 enum {
-    SIN_D1 = 210828711, /* s1 q32 */
-    SIN_D3 = 338620,    /* s3 q34 */
-    COS_D0 = 2147483647, /* 1 q31 */
-    COS_D2 = 10347349   /* c2 q33 */
+    SIN_D1 = 421657422,       /* s1 q33 */
+    SIN_D3 = -677240,         /* -s3 q35 */
+    COS_D2 = -20698061,       /* c2 q34 */
+    COS_D4 = 16623,           /* c4 q36 */
+    COS_D2_ALONE = -20694699, /* q34 */
+    LENGTHEN = 3840           /* 2^31 / BRACE_TURN_ONE - 1, q32, less what rounding could carry over 1 */
 };
 
 /* asin(s) = a1 s + a3 s^3 within 6.5e-8 for |s| <= 0.107, in turns, negated. */
-enum { ASIN_1 = -683563198, ASIN_3 = 114659455 };
+enum { ASIN_1 = -683563198, ASIN_3 = -114659455 };
 
-/* 1/sqrt: Newton's 3, less what makes the root smaller by BRACE_TURN_ONE/2^31. q26 */
-#define RSQRT_THREE 201326464u
+/* 1/sqrt: Newton's 3, a little less so that no component of a unit vector reaches 1. q26 */
+#define RSQRT_THREE 201326590u
 
 #define PI_Q30 3373259426u
 
@@ -33,6 +35,6 @@ extern const brace_fixed_seed_t brace_fixed_seed[64];
 
 /* Where a unit vector (-c, s) points, in 64ths of a turn and turned by half a turn: the four highest bits of s and
  * of c (two's complement) give the cell of a 16 by 16 grid. Within 0.107 rad of what the cell holds. */
-extern const uint8_t brace_fixed_cell[256];
+extern const uint8_t brace_fixed_cell[16][16];
 
 #endif

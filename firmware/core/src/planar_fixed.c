@@ -1,3 +1,9 @@
+/* Straight-line code with more values in flight than registers: scheduling before registers are allotted costs a
+ * dozen spills (254 instructions instead of 237). */
+#if defined(__arm__) && defined(__GNUC__) && !defined(__clang__)
+#pragma GCC optimize("no-schedule-insns")
+#endif
+
 #include "brace/planar_fixed.h"
 
 #include <stddef.h>
@@ -33,26 +39,39 @@ static inline uint32_t leading_zeros(uint32_t word)
     return (uint32_t)__builtin_clz(word);
 }
 
-/* Minus sine and minus cosine, q30: with the sign, cos d = 1 fits. */
-typedef struct {
-    int32_t sin, cos;
-} minus_sincos_t;
-
-static inline minus_sincos_t minus_sincos(uint32_t turn)
+static inline brace_sincos_t nearest(uint32_t turn)
 {
-    const brace_sincos_t near = brace_turn_table[(turn + 0x02000000u) >> 26];
-    const int32_t d = (int32_t)(turn << 6);                                            /* 2^31 = pi/64 */
-    const int32_t d2 = high(d, d);                                                     /* 2^30 = (pi/64)^2 */
-    const int32_t sin_d = high(d, SIN_D1 - high(d2, SIN_D3));                          /* q31 */
-    const int32_t minus_cos_d = (int32_t)((uint32_t)high(d2, COS_D2) - 0x80000000u);   /* q31 */
-    const minus_sincos_t at = {high_sum(near.sin, minus_cos_d, near.cos, -sin_d),
-                               high_sum(near.cos, minus_cos_d, near.sin, sin_d)};
-    return at;
+    return brace_turn_table[(turn + 0x02000000u) >> 26];
 }
 
-static inline int32_t harmonic(const brace_fixed_harmonic_t *h, minus_sincos_t at)
+/* Sine and cosine as brace_turn_sincos has them, in fewer instructions where a sum of 64-bit products takes one a
+ * term. d: what is left from the nearest table entry, 2^31 = pi/64; cos_d_less_1: q32. */
+static inline brace_sincos_t add_angle(brace_sincos_t near, int32_t d, int32_t d2, int32_t cos_d_less_1)
 {
-    return high_word(h->constant + (int64_t)h->per_cos * at.cos + (int64_t)h->per_sin * at.sin);
+    const int32_t sin_d = high(d, SIN_D1 + high(d2, SIN_D3)); /* q32 */
+    return (brace_sincos_t){near.sin + high_sum(near.sin, cos_d_less_1, near.cos, sin_d),
+                            near.cos + high_sum(near.cos, cos_d_less_1, near.sin, -sin_d)};
+}
+
+/* Within 1e-9. */
+static inline brace_sincos_t sincos_of(uint32_t turn)
+{
+    const int32_t d = (int32_t)(turn << 6), d2 = high(d, d);
+    return add_angle(nearest(turn), d, d2, high(d2, COS_D2 + high(d2, COS_D4)));
+}
+
+/* To turn a vector by: right in direction within 1e-9, and its length is one (2^31, not BRACE_TURN_ONE) within
+ * 1.1e-7 and never more. */
+static inline brace_sincos_t direction_of(uint32_t turn)
+{
+    const int32_t d = (int32_t)(turn << 6), d2 = high(d, d);
+    return add_angle(nearest(turn), d, d2, high(d2, COS_D2_ALONE) + LENGTHEN);
+}
+
+static inline int32_t harmonic(const brace_fixed_harmonic_t *h, brace_sincos_t at)
+{
+    const int32_t per_cos = (int32_t)(uint32_t)h->per_turn, per_sin = (int32_t)(uint32_t)(h->per_turn >> 32);
+    return high_word(h->constant + (int64_t)per_cos * at.cos + (int64_t)per_sin * at.sin);
 }
 
 /* magnitude 2^(exponent field - 157) as an IEEE float's bits, truncated. magnitude is not zero. */
@@ -88,7 +107,7 @@ brace_status_t brace_planar_fixed_stiffness(const brace_planar_fixed_t *fixed, i
     const uint32_t knee = brace_turn_from_q28(theta2_rad_q28);
     const uint32_t bisector2 = 2u * brace_turn_from_q28(theta1_rad_q28) - knee;
 
-    const minus_sincos_t at = minus_sincos(knee);
+    const brace_sincos_t at = sincos_of(knee);
     const int32_t cross = harmonic(&fixed->cross, at), rest = harmonic(&fixed->rest, at);
     const uint64_t det = (uint64_t)((int64_t)cross * cross + (int64_t)rest * fixed->rest_weight);
     const uint32_t det_high = (uint32_t)(det >> 32), det_low = (uint32_t)det;
@@ -117,11 +136,11 @@ brace_status_t brace_planar_fixed_stiffness(const brace_planar_fixed_t *fixed, i
     const uint32_t product = high_unsigned(det_norm, largest);
     const uint32_t quotient = (0x80000000u / (product >> 16)) << 13;
     const uint32_t inverse = high_unsigned(quotient, (0x20000000u - high_unsigned(product, quotient)) << 3);
-    const uint32_t per_det = high_unsigned(largest, inverse) << 3;
+    const uint32_t per_det = high_unsigned(largest, inverse);
     const uint32_t per_largest = high_unsigned(det_norm, inverse);
     const uint32_t exponent_k = fixed->exponent_k + ((det_zeros - zeros) << 23);
     stiffness->lambda_max_n_per_mm =
-        float_of(float_bits(high_unsigned(largest, per_det), exponent_k - (2u << 23)));
+        float_of(float_bits(high_unsigned(largest, per_det), exponent_k - (1u << 23)));
     stiffness->lambda_min_n_per_mm = float_of(float_bits(per_largest, fixed->exponent_min + (zeros << 23)));
     stiffness->flags = fixed->flags;
 
@@ -129,21 +148,22 @@ brace_status_t brace_planar_fixed_stiffness(const brace_planar_fixed_t *fixed, i
     const uint32_t half = shift - 1u;
     const int32_t cosine = high((int32_t)((uint32_t)x << half), (int32_t)per_r);
     const int32_t sine = high((int32_t)((uint32_t)y << half), (int32_t)per_r);
-    const uint32_t cell = ((((uint32_t)sine >> 24) & 15u) << 4) | (((uint32_t)cosine >> 24) & 15u);
-    const uint32_t entry = brace_fixed_cell[cell];
+    const uint32_t entry = brace_fixed_cell[((uint32_t)sine >> 24) & 15u][((uint32_t)cosine >> 24) & 15u];
     const brace_sincos_t opposite = brace_turn_table[entry];
     const int32_t off = (int32_t)((uint32_t)high_sum(sine, opposite.cos, cosine, opposite.sin) << 6);
-    const int32_t off_turn = high(off, ASIN_1 - high(high(off, off), ASIN_3));
+    const int32_t off_turn = high(off, ASIN_1 + high(high(off, off), ASIN_3));
     const int32_t axis = (int32_t)(bisector2 + (entry << 26) + (uint32_t)off_turn);
     stiffness->stiff_axis_rad = float_of(
         float_bits(high_unsigned(magnitude_of(axis), PI_Q30) | 1u, AXIS_EXPONENT) | sign_of(axis));
 
-    const minus_sincos_t turn = minus_sincos(bisector2);
-    const int32_t xw = high_sum(x, turn.cos, y, turn.sin);       /* dev_x in the world */
-    const int32_t minus_yw = high_sum(-x, turn.sin, y, turn.cos); /* minus dev_y */
-    const int32_t mean8 = (int32_t)(mean >> 3);
-    stiffness->k_xx_n_per_mm = float_of(float_bits(high_unsigned((uint32_t)(mean8 - xw), per_det), exponent_k));
-    stiffness->k_zz_n_per_mm = float_of(float_bits(high_unsigned((uint32_t)(mean8 + xw), per_det), exponent_k));
+    const brace_sincos_t turn = direction_of(bisector2);
+    const int32_t minus_xw = high_sum(x, turn.cos, y, turn.sin);  /* in the world's frame */
+    const int32_t minus_yw = high_sum(x, turn.sin, -y, turn.cos);
+    const int32_t mean4 = (int32_t)(mean >> 2);
+    stiffness->k_xx_n_per_mm =
+        float_of(float_bits(high_unsigned((uint32_t)(mean4 + minus_xw), per_det), exponent_k));
+    stiffness->k_zz_n_per_mm =
+        float_of(float_bits(high_unsigned((uint32_t)(mean4 - minus_xw), per_det), exponent_k));
     stiffness->k_xz_n_per_mm =
         float_of(float_bits(high_unsigned(magnitude_of(minus_yw), per_det) | 1u, exponent_k) | sign_of(minus_yw));
     return BRACE_OK;

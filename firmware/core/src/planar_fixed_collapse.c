@@ -6,8 +6,8 @@
 #include "brace/chain.h"
 #include "turn.h"
 
-/* Half of BRACE_TURN_ONE: what the tick's minus_sincos gives for minus one. */
-#define TRIG_ONE 1073740800
+/* BRACE_TURN_ONE as an integer: the tick's sine and cosine of one. */
+#define TRIG_ONE 2147481600
 
 /* det C at its least over the largest mean^2: below SLENDER the stated accuracy is no longer promised, below
  * TOO_SLENDER the words of the tick no longer hold the numbers. */
@@ -50,13 +50,13 @@ static float two_to(int32_t exponent)
 /* at_fold is kept apart from per_cos until both are integers: what cancels there cancels exactly. */
 static brace_fixed_harmonic_t quantised(const brace_harmonic_t *h, float scale)
 {
-    const float trig = -0x1p32f / TRIG_ONE;
-    brace_fixed_harmonic_t fixed;
-    fixed.per_cos = (int32_t)(h->per_cos * scale * trig);
-    fixed.per_sin = (int32_t)(h->per_sin * scale * trig);
-    fixed.constant =
-        (int64_t)(h->at_fold * scale * 0x1p32f) - (int64_t)fixed.per_cos * TRIG_ONE + (int64_t)0x80000000;
-    return fixed;
+    const float per_turn = scale * (0x1p32f / BRACE_TURN_ONE);
+    const int32_t per_cos = (int32_t)(h->per_cos * per_turn), per_sin = (int32_t)(h->per_sin * per_turn);
+    const int64_t at_fold = (int64_t)(h->at_fold * scale * 0x1p32f);
+    return (brace_fixed_harmonic_t){
+        .constant = at_fold + (int64_t)per_cos * TRIG_ONE + (int64_t)0x80000000,
+        .per_turn = (uint32_t)per_cos | (uint64_t)(uint32_t)per_sin << 32,
+    };
 }
 
 static int32_t least_of(int32_t a, int32_t b)
@@ -80,27 +80,26 @@ static brace_status_t quantise(const brace_harmonics_t *harmonics, brace_planar_
     const extent_t cross = extent(&harmonics->cross);
     const float cross_most = __builtin_fabsf(harmonics->cross.at_fold + harmonics->cross.per_cos) + cross.swing;
 
-    const int32_t mean_scale = headroom(padded(mean.most), 29); /* trace of C below 2^30 */
-    const int32_t rest_scale = headroom(padded(rest.most), 30);
-    int32_t cross_scale = (rest_scale + 29) >> 1; /* its square, by rest_weight, below 2^59 */
+    const int32_t mean_scale = headroom(padded(mean.most), 30); /* trace of C below 2^31 */
+    const int32_t rest_scale = headroom(padded(rest.most), 31);
+    int32_t cross_scale = (rest_scale + 30) >> 1; /* its square, by rest_weight, below 2^61 */
     if (cross_most > 0.0f) {
-        cross_scale = least_of(cross_scale, headroom(padded(cross_most), 30));
-        cross_scale = least_of(cross_scale, headroom(padded(cross.swing), 29));
+        cross_scale = least_of(cross_scale, headroom(padded(cross_most), 31));
+        cross_scale = least_of(cross_scale, headroom(padded(cross.swing), 30));
     }
     const int32_t weight = 2 * cross_scale - rest_scale;
     if (weight < 0) {
         return BRACE_E_UNSUPPORTED;
     }
-    const float dev_scale = two_to(mean_scale) * (0x1p30f / TRIG_ONE);
     const brace_harmonic_t *dev_x = &harmonics->dev_x;
     const brace_harmonic_t minus_dev_x = {-dev_x->at_fold, -dev_x->per_cos, -dev_x->per_sin};
     fixed->mean = quantised(&harmonics->mean, two_to(mean_scale + 1));
-    fixed->minus_dev_x = quantised(&minus_dev_x, dev_scale);
-    fixed->dev_y = quantised(&harmonics->dev_y, dev_scale);
+    fixed->minus_dev_x = quantised(&minus_dev_x, two_to(mean_scale));
+    fixed->dev_y = quantised(&harmonics->dev_y, two_to(mean_scale));
     fixed->cross = quantised(&harmonics->cross, two_to(cross_scale));
     fixed->rest = quantised(&harmonics->rest, two_to(rest_scale));
     fixed->rest_weight = (int32_t)1 << weight;
-    fixed->exponent_k = (uint32_t)(97 + 2 * cross_scale - mean_scale) << 23;
+    fixed->exponent_k = (uint32_t)(99 + 2 * cross_scale - mean_scale) << 23;
     fixed->exponent_min = (uint32_t)(98 + mean_scale) << 23;
     const int delicate = rest.least < SLENDER * square || mean.least < UNEVEN * mean.most;
     fixed->flags = delicate ? BRACE_FLAG_NEAR_SINGULAR : 0u;

@@ -14,19 +14,19 @@
 
 /* A function of the knee angle, constant + per_cos cos theta2 + per_sin sin theta2, scaled to integers. */
 typedef struct {
-    int64_t constant;         /* q32 of the result's unit, half a unit added to round */
-    int32_t per_cos, per_sin; /* times four: sine and cosine come as q30 */
+    int64_t constant;  /* q32 of the result's unit, half a unit added to round */
+    uint64_t per_turn; /* per_cos in the low word, per_sin in the high one; twice as large: the trigonometry is q31 */
 } brace_fixed_harmonic_t;
 
 /* One limb, ready for the tick. Opaque; written by brace_planar_fixed_collapse. */
 typedef struct {
-    brace_fixed_harmonic_t mean;      /* trace of C */
-    brace_fixed_harmonic_t dev_y;     /* deviator of C across, */
-    brace_fixed_harmonic_t minus_dev_x; /* and along the bisector, negated */
-    brace_fixed_harmonic_t cross;     /* det C = rest rest_weight + cross^2 */
+    brace_fixed_harmonic_t mean;        /* trace of C */
+    brace_fixed_harmonic_t minus_dev_x; /* deviator of C along the bisector, negated, */
+    brace_fixed_harmonic_t dev_y;       /* and across it */
+    brace_fixed_harmonic_t cross;       /* det C = cross^2 + rest rest_weight */
     brace_fixed_harmonic_t rest;
     int32_t rest_weight;
-    uint32_t exponent_k;   /* exponent fields of IEEE floats, before normalisation is taken off */
+    uint32_t exponent_k; /* exponent fields of IEEE floats, before normalisation is taken off */
     uint32_t exponent_min;
     uint32_t flags;
 } brace_planar_fixed_t;
