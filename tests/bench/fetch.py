@@ -1,6 +1,6 @@
 """Gets what the bench needs and the repository must not hold: peers' sources and the emulator's plugin header.
 
-Everything goes to .cache/bench through the ordinary package clients (apt, pip, npm) and is checked against the
+Everything goes to .cache/bench through the ordinary package clients (apt, pip) and is checked against the
 checksums below; a second run finds it there.
 """
 
@@ -18,8 +18,6 @@ CASADI = "casadi==3.8.2"
 CASADI_SHA256 = "118df1a9ae944a80989849ea5cfa76c20b28e95d6f568c9f989e8c16a66ab1db"
 CMSIS_DSP = "cmsisdsp==1.10.3"
 CMSIS_DSP_SHA256 = "307d32298faa7c58db912851027fce35f886fec7eb1a27c4b309ce1a97f47519"
-CMSIS_CORE = "@xpack-3rd-party/arm-cmsis-core-m@5.4.0-5"
-CMSIS_CORE_SHA256 = "b003c2bd84cce124baa03ad8d05a2289c36ae7b88e5941a808e4db755584343b"
 PLUGIN_HEADER_SHA256 = "19f277b037d05a8bcb5069f2f81a465d177208e5903048a915c56627d4c3748e"
 
 
@@ -83,15 +81,6 @@ def cmsis_dsp() -> Path:
         _unpack(_checked(_only_file(part, "*.tar.gz"), CMSIS_DSP_SHA256), part)
 
     return _only_file(_into(CACHE / "cmsis-dsp", make), "cmsisdsp-*/Include").parent
-
-
-def cmsis_core() -> Path:
-    """CMSIS-Core's include folder."""
-    def make(part: Path) -> None:
-        _run(["npm", "pack", "--silent", CMSIS_CORE], "CMSIS-Core headers", cwd=part)
-        _unpack(_checked(_only_file(part, "*.tgz"), CMSIS_CORE_SHA256), part)
-
-    return _into(CACHE / "cmsis-core", make) / "package" / "CMSIS" / "Core" / "Include"
 
 
 def plugin_header() -> Path:

@@ -93,7 +93,9 @@ def peers(casadi_code: Path) -> list[Version]:
         "MatrixFunctions/arm_mat_inverse_f32.c", "FastMathFunctions/arm_sin_f32.c",
         "FastMathFunctions/arm_cos_f32.c", "FastMathFunctions/arm_atan2_f32.c",
         "CommonTables/arm_common_tables.c", "SupportFunctions/arm_copy_f32.c"))
-    dsp_flags = ("-O2", f"-I{dsp / 'Include'}", f"-I{dsp / 'PrivateInclude'}", f"-I{fetch.cmsis_core()}")
+    # The library's own switch for building without CMSIS-Core's headers, which its float functions do not need;
+    # -fno-math-errno gives back the square-root instruction that those headers would have chosen.
+    dsp_flags = ("-O2", f"-I{dsp / 'Include'}", f"-I{dsp / 'PrivateInclude'}", "-D__GNUC_PYTHON__", "-fno-math-errno")
     planar_text, spatial_text = casadi_code / "casadi_planar.c", casadi_code / "casadi_spatial.c"
     eigen_planar = "_Z15eigen_stiffnessRK12plain_limb_tffR17plain_stiffness_t"
     eigen_spatial = "_Z23eigen_spatial_stiffnessRK12plain_limb_tfffR15plain_spatial_t"
