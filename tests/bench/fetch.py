@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import tarfile
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -25,7 +26,7 @@ class Missing(Exception):
     """Something the bench needs cannot be had here; the text says what and what to try."""
 
 
-def _run(command: list[str | Path], what: str, cwd: Path | None = None) -> None:
+def _run(command: Sequence[str | Path], what: str, cwd: Path | None = None) -> None:
     try:
         done = subprocess.run(command, cwd=cwd, capture_output=True, text=True, check=False)
     except FileNotFoundError as error:
@@ -42,7 +43,7 @@ def _checked(file: Path, sha256: str) -> Path:
     return file
 
 
-def _into(directory: Path, make) -> Path:  # noqa: ANN001 - a callable filling the folder it is given
+def _into(directory: Path, make: Callable[[Path], None]) -> Path:
     """directory, filled by make(part) first if it is not there; half-made folders never stay."""
     if not directory.is_dir():
         part = directory.with_suffix(".part")

@@ -15,6 +15,8 @@ from timing import Cycles, estimate
 from toolchain import BENCH, BOARDS, BUILD, HARNESS_FLAGS, Processor, compile_source, flash_bytes, link_image, section_sizes
 from versions import COLLAPSE, PLANAR_NO_FPU, SPATIAL, Version
 
+SAME_JOB_ERROR = 1.0e-4  # a version further off than this in K or axis does not compute what the others do
+
 _objects: dict[tuple[Processor, Path, tuple[str, ...]], Path] = {}
 
 
@@ -119,6 +121,8 @@ def measure(version: Version, plugin: Path) -> Measured:
     error = whole = None
     if version.group != COLLAPSE:
         error = _error(version, counted.results[:COUNT], postures())
+        if not (error.k <= SAME_JOB_ERROR and error.axis_rad <= SAME_JOB_ERROR):
+            raise RuntimeError(f"{version.name}: not the same job as the others: {error}")
         if len(counted.results) > COUNT:
             whole = _error(version, counted.results[COUNT:], workspace())
 

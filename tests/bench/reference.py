@@ -80,10 +80,11 @@ def _plane(limb: Limb, theta1: Array, theta2: Array, with_coxa: bool) -> tuple[A
 def planar(limb: Limb, theta1: Array, theta2: Array) -> Planar:
     """K of the limb in its plane."""
     c, _ = _plane(limb, theta1, theta2, with_coxa=False)
-    k = np.linalg.inv(c)
+    k: Array = np.linalg.inv(c)
     values, vectors = np.linalg.eigh(k)
     stiff = vectors[:, :, 1]
-    return Planar(k, values, np.arctan(stiff[:, 1] / stiff[:, 0]))
+    axis_rad: Array = np.arctan(stiff[:, 1] / stiff[:, 0])
+    return Planar(k, values, axis_rad)
 
 
 def _out_of_plane(limb: Limb, theta2: Array, theta1: Array, tip: Array) -> Array:

@@ -100,7 +100,7 @@ def as_markdown(bench: Bench) -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def as_data(bench: Bench) -> dict:
+def as_data(bench: Bench) -> dict[str, object]:
     """For docs/bench.json."""
     return {
         "format": 1,

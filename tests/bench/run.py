@@ -77,6 +77,9 @@ def main() -> int:
     except fetch.Missing as missing:
         say(f"bench: missing: {missing}")
         return 4
+    except RuntimeError as error:
+        say(f"bench: {error}")
+        return 1
     print(as_text(result))
     out.mkdir(parents=True, exist_ok=True)
     (out / "bench.json").write_text(json.dumps(as_data(result), indent=1) + "\n")

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from measure import Error, planar_error
+from measure import SAME_JOB_ERROR, Error, planar_error
 from postures import paper_limb, postures
 from toolchain import BENCH, BUILD, CORE_FLAGS, INCLUDES, run
 from versions import EIGEN_FLAGS, core_sources
@@ -42,7 +42,8 @@ def measure_rates() -> list[Rate]:
 
 def _parse(output: str) -> list[Rate]:
     rates: list[Rate] = []
-    name, rows = "", []
+    name = ""
+    rows: list[list[float]] = []
     angles = postures().astype(np.float64)
     for line in output.splitlines():
         kind, _, rest = line.partition(" ")
@@ -51,5 +52,8 @@ def _parse(output: str) -> list[Rate]:
         elif kind == "run":
             rows.append([struct.unpack(">f", bytes.fromhex(word))[0] for word in rest.split()])
         elif kind == "rate":
-            rates.append(Rate(name, float(rest), planar_error(paper_limb(), np.array(rows, dtype=np.float64), angles)))
+            error = planar_error(paper_limb(), np.array(rows, dtype=np.float64), angles)
+            if not (error.k <= SAME_JOB_ERROR and error.axis_rad <= SAME_JOB_ERROR):
+                raise RuntimeError(f"{name}: not the same job as the others: {error}")
+            rates.append(Rate(name, float(rest), error))
     return rates

@@ -2,6 +2,7 @@
 
 import re
 import subprocess
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -39,7 +40,7 @@ INCLUDES = tuple(f"-I{folder}" for folder in
                  (BENCH / "image", BENCH / "peers", BUILD / "generated", CORE / "include", CORE / "src"))
 
 
-def run(command: list[str | Path]) -> str:
+def run(command: Sequence[str | Path]) -> str:
     """Run a tool, give its standard output; what it says on failure is the exception."""
     try:
         done = subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False)
