@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from brace.dataset.unit_slips import LENGTH_SLIPS, slip_of
 
 Columns = Mapping[str, np.ndarray]
 MAX_LISTED = 20  # faults of one sort that are listed singly
+MAX_CONFIGS = 5000  # beyond it, cross slopes are not compared pose by pose
 ANGLE_SLACK_RAD = 1e-6
 
 
@@ -121,85 +123,94 @@ def _sensor_range(columns: Columns, meta: Meta) -> Iterator[DataFault]:
                                                     f"{limit_n:g} N: clipped", blocking=False)
 
 
-def _slopes(columns: Columns) -> Iterator[tuple[int, int, int, np.ndarray, np.ndarray, np.ndarray]]:
-    """For each run: first row, config, axis, slopes (fx, fz) [N/mm] over the driven displacement, residual rms
-    (fx, fz) [N], standard errors of the slopes."""
+@dataclass(frozen=True)
+class _RunSlopes:
+    """Straight-line fits of both forces over the driven displacement, one entry (row) per usable run."""
+
+    first: np.ndarray  # row index of the run's first row
+    config: np.ndarray
+    axis: np.ndarray
+    driven: np.ndarray  # slope of the force along the driven axis [N/mm]
+    driven_error: np.ndarray
+    cross: np.ndarray  # slope of the other force [N/mm]
+    cross_error: np.ndarray
+
+
+def _slopes(columns: Columns) -> _RunSlopes:
     starts = run_starts(columns["run"])
-    force = np.column_stack([columns["fx_n"], columns["fz_n"]])
-    tip = np.column_stack([columns["dx_mm"], columns["dz_mm"]])
-    for first, last in zip(starts[:-1], starts[1:]):
-        axis = int(columns["axis"][first])
-        d = tip[first:last, axis] - tip[first:last, axis].mean()
-        power = float(d @ d)
-        if last - first < 4 or power == 0.0:
-            continue
-        f = force[first:last] - force[first:last].mean(axis=0)
-        slope = d @ f / power
-        rms = np.sqrt(np.mean((f - np.outer(d, slope)) ** 2, axis=0))
-        yield int(first), int(columns["config"][first]), axis, slope, rms, rms / math.sqrt(power) + 1e-12
+    first, count = starts[:-1], np.diff(starts)
+    axis = columns["axis"][first]
+    along_z = np.repeat(axis, count) == 1
+
+    def centred(values: np.ndarray) -> np.ndarray:
+        return values - np.repeat(np.add.reduceat(values, first) / count, count)
+
+    d = centred(np.where(along_z, columns["dz_mm"], columns["dx_mm"]))
+    power = np.add.reduceat(d * d, first)
+    safe = np.where(power > 0, power, 1.0)
+    fits = []
+    for force in (np.where(along_z, columns["fz_n"], columns["fx_n"]),
+                  np.where(along_z, columns["fx_n"], columns["fz_n"])):
+        f = centred(force)
+        slope = np.add.reduceat(d * f, first) / safe
+        square = np.add.reduceat((f - d * np.repeat(slope, count)) ** 2, first)
+        fits += [slope, np.sqrt(square / count / safe) + 1e-12]
+    usable = (count >= 4) & (power > 0)
+    return _RunSlopes(*(values[usable] for values in (first, columns["config"][first], axis, *fits)))
 
 
 def _signs(columns: Columns) -> Iterator[DataFault]:
     """A driven force that falls as the tip is pushed on, or a cross force that no other run of its pose (nor its
     reciprocal) agrees with in sign."""
-    runs = list(_slopes(columns))
-    cross: dict[int, list[float]] = {}
-    for _, config, axis, slope, _, _ in runs:
-        cross.setdefault(config, []).append(float(slope[1 - axis]))
-    falling = {name: [run for run in runs if run[2] == axis and run[3][axis] < -5 * run[5][axis]]
-               for axis, name in enumerate(("fx_n", "fz_n"))}
+    runs = _slopes(columns)
+    number = columns["run"]
+    falls = runs.driven < -5 * runs.driven_error
     for axis, name in enumerate(("fx_n", "fz_n")):
-        driven = [run for run in runs if run[2] == axis]
-        if driven and len(falling[name]) == len(driven):
+        here = runs.axis == axis
+        if here.any() and falls[here].all():
             yield DataFault(None, name, "the force falls in every run that pushes along its axis: no limb does",
                             "the column with its sign turned")
             return
-        for first, *_ in falling[name][:MAX_LISTED]:
-            yield DataFault(first + 1, name, f"run {columns['run'][first]}: the force falls as the tip is pushed "
-                                             "along its axis: no limb does", "the run with this sign turned")
-    for first, config, axis, slope, _, error in runs:
-        others = cross[config]
-        middle = float(np.median(others))
-        own = float(slope[1 - axis])
-        if len(others) >= 3 and own * middle < 0 and abs(own + middle) < 0.3 * abs(middle) \
-                and abs(own) > 5 * error[1 - axis]:
-            name = ("fx_n", "fz_n")[1 - axis]
-            yield DataFault(first + 1, name, f"run {columns['run'][first]}: slope {own:+.3g} N/mm where the pose's "
-                                             f"other runs have {middle:+.3g}", "the run with this sign turned")
+        for first in runs.first[here & falls][:MAX_LISTED]:
+            yield DataFault(int(first) + 1, name, f"run {number[first]}: the force falls as the tip is pushed along "
+                                                  "its axis: no limb does", "the run with this sign turned")
+    configs, group = np.unique(runs.config, return_inverse=True)
+    together = np.split(runs.cross[np.argsort(group, kind="stable")], np.cumsum(np.bincount(group))[:-1])
+    middle = np.array([np.median(slopes) for slopes in together])[group] if configs.size <= MAX_CONFIGS \
+        else np.zeros(group.size)
+    enough = np.bincount(group)[group] >= 3
+    turned = enough & (runs.cross * middle < 0) & (np.abs(runs.cross + middle) < 0.3 * np.abs(middle)) \
+        & (np.abs(runs.cross) > 5 * runs.cross_error)
+    for index in np.flatnonzero(turned)[:MAX_LISTED]:
+        first, name = int(runs.first[index]), ("fz_n", "fx_n")[runs.axis[index]]
+        yield DataFault(first + 1, name, f"run {number[first]}: slope {runs.cross[index]:+.3g} N/mm where the pose's "
+                                         f"other runs have {middle[index]:+.3g}", "the run with this sign turned")
 
 
 def _slipped_decimals(columns: Columns, meta: Meta) -> Iterator[DataFault]:
-    """A single reading far off both its repeats and the straight line between its neighbours, and in place once
-    its decimal point is moved."""
-    starts = run_starts(columns["run"])
-    floor_n = max(meta.number("sensor.resolution_n"), 1e-3)
+    """A single reading far off the line through its neighbours, and in place once its decimal point is moved."""
+    run, floor_n = columns["run"], max(meta.number("sensor.resolution_n"), 1e-3)
+    moved = columns["dx_mm"] + columns["dz_mm"]
+    if run.size < 5:
+        return
+    inner = np.zeros(run.size, dtype=bool)
+    inner[1:-1] = (run[:-2] == run[2:])
+    turning = np.zeros(run.size, dtype=bool)
+    turning[1:-1] = (moved[1:-1] - moved[:-2]) * (moved[2:] - moved[1:-1]) < 0
     for name in ("fx_n", "fz_n"):
         force = columns[name]
-        expected = np.empty_like(force)
-        expected[1:-1] = 0.5 * (force[:-2] + force[2:])
-        for first, last in zip(starts[:-1], starts[1:]):
-            if last - first < 3:
-                expected[first:last] = force[first:last]
-                continue
-            expected[first], expected[last - 1] = force[first], force[last - 1]
-            turns = first + 1 + np.flatnonzero(_turning(columns, first, last))
-            expected[turns] = 2 * force[turns - 1] - np.where(turns - 2 >= first, force[turns - 2], force[turns - 1])
+        before, after = np.roll(force, 1), np.roll(force, -1)
+        expected = np.where(inner, 0.5 * (before + after), force)
+        back = inner & turning & (np.roll(run, 2) == run)
+        expected = np.where(back, 2 * before - np.roll(force, 2), expected)
+        expected = np.where(inner & turning & ~back, force, expected)
         off = np.abs(force - expected)
-        span = np.ptp(force) or 1.0
         typical = max(float(np.median(off)), floor_n)
-        suspects = np.flatnonzero((off > 12 * typical) & (np.abs(force) > 12 * typical))
-        for row in suspects[:200]:
+        for row in np.flatnonzero((off > 12 * typical) & (np.abs(force) > 12 * typical))[:200]:
+            near = max(4 * typical, 0.02 * abs(expected[row]))
             for factor in (0.1, 10.0, 0.01, 100.0):
-                if abs(force[row] * factor - expected[row]) < max(4 * typical, 0.02 * abs(expected[row])) \
-                        and off[row] > 0.1 * min(span, abs(expected[row]) * 10):
+                if abs(force[row] * factor - expected[row]) < near:
                     yield DataFault(int(row) + 1, name, f"{force[row]:g} stands out of its run; its neighbours lead to "
                                     f"{expected[row]:.3g}: a slipped decimal point", float(force[row] * factor),
                                     repair=True)
                     break
-
-
-def _turning(columns: Columns, first: int, last: int) -> np.ndarray:
-    """Inner rows of a run at which the displacement turns back."""
-    d = columns["dx_mm"][first:last] + columns["dz_mm"][first:last]
-    steps = np.diff(d)
-    return steps[:-1] * steps[1:] < 0

@@ -1,0 +1,147 @@
+"""`brace map`: K over the whole workspace, as pictures and tables."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+from typing import Any
+
+from brace.cli import common
+from brace.errors import UsageError
+
+
+def add(commands: Any) -> None:
+    """Declares the subcommand."""
+    parser = commands.add_parser(
+        "map", help="the workspace: eigenvalues over r, ellipses of K, as pictures and CSV",
+        description="Computes K over a grid of postures and writes into --out: map.png and map.svg (eigenvalues over r, "
+                    "ellipses), eigenvalues.csv (a row per theta2), ellipses.csv (the drawn ones). Says where "
+                    "quasi-convexity holds.")
+    common.add_model(parser)
+    parser.add_argument("--out", type=Path, default=Path("brace-map"), metavar="DIR", help="default: brace-map")
+    parser.add_argument("--postures", type=common.count(100, 50_000_000), default=100_000, metavar="N",
+                        help="number of postures, default 100000")
+    parser.add_argument("--theta1", type=common.number, nargs=2, default=(-math.pi / 2, math.pi / 2),
+                        metavar=("LOW", "HIGH"), help="range of the true femur angle [rad], default -pi/2 pi/2")
+    parser.add_argument("--theta2", type=common.number, nargs=2, default=(0.0, math.pi), metavar=("LOW", "HIGH"),
+                        help="range of the true knee angle [rad], default 0 pi")
+    parser.add_argument("--npy", action="store_true", help="also every posture, as postures.npy (float32, named columns)")
+    common.add_json(parser)
+    parser.set_defaults(run=run)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Executes the subcommand."""
+    from brace import workspace
+    from brace.files import OutputSet
+    from brace.model import load_limb
+
+    for name in ("theta1", "theta2"):
+        low, high = getattr(arguments, name)
+        if not -math.pi - 1e-9 <= low < high <= math.pi + 1e-9:
+            raise UsageError(f"--{name} {low:g} {high:g} is no range", why="angles are in rad, low before high, within "
+                             "[-pi, pi]", next_step=f"--{name} -1.5 1.5")
+    model = load_limb(arguments.model)
+    with common.progress("K over the workspace", arguments.postures) as advance:
+        grid = workspace.compute(model, arguments.postures, tuple(arguments.theta1), tuple(arguments.theta2), advance)
+    summary = _summary(model.name, grid)
+    with OutputSet() as outputs:
+        for name, content in _files(model, grid, arguments.npy):
+            outputs.add(arguments.out / name, content)
+        outputs.commit()
+    if arguments.json:
+        common.print_json({**summary, "out": arguments.out})
+    else:
+        print(_text(summary, arguments.out))
+    return 0
+
+
+def _summary(name: str, grid: Any) -> dict[str, Any]:
+    from brace.workspace import turning_points
+
+    low, high = grid.band("lambda_min_n_per_mm"), grid.band("lambda_max_n_per_mm")
+    turns = {"lambda_max": turning_points(grid.r_mm, high[:, 1]), "lambda_min": turning_points(grid.r_mm, low[:, 1])}
+    return {
+        "model": name, "postures": grid.count, "path": grid.path,
+        "r_mm": [grid.r_mm.min(), grid.r_mm.max()],
+        "lambda_min_n_per_mm": [low[:, 0].min(), low[:, 2].max()],
+        "lambda_max_n_per_mm": [high[:, 0].min(), high[:, 2].max()],
+        "turning_points_r_mm": turns,
+        "quasi_convex_lambda_max": len(turns["lambda_max"]) <= 1,
+        "quasi_concave_lambda_min": len(turns["lambda_min"]) <= 1,
+    }
+
+
+def _files(model: Any, grid: Any, every_posture: bool) -> list[tuple[str, bytes]]:
+    import numpy as np
+
+    from brace.dataset.write import csv_text
+    from brace.plots.figure import png_bytes, svg_bytes
+    from brace.plots.workspace_plot import workspace_figure
+
+    low, high = grid.band("lambda_min_n_per_mm"), grid.band("lambda_max_n_per_mm")
+    curve: dict[str, np.ndarray] = {"theta2_rad": grid.theta2_rad.astype(float), "r_mm": grid.r_mm}
+    for which, band in (("min", low), ("max", high)):
+        for column, end in enumerate(("_low", "", "_high")):
+            curve[f"lambda_{which}{end}_n_per_mm"] = band[:, column].astype(float)
+    ellipses, links = _ellipses(model, grid)
+    order = np.argsort(grid.r_mm)
+    keep = order[:: max(1, order.size // 1500)]
+    figure = workspace_figure(model.name, grid.r_mm[keep], low[keep], high[keep], ellipses, links)
+    decimals = dict.fromkeys((*curve, *ellipses), 9)
+    files = [("map.png", png_bytes(figure)), ("map.svg", svg_bytes(figure)),
+             ("eigenvalues.csv", csv_text(curve, decimals).encode()),
+             ("ellipses.csv", csv_text(ellipses, decimals).encode())]
+    if every_posture:
+        files.append(("postures.npy", _npy(grid)))
+    return files
+
+
+def _ellipses(model: Any, grid: Any) -> tuple[dict[str, Any], Any]:
+    """Columns of the drawn ellipses, and the limb's outline at some postures: postures x 3 x 2 [mm]."""
+    import numpy as np
+
+    rows = np.unique(np.linspace(0, grid.theta2_rad.size - 1, 9).astype(int)[1:-1])
+    columns = np.unique(np.linspace(0, grid.theta1_rad.size - 1, 6).astype(int))
+    row, column = (index.ravel() for index in np.meshgrid(rows, columns, indexing="ij"))
+    theta1, theta2 = grid.theta1_rad[column].astype(float), grid.theta2_rad[row].astype(float)
+    femur, tibia = model.number("geometry.femur_mm"), model.number("geometry.tibia_mm")
+    knee = femur * np.column_stack([np.cos(theta1), np.sin(theta1)])
+    tip = knee + tibia * np.column_stack([np.cos(theta1 - theta2), np.sin(theta1 - theta2)])
+    result = {"theta1_rad": theta1, "theta2_rad": theta2, "x_mm": tip[:, 0], "z_mm": tip[:, 1]}
+    result.update({name: values[row, column].astype(float) for name, values in grid.values.items()})
+    middle = np.flatnonzero(column == columns[columns.size // 2])[::3]
+    return result, np.stack([np.zeros_like(tip), knee, tip], axis=1)[middle]
+
+
+def _npy(grid: Any) -> bytes:
+    import io
+
+    import numpy as np
+
+    names = ["theta1_rad", "theta2_rad", *grid.values]
+    table = np.empty(grid.count, np.dtype([(name, "f4") for name in names]))
+    table["theta1_rad"] = np.tile(grid.theta1_rad, grid.theta2_rad.size)
+    table["theta2_rad"] = np.repeat(grid.theta2_rad, grid.theta1_rad.size)
+    for name, values in grid.values.items():
+        table[name] = values.ravel()
+    buffer = io.BytesIO()
+    np.save(buffer, table)
+    return buffer.getvalue()
+
+
+def _text(summary: dict[str, Any], out: Path) -> str:
+    def turns(which: str) -> str:
+        found = summary["turning_points_r_mm"][which]
+        return ("turns at r = " + ", ".join(f"{r:.1f}" for r in found) + " mm") if found else "does not turn"
+
+    convex = "holds" if summary["quasi_convex_lambda_max"] else "does not hold"
+    concave = "holds" if summary["quasi_concave_lambda_min"] else "does not hold"
+    return (f"{summary['model']}: {summary['postures']} postures, r = {summary['r_mm'][0]:.1f} to "
+            f"{summary['r_mm'][1]:.1f} mm ({summary['path']})\n"
+            f"lambda_min {summary['lambda_min_n_per_mm'][0]:.4g} to {summary['lambda_min_n_per_mm'][1]:.4g} N/mm; "
+            f"{turns('lambda_min')}; quasi-concave over r: {concave}\n"
+            f"lambda_max {summary['lambda_max_n_per_mm'][0]:.4g} to {summary['lambda_max_n_per_mm'][1]:.4g} N/mm; "
+            f"{turns('lambda_max')}; quasi-convex over r: {convex}\n"
+            f"-> {out}/map.png, map.svg, eigenvalues.csv, ellipses.csv")

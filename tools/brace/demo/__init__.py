@@ -1,0 +1,1 @@
+"""`brace demo`: the paper's table and a simulated limb, end to end, with nothing attached."""

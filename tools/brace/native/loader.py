@@ -1,0 +1,73 @@
+"""Finding and loading libbrace_host.so and the headers that describe it."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from brace.errors import MissingLibraryError
+from brace.native.cdef import declarations
+
+_PACKAGE = Path(__file__).resolve().parents[1]  # tools/brace
+_PROJECT = _PACKAGE.parents[1]
+_INSTALLED = _PACKAGE / "_native"
+LIBRARY_NAME = "libbrace_host.so"
+
+FIRMWARE_HEADERS = ("kinematics.h", "chain.h", "planar.h", "planar_table.h", "planar_fixed.h", "planar_batch.h",
+                    "spatial.h", "uncertainty.h", "slope.h", "contact.h")
+HOST_HEADER = "brace_host.h"
+
+
+@dataclass(frozen=True)
+class Library:
+    """`ffi` makes and reads C data, `lib` has the functions."""
+
+    ffi: Any
+    lib: Any
+    path: Path
+
+
+@cache
+def library() -> Library:
+    """The library, loaded once. Looked for at $BRACE_LIBRARY, beside the package, in the project's build."""
+    path = _find_library()
+    from cffi import FFI  # here, so that a command that computes nothing starts at once
+
+    ffi = FFI()
+    try:
+        ffi.cdef(_declarations())
+        loaded = ffi.dlopen(str(path))
+        loaded.brace_limb_check  # is it ours?
+    except (OSError, AttributeError) as error:
+        raise MissingLibraryError("the library cannot be loaded", where=str(path), why=str(error),
+                                  next_step="./dev setup builds it anew") from None
+    return Library(ffi, loaded, path)
+
+
+def _find_library() -> Path:
+    named = os.environ.get("BRACE_LIBRARY")
+    if named:
+        if Path(named).is_file():
+            return Path(named)
+        raise MissingLibraryError("no library there", where=f"BRACE_LIBRARY={named}",
+                                  why="the variable names a file that does not exist",
+                                  next_step="unset BRACE_LIBRARY, or point it at " + LIBRARY_NAME)
+    for folder in (_INSTALLED, _PROJECT / "build" / "host", _PROJECT / "build" / "host" / "host_sim"):
+        if (folder / LIBRARY_NAME).is_file():
+            return folder / LIBRARY_NAME
+    raise MissingLibraryError(f"{LIBRARY_NAME} is not built", where=str(_PROJECT / "build" / "host"),
+                              why="brace computes with the firmware's own C, compiled for this machine",
+                              next_step="./dev setup, or set BRACE_LIBRARY to the file")
+
+
+def _declarations() -> str:
+    if (_INSTALLED / "include").is_dir():
+        folders = [_INSTALLED / "include"]
+    else:
+        folders = [_PROJECT / "firmware" / "core" / "include", _PROJECT / "host_sim" / "api"]
+    roots = [folder / "brace" / name for name in FIRMWARE_HEADERS for folder in folders]
+    roots += [folder / HOST_HEADER for folder in folders]
+    return declarations([root for root in roots if root.is_file()], folders)

@@ -1,0 +1,163 @@
+"""The simulated limb of host_sim: loading records, joint tests, the rig, the double-precision reference."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from brace.model import LimbModel
+from brace.native.library_types import Columns
+from brace.native.limb import fill_plant, plant_error, plant_model
+from brace.native.loader import Library, library
+
+READINGS = ("fx_n", "fz_n", "enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
+_JOINT_INDEX = {"coxa": 0, "femur": 1, "tibia": 2}
+NO_CONVERGENCE = -9
+
+
+class LoadingPlayer:
+    """One record's load sequence, ready to be played on many models."""
+
+    def __init__(self, columns: Columns) -> None:
+        self._native = library()
+        ffi = self._native.ffi
+        self.count = len(columns["t_s"])
+        self._rows = ffi.new("brace_loading_rows_t *")
+        self._rows.count = self.count
+        self._keep: list[Any] = []
+        self._set("run", columns["run"], np.int32, "int32_t")
+        for name in ("theta1_rad", "theta2_rad", "t_s", "temp_degc", "dx_mm", "dz_mm"):
+            if name in columns:
+                self._set(name, columns[name], np.float64, "double")
+
+    def play(self, model: LimbModel, readings: Sequence[str] = ("fx_n", "fz_n")) -> dict[str, np.ndarray]:
+        """What the rig would read on this limb: one array of `count` per reading, before resolution and noise."""
+        ffi, lib = self._native.ffi, self._native.lib
+        out = {name: np.empty(self.count) for name in readings}
+        reading = ffi.new("brace_loading_reading_t *")
+        pointers = {name: ffi.from_buffer("double[]", values) for name, values in out.items()}
+        for name, pointer in pointers.items():
+            setattr(reading, name, pointer)
+        unsolved = ffi.new("size_t *")
+        status = lib.brace_plant_loading(plant_model(self._native, model), self._rows, reading, unsolved)
+        if status:
+            raise plant_error(self._native, status, model,
+                              f"be played ({unsolved[0]} rows unsolved)" if status == NO_CONVERGENCE else "be played")
+        return out
+
+    def play_many(self, models: Sequence[LimbModel]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """(fx, fz, status) of several models: models x count, models x count, models. Refused ones are NaN."""
+        ffi, lib = self._native.ffi, self._native.lib
+        plants = ffi.new("brace_plant_model_t[]", len(models))
+        for index, model in enumerate(models):
+            fill_plant(plants[index], model)
+        fx, fz = np.empty((len(models), self.count)), np.empty((len(models), self.count))
+        status = np.empty(len(models), np.int32)
+        lib.brace_plant_loading_many(plants, len(models), self._rows, ffi.from_buffer("double[]", fx),
+                                     ffi.from_buffer("double[]", fz), ffi.from_buffer("int32_t[]", status))
+        return fx, fz, status
+
+    def _set(self, name: str, values: np.ndarray, kind: type, c_kind: str) -> None:
+        array = np.ascontiguousarray(values, dtype=kind)
+        pointer = self._native.ffi.from_buffer(f"{c_kind}[]", array)
+        self._keep += [array, pointer]
+        setattr(self._rows, name, pointer)
+
+
+class JointPlayer:
+    """A joint test's sequence: the imposed deflection [rad], or the imposed torque [N mm]."""
+
+    def __init__(self, columns: Columns, joint: str, *, torque_imposed: bool = False) -> None:
+        self._native = library()
+        ffi = self._native.ffi
+        self._rows = ffi.new("brace_joint_rows_t *")
+        self._rows.count = self.count = len(columns["t_s"])
+        self._rows.torque_imposed = int(torque_imposed)
+        self._rows.joint_index = _JOINT_INDEX[joint]
+        self._keep: list[Any] = []
+        time_s = np.array(columns["t_s"], dtype=float)
+        if "test" in columns:
+            self._set("test", columns["test"], np.int32, "int32_t")
+        self._set("t_s", time_s, np.float64, "double")
+        if "temp_degc" in columns:
+            self._set("temp_degc", columns["temp_degc"], np.float64, "double")
+        self._set("input", columns["torque_n_mm" if torque_imposed else "angle_rad"], np.float64, "double")
+
+    def play(self, model: LimbModel) -> np.ndarray:
+        """Torque [N mm] for an imposed deflection, deflection [rad] for an imposed torque."""
+        ffi = self._native.ffi
+        out = np.empty(self.count)
+        status = self._native.lib.brace_plant_joint(plant_model(self._native, model), self._rows,
+                                                    ffi.from_buffer("double[]", out))
+        if status:
+            raise plant_error(self._native, status, model, "be played")
+        return out
+
+    _set = LoadingPlayer._set
+
+
+def reference_planar(model: LimbModel, theta1_rad: np.ndarray, theta2_rad: np.ndarray) -> np.ndarray:
+    """The linear limb in double precision at true angles: count x 9, columns k_xx k_xz k_zz [N/mm], c_xx c_xz c_zz
+    [mm/N], lambda_min lambda_max [N/mm], stiff axis [rad]. For fits, which need smooth derivatives; a K that is
+    shown comes from the firmware."""
+    native = library()
+    ffi = native.ffi
+    theta1, theta2 = (np.ascontiguousarray(theta, dtype=float) for theta in (theta1_rad, theta2_rad))
+    out = np.empty((theta1.size, 9))
+    status = native.lib.brace_reference_planar(
+        plant_model(native, model), theta1.size, ffi.from_buffer("double[]", theta1),
+        ffi.from_buffer("double[]", theta2), ffi.from_buffer("double[]", out))
+    if status:
+        raise plant_error(native, status, model, "be evaluated")
+    return out
+
+
+def play_rig(model: LimbModel | None, design: Mapping[str, Any]) -> dict[str, np.ndarray]:
+    """Plays a rig design (fields of brace_rig_design_t by name, theta1_rad and theta2_rad as arrays) on a limb;
+    None plays the sequence alone. Returns the dataset's columns."""
+    native = library()
+    ffi, lib = native.ffi, native.lib
+    c_design = ffi.new("brace_rig_design_t *")
+    lib.brace_rig_design_default(c_design)
+    keep = []
+    for name, value in design.items():
+        if isinstance(value, np.ndarray):
+            value = ffi.from_buffer("double[]", np.ascontiguousarray(value, dtype=float))
+            keep.append(value)
+        setattr(c_design, name, value)
+    c_design.config_count = len(design["theta1_rad"])
+    rows = lib.brace_rig_row_count(c_design)
+    columns: dict[str, np.ndarray] = {}
+    record = ffi.new("brace_rig_record_t *")
+    for name in ("run", "config", "axis", "rep", "step"):
+        columns[name] = np.zeros(rows, np.int32)
+        pointer = ffi.from_buffer("int32_t[]", columns[name])
+        keep.append(pointer)
+        setattr(record, name, pointer)
+    for name in ("theta1_rad", "theta2_rad", "t_s", "temp_degc", "dx_mm", "dz_mm", *READINGS):
+        columns[name] = np.zeros(rows)
+        pointer = ffi.from_buffer("double[]", columns[name])
+        keep.append(pointer)
+        setattr(record, name, pointer)
+    plant = ffi.NULL if model is None else plant_model(native, model)
+    status = lib.brace_rig_play(c_design, plant, record)
+    if status:
+        from brace.errors import BadFileError
+        if model is None:
+            raise BadFileError("the rig's design is not sound", why=f"status {status}", next_step="check rig.toml")
+        raise plant_error(native, status, model, "be played on this rig")
+    return columns
+
+
+def zero_force_shift_mm(model: LimbModel, theta1_rad: float, theta2_rad: float, axis: str, step_mm: float,
+                        steps: int) -> float:
+    """Fig. 12's number: how far apart the limb finds zero force after unloading from both sides [mm]."""
+    native: Library = library()
+    shift = native.ffi.new("double *")
+    status = native.lib.brace_rig_zero_force_shift(plant_model(native, model), theta1_rad, theta2_rad,
+                                                   int(axis == "z"), step_mm, steps, shift)
+    if status:
+        raise plant_error(native, status, model, "be cycled")
+    return float(shift[0])

@@ -1,0 +1,60 @@
+"""The paper's Fig. 13 over its Fig. 10: measured eigenvalues with intervals, the model's curves, and convexity."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from brace.plots.figure import FAINT, INK, SOFT, STIFF, new_figure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True)
+class Measured:
+    """One eigenvalue of each table row: value, low, high [N/mm]; `sound` is false where the entry was corrected,
+    `determined` where print rounding leaves it open, `bent` where the sequence is not convex."""
+
+    value: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    determined: np.ndarray
+    bent: np.ndarray
+
+
+def eigenvalue_figure(r_mm: np.ndarray, largest: Measured, smallest: Measured, corrected: np.ndarray,
+                      curve_r_mm: np.ndarray, curve_largest: np.ndarray, curve_smallest: np.ndarray) -> Figure:
+    """r_mm: rows; corrected: rows, true where an entry was repaired; curves: the identified limb over r."""
+    figure = new_figure(8.2, 6.6)
+    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.25, 1))
+    _draw(upper, r_mm, largest, corrected, curve_r_mm, curve_largest, STIFF)
+    upper.set(ylabel="lambda_max [N/mm]", yscale="log")
+    upper.set_title("Larger eigenvalue of K over the reach: quasi-convex as a whole, not convex where marked", loc="left",
+                    fontsize=10)
+    _draw(lower, r_mm, smallest, corrected, curve_r_mm, curve_smallest, SOFT)
+    top = 1.6 * max(float(smallest.value.max()), float(curve_smallest.max()))
+    lower.set(ylabel="lambda_min [N/mm]", xlabel="r [mm]", ylim=(-0.2 * top, top))
+    lower.set_title("Smaller eigenvalue: bars are what print rounding alone allows; hollow = not determined", loc="left",
+                    fontsize=10)
+    return figure
+
+
+def _draw(axes: Axes, r_mm: np.ndarray, measured: Measured, corrected: np.ndarray, curve_r_mm: np.ndarray,
+          curve: np.ndarray, colour: str) -> None:
+    axes.plot(curve_r_mm, curve, color=INK, linewidth=1.3, label="identified limb")
+    low, high = measured.value - measured.low, measured.high - measured.value
+    axes.errorbar(r_mm, measured.value, yerr=np.vstack([low, high]), fmt="none", ecolor=colour, elinewidth=1.2, capsize=3)
+    solid = measured.determined
+    axes.plot(r_mm[solid], measured.value[solid], "o", color=colour, label="Table I")
+    axes.plot(r_mm[~solid], measured.value[~solid], "o", color=colour, markerfacecolor="white")
+    axes.plot(r_mm[corrected], measured.value[corrected], "s", color=colour, markersize=11, markerfacecolor="none",
+              label="row with a corrected misprint")
+    for r in r_mm[measured.bent]:
+        axes.axvline(r, color=FAINT, linewidth=5, alpha=0.5, zorder=0)
+    if measured.bent.any():
+        axes.plot([], [], color=FAINT, linewidth=5, alpha=0.5, label="not strictly convex here")
+    axes.legend(loc="best")

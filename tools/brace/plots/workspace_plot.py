@@ -1,0 +1,56 @@
+"""The workspace: eigenvalues over r as in the paper's Fig. 10, and the ellipses of K where the tip can be."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from brace.plots.figure import FAINT, INK, SOFT, STIFF, new_figure
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+
+def workspace_figure(name: str, r_mm: np.ndarray, lambda_min: np.ndarray, lambda_max: np.ndarray,
+                     ellipses: dict[str, np.ndarray], links: np.ndarray) -> Figure:
+    """lambda_min, lambda_max: rows x (low, middle, high) [N/mm] at r [mm]; ellipses: x_mm, z_mm, lambda_min_n_per_mm,
+    lambda_max_n_per_mm, stiff_axis_rad, one entry each; links: postures x 3 points x (x, z) [mm] to draw."""
+    figure = new_figure(10.5, 4.4)
+    curves, plane = figure.subplots(1, 2, width_ratios=(1.15, 1))
+    draw_eigenvalues(curves, r_mm, lambda_min, lambda_max)
+    curves.set_title(f"{name}: eigenvalues of K over the reach", loc="left", fontsize=10)
+    draw_ellipses(plane, ellipses, links)
+    plane.set_title("ellipses of K (semi-axes as the root of the eigenvalues)", loc="left", fontsize=10)
+    return figure
+
+
+def draw_eigenvalues(axes: Axes, r_mm: np.ndarray, lambda_min: np.ndarray, lambda_max: np.ndarray) -> None:
+    """Both eigenvalues over r; a band where they depend on theta1, as with a yielding base."""
+    for values, colour, label in ((lambda_max, STIFF, "lambda_max"), (lambda_min, SOFT, "lambda_min")):
+        axes.plot(r_mm, values[:, 1], color=colour, label=label)
+        if np.any(values[:, 2] > values[:, 0] * 1.001):
+            axes.fill_between(r_mm, values[:, 0], values[:, 2], color=colour, alpha=0.2, linewidth=0)
+    axes.set(yscale="log", xlabel="r [mm]", ylabel="eigenvalues of K [N/mm]")
+    axes.legend()
+
+
+def draw_ellipses(axes: Axes, ellipses: dict[str, np.ndarray], links: np.ndarray) -> None:
+    """One ellipse per posture, long axis along the stiff direction, scaled to the picture."""
+    from matplotlib.collections import EllipseCollection, LineCollection
+
+    axes.add_collection(LineCollection(list(links), colors=FAINT, linewidths=2.0, capstyle="round"))
+    long_axis, short_axis = (np.sqrt(ellipses[f"lambda_{which}_n_per_mm"]) for which in ("max", "min"))
+    span = max(np.ptp(ellipses["x_mm"]), np.ptp(ellipses["z_mm"]), 1.0)
+    scale = 0.14 * span / float(np.median(long_axis)) if long_axis.size else 1.0
+    longest = 0.3 * span
+    factor = np.minimum(scale, longest / long_axis)
+    axes.add_collection(EllipseCollection(
+        long_axis * factor, short_axis * factor, np.degrees(ellipses["stiff_axis_rad"]), units="xy",
+        offsets=np.column_stack([ellipses["x_mm"], ellipses["z_mm"]]), offset_transform=axes.transData,
+        facecolors=STIFF + "30", edgecolors=STIFF, linewidths=0.9))
+    axes.plot([0], [0], "o", color=INK, markersize=4)
+    axes.set(xlabel="x [mm]", ylabel="z [mm]", aspect="equal")
+    axes.autoscale_view()
+    axes.margins(0.12)

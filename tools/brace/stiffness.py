@@ -1,0 +1,201 @@
+"""K at many postures, by the firmware's own C."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from brace.errors import UsageError
+from brace.model import LimbModel
+from brace.native import Library, library
+from brace.native.limb import firmware_limb, status_text
+
+ARITHMETICS = ("f32", "fixed", "general", "table")
+FLAG_NAMES = ("UNCALIBRATED", "NEAR_SINGULAR", "SATURATED", "GAP_OPEN", "STALE", "OUT_OF_RANGE")
+E_RANGE, E_UNREACHABLE, E_UNSUPPORTED = -3, -4, -8
+Q28 = float(1 << 28)
+FIXED_LIMIT_RAD = 7.99999999
+
+PLANAR_K = ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm")
+PLANAR_C = ("c_xx_mm_per_n", "c_xz_mm_per_n", "c_zz_mm_per_n")
+PLANAR_REST = ("lambda_min_n_per_mm", "lambda_max_n_per_mm", "stiff_axis_rad")
+_PLANAR = np.dtype([(name, "f4") for name in (*PLANAR_K, *PLANAR_REST)] + [("flags", "u4")])
+_COMPLIANCE = np.dtype([(name, "f4") for name in PLANAR_C])
+SPATIAL_K = tuple(f"k_{axes}_n_per_mm" for axes in ("xx", "xy", "xz", "yy", "yz", "zz"))
+SPATIAL_C = tuple(f"c_{axes}_mm_per_n" for axes in ("xx", "xy", "xz", "yy", "yz", "zz"))
+SPATIAL_REST = ("lambda_min_n_per_mm", "lambda_mid_n_per_mm", "lambda_max_n_per_mm",
+                "stiff_axis_x", "stiff_axis_y", "stiff_axis_z")
+_SPATIAL = np.dtype([(name, "f4") for name in (*SPATIAL_K, *SPATIAL_REST)] + [("flags", "u4")])
+SIGMA = ("sigma_k_xx_n_per_mm", "sigma_k_xz_n_per_mm", "sigma_k_zz_n_per_mm", "sigma_lambda_min_n_per_mm",
+         "sigma_lambda_max_n_per_mm", "sigma_stiff_axis_rad")
+
+
+class PostureError(Exception):
+    """Posture number `index` was refused with `status`; the caller knows where it came from."""
+
+    def __init__(self, index: int, status: int, text: str) -> None:
+        super().__init__(text)
+        self.index, self.status, self.text = index, status, text
+
+
+def flag_names(flags: int) -> list[str]:
+    """The names of the quality bits that are set."""
+    return [name for bit, name in enumerate(FLAG_NAMES) if flags >> bit & 1]
+
+
+@dataclass(frozen=True)
+class PlanarLimb:
+    """A limb ready to give K in its plane. `path` says which of the firmware's functions answers."""
+
+    native: Library
+    limb: Any
+    chain: Any
+    path: str
+    _evaluate: Callable[[float, float, Any], int]
+
+    def true_angles(self, theta1_rad: np.ndarray, theta2_rad: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Commanded angles with the joints' zero offsets added."""
+        offset = [self.native.lib.brace_limb_true_angle(self.limb, joint, 0.0) for joint in (1, 2)]
+        return theta1_rad + offset[0], theta2_rad + offset[1]
+
+    def stiffness(self, theta1_rad: np.ndarray, theta2_rad: np.ndarray) -> np.ndarray:
+        """Structured array, one entry per posture of true angles [rad]: K, eigenvalues, axis, flags and C.
+        Raises PostureError for the first posture that is refused."""
+        count = len(theta1_rad)
+        k = self.native.ffi.new("brace_stiffness_t[]", count)
+        c = self.native.ffi.new("brace_compliance_t[]", count)
+        null, compliance = self.native.ffi.NULL, self.native.lib.brace_chain_compliance
+        for index, (theta1, theta2) in enumerate(zip(theta1_rad.tolist(), theta2_rad.tolist())):
+            status = self._evaluate(theta1, theta2, k + index) \
+                or compliance(self.chain, theta1, theta2, c + index, null)
+            if status:
+                raise PostureError(index, status, status_text(self.native, status))
+        return _joined(_array(self.native, k, _PLANAR), _array(self.native, c, _COMPLIANCE))
+
+    def sigma(self, theta1_rad: float, theta2_rad: float) -> dict[str, float]:
+        """One sigma of each entry, from the model's [uncertainty]; true angles [rad]."""
+        stiffness = self.native.ffi.new("brace_stiffness_t *")
+        sigma = self.native.ffi.new("brace_stiffness_sigma_t *")
+        status = self._evaluate(theta1_rad, theta2_rad, stiffness) or self.native.lib.brace_uncertainty_stiffness(
+            self.limb, theta1_rad, theta2_rad, stiffness, sigma)
+        if status:
+            return {}
+        return {name: float(getattr(sigma, name.removeprefix("sigma_"))) for name in SIGMA}
+
+    def posture(self, r_mm: float, phi_rad: float, knee: str) -> tuple[float, float]:
+        """True angles that put the tip at polar (r, phi). Raises PostureError."""
+        ffi, lib = self.native.ffi, self.native.lib
+        polar = ffi.new("brace_polar_t *", {"r_mm": r_mm, "phi_rad": phi_rad})
+        theta = ffi.new("float[2]")
+        branch = lib.BRACE_KNEE_UP if knee == "up" else lib.BRACE_KNEE_DOWN
+        status = lib.brace_kinematics_inverse_polar(self.limb, polar[0], branch, theta, theta + 1)
+        if status:
+            raise PostureError(0, status, status_text(self.native, status))
+        return float(theta[0]), float(theta[1])
+
+    def polar(self, theta1_rad: float, theta2_rad: float) -> tuple[float, float]:
+        """(r [mm], phi [rad]) of the tip at true angles."""
+        ffi, lib = self.native.ffi, self.native.lib
+        pose, polar = ffi.new("brace_pose_t *"), ffi.new("brace_polar_t *")
+        status = lib.brace_kinematics_forward(self.limb, theta1_rad, theta2_rad, pose) \
+            or lib.brace_kinematics_polar(pose.tip, polar)
+        if status:
+            raise PostureError(0, status, status_text(self.native, status))
+        return float(polar.r_mm), float(polar.phi_rad)
+
+
+def planar_limb(model: LimbModel, arithmetic: str = "f32") -> PlanarLimb:
+    """Prepares the limb. f32 is the controller's path, or the general one for a limb that needs it; fixed is the
+    path without FPU; table the one with a table; general evaluates the compliance chain directly."""
+    native = library()
+    ffi, lib = native.ffi, native.lib
+    limb = firmware_limb(native, model)
+    chain = ffi.new("brace_chain_t *")
+    status = lib.brace_chain_build(limb, chain)
+    path = "general" if status else arithmetic
+
+    def general(theta1: float, theta2: float, out: Any) -> int:
+        return int(lib.brace_chain_stiffness(chain, theta1, theta2, out))
+
+    evaluate = general
+    if path == "f32":
+        planar = ffi.new("brace_planar_t *")
+        status = lib.brace_planar_collapse(limb, planar)
+        path = "f32" if status == 0 else "general"
+        if status == 0:
+            def evaluate(theta1: float, theta2: float, out: Any) -> int:
+                return int(lib.brace_planar_stiffness(planar, theta1, theta2, out))
+        elif status == E_UNSUPPORTED:
+            status = 0
+    elif path == "fixed":
+        fixed = ffi.new("brace_planar_fixed_t *")
+        status = lib.brace_planar_fixed_collapse(limb, fixed)
+
+        def evaluate(theta1: float, theta2: float, out: Any) -> int:
+            if max(abs(theta1), abs(theta2)) > FIXED_LIMIT_RAD:
+                return E_RANGE
+            return int(lib.brace_planar_fixed_stiffness(fixed, round(theta1 * Q28), round(theta2 * Q28), out))
+    elif path == "table":
+        table = ffi.new("brace_planar_table_t *")
+        status = lib.brace_planar_table_build(limb, table)
+
+        def evaluate(theta1: float, theta2: float, out: Any) -> int:
+            return int(lib.brace_planar_table_stiffness(table, theta1, theta2, out))
+    if status == E_UNSUPPORTED:
+        raise UsageError(f"--arith {arithmetic} cannot serve this limb", where=model.where(),
+                         why=status_text(native, status), next_step="--arith f32 or general")
+    if status:
+        raise UsageError("the firmware refuses this limb", where=model.where(), why=status_text(native, status),
+                         next_step="check the model")
+    return PlanarLimb(native, limb, chain, path, evaluate)
+
+
+def spatial_stiffness(model: LimbModel, theta0_rad: np.ndarray, theta1_rad: np.ndarray,
+                      theta2_rad: np.ndarray) -> np.ndarray:
+    """The same in space, commanded angles; C is K's inverse. Raises PostureError."""
+    native = library()
+    ffi, lib = native.ffi, native.lib
+    limb = firmware_limb(native, model)
+    spatial = ffi.new("brace_spatial_t *")
+    status = lib.brace_spatial_collapse(limb, spatial)
+    if status:
+        raise UsageError("this limb has no spatial K", where=model.where(), why=status_text(native, status),
+                         next_step="give joint.coxa, link.femur and link.tibia their compliances out of the plane "
+                                   "(lateral_mm_per_n, torsion_rad_per_n_mm), or leave out theta0")
+    offset = [lib.brace_limb_true_angle(limb, joint, 0.0) for joint in range(3)]
+    k = ffi.new("brace_stiffness_spatial_t[]", len(theta0_rad))
+    for index, angles in enumerate(zip(theta0_rad.tolist(), theta1_rad.tolist(), theta2_rad.tolist())):
+        status = lib.brace_spatial_stiffness(spatial, *(a + o for a, o in zip(angles, offset)), k + index)
+        if status:
+            raise PostureError(index, status, status_text(native, status))
+    values = _array(native, k, _SPATIAL)
+    return _joined(values, _inverse(values))
+
+
+def _inverse(k: np.ndarray) -> np.ndarray:
+    xx, xy, xz, yy, yz, zz = (k[name].astype(float) for name in SPATIAL_K)
+    full = np.stack([np.stack([xx, xy, xz], -1), np.stack([xy, yy, yz], -1), np.stack([xz, yz, zz], -1)], -2)
+    inverse = np.linalg.inv(full)
+    result = np.empty(len(k), np.dtype([(name, "f8") for name in SPATIAL_C]))
+    for name, (row, column) in zip(SPATIAL_C, ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))):
+        result[name] = inverse[:, row, column]
+    return result
+
+
+def _array(native: Library, structs: Any, kind: np.dtype[Any]) -> np.ndarray:
+    return np.frombuffer(native.ffi.buffer(structs), dtype=kind).copy()
+
+
+def _joined(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Two structured arrays side by side, flags last."""
+    names = [name for name in (*first.dtype.names, *second.dtype.names) if name != "flags"]
+    source = {name: (first if name in first.dtype.names else second) for name in names}
+    kinds = [(name, source[name].dtype[name]) for name in names] + [("flags", "u4")]
+    joined = np.empty(len(first), np.dtype(kinds))
+    for name in names:
+        joined[name] = source[name][name]
+    joined["flags"] = first["flags"]
+    return joined

@@ -1,0 +1,107 @@
+"""K over the whole workspace of the plane: a grid of postures, by the firmware's batch function."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from brace.errors import UsageError
+from brace.model import LimbModel
+from brace.native import library
+from brace.native.limb import firmware_limb
+from brace.stiffness import PLANAR_K, PLANAR_REST, E_UNSUPPORTED, planar_limb
+
+COLUMNS = (*PLANAR_K, *PLANAR_REST)
+BLOCK = 1 << 15  # postures at a time: inputs and outputs stay in the cache
+MONOTONE_SLACK = 1e-5  # relative; below the accuracy of K
+
+
+@dataclass(frozen=True)
+class Workspace:
+    """Grid of true angles: theta2 runs over rows, theta1 over columns. `values[name]` is rows x columns."""
+
+    theta1_rad: np.ndarray
+    theta2_rad: np.ndarray
+    r_mm: np.ndarray  # one per row
+    values: dict[str, np.ndarray]
+    path: str  # "batch", or "general" for a limb that only the compliance chain can serve
+
+    @property
+    def count(self) -> int:
+        """Number of postures."""
+        return int(self.theta1_rad.size * self.theta2_rad.size)
+
+    def band(self, name: str) -> np.ndarray:
+        """rows x (low, middle, high) of an eigenvalue over theta1: one line unless the base yields."""
+        values = self.values[name]
+        return np.column_stack([values.min(axis=1), values[:, values.shape[1] // 2], values.max(axis=1)])
+
+
+def compute(model: LimbModel, postures: int, theta1_limits_rad: tuple[float, float],
+            theta2_limits_rad: tuple[float, float], advance: Callable[[int], None] = lambda _done: None) -> Workspace:
+    """K at about `postures` postures, evenly spread over both angles."""
+    rows = max(2, round(math.sqrt(postures)))
+    theta2 = np.linspace(*theta2_limits_rad, rows, dtype=np.float32)
+    theta1 = np.linspace(*theta1_limits_rad, max(1, math.ceil(postures / rows)), dtype=np.float32)
+    femur, tibia = model.number("geometry.femur_mm"), model.number("geometry.tibia_mm")
+    r_mm = np.sqrt((femur - tibia) ** 2 + 4 * femur * tibia * np.cos(theta2.astype(float) / 2) ** 2)
+    flat1 = np.tile(theta1, theta2.size)
+    flat2 = np.repeat(theta2, theta1.size)
+    values, path = _evaluate(model, flat1, flat2, advance)
+    if any(np.isnan(values[name]).any() for name in COLUMNS):
+        raise UsageError("some postures have no K", where=model.where(), why="C has no inverse there",
+                         next_step="a smaller range of --theta2, or a limb that yields in every direction")
+    shaped = {name: column.reshape(theta2.size, theta1.size) for name, column in values.items()}
+    return Workspace(theta1, theta2, r_mm, shaped, path)
+
+
+def turning_points(r_mm: np.ndarray, values: np.ndarray) -> list[float]:
+    """The r [mm] at which a curve turns between falling and rising; one or none: quasi-convex or -concave."""
+    order = np.argsort(r_mm)
+    r, curve = r_mm[order], values[order]
+    turns: list[float] = []
+    direction, extreme, at = 0, curve[0], r[0]
+    for radius, value in zip(r, curve):
+        step = value - extreme
+        if abs(step) <= MONOTONE_SLACK * abs(extreme):
+            continue
+        way = 1 if step > 0 else -1
+        if direction and way != direction:
+            turns.append(float(at))
+        direction, extreme, at = way, value, radius
+    return turns
+
+
+def _evaluate(model: LimbModel, theta1: np.ndarray, theta2: np.ndarray,
+              advance: Callable[[int], None]) -> tuple[dict[str, np.ndarray], str]:
+    native = library()
+    ffi, lib = native.ffi, native.lib
+    chain, harmonics = ffi.new("brace_chain_t *"), ffi.new("brace_harmonics_t *")
+    status = lib.brace_chain_build(firmware_limb(native, model), chain) or lib.brace_harmonics(chain, harmonics)
+    if status == E_UNSUPPORTED:
+        return _by_the_chain(model, theta1, theta2, advance), "general"
+    out = {name: np.empty(theta1.size, np.float32) for name in COLUMNS}
+    soa = ffi.new("brace_stiffness_soa_t *")
+    for first in range(0, theta1.size, BLOCK):
+        last = min(first + BLOCK, theta1.size)
+        pointers = [ffi.from_buffer("float[]", out[name][first:last]) for name in COLUMNS]
+        for name, pointer in zip(COLUMNS, pointers):
+            setattr(soa, name, pointer)
+        lib.brace_planar_batch(harmonics, last - first, ffi.from_buffer("float[]", theta1[first:last]),
+                               ffi.from_buffer("float[]", theta2[first:last]), soa)
+        advance(last)
+    return out, "batch"
+
+
+def _by_the_chain(model: LimbModel, theta1: np.ndarray, theta2: np.ndarray,
+                  advance: Callable[[int], None]) -> dict[str, np.ndarray]:
+    limb = planar_limb(model, "general")
+    parts = []
+    for first in range(0, theta1.size, BLOCK):
+        parts.append(limb.stiffness(theta1[first:first + BLOCK], theta2[first:first + BLOCK]))
+        advance(min(first + BLOCK, theta1.size))
+    whole = np.concatenate(parts)
+    return {name: np.ascontiguousarray(whole[name]) for name in COLUMNS}
