@@ -52,9 +52,9 @@ class Model:
 
 
 def doubles(array: Array) -> Any:
-    """A contiguous float64 array as C sees it; the caller keeps the array alive."""
-    assert array.dtype == np.float64 and array.flags.c_contiguous
-    return ffi.cast("double *", array.ctypes.data)
+    """A contiguous float64 array as C sees it; the result keeps the array alive, a struct that it is put into not."""
+    assert array.dtype == np.float64
+    return ffi.from_buffer("double[]", array)
 
 
 def column(values: Any, count: int) -> Array:
