@@ -5,13 +5,14 @@ the same sum restricted to x and z. Arrays are (n, ...) over postures.
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from postures import Limb, Link
 
-Array = NDArray[np.float64]
+Array = NDArray[np.floating[Any]]
 
 
 @dataclass(frozen=True)
@@ -80,10 +81,10 @@ def _plane(limb: Limb, theta1: Array, theta2: Array, with_coxa: bool) -> tuple[A
 def planar(limb: Limb, theta1: Array, theta2: Array) -> Planar:
     """K of the limb in its plane."""
     c, _ = _plane(limb, theta1, theta2, with_coxa=False)
-    k: Array = np.linalg.inv(c)
+    k = np.linalg.inv(c)
     values, vectors = np.linalg.eigh(k)
     stiff = vectors[:, :, 1]
-    axis_rad: Array = np.arctan(stiff[:, 1] / stiff[:, 0])
+    axis_rad = np.arctan(stiff[:, 1] / stiff[:, 0])
     return Planar(k, values, axis_rad)
 
 
