@@ -145,7 +145,7 @@ static void inverse_undoes_forward(void)
                 const double e = 1e-6 * reach; /* forward 5e-7, edge 5e-7 */
                 const double h = e * (r + e) / (l1 * l2);
                 const double always = PI * sqrt(h / 2.0);
-                const double smooth = 2.0 * h / fabs(sin((double)theta2));
+                const double smooth = 2.0 * h / (fabs(sin((double)theta2)) + 1e-12);
                 const double bound = 1e-6 + (smooth < always ? smooth : always);
                 ASSERT_CLOSE(fabs((double)theta2), fabs((double)back2), bound);
                 if (r > 1e-3 * reach) {

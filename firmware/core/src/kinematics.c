@@ -11,17 +11,6 @@
 /* A tip this far outside the reach, as a fraction of the reach, is the rounding of one on its edge. */
 #define EDGE_RATIO 5e-7f
 
-static float wrapped(float angle_rad)
-{
-    if (angle_rad > BRACE_PI) {
-        return angle_rad - 2.0f * BRACE_PI;
-    }
-    if (angle_rad < -BRACE_PI) {
-        return angle_rad + 2.0f * BRACE_PI;
-    }
-    return angle_rad;
-}
-
 brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
                                         brace_pose_t *pose)
 {
@@ -112,7 +101,7 @@ brace_status_t brace_kinematics_inverse_polar(const brace_limb_t *limb, brace_po
         return BRACE_E_UNREACHABLE;
     }
     const float side = knee == BRACE_KNEE_UP ? 1.0f : -1.0f;
-    *theta1_rad = wrapped(wrapped(tip.phi_rad) + side * femur_from_tip_rad);
+    *theta1_rad = brace_turn_angle(brace_turn(tip.phi_rad) + brace_turn(side * femur_from_tip_rad));
     *theta2_rad = side * flexion_rad;
     return BRACE_OK;
 }
@@ -126,50 +115,4 @@ brace_status_t brace_kinematics_inverse(const brace_limb_t *limb, brace_point_t 
         return status;
     }
     return brace_kinematics_inverse_polar(limb, polar, knee, theta1_rad, theta2_rad);
-}
-
-brace_status_t brace_kinematics_forward_spatial(const brace_limb_t *limb, float theta0_rad, float theta1_rad,
-                                                float theta2_rad, brace_point_spatial_t *tip)
-{
-    if (tip == NULL) {
-        return BRACE_E_NULL;
-    }
-    brace_pose_t pose;
-    brace_status_t status = brace_kinematics_forward(limb, theta1_rad, theta2_rad, &pose);
-    if (status == BRACE_OK) {
-        status = brace_check_magnitude(theta0_rad, BRACE_ANGLE_LIMIT_RAD);
-    }
-    if (status != BRACE_OK) {
-        return status;
-    }
-    const brace_vec_t yaw = brace_direction(brace_turn(theta0_rad));
-    const float outwards_mm = limb->coxa_mm + pose.tip.x_mm;
-    tip->x_mm = outwards_mm * yaw.x;
-    tip->y_mm = outwards_mm * yaw.z;
-    tip->z_mm = pose.tip.z_mm;
-    return BRACE_OK;
-}
-
-brace_status_t brace_kinematics_inverse_spatial(const brace_limb_t *limb, brace_point_spatial_t tip,
-                                                brace_yaw_t yaw, brace_knee_t knee, float *theta0_rad,
-                                                float *theta1_rad, float *theta2_rad)
-{
-    if (limb == NULL || theta0_rad == NULL) {
-        return BRACE_E_NULL;
-    }
-    if (yaw != BRACE_YAW_TOWARDS && yaw != BRACE_YAW_AWAY) {
-        return BRACE_E_RANGE;
-    }
-    brace_polar_t plan; /* the tip seen from above */
-    brace_status_t status = brace_kinematics_polar((brace_point_t){tip.x_mm, tip.y_mm}, &plan);
-    if (status != BRACE_OK) {
-        return status;
-    }
-    const float outwards_mm = yaw == BRACE_YAW_TOWARDS ? plan.r_mm : -plan.r_mm;
-    const brace_point_t in_plane = {outwards_mm - limb->coxa_mm, tip.z_mm};
-    status = brace_kinematics_inverse(limb, in_plane, knee, theta1_rad, theta2_rad);
-    if (status == BRACE_OK) {
-        *theta0_rad = yaw == BRACE_YAW_TOWARDS ? plan.phi_rad : wrapped(plan.phi_rad + BRACE_PI);
-    }
-    return status;
 }

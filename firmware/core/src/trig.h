@@ -13,6 +13,12 @@
  * wrap as integers, without loss. */
 uint32_t brace_turn(float angle_rad);
 
+/* The angle of a turn in [-pi, pi], within 2e-7 rad. */
+static inline float brace_turn_angle(uint32_t turn)
+{
+    return (float)(int32_t)turn * (BRACE_PI / 0x1p31f);
+}
+
 /* Unit vector {cosine, sine} of an angle given as a turn; each within 4e-8. About 40 instructions. */
 brace_vec_t brace_direction(uint32_t turn);
 

@@ -30,17 +30,8 @@ enum {
     VECTOR_COUNT
 };
 
-/* The compliances that weigh them. */
+/* The compliances that weigh them: what follows from the limb's, */
 enum {
-    FEMUR_AXIAL_GIVES,
-    FEMUR_BENDING_GIVES,
-    TIBIA_AXIAL_GIVES,
-    TIBIA_BENDING_GIVES,
-    FEMUR_JOINT_GIVES,
-    TIBIA_JOINT_GIVES,
-    BASE_X_GIVES,
-    BASE_Z_GIVES,
-    BASE_ROTATION_GIVES,
     BEND_PER_MOMENT, /* the femur's shift and turn per moment of the tip force about the knee, */
     BEND_PER_MOMENT_TWICE,
     TURN_PER_MOMENT,
@@ -52,6 +43,9 @@ enum {
     BASE_SLENDERNESS,
     WEIGHT_COUNT
 };
+
+/* and the limb's own, by their place among its floats. */
+#define FIELD(name) ((uint8_t)(WEIGHT_COUNT + offsetof(brace_limb_t, name) / sizeof(float)))
 
 /* What one sigma of a cause is: of its own dimension, or as a fraction of the cause's own size. */
 enum { MORE, ANGLE, FEMUR_LENGTH, TIBIA_LENGTH, COMPLIANCE, TRUST_COUNT };
@@ -78,17 +72,17 @@ static const term_t terms[] = {
     {TURN_AT_KNEE, LEVER_TIBIA, LEVER_TIBIA, MORE},
     {BEND_PER_MOMENT, LEVER_TIBIA, FEMUR_BENDING, TIBIA_LENGTH},
     /* the compliances */
-    {FEMUR_BENDING_GIVES, FEMUR_BENDING, FEMUR_BENDING, MORE},
+    {FIELD(link[BRACE_FEMUR].bending_mm_per_n), FEMUR_BENDING, FEMUR_BENDING, MORE},
     {BEND_PER_MOMENT_TWICE, FEMUR_BENDING, LEVER_TIBIA, MORE},
     {TURN_PER_MOMENT, LEVER_TIBIA, LEVER_TIBIA, COMPLIANCE},
-    {FEMUR_AXIAL_GIVES, FEMUR_AXIAL, FEMUR_AXIAL, COMPLIANCE},
-    {TIBIA_AXIAL_GIVES, TIBIA_AXIAL, TIBIA_AXIAL, COMPLIANCE},
-    {TIBIA_BENDING_GIVES, TIBIA_BENDING, TIBIA_BENDING, COMPLIANCE},
-    {FEMUR_JOINT_GIVES, LEVER_FEMUR, LEVER_FEMUR, COMPLIANCE},
-    {TIBIA_JOINT_GIVES, LEVER_TIBIA, LEVER_TIBIA, COMPLIANCE},
-    {BASE_X_GIVES, BASE_X, BASE_X, COMPLIANCE},
-    {BASE_Z_GIVES, BASE_Z, BASE_Z, COMPLIANCE},
-    {BASE_ROTATION_GIVES, LEVER_FEMUR, LEVER_FEMUR, COMPLIANCE},
+    {FIELD(link[BRACE_FEMUR].axial_mm_per_n), FEMUR_AXIAL, FEMUR_AXIAL, COMPLIANCE},
+    {FIELD(link[BRACE_TIBIA].axial_mm_per_n), TIBIA_AXIAL, TIBIA_AXIAL, COMPLIANCE},
+    {FIELD(link[BRACE_TIBIA].bending_mm_per_n), TIBIA_BENDING, TIBIA_BENDING, COMPLIANCE},
+    {FIELD(joint[BRACE_FEMUR].compliance_rad_per_n_mm), LEVER_FEMUR, LEVER_FEMUR, COMPLIANCE},
+    {FIELD(joint[BRACE_TIBIA].compliance_rad_per_n_mm), LEVER_TIBIA, LEVER_TIBIA, COMPLIANCE},
+    {FIELD(base.x_mm_per_n), BASE_X, BASE_X, COMPLIANCE},
+    {FIELD(base.z_mm_per_n), BASE_Z, BASE_Z, COMPLIANCE},
+    {FIELD(base.rotation_rad_per_n_mm), LEVER_FEMUR, LEVER_FEMUR, COMPLIANCE},
 };
 
 static void find_vectors(const brace_limb_t *limb, uint32_t axis, uint32_t femur, uint32_t tibia,
@@ -112,26 +106,16 @@ static void find_weights(const brace_limb_t *limb, float weights[WEIGHT_COUNT])
 {
     const brace_link_t *femur = &limb->link[BRACE_FEMUR];
     const brace_link_t *tibia = &limb->link[BRACE_TIBIA];
-    const float femur_joint = limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm;
-    const float tibia_joint = limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm;
     const float bend = 1.5f * femur->moment_transfer_ratio * femur->bending_mm_per_n / limb->femur_mm;
     const float turn = 2.0f * bend / limb->femur_mm;
-    weights[FEMUR_AXIAL_GIVES] = femur->axial_mm_per_n;
-    weights[FEMUR_BENDING_GIVES] = femur->bending_mm_per_n;
-    weights[TIBIA_AXIAL_GIVES] = tibia->axial_mm_per_n;
-    weights[TIBIA_BENDING_GIVES] = tibia->bending_mm_per_n;
-    weights[FEMUR_JOINT_GIVES] = femur_joint;
-    weights[TIBIA_JOINT_GIVES] = tibia_joint;
-    weights[BASE_X_GIVES] = limb->base.x_mm_per_n;
-    weights[BASE_Z_GIVES] = limb->base.z_mm_per_n;
-    weights[BASE_ROTATION_GIVES] = limb->base.rotation_rad_per_n_mm;
     weights[BEND_PER_MOMENT] = bend;
     weights[BEND_PER_MOMENT_TWICE] = 2.0f * bend;
     weights[TURN_PER_MOMENT] = turn;
     weights[BEND_PER_MOMENT_FALLS] = -bend;
     weights[TURN_PER_MOMENT_FALLS] = -turn;
-    weights[TURN_AT_FEMUR] = femur_joint + limb->base.rotation_rad_per_n_mm;
-    weights[TURN_AT_KNEE] = tibia_joint + turn;
+    weights[TURN_AT_FEMUR] =
+        limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm + limb->base.rotation_rad_per_n_mm;
+    weights[TURN_AT_KNEE] = limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm + turn;
     weights[TIBIA_SLENDERNESS] = tibia->bending_mm_per_n - tibia->axial_mm_per_n;
     weights[BASE_SLENDERNESS] = limb->base.z_mm_per_n - limb->base.x_mm_per_n;
 }
@@ -160,6 +144,7 @@ brace_status_t brace_uncertainty_stiffness(const brace_limb_t *limb, float theta
         return status;
     }
     brace_vec_t vectors[VECTOR_COUNT];
+    const float *fields = (const float *)limb;
     float weights[WEIGHT_COUNT];
     const uint32_t axis = brace_turn(stiffness->stiff_axis_rad);
     const uint32_t femur = brace_turn(theta1_rad) - axis;
@@ -184,7 +169,8 @@ brace_status_t brace_uncertainty_stiffness(const brace_limb_t *limb, float theta
     for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++) {
         const brace_vec_t u = vectors[terms[i].u];
         const brace_vec_t v = vectors[terms[i].v];
-        const float weight = weights[terms[i].weight];
+        const uint8_t place = terms[i].weight;
+        const float weight = place < WEIGHT_COUNT ? weights[place] : fields[place - WEIGHT_COUNT];
         dc_stiff += 2.0f * weight * u.x * v.x;
         dc_cross += weight * (u.x * v.z + u.z * v.x);
         dc_soft += 2.0f * weight * u.z * v.z;
