@@ -148,6 +148,9 @@ static void the_cone_has_edges(void)
     TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_HOLDS, grip_of(-1.0, 2.0, PI / 2.0, 0.5625).state);
     TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_SLIDES, grip_of(-1.0, 2.0, PI / 2.0, 0.4375).state);
     TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_SLIDES, grip_of(1e-3, 2.0, PI / 2.0, 0.0).state);
+    const brace_contact_grip_t light = grip_of(-1e-4, 1e-3, PI / 2.0, 0.5); /* a tenth of a gram still presses */
+    TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_HOLDS, light.state);
+    ASSERT_CLOSE(atan(0.5) - atan(0.1), light.angle_left_rad, 7e-7);
     brace_contact_grip_t grip;
     brace_contact_grip((brace_force_t){-1.0f, 2.0f}, 0.0f, 1.0f, 0.5f, &grip); /* on the edge, exactly */
     TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_HOLDS, grip.state);
