@@ -3,6 +3,7 @@
 #include <stddef.h>
 
 #include "brace/planar_fixed.h"
+#include "brace/spatial.h"
 
 int fixed_rows(const brace_limb_t *limb, size_t n, const int32_t *theta1_rad_q28, const int32_t *theta2_rad_q28,
                float *rows)
@@ -16,6 +17,27 @@ int fixed_rows(const brace_limb_t *limb, size_t n, const int32_t *theta1_rad_q28
         row[0] = k.k_xx_n_per_mm, row[1] = k.k_xz_n_per_mm, row[2] = k.k_zz_n_per_mm;
         row[3] = k.lambda_min_n_per_mm, row[4] = k.lambda_max_n_per_mm, row[5] = k.stiff_axis_rad;
         row[6] = (float)k.flags;
+    }
+    return status;
+}
+
+/* Rows of thirteen: K_xx, K_xy, K_xz, K_yy, K_yz, K_zz, three eigenvalues, the stiff axis, flags. */
+int spatial_rows(const brace_limb_t *limb, size_t n, const float *theta0_rad, const float *theta1_rad,
+                 const float *theta2_rad, float *rows)
+{
+    brace_spatial_t spatial;
+    int status = brace_spatial_collapse(limb, &spatial);
+    for (size_t i = 0; status == BRACE_OK && i < n; i++) {
+        brace_stiffness_spatial_t k;
+        status = brace_spatial_stiffness(&spatial, theta0_rad[i], theta1_rad[i], theta2_rad[i], &k);
+        float *row = rows + 13 * i;
+        row[0] = k.k_xx_n_per_mm, row[1] = k.k_xy_n_per_mm, row[2] = k.k_xz_n_per_mm;
+        row[3] = k.k_yy_n_per_mm, row[4] = k.k_yz_n_per_mm, row[5] = k.k_zz_n_per_mm;
+        for (int j = 0; j < 3; j++) {
+            row[6 + j] = k.lambda_n_per_mm[j];
+            row[9 + j] = k.stiff_axis[j];
+        }
+        row[12] = (float)k.flags;
     }
     return status;
 }
