@@ -40,10 +40,15 @@ def library() -> Library:
     try:
         ffi.cdef(_declarations())
         loaded = ffi.dlopen(str(path))
-        loaded.brace_limb_check  # is it ours?
-    except (OSError, AttributeError) as error:
+    except OSError as error:
         raise MissingLibraryError("the library cannot be loaded", where=str(path), why=str(error),
                                   next_step="./dev setup builds it anew") from None
+    lacking = [] if path.parent.name == "tools" else [name for name in dir(loaded) if not hasattr(loaded, name)]
+    if lacking:
+        raise MissingLibraryError(f"the library lacks {lacking[0]}" + (f" and {len(lacking) - 1} more" if lacking[1:]
+                                                                       else ""),
+                                  where=str(path), why="it is older than the headers that describe it",
+                                  next_step="./dev setup builds it anew")
     return Library(ffi, loaded, path)
 
 

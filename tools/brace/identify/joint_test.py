@@ -1,0 +1,107 @@
+"""A joint test as a fit's problem: the imposed deflection played on spring, gap, friction and hardening."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from brace.dataset import Dataset
+from brace.errors import BadFileError
+from brace.identify.parameters import TORQUE_OFFSET, Parameter, ParameterSet
+from brace.model import LimbModel
+from brace.model.keys import KEY_BY_NAME
+from brace.native.plant import JointPlayer
+
+MIN_ROWS = 20
+BLOCK_ROWS = 3000  # rows that a record is averaged down to: the angle's last digit must not look like motion
+START_GAPS = (0.0, 0.25, 0.5)  # of the range of angles
+START_FRICTION = (0.02, 0.1)  # of the range of torques
+
+
+class JointProblem:
+    """Torque over its noise, at the deflections of the record; rows at the drive's limit are left out."""
+
+    def __init__(self, dataset: Dataset) -> None:
+        if dataset.rows < MIN_ROWS:
+            raise BadFileError(f"{dataset.rows} rows are not enough to say anything", where=str(dataset.csv_path),
+                               why=f"at least {MIN_ROWS} readings are needed", next_step="record more")
+        self.dataset = dataset
+        self.joint = dataset.meta.joint
+        self.columns = _averaged(dataset, max(1, dataset.rows // BLOCK_ROWS))
+        self.noise_n_mm = _noise(self.columns["torque_n_mm"])
+        self._used = ~_saturated(self.columns)
+        self._player = JointPlayer(self.columns, self.joint)
+
+    def residual(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
+        """(played - measured) / noise."""
+        played = self._player.play(model) + nuisances.get(TORQUE_OFFSET, 0.0)
+        return ((played - self.columns["torque_n_mm"]) / self.noise_n_mm)[self._used]
+
+    def angles(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
+        """None: one joint has no tip."""
+        return np.empty((0, 2))
+
+    def signal_n_mm(self) -> float:
+        """Standard deviation of the torque that is fitted."""
+        return float(np.std(self.columns["torque_n_mm"][self._used]))
+
+    def parameters(self, model: LimbModel) -> ParameterSet:
+        """Spring, gap, friction, hardening, zero of the angle, offset of the torque; scaled by the record."""
+        angle, torque = self.columns["angle_rad"], self.columns["torque_n_mm"]
+        angle_span, torque_span = float(np.ptp(angle)) or 1e-6, float(np.ptp(torque)) or 1.0
+        centre = float(0.5 * (angle.max() + angle.min()))
+        at = f"joint.{self.joint}."
+        compliance = model.number(at + "compliance_rad_per_n_mm") or angle_span / torque_span
+        hardening_scale = torque_span / angle_span**3
+
+        def free(leaf: str, start: float, scale: float) -> Parameter:
+            key = KEY_BY_NAME[at + leaf]
+            return Parameter(key.name, start, scale, key.low, key.high)
+
+        lowest = free("compliance_rad_per_n_mm", compliance, angle_span / torque_span)
+        return ParameterSet(model.with_values({at + "compliance_rad_per_n_mm": compliance}), (
+            Parameter(lowest.key, lowest.start, lowest.scale, 1e-3 * lowest.scale, lowest.high),
+            Parameter(at + "gap_rad", model.number(at + "gap_rad"), 0.1 * angle_span, 0.0, min(0.5, angle_span)),
+            free("coulomb_n_mm", model.number(at + "coulomb_n_mm"), 0.05 * torque_span),
+            free("hardening_n_mm_per_rad3", model.number(at + "hardening_n_mm_per_rad3"), hardening_scale),
+            Parameter(at + "zero_offset_rad", centre, 0.1 * angle_span, -0.5, 0.5),
+            Parameter(TORQUE_OFFSET, 0.0, 0.02 * torque_span, -torque_span, torque_span)))
+
+    def starts(self, parameters: ParameterSet) -> list[np.ndarray]:
+        """Springs with less and more gap and friction: the misfit has several valleys."""
+        angle_span = float(np.ptp(self.columns["angle_rad"]))
+        torque_span = float(np.ptp(self.columns["torque_n_mm"]))
+        points = []
+        for gap in START_GAPS:
+            for friction in START_FRICTION:
+                point = parameters.array("start")
+                point[0] = (angle_span * (1 - gap)) / torque_span
+                point[1], point[2] = gap * angle_span, friction * torque_span
+                points.append(point)
+        return points
+
+
+def _averaged(dataset: Dataset, block: int) -> dict[str, np.ndarray]:
+    """Means over `block` rows, never across tests."""
+    test = dataset["test"] if "test" in dataset else np.zeros(dataset.rows, np.int32)
+    starts = np.concatenate([[0], np.flatnonzero(np.diff(test)) + 1, [test.size]])
+    edges = np.concatenate([np.arange(first, last, block) for first, last in zip(starts[:-1], starts[1:])])
+    counts = np.diff(np.append(edges, test.size))
+    result = {name: np.add.reduceat(values.astype(float), edges) / counts for name, values in dataset.columns.items()}
+    result["test"] = test[edges]
+    return result
+
+
+def _noise(torque_n_mm: np.ndarray) -> float:
+    """Scatter from one averaged reading to the next, slow motion taken out by third differences."""
+    third = np.diff(torque_n_mm, n=3)
+    return max(float(1.4826 * np.median(np.abs(third)) / np.sqrt(20.0)), 1e-6 * float(np.ptp(torque_n_mm)) or 1e-9)
+
+
+def _saturated(columns: Mapping[str, np.ndarray]) -> np.ndarray:
+    if "command_n_mm" not in columns:
+        return np.zeros(columns["torque_n_mm"].size, dtype=bool)
+    torque, command = np.abs(columns["torque_n_mm"]), np.abs(columns["command_n_mm"])
+    limit = float(np.quantile(torque, 0.999))
+    return (0.8 * command > limit) & (torque > 0.8 * limit)

@@ -1,0 +1,64 @@
+"""A loading record as a fit's problem: the whole sequence, played on the plant."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from brace.dataset import Dataset
+from brace.errors import BadFileError
+from brace.identify.noise import NoiseFloor, noise_floor
+from brace.model import LimbModel
+from brace.native.plant import LoadingPlayer
+from brace.predict import zeroed
+
+OFFSET_KEYS = ("joint.femur.zero_offset_rad", "joint.tibia.zero_offset_rad")
+_SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
+MIN_ROWS = 12
+
+
+class LoadingProblem:
+    """Forces, and encoder and gauge readings where there are any, each over its own noise floor."""
+
+    def __init__(self, dataset: Dataset) -> None:
+        if dataset.rows < MIN_ROWS:
+            raise BadFileError(f"{dataset.rows} rows are not enough to say anything", where=str(dataset.csv_path),
+                               why=f"at least {MIN_ROWS} readings are needed", next_step="record more steps")
+        self.dataset = dataset
+        self.noise: NoiseFloor = noise_floor(dataset)
+        self._player = LoadingPlayer(dataset)
+        self._names = ["fx_n", "fz_n", *(name for name in _SIDE_READINGS if name in dataset)]
+        self._sigma = {name: self.noise.sigma_n if name in ("fx_n", "fz_n") else _side_sigma(dataset, name)
+                       for name in self._names}
+        _, first = np.unique(dataset["config"], return_index=True)
+        self._commanded = np.column_stack([dataset["theta1_rad"][first], dataset["theta2_rad"][first]])
+
+    @property
+    def readings(self) -> list[str]:
+        """Names of the readings that are fitted."""
+        return list(self._names)
+
+    def residual(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
+        """(played - measured) / sigma, reading after reading."""
+        played = zeroed(self._player.play(model, self._names), self.dataset)
+        return np.concatenate([(played[name] - self.dataset[name]) / self._sigma[name] for name in self._names])
+
+    def angles(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
+        """configurations x (theta1, theta2), true [rad]."""
+        return self._commanded + [model.number(key) for key in OFFSET_KEYS]
+
+    def force_gap_n(self, model: LimbModel) -> float:
+        """rms of what the model leaves of the forces [N]."""
+        residual = self.residual(model, {})[: 2 * self.dataset.rows] * self.noise.sigma_n
+        return float(np.sqrt(np.mean(residual**2)))
+
+
+def _side_sigma(dataset: Dataset, name: str) -> float:
+    """Noise of an encoder or gauge from repeats; never below a thousandth of what it moves by."""
+    keys = np.column_stack([dataset["config"], dataset["axis"], dataset["step"]])
+    _, group, counts = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
+    group = group.ravel()
+    means = np.bincount(group, weights=dataset[name]) / counts
+    freedom = int(np.sum(counts - 1))
+    spread = float(np.sqrt(np.sum((dataset[name] - means[group]) ** 2) / freedom)) if freedom else 0.0
+    moves = float(np.std(dataset[name]))
+    return max(spread, 1e-3 * moves, 1e-12)
