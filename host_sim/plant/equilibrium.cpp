@@ -15,6 +15,7 @@ constexpr int kMaxSteps = 200;
 constexpr int kMaxSearch = 80;
 constexpr double kGoodBalance_n = 1e-10;
 constexpr double kPromisedBalance_n = 1e-9;
+constexpr double kLeastCurvature = 1e-12;
 constexpr double kDamping =
     1e-9; // of each spring: keeps a joint within its play, where nothing pushes back, solvable
 
@@ -63,21 +64,38 @@ Pair moving_sign(const RestProblem &problem, const Pair &deflection, const Pair 
     return sign;
 }
 
-// Newton's direction among the joints that move.
-Pair direction_of(const Slope &slope, const Pair &torque, const Pair &sign, int count)
+// Newton's direction among the joints that move. Two joints that do nearly the same to the tip leave a valley
+// with almost no curvature along it: it is given the least that rounding lets one divide by.
+Pair newton_direction(const Matrix2d &curvature, const Pair &torque, const Pair &sign)
 {
-    const auto &h = slope.curvature;
-    const bool both = count == 2 && sign[0] != 0.0 && sign[1] != 0.0;
-    if (both) {
-        const double determinant = h(0, 0) * h(1, 1) - h(0, 1) * h(1, 0);
-        if (determinant > 1e-14 * h(0, 0) * h(1, 1)) {
-            return {(h(0, 1) * torque[1] - h(1, 1) * torque[0]) / determinant,
-                    (h(1, 0) * torque[0] - h(0, 0) * torque[1]) / determinant};
-        }
+    if (sign[0] != 0.0 && sign[1] != 0.0) {
+        const double product = curvature(0, 0) * curvature(1, 1);
+        const double determinant =
+            std::max(product - curvature(0, 1) * curvature(1, 0), kLeastCurvature * product);
+        return {(curvature(0, 1) * torque[1] - curvature(1, 1) * torque[0]) / determinant,
+                (curvature(1, 0) * torque[0] - curvature(0, 0) * torque[1]) / determinant};
     }
     Pair direction{};
-    for (int i = 0; i < count; ++i) {
-        direction[i] = sign[i] != 0.0 ? -torque[i] / h(i, i) : 0.0;
+    for (const int i : {0, 1}) {
+        direction[i] = sign[i] != 0.0 ? -torque[i] / curvature(i, i) : 0.0;
+    }
+    return direction;
+}
+
+// The same, with every joint that friction still holds leaving its place in the sense it is pushed, or not at
+// all.
+Pair direction_of(const RestProblem &problem, const Pair &deflection, const Slope &slope, const Pair &torque,
+                  const Pair &sign)
+{
+    const Pair direction = newton_direction(slope.curvature, torque, sign);
+    for (int i = 0; i < problem.joint_count; ++i) {
+        const bool held =
+            problem.joint[i].law.coulomb_n_mm > 0.0 && deflection[i] == problem.joint[i].before_rad;
+        if (held && direction[i] * sign[i] < 0.0) {
+            Pair others = sign;
+            others[i] = 0.0;
+            return newton_direction(slope.curvature, torque, others);
+        }
     }
     return direction;
 }
@@ -186,7 +204,8 @@ void find_rest(const RestProblem &problem, RestState &state)
             torque[i] = sign[i] != 0.0 ? slope.torque_n_mm[i] + sign[i] * joint.law.coulomb_n_mm : 0.0;
             worst = std::max(worst, std::fabs(torque[i]));
             reach_mm += std::fabs(deflection[i]) * joint.lever_mm.norm();
-            spring_n_mm += std::fabs(deflection[i]) * slope.curvature(i, i);
+            spring_n_mm += std::fabs(deflection[i])
+                           * std::max(slope.curvature(i, i), 1.0 / joint.law.compliance_rad_per_n_mm);
         }
         // A zero lever leaves nothing to weigh a torque by.
         state.unbalance_n = longest_mm > 0.0 ? worst / longest_mm : 0.0;
@@ -199,7 +218,7 @@ void find_rest(const RestProblem &problem, RestState &state)
             state.force_n = slope.force_n;
             return;
         }
-        const Pair direction = direction_of(slope, torque, sign, problem.joint_count);
+        const Pair direction = direction_of(problem, deflection, slope, torque, sign);
         const Line line(problem, deflection, direction, sign);
         deflection = line.at(length_of(line));
     }

@@ -14,7 +14,7 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
 // A rigid joint with play is given this share of the limb's compliance, so that its stop is a spring.
-constexpr double kStopCompliance = 1e-9;
+constexpr double kStopCompliance = 1e-8;
 
 // A structure that is rigid in one direction while joints stick in it is given this share of the limb's
 // compliance.
