@@ -25,7 +25,8 @@ static brace_stiffness_t stiffness_of(double smaller, double larger, double axis
 }
 
 /* Round limbs and slender ones, soft and hard, axes all round. */
-static const double eigenvalues[][2] = {{0.6235, 5.2765}, {1.0, 1.0}, {0.0385, 15.35}, {1e-3, 1e3}, {0.1, 1e6}};
+static const double eigenvalues[][2] = {
+    {0.6235, 5.2765}, {1.0, 1.0}, {0.0385, 15.35}, {1e-3, 1e3}, {0.1, 1e6}};
 enum { LIMBS = sizeof eigenvalues / sizeof eigenvalues[0], AXES = 25 };
 static double axis_of(int i)
 {
@@ -114,7 +115,7 @@ static brace_contact_grip_t grip_of(double x, double z, double normal_rad, doubl
     brace_contact_grip_t grip;
     const brace_force_t force = {(float)x, (float)z};
     TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_contact_grip(force, (float)cos(normal_rad), (float)sin(normal_rad),
-                                                      (float)mu, &grip));
+                                                       (float)mu, &grip));
     return grip;
 }
 
@@ -135,7 +136,8 @@ static void margin_and_angle_in_the_cone(void)
             TEST_ASSERT_EQUAL_INT(margin >= 0.0 ? BRACE_CONTACT_HOLDS : BRACE_CONTACT_SLIDES, grip.state);
         }
         for (double off = 1.625; off <= 3.125; off += 0.25) {
-            const brace_contact_grip_t away = grip_of(9.0 * cos(normal + off), 9.0 * sin(normal + off), normal, 0.7);
+            const brace_contact_grip_t away =
+                grip_of(9.0 * cos(normal + off), 9.0 * sin(normal + off), normal, 0.7);
             TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_LIFTS, away.state);
             TEST_ASSERT_TRUE(away.normal_n < 0.0f && away.margin_n < 0.0f);
             ASSERT_CLOSE(atan(0.7) - off, away.angle_left_rad, 7e-7);
@@ -148,7 +150,8 @@ static void the_cone_has_edges(void)
     TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_HOLDS, grip_of(-1.0, 2.0, PI / 2.0, 0.5625).state);
     TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_SLIDES, grip_of(-1.0, 2.0, PI / 2.0, 0.4375).state);
     TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_SLIDES, grip_of(1e-3, 2.0, PI / 2.0, 0.0).state);
-    const brace_contact_grip_t light = grip_of(-1e-4, 1e-3, PI / 2.0, 0.5); /* a tenth of a gram still presses */
+    const brace_contact_grip_t light =
+        grip_of(-1e-4, 1e-3, PI / 2.0, 0.5); /* a tenth of a gram still presses */
     TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_HOLDS, light.state);
     ASSERT_CLOSE(atan(0.5) - atan(0.1), light.angle_left_rad, 7e-7);
     brace_contact_grip_t grip;
@@ -158,7 +161,8 @@ static void the_cone_has_edges(void)
     brace_contact_grip((brace_force_t){0.0f, 0.0f}, 0.0f, 1.0f, 0.5f, &grip);
     TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_LIFTS, grip.state);
     TEST_ASSERT_TRUE(grip.margin_n == 0.0f && grip.angle_left_rad == 0.0f && grip.normal_n == 0.0f);
-    brace_contact_grip((brace_force_t){3.0f, 0.0f}, 0.0f, 1.0f, 0.5f, &grip); /* along the surface: no press */
+    brace_contact_grip((brace_force_t){3.0f, 0.0f}, 0.0f, 1.0f, 0.5f,
+                       &grip); /* along the surface: no press */
     TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_LIFTS, grip.state);
     ASSERT_CLOSE(-3.0, grip.margin_n, 1e-6);
 }
@@ -167,13 +171,14 @@ static void the_cone_has_edges(void)
 static void the_normal_is_made_one(void)
 {
     brace_contact_grip_t grip;
-    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_contact_grip((brace_force_t){-3.0f, 4.0f}, 0.71f, 0.71f, 0.5f, &grip));
+    TEST_ASSERT_EQUAL_INT(BRACE_OK,
+                          brace_contact_grip((brace_force_t){-3.0f, 4.0f}, 0.71f, 0.71f, 0.5f, &grip));
     ASSERT_CLOSE(sqrt(0.5), grip.normal_n, 1e-6);
     ASSERT_CLOSE(7.0 * sqrt(0.5), grip.tangent_n, 3e-6);
 }
 
-/* The paper's Fig. 2: the body sags by 1 mm on two planted feet of equal K_zz. The foot with the small K_xz keeps
- * inside its cone, the one with the large K_xz slides. */
+/* The paper's Fig. 2: the body sags by 1 mm on two planted feet of equal K_zz. The foot with the small K_xz
+ * keeps inside its cone, the one with the large K_xz slides. */
 static void the_choice_of_stiffness(void)
 {
     const double mu = 0.4;
@@ -181,7 +186,8 @@ static void the_choice_of_stiffness(void)
     const brace_contact_state_t expected[] = {BRACE_CONTACT_HOLDS, BRACE_CONTACT_SLIDES};
     for (int i = 0; i < 2; i++) {
         const double mean = 2.5, deviation = -0.5, radius = sqrt(deviation * deviation + cross[i] * cross[i]);
-        const brace_stiffness_t stiffness = stiffness_of(mean - radius, mean + radius, 0.5 * atan2(cross[i], deviation));
+        const brace_stiffness_t stiffness =
+            stiffness_of(mean - radius, mean + radius, 0.5 * atan2(cross[i], deviation));
         brace_contact_force_t contact;
         brace_contact_grip_t grip;
         brace_contact_force(&stiffness, (brace_displacement_t){0.0f, 1.0f}, &contact);
@@ -199,7 +205,8 @@ static void expect_refused_stiffness(brace_stiffness_t stiffness, brace_status_t
     memset(&contact, 0x5a, sizeof contact);
     before = contact;
     TEST_ASSERT_EQUAL_INT(expected, brace_contact_sag(&stiffness, (brace_force_t){1.0f, 1.0f}, &sag));
-    TEST_ASSERT_EQUAL_INT(expected, brace_contact_force(&stiffness, (brace_displacement_t){1.0f, 1.0f}, &contact));
+    TEST_ASSERT_EQUAL_INT(expected,
+                          brace_contact_force(&stiffness, (brace_displacement_t){1.0f, 1.0f}, &contact));
     TEST_ASSERT_TRUE(sag.x_mm == 11.0f && sag.z_mm == 12.0f);
     TEST_ASSERT_EQUAL_INT(0, memcmp(&before, &contact, sizeof contact));
 }
@@ -246,25 +253,35 @@ static void bad_input_is_refused_and_touches_nothing(void)
         const float b = bad[i];
         TEST_ASSERT_EQUAL_INT(expected[i], brace_contact_sag(&good, (brace_force_t){b, 0.0f}, &sag));
         TEST_ASSERT_EQUAL_INT(expected[i], brace_contact_sag(&good, (brace_force_t){0.0f, b}, &sag));
-        TEST_ASSERT_EQUAL_INT(expected[i], brace_contact_force(&good, (brace_displacement_t){b, 0.0f}, &contact));
-        TEST_ASSERT_EQUAL_INT(expected[i], brace_contact_force(&good, (brace_displacement_t){0.0f, -b}, &contact));
-        TEST_ASSERT_EQUAL_INT(expected[i], brace_contact_grip((brace_force_t){b, 0.0f}, 0.0f, 1.0f, 0.5f, &grip));
-        TEST_ASSERT_EQUAL_INT(expected[i], brace_contact_grip((brace_force_t){0.0f, b}, 0.0f, 1.0f, 0.5f, &grip));
-        TEST_ASSERT_EQUAL_INT(expected[i], brace_contact_grip((brace_force_t){0.0f, 1.0f}, b, 1.0f, 0.5f, &grip));
-        TEST_ASSERT_EQUAL_INT(expected[i], brace_contact_grip((brace_force_t){0.0f, 1.0f}, 0.0f, b, 0.5f, &grip));
-        TEST_ASSERT_EQUAL_INT(expected[i], brace_contact_grip((brace_force_t){0.0f, 1.0f}, 0.0f, 1.0f, b, &grip));
+        TEST_ASSERT_EQUAL_INT(expected[i],
+                              brace_contact_force(&good, (brace_displacement_t){b, 0.0f}, &contact));
+        TEST_ASSERT_EQUAL_INT(expected[i],
+                              brace_contact_force(&good, (brace_displacement_t){0.0f, -b}, &contact));
+        TEST_ASSERT_EQUAL_INT(expected[i],
+                              brace_contact_grip((brace_force_t){b, 0.0f}, 0.0f, 1.0f, 0.5f, &grip));
+        TEST_ASSERT_EQUAL_INT(expected[i],
+                              brace_contact_grip((brace_force_t){0.0f, b}, 0.0f, 1.0f, 0.5f, &grip));
+        TEST_ASSERT_EQUAL_INT(expected[i],
+                              brace_contact_grip((brace_force_t){0.0f, 1.0f}, b, 1.0f, 0.5f, &grip));
+        TEST_ASSERT_EQUAL_INT(expected[i],
+                              brace_contact_grip((brace_force_t){0.0f, 1.0f}, 0.0f, b, 0.5f, &grip));
+        TEST_ASSERT_EQUAL_INT(expected[i],
+                              brace_contact_grip((brace_force_t){0.0f, 1.0f}, 0.0f, 1.0f, b, &grip));
     }
     const float normals[][2] = {{0.0f, 0.0f}, {0.0f, 0.98f}, {0.0f, -1.02f}, {0.8f, 0.8f}};
     for (int i = 0; i < 4; i++) {
         TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_contact_grip((brace_force_t){0.0f, 1.0f}, normals[i][0],
-                                                               normals[i][1], 0.5f, &grip));
+                                                                normals[i][1], 0.5f, &grip));
     }
-    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_contact_grip((brace_force_t){0.0f, 1.0f}, 0.0f, 1.0f, -0.1f, &grip));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE,
+                          brace_contact_grip((brace_force_t){0.0f, 1.0f}, 0.0f, 1.0f, -0.1f, &grip));
     TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_contact_sag(NULL, (brace_force_t){0.0f, 1.0f}, &sag));
     TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_contact_sag(&good, (brace_force_t){0.0f, 1.0f}, NULL));
-    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_contact_force(NULL, (brace_displacement_t){0.0f, 1.0f}, &contact));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL,
+                          brace_contact_force(NULL, (brace_displacement_t){0.0f, 1.0f}, &contact));
     TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_contact_force(&good, (brace_displacement_t){0.0f, 1.0f}, NULL));
-    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_contact_grip((brace_force_t){0.0f, 1.0f}, 0.0f, 1.0f, 0.5f, NULL));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL,
+                          brace_contact_grip((brace_force_t){0.0f, 1.0f}, 0.0f, 1.0f, 0.5f, NULL));
     TEST_ASSERT_TRUE(sag.x_mm == 11.0f && sag.z_mm == 12.0f);
     TEST_ASSERT_EQUAL_INT(0, memcmp(&contact_before, &contact, sizeof contact));
     TEST_ASSERT_EQUAL_INT(0, memcmp(&grip_before, &grip, sizeof grip));

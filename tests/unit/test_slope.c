@@ -1,12 +1,16 @@
-/* Slopes against the textbook two-pass formulas in double precision, and against what the physics document says
- * of the paper's estimator. */
+/* Slopes against the textbook two-pass formulas in double precision, and against what the physics document
+ * says of the paper's estimator. */
 #include <string.h>
 
 #include "brace/slope.h"
 #include "close.h"
 #include "noise.h"
 
-enum { LS = BRACE_SLOPE_LEAST_SQUARES, RATIOS = BRACE_SLOPE_MEAN_OF_RATIOS, FREE = BRACE_SLOPE_FREE_INTERCEPT };
+enum {
+    LS = BRACE_SLOPE_LEAST_SQUARES,
+    RATIOS = BRACE_SLOPE_MEAN_OF_RATIOS,
+    FREE = BRACE_SLOPE_FREE_INTERCEPT
+};
 enum { STEPS = 8, LONG = 1000 };
 
 void setUp(void)
@@ -24,8 +28,8 @@ static brace_slope_t started(float displacement_mm, float force_x_n, float force
 
 static void step(brace_slope_t *slope, double displacement_mm, double force_x_n, double force_z_n)
 {
-    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_slope_step(slope, (float)displacement_mm, (float)force_x_n,
-                                                    (float)force_z_n));
+    TEST_ASSERT_EQUAL_INT(
+        BRACE_OK, brace_slope_step(slope, (float)displacement_mm, (float)force_x_n, (float)force_z_n));
 }
 
 static brace_slope_column_t column(const brace_slope_t *slope, int method)
@@ -103,8 +107,8 @@ static void noisy_steps_match_the_textbook(void)
     }
 }
 
-/* An estimate is linear in the forces, so its variance under even noise is the sum of squares of its responses to
- * one newton at one step. */
+/* An estimate is linear in the forces, so its variance under even noise is the sum of squares of its
+ * responses to one newton at one step. */
 static double variance_factor(int method)
 {
     double sum = 0.0;
@@ -133,8 +137,8 @@ static void the_papers_mean_has_4_9_times_the_variance(void)
     ASSERT_CLOSE(204.0 / 42.0, variance_factor(FREE) / variance_factor(LS), 1e-5 * 5.0);
 }
 
-/* The standard error is the scatter: over many tests, mean sigma^2 is the variance of k. With N = 3000 tests both
- * are known to sqrt(2/N) = 2.6 %, ratios to 3.7 %; the bound is four of those. */
+/* The standard error is the scatter: over many tests, mean sigma^2 is the variance of k. With N = 3000 tests
+ * both are known to sqrt(2/N) = 2.6 %, ratios to 3.7 %; the bound is four of those. */
 static void the_standard_error_is_the_scatter(void)
 {
     enum { TESTS = 3000 };
@@ -241,7 +245,7 @@ static void bad_input_is_refused_and_touches_nothing(void)
     brace_slope_t slope = started(0.0f, 0.0f, 0.0f);
     step(&slope, 1.0, 2.0, 3.0);
     const brace_slope_t before = slope;
-    const float bad[][3] = {{NAN, 0.0f, 0.0f},  {0.0f, NAN, 0.0f},       {1.0f, 0.0f, NAN},
+    const float bad[][3] = {{NAN, 0.0f, 0.0f},      {0.0f, NAN, 0.0f},       {1.0f, 0.0f, NAN},
                             {2.0f, INFINITY, 0.0f}, {-INFINITY, 0.0f, 0.0f}, {1.1e4f, 0.0f, 0.0f},
                             {1.0f, -1.1e6f, 0.0f},  {1.0f, 0.0f, 1.1e6f}};
     for (int i = 0; i < 8; i++) {
@@ -283,7 +287,8 @@ static void run_test(brace_slope_t *slope, double k_x, double k_z, double noise_
     *slope = started(0.5f, 1.0f, -1.0f);
     for (int i = 1; i <= STEPS; i++) {
         const double d = 0.635 * i;
-        step(slope, 0.5 + d, 1.0 + k_x * d + noise_n * noise_normal(), -1.0 + k_z * d + noise_n * noise_normal());
+        step(slope, 0.5 + d, 1.0 + k_x * d + noise_n * noise_normal(),
+             -1.0 + k_z * d + noise_n * noise_normal());
     }
 }
 
@@ -321,7 +326,8 @@ static void k_is_made_of_the_columns(void)
         const brace_slope_column_t x = column(&along_x, method), z = column(&along_z, method);
         brace_slope_stiffness_t k;
         memset(&k, 0, sizeof k);
-        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_slope_stiffness(&along_x, &along_z, (brace_slope_method_t)method, &k));
+        TEST_ASSERT_EQUAL_INT(BRACE_OK,
+                              brace_slope_stiffness(&along_x, &along_z, (brace_slope_method_t)method, &k));
         TEST_ASSERT_TRUE(k.k_xx_n_per_mm == x.k_x_n_per_mm && k.k_zx_n_per_mm == x.k_z_n_per_mm);
         TEST_ASSERT_TRUE(k.k_xz_n_per_mm == z.k_x_n_per_mm && k.k_zz_n_per_mm == z.k_z_n_per_mm);
         TEST_ASSERT_TRUE(k.sigma_k_xx_n_per_mm == x.sigma_k_x_n_per_mm && x.sigma_k_x_n_per_mm > 0.0f);
@@ -331,8 +337,9 @@ static void k_is_made_of_the_columns(void)
     }
 }
 
-/* Errors of the combined values, against the scatter of many tests: sqrt(2/1500) = 3.7 % each, bound four. Stiff
- * axes near x and near the diagonal, where the cross entries weigh most, and unlike noise in the two tests. */
+/* Errors of the combined values, against the scatter of many tests: sqrt(2/1500) = 3.7 % each, bound four.
+ * Stiff axes near x and near the diagonal, where the cross entries weigh most, and unlike noise in the two
+ * tests. */
 static void combined_standard_errors_are_the_scatter(void)
 {
     enum { TESTS = 1500 };
@@ -389,8 +396,10 @@ static void half_a_measurement_gives_no_k(void)
     brace_slope_stiffness_t k, before;
     memset(&k, 0x5a, sizeof k);
     before = k;
-    TEST_ASSERT_EQUAL_INT(BRACE_E_TOO_FEW, brace_slope_stiffness(&full, &empty, BRACE_SLOPE_LEAST_SQUARES, &k));
-    TEST_ASSERT_EQUAL_INT(BRACE_E_TOO_FEW, brace_slope_stiffness(&empty, &full, BRACE_SLOPE_LEAST_SQUARES, &k));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_TOO_FEW,
+                          brace_slope_stiffness(&full, &empty, BRACE_SLOPE_LEAST_SQUARES, &k));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_TOO_FEW,
+                          brace_slope_stiffness(&empty, &full, BRACE_SLOPE_LEAST_SQUARES, &k));
     TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_slope_stiffness(&full, NULL, BRACE_SLOPE_LEAST_SQUARES, &k));
     TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_slope_stiffness(NULL, &full, BRACE_SLOPE_LEAST_SQUARES, &k));
     TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_slope_stiffness(&full, &full, BRACE_SLOPE_METHOD_COUNT, &k));

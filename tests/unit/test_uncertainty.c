@@ -15,7 +15,27 @@ void setUp(void)
 void tearDown(void) {}
 
 /* What is uncertain, then what is not. */
-enum { L1, L2, TH1, TH2, A1, B1, A2, B2, S1, S2, BX, BZ, BR, GAIN, CAUSES, TILT1 = CAUSES, TILT2, MOMENT, FACTS };
+enum {
+    L1,
+    L2,
+    TH1,
+    TH2,
+    A1,
+    B1,
+    A2,
+    B2,
+    S1,
+    S2,
+    BX,
+    BZ,
+    BR,
+    GAIN,
+    CAUSES,
+    TILT1 = CAUSES,
+    TILT2,
+    MOMENT,
+    FACTS
+};
 
 /* K's entries, its eigenvalues and its axis. */
 enum { XX, XZ, ZZ, LOW, HIGH, AXIS, VALUES };
@@ -54,8 +74,8 @@ static void stiffness_of(const double f[FACTS], double k[VALUES])
 }
 
 typedef struct {
-    double trust[4]; /* length, angle, compliance, gain */
-    double fact[FACTS];    /* TH1, TH2 are filled in by the sweep */
+    double trust[4];    /* length, angle, compliance, gain */
+    double fact[FACTS]; /* TH1, TH2 are filled in by the sweep */
 } case_t;
 
 static const case_t cases[] = {
@@ -66,14 +86,19 @@ static const case_t cases[] = {
     {{0.5, 0.003, 0.05, 0.005},
      {185.0, 313.5, 0, 0, 0.004, 0.06, 0.002, 0.25, 1e-5, 1.6e-5, 0.03, 0.01, 2e-6, 1, 0.2, -0.35, 1.0}},
     /* each kind of cause alone */
-    {{1.0, 0, 0, 0}, {185.0, 313.5, 0, 0, 0.004, 0.06, 0.002, 0.25, 1e-5, 1.6e-5, 0.03, 0.01, 2e-6, 1, 0.2, -0.35, 0.7}},
-    {{0, 0.01, 0, 0}, {185.0, 313.5, 0, 0, 0.004, 0.06, 0.002, 0.25, 1e-5, 1.6e-5, 0.03, 0.01, 2e-6, 1, 0.2, -0.35, 0.7}},
-    {{0, 0, 0.1, 0}, {185.0, 313.5, 0, 0, 0.004, 0.06, 0.002, 0.25, 1e-5, 1.6e-5, 0.03, 0.01, 2e-6, 1, 0.2, -0.35, 0.7}},
-    {{0, 0, 0, 0.02}, {185.0, 313.5, 0, 0, 0.004, 0.06, 0.002, 0.25, 1e-5, 1.6e-5, 0.03, 0.01, 2e-6, 1, 0.2, -0.35, 0.7}},
+    {{1.0, 0, 0, 0},
+     {185.0, 313.5, 0, 0, 0.004, 0.06, 0.002, 0.25, 1e-5, 1.6e-5, 0.03, 0.01, 2e-6, 1, 0.2, -0.35, 0.7}},
+    {{0, 0.01, 0, 0},
+     {185.0, 313.5, 0, 0, 0.004, 0.06, 0.002, 0.25, 1e-5, 1.6e-5, 0.03, 0.01, 2e-6, 1, 0.2, -0.35, 0.7}},
+    {{0, 0, 0.1, 0},
+     {185.0, 313.5, 0, 0, 0.004, 0.06, 0.002, 0.25, 1e-5, 1.6e-5, 0.03, 0.01, 2e-6, 1, 0.2, -0.35, 0.7}},
+    {{0, 0, 0, 0.02},
+     {185.0, 313.5, 0, 0, 0.004, 0.06, 0.002, 0.25, 1e-5, 1.6e-5, 0.03, 0.01, 2e-6, 1, 0.2, -0.35, 0.7}},
     /* equal links, ellipsoids only, slender */
     {{0.2, 0.001, 0.02, 0.001}, {200.0, 200.0, 0, 0, 1e-4, 0.1, 1e-4, 0.1, 0, 0, 0, 0, 0, 1, 0, 0, 0}},
     /* springs only, on a stub of structure */
-    {{0.5, 0.003, 0.05, 0}, {250.0, 150.0, 0, 0, 1e-4, 1e-3, 1e-4, 1e-3, 8e-5, 5e-5, 0, 0, 0, 1, 0.1, 0.1, 0}},
+    {{0.5, 0.003, 0.05, 0},
+     {250.0, 150.0, 0, 0, 1e-4, 1e-3, 1e-4, 1e-3, 8e-5, 5e-5, 0, 0, 0, 1, 0.1, 0.1, 0}},
     /* beams on a yielding base */
     {{0.5, 0.003, 0.05, 0}, {120.0, 260.0, 0, 0, 1e-3, 0.05, 1e-3, 0.4, 0, 0, 0.02, 0.2, 0, 1, 0, 0, 1.0}},
 };
@@ -118,8 +143,8 @@ static brace_limb_t limb_from(const case_t *from)
 
 static brace_stiffness_t stiffness_from(const double k[VALUES])
 {
-    return (brace_stiffness_t){(float)k[XX],  (float)k[XZ],   (float)k[ZZ], (float)k[LOW],
-                               (float)k[HIGH], (float)k[AXIS], 0};
+    return (brace_stiffness_t){
+        (float)k[XX], (float)k[XZ], (float)k[ZZ], (float)k[LOW], (float)k[HIGH], (float)k[AXIS], 0};
 }
 
 static double sigma_of(const case_t *from, int cause)
@@ -162,16 +187,17 @@ static void first_order(const case_t *from, const double at[FACTS], double sigma
 }
 
 /* What lengths and angles can do to an eigenvalue at most, as a fraction of it: a posture where their effects
- * cancel is known to a fraction of that, not of what is left. Along the stiff axis a lever's stiff component, which
- * is 1/sqrt(lambda ratio) of the lever, is changed by a fraction of the whole lever. */
+ * cancel is known to a fraction of that, not of what is left. Along the stiff axis a lever's stiff component,
+ * which is 1/sqrt(lambda ratio) of the lever, is changed by a fraction of the whole lever. */
 static double geometry_scale(const case_t *from)
 {
     const double shorter = from->fact[L1] < from->fact[L2] ? from->fact[L1] : from->fact[L2];
     return from->trust[0] / shorter + from->trust[1];
 }
 
-/* Single precision costs a few 1e-7 in each of some twenty operations; and the axis, given to 1e-7 rad, splits off
- * a lever's stiff component with an error of 1e-7 of the lever. Entries of K inherit the error of the largest. */
+/* Single precision costs a few 1e-7 in each of some twenty operations; and the axis, given to 1e-7 rad,
+ * splits off a lever's stiff component with an error of 1e-7 of the lever. Entries of K inherit the error of
+ * the largest. */
 static void matches_differences_of_k(void)
 {
     for (int i = 0; i < CASES; i++) {
@@ -184,12 +210,13 @@ static void matches_differences_of_k(void)
                 first_order(&cases[i], at, expected);
                 const brace_stiffness_t stiffness = stiffness_from(k);
                 brace_stiffness_sigma_t sigma;
-                TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_uncertainty_stiffness(&limb, (float)theta1, (float)theta2,
-                                                                           &stiffness, &sigma));
+                TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_uncertainty_stiffness(
+                                                    &limb, (float)theta1, (float)theta2, &stiffness, &sigma));
                 const double slender = sqrt(k[HIGH] / k[LOW]);
                 const double relative = 3e-6 + 5e-7 * slender;
                 const double low = relative * (expected[LOW] + k[LOW] * geometry_scale(&cases[i]));
-                const double high = relative * (expected[HIGH] + k[HIGH] * slender * geometry_scale(&cases[i]));
+                const double high =
+                    relative * (expected[HIGH] + k[HIGH] * slender * geometry_scale(&cases[i]));
                 ASSERT_CLOSE(expected[LOW], sigma.lambda_min_n_per_mm, low);
                 ASSERT_CLOSE(expected[HIGH], sigma.lambda_max_n_per_mm, high);
                 ASSERT_CLOSE(expected[XX], sigma.k_xx_n_per_mm, low + high);
@@ -206,8 +233,8 @@ static void matches_differences_of_k(void)
     }
 }
 
-/* K over limbs drawn as the calibration trusts them. N = 4000 draws know a spread to 1.1 %; what first order leaves
- * out is some per cent at this trust. */
+/* K over limbs drawn as the calibration trusts them. N = 4000 draws know a spread to 1.1 %; what first order
+ * leaves out is some per cent at this trust. */
 static void matches_the_scatter_of_random_limbs(void)
 {
     enum { DRAWS = 4000 };
@@ -232,8 +259,9 @@ static void matches_the_scatter_of_random_limbs(void)
     const brace_stiffness_t stiffness = stiffness_from(k);
     brace_stiffness_sigma_t sigma;
     TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_uncertainty_stiffness(&limb, 1.0f, 1.4f, &stiffness, &sigma));
-    const float claimed[VALUES] = {sigma.k_xx_n_per_mm,       sigma.k_xz_n_per_mm,       sigma.k_zz_n_per_mm,
-                                   sigma.lambda_min_n_per_mm, sigma.lambda_max_n_per_mm, sigma.stiff_axis_rad};
+    const float claimed[VALUES] = {sigma.k_xx_n_per_mm,       sigma.k_xz_n_per_mm,
+                                   sigma.k_zz_n_per_mm,       sigma.lambda_min_n_per_mm,
+                                   sigma.lambda_max_n_per_mm, sigma.stiff_axis_rad};
     for (int v = 0; v < VALUES; v++) {
         const double scatter = sqrt((squares[v] - sum[v] * sum[v] / DRAWS) / DRAWS);
         ASSERT_CLOSE(1.0, (double)claimed[v] / scatter, 0.06);
@@ -248,7 +276,8 @@ static void a_limb_known_exactly_has_no_sigma(void)
     const brace_stiffness_t stiffness = {4.0f, -0.6f, 0.4f, 0.3f, 4.1f, -0.16f, BRACE_FLAG_UNCALIBRATED};
     brace_stiffness_sigma_t sigma;
     TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_uncertainty_stiffness(&limb, 1.0f, 1.4f, &stiffness, &sigma));
-    TEST_ASSERT_TRUE(sigma.k_xx_n_per_mm == 0.0f && sigma.k_xz_n_per_mm == 0.0f && sigma.k_zz_n_per_mm == 0.0f);
+    TEST_ASSERT_TRUE(sigma.k_xx_n_per_mm == 0.0f && sigma.k_xz_n_per_mm == 0.0f &&
+                     sigma.k_zz_n_per_mm == 0.0f);
     TEST_ASSERT_TRUE(sigma.lambda_min_n_per_mm == 0.0f && sigma.lambda_max_n_per_mm == 0.0f);
     TEST_ASSERT_TRUE(sigma.stiff_axis_rad == 0.0f);
     TEST_ASSERT_EQUAL_UINT32(BRACE_FLAG_UNCALIBRATED, sigma.flags); /* K's own flags stay with it */
@@ -268,8 +297,10 @@ static void turning_the_limb_leaves_the_eigenvalues_sigmas(void)
         brace_stiffness_sigma_t sigma;
         brace_uncertainty_stiffness(&limb, (float)at[TH1], 0.9f, &stiffness, &sigma);
         first = i == 0 ? sigma : first;
-        ASSERT_CLOSE(first.lambda_min_n_per_mm, sigma.lambda_min_n_per_mm, 1e-5 * (double)first.lambda_min_n_per_mm);
-        ASSERT_CLOSE(first.lambda_max_n_per_mm, sigma.lambda_max_n_per_mm, 1e-5 * (double)first.lambda_max_n_per_mm);
+        ASSERT_CLOSE(first.lambda_min_n_per_mm, sigma.lambda_min_n_per_mm,
+                     1e-5 * (double)first.lambda_min_n_per_mm);
+        ASSERT_CLOSE(first.lambda_max_n_per_mm, sigma.lambda_max_n_per_mm,
+                     1e-5 * (double)first.lambda_max_n_per_mm);
         ASSERT_CLOSE(first.stiff_axis_rad, sigma.stiff_axis_rad, 1e-5 * (double)first.stiff_axis_rad);
     }
 }
@@ -285,8 +316,8 @@ static void a_round_stiffness_has_no_axis(void)
     TEST_ASSERT_EQUAL_UINT32(BRACE_FLAG_SATURATED, sigma.flags);
 }
 
-static void expect_refused(const brace_limb_t *limb, float theta1, float theta2, const brace_stiffness_t *stiffness,
-                           brace_status_t expected)
+static void expect_refused(const brace_limb_t *limb, float theta1, float theta2,
+                           const brace_stiffness_t *stiffness, brace_status_t expected)
 {
     brace_stiffness_sigma_t sigma, before;
     memset(&sigma, 0x5a, sizeof sigma);

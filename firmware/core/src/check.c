@@ -26,9 +26,9 @@ brace_status_t brace_check_lengths(const brace_limb_t *limb)
     if (limb == NULL) {
         return BRACE_E_NULL;
     }
-    const bool possible = limb->coxa_mm >= 0.0f && limb->coxa_mm <= LENGTH_LIMIT_MM && limb->femur_mm >= 1.0f &&
-                          limb->femur_mm <= LENGTH_LIMIT_MM && limb->tibia_mm >= 1.0f &&
-                          limb->tibia_mm <= LENGTH_LIMIT_MM;
+    const bool possible = limb->coxa_mm >= 0.0f && limb->coxa_mm <= LENGTH_LIMIT_MM &&
+                          limb->femur_mm >= 1.0f && limb->femur_mm <= LENGTH_LIMIT_MM &&
+                          limb->tibia_mm >= 1.0f && limb->tibia_mm <= LENGTH_LIMIT_MM;
     return possible ? BRACE_OK : BRACE_E_PARAMETER;
 }
 

@@ -21,7 +21,8 @@ static void stretch(float axis_rad, float along, float across, float *x, float *
     *z = axis.z * stiff + axis.x * soft;
 }
 
-brace_status_t brace_contact_sag(const brace_stiffness_t *stiffness, brace_force_t load, brace_displacement_t *sag)
+brace_status_t brace_contact_sag(const brace_stiffness_t *stiffness, brace_force_t load,
+                                 brace_displacement_t *sag)
 {
     if (sag == NULL) {
         return BRACE_E_NULL;
@@ -75,7 +76,8 @@ brace_status_t brace_contact_grip(brace_force_t force, float normal_x, float nor
         status = brace_check_magnitude(friction_ratio, FRICTION_LIMIT);
     }
     const float length = brace_length(normal_x, normal_z);
-    if (status == BRACE_OK && (length < 2.0f - NORMAL_LIMIT || length > NORMAL_LIMIT || friction_ratio < 0.0f)) {
+    if (status == BRACE_OK &&
+        (length < 2.0f - NORMAL_LIMIT || length > NORMAL_LIMIT || friction_ratio < 0.0f)) {
         status = BRACE_E_RANGE;
     }
     if (status != BRACE_OK) {
@@ -89,7 +91,8 @@ brace_status_t brace_contact_grip(brace_force_t force, float normal_x, float nor
     grip->normal_n = pressing_n;
     grip->tangent_n = sliding_n;
     grip->margin_n = margin_n;
-    grip->angle_left_rad = any ? brace_atan2(friction_ratio, 1.0f) - brace_atan2(sliding_n, pressing_n) : 0.0f;
+    grip->angle_left_rad =
+        any ? brace_atan2(friction_ratio, 1.0f) - brace_atan2(sliding_n, pressing_n) : 0.0f;
     grip->state = !(pressing_n > 0.0f) ? BRACE_CONTACT_LIFTS
                   : margin_n < 0.0f    ? BRACE_CONTACT_SLIDES
                                        : BRACE_CONTACT_HOLDS;

@@ -53,7 +53,8 @@ brace_status_t brace_kinematics_polar(brace_point_t point, brace_polar_t *polar)
 /* The triangle femur, tibia, r by half angles: the tangents of half the flexion and of half the angle between
  * femur and tip are roots of ratios of four lengths, in which nothing cancels but lengths as they were given.
  * False where there is no such triangle. */
-static bool solve_triangle(const brace_limb_t *limb, float r_mm, float *flexion_rad, float *femur_from_tip_rad)
+static bool solve_triangle(const brace_limb_t *limb, float r_mm, float *flexion_rad,
+                           float *femur_from_tip_rad)
 {
     const float reach = limb->femur_mm + limb->tibia_mm;
     const float surplus = limb->femur_mm - limb->tibia_mm;

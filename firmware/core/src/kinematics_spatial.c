@@ -49,7 +49,8 @@ brace_status_t brace_kinematics_inverse_spatial(const brace_limb_t *limb, brace_
     const brace_point_t in_plane = {outwards_mm - limb->coxa_mm, tip.z_mm};
     status = brace_kinematics_inverse(limb, in_plane, knee, theta1_rad, theta2_rad);
     if (status == BRACE_OK) {
-        *theta0_rad = yaw == BRACE_YAW_TOWARDS ? plan.phi_rad : brace_turn_angle(brace_turn(plan.phi_rad) + HALF_TURN);
+        *theta0_rad =
+            yaw == BRACE_YAW_TOWARDS ? plan.phi_rad : brace_turn_angle(brace_turn(plan.phi_rad) + HALF_TURN);
     }
     return status;
 }

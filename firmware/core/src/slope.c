@@ -11,10 +11,11 @@
 #define STEPS_LIMIT (1u << 24)
 
 /* All three estimates are one thing, a least-squares line through a point, fed differently: the ratio with
- * displacement one, the step from the preload point, or the step from the mean. The share is what is left of a
- * step once it has also moved the mean. A new step shifts the slope by its surprise, and the residual grows by
- * the part of the surprise that the shift does not explain: positive terms only. */
-static void extend_line(brace_slope_line_t *line, float share, float displacement, float force_x, float force_z)
+ * displacement one, the step from the preload point, or the step from the mean. The share is what is left of
+ * a step once it has also moved the mean. A new step shifts the slope by its surprise, and the residual grows
+ * by the part of the surprise that the shift does not explain: positive terms only. */
+static void extend_line(brace_slope_line_t *line, float share, float displacement, float force_x,
+                        float force_z)
 {
     const float gain = share * displacement;
     const float spread = line->spread + gain * displacement;
@@ -45,7 +46,8 @@ static brace_status_t check_reading(const brace_slope_t *slope, float displaceme
     return status;
 }
 
-brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, float force_x_n, float force_z_n)
+brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, float force_x_n,
+                                 float force_z_n)
 {
     const brace_status_t status = check_reading(slope, displacement_mm, force_x_n, force_z_n);
     if (status == BRACE_OK) {
@@ -79,7 +81,8 @@ brace_status_t brace_slope_step(brace_slope_t *slope, float displacement_mm, flo
 
     extend_line(&slope->line[BRACE_SLOPE_MEAN_OF_RATIOS], 1.0f, 1.0f, step_x_n * per_mm, step_z_n * per_mm);
     extend_line(&slope->line[BRACE_SLOPE_LEAST_SQUARES], 1.0f, step_mm, step_x_n, step_z_n);
-    extend_line(&slope->line[BRACE_SLOPE_FREE_INTERCEPT], 1.0f - newest, from_mean_mm, from_mean_x_n, from_mean_z_n);
+    extend_line(&slope->line[BRACE_SLOPE_FREE_INTERCEPT], 1.0f - newest, from_mean_mm, from_mean_x_n,
+                from_mean_z_n);
     slope->mean_mm += newest * from_mean_mm;
     slope->mean_n[0] += newest * from_mean_x_n;
     slope->mean_n[1] += newest * from_mean_z_n;
@@ -137,10 +140,9 @@ brace_status_t brace_slope_stiffness(const brace_slope_t *along_x, const brace_s
     const float axis_rad = 0.5f * brace_atan2(cross, deviation);
     const brace_vec_t stiff = brace_direction(brace_turn(axis_rad));
     const float variance_asymmetry = square(z.sigma_k_x_n_per_mm) + square(x.sigma_k_z_n_per_mm);
-    const float sigma_lambda_min =
-        brace_sqrt(square(square(stiff.z) * x.sigma_k_x_n_per_mm) +
-                   square(square(stiff.x) * z.sigma_k_z_n_per_mm) +
-                   square(stiff.z * stiff.x) * variance_asymmetry);
+    const float sigma_lambda_min = brace_sqrt(square(square(stiff.z) * x.sigma_k_x_n_per_mm) +
+                                              square(square(stiff.x) * z.sigma_k_z_n_per_mm) +
+                                              square(stiff.z * stiff.x) * variance_asymmetry);
 
     stiffness->k_xx_n_per_mm = x.k_x_n_per_mm;
     stiffness->k_xz_n_per_mm = z.k_x_n_per_mm;

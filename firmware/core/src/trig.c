@@ -27,9 +27,10 @@ float brace_atan2(float y, float x)
     const float slope = from_diagonal ? (smaller - larger) / (smaller + larger) : smaller / larger;
     const float square = slope * slope;
     /* minimax, error 5e-9 on [-tan(pi/8), tan(pi/8)] */
-    float angle = (((7.90006518e-2f * square - 0.138236642f) * square + 0.199718043f) * square - 0.333327532f) *
-                      (square * slope) +
-                  slope;
+    float angle =
+        (((7.90006518e-2f * square - 0.138236642f) * square + 0.199718043f) * square - 0.333327532f) *
+            (square * slope) +
+        slope;
     if (from_diagonal) {
         angle += 0.785398163f;
     }

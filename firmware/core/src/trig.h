@@ -9,8 +9,8 @@
 #define BRACE_PI 3.14159265f
 #define BRACE_HALF_PI 1.57079633f
 
-/* Fraction of a turn (2^32 = 2 pi) from an angle in [-7.99, 7.99] rad, within 2e-9 rad. Turns add, subtract and
- * wrap as integers, without loss. */
+/* Fraction of a turn (2^32 = 2 pi) from an angle in [-7.99, 7.99] rad, within 2e-9 rad. Turns add, subtract
+ * and wrap as integers, without loss. */
 uint32_t brace_turn(float angle_rad);
 
 /* The angle of a turn in [-pi, pi], within 2e-7 rad. */

@@ -50,8 +50,9 @@ enum {
 /* What one sigma of a cause is: of its own dimension, or as a fraction of the cause's own size. */
 enum { MORE, ANGLE, FEMUR_LENGTH, TIBIA_LENGTH, COMPLIANCE, TRUST_COUNT };
 
-/* One term of dC: weight (u v' + v u'). A cause is a run of terms; the last of them says how well the cause is
- * known. What is a compliance times u u' comes out doubled, so its causes are spelt doubled and known to half. */
+/* One term of dC: weight (u v' + v u'). A cause is a run of terms; the last of them says how well the cause
+ * is known. What is a compliance times u u' comes out doubled, so its causes are spelt doubled and known to
+ * half. */
 typedef struct {
     uint8_t weight, u, v, known_to;
 } term_t;

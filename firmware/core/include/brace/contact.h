@@ -1,7 +1,7 @@
-/* What a stiffness means at a contact: sag under a load, force from a deflection, and whether the foot slides.
+/* What a stiffness means at a contact: sag under a load, force from a deflection, and whether a foot slides.
  *
- * Everything is taken at the tip, in the limb's plane, x outwards and z up. With the body as the frame, a body
- * that sags by s moves the planted tip by -s, and K times that is the force the ground puts on the tip.
+ * Everything is taken at the tip, in the limb's plane, x outwards and z up. With the body as the frame, a
+ * body that sags by s moves the planted tip by -s, and K times that is the force the ground puts on the tip.
  *
  * Pure functions, no loop: any thread or interrupt. A refused call leaves its outputs untouched.
  */
@@ -43,11 +43,12 @@ typedef struct {
 
 /* Displacement of the tip under a force on it: d = C f. Sag under a payload of weight W: f = (0, -W).
  *   stiffness: K at the posture; load [+-1e6 N]
- * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE (a load outside its range; eigenvalues that
- *   are not positive and in order)
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE (a load outside its range; eigenvalues
+ *   that are not positive and in order)
  * accuracy: 5e-6 |f| / lambda_min, for the K of any of the core's planar paths.
  * cost: at most 170 instructions on a Cortex-M4F; stack at most 100 bytes. */
-brace_status_t brace_contact_sag(const brace_stiffness_t *stiffness, brace_force_t load, brace_displacement_t *sag);
+brace_status_t brace_contact_sag(const brace_stiffness_t *stiffness, brace_force_t load,
+                                 brace_displacement_t *sag);
 
 /* Force on the tip that holds it at a displacement: f = K d, with the bounds of the paper's eq. 2.
  *   stiffness: K at the posture; displacement [+-1e4 mm]
@@ -59,10 +60,10 @@ brace_status_t brace_contact_force(const brace_stiffness_t *stiffness, brace_dis
 
 /* How far a force on the tip is from sliding: the friction cone of the paper's Fig. 2.
  *   force [+-1e6 N]: of the surface on the tip
- *   normal_x, normal_z: unit vector out of the surface, towards the limb; length [0.99, 1.01], made exactly one
+ *   normal_x, normal_z: unit vector out of the surface, towards the limb; length [0.99, 1.01], made one
  *   friction_ratio [0, 10]: mu
- * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE. A foot that slides or lifts is a result,
- *   told by grip->state, not a refusal.
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE. A foot that slides or lifts is a
+ *   result, told by grip->state, not a refusal.
  * accuracy: forces 5e-7 |f|, margin 5e-7 (1 + mu) |f|, angle 7e-7 rad.
  * cost: at most 260 instructions; stack at most 60 bytes. */
 brace_status_t brace_contact_grip(brace_force_t force, float normal_x, float normal_z, float friction_ratio,

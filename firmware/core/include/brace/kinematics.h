@@ -57,7 +57,7 @@ typedef enum {
 
 /* Where knee and tip are, and the levers of both joints.
  *   theta1_rad, theta2_rad [+-7.9 rad]
- *   pose (out): accuracy 5e-7 of femur + tibia in every component
+ *   pose (out): accuracy 3e-7 of femur + tibia in every component
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_PARAMETER (a length no limb has), BRACE_E_NOT_FINITE, BRACE_E_RANGE
  * cost: at most 200 instructions on a Cortex-M4F. */
 brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
@@ -73,10 +73,11 @@ brace_status_t brace_kinematics_polar(brace_point_t point, brace_polar_t *polar)
  *   knee: which of the two postures
  *   theta1_rad (out) [-pi, pi]; theta2_rad (out) [0, pi] knee up, [-pi, 0] knee down
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_PARAMETER, BRACE_E_NOT_FINITE, BRACE_E_RANGE (also for a knee that
- *   is neither), BRACE_E_UNREACHABLE: |tip| outside [|femur - tibia|, femur + tibia] by more than 5e-7 of femur + tibia;
- *   a tip outside by less, such as the rounded tip of a straight limb, is taken as straight or folded.
+ *   is neither), BRACE_E_UNREACHABLE: |tip| outside [|femur - tibia|, femur + tibia] by more than 5e-7
+ *   of femur + tibia; a tip outside by less, such as the rounded tip of a straight limb, is taken as straight
+ *   or folded.
  * A tip at the origin is reached when both links are equally long, with theta2 = +-pi and theta1 = 0.
- * accuracy: the returned angles put the tip within 2e-6 of femur + tibia of where it was asked for, straight
+ * accuracy: the returned angles put the tip within 1e-6 of femur + tibia of where it was asked for, straight
  *   and folded included. The angles themselves are as sharp as the question: for a tip known to e,
  *   theta2 is known to e r / (femur tibia |sin theta2|), and at sin theta2 = 0 to the root of twice that
  *   without the sine.
@@ -92,16 +93,16 @@ brace_status_t brace_kinematics_inverse_polar(const brace_limb_t *limb, brace_po
 
 /* Where the tip is in the robot's base frame, origin on the yaw axis at the height of the femur's axis.
  *   theta0_rad, theta1_rad, theta2_rad [+-7.9 rad]
- *   tip (out): accuracy 7e-7 of coxa + femur + tibia
+ *   tip (out): accuracy 5e-7 of coxa + femur + tibia
  * returns as brace_kinematics_forward; at most 300 instructions. */
 brace_status_t brace_kinematics_forward_spatial(const brace_limb_t *limb, float theta0_rad, float theta1_rad,
                                                 float theta2_rad, brace_point_spatial_t *tip);
 
 /* The three angles that put the tip at a point in space.
  *   tip [+-1e6 mm]; yaw, knee: which of the four postures
- *   theta0_rad (out) [-pi, pi], 0 (or pi, facing away) for a tip on the yaw axis, where any would do
+ *   theta0_rad (out) [-pi, pi], 0 (or -pi, facing away) for a tip on the yaw axis, where any would do
  *   theta1_rad, theta2_rad (out) as for brace_kinematics_inverse
- * returns as brace_kinematics_inverse; accuracy 3e-6 of coxa + femur + tibia at the tip; at most 540
+ * returns as brace_kinematics_inverse; accuracy 1e-6 of coxa + femur + tibia at the tip; at most 540
  * instructions. */
 brace_status_t brace_kinematics_inverse_spatial(const brace_limb_t *limb, brace_point_spatial_t tip,
                                                 brace_yaw_t yaw, brace_knee_t knee, float *theta0_rad,

@@ -1,14 +1,14 @@
 /* Stiffness from a loading test: slopes of force over displacement, one step at a time.
  *
- * A test displaces the tip along one axis and reads both components of the force on it, so it gives one column
- * of K. Displacement and force count from the preload point, the reading taken once the joints' play is taken
- * up. State is of fixed size, nothing is stored per step, and every sum is updated by what the new step adds,
- * so neither a large preload nor a long test costs accuracy.
+ * A test displaces the tip along one axis and reads both components of the force on it, so it gives one
+ * column of K. Displacement and force count from the preload point, the reading taken once the joints' play
+ * is taken up. State is of fixed size, nothing is stored per step, and every sum is updated by what the new
+ * step adds, so neither a large preload nor a long test costs accuracy.
  *
  * Three estimates, from the same steps:
  *   mean of ratios - the paper's: mean of force/displacement. Small steps weigh as much as large ones: for
- *     eight equal steps its variance is 4.9 times that of least squares, and play left in the joints biases it
- *     by -17 / -34 / -55 % for half a step, one step and two;
+ *     eight equal steps its variance is 4.9 times that of least squares, and play left in the joints biases
+ *     it by -17 / -34 / -55 % for half a step, one step and two;
  *   least squares through the preload point - the best for a straight line and even noise; the default;
  *   least squares with a free intercept - for a preload reading that is not trusted. Play or a wrong preload
  *     goes into the intercept as long as it is over before the first step.
@@ -73,17 +73,19 @@ typedef struct {
  *   displacement_mm [+-1e4]: along the test's axis; force_x_n, force_z_n [+-1e6]: on the limb's tip
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE; slope untouched unless BRACE_OK.
  * cost: at most 140 instructions on a Cortex-M4F; stack at most 40 bytes. */
-brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, float force_x_n, float force_z_n);
+brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, float force_x_n,
+                                 float force_z_n);
 
 /* Takes one reading, same arguments. A step within 1e-6 mm of the preload point says nothing about a slope:
  * it is counted as skipped, and the call returns BRACE_OK.
  * returns also BRACE_E_RANGE after 2^24 steps; slope untouched unless BRACE_OK.
  * cost: at most 250 instructions; stack at most 60 bytes. */
-brace_status_t brace_slope_step(brace_slope_t *slope, float displacement_mm, float force_x_n, float force_z_n);
+brace_status_t brace_slope_step(brace_slope_t *slope, float displacement_mm, float force_x_n,
+                                float force_z_n);
 
 /* The column of K measured so far; the test may go on.
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_RANGE (no such method), BRACE_E_TOO_FEW: fewer than two steps that
- *   count, with a free intercept fewer than three or all at one displacement; column untouched unless BRACE_OK.
+ *   count, with a free intercept fewer than three or all at one displacement; column untouched unless OK.
  * accuracy: slopes within 2e-6 relative to the largest ratio, up to a thousand steps.
  * cost: at most 60 instructions; stack at most 40 bytes. */
 brace_status_t brace_slope_column(const brace_slope_t *slope, brace_slope_method_t method,

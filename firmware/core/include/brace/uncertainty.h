@@ -4,8 +4,8 @@
  * dK = -K dC K. Taken as independent of each other:
  *   - femur and tibia length, each with length_mm;
  *   - the joint angles theta1 and theta2, each with angle_rad;
- *   - nine compliances, each with compliance_rel of itself: femur and tibia axial and bending, joint femur and
- *     joint tibia, base x, z and rotation. A femur's moment transfer grows with its bending;
+ *   - nine compliances, each with compliance_rel of itself: femur and tibia axial and bending, joint femur
+ *     and joint tibia, base x, z and rotation. A femur's moment transfer grows with its bending;
  *   - the gain of the force sensor the calibration was made with, gain_rel: a factor on the whole of K.
  * Taken as exact: tilts, the strength of moment transfer, and that the chain is the whole truth. What belongs
  * to the spatial limb only (coxa, lateral, torsion) does not act in the plane.
@@ -35,12 +35,14 @@ typedef struct {
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_PARAMETER (limb), BRACE_E_NOT_FINITE, BRACE_E_RANGE (an angle, or a
  *   stiffness whose eigenvalues are not positive and in order); sigma untouched unless BRACE_OK.
  * accuracy of the first-order figure: with e = 3e-6 + 5e-7 s, s = sqrt(lambda_max/lambda_min), and
- *   g = angle_rad + length_mm / shorter link: e (sigma + g lambda_min) for lambda_min, e (sigma + g s lambda_max)
- *   for lambda_max and the entries of K, e (sigma + g) for the axis unless K is nearly round. First order itself is
- *   good to some per cent where compliances are trusted to 5 %, lengths to 0.5 mm and angles to 3 mrad.
+ *   g = angle_rad + length_mm / shorter link: e (sigma + g lambda_min) for lambda_min,
+ *   e (sigma + g s lambda_max) for lambda_max and the entries of K, e (sigma + g) for the axis unless K is
+ *   nearly round. First order itself is good to some per cent where compliances are trusted to 5 %, lengths
+ *   to 0.5 mm and angles to 3 mrad.
  * cost: a fixed list of 22 terms; at most 2,800 instructions on a Cortex-M4F; stack at most 240 bytes.
  * Pure and re-entrant: any thread or interrupt. */
 brace_status_t brace_uncertainty_stiffness(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
-                                           const brace_stiffness_t *stiffness, brace_stiffness_sigma_t *sigma);
+                                           const brace_stiffness_t *stiffness,
+                                           brace_stiffness_sigma_t *sigma);
 
 #endif
