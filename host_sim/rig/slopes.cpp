@@ -9,6 +9,8 @@
 namespace brace::rig {
 namespace {
 
+constexpr double kLeastForce_n = 1e-9;
+
 // One run along one axis, read without noise or rounding.
 struct Sweep {
     std::vector<double> displacement_mm;
@@ -74,6 +76,9 @@ bool comes_to_zero(const Sweep &sweep, int axis, std::size_t from, std::size_t t
     const std::vector<double> &force = sweep.force_n[axis];
     const std::vector<double> &moved = sweep.displacement_mm;
     const double nothing = 1e-9 * std::fabs(force[from]);
+    if (std::fabs(force[from]) < kLeastForce_n) {
+        return false;
+    }
     for (std::size_t i = from; i < to; ++i) {
         if (force[i] * force[i + 1] > 0.0 && std::fabs(force[i + 1]) > nothing) {
             continue;

@@ -107,7 +107,8 @@ def main(folder: str) -> int:
         encoder = rms(exact["enc1_rad"]) + rms(exact["enc2_rad"]) if "enc1_rad" in exact else float("nan")
         degrees = 2 * len(runs)
         good = np.abs(force).max() < HELD_OUT_N and not encoder > 1e-6
-        good = good and abs(chi2 - 1.0) < 4.0 * np.sqrt(2.0 / degrees) and abs(lag) < 4.0 / np.sqrt(noise.size)
+        good = good and abs(chi2 - 1.0) < 4.0 * np.sqrt(2.0 / \
+                            degrees) and abs(lag) < 4.0 / np.sqrt(noise.size)
         expected = not set(names) & OUTSIDE
         verdict = "" if good == expected else "  <- disagrees"
         failed += good != expected
