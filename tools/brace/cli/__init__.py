@@ -12,7 +12,7 @@ from importlib import import_module
 from brace import __version__
 from brace.errors import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, EXIT_USAGE, BraceError
 
-SUBCOMMANDS = ("k", "map", "simulate", "predict", "identify")
+SUBCOMMANDS = ("k", "map", "simulate", "predict", "identify", "demo")
 _NEGATIVE_NUMBER = re.compile(r"^-(\d|\.\d|inf|nan)", re.IGNORECASE)
 
 

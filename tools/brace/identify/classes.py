@@ -20,7 +20,9 @@ from brace.model.keys import KEY_BY_NAME
 CANDIDATES = (*COMPLIANCES, "link.femur.moment_transfer", *BASE_COMPLIANCES, "sensor.gain", "sensor.rotation_rad",
               "sensor.crosstalk_xz", "sensor.crosstalk_zx")
 TABLE_CANDIDATES = (*COMPLIANCES, "link.femur.moment_transfer", *BASE_COMPLIANCES)
-LEFT_OVER = 0.01  # share of a signature that the others may leave unexplained
+# Share of a signature that the others may leave unexplained: small classes may be near misses, large ones must be
+# exact, or everything would be like everything.
+LEFT_OVER_SMALL, SMALL, LEFT_OVER_LARGE = 0.02, 3, 1e-3
 MAX_MEMBERS = 8
 # Readings need some compliance to bend: signatures are taken with every candidate a little present.
 _PRESENCE = 0.05
@@ -36,26 +38,29 @@ class Confusion:
     told_apart_by: str
 
 
-def confusions(problem: Problem, model: LimbModel, nuisances: dict[str, float], candidates: Sequence[str],
-               needed: Iterable[str] = ()) -> list[Confusion]:
-    """The classes of this record around this model, smallest first. `needed` keys were fitted as nuisances and may
-    always help."""
+def confusions(problem: Problem, model: LimbModel, nuisances: dict[str, float],
+               candidates: Sequence[str]) -> list[Confusion]:
+    """The classes of this record around this model, smallest first."""
     keys = [key for key in candidates if key in KEY_BY_NAME]
     around = _present(model, keys)
     columns = {key: column for key in keys if (column := _signature(problem, around, nuisances, key)) is not None}
-    found: dict[frozenset[str], Confusion] = {}
+    found: list[Confusion] = []
+    for key in keys:  # pairs first: of two that are one, only the first takes part in larger classes
+        twins = [other for other in columns if other != key and key in columns
+                 and _left_over(columns[other], [columns[key]]) < LEFT_OVER_SMALL]
+        for twin in twins:
+            found.append(Confusion((key, twin), _left_over(columns[twin], [columns[key]]), remedy((key, twin))))
+            del columns[twin]
+    larger: dict[frozenset[str], Confusion] = {}
     for key, column in columns.items():
-        others = {name: values for name, values in columns.items() if name != key}
-        members, left_over = _explain(column, others)
+        members, left_over = _explain(column, {name: values for name, values in columns.items() if name != key})
         group = frozenset((key, *members))
-        if members and left_over < LEFT_OVER and group not in found:
-            found[group] = Confusion((key, *members), left_over, remedy(group))
-    smallest_first = sorted(found.items(), key=lambda item: (len(item[0]), sorted(item[0])))
-    kept: list[tuple[frozenset[str], Confusion]] = []
-    for group, confusion in smallest_first:
-        if not any(smaller < group for smaller, _ in kept):
-            kept.append((group, confusion))
-    return [confusion for _, confusion in kept]
+        if members and group not in larger:
+            larger[group] = Confusion((key, *members), left_over, remedy(group))
+    for group in sorted(larger, key=lambda item: (len(item), sorted(item))):
+        if not any(smaller < group for smaller in larger):
+            found.append(larger[group])
+    return found
 
 
 def remedy(members: Iterable[str]) -> str:
@@ -96,24 +101,26 @@ def _signature(problem: Problem, model: LimbModel, nuisances: dict[str, float], 
 
 
 def _explain(column: np.ndarray, others: dict[str, np.ndarray]) -> tuple[list[str], float]:
-    """The fewest others whose mixture leaves less than LEFT_OVER: chosen one by one, then thinned out."""
+    """The fewest others whose mixture makes up the column: chosen one by one, then thinned out; none if no few do."""
     chosen: list[str] = []
     size = 1.0
-    while size >= LEFT_OVER and len(chosen) < MAX_MEMBERS and len(chosen) < len(others):
+    while size >= _allowed(len(chosen) + 1) and len(chosen) < min(MAX_MEMBERS, len(others)):
         gains = {name: _left_over(column, [others[item] for item in (*chosen, name)])
                  for name in others if name not in chosen}
         best = min(gains, key=lambda name: (round(gains[name], 9), name))
-        if gains[best] > size - 1e-9:
-            break
         chosen.append(best)
         size = gains[best]
-    if size >= LEFT_OVER:
+    if size >= _allowed(len(chosen) + 1):
         return [], size
     for name in list(chosen):
         rest = [item for item in chosen if item != name]
-        if rest and (thinner := _left_over(column, [others[item] for item in rest])) < LEFT_OVER:
+        if rest and (thinner := _left_over(column, [others[item] for item in rest])) < _allowed(len(rest) + 1):
             chosen, size = rest, thinner
     return chosen, size
+
+
+def _allowed(members: int) -> float:
+    return LEFT_OVER_SMALL if members <= SMALL else LEFT_OVER_LARGE
 
 
 def _left_over(column: np.ndarray, basis: list[np.ndarray]) -> float:

@@ -13,7 +13,7 @@ from brace.identify.parameters import (COMPLIANCES, JOINT_COMPLIANCES, LINK_COMP
 from brace.identify.table import TableProblem
 from brace.model import LimbModel
 
-STARTS = 16
+STARTS = 8
 _TILTS = ("link.femur.tilt_rad", "link.tibia.tilt_rad")
 
 

@@ -14,6 +14,7 @@ from brace.model import LimbModel
 
 RIDGE = 1e-3  # pull towards the start, per scale: decides only where neither data nor prior do
 REFUSED = 1e4  # whitened residual of a model that cannot be played
+TOLERANCE = 1e-10
 STEP = 1e-4  # of a parameter's scale, for central differences
 
 
@@ -91,19 +92,21 @@ def fit(problem: Problem, parameters: ParameterSet, starts: Iterable[np.ndarray]
     best = None
     for number, point in enumerate([start, *starts]):
         inside = np.clip(point / scale, low + 1e-9, high - 1e-9)
-        found = least_squares(whole, inside, jac=slope, bounds=(low, high), x_scale=1.0, ftol=1e-11, xtol=1e-11,
-                              gtol=1e-11, max_nfev=200)
+        found = least_squares(whole, inside, jac=slope, bounds=(low, high), x_scale=1.0, ftol=TOLERANCE, xtol=TOLERANCE,
+                              gtol=TOLERANCE, max_nfev=200)
         if best is None or found.cost < best.cost:
             best = found
         advance(number + 1)
     assert best is not None
-    residual = _data(problem, parameters, best.x * scale, expected)
+    near = 1e-7  # of a scale from a bound is at it
+    solved = np.where(best.x - low < near, low, np.where(high - best.x < near, high, best.x))
+    residual = _data(problem, parameters, solved * scale, expected)
     if np.abs(residual).max(initial=0.0) >= REFUSED:
         raise BadFileError("no fit was found", where=parameters.base.where(),
                            why="the simulated limb cannot be played near the start model",
                            next_step="start from a model nearer to the limb")
-    jacobian = _central(lambda u: _data(problem, parameters, u * scale, expected), best.x, low, high)
-    return Fit(parameters, best.x * scale, residual, jacobian)
+    jacobian = _central(lambda u: _data(problem, parameters, u * scale, expected), solved, low, high)
+    return Fit(parameters, solved * scale, residual, jacobian)
 
 
 def _data(problem: Problem, parameters: ParameterSet, x: np.ndarray, expected: int) -> np.ndarray:

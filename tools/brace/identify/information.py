@@ -16,7 +16,8 @@ NULL_SHARE = 1e-3  # component of a direction without information that makes a p
 
 @dataclass(frozen=True)
 class Estimate:
-    """A number with its 90 % interval; sigma is inf where nothing is known."""
+    """A number with its 90 % interval. Where the record says nothing sigma is inf, and the interval is what the
+    signs of the parameters alone leave (no compliance is negative)."""
 
     value: float
     sigma: float
@@ -46,14 +47,17 @@ class Information:
         unknown = self.unknown()
         result = []
         for index, value in enumerate(fit.x):
-            sigma = math.inf if unknown[index] else scale[index] * math.sqrt(
-                self.covariance[index, index] * fit.inflation)
+            sigma = scale[index] * math.sqrt(self.covariance[index, index] * fit.inflation)
             bound = "low" if value - low[index] <= 1e-6 * scale[index] else \
                 "high" if high[index] - value <= 1e-6 * scale[index] else ""
             lower, upper = value - Z90 * sigma, value + Z90 * sigma
+            if unknown[index]:
+                down, up = self._slack(np.eye(len(fit.x))[index])
+                lower, upper, sigma = lower + down * scale[index], upper + up * scale[index], math.inf
             if bound and not unknown[index]:
                 reach = self._reach_from_bound(index) * scale[index]
                 lower, upper = (value, value + reach) if bound == "low" else (value - reach, value)
+            bound = "" if unknown[index] else bound
             result.append(Estimate(float(value), sigma, float(max(lower, low[index])), float(min(upper, high[index])),
                                    bound))
         return result
@@ -83,9 +87,29 @@ class Information:
         norm = float(np.linalg.norm(gradient))
         if self.null_directions.size and norm and \
                 np.linalg.norm(self.null_directions.T @ gradient) > 1e-2 * norm:
-            return Estimate(value, math.inf, -math.inf, math.inf)
+            down, up = self._slack(gradient)
+            spread = Z90 * math.sqrt(max(0.0, float(gradient @ self.covariance @ gradient)) * self.fit.inflation)
+            return Estimate(value, math.inf, value + down - spread, value + up + spread)
         sigma = math.sqrt(max(0.0, float(gradient @ self.covariance @ gradient)) * self.fit.inflation)
         return Estimate(value, sigma, value - Z90 * sigma, value + Z90 * sigma)
+
+    def _slack(self, gradient: np.ndarray) -> tuple[float, float]:
+        """How far down and up a linear function can go along the directions about which nothing is known, until a
+        parameter meets its bound; by x / scale."""
+        from scipy.optimize import linprog
+
+        parameters = self.fit.parameters
+        scale, low, high = (parameters.array(name) for name in ("scale", "low", "high"))
+        directions = self.null_directions
+        room = np.concatenate([(high - self.fit.x) / scale, (self.fit.x - low) / scale])
+        limits = np.vstack([directions, -directions])
+        finite = np.isfinite(room)
+        ends = []
+        for sign in (1.0, -1.0):
+            found = linprog(sign * (gradient @ directions), A_ub=limits[finite], b_ub=np.maximum(room[finite], 0.0),
+                            bounds=(None, None))
+            ends.append(float(sign * found.fun) if found.success else -sign * math.inf)
+        return ends[0], ends[1]
 
     def _reach_from_bound(self, index: int) -> float:
         """How far from its bound a parameter can go before chi2 has risen by 2.71, the others following."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from brace.dataset import Dataset
 from brace.errors import BadFileError
-from brace.identify.parameters import TORQUE_OFFSET, Parameter, ParameterSet
+from brace.identify.parameters import FRICTION_TURN, TORQUE_OFFSET, Parameter, ParameterSet
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
 from brace.native.plant import JointPlayer
@@ -35,7 +35,7 @@ class JointProblem:
 
     def residual(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """(played - measured) / noise."""
-        played = self._player.play(model) + nuisances.get(TORQUE_OFFSET, 0.0)
+        played = self._player.play(model, nuisances.get(FRICTION_TURN, 0.0)) + nuisances.get(TORQUE_OFFSET, 0.0)
         return ((played - self.columns["torque_n_mm"]) / self.noise_n_mm)[self._used]
 
     def angles(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
@@ -50,7 +50,7 @@ class JointProblem:
         """Spring, gap, friction, hardening, zero of the angle, offset of the torque; scaled by the record."""
         angle, torque = self.columns["angle_rad"], self.columns["torque_n_mm"]
         angle_span, torque_span = float(np.ptp(angle)) or 1e-6, float(np.ptp(torque)) or 1.0
-        centre = float(0.5 * (angle.max() + angle.min()))
+        zero = -float(0.5 * (angle.max() + angle.min()))  # true angle = read + offset
         at = f"joint.{self.joint}."
         compliance = model.number(at + "compliance_rad_per_n_mm") or angle_span / torque_span
         hardening_scale = torque_span / angle_span**3
@@ -65,8 +65,10 @@ class JointProblem:
             Parameter(at + "gap_rad", model.number(at + "gap_rad"), 0.1 * angle_span, 0.0, min(0.5, angle_span)),
             free("coulomb_n_mm", model.number(at + "coulomb_n_mm"), 0.05 * torque_span),
             free("hardening_n_mm_per_rad3", model.number(at + "hardening_n_mm_per_rad3"), hardening_scale),
-            Parameter(at + "zero_offset_rad", centre, 0.1 * angle_span, -0.5, 0.5),
-            Parameter(TORQUE_OFFSET, 0.0, 0.02 * torque_span, -torque_span, torque_span)))
+            Parameter(at + "zero_offset_rad", zero, 0.1 * angle_span, -0.5, 0.5),
+            Parameter(TORQUE_OFFSET, 0.0, 0.02 * torque_span, -torque_span, torque_span),
+            Parameter(FRICTION_TURN, 0.02 * angle_span, 0.01 * angle_span, 1e-4 * angle_span,
+                      min(1.0, 0.25 * angle_span))))
 
     def starts(self, parameters: ParameterSet) -> list[np.ndarray]:
         """Springs with less and more gap and friction: the misfit has several valleys."""

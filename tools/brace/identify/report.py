@@ -15,6 +15,7 @@ from brace.identify.parameters import TIP_HEIGHT
 from brace.identify.run import Identification
 
 PAPER_STRUCTURE_SHARE = 0.30
+OUTSIDE_TRUST_SIGMAS = 3.0
 
 
 def as_json(result: Identification) -> dict[str, Any]:
@@ -30,6 +31,7 @@ def as_json(result: Identification) -> dict[str, Any]:
         "rows": result.dataset.rows, "parameters": parameters,
         "combinations": {name: {**_interval(estimate), "meaning": MEANING[name]}
                          for name, estimate in result.combinations.items()},
+        "outside_trust": [{"key": key, "sigmas": sigmas} for key, sigmas in outside_trust(result)],
         "correlations": [list(pair) for pair in result.information.correlations()],
         "indistinguishable": [list(confusion.members) for confusion in result.classes],
         "classes": [{"members": list(confusion.members), "left_over": confusion.left_over,
@@ -51,6 +53,16 @@ def as_json(result: Identification) -> dict[str, Any]:
         report["slopes"] = result.slopes
     report["versions"] = {"brace": __version__}
     return report
+
+
+def outside_trust(result: Identification) -> list[tuple[str, float]]:
+    """Parameters that the record pulls more than three sigmas away from what the calibration trusts them to."""
+    found = []
+    for parameter, value in zip(result.fit.parameters.parameters, result.fit.x):
+        sigmas = (value - parameter.start) / parameter.prior_sigma
+        if abs(sigmas) > OUTSIDE_TRUST_SIGMAS:
+            found.append((parameter.key, float(sigmas)))
+    return sorted(found, key=lambda item: -abs(item[1]))
 
 
 def _interval(estimate: Estimate) -> dict[str, Any]:
@@ -91,6 +103,8 @@ def _lines(result: Identification) -> Iterator[str]:
         yield "what the tip does tell:"
         for name, estimate in result.combinations.items():
             yield f"  {name:18} {_value(estimate):46} {MEANING[name]}"
+    for key, sigmas in outside_trust(result):
+        yield f"  {key} lies {sigmas:+.1f} sigma outside the trust put in it: a finding, look for a missing effect"
     for one, other, value in result.information.correlations():
         yield f"  errors go together ({value:+.3f}): {one}, {other}"
     if result.classes:
@@ -109,7 +123,7 @@ def _lines(result: Identification) -> Iterator[str]:
     if result.split:
         share, (low, high) = result.split.structure_share, result.split.allowed
         yield (f"share of the structure in the tip's compliance: {share:.0%} in this fit; the data alone allow "
-               f"{low:.0%} to {high:.0%} (the paper says {PAPER_STRUCTURE_SHARE:.0%})")
+               f"{low:.0%} to {high:.0%} (base rigid, no other change; the paper says {PAPER_STRUCTURE_SHARE:.0%})")
 
 
 def _residual_words(result: Identification) -> Iterator[str]:
@@ -128,7 +142,7 @@ def _residual_words(result: Identification) -> Iterator[str]:
 
 def _value(estimate: Estimate) -> str:
     if not estimate.identifiable:
-        return f"{estimate.value:.5g} (not identifiable)"
+        return f"not identifiable; signs allow [{estimate.low:.4g}, {estimate.high:.4g}]"
     bound = ", at its bound" if estimate.at_bound else ""
     return f"{estimate.value:.5g} [{estimate.low:.5g}, {estimate.high:.5g}]{bound}"
 

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
+import numpy as np
+
 from brace.errors import BadFileError
-from brace.model import LimbModel
+from brace.model import LIMB_KEYS, LimbModel
 from brace.model.keys import LINKS
 from brace.native.loader import Library
 
 _LINK_FIELDS = {"axial_mm_per_n": "axial_mm_per_n", "bending_mm_per_n": "bending_mm_per_n", "tilt_rad": "tilt_rad",
                 "lateral_mm_per_n": "lateral_mm_per_n", "torsion_rad_per_n_mm": "torsion_rad_per_n_mm",
                 "moment_transfer": "moment_transfer_ratio"}
-_PLANT_TABLES = ("geometry", "base", "gravity", "sensor", "creep", "thermal", "contact", "change")
 STATUS_SINGULAR = -6
 
 
@@ -46,23 +48,27 @@ def plant_model(native: Library, model: LimbModel) -> Any:
     """`brace_plant_model_t *` with every key of limb.toml."""
     plant = native.ffi.new("brace_plant_model_t *")
     native.lib.brace_plant_model_default(plant)
-    fill_plant(plant, model)
+    fill_plant(native, plant[0], model)
     return plant
 
 
-def fill_plant(plant: Any, model: LimbModel) -> None:
-    """Writes a model into a plant struct (one of an array, say)."""
-    for key, value in model.values.items():
-        table, _, field = key.rpartition(".")
-        group, _, name = table.partition(".")
-        if group == "link":
-            setattr(plant.link[LINKS.index(name)], _LINK_FIELDS[field], value)
-        elif group == "joint":
-            setattr(plant.joint[LINKS.index(name)], field, value)
-        elif key == "change.link":
-            plant.change.link_index = LINKS.index(value)
-        elif group in _PLANT_TABLES:
-            setattr(getattr(plant, group), field, value)
+def fill_plant(native: Library, plant: Any, model: LimbModel) -> None:
+    """Writes a model into a plant struct (one of an array, say), every key of limb.toml at its own place."""
+    positions, keys = _plant_layout(native)
+    numbers = [LINKS.index(model.values[key]) if key == "change.link" else model.values[key] for key in keys]
+    np.frombuffer(native.ffi.buffer(native.ffi.addressof(plant)), dtype=np.float64)[positions] = numbers
+
+
+@cache
+def _plant_layout(native: Library) -> tuple[np.ndarray, list[str]]:
+    """Index of each key's double in brace_plant_model_t, from the library's own list of keys."""
+    keys, positions = [], []
+    for key in LIMB_KEYS:
+        offset = int(native.lib.brace_plant_key_offset(key.name.encode()))
+        if offset >= 0:  # format, name and the calibration's trust are no part of the plant
+            keys.append(key.name)
+            positions.append(offset // 8)
+    return np.array(positions), keys
 
 
 def plant_error(native: Library, status: int, model: LimbModel, doing: str) -> BadFileError:

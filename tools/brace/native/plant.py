@@ -52,7 +52,7 @@ class LoadingPlayer:
         ffi, lib = self._native.ffi, self._native.lib
         plants = ffi.new("brace_plant_model_t[]", len(models))
         for index, model in enumerate(models):
-            fill_plant(plants[index], model)
+            fill_plant(self._native, plants[index], model)
         fx, fz = np.empty((len(models), self.count)), np.empty((len(models), self.count))
         status = np.empty(len(models), np.int32)
         lib.brace_plant_loading_many(plants, len(models), self._rows, ffi.from_buffer("double[]", fx),
@@ -85,9 +85,11 @@ class JointPlayer:
             self._set("temp_degc", columns["temp_degc"], np.float64, "double")
         self._set("input", columns["torque_n_mm" if torque_imposed else "angle_rad"], np.float64, "double")
 
-    def play(self, model: LimbModel) -> np.ndarray:
-        """Torque [N mm] for an imposed deflection, deflection [rad] for an imposed torque."""
+    def play(self, model: LimbModel, reversal_rad: float = 0.0) -> np.ndarray:
+        """Torque [N mm] for an imposed deflection, deflection [rad] for an imposed torque; `reversal_rad` is the
+        turning over which friction changes sign."""
         ffi = self._native.ffi
+        self._rows.reversal_rad = reversal_rad
         out = np.empty(self.count)
         status = self._native.lib.brace_plant_joint(plant_model(self._native, model), self._rows,
                                                     ffi.from_buffer("double[]", out))

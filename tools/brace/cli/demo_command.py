@@ -1,0 +1,52 @@
+"""`brace demo`: the paper's table and a simulated limb, with nothing attached."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+from typing import Any
+
+from brace.cli import common
+
+STEPS = 20
+
+
+def add(commands: Any) -> None:
+    """Declares the subcommand."""
+    parser = commands.add_parser(
+        "demo", help="the paper's table and a simulated limb, end to end",
+        description="Takes the paper's table as printed, finds its faults, identifies the limb, and draws the paper's "
+                    "figures: eigenvalues over r, ellipses, the cyclic test with its zero-force shift, the choice of "
+                    "stiffness. Writes pictures, table.csv, limb.toml and facts.json into --out.")
+    parser.add_argument("--out", type=Path, default=Path("brace-demo"), metavar="DIR", help="default: brace-demo")
+    common.add_json(parser)
+    parser.set_defaults(run=run)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Executes the subcommand."""
+    from brace.demo.story import Story, tell
+    from brace.files import OutputSet
+
+    story = Story()
+    show = common.say if arguments.json else print
+    with common.progress("fitting the table", STEPS) as advance:
+        for line in tell(story, advance):
+            show(line)
+    with OutputSet() as outputs:
+        for name, content in story.files.items():
+            outputs.add(arguments.out / name, content)
+        outputs.add(arguments.out / "facts.json", json.dumps(common.json_ready(story.facts), indent=1) + "\n")
+        outputs.commit()
+    if arguments.json:
+        common.print_json({**story.facts, "out": arguments.out})
+        return 0
+    model = arguments.out / "limb.toml"
+    print(f"-> {arguments.out}/: {', '.join([*story.files, 'facts.json'])}")
+    print("Next, three commands to try:")
+    print(f"   .venv/bin/brace k --model {model} --r 300 --phi -0.4")
+    print(f"   .venv/bin/brace map --model {model} --out {arguments.out}/map")
+    print("   .venv/bin/brace simulate --model tools/brace/data/paper-limb.toml --rig tools/brace/data/paper-rig.toml "
+          f"--out {arguments.out}/loading-test")
+    return 0

@@ -1,0 +1,117 @@
+"""The demo in order: the table's faults, the limb behind it, and the paper's figures; each step says what it found."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from brace.dataset.write import csv_text
+from brace.demo import contact, cyclic, paper_table, postures
+from brace.identify import report
+from brace.model import LimbModel, load_limb
+from brace.plots.contact_plot import Footing, contact_figure
+from brace.plots.cyclic_plot import cyclic_figure
+from brace.plots.eigenvalue_plot import eigenvalue_figure
+from brace.plots.figure import png_bytes
+from brace.plots.limb_plot import ellipse_figure
+from brace.stiffness import planar_limb
+from brace.workspace import compute
+
+Advance = Callable[[int], None]
+
+
+@dataclass
+class Story:
+    """What to write (name -> content) and the numbers behind it."""
+
+    files: dict[str, bytes] = field(default_factory=dict)
+    facts: dict[str, object] = field(default_factory=dict)
+
+
+def tell(story: Story, advance: Advance) -> Iterator[str]:
+    """Runs the demo; yields what a person is to read, step by step."""
+    table = paper_table.examine(advance)
+    yield "1. The paper's Table I, as printed: what is wrong with it"
+    yield from (f"   {fault}" for fault in table.faults)
+    yield "2. The limb behind the table, the misprint corrected"
+    text = report.as_text(table.identification).splitlines()
+    yield from ("   " + line for line in text)
+    story.files["limb.toml"] = table.limb.to_toml(report.header(table.identification)).encode()
+    story.facts |= {"faults": table.faults, "repairs": table.repairs, "identification": report.as_json(table.identification)}
+    yield "3. Eigenvalues over the reach (the paper's Fig. 10 and 13) -> eigenvalues.png, table.csv"
+    yield from _eigenvalues(story, table)
+    yield "4. Compliance ellipses as the limb reaches out (Fig. 9) -> ellipses.png"
+    limb = planar_limb(table.limb)
+    reach = postures.reach(table.limb, table.tip_height_mm, 9)
+    drawn = [postures.posed_limb(table.limb, limb, float(r), table.tip_height_mm) for r in reach[[1, 4, 7]]]
+    story.files["ellipses.png"] = png_bytes(ellipse_figure(drawn))
+    yield "5. The cyclic test (Fig. 12) on a simulated limb with 20 arcmin of play in both joints -> cyclic.png"
+    yield from _cyclic(story, load_limb(paper_table.DATA / "paper-limb.toml"))
+    yield "6. Choice of stiffness for a foot on a ledge (Fig. 2) -> contact.png"
+    yield from _contact(story, table.limb, table.tip_height_mm)
+
+
+def _eigenvalues(story: Story, table: paper_table.PaperTable) -> Iterator[str]:
+    model = postures.curve(table.limb, table.tip_height_mm)
+    figure = eigenvalue_figure(table.r_mm, table.largest, table.smallest, table.corrected, model.r_mm, model.largest,
+                               model.smallest)
+    story.files["eigenvalues.png"] = png_bytes(figure)
+    at_rows = np.array([_at(model.r_mm, curve, table.r_mm) for curve in (model.smallest, model.largest)])
+    story.files["table.csv"] = csv_text({
+        "row": np.arange(1, table.r_mm.size + 1), "r_mm": table.r_mm,
+        "lambda_min_n_per_mm": table.smallest.value, "lambda_min_low_n_per_mm": table.smallest.low,
+        "lambda_min_high_n_per_mm": table.smallest.high,
+        "lambda_min_determined": table.smallest.determined.astype(int),
+        "lambda_min_model_n_per_mm": at_rows[0],
+        "lambda_max_n_per_mm": table.largest.value, "lambda_max_low_n_per_mm": table.largest.low,
+        "lambda_max_high_n_per_mm": table.largest.high, "lambda_max_model_n_per_mm": at_rows[1],
+        "not_strictly_convex": table.largest.bent.astype(int), "corrected": table.corrected.astype(int),
+    }, dict.fromkeys(("r_mm",), 0)).encode()
+    bent = table.r_mm[table.largest.bent]
+    breaks = table.r_mm[table.quasi_convex_breaks]
+    lowest = table.r_mm[int(np.argmin(table.largest.value))]
+    story.facts |= {"not_strictly_convex_r_mm": bent, "quasi_convex_breaks_r_mm": breaks}
+    yield (f"   lambda_max falls to r = {lowest:.0f} mm and then rises; not strictly convex at r = "
+           + ", ".join(f"{r:.0f}" for r in bent) + " mm")
+    yield ("   quasi-convexity holds within print rounding everywhere" if not breaks.size else
+           "   quasi-convexity does not hold, beyond print rounding, arriving at r = "
+           + ", ".join(f"{r:.0f}" for r in breaks) + " mm")
+    turns = int(np.sum(np.diff(np.sign(np.diff(model.largest))) != 0))
+    yield f"   the identified limb's lambda_max turns {turns} time{'s' if turns != 1 else ''}: " + (
+        "quasi-convex" if turns <= 1 else "not quasi-convex")
+
+
+def _at(r_mm: np.ndarray, curve: np.ndarray, rows_mm: np.ndarray) -> np.ndarray:
+    return np.interp(rows_mm, r_mm, curve, left=np.nan, right=np.nan)
+
+
+def _cyclic(story: Story, model: LimbModel) -> Iterator[str]:
+    test = cyclic.cyclic_test(model)
+    story.files["cyclic.png"] = png_bytes(cyclic_figure(
+        test.displacement_mm, test.force_n, test.without_play_n, test.shift_mm, test.crossings_mm,
+        "Cyclic test at theta1 = 70 deg, theta2 = 50 deg"))
+    story.facts["zero_force_shift_mm"] = test.shift_mm
+    yield (f"   zero force moves by {test.shift_mm:.2f} mm (gap times lever, both joints: {test.expected_mm:.2f} mm); "
+           "the paper saw 2.5 mm")
+
+
+def _contact(story: Story, model: LimbModel, height_mm: float) -> Iterator[str]:
+    limb = planar_limb(model)
+    firm, loose = contact.firmest_and_loosest(limb, postures.reach(model, height_mm, 24)[1:-1], height_mm)
+    footings = [Footing(f"foot at r = {stand.r_mm:.0f} mm", postures.points_mm(model, *stand.theta_rad), stand.force_n,
+                        stand.margin_n, stand.holds) for stand in (firm, loose)]
+    grid = compute(model, 8000, (-np.pi / 2, np.pi / 2), (0.15, np.pi - 0.35))
+    needed = np.abs(grid.values["k_xz_n_per_mm"]) / grid.values["k_zz_n_per_mm"]
+    femur, tibia = model.number("geometry.femur_mm"), model.number("geometry.tibia_mm")
+    theta1, theta2 = grid.theta1_rad[None, :].astype(float), grid.theta2_rad[:, None].astype(float)
+    x_mm = femur * np.cos(theta1) + tibia * np.cos(theta1 - theta2)
+    z_mm = femur * np.sin(theta1) + tibia * np.sin(theta1 - theta2)
+    story.files["contact.png"] = png_bytes(contact_figure(footings, contact.FRICTION_RATIO, contact.SAG_MM, x_mm, z_mm,
+                                                          needed))
+    story.facts["footings"] = [{"r_mm": stand.r_mm, "force_n": stand.force_n, "margin_n": stand.margin_n}
+                               for stand in (firm, loose)]
+    for stand in (firm, loose):
+        yield (f"   foot at r = {stand.r_mm:.0f} mm: the ledge pushes with ({stand.force_n[0]:+.2f}, "
+               f"{stand.force_n[1]:+.2f}) N; {'holds' if stand.holds else 'slides'}, margin {stand.margin_n:+.2f} N")
