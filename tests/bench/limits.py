@@ -107,7 +107,7 @@ class Limits:
 
     def _host(self) -> list[Check]:
         eigen = next(r for r in self.rates if r.name.startswith("Eigen"))
-        batch = next(r for r in self.rates if "batch" in r.name)
+        batch = next(r for r in self.rates if r.name == "Brace, batch")
         return [_at_least("host batches, times Eigen's throughput", batch.postures_per_s / eigen.postures_per_s, 40),
                 _at_most("host batches: error of K over lambda_max", batch.error.k, 2e-6, text=_error_text)]
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from measure import SAME_JOB_ERROR, Error, planar_error
-from postures import paper_limb, postures
+from postures import paper_limb, postures, tilted_limb
 from toolchain import BENCH, BUILD, CORE_FLAGS, INCLUDES, run
 from versions import EIGEN_FLAGS, core_sources
 
@@ -52,7 +52,8 @@ def _parse(output: str) -> list[Rate]:
         elif kind == "run":
             rows.append([struct.unpack(">f", bytes.fromhex(word))[0] for word in rest.split()])
         elif kind == "rate":
-            error = planar_error(paper_limb(), np.array(rows, dtype=np.float64), angles)
+            limb = tilted_limb() if "tilted" in name else paper_limb()
+            error = planar_error(limb, np.array(rows, dtype=np.float64), angles)
             if not (error.k <= SAME_JOB_ERROR and error.axis_rad <= SAME_JOB_ERROR):
                 raise RuntimeError(f"{name}: not the same job as the others: {error}")
             rates.append(Rate(name, float(rest), error))

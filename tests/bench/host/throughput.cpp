@@ -22,9 +22,9 @@ extern "C" {
 
 namespace {
 
-constexpr std::size_t batch_size = 4096;
-constexpr int rounds = 40;
-constexpr double round_s = 4e-3;
+constexpr std::size_t batch_size = 8192;
+constexpr int rounds = 300;
+constexpr double round_s = 2e-3;
 
 const float bench_postures[BENCH_POSTURE_COUNT][3] = BENCH_POSTURES;
 
@@ -73,6 +73,26 @@ Six six(const brace_stiffness_t& k)
             k.lambda_min_n_per_mm, k.lambda_max_n_per_mm, k.stiff_axis_rad};
 }
 
+// A batch's six columns.
+struct Columns {
+    std::array<std::vector<float>, 6> column;
+    brace_stiffness_soa_t soa;
+
+    Columns()
+    {
+        column.fill(std::vector<float>(batch_size));
+        soa = {column[0].data(), column[1].data(), column[2].data(),
+               column[3].data(), column[4].data(), column[5].data()};
+    }
+    Columns(const Columns&) = delete;
+    Columns& operator=(const Columns&) = delete;
+
+    Six at(std::size_t i) const
+    {
+        return {column[0][i], column[1][i], column[2][i], column[3][i], column[4][i], column[5][i]};
+    }
+};
+
 void require(bool ok, const char* what)
 {
     if (!ok) {
@@ -116,19 +136,20 @@ void print(const Version& version)
 
 int main()
 {
-    static const brace_limb_t limb = BENCH_PAPER_LIMB;
+    static const brace_limb_t limb = BENCH_PAPER_LIMB, tilted = BENCH_TILTED_LIMB;
     const Inputs in = inputs();
     plain_limb_t plain_limb;
     plain_limb_from_bench(&plain_limb);
 
     std::vector<plain_stiffness_t> by_eigen(batch_size), by_plain(batch_size);
     std::vector<brace_stiffness_t> by_tick(batch_size);
-    std::array<std::vector<float>, 6> columns;
-    columns.fill(std::vector<float>(batch_size));
+    Columns columns, tilted_columns;
 
     brace_planar_t tick;
+    brace_planar_batch_t batch, tilted_batch;
     require(brace_planar_collapse(&limb, &tick) == BRACE_OK, "brace_planar_collapse");
-#include "batch_setup.inc"
+    require(brace_planar_batch_collapse(&limb, &batch) == BRACE_OK, "brace_planar_batch_collapse");
+    require(brace_planar_batch_collapse(&tilted, &tilted_batch) == BRACE_OK, "brace_planar_batch_collapse, tilted");
 
     std::vector<Version> versions;
     versions.push_back({"Eigen fixed size, -O3 -march=native",
@@ -152,6 +173,16 @@ int main()
                             }
                         },
                         [&](std::size_t i) { return six(by_tick[i]); }});
+    const auto by_columns = [](const brace_planar_batch_t& model, Columns& out) {
+        return [&](const Inputs& x) {
+            const std::size_t refused =
+                brace_planar_batch(&model, batch_size, x.theta1_rad.data(), x.theta2_rad.data(), &out.soa);
+            require(refused == 0, "brace_planar_batch");
+        };
+    };
+    versions.push_back({"Brace, batch", by_columns(batch, columns), [&](std::size_t i) { return columns.at(i); }});
+    versions.push_back({"Brace, batch, tilted limb", by_columns(tilted_batch, tilted_columns),
+                        [&](std::size_t i) { return tilted_columns.at(i); }});
     for (int round = 0; round < rounds; round++) {
         for (Version& version : versions) {
             measure_round(version, in);
