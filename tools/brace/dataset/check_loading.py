@@ -22,11 +22,14 @@ ANGLE_SLACK_RAD = 1e-6
 
 def faults(columns: Columns, meta: Meta) -> list[DataFault]:
     """Every fault found, file order within each check; empty for a sound record."""
-    found = [*_time(columns), *_duplicates(columns), *_angles(columns), *_steps(columns, meta),
-             *_sensor_range(columns, meta)]
-    if any(fault.blocking for fault in found):
-        return found  # slopes mean nothing while units or order are wrong
-    return [*found, *_signs(columns), *_slipped_decimals(columns, meta)]
+    found = [*_time(columns), *_duplicates(columns), *_angles(columns), *_steps(columns, meta)]
+    beyond = list(_sensor_range(columns, meta))
+    if any(fault.blocking for fault in found) or any(fault.row is None for fault in beyond):
+        return [*found, *beyond]  # slopes mean nothing while units or order are wrong
+    slipped = list(_slipped_decimals(columns, meta))
+    mended = {(fault.row, fault.field) for fault in slipped}
+    beyond = [fault for fault in beyond if (fault.row, fault.field) not in mended]
+    return [*found, *beyond, *_signs(columns), *slipped]
 
 
 def run_starts(run: np.ndarray) -> np.ndarray:

@@ -93,9 +93,12 @@ def _unknown(document: Document, prefix: str, name: str, value: Any, known: Mapp
     siblings = {key.rpartition(".")[2]: key for key in known if key.rpartition(".")[0] == table}
     near = did_you_mean(leaf, siblings)
     better = siblings[near] if near else did_you_mean(name, known)
-    if table and table not in tables and not near:
+    if table and table not in tables:
         near_table = did_you_mean(table, tables)
-        better = f"[{near_table}]" if near_table else better
+        return BadFileError(f"unknown table [{prefix}{table}]", where=document.where(prefix + table),
+                            why=f"a {what} has no such table; a misspelt one would silently do nothing",
+                            next_step=f"did you mean [{near_table}]?" if near_table else
+                            f"known tables: {', '.join(sorted(tables))}")
     listed = ", ".join(sorted(siblings)[:12])
     next_step = f"did you mean {better}?" if better else (f"known here: {listed}" if listed else
                                                           f"known tables: {', '.join(sorted(tables))}")
