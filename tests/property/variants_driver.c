@@ -2,6 +2,7 @@
  * lambda_max, stiff axis, flags. */
 #include <stddef.h>
 
+#include "brace/planar_batch.h"
 #include "brace/planar_fixed.h"
 #include "brace/spatial.h"
 
@@ -40,4 +41,18 @@ int spatial_rows(const brace_limb_t *limb, size_t n, const float *theta0_rad, co
         row[12] = (float)k.flags;
     }
     return status;
+}
+
+/* Six columns of n floats, one after the other, and the number of refused postures; negative: a status. */
+long batch_columns(const brace_limb_t *limb, size_t n, const float *theta1_rad, const float *theta2_rad,
+                   float *columns)
+{
+    brace_planar_batch_t batch;
+    const int status = brace_planar_batch_collapse(limb, &batch);
+    if (status != BRACE_OK) {
+        return status;
+    }
+    const brace_stiffness_soa_t out = {columns,         columns + n,     columns + 2 * n,
+                                       columns + 3 * n, columns + 4 * n, columns + 5 * n};
+    return (long)brace_planar_batch(&batch, n, theta1_rad, theta2_rad, &out);
 }

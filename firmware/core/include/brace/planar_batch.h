@@ -1,0 +1,46 @@
+/* K in the limb's plane at many postures at once, for maps and fits on a host: columns in, columns out, in a loop
+ * that compilers turn into vector instructions. The same model and the same collapse as brace/planar.h.
+ */
+#ifndef BRACE_PLANAR_BATCH_H
+#define BRACE_PLANAR_BATCH_H
+
+#include <stddef.h>
+
+#include "brace/chain.h"
+#include "brace/limb.h"
+#include "brace/stiffness.h"
+
+/* A collapsed limb. Opaque; written by brace_planar_batch_collapse. */
+typedef struct {
+    brace_harmonic_t mean, dev_x, dev_y, rest;
+    /* the harmonic form's cross, as cross_least + cross_swing sin(theta2/2 - zero[0]) sin(theta2/2 - zero[1]):
+     * exact where it vanishes; each zero as a float and what the float leaves [rad] */
+    float cross_least, cross_swing;
+    float zero_rad[2], zero_rest_rad[2];
+    int upright; /* nothing is tilted: the zeros are the straight and the folded knee */
+    uint32_t flags;
+} brace_planar_batch_t;
+
+/* Where the results go: six columns of n floats each, none of which overlaps another or an input. */
+typedef struct {
+    float *k_xx_n_per_mm;
+    float *k_xz_n_per_mm;
+    float *k_zz_n_per_mm;
+    float *lambda_min_n_per_mm;
+    float *lambda_max_n_per_mm;
+    float *stiff_axis_rad;
+} brace_stiffness_soa_t;
+
+/* The limb's constants; whenever its parameters change. Uses libm: meant for hosts.
+ * limb: any that brace_limb_check accepts. batch: written on success only.
+ * returns BRACE_OK, what brace_limb_check says, or BRACE_E_UNSUPPORTED as brace_harmonics does. */
+brace_status_t brace_planar_batch_collapse(const brace_limb_t *limb, brace_planar_batch_t *batch);
+
+/* K, its eigenvalues and the stiff axis at n postures.
+ * theta1_rad, theta2_rad: n true angles each [rad, -7.9 to 7.9]. A posture outside, or NaN, gives NaN in all six
+ *                         columns.
+ * returns the number of such postures. */
+size_t brace_planar_batch(const brace_planar_batch_t *batch, size_t n, const float *theta1_rad,
+                          const float *theta2_rad, const brace_stiffness_soa_t *stiffness);
+
+#endif
