@@ -1,0 +1,256 @@
+// The C interface: every refusal leaves outputs alone; columns that nobody wants are not written.
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+extern "C" {
+#include "api/brace_host.h"
+#include "unity.h"
+}
+
+namespace {
+
+const double kNan = std::numeric_limits<double>::quiet_NaN();
+
+brace_plant_model_t paper_limb()
+{
+    brace_plant_model_t model;
+    brace_plant_model_default(&model);
+    model.link[1].axial_mm_per_n = 0.001;
+    model.link[1].bending_mm_per_n = 0.06;
+    model.link[2].axial_mm_per_n = 0.002;
+    model.link[2].bending_mm_per_n = 0.25;
+    model.joint[1].compliance_rad_per_n_mm = 1.0e-5;
+    model.joint[2].compliance_rad_per_n_mm = 1.6e-5;
+    return model;
+}
+
+struct Rows {
+    std::vector<int32_t> run{1, 1, 1};
+    std::vector<double> theta1{1.0, 1.0, 1.0}, theta2{1.4, 1.4, 1.4}, t{0.0, 1.0, 2.0}, dx{0.0, 1.0, 2.0},
+        dz{0.0, 0.0, 0.0};
+
+    brace_loading_rows_t c() const
+    {
+        brace_loading_rows_t rows{};
+        rows.count = run.size();
+        rows.run = run.data();
+        rows.theta1_rad = theta1.data();
+        rows.theta2_rad = theta2.data();
+        rows.t_s = t.data();
+        rows.dx_mm = dx.data();
+        rows.dz_mm = dz.data();
+        return rows;
+    }
+};
+
+int32_t played_untouched(const brace_plant_model_t &model, const brace_loading_rows_t &rows)
+{
+    double fx[3] = {7.0, 7.0, 7.0};
+    brace_loading_reading_t reading{};
+    reading.fx_n = fx;
+    size_t unsolved = 77;
+    const int32_t status = brace_plant_loading(&model, &rows, &reading, &unsolved);
+    if (status != BRACE_HOST_OK) {
+        for (const double each : fx) {
+            TEST_ASSERT_EQUAL_DOUBLE(7.0, each);
+        }
+        TEST_ASSERT_EQUAL_size_t(77, unsolved);
+    }
+    return status;
+}
+
+} // namespace
+
+void setUp(void) {}
+void tearDown(void) {}
+
+static void test_default_is_without_effect(void)
+{
+    brace_plant_model_t model;
+    std::memset(&model, 0x5a, sizeof model);
+    brace_plant_model_default(&model);
+    TEST_ASSERT_NULL(brace_plant_model_fault(&model));
+    TEST_ASSERT_EQUAL_DOUBLE(1.0, model.sensor.gain);
+    TEST_ASSERT_DOUBLE_IS_INF(model.sensor.saturation_n);
+    TEST_ASSERT_DOUBLE_IS_INF(model.change.at_s);
+    brace_plant_model_default(nullptr);
+}
+
+// Every double of the model has a key, and setting it through the key shows in the model.
+static void test_keys_cover_the_model(void)
+{
+    const char *const tables[] = {"link.coxa.",  "link.femur.",  "link.tibia.",
+                                  "joint.coxa.", "joint.femur.", "joint.tibia."};
+    const char *const link_keys[] = {"axial_mm_per_n",  "bending_mm_per_n", "tilt_rad",
+                                     "moment_transfer", "lateral_mm_per_n", "torsion_rad_per_n_mm"};
+    const char *const joint_keys[] = {"compliance_rad_per_n_mm", "gap_rad", "coulomb_n_mm",
+                                      "hardening_n_mm_per_rad3", "zero_offset_rad"};
+    const char *const others[] = {"geometry.coxa_mm",
+                                  "geometry.femur_mm",
+                                  "geometry.tibia_mm",
+                                  "base.x_mm_per_n",
+                                  "base.z_mm_per_n",
+                                  "base.rotation_rad_per_n_mm",
+                                  "gravity.femur_n",
+                                  "gravity.tibia_n",
+                                  "gravity.knee_n",
+                                  "sensor.bias_x_n",
+                                  "sensor.bias_z_n",
+                                  "sensor.gain",
+                                  "sensor.rotation_rad",
+                                  "sensor.crosstalk_xz",
+                                  "sensor.crosstalk_zx",
+                                  "sensor.drift_x_n_per_s",
+                                  "sensor.drift_z_n_per_s",
+                                  "sensor.saturation_n",
+                                  "creep.ratio",
+                                  "creep.time_constant_s",
+                                  "thermal.joint_compliance_per_degc",
+                                  "thermal.reference_degc",
+                                  "contact.play_mm",
+                                  "change.at_s",
+                                  "change.link",
+                                  "change.bending_factor"};
+    std::vector<std::string> keys(std::begin(others), std::end(others));
+    for (int table = 0; table < 6; ++table) {
+        for (int i = 0; i < (table < 3 ? 6 : 5); ++i) {
+            keys.push_back(std::string(tables[table]) + (table < 3 ? link_keys[i] : joint_keys[i]));
+        }
+    }
+    std::vector<bool> covered(sizeof(brace_plant_model_t) / sizeof(double), false);
+    for (const std::string &key : keys) {
+        const int64_t offset = brace_plant_key_offset(key.c_str());
+        TEST_ASSERT_TRUE_MESSAGE(offset >= 0 && offset % 8 == 0, key.c_str());
+        TEST_ASSERT_FALSE_MESSAGE(covered[offset / 8], key.c_str());
+        covered[offset / 8] = true;
+        // a value that nothing may have is a fault of that name
+        brace_plant_model_t model = paper_limb();
+        std::memcpy(reinterpret_cast<char *>(&model) + offset, &kNan, sizeof kNan);
+        TEST_ASSERT_EQUAL_STRING(key.c_str(), brace_plant_model_fault(&model));
+    }
+    for (size_t i = 0; i < covered.size(); ++i) {
+        TEST_ASSERT_TRUE(covered[i]);
+    }
+    TEST_ASSERT_EQUAL_INT64(-1, brace_plant_key_offset("joint.femur.gap"));
+    TEST_ASSERT_EQUAL_INT64(-1, brace_plant_key_offset(nullptr));
+}
+
+static void test_loading_refuses(void)
+{
+    const brace_plant_model_t model = paper_limb();
+    const Rows good;
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_OK, played_untouched(model, good.c()));
+
+    Rows rows = good;
+    rows.dz[2] = kNan;
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_E_NOT_FINITE, played_untouched(model, rows.c()));
+    rows = good;
+    rows.t[2] = 0.5;
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_E_RANGE, played_untouched(model, rows.c()));
+    brace_loading_rows_t without = good.c();
+    without.run = nullptr;
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_E_NULL, played_untouched(model, without));
+
+    brace_plant_model_t bad = model;
+    bad.joint[1].gap_rad = -1e-3;
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_E_PARAMETER, played_untouched(bad, good.c()));
+    TEST_ASSERT_EQUAL_STRING("joint.femur.gap_rad", brace_plant_model_fault(&bad));
+
+    // good rows first, then a pose in which this limb cannot yield along itself
+    brace_plant_model_t springs;
+    brace_plant_model_default(&springs);
+    springs.joint[1].compliance_rad_per_n_mm = springs.joint[2].compliance_rad_per_n_mm = 1e-5;
+    rows = good;
+    rows.theta2[2] = 0.0;
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_OK, played_untouched(springs, good.c()));
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_E_SINGULAR, played_untouched(springs, rows.c()));
+
+    brace_loading_reading_t nothing{};
+    const brace_loading_rows_t c = good.c();
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_OK, brace_plant_loading(&model, &c, &nothing, nullptr));
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_E_NULL, brace_plant_loading(nullptr, &c, &nothing, nullptr));
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_E_NULL, brace_plant_loading(&model, nullptr, &nothing, nullptr));
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_E_NULL, brace_plant_loading(&model, &c, nullptr, nullptr));
+}
+
+static void test_empty_record_is_played(void)
+{
+    const brace_plant_model_t model = paper_limb();
+    Rows rows;
+    brace_loading_rows_t c = rows.c();
+    c.count = 0;
+    brace_loading_reading_t reading{};
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_OK, brace_plant_loading(&model, &c, &reading, nullptr));
+}
+
+// Each model of a batch reads as if played alone; a refused one leaves NaN and the others stand.
+static void test_many_models(void)
+{
+    brace_plant_model_t models[3] = {paper_limb(), paper_limb(), paper_limb()};
+    models[1].sensor.gain = kNan;
+    models[2].joint[2].gap_rad = 0.001;
+    const Rows rows;
+    const brace_loading_rows_t c = rows.c();
+    double fx[9], fz[9];
+    int32_t status[3];
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_E_PARAMETER, brace_plant_loading_many(models, 3, &c, fx, fz, status));
+    for (int m = 0; m < 3; ++m) {
+        double alone[3];
+        brace_loading_reading_t reading{};
+        reading.fz_n = alone;
+        TEST_ASSERT_EQUAL_INT32(status[m], brace_plant_loading(&models[m], &c, &reading, nullptr));
+        for (int i = 0; i < 3; ++i) {
+            if (m == 1) {
+                TEST_ASSERT_DOUBLE_IS_NAN(fx[3 + i]);
+                TEST_ASSERT_DOUBLE_IS_NAN(fz[3 + i]);
+            } else {
+                TEST_ASSERT_EQUAL_MEMORY(&alone[i], &fz[3 * m + i], sizeof(double));
+            }
+        }
+    }
+}
+
+static void test_effects_are_listed(void)
+{
+    const size_t count = brace_effect_count();
+    TEST_ASSERT_EQUAL_size_t(28, count);
+    brace_effect_t effect;
+    for (size_t i = 0; i < count; ++i) {
+        TEST_ASSERT_EQUAL_INT32(BRACE_HOST_OK, brace_effect_at(i, &effect));
+        // every parameter is a key of the model
+        std::string keys = effect.parameters;
+        for (size_t at = 0; at != std::string::npos;) {
+            const size_t end = keys.find(' ', at);
+            const std::string key = keys.substr(at, end - at);
+            TEST_ASSERT_TRUE_MESSAGE(brace_plant_key_offset(key.c_str()) >= 0, key.c_str());
+            at = end == std::string::npos ? end : end + 1;
+        }
+        TEST_ASSERT_TRUE(std::strlen(effect.name) > 0 && std::strlen(effect.where) > 0
+                         && std::strlen(effect.law) > 0);
+    }
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_E_RANGE, brace_effect_at(count, &effect));
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_E_NULL, brace_effect_at(0, nullptr));
+}
+
+static void test_every_status_has_words(void)
+{
+    const char *const unknown = brace_host_status_text(-99);
+    for (const int32_t status : {0, -1, -2, -3, -4, -5, -6, -9}) {
+        TEST_ASSERT_TRUE(std::strcmp(unknown, brace_host_status_text(status)) != 0);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_default_is_without_effect);
+    RUN_TEST(test_keys_cover_the_model);
+    RUN_TEST(test_loading_refuses);
+    RUN_TEST(test_empty_record_is_played);
+    RUN_TEST(test_many_models);
+    RUN_TEST(test_effects_are_listed);
+    RUN_TEST(test_every_status_has_words);
+    return UNITY_END();
+}
