@@ -215,7 +215,7 @@ static void test_many_models(void)
 static void test_effects_are_listed(void)
 {
     const size_t count = brace_effect_count();
-    TEST_ASSERT_EQUAL_size_t(28, count);
+    TEST_ASSERT_EQUAL_size_t(27, count);
     brace_effect_t effect;
     for (size_t i = 0; i < count; ++i) {
         TEST_ASSERT_EQUAL_INT32(BRACE_HOST_OK, brace_effect_at(i, &effect));
