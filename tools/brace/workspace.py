@@ -11,7 +11,7 @@ import numpy as np
 from brace.errors import UsageError
 from brace.model import LimbModel
 from brace.native import library
-from brace.native.limb import firmware_limb
+from brace.native.limb import firmware_limb, status_text
 from brace.stiffness import PLANAR_K, PLANAR_REST, E_UNSUPPORTED, planar_limb
 
 COLUMNS = (*PLANAR_K, *PLANAR_REST)
@@ -79,10 +79,13 @@ def _evaluate(model: LimbModel, theta1: np.ndarray, theta2: np.ndarray,
               advance: Callable[[int], None]) -> tuple[dict[str, np.ndarray], str]:
     native = library()
     ffi, lib = native.ffi, native.lib
-    chain, harmonics = ffi.new("brace_chain_t *"), ffi.new("brace_harmonics_t *")
-    status = lib.brace_chain_build(firmware_limb(native, model), chain) or lib.brace_harmonics(chain, harmonics)
+    batch = ffi.new("brace_planar_batch_t *")
+    status = lib.brace_planar_batch_collapse(firmware_limb(native, model), batch)
     if status == E_UNSUPPORTED:
         return _by_the_chain(model, theta1, theta2, advance), "general"
+    if status:
+        raise UsageError("the firmware refuses this limb", where=model.where(), why=status_text(native, status),
+                         next_step="check the model")
     out = {name: np.empty(theta1.size, np.float32) for name in COLUMNS}
     soa = ffi.new("brace_stiffness_soa_t *")
     for first in range(0, theta1.size, BLOCK):
@@ -90,7 +93,7 @@ def _evaluate(model: LimbModel, theta1: np.ndarray, theta2: np.ndarray,
         pointers = [ffi.from_buffer("float[]", out[name][first:last]) for name in COLUMNS]
         for name, pointer in zip(COLUMNS, pointers):
             setattr(soa, name, pointer)
-        lib.brace_planar_batch(harmonics, last - first, ffi.from_buffer("float[]", theta1[first:last]),
+        lib.brace_planar_batch(batch, last - first, ffi.from_buffer("float[]", theta1[first:last]),
                                ffi.from_buffer("float[]", theta2[first:last]), soa)
         advance(last)
     return out, "batch"

@@ -209,7 +209,8 @@ def _slipped_decimals(columns: Columns, meta: Meta) -> Iterator[DataFault]:
         expected = np.where(inner & turning & ~back, force, expected)
         off = np.abs(force - expected)
         typical = max(float(np.median(off)), floor_n)
-        for row in np.flatnonzero((off > 12 * typical) & (np.abs(force) > 12 * typical))[:200]:
+        large = np.maximum(np.abs(force), np.abs(expected)) > 12 * typical
+        for row in np.flatnonzero((off > 12 * typical) & large)[:200]:
             near = max(4 * typical, 0.02 * abs(expected[row]))
             for factor in (0.1, 10.0, 0.01, 100.0):
                 if abs(force[row] * factor - expected[row]) < near:

@@ -51,6 +51,7 @@ def draw_ellipses(axes: Axes, ellipses: dict[str, np.ndarray], links: np.ndarray
         offsets=np.column_stack([ellipses["x_mm"], ellipses["z_mm"]]), offset_transform=axes.transData,
         facecolors=STIFF + "30", edgecolors=STIFF, linewidths=0.9))
     axes.plot([0], [0], "o", color=INK, markersize=4)
-    axes.set(xlabel="x [mm]", ylabel="z [mm]", aspect="equal")
-    axes.autoscale_view()
-    axes.margins(0.12)
+    room = 0.5 * longest * np.array([-1.0, 1.0])
+    x_limits, z_limits = (np.array([min(ellipses[name].min(), 0.0), ellipses[name].max()]) + room
+                          for name in ("x_mm", "z_mm"))
+    axes.set(xlabel="x [mm]", ylabel="z [mm]", aspect="equal", xlim=x_limits, ylim=z_limits)
