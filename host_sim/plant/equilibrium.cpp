@@ -15,6 +15,7 @@ constexpr int kMaxSteps = 200;
 constexpr int kMaxSearch = 80;
 constexpr double kGoodBalance_n = 1e-10;
 constexpr double kPromisedBalance_n = 1e-9;
+constexpr double kRounding = 1e-15; // relative, of a sum of a few products
 constexpr double kLeastCurvature = 1e-12;
 constexpr double kDamping =
     1e-9; // of each spring: keeps a joint within its play, where nothing pushes back, solvable
@@ -183,42 +184,60 @@ double length_of(const Line &line)
     return low > 0.0 ? low : high;
 }
 
+// How far from rest a point is, and what rounding makes of one that is at rest.
+struct Balance {
+    Pair torque_n_mm{};       // out of balance, friction counted in
+    double unbalance_n = 0.0; // the largest over the longest lever
+    double rounding_n = 0.0;
+    double rounding_at_stops_n = 0.0; // were each joint at the edge of its play, where its spring may begin
+};
+
+Balance balance_at(const RestProblem &problem, const Pair &deflection, const Slope &slope, const Pair &sign)
+{
+    Balance balance;
+    double longest_mm = 1.0;
+    double reach_mm = problem.displacement_mm.norm();
+    double worst = 0.0;
+    double here = 0.0;
+    double at_stops = 0.0;
+    for (int i = 0; i < problem.joint_count; ++i) {
+        const JointUnknown &joint = problem.joint[i];
+        const double lever_mm = joint.lever_mm.norm();
+        const double size = std::fabs(deflection[i]);
+        if (sign[i] != 0.0) {
+            balance.torque_n_mm[i] = slope.torque_n_mm[i] + sign[i] * joint.law.coulomb_n_mm;
+        }
+        worst = std::max(worst, std::fabs(balance.torque_n_mm[i]));
+        longest_mm = std::max(longest_mm, lever_mm);
+        reach_mm += size * lever_mm;
+        here += size * slope.curvature(i, i);
+        at_stops += size * std::max(slope.curvature(i, i), 1.0 / joint.law.compliance_rad_per_n_mm);
+    }
+    const double structure_n = problem.stiffness_n_per_mm.norm() * reach_mm;
+    balance.unbalance_n = worst / longest_mm;
+    balance.rounding_n = kRounding * (structure_n + here / longest_mm);
+    balance.rounding_at_stops_n = kRounding * (structure_n + at_stops / longest_mm);
+    return balance;
+}
+
 } // namespace
 
 void find_rest(const RestProblem &problem, RestState &state)
 {
     Pair deflection = state.deflection_rad;
-    double longest_mm = 0.0;
-    for (int i = 0; i < problem.joint_count; ++i) {
-        longest_mm = std::max(longest_mm, problem.joint[i].lever_mm.norm());
-    }
     for (int step = 0;; ++step) {
         const Slope slope = slope_at(problem, deflection);
         const Pair sign = moving_sign(problem, deflection, slope.torque_n_mm);
-        Pair torque{};
-        double worst = 0.0;
-        double reach_mm = problem.displacement_mm.norm();
-        double spring_n_mm = 0.0;
-        for (int i = 0; i < problem.joint_count; ++i) {
-            const JointUnknown &joint = problem.joint[i];
-            torque[i] = sign[i] != 0.0 ? slope.torque_n_mm[i] + sign[i] * joint.law.coulomb_n_mm : 0.0;
-            worst = std::max(worst, std::fabs(torque[i]));
-            reach_mm += std::fabs(deflection[i]) * joint.lever_mm.norm();
-            spring_n_mm += std::fabs(deflection[i])
-                           * std::max(slope.curvature(i, i), 1.0 / joint.law.compliance_rad_per_n_mm);
-        }
-        // A zero lever leaves nothing to weigh a torque by.
-        state.unbalance_n = longest_mm > 0.0 ? worst / longest_mm : 0.0;
-        const double rounding_n = 1e-15
-                                  * (problem.stiffness_n_per_mm.norm() * reach_mm
-                                     + (longest_mm > 0.0 ? spring_n_mm / longest_mm : 0.0));
-        if (state.unbalance_n <= std::max(kGoodBalance_n, rounding_n) || step == kMaxSteps) {
-            state.solved = state.unbalance_n <= std::max(kPromisedBalance_n, 8.0 * rounding_n);
+        const Balance balance = balance_at(problem, deflection, slope, sign);
+        if (balance.unbalance_n <= std::max(kGoodBalance_n, balance.rounding_n) || step == kMaxSteps) {
             state.deflection_rad = deflection;
             state.force_n = slope.force_n;
+            state.unbalance_n = balance.unbalance_n;
+            state.solved =
+                balance.unbalance_n <= std::max(kPromisedBalance_n, 8.0 * balance.rounding_at_stops_n);
             return;
         }
-        const Pair direction = direction_of(problem, deflection, slope, torque, sign);
+        const Pair direction = direction_of(problem, deflection, slope, balance.torque_n_mm, sign);
         const Line line(problem, deflection, direction, sign);
         deflection = line.at(length_of(line));
     }

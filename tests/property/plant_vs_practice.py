@@ -65,11 +65,11 @@ def model_of(truth: dict[str, Any]) -> Any:
     return model
 
 
-def residual(folder: Path, model: Any) -> tuple[Any, dict[str, float]]:
-    """The record's columns, and measured less played: force [N], shape (n, 2), and encoders' rms [rad]."""
+def residual(folder: Path, model: Any) -> tuple[Any, dict[str, Any]]:
+    """The record's columns, and measured less played for each column that is both [N, rad]."""
     from host_library import play
 
-    data = np.genfromtxt(folder / "data.csv", delimiter=",", names=True, dtype=None, encoding="utf-8")
+    data: Any = np.genfromtxt(folder / "data.csv", delimiter=",", names=True, dtype=None, encoding="utf-8")
     played = play(model, data["theta1_rad"], data["theta2_rad"], data["dx_mm"], data["dz_mm"], t_s=data["t_s"],
                   temp_degc=data["temp_degc"], run=data["run"])
     left = {name: data[name] - played[name] for name in ("fx_n", "fz_n", "enc1_rad", "enc2_rad")

@@ -4,26 +4,26 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from host_library import Refused, play_joint
+from host_library import Array, Model, Refused, play_joint
 from limbs import limb
 
 K, GAP, TAU, H = 1e5, 0.006, 120.0, 4e9
 
 
-def joint(**keys: float):
+def joint(**keys: float) -> Model:
     """The femur's joint with these keys."""
     return limb({f"joint.femur.{key}": value for key, value in ({"compliance_rad_per_n_mm": 1 / K} | keys).items()})
 
 
-def ramp(most: float, steps: int = 50) -> np.ndarray:
+def ramp(most: float, steps: int = 50) -> Array:
     """0 -> most -> -most -> most."""
     return np.concatenate([np.linspace(0, most, steps), np.linspace(most, -most, 2 * steps)[1:],
                            np.linspace(-most, most, 2 * steps)[1:]])
 
 
-def spring(angle: np.ndarray) -> np.ndarray:
+def spring(angle: Array) -> Array:
     """k q + h q^3 beyond the play."""
-    q = np.sign(angle) * np.maximum(np.abs(angle) - GAP / 2, 0)
+    q: Array = np.sign(angle) * np.maximum(np.abs(angle) - GAP / 2, 0)
     return K * q + H * q**3
 
 

@@ -220,6 +220,34 @@ def test_friction_makes_a_loop_of_constant_height() -> None:
             assert up == pytest.approx((d + (c_all - c_stuck) * tau / arm) / c_all, abs=1e-9)
 
 
+def test_sliding_joints_on_rigid_links() -> None:
+    """Joints alone yield: the displacement imposes their deflections q, and each carries k q + tau, the limb C^-1.
+
+    The plant gives rigid links a billionth of the limb's compliance, so the force is right to that.
+    """
+    tau = np.array([30.0, 20.0])
+    model = limb({"joint.femur.compliance_rad_per_n_mm": 1e-5, "joint.tibia.compliance_rad_per_n_mm": 2e-5,
+                  "joint.femur.coulomb_n_mm": tau[0], "joint.tibia.coulomb_n_mm": tau[1]})
+    g = geometry(model, *POSE)
+    levers = np.stack([g["p1"], g["p2"]], axis=1)
+    q = np.outer(np.linspace(0, 1, 6), [0.01, 0.02])
+    d = q @ levers.T
+    torque = q[1:] / [1e-5, 2e-5] + tau
+    f = forces(play(model, *POSE, d[:, 0], d[:, 1]))[1:]
+    np.testing.assert_allclose(f, np.linalg.solve(levers.T, torque.T).T, rtol=1e-6)
+
+
+def test_rigid_joint_with_play_is_a_pair_of_stops() -> None:
+    """Tip free across z: beyond the play the structure alone yields, to the stop's share of a hundred-millionth."""
+    keys = {key: value for key, value in PAPER.items() if key != "joint.femur.compliance_rad_per_n_mm"}
+    model = limb(keys | {"joint.femur.gap_rad": 0.004})
+    half = abs(geometry(model, *POSE)["p1"][1]) * 0.002
+    dz = there_and_back(3 * half, 12)
+    f = play(model, *POSE, 0 * dz, dz, free_axis=1)["fz_n"]
+    beyond = np.sign(dz) * np.maximum(np.abs(dz) - half, 0)
+    np.testing.assert_allclose(f, beyond / compliance(limb(keys))[1, 1], rtol=1e-7, atol=1e-9)
+
+
 def test_refined_steps_end_in_the_same_state() -> None:
     """A path along a straight line, then back: 4, 40 or 400 steps a leg end with the same force.
 
@@ -287,7 +315,7 @@ def test_gravity_is_the_slope_of_potential_energy() -> None:
     weights = {"gravity.femur_n": 3.0, "gravity.tibia_n": 2.0, "gravity.knee_n": 1.5}
     l1, l2 = 185.0, 313.5
 
-    def potential(q1: float, q2: float) -> float:
+    def potential(q1: float, q2: float) -> Any:
         knee = l1 * np.sin(POSE[0] + q1)
         tip = knee + l2 * np.sin(POSE[0] - POSE[1] + q1 + q2)
         return 3.0 * knee / 2 + 1.5 * knee + 2.0 * (knee + tip) / 2
