@@ -17,6 +17,7 @@ class Bench:
     measured: list[Measured]
     rates: list[Rate]
     weights: dict[str, int]  # name with unit -> value: flash, RAM and stack of the core
+    modules: dict[str, int]  # source of the core -> bytes of flash on the Cortex-M4F
     checks: list[Check]
     tools: dict[str, str]  # program -> version
 
@@ -58,6 +59,8 @@ def tables(bench: Bench) -> list[Table]:
                   _power(r.error.eigenvalues[0])] for r in bench.rates]))
     out.append(("The core's flash, RAM and stack, by the compiler", ["what", "bytes"],
                 [[name, f"{value:,}"] for name, value in bench.weights.items()]))
+    out.append(("The core's sources on the Cortex-M4F", ["source", "flash [B]"],
+                [[name, f"{value:,}"] for name, value in bench.modules.items()]))
     out.append(("Limits", ["limit", "measured", "required", ""],
                 [[c.name, c.measured, c.required, c.verdict] for c in bench.checks]))
     return out
@@ -117,7 +120,8 @@ def as_data(bench: Bench) -> dict[str, object]:
         } for m in bench.measured],
         "host": [{"name": r.name, "postures_per_s": r.postures_per_s, "error_k_of_lambda_max": r.error.k,
                   "error_eigenvalues_rel": list(r.error.eigenvalues)} for r in bench.rates],
-        "core": bench.weights,
+        "core_bytes": bench.weights,
+        "core_source_flash_bytes": bench.modules,
         "limits": [{"name": c.name, "measured": c.measured, "required": c.required, "verdict": c.verdict}
                    for c in bench.checks],
         "tools": bench.tools,

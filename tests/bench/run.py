@@ -23,7 +23,7 @@ from measure import measure  # noqa: E402
 from report import Bench, as_data, as_markdown, as_text  # noqa: E402
 from throughput import measure_rates  # noqa: E402
 from toolchain import BUILD, PREFIX, run  # noqa: E402
-from weights import weigh_core  # noqa: E402
+from weights import weigh_core, weigh_modules  # noqa: E402
 
 
 def say(text: str) -> None:
@@ -64,7 +64,7 @@ def bench() -> Bench:
     rates = measure_rates()
     say("weighing the core")
     weights = weigh_core()
-    return Bench(measured, rates, weights, Limits(measured, rates, weights).checks(), tools())
+    return Bench(measured, rates, weights, weigh_modules(), Limits(measured, rates, weights).checks(), tools())
 
 
 def main() -> int:

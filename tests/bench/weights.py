@@ -5,7 +5,7 @@ from pathlib import Path
 
 from measure import object_of
 from stack import worst_stack_bytes
-from toolchain import BUILD, M3, M4F, PREFIX, Processor, flash_bytes, run, type_sizes
+from toolchain import BUILD, M3, M4F, PREFIX, Processor, flash_bytes, run, section_sizes, type_sizes
 from versions import core_sources
 
 NO_FPU_ONLY = ("planar_fixed", "fixed_")  # stems of the sources for controllers without an FPU
@@ -35,6 +35,16 @@ def _weigh(name: str, sources: list[Path], processor: Processor) -> tuple[int, i
     flash = flash_bytes(objects, functions, BUILD / "images" / f"core_{name}.elf", processor)
     deepest, needs = max((worst_stack_bytes(objects, function)[0], function) for function in functions)
     return flash, deepest, needs
+
+
+def weigh_modules() -> dict[str, int]:
+    """Source of the core -> its own code and constants on a Cortex-M4F [B]."""
+    weights = {}
+    for source in core_sources():
+        if not _is_for(source, HOST_ONLY):
+            sizes = section_sizes(object_of(source, M4F, ()))
+            weights[source.stem] = sum(size for name, size in sizes.items() if name.startswith((".text", ".rodata", ".data")))
+    return {name: weights[name] for name in sorted(weights, key=lambda name: -weights[name])}
 
 
 def _deepest(function: str, processor: Processor, sources: list[Path]) -> int:
