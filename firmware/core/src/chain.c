@@ -6,90 +6,93 @@
 #include "turn.h"
 #include "vec.h"
 
-static const brace_vec_t NONE = {0.0f, 0.0f};
-
-/* Along an ellipsoid's first axis, in its link's frame. |tilt| < 2 rad. */
-static brace_vec_t direction(float tilt_rad)
+/* Splits a link's ellipsoid, less the 0.75 kappa of its bending that comes with moment transfer, into iso,
+ * returned, and its longer axis; both vectors sqrt(mm/N), in the link's frame. */
+static float bend(const brace_link_t *link, float kappa, brace_vec_t *excess, brace_vec_t *with_moment)
 {
-    const brace_sincos_t at = brace_turn_sincos(brace_turn_from_q28((int32_t)(tilt_rad * 0x1p28f)));
-    return (brace_vec_t){(float)at.cos * (1.0f / BRACE_TURN_ONE), (float)at.sin * (1.0f / BRACE_TURN_ONE)};
+    const brace_sincos_t at = brace_turn_sincos(brace_turn_from_q28((int32_t)(link->tilt_rad * 0x1p28f)));
+    const brace_vec_t axis = {(float)at.cos * (1.0f / BRACE_TURN_ONE), (float)at.sin * (1.0f / BRACE_TURN_ONE)};
+    const brace_vec_t across = vec_quarter(axis);
+    const float coupled = 0.75f * kappa * link->bending_mm_per_n;
+    const float bending = link->bending_mm_per_n - coupled;
+    const float more = bending - link->axial_mm_per_n;
+    *with_moment = vec_scaled(across, __builtin_sqrtf(coupled));
+    *excess = vec_scaled(more > 0.0f ? across : axis, __builtin_sqrtf(__builtin_fabsf(more)));
+    return more > 0.0f ? link->axial_mm_per_n : bending;
 }
 
-/* Splits an ellipsoid into what it shares in every direction, returned, and its longer axis, written. */
-static float split_ellipsoid(float along, float across, brace_vec_t axis, brace_vec_t *excess)
+/* sqrt(mm/N) per mm of lever about a link's far end, of the bending that comes with moment transfer. */
+static float per_lever(const brace_link_t *link, float kappa, float length_mm)
 {
-    const float shared = across > along ? along : across;
-    *excess = across > along ? vec_scaled(vec_quarter(axis), __builtin_sqrtf(across - shared))
-                             : vec_scaled(axis, __builtin_sqrtf(along - shared));
-    return shared;
+    const float coupled = 0.75f * kappa * link->bending_mm_per_n;
+    return coupled > 0.0f ? 2.0f * __builtin_sqrtf(coupled) / length_mm : 0.0f;
 }
 
-typedef struct {
-    brace_element_t *element;
-    uint32_t count;
-    float iso;
-} list_t;
-
-static void append(list_t *list, brace_vec_t femur, brace_vec_t tibia, brace_vec_t base)
+float brace_chain_firm(const brace_limb_t *limb, brace_element_t element[BRACE_CHAIN_FIRM])
 {
-    if (vec_dot(femur, femur) + vec_dot(tibia, tibia) + vec_dot(base, base) > 0.0f) {
-        list->element[list->count++] = (brace_element_t){femur, tibia, base};
+    const brace_link_t *femur = &limb->link[BRACE_FEMUR];
+    const float kappa = femur->moment_transfer_ratio;
+    brace_vec_t no_moment;
+    for (int i = 0; i < BRACE_CHAIN_FIRM; i++) {
+        element[i] = (brace_element_t){0};
     }
+    const float femur_iso = bend(femur, kappa, &element[0].femur, &element[1].femur);
+    element[1].tibia.z = per_lever(femur, kappa, limb->femur_mm) * limb->tibia_mm;
+
+    const float tibia_iso = bend(&limb->link[BRACE_TIBIA], 0.0f, &element[2].tibia, &no_moment);
+
+    const float hip = __builtin_sqrtf(limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm +
+                                      limb->base.rotation_rad_per_n_mm);
+    element[3].femur.z = hip * limb->femur_mm;
+    element[3].tibia.z = hip * limb->tibia_mm;
+
+    element[4].tibia.z = __builtin_sqrtf(limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm) * limb->tibia_mm;
+    return femur_iso + tibia_iso;
 }
 
-/* A link's ellipsoid, and the link's moment transfer per unit of knee lever: what a tip force with unit
- * lever about the link's far end bends. Of b = bending, 0.75 kappa b acts together with the moment. */
-typedef struct {
-    brace_vec_t excess;         /* sqrt(mm/N), link's frame */
-    brace_vec_t with_moment;    /* sqrt(mm/N), link's frame */
-    float per_lever;            /* sqrt(mm/N)/mm */
-} bent_link_t;
-
-static bent_link_t bend(list_t *list, const brace_link_t *link, float length_mm, float moment_ratio)
+/* The coxa lies along x, its moment is that of the tip force about the hip. */
+static float coxa(const brace_limb_t *limb, brace_element_t element[2])
 {
-    bent_link_t bent;
-    const brace_vec_t axis = direction(link->tilt_rad);
-    const float coupled = 0.75f * moment_ratio * link->bending_mm_per_n;
-    const float amplitude = __builtin_sqrtf(coupled);
-    list->iso += split_ellipsoid(link->axial_mm_per_n, link->bending_mm_per_n - coupled, axis, &bent.excess);
-    bent.with_moment = vec_scaled(vec_quarter(axis), amplitude);
-    bent.per_lever = coupled > 0.0f ? 2.0f * amplitude / length_mm : 0.0f;
-    return bent;
+    const brace_link_t *link = &limb->link[BRACE_COXA];
+    const float kappa = link->moment_transfer_ratio;
+    const float lever = per_lever(link, kappa, limb->coxa_mm);
+    element[0] = element[1] = (brace_element_t){0};
+    element[1].femur.z = lever * limb->femur_mm;
+    element[1].tibia.z = lever * limb->tibia_mm;
+    return bend(link, kappa, &element[0].base, &element[1].base);
+}
+
+static float base(const brace_limb_t *limb, brace_element_t *element)
+{
+    const float x = limb->base.x_mm_per_n, z = limb->base.z_mm_per_n;
+    *element = (brace_element_t){0};
+    element->base.x = x > z ? __builtin_sqrtf(x - z) : 0.0f;
+    element->base.z = z > x ? __builtin_sqrtf(z - x) : 0.0f;
+    return x > z ? z : x;
+}
+
+static bool yields(const brace_element_t *element)
+{
+    return vec_dot(element->femur, element->femur) + vec_dot(element->tibia, element->tibia) +
+               vec_dot(element->base, element->base) > 0.0f;
 }
 
 float brace_chain_list(const brace_limb_t *limb, int with_coxa, brace_element_t *element, uint32_t *count)
 {
-    const float femur_mm = limb->femur_mm, tibia_mm = limb->tibia_mm;
-    const brace_link_t *link = limb->link;
-    list_t list = {element, 0, 0.0f};
-
-    const bent_link_t femur = bend(&list, &link[BRACE_FEMUR], femur_mm, link[BRACE_FEMUR].moment_transfer_ratio);
-    append(&list, femur.excess, NONE, NONE);
-    append(&list, femur.with_moment, (brace_vec_t){0.0f, femur.per_lever * tibia_mm}, NONE);
-
-    append(&list, NONE, bend(&list, &link[BRACE_TIBIA], tibia_mm, 0.0f).excess, NONE);
-
-    const float turn = __builtin_sqrtf(limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm +
-                                       limb->base.rotation_rad_per_n_mm);
-    append(&list, (brace_vec_t){0.0f, turn * femur_mm}, (brace_vec_t){0.0f, turn * tibia_mm}, NONE);
-
-    const float knee = __builtin_sqrtf(limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm);
-    append(&list, NONE, (brace_vec_t){0.0f, knee * tibia_mm}, NONE);
-
+    uint32_t used = BRACE_CHAIN_FIRM, kept = 0;
+    float iso = brace_chain_firm(limb, element);
     if (with_coxa) {
-        const bent_link_t coxa =
-            bend(&list, &link[BRACE_COXA], limb->coxa_mm, link[BRACE_COXA].moment_transfer_ratio);
-        append(&list, NONE, NONE, coxa.excess);
-        append(&list, (brace_vec_t){0.0f, coxa.per_lever * femur_mm},
-               (brace_vec_t){0.0f, coxa.per_lever * tibia_mm}, coxa.with_moment);
+        iso += coxa(limb, &element[used]);
+        used += 2;
     }
-    brace_vec_t base_excess;
-    list.iso += split_ellipsoid(limb->base.x_mm_per_n, limb->base.z_mm_per_n, (brace_vec_t){1.0f, 0.0f},
-                                &base_excess);
-    append(&list, NONE, NONE, base_excess);
-
-    *count = list.count;
-    return list.iso;
+    iso += base(limb, &element[used++]);
+    for (uint32_t i = 0; i < used; i++) {
+        if (yields(&element[i])) {
+            element[kept++] = element[i];
+        }
+    }
+    *count = kept;
+    return iso;
 }
 
 static brace_status_t build(const brace_limb_t *limb, int with_coxa, brace_chain_t *chain)

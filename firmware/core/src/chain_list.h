@@ -1,17 +1,20 @@
-/* The chain as a bare list, for those who need fewer elements than BRACE_CHAIN_MAX on their stack. */
+/* The chain as a bare list, for those who have no room on their stack for a whole brace_chain_t. */
 #ifndef BRACE_CHAIN_LIST_H
 #define BRACE_CHAIN_LIST_H
 
 #include "brace/chain.h"
 
-/* Elements of a planar limb that none of its base's translation adds to. */
+/* Femur ellipsoid, femur moment transfer, tibia ellipsoid, joints 1 and 2: the elements without base part. */
 enum { BRACE_CHAIN_FIRM = 5 };
 
-/* Writes the limb's elements, those of the coxa and of the base last, and their number; returns iso.
- * limb has passed brace_limb_check. */
+/* Writes those five, zero where nothing yields, and returns their iso. limb has passed brace_limb_check. */
+float brace_chain_firm(const brace_limb_t *limb, brace_element_t element[BRACE_CHAIN_FIRM]);
+
+/* Writes the limb's elements that are not zero, those of the coxa and of the base last, and their number;
+ * returns iso. element: room for BRACE_CHAIN_MAX. limb has passed brace_limb_check. */
 float brace_chain_list(const brace_limb_t *limb, int with_coxa, brace_element_t *element, uint32_t *count);
 
-/* brace_harmonics of a bare list without base parts. */
+/* brace_harmonics of a bare list; base parts are not looked at. */
 brace_status_t brace_harmonics_list(float iso, const brace_element_t *element, uint32_t count,
                                     brace_harmonics_t *harmonics);
 

@@ -1,7 +1,5 @@
 #include "brace/chain.h"
 
-#include <stdbool.h>
-
 #include "chain_list.h"
 #include "vec.h"
 
@@ -34,69 +32,74 @@ static void add_element(const brace_element_t *element, brace_harmonics_t *sum)
     sum->dev_y.per_sin += f_even - t_even;
 }
 
-static void halve(brace_harmonic_t *harmonic)
+static void scale(brace_harmonic_t *harmonic, float by)
 {
-    harmonic->at_fold *= 0.5f;
-    harmonic->per_cos *= 0.5f;
-    harmonic->per_sin *= 0.5f;
+    harmonic->at_fold *= by;
+    harmonic->per_cos *= by;
+    harmonic->per_sin *= by;
 }
 
-/* The direction in (1 + cos theta2, sin theta2) along which the sum of all cross^2 varies most: larger
- * eigenvector of its quadratic part. */
-static brace_vec_t steepest(const brace_element_t *element, uint32_t count)
+/* Sums over all pairs of elements of what their crosses are along and across a direction of (1 + cos, sin). */
+typedef struct {
+    float aa, ab, bb, kb, rr, ra;
+} crosses_t;
+
+/* Each cross is k + a n.u + b s.u with u = (1 + cos, sin), n = s turned clockwise; r = k - c b. */
+static void sum_crosses(const brace_element_t *element, uint32_t count, brace_vec_t s, float c, crosses_t *sum)
 {
-    float cc = 0.0f, cs = 0.0f, ss = 0.0f;
+    *sum = (crosses_t){0};
     for (uint32_t i = 1; i < count; i++) {
         for (uint32_t j = 0; j < i; j++) {
-            const brace_harmonic_t c = cross_of(&element[j], &element[i]);
-            cc = __builtin_fmaf(c.per_cos, c.per_cos, cc);
-            cs = __builtin_fmaf(c.per_cos, c.per_sin, cs);
-            ss = __builtin_fmaf(c.per_sin, c.per_sin, ss);
+            const brace_harmonic_t cross = cross_of(&element[j], &element[i]);
+            const brace_vec_t slope = {cross.per_cos, cross.per_sin};
+            const float a = vec_cross(slope, s), b = vec_dot(slope, s);
+            const float r = __builtin_fmaf(-c, b, cross.at_fold);
+            sum->aa = __builtin_fmaf(a, a, sum->aa);
+            sum->ab = __builtin_fmaf(a, b, sum->ab);
+            sum->bb = __builtin_fmaf(b, b, sum->bb);
+            sum->kb = __builtin_fmaf(cross.at_fold, b, sum->kb);
+            sum->rr = __builtin_fmaf(r, r, sum->rr);
+            sum->ra = __builtin_fmaf(r, a, sum->ra);
         }
     }
-    const float half = 0.5f * (ss - cc);
-    const float radius = __builtin_sqrtf(__builtin_fmaf(half, half, cs * cs));
-    if (!(radius > 0.0f)) {
-        return (brace_vec_t){0.0f, 1.0f};
+}
+
+/* The direction along which the sum of all cross^2 varies most: larger eigenvector of its quadratic part, whose
+ * sums were taken along (0, 1) and across it, (1, 0). */
+static brace_vec_t steepest(const crosses_t *sum)
+{
+    const float half = 0.5f * (sum->bb - sum->aa);
+    const float radius = __builtin_sqrtf(__builtin_fmaf(half, half, sum->ab * sum->ab));
+    brace_vec_t along = {0.0f, 1.0f};
+    if (radius > 0.0f) {
+        along = half >= 0.0f ? (brace_vec_t){sum->ab, half + radius} : (brace_vec_t){radius - half, sum->ab};
     }
-    const brace_vec_t along =
-        half >= 0.0f ? (brace_vec_t){cs, half + radius} : (brace_vec_t){radius - half, cs};
     return vec_scaled(along, 1.0f / __builtin_sqrtf(vec_dot(along, along)));
 }
 
-/* det C = iso (2 mean - iso) + sum of cross^2. With u = (1 + cos, sin) turned into the steepest direction and
- * its normal, each pair's cross is k + a n.u + b s.u; the squares gather into one square of c + s.u and a
- * remainder that is linear in u because |u|^2 = 2 (1 + cos):
+/* The squares of all crosses gather into one square of c + s.u and a remainder that is linear in u because
+ * |u|^2 = 2 (1 + cos):
  *     sum cross^2 = (B (c + s.u))^2 + mu (c^2 + 2 c s.u + 2 (1 + cos)) + sum r^2 + 2 (sum r a) n.u
- * with c = sum k b / sum b^2, r = k - c b, mu = sum a^2, B^2 = sum b^2 - mu: only squares are added. */
+ * with s the steepest direction, c = sum k b / sum b^2, mu = sum a^2, B^2 = sum b^2 - mu. Only squares are added;
+ * three passes, because the sums as differences of larger ones would lose the digits that matter. */
 static void gather_crosses(const brace_element_t *element, uint32_t count, brace_harmonics_t *harmonics)
 {
-    const brace_vec_t s = steepest(element, count);
-    float aa = 0.0f, bb = 0.0f, kb = 0.0f, rr = 0.0f, ra = 0.0f;
+    brace_vec_t s = {0.0f, 1.0f};
     float c = 0.0f;
-    for (int pass = 0; pass < 2; pass++) {
-        for (uint32_t i = 1; i < count; i++) {
-            for (uint32_t j = 0; j < i; j++) {
-                const brace_harmonic_t cross = cross_of(&element[j], &element[i]);
-                const brace_vec_t slope = {cross.per_cos, cross.per_sin};
-                const float a = -vec_cross(s, slope), b = vec_dot(s, slope);
-                if (pass == 0) {
-                    aa = __builtin_fmaf(a, a, aa);
-                    bb = __builtin_fmaf(b, b, bb);
-                    kb = __builtin_fmaf(cross.at_fold, b, kb);
-                } else {
-                    const float r = cross.at_fold - c * b;
-                    rr = __builtin_fmaf(r, r, rr);
-                    ra = __builtin_fmaf(r, a, ra);
-                }
-            }
+    crosses_t sum;
+    for (int pass = 0; pass < 3; pass++) {
+        sum_crosses(element, count, s, c, &sum);
+        if (pass == 0) {
+            s = steepest(&sum);
+        } else if (pass == 1 && sum.bb > 0.0f) {
+            c = sum.kb / sum.bb;
         }
-        c = bb > 0.0f ? kb / bb : 0.0f;
     }
-    const float amplitude = bb > aa ? __builtin_sqrtf(bb - aa) : 0.0f;
+    const float mu = sum.aa, c_mu = c * mu;
+    const float amplitude = sum.bb > mu ? __builtin_sqrtf(sum.bb - mu) : 0.0f;
     harmonics->cross = (brace_harmonic_t){c * amplitude, s.x * amplitude, s.z * amplitude};
-    harmonics->rest = (brace_harmonic_t){rr + c * c * aa, 2.0f * (aa + c * aa * s.x + ra * s.z),
-                                         2.0f * (c * aa * s.z - ra * s.x)};
+    harmonics->rest = (brace_harmonic_t){sum.rr + c * c_mu, 2.0f * (mu + c_mu * s.x + sum.ra * s.z),
+                                         2.0f * (c_mu * s.z - sum.ra * s.x)};
 }
 
 brace_status_t brace_harmonics_list(float iso, const brace_element_t *element, uint32_t count,
@@ -110,9 +113,9 @@ brace_status_t brace_harmonics_list(float iso, const brace_element_t *element, u
     sum.rest.at_fold += iso * (iso + sum.mean.at_fold);
     sum.rest.per_cos += iso * sum.mean.per_cos;
     sum.rest.per_sin += iso * sum.mean.per_sin;
-    halve(&sum.mean);
-    halve(&sum.dev_x);
-    halve(&sum.dev_y);
+    scale(&sum.mean, 0.5f);
+    scale(&sum.dev_x, 0.5f);
+    scale(&sum.dev_y, 0.5f);
     sum.mean.at_fold += iso;
     *harmonics = sum;
     return BRACE_OK;
