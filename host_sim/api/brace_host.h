@@ -180,7 +180,7 @@ typedef struct {
     double *base_z_mm;
 } brace_loading_reading_t;
 
-/* The quasi-static limb under the imposed displacements. On E_NO_CONVERGENCE the outputs are written all the
+/* The quasi-static limb under the imposed displacements, in its plane: coxa link and joint do not act. On E_NO_CONVERGENCE the outputs are written all the
  * same and unsolved_rows (optional) counts the rows above tolerance (1e-9 N of unbalance).
  * returns OK, E_NULL, E_NOT_FINITE, E_RANGE, E_PARAMETER, E_SINGULAR, E_NO_CONVERGENCE
  * cost: about 0.05 us a row for a linear limb, 0.2-0.5 us with play, friction or hardening. */

@@ -1,4 +1,4 @@
-"""The simulated limb's C interface for the property tests: libbrace_host through cffi, cdef from its own header."""
+"""The simulated limb's C interface for the property tests: libbrace_host through cffi."""
 from __future__ import annotations
 
 import os
@@ -52,7 +52,7 @@ class Model:
 
 
 def doubles(array: Array) -> Any:
-    """A contiguous float64 array as C sees it; the result keeps the array alive, a struct that it is put into not."""
+    """A contiguous float64 array as C sees it; the result keeps it alive, a struct it is put into not."""
     assert array.dtype == np.float64
     return ffi.from_buffer("double[]", array)
 
@@ -97,7 +97,7 @@ def spatial_reference(model: Model, theta0_rad: Any, theta1_rad: Any, theta2_rad
 def play(model: Model, theta1_rad: Any, theta2_rad: Any, dx_mm: Any, dz_mm: Any, *, t_s: Any = None,
          temp_degc: Any = None, run: Any = 1, free_axis: Any = 0, creep_runs_on: bool = False,
          zeroed: bool = False) -> dict[str, Array]:
-    """A loading record on the plant: fx_n, fz_n, enc1_rad, enc2_rad, base_x_mm, base_z_mm, one entry a row."""
+    """A loading record on the plant: forces, encoders and base deflections, one entry a row."""
     count = max(map(np.size, (theta1_rad, dx_mm, dz_mm)))
     columns = {name: column(values, count) for name, values in {
         "theta1_rad": theta1_rad, "theta2_rad": theta2_rad, "dx_mm": dx_mm, "dz_mm": dz_mm,

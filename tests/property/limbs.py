@@ -45,7 +45,7 @@ def random_limb(draw: np.random.Generator, *, planar: bool = True, base: bool = 
 
 
 def geometry(model: Model, theta1_rad: float, theta2_rad: float) -> dict[str, Any]:
-    """Vectors of physics.md at true angles: links a, w, unit vectors u1, u2, levers p1 (femur joint), p2 (knee)."""
+    """Vectors of physics.md at true angles: links a, w, unit vectors u1, u2, levers p1, p2 of the joints."""
     def unit(angle: float) -> Any:
         return np.array([np.cos(angle), np.sin(angle)])
 

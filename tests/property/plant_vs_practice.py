@@ -3,9 +3,9 @@
 usage: plant_vs_practice.py [FOLDER]     FOLDER (or $BRACE_PRACTICE): p001/, p002/, ... each with data.csv,
 truth.json and, mostly, holdout/data.csv. Exits 77 (skipped) without it.
 
-Held-out records carry no noise but angles printed to 1e-6 rad and forces to 1e-6 N, so they must agree to what
-that rounding does: about 4e-4 N on the stiffest limb here. Records with noise must leave only noise: the residual's
-mean over each of its runs, and its lag-one correlation, are those of white noise.
+Held-out records carry no noise but angles printed to 1e-6 rad and forces to 1e-6 N, so they must agree to
+what that rounding does: about 4e-4 N on the stiffest limb here. Records with noise must leave only noise: the
+residual's mean over each of its runs, and its lag-one correlation, are those of white noise.
 """
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ OUTSIDE = {"encoder_ripple", "asymmetric_joint", "slip", "leadscrew"}
 KEYS = {
     "backlash": {"gap1": "joint.femur.gap_rad", "gap2": "joint.tibia.gap_rad"},
     "coulomb_friction": {"tau1": "joint.femur.coulomb_n_mm", "tau2": "joint.tibia.coulomb_n_mm"},
-    "joint_hardening": {"c1": "joint.femur.hardening_n_mm_per_rad3", "c2": "joint.tibia.hardening_n_mm_per_rad3"},
+    "joint_hardening": {"c1": "joint.femur.hardening_n_mm_per_rad3",
+                        "c2": "joint.tibia.hardening_n_mm_per_rad3"},
     "joint_zero_offset": {"d1": "joint.femur.zero_offset_rad", "d2": "joint.tibia.zero_offset_rad"},
     "creep": {"ratio": "creep.ratio", "T_s": "creep.time_constant_s"},
     "thermal_softening": {"per_degC": "thermal.joint_compliance_per_degc"},
@@ -70,8 +71,8 @@ def residual(folder: Path, model: Any) -> tuple[Any, dict[str, Any]]:
     from host_library import play
 
     data: Any = np.genfromtxt(folder / "data.csv", delimiter=",", names=True, dtype=None, encoding="utf-8")
-    played = play(model, data["theta1_rad"], data["theta2_rad"], data["dx_mm"], data["dz_mm"], t_s=data["t_s"],
-                  temp_degc=data["temp_degc"], run=data["run"])
+    played = play(model, data["theta1_rad"], data["theta2_rad"], data["dx_mm"], data["dz_mm"],
+                  t_s=data["t_s"], temp_degc=data["temp_degc"], run=data["run"])
     left = {name: data[name] - played[name] for name in ("fx_n", "fz_n", "enc1_rad", "enc2_rad")
             if name in data.dtype.names}
     return data, left

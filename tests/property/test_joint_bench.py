@@ -12,7 +12,8 @@ K, GAP, TAU, H = 1e5, 0.006, 120.0, 4e9
 
 def joint(**keys: float) -> Model:
     """The femur's joint with these keys."""
-    return limb({f"joint.femur.{key}": value for key, value in ({"compliance_rad_per_n_mm": 1 / K} | keys).items()})
+    given = {"compliance_rad_per_n_mm": 1 / K} | keys
+    return limb({f"joint.femur.{key}": value for key, value in given.items()})
 
 
 def ramp(most: float, steps: int = 50) -> Array:
@@ -36,7 +37,7 @@ def test_torque_of_imposed_angles() -> None:
 
 
 def test_friction_keeps_where_nothing_moves_and_turns_over_a_width() -> None:
-    """Held angle: friction stays. With a reversal width it turns in proportion to the motion, fully after twice it."""
+    """Held angle: friction stays. With a reversal width it turns in proportion, fully after twice."""
     model = joint(coulomb_n_mm=TAU)
     held = play_joint(model, [0.0, 0.01, 0.01, 0.01])
     np.testing.assert_allclose(held, [0.0, *[0.01 * K + TAU] * 3])

@@ -44,7 +44,8 @@ def test_linear_limb_is_the_references_k(seed: int) -> None:
     draw = np.random.default_rng(seed)
     keys = random_limb(draw)
     offsets = draw.uniform(-0.1, 0.1, 2)
-    model = limb(keys | {"joint.femur.zero_offset_rad": offsets[0], "joint.tibia.zero_offset_rad": offsets[1]})
+    zero = {"joint.femur.zero_offset_rad": offsets[0], "joint.tibia.zero_offset_rad": offsets[1]}
+    model = limb(keys | zero)
     theta1, theta2 = draw.uniform(-3, 3, 40), draw.uniform(0.1, 3.0, 40)
     d = draw.normal(size=(40, 2))
     rows = planar_reference(limb(keys), theta1 + offsets[0], theta2 + offsets[1])
@@ -62,8 +63,9 @@ def test_deflections_add_up_to_the_displacement() -> None:
     model, structure = limb(keys), limb(locked(keys))
     played = play(model, *POSE, [1.0, -0.4], [0.3, 2.0])
     g = geometry(model, *POSE)
-    for f, enc1, enc2, d in zip(forces(played), played["enc1_rad"], played["enc2_rad"], [[1.0, 0.3], [-0.4, 2.0]]):
-        total = compliance(structure) @ f + g["p1"] * enc1 + g["p2"] * enc2
+    for row, (f, d) in enumerate(zip(forces(played), [[1.0, 0.3], [-0.4, 2.0]])):
+        turned = g["p1"] * played["enc1_rad"][row] + g["p2"] * played["enc2_rad"][row]
+        total = compliance(structure) @ f + turned
         np.testing.assert_allclose(total, d, atol=1e-12)
 
 
@@ -101,7 +103,8 @@ def energy(keys: dict[str, float], before: Any, q: Any, d: Any, load: Any) -> An
             return keys.get(f"joint.{joint}.{name}", 0.0)
 
         beyond = np.maximum(np.abs(q[i]) - of("gap_rad") / 2, 0.0)
-        total = total + beyond**2 / 2 / of("compliance_rad_per_n_mm") + of("hardening_n_mm_per_rad3") * beyond**4 / 4
+        total = total + beyond**2 / 2 / of("compliance_rad_per_n_mm")
+        total = total + of("hardening_n_mm_per_rad3") * beyond**4 / 4
         total = total + of("coulomb_n_mm") * np.abs(q[i] - before[i]) - load[i] * q[i]
     return total
 
@@ -120,7 +123,7 @@ def random_drive(draw: np.random.Generator) -> dict[str, float]:
 def test_rest_state_has_the_least_energy(seed: int) -> None:
     """No other deflections near or far have less; a grid refined about its best finds the same place.
 
-    Along a wandering path, so that friction remembers. Grid and perturbations know nothing of Newton's method.
+    Along a wandering path, so that friction remembers. The searches know nothing of Newton's method.
     """
     draw = np.random.default_rng(1000 + seed)
     keys = random_drive(draw)
@@ -184,7 +187,7 @@ def test_every_record_is_solved(seed: int) -> None:
 
 
 def test_play_leaves_a_dead_zone_of_gap_times_lever() -> None:
-    """Tip free across z: no force within +-gap/2 of lever, the limb's own slope beyond; the same both ways."""
+    """Tip free across z: no force within +-gap/2 of lever, the limb's own slope beyond; both ways."""
     for joint, lever in (("femur", "p1"), ("tibia", "p2")):
         gap = 0.004
         model = limb(PAPER | {f"joint.{joint}.gap_rad": gap})
@@ -199,15 +202,16 @@ def test_play_leaves_a_dead_zone_of_gap_times_lever() -> None:
 def test_friction_makes_a_loop_of_constant_height() -> None:
     """Tip free across z, one sliding joint: forces up and down differ by 2 tau / lever; nothing moves before.
 
-    While the joint sticks the structure alone yields: the first steps have its slope. The force at the joint is
-    then spring + tau on the way up and spring - tau on the way down.
+    While the joint sticks the structure alone yields: the first steps have its slope. The torque is then
+    spring + tau on the way up and spring - tau on the way down.
     """
     tau = 150.0
     for joint, lever in (("femur", "p1"), ("tibia", "p2")):
         model = limb(PAPER | {f"joint.{joint}.coulomb_n_mm": tau})
         arm = abs(geometry(model, *POSE)[lever][1])
         c_all = compliance(limb(PAPER))[1, 1]
-        rigid = {key: value for key, value in PAPER.items() if key != f"joint.{joint}.compliance_rad_per_n_mm"}
+        own = f"joint.{joint}.compliance_rad_per_n_mm"
+        rigid = {key: value for key, value in PAPER.items() if key != own}
         c_stuck = compliance(limb(rigid))[1, 1]
         dz = there_and_back(3.0, 300)
         f = play(model, *POSE, 0 * dz, dz, free_axis=1)["fz_n"]
@@ -221,7 +225,7 @@ def test_friction_makes_a_loop_of_constant_height() -> None:
 
 
 def test_sliding_joints_on_rigid_links() -> None:
-    """Joints alone yield: the displacement imposes their deflections q, and each carries k q + tau, the limb C^-1.
+    """Joints alone yield: the displacement imposes their deflections q, and each carries k q + tau.
 
     The plant gives rigid links a billionth of the limb's compliance, so the force is right to that.
     """
@@ -238,7 +242,7 @@ def test_sliding_joints_on_rigid_links() -> None:
 
 
 def test_rigid_joint_with_play_is_a_pair_of_stops() -> None:
-    """Tip free across z: beyond the play the structure alone yields, to the stop's share of a hundred-millionth."""
+    """Tip free across z: beyond the play the structure alone yields, but for the stop's 1e-8 of it."""
     keys = {key: value for key, value in PAPER.items() if key != "joint.femur.compliance_rad_per_n_mm"}
     model = limb(keys | {"joint.femur.gap_rad": 0.004})
     half = abs(geometry(model, *POSE)["p1"][1]) * 0.002
@@ -263,7 +267,7 @@ def test_refined_steps_end_in_the_same_state() -> None:
 
 
 def test_hardening_is_the_cubic() -> None:
-    """Tip free across z: displacement is the structure's part plus lever times the root of k q + h q^3 = torque."""
+    """Tip free across z: displacement = structure's part + lever times the root of k q + h q^3 = torque."""
     h = 3e8
     keys = PAPER | {"joint.femur.hardening_n_mm_per_rad3": h}
     del keys["joint.tibia.compliance_rad_per_n_mm"]
@@ -311,7 +315,7 @@ def test_warm_joints_yield_more() -> None:
 
 
 def test_gravity_is_the_slope_of_potential_energy() -> None:
-    """At a held tip f = -K (displacement that the weights' torques would make); torques by differences of height."""
+    """At a held tip f = -K (displacement that the weights' torques would make); torques by differences."""
     weights = {"gravity.femur_n": 3.0, "gravity.tibia_n": 2.0, "gravity.knee_n": 1.5}
     l1, l2 = 185.0, 313.5
 
@@ -376,7 +380,8 @@ def test_sensor_in_its_order() -> None:
 
 def test_runs_start_centred_and_relaxed() -> None:
     """The same run twice reads the same, whatever the first left behind."""
-    model = limb(PAPER | {"joint.tibia.coulomb_n_mm": 80.0, "joint.femur.gap_rad": 0.002, "contact.play_mm": 0.1})
+    memory = {"joint.tibia.coulomb_n_mm": 80.0, "joint.femur.gap_rad": 0.002, "contact.play_mm": 0.1}
+    model = limb(PAPER | memory)
     once = there_and_back(1.0, 4)[:-3]
     f = forces(play(model, *POSE, np.tile(once, 2), 0.2, run=np.repeat([1, 2], once.size)))
     np.testing.assert_array_equal(f[:once.size], f[once.size:])

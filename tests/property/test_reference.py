@@ -69,13 +69,14 @@ def test_ellipsoids_alone_are_the_papers_equation_3() -> None:
 
 
 def test_moment_transfer_is_a_uniform_beams_work() -> None:
-    """Tip compliance along any force = twice the beam's strain energy, integrated along the femur point by point.
+    """Tip compliance along any force = twice the strain energy, integrated along the femur point by point.
 
     Only bending of the femur yields; Gauss's two-point rule is exact for the quadratic integrand.
     """
     l1, b1 = 185.0, 0.06
-    model = limb({"geometry.femur_mm": l1, "link.femur.bending_mm_per_n": b1, "link.femur.moment_transfer": 1.0,
-                  "link.tibia.axial_mm_per_n": 1e-3, "link.tibia.bending_mm_per_n": 1e-3})
+    model = limb({"geometry.femur_mm": l1, "link.femur.bending_mm_per_n": b1,
+                  "link.femur.moment_transfer": 1.0, "link.tibia.axial_mm_per_n": 1e-3,
+                  "link.tibia.bending_mm_per_n": 1e-3})
     draw = np.random.default_rng(4)
     for theta1, theta2 in zip(*postures(draw, 20)):
         g = geometry(model, theta1, theta2)
@@ -254,9 +255,10 @@ def test_bad_input_is_refused_and_nothing_written() -> None:
     assert status(limb(PAPER), one, nan) == lib.BRACE_HOST_E_NOT_FINITE
     assert status(Model(), one, one) == lib.BRACE_HOST_E_SINGULAR
     assert status(limb(PAPER | {"link.femur.bending_mm_per_n": -0.1}), one, one) == lib.BRACE_HOST_E_PARAMETER
-    assert lib.brace_reference_planar(ffi.NULL, 1, doubles(one), doubles(one), doubles(out)) == lib.BRACE_HOST_E_NULL
+    assert lib.brace_reference_planar(ffi.NULL, 1, doubles(one), doubles(one),
+                                      doubles(out)) == lib.BRACE_HOST_E_NULL
     # one good row before a singular one: still nothing
-    straight = limb({"joint.femur.compliance_rad_per_n_mm": 1e-5, "joint.tibia.compliance_rad_per_n_mm": 1e-5})
+    straight = limb({f"joint.{joint}.compliance_rad_per_n_mm": 1e-5 for joint in ("femur", "tibia")})
     two, rows = np.array([1.0, 0.0]), np.full(18, 7.0)
     assert lib.brace_reference_planar(straight.c, 2, doubles(two), doubles(two),
                                       doubles(rows)) == lib.BRACE_HOST_E_SINGULAR

@@ -11,8 +11,8 @@ from limbs import PAPER, geometry, limb
 
 POSE = (1.0, 1.4)
 INTEGERS = ("run", "config", "axis", "rep", "step")
-REALS = ("theta1_rad", "theta2_rad", "t_s", "temp_degc", "dx_mm", "dz_mm", "fx_n", "fz_n", "enc1_rad", "enc2_rad",
-         "base_x_mm", "base_z_mm")
+REALS = ("theta1_rad", "theta2_rad", "t_s", "temp_degc", "dx_mm", "dz_mm", "fx_n", "fz_n", "enc1_rad",
+         "enc2_rad", "base_x_mm", "base_z_mm")
 
 
 def record(model: Model | None, poses: Any = (POSE,), only: tuple[str, ...] = INTEGERS + REALS,
@@ -81,10 +81,12 @@ def test_instruments() -> None:
     np.testing.assert_array_equal(rounded["fx_n"], np.round(exact["fx_n"] * 16) / 16)
     np.testing.assert_array_equal(record(limb(keys), range_n=3.0, resolution_n=0.0)["fx_n"],
                                   np.clip(exact["fx_n"], -3, 3))
-    noisy = {seed: record(limb(keys), noise_n=0.1, resolution_n=0.0, encoder_noise_rad=1e-5, base_noise_mm=1e-3,
-                          repeats=500, seed=seed) for seed in (1, 2)}
+    scatter: dict[str, Any] = {"noise_n": 0.1, "resolution_n": 0.0, "encoder_noise_rad": 1e-5, "base_noise_mm": 1e-3,
+                               "repeats": 500}
+    noisy = {seed: record(limb(keys), **scatter, seed=seed) for seed in (1, 2)}
     quiet = record(limb(keys), resolution_n=0.0, repeats=500)
-    for name, sigma in (("fx_n", 0.1), ("fz_n", 0.1), ("enc1_rad", 1e-5), ("enc2_rad", 1e-5), ("base_x_mm", 1e-3)):
+    for name, sigma in (("fx_n", 0.1), ("fz_n", 0.1), ("enc1_rad", 1e-5), ("enc2_rad", 1e-5),
+                        ("base_x_mm", 1e-3)):
         noise = (noisy[1][name] - quiet[name]) / sigma
         # 17,000 readings: mean and variance within five sigma of their own
         assert abs(noise.mean()) < 5 / np.sqrt(noise.size)
@@ -92,8 +94,7 @@ def test_instruments() -> None:
         assert abs(np.mean(noise[1:] * noise[:-1])) < 5 / np.sqrt(noise.size)
         assert abs(np.mean(noise**4) - 3) < 5 * np.sqrt(96 / noise.size)
         assert not np.array_equal(noisy[1][name], noisy[2][name])
-    alone = record(limb(keys), noise_n=0.1, resolution_n=0.0, encoder_noise_rad=1e-5, base_noise_mm=1e-3,
-                   repeats=500, seed=1, only=("fz_n",))
+    alone = record(limb(keys), **scatter, seed=1, only=("fz_n",))
     np.testing.assert_array_equal(alone["fz_n"], noisy[1]["fz_n"])
 
 
@@ -109,8 +110,8 @@ def test_zeroed_readings_start_at_nothing() -> None:
 def slopes(model: Model, least_squares: bool, steps: int = 4, step_mm: float = 0.635) -> Any:
     """k_xx k_xz k_zx k_zz by slopes at POSE."""
     theta1, theta2, k = column(POSE[0], 1), column(POSE[1], 1), np.zeros(4)
-    check(lib.brace_rig_slopes(model.c, 1, doubles(theta1), doubles(theta2), step_mm, steps, int(least_squares),
-                               doubles(k)))
+    check(lib.brace_rig_slopes(model.c, 1, doubles(theta1), doubles(theta2), step_mm, steps,
+                               int(least_squares), doubles(k)))
     return k
 
 
@@ -142,7 +143,7 @@ def shift(model: Model, axis: int, steps: int = 400, step_mm: float = 0.02) -> f
 
 
 def test_zero_force_shift() -> None:
-    """Play: gap times lever. Friction: 2 compliance torque lever. Neither: nothing. 20 arcmin: the paper's 2.5 mm."""
+    """Play: gap times lever. Friction: 2 compliance torque lever. Neither: nothing."""
     g = geometry(limb(PAPER), *POSE)
     gap, tau = np.radians(20 / 60), 50.0
     for joint, lever in (("femur", "p1"), ("tibia", "p2")):
@@ -156,7 +157,8 @@ def test_zero_force_shift() -> None:
     assert shift(limb(PAPER), 1) == pytest.approx(0, abs=1e-12)
     paper = np.zeros(1)
     model = limb(PAPER | {"joint.femur.gap_rad": gap})
-    check(lib.brace_rig_zero_force_shift(model.c, np.radians(70), np.radians(50), 1, 0.05, 200, doubles(paper)))
+    pose = np.radians([70, 50])
+    check(lib.brace_rig_zero_force_shift(model.c, *pose, 1, 0.05, 200, doubles(paper)))
     wanted = gap * (185 * np.cos(np.radians(70)) + 313.5 * np.cos(np.radians(20)))
     assert paper[0] == pytest.approx(wanted, rel=1e-9)
     with pytest.raises(Refused):
@@ -165,9 +167,9 @@ def test_zero_force_shift() -> None:
 
 def test_unsound_designs_are_refused() -> None:
     """No rows, and E_RANGE, for what no rig does."""
-    for change in ({"axes": 0}, {"axes": 4}, {"repeats": 0}, {"step_mm": 0.0}, {"step_mm": np.nan}, {"range_n": 0.0},
-                   {"dwell_s": - \
-                       1.0}, {"noise_n": np.inf}, {"poses": ((np.nan, 1.0),)}, {"temp_time_constant_s": 0.0},
-                   {"repeats": 1000, "steps_per_side": 10000}):
+    for change in ({"axes": 0}, {"axes": 4}, {"repeats": 0}, {"step_mm": 0.0}, {"step_mm": np.nan},
+                   {"range_n": 0.0}, {"dwell_s": - \
+                       1.0}, {"noise_n": np.inf}, {"poses": ((np.nan, 1.0),)},
+                   {"temp_time_constant_s": 0.0}, {"repeats": 1000, "steps_per_side": 10000}):
         with pytest.raises(Refused):
             record(limb(PAPER), **change)
