@@ -81,8 +81,8 @@ def test_instruments() -> None:
     np.testing.assert_array_equal(rounded["fx_n"], np.round(exact["fx_n"] * 16) / 16)
     np.testing.assert_array_equal(record(limb(keys), range_n=3.0, resolution_n=0.0)["fx_n"],
                                   np.clip(exact["fx_n"], -3, 3))
-    scatter: dict[str, Any] = {"noise_n": 0.1, "resolution_n": 0.0, "encoder_noise_rad": 1e-5, "base_noise_mm": 1e-3,
-                               "repeats": 500}
+    scatter: dict[str, Any] = {"noise_n": 0.1, "resolution_n": 0.0, "encoder_noise_rad": 1e-5,
+                               "base_noise_mm": 1e-3, "repeats": 500}
     noisy = {seed: record(limb(keys), **scatter, seed=seed) for seed in (1, 2)}
     quiet = record(limb(keys), resolution_n=0.0, repeats=500)
     for name, sigma in (("fx_n", 0.1), ("fz_n", 0.1), ("enc1_rad", 1e-5), ("enc2_rad", 1e-5),
