@@ -46,6 +46,7 @@ class Measured:
     static_ram_bytes: int
     stack_bytes: int  # of the counted function and its callees
     stack_chain: tuple[str, ...]
+    refused: int  # parameter change: limbs that it leaves to the general path
     error: Error | None
     workspace_error: Error | None
 
@@ -119,6 +120,7 @@ def measure(version: Version, plugin: Path) -> Measured:
         cycles = estimate(image, trace(image, version.processor, plugin, version.function, call), version.processor)
 
     error = whole = None
+    refused = int(np.count_nonzero(counted.results)) if version.group == COLLAPSE else 0
     if version.group != COLLAPSE:
         error = _error(version, counted.results[:COUNT], postures())
         if not (error.k <= SAME_JOB_ERROR and error.axis_rad <= SAME_JOB_ERROR):
@@ -132,4 +134,4 @@ def measure(version: Version, plugin: Path) -> Measured:
     stack, chain = _stack(version, counted, sources, job)
     return Measured(version, min(first), middle, max(first), min(counted.instructions), max(counted.instructions),
                     len(set(counted.paths)) == 1, cycles, flash,
-                    sections.get(".data", 0) + sections.get(".bss", 0), stack, chain, error, whole)
+                    sections.get(".data", 0) + sections.get(".bss", 0), stack, chain, refused, error, whole)

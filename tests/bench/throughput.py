@@ -14,6 +14,9 @@ from versions import EIGEN_FLAGS, core_sources
 PEER_FLAGS = ("-O3", "-march=native", *EIGEN_FLAGS)
 
 
+PROCESSES = 3  # where a process's memory lies changes a rate by a tenth; the best of each version counts
+
+
 @dataclass(frozen=True)
 class Rate:
     """One version on this host."""
@@ -37,7 +40,8 @@ def measure_rates() -> list[Rate]:
     driver = _compile(BENCH / "host" / "throughput.cpp", ("-std=c++17", "-O2", "-Wall", "-Wextra"))
     program = BUILD / "host" / "throughput"
     run(["g++", driver, *peers, *core, "-lm", "-o", program])
-    return _parse(run([program]))
+    runs = [_parse(run([program])) for _ in range(PROCESSES)]
+    return [max(same, key=lambda rate: rate.postures_per_s) for same in zip(*runs, strict=True)]
 
 
 def _parse(output: str) -> list[Rate]:

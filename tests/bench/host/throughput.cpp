@@ -1,6 +1,7 @@
 // Postures per second on one core of this host, batch after batch, each version in turn, round by round.
 // Prints for each version: "version NAME", its six numbers at the bench's postures as "run ...", "rate POSTURES/S".
-// Rates are the best round's, by the thread's own processor time: other work on the machine lengthens the rest.
+// Rates are the best round's at the batch size that suits the version best, by the thread's own processor time:
+// other work on the machine lengthens the rest.
 #include "bench_data.h"
 #include "peer_eigen.hpp"
 
@@ -22,8 +23,9 @@ extern "C" {
 
 namespace {
 
-constexpr std::size_t batch_size = 8192;
-constexpr int rounds = 300;
+constexpr std::size_t largest_batch = 8192;
+constexpr std::size_t batch_sizes[] = {1024, largest_batch};
+constexpr int rounds = 150;
 constexpr double round_s = 2e-3;
 
 const float bench_postures[BENCH_POSTURE_COUNT][3] = BENCH_POSTURES;
@@ -36,8 +38,8 @@ using Six = std::array<float, 6>;
 
 struct Version {
     std::string name;
-    std::function<void(const Inputs&)> run;   // one batch
-    std::function<Six(std::size_t)> result;   // at an index of the last batch
+    std::function<void(const Inputs&, std::size_t)> run; // one batch of that size
+    std::function<Six(std::size_t)> result;              // at an index of the last batch
     double best_postures_per_s = 0.0;
 };
 
@@ -57,7 +59,7 @@ Inputs inputs()
         state = state * 1664525u + 1013904223u;
         return low + (high - low) * static_cast<float>(state >> 8) / 16777216.0f;
     };
-    for (std::size_t i = 0; i < batch_size; i++) {
+    for (std::size_t i = 0; i < largest_batch; i++) {
         const bool given = i < BENCH_POSTURE_COUNT;
         in.theta1_rad.push_back(given ? bench_postures[i][1] : uniform(-1.0f, 1.5f));
         in.theta2_rad.push_back(given ? bench_postures[i][2] : uniform(0.2f, 2.9f));
@@ -80,7 +82,7 @@ struct Columns {
 
     Columns()
     {
-        column.fill(std::vector<float>(batch_size));
+        column.fill(std::vector<float>(largest_batch));
         soa = {column[0].data(), column[1].data(), column[2].data(),
                column[3].data(), column[4].data(), column[5].data()};
     }
@@ -101,13 +103,13 @@ void require(bool ok, const char* what)
     }
 }
 
-void measure_round(Version& version, const Inputs& in)
+void measure_round(Version& version, const Inputs& in, std::size_t batch_size)
 {
     std::size_t batches = 0;
     const double start = thread_time_s();
     double elapsed = 0.0;
     while (elapsed < round_s) {
-        version.run(in);
+        version.run(in, batch_size);
         batches++;
         elapsed = thread_time_s() - start;
     }
@@ -141,8 +143,8 @@ int main()
     plain_limb_t plain_limb;
     plain_limb_from_bench(&plain_limb);
 
-    std::vector<plain_stiffness_t> by_eigen(batch_size), by_plain(batch_size);
-    std::vector<brace_stiffness_t> by_tick(batch_size);
+    std::vector<plain_stiffness_t> by_eigen(largest_batch), by_plain(largest_batch);
+    std::vector<brace_stiffness_t> by_tick(largest_batch);
     Columns columns, tilted_columns;
 
     brace_planar_t tick;
@@ -153,30 +155,30 @@ int main()
 
     std::vector<Version> versions;
     versions.push_back({"Eigen fixed size, -O3 -march=native",
-                        [&](const Inputs& x) {
-                            for (std::size_t i = 0; i < batch_size; i++) {
+                        [&](const Inputs& x, std::size_t n) {
+                            for (std::size_t i = 0; i < n; i++) {
                                 eigen_stiffness(plain_limb, x.theta1_rad[i], x.theta2_rad[i], by_eigen[i]);
                             }
                         },
                         [&](std::size_t i) { return six(by_eigen[i]); }});
     versions.push_back({"plain C, -O3 -march=native",
-                        [&](const Inputs& x) {
-                            for (std::size_t i = 0; i < batch_size; i++) {
+                        [&](const Inputs& x, std::size_t n) {
+                            for (std::size_t i = 0; i < n; i++) {
                                 plain_stiffness(&plain_limb, x.theta1_rad[i], x.theta2_rad[i], &by_plain[i]);
                             }
                         },
                         [&](std::size_t i) { return six(by_plain[i]); }});
     versions.push_back({"Brace, one at a time",
-                        [&](const Inputs& x) {
-                            for (std::size_t i = 0; i < batch_size; i++) {
+                        [&](const Inputs& x, std::size_t n) {
+                            for (std::size_t i = 0; i < n; i++) {
                                 (void)brace_planar_stiffness(&tick, x.theta1_rad[i], x.theta2_rad[i], &by_tick[i]);
                             }
                         },
                         [&](std::size_t i) { return six(by_tick[i]); }});
     const auto by_columns = [](const brace_planar_batch_t& model, Columns& out) {
-        return [&](const Inputs& x) {
+        return [&](const Inputs& x, std::size_t n) {
             const std::size_t refused =
-                brace_planar_batch(&model, batch_size, x.theta1_rad.data(), x.theta2_rad.data(), &out.soa);
+                brace_planar_batch(&model, n, x.theta1_rad.data(), x.theta2_rad.data(), &out.soa);
             require(refused == 0, "brace_planar_batch");
         };
     };
@@ -185,7 +187,9 @@ int main()
                         [&](std::size_t i) { return tilted_columns.at(i); }});
     for (int round = 0; round < rounds; round++) {
         for (Version& version : versions) {
-            measure_round(version, in);
+            for (const std::size_t batch_size : batch_sizes) {
+                measure_round(version, in, batch_size);
+            }
         }
     }
     for (const Version& version : versions) {
