@@ -37,13 +37,15 @@ def library() -> Library:
     from cffi import FFI  # here, so that a command that computes nothing starts at once
 
     ffi = FFI()
+    headers, folders = _headers()
+    _refuse_stale(path, headers, folders)
     try:
-        ffi.cdef(_declarations())
+        ffi.cdef(declarations(headers, folders))
         loaded = ffi.dlopen(str(path))
     except OSError as error:
         raise MissingLibraryError("the library cannot be loaded", where=str(path), why=str(error),
                                   next_step="./dev setup builds it anew") from None
-    lacking = [] if path.parent.name == "tools" else [name for name in dir(loaded) if not hasattr(loaded, name)]
+    lacking = [name for name in dir(loaded) if not hasattr(loaded, name)]
     if lacking:
         raise MissingLibraryError(f"the library lacks {lacking[0]}" + (f" and {len(lacking) - 1} more" if lacking[1:]
                                                                        else ""),
@@ -68,11 +70,22 @@ def _find_library() -> Path:
                               next_step="./dev setup, or set BRACE_LIBRARY to the file")
 
 
-def _declarations() -> str:
+def _headers() -> tuple[list[Path], list[Path]]:
+    """The headers that describe the library, and the folders they include from."""
     if (_INSTALLED / "include").is_dir():
         folders = [_INSTALLED / "include"]
     else:
         folders = [_PROJECT / "firmware" / "core" / "include", _PROJECT / "host_sim" / "api"]
     roots = [folder / "brace" / name for name in FIRMWARE_HEADERS for folder in folders]
     roots += [folder / HOST_HEADER for folder in folders]
-    return declarations([root for root in roots if root.is_file()], folders)
+    return [root for root in roots if root.is_file()], folders
+
+
+def _refuse_stale(library_path: Path, headers: list[Path], folders: list[Path]) -> None:
+    """A library built from other headers would read and write structs of another shape."""
+    built = library_path.stat().st_mtime
+    newer = [header for header in headers if header.stat().st_mtime > built]
+    if newer and _INSTALLED not in folders[0].parents:
+        raise MissingLibraryError(f"the library is older than {newer[0].name}", where=str(library_path),
+                                  why="its structs may have another shape than the header says",
+                                  next_step="./dev setup builds it anew")
