@@ -182,9 +182,9 @@ typedef struct {
 
 /* The quasi-static limb under the imposed displacements, in its plane: coxa link and joint do not act. On
  * E_NO_CONVERGENCE the outputs are written all the same and unsolved_rows (optional) counts the rows above
- * tolerance (1e-9 N of unbalance). returns OK, E_NULL, E_NOT_FINITE, E_RANGE, E_PARAMETER, E_SINGULAR,
- * E_NO_CONVERGENCE cost: about 0.05 us a row for a linear limb, 0.2-0.5 us with play, friction or hardening.
- */
+ * tolerance (1e-9 N of unbalance, or rounding where that is more).
+ * returns OK, E_NULL, E_NOT_FINITE, E_RANGE, E_PARAMETER, E_SINGULAR, E_NO_CONVERGENCE
+ * cost: about 0.05 us a row for a linear limb, 0.2-0.5 us with play, friction or hardening. */
 int32_t brace_plant_loading(const brace_plant_model_t *model, const brace_loading_rows_t *rows,
                             const brace_loading_reading_t *reading, size_t *unsolved_rows);
 
