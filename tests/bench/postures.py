@@ -69,17 +69,20 @@ def tilted_limb() -> Limb:
     )
 
 
-def random_limbs(count: int = 24) -> list[Limb]:
-    """Limbs of every kind for the parameter change: slender, tilted, with and without springs and transfer."""
+def random_limbs(count: int = 64) -> list[Limb]:
+    """Limbs of every kind for the parameter change: slender to round, tilted or not, with and without springs and
+    moment transfer, legs of equal length among them."""
     rng = np.random.default_rng(SEED + 1)
     limbs = [paper_limb(), tilted_limb()]
     while len(limbs) < count:
-        ratio = 10.0 ** rng.uniform(-3.0, 0.0, 2)
+        ratio = 10.0 ** rng.uniform(-3.0, 0.0, 2) * rng.choice([0.0, 1.0], 2, p=[0.1, 0.9])
         bending = 10.0 ** rng.uniform(-2.0, 0.0, 2)
         tilt = rng.uniform(-0.5, 0.5, 2) * rng.integers(0, 2, 2)
-        joints = 10.0 ** rng.uniform(-6.0, -4.0, 3) * rng.integers(0, 2, 3)
+        joints = 10.0 ** rng.uniform(-6.0, -3.0, 3) * rng.integers(0, 2, 3)
+        femur_mm = float(rng.uniform(80, 300))
+        tibia_mm = femur_mm if rng.random() < 0.25 else float(rng.uniform(80, 400))
         limbs.append(Limb(
-            57.0, float(rng.uniform(80, 300)), float(rng.uniform(80, 400)),
+            57.0, femur_mm, tibia_mm,
             coxa=Link(),
             femur=Link(float(bending[0] * ratio[0]), float(bending[0]), float(tilt[0]), float(bending[0]), 1e-6,
                        float(rng.choice([0.0, 0.5, 1.0]))),

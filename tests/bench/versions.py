@@ -23,7 +23,6 @@ class Version:
     flash_with: tuple[str, ...] = ()  # further functions whose flash belongs to it
     limb: Limb | None = None
     ours: bool = False
-    note: str = ""
 
     @property
     def key(self) -> str:
@@ -49,10 +48,10 @@ def core_sources() -> tuple[Path, ...]:
 
 
 def _ours(name: str, group: str, function: str, job: str, limb: str = "PAPER", processor: Processor = M4F,
-          flash_with: tuple[str, ...] = (), note: str = "") -> Version:
+          flash_with: tuple[str, ...] = ()) -> Version:
     limbs = {"PAPER": paper_limb, "TILTED": tilted_limb, "COXA": coxa_limb}
     return Version(name, group, processor, function, core_sources(), OURS / job, (), (f"-DBENCH_LIMB=BENCH_{limb}_LIMB",),
-                   flash_with, limbs[limb](), True, note)
+                   flash_with, limbs[limb](), True)
 
 
 def ours() -> list[Version]:
@@ -69,7 +68,7 @@ def ours() -> list[Version]:
               flash_with=("brace_spatial_collapse",)),
         _ours("Brace, coxa link yields", SPATIAL, "brace_spatial_stiffness", "spatial_job.c", "COXA",
               flash_with=("brace_spatial_collapse",)),
-        _ours("Brace, collapse", COLLAPSE, collapse, "collapse_job.c", note="over 24 limbs"),
+        _ours("Brace, collapse", COLLAPSE, collapse, "collapse_job.c"),
     ]
 
 
