@@ -54,8 +54,9 @@ static inline int32_t axis(const brace_planar_t *planar, int32_t t, int32_t dev_
 brace_status_t brace_planar_stiffness(const brace_planar_t *planar, float theta1_rad, float theta2_rad,
                                       brace_stiffness_t *stiffness)
 {
-    if (!(theta1_rad * theta1_rad + theta2_rad * theta2_rad <= BRACE_PLANAR_REACH_RAD2)) {
-        return BRACE_E_RANGE;
+    const float reach = theta1_rad * theta1_rad + theta2_rad * theta2_rad;
+    if (!(reach <= BRACE_PLANAR_REACH_RAD2)) {
+        return reach <= 3.4028234e38f ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
     }
     const uint32_t knee_turn = (uint32_t)HIGH(PRODUCT(theta2_rad * 0x1p28f, TURN_PER_RAD));
     const uint32_t femur_turn = (uint32_t)HIGH(PRODUCT(theta1_rad * 0x1p28f, TURN_PER_RAD));

@@ -50,13 +50,18 @@ brace_status_t brace_chain_build(const brace_limb_t *limb, brace_chain_t *chain)
 brace_status_t brace_chain_build_with_coxa(const brace_limb_t *limb, brace_chain_t *chain);
 
 /* C at a posture, and if det is not null det C [(mm/N)^2] as the sum of positive terms.
- * theta1_rad, theta2_rad: true angles, |theta1| + |theta2| <= BRACE_PLANAR_REACH_RAD (7.9).
+ * theta1_rad, theta2_rad: true angles, theta1^2 + theta2^2 <= BRACE_PLANAR_REACH_RAD2 (31, brace/planar.h): both
+ * may lie anywhere within [-3.9, 3.9]. Outputs are written on success only.
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE. */
 brace_status_t brace_chain_compliance(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
                                       brace_compliance_t *compliance, float *det);
 
 /* K at a posture for any limb, yielding base included: the general path.
- * flags: BRACE_FLAG_NEAR_SINGULAR when C is so slender that the stated accuracy is not promised.
+ * Accuracy: each entry of K within 2e-6 of lambda_max, eigenvalues within 2e-6 of themselves, stiff axis within 1e-6
+ * rad times lambda_max / (lambda_max - lambda_min), unless flagged.
+ * flags: BRACE_FLAG_NEAR_SINGULAR when C is so slender (det C < 2e-5 of the squared half trace) that this is not
+ * promised.
+ * Cost on a Cortex-M4F: about 350 + 25 n + 75 n (n - 1) / 2 instructions for n elements; 200 bytes of stack.
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE, BRACE_E_SINGULAR (det C is zero). */
 brace_status_t brace_chain_stiffness(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
                                      brace_stiffness_t *stiffness);

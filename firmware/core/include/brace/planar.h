@@ -50,7 +50,7 @@ brace_status_t brace_planar_collapse(const brace_limb_t *limb, brace_planar_t *p
  * planar, stiffness: not null (not checked: this is the tick).
  * theta1_rad, theta2_rad: true angles, theta1^2 + theta2^2 <= BRACE_PLANAR_REACH_RAD2.
  * stiffness: written on success only; flags are 0.
- * returns BRACE_OK, or BRACE_E_RANGE with the output untouched (also for NaN and infinity).
+ * returns BRACE_OK, BRACE_E_RANGE, BRACE_E_NOT_FINITE (NaN, infinity, and angles whose square overflows).
  * Accuracy: each entry of K within 2e-6 of lambda_max, both eigenvalues within 2e-6 of themselves, the stiff axis
  * within 1e-6 rad times lambda_max / (lambda_max - lambda_min).
  * Cost on a Cortex-M4F: the same straight line of at most 140 instructions for every posture, 230 cycles by the
