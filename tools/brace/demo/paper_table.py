@@ -30,7 +30,6 @@ class PaperTable:
     largest: Measured
     smallest: Measured
     corrected: np.ndarray
-    quasi_convex_breaks: np.ndarray
     identification: Identification
 
     @property
@@ -61,11 +60,10 @@ def examine(advance: Callable[[int], None]) -> PaperTable:
     everywhere = np.ones(len(k), dtype=bool)
     r_mm = settled["r_mm"].astype(float)
     largest = Measured(value[:, 1], largest_interval[:, 0], largest_interval[:, 1], everywhere,
-                       bent_rows(r_mm, value[:, 1]))
-    smallest = Measured(value[:, 0], smallest_interval[:, 0], smallest_interval[:, 1], known, ~everywhere)
+                       bent_rows(r_mm, value[:, 1]), quasi_convex_breaks(value[:, 1], *largest_interval.T))
+    smallest = Measured(value[:, 0], smallest_interval[:, 0], smallest_interval[:, 1], known, ~everywhere, ~everywhere)
     return PaperTable([fault.sentence(Path("paper_table1/data.csv")) for fault in table.faults], repairs, r_mm, largest,
-                      smallest, np.isin(rows, list(repaired)),
-                      quasi_convex_breaks(largest.value, largest.low, largest.high), result)
+                      smallest, np.isin(rows, list(repaired)), result)
 
 
 def _lambda_max_interval(k: np.ndarray, half_unit: np.ndarray) -> np.ndarray:

@@ -70,7 +70,7 @@ def _eigenvalues(story: Story, table: paper_table.PaperTable) -> Iterator[str]:
         "not_strictly_convex": table.largest.bent.astype(int), "corrected": table.corrected.astype(int),
     }, dict.fromkeys(("r_mm",), 0)).encode()
     bent = table.r_mm[table.largest.bent]
-    breaks = table.r_mm[table.quasi_convex_breaks]
+    breaks = table.r_mm[table.largest.breaks]
     lowest = table.r_mm[int(np.argmin(table.largest.value))]
     story.facts |= {"not_strictly_convex_r_mm": bent, "quasi_convex_breaks_r_mm": breaks}
     yield (f"   lambda_max falls to r = {lowest:.0f} mm and then rises; not strictly convex at r = "

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+MARGIN_MM = 110.0
+
+
 @dataclass(frozen=True)
 class Footing:
     """points: 3 x 2, femur axis, knee and tip [mm]; force_n: (x, z) of the ledge on the foot; margin_n as the
@@ -32,23 +35,25 @@ def contact_figure(footings: Sequence[Footing], friction_ratio: float, sag_mm: f
                    height_mm: np.ndarray, needed_ratio: np.ndarray) -> Figure:
     """Two postures on a ledge, and over the workspace the friction that a sag needs: needed_ratio is
     rows (theta2) x columns (theta1), at the tip's r_mm and height_mm of the same shape."""
-    figure = new_figure(4.0 * len(footings) + 4.6, 4.6)
-    panels = figure.subplots(1, len(footings) + 1, width_ratios=[1.0] * len(footings) + [1.25])
+    figure = new_figure(4.4 * len(footings) + 4.4, 4.2)
+    panels = figure.subplots(1, len(footings) + 1)
+    corners = np.concatenate([footing.points for footing in footings])
+    low, high = corners.min(axis=0) - MARGIN_MM, corners.max(axis=0) + MARGIN_MM
     for axes, footing in zip(panels, footings):
-        _draw_footing(axes, footing, friction_ratio)
+        _draw_footing(axes, footing, friction_ratio, sag_mm)
+        axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1] + MARGIN_MM / 2))
     plane = panels[-1]
     mesh = plane.pcolormesh(r_mm, height_mm, np.minimum(needed_ratio, 2.0), shading="gouraud", cmap="RdYlGn_r",
                             vmin=0.0, vmax=2.0 * friction_ratio, rasterized=True)
     plane.contour(r_mm, height_mm, needed_ratio, levels=[friction_ratio], colors=[INK], linewidths=1.0)
     plane.set(xlabel="x of the foot [mm]", ylabel="z of the foot [mm]", aspect="equal")
-    plane.set_title("friction needed, |K_xz| / K_zz; line: what there is", loc="left", fontsize=9)
+    plane.set_title(f"friction that any sag needs, |K_xz| / K_zz\nline: the friction there is, {friction_ratio:g}",
+                    loc="left", fontsize=9)
     figure.colorbar(mesh, ax=plane, shrink=0.8)
-    figure.suptitle(f"Choice of stiffness: the body sags {sag_mm:g} mm, friction ratio {friction_ratio:g}", x=0.01,
-                    ha="left", fontsize=10)
     return figure
 
 
-def _draw_footing(axes: Axes, footing: Footing, friction_ratio: float) -> None:
+def _draw_footing(axes: Axes, footing: Footing, friction_ratio: float, sag_mm: float) -> None:
     draw_links(axes, footing.points)
     tip = footing.points[2]
     half = np.arctan(friction_ratio)
@@ -64,5 +69,5 @@ def _draw_footing(axes: Axes, footing: Footing, friction_ratio: float) -> None:
     axes.annotate(f"{size:.1f} N", tip + arrow, xytext=(4, 4), textcoords="offset points", color=colour)
     axes.set(aspect="equal", xlabel="x [mm]", ylabel="z [mm]")
     word = "holds" if footing.holds else "slides"
-    axes.set_title(f"{footing.title}\n{word}: margin {footing.margin_n:+.2f} N", loc="left", fontsize=9)
-    axes.margins(0.15)
+    axes.set_title(f"{footing.title}, body sags {sag_mm:g} mm\n{word}: margin {footing.margin_n:+.2f} N", loc="left",
+                   fontsize=9)

@@ -17,13 +17,15 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Measured:
     """One eigenvalue of each table row: value, low, high [N/mm]; `sound` is false where the entry was corrected,
-    `determined` where print rounding leaves it open, `bent` where the sequence is not convex."""
+    `determined` is false where print rounding leaves it open, `bent` true where the sequence is not convex,
+    `breaks` where it is not even quasi-convex beyond print rounding."""
 
     value: np.ndarray
     low: np.ndarray
     high: np.ndarray
     determined: np.ndarray
     bent: np.ndarray
+    breaks: np.ndarray
 
 
 def eigenvalue_figure(r_mm: np.ndarray, largest: Measured, smallest: Measured, corrected: np.ndarray,
@@ -33,7 +35,7 @@ def eigenvalue_figure(r_mm: np.ndarray, largest: Measured, smallest: Measured, c
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.25, 1))
     _draw(upper, r_mm, largest, corrected, curve_r_mm, curve_largest, STIFF)
     upper.set(ylabel="lambda_max [N/mm]", yscale="log")
-    upper.set_title("Larger eigenvalue of K over the reach: quasi-convex as a whole, not convex where marked", loc="left",
+    upper.set_title("Larger eigenvalue of K over the reach, and where convexity and quasi-convexity fail", loc="left",
                     fontsize=10)
     _draw(lower, r_mm, smallest, corrected, curve_r_mm, curve_smallest, SOFT)
     top = 1.6 * max(float(smallest.value.max()), float(curve_smallest.max()))
@@ -57,4 +59,6 @@ def _draw(axes: Axes, r_mm: np.ndarray, measured: Measured, corrected: np.ndarra
         axes.axvline(r, color=FAINT, linewidth=5, alpha=0.5, zorder=0)
     if measured.bent.any():
         axes.plot([], [], color=FAINT, linewidth=5, alpha=0.5, label="not strictly convex here")
+    axes.plot(r_mm[measured.breaks], measured.value[measured.breaks], "v", color=INK, markersize=6, linestyle="none",
+              label="falls after the minimum: not quasi-convex" if measured.breaks.any() else "_")
     axes.legend(loc="best")
