@@ -50,8 +50,7 @@ float brace_chain_firm(const brace_limb_t *limb, brace_element_t element[BRACE_C
     return femur_iso + tibia_iso;
 }
 
-/* The coxa lies along x, its moment is that of the tip force about the hip. */
-static float coxa(const brace_limb_t *limb, brace_element_t element[2])
+float brace_chain_coxa(const brace_limb_t *limb, brace_element_t element[2])
 {
     const brace_link_t *link = &limb->link[BRACE_COXA];
     const float kappa = link->moment_transfer_ratio;
@@ -62,7 +61,7 @@ static float coxa(const brace_limb_t *limb, brace_element_t element[2])
     return bend(link, kappa, &element[0].base, &element[1].base);
 }
 
-static float base(const brace_limb_t *limb, brace_element_t *element)
+float brace_chain_base(const brace_limb_t *limb, brace_element_t *element)
 {
     const float x = limb->base.x_mm_per_n, z = limb->base.z_mm_per_n;
     *element = (brace_element_t){0};
@@ -82,10 +81,10 @@ float brace_chain_list(const brace_limb_t *limb, int with_coxa, brace_element_t 
     uint32_t used = BRACE_CHAIN_FIRM, kept = 0;
     float iso = brace_chain_firm(limb, element);
     if (with_coxa) {
-        iso += coxa(limb, &element[used]);
+        iso += brace_chain_coxa(limb, &element[used]);
         used += 2;
     }
-    iso += base(limb, &element[used++]);
+    iso += brace_chain_base(limb, &element[used++]);
     for (uint32_t i = 0; i < used; i++) {
         if (yields(&element[i])) {
             element[kept++] = element[i];

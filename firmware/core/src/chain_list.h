@@ -10,6 +10,11 @@ enum { BRACE_CHAIN_FIRM = 5 };
 /* Writes those five, zero where nothing yields, and returns their iso. limb has passed brace_limb_check. */
 float brace_chain_firm(const brace_limb_t *limb, brace_element_t element[BRACE_CHAIN_FIRM]);
 
+/* The coxa link's two, ellipsoid and moment transfer, and the base's one: what has a base part. The coxa lies along x,
+ * its moment is that of the tip force about the hip. Each returns its iso. */
+float brace_chain_coxa(const brace_limb_t *limb, brace_element_t element[2]);
+float brace_chain_base(const brace_limb_t *limb, brace_element_t *element);
+
 /* Writes the limb's elements that are not zero, those of the coxa and of the base last, and their number;
  * returns iso. element: room for BRACE_CHAIN_MAX. limb has passed brace_limb_check. */
 float brace_chain_list(const brace_limb_t *limb, int with_coxa, brace_element_t *element, uint32_t *count);

@@ -2,29 +2,46 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <stdint.h>
+#include <string.h>
 
-/* at_fold + per_cos (1 + cos theta2) + per_sin sin theta2, written as least + swing sin(h - zero 0) sin(h - zero 1)
- * with h = theta2/2. As middle + amplitude cos(theta2 - crest) it vanishes where theta2 - crest is plus and minus
- * acos(-middle/amplitude); where it never does, both zeros move to where it comes nearest. */
-static void factor(const brace_harmonic_t *cross, brace_planar_batch_t *batch)
+#include "chain_list.h"
+#include "fine_det.h"
+
+#define PI 3.14159265358979324
+
+/* The leading digits, as many as a float holds. By bits: GCC 12 takes x - (double)(float)x for zero when it makes
+ * vectors of two of them. */
+static double float_part(double value)
 {
-    const double middle = (double)cross->at_fold + (double)cross->per_cos;
-    const double amplitude = hypot(cross->per_cos, cross->per_sin);
-    const double crest = atan2(cross->per_sin, cross->per_cos);
-    const double level = amplitude > 0.0 ? fmax(-1.0, fmin(1.0, -middle / amplitude)) : 1.0;
-    const double aside = acos(level);
-    const double zero[2] = {0.5 * (crest + aside), 0.5 * (crest - aside)};
-    batch->cross_least = (float)(middle + amplitude * level);
-    batch->cross_swing = (float)(-2.0 * amplitude);
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    bits &= ~(uint64_t)0x1fffffff;
+    memcpy(&value, &bits, sizeof bits);
+    return value;
+}
+
+/* constant + per_cos cos theta2 + per_sin sin theta2, but for the sign written as
+ * least + swing sin(h - zero 0) sin(h - zero 1) with h = theta2/2. As middle + amplitude cos(theta2 - crest) it
+ * vanishes where theta2 - crest is plus and minus acos(-middle/amplitude); where it never does, both zeros are where
+ * it comes nearest, and their sines' product has one sign. */
+static void factor(const brace_fine_harmonic_t *cross, brace_planar_batch_t *batch)
+{
+    const double middle = fabs(cross->constant), amplitude = hypot(cross->per_cos, cross->per_sin);
+    const double crest = cross->constant < 0.0 ? atan2(-cross->per_sin, -cross->per_cos) : atan2(cross->per_sin, cross->per_cos);
+    const double aside = middle < amplitude ? acos(-middle / amplitude) : PI;
+    const double zero[2] = {0.5 * (crest + aside), middle < amplitude ? 0.5 * (crest - aside) : 0.5 * (crest + aside)};
+    batch->cross_least = middle < amplitude ? 0.0f : (float)(middle - amplitude);
+    batch->cross_swing = (float)(2.0 * amplitude);
     for (int i = 0; i < 2; i++) {
-        const double within = remainder(zero[i], 3.14159265358979324);
-        batch->zero_rad[i] = (float)within;
-        batch->zero_rest_rad[i] = (float)(within - (double)batch->zero_rad[i]);
+        const double within = zero[i] - PI * floor(zero[i] / PI + 0.5);
+        const double first = float_part(within);
+        batch->zero_rad[i] = (float)first;
+        batch->zero_rest_rad[i] = (float)(within - first);
     }
-    batch->upright = cross->at_fold == 0.0f && cross->per_cos == 0.0f;
+    batch->upright = middle == 0.0 && cross->per_cos == 0.0;
     if (batch->upright) {
-        batch->cross_least = 0.0f;
-        batch->cross_swing = 2.0f * cross->per_sin;
+        batch->cross_swing = (float)(2.0 * cross->per_sin);
     }
 }
 
@@ -36,22 +53,35 @@ static brace_harmonic_t doubled(const brace_harmonic_t *h)
 
 brace_status_t brace_planar_batch_collapse(const brace_limb_t *limb, brace_planar_batch_t *batch)
 {
-    if (batch == NULL) {
-        return BRACE_E_NULL;
+    brace_status_t status = batch == NULL ? BRACE_E_NULL : brace_limb_check(limb);
+    if (status != BRACE_OK) {
+        return status;
     }
-    brace_chain_t chain;
-    brace_harmonics_t harmonics;
-    brace_status_t status = brace_chain_build(limb, &chain);
-    if (status == BRACE_OK) {
-        status = brace_harmonics(&chain, &harmonics);
+    if (limb->base.x_mm_per_n != limb->base.z_mm_per_n) {
+        return BRACE_E_UNSUPPORTED;
     }
-    if (status == BRACE_OK) {
-        batch->mean = doubled(&harmonics.mean);
-        batch->dev_x = doubled(&harmonics.dev_x);
-        batch->dev_y = doubled(&harmonics.dev_y);
-        batch->rest = doubled(&harmonics.rest);
-        batch->flags = 0;
-        factor(&harmonics.cross, batch);
+    brace_element_t element[BRACE_CHAIN_FIRM];
+    const float iso = brace_chain_firm(limb, element) + limb->base.x_mm_per_n;
+    brace_harmonics_t plane;
+    status = brace_harmonics_list(iso, element, BRACE_CHAIN_FIRM, &plane);
+    if (status != BRACE_OK) {
+        return status;
     }
-    return status;
+    const brace_fine_det_t det = brace_fine_det(iso, element, BRACE_CHAIN_FIRM);
+    const double mean_most = (double)plane.mean.at_fold + (double)plane.mean.per_cos +
+                             hypot(plane.mean.per_cos, plane.mean.per_sin);
+    uint32_t flags;
+    status = brace_fine_det_judge(&det, mean_most, &flags);
+    if (status != BRACE_OK) {
+        return status;
+    }
+    const brace_fine_harmonic_t *rest = &det.rest;
+    batch->mean = doubled(&plane.mean);
+    batch->dev_x = doubled(&plane.dev_x);
+    batch->dev_y = doubled(&plane.dev_y);
+    batch->rest = (brace_harmonic_t){(float)(rest->constant - rest->per_cos), 2.0f * (float)rest->per_cos,
+                                     2.0f * (float)rest->per_sin};
+    batch->flags = flags;
+    factor(&det.cross, batch);
+    return BRACE_OK;
 }

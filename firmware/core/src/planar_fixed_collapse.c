@@ -3,33 +3,17 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "brace/chain.h"
+#include "chain_list.h"
+#include "fine_det.h"
 #include "turn.h"
 
 /* BRACE_TURN_ONE as an integer: the tick's sine and cosine of one. */
 #define TRIG_ONE 2147481600
 
-/* det C at its least over the largest mean^2: below SLENDER the stated accuracy is no longer promised, below
- * TOO_SLENDER the words of the tick no longer hold the numbers. */
-#define SLENDER 2e-6f
-#define TOO_SLENDER 2.5e-7f
-/* The same for the least mean over the largest. */
-#define UNEVEN 1e-3f
-#define SMALLEST_MM_PER_N 1e-7f
-#define LARGEST_MM_PER_N 1e7f
-
-typedef struct {
-    float least, most, swing;
-} extent_t;
-
-/* Over all knee angles. */
-static extent_t extent(const brace_harmonic_t *h)
-{
-    const float swing = __builtin_sqrtf(h->per_cos * h->per_cos + h->per_sin * h->per_sin);
-    const float middle = h->at_fold + h->per_cos;
-    const float below = h->per_cos > 0.0f ? h->per_sin * h->per_sin / (swing + h->per_cos) : swing - h->per_cos;
-    return (extent_t){h->at_fold - below, middle + swing, swing};
-}
+/* The least mean over the largest below which the words that hold it grow too short for the stated accuracy. */
+#define UNEVEN 3e-4
+#define SMALLEST_MM_PER_N 1e-7
+#define LARGEST_MM_PER_N 1e7
 
 /* Largest e with value * 2^e < 2^bits. value > 0. */
 static int32_t headroom(float value, int32_t bits)
@@ -47,16 +31,22 @@ static float two_to(int32_t exponent)
     return value;
 }
 
-/* at_fold is kept apart from per_cos until both are integers: what cancels there cancels exactly. */
-static brace_fixed_harmonic_t quantised(const brace_harmonic_t *h, float scale)
+/* Anchored at the folded knee, where the levers nearly cancel: they do so exactly in the integers too. */
+static brace_fixed_harmonic_t quantised(const brace_fine_harmonic_t *h, int32_t scale)
 {
-    const float per_turn = scale * (0x1p32f / BRACE_TURN_ONE);
+    const double unit = (double)two_to(scale), per_turn = unit * (0x1p32 / TRIG_ONE);
     const int32_t per_cos = (int32_t)(h->per_cos * per_turn), per_sin = (int32_t)(h->per_sin * per_turn);
-    const int64_t at_fold = (int64_t)(h->at_fold * scale * 0x1p32f);
+    const int64_t at_fold = (int64_t)((h->constant - h->per_cos) * unit * 0x1p32);
     return (brace_fixed_harmonic_t){
         .constant = at_fold + (int64_t)per_cos * TRIG_ONE + (int64_t)0x80000000,
         .per_turn = (uint32_t)per_cos | (uint64_t)(uint32_t)per_sin << 32,
     };
+}
+
+static brace_fine_harmonic_t fine(const brace_harmonic_t *h, double factor)
+{
+    return (brace_fine_harmonic_t){factor * ((double)h->at_fold + (double)h->per_cos), factor * (double)h->per_cos,
+                                   factor * (double)h->per_sin};
 }
 
 static int32_t least_of(int32_t a, int32_t b)
@@ -64,26 +54,27 @@ static int32_t least_of(int32_t a, int32_t b)
     return a < b ? a : b;
 }
 
-/* A little less than a power of two, so that rounding carries nothing over it. */
-static float padded(float value)
+/* A little more, so that rounding carries nothing over a power of two. */
+static float padded(double value)
 {
-    return value * 1.0005f;
+    return (float)value * 1.0005f;
 }
 
-static brace_status_t quantise(const brace_harmonics_t *harmonics, brace_planar_fixed_t *fixed)
+static brace_status_t quantise(const brace_harmonics_t *plane, const brace_fine_det_t *det, brace_planar_fixed_t *fixed)
 {
-    const extent_t mean = extent(&harmonics->mean), rest = extent(&harmonics->rest);
-    const float square = mean.most * mean.most;
-    if (!(mean.most > SMALLEST_MM_PER_N && mean.most < LARGEST_MM_PER_N && rest.least > TOO_SLENDER * square)) {
+    const brace_fine_harmonic_t mean_of = fine(&plane->mean, 1.0), dev_y = fine(&plane->dev_y, 1.0);
+    const brace_fine_harmonic_t minus_dev_x = fine(&plane->dev_x, -1.0);
+    const brace_extent_t mean = brace_fine_extent(&mean_of), rest = brace_fine_extent(&det->rest), cross = brace_fine_extent(&det->cross);
+    uint32_t flags;
+    if (!(mean.most > SMALLEST_MM_PER_N && mean.most < LARGEST_MM_PER_N) ||
+        brace_fine_det_judge(det, mean.most, &flags) != BRACE_OK) {
         return BRACE_E_UNSUPPORTED;
     }
-    const extent_t cross = extent(&harmonics->cross);
-    const float cross_most = __builtin_fabsf(harmonics->cross.at_fold + harmonics->cross.per_cos) + cross.swing;
-
     const int32_t mean_scale = headroom(padded(mean.most), 30); /* trace of C below 2^31 */
     const int32_t rest_scale = headroom(padded(rest.most), 31);
+    const double cross_most = cross.most > -cross.least ? cross.most : -cross.least;
     int32_t cross_scale = (rest_scale + 30) >> 1; /* its square, by rest_weight, below 2^61 */
-    if (cross_most > 0.0f) {
+    if (cross_most > 0.0) {
         cross_scale = least_of(cross_scale, headroom(padded(cross_most), 31));
         cross_scale = least_of(cross_scale, headroom(padded(cross.swing), 30));
     }
@@ -91,31 +82,34 @@ static brace_status_t quantise(const brace_harmonics_t *harmonics, brace_planar_
     if (weight < 0) {
         return BRACE_E_UNSUPPORTED;
     }
-    const brace_harmonic_t *dev_x = &harmonics->dev_x;
-    const brace_harmonic_t minus_dev_x = {-dev_x->at_fold, -dev_x->per_cos, -dev_x->per_sin};
-    fixed->mean = quantised(&harmonics->mean, two_to(mean_scale + 1));
-    fixed->minus_dev_x = quantised(&minus_dev_x, two_to(mean_scale));
-    fixed->dev_y = quantised(&harmonics->dev_y, two_to(mean_scale));
-    fixed->cross = quantised(&harmonics->cross, two_to(cross_scale));
-    fixed->rest = quantised(&harmonics->rest, two_to(rest_scale));
+    fixed->mean = quantised(&mean_of, mean_scale + 1);
+    fixed->minus_dev_x = quantised(&minus_dev_x, mean_scale);
+    fixed->dev_y = quantised(&dev_y, mean_scale);
+    fixed->cross = quantised(&det->cross, cross_scale);
+    fixed->rest = quantised(&det->rest, rest_scale);
     fixed->rest_weight = (int32_t)1 << weight;
     fixed->exponent_k = (uint32_t)(99 + 2 * cross_scale - mean_scale) << 23;
     fixed->exponent_min = (uint32_t)(98 + mean_scale) << 23;
-    const int delicate = rest.least < SLENDER * square || mean.least < UNEVEN * mean.most;
-    fixed->flags = delicate ? BRACE_FLAG_NEAR_SINGULAR : 0u;
+    fixed->flags = mean.least < UNEVEN * mean.most ? BRACE_FLAG_NEAR_SINGULAR : flags;
     return BRACE_OK;
 }
 
 brace_status_t brace_planar_fixed_collapse(const brace_limb_t *limb, brace_planar_fixed_t *fixed)
 {
-    if (fixed == NULL) {
-        return BRACE_E_NULL;
+    const brace_status_t status = fixed == NULL ? BRACE_E_NULL : brace_limb_check(limb);
+    if (status != BRACE_OK) {
+        return status;
     }
-    brace_chain_t chain;
-    brace_harmonics_t harmonics;
-    brace_status_t status = brace_chain_build(limb, &chain);
-    if (status == BRACE_OK) {
-        status = brace_harmonics(&chain, &harmonics);
+    if (limb->base.x_mm_per_n != limb->base.z_mm_per_n) {
+        return BRACE_E_UNSUPPORTED;
     }
-    return status == BRACE_OK ? quantise(&harmonics, fixed) : status;
+    brace_element_t element[BRACE_CHAIN_FIRM];
+    const float iso = brace_chain_firm(limb, element) + limb->base.x_mm_per_n;
+    brace_harmonics_t plane;
+    const brace_status_t found = brace_harmonics_list(iso, element, BRACE_CHAIN_FIRM, &plane);
+    if (found != BRACE_OK) {
+        return found;
+    }
+    const brace_fine_det_t det = brace_fine_det(iso, element, BRACE_CHAIN_FIRM);
+    return quantise(&plane, &det, fixed);
 }

@@ -21,6 +21,18 @@ static float merged(brace_vec_t a, brace_vec_t b, brace_vec_t *v)
     return mean > 0.0f ? cross * cross / (mean + radius) : 0.0f;
 }
 
+/* Something across the plane, and something that moves in it. */
+static int yields(const brace_limb_t *limb)
+{
+    const brace_link_t *femur = &limb->link[BRACE_FEMUR], *tibia = &limb->link[BRACE_TIBIA];
+    const float across =
+        limb->link[BRACE_COXA].lateral_mm_per_n + femur->lateral_mm_per_n + tibia->lateral_mm_per_n;
+    const float bends = femur->axial_mm_per_n + femur->bending_mm_per_n + tibia->axial_mm_per_n + tibia->bending_mm_per_n;
+    const float turns = limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm +
+                        limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm + limb->base.rotation_rad_per_n_mm;
+    return across > 0.0f && bends + turns > 0.0f;
+}
+
 static void collapse_across(const brace_limb_t *limb, brace_spatial_t *spatial)
 {
     const brace_link_t *coxa = &limb->link[BRACE_COXA], *femur = &limb->link[BRACE_FEMUR];
@@ -40,47 +52,30 @@ static void collapse_across(const brace_limb_t *limb, brace_spatial_t *spatial)
     spatial->across_per_aside2 = femur->torsion_rad_per_n_mm;
 }
 
-/* Sorts the list's elements: those that move with the knee stay, in front; the rest goes to still and coxa. Returns
- * what of the rest yields equally in every direction. */
-static float part_still(brace_element_t *element, uint32_t *count, float femur_mm, brace_spatial_t *spatial)
+/* Coxa and base: what stands still in the plane. Returns what of it yields equally in every direction. */
+static float collapse_still(const brace_limb_t *limb, brace_spatial_t *spatial)
 {
-    brace_vec_t still[2] = {{0.0f, 0.0f}, {0.0f, 0.0f}};
-    uint32_t moving = 0, stills = 0;
-    spatial->coxa = (brace_vec_t){0.0f, 0.0f};
-    spatial->coxa_per_mm = 0.0f;
-    for (uint32_t i = 0; i < *count; i++) {
-        const brace_element_t e = element[i];
-        if (!(vec_dot(e.base, e.base) > 0.0f)) {
-            element[moving++] = e;
-        } else if (e.femur.z > 0.0f) {
-            spatial->coxa = e.base;
-            spatial->coxa_per_mm = e.femur.z / femur_mm;
-        } else {
-            still[stills++ & 1u] = e.base;
-        }
-    }
-    *count = moving;
-    return merged(still[0], still[1], &spatial->still);
+    brace_element_t coxa[2], base;
+    const float iso = brace_chain_coxa(limb, coxa) + brace_chain_base(limb, &base);
+    spatial->coxa = coxa[1].base;
+    spatial->coxa_per_mm = coxa[1].femur.z / limb->femur_mm;
+    return iso + merged(coxa[0].base, base.base, &spatial->still);
 }
 
 brace_status_t brace_spatial_collapse(const brace_limb_t *limb, brace_spatial_t *spatial)
 {
-    brace_status_t status = spatial == NULL ? BRACE_E_NULL : brace_limb_check(limb);
+    const brace_status_t status = spatial == NULL ? BRACE_E_NULL : brace_limb_check(limb);
     if (status != BRACE_OK) {
         return status;
     }
-    brace_spatial_t collapsed = {0};
-    brace_element_t element[BRACE_CHAIN_MAX];
-    uint32_t count;
-    float iso = brace_chain_list(limb, 1, element, &count);
-    iso += part_still(element, &count, limb->femur_mm, &collapsed);
-    status = brace_harmonics_list(iso, element, count, &collapsed.plane);
-    collapse_across(limb, &collapsed);
-    if (status == BRACE_OK && !(collapsed.across_mm_per_n > 0.0f && count + (iso > 0.0f) > 0u)) {
-        status = BRACE_E_SINGULAR;
+    if (!yields(limb)) {
+        return BRACE_E_SINGULAR;
     }
-    if (status == BRACE_OK) {
-        *spatial = collapsed;
-    }
-    return status;
+    collapse_across(limb, spatial);
+    float iso = collapse_still(limb, spatial);
+    brace_element_t element[BRACE_CHAIN_FIRM];
+    iso += brace_chain_firm(limb, element);
+    (void)brace_harmonics_list(iso, element, BRACE_CHAIN_FIRM, &spatial->plane);
+    spatial->flags = 0;
+    return BRACE_OK;
 }
