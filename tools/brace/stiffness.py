@@ -191,11 +191,10 @@ def _array(native: Library, structs: Any, kind: np.dtype[Any]) -> np.ndarray:
 
 def _joined(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """Two structured arrays side by side, flags last."""
-    names = [name for name in (*first.dtype.names, *second.dtype.names) if name != "flags"]
-    source = {name: (first if name in first.dtype.names else second) for name in names}
-    kinds = [(name, source[name].dtype[name]) for name in names] + [("flags", "u4")]
+    source = {name: array for array in (first, second) for name in array.dtype.names or () if name != "flags"}
+    kinds = [(name, array.dtype[name]) for name, array in source.items()] + [("flags", np.dtype("u4"))]
     joined = np.empty(len(first), np.dtype(kinds))
-    for name in names:
-        joined[name] = source[name][name]
+    for name, array in source.items():
+        joined[name] = array[name]
     joined["flags"] = first["flags"]
     return joined

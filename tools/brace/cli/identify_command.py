@@ -25,7 +25,7 @@ def add(commands: Any) -> None:
     mode.add_argument("--prior", dest="mode", action="store_const", const="prior",
                       help="within the trust of [uncertainty] (default for loading records)")
     mode.add_argument("--free", dest="mode", action="store_const", const="free",
-                      help="compliances free, the data alone decide (default for tables)")
+                      help="compliances free, lengths, zeros and gain within their trust (default for tables)")
     parser.add_argument("--fit", action="append", default=[], metavar="KEY", help="also fit this key of limb.toml, free")
     parser.add_argument("--only", action="append", default=[], metavar="KEY", help="fit these keys and no others, free")
     parser.add_argument("--faults", choices=("repair", "drop", "refuse"), default="repair",

@@ -93,7 +93,7 @@ def _run_single(arguments: argparse.Namespace, model: Any) -> int:
             sigma = limb.sigma(true1, true2)
     except stiffness.PostureError as error:
         raise _refused(error, arguments, model) from None
-    values = {name: result[name][0].item() for name in result.dtype.names}
+    values = {name: result[name][0].item() for name in result.dtype.names or ()}
     posture = {"theta1_rad": theta1, "theta2_rad": theta2, "theta1_true_rad": true1, "theta2_true_rad": true2,
                "r_mm": r_mm, "phi_rad": phi_rad, "knee": "down" if theta2 < 0 else "up"}
     if arguments.theta0 is not None:

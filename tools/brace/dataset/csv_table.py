@@ -181,5 +181,5 @@ def _check_entries(values: np.ndarray, column: Column, rows: list[bytes], positi
 
 def _typed(values: np.ndarray, column: Column) -> np.ndarray:
     if column.kind == "axis":
-        return (values == b"z").astype(np.int32)
-    return values.astype(np.int32) if column.kind == "int" else values
+        return np.asarray(values == b"z", dtype=np.int32)
+    return np.asarray(values.astype(np.int32) if column.kind == "int" else values)

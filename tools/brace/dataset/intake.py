@@ -42,7 +42,7 @@ class Dataset:
     def __getitem__(self, column: str) -> np.ndarray:
         return self.columns[column]
 
-    def __contains__(self, column: str) -> bool:
+    def __contains__(self, column: object) -> bool:
         return column in self.columns
 
     def select(self, keep: np.ndarray) -> Dataset:

@@ -111,7 +111,8 @@ def fit(problem: Problem, parameters: ParameterSet, starts: Iterable[np.ndarray]
 
 def _data(problem: Problem, parameters: ParameterSet, x: np.ndarray, expected: int) -> np.ndarray:
     try:
-        return np.clip(problem.residual(parameters.model(x), parameters.nuisances(x)), -REFUSED, REFUSED)
+        residual = problem.residual(parameters.model(x), parameters.nuisances(x))
+        return np.asarray(np.clip(residual, -REFUSED, REFUSED))
     except BadFileError:
         return np.full(expected, REFUSED)
 

@@ -66,7 +66,7 @@ class Information:
         """For each parameter: does it take part in a direction about which nothing is known?"""
         if not self.null_directions.size:
             return np.zeros(len(self.fit.x), dtype=bool)
-        return np.linalg.norm(self.null_directions, axis=1) > NULL_SHARE
+        return np.asarray(np.linalg.norm(self.null_directions, axis=1) > NULL_SHARE)
 
     def correlations(self, above: float = 0.9) -> list[tuple[str, str, float]]:
         """Pairs of parameters whose errors go together, strongest first; unknown ones are in the classes."""
@@ -116,7 +116,7 @@ class Information:
         fit = self.fit
         slope = abs(float(fit.jacobian[:, index] @ fit.residual)) / fit.inflation
         curvature = 1.0 / max(self.covariance[index, index] * fit.inflation, 1e-300)
-        return (-slope + math.sqrt(slope**2 + curvature * Z90**2)) / curvature
+        return float((-slope + math.sqrt(slope**2 + curvature * Z90**2)) / curvature)
 
 
 def information(fit: Fit) -> Information:

@@ -36,7 +36,7 @@ class JointProblem:
     def residual(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """(played - measured) / noise."""
         played = self._player.play(model, nuisances.get(FRICTION_TURN, 0.0)) + nuisances.get(TORQUE_OFFSET, 0.0)
-        return ((played - self.columns["torque_n_mm"]) / self.noise_n_mm)[self._used]
+        return np.asarray(((played - self.columns["torque_n_mm"]) / self.noise_n_mm)[self._used])
 
     def angles(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """None: one joint has no tip."""
@@ -106,4 +106,4 @@ def _saturated(columns: Mapping[str, np.ndarray]) -> np.ndarray:
         return np.zeros(columns["torque_n_mm"].size, dtype=bool)
     torque, command = np.abs(columns["torque_n_mm"]), np.abs(columns["command_n_mm"])
     limit = float(np.quantile(torque, 0.999))
-    return (0.8 * command > limit) & (torque > 0.8 * limit)
+    return np.asarray((0.8 * command > limit) & (torque > 0.8 * limit))

@@ -126,6 +126,14 @@ def free(model: LimbModel, keys: Sequence[str]) -> ParameterSet:
     return ParameterSet(model, tuple(free_parameter(model, key) for key in keys))
 
 
+def free_compliances(model: LimbModel, extra: Sequence[str] = ()) -> ParameterSet:
+    """Every compliance of links and joints free, and `extra`; lengths, zeros and gain within their trust."""
+    keys = list(dict.fromkeys((*COMPLIANCES, *extra)))
+    trusted = [parameter for key in PRIOR_KEYS if key not in keys and key not in BASE_COMPLIANCES
+               and (parameter := prior_parameter(model, key)) is not None]
+    return ParameterSet(model, (*(free_parameter(model, key) for key in keys), *trusted))
+
+
 def checked_keys(keys: Sequence[str]) -> list[str]:
     """Keys from the command line; refuses what a fit cannot turn."""
     result: list[str] = []

@@ -93,7 +93,7 @@ def as_text(result: Identification) -> str:
 
 
 def _lines(result: Identification) -> Iterator[str]:
-    held = "within the trust of [uncertainty]" if result.mode == "prior" else "the data alone deciding"
+    held = "within the trust of [uncertainty]" if result.mode == "prior" else "compliances free"
     yield f"{result.dataset.folder}: {result.dataset.kind}, {result.dataset.rows} rows; fitted {held}"
     yield from (f"  {text}" for text in _residual_words(result))
     yield "parameters, 90 % intervals:"

@@ -22,6 +22,7 @@ from brace.identify.split import Split, split
 from brace.identify.table import TableProblem, Weight
 from brace.model import LimbModel
 
+_NOT_IN_TABLES = ("sensor.", "geometry.")  # a table's K is as coarse as its print; these stay as calibrated
 Advance = Callable[[int], None]
 
 
@@ -79,7 +80,7 @@ def _chosen(start: LimbModel, mode: str, options: Options) -> choose.ParameterSe
         return choose.free(start, options.only_keys)
     if mode == "prior":
         return choose.with_priors(start, options.extra_keys)
-    return choose.free(start, list(dict.fromkeys((*choose.COMPLIANCES, *options.extra_keys))))
+    return choose.free_compliances(start, options.extra_keys)
 
 
 def _loading(dataset: Dataset, settled: Dataset, start: LimbModel, done: list[str], options: Options,
@@ -102,7 +103,7 @@ def _table(dataset: Dataset, settled: Dataset, start: LimbModel, done: list[str]
     chosen = _chosen(start, mode, options)
     chosen = choose.ParameterSet(start, tuple(
         parameter for parameter in chosen.parameters
-        if parameter.key != "sensor.gain" and not parameter.key.endswith("zero_offset_rad")))
+        if not parameter.key.startswith(_NOT_IN_TABLES) and not parameter.key.endswith("zero_offset_rad")))
     if problem.poses.needs_height:
         chosen = choose.ParameterSet(start, (*chosen.parameters, problem.height_parameter()))
     best = fit(problem, chosen, scattered_starts(chosen))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -40,8 +41,9 @@ def structure_share(model: LimbModel, angles_rad: np.ndarray) -> float:
 def split(problem: Problem, best: Fit, advance: Callable[[int], None] = lambda _done: None) -> Split:
     """The share at the fit, and the range that the data allow when no prior holds any compliance."""
     base = best.model
-    loose = ParameterSet(base, tuple(free_parameter(base, key) for key in COMPLIANCES)
-                         + tuple(parameter for parameter in best.parameters.parameters if parameter.key in NUISANCES))
+    kept = tuple(parameter for parameter in best.parameters.parameters if parameter.key not in COMPLIANCES
+                 and (parameter.key in NUISANCES or math.isfinite(parameter.prior_sigma)))
+    loose = ParameterSet(base, tuple(free_parameter(base, key) for key in COMPLIANCES) + kept)
     shares: list[tuple[float, float]] = []
     for number, target in enumerate(TARGETS):
         def off(model: LimbModel, nuisances: dict[str, float], target: float = target) -> float:
@@ -50,7 +52,7 @@ def split(problem: Problem, best: Fit, advance: Callable[[int], None] = lambda _
         reached = structure_share(found.model, problem.angles(found.model, found.nuisances))
         shares.append((reached, found.chi2))
         advance(number + 1)
-    dof = max(1, best.readings - len(loose))
+    dof = max(1, best.readings - len(COMPLIANCES))
     smallest = min(chi2 for _, chi2 in shares)
     limit = smallest + Z90**2 * max(1.0, smallest / dof)
     share = structure_share(base, problem.angles(base, best.nuisances))

@@ -40,7 +40,7 @@ class TableProblem:
 
     def residual(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """(model - measured) / sigma, row by row."""
-        return ((self.predicted(model, nuisances) - self.k) / self._sigma).ravel()
+        return np.asarray((self.predicted(model, nuisances) - self.k) / self._sigma).ravel()
 
     def predicted(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """rows x (k_xx, k_xz, k_zz) [N/mm]."""

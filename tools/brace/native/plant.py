@@ -17,6 +17,14 @@ _JOINT_INDEX = {"coxa": 0, "femur": 1, "tibia": 2}
 NO_CONVERGENCE = -9
 
 
+def _point_at(native: Library, struct: Any, field: str, values: np.ndarray, kind: Any = np.float64) -> Any:
+    """Points a struct's field at a column. The column lives as long as what is returned."""
+    array = np.ascontiguousarray(values, dtype=kind)
+    pointer = native.ffi.from_buffer("int32_t[]" if kind is np.int32 else "double[]", array)
+    setattr(struct, field, pointer)
+    return array, pointer
+
+
 class LoadingPlayer:
     """One record's load sequence, ready to be played on many models."""
 
@@ -26,11 +34,9 @@ class LoadingPlayer:
         self.count = len(columns["t_s"])
         self._rows = ffi.new("brace_loading_rows_t *")
         self._rows.count = self.count
-        self._keep: list[Any] = []
-        self._set("run", columns["run"], np.int32, "int32_t")
-        for name in ("theta1_rad", "theta2_rad", "t_s", "temp_degc", "dx_mm", "dz_mm"):
-            if name in columns:
-                self._set(name, columns[name], np.float64, "double")
+        inputs = ("theta1_rad", "theta2_rad", "t_s", "temp_degc", "dx_mm", "dz_mm")
+        self._keep = [_point_at(self._native, self._rows, "run", columns["run"], np.int32)]
+        self._keep += [_point_at(self._native, self._rows, name, columns[name]) for name in inputs if name in columns]
 
     def play(self, model: LimbModel, readings: Sequence[str] = ("fx_n", "fz_n")) -> dict[str, np.ndarray]:
         """What the rig would read on this limb: one array of `count` per reading, before resolution and noise."""
@@ -59,12 +65,6 @@ class LoadingPlayer:
                                      ffi.from_buffer("double[]", fz), ffi.from_buffer("int32_t[]", status))
         return fx, fz, status
 
-    def _set(self, name: str, values: np.ndarray, kind: type, c_kind: str) -> None:
-        array = np.ascontiguousarray(values, dtype=kind)
-        pointer = self._native.ffi.from_buffer(f"{c_kind}[]", array)
-        self._keep += [array, pointer]
-        setattr(self._rows, name, pointer)
-
 
 class JointPlayer:
     """A joint test's sequence: the imposed deflection [rad], or the imposed torque [N mm]."""
@@ -76,14 +76,13 @@ class JointPlayer:
         self._rows.count = self.count = len(columns["t_s"])
         self._rows.torque_imposed = int(torque_imposed)
         self._rows.joint_index = _JOINT_INDEX[joint]
-        self._keep: list[Any] = []
-        time_s = np.array(columns["t_s"], dtype=float)
+        imposed = columns["torque_n_mm" if torque_imposed else "angle_rad"]
+        self._keep = [_point_at(self._native, self._rows, "t_s", columns["t_s"]),
+                      _point_at(self._native, self._rows, "input", imposed)]
         if "test" in columns:
-            self._set("test", columns["test"], np.int32, "int32_t")
-        self._set("t_s", time_s, np.float64, "double")
+            self._keep.append(_point_at(self._native, self._rows, "test", columns["test"], np.int32))
         if "temp_degc" in columns:
-            self._set("temp_degc", columns["temp_degc"], np.float64, "double")
-        self._set("input", columns["torque_n_mm" if torque_imposed else "angle_rad"], np.float64, "double")
+            self._keep.append(_point_at(self._native, self._rows, "temp_degc", columns["temp_degc"]))
 
     def play(self, model: LimbModel, reversal_rad: float = 0.0) -> np.ndarray:
         """Torque [N mm] for an imposed deflection, deflection [rad] for an imposed torque; `reversal_rad` is the
@@ -97,7 +96,6 @@ class JointPlayer:
             raise plant_error(self._native, status, model, "be played")
         return out
 
-    _set = LoadingPlayer._set
 
 
 def reference_planar(model: LimbModel, theta1_rad: np.ndarray, theta2_rad: np.ndarray) -> np.ndarray:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import matplotlib
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 INK, STIFF, SOFT, MODEL, FAINT = "#22303c", "#c8553d", "#2d6a8e", "#588b5b", "#b8c0c8"
 
-_STYLE = {
+_STYLE: dict[str, Any] = {
     "font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False, "axes.edgecolor": INK,
     "axes.labelcolor": INK, "text.color": INK, "xtick.color": INK, "ytick.color": INK, "legend.frameon": False,
     "svg.hashsalt": "brace", "svg.fonttype": "none", "axes.grid": True, "grid.color": "#e6e9ec", "grid.linewidth": 0.6,
@@ -24,7 +24,7 @@ def new_figure(width_in: float, height_in: float) -> Figure:
     """An empty figure in the house style."""
     from matplotlib.figure import Figure
 
-    matplotlib.rcParams.update(_STYLE)
+    matplotlib.rcParams.update(_STYLE)  # type: ignore[arg-type]
     return Figure(figsize=(width_in, height_in), layout="constrained")
 
 
