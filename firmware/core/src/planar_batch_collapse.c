@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "chain_list.h"
-#include "fine_det.h"
+#include "fixed_det.h"
 
 #define PI 3.14159265358979324
 
@@ -25,7 +25,7 @@ static double float_part(double value)
  * least + swing sin(h - zero 0) sin(h - zero 1) with h = theta2/2. As middle + amplitude cos(theta2 - crest) it
  * vanishes where theta2 - crest is plus and minus acos(-middle/amplitude); where it never does, both zeros are where
  * it comes nearest, and their sines' product has one sign. */
-static void factor(const brace_fine_harmonic_t *cross, brace_planar_batch_t *batch)
+static void factor(const brace_det_harmonic_t *cross, brace_planar_batch_t *batch)
 {
     const double middle = fabs(cross->constant), amplitude = hypot(cross->per_cos, cross->per_sin);
     const double crest = cross->constant < 0.0 ? atan2(-cross->per_sin, -cross->per_cos) : atan2(cross->per_sin, cross->per_cos);
@@ -67,15 +67,15 @@ brace_status_t brace_planar_batch_collapse(const brace_limb_t *limb, brace_plana
     if (status != BRACE_OK) {
         return status;
     }
-    const brace_fine_det_t det = brace_fine_det(iso, element, BRACE_CHAIN_FIRM);
+    const brace_det_t det = brace_det_of(iso, element, BRACE_CHAIN_FIRM);
     const double mean_most = (double)plane.mean.at_fold + (double)plane.mean.per_cos +
                              hypot(plane.mean.per_cos, plane.mean.per_sin);
     uint32_t flags;
-    status = brace_fine_det_judge(&det, mean_most, &flags);
+    status = brace_det_judge(&det, mean_most, &flags);
     if (status != BRACE_OK) {
         return status;
     }
-    const brace_fine_harmonic_t *rest = &det.rest;
+    const brace_det_harmonic_t *rest = &det.rest;
     batch->mean = doubled(&plane.mean);
     batch->dev_x = doubled(&plane.dev_x);
     batch->dev_y = doubled(&plane.dev_y);

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "chain_list.h"
-#include "fine_det.h"
+#include "fixed_det.h"
 #include "turn.h"
 
 /* BRACE_TURN_ONE as an integer: the tick's sine and cosine of one. */
@@ -32,7 +32,7 @@ static float two_to(int32_t exponent)
 }
 
 /* Anchored at the folded knee, where the levers nearly cancel: they do so exactly in the integers too. */
-static brace_fixed_harmonic_t quantised(const brace_fine_harmonic_t *h, int32_t scale)
+static brace_fixed_harmonic_t quantised(const brace_det_harmonic_t *h, int32_t scale)
 {
     const double unit = (double)two_to(scale), per_turn = unit * (0x1p32 / TRIG_ONE);
     const int32_t per_cos = (int32_t)(h->per_cos * per_turn), per_sin = (int32_t)(h->per_sin * per_turn);
@@ -43,9 +43,9 @@ static brace_fixed_harmonic_t quantised(const brace_fine_harmonic_t *h, int32_t 
     };
 }
 
-static brace_fine_harmonic_t fine(const brace_harmonic_t *h, double factor)
+static brace_det_harmonic_t fine(const brace_harmonic_t *h, double factor)
 {
-    return (brace_fine_harmonic_t){factor * ((double)h->at_fold + (double)h->per_cos), factor * (double)h->per_cos,
+    return (brace_det_harmonic_t){factor * ((double)h->at_fold + (double)h->per_cos), factor * (double)h->per_cos,
                                    factor * (double)h->per_sin};
 }
 
@@ -60,14 +60,14 @@ static float padded(double value)
     return (float)value * 1.0005f;
 }
 
-static brace_status_t quantise(const brace_harmonics_t *plane, const brace_fine_det_t *det, brace_planar_fixed_t *fixed)
+static brace_status_t quantise(const brace_harmonics_t *plane, const brace_det_t *det, brace_planar_fixed_t *fixed)
 {
-    const brace_fine_harmonic_t mean_of = fine(&plane->mean, 1.0), dev_y = fine(&plane->dev_y, 1.0);
-    const brace_fine_harmonic_t minus_dev_x = fine(&plane->dev_x, -1.0);
-    const brace_extent_t mean = brace_fine_extent(&mean_of), rest = brace_fine_extent(&det->rest), cross = brace_fine_extent(&det->cross);
+    const brace_det_harmonic_t mean_of = fine(&plane->mean, 1.0), dev_y = fine(&plane->dev_y, 1.0);
+    const brace_det_harmonic_t minus_dev_x = fine(&plane->dev_x, -1.0);
+    const brace_det_extent_t mean = brace_det_extent(&mean_of), rest = brace_det_extent(&det->rest), cross = brace_det_extent(&det->cross);
     uint32_t flags;
     if (!(mean.most > SMALLEST_MM_PER_N && mean.most < LARGEST_MM_PER_N) ||
-        brace_fine_det_judge(det, mean.most, &flags) != BRACE_OK) {
+        brace_det_judge(det, mean.most, &flags) != BRACE_OK) {
         return BRACE_E_UNSUPPORTED;
     }
     const int32_t mean_scale = headroom(padded(mean.most), 30); /* trace of C below 2^31 */
@@ -110,6 +110,6 @@ brace_status_t brace_planar_fixed_collapse(const brace_limb_t *limb, brace_plana
     if (found != BRACE_OK) {
         return found;
     }
-    const brace_fine_det_t det = brace_fine_det(iso, element, BRACE_CHAIN_FIRM);
+    const brace_det_t det = brace_det_of(iso, element, BRACE_CHAIN_FIRM);
     return quantise(&plane, &det, fixed);
 }

@@ -26,18 +26,6 @@ static float merged(brace_vec_t a, brace_vec_t b, brace_vec_t *v)
     return mean > 0.0f ? cross * cross / (mean + radius) : 0.0f;
 }
 
-/* Something across the plane, and something that moves in it. */
-static int yields(const brace_limb_t *limb)
-{
-    const brace_link_t *femur = &limb->link[BRACE_FEMUR], *tibia = &limb->link[BRACE_TIBIA];
-    const float across =
-        limb->link[BRACE_COXA].lateral_mm_per_n + femur->lateral_mm_per_n + tibia->lateral_mm_per_n;
-    const float bends = femur->axial_mm_per_n + femur->bending_mm_per_n + tibia->axial_mm_per_n + tibia->bending_mm_per_n;
-    const float turns = limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm +
-                        limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm + limb->base.rotation_rad_per_n_mm;
-    return across > 0.0f && bends + turns > 0.0f;
-}
-
 static void collapse_across(const brace_limb_t *limb, brace_spatial_t *spatial)
 {
     const brace_link_t *coxa = &limb->link[BRACE_COXA], *femur = &limb->link[BRACE_FEMUR];
@@ -86,9 +74,6 @@ brace_status_t brace_spatial_collapse(const brace_limb_t *limb, brace_spatial_t 
     const brace_status_t status = spatial == NULL ? BRACE_E_NULL : brace_limb_check(limb);
     if (status != BRACE_OK) {
         return status;
-    }
-    if (!yields(limb)) {
-        return BRACE_E_SINGULAR;
     }
     collapse_across(limb, spatial);
     float iso = collapse_still(limb, spatial);

@@ -33,15 +33,21 @@ typedef struct {
 
 /* The limb's constants; whenever its parameters change.
  * limb: any that brace_limb_check accepts. spatial: written on success only.
- * returns BRACE_OK, what brace_limb_check says, or BRACE_E_SINGULAR: nothing yields across the plane, or femur and
- *         tibia with their joints are rigid altogether. */
+ * returns BRACE_OK or what brace_limb_check says.
+ * Cost on a Cortex-M4F: about 2,500 instructions. RAM: 128 bytes a limb. */
 brace_status_t brace_spatial_collapse(const brace_limb_t *limb, brace_spatial_t *spatial);
 
 /* K, its eigenvalues, ascending, and the direction of the largest.
  * theta0_rad, theta1_rad, theta2_rad: true angles [rad, -7.9 to 7.9].
- * stiffness: written on success only. stiff_axis points outwards in the limb's plane or, if the limb is stiffest
- *            across it, to the left.
- * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE, BRACE_E_SINGULAR. */
+ * stiffness: written on success only. stiff_axis is a unit vector that points outwards in the limb's plane or, if the
+ *            limb is stiffest across it, to the left. flags: BRACE_FLAG_NEAR_SINGULAR when the limb is so slender
+ *            that the accuracy below is not promised.
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE, or
+ *         BRACE_E_SINGULAR: nothing yields across the plane, or in some direction in it.
+ * Cost on a Cortex-M4F: 435 or 436 instructions, four divisions and two roots among them; stack 88 bytes and that of
+ * brace_direction. With an FPU only: without one it is right, but slow.
+ * Accuracy: K within 4e-6 of lambda_max and each eigenvalue within 4e-6 of itself (1e-5 promised), the axis an
+ * eigenvector as well. Formula: docs/physics.md; moment transfer across the plane as in it. */
 brace_status_t brace_spatial_stiffness(const brace_spatial_t *spatial, float theta0_rad, float theta1_rad,
                                        float theta2_rad, brace_stiffness_spatial_t *stiffness);
 

@@ -1,4 +1,4 @@
-#include "fine_det.h"
+#include "fixed_det.h"
 
 /* Least det over mean^2. */
 #define SLENDER_TILTED 6e-5
@@ -22,7 +22,7 @@ static double cross(brace_vec_t a, brace_vec_t b)
     return (double)a.x * b.z - (double)a.z * b.x;
 }
 
-static void add(brace_fine_harmonic_t *sum, double factor, brace_fine_harmonic_t h)
+static void add(brace_det_harmonic_t *sum, double factor, brace_det_harmonic_t h)
 {
     sum->constant += factor * h.constant;
     sum->per_cos += factor * h.per_cos;
@@ -45,18 +45,18 @@ static crest_t crest_of(double cc, double cs, double ss)
 /* With u = (cos, sin) of the knee angle each pair's v x v is k + p.u, and the sum of their squares is
  * sum k^2 + 2 (sum k p).u + u' P u, P = sum p p' = more s s' + least I with its crest s. Of it
  * more (c + s.u)^2 is the cross, c = sum k p.s / sum (p.s)^2, and what remains is linear in u. */
-brace_fine_det_t brace_fine_det(float iso, const brace_element_t *element, uint32_t count)
+brace_det_t brace_det_of(float iso, const brace_element_t *element, uint32_t count)
 {
-    brace_fine_harmonic_t trace = {iso, 0.0, 0.0}, rest = {0.0, 0.0, 0.0};
+    brace_det_harmonic_t trace = {iso, 0.0, 0.0}, rest = {0.0, 0.0, 0.0};
     double cc = 0.0, cs = 0.0, ss = 0.0;
     for (uint32_t i = 0; i < count; i++) {
         const brace_vec_t f = element[i].femur, t = element[i].tibia;
-        add(&trace, 1.0, (brace_fine_harmonic_t){dot(f, f) + dot(t, t), 2.0 * dot(f, t), 2.0 * cross(f, t)});
+        add(&trace, 1.0, (brace_det_harmonic_t){dot(f, f) + dot(t, t), 2.0 * dot(f, t), 2.0 * cross(f, t)});
         for (uint32_t j = 0; j < i; j++) {
             const brace_vec_t fj = element[j].femur, tj = element[j].tibia;
-            const brace_fine_harmonic_t pair = {cross(fj, f) + cross(tj, t), cross(fj, t) + cross(tj, f),
+            const brace_det_harmonic_t pair = {cross(fj, f) + cross(tj, t), cross(fj, t) + cross(tj, f),
                                                 dot(tj, f) - dot(fj, t)};
-            add(&rest, pair.constant, (brace_fine_harmonic_t){pair.constant, 2.0 * pair.per_cos, 2.0 * pair.per_sin});
+            add(&rest, pair.constant, (brace_det_harmonic_t){pair.constant, 2.0 * pair.per_cos, 2.0 * pair.per_sin});
             cc += pair.per_cos * pair.per_cos;
             cs += pair.per_cos * pair.per_sin;
             ss += pair.per_sin * pair.per_sin;
@@ -66,21 +66,21 @@ brace_fine_det_t brace_fine_det(float iso, const brace_element_t *element, uint3
     const double most = 0.5 * (cc + ss + s.more), least = 0.5 * (cc + ss - s.more);
     const double c = most > 0.0 ? 0.5 * (rest.per_cos * s.cos + rest.per_sin * s.sin) / most : 0.0;
     const double amplitude = root(s.more);
-    add(&rest, -c * s.more, (brace_fine_harmonic_t){c, 2.0 * s.cos, 2.0 * s.sin});
+    add(&rest, -c * s.more, (brace_det_harmonic_t){c, 2.0 * s.cos, 2.0 * s.sin});
     add(&rest, iso, trace);
     rest.constant += least;
-    return (brace_fine_det_t){rest, {c * amplitude, s.cos * amplitude, s.sin * amplitude}};
+    return (brace_det_t){rest, {c * amplitude, s.cos * amplitude, s.sin * amplitude}};
 }
 
-brace_extent_t brace_fine_extent(const brace_fine_harmonic_t *harmonic)
+brace_det_extent_t brace_det_extent(const brace_det_harmonic_t *harmonic)
 {
     const double swing = root(harmonic->per_cos * harmonic->per_cos + harmonic->per_sin * harmonic->per_sin);
-    return (brace_extent_t){harmonic->constant - swing, harmonic->constant + swing, swing};
+    return (brace_det_extent_t){harmonic->constant - swing, harmonic->constant + swing, swing};
 }
 
-brace_status_t brace_fine_det_judge(const brace_fine_det_t *det, double mean_most_mm_per_n, uint32_t *flags)
+brace_status_t brace_det_judge(const brace_det_t *det, double mean_most_mm_per_n, uint32_t *flags)
 {
-    const double ratio = brace_fine_extent(&det->rest).least / (mean_most_mm_per_n * mean_most_mm_per_n);
+    const double ratio = brace_det_extent(&det->rest).least / (mean_most_mm_per_n * mean_most_mm_per_n);
     if (!(ratio > TOO_SLENDER)) {
         return BRACE_E_UNSUPPORTED;
     }
