@@ -46,6 +46,12 @@ static bool yields_in_two_directions(const brace_limb_t *limb)
     return sources >= 2;
 }
 
+/* Moment transfer divides by the link's length; the other links have a least length anyway. */
+static bool coxa_is_long_enough(const brace_limb_t *limb)
+{
+    return limb->coxa_mm >= 1.0f || !(limb->link[BRACE_COXA].moment_transfer_ratio > 0.0f);
+}
+
 brace_status_t brace_limb_check(const brace_limb_t *limb)
 {
     if (limb == NULL) {
@@ -59,7 +65,7 @@ brace_status_t brace_limb_check(const brace_limb_t *limb)
         }
         inside = inside && field[i] >= range[kind[i]].low && field[i] <= range[kind[i]].high;
     }
-    return inside && yields_in_two_directions(limb) ? BRACE_OK : BRACE_E_PARAMETER;
+    return inside && yields_in_two_directions(limb) && coxa_is_long_enough(limb) ? BRACE_OK : BRACE_E_PARAMETER;
 }
 
 float brace_limb_true_angle(const brace_limb_t *limb, int index, float commanded_rad)

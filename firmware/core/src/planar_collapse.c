@@ -63,7 +63,8 @@ static int accurate(const brace_harmonics_t *h, rest_t rest, float unit)
     const float error = 2.0f * unit + 6e-8f * (__builtin_fabsf(h->cross.per_cos) + __builtin_fabsf(h->cross.at_fold));
     (void)cross_swing;
     return smaller > 0.0f && __builtin_fabsf(rest.constant) < 16.0f * smaller && least > 0.0f &&
-           error < 2e-6f * __builtin_sqrtf(smaller) && unit < 1e-6f * least;
+           error < 2e-6f * __builtin_sqrtf(smaller) &&
+           unit + 5e-8f * __builtin_fabsf(h->mean.per_cos) < 1.2e-6f * least;
 }
 
 /* The low word of start is the factor of the cosine; the high word makes up for it, and for the tick's rounding down. */
@@ -71,7 +72,8 @@ static brace_planar_harmonic_t fixed(const brace_harmonic_t *h, float units)
 {
     const float units_per_one = units * (4.0f / TICK_ONE_Q30);
     const int32_t per_cos = (int32_t)(h->per_cos * units_per_one);
-    const int64_t constant = ((int64_t)(int32_t)(2.0f * h->at_fold * units) << 31) + (int64_t)per_cos * TICK_ONE;
+    const int64_t constant =
+        (int32_t)(2.0f * h->at_fold * units) * (INT64_C(1) << 31) + (int64_t)per_cos * TICK_ONE;
     const uint32_t high = (uint32_t)((uint64_t)(constant + 0x100000000 - (uint32_t)per_cos) >> 32);
     return (brace_planar_harmonic_t){(int64_t)((uint64_t)high << 32 | (uint32_t)per_cos),
                                      (int32_t)(h->per_sin * units_per_one), 0};

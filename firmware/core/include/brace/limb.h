@@ -53,7 +53,7 @@ typedef struct {
 } brace_limb_t;
 
 /* Is this a limb that can exist? Every field finite and in its range, and something yields in each
- * direction of the plane.
+ * direction of the plane; a coxa that passes moments on is at least 1 mm long.
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_PARAMETER */
 brace_status_t brace_limb_check(const brace_limb_t *limb);
 

@@ -1,0 +1,213 @@
+#include <math.h>
+#include <string.h>
+
+#include "brace/chain.h"
+#include "brace/planar.h"
+#include "reference_planar.h"
+#include "sample_limbs.h"
+#include "unity.h"
+
+#define PI 3.14159265358979324
+
+/* Half of what the header promises; the sweeps found 1e-6 at the worst of hundreds of limbs. */
+#define ERROR_LIMIT 1e-6
+#define AXIS_LIMIT_RAD 5e-7
+
+static brace_chain_t chain;
+
+void setUp(void)
+{
+    memset(&chain, 0, sizeof chain);
+}
+
+void tearDown(void)
+{
+}
+
+static brace_limb_t on_a_yielding_base(void)
+{
+    brace_limb_t limb = sample_limb[SAMPLE_TILTED];
+    limb.base = (brace_base_t){0.03f, 0.002f, 3e-6f};
+    return limb;
+}
+
+static void against_reference(const brace_limb_t *limb)
+{
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_build(limb, &chain));
+    for (int i = -8; i <= 8; i++) {
+        for (int j = -16; j <= 16; j++) {
+            const float theta1 = (float)(i * PI / 8.0), theta2 = (float)(j * PI / 16.0 + 1e-3 * (j % 3));
+            const reference_planar_t r = reference_planar(limb, (double)theta1, (double)theta2);
+            brace_stiffness_t k;
+            TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_stiffness(&chain, theta1, theta2, &k));
+            TEST_ASSERT_EQUAL(0, k.flags);
+            TEST_ASSERT_DOUBLE_WITHIN(ERROR_LIMIT, 0.0, reference_error(&r, &k));
+            TEST_ASSERT_DOUBLE_WITHIN(AXIS_LIMIT_RAD, 0.0, reference_axis_error(&r, &k));
+
+            brace_compliance_t c;
+            float det;
+            TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_compliance(&chain, theta1, theta2, &c, &det));
+            const double scale = r.c_xx + r.c_zz;
+            TEST_ASSERT_DOUBLE_WITHIN(ERROR_LIMIT * scale, r.c_xx, (double)c.c_xx_mm_per_n);
+            TEST_ASSERT_DOUBLE_WITHIN(ERROR_LIMIT * scale, r.c_xz, (double)c.c_xz_mm_per_n);
+            TEST_ASSERT_DOUBLE_WITHIN(ERROR_LIMIT * scale, r.c_zz, (double)c.c_zz_mm_per_n);
+            TEST_ASSERT_DOUBLE_WITHIN(2.0 * ERROR_LIMIT, 1.0,
+                                      (double)det / (r.c_xx * r.c_zz - r.c_xz * r.c_xz));
+        }
+    }
+}
+
+static void test_every_sample_over_the_workspace(void)
+{
+    for (int sample = 0; sample < SAMPLE_COUNT; sample++) {
+        against_reference(&sample_limb[sample]);
+    }
+}
+
+static void test_a_base_that_yields_unequally(void)
+{
+    const brace_limb_t limb = on_a_yielding_base();
+    against_reference(&limb);
+}
+
+static void test_check_value_of_the_physics_page(void)
+{
+    brace_stiffness_t k;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_build(&sample_limb[SAMPLE_PAPER], &chain));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_stiffness(&chain, 1.0f, 1.4f, &k));
+    TEST_ASSERT_FLOAT_WITHIN(4e-6f, 3.96389818f, k.k_xx_n_per_mm);
+    TEST_ASSERT_FLOAT_WITHIN(4e-6f, -0.63872477f, k.k_xz_n_per_mm);
+    TEST_ASSERT_FLOAT_WITHIN(4e-6f, 0.42806022f, k.k_zz_n_per_mm);
+}
+
+static void test_only_what_yields_is_in_the_list(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_build(&sample_limb[SAMPLE_SLENDER], &chain));
+    TEST_ASSERT_EQUAL(2, chain.count);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_build_with_coxa(&sample_limb[SAMPLE_SLENDER], &chain));
+    TEST_ASSERT_EQUAL(4, chain.count);
+}
+
+/* The coxa lies in the base: it adds what it would add alone, whatever the knee does, and with moment transfer what
+ * physics.md says of a cantilever whose far end carries force and moment. */
+static void test_the_coxa_adds_its_cantilever(void)
+{
+    const brace_limb_t limb = sample_limb[SAMPLE_BEAM];
+    const brace_link_t *coxa = &limb.link[BRACE_COXA];
+    const double theta1 = 0.7, theta2 = 1.1, kappa = (double)coxa->moment_transfer_ratio;
+    const double b = (double)coxa->bending_mm_per_n, length = (double)limb.coxa_mm;
+    const double px = 185.0 * cos(theta1) + 313.5 * cos(theta1 - theta2);
+    const double pz = 185.0 * sin(theta1) + 313.5 * sin(theta1 - theta2);
+    reference_planar_t r = reference_planar(&limb, theta1, theta2);
+    reference_ellipsoid(&r, coxa, 0.0);
+    const double nx = -sin((double)coxa->tilt_rad), nz = cos((double)coxa->tilt_rad);
+    reference_add(&r, 3.0 * b * kappa / length, nx, nz, -pz, px);
+    reference_add(&r, 3.0 * b * kappa / (length * length), -pz, px, -pz, px);
+
+    brace_compliance_t c;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_build_with_coxa(&limb, &chain));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_compliance(&chain, (float)theta1, (float)theta2, &c, NULL));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6 * r.c_zz, r.c_xx, (double)c.c_xx_mm_per_n);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6 * r.c_zz, r.c_xz, (double)c.c_xz_mm_per_n);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6 * r.c_zz, r.c_zz, (double)c.c_zz_mm_per_n);
+}
+
+static double harmonic(const brace_harmonic_t *h, double knee)
+{
+    return (double)h->at_fold + (double)h->per_cos * (1.0 + cos(knee)) + (double)h->per_sin * sin(knee);
+}
+
+static void test_harmonics_say_what_the_sum_says(void)
+{
+    for (int sample = 0; sample < SAMPLE_COUNT; sample++) {
+        brace_harmonics_t h;
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_build(&sample_limb[sample], &chain));
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_harmonics(&chain, &h));
+        for (int j = -20; j <= 20; j++) {
+            const double theta1 = 0.4, knee = j * PI / 20.0, turn = 2.0 * theta1 - knee;
+            const reference_planar_t r = reference_planar(&sample_limb[sample], theta1, knee);
+            const double mean = harmonic(&h.mean, knee), x = harmonic(&h.dev_x, knee), y = harmonic(&h.dev_y, knee);
+            const double rest = harmonic(&h.rest, knee), cross = harmonic(&h.cross, knee);
+            const double det = r.c_xx * r.c_zz - r.c_xz * r.c_xz;
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6 * mean, 0.5 * (r.c_xx + r.c_zz), mean);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6 * mean, 0.5 * (r.c_xx - r.c_zz), x * cos(turn) - y * sin(turn));
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6 * mean, r.c_xz, x * sin(turn) + y * cos(turn));
+            TEST_ASSERT_DOUBLE_WITHIN(3e-6 * det, det, rest + cross * cross);
+            TEST_ASSERT_TRUE(rest > 0.0);
+        }
+    }
+}
+
+static void test_harmonics_refuse_a_base_that_yields_unequally(void)
+{
+    const brace_limb_t limb = on_a_yielding_base();
+    brace_harmonics_t h, before;
+    memset(&h, 0x5a, sizeof h);
+    before = h;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_build(&limb, &chain));
+    TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_harmonics(&chain, &h));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &h, sizeof h);
+}
+
+static void test_springs_alone_are_singular_when_straight(void)
+{
+    brace_limb_t limb = sample_limb[SAMPLE_PAPER];
+    brace_stiffness_t k, before;
+    memset(limb.link, 0, sizeof limb.link);
+    memset(&k, 0x5a, sizeof k);
+    before = k;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_build(&limb, &chain));
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_chain_stiffness(&chain, 0.3f, 0.0f, &k));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &k, sizeof k);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_stiffness(&chain, 0.3f, 1e-3f, &k));
+    TEST_ASSERT_EQUAL(BRACE_FLAG_NEAR_SINGULAR, k.flags);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_stiffness(&chain, 0.3f, 0.5f, &k));
+    TEST_ASSERT_EQUAL(0, k.flags);
+}
+
+static void test_what_is_refused_leaves_outputs_alone(void)
+{
+    brace_stiffness_t k, k_before;
+    brace_compliance_t c, c_before;
+    float det = -1.0f;
+    brace_limb_t broken = sample_limb[SAMPLE_PAPER];
+    broken.femur_mm = 0.0f;
+    memset(&chain, 0x5a, sizeof chain);
+    const brace_chain_t chain_before = chain;
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_chain_build(&broken, &chain));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_chain_build(NULL, &chain));
+    TEST_ASSERT_EQUAL_MEMORY(&chain_before, &chain, sizeof chain);
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_chain_build(&broken, NULL));
+
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_build(&sample_limb[SAMPLE_PAPER], &chain));
+    memset(&k, 0x5a, sizeof k);
+    memset(&c, 0x5a, sizeof c);
+    k_before = k;
+    c_before = c;
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_chain_stiffness(NULL, 0.0f, 1.0f, &k));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_chain_stiffness(&chain, 0.0f, 1.0f, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_chain_stiffness(&chain, 0.0f, 6.0f, &k));
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_chain_stiffness(&chain, 1e6f, 0.0f, &k));
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, brace_chain_stiffness(&chain, NAN, 1.0f, &k));
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, brace_chain_stiffness(&chain, 0.0f, -INFINITY, &k));
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, brace_chain_compliance(&chain, 0.0f, NAN, &c, &det));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_chain_compliance(&chain, 0.0f, 1.0f, NULL, &det));
+    TEST_ASSERT_EQUAL_MEMORY(&k_before, &k, sizeof k);
+    TEST_ASSERT_EQUAL_MEMORY(&c_before, &c, sizeof c);
+    TEST_ASSERT_EQUAL_FLOAT(-1.0f, det);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_every_sample_over_the_workspace);
+    RUN_TEST(test_a_base_that_yields_unequally);
+    RUN_TEST(test_check_value_of_the_physics_page);
+    RUN_TEST(test_only_what_yields_is_in_the_list);
+    RUN_TEST(test_the_coxa_adds_its_cantilever);
+    RUN_TEST(test_harmonics_say_what_the_sum_says);
+    RUN_TEST(test_harmonics_refuse_a_base_that_yields_unequally);
+    RUN_TEST(test_springs_alone_are_singular_when_straight);
+    RUN_TEST(test_what_is_refused_leaves_outputs_alone);
+    return UNITY_END();
+}
