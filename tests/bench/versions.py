@@ -21,6 +21,7 @@ class Version:
     flags: tuple[str, ...] = ("-O2",)
     job_flags: tuple[str, ...] = ()
     flash_with: tuple[str, ...] = ()  # further functions whose flash belongs to it
+    flash_table: str = ""  # a type of brace/planar_table.h that it keeps in flash as well
     limb: Limb | None = None
     ours: bool = False
 
@@ -48,10 +49,10 @@ def core_sources() -> tuple[Path, ...]:
 
 
 def _ours(name: str, group: str, function: str, job: str, limb: str = "PAPER", processor: Processor = M4F,
-          flash_with: tuple[str, ...] = ()) -> Version:
+          flash_with: tuple[str, ...] = (), flash_table: str = "") -> Version:
     limbs = {"PAPER": paper_limb, "TILTED": tilted_limb, "COXA": coxa_limb}
     return Version(name, group, processor, function, core_sources(), OURS / job, (), (f"-DBENCH_LIMB=BENCH_{limb}_LIMB",),
-                   flash_with, limbs[limb](), True)
+                   flash_with, flash_table, limbs[limb](), True)
 
 
 def ours() -> list[Version]:
@@ -60,7 +61,10 @@ def ours() -> list[Version]:
     return [
         _ours("Brace", PLANAR, "brace_planar_stiffness", "planar_job.c", flash_with=(collapse,)),
         _ours("Brace, tilted limb", PLANAR, "brace_planar_stiffness", "planar_job.c", "TILTED", flash_with=(collapse,)),
-        _ours("Brace, table", PLANAR, "brace_planar_table_stiffness", "planar_table_job.c"),
+        _ours("Brace, table", PLANAR, "brace_planar_table_stiffness", "planar_table_job.c",
+              flash_table="brace_planar_table_t"),
+        _ours("Brace, table, tilted limb", PLANAR, "brace_planar_table_stiffness", "planar_table_job.c", "TILTED",
+              flash_table="brace_planar_table_t"),
         _ours("Brace, fixed point", PLANAR_NO_FPU, "brace_planar_fixed_stiffness", "planar_fixed_job.c", processor=M3),
         _ours("Brace, fixed point, tilted limb", PLANAR_NO_FPU, "brace_planar_fixed_stiffness", "planar_fixed_job.c",
               "TILTED", M3),
@@ -76,7 +80,7 @@ def _peer(name: str, group: str, function: str, sources: tuple[Path, ...], job: 
           processor: Processor = M4F) -> Version:
     limb = coxa_limb() if group == SPATIAL else paper_limb()
     job_flags = (SPATIAL_LIMB, f"-DBENCH_SPATIAL={function}") if group == SPATIAL else (f"-DBENCH_PLANAR={function}",)
-    return Version(name, group, processor, function, sources, job, flags, job_flags, (), limb)
+    return Version(name, group, processor, function, sources, job, flags, job_flags, limb=limb)
 
 
 def peers(casadi_code: Path) -> list[Version]:
