@@ -15,7 +15,7 @@ from brace.identify.faults import settle
 from brace.identify.run import Options, identify
 from brace.identify.table import TableProblem, Weight
 from brace.model import load_limb
-from conftest import LIMB, loading_rows, physics_k, write_loading
+from conftest import LIMB, POSES, loading_rows, physics_k, write_loading
 
 KNEE = ("link.tibia.bending_mm_per_n", "joint.tibia.compliance_rad_per_n_mm")
 
@@ -79,6 +79,41 @@ def test_classes_are_named(tmp_path: Path, brace: Callable[..., object]) -> None
     for key in KNEE:
         assert report["parameters"][key]["sigma"] is None and not report["parameters"][key]["identifiable"]
     assert report["split"]["structure_share_low"] < 0.25 < report["split"]["structure_share_high"]
+
+
+def test_the_split_reaches_as_far_as_the_knee_can_be_exchanged(tmp_path: Path) -> None:
+    """Knee spring and tibia bending make the same readings, so the allowed share of the structure must reach from
+    all of the knee's compliance in the spring to all of it in the tibia; both ends by formula."""
+    start = load_limb(limb(tmp_path))
+    dataset = load_dataset(write_loading(tmp_path / "d", loading_rows(noise_n=0.05)))
+    found = identify(dataset, start, Options()).split
+    assert found is not None
+
+    def share(bending: float, spring: float) -> float:
+        shares = []
+        for theta1, theta2 in POSES:
+            c = np.linalg.inv(physics_k(theta1, theta2, bending=(0.06, bending), joint=(1e-5, spring)))
+            tip = 185 + 313.5 * np.exp(1j * theta2)
+            shares.append(1 - (1e-5 * abs(tip) ** 2 + spring * 313.5**2) / np.trace(c))
+        return float(np.mean(shares))
+
+    least, most = share(0.0, 1.6e-5 + 0.25 / 313.5**2), share(0.25 + 1.6e-5 * 313.5**2, 0.0)
+    assert found.structure_share == pytest.approx(share(0.25, 1.6e-5), abs=0.02)
+    # noise and the trusted parameters widen the interval a little beyond the two ends
+    assert least - 0.06 < found.allowed[0] <= least + 0.01
+    assert most - 0.01 <= found.allowed[1] < most + 0.06
+
+
+def test_slopes_by_both_estimators(tmp_path: Path, brace: Callable[..., object]) -> None:
+    folder = write_loading(tmp_path / "d", loading_rows(noise_n=0.0))
+    outcome = brace("identify", folder, "--model", limb(tmp_path), "--out", tmp_path / "f.toml", "--json")
+    slopes = json.loads(outcome.out)["slopes"]
+    assert [entry["config"] for entry in slopes] == [1, 2, 3, 4, 5]
+    for (theta1, theta2), entry in zip(POSES, slopes):
+        k = physics_k(theta1, theta2)
+        for method in ("least_squares", "mean_of_ratios"):
+            found = [[entry[f"{method}_k_{row}{column}_n_per_mm"] for column in "xz"] for row in "xz"]
+            assert np.abs(np.array(found) - k).max() < 1e-5 * np.abs(k).max()
 
 
 def test_encoders_separate_joints_from_links(tmp_path: Path, brace: Callable[..., object], paper_rig: Path) -> None:

@@ -14,7 +14,9 @@ from brace.identify.parameters import COMPLIANCES, NUISANCES, ParameterSet, free
 from brace.model import LimbModel
 from brace.native.plant import reference_planar
 
-TARGETS = np.linspace(0.0, 1.0, 11)
+TARGETS = (0.0, 0.25, 0.5, 0.75, 1.0)
+REFINEMENTS = 6
+FLAT = 0.3
 
 
 @dataclass(frozen=True)
@@ -44,19 +46,29 @@ def split(problem: Problem, best: Fit, advance: Callable[[int], None] = lambda _
     kept = tuple(parameter for parameter in best.parameters.parameters if parameter.key not in COMPLIANCES
                  and (parameter.key in NUISANCES or math.isfinite(parameter.prior_sigma)))
     loose = ParameterSet(base, tuple(free_parameter(base, key) for key in COMPLIANCES) + kept)
-    shares: list[tuple[float, float]] = []
+
+    def held_at(target: float | None) -> tuple[float, float]:
+        """(share reached, chi2) of the best fit held near a share; one point of the profile wherever it ends up."""
+        def off(model: LimbModel, nuisances: dict[str, float]) -> float:
+            return structure_share(model, problem.angles(model, nuisances)) - (target or 0.0)
+        found = fit(problem, loose, starts=() if target is None else [_towards(loose, target)],
+                    constraint=None if target is None else off)
+        return structure_share(found.model, problem.angles(found.model, found.nuisances)), found.chi2
+
+    profile = [held_at(None)]
     for number, target in enumerate(TARGETS):
-        def off(model: LimbModel, nuisances: dict[str, float], target: float = target) -> float:
-            return structure_share(model, problem.angles(model, nuisances)) - target
-        found = fit(problem, loose, starts=[_towards(loose, target)], constraint=off)
-        reached = structure_share(found.model, problem.angles(found.model, found.nuisances))
-        shares.append((reached, found.chi2))
+        profile.append(held_at(target))
         advance(number + 1)
     dof = max(1, best.readings - len(COMPLIANCES))
-    smallest = min(chi2 for _, chi2 in shares)
-    limit = smallest + Z90**2 * max(1.0, smallest / dof)
+    for round_number in range(REFINEMENTS):
+        for side in (-1, 1):
+            edge, closed = _edge(profile, side, dof)
+            if not closed:
+                profile.append(held_at(edge))
+        advance(len(TARGETS) + round_number + 1)
     share = structure_share(base, problem.angles(base, best.nuisances))
-    return Split(share, _crossings(sorted(shares), limit), tuple(sorted(shares)))
+    allowed = (_edge(profile, -1, dof)[0], _edge(profile, 1, dof)[0])
+    return Split(share, allowed, tuple(sorted(profile)))
 
 
 def _towards(parameters: ParameterSet, share: float) -> np.ndarray:
@@ -71,16 +83,16 @@ def _towards(parameters: ParameterSet, share: float) -> np.ndarray:
     return start
 
 
-def _crossings(profile: list[tuple[float, float]], limit: float) -> tuple[float, float]:
-    """Where the profile's chi2 crosses the limit on either side of its least; the ends where it does not."""
-    share, chi2 = (np.array(values) for values in zip(*profile))
-    inside = np.flatnonzero(chi2 <= limit)
-    first, last = int(inside[0]), int(inside[-1])
-
-    def crossing(outer: int, inner: int) -> float:
-        part = (limit - chi2[inner]) / (chi2[outer] - chi2[inner])
-        return float(share[inner] + part * (share[outer] - share[inner]))
-
-    low = crossing(first - 1, first) if first > 0 else float(share[first])
-    high = crossing(last + 1, last) if last < len(share) - 1 else float(share[last])
-    return low, high
+def _edge(profile: list[tuple[float, float]], side: int, dof: int) -> tuple[float, bool]:
+    """Where the profile leaves the 90 % interval on one side (-1 down, 1 up): the share, and whether it is the end
+    of what can be reached. Between points the root of chi2's rise is taken as straight, as it is for a parabola."""
+    least = min(chi2 for _, chi2 in profile)
+    limit = Z90 * math.sqrt(max(1.0, least / dof))
+    rise = sorted((side * share, math.sqrt(max(0.0, chi2 - least))) for share, chi2 in profile)
+    inside = max(place for place, (_, height) in enumerate(rise) if height <= limit)
+    if inside == len(rise) - 1:
+        return side * rise[-1][0], True
+    (near, low), (far, high) = rise[inside], rise[inside + 1]
+    if low < FLAT * limit < limit < high / FLAT:  # flat up to a wall, where a compliance meets zero: halve
+        return side * 0.5 * (near + far), False
+    return side * (near + (limit - low) / (high - low) * (far - near)), False
