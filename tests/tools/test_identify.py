@@ -12,6 +12,10 @@ import pytest
 from brace.dataset import load_dataset
 from brace.identify.families import FAMILIES, compare_families
 from brace.identify.faults import settle
+from brace.identify.fit import fit
+from brace.identify.information import information
+from brace.identify.loading import LoadingProblem
+from brace.identify.parameters import free_compliances, with_priors
 from brace.identify.run import Options, identify
 from brace.identify.table import TableProblem, Weight
 from brace.model import load_limb
@@ -36,12 +40,13 @@ def test_parameters_within_their_trust_are_found(tmp_path: Path) -> None:
     held = total = 0
     for seed in range(10):
         rows = loading_rows(seed=seed, bending=(0.057, 0.26), joint=(1.05e-5, 1.53e-5))
-        result = identify(load_dataset(write_loading(tmp_path / "d", rows)), start, Options())
-        estimates = dict(zip(result.fit.parameters.keys, result.information.estimates()))
+        problem = LoadingProblem(load_dataset(write_loading(tmp_path / "d", rows)))
+        best = fit(problem, with_priors(start))
+        estimates = dict(zip(best.parameters.keys, information(best).estimates()))
         for key, value in truth.items():
             held += estimates[key].low <= value <= estimates[key].high
             total += 1
-        assert result.fit.chi2 / result.fit.readings == pytest.approx(1.0, abs=0.15)
+        assert best.chi2 / best.readings == pytest.approx(1.0, abs=0.15)
     # the priors are centred off the truth, so the intervals are a little generous or a little short: 60 of them
     assert held / total >= 0.8
 
@@ -51,8 +56,8 @@ def test_data_alone_determine_the_femur_spring_and_not_the_knee(tmp_path: Path) 
     covered = 0
     for seed in range(20):
         dataset = load_dataset(write_loading(tmp_path / "d", loading_rows(seed=seed, **truth)))
-        result = identify(dataset, load_limb(limb(tmp_path)), Options(mode="free"))
-        estimates = dict(zip(result.fit.parameters.keys, result.information.estimates()))
+        best = fit(LoadingProblem(dataset), free_compliances(load_limb(limb(tmp_path))))
+        estimates = dict(zip(best.parameters.keys, information(best).estimates()))
         spring = estimates["joint.femur.compliance_rad_per_n_mm"]
         assert spring.identifiable
         covered += spring.low <= 1.3e-5 <= spring.high

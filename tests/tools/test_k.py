@@ -22,7 +22,7 @@ def planar(values: dict[str, float]) -> np.ndarray:
                      [values["k_xz_n_per_mm"], values["k_zz_n_per_mm"]]])
 
 
-@pytest.mark.parametrize("arith", ["f32", "fixed", "general"])
+@pytest.mark.parametrize("arith", ["f32", "fixed", "general", "table"])
 def test_check_values(arith: str, brace: Callable[..., object], paper_limb: Path) -> None:
     outcome = brace("k", "--model", paper_limb, "--theta1", 1.0, "--theta2", 1.4, "--arith", arith, "--json")
     values = json.loads(outcome.out)
@@ -32,7 +32,7 @@ def test_check_values(arith: str, brace: Callable[..., object], paper_limb: Path
         assert values[f"{key}_n_per_mm"] == pytest.approx(expected, abs=2e-6 * 4.1)
 
 
-@pytest.mark.parametrize("arith", ["f32", "fixed", "general"])
+@pytest.mark.parametrize("arith", ["f32", "fixed", "general", "table"])
 def test_k_over_the_workspace(arith: str, brace: Callable[..., object], paper_limb: Path, tmp_path: Path) -> None:
     random = np.random.default_rng(5)
     angles = np.column_stack([random.uniform(-3.1, 3.1, 300), random.uniform(-3.1, 3.1, 300)])

@@ -139,8 +139,8 @@ def planar_limb(model: LimbModel, arithmetic: str = "f32") -> PlanarLimb:
                 return E_RANGE
             return int(lib.brace_planar_fixed_stiffness(fixed, round(theta1 * Q28), round(theta2 * Q28), out))
     elif path == "table":
-        table = ffi.new("brace_planar_table_t *")
-        status = lib.brace_planar_table_build(limb, table)
+        planar, table = ffi.new("brace_planar_t *"), ffi.new("brace_planar_table_t *")
+        status = lib.brace_planar_collapse(limb, planar) or lib.brace_planar_table_build(planar, table)
 
         def evaluate(theta1: float, theta2: float, out: Any) -> int:
             return int(lib.brace_planar_table_stiffness(table, theta1, theta2, out))
