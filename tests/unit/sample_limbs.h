@@ -8,7 +8,8 @@
 #define SAMPLE_COXA {0.0005f, 0.004f, 0.1f, 0.005f, 1.0e-6f, 0.7f}
 #define SAMPLE_NO_BASE {0.0f, 0.0f, 0.0f}
 
-enum { SAMPLE_PAPER = 0, SAMPLE_BEAM, SAMPLE_TILTED, SAMPLE_EQUAL, SAMPLE_SLENDER, SAMPLE_ROUND, SAMPLE_COUNT };
+enum { SAMPLE_PAPER = 0, SAMPLE_BEAM, SAMPLE_TILTED, SAMPLE_EQUAL, SAMPLE_SLENDER, SAMPLE_ROUND, SAMPLE_APART,
+       SAMPLE_COUNT };
 
 static const brace_limb_t sample_limb[SAMPLE_COUNT] = {
     [SAMPLE_PAPER] = {57.0f, 185.0f, 313.5f,
@@ -29,6 +30,10 @@ static const brace_limb_t sample_limb[SAMPLE_COUNT] = {
     [SAMPLE_ROUND] = {57.0f, 185.0f, 313.5f,
                       {SAMPLE_COXA, {0.05f, 0.05f, 0, 0.05f, 0, 0}, {0.1f, 0.1f, 0.2f, 0.1f, 0, 0}},
                       {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, SAMPLE_NO_BASE, SAMPLE_TRUST},
+    /* its two softest directions are never parallel */
+    [SAMPLE_APART] = {57.0f, 111.9f, 355.7f,
+                      {SAMPLE_COXA, {0.00067f, 0.0035f, 0, 0.0035f, 0, 1.0f}, {0.0043f, 0.194f, -0.364f, 0.194f, 0, 0}},
+                      {{0, 0, 0}, {2.36e-5f, 0, 0}, {0, 0, 0}}, SAMPLE_NO_BASE, SAMPLE_TRUST},
 };
 
 #endif

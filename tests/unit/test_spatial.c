@@ -52,6 +52,7 @@ static void assert_right(const brace_limb_t *limb, float theta0, float theta1, f
         }
         TEST_ASSERT_TRUE(fabs(off) < ERROR_LIMIT * most);
     }
+    TEST_ASSERT_TRUE(cos((double)theta0) * (double)k.stiff_axis[0] + sin((double)theta0) * (double)k.stiff_axis[1] > -1e-6);
     TEST_ASSERT_TRUE(low > 0.0 && low <= middle && middle <= most);
     TEST_ASSERT_TRUE(fabs((low + middle + most) / (r.k[0][0] + r.k[1][1] + r.k[2][2]) - 1.0) < ERROR_LIMIT);
     TEST_ASSERT_TRUE(fabs((1 / low + 1 / middle + 1 / most) / (r.c[0][0] + r.c[1][1] + r.c[2][2]) - 1.0) < ERROR_LIMIT);
