@@ -15,13 +15,14 @@ RUN_IMAGE = BENCH.parent / "emulated" / "run_image"
 
 @dataclass(frozen=True)
 class Counted:
-    """One image's run: per call the instructions and a digest of the path taken; the job's numbers (calls, outs);
-    the depth the job's stack reached [B]."""
+    """One image's run: per run of the job the instructions and a digest of the path taken; the job's numbers
+    (runs, outs); the depth its stack reached [B]; how many calls its set-up had made before."""
 
     instructions: tuple[int, ...]
     paths: tuple[str, ...]
     results: np.ndarray
     stack_bytes: int
+    calls_before: int
 
 
 def build_plugin() -> Path:
@@ -54,11 +55,13 @@ def count(image: Path, processor: Processor, plugin: Path, function: str) -> Cou
         raise RuntimeError(f"{image.name}: {' '.join(wrong[0])}")
     rows = [line.split()[1:] for line in output.splitlines() if line.startswith("run")]
     stack = next(int(line.split()[1]) for line in output.splitlines() if line.startswith("stack"))
-    if len(rows) != len(calls):
+    before = len(calls) - len(rows)
+    if before < 0:
         raise RuntimeError(f"{image.name}: {len(rows)} runs but {len(calls)} calls of {function}")
+    calls = calls[before:]
     numbers = [[struct.unpack(">f", bytes.fromhex(word))[0] for word in row] for row in rows]
     return Counted(tuple(int(c[1]) for c in calls), tuple(c[2] for c in calls), np.array(numbers, dtype=np.float64),
-                   stack)
+                   stack, before)
 
 
 def trace(image: Path, processor: Processor, plugin: Path, function: str, call: int) -> list[int]:

@@ -117,7 +117,7 @@ def measure(version: Version, plugin: Path) -> Measured:
     cycles = None
     if version.group != PLANAR_NO_FPU:
         call = first.index(max(first) if version.group == COLLAPSE else middle)
-        cycles = estimate(image, trace(image, version.processor, plugin, version.function, call), version.processor)
+        cycles = estimate(image, trace(image, version.processor, plugin, version.function, counted.calls_before + call), version.processor)
 
     error = whole = None
     refused = int(np.count_nonzero(counted.results)) if version.group == COLLAPSE else 0
