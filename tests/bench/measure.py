@@ -12,7 +12,8 @@ from emulate import Counted, count, trace
 from postures import COUNT, Limb, postures, q28, workspace
 from stack import worst_stack_bytes
 from timing import Cycles, estimate
-from toolchain import BENCH, BOARDS, BUILD, HARNESS_FLAGS, Processor, compile_source, flash_bytes, link_image, section_sizes, type_sizes
+from toolchain import (BENCH, BOARDS, BUILD, HARNESS_FLAGS, Processor, compile_source, flash_bytes, link_image,
+                       section_sizes, type_sizes)
 from versions import COLLAPSE, PLANAR_NO_FPU, SPATIAL, Version
 
 SAME_JOB_ERROR = 1.0e-4  # a version further off than this in K or axis does not compute what the others do
@@ -117,7 +118,8 @@ def measure(version: Version, plugin: Path) -> Measured:
     cycles = None
     if version.group != PLANAR_NO_FPU:
         call = first.index(max(first) if version.group == COLLAPSE else middle)
-        cycles = estimate(image, trace(image, version.processor, plugin, version.function, counted.calls_before + call), version.processor)
+        addresses = trace(image, version.processor, plugin, version.function, counted.calls_before + call)
+        cycles = estimate(image, addresses, version.processor)
 
     error = whole = None
     refused = int(np.count_nonzero(counted.results)) if version.group == COLLAPSE else 0
