@@ -6,11 +6,6 @@
 #include "trig.h"
 #include "vec.h"
 
-/* Least det over mean^2, of the moving part alone, below which K's error can reach 1e-5 of lambda_max; measured:
- * 1.5e-7 over its root if anything is tilted. */
-#define SLENDER_TILTED 3e-4f
-#define SLENDER 1e-6f
-
 /* a a' + b b' = equal I + v v': equal in every direction, and one direction more. */
 static float merged(brace_vec_t a, brace_vec_t b, brace_vec_t *v)
 {
@@ -55,20 +50,6 @@ static float collapse_still(const brace_limb_t *limb, brace_spatial_t *spatial)
     return iso + merged(coxa[0].base, base.base, &spatial->still);
 }
 
-static float swing(const brace_harmonic_t *h)
-{
-    return brace_length(h->per_cos, h->per_sin);
-}
-
-static uint32_t flags_of(const brace_harmonics_t *plane)
-{
-    const float mean_most = plane->mean.at_fold + plane->mean.per_cos + swing(&plane->mean);
-    const float rest_least = plane->rest.at_fold + plane->rest.per_cos - swing(&plane->rest);
-    const int tilted = plane->cross.at_fold != 0.0f || plane->cross.per_cos != 0.0f;
-    const float enough = (tilted ? SLENDER_TILTED : SLENDER) * mean_most * mean_most;
-    return rest_least >= enough ? 0u : BRACE_FLAG_NEAR_SINGULAR;
-}
-
 brace_status_t brace_spatial_collapse(const brace_limb_t *limb, brace_spatial_t *spatial)
 {
     const brace_status_t status = spatial == NULL ? BRACE_E_NULL : brace_limb_check(limb);
@@ -80,6 +61,5 @@ brace_status_t brace_spatial_collapse(const brace_limb_t *limb, brace_spatial_t 
     brace_element_t element[BRACE_CHAIN_FIRM];
     iso += brace_chain_firm(limb, element);
     (void)brace_harmonics_list(iso, element, BRACE_CHAIN_FIRM, &spatial->plane);
-    spatial->flags = flags_of(&spatial->plane);
     return BRACE_OK;
 }

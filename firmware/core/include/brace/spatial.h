@@ -28,20 +28,19 @@ typedef struct {
     float across_per_height2;    /* coxa's torsion, per mm^2 of the tip's height */
     float across_per_along[2];   /* femur's moment transfer, per mm and mm^2 of the tip beyond the knee */
     float across_per_aside2;     /* femur's torsion, per mm^2 of the tip's distance from the femur's line */
-    uint32_t flags;
 } brace_spatial_t;
 
 /* The limb's constants; whenever its parameters change.
  * limb: any that brace_limb_check accepts. spatial: written on success only.
  * returns BRACE_OK or what brace_limb_check says.
- * Cost on a Cortex-M4F: about 2,500 instructions. RAM: 128 bytes a limb. */
+ * Cost on a Cortex-M4F: about 2,500 instructions. RAM: 124 bytes a limb. */
 brace_status_t brace_spatial_collapse(const brace_limb_t *limb, brace_spatial_t *spatial);
 
 /* K, its eigenvalues, ascending, and the direction of the largest.
  * theta0_rad, theta1_rad, theta2_rad: true angles [rad, -7.9 to 7.9].
  * stiffness: written on success only. stiff_axis is a unit vector that points outwards in the limb's plane or, if the
- *            limb is stiffest across it, to the left. flags: BRACE_FLAG_NEAR_SINGULAR when the limb is so slender
- *            that the accuracy below is not promised.
+ *            limb is stiffest across it, to the left. flags: BRACE_FLAG_NEAR_SINGULAR when C in the plane is so
+ *            slender at the posture (its eigenvalues' ratio beyond 6,000) that the accuracy below is not promised.
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE, or
  *         BRACE_E_SINGULAR: nothing yields across the plane, or in some direction in it.
  * Cost on a Cortex-M4F: 435 or 436 instructions, four divisions and two roots among them; stack 88 bytes and that of
