@@ -68,14 +68,15 @@ class Limits:
         soft = min(m.median for m in self._peers(PLANAR_NO_FPU))
         spatial = max(m.maximum for m in self._ours(SPATIAL))
         collapse = self._ours(COLLAPSE)
+        refused = sum(m.refused for m in collapse)
         casadi = min(m.median for m in self._peers(SPATIAL, "CasADi"))
         return [
             _at_most("fixed point on Cortex-M3, instructions at every posture", fixed, 260),
             _at_least("fixed point, times fewer instructions than soft float (best median)", soft / fixed, 35),
             _at_most("spatial K, instructions, worst posture and limb", spatial, 900),
             _at_least("spatial K, times fewer instructions than CasADi's median", casadi / spatial, 2),
-            _at_most(f"parameter change, instructions, worst limb ({sum(m.refused for m in collapse)} of them left to the "
-                     "general path)", max(m.maximum for m in collapse), 3000),
+            _at_most(f"parameter change, instructions, worst limb ({refused} left to the general path)",
+                     max(m.maximum for m in collapse), 3000),
         ]
 
     def _paths(self) -> list[Check]:

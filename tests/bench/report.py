@@ -40,8 +40,8 @@ def _row(m: Measured, baseline: int | None) -> list[str]:
     return [m.version.name, counts, ratio, cycles, mca, f"{m.flash_bytes:,}", f"{m.stack_bytes:,}", *errors]
 
 
-HEADS = ["version", "instructions min / median / max", "ratio", "cycles by the manual (careful)", "llvm-mca", "flash [B]",
-         "stack [B]", "K error", "lambda_min error", "axis error [rad]"]
+HEADS = ["version", "instructions min / median / max", "ratio", "cycles by the manual (careful)", "llvm-mca",
+         "flash [B]", "stack [B]", "K error", "lambda_min error", "axis error [rad]"]
 
 
 def tables(bench: Bench) -> list[Table]:

@@ -47,7 +47,8 @@ def _llvm(tool: str, arguments: list[str | Path], text: str = "") -> str:
     """Standard output of one of LLVM's tools, by its plain or its Debian 12 name."""
     for program in (tool, f"{tool}-14"):
         try:
-            done = subprocess.run([program, *map(str, arguments)], input=text, capture_output=True, text=True, check=False)
+            done = subprocess.run([program, *map(str, arguments)], input=text, capture_output=True, text=True,
+                                  check=False)
         except FileNotFoundError:
             continue
         if done.returncode != 0 or "error:" in done.stderr:
@@ -105,7 +106,8 @@ def _float_result(instruction: Instruction) -> str | None:
 
 def _uses(instruction: Instruction, register: str) -> bool:
     operands = instruction.operands.split(",")
-    reads_first = _stem(instruction.mnemonic) in (*FLOAT_WRITES_NOTHING, "vfma", "vfms", "vfnma", "vfnms", "vmla", "vmls")
+    reads_first = _stem(instruction.mnemonic) in (*FLOAT_WRITES_NOTHING, "vfma", "vfms", "vfnma", "vfnms", "vmla",
+                                                  "vmls")
     return register in [o.strip() for o in (operands if reads_first else operands[1:])]
 
 

@@ -51,8 +51,8 @@ def core_sources() -> tuple[Path, ...]:
 def _ours(name: str, group: str, function: str, job: str, limb: str = "PAPER", processor: Processor = M4F,
           flash_with: tuple[str, ...] = (), flash_table: str = "") -> Version:
     limbs = {"PAPER": paper_limb, "TILTED": tilted_limb, "COXA": coxa_limb}
-    return Version(name, group, processor, function, core_sources(), OURS / job, (), (f"-DBENCH_LIMB=BENCH_{limb}_LIMB",),
-                   flash_with, flash_table, limbs[limb](), True)
+    job_flags = (f"-DBENCH_LIMB=BENCH_{limb}_LIMB",)
+    return Version(name, group, processor, function, core_sources(), OURS / job, (), job_flags, flash_with, flash_table, limbs[limb](), True)
 
 
 def ours() -> list[Version]:
@@ -116,5 +116,6 @@ def peers(casadi_code: Path) -> list[Version]:
         _peer("CasADi C, float functions", SPATIAL, "casadi_spatial", (spatial_text,), casadi,
               ("-O2", *float_functions)),
         _peer("Eigen fixed size, -O2", SPATIAL, eigen_spatial, (PEERS / "eigen.cpp",), eigen, ("-O2", *EIGEN_FLAGS)),
-        _peer("plain C, newlib, -O2", SPATIAL, "plain_spatial_stiffness", (PEERS / "plain_spatial.c",), plain, ("-O2",)),
+        _peer("plain C, newlib, -O2", SPATIAL, "plain_spatial_stiffness", (PEERS / "plain_spatial.c",), plain,
+              ("-O2",)),
     ]

@@ -42,7 +42,8 @@ def weigh_modules() -> dict[str, int]:
     for source in core_sources():
         if not source.stem.startswith(HOST_ONLY):
             sizes = section_sizes(object_of(source, M4F, ()))
-            weights[source.stem] = sum(size for name, size in sizes.items() if name.startswith((".text", ".rodata", ".data")))
+            stored = (".text", ".rodata", ".data")
+            weights[source.stem] = sum(size for name, size in sizes.items() if name.startswith(stored))
     return {name: weights[name] for name in sorted(weights, key=lambda name: -weights[name])}
 
 
