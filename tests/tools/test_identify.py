@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from brace.dataset import load_dataset
+from brace.identify.combinations import COMBINATIONS
 from brace.identify.families import FAMILIES, compare_families
 from brace.identify.faults import settle
 from brace.identify.fit import fit
@@ -57,7 +58,10 @@ def test_data_alone_determine_the_femur_spring_and_not_the_knee(tmp_path: Path) 
     for seed in range(20):
         dataset = load_dataset(write_loading(tmp_path / "d", loading_rows(seed=seed, **truth)))
         best = fit(LoadingProblem(dataset), free_compliances(load_limb(limb(tmp_path))))
-        estimates = dict(zip(best.parameters.keys, information(best).estimates()))
+        known = information(best)
+        # exactly two: knee spring against tibia bending, and u u' + n n' = 1 of both links
+        assert known.null_directions.shape[1] == 2
+        estimates = dict(zip(best.parameters.keys, known.estimates()))
         spring = estimates["joint.femur.compliance_rad_per_n_mm"]
         assert spring.identifiable
         covered += spring.low <= 1.3e-5 <= spring.high
@@ -119,6 +123,30 @@ def test_slopes_by_both_estimators(tmp_path: Path, brace: Callable[..., object])
         for method in ("least_squares", "mean_of_ratios"):
             found = [[entry[f"{method}_k_{row}{column}_n_per_mm"] for column in "xz"] for row in "xz"]
             assert np.abs(np.array(found) - k).max() < 1e-5 * np.abs(k).max()
+
+
+def test_the_papers_estimator_is_its_own(tmp_path: Path, brace: Callable[..., object]) -> None:
+    """One reading off by 1 N at one step: it weighs d/sum(d^2) in least squares and 1/(n d) in the mean of ratios."""
+    rows = loading_rows(noise_n=0.0)
+    rows[1][11] = f"{float(rows[1][11]) + 1.0:.6f}"  # first run, along x, first step, 0.635 mm; two repeats
+    folder = write_loading(tmp_path / "d", rows)
+    outcome = brace("identify", folder, "--model", limb(tmp_path), "--out", tmp_path / "f.toml", "--json")
+    first = json.loads(outcome.out)["slopes"][0]
+    places = np.array([1, 2, 3, 4, 3, 2, 1, -1, -2, -3, -4, -3, -2, -1]) * 0.635  # steps at 0 are not counted
+    k_xx = physics_k(*POSES[0])[0, 0]
+    assert first["least_squares_k_xx_n_per_mm"] - k_xx == pytest.approx(0.5 * 0.635 / np.sum(places**2), rel=1e-3)
+    assert first["mean_of_ratios_k_xx_n_per_mm"] - k_xx == pytest.approx(0.5 / 0.635 / places.size, rel=1e-3)
+
+
+def test_combinations_by_formula(tmp_path: Path) -> None:
+    for strength in (0.0, 1.0):
+        text = LIMB.replace("[link.tibia]", f"moment_transfer = {strength}\n[link.tibia]") \
+            + "[base]\nrotation_rad_per_n_mm = 3e-6\n"
+        model = load_limb(limb(tmp_path, text))
+        b1, b2 = 0.06 / 185**2, 0.25 / 313.5**2
+        expected = {"a11_rad_per_n_mm": 1.3e-5 + b1, "a12_rad_per_n_mm": b1 / 2 if strength else -b1,
+                    "a22_rad_per_n_mm": 1.6e-5 + b1 + b2}
+        assert {name: function(model) for name, function in COMBINATIONS.items()} == pytest.approx(expected)
 
 
 def test_encoders_separate_joints_from_links(tmp_path: Path, brace: Callable[..., object], paper_rig: Path) -> None:
@@ -214,17 +242,19 @@ def test_a_joint_test_gives_back_its_joint(tmp_path: Path, brace: Callable[..., 
     """Spring, play, friction and noise written out here by hand, not by the plant."""
     random = np.random.default_rng(0)
     sweep = np.concatenate([np.linspace(0, 1, 150), np.linspace(1, -1, 300), np.linspace(-1, 1, 300)])
-    angle = 0.02 * sweep
+    angle, centre = 0.02 * sweep, 0.055
     spring = np.where(np.abs(angle) > 0.003, angle - 0.003 * np.sign(angle), 0.0) / 1e-5
     torque = spring + 120.0 * np.sign(np.diff(angle, prepend=-1e-9)) + 20.0 * random.standard_normal(angle.size)
     (tmp_path / "meta.toml").write_text('format = 1\nkind = "joint_test"\n')
     (tmp_path / "data.csv").write_text("t_s,angle_rad,torque_n_mm\n" + "".join(
-        f"{0.1 * i:.1f},{a:.7f},{t:.3f}\n" for i, (a, t) in enumerate(zip(angle, torque))))
+        f"{0.1 * i:.1f},{a + centre:.7f},{t + 35.0:.3f}\n" for i, (a, t) in enumerate(zip(angle, torque))))
     outcome = brace("identify", tmp_path, "--model", limb(tmp_path), "--out", tmp_path / "f.toml", "--json")
     found = json.loads(outcome.out)["parameters"]
     assert found["joint.femur.compliance_rad_per_n_mm"]["value"] == pytest.approx(1e-5, rel=0.03)
     assert found["joint.femur.gap_rad"]["value"] == pytest.approx(0.006, rel=0.05)
     assert found["joint.femur.coulomb_n_mm"]["value"] == pytest.approx(120.0, rel=0.05)
+    assert found["joint.femur.zero_offset_rad"]["value"] == pytest.approx(-centre, abs=1e-4)
+    assert found["joint.femur.zero_offset_rad"]["start"] == pytest.approx(-centre, abs=1e-6)
 
 
 @pytest.mark.parametrize("rows", [1, 5, 34])

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from brace.dataset import load_dataset
+from brace.files import OutputSet
 from conftest import LIMB, LOADING_META, loading_rows, physics_k, write_loading
 
 RIG = """format = 1
@@ -177,3 +178,12 @@ def test_outputs_are_whole_or_untouched(files: dict[str, Path], brace: Callable[
     assert brace(*command, files["out"]).code == 3
     assert (files["out"] / "data.csv").read_bytes() == before
     assert sorted(path.name for path in files["out"].iterdir()) == ["data.csv", "meta.toml"]
+
+
+def test_a_failure_while_writing_leaves_no_trace(tmp_path: Path) -> None:
+    (tmp_path / "one").write_text("old")
+    with pytest.raises(RuntimeError), OutputSet() as outputs:
+        outputs.add(tmp_path / "one", "new")
+        outputs.add(tmp_path / "folder" / "two", "new")
+        raise RuntimeError("the machine stops here")
+    assert [(path.name, path.read_text()) for path in tmp_path.iterdir()] == [("one", "old")]
