@@ -87,76 +87,97 @@ ALWAYS int usable(float theta1_rad, float theta2_rad)
     return (__builtin_fabsf(theta1_rad) <= BRACE_ANGLE_LIMIT_RAD) & (__builtin_fabsf(theta2_rad) <= BRACE_ANGLE_LIMIT_RAD);
 }
 
-ALWAYS brace_stiffness_t at_posture(const brace_planar_batch_t *b, int upright, float theta1_rad, float theta2_rad)
+/* The work goes through the first-level cache in blocks and in three loops: in one, each posture's chain of operations
+ * is so long that the processor sees too few postures at a time. */
+enum { BLOCK = 256 };
+
+typedef struct {
+    float half_sin_knee[BLOCK], half_one_plus_cos_knee[BLOCK];
+    float cross[BLOCK];
+    float sin_2b[BLOCK], cos_2b[BLOCK]; /* of twice the bisector's angle */
+    float dev_x[BLOCK], tangent[BLOCK]; /* of half of dev's angle from the nearer end of the x axis */
+} block_t;
+
+/* Returns how many postures are none; their angles become NaN, and so does all that follows. */
+ALWAYS size_t take_angles(const brace_planar_batch_t *b, int upright, int n, const float *restrict theta1_rad,
+                          const float *restrict theta2_rad, block_t *restrict block)
 {
-    const float half_knee = 0.5f * theta2_rad;
-    const float h = off_half_turns(half_knee);
-    const float cos_h = cosine(h), half_sin_knee = sine(h) * cos_h, half_one_plus_cos_knee = cos_h * cos_h;
-    float crossing = half_sin_knee;
-    if (!upright) {
-        crossing = sine(off_half_turns_from(half_knee, b->zero_rad[0], b->zero_rest_rad[0])) *
-                   sine(off_half_turns_from(half_knee, b->zero_rad[1], b->zero_rest_rad[1]));
-    }
-    const float cross = upright ? b->cross_swing * crossing : b->cross_least + b->cross_swing * crossing;
-    const float det = harmonic(&b->rest, half_one_plus_cos_knee, half_sin_knee) + cross * cross;
-    const float mean = harmonic(&b->mean, half_one_plus_cos_knee, half_sin_knee);
-    const float x = harmonic(&b->dev_x, half_one_plus_cos_knee, half_sin_knee);
-    const float y = harmonic(&b->dev_y, half_one_plus_cos_knee, half_sin_knee);
-
-    const float bisector = off_half_turns(theta1_rad - half_knee);
-    const float sin_b = sine(bisector), cos_b = cosine_coarse(bisector);
-    const float sin_2b = 2.0f * sin_b * cos_b, cos_2b = (cos_b - sin_b) * (cos_b + sin_b);
-    const float dev_x = x * cos_2b - y * sin_2b, dev_y = x * sin_2b + y * cos_2b;
-
-    const float radius = __builtin_sqrtf(x * x + y * y);
-    const float largest = mean + radius;
-    const float inverse = 1.0f / (det * largest);
-    const float per_det = inverse * largest;
-
-    /* half of atan2(-dev_y, -dev_x), from the tangent of a quarter turn and less */
-    const float lever = radius + __builtin_fabsf(dev_x);
-    const float half_turn = arctangent(dev_y / (lever > 1e-30f ? lever : 1e-30f));
-    const float axis = dev_x > 0.0f ? half_turn - __builtin_copysignf(HALF_PI, dev_y) : -half_turn;
-    return (brace_stiffness_t){
-        .k_xx_n_per_mm = (mean - dev_x) * per_det,
-        .k_xz_n_per_mm = -dev_y * per_det,
-        .k_zz_n_per_mm = (mean + dev_x) * per_det,
-        .lambda_min_n_per_mm = inverse * det,
-        .lambda_max_n_per_mm = largest * per_det,
-        .stiff_axis_rad = axis,
-    };
-}
-
-ALWAYS size_t loop(const brace_planar_batch_t *batch, int upright, size_t n, const float *restrict theta1_rad,
-                   const float *restrict theta2_rad, float *restrict k_xx, float *restrict k_xz, float *restrict k_zz,
-                   float *restrict lambda_min, float *restrict lambda_max, float *restrict axis)
-{
-    const brace_planar_batch_t b = *batch;
-    unsigned int refused = 0;
-    for (size_t i = 0; i < n; i++) {
+    int refused = 0;
+    for (int i = 0; i < n; i++) {
         const int good = usable(theta1_rad[i], theta2_rad[i]);
         refused += !good;
-        const float theta2 = good ? theta2_rad[i] : __builtin_nanf("");
-        const brace_stiffness_t k = at_posture(&b, upright, theta1_rad[i], theta2);
-        k_xx[i] = k.k_xx_n_per_mm;
-        k_xz[i] = k.k_xz_n_per_mm;
-        k_zz[i] = k.k_zz_n_per_mm;
-        lambda_min[i] = k.lambda_min_n_per_mm;
-        lambda_max[i] = k.lambda_max_n_per_mm;
-        axis[i] = k.stiff_axis_rad;
+        const float half_knee = good ? 0.5f * theta2_rad[i] : __builtin_nanf("");
+        const float h = off_half_turns(half_knee);
+        const float cos_h = cosine(h), half_sin = sine(h) * cos_h;
+        float cross = b->cross_swing * half_sin;
+        if (!upright) {
+            const float near_0 = off_half_turns_from(half_knee, b->zero_rad[0], b->zero_rest_rad[0]);
+            const float near_1 = off_half_turns_from(half_knee, b->zero_rad[1], b->zero_rest_rad[1]);
+            cross = b->cross_least + b->cross_swing * (sine(near_0) * sine(near_1));
+        }
+        const float bisector = off_half_turns(theta1_rad[i] - half_knee);
+        const float sin_b = sine(bisector), cos_b = cosine_coarse(bisector);
+        block->half_sin_knee[i] = half_sin;
+        block->half_one_plus_cos_knee[i] = cos_h * cos_h;
+        block->cross[i] = cross;
+        block->sin_2b[i] = 2.0f * sin_b * cos_b;
+        block->cos_2b[i] = (cos_b - sin_b) * (cos_b + sin_b);
     }
-    return refused;
+    return (size_t)refused;
+}
+
+ALWAYS void give_stiffness(const brace_planar_batch_t *b, int n, block_t *restrict block, float *restrict k_xx,
+                           float *restrict k_xz, float *restrict k_zz, float *restrict lambda_min, float *restrict lambda_max)
+{
+    for (int i = 0; i < n; i++) {
+        const float c = block->half_one_plus_cos_knee[i], s = block->half_sin_knee[i];
+        const float cos_2b = block->cos_2b[i], sin_2b = block->sin_2b[i];
+        const float x = harmonic(&b->dev_x, c, s), y = harmonic(&b->dev_y, c, s);
+        const float dev_x = x * cos_2b - y * sin_2b, dev_y = x * sin_2b + y * cos_2b;
+        const float mean = harmonic(&b->mean, c, s);
+        const float det = harmonic(&b->rest, c, s) + block->cross[i] * block->cross[i];
+
+        const float radius = __builtin_sqrtf(x * x + y * y);
+        const float largest = mean + radius;
+        const float inverse = 1.0f / (det * largest);
+        const float per_det = inverse * largest;
+        k_xx[i] = (mean - dev_x) * per_det;
+        k_xz[i] = -dev_y * per_det;
+        k_zz[i] = (mean + dev_x) * per_det;
+        lambda_min[i] = inverse * det;
+        lambda_max[i] = largest * per_det;
+
+        const float lever = radius + __builtin_fabsf(dev_x);
+        block->dev_x[i] = dev_x;
+        block->tangent[i] = dev_y / (lever > 1e-30f ? lever : 1e-30f);
+    }
+}
+
+/* Half of atan2(-dev_y, -dev_x). */
+ALWAYS void give_axis(int n, const block_t *restrict block, float *restrict axis_rad)
+{
+    for (int i = 0; i < n; i++) {
+        const float half = arctangent(block->tangent[i]);
+        const float turned = half - __builtin_copysignf(HALF_PI, half);
+        axis_rad[i] = block->dev_x[i] > 0.0f ? turned : -half;
+    }
 }
 
 FOR_EACH_PROCESSOR
 size_t brace_planar_batch(const brace_planar_batch_t *batch, size_t n, const float *theta1_rad,
                           const float *theta2_rad, const brace_stiffness_soa_t *stiffness)
 {
+    const brace_planar_batch_t b = *batch;
     const brace_stiffness_soa_t out = *stiffness;
-    if (batch->upright) {
-        return loop(batch, 1, n, theta1_rad, theta2_rad, out.k_xx_n_per_mm, out.k_xz_n_per_mm, out.k_zz_n_per_mm,
-                    out.lambda_min_n_per_mm, out.lambda_max_n_per_mm, out.stiff_axis_rad);
+    block_t block;
+    size_t refused = 0;
+    for (size_t at = 0; at < n; at += BLOCK) {
+        const int count = n - at < BLOCK ? (int)(n - at) : BLOCK;
+        refused += b.upright ? take_angles(&b, 1, count, theta1_rad + at, theta2_rad + at, &block)
+                             : take_angles(&b, 0, count, theta1_rad + at, theta2_rad + at, &block);
+        give_stiffness(&b, count, &block, out.k_xx_n_per_mm + at, out.k_xz_n_per_mm + at, out.k_zz_n_per_mm + at,
+                       out.lambda_min_n_per_mm + at, out.lambda_max_n_per_mm + at);
+        give_axis(count, &block, out.stiff_axis_rad + at);
     }
-    return loop(batch, 0, n, theta1_rad, theta2_rad, out.k_xx_n_per_mm, out.k_xz_n_per_mm, out.k_zz_n_per_mm,
-                out.lambda_min_n_per_mm, out.lambda_max_n_per_mm, out.stiff_axis_rad);
+    return refused;
 }

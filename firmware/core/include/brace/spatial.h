@@ -33,7 +33,7 @@ typedef struct {
 /* The limb's constants; whenever its parameters change.
  * limb: any that brace_limb_check accepts. spatial: written on success only.
  * returns BRACE_OK or what brace_limb_check says.
- * Cost on a Cortex-M4F: about 2,500 instructions. RAM: 124 bytes a limb. */
+ * Cost on a Cortex-M4F: at most 2,900 instructions; stack 228 bytes. RAM: 124 bytes a limb. */
 brace_status_t brace_spatial_collapse(const brace_limb_t *limb, brace_spatial_t *spatial);
 
 /* K, its eigenvalues, ascending, and the direction of the largest.
@@ -43,8 +43,7 @@ brace_status_t brace_spatial_collapse(const brace_limb_t *limb, brace_spatial_t 
  *            slender at the posture (its eigenvalues' ratio beyond 6,000) that the accuracy below is not promised.
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE, or
  *         BRACE_E_SINGULAR: nothing yields across the plane, or in some direction in it.
- * Cost on a Cortex-M4F: 435 or 436 instructions, four divisions and two roots among them; stack 88 bytes and that of
- * brace_direction. With an FPU only: without one it is right, but slow.
+ * Cost on a Cortex-M4F: 444 or 445 instructions, five divisions and two roots among them; stack 112 bytes. With an FPU only: without one it is right, but slow.
  * Accuracy: K within 4e-6 of lambda_max and each eigenvalue within 4e-6 of itself (1e-5 promised), the axis an
  * eigenvector as well. Formula: docs/physics.md; moment transfer across the plane as in it. */
 brace_status_t brace_spatial_stiffness(const brace_spatial_t *spatial, float theta0_rad, float theta1_rad,
