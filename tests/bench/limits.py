@@ -40,8 +40,9 @@ def _error_text(value: float) -> str:
 class Limits:
     """Looks versions up by group and name."""
 
-    def __init__(self, measured: list[Measured], rates: list[Rate], weights: dict[str, int]) -> None:
-        self.measured, self.rates, self.weights = measured, rates, weights
+    def __init__(self, measured: list[Measured], rates: list[Rate], weights: dict[str, int],
+                 map_s: float) -> None:
+        self.measured, self.rates, self.weights, self.map_s = measured, rates, weights, map_s
 
     def _ours(self, group: str, name: str = "") -> list[Measured]:
         return [m for m in self.measured if m.version.group == group and m.version.ours and name in m.version.name]
@@ -119,7 +120,8 @@ class Limits:
         eigen = next(r for r in self.rates if r.name.startswith("Eigen"))
         batch = next(r for r in self.rates if r.name == "Brace, batch")
         return [_at_least("host batches, times Eigen's throughput", batch.postures_per_s / eigen.postures_per_s, 40),
-                _at_most("host batches: error of K over lambda_max", batch.error.k, 2e-6, text=_error_text)]
+                _at_most("host batches: error of K over lambda_max", batch.error.k, 2e-6, text=_error_text),
+                _at_most("brace map over a million postures, processor time", self.map_s, 2.0, " s", "{:.2f}".format)]
 
     def checks(self) -> list[Check]:
         """All limits, in the order a reader wants them."""

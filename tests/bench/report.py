@@ -17,6 +17,7 @@ class Bench:
     measured: list[Measured]
     rates: list[Rate]
     weights: dict[str, int]  # name with unit -> value: flash, RAM and stack of the core
+    map_s: float  # processor time of brace map over a million postures
     modules: dict[str, int]  # source of the core -> bytes of flash on the Cortex-M4F
     checks: list[Check]
     tools: dict[str, str]  # program -> version
@@ -120,6 +121,7 @@ def as_data(bench: Bench) -> dict[str, object]:
         } for m in bench.measured],
         "host": [{"name": r.name, "postures_per_s": r.postures_per_s, "error_k_of_lambda_max": r.error.k,
                   "error_eigenvalues_rel": list(r.error.eigenvalues)} for r in bench.rates],
+        "map_million_postures_s": round(bench.map_s, 3),
         "core_bytes": bench.weights,
         "core_source_flash_bytes": bench.modules,
         "limits": [{"name": c.name, "measured": c.measured, "required": c.required, "verdict": c.verdict}

@@ -19,6 +19,7 @@ import versions  # noqa: E402
 from calibrate import calibrate  # noqa: E402
 from emulate import build_plugin  # noqa: E402
 from limits import Limits  # noqa: E402
+from map_time import map_seconds  # noqa: E402
 from measure import measure  # noqa: E402
 from report import Bench, as_data, as_markdown, as_text  # noqa: E402
 from throughput import measure_rates  # noqa: E402
@@ -62,9 +63,11 @@ def bench() -> Bench:
         measured.append(measure(version, plugin))
     say("host throughput")
     rates = measure_rates()
+    map_s = map_seconds()
     say("weighing the core")
     weights = weigh_core()
-    return Bench(measured, rates, weights, weigh_modules(), Limits(measured, rates, weights).checks(), tools())
+    checks = Limits(measured, rates, weights, map_s).checks()
+    return Bench(measured, rates, weights, map_s, weigh_modules(), checks, tools())
 
 
 def main() -> int:
