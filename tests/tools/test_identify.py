@@ -275,3 +275,14 @@ def test_all_zero_and_all_equal_records(tmp_path: Path, brace: Callable[..., obj
         outcome = brace("identify", write_loading(tmp_path / "d", rows), "--model", limb(tmp_path), "--out",
                         tmp_path / "f.toml")
         assert outcome.code in (0, 3) and outcome.err
+
+
+def test_rows_at_the_straight_and_the_folded_limb(tmp_path: Path, brace: Callable[..., object], paper_limb: Path) -> None:
+    """Springs alone are rigid there: that kind of limb is left out, the others are fitted."""
+    folder = tmp_path / "t"
+    folder.mkdir()
+    (folder / "meta.toml").write_text('format = 1\nkind = "stiffness_table"\n')
+    (folder / "data.csv").write_text("r_mm,k_xx,k_xz,k_zx,k_zz\n128.5,2.00,-1.00,-1.00,2.00\n498.5,2.50,-1.00,-1.00,2.00\n")
+    outcome = brace("identify", folder, "--model", paper_limb, "--out", tmp_path / "f.toml", "--json")
+    families = [entry["family"] for entry in json.loads(outcome.out)["families"]]
+    assert outcome.code == 0 and "two joint springs only" not in families and len(families) >= 4

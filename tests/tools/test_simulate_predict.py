@@ -127,6 +127,8 @@ def test_prediction_of_the_table_and_of_a_joint_test(brace: Callable[..., object
     assert outcome.code == 0 and "inference" in outcome.err
     assert len(read(out)["k_xx"]) == 12
     assert brace("predict", paper_table, "--model", paper_limb, "--out", out, "--tip-height-mm", -120).code == 0
+    high = brace("predict", paper_table, "--model", paper_limb, "--out", tmp_path / "q.csv", "--tip-height-mm", 159)
+    assert high.code == 2 and "out of reach" in high.err and not (tmp_path / "q.csv").exists()
     predicted = read(out)
     r, z = 158.0, -120.0
     theta2 = np.arccos((r * r - 185**2 - 313.5**2) / (2 * 185 * 313.5))

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from brace.dataset import DataFault, Dataset
+from brace.errors import UsageError
 from brace.model import LimbModel
 from brace.tables import table_poses
 
@@ -71,6 +72,10 @@ def _predict_table(dataset: Dataset, model: LimbModel, knee: str, tip_height_mm:
     poses = table_poses(dataset, model, knee)
     notes: tuple[str, ...] = ()
     height = tip_height_mm if tip_height_mm is not None else 0.0
+    low, high = poses.height_limits_mm()
+    if poses.needs_height and not low <= height <= high:
+        raise UsageError(f"--tip-height-mm {height:g} is out of reach", why=f"the nearest row has r = {high:.4g} mm",
+                         next_step=f"a height between {low:.4g} and {high:.4g} mm")
     if poses.needs_height and tip_height_mm is None:
         from brace.identify.table import best_tip_height_mm
 

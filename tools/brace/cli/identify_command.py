@@ -16,7 +16,7 @@ def add(commands: Any) -> None:
     parser = commands.add_parser(
         "identify", help="a limb's parameters from measurements, with intervals",
         description="Fits the model to a loading record, a stiffness table or a joint test; prints each parameter with "
-                    "its 90 %% interval (not identifiable: infinite), correlations, the classes that the record "
+                    "its 90 % interval (not identifiable: infinite), correlations, the classes that the record "
                     "cannot tell apart, and the share of joints and structure. Writes the fitted model.")
     parser.add_argument("dataset", type=Path, metavar="DATASET", help="folder with meta.toml and data.csv")
     common.add_model(parser, "the start, and the trust put in it")

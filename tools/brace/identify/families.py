@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
+from brace.errors import BadFileError
 from brace.identify.fit import Fit, fit
 from brace.identify.parameters import (COMPLIANCES, JOINT_COMPLIANCES, LINK_COMPLIANCES, TIP_HEIGHT, ParameterSet,
                                        free_parameter)
@@ -66,10 +68,12 @@ def fit_family(problem: TableProblem, base: LimbModel, family: Family) -> Family
 
 def compare_families(problem: TableProblem, base: LimbModel,
                      advance: Callable[[int], None] = lambda _done: None) -> list[FamilyFit]:
-    """All families, in the order of FAMILIES."""
+    """All families, in the order of FAMILIES; one that cannot be at these postures (springs alone at a straight
+    limb) is left out."""
     results = []
     for number, family in enumerate(FAMILIES):
-        results.append(fit_family(problem, base, family))
+        with contextlib.suppress(BadFileError):
+            results.append(fit_family(problem, base, family))
         advance(number + 1)
     return results
 

@@ -21,6 +21,11 @@ STEP = 1e-4  # of a parameter's scale, for central differences
 class Problem(Protocol):
     """A record that models are judged by."""
 
+    @property
+    def count(self) -> int:
+        """Number of readings."""
+        ...
+
     def residual(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """(model - measured) / sigma, one entry per reading."""
         ...
@@ -77,10 +82,9 @@ def fit(problem: Problem, parameters: ParameterSet, starts: Iterable[np.ndarray]
     scale, prior, start = (parameters.array(name) for name in ("scale", "prior_sigma", "start"))
     low, high = parameters.array("low") / scale, parameters.array("high") / scale
     pull = np.where(np.isinf(prior), RIDGE, scale / np.where(np.isinf(prior), 1.0, prior))
-    expected = problem.residual(parameters.model(start), parameters.nuisances(start)).size
 
     def whole(u: np.ndarray) -> np.ndarray:
-        data = _data(problem, parameters, u * scale, expected)
+        data = _data(problem, parameters, u * scale)
         rows = [data, pull * (u - start / scale)]
         if constraint is not None:
             rows.append(np.atleast_1d(1e3 * constraint(parameters.model(u * scale), parameters.nuisances(u * scale))))
@@ -100,21 +104,21 @@ def fit(problem: Problem, parameters: ParameterSet, starts: Iterable[np.ndarray]
     assert best is not None
     near = 1e-7  # of a scale from a bound is at it
     solved = np.where(best.x - low < near, low, np.where(high - best.x < near, high, best.x))
-    residual = _data(problem, parameters, solved * scale, expected)
+    residual = _data(problem, parameters, solved * scale)
     if np.abs(residual).max(initial=0.0) >= REFUSED:
         raise BadFileError("no fit was found", where=parameters.base.where(),
                            why="the simulated limb cannot be played near the start model",
                            next_step="start from a model nearer to the limb")
-    jacobian = _central(lambda u: _data(problem, parameters, u * scale, expected), solved, low, high)
+    jacobian = _central(lambda u: _data(problem, parameters, u * scale), solved, low, high)
     return Fit(parameters, solved * scale, residual, jacobian)
 
 
-def _data(problem: Problem, parameters: ParameterSet, x: np.ndarray, expected: int) -> np.ndarray:
+def _data(problem: Problem, parameters: ParameterSet, x: np.ndarray) -> np.ndarray:
     try:
         residual = problem.residual(parameters.model(x), parameters.nuisances(x))
         return np.asarray(np.clip(residual, -REFUSED, REFUSED))
     except BadFileError:
-        return np.full(expected, REFUSED)
+        return np.full(problem.count, REFUSED)
 
 
 def _central(function: Callable[[np.ndarray], np.ndarray], u: np.ndarray, low: np.ndarray,

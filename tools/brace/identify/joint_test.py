@@ -33,6 +33,11 @@ class JointProblem:
         self._used = ~_saturated(self.columns)
         self._player = JointPlayer(self.columns, self.joint)
 
+    @property
+    def count(self) -> int:
+        """Number of averaged readings."""
+        return int(np.count_nonzero(self._used))
+
     def residual(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """(played - measured) / noise."""
         played = self._player.play(model, nuisances.get(FRICTION_TURN, 0.0)) + nuisances.get(TORQUE_OFFSET, 0.0)

@@ -33,6 +33,11 @@ class LoadingProblem:
         self._commanded = np.column_stack([dataset["theta1_rad"][first], dataset["theta2_rad"][first]])
 
     @property
+    def count(self) -> int:
+        """Number of readings."""
+        return self.dataset.rows * len(self._names)
+
+    @property
     def readings(self) -> list[str]:
         """Names of the readings that are fitted."""
         return list(self._names)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
+from brace.errors import BadFileError
 from brace.identify.fit import Fit, Problem, fit
 from brace.identify.information import Z90
 from brace.identify.parameters import COMPLIANCES, NUISANCES, ParameterSet, free_parameter
@@ -57,14 +59,16 @@ def split(problem: Problem, best: Fit, advance: Callable[[int], None] = lambda _
 
     profile = [held_at(None)]
     for number, target in enumerate(TARGETS):
-        profile.append(held_at(target))
+        with contextlib.suppress(BadFileError):  # no limb has that share at these postures
+            profile.append(held_at(target))
         advance(number + 1)
     dof = max(1, best.readings - len(COMPLIANCES))
     for round_number in range(REFINEMENTS):
         for side in (-1, 1):
             edge, closed = _edge(profile, side, dof)
             if not closed:
-                profile.append(held_at(edge))
+                with contextlib.suppress(BadFileError):
+                    profile.append(held_at(edge))
         advance(len(TARGETS) + round_number + 1)
     share = structure_share(base, problem.angles(base, best.nuisances))
     allowed = (_edge(profile, -1, dof)[0], _edge(profile, 1, dof)[0])

@@ -38,6 +38,11 @@ class TableProblem:
         self.weight = weight
         self._sigma = weight.absolute_n_per_mm + weight.relative * np.abs(self.k)
 
+    @property
+    def count(self) -> int:
+        """Number of entries of K."""
+        return int(self.k.size)
+
     def residual(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """(model - measured) / sigma, row by row."""
         return np.asarray((self.predicted(model, nuisances) - self.k) / self._sigma).ravel()
