@@ -30,24 +30,25 @@ static float per_lever(const brace_link_t *link, float kappa, float length_mm)
 
 float brace_chain_firm(const brace_limb_t *limb, brace_element_t element[BRACE_CHAIN_FIRM])
 {
+    const brace_vec_t none = {0.0f, 0.0f};
     const brace_link_t *femur = &limb->link[BRACE_FEMUR];
-    const float kappa = femur->moment_transfer_ratio;
-    brace_vec_t no_moment;
-    for (int i = 0; i < BRACE_CHAIN_FIRM; i++) {
-        element[i] = (brace_element_t){0};
-    }
-    const float femur_iso = bend(femur, kappa, &element[0].femur, &element[1].femur);
-    element[1].tibia.z = per_lever(femur, kappa, limb->femur_mm) * limb->tibia_mm;
+    const float kappa = femur->moment_transfer_ratio, tibia_mm = limb->tibia_mm;
+    brace_vec_t excess, with_moment;
 
-    const float tibia_iso = bend(&limb->link[BRACE_TIBIA], 0.0f, &element[2].tibia, &no_moment);
+    float iso = bend(femur, kappa, &excess, &with_moment);
+    element[0] = (brace_element_t){excess, none, none};
+    element[1] =
+        (brace_element_t){with_moment, {0.0f, per_lever(femur, kappa, limb->femur_mm) * tibia_mm}, none};
+
+    iso += bend(&limb->link[BRACE_TIBIA], 0.0f, &excess, &with_moment);
+    element[2] = (brace_element_t){none, excess, none};
 
     const float hip = __builtin_sqrtf(limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm +
                                       limb->base.rotation_rad_per_n_mm);
-    element[3].femur.z = hip * limb->femur_mm;
-    element[3].tibia.z = hip * limb->tibia_mm;
-
-    element[4].tibia.z = __builtin_sqrtf(limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm) * limb->tibia_mm;
-    return femur_iso + tibia_iso;
+    const float knee = __builtin_sqrtf(limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm);
+    element[3] = (brace_element_t){{0.0f, hip * limb->femur_mm}, {0.0f, hip * tibia_mm}, none};
+    element[4] = (brace_element_t){none, {0.0f, knee * tibia_mm}, none};
+    return iso;
 }
 
 float brace_chain_coxa(const brace_limb_t *limb, brace_element_t element[2])

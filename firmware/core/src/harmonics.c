@@ -117,6 +117,7 @@ brace_status_t brace_harmonics_list(float iso, const brace_element_t *element, u
     scale(&sum.dev_x, 0.5f);
     scale(&sum.dev_y, 0.5f);
     sum.mean.at_fold += iso;
+    sum.iso_mm_per_n = iso;
     *harmonics = sum;
     return BRACE_OK;
 }

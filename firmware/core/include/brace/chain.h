@@ -86,12 +86,12 @@ typedef struct {
     brace_harmonic_t dev_y; /* [mm/N] */
     brace_harmonic_t rest;  /* [(mm/N)^2] */
     brace_harmonic_t cross; /* [mm/N] */
+    float iso_mm_per_n;     /* the chain's: compliance shared by every direction */
 } brace_harmonics_t;
 
-/* The chain's fifteen constants.
+/* The chain's harmonics.
  * returns BRACE_OK, BRACE_E_NULL,
- *         BRACE_E_UNSUPPORTED: the base yields unequally, or C can be so slender at some posture that the
- *         accuracy of K (2e-6 of lambda_max) is not promised; brace_chain_stiffness serves such a limb. */
+ *         BRACE_E_UNSUPPORTED: the base yields unequally; brace_chain_stiffness serves such a limb. */
 brace_status_t brace_harmonics(const brace_chain_t *chain, brace_harmonics_t *harmonics);
 
 #endif
