@@ -53,6 +53,7 @@ def tools() -> dict[str, str]:
 
 def bench() -> Bench:
     """The whole run."""
+    map_s = map_seconds()
     say("fetching peers and the plugin header (first time only)")
     generated = generate()
     plugin = build_plugin()
@@ -63,7 +64,6 @@ def bench() -> Bench:
         measured.append(measure(version, plugin))
     say("host throughput")
     rates = measure_rates()
-    map_s = map_seconds()
     say("weighing the core")
     weights = weigh_core()
     checks = Limits(measured, rates, weights, map_s).checks()
