@@ -6,8 +6,8 @@
 #include "brace/planar_fixed.h"
 #include "brace/spatial.h"
 
-int fixed_rows(const brace_limb_t *limb, size_t n, const int32_t *theta1_rad_q28, const int32_t *theta2_rad_q28,
-               float *rows)
+int fixed_rows(const brace_limb_t *limb, size_t n, const int32_t *theta1_rad_q28,
+               const int32_t *theta2_rad_q28, float *rows)
 {
     brace_planar_fixed_t fixed;
     int status = brace_planar_fixed_collapse(limb, &fixed);

@@ -1,5 +1,5 @@
-/* K in space in double precision, from three-dimensional levers: every source of compliance moves the tip along one
- * direction or turns it about one axis. Shares nothing with the core. */
+/* K in space in double precision, from three-dimensional levers: every source of compliance moves the tip
+ * along one direction or turns it about one axis. Shares nothing with the core. */
 #ifndef REFERENCE_SPATIAL_H
 #define REFERENCE_SPATIAL_H
 
@@ -35,15 +35,17 @@ static inline void reference_dyad(reference_spatial_t *r, double s, reference_ve
     }
 }
 
-static inline void reference_turning(reference_spatial_t *r, float s, reference_vec_t axis, reference_vec_t arm)
+static inline void reference_turning(reference_spatial_t *r, float s, reference_vec_t axis,
+                                     reference_vec_t arm)
 {
     const reference_vec_t lever = reference_cross(axis, arm);
     reference_dyad(r, (double)s, lever, lever);
 }
 
-/* A uniform beam that bends towards `across` about `axis`, a unit vector, with the tip at `arm` beyond its end. */
-static inline void reference_bending(reference_spatial_t *r, double b, double kappa, double length, reference_vec_t across,
-                                     reference_vec_t axis, reference_vec_t arm)
+/* A uniform beam that bends towards `across` about `axis`, a unit vector, with the tip at `arm` beyond its
+ * end. */
+static inline void reference_bending(reference_spatial_t *r, double b, double kappa, double length,
+                                     reference_vec_t across, reference_vec_t axis, reference_vec_t arm)
 {
     const reference_vec_t lever = reference_cross(axis, arm);
     reference_dyad(r, b, across, across);
@@ -53,14 +55,14 @@ static inline void reference_bending(reference_spatial_t *r, double b, double ka
     }
 }
 
-static inline void reference_link(reference_spatial_t *r, const brace_link_t *link, double length, double angle,
-                                  reference_vec_t arm, double kappa)
+static inline void reference_link(reference_spatial_t *r, const brace_link_t *link, double length,
+                                  double angle, reference_vec_t arm, double kappa)
 {
     const reference_vec_t own = reference_in_plane(angle), y = {0.0, 1.0, 0.0}, minus_y = {0.0, -1.0, 0.0};
     const double tilted = angle + (double)link->tilt_rad;
     reference_dyad(r, (double)link->axial_mm_per_n, reference_in_plane(tilted), reference_in_plane(tilted));
-    reference_bending(r, (double)link->bending_mm_per_n, kappa, length, reference_in_plane(tilted + 1.57079632679489662),
-                      minus_y, arm);
+    reference_bending(r, (double)link->bending_mm_per_n, kappa, length,
+                      reference_in_plane(tilted + 1.57079632679489662), minus_y, arm);
     reference_bending(r, (double)link->lateral_mm_per_n, kappa, length, y, reference_cross(own, y), arm);
     reference_turning(r, link->torsion_rad_per_n_mm, own, arm);
 }
@@ -82,7 +84,8 @@ static inline void reference_invert(reference_spatial_t *r)
     }
 }
 
-static inline reference_spatial_t reference_spatial(const brace_limb_t *limb, double theta0, double theta1, double theta2)
+static inline reference_spatial_t reference_spatial(const brace_limb_t *limb, double theta0, double theta1,
+                                                    double theta2)
 {
     const double l0 = (double)limb->coxa_mm, l1 = (double)limb->femur_mm, l2 = (double)limb->tibia_mm;
     const brace_link_t *link = limb->link;
@@ -97,7 +100,8 @@ static inline reference_spatial_t reference_spatial(const brace_limb_t *limb, do
     reference_turning(&flat, limb->base.rotation_rad_per_n_mm, y, tip);
     reference_turning(&flat, limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm, y, shank);
     reference_link(&flat, &link[BRACE_COXA], l0, 0.0, tip, (double)link[BRACE_COXA].moment_transfer_ratio);
-    reference_link(&flat, &link[BRACE_FEMUR], l1, theta1, shank, (double)link[BRACE_FEMUR].moment_transfer_ratio);
+    reference_link(&flat, &link[BRACE_FEMUR], l1, theta1, shank,
+                   (double)link[BRACE_FEMUR].moment_transfer_ratio);
     reference_link(&flat, &link[BRACE_TIBIA], l2, theta1 - theta2, none, 0.0);
     reference_dyad(&flat, (double)limb->base.x_mm_per_n, x, x);
     reference_dyad(&flat, (double)limb->base.z_mm_per_n, z, z);

@@ -52,10 +52,13 @@ static void assert_right(const brace_limb_t *limb, float theta0, float theta1, f
         }
         TEST_ASSERT_TRUE(fabs(off) < ERROR_LIMIT * most);
     }
-    TEST_ASSERT_TRUE(cos((double)theta0) * (double)k.stiff_axis[0] + sin((double)theta0) * (double)k.stiff_axis[1] > -1e-6);
+    TEST_ASSERT_TRUE(cos((double)theta0) * (double)k.stiff_axis[0] +
+                         sin((double)theta0) * (double)k.stiff_axis[1] >
+                     -1e-6);
     TEST_ASSERT_TRUE(low > 0.0 && low <= middle && middle <= most);
     TEST_ASSERT_TRUE(fabs((low + middle + most) / (r.k[0][0] + r.k[1][1] + r.k[2][2]) - 1.0) < ERROR_LIMIT);
-    TEST_ASSERT_TRUE(fabs((1 / low + 1 / middle + 1 / most) / (r.c[0][0] + r.c[1][1] + r.c[2][2]) - 1.0) < ERROR_LIMIT);
+    TEST_ASSERT_TRUE(fabs((1 / low + 1 / middle + 1 / most) / (r.c[0][0] + r.c[1][1] + r.c[2][2]) - 1.0) <
+                     ERROR_LIMIT);
     TEST_ASSERT_TRUE(fabs(low * middle * most * r.det_c - 1.0) < 2.0 * ERROR_LIMIT);
     const double length = (double)(k.stiff_axis[0] * k.stiff_axis[0] + k.stiff_axis[1] * k.stiff_axis[1] +
                                    k.stiff_axis[2] * k.stiff_axis[2]);
@@ -76,7 +79,8 @@ static void test_every_sample_over_the_workspace(void)
         collapse(&sample_limb[sample]);
         for (int i = -6; i <= 6; i++) {
             for (int j = -12; j <= 12; j++) {
-                assert_right(&sample_limb[sample], 0.37f * (float)(j % 9), (float)(PI * i / 6.0), (float)(PI * j / 12.0));
+                assert_right(&sample_limb[sample], 0.37f * (float)(j % 9), (float)(PI * i / 6.0),
+                             (float)(PI * j / 12.0));
             }
         }
     }
@@ -130,7 +134,8 @@ static void test_yaw_turns_k_and_leaves_the_eigenvalues(void)
     matrix_of(&flat, m);
     for (int i = -5; i <= 5; i++) {
         const float yaw = 0.7f * (float)i;
-        const double c = cos((double)yaw), s = sin((double)yaw), turn[3][3] = {{c, -s, 0}, {s, c, 0}, {0, 0, 1}};
+        const double c = cos((double)yaw), s = sin((double)yaw),
+                     turn[3][3] = {{c, -s, 0}, {s, c, 0}, {0, 0, 1}};
         const brace_stiffness_spatial_t k = stiffness_at(yaw, 0.8f, 1.3f);
         matrix_of(&k, turned);
         TEST_ASSERT_EQUAL_MEMORY(flat.lambda_n_per_mm, k.lambda_n_per_mm, sizeof k.lambda_n_per_mm);
@@ -175,7 +180,8 @@ static void test_angles_that_are_none_are_refused_and_nothing_touched(void)
         const float wide = 8.0f, none = NAN, infinite = INFINITY;
         assert_refused(BRACE_E_RANGE, wide * bad[0], -wide * bad[1], wide * bad[2]);
         assert_refused(BRACE_E_NOT_FINITE, i == 0 ? none : 1, i == 1 ? none : 1, i == 2 ? none : 1);
-        assert_refused(BRACE_E_NOT_FINITE, i == 0 ? infinite : 1, i == 1 ? -infinite : 1, i == 2 ? infinite : 1);
+        assert_refused(BRACE_E_NOT_FINITE, i == 0 ? infinite : 1, i == 1 ? -infinite : 1,
+                       i == 2 ? infinite : 1);
     }
     (void)stiffness_at(7.9f, -7.9f, 7.9f);
 }

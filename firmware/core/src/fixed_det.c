@@ -29,7 +29,8 @@ static void add(brace_det_harmonic_t *sum, double factor, brace_det_harmonic_t h
     sum->per_sin += factor * h.per_sin;
 }
 
-/* Unit vector along which the quadratic form [[cc, cs], [cs, ss]] is largest, and by how much it is larger there. */
+/* Unit vector along which the quadratic form [[cc, cs], [cs, ss]] is largest, and by how much it is larger
+ * there. */
 typedef struct {
     double cos, sin, more;
 } crest_t;
@@ -55,8 +56,9 @@ brace_det_t brace_det_of(float iso, const brace_element_t *element, uint32_t cou
         for (uint32_t j = 0; j < i; j++) {
             const brace_vec_t fj = element[j].femur, tj = element[j].tibia;
             const brace_det_harmonic_t pair = {cross(fj, f) + cross(tj, t), cross(fj, t) + cross(tj, f),
-                                                dot(tj, f) - dot(fj, t)};
-            add(&rest, pair.constant, (brace_det_harmonic_t){pair.constant, 2.0 * pair.per_cos, 2.0 * pair.per_sin});
+                                               dot(tj, f) - dot(fj, t)};
+            add(&rest, pair.constant,
+                (brace_det_harmonic_t){pair.constant, 2.0 * pair.per_cos, 2.0 * pair.per_sin});
             cc += pair.per_cos * pair.per_cos;
             cs += pair.per_cos * pair.per_sin;
             ss += pair.per_sin * pair.per_sin;

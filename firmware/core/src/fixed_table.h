@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
-/* With u = d/(pi/64), |u| <= 1: sin d = u (s1 - s3 u^2) within 2e-10; cos d - 1 = u^2 (c2 + c4 u^2) within 1e-12, or
- * c2_alone u^2 within 4.2e-8. */
+/* With u = d/(pi/64), |u| <= 1: sin d = u (s1 - s3 u^2) within 2e-10; cos d - 1 = u^2 (c2 + c4 u^2) within
+ * 1e-12, or c2_alone u^2 within 4.2e-8. */
 enum {
     SIN_D1 = 421657422,       /* s1 q33 */
     SIN_D3 = -677240,         /* -s3 q35 */
@@ -33,8 +33,8 @@ typedef struct {
 
 extern const brace_fixed_seed_t brace_fixed_seed[64];
 
-/* Where a unit vector (-c, s) points, in 64ths of a turn and turned by half a turn: the four highest bits of s and
- * of c (two's complement) give the cell of a 16 by 16 grid. Within 0.107 rad of what the cell holds. */
+/* Where a unit vector (-c, s) points, in 64ths of a turn and turned by half a turn: the four highest bits of
+ * s and of c (two's complement) give the cell of a 16 by 16 grid. Within 0.107 rad of what the cell holds. */
 extern const uint8_t brace_fixed_cell[16][16];
 
 #endif

@@ -4,11 +4,12 @@
 
 #include "brace/kinematics.h"
 
-/* On a host the loop below is compiled for several generations of the processor and the best is taken at run time.
- * Sanitizers run before such a choice can be made. */
+/* On a host the loop below is compiled for several generations of the processor and the best is taken at run
+ * time. Sanitizers run before such a choice can be made. */
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC optimize("O3", "fp-contract=fast", "no-trapping-math")
-#if defined(__x86_64__) && defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__x86_64__) && defined(__linux__) && !defined(__SANITIZE_ADDRESS__) &&                           \
+    !defined(__SANITIZE_THREAD__)
 #define FOR_EACH_PROCESSOR __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
 #endif
 #endif
@@ -84,11 +85,12 @@ ALWAYS float harmonic(const brace_harmonic_t *h, float half_one_plus_cos, float 
 
 ALWAYS int usable(float theta1_rad, float theta2_rad)
 {
-    return (__builtin_fabsf(theta1_rad) <= BRACE_ANGLE_LIMIT_RAD) & (__builtin_fabsf(theta2_rad) <= BRACE_ANGLE_LIMIT_RAD);
+    return (__builtin_fabsf(theta1_rad) <= BRACE_ANGLE_LIMIT_RAD) &
+           (__builtin_fabsf(theta2_rad) <= BRACE_ANGLE_LIMIT_RAD);
 }
 
-/* The work goes through the first-level cache in blocks and in three loops: in one, each posture's chain of operations
- * is so long that the processor sees too few postures at a time. */
+/* The work goes through the first-level cache in blocks and in three loops: in one, each posture's chain of
+ * operations is so long that the processor sees too few postures at a time. */
 enum { BLOCK = 256 };
 
 typedef struct {
@@ -126,8 +128,9 @@ ALWAYS size_t take_angles(const brace_planar_batch_t *b, int upright, int n, con
     return (size_t)refused;
 }
 
-ALWAYS void give_stiffness(const brace_planar_batch_t *b, int n, block_t *restrict block, float *restrict k_xx,
-                           float *restrict k_xz, float *restrict k_zz, float *restrict lambda_min, float *restrict lambda_max)
+ALWAYS void give_stiffness(const brace_planar_batch_t *b, int n, block_t *restrict block,
+                           float *restrict k_xx, float *restrict k_xz, float *restrict k_zz,
+                           float *restrict lambda_min, float *restrict lambda_max)
 {
     for (int i = 0; i < n; i++) {
         const float c = block->half_one_plus_cos_knee[i], s = block->half_sin_knee[i];
@@ -175,8 +178,8 @@ size_t brace_planar_batch(const brace_planar_batch_t *batch, size_t n, const flo
         const int count = n - at < BLOCK ? (int)(n - at) : BLOCK;
         refused += b.upright ? take_angles(&b, 1, count, theta1_rad + at, theta2_rad + at, &block)
                              : take_angles(&b, 0, count, theta1_rad + at, theta2_rad + at, &block);
-        give_stiffness(&b, count, &block, out.k_xx_n_per_mm + at, out.k_xz_n_per_mm + at, out.k_zz_n_per_mm + at,
-                       out.lambda_min_n_per_mm + at, out.lambda_max_n_per_mm + at);
+        give_stiffness(&b, count, &block, out.k_xx_n_per_mm + at, out.k_xz_n_per_mm + at,
+                       out.k_zz_n_per_mm + at, out.lambda_min_n_per_mm + at, out.lambda_max_n_per_mm + at);
         give_axis(count, &block, out.stiff_axis_rad + at);
     }
     return refused;

@@ -10,8 +10,8 @@
 
 #define PI 3.14159265358979324
 
-/* The leading digits, as many as a float holds. By bits: GCC 12 takes x - (double)(float)x for zero when it makes
- * vectors of two of them. */
+/* The leading digits, as many as a float holds. By bits: GCC 12 takes x - (double)(float)x for zero when it
+ * makes vectors of two of them. */
 static double float_part(double value)
 {
     uint64_t bits;
@@ -22,15 +22,17 @@ static double float_part(double value)
 }
 
 /* constant + per_cos cos theta2 + per_sin sin theta2, but for the sign written as
- * least + swing sin(h - zero 0) sin(h - zero 1) with h = theta2/2. As middle + amplitude cos(theta2 - crest) it
- * vanishes where theta2 - crest is plus and minus acos(-middle/amplitude); where it never does, both zeros are where
- * it comes nearest, and their sines' product has one sign. */
+ * least + swing sin(h - zero 0) sin(h - zero 1) with h = theta2/2. As middle + amplitude cos(theta2 - crest)
+ * it vanishes where theta2 - crest is plus and minus acos(-middle/amplitude); where it never does, both zeros
+ * are where it comes nearest, and their sines' product has one sign. */
 static void factor(const brace_det_harmonic_t *cross, brace_planar_batch_t *batch)
 {
     const double middle = fabs(cross->constant), amplitude = hypot(cross->per_cos, cross->per_sin);
-    const double crest = cross->constant < 0.0 ? atan2(-cross->per_sin, -cross->per_cos) : atan2(cross->per_sin, cross->per_cos);
+    const double crest = cross->constant < 0.0 ? atan2(-cross->per_sin, -cross->per_cos)
+                                               : atan2(cross->per_sin, cross->per_cos);
     const double aside = middle < amplitude ? acos(-middle / amplitude) : PI;
-    const double zero[2] = {0.5 * (crest + aside), middle < amplitude ? 0.5 * (crest - aside) : 0.5 * (crest + aside)};
+    const double zero[2] = {0.5 * (crest + aside),
+                            middle < amplitude ? 0.5 * (crest - aside) : 0.5 * (crest + aside)};
     batch->cross_least = middle < amplitude ? 0.0f : (float)(middle - amplitude);
     batch->cross_swing = (float)(2.0 * amplitude);
     for (int i = 0; i < 2; i++) {

@@ -10,7 +10,8 @@
 /* BRACE_TURN_ONE as an integer: the tick's sine and cosine of one. */
 #define TRIG_ONE 2147481600
 
-/* The least mean over the largest below which the words that hold it grow too short for the stated accuracy. */
+/* The least mean over the largest below which the words that hold it grow too short for the stated accuracy.
+ */
 #define UNEVEN 3e-4
 #define SMALLEST_MM_PER_N 1e-7
 #define LARGEST_MM_PER_N 1e7
@@ -45,8 +46,20 @@ static brace_fixed_harmonic_t quantised(const brace_det_harmonic_t *h, int32_t s
 
 static brace_det_harmonic_t fine(const brace_harmonic_t *h, double factor)
 {
-    return (brace_det_harmonic_t){factor * ((double)h->at_fold + (double)h->per_cos), factor * (double)h->per_cos,
-                                   factor * (double)h->per_sin};
+    return (brace_det_harmonic_t){factor * ((double)h->at_fold + (double)h->per_cos),
+                                  factor * (double)h->per_cos, factor * (double)h->per_sin};
+}
+
+static brace_fixed_harmonic_t quantised_float(const brace_harmonic_t *h, double factor, int32_t scale)
+{
+    const brace_det_harmonic_t at = fine(h, factor);
+    return quantised(&at, scale);
+}
+
+static brace_det_extent_t extent_of(const brace_harmonic_t *h)
+{
+    const brace_det_harmonic_t at = fine(h, 1.0);
+    return brace_det_extent(&at);
 }
 
 static int32_t least_of(int32_t a, int32_t b)
@@ -60,11 +73,11 @@ static float padded(double value)
     return (float)value * 1.0005f;
 }
 
-static brace_status_t quantise(const brace_harmonics_t *plane, const brace_det_t *det, brace_planar_fixed_t *fixed)
+static brace_status_t quantise(const brace_harmonics_t *plane, const brace_det_t *det,
+                               brace_planar_fixed_t *fixed)
 {
-    const brace_det_harmonic_t mean_of = fine(&plane->mean, 1.0), dev_y = fine(&plane->dev_y, 1.0);
-    const brace_det_harmonic_t minus_dev_x = fine(&plane->dev_x, -1.0);
-    const brace_det_extent_t mean = brace_det_extent(&mean_of), rest = brace_det_extent(&det->rest), cross = brace_det_extent(&det->cross);
+    const brace_det_extent_t mean = extent_of(&plane->mean);
+    const brace_det_extent_t rest = brace_det_extent(&det->rest), cross = brace_det_extent(&det->cross);
     uint32_t flags;
     if (!(mean.most > SMALLEST_MM_PER_N && mean.most < LARGEST_MM_PER_N) ||
         brace_det_judge(det, mean.most, &flags) != BRACE_OK) {
@@ -82,9 +95,9 @@ static brace_status_t quantise(const brace_harmonics_t *plane, const brace_det_t
     if (weight < 0) {
         return BRACE_E_UNSUPPORTED;
     }
-    fixed->mean = quantised(&mean_of, mean_scale + 1);
-    fixed->minus_dev_x = quantised(&minus_dev_x, mean_scale);
-    fixed->dev_y = quantised(&dev_y, mean_scale);
+    fixed->mean = quantised_float(&plane->mean, 1.0, mean_scale + 1);
+    fixed->minus_dev_x = quantised_float(&plane->dev_x, -1.0, mean_scale);
+    fixed->dev_y = quantised_float(&plane->dev_y, 1.0, mean_scale);
     fixed->cross = quantised(&det->cross, cross_scale);
     fixed->rest = quantised(&det->rest, rest_scale);
     fixed->rest_weight = (int32_t)1 << weight;
@@ -103,13 +116,13 @@ brace_status_t brace_planar_fixed_collapse(const brace_limb_t *limb, brace_plana
     if (limb->base.x_mm_per_n != limb->base.z_mm_per_n) {
         return BRACE_E_UNSUPPORTED;
     }
-    brace_element_t element[BRACE_CHAIN_FIRM];
-    const float iso = brace_chain_firm(limb, element) + limb->base.x_mm_per_n;
     brace_harmonics_t plane;
-    const brace_status_t found = brace_harmonics_list(iso, element, BRACE_CHAIN_FIRM, &plane);
-    if (found != BRACE_OK) {
-        return found;
+    brace_det_t det;
+    {
+        brace_element_t element[BRACE_CHAIN_FIRM];
+        const float iso = brace_chain_firm(limb, element) + limb->base.x_mm_per_n;
+        (void)brace_harmonics_list(iso, element, BRACE_CHAIN_FIRM, &plane);
+        det = brace_det_of(iso, element, BRACE_CHAIN_FIRM);
     }
-    const brace_det_t det = brace_det_of(iso, element, BRACE_CHAIN_FIRM);
     return quantise(&plane, &det, fixed);
 }

@@ -9,7 +9,8 @@
 
 #define fma __builtin_fmaf
 
-/* det C over mean^2 in the plane below which K's error can reach 1e-5 of lambda_max; measured: 2.1e-7 over its root. */
+/* det C over mean^2 in the plane below which K's error can reach 1e-5 of lambda_max; measured: 2.1e-7 over
+ * its root. */
 #define SLENDER 6e-4f
 
 /* A symmetric 2 by 2 matrix mean I + [[dev_x, dev_y], [dev_y, -dev_x]] and its determinant. */
@@ -19,8 +20,8 @@ typedef struct {
 
 /* The plane's posture. */
 typedef struct {
-    brace_vec_t turn2;           /* direction of twice the bisector's angle */
-    brace_vec_t tip_mm;          /* from the femur's axis */
+    brace_vec_t turn2;  /* direction of twice the bisector's angle */
+    brace_vec_t tip_mm; /* from the femur's axis */
     float sin_knee, one_plus_cos_knee;
 } posture_t;
 
@@ -39,7 +40,8 @@ static inline posture_t posture_of(const brace_spatial_t *s, float theta1_rad, f
     const brace_vec_t tibia = direction_product(bisector, (brace_vec_t){half.x, -half.z});
     return (posture_t){
         .turn2 = direction_product(bisector, bisector),
-        .tip_mm = {fma(s->femur_mm, femur.x, s->tibia_mm * tibia.x), fma(s->femur_mm, femur.z, s->tibia_mm * tibia.z)},
+        .tip_mm = {fma(s->femur_mm, femur.x, s->tibia_mm * tibia.x),
+                   fma(s->femur_mm, femur.z, s->tibia_mm * tibia.z)},
         .sin_knee = 2.0f * half.x * half.z,
         .one_plus_cos_knee = 2.0f * half.x * half.x,
     };
@@ -53,7 +55,8 @@ static inline float harmonic(const brace_harmonic_t *h, const posture_t *at)
 /* What femur, tibia and their joints give. */
 static inline plane_t moving_part(const brace_harmonics_t *h, const posture_t *at)
 {
-    const brace_vec_t dev = direction_product((brace_vec_t){harmonic(&h->dev_x, at), harmonic(&h->dev_y, at)}, at->turn2);
+    const brace_vec_t dev =
+        direction_product((brace_vec_t){harmonic(&h->dev_x, at), harmonic(&h->dev_y, at)}, at->turn2);
     const float cross = harmonic(&h->cross, at);
     return (plane_t){harmonic(&h->mean, at), dev.x, dev.z, fma(cross, cross, harmonic(&h->rest, at))};
 }
@@ -82,7 +85,8 @@ static inline plane_t with_still_part(const plane_t *a, brace_vec_t v, brace_vec
 static inline plane_t plane_of(const brace_spatial_t *s, const posture_t *at)
 {
     const plane_t moving = moving_part(&s->plane, at);
-    const brace_vec_t bent = {fma(-s->coxa_per_mm, at->tip_mm.z, s->coxa.x), fma(s->coxa_per_mm, at->tip_mm.x, s->coxa.z)};
+    const brace_vec_t bent = {fma(-s->coxa_per_mm, at->tip_mm.z, s->coxa.x),
+                              fma(s->coxa_per_mm, at->tip_mm.x, s->coxa.z)};
     return with_still_part(&moving, s->still, bent);
 }
 

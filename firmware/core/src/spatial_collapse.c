@@ -15,7 +15,8 @@ static float merged(brace_vec_t a, brace_vec_t b, brace_vec_t *v)
     const float radius = brace_length(dev_x, dev_y);
     const float cross = vec_cross(a, b);
     /* long axis of the deviator: of its two forms, the one in which nothing cancels */
-    const brace_vec_t axis = dev_x > 0.0f ? (brace_vec_t){radius + dev_x, dev_y} : (brace_vec_t){dev_y, radius - dev_x};
+    const brace_vec_t axis =
+        dev_x > 0.0f ? (brace_vec_t){radius + dev_x, dev_y} : (brace_vec_t){dev_y, radius - dev_x};
     const float length = brace_length(axis.x, axis.z);
     *v = vec_scaled(axis, length > 0.0f ? brace_sqrt(2.0f * radius) / length : 0.0f);
     return mean > 0.0f ? cross * cross / (mean + radius) : 0.0f;
@@ -24,7 +25,8 @@ static float merged(brace_vec_t a, brace_vec_t b, brace_vec_t *v)
 static void collapse_across(const brace_limb_t *limb, brace_spatial_t *spatial)
 {
     const brace_link_t *coxa = &limb->link[BRACE_COXA], *femur = &limb->link[BRACE_FEMUR];
-    const float coxa_transfer = limb->coxa_mm > 0.0f ? 3.0f * coxa->moment_transfer_ratio / limb->coxa_mm : 0.0f;
+    const float coxa_transfer =
+        limb->coxa_mm > 0.0f ? 3.0f * coxa->moment_transfer_ratio / limb->coxa_mm : 0.0f;
     const float femur_transfer = 3.0f * femur->moment_transfer_ratio / limb->femur_mm;
     spatial->coxa_mm = limb->coxa_mm;
     spatial->femur_mm = limb->femur_mm;
