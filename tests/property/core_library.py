@@ -1,4 +1,4 @@
-"""The firmware's core as a shared library with variants_driver.c's loops, built on demand for the accuracy sweeps."""
+"""The firmware's core as a shared library with the *_driver.c loops, built on demand for the accuracy sweeps."""
 from __future__ import annotations
 
 import ctypes
@@ -21,7 +21,7 @@ def core_library() -> ctypes.CDLL:
         return ctypes.CDLL(given)
     with tempfile.TemporaryDirectory(prefix="brace-core-") as folder:
         path = Path(folder) / "libcore.so"
-        sources = [*map(str, sorted((CORE / "src").glob("*.c"))), str(Path(__file__).with_name("variants_driver.c"))]
+        sources = [*map(str, sorted((CORE / "src").glob("*.c"))), *map(str, sorted(Path(__file__).parent.glob("*_driver.c")))]
         command = [os.environ.get("CC", "cc"), *FLAGS, f"-I{CORE / 'include'}", f"-I{CORE / 'src'}", *sources]
         subprocess.run([*command, "-o", str(path), "-lm"], check=True)
         return ctypes.CDLL(str(path))
