@@ -14,12 +14,12 @@ static double root(double value)
 
 static double dot(brace_vec_t a, brace_vec_t b)
 {
-    return (double)a.x * b.x + (double)a.z * b.z;
+    return (double)a.x * (double)b.x + (double)a.z * (double)b.z;
 }
 
 static double cross(brace_vec_t a, brace_vec_t b)
 {
-    return (double)a.x * b.z - (double)a.z * b.x;
+    return (double)a.x * (double)b.z - (double)a.z * (double)b.x;
 }
 
 static void add(brace_det_harmonic_t *sum, double factor, brace_det_harmonic_t h)

@@ -42,10 +42,10 @@ brace_status_t brace_planar_batch_collapse(const brace_limb_t *limb, brace_plana
  * theta1_rad, theta2_rad: n true angles each [rad, -7.9 to 7.9]. A posture outside, or NaN, gives NaN in all six
  *                         columns.
  * returns the number of such postures.
- * Cost: 1.5 ns a posture, 1.8 ns with tilted links (one core of an AMD EPYC, GCC 12, AVX-512; 1.9 and 2.3 ns with
+ * Cost: 1.6 ns a posture, 2.0 ns with tilted links (one core of an AMD EPYC, GCC 12, AVX-512; 1.9 and 2.3 ns with
  *       AVX2, 5.3 and 6.4 ns with SSE2; columns in the cache: some thousand postures a call). Stack: 7 KiB.
  * Thread rule: a pure function of its arguments; safe from any context once they are not written.
- * Accuracy: K within 1e-6 of lambda_max, the eigenvalues within 1e-6 of themselves (2e-6 promised), the axis
+ * Accuracy: K within 1.5e-6 of lambda_max, the eigenvalues within 1.5e-6 of themselves (2e-6 promised), the axis
  *       within 7e-7 rad / (1 - lambda_min/lambda_max). Its bits may differ between processors: sums are fused
  *       where they can be.
  * Formula: the harmonic form of brace/chain.h. */

@@ -37,7 +37,7 @@ typedef struct {
  *         BRACE_E_UNSUPPORTED: the base yields unequally in x and z; or C is so slender at some posture (det C
  *         below 2.5e-7 of the largest mean^2) that 32 bits do not hold it; or so far from 1 mm/N (mean compliance
  *         beyond 1e-7 to 1e7). brace_chain_stiffness serves such a limb.
- * Cost: once per parameter change; float and double, in software where there is no FPU: at most 133,000
+ * Cost: once per parameter change; float and double, in software where there is no FPU: at most 134,000
  *       instructions on a Cortex-M3, stack 632 bytes. RAM: 96 bytes a limb. */
 brace_status_t brace_planar_fixed_collapse(const brace_limb_t *limb, brace_planar_fixed_t *fixed);
 
