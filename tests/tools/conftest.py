@@ -61,8 +61,14 @@ def brace(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -
 def spawn(*arguments: object, **options: object) -> subprocess.Popen[str]:
     """Starts the command as its users do, in a process of its own."""
     environment = {key: value for key, value in os.environ.items() if key != "BRACE_DEBUG"}
-    return subprocess.Popen([sys.executable, "-m", "brace", *map(str, arguments)], stdout=subprocess.PIPE,
-                            stderr=subprocess.PIPE, text=True, env=environment, **options)  # type: ignore[call-overload]
+    return subprocess.Popen(
+        [sys.executable, "-m", "brace", *map(str, arguments)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=environment,
+        **options,
+    )  # type: ignore[call-overload]
 
 
 LIMB = """format = 1
@@ -89,9 +95,16 @@ gain_rel = 0.005
 """
 
 
-def physics_k(theta1: float, theta2: float, *, axial: tuple[float, float] = (0.001, 0.002),
-              bending: tuple[float, float] = (0.06, 0.25), joint: tuple[float, float] = (1e-5, 1.6e-5),
-              moment_transfer: float = 0.0, lengths: tuple[float, float] = (185.0, 313.5)) -> np.ndarray:
+def physics_k(
+    theta1: float,
+    theta2: float,
+    *,
+    axial: tuple[float, float] = (0.001, 0.002),
+    bending: tuple[float, float] = (0.06, 0.25),
+    joint: tuple[float, float] = (1e-5, 1.6e-5),
+    moment_transfer: float = 0.0,
+    lengths: tuple[float, float] = (185.0, 313.5),
+) -> np.ndarray:
     """K (2x2) from physics.md's a11, a12, a22 in double precision: shares no code with what it judges."""
     length1, length2 = lengths
     u1 = np.array([np.cos(theta1), np.sin(theta1)])
@@ -101,8 +114,13 @@ def physics_k(theta1: float, theta2: float, *, axial: tuple[float, float] = (0.0
     p2 = np.array([-(tip - knee)[1], (tip - knee)[0]])
     b1, b2 = bending[0] / length1**2, bending[1] / length2**2
     a11, a22, a12 = joint[0] + b1, joint[1] + b1 + b2, b1 * (1.5 * moment_transfer - 1)
-    c = (a11 * np.outer(p1, p1) + a12 * (np.outer(p1, p2) + np.outer(p2, p1)) + a22 * np.outer(p2, p2)
-         + axial[0] * np.outer(u1, u1) + axial[1] * np.outer(u2, u2))
+    c = (
+        a11 * np.outer(p1, p1)
+        + a12 * (np.outer(p1, p2) + np.outer(p2, p1))
+        + a22 * np.outer(p2, p2)
+        + axial[0] * np.outer(u1, u1)
+        + axial[1] * np.outer(u2, u2)
+    )
     return np.linalg.inv(c)
 
 
@@ -133,14 +151,31 @@ def loading_rows(noise_n: float = 0.1, seed: int = 0, **limb: object) -> list[li
                 for step, place in enumerate((0, 1, 2, 3, 4, 3, 2, 1, 0, -1, -2, -3, -4, -3, -2, -1, 0)):
                     d = np.array([1.0, 0.0] if axis == "x" else [0.0, 1.0]) * place * 0.635
                     f = k @ d + noise_n * random.standard_normal(2)
-                    rows.append([str(run), str(config), f"{theta1:.6f}", f"{theta2:.6f}", axis, str(rep), str(step),
-                                 f"{clock:.3f}", "22.0", f"{d[0]:.6f}", f"{d[1]:.6f}", f"{f[0]:.6f}", f"{f[1]:.6f}"])
+                    rows.append(
+                        [
+                            str(run),
+                            str(config),
+                            f"{theta1:.6f}",
+                            f"{theta2:.6f}",
+                            axis,
+                            str(rep),
+                            str(step),
+                            f"{clock:.3f}",
+                            "22.0",
+                            f"{d[0]:.6f}",
+                            f"{d[1]:.6f}",
+                            f"{f[0]:.6f}",
+                            f"{f[1]:.6f}",
+                        ]
+                    )
                     clock += 4.0
                 clock += 20.0
     return rows
 
 
-def write_loading(folder: Path, rows: list[list[str]], header: str = LOADING_HEADER, meta: str = LOADING_META) -> Path:
+def write_loading(
+    folder: Path, rows: list[list[str]], header: str = LOADING_HEADER, meta: str = LOADING_META
+) -> Path:
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "meta.toml").write_text(meta)
     (folder / "data.csv").write_text("\n".join([header, *(",".join(row) for row in rows)]) + "\n")

@@ -39,11 +39,16 @@ def column(name: str) -> int:
 
 
 REFUSED = {  # what is done to row 30 (1-based) -> words in the message
-    "text": (("fx_n", "abc"), "'abc' is not a number"), "empty": (("fx_n", ""), "empty"),
-    "nan": (("fx_n", "nan"), "cannot be"), "infinite": (("fz_n", "-inf"), "cannot be"),
-    "decimal comma": (("fz_n", "1,5"), "14 fields"), "underscore": (("fz_n", "1_000"), "not a number"),
-    "axis": (("axis", "y"), "x or z"), "half a run": (("run", "1.5"), "whole number"),
-    "absurd": (("dx_mm", "1e300"), "no record"), "hex": (("fx_n", "0x1p3"), "not a number"),
+    "text": (("fx_n", "abc"), "'abc' is not a number"),
+    "empty": (("fx_n", ""), "empty"),
+    "nan": (("fx_n", "nan"), "cannot be"),
+    "infinite": (("fz_n", "-inf"), "cannot be"),
+    "decimal comma": (("fz_n", "1,5"), "14 fields"),
+    "underscore": (("fz_n", "1_000"), "not a number"),
+    "axis": (("axis", "y"), "x or z"),
+    "half a run": (("run", "1.5"), "whole number"),
+    "absurd": (("dx_mm", "1e300"), "no record"),
+    "hex": (("fx_n", "0x1p3"), "not a number"),
 }
 
 
@@ -60,7 +65,9 @@ def test_what_cannot_be_a_record_is_refused_by_row_and_column(case: str, tmp_pat
         assert name in message and "row 30" in message
 
 
-def _set(rows: list[list[str]], name: str, change: Callable[[float], float], where: slice = slice(None)) -> None:
+def _set(
+    rows: list[list[str]], name: str, change: Callable[[float], float], where: slice = slice(None)
+) -> None:
     for row in rows[where]:
         row[column(name)] = f"{change(float(row[column(name)])):.9g}"
 
@@ -131,21 +138,28 @@ def test_each_misprint_of_a_table_is_located(paper_table: Path, tmp_path: Path) 
             spoiled = lines[row].split(",")
             right = float(spoiled[place])
             spoiled[place] = f"{right + 3.0:.1f}"
-            (tmp_path / "data.csv").write_text("\n".join([*lines[:row], ",".join(spoiled), *lines[row + 1:]]))
+            (tmp_path / "data.csv").write_text(
+                "\n".join([*lines[:row], ",".join(spoiled), *lines[row + 1 :]])
+            )
             faults = [fault for fault in load_dataset(tmp_path).faults if fault.row == row and fault.blocking]
             named += bool(faults)
-            mended += any(fault.field == name and fault.suggestion == pytest.approx(right, abs=0.051)
-                          for fault in faults)
+            mended += any(
+                fault.field == name and fault.suggestion == pytest.approx(right, abs=0.051)
+                for fault in faults
+            )
     assert named == 22
     assert mended >= 20
 
 
 def test_wrong_headers(tmp_path: Path) -> None:
     rows = loading_rows()
-    for header, words in ((LOADING_HEADER.replace("fx_n", "fx_kn"), "fx_kn"),
-                          (LOADING_HEADER.replace("theta1_rad", "theta1_deg"), "theta1_deg"),
-                          (LOADING_HEADER.replace("fz_n", "fx_n"), "twice"),
-                          (LOADING_HEADER.replace(",", ";"), "separated by commas"), ("1,2,3", "missing columns")):
+    for header, words in (
+        (LOADING_HEADER.replace("fx_n", "fx_kn"), "fx_kn"),
+        (LOADING_HEADER.replace("theta1_rad", "theta1_deg"), "theta1_deg"),
+        (LOADING_HEADER.replace("fz_n", "fx_n"), "twice"),
+        (LOADING_HEADER.replace(",", ";"), "separated by commas"),
+        ("1,2,3", "missing columns"),
+    ):
         with pytest.raises(BadFileError) as caught:
             load_dataset(write_loading(tmp_path, rows, header))
         assert words in caught.value.render() and "data.csv:1" in caught.value.render()
@@ -163,9 +177,16 @@ def test_extra_columns_quotes_and_line_ends_are_taken(tmp_path: Path) -> None:
         assert np.array_equal(values, again[name])
 
 
-@pytest.mark.parametrize(("content", "words"), [(b"", "empty"), (b"\n\n", "empty"), (b"\x00\x01", "zero byte"),
-                                                (LOADING_HEADER.encode() + b"\n", "no rows"),
-                                                (b"\xff\xff,\xfe\n1,2\n", "not text")])
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"", "empty"),
+        (b"\n\n", "empty"),
+        (b"\x00\x01", "zero byte"),
+        (LOADING_HEADER.encode() + b"\n", "no rows"),
+        (b"\xff\xff,\xfe\n1,2\n", "not text"),
+    ],
+)
 def test_files_without_a_record(content: bytes, words: str, tmp_path: Path) -> None:
     write_loading(tmp_path, [])
     (tmp_path / "data.csv").write_bytes(content)
@@ -175,15 +196,20 @@ def test_files_without_a_record(content: bytes, words: str, tmp_path: Path) -> N
 
 
 def test_wrong_meta(tmp_path: Path) -> None:
-    for meta, words in ((LOADING_META.replace('"loading"', '"lodaing"'), "meta.toml:2"),
-                        (LOADING_META.replace("145.0", "-1.0"), "meta.toml:7"),
-                        (LOADING_META.replace('"never"', "3"), "meta.toml:4"), ("kind = 1\n", "format is missing"),
-                        ("kind", "not valid TOML")):
+    for meta, words in (
+        (LOADING_META.replace('"loading"', '"lodaing"'), "meta.toml:2"),
+        (LOADING_META.replace("145.0", "-1.0"), "meta.toml:7"),
+        (LOADING_META.replace('"never"', "3"), "meta.toml:4"),
+        ("kind = 1\n", "format is missing"),
+        ("kind", "not valid TOML"),
+    ):
         with pytest.raises(BadFileError) as caught:
             load_dataset(write_loading(tmp_path, loading_rows(), meta=meta))
         assert words in caught.value.render()
     unknown = LOADING_META + '[weather]\nwind = "none"\n'
-    assert load_dataset(write_loading(tmp_path, loading_rows(), meta=unknown)).meta.document.content["weather"]
+    assert load_dataset(write_loading(tmp_path, loading_rows(), meta=unknown)).meta.document.content[
+        "weather"
+    ]
 
 
 def test_a_folder_that_is_none(tmp_path: Path, brace: Callable[..., object], paper_limb: Path) -> None:
@@ -201,9 +227,12 @@ def test_mutated_records_never_break_the_reader(tmp_path: Path) -> None:
         for _ in range(int(random.integers(1, 5))):
             place = int(random.integers(len(data)))
             match random.integers(3):
-                case 0: data[place] = int(random.integers(256))
-                case 1: del data[place:place + int(random.integers(1, 200))]
-                case _: data[place:place] = bytes(random.choice(list(b",.\n-e9x\"'"), 4).astype(np.uint8))
+                case 0:
+                    data[place] = int(random.integers(256))
+                case 1:
+                    del data[place : place + int(random.integers(1, 200))]
+                case _:
+                    data[place:place] = bytes(random.choice(list(b",.\n-e9x\"'"), 4).astype(np.uint8))
         (tmp_path / "data.csv").write_bytes(bytes(data))
         try:
             load_dataset(tmp_path)

@@ -34,9 +34,14 @@ def limb(folder: Path, text: str = LIMB) -> Path:
 def test_parameters_within_their_trust_are_found(tmp_path: Path) -> None:
     """A limb a sigma or so off the calibration, ten noises: nine in ten 90 % intervals hold the truth, and the gap
     goes down to the noise."""
-    truth = {"link.femur.bending_mm_per_n": 0.057, "link.tibia.bending_mm_per_n": 0.26,
-             "joint.femur.compliance_rad_per_n_mm": 1.05e-5, "joint.tibia.compliance_rad_per_n_mm": 1.53e-5,
-             "link.femur.axial_mm_per_n": 0.001, "link.tibia.axial_mm_per_n": 0.002}
+    truth = {
+        "link.femur.bending_mm_per_n": 0.057,
+        "link.tibia.bending_mm_per_n": 0.26,
+        "joint.femur.compliance_rad_per_n_mm": 1.05e-5,
+        "joint.tibia.compliance_rad_per_n_mm": 1.53e-5,
+        "link.femur.axial_mm_per_n": 0.001,
+        "link.tibia.axial_mm_per_n": 0.002,
+    }
     start = load_limb(limb(tmp_path))
     held = total = 0
     for seed in range(10):
@@ -74,17 +79,26 @@ def test_data_alone_determine_the_femur_spring_and_not_the_knee(tmp_path: Path) 
 
 def test_classes_are_named(tmp_path: Path, brace: Callable[..., object]) -> None:
     folder = write_loading(tmp_path / "d", loading_rows())
-    outcome = brace("identify", folder, "--model", limb(tmp_path), "--free", "--out", tmp_path / "f.toml", "--json")
+    outcome = brace(
+        "identify", folder, "--model", limb(tmp_path), "--free", "--out", tmp_path / "f.toml", "--json"
+    )
     report = json.loads(outcome.out)
     classes = [set(members) for members in report["indistinguishable"]]
     assert set(KNEE) in classes
     assert {"joint.femur.compliance_rad_per_n_mm", "base.rotation_rad_per_n_mm"} in classes
-    assert any("link.femur.moment_transfer" in members and "link.femur.bending_mm_per_n" in members
-               for members in classes)
-    assert any({"base.x_mm_per_n", "base.z_mm_per_n"} <= members and any("axial" in key for key in members)
-               for members in classes)
+    assert any(
+        "link.femur.moment_transfer" in members and "link.femur.bending_mm_per_n" in members
+        for members in classes
+    )
+    assert any(
+        {"base.x_mm_per_n", "base.z_mm_per_n"} <= members and any("axial" in key for key in members)
+        for members in classes
+    )
     assert any("sensor.gain" in members for members in classes)
-    assert any({"sensor.rotation_rad", "sensor.crosstalk_xz", "sensor.crosstalk_zx"} <= members for members in classes)
+    assert any(
+        {"sensor.rotation_rad", "sensor.crosstalk_xz", "sensor.crosstalk_zx"} <= members
+        for members in classes
+    )
     for key in KNEE:
         assert report["parameters"][key]["sigma"] is None and not report["parameters"][key]["identifiable"]
     assert report["split"]["structure_share_low"] < 0.25 < report["split"]["structure_share_high"]
@@ -134,43 +148,63 @@ def test_the_papers_estimator_is_its_own(tmp_path: Path, brace: Callable[..., ob
     first = json.loads(outcome.out)["slopes"][0]
     places = np.array([1, 2, 3, 4, 3, 2, 1, -1, -2, -3, -4, -3, -2, -1]) * 0.635  # steps at 0 are not counted
     k_xx = physics_k(*POSES[0])[0, 0]
-    assert first["least_squares_k_xx_n_per_mm"] - k_xx == pytest.approx(0.5 * 0.635 / np.sum(places**2), rel=1e-3)
+    assert first["least_squares_k_xx_n_per_mm"] - k_xx == pytest.approx(
+        0.5 * 0.635 / np.sum(places**2), rel=1e-3
+    )
     assert first["mean_of_ratios_k_xx_n_per_mm"] - k_xx == pytest.approx(0.5 / 0.635 / places.size, rel=1e-3)
 
 
 def test_combinations_by_formula(tmp_path: Path) -> None:
     for strength in (0.0, 1.0):
-        text = LIMB.replace("[link.tibia]", f"moment_transfer = {strength}\n[link.tibia]") \
+        text = (
+            LIMB.replace("[link.tibia]", f"moment_transfer = {strength}\n[link.tibia]")
             + "[base]\nrotation_rad_per_n_mm = 3e-6\n"
+        )
         model = load_limb(limb(tmp_path, text))
         b1, b2 = 0.06 / 185**2, 0.25 / 313.5**2
-        expected = {"a11_rad_per_n_mm": 1.3e-5 + b1, "a12_rad_per_n_mm": b1 / 2 if strength else -b1,
-                    "a22_rad_per_n_mm": 1.6e-5 + b1 + b2}
+        expected = {
+            "a11_rad_per_n_mm": 1.3e-5 + b1,
+            "a12_rad_per_n_mm": b1 / 2 if strength else -b1,
+            "a22_rad_per_n_mm": 1.6e-5 + b1 + b2,
+        }
         assert {name: function(model) for name, function in COMBINATIONS.items()} == pytest.approx(expected)
 
 
-def test_encoders_separate_joints_from_links(tmp_path: Path, brace: Callable[..., object], paper_rig: Path) -> None:
+def test_encoders_separate_joints_from_links(
+    tmp_path: Path, brace: Callable[..., object], paper_rig: Path
+) -> None:
     rig = tmp_path / "rig.toml"
-    rig.write_text(paper_rig.read_text().replace("noise_n = 0.1", "noise_n = 0.1\nencoders = true\n"
-                                                                  "encoder_noise_rad = 2e-5"))
+    rig.write_text(
+        paper_rig.read_text().replace(
+            "noise_n = 0.1", "noise_n = 0.1\nencoders = true\n" "encoder_noise_rad = 2e-5"
+        )
+    )
     assert brace("simulate", "--model", limb(tmp_path), "--rig", rig, "--out", tmp_path / "d").code == 0
     start = tmp_path / "start.toml"
     start.write_text(LIMB.replace("1.6e-5", "2.0e-5").replace("0.25", "0.15"))
-    outcome = brace("identify", tmp_path / "d", "--model", start, "--free", "--out", tmp_path / "f.toml", "--json")
+    outcome = brace(
+        "identify", tmp_path / "d", "--model", start, "--free", "--out", tmp_path / "f.toml", "--json"
+    )
     report = json.loads(outcome.out)
     knee = report["parameters"][KNEE[1]]
     assert knee["identifiable"] and knee["value"] == pytest.approx(1.6e-5, rel=0.01)
     assert set(KNEE) not in [set(members) for members in report["indistinguishable"]]
 
 
-def test_the_papers_table(tmp_path: Path, brace: Callable[..., object], paper_table: Path, paper_limb: Path) -> None:
+def test_the_papers_table(
+    tmp_path: Path, brace: Callable[..., object], paper_table: Path, paper_limb: Path
+) -> None:
     out = tmp_path / "fitted.toml"
     outcome = brace("identify", paper_table, "--model", paper_limb, "--out", out, "--json")
     report = json.loads(outcome.out)
     assert outcome.code == 0
     chi2 = {entry["family"]: entry["chi2_per_entry"] for entry in report["families"]}
-    for family, expected in (("ellipsoids only", 3.7), ("two joint springs only", 2.8), ("ellipsoids and springs", 2.2),
-                             ("beams with moment transfer", 2.4)):
+    for family, expected in (
+        ("ellipsoids only", 3.7),
+        ("two joint springs only", 2.8),
+        ("ellipsoids and springs", 2.2),
+        ("beams with moment transfer", 2.4),
+    ):
         found = next(value for name, value in chi2.items() if name.startswith(family))
         assert found == pytest.approx(expected, abs=0.05)
     heights = [entry["tip_height_mm"] for entry in report["families"][:4]]
@@ -188,28 +222,42 @@ def test_families_against_an_independent_fit(paper_table: Path, paper_limb: Path
     """The springs-only family on a grid of its three parameters, K by formula: no better fit is found."""
     dataset, _ = settle(load_dataset(paper_table), "repair")
     results = compare_families(TableProblem(dataset, load_limb(paper_limb), Weight()), load_limb(paper_limb))
-    springs = next(result for result, family in zip(results, FAMILIES) if family.name == "two joint springs only")
+    springs = next(
+        result for result, family in zip(results, FAMILIES) if family.name == "two joint springs only"
+    )
     measured = np.column_stack([dataset["k_xx"], dataset["k_xz"], dataset["k_zz"]])
     best = np.inf
     for height in np.linspace(-150, -110, 21):
-        theta2 = np.arccos((dataset["r_mm"]**2 - 185**2 - 313.5**2) / (2 * 185 * 313.5))
-        theta1 = np.arcsin(height / dataset["r_mm"]) + np.arctan2(313.5 * np.sin(theta2), 185 + 313.5 * np.cos(theta2))
+        theta2 = np.arccos((dataset["r_mm"] ** 2 - 185**2 - 313.5**2) / (2 * 185 * 313.5))
+        theta1 = np.arcsin(height / dataset["r_mm"]) + np.arctan2(
+            313.5 * np.sin(theta2), 185 + 313.5 * np.cos(theta2)
+        )
         for femur in np.linspace(1.6e-5, 2.3e-5, 15):
             for tibia in np.linspace(2.4e-5, 3.6e-5, 13):
-                k = np.array([physics_k(a, b, axial=(0, 0), bending=(0, 0), joint=(femur, tibia))
-                              for a, b in zip(theta1, theta2)])
-                off = (np.column_stack([k[:, 0, 0], k[:, 0, 1], k[:, 1, 1]]) - measured) / (0.3 + 0.1 * abs(measured))
+                k = np.array(
+                    [
+                        physics_k(a, b, axial=(0, 0), bending=(0, 0), joint=(femur, tibia))
+                        for a, b in zip(theta1, theta2)
+                    ]
+                )
+                off = (np.column_stack([k[:, 0, 0], k[:, 0, 1], k[:, 1, 1]]) - measured) / (
+                    0.3 + 0.1 * abs(measured)
+                )
                 best = min(best, float(np.sum(off**2)))
     assert springs.fit.chi2 <= best
     assert springs.fit.chi2 == pytest.approx(best, rel=0.02)
 
 
-def test_faulty_rows(tmp_path: Path, brace: Callable[..., object], paper_table: Path, paper_limb: Path) -> None:
+def test_faulty_rows(
+    tmp_path: Path, brace: Callable[..., object], paper_table: Path, paper_limb: Path
+) -> None:
     out = tmp_path / "f.toml"
     refused = brace("identify", paper_table, "--model", paper_limb, "--out", out, "--faults", "refuse")
     assert refused.code == 3 and "data.csv:2 (row 1), k_zz" in refused.err and "11.0" in refused.err
     assert not out.exists()
-    dropped = brace("identify", paper_table, "--model", paper_limb, "--out", out, "--faults", "drop", "--json")
+    dropped = brace(
+        "identify", paper_table, "--model", paper_limb, "--out", out, "--faults", "drop", "--json"
+    )
     assert json.loads(dropped.out)["residual"]["readings"] == 33
     rows = loading_rows()
     for row in rows:
@@ -229,12 +277,23 @@ def test_a_parameter_beyond_its_trust_is_a_finding(tmp_path: Path, brace: Callab
 
 def test_extra_and_only_keys(tmp_path: Path, brace: Callable[..., object]) -> None:
     folder = write_loading(tmp_path / "d", loading_rows(moment_transfer=1.0))
-    outcome = brace("identify", folder, "--model", limb(tmp_path), "--only", "link.femur.moment_transfer", "--out",
-                    tmp_path / "f.toml", "--json")
+    outcome = brace(
+        "identify",
+        folder,
+        "--model",
+        limb(tmp_path),
+        "--only",
+        "link.femur.moment_transfer",
+        "--out",
+        tmp_path / "f.toml",
+        "--json",
+    )
     report = json.loads(outcome.out)
     assert list(report["parameters"]) == ["link.femur.moment_transfer"]
     assert report["parameters"]["link.femur.moment_transfer"]["value"] == pytest.approx(1.0, abs=0.02)
-    outcome = brace("identify", folder, "--model", limb(tmp_path), "--fit", "sensor.bais_x_n", "--out", tmp_path / "g")
+    outcome = brace(
+        "identify", folder, "--model", limb(tmp_path), "--fit", "sensor.bais_x_n", "--out", tmp_path / "g"
+    )
     assert outcome.code == 2 and "sensor.bias_x_n" in outcome.err
 
 
@@ -244,10 +303,16 @@ def test_a_joint_test_gives_back_its_joint(tmp_path: Path, brace: Callable[..., 
     sweep = np.concatenate([np.linspace(0, 1, 150), np.linspace(1, -1, 300), np.linspace(-1, 1, 300)])
     angle, centre = 0.02 * sweep, 0.055
     spring = np.where(np.abs(angle) > 0.003, angle - 0.003 * np.sign(angle), 0.0) / 1e-5
-    torque = spring + 120.0 * np.sign(np.diff(angle, prepend=-1e-9)) + 20.0 * random.standard_normal(angle.size)
+    torque = (
+        spring + 120.0 * np.sign(np.diff(angle, prepend=-1e-9)) + 20.0 * random.standard_normal(angle.size)
+    )
     (tmp_path / "meta.toml").write_text('format = 1\nkind = "joint_test"\n')
-    (tmp_path / "data.csv").write_text("t_s,angle_rad,torque_n_mm\n" + "".join(
-        f"{0.1 * i:.1f},{a + centre:.7f},{t + 35.0:.3f}\n" for i, (a, t) in enumerate(zip(angle, torque))))
+    (tmp_path / "data.csv").write_text(
+        "t_s,angle_rad,torque_n_mm\n"
+        + "".join(
+            f"{0.1 * i:.1f},{a + centre:.7f},{t + 35.0:.3f}\n" for i, (a, t) in enumerate(zip(angle, torque))
+        )
+    )
     outcome = brace("identify", tmp_path, "--model", limb(tmp_path), "--out", tmp_path / "f.toml", "--json")
     found = json.loads(outcome.out)["parameters"]
     assert found["joint.femur.compliance_rad_per_n_mm"]["value"] == pytest.approx(1e-5, rel=0.03)
@@ -272,17 +337,27 @@ def test_all_zero_and_all_equal_records(tmp_path: Path, brace: Callable[..., obj
         for row in rows:
             for place, text in change.items():
                 row[place] = text
-        outcome = brace("identify", write_loading(tmp_path / "d", rows), "--model", limb(tmp_path), "--out",
-                        tmp_path / "f.toml")
+        outcome = brace(
+            "identify",
+            write_loading(tmp_path / "d", rows),
+            "--model",
+            limb(tmp_path),
+            "--out",
+            tmp_path / "f.toml",
+        )
         assert outcome.code in (0, 3) and outcome.err
 
 
-def test_rows_at_the_straight_and_the_folded_limb(tmp_path: Path, brace: Callable[..., object], paper_limb: Path) -> None:
+def test_rows_at_the_straight_and_the_folded_limb(
+    tmp_path: Path, brace: Callable[..., object], paper_limb: Path
+) -> None:
     """Springs alone are rigid there: that kind of limb is left out, the others are fitted."""
     folder = tmp_path / "t"
     folder.mkdir()
     (folder / "meta.toml").write_text('format = 1\nkind = "stiffness_table"\n')
-    (folder / "data.csv").write_text("r_mm,k_xx,k_xz,k_zx,k_zz\n128.5,2.00,-1.00,-1.00,2.00\n498.5,2.50,-1.00,-1.00,2.00\n")
+    (folder / "data.csv").write_text(
+        "r_mm,k_xx,k_xz,k_zx,k_zz\n128.5,2.00,-1.00,-1.00,2.00\n498.5,2.50,-1.00,-1.00,2.00\n"
+    )
     outcome = brace("identify", folder, "--model", paper_limb, "--out", tmp_path / "f.toml", "--json")
     families = [entry["family"] for entry in json.loads(outcome.out)["families"]]
     assert outcome.code == 0 and "two joint springs only" not in families and len(families) >= 4

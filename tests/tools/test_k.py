@@ -13,13 +13,27 @@ import pytest
 
 from conftest import LIMB, physics_k
 
-PLANAR_KEYS = {"k_xx_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm", "c_xx_mm_per_n", "c_xz_mm_per_n", "c_zz_mm_per_n",
-               "lambda_min_n_per_mm", "lambda_max_n_per_mm", "stiff_axis_rad", "flags"}
+PLANAR_KEYS = {
+    "k_xx_n_per_mm",
+    "k_xz_n_per_mm",
+    "k_zz_n_per_mm",
+    "c_xx_mm_per_n",
+    "c_xz_mm_per_n",
+    "c_zz_mm_per_n",
+    "lambda_min_n_per_mm",
+    "lambda_max_n_per_mm",
+    "stiff_axis_rad",
+    "flags",
+}
 
 
 def planar(values: dict[str, float]) -> np.ndarray:
-    return np.array([[values["k_xx_n_per_mm"], values["k_xz_n_per_mm"]],
-                     [values["k_xz_n_per_mm"], values["k_zz_n_per_mm"]]])
+    return np.array(
+        [
+            [values["k_xx_n_per_mm"], values["k_xz_n_per_mm"]],
+            [values["k_xz_n_per_mm"], values["k_zz_n_per_mm"]],
+        ]
+    )
 
 
 @pytest.mark.parametrize("arith", ["f32", "fixed", "general", "table"])
@@ -33,7 +47,9 @@ def test_check_values(arith: str, brace: Callable[..., object], paper_limb: Path
 
 
 @pytest.mark.parametrize("arith", ["f32", "fixed", "general", "table"])
-def test_k_over_the_workspace(arith: str, brace: Callable[..., object], paper_limb: Path, tmp_path: Path) -> None:
+def test_k_over_the_workspace(
+    arith: str, brace: Callable[..., object], paper_limb: Path, tmp_path: Path
+) -> None:
     random = np.random.default_rng(5)
     angles = np.column_stack([random.uniform(-3.1, 3.1, 300), random.uniform(-3.1, 3.1, 300)])
     rows = _table(brace, paper_limb, tmp_path, angles, arith)
@@ -54,8 +70,11 @@ def test_k_over_the_workspace(arith: str, brace: Callable[..., object], paper_li
 
 def test_model_features_reach_the_firmware(brace: Callable[..., object], tmp_path: Path) -> None:
     limb = tmp_path / "limb.toml"
-    limb.write_text(LIMB.replace("[link.tibia]", "moment_transfer = 0.5\n[link.tibia]").replace(
-        "= 1.0e-5\n", "= 1.0e-5\nzero_offset_rad = 0.1\n").replace("= 1.6e-5\n", "= 1.6e-5\nzero_offset_rad = -0.2\n"))
+    limb.write_text(
+        LIMB.replace("[link.tibia]", "moment_transfer = 0.5\n[link.tibia]")
+        .replace("= 1.0e-5\n", "= 1.0e-5\nzero_offset_rad = 0.1\n")
+        .replace("= 1.6e-5\n", "= 1.6e-5\nzero_offset_rad = -0.2\n")
+    )
     values = json.loads(brace("k", "--model", limb, "--theta1", 0.9, "--theta2", 1.6, "--json").out)
     expected = physics_k(1.0, 1.4, moment_transfer=0.5)
     assert np.abs(planar(values) - expected).max() < 5e-6 * np.linalg.eigvalsh(expected)[1]
@@ -75,7 +94,9 @@ def test_a_yielding_base_takes_the_general_path(brace: Callable[..., object], tm
 
 def test_polar_coordinates_and_both_knees(brace: Callable[..., object], paper_limb: Path) -> None:
     for knee in ("up", "down"):
-        values = json.loads(brace("k", "--model", paper_limb, "--r", 400, "--phi", -0.3, "--knee", knee, "--json").out)
+        values = json.loads(
+            brace("k", "--model", paper_limb, "--r", 400, "--phi", -0.3, "--knee", knee, "--json").out
+        )
         theta1, theta2 = values["theta1_rad"], values["theta2_rad"]
         tip = 185 * np.exp(1j * theta1) + 313.5 * np.exp(1j * (theta1 - theta2))
         assert abs(tip - 400 * np.exp(-0.3j)) < 1e-3
@@ -91,10 +112,14 @@ def test_sigma_is_that_of_a_simulated_calibration(brace: Callable[..., object], 
     draws = []
     for _ in range(4000):
         rel = 1 + 0.05 * random.standard_normal(6)
-        k = physics_k(1.0 + 0.003 * random.standard_normal(), 1.4 + 0.003 * random.standard_normal(),
-                      axial=(0.001 * rel[0], 0.002 * rel[1]), bending=(0.06 * rel[2], 0.25 * rel[3]),
-                      joint=(1e-5 * rel[4], 1.6e-5 * rel[5]),
-                      lengths=(185 + 0.5 * random.standard_normal(), 313.5 + 0.5 * random.standard_normal()))
+        k = physics_k(
+            1.0 + 0.003 * random.standard_normal(),
+            1.4 + 0.003 * random.standard_normal(),
+            axial=(0.001 * rel[0], 0.002 * rel[1]),
+            bending=(0.06 * rel[2], 0.25 * rel[3]),
+            joint=(1e-5 * rel[4], 1.6e-5 * rel[5]),
+            lengths=(185 + 0.5 * random.standard_normal(), 313.5 + 0.5 * random.standard_normal()),
+        )
         draws.append(k * (1 + 0.005 * random.standard_normal()))
     spread = np.std(draws, axis=0)
     for key, entry in (("xx", spread[0, 0]), ("xz", spread[0, 1]), ("zz", spread[1, 1])):
@@ -104,12 +129,16 @@ def test_sigma_is_that_of_a_simulated_calibration(brace: Callable[..., object], 
 
 def test_space_at_zero_yaw_is_the_plane(brace: Callable[..., object], tmp_path: Path) -> None:
     limb = tmp_path / "limb.toml"
-    limb.write_text(LIMB.replace("[link.tibia]", "lateral_mm_per_n = 0.05\ntorsion_rad_per_n_mm = 1e-6\n[link.tibia]")
-                    + "[joint.coxa]\ncompliance_rad_per_n_mm = 8e-6\n")
+    limb.write_text(
+        LIMB.replace("[link.tibia]", "lateral_mm_per_n = 0.05\ntorsion_rad_per_n_mm = 1e-6\n[link.tibia]")
+        + "[joint.coxa]\ncompliance_rad_per_n_mm = 8e-6\n"
+    )
     flat = planar(json.loads(brace("k", "--model", limb, "--theta1", 0.8, "--theta2", 1.2, "--json").out))
     c_yy = None
     for yaw in (0.0, 0.7, -2.0):
-        v = json.loads(brace("k", "--model", limb, "--theta0", yaw, "--theta1", 0.8, "--theta2", 1.2, "--json").out)
+        v = json.loads(
+            brace("k", "--model", limb, "--theta0", yaw, "--theta1", 0.8, "--theta2", 1.2, "--json").out
+        )
         k = np.array([[v[f"k_{''.join(sorted(a + b))}_n_per_mm"] for b in "xyz"] for a in "xyz"])
         c = np.array([[v[f"c_{''.join(sorted(a + b))}_mm_per_n"] for b in "xyz"] for a in "xyz"])
         turn = np.array([[math.cos(yaw), -math.sin(yaw), 0], [math.sin(yaw), math.cos(yaw), 0], [0, 0, 1]])
@@ -117,8 +146,9 @@ def test_space_at_zero_yaw_is_the_plane(brace: Callable[..., object], tmp_path: 
         assert np.abs(back[np.ix_([0, 2], [0, 2])] - flat).max() < 1e-5 * np.linalg.eigvalsh(flat)[1] * 2
         assert abs(back[0, 1]) < 1e-4 and abs(back[1, 2]) < 1e-4
         assert np.abs(c @ k - np.eye(3)).max() < 1e-6
-        assert np.sort([v["lambda_min_n_per_mm"], v["lambda_mid_n_per_mm"], v["lambda_max_n_per_mm"]]) == pytest.approx(
-            np.linalg.eigvalsh(k), rel=2e-5)
+        assert np.sort(
+            [v["lambda_min_n_per_mm"], v["lambda_mid_n_per_mm"], v["lambda_max_n_per_mm"]]
+        ) == pytest.approx(np.linalg.eigvalsh(k), rel=2e-5)
         c_yy = c_yy or 1 / back[1, 1]
         assert 1 / back[1, 1] == pytest.approx(c_yy, rel=2e-5)
     reach = 57 + 185 * math.cos(0.8) + 313.5 * math.cos(-0.4)
@@ -128,10 +158,20 @@ def test_space_at_zero_yaw_is_the_plane(brace: Callable[..., object], tmp_path: 
 
 def test_refusals(brace: Callable[..., object], paper_limb: Path, tmp_path: Path) -> None:
     model = ("k", "--model", paper_limb)
-    for arguments in ((), ("--theta1", 1), ("--theta1", "nan", "--theta2", 1), ("--theta1", "abc", "--theta2", 1),
-                      ("--theta1", 50, "--theta2", 1), ("--r", 600, "--phi", 0), ("--r", 100, "--phi", 0),
-                      ("--theta1", 1, "--theta2", 1, "--r", 300, "--phi", 0), ("--theta1", 1, "--theta2", 1, "--out", "x"),
-                      ("--theta1", 1, "--theta2", 1, "--arith", "f64"), ("--csv", "a.csv"), ("--r", -5, "--phi", 0)):
+    for arguments in (
+        (),
+        ("--theta1", 1),
+        ("--theta1", "nan", "--theta2", 1),
+        ("--theta1", "abc", "--theta2", 1),
+        ("--theta1", 50, "--theta2", 1),
+        ("--r", 600, "--phi", 0),
+        ("--r", 100, "--phi", 0),
+        ("--theta1", 1, "--theta2", 1, "--r", 300, "--phi", 0),
+        ("--theta1", 1, "--theta2", 1, "--out", "x"),
+        ("--theta1", 1, "--theta2", 1, "--arith", "f64"),
+        ("--csv", "a.csv"),
+        ("--r", -5, "--phi", 0),
+    ):
         outcome = brace(*model, *arguments)
         assert outcome.code == 2 and outcome.out == "" and outcome.err
     assert brace("k").code == 2 and brace().code == 2 and brace("kay").code == 2
@@ -142,7 +182,9 @@ def test_negative_numbers_are_values(brace: Callable[..., object], paper_limb: P
     assert brace("k", "--model", paper_limb, "--theta1", "-1e-3", "--theta2", "-.5", "--json").code == 0
 
 
-def test_many_postures_keep_their_rows(brace: Callable[..., object], paper_limb: Path, tmp_path: Path) -> None:
+def test_many_postures_keep_their_rows(
+    brace: Callable[..., object], paper_limb: Path, tmp_path: Path
+) -> None:
     source, out = tmp_path / "in.csv", tmp_path / "out.csv"
     source.write_text("label,theta2_rad,theta1_rad\nfirst one,1.4,1.0\nsecond,0.5,-0.25\n")
     outcome = brace("k", "--model", paper_limb, "--csv", source, "--out", out, "--json")
@@ -152,23 +194,30 @@ def test_many_postures_keep_their_rows(brace: Callable[..., object], paper_limb:
     assert lines[1].startswith("first one,1.4,1.0,3.9638") and lines[2].startswith("second,0.5,-0.25,")
     single = json.loads(brace("k", "--model", paper_limb, "--theta1", -0.25, "--theta2", 0.5, "--json").out)
     assert float(next(csv.DictReader(lines[0:1] + lines[2:3]))["k_zz_n_per_mm"]) == pytest.approx(
-        single["k_zz_n_per_mm"], rel=1e-8)
+        single["k_zz_n_per_mm"], rel=1e-8
+    )
 
 
-def test_a_bad_row_leaves_the_old_result(brace: Callable[..., object], paper_limb: Path, tmp_path: Path) -> None:
+def test_a_bad_row_leaves_the_old_result(
+    brace: Callable[..., object], paper_limb: Path, tmp_path: Path
+) -> None:
     source, out = tmp_path / "in.csv", tmp_path / "out.csv"
     out.write_text("old")
-    for text, words in (("theta1_rad,theta2_rad\n1,1\n1,x\n", ":3 (row 2), theta2_rad"),
-                        ("theta1_rad,theta2_rad\n1,1\n1,99\n", ":3 (row 2)"), ("theta1_rad\n1\n", "theta2_rad"),
-                        ("theta1_rad,theta2_rad,flags\n1,1,0\n", "flags is there already")):
+    for text, words in (
+        ("theta1_rad,theta2_rad\n1,1\n1,x\n", ":3 (row 2), theta2_rad"),
+        ("theta1_rad,theta2_rad\n1,1\n1,99\n", ":3 (row 2)"),
+        ("theta1_rad\n1\n", "theta2_rad"),
+        ("theta1_rad,theta2_rad,flags\n1,1,0\n", "flags is there already"),
+    ):
         source.write_text(text)
         outcome = brace("k", "--model", paper_limb, "--csv", source, "--out", out)
         assert outcome.code == 3 and words in outcome.err and out.read_text() == "old"
     assert sorted(path.name for path in tmp_path.iterdir()) == ["in.csv", "out.csv"]
 
 
-def _table(brace: Callable[..., object], limb: Path, folder: Path, angles: np.ndarray, arith: str
-           ) -> list[dict[str, str]]:
+def _table(
+    brace: Callable[..., object], limb: Path, folder: Path, angles: np.ndarray, arith: str
+) -> list[dict[str, str]]:
     source, out = folder / "in.csv", folder / "out.csv"
     source.write_text("theta1_rad,theta2_rad\n" + "".join(f"{a!r},{b!r}\n" for a, b in angles.tolist()))
     assert brace("k", "--model", limb, "--csv", source, "--out", out, "--arith", arith).code == 0

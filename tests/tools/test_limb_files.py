@@ -39,13 +39,18 @@ def test_missing_tables_mean_no_effect(tmp_path: Path) -> None:
 
 def test_moment_transfer_is_a_switch_or_a_strength(tmp_path: Path) -> None:
     for text, value in (("true", 1.0), ("false", 0.0), ("0.25", 0.25), ("1", 1.0)):
-        model = load_limb(_file(tmp_path, LIMB.replace("[link.tibia]", f"moment_transfer = {text}\n[link.tibia]")))
+        model = load_limb(
+            _file(tmp_path, LIMB.replace("[link.tibia]", f"moment_transfer = {text}\n[link.tibia]"))
+        )
         assert model.number("link.femur.moment_transfer") == value
 
 
 HOSTILE = {  # what is done to the file -> line, and words that the message must hold
-    "negative compliance": (("bending_mm_per_n = 0.06", "bending_mm_per_n = -0.06"), 9,
-                            ["link.femur.bending_mm_per_n", "negative", "mm/N"]),
+    "negative compliance": (
+        ("bending_mm_per_n = 0.06", "bending_mm_per_n = -0.06"),
+        9,
+        ["link.femur.bending_mm_per_n", "negative", "mm/N"],
+    ),
     "not a number": (("femur_mm = 185.0", "femur_mm = nan"), 5, ["geometry.femur_mm", "not a number"]),
     "infinite": (("femur_mm = 185.0", "femur_mm = inf"), 5, ["finite"]),
     "too long": (("femur_mm = 185.0", "femur_mm = 1e9"), 5, ["too large", "mm"]),
@@ -53,8 +58,11 @@ HOSTILE = {  # what is done to the file -> line, and words that the message must
     "text for a number": (("femur_mm = 185.0", 'femur_mm = "185"'), 5, ["must be a number", "text"]),
     "true for a number": (("femur_mm = 185.0", "femur_mm = true"), 5, ["must be a number"]),
     "list for a number": (("femur_mm = 185.0", "femur_mm = [185.0]"), 5, ["a list"]),
-    "misspelt key": (("bending_mm_per_n = 0.06", "bendig_mm_per_n = 0.06"), 9,
-                     ["unknown key", "did you mean link.femur.bending_mm_per_n"]),
+    "misspelt key": (
+        ("bending_mm_per_n = 0.06", "bendig_mm_per_n = 0.06"),
+        9,
+        ["unknown key", "did you mean link.femur.bending_mm_per_n"],
+    ),
     "misspelt table": (("[link.tibia]", "[link.tibea]"), 10, ["unknown table", "did you mean [link.tibia]"]),
     "unit in another suffix": (("femur_mm = 185.0", "femur_m = 0.185"), 5, ["femur_mm"]),
     "duplicate key": (("femur_mm = 185.0", "femur_mm = 185.0\nfemur_mm = 186.0"), 6, ["twice", "keep one"]),
@@ -62,15 +70,24 @@ HOSTILE = {  # what is done to the file -> line, and words that the message must
     "syntax": (("femur_mm = 185.0", "femur_mm = = 185.0"), 5, ["not valid TOML"]),
     "missing length": (("femur_mm = 185.0\n", ""), 3, ["geometry.femur_mm is missing"]),
     "another format": (("format = 1", "format = 2"), 1, ["format"]),
-    "value where a table is": (("[geometry]\ncoxa_mm = 57.0\nfemur_mm = 185.0\ntibia_mm = 313.5", "geometry = 3"), 3,
-                               ["geometry", "table"]),
-    "moment transfer above one": (("[link.tibia]", "moment_transfer = 1.5\n[link.tibia]"), 10, ["true/false"]),
+    "value where a table is": (
+        ("[geometry]\ncoxa_mm = 57.0\nfemur_mm = 185.0\ntibia_mm = 313.5", "geometry = 3"),
+        3,
+        ["geometry", "table"],
+    ),
+    "moment transfer above one": (
+        ("[link.tibia]", "moment_transfer = 1.5\n[link.tibia]"),
+        10,
+        ["true/false"],
+    ),
     "choice": (("[uncertainty]", '[change]\nlink = "knee"\n[uncertainty]'), 18, ['"femur"']),
 }
 
 
 @pytest.mark.parametrize("case", HOSTILE)
-def test_hostile_models_are_refused_with_line_and_way_on(case: str, tmp_path: Path, brace: Callable[..., object]) -> None:
+def test_hostile_models_are_refused_with_line_and_way_on(
+    case: str, tmp_path: Path, brace: Callable[..., object]
+) -> None:
     (before, after), line, words = HOSTILE[case]
     assert before in LIMB
     path = _file(tmp_path, LIMB.replace(before, after))
@@ -91,8 +108,17 @@ def test_a_limb_in_which_nothing_yields_is_refused(tmp_path: Path) -> None:
         load_limb(_file(tmp_path, text))
 
 
-@pytest.mark.parametrize("content", [b"\x7fELF\x00\x01\x02", b"\xff\xfe\x00", b"", b"\x00" * 100,
-                                     b"a = " + b"[" * 5000 + b"]" * 5000, b"format = 1\n" * 10])
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"\x7fELF\x00\x01\x02",
+        b"\xff\xfe\x00",
+        b"",
+        b"\x00" * 100,
+        b"a = " + b"[" * 5000 + b"]" * 5000,
+        b"format = 1\n" * 10,
+    ],
+)
 def test_garbage_is_refused(content: bytes, tmp_path: Path, brace: Callable[..., object]) -> None:
     path = tmp_path / "limb.toml"
     path.write_bytes(content)
@@ -102,8 +128,13 @@ def test_garbage_is_refused(content: bytes, tmp_path: Path, brace: Callable[...,
 
 def test_files_that_are_none(tmp_path: Path, brace: Callable[..., object]) -> None:
     _file(tmp_path, LIMB)
-    for path, word in ((tmp_path, "folder"), (tmp_path / "limp.toml", "did you mean"), (Path("/dev/zero"), "regular"),
-                       (tmp_path / ("x" * 400), "cannot be opened"), (tmp_path / "no" / "limb.toml", "does not exist")):
+    for path, word in (
+        (tmp_path, "folder"),
+        (tmp_path / "limp.toml", "did you mean"),
+        (Path("/dev/zero"), "regular"),
+        (tmp_path / ("x" * 400), "cannot be opened"),
+        (tmp_path / "no" / "limb.toml", "does not exist"),
+    ):
         outcome = brace("k", "--model", path, "--theta1", 1, "--theta2", 1)
         assert outcome.code == 3 and word in outcome.err
 
@@ -125,9 +156,12 @@ def test_mutated_files_never_break_the_reader(tmp_path: Path) -> None:
         for _ in range(int(random.integers(1, 6))):
             place = int(random.integers(len(data)))
             match random.integers(3):
-                case 0: data[place] = int(random.integers(256))
-                case 1: del data[place:place + int(random.integers(1, 30))]
-                case _: data[place:place] = bytes(random.integers(0, 256, 3, dtype=np.uint8))
+                case 0:
+                    data[place] = int(random.integers(256))
+                case 1:
+                    del data[place : place + int(random.integers(1, 30))]
+                case _:
+                    data[place:place] = bytes(random.integers(0, 256, 3, dtype=np.uint8))
             if not data:
                 break
         path = tmp_path / "limb.toml"

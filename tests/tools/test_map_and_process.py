@@ -17,11 +17,18 @@ from conftest import LIMB, physics_k, spawn
 
 
 def test_map_draws_the_papers_curves(tmp_path: Path, brace: Callable[..., object], paper_limb: Path) -> None:
-    outcome = brace("map", "--model", paper_limb, "--out", tmp_path / "m", "--postures", 10_000, "--npy", "--json")
+    outcome = brace(
+        "map", "--model", paper_limb, "--out", tmp_path / "m", "--postures", 10_000, "--npy", "--json"
+    )
     summary = json.loads(outcome.out)
     assert outcome.code == 0
     assert sorted(path.name for path in (tmp_path / "m").iterdir()) == [
-        "eigenvalues.csv", "ellipses.csv", "map.png", "map.svg", "postures.npy"]
+        "eigenvalues.csv",
+        "ellipses.csv",
+        "map.png",
+        "map.svg",
+        "postures.npy",
+    ]
     with (tmp_path / "m" / "eigenvalues.csv").open() as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 100
@@ -56,9 +63,16 @@ def test_map_is_the_same_every_time(tmp_path: Path, brace: Callable[..., object]
         assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes()
 
 
-def test_map_refuses_ranges_that_are_none(tmp_path: Path, brace: Callable[..., object], paper_limb: Path) -> None:
-    for arguments in (("--theta2", 1, 1), ("--theta2", 2, 1), ("--theta1", 0, 10), ("--postures", 1),
-                      ("--postures", "many")):
+def test_map_refuses_ranges_that_are_none(
+    tmp_path: Path, brace: Callable[..., object], paper_limb: Path
+) -> None:
+    for arguments in (
+        ("--theta2", 1, 1),
+        ("--theta2", 2, 1),
+        ("--theta1", 0, 10),
+        ("--postures", 1),
+        ("--postures", "many"),
+    ):
         outcome = brace("map", "--model", paper_limb, "--out", tmp_path / "m", *arguments)
         assert outcome.code == 2 and not (tmp_path / "m").exists()
 

@@ -11,14 +11,18 @@ from brace.native.cdef import declarations
 
 
 def test_headers_become_declarations(tmp_path: Path) -> None:
-    (tmp_path / "inner.h").write_text("#ifndef I_H\n#define I_H\n#define COUNT 3u /* how many */\n#define TWICE (2 * COUNT)\n"
-                                      "#define HALF 0.5f\n#define MAX(a, b) ((a) > (b) ? (a) : (b))\nenum { BIT = 1u << 2 };\n#endif\n")
-    (tmp_path / "outer.h").write_text('#include <stdint.h>\n#include "inner.h"\n#include "inner.h"\n#ifdef __cplusplus\n'
-                                      'extern "C" {\n#endif\n// a comment { with a brace\n'
-                                      "typedef struct { float a[COUNT]; int32_t b[TWICE]; } thing_t;\n"
-                                      "static inline int twice(int x)\n{\n    if (x) { return 2 * x; }\n    return 0;\n}\n"
-                                      "_Static_assert(sizeof(thing_t) == 36, \"size\");\n"
-                                      "int use(const thing_t *thing);\n#ifdef __cplusplus\n}\n#endif\n")
+    (tmp_path / "inner.h").write_text(
+        "#ifndef I_H\n#define I_H\n#define COUNT 3u /* how many */\n#define TWICE (2 * COUNT)\n"
+        "#define HALF 0.5f\n#define MAX(a, b) ((a) > (b) ? (a) : (b))\nenum { BIT = 1u << 2 };\n#endif\n"
+    )
+    (tmp_path / "outer.h").write_text(
+        '#include <stdint.h>\n#include "inner.h"\n#include "inner.h"\n#ifdef __cplusplus\n'
+        'extern "C" {\n#endif\n// a comment { with a brace\n'
+        "typedef struct { float a[COUNT]; int32_t b[TWICE]; } thing_t;\n"
+        "static inline int twice(int x)\n{\n    if (x) { return 2 * x; }\n    return 0;\n}\n"
+        '_Static_assert(sizeof(thing_t) == 36, "size");\n'
+        "int use(const thing_t *thing);\n#ifdef __cplusplus\n}\n#endif\n"
+    )
     text = declarations([tmp_path / "outer.h"], [tmp_path])
     ffi = FFI()
     ffi.cdef(text)

@@ -45,7 +45,9 @@ def read(path: Path) -> dict[str, np.ndarray]:
 
 
 def test_a_simulated_test_is_a_sound_dataset(files: dict[str, Path], brace: Callable[..., object]) -> None:
-    outcome = brace("simulate", "--model", files["limb"], "--rig", files["rig"], "--out", files["out"], "--json")
+    outcome = brace(
+        "simulate", "--model", files["limb"], "--rig", files["rig"], "--out", files["out"], "--json"
+    )
     assert outcome.code == 0 and json.loads(outcome.out)["rows"] == 2 * 2 * 2 * 17
     dataset = load_dataset(files["out"])
     assert not dataset.faults and dataset.rows == 136
@@ -62,8 +64,20 @@ def test_a_simulated_test_is_a_sound_dataset(files: dict[str, Path], brace: Call
 def test_same_seed_same_bytes(files: dict[str, Path], brace: Callable[..., object], tmp_path: Path) -> None:
     contents = []
     for seed in (3, 3, 4):
-        assert brace("simulate", "--model", files["limb"], "--rig", files["rig"], "--out", tmp_path / "s",
-                     "--seed", seed).code == 0
+        assert (
+            brace(
+                "simulate",
+                "--model",
+                files["limb"],
+                "--rig",
+                files["rig"],
+                "--out",
+                tmp_path / "s",
+                "--seed",
+                seed,
+            ).code
+            == 0
+        )
         contents.append((tmp_path / "s" / "data.csv").read_bytes())
     assert contents[0] == contents[1] != contents[2]
 
@@ -77,11 +91,14 @@ def test_sensor_columns_appear_when_asked_for(files: dict[str, Path], brace: Cal
     lever = np.array([-313.5 * np.sin(-0.4), 313.5 * np.cos(-0.4)])  # of joint 2 at theta1 - theta2 = -0.4
     torque = lever[0] * dataset["fx_n"] + lever[1] * dataset["fz_n"]
     first = dataset["config"] == 1
-    assert np.allclose(dataset["enc2_rad"][first], -1.6e-5 * torque[first], atol=2e-6) or \
-        np.allclose(dataset["enc2_rad"][first], 1.6e-5 * torque[first], atol=2e-6)
+    assert np.allclose(dataset["enc2_rad"][first], -1.6e-5 * torque[first], atol=2e-6) or np.allclose(
+        dataset["enc2_rad"][first], 1.6e-5 * torque[first], atol=2e-6
+    )
 
 
-def test_prediction_has_the_datasets_rows(files: dict[str, Path], brace: Callable[..., object], tmp_path: Path) -> None:
+def test_prediction_has_the_datasets_rows(
+    files: dict[str, Path], brace: Callable[..., object], tmp_path: Path
+) -> None:
     folder = write_loading(tmp_path / "data", loading_rows())
     out = tmp_path / "pred.csv"
     assert brace("predict", folder, "--model", files["limb"], "--out", out).code == 0
@@ -95,19 +112,27 @@ def test_prediction_has_the_datasets_rows(files: dict[str, Path], brace: Callabl
         assert predicted["fz_n"][row] == pytest.approx(f[1], abs=1e-6)
 
 
-def test_simulated_and_predicted_agree_with_every_effect(files: dict[str, Path], brace: Callable[..., object],
-                                                         tmp_path: Path) -> None:
-    files["limb"].write_text(LIMB.replace("[joint.tibia]\n", "gap_rad = 0.004\ncoulomb_n_mm = 60.0\n[joint.tibia]\n"
-                             "hardening_n_mm_per_rad3 = 1e6\n") + "[gravity]\nfemur_n = 2.0\ntibia_n = 3.0\n[sensor]\n"
-                             "bias_x_n = 0.3\nrotation_rad = 0.02\n[creep]\nratio = 0.1\ntime_constant_s = 30.0\n"
-                             "[contact]\nplay_mm = 0.05\n")
+def test_simulated_and_predicted_agree_with_every_effect(
+    files: dict[str, Path], brace: Callable[..., object], tmp_path: Path
+) -> None:
+    files["limb"].write_text(
+        LIMB.replace(
+            "[joint.tibia]\n",
+            "gap_rad = 0.004\ncoulomb_n_mm = 60.0\n[joint.tibia]\n" "hardening_n_mm_per_rad3 = 1e6\n",
+        )
+        + "[gravity]\nfemur_n = 2.0\ntibia_n = 3.0\n[sensor]\n"
+        "bias_x_n = 0.3\nrotation_rad = 0.02\n[creep]\nratio = 0.1\ntime_constant_s = 30.0\n"
+        "[contact]\nplay_mm = 0.05\n"
+    )
     files["rig"].write_text(RIG.replace("noise_n = 0.1", "noise_n = 0.0"))
     assert brace("simulate", "--model", files["limb"], "--rig", files["rig"], "--out", files["out"]).code == 0
     out = tmp_path / "pred.csv"
     assert brace("predict", files["out"], "--model", files["limb"], "--out", out).code == 0
     predicted, dataset = read(out), load_dataset(files["out"])
     for name in ("fx_n", "fz_n"):
-        assert np.abs(predicted[name] - dataset[name]).max() < 2e-5  # the file's six decimals of displacement and force
+        assert (
+            np.abs(predicted[name] - dataset[name]).max() < 2e-5
+        )  # the file's six decimals of displacement and force
     assert np.abs(dataset["fx_n"]).max() > 0.3
 
 
@@ -120,14 +145,19 @@ def test_zeroed_per_run(files: dict[str, Path], brace: Callable[..., object], tm
     assert np.abs(predicted["fx_n"][steps == 0]).max() == 0.0
 
 
-def test_prediction_of_the_table_and_of_a_joint_test(brace: Callable[..., object], paper_table: Path, paper_limb: Path,
-                                                     tmp_path: Path) -> None:
+def test_prediction_of_the_table_and_of_a_joint_test(
+    brace: Callable[..., object], paper_table: Path, paper_limb: Path, tmp_path: Path
+) -> None:
     out = tmp_path / "p.csv"
     outcome = brace("predict", paper_table, "--model", paper_limb, "--out", out)
     assert outcome.code == 0 and "inference" in outcome.err
     assert len(read(out)["k_xx"]) == 12
-    assert brace("predict", paper_table, "--model", paper_limb, "--out", out, "--tip-height-mm", -120).code == 0
-    high = brace("predict", paper_table, "--model", paper_limb, "--out", tmp_path / "q.csv", "--tip-height-mm", 159)
+    assert (
+        brace("predict", paper_table, "--model", paper_limb, "--out", out, "--tip-height-mm", -120).code == 0
+    )
+    high = brace(
+        "predict", paper_table, "--model", paper_limb, "--out", tmp_path / "q.csv", "--tip-height-mm", 159
+    )
     assert high.code == 2 and "out of reach" in high.err and not (tmp_path / "q.csv").exists()
     predicted = read(out)
     r, z = 158.0, -120.0
@@ -140,8 +170,10 @@ def test_prediction_of_the_table_and_of_a_joint_test(brace: Callable[..., object
     joint.mkdir()
     (joint / "meta.toml").write_text('format = 1\nkind = "joint_test"\njoint = "tibia"\n')
     angle = np.linspace(-0.01, 0.01, 21)
-    (joint / "data.csv").write_text("t_s,angle_rad,torque_n_mm\n" + "".join(
-        f"{i},{a:.6f},{a / 1.6e-5:.3f}\n" for i, a in enumerate(angle)))
+    (joint / "data.csv").write_text(
+        "t_s,angle_rad,torque_n_mm\n"
+        + "".join(f"{i},{a:.6f},{a / 1.6e-5:.3f}\n" for i, a in enumerate(angle))
+    )
     assert brace("predict", joint, "--model", paper_limb, "--out", out).code == 0
     assert np.allclose(read(out)["torque_n_mm"], np.round(angle, 6) / 1.6e-5, rtol=1e-8, atol=1e-6)
 
@@ -165,10 +197,14 @@ def test_hostile_rigs(case: str, files: dict[str, Path], brace: Callable[..., ob
     assert before in RIG
     files["rig"].write_text(RIG.replace(before, after))
     outcome = brace("simulate", "--model", files["limb"], "--rig", files["rig"], "--out", files["out"])
-    assert outcome.code == 3 and words in outcome.err and "rig.toml" in outcome.err and not files["out"].exists()
+    assert (
+        outcome.code == 3 and words in outcome.err and "rig.toml" in outcome.err and not files["out"].exists()
+    )
 
 
-def test_outputs_are_whole_or_untouched(files: dict[str, Path], brace: Callable[..., object], tmp_path: Path) -> None:
+def test_outputs_are_whole_or_untouched(
+    files: dict[str, Path], brace: Callable[..., object], tmp_path: Path
+) -> None:
     command = ("simulate", "--model", files["limb"], "--rig", files["rig"], "--out")
     (tmp_path / "file").write_text("mine")
     for out in (tmp_path / "file", tmp_path / "file" / "deeper"):

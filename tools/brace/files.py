@@ -18,26 +18,46 @@ def read_bytes(path: Path, limit_bytes: int, what: str) -> bytes:
     try:
         info = path.stat()
     except FileNotFoundError:
-        raise BadFileError(f"no such {what}", where=str(path), why="the file does not exist",
-                           next_step=_nearby(path)) from None
+        raise BadFileError(
+            f"no such {what}", where=str(path), why="the file does not exist", next_step=_nearby(path)
+        ) from None
     except (OSError, ValueError) as error:
-        raise BadFileError(f"the {what} cannot be opened", where=repr(str(path))[1:-1],
-                           why=getattr(error, "strerror", None) or str(error),
-                           next_step="check the path and its permissions") from None
+        raise BadFileError(
+            f"the {what} cannot be opened",
+            where=repr(str(path))[1:-1],
+            why=getattr(error, "strerror", None) or str(error),
+            next_step="check the path and its permissions",
+        ) from None
     if stat.S_ISDIR(info.st_mode):
-        raise BadFileError(f"a folder, where a {what} is wanted", where=str(path),
-                           why="a folder has no text to read", next_step=f"name the {what} inside it")
+        raise BadFileError(
+            f"a folder, where a {what} is wanted",
+            where=str(path),
+            why="a folder has no text to read",
+            next_step=f"name the {what} inside it",
+        )
     if not stat.S_ISREG(info.st_mode):
-        raise BadFileError(f"not a regular file, where a {what} is wanted", where=str(path),
-                           why="devices, pipes and sockets may never end", next_step="save it to a file first")
+        raise BadFileError(
+            f"not a regular file, where a {what} is wanted",
+            where=str(path),
+            why="devices, pipes and sockets may never end",
+            next_step="save it to a file first",
+        )
     if info.st_size > limit_bytes:
-        raise BadFileError(f"too large for a {what}: {info.st_size} bytes", where=str(path),
-                           why=f"at most {limit_bytes} bytes are read", next_step=f"check that this is the {what}")
+        raise BadFileError(
+            f"too large for a {what}: {info.st_size} bytes",
+            where=str(path),
+            why=f"at most {limit_bytes} bytes are read",
+            next_step=f"check that this is the {what}",
+        )
     try:
         return path.read_bytes()
     except OSError as error:
-        raise BadFileError(f"the {what} cannot be read", where=str(path), why=error.strerror or str(error),
-                           next_step="check its permissions") from None
+        raise BadFileError(
+            f"the {what} cannot be read",
+            where=str(path),
+            why=error.strerror or str(error),
+            next_step="check its permissions",
+        ) from None
 
 
 def read_text(path: Path, limit_bytes: int, what: str) -> str:
@@ -47,13 +67,20 @@ def read_text(path: Path, limit_bytes: int, what: str) -> str:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
-        raise BadFileError(f"not text: byte 0x{data[error.start]:02x} at offset {error.start}",
-                           where=f"{path}:{line}", why=f"a {what} is UTF-8 text",
-                           next_step=f"check that this is the {what}, and save it as UTF-8") from None
+        raise BadFileError(
+            f"not text: byte 0x{data[error.start]:02x} at offset {error.start}",
+            where=f"{path}:{line}",
+            why=f"a {what} is UTF-8 text",
+            next_step=f"check that this is the {what}, and save it as UTF-8",
+        ) from None
     if "\0" in text:
         line = text.count("\n", 0, text.index("\0")) + 1
-        raise BadFileError("not text: it holds a zero byte", where=f"{path}:{line}",
-                           why=f"a {what} is UTF-8 text", next_step=f"check that this is the {what}")
+        raise BadFileError(
+            "not text: it holds a zero byte",
+            where=f"{path}:{line}",
+            why=f"a {what} is UTF-8 text",
+            next_step=f"check that this is the {what}",
+        )
     return text
 
 
@@ -87,8 +114,12 @@ class OutputSet:
     def add(self, final: Path, content: bytes | str) -> None:
         """Stage one file; an existing destination is replaced at commit."""
         if final.is_dir():
-            raise UsageError("a folder is in the way of the output file", where=str(final),
-                             why="a folder is not replaced by a file", next_step="choose another --out")
+            raise UsageError(
+                "a folder is in the way of the output file",
+                where=str(final),
+                why="a folder is not replaced by a file",
+                next_step="choose another --out",
+            )
         data = content.encode() if isinstance(content, str) else content
         anchor = _existing_parent(final)
         try:
@@ -101,9 +132,12 @@ class OutputSet:
                 os.fsync(file.fileno())
             os.chmod(temporary, 0o666 & ~_umask())
         except OSError as error:
-            raise UsageError("the output cannot be written", where=str(final),
-                             why=error.strerror or str(error),
-                             next_step="check the folder's permissions and free space") from None
+            raise UsageError(
+                "the output cannot be written",
+                where=str(final),
+                why=error.strerror or str(error),
+                next_step="check the folder's permissions and free space",
+            ) from None
 
     def commit(self) -> None:
         """Put every staged file in place."""
@@ -112,8 +146,12 @@ class OutputSet:
                 final.parent.mkdir(parents=True, exist_ok=True)
                 os.replace(temporary, final)
         except OSError as error:
-            raise UsageError("the output cannot be put in place", where=str(error.filename2 or error.filename),
-                             why=error.strerror or str(error), next_step="choose another --out") from None
+            raise UsageError(
+                "the output cannot be put in place",
+                where=str(error.filename2 or error.filename),
+                why=error.strerror or str(error),
+                next_step="choose another --out",
+            ) from None
         self._staged.clear()
 
 
@@ -130,8 +168,12 @@ def _existing_parent(path: Path) -> Path:
         if parent.is_dir():
             return parent
         if parent.exists():
-            raise UsageError("a file is in the way of the output folder", where=str(parent),
-                             why="the output needs a folder of that name", next_step="choose another --out")
+            raise UsageError(
+                "a file is in the way of the output folder",
+                where=str(parent),
+                why="the output needs a folder of that name",
+                next_step="choose another --out",
+            )
     return Path("/")
 
 

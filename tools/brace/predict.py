@@ -12,8 +12,22 @@ from brace.errors import UsageError
 from brace.model import LimbModel
 from brace.tables import table_poses
 
-_MEASURED = ("fx_n", "fz_n", "torque_n_mm", "k_xx", "k_xz", "k_zx", "k_zz", "lambda_min", "lambda_max", "unit",
-             "enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
+_MEASURED = (
+    "fx_n",
+    "fz_n",
+    "torque_n_mm",
+    "k_xx",
+    "k_xz",
+    "k_zx",
+    "k_zz",
+    "lambda_min",
+    "lambda_max",
+    "unit",
+    "enc1_rad",
+    "enc2_rad",
+    "base_x_mm",
+    "base_z_mm",
+)
 _OPTIONAL_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
 TABLE_COLUMNS = ("k_xx", "k_xz", "k_zx", "k_zz", "lambda_min", "lambda_max")
 
@@ -35,13 +49,16 @@ def require_sound_inputs(dataset: Dataset) -> Sequence[DataFault]:
     return measured
 
 
-def predict(dataset: Dataset, model: LimbModel, *, knee: str = "up", tip_height_mm: float | None = None) -> Prediction:
+def predict(
+    dataset: Dataset, model: LimbModel, *, knee: str = "up", tip_height_mm: float | None = None
+) -> Prediction:
     """Plays the dataset on the model."""
     require_sound_inputs(dataset)
     if dataset.kind == "loading":
         return Prediction(predict_loading(dataset, model))
     if dataset.kind == "joint_test":
         from brace.native.plant import JointPlayer
+
         return Prediction({"torque_n_mm": JointPlayer(dataset, dataset.meta.joint).play(model)})
     return _predict_table(dataset, model, knee, tip_height_mm)
 
@@ -62,8 +79,10 @@ def zeroed(readings: dict[str, np.ndarray], dataset: Dataset) -> dict[str, np.nd
 
     starts = run_starts(dataset["run"])
     counts = np.diff(starts)
-    return {name: values - np.repeat(values[starts[:-1]], counts) if name in ("fx_n", "fz_n") else values
-            for name, values in readings.items()}
+    return {
+        name: values - np.repeat(values[starts[:-1]], counts) if name in ("fx_n", "fz_n") else values
+        for name, values in readings.items()
+    }
 
 
 def _predict_table(dataset: Dataset, model: LimbModel, knee: str, tip_height_mm: float | None) -> Prediction:
@@ -74,23 +93,38 @@ def _predict_table(dataset: Dataset, model: LimbModel, knee: str, tip_height_mm:
     height = tip_height_mm if tip_height_mm is not None else 0.0
     low, high = poses.height_limits_mm()
     if poses.needs_height and not low <= height <= high:
-        raise UsageError(f"--tip-height-mm {height:g} is out of reach", why=f"the nearest row has r = {high:.4g} mm",
-                         next_step=f"a height between {low:.4g} and {high:.4g} mm")
+        raise UsageError(
+            f"--tip-height-mm {height:g} is out of reach",
+            why=f"the nearest row has r = {high:.4g} mm",
+            next_step=f"a height between {low:.4g} and {high:.4g} mm",
+        )
     if poses.needs_height and tip_height_mm is None:
         from brace.identify.table import best_tip_height_mm
 
         height = best_tip_height_mm(dataset, model, poses)
-        notes = (f"the table gives no direction of the tip: one height of z = {height:.1f} mm for all rows agrees best "
-                 "with its K; an inference (--tip-height-mm sets it)",)
+        notes = (
+            f"the table gives no direction of the tip: one height of z = {height:.1f} mm for all rows agrees best "
+            "with its K; an inference (--tip-height-mm sets it)",
+        )
     limb = planar_limb(model)
     angles = poses.true_angles(model, height)
     try:
         k = limb.stiffness(angles[:, 0], angles[:, 1])
     except PostureError as error:
         from brace.errors import BadFileError
-        raise BadFileError("the posture of this row is refused", why=error.text,
-                           where=f"{dataset.csv_path}:{error.index + 2} (row {error.index + 1})",
-                           next_step="check its r_mm, z_mm or angles") from None
-    source = ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm", "lambda_min_n_per_mm",
-              "lambda_max_n_per_mm")
+
+        raise BadFileError(
+            "the posture of this row is refused",
+            why=error.text,
+            where=f"{dataset.csv_path}:{error.index + 2} (row {error.index + 1})",
+            next_step="check its r_mm, z_mm or angles",
+        ) from None
+    source = (
+        "k_xx_n_per_mm",
+        "k_xz_n_per_mm",
+        "k_xz_n_per_mm",
+        "k_zz_n_per_mm",
+        "lambda_min_n_per_mm",
+        "lambda_max_n_per_mm",
+    )
     return Prediction({name: k[column].astype(float) for name, column in zip(TABLE_COLUMNS, source)}, notes)

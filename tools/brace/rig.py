@@ -69,16 +69,27 @@ class Rig:
         value = self.values
         axes = sum({"x": 1, "z": 2}[axis] for axis in set(value["rig.axes"]))
         return {
-            "theta1_rad": angles[:, 0].copy(), "theta2_rad": angles[:, 1].copy(), "axes": axes,
-            "repeats": value["rig.repeats"], "steps_per_side": value["rig.steps"],
-            "cyclic": int(value["rig.cyclic"]), "shuffled": int(value["rig.shuffled"]),
-            "zeroed": int(value["rig.zeroed"] == "per_run"), "step_mm": value["rig.step_mm"],
-            "preload_x_mm": value["rig.preload_x_mm"], "preload_z_mm": value["rig.preload_z_mm"],
-            "dwell_s": value["rig.dwell_s"], "pause_s": value["rig.pause_s"],
-            "temp_start_degc": value["temperature.start_degc"], "temp_rise_degc": value["temperature.rise_degc"],
-            "temp_time_constant_s": value["temperature.time_constant_s"], "noise_n": value["sensor.noise_n"],
-            "resolution_n": value["sensor.resolution_n"], "range_n": value["sensor.range_n"],
-            "encoder_noise_rad": value["sensor.encoder_noise_rad"], "base_noise_mm": value["sensor.base_noise_mm"],
+            "theta1_rad": angles[:, 0].copy(),
+            "theta2_rad": angles[:, 1].copy(),
+            "axes": axes,
+            "repeats": value["rig.repeats"],
+            "steps_per_side": value["rig.steps"],
+            "cyclic": int(value["rig.cyclic"]),
+            "shuffled": int(value["rig.shuffled"]),
+            "zeroed": int(value["rig.zeroed"] == "per_run"),
+            "step_mm": value["rig.step_mm"],
+            "preload_x_mm": value["rig.preload_x_mm"],
+            "preload_z_mm": value["rig.preload_z_mm"],
+            "dwell_s": value["rig.dwell_s"],
+            "pause_s": value["rig.pause_s"],
+            "temp_start_degc": value["temperature.start_degc"],
+            "temp_rise_degc": value["temperature.rise_degc"],
+            "temp_time_constant_s": value["temperature.time_constant_s"],
+            "noise_n": value["sensor.noise_n"],
+            "resolution_n": value["sensor.resolution_n"],
+            "range_n": value["sensor.range_n"],
+            "encoder_noise_rad": value["sensor.encoder_noise_rad"],
+            "base_noise_mm": value["sensor.base_noise_mm"],
             "seed": value["seed"],
         }
 
@@ -92,11 +103,16 @@ class Rig:
             true1, true2 = planar_limb(model, "general").posture(pose["r_mm"], pose["phi_rad"], pose["knee"])
         except PostureError as error:
             femur, tibia = model.number("geometry.femur_mm"), model.number("geometry.tibia_mm")
-            raise BadFileError(f"pose {index + 1} is out of reach: r = {pose['r_mm']:g} mm",
-                               where=self.document.where(f"configuration.{index}.r_mm"), why=error.text,
-                               next_step=f"{abs(femur - tibia):g} <= r_mm <= {femur + tibia:g}") from None
-        return (true1 - model.number("joint.femur.zero_offset_rad"),
-                true2 - model.number("joint.tibia.zero_offset_rad"))
+            raise BadFileError(
+                f"pose {index + 1} is out of reach: r = {pose['r_mm']:g} mm",
+                where=self.document.where(f"configuration.{index}.r_mm"),
+                why=error.text,
+                next_step=f"{abs(femur - tibia):g} <= r_mm <= {femur + tibia:g}",
+            ) from None
+        return (
+            true1 - model.number("joint.femur.zero_offset_rad"),
+            true2 - model.number("joint.tibia.zero_offset_rad"),
+        )
 
 
 def load_rig(path: Path) -> Rig:
@@ -106,22 +122,39 @@ def load_rig(path: Path) -> Rig:
     poses = content.pop("configuration", None)
     values = toml.check(document, RIG_KEYS, WHAT, content=content)
     if not isinstance(poses, list) or not poses or not all(isinstance(pose, dict) for pose in poses):
-        raise BadFileError("no configurations", where=document.where("configuration"),
-                           why="a rig file lists the poses at which the limb is loaded",
-                           next_step="add [[configuration]] with theta1_rad and theta2_rad, or r_mm and phi_rad")
+        raise BadFileError(
+            "no configurations",
+            where=document.where("configuration"),
+            why="a rig file lists the poses at which the limb is loaded",
+            next_step="add [[configuration]] with theta1_rad and theta2_rad, or r_mm and phi_rad",
+        )
     checked = tuple(_pose(document, index, pose) for index, pose in enumerate(poses))
     sides = 6 if values["rig.cyclic"] else 4
-    rows = len(checked) * len(set(values["rig.axes"])) * values["rig.repeats"] * (sides * values["rig.steps"] + 1)
+    rows = (
+        len(checked)
+        * len(set(values["rig.axes"]))
+        * values["rig.repeats"]
+        * (sides * values["rig.steps"] + 1)
+    )
     if rows > MAX_ROWS:
-        raise BadFileError(f"the test would have {rows} rows", where=document.where("rig.steps"),
-                           why=f"at most {MAX_ROWS} are simulated in one go", next_step="fewer steps or repeats")
+        raise BadFileError(
+            f"the test would have {rows} rows",
+            where=document.where("rig.steps"),
+            why=f"at most {MAX_ROWS} are simulated in one go",
+            next_step="fewer steps or repeats",
+        )
     return Rig(values, checked, document)
 
 
 def _pose(document: toml.Document, index: int, pose: Mapping[str, Any]) -> Mapping[str, Any]:
     polar = "r_mm" in pose or "phi_rad" in pose
     if polar and ("theta1_rad" in pose or "theta2_rad" in pose):
-        raise BadFileError(f"pose {index + 1} is given twice", where=document.where(f"configuration.{index}"),
-                           why="angles and polar coordinates may contradict each other", next_step="keep one pair")
-    return toml.check(document, _BY_POLAR if polar else _BY_ANGLES, WHAT, prefix=f"configuration.{index}.",
-                      content=pose)
+        raise BadFileError(
+            f"pose {index + 1} is given twice",
+            where=document.where(f"configuration.{index}"),
+            why="angles and polar coordinates may contradict each other",
+            next_step="keep one pair",
+        )
+    return toml.check(
+        document, _BY_POLAR if polar else _BY_ANGLES, WHAT, prefix=f"configuration.{index}.", content=pose
+    )

@@ -10,8 +10,21 @@ from brace.model import LimbModel
 from brace.native.plant import play_rig
 from brace.rig import Rig
 
-_BASE_COLUMNS = ("run", "config", "theta1_rad", "theta2_rad", "axis", "rep", "step", "t_s", "temp_degc", "dx_mm",
-                 "dz_mm", "fx_n", "fz_n")
+_BASE_COLUMNS = (
+    "run",
+    "config",
+    "theta1_rad",
+    "theta2_rad",
+    "axis",
+    "rep",
+    "step",
+    "t_s",
+    "temp_degc",
+    "dx_mm",
+    "dz_mm",
+    "fx_n",
+    "fz_n",
+)
 
 
 def simulate(model: LimbModel, rig: Rig) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
@@ -28,7 +41,10 @@ def simulate(model: LimbModel, rig: Rig) -> tuple[dict[str, Any], dict[str, np.n
         names += ["base_x_mm", "base_z_mm"]
     value = rig.values
     meta: dict[str, Any] = {
-        "format": 1, "kind": "loading", "title": value["title"], "zeroed": value["rig.zeroed"],
+        "format": 1,
+        "kind": "loading",
+        "title": value["title"],
+        "zeroed": value["rig.zeroed"],
         "sensor": {"resolution_n": value["sensor.resolution_n"], "range_n": value["sensor.range_n"]},
         "rig": {"step_mm": value["rig.step_mm"], "dwell_s": value["rig.dwell_s"]},
         "source": {"what": "simulated", "limb": model.name, "seed": value["seed"]},

@@ -26,11 +26,23 @@ _PLANAR = np.dtype([(name, "f4") for name in (*PLANAR_K, *PLANAR_REST)] + [("fla
 _COMPLIANCE = np.dtype([(name, "f4") for name in PLANAR_C])
 SPATIAL_K = tuple(f"k_{axes}_n_per_mm" for axes in ("xx", "xy", "xz", "yy", "yz", "zz"))
 SPATIAL_C = tuple(f"c_{axes}_mm_per_n" for axes in ("xx", "xy", "xz", "yy", "yz", "zz"))
-SPATIAL_REST = ("lambda_min_n_per_mm", "lambda_mid_n_per_mm", "lambda_max_n_per_mm",
-                "stiff_axis_x", "stiff_axis_y", "stiff_axis_z")
+SPATIAL_REST = (
+    "lambda_min_n_per_mm",
+    "lambda_mid_n_per_mm",
+    "lambda_max_n_per_mm",
+    "stiff_axis_x",
+    "stiff_axis_y",
+    "stiff_axis_z",
+)
 _SPATIAL = np.dtype([(name, "f4") for name in (*SPATIAL_K, *SPATIAL_REST)] + [("flags", "u4")])
-SIGMA = ("sigma_k_xx_n_per_mm", "sigma_k_xz_n_per_mm", "sigma_k_zz_n_per_mm", "sigma_lambda_min_n_per_mm",
-         "sigma_lambda_max_n_per_mm", "sigma_stiff_axis_rad")
+SIGMA = (
+    "sigma_k_xx_n_per_mm",
+    "sigma_k_xz_n_per_mm",
+    "sigma_k_zz_n_per_mm",
+    "sigma_lambda_min_n_per_mm",
+    "sigma_lambda_max_n_per_mm",
+    "sigma_stiff_axis_rad",
+)
 
 
 class PostureError(Exception):
@@ -69,8 +81,9 @@ class PlanarLimb:
         c = self.native.ffi.new("brace_compliance_t[]", count)
         null, compliance = self.native.ffi.NULL, self.native.lib.brace_chain_compliance
         for index, (theta1, theta2) in enumerate(zip(theta1_rad.tolist(), theta2_rad.tolist())):
-            status = self._evaluate(theta1, theta2, k + index) \
-                or compliance(self.chain, theta1, theta2, c + index, null)
+            status = self._evaluate(theta1, theta2, k + index) or compliance(
+                self.chain, theta1, theta2, c + index, null
+            )
             if status:
                 raise PostureError(index, status, status_text(self.native, status))
         return _joined(_array(self.native, k, _PLANAR), _array(self.native, c, _COMPLIANCE))
@@ -79,8 +92,9 @@ class PlanarLimb:
         """One sigma of each entry, from the model's [uncertainty]; true angles [rad]."""
         stiffness = self.native.ffi.new("brace_stiffness_t *")
         sigma = self.native.ffi.new("brace_stiffness_sigma_t *")
-        status = self._evaluate(theta1_rad, theta2_rad, stiffness) or self.native.lib.brace_uncertainty_stiffness(
-            self.limb, theta1_rad, theta2_rad, stiffness, sigma)
+        status = self._evaluate(
+            theta1_rad, theta2_rad, stiffness
+        ) or self.native.lib.brace_uncertainty_stiffness(self.limb, theta1_rad, theta2_rad, stiffness, sigma)
         if status:
             return {}
         return {name: float(getattr(sigma, name.removeprefix("sigma_"))) for name in SIGMA}
@@ -100,8 +114,9 @@ class PlanarLimb:
         """(r [mm], phi [rad]) of the tip at true angles."""
         ffi, lib = self.native.ffi, self.native.lib
         pose, polar = ffi.new("brace_pose_t *"), ffi.new("brace_polar_t *")
-        status = lib.brace_kinematics_forward(self.limb, theta1_rad, theta2_rad, pose) \
-            or lib.brace_kinematics_polar(pose.tip, polar)
+        status = lib.brace_kinematics_forward(
+            self.limb, theta1_rad, theta2_rad, pose
+        ) or lib.brace_kinematics_polar(pose.tip, polar)
         if status:
             raise PostureError(0, status, status_text(self.native, status))
         return float(polar.r_mm), float(polar.phi_rad)
@@ -126,8 +141,10 @@ def planar_limb(model: LimbModel, arithmetic: str = "f32") -> PlanarLimb:
         status = lib.brace_planar_collapse(limb, planar)
         path = "f32" if status == 0 else "general"
         if status == 0:
+
             def evaluate(theta1: float, theta2: float, out: Any) -> int:
                 return int(lib.brace_planar_stiffness(planar, theta1, theta2, out))
+
         elif status == E_UNSUPPORTED:
             status = 0
     elif path == "fixed":
@@ -138,23 +155,34 @@ def planar_limb(model: LimbModel, arithmetic: str = "f32") -> PlanarLimb:
             if max(abs(theta1), abs(theta2)) > FIXED_LIMIT_RAD:
                 return E_RANGE
             return int(lib.brace_planar_fixed_stiffness(fixed, round(theta1 * Q28), round(theta2 * Q28), out))
+
     elif path == "table":
         planar, table = ffi.new("brace_planar_t *"), ffi.new("brace_planar_table_t *")
         status = lib.brace_planar_collapse(limb, planar) or lib.brace_planar_table_build(planar, table)
 
         def evaluate(theta1: float, theta2: float, out: Any) -> int:
             return int(lib.brace_planar_table_stiffness(table, theta1, theta2, out))
+
     if status == E_UNSUPPORTED:
-        raise UsageError(f"--arith {arithmetic} cannot serve this limb", where=model.where(),
-                         why=status_text(native, status), next_step="--arith f32 or general")
+        raise UsageError(
+            f"--arith {arithmetic} cannot serve this limb",
+            where=model.where(),
+            why=status_text(native, status),
+            next_step="--arith f32 or general",
+        )
     if status:
-        raise UsageError("the firmware refuses this limb", where=model.where(), why=status_text(native, status),
-                         next_step="check the model")
+        raise UsageError(
+            "the firmware refuses this limb",
+            where=model.where(),
+            why=status_text(native, status),
+            next_step="check the model",
+        )
     return PlanarLimb(native, limb, chain, path, evaluate)
 
 
-def spatial_stiffness(model: LimbModel, theta0_rad: np.ndarray, theta1_rad: np.ndarray,
-                      theta2_rad: np.ndarray) -> np.ndarray:
+def spatial_stiffness(
+    model: LimbModel, theta0_rad: np.ndarray, theta1_rad: np.ndarray, theta2_rad: np.ndarray
+) -> np.ndarray:
     """The same in space, commanded angles; C is K's inverse. Raises PostureError."""
     native = library()
     ffi, lib = native.ffi, native.lib
@@ -162,9 +190,13 @@ def spatial_stiffness(model: LimbModel, theta0_rad: np.ndarray, theta1_rad: np.n
     spatial = ffi.new("brace_spatial_t *")
     status = lib.brace_spatial_collapse(limb, spatial)
     if status:
-        raise UsageError("this limb has no spatial K", where=model.where(), why=status_text(native, status),
-                         next_step="give joint.coxa, link.femur and link.tibia their compliances out of the plane "
-                                   "(lateral_mm_per_n, torsion_rad_per_n_mm), or leave out theta0")
+        raise UsageError(
+            "this limb has no spatial K",
+            where=model.where(),
+            why=status_text(native, status),
+            next_step="give joint.coxa, link.femur and link.tibia their compliances out of the plane "
+            "(lateral_mm_per_n, torsion_rad_per_n_mm), or leave out theta0",
+        )
     offset = [lib.brace_limb_true_angle(limb, joint, 0.0) for joint in range(3)]
     k = ffi.new("brace_stiffness_spatial_t[]", len(theta0_rad))
     for index, angles in enumerate(zip(theta0_rad.tolist(), theta1_rad.tolist(), theta2_rad.tolist())):

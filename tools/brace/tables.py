@@ -16,7 +16,8 @@ REACH_SLACK_MM = 1e-6
 @dataclass(frozen=True)
 class TablePoses:
     """How the rows' postures follow from the table. `fixed` holds true or commanded angles (rows x 2) when the
-    table gives them; otherwise r and a height, each row's own or a common one, put the tip in front of the limb."""
+    table gives them; otherwise r and a height, each row's own or a common one, put the tip in front of the limb.
+    """
 
     r_mm: np.ndarray
     z_mm: np.ndarray | None
@@ -36,7 +37,10 @@ class TablePoses:
     def true_angles(self, model: LimbModel, tip_height_mm: float = 0.0) -> np.ndarray:
         """rows x (theta1, theta2) [rad], true angles on this model's lengths."""
         if self.angles_rad is not None:
-            offsets = [model.number("joint.femur.zero_offset_rad"), model.number("joint.tibia.zero_offset_rad")]
+            offsets = [
+                model.number("joint.femur.zero_offset_rad"),
+                model.number("joint.tibia.zero_offset_rad"),
+            ]
             return self.angles_rad + offsets
         femur, tibia = model.number("geometry.femur_mm"), model.number("geometry.tibia_mm")
         height = self.z_mm if self.z_mm is not None else np.full_like(self.r_mm, tip_height_mm)
@@ -58,12 +62,17 @@ def table_poses(dataset: Dataset, model: LimbModel, knee: str = "up") -> TablePo
     out = (r_mm > femur + tibia + REACH_SLACK_MM) | (r_mm < abs(femur - tibia) - REACH_SLACK_MM)
     z_mm = dataset["z_mm"] if "z_mm" in dataset else None
     high = np.abs(z_mm) > r_mm if z_mm is not None else np.zeros_like(out)
-    for bad, field, why in ((out, "r_mm", f"this limb reaches {abs(femur - tibia):g} to {femur + tibia:g} mm"),
-                            (high, "z_mm", "a tip can not be higher than it is far away")):
+    for bad, field, why in (
+        (out, "r_mm", f"this limb reaches {abs(femur - tibia):g} to {femur + tibia:g} mm"),
+        (high, "z_mm", "a tip can not be higher than it is far away"),
+    ):
         if bad.any():
             row = int(np.argmax(bad))
             value = dataset[field][row]
-            raise BadFileError(f"{field} = {value:g} does not fit", why=why,
-                               where=f"{dataset.csv_path}:{row + 2} (row {row + 1}), {field}",
-                               next_step="check the row, or the model's lengths")
+            raise BadFileError(
+                f"{field} = {value:g} does not fit",
+                why=why,
+                where=f"{dataset.csv_path}:{row + 2} (row {row + 1}), {field}",
+                next_step="check the row, or the model's lengths",
+            )
     return TablePoses(r_mm, z_mm, None, 1.0 if knee == "up" else -1.0)

@@ -40,8 +40,13 @@ class Workspace:
         return np.column_stack([values.min(axis=1), values[:, values.shape[1] // 2], values.max(axis=1)])
 
 
-def compute(model: LimbModel, postures: int, theta1_limits_rad: tuple[float, float],
-            theta2_limits_rad: tuple[float, float], advance: Callable[[int], None] = lambda _done: None) -> Workspace:
+def compute(
+    model: LimbModel,
+    postures: int,
+    theta1_limits_rad: tuple[float, float],
+    theta2_limits_rad: tuple[float, float],
+    advance: Callable[[int], None] = lambda _done: None,
+) -> Workspace:
     """K at about `postures` postures, evenly spread over both angles."""
     rows = max(2, round(math.sqrt(postures)))
     theta2 = np.linspace(*theta2_limits_rad, rows, dtype=np.float32)
@@ -52,8 +57,12 @@ def compute(model: LimbModel, postures: int, theta1_limits_rad: tuple[float, flo
     flat2 = np.repeat(theta2, theta1.size)
     values, path = _evaluate(model, flat1, flat2, advance)
     if any(np.isnan(values[name]).any() for name in COLUMNS):
-        raise UsageError("some postures have no K", where=model.where(), why="C has no inverse there",
-                         next_step="a smaller range of --theta2, or a limb that yields in every direction")
+        raise UsageError(
+            "some postures have no K",
+            where=model.where(),
+            why="C has no inverse there",
+            next_step="a smaller range of --theta2, or a limb that yields in every direction",
+        )
     shaped = {name: column.reshape(theta2.size, theta1.size) for name, column in values.items()}
     return Workspace(theta1, theta2, r_mm, shaped, path)
 
@@ -75,8 +84,9 @@ def turning_points(r_mm: np.ndarray, values: np.ndarray) -> list[float]:
     return turns
 
 
-def _evaluate(model: LimbModel, theta1: np.ndarray, theta2: np.ndarray,
-              advance: Callable[[int], None]) -> tuple[dict[str, np.ndarray], str]:
+def _evaluate(
+    model: LimbModel, theta1: np.ndarray, theta2: np.ndarray, advance: Callable[[int], None]
+) -> tuple[dict[str, np.ndarray], str]:
     native = library()
     ffi, lib = native.ffi, native.lib
     batch = ffi.new("brace_planar_batch_t *")
@@ -84,8 +94,12 @@ def _evaluate(model: LimbModel, theta1: np.ndarray, theta2: np.ndarray,
     if status == E_UNSUPPORTED:
         return _by_the_chain(model, theta1, theta2, advance), "general"
     if status:
-        raise UsageError("the firmware refuses this limb", where=model.where(), why=status_text(native, status),
-                         next_step="check the model")
+        raise UsageError(
+            "the firmware refuses this limb",
+            where=model.where(),
+            why=status_text(native, status),
+            next_step="check the model",
+        )
     out = {name: np.empty(theta1.size, np.float32) for name in COLUMNS}
     soa = ffi.new("brace_stiffness_soa_t *")
     for first in range(0, theta1.size, BLOCK):
@@ -93,18 +107,24 @@ def _evaluate(model: LimbModel, theta1: np.ndarray, theta2: np.ndarray,
         pointers = [ffi.from_buffer("float[]", out[name][first:last]) for name in COLUMNS]
         for name, pointer in zip(COLUMNS, pointers):
             setattr(soa, name, pointer)
-        lib.brace_planar_batch(batch, last - first, ffi.from_buffer("float[]", theta1[first:last]),
-                               ffi.from_buffer("float[]", theta2[first:last]), soa)
+        lib.brace_planar_batch(
+            batch,
+            last - first,
+            ffi.from_buffer("float[]", theta1[first:last]),
+            ffi.from_buffer("float[]", theta2[first:last]),
+            soa,
+        )
         advance(last)
     return out, "batch"
 
 
-def _by_the_chain(model: LimbModel, theta1: np.ndarray, theta2: np.ndarray,
-                  advance: Callable[[int], None]) -> dict[str, np.ndarray]:
+def _by_the_chain(
+    model: LimbModel, theta1: np.ndarray, theta2: np.ndarray, advance: Callable[[int], None]
+) -> dict[str, np.ndarray]:
     limb = planar_limb(model, "general")
     parts = []
     for first in range(0, theta1.size, BLOCK):
-        parts.append(limb.stiffness(theta1[first:first + BLOCK], theta2[first:first + BLOCK]))
+        parts.append(limb.stiffness(theta1[first : first + BLOCK], theta2[first : first + BLOCK]))
         advance(min(first + BLOCK, theta1.size))
     whole = np.concatenate(parts)
     return {name: np.ascontiguousarray(whole[name]) for name in COLUMNS}

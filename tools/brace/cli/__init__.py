@@ -35,23 +35,30 @@ def main(argv: Sequence[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except MemoryError:
-        print("brace: out of memory\n  why: the request is larger than this machine\n  try: fewer rows or postures",
-              file=sys.stderr)
+        print(
+            "brace: out of memory\n  why: the request is larger than this machine\n  try: fewer rows or postures",
+            file=sys.stderr,
+        )
         return EXIT_CHECK_FAILED
     except Exception as error:  # a defect of ours: still no traceback unless asked for
         if os.environ.get("BRACE_DEBUG"):
             raise
-        print(f"brace: internal error: {type(error).__name__}: {error}\n  why: this is a defect of brace, not of your "
-              "files\n  try: the same command with BRACE_DEBUG=1, and report what it prints", file=sys.stderr)
+        print(
+            f"brace: internal error: {type(error).__name__}: {error}\n  why: this is a defect of brace, not of your "
+            "files\n  try: the same command with BRACE_DEBUG=1, and report what it prints",
+            file=sys.stderr,
+        )
         return EXIT_CHECK_FAILED
 
 
 def build_parser() -> argparse.ArgumentParser:
     """The parser of all subcommands."""
     parser = argparse.ArgumentParser(
-        prog="brace", description="Stiffness at the tip of a climbing robot's limb: predict it, measure it, explain it. "
+        prog="brace",
+        description="Stiffness at the tip of a climbing robot's limb: predict it, measure it, explain it. "
         "Units: mm, N, N mm, rad, s, degC.",
-        epilog="Exit codes: 0 done, 1 a check failed, 2 usage, 3 bad model or data file, 130 interrupted.")
+        epilog="Exit codes: 0 done, 1 a check failed, 2 usage, 3 bad model or data file, 130 interrupted.",
+    )
     parser.add_argument("--version", action="version", version=f"brace {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", dest="command")
     for name in SUBCOMMANDS:

@@ -22,7 +22,9 @@ def add_model(parser: argparse.ArgumentParser, meaning: str = "the limb model") 
 
 def add_json(parser: argparse.ArgumentParser) -> None:
     """--json"""
-    parser.add_argument("--json", action="store_true", help="print one JSON object on stdout; messages stay on stderr")
+    parser.add_argument(
+        "--json", action="store_true", help="print one JSON object on stdout; messages stay on stderr"
+    )
 
 
 def number(text: str) -> float:
@@ -46,6 +48,7 @@ def positive(text: str) -> float:
 
 def count(low: int, high: int) -> Callable[[str], int]:
     """A whole number in [low, high]."""
+
     def parse(text: str) -> int:
         try:
             value = int(text)
@@ -54,6 +57,7 @@ def count(low: int, high: int) -> Callable[[str], int]:
         if not low <= value <= high:
             raise argparse.ArgumentTypeError(f"{value} is not in [{low}, {high}]")
         return value
+
     return parse
 
 
@@ -94,6 +98,7 @@ def progress(label: str, total: int | None = None) -> Iterator[Callable[[int], N
         if not bar:
             from rich.console import Console
             from rich.progress import Progress
+
             shown = Progress(console=Console(stderr=True), transient=True)
             shown.start()
             bar.extend([shown, shown.add_task(label, total=total)])

@@ -14,27 +14,57 @@ STEPS = 20
 def add(commands: Any) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
-        "identify", help="a limb's parameters from measurements, with intervals",
+        "identify",
+        help="a limb's parameters from measurements, with intervals",
         description="Fits the model to a loading record, a stiffness table or a joint test; prints each parameter with "
-                    "its 90 % interval (not identifiable: infinite), correlations, the classes that the record "
-                    "cannot tell apart, and the share of joints and structure. Writes the fitted model.")
+        "its 90 % interval (not identifiable: infinite), correlations, the classes that the record "
+        "cannot tell apart, and the share of joints and structure. Writes the fitted model.",
+    )
     parser.add_argument("dataset", type=Path, metavar="DATASET", help="folder with meta.toml and data.csv")
     common.add_model(parser, "the start, and the trust put in it")
     parser.add_argument("--out", type=Path, required=True, metavar="FITTED.toml", help="the fitted model")
     mode = parser.add_mutually_exclusive_group()
-    mode.add_argument("--prior", dest="mode", action="store_const", const="prior",
-                      help="within the trust of [uncertainty] (default for loading records)")
-    mode.add_argument("--free", dest="mode", action="store_const", const="free",
-                      help="compliances free, lengths, zeros and gain within their trust (default for tables)")
-    parser.add_argument("--fit", action="append", default=[], metavar="KEY", help="also fit this key of limb.toml, free")
-    parser.add_argument("--only", action="append", default=[], metavar="KEY", help="fit these keys and no others, free")
-    parser.add_argument("--faults", choices=("repair", "drop", "refuse"), default="repair",
-                        help="faulty entries: take the one repair that follows from the record and say so (default), "
-                             "leave their rows out, or refuse")
-    parser.add_argument("--sigma", type=common.positive, default=0.3, metavar="N_PER_MM",
-                        help="tables: one sigma of an entry of K, absolute part (default 0.3 N/mm)")
-    parser.add_argument("--sigma-rel", type=common.number, default=0.1, metavar="RATIO",
-                        help="tables: relative part (default 0.1)")
+    mode.add_argument(
+        "--prior",
+        dest="mode",
+        action="store_const",
+        const="prior",
+        help="within the trust of [uncertainty] (default for loading records)",
+    )
+    mode.add_argument(
+        "--free",
+        dest="mode",
+        action="store_const",
+        const="free",
+        help="compliances free, lengths, zeros and gain within their trust (default for tables)",
+    )
+    parser.add_argument(
+        "--fit", action="append", default=[], metavar="KEY", help="also fit this key of limb.toml, free"
+    )
+    parser.add_argument(
+        "--only", action="append", default=[], metavar="KEY", help="fit these keys and no others, free"
+    )
+    parser.add_argument(
+        "--faults",
+        choices=("repair", "drop", "refuse"),
+        default="repair",
+        help="faulty entries: take the one repair that follows from the record and say so (default), "
+        "leave their rows out, or refuse",
+    )
+    parser.add_argument(
+        "--sigma",
+        type=common.positive,
+        default=0.3,
+        metavar="N_PER_MM",
+        help="tables: one sigma of an entry of K, absolute part (default 0.3 N/mm)",
+    )
+    parser.add_argument(
+        "--sigma-rel",
+        type=common.number,
+        default=0.1,
+        metavar="RATIO",
+        help="tables: relative part (default 0.1)",
+    )
     parser.add_argument("--knee", choices=("up", "down"), default="up", help="tables that give r alone")
     common.add_json(parser)
     parser.set_defaults(run=run, mode="")
@@ -50,9 +80,14 @@ def run(arguments: argparse.Namespace) -> int:
     from brace.identify.table import Weight
     from brace.model import load_limb
 
-    options = Options(mode=arguments.mode or "", extra_keys=tuple(checked_keys(arguments.fit)),
-                      only_keys=tuple(checked_keys(arguments.only)), faults=arguments.faults, knee=arguments.knee,
-                      weight=Weight(arguments.sigma, max(0.0, arguments.sigma_rel)))
+    options = Options(
+        mode=arguments.mode or "",
+        extra_keys=tuple(checked_keys(arguments.fit)),
+        only_keys=tuple(checked_keys(arguments.only)),
+        faults=arguments.faults,
+        knee=arguments.knee,
+        weight=Weight(arguments.sigma, max(0.0, arguments.sigma_rel)),
+    )
     model = load_limb(arguments.model)
     dataset = load_dataset(arguments.dataset)
     for fault in dataset.faults:

@@ -14,19 +14,42 @@ from brace.errors import UsageError
 def add(commands: Any) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
-        "map", help="the workspace: eigenvalues over r, ellipses of K, as pictures and CSV",
+        "map",
+        help="the workspace: eigenvalues over r, ellipses of K, as pictures and CSV",
         description="Computes K over a grid of postures and writes into --out: map.png and map.svg (eigenvalues over r, "
-                    "ellipses), eigenvalues.csv (a row per theta2), ellipses.csv (the drawn ones). Says where "
-                    "quasi-convexity holds.")
+        "ellipses), eigenvalues.csv (a row per theta2), ellipses.csv (the drawn ones). Says where "
+        "quasi-convexity holds.",
+    )
     common.add_model(parser)
-    parser.add_argument("--out", type=Path, default=Path("brace-map"), metavar="DIR", help="default: brace-map")
-    parser.add_argument("--postures", type=common.count(100, 50_000_000), default=100_000, metavar="N",
-                        help="number of postures, default 100000")
-    parser.add_argument("--theta1", type=common.number, nargs=2, default=(-math.pi / 2, math.pi / 2),
-                        metavar=("LOW", "HIGH"), help="range of the true femur angle [rad], default -pi/2 pi/2")
-    parser.add_argument("--theta2", type=common.number, nargs=2, default=(0.0, math.pi), metavar=("LOW", "HIGH"),
-                        help="range of the true knee angle [rad], default 0 pi")
-    parser.add_argument("--npy", action="store_true", help="also every posture, as postures.npy (float32, named columns)")
+    parser.add_argument(
+        "--out", type=Path, default=Path("brace-map"), metavar="DIR", help="default: brace-map"
+    )
+    parser.add_argument(
+        "--postures",
+        type=common.count(100, 50_000_000),
+        default=100_000,
+        metavar="N",
+        help="number of postures, default 100000",
+    )
+    parser.add_argument(
+        "--theta1",
+        type=common.number,
+        nargs=2,
+        default=(-math.pi / 2, math.pi / 2),
+        metavar=("LOW", "HIGH"),
+        help="range of the true femur angle [rad], default -pi/2 pi/2",
+    )
+    parser.add_argument(
+        "--theta2",
+        type=common.number,
+        nargs=2,
+        default=(0.0, math.pi),
+        metavar=("LOW", "HIGH"),
+        help="range of the true knee angle [rad], default 0 pi",
+    )
+    parser.add_argument(
+        "--npy", action="store_true", help="also every posture, as postures.npy (float32, named columns)"
+    )
     common.add_json(parser)
     parser.set_defaults(run=run)
 
@@ -40,11 +63,16 @@ def run(arguments: argparse.Namespace) -> int:
     for name in ("theta1", "theta2"):
         low, high = getattr(arguments, name)
         if not -math.pi - 1e-9 <= low < high <= math.pi + 1e-9:
-            raise UsageError(f"--{name} {low:g} {high:g} is no range", why="angles are in rad, low before high, within "
-                             "[-pi, pi]", next_step=f"--{name} -1.5 1.5")
+            raise UsageError(
+                f"--{name} {low:g} {high:g} is no range",
+                why="angles are in rad, low before high, within " "[-pi, pi]",
+                next_step=f"--{name} -1.5 1.5",
+            )
     model = load_limb(arguments.model)
     with common.progress("K over the workspace", arguments.postures) as advance:
-        grid = workspace.compute(model, arguments.postures, tuple(arguments.theta1), tuple(arguments.theta2), advance)
+        grid = workspace.compute(
+            model, arguments.postures, tuple(arguments.theta1), tuple(arguments.theta2), advance
+        )
     summary = _summary(model.name, grid)
     with OutputSet() as outputs:
         for name, content in _files(model, grid, arguments.npy):
@@ -61,9 +89,14 @@ def _summary(name: str, grid: Any) -> dict[str, Any]:
     from brace.workspace import turning_points
 
     low, high = grid.band("lambda_min_n_per_mm"), grid.band("lambda_max_n_per_mm")
-    turns = {"lambda_max": turning_points(grid.r_mm, high[:, 1]), "lambda_min": turning_points(grid.r_mm, low[:, 1])}
+    turns = {
+        "lambda_max": turning_points(grid.r_mm, high[:, 1]),
+        "lambda_min": turning_points(grid.r_mm, low[:, 1]),
+    }
     return {
-        "model": name, "postures": grid.count, "path": grid.path,
+        "model": name,
+        "postures": grid.count,
+        "path": grid.path,
         "r_mm": [grid.r_mm.min(), grid.r_mm.max()],
         "lambda_min_n_per_mm": [low[:, 0].min(), low[:, 2].max()],
         "lambda_max_n_per_mm": [high[:, 0].min(), high[:, 2].max()],
@@ -90,9 +123,12 @@ def _files(model: Any, grid: Any, every_posture: bool) -> list[tuple[str, bytes]
     keep = order[:: max(1, order.size // 1500)]
     figure = workspace_figure(model.name, grid.r_mm[keep], low[keep], high[keep], ellipses, links)
     decimals = dict.fromkeys((*curve, *ellipses), 9)
-    files = [("map.png", png_bytes(figure)), ("map.svg", svg_bytes(figure)),
-             ("eigenvalues.csv", csv_text(curve, decimals).encode()),
-             ("ellipses.csv", csv_text(ellipses, decimals).encode())]
+    files = [
+        ("map.png", png_bytes(figure)),
+        ("map.svg", svg_bytes(figure)),
+        ("eigenvalues.csv", csv_text(curve, decimals).encode()),
+        ("ellipses.csv", csv_text(ellipses, decimals).encode()),
+    ]
     if every_posture:
         files.append(("postures.npy", _npy(grid)))
     return files
@@ -138,10 +174,12 @@ def _text(summary: dict[str, Any], out: Path) -> str:
 
     convex = "holds" if summary["quasi_convex_lambda_max"] else "does not hold"
     concave = "holds" if summary["quasi_concave_lambda_min"] else "does not hold"
-    return (f"{summary['model']}: {summary['postures']} postures, r = {summary['r_mm'][0]:.1f} to "
-            f"{summary['r_mm'][1]:.1f} mm ({summary['path']})\n"
-            f"lambda_min {summary['lambda_min_n_per_mm'][0]:.4g} to {summary['lambda_min_n_per_mm'][1]:.4g} N/mm; "
-            f"{turns('lambda_min')}; quasi-concave over r: {concave}\n"
-            f"lambda_max {summary['lambda_max_n_per_mm'][0]:.4g} to {summary['lambda_max_n_per_mm'][1]:.4g} N/mm; "
-            f"{turns('lambda_max')}; quasi-convex over r: {convex}\n"
-            f"-> {out}/map.png, map.svg, eigenvalues.csv, ellipses.csv")
+    return (
+        f"{summary['model']}: {summary['postures']} postures, r = {summary['r_mm'][0]:.1f} to "
+        f"{summary['r_mm'][1]:.1f} mm ({summary['path']})\n"
+        f"lambda_min {summary['lambda_min_n_per_mm'][0]:.4g} to {summary['lambda_min_n_per_mm'][1]:.4g} N/mm; "
+        f"{turns('lambda_min')}; quasi-concave over r: {concave}\n"
+        f"lambda_max {summary['lambda_max_n_per_mm'][0]:.4g} to {summary['lambda_max_n_per_mm'][1]:.4g} N/mm; "
+        f"{turns('lambda_max')}; quasi-convex over r: {convex}\n"
+        f"-> {out}/map.png, map.svg, eigenvalues.csv, ellipses.csv"
+    )

@@ -12,16 +12,26 @@ from brace.cli import common
 def add(commands: Any) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
-        "predict", help="a dataset's own load sequence played on a model",
+        "predict",
+        help="a dataset's own load sequence played on a model",
         description="Writes one row per row of the dataset, in order, predicted columns only: fx_n,fz_n for loading sets "
-                    "(and encoder and gauge columns where the dataset has them), torque_n_mm for joint tests, K's "
-                    "columns in N/mm for stiffness tables.")
+        "(and encoder and gauge columns where the dataset has them), torque_n_mm for joint tests, K's "
+        "columns in N/mm for stiffness tables.",
+    )
     parser.add_argument("dataset", type=Path, metavar="DATASET", help="folder with meta.toml and data.csv")
     common.add_model(parser)
-    parser.add_argument("--out", type=Path, required=True, metavar="PRED.csv", help="file of the predicted columns")
-    parser.add_argument("--tip-height-mm", type=common.number, metavar="MM",
-                        help="stiffness tables that give r alone: height of the tip; default: the one that fits best")
-    parser.add_argument("--knee", choices=("up", "down"), default="up", help="stiffness tables that give r alone")
+    parser.add_argument(
+        "--out", type=Path, required=True, metavar="PRED.csv", help="file of the predicted columns"
+    )
+    parser.add_argument(
+        "--tip-height-mm",
+        type=common.number,
+        metavar="MM",
+        help="stiffness tables that give r alone: height of the tip; default: the one that fits best",
+    )
+    parser.add_argument(
+        "--knee", choices=("up", "down"), default="up", help="stiffness tables that give r alone"
+    )
     common.add_json(parser)
     parser.set_defaults(run=run)
 
@@ -46,11 +56,21 @@ def run(arguments: argparse.Namespace) -> int:
     texts = [[f"{value:.9g}" for value in (values + 0.0).tolist()] for values in columns.values()]
     lines = [",".join(columns), *(",".join(row) for row in zip(*texts))]
     write_file(arguments.out, "\n".join(lines) + "\n")
-    gap = {f"rms_gap_{name}": float(np.sqrt(np.mean((values - dataset[name]) ** 2)))
-           for name, values in columns.items() if name in dataset}
+    gap = {
+        f"rms_gap_{name}": float(np.sqrt(np.mean((values - dataset[name]) ** 2)))
+        for name, values in columns.items()
+        if name in dataset
+    }
     if arguments.json:
-        common.print_json({"rows": dataset.rows, "columns": list(columns), "out": arguments.out, **gap,
-                           "notes": list(prediction.notes)})
+        common.print_json(
+            {
+                "rows": dataset.rows,
+                "columns": list(columns),
+                "out": arguments.out,
+                **gap,
+                "notes": list(prediction.notes),
+            }
+        )
     else:
         shown = ", ".join(f"{name.removeprefix('rms_gap_')} {value:.4g}" for name, value in gap.items())
         common.say(f"{dataset.rows} rows -> {arguments.out}; rms gap to the measured: {shown}")

@@ -27,15 +27,23 @@ def _time(columns: Columns) -> Iterator[DataFault]:
 def _stuck(columns: Columns) -> Iterator[DataFault]:
     for name in ("angle_rad", "torque_n_mm"):
         if columns[name].size > 2 and np.ptp(columns[name]) == 0.0:
-            yield DataFault(None, name, f"the column never changes ({columns[name][0]:g}): a sensor was off, or the "
-                                        "same row was written again and again")
+            yield DataFault(
+                None,
+                name,
+                f"the column never changes ({columns[name][0]:g}): a sensor was off, or the "
+                "same row was written again and again",
+            )
 
 
 def _angle(columns: Columns) -> Iterator[DataFault]:
     worst = int(np.argmax(np.abs(columns["angle_rad"])))
     if abs(columns["angle_rad"][worst]) > FULL_TURN_RAD:
-        yield DataFault(None, "angle_rad", f"{columns['angle_rad'][worst]:g} is more than a turn: the column fits "
-                                           "only in degrees", "degrees: multiply by pi/180")
+        yield DataFault(
+            None,
+            "angle_rad",
+            f"{columns['angle_rad'][worst]:g} is more than a turn: the column fits " "only in degrees",
+            "degrees: multiply by pi/180",
+        )
 
 
 def _saturation(columns: Columns) -> Iterator[DataFault]:
@@ -46,6 +54,10 @@ def _saturation(columns: Columns) -> Iterator[DataFault]:
     limit = float(np.quantile(torque, 0.999))
     held = np.flatnonzero((SATURATED_SHARE * command > limit) & (torque > 0.8 * limit))
     if held.size > 10:
-        yield DataFault(int(held[0]) + 1, "torque_n_mm",
-                        f"the drive stands at its limit of about {limit:.3g} N mm in {held.size} rows while up to "
-                        f"{command.max():.3g} N mm is commanded: saturated", blocking=False)
+        yield DataFault(
+            int(held[0]) + 1,
+            "torque_n_mm",
+            f"the drive stands at its limit of about {limit:.3g} N mm in {held.size} rows while up to "
+            f"{command.max():.3g} N mm is commanded: saturated",
+            blocking=False,
+        )

@@ -40,14 +40,19 @@ def run_starts(run: np.ndarray) -> np.ndarray:
 def _time(columns: Columns) -> Iterator[DataFault]:
     back = np.flatnonzero(np.diff(columns["t_s"]) < 0)
     for row in back[:MAX_LISTED]:
-        yield DataFault(int(row) + 2, "t_s", "time runs backwards: creep, drift and friction follow the order")
+        yield DataFault(
+            int(row) + 2, "t_s", "time runs backwards: creep, drift and friction follow the order"
+        )
     starts = run_starts(columns["run"])[:-1]
     names, counts = np.unique(columns["run"][starts], return_counts=True)
     if (counts > 1).any():
         run = names[counts > 1][0]
         again = starts[columns["run"][starts] == run][1]
-        yield DataFault(int(again) + 1, "run", f"run {run} goes on after another run: rows are out of order or "
-                                               "a number was used twice")
+        yield DataFault(
+            int(again) + 1,
+            "run",
+            f"run {run} goes on after another run: rows are out of order or " "a number was used twice",
+        )
 
 
 def _duplicates(columns: Columns) -> Iterator[DataFault]:
@@ -60,8 +65,12 @@ def _duplicates(columns: Columns) -> Iterator[DataFault]:
             repeated = np.flatnonzero(np.isin(keys, keys[first[counts > 1]]))
             same = np.setdiff1d(repeated, first)
     for row in same[:MAX_LISTED]:
-        yield DataFault(int(row) + 1, "t_s", f"the row repeats another one entry by entry "
-                                             f"({same.size} such row{'s' if same.size > 1 else ''})")
+        yield DataFault(
+            int(row) + 1,
+            "t_s",
+            f"the row repeats another one entry by entry "
+            f"({same.size} such row{'s' if same.size > 1 else ''})",
+        )
 
 
 def _row_keys(table: np.ndarray) -> np.ndarray:
@@ -69,7 +78,9 @@ def _row_keys(table: np.ndarray) -> np.ndarray:
     words = (table + 0.0).view(np.uint64)
     keys = np.zeros(table.shape[0], dtype=np.uint64)
     for column in range(table.shape[1]):
-        keys ^= words[:, column] + np.uint64(0x9E3779B97F4A7C15) + (keys << np.uint64(6)) + (keys >> np.uint64(2))
+        keys ^= (
+            words[:, column] + np.uint64(0x9E3779B97F4A7C15) + (keys << np.uint64(6)) + (keys >> np.uint64(2))
+        )
         keys *= np.uint64(0xBF58476D1CE4E5B9)
     return keys
 
@@ -84,8 +95,9 @@ def _angles(columns: Columns) -> Iterator[DataFault]:
         why = f"{values[row]:g} is more than a turn"
         if in_degrees:
             why += "; both angle columns fit only in degrees"
-        yield DataFault(None if in_degrees else row + 1, name, why,
-                        "degrees: multiply by pi/180" if in_degrees else None)
+        yield DataFault(
+            None if in_degrees else row + 1, name, why, "degrees: multiply by pi/180" if in_degrees else None
+        )
 
 
 def _steps(columns: Columns, meta: Meta) -> Iterator[DataFault]:
@@ -103,8 +115,12 @@ def _steps(columns: Columns, meta: Meta) -> Iterator[DataFault]:
     why = f"steps of {typical_mm:.4g} in the record, rig.step_mm = {step_mm:g} in meta.toml"
     for name in ("dx_mm", "dz_mm"):
         if np.any(columns[name]):
-            yield DataFault(None, name, why + (f"; the column fits only in {unit}" if unit else ""),
-                            f"{unit}: multiply by {factor:g}" if unit else None)
+            yield DataFault(
+                None,
+                name,
+                why + (f"; the column fits only in {unit}" if unit else ""),
+                f"{unit}: multiply by {factor:g}" if unit else None,
+            )
 
 
 def _sensor_range(columns: Columns, meta: Meta) -> Iterator[DataFault]:
@@ -115,15 +131,25 @@ def _sensor_range(columns: Columns, meta: Meta) -> Iterator[DataFault]:
     for name in ("fx_n", "fz_n"):
         beyond = np.flatnonzero(np.abs(columns[name]) > limit_n + slack_n)
         if beyond.size > 0.5 * columns[name].size:
-            yield DataFault(None, name, f"most readings are beyond the sensor's {limit_n:g} N: the column cannot be "
-                                        "in N", "mN: multiply by 0.001")
+            yield DataFault(
+                None,
+                name,
+                f"most readings are beyond the sensor's {limit_n:g} N: the column cannot be " "in N",
+                "mN: multiply by 0.001",
+            )
             continue
         for row in beyond[:MAX_LISTED]:
-            yield DataFault(int(row) + 1, name, f"{columns[name][row]:g} N is beyond the sensor's {limit_n:g} N")
+            yield DataFault(
+                int(row) + 1, name, f"{columns[name][row]:g} N is beyond the sensor's {limit_n:g} N"
+            )
         held = np.flatnonzero(np.abs(np.abs(columns[name]) - limit_n) <= 1e-9 * limit_n)
         if held.size > 1:
-            yield DataFault(int(held[0]) + 1, name, f"{held.size} readings stand at the sensor's limit of "
-                                                    f"{limit_n:g} N: clipped", blocking=False)
+            yield DataFault(
+                int(held[0]) + 1,
+                name,
+                f"{held.size} readings stand at the sensor's limit of " f"{limit_n:g} N: clipped",
+                blocking=False,
+            )
 
 
 @dataclass(frozen=True)
@@ -152,8 +178,10 @@ def _slopes(columns: Columns) -> _RunSlopes:
     power = np.add.reduceat(d * d, first)
     safe = np.where(power > 0, power, 1.0)
     fits = []
-    for force in (np.where(along_z, columns["fz_n"], columns["fx_n"]),
-                  np.where(along_z, columns["fx_n"], columns["fz_n"])):
+    for force in (
+        np.where(along_z, columns["fz_n"], columns["fx_n"]),
+        np.where(along_z, columns["fx_n"], columns["fz_n"]),
+    ):
         f = centred(force)
         slope = np.add.reduceat(d * f, first) / safe
         square = np.add.reduceat((f - d * np.repeat(slope, count)) ** 2, first)
@@ -171,23 +199,43 @@ def _signs(columns: Columns) -> Iterator[DataFault]:
     for axis, name in enumerate(("fx_n", "fz_n")):
         here = runs.axis == axis
         if here.any() and falls[here].all():
-            yield DataFault(None, name, "the force falls in every run that pushes along its axis: no limb does",
-                            "the column with its sign turned")
+            yield DataFault(
+                None,
+                name,
+                "the force falls in every run that pushes along its axis: no limb does",
+                "the column with its sign turned",
+            )
             return
         for first in runs.first[here & falls][:MAX_LISTED]:
-            yield DataFault(int(first) + 1, name, f"run {number[first]}: the force falls as the tip is pushed along "
-                                                  "its axis: no limb does", "the run with this sign turned")
+            yield DataFault(
+                int(first) + 1,
+                name,
+                f"run {number[first]}: the force falls as the tip is pushed along " "its axis: no limb does",
+                "the run with this sign turned",
+            )
     configs, group = np.unique(runs.config, return_inverse=True)
     together = np.split(runs.cross[np.argsort(group, kind="stable")], np.cumsum(np.bincount(group))[:-1])
-    middle = np.array([np.median(slopes) for slopes in together])[group] if configs.size <= MAX_CONFIGS \
+    middle = (
+        np.array([np.median(slopes) for slopes in together])[group]
+        if configs.size <= MAX_CONFIGS
         else np.zeros(group.size)
+    )
     enough = np.bincount(group)[group] >= 3
-    turned = enough & (runs.cross * middle < 0) & (np.abs(runs.cross + middle) < 0.3 * np.abs(middle)) \
+    turned = (
+        enough
+        & (runs.cross * middle < 0)
+        & (np.abs(runs.cross + middle) < 0.3 * np.abs(middle))
         & (np.abs(runs.cross) > 5 * runs.cross_error)
+    )
     for index in np.flatnonzero(turned)[:MAX_LISTED]:
         first, name = int(runs.first[index]), ("fz_n", "fx_n")[runs.axis[index]]
-        yield DataFault(first + 1, name, f"run {number[first]}: slope {runs.cross[index]:+.3g} N/mm where the pose's "
-                                         f"other runs have {middle[index]:+.3g}", "the run with this sign turned")
+        yield DataFault(
+            first + 1,
+            name,
+            f"run {number[first]}: slope {runs.cross[index]:+.3g} N/mm where the pose's "
+            f"other runs have {middle[index]:+.3g}",
+            "the run with this sign turned",
+        )
 
 
 def _slipped_decimals(columns: Columns, meta: Meta) -> Iterator[DataFault]:
@@ -197,7 +245,7 @@ def _slipped_decimals(columns: Columns, meta: Meta) -> Iterator[DataFault]:
     if run.size < 5:
         return
     inner = np.zeros(run.size, dtype=bool)
-    inner[1:-1] = (run[:-2] == run[2:])
+    inner[1:-1] = run[:-2] == run[2:]
     turning = np.zeros(run.size, dtype=bool)
     turning[1:-1] = (moved[1:-1] - moved[:-2]) * (moved[2:] - moved[1:-1]) < 0
     for name in ("fx_n", "fz_n"):
@@ -214,7 +262,12 @@ def _slipped_decimals(columns: Columns, meta: Meta) -> Iterator[DataFault]:
             near = max(4 * typical, 0.02 * abs(expected[row]))
             for factor in (0.1, 10.0, 0.01, 100.0):
                 if abs(force[row] * factor - expected[row]) < near:
-                    yield DataFault(int(row) + 1, name, f"{force[row]:g} stands out of its run; its neighbours lead to "
-                                    f"{expected[row]:.3g}: a slipped decimal point", float(force[row] * factor),
-                                    repair=True)
+                    yield DataFault(
+                        int(row) + 1,
+                        name,
+                        f"{force[row]:g} stands out of its run; its neighbours lead to "
+                        f"{expected[row]:.3g}: a slipped decimal point",
+                        float(force[row] * factor),
+                        repair=True,
+                    )
                     break

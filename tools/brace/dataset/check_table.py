@@ -34,8 +34,13 @@ def printed_decimals(path: Path, rows: Sequence[bytes]) -> dict[str, int]:
 
 def faults(columns: Columns, decimals: Mapping[str, int], meta: Meta) -> list[DataFault]:
     """Every fault found, and the rows whose smaller eigenvalue the rounding leaves open (not blocking)."""
-    return [*_unit(columns, meta), *_duplicates(columns), *_asymmetry(columns, decimals),
-            *_eigenvalues(columns, decimals), *_undetermined(columns, decimals)]
+    return [
+        *_unit(columns, meta),
+        *_duplicates(columns),
+        *_asymmetry(columns, decimals),
+        *_eigenvalues(columns, decimals),
+        *_undetermined(columns, decimals),
+    ]
 
 
 def stiffness(columns: Columns) -> np.ndarray:
@@ -74,24 +79,36 @@ def _unit(columns: Columns, meta: Meta) -> Iterator[DataFault]:
     if unit in ("N/m", "Nm^-1", "N/metre", "N/meter"):
         force_n = typical * 1e-3 * LOADING_STROKE_MM
         if force_n < resolution_n:
-            yield DataFault(None, "unit", f"printed in N/m, but then the typical force at {LOADING_STROKE_MM} mm would "
-                            f"be {force_n:.2g} N, below the sensor's resolution of {resolution_n:.3g} N, and a servo's "
-                            "spring (about 6e4 N mm/rad) at these levers gives 0.3 to 2.6 N/mm", "N/mm",
-                            repair=True, blocking=False)
+            yield DataFault(
+                None,
+                "unit",
+                f"printed in N/m, but then the typical force at {LOADING_STROKE_MM} mm would "
+                f"be {force_n:.2g} N, below the sensor's resolution of {resolution_n:.3g} N, and a servo's "
+                "spring (about 6e4 N mm/rad) at these levers gives 0.3 to 2.6 N/mm",
+                "N/mm",
+                repair=True,
+                blocking=False,
+            )
             return
     low, high = PLAUSIBLE_N_PER_MM
     if typical and not low <= typical <= high:
         fits = "N/m" if typical > high else "N/um"
-        yield DataFault(None, "unit", f"the typical stiffness is {typical:.3g} N/mm: no limb that a servo holds has it; "
-                                      f"the columns fit only in {fits}",
-                        f"{fits}: multiply by {1e-3 if fits == 'N/m' else 1e3:g}")
+        yield DataFault(
+            None,
+            "unit",
+            f"the typical stiffness is {typical:.3g} N/mm: no limb that a servo holds has it; "
+            f"the columns fit only in {fits}",
+            f"{fits}: multiply by {1e-3 if fits == 'N/m' else 1e3:g}",
+        )
 
 
 def _duplicates(columns: Columns) -> Iterator[DataFault]:
     table = np.column_stack([values.astype(float) for name, values in columns.items() if name != "row"])
     _, first, inverse = np.unique(table, axis=0, return_index=True, return_inverse=True)
     for row in np.flatnonzero(first[inverse.ravel()] != np.arange(len(table)))[:20]:
-        yield DataFault(int(row) + 1, "r_mm", f"the row repeats row {first[inverse.ravel()[row]] + 1} entry by entry")
+        yield DataFault(
+            int(row) + 1, "r_mm", f"the row repeats row {first[inverse.ravel()[row]] + 1} entry by entry"
+        )
 
 
 def _asymmetry(columns: Columns, decimals: Mapping[str, int]) -> Iterator[DataFault]:
@@ -99,11 +116,20 @@ def _asymmetry(columns: Columns, decimals: Mapping[str, int]) -> Iterator[DataFa
     size = np.sqrt(np.abs(columns["k_xx"] * columns["k_zz"])) + np.abs(columns["k_xz"])
     apart = np.abs(columns["k_xz"] - columns["k_zx"])
     for row in np.flatnonzero(apart > allowed + 0.5 * size):
-        yield DataFault(int(row) + 1, "k_zx", f"k_zx = {columns['k_zx'][row]:g} and k_xz = {columns['k_xz'][row]:g}: K "
-                                              "of an elastic limb is symmetric")
+        yield DataFault(
+            int(row) + 1,
+            "k_zx",
+            f"k_zx = {columns['k_zx'][row]:g} and k_xz = {columns['k_xz'][row]:g}: K "
+            "of an elastic limb is symmetric",
+        )
     for row in np.flatnonzero((apart > allowed * (1 + 1e-9)) & (apart <= allowed + 0.5 * size)):
-        yield DataFault(int(row) + 1, "k_zx", f"differs from k_xz by {apart[row]:.3g} N/mm: cross-talk, a turned sensor "
-                                              "or noise; their mean is used", blocking=False)
+        yield DataFault(
+            int(row) + 1,
+            "k_zx",
+            f"differs from k_xz by {apart[row]:.3g} N/mm: cross-talk, a turned sensor "
+            "or noise; their mean is used",
+            blocking=False,
+        )
 
 
 def _eigenvalues(columns: Columns, decimals: Mapping[str, int]) -> Iterator[DataFault]:
@@ -116,8 +142,11 @@ def _eigenvalues(columns: Columns, decimals: Mapping[str, int]) -> Iterator[Data
         contradicted = stated is not None and _contradicts(own[row], stated, decimals)
         if not indefinite and not contradicted:
             continue
-        why = f"K is not positive definite (eigenvalues {own[row, 0]:.3g}, {own[row, 1]:.3g} N/mm)" if indefinite \
+        why = (
+            f"K is not positive definite (eigenvalues {own[row, 0]:.3g}, {own[row, 1]:.3g} N/mm)"
+            if indefinite
             else f"K has eigenvalues {own[row, 0]:.4g}, {own[row, 1]:.4g} N/mm"
+        )
         if stated is not None and contradicted:
             why += f"; the printed eigenvalues are {stated[0]:g}, {stated[1]:g}"
             field, value = _single_repair(k[row], stated, decimals)
@@ -133,7 +162,9 @@ def _contradicts(own: np.ndarray, stated: np.ndarray, decimals: Mapping[str, int
     return bool(np.max(np.abs(own - stated)) > entries + rounding)
 
 
-def _single_repair(k: np.ndarray, stated: np.ndarray, decimals: Mapping[str, int]) -> tuple[str, float | None]:
+def _single_repair(
+    k: np.ndarray, stated: np.ndarray, decimals: Mapping[str, int]
+) -> tuple[str, float | None]:
     """The one entry, and its value, that alone brings K to the stated eigenvalues; value None when there is none
     or more than one."""
     trace, product = float(stated.sum()), float(stated.prod())
@@ -157,5 +188,10 @@ def _undetermined(columns: Columns, decimals: Mapping[str, int]) -> Iterator[Dat
     sound = eigenvalues(k)[:, 0] > 0.0
     interval = lambda_min_interval(k, half_units(columns, decimals))
     for row in np.flatnonzero(sound & (interval[:, 0] <= 0.0)):
-        yield DataFault(int(row) + 1, "lambda_min", "not determined: the rounding of K alone allows "
-                        f"{interval[row, 0]:.3g} to {interval[row, 1]:.3g} N/mm", blocking=False)
+        yield DataFault(
+            int(row) + 1,
+            "lambda_min",
+            "not determined: the rounding of K alone allows "
+            f"{interval[row, 0]:.3g} to {interval[row, 1]:.3g} N/mm",
+            blocking=False,
+        )

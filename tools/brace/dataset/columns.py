@@ -67,7 +67,9 @@ JOINT_TEST = (
 )
 
 KINDS: dict[str, tuple[Column, ...]] = {
-    "loading": LOADING, "stiffness_table": STIFFNESS_TABLE, "joint_test": JOINT_TEST,
+    "loading": LOADING,
+    "stiffness_table": STIFFNESS_TABLE,
+    "joint_test": JOINT_TEST,
 }
 
 MAX_INT = 2**31 - 1

@@ -28,8 +28,12 @@ def read_columns(path: Path, wanted: Sequence[Column]) -> tuple[dict[str, np.nda
     while rows and not rows[-1].strip():
         rows.pop()
     if not rows:
-        raise BadFileError("no rows", where=f"{path}:1", why="there is a header and nothing below it",
-                           next_step="record some data")
+        raise BadFileError(
+            "no rows",
+            where=f"{path}:1",
+            why="there is a header and nothing below it",
+            next_step="record some data",
+        )
     if any(b'"' in line for line in (lines[0], rows[0])):
         rows = [b",".join(field.strip() for field in _unquoted(row)) for row in rows]
     _check_header(header, wanted, path)
@@ -52,11 +56,19 @@ def _lines(data: bytes, path: Path) -> list[bytes]:
         data = data[3:]
     if b"\0" in data:
         line = data.count(b"\n", 0, data.index(b"\0")) + 1
-        raise BadFileError("not text: it holds a zero byte", where=f"{path}:{line}",
-                           why="data.csv is comma-separated text", next_step="export it as CSV, UTF-8")
+        raise BadFileError(
+            "not text: it holds a zero byte",
+            where=f"{path}:{line}",
+            why="data.csv is comma-separated text",
+            next_step="export it as CSV, UTF-8",
+        )
     if not data.strip():
-        raise BadFileError("an empty file", where=str(path), why="data.csv starts with a line of column names",
-                           next_step="record some data")
+        raise BadFileError(
+            "an empty file",
+            where=str(path),
+            why="data.csv starts with a line of column names",
+            next_step="record some data",
+        )
     if b"\r" in data:
         data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
     return data.split(b"\n")
@@ -66,12 +78,19 @@ def _header(line: bytes, path: Path) -> list[str]:
     try:
         text = line.decode("utf-8")
     except UnicodeDecodeError:
-        raise BadFileError("the header is not text", where=f"{path}:1", why="data.csv is UTF-8 text",
-                           next_step="export it as CSV, UTF-8") from None
+        raise BadFileError(
+            "the header is not text",
+            where=f"{path}:1",
+            why="data.csv is UTF-8 text",
+            next_step="export it as CSV, UTF-8",
+        ) from None
     if "," not in text and (";" in text or "\t" in text):
-        raise BadFileError("columns are not separated by commas", where=f"{path}:1",
-                           why="';' or tabs stand where commas are wanted",
-                           next_step="export with ',' between columns and '.' as decimal point")
+        raise BadFileError(
+            "columns are not separated by commas",
+            where=f"{path}:1",
+            why="';' or tabs stand where commas are wanted",
+            next_step="export with ',' between columns and '.' as decimal point",
+        )
     return [name.strip().strip('"') for name in text.split(",")]
 
 
@@ -83,8 +102,12 @@ def _unquoted(row: bytes) -> list[bytes]:
 def _check_header(header: list[str], wanted: Sequence[Column], path: Path) -> None:
     for position, name in enumerate(header):
         if name in header[:position]:
-            raise BadFileError(f"column {name!r} is there twice", where=f"{path}:1",
-                               why="it is not said which of the two counts", next_step="rename or drop one")
+            raise BadFileError(
+                f"column {name!r} is there twice",
+                where=f"{path}:1",
+                why="it is not said which of the two counts",
+                next_step="rename or drop one",
+            )
     missing = [column for column in wanted if column.required and column.name not in header]
     if not missing:
         return
@@ -95,10 +118,16 @@ def _check_header(header: list[str], wanted: Sequence[Column], path: Path) -> No
     near = near or next((name for name in spare if name.partition("_")[0] == stem), "")
     names = ", ".join(item.name for item in missing)
     unit = f" in {column.unit}" if column.unit else ""
-    raise BadFileError(f"missing column{'s' if len(missing) > 1 else ''} {names}", where=f"{path}:1",
-                       why=f"{column.name} is the {column.meaning}{unit}; the header has {', '.join(header)[:200]}",
-                       next_step=f"is it column {near!r}? convert{unit or ' it'} and rename it {column.name}"
-                       if near else f"add {column.name}")
+    raise BadFileError(
+        f"missing column{'s' if len(missing) > 1 else ''} {names}",
+        where=f"{path}:1",
+        why=f"{column.name} is the {column.meaning}{unit}; the header has {', '.join(header)[:200]}",
+        next_step=(
+            f"is it column {near!r}? convert{unit or ' it'} and rename it {column.name}"
+            if near
+            else f"add {column.name}"
+        ),
+    )
 
 
 def _check_widths(rows: list[bytes], width: int, path: Path) -> None:
@@ -117,25 +146,42 @@ def _check_widths(rows: list[bytes], width: int, path: Path) -> None:
     if bad.size:
         row = int(bad[0])
         fields = rows[row].count(b",") + 1 if rows[row].strip() else 0
-        raise BadFileError(f"row {row + 1} has {fields} field{'s' if fields != 1 else ''}, the header {width}",
-                           where=f"{path}:{row + 2}",
-                           why="a row was cut short or holds a stray comma (a decimal comma?)" if fields else
-                           "the line is empty", next_step="complete or delete the row")
+        raise BadFileError(
+            f"row {row + 1} has {fields} field{'s' if fields != 1 else ''}, the header {width}",
+            where=f"{path}:{row + 2}",
+            why=(
+                "a row was cut short or holds a stray comma (a decimal comma?)"
+                if fields
+                else "the line is empty"
+            ),
+            next_step="complete or delete the row",
+        )
 
 
-def _parse(rows: list[bytes], present: list[Column], positions: list[int], path: Path) -> dict[str, np.ndarray]:
+def _parse(
+    rows: list[bytes], present: list[Column], positions: list[int], path: Path
+) -> dict[str, np.ndarray]:
     kinds = np.dtype([(column.name, "S4" if column.kind == "axis" else "f8") for column in present])
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            table = np.loadtxt(io.BytesIO(b"\n".join(rows)), dtype=kinds, delimiter=",", comments=None,
-                               usecols=positions, ndmin=1, encoding="latin-1")
+            table = np.loadtxt(
+                io.BytesIO(b"\n".join(rows)),
+                dtype=kinds,
+                delimiter=",",
+                comments=None,
+                usecols=positions,
+                ndmin=1,
+                encoding="latin-1",
+            )
     except (ValueError, UserWarning, OverflowError):
         raise _first_bad_number(rows, present, positions, path) from None
     return {column.name: np.ascontiguousarray(table[column.name]) for column in present}
 
 
-def _first_bad_number(rows: list[bytes], present: list[Column], positions: list[int], path: Path) -> BadFileError:
+def _first_bad_number(
+    rows: list[bytes], present: list[Column], positions: list[int], path: Path
+) -> BadFileError:
     for number, row in enumerate(rows, start=1):
         for column, position in zip(present, positions):
             text = field_text(row, position)
@@ -148,13 +194,18 @@ def _first_bad_number(rows: list[bytes], present: list[Column], positions: list[
             except ValueError:
                 pass
             shown = text if len(text) <= 40 else text[:37] + "..."
-            return BadFileError(f"{shown!r} is not a number" if text else "an entry is empty",
-                                where=f"{path}:{number + 1} (row {number}), {column.name}",
-                                why=f"{column.name} is the {column.meaning}" +
-                                (f" in {column.unit}" if column.unit else ""),
-                                next_step="write a number with a decimal point, or delete the row")
-    return BadFileError("not a table of numbers", where=str(path), why="it could not be read",
-                        next_step="export it as plain CSV")
+            return BadFileError(
+                f"{shown!r} is not a number" if text else "an entry is empty",
+                where=f"{path}:{number + 1} (row {number}), {column.name}",
+                why=f"{column.name} is the {column.meaning}" + (f" in {column.unit}" if column.unit else ""),
+                next_step="write a number with a decimal point, or delete the row",
+            )
+    return BadFileError(
+        "not a table of numbers",
+        where=str(path),
+        why="it could not be read",
+        next_step="export it as plain CSV",
+    )
 
 
 def _check_entries(values: np.ndarray, column: Column, rows: list[bytes], position: int, path: Path) -> None:
@@ -166,7 +217,10 @@ def _check_entries(values: np.ndarray, column: Column, rows: list[bytes], positi
         why, way = "a reading that is not finite says nothing", "delete the row or record it again"
         if not bad.any():
             bad = np.abs(values) > (MAX_INT if column.kind == "int" else column.limit)
-            why, way = "no record has such a value", f"check the entry; {column.name} is in {column.unit or 'counts'}"
+            why, way = (
+                "no record has such a value",
+                f"check the entry; {column.name} is in {column.unit or 'counts'}",
+            )
         if not bad.any() and column.positive:
             bad = values <= 0.0
             why, way = f"{column.name}, the {column.meaning}, is positive", "correct the entry"
@@ -175,8 +229,12 @@ def _check_entries(values: np.ndarray, column: Column, rows: list[bytes], positi
             why, way = f"{column.name}, the {column.meaning}, is a whole number", "correct the entry"
     if bad.any():
         row = int(np.argmax(bad))
-        raise BadFileError(f"{column.name} = {field_text(rows[row], position)[:40]!r} cannot be",
-                           where=f"{path}:{row + 2} (row {row + 1}), {column.name}", why=why, next_step=way)
+        raise BadFileError(
+            f"{column.name} = {field_text(rows[row], position)[:40]!r} cannot be",
+            where=f"{path}:{row + 2} (row {row + 1}), {column.name}",
+            why=why,
+            next_step=way,
+        )
 
 
 def _typed(values: np.ndarray, column: Column) -> np.ndarray:

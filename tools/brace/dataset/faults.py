@@ -40,6 +40,13 @@ class DataFault:
     def error(self, path: Path, more: int = 0) -> BadFileError:
         """The refusal for this fault; `more` counts the others behind it."""
         behind = f" (and {more} more fault{'s' if more > 1 else ''})" if more else ""
-        return BadFileError(f"faulty data{behind}", where=self.place(path), why=self.why,
-                            next_step="correct it" if self.suggestion is None else
-                            f"it should probably be {self.suggestion}; correct the file")
+        return BadFileError(
+            f"faulty data{behind}",
+            where=self.place(path),
+            why=self.why,
+            next_step=(
+                "correct it"
+                if self.suggestion is None
+                else f"it should probably be {self.suggestion}; correct the file"
+            ),
+        )

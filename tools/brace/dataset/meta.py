@@ -22,8 +22,15 @@ _KNOWN = (
     Key("zeroed", "never", "when the sensor was zeroed", kind="text", choices=("never", "per_run")),
     Key("joint", "femur", "the joint under test", kind="text", choices=("coxa", "femur", "tibia")),
     Key("sensor.resolution_n", 0.0, "the smallest step of the sensor", "N", 0.0, 1e6),
-    Key("sensor.range_n", math.inf, "the largest force that the sensor can read", "N", 0.0, open_low=True,
-        infinite=True),
+    Key(
+        "sensor.range_n",
+        math.inf,
+        "the largest force that the sensor can read",
+        "N",
+        0.0,
+        open_low=True,
+        infinite=True,
+    ),
     Key("rig.step_mm", 0.0, "the step of the imposed displacement", "mm", 0.0, 1e3),
     Key("rig.dwell_s", 0.0, "the wait before each reading", "s", 0.0, 1e6),
 )
@@ -68,12 +75,19 @@ def read_meta(folder: Path) -> Meta:
     """Reads and checks FOLDER/meta.toml."""
     if not folder.is_dir():
         reason = "it is a file" if folder.exists() else "it does not exist"
-        near = did_you_mean(folder.name, [entry.name for entry in folder.parent.iterdir()][:1000]) \
-            if folder.parent.is_dir() else ""
-        raise BadFileError("no such dataset", where=str(folder),
-                           why=f"a dataset is a folder with meta.toml and data.csv; {reason}",
-                           next_step=f"did you mean {folder.parent / near}?" if near and near != folder.name else
-                           "name the folder")
+        near = (
+            did_you_mean(folder.name, [entry.name for entry in folder.parent.iterdir()][:1000])
+            if folder.parent.is_dir()
+            else ""
+        )
+        raise BadFileError(
+            "no such dataset",
+            where=str(folder),
+            why=f"a dataset is a folder with meta.toml and data.csv; {reason}",
+            next_step=(
+                f"did you mean {folder.parent / near}?" if near and near != folder.name else "name the folder"
+            ),
+        )
     document = toml.read(folder / "meta.toml", WHAT)
     return Meta(toml.check(document, _KNOWN, WHAT, content=_known_part(document.content)), document)
 

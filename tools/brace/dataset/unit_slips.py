@@ -5,8 +5,13 @@ from __future__ import annotations
 import math
 
 # ratio of what is written to what should be -> the unit it is written in, the factor that mends it
-LENGTH_SLIPS = {1 / 25.4: ("inches", 25.4), 1e-3: ("m", 1e3), 0.1: ("cm", 10.0), 1e3: ("um", 1e-3),
-                1 / 25.4e-3: ("thousandths of an inch", 25.4e-3)}
+LENGTH_SLIPS = {
+    1 / 25.4: ("inches", 25.4),
+    1e-3: ("m", 1e3),
+    0.1: ("cm", 10.0),
+    1e3: ("um", 1e-3),
+    1 / 25.4e-3: ("thousandths of an inch", 25.4e-3),
+}
 STIFFNESS_SLIPS = {1e3: ("N/m", 1e-3), 1e-3: ("N/um", 1e3), 1e6: ("mN/m", 1e-6)}
 
 

@@ -39,8 +39,13 @@ def meta_text(tables: Mapping[str, Any]) -> str:
     return "\n".join(plain) + "\n"
 
 
-def write_dataset(folder: Path, meta: Mapping[str, Any], columns: Mapping[str, np.ndarray],
-                  decimals: Mapping[str, int] | None = None, extra: Sequence[tuple[str, str]] = ()) -> None:
+def write_dataset(
+    folder: Path,
+    meta: Mapping[str, Any],
+    columns: Mapping[str, np.ndarray],
+    decimals: Mapping[str, int] | None = None,
+    extra: Sequence[tuple[str, str]] = (),
+) -> None:
     """Writes FOLDER/meta.toml and FOLDER/data.csv (and `extra` name, content pairs)."""
     with OutputSet() as outputs:
         outputs.add(folder / "meta.toml", meta_text(meta))

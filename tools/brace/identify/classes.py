@@ -17,8 +17,15 @@ from brace.errors import BadFileError
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
 
-CANDIDATES = (*COMPLIANCES, "link.femur.moment_transfer", *BASE_COMPLIANCES, "sensor.gain", "sensor.rotation_rad",
-              "sensor.crosstalk_xz", "sensor.crosstalk_zx")
+CANDIDATES = (
+    *COMPLIANCES,
+    "link.femur.moment_transfer",
+    *BASE_COMPLIANCES,
+    "sensor.gain",
+    "sensor.rotation_rad",
+    "sensor.crosstalk_xz",
+    "sensor.crosstalk_zx",
+)
 TABLE_CANDIDATES = (*COMPLIANCES, "link.femur.moment_transfer", *BASE_COMPLIANCES)
 # Share of a signature that the others may leave unexplained: small classes may be near misses, large ones must be
 # exact, or everything would be like everything.
@@ -38,22 +45,34 @@ class Confusion:
     told_apart_by: str
 
 
-def confusions(problem: Problem, model: LimbModel, nuisances: dict[str, float],
-               candidates: Sequence[str]) -> list[Confusion]:
+def confusions(
+    problem: Problem, model: LimbModel, nuisances: dict[str, float], candidates: Sequence[str]
+) -> list[Confusion]:
     """The classes of this record around this model, smallest first."""
     keys = [key for key in candidates if key in KEY_BY_NAME]
     around = _present(model, keys)
-    columns = {key: column for key in keys if (column := _signature(problem, around, nuisances, key)) is not None}
+    columns = {
+        key: column for key in keys if (column := _signature(problem, around, nuisances, key)) is not None
+    }
     found: list[Confusion] = []
     for key in keys:  # pairs first: of two that are one, only the first takes part in larger classes
-        twins = [other for other in columns if other != key and key in columns
-                 and _left_over(columns[other], [columns[key]]) < LEFT_OVER_SMALL]
+        twins = [
+            other
+            for other in columns
+            if other != key
+            and key in columns
+            and _left_over(columns[other], [columns[key]]) < LEFT_OVER_SMALL
+        ]
         for twin in twins:
-            found.append(Confusion((key, twin), _left_over(columns[twin], [columns[key]]), remedy((key, twin))))
+            found.append(
+                Confusion((key, twin), _left_over(columns[twin], [columns[key]]), remedy((key, twin)))
+            )
             del columns[twin]
     larger: dict[frozenset[str], Confusion] = {}
     for key, column in columns.items():
-        members, left_over = _explain(column, {name: values for name, values in columns.items() if name != key})
+        members, left_over = _explain(
+            column, {name: values for name, values in columns.items() if name != key}
+        )
         group = frozenset((key, *members))
         if members and group not in larger:
             larger[group] = Confusion((key, *members), left_over, remedy(group))
@@ -80,20 +99,27 @@ def remedy(members: Iterable[str]) -> str:
 
 def _present(model: LimbModel, keys: Sequence[str]) -> LimbModel:
     """The model with absent candidates a little present, so that every signature exists."""
-    changes = {key: _PRESENCE * natural_scale(key) for key in keys
-               if key.startswith(("link.", "joint.", "base.")) and model.number(key) == 0.0
-               and "moment_transfer" not in key}
+    changes = {
+        key: _PRESENCE * natural_scale(key)
+        for key in keys
+        if key.startswith(("link.", "joint.", "base."))
+        and model.number(key) == 0.0
+        and "moment_transfer" not in key
+    }
     return model.with_values(changes)
 
 
-def _signature(problem: Problem, model: LimbModel, nuisances: dict[str, float], key: str) -> np.ndarray | None:
+def _signature(
+    problem: Problem, model: LimbModel, nuisances: dict[str, float], key: str
+) -> np.ndarray | None:
     """Change of the whitened readings per natural scale of the key, unit length; None when nothing changes."""
     entry, step = KEY_BY_NAME[key], STEP * 10 * natural_scale(key)
     value = model.number(key)
     up, down = min(value + step, entry.high), max(value - step, entry.low)
     try:
-        change = problem.residual(model.with_values({key: up}), nuisances) \
-            - problem.residual(model.with_values({key: down}), nuisances)
+        change = problem.residual(model.with_values({key: up}), nuisances) - problem.residual(
+            model.with_values({key: down}), nuisances
+        )
     except BadFileError:
         return None
     length = float(np.linalg.norm(change))
@@ -105,8 +131,11 @@ def _explain(column: np.ndarray, others: dict[str, np.ndarray]) -> tuple[list[st
     chosen: list[str] = []
     size = 1.0
     while size >= _allowed(len(chosen) + 1) and len(chosen) < min(MAX_MEMBERS, len(others)):
-        gains = {name: _left_over(column, [others[item] for item in (*chosen, name)])
-                 for name in others if name not in chosen}
+        gains = {
+            name: _left_over(column, [others[item] for item in (*chosen, name)])
+            for name in others
+            if name not in chosen
+        }
         best = min(gains, key=lambda name: (round(gains[name], 9), name))
         chosen.append(best)
         size = gains[best]
@@ -114,7 +143,9 @@ def _explain(column: np.ndarray, others: dict[str, np.ndarray]) -> tuple[list[st
         return [], size
     for name in list(chosen):
         rest = [item for item in chosen if item != name]
-        if rest and (thinner := _left_over(column, [others[item] for item in rest])) < _allowed(len(rest) + 1):
+        if rest and (thinner := _left_over(column, [others[item] for item in rest])) < _allowed(
+            len(rest) + 1
+        ):
             chosen, size = rest, thinner
     return chosen, size
 

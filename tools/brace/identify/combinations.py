@@ -1,5 +1,6 @@
 """The numbers that tip data do determine: C = a11 p1 p1' + a12 (p1 p2' + p2 p1') + a22 p2 p2' + the links' axial
-parts, with p1, p2 the levers of the joints. Springs, bending, base rotation and moment transfer enter only here."""
+parts, with p1, p2 the levers of the joints. Springs, bending, base rotation and moment transfer enter only here.
+"""
 
 from __future__ import annotations
 
@@ -14,14 +15,20 @@ from brace.model import LimbModel
 
 def a11(model: LimbModel) -> float:
     """[rad/(N mm)] all that turns about the femur joint."""
-    return (model.number("joint.femur.compliance_rad_per_n_mm") + model.number("base.rotation_rad_per_n_mm")
-            + _per_square(model, "femur"))
+    return (
+        model.number("joint.femur.compliance_rad_per_n_mm")
+        + model.number("base.rotation_rad_per_n_mm")
+        + _per_square(model, "femur")
+    )
 
 
 def a22(model: LimbModel) -> float:
     """[rad/(N mm)] all that turns about the knee."""
-    return (model.number("joint.tibia.compliance_rad_per_n_mm") + _per_square(model, "femur")
-            + _per_square(model, "tibia"))
+    return (
+        model.number("joint.tibia.compliance_rad_per_n_mm")
+        + _per_square(model, "femur")
+        + _per_square(model, "tibia")
+    )
 
 
 def a12(model: LimbModel) -> float:
@@ -30,7 +37,10 @@ def a12(model: LimbModel) -> float:
 
 
 COMBINATIONS: dict[str, Callable[[LimbModel], float]] = {
-    "a11_rad_per_n_mm": a11, "a12_rad_per_n_mm": a12, "a22_rad_per_n_mm": a22}
+    "a11_rad_per_n_mm": a11,
+    "a12_rad_per_n_mm": a12,
+    "a22_rad_per_n_mm": a22,
+}
 MEANING = {
     "a11_rad_per_n_mm": "femur spring + base rotation + femur bending/L1^2",
     "a12_rad_per_n_mm": "femur bending/L1^2 x (1.5 moment transfer - 1)",
@@ -40,8 +50,10 @@ MEANING = {
 
 def combination_estimates(information: Information) -> dict[str, Estimate]:
     """Each combination with its interval."""
-    return {name: information.of_function(gradient(information.fit, function), function(information.fit.model))
-            for name, function in COMBINATIONS.items()}
+    return {
+        name: information.of_function(gradient(information.fit, function), function(information.fit.model))
+        for name, function in COMBINATIONS.items()
+    }
 
 
 def gradient(fit: Fit, function: Callable[[LimbModel], float]) -> np.ndarray:
@@ -52,8 +64,11 @@ def gradient(fit: Fit, function: Callable[[LimbModel], float]) -> np.ndarray:
         up, down = fit.x.copy(), fit.x.copy()
         up[index] = min(up[index] + STEP * scale[index], high[index])
         down[index] = max(down[index] - STEP * scale[index], low[index])
-        result[index] = (function(fit.parameters.model(up)) - function(fit.parameters.model(down))) \
-            / (up[index] - down[index]) * scale[index]
+        result[index] = (
+            (function(fit.parameters.model(up)) - function(fit.parameters.model(down)))
+            / (up[index] - down[index])
+            * scale[index]
+        )
     return result
 
 

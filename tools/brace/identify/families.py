@@ -10,8 +10,14 @@ import numpy as np
 
 from brace.errors import BadFileError
 from brace.identify.fit import Fit, fit
-from brace.identify.parameters import (COMPLIANCES, JOINT_COMPLIANCES, LINK_COMPLIANCES, TIP_HEIGHT, ParameterSet,
-                                       free_parameter)
+from brace.identify.parameters import (
+    COMPLIANCES,
+    JOINT_COMPLIANCES,
+    LINK_COMPLIANCES,
+    TIP_HEIGHT,
+    ParameterSet,
+    free_parameter,
+)
 from brace.identify.table import TableProblem
 from brace.model import LimbModel
 
@@ -56,9 +62,13 @@ class FamilyFit:
 
 def fit_family(problem: TableProblem, base: LimbModel, family: Family) -> FamilyFit:
     """The family's best fit from many starts (always the same ones)."""
-    zeroed = base.with_values({**dict.fromkeys((*COMPLIANCES, *_TILTS), 0.0),
-                               "link.femur.moment_transfer": family.moment_transfer,
-                               **{key: free_parameter(base, key).scale for key in family.keys if key not in _TILTS}})
+    zeroed = base.with_values(
+        {
+            **dict.fromkeys((*COMPLIANCES, *_TILTS), 0.0),
+            "link.femur.moment_transfer": family.moment_transfer,
+            **{key: free_parameter(base, key).scale for key in family.keys if key not in _TILTS},
+        }
+    )
     parameters = [free_parameter(zeroed, key) for key in family.keys]
     if problem.poses.needs_height:
         parameters.append(problem.height_parameter())
@@ -66,8 +76,9 @@ def fit_family(problem: TableProblem, base: LimbModel, family: Family) -> Family
     return FamilyFit(family, fit(problem, chosen, scattered_starts(chosen)))
 
 
-def compare_families(problem: TableProblem, base: LimbModel,
-                     advance: Callable[[int], None] = lambda _done: None) -> list[FamilyFit]:
+def compare_families(
+    problem: TableProblem, base: LimbModel, advance: Callable[[int], None] = lambda _done: None
+) -> list[FamilyFit]:
     """All families, in the order of FAMILIES; one that cannot be at these postures (springs alone at a straight
     limb) is left out."""
     results = []

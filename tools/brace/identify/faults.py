@@ -36,8 +36,12 @@ def settle(dataset: Dataset, policy: str) -> tuple[Dataset, list[str]]:
 
 
 def _repairable(dataset: Dataset, fault: DataFault) -> bool:
-    return fault.repair and fault.row is not None and fault.field in dataset.columns \
+    return (
+        fault.repair
+        and fault.row is not None
+        and fault.field in dataset.columns
         and isinstance(fault.suggestion, float)
+    )
 
 
 def _dropped(dataset: Dataset, blocking: list[DataFault]) -> tuple[Dataset, list[str]]:
@@ -48,7 +52,9 @@ def _dropped(dataset: Dataset, blocking: list[DataFault]) -> tuple[Dataset, list
     keep[[fault.row - 1 for fault in blocking if fault.row is not None]] = False
     if not keep.any():
         raise blocking[0].error(dataset.csv_path, len(blocking) - 1)
-    return dataset.select(keep), [f"row {fault.row} left out ({fault.field}: {fault.why})" for fault in blocking]
+    return dataset.select(keep), [
+        f"row {fault.row} left out ({fault.field}: {fault.why})" for fault in blocking
+    ]
 
 
 def _hint(faults: list[DataFault], dataset: Dataset) -> BadFileError:

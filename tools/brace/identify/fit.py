@@ -72,9 +72,13 @@ class Fit:
         return max(1.0, self.chi2 / self.dof)
 
 
-def fit(problem: Problem, parameters: ParameterSet, starts: Iterable[np.ndarray] = (),
-        constraint: Callable[[LimbModel, dict[str, float]], float] | None = None,
-        advance: Callable[[int], None] = lambda _done: None) -> Fit:
+def fit(
+    problem: Problem,
+    parameters: ParameterSet,
+    starts: Iterable[np.ndarray] = (),
+    constraint: Callable[[LimbModel, dict[str, float]], float] | None = None,
+    advance: Callable[[int], None] = lambda _done: None,
+) -> Fit:
     """The best fit over the parameters' start and further `starts` (vectors). `constraint`, if given, is driven
     to zero hard (a penalty that outweighs the data)."""
     from scipy.optimize import least_squares
@@ -87,7 +91,9 @@ def fit(problem: Problem, parameters: ParameterSet, starts: Iterable[np.ndarray]
         data = _data(problem, parameters, u * scale)
         rows = [data, pull * (u - start / scale)]
         if constraint is not None:
-            rows.append(np.atleast_1d(1e3 * constraint(parameters.model(u * scale), parameters.nuisances(u * scale))))
+            rows.append(
+                np.atleast_1d(1e3 * constraint(parameters.model(u * scale), parameters.nuisances(u * scale)))
+            )
         return np.concatenate(rows)
 
     def slope(u: np.ndarray) -> np.ndarray:
@@ -96,8 +102,17 @@ def fit(problem: Problem, parameters: ParameterSet, starts: Iterable[np.ndarray]
     best = None
     for number, point in enumerate([start, *starts]):
         inside = np.clip(point / scale, low + 1e-9, high - 1e-9)
-        found = least_squares(whole, inside, jac=slope, bounds=(low, high), x_scale=1.0, ftol=TOLERANCE, xtol=TOLERANCE,
-                              gtol=TOLERANCE, max_nfev=200)
+        found = least_squares(
+            whole,
+            inside,
+            jac=slope,
+            bounds=(low, high),
+            x_scale=1.0,
+            ftol=TOLERANCE,
+            xtol=TOLERANCE,
+            gtol=TOLERANCE,
+            max_nfev=200,
+        )
         if best is None or found.cost < best.cost:
             best = found
         advance(number + 1)
@@ -106,9 +121,12 @@ def fit(problem: Problem, parameters: ParameterSet, starts: Iterable[np.ndarray]
     solved = np.where(best.x - low < near, low, np.where(high - best.x < near, high, best.x))
     residual = _data(problem, parameters, solved * scale)
     if np.abs(residual).max(initial=0.0) >= REFUSED:
-        raise BadFileError("no fit was found", where=parameters.base.where(),
-                           why="the simulated limb cannot be played near the start model",
-                           next_step="start from a model nearer to the limb")
+        raise BadFileError(
+            "no fit was found",
+            where=parameters.base.where(),
+            why="the simulated limb cannot be played near the start model",
+            next_step="start from a model nearer to the limb",
+        )
     jacobian = _central(lambda u: _data(problem, parameters, u * scale), solved, low, high)
     return Fit(parameters, solved * scale, residual, jacobian)
 
@@ -121,8 +139,9 @@ def _data(problem: Problem, parameters: ParameterSet, x: np.ndarray) -> np.ndarr
         return np.full(problem.count, REFUSED)
 
 
-def _central(function: Callable[[np.ndarray], np.ndarray], u: np.ndarray, low: np.ndarray,
-             high: np.ndarray) -> np.ndarray:
+def _central(
+    function: Callable[[np.ndarray], np.ndarray], u: np.ndarray, low: np.ndarray, high: np.ndarray
+) -> np.ndarray:
     """Central differences, one-sided at a bound."""
     columns = []
     for index in range(u.size):

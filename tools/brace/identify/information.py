@@ -48,8 +48,11 @@ class Information:
         result = []
         for index, value in enumerate(fit.x):
             sigma = scale[index] * math.sqrt(self.covariance[index, index] * fit.inflation)
-            bound = "low" if value - low[index] <= 1e-6 * scale[index] else \
-                "high" if high[index] - value <= 1e-6 * scale[index] else ""
+            bound = (
+                "low"
+                if value - low[index] <= 1e-6 * scale[index]
+                else "high" if high[index] - value <= 1e-6 * scale[index] else ""
+            )
             lower, upper = value - Z90 * sigma, value + Z90 * sigma
             if unknown[index]:
                 down, up = self._slack(np.eye(len(fit.x))[index])
@@ -58,8 +61,11 @@ class Information:
                 reach = self._reach_from_bound(index) * scale[index]
                 lower, upper = (value, value + reach) if bound == "low" else (value - reach, value)
             bound = "" if unknown[index] else bound
-            result.append(Estimate(float(value), sigma, float(max(lower, low[index])), float(min(upper, high[index])),
-                                   bound))
+            result.append(
+                Estimate(
+                    float(value), sigma, float(max(lower, low[index])), float(min(upper, high[index])), bound
+                )
+            )
         return result
 
     def unknown(self) -> np.ndarray:
@@ -85,10 +91,15 @@ class Information:
     def of_function(self, gradient: np.ndarray, value: float) -> Estimate:
         """A function of the parameters, to first order; `gradient` by x / scale."""
         norm = float(np.linalg.norm(gradient))
-        if self.null_directions.size and norm and \
-                np.linalg.norm(self.null_directions.T @ gradient) > 1e-2 * norm:
+        if (
+            self.null_directions.size
+            and norm
+            and np.linalg.norm(self.null_directions.T @ gradient) > 1e-2 * norm
+        ):
             down, up = self._slack(gradient)
-            spread = Z90 * math.sqrt(max(0.0, float(gradient @ self.covariance @ gradient)) * self.fit.inflation)
+            spread = Z90 * math.sqrt(
+                max(0.0, float(gradient @ self.covariance @ gradient)) * self.fit.inflation
+            )
             return Estimate(value, math.inf, value + down - spread, value + up + spread)
         sigma = math.sqrt(max(0.0, float(gradient @ self.covariance @ gradient)) * self.fit.inflation)
         return Estimate(value, sigma, value - Z90 * sigma, value + Z90 * sigma)
@@ -106,8 +117,12 @@ class Information:
         finite = np.isfinite(room)
         ends = []
         for sign in (1.0, -1.0):
-            found = linprog(sign * (gradient @ directions), A_ub=limits[finite], b_ub=np.maximum(room[finite], 0.0),
-                            bounds=(None, None))
+            found = linprog(
+                sign * (gradient @ directions),
+                A_ub=limits[finite],
+                b_ub=np.maximum(room[finite], 0.0),
+                bounds=(None, None),
+            )
             ends.append(float(sign * found.fun) if found.success else -sign * math.inf)
         return ends[0], ends[1]
 

@@ -24,8 +24,12 @@ class JointProblem:
 
     def __init__(self, dataset: Dataset) -> None:
         if dataset.rows < MIN_ROWS:
-            raise BadFileError(f"{dataset.rows} rows are not enough to say anything", where=str(dataset.csv_path),
-                               why=f"at least {MIN_ROWS} readings are needed", next_step="record more")
+            raise BadFileError(
+                f"{dataset.rows} rows are not enough to say anything",
+                where=str(dataset.csv_path),
+                why=f"at least {MIN_ROWS} readings are needed",
+                next_step="record more",
+            )
         self.dataset = dataset
         self.joint = dataset.meta.joint
         self.columns = _averaged(dataset, max(1, dataset.rows // BLOCK_ROWS))
@@ -40,7 +44,9 @@ class JointProblem:
 
     def residual(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """(played - measured) / noise."""
-        played = self._player.play(model, nuisances.get(FRICTION_TURN, 0.0)) + nuisances.get(TORQUE_OFFSET, 0.0)
+        played = self._player.play(model, nuisances.get(FRICTION_TURN, 0.0)) + nuisances.get(
+            TORQUE_OFFSET, 0.0
+        )
         return np.asarray(((played - self.columns["torque_n_mm"]) / self.noise_n_mm)[self._used])
 
     def angles(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
@@ -65,15 +71,28 @@ class JointProblem:
             return Parameter(key.name, start, scale, key.low, key.high)
 
         lowest = free("compliance_rad_per_n_mm", compliance, angle_span / torque_span)
-        return ParameterSet(model.with_values({at + "compliance_rad_per_n_mm": compliance}), (
-            Parameter(lowest.key, lowest.start, lowest.scale, 1e-3 * lowest.scale, lowest.high),
-            Parameter(at + "gap_rad", model.number(at + "gap_rad"), 0.1 * angle_span, 0.0, min(0.5, angle_span)),
-            free("coulomb_n_mm", model.number(at + "coulomb_n_mm"), 0.05 * torque_span),
-            free("hardening_n_mm_per_rad3", model.number(at + "hardening_n_mm_per_rad3"), hardening_scale),
-            Parameter(at + "zero_offset_rad", zero, 0.1 * angle_span, -0.5, 0.5),
-            Parameter(TORQUE_OFFSET, 0.0, 0.02 * torque_span, -torque_span, torque_span),
-            Parameter(FRICTION_TURN, 0.02 * angle_span, 0.01 * angle_span, 1e-4 * angle_span,
-                      min(1.0, 0.25 * angle_span))))
+        return ParameterSet(
+            model.with_values({at + "compliance_rad_per_n_mm": compliance}),
+            (
+                Parameter(lowest.key, lowest.start, lowest.scale, 1e-3 * lowest.scale, lowest.high),
+                Parameter(
+                    at + "gap_rad", model.number(at + "gap_rad"), 0.1 * angle_span, 0.0, min(0.5, angle_span)
+                ),
+                free("coulomb_n_mm", model.number(at + "coulomb_n_mm"), 0.05 * torque_span),
+                free(
+                    "hardening_n_mm_per_rad3", model.number(at + "hardening_n_mm_per_rad3"), hardening_scale
+                ),
+                Parameter(at + "zero_offset_rad", zero, 0.1 * angle_span, -0.5, 0.5),
+                Parameter(TORQUE_OFFSET, 0.0, 0.02 * torque_span, -torque_span, torque_span),
+                Parameter(
+                    FRICTION_TURN,
+                    0.02 * angle_span,
+                    0.01 * angle_span,
+                    1e-4 * angle_span,
+                    min(1.0, 0.25 * angle_span),
+                ),
+            ),
+        )
 
     def starts(self, parameters: ParameterSet) -> list[np.ndarray]:
         """Springs with less and more gap and friction: the misfit has several valleys."""
@@ -95,7 +114,10 @@ def _averaged(dataset: Dataset, block: int) -> dict[str, np.ndarray]:
     starts = np.concatenate([[0], np.flatnonzero(np.diff(test)) + 1, [test.size]])
     edges = np.concatenate([np.arange(first, last, block) for first, last in zip(starts[:-1], starts[1:])])
     counts = np.diff(np.append(edges, test.size))
-    result = {name: np.add.reduceat(values.astype(float), edges) / counts for name, values in dataset.columns.items()}
+    result = {
+        name: np.add.reduceat(values.astype(float), edges) / counts
+        for name, values in dataset.columns.items()
+    }
     result["test"] = test[edges]
     return result
 
@@ -103,7 +125,9 @@ def _averaged(dataset: Dataset, block: int) -> dict[str, np.ndarray]:
 def _noise(torque_n_mm: np.ndarray) -> float:
     """Scatter from one averaged reading to the next, slow motion taken out by third differences."""
     third = np.diff(torque_n_mm, n=3)
-    return max(float(1.4826 * np.median(np.abs(third)) / np.sqrt(20.0)), 1e-6 * float(np.ptp(torque_n_mm)) or 1e-9)
+    return max(
+        float(1.4826 * np.median(np.abs(third)) / np.sqrt(20.0)), 1e-6 * float(np.ptp(torque_n_mm)) or 1e-9
+    )
 
 
 def _saturated(columns: Mapping[str, np.ndarray]) -> np.ndarray:

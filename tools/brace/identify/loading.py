@@ -21,14 +21,20 @@ class LoadingProblem:
 
     def __init__(self, dataset: Dataset) -> None:
         if dataset.rows < MIN_ROWS:
-            raise BadFileError(f"{dataset.rows} rows are not enough to say anything", where=str(dataset.csv_path),
-                               why=f"at least {MIN_ROWS} readings are needed", next_step="record more steps")
+            raise BadFileError(
+                f"{dataset.rows} rows are not enough to say anything",
+                where=str(dataset.csv_path),
+                why=f"at least {MIN_ROWS} readings are needed",
+                next_step="record more steps",
+            )
         self.dataset = dataset
         self.noise: NoiseFloor = noise_floor(dataset)
         self._player = LoadingPlayer(dataset)
         self._names = ["fx_n", "fz_n", *(name for name in _SIDE_READINGS if name in dataset)]
-        self._sigma = {name: self.noise.sigma_n if name in ("fx_n", "fz_n") else _side_sigma(dataset, name)
-                       for name in self._names}
+        self._sigma = {
+            name: self.noise.sigma_n if name in ("fx_n", "fz_n") else _side_sigma(dataset, name)
+            for name in self._names
+        }
         _, first = np.unique(dataset["config"], return_index=True)
         self._commanded = np.column_stack([dataset["theta1_rad"][first], dataset["theta2_rad"][first]])
 
@@ -45,7 +51,9 @@ class LoadingProblem:
     def residual(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """(played - measured) / sigma, reading after reading."""
         played = zeroed(self._player.play(model, self._names), self.dataset)
-        return np.concatenate([(played[name] - self.dataset[name]) / self._sigma[name] for name in self._names])
+        return np.concatenate(
+            [(played[name] - self.dataset[name]) / self._sigma[name] for name in self._names]
+        )
 
     def angles(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """configurations x (theta1, theta2), true [rad]."""

@@ -33,7 +33,7 @@ def noise_floor(dataset: Dataset) -> NoiseFloor:
         freedom = np.sum(counts[repeated] - 1)
         sigma, source = float(np.sqrt(np.sum(off**2) / (2 * freedom))), "repeats"
     else:
-        inside = (dataset["run"][:-3] == dataset["run"][3:])
+        inside = dataset["run"][:-3] == dataset["run"][3:]
         third = np.diff(force, n=3, axis=0)[inside]
         sigma = float(1.4826 * np.median(np.abs(third)) / np.sqrt(20.0)) if third.size else 0.0
         source = "smoothness along the runs"

@@ -18,20 +18,47 @@ FRICTION_TURN = "friction_turn_rad"  # over which a joint's friction changes sig
 _NUISANCE_UNIT = {TIP_HEIGHT: "mm", TORQUE_OFFSET: "N mm", FRICTION_TURN: "rad"}
 NUISANCES = tuple(_NUISANCE_UNIT)
 
-LINK_COMPLIANCES = tuple(f"link.{link}.{which}_mm_per_n" for link in ("femur", "tibia") for which in ("axial", "bending"))
+LINK_COMPLIANCES = tuple(
+    f"link.{link}.{which}_mm_per_n" for link in ("femur", "tibia") for which in ("axial", "bending")
+)
 JOINT_COMPLIANCES = tuple(f"joint.{joint}.compliance_rad_per_n_mm" for joint in ("femur", "tibia"))
 COMPLIANCES = LINK_COMPLIANCES + JOINT_COMPLIANCES
 BASE_COMPLIANCES = ("base.x_mm_per_n", "base.z_mm_per_n", "base.rotation_rad_per_n_mm")
 
 # What a change of one is worth looking at, for keys whose value may be zero; by the end of the key.
 _NATURAL_SCALE = {
-    "axial_mm_per_n": 0.01, "bending_mm_per_n": 0.1, "lateral_mm_per_n": 0.1, "base.x_mm_per_n": 0.05,
-    "base.z_mm_per_n": 0.05, "rad_per_n_mm": 1e-5, "tilt_rad": 0.1, "moment_transfer": 1.0, "femur_mm": 1.0,
-    "tibia_mm": 1.0, "coxa_mm": 1.0, "zero_offset_rad": 0.01, "gap_rad": 0.002, "coulomb_n_mm": 100.0,
-    "hardening_n_mm_per_rad3": 1e7, "gain": 0.01, "rotation_rad": 0.02, "crosstalk_xz": 0.02, "crosstalk_zx": 0.02,
-    "bias_x_n": 0.1, "bias_z_n": 0.1, "drift_x_n_per_s": 1e-4, "drift_z_n_per_s": 1e-4, "play_mm": 0.05,
-    "_n": 1.0, "ratio": 0.05, "time_constant_s": 30.0, "joint_compliance_per_degc": 0.01, "bending_factor": 0.1,
-    "at_s": 100.0, TIP_HEIGHT: 10.0, TORQUE_OFFSET: 100.0,
+    "axial_mm_per_n": 0.01,
+    "bending_mm_per_n": 0.1,
+    "lateral_mm_per_n": 0.1,
+    "base.x_mm_per_n": 0.05,
+    "base.z_mm_per_n": 0.05,
+    "rad_per_n_mm": 1e-5,
+    "tilt_rad": 0.1,
+    "moment_transfer": 1.0,
+    "femur_mm": 1.0,
+    "tibia_mm": 1.0,
+    "coxa_mm": 1.0,
+    "zero_offset_rad": 0.01,
+    "gap_rad": 0.002,
+    "coulomb_n_mm": 100.0,
+    "hardening_n_mm_per_rad3": 1e7,
+    "gain": 0.01,
+    "rotation_rad": 0.02,
+    "crosstalk_xz": 0.02,
+    "crosstalk_zx": 0.02,
+    "bias_x_n": 0.1,
+    "bias_z_n": 0.1,
+    "drift_x_n_per_s": 1e-4,
+    "drift_z_n_per_s": 1e-4,
+    "play_mm": 0.05,
+    "_n": 1.0,
+    "ratio": 0.05,
+    "time_constant_s": 30.0,
+    "joint_compliance_per_degc": 0.01,
+    "bending_factor": 0.1,
+    "at_s": 100.0,
+    TIP_HEIGHT: 10.0,
+    TORQUE_OFFSET: 100.0,
 }
 
 
@@ -72,7 +99,9 @@ class ParameterSet:
 
     def model(self, x: Sequence[float] | np.ndarray) -> LimbModel:
         """The limb that x describes."""
-        return self.base.with_values({key: float(value) for key, value in zip(self.keys, x) if key not in NUISANCES})
+        return self.base.with_values(
+            {key: float(value) for key, value in zip(self.keys, x) if key not in NUISANCES}
+        )
 
     def nuisances(self, x: Sequence[float] | np.ndarray) -> dict[str, float]:
         """The parts of x that are not keys of limb.toml."""
@@ -110,14 +139,24 @@ def prior_parameter(model: LimbModel, key: str) -> Parameter | None:
     return Parameter(key, start, sigma, entry.low, entry.high, sigma)
 
 
-PRIOR_KEYS = ("geometry.femur_mm", "geometry.tibia_mm", "joint.femur.zero_offset_rad", "joint.tibia.zero_offset_rad",
-              *COMPLIANCES, *BASE_COMPLIANCES, "sensor.gain")
+PRIOR_KEYS = (
+    "geometry.femur_mm",
+    "geometry.tibia_mm",
+    "joint.femur.zero_offset_rad",
+    "joint.tibia.zero_offset_rad",
+    *COMPLIANCES,
+    *BASE_COMPLIANCES,
+    "sensor.gain",
+)
 
 
 def with_priors(model: LimbModel, extra: Sequence[str] = ()) -> ParameterSet:
     """Everything that [uncertainty] speaks of, within its trust; `extra` keys free."""
-    chosen = [parameter for key in PRIOR_KEYS if key not in extra
-              and (parameter := prior_parameter(model, key)) is not None]
+    chosen = [
+        parameter
+        for key in PRIOR_KEYS
+        if key not in extra and (parameter := prior_parameter(model, key)) is not None
+    ]
     return ParameterSet(model, (*chosen, *(free_parameter(model, key) for key in extra)))
 
 
@@ -129,8 +168,13 @@ def free(model: LimbModel, keys: Sequence[str]) -> ParameterSet:
 def free_compliances(model: LimbModel, extra: Sequence[str] = ()) -> ParameterSet:
     """Every compliance of links and joints free, and `extra`; lengths, zeros and gain within their trust."""
     keys = list(dict.fromkeys((*COMPLIANCES, *extra)))
-    trusted = [parameter for key in PRIOR_KEYS if key not in keys and key not in BASE_COMPLIANCES
-               and (parameter := prior_parameter(model, key)) is not None]
+    trusted = [
+        parameter
+        for key in PRIOR_KEYS
+        if key not in keys
+        and key not in BASE_COMPLIANCES
+        and (parameter := prior_parameter(model, key)) is not None
+    ]
     return ParameterSet(model, (*(free_parameter(model, key) for key in keys), *trusted))
 
 
@@ -140,9 +184,14 @@ def checked_keys(keys: Sequence[str]) -> list[str]:
     for key in keys:
         entry = KEY_BY_NAME.get(key)
         if entry is None or entry.kind not in ("number", "ratio"):
-            near = did_you_mean(key, [name for name, item in KEY_BY_NAME.items() if item.kind in ("number", "ratio")])
-            raise UsageError(f"--fit {key}: no such parameter", why="it is not a number of limb.toml",
-                             next_step=f"did you mean {near}?" if near else "e.g. --fit base.rotation_rad_per_n_mm")
+            near = did_you_mean(
+                key, [name for name, item in KEY_BY_NAME.items() if item.kind in ("number", "ratio")]
+            )
+            raise UsageError(
+                f"--fit {key}: no such parameter",
+                why="it is not a number of limb.toml",
+                next_step=f"did you mean {near}?" if near else "e.g. --fit base.rotation_rad_per_n_mm",
+            )
         if key not in result:
             result.append(key)
     return result

@@ -23,32 +23,63 @@ def as_json(result: Identification) -> dict[str, Any]:
     parameters = {}
     for parameter, estimate in zip(result.fit.parameters.parameters, result.information.estimates()):
         parameters[parameter.key] = {
-            "value": estimate.value, "start": parameter.start, "sigma": estimate.sigma, "low": estimate.low,
-            "high": estimate.high, "unit": parameter.unit, "identifiable": estimate.identifiable,
-            "at_bound": estimate.at_bound or None, "prior_sigma": parameter.prior_sigma}
+            "value": estimate.value,
+            "start": parameter.start,
+            "sigma": estimate.sigma,
+            "low": estimate.low,
+            "high": estimate.high,
+            "unit": parameter.unit,
+            "identifiable": estimate.identifiable,
+            "at_bound": estimate.at_bound or None,
+            "prior_sigma": parameter.prior_sigma,
+        }
     report: dict[str, Any] = {
-        "format": 1, "dataset": str(result.dataset.folder), "kind": result.dataset.kind, "mode": result.mode,
-        "rows": result.dataset.rows, "parameters": parameters,
-        "combinations": {name: {**_interval(estimate), "meaning": MEANING[name]}
-                         for name, estimate in result.combinations.items()},
+        "format": 1,
+        "dataset": str(result.dataset.folder),
+        "kind": result.dataset.kind,
+        "mode": result.mode,
+        "rows": result.dataset.rows,
+        "parameters": parameters,
+        "combinations": {
+            name: {**_interval(estimate), "meaning": MEANING[name]}
+            for name, estimate in result.combinations.items()
+        },
         "outside_trust": [{"key": key, "sigmas": sigmas} for key, sigmas in outside_trust(result)],
         "correlations": [list(pair) for pair in result.information.correlations()],
         "indistinguishable": [list(confusion.members) for confusion in result.classes],
-        "classes": [{"members": list(confusion.members), "left_over": confusion.left_over,
-                     "told_apart_by": confusion.told_apart_by} for confusion in result.classes],
-        "condition_number": result.information.condition, "residual": _residual(result),
-        "data_faults": [fault.as_json() for fault in result.dataset.faults], "done_to_data": result.done_to_data,
+        "classes": [
+            {
+                "members": list(confusion.members),
+                "left_over": confusion.left_over,
+                "told_apart_by": confusion.told_apart_by,
+            }
+            for confusion in result.classes
+        ],
+        "condition_number": result.information.condition,
+        "residual": _residual(result),
+        "data_faults": [fault.as_json() for fault in result.dataset.faults],
+        "done_to_data": result.done_to_data,
     }
     if result.split:
         share = result.split
-        report["split"] = {"structure_share": share.structure_share, "joint_share": 1 - share.structure_share,
-                           "structure_share_low": share.allowed[0], "structure_share_high": share.allowed[1],
-                           "paper_structure_share": PAPER_STRUCTURE_SHARE,
-                           "profile": [list(point) for point in share.profile]}
+        report["split"] = {
+            "structure_share": share.structure_share,
+            "joint_share": 1 - share.structure_share,
+            "structure_share_low": share.allowed[0],
+            "structure_share_high": share.allowed[1],
+            "paper_structure_share": PAPER_STRUCTURE_SHARE,
+            "profile": [list(point) for point in share.profile],
+        }
     if result.families:
-        report["families"] = [{
-            "family": item.family.name, "chi2_per_entry": item.chi2_per_entry, "tip_height_mm": item.tip_height_mm,
-            "parameters": dict(zip(item.fit.parameters.keys, item.fit.x.tolist()))} for item in result.families]
+        report["families"] = [
+            {
+                "family": item.family.name,
+                "chi2_per_entry": item.chi2_per_entry,
+                "tip_height_mm": item.tip_height_mm,
+                "parameters": dict(zip(item.fit.parameters.keys, item.fit.x.tolist())),
+            }
+            for item in result.families
+        ]
     if result.slopes:
         report["slopes"] = result.slopes
     report["versions"] = {"brace": __version__}
@@ -66,22 +97,39 @@ def outside_trust(result: Identification) -> list[tuple[str, float]]:
 
 
 def _interval(estimate: Estimate) -> dict[str, Any]:
-    return {"value": estimate.value, "sigma": estimate.sigma, "low": estimate.low, "high": estimate.high,
-            "identifiable": estimate.identifiable}
+    return {
+        "value": estimate.value,
+        "sigma": estimate.sigma,
+        "low": estimate.low,
+        "high": estimate.high,
+        "identifiable": estimate.identifiable,
+    }
 
 
 def _residual(result: Identification) -> dict[str, Any]:
     fit, problem = result.fit, result.problem
-    residual: dict[str, Any] = {"chi2": fit.chi2, "readings": fit.readings, "chi2_per_reading": fit.chi2 / fit.readings,
-                                "interval_inflation": math.sqrt(fit.inflation)}
+    residual: dict[str, Any] = {
+        "chi2": fit.chi2,
+        "readings": fit.readings,
+        "chi2_per_reading": fit.chi2 / fit.readings,
+        "interval_inflation": math.sqrt(fit.inflation),
+    }
     if isinstance(problem, LoadingProblem):
-        residual |= {"unit": "n", "rms_n": problem.force_gap_n(fit.model),
-                     "rms_start_n": problem.force_gap_n(result.start), "noise_floor_n": problem.noise.sigma_n,
-                     "noise_source": problem.noise.source}
+        residual |= {
+            "unit": "n",
+            "rms_n": problem.force_gap_n(fit.model),
+            "rms_start_n": problem.force_gap_n(result.start),
+            "noise_floor_n": problem.noise.sigma_n,
+            "noise_source": problem.noise.source,
+        }
     elif isinstance(problem, JointProblem):
         rms = math.sqrt(fit.chi2 / fit.readings) * problem.noise_n_mm
-        residual |= {"unit": "n_mm", "rms_n_mm": rms, "noise_floor_n_mm": problem.noise_n_mm,
-                     "rms_share_of_signal": rms / problem.signal_n_mm()}
+        residual |= {
+            "unit": "n_mm",
+            "rms_n_mm": rms,
+            "noise_floor_n_mm": problem.noise_n_mm,
+            "rms_share_of_signal": rms / problem.signal_n_mm(),
+        }
     else:
         residual |= {"unit": "weight", "weight": "0.3 N/mm + 10 % unless given"}
     return residual
@@ -122,18 +170,24 @@ def _lines(result: Identification) -> Iterator[str]:
             yield "  z, one constant tip height, is an inference: the table does not print the tip's direction"
     if result.split:
         share, (low, high) = result.split.structure_share, result.split.allowed
-        yield (f"share of the structure in the tip's compliance: {share:.0%} in this fit; the data alone allow "
-               f"{low:.0%} to {high:.0%} (base rigid, no other change; the paper says {PAPER_STRUCTURE_SHARE:.0%})")
+        yield (
+            f"share of the structure in the tip's compliance: {share:.0%} in this fit; the data alone allow "
+            f"{low:.0%} to {high:.0%} (base rigid, no other change; the paper says {PAPER_STRUCTURE_SHARE:.0%})"
+        )
 
 
 def _residual_words(result: Identification) -> Iterator[str]:
     values = _residual(result)
     if "rms_n" in values:
-        yield (f"force gap {values['rms_start_n']:.3f} N at the start, {values['rms_n']:.3f} N fitted; noise floor "
-               f"{values['noise_floor_n']:.3f} N from {values['noise_source']}")
+        yield (
+            f"force gap {values['rms_start_n']:.3f} N at the start, {values['rms_n']:.3f} N fitted; noise floor "
+            f"{values['noise_floor_n']:.3f} N from {values['noise_source']}"
+        )
     elif "rms_n_mm" in values:
-        yield (f"torque gap {values['rms_n_mm']:.4g} N mm, {values['rms_share_of_signal']:.1%} of the signal's standard "
-               f"deviation; noise floor {values['noise_floor_n_mm']:.3g} N mm")
+        yield (
+            f"torque gap {values['rms_n_mm']:.4g} N mm, {values['rms_share_of_signal']:.1%} of the signal's standard "
+            f"deviation; noise floor {values['noise_floor_n_mm']:.3g} N mm"
+        )
     else:
         yield f"chi2 per entry {values['chi2_per_reading']:.2f}"
     if values["interval_inflation"] > 1.1:
@@ -149,8 +203,11 @@ def _value(estimate: Estimate) -> str:
 
 def header(result: Identification) -> list[str]:
     """Comment lines for the fitted model."""
-    lines = [f"Identified by brace {__version__} from dataset '{result.dataset.folder.name}' "
-             f"({result.dataset.kind}, {result.dataset.rows} rows), mode {result.mode}.", *_residual_words(result)]
+    lines = [
+        f"Identified by brace {__version__} from dataset '{result.dataset.folder.name}' "
+        f"({result.dataset.kind}, {result.dataset.rows} rows), mode {result.mode}.",
+        *_residual_words(result),
+    ]
     lines += [f"data: {text}" for text in result.done_to_data]
     unknown = [key for key, lost in zip(result.fit.parameters.keys, result.information.unknown()) if lost]
     if unknown:

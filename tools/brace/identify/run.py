@@ -64,8 +64,9 @@ class Identification:
         return self.fit.model
 
 
-def identify(dataset: Dataset, start: LimbModel, options: Options, advance: Advance = lambda _done: None
-             ) -> Identification:
+def identify(
+    dataset: Dataset, start: LimbModel, options: Options, advance: Advance = lambda _done: None
+) -> Identification:
     """Fits the record; the kind of record decides how."""
     settled, done = settle(dataset, options.faults)
     if settled.kind == "joint_test":
@@ -83,8 +84,9 @@ def _chosen(start: LimbModel, mode: str, options: Options) -> choose.ParameterSe
     return choose.free_compliances(start, options.extra_keys)
 
 
-def _loading(dataset: Dataset, settled: Dataset, start: LimbModel, done: list[str], options: Options,
-             advance: Advance) -> Identification:
+def _loading(
+    dataset: Dataset, settled: Dataset, start: LimbModel, done: list[str], options: Options, advance: Advance
+) -> Identification:
     mode = options.mode or "prior"
     problem = LoadingProblem(settled)
     best = fit(problem, _chosen(start, mode, options))
@@ -92,18 +94,35 @@ def _loading(dataset: Dataset, settled: Dataset, start: LimbModel, done: list[st
     known = information(best)
     classes = confusions(problem, best.model, {}, _candidates(CANDIDATES, options))
     advance(5)
-    return Identification(dataset, start, mode, known, problem, combination_estimates(known), classes,
-                          split(problem, best, lambda done_steps: advance(5 + done_steps)), [], slope_table(settled), done)
+    return Identification(
+        dataset,
+        start,
+        mode,
+        known,
+        problem,
+        combination_estimates(known),
+        classes,
+        split(problem, best, lambda done_steps: advance(5 + done_steps)),
+        [],
+        slope_table(settled),
+        done,
+    )
 
 
-def _table(dataset: Dataset, settled: Dataset, start: LimbModel, done: list[str], options: Options,
-           advance: Advance) -> Identification:
+def _table(
+    dataset: Dataset, settled: Dataset, start: LimbModel, done: list[str], options: Options, advance: Advance
+) -> Identification:
     mode = options.mode or "free"
     problem = TableProblem(settled, start, options.weight, options.knee)
     chosen = _chosen(start, mode, options)
-    chosen = choose.ParameterSet(start, tuple(
-        parameter for parameter in chosen.parameters
-        if not parameter.key.startswith(_NOT_IN_TABLES) and not parameter.key.endswith("zero_offset_rad")))
+    chosen = choose.ParameterSet(
+        start,
+        tuple(
+            parameter
+            for parameter in chosen.parameters
+            if not parameter.key.startswith(_NOT_IN_TABLES) and not parameter.key.endswith("zero_offset_rad")
+        ),
+    )
     if problem.poses.needs_height:
         chosen = choose.ParameterSet(start, (*chosen.parameters, problem.height_parameter()))
     best = fit(problem, chosen, scattered_starts(chosen))
@@ -112,12 +131,24 @@ def _table(dataset: Dataset, settled: Dataset, start: LimbModel, done: list[str]
     families = compare_families(problem, start, lambda done_steps: advance(1 + done_steps))
     classes = confusions(problem, best.model, best.nuisances, _candidates(TABLE_CANDIDATES, options))
     shares = split(problem, best, lambda done_steps: advance(8 + done_steps))
-    return Identification(dataset, start, mode, known, problem, combination_estimates(known), classes, shares, families,
-                          [], done)
+    return Identification(
+        dataset,
+        start,
+        mode,
+        known,
+        problem,
+        combination_estimates(known),
+        classes,
+        shares,
+        families,
+        [],
+        done,
+    )
 
 
-def _joint_test(dataset: Dataset, settled: Dataset, start: LimbModel, done: list[str], options: Options
-                ) -> Identification:
+def _joint_test(
+    dataset: Dataset, settled: Dataset, start: LimbModel, done: list[str], options: Options
+) -> Identification:
     problem = JointProblem(settled)
     chosen = problem.parameters(start)
     best = fit(problem, chosen, problem.starts(chosen))

@@ -32,7 +32,9 @@ def slope_table(dataset: Dataset) -> list[dict[str, Any]]:
                 runs = [run[method] for run in columns.get((config, axis), ())]
                 if runs:
                     mean = np.mean(runs, axis=0)
-                    entry[f"{method}_k_x{name}_n_per_mm"], entry[f"{method}_k_z{name}_n_per_mm"] = map(float, mean)
+                    entry[f"{method}_k_x{name}_n_per_mm"], entry[f"{method}_k_z{name}_n_per_mm"] = map(
+                        float, mean
+                    )
         result.append(entry)
     return result
 

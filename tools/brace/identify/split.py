@@ -37,24 +37,36 @@ def structure_share(model: LimbModel, angles_rad: np.ndarray) -> float:
     whole = reference_planar(model, theta1, theta2)
     femur, tibia = model.number("geometry.femur_mm"), model.number("geometry.tibia_mm")
     r_squared = femur**2 + tibia**2 + 2 * femur * tibia * np.cos(theta2)
-    joints = model.number("joint.femur.compliance_rad_per_n_mm") * r_squared \
+    joints = (
+        model.number("joint.femur.compliance_rad_per_n_mm") * r_squared
         + model.number("joint.tibia.compliance_rad_per_n_mm") * tibia**2
+    )
     return float(np.mean(1.0 - joints / (whole[:, 3] + whole[:, 5])))
 
 
 def split(problem: Problem, best: Fit, advance: Callable[[int], None] = lambda _done: None) -> Split:
     """The share at the fit, and the range that the data allow when no prior holds any compliance."""
     base = best.model
-    kept = tuple(parameter for parameter in best.parameters.parameters if parameter.key not in COMPLIANCES
-                 and (parameter.key in NUISANCES or math.isfinite(parameter.prior_sigma)))
+    kept = tuple(
+        parameter
+        for parameter in best.parameters.parameters
+        if parameter.key not in COMPLIANCES
+        and (parameter.key in NUISANCES or math.isfinite(parameter.prior_sigma))
+    )
     loose = ParameterSet(base, tuple(free_parameter(base, key) for key in COMPLIANCES) + kept)
 
     def held_at(target: float | None) -> tuple[float, float]:
         """(share reached, chi2) of the best fit held near a share; one point of the profile wherever it ends up."""
+
         def off(model: LimbModel, nuisances: dict[str, float]) -> float:
             return structure_share(model, problem.angles(model, nuisances)) - (target or 0.0)
-        found = fit(problem, loose, starts=() if target is None else [_towards(loose, target)],
-                    constraint=None if target is None else off)
+
+        found = fit(
+            problem,
+            loose,
+            starts=() if target is None else [_towards(loose, target)],
+            constraint=None if target is None else off,
+        )
         return structure_share(found.model, problem.angles(found.model, found.nuisances)), found.chi2
 
     profile = [held_at(None)]
@@ -89,7 +101,8 @@ def _towards(parameters: ParameterSet, share: float) -> np.ndarray:
 
 def _edge(profile: list[tuple[float, float]], side: int, dof: int) -> tuple[float, bool]:
     """Where the profile leaves the 90 % interval on one side (-1 down, 1 up): the share, and whether it is the end
-    of what can be reached. Between points the root of chi2's rise is taken as straight, as it is for a parabola."""
+    of what can be reached. Between points the root of chi2's rise is taken as straight, as it is for a parabola.
+    """
     least = min(chi2 for _, chi2 in profile)
     limit = Z90 * math.sqrt(max(1.0, least / dof))
     rise = sorted((side * share, math.sqrt(max(0.0, chi2 - least))) for share, chi2 in profile)

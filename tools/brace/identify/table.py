@@ -30,8 +30,12 @@ class TableProblem:
 
     def __init__(self, dataset: Dataset, model: LimbModel, weight: Weight, knee: str = "up") -> None:
         if dataset.rows < MIN_ROWS:
-            raise BadFileError(f"{dataset.rows} row is not enough to say anything", where=str(dataset.csv_path),
-                               why=f"at least {MIN_ROWS} stiffness matrices are needed", next_step="measure more poses")
+            raise BadFileError(
+                f"{dataset.rows} row is not enough to say anything",
+                where=str(dataset.csv_path),
+                why=f"at least {MIN_ROWS} stiffness matrices are needed",
+                next_step="measure more poses",
+            )
         self.dataset = dataset
         self.poses: TablePoses = table_poses(dataset, model, knee)
         self.k = stiffness(dataset.columns)
@@ -59,7 +63,9 @@ class TableProblem:
     def height_parameter(self, start_mm: float | None = None) -> Parameter:
         """The common height of the tip, for a table that gives r alone."""
         low, high = self.poses.height_limits_mm()
-        return Parameter(TIP_HEIGHT, 0.6 * low if start_mm is None else start_mm, natural_scale(TIP_HEIGHT), low, high)
+        return Parameter(
+            TIP_HEIGHT, 0.6 * low if start_mm is None else start_mm, natural_scale(TIP_HEIGHT), low, high
+        )
 
 
 def best_tip_height_mm(dataset: Dataset, model: LimbModel, poses: TablePoses) -> float:

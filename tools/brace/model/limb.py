@@ -69,11 +69,13 @@ def limb_from_document(document: toml.Document) -> LimbModel:
     values = toml.check(document, LIMB_KEYS, WHAT)
     model = LimbModel(values, frozenset(_given(document.content)), document)
     if not any(model.number(key) > 0.0 for key in PLANAR_COMPLIANCES):
-        raise BadFileError("nothing in this limb yields", where=document.where("link"),
-                           why="all compliances of femur, tibia, their joints and the base are zero, so K is "
-                               "infinite",
-                           next_step="give link.femur, link.tibia or the joints a compliance, e.g. "
-                                     "[link.tibia] bending_mm_per_n = 0.25")
+        raise BadFileError(
+            "nothing in this limb yields",
+            where=document.where("link"),
+            why="all compliances of femur, tibia, their joints and the base are zero, so K is " "infinite",
+            next_step="give link.femur, link.tibia or the joints a compliance, e.g. "
+            "[link.tibia] bending_mm_per_n = 0.25",
+        )
     return model
 
 
@@ -99,5 +101,8 @@ def _toml_value(key: toml.Key, value: Any) -> str:
 def _escape(character: str) -> str:
     if character in '"\\':
         return "\\" + character
-    return character if character.isprintable() else f"\\u{ord(character):04x}" if ord(character) < 0x10000 else \
-        f"\\U{ord(character):08x}"
+    return (
+        character
+        if character.isprintable()
+        else f"\\u{ord(character):04x}" if ord(character) < 0x10000 else f"\\U{ord(character):08x}"
+    )

@@ -32,7 +32,9 @@ def declarations(roots: Sequence[Path], folders: Sequence[Path]) -> str:
     return re.sub(r"\n\s*\n+", "\n", text)
 
 
-def _unfold(header: Path, folders: Sequence[Path], seen: set[Path], constants: dict[str, str]) -> Iterable[str]:
+def _unfold(
+    header: Path, folders: Sequence[Path], seen: set[Path], constants: dict[str, str]
+) -> Iterable[str]:
     header = header.resolve()
     if header in seen:
         return
@@ -60,7 +62,9 @@ def _unfold(header: Path, folders: Sequence[Path], seen: set[Path], constants: d
         elif define := _DEFINE.match(line):
             if number := _NUMBER.fullmatch(define.group(2)):
                 constants[define.group(1)] = number.group(1)
-            elif re.fullmatch(r"[\w\s()+*/<-]+", define.group(2)) and not re.search(r"\d\.|\bf\b", define.group(2)):
+            elif re.fullmatch(r"[\w\s()+*/<-]+", define.group(2)) and not re.search(
+                r"\d\.|\bf\b", define.group(2)
+            ):
                 constants[define.group(1)] = f"({define.group(2)})"
     yield "\n".join(kept)
 

@@ -12,9 +12,14 @@ from brace.model import LIMB_KEYS, LimbModel
 from brace.model.keys import LINKS
 from brace.native.loader import Library
 
-_LINK_FIELDS = {"axial_mm_per_n": "axial_mm_per_n", "bending_mm_per_n": "bending_mm_per_n", "tilt_rad": "tilt_rad",
-                "lateral_mm_per_n": "lateral_mm_per_n", "torsion_rad_per_n_mm": "torsion_rad_per_n_mm",
-                "moment_transfer": "moment_transfer_ratio"}
+_LINK_FIELDS = {
+    "axial_mm_per_n": "axial_mm_per_n",
+    "bending_mm_per_n": "bending_mm_per_n",
+    "tilt_rad": "tilt_rad",
+    "lateral_mm_per_n": "lateral_mm_per_n",
+    "torsion_rad_per_n_mm": "torsion_rad_per_n_mm",
+    "moment_transfer": "moment_transfer_ratio",
+}
 STATUS_SINGULAR = -6
 
 
@@ -39,8 +44,12 @@ def firmware_limb(native: Library, model: LimbModel) -> Any:
         setattr(limb.uncertainty, field, model.number(f"uncertainty.{field}"))
     status = native.lib.brace_limb_check(limb)
     if status != 0:
-        raise BadFileError("the firmware refuses this limb", where=model.where(), why=status_text(native, status),
-                           next_step="check lengths and compliances; something must yield in each direction")
+        raise BadFileError(
+            "the firmware refuses this limb",
+            where=model.where(),
+            why=status_text(native, status),
+            next_step="check lengths and compliances; something must yield in each direction",
+        )
     return limb
 
 
@@ -75,4 +84,6 @@ def plant_error(native: Library, status: int, model: LimbModel, doing: str) -> B
     """The refusal for a negative status of the plant."""
     text = native.ffi.string(native.lib.brace_host_status_text(status)).decode()
     next_step = "give link or joint compliances" if status == STATUS_SINGULAR else "check the model's values"
-    return BadFileError(f"the simulated limb cannot {doing}", where=model.where(), why=text, next_step=next_step)
+    return BadFileError(
+        f"the simulated limb cannot {doing}", where=model.where(), why=text, next_step=next_step
+    )

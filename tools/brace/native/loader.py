@@ -16,8 +16,18 @@ _PROJECT = _PACKAGE.parents[1]
 _INSTALLED = _PACKAGE / "_native"
 LIBRARY_NAME = "libbrace_host.so"
 
-FIRMWARE_HEADERS = ("kinematics.h", "chain.h", "planar.h", "planar_table.h", "planar_fixed.h", "planar_batch.h",
-                    "spatial.h", "uncertainty.h", "slope.h", "contact.h")
+FIRMWARE_HEADERS = (
+    "kinematics.h",
+    "chain.h",
+    "planar.h",
+    "planar_table.h",
+    "planar_fixed.h",
+    "planar_batch.h",
+    "spatial.h",
+    "uncertainty.h",
+    "slope.h",
+    "contact.h",
+)
 HOST_HEADER = "brace_host.h"
 
 
@@ -43,14 +53,20 @@ def library() -> Library:
         ffi.cdef(declarations(headers, folders))
         loaded = ffi.dlopen(str(path))
     except OSError as error:
-        raise MissingLibraryError("the library cannot be loaded", where=str(path), why=str(error),
-                                  next_step="./dev setup builds it anew") from None
+        raise MissingLibraryError(
+            "the library cannot be loaded",
+            where=str(path),
+            why=str(error),
+            next_step="./dev setup builds it anew",
+        ) from None
     lacking = [name for name in dir(loaded) if not hasattr(loaded, name)]
     if lacking:
-        raise MissingLibraryError(f"the library lacks {lacking[0]}" + (f" and {len(lacking) - 1} more" if lacking[1:]
-                                                                       else ""),
-                                  where=str(path), why="it is older than the headers that describe it",
-                                  next_step="./dev setup builds it anew")
+        raise MissingLibraryError(
+            f"the library lacks {lacking[0]}" + (f" and {len(lacking) - 1} more" if lacking[1:] else ""),
+            where=str(path),
+            why="it is older than the headers that describe it",
+            next_step="./dev setup builds it anew",
+        )
     return Library(ffi, loaded, path)
 
 
@@ -59,15 +75,21 @@ def _find_library() -> Path:
     if named:
         if Path(named).is_file():
             return Path(named)
-        raise MissingLibraryError("no library there", where=f"BRACE_LIBRARY={named}",
-                                  why="the variable names a file that does not exist",
-                                  next_step="unset BRACE_LIBRARY, or point it at " + LIBRARY_NAME)
+        raise MissingLibraryError(
+            "no library there",
+            where=f"BRACE_LIBRARY={named}",
+            why="the variable names a file that does not exist",
+            next_step="unset BRACE_LIBRARY, or point it at " + LIBRARY_NAME,
+        )
     for folder in (_INSTALLED, _PROJECT / "build" / "host", _PROJECT / "build" / "host" / "host_sim"):
         if (folder / LIBRARY_NAME).is_file():
             return folder / LIBRARY_NAME
-    raise MissingLibraryError(f"{LIBRARY_NAME} is not built", where=str(_PROJECT / "build" / "host"),
-                              why="brace computes with the firmware's own C, compiled for this machine",
-                              next_step="./dev setup, or set BRACE_LIBRARY to the file")
+    raise MissingLibraryError(
+        f"{LIBRARY_NAME} is not built",
+        where=str(_PROJECT / "build" / "host"),
+        why="brace computes with the firmware's own C, compiled for this machine",
+        next_step="./dev setup, or set BRACE_LIBRARY to the file",
+    )
 
 
 def _headers() -> tuple[list[Path], list[Path]]:
@@ -86,6 +108,9 @@ def _refuse_stale(library_path: Path, headers: list[Path], folders: list[Path]) 
     built = library_path.stat().st_mtime
     newer = [header for header in headers if header.stat().st_mtime > built]
     if newer and _INSTALLED not in folders[0].parents:
-        raise MissingLibraryError(f"the library is older than {newer[0].name}", where=str(library_path),
-                                  why="its structs may have another shape than the header says",
-                                  next_step="./dev setup builds it anew")
+        raise MissingLibraryError(
+            f"the library is older than {newer[0].name}",
+            where=str(library_path),
+            why="its structs may have another shape than the header says",
+            next_step="./dev setup builds it anew",
+        )

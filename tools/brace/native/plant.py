@@ -36,7 +36,9 @@ class LoadingPlayer:
         self._rows.count = self.count
         inputs = ("theta1_rad", "theta2_rad", "t_s", "temp_degc", "dx_mm", "dz_mm")
         self._keep = [_point_at(self._native, self._rows, "run", columns["run"], np.int32)]
-        self._keep += [_point_at(self._native, self._rows, name, columns[name]) for name in inputs if name in columns]
+        self._keep += [
+            _point_at(self._native, self._rows, name, columns[name]) for name in inputs if name in columns
+        ]
 
     def play(self, model: LimbModel, readings: Sequence[str] = ("fx_n", "fz_n")) -> dict[str, np.ndarray]:
         """What the rig would read on this limb: one array of `count` per reading, before resolution and noise."""
@@ -49,8 +51,12 @@ class LoadingPlayer:
         unsolved = ffi.new("size_t *")
         status = lib.brace_plant_loading(plant_model(self._native, model), self._rows, reading, unsolved)
         if status:
-            raise plant_error(self._native, status, model,
-                              f"be played ({unsolved[0]} rows unsolved)" if status == NO_CONVERGENCE else "be played")
+            raise plant_error(
+                self._native,
+                status,
+                model,
+                f"be played ({unsolved[0]} rows unsolved)" if status == NO_CONVERGENCE else "be played",
+            )
         return out
 
     def play_many(self, models: Sequence[LimbModel]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -61,8 +67,14 @@ class LoadingPlayer:
             fill_plant(self._native, plants[index], model)
         fx, fz = np.empty((len(models), self.count)), np.empty((len(models), self.count))
         status = np.empty(len(models), np.int32)
-        lib.brace_plant_loading_many(plants, len(models), self._rows, ffi.from_buffer("double[]", fx),
-                                     ffi.from_buffer("double[]", fz), ffi.from_buffer("int32_t[]", status))
+        lib.brace_plant_loading_many(
+            plants,
+            len(models),
+            self._rows,
+            ffi.from_buffer("double[]", fx),
+            ffi.from_buffer("double[]", fz),
+            ffi.from_buffer("int32_t[]", status),
+        )
         return fx, fz, status
 
 
@@ -77,8 +89,10 @@ class JointPlayer:
         self._rows.torque_imposed = int(torque_imposed)
         self._rows.joint_index = _JOINT_INDEX[joint]
         imposed = columns["torque_n_mm" if torque_imposed else "angle_rad"]
-        self._keep = [_point_at(self._native, self._rows, "t_s", columns["t_s"]),
-                      _point_at(self._native, self._rows, "input", imposed)]
+        self._keep = [
+            _point_at(self._native, self._rows, "t_s", columns["t_s"]),
+            _point_at(self._native, self._rows, "input", imposed),
+        ]
         if "test" in columns:
             self._keep.append(_point_at(self._native, self._rows, "test", columns["test"], np.int32))
         if "temp_degc" in columns:
@@ -90,12 +104,12 @@ class JointPlayer:
         ffi = self._native.ffi
         self._rows.reversal_rad = reversal_rad
         out = np.empty(self.count)
-        status = self._native.lib.brace_plant_joint(plant_model(self._native, model), self._rows,
-                                                    ffi.from_buffer("double[]", out))
+        status = self._native.lib.brace_plant_joint(
+            plant_model(self._native, model), self._rows, ffi.from_buffer("double[]", out)
+        )
         if status:
             raise plant_error(self._native, status, model, "be played")
         return out
-
 
 
 def reference_planar(model: LimbModel, theta1_rad: np.ndarray, theta2_rad: np.ndarray) -> np.ndarray:
@@ -107,8 +121,12 @@ def reference_planar(model: LimbModel, theta1_rad: np.ndarray, theta2_rad: np.nd
     theta1, theta2 = (np.ascontiguousarray(theta, dtype=float) for theta in (theta1_rad, theta2_rad))
     out = np.empty((theta1.size, 9))
     status = native.lib.brace_reference_planar(
-        plant_model(native, model), theta1.size, ffi.from_buffer("double[]", theta1),
-        ffi.from_buffer("double[]", theta2), ffi.from_buffer("double[]", out))
+        plant_model(native, model),
+        theta1.size,
+        ffi.from_buffer("double[]", theta1),
+        ffi.from_buffer("double[]", theta2),
+        ffi.from_buffer("double[]", out),
+    )
     if status:
         raise plant_error(native, status, model, "be evaluated")
     return out
@@ -145,19 +163,24 @@ def play_rig(model: LimbModel | None, design: Mapping[str, Any]) -> dict[str, np
     status = lib.brace_rig_play(c_design, plant, record)
     if status:
         from brace.errors import BadFileError
+
         if model is None:
-            raise BadFileError("the rig's design is not sound", why=f"status {status}", next_step="check rig.toml")
+            raise BadFileError(
+                "the rig's design is not sound", why=f"status {status}", next_step="check rig.toml"
+            )
         raise plant_error(native, status, model, "be played on this rig")
     return columns
 
 
-def zero_force_shift_mm(model: LimbModel, theta1_rad: float, theta2_rad: float, axis: str, step_mm: float,
-                        steps: int) -> float:
+def zero_force_shift_mm(
+    model: LimbModel, theta1_rad: float, theta2_rad: float, axis: str, step_mm: float, steps: int
+) -> float:
     """Fig. 12's number: how far apart the limb finds zero force after unloading from both sides [mm]."""
     native: Library = library()
     shift = native.ffi.new("double *")
-    status = native.lib.brace_rig_zero_force_shift(plant_model(native, model), theta1_rad, theta2_rad,
-                                                   int(axis == "z"), step_mm, steps, shift)
+    status = native.lib.brace_rig_zero_force_shift(
+        plant_model(native, model), theta1_rad, theta2_rad, int(axis == "z"), step_mm, steps, shift
+    )
     if status:
         raise plant_error(native, status, model, "be cycled")
     return float(shift[0])

@@ -13,10 +13,22 @@ if TYPE_CHECKING:
 INK, STIFF, SOFT, MODEL, FAINT = "#22303c", "#c8553d", "#2d6a8e", "#588b5b", "#b8c0c8"
 
 _STYLE: dict[str, Any] = {
-    "font.size": 9.0, "axes.spines.top": False, "axes.spines.right": False, "axes.edgecolor": INK,
-    "axes.labelcolor": INK, "text.color": INK, "xtick.color": INK, "ytick.color": INK, "legend.frameon": False,
-    "svg.hashsalt": "brace", "svg.fonttype": "none", "axes.grid": True, "grid.color": "#e6e9ec", "grid.linewidth": 0.6,
-    "axes.axisbelow": True, "lines.linewidth": 1.6,
+    "font.size": 9.0,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.edgecolor": INK,
+    "axes.labelcolor": INK,
+    "text.color": INK,
+    "xtick.color": INK,
+    "ytick.color": INK,
+    "legend.frameon": False,
+    "svg.hashsalt": "brace",
+    "svg.fonttype": "none",
+    "axes.grid": True,
+    "grid.color": "#e6e9ec",
+    "grid.linewidth": 0.6,
+    "axes.axisbelow": True,
+    "lines.linewidth": 1.6,
 }
 
 

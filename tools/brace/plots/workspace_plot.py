@@ -13,8 +13,14 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def workspace_figure(name: str, r_mm: np.ndarray, lambda_min: np.ndarray, lambda_max: np.ndarray,
-                     ellipses: dict[str, np.ndarray], links: np.ndarray) -> Figure:
+def workspace_figure(
+    name: str,
+    r_mm: np.ndarray,
+    lambda_min: np.ndarray,
+    lambda_max: np.ndarray,
+    ellipses: dict[str, np.ndarray],
+    links: np.ndarray,
+) -> Figure:
     """lambda_min, lambda_max: rows x (low, middle, high) [N/mm] at r [mm]; ellipses: x_mm, z_mm, lambda_min_n_per_mm,
     lambda_max_n_per_mm, stiff_axis_rad, one entry each; links: postures x 3 points x (x, z) [mm] to draw."""
     figure = new_figure(10.5, 4.4)
@@ -46,12 +52,22 @@ def draw_ellipses(axes: Axes, ellipses: dict[str, np.ndarray], links: np.ndarray
     scale = 0.14 * span / float(np.median(long_axis)) if long_axis.size else 1.0
     longest = 0.3 * span
     factor = np.minimum(scale, longest / long_axis)
-    axes.add_collection(EllipseCollection(
-        long_axis * factor, short_axis * factor, np.degrees(ellipses["stiff_axis_rad"]), units="xy",
-        offsets=np.column_stack([ellipses["x_mm"], ellipses["z_mm"]]), offset_transform=axes.transData,
-        facecolors=STIFF + "30", edgecolors=STIFF, linewidths=0.9))
+    axes.add_collection(
+        EllipseCollection(
+            long_axis * factor,
+            short_axis * factor,
+            np.degrees(ellipses["stiff_axis_rad"]),
+            units="xy",
+            offsets=np.column_stack([ellipses["x_mm"], ellipses["z_mm"]]),
+            offset_transform=axes.transData,
+            facecolors=STIFF + "30",
+            edgecolors=STIFF,
+            linewidths=0.9,
+        )
+    )
     axes.plot([0], [0], "o", color=INK, markersize=4)
     room = 0.5 * longest * np.array([-1.0, 1.0])
-    x_limits, z_limits = (np.array([min(ellipses[name].min(), 0.0), ellipses[name].max()]) + room
-                          for name in ("x_mm", "z_mm"))
+    x_limits, z_limits = (
+        np.array([min(ellipses[name].min(), 0.0), ellipses[name].max()]) + room for name in ("x_mm", "z_mm")
+    )
     axes.set(xlabel="x [mm]", ylabel="z [mm]", aspect="equal", xlim=x_limits, ylim=z_limits)

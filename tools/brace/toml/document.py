@@ -50,8 +50,12 @@ def parse(text: str, path: Path, what: str) -> Document:
     except tomllib.TOMLDecodeError as error:
         raise _syntax_error(str(error), text, path, what) from None
     except (RecursionError, ValueError) as error:
-        raise BadFileError(f"not a {what}", where=str(path), why=str(error) or "nested too deeply",
-                           next_step="write plain tables of plain values") from None
+        raise BadFileError(
+            f"not a {what}",
+            where=str(path),
+            why=str(error) or "nested too deeply",
+            next_step="write plain tables of plain values",
+        ) from None
     return Document(path, content, _locate(text))
 
 
@@ -66,8 +70,12 @@ def _syntax_error(message: str, text: str, path: Path, what: str) -> BadFileErro
         reason = f"a key or table is given twice ({reason})"
     else:
         next_step = "see docs for the file's format; text needs quotes, numbers a point, tables [brackets]"
-    return BadFileError(f"not valid TOML: {shown!r}", where=place(path, line),
-                        why=f"a {what} is a TOML file: {reason}", next_step=next_step)
+    return BadFileError(
+        f"not valid TOML: {shown!r}",
+        where=place(path, line),
+        why=f"a {what} is a TOML file: {reason}",
+        next_step=next_step,
+    )
 
 
 def _locate(text: str) -> dict[str, int]:

@@ -46,8 +46,14 @@ class Key:
         return f"{noun} in {left}{self.low:g}, {right}{unit}{also}"
 
 
-def check(document: Document, keys: Sequence[Key], what: str, *, prefix: str = "",
-          content: Mapping[str, Any] | None = None) -> dict[str, Any]:
+def check(
+    document: Document,
+    keys: Sequence[Key],
+    what: str,
+    *,
+    prefix: str = "",
+    content: Mapping[str, Any] | None = None,
+) -> dict[str, Any]:
     """Values of all `keys` (defaults filled in) from a document, or from one table of it under `prefix`.
 
     Refuses unknown keys and tables, wrong types, values out of range, missing keys; with file:line."""
@@ -65,10 +71,13 @@ def check(document: Document, keys: Sequence[Key], what: str, *, prefix: str = "
         if key.name in given:
             values[key.name] = _checked(document, prefix + key.name, key, given[key.name])
         elif key.default is None:
-            raise BadFileError(f"{prefix}{key.name} is missing", where=document.where((prefix + key.name)),
-                               why=f"a {what} needs it: {key.meaning}",
-                               next_step=f"add {key.name.rpartition('.')[2]} = ... ({key.range_text})"
-                               + (f" under [{prefix}{key.name.rpartition('.')[0]}]" if "." in key.name else ""))
+            raise BadFileError(
+                f"{prefix}{key.name} is missing",
+                where=document.where((prefix + key.name)),
+                why=f"a {what} needs it: {key.meaning}",
+                next_step=f"add {key.name.rpartition('.')[2]} = ... ({key.range_text})"
+                + (f" under [{prefix}{key.name.rpartition('.')[0]}]" if "." in key.name else ""),
+            )
         else:
             values[key.name] = key.default
     return values
@@ -83,35 +92,61 @@ def _flatten(content: Mapping[str, Any], prefix: str = "") -> Iterable[tuple[str
             yield dotted, value
 
 
-def _unknown(document: Document, prefix: str, name: str, value: Any, known: Mapping[str, Key], tables: set[str],
-             what: str) -> BadFileError:
+def _unknown(
+    document: Document,
+    prefix: str,
+    name: str,
+    value: Any,
+    known: Mapping[str, Key],
+    tables: set[str],
+    what: str,
+) -> BadFileError:
     where = document.where(prefix + name)
     if name in tables:
-        return BadFileError(f"[{name}] is a table, not a value", where=where, why=f"found {_shown(value)}",
-                            next_step=f"write [{name}] on its own line and its keys below it")
+        return BadFileError(
+            f"[{name}] is a table, not a value",
+            where=where,
+            why=f"found {_shown(value)}",
+            next_step=f"write [{name}] on its own line and its keys below it",
+        )
     table, _, leaf = name.rpartition(".")
     siblings = {key.rpartition(".")[2]: key for key in known if key.rpartition(".")[0] == table}
     near = did_you_mean(leaf, siblings)
     better = siblings[near] if near else did_you_mean(name, known)
     if table and table not in tables:
         near_table = did_you_mean(table, tables)
-        return BadFileError(f"unknown table [{prefix}{table}]", where=document.where(prefix + table),
-                            why=f"a {what} has no such table; a misspelt one would silently do nothing",
-                            next_step=f"did you mean [{near_table}]?" if near_table else
-                            f"known tables: {', '.join(sorted(tables))}")
+        return BadFileError(
+            f"unknown table [{prefix}{table}]",
+            where=document.where(prefix + table),
+            why=f"a {what} has no such table; a misspelt one would silently do nothing",
+            next_step=(
+                f"did you mean [{near_table}]?"
+                if near_table
+                else f"known tables: {', '.join(sorted(tables))}"
+            ),
+        )
     listed = ", ".join(sorted(siblings)[:12])
-    next_step = f"did you mean {better}?" if better else (f"known here: {listed}" if listed else
-                                                          f"known tables: {', '.join(sorted(tables))}")
-    return BadFileError(f"unknown key {prefix}{name}", where=where,
-                        why=f"a {what} has no such key; a misspelt one would silently do nothing",
-                        next_step=next_step)
+    next_step = (
+        f"did you mean {better}?"
+        if better
+        else (f"known here: {listed}" if listed else f"known tables: {', '.join(sorted(tables))}")
+    )
+    return BadFileError(
+        f"unknown key {prefix}{name}",
+        where=where,
+        why=f"a {what} has no such key; a misspelt one would silently do nothing",
+        next_step=next_step,
+    )
 
 
 def _checked(document: Document, name: str, key: Key, value: Any) -> Any:
     def refuse(why: str) -> BadFileError:
-        return BadFileError(f"{name} = {_shown(value)} cannot be", where=document.where(name),
-                            why=f"{why}; {name.rpartition('.')[2]} is {key.meaning}",
-                            next_step=f"write {key.range_text}")
+        return BadFileError(
+            f"{name} = {_shown(value)} cannot be",
+            where=document.where(name),
+            why=f"{why}; {name.rpartition('.')[2]} is {key.meaning}",
+            next_step=f"write {key.range_text}",
+        )
 
     if key.kind == "text":
         if not isinstance(value, str):
