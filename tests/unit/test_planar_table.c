@@ -93,6 +93,16 @@ static void test_a_limb_that_no_table_can_follow_is_refused(void)
     TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_planar_table_build(&planar, &table));
 }
 
+/* Soft springs beside stiff links: lambda_max peaks too sharply when the limb is straight. */
+static void test_a_peak_too_sharp_for_the_table_is_refused(void)
+{
+    brace_limb_t limb = sample_limb[SAMPLE_PAPER];
+    limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = 3.2e-4f;
+    limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = 3.2e-4f;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_planar_collapse(&limb, &planar));
+    TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_planar_table_build(&planar, &table));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -100,5 +110,6 @@ int main(void)
     RUN_TEST(test_close_to_straight_and_folded);
     RUN_TEST(test_reach_and_refusal);
     RUN_TEST(test_a_limb_that_no_table_can_follow_is_refused);
+    RUN_TEST(test_a_peak_too_sharp_for_the_table_is_refused);
     return UNITY_END();
 }

@@ -59,7 +59,7 @@ static int accurate(const brace_harmonics_t *h, rest_t rest, float unit)
     const float high = rest.per_mean * (middle + mean_swing) + rest.constant;
     const float smaller = low < high ? low : high;
     const float error = 2.0f * unit + 6e-8f * (__builtin_fabsf(h->cross.per_cos) + __builtin_fabsf(h->cross.at_fold));
-    return smaller > 0.0f && __builtin_fabsf(rest.constant) < 16.0f * smaller && least > 0.0f &&
+    return __builtin_fabsf(rest.constant) < 16.0f * smaller && least > 0.0f &&
            error < 2e-6f * __builtin_sqrtf(smaller) &&
            unit + 5e-8f * __builtin_fabsf(h->mean.per_cos) < 1.2e-6f * least;
 }
