@@ -18,8 +18,8 @@
 /* The angles' reach: theta1^2 + theta2^2 <= this [rad^2]. Both may lie anywhere within [-3.9, 3.9]. */
 #define BRACE_PLANAR_REACH_RAD2 31.0f
 
-/* A first harmonic of the knee angle in fixed point. The low word of `start` is the factor of the cosine; as the
- * fraction of the high word, the constant, it is a fifth of a thousand-millionth of the scale. */
+/* A first harmonic of the knee angle in fixed point. The high word of `start` is the constant, the low word the
+ * factor of the cosine; as a fraction of the constant it weighs less than the last place. */
 typedef struct {
     int64_t start;
     int32_t per_sin;
