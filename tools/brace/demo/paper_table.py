@@ -53,8 +53,8 @@ def examine(advance: Callable[[int], None]) -> PaperTable:
     half = half_units(settled.columns, settled.decimals or table.decimals)
     value = eigenvalues(k)
     smallest_interval, largest_interval = lambda_min_interval(k, half), _lambda_max_interval(k, half)
-    undetermined = {fault.row for fault in table.faults if fault.field == "lambda_min"}
-    repaired = {fault.row for fault in table.faults if fault.blocking and fault.repair}
+    undetermined = {fault.row or 0 for fault in table.faults if fault.field == "lambda_min"}
+    repaired = {fault.row or 0 for fault in table.faults if fault.blocking and fault.repair}
     rows = np.arange(1, len(k) + 1)
     known = ~np.isin(rows, list(undetermined))
     everywhere = np.ones(len(k), dtype=bool)

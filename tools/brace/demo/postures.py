@@ -60,4 +60,5 @@ def _link_ellipse(model: LimbModel, link: str, direction_rad: float) -> np.ndarr
     angle = direction_rad + model.number(f"link.{link}.tilt_rad")
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     principal = [model.number(f"link.{link}.axial_mm_per_n"), model.number(f"link.{link}.bending_mm_per_n")]
-    return turn @ np.diag(principal) @ turn.T
+    ellipse: np.ndarray = turn @ np.diag(principal) @ turn.T
+    return ellipse

@@ -84,7 +84,8 @@ def _eigenvalues(story: Story, table: paper_table.PaperTable) -> Iterator[str]:
 
 
 def _at(r_mm: np.ndarray, curve: np.ndarray, rows_mm: np.ndarray) -> np.ndarray:
-    return np.interp(rows_mm, r_mm, curve, left=np.nan, right=np.nan)
+    at_rows: np.ndarray = np.interp(rows_mm, r_mm, curve, left=np.nan, right=np.nan)
+    return at_rows
 
 
 def _cyclic(story: Story, model: LimbModel) -> Iterator[str]:
