@@ -4,6 +4,7 @@
 #include <stddef.h>
 
 #include "check.h"
+#include "off_tick.h"
 #include "trig.h"
 
 #define TIP_LIMIT_MM 1e6f
@@ -11,7 +12,7 @@
 /* A tip this far outside the reach, as a fraction of the reach, is the rounding of one on its edge. */
 #define EDGE_RATIO 5e-7f
 
-brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
+BRACE_OFF_TICK brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
                                         brace_pose_t *pose)
 {
     if (pose == NULL) {
@@ -37,7 +38,7 @@ brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_r
     return BRACE_OK;
 }
 
-brace_status_t brace_kinematics_polar(brace_point_t point, brace_polar_t *polar)
+BRACE_OFF_TICK brace_status_t brace_kinematics_polar(brace_point_t point, brace_polar_t *polar)
 {
     if (polar == NULL) {
         return BRACE_E_NULL;
@@ -58,18 +59,16 @@ static bool solve_triangle(const brace_limb_t *limb, float r_mm, float *flexion_
 {
     const float reach = limb->femur_mm + limb->tibia_mm;
     const float surplus = limb->femur_mm - limb->tibia_mm;
-    const float edge = EDGE_RATIO * reach;
-    float to_straight = reach - r_mm;
-    float beyond_surplus = r_mm - surplus;
-    float beyond_deficit = r_mm + surplus;
-    if (to_straight < -edge || beyond_surplus < -edge || beyond_deficit < -edge) {
+    const float folded = __builtin_fabsf(surplus);
+    float nearest = r_mm < reach ? r_mm : reach;
+    nearest = nearest > folded ? nearest : folded;
+    if (__builtin_fabsf(r_mm - nearest) > EDGE_RATIO * reach) {
         return false;
     }
-    to_straight = to_straight > 0.0f ? to_straight : 0.0f;
-    beyond_surplus = beyond_surplus > 0.0f ? beyond_surplus : 0.0f;
-    beyond_deficit = beyond_deficit > 0.0f ? beyond_deficit : 0.0f;
-
-    const float perimeter = reach + r_mm;
+    const float to_straight = reach - nearest;
+    const float perimeter = reach + nearest;
+    const float beyond_surplus = nearest - surplus;
+    const float beyond_deficit = nearest + surplus;
     *flexion_rad =
         2.0f * brace_atan2(brace_sqrt(to_straight * perimeter), brace_sqrt(beyond_surplus * beyond_deficit));
     *femur_from_tip_rad =
@@ -77,7 +76,7 @@ static bool solve_triangle(const brace_limb_t *limb, float r_mm, float *flexion_
     return true;
 }
 
-brace_status_t brace_kinematics_inverse_polar(const brace_limb_t *limb, brace_polar_t tip, brace_knee_t knee,
+BRACE_OFF_TICK brace_status_t brace_kinematics_inverse_polar(const brace_limb_t *limb, brace_polar_t tip, brace_knee_t knee,
                                               float *theta1_rad, float *theta2_rad)
 {
     if (theta1_rad == NULL || theta2_rad == NULL) {
@@ -107,7 +106,7 @@ brace_status_t brace_kinematics_inverse_polar(const brace_limb_t *limb, brace_po
     return BRACE_OK;
 }
 
-brace_status_t brace_kinematics_inverse(const brace_limb_t *limb, brace_point_t tip, brace_knee_t knee,
+BRACE_OFF_TICK brace_status_t brace_kinematics_inverse(const brace_limb_t *limb, brace_point_t tip, brace_knee_t knee,
                                         float *theta1_rad, float *theta2_rad)
 {
     brace_polar_t polar;

@@ -4,11 +4,10 @@
 #include <stddef.h>
 
 #include "check.h"
+#include "off_tick.h"
 #include "trig.h"
 
-#define HALF_TURN 0x80000000u
-
-brace_status_t brace_kinematics_forward_spatial(const brace_limb_t *limb, float theta0_rad, float theta1_rad,
+BRACE_OFF_TICK brace_status_t brace_kinematics_forward_spatial(const brace_limb_t *limb, float theta0_rad, float theta1_rad,
                                                 float theta2_rad, brace_point_spatial_t *tip)
 {
     if (tip == NULL) {
@@ -30,7 +29,7 @@ brace_status_t brace_kinematics_forward_spatial(const brace_limb_t *limb, float 
     return BRACE_OK;
 }
 
-brace_status_t brace_kinematics_inverse_spatial(const brace_limb_t *limb, brace_point_spatial_t tip,
+BRACE_OFF_TICK brace_status_t brace_kinematics_inverse_spatial(const brace_limb_t *limb, brace_point_spatial_t tip,
                                                 brace_yaw_t yaw, brace_knee_t knee, float *theta0_rad,
                                                 float *theta1_rad, float *theta2_rad)
 {
@@ -40,17 +39,15 @@ brace_status_t brace_kinematics_inverse_spatial(const brace_limb_t *limb, brace_
     if (yaw != BRACE_YAW_TOWARDS && yaw != BRACE_YAW_AWAY) {
         return BRACE_E_RANGE;
     }
-    brace_polar_t plan; /* the tip seen from above */
-    brace_status_t status = brace_kinematics_polar((brace_point_t){tip.x_mm, tip.y_mm}, &plan);
-    if (status != BRACE_OK) {
-        return status;
-    }
-    const float outwards_mm = yaw == BRACE_YAW_TOWARDS ? plan.r_mm : -plan.r_mm;
-    const brace_point_t in_plane = {outwards_mm - limb->coxa_mm, tip.z_mm};
-    status = brace_kinematics_inverse(limb, in_plane, knee, theta1_rad, theta2_rad);
+    const float facing = yaw == BRACE_YAW_TOWARDS ? 1.0f : -1.0f;
+    brace_polar_t plan; /* the tip seen from above, x along where the limb faces it */
+    brace_status_t status = brace_kinematics_polar((brace_point_t){facing * tip.x_mm, facing * tip.y_mm}, &plan);
     if (status == BRACE_OK) {
-        *theta0_rad =
-            yaw == BRACE_YAW_TOWARDS ? plan.phi_rad : brace_turn_angle(brace_turn(plan.phi_rad) + HALF_TURN);
+        const brace_point_t in_plane = {facing * plan.r_mm - limb->coxa_mm, tip.z_mm};
+        status = brace_kinematics_inverse(limb, in_plane, knee, theta1_rad, theta2_rad);
+    }
+    if (status == BRACE_OK) {
+        *theta0_rad = plan.phi_rad;
     }
     return status;
 }

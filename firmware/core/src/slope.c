@@ -3,6 +3,7 @@
 #include <stddef.h>
 
 #include "check.h"
+#include "off_tick.h"
 #include "trig.h"
 
 #define DISPLACEMENT_LIMIT_MM 1e4f
@@ -10,87 +11,85 @@
 #define SMALLEST_STEP_MM 1e-6f
 #define STEPS_LIMIT (1u << 24)
 
-/* All three estimates are one thing, a least-squares line through a point, fed differently: the ratio with
- * displacement one, the step from the preload point, or the step from the mean. The share is what is left of
- * a step once it has also moved the mean. A new step shifts the slope by its surprise, and the residual grows
- * by the part of the surprise that the shift does not explain: positive terms only. */
-static void extend_line(brace_slope_line_t *line, float share, float displacement, float force_x,
-                        float force_z)
+/* What a reading holds. */
+enum { DISPLACEMENT_MM, FORCE_X_N, FORCE_Z_N, READING_COUNT };
+
+/* All three estimates are one thing, a weighted least-squares line through a point: through the preload point
+ * with weight 1/displacement^2, the mean of ratios, or with weight one; or through the mean, where the weight is
+ * what is left of a step once it has also moved the mean. A new step shifts the slope by its surprise, and the
+ * residual grows by the part of the surprise that the shift does not explain: positive terms only. */
+BRACE_OFF_TICK static void extend_line(brace_slope_line_t *line, float weight, const float step[READING_COUNT])
 {
-    const float gain = share * displacement;
+    const float displacement = step[DISPLACEMENT_MM];
+    float gain = weight * displacement;
     const float spread = line->spread + gain * displacement;
     if (!(spread > 0.0f)) {
         return;
     }
-    const float per_spread = 1.0f / spread;
-    const float surprise_x = force_x - line->slope[0] * displacement;
-    const float surprise_z = force_z - line->slope[1] * displacement;
-    const float unexplained = share * line->spread * per_spread;
-    line->residual[0] += unexplained * surprise_x * surprise_x;
-    line->residual[1] += unexplained * surprise_z * surprise_z;
-    line->slope[0] += gain * per_spread * surprise_x;
-    line->slope[1] += gain * per_spread * surprise_z;
+    gain /= spread;
+    const float unexplained = weight * line->spread / spread;
+    for (int i = 0; i < 2; i++) {
+        const float surprise = step[FORCE_X_N + i] - line->slope[i] * displacement;
+        line->residual[i] += unexplained * surprise * surprise;
+        line->slope[i] += gain * surprise;
+    }
     line->spread = spread;
 }
 
-static brace_status_t check_reading(const brace_slope_t *slope, float displacement_mm, float force_x_n,
-                                    float force_z_n)
+BRACE_OFF_TICK static brace_status_t check_reading(const brace_slope_t *slope, const float reading[READING_COUNT])
 {
     if (slope == NULL) {
         return BRACE_E_NULL;
     }
-    brace_status_t status = brace_check_magnitude(displacement_mm, DISPLACEMENT_LIMIT_MM);
+    const brace_status_t status = brace_check_magnitude(reading[DISPLACEMENT_MM], DISPLACEMENT_LIMIT_MM);
+    return status != BRACE_OK ? status
+                              : brace_check_two(reading[FORCE_X_N], reading[FORCE_Z_N], FORCE_LIMIT_N);
+}
+
+BRACE_OFF_TICK brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, float force_x_n,
+                                                float force_z_n)
+{
+    const float reading[READING_COUNT] = {displacement_mm, force_x_n, force_z_n};
+    const brace_status_t status = check_reading(slope, reading);
     if (status == BRACE_OK) {
-        status = brace_check_two(force_x_n, force_z_n, FORCE_LIMIT_N);
+        *slope = (brace_slope_t){.preload = {displacement_mm, force_x_n, force_z_n}};
     }
     return status;
 }
 
-brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, float force_x_n,
-                                 float force_z_n)
+BRACE_OFF_TICK brace_status_t brace_slope_step(brace_slope_t *slope, float displacement_mm, float force_x_n,
+                                               float force_z_n)
 {
-    const brace_status_t status = check_reading(slope, displacement_mm, force_x_n, force_z_n);
-    if (status == BRACE_OK) {
-        *slope = (brace_slope_t){.preload_mm = displacement_mm, .preload_n = {force_x_n, force_z_n}};
-    }
-    return status;
-}
-
-brace_status_t brace_slope_step(brace_slope_t *slope, float displacement_mm, float force_x_n, float force_z_n)
-{
-    const brace_status_t status = check_reading(slope, displacement_mm, force_x_n, force_z_n);
+    const float reading[READING_COUNT] = {displacement_mm, force_x_n, force_z_n};
+    const brace_status_t status = check_reading(slope, reading);
     if (status != BRACE_OK) {
         return status;
     }
     if (slope->used >= STEPS_LIMIT || slope->skipped >= STEPS_LIMIT) {
         return BRACE_E_RANGE;
     }
-    const float step_mm = displacement_mm - slope->preload_mm;
-    if (step_mm > -SMALLEST_STEP_MM && step_mm < SMALLEST_STEP_MM) {
+    const float step_mm = displacement_mm - slope->preload[DISPLACEMENT_MM];
+    if (__builtin_fabsf(step_mm) < SMALLEST_STEP_MM) {
         slope->skipped++;
         return BRACE_OK;
     }
     slope->used++;
-    const float step_x_n = force_x_n - slope->preload_n[0];
-    const float step_z_n = force_z_n - slope->preload_n[1];
-    const float from_mean_mm = step_mm - slope->mean_mm;
-    const float from_mean_x_n = step_x_n - slope->mean_n[0];
-    const float from_mean_z_n = step_z_n - slope->mean_n[1];
     const float newest = 1.0f / (float)slope->used;
-    const float per_mm = 1.0f / step_mm;
-
-    extend_line(&slope->line[BRACE_SLOPE_MEAN_OF_RATIOS], 1.0f, 1.0f, step_x_n * per_mm, step_z_n * per_mm);
-    extend_line(&slope->line[BRACE_SLOPE_LEAST_SQUARES], 1.0f, step_mm, step_x_n, step_z_n);
-    extend_line(&slope->line[BRACE_SLOPE_FREE_INTERCEPT], 1.0f - newest, from_mean_mm, from_mean_x_n,
-                from_mean_z_n);
-    slope->mean_mm += newest * from_mean_mm;
-    slope->mean_n[0] += newest * from_mean_x_n;
-    slope->mean_n[1] += newest * from_mean_z_n;
+    float step[READING_COUNT];
+    float from_mean[READING_COUNT];
+    for (int i = 0; i < READING_COUNT; i++) {
+        step[i] = reading[i] - slope->preload[i];
+        from_mean[i] = step[i] - slope->mean[i];
+        slope->mean[i] += newest * from_mean[i];
+    }
+    extend_line(&slope->line[BRACE_SLOPE_MEAN_OF_RATIOS], 1.0f / (step_mm * step_mm), step);
+    extend_line(&slope->line[BRACE_SLOPE_LEAST_SQUARES], 1.0f, step);
+    extend_line(&slope->line[BRACE_SLOPE_FREE_INTERCEPT], 1.0f - newest, from_mean);
     return BRACE_OK;
 }
 
-brace_status_t brace_slope_column(const brace_slope_t *slope, brace_slope_method_t method,
-                                  brace_slope_column_t *column)
+BRACE_OFF_TICK brace_status_t brace_slope_column(const brace_slope_t *slope, brace_slope_method_t method,
+                                                 brace_slope_column_t *column)
 {
     if (slope == NULL || column == NULL) {
         return BRACE_E_NULL;
@@ -118,7 +117,7 @@ static float square(float value)
     return value * value;
 }
 
-brace_status_t brace_slope_stiffness(const brace_slope_t *along_x, const brace_slope_t *along_z,
+BRACE_OFF_TICK brace_status_t brace_slope_stiffness(const brace_slope_t *along_x, const brace_slope_t *along_z,
                                      brace_slope_method_t method, brace_slope_stiffness_t *stiffness)
 {
     if (stiffness == NULL) {

@@ -4,41 +4,42 @@
  */
 #include "brace/uncertainty.h"
 
-#include <stdbool.h>
 #include <stddef.h>
 
 #include "brace/kinematics.h"
 #include "check.h"
+#include "off_tick.h"
 #include "trig.h"
 #include "vec.h"
 
 /* pi / sqrt(12): an axis that may point anywhere. */
 #define UNKNOWN_AXIS_RAD 0.906899682f
 
-/* The vectors that C and its derivatives are made of. */
+#define HALF_TURN 0x80000000u
+
+/* The vectors that C and its derivatives are made of: five, */
+enum { BASE, FEMUR, TIBIA, HIP, TIP, DIRECTION_COUNT };
+
+/* each followed by itself turned by +90 degrees. */
 enum {
-    BASE_X, /* unit, as the next five, of which every second is the first turned by +90 degrees */
+    BASE_X = 2 * BASE, /* unit, as the next five */
     BASE_Z,
-    FEMUR_AXIAL, /* the ellipsoids' principal axes, tilt included */
+    FEMUR_AXIAL = 2 * FEMUR, /* the ellipsoids' principal axes, tilt included */
     FEMUR_BENDING,
-    TIBIA_AXIAL,
+    TIBIA_AXIAL = 2 * TIBIA,
     TIBIA_BENDING,
-    SHANK,       /* knee to tip [mm] */
-    LEVER_KNEE,  /* the knee's shift for a unit turn of the femur's joint [mm] */
-    LEVER_FEMUR, /* the tip's shift for the same, and for a unit turn of the tibia's joint */
-    LEVER_TIBIA,
+    THIGH = 2 * HIP, /* knee to femur joint [mm] */
+    LEVER_THIGH,     /* the femur joint's shift for a unit turn about the knee */
+    SHANK = 2 * TIP, /* knee to tip [mm] */
+    LEVER_TIBIA,     /* the tip's shift for the same */
+    LEVER_FEMUR,     /* and for a unit turn about the femur's joint */
     VECTOR_COUNT
 };
 
 /* The compliances that weigh them: what follows from the limb's, */
 enum {
-    BEND_PER_MOMENT, /* the femur's shift and turn per moment of the tip force about the knee, */
-    BEND_PER_MOMENT_TWICE,
+    BEND_PER_MOMENT, /* the femur's shift and turn per moment of the tip force about the knee */
     TURN_PER_MOMENT,
-    BEND_PER_MOMENT_FALLS, /* and their derivatives by the femur's length, times it (the turn's halved) */
-    TURN_PER_MOMENT_FALLS,
-    TURN_AT_FEMUR, /* all that turns about the femur's joint, about the knee */
-    TURN_AT_KNEE,
     TIBIA_SLENDERNESS, /* what shows of an ellipsoid's turning: bending - axial */
     BASE_SLENDERNESS,
     WEIGHT_COUNT
@@ -46,6 +47,9 @@ enum {
 
 /* and the limb's own, by their place among its floats. */
 #define FIELD(name) ((uint8_t)(WEIGHT_COUNT + offsetof(brace_limb_t, name) / sizeof(float)))
+#define SPRING_FEMUR FIELD(joint[BRACE_FEMUR].compliance_rad_per_n_mm)
+#define SPRING_TIBIA FIELD(joint[BRACE_TIBIA].compliance_rad_per_n_mm)
+#define SPRING_BASE FIELD(base.rotation_rad_per_n_mm)
 
 /* What one sigma of a cause is: of its own dimension, or as a fraction of the cause's own size. */
 enum { MORE, ANGLE, FEMUR_LENGTH, TIBIA_LENGTH, COMPLIANCE, TRUST_COUNT };
@@ -61,74 +65,71 @@ static const term_t terms[] = {
     /* theta1 turns all of C, from which the sum starts, but the base */
     {BASE_SLENDERNESS, BASE_X, BASE_Z, ANGLE},
     /* theta2 moves the tip across the shank, so the levers along it, and turns the tibia's ellipsoid */
-    {TURN_AT_FEMUR, SHANK, LEVER_FEMUR, MORE},
-    {TURN_AT_KNEE, SHANK, LEVER_TIBIA, MORE},
+    {SPRING_FEMUR, SHANK, LEVER_FEMUR, MORE},
+    {SPRING_BASE, SHANK, LEVER_FEMUR, MORE},
+    {SPRING_TIBIA, SHANK, LEVER_TIBIA, MORE},
+    {TURN_PER_MOMENT, SHANK, LEVER_TIBIA, MORE},
     {BEND_PER_MOMENT, SHANK, FEMUR_BENDING, MORE},
     {TIBIA_SLENDERNESS, TIBIA_AXIAL, TIBIA_BENDING, ANGLE},
-    /* the lengths grow the levers */
-    {TURN_AT_FEMUR, LEVER_KNEE, LEVER_FEMUR, MORE},
-    {BEND_PER_MOMENT_FALLS, FEMUR_BENDING, LEVER_TIBIA, MORE},
-    {TURN_PER_MOMENT_FALLS, LEVER_TIBIA, LEVER_TIBIA, FEMUR_LENGTH},
-    {TURN_AT_FEMUR, LEVER_TIBIA, LEVER_FEMUR, MORE},
-    {TURN_AT_KNEE, LEVER_TIBIA, LEVER_TIBIA, MORE},
+    /* a longer femur grows the levers about its joint, and yields less (here with the sign turned) */
+    {SPRING_FEMUR, LEVER_THIGH, LEVER_FEMUR, MORE},
+    {SPRING_BASE, LEVER_THIGH, LEVER_FEMUR, MORE},
+    {BEND_PER_MOMENT, FEMUR_BENDING, LEVER_TIBIA, MORE},
+    {TURN_PER_MOMENT, LEVER_TIBIA, LEVER_TIBIA, FEMUR_LENGTH},
+    /* a longer tibia grows all levers */
+    {SPRING_FEMUR, LEVER_TIBIA, LEVER_FEMUR, MORE},
+    {SPRING_BASE, LEVER_TIBIA, LEVER_FEMUR, MORE},
+    {SPRING_TIBIA, LEVER_TIBIA, LEVER_TIBIA, MORE},
+    {TURN_PER_MOMENT, LEVER_TIBIA, LEVER_TIBIA, MORE},
     {BEND_PER_MOMENT, LEVER_TIBIA, FEMUR_BENDING, TIBIA_LENGTH},
     /* the compliances */
     {FIELD(link[BRACE_FEMUR].bending_mm_per_n), FEMUR_BENDING, FEMUR_BENDING, MORE},
-    {BEND_PER_MOMENT_TWICE, FEMUR_BENDING, LEVER_TIBIA, MORE},
+    {BEND_PER_MOMENT, FEMUR_BENDING, LEVER_TIBIA, MORE},
+    {BEND_PER_MOMENT, FEMUR_BENDING, LEVER_TIBIA, MORE},
     {TURN_PER_MOMENT, LEVER_TIBIA, LEVER_TIBIA, COMPLIANCE},
     {FIELD(link[BRACE_FEMUR].axial_mm_per_n), FEMUR_AXIAL, FEMUR_AXIAL, COMPLIANCE},
     {FIELD(link[BRACE_TIBIA].axial_mm_per_n), TIBIA_AXIAL, TIBIA_AXIAL, COMPLIANCE},
     {FIELD(link[BRACE_TIBIA].bending_mm_per_n), TIBIA_BENDING, TIBIA_BENDING, COMPLIANCE},
-    {FIELD(joint[BRACE_FEMUR].compliance_rad_per_n_mm), LEVER_FEMUR, LEVER_FEMUR, COMPLIANCE},
-    {FIELD(joint[BRACE_TIBIA].compliance_rad_per_n_mm), LEVER_TIBIA, LEVER_TIBIA, COMPLIANCE},
+    {SPRING_FEMUR, LEVER_FEMUR, LEVER_FEMUR, COMPLIANCE},
+    {SPRING_TIBIA, LEVER_TIBIA, LEVER_TIBIA, COMPLIANCE},
     {FIELD(base.x_mm_per_n), BASE_X, BASE_X, COMPLIANCE},
     {FIELD(base.z_mm_per_n), BASE_Z, BASE_Z, COMPLIANCE},
-    {FIELD(base.rotation_rad_per_n_mm), LEVER_FEMUR, LEVER_FEMUR, COMPLIANCE},
+    {SPRING_BASE, LEVER_FEMUR, LEVER_FEMUR, COMPLIANCE},
 };
 
-static void find_vectors(const brace_limb_t *limb, uint32_t axis, uint32_t femur, uint32_t tibia,
-                         brace_vec_t vectors[VECTOR_COUNT])
+/* Scaled by the eigenvalues: what a compliance is between the bare vectors, -dK is between these. */
+static void find_vectors(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
+                         const brace_stiffness_t *stiffness, brace_vec_t vectors[VECTOR_COUNT])
 {
-    vectors[BASE_X] = brace_direction(0u - axis);
-    vectors[FEMUR_AXIAL] = brace_direction(femur + brace_turn(limb->link[BRACE_FEMUR].tilt_rad));
-    vectors[TIBIA_AXIAL] = brace_direction(tibia + brace_turn(limb->link[BRACE_TIBIA].tilt_rad));
-    for (int i = BASE_X; i <= TIBIA_AXIAL; i += 2) {
-        vectors[i + 1] = vec_quarter(vectors[i]);
+    const float lambda_stiff = stiffness->lambda_max_n_per_mm;
+    const float lambda_soft = stiffness->lambda_min_n_per_mm;
+    const uint32_t axis = brace_turn(stiffness->stiff_axis_rad);
+    const uint32_t femur = brace_turn(theta1_rad) - axis;
+    const uint32_t tibia = femur - brace_turn(theta2_rad);
+    const uint32_t turn[DIRECTION_COUNT] = {
+        [BASE] = 0u - axis,
+        [FEMUR] = femur + brace_turn(limb->link[BRACE_FEMUR].tilt_rad),
+        [TIBIA] = tibia + brace_turn(limb->link[BRACE_TIBIA].tilt_rad),
+        [HIP] = femur + HALF_TURN,
+        [TIP] = tibia,
+    };
+    for (int i = 0; i < DIRECTION_COUNT; i++) {
+        const float length = i < HIP ? 1.0f : (&limb->femur_mm)[i - HIP];
+        const brace_vec_t v = vec_scaled(brace_direction(turn[i]), length);
+        vectors[2 * i] = (brace_vec_t){lambda_stiff * v.x, lambda_soft * v.z};
+        vectors[2 * i + 1] = (brace_vec_t){-lambda_stiff * v.z, lambda_soft * v.x};
     }
-    const brace_vec_t thigh = vec_scaled(brace_direction(femur), limb->femur_mm);
-    const brace_vec_t shank = vec_scaled(brace_direction(tibia), limb->tibia_mm);
-    vectors[SHANK] = shank;
-    vectors[LEVER_KNEE] = vec_quarter(thigh);
-    vectors[LEVER_TIBIA] = vec_quarter(shank);
-    vectors[LEVER_FEMUR] = (brace_vec_t){-thigh.z - shank.z, thigh.x + shank.x};
+    vectors[LEVER_FEMUR] = vec_minus(vectors[LEVER_TIBIA], vectors[LEVER_THIGH]);
 }
 
-static void find_weights(const brace_limb_t *limb, float weights[WEIGHT_COUNT])
-{
-    const brace_link_t *femur = &limb->link[BRACE_FEMUR];
-    const brace_link_t *tibia = &limb->link[BRACE_TIBIA];
-    const float bend = 1.5f * femur->moment_transfer_ratio * femur->bending_mm_per_n / limb->femur_mm;
-    const float turn = 2.0f * bend / limb->femur_mm;
-    weights[BEND_PER_MOMENT] = bend;
-    weights[BEND_PER_MOMENT_TWICE] = 2.0f * bend;
-    weights[TURN_PER_MOMENT] = turn;
-    weights[BEND_PER_MOMENT_FALLS] = -bend;
-    weights[TURN_PER_MOMENT_FALLS] = -turn;
-    weights[TURN_AT_FEMUR] =
-        limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm + limb->base.rotation_rad_per_n_mm;
-    weights[TURN_AT_KNEE] = limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm + turn;
-    weights[TIBIA_SLENDERNESS] = tibia->bending_mm_per_n - tibia->axial_mm_per_n;
-    weights[BASE_SLENDERNESS] = limb->base.z_mm_per_n - limb->base.x_mm_per_n;
-}
+/* The figures a stiffness begins with and, behind them, that of the axis; as brace_stiffness_sigma_t. */
+enum { XX, XZ, ZZ, SOFT, STIFF, ENTRY_COUNT, CROSS = ENTRY_COUNT, FIGURE_COUNT };
 
-/* The variance of a value from the causes so far, and from the gain that scales all values alike. */
-static float root_with_gain(float variance, float value, float gain_rel)
-{
-    const float by_gain = value * gain_rel;
-    return brace_sqrt(variance + by_gain * by_gain);
-}
+_Static_assert(offsetof(brace_stiffness_t, stiff_axis_rad) == ENTRY_COUNT * sizeof(float) &&
+                   offsetof(brace_stiffness_sigma_t, stiff_axis_rad) == ENTRY_COUNT * sizeof(float),
+               "entries and eigenvalues first, and in one order");
 
-brace_status_t brace_uncertainty_stiffness(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
+BRACE_OFF_TICK brace_status_t brace_uncertainty_stiffness(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
                                            const brace_stiffness_t *stiffness, brace_stiffness_sigma_t *sigma)
 {
     if (sigma == NULL) {
@@ -144,14 +145,20 @@ brace_status_t brace_uncertainty_stiffness(const brace_limb_t *limb, float theta
     if (status != BRACE_OK) {
         return status;
     }
+    const float lambda_stiff = stiffness->lambda_max_n_per_mm;
+    const float lambda_soft = stiffness->lambda_min_n_per_mm;
     brace_vec_t vectors[VECTOR_COUNT];
+    find_vectors(limb, theta1_rad, theta2_rad, stiffness, vectors);
+    const brace_link_t *femur = &limb->link[BRACE_FEMUR];
+    const brace_link_t *tibia = &limb->link[BRACE_TIBIA];
     const float *fields = (const float *)limb;
-    float weights[WEIGHT_COUNT];
-    const uint32_t axis = brace_turn(stiffness->stiff_axis_rad);
-    const uint32_t femur = brace_turn(theta1_rad) - axis;
-    find_vectors(limb, axis, femur, femur - brace_turn(theta2_rad), vectors);
-    find_weights(limb, weights);
-
+    const float bend = 1.5f * femur->moment_transfer_ratio * femur->bending_mm_per_n / limb->femur_mm;
+    const float weights[WEIGHT_COUNT] = {
+        [BEND_PER_MOMENT] = bend,
+        [TURN_PER_MOMENT] = 2.0f * bend / limb->femur_mm,
+        [TIBIA_SLENDERNESS] = tibia->bending_mm_per_n - tibia->axial_mm_per_n,
+        [BASE_SLENDERNESS] = limb->base.z_mm_per_n - limb->base.x_mm_per_n,
+    };
     const brace_uncertainty_t *trust = &limb->uncertainty;
     const float one_sigma[TRUST_COUNT] = {
         [ANGLE] = trust->angle_rad,
@@ -159,53 +166,50 @@ brace_status_t brace_uncertainty_stiffness(const brace_limb_t *limb, float theta
         [TIBIA_LENGTH] = trust->length_mm / limb->tibia_mm,
         [COMPLIANCE] = 0.5f * trust->compliance_rel,
     };
-    const float lambda_stiff = stiffness->lambda_max_n_per_mm;
-    const float lambda_soft = stiffness->lambda_min_n_per_mm;
-    const brace_vec_t x = vectors[BASE_X]; /* the limb's x, seen from the axes */
-    float dc_stiff = 0.0f;
-    float dc_cross = 1.0f / lambda_stiff - 1.0f / lambda_soft;
-    float dc_soft = 0.0f;
-    float var_stiff = 0.0f, var_cross = 0.0f, var_soft = 0.0f;
-    float var_xx = 0.0f, var_xz = 0.0f, var_zz = 0.0f;
+
+    const brace_vec_t x = brace_direction(0u - brace_turn(stiffness->stiff_axis_rad)); /* the limb's x, seen from the axes */
+    *sigma = (brace_stiffness_sigma_t){.flags = stiffness->flags};
+    float *variance = &sigma->k_xx_n_per_mm; /* until the roots are taken */
+    float stiff = 0.0f;
+    float cross = lambda_soft - lambda_stiff;
+    float soft = 0.0f;
     for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++) {
         const brace_vec_t u = vectors[terms[i].u];
         const brace_vec_t v = vectors[terms[i].v];
         const uint8_t place = terms[i].weight;
         const float weight = place < WEIGHT_COUNT ? weights[place] : fields[place - WEIGHT_COUNT];
-        dc_stiff += 2.0f * weight * u.x * v.x;
-        dc_cross += weight * (u.x * v.z + u.z * v.x);
-        dc_soft += 2.0f * weight * u.z * v.z;
+        stiff += 2.0f * weight * u.x * v.x;
+        cross += weight * (u.x * v.z + u.z * v.x);
+        soft += 2.0f * weight * u.z * v.z;
         if (terms[i].known_to == MORE) {
             continue;
         }
-        const float stiff_sigma = lambda_stiff * one_sigma[terms[i].known_to];
-        const float soft_sigma = lambda_soft * one_sigma[terms[i].known_to];
-        const float stiff = lambda_stiff * stiff_sigma * dc_stiff;
-        const float cross = lambda_soft * stiff_sigma * dc_cross;
-        const float soft = lambda_soft * soft_sigma * dc_soft;
         const float shear = 2.0f * x.x * x.z * cross;
-        const float xx = x.x * x.x * stiff + shear + x.z * x.z * soft;
-        const float zz = x.z * x.z * stiff - shear + x.x * x.x * soft;
-        const float xz = x.x * x.z * (soft - stiff) + (x.x * x.x - x.z * x.z) * cross;
-        var_stiff += stiff * stiff;
-        var_cross += cross * cross;
-        var_soft += soft * soft;
-        var_xx += xx * xx;
-        var_xz += xz * xz;
-        var_zz += zz * zz;
-        dc_stiff = dc_cross = dc_soft = 0.0f;
+        const float shift[FIGURE_COUNT] = {
+            [XX] = x.x * x.x * stiff + shear + x.z * x.z * soft,
+            [XZ] = x.x * x.z * (soft - stiff) + (x.x * x.x - x.z * x.z) * cross,
+            [ZZ] = x.z * x.z * stiff - shear + x.x * x.x * soft,
+            [SOFT] = soft,
+            [STIFF] = stiff,
+            [CROSS] = cross,
+        };
+        for (int figure = 0; figure < FIGURE_COUNT; figure++) {
+            const float known_to = shift[figure] * one_sigma[terms[i].known_to];
+            variance[figure] += known_to * known_to;
+        }
+        stiff = cross = soft = 0.0f;
     }
-    const float gain_rel = trust->gain_rel;
-    sigma->k_xx_n_per_mm = root_with_gain(var_xx, stiffness->k_xx_n_per_mm, gain_rel);
-    sigma->k_xz_n_per_mm = root_with_gain(var_xz, stiffness->k_xz_n_per_mm, gain_rel);
-    sigma->k_zz_n_per_mm = root_with_gain(var_zz, stiffness->k_zz_n_per_mm, gain_rel);
-    sigma->lambda_min_n_per_mm = root_with_gain(var_soft, lambda_soft, gain_rel);
-    sigma->lambda_max_n_per_mm = root_with_gain(var_stiff, lambda_stiff, gain_rel);
-
+    const float *entry = &stiffness->k_xx_n_per_mm;
+    for (int figure = 0; figure < ENTRY_COUNT; figure++) {
+        const float by_gain = entry[figure] * trust->gain_rel; /* scales all of K alike */
+        variance[figure] = brace_sqrt(variance[figure] + by_gain * by_gain);
+    }
     const float apart = lambda_stiff - lambda_soft;
-    const float corner = brace_sqrt(var_cross);
-    const bool axis_known = corner < UNKNOWN_AXIS_RAD * apart;
-    sigma->stiff_axis_rad = axis_known ? corner / apart : UNKNOWN_AXIS_RAD;
-    sigma->flags = stiffness->flags | (axis_known ? 0u : (uint32_t)BRACE_FLAG_SATURATED);
+    const float corner = brace_sqrt(variance[CROSS]);
+    sigma->stiff_axis_rad = corner / apart;
+    if (!(corner < UNKNOWN_AXIS_RAD * apart)) {
+        sigma->stiff_axis_rad = UNKNOWN_AXIS_RAD;
+        sigma->flags |= BRACE_FLAG_SATURATED;
+    }
     return BRACE_OK;
 }

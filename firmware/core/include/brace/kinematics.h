@@ -100,7 +100,7 @@ brace_status_t brace_kinematics_forward_spatial(const brace_limb_t *limb, float 
 
 /* The three angles that put the tip at a point in space.
  *   tip [+-1e6 mm]; yaw, knee: which of the four postures
- *   theta0_rad (out) [-pi, pi], 0 (or -pi, facing away) for a tip on the yaw axis, where any would do
+ *   theta0_rad (out) [-pi, pi], 0 for a tip on the yaw axis, where any would do
  *   theta1_rad, theta2_rad (out) as for brace_kinematics_inverse
  * returns as brace_kinematics_inverse; accuracy 1e-6 of coxa + femur + tibia at the tip; at most 540
  * instructions. */

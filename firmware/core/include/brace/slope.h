@@ -36,10 +36,8 @@ typedef struct {
 
 /* A test under way. Set up by brace_slope_start; read it through the functions below. */
 typedef struct {
-    float preload_mm;
-    float preload_n[2];
-    float mean_mm; /* of the steps so far, from the preload point */
-    float mean_n[2];
+    float preload[3]; /* displacement [mm], force along x and along z [N] */
+    float mean[3];    /* the same of the steps so far, from the preload point */
     brace_slope_line_t line[BRACE_SLOPE_METHOD_COUNT];
     uint32_t used;
     uint32_t skipped;

@@ -1,0 +1,11 @@
+/* What no tick calls is kept small instead of fast: one copy of it, and size before speed. */
+#ifndef BRACE_OFF_TICK_H
+#define BRACE_OFF_TICK_H
+
+#if defined(__GNUC__)
+#define BRACE_OFF_TICK __attribute__((cold, noinline))
+#else
+#define BRACE_OFF_TICK
+#endif
+
+#endif
