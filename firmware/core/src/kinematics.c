@@ -100,9 +100,12 @@ BRACE_OFF_TICK brace_status_t brace_kinematics_inverse_polar(const brace_limb_t 
     if (!solve_triangle(limb, tip.r_mm, &flexion_rad, &femur_from_tip_rad)) {
         return BRACE_E_UNREACHABLE;
     }
-    const float side = knee == BRACE_KNEE_UP ? 1.0f : -1.0f;
-    *theta1_rad = brace_turn_angle(brace_turn(tip.phi_rad) + brace_turn(side * femur_from_tip_rad));
-    *theta2_rad = side * flexion_rad;
+    if (knee == BRACE_KNEE_DOWN) {
+        flexion_rad = -flexion_rad;
+        femur_from_tip_rad = -femur_from_tip_rad;
+    }
+    *theta1_rad = brace_turn_angle(brace_turn(tip.phi_rad) + brace_turn(femur_from_tip_rad));
+    *theta2_rad = flexion_rad;
     return BRACE_OK;
 }
 

@@ -39,11 +39,15 @@ BRACE_OFF_TICK brace_status_t brace_kinematics_inverse_spatial(const brace_limb_
     if (yaw != BRACE_YAW_TOWARDS && yaw != BRACE_YAW_AWAY) {
         return BRACE_E_RANGE;
     }
-    const float facing = yaw == BRACE_YAW_TOWARDS ? 1.0f : -1.0f;
-    brace_polar_t plan; /* the tip seen from above, x along where the limb faces it */
-    brace_status_t status = brace_kinematics_polar((brace_point_t){facing * tip.x_mm, facing * tip.y_mm}, &plan);
+    if (yaw == BRACE_YAW_AWAY) {
+        tip.x_mm = -tip.x_mm;
+        tip.y_mm = -tip.y_mm;
+    }
+    brace_polar_t plan; /* the tip, or its mirror image, seen from above */
+    brace_status_t status = brace_kinematics_polar((brace_point_t){tip.x_mm, tip.y_mm}, &plan);
     if (status == BRACE_OK) {
-        const brace_point_t in_plane = {facing * plan.r_mm - limb->coxa_mm, tip.z_mm};
+        const float outwards_mm = yaw == BRACE_YAW_TOWARDS ? plan.r_mm : -plan.r_mm;
+        const brace_point_t in_plane = {outwards_mm - limb->coxa_mm, tip.z_mm};
         status = brace_kinematics_inverse(limb, in_plane, knee, theta1_rad, theta2_rad);
     }
     if (status == BRACE_OK) {

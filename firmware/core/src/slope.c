@@ -52,7 +52,7 @@ BRACE_OFF_TICK brace_status_t brace_slope_start(brace_slope_t *slope, float disp
     const float reading[READING_COUNT] = {displacement_mm, force_x_n, force_z_n};
     const brace_status_t status = check_reading(slope, reading);
     if (status == BRACE_OK) {
-        *slope = (brace_slope_t){.preload = {displacement_mm, force_x_n, force_z_n}};
+        *slope = (brace_slope_t){.preload = {reading[0], reading[1], reading[2]}};
     }
     return status;
 }
@@ -65,10 +65,10 @@ BRACE_OFF_TICK brace_status_t brace_slope_step(brace_slope_t *slope, float displ
     if (status != BRACE_OK) {
         return status;
     }
-    if (slope->used >= STEPS_LIMIT || slope->skipped >= STEPS_LIMIT) {
+    if (slope->used + slope->skipped >= STEPS_LIMIT) {
         return BRACE_E_RANGE;
     }
-    const float step_mm = displacement_mm - slope->preload[DISPLACEMENT_MM];
+    const float step_mm = reading[DISPLACEMENT_MM] - slope->preload[DISPLACEMENT_MM];
     if (__builtin_fabsf(step_mm) < SMALLEST_STEP_MM) {
         slope->skipped++;
         return BRACE_OK;

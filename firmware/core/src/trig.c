@@ -1,9 +1,11 @@
 #include "trig.h"
 
+#include "off_tick.h"
 #include "turn.h"
 
-#define TAN_PI_8 0.414213562f
-#define TAN_3_PI_8 2.41421356f
+/* Where the nearest axis changes: about the tangents of pi/8 and 3 pi/8, so that the slope stays below 27/64. */
+#define LOW 0.421875f
+#define HIGH 2.375f
 
 uint32_t brace_turn(float angle_rad)
 {
@@ -17,17 +19,17 @@ brace_vec_t brace_direction(uint32_t turn)
 }
 
 /* The angle of (|x|, |y|) from whichever of +x, the diagonal and +y is nearest, then mirrored. */
-float brace_atan2(float y, float x)
+BRACE_OFF_TICK float brace_atan2(float y, float x)
 {
     const float up = __builtin_fabsf(y);
     float along = __builtin_fabsf(x);
     float across = up;
     float angle = 0.0f;
-    if (up > TAN_3_PI_8 * along) {
+    if (up > HIGH * along) {
         across = -along;
         along = up;
         angle = BRACE_HALF_PI;
-    } else if (up > TAN_PI_8 * along) {
+    } else if (up > LOW * along) {
         across = up - along;
         along = up + along;
         angle = 0.5f * BRACE_HALF_PI;
@@ -37,8 +39,8 @@ float brace_atan2(float y, float x)
     }
     const float slope = across / along;
     const float square = slope * slope;
-    /* minimax, error 5e-9 on [-tan(pi/8), tan(pi/8)] */
-    angle += (((7.90006518e-2f * square - 0.138236642f) * square + 0.199718043f) * square - 0.333327532f) *
+    /* minimax, error 6e-9 on [-27/64, 27/64] */
+    angle += (((7.80888081e-2f * square - 0.13794738f) * square + 0.19969f) * square - 0.33332675f) *
                  (square * slope) +
              slope;
     if (x < 0.0f) {
