@@ -20,10 +20,9 @@ class Curve:
     smallest: np.ndarray
 
 
-def curve(model: LimbModel, height_mm: float, count: int = 240) -> Curve:
-    """The whole reach at the tip height."""
+def curve(model: LimbModel, height_mm: float, r_mm: np.ndarray) -> Curve:
+    """The limb with its tip at one height and at distances r [mm]."""
     limb = planar_limb(model)
-    r_mm = reach(model, height_mm, count)
     angles = np.array([limb.posture(float(r), float(np.arcsin(height_mm / r)), "up") for r in r_mm])
     k = limb.stiffness(angles[:, 0], angles[:, 1])
     return Curve(r_mm, k["lambda_max_n_per_mm"].astype(float), k["lambda_min_n_per_mm"].astype(float))

@@ -9,6 +9,7 @@ import numpy as np
 
 from brace.dataset.write import csv_text
 from brace.demo import contact, cyclic, paper_table, postures
+from brace.demo.band import band
 from brace.identify import report
 from brace.model import LimbModel, load_limb
 from brace.plots.contact_plot import Footing, contact_figure
@@ -54,9 +55,11 @@ def tell(story: Story, advance: Advance) -> Iterator[str]:
 
 
 def _eigenvalues(story: Story, table: paper_table.PaperTable) -> Iterator[str]:
-    model = postures.curve(table.limb, table.tip_height_mm)
+    reach = postures.reach(table.limb, table.tip_height_mm, 240)
+    model = postures.curve(table.limb, table.tip_height_mm, reach)
+    known = band(table.identification.information, reach[4:-2:4])
     figure = eigenvalue_figure(table.r_mm, table.largest, table.smallest, table.corrected, model.r_mm, model.largest,
-                               model.smallest)
+                               model.smallest, known.r_mm, known.largest, known.smallest)
     story.files["eigenvalues.png"] = png_bytes(figure)
     at_rows = np.array([_at(model.r_mm, curve, table.r_mm) for curve in (model.smallest, model.largest)])
     story.files["table.csv"] = csv_text({
@@ -79,6 +82,9 @@ def _eigenvalues(story: Story, table: paper_table.PaperTable) -> Iterator[str]:
            "   quasi-convexity does not hold, beyond print rounding, arriving at r = "
            + ", ".join(f"{r:.0f}" for r in breaks) + " mm")
     turns = int(np.sum(np.diff(np.sign(np.diff(model.largest))) != 0))
+    inside = (table.smallest.high >= at_rows[0]) & (table.smallest.low <= at_rows[0])
+    yield (f"   lambda_min of the identified limb agrees with the table within print rounding in {int(inside.sum())} of "
+           f"{inside.size} rows; the measurement's own scatter is larger than its print")
     yield f"   the identified limb's lambda_max turns {turns} time{'s' if turns != 1 else ''}: " + (
         "quasi-convex" if turns <= 1 else "not quasi-convex")
 

@@ -67,7 +67,7 @@ def _draw_footing(axes: Axes, footing: Footing, friction_ratio: float, sag_mm: f
     colour = MODEL if footing.holds else STIFF
     axes.annotate("", tip + arrow, tip, arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 2.2})
     axes.annotate(f"{size:.1f} N", tip + arrow, xytext=(4, 4), textcoords="offset points", color=colour)
-    axes.set(aspect="equal", xlabel="x [mm]", ylabel="z [mm]")
+    axes.set(aspect="equal", xlabel="x [mm] (arrow: direction of the force only)", ylabel="z [mm]")
     word = "holds" if footing.holds else "slides"
     axes.set_title(f"{footing.title}, body sags {sag_mm:g} mm\n{word}: margin {footing.margin_n:+.2f} N", loc="left",
                    fontsize=9)

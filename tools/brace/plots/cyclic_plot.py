@@ -23,8 +23,10 @@ def cyclic_figure(displacement_mm: np.ndarray, force_n: np.ndarray, without_play
     axes.plot(displacement_mm, force_n, color=STIFF, marker="o", markersize=3.2, linewidth=1.1, label="limb with play")
     low, high = sorted(crossings_mm)
     axes.axvspan(low, high, color=STIFF, alpha=0.12, linewidth=0)
-    axes.annotate(f"zero-force shift {shift_mm:.2f} mm", ((low + high) / 2, 0.0), xytext=(0, 42),
-                  textcoords="offset points", ha="center", arrowprops={"arrowstyle": "-", "color": INK})
+    height = 0.45 * float(force_n.max())
+    axes.annotate("", (low, height), (high, height), arrowprops={"arrowstyle": "<->", "color": INK})
+    axes.annotate(f"zero-force shift {shift_mm:.2f} mm", ((low + high) / 2, height), xytext=(0, 4),
+                  textcoords="offset points", ha="center")
     axes.set(xlabel="displacement of the tip along z [mm]", ylabel="force on the limb along z [N]")
     axes.set_title(title, loc="left", fontsize=10)
     axes.legend(loc="upper left")

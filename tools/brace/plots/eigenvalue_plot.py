@@ -29,25 +29,35 @@ class Measured:
 
 
 def eigenvalue_figure(r_mm: np.ndarray, largest: Measured, smallest: Measured, corrected: np.ndarray,
-                      curve_r_mm: np.ndarray, curve_largest: np.ndarray, curve_smallest: np.ndarray) -> Figure:
-    """r_mm: rows; corrected: rows, true where an entry was repaired; curves: the identified limb over r."""
+                      curve_r_mm: np.ndarray, curve_largest: np.ndarray, curve_smallest: np.ndarray,
+                      band_r_mm: np.ndarray, band_largest: np.ndarray, band_smallest: np.ndarray) -> Figure:
+    """r_mm: rows; corrected: rows, true where an entry was repaired; curves: the identified limb over r; bands: its
+    90 % band, points x (low, high)."""
     figure = new_figure(8.2, 6.6)
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.25, 1))
     _draw(upper, r_mm, largest, corrected, curve_r_mm, curve_largest, STIFF)
-    upper.set(ylabel="lambda_max [N/mm]", yscale="log")
+    _draw_band(upper, band_r_mm, band_largest)
+    upper.set(ylabel="lambda_max [N/mm]", yscale="log", yticks=(2, 3, 5, 10, 20, 30, 50))
+    upper.yaxis.set_major_formatter("{x:g}")
+    upper.yaxis.set_minor_formatter("")
     upper.set_title("Larger eigenvalue of K over the reach, and where convexity and quasi-convexity fail", loc="left",
                     fontsize=10)
     _draw(lower, r_mm, smallest, corrected, curve_r_mm, curve_smallest, SOFT)
+    _draw_band(lower, band_r_mm, band_smallest)
     top = 1.6 * max(float(smallest.value.max()), float(curve_smallest.max()))
     lower.set(ylabel="lambda_min [N/mm]", xlabel="r [mm]", ylim=(-0.2 * top, top))
-    lower.set_title("Smaller eigenvalue: bars are what print rounding alone allows; hollow = not determined", loc="left",
+    lower.set_title("Smaller eigenvalue: bars are print rounding alone, hollow = not determined", loc="left",
                     fontsize=10)
     return figure
 
 
+def _draw_band(axes: Axes, r_mm: np.ndarray, band: np.ndarray) -> None:
+    axes.fill_between(r_mm, band[:, 0], band[:, 1], color=INK, alpha=0.12, linewidth=0, zorder=0.5)
+
+
 def _draw(axes: Axes, r_mm: np.ndarray, measured: Measured, corrected: np.ndarray, curve_r_mm: np.ndarray,
           curve: np.ndarray, colour: str) -> None:
-    axes.plot(curve_r_mm, curve, color=INK, linewidth=1.3, label="identified limb")
+    axes.plot(curve_r_mm, curve, color=INK, linewidth=1.3, label="identified limb, 90 % band")
     low, high = measured.value - measured.low, measured.high - measured.value
     axes.errorbar(r_mm, measured.value, yerr=np.vstack([low, high]), fmt="none", ecolor=colour, elinewidth=1.2, capsize=3)
     solid = measured.determined

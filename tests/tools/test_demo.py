@@ -1,0 +1,69 @@
+"""`brace demo`: what it must find in the paper's table by itself, and the pieces it finds it with."""
+
+from __future__ import annotations
+
+import json
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from brace.demo.convexity import bent_rows, quasi_convex_breaks
+
+PNG = b"\x89PNG\r\n\x1a\n"
+
+
+@pytest.fixture(scope="module")
+def demo(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    out = tmp_path_factory.mktemp("demo") / "out"
+    run = subprocess.run([sys.executable, "-m", "brace", "demo", "--out", out], capture_output=True, text=True, timeout=120)
+    assert run.returncode == 0, run.stderr
+    return out, run.stdout
+
+
+def test_faults_of_the_table(demo: tuple[Path, str]) -> None:
+    facts = json.loads((demo[0] / "facts.json").read_text())
+    faults = facts["identification"]["data_faults"]
+    assert {"row": 1, "field": "k_zz", "suggestion": 11.0} in [
+        {key: fault[key] for key in ("row", "field", "suggestion")} for fault in faults]
+    assert any(fault["field"] == "unit" and fault["suggestion"] == "N/mm" for fault in faults)
+    assert sorted(fault["row"] for fault in faults if fault["field"] == "lambda_min") == [6, 7, 11]
+    assert facts["not_strictly_convex_r_mm"] == [222, 236, 276, 320]
+
+
+def test_zero_force_shift_is_gap_times_lever(demo: tuple[Path, str]) -> None:
+    """20 arcmin at both joints, 70 and 50 degrees: the levers along z are the x parts of tip and tibia."""
+    facts = json.loads((demo[0] / "facts.json").read_text())
+    tibia_x = 313.5 * math.cos(math.radians(20))
+    tip_x = 185.0 * math.cos(math.radians(70)) + tibia_x
+    assert facts["zero_force_shift_mm"] == pytest.approx(math.radians(20 / 60) * (tip_x + tibia_x), rel=1e-6)
+
+
+def test_pictures_table_and_next_steps(demo: tuple[Path, str]) -> None:
+    out, text = demo
+    for name in ("eigenvalues", "ellipses", "cyclic", "contact"):
+        assert (out / f"{name}.png").read_bytes().startswith(PNG)
+    rows = (out / "table.csv").read_text().splitlines()
+    assert len(rows) == 13 and "lambda_min_determined" in rows[0]
+    assert text.rstrip().splitlines()[-4] == "Next, three commands to try:"
+    firm, loose = json.loads((out / "facts.json").read_text())["footings"]
+    assert firm["margin_n"] > 0 > loose["margin_n"]
+
+
+def test_the_fitted_limb_is_a_model(demo: tuple[Path, str]) -> None:
+    run = subprocess.run([sys.executable, "-m", "brace", "k", "--model", demo[0] / "limb.toml", "--r", "300", "--phi",
+                          "-0.4", "--json"], capture_output=True, text=True, timeout=60)
+    assert run.returncode == 0, run.stderr
+    assert json.loads(run.stdout)["lambda_max_n_per_mm"] > 0
+
+
+def test_convexity_of_sequences() -> None:
+    r_mm = np.array([0.0, 1.0, 3.0, 4.0])
+    assert not bent_rows(r_mm, r_mm**2).any()
+    assert bent_rows(r_mm, -(r_mm**2)).tolist() == [False, True, True, False]
+    exact = np.array([3.0, 1.0, 2.0, 1.5])
+    assert quasi_convex_breaks(exact, exact, exact).tolist() == [False, False, False, True]
+    assert not quasi_convex_breaks(exact, exact - 0.3, exact + 0.3).any()
