@@ -165,6 +165,9 @@ static void the_cone_has_edges(void)
                        &grip); /* along the surface: no press */
     TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_LIFTS, grip.state);
     ASSERT_CLOSE(-3.0, grip.margin_n, 1e-6);
+    brace_contact_grip((brace_force_t){0.0f, -2.0f}, 0.0f, 1.0f, 0.0f, &grip); /* straight off, no friction */
+    TEST_ASSERT_EQUAL_INT(BRACE_CONTACT_LIFTS, grip.state);
+    ASSERT_CLOSE(-PI, grip.angle_left_rad, 7e-7);
 }
 
 /* A normal given to two digits is made a unit vector, so the forces' squares still sum to |f|^2. */

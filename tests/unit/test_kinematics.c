@@ -289,6 +289,18 @@ static void both_yaws_reach_a_point_over_the_coxa(void)
     }
 }
 
+static void yaw_is_zero_where_any_would_do(void)
+{
+    const brace_limb_t limb = paper_limb();
+    for (int yaw = BRACE_YAW_TOWARDS; yaw <= BRACE_YAW_AWAY; yaw++) {
+        float theta0 = 11.0f, theta1, theta2;
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_kinematics_inverse_spatial(
+                                            &limb, (brace_point_spatial_t){0.0f, 0.0f, 200.0f}, (brace_yaw_t)yaw,
+                                            BRACE_KNEE_UP, &theta0, &theta1, &theta2));
+        TEST_ASSERT_TRUE(theta0 == 0.0f);
+    }
+}
+
 static void expect_unreachable(const brace_limb_t *limb, float x_mm, float z_mm)
 {
     float theta1 = 11.0f, theta2 = 12.0f;
@@ -428,6 +440,7 @@ int main(void)
     RUN_TEST(equal_links_reach_the_origin);
     RUN_TEST(spatial_is_the_plane_carried_round);
     RUN_TEST(both_yaws_reach_a_point_over_the_coxa);
+    RUN_TEST(yaw_is_zero_where_any_would_do);
     RUN_TEST(unreachable_is_refused);
     RUN_TEST(the_edge_itself_is_reached);
     RUN_TEST(bad_input_is_refused_and_touches_nothing);

@@ -46,7 +46,7 @@ typedef struct {
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE (a load outside its range; eigenvalues
  *   that are not positive and in order)
  * accuracy: 5e-6 |f| / lambda_min, for the K of any of the core's planar paths.
- * cost: at most 170 instructions on a Cortex-M4F; stack at most 100 bytes. */
+ * cost: at most 160 instructions on a Cortex-M4F; stack at most 100 bytes. */
 brace_status_t brace_contact_sag(const brace_stiffness_t *stiffness, brace_force_t load,
                                  brace_displacement_t *sag);
 
@@ -54,7 +54,7 @@ brace_status_t brace_contact_sag(const brace_stiffness_t *stiffness, brace_force
  *   stiffness: K at the posture; displacement [+-1e4 mm]
  * returns as brace_contact_sag
  * accuracy: 5e-6 lambda_max |d|; low <= magnitude <= high up to rounding (3e-7), by construction.
- * cost: at most 190 instructions; stack at most 120 bytes. */
+ * cost: at most 180 instructions; stack at most 120 bytes. */
 brace_status_t brace_contact_force(const brace_stiffness_t *stiffness, brace_displacement_t displacement,
                                    brace_contact_force_t *contact);
 
@@ -65,7 +65,7 @@ brace_status_t brace_contact_force(const brace_stiffness_t *stiffness, brace_dis
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE. A foot that slides or lifts is a
  *   result, told by grip->state, not a refusal.
  * accuracy: forces 5e-7 |f|, margin 5e-7 (1 + mu) |f|, angle 7e-7 rad.
- * cost: at most 260 instructions; stack at most 60 bytes. */
+ * cost: at most 160 instructions; stack at most 60 bytes. */
 brace_status_t brace_contact_grip(brace_force_t force, float normal_x, float normal_z, float friction_ratio,
                                   brace_contact_grip_t *grip);
 

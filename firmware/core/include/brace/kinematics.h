@@ -6,7 +6,7 @@
  *
  * Angles are true joint angles; add zero offsets first (brace_limb_true_angle).
  *
- * Every function: pure, re-entrant, callable from any thread or interrupt; no loop; stack at most 190 bytes.
+ * Every function: pure, re-entrant, callable from any thread or interrupt; no loop over data; stack at most 170 bytes.
  * A refused call leaves its outputs untouched.
  */
 #ifndef BRACE_KINEMATICS_H
@@ -65,7 +65,7 @@ brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_r
 
 /* Distance and direction of a point; phi 0 for the origin itself.
  *   point [+-1e6 mm]; polar (out): r within 2e-7 relative, phi within 3e-7 rad
- * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE; at most 100 instructions. */
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE; at most 85 instructions. */
 brace_status_t brace_kinematics_polar(brace_point_t point, brace_polar_t *polar);
 
 /* The angles that put the tip at a point.
@@ -81,13 +81,13 @@ brace_status_t brace_kinematics_polar(brace_point_t point, brace_polar_t *polar)
  *   and folded included. The angles themselves are as sharp as the question: for a tip known to e,
  *   theta2 is known to e r / (femur tibia |sin theta2|), and at sin theta2 = 0 to the root of twice that
  *   without the sine.
- * cost: at most 390 instructions.
+ * cost: at most 350 instructions.
  * source: half-angle form of the law of cosines; every factor is a difference of two given lengths. */
 brace_status_t brace_kinematics_inverse(const brace_limb_t *limb, brace_point_t tip, brace_knee_t knee,
                                         float *theta1_rad, float *theta2_rad);
 
 /* The same for a tip in the paper's coordinates; tip.r_mm [0, 2e6 mm], tip.phi_rad [+-7.9 rad].
- * returns the same; at most 300 instructions. */
+ * returns the same; at most 250 instructions. */
 brace_status_t brace_kinematics_inverse_polar(const brace_limb_t *limb, brace_polar_t tip, brace_knee_t knee,
                                               float *theta1_rad, float *theta2_rad);
 
@@ -102,7 +102,7 @@ brace_status_t brace_kinematics_forward_spatial(const brace_limb_t *limb, float 
  *   tip [+-1e6 mm]; yaw, knee: which of the four postures
  *   theta0_rad (out) [-pi, pi], 0 for a tip on the yaw axis, where any would do
  *   theta1_rad, theta2_rad (out) as for brace_kinematics_inverse
- * returns as brace_kinematics_inverse; accuracy 1e-6 of coxa + femur + tibia at the tip; at most 540
+ * returns as brace_kinematics_inverse; accuracy 1e-6 of coxa + femur + tibia at the tip; at most 460
  * instructions. */
 brace_status_t brace_kinematics_inverse_spatial(const brace_limb_t *limb, brace_point_spatial_t tip,
                                                 brace_yaw_t yaw, brace_knee_t knee, float *theta0_rad,

@@ -29,9 +29,9 @@ typedef enum {
 
 /* A line fitted to both force components; index 0 is x, 1 is z. */
 typedef struct {
-    float spread;      /* sum of squares of what the slope multiplies */
+    float spread;      /* weighted sum of squares of what the slope multiplies */
     float slope[2];    /* [N/mm] */
-    float residual[2]; /* sum of squares of what the line leaves */
+    float residual[2]; /* the same of what the line leaves */
 } brace_slope_line_t;
 
 /* A test under way. Set up by brace_slope_start; read it through the functions below. */
@@ -70,14 +70,14 @@ typedef struct {
 /* Begins a test at the preload point.
  *   displacement_mm [+-1e4]: along the test's axis; force_x_n, force_z_n [+-1e6]: on the limb's tip
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE; slope untouched unless BRACE_OK.
- * cost: at most 140 instructions on a Cortex-M4F; stack at most 40 bytes. */
+ * cost: at most 140 instructions on a Cortex-M4F; stack at most 60 bytes. */
 brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, float force_x_n,
                                  float force_z_n);
 
 /* Takes one reading, same arguments. A step within 1e-6 mm of the preload point says nothing about a slope:
  * it is counted as skipped, and the call returns BRACE_OK.
  * returns also BRACE_E_RANGE after 2^24 steps; slope untouched unless BRACE_OK.
- * cost: at most 250 instructions; stack at most 60 bytes. */
+ * cost: at most 220 instructions; stack at most 80 bytes. */
 brace_status_t brace_slope_step(brace_slope_t *slope, float displacement_mm, float force_x_n,
                                 float force_z_n);
 
@@ -85,13 +85,13 @@ brace_status_t brace_slope_step(brace_slope_t *slope, float displacement_mm, flo
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_RANGE (no such method), BRACE_E_TOO_FEW: fewer than two steps that
  *   count, with a free intercept fewer than three or all at one displacement; column untouched unless OK.
  * accuracy: slopes within 2e-6 relative to the largest ratio, up to a thousand steps.
- * cost: at most 60 instructions; stack at most 40 bytes. */
+ * cost: at most 50 instructions; stack at most 10 bytes. */
 brace_status_t brace_slope_column(const brace_slope_t *slope, brace_slope_method_t method,
                                   brace_slope_column_t *column);
 
 /* K from a test along x and a test along z.
  * returns as brace_slope_column; stiffness untouched unless BRACE_OK.
- * cost: at most 320 instructions; stack at most 150 bytes. */
+ * cost: at most 270 instructions; stack at most 150 bytes. */
 brace_status_t brace_slope_stiffness(const brace_slope_t *along_x, const brace_slope_t *along_z,
                                      brace_slope_method_t method, brace_slope_stiffness_t *stiffness);
 
