@@ -12,7 +12,8 @@
 #define SMALLEST_STIFFNESS_N_PER_MM 1e-12f
 
 /* Comparisons with NaN are false, so NaN falls through to the last line. */
-BRACE_OFF_TICK brace_status_t brace_check_magnitude(float value, float limit)
+BRACE_OFF_TICK
+brace_status_t brace_check_magnitude(float value, float limit)
 {
     const float magnitude = __builtin_fabsf(value);
     if (magnitude <= limit) {
@@ -21,17 +22,19 @@ BRACE_OFF_TICK brace_status_t brace_check_magnitude(float value, float limit)
     return magnitude <= FLT_MAX ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
 }
 
-BRACE_OFF_TICK brace_status_t brace_check_two(float a, float b, float limit)
+BRACE_OFF_TICK
+brace_status_t brace_check_two(float a, float b, float limit)
 {
     return brace_check_magnitude(__builtin_fabsf(a) <= limit ? b : a, limit);
 }
 
-BRACE_OFF_TICK brace_status_t brace_check_lengths(const brace_limb_t *limb)
+BRACE_OFF_TICK
+brace_status_t brace_check_lengths(const brace_limb_t *limb)
 {
     if (limb == NULL) {
         return BRACE_E_NULL;
     }
-    const float *length = &limb->coxa_mm; /* then femur and tibia */
+    const float *length = (const float *)limb; /* coxa, femur, tibia come first */
     float least = 0.0f;
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         if (!(length[i] >= least && length[i] <= LENGTH_LIMIT_MM)) {
@@ -42,7 +45,8 @@ BRACE_OFF_TICK brace_status_t brace_check_lengths(const brace_limb_t *limb)
     return BRACE_OK;
 }
 
-BRACE_OFF_TICK brace_status_t brace_check_stiffness(const brace_stiffness_t *stiffness)
+BRACE_OFF_TICK
+brace_status_t brace_check_stiffness(const brace_stiffness_t *stiffness)
 {
     if (stiffness == NULL) {
         return BRACE_E_NULL;

@@ -13,8 +13,9 @@
 #define NORMAL_TOLERANCE 0.01f
 
 /* C, with its principal stiffnesses inverted, or K, applied to (x, z). */
-BRACE_OFF_TICK static brace_status_t apply(const brace_stiffness_t *stiffness, bool inverted, float x, float z,
-                                           float limit, brace_vec_t *result)
+BRACE_OFF_TICK
+static brace_status_t apply(const brace_stiffness_t *stiffness, bool inverted, float x, float z, float limit,
+                            brace_vec_t *result)
 {
     brace_status_t status = brace_check_stiffness(stiffness);
     if (status == BRACE_OK) {
@@ -37,8 +38,9 @@ BRACE_OFF_TICK static brace_status_t apply(const brace_stiffness_t *stiffness, b
     return status;
 }
 
-BRACE_OFF_TICK brace_status_t brace_contact_sag(const brace_stiffness_t *stiffness, brace_force_t load,
-                                                brace_displacement_t *sag)
+BRACE_OFF_TICK
+brace_status_t brace_contact_sag(const brace_stiffness_t *stiffness, brace_force_t load,
+                                 brace_displacement_t *sag)
 {
     if (sag == NULL) {
         return BRACE_E_NULL;
@@ -51,9 +53,9 @@ BRACE_OFF_TICK brace_status_t brace_contact_sag(const brace_stiffness_t *stiffne
     return status;
 }
 
-BRACE_OFF_TICK brace_status_t brace_contact_force(const brace_stiffness_t *stiffness,
-                                                  brace_displacement_t displacement,
-                                                  brace_contact_force_t *contact)
+BRACE_OFF_TICK
+brace_status_t brace_contact_force(const brace_stiffness_t *stiffness, brace_displacement_t displacement,
+                                   brace_contact_force_t *contact)
 {
     if (contact == NULL) {
         return BRACE_E_NULL;
@@ -71,8 +73,9 @@ BRACE_OFF_TICK brace_status_t brace_contact_force(const brace_stiffness_t *stiff
     return status;
 }
 
-BRACE_OFF_TICK brace_status_t brace_contact_grip(brace_force_t force, float normal_x, float normal_z,
-                                                 float friction_ratio, brace_contact_grip_t *grip)
+BRACE_OFF_TICK
+brace_status_t brace_contact_grip(brace_force_t force, float normal_x, float normal_z, float friction_ratio,
+                                  brace_contact_grip_t *grip)
 {
     if (grip == NULL) {
         return BRACE_E_NULL;

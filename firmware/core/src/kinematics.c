@@ -12,7 +12,8 @@
 /* A tip this far outside the reach, as a fraction of the reach, is the rounding of one on its edge. */
 #define EDGE_RATIO 5e-7f
 
-BRACE_OFF_TICK brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
+BRACE_OFF_TICK
+brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
                                         brace_pose_t *pose)
 {
     if (pose == NULL) {
@@ -38,7 +39,8 @@ BRACE_OFF_TICK brace_status_t brace_kinematics_forward(const brace_limb_t *limb,
     return BRACE_OK;
 }
 
-BRACE_OFF_TICK brace_status_t brace_kinematics_polar(brace_point_t point, brace_polar_t *polar)
+BRACE_OFF_TICK
+brace_status_t brace_kinematics_polar(brace_point_t point, brace_polar_t *polar)
 {
     if (polar == NULL) {
         return BRACE_E_NULL;
@@ -76,7 +78,8 @@ static bool solve_triangle(const brace_limb_t *limb, float r_mm, float *flexion_
     return true;
 }
 
-BRACE_OFF_TICK brace_status_t brace_kinematics_inverse_polar(const brace_limb_t *limb, brace_polar_t tip, brace_knee_t knee,
+BRACE_OFF_TICK
+brace_status_t brace_kinematics_inverse_polar(const brace_limb_t *limb, brace_polar_t tip, brace_knee_t knee,
                                               float *theta1_rad, float *theta2_rad)
 {
     if (theta1_rad == NULL || theta2_rad == NULL) {
@@ -109,7 +112,8 @@ BRACE_OFF_TICK brace_status_t brace_kinematics_inverse_polar(const brace_limb_t 
     return BRACE_OK;
 }
 
-BRACE_OFF_TICK brace_status_t brace_kinematics_inverse(const brace_limb_t *limb, brace_point_t tip, brace_knee_t knee,
+BRACE_OFF_TICK
+brace_status_t brace_kinematics_inverse(const brace_limb_t *limb, brace_point_t tip, brace_knee_t knee,
                                         float *theta1_rad, float *theta2_rad)
 {
     brace_polar_t polar;

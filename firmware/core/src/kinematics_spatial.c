@@ -7,7 +7,8 @@
 #include "off_tick.h"
 #include "trig.h"
 
-BRACE_OFF_TICK brace_status_t brace_kinematics_forward_spatial(const brace_limb_t *limb, float theta0_rad, float theta1_rad,
+BRACE_OFF_TICK
+brace_status_t brace_kinematics_forward_spatial(const brace_limb_t *limb, float theta0_rad, float theta1_rad,
                                                 float theta2_rad, brace_point_spatial_t *tip)
 {
     if (tip == NULL) {
@@ -29,7 +30,8 @@ BRACE_OFF_TICK brace_status_t brace_kinematics_forward_spatial(const brace_limb_
     return BRACE_OK;
 }
 
-BRACE_OFF_TICK brace_status_t brace_kinematics_inverse_spatial(const brace_limb_t *limb, brace_point_spatial_t tip,
+BRACE_OFF_TICK
+brace_status_t brace_kinematics_inverse_spatial(const brace_limb_t *limb, brace_point_spatial_t tip,
                                                 brace_yaw_t yaw, brace_knee_t knee, float *theta0_rad,
                                                 float *theta1_rad, float *theta2_rad)
 {

@@ -15,10 +15,11 @@
 enum { DISPLACEMENT_MM, FORCE_X_N, FORCE_Z_N, READING_COUNT };
 
 /* All three estimates are one thing, a weighted least-squares line through a point: through the preload point
- * with weight 1/displacement^2, the mean of ratios, or with weight one; or through the mean, where the weight is
- * what is left of a step once it has also moved the mean. A new step shifts the slope by its surprise, and the
- * residual grows by the part of the surprise that the shift does not explain: positive terms only. */
-BRACE_OFF_TICK static void extend_line(brace_slope_line_t *line, float weight, const float step[READING_COUNT])
+ * with weight 1/displacement^2, the mean of ratios, or with weight one; or through the mean, where the weight
+ * is what is left of a step once it has also moved the mean. A new step shifts the slope by its surprise, and
+ * the residual grows by the part of the surprise that the shift does not explain: positive terms only. */
+BRACE_OFF_TICK
+static void extend_line(brace_slope_line_t *line, float weight, const float step[READING_COUNT])
 {
     const float displacement = step[DISPLACEMENT_MM];
     float gain = weight * displacement;
@@ -36,7 +37,8 @@ BRACE_OFF_TICK static void extend_line(brace_slope_line_t *line, float weight, c
     line->spread = spread;
 }
 
-BRACE_OFF_TICK static brace_status_t check_reading(const brace_slope_t *slope, const float reading[READING_COUNT])
+BRACE_OFF_TICK
+static brace_status_t check_reading(const brace_slope_t *slope, const float reading[READING_COUNT])
 {
     if (slope == NULL) {
         return BRACE_E_NULL;
@@ -46,8 +48,9 @@ BRACE_OFF_TICK static brace_status_t check_reading(const brace_slope_t *slope, c
                               : brace_check_two(reading[FORCE_X_N], reading[FORCE_Z_N], FORCE_LIMIT_N);
 }
 
-BRACE_OFF_TICK brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, float force_x_n,
-                                                float force_z_n)
+BRACE_OFF_TICK
+brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, float force_x_n,
+                                 float force_z_n)
 {
     const float reading[READING_COUNT] = {displacement_mm, force_x_n, force_z_n};
     const brace_status_t status = check_reading(slope, reading);
@@ -57,8 +60,8 @@ BRACE_OFF_TICK brace_status_t brace_slope_start(brace_slope_t *slope, float disp
     return status;
 }
 
-BRACE_OFF_TICK brace_status_t brace_slope_step(brace_slope_t *slope, float displacement_mm, float force_x_n,
-                                               float force_z_n)
+BRACE_OFF_TICK
+brace_status_t brace_slope_step(brace_slope_t *slope, float displacement_mm, float force_x_n, float force_z_n)
 {
     const float reading[READING_COUNT] = {displacement_mm, force_x_n, force_z_n};
     const brace_status_t status = check_reading(slope, reading);
@@ -88,8 +91,9 @@ BRACE_OFF_TICK brace_status_t brace_slope_step(brace_slope_t *slope, float displ
     return BRACE_OK;
 }
 
-BRACE_OFF_TICK brace_status_t brace_slope_column(const brace_slope_t *slope, brace_slope_method_t method,
-                                                 brace_slope_column_t *column)
+BRACE_OFF_TICK
+brace_status_t brace_slope_column(const brace_slope_t *slope, brace_slope_method_t method,
+                                  brace_slope_column_t *column)
 {
     if (slope == NULL || column == NULL) {
         return BRACE_E_NULL;
@@ -117,7 +121,8 @@ static float square(float value)
     return value * value;
 }
 
-BRACE_OFF_TICK brace_status_t brace_slope_stiffness(const brace_slope_t *along_x, const brace_slope_t *along_z,
+BRACE_OFF_TICK
+brace_status_t brace_slope_stiffness(const brace_slope_t *along_x, const brace_slope_t *along_z,
                                      brace_slope_method_t method, brace_slope_stiffness_t *stiffness)
 {
     if (stiffness == NULL) {

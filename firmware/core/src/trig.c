@@ -3,7 +3,7 @@
 #include "off_tick.h"
 #include "turn.h"
 
-/* Where the nearest axis changes: about the tangents of pi/8 and 3 pi/8, so that the slope stays below 27/64. */
+/* Where the nearest axis changes: about the tangents of pi/8 and 3 pi/8, so the slope stays within 27/64. */
 #define LOW 0.421875f
 #define HIGH 2.375f
 
@@ -19,7 +19,8 @@ brace_vec_t brace_direction(uint32_t turn)
 }
 
 /* The angle of (|x|, |y|) from whichever of +x, the diagonal and +y is nearest, then mirrored. */
-BRACE_OFF_TICK float brace_atan2(float y, float x)
+BRACE_OFF_TICK
+float brace_atan2(float y, float x)
 {
     const float up = __builtin_fabsf(y);
     float along = __builtin_fabsf(x);

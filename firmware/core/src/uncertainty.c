@@ -45,8 +45,10 @@ enum {
     WEIGHT_COUNT
 };
 
-/* and the limb's own, by their place among its floats. */
-#define FIELD(name) ((uint8_t)(WEIGHT_COUNT + offsetof(brace_limb_t, name) / sizeof(float)))
+/* and the limb's own, by their place among its floats from the femur's on. */
+#define PLACE(name) (offsetof(brace_limb_t, name) / sizeof(float))
+#define FIRST link[BRACE_FEMUR].axial_mm_per_n
+#define FIELD(name) (WEIGHT_COUNT + PLACE(name) - PLACE(FIRST))
 #define SPRING_FEMUR FIELD(joint[BRACE_FEMUR].compliance_rad_per_n_mm)
 #define SPRING_TIBIA FIELD(joint[BRACE_TIBIA].compliance_rad_per_n_mm)
 #define SPRING_BASE FIELD(base.rotation_rad_per_n_mm)
@@ -54,47 +56,47 @@ enum {
 /* What one sigma of a cause is: of its own dimension, or as a fraction of the cause's own size. */
 enum { MORE, ANGLE, FEMUR_LENGTH, TIBIA_LENGTH, COMPLIANCE, TRUST_COUNT };
 
-/* One term of dC: weight (u v' + v u'). A cause is a run of terms; the last of them says how well the cause
+/* One term of dC: (u v' + v u') weight. A cause is a run of terms; the last of them says how well the cause
  * is known. What is a compliance times u u' comes out doubled, so its causes are spelt doubled and known to
  * half. */
 typedef struct {
-    uint8_t weight, u, v, known_to;
+    uint8_t u : 4, v : 4, weight : 5, known_to : 3;
 } term_t;
 
 static const term_t terms[] = {
     /* theta1 turns all of C, from which the sum starts, but the base */
-    {BASE_SLENDERNESS, BASE_X, BASE_Z, ANGLE},
+    {BASE_X, BASE_Z, BASE_SLENDERNESS, ANGLE},
     /* theta2 moves the tip across the shank, so the levers along it, and turns the tibia's ellipsoid */
-    {SPRING_FEMUR, SHANK, LEVER_FEMUR, MORE},
-    {SPRING_BASE, SHANK, LEVER_FEMUR, MORE},
-    {SPRING_TIBIA, SHANK, LEVER_TIBIA, MORE},
-    {TURN_PER_MOMENT, SHANK, LEVER_TIBIA, MORE},
-    {BEND_PER_MOMENT, SHANK, FEMUR_BENDING, MORE},
-    {TIBIA_SLENDERNESS, TIBIA_AXIAL, TIBIA_BENDING, ANGLE},
+    {SHANK, LEVER_FEMUR, SPRING_FEMUR, MORE},
+    {SHANK, LEVER_FEMUR, SPRING_BASE, MORE},
+    {SHANK, LEVER_TIBIA, SPRING_TIBIA, MORE},
+    {SHANK, LEVER_TIBIA, TURN_PER_MOMENT, MORE},
+    {SHANK, FEMUR_BENDING, BEND_PER_MOMENT, MORE},
+    {TIBIA_AXIAL, TIBIA_BENDING, TIBIA_SLENDERNESS, ANGLE},
     /* a longer femur grows the levers about its joint, and yields less (here with the sign turned) */
-    {SPRING_FEMUR, LEVER_THIGH, LEVER_FEMUR, MORE},
-    {SPRING_BASE, LEVER_THIGH, LEVER_FEMUR, MORE},
-    {BEND_PER_MOMENT, FEMUR_BENDING, LEVER_TIBIA, MORE},
-    {TURN_PER_MOMENT, LEVER_TIBIA, LEVER_TIBIA, FEMUR_LENGTH},
+    {LEVER_THIGH, LEVER_FEMUR, SPRING_FEMUR, MORE},
+    {LEVER_THIGH, LEVER_FEMUR, SPRING_BASE, MORE},
+    {FEMUR_BENDING, LEVER_TIBIA, BEND_PER_MOMENT, MORE},
+    {LEVER_TIBIA, LEVER_TIBIA, TURN_PER_MOMENT, FEMUR_LENGTH},
     /* a longer tibia grows all levers */
-    {SPRING_FEMUR, LEVER_TIBIA, LEVER_FEMUR, MORE},
-    {SPRING_BASE, LEVER_TIBIA, LEVER_FEMUR, MORE},
-    {SPRING_TIBIA, LEVER_TIBIA, LEVER_TIBIA, MORE},
-    {TURN_PER_MOMENT, LEVER_TIBIA, LEVER_TIBIA, MORE},
-    {BEND_PER_MOMENT, LEVER_TIBIA, FEMUR_BENDING, TIBIA_LENGTH},
+    {LEVER_TIBIA, LEVER_FEMUR, SPRING_FEMUR, MORE},
+    {LEVER_TIBIA, LEVER_FEMUR, SPRING_BASE, MORE},
+    {LEVER_TIBIA, LEVER_TIBIA, SPRING_TIBIA, MORE},
+    {LEVER_TIBIA, LEVER_TIBIA, TURN_PER_MOMENT, MORE},
+    {LEVER_TIBIA, FEMUR_BENDING, BEND_PER_MOMENT, TIBIA_LENGTH},
     /* the compliances */
-    {FIELD(link[BRACE_FEMUR].bending_mm_per_n), FEMUR_BENDING, FEMUR_BENDING, MORE},
-    {BEND_PER_MOMENT, FEMUR_BENDING, LEVER_TIBIA, MORE},
-    {BEND_PER_MOMENT, FEMUR_BENDING, LEVER_TIBIA, MORE},
-    {TURN_PER_MOMENT, LEVER_TIBIA, LEVER_TIBIA, COMPLIANCE},
-    {FIELD(link[BRACE_FEMUR].axial_mm_per_n), FEMUR_AXIAL, FEMUR_AXIAL, COMPLIANCE},
-    {FIELD(link[BRACE_TIBIA].axial_mm_per_n), TIBIA_AXIAL, TIBIA_AXIAL, COMPLIANCE},
-    {FIELD(link[BRACE_TIBIA].bending_mm_per_n), TIBIA_BENDING, TIBIA_BENDING, COMPLIANCE},
-    {SPRING_FEMUR, LEVER_FEMUR, LEVER_FEMUR, COMPLIANCE},
-    {SPRING_TIBIA, LEVER_TIBIA, LEVER_TIBIA, COMPLIANCE},
-    {FIELD(base.x_mm_per_n), BASE_X, BASE_X, COMPLIANCE},
-    {FIELD(base.z_mm_per_n), BASE_Z, BASE_Z, COMPLIANCE},
-    {SPRING_BASE, LEVER_FEMUR, LEVER_FEMUR, COMPLIANCE},
+    {FEMUR_BENDING, FEMUR_BENDING, FIELD(link[BRACE_FEMUR].bending_mm_per_n), MORE},
+    {FEMUR_BENDING, LEVER_TIBIA, BEND_PER_MOMENT, MORE},
+    {FEMUR_BENDING, LEVER_TIBIA, BEND_PER_MOMENT, MORE},
+    {LEVER_TIBIA, LEVER_TIBIA, TURN_PER_MOMENT, COMPLIANCE},
+    {FEMUR_AXIAL, FEMUR_AXIAL, FIELD(link[BRACE_FEMUR].axial_mm_per_n), COMPLIANCE},
+    {TIBIA_AXIAL, TIBIA_AXIAL, FIELD(link[BRACE_TIBIA].axial_mm_per_n), COMPLIANCE},
+    {TIBIA_BENDING, TIBIA_BENDING, FIELD(link[BRACE_TIBIA].bending_mm_per_n), COMPLIANCE},
+    {LEVER_FEMUR, LEVER_FEMUR, SPRING_FEMUR, COMPLIANCE},
+    {LEVER_TIBIA, LEVER_TIBIA, SPRING_TIBIA, COMPLIANCE},
+    {BASE_X, BASE_X, FIELD(base.x_mm_per_n), COMPLIANCE},
+    {BASE_Z, BASE_Z, FIELD(base.z_mm_per_n), COMPLIANCE},
+    {LEVER_FEMUR, LEVER_FEMUR, SPRING_BASE, COMPLIANCE},
 };
 
 /* Scaled by the eigenvalues: what a compliance is between the bare vectors, -dK is between these. */
@@ -113,8 +115,9 @@ static void find_vectors(const brace_limb_t *limb, float theta1_rad, float theta
         [HIP] = femur + HALF_TURN,
         [TIP] = tibia,
     };
+    const float *lengths = (const float *)limb + PLACE(femur_mm); /* and tibia_mm */
     for (int i = 0; i < DIRECTION_COUNT; i++) {
-        const float length = i < HIP ? 1.0f : (&limb->femur_mm)[i - HIP];
+        const float length = i < HIP ? 1.0f : lengths[i - HIP];
         const brace_vec_t v = vec_scaled(brace_direction(turn[i]), length);
         vectors[2 * i] = (brace_vec_t){lambda_stiff * v.x, lambda_soft * v.z};
         vectors[2 * i + 1] = (brace_vec_t){-lambda_stiff * v.z, lambda_soft * v.x};
@@ -129,7 +132,8 @@ _Static_assert(offsetof(brace_stiffness_t, stiff_axis_rad) == ENTRY_COUNT * size
                    offsetof(brace_stiffness_sigma_t, stiff_axis_rad) == ENTRY_COUNT * sizeof(float),
                "entries and eigenvalues first, and in one order");
 
-BRACE_OFF_TICK brace_status_t brace_uncertainty_stiffness(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
+BRACE_OFF_TICK
+brace_status_t brace_uncertainty_stiffness(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
                                            const brace_stiffness_t *stiffness, brace_stiffness_sigma_t *sigma)
 {
     if (sigma == NULL) {
@@ -151,7 +155,7 @@ BRACE_OFF_TICK brace_status_t brace_uncertainty_stiffness(const brace_limb_t *li
     find_vectors(limb, theta1_rad, theta2_rad, stiffness, vectors);
     const brace_link_t *femur = &limb->link[BRACE_FEMUR];
     const brace_link_t *tibia = &limb->link[BRACE_TIBIA];
-    const float *fields = (const float *)limb;
+    const float *fields = (const float *)limb + PLACE(FIRST);
     const float bend = 1.5f * femur->moment_transfer_ratio * femur->bending_mm_per_n / limb->femur_mm;
     const float weights[WEIGHT_COUNT] = {
         [BEND_PER_MOMENT] = bend,
@@ -167,21 +171,22 @@ BRACE_OFF_TICK brace_status_t brace_uncertainty_stiffness(const brace_limb_t *li
         [COMPLIANCE] = 0.5f * trust->compliance_rel,
     };
 
-    const brace_vec_t x = brace_direction(0u - brace_turn(stiffness->stiff_axis_rad)); /* the limb's x, seen from the axes */
+    /* the limb's x, seen from the axes */
+    const brace_vec_t x = brace_direction(0u - brace_turn(stiffness->stiff_axis_rad));
     *sigma = (brace_stiffness_sigma_t){.flags = stiffness->flags};
-    float *variance = &sigma->k_xx_n_per_mm; /* until the roots are taken */
+    float *variance = (float *)sigma; /* until the roots are taken */
     float stiff = 0.0f;
     float cross = lambda_soft - lambda_stiff;
     float soft = 0.0f;
-    for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++) {
-        const brace_vec_t u = vectors[terms[i].u];
-        const brace_vec_t v = vectors[terms[i].v];
-        const uint8_t place = terms[i].weight;
+    for (const term_t *term = terms; term < terms + sizeof terms / sizeof *terms; term++) {
+        const brace_vec_t u = vectors[term->u];
+        const brace_vec_t v = vectors[term->v];
+        const unsigned place = term->weight;
         const float weight = place < WEIGHT_COUNT ? weights[place] : fields[place - WEIGHT_COUNT];
         stiff += 2.0f * weight * u.x * v.x;
         cross += weight * (u.x * v.z + u.z * v.x);
         soft += 2.0f * weight * u.z * v.z;
-        if (terms[i].known_to == MORE) {
+        if (term->known_to == MORE) {
             continue;
         }
         const float shear = 2.0f * x.x * x.z * cross;
@@ -194,20 +199,21 @@ BRACE_OFF_TICK brace_status_t brace_uncertainty_stiffness(const brace_limb_t *li
             [CROSS] = cross,
         };
         for (int figure = 0; figure < FIGURE_COUNT; figure++) {
-            const float known_to = shift[figure] * one_sigma[terms[i].known_to];
+            const float known_to = shift[figure] * one_sigma[term->known_to];
             variance[figure] += known_to * known_to;
         }
         stiff = cross = soft = 0.0f;
     }
-    const float *entry = &stiffness->k_xx_n_per_mm;
+    const float *entry = (const float *)stiffness;
     for (int figure = 0; figure < ENTRY_COUNT; figure++) {
         const float by_gain = entry[figure] * trust->gain_rel; /* scales all of K alike */
         variance[figure] = brace_sqrt(variance[figure] + by_gain * by_gain);
     }
     const float apart = lambda_stiff - lambda_soft;
     const float corner = brace_sqrt(variance[CROSS]);
-    sigma->stiff_axis_rad = corner / apart;
-    if (!(corner < UNKNOWN_AXIS_RAD * apart)) {
+    if (corner < UNKNOWN_AXIS_RAD * apart) {
+        sigma->stiff_axis_rad = corner / apart;
+    } else {
         sigma->stiff_axis_rad = UNKNOWN_AXIS_RAD;
         sigma->flags |= BRACE_FLAG_SATURATED;
     }
