@@ -39,7 +39,7 @@ typedef struct {
  *   e (sigma + g s lambda_max) for lambda_max and the entries of K, e (sigma + g) for the axis unless K is
  *   nearly round. First order itself is good to some per cent where compliances are trusted to 5 %, lengths
  *   to 0.5 mm and angles to 3 mrad.
- * cost: a fixed list of 28 terms; at most 3,300 instructions on a Cortex-M4F; stack at most 256 bytes.
+ * cost: a fixed list of 28 terms; at most 3,400 instructions on a Cortex-M4F; stack at most 256 bytes.
  * Pure and re-entrant: any thread or interrupt. */
 brace_status_t brace_uncertainty_stiffness(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
                                            const brace_stiffness_t *stiffness,
