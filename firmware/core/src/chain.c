@@ -3,66 +3,75 @@
 #include <stdbool.h>
 
 #include "chain_list.h"
-#include "turn.h"
+#include "off_tick.h"
 #include "vec.h"
 
-/* Splits a link's ellipsoid, less the 0.75 kappa of its bending that comes with moment transfer, into iso,
- * returned, and its longer axis; both vectors sqrt(mm/N), in the link's frame. */
-static float bend(const brace_link_t *link, float kappa, brace_vec_t *excess, brace_vec_t *with_moment)
+/* sin(tilt/2) = tilt (1/2 + w (SIN_3 + w (SIN_5 + w SIN_7))) with w = tilt^2, within 2e-9 for a quarter turn. */
+#define SIN_3 (-2.08333127e-2f)
+#define SIN_5 2.60373686e-4f
+#define SIN_7 (-1.52292930e-6f)
+
+/* What a link's ellipsoid brings: iso, and the root of the bending that goes with moment transfer. */
+typedef struct {
+    float iso_mm_per_n, root;
+} bent_t;
+
+/* Splits a link's ellipsoid, less the 0.75 kappa of its bending that comes with moment transfer, into iso and its
+ * longer axis; both vectors sqrt(mm/N), in the link's frame. */
+BRACE_OFF_TICK static bent_t bend(const brace_link_t *link, float kappa, brace_vec_t *excess,
+                                  brace_vec_t *with_moment)
 {
-    const brace_sincos_t at = brace_turn_sincos(brace_turn_from_q28((int32_t)(link->tilt_rad * 0x1p28f)));
-    const brace_vec_t axis = {(float)at.cos * (1.0f / BRACE_TURN_ONE), (float)at.sin * (1.0f / BRACE_TURN_ONE)};
-    const brace_vec_t across = vec_quarter(axis);
-    const float coupled = 0.75f * kappa * link->bending_mm_per_n;
-    const float bending = link->bending_mm_per_n - coupled;
-    const float more = bending - link->axial_mm_per_n;
-    *with_moment = vec_scaled(across, __builtin_sqrtf(coupled));
-    *excess = vec_scaled(more > 0.0f ? across : axis, __builtin_sqrtf(__builtin_fabsf(more)));
-    return more > 0.0f ? link->axial_mm_per_n : bending;
+    const float tilt = link->tilt_rad, w = tilt * tilt;
+    const float half_sin =
+        tilt * __builtin_fmaf(w, __builtin_fmaf(w, __builtin_fmaf(w, SIN_7, SIN_5), SIN_3), 0.5f);
+    const float half_cos = __builtin_sqrtf(__builtin_fmaf(-half_sin, half_sin, 1.0f));
+    const float sin = 2.0f * half_sin * half_cos, cos = 1.0f - 2.0f * half_sin * half_sin;
+    const float coupled = 0.75f * kappa * link->bending_mm_per_n, root = __builtin_sqrtf(coupled);
+    const float axial = link->axial_mm_per_n, bending = link->bending_mm_per_n - coupled, more = bending - axial;
+    const float length = __builtin_sqrtf(__builtin_fabsf(more));
+    *with_moment = (brace_vec_t){-sin * root, cos * root};
+    if (more > 0.0f) {
+        *excess = (brace_vec_t){-sin * length, cos * length};
+        return (bent_t){axial, root};
+    }
+    *excess = (brace_vec_t){cos * length, sin * length};
+    return (bent_t){bending, root};
 }
 
-/* sqrt(mm/N) per mm of lever about a link's far end, of the bending that comes with moment transfer. */
-static float per_lever(const brace_link_t *link, float kappa, float length_mm)
+BRACE_OFF_TICK float brace_chain_firm(const brace_limb_t *limb, brace_element_t element[BRACE_CHAIN_FIRM])
 {
-    const float coupled = 0.75f * kappa * link->bending_mm_per_n;
-    return coupled > 0.0f ? 2.0f * __builtin_sqrtf(coupled) / length_mm : 0.0f;
-}
-
-float brace_chain_firm(const brace_limb_t *limb, brace_element_t element[BRACE_CHAIN_FIRM])
-{
-    const brace_vec_t none = {0.0f, 0.0f};
     const brace_link_t *femur = &limb->link[BRACE_FEMUR];
-    const float kappa = femur->moment_transfer_ratio, tibia_mm = limb->tibia_mm;
-    brace_vec_t excess, with_moment;
-
-    float iso = bend(femur, kappa, &excess, &with_moment);
-    element[0] = (brace_element_t){excess, none, none};
-    element[1] =
-        (brace_element_t){with_moment, {0.0f, per_lever(femur, kappa, limb->femur_mm) * tibia_mm}, none};
-
-    iso += bend(&limb->link[BRACE_TIBIA], 0.0f, &excess, &with_moment);
-    element[2] = (brace_element_t){none, excess, none};
+    const float femur_mm = limb->femur_mm, tibia_mm = limb->tibia_mm;
+    for (int i = 0; i < BRACE_CHAIN_FIRM; i++) {
+        element[i] = (brace_element_t){0};
+    }
+    /* The tibia has nothing beyond it to pass a moment to: zero goes to the knee, which has no femur part. */
+    const bent_t upper = bend(femur, femur->moment_transfer_ratio, &element[0].femur, &element[1].femur);
+    const bent_t lower = bend(femur + 1, 0.0f, &element[2].tibia, &element[4].femur);
+    element[1].tibia.z = 2.0f * upper.root * tibia_mm / femur_mm;
 
     const float hip = __builtin_sqrtf(limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm +
                                       limb->base.rotation_rad_per_n_mm);
-    const float knee = __builtin_sqrtf(limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm);
-    element[3] = (brace_element_t){{0.0f, hip * limb->femur_mm}, {0.0f, hip * tibia_mm}, none};
-    element[4] = (brace_element_t){none, {0.0f, knee * tibia_mm}, none};
-    return iso;
+    element[3].femur.z = hip * femur_mm;
+    element[3].tibia.z = hip * tibia_mm;
+    element[4].tibia.z = __builtin_sqrtf(limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm) * tibia_mm;
+    return upper.iso_mm_per_n + lower.iso_mm_per_n;
 }
 
-float brace_chain_coxa(const brace_limb_t *limb, brace_element_t element[2])
+BRACE_OFF_TICK float brace_chain_coxa(const brace_limb_t *limb, brace_element_t element[2])
 {
     const brace_link_t *link = &limb->link[BRACE_COXA];
-    const float kappa = link->moment_transfer_ratio;
-    const float lever = per_lever(link, kappa, limb->coxa_mm);
     element[0] = element[1] = (brace_element_t){0};
-    element[1].femur.z = lever * limb->femur_mm;
-    element[1].tibia.z = lever * limb->tibia_mm;
-    return bend(link, kappa, &element[0].base, &element[1].base);
+    const bent_t bent = bend(link, link->moment_transfer_ratio, &element[0].base, &element[1].base);
+    if (bent.root > 0.0f) {
+        const float lever = 2.0f * bent.root / limb->coxa_mm;
+        element[1].femur.z = lever * limb->femur_mm;
+        element[1].tibia.z = lever * limb->tibia_mm;
+    }
+    return bent.iso_mm_per_n;
 }
 
-float brace_chain_base(const brace_limb_t *limb, brace_element_t *element)
+BRACE_OFF_TICK float brace_chain_base(const brace_limb_t *limb, brace_element_t *element)
 {
     const float x = limb->base.x_mm_per_n, z = limb->base.z_mm_per_n;
     *element = (brace_element_t){0};
@@ -71,13 +80,13 @@ float brace_chain_base(const brace_limb_t *limb, brace_element_t *element)
     return x > z ? z : x;
 }
 
-static bool yields(const brace_element_t *element)
+BRACE_OFF_TICK static bool yields(const brace_element_t *element)
 {
     return vec_dot(element->femur, element->femur) + vec_dot(element->tibia, element->tibia) +
                vec_dot(element->base, element->base) > 0.0f;
 }
 
-float brace_chain_list(const brace_limb_t *limb, int with_coxa, brace_element_t *element, uint32_t *count)
+BRACE_OFF_TICK float brace_chain_list(const brace_limb_t *limb, int with_coxa, brace_element_t *element, uint32_t *count)
 {
     uint32_t used = BRACE_CHAIN_FIRM, kept = 0;
     float iso = brace_chain_firm(limb, element);
@@ -95,7 +104,7 @@ float brace_chain_list(const brace_limb_t *limb, int with_coxa, brace_element_t 
     return iso;
 }
 
-static brace_status_t build(const brace_limb_t *limb, int with_coxa, brace_chain_t *chain)
+BRACE_OFF_TICK static brace_status_t build(const brace_limb_t *limb, int with_coxa, brace_chain_t *chain)
 {
     const brace_status_t status = chain == NULL ? BRACE_E_NULL : brace_limb_check(limb);
     if (status == BRACE_OK) {
