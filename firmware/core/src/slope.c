@@ -54,10 +54,19 @@ brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, fl
 {
     const float reading[READING_COUNT] = {displacement_mm, force_x_n, force_z_n};
     const brace_status_t status = check_reading(slope, reading);
-    if (status == BRACE_OK) {
-        *slope = (brace_slope_t){.preload = {reading[0], reading[1], reading[2]}};
+    if (status != BRACE_OK) {
+        return status;
     }
-    return status;
+    slope->preload[DISPLACEMENT_MM] = reading[DISPLACEMENT_MM];
+    slope->preload[FORCE_X_N] = reading[FORCE_X_N];
+    slope->preload[FORCE_Z_N] = reading[FORCE_Z_N];
+    slope->used = slope->skipped = 0;
+    slope->mean[0] = slope->mean[1] = slope->mean[2] = 0.0f;
+    for (brace_slope_line_t *line = slope->line; line < slope->line + BRACE_SLOPE_METHOD_COUNT; line++) {
+        /* one by one: all at once would be a call of the C library's memset */
+        line->spread = line->slope[0] = line->slope[1] = line->residual[0] = line->residual[1] = 0.0f;
+    }
+    return BRACE_OK;
 }
 
 BRACE_OFF_TICK

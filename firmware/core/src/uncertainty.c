@@ -53,8 +53,9 @@ enum {
 #define SPRING_TIBIA FIELD(joint[BRACE_TIBIA].compliance_rad_per_n_mm)
 #define SPRING_BASE FIELD(base.rotation_rad_per_n_mm)
 
-/* What one sigma of a cause is: of its own dimension, or as a fraction of the cause's own size. */
-enum { MORE, ANGLE, FEMUR_LENGTH, TIBIA_LENGTH, COMPLIANCE, TRUST_COUNT };
+/* What one sigma of a cause is: of its own dimension, or as a fraction of the cause's own size; or that the
+ * cause has more terms. */
+enum { ANGLE, FEMUR_LENGTH, TIBIA_LENGTH, COMPLIANCE, TRUST_COUNT, MORE = TRUST_COUNT };
 
 /* One term of dC: (u v' + v u') weight. A cause is a run of terms; the last of them says how well the cause
  * is known. What is a compliance times u u' comes out doubled, so its causes are spelt doubled and known to
@@ -171,10 +172,15 @@ brace_status_t brace_uncertainty_stiffness(const brace_limb_t *limb, float theta
         [COMPLIANCE] = 0.5f * trust->compliance_rel,
     };
 
+    const float *entry = (const float *)stiffness;
+    float *variance = (float *)sigma; /* until the roots are taken */
+    for (int figure = 0; figure < ENTRY_COUNT; figure++) {
+        const float by_gain = entry[figure] * trust->gain_rel; /* scales all of K alike */
+        variance[figure] = by_gain * by_gain;
+    }
+    variance[CROSS] = 0.0f;
     /* the limb's x, seen from the axes */
     const brace_vec_t x = brace_direction(0u - brace_turn(stiffness->stiff_axis_rad));
-    *sigma = (brace_stiffness_sigma_t){.flags = stiffness->flags};
-    float *variance = (float *)sigma; /* until the roots are taken */
     float stiff = 0.0f;
     float cross = lambda_soft - lambda_stiff;
     float soft = 0.0f;
@@ -204,15 +210,13 @@ brace_status_t brace_uncertainty_stiffness(const brace_limb_t *limb, float theta
         }
         stiff = cross = soft = 0.0f;
     }
-    const float *entry = (const float *)stiffness;
-    for (int figure = 0; figure < ENTRY_COUNT; figure++) {
-        const float by_gain = entry[figure] * trust->gain_rel; /* scales all of K alike */
-        variance[figure] = brace_sqrt(variance[figure] + by_gain * by_gain);
+    for (int figure = 0; figure < FIGURE_COUNT; figure++) {
+        variance[figure] = brace_sqrt(variance[figure]);
     }
     const float apart = lambda_stiff - lambda_soft;
-    const float corner = brace_sqrt(variance[CROSS]);
-    if (corner < UNKNOWN_AXIS_RAD * apart) {
-        sigma->stiff_axis_rad = corner / apart;
+    sigma->flags = stiffness->flags;
+    if (sigma->stiff_axis_rad < UNKNOWN_AXIS_RAD * apart) {
+        sigma->stiff_axis_rad /= apart;
     } else {
         sigma->stiff_axis_rad = UNKNOWN_AXIS_RAD;
         sigma->flags |= BRACE_FLAG_SATURATED;
