@@ -75,7 +75,7 @@ def zeroed(readings: dict[str, np.ndarray], dataset: Dataset) -> dict[str, np.nd
     """Readings as the dataset's sensor was zeroed: per run, its first reading taken from all."""
     if not dataset.meta.zeroed_per_run:
         return readings
-    from brace.dataset.check_loading import run_starts
+    from brace.dataset.check_runs import run_starts
 
     starts = run_starts(dataset["run"])
     counts = np.diff(starts)

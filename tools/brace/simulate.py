@@ -44,9 +44,12 @@ def simulate(model: LimbModel, rig: Rig) -> tuple[dict[str, Any], dict[str, np.n
         "format": 1,
         "kind": "loading",
         "title": value["title"],
-        "zeroed": value["rig.zeroed"],
         "sensor": {"resolution_n": value["sensor.resolution_n"], "range_n": value["sensor.range_n"]},
-        "rig": {"step_mm": value["rig.step_mm"], "dwell_s": value["rig.dwell_s"]},
+        "rig": {
+            "step_mm": value["rig.step_mm"],
+            "dwell_s": value["rig.dwell_s"],
+            "zeroed": value["rig.zeroed"],
+        },
         "source": {"what": "simulated", "limb": model.name, "seed": value["seed"]},
     }
     return meta, {name: played[name] for name in names}

@@ -5,36 +5,38 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
+from brace.dataset import check_readings, check_runs, check_slopes
+from brace.dataset.check_runs import MAX_LISTED, run_starts
 from brace.dataset.columns import FULL_TURN_RAD
 from brace.dataset.faults import DataFault
 from brace.dataset.meta import Meta
 from brace.dataset.unit_slips import LENGTH_SLIPS, slip_of
 
 Columns = Mapping[str, np.ndarray]
-MAX_LISTED = 20  # faults of one sort that are listed singly
-MAX_CONFIGS = 5000  # beyond it, cross slopes are not compared pose by pose
+ANGLE_LIMIT_RAD = {"theta1_rad": FULL_TURN_RAD, "theta2_rad": FULL_TURN_RAD / 2}
 ANGLE_SLACK_RAD = 1e-6
 
 
 def faults(columns: Columns, meta: Meta) -> list[DataFault]:
     """Every fault found, file order within each check; empty for a sound record."""
-    found = [*_time(columns), *_duplicates(columns), *_angles(columns), *_steps(columns, meta)]
+    found = [
+        *_time(columns),
+        *_duplicates(columns),
+        *_angles(columns),
+        *check_runs.faults(columns),
+        *_steps(columns, meta),
+        *check_readings.faults(columns),
+    ]
     beyond = list(_sensor_range(columns, meta))
     if any(fault.blocking for fault in found) or any(fault.row is None for fault in beyond):
         return [*found, *beyond]  # slopes mean nothing while units or order are wrong
     slipped = list(_slipped_decimals(columns, meta))
     mended = {(fault.row, fault.field) for fault in slipped}
     beyond = [fault for fault in beyond if (fault.row, fault.field) not in mended]
-    return [*found, *beyond, *_signs(columns), *slipped]
-
-
-def run_starts(run: np.ndarray) -> np.ndarray:
-    """Index of the first row of every run, and the number of rows at the end."""
-    return np.concatenate([[0], np.flatnonzero(np.diff(run)) + 1, [run.size]])
+    return [*found, *beyond, *check_slopes.faults(columns), *slipped]
 
 
 def _time(columns: Columns) -> Iterator[DataFault]:
@@ -86,18 +88,28 @@ def _row_keys(table: np.ndarray) -> np.ndarray:
 
 
 def _angles(columns: Columns) -> Iterator[DataFault]:
-    theta = {name: columns[name] for name in ("theta1_rad", "theta2_rad")}
-    if not any((np.abs(values) > FULL_TURN_RAD + ANGLE_SLACK_RAD).any() for values in theta.values()):
-        return
-    in_degrees = all((np.abs(values) <= 360.0).all() for values in theta.values())
-    for name, values in theta.items():
-        row = int(np.argmax(np.abs(values)))
-        why = f"{values[row]:g} is more than a turn"
-        if in_degrees:
-            why += "; both angle columns fit only in degrees"
-        yield DataFault(
-            None if in_degrees else row + 1, name, why, "degrees: multiply by pi/180" if in_degrees else None
-        )
+    """A femur turns at most once round, a knee half; a column that is beyond it in many rows is in degrees."""
+    for name, limit in ANGLE_LIMIT_RAD.items():
+        size = np.abs(columns[name])
+        beyond = np.flatnonzero(size > limit + ANGLE_SLACK_RAD)
+        what = "more than a turn" if name == "theta1_rad" else "further than a knee can bend"
+        if beyond.size > 0.3 * size.size and FULL_TURN_RAD < size.max() <= 360.0:
+            worst = columns[name][int(np.argmax(size))]
+            yield DataFault(
+                None,
+                name,
+                f"{worst:g} is {what}; the column fits only in degrees",
+                "degrees: multiply by pi/180",
+            )
+            continue
+        for row in beyond[:MAX_LISTED]:
+            degrees = FULL_TURN_RAD < size[row] <= 360.0
+            yield DataFault(
+                int(row) + 1,
+                name,
+                f"{columns[name][row]:g} is {what}" + ("; the entry fits only in degrees" if degrees else ""),
+                math.radians(columns[name][row]) if degrees else None,
+            )
 
 
 def _steps(columns: Columns, meta: Meta) -> Iterator[DataFault]:
@@ -150,92 +162,6 @@ def _sensor_range(columns: Columns, meta: Meta) -> Iterator[DataFault]:
                 f"{held.size} readings stand at the sensor's limit of " f"{limit_n:g} N: clipped",
                 blocking=False,
             )
-
-
-@dataclass(frozen=True)
-class _RunSlopes:
-    """Straight-line fits of both forces over the driven displacement, one entry (row) per usable run."""
-
-    first: np.ndarray  # row index of the run's first row
-    config: np.ndarray
-    axis: np.ndarray
-    driven: np.ndarray  # slope of the force along the driven axis [N/mm]
-    driven_error: np.ndarray
-    cross: np.ndarray  # slope of the other force [N/mm]
-    cross_error: np.ndarray
-
-
-def _slopes(columns: Columns) -> _RunSlopes:
-    starts = run_starts(columns["run"])
-    first, count = starts[:-1], np.diff(starts)
-    axis = columns["axis"][first]
-    along_z = np.repeat(axis, count) == 1
-
-    def centred(values: np.ndarray) -> np.ndarray:
-        return values - np.repeat(np.add.reduceat(values, first) / count, count)
-
-    d = centred(np.where(along_z, columns["dz_mm"], columns["dx_mm"]))
-    power = np.add.reduceat(d * d, first)
-    safe = np.where(power > 0, power, 1.0)
-    fits = []
-    for force in (
-        np.where(along_z, columns["fz_n"], columns["fx_n"]),
-        np.where(along_z, columns["fx_n"], columns["fz_n"]),
-    ):
-        f = centred(force)
-        slope = np.add.reduceat(d * f, first) / safe
-        square = np.add.reduceat((f - d * np.repeat(slope, count)) ** 2, first)
-        fits += [slope, np.sqrt(square / count / safe) + 1e-12]
-    usable = (count >= 4) & (power > 0)
-    return _RunSlopes(*(values[usable] for values in (first, columns["config"][first], axis, *fits)))
-
-
-def _signs(columns: Columns) -> Iterator[DataFault]:
-    """A driven force that falls as the tip is pushed on, or a cross force that no other run of its pose (nor its
-    reciprocal) agrees with in sign."""
-    runs = _slopes(columns)
-    number = columns["run"]
-    falls = runs.driven < -5 * runs.driven_error
-    for axis, name in enumerate(("fx_n", "fz_n")):
-        here = runs.axis == axis
-        if here.any() and falls[here].all():
-            yield DataFault(
-                None,
-                name,
-                "the force falls in every run that pushes along its axis: no limb does",
-                "the column with its sign turned",
-            )
-            return
-        for first in runs.first[here & falls][:MAX_LISTED]:
-            yield DataFault(
-                int(first) + 1,
-                name,
-                f"run {number[first]}: the force falls as the tip is pushed along " "its axis: no limb does",
-                "the run with this sign turned",
-            )
-    configs, group = np.unique(runs.config, return_inverse=True)
-    together = np.split(runs.cross[np.argsort(group, kind="stable")], np.cumsum(np.bincount(group))[:-1])
-    middle = (
-        np.array([np.median(slopes) for slopes in together])[group]
-        if configs.size <= MAX_CONFIGS
-        else np.zeros(group.size)
-    )
-    enough = np.bincount(group)[group] >= 3
-    turned = (
-        enough
-        & (runs.cross * middle < 0)
-        & (np.abs(runs.cross + middle) < 0.3 * np.abs(middle))
-        & (np.abs(runs.cross) > 5 * runs.cross_error)
-    )
-    for index in np.flatnonzero(turned)[:MAX_LISTED]:
-        first, name = int(runs.first[index]), ("fz_n", "fx_n")[runs.axis[index]]
-        yield DataFault(
-            first + 1,
-            name,
-            f"run {number[first]}: slope {runs.cross[index]:+.3g} N/mm where the pose's "
-            f"other runs have {middle[index]:+.3g}",
-            "the run with this sign turned",
-        )
 
 
 def _slipped_decimals(columns: Columns, meta: Meta) -> Iterator[DataFault]:

@@ -14,12 +14,13 @@ from brace.errors import BadFileError, did_you_mean
 from brace.toml import Key
 
 WHAT = "dataset's meta.toml"
+ZEROED = ("never", "per_run")
 
 _KNOWN = (
     Key("format", None, "the version of the format, 1", "", 1, 1, kind="integer"),
     Key("kind", None, "the kind of record", kind="text", choices=tuple(KINDS)),
     Key("title", "", "a title", kind="text"),
-    Key("zeroed", "never", "when the sensor was zeroed", kind="text", choices=("never", "per_run")),
+    Key("zeroed", "never", "when the sensor was zeroed", kind="text", choices=ZEROED),
     Key("joint", "femur", "the joint under test", kind="text", choices=("coxa", "femur", "tibia")),
     Key("sensor.resolution_n", 0.0, "the smallest step of the sensor", "N", 0.0, 1e6),
     Key(
@@ -33,6 +34,7 @@ _KNOWN = (
     ),
     Key("rig.step_mm", 0.0, "the step of the imposed displacement", "mm", 0.0, 1e3),
     Key("rig.dwell_s", 0.0, "the wait before each reading", "s", 0.0, 1e6),
+    Key("rig.zeroed", "never", "when the sensor was zeroed", kind="text", choices=ZEROED),
 )
 
 
@@ -53,7 +55,7 @@ class Meta:
 
     @property
     def zeroed_per_run(self) -> bool:
-        return bool(self.values["zeroed"] == "per_run")
+        return "per_run" in (self.values["zeroed"], self.values["rig.zeroed"])
 
     @property
     def joint(self) -> str:
@@ -89,7 +91,21 @@ def read_meta(folder: Path) -> Meta:
             ),
         )
     document = toml.read(folder / "meta.toml", WHAT)
-    return Meta(toml.check(document, _KNOWN, WHAT, content=_known_part(document.content)), document)
+    values = toml.check(document, _KNOWN, WHAT, content=_known_part(document.content))
+    _check_zeroed_once(document)
+    return Meta(values, document)
+
+
+def _check_zeroed_once(document: toml.Document) -> None:
+    """`zeroed` may stand at the top or under [rig]; the two places must not disagree."""
+    rig = document.content.get("rig", {})
+    if "zeroed" in document.content and "zeroed" in rig and document.content["zeroed"] != rig["zeroed"]:
+        raise BadFileError(
+            f"zeroed is {document.content['zeroed']!r} at the top and {rig['zeroed']!r} under [rig]",
+            where=document.where("rig.zeroed"),
+            why="whether each run's first reading was taken off decides what a bias and a gap look like",
+            next_step="keep one of the two",
+        )
 
 
 def _known_part(content: Mapping[str, Any]) -> dict[str, Any]:

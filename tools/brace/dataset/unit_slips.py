@@ -12,6 +12,13 @@ LENGTH_SLIPS = {
     1e3: ("um", 1e-3),
     1 / 25.4e-3: ("thousandths of an inch", 25.4e-3),
 }
+FORCE_SLIPS = {
+    1e-3: ("kN", 1e3),
+    1e3: ("mN", 1e-3),
+    1 / 9.80665: ("kgf", 9.80665),
+    1e3 / 9.80665: ("gf", 9.80665e-3),
+    1 / 4.4482216: ("lbf", 4.4482216),
+}
 STIFFNESS_SLIPS = {1e3: ("N/m", 1e-3), 1e-3: ("N/um", 1e3), 1e6: ("mN/m", 1e-6)}
 
 

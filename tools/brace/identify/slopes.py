@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from brace.dataset import Dataset
-from brace.dataset.check_loading import run_starts
+from brace.dataset.check_runs import run_starts
 from brace.native import library
 
 METHODS = {"least_squares": 0, "mean_of_ratios": 1}
