@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from brace.errors import UsageError
+from brace.errors import BadFileError, UsageError
 from brace.model import LimbModel
 from brace.native import Library, library
-from brace.native.limb import firmware_limb, status_text
+from brace.native.limb import firmware_limb, refused_limb, status_text
 
 ARITHMETICS = ("f32", "fixed", "general", "table")
 FLAG_NAMES = ("UNCALIBRATED", "NEAR_SINGULAR", "SATURATED", "GAP_OPEN", "STALE", "OUT_OF_RANGE")
-E_RANGE, E_UNREACHABLE, E_UNSUPPORTED = -3, -4, -8
+E_RANGE, E_UNREACHABLE, E_SINGULAR, E_UNSUPPORTED = -3, -4, -6, -8
 Q28 = float(1 << 28)
 FIXED_LIMIT_RAD = 7.99999999
 
@@ -23,7 +23,9 @@ PLANAR_K = ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm")
 PLANAR_C = ("c_xx_mm_per_n", "c_xz_mm_per_n", "c_zz_mm_per_n")
 PLANAR_REST = ("lambda_min_n_per_mm", "lambda_max_n_per_mm", "stiff_axis_rad")
 _PLANAR = np.dtype([(name, "f4") for name in (*PLANAR_K, *PLANAR_REST)] + [("flags", "u4")])
-_COMPLIANCE = np.dtype([(name, "f4") for name in PLANAR_C])
+_PLANAR_ALL = np.dtype(
+    [(name, "f4") for name in (*PLANAR_K, *PLANAR_REST, *PLANAR_C)] + [("flags", np.dtype("u4"))]
+)
 SPATIAL_K = tuple(f"k_{axes}_n_per_mm" for axes in ("xx", "xy", "xz", "yy", "yz", "zz"))
 SPATIAL_C = tuple(f"c_{axes}_mm_per_n" for axes in ("xx", "xy", "xz", "yy", "yz", "zz"))
 SPATIAL_REST = (
@@ -42,6 +44,13 @@ SIGMA = (
     "sigma_lambda_min_n_per_mm",
     "sigma_lambda_max_n_per_mm",
     "sigma_stiff_axis_rad",
+)
+
+
+ACROSS = (
+    "joint.coxa.compliance_rad_per_n_mm",
+    *(f"link.{link}.lateral_mm_per_n" for link in ("coxa", "femur", "tibia")),
+    *(f"link.{link}.torsion_rad_per_n_mm" for link in ("coxa", "femur")),
 )
 
 
@@ -76,17 +85,51 @@ class PlanarLimb:
     def stiffness(self, theta1_rad: np.ndarray, theta2_rad: np.ndarray) -> np.ndarray:
         """Structured array, one entry per posture of true angles [rad]: K, eigenvalues, axis, flags and C.
         Raises PostureError for the first posture that is refused."""
-        count = len(theta1_rad)
-        k = self.native.ffi.new("brace_stiffness_t[]", count)
-        c = self.native.ffi.new("brace_compliance_t[]", count)
-        null, compliance = self.native.ffi.NULL, self.native.lib.brace_chain_compliance
+        batch = self._by_the_chain(theta1_rad, theta2_rad)
+        if self.path != "general":
+            self._replace_k(batch, theta1_rad, theta2_rad)
+        lost = np.isnan(batch["k_xx_n_per_mm"])
+        if lost.any():
+            self._refuse(int(np.argmax(lost)), theta1_rad, theta2_rad)
+        return batch
+
+    def _by_the_chain(self, theta1_rad: np.ndarray, theta2_rad: np.ndarray) -> np.ndarray:
+        """K and C of the compliance chain; NaN where it refuses."""
+        ffi, count = self.native.ffi, len(theta1_rad)
+        columns = {name: np.empty(count, np.float32) for name in (*PLANAR_K, *PLANAR_REST, *PLANAR_C)}
+        flags = np.empty(count, np.uint32)
+        pointers = {name: ffi.from_buffer("float[]", column) for name, column in columns.items()}
+        angles = [np.ascontiguousarray(angle, np.float32) for angle in (theta1_rad, theta2_rad)]
+        self.native.lib.brace_chain_batch(
+            self.chain,
+            count,
+            *(ffi.from_buffer("float[]", angle) for angle in angles),
+            ffi.new("brace_stiffness_soa_t *", {name: pointers[name] for name in (*PLANAR_K, *PLANAR_REST)}),
+            ffi.new("brace_compliance_soa_t *", {name: pointers[name] for name in PLANAR_C}),
+            ffi.from_buffer("uint32_t[]", flags),
+        )
+        result = np.empty(count, _PLANAR_ALL)
+        for name, column in columns.items():
+            result[name] = column
+        result["flags"] = flags
+        return result
+
+    def _replace_k(self, result: np.ndarray, theta1_rad: np.ndarray, theta2_rad: np.ndarray) -> None:
+        """K and all that follows from it as the chosen arithmetic gives it; C stays the chain's."""
+        k = self.native.ffi.new("brace_stiffness_t[]", len(result))
+        evaluate = self._evaluate
         for index, (theta1, theta2) in enumerate(zip(theta1_rad.tolist(), theta2_rad.tolist())):
-            status = self._evaluate(theta1, theta2, k + index) or compliance(
-                self.chain, theta1, theta2, c + index, null
-            )
+            status = evaluate(theta1, theta2, k + index)
             if status:
                 raise PostureError(index, status, status_text(self.native, status))
-        return _joined(_array(self.native, k, _PLANAR), _array(self.native, c, _COMPLIANCE))
+        values = _array(self.native, k, _PLANAR)
+        for name in _PLANAR.names or ():
+            result[name] = values[name]
+
+    def _refuse(self, index: int, theta1_rad: np.ndarray, theta2_rad: np.ndarray) -> None:
+        single = self.native.ffi.new("brace_stiffness_t *")
+        status = self._evaluate(float(theta1_rad[index]), float(theta2_rad[index]), single)
+        raise PostureError(index, status, status_text(self.native, status))
 
     def sigma(self, theta1_rad: float, theta2_rad: float) -> dict[str, float]:
         """One sigma of each entry, from the model's [uncertainty]; true angles [rad]."""
@@ -171,12 +214,7 @@ def planar_limb(model: LimbModel, arithmetic: str = "f32") -> PlanarLimb:
             next_step="--arith f32 or general",
         )
     if status:
-        raise UsageError(
-            "the firmware refuses this limb",
-            where=model.where(),
-            why=status_text(native, status),
-            next_step="check the model",
-        )
+        raise refused_limb(native, model, status)
     return PlanarLimb(native, limb, chain, path, evaluate)
 
 
@@ -187,16 +225,11 @@ def spatial_stiffness(
     native = library()
     ffi, lib = native.ffi, native.lib
     limb = firmware_limb(native, model)
+    _require_yield_across(model)
     spatial = ffi.new("brace_spatial_t *")
     status = lib.brace_spatial_collapse(limb, spatial)
     if status:
-        raise UsageError(
-            "this limb has no spatial K",
-            where=model.where(),
-            why=status_text(native, status),
-            next_step="give joint.coxa, link.femur and link.tibia their compliances out of the plane "
-            "(lateral_mm_per_n, torsion_rad_per_n_mm), or leave out theta0",
-        )
+        raise refused_limb(native, model, status)
     offset = [lib.brace_limb_true_angle(limb, joint, 0.0) for joint in range(3)]
     k = ffi.new("brace_stiffness_spatial_t[]", len(theta0_rad))
     for index, angles in enumerate(zip(theta0_rad.tolist(), theta1_rad.tolist(), theta2_rad.tolist())):
@@ -205,6 +238,18 @@ def spatial_stiffness(
             raise PostureError(index, status, status_text(native, status))
     values = _array(native, k, _SPATIAL)
     return _joined(values, _inverse(values))
+
+
+def _require_yield_across(model: LimbModel) -> None:
+    if any(np.float32(model.number(key)) > 0.0 for key in ACROSS):
+        return
+    raise BadFileError(
+        "this limb has no K in space: nothing yields out of its plane",
+        where=model.where("joint.coxa"),
+        why="its lateral compliances and the coxa joint's are zero, so K across the plane is infinite",
+        next_step="add [joint.coxa] compliance_rad_per_n_mm or [link.femur] lateral_mm_per_n (any link), or leave "
+        "theta0 out for K in the plane",
+    )
 
 
 def _inverse(k: np.ndarray) -> np.ndarray:

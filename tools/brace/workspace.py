@@ -11,8 +11,8 @@ import numpy as np
 from brace.errors import UsageError
 from brace.model import LimbModel
 from brace.native import library
-from brace.native.limb import firmware_limb, status_text
-from brace.stiffness import PLANAR_K, PLANAR_REST, E_UNSUPPORTED, planar_limb
+from brace.native.limb import firmware_limb, refused_limb
+from brace.stiffness import PLANAR_K, PLANAR_REST, E_UNSUPPORTED
 
 COLUMNS = (*PLANAR_K, *PLANAR_REST)
 BLOCK = 1 << 15  # postures at a time: inputs and outputs stay in the cache
@@ -89,17 +89,14 @@ def _evaluate(
 ) -> tuple[dict[str, np.ndarray], str]:
     native = library()
     ffi, lib = native.ffi, native.lib
-    batch = ffi.new("brace_planar_batch_t *")
-    status = lib.brace_planar_batch_collapse(firmware_limb(native, model), batch)
-    if status == E_UNSUPPORTED:
-        return _by_the_chain(model, theta1, theta2, advance), "general"
+    limb = firmware_limb(native, model)
+    batch, chain = ffi.new("brace_planar_batch_t *"), ffi.new("brace_chain_t *")
+    status = lib.brace_planar_batch_collapse(limb, batch)
+    path = "general" if status == E_UNSUPPORTED else "batch"
+    if path == "general":
+        status = lib.brace_chain_build(limb, chain)
     if status:
-        raise UsageError(
-            "the firmware refuses this limb",
-            where=model.where(),
-            why=status_text(native, status),
-            next_step="check the model",
-        )
+        raise refused_limb(native, model, status)
     out = {name: np.empty(theta1.size, np.float32) for name in COLUMNS}
     soa = ffi.new("brace_stiffness_soa_t *")
     for first in range(0, theta1.size, BLOCK):
@@ -107,24 +104,10 @@ def _evaluate(
         pointers = [ffi.from_buffer("float[]", out[name][first:last]) for name in COLUMNS]
         for name, pointer in zip(COLUMNS, pointers):
             setattr(soa, name, pointer)
-        lib.brace_planar_batch(
-            batch,
-            last - first,
-            ffi.from_buffer("float[]", theta1[first:last]),
-            ffi.from_buffer("float[]", theta2[first:last]),
-            soa,
-        )
+        angles = [ffi.from_buffer("float[]", angle[first:last]) for angle in (theta1, theta2)]
+        if path == "batch":
+            lib.brace_planar_batch(batch, last - first, *angles, soa)
+        else:
+            lib.brace_chain_batch(chain, last - first, *angles, soa, ffi.NULL, ffi.NULL)
         advance(last)
-    return out, "batch"
-
-
-def _by_the_chain(
-    model: LimbModel, theta1: np.ndarray, theta2: np.ndarray, advance: Callable[[int], None]
-) -> dict[str, np.ndarray]:
-    limb = planar_limb(model, "general")
-    parts = []
-    for first in range(0, theta1.size, BLOCK):
-        parts.append(limb.stiffness(theta1[first : first + BLOCK], theta2[first : first + BLOCK]))
-        advance(min(first + BLOCK, theta1.size))
-    whole = np.concatenate(parts)
-    return {name: np.ascontiguousarray(whole[name]) for name in COLUMNS}
+    return out, path

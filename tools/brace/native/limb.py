@@ -44,13 +44,60 @@ def firmware_limb(native: Library, model: LimbModel) -> Any:
         setattr(limb.uncertainty, field, model.number(f"uncertainty.{field}"))
     status = native.lib.brace_limb_check(limb)
     if status != 0:
-        raise BadFileError(
-            "the firmware refuses this limb",
-            where=model.where(),
-            why=status_text(native, status),
-            next_step="check lengths and compliances; something must yield in each direction",
-        )
+        raise refused_limb(native, model, status)
     return limb
+
+
+# Sources of compliance in the plane, the ones to suggest first.
+_SOURCES = (
+    "link.tibia.bending_mm_per_n",
+    "joint.femur.compliance_rad_per_n_mm",
+    "link.femur.bending_mm_per_n",
+    "joint.tibia.compliance_rad_per_n_mm",
+    "link.tibia.axial_mm_per_n",
+    "link.femur.axial_mm_per_n",
+    "base.x_mm_per_n",
+    "base.z_mm_per_n",
+    "base.rotation_rad_per_n_mm",
+)
+_ON_ONE_LINE = (
+    {"link.tibia.bending_mm_per_n", "joint.tibia.compliance_rad_per_n_mm"},
+    {"joint.femur.compliance_rad_per_n_mm", "base.rotation_rad_per_n_mm"},
+)
+_SHORTEST_COXA_MM = 1.0
+
+
+def refused_limb(native: Library, model: LimbModel, status: int) -> BadFileError:
+    """Why the firmware refuses this limb: which field, and what to write there. The format's ranges are the
+    firmware's own, so what is left is what fields say together."""
+    coxa, transfer = model.number("geometry.coxa_mm"), "link.coxa.moment_transfer"
+    if model.number(transfer) > 0.0 and coxa < _SHORTEST_COXA_MM:
+        return BadFileError(
+            f"the firmware refuses this limb: geometry.coxa_mm = {coxa:g} with {transfer}",
+            where=model.where(transfer),
+            why=f"moment transfer divides by the link's length, at least {_SHORTEST_COXA_MM:g} mm",
+            next_step=f"geometry.coxa_mm = 57.0, or {transfer} = false",
+        )
+    single = np.float32
+    present = [key for key in _SOURCES if single(model.number(key)) > 0.0]
+    alone = {next((i for i, line in enumerate(_ON_ONE_LINE) if key in line), key) for key in present}
+    if len(alone) < 2:
+        line = next((line for line in _ON_ONE_LINE if set(present) & line), set())
+        missing = next(key for key in _SOURCES if key not in present and key not in line)
+        table, _, leaf = missing.rpartition(".")
+        return BadFileError(
+            "the firmware refuses this limb: C is singular",
+            where=model.where(present[0] if present else "link"),
+            why=f"only {' and '.join(present) or 'nothing'} yields, along one line, so K across it is infinite"
+            + ("" if len(present) else " (a float holds no smaller compliance than 1e-45)"),
+            next_step=f"add [{table}] {leaf}, how far it yields, or another compliance of the plane",
+        )
+    return BadFileError(
+        "the firmware refuses this limb",
+        where=model.where("geometry"),
+        why=status_text(native, status),
+        next_step="check lengths and compliances against a measured limb, e.g. brace/data/paper-limb.toml",
+    )
 
 
 def plant_model(native: Library, model: LimbModel) -> Any:

@@ -23,6 +23,7 @@ FIRMWARE_HEADERS = (
     "planar_table.h",
     "planar_fixed.h",
     "planar_batch.h",
+    "chain_batch.h",
     "spatial.h",
     "uncertainty.h",
     "slope.h",
