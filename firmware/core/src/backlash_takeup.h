@@ -1,0 +1,13 @@
+/* The take-up's part of a tick. */
+#ifndef BRACE_BACKLASH_TAKEUP_H
+#define BRACE_BACKLASH_TAKEUP_H
+
+#include "brace/backlash.h"
+
+/* Moves command and phase on by a tick; proven: the flank the load proves.
+ * returns FACT_TAKING_UP while the flank is not yet verified, else FACT_NOT_TAKING_UP */
+uint32_t backlash_takeup_advance(brace_backlash_t *joint, uint32_t facts, int proven);
+
+void backlash_takeup_tell(const brace_backlash_t *joint, brace_backlash_out_t *out);
+
+#endif

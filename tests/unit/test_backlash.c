@@ -1,0 +1,371 @@
+/* The preload state machine, transition by transition, on a quasi-static joint written out here. */
+#include <string.h>
+
+#include "brace/backlash.h"
+#include "brace/gap_stiffness.h"
+#include "close.h"
+#include "noise.h"
+#include "sample_limbs.h"
+
+#define GAP_RAD 0.01f
+
+static brace_backlash_t joint;
+static brace_backlash_out_t out;
+static uint32_t now_us;
+static double noise_n_mm;
+
+static brace_backlash_params_t sound_params(void)
+{
+    return (brace_backlash_params_t){.tick_us = 1000,
+                                     .gap_rad = GAP_RAD,
+                                     .friction_n_mm = 200.0f,
+                                     .friction_tolerance_ratio = 0.2f,
+                                     .inertia_n_mm_s2_per_rad = 20.0f,
+                                     .torque_range_n_mm = 8000.0f,
+                                     .torque_noise_n_mm = 400.0f,
+                                     .torque_bias_n_mm = 80.0f,
+                                     .angle_step_rad = 2e-5f,
+                                     .takeup = {.torque_max_n_mm = 4500.0f,
+                                                .preload_n_mm = 800.0f,
+                                                .travel_max_rad = 0.06f,
+                                                .reach_max_rad = 0.15f,
+                                                .rate_rad_per_s = 0.1f,
+                                                .time_max_us = 3000000,
+                                                .verify_us = 100000}};
+}
+
+void setUp(void)
+{
+    const brace_backlash_params_t params = sound_params();
+    noise_state = 2463534242u;
+    now_us = 4294900000u; /* wraps on the way */
+    noise_n_mm = 400.0;
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_backlash_init(&joint, &params));
+}
+void tearDown(void) {}
+
+static void tick(double motor_rad, double torque_n_mm)
+{
+    now_us += 1000u;
+    const brace_backlash_sample_t sample = {
+        .now_us = now_us,
+        .motor_rad = (float)motor_rad,
+        .torque_n_mm = (float)(torque_n_mm + noise_n_mm * noise_normal()),
+    };
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_backlash_tick(&joint, &sample, &out));
+}
+
+static void stand(double motor_rad, double torque_n_mm, int ticks)
+{
+    for (int i = 0; i < ticks; i++) {
+        tick(motor_rad, torque_n_mm);
+    }
+}
+
+static void a_load_engages_its_flank_whatever_the_motion(void)
+{
+    for (int flank = -1; flank <= 1; flank += 2) {
+        for (int way = -1; way <= 1; way += 2) {
+            setUp();
+            for (int i = 0; i < 300; i++) {
+                tick(way * 1e-3 * i, flank * 2500.0 + way * 200.0);
+            }
+            TEST_ASSERT_EQUAL_INT(flank > 0 ? BRACE_BACKLASH_ENGAGED_POSITIVE : BRACE_BACKLASH_ENGAGED_NEGATIVE,
+                                  out.state);
+            TEST_ASSERT_EQUAL_INT(flank, out.flank);
+            TEST_ASSERT_TRUE(out.valid);
+            ASSERT_CLOSE(-flank * 0.5 * (double)GAP_RAD, out.offset_rad, 1e-8);
+            ASSERT_CLOSE(flank * 2500.0, out.load_n_mm, 6.0 * 90.0); /* six sigma of the fast filter */
+            TEST_ASSERT_TRUE(fabs((double)out.load_n_mm - flank * 2500.0) < (double)out.load_off_n_mm);
+        }
+    }
+}
+
+static void nothing_is_told_of_a_load_within_friction(void)
+{
+    stand(0.0, 150.0, 2000);
+    TEST_ASSERT_EQUAL_INT(BRACE_BACKLASH_UNKNOWN, out.state);
+    TEST_ASSERT_EQUAL_INT(0, out.flank);
+    TEST_ASSERT_FALSE(out.valid);
+}
+
+static void a_lost_load_is_not_valid_past_the_detection_time(void)
+{
+    for (int trial = 0; trial < 50; trial++) {
+        stand(0.0, 8000.0, 300);
+        TEST_ASSERT_TRUE(out.valid);
+        const int ticks = (int)(brace_backlash_detection_us(&joint) / 1000u);
+        stand(0.0, 0.0, ticks);
+        for (int i = 0; i < 600; i++) {
+            tick(0.0, 0.0);
+            TEST_ASSERT_FALSE(out.valid);
+        }
+        TEST_ASSERT_EQUAL_INT(0, out.flank); /* memory has run out too */
+    }
+    TEST_ASSERT_TRUE(brace_backlash_detection_us(&joint) <= 60000u);
+}
+
+static void a_reversal_crosses_with_the_motors_travel(void)
+{
+    stand(0.1, 3000.0, 300);
+    TEST_ASSERT_EQUAL_INT(1, out.flank);
+    bool crossed = false;
+    for (int i = 1; i <= 100; i++) { /* back through the gap at 0.1 rad/s, friction only */
+        const double travelled = 1e-4 * i;
+        tick(0.1 - travelled, -200.0);
+        if (out.state == BRACE_BACKLASH_CROSSING) {
+            crossed = true;
+            TEST_ASSERT_EQUAL_INT(0, out.flank);
+            TEST_ASSERT_FALSE(out.valid);
+        }
+    }
+    TEST_ASSERT_TRUE(crossed);
+    TEST_ASSERT_TRUE(out.offset_rad > 0.2f * GAP_RAD); /* from -gap/2 towards +gap/2 */
+    for (int i = 1; i <= 200; i++) {
+        tick(0.09 - 1e-4 * i, -2500.0);
+    }
+    TEST_ASSERT_EQUAL_INT(BRACE_BACKLASH_ENGAGED_NEGATIVE, out.state);
+    TEST_ASSERT_TRUE(out.valid);
+}
+
+static void a_load_reversal_of_a_standing_motor_is_seen(void)
+{
+    stand(0.0, 3000.0, 300);
+    stand(0.0, -3000.0, 60);
+    TEST_ASSERT_EQUAL_INT(BRACE_BACKLASH_ENGAGED_NEGATIVE, out.state);
+    TEST_ASSERT_TRUE(out.valid);
+}
+
+static void an_expected_load_tells_but_never_proves(void)
+{
+    for (int i = 0; i < 300; i++) {
+        now_us += 1000u;
+        const brace_backlash_sample_t sample = {.now_us = now_us,
+                                                .torque_n_mm = (float)(400.0 * noise_normal()),
+                                                .load_is_expected = true,
+                                                .expected_n_mm = -180.0f,
+                                                .expected_off_n_mm = 50.0f};
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_backlash_tick(&joint, &sample, &out));
+        TEST_ASSERT_FALSE(out.valid);
+    }
+    TEST_ASSERT_EQUAL_INT(-1, out.flank);
+    for (int i = 0; i < 300; i++) { /* and what contradicts the motor is not believed */
+        now_us += 1000u;
+        const brace_backlash_sample_t sample = {.now_us = now_us,
+                                                .torque_n_mm = (float)(3000.0 + 400.0 * noise_normal()),
+                                                .load_is_expected = true,
+                                                .expected_n_mm = -180.0f,
+                                                .expected_off_n_mm = 50.0f};
+        brace_backlash_tick(&joint, &sample, &out);
+    }
+    TEST_ASSERT_EQUAL_INT(1, out.flank);
+    TEST_ASSERT_TRUE(out.valid);
+}
+
+static void bad_and_late_samples_are_a_fault_that_heals(void)
+{
+    const float bad[][2] = {{NAN, 0.0f}, {0.0f, INFINITY}, {2e3f, 0.0f}, {0.0f, 1e5f}};
+    for (int i = 0; i < 5; i++) {
+        setUp();
+        stand(0.0, 3000.0, 300);
+        TEST_ASSERT_TRUE(out.valid);
+        if (i < 4) {
+            now_us += 1000u;
+            const brace_backlash_sample_t sample = {
+                .now_us = now_us, .motor_rad = bad[i][0], .torque_n_mm = bad[i][1]};
+            TEST_ASSERT_EQUAL_INT(i < 2 ? BRACE_E_NOT_FINITE : BRACE_E_RANGE,
+                                  brace_backlash_tick(&joint, &sample, &out));
+        } else {
+            now_us += 5000u;
+            tick(0.0, 3000.0);
+        }
+        TEST_ASSERT_EQUAL_INT(BRACE_BACKLASH_FAULT, out.state);
+        TEST_ASSERT_FALSE(out.valid);
+        TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_takeup_request(&joint, 1));
+        stand(0.0, 3000.0, 15);
+        TEST_ASSERT_EQUAL_INT(BRACE_BACKLASH_FAULT, out.state);
+        stand(0.0, 3000.0, 200);
+        TEST_ASSERT_TRUE(out.valid && out.flank == 1);
+    }
+}
+
+/* A servo with droop, friction and a gap before a spring of stiffness k [N mm/rad] to the ground; no inertia. */
+static const double servo = 60000.0, friction = 200.0;
+static double motor_rad, load_n_mm;
+
+static void follow(double setpoint_rad, double k)
+{
+    double load = 0.0;
+    for (int i = 0; i < 60; i++) { /* to rest: small steps of the motor */
+        const double beyond = motor_rad > 0.005 ? motor_rad - 0.005 : motor_rad < -0.005 ? motor_rad + 0.005 : 0.0;
+        load = k * beyond;
+        const double torque = servo * (setpoint_rad - motor_rad);
+        const double out_of_balance = torque - load;
+        const double moves = out_of_balance > friction    ? out_of_balance - friction
+                             : out_of_balance < -friction ? out_of_balance + friction
+                                                          : 0.0;
+        motor_rad += moves / (servo + k) * 0.5;
+    }
+    load_n_mm = load;
+    tick(motor_rad, servo * (setpoint_rad - motor_rad));
+}
+
+static void take_up(int flank, double k, int ticks)
+{
+    motor_rad = 0.0;
+    for (int i = 0; i < 100; i++) {
+        follow(0.0, k);
+    }
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_takeup_request(&joint, flank));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_takeup_request(&joint, flank));
+    for (int i = 0; i < ticks && out.phase != BRACE_TAKEUP_HOLD; i++) {
+        follow((double)out.command_rad, k);
+        if (out.phase == BRACE_TAKEUP_APPROACH || out.phase == BRACE_TAKEUP_VERIFY) {
+            TEST_ASSERT_EQUAL_INT(BRACE_BACKLASH_TAKING_UP, out.state);
+            TEST_ASSERT_TRUE(out.limit_torque);
+            TEST_ASSERT_EQUAL_INT(0, out.flank);
+        }
+    }
+}
+
+static void a_takeup_preloads_verifies_and_lets_go(void)
+{
+    for (int flank = -1; flank <= 1; flank += 2) {
+        setUp();
+        memset(&out, 0, sizeof out);
+        take_up(flank, 1e5, 4000);
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_HOLD, out.phase);
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_DONE, out.takeup);
+        for (int i = 0; i < 500; i++) {
+            follow((double)out.command_rad, 1e5);
+            TEST_ASSERT_TRUE(out.valid && out.flank == flank);
+        }
+        /* the standing motor's friction may hide that much, and the slow mean six of its sigma */
+        ASSERT_CLOSE(load_n_mm, out.preload_n_mm, friction * 1.2 + 6.0 * 32.0);
+        TEST_ASSERT_TRUE(flank * load_n_mm > 800.0);
+        TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_takeup_let_go(&joint));
+        double before = (double)out.command_rad;
+        for (int i = 0; i < 4000 && out.phase != BRACE_TAKEUP_IDLE; i++) {
+            follow((double)out.command_rad, 1e5);
+            TEST_ASSERT_TRUE(fabs((double)out.command_rad - before) < 1.01e-4); /* never faster than its rate */
+            before = (double)out.command_rad;
+        }
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_IDLE, out.phase);
+        TEST_ASSERT_TRUE(out.command_rad == 0.0f && !out.limit_torque && out.preload_n_mm == 0.0f);
+        TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_DONE, out.takeup);
+    }
+}
+
+static void expect_given_up(brace_takeup_result_t expected, const brace_takeup_bounds_t *bounds, double k)
+{
+    brace_backlash_params_t params = sound_params();
+    params.takeup = *bounds;
+    memset(&out, 0, sizeof out);
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_backlash_init(&joint, &params));
+    take_up(1, k, 3000);
+    TEST_ASSERT_EQUAL_INT(expected, out.takeup);
+    TEST_ASSERT_NOT_EQUAL(BRACE_TAKEUP_HOLD, out.phase);
+    for (int i = 0; i < 3000; i++) {
+        follow((double)out.command_rad, k);
+    }
+    TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_IDLE, out.phase);
+    TEST_ASSERT_EQUAL_INT(expected, out.takeup);
+}
+
+static void every_bound_has_its_own_result(void)
+{
+    brace_takeup_bounds_t b = sound_params().takeup;
+    expect_given_up(BRACE_TAKEUP_E_TRAVEL, &b, 0.0); /* nothing holds the link */
+    b.travel_max_rad = 1.0f;
+    expect_given_up(BRACE_TAKEUP_E_REACH, &b, 0.0);
+    b.reach_max_rad = 2.0f;
+    b.time_max_us = 300000;
+    expect_given_up(BRACE_TAKEUP_E_TIME, &b, 0.0);
+    b = sound_params().takeup;
+    /* asked for more than the noise lets pass below the bound of torque */
+    b.torque_max_n_mm = 2200.0f;
+    b.preload_n_mm = 2200.0f;
+    expect_given_up(BRACE_TAKEUP_E_TORQUE, &b, 1e5);
+}
+
+static void a_load_that_goes_away_ends_the_takeup(void)
+{
+    memset(&out, 0, sizeof out);
+    take_up(1, 1e5, 4000);
+    TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_HOLD, out.phase);
+    stand(motor_rad, 0.0, 100);
+    TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_E_LOST, out.takeup);
+    TEST_ASSERT_FALSE(out.valid);
+
+    setUp();
+    memset(&out, 0, sizeof out);
+    take_up(1, 1e5, 4000);
+    const brace_backlash_sample_t sample = {.now_us = now_us += 1000u, .motor_rad = NAN};
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, brace_backlash_tick(&joint, &sample, &out));
+    TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_E_FAULT, out.takeup);
+    TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_LET_GO, out.phase);
+}
+
+static void parameters_out_of_range_are_refused(void)
+{
+    brace_backlash_t fresh, before;
+    memset(&fresh, 0x5a, sizeof fresh);
+    before = fresh;
+    brace_backlash_params_t p = sound_params();
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_backlash_init(NULL, &p));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_backlash_init(&fresh, NULL));
+    p.gap_rad = 0.0f;
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_backlash_init(&fresh, &p));
+    p.gap_rad = NAN;
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, brace_backlash_init(&fresh, &p));
+    p = sound_params();
+    p.tick_us = 50;
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_backlash_init(&fresh, &p));
+    p = sound_params();
+    p.takeup.verify_us = 0;
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_backlash_init(&fresh, &p));
+    p = sound_params();
+    p.takeup.torque_max_n_mm = 900.0f; /* could not be told from friction and noise */
+    TEST_ASSERT_EQUAL_INT(BRACE_E_PARAMETER, brace_backlash_init(&fresh, &p));
+    TEST_ASSERT_EQUAL_INT(0, memcmp(&before, &fresh, sizeof fresh));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_backlash_tick(NULL, NULL, NULL));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_takeup_request(NULL, 1));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_takeup_request(&joint, 0));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_takeup_let_go(NULL));
+    TEST_ASSERT_EQUAL_UINT32(0, brace_backlash_detection_us(NULL));
+}
+
+/* The tip where the corrected angles put it, by the kinematics themselves: linear to offset^2 times the reach. */
+static void the_tip_shifts_by_gap_times_lever(void)
+{
+    const brace_limb_t *limb = &sample_limb[SAMPLE_PAPER];
+    brace_pose_t at, shifted;
+    brace_point_t shift;
+    const float one = 0.004f, two = -0.003f;
+    brace_kinematics_forward(limb, 1.0f, 1.4f, &at);
+    brace_kinematics_forward(limb, 1.0f + one, 1.4f + two, &shifted);
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_backlash_tip_shift(&at, one, two, &shift));
+    ASSERT_CLOSE((double)shifted.tip.x_mm - (double)at.tip.x_mm, shift.x_mm, 0.02);
+    ASSERT_CLOSE((double)shifted.tip.z_mm - (double)at.tip.z_mm, shift.z_mm, 0.02);
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_backlash_tip_shift(NULL, one, two, &shift));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, brace_backlash_tip_shift(&at, NAN, two, &shift));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_backlash_tip_shift(&at, one, 0.6f, &shift));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(a_load_engages_its_flank_whatever_the_motion);
+    RUN_TEST(nothing_is_told_of_a_load_within_friction);
+    RUN_TEST(a_lost_load_is_not_valid_past_the_detection_time);
+    RUN_TEST(a_reversal_crosses_with_the_motors_travel);
+    RUN_TEST(a_load_reversal_of_a_standing_motor_is_seen);
+    RUN_TEST(an_expected_load_tells_but_never_proves);
+    RUN_TEST(bad_and_late_samples_are_a_fault_that_heals);
+    RUN_TEST(a_takeup_preloads_verifies_and_lets_go);
+    RUN_TEST(every_bound_has_its_own_result);
+    RUN_TEST(a_load_that_goes_away_ends_the_takeup);
+    RUN_TEST(parameters_out_of_range_are_refused);
+    RUN_TEST(the_tip_shifts_by_gap_times_lever);
+    return UNITY_END();
+}
