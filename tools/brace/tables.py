@@ -11,6 +11,8 @@ from brace.errors import BadFileError
 from brace.model import LimbModel
 
 REACH_SLACK_MM = 1e-6
+REACH_FLOOR_MM = 1.0  # a tip is not better known than this
+REACH_SIGMAS = 4.0
 
 
 @dataclass(frozen=True)
@@ -52,11 +54,64 @@ class TablePoses:
         return np.column_stack([theta1, theta2])
 
 
+def _tip_mm(model: LimbModel, angles_rad: np.ndarray) -> np.ndarray:
+    """rows x (x, z) of the tip at true angles."""
+    femur, tibia = model.number("geometry.femur_mm"), model.number("geometry.tibia_mm")
+    shank = angles_rad[:, 0] - angles_rad[:, 1]
+    x_mm = femur * np.cos(angles_rad[:, 0]) + tibia * np.cos(shank)
+    return np.column_stack([x_mm, femur * np.sin(angles_rad[:, 0]) + tibia * np.sin(shank)])
+
+
+def _refuse_other_reach(dataset: Dataset, model: LimbModel, poses: TablePoses) -> None:
+    """Refuses rows whose angles put this model's tip elsewhere than r_mm (and z_mm) say, beyond what print rounding
+    and the trust in lengths and angles allow."""
+    assert poses.angles_rad is not None
+    angles = poses.true_angles(model)
+    turned = angles - poses.angles_rad + np.radians(poses.angles_rad)
+    rounding_rad = 0.5 * 10.0 ** -dataset.decimals.get("theta2_rad", 0)
+    trust_mm = 1.5 * model.number("uncertainty.length_mm")  # two lengths
+    trust_rad = model.number("uncertainty.angle_rad")
+    shorter_mm = min(model.number("geometry.femur_mm"), model.number("geometry.tibia_mm"))
+    # how far the tip goes per radian: r depends on the knee alone, by the shorter length at most
+    levers = {"r_mm": np.full_like(poses.r_mm, shorter_mm), "z_mm": 2 * poses.r_mm + shorter_mm}
+    for name, lever_mm in levers.items():
+        if name not in dataset:
+            continue
+        printed = dataset[name]
+        found, in_degrees = (
+            np.hypot(*_tip_mm(model, at).T) if name == "r_mm" else _tip_mm(model, at)[:, 1] for at in (angles, turned)
+        )
+        allowed = (
+            REACH_FLOOR_MM
+            + 0.5 * 10.0 ** -dataset.decimals.get(name, 0)
+            + REACH_SIGMAS * trust_mm
+            + (rounding_rad + REACH_SIGMAS * trust_rad) * lever_mm
+        )
+        apart = np.abs(found - printed) > allowed
+        if not apart.any():
+            continue
+        row = int(np.argmax(apart))
+        degrees = bool((np.abs(in_degrees - printed) <= allowed).all())
+        raise BadFileError(
+            f"{name} = {printed[row]:g} contradicts the row's angles",
+            where=f"{dataset.csv_path}:{row + 2} (row {row + 1}), {name}",
+            why=f"this limb's tip is at {name} = {found[row]:.4g} with theta1 = {poses.angles_rad[row, 0]:g} and "
+            f"theta2 = {poses.angles_rad[row, 1]:g} rad",
+            next_step=(
+                "the angles fit in degrees: multiply both columns by pi/180"
+                if degrees
+                else "check the row, the model's lengths and zero offsets, or drop the angle columns"
+            ),
+        )
+
+
 def table_poses(dataset: Dataset, model: LimbModel, knee: str = "up") -> TablePoses:
     """Reads the postures out of a table; refuses rows out of the model's reach."""
     if "theta1_rad" in dataset and "theta2_rad" in dataset:
         angles = np.column_stack([dataset["theta1_rad"], dataset["theta2_rad"]])
-        return TablePoses(dataset["r_mm"], None, angles)
+        poses = TablePoses(dataset["r_mm"], None, angles)
+        _refuse_other_reach(dataset, model, poses)
+        return poses
     femur, tibia = model.number("geometry.femur_mm"), model.number("geometry.tibia_mm")
     r_mm = dataset["r_mm"]
     out = (r_mm > femur + tibia + REACH_SLACK_MM) | (r_mm < abs(femur - tibia) - REACH_SLACK_MM)

@@ -10,13 +10,12 @@ import numpy as np
 
 from brace.dataset import check_readings, check_runs, check_slopes
 from brace.dataset.check_runs import MAX_LISTED, run_starts
-from brace.dataset.columns import FULL_TURN_RAD
+from brace.dataset.columns import ANGLE_LIMIT_RAD, FULL_TURN_RAD
 from brace.dataset.faults import DataFault
 from brace.dataset.meta import Meta
 from brace.dataset.unit_slips import LENGTH_SLIPS, slip_of
 
 Columns = Mapping[str, np.ndarray]
-ANGLE_LIMIT_RAD = {"theta1_rad": FULL_TURN_RAD, "theta2_rad": FULL_TURN_RAD / 2}
 ANGLE_SLACK_RAD = 1e-6
 
 

@@ -74,3 +74,4 @@ KINDS: dict[str, tuple[Column, ...]] = {
 
 MAX_INT = 2**31 - 1
 FULL_TURN_RAD = 2 * math.pi
+ANGLE_LIMIT_RAD = {"theta1_rad": FULL_TURN_RAD, "theta2_rad": math.pi}  # a femur turns round, a knee half

@@ -19,7 +19,26 @@ FORCE_SLIPS = {
     1e3 / 9.80665: ("gf", 9.80665e-3),
     1 / 4.4482216: ("lbf", 4.4482216),
 }
-STIFFNESS_SLIPS = {1e3: ("N/m", 1e-3), 1e-3: ("N/um", 1e3), 1e6: ("mN/m", 1e-6)}
+# unit that a table's source may print -> what turns it into N/mm
+STIFFNESS_UNITS = {
+    "N/mm": 1.0,
+    "Nmm^-1": 1.0,
+    "kN/m": 1.0,
+    "N/m": 1e-3,
+    "Nm^-1": 1e-3,
+    "N/metre": 1e-3,
+    "N/meter": 1e-3,
+    "mN/m": 1e-6,
+    "N/cm": 0.1,
+    "N/um": 1e3,
+    "kN/mm": 1e3,
+    "MN/m": 1e3,
+    "kgf/mm": 9.80665,
+    "kgf/cm": 0.980665,
+    "gf/mm": 9.80665e-3,
+    "lb/in": 0.17512685,
+    "lbf/in": 0.17512685,
+}
 
 
 def slip_of(ratio: float, slips: dict[float, tuple[str, float]], within: float = 1.4) -> tuple[str, float]:
