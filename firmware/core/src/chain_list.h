@@ -19,8 +19,7 @@ float brace_chain_base(const brace_limb_t *limb, brace_element_t *element);
  * returns iso. element: room for BRACE_CHAIN_MAX. limb has passed brace_limb_check. */
 float brace_chain_list(const brace_limb_t *limb, int with_coxa, brace_element_t *element, uint32_t *count);
 
-/* brace_harmonics of a bare list; base parts are not looked at. */
-brace_status_t brace_harmonics_list(float iso, const brace_element_t *element, uint32_t count,
-                                    brace_harmonics_t *harmonics);
+/* brace_harmonics of a bare list; base parts are not looked at, femur and tibia parts are used up. */
+void brace_harmonics_list(float iso, brace_element_t *element, uint32_t count, brace_harmonics_t *harmonics);
 
 #endif

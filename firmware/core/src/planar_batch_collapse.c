@@ -64,12 +64,9 @@ brace_status_t brace_planar_batch_collapse(const brace_limb_t *limb, brace_plana
     }
     brace_element_t element[BRACE_CHAIN_FIRM];
     const float iso = brace_chain_firm(limb, element) + limb->base.x_mm_per_n;
-    brace_harmonics_t plane;
-    status = brace_harmonics_list(iso, element, BRACE_CHAIN_FIRM, &plane);
-    if (status != BRACE_OK) {
-        return status;
-    }
     const brace_det_t det = brace_det_of(iso, element, BRACE_CHAIN_FIRM);
+    brace_harmonics_t plane;
+    brace_harmonics_list(iso, element, BRACE_CHAIN_FIRM, &plane);
     const double mean_most = (double)plane.mean.at_fold + (double)plane.mean.per_cos +
                              hypot(plane.mean.per_cos, plane.mean.per_sin);
     uint32_t flags;

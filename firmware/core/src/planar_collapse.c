@@ -15,6 +15,6 @@ brace_status_t brace_planar_collapse(const brace_limb_t *limb, brace_planar_t *p
     brace_harmonics_t h;
     brace_element_t element[BRACE_CHAIN_FIRM];
     h.iso_mm_per_n = limb->base.x_mm_per_n;
-    (void)brace_harmonics_list(brace_chain_firm(limb, element) + h.iso_mm_per_n, element, BRACE_CHAIN_FIRM, &h);
+    brace_harmonics_list(brace_chain_firm(limb, element) + h.iso_mm_per_n, element, BRACE_CHAIN_FIRM, &h);
     return brace_planar_constants(&h, planar);
 }

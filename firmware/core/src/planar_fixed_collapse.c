@@ -121,8 +121,8 @@ brace_status_t brace_planar_fixed_collapse(const brace_limb_t *limb, brace_plana
     {
         brace_element_t element[BRACE_CHAIN_FIRM];
         const float iso = brace_chain_firm(limb, element) + limb->base.x_mm_per_n;
-        (void)brace_harmonics_list(iso, element, BRACE_CHAIN_FIRM, &plane);
         det = brace_det_of(iso, element, BRACE_CHAIN_FIRM);
+        brace_harmonics_list(iso, element, BRACE_CHAIN_FIRM, &plane);
     }
     return quantise(&plane, &det, fixed);
 }

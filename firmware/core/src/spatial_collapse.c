@@ -62,6 +62,6 @@ brace_status_t brace_spatial_collapse(const brace_limb_t *limb, brace_spatial_t 
     float iso = collapse_still(limb, spatial);
     brace_element_t element[BRACE_CHAIN_FIRM];
     iso += brace_chain_firm(limb, element);
-    (void)brace_harmonics_list(iso, element, BRACE_CHAIN_FIRM, &spatial->plane);
+    brace_harmonics_list(iso, element, BRACE_CHAIN_FIRM, &spatial->plane);
     return BRACE_OK;
 }
