@@ -36,7 +36,17 @@ class BraceError(Exception):
             lines.append(f"  why: {self.why}")
         if self.next_step:
             lines.append(f"  try: {self.next_step}")
-        return "\n".join(lines)
+        return "\n".join(printable(line) for line in lines)
+
+
+def printable(text: str) -> str:
+    """Text with what would steer a terminal (escape sequences in names, say) written out."""
+    if text.isprintable():
+        return text
+    return "".join(
+        character if character.isprintable() or character == "\n" else character.encode("unicode_escape").decode()
+        for character in text
+    )
 
 
 class UsageError(BraceError):
@@ -60,9 +70,9 @@ def place(path: Path | str, line: int | None = None) -> str:
     return f"{path}:{line}" if line else str(path)
 
 
-def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """The known word nearest to a misspelt one, or an empty string."""
+def did_you_mean(word: str, known: Iterable[str], likeness: float = 0.65) -> str:
+    """The known word nearest to a misspelt one, or an empty string when none is at least so like it."""
     choices = list(known)
     lowered = {choice.lower(): choice for choice in choices}
-    near = difflib.get_close_matches(word.lower(), list(lowered), n=1, cutoff=0.6)
+    near = difflib.get_close_matches(word.lower(), list(lowered), n=1, cutoff=likeness)
     return lowered[near[0]] if near else ""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import stat
 import tempfile
+from collections.abc import Iterable
 from pathlib import Path
 
 from brace.errors import BadFileError, UsageError
@@ -90,19 +91,24 @@ def _nearby(path: Path) -> str:
 
     if not path.parent.is_dir():
         return f"the folder {path.parent} does not exist either; check the path"
-    near = did_you_mean(path.name, sorted(entry.name for entry in path.parent.iterdir())[:1000])
-    return f"did you mean {path.parent / near}?" if near else "check the path"
+    beside = {entry.stem: entry.name for entry in sorted(path.parent.iterdir())[:1000] if entry.suffix == path.suffix}
+    near = did_you_mean(path.stem, beside, likeness=0.75)  # the same ending makes no likeness
+    if near:
+        return f"did you mean {path.parent / beside[near]}?"
+    return "check the path"
 
 
 class OutputSet:
     """Files that appear together or not at all.
 
     `add` stages content beside its destination; `commit` puts everything in place by renaming. Leaving the
-    `with` block without `commit` removes what was staged and touches nothing else.
+    `with` block without `commit` removes what was staged and touches nothing else. A destination that is one of
+    the `inputs` is refused.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, inputs: Iterable[Path] = ()) -> None:
         self._staged: list[tuple[Path, Path]] = []
+        self._inputs = tuple(inputs)
 
     def __enter__(self) -> OutputSet:
         return self
@@ -113,13 +119,7 @@ class OutputSet:
 
     def add(self, final: Path, content: bytes | str) -> None:
         """Stage one file; an existing destination is replaced at commit."""
-        if final.is_dir():
-            raise UsageError(
-                "a folder is in the way of the output file",
-                where=str(final),
-                why="a folder is not replaced by a file",
-                next_step="choose another --out",
-            )
+        final = checked_destination(final, self._inputs)
         data = content.encode() if isinstance(content, str) else content
         anchor = _existing_parent(final)
         try:
@@ -155,11 +155,51 @@ class OutputSet:
         self._staged.clear()
 
 
-def write_file(path: Path, content: bytes | str) -> None:
-    """One file, whole or not at all."""
-    with OutputSet() as outputs:
+def write_file(path: Path, content: bytes | str, inputs: Iterable[Path] = ()) -> None:
+    """One file, whole or not at all, and never over one of the `inputs`."""
+    with OutputSet(inputs) as outputs:
         outputs.add(path, content)
         outputs.commit()
+
+
+def checked_destination(path: Path, inputs: Iterable[Path] = ()) -> Path:
+    """Where a file will be written: symbolic links followed, so that the file they lead to is replaced and the
+    link stays. Refuses what is no regular file, and the `inputs`."""
+    try:
+        final = path.resolve()
+        kind = final.stat().st_mode
+    except (FileNotFoundError, NotADirectoryError):
+        return final  # nothing there yet
+    except (OSError, RuntimeError, ValueError) as error:
+        raise UsageError(
+            "the output cannot be written",
+            where=str(path),
+            why=getattr(error, "strerror", None) or str(error),
+            next_step="choose another --out",
+        ) from None
+    if stat.S_ISDIR(kind):
+        raise UsageError(
+            "a folder is in the way of the output file",
+            where=str(path),
+            why="a folder is not replaced by a file",
+            next_step="choose another --out",
+        )
+    if not stat.S_ISREG(kind):
+        raise UsageError(
+            "the output would replace what is no regular file",
+            where=str(path),
+            why="devices, pipes and sockets are not replaced; output is a file put in place whole",
+            next_step="choose a file for --out; --json prints to stdout",
+        )
+    for source in inputs:
+        if source.exists() and os.path.samefile(source, final):
+            raise UsageError(
+                "the output would replace an input",
+                where=str(path),
+                why=f"it is the file that {source} is read from",
+                next_step="choose another --out",
+            )
+    return final
 
 
 def _existing_parent(path: Path) -> Path:

@@ -67,6 +67,13 @@ def flag_names(flags: int) -> list[str]:
     return [name for bit, name in enumerate(FLAG_NAMES) if flags >> bit & 1]
 
 
+def within_half_turn(angle_rad: Any) -> Any:
+    """The same direction in [-pi, pi]; what lies there already is left as it is, bit for bit."""
+    turned = np.remainder(np.asarray(angle_rad) + np.pi, 2 * np.pi) - np.pi
+    kept = np.where(np.abs(angle_rad) <= np.pi, angle_rad, turned)
+    return kept if np.ndim(angle_rad) else float(kept)
+
+
 @dataclass(frozen=True)
 class PlanarLimb:
     """A limb ready to give K in its plane. `path` says which of the firmware's functions answers."""

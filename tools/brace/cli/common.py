@@ -1,4 +1,4 @@
-"""What the subcommands share: options, --json, notices, progress."""
+"""What the subcommands share: --model, --json, notices, progress."""
 
 from __future__ import annotations
 
@@ -12,12 +12,32 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+from brace.cli.options import angle, count, flexion, number, path, positive
+from brace.cli.streams import emit
+from brace.cli.streams import say as _say
+
+__all__ = [
+    "add_json",
+    "add_model",
+    "angle",
+    "count",
+    "emit",
+    "flexion",
+    "json_ready",
+    "number",
+    "path",
+    "positive",
+    "print_json",
+    "progress",
+    "say",
+]
+
 PROGRESS_AFTER_S = 2.0
 
 
 def add_model(parser: argparse.ArgumentParser, meaning: str = "the limb model") -> None:
     """--model limb.toml"""
-    parser.add_argument("--model", type=Path, required=True, metavar="LIMB.toml", help=meaning)
+    parser.add_argument("--model", type=path, required=True, metavar="LIMB.toml", help=meaning)
 
 
 def add_json(parser: argparse.ArgumentParser) -> None:
@@ -27,43 +47,9 @@ def add_json(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def number(text: str) -> float:
-    """A finite number from the command line."""
-    try:
-        value = float(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a number") from None
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"{text!r} is not finite")
-    return value
-
-
-def positive(text: str) -> float:
-    """A finite number above zero."""
-    value = number(text)
-    if value <= 0:
-        raise argparse.ArgumentTypeError(f"{text!r} is not positive")
-    return value
-
-
-def count(low: int, high: int) -> Callable[[str], int]:
-    """A whole number in [low, high]."""
-
-    def parse(text: str) -> int:
-        try:
-            value = int(text)
-        except ValueError:
-            raise argparse.ArgumentTypeError(f"{text!r} is not a whole number") from None
-        if not low <= value <= high:
-            raise argparse.ArgumentTypeError(f"{value} is not in [{low}, {high}]")
-        return value
-
-    return parse
-
-
 def print_json(data: dict[str, Any]) -> None:
     """One JSON object on stdout; what is not finite becomes null, since JSON has no word for it."""
-    print(json.dumps(json_ready(data), indent=1))
+    emit(json.dumps(json_ready(data), indent=1))
 
 
 def json_ready(value: Any) -> Any:
@@ -75,7 +61,7 @@ def json_ready(value: Any) -> Any:
     if hasattr(value, "tolist"):
         return json_ready(value.tolist())
     if isinstance(value, float):
-        return value if math.isfinite(value) else None
+        return value + 0.0 if math.isfinite(value) else None  # -0 is 0
     if isinstance(value, Path):
         return str(value)
     return value
@@ -83,7 +69,7 @@ def json_ready(value: Any) -> Any:
 
 def say(text: str) -> None:
     """A message for the person, on stderr."""
-    print(f"brace: {text}", file=sys.stderr)
+    _say(f"brace: {text}")
 
 
 @contextlib.contextmanager
@@ -93,7 +79,7 @@ def progress(label: str, total: int | None = None) -> Iterator[Callable[[int], N
     bar: list[Any] = []
 
     def advance(done: int) -> None:
-        if not sys.stderr.isatty() or time.monotonic() - started < PROGRESS_AFTER_S:
+        if sys.stderr is None or not sys.stderr.isatty() or time.monotonic() - started < PROGRESS_AFTER_S:
             return
         if not bar:
             from rich.console import Console

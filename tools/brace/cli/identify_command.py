@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import Any
 
 from brace.cli import common
+from brace.errors import UsageError
 
 STEPS = 20
 
@@ -20,9 +20,9 @@ def add(commands: Any) -> None:
         "its 90 % interval (not identifiable: infinite), correlations, the classes that the record "
         "cannot tell apart, and the share of joints and structure. Writes the fitted model.",
     )
-    parser.add_argument("dataset", type=Path, metavar="DATASET", help="folder with meta.toml and data.csv")
+    parser.add_argument("dataset", type=common.path, metavar="DATASET", help="folder with meta.toml and data.csv")
     common.add_model(parser, "the start, and the trust put in it")
-    parser.add_argument("--out", type=Path, required=True, metavar="FITTED.toml", help="the fitted model")
+    parser.add_argument("--out", type=common.path, required=True, metavar="FITTED.toml", help="the fitted model")
     mode = parser.add_mutually_exclusive_group()
     mode.add_argument(
         "--prior",
@@ -73,17 +73,18 @@ def add(commands: Any) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from brace.dataset import load_dataset
-    from brace.files import write_file
+    from brace.files import checked_destination, write_file
     from brace.identify import report
-    from brace.identify.parameters import checked_keys
     from brace.identify.run import Options, identify
     from brace.identify.table import Weight
     from brace.model import load_limb
 
+    inputs = [arguments.model, arguments.dataset / "data.csv", arguments.dataset / "meta.toml"]
+    checked_destination(arguments.out, inputs)  # before the work, not after
     options = Options(
         mode=arguments.mode or "",
-        extra_keys=tuple(checked_keys(arguments.fit)),
-        only_keys=tuple(checked_keys(arguments.only)),
+        extra_keys=tuple(_keys_of("--fit", arguments.fit)),
+        only_keys=tuple(_keys_of("--only", arguments.only)),
         faults=arguments.faults,
         knee=arguments.knee,
         weight=Weight(arguments.sigma, max(0.0, arguments.sigma_rel)),
@@ -96,10 +97,22 @@ def run(arguments: argparse.Namespace) -> int:
         result = identify(dataset, model, options, advance)
     for text in result.done_to_data:
         common.say(f"data: {text}")
-    write_file(arguments.out, result.model.to_toml(report.header(result)))
+    write_file(arguments.out, result.model.to_toml(report.header(result)), inputs)
     if arguments.json:
         common.print_json({**report.as_json(result), "out": arguments.out})
     else:
-        print(report.as_text(result))
+        common.emit(report.as_text(result))
         common.say(f"fitted model -> {arguments.out}")
     return 0
+
+
+def _keys_of(option: str, keys: list[str]) -> list[str]:
+    """Keys to fit; a refusal names the option that gave them."""
+    from brace.identify.parameters import checked_keys
+
+    try:
+        return checked_keys(keys)
+    except UsageError as error:
+        error.what = error.what.replace("--fit", option)
+        error.next_step = error.next_step.replace("--fit", option)
+        raise

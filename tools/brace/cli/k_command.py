@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import Any
 
 from brace.cli import common
@@ -19,14 +18,15 @@ def add(commands: Any) -> None:
         help="K, C, eigenvalues and stiff axis at a posture",
         description="K [N/mm], C [mm/N], eigenvalues [N/mm], stiff axis [rad] at a posture, computed by the firmware's "
         "own C. With --theta0 (or a theta0_rad column) in space, otherwise in the limb's plane. Angles are "
-        "commanded ones: the model's zero offsets are added.",
+        "commanded ones: the model's zero offsets are added; theta0, theta1 and phi lie within a full turn, theta2 in "
+        "[-pi, pi].",
     )
     common.add_model(parser)
-    parser.add_argument("--theta0", type=common.number, metavar="RAD", help="coxa yaw: K in space (3x3)")
-    parser.add_argument("--theta1", type=common.number, metavar="RAD", help="femur angle from +x")
-    parser.add_argument("--theta2", type=common.number, metavar="RAD", help="knee flexion, 0 is straight")
+    parser.add_argument("--theta0", type=common.angle, metavar="RAD", help="coxa yaw: K in space (3x3)")
+    parser.add_argument("--theta1", type=common.angle, metavar="RAD", help="femur angle from +x")
+    parser.add_argument("--theta2", type=common.flexion, metavar="RAD", help="knee flexion, 0 is straight")
     parser.add_argument("--r", type=common.positive, metavar="MM", help="tip distance, instead of the angles")
-    parser.add_argument("--phi", type=common.number, metavar="RAD", help="tip direction from +x, with --r")
+    parser.add_argument("--phi", type=common.angle, metavar="RAD", help="tip direction from +x, with --r")
     parser.add_argument("--knee", choices=("up", "down"), help="which posture reaches (r, phi); default up")
     parser.add_argument(
         "--arith",
@@ -35,10 +35,10 @@ def add(commands: Any) -> None:
         help="the controller's float path (default), its fixed-point path, the general chain, the table",
     )
     parser.add_argument(
-        "--csv", type=Path, metavar="IN", help="many postures: columns theta1_rad,theta2_rad[,theta0_rad]"
+        "--csv", type=common.path, metavar="IN", help="many postures: columns theta1_rad,theta2_rad[,theta0_rad]"
     )
     parser.add_argument(
-        "--out", type=Path, metavar="OUT", help="with --csv: the same rows with K's columns added"
+        "--out", type=common.path, metavar="OUT", help="with --csv: the same rows with K's columns added"
     )
     common.add_json(parser)
     parser.set_defaults(run=run)
@@ -76,13 +76,8 @@ def _check_usage(arguments: argparse.Namespace) -> None:
             why="a single posture is printed, not written",
             next_step="use --json, or --csv IN --out OUT",
         )
-    by_angles, by_polar = all(v is not None for v in angles), all(v is not None for v in polar)
-    if by_angles == by_polar or (any(v is not None for v in angles) and any(v is not None for v in polar)):
-        raise UsageError(
-            "no posture, or half of one, or two",
-            why="one posture is needed",
-            next_step="--theta1 RAD --theta2 RAD, or --r MM --phi RAD [--knee up|down]",
-        )
+    _check_one_posture(arguments)
+    by_angles = arguments.theta1 is not None
     if by_angles and arguments.knee:
         raise UsageError("--knee with --theta2", why="the angles say it already", next_step="drop --knee")
     if arguments.theta0 is not None and arguments.arith != "f32":
@@ -93,6 +88,35 @@ def _check_usage(arguments: argparse.Namespace) -> None:
         )
 
 
+def _check_one_posture(arguments: argparse.Namespace) -> None:
+    given = {
+        name: value
+        for name in ("theta1", "theta2", "r", "phi")
+        if (value := getattr(arguments, name)) is not None
+    }
+    options = " and ".join(f"--{name}" for name in given)
+    if set(given) in ({"theta1", "theta2"}, {"r", "phi"}):
+        return
+    if not given:
+        raise UsageError(
+            "no posture is given",
+            why="K depends on it",
+            next_step="--theta1 RAD --theta2 RAD, or --r MM --phi RAD [--knee up|down], or --csv IN --out OUT",
+        )
+    if given.keys() & {"theta1", "theta2"} and given.keys() & {"r", "phi"}:
+        raise UsageError(
+            f"{options}: two ways to give the posture",
+            why="joint angles and tip coordinates may contradict each other",
+            next_step="keep --theta1 and --theta2, or --r and --phi",
+        )
+    other = {"theta1": "--theta2 RAD", "theta2": "--theta1 RAD", "r": "--phi RAD", "phi": "--r MM"}
+    raise UsageError(
+        f"{options} alone is half a posture",
+        why="the limb has two joints in its plane",
+        next_step=f"add {other[next(iter(given))]}",
+    )
+
+
 def _run_single(arguments: argparse.Namespace, model: Any) -> int:
     import numpy as np
 
@@ -101,12 +125,13 @@ def _run_single(arguments: argparse.Namespace, model: Any) -> int:
     limb = stiffness.planar_limb(model, arguments.arith)
     try:
         if arguments.r is not None:
-            true1, true2 = limb.posture(arguments.r, arguments.phi, arguments.knee or "up")
+            true1, true2 = limb.posture(arguments.r, stiffness.within_half_turn(arguments.phi), arguments.knee or "up")
             offset1, offset2 = (float(a[0]) for a in limb.true_angles(np.zeros(1), np.zeros(1)))
             theta1, theta2 = true1 - offset1, true2 - offset2
         else:
             theta1, theta2 = arguments.theta1, arguments.theta2
             true1, true2 = (float(a[0]) for a in limb.true_angles(np.array([theta1]), np.array([theta2])))
+            true1 = stiffness.within_half_turn(true1)
         r_mm, phi_rad = limb.polar(true1, true2)
         if arguments.theta0 is not None:
             result = stiffness.spatial_stiffness(
@@ -118,7 +143,7 @@ def _run_single(arguments: argparse.Namespace, model: Any) -> int:
             sigma = limb.sigma(true1, true2)
     except stiffness.PostureError as error:
         raise _refused(error, arguments, model) from None
-    values = {name: result[name][0].item() for name in result.dtype.names or ()}
+    values = {name: result[name][0].item() + 0 for name in result.dtype.names or ()}  # -0 is 0
     posture = {
         "theta1_rad": theta1,
         "theta2_rad": theta2,
@@ -126,7 +151,7 @@ def _run_single(arguments: argparse.Namespace, model: Any) -> int:
         "theta2_true_rad": true2,
         "r_mm": r_mm,
         "phi_rad": phi_rad,
-        "knee": "down" if theta2 < 0 else "up",
+        "knee": "down" if true2 < 0 else "up",
     }
     if arguments.theta0 is not None:
         posture["theta0_rad"] = arguments.theta0
@@ -143,24 +168,35 @@ def _run_single(arguments: argparse.Namespace, model: Any) -> int:
             }
         )
     else:
-        print(_text(model.name, values, sigma, posture, path, stiffness.flag_names(values["flags"])))
+        common.emit(_text(model.name, values, sigma, posture, path, stiffness.flag_names(values["flags"])))
     return 0
 
 
 def _refused(error: Any, arguments: argparse.Namespace, model: Any) -> UsageError:
-    from brace.stiffness import E_UNREACHABLE
+    from brace.stiffness import E_SINGULAR, E_UNREACHABLE
 
     if error.status == E_UNREACHABLE:
         femur, tibia = model.number("geometry.femur_mm"), model.number("geometry.tibia_mm")
         return UsageError(
-            f"r = {arguments.r:g} mm is out of reach",
+            f"--r {arguments.r:g} is out of reach",
             why=error.text,
             next_step=f"{abs(femur - tibia):g} <= r <= {femur + tibia:g} mm",
         )
+    given = ("theta0", "theta1", "theta2", "r", "phi")
+    options = " ".join(
+        f"--{name} {getattr(arguments, name):g}" for name in given if getattr(arguments, name) is not None
+    )
+    if error.status == E_SINGULAR:
+        return UsageError(
+            f"{options}: C is singular at this posture",
+            where=model.where("link"),
+            why=error.text,
+            next_step="another posture, or give the links their axial_mm_per_n (in space lateral_mm_per_n too)",
+        )
     return UsageError(
-        "this posture is refused",
+        f"{options}: this posture is refused",
         why=error.text,
-        next_step="angles in [-pi, pi] rad; --theta1 is not " "in degrees",
+        next_step="theta2 in [-pi, pi] rad, the others within a full turn; zero offsets count",
     )
 
 

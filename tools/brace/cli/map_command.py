@@ -22,7 +22,7 @@ def add(commands: Any) -> None:
     )
     common.add_model(parser)
     parser.add_argument(
-        "--out", type=Path, default=Path("brace-map"), metavar="DIR", help="default: brace-map"
+        "--out", type=common.path, default=Path("brace-map"), metavar="DIR", help="default: brace-map"
     )
     parser.add_argument(
         "--postures",
@@ -33,7 +33,7 @@ def add(commands: Any) -> None:
     )
     parser.add_argument(
         "--theta1",
-        type=common.number,
+        type=common.angle,
         nargs=2,
         default=(-math.pi / 2, math.pi / 2),
         metavar=("LOW", "HIGH"),
@@ -41,7 +41,7 @@ def add(commands: Any) -> None:
     )
     parser.add_argument(
         "--theta2",
-        type=common.number,
+        type=common.angle,
         nargs=2,
         default=(0.0, math.pi),
         metavar=("LOW", "HIGH"),
@@ -62,10 +62,10 @@ def run(arguments: argparse.Namespace) -> int:
 
     for name in ("theta1", "theta2"):
         low, high = getattr(arguments, name)
-        if not -math.pi - 1e-9 <= low < high <= math.pi + 1e-9:
+        if not -math.pi - 1e-5 <= low < high <= math.pi + 1e-5:
             raise UsageError(
                 f"--{name} {low:g} {high:g} is no range",
-                why="angles are in rad, low before high, within " "[-pi, pi]",
+                why="low comes before high, both in rad within [-pi, pi], not in degrees",
                 next_step=f"--{name} -1.5 1.5",
             )
     model = load_limb(arguments.model)
@@ -74,14 +74,14 @@ def run(arguments: argparse.Namespace) -> int:
             model, arguments.postures, tuple(arguments.theta1), tuple(arguments.theta2), advance
         )
     summary = _summary(model.name, grid)
-    with OutputSet() as outputs:
+    with OutputSet([arguments.model]) as outputs:
         for name, content in _files(model, grid, arguments.npy):
             outputs.add(arguments.out / name, content)
         outputs.commit()
     if arguments.json:
         common.print_json({**summary, "out": arguments.out})
     else:
-        print(_text(summary, arguments.out))
+        common.emit(_text(summary, arguments.out))
     return 0
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import Any
 
 from brace.cli import common
@@ -18,10 +17,10 @@ def add(commands: Any) -> None:
         "(and encoder and gauge columns where the dataset has them), torque_n_mm for joint tests, K's "
         "columns in N/mm for stiffness tables.",
     )
-    parser.add_argument("dataset", type=Path, metavar="DATASET", help="folder with meta.toml and data.csv")
+    parser.add_argument("dataset", type=common.path, metavar="DATASET", help="folder with meta.toml and data.csv")
     common.add_model(parser)
     parser.add_argument(
-        "--out", type=Path, required=True, metavar="PRED.csv", help="file of the predicted columns"
+        "--out", type=common.path, required=True, metavar="PRED.csv", help="file of the predicted columns"
     )
     parser.add_argument(
         "--tip-height-mm",
@@ -55,7 +54,8 @@ def run(arguments: argparse.Namespace) -> int:
     columns = prediction.columns
     texts = [[f"{value:.9g}" for value in (values + 0.0).tolist()] for values in columns.values()]
     lines = [",".join(columns), *(",".join(row) for row in zip(*texts))]
-    write_file(arguments.out, "\n".join(lines) + "\n")
+    inputs = [arguments.model, dataset.csv_path, dataset.folder / "meta.toml"]
+    write_file(arguments.out, "\n".join(lines) + "\n", inputs)
     gap = {
         f"rms_gap_{name}": float(np.sqrt(np.mean((values - dataset[name]) ** 2)))
         for name, values in columns.items()

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from brace.cli import common
+from brace.errors import BraceError, UsageError
 
 
 def add(commands: Any) -> None:
@@ -20,12 +21,12 @@ def add(commands: Any) -> None:
     common.add_model(parser, "the true limb")
     parser.add_argument(
         "--rig",
-        type=Path,
+        type=common.path,
         required=True,
         metavar="RIG.toml",
         help="poses, axes, steps, noise; brace/data/paper-rig.toml is an example",
     )
-    parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder of the dataset")
+    parser.add_argument("--out", type=common.path, required=True, metavar="DIR", help="folder of the dataset")
     parser.add_argument("--seed", type=common.count(0, 2**63 - 1), help="instead of the rig file's seed")
     common.add_json(parser)
     parser.set_defaults(run=run)
@@ -36,6 +37,7 @@ def run(arguments: argparse.Namespace) -> int:
     from dataclasses import replace
 
     from brace.dataset.write import write_dataset
+    from brace.files import checked_destination
     from brace.model import load_limb
     from brace.rig import load_rig
     from brace.simulate import simulate
@@ -44,6 +46,10 @@ def run(arguments: argparse.Namespace) -> int:
     rig = load_rig(arguments.rig)
     if arguments.seed is not None:
         rig = replace(rig, values={**rig.values, "seed": arguments.seed})
+    _refuse_measured(arguments.out)
+    inputs = [arguments.model, arguments.rig]
+    for name in ("meta.toml", "data.csv"):
+        checked_destination(arguments.out / name, inputs)
     meta, columns = simulate(model, rig)
     write_dataset(arguments.out, meta, columns)
     rows = len(columns["run"])
@@ -60,3 +66,25 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         common.say(f"{rows} rows, {len(rig.poses)} configurations -> {arguments.out}")
     return 0
+
+
+def _refuse_measured(folder: Path) -> None:
+    """A dataset that `simulate` wrote may be written anew; a measured one is never replaced."""
+    present = [folder / name for name in ("meta.toml", "data.csv") if (folder / name).is_file()]
+    if present and not _is_simulated(folder / "meta.toml"):
+        raise UsageError(
+            "the output would replace a dataset that was not simulated",
+            where=str(present[0]),
+            why='its meta.toml does not say [source] what = "simulated"',
+            next_step="choose another --out",
+        )
+
+
+def _is_simulated(meta: Path) -> bool:
+    from brace import toml
+
+    try:
+        source = toml.read(meta, "dataset's meta.toml").content.get("source")
+    except BraceError:
+        return False
+    return isinstance(source, dict) and source.get("what") == "simulated"

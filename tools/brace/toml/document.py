@@ -15,6 +15,7 @@ _BARE_OR_QUOTED = r"""(?:[A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*')"""
 _KEY = rf"{_BARE_OR_QUOTED}(?:\s*\.\s*{_BARE_OR_QUOTED})*"
 _TABLE_LINE = re.compile(rf"^\s*\[(\[)?\s*({_KEY})\s*\]")
 _KEY_LINE = re.compile(rf"^\s*({_KEY})\s*=")
+MAX_DEPTH = 8
 _ERROR_LINE = re.compile(r"\(at line (\d+), column \d+\)|\(at end of document\)")
 
 
@@ -28,14 +29,17 @@ class Document:
     lines: dict[str, int] = field(default_factory=dict)
 
     def where(self, key: str = "") -> str:
-        """`file:line` of a dotted key, or of the nearest table above it, or the file."""
+        """`file:line` of a dotted key, or of the first key below it, or of the nearest table above it, or of
+        the file's first line."""
         parts = key.split(".") if key else []
         while parts:
-            line = self.lines.get(".".join(parts))
+            dotted = ".".join(parts)
+            below = (at for key, at in self.lines.items() if key.startswith(dotted + "."))
+            line = self.lines.get(dotted) or min(below, default=None)
             if line is not None:
                 return place(self.path, line)
             parts.pop()
-        return str(self.path)
+        return place(self.path, 1)
 
 
 def read(path: Path, what: str) -> Document:
@@ -49,14 +53,54 @@ def parse(text: str, path: Path, what: str) -> Document:
         content = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise _syntax_error(str(error), text, path, what) from None
-    except (RecursionError, ValueError) as error:
+    except RecursionError:
         raise BadFileError(
-            f"not a {what}",
-            where=str(path),
-            why=str(error) or "nested too deeply",
+            f"not a {what}: nested too deeply",
+            where=place(path, _deepest_line(text)),
+            why=f"a {what} has tables of plain values, at most {MAX_DEPTH} levels",
             next_step="write plain tables of plain values",
         ) from None
-    return Document(path, content, _locate(text))
+    except ValueError as error:  # Python refuses integers of thousands of digits
+        raise BadFileError(
+            f"not a {what}: a number of thousands of digits",
+            where=place(path, _longest_number_line(text)),
+            why=str(error).partition(";")[0],
+            next_step="write the number with a decimal point or an exponent, e.g. 1.6e-5",
+        ) from None
+    lines = _locate(text)
+    _refuse_depth(content, lines, path, what, text)
+    return Document(path, content, lines)
+
+
+def _refuse_depth(content: dict[str, Any], lines: dict[str, int], path: Path, what: str, text: str) -> None:
+    """Walks the document level by level (never recursively) and refuses what is deeper than any format here."""
+    level: list[Any] = [content]
+    for _ in range(MAX_DEPTH):
+        level = [
+            item
+            for value in level
+            for item in (value.values() if isinstance(value, dict) else value)
+            if isinstance(item, (dict, list))
+        ]
+        if not level:
+            return
+    raise BadFileError(
+        f"not a {what}: nested too deeply",
+        where=place(path, _deepest_line(text)),
+        why=f"a {what} has tables of plain values, at most {MAX_DEPTH} levels",
+        next_step="write plain tables of plain values",
+    )
+
+
+def _deepest_line(text: str) -> int:
+    """The line with the most brackets and dots, where the depth comes from."""
+    lines = text.splitlines() or [""]
+    return 1 + max(range(len(lines)), key=lambda i: sum(lines[i].count(mark) for mark in "[{."))
+
+
+def _longest_number_line(text: str) -> int:
+    lengths = [max(map(len, re.findall(r"[\d_]+", line)), default=0) for line in text.splitlines()]
+    return 1 + lengths.index(max(lengths))
 
 
 def _syntax_error(message: str, text: str, path: Path, what: str) -> BadFileError:

@@ -103,8 +103,10 @@ def _unknown(
 ) -> BadFileError:
     where = document.where(prefix + name)
     if name in tables:
+        if isinstance(value, list):
+            where = document.where(f"{prefix}{name}.0")
         return BadFileError(
-            f"[{name}] is a table, not a value",
+            f"[{name}] is a table, not " + ("a list of tables [[...]]" if isinstance(value, list) else "a value"),
             where=where,
             why=f"found {_shown(value)}",
             next_step=f"write [{name}] on its own line and its keys below it",
