@@ -277,7 +277,7 @@ int backlash_takeup(uint64_t seed, int held, takeup_counts_t *counts)
     counts->result[out.takeup < 0 ? -out.takeup : out.takeup == BRACE_TAKEUP_DONE ? 0 : 1] +=
         out.takeup < 0 || out.takeup == BRACE_TAKEUP_DONE ? 1.0 : 0.0;
     counts->torque_over += torque > (double)params.takeup.torque_max_n_mm * 1.000001;
-    /* a free link's motor runs on while the bound is seen: half a degree is allowed */
+    /* a free link's motor runs on for the tick in which the bound is seen: 0.001 rad are allowed */
     counts->travel_over += travel > (double)params.takeup.travel_max_rad + 0.001;
     const int until = done_at >= 0 ? done_at : ended_at;
     counts->time_over += until < 0 || (until - asked_at) * 1000.0 > params.takeup.time_max_us + 2000.0;

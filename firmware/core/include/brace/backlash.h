@@ -16,8 +16,8 @@
  *
  * Angles in the joint's own sense (theta1, theta2), joint side of the reduction. Time is the caller's microseconds,
  * which may wrap. One brace_backlash_t per joint, touched by one thread; different joints are independent.
- * No heap, no recursion, no libm; loops are over a state's rows, at most 7 (brace_backlash_init: at most 1000). A refused call changes nothing, save
- * that brace_backlash_tick goes to FAULT on a bad sample. Formulas: docs/physics.md (backlash).
+ * No heap, no recursion, no libm; loops are over a state's rows, at most 7 (brace_backlash_init: at most 1000).
+ * A refused call changes nothing, save that brace_backlash_tick goes to FAULT on a bad sample. Formulas: docs/physics.md (backlash).
  */
 #ifndef BRACE_BACKLASH_H
 #define BRACE_BACKLASH_H
@@ -108,7 +108,8 @@ typedef struct {
     brace_takeup_result_t takeup;
     float command_rad;           /* add to the motor's setpoint; 0 when IDLE */
     bool limit_torque;           /* the motor's torque has to be limited to +-takeup.torque_max_n_mm */
-    float preload_n_mm;          /* HOLD: the load to subtract from what is measured; else 0 */
+    float preload_n_mm;          /* HOLD: the load to subtract from what is measured; else 0. What friction hides of
+                                    it on the standing motor is not known: off by up to the friction */
 } brace_backlash_out_t;
 
 /* State. Private; here so that it can be placed without a heap. */
