@@ -318,8 +318,17 @@ def test_a_joint_test_gives_back_its_joint(tmp_path: Path, brace: Callable[..., 
     assert found["joint.femur.compliance_rad_per_n_mm"]["value"] == pytest.approx(1e-5, rel=0.03)
     assert found["joint.femur.gap_rad"]["value"] == pytest.approx(0.006, rel=0.05)
     assert found["joint.femur.coulomb_n_mm"]["value"] == pytest.approx(120.0, rel=0.05)
-    assert found["joint.femur.zero_offset_rad"]["value"] == pytest.approx(-centre, abs=1e-4)
-    assert found["joint.femur.zero_offset_rad"]["start"] == pytest.approx(-centre, abs=1e-6)
+    assert found["angle_zero_rad"]["value"] == pytest.approx(-centre, abs=1e-4)
+    assert found["angle_zero_rad"]["start"] == pytest.approx(-centre, abs=1e-6)
+    # the encoder's zero is the record's: it does not turn the limb, and `predict` finds it again
+    assert load_limb(tmp_path / "f.toml").number("joint.femur.zero_offset_rad") == 0.0
+    assert "angle" in (tmp_path / "f.toml").read_text().splitlines()[2]
+    gap = json.loads(outcome.out)["residual"]["rms_n_mm"]
+    played = brace(
+        "predict", tmp_path, "--model", tmp_path / "f.toml", "--out", tmp_path / "p.csv", "--json"
+    )
+    assert json.loads(played.out)["rms_gap_torque_n_mm"] == pytest.approx(gap, rel=1e-3)
+    assert "zero of the angle -0.05" in played.err
 
 
 @pytest.mark.parametrize("rows", [1, 5, 34])

@@ -57,9 +57,7 @@ def predict(
     if dataset.kind == "loading":
         return Prediction(predict_loading(dataset, model))
     if dataset.kind == "joint_test":
-        from brace.native.plant import JointPlayer
-
-        return Prediction({"torque_n_mm": JointPlayer(dataset, dataset.meta.joint).play(model)})
+        return _predict_joint_test(dataset, model)
     return _predict_table(dataset, model, knee, tip_height_mm)
 
 
@@ -83,6 +81,27 @@ def zeroed(readings: dict[str, np.ndarray], dataset: Dataset) -> dict[str, np.nd
         name: values - np.repeat(values[starts[:-1]], counts) if name in ("fx_n", "fz_n") else values
         for name, values in readings.items()
     }
+
+
+def _predict_joint_test(dataset: Dataset, model: LimbModel) -> Prediction:
+    """The joint's torque at the record's deflections. Where the encoder, the torque sensor and friction stood at the
+    start is the record's and in no limb.toml: it is fitted here as `identify` fits it, and said."""
+    from brace.identify.joint_test import MIN_ROWS, JointProblem
+    from brace.identify.parameters import ANGLE_ZERO, FRICTION_TURN, TORQUE_OFFSET
+
+    if dataset.rows < MIN_ROWS or any(fault.blocking for fault in dataset.faults):
+        from brace.native.plant import JointPlayer
+
+        torque = JointPlayer(dataset, dataset.meta.joint).play(model)
+        return Prediction({"torque_n_mm": torque}, ("the angle is taken with the model's zero_offset_rad",))
+    problem = JointProblem(dataset)
+    own = problem.aligned(model)
+    note = (
+        f"fitted to this record, not the limb's: zero of the angle {own[ANGLE_ZERO]:+.4g} rad, offset of the torque "
+        f"{own[TORQUE_OFFSET]:+.4g} N mm, friction turning over {own[FRICTION_TURN]:.3g} rad; spring, gap, friction and "
+        "hardening are the model's"
+    )
+    return Prediction({"torque_n_mm": problem.torque_n_mm(model, own)}, (note,))
 
 
 def _predict_table(dataset: Dataset, model: LimbModel, knee: str, tip_height_mm: float | None) -> Prediction:

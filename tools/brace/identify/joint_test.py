@@ -8,7 +8,14 @@ import numpy as np
 
 from brace.dataset import Dataset
 from brace.errors import BadFileError
-from brace.identify.parameters import FRICTION_TURN, TORQUE_OFFSET, Parameter, ParameterSet
+from brace.identify.fit import fit
+from brace.identify.parameters import (
+    ANGLE_ZERO,
+    FRICTION_TURN,
+    TORQUE_OFFSET,
+    Parameter,
+    ParameterSet,
+)
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
 from brace.native.plant import JointPlayer
@@ -35,7 +42,9 @@ class JointProblem:
         self.columns = _averaged(dataset, max(1, dataset.rows // BLOCK_ROWS))
         self.noise_n_mm = _noise(self.columns["torque_n_mm"])
         self._used = ~_saturated(self.columns)
-        self._player = JointPlayer(self.columns, self.joint)
+        angle = self.columns["angle_rad"]
+        self._centre_rad = float(0.5 * (angle.max() + angle.min()))
+        self._player = JointPlayer({**self.columns, "angle_rad": angle - self._centre_rad}, self.joint)
 
     @property
     def count(self) -> int:
@@ -44,10 +53,19 @@ class JointProblem:
 
     def residual(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """(played - measured) / noise."""
-        played = self._player.play(model, nuisances.get(FRICTION_TURN, 0.0)) + nuisances.get(
-            TORQUE_OFFSET, 0.0
-        )
+        played = self._played(self._player, model, nuisances)
         return np.asarray(((played - self.columns["torque_n_mm"]) / self.noise_n_mm)[self._used])
+
+    def torque_n_mm(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
+        """The model's torque at every row of the record, not averaged."""
+        angle = self.dataset["angle_rad"] - self._centre_rad
+        whole = JointPlayer({**self.dataset.columns, "angle_rad": angle}, self.joint)
+        return self._played(whole, model, nuisances)
+
+    def _played(self, player: JointPlayer, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
+        zero = nuisances.get(ANGLE_ZERO, -self._centre_rad) + self._centre_rad
+        limb = model.with_values({f"joint.{self.joint}.zero_offset_rad": zero})
+        return player.play(limb, nuisances.get(FRICTION_TURN, 0.0)) + nuisances.get(TORQUE_OFFSET, 0.0)
 
     def angles(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """None: one joint has no tip."""
@@ -58,10 +76,9 @@ class JointProblem:
         return float(np.std(self.columns["torque_n_mm"][self._used]))
 
     def parameters(self, model: LimbModel) -> ParameterSet:
-        """Spring, gap, friction, hardening, zero of the angle, offset of the torque; scaled by the record."""
+        """Spring, gap, friction, hardening, and the record's own; scaled by the record."""
         angle, torque = self.columns["angle_rad"], self.columns["torque_n_mm"]
         angle_span, torque_span = float(np.ptp(angle)) or 1e-6, float(np.ptp(torque)) or 1.0
-        zero = -float(0.5 * (angle.max() + angle.min()))  # true angle = read + offset
         at = f"joint.{self.joint}."
         compliance = model.number(at + "compliance_rad_per_n_mm") or angle_span / torque_span
         hardening_scale = torque_span / angle_span**3
@@ -82,7 +99,20 @@ class JointProblem:
                 free(
                     "hardening_n_mm_per_rad3", model.number(at + "hardening_n_mm_per_rad3"), hardening_scale
                 ),
-                Parameter(at + "zero_offset_rad", zero, 0.1 * angle_span, -0.5, 0.5),
+                *self.record_parameters(model).parameters,
+            ),
+        )
+
+    def record_parameters(self, model: LimbModel) -> ParameterSet:
+        """What belongs to the record and not to the limb: the encoder's zero, the torque's zero, the width over
+        which friction turns. The encoder starts anywhere, so its zero says nothing of the limb's zero_offset_rad."""
+        angle, torque = self.columns["angle_rad"], self.columns["torque_n_mm"]
+        angle_span, torque_span = float(np.ptp(angle)) or 1e-6, float(np.ptp(torque)) or 1.0
+        zero = -self._centre_rad
+        return ParameterSet(
+            model,
+            (
+                Parameter(ANGLE_ZERO, zero, 0.1 * angle_span, zero - 0.5 * angle_span, zero + 0.5 * angle_span),
                 Parameter(TORQUE_OFFSET, 0.0, 0.02 * torque_span, -torque_span, torque_span),
                 Parameter(
                     FRICTION_TURN,
@@ -93,6 +123,10 @@ class JointProblem:
                 ),
             ),
         )
+
+    def aligned(self, model: LimbModel) -> dict[str, float]:
+        """The record's own nuisances that fit best with the model's joint as it is."""
+        return fit(self, self.record_parameters(model)).nuisances
 
     def starts(self, parameters: ParameterSet) -> list[np.ndarray]:
         """Springs with less and more gap and friction: the misfit has several valleys."""

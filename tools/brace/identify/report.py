@@ -11,7 +11,7 @@ from brace.identify.combinations import MEANING
 from brace.identify.information import Estimate
 from brace.identify.joint_test import JointProblem
 from brace.identify.loading import LoadingProblem
-from brace.identify.parameters import TIP_HEIGHT
+from brace.identify.parameters import ANGLE_ZERO, TIP_HEIGHT, TORQUE_OFFSET
 from brace.identify.run import Identification
 
 PAPER_STRUCTURE_SHARE = 0.30
@@ -216,4 +216,10 @@ def header(result: Identification) -> list[str]:
     height = result.fit.nuisances.get(TIP_HEIGHT)
     if height is not None:
         lines.append(f"tip height z = {height:.1f} mm for all rows (an inference)")
+    zero = result.fit.nuisances.get(ANGLE_ZERO)
+    if zero is not None:
+        lines.append(
+            f"the record's own, not the limb's: zero of the angle {zero:+.6g} rad, offset of the torque "
+            f"{result.fit.nuisances[TORQUE_OFFSET]:+.6g} N mm (`brace predict` fits them anew to each record)"
+        )
     return [" ".join(line.split()) for line in lines]
