@@ -113,8 +113,8 @@ static void a_reversal_crosses_with_the_motors_travel(void)
         stand(flank * 0.1, flank * 3000.0, 300);
         TEST_ASSERT_EQUAL_INT(flank, out.flank);
         bool crossed = false;
-        for (int i = 1; i <= 100; i++) { /* back through the gap at 0.1 rad/s, friction only */
-            tick(flank * (0.1 - 1e-4 * i), -flank * 200.0);
+        for (int i = 1; i <= 600; i++) { /* back through the gap at 0.02 rad/s, friction only */
+            tick(flank * (0.1 - 2e-5 * i), -flank * 200.0);
             if (out.state == BRACE_BACKLASH_CROSSING) {
                 crossed = true;
                 TEST_ASSERT_EQUAL_INT(0, out.flank);
@@ -124,7 +124,7 @@ static void a_reversal_crosses_with_the_motors_travel(void)
         TEST_ASSERT_TRUE(crossed);
         TEST_ASSERT_TRUE((float)flank * out.offset_rad > 0.2f * GAP_RAD); /* on its way from one end to the other */
         for (int i = 1; i <= 200; i++) {
-            tick(flank * (0.09 - 1e-4 * i), -flank * 2500.0);
+            tick(flank * (0.088 - 1e-4 * i), -flank * 2500.0);
         }
         TEST_ASSERT_EQUAL_INT(-flank, out.flank);
         TEST_ASSERT_TRUE(out.valid);
