@@ -22,4 +22,7 @@ float brace_chain_list(const brace_limb_t *limb, int with_coxa, brace_element_t 
 /* brace_harmonics of a bare list; base parts are not looked at, femur and tibia parts are used up. */
 void brace_harmonics_list(float iso, brace_element_t *element, uint32_t count, brace_harmonics_t *harmonics);
 
+/* The same of the elements alone: iso is neither in nor written. */
+void brace_harmonics_sum(brace_element_t *element, uint32_t count, brace_harmonics_t *harmonics);
+
 #endif

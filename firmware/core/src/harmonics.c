@@ -109,12 +109,17 @@ static void gather_crosses(const brace_element_t *element, uint32_t count, brace
                                          2.0f * (c_a * s.z - sum.ra * s.x) / square};
 }
 
-BRACE_OFF_TICK void brace_harmonics_list(float iso, brace_element_t *element, uint32_t count,
-                                         brace_harmonics_t *harmonics)
+BRACE_OFF_TICK void brace_harmonics_sum(brace_element_t *element, uint32_t count, brace_harmonics_t *harmonics)
 {
     halve(element, count);
     sum_squares(element, count, &harmonics->mean);
     gather_crosses(element, count, harmonics);
+}
+
+BRACE_OFF_TICK void brace_harmonics_list(float iso, brace_element_t *element, uint32_t count,
+                                         brace_harmonics_t *harmonics)
+{
+    brace_harmonics_sum(element, count, harmonics);
     const float twice = 2.0f * iso;
     harmonics->rest.at_fold += iso * iso + twice * harmonics->mean.at_fold;
     harmonics->rest.per_cos += twice * harmonics->mean.per_cos;

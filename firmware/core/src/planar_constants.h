@@ -4,7 +4,7 @@
 
 #include "brace/planar.h"
 
-/* planar: written on success only; h: its cross is shifted and its rest used up.
+/* h: of the elements alone (brace_harmonics_sum), with iso beside them; used up. planar: written on success only.
  * returns BRACE_OK, BRACE_E_PARAMETER, BRACE_E_UNSUPPORTED as brace_planar_collapse. */
 brace_status_t brace_planar_constants(brace_harmonics_t *h, brace_planar_t *planar);
 
