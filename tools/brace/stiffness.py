@@ -238,9 +238,11 @@ def spatial_stiffness(
     if status:
         raise refused_limb(native, model, status)
     offset = [lib.brace_limb_true_angle(limb, joint, 0.0) for joint in range(3)]
+    theta0_rad, theta1_rad = theta0_rad + offset[0], within_half_turn(theta1_rad + offset[1])
+    theta2_rad = theta2_rad + offset[2]
     k = ffi.new("brace_stiffness_spatial_t[]", len(theta0_rad))
     for index, angles in enumerate(zip(theta0_rad.tolist(), theta1_rad.tolist(), theta2_rad.tolist())):
-        status = lib.brace_spatial_stiffness(spatial, *(a + o for a, o in zip(angles, offset)), k + index)
+        status = lib.brace_spatial_stiffness(spatial, *angles, k + index)
         if status:
             raise PostureError(index, status, status_text(native, status))
     values = _array(native, k, _SPATIAL)

@@ -5,10 +5,12 @@ from __future__ import annotations
 import argparse
 import math
 import re
+import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NoReturn
 
+from brace.cli.streams import emit, say
 from brace.errors import UsageError, did_you_mean
 
 _PART = "\x1f"  # between what, why and try of a refused value, through argparse and back
@@ -39,6 +41,12 @@ class OptionParser(argparse.ArgumentParser):
             raise self._unknown(unknown)
         raise self._explained(message)
 
+    def _print_message(self, message: str, file: Any = None) -> None:  # --help, --version; a lost one is an error
+        if message and (file is None or file is sys.stdout):
+            emit(message.rstrip("\n"))
+        elif message:
+            say(message.rstrip("\n"))
+
     def _is_unknown_option(self, text: str) -> bool:
         name = text.partition("=")[0]
         known = self._option_string_actions
@@ -54,7 +62,8 @@ class OptionParser(argparse.ArgumentParser):
                 why="nothing is expected there",
                 next_step=f"{self.prog} --help; a value with blanks needs quotes",
             )
-        near = did_you_mean(name, self._option_string_actions)
+        given = {text.partition("=")[0] for text in self._given}
+        near = did_you_mean(name, [option for option in self._option_string_actions if option not in given])
         return UsageError(
             f"unknown option {name}",
             where=self.prog,

@@ -15,7 +15,7 @@ class OutputLost(BraceError):
         super().__init__(
             "the result cannot be printed",
             where="standard output",
-            why=why + "; files named by --out are in place",
+            why=f"{why} (files that --out names are in place)",
             next_step="send standard output to a terminal, a pipe or a file with room",
         )
 

@@ -31,6 +31,8 @@ class Key:
     @property
     def range_text(self) -> str:
         """The allowed values in words."""
+        if self.kind == "list" and self.choices:
+            return "a list such as [" + ", ".join(f'"{choice}"' for choice in self.choices) + "]"
         if self.choices:
             return " or ".join(f'"{choice}"' for choice in self.choices)
         if self.kind in ("text", "flag", "list"):
