@@ -38,30 +38,37 @@ BRACE_OFF_TICK static bent_t bend(const brace_link_t *link, float kappa, brace_v
     return (bent_t){bending, root};
 }
 
+/* An element that is a lever about a joint, or with zeros none yet; one copy, and shorter than a call to clear it. */
+BRACE_OFF_TICK static void set_lever(brace_element_t *element, float femur, float tibia)
+{
+    *element = (brace_element_t){{0.0f, femur}, {0.0f, tibia}, {0.0f, 0.0f}};
+}
+
 BRACE_OFF_TICK float brace_chain_firm(const brace_limb_t *limb, brace_element_t element[BRACE_CHAIN_FIRM])
 {
     const brace_link_t *femur = &limb->link[BRACE_FEMUR];
     const float femur_mm = limb->femur_mm, tibia_mm = limb->tibia_mm;
-    for (int i = 0; i < BRACE_CHAIN_FIRM; i++) {
-        element[i] = (brace_element_t){0};
+    const float hip = __builtin_sqrtf(limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm +
+                                      limb->base.rotation_rad_per_n_mm);
+    const float knee = __builtin_sqrtf(limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm);
+    for (int i = 0; i < 3; i++) {
+        set_lever(&element[i], 0.0f, 0.0f);
     }
+    set_lever(&element[3], hip * femur_mm, hip * tibia_mm);
+    set_lever(&element[4], 0.0f, knee * tibia_mm);
+
     /* The tibia has nothing beyond it to pass a moment to: zero goes to the knee, which has no femur part. */
     const bent_t upper = bend(femur, femur->moment_transfer_ratio, &element[0].femur, &element[1].femur);
     const bent_t lower = bend(femur + 1, 0.0f, &element[2].tibia, &element[4].femur);
     element[1].tibia.z = 2.0f * upper.root * tibia_mm / femur_mm;
-
-    const float hip = __builtin_sqrtf(limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm +
-                                      limb->base.rotation_rad_per_n_mm);
-    element[3].femur.z = hip * femur_mm;
-    element[3].tibia.z = hip * tibia_mm;
-    element[4].tibia.z = __builtin_sqrtf(limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm) * tibia_mm;
     return upper.iso_mm_per_n + lower.iso_mm_per_n;
 }
 
 BRACE_OFF_TICK float brace_chain_coxa(const brace_limb_t *limb, brace_element_t element[2])
 {
     const brace_link_t *link = &limb->link[BRACE_COXA];
-    element[0] = element[1] = (brace_element_t){0};
+    set_lever(&element[0], 0.0f, 0.0f);
+    set_lever(&element[1], 0.0f, 0.0f);
     const bent_t bent = bend(link, link->moment_transfer_ratio, &element[0].base, &element[1].base);
     if (bent.root > 0.0f) {
         const float lever = 2.0f * bent.root / limb->coxa_mm;
@@ -74,7 +81,7 @@ BRACE_OFF_TICK float brace_chain_coxa(const brace_limb_t *limb, brace_element_t 
 BRACE_OFF_TICK float brace_chain_base(const brace_limb_t *limb, brace_element_t *element)
 {
     const float x = limb->base.x_mm_per_n, z = limb->base.z_mm_per_n;
-    *element = (brace_element_t){0};
+    set_lever(element, 0.0f, 0.0f);
     element->base.x = x > z ? __builtin_sqrtf(x - z) : 0.0f;
     element->base.z = z > x ? __builtin_sqrtf(z - x) : 0.0f;
     return x > z ? z : x;
