@@ -19,7 +19,7 @@ def add(commands: Any) -> None:
         description="Takes the paper's table as printed, finds its faults, identifies the limb, and draws the paper's "
                     "figures: eigenvalues over r, ellipses, the cyclic test with its zero-force shift, the choice of "
                     "stiffness. Writes pictures, table.csv, limb.toml and facts.json into --out.")
-    parser.add_argument("--out", type=Path, default=Path("brace-demo"), metavar="DIR", help="default: brace-demo")
+    parser.add_argument("--out", type=common.path, default=Path("brace-demo"), metavar="DIR", help="default: brace-demo")
     common.add_json(parser)
     parser.set_defaults(run=run)
 
@@ -30,7 +30,7 @@ def run(arguments: argparse.Namespace) -> int:
     from brace.files import OutputSet
 
     story = Story()
-    show = common.say if arguments.json else print
+    show = common.say if arguments.json else common.emit
     with common.progress("fitting the table", STEPS) as advance:
         for line in tell(story, advance):
             show(line)
@@ -43,10 +43,10 @@ def run(arguments: argparse.Namespace) -> int:
         common.print_json({**story.facts, "out": arguments.out})
         return 0
     model = arguments.out / "limb.toml"
-    print(f"-> {arguments.out}/: {', '.join([*story.files, 'facts.json'])}")
-    print("Next, three commands to try:")
-    print(f"   .venv/bin/brace k --model {model} --r 300 --phi -0.4")
-    print(f"   .venv/bin/brace map --model {model} --out {arguments.out}/map")
-    print("   .venv/bin/brace simulate --model tools/brace/data/paper-limb.toml --rig tools/brace/data/paper-rig.toml "
-          f"--out {arguments.out}/loading-test")
+    common.emit(f"-> {arguments.out}/: {', '.join([*story.files, 'facts.json'])}")
+    common.emit("Next, three commands to try:")
+    common.emit(f"   .venv/bin/brace k --model {model} --r 300 --phi -0.4")
+    common.emit(f"   .venv/bin/brace map --model {model} --out {arguments.out}/map")
+    common.emit("   .venv/bin/brace simulate --model tools/brace/data/paper-limb.toml "
+                f"--rig tools/brace/data/paper-rig.toml --out {arguments.out}/loading-test")
     return 0
