@@ -26,6 +26,11 @@ class OptionParser(argparse.ArgumentParser):
 
     _given: Sequence[str] = ()
 
+    @property
+    def _command(self) -> str:
+        """The subcommand's name, for messages that begin with the program's."""
+        return self.prog.partition(" ")[2]
+
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:  # the entry of subcommands too
         if args is not None:
             self._given = list(args)
@@ -58,7 +63,7 @@ class OptionParser(argparse.ArgumentParser):
         if not name.startswith("-"):
             return UsageError(
                 f"{first!r} is one argument too many",
-                where=self.prog,
+                where=self._command,
                 why="nothing is expected there",
                 next_step=f"{self.prog} --help; a value with blanks needs quotes",
             )
@@ -66,7 +71,7 @@ class OptionParser(argparse.ArgumentParser):
         near = did_you_mean(name, [option for option in self._option_string_actions if option not in given])
         return UsageError(
             f"unknown option {name}",
-            where=self.prog,
+            where=self._command,
             why="a misspelt option would silently do nothing",
             next_step=f"did you mean {near}?" if near else f"{self.prog} --help lists the options",
         )
@@ -87,7 +92,7 @@ class OptionParser(argparse.ArgumentParser):
             what, why = f"a value is missing, or there are too many ({what})", "the option takes a value"
         return UsageError(
             f"{option}: {what}" if option else what,
-            where=self.prog,
+            where=self._command,
             why=why or "the command line is not complete or not clear",
             next_step=way.replace("OPTION", option) or f"{self.prog} --help",
         )
