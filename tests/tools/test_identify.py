@@ -324,9 +324,7 @@ def test_a_joint_test_gives_back_its_joint(tmp_path: Path, brace: Callable[..., 
     assert load_limb(tmp_path / "f.toml").number("joint.femur.zero_offset_rad") == 0.0
     assert "angle" in (tmp_path / "f.toml").read_text().splitlines()[2]
     gap = json.loads(outcome.out)["residual"]["rms_n_mm"]
-    played = brace(
-        "predict", tmp_path, "--model", tmp_path / "f.toml", "--out", tmp_path / "p.csv", "--json"
-    )
+    played = brace("predict", tmp_path, "--model", tmp_path / "f.toml", "--out", tmp_path / "p.csv", "--json")
     assert json.loads(played.out)["rms_gap_torque_n_mm"] == pytest.approx(gap, rel=1e-3)
     assert "zero of the angle -0.05" in played.err
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 
@@ -63,7 +64,9 @@ def test_what_fits_only_otherwise_is_refused(
 ) -> None:
     folder = record(tmp_path / "d", **change)  # type: ignore[arg-type]
     faults = load_dataset(folder).faults
-    assert [(fault.row, fault.field, fault.blocking) for fault in faults if fault.blocking] == [(None, field, True)]
+    assert [(fault.row, fault.field, fault.blocking) for fault in faults if fault.blocking] == [
+        (None, field, True)
+    ]
     assert any(words in str(fault.suggestion) for fault in faults)
     (tmp_path / "limb.toml").write_text(LIMB)
     out = tmp_path / "f.toml"
@@ -76,4 +79,30 @@ def test_copied_rows_are_flagged(tmp_path: Path) -> None:
     assert [(fault.row, fault.blocking) for fault in faults] == [(301, False)]
     # a coarse clock repeats times of itself; a twentieth of all rows copied is no chance even then
     assert not [f for f in load_dataset(record(tmp_path, tick_s=0.4)).faults if f.field == "t_s"]
-    assert [f.row for f in load_dataset(record(tmp_path, tick_s=0.4, copies=50)).faults if f.field == "t_s"] == [301]
+    assert [
+        f.row for f in load_dataset(record(tmp_path, tick_s=0.4, copies=50)).faults if f.field == "t_s"
+    ] == [301]
+
+
+def test_friction_that_grows_with_the_load_is_told_from_the_spring(
+    tmp_path: Path, brace: Callable[..., object]
+) -> None:
+    """A gearbox's loop by formula: 100 N mm of friction and 15 % of the torque carried."""
+    random = np.random.default_rng(2)
+    sweep = np.concatenate([np.linspace(0, 1, 200), np.linspace(1, -1, 400), np.linspace(-1, 1, 400)])
+    angle = 0.02 * sweep
+    spring = np.where(np.abs(angle) > 0.003, angle - 0.003 * np.sign(angle), 0.0) / 1e-5
+    friction = (100.0 + 0.15 * np.abs(spring)) * np.sign(np.diff(angle, prepend=-1e-9))
+    torque = spring + friction + 10.0 * random.standard_normal(angle.size)
+    (tmp_path / "meta.toml").write_text('format = 1\nkind = "joint_test"\n')
+    rows = "".join(f"{0.1 * i:.1f},{a:.7f},{t:.3f}\n" for i, (a, t) in enumerate(zip(angle, torque)))
+    (tmp_path / "data.csv").write_text("t_s,angle_rad,torque_n_mm\n" + rows)
+    (tmp_path / "limb.toml").write_text(LIMB)
+    out = tmp_path / "f.toml"
+    outcome = brace("identify", tmp_path, "--model", tmp_path / "limb.toml", "--out", out, "--json")
+    found = {key: entry["value"] for key, entry in json.loads(outcome.out)["parameters"].items()}
+    assert found["friction_load_share"] == pytest.approx(0.15, rel=0.05)
+    assert found["joint.femur.compliance_rad_per_n_mm"] == pytest.approx(1e-5, rel=0.02)
+    assert found["joint.femur.coulomb_n_mm"] == pytest.approx(100.0, rel=0.1)
+    assert found["joint.femur.gap_rad"] == pytest.approx(0.006, rel=0.05)
+    assert "of the torque carried" in out.read_text()

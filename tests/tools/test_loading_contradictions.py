@@ -22,7 +22,9 @@ def place(name: str) -> int:
     return LOADING_HEADER.split(",").index(name)
 
 
-def scaled(name: str, factor: float, offset: float = 0.0, where: slice = slice(None)) -> Callable[[Rows], None]:
+def scaled(
+    name: str, factor: float, offset: float = 0.0, where: slice = slice(None)
+) -> Callable[[Rows], None]:
     def change(rows: Rows) -> None:
         for row in rows[where]:
             row[place(name)] = f"{float(row[place(name)]) * factor + offset:.9g}"
@@ -66,7 +68,11 @@ RUN_2 = slice(ROWS_A_RUN, 2 * ROWS_A_RUN)  # along x
 ROW_25 = slice(24, 25)  # inside run 2
 CASES: dict[str, tuple[Callable[[Rows], None], set[tuple[int | None, str]], str]] = {
     # name: what is done, the faults' places, words of the first suggestion
-    "all forces zero": (both(written("fx_n", "0.0"), written("fz_n", "0.0")), {(None, "fx_n"), (None, "fz_n")}, ""),
+    "all forces zero": (
+        both(written("fx_n", "0.0"), written("fz_n", "0.0")),
+        {(None, "fx_n"), (None, "fz_n")},
+        "",
+    ),
     "fx stuck": (written("fx_n", "3.1"), {(None, "fx_n")}, ""),
     "fz stuck": (written("fz_n", "-0.0625"), {(None, "fz_n")}, ""),
     "fx stuck in a run": (written("fx_n", "1.5", RUN_2), {(18, "fx_n")}, ""),
@@ -75,7 +81,11 @@ CASES: dict[str, tuple[Callable[[Rows], None], set[tuple[int | None, str]], str]
     "fx and fz exchanged": (exchanged("fx_n", "fz_n"), {(None, "fx_n"), (None, "fz_n")}, "exchanged"),
     "axis of a run": (turned_axis(RUN_2), {(18, "axis")}, "x"),
     "one axis entry": (turned_axis(ROW_25), {(25, "axis")}, "x"),
-    "one displacement in the other column": (exchanged("dx_mm", "dz_mm", slice(21, 22)), {(22, "dz_mm")}, "dx_mm"),
+    "one displacement in the other column": (
+        exchanged("dx_mm", "dz_mm", slice(21, 22)),
+        {(22, "dz_mm")},
+        "dx_mm",
+    ),
     "one displacement along both": (written("dz_mm", "0.635", ROW_25), {(25, "dz_mm")}, "0.0"),
     "theta1 changes": (written("theta1_rad", "0.80", ROW_25), {(25, "theta1_rad")}, "0.74"),
     "theta2 changes": (written("theta2_rad", "0.10", ROW_25), {(25, "theta2_rad")}, "1.0"),
@@ -92,7 +102,11 @@ CASES: dict[str, tuple[Callable[[Rows], None], set[tuple[int | None, str]], str]
     "fx in kgf": (scaled("fx_n", 1 / 9.80665), {(None, "fx_n")}, "kgf: multiply by 9.80665"),
     "fz in kgf": (scaled("fz_n", 1 / 9.80665), {(None, "fz_n")}, "kgf: multiply by 9.80665"),
     "fz in lbf": (scaled("fz_n", 1 / 4.4482216), {(None, "fz_n")}, "lbf"),
-    "knee beyond half a turn": (written("theta2_rad", "3.5", slice(0, 68)), {(r, "theta2_rad") for r in range(1, 21)}, ""),
+    "knee beyond half a turn": (
+        written("theta2_rad", "3.5", slice(0, 68)),
+        {(r, "theta2_rad") for r in range(1, 21)},
+        "",
+    ),
     "theta1 in degrees": (scaled("theta1_rad", 180 / math.pi), {(None, "theta1_rad")}, "degrees"),
     "theta2 in degrees": (scaled("theta2_rad", 180 / math.pi), {(None, "theta2_rad")}, "degrees"),
 }
@@ -111,8 +125,12 @@ def test_a_contradiction_is_located(case: str, tmp_path: Path) -> None:
     assert words in str(faults[0].suggestion)
 
 
-@pytest.mark.parametrize("case", ["all forces zero", "axis exchanged", "one axis entry", "fx in kgf", "kelvin"])
-def test_a_contradictory_record_is_not_fitted(case: str, tmp_path: Path, brace: Callable[..., object]) -> None:
+@pytest.mark.parametrize(
+    "case", ["all forces zero", "axis exchanged", "one axis entry", "fx in kgf", "kelvin"]
+)
+def test_a_contradictory_record_is_not_fitted(
+    case: str, tmp_path: Path, brace: Callable[..., object]
+) -> None:
     rows = loading_rows()
     CASES[case][0](rows)
     (tmp_path / "limb.toml").write_text(LIMB)

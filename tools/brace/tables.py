@@ -79,7 +79,8 @@ def _refuse_other_reach(dataset: Dataset, model: LimbModel, poses: TablePoses) -
             continue
         printed = dataset[name]
         found, in_degrees = (
-            np.hypot(*_tip_mm(model, at).T) if name == "r_mm" else _tip_mm(model, at)[:, 1] for at in (angles, turned)
+            np.hypot(*_tip_mm(model, at).T) if name == "r_mm" else _tip_mm(model, at)[:, 1]
+            for at in (angles, turned)
         )
         allowed = (
             REACH_FLOOR_MM

@@ -116,8 +116,7 @@ def _direction(columns: Columns) -> Iterator[DataFault]:
 
 
 def _saturation(columns: Columns) -> Iterator[DataFault]:
-    """The command goes on rising and the torque does not: a row at the drive's limit says nothing of the joint.
-    """
+    """The command goes on rising and the torque does not: a row at the drive's limit says nothing of the joint."""
     if "command_n_mm" not in columns:
         return
     command, torque = np.abs(columns["command_n_mm"]), np.abs(columns["torque_n_mm"])

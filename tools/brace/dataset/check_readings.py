@@ -54,9 +54,7 @@ def _temperature(columns: Columns) -> Iterator[DataFault]:
     beyond = np.flatnonzero((degc < low) | (degc > high))
     in_kelvin = (degc - KELVIN >= low) & (degc - KELVIN <= high)
     if beyond.size == degc.size and in_kelvin.all():
-        yield DataFault(
-            None, "temp_degc", f"{degc[0]:g} fits only in kelvin", f"kelvin: subtract {KELVIN}"
-        )
+        yield DataFault(None, "temp_degc", f"{degc[0]:g} fits only in kelvin", f"kelvin: subtract {KELVIN}")
         return
     for row in beyond[:MAX_LISTED]:
         why = f"{degc[row]:g} degC: outside {low:g} to {high:g} degC no limb is tested"

@@ -99,7 +99,10 @@ def _axis_against_motion(columns: Columns) -> Iterator[DataFault]:
         says = _AXIS_NAMES[columns["axis"][row]]
         moving = _AXIS_NAMES[1 - columns["axis"][row]]
         yield DataFault(
-            row + 1, "axis", f"run {columns['run'][row]} is said to go along {says}, and d{moving}_mm moves", moving
+            row + 1,
+            "axis",
+            f"run {columns['run'][row]} is said to go along {says}, and d{moving}_mm moves",
+            moving,
         )
     across_rows = np.repeat(across, np.diff(starts))
     for row in np.flatnonzero((other > still_mm) & ~across_rows)[:MAX_LISTED]:

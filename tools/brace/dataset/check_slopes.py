@@ -107,13 +107,14 @@ def _exchanged(poses: _PoseSlopes) -> Iterator[DataFault]:
     if not poses.k_xx.size:
         return
     off_diagonal = poses.k_xz * poses.k_zx
-    swapped = (poses.k_xz > 0) & (poses.k_zx > 0) & (off_diagonal > 1.1 * np.abs(poses.k_xx * poses.k_zz))
-    if swapped.all():
+    positive = (poses.k_xz > 0) & (poses.k_zx > 0)
+    indefinite = off_diagonal > 1.1 * np.abs(poses.k_xx * poses.k_zz)
+    if positive.all() and np.mean(indefinite) > 0.5:
         for name in ("fx_n", "fz_n"):
             yield DataFault(
                 None,
                 name,
-                "the slopes of every pose make a K that is not positive definite, and is once fx_n and fz_n (or dx_mm "
+                "the slopes make a K that is not positive definite, and is once fx_n and fz_n (or dx_mm "
                 "and dz_mm together with axis) change places",
                 "the columns fx_n and fz_n exchanged",
             )
@@ -131,7 +132,9 @@ def _units(runs: _RunSlopes, poses: _PoseSlopes) -> Iterator[DataFault]:
         driven = runs.driven[runs.axis == axis]
         typical = float(np.median(np.abs(driven))) if driven.size else 1.0
         if not low <= typical <= high:
-            unit, factor = slip_of(typical / USUAL_N_PER_MM, {1e-3: FORCE_SLIPS[1e-3], 1e3: FORCE_SLIPS[1e3]}, 30.0)
+            unit, factor = slip_of(
+                typical / USUAL_N_PER_MM, {1e-3: FORCE_SLIPS[1e-3], 1e3: FORCE_SLIPS[1e3]}, 30.0
+            )
             yield DataFault(
                 None,
                 name,
@@ -142,9 +145,9 @@ def _units(runs: _RunSlopes, poses: _PoseSlopes) -> Iterator[DataFault]:
 
 
 def _asymmetric_column(runs: _RunSlopes, poses: _PoseSlopes) -> DataFault | None:
-    clear = (np.abs(poses.k_xz) > 5 * poses.k_xz_error) & (np.abs(poses.k_zx) > 5 * poses.k_zx_error)
-    clear &= poses.k_xz * poses.k_zx > 0
-    if not clear.any():
+    known = (np.abs(poses.k_xz) > 5 * poses.k_xz_error) & (np.abs(poses.k_zx) > 5 * poses.k_zx_error)
+    clear = known & (poses.k_xz * poses.k_zx > 0)
+    if not clear.any() or clear.sum() < 0.75 * known.sum():  # opposite signs are another fault
         return None
     ratios = np.log(poses.k_xz[clear] / poses.k_zx[clear])
     ratio = float(np.exp(np.median(ratios)))
@@ -215,5 +218,3 @@ def _signs(columns: Columns, runs: _RunSlopes) -> Iterator[DataFault]:
             f"other runs have {middle[index]:+.3g}",
             "the run with this sign turned",
         )
-
-

@@ -94,7 +94,12 @@ def _unit(columns: Columns, meta: Meta) -> Iterator[DataFault]:
         )
         return
     force_n = typical * factor * LOADING_STROKE_MM
-    if factor != 1.0 and typical and low <= typical <= high and not resolution_n <= force_n <= high * LOADING_STROKE_MM:
+    if (
+        factor != 1.0
+        and typical
+        and low <= typical <= high
+        and not resolution_n <= force_n <= high * LOADING_STROKE_MM
+    ):
         beyond = (
             f"below the sensor's resolution of {resolution_n:.3g} N"
             if force_n < resolution_n
@@ -193,7 +198,8 @@ def _asymmetry(columns: Columns, decimals: Mapping[str, int]) -> Iterator[DataFa
             int(row) + 1,
             field,
             f"k_zx = {columns['k_zx'][row]:g} and k_xz = {columns['k_xz'][row]:g}: K "
-            "of an elastic limb is symmetric" + (f"; the printed eigenvalues fit {value:g}" if proven else ""),
+            "of an elastic limb is symmetric"
+            + (f"; the printed eigenvalues fit {value:g}" if proven else ""),
             value,
             repair=proven,
         )
@@ -203,7 +209,10 @@ def _wrong_cross_entry(
     columns: Columns, row: int, decimals: Mapping[str, int]
 ) -> tuple[str, float | None, bool]:
     """(the misprinted one of k_xz and k_zx, what it should read, whether printed eigenvalues prove it)."""
-    entries = {"k_zx": float(columns["k_xz"][row]), "k_xz": float(columns["k_zx"][row])}  # wrong one -> its value
+    entries = {
+        "k_zx": float(columns["k_xz"][row]),
+        "k_xz": float(columns["k_zx"][row]),
+    }  # wrong one -> its value
     main = (float(columns["k_xx"][row]), float(columns["k_zz"][row]))
     own = {field: eigenvalues(np.array([main[0], value, main[1]])) for field, value in entries.items()}
     stated = _stated(columns, row)

@@ -1,8 +1,13 @@
-"""A joint test as a fit's problem: the imposed deflection played on spring, gap, friction and hardening."""
+"""A joint test as a fit's problem: the imposed deflection played on spring, gap, friction and hardening.
+
+Gears rub in proportion to what they carry. Without that share the fit of a gearbox takes the widening loop for a
+softer spring and a narrower gap; limb.toml has no place for it, so it is fitted and reported beside the limb.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import product
 
 import numpy as np
 
@@ -11,6 +16,7 @@ from brace.errors import BadFileError
 from brace.identify.fit import fit
 from brace.identify.parameters import (
     ANGLE_ZERO,
+    FRICTION_LOAD,
     FRICTION_TURN,
     TORQUE_OFFSET,
     Parameter,
@@ -24,6 +30,7 @@ MIN_ROWS = 20
 BLOCK_ROWS = 3000  # rows that a record is averaged down to: the angle's last digit must not look like motion
 START_GAPS = (0.0, 0.25, 0.5)  # of the range of angles
 START_FRICTION = (0.02, 0.1)  # of the range of torques
+START_HARDENING = (0.0, 4.0)  # cubic share of the torque at half the range of angles, over the linear one
 
 
 class JointProblem:
@@ -64,8 +71,16 @@ class JointProblem:
 
     def _played(self, player: JointPlayer, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         zero = nuisances.get(ANGLE_ZERO, -self._centre_rad) + self._centre_rad
+        turn_rad, load_share = nuisances.get(FRICTION_TURN, 0.0), nuisances.get(FRICTION_LOAD, 0.0)
         limb = model.with_values({f"joint.{self.joint}.zero_offset_rad": zero})
-        return player.play(limb, nuisances.get(FRICTION_TURN, 0.0)) + nuisances.get(TORQUE_OFFSET, 0.0)
+        torque = player.play(limb, turn_rad) + nuisances.get(TORQUE_OFFSET, 0.0)
+        if load_share == 0.0:
+            return np.asarray(torque)
+        # the plant's friction does not know the load: a unit of it gives the direction at every row
+        friction = f"joint.{self.joint}.coulomb_n_mm"
+        spring = player.play(limb.with_values({friction: 0.0}), turn_rad)
+        direction = player.play(limb.with_values({friction: 1.0}), turn_rad) - spring
+        return np.asarray(torque + load_share * np.abs(spring) * direction)
 
     def angles(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """None: one joint has no tip."""
@@ -104,15 +119,18 @@ class JointProblem:
         )
 
     def record_parameters(self, model: LimbModel) -> ParameterSet:
-        """What belongs to the record and not to the limb: the encoder's zero, the torque's zero, the width over
-        which friction turns. The encoder starts anywhere, so its zero says nothing of the limb's zero_offset_rad."""
+        """What no limb.toml holds: the encoder's zero, the torque's zero, the width over which friction turns, and
+        friction that grows with the load, as gears' does. The encoder starts anywhere, so its zero says nothing of
+        the limb's zero_offset_rad."""
         angle, torque = self.columns["angle_rad"], self.columns["torque_n_mm"]
         angle_span, torque_span = float(np.ptp(angle)) or 1e-6, float(np.ptp(torque)) or 1.0
         zero = -self._centre_rad
         return ParameterSet(
             model,
             (
-                Parameter(ANGLE_ZERO, zero, 0.1 * angle_span, zero - 0.5 * angle_span, zero + 0.5 * angle_span),
+                Parameter(
+                    ANGLE_ZERO, zero, 0.1 * angle_span, zero - 0.5 * angle_span, zero + 0.5 * angle_span
+                ),
                 Parameter(TORQUE_OFFSET, 0.0, 0.02 * torque_span, -torque_span, torque_span),
                 Parameter(
                     FRICTION_TURN,
@@ -121,6 +139,7 @@ class JointProblem:
                     1e-4 * angle_span,
                     min(1.0, 0.25 * angle_span),
                 ),
+                Parameter(FRICTION_LOAD, 0.05, 0.1, 0.0, 0.9),
             ),
         )
 
@@ -132,13 +151,16 @@ class JointProblem:
         """Springs with less and more gap and friction: the misfit has several valleys."""
         angle_span = float(np.ptp(self.columns["angle_rad"]))
         torque_span = float(np.ptp(self.columns["torque_n_mm"]))
+        load_place = parameters.keys.index(FRICTION_LOAD)
         points = []
-        for gap in START_GAPS:
-            for friction in START_FRICTION:
-                point = parameters.array("start")
-                point[0] = (angle_span * (1 - gap)) / torque_span
-                point[1], point[2] = gap * angle_span, friction * torque_span
-                points.append(point)
+        for gap, friction, cubic in product(START_GAPS, START_FRICTION, START_HARDENING):
+            point = parameters.array("start")
+            reach_rad = 0.5 * angle_span * (1 - gap)
+            point[0] = 2 * reach_rad / torque_span * (1 + cubic)
+            point[1], point[2] = gap * angle_span, friction * torque_span
+            point[3] = cubic / (point[0] * reach_rad**2)
+            point[load_place] = 0.02
+            points.append(point)
         return points
 
 
