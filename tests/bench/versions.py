@@ -45,7 +45,7 @@ GROUPS = (PLANAR, PLANAR_NO_FPU, SPATIAL, COLLAPSE)
 
 def core_sources() -> tuple[Path, ...]:
     """Everything of firmware/core; the linker keeps what is called."""
-    return tuple(sorted((CORE / "src").glob("*.c")))
+    return tuple(sorted((CORE / "src").glob("*/*.c")))
 
 
 def _ours(name: str, group: str, function: str, job: str, limb: str = "PAPER", processor: Processor = M4F,

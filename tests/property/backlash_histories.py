@@ -24,7 +24,7 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 CORE = HERE.parents[1] / "firmware" / "core"
-SOURCES = [*sorted((CORE / "src").glob("backlash*.c")), CORE / "src" / "check.c", HERE / "backlash_plant.c",
+SOURCES = [*sorted((CORE / "src").glob("backlash/backlash*.c")), CORE / "src" / "base" / "check.c", HERE / "backlash_plant.c",
            HERE / "backlash_run.c"]
 BINS = 12_000
 HISTORY_FIELDS = ["ticks", "open", "excluded", "judged", "wrong", "withheld", "best_wrong", "valid", "valid_wrong",

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "brace/planar_fixed.h"
-#include "fixed_table.h"
+#include "fixed/fixed_table.h"
 #include "reference_planar.h"
 #include "sample_limbs.h"
 #include "unity.h"

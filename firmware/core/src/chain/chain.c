@@ -1,0 +1,131 @@
+#include "brace/chain.h"
+
+#include <stdbool.h>
+
+#include "chain/chain_list.h"
+#include "base/off_tick.h"
+#include "base/vec.h"
+
+/* sin(tilt/2) = tilt (1/2 + w (SIN_3 + w (SIN_5 + w SIN_7))) with w = tilt^2, within 2e-9 for a quarter turn. */
+#define SIN_3 (-2.08333127e-2f)
+#define SIN_5 2.60373686e-4f
+#define SIN_7 (-1.52292930e-6f)
+
+/* What a link's ellipsoid brings: iso, and the root of the bending that goes with moment transfer. */
+typedef struct {
+    float iso_mm_per_n, root;
+} bent_t;
+
+/* Splits a link's ellipsoid, less the 0.75 kappa of its bending that comes with moment transfer, into iso and its
+ * longer axis; both vectors sqrt(mm/N), in the link's frame. */
+BRACE_OFF_TICK static bent_t bend(const brace_link_t *link, float kappa, brace_vec_t *excess,
+                                  brace_vec_t *with_moment)
+{
+    const float tilt = link->tilt_rad, w = tilt * tilt;
+    const float half_sin =
+        tilt * __builtin_fmaf(w, __builtin_fmaf(w, __builtin_fmaf(w, SIN_7, SIN_5), SIN_3), 0.5f);
+    const float half_cos = __builtin_sqrtf(__builtin_fmaf(-half_sin, half_sin, 1.0f));
+    const float sin = 2.0f * half_sin * half_cos, cos = 1.0f - 2.0f * half_sin * half_sin;
+    const float coupled = 0.75f * kappa * link->bending_mm_per_n, root = __builtin_sqrtf(coupled);
+    const float axial = link->axial_mm_per_n, bending = link->bending_mm_per_n - coupled, more = bending - axial;
+    const float length = __builtin_sqrtf(__builtin_fabsf(more));
+    *with_moment = (brace_vec_t){-sin * root, cos * root};
+    if (more > 0.0f) {
+        *excess = (brace_vec_t){-sin * length, cos * length};
+        return (bent_t){axial, root};
+    }
+    *excess = (brace_vec_t){cos * length, sin * length};
+    return (bent_t){bending, root};
+}
+
+/* An element that is a lever about a joint, or with zeros none yet; one copy, and shorter than a call to clear it. */
+BRACE_OFF_TICK static void set_lever(brace_element_t *element, float femur, float tibia)
+{
+    *element = (brace_element_t){{0.0f, femur}, {0.0f, tibia}, {0.0f, 0.0f}};
+}
+
+BRACE_OFF_TICK float brace_chain_firm(const brace_limb_t *limb, brace_element_t element[BRACE_CHAIN_FIRM])
+{
+    const brace_link_t *femur = &limb->link[BRACE_FEMUR];
+    const float femur_mm = limb->femur_mm, tibia_mm = limb->tibia_mm;
+    const float hip = __builtin_sqrtf(limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm +
+                                      limb->base.rotation_rad_per_n_mm);
+    const float knee = __builtin_sqrtf(limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm);
+    for (int i = 0; i < 3; i++) {
+        set_lever(&element[i], 0.0f, 0.0f);
+    }
+    set_lever(&element[3], hip * femur_mm, hip * tibia_mm);
+    set_lever(&element[4], 0.0f, knee * tibia_mm);
+
+    /* The tibia has nothing beyond it to pass a moment to: zero goes to the knee, which has no femur part. */
+    const bent_t upper = bend(femur, femur->moment_transfer_ratio, &element[0].femur, &element[1].femur);
+    const bent_t lower = bend(femur + 1, 0.0f, &element[2].tibia, &element[4].femur);
+    element[1].tibia.z = 2.0f * upper.root * tibia_mm / femur_mm;
+    return upper.iso_mm_per_n + lower.iso_mm_per_n;
+}
+
+BRACE_OFF_TICK float brace_chain_coxa(const brace_limb_t *limb, brace_element_t element[2])
+{
+    const brace_link_t *link = &limb->link[BRACE_COXA];
+    set_lever(&element[0], 0.0f, 0.0f);
+    set_lever(&element[1], 0.0f, 0.0f);
+    const bent_t bent = bend(link, link->moment_transfer_ratio, &element[0].base, &element[1].base);
+    if (bent.root > 0.0f) {
+        const float lever = 2.0f * bent.root / limb->coxa_mm;
+        element[1].femur.z = lever * limb->femur_mm;
+        element[1].tibia.z = lever * limb->tibia_mm;
+    }
+    return bent.iso_mm_per_n;
+}
+
+BRACE_OFF_TICK float brace_chain_base(const brace_limb_t *limb, brace_element_t *element)
+{
+    const float x = limb->base.x_mm_per_n, z = limb->base.z_mm_per_n;
+    set_lever(element, 0.0f, 0.0f);
+    element->base.x = x > z ? __builtin_sqrtf(x - z) : 0.0f;
+    element->base.z = z > x ? __builtin_sqrtf(z - x) : 0.0f;
+    return x > z ? z : x;
+}
+
+BRACE_OFF_TICK static bool yields(const brace_element_t *element)
+{
+    return vec_dot(element->femur, element->femur) + vec_dot(element->tibia, element->tibia) +
+               vec_dot(element->base, element->base) > 0.0f;
+}
+
+BRACE_OFF_TICK float brace_chain_list(const brace_limb_t *limb, int with_coxa, brace_element_t *element, uint32_t *count)
+{
+    uint32_t used = BRACE_CHAIN_FIRM, kept = 0;
+    float iso = brace_chain_firm(limb, element);
+    if (with_coxa) {
+        iso += brace_chain_coxa(limb, &element[used]);
+        used += 2;
+    }
+    iso += brace_chain_base(limb, &element[used++]);
+    for (uint32_t i = 0; i < used; i++) {
+        if (yields(&element[i])) {
+            element[kept++] = element[i];
+        }
+    }
+    *count = kept;
+    return iso;
+}
+
+BRACE_OFF_TICK static brace_status_t build(const brace_limb_t *limb, int with_coxa, brace_chain_t *chain)
+{
+    const brace_status_t status = chain == NULL ? BRACE_E_NULL : brace_limb_check(limb);
+    if (status == BRACE_OK) {
+        chain->iso_mm_per_n = brace_chain_list(limb, with_coxa, chain->element, &chain->count);
+    }
+    return status;
+}
+
+brace_status_t brace_chain_build(const brace_limb_t *limb, brace_chain_t *chain)
+{
+    return build(limb, false, chain);
+}
+
+brace_status_t brace_chain_build_with_coxa(const brace_limb_t *limb, brace_chain_t *chain)
+{
+    return build(limb, true, chain);
+}

@@ -1,0 +1,122 @@
+#include <stddef.h>
+
+#include "brace/chain.h"
+#include "brace/planar.h"
+#include "base/trig.h"
+#include "base/turn.h"
+#include "base/vec.h"
+
+/* det C over mean^2 below which C counts as singular, and below which its accuracy is not promised. */
+#define SINGULAR 1e-12f
+#define SLENDER 2e-5f
+
+/* C at a posture: half its trace, its deviator, its determinant. */
+typedef struct {
+    float mean, dev_x, dev_y, det;
+} tensor_t;
+
+static brace_vec_t turned(brace_vec_t v, brace_vec_t by)
+{
+    return (brace_vec_t){__builtin_fmaf(v.x, by.x, -(v.z * by.z)), __builtin_fmaf(v.x, by.z, v.z * by.x)};
+}
+
+/* An element seen from the femur. */
+typedef struct {
+    brace_vec_t femur, tibia, base;
+} parts_t;
+
+static parts_t seen_from_femur(const brace_element_t *element, brace_vec_t tibia, brace_vec_t base)
+{
+    return (parts_t){element->femur, turned(element->tibia, tibia), turned(element->base, base)};
+}
+
+/* v_a x v_b, part by part: what lies on one line in one part adds exactly nothing. */
+static float cross_parts(const parts_t *a, const parts_t *b)
+{
+    const float own = vec_cross(a->femur, b->femur) + vec_cross(a->tibia, b->tibia) + vec_cross(a->base, b->base);
+    const float femur_tibia = vec_cross(a->femur, b->tibia) + vec_cross(a->tibia, b->femur);
+    const float with_base = vec_cross(a->base, (brace_vec_t){b->femur.x + b->tibia.x, b->femur.z + b->tibia.z}) +
+                            vec_cross((brace_vec_t){a->femur.x + a->tibia.x, a->femur.z + a->tibia.z}, b->base);
+    return own + femur_tibia + with_base;
+}
+
+/* Sums over the chain in the femur's frame, then turned into the world's. */
+static tensor_t tensor(const brace_chain_t *chain, float theta1_rad, float theta2_rad)
+{
+    const uint32_t femur_turn = brace_turn(theta1_rad);
+    const brace_vec_t tibia = brace_direction(0u - brace_turn(theta2_rad));
+    const brace_vec_t base = brace_direction(0u - femur_turn);
+    const brace_vec_t to_world = brace_direction(2u * femur_turn);
+    float trace = 0.0f, squares = 0.0f;
+    brace_vec_t dev = {0.0f, 0.0f};
+    for (uint32_t i = 0; i < chain->count; i++) {
+        const parts_t a = seen_from_femur(&chain->element[i], tibia, base);
+        const brace_vec_t v = {a.femur.x + a.tibia.x + a.base.x, a.femur.z + a.tibia.z + a.base.z};
+        trace += vec_dot(v, v);
+        dev.x += vec_dot(v, (brace_vec_t){v.x, -v.z});
+        dev.z += 2.0f * v.x * v.z;
+        for (uint32_t j = 0; j < i; j++) {
+            const parts_t b = seen_from_femur(&chain->element[j], tibia, base);
+            const float cross = cross_parts(&b, &a);
+            squares = __builtin_fmaf(cross, cross, squares);
+        }
+    }
+    const float iso = chain->iso_mm_per_n;
+    dev = turned(dev, to_world);
+    return (tensor_t){iso + 0.5f * trace, 0.5f * dev.x, 0.5f * dev.z, iso * (iso + trace) + squares};
+}
+
+static brace_status_t refusal(float theta1_rad, float theta2_rad)
+{
+    const float reach = theta1_rad * theta1_rad + theta2_rad * theta2_rad;
+    if (reach <= BRACE_PLANAR_REACH_RAD2) {
+        return BRACE_OK;
+    }
+    return reach <= 3.4028234e38f ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
+}
+
+brace_status_t brace_chain_compliance(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
+                                      brace_compliance_t *compliance, float *det)
+{
+    if (chain == NULL || compliance == NULL) {
+        return BRACE_E_NULL;
+    }
+    const brace_status_t status = refusal(theta1_rad, theta2_rad);
+    if (status == BRACE_OK) {
+        const tensor_t c = tensor(chain, theta1_rad, theta2_rad);
+        *compliance = (brace_compliance_t){c.mean + c.dev_x, c.dev_y, c.mean - c.dev_x};
+        if (det != NULL) {
+            *det = c.det;
+        }
+    }
+    return status;
+}
+
+brace_status_t brace_chain_stiffness(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
+                                     brace_stiffness_t *stiffness)
+{
+    if (chain == NULL || stiffness == NULL) {
+        return BRACE_E_NULL;
+    }
+    const brace_status_t status = refusal(theta1_rad, theta2_rad);
+    if (status != BRACE_OK) {
+        return status;
+    }
+    const tensor_t c = tensor(chain, theta1_rad, theta2_rad);
+    const float square = c.mean * c.mean;
+    if (!(c.det > SINGULAR * square)) {
+        return BRACE_E_SINGULAR;
+    }
+    const float radius = __builtin_sqrtf(__builtin_fmaf(c.dev_x, c.dev_x, c.dev_y * c.dev_y));
+    const float per_det = 1.0f / c.det;
+    *stiffness = (brace_stiffness_t){
+        .k_xx_n_per_mm = (c.mean - c.dev_x) * per_det,
+        .k_xz_n_per_mm = -c.dev_y * per_det,
+        .k_zz_n_per_mm = (c.mean + c.dev_x) * per_det,
+        .lambda_min_n_per_mm = 1.0f / (c.mean + radius),
+        .lambda_max_n_per_mm = (c.mean + radius) * per_det,
+        .stiff_axis_rad = 0.5f * brace_atan2(-c.dev_y, -c.dev_x),
+        .flags = c.det < SLENDER * square ? BRACE_FLAG_NEAR_SINGULAR : 0u,
+    };
+    return BRACE_OK;
+}

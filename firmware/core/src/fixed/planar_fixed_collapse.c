@@ -1,0 +1,128 @@
+#include "brace/planar_fixed.h"
+
+#include <stddef.h>
+#include <string.h>
+
+#include "chain/chain_list.h"
+#include "fixed/fixed_det.h"
+#include "base/turn.h"
+
+/* BRACE_TURN_ONE as an integer: the tick's sine and cosine of one. */
+#define TRIG_ONE 2147481600
+
+/* The least mean over the largest below which the words that hold it grow too short for the stated accuracy.
+ */
+#define UNEVEN 3e-4
+#define SMALLEST_MM_PER_N 1e-7
+#define LARGEST_MM_PER_N 1e7
+
+/* Largest e with value * 2^e < 2^bits. value > 0. */
+static int32_t headroom(float value, int32_t bits)
+{
+    uint32_t word;
+    memcpy(&word, &value, sizeof word);
+    return bits - ((int32_t)(word >> 23) - 126);
+}
+
+static float two_to(int32_t exponent)
+{
+    const uint32_t word = (uint32_t)(exponent + 127) << 23;
+    float value;
+    memcpy(&value, &word, sizeof value);
+    return value;
+}
+
+/* Anchored at the folded knee, where the levers nearly cancel: they do so exactly in the integers too. */
+static brace_fixed_harmonic_t quantised(const brace_det_harmonic_t *h, int32_t scale)
+{
+    const double unit = (double)two_to(scale), per_turn = unit * (0x1p32 / TRIG_ONE);
+    const int32_t per_cos = (int32_t)(h->per_cos * per_turn), per_sin = (int32_t)(h->per_sin * per_turn);
+    const int64_t at_fold = (int64_t)((h->constant - h->per_cos) * unit * 0x1p32);
+    return (brace_fixed_harmonic_t){
+        .constant = at_fold + (int64_t)per_cos * TRIG_ONE + (int64_t)0x80000000,
+        .per_turn = (uint32_t)per_cos | (uint64_t)(uint32_t)per_sin << 32,
+    };
+}
+
+static brace_det_harmonic_t fine(const brace_harmonic_t *h, double factor)
+{
+    return (brace_det_harmonic_t){factor * ((double)h->at_fold + (double)h->per_cos),
+                                  factor * (double)h->per_cos, factor * (double)h->per_sin};
+}
+
+static brace_fixed_harmonic_t quantised_float(const brace_harmonic_t *h, double factor, int32_t scale)
+{
+    const brace_det_harmonic_t at = fine(h, factor);
+    return quantised(&at, scale);
+}
+
+static brace_det_extent_t extent_of(const brace_harmonic_t *h)
+{
+    const brace_det_harmonic_t at = fine(h, 1.0);
+    return brace_det_extent(&at);
+}
+
+static int32_t least_of(int32_t a, int32_t b)
+{
+    return a < b ? a : b;
+}
+
+/* A little more, so that rounding carries nothing over a power of two. */
+static float padded(double value)
+{
+    return (float)value * 1.0005f;
+}
+
+static brace_status_t quantise(const brace_harmonics_t *plane, const brace_det_t *det,
+                               brace_planar_fixed_t *fixed)
+{
+    const brace_det_extent_t mean = extent_of(&plane->mean);
+    const brace_det_extent_t rest = brace_det_extent(&det->rest), cross = brace_det_extent(&det->cross);
+    uint32_t flags;
+    if (!(mean.most > SMALLEST_MM_PER_N && mean.most < LARGEST_MM_PER_N) ||
+        brace_det_judge(det, mean.most, &flags) != BRACE_OK) {
+        return BRACE_E_UNSUPPORTED;
+    }
+    const int32_t mean_scale = headroom(padded(mean.most), 30); /* trace of C below 2^31 */
+    const int32_t rest_scale = headroom(padded(rest.most), 31);
+    const double cross_most = cross.most > -cross.least ? cross.most : -cross.least;
+    int32_t cross_scale = (rest_scale + 30) >> 1; /* its square, by rest_weight, below 2^61 */
+    if (cross_most > 0.0) {
+        cross_scale = least_of(cross_scale, headroom(padded(cross_most), 31));
+        cross_scale = least_of(cross_scale, headroom(padded(cross.swing), 30));
+    }
+    const int32_t weight = 2 * cross_scale - rest_scale;
+    if (weight < 0) {
+        return BRACE_E_UNSUPPORTED;
+    }
+    fixed->mean = quantised_float(&plane->mean, 1.0, mean_scale + 1);
+    fixed->minus_dev_x = quantised_float(&plane->dev_x, -1.0, mean_scale);
+    fixed->dev_y = quantised_float(&plane->dev_y, 1.0, mean_scale);
+    fixed->cross = quantised(&det->cross, cross_scale);
+    fixed->rest = quantised(&det->rest, rest_scale);
+    fixed->rest_weight = (int32_t)1 << weight;
+    fixed->exponent_k = (uint32_t)(99 + 2 * cross_scale - mean_scale) << 23;
+    fixed->exponent_min = (uint32_t)(98 + mean_scale) << 23;
+    fixed->flags = mean.least < UNEVEN * mean.most ? BRACE_FLAG_NEAR_SINGULAR : flags;
+    return BRACE_OK;
+}
+
+brace_status_t brace_planar_fixed_collapse(const brace_limb_t *limb, brace_planar_fixed_t *fixed)
+{
+    const brace_status_t status = fixed == NULL ? BRACE_E_NULL : brace_limb_check(limb);
+    if (status != BRACE_OK) {
+        return status;
+    }
+    if (limb->base.x_mm_per_n != limb->base.z_mm_per_n) {
+        return BRACE_E_UNSUPPORTED;
+    }
+    brace_harmonics_t plane;
+    brace_det_t det;
+    {
+        brace_element_t element[BRACE_CHAIN_FIRM];
+        const float iso = brace_chain_firm(limb, element) + limb->base.x_mm_per_n;
+        det = brace_det_of(iso, element, BRACE_CHAIN_FIRM);
+        brace_harmonics_list(iso, element, BRACE_CHAIN_FIRM, &plane);
+    }
+    return quantise(&plane, &det, fixed);
+}

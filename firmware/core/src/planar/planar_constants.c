@@ -1,0 +1,106 @@
+#include "planar/planar_constants.h"
+
+#include "base/off_tick.h"
+#include "planar/planar_tables.h"
+#include "base/turn.h"
+#include "base/vec.h"
+
+/* What the tick's sine of a quarter turn is, q30, and four over it. */
+#define TICK_ONE 1073740799
+#define PER_WORD (4.0f * 1073741824.0f / 1073740799.0f)
+
+/* det C = per_mean mean + constant + cross^2. */
+typedef struct {
+    float per_mean, constant;
+} rest_t;
+
+/* Brings det C into this form: 2 iso mean - iso^2 and what the elements bring themselves. Of that first harmonic,
+ * what stands across `cross` in the plane of (1 + cos, sin) is taken up by more of the mean, unless it is less than
+ * what rounding does to det anyway, and what lies along it by shifting cross. */
+static inline rest_t affine_rest(brace_harmonics_t *h, float most)
+{
+    const float iso = h->iso_mm_per_n;
+    const brace_vec_t mean = {h->mean.per_cos, h->mean.per_sin};
+    const brace_vec_t cross = {h->cross.per_cos, h->cross.per_sin};
+    const brace_vec_t beyond = {h->rest.per_cos, h->rest.per_sin};
+    const float square = vec_dot(cross, cross), across = vec_cross(cross, beyond);
+    const float rounding = 2e-7f * iso * most * __builtin_sqrtf(square);
+    float more = 0.0f, shift = 0.0f;
+    if (__builtin_fabsf(across) > rounding) {
+        more = across / vec_cross(cross, mean);
+    }
+    if (square > 0.0f) {
+        shift = 0.5f * (vec_dot(cross, beyond) - more * vec_dot(cross, mean)) / square;
+    }
+    const float constant = h->rest.at_fold - iso * iso - more * h->mean.at_fold -
+                           shift * (2.0f * h->cross.at_fold + shift);
+    h->cross.at_fold += shift;
+    return (rest_t){2.0f * iso + more, constant};
+}
+
+static float swing(const brace_harmonic_t *h)
+{
+    return __builtin_sqrtf(h->per_cos * h->per_cos + h->per_sin * h->per_sin);
+}
+
+/* Is the accuracy of the tick safe? Where rest could lose digits against its parts, at the mean's least and most, and
+ * where det is least, at the zeros of cross: there an error of cross, from rounded constants and from the last place
+ * of the tick, must stay well below the square root of the rest. */
+static inline int accurate(const brace_harmonics_t *h, rest_t rest, float least, float most, float unit)
+{
+    const float low = rest.per_mean * least + rest.constant;
+    const float high = rest.per_mean * most + rest.constant;
+    const float smaller = low < high ? low : high;
+    const float error = 2.0f * unit + 6e-8f * (__builtin_fabsf(h->cross.per_cos) + __builtin_fabsf(h->cross.at_fold));
+    return __builtin_fabsf(rest.constant) < 16.0f * smaller && error < 2e-6f * __builtin_sqrtf(smaller) &&
+           unit + 5e-8f * __builtin_fabsf(h->mean.per_cos) < 1.2e-6f * least;
+}
+
+/* The low word of start is the factor of the cosine; the high word makes up for it, and for the tick's rounding down. */
+static inline void fix(const brace_harmonic_t *h, float units, brace_planar_harmonic_t *fixed)
+{
+    const int32_t per_cos = (int32_t)(h->per_cos * (units * PER_WORD));
+    const int64_t constant =
+        (int32_t)(2.0f * h->at_fold * units) * (INT64_C(1) << 31) + (int64_t)per_cos * TICK_ONE;
+    const uint32_t high = (uint32_t)((uint64_t)(constant + 0x100000000 - (uint32_t)per_cos) >> 32);
+    fixed->start = (int64_t)((uint64_t)high << 32 | (uint32_t)per_cos);
+    fixed->per_sin = (int32_t)(h->per_sin * (units * PER_WORD));
+}
+
+BRACE_OFF_TICK brace_status_t brace_planar_constants(brace_harmonics_t *h, brace_planar_t *planar)
+{
+    /* The mean lies between the eigenvalues of its form in (cos h, sin h), h = theta2/2. */
+    h->mean.at_fold += h->iso_mm_per_n;
+    const float per_sin = h->mean.per_sin, folded = h->mean.at_fold;
+    const float most = folded + h->mean.per_cos + swing(&h->mean);
+    const float least = (folded * (folded + 2.0f * h->mean.per_cos) - per_sin * per_sin) / most;
+    const rest_t rest = affine_rest(h, most);
+
+    /* Every factor below its word, the mean below two scales. */
+    float scale = 0.51f * most;
+    const float swing_x = swing(&h->dev_x), swing_y = swing(&h->dev_y);
+    scale = swing_x > scale ? swing_x : scale;
+    scale = 1.001f * (swing_y > scale ? swing_y : scale);
+    if (!(scale > 0.0f && scale < 1e9f)) {
+        return BRACE_E_PARAMETER;
+    }
+    const float units = 0x1p27f / scale;
+    if (!accurate(h, rest, least, most, 1.0f / units)) {
+        return BRACE_E_UNSUPPORTED;
+    }
+    /* The deviators bring two bits more into the turn to the world's frame, which takes them again. */
+    h->rest = h->cross;
+    const brace_harmonic_t *from = &h->mean;
+    brace_planar_harmonic_t *to = &planar->mean;
+    for (int i = 0; i < 4; i++) {
+        fix(&from[i], i == 1 || i == 2 ? units * PER_WORD : units, &to[i]);
+    }
+    planar->sine = &brace_turn_table[0].sin;
+    planar->cosine = &brace_turn_table[0].cos;
+    planar->axis = &brace_axis_table[BRACE_AXIS_MIDDLE];
+    planar->rest_per_mean = rest.per_mean * units;
+    planar->rest = rest.constant * units * units;
+    planar->per_unit_n_per_mm = units;
+    planar->slope_per_unit = 0x1p31f / units;
+    return BRACE_OK;
+}
