@@ -8,7 +8,8 @@ from toolchain import BUILD, CORE, M3, M4F, Processor, flash_bytes, section_size
 from versions import core_sources
 
 NO_FPU_ONLY = ("planar_fixed",)  # headers for controllers without an FPU
-HOST_ONLY = ("planar_batch",)
+HOST_ONLY = ("planar_batch", "chain_batch")
+NOT_FOR_ONE_PLANE = ("spatial", "planar_table", "backlash", "gap_stiffness")  # a planar limb's K does without
 
 CORE_FLASH = "flash, Cortex-M4F, all of the core but the fixed-point path"
 PLANAR_RAM = "RAM, one limb: parameters and planar constants"
@@ -55,11 +56,13 @@ def weigh_core() -> dict[str, int]:
     """Name -> bytes; the names say what and on which controller."""
     flash, deepest, needs = _weigh("with_fpu", (*NO_FPU_ONLY, *HOST_ONLY))
     everything, _, _ = _weigh("everything", HOST_ONLY)
+    planar, _, _ = _weigh("planar_limb", (*NO_FPU_ONLY, *HOST_ONLY, *NOT_FOR_ONE_PLANE))
     sizes = type_sizes(("brace_limb_t", "brace_planar_t", "brace_planar_fixed_t", "brace_spatial_t"),
                        ("brace/limb.h", "brace/planar.h", "brace/planar_fixed.h", "brace/spatial.h"), M4F)
     limb = sizes["brace_limb_t"]
     return {
         CORE_FLASH: flash,
+        "flash, Cortex-M4F, a planar limb: kinematics, K, slope, contact, uncertainty": planar,
         "flash, Cortex-M4F, the fixed-point path as well": everything,
         PLANAR_RAM: limb + sizes["brace_planar_t"],
         FIXED_RAM: limb + sizes["brace_planar_fixed_t"],
