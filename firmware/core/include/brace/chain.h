@@ -91,7 +91,8 @@ typedef struct {
 
 /* The chain's harmonics.
  * returns BRACE_OK, BRACE_E_NULL,
- *         BRACE_E_UNSUPPORTED: the base yields unequally; brace_chain_stiffness serves such a limb. */
+ *         BRACE_E_UNSUPPORTED: the base yields unequally (or there are more than the five elements of femur, tibia and
+ *         joints); brace_chain_stiffness serves such a limb. */
 brace_status_t brace_harmonics(const brace_chain_t *chain, brace_harmonics_t *harmonics);
 
 #endif

@@ -133,12 +133,16 @@ BRACE_OFF_TICK brace_status_t brace_harmonics(const brace_chain_t *chain, brace_
     if (chain == NULL || harmonics == NULL) {
         return BRACE_E_NULL;
     }
+    if (chain->count > BRACE_CHAIN_FIRM) {
+        return BRACE_E_UNSUPPORTED;
+    }
+    brace_element_t element[BRACE_CHAIN_FIRM];
     for (uint32_t i = 0; i < chain->count; i++) {
         if (vec_dot(chain->element[i].base, chain->element[i].base) > 0.0f) {
             return BRACE_E_UNSUPPORTED;
         }
+        element[i] = chain->element[i];
     }
-    brace_chain_t copy = *chain;
-    brace_harmonics_list(copy.iso_mm_per_n, copy.element, copy.count, harmonics);
+    brace_harmonics_list(chain->iso_mm_per_n, element, chain->count, harmonics);
     return BRACE_OK;
 }
