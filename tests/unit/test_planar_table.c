@@ -9,7 +9,7 @@
 #define PI 3.14159265358979324
 
 /* Of what the header promises; the slender sample is the one that needs all of it. */
-#define ERROR_LIMIT 2.5e-6
+#define ERROR_LIMIT 2e-6
 #define AXIS_LIMIT_RAD 1e-6
 
 static brace_planar_t planar;
