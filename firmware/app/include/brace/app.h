@@ -3,16 +3,25 @@
  *     joint_read -> backlash (per joint) -> true angles -> K -> supervisor -> snapshot
  *                                                            -> services (take-up, loading test, store, buses)
  *
- * One brace_app_t per limb, no global state: many limbs run in one process. Knows the world through brace_hal_t only.
+ * One brace_app_t (about 20 kB) per limb, no global state: many limbs run in one process. Knows the world through brace_hal_t only.
  * No heap, no recursion, no stdio, no clock of its own; one caller, not from an interrupt.
+ *
+ * When K is valid: the mode is MONITOR, TAKING_UP or LOADING_TEST; the newest sound sample of both joints is no older
+ * than controller.age_limit_us; the posture is inside both drives' travel; parameters are in force (safe defaults
+ * count, flagged UNCALIBRATED). A joint with play (gap_rad >= 1e-5) whose load does not prove a flank carries nothing:
+ * K is then valid, flagged GAP_OPEN, with both bounds.
  */
 #ifndef BRACE_APP_H
 #define BRACE_APP_H
 
 #include "brace/backlash.h"
+#include "brace/chain.h"
 #include "brace/gap_stiffness.h"
 #include "brace/kinematics.h"
+#include "brace/loading.h"
 #include "brace/parameters.h"
+#include "brace/planar.h"
+#include "brace/recorder.h"
 #include "brace/stiffness.h"
 #include "brace_hal.h"
 
@@ -38,6 +47,10 @@ enum {
     BRACE_FAULT_CRASHED = 1u << 8         /* the last start was after a crash; see the record */
 };
 
+/* Faults that make every K invalid and the mode FAULT. A fault is over when its cause has been away for 100 ms, TICK_LATE
+ * for 1 s; PARAMETERS and STORE last until a set is stored, MODEL_DRIFT and CRASHED until cleared on request. */
+#define BRACE_FAULTS_NO_K (BRACE_FAULT_SENSOR_FEMUR | BRACE_FAULT_SENSOR_TIBIA | BRACE_FAULT_ENCODER_STUCK)
+
 /* Where the parameters in force come from. */
 typedef enum {
     BRACE_PARAMETERS_DEFAULT = 0,
@@ -51,7 +64,7 @@ typedef struct {
     uint32_t taken_us;    /* when the joints were sampled */
     brace_mode_t mode;
     uint32_t faults;      /* BRACE_FAULT_... */
-    bool k_is_valid;      /* stiffness may be used, with its flags; else it holds the last one or zeroes */
+    bool k_is_valid;      /* stiffness may be used, with its flags; else its numbers mean nothing (flags say why) */
     brace_gap_stiffness_t stiffness; /* now (GAP_OPEN counted) and once every gap has closed; both carry the flags */
     float theta_rad[BRACE_LINK_COUNT];       /* true joint angles, backlash and zero offset taken into account */
     float motor_rad[BRACE_LINK_COUNT];
@@ -59,10 +72,173 @@ typedef struct {
     brace_backlash_out_t play[BRACE_LINK_COUNT]; /* [0] (coxa) stays UNKNOWN: the limb's plane has two joints */
     brace_point_t tip_mm;
     brace_point_t play_shift_mm; /* of the tip, by the joints' play: the zero-force shift */
-    float force_x_n, force_z_n;  /* on the tip: sensor, or from the joints' loads */
-    float temp_degc;
+    float force_x_n, force_z_n;  /* of the ground on the tip; NaN: not known */
+    bool force_is_sensed;        /* by the tip's sensor, corrected; else from the joints' loads */
+    float temp_degc;             /* of the joints, the warmer one; NaN: not measured */
     uint32_t parameter_crc;
     brace_parameter_origin_t parameter_origin;
 } brace_snapshot_t;
+
+/* Counters of what went wrong without a word; each stays at its largest value. */
+typedef struct {
+    uint32_t ticks_late;
+    uint32_t samples_bad;     /* refused, not finite or out of range */
+    uint32_t frames_refused;  /* by the bus: no room, bus off */
+    uint32_t frames_unknown;  /* received, for nobody */
+    uint32_t commands_failed; /* joint_command refused */
+} brace_app_counters_t;
+
+/* ---------------------------------------------------------------------------------------------- private --
+ * The controller's memory; here so that it can be placed without a heap. Nothing in it is for others. */
+
+enum { BRACE_APP_JOINTS = 2 }; /* femur and tibia: [0] and [1] wherever only the plane's joints count */
+
+typedef struct {
+    brace_hal_joint_t sample; /* the last sound one */
+    bool seen, sound, stuck;
+    float still_rad;          /* stuck or not: where the angle has stayed, since when, what the torque did */
+    float torque_n_mm, torque_low_n_mm, torque_high_n_mm, link_low_rad, link_high_rad;
+    uint32_t still_us;
+} brace_app_joint_t;
+
+typedef struct {
+    brace_backlash_t backlash;
+    bool watched;             /* the joint has play and its state machine is set up */
+} brace_app_play_t;
+
+typedef struct {
+    brace_planar_t planar;    /* when the limb collapses and nothing changes its springs */
+    brace_chain_t chain;      /* else: what does not change; the joints' springs are added each tick */
+    bool collapsed;
+    float hip_rad_per_n_mm, knee_rad_per_n_mm, rotation_rad_per_n_mm;
+    float warm_per_degc, reference_degc;
+    float hardening_n_mm_per_rad3[BRACE_APP_JOINTS];
+    float deflection_rad[BRACE_APP_JOINTS];
+    float lever_femur_mm, lever_tibia_mm;
+} brace_app_model_t;
+
+typedef struct {
+    bool fitted;              /* there is a sensor, and its matrix has an inverse */
+    float inverse[4];
+    float bias_x_n, bias_z_n, saturation_n;
+} brace_app_sensor_t;
+
+typedef struct {
+    uint32_t away_us[16];     /* how long the cause of each fault has been away */
+    uint32_t latched;
+} brace_app_supervisor_t;
+
+typedef struct {
+    uint8_t order[BRACE_APP_JOINTS]; /* joints in the order of taking up: 1 femur, 2 tibia */
+    uint8_t count;                   /* taken up or being taken up */
+    bool letting_go;
+} brace_app_takeup_t;
+
+typedef struct {
+    float offset_rad[BRACE_APP_JOINTS]; /* by the loading test */
+    bool told;                          /* the drives hold a command of ours */
+} brace_app_motion_t;
+
+typedef struct {
+    bool fitted;                        /* the board has CAN and the node's number is set */
+    uint32_t heartbeat_us;
+    uint32_t faults_told;
+} brace_app_report_t;
+
+typedef struct {
+    const brace_hal_t *hal;
+    brace_parameters_t parameters, next;
+    uint32_t parameter_crc, next_crc;
+    brace_parameter_origin_t origin, next_origin;
+    uint8_t configure_piece; /* 0: nothing to put in force */
+
+    brace_mode_t mode;
+    bool wants_configuration;
+    uint32_t faults, last_us, tick_us;
+    bool ticked;
+
+    brace_app_joint_t joint[BRACE_APP_JOINTS];
+    brace_app_play_t play[BRACE_APP_JOINTS];
+    brace_app_model_t model;
+    brace_app_sensor_t sensor;
+    brace_app_supervisor_t supervisor;
+    brace_app_takeup_t takeup;
+    brace_app_motion_t motion;
+    brace_app_report_t report;
+    brace_loading_t loading;
+    brace_recorder_t recorder;
+    brace_app_counters_t counters;
+    brace_pose_t pose; /* of the tick under way */
+
+    brace_snapshot_t snapshot[2]; /* one is whole while the other is written */
+    uint32_t newest;
+} brace_app_t;
+
+/* ---------------------------------------------------------------------------------------------- running -- */
+
+/* Starts a controller: reads the parameters in force from the store, sets up CAN (listen only while the node's number
+ * is unset), and is in START until the first ticks have brought sound samples.
+ *   hal: lives as long as app; entries that are not optional must be there
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_PARAMETER (a mandatory entry is missing). Not for the tick: some 10^4
+ * instructions, and can_setup's 20 ms. */
+brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal);
+
+/* One tick; to be called every parameters.controller.tick_us.
+ *   now_us: the HAL's clock; may wrap
+ * cost on a Cortex-M4F: at most 4,000 instructions in every mode, HAL excluded; measured by the bench. */
+void brace_app_tick(brace_app_t *app, uint32_t now_us);
+
+/* The newest tick, whole. Not null for a started app; its content stays until the tick after next. */
+const brace_snapshot_t *brace_app_snapshot(const brace_app_t *app);
+
+/* The parameters in force. */
+const brace_parameters_t *brace_app_parameters(const brace_app_t *app);
+
+const brace_app_counters_t *brace_app_counters(const brace_app_t *app);
+
+/* --------------------------------------------------------------------------------------------- requests --
+ * Between ticks or from a service within one. Each answers at once; what it starts goes on in the ticks.
+ * All return BRACE_OK, BRACE_E_NULL, BRACE_E_MODE (not in this mode), and what is named. */
+
+/* Takes up the play of one joint against a flank; when its take-up holds, the other joint may follow. From MONITOR, or
+ * in TAKING_UP with every joint asked before holding. How it went: snapshot.play[].takeup. If one fails, every joint is
+ * let go in the reverse order.
+ *   joint_index: BRACE_FEMUR or BRACE_TIBIA; flank: +1 or -1
+ * returns also BRACE_E_RANGE (joint, flank), BRACE_E_UNSUPPORTED (no play, or no joint_command) */
+brace_status_t brace_app_take_up(brace_app_t *app, int32_t joint_index, int32_t flank);
+
+/* Lets every joint go, last taken up first; MONITOR when the last is back. Ends a loading test too. */
+brace_status_t brace_app_let_go(brace_app_t *app);
+
+/* A loading test, from MONITOR or with the play taken up: brace/loading.h.
+ * returns also BRACE_E_RANGE (setup), BRACE_E_UNSUPPORTED (no joint_command), BRACE_E_SINGULAR (the joints cannot move
+ * the tip along the axis at this posture) */
+brace_status_t brace_app_loading_start(brace_app_t *app, const brace_loading_setup_t *setup);
+
+/* Ends it; the limb goes back to where it began. The rows so far stay. */
+brace_status_t brace_app_loading_stop(brace_app_t *app);
+
+/* The last loading test, or the one under way. Never null for a started app. */
+const brace_loading_result_t *brace_app_loading_result(const brace_app_t *app);
+
+/* Rows of the recorder, oldest first; BRACE_E_RANGE past the end. */
+uint32_t brace_app_row_count(const brace_app_t *app);
+brace_status_t brace_app_row(const brace_app_t *app, uint32_t index, brace_row_t *row);
+
+/* Configuration: only here may parameters be stored; nothing moves the limb, K is not valid. Entered from MONITOR or
+ * FAULT, left to START. */
+brace_status_t brace_app_configuration_enter(brace_app_t *app);
+brace_status_t brace_app_configuration_leave(brace_app_t *app);
+
+/* Stores a set and puts it in force once it has read back; in CONFIGURATION only.
+ * returns also BRACE_E_PARAMETER (a set that cannot be), BRACE_E_RANGE (another is under way) */
+brace_status_t brace_app_parameters_commit(brace_app_t *app, const brace_parameters_t *parameters);
+
+/* Puts the set before the one in force back. */
+brace_status_t brace_app_parameters_rollback(brace_app_t *app);
+
+/* Clears MODEL_DRIFT (its detector begins anew) and CRASHED. faults: BRACE_FAULT_... bits
+ * returns also BRACE_E_RANGE: a fault that is not cleared by request */
+brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults);
 
 #endif

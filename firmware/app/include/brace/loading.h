@@ -1,0 +1,89 @@
+/* The paper's loading test, run by the limb's own motors in small steps against a contact.
+ *
+ * The tip stands on something that does not yield. A pass 0 -> +n -> 0 -> -n -> 0 displaces the limb's free shape in
+ * steps along x or z; the tip stays, so the limb is deflected by as much, and the ground pushes back. The displacement
+ * of a row is that of the tip against the limb: minus what the motors moved, through the levers. What is measured counts
+ * from the preload point, the first reading; play should be taken up before (brace_app_take_up).
+ *
+ * The motors' movement is read from their encoders, so a servo that gives way under load is no part of the measured
+ * K; with BRACE_LOADING_COMMANDED it is taken from the commanded offsets, and the servo's yielding is part of it, as
+ * where joint compliance was identified with the servo in it.
+ */
+#ifndef BRACE_LOADING_H
+#define BRACE_LOADING_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "brace/slope.h"
+#include "brace/stiffness.h"
+#include "brace/uncertainty.h"
+
+typedef enum { BRACE_AXIS_X = 0, BRACE_AXIS_Z = 1 } brace_axis_t;
+
+typedef enum { BRACE_LOADING_ENCODED = 0, BRACE_LOADING_COMMANDED = 1 } brace_loading_source_t;
+
+typedef struct {
+    brace_axis_t axis;
+    uint32_t steps_per_side;      /* [2, 60] */
+    float step_mm;                /* [0.001, 50] */
+    uint32_t dwell_us;            /* at each step; the second half is averaged [20 000, 1e7] */
+    float rate_mm_per_s;          /* of the tip's free shape (0, 1000] */
+    float force_max_n;            /* on the tip, change from the preload point (0, 1e6] */
+    float torque_max_n_mm;        /* of each motor (0, 1e6]; never above the drive's range */
+    brace_loading_source_t source;
+} brace_loading_setup_t;
+
+/* How the test stands or ended. Values never change. */
+typedef enum {
+    BRACE_LOADING_NONE = 0,
+    BRACE_LOADING_RUNNING = 1,
+    BRACE_LOADING_DONE = 2,
+    BRACE_LOADING_STOPPED = 3,     /* on request */
+    BRACE_LOADING_E_FORCE = -1,    /* the force passed its bound */
+    BRACE_LOADING_E_TORQUE = -2,   /* a motor's torque passed its bound */
+    BRACE_LOADING_E_TRAVEL = -3,   /* a motor went further than twice the way commanded and 0.01 rad, or out of its travel */
+    BRACE_LOADING_E_TIME = -4,     /* not done within twice its time and 2 s */
+    BRACE_LOADING_E_NO_FORCE = -5, /* neither sensor nor joints tell the force */
+    BRACE_LOADING_E_LOST = -6,     /* a fault, or a flank that was taken up let go */
+    BRACE_LOADING_E_FLAT = -7      /* too few steps with a displacement: the motors do not follow */
+} brace_loading_outcome_t;
+
+typedef struct {
+    brace_loading_outcome_t outcome;
+    brace_loading_setup_t setup;
+    uint16_t run, config, rep;
+    uint32_t rows;                 /* read so far */
+    float theta1_rad, theta2_rad, temp_degc; /* at the preload point */
+    float preload_x_n, preload_z_n;
+    bool force_is_sensed;
+    /* A column of K: force along x and z per displacement along the axis; with DONE only. */
+    brace_slope_column_t least_squares, mean_of_ratios;
+    float model_k_x_n_per_mm, model_k_z_n_per_mm; /* the model's at the preload point */
+    float sigma_model_k_x_n_per_mm, sigma_model_k_z_n_per_mm;
+    float z_x, z_z;                /* (least squares - model) / sigma of both */
+} brace_loading_result_t;
+
+/* A test under way. Private. */
+typedef struct {
+    uint8_t phase;
+    uint32_t phase_us, test_us, limit_us;
+    uint16_t step;                 /* being gone to or read */
+    float along_mm;                /* where the free shape is commanded to */
+    float per_mm[2];               /* joint offsets for 1 mm of it */
+    float lever[4];                /* tip's movement for the joints', theta2's sense counted */
+    float start_motor_rad[2], start_link_rad[2];
+    float sum[7];                  /* over the dwell: motor angles, force, link angles, temperature */
+    uint32_t summed;
+    uint16_t run_count, config_count;
+    uint8_t rep_count[2];
+    float config_theta_rad[2];
+    bool held[2];                  /* joints whose play was taken up when it began */
+    bool drift_due;
+    float last_d_mm, last_fx_n, last_fz_n;
+    brace_slope_t slope;
+    brace_stiffness_t model;
+    brace_loading_result_t result;
+} brace_loading_t;
+
+#endif
