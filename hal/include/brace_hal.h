@@ -55,6 +55,8 @@ typedef struct {
     uint32_t bit_rate;     /* of arbitration [bit/s]: 125000, 250000, 500000 or 1000000 */
     uint32_t fd_bit_rate;  /* of an FD frame's data [bit/s]; 0: classic CAN only */
     bool listen_only;      /* neither sends nor acknowledges */
+    bool loopback;         /* for the self-test: what is sent is received, and the bus neither sees it nor is heard;
+                              E_UNSUPPORTED when the controller can not */
 } brace_can_setup_t;
 
 typedef struct {
