@@ -10,7 +10,7 @@
  * brace_hal.h says.
  *
  * What stays the board's: start-up code and vector table, with these handlers in it (exception number = 16 + n):
- *   n = 20 can1_rx0_handler, 22 can1_sce_handler, 37 usart1_handler, 38 usart2_handler, 39 usart3_handler
+ *   n = 20 can1_rx0_handler, 37 usart1_handler, 38 usart2_handler, 39 usart3_handler
  * The FPU, if used, is switched on by the start-up code. SysTick is free for the board.
  */
 #ifndef BRACE_HAL_STM32F405_H
@@ -94,8 +94,8 @@ uint32_t stm32f405_sector_bytes(uint8_t sector);
  *   now_us       TIM2 at 1 MHz, goes on while flash is erased; steps of 1 us (rate exact when TIM2's clock is whole MHz)
  *   serial_*     rings of 512 bytes each way; a byte with a parity or framing error is dropped, so a frame's check
  *                fails; baud [1200, 2e6] that the clock meets to 2 %, else E_RANGE
- *   can_setup    E_RANGE: bit rate not to be had from APB1, or CAN FD asked for; E_DEVICE: the controller does not
- *                answer (an emulator) within 20 ms, or no crystal and not listen_only; E_UNSUPPORTED: no pins
+ *   can_setup    E_UNSUPPORTED: no pins, or CAN FD asked for; E_RANGE: bit rate not to be had from APB1; E_DEVICE: the
+ *                controller does not answer (an emulator), the bus is held dominant, or no crystal and not listen_only
  *   can_send     three mailboxes, first in first out whatever the identifiers, so order is kept; AGAIN when all three
  *                are full; E_UNSUPPORTED when listening only
  *   can_receive  ring of 64 frames; extended and remote frames are turned away by the filter
@@ -117,7 +117,6 @@ typedef struct {
 stm32f405_clock_report_t stm32f405_clock_report(void);
 
 void can1_rx0_handler(void);
-void can1_sce_handler(void);
 void usart1_handler(void);
 void usart2_handler(void);
 void usart3_handler(void);

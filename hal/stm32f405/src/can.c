@@ -1,0 +1,258 @@
+#include "can.h"
+
+#include "can_timing.h"
+#include "clock.h"
+#include "interrupts.h"
+#include "pins.h"
+#include "processor.h"
+#include "stm32f405_registers.h"
+
+enum {
+    PIN_FUNCTION = 9,
+    ACKNOWLEDGE_US = 9000, /* of entering and of leaving initialisation: a frame at 125 kbit/s takes 1.1 ms */
+    RELEASE_POLLS = 16,
+    FIFO_FRAMES = 3,
+    RING_FRAMES = 64, /* a power of two; 7 ms of a full bus at 1 Mbit/s */
+    MAILBOXES = 3
+};
+
+static const uint32_t mailbox_is_empty[MAILBOXES] = {CAN_TSR_TME0, CAN_TSR_TME1, CAN_TSR_TME2};
+
+/* A frame as the registers hold it. */
+typedef struct {
+    uint32_t id_and_length; /* length above 16 bits of identifier */
+    uint32_t data_low, data_high;
+} stored_frame_t;
+
+static stored_frame_t ring[RING_FRAMES];
+static volatile uint32_t ring_written, ring_taken; /* counted without end */
+static volatile uint32_t frames_lost;
+
+static const stm32f405_board_t *wiring;
+static bool running, listening_only;
+static bool recovering; /* initialisation is asked for, and to be left as soon as it is acknowledged */
+
+void can_use(const stm32f405_board_t *board)
+{
+    wiring = board;
+    running = false;
+}
+
+static volatile uint32_t *can(uint32_t offset)
+{
+    return &REGISTER(CAN1_BASE, offset);
+}
+
+/* Standard data frames only, all of them, into FIFO 0: identifier free, IDE and RTR must be 0. */
+static void open_filter(void)
+{
+    *can(CAN_FMR) |= CAN_FMR_FINIT;
+    *can(CAN_FA1R) = 0u;
+    *can(CAN_FM1R) &= ~CAN_FM1R_FBM0; /* mask */
+    *can(CAN_FS1R) |= CAN_FS1R_FSC0;  /* of 32 bits */
+    *can(CAN_FFA1R) &= ~CAN_FFA1R_FFA0;
+    *can(CAN_F0R1) = 0u;
+    *can(CAN_F0R2) = CAN_RI0R_IDE | CAN_RI0R_RTR; /* filters have the bits of a receive identifier register */
+    *can(CAN_FA1R) = CAN_FA1R_FACT0;
+    *can(CAN_FMR) &= ~CAN_FMR_FINIT;
+}
+
+static uint32_t timing_bits(const can_timing_t *timing, bool listen_only)
+{
+    return FIELD(CAN_BTR_BRP, timing->prescaler - 1u) | FIELD(CAN_BTR_TS1, timing->before - 1u) |
+           FIELD(CAN_BTR_TS2, timing->after - 1u) | FIELD(CAN_BTR_SJW, timing->jump - 1u) |
+           (listen_only ? CAN_BTR_SILM : 0u);
+}
+
+static void restart_controller(void)
+{
+    REGISTER(RCC_BASE, RCC_APB1ENR) |= RCC_APB1ENR_CAN1EN;
+    REGISTER(RCC_BASE, RCC_APB1RSTR) |= RCC_APB1RSTR_CAN1RST;
+    REGISTER(RCC_BASE, RCC_APB1RSTR) &= ~RCC_APB1RSTR_CAN1RST;
+    (void)REGISTER(RCC_BASE, RCC_APB1RSTR);
+    processor_barrier();
+}
+
+int32_t can_setup(void *context, const brace_can_setup_t *setup)
+{
+    (void)context;
+    can_timing_t timing;
+    if (setup->fd_bit_rate != 0u || !pin_is_connected(wiring->can_rx) || !pin_is_connected(wiring->can_tx)) {
+        return BRACE_HAL_E_UNSUPPORTED;
+    }
+    if (!can_timing_find(clock_report()->clocks.apb1_hz, setup->bit_rate, &timing)) {
+        return BRACE_HAL_E_RANGE;
+    }
+    if (!clock_report()->crystal && !setup->listen_only) {
+        return BRACE_HAL_E_DEVICE;
+    }
+    running = false;
+    recovering = false;
+    restart_controller(); /* no interrupt from here on, nothing in its mailboxes and FIFO; asleep */
+    ring_taken = ring_written;
+    frames_lost = 0u;
+    pin_give(wiring->can_rx, PIN_FUNCTION);
+    pin_give(wiring->can_tx, PIN_FUNCTION);
+
+    /* Sends in the order asked for; a full FIFO keeps what it has. Retransmits; does not come back from bus-off alone. */
+    const uint32_t manner = CAN_MCR_TXFP | CAN_MCR_RFLM;
+    *can(CAN_MCR) = manner | CAN_MCR_INRQ;
+    if (!clock_poll_until(can(CAN_MSR), CAN_MSR_INAK | CAN_MSR_SLAK, CAN_MSR_INAK, ACKNOWLEDGE_US)) {
+        return BRACE_HAL_E_DEVICE;
+    }
+    *can(CAN_BTR) = timing_bits(&timing, setup->listen_only);
+    open_filter();
+    *can(CAN_IER) = CAN_IER_FMPIE0 | CAN_IER_FOVIE0;
+    *can(CAN_MCR) = manner;
+    if (!clock_poll_until(can(CAN_MSR), CAN_MSR_INAK, 0u, ACKNOWLEDGE_US)) { /* 11 recessive bits */
+        return BRACE_HAL_E_DEVICE;
+    }
+    listening_only = setup->listen_only;
+    running = true;
+    interrupt_enable(CAN1_RX0_IRQ);
+    return BRACE_HAL_OK;
+}
+
+/* Second half of can_recover, whenever the controller has acknowledged: leaving initialisation starts the 128 x 11 bits. */
+static void finish_recovery(void)
+{
+    if (recovering && (*can(CAN_MSR) & CAN_MSR_INAK) != 0u) {
+        *can(CAN_MCR) &= ~CAN_MCR_INRQ;
+        recovering = false;
+    }
+}
+
+static bool is_bus_off(void)
+{
+    return recovering || (*can(CAN_ESR) & CAN_ESR_BOFF) != 0u;
+}
+
+int32_t can_recover(void *context)
+{
+    (void)context;
+    if (!running) {
+        return BRACE_HAL_E_UNSUPPORTED;
+    }
+    if (!recovering && (*can(CAN_ESR) & CAN_ESR_BOFF) != 0u) {
+        *can(CAN_TSR) = CAN_TSR_ABRQ0 | CAN_TSR_ABRQ1 | CAN_TSR_ABRQ2;
+        *can(CAN_MCR) |= CAN_MCR_INRQ;
+        recovering = true;
+    }
+    finish_recovery();
+    return BRACE_HAL_OK;
+}
+
+static uint32_t word(const uint8_t *bytes)
+{
+    return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
+}
+
+int32_t can_send(void *context, const brace_can_frame_t *frame)
+{
+    (void)context;
+    if (!running || listening_only || frame->fd) {
+        return BRACE_HAL_E_UNSUPPORTED;
+    }
+    if (frame->id > 0x7ffu || frame->length > 8u) {
+        return BRACE_HAL_E_RANGE;
+    }
+    finish_recovery();
+    if (is_bus_off()) {
+        return BRACE_HAL_E_BUS_OFF;
+    }
+    const uint32_t status = *can(CAN_TSR);
+    for (uint32_t mailbox = 0; mailbox < MAILBOXES; mailbox++) {
+        if ((status & mailbox_is_empty[mailbox]) != 0u) {
+            const uint32_t at = mailbox * (CAN_TI1R - CAN_TI0R);
+            *can(CAN_TDT0R + at) = FIELD(CAN_TDT0R_DLC, frame->length);
+            *can(CAN_TDL0R + at) = word(&frame->data[0]);
+            *can(CAN_TDH0R + at) = word(&frame->data[4]);
+            *can(CAN_TI0R + at) = FIELD(CAN_TI0R_STID, frame->id) | CAN_TI0R_TXRQ;
+            return BRACE_HAL_OK;
+        }
+    }
+    return BRACE_HAL_AGAIN;
+}
+
+int32_t can_receive(void *context, brace_can_frame_t *frame)
+{
+    (void)context;
+    if (!running) {
+        return BRACE_HAL_E_UNSUPPORTED;
+    }
+    finish_recovery();
+    const uint32_t taken = ring_taken;
+    if (ring_written == taken) {
+        return 0;
+    }
+    compiler_barrier();
+    const stored_frame_t *stored = &ring[taken % RING_FRAMES];
+    frame->id = stored->id_and_length & 0xffffu;
+    frame->length = (uint8_t)(stored->id_and_length >> 16);
+    frame->fd = false;
+    for (uint32_t i = 0; i < frame->length; i++) {
+        const uint32_t half = i < 4u ? stored->data_low : stored->data_high;
+        frame->data[i] = (uint8_t)(half >> (8u * (i % 4u)));
+    }
+    compiler_barrier();
+    ring_taken = taken + 1u;
+    return 1;
+}
+
+int32_t can_health(void *context, brace_can_health_t *health)
+{
+    (void)context;
+    if (!running) {
+        return BRACE_HAL_E_UNSUPPORTED;
+    }
+    finish_recovery();
+    const uint32_t errors = *can(CAN_ESR);
+    health->tx_errors = (uint8_t)((errors & CAN_ESR_TEC) / FIELD(CAN_ESR_TEC, 1u));
+    health->rx_errors = (uint8_t)((errors & CAN_ESR_REC) / FIELD(CAN_ESR_REC, 1u));
+    health->error_passive = (errors & CAN_ESR_EPVF) != 0u;
+    health->bus_off = recovering || (errors & CAN_ESR_BOFF) != 0u;
+    health->frames_lost = frames_lost;
+    return BRACE_HAL_OK;
+}
+
+/* ------------------------------------------------------------------------------------------ interrupt -- */
+
+static void count_lost(void)
+{
+    if (frames_lost != UINT32_MAX) {
+        frames_lost = frames_lost + 1u;
+    }
+}
+
+static void store_frame(void)
+{
+    const uint32_t written = ring_written;
+    if (written - ring_taken >= (uint32_t)RING_FRAMES) {
+        count_lost();
+        return;
+    }
+    stored_frame_t *place = &ring[written % RING_FRAMES];
+    const uint32_t dlc = *can(CAN_RDT0R) & CAN_RDT0R_DLC; /* a sender may put up to 15 there for 8 bytes */
+    const uint32_t length = dlc < 8u ? dlc : 8u;
+    place->id_and_length = (*can(CAN_RI0R) & CAN_RI0R_STID) / FIELD(CAN_RI0R_STID, 1u) | length << 16;
+    place->data_low = *can(CAN_RDL0R);
+    place->data_high = *can(CAN_RDH0R);
+    compiler_barrier();
+    ring_written = written + 1u;
+}
+
+void can1_rx0_handler(void)
+{
+    if ((*can(CAN_RF0R) & CAN_RF0R_FOVR0) != 0u) {
+        *can(CAN_RF0R) = CAN_RF0R_FOVR0; /* one at least; the controller does not count them */
+        count_lost();
+    }
+    for (uint32_t frame = 0; frame < FIFO_FRAMES && (*can(CAN_RF0R) & CAN_RF0R_FMP0) != 0u; frame++) {
+        store_frame();
+        *can(CAN_RF0R) = CAN_RF0R_RFOM0;
+        /* The count is stale until the release has been taken. */
+        if (!poll_until(can(CAN_RF0R), CAN_RF0R_RFOM0, 0u, RELEASE_POLLS)) {
+            break;
+        }
+    }
+}

@@ -1,0 +1,68 @@
+#include "watchdog.h"
+
+#include "processor.h"
+#include "stm32f405_registers.h"
+
+enum {
+    DIVIDE_32 = 3,       /* value of PR */
+    RELOAD = 3672,       /* 2.5 s with the fastest LSI, 47 kHz; 3.67 s with 32 kHz; 6.9 s with the slowest, 17 kHz */
+    UPDATE_POLLS = 20000 /* at most 5 LSI cycles, 0.3 ms */
+};
+
+static brace_reset_cause_t cause;
+static bool running;
+
+void reset_cause_take(bool by_fault)
+{
+    const uint32_t flags = REGISTER(RCC_BASE, RCC_CSR);
+    if (by_fault) {
+        cause = BRACE_RESET_FAULT;
+    } else if ((flags & (RCC_CSR_WDGRSTF | RCC_CSR_WWDGRSTF)) != 0u) {
+        cause = BRACE_RESET_WATCHDOG;
+    } else if ((flags & RCC_CSR_SFTRSTF) != 0u) {
+        cause = BRACE_RESET_REQUESTED;
+    } else if ((flags & (RCC_CSR_PORRSTF | RCC_CSR_BORRSTF)) != 0u) {
+        cause = BRACE_RESET_POWER;
+    } else if ((flags & RCC_CSR_PADRSTF) != 0u) { /* last: every other reset pulls the pin too */
+        cause = BRACE_RESET_PIN;
+    } else {
+        cause = BRACE_RESET_POWER;
+    }
+    REGISTER(RCC_BASE, RCC_CSR) = flags | RCC_CSR_RMVF;
+}
+
+brace_reset_cause_t reset_cause_read(void *context)
+{
+    (void)context;
+    return cause;
+}
+
+void watchdog_start(void)
+{
+    REGISTER(DBG_BASE, DBG_DBGMCU_APB1_FZ) |= DBG_DBGMCU_APB1_FZ_DBG_IWDEG_STOP;
+    REGISTER(IWDG_BASE, IWDG_KR) = IWDG_KR_START_KEY; /* starts the LSI too, which the registers below need */
+    REGISTER(IWDG_BASE, IWDG_KR) = IWDG_KR_ACCESS_KEY;
+    REGISTER(IWDG_BASE, IWDG_PR) = FIELD(IWDG_PR_PR, DIVIDE_32);
+    REGISTER(IWDG_BASE, IWDG_RLR) = FIELD(IWDG_RLR_RL, RELOAD);
+    (void)poll_until(&REGISTER(IWDG_BASE, IWDG_SR), IWDG_SR_PVU | IWDG_SR_RVU, 0u, UPDATE_POLLS);
+    running = true;
+    watchdog_feed(0);
+}
+
+void watchdog_feed(void *context)
+{
+    (void)context;
+    if (running) {
+        REGISTER(IWDG_BASE, IWDG_KR) = IWDG_KR_RELOAD_KEY; /* and shuts the other registers again */
+    }
+}
+
+void processor_restart(void *context)
+{
+    (void)context;
+    processor_barrier();
+    REGISTER(SCB_BASE, SCB_AIRCR) = FIELD(SCB_AIRCR_VECTKEY, SCB_AIRCR_VECTKEY_KEY) | SCB_AIRCR_SYSRESETREQ;
+    processor_barrier();
+    /* Takes a few cycles; the watchdog if it is never. */
+    (void)poll_until(&REGISTER(SCB_BASE, SCB_AIRCR), SCB_AIRCR_VECTKEY, 0u, UPDATE_POLLS);
+}
