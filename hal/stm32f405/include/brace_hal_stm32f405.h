@@ -95,7 +95,8 @@ uint32_t stm32f405_sector_bytes(uint8_t sector);
  *   serial_*     rings of 512 bytes each way; a byte with a parity or framing error is dropped, so a frame's check
  *                fails; baud [1200, 2e6] that the clock meets to 2 %, else E_RANGE
  *   can_setup    E_UNSUPPORTED: no pins, or CAN FD asked for; E_RANGE: bit rate not to be had from APB1; E_DEVICE: the
- *                controller does not answer (an emulator), the bus is held dominant, or no crystal and not listen_only
+ *                controller does not answer (an emulator), the bus is held dominant, or no crystal and neither listen_only
+ *                nor loopback
  *   can_send     three mailboxes, first in first out whatever the identifiers, so order is kept; AGAIN when all three
  *                are full; E_UNSUPPORTED when listening only
  *   can_receive  ring of 64 frames; extended and remote frames are turned away by the filter

@@ -57,11 +57,16 @@ static void open_filter(void)
     *can(CAN_FMR) &= ~CAN_FMR_FINIT;
 }
 
-static uint32_t timing_bits(const can_timing_t *timing, bool listen_only)
+/* Loopback is the manual's silent one: the line stays recessive, and what is on it is not heard. */
+static uint32_t mode_bits(const brace_can_setup_t *setup)
+{
+    return setup->loopback ? CAN_BTR_LBKM | CAN_BTR_SILM : setup->listen_only ? CAN_BTR_SILM : 0u;
+}
+
+static uint32_t timing_bits(const can_timing_t *timing)
 {
     return FIELD(CAN_BTR_BRP, timing->prescaler - 1u) | FIELD(CAN_BTR_TS1, timing->before - 1u) |
-           FIELD(CAN_BTR_TS2, timing->after - 1u) | FIELD(CAN_BTR_SJW, timing->jump - 1u) |
-           (listen_only ? CAN_BTR_SILM : 0u);
+           FIELD(CAN_BTR_TS2, timing->after - 1u) | FIELD(CAN_BTR_SJW, timing->jump - 1u);
 }
 
 static void restart_controller(void)
@@ -83,7 +88,7 @@ int32_t can_setup(void *context, const brace_can_setup_t *setup)
     if (!can_timing_find(clock_report()->clocks.apb1_hz, setup->bit_rate, &timing)) {
         return BRACE_HAL_E_RANGE;
     }
-    if (!clock_report()->crystal && !setup->listen_only) {
+    if (!clock_report()->crystal && !setup->listen_only && !setup->loopback) { /* it would disturb the bus */
         return BRACE_HAL_E_DEVICE;
     }
     running = false;
@@ -100,14 +105,14 @@ int32_t can_setup(void *context, const brace_can_setup_t *setup)
     if (!clock_poll_until(can(CAN_MSR), CAN_MSR_INAK | CAN_MSR_SLAK, CAN_MSR_INAK, ACKNOWLEDGE_US)) {
         return BRACE_HAL_E_DEVICE;
     }
-    *can(CAN_BTR) = timing_bits(&timing, setup->listen_only);
+    *can(CAN_BTR) = timing_bits(&timing) | mode_bits(setup);
     open_filter();
     *can(CAN_IER) = CAN_IER_FMPIE0 | CAN_IER_FOVIE0;
     *can(CAN_MCR) = manner;
     if (!clock_poll_until(can(CAN_MSR), CAN_MSR_INAK, 0u, ACKNOWLEDGE_US)) { /* 11 recessive bits */
         return BRACE_HAL_E_DEVICE;
     }
-    listening_only = setup->listen_only;
+    listening_only = setup->listen_only && !setup->loopback;
     running = true;
     interrupt_enable(CAN1_RX0_IRQ);
     return BRACE_HAL_OK;

@@ -118,6 +118,7 @@ int32_t serial_write(void *context, brace_serial_port_t port, const uint8_t *byt
     if (done > 0u) {
         /* The handler may clear TXEIE or TCIE between this read and write; set again they only call it once more. */
         REGISTER(places[index].base, USART_CR1) |= USART_CR1_TXEIE;
+        interrupt_request(places[index].irq); /* emulators without transmit interrupts need it; elsewhere it is one call more */
     }
     return (int32_t)done;
 }
@@ -159,32 +160,39 @@ static void set_switch(pin_switch_t output, uint32_t level)
     }
 }
 
-static void send(usart_t *usart, uint32_t base, uint32_t status)
+/* As many bytes as the transmitter takes: two at most, unless it is an emulated one, which takes all. */
+static void send(usart_t *usart, uint32_t base)
 {
-    volatile uint32_t *const control = &REGISTER(base, USART_CR1);
-    if ((*control & USART_CR1_TXEIE) != 0u) {
+    for (uint32_t i = 0; i < BYTE_RING_BYTES && (REGISTER(base, USART_SR) & USART_SR_TXE) != 0u; i++) {
         uint8_t byte;
-        if ((status & USART_SR_TXE) == 0u) {
+        if (!byte_ring_take(&usart->sent, &byte)) {
+            /* The last bit is still on its way. */
+            REGISTER(base, USART_CR1) = (REGISTER(base, USART_CR1) & ~USART_CR1_TXEIE) | USART_CR1_TCIE;
             return;
         }
-        if (byte_ring_take(&usart->sent, &byte)) {
-            set_switch(usart->drive_enable, usart->drive_enable.high);
-            REGISTER(base, USART_DR) = byte;
-        } else {
-            *control = (*control & ~USART_CR1_TXEIE) | USART_CR1_TCIE; /* the last bit is still on its way */
-        }
-    } else if ((*control & USART_CR1_TCIE) != 0u && (status & USART_SR_TC) != 0u) {
+        set_switch(usart->drive_enable, usart->drive_enable.high);
+        REGISTER(base, USART_DR) = byte;
+    }
+}
+
+static void end_sending(usart_t *usart, uint32_t base)
+{
+    if ((REGISTER(base, USART_SR) & USART_SR_TC) != 0u) {
         set_switch(usart->drive_enable, usart->drive_enable.low);
-        *control &= ~USART_CR1_TCIE;
+        REGISTER(base, USART_CR1) &= ~USART_CR1_TCIE;
     }
 }
 
 static void serve(uint32_t index)
 {
+    usart_t *usart = &usarts[index];
     const uint32_t base = places[index].base;
-    const uint32_t status = REGISTER(base, USART_SR);
-    receive(&usarts[index], base, status);
-    send(&usarts[index], base, status);
+    receive(usart, base, REGISTER(base, USART_SR));
+    if ((REGISTER(base, USART_CR1) & USART_CR1_TXEIE) != 0u) {
+        send(usart, base);
+    } else if ((REGISTER(base, USART_CR1) & USART_CR1_TCIE) != 0u) {
+        end_sending(usart, base);
+    }
 }
 
 void usart1_handler(void)

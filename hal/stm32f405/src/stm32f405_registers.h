@@ -166,6 +166,7 @@
 #define CAN_BTR_TS1 (0xfu << 16)
 #define CAN_BTR_TS2 (7u << 20)
 #define CAN_BTR_SJW (3u << 24)
+#define CAN_BTR_LBKM (1u << 30)
 #define CAN_BTR_SILM (1u << 31)
 #define CAN_TI0R 0x180u
 #define CAN_TI0R_TXRQ (1u << 0)
@@ -220,6 +221,8 @@
 #define NVIC_BASE 0xe000e000u
 #define NVIC_ISER0 0x100u
 #define NVIC_ISER1 0x104u
+#define NVIC_ISPR0 0x200u
+#define NVIC_ISPR1 0x204u
 #define SCB_BASE 0xe000ed00u
 #define SCB_AIRCR 0x0cu
 #define SCB_AIRCR_SYSRESETREQ (1u << 2)
