@@ -153,8 +153,11 @@ static void test_true_angle_adds_the_offset(void)
 static void test_every_status_has_its_text(void)
 {
     const char *unknown = brace_status_text((brace_status_t)-99);
-    for (int status = BRACE_E_UNSUPPORTED; status <= BRACE_OK; status++) {
-        for (int other = BRACE_E_UNSUPPORTED; other < status; other++) {
+    for (int status = BRACE_E_SCHEMA; status <= BRACE_OK; status++) {
+        if (status == -9) { /* the host library's */
+            continue;
+        }
+        for (int other = BRACE_E_SCHEMA; other < status; other++) {
             TEST_ASSERT_NOT_EQUAL(0, strcmp(brace_status_text((brace_status_t)status),
                                             brace_status_text((brace_status_t)other)));
         }

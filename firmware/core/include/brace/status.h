@@ -15,7 +15,14 @@ typedef enum {
     BRACE_E_PARAMETER = -5,   /* a limb parameter that no limb can have */
     BRACE_E_SINGULAR = -6,    /* the compliance has no inverse: nothing yields in some direction */
     BRACE_E_TOO_FEW = -7,     /* not enough samples for an answer */
-    BRACE_E_UNSUPPORTED = -8  /* this limb needs the general path; see the function's header */
+    BRACE_E_UNSUPPORTED = -8, /* this limb needs the general path; see the function's header */
+    /* -9 is the host library's */
+    BRACE_E_MAGIC = -10,      /* not a parameter block at all */
+    BRACE_E_FORMAT = -11,     /* a block of another format */
+    BRACE_E_LENGTH = -12,     /* bytes are missing or too many */
+    BRACE_E_CHECKSUM = -13,   /* the CRC does not fit: damaged on its way */
+    BRACE_E_SCHEMA = -14,     /* sound, but written for another list of parameters */
+    BRACE_E_MODE = -15        /* not in the mode that the controller is in */
 } brace_status_t;
 
 /* Quality of a result that was given all the same; bits, carried with the value. */

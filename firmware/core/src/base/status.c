@@ -12,6 +12,12 @@ const char *brace_status_text(brace_status_t status)
     case BRACE_E_SINGULAR: return "nothing yields in some direction, so K does not exist";
     case BRACE_E_TOO_FEW: return "not enough samples for an answer";
     case BRACE_E_UNSUPPORTED: return "this limb needs the general path";
+    case BRACE_E_MODE: return "not in the mode that the controller is in";
+    case BRACE_E_MAGIC: return "not a parameter block";
+    case BRACE_E_FORMAT: return "a parameter block of another format";
+    case BRACE_E_LENGTH: return "bytes are missing or too many";
+    case BRACE_E_CHECKSUM: return "the checksum does not fit: damaged on its way";
+    case BRACE_E_SCHEMA: return "written for another list of parameters";
     default: return "not a status of this library";
     }
 }

@@ -1,19 +1,21 @@
 /* Everything a controller is told once and keeps: the limb, its drives, its instruments, and its own manners.
  *
- * One struct of plain numbers. The dictionary (firmware/interface/dictionary.toml) lists every member with its key in
- * limb.toml, unit, range and default; the table of members is generated from it. A parameter block is this struct as
- * bytes: header, members little-endian in the dictionary's order, CRC.
+ * One struct of plain 32-bit numbers. The dictionary (firmware/interface/dictionary.toml) lists every member in the
+ * struct's order, with its key in limb.toml, unit, range and default; the tables are generated from it
+ * (generated/brace/parameter_list.h has count, schema hash and an index for each member). A parameter block is this
+ * struct as bytes: header, members little-endian in the same order, CRC.
  *
  *   offset  0  magic "BRCE"           4
  *           4  format = 1             2
- *           6  header bytes           2
- *           8  schema hash            4   CRC-32 of the member list's names, types and units: the dictionary's
+ *           6  header bytes = 20      2
+ *           8  schema hash            4   CRC-32 of the member list's keys, types and units
  *          12  members' bytes         4
  *          16  sequence               4   of the parameter set; newer is larger, modulo 2^32
  *          20  members ...
  *        last  CRC-32 of all before   4   (IEEE 802.3, as zlib)
  *
- * Pure functions; any thread. Refused calls leave their outputs untouched.
+ * Pure functions, any thread, not for the tick; no heap, no recursion, loops over the fixed list of members. Refused
+ * calls leave their outputs untouched, save where said. Instruction counts: Cortex-M4F, docs/bench.md.
  */
 #ifndef BRACE_PARAMETERS_H
 #define BRACE_PARAMETERS_H
@@ -22,6 +24,7 @@
 #include <stdint.h>
 
 #include "brace/limb.h"
+#include "brace/parameter_list.h"
 #include "brace/status.h"
 
 /* A joint's drive and its instruments, joint side of the reduction. */
@@ -52,7 +55,9 @@ typedef struct {
     float creep_ratio, creep_time_constant_s;
     float joint_compliance_per_degc, reference_degc;
     float contact_play_mm;
-    float change_at_s, change_link, change_bending_factor; /* kept for the host; nothing on the limb follows them */
+    float change_at_s;             /* this and the next two: kept for the host; nothing on the limb follows them */
+    uint32_t change_link;          /* [BRACE_COXA, BRACE_TIBIA] */
+    float change_bending_factor;
 } brace_slow_effects_t;
 
 typedef struct {
@@ -72,5 +77,68 @@ typedef struct {
     brace_slow_effects_t slow;
     brace_controller_t controller;
 } brace_parameters_t;
+
+enum {
+    BRACE_BLOCK_FORMAT = 1,
+    BRACE_BLOCK_HEADER_BYTES = 20,
+    BRACE_BLOCK_BYTES = BRACE_BLOCK_HEADER_BYTES + 4 * BRACE_PARAMETER_COUNT + 4
+};
+
+/* What a block's header says of itself. */
+typedef struct {
+    uint32_t format;
+    uint32_t schema_hash;
+    uint32_t block_bytes; /* header, members and CRC */
+    uint32_t sequence;
+} brace_block_header_t;
+
+/* Safe defaults: a limb that can exist (the paper's), no effect but compliance, node unset, listen only. K computed
+ * from them is UNCALIBRATED. Null is ignored. */
+void brace_parameters_default(brace_parameters_t *parameters);
+
+/* Could a controller run on these? Every member in its range, then what members say together: noise, bias and take-up
+ * torque within the torque range, travel from below to above, bit rates that exist, an age limit above the tick; then
+ * brace_limb_check.
+ *   wrong_index (out, may be null): the first member at fault (BRACE_PARAMETER_..., brace_parameter_key), or
+ *     BRACE_PARAMETER_COUNT when it is the limb as a whole; written only with BRACE_E_PARAMETER, BRACE_E_NOT_FINITE
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE (NaN), BRACE_E_PARAMETER
+ * cost: 4,000 instructions; stack 100 bytes */
+brace_status_t brace_parameters_check(const brace_parameters_t *parameters, uint32_t *wrong_index);
+
+/* Parameters to a block of BRACE_BLOCK_BYTES. What brace_parameters_check refuses is refused.
+ *   room: bytes that block has
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_LENGTH (room), BRACE_E_NOT_FINITE, BRACE_E_PARAMETER
+ * cost: 12,000 instructions; stack 150 bytes */
+brace_status_t brace_parameters_pack(const brace_parameters_t *parameters, uint32_t sequence, uint8_t *block,
+                                     uint32_t room);
+
+/* A block to parameters; nothing of it is believed before the CRC is right.
+ *   length: bytes of the block, exactly
+ *   sequence (out, may be null)
+ *   wrong_index (out, may be null): as brace_parameters_check, and written by the same refusals only
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_LENGTH (too short for a header, or other than the header says),
+ *   BRACE_E_MAGIC, BRACE_E_FORMAT, BRACE_E_CHECKSUM, BRACE_E_SCHEMA (sound, but of another dictionary;
+ *   brace_block_header tells its hash, ours is BRACE_SCHEMA_HASH), BRACE_E_NOT_FINITE, BRACE_E_PARAMETER
+ * cost: 14,000 instructions; stack 600 bytes */
+brace_status_t brace_parameters_unpack(const uint8_t *block, uint32_t length, brace_parameters_t *parameters,
+                                       uint32_t *sequence, uint32_t *wrong_index);
+
+/* A block's header alone, whoever wrote it: nothing is checked but magic and format, so that both hashes can be shown.
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_LENGTH (less than a header, or it names an impossible length),
+ *   BRACE_E_MAGIC, BRACE_E_FORMAT; cost: 60 instructions */
+brace_status_t brace_block_header(const uint8_t *block, uint32_t length, brace_block_header_t *header);
+
+/* Identity of a set of values: CRC-32 of schema hash and members, whatever its sequence. Equal values, equal number, on
+ * every controller and in every tool. 0 for null. cost: 8,000 instructions */
+uint32_t brace_parameters_crc(const brace_parameters_t *parameters);
+
+/* CRC-32 (IEEE 802.3, reflected, as zlib's crc32): of `count` bytes, going on from `crc` (0 at first).
+ * cost: 18 instructions a byte */
+uint32_t brace_crc32(uint32_t crc, const uint8_t *bytes, uint32_t count);
+
+/* Member by index, for services and messages; constant storage. key: as in limb.toml; "the limb as a whole" from
+ * BRACE_PARAMETER_COUNT on. For hosts: an image that never asks carries no texts. */
+const char *brace_parameter_key(uint32_t index);
+const char *brace_parameter_unit(uint32_t index);
 
 #endif

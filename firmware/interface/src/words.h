@@ -1,0 +1,41 @@
+/* Little-endian words, and the members of the parameter struct as words. */
+#ifndef BRACE_WORDS_H
+#define BRACE_WORDS_H
+
+#include <stdint.h>
+#include <string.h>
+
+#include "brace/parameters.h"
+
+static inline uint32_t brace_get_u32(const uint8_t *bytes)
+{
+    return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
+}
+
+static inline uint32_t brace_get_u16(const uint8_t *bytes)
+{
+    return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8;
+}
+
+static inline void brace_put_u32(uint8_t *bytes, uint32_t value)
+{
+    bytes[0] = (uint8_t)value;
+    bytes[1] = (uint8_t)(value >> 8);
+    bytes[2] = (uint8_t)(value >> 16);
+    bytes[3] = (uint8_t)(value >> 24);
+}
+
+/* Every member is 32 bits wide and stands at four times its index (asserted in parameter_table.c). */
+static inline uint32_t brace_member_get(const brace_parameters_t *parameters, uint32_t index)
+{
+    uint32_t word;
+    memcpy(&word, (const uint8_t *)parameters + 4u * index, sizeof word);
+    return word;
+}
+
+static inline void brace_member_put(brace_parameters_t *parameters, uint32_t index, uint32_t word)
+{
+    memcpy((uint8_t *)parameters + 4u * index, &word, sizeof word);
+}
+
+#endif

@@ -1,0 +1,1 @@
+"""What the controller shows to the outside, by name: generated from the dictionary."""

@@ -1,0 +1,512 @@
+"""Parameters of the controller by name. Written by tools/interface from dictionary.toml; do not edit."""
+
+from __future__ import annotations
+
+from math import inf
+
+from brace.wire.parameter import Parameter
+
+SCHEMA_HASH = 0x34D0C47B
+
+PARAMETERS: tuple[Parameter, ...] = (
+    Parameter(
+        0, "geometry.coxa_mm",
+        unit="mm", low=0.0, high=10000.0, default=0.0, safe=57.0,
+        description="the distance from the yaw axis to the femur axis",
+    ),
+    Parameter(
+        1, "geometry.femur_mm",
+        unit="mm", low=1.0, high=10000.0, default=None, safe=185.0,
+        description="the femur's length",
+    ),
+    Parameter(
+        2, "geometry.tibia_mm",
+        unit="mm", low=1.0, high=10000.0, default=None, safe=313.5,
+        description="the tibia's length",
+    ),
+    Parameter(
+        3, "link.coxa.axial_mm_per_n",
+        unit="mm/N", low=0.0, high=1000.0, default=0.0, safe=0.0,
+        description="the coxa's compliance along itself",
+    ),
+    Parameter(
+        4, "link.coxa.bending_mm_per_n",
+        unit="mm/N", low=0.0, high=1000.0, default=0.0, safe=0.0,
+        description="the coxa's compliance across itself, in the limb's plane",
+    ),
+    Parameter(
+        5, "link.coxa.tilt_rad",
+        unit="rad", low=-1.5707963267948966, high=1.5707963267948966, default=0.0, safe=0.0,
+        description="the turn of the compliance ellipsoid from the link's axis",
+    ),
+    Parameter(
+        6, "link.coxa.lateral_mm_per_n",
+        unit="mm/N", low=0.0, high=1000.0, default=0.0, safe=0.0,
+        description="the coxa's compliance out of the limb's plane",
+    ),
+    Parameter(
+        7, "link.coxa.torsion_rad_per_n_mm",
+        unit="rad/(N mm)", low=0.0, high=1.0, default=0.0, safe=0.0,
+        description="the coxa's twist about itself",
+    ),
+    Parameter(
+        8, "link.coxa.moment_transfer",
+        unit="", low=0.0, high=1.0, default=0.0, safe=0.0, ratio=True,
+        description="the strength of the uniform-beam coupling of force and moment",
+    ),
+    Parameter(
+        9, "link.femur.axial_mm_per_n",
+        unit="mm/N", low=0.0, high=1000.0, default=0.0, safe=0.001,
+        description="the femur's compliance along itself",
+    ),
+    Parameter(
+        10, "link.femur.bending_mm_per_n",
+        unit="mm/N", low=0.0, high=1000.0, default=0.0, safe=0.06,
+        description="the femur's compliance across itself, in the limb's plane",
+    ),
+    Parameter(
+        11, "link.femur.tilt_rad",
+        unit="rad", low=-1.5707963267948966, high=1.5707963267948966, default=0.0, safe=0.0,
+        description="the turn of the compliance ellipsoid from the link's axis",
+    ),
+    Parameter(
+        12, "link.femur.lateral_mm_per_n",
+        unit="mm/N", low=0.0, high=1000.0, default=0.0, safe=0.0,
+        description="the femur's compliance out of the limb's plane",
+    ),
+    Parameter(
+        13, "link.femur.torsion_rad_per_n_mm",
+        unit="rad/(N mm)", low=0.0, high=1.0, default=0.0, safe=0.0,
+        description="the femur's twist about itself",
+    ),
+    Parameter(
+        14, "link.femur.moment_transfer",
+        unit="", low=0.0, high=1.0, default=0.0, safe=0.0, ratio=True,
+        description="the strength of the uniform-beam coupling of force and moment",
+    ),
+    Parameter(
+        15, "link.tibia.axial_mm_per_n",
+        unit="mm/N", low=0.0, high=1000.0, default=0.0, safe=0.002,
+        description="the tibia's compliance along itself",
+    ),
+    Parameter(
+        16, "link.tibia.bending_mm_per_n",
+        unit="mm/N", low=0.0, high=1000.0, default=0.0, safe=0.25,
+        description="the tibia's compliance across itself, in the limb's plane",
+    ),
+    Parameter(
+        17, "link.tibia.tilt_rad",
+        unit="rad", low=-1.5707963267948966, high=1.5707963267948966, default=0.0, safe=0.0,
+        description="the turn of the compliance ellipsoid from the link's axis",
+    ),
+    Parameter(
+        18, "link.tibia.lateral_mm_per_n",
+        unit="mm/N", low=0.0, high=1000.0, default=0.0, safe=0.0,
+        description="the tibia's compliance out of the limb's plane",
+    ),
+    Parameter(
+        19, "link.tibia.torsion_rad_per_n_mm",
+        unit="rad/(N mm)", low=0.0, high=1.0, default=0.0, safe=0.0,
+        description="the tibia's twist about itself",
+    ),
+    Parameter(
+        20, "link.tibia.moment_transfer",
+        unit="", low=0.0, high=1.0, default=0.0, safe=0.0, ratio=True,
+        description="the strength of the uniform-beam coupling of force and moment",
+    ),
+    Parameter(
+        21, "joint.coxa.compliance_rad_per_n_mm",
+        unit="rad/(N mm)", low=0.0, high=1.0, default=0.0, safe=0.0,
+        description="the compliance of gearbox and servo at theta0",
+    ),
+    Parameter(
+        22, "joint.coxa.gap_rad",
+        unit="rad", low=0.0, high=0.5, default=0.0, safe=0.0,
+        description="the full play at theta0",
+    ),
+    Parameter(
+        23, "joint.coxa.zero_offset_rad",
+        unit="rad", low=-0.5, high=0.5, default=0.0, safe=0.0,
+        description="what is added to the commanded theta0 to get the true one",
+    ),
+    Parameter(
+        24, "joint.femur.compliance_rad_per_n_mm",
+        unit="rad/(N mm)", low=0.0, high=1.0, default=0.0, safe=1e-05,
+        description="the compliance of gearbox and servo at theta1",
+    ),
+    Parameter(
+        25, "joint.femur.gap_rad",
+        unit="rad", low=0.0, high=0.5, default=0.0, safe=0.0,
+        description="the full play at theta1",
+    ),
+    Parameter(
+        26, "joint.femur.zero_offset_rad",
+        unit="rad", low=-0.5, high=0.5, default=0.0, safe=0.0,
+        description="what is added to the commanded theta1 to get the true one",
+    ),
+    Parameter(
+        27, "joint.tibia.compliance_rad_per_n_mm",
+        unit="rad/(N mm)", low=0.0, high=1.0, default=0.0, safe=1.6e-05,
+        description="the compliance of gearbox and servo at theta2",
+    ),
+    Parameter(
+        28, "joint.tibia.gap_rad",
+        unit="rad", low=0.0, high=0.5, default=0.0, safe=0.0,
+        description="the full play at theta2",
+    ),
+    Parameter(
+        29, "joint.tibia.zero_offset_rad",
+        unit="rad", low=-0.5, high=0.5, default=0.0, safe=0.0,
+        description="what is added to the commanded theta2 to get the true one",
+    ),
+    Parameter(
+        30, "base.x_mm_per_n",
+        unit="mm/N", low=0.0, high=1000.0, default=0.0, safe=0.0,
+        description="how the base yields along x",
+    ),
+    Parameter(
+        31, "base.z_mm_per_n",
+        unit="mm/N", low=0.0, high=1000.0, default=0.0, safe=0.0,
+        description="how the base yields along z",
+    ),
+    Parameter(
+        32, "base.rotation_rad_per_n_mm",
+        unit="rad/(N mm)", low=0.0, high=1.0, default=0.0, safe=0.0,
+        description="how the base turns about the femur axis",
+    ),
+    Parameter(
+        33, "uncertainty.length_mm",
+        unit="mm", low=0.0, high=100.0, default=0.0, safe=0.0,
+        description="one sigma of the lengths",
+    ),
+    Parameter(
+        34, "uncertainty.angle_rad",
+        unit="rad", low=0.0, high=0.5, default=0.0, safe=0.0,
+        description="one sigma of the joints' zeros",
+    ),
+    Parameter(
+        35, "uncertainty.compliance_rel",
+        unit="", low=0.0, high=1.0, default=0.0, safe=0.0,
+        description="one relative sigma of every compliance",
+    ),
+    Parameter(
+        36, "uncertainty.gain_rel",
+        unit="", low=0.0, high=1.0, default=0.0, safe=0.0,
+        description="one relative sigma of the sensor's gain",
+    ),
+    Parameter(
+        37, "joint.coxa.coulomb_n_mm",
+        unit="N mm", low=0.0, high=1000000000.0, default=0.0, safe=0.0,
+        description="the dry friction at theta0",
+    ),
+    Parameter(
+        38, "joint.coxa.hardening_n_mm_per_rad3",
+        unit="N mm/rad^3", low=0.0, high=1e+30, default=0.0, safe=0.0,
+        description="the cubic stiffening at theta0",
+    ),
+    Parameter(
+        39, "motor.coxa.friction_n_mm",
+        unit="N mm", low=0.0, high=1000000.0, default=200.0, safe=200.0,
+        description="the Coulomb friction of the coxa's motor and gears, before the play, at the joint",
+    ),
+    Parameter(
+        40, "motor.coxa.friction_tolerance_ratio",
+        unit="", low=0.0, high=1.0, default=0.2, safe=0.2,
+        description="how far the motor's friction may be off, of itself",
+    ),
+    Parameter(
+        41, "motor.coxa.inertia_n_mm_s2_per_rad",
+        unit="N mm s^2/rad", low=0.0, high=1000000.0, default=20.0, safe=20.0,
+        description="the inertia of the coxa's motor and gears, at the joint",
+    ),
+    Parameter(
+        42, "motor.coxa.torque_range_n_mm",
+        unit="N mm", low=0.0, high=1000000.0, default=8000.0, safe=8000.0, open_low=True,
+        description="the greatest torque of the coxa's motor, at the joint",
+    ),
+    Parameter(
+        43, "motor.coxa.torque_noise_n_mm",
+        unit="N mm", low=0.0, high=1000000.0, default=400.0, safe=400.0,
+        description="one sigma of a sample of the motor's torque; at most the torque range",
+    ),
+    Parameter(
+        44, "motor.coxa.torque_bias_n_mm",
+        unit="N mm", low=0.0, high=1000000.0, default=80.0, safe=80.0,
+        description="the bound of the torque sample's offset; at most the torque range",
+    ),
+    Parameter(
+        45, "motor.coxa.angle_step_rad",
+        unit="rad", low=1e-07, high=0.01, default=2e-05, safe=2e-05,
+        description="the resolution of the motor's angle, at the joint",
+    ),
+    Parameter(
+        46, "motor.coxa.angle_min_rad",
+        unit="rad", low=-7.9, high=7.9, default=-3.2, safe=-3.2,
+        description="the least commanded theta0 of the joint's travel",
+    ),
+    Parameter(
+        47, "motor.coxa.angle_max_rad",
+        unit="rad", low=-7.9, high=7.9, default=3.2, safe=3.2,
+        description="the greatest commanded theta0 of the joint's travel",
+    ),
+    Parameter(
+        48, "motor.coxa.takeup_torque_n_mm",
+        unit="N mm", low=0.0, high=1000000.0, default=4000.0, safe=4000.0, open_low=True,
+        description="the bound of the motor's torque while play is taken up; at most the torque range",
+    ),
+    Parameter(
+        49, "joint.femur.coulomb_n_mm",
+        unit="N mm", low=0.0, high=1000000000.0, default=0.0, safe=0.0,
+        description="the dry friction at theta1",
+    ),
+    Parameter(
+        50, "joint.femur.hardening_n_mm_per_rad3",
+        unit="N mm/rad^3", low=0.0, high=1e+30, default=0.0, safe=0.0,
+        description="the cubic stiffening at theta1",
+    ),
+    Parameter(
+        51, "motor.femur.friction_n_mm",
+        unit="N mm", low=0.0, high=1000000.0, default=200.0, safe=200.0,
+        description="the Coulomb friction of the femur's motor and gears, before the play, at the joint",
+    ),
+    Parameter(
+        52, "motor.femur.friction_tolerance_ratio",
+        unit="", low=0.0, high=1.0, default=0.2, safe=0.2,
+        description="how far the motor's friction may be off, of itself",
+    ),
+    Parameter(
+        53, "motor.femur.inertia_n_mm_s2_per_rad",
+        unit="N mm s^2/rad", low=0.0, high=1000000.0, default=20.0, safe=20.0,
+        description="the inertia of the femur's motor and gears, at the joint",
+    ),
+    Parameter(
+        54, "motor.femur.torque_range_n_mm",
+        unit="N mm", low=0.0, high=1000000.0, default=8000.0, safe=8000.0, open_low=True,
+        description="the greatest torque of the femur's motor, at the joint",
+    ),
+    Parameter(
+        55, "motor.femur.torque_noise_n_mm",
+        unit="N mm", low=0.0, high=1000000.0, default=400.0, safe=400.0,
+        description="one sigma of a sample of the motor's torque; at most the torque range",
+    ),
+    Parameter(
+        56, "motor.femur.torque_bias_n_mm",
+        unit="N mm", low=0.0, high=1000000.0, default=80.0, safe=80.0,
+        description="the bound of the torque sample's offset; at most the torque range",
+    ),
+    Parameter(
+        57, "motor.femur.angle_step_rad",
+        unit="rad", low=1e-07, high=0.01, default=2e-05, safe=2e-05,
+        description="the resolution of the motor's angle, at the joint",
+    ),
+    Parameter(
+        58, "motor.femur.angle_min_rad",
+        unit="rad", low=-7.9, high=7.9, default=-3.2, safe=-3.2,
+        description="the least commanded theta1 of the joint's travel",
+    ),
+    Parameter(
+        59, "motor.femur.angle_max_rad",
+        unit="rad", low=-7.9, high=7.9, default=3.2, safe=3.2,
+        description="the greatest commanded theta1 of the joint's travel",
+    ),
+    Parameter(
+        60, "motor.femur.takeup_torque_n_mm",
+        unit="N mm", low=0.0, high=1000000.0, default=4000.0, safe=4000.0, open_low=True,
+        description="the bound of the motor's torque while play is taken up; at most the torque range",
+    ),
+    Parameter(
+        61, "joint.tibia.coulomb_n_mm",
+        unit="N mm", low=0.0, high=1000000000.0, default=0.0, safe=0.0,
+        description="the dry friction at theta2",
+    ),
+    Parameter(
+        62, "joint.tibia.hardening_n_mm_per_rad3",
+        unit="N mm/rad^3", low=0.0, high=1e+30, default=0.0, safe=0.0,
+        description="the cubic stiffening at theta2",
+    ),
+    Parameter(
+        63, "motor.tibia.friction_n_mm",
+        unit="N mm", low=0.0, high=1000000.0, default=200.0, safe=200.0,
+        description="the Coulomb friction of the tibia's motor and gears, before the play, at the joint",
+    ),
+    Parameter(
+        64, "motor.tibia.friction_tolerance_ratio",
+        unit="", low=0.0, high=1.0, default=0.2, safe=0.2,
+        description="how far the motor's friction may be off, of itself",
+    ),
+    Parameter(
+        65, "motor.tibia.inertia_n_mm_s2_per_rad",
+        unit="N mm s^2/rad", low=0.0, high=1000000.0, default=20.0, safe=20.0,
+        description="the inertia of the tibia's motor and gears, at the joint",
+    ),
+    Parameter(
+        66, "motor.tibia.torque_range_n_mm",
+        unit="N mm", low=0.0, high=1000000.0, default=8000.0, safe=8000.0, open_low=True,
+        description="the greatest torque of the tibia's motor, at the joint",
+    ),
+    Parameter(
+        67, "motor.tibia.torque_noise_n_mm",
+        unit="N mm", low=0.0, high=1000000.0, default=400.0, safe=400.0,
+        description="one sigma of a sample of the motor's torque; at most the torque range",
+    ),
+    Parameter(
+        68, "motor.tibia.torque_bias_n_mm",
+        unit="N mm", low=0.0, high=1000000.0, default=80.0, safe=80.0,
+        description="the bound of the torque sample's offset; at most the torque range",
+    ),
+    Parameter(
+        69, "motor.tibia.angle_step_rad",
+        unit="rad", low=1e-07, high=0.01, default=2e-05, safe=2e-05,
+        description="the resolution of the motor's angle, at the joint",
+    ),
+    Parameter(
+        70, "motor.tibia.angle_min_rad",
+        unit="rad", low=-7.9, high=7.9, default=-3.2, safe=-3.2,
+        description="the least commanded theta2 of the joint's travel",
+    ),
+    Parameter(
+        71, "motor.tibia.angle_max_rad",
+        unit="rad", low=-7.9, high=7.9, default=3.2, safe=3.2,
+        description="the greatest commanded theta2 of the joint's travel",
+    ),
+    Parameter(
+        72, "motor.tibia.takeup_torque_n_mm",
+        unit="N mm", low=0.0, high=1000000.0, default=4000.0, safe=4000.0, open_low=True,
+        description="the bound of the motor's torque while play is taken up; at most the torque range",
+    ),
+    Parameter(
+        73, "gravity.femur_n",
+        unit="N", low=0.0, high=1000000.0, default=0.0, safe=0.0,
+        description="the femur's weight, at mid-length",
+    ),
+    Parameter(
+        74, "gravity.tibia_n",
+        unit="N", low=0.0, high=1000000.0, default=0.0, safe=0.0,
+        description="the tibia's weight, at mid-length",
+    ),
+    Parameter(
+        75, "gravity.knee_n",
+        unit="N", low=0.0, high=1000000.0, default=0.0, safe=0.0,
+        description="the weight at the knee joint",
+    ),
+    Parameter(
+        76, "sensor.bias_x_n",
+        unit="N", low=-1000000.0, high=1000000.0, default=0.0, safe=0.0,
+        description="a constant added to every reading along x",
+    ),
+    Parameter(
+        77, "sensor.bias_z_n",
+        unit="N", low=-1000000.0, high=1000000.0, default=0.0, safe=0.0,
+        description="a constant added to every reading along z",
+    ),
+    Parameter(
+        78, "sensor.gain",
+        unit="", low=0.0, high=1000.0, default=1.0, safe=1.0, open_low=True,
+        description="the factor on every force",
+    ),
+    Parameter(
+        79, "sensor.rotation_rad",
+        unit="rad", low=-3.141592653589793, high=3.141592653589793, default=0.0, safe=0.0,
+        description="how far the sensor is turned in the limb's plane",
+    ),
+    Parameter(
+        80, "sensor.crosstalk_xz",
+        unit="", low=-1.0, high=1.0, default=0.0, safe=0.0,
+        description="what of f_z is read on x",
+    ),
+    Parameter(
+        81, "sensor.crosstalk_zx",
+        unit="", low=-1.0, high=1.0, default=0.0, safe=0.0,
+        description="what of f_x is read on z",
+    ),
+    Parameter(
+        82, "sensor.drift_x_n_per_s",
+        unit="N/s", low=-1000.0, high=1000.0, default=0.0, safe=0.0,
+        description="the drift of the reading along x",
+    ),
+    Parameter(
+        83, "sensor.drift_z_n_per_s",
+        unit="N/s", low=-1000.0, high=1000.0, default=0.0, safe=0.0,
+        description="the drift of the reading along z",
+    ),
+    Parameter(
+        84, "sensor.saturation_n",
+        unit="N", low=0.0, high=inf, default=inf, safe=inf, open_low=True, infinite=True,
+        description="where each reading is clipped",
+    ),
+    Parameter(
+        85, "sensor.noise_n",
+        unit="N", low=0.0, high=1000000.0, default=0.1, safe=0.1,
+        description="one sigma of a reading",
+    ),
+    Parameter(
+        86, "creep.ratio",
+        unit="", low=0.0, high=1000.0, default=0.0, safe=0.0,
+        description="each joint's delayed deflection over its elastic one",
+    ),
+    Parameter(
+        87, "creep.time_constant_s",
+        unit="s", low=0.0, high=inf, default=1.0, safe=1.0, open_low=True,
+        description="the time constant of the delayed deflection",
+    ),
+    Parameter(
+        88, "thermal.joint_compliance_per_degc",
+        unit="1/degC", low=-1.0, high=1.0, default=0.0, safe=0.0,
+        description="the relative change of the joints' compliance",
+    ),
+    Parameter(
+        89, "thermal.reference_degc",
+        unit="degC", low=-273.15, high=1000.0, default=22.0, safe=22.0,
+        description="the temperature that the compliances are given for",
+    ),
+    Parameter(
+        90, "contact.play_mm",
+        unit="mm", low=0.0, high=1000.0, default=0.0, safe=0.0,
+        description="the full clearance of the tip's ball joint, per axis",
+    ),
+    Parameter(
+        91, "change.at_s",
+        unit="s", low=-inf, high=inf, default=inf, safe=inf, infinite=True,
+        description="when a link's bending changes",
+    ),
+    Parameter(
+        92, "change.link",
+        unit="", low=0, high=2, default="tibia", safe=2, type="u32", texts=("coxa", "femur", "tibia",),
+        description="which link changes",
+    ),
+    Parameter(
+        93, "change.bending_factor",
+        unit="", low=0.0, high=1000.0, default=1.0, safe=1.0, open_low=True,
+        description="the factor on its bending from then on",
+    ),
+    Parameter(
+        94, "controller.node_id",
+        unit="", low=0, high=127, default=0, safe=0, type="u32",
+        description="the limb's number on the CAN bus; 0 is unset: the controller listens and sends nothing",
+    ),
+    Parameter(
+        95, "controller.can_bit_rate",
+        unit="bit/s", low=125000, high=1000000, default=1000000, safe=1000000, type="u32", numbers=(125000, 250000, 500000, 1000000,),
+        description="the CAN bus's bit rate",
+    ),
+    Parameter(
+        96, "controller.tick_us",
+        unit="us", low=500, high=5000, default=1000, safe=1000, type="u32",
+        description="the period of the controller's tick",
+    ),
+    Parameter(
+        97, "controller.age_limit_us",
+        unit="us", low=1000, high=10000000, default=20000, safe=20000, type="u32",
+        description="the age above which K is called stale; at least the tick",
+    ),
+    Parameter(
+        98, "controller.modbus_address",
+        unit="", low=1, high=247, default=1, safe=1, type="u32",
+        description="the controller's address on Modbus",
+    ),
+    Parameter(
+        99, "controller.modbus_baud",
+        unit="bit/s", low=1200, high=230400, default=115200, safe=115200, type="u32", numbers=(1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400,),
+        description="the baud rate of Modbus RTU",
+    ),
+)

@@ -1,0 +1,141 @@
+"""The C side: parameter_list.h (count, hash, an index for each member) and parameter_table.c (rules, defaults, keys)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import TypeVar
+
+from interface.dictionary import Dictionary, Entry
+
+_MADE = "/* Written by tools/interface from dictionary.toml; do not edit. */\n"
+_COLUMNS = 110
+T = TypeVar("T")
+
+
+def list_header(dictionary: Dictionary) -> str:
+    """generated/brace/parameter_list.h"""
+    names = [f"    {index_name(entry)} = {entry.index}," for entry in dictionary.parameters]
+    return (
+        _MADE
+        + "#ifndef BRACE_PARAMETER_LIST_H\n#define BRACE_PARAMETER_LIST_H\n\n"
+        + "/* Of the list below with its types and units; a block of another list is refused. */\n"
+        + f"#define BRACE_SCHEMA_HASH 0x{dictionary.schema_hash:08x}u\n\n"
+        + "/* Members of brace_parameters_t, in its order. */\nenum {\n"
+        + "\n".join(names)
+        + f"\n    BRACE_PARAMETER_COUNT = {len(dictionary.parameters)}\n}};\n\n#endif\n"
+    )
+
+
+def index_name(entry: Entry) -> str:
+    """BRACE_PARAMETER_LINK_FEMUR_AXIAL_MM_PER_N"""
+    return "BRACE_PARAMETER_" + entry.key.upper().replace(".", "_")
+
+
+def table_source(dictionary: Dictionary) -> str:
+    """generated/parameter_table.c"""
+    entries = dictionary.parameters
+    f32 = _distinct(_f32_range(entry) for entry in entries if entry.type == "f32")
+    u32 = _distinct(_u32_range(entry) for entry in entries if entry.type == "u32" and not entry.numbers)
+    lists = _distinct(_numbers(entry) for entry in entries if entry.numbers)
+    rules = [
+        (
+            f32.index(_f32_range(entry))
+            if entry.type == "f32"
+            else len(f32) + len(u32) + lists.index(_numbers(entry))
+            if entry.numbers
+            else len(f32) + u32.index(_u32_range(entry))
+        )
+        for entry in entries
+    ]
+    longest = max(len(entry.numbers) for entry in entries)
+    parts = [
+        _MADE,
+        '#include "parameter_table.h"\n\n#include <float.h>\n#include <math.h>\n#include <stddef.h>\n\n',
+        f"_Static_assert(sizeof(brace_parameters_t) == 4 * {len(entries)}, \"the dictionary lists every member\");\n",
+        *(
+            f"_Static_assert(offsetof(brace_parameters_t, {entry.member}) == {4 * entry.index}, \"order\");\n"
+            for entry in entries
+        ),
+        f"\nconst float brace_f32_range[{len(f32)}][2] = {{\n",
+        *(f"    {{{low}, {high}}},\n" for low, high in f32),
+        f"}};\n\nconst uint32_t brace_u32_range[{len(u32)}][2] = {{\n",
+        *(f"    {{{low}, {high}}},\n" for low, high in u32),
+        f"}};\n\nconst uint32_t brace_u32_choices[{len(lists)}][{longest}] = {{\n",
+        *(f"    {{{values}}},\n" for values in lists),
+        "};\n\n/* For each member: its range of floats, or of whole numbers after these, or its choices after those. */\n",
+        f"const uint8_t brace_parameter_rule[{len(entries)}] = {{\n",
+        *_wrapped([f"{rule}," for rule in rules]),
+        "};\n\nconst brace_parameters_t brace_parameters_safe = {\n",
+        *(f"    .{entry.member} = {_literal(entry)},\n" for entry in entries if entry.safe != 0),
+        "};\n\nstatic const char *const keys[] = {\n",
+        *(f'    "{entry.key}",\n' for entry in entries),
+        "};\n\nstatic const char *const units[] = {\n",
+        *_wrapped([f'"{entry.unit}",' for entry in entries]),
+        "};\n\n",
+        "const char *brace_parameter_key(uint32_t index)\n{\n"
+        '    return index < BRACE_PARAMETER_COUNT ? keys[index] : "the limb as a whole";\n}\n\n',
+        "const char *brace_parameter_unit(uint32_t index)\n{\n"
+        '    return index < BRACE_PARAMETER_COUNT ? units[index] : "";\n}\n',
+    ]
+    return "".join(parts)
+
+
+def table_header(dictionary: Dictionary) -> str:
+    """generated/parameter_table.h: what the block's code reads; private to the interface."""
+    entries = dictionary.parameters
+    f32 = len(_distinct(_f32_range(entry) for entry in entries if entry.type == "f32"))
+    u32 = len(_distinct(_u32_range(entry) for entry in entries if entry.type == "u32" and not entry.numbers))
+    lists = len(_distinct(_numbers(entry) for entry in entries if entry.numbers))
+    longest = max(len(entry.numbers) for entry in entries)
+    return (
+        _MADE
+        + "#ifndef BRACE_PARAMETER_TABLE_H\n#define BRACE_PARAMETER_TABLE_H\n\n#include <stdint.h>\n\n"
+        + '#include "brace/parameters.h"\n\n'
+        + f"enum {{ BRACE_F32_RANGES = {f32}, BRACE_U32_RANGES = {u32}, BRACE_U32_LISTS = {lists}, "
+        + f"BRACE_U32_LIST_MAX = {longest} }};\n\n"
+        + "extern const float brace_f32_range[BRACE_F32_RANGES][2];\n"
+        + "extern const uint32_t brace_u32_range[BRACE_U32_RANGES][2];\n"
+        + "extern const uint32_t brace_u32_choices[BRACE_U32_LISTS][BRACE_U32_LIST_MAX]; /* 0 fills up */\n"
+        + "extern const uint8_t brace_parameter_rule[BRACE_PARAMETER_COUNT];\n"
+        + "extern const brace_parameters_t brace_parameters_safe;\n\n#endif\n"
+    )
+
+
+def _f32_range(entry: Entry) -> tuple[str, str]:
+    """Bounds as C floats. Rounding is monotone: what lies within as a double lies within as a float."""
+    low = "0x1p-149f" if entry.open_low else _float(entry.low, entry.infinite)
+    return low, _float(entry.high, entry.infinite)
+
+
+def _u32_range(entry: Entry) -> tuple[str, str]:
+    return f"{entry.low:d}u", f"{entry.high:d}u"  # type: ignore[str-format]
+
+
+def _numbers(entry: Entry) -> str:
+    return ", ".join(f"{number}u" for number in entry.numbers)
+
+
+def _float(value: float, infinite: bool) -> str:
+    sign = "-" if value < 0 else ""
+    if math.isinf(value):
+        return sign + ("INFINITY" if infinite else "FLT_MAX")
+    return f"{float(value)!r}f"
+
+
+def _literal(entry: Entry) -> str:
+    return f"{entry.safe}u" if entry.type == "u32" else _float(float(entry.safe), True)
+
+
+def _distinct(values: Iterable[T]) -> list[T]:
+    return list(dict.fromkeys(values))
+
+
+def _wrapped(items: Iterable[str]) -> list[str]:
+    lines, line = [], "   "
+    for item in items:
+        if len(line) + 1 + len(item) > _COLUMNS:
+            lines.append(line + "\n")
+            line = "   "
+        line += " " + item
+    return [*lines, line + "\n"]

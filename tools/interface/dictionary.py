@@ -1,0 +1,159 @@
+"""Reads dictionary.toml into one flat list, groups with * unfolded over coxa, femur, tibia."""
+
+from __future__ import annotations
+
+import math
+import tomllib
+import zlib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+LINKS = ("coxa", "femur", "tibia")
+ANGLES = ("theta0", "theta1", "theta2")
+_GROUP_KEYS = {"table", "member", "persistence", "entry"}
+_ENTRY_KEYS = {
+    *("name", "table", "field", "type", "unit", "range", "open_low", "infinite", "choices", "default"),
+    *("required", "safe", "ratio", "description"),
+}
+
+
+class DictionaryError(Exception):
+    """The dictionary contradicts itself; names the entry."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One value visible from outside."""
+
+    index: int  # among those of the same persistence, in the struct's order
+    persistence: str
+    key: str  # as in limb.toml
+    member: str  # C expression in the struct
+    type: str  # f32, u32
+    unit: str
+    low: float
+    high: float
+    open_low: bool
+    infinite: bool
+    texts: tuple[str, ...]  # u32 that limb.toml writes as one of these
+    numbers: tuple[int, ...]  # u32 that must be one of these
+    default: Any  # None: limb.toml must give it
+    safe: Any  # what a controller without a valid block uses; a text is given by its index
+    ratio: bool
+    description: str
+
+
+@dataclass(frozen=True)
+class Dictionary:
+    """All entries; `schema` is the canonical list that the hash is of."""
+
+    entries: tuple[Entry, ...]
+
+    @property
+    def parameters(self) -> tuple[Entry, ...]:
+        """What is kept in the parameter block, in its order."""
+        return tuple(entry for entry in self.entries if entry.persistence == "parameter")
+
+    @property
+    def schema(self) -> str:
+        """Key, type and unit of each parameter, one a line."""
+        return "".join(f"{entry.key} {entry.type} {entry.unit}\n" for entry in self.parameters)
+
+    @property
+    def schema_hash(self) -> int:
+        """CRC-32 of the canonical list."""
+        return zlib.crc32(self.schema.encode())
+
+
+def load(path: Path) -> Dictionary:
+    """Reads and checks the file."""
+    content = tomllib.loads(path.read_text())
+    if content.get("format") != 1:
+        raise DictionaryError("format must be 1")
+    entries: list[Entry] = []
+    for group in content["group"]:
+        _refuse_unknown(group, _GROUP_KEYS, str(group.get("table")))
+        for part in range(len(LINKS) if "*" in group["member"] else 1):
+            for raw in group["entry"]:
+                entries.append(_entry(group, raw, part, len(entries)))
+    for field in ("key", "member"):
+        _refuse_twice([getattr(entry, field) for entry in entries])
+    return Dictionary(tuple(entries))
+
+
+def _entry(group: Mapping[str, Any], raw: Mapping[str, Any], part: int, index: int) -> Entry:
+    key = (raw.get("table", group["table"]) + "." + raw["name"]).replace("*", LINKS[part])
+    _refuse_unknown(raw, _ENTRY_KEYS, key)
+    kind = raw.get("type", "f32")
+    choices = tuple(raw.get("choices", ()))
+    texts = choices if choices and isinstance(choices[0], str) else ()
+    numbers = () if texts else choices
+    default = None if raw.get("required") else raw["default"]
+    safe = raw.get("safe", default)
+    if isinstance(safe, list):
+        safe = safe[part]
+    if texts:
+        low, high, safe = 0, len(texts) - 1, texts.index(safe)
+    elif numbers:
+        low, high = min(numbers), max(numbers)
+    else:
+        low, high = raw["range"]
+    entry = Entry(
+        index=index,
+        persistence=group["persistence"],
+        key=key,
+        member=group["member"].replace("*", str(part)) + "." + raw.get("field", raw["name"]),
+        type=kind,
+        unit=raw["unit"],
+        low=low,
+        high=high,
+        open_low=raw.get("open_low", False),
+        infinite=raw.get("infinite", False),
+        texts=texts,
+        numbers=numbers,
+        default=default,
+        safe=safe,
+        ratio=raw.get("ratio", False),
+        description=raw["description"].replace("*", LINKS[part]).replace("@", ANGLES[part]),
+    )
+    _check(entry)
+    return entry
+
+
+def _check(entry: Entry) -> None:
+    def refuse(why: str) -> DictionaryError:
+        return DictionaryError(f"{entry.key}: {why}")
+
+    if entry.type not in ("f32", "u32"):
+        raise refuse(f"type {entry.type}")
+    if entry.type == "f32" and (entry.texts or entry.numbers):
+        raise refuse("choices are for u32")
+    if entry.type == "u32" and not all(isinstance(bound, int) and 0 <= bound < 1 << 32 for bound in (entry.low, entry.high)):
+        raise refuse("the range of a u32 is whole numbers below 2^32")
+    if entry.open_low and entry.low != 0.0:
+        raise refuse("open_low is for a range that starts at 0")
+    for value in (entry.safe, None if entry.texts else entry.default):
+        if value is None:
+            continue
+        if not entry.low <= value <= entry.high or (entry.open_low and value == entry.low):
+            raise refuse(f"{value} lies outside its range")
+        if math.isinf(value) and not entry.infinite:
+            raise refuse("inf needs infinite = true")
+    if entry.safe is None:
+        raise refuse("a required entry needs a safe value")
+
+
+def _refuse_unknown(table: Mapping[str, Any], known: set[str], where: str) -> None:
+    unknown = set(table) - known
+    if unknown:
+        raise DictionaryError(f"{where}: unknown {', '.join(sorted(unknown))}")
+
+
+def _refuse_twice(names: Iterable[str]) -> None:
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            raise DictionaryError(f"{name} stands there twice")
+        seen.add(name)
