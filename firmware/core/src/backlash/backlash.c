@@ -21,8 +21,9 @@
 /* Share of the gap that the motor may creep off a flank before that counts as crossing. */
 #define LEFT_FLANK 0.2f
 
-/* Of the slow interval's full width, the sum of bounds that are hardly ever reached together: enough to tell a flank,
- * and enough to move the offset there. */
+/* Of the slow interval's full width, the sum of bounds that are hardly ever reached together: enough to tell a flank;
+ * and, while the motor moves and friction is known, enough to move the offset there. A standing motor's torque lies
+ * anywhere within its friction: there the offset stays. */
 #define TOLD_SHARE 0.7f
 #define LEANING_SHARE 0.2f
 
@@ -226,7 +227,8 @@ brace_status_t brace_backlash_tick(brace_backlash_t *joint, const brace_backlash
 
     const int proven = bad ? 0 : backlash_load_proven(joint);
     const int told = bad ? 0 : proven != 0 ? proven : backlash_load_told(joint, sample, TOLD_SHARE);
-    const int leaning = bad ? 0 : backlash_load_told(joint, sample, LEANING_SHARE);
+    const bool leans = !bad && !backlash_load_standing(joint);
+    const int leaning = leans ? backlash_load_told(joint, sample, LEANING_SHARE) : 0;
     uint32_t facts = bad ? (uint32_t)FACT_BAD_SAMPLE : flank_facts(joint, told, leaning);
     facts |= backlash_takeup_advance(joint, facts, proven);
     advance_state(joint, facts);

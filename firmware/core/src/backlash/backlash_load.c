@@ -62,7 +62,7 @@ static int sure_direction(brace_backlash_t *joint)
         joint->direction = way;
         joint->standing_us = 0;
     }
-    return joint->standing_us <= STANDING_US && joint->same_way_us >= SAME_WAY_US ? joint->direction : 0;
+    return !backlash_load_standing(joint) && joint->same_way_us >= SAME_WAY_US ? joint->direction : 0;
 }
 
 static void follow_load(brace_backlash_t *joint, float torque_n_mm, float accel_rad_per_s2, int direction)
@@ -105,6 +105,11 @@ void backlash_load_observe(brace_backlash_t *joint, const brace_backlash_sample_
 
     joint->play_low_rad = clamped(joint->play_low_rad + moved_rad, -half_gap_rad, half_gap_rad);
     joint->play_high_rad = clamped(joint->play_high_rad + moved_rad, -half_gap_rad, half_gap_rad);
+}
+
+bool backlash_load_standing(const brace_backlash_t *joint)
+{
+    return joint->standing_us > STANDING_US;
 }
 
 float backlash_load_off_n_mm(const brace_backlash_t *joint)

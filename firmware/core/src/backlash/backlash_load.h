@@ -24,6 +24,9 @@ int backlash_load_proven(const brace_backlash_t *joint);
  * 0 if they do not tell. */
 int backlash_load_told(const brace_backlash_t *joint, const brace_backlash_sample_t *sample, float share);
 
+/* The motor has not advanced lately: its friction may have either sign. */
+bool backlash_load_standing(const brace_backlash_t *joint);
+
 /* Half width of the fast interval [N mm]. */
 float backlash_load_off_n_mm(const brace_backlash_t *joint);
 
