@@ -67,6 +67,13 @@ brace_status_t brace_block_header(const uint8_t *block, uint32_t length, brace_b
     return BRACE_OK;
 }
 
+void brace_block_members(const uint8_t *block, brace_parameters_t *parameters)
+{
+    for (uint32_t i = 0; i < BRACE_PARAMETER_COUNT; i++) {
+        brace_member_put(parameters, i, brace_get_u32(block + BRACE_BLOCK_HEADER_BYTES + 4u * i));
+    }
+}
+
 brace_status_t brace_parameters_unpack(const uint8_t *block, uint32_t length, brace_parameters_t *parameters,
                                        uint32_t *sequence, uint32_t *wrong_index)
 {
@@ -91,9 +98,7 @@ brace_status_t brace_parameters_unpack(const uint8_t *block, uint32_t length, br
         return BRACE_E_LENGTH;
     }
     brace_parameters_t read;
-    for (uint32_t i = 0; i < BRACE_PARAMETER_COUNT; i++) {
-        brace_member_put(&read, i, brace_get_u32(block + BRACE_BLOCK_HEADER_BYTES + 4u * i));
-    }
+    brace_block_members(block, &read);
     status = brace_parameters_check(&read, wrong_index);
     if (status != BRACE_OK) {
         return status;

@@ -78,6 +78,13 @@ typedef struct {
     brace_controller_t controller;
 } brace_parameters_t;
 
+/* Where the parameters in force come from. */
+typedef enum {
+    BRACE_PARAMETERS_DEFAULT = 0, /* no valid set is kept: safe defaults, every K is UNCALIBRATED */
+    BRACE_PARAMETERS_SLOT_A = 1,
+    BRACE_PARAMETERS_SLOT_B = 2
+} brace_parameter_origin_t;
+
 enum {
     BRACE_BLOCK_FORMAT = 1,
     BRACE_BLOCK_HEADER_BYTES = 20,
@@ -119,7 +126,7 @@ brace_status_t brace_parameters_pack(const brace_parameters_t *parameters, uint3
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_LENGTH (too short for a header, or other than the header says),
  *   BRACE_E_MAGIC, BRACE_E_FORMAT, BRACE_E_CHECKSUM, BRACE_E_SCHEMA (sound, but of another dictionary;
  *   brace_block_header tells its hash, ours is BRACE_SCHEMA_HASH), BRACE_E_NOT_FINITE, BRACE_E_PARAMETER
- * cost: 14,000 instructions; stack 600 bytes */
+ * cost: 14,000 instructions; stack 520 bytes */
 brace_status_t brace_parameters_unpack(const uint8_t *block, uint32_t length, brace_parameters_t *parameters,
                                        uint32_t *sequence, uint32_t *wrong_index);
 
@@ -127,6 +134,10 @@ brace_status_t brace_parameters_unpack(const uint8_t *block, uint32_t length, br
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_LENGTH (less than a header, or it names an impossible length),
  *   BRACE_E_MAGIC, BRACE_E_FORMAT; cost: 60 instructions */
 brace_status_t brace_block_header(const uint8_t *block, uint32_t length, brace_block_header_t *header);
+
+/* The members of a block that brace_parameters_unpack has taken, or would take: nothing is checked. Not null.
+ * cost: 1,000 instructions */
+void brace_block_members(const uint8_t *block, brace_parameters_t *parameters);
 
 /* Identity of a set of values: CRC-32 of schema hash and members, whatever its sequence. Equal values, equal number, on
  * every controller and in every tool. 0 for null. cost: 8,000 instructions */
