@@ -51,13 +51,6 @@ enum {
  * for 1 s; PARAMETERS and STORE last until a set is stored, MODEL_DRIFT and CRASHED until cleared on request. */
 #define BRACE_FAULTS_NO_K (BRACE_FAULT_SENSOR_FEMUR | BRACE_FAULT_SENSOR_TIBIA | BRACE_FAULT_ENCODER_STUCK)
 
-/* Where the parameters in force come from. */
-typedef enum {
-    BRACE_PARAMETERS_DEFAULT = 0,
-    BRACE_PARAMETERS_SLOT_A = 1,
-    BRACE_PARAMETERS_SLOT_B = 2
-} brace_parameter_origin_t;
-
 /* What a tick says, whole: everything in it is from the same samples. */
 typedef struct {
     uint32_t sequence;    /* of the tick; wraps */
