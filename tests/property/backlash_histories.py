@@ -7,6 +7,10 @@ firmware. The crossing itself, from the simulation's truth: the ticks with the g
 detection time (52 ms). All other ticks are judged; where no flank is told is counted apart ("withheld"), and once more by the
 best guess (the sign of the offset), which is always there.
 
+The angle error is told four ways: of all ticks, with a flank touching, outside the crossing, and where the machine says
+valid. With the gap believed 20 % wrong the right flank alone leaves up to a tenth of the gap. Of all ticks a tenth is not
+reached, and not in reach: backlash_floor.py.
+
 Seeds 1-1000 were used while the machine was made; the figures reported come from seeds 1,000,001 on. Exit code 1 when
 a bound is not met.
 """
@@ -24,21 +28,26 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 CORE = HERE.parents[1] / "firmware" / "core"
-SOURCES = [*sorted((CORE / "src").glob("backlash/backlash*.c")), CORE / "src" / "base" / "check.c", HERE / "backlash_plant.c",
-           HERE / "backlash_run.c"]
+SOURCES = [*sorted((CORE / "src").glob("backlash/backlash*.c")), CORE / "src" / "base" / "check.c",
+           *(HERE / f"backlash_{name}.c" for name in ("plant", "history", "run", "oracle"))]
 BINS = 12_000
 HISTORY_FIELDS = ["ticks", "open", "excluded", "judged", "wrong", "withheld", "best_wrong", "valid", "valid_wrong",
-                  "late_valid", "late_valid_longest_us", "longest_valid_open_us", "cnc_command_wrong",
-                  "cnc_encoder_wrong", "detection_us_max", "open_longest_us"]
+                  "late_valid", "longest_valid_open_us", "cnc_command_wrong", "cnc_encoder_wrong", "detection_us_max",
+                  "open_longest_us"]
+ERROR_FIELDS = {"all": "all ticks", "touching": "a flank touching", "outside_crossing": "outside the crossing",
+                "valid_only": "told valid", "cnc_command": "by commanded direction, all ticks",
+                "cnc_encoder": "by the encoder's direction, all ticks"}
+TRACE_FIELDS = ["t_s", "offset_rad", "corrected_rad", "cnc_command_rad", "cnc_encoder_rad", "load_n_mm", "truth", "flank",
+                "valid", "kind"]
+HISTORY_TICKS = 6000
 TAKEUP_FIELDS = ["done", "really_done", "ok", "torque", "travel", "reach", "time", "verify", "lost", "fault",
                  "torque_over", "travel_over", "time_over", "not_idle", "preload_error", "preload_error_max"]
 REPORTED_SEED = 1_000_001
 
 
 class HistoryCounts(ctypes.Structure):
-    _fields_ = [*((name, ctypes.c_double) for name in HISTORY_FIELDS), ("error", ctypes.c_double * BINS),
-                ("cnc_error", ctypes.c_double * BINS),
-                ("judged_error", ctypes.c_double * BINS)]
+    _fields_ = [*((name, ctypes.c_double) for name in HISTORY_FIELDS),
+                *((name, ctypes.c_double * BINS) for name in ERROR_FIELDS)]
 
 
 class TakeupCounts(ctypes.Structure):
@@ -61,12 +70,28 @@ def percentile(bins: ctypes.Array[ctypes.c_double], share: float) -> float:
     return float(np.searchsorted(total, share * total[-1])) / 10_000.0
 
 
+def beyond_a_tenth(bins: ctypes.Array[ctypes.c_double]) -> float:
+    """Share of the errors above a tenth of the gap."""
+    count = np.array(bins)
+    return float(count[1001:].sum() / count.sum())
+
+
 def histories(lib: ctypes.CDLL, first: int, count: int, exact: bool, expecting: bool) -> HistoryCounts:
     counts = HistoryCounts()
     for seed in range(first, first + count):
-        status = lib.backlash_history(ctypes.c_uint64(seed), int(exact), int(expecting), ctypes.byref(counts))
+        status = lib.backlash_history(ctypes.c_uint64(seed), int(exact), int(expecting), ctypes.byref(counts),
+                                      None)
         assert status == 0, f"seed {seed}: status {status}"
     return counts
+
+
+def trace(lib: ctypes.CDLL, seed: int) -> dict[str, np.ndarray]:
+    """One history, tick by tick."""
+    rows = np.zeros((HISTORY_TICKS, len(TRACE_FIELDS)))
+    status = lib.backlash_history(ctypes.c_uint64(seed), 0, 0, ctypes.byref(HistoryCounts()),
+                                  ctypes.c_void_p(rows.ctypes.data))
+    assert status == 0, f"seed {seed}: status {status}"
+    return dict(zip(TRACE_FIELDS, rows.T, strict=True))
 
 
 def takeups(lib: ctypes.CDLL, first: int, count: int, held: bool) -> TakeupCounts:
@@ -83,9 +108,10 @@ def history_bounds(c: HistoryCounts) -> dict[str, bool]:
     return {
         "flank wrong <= 0.2 % of judged ticks": c.wrong <= 0.002 * c.judged,
         "never valid with the gap open past detection": c.late_valid == 0,
-        "angle error <= a tenth of the gap at the 95th percentile, a flank touching":
-            percentile(c.judged_error, 0.95) <= 0.1,
-        "angle error <= a tenth of the gap at the 95th percentile, of all ticks": percentile(c.error, 0.95) <= 0.1,
+        "angle error <= a tenth of the gap at the 95th percentile, told valid": percentile(c.valid_only, 0.95) <= 0.1,
+        "angle error <= a tenth of the gap at the 95th percentile, outside the crossing":
+            percentile(c.outside_crossing, 0.95) <= 0.1,
+        "angle error <= a tenth of the gap at the 95th percentile, of all ticks": percentile(c.all, 0.95) <= 0.1,
         "ten times fewer wrong ticks than by direction": 10.0 * c.wrong <= cnc,
         "ten times fewer wrong ticks than by direction, guessing at every tick too": 10.0 * c.best_wrong <= cnc,
     }
@@ -110,9 +136,11 @@ def report_histories(c: HistoryCounts) -> None:
           f"{c.late_valid:.0f} ticks, longest valid with open gap {c.longest_valid_open_us / 1000.0:.0f} ms")
     print(f"  by direction of motion: commanded {share(c.cnc_command_wrong, c.judged)}, encoder "
           f"{share(c.cnc_encoder_wrong, c.judged)} wrong")
-    for name, bins in (("machine, all ticks", c.error), ("machine, a flank touching", c.judged_error), ("by direction", c.cnc_error)):
+    for field, name in ERROR_FIELDS.items():
+        bins = getattr(c, field)
         print(f"  angle error, {name}: 50/90/95/99 % at " +
-              ", ".join(f"{percentile(bins, s):.3f}" for s in (0.5, 0.9, 0.95, 0.99)) + " gaps")
+              ", ".join(f"{percentile(bins, s):.3f}" for s in (0.5, 0.9, 0.95, 0.99)) +
+              f" gaps; beyond a tenth {100.0 * beyond_a_tenth(bins):.1f} % of them")
 
 
 def report_takeups(name: str, c: TakeupCounts, count: int) -> None:

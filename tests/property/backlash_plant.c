@@ -110,6 +110,11 @@ int plant_flank(const plant_t *p)
     return (apart > 0.5 * p->gap_rad) - (apart < -0.5 * p->gap_rad);
 }
 
+double plant_load_n_mm(const plant_t *p)
+{
+    return flank_torque(p);
+}
+
 double plant_offset_rad(const plant_t *p)
 {
     return clamp(p->link_rad - p->motor_rad, 0.5 * p->gap_rad);

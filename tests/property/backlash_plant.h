@@ -40,6 +40,9 @@ void plant_tick(plant_t *plant, double setpoint_rad, double setspeed_rad_per_s, 
 /* Truth: +1, -1 the flank that touches, 0 with the gap open. */
 int plant_flank(const plant_t *plant);
 
+/* Truth: what the gap transmits. */
+double plant_load_n_mm(const plant_t *plant);
+
 /* Truth: link - motor, of it the part that is backlash [rad], in [-gap/2, gap/2]. */
 double plant_offset_rad(const plant_t *plant);
 

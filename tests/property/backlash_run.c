@@ -1,115 +1,44 @@
-/* Random load and motion histories of one joint, the state machine beside direction-of-motion compensation, and
- * random take-ups. Counts only; backlash_histories.py judges. */
+/* The state machine beside direction-of-motion compensation on random histories, and random take-ups. Counts only;
+ * backlash_histories.py judges. */
 #include <math.h>
 #include <string.h>
 
-#include "backlash_plant.h"
-#include "brace/backlash.h"
+#include "backlash_history.h"
 
-enum { HISTORY_TICKS = 6000, BINS = 12000 };
-static const double tick_s = 1e-3;
-static const double pi = 3.141592653589793;
+enum { BINS = 12000 };
+
+typedef struct {
+    double count[BINS]; /* |error| / gap to the nearest 0.0001 */
+} errors_t;
 
 typedef struct {
     double ticks, open, excluded, judged;
     double wrong, withheld, best_wrong, valid, valid_wrong;
-    double late_valid, late_valid_longest_us; /* valid while the gap has been open for longer than detection */
+    double late_valid; /* valid while the gap has been open for longer than detection */
     double longest_valid_open_us;
     double cnc_command_wrong, cnc_encoder_wrong;
     double detection_us_max;
     double open_longest_us;
-    double error[BINS], cnc_error[BINS], judged_error[BINS]; /* |error| / gap to the nearest 0.0001 */
+    errors_t all, touching, outside_crossing, valid_only;
+    errors_t cnc_command, cnc_encoder; /* all ticks */
 } history_counts_t;
 
-/* gap_off: the belief's error as a ratio. */
-static brace_backlash_params_t believed(const plant_t *p, double gap_off, dice_t *dice, double hold_stiffness)
-{
-    const double torque_max = 0.55 * p->range_n_mm;
-    const double gap = p->gap_rad * (1.0 + gap_off);
-    const double yield_rad = torque_max / p->stiffness + (hold_stiffness > 0.0 ? torque_max / hold_stiffness : 0.0);
-    const double travel = 1.3 * gap + yield_rad + 0.002;
-    return (brace_backlash_params_t){
-        .tick_us = 1000,
-        .gap_rad = (float)gap,
-        .friction_n_mm = (float)(p->motor_friction_n_mm * dice_uniform(dice, 0.85, 1.15)),
-        .friction_tolerance_ratio = 0.2f,
-        .inertia_n_mm_s2_per_rad = (float)(p->motor_inertia * dice_uniform(dice, 0.85, 1.15)),
-        .torque_range_n_mm = (float)p->range_n_mm,
-        .torque_noise_n_mm = (float)p->noise_n_mm,
-        .torque_bias_n_mm = (float)(0.01 * p->range_n_mm),
-        .angle_step_rad = (float)p->step_rad,
-        .takeup = {.torque_max_n_mm = (float)torque_max,
-                   .preload_n_mm = (float)(0.1 * p->range_n_mm),
-                   .travel_max_rad = (float)travel,
-                   .reach_max_rad = (float)(travel + torque_max / p->servo_p),
-                   .rate_rad_per_s = 0.1f,
-                   .time_max_us = 4000000,
-                   .verify_us = 100000},
-    };
-}
-
-/* ------------------------------------------------------------------------------------------ histories -- */
-
-typedef enum { REST, MOVE, SWING, PRESS, DRIFT, IMPACTS, KINDS } kind_t;
-
+/* A tick of a history as a picture needs it. */
 typedef struct {
-    kind_t kind;
-    double t, length_s;
-    double from_rad, to_rad, swing_rad, swing_hz;
-    double torque_from, torque_to, pulse_at_s, pulse_s, pulse_n_mm;
-    bool held;
-} segment_t;
+    double t_s, offset_rad, corrected_rad, cnc_command_rad, cnc_encoder_rad; /* the truth, and three who say it */
+    double load_n_mm, truth, flank, valid, kind;
+} trace_tick_t;
 
-static segment_t next_segment(dice_t *dice, const plant_t *p, double setpoint_rad, const segment_t *before)
-{
-    segment_t s = {.kind = (kind_t)(int)dice_uniform(dice, 0.0, KINDS - 1e-9), .from_rad = setpoint_rad};
-    s.length_s = dice_uniform(dice, 0.2, 1.0);
-    s.to_rad = s.from_rad;
-    s.held = s.kind == PRESS || (s.kind != MOVE && s.kind != SWING && before->held);
-    s.torque_from = s.torque_to = before->torque_to;
-    if (s.kind == MOVE) {
-        s.to_rad = dice_uniform(dice, -1.2, 1.2);
-        s.torque_from = s.torque_to = 0.0;
-        const double fastest = fabs(s.to_rad - s.from_rad) * 15.0 / 8.0 / dice_log_uniform(dice, 0.1, 3.0);
-        s.length_s = fmin(2.0, fmax(s.length_s, fastest));
-    } else if (s.kind == SWING) {
-        s.torque_from = s.torque_to = 0.0;
-        s.swing_hz = dice_log_uniform(dice, 0.5, 5.0);
-        s.swing_rad = dice_log_uniform(dice, 0.01, 0.3) / s.swing_hz;
-    } else if (s.kind == PRESS) {
-        s.to_rad = s.from_rad + dice_uniform(dice, -0.5, 0.5) * p->range_n_mm / p->servo_p;
-    } else if (s.kind == DRIFT) {
-        s.torque_to = dice_uniform(dice, -0.4, 0.4) * p->range_n_mm;
-    } else if (s.kind == IMPACTS) {
-        s.pulse_s = dice_uniform(dice, 0.005, 0.02);
-        s.pulse_at_s = dice_uniform(dice, 0.05, 0.15);
-        s.pulse_n_mm = dice_uniform(dice, -0.5, 0.5) * p->range_n_mm;
-    }
-    return s;
-}
+/* As machine tools do it: half the gap against the last motion, commanded or seen. */
+typedef struct {
+    double anchor_rad;
+    int command_way, encoder_way;
+} cnc_t;
 
-static double segment_setpoint(const segment_t *s, double t)
-{
-    const double u = fmin(1.0, t / s->length_s);
-    const double eased = u * u * u * (10.0 - 15.0 * u + 6.0 * u * u);
-    const double swing = s->kind == SWING ? 1.0 - cos(2.0 * pi * s->swing_hz * t) : 0.0;
-    return s->from_rad + (s->to_rad - s->from_rad) * eased + 0.5 * s->swing_rad * swing;
-}
-
-static double segment_torque(const segment_t *s, double t)
-{
-    double torque = s->torque_from + (s->torque_to - s->torque_from) * fmin(1.0, t / s->length_s);
-    for (int i = 0; s->kind == IMPACTS && i < 3; i++) {
-        const double into = (t - (i + 1) * s->pulse_at_s) / s->pulse_s;
-        torque += into > 0.0 && into < 1.0 ? s->pulse_n_mm * sin(pi * into) : 0.0;
-    }
-    return torque;
-}
-
-static void count_error(double *bins, double error_rad, double gap_rad)
+static void count_error(errors_t *errors, double error_rad, double gap_rad)
 {
     const int bin = (int)(fabs(error_rad) / gap_rad * 10000.0 + 0.5);
-    bins[bin < BINS ? bin : BINS - 1] += 1.0;
+    errors->count[bin < BINS ? bin : BINS - 1] += 1.0;
 }
 
 static int sign(double value)
@@ -117,68 +46,46 @@ static int sign(double value)
     return (value > 0.0) - (value < 0.0);
 }
 
-/* mode_gap: 0 the belief is off by anything within 20 %, 1 by exactly 20 % up or down.
- * expecting: gravity (15 % off, and 2 % of range for friction) is told while nothing else touches the link and it is at
- * rest. */
-int backlash_history(uint64_t seed, int mode_gap, int expecting, history_counts_t *counts)
+static void cnc_follow(cnc_t *cnc, const history_t *h, double read_rad)
 {
-    dice_t dice = {seed * 0x2545f4914f6cdd1du + 99u};
-    plant_t p = plant_random(&dice);
-    const double spread = dice_uniform(&dice, -0.2, 0.2);
-    const double gap_off = mode_gap == 0 ? spread : spread < 0.0 ? -0.2 : 0.2;
-    const brace_backlash_params_t params = believed(&p, gap_off, &dice, 0.0);
-    const double hold_stiffness = dice_log_uniform(&dice, 5e4, 6e5);
-    const double gravity_off = dice_uniform(&dice, 0.85, 1.15);
+    const double slack_rad = 2.0 * h->plant.step_rad;
+    const int commanded = sign(h->setpoint_rad - h->setpoint_before_rad);
+    cnc->command_way = commanded != 0 ? commanded : cnc->command_way;
+    if (fabs(read_rad - cnc->anchor_rad) > slack_rad) {
+        cnc->encoder_way = sign(read_rad - cnc->anchor_rad);
+        cnc->anchor_rad = read_rad - cnc->encoder_way * slack_rad;
+    }
+}
+
+/* trace: HISTORY_TICKS rows, or null */
+int backlash_history(uint64_t seed, int belief, int expecting, history_counts_t *counts, trace_tick_t *trace)
+{
+    history_t h = history_begin(seed, (gap_belief_t)belief, expecting != 0);
+    const plant_t *p = &h.plant;
     brace_backlash_t joint;
-    const int status = brace_backlash_init(&joint, &params);
+    const int status = brace_backlash_init(&joint, &h.believed);
     if (status != BRACE_OK) {
         return status;
     }
-    const double detection_us = brace_backlash_detection_us(&joint);
+    const double detection_us = brace_backlash_detection_us(&joint), half_gap_rad = 0.5 * (double)h.believed.gap_rad;
     counts->detection_us_max = fmax(counts->detection_us_max, detection_us);
-
-    segment_t segment = {.kind = REST, .length_s = 0.3, .from_rad = p.motor_rad, .to_rad = p.motor_rad};
-    world_t world = {0};
-    double setpoint = p.motor_rad, read_before = plant_angle_read_rad(&p), anchor = read_before;
+    cnc_t cnc = {.anchor_rad = plant_angle_read_rad(p)};
     double since_open_us = 1e9, open_us = 0.0;
-    int command_way = 0, encoder_way = 0;
     for (int tick = 0; tick < HISTORY_TICKS; tick++) {
-        if (segment.t >= segment.length_s) {
-            const segment_t before = segment;
-            segment = next_segment(&dice, &p, setpoint, &before);
-            if (segment.held && !before.held) {
-                world.hold_rad = p.link_rad;
-            }
-            world.hold_stiffness = segment.held ? hold_stiffness : 0.0;
-            world.hold_damping = segment.held ? 0.3 * sqrt(hold_stiffness * p.link_inertia) : 0.0;
-        }
-        segment.t += tick_s;
-        const double before = setpoint;
-        setpoint = segment_setpoint(&segment, segment.t);
-        world.torque_n_mm = segment_torque(&segment, segment.t);
-        plant_tick(&p, setpoint, (setpoint - before) / tick_s, &world);
-
-        const double read = plant_angle_read_rad(&p);
-        const bool known = expecting && world.torque_n_mm == 0.0 && !segment.held && segment.kind == REST;
-        const brace_backlash_sample_t sample = {
-            .now_us = (uint32_t)tick * 1000u + 4294000000u, /* wraps on the way */
-            .motor_rad = (float)read,
-            .torque_n_mm = (float)plant_torque_read_n_mm(&p, &dice),
-            .load_is_expected = known,
-            .expected_n_mm = (float)(-gravity_off * plant_gravity_n_mm(&p, read)),
-            .expected_off_n_mm = (float)(0.15 * p.gravity_n_mm + 0.02 * p.range_n_mm),
-        };
+        const brace_backlash_sample_t sample = history_tick(&h);
         brace_backlash_out_t out;
         brace_backlash_tick(&joint, &sample, &out);
+        cnc_follow(&cnc, &h, plant_angle_read_rad(p));
 
-        /* as machine tools do it: half the gap against the last motion, commanded or seen */
-        command_way = setpoint != before ? sign(setpoint - before) : command_way;
-        if (fabs(read - anchor) > 2.0 * p.step_rad) {
-            encoder_way = sign(read - anchor);
-            anchor = read - encoder_way * 2.0 * p.step_rad;
+        const int truth = plant_flank(p);
+        const double offset_rad = plant_offset_rad(p), error_rad = (double)out.offset_rad - offset_rad;
+        const double cnc_command_rad = -cnc.command_way * half_gap_rad;
+        const double cnc_encoder_rad = -cnc.encoder_way * half_gap_rad;
+        if (trace != NULL) {
+            trace[tick] = (trace_tick_t){(tick + 1) * HISTORY_TICK_S, offset_rad, (double)out.offset_rad,
+                                         cnc_command_rad, cnc_encoder_rad, plant_load_n_mm(p), truth, out.flank,
+                                         out.valid, h.segment.kind};
         }
-
-        const int truth = plant_flank(&p);
         counts->ticks += 1.0;
         counts->open += truth == 0;
         counts->valid += out.valid;
@@ -188,21 +95,26 @@ int backlash_history(uint64_t seed, int mode_gap, int expecting, history_counts_
         if (out.valid) {
             counts->longest_valid_open_us = fmax(counts->longest_valid_open_us, open_us);
             counts->late_valid += open_us > detection_us;
+            count_error(&counts->valid_only, error_rad, p->gap_rad);
         }
-        count_error(counts->error, (double)out.offset_rad - plant_offset_rad(&p), p.gap_rad);
-        count_error(counts->cnc_error, -0.5 * command_way * (double)params.gap_rad - plant_offset_rad(&p), p.gap_rad);
+        count_error(&counts->all, error_rad, p->gap_rad);
+        count_error(&counts->cnc_command, cnc_command_rad - offset_rad, p->gap_rad);
+        count_error(&counts->cnc_encoder, cnc_encoder_rad - offset_rad, p->gap_rad);
+        if (truth != 0) {
+            count_error(&counts->touching, error_rad, p->gap_rad);
+        }
         if (since_open_us <= detection_us) {
             counts->excluded += 1.0;
             continue;
         }
         counts->judged += 1.0;
-        count_error(counts->judged_error, (double)out.offset_rad - plant_offset_rad(&p), p.gap_rad);
+        count_error(&counts->outside_crossing, error_rad, p->gap_rad);
         counts->wrong += out.flank == -truth;
         counts->withheld += out.flank == 0;
         counts->best_wrong += sign(-(double)out.offset_rad) != truth;
         counts->valid_wrong += out.valid && out.flank != truth;
-        counts->cnc_command_wrong += command_way != truth;
-        counts->cnc_encoder_wrong += encoder_way != truth;
+        counts->cnc_command_wrong += cnc.command_way != truth;
+        counts->cnc_encoder_wrong += cnc.encoder_way != truth;
     }
     return BRACE_OK;
 }
@@ -221,7 +133,7 @@ int backlash_takeup(uint64_t seed, int held, takeup_counts_t *counts)
     dice_t dice = {seed * 0x2545f4914f6cdd1du + 7u};
     plant_t p = plant_random(&dice);
     const double hold_stiffness = dice_log_uniform(&dice, 5e4, 6e5);
-    const brace_backlash_params_t params = believed(&p, dice_uniform(&dice, -0.2, 0.2), &dice, hold_stiffness);
+    const brace_backlash_params_t params = joint_as_believed(&p, dice_uniform(&dice, -0.2, 0.2), &dice, hold_stiffness);
     const int flank = dice_uniform(&dice, -1.0, 1.0) > 0.0 ? 1 : -1;
     brace_backlash_t joint;
     const int status = brace_backlash_init(&joint, &params);
@@ -245,7 +157,7 @@ int backlash_takeup(uint64_t seed, int held, takeup_counts_t *counts)
         const double moved = tick < 500 ? settle * tick / 500.0 : settle;
         setpoint = start + moved + (double)out.command_rad;
         p.torque_limit_n_mm = out.limit_torque ? (double)params.takeup.torque_max_n_mm : p.range_n_mm;
-        plant_tick(&p, setpoint, (setpoint - before) / tick_s, &world);
+        plant_tick(&p, setpoint, (setpoint - before) / HISTORY_TICK_S, &world);
         const brace_backlash_sample_t sample = {.now_us = (uint32_t)tick * 1000u,
                                                 .motor_rad = (float)plant_angle_read_rad(&p),
                                                 .torque_n_mm = (float)plant_torque_read_n_mm(&p, &dice)};

@@ -1,0 +1,46 @@
+/* Random load and motion histories of one joint, a millisecond at a time: what the limb does, what the world does to it,
+ * and what the instruments read. The same for whoever estimates the flank from it. */
+#ifndef BACKLASH_HISTORY_H
+#define BACKLASH_HISTORY_H
+
+#include "backlash_plant.h"
+#include "brace/backlash.h"
+
+enum { HISTORY_TICKS = 6000 };
+#define HISTORY_TICK_S 1e-3
+
+typedef enum { REST, MOVE, SWING, PRESS, DRIFT, IMPACTS, KINDS } kind_t;
+
+typedef struct {
+    kind_t kind;
+    double t, length_s;
+    double from_rad, to_rad, swing_rad, swing_hz;
+    double torque_from, torque_to, pulse_at_s, pulse_s, pulse_n_mm;
+    bool held;
+} segment_t;
+
+/* How far the gap is believed wrong: anything within 20 %, or exactly 20 % up or down. */
+typedef enum { GAP_WITHIN_20_PERCENT, GAP_EXACTLY_20_PERCENT_OFF } gap_belief_t;
+
+typedef struct {
+    dice_t dice;
+    plant_t plant;
+    brace_backlash_params_t believed;
+    double hold_stiffness, gravity_off;
+    bool expecting; /* gravity (15 % off, and 2 % of range for friction) is told while nothing else touches the link
+                       and it is at rest */
+    world_t world;
+    segment_t segment;
+    uint32_t tick;
+    double setpoint_rad, setpoint_before_rad;
+} history_t;
+
+/* gap_off: the belief's error as a ratio. */
+brace_backlash_params_t joint_as_believed(const plant_t *plant, double gap_off, dice_t *dice, double hold_stiffness);
+
+history_t history_begin(uint64_t seed, gap_belief_t belief, bool expecting);
+
+/* Goes on by a millisecond and reads the instruments. */
+brace_backlash_sample_t history_tick(history_t *history);
+
+#endif

@@ -1,0 +1,259 @@
+/* How well could anyone do? A particle filter over the link's place in the gap that knows what no controller knows: every
+ * parameter of motor, gap, link and gravity as it is, and the motor's motion without quantisation. It sees the motor's
+ * current with its noise (or, on request, without). It does not know what the world does to the link. Assumed of that:
+ * a torque that wanders and jumps (steps of 25 % of range, kicks of 8 %), and holds that come and go at the link's place,
+ * of a stiffness drawn as the histories draw it; on request it is told instead which kind of time it is, and the hold's
+ * stiffness. Told of each tick: the offset in whose neighbourhood, a tenth of the gap to either side, most of the
+ * probability lies: the best there is for that measure. Judges the attainable; shares no code with the firmware. */
+#include <math.h>
+#include <string.h>
+
+#include "backlash_history.h"
+
+enum { PARTICLES_MOST = 8000, SUBSTEPS = 5, BINS = 12000, CELLS = 101, NEIGHBOURS = 9 };
+
+typedef struct {
+    double link_rad, link_speed, world_n_mm, base_n_mm, hold_stiffness, hold_rad, friction_n_mm;
+} particle_t;
+
+typedef struct {
+    particle_t *of, *resampled;
+    double *log_weight;
+    int count;
+    dice_t dice;
+} cloud_t;
+
+/* A tick of the motor, from before to after; its torque less what its own motion takes. */
+typedef struct {
+    double rad0, rad1, speed0, speed1, accel, accel_before, left_n_mm;
+    int way; /* +1, -1 it moved all the tick; 0 it stood or turned */
+    bool stood;
+} motor_t;
+
+typedef struct {
+    bool exact_torque, told_world;
+} knows_t;
+
+typedef struct {
+    double ticks, beyond_a_tenth, open_beyond_a_tenth;
+    double error[BINS]; /* |error| / gap to the nearest 0.0001 */
+} oracle_counts_t;
+
+static double clamp(double value, double limit)
+{
+    return value > limit ? limit : value < -limit ? -limit : value;
+}
+
+static int way_of(double speed0, double speed1)
+{
+    const double still = 1e-9;
+    return (speed0 > still && speed1 > still) - (speed0 < -still && speed1 < -still);
+}
+
+static double load_n_mm(const plant_t *p, double apart_rad, double apart_speed)
+{
+    const double half = 0.5 * p->gap_rad, damped = p->damping * apart_speed;
+    return apart_rad > half    ? fmax(0.0, p->stiffness * (apart_rad - half) + damped)
+           : apart_rad < -half ? fmin(0.0, p->stiffness * (apart_rad + half) + damped)
+                               : 0.0;
+}
+
+static void begin(cloud_t *cloud, const plant_t *p, double motor_rad)
+{
+    const double half = 0.5 * p->gap_rad;
+    for (int i = 0; i < cloud->count; i++) {
+        const double load = 0.1 * p->range_n_mm * dice_normal(&cloud->dice);
+        const double engaged = -copysign(half, load) - load / p->stiffness;
+        cloud->of[i] = (particle_t){
+            .link_rad = motor_rad + (i % 2 == 0 ? dice_uniform(&cloud->dice, -half, half) : engaged),
+            .friction_n_mm = dice_uniform(&cloud->dice, -p->motor_friction_n_mm, p->motor_friction_n_mm)};
+        cloud->log_weight[i] = 0.0;
+    }
+}
+
+/* Now and then a particle begins anew elsewhere, so that the cloud never dies out on a wrong flank. */
+static void rejuvenate(particle_t *q, const plant_t *p, const motor_t *m, knows_t knows, dice_t *dice)
+{
+    if (dice_uniform(dice, 0.0, 1.0) >= 0.0005) {
+        return;
+    }
+    const double half = 0.5 * p->gap_rad, load = 0.12 * p->range_n_mm * dice_normal(dice);
+    const bool engaged = dice_uniform(dice, 0.0, 1.0) < 0.7;
+    q->link_rad = m->rad0 + (engaged ? -copysign(half, load) - load / p->stiffness : dice_uniform(dice, -half, half));
+    q->link_speed = m->speed0;
+    if (!knows.told_world) {
+        q->world_n_mm = engaged ? -load - plant_gravity_n_mm(p, q->link_rad) : 0.0;
+    }
+}
+
+static void world_as_told(particle_t *q, const history_t *h, bool newly_held, dice_t *dice)
+{
+    const double range = h->plant.range_n_mm, u = dice_uniform(dice, 0.0, 1.0);
+    const kind_t kind = h->segment.kind;
+    q->hold_rad = newly_held ? q->link_rad : q->hold_rad;
+    q->hold_stiffness = h->segment.held ? h->hold_stiffness : 0.0;
+    if (kind == MOVE || kind == SWING) {
+        q->base_n_mm = 0.0;
+    } else if (kind == DRIFT) {
+        q->base_n_mm += 0.0008 * range * dice_normal(dice);
+    }
+    if (kind != IMPACTS) {
+        q->world_n_mm = q->base_n_mm;
+    } else if (u < 0.1) {
+        q->world_n_mm += 0.08 * range * dice_normal(dice);
+    } else if (u < 0.13) {
+        q->world_n_mm = q->base_n_mm;
+    }
+}
+
+static void world_as_assumed(particle_t *q, const plant_t *p, dice_t *dice)
+{
+    const double u = dice_uniform(dice, 0.0, 1.0);
+    if (u < 0.0007) {
+        q->hold_stiffness = q->hold_stiffness > 0.0 ? 0.0 : dice_log_uniform(dice, 5e4, 6e5);
+        q->hold_rad = q->link_rad;
+    } else if (u < 0.0025) {
+        q->world_n_mm = 0.0;
+    } else if (u < 0.0035) {
+        q->world_n_mm = 0.25 * p->range_n_mm * dice_normal(dice);
+    } else {
+        q->world_n_mm += (u < 0.015 ? 0.08 : 0.0006) * p->range_n_mm * dice_normal(dice);
+    }
+}
+
+/* Carries the link on along the motor's known path; gives the load at its end. */
+static double carry_link(particle_t *q, const plant_t *p, const motor_t *m)
+{
+    const double dt = HISTORY_TICK_S / SUBSTEPS;
+    const double hold_damping = q->hold_stiffness > 0.0 ? 0.3 * sqrt(q->hold_stiffness * p->link_inertia) : 0.0;
+    double passed = 0.0;
+    for (int s = 1; s <= SUBSTEPS; s++) {
+        const double share = (double)s / SUBSTEPS;
+        passed = load_n_mm(p, m->rad0 + (m->rad1 - m->rad0) * share - q->link_rad,
+                           m->speed0 + (m->speed1 - m->speed0) * share - q->link_speed);
+        const double outside = q->world_n_mm + plant_gravity_n_mm(p, q->link_rad) - p->link_damping * q->link_speed -
+                               q->hold_stiffness * (q->link_rad - q->hold_rad) - hold_damping * q->link_speed;
+        q->link_speed += dt * (passed + outside) / p->link_inertia;
+        q->link_speed -= clamp(q->link_speed, p->link_friction_n_mm * dt / p->link_inertia);
+        q->link_rad += dt * q->link_speed;
+    }
+    return passed;
+}
+
+/* How likely the motor's torque is with this load: its dry friction is known while it moves, within a bound else. */
+static double log_likelihood(particle_t *q, const plant_t *p, const motor_t *m, double passed, knows_t knows, dice_t *dice)
+{
+    const double most = p->motor_friction_n_mm;
+    const double instrument = knows.exact_torque ? 0.004 * p->range_n_mm : p->noise_n_mm;
+    const double changing = 0.5 * p->motor_inertia * (m->accel - m->accel_before);
+    const double variance = instrument * instrument + changing * changing;
+    if (m->way != 0) {
+        q->friction_n_mm = m->way * most;
+    } else if (dice_uniform(dice, 0.0, 1.0) < 0.02) {
+        q->friction_n_mm = dice_uniform(dice, -most, most);
+    } else {
+        q->friction_n_mm = clamp(q->friction_n_mm + 0.03 * most * dice_normal(dice), most);
+    }
+    const double off = m->left_n_mm - passed;
+    const bool only_bounded = knows.exact_torque && m->way == 0;
+    const double beyond = only_bounded ? fmax(0.0, fabs(off) - most) : off - q->friction_n_mm;
+    const double trust = only_bounded || m->way != 0 || m->stood ? 1.0 : 0.3; /* a motor that just turns */
+    const double log_l = -0.5 * trust * beyond * beyond / variance;
+    return log_l < -40.0 ? -40.0 - log1p(-40.0 - log_l) : log_l; /* no tick alone decides */
+}
+
+static double best_offset_rad(const cloud_t *cloud, const plant_t *p, double motor_rad)
+{
+    double up_to[CELLS + 1] = {0.0}, most = -1.0;
+    for (int i = 0; i < cloud->count; i++) {
+        const double offset = clamp(cloud->of[i].link_rad - motor_rad, 0.5 * p->gap_rad) / p->gap_rad + 0.5;
+        up_to[1 + (int)(offset * (CELLS - 1) + 0.5)] += exp(cloud->log_weight[i]);
+    }
+    for (int c = 0; c < CELLS; c++) {
+        up_to[c + 1] += up_to[c];
+    }
+    int first = 0, last = 0; /* the middle of all the cells that are equally good */
+    for (int c = 0; c < CELLS; c++) {
+        const int low = c - NEIGHBOURS < 0 ? 0 : c - NEIGHBOURS;
+        const int high = c + NEIGHBOURS > CELLS - 1 ? CELLS - 1 : c + NEIGHBOURS;
+        const double mass = up_to[high + 1] - up_to[low];
+        if (mass > most * (1.0 + 1e-9)) {
+            most = mass;
+            first = last = c;
+        } else if (c == last + 1 && mass > most * (1.0 - 1e-9)) {
+            last = c;
+        }
+    }
+    return (0.5 * (first + last) / (CELLS - 1) - 0.5) * p->gap_rad;
+}
+
+static void normalise_and_resample(cloud_t *cloud)
+{
+    double most = -INFINITY, sum = 0.0, squares = 0.0;
+    for (int i = 0; i < cloud->count; i++) {
+        most = fmax(most, cloud->log_weight[i]);
+    }
+    for (int i = 0; i < cloud->count; i++) {
+        cloud->log_weight[i] -= most;
+        const double weight = exp(cloud->log_weight[i]);
+        sum += weight;
+        squares += weight * weight;
+    }
+    if (sum * sum / squares >= 0.5 * cloud->count) {
+        return;
+    }
+    const double start = dice_uniform(&cloud->dice, 0.0, 1.0);
+    double passed = exp(cloud->log_weight[0]);
+    for (int i = 0, from = 0; i < cloud->count; i++) {
+        while (passed < (start + i) / cloud->count * sum && from < cloud->count - 1) {
+            passed += exp(cloud->log_weight[++from]);
+        }
+        cloud->resampled[i] = cloud->of[from];
+    }
+    memcpy(cloud->of, cloud->resampled, sizeof *cloud->of * (size_t)cloud->count);
+    memset(cloud->log_weight, 0, sizeof *cloud->log_weight * (size_t)cloud->count);
+}
+
+int backlash_oracle(uint64_t seed, int particles, int exact_torque, int told_world, oracle_counts_t *counts)
+{
+    static particle_t of[PARTICLES_MOST], resampled[PARTICLES_MOST];
+    static double log_weight[PARTICLES_MOST];
+    if (particles < 1 || particles > PARTICLES_MOST) {
+        return -1;
+    }
+    const knows_t knows = {.exact_torque = exact_torque != 0, .told_world = told_world != 0};
+    history_t h = history_begin(seed, GAP_WITHIN_20_PERCENT, false);
+    const plant_t *p = &h.plant;
+    cloud_t cloud = {of, resampled, log_weight, particles, {seed * 77u + 5u}};
+    begin(&cloud, p, p->motor_rad);
+    motor_t m = {.rad1 = p->motor_rad};
+    for (int tick = 0; tick < HISTORY_TICKS; tick++) {
+        const bool held_before = h.segment.held;
+        const brace_backlash_sample_t sample = history_tick(&h);
+        const double torque = knows.exact_torque ? p->torque_n_mm : (double)sample.torque_n_mm - p->bias_n_mm;
+        m = (motor_t){.rad0 = m.rad1, .rad1 = p->motor_rad, .speed0 = m.speed1, .speed1 = p->motor_speed,
+                      .accel = (p->motor_speed - m.speed1) / HISTORY_TICK_S, .accel_before = m.accel};
+        m.way = way_of(m.speed0, m.speed1);
+        m.stood = m.speed0 == 0.0 && m.speed1 == 0.0;
+        m.left_n_mm = torque - p->motor_inertia * m.accel - 0.5 * p->motor_damping * (m.speed0 + m.speed1);
+        for (int i = 0; i < particles; i++) {
+            particle_t *q = &of[i];
+            rejuvenate(q, p, &m, knows, &cloud.dice);
+            if (knows.told_world) {
+                world_as_told(q, &h, h.segment.held && !held_before, &cloud.dice);
+            } else {
+                world_as_assumed(q, p, &cloud.dice);
+            }
+            const double passed = carry_link(q, p, &m);
+            log_weight[i] += log_likelihood(q, p, &m, passed, knows, &cloud.dice);
+        }
+        normalise_and_resample(&cloud);
+        const double error = fabs(best_offset_rad(&cloud, p, m.rad1) - plant_offset_rad(p)) / p->gap_rad;
+        const int bin = (int)(error * 10000.0 + 0.5);
+        counts->error[bin < BINS ? bin : BINS - 1] += 1.0;
+        counts->ticks += 1.0;
+        counts->beyond_a_tenth += error > 0.1;
+        counts->open_beyond_a_tenth += error > 0.1 && plant_flank(p) == 0;
+    }
+    return 0;
+}
