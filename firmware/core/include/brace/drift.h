@@ -25,8 +25,8 @@
 #include "brace/limb.h"
 #include "brace/stiffness.h"
 
-enum { BRACE_DRIFT_LEARN_LEAST = 128, BRACE_DRIFT_LEARN_MOST = 2048 };
-#define BRACE_DRIFT_LEARNED_TO 0.02f
+enum { BRACE_DRIFT_LEARN_LEAST = 256, BRACE_DRIFT_LEARN_MOST = 4096 };
+#define BRACE_DRIFT_LEARNED_TO 0.04f
 
 typedef enum {
     BRACE_DRIFT_LEARNING = 0,

@@ -1,0 +1,414 @@
+#include "brace/drift.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/check.h"
+#include "base/off_tick.h"
+#include "base/trig.h"
+#include "use/drift_model.h"
+
+#define SAME_POSTURE_RAD 1e-3f
+#define RUN_MOST 64          /* a longer run begins anew: a slowly drifting sensor */
+#define OUTLIER_SIGMAS 6.0f  /* a reading further off teaches nothing, and counts as this far */
+#define SCATTER_GAIN 0.375f  /* scatter fourfold in variance against none: LLR = 3/8 nu^2/S - ln(4)/2 */
+#define SCATTER_COST 0.69314718f
+#define SCATTER_MOST 8.0f
+#define NEARLY_AS_LIKELY 3.0f
+#define WANDER_RATIO 0.06f   /* a baseline that has moved by this and six sigma is a change too, however slow */
+#define WANDER_SIGMAS 6.0f
+#define CHANGE_RATIO 0.08f   /* of a link's compliance, what the evidence is for: between 5 % and 10 % of loss */
+#define WALK_RATIO 1e-4f     /* of that per reading: what the estimates may wander by; their memory is some 1,000 readings */
+#define ANGLE_WALK_RAD 3e-7f
+#define THERMAL_WALK_RATIO 1e-5f
+
+enum { DIAGONAL_0 = 0, ENTRIES = 21 };
+static const uint8_t diagonal[DRIFT_OFFSETS] = {0, 6, 11, 15, 18, 20};
+
+static inline float square(float x)
+{
+    return x * x;
+}
+
+static inline float dot(const float a[DRIFT_OFFSETS], const float b[DRIFT_OFFSETS])
+{
+    float sum = a[0] * b[0];
+    sum = __builtin_fmaf(a[1], b[1], sum);
+    sum = __builtin_fmaf(a[2], b[2], sum);
+    sum = __builtin_fmaf(a[3], b[3], sum);
+    sum = __builtin_fmaf(a[4], b[4], sum);
+    return __builtin_fmaf(a[5], b[5], sum);
+}
+
+static inline void add(float a[DRIFT_OFFSETS], const float b[DRIFT_OFFSETS], float by)
+{
+    a[0] = __builtin_fmaf(by, b[0], a[0]);
+    a[1] = __builtin_fmaf(by, b[1], a[1]);
+    a[2] = __builtin_fmaf(by, b[2], a[2]);
+    a[3] = __builtin_fmaf(by, b[3], a[3]);
+    a[4] = __builtin_fmaf(by, b[4], a[4]);
+    a[5] = __builtin_fmaf(by, b[5], a[5]);
+}
+
+/* g = P h for the upper triangle of P, row by row. */
+static void spread(const float p[ENTRIES], const float h[DRIFT_OFFSETS], float g[DRIFT_OFFSETS])
+{
+    for (int i = 0; i < DRIFT_OFFSETS; i++) {
+        g[i] = 0.0f;
+    }
+    for (int i = 0; i < DRIFT_OFFSETS; i++) {
+        g[i] = __builtin_fmaf(*p++, h[i], g[i]);
+        for (int j = i + 1; j < DRIFT_OFFSETS; j++, p++) {
+            g[i] = __builtin_fmaf(*p, h[j], g[i]);
+            g[j] = __builtin_fmaf(*p, h[i], g[j]);
+        }
+    }
+}
+
+/* P -= g g' / s */
+static void narrow(float p[ENTRIES], const float g[DRIFT_OFFSETS], float per_s)
+{
+    for (int i = 0; i < DRIFT_OFFSETS; i++) {
+        const float gain = -g[i] * per_s;
+        for (int j = i; j < DRIFT_OFFSETS; j++, p++) {
+            *p = __builtin_fmaf(gain, g[j], *p);
+        }
+    }
+}
+
+/* A loss of CHANGE_RATIO of each cause, as a share of the compliance it sits in. */
+static void change_of(const drift_compliances_t *c, float change[BRACE_DRIFT_CAUSE_COUNT])
+{
+    change[BRACE_DRIFT_FEMUR] = CHANGE_RATIO;
+    change[BRACE_DRIFT_TIBIA_OR_KNEE] = CHANGE_RATIO * c->tibia_share;
+    change[BRACE_DRIFT_FEMUR_JOINT_OR_BASE] = CHANGE_RATIO;
+}
+
+static void forget(brace_drift_t *drift, int cause)
+{
+    if (cause < BRACE_DRIFT_CAUSE_COUNT) {
+        for (int i = 0; i < DRIFT_OFFSETS; i++) {
+            drift->left[cause][i] = i == cause ? 1.0f : 0.0f;
+        }
+        drift->score[cause] = drift->information[cause] = 0.0f;
+    }
+    drift->evidence[cause] = 0.0f;
+    drift->since[cause] = 0;
+}
+
+static void forget_all(brace_drift_t *drift)
+{
+    for (int cause = 0; cause <= BRACE_DRIFT_CAUSE_COUNT; cause++) {
+        forget(drift, cause);
+    }
+    drift->cause = BRACE_DRIFT_UNEXPLAINED;
+}
+
+/* One sigma of each estimate from what the calibration is trusted to. A length that is off shows as compliances: the
+ * part that falls between the levers of femur joint and knee is taken up by the femur's bending. */
+static void prior(const brace_limb_t *limb, const drift_compliances_t *c, float trust, float sigma[DRIFT_OFFSETS])
+{
+    const brace_uncertainty_t *u = &limb->uncertainty;
+    const float by_femur = u->length_mm / limb->femur_mm, by_tibia = u->length_mm / limb->tibia_mm;
+    const float common = square(u->gain_rel) + 4.0f * (square(by_femur) + square(by_tibia));
+    const float levers = c->femur_mm_per_n > 0.0f ? c->hip_rad_per_n_mm * square(limb->femur_mm) / c->femur_mm_per_n : 0.0f;
+    const float shares = square(c->tibia_share) + square(1.0f - c->tibia_share);
+    const float known = square(u->compliance_rel);
+    const float variance[DRIFT_OFFSETS] = {
+        known + common + square(levers) * (square(by_femur) + square(by_tibia)),
+        known * shares + common,
+        known + common,
+        2.0f * square(u->angle_rad),
+        square(u->angle_rad),
+        square(trust),
+    };
+    for (int i = 0; i < DRIFT_OFFSETS; i++) {
+        sigma[i] = brace_sqrt(variance[i] + 1e-10f);
+    }
+}
+
+static void doubt(brace_drift_t *drift, const brace_limb_t *limb)
+{
+    const drift_compliances_t c = drift_compliances(limb);
+    float sigma[DRIFT_OFFSETS];
+    prior(limb, &c, drift->setup.joint_compliance_trust_ratio, sigma);
+    for (int i = 0; i < ENTRIES; i++) {
+        drift->covariance[i] = 0.0f;
+    }
+    for (int i = 0; i < DRIFT_OFFSETS; i++) {
+        drift->covariance[diagonal[i]] = square(sigma[i]);
+    }
+}
+
+BRACE_OFF_TICK
+brace_status_t brace_drift_learn(brace_drift_t *drift, const brace_limb_t *limb, const brace_drift_setup_t *setup)
+{
+    if (drift == NULL || setup == NULL) {
+        return BRACE_E_NULL;
+    }
+    brace_status_t status = brace_limb_check(limb);
+    if (status == BRACE_OK) {
+        status = brace_check_two(setup->noise_n, 0.0f, 1e6f);
+    }
+    if (status == BRACE_OK) {
+        status = brace_check_two(setup->model_error_ratio, setup->joint_compliance_per_degc, 0.1f);
+    }
+    if (status == BRACE_OK) {
+        status = brace_check_magnitude(setup->joint_compliance_trust_ratio, 1.0f);
+    }
+    if (status == BRACE_OK && (!(setup->noise_n > 0.0f) || setup->model_error_ratio < 0.0f ||
+                               setup->joint_compliance_trust_ratio < 0.0f)) {
+        status = BRACE_E_RANGE;
+    }
+    if (status != BRACE_OK) {
+        return status;
+    }
+    *drift = (brace_drift_t){.setup = *setup, .state = BRACE_DRIFT_LEARNING};
+    doubt(drift, limb);
+    forget_all(drift);
+    return BRACE_OK;
+}
+
+BRACE_OFF_TICK
+brace_status_t brace_drift_reset(brace_drift_t *drift)
+{
+    if (drift == NULL) {
+        return BRACE_E_NULL;
+    }
+    if (drift->state == BRACE_DRIFT_DRIFTED) {
+        drift->state = BRACE_DRIFT_WATCHING;
+    }
+    forget_all(drift);
+    return brace_drift_run(drift);
+}
+
+BRACE_OFF_TICK
+brace_status_t brace_drift_run(brace_drift_t *drift)
+{
+    if (drift == NULL) {
+        return BRACE_E_NULL;
+    }
+    drift->run_count = 0;
+    return BRACE_OK;
+}
+
+BRACE_OFF_TICK
+static brace_status_t check(const brace_limb_t *limb, const brace_stiffness_t *stiffness,
+                            const brace_drift_reading_t *reading)
+{
+    if (limb == NULL || reading == NULL) {
+        return BRACE_E_NULL;
+    }
+    brace_status_t status = brace_check_stiffness(stiffness);
+    if (status == BRACE_OK) {
+        status = brace_check_two(reading->theta1_rad, reading->theta2_rad, 7.9f);
+    }
+    if (status == BRACE_OK) {
+        status = brace_check_two(reading->dx_mm, reading->dz_mm, 1e4f);
+    }
+    if (status == BRACE_OK) {
+        status = brace_check_two(reading->fx_n, reading->fz_n, 1e6f);
+    }
+    return status == BRACE_OK ? brace_check_magnitude(reading->warmer_degc, 200.0f) : status;
+}
+
+/* The reading becomes what differs from the mean of its run; false for a run's first. Readings that each count from the
+ * mean of those before are independent, with a variance of 1 + 1/count. */
+static bool from_mean(brace_drift_t *drift, brace_drift_reading_t *reading)
+{
+    if (__builtin_fabsf(reading->theta1_rad - drift->run_theta_rad[0]) > SAME_POSTURE_RAD ||
+        __builtin_fabsf(reading->theta2_rad - drift->run_theta_rad[1]) > SAME_POSTURE_RAD ||
+        drift->run_count >= RUN_MOST) {
+        drift->run_count = 0;
+    }
+    if (drift->run_count == 0) {
+        drift->run_theta_rad[0] = reading->theta1_rad;
+        drift->run_theta_rad[1] = reading->theta2_rad;
+    }
+    drift->run_count++;
+    const float gain = 1.0f / (float)drift->run_count;
+    float *value = &reading->dx_mm; /* displacement and force, in this order */
+    for (int i = 0; i < 4; i++) {
+        value[i] -= drift->run_count == 1 ? 0.0f : drift->run_mean[i];
+    }
+    for (int i = 0; i < 4; i++) {
+        drift->run_mean[i] = drift->run_count == 1 ? value[i] : __builtin_fmaf(gain, value[i], drift->run_mean[i]);
+    }
+    return drift->run_count > 1;
+}
+
+_Static_assert(offsetof(brace_drift_reading_t, fz_n) == offsetof(brace_drift_reading_t, dx_mm) + 3 * sizeof(float),
+               "displacement and force are four floats in a row");
+
+/* Takes in one force component: `off` is measured less expected. Returns by how much the estimates now explain it. */
+static void take(brace_drift_t *drift, const float h[DRIFT_OFFSETS], float off, float noise, float bias,
+                 const float change[BRACE_DRIFT_CAUSE_COUNT], float learned[DRIFT_OFFSETS])
+{
+    float g[DRIFT_OFFSETS];
+    spread(drift->covariance, h, g);
+    const float variance = dot(h, g) + noise;
+    const float per_variance = 1.0f / variance;
+    const float most = OUTLIER_SIGMAS * brace_sqrt(variance);
+    const bool outlier = __builtin_fabsf(off) > most;
+    const float counted = outlier ? (off > 0.0f ? most : -most) : off;
+
+    if (drift->state != BRACE_DRIFT_LEARNING) {
+        for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) {
+            const float shows = dot(h, drift->left[cause]);
+            const float step = shows * change[cause];
+            drift->evidence[cause] += (step * counted - 0.5f * step * step - __builtin_fabsf(step) * bias) * per_variance;
+            drift->score[cause] += shows * off * per_variance;
+            drift->information[cause] += shows * shows * per_variance;
+            if (!outlier) {
+                add(drift->left[cause], g, -shows * per_variance);
+            }
+        }
+        float beyond = __builtin_fabsf(counted) - bias;
+        beyond = beyond > 0.0f ? beyond * beyond * per_variance : 0.0f;
+        beyond = beyond < SCATTER_MOST ? beyond : SCATTER_MOST;
+        drift->evidence[BRACE_DRIFT_UNEXPLAINED] += SCATTER_GAIN * beyond - SCATTER_COST;
+    }
+    if (outlier && drift->state != BRACE_DRIFT_LEARNING) {
+        drift->outliers = (uint8_t)(drift->outliers + (drift->outliers < UINT8_MAX));
+        return;
+    }
+    add(learned, g, off * per_variance);
+    narrow(drift->covariance, g, per_variance);
+}
+
+static float sigma_of(const brace_drift_t *drift, int offset)
+{
+    return brace_sqrt(drift->covariance[diagonal[offset]]);
+}
+
+static void hold(brace_drift_t *drift)
+{
+    for (int i = 0; i < BRACE_DRIFT_CAUSE_COUNT; i++) {
+        drift->held[i] = drift->offset[i];
+        drift->held_sigma[i] = sigma_of(drift, i);
+    }
+    drift->state = BRACE_DRIFT_WATCHING;
+    forget_all(drift);
+}
+
+static void judge(brace_drift_t *drift, const float change[BRACE_DRIFT_CAUSE_COUNT])
+{
+    for (int cause = 0; cause <= BRACE_DRIFT_CAUSE_COUNT; cause++) {
+        if (drift->state == BRACE_DRIFT_WATCHING) {
+            if (drift->evidence[cause] >= BRACE_DRIFT_ALARM) {
+                drift->state = BRACE_DRIFT_DRIFTED;
+            } else if (drift->evidence[cause] <= 0.0f) {
+                forget(drift, cause);
+                continue;
+            }
+        }
+        drift->since[cause] = (uint16_t)(drift->since[cause] + (drift->since[cause] < UINT16_MAX));
+    }
+    for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) {
+        const float away = __builtin_fabsf(drift->offset[cause] - drift->held[cause]) -
+                           change[cause] * (WANDER_RATIO / CHANGE_RATIO);
+        const float variance = drift->covariance[diagonal[cause]] + square(drift->held_sigma[cause]);
+        if (away > 0.0f && away * away > square(WANDER_SIGMAS) * variance && drift->state == BRACE_DRIFT_WATCHING) {
+            drift->state = BRACE_DRIFT_DRIFTED;
+        }
+    }
+}
+
+brace_status_t brace_drift_step(brace_drift_t *drift, const brace_limb_t *limb, const brace_stiffness_t *stiffness,
+                                const brace_drift_reading_t *reading)
+{
+    if (drift == NULL) {
+        return BRACE_E_NULL;
+    }
+    const brace_status_t status = check(limb, stiffness, reading);
+    if (status != BRACE_OK) {
+        return status;
+    }
+    drift->steps += drift->steps < UINT32_MAX;
+    if (drift->steps == BRACE_DRIFT_LEARN_LEAST && drift->state == BRACE_DRIFT_LEARNING) {
+        /* so far with slopes taken far from the limb it is: keep what was found, not how sure of it */
+        doubt(drift, limb);
+    }
+    brace_drift_reading_t differs = *reading;
+    if (!from_mean(drift, &differs)) {
+        return BRACE_OK;
+    }
+    drift_expected_t expected;
+    drift_expect(limb, stiffness, &differs, drift->offset, drift->setup.joint_compliance_per_degc, &expected);
+    const drift_compliances_t c = drift_compliances(limb);
+    float change[BRACE_DRIFT_CAUSE_COUNT];
+    change_of(&c, change);
+    const float count = (float)(drift->run_count - 1);
+    const float noise = square(drift->setup.noise_n) * (1.0f + 1.0f / count);
+    const float bias = drift->setup.model_error_ratio *
+                       (__builtin_fabsf(expected.force_n[0]) + __builtin_fabsf(expected.force_n[1]));
+    float learned[DRIFT_OFFSETS] = {0};
+    take(drift, expected.per_offset[0], differs.fx_n - expected.force_n[0], noise, bias, change, learned);
+    const float still = differs.fz_n - expected.force_n[1] - dot(expected.per_offset[1], learned);
+    take(drift, expected.per_offset[1], still, noise, bias, change, learned);
+    add(drift->offset, learned, 1.0f);
+    for (int i = 0; i < DRIFT_OFFSETS; i++) {
+        const float walk = i < BRACE_DRIFT_CAUSE_COUNT ? WALK_RATIO * change[i]
+                           : i < DRIFT_THERMAL         ? ANGLE_WALK_RAD
+                                                       : THERMAL_WALK_RATIO;
+        drift->covariance[diagonal[i]] += walk * walk;
+    }
+    if (drift->state != BRACE_DRIFT_LEARNING) {
+        judge(drift, change);
+    } else if (drift->steps >= BRACE_DRIFT_LEARN_MOST ||
+               (drift->steps >= BRACE_DRIFT_LEARN_LEAST && sigma_of(drift, 0) <= BRACE_DRIFT_LEARNED_TO &&
+                sigma_of(drift, 1) <= BRACE_DRIFT_LEARNED_TO * c.tibia_share)) {
+        hold(drift);
+    }
+    return BRACE_OK;
+}
+
+/* How well each cause explains what was seen since its evidence left zero, its size free. */
+static float support(const brace_drift_t *drift, int cause)
+{
+    if (cause == BRACE_DRIFT_UNEXPLAINED) {
+        return drift->evidence[cause];
+    }
+    const float score = drift->score[cause];
+    return drift->information[cause] > 0.0f ? 0.5f * score * score / drift->information[cause] : 0.0f;
+}
+
+BRACE_OFF_TICK
+brace_status_t brace_drift_report(const brace_drift_t *drift, const brace_limb_t *limb, brace_drift_report_t *report)
+{
+    if (drift == NULL || limb == NULL || report == NULL) {
+        return BRACE_E_NULL;
+    }
+    const drift_compliances_t c = drift_compliances(limb);
+    float sigma[DRIFT_OFFSETS];
+    prior(limb, &c, drift->setup.joint_compliance_trust_ratio, sigma);
+    *report = (brace_drift_report_t){.state = (brace_drift_state_t)drift->state, .cause = BRACE_DRIFT_UNEXPLAINED,
+                                     .evidence = drift->evidence[BRACE_DRIFT_UNEXPLAINED], .steps = drift->steps};
+    float most = support(drift, BRACE_DRIFT_UNEXPLAINED);
+    for (int i = 0; i < BRACE_DRIFT_CAUSE_COUNT; i++) {
+        if (support(drift, i) > most) {
+            most = support(drift, i);
+            report->cause = (brace_drift_cause_t)i;
+        }
+        const float off = __builtin_fabsf(drift->offset[i]) / sigma[i];
+        report->baseline_sigmas = off > report->baseline_sigmas ? off : report->baseline_sigmas;
+    }
+    for (int i = 0; i <= BRACE_DRIFT_CAUSE_COUNT; i++) {
+        report->could_be |= support(drift, i) >= most - NEARLY_AS_LIKELY ? 1u << i : 0u;
+        report->evidence = drift->evidence[i] > report->evidence ? drift->evidence[i] : report->evidence;
+    }
+    const float share[2] = {1.0f, c.tibia_share};
+    for (int i = 0; i < 2; i++) {
+        report->learned_sigma_ratio[i] = sigma_of(drift, i) / share[i];
+    }
+    const int cause = report->cause;
+    report->since_steps = drift->since[cause];
+    if (cause < BRACE_DRIFT_CAUSE_COUNT && drift->information[cause] > 0.0f) {
+        const float per = 1.0f / (cause == BRACE_DRIFT_TIBIA_OR_KNEE ? c.tibia_share : 1.0f);
+        const float size = drift->score[cause] / drift->information[cause];
+        const float softer = per * size;
+        report->loss_ratio = softer / (1.0f + softer);
+        report->loss_sigma_ratio = per / brace_sqrt(drift->information[cause]);
+    }
+    return BRACE_OK;
+}

@@ -1,0 +1,135 @@
+#include "use/drift_model.h"
+
+#include "base/off_tick.h"
+#include "base/trig.h"
+#include "base/vec.h"
+
+typedef struct {
+    float xx, xz, zz;
+} matrix_t;
+
+static inline brace_vec_t times(const matrix_t *m, brace_vec_t v)
+{
+    return (brace_vec_t){m->xx * v.x + m->xz * v.z, m->xz * v.x + m->zz * v.z};
+}
+
+static inline brace_vec_t plus(brace_vec_t a, brace_vec_t b, float by)
+{
+    return (brace_vec_t){__builtin_fmaf(by, b.x, a.x), __builtin_fmaf(by, b.z, a.z)};
+}
+
+drift_compliances_t drift_compliances(const brace_limb_t *limb)
+{
+    const float tibia = limb->link[BRACE_TIBIA].bending_mm_per_n;
+    const float shank = tibia + limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm * limb->tibia_mm * limb->tibia_mm;
+    return (drift_compliances_t){
+        .femur_mm_per_n = limb->link[BRACE_FEMUR].bending_mm_per_n,
+        .shank_mm_per_n = shank,
+        .tibia_share = tibia > 0.0f ? tibia / shank : 1.0f,
+        .hip_rad_per_n_mm = limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm + limb->base.rotation_rad_per_n_mm,
+    };
+}
+
+static inline void soften(matrix_t *c, brace_vec_t v, float by)
+{
+    const brace_vec_t scaled = vec_scaled(v, by);
+    c->xx = __builtin_fmaf(scaled.x, v.x, c->xx);
+    c->xz = __builtin_fmaf(scaled.x, v.z, c->xz);
+    c->zz = __builtin_fmaf(scaled.z, v.z, c->zz);
+}
+
+/* What a symmetric matrix loses to rounding here comes back when it is inverted again. */
+static inline void invert(matrix_t *m)
+{
+    const float per_det = 1.0f / (m->xx * m->zz - m->xz * m->xz);
+    *m = (matrix_t){m->zz * per_det, -m->xz * per_det, m->xx * per_det};
+}
+
+/* The elements that change: across the femur, the same with its moment, across the tibia, lever of the femur joint. */
+enum { BEND, MOMENT, SHANK, HIP, ELEMENTS };
+
+static inline void set_vectors(brace_vec_t vector[ELEMENTS], brace_vec_t across_femur, brace_vec_t across_tibia,
+                               float femur_mm, float tibia_mm)
+{
+    vector[BEND] = across_femur;
+    vector[MOMENT] = plus(across_femur, across_tibia, 2.0f * tibia_mm / femur_mm);
+    vector[SHANK] = across_tibia;
+    vector[HIP] = plus(vec_scaled(across_tibia, tibia_mm), across_femur, femur_mm);
+}
+
+BRACE_OFF_TICK
+void drift_expect(const brace_limb_t *limb, const brace_stiffness_t *stiffness, const brace_drift_reading_t *reading,
+                  const float offset[DRIFT_OFFSETS], float per_degc, drift_expected_t *expected)
+{
+    const drift_compliances_t c = drift_compliances(limb);
+    const float femur_mm = limb->femur_mm, tibia_mm = limb->tibia_mm;
+    const uint32_t femur_turn = brace_turn(reading->theta1_rad);
+    const brace_vec_t across_femur = vec_quarter(brace_direction(femur_turn));
+    const brace_vec_t believed = brace_direction(femur_turn - brace_turn(reading->theta2_rad));
+    const float turn = offset[DRIFT_TURN_KNEE]; /* some mrad: two terms of its sine and cosine */
+    const brace_vec_t along_tibia = plus(believed, plus(vec_quarter(believed), believed, 0.5f * turn), -turn);
+    const float coupled = 0.75f * limb->link[BRACE_FEMUR].moment_transfer_ratio;
+    const brace_vec_t across_tibia = vec_quarter(along_tibia);
+    brace_vec_t vector[ELEMENTS], before[ELEMENTS];
+    set_vectors(vector, across_femur, across_tibia, femur_mm, tibia_mm);
+    set_vectors(before, across_femur, vec_quarter(believed), femur_mm, tibia_mm);
+    const float warm = per_degc * reading->warmer_degc;
+    const float hip_spring =
+        limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm * (1.0f + offset[BRACE_DRIFT_FEMUR_JOINT_OR_BASE]);
+    const float knee_spring = (c.shank_mm_per_n - limb->link[BRACE_TIBIA].bending_mm_per_n) *
+                              (1.0f + offset[BRACE_DRIFT_TIBIA_OR_KNEE]);
+    const float softer = warm * (1.0f + offset[DRIFT_THERMAL]);
+    const float unit[ELEMENTS] = {
+        [BEND] = c.femur_mm_per_n * (1.0f - coupled),
+        [MOMENT] = c.femur_mm_per_n * coupled,
+        [SHANK] = c.shank_mm_per_n,
+        [HIP] = c.hip_rad_per_n_mm,
+    };
+    const float change[ELEMENTS] = {
+        [BEND] = offset[BRACE_DRIFT_FEMUR] * unit[BEND],
+        [MOMENT] = offset[BRACE_DRIFT_FEMUR] * unit[MOMENT],
+        [SHANK] = offset[BRACE_DRIFT_TIBIA_OR_KNEE] * unit[SHANK] + softer * knee_spring,
+        [HIP] = offset[BRACE_DRIFT_FEMUR_JOINT_OR_BASE] * unit[HIP] + softer * hip_spring,
+    };
+    const float by_shank = c.shank_mm_per_n - limb->link[BRACE_TIBIA].axial_mm_per_n; /* what its turning changes */
+
+    matrix_t k = {stiffness->k_xx_n_per_mm, stiffness->k_xz_n_per_mm, stiffness->k_zz_n_per_mm};
+    invert(&k);
+    for (int i = 0; i < ELEMENTS; i++) {
+        const float turns = i == SHANK ? by_shank : unit[i];
+        soften(&k, vector[i], turns + change[i]);
+        soften(&k, before[i], -turns);
+    }
+    invert(&k);
+
+    const brace_vec_t moved = {reading->dx_mm, reading->dz_mm};
+    const brace_vec_t force = times(&k, moved);
+    brace_vec_t slope[DRIFT_OFFSETS]; /* dC = w v v' makes dK = -w (Kv)(Kv)' */
+    float load[ELEMENTS];
+    brace_vec_t give[ELEMENTS];
+    for (int i = 0; i < ELEMENTS; i++) {
+        load[i] = vec_dot(vector[i], force);
+        give[i] = vec_scaled(times(&k, vector[i]), -load[i]);
+    }
+    slope[BRACE_DRIFT_FEMUR] = plus(vec_scaled(give[MOMENT], unit[MOMENT]), give[BEND], unit[BEND]);
+    slope[BRACE_DRIFT_TIBIA_OR_KNEE] = vec_scaled(give[SHANK], unit[SHANK]);
+    slope[BRACE_DRIFT_FEMUR_JOINT_OR_BASE] = vec_scaled(give[HIP], unit[HIP]);
+    slope[DRIFT_THERMAL] = plus(vec_scaled(give[HIP], warm * hip_spring), give[SHANK], warm * knee_spring);
+
+    /* K turned with the limb; the tibia turned at the knee, with the levers and ellipsoids that go with it */
+    slope[DRIFT_TURN_LIMB] = vec_minus(vec_quarter(force), times(&k, vec_quarter(moved)));
+    const float by_hip = c.hip_rad_per_n_mm * tibia_mm;
+    const float by_moment = unit[MOMENT] * 2.0f * tibia_mm / femur_mm;
+    const float along = by_hip * load[HIP] + by_shank * load[SHANK] + by_moment * load[MOMENT];
+    const brace_vec_t across = plus(plus(vec_scaled(vector[HIP], by_hip), vector[SHANK], by_shank), vector[MOMENT], by_moment);
+    slope[DRIFT_TURN_KNEE] =
+        times(&k, plus(vec_scaled(along_tibia, -along), across, -vec_dot(along_tibia, force)));
+
+    const brace_vec_t turned = plus(force, slope[DRIFT_TURN_LIMB], offset[DRIFT_TURN_LIMB]);
+    expected->force_n[0] = turned.x;
+    expected->force_n[1] = turned.z;
+    for (int i = 0; i < DRIFT_OFFSETS; i++) {
+        expected->per_offset[0][i] = slope[i].x;
+        expected->per_offset[1][i] = slope[i].z;
+    }
+}
