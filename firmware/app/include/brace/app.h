@@ -16,6 +16,7 @@
 
 #include "brace/backlash.h"
 #include "brace/chain.h"
+#include "brace/drift.h"
 #include "brace/gap_stiffness.h"
 #include "brace/kinematics.h"
 #include "brace/loading.h"
@@ -23,6 +24,7 @@
 #include "brace/planar.h"
 #include "brace/recorder.h"
 #include "brace/stiffness.h"
+#include "brace/store.h"
 #include "brace_hal.h"
 
 typedef enum {
@@ -53,13 +55,13 @@ enum {
 
 /* What a tick says, whole: everything in it is from the same samples. */
 typedef struct {
-    uint32_t sequence;    /* of the tick; wraps */
-    uint32_t taken_us;    /* when the joints were sampled */
+    uint32_t sequence;    /* counts snapshots; wraps */
+    uint32_t taken_us;    /* when the joints were sampled, the older one */
     brace_mode_t mode;
     uint32_t faults;      /* BRACE_FAULT_... */
     bool k_is_valid;      /* stiffness may be used, with its flags; else its numbers mean nothing (flags say why) */
     brace_gap_stiffness_t stiffness; /* now (GAP_OPEN counted) and once every gap has closed; both carry the flags */
-    float theta_rad[BRACE_LINK_COUNT];       /* true joint angles, backlash and zero offset taken into account */
+    float theta_rad[BRACE_LINK_COUNT];       /* true joint angles, backlash and zero offset counted; NaN: not known */
     float motor_rad[BRACE_LINK_COUNT];
     float torque_n_mm[BRACE_LINK_COUNT];
     brace_backlash_out_t play[BRACE_LINK_COUNT]; /* [0] (coxa) stays UNKNOWN: the limb's plane has two joints */
@@ -87,68 +89,74 @@ typedef struct {
 enum { BRACE_APP_JOINTS = 2 }; /* femur and tibia: [0] and [1] wherever only the plane's joints count */
 
 typedef struct {
-    brace_hal_joint_t sample; /* the last sound one */
+    brace_hal_joint_t sample; /* the last sound one; NaN before the first */
     bool seen, sound, stuck;
-    float still_rad;          /* stuck or not: where the angle has stayed, since when, what the torque did */
+    float still_rad;          /* where the angle has stayed, for how long, and what torque and link did meanwhile */
     float torque_n_mm, torque_low_n_mm, torque_high_n_mm, link_low_rad, link_high_rad;
     uint32_t still_us;
 } brace_app_joint_t;
 
 typedef struct {
     brace_backlash_t backlash;
-    bool watched;             /* the joint has play and its state machine is set up */
+    bool watched;             /* the joint has play, and its state machine is set up */
+    bool unwatchable;         /* it has, and its drive can not be set up for it: taken as open */
 } brace_app_play_t;
 
 typedef struct {
     brace_planar_t planar;    /* when the limb collapses and nothing changes its springs */
-    brace_chain_t chain;      /* else: what does not change; the joints' springs are added each tick */
     bool collapsed;
-    float hip_rad_per_n_mm, knee_rad_per_n_mm, rotation_rad_per_n_mm;
+    brace_chain_t chain;      /* else: what does not change, `firm` elements; the joints' springs follow them */
+    uint32_t firm;
+    float femur_mm, tibia_mm;
+    float spring_rad_per_n_mm[BRACE_APP_JOINTS], rotation_rad_per_n_mm;
     float warm_per_degc, reference_degc;
     float hardening_n_mm_per_rad3[BRACE_APP_JOINTS];
     float deflection_rad[BRACE_APP_JOINTS];
-    float lever_femur_mm, lever_tibia_mm;
 } brace_app_model_t;
 
 typedef struct {
     bool fitted;              /* there is a sensor, and its matrix has an inverse */
+    bool known;               /* x_n, z_n are of this tick */
+    float x_n, z_n;
     float inverse[4];
-    float bias_x_n, bias_z_n, saturation_n;
 } brace_app_sensor_t;
 
 typedef struct {
-    uint32_t away_us[16];     /* how long the cause of each fault has been away */
-    uint32_t latched;
+    uint32_t away_us[9];      /* how long the cause of each fault has been away */
+    uint32_t latched;         /* faults that only a request clears */
 } brace_app_supervisor_t;
 
 typedef struct {
-    uint8_t order[BRACE_APP_JOINTS]; /* joints in the order of taking up: 1 femur, 2 tibia */
+    uint8_t order[BRACE_APP_JOINTS]; /* joints in the order of taking up */
     uint8_t count;                   /* taken up or being taken up */
+    bool begun;                      /* the last one has left IDLE */
     bool letting_go;
 } brace_app_takeup_t;
 
 typedef struct {
-    float offset_rad[BRACE_APP_JOINTS]; /* by the loading test */
-    bool told;                          /* the drives hold a command of ours */
-} brace_app_motion_t;
-
-typedef struct {
-    bool fitted;                        /* the board has CAN and the node's number is set */
-    uint32_t heartbeat_us;
+    bool listens, speaks;     /* CAN is there; and the node's number is set */
+    uint8_t node_id;
+    bool bus_off;
+    uint32_t heartbeat_us, health_us, recover_us;
     uint32_t faults_told;
+    brace_mode_t mode_told;
 } brace_app_report_t;
 
 typedef struct {
     const brace_hal_t *hal;
-    brace_parameters_t parameters, next;
+    brace_parameters_t parameters, next; /* next: on its way into the store */
     uint32_t parameter_crc, next_crc;
-    brace_parameter_origin_t origin, next_origin;
-    uint8_t configure_piece; /* 0: nothing to put in force */
+    brace_parameter_origin_t origin;
+    brace_store_t store;
+    uint8_t store_work;      /* what the store is busy with */
+    uint8_t configure_piece; /* 0: nothing is to be put in force */
 
     brace_mode_t mode;
-    bool wants_configuration;
-    uint32_t faults, last_us, tick_us;
+    uint32_t faults, lasting_faults, last_us, tick_us, start_us, sequence;
     bool ticked;
+    bool told;               /* the drives hold a command of ours */
+    bool posed;
+    brace_pose_t pose;       /* of the newest posture */
 
     brace_app_joint_t joint[BRACE_APP_JOINTS];
     brace_app_play_t play[BRACE_APP_JOINTS];
@@ -156,12 +164,11 @@ typedef struct {
     brace_app_sensor_t sensor;
     brace_app_supervisor_t supervisor;
     brace_app_takeup_t takeup;
-    brace_app_motion_t motion;
     brace_app_report_t report;
     brace_loading_t loading;
+    brace_drift_t drift;
     brace_recorder_t recorder;
     brace_app_counters_t counters;
-    brace_pose_t pose; /* of the tick under way */
 
     brace_snapshot_t snapshot[2]; /* one is whole while the other is written */
     uint32_t newest;
@@ -178,10 +185,12 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal);
 
 /* One tick; to be called every parameters.controller.tick_us.
  *   now_us: the HAL's clock; may wrap
- * cost on a Cortex-M4F: at most 4,000 instructions in every mode, HAL excluded; measured by the bench. */
+ * cost on a Cortex-M4F: at most 4,000 instructions in every mode, HAL excluded (the end of a roll-back apart); measured
+ * by the bench. */
 void brace_app_tick(brace_app_t *app, uint32_t now_us);
 
-/* The newest tick, whole. Not null for a started app; its content stays until the tick after next. */
+/* The newest tick, whole: everything in it is of the same samples. Never null; its content stays until the tick after
+ * next. Its sequence counts snapshots: a tick that works on a loading test's reading leaves the one before. */
 const brace_snapshot_t *brace_app_snapshot(const brace_app_t *app);
 
 /* The parameters in force. */
@@ -223,14 +232,20 @@ brace_status_t brace_app_row(const brace_app_t *app, uint32_t index, brace_row_t
 brace_status_t brace_app_configuration_enter(brace_app_t *app);
 brace_status_t brace_app_configuration_leave(brace_app_t *app);
 
-/* Stores a set and puts it in force once it has read back; in CONFIGURATION only.
- * returns also BRACE_E_PARAMETER (a set that cannot be), BRACE_E_RANGE (another is under way) */
+/* Stores a set and puts it in force once it has read back; in CONFIGURATION only. How it goes: brace_app_store. What
+ * concerns buses (node, bit rates) takes effect at the next start.
+ * returns also what brace_store_begin does. Some 25,000 instructions: the check and the block. */
 brace_status_t brace_app_parameters_commit(brace_app_t *app, const brace_parameters_t *parameters);
 
-/* Puts the set before the one in force back. */
+/* Puts the set before the one in force back; in CONFIGURATION only. The tick that ends it costs some 30,000
+ * instructions: the other block is checked once more.
+ * returns also what brace_store_rollback does */
 brace_status_t brace_app_parameters_rollback(brace_app_t *app);
 
-/* Clears MODEL_DRIFT (its detector begins anew) and CRASHED. faults: BRACE_FAULT_... bits
+/* The store and its state: brace_store_status. */
+const brace_store_t *brace_app_store(const brace_app_t *app);
+
+/* Clears MODEL_DRIFT (its detector watches on from the baseline it holds) and CRASHED. faults: BRACE_FAULT_... bits
  * returns also BRACE_E_RANGE: a fault that is not cleared by request */
 brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults);
 

@@ -67,22 +67,23 @@ typedef struct {
 /* A test under way. Private. */
 typedef struct {
     uint8_t phase;
-    uint32_t phase_us, test_us, limit_us;
     uint16_t step;                 /* being gone to or read */
+    uint32_t phase_us, test_us, limit_us;
     float along_mm;                /* where the free shape is commanded to */
     float per_mm[2];               /* joint offsets for 1 mm of it */
-    float lever[4];                /* tip's movement for the joints', theta2's sense counted */
+    float correction_rad[2];       /* what the servos give way by */
+    float torque_max_n_mm[2];
+    float lever[4];                /* the tip's movement for the joints', theta2's sense counted */
     float start_motor_rad[2], start_link_rad[2];
-    float sum[7];                  /* over the dwell: motor angles, force, link angles, temperature */
+    float sum[7];                  /* over the dwell: motor angles, link less motor, force, temperature */
     uint32_t summed;
+    float dx_mm, dz_mm, fx_n, fz_n; /* the last reading */
     uint16_t run_count, config_count;
-    uint8_t rep_count[2];
+    uint16_t rep_count[2];
     float config_theta_rad[2];
     bool held[2];                  /* joints whose play was taken up when it began */
-    bool drift_due;
-    float last_d_mm, last_fx_n, last_fz_n;
     brace_slope_t slope;
-    brace_stiffness_t model;
+    brace_stiffness_t model, at_reference;
     brace_loading_result_t result;
 } brace_loading_t;
 

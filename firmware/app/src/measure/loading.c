@@ -1,0 +1,268 @@
+#include "measure/loading.h"
+
+#include "measure/loading_read.h"
+#include "motion/joints.h"
+
+#define LEAST_KNEE_SINE 0.05f
+#define TRAVEL_SPARE_RAD 0.01f
+#define TORQUE_SHARE 0.95f       /* of the bound: a drive that limits its torque never passes it */
+#define CORRECTION_LEAST_US 50000.0f
+#define CORRECTION_MOST_RAD 0.05f
+#define RETURN_RAD_PER_S 0.1f
+#define SAME_POSTURE_RAD 0.01f
+#define TIME_SPARE_US 2000000u
+
+static bool inside(float value, float low, float high)
+{
+    return value >= low && value <= high;
+}
+
+static bool setup_is_sound(const brace_loading_setup_t *setup)
+{
+    return (setup->axis == BRACE_AXIS_X || setup->axis == BRACE_AXIS_Z) && setup->steps_per_side >= 2u &&
+           setup->steps_per_side <= 60u && inside(setup->step_mm, 0.001f, 50.0f) && setup->dwell_us >= 20000u &&
+           setup->dwell_us <= 10000000u && inside(setup->rate_mm_per_s, 1e-3f, 1000.0f) &&
+           inside(setup->force_max_n, 1e-6f, 1e6f) && inside(setup->torque_max_n_mm, 1e-6f, 1e6f) &&
+           (setup->source == BRACE_LOADING_ENCODED || setup->source == BRACE_LOADING_COMMANDED);
+}
+
+/* Joint offsets that move the tip's free shape by 1 mm along the axis, and the levers they are worked out from. */
+static bool levers_allow(brace_app_t *app, brace_axis_t axis, float per_mm[2])
+{
+    const brace_point_t femur = app->pose.lever_femur, tibia = app->pose.lever_tibia;
+    const float determinant = femur.z_mm * tibia.x_mm - femur.x_mm * tibia.z_mm;
+    if (__builtin_fabsf(determinant) <
+        LEAST_KNEE_SINE * app->parameters.limb.femur_mm * app->parameters.limb.tibia_mm) {
+        return false;
+    }
+    per_mm[0] = (axis == BRACE_AXIS_X ? -tibia.z_mm : tibia.x_mm) / determinant;
+    per_mm[1] = (axis == BRACE_AXIS_X ? -femur.z_mm : femur.x_mm) / determinant;
+    return true;
+}
+
+/* The run's place among the runs so far. */
+static void count_run(brace_loading_t *test, brace_axis_t axis, const float theta_rad[BRACE_LINK_COUNT])
+{
+    const bool elsewhere =
+        test->run_count == 0 ||
+        __builtin_fabsf(theta_rad[BRACE_FEMUR] - test->config_theta_rad[0]) > SAME_POSTURE_RAD ||
+        __builtin_fabsf(theta_rad[BRACE_TIBIA] - test->config_theta_rad[1]) > SAME_POSTURE_RAD;
+    test->run_count++;
+    if (elsewhere) {
+        test->config_count++;
+        test->rep_count[0] = test->rep_count[1] = 0;
+        test->config_theta_rad[0] = theta_rad[BRACE_FEMUR];
+        test->config_theta_rad[1] = theta_rad[BRACE_TIBIA];
+    }
+    test->result.run = test->run_count;
+    test->result.config = test->config_count;
+    test->result.rep = test->rep_count[axis]++;
+}
+
+static uint32_t step_count(const brace_loading_t *test)
+{
+    return 4u * test->result.setup.steps_per_side + 1u;
+}
+
+brace_status_t loading_start(brace_app_t *app, const brace_loading_setup_t *setup)
+{
+    brace_loading_t *test = &app->loading;
+    const brace_snapshot_t *now = brace_app_snapshot(app);
+    float per_mm[2];
+    if (!setup_is_sound(setup)) {
+        return BRACE_E_RANGE;
+    }
+    if (!now->k_is_valid || !levers_allow(app, setup->axis, per_mm)) {
+        return BRACE_E_SINGULAR;
+    }
+    test->result = (brace_loading_result_t){.outcome = BRACE_LOADING_RUNNING, .setup = *setup};
+    count_run(test, setup->axis, now->theta_rad);
+    test->model = now->stiffness.engaged;
+    for (int i = 0; i < BRACE_APP_JOINTS; i++) {
+        const brace_drive_t *drive = &app->parameters.drive[BRACE_FEMUR + i];
+        const bool held = now->play[BRACE_FEMUR + i].phase == BRACE_TAKEUP_HOLD;
+        float most_n_mm = setup->torque_max_n_mm < drive->torque_range_n_mm ? setup->torque_max_n_mm
+                                                                            : drive->torque_range_n_mm;
+        if (held && app->play[i].backlash.params.takeup.torque_max_n_mm < most_n_mm) {
+            most_n_mm = app->play[i].backlash.params.takeup.torque_max_n_mm;
+        }
+        test->per_mm[i] = per_mm[i];
+        test->held[i] = held;
+        test->torque_max_n_mm[i] = most_n_mm;
+        test->correction_rad[i] = 0.0f;
+        test->start_motor_rad[i] = app->joint[i].sample.motor_rad;
+    }
+    test->along_mm = 0.0f;
+    test->step = 0;
+    test->test_us = 0;
+    const float step_us = (float)setup->dwell_us + 1e6f * setup->step_mm / setup->rate_mm_per_s;
+    const float whole_us = 2.0f * (float)step_count(test) * step_us;
+    test->limit_us = (whole_us < 3.0e9f ? (uint32_t)whole_us : 3000000000u) + TIME_SPARE_US;
+    test->phase = LOADING_MOVE;
+    (void)brace_drift_run(&app->drift);
+    return BRACE_OK;
+}
+
+void loading_end(brace_app_t *app, brace_loading_outcome_t outcome)
+{
+    brace_loading_t *test = &app->loading;
+    if (test->phase != LOADING_IDLE) {
+        if (test->result.outcome == BRACE_LOADING_RUNNING) {
+            test->result.outcome = outcome;
+        }
+        test->phase = LOADING_RETURN;
+    }
+}
+
+/* The pass 0 -> +n -> 0 -> -n -> 0, in steps. */
+static int32_t place_of(uint32_t step, uint32_t per_side)
+{
+    const int32_t at = (int32_t)step, n = (int32_t)per_side;
+    return at <= n ? at : at <= 3 * n ? 2 * n - at : at - 4 * n;
+}
+
+static float nearer(float value, float target, float step)
+{
+    return value < target - step ? value + step : value > target + step ? value - step : target;
+}
+
+/* Bounds that end a test. */
+static brace_loading_outcome_t broken_bound(const brace_app_t *app, const brace_snapshot_t *snapshot)
+{
+    const brace_loading_t *test = &app->loading;
+    const float most_n = test->result.setup.force_max_n;
+    if (!(__builtin_fabsf(snapshot->force_x_n) <= 1e7f && __builtin_fabsf(snapshot->force_z_n) <= 1e7f)) {
+        return BRACE_LOADING_E_NO_FORCE;
+    }
+    if (test->result.rows > 0 && (__builtin_fabsf(snapshot->force_x_n - test->result.preload_x_n) > most_n ||
+                                  __builtin_fabsf(snapshot->force_z_n - test->result.preload_z_n) > most_n)) {
+        return BRACE_LOADING_E_FORCE;
+    }
+    for (int i = 0; i < BRACE_APP_JOINTS; i++) {
+        const float asked_rad = test->per_mm[i] * test->along_mm + test->correction_rad[i];
+        const float moved_rad = app->joint[i].sample.motor_rad - test->start_motor_rad[i];
+        if (test->held[i] && snapshot->play[BRACE_FEMUR + i].phase != BRACE_TAKEUP_HOLD) {
+            return BRACE_LOADING_E_LOST;
+        }
+        if (__builtin_fabsf(app->joint[i].torque_n_mm) > TORQUE_SHARE * test->torque_max_n_mm[i]) {
+            return BRACE_LOADING_E_TORQUE;
+        }
+        if (__builtin_fabsf(moved_rad) > 2.0f * __builtin_fabsf(asked_rad) + TRAVEL_SPARE_RAD) {
+            return BRACE_LOADING_E_TRAVEL;
+        }
+    }
+    if ((snapshot->stiffness.engaged.flags & BRACE_FLAG_OUT_OF_RANGE) != 0u) {
+        return BRACE_LOADING_E_TRAVEL;
+    }
+    return test->test_us > test->limit_us ? BRACE_LOADING_E_TIME : BRACE_LOADING_RUNNING;
+}
+
+/* What the servos give way by under load, so that the motors stand where the step wants them. */
+static void correct(brace_app_t *app)
+{
+    brace_loading_t *test = &app->loading;
+    if (test->result.setup.source != BRACE_LOADING_ENCODED || test->step == 0) {
+        return;
+    }
+    const float slow_us = (float)test->result.setup.dwell_us / 16.0f;
+    const float gain = (float)app->tick_us / (slow_us > CORRECTION_LEAST_US ? slow_us : CORRECTION_LEAST_US);
+    for (int i = 0; i < BRACE_APP_JOINTS; i++) {
+        const float moved_rad = app->joint[i].sample.motor_rad - test->start_motor_rad[i];
+        const float wanted_rad =
+            test->correction_rad[i] + gain * (test->per_mm[i] * test->along_mm - moved_rad);
+        test->correction_rad[i] = wanted_rad > CORRECTION_MOST_RAD    ? CORRECTION_MOST_RAD
+                                  : wanted_rad < -CORRECTION_MOST_RAD ? -CORRECTION_MOST_RAD
+                                                                      : wanted_rad;
+    }
+}
+
+static void move(brace_app_t *app, float step_mm)
+{
+    brace_loading_t *test = &app->loading;
+    const brace_loading_setup_t *setup = &test->result.setup;
+    /* the free shape goes the other way: the tip stays, and is displaced against it */
+    const float target_mm = -setup->step_mm * (float)place_of(test->step, setup->steps_per_side);
+    test->along_mm = nearer(test->along_mm, target_mm, step_mm);
+    correct(app);
+    if (test->along_mm == target_mm) {
+        test->phase = LOADING_DWELL;
+        test->phase_us = 0;
+        loading_read_begin(test);
+    }
+}
+
+static void dwell(brace_app_t *app, const brace_snapshot_t *snapshot)
+{
+    brace_loading_t *test = &app->loading;
+    test->phase_us += app->tick_us;
+    if (2u * test->phase_us <= test->result.setup.dwell_us) {
+        correct(app);
+    } else {
+        loading_read_sample(app, snapshot);
+    }
+    if (test->phase_us >= test->result.setup.dwell_us) {
+        test->phase = LOADING_READ;
+    }
+}
+
+static void go_back(brace_app_t *app, float step_mm)
+{
+    brace_loading_t *test = &app->loading;
+    const float step_rad = RETURN_RAD_PER_S * 1e-6f * (float)app->tick_us;
+    test->along_mm = nearer(test->along_mm, 0.0f, step_mm);
+    test->correction_rad[0] = nearer(test->correction_rad[0], 0.0f, step_rad);
+    test->correction_rad[1] = nearer(test->correction_rad[1], 0.0f, step_rad);
+    if (test->along_mm == 0.0f && test->correction_rad[0] == 0.0f && test->correction_rad[1] == 0.0f) {
+        test->phase = LOADING_IDLE;
+    }
+}
+
+void loading_advance(brace_app_t *app, const brace_snapshot_t *snapshot)
+{
+    brace_loading_t *test = &app->loading;
+    const float step_mm = test->result.setup.rate_mm_per_s * 1e-6f * (float)app->tick_us;
+    test->test_us += app->tick_us;
+    if (test->phase == LOADING_MOVE || test->phase == LOADING_DWELL) {
+        const brace_loading_outcome_t broken = broken_bound(app, snapshot);
+        if (broken != BRACE_LOADING_RUNNING) {
+            loading_end(app, broken);
+        } else if (test->phase == LOADING_MOVE) {
+            move(app, step_mm);
+        } else {
+            dwell(app, snapshot);
+        }
+    } else if (test->phase == LOADING_RETURN) {
+        go_back(app, step_mm);
+    }
+}
+
+bool loading_piece_due(const brace_app_t *app)
+{
+    return app->loading.phase == LOADING_READ || app->loading.phase == LOADING_DRIFT ||
+           app->loading.phase == LOADING_JUDGE;
+}
+
+static void next_step(brace_app_t *app)
+{
+    brace_loading_t *test = &app->loading;
+    test->step++;
+    test->phase = test->step < step_count(test) ? LOADING_MOVE : LOADING_JUDGE;
+}
+
+void loading_piece(brace_app_t *app)
+{
+    brace_loading_t *test = &app->loading;
+    test->test_us += app->tick_us;
+    if (test->phase == LOADING_READ) {
+        if (loading_read(app)) {
+            test->phase = LOADING_DRIFT;
+        } else {
+            loading_end(app, BRACE_LOADING_E_NO_FORCE);
+        }
+    } else if (test->phase == LOADING_DRIFT) {
+        loading_drift(app);
+        next_step(app);
+    } else if (test->phase == LOADING_JUDGE) {
+        loading_end(app, loading_judge(app));
+    }
+}

@@ -1,0 +1,31 @@
+/* The loading test: brace/loading.h. It advances in every tick; what costs more has a tick of its own. */
+#ifndef BRACE_APP_LOADING_H
+#define BRACE_APP_LOADING_H
+
+#include "brace/app.h"
+
+enum {
+    LOADING_IDLE = 0,
+    LOADING_MOVE = 1,
+    LOADING_DWELL = 2,
+    LOADING_READ = 3,  /* a piece: slope and row */
+    LOADING_DRIFT = 4, /* a piece: the reading goes to the drift detector */
+    LOADING_JUDGE = 5, /* a piece, with nothing beside it: slopes against the model */
+    LOADING_RETURN = 6
+};
+
+brace_status_t loading_start(brace_app_t *app, const brace_loading_setup_t *setup);
+
+/* Ends a test that runs: back to where it began. */
+void loading_end(brace_app_t *app, brace_loading_outcome_t outcome);
+
+/* A tick of it, from this tick's samples. At most 150 instructions. */
+void loading_advance(brace_app_t *app, const brace_snapshot_t *snapshot);
+
+/* Is a piece due? Then the next tick computes no K but does the piece. */
+bool loading_piece_due(const brace_app_t *app);
+
+/* READ at most 500, DRIFT at most 900, JUDGE at most 3,600 instructions. */
+void loading_piece(brace_app_t *app);
+
+#endif

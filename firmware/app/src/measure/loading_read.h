@@ -1,0 +1,19 @@
+/* One step's reading: averaged over the second half of its dwell, into slope, recorder and drift detector. */
+#ifndef BRACE_APP_LOADING_READ_H
+#define BRACE_APP_LOADING_READ_H
+
+#include "brace/app.h"
+
+void loading_read_begin(brace_loading_t *test);
+void loading_read_sample(brace_app_t *app, const brace_snapshot_t *snapshot);
+
+/* The reading is worked out and recorded; false when nothing was averaged or it cannot be used. */
+bool loading_read(brace_app_t *app);
+
+/* The reading goes to the drift detector, if a sensor measured the force and no gap was open. */
+void loading_drift(brace_app_t *app);
+
+/* Slopes, and how far they are from the model: DONE, or E_FLAT. */
+brace_loading_outcome_t loading_judge(brace_app_t *app);
+
+#endif

@@ -1,0 +1,83 @@
+#include "measure/model.h"
+
+#define LEAST_FACTOR 1e-3f           /* no temperature makes a spring push the wrong way */
+#define ALL_BUT_RIGID_MM_PER_N 1e-9f /* for links that only their joints let yield */
+#define NEWTON_STEPS 4
+
+void model_configure_collapse(brace_app_model_t *model, const brace_parameters_t *parameters)
+{
+    const bool springs_change = parameters->slow.joint_compliance_per_degc != 0.0f ||
+                                parameters->drive[BRACE_FEMUR].hardening_n_mm_per_rad3 != 0.0f ||
+                                parameters->drive[BRACE_TIBIA].hardening_n_mm_per_rad3 != 0.0f;
+    model->collapsed = !springs_change && brace_planar_collapse(&parameters->limb, &model->planar) == BRACE_OK;
+}
+
+void model_configure_chain(brace_app_model_t *model, const brace_parameters_t *parameters)
+{
+    /* all that does not change; the joints' springs, with the base's rotation, are the last two elements */
+    brace_limb_t limb = parameters->limb;
+    brace_joint_t *joint = limb.joint;
+    model->spring_rad_per_n_mm[0] = joint[BRACE_FEMUR].compliance_rad_per_n_mm;
+    model->spring_rad_per_n_mm[1] = joint[BRACE_TIBIA].compliance_rad_per_n_mm;
+    model->rotation_rad_per_n_mm = limb.base.rotation_rad_per_n_mm;
+    joint[BRACE_FEMUR].compliance_rad_per_n_mm = joint[BRACE_TIBIA].compliance_rad_per_n_mm = 0.0f;
+    limb.base.rotation_rad_per_n_mm = 0.0f;
+    if (brace_chain_build(&limb, &model->chain) != BRACE_OK) {
+        brace_link_t *femur = &limb.link[BRACE_FEMUR];
+        femur->axial_mm_per_n += ALL_BUT_RIGID_MM_PER_N;
+        femur->bending_mm_per_n += ALL_BUT_RIGID_MM_PER_N;
+        model->chain.count = 0;
+        (void)brace_chain_build(&limb, &model->chain);
+    }
+    model->firm = model->chain.count;
+    model->femur_mm = limb.femur_mm;
+    model->tibia_mm = limb.tibia_mm;
+    model->warm_per_degc = parameters->slow.joint_compliance_per_degc;
+    model->reference_degc = parameters->slow.reference_degc;
+    for (int i = 0; i < BRACE_APP_JOINTS; i++) {
+        model->hardening_n_mm_per_rad3[i] = parameters->drive[BRACE_FEMUR + i].hardening_n_mm_per_rad3;
+        model->deflection_rad[i] = 0.0f;
+    }
+}
+
+/* 1 / (d torque / d deflection) of torque = deflection / compliance + hardening deflection^3 at a load. The deflection is
+ * followed from tick to tick: a few of Newton's steps from the last one. */
+static float yielding(brace_app_model_t *model, int index, float load_n_mm, float temp_degc)
+{
+    const float at_reference = model->spring_rad_per_n_mm[index];
+    const float warmer_degc = temp_degc - model->reference_degc;
+    const bool measured = __builtin_fabsf(warmer_degc) <= 200.0f;
+    const float factor = measured ? 1.0f + model->warm_per_degc * warmer_degc : 1.0f;
+    const float compliance = at_reference * (factor > LEAST_FACTOR ? factor : LEAST_FACTOR);
+    const float hardening = model->hardening_n_mm_per_rad3[index];
+    if (!(hardening > 0.0f && compliance > 0.0f) || !(__builtin_fabsf(load_n_mm) <= 1e9f)) {
+        return compliance;
+    }
+    const float stiffness = 1.0f / compliance;
+    float deflection = model->deflection_rad[index];
+    float slope = stiffness;
+    for (int i = 0; i < NEWTON_STEPS; i++) {
+        const float cubic = hardening * deflection * deflection;
+        slope = stiffness + 3.0f * cubic;
+        deflection = (load_n_mm + 2.0f * cubic * deflection) / slope;
+    }
+    model->deflection_rad[index] = deflection;
+    return 1.0f / (stiffness + 3.0f * hardening * deflection * deflection);
+}
+
+brace_status_t model_stiffness(brace_app_model_t *model, float theta1_rad, float theta2_rad,
+                               const float load_n_mm[BRACE_APP_JOINTS], const float temp_degc[BRACE_APP_JOINTS],
+                               brace_stiffness_t *stiffness)
+{
+    if (model->collapsed) {
+        return brace_planar_stiffness(&model->planar, theta1_rad, theta2_rad, stiffness);
+    }
+    const float hip =
+        __builtin_sqrtf(yielding(model, 0, load_n_mm[0], temp_degc[0]) + model->rotation_rad_per_n_mm);
+    const float knee = __builtin_sqrtf(yielding(model, 1, load_n_mm[1], temp_degc[1]));
+    brace_element_t *element = &model->chain.element[model->firm];
+    element[0] = (brace_element_t){{0.0f, hip * model->femur_mm}, {0.0f, hip * model->tibia_mm}, {0.0f, 0.0f}};
+    element[1] = (brace_element_t){{0.0f, 0.0f}, {0.0f, knee * model->tibia_mm}, {0.0f, 0.0f}};
+    model->chain.count = model->firm + 2u;
+    return brace_chain_stiffness(&model->chain, theta1_rad, theta2_rad, stiffness);
+}

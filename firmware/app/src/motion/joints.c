@@ -1,0 +1,138 @@
+#include "motion/joints.h"
+
+#include "measure/force.h"
+
+#define ANGLE_ABSURD_RAD 100.0f
+#define TORQUE_ABSURD 10.0f /* of the motor's range */
+
+/* An encoder that stands while its motor's torque swings by a quarter of its range, or by what friction can hide four
+ * times over, is stuck: any position servo gives way by more than an encoder step under that. */
+#define STUCK_US 250000u
+#define STUCK_SWING_OF_RANGE 0.25f
+#define STUCK_SWING_OF_FRICTION 4.0f
+#define STUCK_LINK_RAD 0.005f
+#define TORQUE_MEAN_US 20000.0f
+
+static bool is_sound(const brace_hal_joint_t *sample, const brace_drive_t *drive)
+{
+    return __builtin_fabsf(sample->motor_rad) <= ANGLE_ABSURD_RAD &&
+           __builtin_fabsf(sample->torque_n_mm) <= TORQUE_ABSURD * drive->torque_range_n_mm;
+}
+
+static void stands_anew(brace_app_joint_t *joint)
+{
+    joint->still_rad = joint->sample.motor_rad;
+    joint->still_us = 0;
+    joint->torque_low_n_mm = joint->torque_high_n_mm = joint->torque_n_mm;
+    joint->link_low_rad = joint->link_high_rad = joint->sample.link_rad;
+    joint->stuck = false;
+}
+
+static float lower(float a, float b)
+{
+    return b < a ? b : a;
+}
+
+static float higher(float a, float b)
+{
+    return b > a ? b : a;
+}
+
+static void watch_encoder(brace_app_joint_t *joint, const brace_drive_t *drive, const brace_joint_t *spring,
+                          uint32_t tick_us)
+{
+    const float gain = (float)tick_us / (TORQUE_MEAN_US + (float)tick_us);
+    joint->torque_n_mm += gain * (joint->sample.torque_n_mm - joint->torque_n_mm);
+    if (__builtin_fabsf(joint->sample.motor_rad - joint->still_rad) > 0.5f * drive->angle_step_rad) {
+        stands_anew(joint);
+        return;
+    }
+    joint->still_us += joint->still_us < 0x40000000u ? tick_us : 0u;
+    joint->torque_low_n_mm = lower(joint->torque_low_n_mm, joint->torque_n_mm);
+    joint->torque_high_n_mm = higher(joint->torque_high_n_mm, joint->torque_n_mm);
+    joint->link_low_rad = lower(joint->link_low_rad, joint->sample.link_rad);
+    joint->link_high_rad = higher(joint->link_high_rad, joint->sample.link_rad);
+    const float swing = joint->torque_high_n_mm - joint->torque_low_n_mm;
+    const float link_swing = joint->link_high_rad - joint->link_low_rad; /* NaN without a link encoder */
+    const bool torque_works = swing > STUCK_SWING_OF_RANGE * drive->torque_range_n_mm &&
+                              swing > STUCK_SWING_OF_FRICTION * drive->motor_friction_n_mm;
+    const bool link_moves =
+        link_swing > STUCK_LINK_RAD + spring->gap_rad + swing * spring->compliance_rad_per_n_mm;
+    joint->stuck = joint->stuck || (joint->still_us >= STUCK_US && (torque_works || link_moves));
+}
+
+static void read_one(brace_app_t *app, int index, uint32_t now_us)
+{
+    brace_app_joint_t *joint = &app->joint[index];
+    const brace_drive_t *drive = &app->parameters.drive[BRACE_FEMUR + index];
+    brace_hal_joint_t fresh = joint->sample;
+    const int32_t answer = app->hal->joint_read(app->hal->context, BRACE_FEMUR + index, &fresh);
+    const bool newer = answer == BRACE_HAL_OK && (!joint->seen || fresh.taken_us != joint->sample.taken_us);
+    if (newer && is_sound(&fresh, drive)) {
+        const bool first = !joint->seen;
+        joint->sample = fresh;
+        joint->seen = true;
+        if (first) {
+            joint->torque_n_mm = fresh.torque_n_mm;
+            stands_anew(joint);
+        } else {
+            watch_encoder(joint, drive, &app->parameters.limb.joint[BRACE_FEMUR + index], app->tick_us);
+        }
+    } else if (newer || (answer != BRACE_HAL_OK && answer != BRACE_HAL_AGAIN)) {
+        app->counters.samples_bad += app->counters.samples_bad < UINT32_MAX;
+    }
+    /* once too old it stays unseen, or the clock's wrap would make it young again */
+    const int32_t age_us = (int32_t)(now_us - joint->sample.taken_us);
+    joint->seen = joint->seen && age_us <= (int32_t)app->parameters.controller.age_limit_us;
+    joint->sound = joint->seen;
+}
+
+void joints_read(brace_app_t *app, uint32_t now_us)
+{
+    for (int i = 0; i < BRACE_APP_JOINTS; i++) {
+        read_one(app, i, now_us);
+    }
+}
+
+void joints_play(brace_app_t *app, uint32_t now_us, brace_snapshot_t *snapshot)
+{
+    for (int i = 0; i < BRACE_APP_JOINTS; i++) {
+        const brace_hal_joint_t *sample = &app->joint[i].sample;
+        brace_backlash_out_t *out = &snapshot->play[BRACE_FEMUR + i];
+        if (app->play[i].watched) {
+            brace_backlash_sample_t seen = {.now_us = now_us, .motor_rad = sample->motor_rad,
+                                            .torque_n_mm = sample->torque_n_mm};
+            if (!app->joint[i].sound) {
+                seen.motor_rad = __builtin_nanf(""); /* the state machine's own way into FAULT, and out of it */
+            }
+            force_expect(app, i, &seen);
+            (void)brace_backlash_tick(&app->play[i].backlash, &seen, out);
+        } else {
+            *out = (brace_backlash_out_t){.valid = !app->play[i].unwatchable && app->joint[i].sound,
+                                          .offset_off_rad = 0.5f * app->parameters.limb.joint[BRACE_FEMUR + i].gap_rad,
+                                          .load_n_mm = app->joint[i].torque_n_mm};
+        }
+    }
+}
+
+bool joints_angles(const brace_app_t *app, brace_snapshot_t *snapshot)
+{
+    bool inside = true;
+    for (int i = 0; i < BRACE_APP_JOINTS; i++) {
+        const int joint = BRACE_FEMUR + i;
+        const brace_drive_t *drive = &app->parameters.drive[joint];
+        const float motor_rad = app->joint[i].sample.motor_rad;
+        const float theta_rad =
+            brace_limb_true_angle(&app->parameters.limb, joint, motor_rad + snapshot->play[joint].offset_rad);
+        snapshot->motor_rad[joint] = motor_rad;
+        snapshot->torque_n_mm[joint] = app->joint[i].sample.torque_n_mm;
+        snapshot->theta_rad[joint] = theta_rad;
+        inside = inside && theta_rad >= drive->angle_min_rad && theta_rad <= drive->angle_max_rad;
+    }
+    return inside;
+}
+
+float joints_load(const brace_app_t *app, const brace_snapshot_t *snapshot, int index)
+{
+    return app->play[index].watched ? snapshot->play[BRACE_FEMUR + index].load_n_mm : app->joint[index].torque_n_mm;
+}
