@@ -1,0 +1,143 @@
+#include "console.h"
+
+#include "banner.h"
+#include "board.h"
+#include "brace_hal_selftest.h"
+#include "cortex_m.h"
+#if defined(BRACE_PROVOKE_FAULTS)
+#include "provoke.h"
+#endif
+
+enum { SYSTICK_BITS = 24, DECIMALS = 10000 };
+
+static void help(text_t *text)
+{
+    text_string(text, "b banner  k stiffness  c forget the crash  r restart");
+    text_line(text);
+    text_string(text, "t self-test, memory kept; T self-test, the parameter slot not in force is erased; then restart");
+    text_line(text);
+#if defined(BRACE_PROVOKE_FAULTS)
+    provoke_help(text);
+#endif
+}
+
+/* Four decimals; what does not fit, or is no number, says so. */
+static void text_value(text_t *text, const char *key, float value)
+{
+    text_string(text, key);
+    if (!(value > -2e5f && value < 2e5f)) {
+        text_string(text, "beyond");
+        return;
+    }
+    const float scaled = value * (float)DECIMALS;
+    const int32_t fixed = (int32_t)(scaled + (scaled < 0.0f ? -0.5f : 0.5f));
+    const uint32_t size = (uint32_t)(fixed < 0 ? -fixed : fixed);
+    text_string(text, fixed < 0 ? "-" : "");
+    text_unsigned(text, size / DECIMALS);
+    text_string(text, ".");
+    for (uint32_t place = DECIMALS / 10u; place > 0u; place /= 10u) {
+        text_unsigned(text, size / place % 10u);
+    }
+}
+
+static void stiffness(text_t *text, const brace_app_t *app)
+{
+    const brace_snapshot_t *const now = brace_app_snapshot(app);
+    const brace_stiffness_t *const k = &now->stiffness.now;
+    text_string(text, now->k_is_valid ? "k: valid" : "k: not valid");
+    text_value(text, " k_xx_n_per_mm ", k->k_xx_n_per_mm);
+    text_value(text, " k_xz_n_per_mm ", k->k_xz_n_per_mm);
+    text_value(text, " k_zz_n_per_mm ", k->k_zz_n_per_mm);
+    text_value(text, " theta1_rad ", now->theta_rad[BRACE_FEMUR]);
+    text_value(text, " theta2_rad ", now->theta_rad[BRACE_TIBIA]);
+    text_string(text, " flags ");
+    text_hex(text, k->flags);
+    text_string(text, " faults ");
+    text_hex(text, now->faults);
+    text_string(text, " mode ");
+    text_unsigned(text, (uint32_t)now->mode);
+    text_string(text, " tick ");
+    text_unsigned(text, now->sequence);
+    text_line(text);
+}
+
+static void finding(void *context, const brace_selftest_finding_t *found)
+{
+    static const char *const verdicts[] = {"pass", "note", "FAIL"};
+    text_t *const text = context;
+    text_string(text, "selftest: ");
+    text_string(text, verdicts[found->verdict]);
+    text_string(text, " ");
+    text_string(text, found->entry);
+    text_string(text, ": ");
+    text_string(text, found->what);
+    if (found->has_value) {
+        text_string(text, " (");
+        text_signed(text, found->value);
+        text_string(text, " ");
+        text_string(text, found->unit);
+        text_string(text, ")");
+    }
+    text_line(text);
+}
+
+static uint32_t systick(void *context)
+{
+    (void)context;
+    return SYSTICK_VALUE;
+}
+
+static void selftest(text_t *text, const brace_app_t *app, bool may_erase)
+{
+    const int32_t spare = brace_app_snapshot(app)->parameter_origin == BRACE_PARAMETERS_SLOT_B ? 0 : 1;
+    SYSTICK_LOAD = (1u << SYSTICK_BITS) - 1u;
+    SYSTICK_VALUE = 0u;
+    SYSTICK_CONTROL = SYSTICK_ON_CORE_CLOCK;
+    const brace_selftest_setup_t setup = {
+        .report = finding,
+        .report_context = text,
+        .scratch_slot = may_erase ? spare : BRACE_SELFTEST_KEEP_NVM,
+        .reference_count = systick,
+        .reference_hz = board_core_hz(),
+        .reference_bits = SYSTICK_BITS,
+        .reference_falls = true,
+    };
+    brace_selftest_result_t result = {0};
+    (void)brace_selftest_run(text->hal, &setup, &result);
+    text_string(text, "selftest: ");
+    text_unsigned(text, result.passed);
+    text_string(text, " passed, ");
+    text_unsigned(text, result.noted);
+    text_string(text, " noted, ");
+    text_unsigned(text, result.failed);
+    text_string(text, " failed");
+    text_line(text);
+    text->hal->restart(text->hal->context); /* the application finds its buses as it would at power-on */
+}
+
+void console_serve(text_t *text, const brace_app_t *app)
+{
+    const brace_hal_t *const hal = text->hal;
+    uint8_t request = 0u;
+    if (hal->serial_read(hal->context, BRACE_SERIAL_CONSOLE, &request, 1u) != 1) {
+        return;
+    }
+    text->gone = false; /* who asks, listens */
+    switch (request) {
+    case '?': help(text); break;
+    case 'b':
+        banner_image(text);
+        banner_application(text, app, BRACE_OK);
+        break;
+    case 'k': stiffness(text, app); break;
+    case 'c': hal->crash_clear(hal->context); break;
+    case 'r': hal->restart(hal->context); break;
+    case 't': selftest(text, app, false); break;
+    case 'T': selftest(text, app, true); break;
+    default:
+#if defined(BRACE_PROVOKE_FAULTS)
+        provoke(request);
+#endif
+        break;
+    }
+}

@@ -1,0 +1,55 @@
+/* The controller: says who it is, starts the application, and gives it its ticks. */
+#include "banner.h"
+#include "board.h"
+#include "brace/app.h"
+#include "console.h"
+
+static brace_app_t app;
+
+static text_t console_open(const brace_hal_t *hal)
+{
+    const int32_t answer = hal->serial_setup(hal->context, BRACE_SERIAL_CONSOLE, BOARD_CONSOLE_BAUD, BRACE_PARITY_NONE);
+    return (text_t){.hal = hal, .gone = answer != BRACE_HAL_OK};
+}
+
+/* A controller that refuses to start says why, and goes on saying it to whoever connects: no reset loop. */
+static _Noreturn void explain(text_t *console, brace_status_t started)
+{
+    enum { REPEAT_US = 1000000 };
+    const brace_hal_t *const hal = console->hal;
+    uint32_t last_us = hal->now_us(hal->context);
+    for (;;) {
+        hal->watchdog_feed(hal->context);
+        if (hal->now_us(hal->context) - last_us >= REPEAT_US) {
+            last_us += REPEAT_US;
+            console->gone = false;
+            banner_image(console);
+            banner_application(console, &app, started);
+        }
+    }
+}
+
+int main(void)
+{
+    const brace_hal_t *const hal = board_start();
+    text_t console = console_open(hal);
+    banner_image(&console);
+    const brace_status_t started = brace_app_start(&app, hal);
+    banner_application(&console, &app, started);
+    if (started != BRACE_OK) {
+        explain(&console, started);
+    }
+    uint32_t due_us = hal->now_us(hal->context);
+    for (;;) {
+        const uint32_t now_us = hal->now_us(hal->context);
+        const uint32_t tick_us = brace_app_parameters(&app)->controller.tick_us;
+        if ((int32_t)(now_us - due_us) >= 0) {
+            brace_app_tick(&app, now_us); /* feeds the watchdog */
+            due_us += tick_us;
+            if ((int32_t)(now_us - due_us) >= 0) { /* late by a whole period: no burst to catch up */
+                due_us = now_us + tick_us;
+            }
+        }
+        console_serve(&console, &app);
+    }
+}

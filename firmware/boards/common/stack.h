@@ -1,0 +1,15 @@
+/* How much of the stack was never used. */
+#ifndef BRACE_BOARDS_STACK_H
+#define BRACE_BOARDS_STACK_H
+
+#include <stdint.h>
+
+/* What start-up paints the stack with. */
+enum { STACK_PAINT = 0x5354414B };
+
+/* As brace_hal.h's entry. The context is not used. */
+uint32_t stack_unused_bytes(void *context);
+
+uint32_t stack_bytes(void);
+
+#endif

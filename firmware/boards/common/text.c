@@ -1,0 +1,68 @@
+#include "text.h"
+
+enum { PATIENCE_US = 100000, ROUNDS_MAX = 1000000 };
+
+static void put(text_t *text, const char *bytes, uint32_t count)
+{
+    const brace_hal_t *const hal = text->hal;
+    const uint32_t began_us = hal->now_us(hal->context);
+    uint32_t rounds = 0u;
+    while (count > 0u && !text->gone) {
+        const int32_t taken = hal->serial_write(hal->context, BRACE_SERIAL_CONSOLE, (const uint8_t *)bytes, count);
+        if (taken > 0) {
+            bytes += taken;
+            count -= (uint32_t)taken;
+            continue;
+        }
+        rounds++; /* ends the wait when the clock stands */
+        if (taken < 0 || rounds > ROUNDS_MAX || hal->now_us(hal->context) - began_us > PATIENCE_US) {
+            text->gone = true;
+        }
+    }
+}
+
+void text_string(text_t *text, const char *string)
+{
+    uint32_t length = 0u;
+    while (string[length] != '\0') {
+        length++;
+    }
+    put(text, string, length);
+}
+
+void text_unsigned(text_t *text, uint32_t value)
+{
+    enum { DIGITS = 10 };
+    char digits[DIGITS];
+    uint32_t at = DIGITS;
+    do {
+        at--;
+        digits[at] = (char)('0' + value % 10u);
+        value /= 10u;
+    } while (value != 0u);
+    put(text, digits + at, DIGITS - at);
+}
+
+void text_signed(text_t *text, int32_t value)
+{
+    if (value < 0) {
+        put(text, "-", 1u);
+    }
+    text_unsigned(text, value < 0 ? 0u - (uint32_t)value : (uint32_t)value);
+}
+
+void text_hex(text_t *text, uint32_t value)
+{
+    enum { NIBBLES = 8 };
+    char digits[NIBBLES];
+    for (uint32_t i = 0u; i < NIBBLES; i++) {
+        digits[i] = "0123456789abcdef"[(value >> (4u * (NIBBLES - 1u - i))) & 0xfu];
+    }
+    put(text, "0x", 2u);
+    put(text, digits, NIBBLES);
+}
+
+void text_line(text_t *text)
+{
+    put(text, "\r\n", 2u);
+}

@@ -1,0 +1,59 @@
+/* The Netduino Plus 2 as emulators have it: an STM32F405 with USARTs and timers, without clock control, CAN, flash
+ * controller and watchdog. The driver is the real chip's; what is missing stands in. */
+#include "board.h"
+
+#include "brace_hal_stm32f405.h"
+#include "fault.h"
+#include "kept.h"
+#include "kept_nvm.h"
+#include "stack.h"
+#include "stand_in_joints.h"
+
+static brace_hal_t door;
+
+uint32_t board_now_us(void)
+{
+    return door.now_us != 0 ? door.now_us(door.context) : 0u; /* a fault may come before the clock */
+}
+
+uint32_t board_core_hz(void)
+{
+    return stm32f405_clock_report().clocks.core_hz;
+}
+
+const char *board_remark(void)
+{
+    return "emulated; joints stand in, non-volatile memory is RAM, no CAN, no watchdog";
+}
+
+static int32_t joint_read(void *context, int32_t joint_index, brace_hal_joint_t *joint)
+{
+    (void)context;
+    return stand_in_joint(joint_index, board_now_us(), joint);
+}
+
+const brace_hal_t *board_start(void)
+{
+    /* The emulator's own rates, whatever the registers say. */
+    static const stm32f405_clocks_t clocks = {
+        .core_hz = 168000000u, .apb1_hz = 42000000u, .apb2_hz = 84000000u, .timer_hz = 1000000000u};
+    static const stm32f405_joints_t joints = {.read = joint_read};
+    static stm32f405_board_t board = {
+        .name = BRACE_BOARD_NAME,
+        .clocks_given = &clocks,
+        .serial = {
+            [BRACE_SERIAL_CONSOLE] = {.usart = 1u, .tx = {'A', 9u}, .rx = {'A', 10u}},
+            [BRACE_SERIAL_MODBUS] = {.usart = 2u, .tx = {'A', 2u}, .rx = {'A', 3u}},
+            [BRACE_SERIAL_SLCAN] = {.usart = 3u, .tx = {'B', 10u}, .rx = {'B', 11u}},
+        },
+        .joints = &joints,
+        .crash_read = kept_crash_read,
+        .crash_clear = kept_crash_clear,
+        .stack_unused_bytes = stack_unused_bytes,
+    };
+    board.nvm_ram = kept_nvm_start(BRACE_NVM_SLOT_COUNT * STM32F405_NVM_RAM_SLOT_BYTES);
+    door = *brace_hal_stm32f405(&board);
+    door.reset_cause = kept_reset_cause; /* the emulated chip keeps no reset flags */
+    door.restart = kept_restart;
+    return &door;
+}

@@ -1,0 +1,35 @@
+/* Between the checks: one run's state, and how a finding is told. */
+#ifndef SELFTEST_H
+#define SELFTEST_H
+
+#include "brace_hal_selftest.h"
+
+typedef struct {
+    const brace_hal_t *hal;
+    const brace_selftest_setup_t *setup;
+    brace_selftest_result_t result;
+    bool clock_runs; /* windows of time may be waited for */
+} selftest_t;
+
+void selftest_tell(selftest_t *test, brace_selftest_verdict_t verdict, const char *entry, const char *what);
+void selftest_tell_value(selftest_t *test, brace_selftest_verdict_t verdict, const char *entry, const char *what,
+    int32_t value, const char *unit);
+
+/* PASS with `right`, or FAIL with `wrong`; gives ok back. */
+bool selftest_expect(selftest_t *test, bool ok, const char *entry, const char *right, const char *wrong);
+
+/* A window of time to wait in: ends when it is over, or after so many questions when the clock is no good. */
+typedef struct {
+    uint32_t began_us, window_us, asked;
+} selftest_wait_t;
+
+selftest_wait_t selftest_wait(const selftest_t *test, uint32_t window_us);
+bool selftest_waiting(const selftest_t *test, selftest_wait_t *wait);
+
+void selftest_clock(selftest_t *test);
+void selftest_joints(selftest_t *test);
+void selftest_nvm(selftest_t *test);
+void selftest_serial(selftest_t *test);
+void selftest_can(selftest_t *test);
+
+#endif
