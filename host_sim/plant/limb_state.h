@@ -28,6 +28,9 @@ public:
     // free_axis: 0 both axes are held, 1 x is free, 2 z is free.
     LimbRest hold_tip(const Eigen::Vector2d &displacement_mm, int free_axis = 0);
 
+    // At the last posture.
+    const Structure &structure() const { return structure_; }
+
 private:
     void let_creep(double t_s);
     bool prepare();

@@ -30,6 +30,15 @@ FIRMWARE_HEADERS = (
     "contact.h",
 )
 HOST_HEADER = "brace_host.h"
+NODE_HEADER = "brace_node.h"  # the controller and its limb in one process
+_HEADER_FOLDERS = (
+    "firmware/core/include",
+    "firmware/interface/include",
+    "firmware/interface/generated",
+    "firmware/app/include",
+    "hal/include",
+    "host_sim/api",
+)
 
 
 @dataclass(frozen=True)
@@ -44,11 +53,20 @@ class Library:
 @cache
 def library() -> Library:
     """The library, loaded once. Looked for at $BRACE_LIBRARY, beside the package, in the project's build."""
+    return _load(*_headers())
+
+
+@cache
+def node_library() -> Library:
+    """The same library by brace_node.h: the firmware's application over simulated limbs. Its C types are its own."""
+    return _load(*_node_headers())
+
+
+def _load(headers: list[Path], folders: list[Path]) -> Library:
     path = _find_library()
     from cffi import FFI  # here, so that a command that computes nothing starts at once
 
     ffi = FFI()
-    headers, folders = _headers()
     _refuse_stale(path, headers, folders)
     try:
         ffi.cdef(declarations(headers, folders))
@@ -98,10 +116,16 @@ def _headers() -> tuple[list[Path], list[Path]]:
     if (_INSTALLED / "include").is_dir():
         folders = [_INSTALLED / "include"]
     else:
-        folders = [_PROJECT / "firmware" / "core" / "include", _PROJECT / "host_sim" / "api"]
+        folders = [_PROJECT / folder for folder in _HEADER_FOLDERS]
     roots = [folder / "brace" / name for name in FIRMWARE_HEADERS for folder in folders]
     roots += [folder / HOST_HEADER for folder in folders]
     return [root for root in roots if root.is_file()], folders
+
+
+def _node_headers() -> tuple[list[Path], list[Path]]:
+    """The same for the controller in this process; a world of its own, which other commands need not read."""
+    _, folders = _headers()
+    return [root for folder in folders if (root := folder / NODE_HEADER).is_file()], folders
 
 
 def _refuse_stale(library_path: Path, headers: list[Path], folders: list[Path]) -> None:

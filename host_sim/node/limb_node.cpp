@@ -1,0 +1,319 @@
+#include "node/limb_node.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <limits>
+
+#include "plant/sensor.h"
+
+extern "C" {
+#include "brace/store.h"
+}
+
+namespace brace::node {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kStep_s = 1e-3;               // of the motors, at most
+constexpr int kSettleSteps = 1000;             // before the controller starts
+constexpr std::uint64_t kCommandHolds_us = 100000; // brace_hal.h, joint_command
+constexpr double kCommandFades_rad_per_s = 0.1;
+constexpr std::uint32_t kPatience_us = 4000000; // of the watchdog
+constexpr double kDefaultLate_ms = 5.0;
+constexpr int kStoreSteps = 100000;
+
+constexpr const char *kNone = "none";
+
+const char *url_or_none(const char *url)
+{
+    return url != nullptr ? url : kNone;
+}
+
+} // namespace
+
+LimbNode::LimbNode(const brace_node_limb_t &limb, std::uint64_t seed)
+    : plant_(limb.plant), drive_{limb.drive[0], limb.drive[1], limb.drive[2]}, force_noise_n_(limb.force_noise_n),
+      temp_start_degc_(limb.temp_start_degc), temp_rise_degc_(limb.temp_rise_degc),
+      temp_time_constant_s_(limb.temp_time_constant_s), has_link_encoder_(limb.has_link_encoder != 0),
+      hold_n_per_mm_(limb.hold_n_per_mm), noise_(seed), limb_(plant_), app_(std::make_unique<brace_app_t>())
+{
+    setpoints.start({limb.theta_rad[0], limb.theta_rad[1], limb.theta_rad[2]});
+    for (const int i : {0, 1}) {
+        motor_[i].angle_rad = limb.theta_rad[i + 1];
+        motor_[i].limit_n_mm = drive_[i + 1].torque_range_n_mm;
+    }
+    brace_posix_init(&posix_);
+    posix_.time_is_given = true;
+    posix_.limb = {this, joint_read, joint_command, limb.has_force_sensor != 0 ? tip_force_read : nullptr};
+}
+
+LimbNode::~LimbNode()
+{
+    brace_posix_close(&posix_);
+}
+
+// -------------------------------------------------------------------------------------------- starting up
+
+brace_node_failure_t LimbNode::open(const brace_node_limb_t &limb, brace_posix_bus_t *bus)
+{
+    brace_node_failure_t failure{};
+    const auto refuse = [&failure](brace_node_part_t part, std::int32_t detail) {
+        failure = {part, detail, 0, errno};
+        return detail != 0;
+    };
+    bool memory_is_new = true;
+    if (refuse(BRACE_NODE_PART_MEMORY, brace_posix_nvm_open(&posix_.nvm, limb.nvm_path, &memory_is_new))
+        || refuse(BRACE_NODE_PART_CONSOLE,
+                  brace_posix_stream_open(&posix_.stream[BRACE_SERIAL_CONSOLE], url_or_none(limb.console)))
+        || refuse(BRACE_NODE_PART_MODBUS_LINE,
+                  brace_posix_stream_open(&posix_.stream[BRACE_SERIAL_MODBUS], url_or_none(limb.modbus_line)))
+        || refuse(BRACE_NODE_PART_SLCAN_LINE,
+                  brace_posix_stream_open(&posix_.stream[BRACE_SERIAL_SLCAN], url_or_none(limb.slcan_line)))
+        || refuse(BRACE_NODE_PART_MODBUS_TCP,
+                  brace_posix_modbus_open(&posix_.modbus, url_or_none(limb.modbus_tcp)))) {
+        return failure;
+    }
+    if (bus != nullptr) {
+        (void)brace_posix_join(&posix_, bus);
+    }
+    brace_posix_hal(&posix_, &hal_);
+    if (!store_block(limb, memory_is_new, failure)) {
+        return failure;
+    }
+    limb_.take_hold({motor_[0].angle_rad, motor_[1].angle_rad}, hold_n_per_mm_, {limb.press_x_mm, limb.press_z_mm},
+                    0.0, temp_degc(0.0));
+    if (!limb_.settle({motor_[0].angle_rad, motor_[1].angle_rad}, 0.0, temp_degc(0.0), pressed_)) {
+        return {BRACE_NODE_PART_LIMB, BRACE_HOST_E_SINGULAR, 0, 0};
+    }
+    for (int i = 0; i < kSettleSteps; ++i) {
+        move_limb(0.0, kStep_s);
+    }
+    sample();
+    (void)brace_app_start(app_.get(), &hal_);
+    return {};
+}
+
+// Through the controller's own store: what its start finds is what an update would have left.
+bool LimbNode::store_block(const brace_node_limb_t &limb, bool memory_is_new, brace_node_failure_t &failure)
+{
+    if (limb.block == nullptr || (!memory_is_new && limb.block_replaces == 0)) {
+        return true;
+    }
+    auto wanted = std::make_unique<brace_parameters_t>();
+    auto found = std::make_unique<brace_parameters_t>();
+    std::int32_t status = brace_parameters_unpack(limb.block, limb.block_bytes, wanted.get(), nullptr, nullptr);
+    if (status == BRACE_OK) {
+        auto store = std::make_unique<brace_store_t>();
+        (void)brace_store_start(store.get(), &hal_, found.get());
+        status = brace_store_begin(store.get(), wanted.get(), nullptr);
+        brace_store_state_t state = BRACE_STORE_BUSY;
+        for (int i = 0; status == BRACE_OK && state == BRACE_STORE_BUSY && i < kStoreSteps; ++i) {
+            state = brace_store_step(store.get());
+        }
+        if (status == BRACE_OK && state != BRACE_STORE_DONE) {
+            failure = {BRACE_NODE_PART_MEMORY, BRACE_POSIX_E_SYSTEM, 0, errno};
+            return false;
+        }
+    }
+    if (status != BRACE_OK) {
+        failure = {BRACE_NODE_PART_BLOCK, status, 0, 0};
+    }
+    return status == BRACE_OK;
+}
+
+void LimbNode::restart(brace_reset_cause_t cause)
+{
+    posix_.cause = cause;
+    posix_.restart_asked = false;
+    posix_.fed_us = posix_.given_us;
+    command_ = {};
+    (void)brace_app_start(app_.get(), &hal_);
+}
+
+// ------------------------------------------------------------------------------------------------ running
+
+void LimbNode::tick(std::uint64_t now_us)
+{
+    const double dt_s = 1e-6 * static_cast<double>(now_us - now_us_);
+    double t_s = 1e-6 * static_cast<double>(now_us_);
+    now_us_ = now_us;
+    posix_.given_us = static_cast<std::uint32_t>(now_us);
+    faults.step(1e-6 * static_cast<double>(now_us));
+    follow_faults();
+    const int steps = std::max(1, static_cast<int>(std::ceil(dt_s / kStep_s - 1e-9)));
+    for (int i = 0; i < steps; ++i) {
+        t_s += dt_s / steps;
+        setpoints.step(t_s, dt_s / steps, drive_);
+        move_limb(t_s, dt_s / steps);
+    }
+    sample();
+    brace_app_tick(app_.get(), posix_.given_us);
+    ++ticks_;
+    if (posix_.restart_asked) {
+        restart(BRACE_RESET_REQUESTED);
+    } else if (posix_.given_us - posix_.fed_us > kPatience_us) {
+        ++watchdog_resets_;
+        restart(BRACE_RESET_WATCHDOG);
+    }
+    const double *late_ms = faults.value(BRACE_NODE_FAULT_TICK_LATE);
+    const std::uint32_t period_us = brace_app_parameters(app_.get())->controller.tick_us;
+    due_us_ = now_us + (late_ms != nullptr ? static_cast<std::uint64_t>(1e3 * (*late_ms > 0.0 ? *late_ms : kDefaultLate_ms))
+                                           : period_us);
+}
+
+void LimbNode::follow_faults()
+{
+    posix_.nvm.fails = faults.is_on(BRACE_NODE_FAULT_NVM_FAILS);
+    posix_.nvm.forgets = faults.is_on(BRACE_NODE_FAULT_NVM_FORGETS);
+    if (posix_.bus != nullptr) {
+        posix_.bus->node[posix_.node].fault_bus_off = faults.is_on(BRACE_NODE_FAULT_BUS_OFF);
+    }
+    const bool tip_is_lost = faults.is_on(BRACE_NODE_FAULT_TIP_LOST);
+    if (tip_is_lost != tip_was_lost_) {
+        tip_was_lost_ = tip_is_lost;
+        limb_.take_hold({motor_[0].angle_rad, motor_[1].angle_rad}, tip_is_lost ? 0.0 : hold_n_per_mm_,
+                        Vector2d::Zero(), 1e-6 * static_cast<double>(now_us_),
+                        temp_degc(1e-6 * static_cast<double>(now_us_)));
+    }
+}
+
+void LimbNode::hold(double hold_n_per_mm, double press_x_mm, double press_z_mm)
+{
+    const double t_s = 1e-6 * static_cast<double>(now_us_);
+    hold_n_per_mm_ = hold_n_per_mm;
+    limb_.take_hold({motor_[0].angle_rad, motor_[1].angle_rad}, hold_n_per_mm, {press_x_mm, press_z_mm}, t_s,
+                    temp_degc(t_s));
+}
+
+// A command that is not repeated fades, as brace_hal.h says.
+Vector2d LimbNode::set_rad() const
+{
+    Vector2d set;
+    for (const int i : {0, 1}) {
+        set[i] = setpoints.now_rad()[static_cast<std::size_t>(i) + 1] + command_[i].offset_rad;
+    }
+    return set;
+}
+
+void LimbNode::move_limb(double t_s, double dt_s)
+{
+    for (const int i : {0, 1}) {
+        Command &command = command_[i];
+        const double range = drive_[static_cast<std::size_t>(i) + 1].torque_range_n_mm;
+        if (command.given && now_us_ - command.since_us > kCommandHolds_us) {
+            const double most = dt_s * kCommandFades_rad_per_s;
+            command.offset_rad -= std::clamp(command.offset_rad, -most, most);
+            command.limit_n_mm = range;
+        }
+        motor_[i].limit_n_mm = command.given ? std::min(range, command.limit_n_mm) : range;
+    }
+    step_motors({&drive_[1], &drive_[2]}, dt_s, set_rad(), pressed_.load_n_mm, pressed_.stiffness_n_mm_per_rad, motor_);
+    (void)limb_.settle({motor_[0].angle_rad, motor_[1].angle_rad}, t_s, temp_degc(t_s), pressed_);
+}
+
+double LimbNode::temp_degc(double t_s) const
+{
+    return temp_start_degc_ + temp_rise_degc_ * (1.0 - std::exp(-t_s / temp_time_constant_s_));
+}
+
+// ------------------------------------------------------------------------------------------- what is read
+
+void LimbNode::sample()
+{
+    const double t_s = 1e-6 * static_cast<double>(now_us_);
+    for (int joint = 0; joint < 3; ++joint) {
+        const brace_node_drive_t &drive = drive_[static_cast<std::size_t>(joint)];
+        const bool moves = joint > 0; // the coxa stands
+        const double motor_rad = moves ? motor_[joint - 1].angle_rad : setpoints.now_rad()[0];
+        const double torque_n_mm = moves ? motor_[joint - 1].torque_n_mm : 0.0;
+        const double link_rad = moves ? pressed_.link_rad[joint - 1] : motor_rad;
+        const double *offset_n_mm = faults.value(BRACE_NODE_FAULT_CURRENT_OFFSET, joint);
+        const double read_n_mm = torque_n_mm + drive.torque_bias_n_mm + drive.torque_noise_n_mm * noise_.normal()
+                                 + (offset_n_mm != nullptr ? *offset_n_mm : 0.0);
+        brace_hal_joint_t &read = sample_[static_cast<std::size_t>(joint)];
+        const double step_rad = drive.angle_step_rad;
+        if (!faults.is_on(BRACE_NODE_FAULT_ENCODER_STUCK, joint)) {
+            read.motor_rad = static_cast<float>(step_rad * std::round(motor_rad / step_rad));
+        }
+        read.torque_n_mm = static_cast<float>(read_n_mm);
+        read.link_rad = has_link_encoder_ ? static_cast<float>(step_rad * std::round(link_rad / step_rad))
+                                          : std::numeric_limits<float>::quiet_NaN();
+        read.temp_degc = static_cast<float>(temp_degc(t_s));
+        read.taken_us = static_cast<std::uint32_t>(now_us_);
+    }
+    const double *offset_n = faults.value(BRACE_NODE_FAULT_FORCE_OFFSET);
+    const Vector2d force = plant::sensor_reading_n(plant_, pressed_.force_n, t_s);
+    for (const int axis : {0, 1}) {
+        const double noise_n = force_noise_n_ * noise_.normal();
+        force_sample_n_[static_cast<std::size_t>(axis)] =
+            static_cast<float>(force[axis] + noise_n + (offset_n != nullptr ? *offset_n : 0.0));
+    }
+}
+
+std::int32_t LimbNode::joint_read(void *context, std::int32_t joint_index, brace_hal_joint_t *joint)
+{
+    const LimbNode &node = *static_cast<LimbNode *>(context);
+    if (joint_index < 0 || joint_index > 2) {
+        return BRACE_HAL_E_UNSUPPORTED;
+    }
+    if (node.faults.is_on(BRACE_NODE_FAULT_SENSOR_DEAD, joint_index)) {
+        return BRACE_HAL_E_DEVICE;
+    }
+    *joint = node.sample_[static_cast<std::size_t>(joint_index)];
+    if (node.faults.is_on(BRACE_NODE_FAULT_SENSOR_NAN, joint_index)) {
+        joint->motor_rad = joint->torque_n_mm = std::numeric_limits<float>::quiet_NaN();
+    }
+    return BRACE_HAL_OK;
+}
+
+std::int32_t LimbNode::joint_command(void *context, std::int32_t joint_index, const brace_hal_joint_command_t *command)
+{
+    LimbNode &node = *static_cast<LimbNode *>(context);
+    if (joint_index < 0 || joint_index > 2) {
+        return BRACE_HAL_E_UNSUPPORTED;
+    }
+    if (!std::isfinite(command->offset_rad) || !(command->torque_limit_n_mm >= 0.0f)) {
+        return BRACE_HAL_E_RANGE;
+    }
+    if (joint_index > 0) {
+        node.command_[static_cast<std::size_t>(joint_index) - 1] = {static_cast<double>(command->offset_rad),
+                                                                    static_cast<double>(command->torque_limit_n_mm),
+                                                                    node.now_us_, true};
+    }
+    return BRACE_HAL_OK;
+}
+
+std::int32_t LimbNode::tip_force_read(void *context, float *force_x_n, float *force_z_n)
+{
+    const LimbNode &node = *static_cast<LimbNode *>(context);
+    if (node.faults.is_on(BRACE_NODE_FAULT_FORCE_DEAD)) {
+        return BRACE_HAL_E_DEVICE;
+    }
+    *force_x_n = node.force_sample_n_[0];
+    *force_z_n = node.force_sample_n_[1];
+    return BRACE_HAL_OK;
+}
+
+brace_node_truth_t LimbNode::truth() const
+{
+    brace_node_truth_t truth{};
+    const Vector2d set = set_rad();
+    truth.set_rad[0] = truth.motor_rad[0] = truth.link_rad[0] = setpoints.now_rad()[0];
+    for (const int i : {0, 1}) {
+        truth.set_rad[i + 1] = set[i];
+        truth.motor_rad[i + 1] = motor_[i].angle_rad;
+        truth.link_rad[i + 1] = pressed_.link_rad[i];
+        truth.torque_n_mm[i + 1] = motor_[i].torque_n_mm;
+        truth.load_n_mm[i + 1] = pressed_.load_n_mm[i];
+        truth.flank[i + 1] = pressed_.flank[i];
+    }
+    truth.force_x_n = pressed_.force_n.x();
+    truth.force_z_n = pressed_.force_n.y();
+    truth.temp_degc = temp_degc(1e-6 * static_cast<double>(now_us_));
+    truth.solved = pressed_.solved;
+    return truth;
+}
+
+} // namespace brace::node

@@ -1,0 +1,84 @@
+// One controller with the limb that it believes to have: firmware/app over hal/posix, its joints and sensors simulated.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "node/drive.h"
+#include "node/pressed_limb.h"
+#include "node/script.h"
+#include "rig/noise.h"
+
+extern "C" {
+#include "brace_hal_posix.h"
+}
+
+namespace brace::node {
+
+class LimbNode {
+public:
+    LimbNode(const brace_node_limb_t &limb, std::uint64_t seed);
+    ~LimbNode();
+    LimbNode(const LimbNode &) = delete;
+    LimbNode &operator=(const LimbNode &) = delete;
+
+    // Opens ports and memory, stores the block, starts the controller. bus may be null.
+    brace_node_failure_t open(const brace_node_limb_t &limb, brace_posix_bus_t *bus);
+
+    std::uint64_t due_us() const { return due_us_; }
+    void tick(std::uint64_t now_us); // limb and controller, from the last tick to now
+    void poll() { brace_posix_poll(&posix_); }
+    void restart(brace_reset_cause_t cause);
+
+    void hold(double hold_n_per_mm, double press_x_mm, double press_z_mm);
+
+    Setpoints setpoints;
+    Faults faults;
+
+    brace_app_t &app() { return *app_; }
+    const brace_posix_t &posix() const { return posix_; }
+    brace_node_truth_t truth() const;
+    std::uint64_t ticks() const { return ticks_; }
+    std::uint32_t watchdog_resets() const { return watchdog_resets_; }
+
+private:
+    struct Command {
+        double offset_rad = 0.0;
+        double limit_n_mm = 0.0;
+        std::uint64_t since_us = 0;
+        bool given = false;
+    };
+
+    static std::int32_t joint_read(void *context, std::int32_t joint_index, brace_hal_joint_t *joint);
+    static std::int32_t joint_command(void *context, std::int32_t joint_index, const brace_hal_joint_command_t *command);
+    static std::int32_t tip_force_read(void *context, float *force_x_n, float *force_z_n);
+
+    bool store_block(const brace_node_limb_t &limb, bool memory_is_new, brace_node_failure_t &failure);
+    void follow_faults();
+    void move_limb(double t_s, double dt_s);
+    void sample();
+    Eigen::Vector2d set_rad() const;
+    double temp_degc(double t_s) const;
+
+    const brace_plant_model_t plant_;
+    const std::array<brace_node_drive_t, 3> drive_;
+    const double force_noise_n_, temp_start_degc_, temp_rise_degc_, temp_time_constant_s_;
+    const bool has_link_encoder_;
+    double hold_n_per_mm_;
+    rig::Noise noise_;
+    PressedLimb limb_;
+    Pressed pressed_;
+    std::array<Motor, 2> motor_;
+    std::array<Command, 2> command_;
+    std::array<brace_hal_joint_t, 3> sample_{};
+    std::array<float, 2> force_sample_n_{};
+    bool tip_was_lost_ = false;
+
+    std::uint64_t now_us_ = 0, due_us_ = 0, ticks_ = 0;
+    std::uint32_t watchdog_resets_ = 0;
+    brace_posix_t posix_;
+    brace_hal_t hal_;
+    std::unique_ptr<brace_app_t> app_;
+};
+
+} // namespace brace::node

@@ -1,0 +1,68 @@
+#include "node/script.h"
+
+#include <algorithm>
+
+namespace brace::node {
+
+void Setpoints::start(const std::array<double, 3> &theta_rad)
+{
+    now_rad_ = theta_rad;
+    goal_rad_ = {theta_rad[1], theta_rad[2]};
+}
+
+void Setpoints::add(double at_s, double theta1_rad, double theta2_rad)
+{
+    if (!script_.empty()) {
+        at_s = std::max(at_s, script_.back().at_s);
+    }
+    script_.push_back({at_s, {theta1_rad, theta2_rad}});
+}
+
+void Setpoints::step(double t_s, double dt_s, const std::array<brace_node_drive_t, 3> &drive)
+{
+    for (; next_ < script_.size() && script_[next_].at_s <= t_s; ++next_) {
+        goal_rad_ = script_[next_].theta_rad;
+    }
+    for (const int i : {0, 1}) {
+        const double most = dt_s * drive[i + 1].rate_rad_per_s;
+        now_rad_[i + 1] += std::clamp(goal_rad_[i] - now_rad_[i + 1], -most, most);
+    }
+}
+
+bool is_of_a_joint(int fault)
+{
+    return fault >= BRACE_NODE_FAULT_ENCODER_STUCK && fault <= BRACE_NODE_FAULT_CURRENT_OFFSET;
+}
+
+void Faults::add(int fault, int joint, double value, double at_s, double for_s)
+{
+    entries_.push_back({fault, is_of_a_joint(fault) ? joint : 0, value, at_s, at_s + for_s, false});
+}
+
+void Faults::step(double t_s)
+{
+    for (Entry &entry : entries_) {
+        entry.on = t_s >= entry.at_s && t_s < entry.end_s;
+    }
+}
+
+const double *Faults::value(int fault, int joint) const
+{
+    for (const Entry &entry : entries_) {
+        if (entry.on && entry.fault == fault && entry.joint == joint) {
+            return &entry.value;
+        }
+    }
+    return nullptr;
+}
+
+} // namespace brace::node
+
+extern "C" const char *brace_node_fault_name(int32_t fault)
+{
+    static const char *const name[BRACE_NODE_FAULT_COUNT] = {
+        "encoder_stuck", "sensor_dead", "sensor_nan", "current_offset", "force_dead", "force_offset",
+        "nvm_fails", "nvm_forgets", "bus_off", "tick_late", "tip_lost",
+    };
+    return fault >= 0 && fault < BRACE_NODE_FAULT_COUNT ? name[fault] : nullptr;
+}
