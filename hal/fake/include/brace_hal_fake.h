@@ -1,0 +1,137 @@
+/* A controller board that exists in memory only, for tests: scripted samples, faults on demand, everything counted.
+ *
+ *     static brace_fake_t fake;
+ *     brace_fake_start(&fake);
+ *     fake.joint[1].sample.motor_rad = 0.3f;                      what the femur's drive will say
+ *     brace_fake_fail(&fake, BRACE_FAKE_JOINT_READ, 10, 19, BRACE_HAL_E_DEVICE);   calls 10 to 19 fail
+ *     brace_app_start(&app, &fake.hal);
+ *
+ * Time stands until the test sets now_us. Everything may be written between calls; nothing has a clock or a heap.
+ */
+#ifndef BRACE_HAL_FAKE_H
+#define BRACE_HAL_FAKE_H
+
+#include "brace_hal.h"
+
+/* The door's entries, to be counted and made to fail. */
+typedef enum {
+    BRACE_FAKE_NOW_US = 0,
+    BRACE_FAKE_JOINT_READ,
+    BRACE_FAKE_JOINT_COMMAND,
+    BRACE_FAKE_TIP_FORCE_READ,
+    BRACE_FAKE_NVM_READ,
+    BRACE_FAKE_NVM_WRITE,
+    BRACE_FAKE_NVM_ERASE,
+    BRACE_FAKE_CAN_SETUP,
+    BRACE_FAKE_CAN_SEND,
+    BRACE_FAKE_CAN_RECEIVE,
+    BRACE_FAKE_CAN_HEALTH,
+    BRACE_FAKE_CAN_RECOVER,
+    BRACE_FAKE_SERIAL_SETUP,
+    BRACE_FAKE_SERIAL_WRITE,
+    BRACE_FAKE_SERIAL_READ,
+    BRACE_FAKE_WATCHDOG_FEED,
+    BRACE_FAKE_CRASH_READ,
+    BRACE_FAKE_RESTART,
+    BRACE_FAKE_ENTRY_COUNT
+} brace_fake_entry_t;
+
+enum {
+    BRACE_FAKE_SLOT_BYTES = 4096,
+    BRACE_FAKE_FRAMES = 64,      /* of each queue */
+    BRACE_FAKE_SERIAL_BYTES = 512,
+    BRACE_FAKE_FAILURES = 8,
+    BRACE_FAKE_JOINTS = 3
+};
+
+typedef struct brace_fake brace_fake_t;
+
+/* A joint: what its drive says, and what it was told. */
+typedef struct {
+    brace_hal_joint_t sample;  /* taken_us: set by the read to now_us, unless the clock of it is kept */
+    bool keeps_taken_us;
+    bool absent;               /* E_UNSUPPORTED */
+    bool not_newer;            /* AGAIN */
+    brace_hal_joint_command_t command; /* the last one */
+    uint32_t commanded_us;     /* when it came */
+} brace_fake_joint_t;
+
+/* Calls number first to last (from 1) of an entry answer so instead of doing anything. */
+typedef struct {
+    brace_fake_entry_t entry;
+    uint32_t first, last;
+    int32_t answer;
+} brace_fake_failure_t;
+
+typedef struct {
+    brace_can_frame_t frame[BRACE_FAKE_FRAMES];
+    uint32_t first, count;
+    uint32_t lost; /* no room */
+} brace_fake_frames_t;
+
+typedef struct {
+    uint8_t byte[BRACE_FAKE_SERIAL_BYTES];
+    uint32_t first, count;
+} brace_fake_bytes_t;
+
+struct brace_fake {
+    brace_hal_t hal;
+    uint32_t now_us;
+
+    brace_fake_joint_t joint[BRACE_FAKE_JOINTS];
+    /* Optional: called before each sample is handed out, to work it out from the commands: a limb in a test. */
+    void (*play)(void *user, brace_fake_t *fake, int32_t joint_index);
+    void *user;
+    float force_x_n, force_z_n;
+    bool force_not_newer;
+
+    uint8_t nvm[BRACE_NVM_SLOT_COUNT][BRACE_FAKE_SLOT_BYTES];
+    bool nvm_forgets;     /* writes answer OK and do nothing */
+    uint8_t nvm_stuck;    /* bits that every write leaves 0 */
+
+    brace_can_setup_t can_setup;
+    brace_can_health_t can_health;
+    uint32_t can_room;    /* frames that may wait to be sent; more: AGAIN */
+    brace_fake_frames_t can_sent, can_received; /* can_received: put there by the test */
+
+    uint32_t baud[BRACE_SERIAL_PORT_COUNT];
+    brace_parity_t parity[BRACE_SERIAL_PORT_COUNT];
+    brace_fake_bytes_t serial_sent[BRACE_SERIAL_PORT_COUNT], serial_received[BRACE_SERIAL_PORT_COUNT];
+
+    brace_reset_cause_t reset_cause;
+    brace_crash_record_t crash;
+    bool crashed;
+    uint32_t stack_unused_bytes;
+
+    uint32_t calls[BRACE_FAKE_ENTRY_COUNT];
+    brace_fake_failure_t failure[BRACE_FAKE_FAILURES];
+    uint32_t failure_count;
+};
+
+/* A board with three joints at rest, a force sensor, CAN, every serial port and erased memory, just powered on. The
+ * struct must stay where it is: the door's context points to it. */
+void brace_fake_start(brace_fake_t *fake);
+
+/* Power off and on: volatile state as at start, memory kept, with another cause. */
+void brace_fake_reset(brace_fake_t *fake, brace_reset_cause_t cause);
+
+/* Takes optional parts of the door away. */
+void brace_fake_without_can(brace_fake_t *fake);
+void brace_fake_without_commands(brace_fake_t *fake);
+void brace_fake_without_force(brace_fake_t *fake);
+
+/* Makes calls fail; at most BRACE_FAKE_FAILURES rules, false when there is no room for another. */
+bool brace_fake_fail(brace_fake_t *fake, brace_fake_entry_t entry, uint32_t first, uint32_t last, int32_t answer);
+
+/* The same for the next `count` calls. */
+bool brace_fake_fail_next(brace_fake_t *fake, brace_fake_entry_t entry, uint32_t count, int32_t answer);
+
+/* A frame arrives; one that was sent is taken: false when there is no room, or none. */
+bool brace_fake_frame_arrives(brace_fake_t *fake, const brace_can_frame_t *frame);
+bool brace_fake_frame_take(brace_fake_t *fake, brace_can_frame_t *frame);
+
+/* Bytes arrive at a port; those written to it are taken. Both answer how many. */
+uint32_t brace_fake_bytes_arrive(brace_fake_t *fake, brace_serial_port_t port, const uint8_t *bytes, uint32_t count);
+uint32_t brace_fake_bytes_take(brace_fake_t *fake, brace_serial_port_t port, uint8_t *bytes, uint32_t room);
+
+#endif

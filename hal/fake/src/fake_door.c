@@ -1,0 +1,245 @@
+#include "fake_door.h"
+
+#define CALLED(entry)                                              \
+    brace_fake_t *fake = context;                                  \
+    const int32_t wanted = fake_called(fake, BRACE_FAKE_##entry);  \
+    if (wanted != BRACE_HAL_OK) {                                  \
+        return wanted;                                             \
+    }
+
+static uint32_t now_us(void *context)
+{
+    brace_fake_t *fake = context;
+    fake->calls[BRACE_FAKE_NOW_US]++;
+    return fake->now_us;
+}
+
+/* ------------------------------------------------------------------------------------------- joints -- */
+
+static int32_t joint_read(void *context, int32_t joint_index, brace_hal_joint_t *joint)
+{
+    CALLED(JOINT_READ)
+    if (joint_index < 0 || joint_index >= BRACE_FAKE_JOINTS) {
+        return BRACE_HAL_E_RANGE;
+    }
+    brace_fake_joint_t *ours = &fake->joint[joint_index];
+    if (ours->absent) {
+        return BRACE_HAL_E_UNSUPPORTED;
+    }
+    if (fake->play != NULL) {
+        fake->play(fake->user, fake, joint_index);
+    }
+    if (!ours->keeps_taken_us && !ours->not_newer) {
+        ours->sample.taken_us = fake->now_us;
+    }
+    *joint = ours->sample;
+    return ours->not_newer ? BRACE_HAL_AGAIN : BRACE_HAL_OK;
+}
+
+static int32_t joint_command(void *context, int32_t joint_index, const brace_hal_joint_command_t *command)
+{
+    CALLED(JOINT_COMMAND)
+    const bool numbers = command->offset_rad == command->offset_rad && command->torque_limit_n_mm >= 0.0f;
+    if (joint_index < 0 || joint_index >= BRACE_FAKE_JOINTS || !numbers) {
+        return BRACE_HAL_E_RANGE;
+    }
+    fake->joint[joint_index].command = *command;
+    fake->joint[joint_index].commanded_us = fake->now_us;
+    return BRACE_HAL_OK;
+}
+
+static int32_t tip_force_read(void *context, float *force_x_n, float *force_z_n)
+{
+    CALLED(TIP_FORCE_READ)
+    *force_x_n = fake->force_x_n;
+    *force_z_n = fake->force_z_n;
+    return fake->force_not_newer ? BRACE_HAL_AGAIN : BRACE_HAL_OK;
+}
+
+/* ------------------------------------------------------------------------------------------- memory -- */
+
+static bool outside(uint32_t slot, uint32_t offset, uint32_t count)
+{
+    return slot >= BRACE_NVM_SLOT_COUNT || offset > BRACE_FAKE_SLOT_BYTES || count > BRACE_FAKE_SLOT_BYTES - offset;
+}
+
+static int32_t nvm_read(void *context, uint32_t slot, uint32_t offset, uint8_t *bytes, uint32_t count)
+{
+    CALLED(NVM_READ)
+    if (outside(slot, offset, count)) {
+        return BRACE_HAL_E_RANGE;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        bytes[i] = fake->nvm[slot][offset + i];
+    }
+    return BRACE_HAL_OK;
+}
+
+static int32_t nvm_write(void *context, uint32_t slot, uint32_t offset, const uint8_t *bytes, uint32_t count)
+{
+    CALLED(NVM_WRITE)
+    const uint32_t unit = fake->hal.nvm_shape.write_bytes;
+    if (outside(slot, offset, count) || offset % unit != 0u || count % unit != 0u) {
+        return BRACE_HAL_E_RANGE;
+    }
+    for (uint32_t i = 0; i < count && !fake->nvm_forgets; i++) {
+        /* as flash: bits go from 1 to 0, and back with an erase only */
+        fake->nvm[slot][offset + i] &= (uint8_t)(bytes[i] & ~fake->nvm_stuck);
+    }
+    return BRACE_HAL_OK;
+}
+
+static int32_t nvm_erase(void *context, uint32_t slot)
+{
+    CALLED(NVM_ERASE)
+    if (slot >= BRACE_NVM_SLOT_COUNT) {
+        return BRACE_HAL_E_RANGE;
+    }
+    for (uint32_t i = 0; i < BRACE_FAKE_SLOT_BYTES && !fake->nvm_forgets; i++) {
+        fake->nvm[slot][i] = 0xff;
+    }
+    return BRACE_HAL_OK;
+}
+
+/* ---------------------------------------------------------------------------------------------- CAN -- */
+
+static int32_t can_setup(void *context, const brace_can_setup_t *setup)
+{
+    CALLED(CAN_SETUP)
+    if (setup->fd_bit_rate != 0u) {
+        return BRACE_HAL_E_UNSUPPORTED;
+    }
+    fake->can_setup = *setup;
+    return BRACE_HAL_OK;
+}
+
+static int32_t can_send(void *context, const brace_can_frame_t *frame)
+{
+    CALLED(CAN_SEND)
+    if (frame->id > 0x7ffu || frame->length > 8u || fake->can_setup.listen_only || fake->can_setup.bit_rate == 0u) {
+        return BRACE_HAL_E_RANGE;
+    }
+    if (fake->can_health.bus_off) {
+        return BRACE_HAL_E_BUS_OFF;
+    }
+    if (fake->can_sent.count >= fake->can_room) {
+        return BRACE_HAL_AGAIN;
+    }
+    (void)fake_frames_put(&fake->can_sent, frame);
+    return BRACE_HAL_OK;
+}
+
+static int32_t can_receive(void *context, brace_can_frame_t *frame)
+{
+    CALLED(CAN_RECEIVE)
+    return fake_frames_take(&fake->can_received, frame) ? 1 : 0;
+}
+
+static int32_t can_health(void *context, brace_can_health_t *health)
+{
+    CALLED(CAN_HEALTH)
+    *health = fake->can_health;
+    return BRACE_HAL_OK;
+}
+
+static int32_t can_recover(void *context)
+{
+    CALLED(CAN_RECOVER)
+    return BRACE_HAL_OK;
+}
+
+/* ------------------------------------------------------------------------------------------- serial -- */
+
+static int32_t serial_setup(void *context, brace_serial_port_t port, uint32_t baud, brace_parity_t parity)
+{
+    CALLED(SERIAL_SETUP)
+    if (port >= BRACE_SERIAL_PORT_COUNT || baud == 0u) {
+        return BRACE_HAL_E_RANGE;
+    }
+    fake->baud[port] = baud;
+    fake->parity[port] = parity;
+    return BRACE_HAL_OK;
+}
+
+static int32_t serial_write(void *context, brace_serial_port_t port, const uint8_t *bytes, uint32_t count)
+{
+    CALLED(SERIAL_WRITE)
+    return port < BRACE_SERIAL_PORT_COUNT ? (int32_t)fake_bytes_put(&fake->serial_sent[port], bytes, count)
+                                          : BRACE_HAL_E_RANGE;
+}
+
+static int32_t serial_read(void *context, brace_serial_port_t port, uint8_t *bytes, uint32_t room)
+{
+    CALLED(SERIAL_READ)
+    return port < BRACE_SERIAL_PORT_COUNT ? (int32_t)fake_bytes_take(&fake->serial_received[port], bytes, room)
+                                          : BRACE_HAL_E_RANGE;
+}
+
+/* ------------------------------------------------------------------------------------------- system -- */
+
+static void watchdog_feed(void *context)
+{
+    brace_fake_t *fake = context;
+    fake->calls[BRACE_FAKE_WATCHDOG_FEED]++;
+}
+
+static brace_reset_cause_t reset_cause(void *context)
+{
+    const brace_fake_t *fake = context;
+    return fake->reset_cause;
+}
+
+static int32_t crash_read(void *context, brace_crash_record_t *record)
+{
+    CALLED(CRASH_READ)
+    if (fake->crashed) {
+        *record = fake->crash;
+    }
+    return fake->crashed ? 1 : 0;
+}
+
+static void crash_clear(void *context)
+{
+    brace_fake_t *fake = context;
+    fake->crashed = false;
+}
+
+static uint32_t stack_unused_bytes(void *context)
+{
+    const brace_fake_t *fake = context;
+    return fake->stack_unused_bytes;
+}
+
+static void restart(void *context)
+{
+    brace_fake_t *fake = context;
+    fake->calls[BRACE_FAKE_RESTART]++;
+}
+
+void fake_door_fill(brace_fake_t *fake)
+{
+    fake->hal = (brace_hal_t){.context = fake,
+                              .board = "fake",
+                              .now_us = now_us,
+                              .joint_read = joint_read,
+                              .joint_command = joint_command,
+                              .tip_force_read = tip_force_read,
+                              .nvm_shape = {BRACE_FAKE_SLOT_BYTES, 4},
+                              .nvm_read = nvm_read,
+                              .nvm_write = nvm_write,
+                              .nvm_erase = nvm_erase,
+                              .can_setup = can_setup,
+                              .can_send = can_send,
+                              .can_receive = can_receive,
+                              .can_health = can_health,
+                              .can_recover = can_recover,
+                              .serial_setup = serial_setup,
+                              .serial_write = serial_write,
+                              .serial_read = serial_read,
+                              .watchdog_feed = watchdog_feed,
+                              .reset_cause = reset_cause,
+                              .crash_read = crash_read,
+                              .crash_clear = crash_clear,
+                              .stack_unused_bytes = stack_unused_bytes,
+                              .restart = restart};
+}

@@ -1,0 +1,475 @@
+/* The supervisor: every mode, every fault and its end, when K is valid, what the snapshot promises. */
+#include <string.h>
+
+#include "app_bench.h"
+
+void setUp(void)
+{
+    const brace_parameters_t p = bench_parameters();
+    bench_start(&p);
+}
+
+void tearDown(void) {}
+
+static uint32_t engaged_flags(void)
+{
+    return now()->stiffness.engaged.flags;
+}
+
+/* --------------------------------------------------------------------------------------------- starting -- */
+
+static void test_start_needs_a_whole_door(void)
+{
+    brace_hal_t hal = fake.hal;
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_start(NULL, &hal));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_start(&app, NULL));
+    hal.joint_read = NULL;
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_app_start(&app, &hal));
+    hal = fake.hal;
+    hal.nvm_erase = NULL;
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_app_start(&app, &hal));
+}
+
+static void test_before_the_first_tick_nothing_is_known(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_MODE_START, now()->mode);
+    TEST_ASSERT_FALSE(now()->k_is_valid);
+    TEST_ASSERT_TRUE(now()->theta_rad[BRACE_FEMUR] != now()->theta_rad[BRACE_FEMUR]);
+}
+
+static void test_sound_samples_lead_to_monitor(void)
+{
+    ticks(1);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    TEST_ASSERT_EQUAL(BRACE_PARAMETERS_SLOT_A, now()->parameter_origin);
+    /* docs/physics.md, check values */
+    ASSERT_CLOSE(3.96389818, now()->stiffness.now.k_xx_n_per_mm, 2e-5);
+    ASSERT_CLOSE(-0.63872477, now()->stiffness.now.k_xz_n_per_mm, 2e-5);
+    ASSERT_CLOSE(0.42806022, now()->stiffness.now.k_zz_n_per_mm, 2e-5);
+    TEST_ASSERT_EQUAL(0, engaged_flags());
+}
+
+static void test_no_samples_at_start_is_a_fault_that_names_the_joints(void)
+{
+    fake.joint[BRACE_TIBIA].not_newer = true;
+    ticks(99);
+    TEST_ASSERT_EQUAL(BRACE_MODE_START, now()->mode);
+    ticks(2);
+    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, now()->mode);
+    TEST_ASSERT_EQUAL(BRACE_FAULT_SENSOR_TIBIA, now()->faults);
+    TEST_ASSERT_FALSE(now()->k_is_valid);
+}
+
+static void test_without_stored_parameters_K_is_uncalibrated_and_says_so(void)
+{
+    bench_board();
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    ticks(2);
+    TEST_ASSERT_EQUAL(BRACE_FAULT_PARAMETERS, now()->faults);
+    TEST_ASSERT_EQUAL(BRACE_PARAMETERS_DEFAULT, now()->parameter_origin);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    TEST_ASSERT_BITS(BRACE_FLAG_UNCALIBRATED, BRACE_FLAG_UNCALIBRATED, engaged_flags());
+    TEST_ASSERT_BITS(BRACE_FLAG_UNCALIBRATED, BRACE_FLAG_UNCALIBRATED, now()->stiffness.now.flags);
+}
+
+static void test_a_start_after_a_crash_is_remembered_until_cleared(void)
+{
+    fake.reset_cause = BRACE_RESET_FAULT;
+    fake.crashed = true;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    ticks(200);
+    TEST_ASSERT_EQUAL(BRACE_FAULT_CRASHED, now()->faults);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_app_clear(&app, BRACE_FAULT_CRASHED | BRACE_FAULT_STORE));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_clear(&app, BRACE_FAULT_CRASHED));
+    ticks(1);
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    TEST_ASSERT_FALSE(fake.crashed);
+}
+
+/* ---------------------------------------------------------------------------------------------- samples -- */
+
+static void test_a_short_gap_in_the_samples_keeps_the_last_K(void)
+{
+    ticks(5);
+    TEST_ASSERT_TRUE(brace_fake_fail_next(&fake, BRACE_FAKE_JOINT_READ, 3 * 15, BRACE_HAL_E_DEVICE));
+    ticks(15);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    TEST_ASSERT_EQUAL(15000, fake.now_us - now()->taken_us);
+    TEST_ASSERT_EQUAL(30, brace_app_counters(&app)->samples_bad);
+}
+
+static void test_samples_too_old_are_stale_and_a_fault_until_they_have_been_back_for_a_while(void)
+{
+    ticks(5);
+    fake.joint[BRACE_FEMUR].not_newer = true;
+    ticks(20);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    ticks(1);
+    TEST_ASSERT_FALSE(now()->k_is_valid);
+    TEST_ASSERT_BITS(BRACE_FLAG_STALE, BRACE_FLAG_STALE, engaged_flags());
+    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, now()->mode);
+    TEST_ASSERT_EQUAL(BRACE_FAULT_SENSOR_FEMUR, now()->faults);
+    fake.joint[BRACE_FEMUR].not_newer = false;
+    ticks(99);
+    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, now()->mode);
+    TEST_ASSERT_FALSE(now()->k_is_valid);
+    ticks(2);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    TEST_ASSERT_EQUAL(0, now()->faults);
+}
+
+static void test_a_sample_that_never_ages_in_name_is_not_believed(void)
+{
+    ticks(5);
+    fake.joint[BRACE_TIBIA].keeps_taken_us = true; /* answers OK with an old time stamp */
+    ticks(30);
+    TEST_ASSERT_EQUAL(BRACE_FAULT_SENSOR_TIBIA, now()->faults);
+    for (int i = 0; i < 3; i++) { /* nor after the clock has gone round */
+        fake.now_us += 0x55000000u;
+        ticks(2);
+        TEST_ASSERT_BITS(BRACE_FAULT_SENSOR_TIBIA, BRACE_FAULT_SENSOR_TIBIA, now()->faults);
+        TEST_ASSERT_FALSE(now()->k_is_valid);
+    }
+}
+
+static void test_absurd_samples_are_never_used(void)
+{
+    static const float absurd[] = {(float)NAN, (float)INFINITY, -(float)INFINITY, 1e6f, -3e38f};
+    for (size_t i = 0; i < sizeof absurd / sizeof *absurd; i++) {
+        setUp();
+        ticks(5);
+        fake.joint[BRACE_FEMUR].sample.motor_rad = absurd[i];
+        ticks(1);
+        TEST_ASSERT_TRUE(now()->k_is_valid);
+        ASSERT_CLOSE(1.0, now()->theta_rad[BRACE_FEMUR], 1e-6);
+        ticks(25);
+        TEST_ASSERT_EQUAL(BRACE_FAULT_SENSOR_FEMUR, now()->faults);
+        fake.joint[BRACE_FEMUR].sample.motor_rad = 0.9f;
+        fake.joint[BRACE_FEMUR].sample.torque_n_mm = absurd[i];
+        ticks(5);
+        TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, now()->mode);
+    }
+}
+
+static void test_every_tick_without_sound_joints_is_invalid(void)
+{
+    ticks(5);
+    fake.joint[BRACE_FEMUR].not_newer = true;
+    for (int i = 0; i < 300; i++) {
+        fake.joint[BRACE_FEMUR].not_newer = (i / 60) % 2 == 0;
+        ticks(1);
+        const bool old = (int32_t)(fake.now_us - now()->taken_us) > 20000;
+        TEST_ASSERT_FALSE(old && now()->k_is_valid);
+    }
+}
+
+static void test_coxa_is_told_and_not_needed(void)
+{
+    fake.joint[BRACE_COXA].sample.motor_rad = 0.25f;
+    ticks(2);
+    ASSERT_CLOSE(0.25, now()->theta_rad[BRACE_COXA], 1e-6);
+    fake.joint[BRACE_COXA].absent = true;
+    ticks(100);
+    TEST_ASSERT_TRUE(now()->theta_rad[BRACE_COXA] != now()->theta_rad[BRACE_COXA]);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+}
+
+static void test_a_posture_beyond_the_travel_is_out_of_range(void)
+{
+    ticks(5);
+    fake.joint[BRACE_TIBIA].sample.motor_rad = 3.1f;
+    ticks(1);
+    TEST_ASSERT_FALSE(now()->k_is_valid);
+    TEST_ASSERT_BITS(BRACE_FLAG_OUT_OF_RANGE, BRACE_FLAG_OUT_OF_RANGE, engaged_flags());
+    fake.joint[BRACE_TIBIA].sample.motor_rad = 2.9f;
+    ticks(1);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+}
+
+static void test_zero_offsets_are_added(void)
+{
+    brace_parameters_t p = bench_parameters();
+    p.limb.joint[BRACE_FEMUR].zero_offset_rad = 0.01f;
+    p.limb.joint[BRACE_TIBIA].zero_offset_rad = -0.02f;
+    bench_start(&p);
+    ticks(2);
+    ASSERT_CLOSE(1.01, now()->theta_rad[BRACE_FEMUR], 1e-6);
+    ASSERT_CLOSE(1.38, now()->theta_rad[BRACE_TIBIA], 1e-6);
+    ASSERT_CLOSE(1.0, now()->motor_rad[BRACE_FEMUR], 1e-6);
+}
+
+/* -------------------------------------------------------------------------------------------- the encoder -- */
+
+/* A servo that gives way by its droop while its torque swings; with the encoder stuck only the torque moves. */
+static void swing(bool stuck, int from, int count)
+{
+    for (int i = from; i < from + count; i++) {
+        const float torque = 3000.0f * (float)(i % 400 < 200 ? i % 200 : 200 - i % 200) / 200.0f;
+        fake.joint[BRACE_FEMUR].sample.torque_n_mm = torque;
+        if (!stuck) {
+            fake.joint[BRACE_FEMUR].sample.motor_rad = 1.0f - torque / 1e6f;
+        }
+        ticks(1);
+    }
+}
+
+static void test_an_encoder_that_follows_its_torque_is_alive(void)
+{
+    swing(false, 0, 2000);
+    TEST_ASSERT_EQUAL(0, now()->faults);
+}
+
+static void test_an_encoder_that_stands_while_the_torque_swings_is_stuck(void)
+{
+    swing(false, 0, 400);
+    swing(true, 0, 600);
+    TEST_ASSERT_EQUAL(BRACE_FAULT_ENCODER_STUCK, now()->faults);
+    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, now()->mode);
+    TEST_ASSERT_FALSE(now()->k_is_valid);
+    swing(false, 0, 120);
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+}
+
+static void test_a_link_that_moves_away_from_a_standing_encoder_tells_too(void)
+{
+    fake.joint[BRACE_TIBIA].sample.link_rad = 1.4f;
+    ticks(300);
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    for (int i = 0; i < 100; i++) {
+        fake.joint[BRACE_TIBIA].sample.link_rad = 1.4f + 0.0002f * (float)i;
+        ticks(1);
+    }
+    TEST_ASSERT_EQUAL(BRACE_FAULT_ENCODER_STUCK, now()->faults);
+}
+
+static void test_a_limb_at_rest_is_not_stuck(void)
+{
+    ticks(3000);
+    TEST_ASSERT_EQUAL(0, now()->faults);
+}
+
+/* ------------------------------------------------------------------------------------------------- time -- */
+
+static void test_a_late_tick_is_a_fault_for_a_second_and_K_stays_valid(void)
+{
+    ticks(5);
+    fake.now_us += 2 * TICK_US;
+    ticks(1);
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    fake.now_us += 2 * TICK_US + 1;
+    ticks(1);
+    TEST_ASSERT_EQUAL(BRACE_FAULT_TICK_LATE, now()->faults);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+    ticks(999);
+    TEST_ASSERT_EQUAL(BRACE_FAULT_TICK_LATE, now()->faults);
+    ticks(1);
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    TEST_ASSERT_EQUAL(1, brace_app_counters(&app)->ticks_late);
+}
+
+static void test_the_clock_may_wrap(void)
+{
+    fake.now_us = 0xffffffffu - 20u * TICK_US;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    for (int i = 0; i < 60; i++) {
+        ticks(1);
+        TEST_ASSERT_EQUAL(0, now()->faults);
+        TEST_ASSERT_TRUE(now()->k_is_valid);
+    }
+}
+
+static void test_every_tick_feeds_the_watchdog(void)
+{
+    const uint32_t before = fake.calls[BRACE_FAKE_WATCHDOG_FEED];
+    ticks(50);
+    TEST_ASSERT_EQUAL(50, fake.calls[BRACE_FAKE_WATCHDOG_FEED] - before);
+}
+
+static void test_a_snapshot_stays_as_it_was_while_the_next_is_made(void)
+{
+    ticks(5);
+    const brace_snapshot_t *const held = now();
+    const brace_snapshot_t copy = *held;
+    fake.joint[BRACE_FEMUR].sample.motor_rad = 0.7f;
+    ticks(1);
+    TEST_ASSERT_EQUAL_MEMORY(&copy, held, sizeof copy);
+    TEST_ASSERT_TRUE(now() != held);
+    TEST_ASSERT_EQUAL(copy.sequence + 1u, now()->sequence);
+}
+
+/* ---------------------------------------------------------------------------------------- configuration -- */
+
+static void test_configuration_is_entered_from_rest_and_left_to_start(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_E_MODE, brace_app_configuration_enter(&app)); /* still in START */
+    ticks(5);
+    TEST_ASSERT_EQUAL(BRACE_E_MODE, brace_app_configuration_leave(&app));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    ticks(5);
+    TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, now()->mode);
+    TEST_ASSERT_FALSE(now()->k_is_valid);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_leave(&app));
+    ticks(1);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+}
+
+static void test_parameters_are_stored_in_configuration_only(void)
+{
+    brace_parameters_t p = bench_parameters();
+    ticks(5);
+    TEST_ASSERT_EQUAL(BRACE_E_MODE, brace_app_parameters_commit(&app, &p));
+    TEST_ASSERT_EQUAL(BRACE_E_MODE, brace_app_parameters_rollback(&app));
+}
+
+static void settle(void)
+{
+    for (int i = 0; i < 2000 && brace_app_configuration_leave(&app) != BRACE_OK; i++) {
+        ticks(1);
+    }
+    TEST_ASSERT_EQUAL(BRACE_MODE_START, app.mode);
+    ticks(2);
+}
+
+static void test_a_committed_set_is_in_force_and_survives_a_restart_and_can_be_taken_back(void)
+{
+    brace_parameters_t p = bench_parameters();
+    ticks(5);
+    const uint32_t crc_before = now()->parameter_crc;
+    const float k_before = now()->stiffness.now.k_xx_n_per_mm;
+    p.limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm *= 2.0f;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p));
+    TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_app_parameters_commit(&app, &p));
+    TEST_ASSERT_EQUAL(BRACE_E_MODE, brace_app_configuration_leave(&app));
+    settle();
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    TEST_ASSERT_EQUAL(BRACE_PARAMETERS_SLOT_B, now()->parameter_origin);
+    TEST_ASSERT_EQUAL_HEX32(brace_parameters_crc(&p), now()->parameter_crc);
+    const float k_after = now()->stiffness.now.k_xx_n_per_mm;
+    TEST_ASSERT_TRUE(k_after < 0.95f * k_before);
+
+    brace_fake_reset(&fake, BRACE_RESET_POWER);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    ticks(2);
+    ASSERT_CLOSE(k_after, now()->stiffness.now.k_xx_n_per_mm, 0.0);
+
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_rollback(&app));
+    settle();
+    TEST_ASSERT_EQUAL_HEX32(crc_before, now()->parameter_crc);
+    ASSERT_CLOSE(k_before, now()->stiffness.now.k_xx_n_per_mm, 0.0);
+}
+
+static void test_a_set_that_cannot_be_is_refused(void)
+{
+    brace_parameters_t p = bench_parameters();
+    ticks(5);
+    p.limb.femur_mm = -1.0f;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_app_parameters_commit(&app, &p));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_leave(&app));
+}
+
+static void test_a_memory_that_does_not_keep_is_a_fault_and_the_old_set_stays(void)
+{
+    brace_parameters_t p = bench_parameters();
+    ticks(5);
+    const uint32_t crc = now()->parameter_crc;
+    p.limb.femur_mm = 190.0f;
+    fake.nvm_stuck = 0x04;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p));
+    settle();
+    TEST_ASSERT_EQUAL(BRACE_FAULT_STORE, now()->faults);
+    TEST_ASSERT_EQUAL_HEX32(crc, now()->parameter_crc);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    fake.nvm_stuck = 0;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p));
+    settle();
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    TEST_ASSERT_EQUAL_HEX32(brace_parameters_crc(&p), now()->parameter_crc);
+}
+
+static void test_a_faulty_controller_can_still_be_configured(void)
+{
+    fake.joint[BRACE_FEMUR].absent = true;
+    ticks(150);
+    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, now()->mode);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    ticks(2);
+    TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, now()->mode);
+}
+
+static void test_an_erase_in_configuration_is_no_late_tick(void)
+{
+    ticks(5);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    ticks(1);
+    fake.now_us += 2000000u;
+    ticks(1);
+    TEST_ASSERT_BITS(BRACE_FAULT_TICK_LATE, 0, now()->faults);
+}
+
+static void test_null_is_refused_everywhere(void)
+{
+    const brace_parameters_t p = bench_parameters();
+    brace_row_t row;
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_take_up(NULL, 1, 1));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_let_go(NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_loading_start(&app, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_loading_stop(NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_configuration_enter(NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_configuration_leave(NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_parameters_commit(&app, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_parameters_commit(NULL, &p));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_parameters_rollback(NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_clear(NULL, 0));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_row(NULL, 0, &row));
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_app_row(&app, 0, &row));
+    TEST_ASSERT_EQUAL(0, brace_app_row_count(NULL));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_start_needs_a_whole_door);
+    RUN_TEST(test_before_the_first_tick_nothing_is_known);
+    RUN_TEST(test_sound_samples_lead_to_monitor);
+    RUN_TEST(test_no_samples_at_start_is_a_fault_that_names_the_joints);
+    RUN_TEST(test_without_stored_parameters_K_is_uncalibrated_and_says_so);
+    RUN_TEST(test_a_start_after_a_crash_is_remembered_until_cleared);
+    RUN_TEST(test_a_short_gap_in_the_samples_keeps_the_last_K);
+    RUN_TEST(test_samples_too_old_are_stale_and_a_fault_until_they_have_been_back_for_a_while);
+    RUN_TEST(test_a_sample_that_never_ages_in_name_is_not_believed);
+    RUN_TEST(test_absurd_samples_are_never_used);
+    RUN_TEST(test_every_tick_without_sound_joints_is_invalid);
+    RUN_TEST(test_coxa_is_told_and_not_needed);
+    RUN_TEST(test_a_posture_beyond_the_travel_is_out_of_range);
+    RUN_TEST(test_zero_offsets_are_added);
+    RUN_TEST(test_an_encoder_that_follows_its_torque_is_alive);
+    RUN_TEST(test_an_encoder_that_stands_while_the_torque_swings_is_stuck);
+    RUN_TEST(test_a_link_that_moves_away_from_a_standing_encoder_tells_too);
+    RUN_TEST(test_a_limb_at_rest_is_not_stuck);
+    RUN_TEST(test_a_late_tick_is_a_fault_for_a_second_and_K_stays_valid);
+    RUN_TEST(test_the_clock_may_wrap);
+    RUN_TEST(test_every_tick_feeds_the_watchdog);
+    RUN_TEST(test_a_snapshot_stays_as_it_was_while_the_next_is_made);
+    RUN_TEST(test_configuration_is_entered_from_rest_and_left_to_start);
+    RUN_TEST(test_parameters_are_stored_in_configuration_only);
+    RUN_TEST(test_a_committed_set_is_in_force_and_survives_a_restart_and_can_be_taken_back);
+    RUN_TEST(test_a_set_that_cannot_be_is_refused);
+    RUN_TEST(test_a_memory_that_does_not_keep_is_a_fault_and_the_old_set_stays);
+    RUN_TEST(test_a_faulty_controller_can_still_be_configured);
+    RUN_TEST(test_an_erase_in_configuration_is_no_late_tick);
+    RUN_TEST(test_null_is_refused_everywhere);
+    return UNITY_END();
+}
