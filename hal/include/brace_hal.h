@@ -84,8 +84,8 @@ typedef enum { BRACE_PARITY_NONE = 0, BRACE_PARITY_EVEN = 1, BRACE_PARITY_ODD = 
 enum { BRACE_NVM_SLOT_COUNT = 2 };
 
 typedef struct {
-    uint32_t slot_bytes;   /* of each slot, at least 4096 */
-    uint32_t write_bytes;  /* unit of writing: 1, 2, 4 or 8 */
+    uint32_t slot_bytes;   /* of each slot [4096, 1048576] */
+    uint32_t write_bytes;  /* unit of writing [1, 8]: 1, 2, 4 or 8 */
 } brace_nvm_shape_t;
 
 typedef enum {

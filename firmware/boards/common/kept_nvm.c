@@ -13,7 +13,7 @@ uint8_t *kept_nvm_start(uint32_t slots_bytes)
     }
     uint8_t *const slots = _kept_nvm + MARKER_BYTES;
     if (differ != 0u) {
-        for (uint32_t i = 0u; i < slots_bytes; i++) {
+        for (uint32_t i = 0u; i < slots_bytes; i++) { /* at most what the linker script keeps */
             slots[i] = ERASED;
         }
         for (uint32_t i = 0u; i < MARKER_BYTES; i++) {

@@ -18,7 +18,7 @@ static _Noreturn void explain(text_t *console, brace_status_t started)
     enum { REPEAT_US = 1000000 };
     const brace_hal_t *const hal = console->hal;
     uint32_t last_us = hal->now_us(hal->context);
-    for (;;) {
+    for (;;) { /* for ever: there is nothing to control */
         hal->watchdog_feed(hal->context);
         if (hal->now_us(hal->context) - last_us >= REPEAT_US) {
             last_us += REPEAT_US;
@@ -40,7 +40,7 @@ int main(void)
         explain(&console, started);
     }
     uint32_t due_us = hal->now_us(hal->context);
-    for (;;) {
+    for (;;) { /* for ever: the controller */
         const uint32_t now_us = hal->now_us(hal->context);
         const uint32_t tick_us = brace_app_parameters(&app)->controller.tick_us;
         if ((int32_t)(now_us - due_us) >= 0) {

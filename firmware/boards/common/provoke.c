@@ -42,7 +42,7 @@ __attribute__((noinline)) static void provoke_jump(void)
 
 __attribute__((noinline)) static void provoke_hang(void)
 {
-    for (;;) {
+    for (;;) { /* for ever: the watchdog has to end it */
         __asm__ volatile("nop");
     }
 }

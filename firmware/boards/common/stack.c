@@ -12,6 +12,7 @@ uint32_t stack_unused_bytes(void *context)
     (void)context;
     const uint32_t words = stack_bytes() / (uint32_t)sizeof(uint32_t);
     uint32_t untouched = 0u;
+    /* at most the stack, which the linker script bounds */
     while (untouched < words && _stack_limit[untouched] == (uint32_t)STACK_PAINT) {
         untouched++;
     }

@@ -34,7 +34,7 @@ static void semihosting_exit(uint32_t code)
 
 void _exit(int code)
 {
-    for (;;) {
+    for (;;) { /* for ever: the emulator ends it */
         semihosting_exit((uint32_t)code);
     }
 }
@@ -70,10 +70,10 @@ void reset_handler(void)
     forbid_unaligned_access();
 #endif
     const uint32_t *from = &_data_load;
-    for (uint32_t *to = &_data_start; to < &_data_end; to++) {
+    for (uint32_t *to = &_data_start; to < &_data_end; to++) { /* at most the RAM */
         *to = *from++;
     }
-    for (uint32_t *to = &_bss_start; to < &_bss_end; to++) {
+    for (uint32_t *to = &_bss_start; to < &_bss_end; to++) { /* at most the RAM */
         *to = 0u;
     }
     initialise_monitor_handles();

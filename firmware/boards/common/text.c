@@ -7,7 +7,7 @@ static void put(text_t *text, const char *bytes, uint32_t count)
     const brace_hal_t *const hal = text->hal;
     const uint32_t began_us = hal->now_us(hal->context);
     uint32_t rounds = 0u;
-    while (count > 0u && !text->gone) {
+    while (count > 0u && !text->gone) { /* at most count + ROUNDS_MAX turns */
         const int32_t taken = hal->serial_write(hal->context, BRACE_SERIAL_CONSOLE, (const uint8_t *)bytes, count);
         if (taken > 0) {
             bytes += taken;
@@ -24,7 +24,7 @@ static void put(text_t *text, const char *bytes, uint32_t count)
 void text_string(text_t *text, const char *string)
 {
     uint32_t length = 0u;
-    while (string[length] != '\0') {
+    while (string[length] != '\0') { /* at most a line of text, written here */
         length++;
     }
     put(text, string, length);

@@ -5,7 +5,7 @@
 int32_t fake_called(brace_fake_t *fake, brace_fake_entry_t entry)
 {
     const uint32_t call = ++fake->calls[entry];
-    for (uint32_t i = 0; i < fake->failure_count; i++) {
+    for (uint32_t i = 0; i < fake->failure_count; i++) { /* at most BRACE_FAKE_FAILURES */
         const brace_fake_failure_t *failure = &fake->failure[i];
         if (failure->entry == entry && call >= failure->first && call <= failure->last) {
             return failure->answer;

@@ -35,7 +35,7 @@ uint32_t fake_bytes_put(brace_fake_bytes_t *bytes, const uint8_t *from, uint32_t
 uint32_t fake_bytes_take(brace_fake_bytes_t *bytes, uint8_t *to, uint32_t room)
 {
     uint32_t done = 0;
-    while (done < room && bytes->count > 0) {
+    while (done < room && bytes->count > 0) { /* at most BRACE_FAKE_SERIAL_BYTES */
         to[done++] = bytes->byte[bytes->first];
         bytes->first = (bytes->first + 1u) % BRACE_FAKE_SERIAL_BYTES;
         bytes->count--;

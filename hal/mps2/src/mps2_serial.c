@@ -41,6 +41,7 @@ int32_t mps2_serial_write(void *context, brace_serial_port_t port, const uint8_t
     }
     cmsdk_uart_t *const uart = uarts[port];
     uint32_t taken = 0u;
+    /* at most count bytes, of a message */
     while (taken < count && (uart->state & UART_STATE_TX_FULL) == 0u) {
         uart->data = bytes[taken];
         taken++;
@@ -57,7 +58,7 @@ int32_t mps2_serial_read(void *context, brace_serial_port_t port, uint8_t *bytes
     ring_t *const ring = &rings[port];
     const uint32_t waiting = ring->written - ring->read;
     const uint32_t count = waiting < room ? waiting : room;
-    for (uint32_t i = 0u; i < count; i++) {
+    for (uint32_t i = 0u; i < count; i++) { /* at most RING_BYTES */
         bytes[i] = ring->bytes[(ring->read + i) % RING_BYTES];
     }
     ring->read += count;

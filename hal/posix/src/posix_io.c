@@ -55,7 +55,7 @@ void io_close(int *file)
 void io_copy(char *to, size_t room, const char *from)
 {
     size_t i = 0;
-    for (; i + 1 < room && from[i] != '\0'; i++) {
+    for (; i + 1 < room && from[i] != '\0'; i++) { /* at most room */
         to[i] = from[i];
     }
     to[i] = '\0';

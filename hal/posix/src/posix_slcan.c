@@ -142,7 +142,7 @@ void slcan_poll(brace_posix_bus_t *bus, brace_posix_slcan_t *client)
     int32_t count = 0;
     for (int i = 0; i < READS_PER_POLL; i++) {
         count = io_read(client->file, bytes, sizeof bytes);
-        for (int32_t k = 0; k < count; k++) {
+        for (int32_t k = 0; k < count; k++) { /* at most the bytes read */
             take_byte(bus, client, (char)bytes[k]);
         }
         if (count < (int32_t)sizeof bytes) {

@@ -62,7 +62,7 @@ static void own_frames(selftest_t *test)
     }
     uint8_t count = 0u;
     selftest_wait_t wait = selftest_wait(test, WINDOW_US);
-    do {
+    do { /* at most QUESTIONS_MAX */
         if (hal->can_receive(hal->context, &received) != 1) {
             continue;
         }

@@ -38,7 +38,7 @@ static seen_t watch(selftest_t *test, int32_t index)
     const brace_hal_t *const hal = test->hal;
     seen_t seen = {.answer = BRACE_HAL_OK, .finite = true, .possible = true};
     selftest_wait_t wait = selftest_wait(test, WINDOW_US);
-    do {
+    do { /* at most QUESTIONS_MAX */
         brace_hal_joint_t joint = {0};
         const int32_t answer = hal->joint_read(hal->context, index, &joint);
         if (answer == BRACE_HAL_OK) {
@@ -128,7 +128,7 @@ static void tip_force(selftest_t *test)
     float x_n = 0.0f, z_n = 0.0f;
     int32_t answer;
     selftest_wait_t wait = selftest_wait(test, WINDOW_US);
-    do {
+    do { /* at most QUESTIONS_MAX */
         answer = hal->tip_force_read(hal->context, &x_n, &z_n);
     } while (answer == BRACE_HAL_AGAIN && selftest_waiting(test, &wait));
     if (answer != BRACE_HAL_OK) {

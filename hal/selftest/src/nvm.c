@@ -132,7 +132,7 @@ static void keeps(selftest_t *test, uint32_t slot)
     const brace_nvm_shape_t *const s = &hal->nvm_shape;
     const uint32_t lonely = 8u * s->write_bytes; /* its neighbour 9 u is not written */
     bool right = true;
-    for (uint32_t at = 0u; at < s->slot_bytes; at = next_offset(s, at)) {
+    for (uint32_t at = 0u; at < s->slot_bytes; at = next_offset(s, at)) { /* at most 24: doubled */
         if (!write_unit(test, slot, at)) {
             return;
         }
@@ -142,7 +142,7 @@ static void keeps(selftest_t *test, uint32_t slot)
             return;
         }
     }
-    for (uint32_t at = 0u; at < s->slot_bytes; at = next_offset(s, at)) {
+    for (uint32_t at = 0u; at < s->slot_bytes; at = next_offset(s, at)) { /* at most 24: doubled */
         right = right && holds(test, slot, at, true);
     }
     selftest_expect(test, right, "nvm_write", "what is written reads back, at every address line",

@@ -112,7 +112,7 @@ int32_t serial_write(void *context, brace_serial_port_t port, const uint8_t *byt
         return BRACE_HAL_E_DEVICE;
     }
     uint32_t done = 0;
-    while (done < count && byte_ring_put(&usart->sent, bytes[done])) {
+    while (done < count && byte_ring_put(&usart->sent, bytes[done])) { /* at most BYTE_RING_BYTES */
         done++;
     }
     if (done > 0u) {
@@ -135,7 +135,7 @@ int32_t serial_read(void *context, brace_serial_port_t port, uint8_t *bytes, uin
         return BRACE_HAL_E_DEVICE;
     }
     uint32_t done = 0;
-    while (done < room && byte_ring_take(&usart->received, &bytes[done])) {
+    while (done < room && byte_ring_take(&usart->received, &bytes[done])) { /* at most BYTE_RING_BYTES */
         done++;
     }
     return (int32_t)done;

@@ -102,7 +102,7 @@ BRACE_OFF_TICK float brace_chain_list(const brace_limb_t *limb, int with_coxa, b
         used += 2;
     }
     iso += brace_chain_base(limb, &element[used++]);
-    for (uint32_t i = 0; i < used; i++) {
+    for (uint32_t i = 0; i < used; i++) { /* at most the elements named above */
         if (yields(&element[i])) {
             element[kept++] = element[i];
         }
