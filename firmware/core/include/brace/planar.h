@@ -18,12 +18,9 @@
 /* The angles' reach: theta1^2 + theta2^2 <= this [rad^2]. Both may lie anywhere within [-3.9, 3.9]. */
 #define BRACE_PLANAR_REACH_RAD2 31.0f
 
-/* A first harmonic of the knee angle in fixed point. The high word of `start` is the constant, the low word the
- * factor of the cosine; as a fraction of the constant it weighs less than the last place. */
+/* A first harmonic of the knee angle in fixed point; the factors are those of minus the cosine and minus the sine. */
 typedef struct {
-    int64_t start;
-    int32_t per_sin;
-    int32_t reserved;
+    int32_t constant, per_cos, per_sin;
 } brace_planar_harmonic_t;
 
 /* A collapsed limb. Written by brace_planar_collapse, read by the tick; nothing in it is for others. */
@@ -33,7 +30,7 @@ typedef struct {
     brace_planar_harmonic_t mean, dev_x, dev_y, cross;
     float rest_per_mean, rest;
     float per_unit_n_per_mm; /* one over the compliance of one unit of the last place */
-    float slope_per_unit;    /* 2^31 over that: undoes it for the axis */
+    float slope_per_unit;    /* nearly 2^31 over that: undoes it for the axis */
 } brace_planar_t;
 
 /* Collapses a limb into the tick's constants; to be called when parameters change.

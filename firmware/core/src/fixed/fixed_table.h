@@ -4,6 +4,8 @@
 
 #include <stdint.h>
 
+#include "base/turn.h"
+
 /* With u = d/(pi/64), |u| <= 1: sin d = u (s1 - s3 u^2) within 2e-10; cos d - 1 = u^2 (c2 + c4 u^2) within
  * 1e-12, or c2_alone u^2 within 4.2e-8. */
 enum {
@@ -25,6 +27,9 @@ enum { ASIN_1 = -683563198, ASIN_3 = -114659455 };
 
 /* Half a turn in 2^32, times pi in q30: the exponent field of float_bits for the axis. */
 #define AXIS_EXPONENT ((157u - 30u) << 23)
+
+/* A turn in 64 steps, times BRACE_TURN_ONE. */
+extern const brace_sincos_t brace_fixed_sincos[64];
 
 /* First guess of 1/sqrt(z), z in [i/64, (i + 1)/64): (at - slope u)/2^13, u in [0, 1) across the cell. */
 typedef struct {

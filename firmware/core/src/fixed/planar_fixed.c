@@ -41,7 +41,7 @@ static inline uint32_t leading_zeros(uint32_t word)
 
 static inline brace_sincos_t nearest(uint32_t turn)
 {
-    return brace_turn_table[(turn + 0x02000000u) >> 26];
+    return brace_fixed_sincos[(turn + 0x02000000u) >> 26];
 }
 
 /* Sine and cosine as brace_turn_sincos has them, in fewer instructions where a sum of 64-bit products takes
@@ -149,7 +149,7 @@ brace_status_t brace_planar_fixed_stiffness(const brace_planar_fixed_t *fixed, i
     const int32_t cosine = high((int32_t)((uint32_t)x << half), (int32_t)per_r);
     const int32_t sine = high((int32_t)((uint32_t)y << half), (int32_t)per_r);
     const uint32_t entry = brace_fixed_cell[((uint32_t)sine >> 24) & 15u][((uint32_t)cosine >> 24) & 15u];
-    const brace_sincos_t opposite = brace_turn_table[entry];
+    const brace_sincos_t opposite = brace_fixed_sincos[entry];
     const int32_t off = (int32_t)((uint32_t)high_sum(sine, opposite.cos, cosine, opposite.sin) << 6);
     const int32_t off_turn = high(off, ASIN_1 + high(high(off, off), ASIN_3));
     const int32_t axis = (int32_t)(bisector2 + (entry << 26) + (uint32_t)off_turn);

@@ -6,8 +6,8 @@
 #include "base/vec.h"
 
 /* What the tick's sine of a quarter turn is, q30, and four over it. */
-#define TICK_ONE 1073740799
-#define PER_WORD (4.0f * 1073741824.0f / 1073740799.0f)
+#define TICK_ONE 1073740800
+#define PER_WORD (4.0f * 1073741824.0f / 1073740800.0f)
 
 /* det C = per_mean mean + constant + cross^2. */
 typedef struct {
@@ -56,15 +56,14 @@ static inline int accurate(const brace_harmonics_t *h, rest_t rest, float least,
            unit + 5e-8f * __builtin_fabsf(h->mean.per_cos) < 1.2e-6f * least;
 }
 
-/* The low word of start is the factor of the cosine; the high word makes up for it, and for the tick's rounding down. */
+/* At the fold minus the cosine is TICK_ONE: there the rounding of its factor goes into the constant. */
 static inline void fix(const brace_harmonic_t *h, float units, brace_planar_harmonic_t *fixed)
 {
-    const int32_t per_cos = (int32_t)(h->per_cos * (units * PER_WORD));
-    const int64_t constant =
-        (int32_t)(2.0f * h->at_fold * units) * (INT64_C(1) << 31) + (int64_t)per_cos * TICK_ONE;
-    const uint32_t high = (uint32_t)((uint64_t)(constant + 0x100000000 - (uint32_t)per_cos) >> 32);
-    fixed->start = (int64_t)((uint64_t)high << 32 | (uint32_t)per_cos);
-    fixed->per_sin = (int32_t)(h->per_sin * (units * PER_WORD));
+    const float per_word = -units * PER_WORD;
+    fixed->per_cos = (int32_t)(h->per_cos * per_word);
+    fixed->per_sin = (int32_t)(h->per_sin * per_word);
+    const int64_t at_fold = (int32_t)(2.0f * h->at_fold * units) * (INT64_C(1) << 31);
+    fixed->constant = (int32_t)((at_fold - (int64_t)fixed->per_cos * TICK_ONE + 0x80000000) >> 32);
 }
 
 BRACE_OFF_TICK brace_status_t brace_planar_constants(brace_harmonics_t *h, brace_planar_t *planar)
@@ -95,12 +94,12 @@ BRACE_OFF_TICK brace_status_t brace_planar_constants(brace_harmonics_t *h, brace
     for (int i = 0; i < 4; i++) {
         fix(&from[i], i == 1 || i == 2 ? units * PER_WORD : units, &to[i]);
     }
-    planar->sine = &brace_turn_table[0].sin;
-    planar->cosine = &brace_turn_table[0].cos;
-    planar->axis = &brace_axis_table[BRACE_AXIS_MIDDLE];
+    planar->sine = brace_sine_table;
+    planar->cosine = brace_sine_table + BRACE_SINE_QUARTER;
+    planar->axis = brace_axis_table + BRACE_AXIS_ROWS / 2 - 1;
     planar->rest_per_mean = rest.per_mean * units;
     planar->rest = rest.constant * units * units;
     planar->per_unit_n_per_mm = units;
-    planar->slope_per_unit = 0x1p31f / units;
+    planar->slope_per_unit = BRACE_AXIS_ONE / units;
     return BRACE_OK;
 }

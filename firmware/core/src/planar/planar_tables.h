@@ -10,9 +10,12 @@ typedef struct {
     int64_t c2_c3;
 } brace_axis_row_t;
 
-/* 16 rows for dev_x < 0, then 16 for dev_x > 0; in each half t runs from -1 to 1. */
-enum { BRACE_AXIS_ROWS = 32, BRACE_AXIS_MIDDLE = 24 };
+/* t runs from -1 to 1. */
+enum { BRACE_AXIS_ROWS = 16 };
 
 extern const brace_axis_row_t brace_axis_table[BRACE_AXIS_ROWS];
+
+/* A little less than 2^31, so that no rounding can carry the 1 of t over the edge; the table makes up for it. */
+#define BRACE_AXIS_ONE 0x1.ffffep30f
 
 #endif
