@@ -1,0 +1,165 @@
+/* Random ticks of the controller, to be counted: limbs of every kind, every mode, requests at any time, bad samples,
+ * late ticks, traffic. Prints one letter per tick: what kind of tick it was. The plugin counts meanwhile.
+ *
+ *   M monitor  T taking up  L loading test  R its readings  D drift step  J its judgement  C configuration
+ *   P a piece of putting parameters in force  S storing  B the end of a roll-back  0 start  F fault
+ */
+#include <stdio.h>
+
+#include "measure/loading.h"
+#include "world.h"
+
+#ifndef TICKS
+#define TICKS 20000
+#endif
+
+enum { EPISODE_TICKS = 2500, LINE = 100 };
+
+static brace_app_t app;
+static dice_t dice = {0x9e3779b97f4a7c15u};
+
+static brace_parameters_t random_parameters(const world_manner_t *manner)
+{
+    brace_parameters_t p;
+    brace_parameters_default(&p);
+    brace_limb_t *limb = &p.limb;
+    limb->femur_mm = dice_between(&dice, 80.0f, 300.0f);
+    limb->tibia_mm = dice_between(&dice, 80.0f, 400.0f);
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        limb->link[i].axial_mm_per_n = dice_between(&dice, 5e-4f, 5e-3f);
+        limb->link[i].bending_mm_per_n = dice_between(&dice, 0.01f, 0.3f);
+        limb->link[i].tilt_rad = dice_in(&dice, 2) ? 0.0f : dice_between(&dice, -0.5f, 0.5f);
+        limb->link[i].moment_transfer_ratio = dice_in(&dice, 2) ? 0.0f : dice_between(&dice, 0.1f, 1.0f);
+        limb->joint[i].compliance_rad_per_n_mm = dice_between(&dice, 2e-6f, 4e-5f);
+        limb->joint[i].gap_rad = manner->gap_rad[i];
+        limb->joint[i].zero_offset_rad = dice_between(&dice, -0.02f, 0.02f);
+        p.drive[i].torque_range_n_mm = 10000.0f;
+        p.drive[i].torque_noise_n_mm = dice_between(&dice, 10.0f, 100.0f);
+        p.drive[i].torque_bias_n_mm = 10.0f;
+        p.drive[i].motor_friction_n_mm = dice_between(&dice, 0.0f, 60.0f);
+        p.drive[i].motor_friction_tolerance_ratio = 0.2f;
+        p.drive[i].angle_step_rad = 1e-5f;
+        p.drive[i].takeup_torque_n_mm = 5000.0f;
+        p.drive[i].angle_min_rad = -3.0f;
+        p.drive[i].angle_max_rad = 3.0f;
+        p.drive[i].coulomb_n_mm = dice_between(&dice, 0.0f, 50.0f);
+        p.drive[i].hardening_n_mm_per_rad3 = dice_in(&dice, 3) ? dice_between(&dice, 1e6f, 1e9f) : 0.0f;
+    }
+    if (dice_in(&dice, 2)) { /* a base that yields, mostly unequally: the general path */
+        limb->base.x_mm_per_n = dice_between(&dice, 0.0f, 0.05f);
+        limb->base.z_mm_per_n = dice_in(&dice, 3) ? limb->base.x_mm_per_n : dice_between(&dice, 0.0f, 0.05f);
+        limb->base.rotation_rad_per_n_mm = dice_between(&dice, 0.0f, 5e-6f);
+    }
+    p.slow.joint_compliance_per_degc = dice_in(&dice, 3) ? 0.004f : 0.0f;
+    p.gravity.femur_n = dice_between(&dice, 0.0f, 10.0f);
+    p.gravity.tibia_n = dice_between(&dice, 0.0f, 10.0f);
+    p.gravity.knee_n = dice_between(&dice, 0.0f, 10.0f);
+    p.sensor.noise_n = 0.05f;
+    p.sensor.rotation_rad = dice_between(&dice, -0.1f, 0.1f);
+    p.controller.node_id = dice_below(&dice, 128);
+    p.controller.tick_us = 1000;
+    return p;
+}
+
+static void begin_episode(void)
+{
+    world_manner_t manner = {.cooperative = dice_in(&dice, 2), .restless = dice_in(&dice, 2),
+                             .drives_fail = dice_in(&dice, 4), .spring_n_mm_per_rad = dice_between(&dice, 2e4f, 1e5f)};
+    static const uint32_t bad_in[] = {0, 1000, 50, 5};
+    manner.bad_in = bad_in[dice_below(&dice, manner.cooperative ? 2 : 4)];
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        manner.gap_rad[i] = dice_in(&dice, 3) ? 0.0f : dice_between(&dice, 0.002f, 0.025f);
+    }
+    const brace_parameters_t p = random_parameters(&manner);
+    static brace_store_t store;
+    brace_parameters_t before;
+    world_erase();
+    (void)brace_store_start(&store, &world_door, &before);
+    if (!dice_in(&dice, 10) && brace_store_begin(&store, &p, NULL) == BRACE_OK) {
+        while (brace_store_step(&store) == BRACE_STORE_BUSY) {
+        }
+    }
+    world_begin(&dice, &manner);
+    (void)brace_app_start(&app, &world_door);
+}
+
+static brace_loading_setup_t random_setup(void)
+{
+    return (brace_loading_setup_t){.axis = dice_in(&dice, 2) ? BRACE_AXIS_X : BRACE_AXIS_Z,
+                                   .steps_per_side = 2 + dice_below(&dice, 4),
+                                   .step_mm = dice_between(&dice, 0.1f, 0.7f),
+                                   .dwell_us = 20000,
+                                   .rate_mm_per_s = 100.0f,
+                                   .force_max_n = dice_in(&dice, 5) ? 0.1f : 1000.0f,
+                                   .torque_max_n_mm = 8000.0f,
+                                   .source = dice_in(&dice, 4) ? BRACE_LOADING_COMMANDED : BRACE_LOADING_ENCODED};
+}
+
+static void random_request(void)
+{
+    const brace_loading_setup_t setup = random_setup();
+    switch (dice_below(&dice, 16)) {
+    case 0:
+    case 1:
+    case 2: (void)brace_app_take_up(&app, BRACE_FEMUR, dice_in(&dice, 2) ? 1 : -1); break;
+    case 3:
+    case 4:
+    case 5: (void)brace_app_take_up(&app, BRACE_TIBIA, dice_in(&dice, 2) ? 1 : -1); break;
+    case 6: (void)brace_app_let_go(&app); break;
+    case 7:
+    case 8:
+    case 9:
+    case 10: (void)brace_app_loading_start(&app, &setup); break;
+    case 11: (void)(dice_in(&dice, 8) ? brace_app_loading_stop(&app) : 0); break;
+    case 12: (void)brace_app_clear(&app, BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_CRASHED); break;
+    case 13: (void)(dice_in(&dice, 4) ? brace_app_configuration_enter(&app) : 0); break;
+    default: (void)(dice_in(&dice, 2) ? brace_app_configuration_leave(&app) : 0); break;
+    }
+    if (app.mode == BRACE_MODE_CONFIGURATION && dice_in(&dice, 3)) {
+        const brace_parameters_t p = random_parameters(&(world_manner_t){.gap_rad = {0.01f, 0.01f, 0.005f}});
+        (void)(dice_in(&dice, 3) ? brace_app_parameters_rollback(&app) : brace_app_parameters_commit(&app, &p));
+    }
+}
+
+/* What the coming tick is. */
+static char kind(void)
+{
+    switch (app.mode) {
+    case BRACE_MODE_START: return '0';
+    case BRACE_MODE_MONITOR: return 'M';
+    case BRACE_MODE_TAKING_UP: return 'T';
+    case BRACE_MODE_FAULT: return 'F';
+    case BRACE_MODE_CONFIGURATION: return app.configure_piece != 0 ? 'P' : app.store_work != 0 ? 'S' : 'C';
+    default: break;
+    }
+    return app.loading.phase == LOADING_READ    ? 'R'
+           : app.loading.phase == LOADING_DRIFT ? 'D'
+           : app.loading.phase == LOADING_JUDGE ? 'J'
+                                                : 'L';
+}
+
+int main(void)
+{
+    static char line[LINE + 1];
+    for (uint32_t tick = 0; tick < TICKS; tick++) {
+        if (tick % EPISODE_TICKS == 0) {
+            begin_episode();
+        }
+        world_now_us += dice_in(&dice, 2000) ? 1000u + dice_below(&dice, 30000) : 1000u;
+        world_step(&dice);
+        if (dice_in(&dice, 20)) {
+            random_request();
+        }
+        const uint32_t rolled = app.store_work;
+        char letter = kind();
+        brace_app_tick(&app, world_now_us);
+        if (letter == 'S' && rolled == 2u && app.store_work == 0u) {
+            letter = 'B';
+        }
+        line[tick % LINE] = letter;
+        if (tick % LINE == LINE - 1) {
+            puts(line);
+        }
+    }
+    return 0;
+}

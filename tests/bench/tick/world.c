@@ -1,0 +1,305 @@
+#include "world.h"
+
+enum { SLOT_BYTES = 4096 };
+
+uint32_t world_now_us;
+
+static world_manner_t manner;
+static brace_hal_joint_t sample[BRACE_LINK_COUNT];
+static int32_t answer[BRACE_LINK_COUNT];
+static brace_hal_joint_command_t command[BRACE_LINK_COUNT];
+static float rest_rad[BRACE_LINK_COUNT], load_n_mm[BRACE_LINK_COUNT], force_n[2], force_rest_n[2];
+static int32_t force_answer, command_answer, send_answer;
+static uint32_t frames_waiting;
+static bool bus_off, fresh_bus_off;
+static uint8_t nvm[BRACE_NVM_SLOT_COUNT][SLOT_BYTES];
+
+/* --------------------------------------------------------------------------------------------- the door -- */
+
+static uint32_t door_now_us(void *context)
+{
+    (void)context;
+    return world_now_us;
+}
+
+static int32_t door_joint_read(void *context, int32_t joint, brace_hal_joint_t *read)
+{
+    (void)context;
+    if (answer[joint] == BRACE_HAL_OK || answer[joint] == BRACE_HAL_AGAIN) {
+        read->motor_rad = sample[joint].motor_rad;
+        read->torque_n_mm = sample[joint].torque_n_mm;
+        read->link_rad = sample[joint].link_rad;
+        read->temp_degc = sample[joint].temp_degc;
+        read->taken_us = sample[joint].taken_us;
+    }
+    return answer[joint];
+}
+
+static int32_t door_joint_command(void *context, int32_t joint, const brace_hal_joint_command_t *told)
+{
+    (void)context;
+    command[joint].offset_rad = told->offset_rad;
+    command[joint].torque_limit_n_mm = told->torque_limit_n_mm;
+    return command_answer;
+}
+
+static int32_t door_tip_force_read(void *context, float *x_n, float *z_n)
+{
+    (void)context;
+    *x_n = force_n[0];
+    *z_n = force_n[1];
+    return force_answer;
+}
+
+static int32_t door_nvm_read(void *context, uint32_t slot, uint32_t offset, uint8_t *bytes, uint32_t count)
+{
+    (void)context;
+    for (uint32_t i = 0; i < count; i++) {
+        bytes[i] = nvm[slot][offset + i];
+    }
+    return BRACE_HAL_OK;
+}
+
+static int32_t door_nvm_write(void *context, uint32_t slot, uint32_t offset, const uint8_t *bytes, uint32_t count)
+{
+    (void)context;
+    for (uint32_t i = 0; i < count; i++) {
+        nvm[slot][offset + i] = bytes[i];
+    }
+    return BRACE_HAL_OK;
+}
+
+static int32_t door_nvm_erase(void *context, uint32_t slot)
+{
+    (void)context;
+    for (uint32_t i = 0; i < SLOT_BYTES; i++) {
+        nvm[slot][i] = 0xff;
+    }
+    return BRACE_HAL_OK;
+}
+
+static int32_t door_can_setup(void *context, const brace_can_setup_t *setup)
+{
+    (void)context;
+    (void)setup;
+    return BRACE_HAL_OK;
+}
+
+static int32_t door_can_send(void *context, const brace_can_frame_t *frame)
+{
+    (void)context;
+    (void)frame;
+    return bus_off ? BRACE_HAL_E_BUS_OFF : send_answer;
+}
+
+static int32_t door_can_receive(void *context, brace_can_frame_t *frame)
+{
+    (void)context;
+    if (frames_waiting == 0u) {
+        return 0;
+    }
+    frames_waiting--;
+    frame->id = 0x600u + (frames_waiting & 0x7fu);
+    frame->length = 8;
+    for (int i = 0; i < 8; i++) {
+        frame->data[i] = (uint8_t)frames_waiting;
+    }
+    return 1;
+}
+
+static int32_t door_can_health(void *context, brace_can_health_t *health)
+{
+    (void)context;
+    health->tx_errors = health->rx_errors = 0;
+    health->error_passive = false;
+    health->bus_off = bus_off;
+    health->frames_lost = 0;
+    return BRACE_HAL_OK;
+}
+
+static int32_t door_can_recover(void *context)
+{
+    (void)context;
+    fresh_bus_off = false;
+    return BRACE_HAL_OK;
+}
+
+static int32_t door_serial_setup(void *context, brace_serial_port_t port, uint32_t baud, brace_parity_t parity)
+{
+    (void)context;
+    (void)port;
+    (void)baud;
+    (void)parity;
+    return BRACE_HAL_E_UNSUPPORTED;
+}
+
+static int32_t door_serial_write(void *context, brace_serial_port_t port, const uint8_t *bytes, uint32_t count)
+{
+    (void)context;
+    (void)port;
+    (void)bytes;
+    (void)count;
+    return BRACE_HAL_E_UNSUPPORTED;
+}
+
+static int32_t door_serial_read(void *context, brace_serial_port_t port, uint8_t *bytes, uint32_t room)
+{
+    (void)context;
+    (void)port;
+    (void)bytes;
+    (void)room;
+    return BRACE_HAL_E_UNSUPPORTED;
+}
+
+static void door_nothing(void *context)
+{
+    (void)context;
+}
+
+static brace_reset_cause_t door_reset_cause(void *context)
+{
+    (void)context;
+    return BRACE_RESET_POWER;
+}
+
+static int32_t door_crash_read(void *context, brace_crash_record_t *record)
+{
+    (void)context;
+    (void)record;
+    return 0;
+}
+
+static uint32_t door_stack_unused_bytes(void *context)
+{
+    (void)context;
+    return 0;
+}
+
+brace_hal_t world_door = {.board = "bench",
+                          .now_us = door_now_us,
+                          .joint_read = door_joint_read,
+                          .joint_command = door_joint_command,
+                          .tip_force_read = door_tip_force_read,
+                          .nvm_shape = {SLOT_BYTES, 4},
+                          .nvm_read = door_nvm_read,
+                          .nvm_write = door_nvm_write,
+                          .nvm_erase = door_nvm_erase,
+                          .can_setup = door_can_setup,
+                          .can_send = door_can_send,
+                          .can_receive = door_can_receive,
+                          .can_health = door_can_health,
+                          .can_recover = door_can_recover,
+                          .serial_setup = door_serial_setup,
+                          .serial_write = door_serial_write,
+                          .serial_read = door_serial_read,
+                          .watchdog_feed = door_nothing,
+                          .reset_cause = door_reset_cause,
+                          .crash_read = door_crash_read,
+                          .crash_clear = door_nothing,
+                          .stack_unused_bytes = door_stack_unused_bytes,
+                          .restart = door_nothing};
+
+/* --------------------------------------------------------------------------------------------- the dice -- */
+
+static uint32_t roll(dice_t *dice)
+{
+    dice->state ^= dice->state << 13;
+    dice->state ^= dice->state >> 7;
+    dice->state ^= dice->state << 17;
+    return (uint32_t)(dice->state >> 32);
+}
+
+uint32_t dice_below(dice_t *dice, uint32_t n)
+{
+    return (uint32_t)(((uint64_t)roll(dice) * n) >> 32);
+}
+
+float dice_between(dice_t *dice, float low, float high)
+{
+    return low + (high - low) * (float)(roll(dice) >> 8) * (1.0f / 16777216.0f);
+}
+
+bool dice_in(dice_t *dice, uint32_t n)
+{
+    return n > 0u && dice_below(dice, n) == 0u;
+}
+
+/* --------------------------------------------------------------------------------------------- the limb -- */
+
+void world_erase(void)
+{
+    for (uint32_t slot = 0; slot < BRACE_NVM_SLOT_COUNT; slot++) {
+        (void)door_nvm_erase(NULL, slot);
+    }
+}
+
+void world_begin(dice_t *dice, const world_manner_t *wanted)
+{
+    manner = *wanted;
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        rest_rad[i] = dice_between(dice, 0.2f, 1.6f);
+        load_n_mm[i] = 0.0f;
+        command[i] = (brace_hal_joint_command_t){0.0f, __builtin_inff()};
+        answer[i] = BRACE_HAL_OK;
+    }
+    force_rest_n[0] = dice_between(dice, -3.0f, 3.0f);
+    force_rest_n[1] = dice_between(dice, 0.0f, 10.0f);
+    bus_off = fresh_bus_off = false;
+}
+
+/* A held link: what the motor is commanded beyond the gap winds its spring. */
+static float wound(int joint, float off_rad)
+{
+    const float half = 0.5f * manner.gap_rad[joint];
+    const float beyond = off_rad > half ? off_rad - half : off_rad < -half ? off_rad + half : 0.0f;
+    return beyond * manner.spring_n_mm_per_rad;
+}
+
+static void spoil(dice_t *dice, int joint)
+{
+    static const float bad[] = {1e30f, -1e30f, 200.0f, 0.0f};
+    const uint32_t kind = dice_below(dice, 8);
+    if (kind < 4u) {
+        sample[joint].motor_rad = bad[kind] != 0.0f ? bad[kind] : __builtin_nanf("");
+    } else if (kind == 4u) {
+        sample[joint].torque_n_mm = __builtin_nanf("");
+    } else if (kind == 5u) {
+        answer[joint] = BRACE_HAL_E_DEVICE;
+    } else if (kind == 6u) {
+        answer[joint] = BRACE_HAL_AGAIN;
+    } else {
+        sample[joint].motor_rad = dice_between(dice, -8.0f, 8.0f);
+    }
+}
+
+void world_step(dice_t *dice)
+{
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        if (!manner.cooperative) {
+            rest_rad[i] = manner.restless && dice_in(dice, 50) ? dice_between(dice, -3.2f, 3.2f)
+                                                               : rest_rad[i] + dice_between(dice, -2e-3f, 2e-3f);
+            load_n_mm[i] = dice_in(dice, 100) ? dice_between(dice, -9000.0f, 9000.0f)
+                                              : 0.99f * load_n_mm[i] + dice_between(dice, -200.0f, 200.0f);
+        }
+        const float off_rad = command[i].offset_rad;
+        sample[i].motor_rad = rest_rad[i] + off_rad;
+        sample[i].torque_n_mm = load_n_mm[i] + wound(i, off_rad) + dice_between(dice, -30.0f, 30.0f);
+        sample[i].link_rad = dice_in(dice, 2) ? __builtin_nanf("") : rest_rad[i];
+        sample[i].temp_degc = dice_between(dice, 15.0f, 40.0f);
+        sample[i].taken_us = world_now_us - dice_below(dice, 300);
+        answer[i] = BRACE_HAL_OK;
+        if (dice_in(dice, manner.bad_in)) {
+            spoil(dice, i);
+        }
+    }
+    force_n[0] = force_rest_n[0] + 40.0f * command[1].offset_rad - 20.0f * command[2].offset_rad +
+                 dice_between(dice, -0.05f, 0.05f);
+    force_n[1] = force_rest_n[1] - 60.0f * command[1].offset_rad + 30.0f * command[2].offset_rad +
+                 dice_between(dice, -0.05f, 0.05f);
+    force_answer = !manner.cooperative && dice_in(dice, 100) ? BRACE_HAL_E_DEVICE : BRACE_HAL_OK;
+    command_answer = manner.drives_fail && dice_in(dice, 20) ? BRACE_HAL_E_DEVICE : BRACE_HAL_OK;
+    send_answer = dice_in(dice, 10) ? BRACE_HAL_AGAIN : BRACE_HAL_OK;
+    frames_waiting = dice_in(dice, 4) ? dice_below(dice, 20) : 0u;
+    fresh_bus_off = fresh_bus_off || dice_in(dice, 20000);
+    bus_off = fresh_bus_off;
+}

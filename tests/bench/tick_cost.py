@@ -1,0 +1,149 @@
+"""What the controller's whole tick costs: random ticks of the firmware on the emulated Cortex-M4F, each counted.
+
+The image (tests/bench/tick) drives one controller through random limbs, modes, requests, samples, faults and traffic.
+Calls of the hardware layer count as one instruction each, the call: what is behind the door is the board's.
+"""
+
+import subprocess
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+BENCH = Path(__file__).resolve().parent
+sys.path.insert(0, str(BENCH))
+
+import fetch  # noqa: E402
+from emulate import RUN_IMAGE  # noqa: E402
+from toolchain import (BOARDS, BUILD, CORE, CORE_FLAGS, M4F, PREFIX, compile_source, link_image, run,  # noqa: E402
+                       symbol_address)
+
+TICK_LIMIT = 4000  # instructions
+TICK_COUNT = 1_000_000
+FUNCTION = "brace_app_tick"
+ROLL_BACK_ENDS = "B"  # checks the other block once more: once per roll-back, in the configuration mode, no K beside it
+
+KINDS = {"M": "monitor", "T": "taking up", "L": "loading test", "R": "loading test: a reading",
+         "D": "loading test: the drift check", "J": "loading test: judged against the model", "C": "configuration",
+         "P": "putting parameters in force", "S": "storing parameters", ROLL_BACK_ENDS: "the end of a roll-back",
+         "0": "start", "F": "fault"}
+
+
+@dataclass(frozen=True)
+class TickKind:
+    """Ticks of one kind: how many, and their instructions."""
+
+    name: str
+    count: int
+    mean: float
+    maximum: int
+
+
+@dataclass(frozen=True)
+class TickCost:
+    """All ticks of a run; the end of a roll-back is apart."""
+
+    count: int
+    mean: float
+    maximum: int
+    quantile_99: int
+    roll_back_ends: int  # instructions at most
+    kinds: tuple[TickKind, ...]
+
+
+def _sources() -> Iterator[tuple[Path, bool]]:
+    """Sources of the image, and whether they are firmware."""
+    firmware = CORE.parent
+    for folder in ("core/src", "interface/src", "interface/generated", "app/src"):
+        yield from ((path, True) for path in sorted((firmware / folder).rglob("*.c")) if "batch" not in path.parts)
+    yield from ((path, False) for path in sorted((BENCH / "tick").glob("*.c")) if path.name != "count_ticks.c")
+    yield BOARDS / "common" / "startup.c", False
+
+
+def build_image(ticks: int) -> Path:
+    """The image, with the firmware's own flags."""
+    firmware = CORE.parent
+    includes = tuple(f"-I{folder}" for folder in (
+        firmware / "app" / "include", firmware / "app" / "src", firmware / "interface" / "include",
+        firmware / "interface" / "generated", firmware / "interface" / "src", BENCH.parents[1] / "hal" / "include"))
+    objects = []
+    for source, is_firmware in _sources():
+        flags = CORE_FLAGS if is_firmware else ("-O2", f"-DTICKS={ticks}", "-fno-function-sections",
+                                                "-fno-tree-loop-distribute-patterns")
+        name = "_".join(source.relative_to(BENCH.parents[1]).parts)
+        objects.append(compile_source(source, BUILD / "objects" / "tick" / f"{name}.o", M4F, (*flags, *includes)))
+    (BUILD / "images").mkdir(parents=True, exist_ok=True)
+    return link_image(objects, BUILD / "images" / "tick.elf", M4F)
+
+
+def _door(image: Path) -> tuple[int, int]:
+    """The stretch of code that is hardware: from the first to the last of the door's functions."""
+    rows = [line.split() for line in run([PREFIX + "nm", "-S", image]).splitlines()]
+    door = [(int(row[0], 16), int(row[1], 16)) for row in rows if len(row) == 4 and row[3].startswith("door_")]
+    strangers = [row[3] for row in rows if len(row) == 4 and row[2] in "tT" and not row[3].startswith("door_")
+                 and min(door)[0] <= int(row[0], 16) < max(door)[0]]
+    if strangers:
+        raise RuntimeError(f"{image.name}: not of the door, and within it: {', '.join(strangers)}")
+    return min(door)[0], sum(max(door))
+
+
+def build_plugin() -> Path:
+    """The counting plugin, compiled for this machine's emulator."""
+    output = BUILD / "count_ticks.so"
+    output.parent.mkdir(parents=True, exist_ok=True)
+    run(["gcc", "-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", f"-I{fetch.plugin_header()}",
+         BENCH / "tick" / "count_ticks.c", "-o", output])
+    return output
+
+
+def measure_ticks(ticks: int = TICK_COUNT) -> TickCost:
+    """Build, run, count."""
+    image, plugin = build_image(ticks), build_plugin()
+    record = image.with_suffix(".counts")
+    low, high = _door(image)
+    entry = symbol_address(image, FUNCTION) & ~1
+    done = subprocess.run([RUN_IMAGE, M4F.machine, image, "-plugin",
+                           f"{plugin},entry={entry:#x},skip={low:#x}-{high:#x},out={record}"],
+                          capture_output=True, text=True, check=False,
+                          env={"PATH": "/usr/bin:/bin", "BRACE_IMAGE_TIMEOUT_S": "400"})
+    if done.returncode != 0:
+        raise RuntimeError(f"{image.name}: exit code {done.returncode}\n{done.stdout[-300:]}{done.stderr[-300:]}")
+    counts = np.fromfile(record, dtype="<u4")
+    letters = np.frombuffer("".join(done.stdout.split()).encode(), dtype="S1").astype(str)
+    if len(counts) != ticks or len(letters) != ticks:
+        raise RuntimeError(f"{image.name}: {ticks} ticks, {len(counts)} counted, {len(letters)} named")
+    return _summary(counts, letters)
+
+
+def _summary(counts: np.ndarray, letters: np.ndarray) -> TickCost:
+    missing = [name for letter, name in KINDS.items() if not np.any(letters == letter)]
+    if missing and len(counts) >= TICK_COUNT:
+        raise RuntimeError(f"the random ticks never came to: {', '.join(missing)}")
+    kinds = tuple(TickKind(name, int(mine.size), float(mine.mean()), int(mine.max()))
+                  for letter, name in KINDS.items() if (mine := counts[letters == letter]).size)
+    apart = letters == ROLL_BACK_ENDS
+    ticks = counts[~apart]
+    return TickCost(int(ticks.size), float(ticks.mean()), int(ticks.max()), int(np.quantile(ticks, 0.99)),
+                    int(counts[apart].max()) if apart.any() else 0, kinds)
+
+
+def as_text(cost: TickCost) -> str:
+    """For a terminal."""
+    lines = [f"{cost.count:,} random ticks: mean {cost.mean:,.0f}, 99th percentile {cost.quantile_99:,}, "
+             f"worst {cost.maximum:,} instructions (limit {TICK_LIMIT:,})"]
+    lines += [f"  {kind.name:42} {kind.count:9,}  mean {kind.mean:8,.0f}  worst {kind.maximum:7,}"
+              for kind in cost.kinds]
+    return "\n".join(lines)
+
+
+def main() -> int:
+    """python tests/bench/tick_cost.py [TICKS]: print; exit code 1 when the limit is passed."""
+    cost = measure_ticks(int(sys.argv[1]) if len(sys.argv) > 1 else TICK_COUNT)
+    print(as_text(cost))
+    return int(cost.maximum > TICK_LIMIT)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
