@@ -14,6 +14,7 @@ EXIT_OK = 0
 EXIT_CHECK_FAILED = 1
 EXIT_USAGE = 2
 EXIT_BAD_FILE = 3
+EXIT_NO_DEVICE = 4
 EXIT_INTERRUPTED = 130
 
 
@@ -63,6 +64,12 @@ class BadFileError(BraceError):
     """A model, rig or data file that is wrong, missing, contradictory or hostile."""
 
     exit_code = EXIT_BAD_FILE
+
+
+class NoDeviceError(BraceError):
+    """No device, port or bus to talk to, or one that does not answer in time."""
+
+    exit_code = EXIT_NO_DEVICE
 
 
 def place(path: Path | str, line: int | None = None) -> str:

@@ -13,7 +13,7 @@ from brace.cli.options import OptionParser
 from brace.cli.streams import OutputLost, finish, prepare, say
 from brace.errors import EXIT_CHECK_FAILED, EXIT_OK, EXIT_USAGE, BraceError
 
-SUBCOMMANDS = ("k", "map", "simulate", "predict", "identify", "demo")
+SUBCOMMANDS = ("k", "map", "simulate", "predict", "identify", "demo", "sim")
 _NEGATIVE_NUMBER = re.compile(r"^-(\d|\.\d|inf|nan)", re.IGNORECASE)
 
 
@@ -63,7 +63,7 @@ def build_parser() -> OptionParser:
         prog="brace",
         description="Stiffness at the tip of a climbing robot's limb: predict it, measure it, explain it. "
         "Units: mm, N, N mm, rad, s, degC.",
-        epilog="Exit codes: 0 done, 1 a check failed, 2 usage, 3 bad model or data file, 130 interrupted.",
+        epilog="Exit codes: 0 done, 1 a check failed, 2 usage, 3 bad model or data file, 4 no device or port, 130 interrupted.",
     )
     parser.add_argument("--version", action="version", version=f"brace {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", dest="command")

@@ -1,0 +1,310 @@
+"""`brace sim`: controllers over simulated limbs, on the wire."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import re
+import signal
+import threading
+from typing import Any
+
+from brace.cli import common
+from brace.errors import EXIT_INTERRUPTED, EXIT_OK, UsageError
+from brace.sim import spec
+
+CAN_PORT = 29536
+MODBUS_PORT = 1502
+_POLL_S = 0.2
+_FAST_SLICE_S = 0.5
+
+
+def add(commands: Any) -> None:
+    """Declares the subcommand."""
+    parser = commands.add_parser(
+        "sim",
+        help="the controller's own code over simulated limbs, on loopback ports",
+        description="Starts controllers over simulated limbs and says where to connect, one line a limb; with --json "
+        "one JSON object a line: 'ready' with the places, 'end' with the last tick. Ctrl-C or --seconds ends it. The "
+        "controller believes --model, its parameter block; what is true is --plant.",
+        epilog=f"Faults: {', '.join(spec.FAULTS)}; values: current_offset in N mm, force_offset in N, tick_late in ms.",
+    )
+    common.add_model(parser, "what the controllers believe; and what is true, without --plant")
+    parser.add_argument("--plant", type=common.path, metavar="TRUE.toml", help="the true limb")
+    parser.add_argument("--limbs", type=common.count(1, 16), default=1, metavar="N", help="default 1")
+    parser.add_argument(
+        "--can",
+        metavar="URL",
+        help=f"tcp://HOST:PORT (SLCAN; default 127.0.0.1:{CAN_PORT}), slcan:pty, slcan:/dev/ttyX, can0, none",
+    )
+    parser.add_argument(
+        "--modbus",
+        metavar="URL",
+        help=f"modbus-tcp://HOST:PORT[/UNIT] (default 127.0.0.1:{MODBUS_PORT}; further limbs the next ports), "
+        "modbus:pty, modbus:/dev/ttyX[@BAUD[/UNIT]], none",
+    )
+    parser.add_argument(
+        "--serial",
+        action="append",
+        default=[],
+        metavar="PORT=WHERE",
+        help="console or slcan = stderr, file:PATH, pty, /dev/ttyX[@BAUD], tcp://HOST:PORT; may be repeated",
+    )
+    parser.add_argument("--seed", type=common.count(0, 2**63 - 1), default=0, help="of the noise; default 0")
+    parser.add_argument("--seconds", type=common.positive, metavar="S", help="how long; default until Ctrl-C")
+    pace = parser.add_mutually_exclusive_group()
+    pace.add_argument("--realtime", action="store_true", help="in step with the clock (default)")
+    pace.add_argument("--fast", action="store_true", help="as fast as possible; needs --seconds")
+    parser.add_argument(
+        "--fault",
+        type=spec.fault,
+        action="append",
+        default=[],
+        metavar="SPEC",
+        help="NAME[:[LIMB.]JOINT][=VALUE][@SECONDS[+DURATION]], e.g. encoder_stuck:femur@2.0+1.5; may be repeated",
+    )
+    parser.add_argument(
+        "--posture",
+        type=spec.posture,
+        action="append",
+        default=[],
+        metavar="T1,T2[@S]",
+        help="set-points [rad]; the first is where the limbs stand, further ones move them; default 1.0,1.4",
+    )
+    parser.add_argument(
+        "--contact", type=spec.contact, default=math.inf, metavar="KIND", help="planted (default), free, wall:K [N/mm]"
+    )
+    parser.add_argument(
+        "--press",
+        type=spec.pair_mm,
+        default=(0.0, 0.0),
+        metavar="X,Z",
+        help="where the contact holds the tip, from where the unloaded limb has it [mm]",
+    )
+    parser.add_argument("--node", type=common.count(1, 127), metavar="ID", help="CAN node of the first limb")
+    parser.add_argument("--nvm", metavar="FILE", help="keeps the controllers' memory; what it holds goes before --model")
+    parser.add_argument("--no-force-sensor", action="store_true", help="the tip has none")
+    parser.add_argument("--link-encoders", action="store_true", help="encoders behind the gears too")
+    common.add_json(parser)
+    parser.set_defaults(run=run)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Executes the subcommand."""
+    from brace.model import load_limb
+
+    if arguments.fast and arguments.seconds is None:
+        raise UsageError("--fast without --seconds", why="it would never end", next_step="add --seconds 10")
+    model = load_limb(arguments.model)
+    plant = load_limb(arguments.plant) if arguments.plant else model
+    with _make_node(arguments, model, plant) as node:
+        for fault in arguments.fault:
+            node.add_fault(fault)
+        for posture in arguments.posture[1:]:
+            node.add_posture(posture)
+        _say_ready(arguments, node)
+        code = _run_fast(arguments, node) if arguments.fast else _run_in_real_time(arguments, node)
+        _say_end(arguments, node)
+    return code
+
+
+# ------------------------------------------------------------------------------------------------ making
+
+
+def _make_node(arguments: argparse.Namespace, model: Any, plant: Any) -> Any:
+    """The node; a default port that is taken is left for any free one."""
+    from brace.sim.node import Node, PortBusy
+
+    can = "slcan:pty" if arguments.can == "pty" else arguments.can or f"tcp://127.0.0.1:{CAN_PORT}"
+    modbus = arguments.modbus or f"modbus-tcp://127.0.0.1:{MODBUS_PORT}"
+    for _ in range(3):
+        try:
+            return Node(_setups(arguments, model, plant, modbus), can, arguments.seed)
+        except PortBusy as busy:
+            if busy.url == can and arguments.can is None:
+                can = "tcp://127.0.0.1:0"
+            elif busy.url.startswith("modbus-tcp:") and arguments.modbus is None:
+                modbus = "modbus-tcp://127.0.0.1:0"
+            else:
+                raise
+    raise AssertionError("unreachable")
+
+
+def _setups(arguments: argparse.Namespace, model: Any, plant: Any, modbus: str) -> list[Any]:
+    from brace.sim.node import LimbSetup
+
+    first = arguments.posture[0] if arguments.posture else spec.Posture(1.0, 1.4, 0.0)
+    base = arguments.node or int(model.values.get("controller.node_id", 0)) or 1
+    if base + arguments.limbs - 1 > 127:
+        raise UsageError(
+            f"no node numbers for {arguments.limbs} limbs from {base} on",
+            why="CAN nodes are 1 to 127",
+            next_step=f"--node {128 - arguments.limbs}",
+        )
+    ports = _serial_ports(arguments.serial)
+    setups = []
+    for limb in range(arguments.limbs):
+        changes: dict[str, float] = {"controller.node_id": base + limb}
+        setup = LimbSetup(
+            model,
+            plant,
+            changes,
+            theta_rad=(0.0, first.theta1_rad, first.theta2_rad),
+            hold_n_per_mm=arguments.contact,
+            press_mm=arguments.press,
+            has_force_sensor=not arguments.no_force_sensor,
+            has_link_encoder=arguments.link_encoders,
+            nvm_path=_numbered(arguments.nvm, limb, arguments.limbs),
+            console=_next_port(ports.get("console", "none"), limb),
+            slcan_line=_next_port(ports.get("slcan", "none"), limb),
+        )
+        _give_modbus(setup, modbus, limb)
+        setups.append(setup)
+    return setups
+
+
+def _serial_ports(texts: list[str]) -> dict[str, str]:
+    ports: dict[str, str] = {}
+    for text in texts:
+        name, equals, where = text.partition("=")
+        if name not in ("console", "slcan") or not equals or not where:
+            raise UsageError(
+                f"--serial {text}: not a port",
+                where="sim",
+                why="the form is PORT=WHERE, PORT console or slcan (Modbus has --modbus)",
+                next_step="--serial console=stderr",
+            )
+        ports[name] = where
+    return ports
+
+
+def _numbered(path: str | None, limb: int, limbs: int) -> str | None:
+    """A file for each limb."""
+    return path if path is None or limbs == 1 else f"{path}.{limb + 1}"
+
+
+def _next_port(url: str, limb: int) -> str:
+    """tcp://host:5000 is port 5000 for the first limb, 5001 for the second; port 0 stays any free one."""
+    found = re.fullmatch(r"(.*tcp://.*:)(\d+)(/.*)?", url)
+    if found is None or int(found[2]) == 0:
+        return url
+    return f"{found[1]}{int(found[2]) + limb}{found[3] or ''}"
+
+
+def _give_modbus(setup: Any, url: str, limb: int) -> None:
+    """Modbus URL to the limb's line or listener, and what it says of rate and address to its parameters."""
+    if url == "none":
+        return
+    if url.startswith("modbus-tcp://"):
+        place, _, unit = url[len("modbus-tcp://") :].partition("/")
+        setup.modbus_tcp = _next_port(f"modbus-tcp://{place}", limb)
+    elif url.startswith("modbus:"):
+        found = re.fullmatch(r"modbus:(pty|/.*?)(?:@(\d+))?(?:/(\d+))?", url)
+        place, baud, unit = (found[1], found[2], found[3] or "") if found else ("", None, "")
+        setup.modbus_line = place + (f"@{baud}" if baud else "")
+        if baud:
+            setup.changes["controller.modbus_baud"] = int(baud)
+    else:
+        place = unit = ""
+    if not place or (unit and not (unit.isdigit() and 1 <= int(unit) <= 247)):
+        raise UsageError(
+            f"--modbus {url}: not a Modbus URL",
+            where="sim",
+            why="the forms are modbus-tcp://HOST:PORT[/UNIT], modbus:pty, modbus:/dev/ttyX[@BAUD[/UNIT]], none",
+            next_step=f"--modbus modbus-tcp://127.0.0.1:{MODBUS_PORT}/1",
+        )
+    if unit:
+        setup.changes["controller.modbus_address"] = int(unit)
+
+
+# ----------------------------------------------------------------------------------------------- running
+
+
+def _run_fast(arguments: argparse.Namespace, node: Any) -> int:
+    try:
+        with common.progress("simulating", int(arguments.seconds)) as advance:
+            done = 0.0
+            while done < arguments.seconds:
+                part = min(_FAST_SLICE_S, arguments.seconds - done)
+                node.step(part)
+                done += part
+                advance(int(done))
+    except KeyboardInterrupt:
+        return EXIT_INTERRUPTED
+    return EXIT_OK
+
+
+def _run_in_real_time(arguments: argparse.Namespace, node: Any) -> int:
+    from brace.sim.status import LiveLine
+
+    ended = threading.Event()
+    before = signal.signal(signal.SIGTERM, lambda _number, _frame: ended.set())
+    line = LiveLine()
+    try:
+        node.start(arguments.seconds if arguments.seconds is not None else math.inf)
+        while not ended.is_set() and not node.wait(_POLL_S):
+            stats = node.stats()
+            if line.wanted:
+                line.show(stats["time_us"] * 1e-6, [node.state(i) for i in range(arguments.limbs)], stats)
+    except KeyboardInterrupt:
+        return EXIT_INTERRUPTED
+    finally:
+        node.stop()
+        line.clear()
+        signal.signal(signal.SIGTERM, before)
+    return EXIT_OK
+
+
+# ------------------------------------------------------------------------------------------------ saying
+
+
+def _places(node: Any, limb: int) -> dict[str, str]:
+    """Where clients connect, as the URLs that other commands take."""
+    can = node.can_place
+    if can.startswith("/"):
+        can = f"slcan:{can}"
+    places = {"can": can, "modbus_tcp": node.serial_place(limb, "modbus_tcp")}
+    line = node.serial_place(limb, "modbus")
+    places["modbus"] = f"modbus:{line}" if line else ""
+    places["console"] = node.serial_place(limb, "console")
+    places["slcan"] = node.serial_place(limb, "slcan")
+    return {name: place for name, place in places.items() if place}
+
+
+def _emit_now(text: str) -> None:
+    """A line that whoever waits for it gets at once."""
+    import sys
+
+    common.emit(text)
+    if sys.stdout is not None:
+        sys.stdout.flush()
+
+
+def _emit_event(event: str, data: dict[str, Any]) -> None:
+    _emit_now(json.dumps(common.json_ready({"event": event, **data})))
+
+
+def _say_ready(arguments: argparse.Namespace, node: Any) -> None:
+    limbs = [
+        {"limb": limb + 1, "node": node.state(limb)["node"], **_places(node, limb)}
+        for limb in range(arguments.limbs)
+    ]
+    if arguments.json:
+        _emit_event("ready", {"seed": arguments.seed, "limbs": limbs})
+        return
+    for entry in limbs:
+        places = ", ".join(f"{name} {place}" for name, place in entry.items() if name not in ("limb", "node"))
+        _emit_now(f"limb {entry['limb']}: node {entry['node']}, {places or 'no ports'}")
+
+
+def _say_end(arguments: argparse.Namespace, node: Any) -> None:
+    from brace.sim.status import line_of
+
+    states = [node.state(limb) for limb in range(arguments.limbs)]
+    if arguments.json:
+        entries = [{**state, "truth": node.truth(limb)} for limb, state in enumerate(states)]
+        _emit_event("end", {"limbs": entries, **node.stats()})
+        return
+    for state in states:
+        _emit_now(line_of(state))

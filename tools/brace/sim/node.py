@@ -1,0 +1,327 @@
+"""The node of brace_node.h: limbs made from models, run in a thread of C, read from Python."""
+
+from __future__ import annotations
+
+import math
+import os
+import threading
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from brace.errors import BadFileError, BraceError, NoDeviceError, UsageError
+from brace.model import LimbModel
+from brace.native import node_library
+from brace.native.limb import fill_plant, plant_error, status_text
+from brace.sim.block import parameter_block
+from brace.sim.spec import JOINTS, Fault, Posture
+from brace.stiffness import flag_names
+
+MODES = ("start", "monitor", "configuration", "taking_up", "loading_test", "fault")
+FAULT_BITS = (
+    "sensor_femur",
+    "sensor_tibia",
+    "encoder_stuck",
+    "tick_late",
+    "parameters",
+    "store",
+    "can_bus_off",
+    "model_drift",
+    "crashed",
+)
+ORIGINS = ("default", "slot_a", "slot_b")
+PLAY_STATES = ("unknown", "taking_up", "engaged_positive", "engaged_negative", "crossing", "fault")
+SERIAL_PORTS = {"console": 0, "modbus": 1, "slcan": 2, "modbus_tcp": 3}
+E_URL, E_IN_USE, E_NO_DEVICE, E_NO_CAN, E_DENIED, E_SYSTEM, E_SIZE = range(-1, -8, -1)
+_DRIVE_KEYS = (  # of [motor.*], and members of brace_node_drive_t
+    "inertia_n_mm_s2_per_rad",
+    "friction_n_mm",
+    "torque_range_n_mm",
+    "torque_noise_n_mm",
+    "angle_step_rad",
+)
+
+
+@dataclass
+class LimbSetup:
+    """One limb: what its controller believes, what is true, and its world. Units as in the names."""
+
+    model: LimbModel  # believed
+    plant: LimbModel  # true
+    changes: dict[str, float] = field(default_factory=dict)  # of the parameters, by key
+    theta_rad: tuple[float, float, float] = (0.0, 1.0, 1.4)
+    hold_n_per_mm: float = math.inf
+    press_mm: tuple[float, float] = (0.0, 0.0)
+    force_noise_n: float | None = None  # None: the plant's sensor.noise_n
+    has_force_sensor: bool = True
+    has_link_encoder: bool = False
+    temp_degc: float | None = None  # None: the plant's reference
+    temp_rise_degc: float = 0.0
+    temp_time_constant_s: float = 600.0
+    nvm_path: str | None = None
+    block_replaces: bool = False
+    no_block: bool = False  # the controller finds an empty memory
+    console: str = "none"
+    modbus_line: str = "none"
+    slcan_line: str = "none"
+    modbus_tcp: str = "none"
+    servo_n_mm_per_rad: float | None = None
+
+
+class PortBusy(NoDeviceError):
+    """Somebody else has the port; which one is in `url`."""
+
+    url = ""
+
+
+class Node:
+    """Limbs and their controllers. Close it, or use it in a `with`."""
+
+    def __init__(self, limbs: Sequence[LimbSetup], can: str | None = "none", seed: int = 0) -> None:
+        self.native = node_library()
+        self._setups = list(limbs)
+        self._thread: threading.Thread | None = None
+        ffi, lib = self.native.ffi, self.native.lib
+        keep: list[Any] = []
+        structs = ffi.new("brace_node_limb_t[]", len(limbs))
+        for struct, setup in zip(structs, limbs, strict=True):
+            self._fill(struct, setup, keep)
+        failure = ffi.new("brace_node_failure_t *")
+        url = ffi.NULL if can is None else can.encode()
+        self._node = lib.brace_node_create(structs, len(limbs), url, seed, failure)
+        if self._node == ffi.NULL:
+            raise self._refusal(failure, can)
+
+    # ------------------------------------------------------------------------------------------- making
+
+    def _fill(self, struct: Any, setup: LimbSetup, keep: list[Any]) -> None:
+        ffi, lib = self.native.ffi, self.native.lib
+        lib.brace_node_limb_default(ffi.addressof(struct))
+        fill_plant(self.native, struct.plant, setup.plant)
+        for index, joint in enumerate(JOINTS):
+            for key in _DRIVE_KEYS:
+                if (value := setup.plant.values.get(f"motor.{joint}.{key}")) is not None:
+                    setattr(struct.drive[index], key, value)
+            if setup.servo_n_mm_per_rad is not None:
+                struct.drive[index].servo_n_mm_per_rad = setup.servo_n_mm_per_rad
+        struct.theta_rad = setup.theta_rad
+        struct.hold_n_per_mm = setup.hold_n_per_mm
+        struct.press_x_mm, struct.press_z_mm = setup.press_mm
+        noise = setup.plant.values.get("sensor.noise_n") if setup.force_noise_n is None else setup.force_noise_n
+        if noise is not None:
+            struct.force_noise_n = noise
+        struct.has_force_sensor = setup.has_force_sensor
+        struct.has_link_encoder = setup.has_link_encoder
+        reference = setup.plant.number("thermal.reference_degc")
+        struct.temp_start_degc = reference if setup.temp_degc is None else setup.temp_degc
+        struct.temp_rise_degc = setup.temp_rise_degc
+        struct.temp_time_constant_s = setup.temp_time_constant_s
+        struct.block_replaces = setup.block_replaces
+        if not setup.no_block:
+            block = parameter_block(self.native, setup.model, setup.changes)
+            keep.append(ffi.from_buffer("uint8_t[]", block))
+            struct.block, struct.block_bytes = keep[-1], len(block)
+        texts = ("console", "modbus_line", "slcan_line", "modbus_tcp", "nvm_path")
+        for name in texts:
+            if (text := getattr(setup, name)) is not None:
+                keep.append(ffi.new("char[]", os.fsencode(text)))
+                setattr(struct, name, keep[-1])
+
+    def _refusal(self, failure: Any, can: str | None) -> BraceError:
+        setup = self._setups[failure.limb]
+        part, detail = int(failure.part), int(failure.detail)
+        if part == 1:
+            return plant_error(self.native, detail, setup.plant, "be simulated")
+        if part == 2:
+            return BadFileError(
+                "the controller refuses the parameter block",
+                where=setup.model.where(),
+                why=status_text(self.native, detail),
+                next_step="./dev setup builds tools and controller from the same dictionary",
+            )
+        url = {
+            3: setup.nvm_path,
+            4: can,
+            5: setup.console,
+            6: setup.modbus_line,
+            7: setup.slcan_line,
+            8: setup.modbus_tcp,
+        }[part]
+        text = self.native.ffi.string(self.native.lib.brace_node_posix_text(detail)).decode()
+        return port_error(str(url), part, detail, text, int(failure.system))
+
+    def close(self) -> None:
+        """Stops the limbs and closes every port. Twice is once."""
+        self.stop()
+        if self._node != self.native.ffi.NULL:
+            self.native.lib.brace_node_destroy(self._node)
+            self._node = self.native.ffi.NULL
+
+    def __enter__(self) -> Node:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    # ------------------------------------------------------------------------------------------ running
+
+    def step(self, seconds: float) -> float:
+        """Advances by a time, as fast as possible; returns the simulation's time [s]."""
+        left_us, now_us = round(seconds * 1e6), 0
+        while True:
+            part_us = min(left_us, 1_000_000_000)
+            now_us = int(self.native.lib.brace_node_step(self._node, part_us))
+            left_us -= part_us
+            if left_us <= 0:
+                return now_us * 1e-6
+
+    def start(self, until_s: float = math.inf) -> None:
+        """Runs in step with the wall clock, in a thread, until a time of the simulation or stop()."""
+        until_us = 2**63 if math.isinf(until_s) else round(until_s * 1e6)
+        self._thread = threading.Thread(
+            target=self.native.lib.brace_node_run, args=(self._node, until_us), name="limbs", daemon=True
+        )
+        self._thread.start()
+
+    def wait(self, seconds: float) -> bool:
+        """True when the run is over, at once or within a time."""
+        if self._thread is None:
+            return True
+        self._thread.join(seconds)
+        return not self._thread.is_alive()
+
+    def stop(self) -> None:
+        """Ends a run; returns when it has ended."""
+        if self._thread is not None:
+            self.native.lib.brace_node_stop(self._node)
+            self._thread.join()
+            self._thread = None
+
+    def add_fault(self, fault: Fault) -> None:
+        """At its time, in its limb or in all."""
+        limbs = range(len(self._setups)) if fault.limb is None else (fault.limb,)
+        for limb in limbs:
+            status = self.native.lib.brace_node_fault(
+                self._node, limb, fault.kind, fault.joint, fault.value, fault.at_s, fault.for_s
+            )
+            if status != 0:
+                raise UsageError(
+                    f"--fault for limb {limb + 1}",
+                    why=f"there are {len(self._setups)} limbs, or its value is out of range",
+                    next_step="--limbs N, or another limb",
+                )
+
+    def add_posture(self, posture: Posture) -> None:
+        """For all limbs."""
+        for limb in range(len(self._setups)):
+            self.native.lib.brace_node_posture(
+                self._node, limb, posture.at_s, posture.theta1_rad, posture.theta2_rad
+            )
+
+    # ------------------------------------------------------------------------------------------ reading
+
+    @property
+    def can_place(self) -> str:
+        """What a CAN client connects to."""
+        return self._text(self.native.lib.brace_node_can_place(self._node))
+
+    def serial_place(self, limb: int, port: str) -> str:
+        """What the client of a serial port, or of modbus_tcp, connects to."""
+        return self._text(self.native.lib.brace_node_serial_place(self._node, limb, SERIAL_PORTS[port]))
+
+    def _text(self, pointer: Any) -> str:
+        return str(self.native.ffi.string(pointer).decode())
+
+    def app(self, limb: int = 0) -> Any:
+        """brace_app_t *, for requests while nothing runs."""
+        return self.native.lib.brace_node_app(self._node, limb)
+
+    def raw_snapshot(self, limb: int = 0) -> Any:
+        """brace_snapshot_t *, a copy."""
+        snapshot = self.native.ffi.new("brace_snapshot_t *")
+        self.native.lib.brace_node_snapshot(self._node, limb, snapshot)
+        return snapshot
+
+    def raw_truth(self, limb: int = 0) -> Any:
+        """brace_node_truth_t *, a copy."""
+        truth = self.native.ffi.new("brace_node_truth_t *")
+        self.native.lib.brace_node_truth(self._node, limb, truth)
+        return truth
+
+    def state(self, limb: int = 0) -> dict[str, Any]:
+        """The newest tick as the controller tells it; K is None unless it is valid."""
+        s = self.raw_snapshot(limb)
+        k = s.stiffness.now
+        valid = bool(s.k_is_valid)
+        names = ("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max")
+        return {
+            "limb": limb + 1,
+            "node": int(self.native.lib.brace_app_parameters(self.app(limb)).controller.node_id),
+            "sequence": s.sequence,
+            "mode": MODES[s.mode],
+            "faults": [name for bit, name in enumerate(FAULT_BITS) if s.faults >> bit & 1],
+            "k_is_valid": valid,
+            **{f"{name}_n_per_mm": getattr(k, f"{name}_n_per_mm") if valid else None for name in names},
+            "stiff_axis_rad": k.stiff_axis_rad if valid else None,
+            "flag_names": flag_names(k.flags),
+            "theta1_rad": s.theta_rad[1],
+            "theta2_rad": s.theta_rad[2],
+            "play": [PLAY_STATES[s.play[joint].state] for joint in (1, 2)],
+            "force_x_n": s.force_x_n,
+            "force_z_n": s.force_z_n,
+            "parameters": ORIGINS[s.parameter_origin],
+            "parameter_crc": f"{s.parameter_crc:08x}",
+        }
+
+    def truth(self, limb: int = 0) -> dict[str, Any]:
+        """What no controller sees."""
+        t = self.raw_truth(limb)
+        return {
+            "theta1_rad": t.link_rad[1],
+            "theta2_rad": t.link_rad[2],
+            "load_femur_n_mm": t.load_n_mm[1],
+            "load_tibia_n_mm": t.load_n_mm[2],
+            "flank": [t.flank[1], t.flank[2]],
+            "force_x_n": t.force_x_n,
+            "force_z_n": t.force_z_n,
+            "temp_degc": t.temp_degc,
+        }
+
+    def stats(self) -> dict[str, Any]:
+        """Ticks, lateness, frames since the start."""
+        stats = self.native.ffi.new("brace_node_stats_t *")
+        self.native.lib.brace_node_stats(self._node, stats)
+        return {name: int(getattr(stats, name)) for name, _ in self.native.ffi.typeof(stats[0]).fields}
+
+
+_PARTS = {
+    3: ("the controller's memory", "--nvm another file"),
+    4: ("the CAN bus", "--can tcp://127.0.0.1:0 takes any free port"),
+    5: ("the console", "--serial console=stderr"),
+    6: ("the Modbus line", "--modbus modbus:pty makes a line of its own"),
+    7: ("the SLCAN line", "--serial slcan=pty makes a line of its own"),
+    8: ("Modbus TCP", "--modbus modbus-tcp://127.0.0.1:0 takes any free port"),
+}
+
+
+def port_error(url: str, part: int, detail: int, text: str, system: int) -> BraceError:
+    """Why a port, device or file cannot be opened, and what to do."""
+    what, way = _PARTS[part]
+    reason = f"{text} ({os.strerror(system)})" if system and detail not in (E_URL, E_SIZE) else text
+    if detail == E_URL:
+        return UsageError(f"{what}: {url!r} cannot be opened", where="sim", why=text, next_step=f"e.g. {way}")
+    if detail == E_SIZE:
+        return BadFileError(f"{url} is no controller's memory", why=text, next_step=way)
+    if detail == E_NO_CAN:
+        way = "--can tcp://127.0.0.1:0 (SLCAN) needs no CAN in the kernel"
+    elif detail == E_NO_DEVICE and part == 4 and "/" not in url:
+        way = f"ip link add dev {url} type vcan && ip link set {url} up, or --can tcp://127.0.0.1:0"
+    elif detail == E_DENIED:
+        way = "a port above 1023, or the rights to the device; " + way
+    elif detail == E_IN_USE:
+        way = "end the other program, or " + way
+    kind = PortBusy if detail == E_IN_USE else NoDeviceError
+    error = kind(f"{what} cannot be opened", where=url, why=reason, next_step=way)
+    if isinstance(error, PortBusy):
+        error.url = url
+    return error

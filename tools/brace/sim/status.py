@@ -1,0 +1,45 @@
+"""What a person sees of a running simulation: one line while it runs, one per limb when it ends."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+from typing import Any
+
+
+def line_of(state: dict[str, Any]) -> str:
+    """A limb in a line."""
+    if state["k_is_valid"]:
+        k = "K {k_xx_n_per_mm:.3f} {k_xz_n_per_mm:.3f} {k_zz_n_per_mm:.3f} N/mm".format(**state)
+    else:
+        k = "K not valid"
+    notes = [*state["flag_names"], *(f"fault {name}" for name in state["faults"])]
+    return f"limb {state['limb']}: {state['mode']}, {k}" + (f" ({', '.join(notes)})" if notes else "")
+
+
+class LiveLine:
+    """One line on stderr, written over itself, if stderr is a terminal."""
+
+    def __init__(self) -> None:
+        self._shown = False
+        self.wanted = sys.stderr is not None and sys.stderr.isatty()
+
+    def show(self, time_s: float, states: list[dict[str, Any]], stats: dict[str, Any]) -> None:
+        """Anew."""
+        if not self.wanted:
+            return
+        parts = [f"{time_s:8.1f} s", *(line_of(state) for state in states)]
+        parts.append(f"{stats['can_clients']} CAN clients, {stats['can_sent']} frames")
+        if stats["slipped_us"]:
+            parts.append(f"{stats['slipped_us'] / 1e6:.1f} s behind the clock")
+        width = shutil.get_terminal_size().columns - 1
+        sys.stderr.write("\r\x1b[K" + " | ".join(parts)[:width])
+        sys.stderr.flush()
+        self._shown = True
+
+    def clear(self) -> None:
+        """Leaves the terminal clean."""
+        if self._shown:
+            sys.stderr.write("\r\x1b[K")
+            sys.stderr.flush()
+            self._shown = False
