@@ -343,9 +343,9 @@ brace_status_t brace_drift_step(brace_drift_t *drift, const brace_limb_t *limb, 
     const float bias = drift->setup.model_error_ratio *
                        (__builtin_fabsf(expected.force_n[0]) + __builtin_fabsf(expected.force_n[1]));
     float learned[DRIFT_OFFSETS] = {0};
-    take(drift, expected.per_offset[0], differs.fx_n - expected.force_n[0], noise, bias, change, learned);
+    take(drift, expected.per_offset[0], differs.fx_n - expected.force_n[0], noise, bias + expected.doubt_n[0], change, learned);
     const float still = differs.fz_n - expected.force_n[1] - dot(expected.per_offset[1], learned);
-    take(drift, expected.per_offset[1], still, noise, bias, change, learned);
+    take(drift, expected.per_offset[1], still, noise, bias + expected.doubt_n[1], change, learned);
     add(drift->offset, learned, 1.0f);
     for (int i = 0; i < DRIFT_OFFSETS; i++) {
         const float walk = i < BRACE_DRIFT_CAUSE_COUNT ? WALK_RATIO * change[i]

@@ -18,6 +18,7 @@ typedef struct {
 
 typedef struct {
     float force_n[2];
+    float doubt_n[2]; /* bound of what the limb's own baseline cannot take up */
     float per_offset[2][DRIFT_OFFSETS];
 } drift_expected_t;
 
