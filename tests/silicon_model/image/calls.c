@@ -1,0 +1,112 @@
+/* What the test calls in the image: the door's entries, by name. */
+#include "brace_hal_stm32f405.h"
+
+#define PINS_AND_SLOTS \
+    .name = "register model", \
+    .serial = {[BRACE_SERIAL_CONSOLE] = {1, {'A', 9}, {'A', 10}, {0, 0}}, \
+               [BRACE_SERIAL_MODBUS] = {2, {'D', 5}, {'D', 6}, {'D', 4}}}, \
+    .can_rx = {'B', 8}, .can_tx = {'B', 9}, .nvm_sector = {10, 11}, .watchdog = true
+
+const stm32f405_board_t board_8_mhz = {PINS_AND_SLOTS, .hse_hz = 8000000};
+const stm32f405_board_t board_25_mhz = {PINS_AND_SLOTS, .hse_hz = 25000000};
+const stm32f405_board_t board_without_crystal = {PINS_AND_SLOTS};
+const stm32f405_board_t board_without_can = {.name = "no CAN", .hse_hz = 8000000, .nvm_sector = {1, 2}};
+
+static const brace_hal_t *door;
+stm32f405_clock_report_t clock_told;
+uint8_t buffer[1024];
+brace_can_frame_t frame;
+brace_can_health_t health;
+
+void start(const stm32f405_board_t *board)
+{
+    door = brace_hal_stm32f405(board);
+    clock_told = stm32f405_clock_report();
+}
+
+uint32_t now(void)
+{
+    return door->now_us(door->context);
+}
+
+int32_t has_can(void)
+{
+    return door->can_setup != 0;
+}
+
+int32_t setup_can(uint32_t bit_rate, uint32_t fd_bit_rate, uint32_t listen_only, uint32_t loopback)
+{
+    const brace_can_setup_t setup = {bit_rate, fd_bit_rate, listen_only != 0u, loopback != 0u};
+    return door->can_setup(door->context, &setup);
+}
+
+int32_t send_frame(void)
+{
+    return door->can_send(door->context, &frame);
+}
+
+int32_t receive_frame(void)
+{
+    return door->can_receive(door->context, &frame);
+}
+
+int32_t read_health(void)
+{
+    return door->can_health(door->context, &health);
+}
+
+int32_t recover(void)
+{
+    return door->can_recover(door->context);
+}
+
+uint32_t slot_bytes(void)
+{
+    return door->nvm_shape.slot_bytes;
+}
+
+int32_t nvm_read(uint32_t slot, uint32_t offset, uint32_t count)
+{
+    return door->nvm_read(door->context, slot, offset, buffer, count);
+}
+
+int32_t nvm_write(uint32_t slot, uint32_t offset, uint32_t count)
+{
+    return door->nvm_write(door->context, slot, offset, buffer, count);
+}
+
+int32_t nvm_erase(uint32_t slot)
+{
+    return door->nvm_erase(door->context, slot);
+}
+
+void feed(void)
+{
+    door->watchdog_feed(door->context);
+}
+
+int32_t reset_cause(void)
+{
+    return (int32_t)door->reset_cause(door->context);
+}
+
+int32_t serial_setup_port(uint32_t port, uint32_t baud, uint32_t parity)
+{
+    return door->serial_setup(door->context, (brace_serial_port_t)port, baud, (brace_parity_t)parity);
+}
+
+int32_t serial_write_port(uint32_t port, uint32_t count)
+{
+    return door->serial_write(door->context, (brace_serial_port_t)port, buffer, count);
+}
+
+int32_t serial_read_port(uint32_t port, uint32_t room)
+{
+    return door->serial_read(door->context, (brace_serial_port_t)port, buffer, room);
+}
+
+int32_t restart(void)
+{
+    door->restart(door->context);
+    return 0;
+}
