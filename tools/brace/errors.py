@@ -15,6 +15,7 @@ EXIT_CHECK_FAILED = 1
 EXIT_USAGE = 2
 EXIT_BAD_FILE = 3
 EXIT_NO_DEVICE = 4
+EXIT_NOT_VERIFIED = 7
 EXIT_INTERRUPTED = 130
 
 
@@ -70,6 +71,12 @@ class NoDeviceError(BraceError):
     """No device, port or bus to talk to, or one that does not answer in time."""
 
     exit_code = EXIT_NO_DEVICE
+
+
+class NotVerifiedError(BraceError):
+    """What was written is not what is found afterwards."""
+
+    exit_code = EXIT_NOT_VERIFIED
 
 
 def place(path: Path | str, line: int | None = None) -> str:

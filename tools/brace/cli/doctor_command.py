@@ -1,0 +1,67 @@
+"""`brace doctor`: what of this machine is there, what is missing, and how to get it."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from brace.cli import common
+from brace.errors import EXIT_CHECK_FAILED, EXIT_OK
+
+
+def add(commands: Any) -> None:
+    """Declares the subcommand."""
+    from brace.doctor.finding import ALWAYS_NEEDED, PURPOSES
+
+    parser = commands.add_parser(
+        "doctor",
+        help="what is there for working with Brace, and what is missing",
+        description="Looks at compilers, emulator, programmers, probes, serial ports, CAN, Python packages, and whether "
+        "library and images are built and fresh. Exit code 1 when something that is needed is missing or old: "
+        f"of {' and '.join(ALWAYS_NEEDED)} always, of the rest when --needed names it. Changes nothing.",
+    )
+    parser.add_argument(
+        "--needed", nargs="+", choices=tuple(PURPOSES), default=[], metavar="FOR",
+        help="also needed: " + ", ".join(f"{name} ({meaning})" for name, meaning in PURPOSES.items()),
+    )  # fmt: skip
+    common.add_json(parser)
+    parser.set_defaults(run=run)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Executes the subcommand."""
+    from brace.doctor.builds import builds
+    from brace.doctor.finding import ALWAYS_NEEDED, Finding, Machine
+    from brace.doctor.hardware import hardware
+    from brace.doctor.programs import programs, python_packages
+
+    machine = Machine()
+    findings: list[Finding] = []
+    for look in (python_packages, programs, hardware, builds):
+        findings += look(machine)
+    needed = {*ALWAYS_NEEDED, *arguments.needed}
+    lacking = [finding for finding in findings if finding.purpose in needed and not finding.is_good]
+    if arguments.json:
+        common.print_json({
+            "good": not lacking,
+            "needed": sorted(needed),
+            "findings": [{"for": f.purpose, "name": f.name, "state": f.state, "found": f.found, "try": f.next_step}
+                         for f in findings],
+        })  # fmt: skip
+    else:
+        common.emit(_text(findings, needed, len(lacking)))
+    return EXIT_CHECK_FAILED if lacking else EXIT_OK
+
+
+def _text(findings: list[Any], needed: set[str], lacking: int) -> str:
+    from brace.doctor.finding import PURPOSES
+
+    lines = []
+    for purpose, meaning in PURPOSES.items():
+        lines += ["", f"{meaning}{'' if purpose in needed else ' (optional)'}"]
+        for finding in (finding for finding in findings if finding.purpose == purpose):
+            lines.append(f"  {finding.state:<8} {finding.name:<22} {finding.found}")
+            if finding.next_step:
+                lines.append(f"  {'':<8} {'':<22} try: {finding.next_step}")
+    lines += ["", "everything needed is there" if not lacking else f"{lacking} needed and not there, or old"]
+    return "\n".join(lines[1:])
