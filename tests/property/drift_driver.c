@@ -33,3 +33,16 @@ long drift_watch(brace_drift_t *drift, const brace_limb_t *limb, size_t count, c
     }
     return status == BRACE_OK ? (long)count : status;
 }
+
+/* The outlook of a reading like this one, with the posture's K from the general path. */
+int drift_outlook_at(const brace_drift_t *drift, const brace_limb_t *limb, const brace_drift_reading_t *reading,
+                     brace_drift_outlook_t *outlook)
+{
+    brace_chain_t chain;
+    brace_stiffness_t stiffness;
+    brace_status_t status = brace_chain_build(limb, &chain);
+    if (status == BRACE_OK) {
+        status = brace_chain_stiffness(&chain, reading->theta1_rad, reading->theta2_rad, &stiffness);
+    }
+    return status == BRACE_OK ? brace_drift_outlook(drift, limb, &stiffness, reading, outlook) : status;
+}

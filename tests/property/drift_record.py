@@ -47,6 +47,10 @@ class Report(ctypes.Structure):
                 ("baseline_sigmas", ctypes.c_float), ("steps", ctypes.c_uint32)]
 
 
+class Outlook(ctypes.Structure):
+    _fields_ = [("sigma_of_loss_ratio", ctypes.c_float * 3), ("steps_needed", ctypes.c_uint32 * 3)]
+
+
 _library: ctypes.CDLL | None = None
 
 
@@ -122,15 +126,26 @@ def mixed(postures: np.ndarray, count: int, rng: np.random.Generator, **how: Any
     return runs(theta, np.eye(2)[rng.integers(2, size=count)], rng, **how)
 
 
-def each_once(postures: np.ndarray, rng: np.random.Generator, repeats: int = 1, **how: Any) -> Record:
-    """Every posture along both axes, as at commissioning."""
+def commissioning(postures: np.ndarray, rng: np.random.Generator, repeats: int = 8, period: float = 4896.0,
+                  **how: Any) -> Record:
+    """Every posture along both axes, as at commissioning; by default the temperature goes through half its swing."""
     theta = np.tile(np.repeat(postures, 2, axis=0), (repeats, 1))
-    return runs(theta, np.tile(np.eye(2), (repeats * len(postures), 1)), rng, **how)
+    return runs(theta, np.tile(np.eye(2), (repeats * len(postures), 1)), rng, period=period, **how)
 
 
-def after(first: Record, second: Record) -> Record:
-    return Record(np.concatenate([first.run, second.run + first.run[-1] + 1]), np.concatenate([first.theta, second.theta]),
-                  np.concatenate([first.d_mm, second.d_mm]), np.concatenate([first.temp_degc, second.temp_degc]))
+def random_believed(rng: np.random.Generator) -> dict[str, float]:
+    """A limb about as slender as those of the practice records: lengths by a third, compliances by a factor of two."""
+    def about(value: float, factor: float = 2.0) -> float:
+        return value * factor ** rng.uniform(-1, 1)
+    keys = {"geometry.femur_mm": about(190.0, 1.35), "geometry.tibia_mm": about(260.0, 1.35)}
+    for link, bending in (("femur", 0.06), ("tibia", 0.16)):
+        keys |= {f"link.{link}.axial_mm_per_n": about(0.001), f"link.{link}.bending_mm_per_n": about(bending)}
+    keys["link.femur.moment_transfer"] = rng.choice([0.0, 1.0])
+    return keys | {f"joint.{joint}.compliance_rad_per_n_mm": about(1.3e-5) for joint in ("femur", "tibia")}
+
+
+def random_postures(rng: np.random.Generator, count: int = 9) -> np.ndarray:
+    return np.stack([rng.uniform(-0.5, 2.2, count), rng.uniform(0.4, 2.6, count)], 1)
 
 
 def measured(keys: dict[str, float], record: Record, rng: np.random.Generator, noise_n: float = NOISE_N) -> np.ndarray:
@@ -147,7 +162,7 @@ class Check:
     believed: dict[str, float]
     per_degc: float = THERMAL_PER_DEGC
     noise_n: float = float(np.hypot(NOISE_N, RESOLUTION_N / np.sqrt(12)))
-    model_error: float = 0.001
+    model_error: float = 0.0005
 
     def __post_init__(self) -> None:
         self.state = Drift()
@@ -176,6 +191,16 @@ class Check:
                                       run.ctypes.data_as(ctypes.c_void_p), int(stop), out)
         assert taken >= 0, f"status {taken}"
         return taken, out
+
+    def outlook(self, theta: np.ndarray, direction: np.ndarray) -> Outlook:
+        """For readings of a run like those of `runs`, at the reference temperature."""
+        size = STEP_MM * float(np.sqrt(np.mean(RUN_STEPS[1:] ** 2.0)))
+        reading = np.array([*theta, *(size * direction), 0, 0, 0], dtype=np.float32)
+        out = Outlook()
+        status = library().drift_outlook_at(ctypes.byref(self.state), self.limb.ctypes.data_as(ctypes.c_void_p),
+                                            reading.ctypes.data_as(ctypes.c_void_p), ctypes.byref(out))
+        assert status == 0, status
+        return out
 
     def report(self) -> Report:
         out = Report()

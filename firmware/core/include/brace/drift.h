@@ -26,6 +26,7 @@
 #include "brace/stiffness.h"
 
 enum { BRACE_DRIFT_LEARN_LEAST = 256, BRACE_DRIFT_LEARN_MOST = 4096 };
+enum { BRACE_DRIFT_NEVER = 0xffff };
 #define BRACE_DRIFT_LEARNED_TO 0.04f
 
 typedef enum {
@@ -93,8 +94,8 @@ typedef struct {
 /* What a posture can show. */
 typedef struct {
     float sigma_of_loss_ratio[BRACE_DRIFT_CAUSE_COUNT]; /* one sigma of a loss from one reading like the one given */
-    uint32_t steps_needed[BRACE_DRIFT_CAUSE_COUNT];     /* such readings until a loss of 10 % is flagged, on average;
-                                                           65535 or less: never at this posture is 65535 */
+    uint32_t steps_needed[BRACE_DRIFT_CAUSE_COUNT];     /* such readings until a loss of 10 % is flagged, on
+                                                           average; BRACE_DRIFT_NEVER: not at this posture */
 } brace_drift_outlook_t;
 
 /* Alarm level of the evidence: e^-20 per reading and cause bounds the false alarms, 1 in 125 for 10^6 readings. */

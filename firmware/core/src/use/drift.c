@@ -6,7 +6,9 @@
 #include "base/check.h"
 #include "base/off_tick.h"
 #include "base/trig.h"
+#include "brace/kinematics.h"
 #include "use/drift_model.h"
+#include "use/unroll.h"
 
 #define SAME_POSTURE_RAD 1e-3f
 #define RUN_MOST 64          /* a longer run begins anew: a slowly drifting sensor */
@@ -15,14 +17,16 @@
 #define SCATTER_COST 0.69314718f
 #define SCATTER_MOST 8.0f
 #define NEARLY_AS_LIKELY 3.0f
-#define WANDER_RATIO 0.06f   /* a baseline that has moved by this and six sigma is a change too, however slow */
+#define WANDER_RATIO 0.10f   /* a baseline that has moved by this and six sigma is a change too, however slow */
 #define WANDER_SIGMAS 6.0f
 #define CHANGE_RATIO 0.08f   /* of a link's compliance, what the evidence is for: between 5 % and 10 % of loss */
+#define LOSS_LOOKED_FOR 0.111111f /* a tenth of the stiffness lost, in compliance: what an outlook is for */
+#define INFINITY_RATIO 1e9f
 #define WALK_RATIO 1e-4f     /* of that per reading: what the estimates may wander by; their memory is some 1,000 readings */
 #define ANGLE_WALK_RAD 3e-7f
 #define THERMAL_WALK_RATIO 1e-5f
 
-enum { DIAGONAL_0 = 0, ENTRIES = 21 };
+enum { ENTRIES = 21 };
 static const uint8_t diagonal[DRIFT_OFFSETS] = {0, 6, 11, 15, 18, 20};
 
 static inline float square(float x)
@@ -30,50 +34,45 @@ static inline float square(float x)
     return x * x;
 }
 
-static inline float dot(const float a[DRIFT_OFFSETS], const float b[DRIFT_OFFSETS])
+static inline float weigh(const float h[DRIFT_OFFSETS], float a, float b, float c, float d, float e, float f)
 {
-    float sum = a[0] * b[0];
-    sum = __builtin_fmaf(a[1], b[1], sum);
-    sum = __builtin_fmaf(a[2], b[2], sum);
-    sum = __builtin_fmaf(a[3], b[3], sum);
-    sum = __builtin_fmaf(a[4], b[4], sum);
-    return __builtin_fmaf(a[5], b[5], sum);
+    const float first = __builtin_fmaf(c, h[2], __builtin_fmaf(b, h[1], a * h[0]));
+    return __builtin_fmaf(f, h[5], __builtin_fmaf(e, h[4], __builtin_fmaf(d, h[3], first)));
 }
 
-static inline void add(float a[DRIFT_OFFSETS], const float b[DRIFT_OFFSETS], float by)
+static inline float dot(const float a[DRIFT_OFFSETS], const float b[DRIFT_OFFSETS])
 {
-    a[0] = __builtin_fmaf(by, b[0], a[0]);
-    a[1] = __builtin_fmaf(by, b[1], a[1]);
-    a[2] = __builtin_fmaf(by, b[2], a[2]);
-    a[3] = __builtin_fmaf(by, b[3], a[3]);
-    a[4] = __builtin_fmaf(by, b[4], a[4]);
-    a[5] = __builtin_fmaf(by, b[5], a[5]);
+    return weigh(a, b[0], b[1], b[2], b[3], b[4], b[5]);
+}
+
+static inline void add(float *a, const float *b, float by, int count)
+{
+    UNROLLED
+    for (int i = 0; i < count; i++) {
+        a[i] = __builtin_fmaf(by, b[i], a[i]);
+    }
 }
 
 /* g = P h for the upper triangle of P, row by row. */
-static void spread(const float p[ENTRIES], const float h[DRIFT_OFFSETS], float g[DRIFT_OFFSETS])
+static inline void spread(const float p[ENTRIES], const float h[DRIFT_OFFSETS], float g[DRIFT_OFFSETS])
 {
-    for (int i = 0; i < DRIFT_OFFSETS; i++) {
-        g[i] = 0.0f;
-    }
-    for (int i = 0; i < DRIFT_OFFSETS; i++) {
-        g[i] = __builtin_fmaf(*p++, h[i], g[i]);
-        for (int j = i + 1; j < DRIFT_OFFSETS; j++, p++) {
-            g[i] = __builtin_fmaf(*p, h[j], g[i]);
-            g[j] = __builtin_fmaf(*p, h[i], g[j]);
-        }
-    }
+    g[0] = weigh(h, p[0], p[1], p[2], p[3], p[4], p[5]);
+    g[1] = weigh(h, p[1], p[6], p[7], p[8], p[9], p[10]);
+    g[2] = weigh(h, p[2], p[7], p[11], p[12], p[13], p[14]);
+    g[3] = weigh(h, p[3], p[8], p[12], p[15], p[16], p[17]);
+    g[4] = weigh(h, p[4], p[9], p[13], p[16], p[18], p[19]);
+    g[5] = weigh(h, p[5], p[10], p[14], p[17], p[19], p[20]);
 }
 
 /* P -= g g' / s */
-static void narrow(float p[ENTRIES], const float g[DRIFT_OFFSETS], float per_s)
+static inline void narrow(float p[ENTRIES], const float g[DRIFT_OFFSETS], float per_s)
 {
-    for (int i = 0; i < DRIFT_OFFSETS; i++) {
-        const float gain = -g[i] * per_s;
-        for (int j = i; j < DRIFT_OFFSETS; j++, p++) {
-            *p = __builtin_fmaf(gain, g[j], *p);
-        }
-    }
+    add(p, g, -g[0] * per_s, 6);
+    add(p + 6, g + 1, -g[1] * per_s, 5);
+    add(p + 11, g + 2, -g[2] * per_s, 4);
+    add(p + 15, g + 3, -g[3] * per_s, 3);
+    add(p + 18, g + 4, -g[4] * per_s, 2);
+    add(p + 20, g + 5, -g[5] * per_s, 1);
 }
 
 /* A loss of CHANGE_RATIO of each cause, as a share of the compliance it sits in. */
@@ -192,24 +191,32 @@ brace_status_t brace_drift_run(brace_drift_t *drift)
     return BRACE_OK;
 }
 
-BRACE_OFF_TICK
+static inline bool within(float value, float limit)
+{
+    return __builtin_fabsf(value) <= limit;
+}
+
 static brace_status_t check(const brace_limb_t *limb, const brace_stiffness_t *stiffness,
                             const brace_drift_reading_t *reading)
 {
-    if (limb == NULL || reading == NULL) {
+    if (limb == NULL || stiffness == NULL || reading == NULL) {
         return BRACE_E_NULL;
     }
-    brace_status_t status = brace_check_stiffness(stiffness);
-    if (status == BRACE_OK) {
-        status = brace_check_two(reading->theta1_rad, reading->theta2_rad, 7.9f);
+    const float *value = (const float *)reading;
+    float sum = 0.0f; /* finite if every value in its range is */
+    UNROLLED
+    for (int i = 0; i < (int)(sizeof *reading / sizeof *value); i++) {
+        sum += value[i];
     }
-    if (status == BRACE_OK) {
-        status = brace_check_two(reading->dx_mm, reading->dz_mm, 1e4f);
+    if (!within(sum - sum, 0.0f) || !within(stiffness->k_xz_n_per_mm - stiffness->k_xz_n_per_mm, 0.0f)) {
+        return BRACE_E_NOT_FINITE;
     }
-    if (status == BRACE_OK) {
-        status = brace_check_two(reading->fx_n, reading->fz_n, 1e6f);
-    }
-    return status == BRACE_OK ? brace_check_magnitude(reading->warmer_degc, 200.0f) : status;
+    const bool sound = within(reading->theta1_rad, BRACE_ANGLE_LIMIT_RAD) &&
+                       within(reading->theta2_rad, BRACE_ANGLE_LIMIT_RAD) && within(reading->dx_mm, 1e4f) &&
+                       within(reading->dz_mm, 1e4f) && within(reading->fx_n, 1e6f) && within(reading->fz_n, 1e6f) &&
+                       within(reading->warmer_degc, 200.0f) && stiffness->lambda_min_n_per_mm > 0.0f &&
+                       stiffness->lambda_max_n_per_mm < 1e12f;
+    return sound ? BRACE_OK : BRACE_E_RANGE;
 }
 
 /* The reading becomes what differs from the mean of its run; false for a run's first. Readings that each count from the
@@ -228,9 +235,11 @@ static bool from_mean(brace_drift_t *drift, brace_drift_reading_t *reading)
     drift->run_count++;
     const float gain = 1.0f / (float)drift->run_count;
     float *value = &reading->dx_mm; /* displacement and force, in this order */
+    UNROLLED
     for (int i = 0; i < 4; i++) {
         value[i] -= drift->run_count == 1 ? 0.0f : drift->run_mean[i];
     }
+    UNROLLED
     for (int i = 0; i < 4; i++) {
         drift->run_mean[i] = drift->run_count == 1 ? value[i] : __builtin_fmaf(gain, value[i], drift->run_mean[i]);
     }
@@ -239,6 +248,12 @@ static bool from_mean(brace_drift_t *drift, brace_drift_reading_t *reading)
 
 _Static_assert(offsetof(brace_drift_reading_t, fz_n) == offsetof(brace_drift_reading_t, dx_mm) + 3 * sizeof(float),
                "displacement and force are four floats in a row");
+
+static float bias_of(const brace_drift_t *drift, const drift_expected_t *expected)
+{
+    return drift->setup.model_error_ratio *
+           (__builtin_fabsf(expected->force_n[0]) + __builtin_fabsf(expected->force_n[1]));
+}
 
 /* Takes in one force component: `off` is measured less expected. Returns by how much the estimates now explain it. */
 static void take(brace_drift_t *drift, const float h[DRIFT_OFFSETS], float off, float noise, float bias,
@@ -253,6 +268,7 @@ static void take(brace_drift_t *drift, const float h[DRIFT_OFFSETS], float off, 
     const float counted = outlier ? (off > 0.0f ? most : -most) : off;
 
     if (drift->state != BRACE_DRIFT_LEARNING) {
+        UNROLLED
         for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) {
             const float shows = dot(h, drift->left[cause]);
             const float step = shows * change[cause];
@@ -260,7 +276,7 @@ static void take(brace_drift_t *drift, const float h[DRIFT_OFFSETS], float off, 
             drift->score[cause] += shows * off * per_variance;
             drift->information[cause] += shows * shows * per_variance;
             if (!outlier) {
-                add(drift->left[cause], g, -shows * per_variance);
+                add(drift->left[cause], g, -shows * per_variance, DRIFT_OFFSETS);
             }
         }
         float beyond = __builtin_fabsf(counted) - bias;
@@ -272,7 +288,7 @@ static void take(brace_drift_t *drift, const float h[DRIFT_OFFSETS], float off, 
         drift->outliers = (uint8_t)(drift->outliers + (drift->outliers < UINT8_MAX));
         return;
     }
-    add(learned, g, off * per_variance);
+    add(learned, g, off * per_variance, DRIFT_OFFSETS);
     narrow(drift->covariance, g, per_variance);
 }
 
@@ -340,13 +356,13 @@ brace_status_t brace_drift_step(brace_drift_t *drift, const brace_limb_t *limb, 
     change_of(&c, change);
     const float count = (float)(drift->run_count - 1);
     const float noise = square(drift->setup.noise_n) * (1.0f + 1.0f / count);
-    const float bias = drift->setup.model_error_ratio *
-                       (__builtin_fabsf(expected.force_n[0]) + __builtin_fabsf(expected.force_n[1]));
+    const float bias = bias_of(drift, &expected);
     float learned[DRIFT_OFFSETS] = {0};
     take(drift, expected.per_offset[0], differs.fx_n - expected.force_n[0], noise, bias + expected.doubt_n[0], change, learned);
     const float still = differs.fz_n - expected.force_n[1] - dot(expected.per_offset[1], learned);
     take(drift, expected.per_offset[1], still, noise, bias + expected.doubt_n[1], change, learned);
-    add(drift->offset, learned, 1.0f);
+    add(drift->offset, learned, 1.0f, DRIFT_OFFSETS);
+    UNROLLED
     for (int i = 0; i < DRIFT_OFFSETS; i++) {
         const float walk = i < BRACE_DRIFT_CAUSE_COUNT ? WALK_RATIO * change[i]
                            : i < DRIFT_THERMAL         ? ANGLE_WALK_RAD
@@ -409,6 +425,46 @@ brace_status_t brace_drift_report(const brace_drift_t *drift, const brace_limb_t
         const float softer = per * size;
         report->loss_ratio = softer / (1.0f + softer);
         report->loss_sigma_ratio = per / brace_sqrt(drift->information[cause]);
+    }
+    return BRACE_OK;
+}
+
+BRACE_OFF_TICK
+brace_status_t brace_drift_outlook(const brace_drift_t *drift, const brace_limb_t *limb,
+                                   const brace_stiffness_t *stiffness, const brace_drift_reading_t *reading,
+                                   brace_drift_outlook_t *outlook)
+{
+    if (drift == NULL || outlook == NULL) {
+        return BRACE_E_NULL;
+    }
+    const brace_status_t status = check(limb, stiffness, reading);
+    if (status != BRACE_OK) {
+        return status;
+    }
+    drift_expected_t expected;
+    drift_expect(limb, stiffness, reading, drift->offset, drift->setup.joint_compliance_per_degc, &expected);
+    const drift_compliances_t c = drift_compliances(limb);
+    float change[BRACE_DRIFT_CAUSE_COUNT];
+    change_of(&c, change);
+    const float bias = bias_of(drift, &expected);
+    float information[BRACE_DRIFT_CAUSE_COUNT] = {0}, gain[BRACE_DRIFT_CAUSE_COUNT] = {0};
+    for (int axis = 0; axis < 2; axis++) {
+        const float *h = expected.per_offset[axis];
+        float g[DRIFT_OFFSETS];
+        spread(drift->covariance, h, g);
+        const float per_variance = 1.0f / (dot(h, g) + square(drift->setup.noise_n));
+        for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) {
+            const float step = __builtin_fabsf(h[cause]) * change[cause];
+            const float shown = step * (LOSS_LOOKED_FOR / CHANGE_RATIO);
+            information[cause] += h[cause] * h[cause] * per_variance;
+            gain[cause] += step * (shown - 0.5f * step - bias - expected.doubt_n[axis]) * per_variance;
+        }
+    }
+    for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) {
+        const bool shows = gain[cause] * (float)UINT16_MAX > BRACE_DRIFT_ALARM;
+        outlook->sigma_of_loss_ratio[cause] =
+            information[cause] > 0.0f ? CHANGE_RATIO / (change[cause] * brace_sqrt(information[cause])) : INFINITY_RATIO;
+        outlook->steps_needed[cause] = shows ? (uint32_t)(BRACE_DRIFT_ALARM / gain[cause]) + 1u : BRACE_DRIFT_NEVER;
     }
     return BRACE_OK;
 }

@@ -1,6 +1,6 @@
 #include "use/drift_model.h"
+#include "use/unroll.h"
 
-#include "base/off_tick.h"
 #include "base/trig.h"
 #include "base/vec.h"
 
@@ -11,12 +11,12 @@ typedef struct {
     float xx, xz, zz;
 } matrix_t;
 
-static inline brace_vec_t times(const matrix_t *m, brace_vec_t v)
+static INLINED brace_vec_t times(const matrix_t *m, brace_vec_t v)
 {
     return (brace_vec_t){m->xx * v.x + m->xz * v.z, m->xz * v.x + m->zz * v.z};
 }
 
-static inline brace_vec_t plus(brace_vec_t a, brace_vec_t b, float by)
+static INLINED brace_vec_t plus(brace_vec_t a, brace_vec_t b, float by)
 {
     return (brace_vec_t){__builtin_fmaf(by, b.x, a.x), __builtin_fmaf(by, b.z, a.z)};
 }
@@ -33,7 +33,7 @@ drift_compliances_t drift_compliances(const brace_limb_t *limb)
     };
 }
 
-static inline void soften(matrix_t *c, brace_vec_t v, float by)
+static INLINED void soften(matrix_t *c, brace_vec_t v, float by)
 {
     const brace_vec_t scaled = vec_scaled(v, by);
     c->xx = __builtin_fmaf(scaled.x, v.x, c->xx);
@@ -42,7 +42,7 @@ static inline void soften(matrix_t *c, brace_vec_t v, float by)
 }
 
 /* What a symmetric matrix loses to rounding here comes back when it is inverted again. */
-static inline void invert(matrix_t *m)
+static INLINED void invert(matrix_t *m)
 {
     const float per_det = 1.0f / (m->xx * m->zz - m->xz * m->xz);
     *m = (matrix_t){m->zz * per_det, -m->xz * per_det, m->xx * per_det};
@@ -58,7 +58,7 @@ static inline float factor(float x)
 /* The elements that change: across the femur, the same with its moment, across the tibia, lever of the femur joint. */
 enum { BEND, MOMENT, SHANK, HIP, ELEMENTS };
 
-static inline void set_vectors(brace_vec_t vector[ELEMENTS], brace_vec_t bent, brace_vec_t across_femur,
+static INLINED void set_vectors(brace_vec_t vector[ELEMENTS], brace_vec_t bent, brace_vec_t across_femur,
                                brace_vec_t across_tibia, float femur_mm, float tibia_mm)
 {
     vector[BEND] = bent;
@@ -67,7 +67,6 @@ static inline void set_vectors(brace_vec_t vector[ELEMENTS], brace_vec_t bent, b
     vector[HIP] = plus(vec_scaled(across_tibia, tibia_mm), across_femur, femur_mm);
 }
 
-BRACE_OFF_TICK
 void drift_expect(const brace_limb_t *limb, const brace_stiffness_t *stiffness, const brace_drift_reading_t *reading,
                   const float offset[DRIFT_OFFSETS], float per_degc, drift_expected_t *expected)
 {
@@ -106,6 +105,7 @@ void drift_expect(const brace_limb_t *limb, const brace_stiffness_t *stiffness, 
 
     matrix_t k = {stiffness->k_xx_n_per_mm, stiffness->k_xz_n_per_mm, stiffness->k_zz_n_per_mm};
     invert(&k);
+    UNROLLED
     for (int i = 0; i < ELEMENTS; i++) {
         const float stays = i == SHANK ? limb->link[BRACE_TIBIA].axial_mm_per_n : 0.0f; /* the same however it turns */
         soften(&k, vector[i], now[i] - stays);
@@ -118,6 +118,7 @@ void drift_expect(const brace_limb_t *limb, const brace_stiffness_t *stiffness, 
     brace_vec_t slope[DRIFT_OFFSETS]; /* dC = w v v' makes dK = -w (Kv)(Kv)' */
     float load[ELEMENTS];
     brace_vec_t give[ELEMENTS];
+    UNROLLED
     for (int i = 0; i < ELEMENTS; i++) {
         load[i] = vec_dot(vector[i], force);
         give[i] = vec_scaled(times(&k, vector[i]), -load[i]);
@@ -148,6 +149,7 @@ void drift_expect(const brace_limb_t *limb, const brace_stiffness_t *stiffness, 
     const float doubt = DOUBT_SIGMAS * limb->uncertainty.compliance_rel;
     expected->doubt_n[0] = doubt * (__builtin_fabsf(based.x) + __builtin_fabsf(warmed.x));
     expected->doubt_n[1] = doubt * (__builtin_fabsf(based.z) + __builtin_fabsf(warmed.z));
+    UNROLLED
     for (int i = 0; i < DRIFT_OFFSETS; i++) {
         expected->per_offset[0][i] = slope[i].x;
         expected->per_offset[1][i] = slope[i].z;
