@@ -65,7 +65,7 @@ class LimbSetup:
     modbus_line: str = "none"
     slcan_line: str = "none"
     modbus_tcp: str = "none"
-    servo_n_mm_per_rad: float | None = None
+    drive: dict[str, float] = field(default_factory=dict)  # members of brace_node_drive_t, of all joints
 
 
 class PortBusy(NoDeviceError):
@@ -102,8 +102,8 @@ class Node:
             for key in _DRIVE_KEYS:
                 if (value := setup.plant.values.get(f"motor.{joint}.{key}")) is not None:
                     setattr(struct.drive[index], key, value)
-            if setup.servo_n_mm_per_rad is not None:
-                struct.drive[index].servo_n_mm_per_rad = setup.servo_n_mm_per_rad
+            for name, value in setup.drive.items():
+                setattr(struct.drive[index], name, value)
         struct.theta_rad = setup.theta_rad
         struct.hold_n_per_mm = setup.hold_n_per_mm
         struct.press_x_mm, struct.press_z_mm = setup.press_mm
@@ -217,6 +217,14 @@ class Node:
             self.native.lib.brace_node_posture(
                 self._node, limb, posture.at_s, posture.theta1_rad, posture.theta2_rad
             )
+
+    def press(self, x_mm: float, z_mm: float, limb: int = 0, hold_n_per_mm: float = math.inf) -> None:
+        """The contact anew: it holds the tip so far from where the unloaded limb now has it."""
+        self.native.lib.brace_node_contact(self._node, limb, hold_n_per_mm, x_mm, z_mm)
+
+    def restart(self, limb: int = 0) -> None:
+        """Power off and on; the memory stays."""
+        self.native.lib.brace_node_restart(self._node, limb)
 
     # ------------------------------------------------------------------------------------------ reading
 

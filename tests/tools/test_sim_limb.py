@@ -1,0 +1,477 @@
+"""The controller over a simulated limb: what is true, what it believes, what goes wrong. Simulated time throughout."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import DATA, physics_k
+
+from brace.errors import BadFileError
+from brace.model import LimbModel, load_limb
+from brace.sim.node import FAULT_BITS, MODES, LimbSetup, Node
+from brace.sim.spec import Posture, fault
+
+P_SERVO_N_MM_PER_RAD = 6e4  # brace_node_limb_default
+ENCODER_STEP_RAD = 2e-5
+FRICTION_N_MM = 200.0
+
+
+@pytest.fixture(scope="module")
+def paper() -> LimbModel:
+    return load_limb(DATA / "paper-limb.toml")
+
+
+def node(model: LimbModel, plant: LimbModel | None = None, seed: int = 0, **options: Any) -> Node:
+    return Node([LimbSetup(model, plant or model, **options)], "none", seed)
+
+
+def k_of(snapshot: Any) -> np.ndarray:
+    k = snapshot.stiffness.now
+    return np.array([[k.k_xx_n_per_mm, k.k_xz_n_per_mm], [k.k_xz_n_per_mm, k.k_zz_n_per_mm]])
+
+
+def levers(theta1: float, theta2: float) -> np.ndarray:
+    """Columns: the tip's shift for a turn of theta1 and of theta2, in their own senses [mm/rad]."""
+    tibia = 313.5 * np.array([math.cos(theta1 - theta2), math.sin(theta1 - theta2)])
+    tip = 185.0 * np.array([math.cos(theta1), math.sin(theta1)]) + tibia
+    return np.array([[-tip[1], tibia[1]], [tip[0], -tibia[0]]])
+
+
+FRICTIONLESS = {"friction_n_mm": 0.0}
+
+
+# ------------------------------------------------------------------------------------ the limb itself
+
+
+def test_the_same_seed_gives_the_same_bits(paper: LimbModel) -> None:
+    def snapshot(seed: int) -> bytes:
+        with node(paper, seed=seed, press_mm=(0.5, 1.0)) as one:
+            one.step(0.5)
+            return bytes(one.native.ffi.buffer(one.raw_snapshot()))
+
+    assert snapshot(1) == snapshot(1)
+    assert snapshot(1) != snapshot(2)
+
+
+def test_a_pressed_limb_yields_with_its_servos_in_series(paper: LimbModel) -> None:
+    """Without friction f = (C + J J'/P)^-1 d to first order, by numbers that know nothing of the simulation. Second order:
+    the droop turns the limb by some 1e-4 rad, and K changes by a few of its own sizes a radian."""
+    press = np.array([0.1, -0.05])
+    with node(paper, press_mm=tuple(press), force_noise_n=0.0, drive=FRICTIONLESS) as one:
+        one.step(0.5)
+        truth = one.raw_truth()
+        read = one.raw_snapshot()
+    j = levers(1.0, 1.4)
+    compliance = np.linalg.inv(physics_k(1.0, 1.4)) + j @ j.T / P_SERVO_N_MM_PER_RAD
+    force = np.linalg.solve(compliance, press)
+    assert [truth.force_x_n, truth.force_z_n] == pytest.approx(force, rel=3e-3)
+    # The torque that each motor brings holds what the contact pushes with: virtual work.
+    assert [truth.torque_n_mm[1], truth.torque_n_mm[2]] == pytest.approx(-j.T @ force, rel=3e-3)
+    # Droop of a P servo.
+    droop = [truth.set_rad[i] - truth.motor_rad[i] for i in (1, 2)]
+    assert droop == pytest.approx([truth.torque_n_mm[i] / P_SERVO_N_MM_PER_RAD for i in (1, 2)], rel=1e-6)
+    # The links stand at their motors, less the joints' wind-up.
+    wound = [(truth.motor_rad[i] - truth.link_rad[i]) / truth.load_n_mm[i] for i in (1, 2)]
+    assert wound == pytest.approx([1.0e-5, 1.6e-5], rel=1e-6)
+    assert [read.force_x_n, read.force_z_n] == pytest.approx(force, rel=3e-3)
+
+
+def test_dry_friction_holds_a_motor_until_the_servo_overcomes_it(paper: LimbModel) -> None:
+    with node(paper, hold_n_per_mm=0.0) as one:
+        stuck_rad = 0.9 * FRICTION_N_MM / P_SERVO_N_MM_PER_RAD
+        one.add_posture(Posture(1.0 + stuck_rad, 1.4, 0.0))
+        one.step(1.0)
+        assert one.raw_truth().motor_rad[1] == 1.0
+        one.add_posture(Posture(1.05, 1.4, 1.0))
+        one.step(1.0)
+        off = 1.05 - one.raw_truth().motor_rad[1]
+        assert 0.5 * FRICTION_N_MM / P_SERVO_N_MM_PER_RAD < off <= FRICTION_N_MM / P_SERVO_N_MM_PER_RAD * 1.0001
+
+
+def test_a_wall_yields_in_series(paper: LimbModel) -> None:
+    with node(
+        paper, press_mm=(0.0, 0.1), hold_n_per_mm=0.5, force_noise_n=0.0, drive=FRICTIONLESS
+    ) as one:
+        one.step(0.5)
+        force_n = one.raw_truth().force_z_n
+    j = levers(1.0, 1.4)
+    compliance = np.linalg.inv(physics_k(1.0, 1.4)) + j @ j.T / P_SERVO_N_MM_PER_RAD + 2.0 * np.eye(2)
+    assert force_n == pytest.approx(np.linalg.solve(compliance, [0.0, 0.1])[1], rel=3e-3)
+
+
+def test_a_free_tip_carries_nothing_and_gravity_chooses_the_flank(paper: LimbModel) -> None:
+    heavy = paper.with_values(
+        {"gravity.tibia_n": 8.0, "joint.femur.gap_rad": 0.004, "joint.tibia.gap_rad": 0.004}
+    )
+    with node(heavy, hold_n_per_mm=0.0) as one:
+        one.step(1.0)
+        truth, snapshot = one.raw_truth(), one.raw_snapshot()
+    assert math.hypot(truth.force_x_n, truth.force_z_n) < 1e-4
+    # The tibia's weight at its middle, by levers: theta1 is held up; flexion would lower the tibia, so theta2 is held back.
+    theta1, shin = truth.motor_rad[1], truth.motor_rad[1] - truth.motor_rad[2]
+    knee_n_mm = 8.0 * 156.75 * math.cos(shin)
+    assert truth.load_n_mm[1] == pytest.approx(knee_n_mm + 8.0 * 185.0 * math.cos(theta1), rel=1e-4)
+    assert truth.load_n_mm[2] == pytest.approx(-knee_n_mm, rel=1e-4)
+    assert [truth.flank[1], truth.flank[2]] == [1, -1]
+    told = [snapshot.play[i].flank for i in (1, 2)]
+    assert told == [1, -1]
+    assert [snapshot.play[i].offset_rad for i in (1, 2)] == pytest.approx([-0.002, 0.002], abs=1e-6)
+    # The zero-force shift at the tip: offsets times levers.
+    shift = levers(snapshot.theta_rad[1], snapshot.theta_rad[2]) @ [-0.002, 0.002]
+    assert [snapshot.play_shift_mm.x_mm, snapshot.play_shift_mm.z_mm] == pytest.approx(shift, abs=2e-3)
+
+
+# ------------------------------------------------------------------------------- what the controller says
+
+
+@pytest.mark.parametrize("posture", [(1.0, 1.4), (0.3, 0.8), (1.2, 2.3), (0.7, -1.1)])
+def test_k_is_that_of_the_posture_behind_the_encoders(paper: LimbModel, posture: tuple[float, float]) -> None:
+    """Tolerance: half an encoder step in each joint times K's slope over it, and the float path's 3e-6."""
+    with node(paper, theta_rad=(0.0, *posture), press_mm=(0.3, 0.2)) as one:
+        one.step(0.3)
+        snapshot, truth = one.raw_snapshot(), one.raw_truth()
+    assert snapshot.k_is_valid and snapshot.stiffness.now.flags == 0
+    motor = np.array([truth.motor_rad[1], truth.motor_rad[2]])
+    k = physics_k(*motor)
+    slope = [
+        np.abs(physics_k(*(motor + d)) - physics_k(*(motor - d))) / 2e-4 for d in np.eye(2) * 1e-4
+    ]
+    tolerance = 0.51 * ENCODER_STEP_RAD * (slope[0] + slope[1]) + 3e-6 * np.linalg.norm(k)
+    assert np.all(np.abs(k_of(snapshot) - k) <= tolerance)
+
+
+def test_k_is_the_belief_and_not_the_truth(paper: LimbModel) -> None:
+    soft = paper.with_values({"link.tibia.bending_mm_per_n": 0.5, "joint.femur.zero_offset_rad": 0.05})
+    with node(paper, soft) as one:
+        one.step(0.3)
+        assert one.raw_truth().link_rad[1] == pytest.approx(1.05, abs=1e-3)
+        assert k_of(one.raw_snapshot()) == pytest.approx(physics_k(1.0, 1.4), rel=1e-4)
+
+
+def test_play_that_nothing_loads_leaves_the_joint_carrying_nothing(paper: LimbModel) -> None:
+    play = paper.with_values({"joint.tibia.gap_rad": 0.01})
+    with node(play) as one:
+        one.step(0.5)
+        snapshot, truth = one.raw_snapshot(), one.raw_truth()
+    assert truth.flank[2] == 0
+    assert snapshot.k_is_valid and one_flag(snapshot, "GAP_OPEN")
+    engaged = snapshot.stiffness.engaged
+    assert engaged.k_xx_n_per_mm == pytest.approx(physics_k(1.0, 1.4)[0, 0], rel=0.02)
+    # What is left of K: a force through the free knee and nothing else.
+    along = np.array([math.cos(-0.4), math.sin(-0.4)])
+    expected = np.outer(along, along) / (along @ np.linalg.inv(physics_k(1.0, 1.4)) @ along)
+    assert k_of(snapshot) == pytest.approx(expected, rel=0.03, abs=1e-3)
+
+
+def one_flag(snapshot: Any, name: str) -> bool:
+    from brace.stiffness import flag_names
+
+    return name in flag_names(snapshot.stiffness.now.flags)
+
+
+def test_a_loaded_flank_is_told_and_turns_with_the_load(paper: LimbModel) -> None:
+    play = paper.with_values({"joint.tibia.gap_rad": 0.01})
+    with node(play) as one:
+        for press in (20.0, -20.0, 20.0):
+            one.press(press, 0.0)
+            one.step(1.0)
+            snapshot, truth = one.raw_snapshot(), one.raw_truth()
+            assert abs(truth.load_n_mm[2]) > 1000.0
+            assert snapshot.play[2].valid
+            assert snapshot.play[2].flank == truth.flank[2] == math.copysign(1, truth.load_n_mm[2])
+            assert not one_flag(snapshot, "GAP_OPEN")
+
+
+def test_an_open_gap_is_never_called_carried(paper: LimbModel) -> None:
+    """The load is taken away and given back: no tick calls the flank valid later than the stated detection time."""
+    play = paper.with_values({"joint.femur.gap_rad": 0.012, "joint.tibia.gap_rad": 0.012})
+    with node(play, press_mm=(20.0, 0.0), seed=5) as one:
+        one.step(1.0)
+        app = one.app()
+        detection_ms = one.native.lib.brace_backlash_detection_us(
+            one.native.ffi.addressof(app.play[1].backlash)
+        ) / 1000
+        seen_valid = 0
+        for _ in range(4):
+            open_ms = 0
+            one.press(0.0, 0.0, hold_n_per_mm=0.0)
+            for _ in range(600):
+                one.step(0.001)
+                truth, snapshot = one.raw_truth(), one.raw_snapshot()
+                open_ms = open_ms + 1 if truth.flank[2] == 0 else 0
+                assert not (snapshot.play[2].valid and open_ms > detection_ms + 1)
+            one.press(20.0, 0.0)
+            one.step(0.8)
+            seen_valid += one.raw_snapshot().play[2].valid
+        assert seen_valid == 4
+
+
+def test_take_up_closes_a_gap_that_the_controller_does_not_see(paper: LimbModel) -> None:
+    believed = paper.with_values({"joint.tibia.gap_rad": 0.008})
+    true = paper.with_values({"joint.tibia.gap_rad": 0.0096})
+    with node(believed, true) as one:
+        one.step(0.5)
+        assert one.raw_truth().flank[2] == 0
+        lib, app = one.native.lib, one.app()
+        for flank in (1, -1):
+            assert lib.brace_app_take_up(app, 2, flank) == 0
+            one.step(3.0)
+            snapshot, truth = one.raw_snapshot(), one.raw_truth()
+            assert MODES[snapshot.mode] == "taking_up"
+            assert snapshot.play[2].takeup == 2 and snapshot.play[2].flank == flank == truth.flank[2]
+            assert abs(snapshot.play[2].preload_n_mm - truth.load_n_mm[2]) <= 1.2 * FRICTION_N_MM + 80.0 + 60.0
+            assert not one_flag(snapshot, "GAP_OPEN")
+            assert lib.brace_app_let_go(app) == 0
+            one.step(3.0)
+            assert MODES[one.raw_snapshot().mode] == "monitor"
+            assert one.raw_truth().set_rad[2] == pytest.approx(1.4, abs=1e-6)
+
+
+# --------------------------------------------------------------------------------------- the loading test
+
+
+SOFT_KNEE = {"joint.tibia.compliance_rad_per_n_mm": 4e-5}
+
+
+def loading_test(one: Node, axis: int, step_mm: float = 0.4) -> Any:
+    setup = one.native.ffi.new("brace_loading_setup_t *")
+    setup.axis, setup.steps_per_side, setup.step_mm = axis, 4, step_mm
+    setup.dwell_us, setup.rate_mm_per_s = 200_000, 10.0
+    setup.force_max_n, setup.torque_max_n_mm = 60.0, 8000.0
+    assert one.native.lib.brace_app_loading_start(one.app(), setup) == 0
+    for _ in range(300):
+        one.step(0.1)
+        result = one.native.lib.brace_app_loading_result(one.app())
+        if result.outcome != 1 and MODES[one.raw_snapshot().mode] == "monitor":
+            return result
+    raise AssertionError("the loading test does not end")
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_the_limbs_own_loading_test_measures_the_plant(paper: LimbModel, axis: int) -> None:
+    """The slope is the true limb's K, not the believed one's. Tolerance: four of its own sigma, plus what turning the
+    limb by the test's few milliradians does to K."""
+    soft = paper.with_values(SOFT_KNEE)
+    with node(paper, soft, press_mm=(0.5, 1.0)) as one:
+        one.step(0.5)
+        motor = [one.raw_truth().motor_rad[i] for i in (1, 2)]
+        result = loading_test(one, axis)
+    assert result.outcome == 2 and result.rows == 17
+    true = physics_k(*motor, joint=(1e-5, 4e-5))[:, axis]
+    believed = physics_k(*motor)[:, axis]
+    column = result.least_squares
+    measured = np.array([column.k_x_n_per_mm, column.k_z_n_per_mm])
+    sigma = np.array([column.sigma_k_x_n_per_mm, column.sigma_k_z_n_per_mm])
+    assert np.all(np.abs(measured - true) <= 4 * sigma + 0.01 * np.abs(true).max())
+    assert [result.model_k_x_n_per_mm, result.model_k_z_n_per_mm] == pytest.approx(believed, rel=1e-3)
+    assert np.linalg.norm(measured - true) < np.linalg.norm(measured - believed)
+
+
+def test_the_loading_test_tells_a_soft_limb_from_the_believed_one(paper: LimbModel) -> None:
+    soft = paper.with_values(SOFT_KNEE)
+    with node(paper, soft, press_mm=(0.0, 1.0)) as changed, node(paper, press_mm=(0.0, 1.0)) as same:
+        changed.step(0.5)
+        same.step(0.5)
+        results = [loading_test(one, 0, 1.0) for one in (changed, same)]
+    assert [result.outcome for result in results] == [2, 2]
+    assert abs(results[0].z_x) > 3.0 > 2.0 > abs(results[1].z_x)
+
+
+def test_the_loading_test_leaves_its_rows(paper: LimbModel) -> None:
+    with node(paper, has_link_encoder=True) as one:
+        one.step(0.5)
+        loading_test(one, 1)
+        lib, row = one.native.lib, one.native.ffi.new("brace_row_t *")
+        assert lib.brace_app_row_count(one.app()) == 17
+        rows = []
+        for index in range(17):
+            assert lib.brace_app_row(one.app(), index, row) == 0
+            rows.append((row.step, row.t_s, row.dz_mm, row.fz_n, row.enc1_rad))
+    steps, t_s, dz_mm, fz_n, enc1_rad = (np.array(column) for column in zip(*rows, strict=True))
+    assert list(steps) == list(range(17)) and np.all(np.diff(t_s) > 0)
+    assert np.corrcoef(dz_mm, fz_n)[0, 1] > 0.99
+    assert np.all(np.isfinite(enc1_rad))
+
+
+# ------------------------------------------------------------------------------------------------- faults
+
+
+@pytest.mark.parametrize(
+    ("spec", "bit", "mode"),
+    [
+        ("sensor_dead:femur@1+0.5", "sensor_femur", "fault"),
+        ("sensor_nan:tibia@1+0.5", "sensor_tibia", "fault"),
+        ("tick_late=9@1+0.5", "tick_late", None),
+    ],
+)
+def test_faults_show_while_they_last_and_are_over_afterwards(
+    paper: LimbModel, spec: str, bit: str, mode: str | None
+) -> None:
+    with node(paper) as one:
+        one.add_fault(fault(spec))
+        one.step(0.99)
+        assert one.state()["faults"] == []
+        one.step(0.4)
+        during = one.state()
+        assert bit in during["faults"]
+        if mode is not None:
+            assert during["mode"] == mode and not during["k_is_valid"]
+        one.step(1.9)  # 100 ms for a sensor, 1 s for lateness
+        after = one.state()
+        assert after["faults"] == [] and after["mode"] == "monitor" and after["k_is_valid"]
+
+
+def test_a_stuck_encoder_is_seen_by_the_torque_that_works(paper: LimbModel) -> None:
+    with node(paper, hold_n_per_mm=math.inf) as one:
+        one.add_fault(fault("encoder_stuck:femur@0.5+2.5"))
+        for i in range(8):  # the limb is moved against its contact
+            one.add_posture(Posture(1.0 + 0.06 * (i % 2), 1.4, 0.6 + 0.3 * i))
+        one.step(2.9)
+        assert "encoder_stuck" in one.state()["faults"]
+        one.step(2.0)
+        assert one.state()["faults"] == []
+
+
+def test_a_current_offset_shifts_the_torque_only(paper: LimbModel) -> None:
+    with node(paper) as one:
+        one.add_fault(fault("current_offset:tibia=700@0.5+0.5"))
+        means = []
+        for _ in range(3):
+            torque = []
+            for _ in range(490):
+                one.step(0.001)
+                torque.append(one.raw_snapshot().torque_n_mm[2])
+            one.step(0.01)
+            means.append(float(np.mean(torque)))
+        # 400 N mm of noise over 490 samples: one sigma 18 N mm.
+        assert means == pytest.approx([0.0, 700.0, 0.0], abs=80.0)
+        assert one.raw_truth().torque_n_mm[2] == pytest.approx(0.0, abs=1.0)
+
+
+def test_a_lost_tip_carries_nothing_and_is_planted_again(paper: LimbModel) -> None:
+    with node(paper, press_mm=(0.0, 5.0)) as one:
+        one.add_fault(fault("tip_lost@0.5+0.5"))
+        one.step(0.4)
+        assert abs(one.raw_truth().force_z_n) > 0.3
+        one.step(0.5)
+        assert abs(one.raw_truth().force_z_n) < 1e-4
+        one.step(1.0)
+        assert one.raw_truth().solved
+
+
+def test_bus_off_shows_and_ends_with_the_heartbeat_back(paper: LimbModel) -> None:
+    with node(paper, changes={"controller.node_id": 3}) as one:
+        one.add_fault(fault("bus_off@1+1.5"))
+        one.step(2.4)
+        assert "can_bus_off" in one.state()["faults"]
+        sent = one.stats()["can_sent"]
+        one.step(3.0)
+        assert "can_bus_off" not in one.state()["faults"]
+        assert one.stats()["can_sent"] >= sent + 2
+
+
+def test_every_fault_of_the_command_line_is_known_to_the_node(paper: LimbModel) -> None:
+    from brace.sim.spec import FAULTS
+
+    with node(paper) as one:
+        names = [
+            one.native.ffi.string(one.native.lib.brace_node_fault_name(i)).decode()
+            for i in range(one.native.lib.BRACE_NODE_FAULT_COUNT)
+        ]
+    assert names == list(FAULTS)
+    assert len(FAULT_BITS) == 9
+
+
+# ------------------------------------------------------------------------------------------------- memory
+
+
+def commit(one: Node, **members: float) -> int:
+    """A new set through the controller's own requests; the seconds it took."""
+    ffi, lib, app = one.native.ffi, one.native.lib, one.app()
+    assert lib.brace_app_configuration_enter(app) == 0
+    one.step(0.01)
+    wanted = ffi.new("brace_parameters_t *", lib.brace_app_parameters(app)[0])
+    for name, value in members.items():
+        setattr(wanted.controller, name, int(value))
+    status = int(lib.brace_app_parameters_commit(app, wanted))
+    one.step(2.0)
+    lib.brace_app_configuration_leave(app)
+    one.step(0.5)
+    return status
+
+
+def test_stored_parameters_outlive_a_restart(paper: LimbModel) -> None:
+    with node(paper) as one:
+        one.step(0.3)
+        before = one.state()
+        assert commit(one, modbus_address=42) == 0
+        after = one.state()
+        assert after["parameter_crc"] != before["parameter_crc"] and after["faults"] == []
+        one.restart()
+        one.step(0.3)
+        again = one.state()
+        assert again["parameter_crc"] == after["parameter_crc"]
+        assert again["parameters"] == after["parameters"] != "default"
+
+
+def test_a_memory_file_is_found_again_and_goes_before_the_model(paper: LimbModel, tmp_path: Path) -> None:
+    path = str(tmp_path / "memory")
+    with node(paper, nvm_path=path) as one:
+        one.step(0.2)
+        assert commit(one, modbus_address=17) == 0
+        kept = one.state()["parameter_crc"]
+    other = paper.with_values({"link.tibia.bending_mm_per_n": 0.3})
+    with node(other, nvm_path=path) as one:
+        one.step(0.2)
+        assert one.state()["parameter_crc"] == kept
+    with node(other, nvm_path=path, block_replaces=True) as one:
+        one.step(0.2)
+        assert one.state()["parameter_crc"] != kept
+
+
+def test_a_memory_file_of_another_size_is_refused(paper: LimbModel, tmp_path: Path) -> None:
+    path = tmp_path / "memory"
+    path.write_bytes(b"something else")
+    with pytest.raises(BadFileError):
+        node(paper, nvm_path=str(path))
+    assert path.read_bytes() == b"something else"
+
+
+@pytest.mark.parametrize("kind", ["nvm_fails", "nvm_forgets"])
+def test_a_memory_that_does_not_keep_leaves_the_old_set_and_is_told(paper: LimbModel, kind: str) -> None:
+    with node(paper) as one:
+        one.step(0.3)
+        before = one.state()["parameter_crc"]
+        one.add_fault(fault(f"{kind}@0.3+5"))
+        commit(one, modbus_address=9)
+        assert one.state()["parameter_crc"] == before
+        assert "store" in one.state()["faults"]
+        one.step(5.0)
+        assert commit(one, modbus_address=9) == 0
+        assert one.state()["parameter_crc"] != before
+        assert "store" not in one.state()["faults"]
+
+
+def test_an_empty_memory_is_said_and_flagged(paper: LimbModel) -> None:
+    with node(paper, no_block=True) as one:
+        one.step(0.3)
+        state = one.state()
+    assert state["parameters"] == "default" and "parameters" in state["faults"]
+    assert "UNCALIBRATED" in state["flag_names"]
+
+
+# --------------------------------------------------------------------------------------------- real time
+
+
+def test_four_limbs_keep_up_with_the_clock(paper: LimbModel) -> None:
+    """A limb's tick costs microseconds; what the machine's other work takes is given up after 50 ms, and counted."""
+    with Node([LimbSetup(paper, paper) for _ in range(4)], "none") as one:
+        one.start(until_s=1.0)
+        assert one.wait(10.0)
+        stats = one.stats()
+    assert stats["ticks"] == pytest.approx(4 * 1000, abs=8)
+    assert stats["slipped_us"] < 500_000
