@@ -84,8 +84,8 @@ typedef struct {
     brace_harmonic_t mean;  /* half the trace of C [mm/N] */
     brace_harmonic_t dev_x; /* deviator of C [mm/N] */
     brace_harmonic_t dev_y; /* [mm/N] */
-    brace_harmonic_t rest;  /* [(mm/N)^2] */
     brace_harmonic_t cross; /* [mm/N] */
+    brace_harmonic_t rest;  /* [(mm/N)^2] */
     float iso_mm_per_n;     /* the chain's: compliance shared by every direction */
 } brace_harmonics_t;
 

@@ -43,14 +43,12 @@ static float swing(const brace_harmonic_t *h)
     return __builtin_sqrtf(h->per_cos * h->per_cos + h->per_sin * h->per_sin);
 }
 
-/* Is the accuracy of the tick safe? Where rest could lose digits against its parts, at the mean's least and most, and
+/* Is the accuracy of the tick safe? Where rest could lose digits against its parts, at the mean's least or most, and
  * where det is least, at the zeros of cross: there an error of cross, from rounded constants and from the last place
  * of the tick, must stay well below the square root of the rest. */
 static inline int accurate(const brace_harmonics_t *h, rest_t rest, float least, float most, float unit)
 {
-    const float low = rest.per_mean * least + rest.constant;
-    const float high = rest.per_mean * most + rest.constant;
-    const float smaller = low < high ? low : high;
+    const float smaller = rest.constant + rest.per_mean * (rest.per_mean < 0.0f ? most : least);
     const float error = 2.0f * unit + 6e-8f * (__builtin_fabsf(h->cross.per_cos) + __builtin_fabsf(h->cross.at_fold));
     return __builtin_fabsf(rest.constant) < 16.0f * smaller && error < 2e-6f * __builtin_sqrtf(smaller) &&
            unit + 5e-8f * __builtin_fabsf(h->mean.per_cos) < 1.2e-6f * least;
@@ -60,10 +58,11 @@ static inline int accurate(const brace_harmonics_t *h, rest_t rest, float least,
 static inline void fix(const brace_harmonic_t *h, float units, brace_planar_harmonic_t *fixed)
 {
     const float per_word = -units * PER_WORD;
-    fixed->per_cos = (int32_t)(h->per_cos * per_word);
+    const int32_t per_cos = (int32_t)(h->per_cos * per_word);
+    const int64_t at_fold = (int64_t)per_cos * (2 * TICK_ONE);
+    fixed->constant = ((int32_t)(2.0f * h->at_fold * units) - (int32_t)(at_fold >> 32)) >> 1;
+    fixed->per_cos = per_cos;
     fixed->per_sin = (int32_t)(h->per_sin * per_word);
-    const int64_t at_fold = (int32_t)(2.0f * h->at_fold * units) * (INT64_C(1) << 31);
-    fixed->constant = (int32_t)((at_fold - (int64_t)fixed->per_cos * TICK_ONE + 0x80000000) >> 32);
 }
 
 BRACE_OFF_TICK brace_status_t brace_planar_constants(brace_harmonics_t *h, brace_planar_t *planar)
@@ -76,23 +75,23 @@ BRACE_OFF_TICK brace_status_t brace_planar_constants(brace_harmonics_t *h, brace
     const rest_t rest = affine_rest(h, most);
 
     /* Every factor below its word, the mean below two scales. */
+    const brace_harmonic_t *harmonic = &h->mean; /* and dev_x, dev_y, cross behind it, as in planar */
+    brace_planar_harmonic_t *fixed = &planar->mean;
     float scale = 0.51f * most;
-    const float swing_x = swing(&h->dev_x), swing_y = swing(&h->dev_y);
-    scale = swing_x > scale ? swing_x : scale;
-    scale = 1.001f * (swing_y > scale ? swing_y : scale);
+    for (int i = 1; i < 3; i++) {
+        const float size = swing(&harmonic[i]);
+        scale = size > scale ? size : scale;
+    }
     if (!(scale > 0.0f && scale < 1e9f)) {
         return BRACE_E_PARAMETER;
     }
-    const float units = 0x1p27f / scale;
-    if (!accurate(h, rest, least, most, 1.0f / units)) {
+    const float unit = scale * (1.001f / 0x1p27f), units = 1.0f / unit;
+    if (!accurate(h, rest, least, most, unit)) {
         return BRACE_E_UNSUPPORTED;
     }
     /* The deviators bring two bits more into the turn to the world's frame, which takes them again. */
-    h->rest = h->cross;
-    const brace_harmonic_t *from = &h->mean;
-    brace_planar_harmonic_t *to = &planar->mean;
     for (int i = 0; i < 4; i++) {
-        fix(&from[i], i == 1 || i == 2 ? units * PER_WORD : units, &to[i]);
+        fix(&harmonic[i], i == 1 || i == 2 ? units * PER_WORD : units, &fixed[i]);
     }
     planar->sine = brace_sine_table;
     planar->cosine = brace_sine_table + BRACE_SINE_QUARTER;
@@ -100,6 +99,6 @@ BRACE_OFF_TICK brace_status_t brace_planar_constants(brace_harmonics_t *h, brace
     planar->rest_per_mean = rest.per_mean * units;
     planar->rest = rest.constant * units * units;
     planar->per_unit_n_per_mm = units;
-    planar->slope_per_unit = BRACE_AXIS_ONE / units;
+    planar->slope_per_unit = BRACE_AXIS_ONE * unit;
     return BRACE_OK;
 }
