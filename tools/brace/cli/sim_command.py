@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import json
 import math
 import re
 import signal
+import sys
 import threading
+from collections.abc import Iterator
 from typing import Any
 
 from brace.cli import common
@@ -103,9 +106,15 @@ def run(arguments: argparse.Namespace) -> int:
             node.add_fault(fault)
         for posture in arguments.posture[1:]:
             node.add_posture(posture)
-        _say_ready(arguments, node)
-        code = _run_fast(arguments, node) if arguments.fast else _run_in_real_time(arguments, node)
-        _say_end(arguments, node)
+        code = EXIT_OK
+        with _ended_by_signal() as ended:  # from before anyone can know that we run
+            try:
+                _say_ready(arguments, node)
+                (_run_fast if arguments.fast else _run_in_real_time)(arguments, node, ended)
+            except KeyboardInterrupt:
+                code = EXIT_INTERRUPTED
+            node.stop()
+            _say_end(arguments, node)
     return code
 
 
@@ -221,39 +230,39 @@ def _give_modbus(setup: Any, url: str, limb: int) -> None:
 # ----------------------------------------------------------------------------------------------- running
 
 
-def _run_fast(arguments: argparse.Namespace, node: Any) -> int:
-    try:
-        with common.progress("simulating", int(arguments.seconds)) as advance:
-            done = 0.0
-            while done < arguments.seconds:
-                part = min(_FAST_SLICE_S, arguments.seconds - done)
-                node.step(part)
-                done += part
-                advance(int(done))
-    except KeyboardInterrupt:
-        return EXIT_INTERRUPTED
-    return EXIT_OK
-
-
-def _run_in_real_time(arguments: argparse.Namespace, node: Any) -> int:
-    from brace.sim.status import LiveLine
-
+@contextlib.contextmanager
+def _ended_by_signal() -> Iterator[threading.Event]:
+    """An event that SIGTERM sets: an orderly end."""
     ended = threading.Event()
     before = signal.signal(signal.SIGTERM, lambda _number, _frame: ended.set())
+    try:
+        yield ended
+    finally:
+        signal.signal(signal.SIGTERM, before)
+
+
+def _run_fast(arguments: argparse.Namespace, node: Any, ended: threading.Event) -> None:
+    with common.progress("simulating", int(arguments.seconds)) as advance:
+        done = 0.0
+        while done < arguments.seconds and not ended.is_set():
+            part = min(_FAST_SLICE_S, arguments.seconds - done)
+            node.step(part)
+            done += part
+            advance(int(done))
+
+
+def _run_in_real_time(arguments: argparse.Namespace, node: Any, ended: threading.Event) -> None:
+    from brace.sim.status import LiveLine
+
     line = LiveLine()
     try:
         node.start(arguments.seconds if arguments.seconds is not None else math.inf)
         while not ended.is_set() and not node.wait(_POLL_S):
-            stats = node.stats()
             if line.wanted:
+                stats = node.stats()
                 line.show(stats["time_us"] * 1e-6, [node.state(i) for i in range(arguments.limbs)], stats)
-    except KeyboardInterrupt:
-        return EXIT_INTERRUPTED
     finally:
-        node.stop()
         line.clear()
-        signal.signal(signal.SIGTERM, before)
-    return EXIT_OK
 
 
 # ------------------------------------------------------------------------------------------------ saying
@@ -274,8 +283,6 @@ def _places(node: Any, limb: int) -> dict[str, str]:
 
 def _emit_now(text: str) -> None:
     """A line that whoever waits for it gets at once."""
-    import sys
-
     common.emit(text)
     if sys.stdout is not None:
         sys.stdout.flush()
