@@ -1,0 +1,202 @@
+"""The controller images on emulated boards: banner, K, self-test, crashes and their records, watchdog."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from typing import Any
+
+import numpy as np
+import pytest
+from board import BOARDS, PROJECT, Board, function_at, image, registers
+
+from brace.flash.image import read_image
+
+BANNER = re.compile(r"^brace (\S+) \((\S+), (\S+)\) on (\S+)$")
+
+
+@pytest.mark.parametrize("name", BOARDS)
+def test_banner_says_what_runs(name: str) -> None:
+    elf = image(f"brace-{name}")
+    info = read_image(elf).info
+    assert info is not None
+    with Board(name, elf) as board:
+        banner = board.banner()
+        found = BANNER.match(banner["brace"])
+        assert found, banner["brace"]
+        version, source_hash, build, on = found.groups()
+        project = tomllib.loads((PROJECT / "tools" / "pyproject.toml").read_text())["project"]
+        assert version == project["version"] == info.version
+        assert source_hash == info.hash and re.fullmatch(r"[0-9a-f]{12}(-dirty)?|unknown", source_hash)
+        assert build == info.build and on == name == info.board
+        assert banner["start"] == "power" and "crash" not in banner
+        crc = re.fullmatch(r"defaults, uncalibrated, crc (0x[0-9a-f]{8})", banner["parameters"])
+        assert crc and int(crc[1], 16) != 0
+        unused, of = map(int, re.findall(r"\d+", banner["stack"]))
+        assert of // 4 < unused < of
+        board.ask("k")  # by now it has run: some stack more is used, and the rest is the same
+        board.until("^k: ")
+        board.ask("b")
+        again = board.banner()
+        assert int(again["stack"].split()[0]) <= unused
+        assert {**again, "stack": ""} == {**banner, "stack": ""}
+
+
+@pytest.mark.parametrize("name", BOARDS)
+def test_k_on_the_board(name: str) -> None:
+    """The safe defaults are a limb: K by physics.md in double precision, at the posture that stands in."""
+    with Board(name, image(f"brace-{name}")) as board:
+        board.banner()
+        first = stiffness(board)
+        while not (told := stiffness(board)).startswith("k: valid"):  # the first samples have to come in
+            pass
+        values = {key: float(value) for key, value in re.findall(r"(\w+) (-?\d+\.\d+)", told)}
+        k_xx, k_xz, k_zz = (values[f"k_{entry}_n_per_mm"] for entry in ("xx", "xz", "zz"))
+        expected = default_k(values["theta1_rad"], values["theta2_rad"])
+        # four decimals are printed; the core is held to 2e-6 of the largest entry
+        np.testing.assert_allclose([[k_xx, k_xz], [k_xz, k_zz]], expected, atol=5e-5 + 2e-6 * expected.max())
+        assert flags(told, "flags") == 1  # UNCALIBRATED
+        assert number(told, "tick") > number(first, "tick")
+
+
+def stiffness(board: Board) -> str:
+    """The console's line about K."""
+    board.ask("k")
+    return board.until("^k: ")[-1]
+
+
+def number(line: str, key: str) -> int:
+    """The whole number behind a key of the console's line."""
+    found = re.search(rf"{key} (\d+)", line)
+    assert found, line
+    return int(found[1])
+
+
+def flags(line: str, key: str) -> int:
+    """The bits behind a key of the console's line."""
+    found = re.search(rf"{key} 0x([0-9a-f]+)", line)
+    assert found, line
+    return int(found[1], 16)
+
+
+def default_k(theta1: float, theta2: float) -> np.ndarray:
+    """physics.md with the dictionary's safe limb, in double precision."""
+    safe = safe_values()
+    length1, length2 = safe["geometry.femur_mm"], safe["geometry.tibia_mm"]
+    axial, bending = safe["link.*.axial_mm_per_n"], safe["link.*.bending_mm_per_n"]
+    joint = safe["joint.*.compliance_rad_per_n_mm"]  # coxa, femur, tibia, as in the two above
+    bend1, bend2 = bending[1] / length1**2, bending[2] / length2**2
+    u1 = np.array([np.cos(theta1), np.sin(theta1)])
+    u2 = np.array([np.cos(theta1 - theta2), np.sin(theta1 - theta2)])
+    tip, shank = length1 * u1 + length2 * u2, length2 * u2
+    p1, p2 = np.array([-tip[1], tip[0]]), np.array([-shank[1], shank[0]])
+    c = (
+        (joint[1] + bend1) * np.outer(p1, p1)
+        - bend1 * (np.outer(p1, p2) + np.outer(p2, p1))
+        + (joint[2] + bend1 + bend2) * np.outer(p2, p2)
+        + axial[1] * np.outer(u1, u1)
+        + axial[2] * np.outer(u2, u2)
+    )
+    return np.linalg.inv(c)
+
+
+def safe_values() -> dict[str, Any]:
+    """What a controller without a valid block uses, where the dictionary says so."""
+    dictionary = tomllib.loads((PROJECT / "firmware" / "interface" / "dictionary.toml").read_text())
+    return {
+        f"{group['table']}.{entry['name']}": entry["safe"]
+        for group in dictionary["group"]
+        for entry in group["entry"]
+        if "safe" in entry
+    }
+
+
+@pytest.mark.parametrize("name", BOARDS)
+@pytest.mark.parametrize(("request_", "slot_is_tried"), [("t", False), ("T", True)])
+def test_self_test(name: str, request_: str, slot_is_tried: bool) -> None:
+    with Board(name, image(f"brace-{name}")) as board:
+        board.banner()
+        board.ask(request_)
+        lines = [line for line in board.until(r"selftest: \d+ passed") if line.startswith("selftest: ")]
+        assert [line for line in lines if "FAIL" in line] == []
+        passed, noted, failed = map(int, re.findall(r"\d+", lines[-1]))
+        assert failed == 0 and passed >= 25 and passed + noted == len(lines) - 1
+        text = "\n".join(lines)
+        assert "rate agrees with the other clock" in text
+        assert ("leaves 0xff throughout" in text) == slot_is_tried
+        assert ("not tried: the slots were to be kept" in text) != slot_is_tried
+        assert board.banner()["start"] == "requested"
+
+
+CRASHED = 1 << 8  # BRACE_FAULT_CRASHED
+CRASHES = {
+    "u": ("usage fault, undefined instruction", "provoke_undefined"),
+    "m": ("bus fault, no memory or device at the address in bfar", "provoke_missing_memory"),
+    "z": ("usage fault, division by zero", "provoke"),
+    "o": ("memory fault, the stack overflowed", None),
+    "j": ("bus fault, jump to where no memory is", None),
+    "i": ("interrupt without a handler", "provoke_interrupt"),
+}
+
+
+@pytest.mark.parametrize("name", BOARDS)
+def test_a_crash_is_told_by_the_next_start(name: str) -> None:
+    elf = image(f"brace-{name}-crash-test")
+    with Board(name, elf) as board:
+        board.banner()
+        for number, (request_, (words, function)) in enumerate(CRASHES.items(), start=1):
+            board.ask(request_)
+            banner = board.banner()
+            assert banner["start"] == "fault" and banner["crash"] == words, request_
+            time_us, count = map(int, re.findall(r"\d+", banner["crash-time"]))
+            assert count == number and 0 < time_us < 60e6
+            crash = registers(banner)
+            if function:
+                assert function_at(elf, crash["pc"]).startswith(function), request_
+                assert function_at(elf, crash["lr"] & ~1) in ("provoke", "console_serve", "main")
+            if request_ == "m":
+                assert crash["bfar"] == 0x60000000 and crash["cfsr"] & 1 << 15
+            if request_ == "o":
+                assert crash["sp"] < 0x20000000
+            else:
+                assert 0x20000000 < crash["sp"] < 0x20002000
+            if request_ == "j":
+                assert crash["pc"] == 0x60000000
+        board.ask("r")
+        banner = board.banner()
+        assert banner["start"] == "requested" and banner["crash"] == words  # kept until it is forgotten
+        assert not flags(stiffness(board), "faults") & CRASHED
+        board.ask("c")
+        board.ask("r")
+        assert "crash" not in board.banner()
+    with Board(name, elf) as board:
+        assert board.banner()["start"] == "power"  # nothing is kept without power
+
+
+def test_the_application_knows_that_it_crashed() -> None:
+    with Board("mps2-an386", image("brace-mps2-an386-crash-test")) as board:
+        board.banner()
+        board.ask("u")
+        board.banner()
+        stiffness(board)
+        assert flags(stiffness(board), "faults") & CRASHED
+
+
+def test_the_watchdog_says_where_it_hung() -> None:
+    elf = image("brace-mps2-an386-crash-test")
+    with Board("mps2-an386", elf) as board:
+        board.banner()
+        board.ask("h")
+        banner = board.banner()
+        assert banner["start"] == "watchdog" and banner["crash"].startswith("watchdog: the main loop stood still")
+        assert function_at(elf, registers(banner)["pc"]) == "provoke_hang"
+        time_us = int(re.search(r"\d+", banner["crash-time"])[0])  # type: ignore[index]
+        assert 2.5e6 <= time_us < 60e6
+
+
+def test_a_flood_on_the_console_does_not_stop_the_ticks() -> None:
+    with Board("mps2-an386", image("brace-mps2-an386")) as board:
+        board.banner()
+        before = number(stiffness(board), "tick")
+        board.ask("x" * 20000)
+        assert number(stiffness(board), "tick") > before
