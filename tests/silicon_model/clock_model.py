@@ -30,6 +30,8 @@ class Rcc:
                 value |= 1 << 17
             if value >> 24 & 1 and self.pll_locks and self._pll_source() and self._counted(25):
                 value |= 1 << 25
+        if offset == 0x74:
+            value = value & ~2 | (value & 1) << 1  # LSIRDY
         if offset == 0x08:
             value = value & ~0xC | (value & 3) << 2
         return value
@@ -129,3 +131,46 @@ class Tim2:
             self.waiting_prescaler = value & 0xFFFF
         elif offset == 0x2C:
             self.reload = value
+
+
+class Tim5:
+    """Input capture of channel 4, which the LSI can be led to (18.4, 19.4.21)."""
+
+    BASE = 0x40000C00
+
+    def __init__(self, chip: Chip, rcc: Rcc, lsi_hz: float) -> None:
+        self.chip, self.rcc, self.lsi_hz = chip, rcc, lsi_hz
+        self.registers: dict[int, int] = {}
+        self.now_us = self.next_us = 0.0
+        self.captured: int | None = None
+        self.captures = True
+        chip.models[self.BASE] = self
+        chip.waiting.append(self.advance)
+
+    def _is_capturing(self) -> bool:
+        wired = self.registers.get(0x50, 0) >> 6 & 3 == 1
+        selected = self.registers.get(0x1C, 0) >> 8 & 3 == 1
+        return bool(self.registers.get(0x00, 0) & 1 and self.registers.get(0x20, 0) >> 12 & 1 and wired and selected)
+
+    def advance(self, microseconds: float) -> None:
+        self.now_us += microseconds
+        if not self._is_capturing() or not self.captures:
+            self.next_us = self.now_us
+            return
+        while self.next_us <= self.now_us:
+            ticks = self.next_us * self.rcc.clocks()["timer"] / 1e6 / (self.registers.get(0x28, 0) + 1)
+            self.captured = int(ticks) & 0xFFFFFFFF
+            self.next_us += 1e6 / self.lsi_hz * (1 << (self.registers[0x1C] >> 10 & 3))
+
+    def read(self, offset: int) -> int:
+        if offset == 0x10:
+            return (self.captured is not None) << 4
+        if offset == 0x40:
+            value, self.captured = self.captured or 0, None
+            return value
+        return self.registers.get(offset, 0)
+
+    def write(self, offset: int, value: int) -> None:
+        if not self.rcc.enabled(0x40, 3):
+            self.chip.violations.append("TIM5: written without its clock")
+        self.registers[offset] = value

@@ -86,8 +86,8 @@ class Flash:
             if self.busy():
                 self.chip.violations.append("flash: programmed while busy")
             old = int.from_bytes(self.memory[offset : offset + size], "little")
-            if old != 0xFFFFFFFF:
-                self.chip.violations.append(f"flash: offset 0x{offset:x} programmed twice")
+            if old & value != value:
+                self.chip.violations.append(f"flash: bits at 0x{offset:x} set by programming (3.6.4: only cleared)")
             self.memory[offset : offset + size] = (old & value).to_bytes(size, "little")
             self.programmed.append((offset, value))
             self.busy_us = PROGRAM_US

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from bxcan_model import Bus, Bxcan
 from chip import Chip, Image
-from clock_model import Rcc, Tim2
+from clock_model import Rcc, Tim2, Tim5
 from flash_model import Flash
 from usart_model import Gpio
 from watchdog_model import Iwdg
@@ -20,6 +20,7 @@ class Silicon:
         self.rcc = Rcc(self.chip, crystal_hz, pll_locks, csr)
         self.flash = Flash(self.chip, self.rcc)
         self.timer = Tim2(self.chip, self.rcc)
+        self.stopwatch = Tim5(self.chip, self.rcc, lsi_hz)
         self.watchdog = Iwdg(self.chip, lsi_hz)
         self.ports = {letter: Gpio(self.chip, letter) for letter in "ABCDEFGHI"}
         self.bus = Bus()

@@ -104,7 +104,8 @@ uint32_t stm32f405_sector_bytes(uint8_t sector);
  *   nvm_write    whole words of 4 bytes: 16 us each, 100 us at most; in one call up to 10 words are within 1 ms surely
  *   nvm_erase    16 KiB: 0.25 s, at most 0.5 s; 128 KiB: 1 s, at most 2 s. The processor stands still; the watchdog is
  *                fed before. E_DEVICE: protected, or not finished in twice that time
- *   watchdog     3.7 s by the nominal 32 kHz; 2.5 s to 6.9 s over all chips and temperatures (LSI of 17-47 kHz)
+ *   watchdog     3.5 s by the LSI as measured at the start; 2.8 s at the fastest there is. Where it can not be measured,
+ *                3.5 s by its nominal 32 kHz
  *   restart      SYSRESETREQ
  */
 const brace_hal_t *brace_hal_stm32f405(const stm32f405_board_t *board);

@@ -96,7 +96,7 @@ const brace_hal_t *brace_hal_stm32f405(const stm32f405_board_t *board)
     reset_cause_take(board->reset_by_fault);
     clock_start(board->hse_hz, board->clocks_given);
     if (board->watchdog) {
-        watchdog_start();
+        watchdog_start(clock_report()->clocks.timer_hz);
     }
     serial_use(board);
     can_use(board);

@@ -40,12 +40,15 @@
 #define RCC_AHB1ENR_GPIOAEN (1u << 0)
 #define RCC_APB1ENR 0x40u
 #define RCC_APB1ENR_TIM2EN (1u << 0)
+#define RCC_APB1ENR_TIM5EN (1u << 3)
 #define RCC_APB1ENR_USART2EN (1u << 17)
 #define RCC_APB1ENR_USART3EN (1u << 18)
 #define RCC_APB1ENR_CAN1EN (1u << 25)
 #define RCC_APB2ENR 0x44u
 #define RCC_APB2ENR_USART1EN (1u << 4)
 #define RCC_CSR 0x74u
+#define RCC_CSR_LSION (1u << 0)
+#define RCC_CSR_LSIRDY (1u << 1)
 #define RCC_CSR_RMVF (1u << 24)
 #define RCC_CSR_BORRSTF (1u << 25)
 #define RCC_CSR_PADRSTF (1u << 26)
@@ -92,7 +95,7 @@
 #define GPIO_AFRL 0x20u
 #define GPIO_AFRH 0x24u
 
-/* Timer */
+/* Timers: TIM2 keeps the time, TIM5 measures the LSI */
 #define TIM2_BASE 0x40000000u
 #define TIM2_CR1 0x00u
 #define TIM2_CR1_CEN (1u << 0)
@@ -101,6 +104,23 @@
 #define TIM2_CNT 0x24u
 #define TIM2_PSC 0x28u
 #define TIM2_ARR 0x2cu
+#define TIM5_BASE 0x40000c00u
+#define TIM5_CR1 0x00u
+#define TIM5_CR1_CEN (1u << 0)
+#define TIM5_SR 0x10u
+#define TIM5_SR_CC4IF (1u << 4)
+#define TIM5_EGR 0x14u
+#define TIM5_EGR_UG (1u << 0)
+#define TIM5_CCMR2_Input 0x1cu
+#define TIM5_CCMR2_Input_CC4S (3u << 8)
+#define TIM5_CCMR2_Input_IC4PSC (3u << 10)
+#define TIM5_CCER 0x20u
+#define TIM5_CCER_CC4E (1u << 12)
+#define TIM5_PSC 0x28u
+#define TIM5_ARR 0x2cu
+#define TIM5_CCR4 0x40u
+#define TIM5_OR 0x50u
+#define TIM5_OR_IT4_RMP (3u << 6)
 
 /* Serial ports */
 #define USART1_BASE 0x40011000u

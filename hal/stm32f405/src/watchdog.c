@@ -1,11 +1,13 @@
 #include "watchdog.h"
 
+#include "lsi.h"
 #include "processor.h"
 #include "stm32f405_registers.h"
 
 enum {
     DIVIDE_32 = 3,       /* value of PR */
-    RELOAD = 3672,       /* 2.5 s with the fastest LSI, 47 kHz; 3.67 s with 32 kHz; 6.9 s with the slowest, 17 kHz */
+    LSI_NOMINAL_HZ = 32000,
+    RELOAD_MAX = 0xfff,
     UPDATE_POLLS = 20000 /* at most 5 LSI cycles, 0.3 ms */
 };
 
@@ -37,13 +39,21 @@ brace_reset_cause_t reset_cause_read(void *context)
     return cause;
 }
 
-void watchdog_start(void)
+/* 3.5 s, or what the counter holds: 2.8 s at the fastest LSI there is, 47 kHz. */
+static uint32_t reload_for(uint32_t lsi_hz)
 {
+    const uint32_t reload = (lsi_hz != 0u ? lsi_hz : (uint32_t)LSI_NOMINAL_HZ) / 32u * 7u / 2u;
+    return reload < RELOAD_MAX ? reload : RELOAD_MAX;
+}
+
+void watchdog_start(uint32_t timer_hz)
+{
+    const uint32_t reload = reload_for(lsi_measure_hz(timer_hz));
     REGISTER(DBG_BASE, DBG_DBGMCU_APB1_FZ) |= DBG_DBGMCU_APB1_FZ_DBG_IWDEG_STOP;
     REGISTER(IWDG_BASE, IWDG_KR) = IWDG_KR_START_KEY; /* starts the LSI too, which the registers below need */
     REGISTER(IWDG_BASE, IWDG_KR) = IWDG_KR_ACCESS_KEY;
     REGISTER(IWDG_BASE, IWDG_PR) = FIELD(IWDG_PR_PR, DIVIDE_32);
-    REGISTER(IWDG_BASE, IWDG_RLR) = FIELD(IWDG_RLR_RL, RELOAD);
+    REGISTER(IWDG_BASE, IWDG_RLR) = FIELD(IWDG_RLR_RL, reload);
     (void)poll_until(&REGISTER(IWDG_BASE, IWDG_SR), IWDG_SR_PVU | IWDG_SR_RVU, 0u, UPDATE_POLLS);
     running = true;
     watchdog_feed(0);

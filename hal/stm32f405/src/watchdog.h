@@ -8,8 +8,9 @@
 void reset_cause_take(bool by_fault);
 brace_reset_cause_t reset_cause_read(void *context);
 
-/* Starts it; it can not be stopped. Halts with the processor under a debugger. */
-void watchdog_start(void);
+/* Starts it, with a patience of 3.5 s by the LSI as measured with a timer clock of timer_hz; it can not be stopped.
+ * Halts with the processor under a debugger. */
+void watchdog_start(uint32_t timer_hz);
 void watchdog_feed(void *context);
 
 /* Does not return, on the chip. */
