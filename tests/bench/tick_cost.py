@@ -23,12 +23,10 @@ from toolchain import (BOARDS, BUILD, CORE, CORE_FLAGS, M4F, PREFIX, compile_sou
 TICK_LIMIT = 4000  # instructions
 TICK_COUNT = 1_000_000
 FUNCTION = "brace_app_tick"
-ROLL_BACK_ENDS = "B"  # checks the other block once more: once per roll-back, in the configuration mode, no K beside it
 
 KINDS = {"M": "monitor", "T": "taking up", "L": "loading test", "R": "loading test: a reading",
          "D": "loading test: the drift check", "J": "loading test: judged against the model", "C": "configuration",
-         "P": "putting parameters in force", "S": "storing parameters", ROLL_BACK_ENDS: "the end of a roll-back",
-         "0": "start", "F": "fault"}
+         "P": "putting parameters in force", "S": "storing parameters", "0": "start", "F": "fault"}
 
 
 @dataclass(frozen=True)
@@ -43,13 +41,12 @@ class TickKind:
 
 @dataclass(frozen=True)
 class TickCost:
-    """All ticks of a run; the end of a roll-back is apart."""
+    """All ticks of a run."""
 
     count: int
     mean: float
     maximum: int
     quantile_99: int
-    roll_back_ends: int  # instructions at most
     kinds: tuple[TickKind, ...]
 
 
@@ -123,10 +120,7 @@ def _summary(counts: np.ndarray, letters: np.ndarray) -> TickCost:
         raise RuntimeError(f"the random ticks never came to: {', '.join(missing)}")
     kinds = tuple(TickKind(name, int(mine.size), float(mine.mean()), int(mine.max()))
                   for letter, name in KINDS.items() if (mine := counts[letters == letter]).size)
-    apart = letters == ROLL_BACK_ENDS
-    ticks = counts[~apart]
-    return TickCost(int(ticks.size), float(ticks.mean()), int(ticks.max()), int(np.quantile(ticks, 0.99)),
-                    int(counts[apart].max()) if apart.any() else 0, kinds)
+    return TickCost(int(counts.size), float(counts.mean()), int(counts.max()), int(np.quantile(counts, 0.99)), kinds)
 
 
 def as_text(cost: TickCost) -> str:

@@ -66,7 +66,7 @@ static void configuration_tick(brace_app_t *app, uint32_t now_us, brace_snapshot
 
 static void control_tick(brace_app_t *app, uint32_t now_us, bool late, brace_snapshot_t *snapshot)
 {
-    const bool piece = loading_piece_due(app);
+    const bool piece = app->loading.phase == LOADING_READ;
     control_sense(app, now_us, snapshot);
     if (piece) {
         loading_piece(app);
@@ -94,7 +94,7 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     app->ticked = true;
     if (app->mode == BRACE_MODE_CONFIGURATION) {
         configuration_tick(app, now_us, next);
-    } else if (app->loading.phase == LOADING_JUDGE) {
+    } else if (app->loading.phase == LOADING_DRIFT || app->loading.phase == LOADING_JUDGE) {
         loading_piece(app); /* as dear as a whole tick: the joints' filters bear a missed one */
     } else {
         control_tick(app, now_us, late, next);

@@ -144,11 +144,11 @@ typedef struct {
 
 typedef struct {
     const brace_hal_t *hal;
-    brace_parameters_t parameters, next; /* next: on its way into the store */
-    uint32_t parameter_crc, next_crc;
+    brace_parameters_t parameters;
+    uint32_t parameter_crc;
     brace_parameter_origin_t origin;
     brace_store_t store;
-    uint8_t store_work;      /* what the store is busy with */
+    bool storing;            /* the store is at work */
     uint8_t configure_piece; /* 0: nothing is to be put in force */
 
     brace_mode_t mode;
@@ -185,8 +185,7 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal);
 
 /* One tick; to be called every parameters.controller.tick_us.
  *   now_us: the HAL's clock; may wrap
- * cost on a Cortex-M4F: at most 4,000 instructions in every mode, HAL excluded (the end of a roll-back apart); measured
- * by the bench. */
+ * cost on a Cortex-M4F: at most 4,000 instructions in every mode, HAL excluded; measured by the bench. */
 void brace_app_tick(brace_app_t *app, uint32_t now_us);
 
 /* The newest tick, whole: everything in it is of the same samples. Never null; its content stays until the tick after
@@ -234,11 +233,10 @@ brace_status_t brace_app_configuration_leave(brace_app_t *app);
 
 /* Stores a set and puts it in force once it has read back; in CONFIGURATION only. How it goes: brace_app_store. What
  * concerns buses (node, bit rates) takes effect at the next start.
- * returns also what brace_store_begin does. Some 25,000 instructions: the check and the block. */
+ * returns also what brace_store_begin does, at its cost */
 brace_status_t brace_app_parameters_commit(brace_app_t *app, const brace_parameters_t *parameters);
 
-/* Puts the set before the one in force back; in CONFIGURATION only. The tick that ends it costs some 30,000
- * instructions: the other block is checked once more.
+/* Puts the set before the one in force back; in CONFIGURATION only.
  * returns also what brace_store_rollback does */
 brace_status_t brace_app_parameters_rollback(brace_app_t *app);
 

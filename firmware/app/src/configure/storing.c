@@ -2,8 +2,6 @@
 
 #include "configure/configure.h"
 
-enum { STORING_NOTHING = 0, STORING_COMMIT, STORING_ROLLBACK };
-
 /* Where the set in force comes from, and the faults that last as long as it. */
 static void judge(brace_app_t *app)
 {
@@ -28,11 +26,7 @@ brace_status_t storing_commit(brace_app_t *app, const brace_parameters_t *parame
         return BRACE_E_UNSUPPORTED;
     }
     const brace_status_t status = brace_store_begin(&app->store, parameters, NULL);
-    if (status == BRACE_OK) {
-        app->next = *parameters;
-        app->next_crc = brace_parameters_crc(parameters);
-        app->store_work = STORING_COMMIT;
-    }
+    app->storing = status == BRACE_OK;
     return status;
 }
 
@@ -42,32 +36,25 @@ brace_status_t storing_rollback(brace_app_t *app)
         return BRACE_E_UNSUPPORTED;
     }
     const brace_status_t status = brace_store_rollback(&app->store);
-    app->store_work = status == BRACE_OK ? STORING_ROLLBACK : STORING_NOTHING;
+    app->storing = status == BRACE_OK;
     return status;
 }
 
 bool storing_busy(const brace_app_t *app)
 {
-    return app->store_work != STORING_NOTHING || app->configure_piece != 0;
+    return app->storing || app->configure_piece != 0;
 }
 
 void storing_step(brace_app_t *app)
 {
-    if (app->store_work == STORING_NOTHING) {
-        return;
-    }
-    const brace_store_state_t state = brace_store_step(&app->store);
+    const brace_store_state_t state = app->storing ? brace_store_step(&app->store) : BRACE_STORE_BUSY;
     if (state == BRACE_STORE_BUSY) {
         return;
     }
-    if (state == BRACE_STORE_DONE && app->store_work == STORING_ROLLBACK) {
+    if (state == BRACE_STORE_DONE) {
         (void)brace_store_take(&app->store, &app->parameters, &app->parameter_crc);
         configure_begin(app);
-    } else if (state == BRACE_STORE_DONE) {
-        app->parameters = app->next; /* every byte of it has read back */
-        app->parameter_crc = app->next_crc;
-        configure_begin(app);
     }
-    app->store_work = STORING_NOTHING;
+    app->storing = false;
     judge(app);
 }

@@ -10,7 +10,7 @@ void storing_start(brace_app_t *app);
 brace_status_t storing_commit(brace_app_t *app, const brace_parameters_t *parameters);
 brace_status_t storing_rollback(brace_app_t *app);
 
-/* One step; what is done goes in force. At most 1,500 instructions, the end of a roll-back 30,000. */
+/* One step; what is done goes in force. At most 2,000 instructions. */
 void storing_step(brace_app_t *app);
 
 /* Is anything being stored or put in force? */

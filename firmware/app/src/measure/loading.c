@@ -236,12 +236,6 @@ void loading_advance(brace_app_t *app, const brace_snapshot_t *snapshot)
     }
 }
 
-bool loading_piece_due(const brace_app_t *app)
-{
-    return app->loading.phase == LOADING_READ || app->loading.phase == LOADING_DRIFT ||
-           app->loading.phase == LOADING_JUDGE;
-}
-
 static void next_step(brace_app_t *app)
 {
     brace_loading_t *test = &app->loading;

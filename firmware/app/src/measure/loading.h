@@ -9,7 +9,7 @@ enum {
     LOADING_MOVE = 1,
     LOADING_DWELL = 2,
     LOADING_READ = 3,  /* a piece: slope and row */
-    LOADING_DRIFT = 4, /* a piece: the reading goes to the drift detector */
+    LOADING_DRIFT = 4, /* a piece, with nothing beside it: the reading goes to the drift detector */
     LOADING_JUDGE = 5, /* a piece, with nothing beside it: slopes against the model */
     LOADING_RETURN = 6
 };
@@ -22,10 +22,8 @@ void loading_end(brace_app_t *app, brace_loading_outcome_t outcome);
 /* A tick of it, from this tick's samples. At most 150 instructions. */
 void loading_advance(brace_app_t *app, const brace_snapshot_t *snapshot);
 
-/* Is a piece due? Then the next tick computes no K but does the piece. */
-bool loading_piece_due(const brace_app_t *app);
-
-/* READ at most 500, DRIFT at most 900, JUDGE at most 3,600 instructions. */
+/* The piece that is due: READ in a tick that computes no K, at most 700 instructions; DRIFT and JUDGE in one that does
+ * nothing else, at most 3,700. */
 void loading_piece(brace_app_t *app);
 
 #endif

@@ -2,7 +2,7 @@
 
 #define LEAST_FACTOR 1e-3f           /* no temperature makes a spring push the wrong way */
 #define ALL_BUT_RIGID_MM_PER_N 1e-9f /* for links that only their joints let yield */
-#define NEWTON_STEPS 4
+#define NEWTON_STEPS 2
 
 void model_configure_collapse(brace_app_model_t *model, const brace_parameters_t *parameters)
 {
@@ -30,6 +30,8 @@ void model_configure_chain(brace_app_model_t *model, const brace_parameters_t *p
         (void)brace_chain_build(&limb, &model->chain);
     }
     model->firm = model->chain.count;
+    model->chain.element[model->chain.count++] = (brace_element_t){{0.0f, 0.0f}, {0.0f, 0.0f}, {0.0f, 0.0f}};
+    model->chain.element[model->chain.count++] = (brace_element_t){{0.0f, 0.0f}, {0.0f, 0.0f}, {0.0f, 0.0f}};
     model->femur_mm = limb.femur_mm;
     model->tibia_mm = limb.tibia_mm;
     model->warm_per_degc = parameters->slow.joint_compliance_per_degc;
@@ -41,7 +43,8 @@ void model_configure_chain(brace_app_model_t *model, const brace_parameters_t *p
 }
 
 /* 1 / (d torque / d deflection) of torque = deflection / compliance + hardening deflection^3 at a load. The deflection is
- * followed from tick to tick: a few of Newton's steps from the last one. */
+ * followed from tick to tick, two of Newton's steps from the last one: a load changes little in a tick, and after a
+ * jump it is right within a few. */
 static float yielding(brace_app_model_t *model, int index, float load_n_mm, float temp_degc)
 {
     const float at_reference = model->spring_rad_per_n_mm[index];
@@ -76,8 +79,8 @@ brace_status_t model_stiffness(brace_app_model_t *model, float theta1_rad, float
         __builtin_sqrtf(yielding(model, 0, load_n_mm[0], temp_degc[0]) + model->rotation_rad_per_n_mm);
     const float knee = __builtin_sqrtf(yielding(model, 1, load_n_mm[1], temp_degc[1]));
     brace_element_t *element = &model->chain.element[model->firm];
-    element[0] = (brace_element_t){{0.0f, hip * model->femur_mm}, {0.0f, hip * model->tibia_mm}, {0.0f, 0.0f}};
-    element[1] = (brace_element_t){{0.0f, 0.0f}, {0.0f, knee * model->tibia_mm}, {0.0f, 0.0f}};
-    model->chain.count = model->firm + 2u;
+    element[0].femur.z = hip * model->femur_mm;
+    element[0].tibia.z = hip * model->tibia_mm;
+    element[1].tibia.z = knee * model->tibia_mm;
     return brace_chain_stiffness(&model->chain, theta1_rad, theta2_rad, stiffness);
 }

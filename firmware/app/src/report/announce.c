@@ -50,17 +50,17 @@ static bool send(brace_app_t *app, const brace_can_frame_t *frame)
     return answer == BRACE_HAL_OK;
 }
 
-void announce(brace_app_t *app)
+bool announce(brace_app_t *app)
 {
     brace_app_report_t *report = &app->report;
     brace_can_frame_t frame;
     if (!report->listens) {
-        return;
+        return false;
     }
     watch_bus(app);
     report->heartbeat_us += report->heartbeat_us < 0x40000000u ? app->tick_us : 0u;
     if (!report->speaks || report->bus_off) {
-        return;
+        return false;
     }
     if (app->faults != report->faults_told) {
         frame_emergency(&frame, report->node_id, report->faults_told, app->faults, app->mode);
@@ -71,5 +71,8 @@ void announce(brace_app_t *app)
             report->heartbeat_us = 0;
             report->mode_told = app->mode;
         }
+    } else {
+        return false;
     }
+    return true;
 }

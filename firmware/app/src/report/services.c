@@ -2,20 +2,23 @@
 
 #include "report/announce.h"
 
-#define FRAMES_PER_TICK 10 /* more than a full bus brings in a millisecond */
+#define FRAMES_PER_TICK 8u /* what a full bus of full frames brings in a millisecond */
 
 static void count_strangers(brace_app_t *app)
 {
+    const brace_hal_t *hal = app->hal;
     brace_can_frame_t frame;
-    for (int i = 0; i < FRAMES_PER_TICK && app->hal->can_receive(app->hal->context, &frame) == 1; i++) {
-        app->counters.frames_unknown += app->counters.frames_unknown < UINT32_MAX;
+    uint32_t count = 0;
+    while (count < FRAMES_PER_TICK && hal->can_receive(hal->context, &frame) == 1) {
+        count++;
     }
+    const uint32_t before = app->counters.frames_unknown;
+    app->counters.frames_unknown = before + count >= before ? before + count : UINT32_MAX;
 }
 
 void services_run(brace_app_t *app)
 {
-    announce(app);
-    if (app->report.listens) {
+    if (!announce(app) && app->report.listens) { /* frames that wait another tick lie in the bus' own ring */
         count_strangers(app);
     }
 }

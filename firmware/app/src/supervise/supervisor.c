@@ -6,21 +6,16 @@
 #define OVER_US 100000u
 #define LATE_OVER_US 1000000u
 
-/* Faults that come and go by themselves are the low bits; the others are latched or lasting. */
-enum { COMING_AND_GOING = 4, BUS_OFF_BIT = 6 };
+/* Faults that come and go with their cause; the others are latched or lasting. */
+#define COMING_AND_GOING ((uint32_t)(BRACE_FAULTS_NO_K | BRACE_FAULT_TICK_LATE | BRACE_FAULT_CAN_BUS_OFF))
 
-static void with_hysteresis(brace_app_t *app, uint32_t cause, uint32_t bit, uint32_t over_us)
+static void with_hysteresis(brace_app_t *app, uint32_t cause, uint32_t bit)
 {
     const uint32_t fault = 1u << bit;
     uint32_t *away_us = &app->supervisor.away_us[bit];
-    if ((cause & fault) != 0u) {
-        app->faults |= fault;
-        *away_us = 0;
-    } else if ((app->faults & fault) != 0u) {
-        *away_us += app->tick_us;
-        if (*away_us >= over_us) {
-            app->faults &= ~fault;
-        }
+    *away_us = (cause & fault) != 0u ? 0u : *away_us + app->tick_us;
+    if (*away_us >= (fault == (uint32_t)BRACE_FAULT_TICK_LATE ? LATE_OVER_US : OVER_US)) {
+        app->faults &= ~fault;
     }
 }
 
@@ -34,10 +29,12 @@ void supervisor_faults(brace_app_t *app, bool late)
     if (app->mode == BRACE_MODE_START) { /* nothing has been seen yet: no fault */
         return;
     }
-    for (uint32_t bit = 0; bit < COMING_AND_GOING; bit++) {
-        with_hysteresis(app, cause, bit, bit == 3u ? LATE_OVER_US : OVER_US);
+    app->faults |= cause;
+    for (uint32_t bit = 0, left = app->faults & COMING_AND_GOING; left != 0u; bit++, left >>= 1) {
+        if ((left & 1u) != 0u) {
+            with_hysteresis(app, cause, bit);
+        }
     }
-    with_hysteresis(app, cause, BUS_OFF_BIT, OVER_US);
     const uint32_t lasting = (uint32_t)BRACE_FAULT_PARAMETERS | (uint32_t)BRACE_FAULT_STORE;
     app->faults = (app->faults & ~lasting) | app->lasting_faults | app->supervisor.latched;
 }

@@ -33,11 +33,16 @@ static parts_t seen_from_femur(const brace_element_t *element, brace_vec_t tibia
 /* v_a x v_b, part by part: what lies on one line in one part adds exactly nothing. */
 static float cross_parts(const parts_t *a, const parts_t *b)
 {
-    const float own = vec_cross(a->femur, b->femur) + vec_cross(a->tibia, b->tibia) + vec_cross(a->base, b->base);
+    const float own = vec_cross(a->femur, b->femur) + vec_cross(a->tibia, b->tibia);
     const float femur_tibia = vec_cross(a->femur, b->tibia) + vec_cross(a->tibia, b->femur);
-    const float with_base = vec_cross(a->base, (brace_vec_t){b->femur.x + b->tibia.x, b->femur.z + b->tibia.z}) +
-                            vec_cross((brace_vec_t){a->femur.x + a->tibia.x, a->femur.z + a->tibia.z}, b->base);
+    const float with_base = vec_cross((brace_vec_t){a->femur.x + a->tibia.x, a->femur.z + a->tibia.z}, b->base);
     return own + femur_tibia + with_base;
+}
+
+/* The same with an element that has a part on the base; few have. */
+static float cross_base(const parts_t *a, const parts_t *b)
+{
+    return vec_cross(a->base, (brace_vec_t){b->femur.x + b->tibia.x + b->base.x, b->femur.z + b->tibia.z + b->base.z});
 }
 
 /* Sums over the chain in the femur's frame, then turned into the world's. */
@@ -46,7 +51,7 @@ static tensor_t tensor(const brace_chain_t *chain, float theta1_rad, float theta
     const uint32_t femur_turn = brace_turn(theta1_rad);
     const brace_vec_t tibia = brace_direction(0u - brace_turn(theta2_rad));
     const brace_vec_t base = brace_direction(0u - femur_turn);
-    const brace_vec_t to_world = brace_direction(2u * femur_turn);
+    const brace_vec_t to_world = {__builtin_fmaf(-2.0f * base.z, base.z, 1.0f), -2.0f * base.z * base.x};
     float trace = 0.0f, squares = 0.0f;
     brace_vec_t dev = {0.0f, 0.0f};
     for (uint32_t i = 0; i < chain->count; i++) {
@@ -56,8 +61,13 @@ static tensor_t tensor(const brace_chain_t *chain, float theta1_rad, float theta
         dev.x += vec_dot(v, (brace_vec_t){v.x, -v.z});
         dev.z += 2.0f * v.x * v.z;
         for (uint32_t j = 0; j < i; j++) {
-            const parts_t b = seen_from_femur(&chain->element[j], tibia, base);
-            const float cross = cross_parts(&b, &a);
+            const brace_element_t *other = &chain->element[j];
+            parts_t b = {other->femur, turned(other->tibia, tibia), {0.0f, 0.0f}};
+            float cross = cross_parts(&b, &a);
+            if (other->base.x != 0.0f || other->base.z != 0.0f) {
+                b.base = turned(other->base, base);
+                cross += cross_base(&b, &a);
+            }
             squares = __builtin_fmaf(cross, cross, squares);
         }
     }
