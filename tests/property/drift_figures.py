@@ -1,6 +1,6 @@
 """What the drift check sees and when, on simulated limbs: false alarms, delays, names and sizes of losses.
 
-Each limb is learned from 8 rounds of nine postures along both axes (2,448 readings, the temperature through half its swing
+Each limb is learned from 14 rounds of nine postures along both axes (4,284 readings, the temperature through half its swing
 of +-10 degC), then either watched unchanged, or a link loses stiffness somewhere in a run and every reading from there to
 the alarm counts. Check runs are at the posture and along the axis the check's own outlook finds best for the link;
 mixed runs are at all nine postures and both axes in random order. `python drift_figures.py` prints the figures,
@@ -26,6 +26,8 @@ SECOND = {"geometry.femur_mm": 200.0, "geometry.tibia_mm": 200.0, "link.femur.ax
 """The other limb of the practice records."""
 NAMED = {"paper": limbs.PAPER, "second": SECOND}
 WITHIN, LONGEST_RUNS = 30, 60
+LOSS_SWING_DEGC = 4.0
+"""Temperature about the reference while a link goes, as in the practice records."""
 
 
 @dataclass
@@ -62,7 +64,7 @@ def quiet(seed: int, believed: dict[str, float] | None, postures: np.ndarray | N
 
 def best_run(limb: Limb, link: int) -> tuple[np.ndarray, np.ndarray, Outlook]:
     """Posture, direction and outlook where the check expects to see this link's loss first."""
-    all_runs = [(theta, axis, limb.check.outlook(theta, axis)) for theta in limb.postures for axis in np.eye(2)]
+    all_runs = [(theta, axis, limb.check.outlook(theta, axis, LOSS_SWING_DEGC / 2**0.5)) for theta in limb.postures for axis in np.eye(2)]
     return min(all_runs, key=lambda run: (run[2].steps_needed[link], run[2].sigma_of_loss_ratio[link]))
 
 
@@ -83,9 +85,9 @@ def lose(limb: Limb, link: int, loss: float, check_run: bool, axial_too: bool = 
     check, rng = limb.check.copy(), limb.rng
     theta, axis, outlook = best_run(limb, link)
     if check_run:
-        record = runs(np.tile(theta, (LONGEST_RUNS, 1)), np.tile(axis, (LONGEST_RUNS, 1)), rng)
+        record = runs(np.tile(theta, (LONGEST_RUNS, 1)), np.tile(axis, (LONGEST_RUNS, 1)), rng, swing_degc=LOSS_SWING_DEGC)
     else:
-        record = mixed(limb.postures, 10 * LONGEST_RUNS, rng)
+        record = mixed(limb.postures, 10 * LONGEST_RUNS, rng, swing_degc=LOSS_SWING_DEGC)
     onset = int(rng.integers(len(RUN_STEPS)))
     force = measured(with_loss(limb.true, LINKS[link], loss, axial_too), record, rng)
     force[:onset] = measured(limb.true, record, rng)[:onset]

@@ -126,7 +126,7 @@ def mixed(postures: np.ndarray, count: int, rng: np.random.Generator, **how: Any
     return runs(theta, np.eye(2)[rng.integers(2, size=count)], rng, **how)
 
 
-def commissioning(postures: np.ndarray, rng: np.random.Generator, repeats: int = 8, period: float = 4896.0,
+def commissioning(postures: np.ndarray, rng: np.random.Generator, repeats: int = 14, period: float = 8568.0,
                   **how: Any) -> Record:
     """Every posture along both axes, as at commissioning; by default the temperature goes through half its swing."""
     theta = np.tile(np.repeat(postures, 2, axis=0), (repeats, 1))
@@ -192,10 +192,10 @@ class Check:
         assert taken >= 0, f"status {taken}"
         return taken, out
 
-    def outlook(self, theta: np.ndarray, direction: np.ndarray) -> Outlook:
-        """For readings of a run like those of `runs`, at the reference temperature."""
+    def outlook(self, theta: np.ndarray, direction: np.ndarray, warmer_degc: float = 0.0) -> Outlook:
+        """For readings of a run like those of `runs`."""
         size = STEP_MM * float(np.sqrt(np.mean(RUN_STEPS[1:] ** 2.0)))
-        reading = np.array([*theta, *(size * direction), 0, 0, 0], dtype=np.float32)
+        reading = np.array([*theta, *(size * direction), 0, 0, warmer_degc], dtype=np.float32)
         out = Outlook()
         status = library().drift_outlook_at(ctypes.byref(self.state), self.limb.ctypes.data_as(ctypes.c_void_p),
                                             reading.ctypes.data_as(ctypes.c_void_p), ctypes.byref(out))

@@ -4,7 +4,7 @@
 #include "base/trig.h"
 #include "base/vec.h"
 
-#define DOUBT_SIGMAS 2.0f
+#define DOUBT_SIGMAS 1.0f
 #define SQRT_2 1.41421356f /* two compliances, each known no better */
 
 typedef struct {
