@@ -80,7 +80,8 @@ typedef enum { BRACE_PARITY_NONE = 0, BRACE_PARITY_EVEN = 1, BRACE_PARITY_ODD = 
 
 /* ------------------------------------------------------------------------- non-volatile memory, crash -- */
 
-/* Two slots, each erased as a whole to 0xff and then written in rising order, each unit once. */
+/* Two slots, each erased as a whole to 0xff and then written in rising order, each unit once; save that zeros may be
+ * written over any unit at any time, and stay. */
 enum { BRACE_NVM_SLOT_COUNT = 2 };
 
 typedef struct {

@@ -5,13 +5,14 @@
  *
  * A slot counts when its block is sound and its last legible mark is KEEP; of two that count, the one with the newer
  * sequence is in force (modulo 2^32). An update writes the other slot:
- *     KEEP to the slot in force; VOID to the other; erase it; the block, read back; KEEP to it, read back
+ *     KEEP to the slot in force; VOID to the other, zeros over its first bytes, erase; the block, read back; KEEP to it
  * and a roll-back puts the other slot in force:
  *     KEEP to the other; it is read again, whole; VOID to the one in force
  * Every stage is one of those orders, so wherever power fails, a start finds the old set or the new one. The KEEP at the
  * beginning is there because power may have failed within the last one: a unit that was being written may read
- * differently each time, until something whole stands after it. Marks are only ever added; a start's first one leaves a
- * place free, so that no unit is written twice.
+ * differently each time, until something whole stands after it. Marks are only ever added. A place that looks erased may
+ * have been touched as power failed, so each session writes zeros over two first and its mark behind. Zeros are all that is
+ * ever written over a unit that is not erased.
  *
  * Works off the tick: brace_store_step does one erase, or writes or reads
  * at most 32 bytes. The erase stops
@@ -31,7 +32,7 @@ enum {
     BRACE_STORE_MARKS_AT = 3584, /* of a slot [bytes]; never changes, so that any firmware finds them */
     BRACE_STORE_MARK_BYTES = 8,
     BRACE_STORE_MARK_COUNT = 64,
-    BRACE_STORE_MARKS_KEPT_FREE = 4, /* of these, for what must be said */
+    BRACE_STORE_MARKS_KEPT_FREE = 8, /* of these, for what must be said */
     BRACE_STORE_PIECE_BYTES = 32,    /* of one step */
     BRACE_STORE_BLOCK_ROOM = (BRACE_BLOCK_BYTES + 7) / 8 * 8
 };
@@ -69,7 +70,7 @@ typedef enum {
     BRACE_STORE_E_ERASE = -2,    /* not blank after an erase */
     BRACE_STORE_E_READ_BACK = -3, /* what was written is not what reads back */
     BRACE_STORE_E_NOTHING = -4,  /* roll-back: the other slot does not count */
-    BRACE_STORE_E_FULL = -5,     /* no room for a mark: dozens of updates in a row were interrupted; update once */
+    BRACE_STORE_E_FULL = -5,     /* no room for a mark: some twenty updates in a row were interrupted; update once */
     BRACE_STORE_E_SHAPE = -6     /* slots too small, or a unit other than 1, 2, 4, 8 */
 } brace_store_failure_t;
 
@@ -79,6 +80,7 @@ typedef struct {
     brace_slot_report_t slot[BRACE_NVM_SLOT_COUNT];
     uint8_t next_mark[BRACE_NVM_SLOT_COUNT]; /* where the next mark goes */
     bool affirmed[BRACE_NVM_SLOT_COUNT];     /* its last mark is a KEEP that this session has written whole */
+    bool clean[BRACE_NVM_SLOT_COUNT];        /* nothing has touched that place since the erase */
     uint8_t in_force;                        /* brace_parameter_origin_t */
     uint8_t state;
     uint8_t stage;

@@ -4,11 +4,12 @@
 
 #include "store/store_slot.h"
 
-/* What is done, in this order. An update goes through the first seven, a roll-back through AFFIRM, REREAD, WITHDRAW;
+/* What is done, in this order. An update goes through the first eight, a roll-back through AFFIRM, REREAD, WITHDRAW;
  * UNDO is where a failed last mark goes. */
 typedef enum {
     STAGE_AFFIRM,   /* KEEP to the slot that has to count whatever happens next */
     STAGE_RETIRE,   /* VOID to the slot that will be erased */
+    STAGE_SPOIL,    /* zeros over its first bytes: whatever an interrupted erase leaves, it is no block */
     STAGE_ERASE,
     STAGE_BLANK,
     STAGE_WRITE,
@@ -20,6 +21,9 @@ typedef enum {
 } stage_t;
 
 enum { BLANK_CHECKED = BRACE_STORE_BLOCK_ROOM, MARKS_BYTES = BRACE_STORE_MARK_COUNT * BRACE_STORE_MARK_BYTES };
+
+enum { PLACES_FILLED = 2 };
+static const uint8_t zeros[PLACES_FILLED * BRACE_STORE_MARK_BYTES];
 
 static uint32_t other_than(uint32_t slot)
 {
@@ -166,6 +170,17 @@ brace_status_t brace_store_rollback(brace_store_t *store)
 
 typedef enum { MARK_BUSY, MARK_DONE, MARK_NO_ROOM, MARK_E_DEVICE, MARK_E_READ_BACK } mark_result_t;
 
+/* The next places may look erased and have been touched as power failed: zeros go over them, which nothing can shake.
+ * Two places: the one before may itself read differently each time, and look erased at the next start. */
+static mark_result_t fill_places(brace_store_t *store, uint32_t slot)
+{
+    const uint32_t offset = BRACE_STORE_MARKS_AT + store->next_mark[slot] * (uint32_t)BRACE_STORE_MARK_BYTES;
+    store->next_mark[slot] = (uint8_t)(store->next_mark[slot] + PLACES_FILLED);
+    store->clean[slot] = true;
+    return store->hal->nvm_write(store->hal->context, slot, offset, zeros, sizeof zeros) == BRACE_HAL_OK ? MARK_BUSY
+                                                                                                       : MARK_E_DEVICE;
+}
+
 /* Adds a mark to a slot: written in one step, read back in the next. */
 static mark_result_t put_mark(brace_store_t *store, uint32_t slot, store_word_t word, uint32_t block_crc,
                               uint32_t places_kept_free)
@@ -174,8 +189,12 @@ static mark_result_t put_mark(brace_store_t *store, uint32_t slot, store_word_t 
     const uint32_t place = store->next_mark[slot];
     const uint32_t offset = BRACE_STORE_MARKS_AT + place * BRACE_STORE_MARK_BYTES;
     uint8_t mark[BRACE_STORE_MARK_BYTES], found[BRACE_STORE_MARK_BYTES];
-    if (place + places_kept_free >= BRACE_STORE_MARK_COUNT) {
+    const uint32_t wanted = places_kept_free + (store->clean[slot] ? 1u : 1u + PLACES_FILLED);
+    if (place + wanted > BRACE_STORE_MARK_COUNT) {
         return MARK_NO_ROOM;
+    }
+    if (!store->clean[slot]) {
+        return fill_places(store, slot);
     }
     store_mark(mark, word, block_crc);
     store->affirmed[slot] = false;
@@ -205,7 +224,7 @@ static brace_store_failure_t mark_failure(mark_result_t result)
                                      : BRACE_STORE_E_READ_BACK;
 }
 
-/* A mark before anything is changed. Where there is no room for it, dozens stand there already. */
+/* A mark before anything is changed. Where there is no room for it, some twenty stand there already. */
 static brace_store_state_t settle(brace_store_t *store, uint32_t slot, store_word_t word, stage_t next)
 {
     const bool stands = word == STORE_KEEP && store->affirmed[slot];
@@ -215,7 +234,9 @@ static brace_store_state_t settle(brace_store_t *store, uint32_t slot, store_wor
     if (result == MARK_BUSY) {
         return BRACE_STORE_BUSY;
     }
-    if (result != MARK_DONE && result != MARK_NO_ROOM) {
+    /* A slot whose erase was interrupted may not take a VOID; what it holds is no block any more. */
+    const bool given_up = result == MARK_E_READ_BACK && word == STORE_VOID;
+    if (result != MARK_DONE && result != MARK_NO_ROOM && !given_up) {
         return fail(store, mark_failure(result));
     }
     if (word == STORE_VOID) {
@@ -244,7 +265,7 @@ static brace_store_state_t affirm(brace_store_t *store)
 static brace_store_state_t retire(brace_store_t *store)
 {
     if (store_is_ours(&store->slot[store->target])) {
-        return settle(store, store->target, STORE_VOID, STAGE_ERASE);
+        return settle(store, store->target, STORE_VOID, STAGE_SPOIL);
     }
     go_to(store, STAGE_ERASE);
     return BRACE_STORE_BUSY;
@@ -310,6 +331,15 @@ static brace_store_state_t undo(brace_store_t *store)
 
 /* ------------------------------------------------------------------------------------------- erase, bytes -- */
 
+static brace_store_state_t spoil(brace_store_t *store)
+{
+    if (store->hal->nvm_write(store->hal->context, store->target, 0, zeros, sizeof zeros) != BRACE_HAL_OK) {
+        return fail(store, BRACE_STORE_E_DEVICE);
+    }
+    go_to(store, STAGE_ERASE);
+    return BRACE_STORE_BUSY;
+}
+
 static brace_store_state_t erase(brace_store_t *store)
 {
     const uint32_t slot = store->target;
@@ -318,6 +348,7 @@ static brace_store_state_t erase(brace_store_t *store)
     }
     memset(&store->slot[slot], 0, sizeof store->slot[slot]);
     store->next_mark[slot] = 0;
+    store->clean[slot] = true;
     store->affirmed[slot] = false;
     go_to(store, STAGE_BLANK);
     return BRACE_STORE_BUSY;
@@ -432,6 +463,7 @@ brace_store_state_t brace_store_step(brace_store_t *store)
     switch ((stage_t)store->stage) {
     case STAGE_AFFIRM: return affirm(store);
     case STAGE_RETIRE: return retire(store);
+    case STAGE_SPOIL: return spoil(store);
     case STAGE_ERASE: return erase(store);
     case STAGE_BLANK: return check_blank(store);
     case STAGE_WRITE: return write_block(store);
@@ -484,7 +516,7 @@ const char *brace_store_failure_text(brace_store_failure_t failure)
     case BRACE_STORE_E_ERASE: return "not blank after it was erased";
     case BRACE_STORE_E_READ_BACK: return "what was written is not what reads back";
     case BRACE_STORE_E_NOTHING: return "there is no other set to go back to";
-    case BRACE_STORE_E_FULL: return "no room for a mark: dozens of updates in a row were interrupted";
+    case BRACE_STORE_E_FULL: return "no room for a mark: some twenty updates in a row were interrupted";
     case BRACE_STORE_E_SHAPE: return "the board's non-volatile memory is too small or of an unknown unit";
     default: return "not a failure of the store";
     }

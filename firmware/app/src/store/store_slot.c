@@ -80,7 +80,7 @@ static marks_t read_marks(const brace_store_t *store, uint32_t slot, uint32_t bl
     store_mark(keep, STORE_KEEP, block_crc);
     store_mark(none, STORE_VOID, block_crc);
     for (int32_t i = 0; i < BRACE_STORE_MARK_COUNT && marks.readable; i++) {
-        marks.readable = read(store, slot, BRACE_STORE_MARKS_AT + (uint32_t)i * sizeof found, found, sizeof found);
+        marks.readable = read(store, slot, BRACE_STORE_MARKS_AT + (uint32_t)i * BRACE_STORE_MARK_BYTES, found, sizeof found);
         if (memcmp(found, keep, sizeof found) == 0) {
             marks.kept = true;
             marks.voided = false;
@@ -128,7 +128,7 @@ void store_look(brace_store_t *store, uint32_t slot, brace_parameters_t *paramet
     brace_slot_report_t *report = &store->slot[slot];
     brace_parameters_t found;
     memset(report, 0, sizeof *report);
-    store->affirmed[slot] = false;
+    store->affirmed[slot] = store->clean[slot] = false;
     if (!read(store, slot, 0, store->block, BRACE_BLOCK_BYTES)) {
         report->condition = BRACE_SLOT_UNREADABLE;
         return;
@@ -139,9 +139,7 @@ void store_look(brace_store_t *store, uint32_t slot, brace_parameters_t *paramet
         report->condition = BRACE_SLOT_UNREADABLE;
         return;
     }
-    /* The place after the last mark may have been touched as power failed: it is left free. */
-    const int32_t next = marks.last + 2;
-    store->next_mark[slot] = (uint8_t)(next < BRACE_STORE_MARK_COUNT ? next : BRACE_STORE_MARK_COUNT);
+    store->next_mark[slot] = (uint8_t)(marks.last + 1);
     if (report->condition != BRACE_SLOT_COUNTS) {
         return;
     }

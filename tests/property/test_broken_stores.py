@@ -1,0 +1,83 @@
+"""The enumeration of power cuts (tests/faults) finds out every store that is broken on purpose."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+PROJECT = Path(__file__).resolve().parents[2]
+STORE = PROJECT / "firmware" / "app" / "src" / "store"
+INCLUDES = ("firmware/app/include", "firmware/app/src", "firmware/core/include", "hal/include", "tests/faults")
+INTERFACE = ("firmware/interface/include", "firmware/interface/generated", "firmware/interface/src")
+SOURCES = ("firmware/interface/src/*.c", "firmware/interface/generated/*.c", "firmware/core/src/limb/limb.c", "tests/faults/*.c")
+
+Edit = tuple[str, str, str]  # file, what stands there, what it becomes
+GO_ON = "(go_to(store, {}), BRACE_STORE_BUSY)"
+BROKEN: dict[str, list[Edit]] = {
+    "commits before the block": [
+        ("store.c", "go_to(store, STAGE_WRITE)", "go_to(store, STAGE_COMMIT)"),
+        (
+            "store.c",
+            "return done(store);\n    }\n    store->failure = (int8_t)mark_failure(result);\n    go_to(store, STAGE_UNDO);\n"
+            "    return BRACE_STORE_BUSY;\n}\n\nstatic brace_store_state_t withdraw",
+            "go_to(store, STAGE_WRITE);\n        return BRACE_STORE_BUSY;\n    }\n    go_to(store, STAGE_UNDO);\n"
+            "    return BRACE_STORE_BUSY;\n}\n\nstatic brace_store_state_t withdraw",
+        ),
+        (
+            "store.c",
+            "go_to(store, STAGE_COMMIT);\n    }\n    return BRACE_STORE_BUSY;\n}\n\nstatic brace_store_state_t reread",
+            "return done(store);\n    }\n    return BRACE_STORE_BUSY;\n}\n\nstatic brace_store_state_t reread",
+        ),
+    ],
+    "does not erase": [("store.c", "store->hal->nvm_erase(store->hal->context, slot) != BRACE_HAL_OK", "false")],
+    "writes the slot in force": [
+        ("store.c", "return other_than(store->in_force - 1u);\n    }\n    const", "return store->in_force - 1u;\n    }\n    const")
+    ],
+    "does not affirm the slot in force": [
+        ("store.c", "settle(store, other, STORE_KEEP, STAGE_RETIRE)", GO_ON.format("STAGE_RETIRE"))
+    ],
+    "does not affirm the slot it rolls back to": [
+        ("store.c", "settle(store, store->target, STORE_KEEP, STAGE_REREAD)", GO_ON.format("STAGE_REREAD"))
+    ],
+    "does not spoil the slot it erases": [
+        ("store.c", "settle(store, store->target, STORE_VOID, STAGE_SPOIL)", "settle(store, store->target, STORE_VOID, STAGE_ERASE)")
+    ],
+    "believes any sound block": [("store_slot.c", "if (marks.kept)", "if (true)")],
+    "believes a void slot": [("store_slot.c", "marks.kept = false;\n", "\n")],
+    "believes a damaged block": [
+        ("store_slot.c", "status != BRACE_OK && status != BRACE_E_PARAMETER", "status == BRACE_E_NULL"),
+        (
+            "store_slot.c",
+            "return status == BRACE_OK ? BRACE_SLOT_COUNTS : BRACE_SLOT_REFUSED",
+            "return brace_block_members(store->block, parameters), BRACE_SLOT_COUNTS",
+        ),
+        ("store_slot.c", "if (marks.kept)", "if (true)"),
+    ],
+    "does not clear the next place": [("store.c", "if (!store->clean[slot])", "if (false)")],
+    "takes the older set": [
+        ("store.c", "(store->slot[1].sequence - store->slot[0].sequence) > 0;", "(store->slot[1].sequence - store->slot[0].sequence) < 0;")
+    ],
+}
+
+
+@pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
+@pytest.mark.parametrize("name", BROKEN)
+def test_a_broken_store_is_found_out(name: str, tmp_path: Path) -> None:
+    folder = tmp_path / "store"
+    shutil.copytree(STORE, folder)
+    for file, before, after in BROKEN[name]:
+        text = (folder / file).read_text()
+        assert text.count(before) == 1, f"{file} no longer has what this test breaks: {before}"
+        (folder / file).write_text(text.replace(before, after))
+    program = tmp_path / "power_cuts"
+    sources = [path for pattern in SOURCES for path in sorted(PROJECT.glob(pattern))] + sorted(folder.glob("*.c"))
+    folders = [tmp_path, *(PROJECT / include for include in (*INCLUDES, *INTERFACE))]
+    subprocess.run(
+        ["gcc", "-std=c11", "-O2", "-w", *(f"-I{folder}" for folder in folders), "-o", program, *sources], check=True
+    )
+    outcome = subprocess.run([program, "--broken"], capture_output=True, text=True, timeout=300)
+    assert outcome.returncode == 0, outcome.stdout
+    print(f"{name}: {outcome.stdout.strip().splitlines()[-1]}")
