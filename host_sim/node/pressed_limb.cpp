@@ -49,13 +49,13 @@ void PressedLimb::take_hold(const Vector2d &motor_rad, double hold_n_per_mm, con
     model_.base.z_mm_per_n = base_z_mm_per_n_ + yields_mm_per_n;
     anchor_mm_ = tip_mm(motor_rad) + press_mm;
     (void)state_.move_to(motor_rad[0] + 1.0, motor_rad[1], t_s, temp_degc); // what it keeps of the posture is old
-    (void)state_.move_to(motor_rad[0], motor_rad[1], t_s, temp_degc);
+    sound_ = state_.move_to(motor_rad[0], motor_rad[1], t_s, temp_degc);
     state_.start_run(false);
 }
 
 bool PressedLimb::settle(const Vector2d &motor_rad, double t_s, double temp_degc, Pressed &pressed)
 {
-    if (!state_.move_to(motor_rad[0], motor_rad[1], t_s, temp_degc)) {
+    if (!sound_ || !state_.move_to(motor_rad[0], motor_rad[1], t_s, temp_degc)) {
         return false;
     }
     const plant::LimbRest rest = state_.hold_tip(anchor_mm_ - tip_mm(motor_rad));

@@ -41,6 +41,7 @@ private:
     double base_x_mm_per_n_, base_z_mm_per_n_;
     plant::LimbState state_;
     Eigen::Vector2d anchor_mm_ = Eigen::Vector2d::Zero();
+    bool sound_ = false; // something yields in each direction
 };
 
 } // namespace brace::node
