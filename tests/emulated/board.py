@@ -93,3 +93,11 @@ def function_at(elf: Path, address: int) -> str:
             if start <= address < start + int(fields[1], 16):
                 return fields[3]
     return f"nowhere ({address:#x})"
+
+
+def address_of(elf: Path, symbol: str) -> int:
+    """Where a symbol lies."""
+    listing = subprocess.run(["arm-none-eabi-nm", elf], capture_output=True, text=True, check=True).stdout
+    found = [line.split()[0] for line in listing.splitlines() if line.split()[-1] == symbol]
+    assert len(found) == 1, symbol
+    return int(found[0], 16)

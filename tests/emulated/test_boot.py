@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import re
+import struct
 import tomllib
-from typing import Any
+import zlib
+from pathlib import Path
 
 import numpy as np
 import pytest
-from board import BOARDS, PROJECT, Board, function_at, image, registers
+from board import BOARDS, PROJECT, Board, address_of, function_at, image, registers
 
 from brace.flash.image import read_image
+from brace.wire.names import PARAMETERS, SCHEMA_HASH
 
 BANNER = re.compile(r"^brace (\S+) \((\S+), (\S+)\) on (\S+)$")
 
@@ -30,8 +33,7 @@ def test_banner_says_what_runs(name: str) -> None:
         assert source_hash == info.hash and re.fullmatch(r"[0-9a-f]{12}(-dirty)?|unknown", source_hash)
         assert build == info.build and on == name == info.board
         assert banner["start"] == "power" and "crash" not in banner
-        crc = re.fullmatch(r"defaults, uncalibrated, crc (0x[0-9a-f]{8})", banner["parameters"])
-        assert crc and int(crc[1], 16) != 0
+        assert banner["parameters"] == f"defaults, uncalibrated, crc {identity(SAFE):#010x}"
         unused, of = map(int, re.findall(r"\d+", banner["stack"]))
         assert of // 4 < unused < of
         board.ask("k")  # by now it has run: some stack more is used, and the rest is the same
@@ -47,18 +49,7 @@ def test_k_on_the_board(name: str) -> None:
     """The safe defaults are a limb: K by physics.md in double precision, at the posture that stands in."""
     with Board(name, image(f"brace-{name}")) as board:
         board.banner()
-        first = number(stiffness(board), "tick")
-        for _ in range(1000):  # the first samples have to come in, and ticks to go on
-            told = stiffness(board)
-            if told.startswith("k: valid") and number(told, "tick") > first:
-                break
-        values = {key: float(value) for key, value in re.findall(r"(\w+) (-?\d+\.\d+)", told)}
-        k_xx, k_xz, k_zz = (values[f"k_{entry}_n_per_mm"] for entry in ("xx", "xz", "zz"))
-        expected = default_k(values["theta1_rad"], values["theta2_rad"])
-        # four decimals are printed; the core is held to 2e-6 of the largest entry
-        np.testing.assert_allclose([[k_xx, k_xz], [k_xz, k_zz]], expected, atol=5e-5 + 2e-6 * expected.max())
-        assert flags(told, "flags") == 1  # UNCALIBRATED
-        assert told.startswith("k: valid") and number(told, "tick") > first
+        assert flags(check_k(board, SAFE), "flags") == 1  # UNCALIBRATED
 
 
 def stiffness(board: Board) -> str:
@@ -81,36 +72,82 @@ def flags(line: str, key: str) -> int:
     return int(found[1], 16)
 
 
-def default_k(theta1: float, theta2: float) -> np.ndarray:
-    """physics.md with the dictionary's safe limb, in double precision."""
-    safe = safe_values()
-    length1, length2 = safe["geometry.femur_mm"], safe["geometry.tibia_mm"]
-    axial, bending = safe["link.*.axial_mm_per_n"], safe["link.*.bending_mm_per_n"]
-    joint = safe["joint.*.compliance_rad_per_n_mm"]  # coxa, femur, tibia, as in the two above
-    bend1, bend2 = bending[1] / length1**2, bending[2] / length2**2
+def k_of(limb: dict[str, float], theta1: float, theta2: float) -> np.ndarray:
+    """physics.md in double precision: joints, links along and across themselves."""
     u1 = np.array([np.cos(theta1), np.sin(theta1)])
     u2 = np.array([np.cos(theta1 - theta2), np.sin(theta1 - theta2)])
-    tip, shank = length1 * u1 + length2 * u2, length2 * u2
+    shank = limb["geometry.tibia_mm"] * u2
+    tip = limb["geometry.femur_mm"] * u1 + shank
     p1, p2 = np.array([-tip[1], tip[0]]), np.array([-shank[1], shank[0]])
+    bend1 = limb["link.femur.bending_mm_per_n"] / limb["geometry.femur_mm"] ** 2
+    bend2 = limb["link.tibia.bending_mm_per_n"] / limb["geometry.tibia_mm"] ** 2
+    joint1, joint2 = (limb[f"joint.{name}.compliance_rad_per_n_mm"] for name in ("femur", "tibia"))
     c = (
-        (joint[1] + bend1) * np.outer(p1, p1)
+        (joint1 + bend1) * np.outer(p1, p1)
         - bend1 * (np.outer(p1, p2) + np.outer(p2, p1))
-        + (joint[2] + bend1 + bend2) * np.outer(p2, p2)
-        + axial[1] * np.outer(u1, u1)
-        + axial[2] * np.outer(u2, u2)
+        + (joint2 + bend1 + bend2) * np.outer(p2, p2)
+        + limb["link.femur.axial_mm_per_n"] * np.outer(u1, u1)
+        + limb["link.tibia.axial_mm_per_n"] * np.outer(u2, u2)
     )
     return np.linalg.inv(c)
 
 
-def safe_values() -> dict[str, Any]:
-    """What a controller without a valid block uses, where the dictionary says so."""
-    dictionary = tomllib.loads((PROJECT / "firmware" / "interface" / "dictionary.toml").read_text())
-    return {
-        f"{group['table']}.{entry['name']}": entry["safe"]
-        for group in dictionary["group"]
-        for entry in group["entry"]
-        if "safe" in entry
-    }
+SAFE = {parameter.key: parameter.safe for parameter in PARAMETERS}
+
+
+def members_of(limb: dict[str, float]) -> bytes:
+    """A set of parameters as the block has it."""
+    return b"".join(
+        struct.pack("<I" if parameter.type == "u32" else "<f", limb[parameter.key]) for parameter in PARAMETERS
+    )
+
+
+def identity(limb: dict[str, float]) -> int:
+    """brace_parameters_crc: equal values, equal number."""
+    return zlib.crc32(struct.pack("<I", SCHEMA_HASH) + members_of(limb))
+
+
+def slot_of(limb: dict[str, float], sequence: int) -> bytes:
+    """A slot of the parameter store as brace/parameters.h and brace/store.h lay it out."""
+    members = members_of(limb)
+    block = struct.pack("<4sHHIII", b"BRCE", 1, 20, SCHEMA_HASH, len(members), sequence) + members
+    crc = struct.pack("<I", zlib.crc32(block))
+    return ((block + crc).ljust(3584, b"\xff") + b"KEEP" + crc).ljust(4096, b"\xff")
+
+
+def check_k(board: Board, limb: dict[str, float]) -> str:
+    """Waits for a valid K of a later tick than now's and compares it; the console's line."""
+    first = number(stiffness(board), "tick")
+    for _ in range(1000):  # the first samples have to come in
+        told = stiffness(board)
+        if told.startswith("k: valid") and number(told, "tick") > first:
+            break
+    assert told.startswith("k: valid") and number(told, "tick") > first
+    values = {key: float(value) for key, value in re.findall(r"(\w+) (-?\d+\.\d+)", told)}
+    k_xx, k_xz, k_zz = (values[f"k_{entry}_n_per_mm"] for entry in ("xx", "xz", "zz"))
+    expected = k_of(limb, values["theta1_rad"], values["theta2_rad"])
+    # four decimals are printed; the core is held to 2e-6 of the largest entry
+    np.testing.assert_allclose([[k_xx, k_xz], [k_xz, k_zz]], expected, atol=5e-5 + 2e-6 * expected.max())
+    return told
+
+
+@pytest.mark.parametrize("name", BOARDS)
+def test_parameters_in_memory_come_into_force(name: str, tmp_path: Path) -> None:
+    """A set in slot B, and an older one in slot A, as the emulator's non-volatile memory at power-on."""
+    elf = image(f"brace-{name}")
+    limb = {**SAFE, "link.tibia.bending_mm_per_n": 0.5, "joint.femur.compliance_rad_per_n_mm": 3e-5}
+    older, newer = slot_of(SAFE, 6), slot_of(limb, 7)
+    memory = tmp_path / "nvm.bin"
+    memory.write_bytes(b"BRACE-NVM-IN-RAM" + older + newer)
+    plain = elf.with_suffix(".bin")  # an .elf's segments claim all of RAM
+    loaded = ("-device", f"loader,file={memory},addr={address_of(elf, '_kept_nvm'):#x}")
+    with Board(name, plain, *loaded) as board:
+        assert board.banner()["parameters"] == f"slot B, crc {identity(limb):#010x}"
+        assert flags(check_k(board, limb), "flags") == 0  # calibrated
+    memory.write_bytes(b"BRACE-NVM-IN-RAM" + older + newer.replace(b"BRCE", b"BRCF"))
+    with Board(name, plain, *loaded) as board:
+        assert board.banner()["parameters"] == f"slot A, crc {identity(SAFE):#010x}"
+        check_k(board, SAFE)
 
 
 @pytest.mark.parametrize("name", BOARDS)
