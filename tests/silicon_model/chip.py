@@ -36,21 +36,23 @@ class Model(Protocol):
     def write(self, offset: int, value: int) -> None: ...
 
 
-class Image:
-    """The layer and tests/silicon_model/image, compiled for the Cortex-M4F and linked; symbols by name."""
+SHIPPED = ("-mfloat-abi=hard", "-mfpu=fpv4-sp-d16", "-mgeneral-regs-only")  # as the build compiles the layer
+SOFT_FLOAT = ("-mfloat-abi=soft",)  # for callers that compute: the emulator's FPU stays off
 
-    def __init__(self, folder: Path, defines: tuple[str, ...] = ()) -> None:
-        layer = PROJECT / "hal" / "stm32f405"
-        here = Path(__file__).parent / "image"
+
+class Image:
+    """The layer and a file of tests/silicon_model/image, compiled for the Cortex-M4 and linked; symbols by name."""
+
+    def __init__(self, folder: Path, calls: str = "calls.c", flags: tuple[str, ...] = SHIPPED, beside: str = "") -> None:
+        hal, here = PROJECT / "hal", Path(__file__).parent / "image"
         elf, flat = folder / "image.elf", folder / "image.bin"
-        command = "arm-none-eabi-gcc -mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16 -mgeneral-regs-only -O2"
-        subprocess.run(
-            [*command.split(), "-std=c11", "-nostdlib", "-Wall", "-Wextra", "-Werror", "-T", here / "memory.ld"]
-            + ["-Wl,--build-id=none", *(f"-D{define}" for define in defines)]
-            + [f"-I{PROJECT / 'hal' / 'include'}", f"-I{layer / 'include'}", f"-I{layer / 'src'}"]
-            + [*sorted((layer / "src").glob("*.c")), here / "calls.c", "-lgcc", "-o", elf],
-            check=True,
-        )
+        parts = ["stm32f405"] + ([beside] if beside else [])
+        sources = [here / calls] + [source for part in parts for source in sorted((hal / part / "src").glob("*.c"))]
+        folders = [hal / "include"] + [hal / part / kind for part in parts for kind in ("include", "src")]
+        command: list[str | Path] = ["arm-none-eabi-gcc", "-mcpu=cortex-m4", "-mthumb", *flags, "-O2", "-std=c11"]
+        command += ["-nostartfiles", "--specs=nano.specs", "-Wall", "-Wextra", "-Werror", "-Wl,--build-id=none"]
+        command += [f"-I{place}" for place in folders]
+        subprocess.run([*command, *sources, "-T", here / "memory.ld", "-o", elf], check=True)
         subprocess.run(["arm-none-eabi-objcopy", "-O", "binary", elf, flat], check=True)
         self.bytes = flat.read_bytes()
         listing = subprocess.run(["arm-none-eabi-nm", elf], check=True, capture_output=True, text=True).stdout
@@ -86,6 +88,7 @@ class Chip:
         self.interrupts_taken = 0
         self.interrupts_on = True
         self.random = random.Random(seed)
+        self.slice = SLICE
         self.failure: BaseException | None = None
 
         self.cpu: Any = unicorn.Uc(unicorn.UC_ARCH_ARM, unicorn.UC_MODE_THUMB | unicorn.UC_MODE_MCLASS)
@@ -174,7 +177,7 @@ class Chip:
         self.cpu.reg_write(arm.UC_ARM_REG_LR, STOP | 1)
         address, done, back = self.image.symbols[name] & ~1, 0, False
         while not back:
-            step = self.random.randint(*SLICE) if self.interrupts_on else CALL_LIMIT
+            step = self.random.randint(*self.slice) if self.interrupts_on else CALL_LIMIT
             back = self._run(address, step)
             done += step
             assert done <= 2 * CALL_LIMIT and (back or step < CALL_LIMIT), f"{name} does not come back"
