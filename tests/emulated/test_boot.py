@@ -239,3 +239,21 @@ def test_a_flood_on_the_console_does_not_stop_the_ticks() -> None:
         before = number(stiffness(board), "tick")
         board.ask("x" * 20000)
         assert number(stiffness(board), "tick") > before
+
+
+def test_the_real_boards_image_names_what_the_emulated_chip_lacks() -> None:
+    """The STM32F405 image as it is flashed, on a chip whose PLL, CAN, flash and joints do not answer: it starts, waits
+    for nothing for ever, and says what is wrong."""
+    with Board("netduinoplus2", image("brace-stm32f405")) as board:
+        banner = board.banner()
+        assert BANNER.match(banner["brace"])[4] == "stm32f405"  # type: ignore[index]
+        assert banner["board"] == "PLL does not start: 16 MHz, no joints wired"
+        told = stiffness(board)
+        assert told.startswith("k: not valid flags") and "k_xx" not in told
+        board.ask("t")
+        text = "\n".join(board.until(r"selftest: \d+ passed"))
+        for words in ("FAIL joint_read(1): no such joint", "FAIL joint_read(2): no such joint", "FAIL can_setup: ",
+                      "FAIL now_us: runs at the wrong rate"):  # fmt: skip
+            assert words in text
+        assert text.count("FAIL") == 4
+        board.banner()  # and it starts again

@@ -21,7 +21,7 @@ static void help(text_t *text)
 #endif
 }
 
-/* Four decimals; what does not fit, or is no number, says so. */
+/* Four decimals; what does not fit says so. */
 static void text_value(text_t *text, const char *key, float value)
 {
     text_string(text, key);
@@ -45,11 +45,13 @@ static void stiffness(text_t *text, const brace_app_t *app)
     const brace_snapshot_t *const now = brace_app_snapshot(app);
     const brace_stiffness_t *const k = &now->stiffness.now;
     text_string(text, now->k_is_valid ? "k: valid" : "k: not valid");
-    text_value(text, " k_xx_n_per_mm ", k->k_xx_n_per_mm);
-    text_value(text, " k_xz_n_per_mm ", k->k_xz_n_per_mm);
-    text_value(text, " k_zz_n_per_mm ", k->k_zz_n_per_mm);
-    text_value(text, " theta1_rad ", now->theta_rad[BRACE_FEMUR]);
-    text_value(text, " theta2_rad ", now->theta_rad[BRACE_TIBIA]);
+    if (now->k_is_valid) { /* else there is no number to tell */
+        text_value(text, " k_xx_n_per_mm ", k->k_xx_n_per_mm);
+        text_value(text, " k_xz_n_per_mm ", k->k_xz_n_per_mm);
+        text_value(text, " k_zz_n_per_mm ", k->k_zz_n_per_mm);
+        text_value(text, " theta1_rad ", now->theta_rad[BRACE_FEMUR]);
+        text_value(text, " theta2_rad ", now->theta_rad[BRACE_TIBIA]);
+    }
     text_string(text, " flags ");
     text_hex(text, k->flags);
     text_string(text, " faults ");
