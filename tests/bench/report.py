@@ -2,12 +2,11 @@
 
 from dataclasses import dataclass
 
+from extra import Extra, Table
 from limits import Check
 from measure import Measured
 from throughput import Rate
 from versions import COLLAPSE, GROUPS, PLANAR, PLANAR_NO_FPU, SPATIAL
-
-Table = tuple[str, list[str], list[list[str]]]  # title, column heads, rows
 
 
 @dataclass(frozen=True)
@@ -21,6 +20,12 @@ class Bench:
     modules: dict[str, int]  # source of the core -> bytes of flash on the Cortex-M4F
     checks: list[Check]
     tools: dict[str, str]  # program -> version
+    extras: tuple[Extra, ...] = ()
+
+    @property
+    def all_checks(self) -> list[Check]:
+        """Also the extras'."""
+        return [*self.checks, *(check for extra in self.extras for check in extra.checks)]
 
 
 def _power(value: float) -> str:
@@ -62,8 +67,10 @@ def tables(bench: Bench) -> list[Table]:
                 [[name, f"{value:,}"] for name, value in bench.weights.items()]))
     out.append(("The core's sources on the Cortex-M4F", ["source", "flash [B]"],
                 [[name, f"{value:,}"] for name, value in bench.modules.items()]))
+    for extra in bench.extras:
+        out += extra.tables
     out.append(("Limits", ["limit", "measured", "required", ""],
-                [[c.name, c.measured, c.required, c.verdict] for c in bench.checks]))
+                [[c.name, c.measured, c.required, c.verdict] for c in bench.all_checks]))
     return out
 
 
@@ -96,7 +103,10 @@ def _aligned(heads: list[str], rows: list[list[str]]) -> str:
 def as_markdown(bench: Bench) -> str:
     """For docs/bench.md."""
     parts = ["# What a K costs", "Written by `./dev bench`; do not edit.", NOTES]
+    notes = {extra.tables[0][0]: extra.note for extra in bench.extras}
     for title, heads, rows in tables(bench):
+        if title in notes:
+            parts.append(notes[title])
         ruler = "|".join(["---", *["---:"] * (len(heads) - 1)])
         body = "\n".join("| " + " | ".join(cells) + " |" for cells in rows)
         parts.append(f"## {title}\n\n| {' | '.join(heads)} |\n|{ruler}|\n{body}")
@@ -125,7 +135,8 @@ def as_data(bench: Bench) -> dict[str, object]:
         "core_bytes": bench.weights,
         "core_source_flash_bytes": bench.modules,
         "limits": [{"name": c.name, "measured": c.measured, "required": c.required, "verdict": c.verdict}
-                   for c in bench.checks],
+                   for c in bench.all_checks],
+        **{extra.key: extra.data for extra in bench.extras},
         "tools": bench.tools,
     }
 

@@ -9,15 +9,16 @@
  * where friction is known (to its tolerance) while the motor moves one way and only bounded while it stands. The
  * interval is filtered twice, 10 ms and 80 ms. Fast and clear of zero by six sigma for 12 ms: the flank is valid.
  * Slow and clear by 0.7 of its bounds and three sigma, or narrowed by an expected load: the flank is told, not valid,
- * and remembered for 250 ms. Where nothing tells, no flank is told; the offset still goes where the slow mean leans to,
- * or else follows the motor's travel through the gap, as a play operator.
+ * and remembered for 250 ms. Where nothing tells, no flank is told; the offset still goes where the slow mean of a moving
+ * motor leans to, or else follows the motor's travel through the gap, as a play operator: a guess, off by up to the gap.
+ * What is reached, and what nobody could reach from the motor's side: docs/backlash.md.
  *
  * A table of transitions (src/backlash_table.c) moves the state; a second one the phases of a take-up.
  *
  * Angles in the joint's own sense (theta1, theta2), joint side of the reduction. Time is the caller's microseconds,
  * which may wrap. One brace_backlash_t per joint, touched by one thread; different joints are independent.
  * No heap, no recursion, no libm; loops are over a state's rows, at most 7 (brace_backlash_init: at most 1000).
- * A refused call changes nothing, save that brace_backlash_tick goes to FAULT on a bad sample. Formulas: docs/physics.md (backlash).
+ * A refused call changes nothing, save that brace_backlash_tick goes to FAULT on a bad sample. Figures: docs/bench.md.
  */
 #ifndef BRACE_BACKLASH_H
 #define BRACE_BACKLASH_H
@@ -147,7 +148,7 @@ brace_status_t brace_backlash_init(brace_backlash_t *joint, const brace_backlash
 /* One tick. Call once every tick_us; a gap of more than four ticks is a FAULT (the filters know nothing of it).
  *   out: always written but for BRACE_E_NULL; in FAULT: not valid, flank 0
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE (a sample out of range: FAULT)
- * cost on a Cortex-M4F: 510 instructions in the mean, at most 700 (take-up running); stack at most 100 bytes. */
+ * cost on a Cortex-M4F: 490 instructions in the mean, at most 700 (take-up running); stack at most 100 bytes. */
 brace_status_t brace_backlash_tick(brace_backlash_t *joint, const brace_backlash_sample_t *sample,
                                    brace_backlash_out_t *out);
 

@@ -227,7 +227,7 @@ brace_status_t brace_backlash_tick(brace_backlash_t *joint, const brace_backlash
 
     const int proven = bad ? 0 : backlash_load_proven(joint);
     const int told = bad ? 0 : proven != 0 ? proven : backlash_load_told(joint, sample, TOLD_SHARE);
-    const bool leans = !bad && !backlash_load_standing(joint);
+    const bool leans = !bad && told == 0 && !backlash_load_standing(joint);
     const int leaning = leans ? backlash_load_told(joint, sample, LEANING_SHARE) : 0;
     uint32_t facts = bad ? (uint32_t)FACT_BAD_SAMPLE : flank_facts(joint, told, leaning);
     facts |= backlash_takeup_advance(joint, facts, proven);

@@ -2,9 +2,6 @@
 
 #define INERTIA_TOLERANCE 0.25f
 
-/* A motor that has not advanced by its hysteresis for this long may have turned round. */
-#define STANDING_US 8000u
-
 /* Friction has the sign of the motion only after that has lasted: acceleration through a reversal is unsure. */
 #define SAME_WAY_US 6000u
 
@@ -105,11 +102,6 @@ void backlash_load_observe(brace_backlash_t *joint, const brace_backlash_sample_
 
     joint->play_low_rad = clamped(joint->play_low_rad + moved_rad, -half_gap_rad, half_gap_rad);
     joint->play_high_rad = clamped(joint->play_high_rad + moved_rad, -half_gap_rad, half_gap_rad);
-}
-
-bool backlash_load_standing(const brace_backlash_t *joint)
-{
-    return joint->standing_us > STANDING_US;
 }
 
 float backlash_load_off_n_mm(const brace_backlash_t *joint)

@@ -8,6 +8,9 @@
 #define PROOF_SIGMAS 6.0f
 #define HINT_SIGMAS 3.0f
 
+/* A motor that has not advanced by its hysteresis for this long stands [us]. */
+#define STANDING_US 8000u
+
 /* How long the fast interval has to be clear of zero [us]. */
 enum { CONFIRM_US = 12000 };
 
@@ -24,8 +27,11 @@ int backlash_load_proven(const brace_backlash_t *joint);
  * 0 if they do not tell. */
 int backlash_load_told(const brace_backlash_t *joint, const brace_backlash_sample_t *sample, float share);
 
-/* The motor has not advanced lately: its friction may have either sign. */
-bool backlash_load_standing(const brace_backlash_t *joint);
+/* The motor has not advanced lately: it may have turned round, its friction may have either sign. */
+static inline bool backlash_load_standing(const brace_backlash_t *joint)
+{
+    return joint->standing_us > STANDING_US;
+}
 
 /* Half width of the fast interval [N mm]. */
 float backlash_load_off_n_mm(const brace_backlash_t *joint);
