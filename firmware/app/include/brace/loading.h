@@ -6,7 +6,7 @@
  * from the preload point, the first reading; play should be taken up before (brace_app_take_up).
  *
  * The motors' movement is read from their encoders, so a servo that gives way under load is no part of the measured
- * K; with BRACE_LOADING_COMMANDED it is taken from the commanded offsets, and the servo's yielding is part of it, as
+ * K: the offsets are raised until the encoders stand where the step wants them. With BRACE_LOADING_COMMANDED it is taken from the commanded offsets, and the servo's yielding is part of it, as
  * where joint compliance was identified with the servo in it.
  */
 #ifndef BRACE_LOADING_H
@@ -43,7 +43,7 @@ typedef enum {
     BRACE_LOADING_E_FORCE = -1,    /* the force passed its bound */
     BRACE_LOADING_E_TORQUE = -2,   /* a motor's torque passed its bound */
     BRACE_LOADING_E_TRAVEL = -3,   /* a motor went further than twice the way commanded and 0.01 rad, or out of its travel */
-    BRACE_LOADING_E_TIME = -4,     /* not done within twice its time and 2 s */
+    BRACE_LOADING_E_TIME = -4,     /* not done within twice its time, 3 s a step for the servos, and 2 s */
     BRACE_LOADING_E_NO_FORCE = -5, /* neither sensor nor joints tell the force */
     BRACE_LOADING_E_LOST = -6,     /* a fault, or a flank that was taken up let go */
     BRACE_LOADING_E_FLAT = -7      /* too few steps with a displacement: the motors do not follow */
@@ -71,7 +71,8 @@ typedef struct {
     uint32_t phase_us, test_us, limit_us;
     float along_mm;                /* where the free shape is commanded to */
     float per_mm[2];               /* joint offsets for 1 mm of it */
-    float correction_rad[2];       /* what the servos give way by */
+    float give_rad_per_mm[2];      /* what the servos give way by, for 1 mm of it */
+    float step_rad[2];             /* a step, of each motor */
     float torque_max_n_mm[2];
     float lever[4];                /* the tip's movement for the joints', theta2's sense counted */
     float start_motor_rad[2], start_link_rad[2];

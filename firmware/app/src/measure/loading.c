@@ -6,9 +6,10 @@
 #define LEAST_KNEE_SINE 0.05f
 #define TRAVEL_SPARE_RAD 0.01f
 #define TORQUE_SHARE 0.95f       /* of the bound: a drive that limits its torque never passes it */
-#define CORRECTION_LEAST_US 50000.0f
-#define CORRECTION_MOST_RAD 0.05f
-#define RETURN_RAD_PER_S 0.1f
+#define CORRECTION_US 50000.0f
+#define CORRECTION_MOST_RAD 0.3f
+#define SETTLE_US 3000000u       /* for the servos, at most; then the step is read where it is */
+#define THERE_SHARE 0.01f        /* of a step */
 #define SAME_POSTURE_RAD 0.01f
 #define TIME_SPARE_US 2000000u
 
@@ -89,14 +90,15 @@ brace_status_t loading_start(brace_app_t *app, const brace_loading_setup_t *setu
         test->per_mm[i] = per_mm[i];
         test->held[i] = held;
         test->torque_max_n_mm[i] = most_n_mm;
-        test->correction_rad[i] = 0.0f;
+        test->give_rad_per_mm[i] = 0.0f;
+        test->step_rad[i] = __builtin_fabsf(per_mm[i] * setup->step_mm) + drive->angle_step_rad;
         test->start_motor_rad[i] = app->joint[i].sample.motor_rad;
     }
     test->along_mm = 0.0f;
     test->step = 0;
     test->test_us = 0;
-    const float step_us = (float)setup->dwell_us + 1e6f * setup->step_mm / setup->rate_mm_per_s;
-    const float whole_us = 2.0f * (float)step_count(test) * step_us;
+    const float step_us = 2.0f * ((float)setup->dwell_us + 1e6f * setup->step_mm / setup->rate_mm_per_s);
+    const float whole_us = (float)step_count(test) * (step_us + (float)SETTLE_US);
     test->limit_us = (whole_us < 3.0e9f ? (uint32_t)whole_us : 3000000000u) + TIME_SPARE_US;
     test->phase = LOADING_MOVE;
     (void)brace_drift_run(&app->drift);
@@ -126,6 +128,11 @@ static float nearer(float value, float target, float step)
     return value < target - step ? value + step : value > target + step ? value - step : target;
 }
 
+float loading_offset(const brace_loading_t *test, int index)
+{
+    return (test->per_mm[index] + test->give_rad_per_mm[index]) * test->along_mm;
+}
+
 /* Bounds that end a test. */
 static brace_loading_outcome_t broken_bound(const brace_app_t *app, const brace_snapshot_t *snapshot)
 {
@@ -139,7 +146,7 @@ static brace_loading_outcome_t broken_bound(const brace_app_t *app, const brace_
         return BRACE_LOADING_E_FORCE;
     }
     for (int i = 0; i < BRACE_APP_JOINTS; i++) {
-        const float asked_rad = test->per_mm[i] * test->along_mm + test->correction_rad[i];
+        const float asked_rad = loading_offset(test, i);
         const float moved_rad = app->joint[i].sample.motor_rad - test->start_motor_rad[i];
         if (test->held[i] && snapshot->play[BRACE_FEMUR + i].phase != BRACE_TAKEUP_HOLD) {
             return BRACE_LOADING_E_LOST;
@@ -157,23 +164,28 @@ static brace_loading_outcome_t broken_bound(const brace_app_t *app, const brace_
     return test->test_us > test->limit_us ? BRACE_LOADING_E_TIME : BRACE_LOADING_RUNNING;
 }
 
-/* What the servos give way by under load, so that the motors stand where the step wants them. */
-static void correct(brace_app_t *app)
+/* Raises the offsets by what the servos give way by under load, so that the motors stand where the step wants them. A
+ * linear limb wants the same per millimetre at each step, so what one step has learned serves the next. Worth a look
+ * where the free shape is off its rest only. returns whether the motors are there */
+static bool correct(brace_app_t *app)
 {
     brace_loading_t *test = &app->loading;
-    if (test->result.setup.source != BRACE_LOADING_ENCODED || test->step == 0) {
-        return;
+    if (test->result.setup.source != BRACE_LOADING_ENCODED || test->along_mm == 0.0f) {
+        return true;
     }
-    const float slow_us = (float)test->result.setup.dwell_us / 16.0f;
-    const float gain = (float)app->tick_us / (slow_us > CORRECTION_LEAST_US ? slow_us : CORRECTION_LEAST_US);
+    const float gain_per_mm = (float)app->tick_us / (CORRECTION_US * test->along_mm);
+    const float most_rad_per_mm = CORRECTION_MOST_RAD / __builtin_fabsf(test->along_mm);
+    bool there = true;
     for (int i = 0; i < BRACE_APP_JOINTS; i++) {
         const float moved_rad = app->joint[i].sample.motor_rad - test->start_motor_rad[i];
-        const float wanted_rad =
-            test->correction_rad[i] + gain * (test->per_mm[i] * test->along_mm - moved_rad);
-        test->correction_rad[i] = wanted_rad > CORRECTION_MOST_RAD    ? CORRECTION_MOST_RAD
-                                  : wanted_rad < -CORRECTION_MOST_RAD ? -CORRECTION_MOST_RAD
-                                                                      : wanted_rad;
+        const float off_rad = test->per_mm[i] * test->along_mm - moved_rad;
+        const float wanted = test->give_rad_per_mm[i] + gain_per_mm * off_rad;
+        test->give_rad_per_mm[i] = wanted > most_rad_per_mm    ? most_rad_per_mm
+                                   : wanted < -most_rad_per_mm ? -most_rad_per_mm
+                                                               : wanted;
+        there = there && __builtin_fabsf(off_rad) <= THERE_SHARE * test->step_rad[i];
     }
+    return there;
 }
 
 static void move(brace_app_t *app, float step_mm)
@@ -182,9 +194,13 @@ static void move(brace_app_t *app, float step_mm)
     const brace_loading_setup_t *setup = &test->result.setup;
     /* the free shape goes the other way: the tip stays, and is displaced against it */
     const float target_mm = -setup->step_mm * (float)place_of(test->step, setup->steps_per_side);
-    test->along_mm = nearer(test->along_mm, target_mm, step_mm);
-    correct(app);
-    if (test->along_mm == target_mm) {
+    if (test->along_mm != target_mm) {
+        test->along_mm = nearer(test->along_mm, target_mm, step_mm);
+        test->phase_us = 0;
+        return;
+    }
+    test->phase_us += app->tick_us;
+    if (correct(app) || test->phase_us >= SETTLE_US) {
         test->phase = LOADING_DWELL;
         test->phase_us = 0;
         loading_read_begin(test);
@@ -196,7 +212,7 @@ static void dwell(brace_app_t *app, const brace_snapshot_t *snapshot)
     brace_loading_t *test = &app->loading;
     test->phase_us += app->tick_us;
     if (2u * test->phase_us <= test->result.setup.dwell_us) {
-        correct(app);
+        (void)correct(app);
     } else {
         loading_read_sample(app, snapshot);
     }
@@ -208,13 +224,8 @@ static void dwell(brace_app_t *app, const brace_snapshot_t *snapshot)
 static void go_back(brace_app_t *app, float step_mm)
 {
     brace_loading_t *test = &app->loading;
-    const float step_rad = RETURN_RAD_PER_S * 1e-6f * (float)app->tick_us;
     test->along_mm = nearer(test->along_mm, 0.0f, step_mm);
-    test->correction_rad[0] = nearer(test->correction_rad[0], 0.0f, step_rad);
-    test->correction_rad[1] = nearer(test->correction_rad[1], 0.0f, step_rad);
-    if (test->along_mm == 0.0f && test->correction_rad[0] == 0.0f && test->correction_rad[1] == 0.0f) {
-        test->phase = LOADING_IDLE;
-    }
+    test->phase = test->along_mm == 0.0f ? (uint8_t)LOADING_IDLE : (uint8_t)LOADING_RETURN;
 }
 
 void loading_advance(brace_app_t *app, const brace_snapshot_t *snapshot)

@@ -16,6 +16,9 @@ enum {
 
 brace_status_t loading_start(brace_app_t *app, const brace_loading_setup_t *setup);
 
+/* What the test adds to a joint's set-point [rad]; index: 0 femur, 1 tibia */
+float loading_offset(const brace_loading_t *test, int index);
+
 /* Ends a test that runs: back to where it began. */
 void loading_end(brace_app_t *app, brace_loading_outcome_t outcome);
 

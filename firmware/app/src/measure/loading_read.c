@@ -61,6 +61,18 @@ static bool begin(brace_app_t *app, const float mean[SUMS])
     return brace_slope_start(&test->slope, 0.0f, mean[FORCE_X], mean[FORCE_Z]) == BRACE_OK;
 }
 
+/* A slope knows displacement along one axis; the little there is across it is taken off by the model. */
+static bool add_to_slope(brace_loading_t *test, float fx_n, float fz_n)
+{
+    const brace_stiffness_t *k = &test->model;
+    if (test->result.setup.axis == BRACE_AXIS_X) {
+        return brace_slope_step(&test->slope, test->dx_mm, fx_n - k->k_xz_n_per_mm * test->dz_mm,
+                                fz_n - k->k_zz_n_per_mm * test->dz_mm) == BRACE_OK;
+    }
+    return brace_slope_step(&test->slope, test->dz_mm, fx_n - k->k_xx_n_per_mm * test->dx_mm,
+                            fz_n - k->k_xz_n_per_mm * test->dx_mm) == BRACE_OK;
+}
+
 static void record(brace_app_t *app, const float mean[SUMS])
 {
     const brace_loading_t *test = &app->loading;
@@ -96,8 +108,7 @@ bool loading_read(brace_app_t *app)
             moved_rad[i] = commanded ? test->per_mm[i] * test->along_mm : mean[MOTOR + i];
         }
         displaced(app, moved_rad, &test->dx_mm, &test->dz_mm);
-        const float along_mm = test->result.setup.axis == BRACE_AXIS_X ? test->dx_mm : test->dz_mm;
-        sound = brace_slope_step(&test->slope, along_mm, mean[FORCE_X], mean[FORCE_Z]) == BRACE_OK;
+        sound = add_to_slope(test, mean[FORCE_X], mean[FORCE_Z]);
     }
     if (sound) {
         test->fx_n = mean[FORCE_X];

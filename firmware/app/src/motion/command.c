@@ -15,7 +15,7 @@ void command_send(brace_app_t *app, const brace_snapshot_t *snapshot)
         const brace_backlash_out_t *play = &snapshot->play[BRACE_FEMUR + i];
         brace_hal_joint_command_t command = {play->command_rad, __builtin_inff()};
         if (testing) {
-            command.offset_rad += test->per_mm[i] * test->along_mm + test->correction_rad[i];
+            command.offset_rad += loading_offset(test, i);
             command.torque_limit_n_mm = test->torque_max_n_mm[i];
         }
         if (play->limit_torque && app->play[i].watched) {
