@@ -12,11 +12,13 @@
 
 #define SAME_POSTURE_RAD 1e-3f
 #define RUN_MOST 64          /* a longer run begins anew: a slowly drifting sensor */
-#define OUTLIER_SIGMAS 6.0f  /* a reading further off teaches nothing, and counts as this far */
+#define OUTLIER_SIGMAS 6.0f  /* a reading further off teaches nothing */
+#define EVIDENCE_MOST 8.0f   /* of one force component: no single reading is an alarm */
 #define SCATTER_GAIN 0.375f  /* scatter fourfold in variance against none: LLR = 3/8 nu^2/S - ln(4)/2 */
 #define SCATTER_COST 0.69314718f
 #define SCATTER_MOST 8.0f
-#define NEARLY_AS_LIKELY 3.0f
+#define NEARLY_AS_LIKELY 3.0f /* log likelihood, and a share of it: a large loss is not quite what its slopes say */
+#define NEARLY_RATIO 0.1f
 #define WANDER_RATIO 0.10f   /* a baseline that has moved by this and six sigma is a change too, however slow */
 #define WANDER_SIGMAS 6.0f
 #define CHANGE_RATIO 0.08f   /* of a link's compliance, what the evidence is for: between 5 % and 10 % of loss */
@@ -263,23 +265,23 @@ static void take(brace_drift_t *drift, const float h[DRIFT_OFFSETS], float off, 
     spread(drift->covariance, h, g);
     const float variance = dot(h, g) + noise;
     const float per_variance = 1.0f / variance;
-    const float most = OUTLIER_SIGMAS * brace_sqrt(variance);
-    const bool outlier = __builtin_fabsf(off) > most;
-    const float counted = outlier ? (off > 0.0f ? most : -most) : off;
+    const float sigma = brace_sqrt(variance);
+    const bool outlier = __builtin_fabsf(off) > OUTLIER_SIGMAS * sigma;
 
     if (drift->state != BRACE_DRIFT_LEARNING) {
         UNROLLED
         for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) {
             const float shows = dot(h, drift->left[cause]);
             const float step = shows * change[cause];
-            drift->evidence[cause] += (step * counted - 0.5f * step * step - __builtin_fabsf(step) * bias) * per_variance;
+            const float more = (step * off - 0.5f * step * step - __builtin_fabsf(step) * bias) * per_variance;
+            drift->evidence[cause] += more < EVIDENCE_MOST ? more : EVIDENCE_MOST;
             drift->score[cause] += shows * off * per_variance;
             drift->information[cause] += shows * shows * per_variance;
             if (!outlier) {
                 add(drift->left[cause], g, -shows * per_variance, DRIFT_OFFSETS);
             }
         }
-        float beyond = __builtin_fabsf(counted) - bias;
+        float beyond = __builtin_fabsf(off) - bias;
         beyond = beyond > 0.0f ? beyond * beyond * per_variance : 0.0f;
         beyond = beyond < SCATTER_MOST ? beyond : SCATTER_MOST;
         drift->evidence[BRACE_DRIFT_UNEXPLAINED] += SCATTER_GAIN * beyond - SCATTER_COST;
@@ -326,6 +328,7 @@ static void judge(brace_drift_t *drift, const float change[BRACE_DRIFT_CAUSE_COU
         const float variance = drift->covariance[diagonal[cause]] + square(drift->held_sigma[cause]);
         if (away > 0.0f && away * away > square(WANDER_SIGMAS) * variance && drift->state == BRACE_DRIFT_WATCHING) {
             drift->state = BRACE_DRIFT_DRIFTED;
+            drift->cause = (uint8_t)cause;
         }
     }
 }
@@ -379,14 +382,12 @@ brace_status_t brace_drift_step(brace_drift_t *drift, const brace_limb_t *limb, 
     return BRACE_OK;
 }
 
-/* How well each cause explains what was seen since its evidence left zero, its size free. */
+/* How well a cause explains what was seen since its evidence left zero, its size free; 0 for one without evidence. */
 static float support(const brace_drift_t *drift, int cause)
 {
-    if (cause == BRACE_DRIFT_UNEXPLAINED) {
-        return drift->evidence[cause];
-    }
     const float score = drift->score[cause];
-    return drift->information[cause] > 0.0f ? 0.5f * score * score / drift->information[cause] : 0.0f;
+    const bool seen = drift->evidence[cause] >= 0.5f * BRACE_DRIFT_ALARM && drift->information[cause] > 0.0f;
+    return seen ? 0.5f * score * score / drift->information[cause] : 0.0f;
 }
 
 BRACE_OFF_TICK
@@ -400,7 +401,10 @@ brace_status_t brace_drift_report(const brace_drift_t *drift, const brace_limb_t
     prior(limb, &c, drift->setup.joint_compliance_trust_ratio, sigma);
     *report = (brace_drift_report_t){.state = (brace_drift_state_t)drift->state, .cause = BRACE_DRIFT_UNEXPLAINED,
                                      .evidence = drift->evidence[BRACE_DRIFT_UNEXPLAINED], .steps = drift->steps};
-    float most = support(drift, BRACE_DRIFT_UNEXPLAINED);
+    if (drift->state == BRACE_DRIFT_DRIFTED) {
+        report->cause = (brace_drift_cause_t)drift->cause;
+    }
+    float most = 0.0f;
     for (int i = 0; i < BRACE_DRIFT_CAUSE_COUNT; i++) {
         if (support(drift, i) > most) {
             most = support(drift, i);
@@ -408,23 +412,24 @@ brace_status_t brace_drift_report(const brace_drift_t *drift, const brace_limb_t
         }
         const float off = __builtin_fabsf(drift->offset[i]) / sigma[i];
         report->baseline_sigmas = off > report->baseline_sigmas ? off : report->baseline_sigmas;
-    }
-    for (int i = 0; i <= BRACE_DRIFT_CAUSE_COUNT; i++) {
-        report->could_be |= support(drift, i) >= most - NEARLY_AS_LIKELY ? 1u << i : 0u;
         report->evidence = drift->evidence[i] > report->evidence ? drift->evidence[i] : report->evidence;
     }
-    const float share[2] = {1.0f, c.tibia_share};
+    const int cause = report->cause;
+    report->could_be = 1u << cause;
+    report->since_steps = drift->since[cause];
+    const float share[BRACE_DRIFT_CAUSE_COUNT] = {1.0f, c.tibia_share, 1.0f};
     for (int i = 0; i < 2; i++) {
         report->learned_sigma_ratio[i] = sigma_of(drift, i) / share[i];
     }
-    const int cause = report->cause;
-    report->since_steps = drift->since[cause];
-    if (cause < BRACE_DRIFT_CAUSE_COUNT && drift->information[cause] > 0.0f) {
-        const float per = 1.0f / (cause == BRACE_DRIFT_TIBIA_OR_KNEE ? c.tibia_share : 1.0f);
-        const float size = drift->score[cause] / drift->information[cause];
-        const float softer = per * size;
-        report->loss_ratio = softer / (1.0f + softer);
-        report->loss_sigma_ratio = per / brace_sqrt(drift->information[cause]);
+    for (int i = 0; i < BRACE_DRIFT_CAUSE_COUNT; i++) {
+        report->could_be |= most > 0.0f && support(drift, i) >= most - NEARLY_AS_LIKELY - NEARLY_RATIO * most ? 1u << i : 0u;
+    }
+    if (cause < BRACE_DRIFT_CAUSE_COUNT) {
+        const bool sudden = most > 0.0f;
+        const float size = sudden ? drift->score[cause] / drift->information[cause] : drift->offset[cause] - drift->held[cause];
+        const float sigma_size = sudden ? 1.0f / brace_sqrt(drift->information[cause]) : sigma_of(drift, cause);
+        report->loss_ratio = size / (share[cause] + size);
+        report->loss_sigma_ratio = sigma_size / share[cause];
     }
     return BRACE_OK;
 }

@@ -1,0 +1,280 @@
+#include <math.h>
+#include <string.h>
+
+#include "brace/chain.h"
+#include "brace/drift.h"
+#include "close.h"
+#include "noise.h"
+#include "sample_limbs.h"
+#include "unity.h"
+
+/* The larger figures, against another simulation, are in tests/property/drift_figures.py. */
+
+static const float postures[][2] = {{0.74f, 1.0f}, {1.51f, 2.23f}, {0.28f, 0.51f}, {2.15f, 2.69f}, {0.96f, 2.04f}};
+enum { POSTURES = sizeof postures / sizeof postures[0], RUN = 12 };
+#define NOISE_N 0.1f
+#define STRETCHED 2 /* the posture that shows the tibia */
+
+static const brace_drift_setup_t setup = {NOISE_N, 0.0005f, 0.02f, 0.2f};
+static brace_drift_t drift;
+static brace_limb_t believed, real;
+static float warmer_degc;
+
+void setUp(void)
+{
+    noise_state = 7;
+    warmer_degc = 0.0f;
+    believed = sample_limb[SAMPLE_PAPER];
+    real = believed;
+    memset(&drift, 0x55, sizeof drift);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_learn(&drift, &believed, &setup));
+}
+
+void tearDown(void)
+{
+}
+
+static brace_stiffness_t stiffness_of(const brace_limb_t *limb, const float posture[2])
+{
+    brace_chain_t chain;
+    brace_stiffness_t k;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_build(limb, &chain));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_stiffness(&chain, posture[0], posture[1], &k));
+    return k;
+}
+
+static brace_limb_t warmed(void)
+{
+    brace_limb_t limb = real;
+    for (int joint = BRACE_FEMUR; joint <= BRACE_TIBIA; joint++) {
+        limb.joint[joint].compliance_rad_per_n_mm *= 1.0f + 0.02f * warmer_degc;
+    }
+    return limb;
+}
+
+/* One run of the real limb at a posture, under a load that nobody told of; the readings until an alarm. */
+static int run(int posture, int along_z)
+{
+    const brace_limb_t limb = warmed();
+    const brace_stiffness_t model = stiffness_of(&believed, postures[posture]), k = stiffness_of(&limb, postures[posture]);
+    int readings = 1;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_run(&drift));
+    for (int i = 0; i < RUN; i++) {
+        const float d = 0.635f * (float)(i % 2 == 0 ? i / 2 : -(i / 2)), dx = along_z ? 0.0f : d, dz = along_z ? d : 0.0f;
+        const brace_drift_reading_t reading = {
+            postures[posture][0], postures[posture][1], 30.0f + dx, dz - 20.0f,
+            12.0f + k.k_xx_n_per_mm * dx + k.k_xz_n_per_mm * dz + NOISE_N * (float)noise_normal(),
+            -9.0f + k.k_xz_n_per_mm * dx + k.k_zz_n_per_mm * dz + NOISE_N * (float)noise_normal(), warmer_degc};
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_step(&drift, &believed, &model, &reading));
+        readings += drift.state == BRACE_DRIFT_WATCHING;
+    }
+    return readings;
+}
+
+static void rounds(int count)
+{
+    for (int i = 0; i < 2 * POSTURES * count; i++) {
+        warmer_degc = 6.0f * (float)(i % 7 - 3) / 3.0f;
+        run(i / 2 % POSTURES, i % 2);
+    }
+    warmer_degc = 0.0f;
+}
+
+static brace_drift_report_t report(void)
+{
+    brace_drift_report_t result;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_report(&drift, &believed, &result));
+    return result;
+}
+
+static void learn_a_slightly_other_limb(void)
+{
+    real.link[BRACE_FEMUR].bending_mm_per_n *= 1.04f;
+    real.link[BRACE_TIBIA].bending_mm_per_n *= 0.95f;
+    real.joint[BRACE_FEMUR].compliance_rad_per_n_mm *= 0.96f;
+    real.joint[BRACE_TIBIA].compliance_rad_per_n_mm *= 1.05f;
+    rounds(14);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, drift.state);
+}
+
+static void test_the_state_stays_small(void)
+{
+    TEST_ASSERT_LESS_OR_EQUAL(300, sizeof(brace_drift_t));
+}
+
+static void test_a_limb_within_its_calibration_is_learned_and_raises_no_alarm(void)
+{
+    learn_a_slightly_other_limb();
+    rounds(6);
+    const brace_drift_report_t now = report();
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, now.state);
+    TEST_ASSERT_EQUAL(20 * 2 * POSTURES * RUN, now.steps);
+    TEST_ASSERT_TRUE(now.baseline_sigmas < 3.0f);
+    ASSERT_CLOSE(0.04, drift.offset[BRACE_DRIFT_FEMUR], 0.02);
+    ASSERT_CLOSE(-0.04, drift.offset[BRACE_DRIFT_FEMUR_JOINT_OR_BASE], 0.01);
+    ASSERT_CLOSE(0.037, drift.offset[BRACE_DRIFT_TIBIA_OR_KNEE], 0.01); /* 0.137 of it the tibia's */
+}
+
+static void check_loss(int link, brace_drift_cause_t cause)
+{
+    learn_a_slightly_other_limb();
+    real.link[link].bending_mm_per_n /= 0.9f;
+    int readings = 0;
+    for (int i = 0; i < 4 && drift.state == BRACE_DRIFT_WATCHING; i++) {
+        readings += run(STRETCHED, 0);
+    }
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_DRIFTED, drift.state);
+    TEST_ASSERT_LESS_OR_EQUAL(30, readings);
+    rounds(1); /* other postures tell the causes apart */
+    const brace_drift_report_t now = report();
+    TEST_ASSERT_EQUAL(cause, now.cause);
+    TEST_ASSERT_EQUAL(1u << cause, now.could_be & 1u << cause);
+    ASSERT_CLOSE(0.1, now.loss_ratio, 4.0f * now.loss_sigma_ratio);
+    TEST_ASSERT_TRUE(now.loss_sigma_ratio < 0.02f);
+}
+
+static void test_a_tenth_of_the_femurs_stiffness_lost_is_told(void)
+{
+    check_loss(BRACE_FEMUR, BRACE_DRIFT_FEMUR);
+}
+
+static void test_a_tenth_of_the_tibias_stiffness_lost_is_told(void)
+{
+    check_loss(BRACE_TIBIA, BRACE_DRIFT_TIBIA_OR_KNEE);
+}
+
+static void test_a_spring_that_goes_soft_is_not_taken_for_the_femur(void)
+{
+    learn_a_slightly_other_limb();
+    real.joint[BRACE_FEMUR].compliance_rad_per_n_mm *= 1.1f;
+    rounds(2);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_DRIFTED, report().state);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_FEMUR_JOINT_OR_BASE, report().cause);
+}
+
+static void test_an_alarm_stays_until_reset(void)
+{
+    learn_a_slightly_other_limb();
+    const brace_limb_t sound = real;
+    real.link[BRACE_FEMUR].bending_mm_per_n *= 1.3f;
+    rounds(1);
+    real = sound;
+    rounds(1);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_DRIFTED, report().state);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_reset(&drift));
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, report().state);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, report().evidence);
+}
+
+static void test_one_wild_reading_is_no_alarm(void)
+{
+    learn_a_slightly_other_limb();
+    const brace_stiffness_t model = stiffness_of(&believed, postures[STRETCHED]);
+    run(STRETCHED, 0);
+    const brace_drift_reading_t wild = {postures[STRETCHED][0], postures[STRETCHED][1], 31.0f, -20.0f, -140.0f, 120.0f, 0.0f};
+    const int outliers = drift.outliers;
+    float before[6];
+    memcpy(before, drift.offset, sizeof before);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_step(&drift, &believed, &model, &wild));
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, drift.state);
+    TEST_ASSERT_EQUAL_MEMORY(before, drift.offset, sizeof before);
+    TEST_ASSERT_EQUAL(2, drift.outliers - outliers);
+    rounds(1);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, drift.state);
+}
+
+static void test_scatter_beyond_the_noise_is_told_apart(void)
+{
+    learn_a_slightly_other_limb();
+    const brace_stiffness_t model = stiffness_of(&believed, postures[0]), k = stiffness_of(&real, postures[0]);
+    brace_drift_run(&drift);
+    for (int i = 0; i < 60 && drift.state == BRACE_DRIFT_WATCHING; i++) {
+        const float d = (float)(i % 5 - 2), off = noise_uniform() < 0.5 ? 0.4f : -0.4f;
+        const brace_drift_reading_t reading = {postures[0][0], postures[0][1], d, 0, k.k_xx_n_per_mm * d + off,
+                                               k.k_xz_n_per_mm * d + (noise_uniform() < 0.5 ? 0.4f : -0.4f), 0};
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_step(&drift, &believed, &model, &reading));
+    }
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_DRIFTED, report().state);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_UNEXPLAINED, report().cause);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, report().loss_ratio);
+}
+
+static void test_a_calibration_that_does_not_fit_shows_in_the_baseline(void)
+{
+    real.link[BRACE_FEMUR].bending_mm_per_n *= 1.6f; /* cracked before commissioning */
+    rounds(6);
+    TEST_ASSERT_TRUE(report().baseline_sigmas > 5.0f);
+}
+
+static void test_the_outlook_tells_where_a_loss_shows(void)
+{
+    learn_a_slightly_other_limb();
+    brace_drift_outlook_t stretched, bent;
+    for (int i = 0; i < 2; i++) {
+        const float *posture = postures[i == 0 ? STRETCHED : 4];
+        const brace_stiffness_t model = stiffness_of(&believed, posture);
+        const brace_drift_reading_t like = {posture[0], posture[1], 1.5f, 0, 0, 0, 0};
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_outlook(&drift, &believed, &model, &like, i == 0 ? &stretched : &bent));
+    }
+    TEST_ASSERT_LESS_THAN(30, stretched.steps_needed[BRACE_DRIFT_TIBIA_OR_KNEE]);
+    TEST_ASSERT_LESS_OR_EQUAL(stretched.steps_needed[BRACE_DRIFT_TIBIA_OR_KNEE], stretched.steps_needed[BRACE_DRIFT_FEMUR]);
+    TEST_ASSERT_GREATER_THAN(60, bent.steps_needed[BRACE_DRIFT_TIBIA_OR_KNEE]);
+    TEST_ASSERT_TRUE(bent.sigma_of_loss_ratio[BRACE_DRIFT_TIBIA_OR_KNEE] >
+                     2.0f * stretched.sigma_of_loss_ratio[BRACE_DRIFT_TIBIA_OR_KNEE]);
+}
+
+static void test_refused_calls_leave_everything_as_it_was(void)
+{
+    const brace_stiffness_t model = stiffness_of(&believed, postures[0]);
+    const brace_drift_reading_t sound = {0.74f, 1.0f, 1.0f, 0, 4.0f, 0, 0};
+    brace_drift_reading_t reading = sound;
+    const brace_drift_t before = drift;
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_step(NULL, &believed, &model, &sound));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_step(&drift, NULL, &model, &sound));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_step(&drift, &believed, NULL, &sound));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_step(&drift, &believed, &model, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_report(&drift, &believed, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_outlook(&drift, &believed, &model, &sound, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_reset(NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_run(NULL));
+    reading.fx_n = NAN;
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, brace_drift_step(&drift, &believed, &model, &reading));
+    reading.fx_n = INFINITY;
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, brace_drift_step(&drift, &believed, &model, &reading));
+    reading = sound;
+    reading.dx_mm = 2e4f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_step(&drift, &believed, &model, &reading));
+    reading = sound;
+    reading.theta2_rad = 8.0f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_step(&drift, &believed, &model, &reading));
+    brace_stiffness_t broken = model;
+    broken.lambda_min_n_per_mm = -1.0f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_step(&drift, &believed, &broken, &sound));
+    brace_drift_setup_t wrong = setup;
+    wrong.noise_n = 0.0f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_learn(&drift, &believed, &wrong));
+    wrong = setup;
+    wrong.joint_compliance_trust_ratio = NAN;
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, brace_drift_learn(&drift, &believed, &wrong));
+    brace_limb_t no_limb = believed;
+    no_limb.femur_mm = 0.0f;
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_drift_learn(&drift, &no_limb, &setup));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &drift, sizeof drift);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_the_state_stays_small);
+    RUN_TEST(test_a_limb_within_its_calibration_is_learned_and_raises_no_alarm);
+    RUN_TEST(test_a_tenth_of_the_femurs_stiffness_lost_is_told);
+    RUN_TEST(test_a_tenth_of_the_tibias_stiffness_lost_is_told);
+    RUN_TEST(test_a_spring_that_goes_soft_is_not_taken_for_the_femur);
+    RUN_TEST(test_an_alarm_stays_until_reset);
+    RUN_TEST(test_one_wild_reading_is_no_alarm);
+    RUN_TEST(test_scatter_beyond_the_noise_is_told_apart);
+    RUN_TEST(test_a_calibration_that_does_not_fit_shows_in_the_baseline);
+    RUN_TEST(test_the_outlook_tells_where_a_loss_shows);
+    RUN_TEST(test_refused_calls_leave_everything_as_it_was);
+    return UNITY_END();
+}
