@@ -109,7 +109,7 @@ def _f32_range(entry: Entry) -> tuple[str, str]:
 
 
 def _u32_range(entry: Entry) -> tuple[str, str]:
-    return f"{entry.low:d}u", f"{entry.high:d}u"  # type: ignore[str-format]
+    return f"{entry.low:d}u", f"{entry.high:d}u"
 
 
 def _numbers(entry: Entry) -> str:

@@ -1,0 +1,142 @@
+"""Every signal of the CAN database, both ways: encoded by the firmware's C and decoded by cantools, and the reverse."""
+
+from __future__ import annotations
+
+import math
+import random
+from pathlib import Path
+from typing import Any
+
+import cantools.database
+import cffi
+import pytest
+
+from brace.native.cdef import declarations
+from brace.native import loader
+from brace.wire import frames
+from brace.wire.layout import Field, Layout
+
+PROJECT = Path(__file__).resolve().parents[2]
+HEADER = PROJECT / "firmware" / "interface" / "generated" / "brace" / "can_messages.h"
+DBC = PROJECT / "firmware" / "interface" / "brace.dbc"
+SUFFIX = {"": "", "1": "_ratio", "N/mm": "_n_per_mm", "rad": "_rad", "ms": "_ms", "mm": "_mm", "N": "_n"}
+RANDOM = 1000
+
+
+@pytest.fixture(scope="module")
+def c() -> tuple[Any, Any]:
+    ffi = cffi.FFI()
+    ffi.cdef(declarations([HEADER], [HEADER.parents[1]]))
+    return ffi, ffi.dlopen(str(loader._find_library()))
+
+
+@pytest.fixture(scope="module")
+def database() -> Any:
+    return cantools.database.load_file(DBC, strict=True)
+
+
+def layouts() -> list[tuple[Layout, str, str]]:
+    """Each layout with its message in the database and what its signals' names begin with there."""
+    listed = [(layout, name, "") for name, layout in frames.MESSAGES.items()]
+    listed += [(layout, "request", name + "_") for name, layout in frames.REQUESTS.items()]
+    for name, parts in frames.ANSWERS.items():
+        listed += [(layout, "answer", f"{name}_{part}_") for part, layout in enumerate(parts)]
+    return listed
+
+
+def codes(field: Field, dice: random.Random) -> list[int]:
+    """Smallest and largest code of a value, and random ones between."""
+    low = -(1 << (field.bits - 1)) if field.signed else 0
+    high = (1 << (field.bits - 1)) - 1 if field.signed else (1 << field.bits) - 1
+    if field.kind == "value":
+        low, high = (low + 1, high) if field.signed else (low, high - 1)
+    return [low, high, *(dice.randint(low, high) for _ in range(RANDOM))]
+
+
+def value_of(field: Field, code: int) -> float | int:
+    return code * field.step if field.kind == "value" else code
+
+
+def others(layout: Layout, prefix: str) -> dict[str, float | int]:
+    """A frame in which every signal is 0."""
+    values: dict[str, float | int] = {prefix + field.name: 0 for field in layout.fields}
+    if layout.command is not None:
+        values |= {"command": layout.command, "token": 0}
+    return values
+
+
+def close(field: Field, got: float, wanted: float) -> bool:
+    """Within one step, and a float's rounding where floats carry it."""
+    if field.kind == "number":
+        return got == wanted
+    return abs(got - wanted) <= field.step * 1.0001 + 1.2e-7 * abs(wanted)
+
+
+@pytest.mark.parametrize(("layout", "message", "prefix"), layouts(), ids=lambda value: getattr(value, "name", None))
+def test_every_signal(layout: Layout, message: str, prefix: str, c: tuple[Any, Any], database: Any) -> None:
+    ffi, lib = c
+    known = database.get_message_by_name(message)
+    identifier = layout.identifier + 1
+    assert known.frame_id == identifier
+    pack = getattr(lib, f"brace_can_pack_{layout.name}")
+    unpack = getattr(lib, f"brace_can_unpack_{layout.name}")
+    struct, data = ffi.new(f"brace_can_{layout.name}_t *"), ffi.new("uint8_t[8]")
+    dice = random.Random(layout.name)
+    for field in layout.fields:
+        member, signal = field.name + SUFFIX[field.unit], prefix + field.name
+        listed = codes(field, dice) if field.kind != "f32" else None
+        values = (
+            [value_of(field, code) for code in listed]
+            if listed is not None
+            else [0.0, 3.4e38, -3.4e38, *(dice.uniform(-1e6, 1e6) for _ in range(RANDOM))]
+        )
+        for value in values:
+            setattr(struct, member, value)
+            assert pack(struct, data) == 0, f"{signal}: {value} is limited"
+            read = known.decode(bytes(data), decode_choices=False)
+            assert close(field, read[signal], value), f"{signal}: C wrote {value}, cantools reads {read[signal]}"
+
+            sent = known.encode({**others(layout, prefix), signal: value}, strict=True, padding=False)
+            ffi.memmove(data, bytes(sent).ljust(8, b"\0"), 8)
+            unpack(data, struct)
+            got = getattr(struct, member)
+            assert close(field, got, value), f"{signal}: cantools wrote {value}, C reads {got}"
+            assert close(field, layout.decode(bytes(sent))[field.name], value)
+        setattr(struct, member, 0)
+        check_unknown(field, signal, member, struct, data, known, layout, pack, unpack)
+        check_limits(field, member, struct, data, layout, pack)
+
+
+def check_unknown(
+    field: Field, signal: str, member: str, struct: Any, data: Any, known: Any, layout: Layout, pack: Any, unpack: Any
+) -> None:
+    """NaN travels as the code that the database calls NOT_KNOWN, and never as zero."""
+    if field.kind != "value":
+        return
+    setattr(struct, member, math.nan)
+    assert pack(struct, data) == 0
+    assert str(known.decode(bytes(data))[signal]) == "NOT_KNOWN"
+    assert layout.decode(bytes(data))[field.name] is None
+    unpack(data, struct)
+    assert math.isnan(getattr(struct, member))
+    setattr(struct, member, 0)
+
+
+def check_limits(field: Field, member: str, struct: Any, data: Any, layout: Layout, pack: Any) -> None:
+    """Beyond its range a value is limited, and that is told."""
+    if field.kind != "value":
+        return
+    for value, bound in ((1e30, max), (-1e30, min)):
+        setattr(struct, member, value)
+        assert pack(struct, data) == 1
+        limit = bound(value_of(field, code) for code in codes(field, random.Random(0))[:2])
+        assert layout.decode(bytes(data))[field.name] == pytest.approx(limit)
+    setattr(struct, member, 0)
+
+
+def test_database_has_the_promised_names(database: Any) -> None:
+    signals = {s.name: s for m in database.messages for s in m.signals}
+    for name in ("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max"):
+        assert signals[name].unit == "N/mm"
+    for name in ("stiff_axis", "theta1", "theta2"):
+        assert signals[name].unit == "rad"

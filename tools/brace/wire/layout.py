@@ -1,0 +1,80 @@
+"""Eight bytes <-> named values: the layouts that the dictionary's frames have."""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+Value = float | int | None
+
+
+@dataclass(frozen=True)
+class Field:
+    """A run of bits, least significant first."""
+
+    name: str
+    start: int
+    bits: int
+    kind: str = "number"  # value: steps of a unit, None where not known; f32: a float's bits
+    signed: bool = False
+    step: float = 1.0
+    unit: str = ""
+    names: Mapping[int, str] = field(default_factory=dict)
+    bit_names: tuple[str, ...] = ()
+
+    def decode(self, frame_bits: int) -> Value:
+        """Value in its unit; None: not known."""
+        code = frame_bits >> self.start & (1 << self.bits) - 1
+        if self.kind == "f32":
+            (value,) = struct.unpack("<f", struct.pack("<I", code))
+            return None if math.isnan(value) else float(value)
+        unknown = 1 << (self.bits - 1) if self.signed else (1 << self.bits) - 1
+        if self.kind == "value" and code == unknown:
+            return None
+        if self.signed and code >> (self.bits - 1):
+            code -= 1 << self.bits
+        return code * self.step if self.kind == "value" else code
+
+    def encode(self, value: Value) -> int:
+        """Bits in place. ValueError outside the range."""
+        mask = (1 << self.bits) - 1
+        if self.kind == "f32":
+            (code,) = struct.unpack("<I", struct.pack("<f", math.nan if value is None else value))
+            return int(code) << self.start
+        if value is None or (isinstance(value, float) and math.isnan(value)):
+            if self.kind != "value":
+                raise ValueError(f"{self.name}: a number is wanted")
+            code = 1 << (self.bits - 1) if self.signed else mask
+            return code << self.start
+        code = round(value / self.step)
+        low = -(1 << (self.bits - 1)) if self.signed else 0
+        high = (1 << (self.bits - 1)) - 1 if self.signed else mask
+        if self.kind == "value":
+            low, high = low + self.signed, high - (not self.signed)
+        if not low <= code <= high:
+            raise ValueError(f"{self.name}: {value} {self.unit} does not fit ({low * self.step:g} to {high * self.step:g})")
+        return (code & mask) << self.start
+
+
+@dataclass(frozen=True)
+class Layout:
+    """One frame."""
+
+    name: str
+    identifier: int  # of node 0
+    command: int | None  # first byte of requests and answers
+    fields: tuple[Field, ...]
+
+    def decode(self, data: bytes) -> dict[str, Value]:
+        """Name -> value."""
+        bits = int.from_bytes(data[:8].ljust(8, b"\0"), "little")
+        return {item.name: item.decode(bits) for item in self.fields}
+
+    def encode(self, values: Mapping[str, Value], token: int = 0) -> bytes:
+        """Eight bytes. KeyError for a field that is missing, ValueError for one that does not fit."""
+        bits = 0 if self.command is None else self.command | (token & 0xFF) << 8
+        for item in self.fields:
+            bits |= item.encode(values[item.name])
+        return bits.to_bytes(8, "little")

@@ -1,0 +1,95 @@
+"""brace.dbc: the frames as a CAN database, for one node or several."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from interface.messages import Signal, Wire
+
+_CONTROLLER, _COMPUTER = "LIMB", "ROBOT"
+
+
+def dbc(wire: Wire, dictionary_hash: int, nodes: Sequence[int] = (1,)) -> str:
+    """Text of the database. With several nodes the names of their messages and senders end in _<node>."""
+    several = len(nodes) > 1
+    messages: list[str] = []
+    comments: list[str] = [f'CM_ "Brace: stiffness on the limb. Written from messages.toml. Dictionary 0x{dictionary_hash:08x}.";']
+    values: list[str] = []
+    floats: list[str] = []
+    senders: list[str] = []
+    for node in nodes:
+        suffix = f"_{node}" if several else ""
+        sender = _CONTROLLER + suffix
+        senders.append(sender)
+        for frame in wire.messages:
+            identifier = frame.identifier + node
+            lines = [_signal_line(signal, signal.name, "", _COMPUTER) for signal in frame.signals]
+            messages.append(_message(identifier, frame.name + suffix, sender, lines))
+            comments.append(f'CM_ BO_ {identifier} "{frame.description}";')
+            for signal in frame.signals:
+                comments.append(f'CM_ SG_ {identifier} {signal.name} "{_words(signal)}";')
+                values += _value_table(identifier, signal, signal.name)
+        questions = [request.question for request in wire.requests]
+        answers = [frame for request in wire.requests for frame in request.answers]
+        refusals = [(wire.refusal, request.code + 32 * wire.refused_part) for request in wire.requests]
+        for identifier, name, from_, to, frames in (
+            (wire.request_id + node, "request", _COMPUTER, sender, [(f, f.command or 0) for f in questions]),
+            (wire.answer_id + node, "answer", sender, _COMPUTER, [*((f, f.command or 0) for f in answers), *refusals]),
+        ):
+            lines = [
+                f' SG_ command M : 0|8@1+ (1,0) [0|255] "" {to}',
+                f' SG_ token : 8|8@1+ (1,0) [0|255] "" {to}',
+            ]
+            meanings: list[str] = []
+            for frame, command in frames:
+                refused = frame is wire.refusal
+                stem = f"refused_{command % 32}" if refused else frame.name.removesuffix("_request")
+                meanings.append(f'{command} "{stem.upper()}"')
+                for signal in frame.signals:
+                    full = f"{stem.replace('_answer_', '_')}_{signal.name}"
+                    lines.append(_signal_line(signal, full, f"m{command} ", to))
+                    values += _value_table(identifier, signal, full)
+                    if signal.kind == "f32":
+                        floats.append(f"SIG_VALTYPE_ {identifier} {full} : 1;")
+            messages.append(_message(identifier, name + suffix, from_, lines))
+            values.append(f"VAL_ {identifier} command {' '.join(meanings)} ;")
+    head = 'VERSION ""\n\nNS_ :\n\nBS_:\n\nBU_: ' + " ".join([*senders, _COMPUTER]) + "\n"
+    return "\n".join([head, *messages, *comments, *values, *floats]) + "\n"
+
+
+def _message(identifier: int, name: str, sender: str, lines: Sequence[str]) -> str:
+    return f"BO_ {identifier} {name}: 8 {sender}\n" + "\n".join(lines) + "\n"
+
+
+def _signal_line(signal: Signal, name: str, multiplexed: str, receiver: str) -> str:
+    sign = "-" if signal.signed or signal.kind == "f32" else "+"
+    if signal.kind == "f32":
+        low, high = "0", "0"
+    else:
+        low, high = _number(signal.least * signal.step), _number(signal.greatest * signal.step)
+    return (
+        f" SG_ {name} {multiplexed}: {signal.start}|{signal.bits}@1{sign} ({_number(signal.step)},0) "
+        f'[{low}|{high}] "{"" if signal.unit == "1" else signal.unit}" {receiver}'
+    )
+
+
+def _number(value: float) -> str:
+    return f"{value:.10g}"
+
+
+def _words(signal: Signal) -> str:
+    words = signal.description
+    if signal.bit_names:
+        words += "; bits from 0: " + ", ".join(signal.bit_names)
+    if signal.invalid is not None:
+        words += f"; {signal.invalid} steps: not known"
+    return words
+
+
+def _value_table(identifier: int, signal: Signal, name: str) -> list[str]:
+    meanings = dict(signal.names)
+    if signal.invalid is not None:
+        meanings[signal.invalid] = "NOT_KNOWN"
+    if not meanings:
+        return []
+    return [f"VAL_ {identifier} {name} " + " ".join(f'{n} "{text}"' for n, text in sorted(meanings.items())) + " ;"]

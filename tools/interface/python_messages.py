@@ -1,0 +1,69 @@
+"""The Python side of the frames: tools/brace/wire/frames.py."""
+
+from __future__ import annotations
+
+from interface.messages import Frame, Signal, Wire
+
+
+def frames_module(wire: Wire, dictionary_hash: int) -> str:
+    """One `Layout(...)` for each frame."""
+    lines = [
+        '"""Frames of the wire by name. Written by tools/interface from messages.toml; do not edit."""',
+        "",
+        "from __future__ import annotations",
+        "",
+        "from brace.wire.layout import Field, Layout",
+        "",
+        f"DICTIONARY_HASH = 0x{dictionary_hash:08X}",
+        f"PROTOCOL = {wire.protocol}",
+        f"REQUEST_ID = 0x{wire.request_id:03X}",
+        f"ANSWER_ID = 0x{wire.answer_id:03X}",
+        f"REFUSED_PART = {wire.refused_part}",
+        "",
+        "MESSAGES: dict[str, Layout] = {",
+        *(line for frame in wire.messages for line in _entry(frame)),
+        "}",
+        "",
+        "REQUESTS: dict[str, Layout] = {",
+        *(line for request in wire.requests for line in _entry(request.question, request.name)),
+        "}",
+        "",
+        "ANSWERS: dict[str, tuple[Layout, ...]] = {",
+    ]
+    for request in wire.requests:
+        lines.append(f'    "{request.name}": (')
+        for frame in request.answers:
+            lines += ["    " + line for line in _layout(frame)]
+        lines.append("    ),")
+    lines += ["}", "", "REFUSAL = (", *_layout(wire.refusal), ")[0]"]
+    return "\n".join(lines) + "\n"
+
+
+def _entry(frame: Frame, name: str | None = None) -> list[str]:
+    first, *rest = _layout(frame)
+    return [f'    "{name or frame.name}": {first.strip()}', *rest]
+
+
+def _layout(frame: Frame) -> list[str]:
+    command = "None" if frame.command is None else str(frame.command)
+    return [
+        f'    Layout("{frame.name}", 0x{frame.identifier:03X}, {command}, (',
+        *(f"        {_field(signal)}," for signal in frame.signals),
+        "    )),",
+    ]
+
+
+def _field(signal: Signal) -> str:
+    parts = [f'"{signal.name}"', str(signal.start), str(signal.bits)]
+    if signal.kind != "number":
+        parts.append(f'kind="{signal.kind}"')
+    if signal.signed:
+        parts.append("signed=True")
+    if signal.kind == "value":
+        parts.append(f"step={signal.step!r}")
+        parts.append(f'unit="{signal.unit}"')
+    if signal.names:
+        parts.append("names={" + ", ".join(f'{n}: "{text}"' for n, text in sorted(signal.names.items())) + "}")
+    if signal.bit_names:
+        parts.append("bit_names=(" + ", ".join(f'"{text}"' for text in signal.bit_names) + ",)")
+    return f"Field({', '.join(parts)})"
