@@ -96,6 +96,8 @@ def run(build: Path) -> Report:
         if depths[-1].worst_bytes > depths[-1].room_bytes:
             findings.append(Finding(image.path, 0, calls.STACK, f"{depths[-1].worst_bytes} B needed of "
                                     f"{depths[-1].room_bytes} B: {' -> '.join(depths[-1].chain)}"))
+    if not depths:
+        raise Unreadable(f"{build}: no controller image; build it whole first (./dev setup)")
     exempt = objects.exemptions()
     findings = [f for f in dict.fromkeys(findings) if (f.path, f.rule) not in exempt]
     counted = sum(isinstance(at, loops.LOOPS) for s in sources for f in s.functions if f.coord.file == str(s.path)

@@ -142,7 +142,8 @@ def parse(source: Source) -> c_ast.FileAST:
                    "-D__restrict=", "-D__inline=inline", "-include", "types_of_the_checker.h", str(source.path)]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode != 0:
-        raise Unreadable(f"{source.path}: {done.stderr.strip().splitlines()[-1]}")
+        said = done.stderr.strip().splitlines()
+        raise Unreadable(next((line for line in said if "error" in line), said[-1]))
     text = RANGE_INITIALISER.sub(r"[\1]", without_assembly(done.stdout))
     try:
         return c_parser.CParser().parse(text, str(source.path))

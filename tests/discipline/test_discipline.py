@@ -129,6 +129,7 @@ def test_nothing_was_left_out(report: check.Report) -> None:
     by_build = [source for source in firmware_sources(BUILD) if source.compiler != "gcc"]
     assert {source.path for source in by_build} == {source for source, _ in build_objects(BUILD)}
     assert report.loops > 100 and report.functions > 500
+    assert len(report.depths) >= 3
     for depth in report.depths:
         print(f"{depth.image}: stack at most {depth.worst_bytes} B of {depth.room_bytes} B: {' -> '.join(depth.chain)}")
         assert 0 < depth.tick_bytes <= depth.main_bytes < depth.room_bytes
