@@ -133,6 +133,14 @@ def commissioning(postures: np.ndarray, rng: np.random.Generator, repeats: int =
     return runs(theta, np.tile(np.eye(2), (repeats * len(postures), 1)), rng, period=period, **how)
 
 
+def split_at_reversals(record: Record) -> Record:
+    """The same readings, a run for each stretch of motion in one direction: dry friction is constant in it."""
+    way = np.sign(np.diff(record.d_mm.sum(axis=1), prepend=0.0))
+    starts = np.diff(record.run, prepend=-1) != 0
+    begins = starts | (np.diff(way, prepend=0.0) != 0)
+    return replace(record, run=np.cumsum(begins).astype(np.int32))
+
+
 def random_believed(rng: np.random.Generator) -> dict[str, float]:
     """A limb about as slender as those of the practice records: lengths by a third, compliances by a factor of two."""
     def about(value: float, factor: float = 2.0) -> float:
