@@ -68,7 +68,9 @@ class Board:
                 continue
             if re.search(pattern, lines[-1]):
                 return lines
-        raise AssertionError("\n".join([f"no line like {pattern!r} within {PATIENCE_S} s; there were:", *lines]))
+        raise AssertionError(
+            "\n".join([f"no line like {pattern!r} within {PATIENCE_S} s; there were:", *lines])
+        )
 
     def banner(self) -> dict[str, str]:
         """The next banner, whole: its keys and values; 'brace' is the first line."""
@@ -85,7 +87,9 @@ def registers(banner: dict[str, str]) -> dict[str, int]:
 
 def function_at(elf: Path, address: int) -> str:
     """The name of the function that an address lies in."""
-    listing = subprocess.run(["arm-none-eabi-nm", "-S", elf], capture_output=True, text=True, check=True).stdout
+    listing = subprocess.run(
+        ["arm-none-eabi-nm", "-S", elf], capture_output=True, text=True, check=True
+    ).stdout
     for line in listing.splitlines():
         fields = line.split()
         if len(fields) == 4 and fields[2] in "tT":

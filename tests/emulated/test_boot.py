@@ -98,7 +98,8 @@ SAFE = {parameter.key: parameter.safe for parameter in PARAMETERS}
 def members_of(limb: dict[str, float]) -> bytes:
     """A set of parameters as the block has it."""
     return b"".join(
-        struct.pack("<I" if parameter.type == "u32" else "<f", limb[parameter.key]) for parameter in PARAMETERS
+        struct.pack("<I" if parameter.type == "u32" else "<f", limb[parameter.key])
+        for parameter in PARAMETERS
     )
 
 
@@ -227,7 +228,9 @@ def test_the_watchdog_says_where_it_hung() -> None:
         board.banner()
         board.ask("h")
         banner = board.banner()
-        assert banner["start"] == "watchdog" and banner["crash"].startswith("watchdog: the main loop stood still")
+        assert banner["start"] == "watchdog" and banner["crash"].startswith(
+            "watchdog: the main loop stood still"
+        )
         assert function_at(elf, registers(banner)["pc"]) == "provoke_hang"
         time_us = int(re.search(r"\d+", banner["crash-time"])[0])  # type: ignore[index]
         assert 2.5e6 <= time_us < 60e6
@@ -242,8 +245,8 @@ def test_a_flood_on_the_console_does_not_stop_the_ticks() -> None:
 
 
 def test_the_real_boards_image_names_what_the_emulated_chip_lacks() -> None:
-    """The STM32F405 image as it is flashed, on a chip whose PLL, CAN, flash and joints do not answer: it starts, waits
-    for nothing for ever, and says what is wrong."""
+    """The STM32F405 image as it is flashed, on a chip whose PLL, CAN, flash and joints do not answer: it starts,
+    waits for nothing for ever, and says what is wrong."""
     with Board("netduinoplus2", image("brace-stm32f405")) as board:
         banner = board.banner()
         assert BANNER.match(banner["brace"])[4] == "stm32f405"  # type: ignore[index]

@@ -1,4 +1,4 @@
-"""The controller images as files: bounds, what must not be in them, what lies beside them, what they say of themselves."""
+"""The controller images as files: bounds, what must not be in them, what lies beside them, what they say."""
 
 from __future__ import annotations
 
@@ -43,7 +43,17 @@ def test_no_heap_no_stdio_no_semihosting(name: str) -> None:
 
 
 def test_the_pattern_knows_them() -> None:
-    for symbol in ("malloc", "_malloc_r", "_sbrk", "printf", "_printf_float", "snprintf", "_write", "_exit", "free"):
+    for symbol in (
+        "malloc",
+        "_malloc_r",
+        "_sbrk",
+        "printf",
+        "_printf_float",
+        "snprintf",
+        "_write",
+        "_exit",
+        "free",
+    ):
         assert LIBRARIES_OF_HOSTS.match(symbol), symbol
     for symbol in ("memcpy", "main", "brace_app_tick", "nvm_write", "serial_read", "free_ring"):
         assert not LIBRARIES_OF_HOSTS.match(symbol), symbol
@@ -57,7 +67,13 @@ def test_bounds(name: str) -> None:
     assert place["_vectors"] == board.flash_start
     assert place["_stack_limit"] == board.ram_start  # lowest: outgrowing it is a fault
     assert place["_stack_top"] - place["_stack_limit"] == 8192
-    assert place["_stack_top"] <= place["_kept_nvm"] <= place["_data_start"] <= place["_bss_start"] <= place["_bss_end"]
+    assert (
+        place["_stack_top"]
+        <= place["_kept_nvm"]
+        <= place["_data_start"]
+        <= place["_bss_start"]
+        <= place["_bss_end"]
+    )
     assert place["_bss_end"] <= board.ram_start + board.ram_bytes
     load = read_image(elf)
     assert load.start == board.flash_start and load.end <= board.flash_start + board.flash_bytes
@@ -125,7 +141,16 @@ def test_the_source_hash_says_dirty(tmp_path: Path) -> None:
         return re.findall(r'SOURCE_HASH "(.*)"', text)[0]
 
     def git(*arguments: str) -> str:
-        return output_of("git", "-C", tmp_path / "source", "-c", "user.name=t", "-c", "user.email=t@example.org", *arguments)
+        return output_of(
+            "git",
+            "-C",
+            tmp_path / "source",
+            "-c",
+            "user.name=t",
+            "-c",
+            "user.email=t@example.org",
+            *arguments,
+        )
 
     source = tmp_path / "source" / "firmware" / "main.c"
     source.parent.mkdir(parents=True)

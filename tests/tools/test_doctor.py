@@ -1,4 +1,4 @@
-"""brace doctor: what is there, what is missing, with stand-ins on PATH, a bus and a project of our own, and with nothing."""
+"""brace doctor: what is there and what is missing, with stand-ins and a bus of our own, and with nothing."""
 
 from __future__ import annotations
 
@@ -46,12 +46,27 @@ def states(findings: list[Finding]) -> dict[str, str]:
 def test_nothing_is_there(nothing: Machine) -> None:
     found = list(programs(nothing))
     state = states(found)
-    for name in ("gcc", "g++", "cmake", "ninja", "arm-none-eabi-gcc", "qemu-system-arm", "newlib", "programmer"):
+    for name in (
+        "gcc",
+        "g++",
+        "cmake",
+        "ninja",
+        "arm-none-eabi-gcc",
+        "qemu-system-arm",
+        "newlib",
+        "programmer",
+    ):
         assert state[name] == MISSING, name
     assert all(one.next_step.startswith("sudo apt-get install ") for one in found if not one.is_good)
     assert state["candump"] == NOTE
     state = states(list(hardware(nothing)))
-    assert state["probe"] == state["serial port"] == state["CAN interface"] == state["kernel module vcan"] == NOTE
+    assert (
+        state["probe"]
+        == state["serial port"]
+        == state["CAN interface"]
+        == state["kernel module vcan"]
+        == NOTE
+    )
     state = states(list(builds(nothing)))
     assert set(state.values()) == {MISSING} and len(state) == 4
 
@@ -81,16 +96,22 @@ def test_hardware_is_seen(nothing: Machine) -> None:
     told = {(one.name, one.found): one for one in found}
     assert any(one.name == "probe" and "stlink" in one.found for one in found)
     assert told["serial port", f"{nothing.dev}/ttyACM0"].state == OK
-    assert told["CAN interface", "can0: down"].next_step == "sudo ip link set can0 up type can bitrate 1000000"
+    assert (
+        told["CAN interface", "can0: down"].next_step == "sudo ip link set can0 up type can bitrate 1000000"
+    )
     assert told["CAN interface", "vcan0: unknown"].state == OK
     assert states(found)["kernel module can"] == OK
-    assert next(one for one in found if one.name == "kernel module can_raw").next_step == "sudo modprobe can_raw"
+    assert (
+        next(one for one in found if one.name == "kernel module can_raw").next_step == "sudo modprobe can_raw"
+    )
     assert not any("eth0" in one.found for one in found)
 
 
 def test_a_port_of_others_is_told(nothing: Machine, monkeypatch: pytest.MonkeyPatch) -> None:
     put(nothing.dev / "ttyUSB0")
-    monkeypatch.setattr("brace.doctor.hardware.os.access", lambda _path, _mode: False)  # root may use every port
+    monkeypatch.setattr(
+        "brace.doctor.hardware.os.access", lambda _path, _mode: False
+    )  # root may use every port
     told = next(one for one in hardware(nothing) if one.name == "serial port")
     assert told.state == MISSING and "dialout" in told.next_step
 
@@ -119,7 +140,10 @@ def test_builds_are_as_new_as_their_sources(nothing: Machine) -> None:
     assert "firmware/core/k.c is newer" in told["brace-stm32f405"].found
     image.write_bytes(image.read_bytes() + b"\0")
     told = {found.name: found for found in builds(nothing)}
-    assert told["brace-stm32f405"].state == MISSING and "not the file that was built" in told["brace-stm32f405"].found
+    assert (
+        told["brace-stm32f405"].state == MISSING
+        and "not the file that was built" in told["brace-stm32f405"].found
+    )
 
 
 def test_this_python_is_good_enough() -> None:

@@ -1,4 +1,4 @@
-"""brace flash: what it refuses, what it would run, and how soon it says that nothing is there. No board is needed:
+"""brace flash: what it refuses, what it would run, how soon it says that nothing is there. No board is needed:
 programmers are stand-ins on PATH, images are made here."""
 
 from __future__ import annotations
@@ -23,10 +23,14 @@ START = 0x08000000
 
 
 def info_block(board: str, source: str = "0123456789ab") -> bytes:
-    return struct.pack("<8sI24s16s32s16s", b"BRACEIMG", 1, board.encode(), b"0.1.0", source.encode(), b"Release")
+    return struct.pack(
+        "<8sI24s16s32s16s", b"BRACEIMG", 1, board.encode(), b"0.1.0", source.encode(), b"Release"
+    )
 
 
-def content(board: str = "stm32f405", stack: int = 0x20002000, reset: int = START + 0x101, size: int = 1000) -> bytes:
+def content(
+    board: str = "stm32f405", stack: int = 0x20002000, reset: int = START + 0x101, size: int = 1000
+) -> bytes:
     vectors = struct.pack("<2I", stack, reset) + bytes(56)
     return (vectors + info_block(board)).ljust(size, b"\x5a")
 
@@ -59,7 +63,10 @@ def make_images(folder: Path, **how: object) -> Path:
 
 
 def list_them(folder: Path) -> None:
-    sums = [f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.name}" for path in sorted(folder.glob("image.*"))]
+    sums = [
+        f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.name}"
+        for path in sorted(folder.glob("image.*"))
+    ]
     (folder / "SHA256SUMS").write_text("\n".join(sums) + "\n")
 
 
@@ -81,7 +88,12 @@ class Bench:
     def plug(self, vendor: str, product: str, name: str = "ST-LINK/V2", serial: str = "A1") -> None:
         device = self.usb / f"1-{len(list(self.usb.iterdir()))}"
         device.mkdir()
-        for key, value in (("idVendor", vendor), ("idProduct", product), ("product", name), ("serial", serial)):
+        for key, value in (
+            ("idVendor", vendor),
+            ("idProduct", product),
+            ("product", name),
+            ("serial", serial),
+        ):
             (device / key).write_text(value + "\n")
 
     def ran(self) -> list[str]:
@@ -105,7 +117,9 @@ def test_the_three_kinds_hold_the_same(built: Path) -> None:
     assert images[0].start == images[1].start == START and images[0].end == images[1].end
 
 
-def test_dry_run_says_command_hash_and_target_and_touches_nothing(brace: Brace, bench: Bench, built: Path) -> None:
+def test_dry_run_says_command_hash_and_target_and_touches_nothing(
+    brace: Brace, bench: Bench, built: Path
+) -> None:
     bench.program("openocd")
     outcome = brace("flash", built, "--dry-run")
     assert outcome.code == 0 and bench.ran() == []
@@ -117,7 +131,9 @@ def test_dry_run_says_command_hash_and_target_and_touches_nothing(brace: Brace, 
     assert told["command"][:3] == ["dfu-util", "-d", "0483:df11"] and told["image"].endswith("image.bin")
     assert told["sha256"] == hashlib.sha256(built.with_suffix(".bin").read_bytes()).hexdigest()
     assert told["written"] is False and told["address"] == "0x08000000"
-    told = json.loads(brace("flash", built.with_suffix(".bin"), "--dry-run", "--json", "--tool", "openocd").out)
+    told = json.loads(
+        brace("flash", built.with_suffix(".bin"), "--dry-run", "--json", "--tool", "openocd").out
+    )
     assert told["command"][-1].endswith("verify reset exit 0x08000000")
 
 
@@ -130,7 +146,9 @@ def test_a_missing_tool_names_its_package(brace: Brace, bench: Bench, built: Pat
 
 
 @pytest.mark.parametrize("tool", [None, "openocd", "st-flash", "dfu-util"])
-def test_nothing_plugged_in_is_said_at_once(brace: Brace, bench: Bench, built: Path, tool: str | None) -> None:
+def test_nothing_plugged_in_is_said_at_once(
+    brace: Brace, bench: Bench, built: Path, tool: str | None
+) -> None:
     for name in ("openocd", "st-flash", "st-info", "dfu-util"):
         bench.program(name, "sleep 60")
     began = time.monotonic()
@@ -143,7 +161,11 @@ def test_nothing_plugged_in_is_said_at_once(brace: Brace, bench: Bench, built: P
 @pytest.mark.parametrize(
     ("tool", "program", "script"),
     [
-        ("openocd", "openocd", "echo 'Info : x'; echo 'Error: init mode failed (unable to connect)' >&2; exit 1"),
+        (
+            "openocd",
+            "openocd",
+            "echo 'Info : x'; echo 'Error: init mode failed (unable to connect)' >&2; exit 1",
+        ),
         ("openocd", "openocd", "sleep 60"),
         ("st-flash", "st-info", "echo 'Found 0 stlink programmers'"),
         ("dfu-util", "dfu-util", "echo 'dfu-util 0.11'"),
@@ -165,7 +187,11 @@ def test_a_board_that_does_not_answer(
 
 @pytest.mark.parametrize(
     ("tool", "product", "written"),
-    [("openocd", "3748", "program {"), ("st-flash", "374b", "--reset write"), ("dfu-util", "df11", ":leave -D")],
+    [
+        ("openocd", "3748", "program {"),
+        ("st-flash", "374b", "--reset write"),
+        ("dfu-util", "df11", ":leave -D"),
+    ],
 )
 def test_writing(brace: Brace, bench: Bench, built: Path, tool: str, product: str, written: str) -> None:
     bench.program(tool, "echo 'Found DFU: [0483:df11]'")
@@ -272,7 +298,10 @@ def test_emulated_boards_are_started_not_written(brace: Brace, bench: Bench, tmp
     path.write_bytes(elf(content("netduinoplus2")))
     list_them(folder)
     outcome = brace("flash", path)
-    assert outcome.code == 2 and f"qemu-system-arm -machine netduinoplus2 -nographic -kernel {path}" in outcome.err
+    assert (
+        outcome.code == 2
+        and f"qemu-system-arm -machine netduinoplus2 -nographic -kernel {path}" in outcome.err
+    )
 
 
 def test_changed_sources_are_told(brace: Brace, bench: Bench, tmp_path: Path) -> None:
@@ -280,7 +309,11 @@ def test_changed_sources_are_told(brace: Brace, bench: Bench, tmp_path: Path) ->
     path.write_bytes(elf(content().replace(b"0123456789ab", b"0123456789ab-dirty"[:12]).replace(
         info_block("stm32f405"), info_block("stm32f405", "0123456789ab-dirty"))))  # fmt: skip
     outcome = brace("flash", path, "--dry-run", "--unlisted")
-    assert outcome.code == 0 and "changed and not committed" in outcome.err and "0123456789ab-dirty" in outcome.out
+    assert (
+        outcome.code == 0
+        and "changed and not committed" in outcome.err
+        and "0123456789ab-dirty" in outcome.out
+    )
 
 
 @pytest.mark.parametrize(
@@ -292,13 +325,20 @@ def test_changed_sources_are_told(brace: Brace, bench: Bench, tmp_path: Path) ->
     ],
 )
 def test_the_board_is_asked_what_runs(
-    brace: Brace, bench: Bench, built: Path, monkeypatch: pytest.MonkeyPatch, banner: bytes, code: int, words: str
+    brace: Brace,
+    bench: Bench,
+    built: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    banner: bytes,
+    code: int,
+    words: str,
 ) -> None:
     monkeypatch.setattr(console, "ANSWER_S", 1.0)
     bench.program("openocd")
     bench.plug("0483", "3748")
     ours, theirs = os.openpty()
     try:
+
         def answer() -> None:
             if os.read(ours, 1) == b"b":
                 os.write(ours, banner)

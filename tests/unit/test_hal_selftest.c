@@ -1,5 +1,5 @@
-/* The port self-test against a door that tells the truth, and against one that tells one lie at a time: each lie must be
- * named, in words that point at it, and nothing else may be blamed before it. */
+/* The port self-test against a door that tells the truth, and against one that tells one lie at a time: each lie
+ * must be named, in words that point at it, and nothing else may be blamed before it. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -59,6 +59,7 @@ typedef struct {
  * returns the number of failures; BRACE_HAL_E_RANGE: hal is null, or setup's scratch_slot or reference_bits can not be.
  * Worst case 1 s, and what two erases take; bounded also when the clock stands. Feeds the watchdog. Stack below 1 KiB.
  */
-int32_t brace_selftest_run(const brace_hal_t *hal, const brace_selftest_setup_t *setup, brace_selftest_result_t *result);
+int32_t brace_selftest_run(const brace_hal_t *hal, const brace_selftest_setup_t *setup,
+    brace_selftest_result_t *result);
 
 #endif

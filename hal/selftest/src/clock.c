@@ -1,7 +1,8 @@
 /* Does time run, forwards, finely, and at the right rate? */
 #include "selftest.h"
 
-enum { READINGS = 20000, STILL_MAX = 2000000, STEP_MAX_US = 10, WINDOW_US = 20000, RATE_PERMILLE_MAX = 50 };
+enum { READINGS = 20000, STILL_MAX = 2000000, STEP_MAX_US = 10 };
+enum { WINDOW_US = 20000, RATE_PERMILLE_MAX = 50, ATTEMPTS = 8 };
 
 static uint32_t now(const selftest_t *test)
 {
@@ -35,8 +36,8 @@ static uint32_t smallest_step_us(const selftest_t *test)
     return smallest;
 }
 
-/* now_us against the other clock over a window that is shorter than half the other's round trip. */
-static void rate(selftest_t *test)
+/* now_us against the other clock, once, over less than half the other's round trip; false: that one stands. */
+static bool measure(const selftest_t *test, int32_t *permille)
 {
     const brace_selftest_setup_t *const setup = test->setup;
     const uint32_t mask = UINT32_MAX >> (32u - setup->reference_bits);
@@ -52,18 +53,29 @@ static void rate(selftest_t *test)
     const uint32_t counted = (setup->reference_falls ? 0u - rose : rose) & mask;
     const uint64_t true_us = (uint64_t)counted * 1000000u / setup->reference_hz;
     if (true_us == 0u) {
-        selftest_tell(test, BRACE_SELFTEST_NOTE, "now_us", "rate not judged: the other clock stands");
-        return;
+        return false;
     }
-    const int32_t permille = (int32_t)((int64_t)us * 1000 / (int64_t)true_us - 1000);
-    if (permille > RATE_PERMILLE_MAX || permille < -RATE_PERMILLE_MAX) {
-        selftest_tell_value(test, BRACE_SELFTEST_FAIL, "now_us",
-            "runs at the wrong rate against the other clock: look at the timer's prescaler and its bus clock", permille,
-            "permille too fast");
-    } else {
-        selftest_tell_value(test, BRACE_SELFTEST_PASS, "now_us", "rate agrees with the other clock", permille,
-            "permille too fast");
+    *permille = (int32_t)((int64_t)us * 1000 / (int64_t)true_us - 1000);
+    return true;
+}
+
+/* The two clocks are not read in one instant, and on a host or an emulator whole milliseconds may lie between: a right
+ * rate shows in one of a few attempts, a wrong one in none. */
+static void rate(selftest_t *test)
+{
+    int32_t permille = 0;
+    bool agrees = false;
+    for (uint32_t attempt = 0u; attempt < ATTEMPTS && !agrees; attempt++) {
+        if (!measure(test, &permille)) {
+            selftest_tell(test, BRACE_SELFTEST_NOTE, "now_us", "rate not judged: the other clock stands");
+            return;
+        }
+        agrees = permille <= RATE_PERMILLE_MAX && permille >= -RATE_PERMILLE_MAX;
     }
+    selftest_tell_value(test, agrees ? BRACE_SELFTEST_PASS : BRACE_SELFTEST_FAIL, "now_us",
+        agrees ? "rate agrees with the other clock"
+               : "runs at the wrong rate against the other clock: look at the timer's prescaler and its bus clock",
+        permille, "permille too fast");
 }
 
 void selftest_clock(selftest_t *test)

@@ -9,9 +9,9 @@ static const float torque_max_n_mm = 1e6f;
 static const float sentinel = 12345.0f;
 
 typedef struct {
-    uint32_t fresh, again;
+    uint32_t fresh, again, aged;
     int32_t answer; /* the last one that was neither OK nor AGAIN */
-    bool finite, possible, aged, changed, time_changed;
+    bool finite, possible, changed, time_changed;
     brace_hal_joint_t first;
 } seen_t;
 
@@ -28,7 +28,7 @@ static void look(const selftest_t *test, seen_t *seen, const brace_hal_joint_t *
         !isinf(joint->link_rad) && !isinf(joint->temp_degc);
     seen->possible = seen->possible && !(fabsf(joint->motor_rad) > angle_max_rad) &&
         !(fabsf(joint->torque_n_mm) > torque_max_n_mm) && !(fabsf(joint->link_rad) > angle_max_rad);
-    seen->aged = seen->aged || (test->clock_runs && age_us > AGE_MAX_US);
+    seen->aged += age_us > AGE_MAX_US;
     seen->changed = seen->changed || joint->motor_rad != seen->first.motor_rad;
     seen->time_changed = seen->time_changed || joint->taken_us != seen->first.taken_us;
 }
@@ -61,7 +61,8 @@ static void judge_samples(selftest_t *test, const char *name, const seen_t *seen
     selftest_expect(test, seen->possible, name, "within what a joint can be",
         "out of range: rad and N mm on the joint's side of the reduction are wanted; degrees, turns or counts?");
     if (test->clock_runs) {
-        selftest_expect(test, !seen->aged, name, "samples are fresh",
+        /* Most, not one: on a host the test itself may be stopped between a sample and the look at its age. */
+        selftest_expect(test, seen->aged <= seen->fresh / 2u, name, "samples are fresh",
             "taken_us lies ahead of now_us or more than 10 ms back: it is to be by now_us, when sampled");
         selftest_expect(test, seen->time_changed || seen->fresh < 2u, name, "samples follow each other",
             "the same sample is called new again and again: AGAIN is the answer for it");

@@ -69,7 +69,8 @@ static bool erase(selftest_t *test, uint32_t slot)
         selftest_tell_value(test, BRACE_SELFTEST_FAIL, "nvm_erase", "takes longer than 2 s: the watchdog will bite",
             (int32_t)took_us, "us");
     }
-    return selftest_expect(test, fingerprint(test, slot, &sum, &erased) && erased, "nvm_erase", "leaves 0xff throughout",
+    return selftest_expect(test, fingerprint(test, slot, &sum, &erased) && erased, "nvm_erase",
+        "leaves 0xff throughout",
         "does not leave 0xff throughout: wrong sector, or memory that erases to another value (invert it)");
 }
 

@@ -95,7 +95,8 @@ static void start_and_stop(selftest_t *test)
     }
 }
 
-int32_t brace_selftest_run(const brace_hal_t *hal, const brace_selftest_setup_t *setup, brace_selftest_result_t *result)
+int32_t brace_selftest_run(const brace_hal_t *hal, const brace_selftest_setup_t *setup,
+    brace_selftest_result_t *result)
 {
     static const brace_selftest_setup_t quiet = {.scratch_slot = BRACE_SELFTEST_KEEP_NVM};
     selftest_t test = {.hal = hal, .setup = setup != 0 ? setup : &quiet};

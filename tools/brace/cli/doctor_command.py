@@ -16,8 +16,8 @@ def add(commands: Any) -> None:
     parser = commands.add_parser(
         "doctor",
         help="what is there for working with Brace, and what is missing",
-        description="Looks at compilers, emulator, programmers, probes, serial ports, CAN, Python packages, and whether "
-        "library and images are built and fresh. Exit code 1 when something that is needed is missing or old: "
+        description="Looks at compilers, emulator, programmers, probes, serial ports, CAN, Python packages, and "
+        "whether library and images are built and fresh. Exit code 1 when something needed is missing or old: "
         f"of {' and '.join(ALWAYS_NEEDED)} always, of the rest when --needed names it. Changes nothing.",
     )
     parser.add_argument(

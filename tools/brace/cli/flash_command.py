@@ -19,26 +19,37 @@ def add(commands: Any) -> None:
     parser = commands.add_parser(
         "flash",
         help="put an image on a board",
-        description="Writes a firmware image with OpenOCD, st-flash or dfu-util. Before that: the image is whole, is the "
-        "one that SHA256SUMS beside it lists, and is for that board; something answers. Parameters on the board stay.",
+        description="Writes a firmware image with OpenOCD, st-flash or dfu-util. Before that: the image is whole, "
+        "is the one that SHA256SUMS beside it lists, and is for that board; something answers. Parameters on the "
+        "board stay.",
     )
     parser.add_argument(
         "image", metavar="IMAGE|BOARD", help="an .elf, .hex or .bin; or a board, for the image built for it"
     )
     parser.add_argument("--board", metavar="BOARD", help="refuse an image that is for another board")
     parser.add_argument(
-        "--tool", choices=("openocd", "st-flash", "dfu-util"), help="default: the one that what is plugged in needs"
+        "--tool",
+        choices=("openocd", "st-flash", "dfu-util"),
+        help="default: the one that what is plugged in needs",
     )
     parser.add_argument(
         "--probe", type=_plain, metavar="SERIAL", help="serial number of the probe, when there are several"
     )
     parser.add_argument(
-        "--interface", type=_plain, metavar="NAME", help="OpenOCD's name of a probe that is not known here (ftdi/minimodule, say)"
+        "--interface",
+        type=_plain,
+        metavar="NAME",
+        help="OpenOCD's name of a probe that is not known here (ftdi/minimodule, say)",
     )
     parser.add_argument(
-        "--port", type=common.path, metavar="TTY", help="console of the board: ask it afterwards what runs on it"
+        "--port",
+        type=common.path,
+        metavar="TTY",
+        help="console of the board: ask it afterwards what runs on it",
     )
-    parser.add_argument("--dry-run", action="store_true", help="print command, SHA-256 and target; touch nothing")
+    parser.add_argument(
+        "--dry-run", action="store_true", help="print command, SHA-256 and target; touch nothing"
+    )
     parser.add_argument("--unlisted", action="store_true", help="take an image that no SHA256SUMS lists")
     common.add_json(parser)
     parser.set_defaults(run=run)
@@ -103,7 +114,11 @@ def run(arguments: argparse.Namespace) -> int:
 def _plain(text: str) -> str:
     """A name that means nothing to a shell or to OpenOCD's own language."""
     if not re.fullmatch(r"[A-Za-z0-9_./:-]+", text):
-        raise refused(f"{text!r} is no such name", "letters, digits and . _ / : - make it up", "brace doctor lists probes")
+        raise refused(
+            f"{text!r} is no such name",
+            "letters, digits and . _ / : - make it up",
+            "brace doctor lists probes",
+        )
     return text
 
 
@@ -148,7 +163,8 @@ def _emulated(path: Path, machine: str) -> UsageError:
         f"{machine} is an emulated board",
         where=str(path),
         why="there is nothing to write: the emulator starts with the image",
-        next_step=f"qemu-system-arm -machine {machine} -nographic -kernel {shlex.quote(str(path.with_suffix('.elf')))}",
+        next_step=f"qemu-system-arm -machine {machine} -nographic -kernel "
+        + shlex.quote(str(path.with_suffix(".elf"))),
     )
 
 

@@ -59,6 +59,11 @@ def _aged(purpose: str, name: str, path: Path, newest: tuple[float, str], told: 
 def _newest(project: Path, folders: tuple[str, ...]) -> tuple[float, str]:
     """When the newest source was changed [s], and which it is."""
     sources = [
-        path for folder in folders for path in (project / folder).rglob("*") if path.suffix in _SOURCES and path.is_file()
+        path
+        for folder in folders
+        for path in (project / folder).rglob("*")
+        if path.suffix in _SOURCES and path.is_file()
     ]
-    return max(((path.stat().st_mtime, str(path.relative_to(project))) for path in sources), default=(0.0, ""))
+    return max(
+        ((path.stat().st_mtime, str(path.relative_to(project))) for path in sources), default=(0.0, "")
+    )

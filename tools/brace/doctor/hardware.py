@@ -19,7 +19,9 @@ def hardware(machine: Machine) -> Iterator[Finding]:
     for probe in found:
         yield Finding("flash", "probe", OK, f"{probe.name} ({probe.kind}) {probe.serial}".rstrip())
     if not found:
-        yield Finding("flash", "probe", NOTE, "no debug probe and no boot loader on USB", "plug one in to flash a board")
+        yield Finding(
+            "flash", "probe", NOTE, "no debug probe and no boot loader on USB", "plug one in to flash a board"
+        )
     yield from _serial_ports(machine)
     yield from _can_interfaces(machine)
     yield from _modules(machine)
@@ -38,7 +40,11 @@ def _serial_ports(machine: Machine) -> Iterator[Finding]:
 
 
 def _can_interfaces(machine: Machine) -> Iterator[Finding]:
-    found = [path for path in sorted((machine.sys / "class" / "net").glob("*")) if _text(path / "type") == _CAN_LINK_TYPE]
+    found = [
+        path
+        for path in sorted((machine.sys / "class" / "net").glob("*"))
+        if _text(path / "type") == _CAN_LINK_TYPE
+    ]
     for path in found:
         state = _text(path / "operstate")
         up = state in ("up", "unknown")  # vcan says unknown

@@ -24,7 +24,12 @@ _PROGRAMS = (
 _PROGRAMMERS = (("openocd", "openocd", "--version"), ("st-flash", "stlink-tools", "--version"),
                 ("dfu-util", "dfu-util", "--version"))  # fmt: skip
 #: comfortable, not needed
-_WIRE = (("candump", "can-utils", ""), ("slcand", "can-utils", ""), ("mbpoll", "mbpoll", "-V"), ("socat", "socat", "-V"))
+_WIRE = (
+    ("candump", "can-utils", ""),
+    ("slcand", "can-utils", ""),
+    ("mbpoll", "mbpoll", "-V"),
+    ("socat", "socat", "-V"),
+)
 _REQUIREMENT = re.compile(r"([A-Za-z0-9_.-]+)\s*>=\s*([\d.]+)")
 
 
@@ -90,7 +95,9 @@ def python_packages(machine: Machine) -> Iterator[Finding]:
             yield Finding("tools", name, MISSING, "not installed", "./dev setup")
             continue
         newer = _numbers(found) >= _numbers(least)
-        yield Finding("tools", name, OK if newer else OLD, found, "" if newer else f"{least} or newer: ./dev setup")
+        yield Finding(
+            "tools", name, OK if newer else OLD, found, "" if newer else f"{least} or newer: ./dev setup"
+        )
 
 
 def _numbers(version: str) -> tuple[int, ...]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Board:
-    """Where an image goes. Emulated boards are started with it, not written; `machine` is the emulator's name."""
+    """Where an image goes. Emulated boards, which have a `machine`, are started with it instead of written."""
 
     name: str
     chip: str
@@ -22,7 +22,10 @@ class Board:
 BOARDS = {
     board.name: board
     for board in (
-        Board("stm32f405", "STM32F405RG", 0x08000000, 768 * 1024, 0x20000000, 128 * 1024, "target/stm32f4x.cfg"),
+        Board(
+            "stm32f405", "STM32F405RG", 0x08000000, 768 * 1024, 0x20000000, 128 * 1024,
+            openocd_target="target/stm32f4x.cfg",
+        ),
         Board(
             "netduinoplus2", "STM32F405, emulated", 0x08000000, 768 * 1024, 0x20000000, 128 * 1024,
             machine="netduinoplus2",

@@ -49,7 +49,7 @@ def known_board(name: str) -> Board:
 
 
 def check_fits(image: Image, board: Board) -> int:
-    """The address the image begins at; refused when it would reach where no image may lie, or could not start."""
+    """The address the image begins at; refused when it would reach too far, or could not start."""
     start = board.flash_start if image.kind == "bin" else image.start
     end = start + image.end - image.start
     limit = board.flash_start + board.flash_bytes
@@ -57,7 +57,7 @@ def check_fits(image: Image, board: Board) -> int:
         raise BadFileError(
             f"it lies at {start:#010x} to {end:#010x}",
             where=str(image.path),
-            why=f"images for {board.name} lie at {board.flash_start:#010x} to {limit:#010x}; behind are the parameters",
+            why=f"images for {board.name} lie at {board.flash_start:#010x} to {limit:#010x}; parameters follow",
             next_step="build it anew with ./dev setup",
         )
     if image.end - image.start < 8:
@@ -107,7 +107,9 @@ def check_listed(image: Image, unlisted: bool) -> None:
 
 def _sums(path: Path) -> dict[str, str]:
     listed = {}
-    for number, line in enumerate(read_text(path, _SUMS_LIMIT_BYTES, "list of checksums").splitlines(), start=1):
+    for number, line in enumerate(
+        read_text(path, _SUMS_LIMIT_BYTES, "list of checksums").splitlines(), start=1
+    ):
         found = _SUM_LINE.fullmatch(line)
         if not found:
             raise BadFileError(

@@ -79,7 +79,10 @@ def read_image(path: Path) -> Image:
 
 def _broken(path: Path, why: str) -> BadFileError:
     return BadFileError(
-        "the image is not whole", where=str(path), why=why, next_step="build it anew with ./dev setup, or copy it again"
+        "the image is not whole",
+        where=str(path),
+        why=why,
+        next_step="build it anew with ./dev setup, or copy it again",
     )
 
 

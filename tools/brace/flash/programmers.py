@@ -22,8 +22,8 @@ TOOLS = tuple(DEBIAN_PACKAGE)
 
 @dataclass(frozen=True)
 class Plan:
-    """What will be run: first `connect`, which changes nothing, then `command`. A board answers if the first ends well
-    and says `present` and not `absent`."""
+    """What will be run: first `connect`, which changes nothing, then `command`. A board answers if the first
+    ends well and says `present` and not `absent`."""
 
     tool: str
     file: Path
@@ -63,7 +63,7 @@ def make_plan(tool: str, image: Image, board: Board, probe: Probe | None, serial
 
 def _openocd(image: Image, board: Board, interface: str, serial: str | None) -> Plan:
     path = str(image.path.resolve())
-    if any(character in path for character in "{}\\\"$[]\n"):
+    if any(character in path for character in '{}\\"$[]\n'):
         raise BadFileError(
             "OpenOCD cannot be told this name",
             where=path,
@@ -109,7 +109,7 @@ def nothing_attached(tool: str, said: str) -> NoDeviceError:
         "no probe and no board answer",
         where="flash",
         why=said,
-        next_step="plug the probe in, power the board, check SWDIO, SWCLK, GND; brace doctor lists what is seen"
+        next_step="plug the probe in, power the board, see SWDIO, SWCLK, GND; brace doctor tells what is seen"
         if tool != "dfu-util"
         else "hold BOOT0 high while the board resets, and plug its USB in; brace doctor lists what is seen",
     )
@@ -148,7 +148,9 @@ def program(plan: Plan) -> float:
 def _run(command: Sequence[str], limit_s: float) -> tuple[int | None, str]:
     """Exit code and output; None: it had to be ended."""
     try:
-        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        process = subprocess.Popen(
+            command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+        )
     except OSError as error:
         return 127, error.strerror or str(error)
     try:

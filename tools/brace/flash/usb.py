@@ -1,4 +1,4 @@
-"""Debug probes and boot loaders on USB, as the kernel lists them: an answer at once, also when there is none."""
+"""Debug probes and boot loaders on USB, as the kernel lists them: an answer at once, also of none."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _DFU_PRODUCT = "df11"
 
 @dataclass(frozen=True)
 class Probe:
-    """`kind`: OpenOCD's name of the interface (stlink, jlink, cmsis-dap), or dfu for the chip's own boot loader."""
+    """`kind`: OpenOCD's name of the interface (stlink, jlink, cmsis-dap), or dfu: the chip's own boot loader."""
 
     kind: str
     name: str
