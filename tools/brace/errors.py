@@ -15,6 +15,7 @@ EXIT_CHECK_FAILED = 1
 EXIT_USAGE = 2
 EXIT_BAD_FILE = 3
 EXIT_NO_DEVICE = 4
+EXIT_VERSION = 6
 EXIT_NOT_VERIFIED = 7
 EXIT_INTERRUPTED = 130
 
@@ -77,6 +78,12 @@ class NotVerifiedError(BraceError):
     """What was written is not what is found afterwards."""
 
     exit_code = EXIT_NOT_VERIFIED
+
+
+class VersionMismatchError(BraceError):
+    """Two ends that do not speak of the same list of parameters, or not in the same format."""
+
+    exit_code = EXIT_VERSION
 
 
 def place(path: Path | str, line: int | None = None) -> str:

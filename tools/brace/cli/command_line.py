@@ -13,7 +13,7 @@ from brace.cli.options import OptionParser
 from brace.cli.streams import OutputLost, finish, prepare, say
 from brace.errors import EXIT_CHECK_FAILED, EXIT_OK, EXIT_USAGE, BraceError
 
-SUBCOMMANDS = ("k", "map", "simulate", "predict", "identify", "demo", "sim", "flash", "doctor")
+SUBCOMMANDS = ("k", "map", "simulate", "predict", "identify", "params", "demo", "sim", "flash", "doctor")
 _NEGATIVE_NUMBER = re.compile(r"^-(\d|\.\d|inf|nan)", re.IGNORECASE)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from brace.errors import UsageError, did_you_mean
 from brace.model import LimbModel
-from brace.model.keys import KEY_BY_NAME
+from brace.model.keys import CONTROLLER_KEYS, KEY_BY_NAME
 
 TIP_HEIGHT = "tip_height_mm"  # of a stiffness table that gives r alone; not a key of limb.toml
 TORQUE_OFFSET = "torque_offset_n_mm"  # of a joint test's torque reading; not a key of limb.toml
@@ -188,18 +188,24 @@ def free_compliances(model: LimbModel, extra: Sequence[str] = ()) -> ParameterSe
     return ParameterSet(model, (*(free_parameter(model, key) for key in keys), *trusted))
 
 
+def _fittable_keys() -> list[str]:
+    return [
+        name
+        for name, item in KEY_BY_NAME.items()
+        if item.kind in ("number", "ratio") and name not in CONTROLLER_KEYS
+    ]
+
+
 def checked_keys(keys: Sequence[str]) -> list[str]:
     """Keys from the command line; refuses what a fit cannot turn."""
     result: list[str] = []
     for key in keys:
         entry = KEY_BY_NAME.get(key)
-        if entry is None or entry.kind not in ("number", "ratio"):
-            near = did_you_mean(
-                key, [name for name, item in KEY_BY_NAME.items() if item.kind in ("number", "ratio")]
-            )
+        if entry is None or entry.kind not in ("number", "ratio") or key in CONTROLLER_KEYS:
+            near = did_you_mean(key, _fittable_keys())
             raise UsageError(
                 f"--fit {key}: no such parameter",
-                why="it is not a number of limb.toml",
+                why="it is not a number of limb.toml that a measurement of the limb could tell",
                 next_step=f"did you mean {near}?" if near else "e.g. --fit base.rotation_rad_per_n_mm",
             )
         if key not in result:

@@ -28,6 +28,7 @@ FIRMWARE_HEADERS = (
     "uncertainty.h",
     "slope.h",
     "contact.h",
+    "parameters.h",
 )
 HOST_HEADER = "brace_host.h"
 NODE_HEADER = "brace_node.h"  # the controller and its limb in one process

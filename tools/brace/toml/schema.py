@@ -27,6 +27,7 @@ class Key:
     infinite: bool = False  # may inf be written?
     kind: str = "number"  # number, integer, text, flag, ratio (a number in [0, 1] or true/false), list
     choices: tuple[str, ...] = ()
+    numbers: tuple[int, ...] = ()  # an integer must be one of these
 
     @property
     def range_text(self) -> str:
@@ -35,6 +36,8 @@ class Key:
             return "a list such as [" + ", ".join(f'"{choice}"' for choice in self.choices) + "]"
         if self.choices:
             return " or ".join(f'"{choice}"' for choice in self.choices)
+        if self.numbers:
+            return " or ".join(str(number) for number in self.numbers) + (f" {self.unit}" if self.unit else "")
         if self.kind in ("text", "flag", "list"):
             return {"text": "text in quotes", "flag": "true or false", "list": "a list"}[self.kind]
         unit = f" {self.unit}" if self.unit else ""
@@ -184,6 +187,8 @@ def _checked(document: Document, name: str, key: Key, value: Any) -> Any:
         raise refuse("it is too small" if number >= 0 or key.low < 0 else "it is negative")
     if number > key.high:
         raise refuse("it is too large")
+    if key.numbers and value not in key.numbers:
+        raise refuse("it is not one of the choices")
     return value if key.kind == "integer" else number
 
 

@@ -1,0 +1,73 @@
+"""Between a limb model and the words of the firmware's struct: 32-bit floats and whole numbers."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from brace.errors import BadFileError
+from brace.model import LimbModel
+from brace.model.keys import KEY_BY_NAME
+from brace.wire.names import PARAMETERS
+from brace.wire.parameter import Parameter
+
+_HALF_STEP = 2.0**-24  # of a 32-bit float: what rounding may change, of the value
+
+
+@dataclass(frozen=True)
+class Rounded:
+    """A value that a 32-bit float can only hold with fewer digits than half a step allows (below 1e-38)."""
+
+    key: str
+    given: float
+    held: float
+
+
+def words_of(model: LimbModel) -> tuple[np.ndarray, list[Rounded]]:
+    """One 32-bit word for each parameter, in the block's order; and what was rounded by more than usual."""
+    words = np.zeros(len(PARAMETERS), dtype=np.uint32)
+    rounded: list[Rounded] = []
+    for parameter in PARAMETERS:
+        value = model.values[parameter.key]
+        if parameter.type == "u32":
+            words[parameter.index] = parameter.texts.index(value) if parameter.texts else int(value)
+            continue
+        with np.errstate(over="ignore", under="ignore"):
+            single = np.float32(value) + np.float32(0.0)  # -0 is 0
+        if math.isinf(single) and not math.isinf(value):
+            raise BadFileError(
+                f"{parameter.key} = {value:g} is too large for the controller",
+                where=model.where(parameter.key),
+                why="it holds 32-bit floats, at most 3.4e38",
+                next_step="write a smaller value" + (", or inf" if parameter.infinite else ""),
+            )
+        if math.isfinite(value) and abs(float(single) - value) > abs(value) * _HALF_STEP:
+            rounded.append(Rounded(parameter.key, value, float(single)))
+        words[parameter.index] = single.view(np.uint32)
+    return words, rounded
+
+
+def value_of(parameter: Parameter, word: int) -> Any:
+    """A word as limb.toml would write it: the shortest decimals that the controller reads as this very float."""
+    if parameter.texts:
+        return parameter.texts[word]
+    if parameter.type == "u32":
+        return int(word)
+    single = np.uint32(word).view(np.float32)
+    shortest = float(str(single))
+    key = KEY_BY_NAME[parameter.key]
+    return min(max(shortest, key.low), key.high)  # a bound's decimals may lie just outside of it
+
+
+def model_of(words: np.ndarray) -> LimbModel:
+    """The limb model of a block's words; what equals the format's default is not marked as given."""
+    values: dict[str, Any] = {"format": 1, "name": ""}
+    given = {"format"}
+    for parameter in PARAMETERS:
+        values[parameter.key] = value_of(parameter, int(words[parameter.index]))
+        if parameter.default is None:
+            given.add(parameter.key)
+    return LimbModel(values, frozenset(given))
