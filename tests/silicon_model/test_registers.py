@@ -32,9 +32,10 @@ SCB_BASE = 0xE000ED00  # PM0214, table 46; the other chip's file counts from 0xe
 
 @pytest.fixture(scope="module")
 def chip() -> svd.Chip:
-    folder = Path(
-        subprocess.run([PROJECT / "tests/fetch/svd"], check=True, capture_output=True, text=True).stdout.strip()
-    )
+    fetched = subprocess.run([PROJECT / "tests/fetch/svd"], capture_output=True, text=True, timeout=300, check=False)
+    if fetched.returncode != 0:
+        pytest.fail(f"the chip's SVD file can not be had: {fetched.stderr.strip()}")
+    folder = Path(fetched.stdout.strip())
     chip = svd.read(folder / "STM32F41x.svd")  # STM32F405, 407, 415, 417: manual RM0090
     core = svd.read(folder / "MK64F12.svd").peripherals["SystemControl"]  # the same Cortex-M4; ST's file has no SCB
     registers = {

@@ -2,8 +2,8 @@
  *
  * What is the chip's is here; what is the board's (pins, crystal, joints, where a crash record lies) comes in through
  * stm32f405_board_t. Registers as in ST's reference manual RM0090, times and currents as in the data sheet DS8626.
- * The layer was judged by a register model of bxCAN, flash and watchdog written from that manual and by an emulator
- * with its USARTs and timer (tests/silicon_model); neither is silicon.
+ * The layer was judged by register models written from that manual (tests/silicon_model) and on QEMU's netduinoplus2,
+ * which has the USARTs and timers; neither is silicon.
  *
  * One chip, one instance: the state is static and belongs to this layer. Interrupt handlers move bytes and frames
  * between registers and ring buffers, are bounded and use no floating point. One caller, not from an interrupt, as
@@ -11,6 +11,7 @@
  *
  * What stays the board's: start-up code and vector table, with these handlers in it (exception number = 16 + n):
  *   n = 20 can1_rx0_handler, 37 usart1_handler, 38 usart2_handler, 39 usart3_handler
+ * Instructions of one call: at most 200 with a full receive FIFO, 120 with a byte in and two out.
  * The FPU, if used, is switched on by the start-up code. SysTick is free for the board.
  */
 #ifndef BRACE_HAL_STM32F405_H
@@ -88,7 +89,7 @@ uint32_t stm32f405_sector_bytes(uint8_t sector);
  *
  * board: lives as long as the firmware. Returns the filled door, static; never null. What the chip does not answer is
  * left out instead of waited for: see stm32f405_clock_report.
- * Worst case 0.4 s, when neither crystal nor PLL starts; 3 ms typical. Call once, from main. Stack below 200 bytes.
+ * Worst case 0.4 s, when neither crystal nor PLL starts; 5 ms typical. Call once, from main. Stack below 200 bytes.
  *
  * Specific to this chip, within what brace_hal.h allows:
  *   now_us       TIM2 at 1 MHz, goes on while flash is erased; steps of 1 us (rate exact when TIM2's clock is whole MHz)
