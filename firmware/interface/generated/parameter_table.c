@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stddef.h>
 
-_Static_assert(sizeof(brace_parameters_t) == 4 * 100, "the dictionary lists every member");
+_Static_assert(sizeof(brace_parameters_t) == 4 * 105, "the dictionary lists every member");
 _Static_assert(offsetof(brace_parameters_t, limb.coxa_mm) == 0, "order");
 _Static_assert(offsetof(brace_parameters_t, limb.femur_mm) == 4, "order");
 _Static_assert(offsetof(brace_parameters_t, limb.tibia_mm) == 8, "order");
@@ -104,10 +104,15 @@ _Static_assert(offsetof(brace_parameters_t, controller.node_id) == 376, "order")
 _Static_assert(offsetof(brace_parameters_t, controller.can_bit_rate) == 380, "order");
 _Static_assert(offsetof(brace_parameters_t, controller.tick_us) == 384, "order");
 _Static_assert(offsetof(brace_parameters_t, controller.age_limit_us) == 388, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.modbus_address) == 392, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.modbus_baud) == 396, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.stiffness_hz) == 392, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.posture_hz) == 396, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.heartbeat_hz) == 400, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.bus_load_ratio) == 404, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.can_fd_bit_rate) == 408, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.modbus_address) == 412, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.modbus_baud) == 416, "order");
 
-const float brace_f32_range[23][2] = {
+const float brace_f32_range[24][2] = {
     {0.0f, 10000.0f},
     {1.0f, 10000.0f},
     {0.0f, 1000.0f},
@@ -131,13 +136,17 @@ const float brace_f32_range[23][2] = {
     {0x1p-149f, FLT_MAX},
     {-273.15f, 1000.0f},
     {-INFINITY, INFINITY},
+    {0x1p-149f, 1.0f},
 };
 
-const uint32_t brace_u32_range[5][2] = {
+const uint32_t brace_u32_range[8][2] = {
     {0u, 2u},
     {0u, 127u},
     {500u, 5000u},
     {1000u, 10000000u},
+    {0u, 1000u},
+    {1u, 10u},
+    {0u, 8000000u},
     {1u, 247u},
 };
 
@@ -147,11 +156,11 @@ const uint32_t brace_u32_choices[2][9] = {
 };
 
 /* For each member: its range of floats, or of whole numbers after these, or its choices after those. */
-const uint8_t brace_parameter_rule[100] = {
+const uint8_t brace_parameter_rule[105] = {
     0, 1, 1, 2, 2, 3, 2, 4, 4, 2, 2, 3, 2, 4, 4, 2, 2, 3, 2, 4, 4, 4, 5, 6, 4, 5, 6, 4, 5, 6, 2, 2, 4, 7, 5,
     4, 4, 8, 9, 10, 4, 10, 11, 10, 10, 12, 13, 13, 11, 8, 9, 10, 4, 10, 11, 10, 10, 12, 13, 13, 11, 8, 9, 10,
     4, 10, 11, 10, 10, 12, 13, 13, 11, 10, 10, 10, 14, 14, 15, 16, 17, 17, 18, 18, 19, 10, 2, 20, 17, 21, 2,
-    22, 23, 15, 24, 28, 25, 26, 27, 29,
+    22, 24, 15, 25, 32, 26, 27, 28, 28, 29, 23, 30, 31, 33,
 };
 
 const brace_parameters_t brace_parameters_safe = {
@@ -205,6 +214,10 @@ const brace_parameters_t brace_parameters_safe = {
     .controller.can_bit_rate = 1000000u,
     .controller.tick_us = 1000u,
     .controller.age_limit_us = 20000u,
+    .controller.stiffness_hz = 200u,
+    .controller.posture_hz = 20u,
+    .controller.heartbeat_hz = 1u,
+    .controller.bus_load_ratio = 0.06f,
     .controller.modbus_address = 1u,
     .controller.modbus_baud = 115200u,
 };
@@ -308,6 +321,11 @@ static const char *const keys[] = {
     "controller.can_bit_rate",
     "controller.tick_us",
     "controller.age_limit_us",
+    "controller.stiffness_hz",
+    "controller.posture_hz",
+    "controller.heartbeat_hz",
+    "controller.bus_load_ratio",
+    "controller.can_fd_bit_rate",
     "controller.modbus_address",
     "controller.modbus_baud",
 };
@@ -320,7 +338,7 @@ static const char *const units[] = {
     "N mm", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm", "N mm", "N mm", "rad", "rad", "rad", "N mm",
     "N mm", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm", "N mm", "N mm", "rad", "rad", "rad", "N mm",
     "N", "N", "N", "N", "N", "", "rad", "", "", "N/s", "N/s", "N", "N", "", "s", "1/degC", "degC", "mm", "s",
-    "", "", "", "bit/s", "us", "us", "", "bit/s",
+    "", "", "", "bit/s", "us", "us", "Hz", "Hz", "Hz", "", "bit/s", "", "bit/s",
 };
 
 const char *brace_parameter_key(uint32_t index)

@@ -6,7 +6,7 @@ from math import inf
 
 from brace.wire.parameter import Parameter
 
-SCHEMA_HASH = 0x34D0C47B
+SCHEMA_HASH = 0xAFFDF305
 
 PARAMETERS: tuple[Parameter, ...] = (
     Parameter(
@@ -500,12 +500,37 @@ PARAMETERS: tuple[Parameter, ...] = (
         description="the age above which K is called stale; at least the tick",
     ),
     Parameter(
-        98, "controller.modbus_address",
+        98, "controller.stiffness_hz",
+        unit="Hz", low=0, high=1000, default=200, safe=200, type="u32",
+        description="how often K goes out on CAN; 0: not at all",
+    ),
+    Parameter(
+        99, "controller.posture_hz",
+        unit="Hz", low=0, high=1000, default=20, safe=20, type="u32",
+        description="how often eigenvalues and posture go out on CAN, with a K; 0: not at all",
+    ),
+    Parameter(
+        100, "controller.heartbeat_hz",
+        unit="Hz", low=1, high=10, default=1, safe=1, type="u32",
+        description="how often the heartbeat goes out",
+    ),
+    Parameter(
+        101, "controller.bus_load_ratio",
+        unit="", low=0.0, high=1.0, default=0.06, safe=0.06, open_low=True,
+        description="the share of the bus that K, eigenvalues and posture of this controller may take; they are thinned to it",
+    ),
+    Parameter(
+        102, "controller.can_fd_bit_rate",
+        unit="bit/s", low=0, high=8000000, default=0, safe=0, type="u32",
+        description="the bit rate of a CAN FD snapshot's data; 0: classic frames",
+    ),
+    Parameter(
+        103, "controller.modbus_address",
         unit="", low=1, high=247, default=1, safe=1, type="u32",
         description="the controller's address on Modbus",
     ),
     Parameter(
-        99, "controller.modbus_baud",
+        104, "controller.modbus_baud",
         unit="bit/s", low=1200, high=230400, default=115200, safe=115200, type="u32", numbers=(1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400,),
         description="the baud rate of Modbus RTU",
     ),

@@ -65,6 +65,11 @@ typedef struct {
     uint32_t can_bit_rate;    /* [bit/s] */
     uint32_t tick_us;         /* period of the application's tick [500, 5000] */
     uint32_t age_limit_us;    /* K older than this is STALE [1000, 1e7] */
+    uint32_t stiffness_hz;    /* stiffness_a and _b on CAN [0, 1000]; 0: not sent */
+    uint32_t posture_hz;      /* eigenvalues and posture on CAN [0, 1000] */
+    uint32_t heartbeat_hz;    /* [1, 10] */
+    float bus_load_ratio;     /* process data are thinned to this share of the bus (0, 1] */
+    uint32_t can_fd_bit_rate; /* of a CAN FD snapshot's data [bit/s]; 0: classic frames */
     uint32_t modbus_address;  /* [1, 247] */
     uint32_t modbus_baud;     /* [bit/s] */
 } brace_controller_t;
