@@ -7,7 +7,8 @@ towards the bound, one of them at every turn, and the bound is bounded itself:
  - what a function of the same file answers, if all its answers are bounded;
  - a byte, or the counter of another bounded loop;
  - what a guard before the loop has let through: if (count > MOST) { return ...; };
- - a name whose range is documented, "[0, 64]" or "at most", where it is declared or in its function's comment;
+ - a member or constant whose range is documented, "[0, 64]" or "at most", where it is declared; an argument, in its own
+   function's comment;
 or a number that is divided or shifted down to nothing; or the comment of the loop says "at most" and what.
 A loop without end is for main, start-up and faults: under firmware/boards, with a comment that begins "for ever:".
 Jumps backwards are no loops at all.
@@ -178,7 +179,7 @@ class Function:
             case c_ast.ID():
                 return self._name_bounded(node.name, depth)
             case c_ast.StructRef():
-                return self._documented(node.field.name) or self._guarded(written(node), depth)
+                return self._documented(node.field.name, is_member=True) or self._guarded(written(node), depth)
             case c_ast.ArrayRef():
                 return self.bounded(node.name, depth + 1)
             case c_ast.FuncCall():
@@ -287,15 +288,22 @@ class Function:
                         return False
         return calls > 0
 
-    def _documented(self, name: str) -> bool:
+    def _own_comments(self) -> str:
+        """What stands before this function, wherever it is declared; and its own line's arguments."""
+        own = re.escape(self.node.decl.name)
+        return "\n".join(match[0] for match in re.finditer(
+            rf"(?:/\*(?:(?!\*/).)*?\*/\s*\n)?[^\n;{{}}]*\b{own}\((?:(?!\)[;\s]).)*\)", self.source.documents, re.S))
+
+    def _documented(self, name: str, is_member: bool = False) -> bool:
         """Its range stands where it is declared, or it is a byte."""
         n = re.escape(name)
+        documents = self._own_comments() if name in self.arguments and not is_member else self.source.documents
         ranged = r"(?:\[[^\]\n]*[\w)]\]|\bat most\b|\b\d+ to \w+)"
         return re.search(rf"\bu?int8_t\s+(?:\w+,\s*)*\b{n}\b(?!\s*\()"
                          rf"|/\*(?:(?!\*/).)*?\b{n}\b[^.\n;]*{ranged}"
                          rf"|^\s*\*[^\n]*\b{n}\b[^.\n;]*{ranged}"
                          rf"|\b{n}\b(?:\[\w+\])?(?:, \w+)*;\s*/\*(?:(?!\*/).)*?{ranged}",
-                         self.source.documents, re.M | re.S) is not None
+                         documents, re.M | re.S) is not None
 
     # ---- loops
 

@@ -1,6 +1,10 @@
 /* Loops whose bound cannot be seen. Every line that says so has to be found, and no other. */
 #include <stdint.h>
 
+typedef struct {
+    uint32_t other;
+} elsewhere_t; /* reach of something else [0, 9]: says nothing of an argument of that name */
+
 typedef struct node {
     struct node *next;
 } node_t;

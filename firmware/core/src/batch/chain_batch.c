@@ -10,7 +10,7 @@ size_t brace_chain_batch(const brace_chain_t *chain, size_t n, const float *thet
                                             NOT_A_NUMBER, NOT_A_NUMBER, 0u};
     const brace_compliance_t no_compliance = {NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER};
     size_t refused = 0;
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < n; i++) { /* at most the host's columns */
         brace_stiffness_t k = no_stiffness;
         brace_compliance_t c = no_compliance;
         if (brace_chain_stiffness(chain, theta1_rad[i], theta2_rad[i], &k) != BRACE_OK) {

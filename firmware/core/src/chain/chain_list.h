@@ -19,10 +19,11 @@ float brace_chain_base(const brace_limb_t *limb, brace_element_t *element);
  * returns iso. element: room for BRACE_CHAIN_MAX. limb has passed brace_limb_check. */
 float brace_chain_list(const brace_limb_t *limb, int with_coxa, brace_element_t *element, uint32_t *count);
 
-/* brace_harmonics of a bare list; base parts are not looked at, femur and tibia parts are used up. */
+/* brace_harmonics of a bare list; base parts are not looked at, femur and tibia parts are used up.
+ * count: [0, BRACE_CHAIN_MAX] */
 void brace_harmonics_list(float iso, brace_element_t *element, uint32_t count, brace_harmonics_t *harmonics);
 
-/* The same of the elements alone: iso is neither in nor written. */
+/* The same of the elements alone, count of them [0, BRACE_CHAIN_MAX]: iso is neither in nor written. */
 void brace_harmonics_sum(brace_element_t *element, uint32_t count, brace_harmonics_t *harmonics);
 
 #endif
