@@ -1,23 +1,38 @@
 #include "brace/status.h"
 
+#include <stdint.h>
+
+#include "base/off_tick.h"
+
+/* One after the other as the statuses count down; the host library's place is that of no status at all. */
+enum { UNKNOWN = 9, LAST = -BRACE_E_MODE };
+
+static const char texts[] =
+    "done\0"
+    "a pointer that must be given is null\0"
+    "an input is NaN or infinite\0"
+    "an input lies outside its stated range\0"
+    "no posture of this limb puts the tip there\0"
+    "a parameter that no limb can have\0"
+    "nothing yields in some direction, so K does not exist\0"
+    "not enough samples for an answer\0"
+    "this limb needs the general path\0"
+    "not a status of this library\0"
+    "not a parameter block\0"
+    "a parameter block of another format\0"
+    "bytes are missing or too many\0"
+    "the checksum does not fit: damaged on its way\0"
+    "written for another list of parameters\0"
+    "not in the mode that the controller is in";
+
+BRACE_OFF_TICK
 const char *brace_status_text(brace_status_t status)
 {
-    switch (status) {
-    case BRACE_OK: return "done";
-    case BRACE_E_NULL: return "a pointer that must be given is null";
-    case BRACE_E_NOT_FINITE: return "an input is NaN or infinite";
-    case BRACE_E_RANGE: return "an input lies outside its stated range";
-    case BRACE_E_UNREACHABLE: return "no posture of this limb puts the tip there";
-    case BRACE_E_PARAMETER: return "a parameter that no limb can have";
-    case BRACE_E_SINGULAR: return "nothing yields in some direction, so K does not exist";
-    case BRACE_E_TOO_FEW: return "not enough samples for an answer";
-    case BRACE_E_UNSUPPORTED: return "this limb needs the general path";
-    case BRACE_E_MODE: return "not in the mode that the controller is in";
-    case BRACE_E_MAGIC: return "not a parameter block";
-    case BRACE_E_FORMAT: return "a parameter block of another format";
-    case BRACE_E_LENGTH: return "bytes are missing or too many";
-    case BRACE_E_CHECKSUM: return "the checksum does not fit: damaged on its way";
-    case BRACE_E_SCHEMA: return "written for another list of parameters";
-    default: return "not a status of this library";
+    const int32_t number = -(int32_t)status;
+    int32_t before = number < 0 || number > LAST ? UNKNOWN : number;
+    uint32_t at = 0;
+    for (; at < sizeof texts && before > 0; at++) {
+        before -= texts[at] == '\0';
     }
+    return &texts[at];
 }

@@ -11,6 +11,8 @@
 #define SIN_5 2.60373686e-4f
 #define SIN_7 (-1.52292930e-6f)
 
+enum { BRACE_ELEMENT_FLOATS = sizeof(brace_element_t) / sizeof(float) };
+
 /* What a link's ellipsoid brings: iso, and the root of the bending that goes with moment transfer. */
 typedef struct {
     float iso_mm_per_n, root;
@@ -38,10 +40,16 @@ BRACE_OFF_TICK static bent_t bend(const brace_link_t *link, float kappa, brace_v
     return (bent_t){bending, root};
 }
 
-/* An element that is a lever about a joint, or with zeros none yet; one copy, and shorter than a call to clear it. */
-BRACE_OFF_TICK static void set_lever(brace_element_t *element, float femur, float tibia)
+/* A loop, because a call of the C library's memset would be longer. */
+#if defined(__GNUC__) && !defined(__clang__)
+__attribute__((optimize("no-tree-loop-distribute-patterns")))
+#endif
+BRACE_OFF_TICK static void clear(brace_element_t *element, int count)
 {
-    *element = (brace_element_t){{0.0f, femur}, {0.0f, tibia}, {0.0f, 0.0f}};
+    float *field = &element->femur.x;
+    for (int i = 0; i < count * BRACE_ELEMENT_FLOATS; i++) {
+        field[i] = 0.0f;
+    }
 }
 
 BRACE_OFF_TICK float brace_chain_firm(const brace_limb_t *limb, brace_element_t element[BRACE_CHAIN_FIRM])
@@ -51,11 +59,10 @@ BRACE_OFF_TICK float brace_chain_firm(const brace_limb_t *limb, brace_element_t 
     const float hip = __builtin_sqrtf(limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm +
                                       limb->base.rotation_rad_per_n_mm);
     const float knee = __builtin_sqrtf(limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm);
-    for (int i = 0; i < 3; i++) {
-        set_lever(&element[i], 0.0f, 0.0f);
-    }
-    set_lever(&element[3], hip * femur_mm, hip * tibia_mm);
-    set_lever(&element[4], 0.0f, knee * tibia_mm);
+    clear(element, BRACE_CHAIN_FIRM);
+    element[3].femur.z = hip * femur_mm;
+    element[3].tibia.z = hip * tibia_mm;
+    element[4].tibia.z = knee * tibia_mm;
 
     /* The tibia has nothing beyond it to pass a moment to: zero goes to the knee, which has no femur part. */
     const bent_t upper = bend(femur, femur->moment_transfer_ratio, &element[0].femur, &element[1].femur);
@@ -67,8 +74,7 @@ BRACE_OFF_TICK float brace_chain_firm(const brace_limb_t *limb, brace_element_t 
 BRACE_OFF_TICK float brace_chain_coxa(const brace_limb_t *limb, brace_element_t element[2])
 {
     const brace_link_t *link = &limb->link[BRACE_COXA];
-    set_lever(&element[0], 0.0f, 0.0f);
-    set_lever(&element[1], 0.0f, 0.0f);
+    clear(element, 2);
     const bent_t bent = bend(link, link->moment_transfer_ratio, &element[0].base, &element[1].base);
     if (bent.root > 0.0f) {
         const float lever = 2.0f * bent.root / limb->coxa_mm;
@@ -81,7 +87,7 @@ BRACE_OFF_TICK float brace_chain_coxa(const brace_limb_t *limb, brace_element_t 
 BRACE_OFF_TICK float brace_chain_base(const brace_limb_t *limb, brace_element_t *element)
 {
     const float x = limb->base.x_mm_per_n, z = limb->base.z_mm_per_n;
-    set_lever(element, 0.0f, 0.0f);
+    clear(element, 1);
     element->base.x = x > z ? __builtin_sqrtf(x - z) : 0.0f;
     element->base.z = z > x ? __builtin_sqrtf(z - x) : 0.0f;
     return x > z ? z : x;
@@ -120,12 +126,12 @@ BRACE_OFF_TICK static brace_status_t build(const brace_limb_t *limb, int with_co
     return status;
 }
 
-brace_status_t brace_chain_build(const brace_limb_t *limb, brace_chain_t *chain)
+BRACE_OFF_TICK brace_status_t brace_chain_build(const brace_limb_t *limb, brace_chain_t *chain)
 {
     return build(limb, false, chain);
 }
 
-brace_status_t brace_chain_build_with_coxa(const brace_limb_t *limb, brace_chain_t *chain)
+BRACE_OFF_TICK brace_status_t brace_chain_build_with_coxa(const brace_limb_t *limb, brace_chain_t *chain)
 {
     return build(limb, true, chain);
 }

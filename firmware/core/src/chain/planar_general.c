@@ -2,10 +2,14 @@
 
 #include "brace/chain.h"
 #include "brace/planar.h"
+#include "base/off_tick.h"
 #include "base/trig.h"
 #include "base/turn.h"
 #include "base/vec.h"
 
+/* brace_chain_stiffness is on the tick: of every controller whose limb does not collapse, or whose joint springs follow
+ * load and temperature. tests/bench/tick_cost.py holds that whole tick to 4,000 instructions, of which this is the largest
+ * part (six elements: 1,000 at most). Speed before size here, nothing of it is BRACE_OFF_TICK. */
 /* det C over mean^2 below which C counts as singular, and below which its accuracy is not promised. */
 #define SINGULAR 1e-12f
 #define SLENDER 2e-5f
@@ -25,7 +29,7 @@ typedef struct {
     brace_vec_t femur, tibia, base;
 } parts_t;
 
-static parts_t seen_from_femur(const brace_element_t *element, brace_vec_t tibia, brace_vec_t base)
+static inline parts_t seen_from_femur(const brace_element_t *element, brace_vec_t tibia, brace_vec_t base)
 {
     return (parts_t){element->femur, turned(element->tibia, tibia), turned(element->base, base)};
 }
@@ -46,7 +50,7 @@ static float cross_base(const parts_t *a, const parts_t *b)
 }
 
 /* Sums over the chain in the femur's frame, then turned into the world's. */
-static tensor_t tensor(const brace_chain_t *chain, float theta1_rad, float theta2_rad)
+static inline tensor_t tensor(const brace_chain_t *chain, float theta1_rad, float theta2_rad)
 {
     const uint32_t femur_turn = brace_turn(theta1_rad);
     const brace_vec_t tibia = brace_direction(0u - brace_turn(theta2_rad));
@@ -54,15 +58,17 @@ static tensor_t tensor(const brace_chain_t *chain, float theta1_rad, float theta
     const brace_vec_t to_world = {__builtin_fmaf(-2.0f * base.z, base.z, 1.0f), -2.0f * base.z * base.x};
     float trace = 0.0f, squares = 0.0f;
     brace_vec_t dev = {0.0f, 0.0f};
+    brace_vec_t turned_tibia[BRACE_CHAIN_MAX];
     for (uint32_t i = 0; i < chain->count; i++) {
         const parts_t a = seen_from_femur(&chain->element[i], tibia, base);
+        turned_tibia[i] = a.tibia;
         const brace_vec_t v = {a.femur.x + a.tibia.x + a.base.x, a.femur.z + a.tibia.z + a.base.z};
         trace += vec_dot(v, v);
         dev.x += vec_dot(v, (brace_vec_t){v.x, -v.z});
         dev.z += 2.0f * v.x * v.z;
         for (uint32_t j = 0; j < i; j++) {
             const brace_element_t *other = &chain->element[j];
-            parts_t b = {other->femur, turned(other->tibia, tibia), {0.0f, 0.0f}};
+            parts_t b = {other->femur, turned_tibia[j], {0.0f, 0.0f}};
             float cross = cross_parts(&b, &a);
             if (other->base.x != 0.0f || other->base.z != 0.0f) {
                 b.base = turned(other->base, base);
@@ -76,24 +82,27 @@ static tensor_t tensor(const brace_chain_t *chain, float theta1_rad, float theta
     return (tensor_t){iso + 0.5f * trace, 0.5f * dev.x, 0.5f * dev.z, iso * (iso + trace) + squares};
 }
 
-static brace_status_t refusal(float theta1_rad, float theta2_rad)
+/* The tensor at a posture that the general path takes; result is whoever asks's output, not null. */
+static brace_status_t tensor_at(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
+                                               const void *result, tensor_t *c)
 {
+    if (chain == NULL || result == NULL) {
+        return BRACE_E_NULL;
+    }
     const float reach = theta1_rad * theta1_rad + theta2_rad * theta2_rad;
     if (reach <= BRACE_PLANAR_REACH_RAD2) {
+        *c = tensor(chain, theta1_rad, theta2_rad);
         return BRACE_OK;
     }
     return reach <= 3.4028234e38f ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
 }
 
-brace_status_t brace_chain_compliance(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
+BRACE_OFF_TICK brace_status_t brace_chain_compliance(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
                                       brace_compliance_t *compliance, float *det)
 {
-    if (chain == NULL || compliance == NULL) {
-        return BRACE_E_NULL;
-    }
-    const brace_status_t status = refusal(theta1_rad, theta2_rad);
+    tensor_t c;
+    const brace_status_t status = tensor_at(chain, theta1_rad, theta2_rad, compliance, &c);
     if (status == BRACE_OK) {
-        const tensor_t c = tensor(chain, theta1_rad, theta2_rad);
         *compliance = (brace_compliance_t){c.mean + c.dev_x, c.dev_y, c.mean - c.dev_x};
         if (det != NULL) {
             *det = c.det;
@@ -105,14 +114,11 @@ brace_status_t brace_chain_compliance(const brace_chain_t *chain, float theta1_r
 brace_status_t brace_chain_stiffness(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
                                      brace_stiffness_t *stiffness)
 {
-    if (chain == NULL || stiffness == NULL) {
-        return BRACE_E_NULL;
-    }
-    const brace_status_t status = refusal(theta1_rad, theta2_rad);
+    tensor_t c;
+    const brace_status_t status = tensor_at(chain, theta1_rad, theta2_rad, stiffness, &c);
     if (status != BRACE_OK) {
         return status;
     }
-    const tensor_t c = tensor(chain, theta1_rad, theta2_rad);
     const float square = c.mean * c.mean;
     if (!(c.det > SINGULAR * square)) {
         return BRACE_E_SINGULAR;

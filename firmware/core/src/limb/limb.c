@@ -4,6 +4,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/off_tick.h"
+
 #define HALF_TURN_RAD_MAX 1.5707965f
 
 /* What a field may be; every field of brace_limb_t has one of these ranges. */
@@ -28,21 +30,28 @@ static const uint8_t kind[] = {COXA_MM,      LENGTH_MM,    LENGTH_MM,    LINK_FI
 
 _Static_assert(sizeof kind * sizeof(float) == sizeof(brace_limb_t), "one kind for each field of the limb");
 
+#define PLACE(name) ((uint8_t)(offsetof(brace_limb_t, name) / sizeof(float)))
+
+/* What yields along a line of its own. */
+static const uint8_t source[] = {PLACE(link[BRACE_FEMUR].axial_mm_per_n), PLACE(link[BRACE_FEMUR].bending_mm_per_n),
+                                 PLACE(link[BRACE_TIBIA].axial_mm_per_n), PLACE(link[BRACE_TIBIA].bending_mm_per_n),
+                                 PLACE(joint[BRACE_TIBIA].compliance_rad_per_n_mm), PLACE(base.x_mm_per_n),
+                                 PLACE(base.z_mm_per_n)};
+
 /* Does C have an inverse at some posture: are there two sources of compliance that do not always act along
  * the same line? Tibia bending and knee joint do, unless the tibia's ellipsoid is tilted. */
+BRACE_OFF_TICK
 static bool yields_in_two_directions(const brace_limb_t *limb)
 {
-    const brace_link_t *femur = &limb->link[BRACE_FEMUR];
-    const brace_link_t *tibia = &limb->link[BRACE_TIBIA];
-    const bool knee = limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm > 0.0f;
-    const bool tibia_bends = tibia->bending_mm_per_n > 0.0f;
-    const bool same_line = knee && tibia_bends && tibia->tilt_rad == 0.0f;
-    const int sources =
-        (femur->axial_mm_per_n > 0.0f) + (femur->bending_mm_per_n > 0.0f) +
-        (femur->bending_mm_per_n > 0.0f && femur->moment_transfer_ratio > 0.0f) +
-        (tibia->axial_mm_per_n > 0.0f) + (same_line ? 1 : tibia_bends + knee) +
-        (limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm + limb->base.rotation_rad_per_n_mm > 0.0f) +
-        (limb->base.x_mm_per_n > 0.0f) + (limb->base.z_mm_per_n > 0.0f);
+    const brace_link_t *femur = &limb->link[BRACE_FEMUR], *tibia = &limb->link[BRACE_TIBIA];
+    const float *field = &limb->coxa_mm;
+    int sources = (femur->bending_mm_per_n * femur->moment_transfer_ratio > 0.0f) +
+                  (limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm + limb->base.rotation_rad_per_n_mm > 0.0f) -
+                  (limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm * tibia->bending_mm_per_n > 0.0f &&
+                   tibia->tilt_rad == 0.0f);
+    for (size_t i = 0; i < sizeof source; i++) {
+        sources += field[source[i]] > 0.0f;
+    }
     return sources >= 2;
 }
 
@@ -52,6 +61,7 @@ static bool coxa_is_long_enough(const brace_limb_t *limb)
     return limb->coxa_mm >= 1.0f || !(limb->link[BRACE_COXA].moment_transfer_ratio > 0.0f);
 }
 
+BRACE_OFF_TICK
 brace_status_t brace_limb_check(const brace_limb_t *limb)
 {
     if (limb == NULL) {

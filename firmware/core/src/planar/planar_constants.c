@@ -38,9 +38,9 @@ static inline rest_t affine_rest(brace_harmonics_t *h, float most)
     return (rest_t){2.0f * iso + more, constant};
 }
 
-static float swing(const brace_harmonic_t *h)
+static inline float swing_square(const brace_harmonic_t *h)
 {
-    return __builtin_sqrtf(h->per_cos * h->per_cos + h->per_sin * h->per_sin);
+    return h->per_cos * h->per_cos + h->per_sin * h->per_sin;
 }
 
 /* Is the accuracy of the tick safe? Where rest could lose digits against its parts, at the mean's least or most, and
@@ -50,7 +50,7 @@ static inline int accurate(const brace_harmonics_t *h, rest_t rest, float least,
 {
     const float smaller = rest.constant + rest.per_mean * (rest.per_mean < 0.0f ? most : least);
     const float error = 2.0f * unit + 6e-8f * (__builtin_fabsf(h->cross.per_cos) + __builtin_fabsf(h->cross.at_fold));
-    return __builtin_fabsf(rest.constant) < 16.0f * smaller && error < 2e-6f * __builtin_sqrtf(smaller) &&
+    return __builtin_fabsf(rest.constant) * (1.0f / 16.0f) + error * error * 2.5e11f < smaller &&
            unit + 5e-8f * __builtin_fabsf(h->mean.per_cos) < 1.2e-6f * least;
 }
 
@@ -67,31 +67,35 @@ static inline void fix(const brace_harmonic_t *h, float units, brace_planar_harm
 
 BRACE_OFF_TICK brace_status_t brace_planar_constants(brace_harmonics_t *h, brace_planar_t *planar)
 {
+    const brace_harmonic_t *from = &h->cross; /* then mean, dev_x, dev_y, */
+    brace_planar_harmonic_t *to = &planar->cross; /* as here */
+
     /* The mean lies between the eigenvalues of its form in (cos h, sin h), h = theta2/2. */
     h->mean.at_fold += h->iso_mm_per_n;
     const float per_sin = h->mean.per_sin, folded = h->mean.at_fold;
-    const float most = folded + h->mean.per_cos + swing(&h->mean);
+    const float most = folded + h->mean.per_cos + __builtin_sqrtf(swing_square(&h->mean));
     const float least = (folded * (folded + 2.0f * h->mean.per_cos) - per_sin * per_sin) / most;
     const rest_t rest = affine_rest(h, most);
 
-    /* Every factor below its word, the mean below two scales. */
-    const brace_harmonic_t *harmonic = &h->mean; /* and dev_x, dev_y, cross behind it, as in planar */
-    brace_planar_harmonic_t *fixed = &planar->mean;
-    float scale = 0.51f * most;
-    for (int i = 1; i < 3; i++) {
-        const float size = swing(&harmonic[i]);
-        scale = size > scale ? size : scale;
-    }
-    if (!(scale > 0.0f && scale < 1e9f)) {
+    if (!(least > 0.0f)) {
         return BRACE_E_PARAMETER;
     }
-    const float unit = scale * (1.001f / 0x1p27f), units = 1.0f / unit;
+    /* Every factor below its word, the mean below two scales. */
+    float square = 0.26f * most * most;
+    for (int i = 2; i < 4; i++) {
+        const float size = swing_square(&from[i]);
+        square = size > square ? size : square;
+    }
+    const float unit = __builtin_sqrtf(square) * (1.001f / 0x1p27f), units = 1.0f / unit;
     if (!accurate(h, rest, least, most, unit)) {
         return BRACE_E_UNSUPPORTED;
     }
-    /* The deviators bring two bits more into the turn to the world's frame, which takes them again. */
+    float by = units;
     for (int i = 0; i < 4; i++) {
-        fix(&harmonic[i], i == 1 || i == 2 ? units * PER_WORD : units, &fixed[i]);
+        if (i == 2) { /* the deviators bring two bits more into the turn to the world's frame, which takes them again */
+            by *= PER_WORD;
+        }
+        fix(&from[i], by, &to[i]);
     }
     planar->sine = brace_sine_table;
     planar->cosine = brace_sine_table + BRACE_SINE_QUARTER;

@@ -3,11 +3,12 @@
 #include <stddef.h>
 
 #include "chain/chain_list.h"
+#include "base/off_tick.h"
 #include "base/trig.h"
 #include "base/vec.h"
 
 /* a a' + b b' = equal I + v v': equal in every direction, and one direction more. */
-static float merged(brace_vec_t a, brace_vec_t b, brace_vec_t *v)
+BRACE_OFF_TICK static float merged(brace_vec_t a, brace_vec_t b, brace_vec_t *v)
 {
     const float dev_x = 0.5f * (a.x * a.x - a.z * a.z + b.x * b.x - b.z * b.z);
     const float dev_y = a.x * a.z + b.x * b.z;
@@ -52,7 +53,7 @@ static float collapse_still(const brace_limb_t *limb, brace_spatial_t *spatial)
     return iso + merged(coxa[0].base, base.base, &spatial->still);
 }
 
-brace_status_t brace_spatial_collapse(const brace_limb_t *limb, brace_spatial_t *spatial)
+BRACE_OFF_TICK brace_status_t brace_spatial_collapse(const brace_limb_t *limb, brace_spatial_t *spatial)
 {
     const brace_status_t status = spatial == NULL ? BRACE_E_NULL : brace_limb_check(limb);
     if (status != BRACE_OK) {
