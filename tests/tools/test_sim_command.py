@@ -217,6 +217,7 @@ def test_slcan_answers_as_an_adapter_does(paper_limb: Path) -> None:
         assert client.ask(b"S8") == b"\r"
         assert client.ask(b"O") == b"\r"
         assert client.ask(b"O") == b"\a"
+        assert client.ask(b"Vx") == b"\a"  # a refusal and nothing else
         assert client.ask(b"S6") == b"\a"  # open
         assert client.ask(b"nonsense") == b"\a"
         assert client.ask(b"x" * 1000) == b"\a"

@@ -243,7 +243,7 @@ def loading_test(one: Node, axis: int, step_mm: float = 0.4) -> Any:
     setup.dwell_us, setup.rate_mm_per_s = 200_000, 10.0
     setup.force_max_n, setup.torque_max_n_mm = 60.0, 8000.0
     assert one.native.lib.brace_app_loading_start(one.app(), setup) == 0
-    for _ in range(300):
+    for _ in range(1200):  # against dry friction each step may take some seconds
         one.step(0.1)
         result = one.native.lib.brace_app_loading_result(one.app())
         if result.outcome != 1 and MODES[one.raw_snapshot().mode] == "monitor":

@@ -144,7 +144,7 @@ def _setups(arguments: argparse.Namespace, model: Any, plant: Any, modbus: str) 
     from brace.sim.node import LimbSetup
 
     first = arguments.posture[0] if arguments.posture else spec.Posture(1.0, 1.4, 0.0)
-    base = arguments.node or int(model.values.get("controller.node_id", 0)) or 1
+    base = arguments.node or int(model.number("controller.node_id")) or 1
     if base + arguments.limbs - 1 > 127:
         raise UsageError(
             f"no node numbers for {arguments.limbs} limbs from {base} on",

@@ -13,7 +13,7 @@ from brace.errors import BadFileError, BraceError, NoDeviceError, UsageError
 from brace.model import LimbModel
 from brace.native import node_library
 from brace.native.limb import fill_plant, plant_error, status_text
-from brace.sim.block import parameter_block
+from brace.params import pack
 from brace.sim.spec import JOINTS, Fault, Posture
 from brace.stiffness import flag_names
 
@@ -100,16 +100,14 @@ class Node:
         fill_plant(self.native, struct.plant, setup.plant)
         for index, joint in enumerate(JOINTS):
             for key in _DRIVE_KEYS:
-                if (value := setup.plant.values.get(f"motor.{joint}.{key}")) is not None:
-                    setattr(struct.drive[index], key, value)
+                setattr(struct.drive[index], key, setup.plant.number(f"motor.{joint}.{key}"))
             for name, value in setup.drive.items():
                 setattr(struct.drive[index], name, value)
         struct.theta_rad = setup.theta_rad
         struct.hold_n_per_mm = setup.hold_n_per_mm
         struct.press_x_mm, struct.press_z_mm = setup.press_mm
-        noise = setup.plant.values.get("sensor.noise_n") if setup.force_noise_n is None else setup.force_noise_n
-        if noise is not None:
-            struct.force_noise_n = noise
+        noise_n = setup.force_noise_n
+        struct.force_noise_n = setup.plant.number("sensor.noise_n") if noise_n is None else noise_n
         struct.has_force_sensor = setup.has_force_sensor
         struct.has_link_encoder = setup.has_link_encoder
         reference = setup.plant.number("thermal.reference_degc")
@@ -118,7 +116,7 @@ class Node:
         struct.temp_time_constant_s = setup.temp_time_constant_s
         struct.block_replaces = setup.block_replaces
         if not setup.no_block:
-            block = parameter_block(self.native, setup.model, setup.changes)
+            block = pack(setup.model.with_values(setup.changes)).content
             keep.append(ffi.from_buffer("uint8_t[]", block))
             struct.block, struct.block_bytes = keep[-1], len(block)
         texts = ("console", "modbus_line", "slcan_line", "modbus_tcp", "nvm_path")
