@@ -59,6 +59,9 @@ void stream_poll(brace_posix_stream_t *stream)
 
 int32_t stream_setup(brace_posix_stream_t *stream, uint32_t baud, brace_parity_t parity)
 {
+    if (stream->kind == BRACE_POSIX_STREAM_NONE) {
+        return BRACE_HAL_E_UNSUPPORTED;
+    }
     if (baud < 1200u || baud > 4000000u || parity > BRACE_PARITY_ODD) {
         return BRACE_HAL_E_RANGE;
     }
