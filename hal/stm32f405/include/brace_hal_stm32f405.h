@@ -28,7 +28,7 @@ typedef struct {
 /* A serial port: which USART, on which pins (alternate function 7). */
 typedef struct {
     uint8_t usart;                /* 1, 2 or 3; 0: the board has no such port */
-    stm32f405_pin_t tx, rx;       /* USART1: PA9 or PB6, PA10 or PB7; 2: PA2 or PD5, PA3 or PD6; 3: PB10, PC10 or PD8, ... */
+    stm32f405_pin_t tx, rx;       /* 1: PA9 PA10, PB6 PB7; 2: PA2 PA3, PD5 PD6; 3: PB10 PB11, PD8 PD9 */
     stm32f405_pin_t drive_enable; /* of an RS-485 transceiver: high from the first bit sent to the last */
 } stm32f405_serial_t;
 
@@ -51,9 +51,10 @@ typedef struct {
 typedef struct {
     const char *name; /* for the banner */
 
-    uint32_t hse_hz; /* crystal [4e6, 26e6], whole MHz; 0: none. Without one, or when it does not start within 0.1 s, the
-                      * chip's own 16 MHz oscillator (1 %, -8 % to 4.5 % over temperature) feeds the PLL: same speed, and
-                      * CAN may then listen only, since it would disturb the bus. */
+    /* Crystal [4e6, 26e6], whole MHz; 0: none. Without one, or when it does not start within 0.1 s, the chip's own
+     * 16 MHz oscillator (1 %, -8 % to 4.5 % over temperature) feeds the PLL: same speed, and CAN may then listen only,
+     * since it would disturb the bus. */
+    uint32_t hse_hz;
     const stm32f405_clocks_t *clocks_given; /* null: set the clocks up, 168 MHz */
 
     stm32f405_serial_t serial[BRACE_SERIAL_PORT_COUNT];
@@ -92,12 +93,12 @@ uint32_t stm32f405_sector_bytes(uint8_t sector);
  * Worst case 0.4 s, when neither crystal nor PLL starts; 5 ms typical. Call once, from main. Stack below 200 bytes.
  *
  * Specific to this chip, within what brace_hal.h allows:
- *   now_us       TIM2 at 1 MHz, goes on while flash is erased; steps of 1 us (rate exact when TIM2's clock is whole MHz)
+ *   now_us       TIM2 at 1 MHz, goes on while flash is erased; steps of 1 us
  *   serial_*     rings of 512 bytes each way; a byte with a parity or framing error is dropped, so a frame's check
  *                fails; baud [1200, 2e6] that the clock meets to 2 %, else E_RANGE
  *   can_setup    E_UNSUPPORTED: no pins, or CAN FD asked for; E_RANGE: bit rate not to be had from APB1; E_DEVICE: the
- *                controller does not answer (an emulator), the bus is held dominant, or no crystal and neither listen_only
- *                nor loopback
+ *                controller does not answer (an emulator), the bus is held dominant, or there is no crystal and
+ *                neither listen_only nor loopback is asked for
  *   can_send     three mailboxes, first in first out whatever the identifiers, so order is kept; AGAIN when all three
  *                are full; E_UNSUPPORTED when listening only
  *   can_receive  ring of 64 frames; extended and remote frames are turned away by the filter
@@ -105,8 +106,8 @@ uint32_t stm32f405_sector_bytes(uint8_t sector);
  *   nvm_write    whole words of 4 bytes: 16 us each, 100 us at most; in one call up to 10 words are within 1 ms surely
  *   nvm_erase    16 KiB: 0.25 s, at most 0.5 s; 128 KiB: 1 s, at most 2 s. The processor stands still; the watchdog is
  *                fed before. E_DEVICE: protected, or not finished in twice that time
- *   watchdog     3.5 s by the LSI as measured at the start; 2.8 s at the fastest there is. Where it can not be measured,
- *                3.5 s by its nominal 32 kHz
+ *   watchdog     3.5 s by the LSI as measured at the start, 2.8 s at the fastest; where it can not be measured, by
+ *                its nominal 32 kHz
  *   restart      SYSRESETREQ
  */
 const brace_hal_t *brace_hal_stm32f405(const stm32f405_board_t *board);

@@ -99,7 +99,7 @@ int32_t can_setup(void *context, const brace_can_setup_t *setup)
     pin_give(wiring->can_rx, PIN_FUNCTION);
     pin_give(wiring->can_tx, PIN_FUNCTION);
 
-    /* Sends in the order asked for; a full FIFO keeps what it has. Retransmits; does not come back from bus-off alone. */
+    /* Sends in the order asked for; a full FIFO keeps what it has. Retransmits; stays in bus-off until told. */
     const uint32_t manner = CAN_MCR_TXFP | CAN_MCR_RFLM;
     *can(CAN_MCR) = manner | CAN_MCR_INRQ;
     if (!clock_poll_until(can(CAN_MSR), CAN_MSR_INAK | CAN_MSR_SLAK, CAN_MSR_INAK, ACKNOWLEDGE_US)) {
@@ -118,7 +118,8 @@ int32_t can_setup(void *context, const brace_can_setup_t *setup)
     return BRACE_HAL_OK;
 }
 
-/* Second half of can_recover, whenever the controller has acknowledged: leaving initialisation starts the 128 x 11 bits. */
+/* Second half of can_recover, once the controller has acknowledged: leaving initialisation starts the 128 x 11
+ * bits. */
 static void finish_recovery(void)
 {
     if (recovering && (*can(CAN_MSR) & CAN_MSR_INAK) != 0u) {

@@ -6,6 +6,7 @@ enum {
     BEFORE_MAX = 16,
     AFTER_MAX = 8,
     PRESCALER_MAX = 1024,
+    RATE_MAX = 1000000,
     JUMP_MAX = 4
 };
 
@@ -21,7 +22,7 @@ bool can_timing_find(uint32_t clock_hz, uint32_t bit_rate, can_timing_t *timing)
     uint32_t best_quanta = 1;
     for (uint32_t quanta = QUANTA_MAX; quanta >= QUANTA_MIN; quanta--) {
         const uint32_t rate = bit_rate * quanta;
-        if (bit_rate == 0u || bit_rate > 1000000u || clock_hz % rate != 0u || clock_hz / rate > PRESCALER_MAX) {
+        if (bit_rate == 0u || bit_rate > RATE_MAX || clock_hz % rate != 0u || clock_hz / rate > PRESCALER_MAX) {
             continue;
         }
         uint32_t after = (quanta + 4u) / 8u; /* an eighth of the bit, rounded */

@@ -61,17 +61,19 @@ static bool start_crystal(uint32_t hse_hz)
 static bool start_pll(uint32_t source_hz, bool crystal)
 {
     const uint32_t source_mhz = source_hz / 1000000u;
-    const uint32_t divider = source_mhz % 2u == 0u ? source_mhz / 2u : source_mhz; /* 2 MHz jitters less than 1 MHz */
+    /* 2 MHz into the PLL jitter less than 1 MHz. */
+    const uint32_t divider = source_mhz % 2u == 0u ? source_mhz / 2u : source_mhz;
     const uint32_t multiplier = VCO_MHZ * divider / source_mhz;
 
-    const uint32_t access = FIELD(FLASH_ACR_LATENCY, FLASH_WAIT_STATES) | FLASH_ACR_PRFTEN | FLASH_ACR_ICEN | FLASH_ACR_DCEN;
-    REGISTER(FLASH_BASE, FLASH_ACR) = access;
-    if (!poll_until(&REGISTER(FLASH_BASE, FLASH_ACR), FLASH_ACR_LATENCY, access & FLASH_ACR_LATENCY, SWITCH_POLLS)) {
+    const uint32_t latency = FIELD(FLASH_ACR_LATENCY, FLASH_WAIT_STATES);
+    REGISTER(FLASH_BASE, FLASH_ACR) = latency | FLASH_ACR_PRFTEN | FLASH_ACR_ICEN | FLASH_ACR_DCEN;
+    if (!poll_until(&REGISTER(FLASH_BASE, FLASH_ACR), FLASH_ACR_LATENCY, latency, SWITCH_POLLS)) {
         return false;
     }
-    change(RCC_PLLCFGR, RCC_PLLCFGR_PLLM | RCC_PLLCFGR_PLLN | RCC_PLLCFGR_PLLP | RCC_PLLCFGR_PLLSRC | RCC_PLLCFGR_PLLQ,
-           FIELD(RCC_PLLCFGR_PLLM, divider) | FIELD(RCC_PLLCFGR_PLLN, multiplier) | FIELD(RCC_PLLCFGR_PLLP, 0) |
-               FIELD(RCC_PLLCFGR_PLLSRC, crystal) | FIELD(RCC_PLLCFGR_PLLQ, 7));
+    change(RCC_PLLCFGR,
+           RCC_PLLCFGR_PLLM | RCC_PLLCFGR_PLLN | RCC_PLLCFGR_PLLP | RCC_PLLCFGR_PLLSRC | RCC_PLLCFGR_PLLQ,
+           FIELD(RCC_PLLCFGR_PLLM, divider) | FIELD(RCC_PLLCFGR_PLLN, multiplier) |
+               FIELD(RCC_PLLCFGR_PLLP, 0) | FIELD(RCC_PLLCFGR_PLLSRC, crystal) | FIELD(RCC_PLLCFGR_PLLQ, 7));
     change(RCC_CR, RCC_CR_PLLON, RCC_CR_PLLON);
     if (!rcc_becomes(RCC_CR, RCC_CR_PLLRDY, RCC_CR_PLLRDY, PLL_POLLS)) {
         change(RCC_CR, RCC_CR_PLLON, 0u);

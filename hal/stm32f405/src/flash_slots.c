@@ -33,7 +33,8 @@ uint32_t stm32f405_sector_address(uint8_t sector)
     if (sector >= SECTOR_COUNT) {
         return 0u;
     }
-    return FLASH_START + (sector < 4u ? sector * 0x4000u : sector == 4u ? 0x10000u : (sector - 4u) * 0x20000u);
+    const uint32_t offset = sector < 4u ? sector * 0x4000u : sector == 4u ? 0x10000u : (sector - 4u) * 0x20000u;
+    return FLASH_START + offset;
 }
 
 void flash_slots_use(const stm32f405_board_t *board)
@@ -99,7 +100,7 @@ static void lock(void)
     *flash(FLASH_CR) = FLASH_CR_LOCK;
 }
 
-/* false: something is still under way, or the controller stays locked. One wrong key locks it until the next reset. */
+/* false: something is still under way, or the controller stays locked. One wrong key locks it until a reset. */
 static bool unlock(void)
 {
     if (!finishes_within(ERASE_LARGE_US)) {

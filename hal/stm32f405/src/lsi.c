@@ -37,7 +37,8 @@ uint32_t lsi_measure_hz(uint32_t timer_hz)
     *tim5(TIM5_PSC) = 0u;
     *tim5(TIM5_ARR) = UINT32_MAX;
     *tim5(TIM5_OR) = FIELD(TIM5_OR_IT4_RMP, LSI_TO_CHANNEL_4);
-    *tim5(TIM5_CCMR2_Input) = FIELD(TIM5_CCMR2_Input_CC4S, ITS_OWN_INPUT) | FIELD(TIM5_CCMR2_Input_IC4PSC, EVERY_EIGHTH);
+    *tim5(TIM5_CCMR2_Input) =
+        FIELD(TIM5_CCMR2_Input_CC4S, ITS_OWN_INPUT) | FIELD(TIM5_CCMR2_Input_IC4PSC, EVERY_EIGHTH);
     *tim5(TIM5_CCER) = TIM5_CCER_CC4E;
     *tim5(TIM5_EGR) = TIM5_EGR_UG;
     *tim5(TIM5_CR1) = TIM5_CR1_CEN;

@@ -39,7 +39,8 @@ void pin_give(stm32f405_pin_t pin, uint32_t function)
     clock_port(pin);
     const uint32_t offset = pin.number < 8u ? GPIO_AFRL : GPIO_AFRH;
     const uint32_t shift = 4u * (pin.number % 8u);
-    REGISTER(port_base(pin), offset) = (REGISTER(port_base(pin), offset) & ~(0xfu << shift)) | (function << shift);
+    const uint32_t others = REGISTER(port_base(pin), offset) & ~(0xfu << shift);
+    REGISTER(port_base(pin), offset) = others | (function << shift);
     set_two_bits(pin, GPIO_OSPEEDR, SPEED_FAST);
     set_two_bits(pin, GPIO_PUPDR, PULL_UP);
     set_two_bits(pin, GPIO_MODER, MODE_FUNCTION);

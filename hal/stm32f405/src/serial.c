@@ -6,7 +6,8 @@
 #include "pins.h"
 #include "stm32f405_registers.h"
 
-enum { USART_COUNT = 3, PIN_FUNCTION = 7, BAUD_MIN = 1200, BAUD_MAX = 2000000, BRR_MIN = 16, BRR_MAX = 0xffff };
+enum { USART_COUNT = 3, PIN_FUNCTION = 7 };
+enum { BAUD_MIN = 1200, BAUD_MAX = 2000000, BRR_MIN = 16, BRR_MAX = 0xffff };
 
 typedef struct {
     uint32_t base, irq;
@@ -116,9 +117,9 @@ int32_t serial_write(void *context, brace_serial_port_t port, const uint8_t *byt
         done++;
     }
     if (done > 0u) {
-        /* The handler may clear TXEIE or TCIE between this read and write; set again they only call it once more. */
+        /* The handler may clear TXEIE or TCIE between this read and write; set again they call it once more. */
         REGISTER(places[index].base, USART_CR1) |= USART_CR1_TXEIE;
-        interrupt_request(places[index].irq); /* emulators without transmit interrupts need it; elsewhere it is one call more */
+        interrupt_request(places[index].irq); /* for emulators without transmit interrupts */
     }
     return (int32_t)done;
 }
@@ -148,7 +149,7 @@ static void receive(usart_t *usart, uint32_t base, uint32_t status)
     if ((status & (USART_SR_RXNE | USART_SR_ORE)) != 0u) {
         const uint8_t byte = (uint8_t)REGISTER(base, USART_DR); /* status, then data: clears the errors too */
         if ((status & USART_SR_RXNE) != 0u && (status & (USART_SR_PE | USART_SR_FE)) == 0u) {
-            (void)byte_ring_put(&usart->received, byte); /* full: dropped, as on a line too fast; the frame's check fails */
+            (void)byte_ring_put(&usart->received, byte); /* full: dropped; the frame's check fails */
         }
     }
 }
