@@ -237,11 +237,9 @@ static bool from_mean(brace_drift_t *drift, brace_drift_reading_t *reading)
     drift->run_count++;
     const float gain = 1.0f / (float)drift->run_count;
     float *value = &reading->dx_mm; /* displacement and force, in this order */
-    UNROLLED
     for (int i = 0; i < 4; i++) {
         value[i] -= drift->run_count == 1 ? 0.0f : drift->run_mean[i];
     }
-    UNROLLED
     for (int i = 0; i < 4; i++) {
         drift->run_mean[i] = drift->run_count == 1 ? value[i] : __builtin_fmaf(gain, value[i], drift->run_mean[i]);
     }
@@ -269,7 +267,6 @@ static void take(brace_drift_t *drift, const float h[DRIFT_OFFSETS], float off, 
     const bool outlier = __builtin_fabsf(off) > OUTLIER_SIGMAS * sigma;
 
     if (drift->state != BRACE_DRIFT_LEARNING) {
-        UNROLLED
         for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) {
             const float shows = dot(h, drift->left[cause]);
             const float step = shows * change[cause];
@@ -365,7 +362,6 @@ brace_status_t brace_drift_step(brace_drift_t *drift, const brace_limb_t *limb, 
     const float still = differs.fz_n - expected.force_n[1] - dot(expected.per_offset[1], learned);
     take(drift, expected.per_offset[1], still, noise, bias + expected.doubt_n[1], change, learned);
     add(drift->offset, learned, 1.0f, DRIFT_OFFSETS);
-    UNROLLED
     for (int i = 0; i < DRIFT_OFFSETS; i++) {
         const float walk = i < BRACE_DRIFT_CAUSE_COUNT ? WALK_RATIO * change[i]
                            : i < DRIFT_THERMAL         ? ANGLE_WALK_RAD
