@@ -16,6 +16,7 @@ from conftest import PROJECT
 
 sys.path.insert(0, str(PROJECT / "tools"))
 from interface.dictionary import DictionaryError, load  # noqa: E402
+from interface.measured import load_values  # noqa: E402
 from interface.messages import load_wire  # noqa: E402
 from interface.outputs import DICTIONARY, MESSAGES, drifted, outputs  # noqa: E402
 
@@ -29,8 +30,8 @@ def test_a_changed_dictionary_changes_what_is_generated(tmp_path: Path) -> None:
     changed.write_text(DICTIONARY.read_text().replace('name = "coxa_mm"\nunit = "mm"', 'name = "coxa_mm"\nunit = "m"'))
     before, after = load(DICTIONARY), load(changed)
     assert before.schema_hash == SCHEMA_HASH != after.schema_hash
-    wire = load_wire(MESSAGES)
-    texts = outputs(before, wire), outputs(after, wire)
+    beside = load_wire(MESSAGES), load_values(DICTIONARY)
+    texts = outputs(before, *beside), outputs(after, *beside)
     for ending in ("parameter_list.h", "parameter_table.c", "names.py", "limb-keys.md"):
         (name,) = (name for name in texts[0] if name.endswith(ending))
         assert texts[0][name] != texts[1][name], name

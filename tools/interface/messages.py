@@ -110,9 +110,9 @@ class Wire:
         return "\n".join(lines) + "\n"
 
 
-def dictionary_hash(wire: Wire, parameter_schema: str) -> int:
-    """CRC-32 over the wire's canonical list and the parameters'."""
-    return zlib.crc32((wire.schema + parameter_schema).encode())
+def dictionary_hash(wire: Wire, value_schema: str) -> int:
+    """CRC-32 over the canonical lists of the wire and of all values."""
+    return zlib.crc32((wire.schema + value_schema).encode())
 
 
 def load_wire(path: Path) -> Wire:

@@ -4,27 +4,36 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from interface.c_measured import measured_header
 from interface.c_messages import messages_header, messages_source
 from interface.c_table import list_header, table_header, table_source
 from interface.dbc import dbc
 from interface.dictionary import Dictionary, load
 from interface.keys_page import keys_page
+from interface.measured import Values, load_values
 from interface.messages import Wire, dictionary_hash, load_wire
 from interface.python_messages import frames_module
 from interface.python_names import names_module
+from interface.registers import measured_module, registers, registers_csv, registers_module, registers_page
 
 PROJECT = Path(__file__).resolve().parents[2]
 DICTIONARY = PROJECT / "firmware" / "interface" / "dictionary.toml"
 MESSAGES = PROJECT / "firmware" / "interface" / "messages.toml"
 
 
-def outputs(dictionary: Dictionary, wire: Wire) -> dict[str, str]:
+def outputs(dictionary: Dictionary, wire: Wire, values: Values) -> dict[str, str]:
     """Path below the project -> text."""
-    language = dictionary_hash(wire, dictionary.schema)
+    language = dictionary_hash(wire, dictionary.schema + values.schema)
+    rows = registers(dictionary, values)
     return {
         "firmware/interface/brace.dbc": dbc(wire, language),
         "firmware/interface/generated/brace/can_messages.h": messages_header(wire, language),
         "firmware/interface/generated/can_messages.c": messages_source(wire),
+        "firmware/interface/generated/brace/measured.h": measured_header(values),
+        "firmware/interface/modbus.csv": registers_csv(rows),
+        "docs/modbus.md": registers_page(rows),
+        "tools/brace/wire/registers.py": registers_module(rows),
+        "tools/brace/wire/measured.py": measured_module(values),
         "tools/brace/wire/frames.py": frames_module(wire, language),
         "firmware/interface/generated/brace/parameter_list.h": list_header(dictionary),
         "firmware/interface/generated/parameter_table.h": table_header(dictionary),
@@ -36,13 +45,13 @@ def outputs(dictionary: Dictionary, wire: Wire) -> dict[str, str]:
 
 def drifted(project: Path = PROJECT) -> list[str]:
     """Files that are not what the dictionary says."""
-    wanted = outputs(load(DICTIONARY), load_wire(MESSAGES))
+    wanted = outputs(load(DICTIONARY), load_wire(MESSAGES), load_values(DICTIONARY))
     return [name for name, text in wanted.items() if not (project / name).is_file() or (project / name).read_text() != text]
 
 
 def write(project: Path = PROJECT) -> list[str]:
     """Writes what has drifted; returns its names."""
-    wanted = outputs(load(DICTIONARY), load_wire(MESSAGES))
+    wanted = outputs(load(DICTIONARY), load_wire(MESSAGES), load_values(DICTIONARY))
     changed = drifted(project)
     for name in changed:
         (project / name).parent.mkdir(parents=True, exist_ok=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from brace.wire.layout import Field, Layout
 
-DICTIONARY_HASH = 0xE804E2C1
+DICTIONARY_HASH = 0xAB7F3415
 PROTOCOL = 1
 REQUEST_ID = 0x600
 ANSWER_ID = 0x580

@@ -1,0 +1,145 @@
+"""Modbus: which value stands in which register. Two registers a value, high word first (ABCD)."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from interface.dictionary import Dictionary
+from interface.measured import Measured, Values
+
+MEASURED_ENTRY = 0x1000  # number of the first measured value in the dictionary's count
+ANSWERED_ENTRY = 0x1800
+COMMAND_REGISTER = 0x4000  # of the commands
+INPUT, HOLDING = "input", "holding"
+_COLUMNS = ("name", "table", "address", "registers", "type", "unit", "scale", "access", "description")
+
+
+@dataclass(frozen=True)
+class Register:
+    """One row of the map."""
+
+    name: str
+    table: str  # input (function 04), holding (03, 06, 16)
+    address: int  # as in the frame, from 0
+    type: str  # f32, u32
+    unit: str
+    access: str  # ro, rw (CONFIGURATION only), wo
+    description: str
+
+
+def registers(dictionary: Dictionary, values: Values) -> list[Register]:
+    """All rows: measured, answered, parameters, commands."""
+    return [*_inputs(values), *_parameters(dictionary), *_commands(values)]
+
+
+def _inputs(values: Values) -> Iterator[Register]:
+    for first, group in ((0, values.measured), (2 * (ANSWERED_ENTRY - MEASURED_ENTRY), values.answered)):
+        for value in group:
+            yield Register(
+                value.name, INPUT, first + 2 * value.index, value.type, value.unit, "ro", _words(value)
+            )
+
+
+def _parameters(dictionary: Dictionary) -> Iterator[Register]:
+    for entry in dictionary.parameters:
+        yield Register(entry.key, HOLDING, 2 * entry.index, entry.type, entry.unit, "rw", entry.description)
+
+
+def _commands(values: Values) -> Iterator[Register]:
+    for value in values.commands:
+        yield Register(
+            value.name, HOLDING, COMMAND_REGISTER + 2 * value.index, value.type, value.unit, "wo", value.description
+        )
+
+
+def _words(value: Measured) -> str:
+    words = value.description
+    if value.names:
+        words += ": " + ", ".join(f"{number} {name}" for number, name in enumerate(value.names))
+    if value.bit_names:
+        words += "; bits from 0: " + ", ".join(value.bit_names)
+    return words
+
+
+def registers_csv(rows: list[Register]) -> str:
+    """firmware/interface/modbus.csv"""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(_COLUMNS)
+    for row in rows:
+        writer.writerow((row.name, row.table, row.address, 2, row.type, row.unit, 1, row.access, row.description))
+    return text.getvalue()
+
+
+def registers_page(rows: list[Register]) -> str:
+    """docs/modbus.md"""
+    head = """# Modbus registers
+
+Written by tools/interface from the dictionary; do not edit. RTU and TCP, the same map. Addresses are those of the frame,
+from 0. Every value is 32 bits in two registers, high word first (ABCD): read `probe_f32` (12345.5) and `probe_u32`
+(0x01020304) to see that your reader agrees. A float that is not known is NaN, a whole number all ones; never zero.
+
+One read of input registers is one snapshot: all values are of the same tick. Parameters are staged where they are
+written, in CONFIGURATION mode only, and are in force after `commit` has stored them and read them back.
+
+| table | function |
+|---|---|
+| input | 04 read |
+| holding | 03 read, 06 and 16 write; both registers of a value in one request |
+
+"""
+    lines = []
+    for table, access, title in (
+        (INPUT, "ro", "Input registers: measured"),
+        (HOLDING, "wo", "Holding registers: commands"),
+        (HOLDING, "rw", "Holding registers: parameters"),
+    ):
+        lines.append(f"## {title}\n\n| address | name | type | unit | what |\n|---|---|---|---|---|\n")
+        lines += [
+            f"| {row.address} | `{row.name}` | {row.type} | {row.unit} | {row.description.replace('|', '/')} |\n"
+            for row in rows
+            if row.table == table and row.access == access
+        ]
+        lines.append("\n")
+    return (head + "".join(lines)).rstrip("\n") + "\n"
+
+
+def registers_module(rows: list[Register]) -> str:
+    """tools/brace/wire/registers.py"""
+    lines = [
+        '"""Modbus registers by name. Written by tools/interface from dictionary.toml; do not edit."""',
+        "",
+        "from __future__ import annotations",
+        "",
+        "from brace.wire.register import Register",
+        "",
+        "REGISTERS: tuple[Register, ...] = (",
+        *(f'    Register("{r.name}", "{r.table}", {r.address}, "{r.type}", "{r.unit}", "{r.access}"),' for r in rows),
+        ")",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def measured_module(values: Values) -> str:
+    """tools/brace/wire/measured.py"""
+    lines = [
+        '"""Measured values by name. Written by tools/interface from dictionary.toml; do not edit."""',
+        "",
+        "from __future__ import annotations",
+        "",
+        "from brace.wire.entry import MeasuredEntry",
+        "",
+        "MEASURED: tuple[MeasuredEntry, ...] = (",
+    ]
+    for value in values.measured:
+        names = "(" + "".join(f'"{name}", ' for name in value.names) + ")"
+        bits = "(" + "".join(f'"{name}", ' for name in value.bit_names) + ")"
+        lines.append(
+            f'    MeasuredEntry({MEASURED_ENTRY + value.index:#06x}, "{value.name}", "{value.type}", '
+            f'"{value.unit}", {names}, {bits}),'
+        )
+    lines.append(")")
+    return "\n".join(lines) + "\n"
