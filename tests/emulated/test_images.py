@@ -100,6 +100,13 @@ def test_files_beside_the_image(name: str) -> None:
     assert size["flash_of_bytes"] == board.flash_bytes and size["ram_of_bytes"] == board.ram_bytes
 
 
+def test_a_port_can_start() -> None:
+    """The blank board, which docs/porting.md starts from, is an image like the others."""
+    one = read_image(image("brace-blank"))
+    assert one.info is not None and one.info.board == "blank"
+    assert {"brace_hal_blank", "brace_app_tick", "fault_handler"} <= symbols(one.path).keys()
+
+
 def test_only_test_images_crash_on_request() -> None:
     for name in CONTROLLERS:
         assert not [symbol for symbol in symbols(image(name)) if symbol.startswith("provoke")]
