@@ -16,6 +16,7 @@ sys.path.insert(0, str(BENCH))
 import backlash_report  # noqa: E402
 import fetch  # noqa: E402
 import postures  # noqa: E402
+import tick_cost  # noqa: E402
 import versions  # noqa: E402
 from calibrate import calibrate  # noqa: E402
 from emulate import build_plugin  # noqa: E402
@@ -69,7 +70,9 @@ def bench(out: Path) -> Bench:
     weights = weigh_core()
     checks = Limits(measured, rates, weights, map_s).checks()
     say("backlash: histories, oracle, take-ups")
-    extras = (backlash_report.extra(out),)
+    plays = backlash_report.extra(out)
+    say("the controller's tick: a million random ones")
+    extras = (plays, tick_cost.extra())
     return Bench(measured, rates, weights, map_s, weigh_modules(), checks, tools(), extras)
 
 

@@ -17,6 +17,8 @@ sys.path.insert(0, str(BENCH))
 
 import fetch  # noqa: E402
 from emulate import RUN_IMAGE  # noqa: E402
+from extra import Extra  # noqa: E402
+from limits import Check  # noqa: E402
 from toolchain import (BOARDS, BUILD, CORE, CORE_FLAGS, M4F, PREFIX, compile_source, link_image, run,  # noqa: E402
                        symbol_address)
 
@@ -121,6 +123,29 @@ def _summary(counts: np.ndarray, letters: np.ndarray) -> TickCost:
     kinds = tuple(TickKind(name, int(mine.size), float(mine.mean()), int(mine.max()))
                   for letter, name in KINDS.items() if (mine := counts[letters == letter]).size)
     return TickCost(int(counts.size), float(counts.mean()), int(counts.max()), int(np.quantile(counts, 0.99)), kinds)
+
+
+NOTE = """\
+One whole tick of the controller, from samples to snapshot: K with its eigenvalues, both joints' state machines, supervisor, \
+services. Counted over random ticks on the emulated Cortex-M4F: limbs that collapse and limbs that take the general path, every \
+mode, take-ups and loading tests, parameters stored and put in force, bad samples, late ticks, a full bus. A call of the \
+hardware layer counts as the call alone. A reading of a loading test is worked out in up to three ticks of its own, which \
+compute no K: the snapshot before stays."""
+
+
+def extra() -> Extra:
+    """Everything of it for the bench."""
+    cost = measure_ticks()
+    rows = [[kind.name, f"{kind.count:,}", f"{kind.mean:,.0f}", f"{kind.maximum:,}"] for kind in cost.kinds]
+    rows.append(["all", f"{cost.count:,}", f"{cost.mean:,.0f}", f"{cost.maximum:,}"])
+    data: dict[str, object] = {
+        "ticks": cost.count, "instructions_mean": round(cost.mean, 1), "instructions_p99": cost.quantile_99,
+        "instructions_max": cost.maximum, "limit": TICK_LIMIT,
+        "kinds": {kind.name: {"ticks": kind.count, "mean": round(kind.mean, 1), "max": kind.maximum} for kind in cost.kinds}}
+    check = Check(f"controller's tick, instructions, worst of {cost.count:,} random ones (mean {cost.mean:,.0f})",
+                  f"{cost.maximum:,}", f"at most {TICK_LIMIT:,}", cost.maximum <= TICK_LIMIT)
+    return Extra("tick", NOTE, [("The controller's tick: instructions", ["kind of tick", "ticks", "mean", "worst"], rows)],
+                 [check], data)
 
 
 def as_text(cost: TickCost) -> str:

@@ -153,6 +153,7 @@ typedef struct {
 
     brace_mode_t mode;
     uint32_t faults, lasting_faults, last_us, tick_us, start_us, sequence;
+    int joint_of_tick;     /* the joint that this tick looks after: one a tick is enough */
     bool ticked;
     bool told;               /* the drives hold a command of ours */
     bool posed;

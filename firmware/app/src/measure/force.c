@@ -65,8 +65,8 @@ float force_gravity(const brace_app_t *app, int index)
 void force_expect(const brace_app_t *app, int index, brace_backlash_sample_t *sample)
 {
     const brace_app_sensor_t *ours = &app->sensor;
-    if (!ours->known || !app->posed) {
-        return;
+    if (!ours->known || !app->posed || app->play[index].backlash.phase != BRACE_TAKEUP_IDLE) {
+        return; /* a take-up proves its flank by the load itself */
     }
     const brace_point_t lever = index == 0 ? app->pose.lever_femur : app->pose.lever_tibia;
     const float by_tip_n_mm = lever.x_mm * ours->x_n + lever.z_mm * ours->z_n;

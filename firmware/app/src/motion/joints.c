@@ -41,8 +41,6 @@ static float higher(float a, float b)
 static void watch_encoder(brace_app_joint_t *joint, const brace_drive_t *drive, const brace_joint_t *spring,
                           uint32_t tick_us)
 {
-    const float gain = (float)tick_us / (TORQUE_MEAN_US + (float)tick_us);
-    joint->torque_n_mm += gain * (joint->sample.torque_n_mm - joint->torque_n_mm);
     if (__builtin_fabsf(joint->sample.motor_rad - joint->still_rad) > 0.5f * drive->angle_step_rad) {
         stands_anew(joint);
         return;
@@ -50,22 +48,28 @@ static void watch_encoder(brace_app_joint_t *joint, const brace_drive_t *drive, 
     joint->still_us += joint->still_us < 0x40000000u ? tick_us : 0u;
     joint->torque_low_n_mm = lower(joint->torque_low_n_mm, joint->torque_n_mm);
     joint->torque_high_n_mm = higher(joint->torque_high_n_mm, joint->torque_n_mm);
-    joint->link_low_rad = lower(joint->link_low_rad, joint->sample.link_rad);
-    joint->link_high_rad = higher(joint->link_high_rad, joint->sample.link_rad);
+    const float link_rad = joint->sample.link_rad;
+    if (link_rad == link_rad) { /* there is an encoder behind the gearbox */
+        joint->link_low_rad = lower(joint->link_low_rad, link_rad);
+        joint->link_high_rad = higher(joint->link_high_rad, link_rad);
+    }
+    if (joint->still_us < STUCK_US || joint->stuck) {
+        return;
+    }
     const float swing = joint->torque_high_n_mm - joint->torque_low_n_mm;
-    const float link_swing = joint->link_high_rad - joint->link_low_rad; /* NaN without a link encoder */
+    const float link_swing = joint->link_high_rad - joint->link_low_rad; /* NaN unless it was there from the beginning */
     const bool torque_works = swing > STUCK_SWING_OF_RANGE * drive->torque_range_n_mm &&
                               swing > STUCK_SWING_OF_FRICTION * drive->motor_friction_n_mm;
     const bool link_moves =
         link_swing > STUCK_LINK_RAD + spring->gap_rad + swing * spring->compliance_rad_per_n_mm;
-    joint->stuck = joint->stuck || (joint->still_us >= STUCK_US && (torque_works || link_moves));
+    joint->stuck = torque_works || link_moves;
 }
 
 static void read_one(brace_app_t *app, int index, uint32_t now_us)
 {
     brace_app_joint_t *joint = &app->joint[index];
     const brace_drive_t *drive = &app->parameters.drive[BRACE_FEMUR + index];
-    brace_hal_joint_t fresh = joint->sample;
+    brace_hal_joint_t fresh;
     const int32_t answer = app->hal->joint_read(app->hal->context, BRACE_FEMUR + index, &fresh);
     const bool newer = answer == BRACE_HAL_OK && (!joint->seen || fresh.taken_us != joint->sample.taken_us);
     if (newer && is_sound(&fresh, drive)) {
@@ -76,7 +80,12 @@ static void read_one(brace_app_t *app, int index, uint32_t now_us)
             joint->torque_n_mm = fresh.torque_n_mm;
             stands_anew(joint);
         } else {
-            watch_encoder(joint, drive, &app->parameters.limb.joint[BRACE_FEMUR + index], app->tick_us);
+            const float tick_us = (float)app->tick_us;
+            joint->torque_n_mm += tick_us / (TORQUE_MEAN_US + tick_us) * (fresh.torque_n_mm - joint->torque_n_mm);
+            if (app->joint_of_tick == index) { /* one a tick is enough */
+                watch_encoder(joint, drive, &app->parameters.limb.joint[BRACE_FEMUR + index],
+                              BRACE_APP_JOINTS * app->tick_us);
+            }
         }
     } else if (newer || (answer != BRACE_HAL_OK && answer != BRACE_HAL_AGAIN)) {
         app->counters.samples_bad += app->counters.samples_bad < UINT32_MAX;
@@ -89,6 +98,7 @@ static void read_one(brace_app_t *app, int index, uint32_t now_us)
 
 void joints_read(brace_app_t *app, uint32_t now_us)
 {
+    app->joint_of_tick = app->joint_of_tick + 1 < BRACE_APP_JOINTS ? app->joint_of_tick + 1 : 0;
     for (int i = 0; i < BRACE_APP_JOINTS; i++) {
         read_one(app, i, now_us);
     }

@@ -2,7 +2,7 @@
 
 #include "report/announce.h"
 
-#define FRAMES_PER_TICK 8u /* what a full bus of full frames brings in a millisecond */
+#define FRAMES_PER_TICK 4u /* the rest waits in the bus' own ring; what finds no room there is counted there */
 
 static void count_strangers(brace_app_t *app)
 {

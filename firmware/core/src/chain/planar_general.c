@@ -10,6 +10,7 @@
 /* brace_chain_stiffness is on the tick: of every controller whose limb does not collapse, or whose joint springs follow
  * load and temperature. tests/bench/tick_cost.py holds that whole tick to 4,000 instructions, of which this is the largest
  * part (six elements: 1,000 at most). Speed before size here, nothing of it is BRACE_OFF_TICK. */
+
 /* det C over mean^2 below which C counts as singular, and below which its accuracy is not promised. */
 #define SINGULAR 1e-12f
 #define SLENDER 2e-5f

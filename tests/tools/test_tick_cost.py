@@ -1,0 +1,31 @@
+"""The controller's whole tick on the emulated Cortex-M4F stays within its limit; the bench counts a million, this fewer."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "bench"))
+
+import fetch  # noqa: E402
+import tick_cost  # noqa: E402
+
+TICKS = 60_000
+
+
+def test_worst_of_random_ticks_within_limit() -> None:
+    for program in ("arm-none-eabi-gcc", "qemu-system-arm"):
+        if shutil.which(program) is None:
+            pytest.skip(f"no {program}")
+    try:
+        cost = tick_cost.measure_ticks(TICKS)
+    except fetch.Missing as missing:
+        pytest.skip(f"missing: {missing}")
+    assert cost.count == TICKS
+    assert cost.maximum <= tick_cost.TICK_LIMIT, tick_cost.as_text(cost)
+    seen = {kind.name: kind for kind in cost.kinds}
+    assert {"monitor", "taking up", "loading test", "putting parameters in force", "storing parameters"} <= seen.keys()
+    assert min(kind.mean for kind in cost.kinds) > 100  # the counter counts
