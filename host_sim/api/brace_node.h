@@ -39,8 +39,8 @@ typedef struct {
 typedef struct {
     brace_plant_model_t plant;
     brace_node_drive_t drive[3];
-    double theta_rad[3];             /* set-points to begin with; commanded angles, zero offsets of the plant are added */
-    double hold_n_per_mm;            /* of the contact: inf holds the tip where it is, 0 leaves it free, else a spring */
+    double theta_rad[3];             /* set-points to begin with: commanded angles, the plant's zero offsets are added */
+    double hold_n_per_mm;            /* of the contact: inf: tip held, 0: tip free, else by a spring */
     double press_x_mm, press_z_mm;   /* where it holds the tip, from where the unloaded limb has it */
     double force_noise_n;            /* one sigma of a reading [0, 1e6] */
     int32_t has_force_sensor;
@@ -141,7 +141,7 @@ typedef struct {
     double link_rad[3];       /* true joint angles: motor, zero offset, deflection and play */
     double torque_n_mm[3];    /* of the motor */
     double load_n_mm[3];      /* that the gap transmits: the motor's torque on the link */
-    int32_t flank[3];         /* +1, -1: which one carries; 0: the gap is open */
+    int32_t flank[3];         /* +1, -1: which one carries; 0: the gap is open, or there is no load */
     double force_x_n, force_z_n; /* of the contact on the tip */
     double temp_degc;
     int32_t solved;           /* the rest state was found */

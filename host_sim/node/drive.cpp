@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-namespace brace::node {
-namespace {
+namespace brace::node
+{
+namespace
+{
 
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
@@ -35,7 +37,8 @@ Vector2d speeds_with_friction(const Matrix2d &inertia, const Vector2d &impulse, 
 } // namespace
 
 void step_motors(const std::array<const brace_node_drive_t *, 2> &drive, double dt_s, const Vector2d &set_rad,
-                 const Vector2d &load_n_mm, const Matrix2d &stiffness_n_mm_per_rad, std::array<Motor, 2> &motor)
+                 const Vector2d &load_n_mm, const Matrix2d &stiffness_n_mm_per_rad,
+                 std::array<Motor, 2> &motor)
 {
     std::array<bool, 2> limited{};
     Vector2d speed;
@@ -60,8 +63,9 @@ void step_motors(const std::array<const brace_node_drive_t *, 2> &drive, double 
             if (limited[i]) {
                 continue;
             }
-            const double wanted = drive[i]->servo_n_mm_per_rad * (set_rad[i] - motor[i].angle_rad - dt_s * speed[i])
-                                  - damping(*drive[i]) * speed[i];
+            const double wanted =
+                drive[i]->servo_n_mm_per_rad * (set_rad[i] - motor[i].angle_rad - dt_s * speed[i])
+                - damping(*drive[i]) * speed[i];
             motor[i].torque_n_mm = std::clamp(wanted, -motor[i].limit_n_mm, motor[i].limit_n_mm);
             limited[i] = motor[i].torque_n_mm != wanted;
             again |= limited[i];

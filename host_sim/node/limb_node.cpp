@@ -11,13 +11,15 @@ extern "C" {
 #include "brace/store.h"
 }
 
-namespace brace::node {
-namespace {
+namespace brace::node
+{
+namespace
+{
 
 using Eigen::Vector2d;
 
-constexpr double kStep_s = 1e-3;               // of the motors, at most
-constexpr int kSettleSteps = 1000;             // before the controller starts
+constexpr double kStep_s = 1e-3;                   // of the motors, at most
+constexpr int kSettleSteps = 1000;                 // before the controller starts
 constexpr std::uint64_t kCommandHolds_us = 100000; // brace_hal.h, joint_command
 constexpr double kCommandFades_rad_per_s = 0.1;
 constexpr std::uint32_t kPatience_us = 4000000; // of the watchdog
@@ -34,10 +36,11 @@ const char *url_or_none(const char *url)
 } // namespace
 
 LimbNode::LimbNode(const brace_node_limb_t &limb, std::uint64_t seed)
-    : plant_(limb.plant), drive_{limb.drive[0], limb.drive[1], limb.drive[2]}, force_noise_n_(limb.force_noise_n),
-      temp_start_degc_(limb.temp_start_degc), temp_rise_degc_(limb.temp_rise_degc),
-      temp_time_constant_s_(limb.temp_time_constant_s), has_link_encoder_(limb.has_link_encoder != 0),
-      hold_n_per_mm_(limb.hold_n_per_mm), noise_(seed), limb_(plant_), app_(std::make_unique<brace_app_t>())
+    : plant_(limb.plant), drive_{limb.drive[0], limb.drive[1], limb.drive[2]},
+      force_noise_n_(limb.force_noise_n), temp_start_degc_(limb.temp_start_degc),
+      temp_rise_degc_(limb.temp_rise_degc), temp_time_constant_s_(limb.temp_time_constant_s),
+      has_link_encoder_(limb.has_link_encoder != 0), hold_n_per_mm_(limb.hold_n_per_mm), noise_(seed),
+      limb_(plant_), app_(std::make_unique<brace_app_t>())
 {
     setpoints.start({limb.theta_rad[0], limb.theta_rad[1], limb.theta_rad[2]});
     for (const int i : {0, 1}) {
@@ -82,8 +85,8 @@ brace_node_failure_t LimbNode::open(const brace_node_limb_t &limb, brace_posix_b
     if (!store_block(limb, memory_is_new, failure)) {
         return failure;
     }
-    limb_.take_hold({motor_[0].angle_rad, motor_[1].angle_rad}, hold_n_per_mm_, {limb.press_x_mm, limb.press_z_mm},
-                    0.0, temp_degc(0.0));
+    limb_.take_hold({motor_[0].angle_rad, motor_[1].angle_rad}, hold_n_per_mm_,
+                    {limb.press_x_mm, limb.press_z_mm}, 0.0, temp_degc(0.0));
     if (!limb_.settle({motor_[0].angle_rad, motor_[1].angle_rad}, 0.0, temp_degc(0.0), pressed_)) {
         return {BRACE_NODE_PART_LIMB, BRACE_HOST_E_SINGULAR, 0, 0};
     }
@@ -103,7 +106,8 @@ bool LimbNode::store_block(const brace_node_limb_t &limb, bool memory_is_new, br
     }
     auto wanted = std::make_unique<brace_parameters_t>();
     auto found = std::make_unique<brace_parameters_t>();
-    std::int32_t status = brace_parameters_unpack(limb.block, limb.block_bytes, wanted.get(), nullptr, nullptr);
+    std::int32_t status =
+        brace_parameters_unpack(limb.block, limb.block_bytes, wanted.get(), nullptr, nullptr);
     if (status == BRACE_OK) {
         auto store = std::make_unique<brace_store_t>();
         (void)brace_store_start(store.get(), &hal_, found.get());
@@ -159,8 +163,10 @@ void LimbNode::tick(std::uint64_t now_us)
     }
     const double *late_ms = faults.value(BRACE_NODE_FAULT_TICK_LATE);
     const std::uint32_t period_us = brace_app_parameters(app_.get())->controller.tick_us;
-    due_us_ = now_us + (late_ms != nullptr ? static_cast<std::uint64_t>(1e3 * (*late_ms > 0.0 ? *late_ms : kDefaultLate_ms))
-                                           : period_us);
+    due_us_ = now_us
+              + (late_ms != nullptr
+                     ? static_cast<std::uint64_t>(1e3 * (*late_ms > 0.0 ? *late_ms : kDefaultLate_ms))
+                     : period_us);
 }
 
 void LimbNode::follow_faults()
@@ -209,7 +215,8 @@ void LimbNode::move_limb(double t_s, double dt_s)
         }
         motor_[i].limit_n_mm = command.given ? std::min(range, command.limit_n_mm) : range;
     }
-    step_motors({&drive_[1], &drive_[2]}, dt_s, set_rad(), pressed_.load_n_mm, pressed_.stiffness_n_mm_per_rad, motor_);
+    step_motors({&drive_[1], &drive_[2]}, dt_s, set_rad(), pressed_.load_n_mm,
+                pressed_.stiffness_n_mm_per_rad, motor_);
     (void)limb_.settle({motor_[0].angle_rad, motor_[1].angle_rad}, t_s, temp_degc(t_s), pressed_);
 }
 
@@ -230,7 +237,8 @@ void LimbNode::sample()
         const double torque_n_mm = moves ? motor_[joint - 1].torque_n_mm : 0.0;
         const double link_rad = moves ? pressed_.link_rad[joint - 1] : motor_rad;
         const double *offset_n_mm = faults.value(BRACE_NODE_FAULT_CURRENT_OFFSET, joint);
-        const double read_n_mm = torque_n_mm + drive.torque_bias_n_mm + drive.torque_noise_n_mm * noise_.normal()
+        const double read_n_mm = torque_n_mm + drive.torque_bias_n_mm
+                                 + drive.torque_noise_n_mm * noise_.normal()
                                  + (offset_n_mm != nullptr ? *offset_n_mm : 0.0);
         brace_hal_joint_t &read = sample_[static_cast<std::size_t>(joint)];
         const double step_rad = drive.angle_step_rad;
@@ -268,7 +276,8 @@ std::int32_t LimbNode::joint_read(void *context, std::int32_t joint_index, brace
     return BRACE_HAL_OK;
 }
 
-std::int32_t LimbNode::joint_command(void *context, std::int32_t joint_index, const brace_hal_joint_command_t *command)
+std::int32_t LimbNode::joint_command(void *context, std::int32_t joint_index,
+                                     const brace_hal_joint_command_t *command)
 {
     LimbNode &node = *static_cast<LimbNode *>(context);
     if (joint_index < 0 || joint_index > 2) {
@@ -278,9 +287,9 @@ std::int32_t LimbNode::joint_command(void *context, std::int32_t joint_index, co
         return BRACE_HAL_E_RANGE;
     }
     if (joint_index > 0) {
-        node.command_[static_cast<std::size_t>(joint_index) - 1] = {static_cast<double>(command->offset_rad),
-                                                                    static_cast<double>(command->torque_limit_n_mm),
-                                                                    node.now_us_, true};
+        node.command_[static_cast<std::size_t>(joint_index) - 1] = {
+            static_cast<double>(command->offset_rad), static_cast<double>(command->torque_limit_n_mm),
+            node.now_us_, true};
     }
     return BRACE_HAL_OK;
 }

@@ -1,4 +1,5 @@
-// One controller with the limb that it believes to have: firmware/app over hal/posix, its joints and sensors simulated.
+// One controller with the limb that it believes to have: firmware/app over hal/posix, its joints and sensors
+// simulated.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +14,11 @@ extern "C" {
 #include "brace_hal_posix.h"
 }
 
-namespace brace::node {
+namespace brace::node
+{
 
-class LimbNode {
+class LimbNode
+{
 public:
     LimbNode(const brace_node_limb_t &limb, std::uint64_t seed);
     ~LimbNode();
@@ -50,7 +53,8 @@ private:
     };
 
     static std::int32_t joint_read(void *context, std::int32_t joint_index, brace_hal_joint_t *joint);
-    static std::int32_t joint_command(void *context, std::int32_t joint_index, const brace_hal_joint_command_t *command);
+    static std::int32_t joint_command(void *context, std::int32_t joint_index,
+                                      const brace_hal_joint_command_t *command);
     static std::int32_t tip_force_read(void *context, float *force_x_n, float *force_z_n);
 
     bool store_block(const brace_node_limb_t &limb, bool memory_is_new, brace_node_failure_t &failure);

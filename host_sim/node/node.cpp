@@ -33,8 +33,9 @@ struct brace_node {
 
     LimbNode *limb(std::int32_t index) const
     {
-        return index >= 0 && index < static_cast<std::int32_t>(limbs.size()) ? limbs[static_cast<std::size_t>(index)].get()
-                                                                             : nullptr;
+        return index >= 0 && index < static_cast<std::int32_t>(limbs.size())
+                   ? limbs[static_cast<std::size_t>(index)].get()
+                   : nullptr;
     }
 
     std::uint64_t next_us() const
@@ -56,7 +57,8 @@ struct brace_node {
         }
     }
 
-    // All limbs that are due, and the world outside before and after them: an answer leaves with the tick that made it.
+    // All limbs that are due, and the world outside before and after them: an answer leaves with the tick
+    // that made it.
     void advance_to(std::uint64_t time_us)
     {
         const std::lock_guard<std::mutex> held(lock);
@@ -71,7 +73,8 @@ struct brace_node {
     }
 };
 
-namespace {
+namespace
+{
 
 bool in_range(double value, double low, double high)
 {
@@ -103,8 +106,8 @@ std::int32_t fault_of(const brace_node_limb_t &limb)
     return sound ? BRACE_HOST_OK : BRACE_HOST_E_RANGE;
 }
 
-brace_node_failure_t build(brace_node &node, const brace_node_limb_t *limbs, std::int32_t count, const char *can,
-                           std::uint64_t seed)
+brace_node_failure_t build(brace_node &node, const brace_node_limb_t *limbs, std::int32_t count,
+                           const char *can, std::uint64_t seed)
 {
     for (std::int32_t i = 0; i < count; ++i) {
         if (const std::int32_t fault = fault_of(limbs[i]); fault != BRACE_HOST_OK) {
@@ -156,8 +159,8 @@ extern "C" void brace_node_limb_default(brace_node_limb_t *limb)
     limb->temp_time_constant_s = 600.0;
 }
 
-extern "C" brace_node_t *brace_node_create(const brace_node_limb_t *limbs, int32_t count, const char *can, uint64_t seed,
-                                           brace_node_failure_t *failure)
+extern "C" brace_node_t *brace_node_create(const brace_node_limb_t *limbs, int32_t count, const char *can,
+                                           uint64_t seed, brace_node_failure_t *failure)
 {
     brace_node_failure_t found{BRACE_NODE_PART_LIMB, BRACE_HOST_E_RANGE, 0, 0};
     std::unique_ptr<brace_node> node;
@@ -241,7 +244,8 @@ extern "C" int32_t brace_node_posture(brace_node_t *node, int32_t limb, double a
                                       double theta2_rad)
 {
     LimbNode *one = node != nullptr ? node->limb(limb) : nullptr;
-    if (one == nullptr || !std::isfinite(at_s) || !in_range(theta1_rad, -7.9, 7.9) || !in_range(theta2_rad, -7.9, 7.9)) {
+    if (one == nullptr || !std::isfinite(at_s) || !in_range(theta1_rad, -7.9, 7.9)
+        || !in_range(theta2_rad, -7.9, 7.9)) {
         return BRACE_HOST_E_RANGE;
     }
     const std::lock_guard<std::mutex> held(node->lock);
@@ -249,8 +253,8 @@ extern "C" int32_t brace_node_posture(brace_node_t *node, int32_t limb, double a
     return BRACE_HOST_OK;
 }
 
-extern "C" int32_t brace_node_contact(brace_node_t *node, int32_t limb, double hold_n_per_mm, double press_x_mm,
-                                      double press_z_mm)
+extern "C" int32_t brace_node_contact(brace_node_t *node, int32_t limb, double hold_n_per_mm,
+                                      double press_x_mm, double press_z_mm)
 {
     LimbNode *one = node != nullptr ? node->limb(limb) : nullptr;
     if (one == nullptr || !(hold_n_per_mm >= 0.0) || !in_range(press_x_mm, -1e3, 1e3)
@@ -262,12 +266,13 @@ extern "C" int32_t brace_node_contact(brace_node_t *node, int32_t limb, double h
     return BRACE_HOST_OK;
 }
 
-extern "C" int32_t brace_node_fault(brace_node_t *node, int32_t limb, int32_t fault, int32_t joint, double value,
-                                    double at_s, double for_s)
+extern "C" int32_t brace_node_fault(brace_node_t *node, int32_t limb, int32_t fault, int32_t joint,
+                                    double value, double at_s, double for_s)
 {
     LimbNode *one = node != nullptr ? node->limb(limb) : nullptr;
-    if (one == nullptr || fault < 0 || fault >= BRACE_NODE_FAULT_COUNT || !std::isfinite(value) || !(at_s >= 0.0)
-        || !(for_s >= 0.0) || (brace::node::is_of_a_joint(fault) && (joint < 0 || joint > 2))
+    if (one == nullptr || fault < 0 || fault >= BRACE_NODE_FAULT_COUNT || !std::isfinite(value)
+        || !(at_s >= 0.0) || !(for_s >= 0.0)
+        || (brace::node::is_of_a_joint(fault) && (joint < 0 || joint > 2))
         || (fault == BRACE_NODE_FAULT_TICK_LATE && !in_range(value, 0.0, 1e4))) {
         return BRACE_HOST_E_RANGE;
     }

@@ -3,9 +3,11 @@
 
 #include <cstdint>
 
-namespace brace::node {
+namespace brace::node
+{
 
-class Pace {
+class Pace
+{
 public:
     void start(std::uint64_t sim_us);
 
@@ -23,7 +25,8 @@ private:
 };
 
 // No signal is delivered to this thread while it lives: they are for whoever waits for it.
-class SignalsBlocked {
+class SignalsBlocked
+{
 public:
     SignalsBlocked();
     ~SignalsBlocked();

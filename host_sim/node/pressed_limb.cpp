@@ -8,22 +8,25 @@
 #include "plant/joint_law.h"
 #include "plant/structure.h"
 
-namespace brace::node {
-namespace {
+namespace brace::node
+{
+namespace
+{
 
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
 // A free tip is held by next to nothing: 1e-3 N a metre.
 constexpr double kFree_n_per_mm = 1e-6;
-constexpr double kSense[] = {1.0, -1.0};   // of theta1 and theta2, counter-clockwise being positive
-constexpr double kOpen_n_mm = 1e-3;        // a gap that carries less is open
-constexpr double kSmallestShare = 1e-12;   // of compliance, so that a rigid direction has a stiffness
+constexpr double kSense[] = {1.0, -1.0}; // of theta1 and theta2, counter-clockwise being positive
+constexpr double kOpen_n_mm = 1e-3;      // a gap that carries less is open
+constexpr double kSmallestShare = 1e-12; // of compliance, so that a rigid direction has a stiffness
 
 } // namespace
 
 PressedLimb::PressedLimb(const plant::Model &model)
-    : model_(model), base_x_mm_per_n_(model.base.x_mm_per_n), base_z_mm_per_n_(model.base.z_mm_per_n), state_(model_)
+    : model_(model), base_x_mm_per_n_(model.base.x_mm_per_n), base_z_mm_per_n_(model.base.z_mm_per_n),
+      state_(model_)
 {
 }
 
@@ -41,14 +44,16 @@ Vector2d PressedLimb::tip_mm(const Vector2d &motor_rad) const
            + model_.geometry.tibia_mm * Vector2d(std::cos(shin), std::sin(shin));
 }
 
-void PressedLimb::take_hold(const Vector2d &motor_rad, double hold_n_per_mm, const Vector2d &press_mm, double t_s,
-                            double temp_degc)
+void PressedLimb::take_hold(const Vector2d &motor_rad, double hold_n_per_mm, const Vector2d &press_mm,
+                            double t_s, double temp_degc)
 {
-    const double yields_mm_per_n = std::isinf(hold_n_per_mm) ? 0.0 : 1.0 / std::max(hold_n_per_mm, kFree_n_per_mm);
+    const double yields_mm_per_n =
+        std::isinf(hold_n_per_mm) ? 0.0 : 1.0 / std::max(hold_n_per_mm, kFree_n_per_mm);
     model_.base.x_mm_per_n = base_x_mm_per_n_ + yields_mm_per_n;
     model_.base.z_mm_per_n = base_z_mm_per_n_ + yields_mm_per_n;
     anchor_mm_ = tip_mm(motor_rad) + press_mm;
-    (void)state_.move_to(motor_rad[0] + 1.0, motor_rad[1], t_s, temp_degc); // what it keeps of the posture is old
+    (void)state_.move_to(motor_rad[0] + 1.0, motor_rad[1], t_s,
+                         temp_degc); // what it keeps of the posture is old
     sound_ = state_.move_to(motor_rad[0], motor_rad[1], t_s, temp_degc);
     state_.start_run(false);
 }

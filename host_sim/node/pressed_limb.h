@@ -6,27 +6,29 @@
 
 #include "plant/limb_state.h"
 
-namespace brace::node {
+namespace brace::node
+{
 
 // Joint senses: theta1 counter-clockwise, theta2 the knee's flexion. [0] femur, [1] tibia.
 struct Pressed {
-    Eigen::Vector2d force_n = Eigen::Vector2d::Zero();    // of the contact on the tip
-    Eigen::Vector2d load_n_mm = Eigen::Vector2d::Zero();  // what each motor brings to its link
-    Eigen::Vector2d link_rad = Eigen::Vector2d::Zero();   // true joint angles
-    std::array<int, 2> flank{};                           // which one carries; 0: the gap is open
-    Eigen::Matrix2d stiffness_n_mm_per_rad;               // of load over motor angles, every gap closed
+    Eigen::Vector2d force_n = Eigen::Vector2d::Zero();   // of the contact on the tip
+    Eigen::Vector2d load_n_mm = Eigen::Vector2d::Zero(); // what each motor brings to its link
+    Eigen::Vector2d link_rad = Eigen::Vector2d::Zero();  // true joint angles
+    std::array<int, 2> flank{};                          // which one carries; 0: the gap is open
+    Eigen::Matrix2d stiffness_n_mm_per_rad;              // of load over motor angles, every gap closed
     bool solved = true;
 };
 
-class PressedLimb {
+class PressedLimb
+{
 public:
     explicit PressedLimb(const plant::Model &model);
     PressedLimb(const PressedLimb &) = delete;
     PressedLimb &operator=(const PressedLimb &) = delete;
 
     // Holds the tip at press_mm from where the limb, unloaded at these motor angles, has it. 0: free.
-    void take_hold(const Eigen::Vector2d &motor_rad, double hold_n_per_mm, const Eigen::Vector2d &press_mm, double t_s,
-                   double temp_degc);
+    void take_hold(const Eigen::Vector2d &motor_rad, double hold_n_per_mm, const Eigen::Vector2d &press_mm,
+                   double t_s, double temp_degc);
 
     // False: nothing yields in some direction.
     bool settle(const Eigen::Vector2d &motor_rad, double t_s, double temp_degc, Pressed &pressed);

@@ -18,7 +18,8 @@ extern "C" {
 extern "C" void setUp(void) {}
 extern "C" void tearDown(void) {}
 
-namespace {
+namespace
+{
 
 // A controller's door, on a bus or not.
 struct Host {
@@ -39,7 +40,10 @@ struct Host {
 
 struct Bus {
     std::unique_ptr<brace_posix_bus_t> bus = std::make_unique<brace_posix_bus_t>();
-    explicit Bus(const char *url) { TEST_ASSERT_EQUAL_INT(BRACE_POSIX_OK, brace_posix_bus_open(bus.get(), url)); }
+    explicit Bus(const char *url)
+    {
+        TEST_ASSERT_EQUAL_INT(BRACE_POSIX_OK, brace_posix_bus_open(bus.get(), url));
+    }
     ~Bus() { brace_posix_bus_close(bus.get()); }
     void poll() { brace_posix_bus_poll(bus.get(), 0); }
 };
@@ -60,7 +64,8 @@ int connected(const char *where)
 
 void put(int file, const std::string &text)
 {
-    TEST_ASSERT_EQUAL_INT(static_cast<int>(text.size()), static_cast<int>(write(file, text.data(), text.size())));
+    TEST_ASSERT_EQUAL_INT(static_cast<int>(text.size()),
+                          static_cast<int>(write(file, text.data(), text.size())));
 }
 
 // What has come within some polls of whoever sends it.
@@ -285,7 +290,9 @@ void more_clients_than_places_are_sent_away()
     char byte;
     TEST_ASSERT_EQUAL_INT(0, static_cast<int>(read(file[BRACE_POSIX_CLIENTS], &byte, 1)));
     put(file[0], "V\r");
-    TEST_ASSERT_EQUAL_STRING("V1013\r", taken(file[0], [&bus] { bus.poll(); }, 6).c_str());
+    TEST_ASSERT_EQUAL_STRING("V1013\r", taken(
+                                            file[0], [&bus] { bus.poll(); }, 6)
+                                            .c_str());
     for (const int one : file) {
         close(one);
     }
@@ -311,8 +318,13 @@ void urls_that_cannot_be_opened_say_why()
 
 std::string adu(int transaction, const std::string &pdu)
 {
-    std::string made{static_cast<char>(transaction >> 8), static_cast<char>(transaction), 0, 0, 0,
-                     static_cast<char>(pdu.size() + 1), 1};
+    std::string made{static_cast<char>(transaction >> 8),
+                     static_cast<char>(transaction),
+                     0,
+                     0,
+                     0,
+                     static_cast<char>(pdu.size() + 1),
+                     1};
     return made + pdu;
 }
 
@@ -366,7 +378,9 @@ void modbus_answers_reach_whoever_asked()
 
 void what_is_no_modbus_is_hung_up_on()
 {
-    const std::string bad[] = {{0, 1, 0, 7, 0, 6, 1, 3}, {0, 1, 0, 0, 0, 1, 1, 3}, {0, 1, 0, 0, 0, char(255), 1, 3},
+    const std::string bad[] = {{0, 1, 0, 7, 0, 6, 1, 3},
+                               {0, 1, 0, 0, 0, 1, 1, 3},
+                               {0, 1, 0, 0, 0, char(255), 1, 3},
                                {0, 1, 0, 0, 1, 6, 1, 3}};
     Host host;
     TEST_ASSERT_EQUAL_INT(0, brace_posix_modbus_open(&host.posix.modbus, "modbus-tcp://127.0.0.1:0"));
@@ -412,7 +426,9 @@ void an_answer_never_reaches_a_later_connection()
     }
     TEST_ASSERT_EQUAL_INT(12, host.hal.serial_write(host.context(), BRACE_SERIAL_MODBUS_TCP, bytes, 12));
     put(later, adu(2, "mine"));
-    TEST_ASSERT_TRUE(adu(2, "mine") == taken(later, [&host] { echo(host, 300); }, 11));
+    TEST_ASSERT_TRUE(adu(2, "mine")
+                     == taken(
+                         later, [&host] { echo(host, 300); }, 11));
     close(later);
 }
 
@@ -425,13 +441,16 @@ void a_pty_is_a_line()
     TEST_ASSERT_EQUAL_INT(BRACE_HAL_E_UNSUPPORTED,
                           host.hal.serial_write(host.context(), BRACE_SERIAL_MODBUS, nullptr, 0));
     TEST_ASSERT_EQUAL_INT(0, brace_posix_stream_open(line, "pty"));
-    TEST_ASSERT_EQUAL_INT(0, host.hal.serial_setup(host.context(), BRACE_SERIAL_MODBUS, 115200, BRACE_PARITY_EVEN));
+    TEST_ASSERT_EQUAL_INT(
+        0, host.hal.serial_setup(host.context(), BRACE_SERIAL_MODBUS, 115200, BRACE_PARITY_EVEN));
     for (int visit = 0; visit < 2; ++visit) { // clients come and go
         const int client = open(line->where, O_RDWR | O_NOCTTY | O_NONBLOCK);
         TEST_ASSERT_TRUE(client >= 0);
-        const std::uint8_t all[] = {0x00, 0x03, 0x0a, 0x0d, 0x11, 0x13, 0x7f, 0xff}; // nothing is special on it
+        const std::uint8_t all[] = {0x00, 0x03, 0x0a, 0x0d,
+                                    0x11, 0x13, 0x7f, 0xff}; // nothing is special on it
         TEST_ASSERT_EQUAL_INT(8, host.hal.serial_write(host.context(), BRACE_SERIAL_MODBUS, all, 8));
-        const std::string got = taken(client, [] {}, 8);
+        const std::string got = taken(
+            client, [] {}, 8);
         TEST_ASSERT_EQUAL_INT(8, static_cast<int>(got.size()));
         TEST_ASSERT_EQUAL_MEMORY(all, got.data(), 8);
         put(client, got);

@@ -58,8 +58,8 @@ def test_the_same_seed_gives_the_same_bits(paper: LimbModel) -> None:
 
 
 def test_a_pressed_limb_yields_with_its_servos_in_series(paper: LimbModel) -> None:
-    """Without friction f = (C + J J'/P)^-1 d to first order, by numbers that know nothing of the simulation. Second order:
-    the droop turns the limb by some 1e-4 rad, and K changes by a few of its own sizes a radian."""
+    """Without friction f = (C + J J'/P)^-1 d to first order, by numbers that know nothing of the simulation. Second
+    order: the droop turns the limb by some 1e-4 rad, and K changes by a few of its own sizes a radian."""
     press = np.array([0.1, -0.05])
     with node(paper, press_mm=tuple(press), force_noise_n=0.0, drive=FRICTIONLESS) as one:
         one.step(0.5)
@@ -111,7 +111,7 @@ def test_a_free_tip_carries_nothing_and_gravity_chooses_the_flank(paper: LimbMod
         one.step(1.0)
         truth, snapshot = one.raw_truth(), one.raw_snapshot()
     assert math.hypot(truth.force_x_n, truth.force_z_n) < 1e-4
-    # The tibia's weight at its middle, by levers: theta1 is held up; flexion would lower the tibia, so theta2 is held back.
+    # The tibia's weight at its middle, by levers: theta1 is held up; flexion lowers the tibia: theta2 is held back.
     theta1, shin = truth.motor_rad[1], truth.motor_rad[1] - truth.motor_rad[2]
     knee_n_mm = 8.0 * 156.75 * math.cos(shin)
     assert truth.load_n_mm[1] == pytest.approx(knee_n_mm + 8.0 * 185.0 * math.cos(theta1), rel=1e-4)

@@ -9,8 +9,8 @@
 static int32_t open_line(brace_posix_bus_t *bus, const char *place)
 {
     int file = -1;
-    const int32_t status = strcmp(place, "pty") == 0 ? io_pty(&file, &bus->kept, bus->where)
-                                                     : io_tty(place, &file, bus->where);
+    const int32_t status =
+        strcmp(place, "pty") == 0 ? io_pty(&file, &bus->kept, bus->where) : io_tty(place, &file, bus->where);
     if (status == BRACE_POSIX_OK) {
         slcan_start(&bus->client[0], file);
     }
@@ -111,7 +111,8 @@ static void node_takes(brace_posix_node_t *node, const brace_can_frame_t *frame)
     node->received++;
 }
 
-void bus_to_nodes(brace_posix_bus_t *bus, int32_t sender, const brace_posix_wire_frame_t *frame, uint32_t bit_rate)
+void bus_to_nodes(brace_posix_bus_t *bus, int32_t sender, const brace_posix_wire_frame_t *frame,
+                  uint32_t bit_rate)
 {
     if (frame->extended || frame->remote) {
         return; /* the door has no such frames */
@@ -120,16 +121,16 @@ void bus_to_nodes(brace_posix_bus_t *bus, int32_t sender, const brace_posix_wire
         brace_posix_node_t *node = &bus->node[i];
         const bool same_rate = bit_rate == 0u || bit_rate == node->setup.bit_rate;
         const bool takes_fd = !frame->frame.fd || node->setup.fd_bit_rate > 0u;
-        if (i != sender && node->used && node->on && !node->bus_off && !node->setup.loopback && same_rate && takes_fd) {
+        if (i != sender && node->used && node->on && !node->bus_off && !node->setup.loopback && same_rate
+            && takes_fd) {
             node_takes(node, &frame->frame);
         }
     }
 }
 
-void bus_to_outside(brace_posix_bus_t *bus, const brace_posix_slcan_t *sender, const brace_posix_wire_frame_t *frame,
-                    uint32_t bit_rate)
+void bus_to_outside(brace_posix_bus_t *bus, const brace_posix_slcan_t *sender,
+                    const brace_posix_wire_frame_t *frame)
 {
-    (void)bit_rate;
     for (uint32_t i = 0; i < BRACE_POSIX_CLIENTS; i++) {
         if (&bus->client[i] != sender) {
             slcan_frame(bus, &bus->client[i], frame);
@@ -140,7 +141,8 @@ void bus_to_outside(brace_posix_bus_t *bus, const brace_posix_slcan_t *sender, c
     }
 }
 
-/* ------------------------------------------------------------------------------------------ controllers -- */
+/* ------------------------------------------------------------------------------------------ controllers --
+ */
 
 static brace_posix_node_t *node_of(void *context)
 {
@@ -174,7 +176,8 @@ static bool is_frame(const brace_can_frame_t *frame)
     if (frame->length <= 8u) {
         return true;
     }
-    return frame->fd && frame->length <= 64u && (frame->length <= 24u ? frame->length % 4u == 0u : frame->length % 16u == 0u);
+    return frame->fd && frame->length <= 64u
+           && (frame->length <= 24u ? frame->length % 4u == 0u : frame->length % 16u == 0u);
 }
 
 int32_t door_can_send(void *context, const brace_can_frame_t *frame)
@@ -198,7 +201,7 @@ int32_t door_can_send(void *context, const brace_can_frame_t *frame)
     }
     const brace_posix_wire_frame_t wire = {*frame, false, false};
     bus_to_nodes(posix->bus, (int32_t)posix->node, &wire, node->setup.bit_rate);
-    bus_to_outside(posix->bus, NULL, &wire, node->setup.bit_rate);
+    bus_to_outside(posix->bus, NULL, &wire);
     return BRACE_HAL_OK;
 }
 
@@ -218,8 +221,10 @@ int32_t door_can_health(void *context, brace_can_health_t *health)
 {
     brace_posix_node_t *node = node_of(context);
     node->bus_off |= node->on && node->fault_bus_off;
-    *health = (brace_can_health_t){.tx_errors = node->bus_off ? 255u : 0u, .error_passive = node->bus_off,
-                                   .bus_off = node->bus_off, .frames_lost = node->frames_lost};
+    *health = (brace_can_health_t){.tx_errors = node->bus_off ? 255u : 0u,
+                                   .error_passive = node->bus_off,
+                                   .bus_off = node->bus_off,
+                                   .frames_lost = node->frames_lost};
     return BRACE_HAL_OK;
 }
 

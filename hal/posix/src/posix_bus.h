@@ -7,18 +7,20 @@
 enum { FROM_SOCKET = -1 };
 
 /* To all controllers but one; -1: to all. bit_rate 0: of no particular rate. */
-void bus_to_nodes(brace_posix_bus_t *bus, int32_t sender, const brace_posix_wire_frame_t *frame, uint32_t bit_rate);
+void bus_to_nodes(brace_posix_bus_t *bus, int32_t sender, const brace_posix_wire_frame_t *frame,
+                  uint32_t bit_rate);
 
 /* To all clients but one, and out of the socket. */
-void bus_to_outside(brace_posix_bus_t *bus, const brace_posix_slcan_t *sender, const brace_posix_wire_frame_t *frame,
-                    uint32_t bit_rate);
+void bus_to_outside(brace_posix_bus_t *bus, const brace_posix_slcan_t *sender,
+                    const brace_posix_wire_frame_t *frame);
 
 /* The rate of the controllers on the bus; 0: none is on yet. */
 uint32_t bus_bit_rate(const brace_posix_bus_t *bus);
 
 void slcan_start(brace_posix_slcan_t *client, int file);
 void slcan_poll(brace_posix_bus_t *bus, brace_posix_slcan_t *client);
-void slcan_frame(const brace_posix_bus_t *bus, brace_posix_slcan_t *client, const brace_posix_wire_frame_t *frame);
+void slcan_frame(const brace_posix_bus_t *bus, brace_posix_slcan_t *client,
+                 const brace_posix_wire_frame_t *frame);
 
 int32_t socketcan_open(brace_posix_bus_t *bus, const char *interface);
 void socketcan_poll(brace_posix_bus_t *bus);

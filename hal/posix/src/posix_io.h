@@ -9,14 +9,15 @@
 /* What errno means for somebody who wanted to open something. */
 int32_t io_status_of_errno(void);
 
-/* Listens at "HOST:PORT", taken from after the "://" up to a '/' or the end. where (room BRACE_POSIX_WHERE): the same
- * with the port that was given. */
+/* Listens at "HOST:PORT", taken from after the "://" up to a '/' or the end. where (room BRACE_POSIX_WHERE):
+ * the same with the port that was given. */
 int32_t io_listen(const char *scheme, const char *place, int *listener, char *where);
 
 /* The next client that waits, -1: none. */
 int io_accept(int listener);
 
-/* A pty in raw mode: our end, and its other end kept open so that clients may come and go. where: its path. */
+/* A pty in raw mode: our end, and its other end kept open so that clients may come and go. where: its path.
+ */
 int32_t io_pty(int *file, int *kept, char *where);
 
 /* A serial device, "PATH[@BAUD]", raw, locked for ourselves. */

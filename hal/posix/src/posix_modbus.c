@@ -1,5 +1,5 @@
-/* Modbus TCP: MBAP header (transaction 2, protocol 2, length 2, unit 1), length counting from the unit on; big-endian.
- * Modbus Messaging on TCP/IP Implementation Guide 1.0b, 3.1.3. */
+/* Modbus TCP: MBAP header (transaction 2, protocol 2, length 2, unit 1), length counting from the unit on;
+ * big-endian. Modbus Messaging on TCP/IP Implementation Guide 1.0b, 3.1.3. */
 #include <string.h>
 
 #include "posix_door.h"
@@ -65,7 +65,8 @@ static int32_t whole_adu(const brace_posix_modbus_client_t *client)
 
 static void poll_client(brace_posix_modbus_t *modbus, brace_posix_modbus_client_t *client)
 {
-    const int32_t count = io_read(client->file, client->in + client->count, (uint32_t)sizeof client->in - client->count);
+    const int32_t count =
+        io_read(client->file, client->in + client->count, (uint32_t)sizeof client->in - client->count);
     if (count > 0) {
         client->count += (uint32_t)count;
         client->last_poll = modbus->polls;

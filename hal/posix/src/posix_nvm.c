@@ -66,7 +66,8 @@ static int32_t keep(brace_posix_nvm_t *nvm, uint32_t slot, uint32_t offset, uint
 
 static bool is_within(uint32_t slot, uint32_t offset, uint32_t count)
 {
-    return slot < BRACE_NVM_SLOT_COUNT && offset <= BRACE_POSIX_SLOT_BYTES && count <= BRACE_POSIX_SLOT_BYTES - offset;
+    return slot < BRACE_NVM_SLOT_COUNT && offset <= BRACE_POSIX_SLOT_BYTES
+           && count <= BRACE_POSIX_SLOT_BYTES - offset;
 }
 
 int32_t door_nvm_read(void *context, uint32_t slot, uint32_t offset, uint8_t *bytes, uint32_t count)

@@ -26,7 +26,8 @@ static bool hears(const brace_posix_bus_t *bus, const brace_posix_slcan_t *clien
     return client->bit_rate == 0u || rate == 0u || client->bit_rate == rate;
 }
 
-static bool send_frame(brace_posix_bus_t *bus, brace_posix_slcan_t *client, const char *command, uint32_t length)
+static bool send_frame(brace_posix_bus_t *bus, brace_posix_slcan_t *client, const char *command,
+                       uint32_t length)
 {
     brace_posix_wire_frame_t frame;
     if (!client->open || client->listen_only || !slcan_read(command, length, &frame)) {
@@ -34,7 +35,7 @@ static bool send_frame(brace_posix_bus_t *bus, brace_posix_slcan_t *client, cons
     }
     if (hears(bus, client)) {
         bus_to_nodes(bus, -1, &frame, client->bit_rate);
-        bus_to_outside(bus, client, &frame, client->bit_rate);
+        bus_to_outside(bus, client, &frame);
     }
     answer(client, frame.extended ? "Z\r" : "z\r");
     return true;
@@ -82,18 +83,10 @@ static bool obey(brace_posix_bus_t *bus, brace_posix_slcan_t *client, const char
     case 'S':
     case 's': return set_rate(client, command, length);
     case 'Y': /* FD data rate: the bus has one */
-    case 'X': /* automatic polling: always on */
-        answer(client, "\r");
-        return length == 2u;
-    case 'V':
-        answer(client, "V1013\r");
-        return length == 1u;
-    case 'v':
-        answer(client, "v0100\r");
-        return length == 1u;
-    case 'N':
-        answer(client, "NBRC1\r");
-        return length == 1u;
+    case 'X': /* automatic polling: always on */ answer(client, "\r"); return length == 2u;
+    case 'V': answer(client, "V1013\r"); return length == 1u;
+    case 'v': answer(client, "v0100\r"); return length == 1u;
+    case 'N': answer(client, "NBRC1\r"); return length == 1u;
     case 'F': /* bit 7: bus error */
         if (!client->open) {
             return false;
@@ -156,7 +149,8 @@ void slcan_poll(brace_posix_bus_t *bus, brace_posix_slcan_t *client)
     }
 }
 
-void slcan_frame(const brace_posix_bus_t *bus, brace_posix_slcan_t *client, const brace_posix_wire_frame_t *frame)
+void slcan_frame(const brace_posix_bus_t *bus, brace_posix_slcan_t *client,
+                 const brace_posix_wire_frame_t *frame)
 {
     if (client->file < 0 || !client->open || !hears(bus, client)) {
         return;

@@ -1,5 +1,5 @@
-/* CAN frames as LAWICEL text (CAN232 manual, version 3): one frame, one line ended by CR. Extended by 'd' and 'b' for CAN
- * FD frames, as current SLCAN adapters have it. */
+/* CAN frames as LAWICEL text (CAN232 manual, version 3): one frame, one line ended by CR. Extended by 'd' and
+ * 'b' for CAN FD frames, as current SLCAN adapters have it. */
 #ifndef SLCAN_TEXT_H
 #define SLCAN_TEXT_H
 

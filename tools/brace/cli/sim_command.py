@@ -86,7 +86,9 @@ def add(commands: Any) -> None:
         help="where the contact holds the tip, from where the unloaded limb has it [mm]",
     )
     parser.add_argument("--node", type=common.count(1, 127), metavar="ID", help="CAN node of the first limb")
-    parser.add_argument("--nvm", metavar="FILE", help="keeps the controllers' memory; what it holds goes before --model")
+    parser.add_argument(
+        "--nvm", metavar="FILE", help="keeps the controllers' memory; what it holds goes before --model"
+    )
     parser.add_argument("--no-force-sensor", action="store_true", help="the tip has none")
     parser.add_argument("--link-encoders", action="store_true", help="encoders behind the gears too")
     common.add_json(parser)
