@@ -1,0 +1,98 @@
+#include "bus_internal.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+uint64_t brace_bus_now_us(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (uint64_t)now.tv_sec * 1000000u + (uint64_t)now.tv_nsec / 1000u;
+}
+
+int brace_bus_left_ms(uint64_t deadline_us)
+{
+    const uint64_t now_us = brace_bus_now_us();
+    return now_us >= deadline_us ? 0 : (int)((deadline_us - now_us + 999u) / 1000u);
+}
+
+void brace_bus_say(char *why, unsigned why_room, const char *format, ...)
+{
+    if (why != NULL && why_room > 0u) {
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(why, why_room, format, arguments);
+        va_end(arguments);
+    }
+}
+
+brace_bus_status_t brace_bus_open(const char *url, int timeout_ms, brace_bus_t **bus, char *why, unsigned why_room)
+{
+    if (bus == NULL) {
+        return BRACE_BUS_E_USAGE;
+    }
+    *bus = NULL;
+    if (url == NULL || url[0] == '\0' || timeout_ms < 1 || timeout_ms > 60000) {
+        brace_bus_say(why, why_room, "no bus named; try can0, slcan:/dev/ttyACM0 or tcp://127.0.0.1:29536");
+        return BRACE_BUS_E_USAGE;
+    }
+    brace_bus_t *opened = calloc(1, sizeof *opened);
+    if (opened == NULL) {
+        brace_bus_say(why, why_room, "out of memory");
+        return BRACE_BUS_E_NO_DEVICE;
+    }
+    opened->fd = -1;
+    brace_bus_status_t status;
+    if (strncmp(url, "slcan:", 6) == 0) {
+        status = brace_slcan_open_tty(opened, url + 6, why, why_room);
+    } else if (strncmp(url, "tcp://", 6) == 0) {
+        status = brace_slcan_open_tcp(opened, url + 6, timeout_ms, why, why_room);
+    } else if (strchr(url, ':') == NULL && strchr(url, '/') == NULL) {
+        status = brace_socketcan_open(opened, url, why, why_room);
+    } else {
+        brace_bus_say(why, why_room, "%s: not a bus that is known here; try can0, slcan:/dev/ttyACM0 or tcp://host:port",
+                      url);
+        status = BRACE_BUS_E_USAGE;
+    }
+    if (status != BRACE_BUS_OK) {
+        brace_bus_close(opened);
+        return status;
+    }
+    *bus = opened;
+    return BRACE_BUS_OK;
+}
+
+void brace_bus_close(brace_bus_t *bus)
+{
+    if (bus == NULL) {
+        return;
+    }
+    if (bus->fd >= 0) {
+        if (bus->is_slcan) {
+            brace_slcan_leave(bus);
+        }
+        close(bus->fd);
+    }
+    free(bus);
+}
+
+brace_bus_status_t brace_bus_send(brace_bus_t *bus, const brace_bus_frame_t *frame, int timeout_ms)
+{
+    if (bus == NULL || frame == NULL || frame->id > 0x7ffu || frame->length > 8u) {
+        return BRACE_BUS_E_USAGE;
+    }
+    return bus->is_slcan ? brace_slcan_send(bus, frame, timeout_ms) : brace_socketcan_send(bus, frame, timeout_ms);
+}
+
+brace_bus_status_t brace_bus_receive(brace_bus_t *bus, brace_bus_frame_t *frame, int timeout_ms)
+{
+    if (bus == NULL || frame == NULL) {
+        return BRACE_BUS_E_USAGE;
+    }
+    return bus->is_slcan ? brace_slcan_receive(bus, frame, timeout_ms)
+                         : brace_socketcan_receive(bus, frame, timeout_ms);
+}
