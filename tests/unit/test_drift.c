@@ -131,6 +131,8 @@ static void check_loss(int link, brace_drift_cause_t cause)
     TEST_ASSERT_EQUAL(1u << cause, now.could_be & 1u << cause);
     ASSERT_CLOSE(0.1, now.loss_ratio, 4.0f * now.loss_sigma_ratio);
     TEST_ASSERT_TRUE(now.loss_sigma_ratio < 0.02f);
+    rounds(12); /* by now the estimates have taken up much of it */
+    ASSERT_CLOSE(0.1, report().loss_ratio, 0.015);
 }
 
 static void test_a_tenth_of_the_femurs_stiffness_lost_is_told(void)
@@ -197,6 +199,31 @@ static void test_scatter_beyond_the_noise_is_told_apart(void)
     TEST_ASSERT_EQUAL(BRACE_DRIFT_DRIFTED, report().state);
     TEST_ASSERT_EQUAL(BRACE_DRIFT_UNEXPLAINED, report().cause);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, report().loss_ratio);
+}
+
+static void test_a_baseline_that_has_walked_away_is_an_alarm(void)
+{
+    learn_a_slightly_other_limb();
+    drift.held[BRACE_DRIFT_FEMUR] -= 0.4f; /* as after a loss too slow for the evidence */
+    run(0, 0);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_DRIFTED, report().state);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_FEMUR, report().cause);
+    ASSERT_CLOSE(0.4 / 1.4, report().loss_ratio, 0.05);
+}
+
+static void test_short_runs_count_the_noise_of_their_first_reading(void)
+{
+    learn_a_slightly_other_limb();
+    const brace_stiffness_t model = stiffness_of(&believed, postures[0]);
+    for (int i = 0; i < 800; i++) {
+        const brace_drift_reading_t reading = {postures[0][0], postures[0][1], 0, 0, NOISE_N * (float)noise_normal(),
+                                               NOISE_N * (float)noise_normal(), 0};
+        if (i % 2 == 0) {
+            brace_drift_run(&drift);
+        }
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_step(&drift, &believed, &model, &reading));
+        TEST_ASSERT_TRUE(report().evidence < 12.0f);
+    }
 }
 
 static void test_a_calibration_that_does_not_fit_shows_in_the_baseline(void)
@@ -273,6 +300,8 @@ int main(void)
     RUN_TEST(test_an_alarm_stays_until_reset);
     RUN_TEST(test_one_wild_reading_is_no_alarm);
     RUN_TEST(test_scatter_beyond_the_noise_is_told_apart);
+    RUN_TEST(test_a_baseline_that_has_walked_away_is_an_alarm);
+    RUN_TEST(test_short_runs_count_the_noise_of_their_first_reading);
     RUN_TEST(test_a_calibration_that_does_not_fit_shows_in_the_baseline);
     RUN_TEST(test_the_outlook_tells_where_a_loss_shows);
     RUN_TEST(test_refused_calls_leave_everything_as_it_was);
