@@ -1,0 +1,66 @@
+"""What a step of the drift check costs on the emulated Cortex-M4F: instructions, stack, flash and RAM.
+
+`python tests/bench/drift.py` prints it; `cost(plugin)` is for the bench.
+"""
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import median_low
+
+import postures
+from emulate import build_plugin, count
+from measure import object_of
+from stack import worst_stack_bytes
+from toolchain import BENCH, BOARDS, BUILD, HARNESS_FLAGS, M4F, flash_bytes, link_image, type_sizes
+from versions import OURS, core_sources
+
+STEP = "brace_drift_step"
+MOST_INSTRUCTIONS, MOST_RAM_BYTES = 2200, 300
+
+
+@dataclass(frozen=True)
+class DriftCost:
+    """Loading runs at changing postures, learning and watching, with and without an alarm."""
+
+    median: int
+    maximum: int
+    stack_bytes: int
+    flash_bytes: int  # of all its public functions and what they call
+    ram_bytes: int
+
+    @property
+    def kept(self) -> bool:
+        """Within what the header promises."""
+        return self.maximum <= MOST_INSTRUCTIONS and self.ram_bytes <= MOST_RAM_BYTES
+
+
+def cost(plugin: Path) -> DriftCost:
+    """Build, count and weigh."""
+    sources = [object_of(source, M4F, ("-O2",)) for source in core_sources()]
+    job = object_of(OURS / "drift_job.c", M4F, (*HARNESS_FLAGS, "-DBENCH_LIMB=BENCH_PAPER_LIMB"))
+    frame = [object_of(path, M4F, HARNESS_FLAGS) for path in
+             (BENCH / "image" / "harness.c", BOARDS / "common" / "startup.c")]
+    image = link_image([*sources, job, *frame], BUILD / "images" / "drift.elf", M4F)
+    counted = count(image, M4F, plugin, STEP)
+    functions = tuple(f"brace_drift_{name}" for name in ("learn", "reset", "run", "step", "report", "outlook"))
+    return DriftCost(median_low(counted.instructions), max(counted.instructions),
+                     worst_stack_bytes(sources, STEP)[0],
+                     flash_bytes(sources, functions, BUILD / "images" / "drift_flash.elf", M4F),
+                     type_sizes(("brace_drift_t",), ("brace/drift.h",), M4F)["brace_drift_t"])
+
+
+def main() -> int:
+    """Print it; 1 when a promise is not kept."""
+    (BUILD / "generated").mkdir(parents=True, exist_ok=True)
+    (BUILD / "images").mkdir(parents=True, exist_ok=True)
+    (BUILD / "generated" / "bench_data.h").write_text(postures.header())
+    found = cost(build_plugin())
+    print(f"drift check, Cortex-M4F: {found.median:,} instructions a step (median), {found.maximum:,} at most (limit "
+          f"{MOST_INSTRUCTIONS:,}); stack {found.stack_bytes} B, flash {found.flash_bytes:,} B with what it calls, "
+          f"RAM {found.ram_bytes} B (limit {MOST_RAM_BYTES})")
+    return 0 if found.kept else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
