@@ -197,15 +197,33 @@ static void allow(allowed_t *allowed, int in_force)
     }
 }
 
+/* Where a start finds now this, now that: a lot, from `first` on, with which there is something to go back to. */
+static uint32_t lot_to_roll_back(const nvm_t *left, uint32_t first)
+{
+    static nvm_t nvm;
+    limb_t limb;
+    for (uint32_t lot = first; lot < first + 16u; lot++) {
+        nvm = *left;
+        nvm.random += lot;
+        nvm_power(&nvm, NVM_FOREVER, CUT_AFTER);
+        start(&limb, &nvm);
+        if (set_to_go_back_to(&limb) != NO_SET) {
+            return lot;
+        }
+    }
+    return first;
+}
+
 /* A second failure, in an update or roll-back after the first. The start before it has chosen one of `open`; until the
  * second operation's erase begins, what the first failure left open stays open. */
-static void fail_again(const nvm_t *left, uint32_t lot, const allowed_t *open, const cut_manner_t *manners,
+static void fail_again(const nvm_t *left, uint32_t first_lot, const allowed_t *open, const cut_manner_t *manners,
                        int manner_count)
 {
     static nvm_t nvm;
     limb_t limb;
     for (int kind = 0; kind < 2; kind++) {
         now.second = kind == 0 ? UPDATE : ROLL_BACK;
+        const uint32_t lot = kind == 0 ? first_lot : lot_to_roll_back(left, first_lot);
         for (int m = 0; m < manner_count; m++) {
             now.second_manner = manners[m];
             for (now.second_step = 1;; now.second_step++) {

@@ -10,9 +10,15 @@ import pytest
 
 PROJECT = Path(__file__).resolve().parents[2]
 STORE = PROJECT / "firmware" / "app" / "src" / "store"
-INCLUDES = ("firmware/app/include", "firmware/app/src", "firmware/core/include", "hal/include", "tests/faults")
+INCLUDES = ("firmware/app/include", "firmware/app/src", "firmware/core/include", "firmware/core/src", "hal/include", "tests/faults")
 INTERFACE = ("firmware/interface/include", "firmware/interface/generated", "firmware/interface/src")
-SOURCES = ("firmware/interface/src/*.c", "firmware/interface/generated/*.c", "firmware/core/src/limb/limb.c", "tests/faults/*.c")
+SOURCES = (
+    "firmware/interface/src/*.c",
+    "firmware/interface/generated/*.c",
+    "firmware/core/src/limb/*.c",
+    "firmware/core/src/base/*.c",
+    "tests/faults/*.c",
+)
 
 Edit = tuple[str, str, str]  # file, what stands there, what it becomes
 GO_ON = "(go_to(store, {}), BRACE_STORE_BUSY)"
@@ -41,6 +47,9 @@ BROKEN: dict[str, list[Edit]] = {
     ],
     "does not affirm the slot it rolls back to": [
         ("store.c", "settle(store, store->target, STORE_KEEP, STAGE_REREAD)", GO_ON.format("STAGE_REREAD"))
+    ],
+    "does not retire the slot it erases": [
+        ("store.c", "settle(store, store->target, STORE_VOID, STAGE_SPOIL)", GO_ON.format("STAGE_SPOIL"))
     ],
     "does not spoil the slot it erases": [
         ("store.c", "settle(store, store->target, STORE_VOID, STAGE_SPOIL)", "settle(store, store->target, STORE_VOID, STAGE_ERASE)")
@@ -76,7 +85,7 @@ def test_a_broken_store_is_found_out(name: str, tmp_path: Path) -> None:
     sources = [path for pattern in SOURCES for path in sorted(PROJECT.glob(pattern))] + sorted(folder.glob("*.c"))
     folders = [tmp_path, *(PROJECT / include for include in (*INCLUDES, *INTERFACE))]
     subprocess.run(
-        ["gcc", "-std=c11", "-O2", "-w", *(f"-I{folder}" for folder in folders), "-o", program, *sources], check=True
+        ["gcc", "-std=c11", "-O2", "-w", *(f"-I{folder}" for folder in folders), "-o", program, *sources, "-lm"], check=True
     )
     outcome = subprocess.run([program, "--broken"], capture_output=True, text=True, timeout=300)
     assert outcome.returncode == 0, outcome.stdout
