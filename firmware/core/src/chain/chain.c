@@ -11,33 +11,32 @@
 #define SIN_5 2.60373686e-4f
 #define SIN_7 (-1.52292930e-6f)
 
-enum { BRACE_ELEMENT_FLOATS = sizeof(brace_element_t) / sizeof(float) };
+enum { ELEMENT_FLOATS = sizeof(brace_element_t) / sizeof(float) };
 
-/* What a link's ellipsoid brings: iso, and the root of the bending that goes with moment transfer. */
-typedef struct {
-    float iso_mm_per_n, root;
-} bent_t;
+/* Root of the bending that goes with moment transfer: 0.75 kappa of it. */
+static inline float moment_root(const brace_link_t *link)
+{
+    return __builtin_sqrtf(0.75f * link->moment_transfer_ratio * link->bending_mm_per_n);
+}
 
-/* Splits a link's ellipsoid, less the 0.75 kappa of its bending that comes with moment transfer, into iso and its
- * longer axis; both vectors sqrt(mm/N), in the link's frame. */
-BRACE_OFF_TICK static bent_t bend(const brace_link_t *link, float kappa, brace_vec_t *excess,
-                                  brace_vec_t *with_moment)
+/* Splits a link's ellipsoid, less that bending, into iso, which it returns [mm/N], and its longer axis; both vectors
+ * sqrt(mm/N), in the link's frame. */
+BRACE_OFF_TICK static float bend(const brace_link_t *link, float root, brace_vec_t *excess, brace_vec_t *with_moment)
 {
     const float tilt = link->tilt_rad, w = tilt * tilt;
     const float half_sin =
         tilt * __builtin_fmaf(w, __builtin_fmaf(w, __builtin_fmaf(w, SIN_7, SIN_5), SIN_3), 0.5f);
     const float half_cos = __builtin_sqrtf(__builtin_fmaf(-half_sin, half_sin, 1.0f));
     const float sin = 2.0f * half_sin * half_cos, cos = 1.0f - 2.0f * half_sin * half_sin;
-    const float coupled = 0.75f * kappa * link->bending_mm_per_n, root = __builtin_sqrtf(coupled);
-    const float axial = link->axial_mm_per_n, bending = link->bending_mm_per_n - coupled, more = bending - axial;
+    const float axial = link->axial_mm_per_n, bending = link->bending_mm_per_n - root * root, more = bending - axial;
     const float length = __builtin_sqrtf(__builtin_fabsf(more));
     *with_moment = (brace_vec_t){-sin * root, cos * root};
     if (more > 0.0f) {
         *excess = (brace_vec_t){-sin * length, cos * length};
-        return (bent_t){axial, root};
+        return axial;
     }
     *excess = (brace_vec_t){cos * length, sin * length};
-    return (bent_t){bending, root};
+    return bending;
 }
 
 /* A loop, because a call of the C library's memset would be longer. */
@@ -47,7 +46,7 @@ __attribute__((optimize("no-tree-loop-distribute-patterns")))
 BRACE_OFF_TICK static void clear(brace_element_t *element, int count)
 {
     float *field = &element->femur.x;
-    for (int i = 0; i < count * BRACE_ELEMENT_FLOATS; i++) {
+    for (int i = 0; i < count * ELEMENT_FLOATS; i++) {
         field[i] = 0.0f;
     }
 }
@@ -65,23 +64,23 @@ BRACE_OFF_TICK float brace_chain_firm(const brace_limb_t *limb, brace_element_t 
     element[4].tibia.z = knee * tibia_mm;
 
     /* The tibia has nothing beyond it to pass a moment to: zero goes to the knee, which has no femur part. */
-    const bent_t upper = bend(femur, femur->moment_transfer_ratio, &element[0].femur, &element[1].femur);
-    const bent_t lower = bend(femur + 1, 0.0f, &element[2].tibia, &element[4].femur);
-    element[1].tibia.z = 2.0f * upper.root * tibia_mm / femur_mm;
-    return upper.iso_mm_per_n + lower.iso_mm_per_n;
+    const float root = moment_root(femur);
+    element[1].tibia.z = 2.0f * root * tibia_mm / femur_mm;
+    return bend(femur, root, &element[0].femur, &element[1].femur) +
+           bend(femur + 1, 0.0f, &element[2].tibia, &element[4].femur);
 }
 
 BRACE_OFF_TICK float brace_chain_coxa(const brace_limb_t *limb, brace_element_t element[2])
 {
     const brace_link_t *link = &limb->link[BRACE_COXA];
     clear(element, 2);
-    const bent_t bent = bend(link, link->moment_transfer_ratio, &element[0].base, &element[1].base);
-    if (bent.root > 0.0f) {
-        const float lever = 2.0f * bent.root / limb->coxa_mm;
+    const float root = moment_root(link);
+    if (root > 0.0f) {
+        const float lever = 2.0f * root / limb->coxa_mm;
         element[1].femur.z = lever * limb->femur_mm;
         element[1].tibia.z = lever * limb->tibia_mm;
     }
-    return bent.iso_mm_per_n;
+    return bend(link, root, &element[0].base, &element[1].base);
 }
 
 BRACE_OFF_TICK float brace_chain_base(const brace_limb_t *limb, brace_element_t *element)

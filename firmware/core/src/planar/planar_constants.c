@@ -14,22 +14,23 @@ typedef struct {
     float per_mean, constant;
 } rest_t;
 
+/* What a direction in the plane of (1 + cos, sin) is uncertain by [rad]. */
+#define ROUNDING_RAD 6e-8f
+
 /* Brings det C into this form: 2 iso mean - iso^2 and what the elements bring themselves. Of that first harmonic,
- * what stands across `cross` in the plane of (1 + cos, sin) is taken up by more of the mean, unless it is less than
- * what rounding does to det anyway, and what lies along it by shifting cross. */
+ * what stands across `cross` in the plane of (1 + cos, sin) is taken up by more of the mean, and what lies along it by
+ * shifting cross. Where both cross and mean point the same way within rounding, any small amount of the mean will do. */
 static inline rest_t affine_rest(brace_harmonics_t *h, float most)
 {
     const float iso = h->iso_mm_per_n;
     const brace_vec_t mean = {h->mean.per_cos, h->mean.per_sin};
     const brace_vec_t cross = {h->cross.per_cos, h->cross.per_sin};
     const brace_vec_t beyond = {h->rest.per_cos, h->rest.per_sin};
-    const float square = vec_dot(cross, cross), across = vec_cross(cross, beyond);
-    const float rounding = 2e-7f * iso * most * __builtin_sqrtf(square);
+    const float square = vec_dot(cross, cross);
     float more = 0.0f, shift = 0.0f;
-    if (__builtin_fabsf(across) > rounding) {
-        more = across / vec_cross(cross, mean);
-    }
     if (square > 0.0f) {
+        const float apart = vec_cross(cross, mean), noise = ROUNDING_RAD * most * __builtin_sqrtf(square);
+        more = vec_cross(cross, beyond) / (apart + noise / apart * noise);
         shift = 0.5f * (vec_dot(cross, beyond) - more * vec_dot(cross, mean)) / square;
     }
     const float constant = h->rest.at_fold - iso * iso - more * h->mean.at_fold -
@@ -51,7 +52,7 @@ static inline int accurate(const brace_harmonics_t *h, rest_t rest, float least,
     const float smaller = rest.constant + rest.per_mean * (rest.per_mean < 0.0f ? most : least);
     const float error = 2.0f * unit + 6e-8f * (__builtin_fabsf(h->cross.per_cos) + __builtin_fabsf(h->cross.at_fold));
     return __builtin_fabsf(rest.constant) * (1.0f / 16.0f) + error * error * 2.5e11f < smaller &&
-           unit + 5e-8f * __builtin_fabsf(h->mean.per_cos) < 1.2e-6f * least;
+           most < 40.0f * least;
 }
 
 /* At the fold minus the cosine is TICK_ONE: there the rounding of its factor goes into the constant. */
