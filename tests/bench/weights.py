@@ -9,7 +9,7 @@ from versions import core_sources
 
 NO_FPU_ONLY = ("planar_fixed",)  # headers for controllers without an FPU
 HOST_ONLY = ("planar_batch", "chain_batch")
-NOT_FOR_ONE_PLANE = ("spatial", "planar_table", "backlash", "gap_stiffness")  # a planar limb's K does without
+NOT_FOR_ONE_PLANE = ("spatial", "planar_table", "backlash", "gap_stiffness", "drift")  # a planar limb's K does without
 
 CORE_FLASH = "flash, Cortex-M4F, all of the core but the fixed-point path"
 PLANAR_RAM = "RAM, one limb: parameters and planar constants"
@@ -18,12 +18,17 @@ SPATIAL_RAM = "RAM, one limb: parameters and spatial constants"
 CORE_STACK = "stack, Cortex-M4F, the deepest public function"
 
 
+def functions_of(header: str) -> tuple[str, ...]:
+    """The functions that a header's text declares."""
+    return tuple(re.findall(r"^[\w ]+[ *](brace_\w+)\(", header, re.MULTILINE))
+
+
 def public_functions(headers_without: tuple[str, ...]) -> tuple[str, ...]:
     """Functions that the core's public headers declare, but for headers whose name starts with one of the given."""
     names: set[str] = set()
     for header in sorted((CORE / "include" / "brace").glob("*.h")):
         if not header.stem.startswith(headers_without):
-            names.update(re.findall(r"^[\w ]+[ *](brace_\w+)\(", header.read_text(), re.MULTILINE))
+            names.update(functions_of(header.read_text()))
     return tuple(sorted(names))
 
 

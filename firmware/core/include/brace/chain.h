@@ -61,7 +61,7 @@ brace_status_t brace_chain_compliance(const brace_chain_t *chain, float theta1_r
  * rad times lambda_max / (lambda_max - lambda_min), unless flagged.
  * flags: BRACE_FLAG_NEAR_SINGULAR when C is so slender (det C < 2e-5 of the squared half trace) that this is not
  * promised.
- * Cost on a Cortex-M4F: at most 900 instructions for five elements, growing with their pairs; 200 bytes of stack.
+ * Cost on a Cortex-M4F: at most 900 instructions for five elements, growing with their pairs; 250 bytes of stack.
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE, BRACE_E_SINGULAR (det C is zero). */
 brace_status_t brace_chain_stiffness(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
                                      brace_stiffness_t *stiffness);

@@ -19,7 +19,7 @@ typedef struct {
 
 /* Brings det C into this form: 2 iso mean - iso^2 and what the elements bring themselves. Of that first harmonic,
  * what stands across `cross` in the plane of (1 + cos, sin) is taken up by more of the mean, and what lies along it by
- * shifting cross. Where both cross and mean point the same way within rounding, any small amount of the mean will do. */
+ * shifting cross. Where cross and mean point the same way within rounding, the mean takes up nothing. */
 static inline rest_t affine_rest(brace_harmonics_t *h, float most)
 {
     const float iso = h->iso_mm_per_n;
@@ -44,9 +44,10 @@ static inline float swing_square(const brace_harmonic_t *h)
     return h->per_cos * h->per_cos + h->per_sin * h->per_sin;
 }
 
-/* Is the accuracy of the tick safe? Where rest could lose digits against its parts, at the mean's least or most, and
- * where det is least, at the zeros of cross: there an error of cross, from rounded constants and from the last place
- * of the tick, must stay well below the square root of the rest. */
+/* Is the accuracy of the tick safe? Where rest could lose digits against its parts, at the mean's least or most, it must
+ * not be less than a sixteenth of them; and where det is least, at the zeros of cross, an error of cross, from rounded
+ * constants and from the last place of the tick, must stay below 2e-6 of the square root of the rest: both together, as
+ * squares. And the mean's own rounding, 3e-8 of the most, must stay below 1.2e-6 of the least. */
 static inline int accurate(const brace_harmonics_t *h, rest_t rest, float least, float most, float unit)
 {
     const float smaller = rest.constant + rest.per_mean * (rest.per_mean < 0.0f ? most : least);
@@ -68,8 +69,8 @@ static inline void fix(const brace_harmonic_t *h, float units, brace_planar_harm
 
 BRACE_OFF_TICK brace_status_t brace_planar_constants(brace_harmonics_t *h, brace_planar_t *planar)
 {
-    const brace_harmonic_t *from = &h->cross; /* then mean, dev_x, dev_y, */
-    brace_planar_harmonic_t *to = &planar->cross; /* as here */
+    const brace_harmonic_t *from = &h->cross;     /* then mean, dev_x, dev_y: */
+    brace_planar_harmonic_t *to = &planar->cross; /* the same order in both */
 
     /* The mean lies between the eigenvalues of its form in (cos h, sin h), h = theta2/2. */
     h->mean.at_fold += h->iso_mm_per_n;
