@@ -4,6 +4,8 @@
  * true stiffness K, the ground pushes with f = f0 - K L m and the motors carry -L'f; servos of stiffness P give way, so
  * commanded offsets c lead to m = (I + L'K L / P)^-1 c. Worked out in double, apart from the firmware. */
 #include "app_bench.h"
+#include "measure/force.h"
+#include "measure/loading_read.h"
 
 typedef struct {
     double xx, xz, zz;
@@ -187,6 +189,46 @@ static void test_without_a_sensor_the_joints_tell_the_force_less_gravity(void)
     TEST_ASSERT_EQUAL(BRACE_LOADING_DONE, result()->outcome);
     TEST_ASSERT_FALSE(result()->force_is_sensed);
     ASSERT_CLOSE(3.5, result()->least_squares.k_x_n_per_mm, 3.5 * 1e-2); /* levers are those of motors 8 mrad away */
+}
+
+static void test_the_sensed_force_says_what_the_joints_should_carry(void)
+{
+    brace_parameters_t p = bench_parameters();
+    p.gravity.tibia_n = 2.0f;
+    stand(&p);
+    weight_n = 2.0;
+    ticks(3);
+    for (int i = 0; i < BRACE_APP_JOINTS; i++) {
+        brace_backlash_sample_t sample = {.load_is_expected = false};
+        force_expect(&app, i, &sample);
+        TEST_ASSERT_TRUE(sample.load_is_expected);
+        ASSERT_CLOSE(fake.joint[BRACE_FEMUR + i].sample.torque_n_mm, sample.expected_n_mm, 1.0);
+        TEST_ASSERT_TRUE(sample.expected_off_n_mm > 0.0f);
+    }
+    brace_fake_fail_next(&fake, BRACE_FAKE_TIP_FORCE_READ, 1, BRACE_HAL_E_DEVICE);
+    ticks(1);
+    brace_backlash_sample_t sample = {.load_is_expected = false};
+    force_expect(&app, 0, &sample);
+    TEST_ASSERT_FALSE(sample.load_is_expected);
+}
+
+static void test_what_is_off_the_axis_is_taken_off_by_the_model(void)
+{
+    truth = (symmetric_t){3.96389818, -0.63872477, 0.42806022};
+    run(&along_x);
+    brace_loading_t *test = &app.loading;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_slope_start(&test->slope, 0.0f, 0.0f, 0.0f));
+    for (int i = 1; i <= 4; i++) { /* steps with a third of them across */
+        test->dx_mm = 0.6f * (float)i;
+        test->dz_mm = 0.2f * (float)i * (i % 2 == 0 ? 1.0f : -1.0f);
+        const double x = (double)test->dx_mm, z = (double)test->dz_mm;
+        TEST_ASSERT_TRUE(loading_add_to_slope(test, (float)(truth.xx * x + truth.xz * z),
+                                              (float)(truth.xz * x + truth.zz * z)));
+    }
+    brace_slope_column_t column;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_slope_column(&test->slope, BRACE_SLOPE_LEAST_SQUARES, &column));
+    ASSERT_CLOSE(truth.xx, column.k_x_n_per_mm, 2e-3);
+    ASSERT_CLOSE(truth.xz, column.k_z_n_per_mm, 2e-3);
 }
 
 static void test_the_sensor_model_is_undone(void)
@@ -562,6 +604,8 @@ int main(void)
     RUN_TEST(test_noise_is_in_the_sigma_of_the_slope);
     RUN_TEST(test_commanded_displacement_has_the_servo_in_it);
     RUN_TEST(test_without_a_sensor_the_joints_tell_the_force_less_gravity);
+    RUN_TEST(test_the_sensed_force_says_what_the_joints_should_carry);
+    RUN_TEST(test_what_is_off_the_axis_is_taken_off_by_the_model);
     RUN_TEST(test_the_sensor_model_is_undone);
     RUN_TEST(test_a_saturated_or_silent_sensor_is_not_used);
     RUN_TEST(test_rows_are_a_pass_in_the_columns_of_a_dataset);

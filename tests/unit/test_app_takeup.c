@@ -79,6 +79,7 @@ static void until_mode(brace_mode_t wanted)
 static void test_with_its_gaps_open_K_is_valid_flagged_and_bounded(void)
 {
     const brace_gap_stiffness_t *k = &now()->stiffness;
+    TEST_ASSERT_EQUAL(TICK_US, app.play[0].backlash.params.tick_us);
     TEST_ASSERT_TRUE(now()->k_is_valid);
     TEST_ASSERT_BITS(BRACE_FLAG_GAP_OPEN, BRACE_FLAG_GAP_OPEN, k->now.flags);
     TEST_ASSERT_BITS(BRACE_FLAG_GAP_OPEN, 0, k->engaged.flags);

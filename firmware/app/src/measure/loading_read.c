@@ -61,8 +61,7 @@ static bool begin(brace_app_t *app, const float mean[SUMS])
     return brace_slope_start(&test->slope, 0.0f, mean[FORCE_X], mean[FORCE_Z]) == BRACE_OK;
 }
 
-/* A slope knows displacement along one axis; the little there is across it is taken off by the model. */
-static bool add_to_slope(brace_loading_t *test, float fx_n, float fz_n)
+bool loading_add_to_slope(brace_loading_t *test, float fx_n, float fz_n)
 {
     const brace_stiffness_t *k = &test->model;
     if (test->result.setup.axis == BRACE_AXIS_X) {
@@ -108,7 +107,7 @@ bool loading_read(brace_app_t *app)
             moved_rad[i] = commanded ? test->per_mm[i] * test->along_mm : mean[MOTOR + i];
         }
         displaced(app, moved_rad, &test->dx_mm, &test->dz_mm);
-        sound = add_to_slope(test, mean[FORCE_X], mean[FORCE_Z]);
+        sound = loading_add_to_slope(test, mean[FORCE_X], mean[FORCE_Z]);
     }
     if (sound) {
         test->fx_n = mean[FORCE_X];

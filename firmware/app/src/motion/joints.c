@@ -71,7 +71,8 @@ static void read_one(brace_app_t *app, int index, uint32_t now_us)
     const brace_drive_t *drive = &app->parameters.drive[BRACE_FEMUR + index];
     brace_hal_joint_t fresh;
     const int32_t answer = app->hal->joint_read(app->hal->context, BRACE_FEMUR + index, &fresh);
-    const bool newer = answer == BRACE_HAL_OK && (!joint->seen || fresh.taken_us != joint->sample.taken_us);
+    const bool none_yet = joint->sample.motor_rad != joint->sample.motor_rad;
+    const bool newer = answer == BRACE_HAL_OK && (none_yet || fresh.taken_us != joint->sample.taken_us);
     if (newer && is_sound(&fresh, drive)) {
         const bool first = !joint->seen;
         joint->sample = fresh;
