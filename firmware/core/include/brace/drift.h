@@ -1,20 +1,21 @@
 /* Model against measurement, on the limb: is it still the limb that was commissioned?
  *
- * Fed with the readings of loading runs (displacement imposed on the tip, force read there), it learns the limb's own
- * baseline within what the calibration is trusted to, holds it, and tells a change: which link or joint, how much, since
- * which step. A cracked tube shows here long before a person would notice.
+ * Fed with the readings of loading runs (displacement imposed on the tip, force read there), it learns the
+ * limb's own baseline within what the calibration is trusted to, holds it, and tells a change: which link or
+ * joint, how much, since which step. A cracked tube shows here long before a person would notice.
  *
- * A run is a stretch of readings at one posture; its readings count from their own mean, so preload, sensor bias and
- * gravity play no part. A new run begins by itself when the posture changes by a milliradian and after 64 readings, else
- * by brace_drift_run. Where joints have dry friction, begin a run at each reversal of the motion: friction is constant
- * in it. Leave out readings flagged GAP_OPEN, and begin a run after them.
+ * A run is a stretch of readings at one posture; its readings count from their own mean, so preload, sensor bias
+ * and gravity play no part. A new run begins by itself when the posture changes by a milliradian and after 64
+ * readings, else by brace_drift_run. Where joints have dry friction, begin a run at each reversal of the motion:
+ * friction is constant in it. Leave out readings flagged GAP_OPEN, and begin a run after them.
  *
- * Learning wants readings along both axes, at postures that span the ones to be watched, and over the temperatures to be
- * expected; of the paper's limb, nine postures and 1,000 to 4,000 readings. It ends when the baseline of both links is
- * known to BRACE_DRIFT_LEARNED_TO of their stiffness, or at BRACE_DRIFT_LEARN_MOST. Afterwards the baseline is held, but
- * for a memory of thousands of readings that keeps it true at new postures and temperatures; should it walk away by more
- * than a tenth and six sigma, that is an alarm too. A change before or while learning becomes part of the baseline,
- * unless it is beyond what the calibration is trusted to (report.baseline_sigmas).
+ * Learning wants readings along both axes, at postures that span the ones to be watched, and over the
+ * temperatures to be expected; of the paper's limb, nine postures and 1,000 to 4,000 readings. It ends when the
+ * baseline of both links is known to BRACE_DRIFT_LEARNED_TO of their stiffness, or at BRACE_DRIFT_LEARN_MOST.
+ * Afterwards the baseline is held, but for a memory of thousands of readings that keeps it true at new postures
+ * and temperatures; should it walk away by more than a tenth and six sigma, that is an alarm too. A change before
+ * or while learning becomes part of the baseline, unless it is beyond what the calibration is trusted to
+ * (report.baseline_sigmas).
  *
  * The state is plain data without pointers: keep its bytes in non-volatile memory to go on after a power cut. It
  * belongs to one set of limb parameters; learn again when they change, and after any repair.
@@ -90,7 +91,7 @@ typedef struct {
     float loss_ratio;          /* of the likeliest cause: tibia or knee is given as the tibia's. 0 for UNEXPLAINED */
     float loss_sigma_ratio;
     uint32_t since_steps;      /* readings since the likeliest change */
-    float learned_sigma_ratio[2]; /* how well the baselines of femur and tibia (or knee) are known, of their stiffness */
+    float learned_sigma_ratio[2]; /* how well the baselines of femur, and tibia or knee, are known */
     float baseline_sigmas;     /* largest offset of the baseline from the calibration, in sigmas of its trust */
     uint32_t steps;
 } brace_drift_report_t;
@@ -102,9 +103,9 @@ typedef struct {
                                                            average; BRACE_DRIFT_NEVER: not at this posture */
 } brace_drift_outlook_t;
 
-/* Alarm level of the evidence, a log likelihood ratio. Whatever the postures, a ratio that starts at one reaches e^20 with a
- * probability of at most e^-20 (Ville's inequality); for four causes that may start at each of 10^6 readings that is at
- * most 0.8 %, as long as the limb is within its calibration's trust and the noise is what the setup says. */
+/* Alarm level of the evidence, a log likelihood ratio. Whatever the postures, a ratio that starts at one reaches e^20
+ * with a probability of at most e^-20 (Ville's inequality); for four causes that may start at each of 10^6 readings
+ * that is at most 0.8 %, as long as the limb is within its calibration's trust and the noise is what the setup says. */
 #define BRACE_DRIFT_ALARM 20.0f
 
 /* Begins to learn: at commissioning, after a repair, when limb parameters change.

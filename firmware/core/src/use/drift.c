@@ -17,14 +17,15 @@
 #define SCATTER_GAIN 0.375f  /* scatter fourfold in variance against none: LLR = 3/8 nu^2/S - ln(4)/2 */
 #define SCATTER_COST 0.69314718f
 #define SCATTER_MOST 8.0f
-#define NEARLY_AS_LIKELY 3.0f /* log likelihood, and a share of it: a large loss is not quite what its slopes say */
+/* log likelihood, and a share of it: a large loss is not quite what its slopes say */
+#define NEARLY_AS_LIKELY 3.0f
 #define NEARLY_RATIO 0.1f
-#define WANDER_RATIO 0.10f   /* a baseline that has moved by this and six sigma is a change too, however slow */
+#define WANDER_RATIO 0.10f   /* a baseline that has moved by this and six sigma is a change too */
 #define WANDER_SIGMAS 6.0f
-#define CHANGE_RATIO 0.08f   /* of a link's compliance, what the evidence is for: between 5 % and 10 % of loss */
+#define CHANGE_RATIO 0.08f   /* of a link's compliance, what the evidence is for */
 #define LOSS_LOOKED_FOR 0.111111f /* a tenth of the stiffness lost, in compliance: what an outlook is for */
 #define INFINITY_RATIO 1e9f
-#define WALK_RATIO 1e-4f     /* of that per reading: what the estimates may wander by; their memory is some 1,000 readings */
+#define WALK_RATIO 1e-4f     /* of that per reading: what the estimates may wander by; a memory of some 10,000 readings */
 #define ANGLE_WALK_RAD 3e-7f
 #define THERMAL_WALK_RATIO 1e-5f
 
@@ -112,7 +113,8 @@ static void prior(const brace_limb_t *limb, const drift_compliances_t *c, float 
     const brace_uncertainty_t *u = &limb->uncertainty;
     const float by_femur = u->length_mm / limb->femur_mm, by_tibia = u->length_mm / limb->tibia_mm;
     const float common = square(u->gain_rel) + 4.0f * (square(by_femur) + square(by_tibia));
-    const float levers = c->femur_mm_per_n > 0.0f ? c->hip_rad_per_n_mm * square(limb->femur_mm) / c->femur_mm_per_n : 0.0f;
+    const float levers =
+        c->femur_mm_per_n > 0.0f ? c->hip_rad_per_n_mm * square(limb->femur_mm) / c->femur_mm_per_n : 0.0f;
     const float shares = square(c->tibia_share) + square(1.0f - c->tibia_share);
     const float known = square(u->compliance_rel);
     const float variance[DRIFT_OFFSETS] = {
@@ -221,8 +223,8 @@ static brace_status_t check(const brace_limb_t *limb, const brace_stiffness_t *s
     return sound ? BRACE_OK : BRACE_E_RANGE;
 }
 
-/* The reading becomes what differs from the mean of its run; false for a run's first. Readings that each count from the
- * mean of those before are independent, with a variance of 1 + 1/count. */
+/* The reading becomes what differs from the mean of its run; false for a run's first. Readings that each count
+ * from the mean of those before are independent, with a variance of 1 + 1/count. */
 static bool from_mean(brace_drift_t *drift, brace_drift_reading_t *reading)
 {
     if (__builtin_fabsf(reading->theta1_rad - drift->run_theta_rad[0]) > SAME_POSTURE_RAD ||
@@ -255,7 +257,8 @@ static float bias_of(const brace_drift_t *drift, const drift_expected_t *expecte
            (__builtin_fabsf(expected->force_n[0]) + __builtin_fabsf(expected->force_n[1]));
 }
 
-/* Takes in one force component: `off` is measured less expected. Returns by how much the estimates now explain it. */
+/* Takes in one force component: `off` is measured less expected, `bias` the bound of what it may always be off by.
+ * learned: grows by what the estimates are to move by. */
 static void take(brace_drift_t *drift, const float h[DRIFT_OFFSETS], float off, float noise, float bias,
                  const float change[BRACE_DRIFT_CAUSE_COUNT], float learned[DRIFT_OFFSETS])
 {
@@ -358,7 +361,8 @@ brace_status_t brace_drift_step(brace_drift_t *drift, const brace_limb_t *limb, 
     const float noise = square(drift->setup.noise_n) * (1.0f + 1.0f / count);
     const float bias = bias_of(drift, &expected);
     float learned[DRIFT_OFFSETS] = {0};
-    take(drift, expected.per_offset[0], differs.fx_n - expected.force_n[0], noise, bias + expected.doubt_n[0], change, learned);
+    const float off = differs.fx_n - expected.force_n[0];
+    take(drift, expected.per_offset[0], off, noise, bias + expected.doubt_n[0], change, learned);
     const float still = differs.fz_n - expected.force_n[1] - dot(expected.per_offset[1], learned);
     take(drift, expected.per_offset[1], still, noise, bias + expected.doubt_n[1], change, learned);
     add(drift->offset, learned, 1.0f, DRIFT_OFFSETS);
@@ -418,11 +422,13 @@ brace_status_t brace_drift_report(const brace_drift_t *drift, const brace_limb_t
         report->learned_sigma_ratio[i] = sigma_of(drift, i) / share[i];
     }
     for (int i = 0; i < BRACE_DRIFT_CAUSE_COUNT; i++) {
-        report->could_be |= most > 0.0f && support(drift, i) >= most - NEARLY_AS_LIKELY - NEARLY_RATIO * most ? 1u << i : 0u;
+        const bool nearly = support(drift, i) >= most - NEARLY_AS_LIKELY - NEARLY_RATIO * most;
+        report->could_be |= most > 0.0f && nearly ? 1u << i : 0u;
     }
     if (cause < BRACE_DRIFT_CAUSE_COUNT) {
         const bool sudden = most > 0.0f;
-        const float size = sudden ? drift->score[cause] / drift->information[cause] : drift->offset[cause] - drift->held[cause];
+        const float walked = drift->offset[cause] - drift->held[cause];
+        const float size = sudden ? drift->score[cause] / drift->information[cause] : walked;
         const float sigma_size = sudden ? 1.0f / brace_sqrt(drift->information[cause]) : sigma_of(drift, cause);
         report->loss_ratio = size / (share[cause] + size);
         report->loss_sigma_ratio = sigma_size / share[cause];
@@ -463,8 +469,8 @@ brace_status_t brace_drift_outlook(const brace_drift_t *drift, const brace_limb_
     }
     for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) {
         const bool shows = gain[cause] * (float)UINT16_MAX > BRACE_DRIFT_ALARM;
-        outlook->sigma_of_loss_ratio[cause] =
-            information[cause] > 0.0f ? CHANGE_RATIO / (change[cause] * brace_sqrt(information[cause])) : INFINITY_RATIO;
+        const float root = change[cause] * brace_sqrt(information[cause]);
+        outlook->sigma_of_loss_ratio[cause] = root > 0.0f ? CHANGE_RATIO / root : INFINITY_RATIO;
         outlook->steps_needed[cause] = shows ? (uint32_t)(BRACE_DRIFT_ALARM / gain[cause]) + 1u : BRACE_DRIFT_NEVER;
     }
     return BRACE_OK;

@@ -55,7 +55,7 @@ static inline float factor(float x)
     return 1.0f + x * (1.0f + x * (0.5f + x * (1.0f / 6.0f)));
 }
 
-/* The elements that change: across the femur, the same with its moment, across the tibia, lever of the femur joint. */
+/* The elements that change: across the femur, the same with its moment, across the tibia, the femur joint's lever. */
 enum { BEND, MOMENT, SHANK, HIP, ELEMENTS };
 
 static INLINED void set_vectors(brace_vec_t vector[ELEMENTS], brace_vec_t bent, brace_vec_t across_femur,
@@ -135,7 +135,8 @@ void drift_expect(const brace_limb_t *limb, const brace_stiffness_t *stiffness, 
     const float by_shank = now[SHANK] - limb->link[BRACE_TIBIA].axial_mm_per_n;
     const float by_moment = now[MOMENT] * 2.0f * tibia_mm / femur_mm;
     const float along = by_hip * load[HIP] + by_shank * load[SHANK] + by_moment * load[MOMENT];
-    const brace_vec_t across = plus(plus(vec_scaled(vector[HIP], by_hip), vector[SHANK], by_shank), vector[MOMENT], by_moment);
+    const brace_vec_t by_levers = plus(vec_scaled(vector[HIP], by_hip), vector[SHANK], by_shank);
+    const brace_vec_t across = plus(by_levers, vector[MOMENT], by_moment);
     slope[DRIFT_TURN_KNEE] =
         times(&k, plus(vec_scaled(along_tibia, -along), across, -vec_dot(along_tibia, force)));
 
@@ -144,7 +145,8 @@ void drift_expect(const brace_limb_t *limb, const brace_stiffness_t *stiffness, 
     expected->force_n[1] = turned.z;
     /* what the calibration does not know and no estimate takes up: the base's translation, and how much of what was
      * found across the tibia is the knee's spring, which warms */
-    const brace_vec_t based = times(&k, (brace_vec_t){limb->base.x_mm_per_n * force.x, limb->base.z_mm_per_n * force.z});
+    const brace_base_t *base = &limb->base;
+    const brace_vec_t based = times(&k, (brace_vec_t){base->x_mm_per_n * force.x, base->z_mm_per_n * force.z});
     const brace_vec_t warmed = vec_scaled(give[SHANK], knee_more * c.tibia_share * SQRT_2);
     const float doubt = DOUBT_SIGMAS * limb->uncertainty.compliance_rel;
     expected->doubt_n[0] = doubt * (__builtin_fabsf(based.x) + __builtin_fabsf(warmed.x));
