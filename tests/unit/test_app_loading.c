@@ -1,8 +1,9 @@
 /* The loading test through the controller, against a linear limb of known stiffness.
  *
- * The limb here stands with its tip on the ground. With the joints' movement m from rest, the levers' matrix L and the
- * true stiffness K, the ground pushes with f = f0 - K L m and the motors carry -L'f; servos of stiffness P give way, so
- * commanded offsets c lead to m = (I + L'K L / P)^-1 c. Worked out in double, apart from the firmware. */
+ * The limb here stands with its tip on the ground. With the joints' movement m from rest, the levers'
+ * matrix L and the true stiffness K, the ground pushes with f = f0 - K L m and the motors carry -L'f;
+ * servos of stiffness P give way, so commanded offsets c lead to m = (I + L'K L / P)^-1 c. Worked out in
+ * double, apart from the firmware. */
 #include "app_bench.h"
 #include "measure/force.h"
 #include "measure/loading_read.h"
@@ -110,9 +111,9 @@ static void run(const brace_loading_setup_t *setup)
 
 /* ----------------------------------------------------------------------------------------------- slopes -- */
 
-/* The motors come within 1 % of a step of where they are wanted. Along the axis that is measured; across it the model
- * takes its force off, and the model here is a tenth of K_xx off the truth: 1e-3 of it. The encoders' last place, 6e-8 rad
- * at levers of 450 mm against steps of 0.6 mm, is 5e-5. */
+/* The motors come within 1 % of a step of where they are wanted. Along the axis that is measured; across
+ * it the model takes its force off, and the model here is a tenth of K_xx off the truth: 1e-3 of it. The
+ * encoders' last place, 6e-8 rad at levers of 450 mm against steps of 0.6 mm, is 5e-5. */
 #define SLOPE_ERROR 1.5e-3
 
 static void test_the_slope_along_x_is_the_first_column_of_K(void)

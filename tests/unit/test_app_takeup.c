@@ -1,7 +1,8 @@
-/* Taking up the play of both joints through the controller: order, letting go in reverse, what if one fails; K meanwhile.
+/* Taking up the play of both joints through the controller: order, letting go in reverse, what if one
+ * fails; K meanwhile.
  *
- * The limb here: links held by the ground, each motor behind its gap pulled by a servo. The servo's spring and the
- * joint's are in line, so with a setpoint c off the middle of the gap the motor stands at
+ * The limb here: links held by the ground, each motor behind its gap pulled by a servo. The servo's spring
+ * and the joint's are in line, so with a setpoint c off the middle of the gap the motor stands at
  *     m = c within the gap, else (P c + k (+-g/2)) / (P + k), and carries k (m -+ g/2). */
 #include "app_bench.h"
 

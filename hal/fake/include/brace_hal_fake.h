@@ -1,4 +1,5 @@
-/* A controller board that exists in memory only, for tests: scripted samples, faults on demand, everything counted.
+/* A controller board that exists in memory only, for tests: scripted samples, faults on demand, everything
+ * counted.
  *
  *     static brace_fake_t fake;
  *     brace_fake_start(&fake);
@@ -6,7 +7,8 @@
  *     brace_fake_fail(&fake, BRACE_FAKE_JOINT_READ, 10, 19, BRACE_HAL_E_DEVICE);   calls 10 to 19 fail
  *     brace_app_start(&app, &fake.hal);
  *
- * Time stands until the test sets now_us. Everything may be written between calls; nothing has a clock or a heap.
+ * Time stands until the test sets now_us. Everything may be written between calls; nothing has a clock or
+ * a heap.
  */
 #ifndef BRACE_HAL_FAKE_H
 #define BRACE_HAL_FAKE_H
@@ -108,7 +110,8 @@ struct brace_fake {
     uint32_t failure_count;
 };
 
-/* A board with three joints at rest, a force sensor, CAN, every serial port and erased memory, just powered on. The
+/* A board with three joints at rest, a force sensor, CAN, every serial port and erased memory, just
+ * powered on. The
  * struct must stay where it is: the door's context points to it. */
 void brace_fake_start(brace_fake_t *fake);
 

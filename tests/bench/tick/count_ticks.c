@@ -1,7 +1,9 @@
-/* A plugin for QEMU's translator: how many instructions does each call of one function take, some callees left out?
+/* A plugin for QEMU's translator: how many instructions does each call of one function take, some callees
+ * left out?
  *
- * Arguments: entry=ADDRESS skip=LOW-HIGH out=FILE. A call is counted from the function's first instruction until the one
- * after the call is reached; what runs at LOW <= address < HIGH is not counted (the harness's hardware). Counts whole
+ * Arguments: entry=ADDRESS skip=LOW-HIGH out=FILE. A call is counted from the function's first instruction
+ * until the one after the call is reached; what runs at LOW <= address < HIGH is not counted (the
+ * harness's hardware). Counts whole
  * translated blocks, which is exact as long as no exception interrupts one: these images have none.
  * Output: one little-endian 32-bit count per call, in order.
  */

@@ -1,5 +1,6 @@
-/* Random ticks of the controller, to be counted: limbs of every kind, every mode, requests at any time, bad samples,
- * late ticks, traffic. Prints one letter per tick: what kind of tick it was. The plugin counts meanwhile.
+/* Random ticks of the controller, to be counted: limbs of every kind, every mode, requests at any time,
+ * bad samples, late ticks, traffic. Prints one letter per tick: what kind of tick it was. The plugin
+ * counts meanwhile.
  *
  *   M monitor  T taking up  L loading test  R its readings  D drift step  J its judgement  C configuration
  *   P a piece of putting parameters in force  S storing  0 start  F fault

@@ -1,5 +1,5 @@
-/* The hardware and the limb of the tick's bench: a door whose work is not counted (all of it lies in world.c, one
- * stretch of code), and dice that decide what happens. */
+/* The hardware and the limb of the tick's bench: a door whose work is not counted (all of it lies in
+ * world.c, one stretch of code), and dice that decide what happens. */
 #ifndef TICK_WORLD_H
 #define TICK_WORLD_H
 

@@ -1,15 +1,18 @@
-/* The limb controller: sensors in, K out, once a tick; everything it does besides, it does a bounded piece of per tick.
+/* The limb controller: sensors in, K out, once a tick; everything it does besides, it does a bounded piece
+ * of per tick.
  *
  *     joint_read -> backlash (per joint) -> true angles -> K -> supervisor -> snapshot
- *                                                            -> services (take-up, loading test, store, buses)
+ *                                                            -> services (take-up, loading test, store,
+ *                                                            buses)
  *
- * One brace_app_t (about 20 kB) per limb, no global state: many limbs run in one process. Knows the world through brace_hal_t only.
- * No heap, no recursion, no stdio, no clock of its own; one caller, not from an interrupt.
+ * One brace_app_t (16 kB, 12 of them the recorder) per limb, no global state: many limbs run in one
+ * process. Knows the world through brace_hal_t only. No heap, no recursion, no stdio, no clock of its own;
+ * one caller, not from an interrupt.
  *
- * When K is valid: the mode is MONITOR, TAKING_UP or LOADING_TEST; the newest sound sample of both joints is no older
- * than controller.age_limit_us; the posture is inside both drives' travel; parameters are in force (safe defaults
- * count, flagged UNCALIBRATED). A joint with play (gap_rad >= 1e-5) whose load does not prove a flank carries nothing:
- * K is then valid, flagged GAP_OPEN, with both bounds.
+ * When K is valid: the mode is MONITOR, TAKING_UP or LOADING_TEST; the newest sound sample of both joints
+ * is no older than controller.age_limit_us; the posture is inside both drives' travel; parameters are in
+ * force (safe defaults count, flagged UNCALIBRATED). A joint with play (gap_rad >= 1e-5) whose load does
+ * not prove a flank carries nothing: K is then valid, flagged GAP_OPEN, with both bounds.
  */
 #ifndef BRACE_APP_H
 #define BRACE_APP_H
@@ -49,8 +52,9 @@ enum {
     BRACE_FAULT_CRASHED = 1u << 8         /* the last start was after a crash; see the record */
 };
 
-/* Faults that make every K invalid and the mode FAULT. A fault is over when its cause has been away for 100 ms, TICK_LATE
- * for 1 s; PARAMETERS and STORE last until a set is stored, MODEL_DRIFT and CRASHED until cleared on request. */
+/* Faults that make every K invalid and the mode FAULT. A fault is over when its cause has been away for
+ * 100 ms, TICK_LATE for 1 s; PARAMETERS and STORE last until a set is stored, MODEL_DRIFT and CRASHED
+ * until cleared on request. */
 #define BRACE_FAULTS_NO_K (BRACE_FAULT_SENSOR_FEMUR | BRACE_FAULT_SENSOR_TIBIA | BRACE_FAULT_ENCODER_STUCK)
 
 /* What a tick says, whole: everything in it is from the same samples. */
@@ -177,11 +181,11 @@ typedef struct {
 
 /* ---------------------------------------------------------------------------------------------- running -- */
 
-/* Starts a controller: reads the parameters in force from the store, sets up CAN (listen only while the node's number
- * is unset), and is in START until the first ticks have brought sound samples.
+/* Starts a controller: reads the parameters in force from the store, sets up CAN (listen only while the
+ * node's number is unset), and is in START until the first ticks have brought sound samples.
  *   hal: lives as long as app; entries that are not optional must be there
- * returns BRACE_OK, BRACE_E_NULL, BRACE_E_PARAMETER (a mandatory entry is missing). Not for the tick: some 10^4
- * instructions, and can_setup's 20 ms. */
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_PARAMETER (a mandatory entry is missing). Not for the tick: some
+ * 10^4 instructions, and can_setup's 20 ms. */
 brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal);
 
 /* One tick; to be called every parameters.controller.tick_us.
@@ -189,8 +193,9 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal);
  * cost on a Cortex-M4F: at most 4,000 instructions in every mode, HAL excluded; measured by the bench. */
 void brace_app_tick(brace_app_t *app, uint32_t now_us);
 
-/* The newest tick, whole: everything in it is of the same samples. Never null; its content stays until the tick after
- * next. Its sequence counts snapshots: a tick that works on a loading test's reading leaves the one before. */
+/* The newest tick, whole: everything in it is of the same samples. Never null; its content stays until the
+ * tick after next. Its sequence counts snapshots: a tick that works on a loading test's reading leaves the
+ * one before. */
 const brace_snapshot_t *brace_app_snapshot(const brace_app_t *app);
 
 /* The parameters in force. */
@@ -202,9 +207,9 @@ const brace_app_counters_t *brace_app_counters(const brace_app_t *app);
  * Between ticks or from a service within one. Each answers at once; what it starts goes on in the ticks.
  * All return BRACE_OK, BRACE_E_NULL, BRACE_E_MODE (not in this mode), and what is named. */
 
-/* Takes up the play of one joint against a flank; when its take-up holds, the other joint may follow. From MONITOR, or
- * in TAKING_UP with every joint asked before holding. How it went: snapshot.play[].takeup. If one fails, every joint is
- * let go in the reverse order.
+/* Takes up the play of one joint against a flank; when its take-up holds, the other joint may follow. From
+ * MONITOR, or in TAKING_UP with every joint asked before holding. How it went: snapshot.play[].takeup. If
+ * one fails, every joint is let go in the reverse order.
  *   joint_index: BRACE_FEMUR or BRACE_TIBIA; flank: +1 or -1
  * returns also BRACE_E_RANGE (joint, flank), BRACE_E_UNSUPPORTED (no play, or no joint_command) */
 brace_status_t brace_app_take_up(brace_app_t *app, int32_t joint_index, int32_t flank);
@@ -213,8 +218,8 @@ brace_status_t brace_app_take_up(brace_app_t *app, int32_t joint_index, int32_t 
 brace_status_t brace_app_let_go(brace_app_t *app);
 
 /* A loading test, from MONITOR or with the play taken up: brace/loading.h.
- * returns also BRACE_E_RANGE (setup), BRACE_E_UNSUPPORTED (no joint_command), BRACE_E_SINGULAR (the joints cannot move
- * the tip along the axis at this posture) */
+ * returns also BRACE_E_RANGE (setup), BRACE_E_UNSUPPORTED (no joint_command), BRACE_E_SINGULAR (the joints
+ * cannot move the tip along the axis at this posture) */
 brace_status_t brace_app_loading_start(brace_app_t *app, const brace_loading_setup_t *setup);
 
 /* Ends it; the limb goes back to where it began. The rows so far stay. */
@@ -227,13 +232,13 @@ const brace_loading_result_t *brace_app_loading_result(const brace_app_t *app);
 uint32_t brace_app_row_count(const brace_app_t *app);
 brace_status_t brace_app_row(const brace_app_t *app, uint32_t index, brace_row_t *row);
 
-/* Configuration: only here may parameters be stored; nothing moves the limb, K is not valid. Entered from MONITOR or
- * FAULT, left to START. */
+/* Configuration: only here may parameters be stored; nothing moves the limb, K is not valid. Entered from
+ * MONITOR or FAULT, left to START. */
 brace_status_t brace_app_configuration_enter(brace_app_t *app);
 brace_status_t brace_app_configuration_leave(brace_app_t *app);
 
-/* Stores a set and puts it in force once it has read back; in CONFIGURATION only. How it goes: brace_app_store. What
- * concerns buses (node, bit rates) takes effect at the next start.
+/* Stores a set and puts it in force once it has read back; in CONFIGURATION only. How it goes:
+ * brace_app_store. What concerns buses (node, bit rates) takes effect at the next start.
  * returns also what brace_store_begin does, at its cost */
 brace_status_t brace_app_parameters_commit(brace_app_t *app, const brace_parameters_t *parameters);
 
@@ -244,7 +249,8 @@ brace_status_t brace_app_parameters_rollback(brace_app_t *app);
 /* The store and its state: brace_store_status. */
 const brace_store_t *brace_app_store(const brace_app_t *app);
 
-/* Clears MODEL_DRIFT (its detector watches on from the baseline it holds) and CRASHED. faults: BRACE_FAULT_... bits
+/* Clears MODEL_DRIFT (its detector watches on from the baseline it holds) and CRASHED. faults:
+ * BRACE_FAULT_... bits
  * returns also BRACE_E_RANGE: a fault that is not cleared by request */
 brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults);
 

@@ -1,13 +1,15 @@
 /* The paper's loading test, run by the limb's own motors in small steps against a contact.
  *
- * The tip stands on something that does not yield. A pass 0 -> +n -> 0 -> -n -> 0 displaces the limb's free shape in
- * steps along x or z; the tip stays, so the limb is deflected by as much, and the ground pushes back. The displacement
- * of a row is that of the tip against the limb: minus what the motors moved, through the levers. What is measured counts
- * from the preload point, the first reading; play should be taken up before (brace_app_take_up).
+ * The tip stands on something that does not yield. A pass 0 -> +n -> 0 -> -n -> 0 displaces the limb's free
+ * shape in steps along x or z; the tip stays, so the limb is deflected by as much, and the ground pushes back.
+ * A row's displacement is that of the tip against the limb, minus what the motors moved, through the levers.
+ * What is measured counts from the preload point, the first reading; play should be taken up before
+ * (brace_app_take_up).
  *
- * The motors' movement is read from their encoders, so a servo that gives way under load is no part of the measured
- * K: the offsets are raised until the encoders stand where the step wants them. With BRACE_LOADING_COMMANDED it is taken from the commanded offsets, and the servo's yielding is part of it, as
- * where joint compliance was identified with the servo in it.
+ * The motors' movement is read from their encoders, so a servo that gives way under load is no part of the
+ * measured K: the offsets are raised until the encoders stand where the step wants them. With
+ * BRACE_LOADING_COMMANDED it is taken from the commanded offsets, and the servo's yielding is part of it,
+ * as where joint compliance was identified with the servo in it.
  */
 #ifndef BRACE_LOADING_H
 #define BRACE_LOADING_H
@@ -42,7 +44,7 @@ typedef enum {
     BRACE_LOADING_STOPPED = 3,     /* on request */
     BRACE_LOADING_E_FORCE = -1,    /* the force passed its bound */
     BRACE_LOADING_E_TORQUE = -2,   /* a motor's torque passed its bound */
-    BRACE_LOADING_E_TRAVEL = -3,   /* a motor went further than twice the way commanded and 0.01 rad, or out of its travel */
+    BRACE_LOADING_E_TRAVEL = -3,   /* a motor went beyond twice its command and 0.01 rad, or out of its travel */
     BRACE_LOADING_E_TIME = -4,     /* not done within twice its time, 3 s a step for the servos, and 2 s */
     BRACE_LOADING_E_NO_FORCE = -5, /* neither sensor nor joints tell the force */
     BRACE_LOADING_E_LOST = -6,     /* a fault, or a flank that was taken up let go */

@@ -4,7 +4,8 @@
 
 #include "brace/app.h"
 
-/* app->parameters, parameter_crc and origin have changed: everything that follows from them is to be worked out anew. */
+/* app->parameters, parameter_crc and origin have changed: everything that follows from them is to be
+ * worked out anew. */
 void configure_begin(brace_app_t *app);
 
 /* One piece, at most 3,800 instructions; false once nothing is left to do. */

@@ -1,4 +1,5 @@
-/* The force of the ground on the tip, by the sensor or from what the joints carry, and what the joints should carry. */
+/* The force of the ground on the tip, by the sensor or from what the joints carry, and what the joints
+ * should carry. */
 #ifndef BRACE_APP_FORCE_H
 #define BRACE_APP_FORCE_H
 
@@ -7,11 +8,12 @@
 /* Prepares the correction of the sensor; not for the tick. */
 void force_configure(brace_app_t *app);
 
-/* Reads and corrects the sensor: app->force is known or not. Bias, gain, rotation and cross-talk are undone; drift is
- * not (nobody here knows when the sensor was zeroed). A saturated reading is not known. */
+/* Reads and corrects the sensor: app->force is known or not. Bias, gain, rotation and cross-talk are
+ * undone; drift is not (nobody here knows when the sensor was zeroed). A saturated reading is not known. */
 void force_sense(brace_app_t *app);
 
-/* Adds to a joint's sample what the joint should transmit, when the force on the tip is sensed: gravity and lever. */
+/* Adds to a joint's sample what the joint should transmit, when the force on the tip is sensed: gravity
+ * and lever. */
 void force_expect(const brace_app_t *app, int index, brace_backlash_sample_t *sample);
 
 /* Force into the snapshot: sensed, or from the joints' loads where the levers allow, or NaN. */

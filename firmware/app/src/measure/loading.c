@@ -27,7 +27,8 @@ static bool setup_is_sound(const brace_loading_setup_t *setup)
            (setup->source == BRACE_LOADING_ENCODED || setup->source == BRACE_LOADING_COMMANDED);
 }
 
-/* Joint offsets that move the tip's free shape by 1 mm along the axis, and the levers they are worked out from. */
+/* Joint offsets that move the tip's free shape by 1 mm along the axis, and the levers they are worked out
+ * from. */
 static bool levers_allow(brace_app_t *app, brace_axis_t axis, float per_mm[2])
 {
     const brace_point_t femur = app->pose.lever_femur, tibia = app->pose.lever_tibia;
@@ -162,9 +163,10 @@ static brace_loading_outcome_t broken_bound(const brace_app_t *app, const brace_
     return test->test_us > test->limit_us ? BRACE_LOADING_E_TIME : BRACE_LOADING_RUNNING;
 }
 
-/* Raises the offsets by what the servos give way by under load, so that the motors stand where the step wants them. A
- * linear limb wants the same per millimetre at each step, so what one step has learned serves the next. Worth a look
- * where the free shape is off its rest only. returns whether the motors are there */
+/* Raises the offsets by what the servos give way by under load, so that the motors stand where the step
+ * wants them. A linear limb wants the same per millimetre at each step, so what one step has learned
+ * serves the next. Worth a look where the free shape is off its rest only. returns whether the motors are
+ * there */
 static bool correct(brace_app_t *app)
 {
     brace_loading_t *test = &app->loading;

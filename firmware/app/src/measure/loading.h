@@ -25,8 +25,8 @@ void loading_end(brace_app_t *app, brace_loading_outcome_t outcome);
 /* A tick of it, from this tick's samples. At most 150 instructions. */
 void loading_advance(brace_app_t *app, const brace_snapshot_t *snapshot);
 
-/* The piece that is due: READ in a tick that computes no K, at most 700 instructions; DRIFT and JUDGE in one that does
- * nothing else, at most 3,700. */
+/* The piece that is due: READ in a tick that computes no K, at most 700 instructions; DRIFT and JUDGE in
+ * one that does nothing else, at most 3,700. */
 void loading_piece(brace_app_t *app);
 
 #endif

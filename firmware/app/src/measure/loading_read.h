@@ -10,8 +10,8 @@ void loading_read_sample(brace_app_t *app, const brace_snapshot_t *snapshot);
 /* The reading is worked out and recorded; false when nothing was averaged or it cannot be used. */
 bool loading_read(brace_app_t *app);
 
-/* Adds the reading in dx_mm, dz_mm to the slope. A slope knows displacement along one axis; the little there is across it
- * is taken off by the model. */
+/* Adds the reading in dx_mm, dz_mm to the slope. A slope knows displacement along one axis; the little
+ * there is across it is taken off by the model. */
 bool loading_add_to_slope(brace_loading_t *test, float fx_n, float fz_n);
 
 /* The reading goes to the drift detector, if a sensor measured the force and no gap was open. */

@@ -42,9 +42,9 @@ void model_configure_chain(brace_app_model_t *model, const brace_parameters_t *p
     }
 }
 
-/* 1 / (d torque / d deflection) of torque = deflection / compliance + hardening deflection^3 at a load. The deflection is
- * followed from tick to tick, two of Newton's steps from the last one: a load changes little in a tick, and after a
- * jump it is right within a few. */
+/* 1 / (d torque / d deflection) of torque = deflection / compliance + hardening deflection^3 at a load.
+ * The deflection is followed from tick to tick, two of Newton's steps from the last one: a load changes
+ * little in a tick, and after a jump it is right within a few. */
 static float yielding(brace_app_model_t *model, int index, float load_n_mm, float temp_degc)
 {
     const float at_reference = model->spring_rad_per_n_mm[index];

@@ -1,4 +1,5 @@
-/* K of the limb in force: the collapsed path where it serves, else the chain with its joints' springs of the moment. */
+/* K of the limb in force: the collapsed path where it serves, else the chain with its joints' springs of
+ * the moment. */
 #ifndef BRACE_APP_MODEL_H
 #define BRACE_APP_MODEL_H
 
@@ -8,8 +9,8 @@
 void model_configure_collapse(brace_app_model_t *model, const brace_parameters_t *parameters);
 void model_configure_chain(brace_app_model_t *model, const brace_parameters_t *parameters);
 
-/* K with every gap closed. Joint springs that harden or soften with temperature are taken at this load and temperature:
- * a spring's share of K is the slope of its torque there.
+/* K with every gap closed. Joint springs that harden or soften with temperature are taken at this load and
+ * temperature: a spring's share of K is the slope of its torque there.
  *   load_n_mm, temp_degc: of femur and tibia joint; NaN: at no load, at the reference temperature
  * returns as brace_planar_stiffness or brace_chain_stiffness. At most 1,200 instructions. */
 brace_status_t model_stiffness(brace_app_model_t *model, float theta1_rad, float theta2_rad,

@@ -5,7 +5,8 @@
 #define ANGLE_ABSURD_RAD 100.0f
 #define TORQUE_ABSURD 10.0f /* of the motor's range */
 
-/* An encoder that stands while its motor's torque swings by a quarter of its range, or by what friction can hide four
+/* An encoder that stands while its motor's torque swings by a quarter of its range, or by what friction
+ * can hide four
  * times over, is stuck: any position servo gives way by more than an encoder step under that. */
 #define STUCK_US 250000u
 #define STUCK_SWING_OF_RANGE 0.25f

@@ -9,7 +9,8 @@ brace_status_t takeup_request(brace_app_t *app, int32_t joint_index, int32_t fla
 /* Begins to let every joint go. */
 void takeup_let_go(brace_app_t *app);
 
-/* After the joints' state machines: one that failed takes the others with it, one that is back makes room for the next. */
+/* After the joints' state machines: one that failed takes the others with it, one that is back makes room
+ * for the next. */
 void takeup_advance(brace_app_t *app, const brace_snapshot_t *snapshot);
 
 /* Is any joint taken up, being taken up or let go? */

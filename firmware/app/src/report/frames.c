@@ -33,7 +33,8 @@ void frame_heartbeat(brace_can_frame_t *frame, uint8_t node_id, brace_mode_t mod
     put_u32(&frame->data[4], BRACE_SCHEMA_HASH);
 }
 
-/* CANopen's ranges: 0x5000 device hardware, 0x6000 software and data, 0x7000 additional modules, 0x8000 monitoring. */
+/* CANopen's ranges: 0x5000 device hardware, 0x6000 software and data, 0x7000 additional modules, 0x8000
+ * monitoring. */
 static const uint16_t code[] = {0x7300, 0x7300, 0x7305, 0x6100, 0x6320, 0x5530, 0x8140, 0xff01, 0x6010};
 
 uint16_t frame_emergency_code(uint32_t fresh, uint32_t faults)

@@ -11,7 +11,8 @@ void frame_heartbeat(brace_can_frame_t *frame, uint8_t node_id, brace_mode_t mod
 void frame_emergency(brace_can_frame_t *frame, uint8_t node_id, uint32_t faults_before, uint32_t faults,
                      brace_mode_t mode);
 
-/* CANopen's emergency code for the lowest of these faults; 0x1000 for faults that only ended in part, 0 for none. */
+/* CANopen's emergency code for the lowest of these faults; 0x1000 for faults that only ended in part, 0
+ * for none. */
 uint16_t frame_emergency_code(uint32_t fresh, uint32_t faults);
 
 #endif

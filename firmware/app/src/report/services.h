@@ -1,5 +1,5 @@
-/* What the controller does besides K, a bounded piece per tick. Services see the newest snapshot only: it is the one
- * source of what goes out. A bus protocol is one more call in services_run. */
+/* What the controller does besides K, a bounded piece per tick. Services see the newest snapshot only: it
+ * is the one source of what goes out. A bus protocol is one more call in services_run. */
 #ifndef BRACE_APP_SERVICES_H
 #define BRACE_APP_SERVICES_H
 
