@@ -66,7 +66,8 @@ static uint32_t fault_between_members(const brace_parameters_t *parameters)
         wrong = drive_fault(&parameters->drive[i], (uint32_t)(offsetof(brace_parameters_t, drive) / 4) +
                                                        i * (uint32_t)(sizeof(brace_drive_t) / 4));
     }
-    if (wrong == BRACE_PARAMETER_COUNT && parameters->controller.age_limit_us < parameters->controller.tick_us) {
+    const brace_controller_t *controller = &parameters->controller;
+    if (wrong == BRACE_PARAMETER_COUNT && controller->age_limit_us < controller->tick_us) {
         wrong = BRACE_PARAMETER_CONTROLLER_AGE_LIMIT_US;
     }
     return wrong;
@@ -86,7 +87,8 @@ brace_status_t brace_parameters_check(const brace_parameters_t *parameters, uint
         return BRACE_E_NULL;
     }
     for (uint32_t i = 0; i < BRACE_PARAMETER_COUNT; i++) {
-        const brace_status_t status = member_in_range(brace_member_get(parameters, i), brace_parameter_rule[i]);
+        const uint32_t word = brace_member_get(parameters, i);
+        const brace_status_t status = member_in_range(word, brace_parameter_rule[i]);
         if (status != BRACE_OK) {
             return refuse(status, i, wrong_index);
         }

@@ -4,8 +4,8 @@
 
 #include "store/store_slot.h"
 
-/* What is done, in this order. An update goes through the first eight, a roll-back through AFFIRM, REREAD, WITHDRAW;
- * UNDO is where a failed last mark goes. */
+/* What is done, in this order. An update goes through the first eight, a roll-back through AFFIRM, REREAD,
+ * WITHDRAW; UNDO is where a failed last mark goes. */
 typedef enum {
     STAGE_AFFIRM,   /* KEEP to the slot that has to count whatever happens next */
     STAGE_RETIRE,   /* VOID to the slot that will be erased */
@@ -20,7 +20,10 @@ typedef enum {
     STAGE_UNDO
 } stage_t;
 
-enum { BLANK_CHECKED = BRACE_STORE_BLOCK_ROOM, MARKS_BYTES = BRACE_STORE_MARK_COUNT * BRACE_STORE_MARK_BYTES };
+enum {
+    BLANK_CHECKED = BRACE_STORE_BLOCK_ROOM,
+    MARKS_BYTES = BRACE_STORE_MARK_COUNT * BRACE_STORE_MARK_BYTES
+};
 
 enum { PLACES_FILLED = 2 };
 static const uint8_t zeros[PLACES_FILLED * BRACE_STORE_MARK_BYTES];
@@ -35,7 +38,7 @@ static bool is_in_force(const brace_store_t *store, uint32_t slot)
     return store->in_force == slot + 1u;
 }
 
-/* ------------------------------------------------------------------------------------- start and requests -- */
+/* ----------------------------------------------------------------------------- start and requests -- */
 
 static void choose(brace_store_t *store, uint32_t slot)
 {
@@ -88,13 +91,13 @@ static void begin(brace_store_t *store, uint32_t target, bool rolling_back)
 static brace_store_state_t fail(brace_store_t *store, brace_store_failure_t failure)
 {
     store->failure = (int8_t)failure;
-    store->memory_fault = store->memory_fault || (failure <= BRACE_STORE_E_DEVICE && failure >= BRACE_STORE_E_READ_BACK) ||
-                          failure == BRACE_STORE_E_SHAPE;
+    const bool refused = failure <= BRACE_STORE_E_DEVICE && failure >= BRACE_STORE_E_READ_BACK;
+    store->memory_fault = store->memory_fault || refused || failure == BRACE_STORE_E_SHAPE;
     return store->state = BRACE_STORE_FAILED;
 }
 
-/* How gladly a slot is overwritten while neither is in force: one that a start might still find kept must go first; a
- * block of another firmware stays as long as there is another place. */
+/* How gladly a slot is overwritten while neither is in force: one that a start might still find kept must go
+ * first; a block of another firmware stays as long as there is another place. */
 static int32_t readiness(const brace_slot_report_t *report)
 {
     return store_is_ours(report) ? 2 : report->condition == BRACE_SLOT_OTHER_SCHEMA ? 0 : 1;
@@ -121,7 +124,8 @@ static uint32_t next_sequence(const brace_store_t *store)
     return ((int32_t)(b->sequence - a->sequence) > 0 ? b->sequence : a->sequence) + 1u;
 }
 
-brace_status_t brace_store_begin(brace_store_t *store, const brace_parameters_t *parameters, uint32_t *wrong_index)
+brace_status_t brace_store_begin(brace_store_t *store, const brace_parameters_t *parameters,
+                                 uint32_t *wrong_index)
 {
     if (store == NULL || parameters == NULL) {
         return BRACE_E_NULL;
@@ -139,7 +143,7 @@ brace_status_t brace_store_begin(brace_store_t *store, const brace_parameters_t 
     }
     store->sequence = next_sequence(store);
     memset(store->block, 0xff, sizeof store->block);
-    (void)brace_parameters_pack(parameters, store->sequence, store->block, sizeof store->block); /* checked above */
+    (void)brace_parameters_pack(parameters, store->sequence, store->block, sizeof store->block); /* is checked */
     begin(store, slot_to_write(store), false);
     return BRACE_OK;
 }
@@ -166,19 +170,19 @@ brace_status_t brace_store_rollback(brace_store_t *store)
     return BRACE_OK;
 }
 
-/* -------------------------------------------------------------------------------------------------- marks -- */
+/* ------------------------------------------------------------------------------------------ marks -- */
 
 typedef enum { MARK_BUSY, MARK_DONE, MARK_NO_ROOM, MARK_E_DEVICE, MARK_E_READ_BACK } mark_result_t;
 
-/* The next places may look erased and have been touched as power failed: zeros go over them, which nothing can shake.
- * Two places: the one before may itself read differently each time, and look erased at the next start. */
+/* The next places may look erased and have been touched as power failed: zeros go over them, which nothing can
+ * shake. Two places: the one before may itself read differently each time, and look erased at the next start. */
 static mark_result_t fill_places(brace_store_t *store, uint32_t slot)
 {
     const uint32_t offset = BRACE_STORE_MARKS_AT + store->next_mark[slot] * (uint32_t)BRACE_STORE_MARK_BYTES;
     store->next_mark[slot] = (uint8_t)(store->next_mark[slot] + PLACES_FILLED);
     store->clean[slot] = true;
-    return store->hal->nvm_write(store->hal->context, slot, offset, zeros, sizeof zeros) == BRACE_HAL_OK ? MARK_BUSY
-                                                                                                       : MARK_E_DEVICE;
+    const int32_t answer = store->hal->nvm_write(store->hal->context, slot, offset, zeros, sizeof zeros);
+    return answer == BRACE_HAL_OK ? MARK_BUSY : MARK_E_DEVICE;
 }
 
 /* Adds a mark to a slot: written in one step, read back in the next. */
@@ -291,11 +295,11 @@ static brace_store_state_t commit(brace_store_t *store)
     if (result == MARK_BUSY) {
         return BRACE_STORE_BUSY;
     }
-    store->slot[store->target] = (brace_slot_report_t){.condition = result == MARK_DONE ? BRACE_SLOT_COUNTS
-                                                                                        : BRACE_SLOT_NOT_COMMITTED,
-                                                       .sequence = store->sequence,
-                                                       .schema_hash = BRACE_SCHEMA_HASH,
-                                                       .block_crc = crc};
+    store->slot[store->target] = (brace_slot_report_t){
+        .condition = result == MARK_DONE ? BRACE_SLOT_COUNTS : BRACE_SLOT_NOT_COMMITTED,
+        .sequence = store->sequence,
+        .schema_hash = BRACE_SCHEMA_HASH,
+        .block_crc = crc};
     if (result == MARK_DONE) {
         return done(store);
     }
@@ -320,7 +324,7 @@ static brace_store_state_t withdraw(brace_store_t *store)
     return BRACE_STORE_BUSY;
 }
 
-/* The mark that decides could not be verified: the opposite one goes after it, as far as the memory takes it. */
+/* The mark that decides was not verified: the opposite one goes after it, as far as the memory takes it. */
 static brace_store_state_t undo(brace_store_t *store)
 {
     const uint32_t slot = store->rolling_back ? other_than(store->target) : store->target;
@@ -329,7 +333,7 @@ static brace_store_state_t undo(brace_store_t *store)
     return result == MARK_BUSY ? BRACE_STORE_BUSY : fail(store, (brace_store_failure_t)store->failure);
 }
 
-/* ------------------------------------------------------------------------------------------- erase, bytes -- */
+/* ----------------------------------------------------------------------------------- erase, bytes -- */
 
 static brace_store_state_t spoil(brace_store_t *store)
 {
@@ -365,7 +369,8 @@ static brace_store_state_t check_blank(brace_store_t *store)
     uint8_t piece[BRACE_STORE_PIECE_BYTES];
     const bool in_block = store->position < BLANK_CHECKED;
     const uint32_t end = in_block ? BLANK_CHECKED : BLANK_CHECKED + MARKS_BYTES;
-    const uint32_t offset = in_block ? store->position : BRACE_STORE_MARKS_AT + store->position - BLANK_CHECKED;
+    const uint32_t offset =
+        in_block ? store->position : BRACE_STORE_MARKS_AT + store->position - BLANK_CHECKED;
     const uint32_t count = piece_of(store->position, end);
     if (store->hal->nvm_read(store->hal->context, store->target, offset, piece, count) != BRACE_HAL_OK) {
         return fail(store, BRACE_STORE_E_DEVICE);
@@ -385,8 +390,8 @@ static brace_store_state_t check_blank(brace_store_t *store)
 static brace_store_state_t write_block(brace_store_t *store)
 {
     const uint32_t count = piece_of(store->position, BRACE_STORE_BLOCK_ROOM);
-    if (store->hal->nvm_write(store->hal->context, store->target, store->position, store->block + store->position,
-                              count) != BRACE_HAL_OK) {
+    if (store->hal->nvm_write(store->hal->context, store->target, store->position,
+                              store->block + store->position, count) != BRACE_HAL_OK) {
         return fail(store, BRACE_STORE_E_DEVICE);
     }
     store->position += count;
@@ -432,12 +437,14 @@ static brace_store_state_t reread(brace_store_t *store)
 {
     const uint32_t from = store->position, count = piece_of(from, BRACE_BLOCK_BYTES);
     const uint32_t covered = BRACE_BLOCK_BYTES - 4;
-    if (store->hal->nvm_read(store->hal->context, store->target, from, store->block + from, count) != BRACE_HAL_OK) {
+    if (store->hal->nvm_read(store->hal->context, store->target, from, store->block + from, count) !=
+        BRACE_HAL_OK) {
         return fail(store, BRACE_STORE_E_DEVICE);
     }
     identify(store, from, count);
     const uint32_t end = from + count < covered ? from + count : covered;
-    store->block_crc = brace_crc32(from == 0u ? 0u : store->block_crc, store->block + from, from < end ? end - from : 0u);
+    const uint32_t so_far = from == 0u ? 0u : store->block_crc;
+    store->block_crc = brace_crc32(so_far, store->block + from, from < end ? end - from : 0u);
     store->position += count;
     if (store->position < BRACE_BLOCK_BYTES) {
         return BRACE_STORE_BUSY;
@@ -476,7 +483,7 @@ brace_store_state_t brace_store_step(brace_store_t *store)
     }
 }
 
-/* ------------------------------------------------------------------------------------------------ results -- */
+/* ---------------------------------------------------------------------------------------- results -- */
 
 brace_status_t brace_store_take(brace_store_t *store, brace_parameters_t *parameters, uint32_t *crc)
 {
@@ -502,7 +509,8 @@ void brace_store_status(const brace_store_t *store, brace_store_status_t *status
     status->state = (brace_store_state_t)store->state;
     status->failure = (brace_store_failure_t)store->failure;
     status->in_force = (brace_parameter_origin_t)store->in_force;
-    status->sequence = store->in_force == BRACE_PARAMETERS_DEFAULT ? 0u : store->slot[store->in_force - 1u].sequence;
+    status->sequence = store->in_force == BRACE_PARAMETERS_DEFAULT ? 0u
+                                                                   : store->slot[store->in_force - 1u].sequence;
     memcpy(status->slot, store->slot, sizeof status->slot);
     status->can_roll_back = can_roll_back(store);
     status->memory_fault = store->memory_fault;

@@ -80,7 +80,8 @@ static marks_t read_marks(const brace_store_t *store, uint32_t slot, uint32_t bl
     store_mark(keep, STORE_KEEP, block_crc);
     store_mark(none, STORE_VOID, block_crc);
     for (int32_t i = 0; i < BRACE_STORE_MARK_COUNT && marks.readable; i++) {
-        marks.readable = read(store, slot, BRACE_STORE_MARKS_AT + (uint32_t)i * BRACE_STORE_MARK_BYTES, found, sizeof found);
+        const uint32_t at = BRACE_STORE_MARKS_AT + (uint32_t)i * BRACE_STORE_MARK_BYTES;
+        marks.readable = read(store, slot, at, found, sizeof found);
         if (memcmp(found, keep, sizeof found) == 0) {
             marks.kept = true;
             marks.voided = false;
