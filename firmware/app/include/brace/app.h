@@ -1,9 +1,7 @@
-/* The limb controller: sensors in, K out, once a tick; everything it does besides, it does a bounded piece
- * of per tick.
+/* The limb controller: sensors in, K out, once a tick; all else it does in bounded pieces, one per tick.
  *
  *     joint_read -> backlash (per joint) -> true angles -> K -> supervisor -> snapshot
- *                                                            -> services (take-up, loading test, store,
- *                                                            buses)
+ *                                              -> services (take-up, loading test, store, buses)
  *
  * One brace_app_t (16 kB, 12 of them the recorder) per limb, no global state: many limbs run in one
  * process. Knows the world through brace_hal_t only. No heap, no recursion, no stdio, no clock of its own;
