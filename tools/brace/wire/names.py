@@ -437,7 +437,7 @@ PARAMETERS: tuple[Parameter, ...] = (
     Parameter(
         85, "sensor.noise_n",
         unit="N", low=0.0, high=1000000.0, default=0.1, safe=0.1,
-        description="one sigma of a reading",
+        description="one sigma of a reading, its resolution included",
     ),
     Parameter(
         86, "creep.ratio",

@@ -140,6 +140,7 @@ void loading_drift(brace_app_t *app)
     }
     const uint32_t unfit = BRACE_FLAG_GAP_OPEN | BRACE_FLAG_UNCALIBRATED;
     if (!result->force_is_sensed || (brace_app_snapshot(app)->stiffness.now.flags & unfit) != 0u) {
+        (void)brace_drift_run(&app->drift); /* the readings after it need not go on where those before it were */
         return;
     }
     const float warmer_degc = result->temp_degc - app->parameters.slow.reference_degc;
@@ -148,6 +149,10 @@ void loading_drift(brace_app_t *app)
         .theta1_rad = result->theta1_rad, .theta2_rad = result->theta2_rad, .dx_mm = test->dx_mm,
         .dz_mm = test->dz_mm, .fx_n = test->fx_n, .fz_n = test->fz_n, .warmer_degc = measured ? warmer_degc : 0.0f};
     (void)brace_drift_step(&app->drift, &app->parameters.limb, &test->at_reference, &reading);
+    const uint32_t side = result->setup.steps_per_side;
+    if (test->step == side || test->step == 3u * side) {
+        (void)brace_drift_run(&app->drift); /* friction turns round with the motion */
+    }
     if (app->drift.state == BRACE_DRIFT_DRIFTED) {
         supervisor_latch(app, BRACE_FAULT_MODEL_DRIFT);
     }
