@@ -4,12 +4,14 @@
 """
 
 import sys
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from statistics import median_low
 
 import postures
 from emulate import build_plugin, count
+from extra import Extra
+from limits import Check
 from measure import object_of
 from stack import worst_stack_bytes
 from toolchain import BENCH, BOARDS, BUILD, HARNESS_FLAGS, M4F, flash_bytes, link_image, type_sizes
@@ -48,6 +50,23 @@ def cost(plugin: Path) -> DriftCost:
                      worst_stack_bytes(sources, STEP)[0],
                      flash_bytes(sources, functions, BUILD / "images" / "drift_flash.elf", M4F),
                      type_sizes(("brace_drift_t",), ("brace/drift.h",), M4F)["brace_drift_t"])
+
+
+NOTE = """One reading of a loading run, learning and watching, with and without an alarm. What it sees:
+[drift](drift.md), printed by `python tests/property/drift_figures.py`."""
+
+
+def extra(plugin: Path) -> Extra:
+    """Everything of it for the bench."""
+    found = cost(plugin)
+    rows = [["a reading, instructions (median / worst)", f"{found.median:,} / {found.maximum:,}"],
+            ["flash with what it calls [B]", f"{found.flash_bytes:,}"],
+            ["RAM [B]", f"{found.ram_bytes}"], ["stack of a reading [B]", f"{found.stack_bytes}"]]
+    checks = [Check("drift check, a reading's instructions", f"{found.maximum:,}", f"at most {MOST_INSTRUCTIONS:,}",
+                    found.maximum <= MOST_INSTRUCTIONS),
+              Check("drift check, RAM", f"{found.ram_bytes} B", f"at most {MOST_RAM_BYTES} B",
+                    found.ram_bytes <= MOST_RAM_BYTES)]
+    return Extra("drift", NOTE, [("The drift check, Cortex-M4F", ["what", "measured"], rows)], checks, asdict(found))
 
 
 def main() -> int:

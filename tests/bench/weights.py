@@ -11,11 +11,12 @@ NO_FPU_ONLY = ("planar_fixed",)  # headers for controllers without an FPU
 HOST_ONLY = ("planar_batch", "chain_batch")
 NOT_FOR_ONE_PLANE = ("spatial", "planar_table", "backlash", "gap_stiffness", "drift")  # a planar limb's K does without
 
-CORE_FLASH = "flash, Cortex-M4F, all of the core but the fixed-point path"
+WATCHING = ("backlash", "gap_stiffness", "drift")  # what watches the limb; the estimator does without
+CORE_FLASH = "flash, Cortex-M4F, the estimator, planar and spatial (fixed point, play and drift left out)"
 PLANAR_RAM = "RAM, one limb: parameters and planar constants"
 FIXED_RAM = "RAM, one limb: parameters and fixed-point constants"
 SPATIAL_RAM = "RAM, one limb: parameters and spatial constants"
-CORE_STACK = "stack, Cortex-M4F, the deepest public function"
+CORE_STACK = "stack, Cortex-M4F, the estimator's deepest public function"
 
 
 def functions_of(header: str) -> tuple[str, ...]:
@@ -59,8 +60,8 @@ def _deepest(function: str, processor: Processor) -> int:
 
 def weigh_core() -> dict[str, int]:
     """Name -> bytes; the names say what and on which controller."""
-    flash, deepest, needs = _weigh("with_fpu", (*NO_FPU_ONLY, *HOST_ONLY))
-    everything, _, _ = _weigh("everything", HOST_ONLY)
+    flash, deepest, needs = _weigh("with_fpu", (*NO_FPU_ONLY, *HOST_ONLY, *WATCHING))
+    everything, deepest_of_all, needs_most = _weigh("everything", HOST_ONLY)
     planar, _, _ = _weigh("planar_limb", (*NO_FPU_ONLY, *HOST_ONLY, *NOT_FOR_ONE_PLANE))
     sizes = type_sizes(("brace_limb_t", "brace_planar_t", "brace_planar_fixed_t", "brace_spatial_t"),
                        ("brace/limb.h", "brace/planar.h", "brace/planar_fixed.h", "brace/spatial.h"), M4F)
@@ -68,7 +69,7 @@ def weigh_core() -> dict[str, int]:
     return {
         CORE_FLASH: flash,
         "flash, Cortex-M4F, a planar limb: kinematics, K, slope, contact, uncertainty": planar,
-        "flash, Cortex-M4F, the fixed-point path as well": everything,
+        "flash, Cortex-M4F, all of the core: fixed point, play and drift as well": everything,
         PLANAR_RAM: limb + sizes["brace_planar_t"],
         FIXED_RAM: limb + sizes["brace_planar_fixed_t"],
         SPATIAL_RAM: limb + sizes["brace_spatial_t"],
@@ -76,4 +77,5 @@ def weigh_core() -> dict[str, int]:
         "stack, Cortex-M4F, brace_planar_collapse": _deepest("brace_planar_collapse", M4F),
         "stack, Cortex-M3, brace_planar_fixed_stiffness": _deepest("brace_planar_fixed_stiffness", M3),
         f"{CORE_STACK} ({needs})": deepest,
+        f"stack, Cortex-M4F, the deepest of all of the core ({needs_most})": deepest_of_all,
     }
