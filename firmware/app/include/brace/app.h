@@ -83,6 +83,8 @@ typedef struct {
     uint32_t frames_refused;  /* by the bus: no room, bus off */
     uint32_t frames_unknown;  /* received, for nobody */
     uint32_t commands_failed; /* joint_command refused */
+    uint32_t modbus_broken;   /* frames with a wrong CRC or length */
+    uint32_t modbus_refused;  /* answered with an exception */
 } brace_app_counters_t;
 
 /* ---------------------------------------------------------------------------------------------- private --
