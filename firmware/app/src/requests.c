@@ -83,6 +83,7 @@ brace_status_t brace_app_configuration_enter(brace_app_t *app)
         return BRACE_E_MODE;
     }
     app->mode = BRACE_MODE_CONFIGURATION;
+    app->staging.begun = false;
     return BRACE_OK;
 }
 

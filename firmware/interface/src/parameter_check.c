@@ -38,6 +38,11 @@ static brace_status_t member_in_range(uint32_t word, uint32_t rule)
     return chosen(word, brace_u32_choices[rule - BRACE_U32_RANGES]) ? BRACE_OK : BRACE_E_PARAMETER;
 }
 
+brace_status_t brace_parameter_in_range(uint32_t index, uint32_t word)
+{
+    return index < BRACE_PARAMETER_COUNT ? member_in_range(word, brace_parameter_rule[index]) : BRACE_E_RANGE;
+}
+
 /* What a drive's members say together. returns the index of the one at fault, or BRACE_PARAMETER_COUNT. */
 static uint32_t drive_fault(const brace_drive_t *drive, uint32_t first)
 {

@@ -147,6 +147,11 @@ typedef struct {
 } brace_app_report_t;
 
 typedef struct {
+    bool begun;               /* set holds what is written; begun as a copy of what is in force */
+    brace_parameters_t set;
+} brace_app_staging_t;
+
+typedef struct {
     const brace_hal_t *hal;
     brace_parameters_t parameters;
     uint32_t parameter_crc;
@@ -154,6 +159,7 @@ typedef struct {
     brace_store_t store;
     bool storing;            /* the store is at work */
     uint8_t configure_piece; /* 0: nothing is to be put in force */
+    brace_app_staging_t staging;
 
     brace_mode_t mode;
     uint32_t faults, lasting_faults, last_us, tick_us, start_us, sequence;

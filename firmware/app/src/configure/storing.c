@@ -53,6 +53,7 @@ void storing_step(brace_app_t *app)
     }
     if (state == BRACE_STORE_DONE) {
         (void)brace_store_take(&app->store, &app->parameters, &app->parameter_crc);
+        app->staging.begun = false;
         configure_begin(app);
     }
     app->storing = false;

@@ -1,0 +1,47 @@
+#include "configure/staging.h"
+
+#include <string.h>
+
+#include "configure/storing.h"
+
+uint32_t staging_read(const brace_app_t *app, uint32_t index)
+{
+    const brace_parameters_t *set = app->staging.begun ? &app->staging.set : &app->parameters;
+    uint32_t word;
+    memcpy(&word, (const uint8_t *)set + 4u * index, sizeof word);
+    return word;
+}
+
+brace_status_t staging_open(const brace_app_t *app)
+{
+    if (app->mode != BRACE_MODE_CONFIGURATION) {
+        return BRACE_E_MODE;
+    }
+    return storing_busy(app) ? BRACE_E_UNSUPPORTED : BRACE_OK;
+}
+
+brace_status_t staging_write(brace_app_t *app, uint32_t index, uint32_t word)
+{
+    brace_status_t status = staging_open(app);
+    if (status == BRACE_OK) {
+        status = brace_parameter_in_range(index, word);
+    }
+    if (status != BRACE_OK) {
+        return status;
+    }
+    if (!app->staging.begun) {
+        app->staging.set = app->parameters;
+        app->staging.begun = true;
+    }
+    memcpy((uint8_t *)&app->staging.set + 4u * index, &word, sizeof word);
+    return BRACE_OK;
+}
+
+brace_status_t staging_commit(brace_app_t *app)
+{
+    const brace_status_t status = staging_open(app);
+    if (status != BRACE_OK) {
+        return status;
+    }
+    return brace_app_parameters_commit(app, app->staging.begun ? &app->staging.set : &app->parameters);
+}

@@ -1,0 +1,22 @@
+/* The set of parameters that is being written, member by member, over any bus: begun as a copy of the set in force,
+ * in force itself only once it is committed. Forgotten when CONFIGURATION is entered anew. */
+#ifndef BRACE_APP_STAGING_H
+#define BRACE_APP_STAGING_H
+
+#include "brace/app.h"
+
+/* A member as its 32 bits: staged if any has been written, else in force. index < BRACE_PARAMETER_COUNT */
+uint32_t staging_read(const brace_app_t *app, uint32_t index);
+
+/* May members be written now? returns BRACE_OK, BRACE_E_MODE (not CONFIGURATION), BRACE_E_UNSUPPORTED (a set is being
+ * stored) */
+brace_status_t staging_open(const brace_app_t *app);
+
+/* Writes one. returns as staging_open; BRACE_E_RANGE (no such member), BRACE_E_PARAMETER, BRACE_E_NOT_FINITE (not in its
+ * own range; what members say together is judged by the commit). At most 450 instructions, the first time; else 60. */
+brace_status_t staging_write(brace_app_t *app, uint32_t index, uint32_t word);
+
+/* Stores what has been written: brace_app_parameters_commit. */
+brace_status_t staging_commit(brace_app_t *app);
+
+#endif
