@@ -14,6 +14,8 @@ struct brace_bus {
     bool line_is_too_long;
     unsigned char chunk[512];
     size_t chunk_at, chunk_end;
+    bool has_status; /* SLCAN: the adapter has answered 'F' */
+    uint32_t lost, errors;
 };
 
 uint64_t brace_bus_now_us(void);
@@ -27,11 +29,13 @@ brace_bus_status_t brace_socketcan_open(brace_bus_t *bus, const char *name, char
 brace_bus_status_t brace_socketcan_send(brace_bus_t *bus, const brace_bus_frame_t *frame, int timeout_ms);
 brace_bus_status_t brace_socketcan_receive(brace_bus_t *bus, brace_bus_frame_t *frame, int timeout_ms);
 
-brace_bus_status_t brace_slcan_open_tty(brace_bus_t *bus, const char *path, char *why, unsigned why_room);
-brace_bus_status_t brace_slcan_open_tcp(brace_bus_t *bus, const char *where, int timeout_ms, char *why,
+brace_bus_status_t brace_slcan_open_tty(brace_bus_t *bus, const char *where, char rate, char *why, unsigned why_room);
+brace_bus_status_t brace_slcan_open_tcp(brace_bus_t *bus, const char *where, char rate, int timeout_ms, char *why,
                                         unsigned why_room);
+bool brace_slcan_rate(uint32_t bit_rate, char *rate); /* the digit behind 'S'; false: none */
 brace_bus_status_t brace_slcan_send(brace_bus_t *bus, const brace_bus_frame_t *frame, int timeout_ms);
 brace_bus_status_t brace_slcan_receive(brace_bus_t *bus, brace_bus_frame_t *frame, int timeout_ms);
+void brace_slcan_ask_status(brace_bus_t *bus, int timeout_ms);
 void brace_slcan_leave(brace_bus_t *bus);
 
 #endif

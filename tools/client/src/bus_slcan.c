@@ -38,12 +38,24 @@ static brace_bus_status_t write_all(brace_bus_t *bus, const char *text, size_t l
     return BRACE_BUS_OK;
 }
 
-/* Ends a command that somebody left half-sent, closes, sets 1 Mbit/s (a controller's own port ignores it), opens. */
-static brace_bus_status_t enter(brace_bus_t *bus)
+bool brace_slcan_rate(uint32_t bit_rate, char *rate)
 {
-    static const char hello[] = "\r\rC\rS8\rO\r";
+    static const uint32_t known[] = {10000u, 20000u, 50000u, 100000u, 125000u, 250000u, 500000u, 800000u, 1000000u};
+    for (uint32_t i = 0u; i < sizeof known / sizeof known[0]; i++) {
+        if (known[i] == (bit_rate == 0u ? 1000000u : bit_rate)) {
+            *rate = (char)('0' + i);
+            return true;
+        }
+    }
+    return false;
+}
+
+/* Ends a command that somebody left half-sent, closes, sets the rate (a controller's own port ignores it), opens. */
+static brace_bus_status_t enter(brace_bus_t *bus, char rate)
+{
+    const char hello[] = {'\r', '\r', 'C', '\r', 'S', rate, '\r', 'O', '\r'};
     bus->is_slcan = true;
-    return write_all(bus, hello, sizeof hello - 1u, 1000);
+    return write_all(bus, hello, sizeof hello, 1000);
 }
 
 void brace_slcan_leave(brace_bus_t *bus)
@@ -67,7 +79,7 @@ static bool speed_of(long baud, speed_t *speed)
     return false;
 }
 
-brace_bus_status_t brace_slcan_open_tty(brace_bus_t *bus, const char *where, char *why, unsigned why_room)
+brace_bus_status_t brace_slcan_open_tty(brace_bus_t *bus, const char *where, char rate, char *why, unsigned why_room)
 {
     char path[256];
     const char *at = strchr(where, '@');
@@ -94,7 +106,7 @@ brace_bus_status_t brace_slcan_open_tty(brace_bus_t *bus, const char *where, cha
     }
     cfmakeraw(&settings);
     settings.c_cflag |= CLOCAL | CREAD;
-    settings.c_cc[VMIN] = 0;
+    settings.c_cc[VMIN] = 1; /* no news reads EAGAIN; 0 is the end */
     settings.c_cc[VTIME] = 0;
     cfsetispeed(&settings, speed);
     cfsetospeed(&settings, speed);
@@ -102,7 +114,7 @@ brace_bus_status_t brace_slcan_open_tty(brace_bus_t *bus, const char *where, cha
         brace_bus_say(why, why_room, "%s: %s; it does not take this baud rate", path, strerror(errno));
         return BRACE_BUS_E_NO_DEVICE;
     }
-    const brace_bus_status_t status = enter(bus);
+    const brace_bus_status_t status = enter(bus, rate);
     if (status != BRACE_BUS_OK) {
         brace_bus_say(why, why_room, "%s: the adapter takes no commands; unplug it and plug it in again", path);
     }
@@ -133,7 +145,7 @@ static int connect_within(const struct addrinfo *address, int timeout_ms)
     return -1;
 }
 
-brace_bus_status_t brace_slcan_open_tcp(brace_bus_t *bus, const char *where, int timeout_ms, char *why,
+brace_bus_status_t brace_slcan_open_tcp(brace_bus_t *bus, const char *where, char rate, int timeout_ms, char *why,
                                         unsigned why_room)
 {
     char host[256];
@@ -143,8 +155,8 @@ brace_bus_status_t brace_slcan_open_tcp(brace_bus_t *bus, const char *where, int
         brace_bus_say(why, why_room, "tcp://%s: expected tcp://host:port", where);
         return BRACE_BUS_E_USAGE;
     }
-    memcpy(host, where, length);
-    host[length] = '\0';
+    const bool bracketed = length > 2u && where[0] == '[' && where[length - 1u] == ']'; /* [::1] */
+    snprintf(host, sizeof host, "%.*s", (int)(bracketed ? length - 2u : length), where + bracketed);
     const struct addrinfo hints = {.ai_family = AF_UNSPEC, .ai_socktype = SOCK_STREAM};
     struct addrinfo *found = NULL;
     const int failed = getaddrinfo(host, colon + 1, &hints, &found);
@@ -165,7 +177,7 @@ brace_bus_status_t brace_slcan_open_tcp(brace_bus_t *bus, const char *where, int
     }
     const int on = 1;
     (void)setsockopt(bus->fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    return enter(bus);
+    return enter(bus, rate);
 }
 
 brace_bus_status_t brace_slcan_send(brace_bus_t *bus, const brace_bus_frame_t *frame, int timeout_ms)
@@ -214,6 +226,25 @@ static bool read_frame(const char *line, size_t length, brace_bus_frame_t *frame
     return true;
 }
 
+/* What is no frame: an adapter's answers, frames of other kinds, noise. */
+static void note_line(brace_bus_t *bus)
+{
+    uint32_t status;
+    if (bus->line_length == 3u && bus->line[0] == 'F' && hex_value(bus->line + 1, 2u, &status)) {
+        bus->has_status = true;
+        bus->errors += (status & 0xa4u) != 0u; /* bus error, error passive, error warning */
+        bus->lost += (status & 0x09u) != 0u;   /* overrun, receive queue full */
+    } else if (bus->line_is_too_long || (bus->line_length > 0u && bus->line[0] == 't')) {
+        bus->lost++;
+    }
+    for (size_t i = 0u; i < bus->line_length; i++) {
+        if (!isprint((unsigned char)bus->line[i])) {
+            bus->errors++; /* another baud rate looks like this */
+            break;
+        }
+    }
+}
+
 /* Takes characters of the chunk until a frame is whole. */
 static bool next_frame(brace_bus_t *bus, brace_bus_frame_t *frame)
 {
@@ -228,6 +259,9 @@ static bool next_frame(brace_bus_t *bus, brace_bus_frame_t *frame)
             continue;
         }
         const bool whole = c == '\r' && !bus->line_is_too_long && read_frame(bus->line, bus->line_length, frame);
+        if (!whole) {
+            note_line(bus);
+        }
         bus->line_length = 0u;
         bus->line_is_too_long = false;
         if (whole) {
@@ -250,24 +284,30 @@ brace_bus_status_t brace_slcan_receive(brace_bus_t *bus, brace_bus_frame_t *fram
             bus->chunk_end = (size_t)size;
             continue;
         }
-        struct pollfd news = {.fd = bus->fd, .events = POLLIN};
-        const int left_ms = brace_bus_left_ms(deadline_us);
-        if (size < 0 && errno != EAGAIN && errno != EINTR) {
+        if (size == 0 || (errno != EAGAIN && errno != EINTR)) {
             return BRACE_BUS_E_DOWN;
         }
+        const int left_ms = brace_bus_left_ms(deadline_us);
         if (left_ms == 0) {
             return BRACE_BUS_E_TIMEOUT;
         }
-        /* A closed TCP connection reads 0 at once and for ever; a silent serial device reads 0 without news. */
-        if (poll(&news, 1, left_ms) > 0 && size == 0 && (news.revents & (POLLIN | POLLHUP))) {
-            const ssize_t again = read(bus->fd, bus->chunk, sizeof bus->chunk);
-            if (again == 0) {
-                return BRACE_BUS_E_DOWN;
-            }
-            if (again > 0) {
-                bus->chunk_at = 0u;
-                bus->chunk_end = (size_t)again;
-            }
+        struct pollfd news = {.fd = bus->fd, .events = POLLIN};
+        poll(&news, 1, left_ms);
+    }
+}
+
+void brace_slcan_ask_status(brace_bus_t *bus, int timeout_ms)
+{
+    const uint64_t deadline_us = brace_bus_now_us() + (uint64_t)timeout_ms * 1000u;
+    brace_bus_frame_t dropped;
+    bus->has_status = false;
+    if (write_all(bus, "F\r", 2u, timeout_ms) != BRACE_BUS_OK) {
+        return;
+    }
+    while (!bus->has_status && brace_bus_left_ms(deadline_us) > 0) {
+        const brace_bus_status_t status = brace_slcan_receive(bus, &dropped, brace_bus_left_ms(deadline_us));
+        if (status != BRACE_BUS_OK && status != BRACE_BUS_E_TIMEOUT) {
+            return;
         }
     }
 }

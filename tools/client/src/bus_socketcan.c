@@ -3,12 +3,15 @@
 
 #include <errno.h>
 #include <linux/can.h>
+#include <linux/can/error.h>
 #include <linux/can/raw.h>
 #include <net/if.h>
 #include <poll.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
+#include <sys/time.h>
+#include <time.h>
 #include <unistd.h>
 
 brace_bus_status_t brace_socketcan_open(brace_bus_t *bus, const char *name, char *why, unsigned why_room)
@@ -45,6 +48,12 @@ brace_bus_status_t brace_socketcan_open(brace_bus_t *bus, const char *name, char
         brace_bus_say(why, why_room, "%s: %s; is it a CAN interface?", name, strerror(errno));
         return BRACE_BUS_E_NO_DEVICE;
     }
+    const int on = 1, room = 1 << 20;
+    const can_err_mask_t errors = CAN_ERR_CRTL | CAN_ERR_PROT | CAN_ERR_ACK | CAN_ERR_BUSOFF | CAN_ERR_BUSERROR;
+    (void)setsockopt(bus->fd, SOL_SOCKET, SO_TIMESTAMP, &on, sizeof on);
+    (void)setsockopt(bus->fd, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
+    (void)setsockopt(bus->fd, SOL_SOCKET, SO_RCVBUF, &room, sizeof room);
+    (void)setsockopt(bus->fd, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &errors, sizeof errors);
     return BRACE_BUS_OK;
 }
 
@@ -73,20 +82,47 @@ brace_bus_status_t brace_socketcan_send(brace_bus_t *bus, const brace_bus_frame_
     }
 }
 
+/* What the kernel tells beside a frame: when it came, and how many its queue has dropped so far. */
+static void read_notes(brace_bus_t *bus, struct msghdr *message, brace_bus_frame_t *frame)
+{
+    frame->received_us = brace_bus_now_us();
+    for (struct cmsghdr *note = CMSG_FIRSTHDR(message); note != NULL; note = CMSG_NXTHDR(message, note)) {
+        if (note->cmsg_level == SOL_SOCKET && note->cmsg_type == SO_TIMESTAMP) {
+            struct timeval stamp, now;
+            memcpy(&stamp, CMSG_DATA(note), sizeof stamp);
+            gettimeofday(&now, NULL);
+            const int64_t age_us = (now.tv_sec - stamp.tv_sec) * (int64_t)1000000 + (now.tv_usec - stamp.tv_usec);
+            if (age_us > 0 && (uint64_t)age_us < frame->received_us) {
+                frame->received_us -= (uint64_t)age_us;
+            }
+        } else if (note->cmsg_level == SOL_SOCKET && note->cmsg_type == SO_RXQ_OVFL) {
+            memcpy(&bus->lost, CMSG_DATA(note), sizeof bus->lost);
+        }
+    }
+}
+
 brace_bus_status_t brace_socketcan_receive(brace_bus_t *bus, brace_bus_frame_t *frame, int timeout_ms)
 {
     const uint64_t deadline_us = brace_bus_now_us() + (uint64_t)timeout_ms * 1000u;
     for (;;) {
         struct can_frame got;
-        const ssize_t size = read(bus->fd, &got, sizeof got);
+        struct iovec part = {.iov_base = &got, .iov_len = sizeof got};
+        union {
+            struct cmsghdr aligned;
+            char room[CMSG_SPACE(sizeof(struct timeval)) + CMSG_SPACE(sizeof(uint32_t))];
+        } notes;
+        struct msghdr message = {
+            .msg_iov = &part, .msg_iovlen = 1, .msg_control = &notes, .msg_controllen = sizeof notes};
+        const ssize_t size = recvmsg(bus->fd, &message, 0);
         if (size == (ssize_t)sizeof got) {
+            bus->errors += (got.can_id & CAN_ERR_FLAG) != 0u;
             if (got.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_ERR_FLAG) || got.can_dlc > 8u) {
                 continue;
             }
             frame->id = got.can_id;
             frame->length = got.can_dlc;
             memcpy(frame->data, got.data, sizeof frame->data);
-            frame->received_us = brace_bus_now_us();
+            read_notes(bus, &message, frame);
             return BRACE_BUS_OK;
         }
         if (size < 0 && errno != EAGAIN && errno != EINTR) {

@@ -30,14 +30,16 @@ typedef struct {
     uint32_t id;     /* 11 bits */
     uint8_t length;  /* 0-8 */
     uint8_t data[8];
-    uint64_t received_us; /* CLOCK_MONOTONIC; 0 for frames to send */
+    uint64_t received_us; /* CLOCK_MONOTONIC, the kernel's stamp where it gives one; 0 for frames to send */
 } brace_bus_frame_t;
 
 typedef struct brace_bus brace_bus_t;
 
-/* Opens a bus within timeout_ms [1, 60 000]. On anything but OK *bus is null and `why`, when not null, gets one line that
- * says what, why and what to try (at most why_room characters with its end). */
-brace_bus_status_t brace_bus_open(const char *url, int timeout_ms, brace_bus_t **bus, char *why, unsigned why_room);
+/* Opens a bus within timeout_ms [1, 60 000]. bit_rate [bit/s] is set on an SLCAN adapter (10 000 to 1 000 000 as it knows
+ * them; 0: 1 000 000); a SocketCAN interface has the system's. On anything but OK *bus is null and `why`, when not null,
+ * gets one line that says what, why and what to try (at most why_room characters with its end). */
+brace_bus_status_t brace_bus_open(const char *url, uint32_t bit_rate, int timeout_ms, brace_bus_t **bus, char *why,
+                                  unsigned why_room);
 
 /* Closes and frees; null is fine. */
 void brace_bus_close(brace_bus_t *bus);
@@ -49,6 +51,14 @@ brace_bus_status_t brace_bus_send(brace_bus_t *bus, const brace_bus_frame_t *fra
 /* The next frame, of whatever identifier (remote, extended, error and FD frames are passed over).
  * returns OK, E_TIMEOUT, E_DOWN */
 brace_bus_status_t brace_bus_receive(brace_bus_t *bus, brace_bus_frame_t *frame, int timeout_ms);
+
+/* Frames that are known to have been lost on this computer since the bus was opened: its queue was full, or a line of
+ * SLCAN was broken. Counts before the frame that was received after the loss. */
+uint32_t brace_bus_lost(const brace_bus_t *bus);
+
+/* Errors of the bus that its interface has told of (a wrong bit rate gives them). An SLCAN adapter is asked, and answers
+ * within timeout_ms or not at all; frames received meanwhile are dropped. */
+uint32_t brace_bus_errors(brace_bus_t *bus, int timeout_ms);
 
 #ifdef __cplusplus
 }

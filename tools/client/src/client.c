@@ -1,0 +1,264 @@
+#include "client_internal.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "brace/can_messages.h"
+
+brace_client_status_t brace_client_fail(brace_client_t *client, brace_client_status_t status, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(client->why, sizeof client->why, format, arguments);
+    va_end(arguments);
+    return status;
+}
+
+brace_client_status_t brace_client_fail_version(brace_client_t *client, uint32_t node, uint32_t hash)
+{
+    return brace_client_fail(client, BRACE_CLIENT_E_VERSION,
+                             "%s: controller %u speaks dictionary 0x%08x, this library 0x%08x; build the client from the "
+                             "firmware's version, or flash the controller with this one's ('brace flash')",
+                             client->url, (unsigned)node, (unsigned)hash, (unsigned)BRACE_DICTIONARY_HASH);
+}
+
+static uint64_t deadline_after(int timeout_ms)
+{
+    return brace_bus_now_us() + (uint64_t)(timeout_ms < 1 ? 1 : timeout_ms) * 1000u;
+}
+
+brace_client_status_t brace_client_open(const char *url, uint32_t node, uint32_t bit_rate, int timeout_ms,
+                                        brace_client_t **client, char *why, unsigned why_room)
+{
+    if (client == NULL) {
+        return BRACE_CLIENT_E_USAGE;
+    }
+    *client = NULL;
+    if (url == NULL || url[0] == '\0' || strlen(url) >= sizeof(*client)->url || node > 127u || timeout_ms < 100 ||
+        timeout_ms > 60000) {
+        brace_bus_say(why, why_room, "needs a bus URL (can0, slcan:/dev/ttyACM0, tcp://host:port, modbus:/dev/ttyUSB0, "
+                                     "modbus-tcp://host:port), a node of 0 to 127, a time-out of 100 to 60000 ms");
+        return BRACE_CLIENT_E_USAGE;
+    }
+    brace_client_t *opened = calloc(1, sizeof *opened);
+    if (opened == NULL) {
+        brace_bus_say(why, why_room, "out of memory");
+        return BRACE_CLIENT_E_NO_DEVICE;
+    }
+    strcpy(opened->url, url);
+    const uint64_t deadline_us = deadline_after(timeout_ms);
+    const brace_client_status_t status = brace_modbus_is_url(url)
+                                             ? brace_modbus_open(opened, deadline_us)
+                                             : brace_can_open(opened, node, bit_rate, deadline_us);
+    if (status != BRACE_CLIENT_OK) {
+        brace_bus_say(why, why_room, "%s", opened->why);
+        brace_client_close(opened);
+        return status;
+    }
+    *client = opened;
+    return BRACE_CLIENT_OK;
+}
+
+void brace_client_close(brace_client_t *client)
+{
+    if (client != NULL) {
+        brace_bus_close(client->bus);
+        brace_modbus_close(client);
+        free(client);
+    }
+}
+
+void brace_client_identity(const brace_client_t *client, brace_client_identity_t *identity)
+{
+    *identity = client->identity;
+}
+
+const char *brace_client_why(const brace_client_t *client)
+{
+    return client == NULL ? "no client" : client->why;
+}
+
+int32_t brace_client_refusal(const brace_client_t *client)
+{
+    return client->refusal;
+}
+
+int brace_client_exit_code(brace_client_status_t status)
+{
+    switch (status) {
+    case BRACE_CLIENT_OK: return 0;
+    case BRACE_CLIENT_E_USAGE:
+    case BRACE_CLIENT_E_UNSUPPORTED: return 2;
+    case BRACE_CLIENT_E_VERSION: return 6;
+    case BRACE_CLIENT_E_REFUSED: return 5;
+    default: return 4;
+    }
+}
+
+brace_client_status_t brace_client_read(brace_client_t *client, uint32_t wanted, int timeout_ms,
+                                        brace_client_snapshot_t *snapshot)
+{
+    if (wanted == 0u || wanted > BRACE_PART_ALL) {
+        return brace_client_fail(client, BRACE_CLIENT_E_USAGE, "parts 0x%x: want BRACE_PART_K or more of BRACE_PART_ALL",
+                                 (unsigned)wanted);
+    }
+    return client->bus != NULL ? brace_can_read(client, wanted, deadline_after(timeout_ms), snapshot)
+                               : brace_modbus_read(client, deadline_after(timeout_ms), snapshot);
+}
+
+/* Questions that only CAN's frames carry. limited: values that the frame could not hold. */
+static brace_client_status_t ask(brace_client_t *client, brace_question_t *question, uint32_t code, uint32_t limited,
+                                 int timeout_ms)
+{
+    if (client->bus == NULL) {
+        return brace_client_fail(client, BRACE_CLIENT_E_UNSUPPORTED,
+                                 "%s: not over Modbus; connect over CAN, or ask for K at a posture", client->url);
+    }
+    if (limited != 0u) {
+        return brace_client_fail(client, BRACE_CLIENT_E_USAGE, "a value lies outside its range; client.h states them");
+    }
+    question->code = code;
+    return brace_can_ask(client, question, deadline_after(timeout_ms));
+}
+
+static bool is_number(float value)
+{
+    return value - value == 0.0f; /* neither NaN, which would be sent as 'not known', nor infinite */
+}
+
+static void take_k(const brace_question_t *question, brace_client_k_t *k)
+{
+    brace_can_k_at_posture_answer_0_t first;
+    brace_can_k_at_posture_answer_1_t second;
+    brace_can_k_at_posture_answer_2_t third;
+    brace_can_unpack_k_at_posture_answer_0(question->answers[0], &first);
+    brace_can_unpack_k_at_posture_answer_1(question->answers[1], &second);
+    brace_can_unpack_k_at_posture_answer_2(question->answers[2], &third);
+    *k = (brace_client_k_t){.k_xx_n_per_mm = first.k_xx_n_per_mm,
+                            .k_xz_n_per_mm = first.k_xz_n_per_mm,
+                            .k_zz_n_per_mm = second.k_zz_n_per_mm,
+                            .lambda_min_n_per_mm = second.lambda_min_n_per_mm,
+                            .lambda_max_n_per_mm = third.lambda_max_n_per_mm,
+                            .stiff_axis_rad = third.stiff_axis_rad,
+                            .flags = third.flags};
+}
+
+brace_client_status_t brace_client_k_at_posture(brace_client_t *client, float theta1_rad, float theta2_rad,
+                                                int timeout_ms, brace_client_k_t *k)
+{
+    const brace_can_k_at_posture_request_t request = {.theta1_rad = theta1_rad, .theta2_rad = theta2_rad};
+    brace_question_t question;
+    const uint32_t limited = brace_can_pack_k_at_posture_request(&request, question.data) + !is_number(theta1_rad) +
+                             !is_number(theta2_rad);
+    if (client->bus == NULL && limited == 0u) {
+        return brace_modbus_k_at_posture(client, theta1_rad, theta2_rad, deadline_after(timeout_ms), k);
+    }
+    const brace_client_status_t status = ask(client, &question, BRACE_REQUEST_K_AT_POSTURE, limited, timeout_ms);
+    if (status == BRACE_CLIENT_OK) {
+        take_k(&question, k);
+    }
+    return status;
+}
+
+brace_client_status_t brace_client_k_at_tip(brace_client_t *client, float x_mm, float z_mm, bool knee_up, int timeout_ms,
+                                            brace_client_k_t *k)
+{
+    const brace_can_k_at_tip_knee_up_request_t up = {.x_mm = x_mm, .z_mm = z_mm};
+    const brace_can_k_at_tip_knee_down_request_t down = {.x_mm = x_mm, .z_mm = z_mm};
+    brace_question_t question;
+    const uint32_t limited = (knee_up ? brace_can_pack_k_at_tip_knee_up_request(&up, question.data)
+                                      : brace_can_pack_k_at_tip_knee_down_request(&down, question.data)) +
+                             !is_number(x_mm) + !is_number(z_mm);
+    const uint32_t code = knee_up ? BRACE_REQUEST_K_AT_TIP_KNEE_UP : BRACE_REQUEST_K_AT_TIP_KNEE_DOWN;
+    const brace_client_status_t status = ask(client, &question, code, limited, timeout_ms);
+    if (status == BRACE_CLIENT_OK) {
+        take_k(&question, k); /* the three answers are laid out alike */
+    }
+    return status;
+}
+
+brace_client_status_t brace_client_contact_force(brace_client_t *client, float dx_mm, float dz_mm, int timeout_ms,
+                                                 brace_client_force_t *force)
+{
+    const brace_can_contact_force_request_t request = {.dx_mm = dx_mm, .dz_mm = dz_mm};
+    brace_question_t question;
+    const uint32_t limited = brace_can_pack_contact_force_request(&request, question.data) + !is_number(dx_mm) +
+                             !is_number(dz_mm);
+    const brace_client_status_t status = ask(client, &question, BRACE_REQUEST_CONTACT_FORCE, limited, timeout_ms);
+    if (status == BRACE_CLIENT_OK) {
+        brace_can_contact_force_answer_0_t first;
+        brace_can_contact_force_answer_1_t second;
+        brace_can_unpack_contact_force_answer_0(question.answers[0], &first);
+        brace_can_unpack_contact_force_answer_1(question.answers[1], &second);
+        *force = (brace_client_force_t){.fx_n = first.fx_n, .fz_n = first.fz_n, .low_n = second.low_n,
+                                        .high_n = second.high_n};
+    }
+    return status;
+}
+
+brace_client_status_t brace_client_sag(brace_client_t *client, float fx_n, float fz_n, int timeout_ms, float *dx_mm,
+                                       float *dz_mm)
+{
+    const brace_can_sag_for_load_request_t request = {.fx_n = fx_n, .fz_n = fz_n};
+    brace_question_t question;
+    const uint32_t limited = brace_can_pack_sag_for_load_request(&request, question.data) + !is_number(fx_n) +
+                             !is_number(fz_n);
+    const brace_client_status_t status = ask(client, &question, BRACE_REQUEST_SAG_FOR_LOAD, limited, timeout_ms);
+    if (status == BRACE_CLIENT_OK) {
+        brace_can_sag_for_load_answer_0_t answer;
+        brace_can_unpack_sag_for_load_answer_0(question.answers[0], &answer);
+        *dx_mm = answer.dx_mm;
+        *dz_mm = answer.dz_mm;
+    }
+    return status;
+}
+
+brace_client_status_t brace_client_margin(brace_client_t *client, float normal_rad, float friction_ratio, int timeout_ms,
+                                          brace_client_margin_t *margin)
+{
+    const brace_can_friction_margin_request_t request = {.normal_rad = normal_rad, .friction_ratio = friction_ratio};
+    brace_question_t question;
+    const uint32_t limited = brace_can_pack_friction_margin_request(&request, question.data) + !is_number(normal_rad) +
+                             !is_number(friction_ratio);
+    const brace_client_status_t status = ask(client, &question, BRACE_REQUEST_FRICTION_MARGIN, limited, timeout_ms);
+    if (status == BRACE_CLIENT_OK) {
+        brace_can_friction_margin_answer_0_t answer;
+        brace_can_unpack_friction_margin_answer_0(question.answers[0], &answer);
+        *margin = (brace_client_margin_t){
+            .margin_n = answer.margin_n, .angle_left_rad = answer.angle_left_rad, .contact = answer.contact};
+    }
+    return status;
+}
+
+brace_client_status_t brace_client_entry_u32(brace_client_t *client, uint32_t index, int timeout_ms, uint32_t *value)
+{
+    const brace_can_read_entry_request_t request = {.index = index};
+    brace_question_t question;
+    const uint32_t limited = brace_can_pack_read_entry_request(&request, question.data);
+    if (client->bus == NULL && limited == 0u) {
+        return brace_modbus_entry(client, index, deadline_after(timeout_ms), value);
+    }
+    const brace_client_status_t status = ask(client, &question, BRACE_REQUEST_READ_ENTRY, limited, timeout_ms);
+    if (status == BRACE_CLIENT_OK) {
+        brace_can_read_entry_answer_0_t answer;
+        brace_can_unpack_read_entry_answer_0(question.answers[0], &answer);
+        if (answer.index != index) {
+            return brace_client_fail(client, BRACE_CLIENT_E_REFUSED, "%s: asked for entry %u, answered entry %u",
+                                     client->url, (unsigned)index, (unsigned)answer.index);
+        }
+        *value = answer.value;
+    }
+    return status;
+}
+
+brace_client_status_t brace_client_entry_f32(brace_client_t *client, uint32_t index, int timeout_ms, float *value)
+{
+    uint32_t bits;
+    const brace_client_status_t status = brace_client_entry_u32(client, index, timeout_ms, &bits);
+    if (status == BRACE_CLIENT_OK) {
+        memcpy(value, &bits, sizeof bits);
+    }
+    return status;
+}

@@ -1,0 +1,301 @@
+/* Over CAN: everything that is heard is looked at, whatever is being waited for. */
+#include "client_internal.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "brace/can_messages.h"
+#include "brace/status.h"
+
+enum { STATUS_MS = 250, FIRST_TRY_MS = 250, OLD_US = 100000 };
+
+/* What one frame means. Own requests are not received; a request like our own is another client's. */
+typedef struct {
+    uint32_t code;
+    uint8_t token;
+    uint32_t parts_seen;
+    bool is_taken; /* another client asks the same under the same token: whose answer comes can not be told */
+    bool is_refused;
+    brace_can_refusal_t refusal;
+    brace_question_t *question;
+} waiting_t;
+
+static void take_answer(const brace_bus_frame_t *frame, waiting_t *waiting)
+{
+    if ((frame->data[0] & 31u) != waiting->code || frame->data[1] != waiting->token) {
+        return;
+    }
+    const uint32_t part = frame->data[0] >> 5;
+    if (part == 7u) {
+        brace_can_unpack_refusal(frame->data, &waiting->refusal);
+        waiting->is_refused = true;
+    } else if (part < brace_can_answer_parts[waiting->code] && part < 4u) {
+        memcpy(waiting->question->answers[part], frame->data, 8u);
+        waiting->parts_seen |= 1u << part;
+    }
+}
+
+static bool is_from_controller(uint32_t base)
+{
+    static const uint32_t bases[] = {BRACE_CAN_ID_EMERGENCY,   BRACE_CAN_ID_STIFFNESS_A, BRACE_CAN_ID_STIFFNESS_B,
+                                     BRACE_CAN_ID_EIGENVALUES, BRACE_CAN_ID_POSTURE,     BRACE_CAN_ID_HEARTBEAT,
+                                     BRACE_CAN_ID_ANSWER};
+    for (size_t i = 0u; i < sizeof bases / sizeof bases[0]; i++) {
+        if (base == bases[i]) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void hear(brace_client_t *client, const brace_bus_frame_t *frame, waiting_t *waiting)
+{
+    const uint32_t node = frame->id & 0x7fu, base = frame->id & ~0x7fu;
+    if (node != 0u && is_from_controller(base)) {
+        client->heard[node >> 5] |= 1u << (node & 31u);
+    }
+    if (node != client->node || node == 0u || frame->length != 8u) {
+        return;
+    }
+    if (base == BRACE_CAN_ID_HEARTBEAT) {
+        brace_can_heartbeat_t heartbeat;
+        brace_can_unpack_heartbeat(frame->data, &heartbeat);
+        client->speaks_another = heartbeat.dictionary_hash != BRACE_DICTIONARY_HASH;
+        client->other_hash = heartbeat.dictionary_hash;
+    } else if (base == BRACE_CAN_ID_ANSWER && waiting != NULL) {
+        take_answer(frame, waiting);
+    } else if (base == BRACE_CAN_ID_REQUEST && waiting != NULL) {
+        waiting->is_taken |= (frame->data[0] & 31u) == waiting->code && frame->data[1] == waiting->token;
+    } else {
+        const brace_client_snapshot_t *s = brace_joiner_add(&client->joiner, node, frame, brace_bus_lost(client->bus));
+        if (s != NULL) {
+            client->latest[s->parts] = *s;
+        }
+    }
+}
+
+/* One frame, or none within timeout_ms. */
+static brace_client_status_t listen(brace_client_t *client, int timeout_ms, waiting_t *waiting)
+{
+    brace_bus_frame_t frame;
+    const brace_bus_status_t status = brace_bus_receive(client->bus, &frame, timeout_ms);
+    if (status == BRACE_BUS_OK) {
+        hear(client, &frame, waiting);
+    } else if (status != BRACE_BUS_E_TIMEOUT) {
+        return brace_client_fail(client, BRACE_CLIENT_E_DOWN,
+                                 "%s: the connection has gone; is the interface still up, the adapter plugged in, the "
+                                 "other end running?", client->url);
+    }
+    if (client->speaks_another) {
+        return brace_client_fail_version(client, client->node, client->other_hash);
+    }
+    return status == BRACE_BUS_OK ? BRACE_CLIENT_OK : BRACE_CLIENT_E_TIMEOUT;
+}
+
+static bool is_heard(const brace_client_t *client, uint32_t node)
+{
+    return node != 0u && client->heard[node >> 5] >> (node & 31u) & 1u;
+}
+
+/* Text of the nodes that are heard, e.g. "1, 2"; the first of them, 0 for none. */
+static uint32_t list_heard(const brace_client_t *client, char *text, size_t room)
+{
+    uint32_t first = 0u;
+    size_t used = 0u;
+    text[0] = '\0';
+    for (uint32_t node = 1u; node <= 127u; node++) {
+        if (is_heard(client, node)) {
+            first = first == 0u ? node : first;
+            if (used + 6u < room) {
+                used += (size_t)snprintf(text + used, room - used, "%s%u", used == 0u ? "" : ", ", (unsigned)node);
+            }
+        }
+    }
+    return first;
+}
+
+/* Time is over, and what was waited for (`what`) has not come: why? */
+static brace_client_status_t explain_silence(brace_client_t *client, const char *what)
+{
+    char heard[64];
+    if (is_heard(client, client->node)) {
+        return brace_client_fail(client, BRACE_CLIENT_E_TIMEOUT,
+                                 "%s: controller %u is heard, but %s did not come in time; try a longer time-out, or less "
+                                 "on the bus", client->url, (unsigned)client->node, what);
+    }
+    const uint32_t other = list_heard(client, heard, sizeof heard);
+    if (other != 0u) {
+        return brace_client_fail(client, BRACE_CLIENT_E_NODE,
+                                 "%s: controller %u is not on this bus; heard: %s; try node %u, or give the controller its "
+                                 "number (controller.node_id)", client->url, (unsigned)client->node, heard, (unsigned)other);
+    }
+    const bool is_slcan = client->bus->is_slcan;
+    const uint32_t errors = brace_bus_errors(client->bus, STATUS_MS);
+    if (errors != 0u || brace_bus_lost(client->bus) != 0u) {
+        return brace_client_fail(client, BRACE_CLIENT_E_BIT_RATE,
+                                 is_slcan ? "%s: the bus is there and can not be read: not the controller's bit rate (or the "
+                                            "serial line's baud rate); try 500000, or slcan:DEVICE@BAUD"
+                                          : "%s: error frames only: not the controller's bit rate, or no termination; try "
+                                            "'ip link set %s down', then up with 'type can bitrate 500000'",
+                                 client->url, client->url);
+    }
+    return brace_client_fail(client, BRACE_CLIENT_E_SILENT,
+                             "%s: nothing at all is heard; is the controller powered and wired, its bit rate this bus' own, "
+                             "its node number set (controller.node_id)? 'candump' shows what is on a bus", client->url);
+}
+
+brace_client_status_t brace_can_ask(brace_client_t *client, brace_question_t *question, uint64_t deadline_us)
+{
+    static const char what[] = "its answer";
+    const uint32_t parts = (1u << brace_can_answer_parts[question->code]) - 1u;
+    uint64_t try_us = FIRST_TRY_MS * 1000u;
+    while (brace_bus_left_ms(deadline_us) > 0) {
+        /* A token for each try: parts of two answers must not be mixed, they may be of two ticks. */
+        client->token++;
+        waiting_t waiting = {.code = question->code, .token = client->token, .question = question};
+        brace_bus_frame_t request = {.id = BRACE_CAN_ID_REQUEST + client->node, .length = 8u};
+        memcpy(request.data, question->data, 8u);
+        request.data[1] = waiting.token;
+        const brace_bus_status_t sent = brace_bus_send(client->bus, &request, brace_bus_left_ms(deadline_us));
+        if (sent == BRACE_BUS_E_FULL) {
+            return brace_client_fail(client, BRACE_CLIENT_E_FULL,
+                                     "%s: the bus takes no frame: nobody acknowledges it (power, wiring, termination, bit "
+                                     "rate), or it is overloaded", client->url);
+        }
+        if (sent != BRACE_BUS_OK) {
+            return brace_client_fail(client, BRACE_CLIENT_E_DOWN,
+                                     "%s: the connection has gone; is the interface still up, the other end running?",
+                                     client->url);
+        }
+        const uint64_t now_us = brace_bus_now_us();
+        const uint64_t until_us = now_us + try_us < deadline_us ? now_us + try_us : deadline_us;
+        while (!waiting.is_taken && brace_bus_left_ms(until_us) > 0) {
+            const brace_client_status_t status = listen(client, brace_bus_left_ms(until_us), &waiting);
+            if (status != BRACE_CLIENT_OK && status != BRACE_CLIENT_E_TIMEOUT) {
+                return status;
+            }
+            if (waiting.is_refused) {
+                client->refusal = waiting.refusal.status;
+                return brace_client_fail(client, BRACE_CLIENT_E_REFUSED, "%s: controller %u refuses: %s (status %d, detail %u)",
+                                         client->url, (unsigned)client->node,
+                                         brace_status_text((brace_status_t)waiting.refusal.status),
+                                         (int)waiting.refusal.status, (unsigned)waiting.refusal.detail);
+            }
+            if (waiting.parts_seen == parts && !waiting.is_taken) {
+                return BRACE_CLIENT_OK;
+            }
+        }
+        try_us *= 2u;
+        if (waiting.is_taken) { /* the other client looks for a new token too: not for the same */
+            client->token = (uint8_t)(brace_bus_now_us() ^ (uint64_t)getpid());
+        }
+    }
+    return explain_silence(client, what);
+}
+
+static brace_client_status_t find_first(brace_client_t *client, uint64_t deadline_us)
+{
+    char heard[64];
+    while (brace_bus_left_ms(deadline_us) > 0) {
+        const brace_client_status_t status = listen(client, brace_bus_left_ms(deadline_us), NULL);
+        if (status != BRACE_CLIENT_OK && status != BRACE_CLIENT_E_TIMEOUT) {
+            return status;
+        }
+        client->node = list_heard(client, heard, sizeof heard);
+        if (client->node != 0u) {
+            return BRACE_CLIENT_OK;
+        }
+    }
+    return explain_silence(client, "");
+}
+
+static brace_client_status_t identify(brace_client_t *client, uint64_t deadline_us)
+{
+    const brace_can_identify_request_t request = {0};
+    brace_question_t question = {.code = BRACE_REQUEST_IDENTIFY};
+    (void)brace_can_pack_identify_request(&request, question.data);
+    const brace_client_status_t status = brace_can_ask(client, &question, deadline_us);
+    if (status != BRACE_CLIENT_OK) {
+        return status;
+    }
+    brace_can_identify_answer_0_t version;
+    brace_can_identify_answer_1_t dictionary;
+    brace_can_identify_answer_3_t parameters;
+    brace_can_unpack_identify_answer_0(question.answers[0], &version);
+    brace_can_unpack_identify_answer_1(question.answers[1], &dictionary);
+    brace_can_unpack_identify_answer_3(question.answers[3], &parameters);
+    if (dictionary.dictionary_hash != BRACE_DICTIONARY_HASH || version.protocol != BRACE_PROTOCOL) {
+        return brace_client_fail_version(client, client->node, dictionary.dictionary_hash);
+    }
+    client->identity = (brace_client_identity_t){
+        .node = client->node,
+        .dictionary_hash = dictionary.dictionary_hash,
+        .firmware_version = version.major << 16 | version.minor << 8 | version.patch,
+        .parameter_crc = parameters.parameter_crc,
+        .parameter_origin = parameters.origin,
+    };
+    return BRACE_CLIENT_OK;
+}
+
+brace_client_status_t brace_can_open(brace_client_t *client, uint32_t node, uint32_t bit_rate, uint64_t deadline_us)
+{
+    const brace_bus_status_t opened = brace_bus_open(client->url, bit_rate, brace_bus_left_ms(deadline_us), &client->bus,
+                                                     client->why, sizeof client->why);
+    if (opened != BRACE_BUS_OK) {
+        return (brace_client_status_t)opened; /* the same numbers */
+    }
+    const uint64_t reserve_us = client->bus->is_slcan ? STATUS_MS * 1000u : 0u; /* to ask the adapter for errors */
+    deadline_us = deadline_us > brace_bus_now_us() + reserve_us ? deadline_us - reserve_us : deadline_us;
+    client->node = node;
+    client->token = (uint8_t)(brace_bus_now_us() ^ (uint64_t)getpid());
+    const brace_client_status_t status = node == 0u ? find_first(client, deadline_us) : BRACE_CLIENT_OK;
+    return status == BRACE_CLIENT_OK ? identify(client, deadline_us) : status;
+}
+
+/* The newest snapshot with the wanted parts, when it has not been read under these before. */
+static bool newest(brace_client_t *client, uint32_t wanted, uint64_t since_us, brace_client_snapshot_t *snapshot)
+{
+    const brace_client_snapshot_t *best = NULL;
+    for (uint32_t parts = wanted; parts <= BRACE_PART_ALL; parts++) {
+        const brace_client_snapshot_t *s = &client->latest[parts];
+        if ((parts & wanted) == wanted && s->parts != 0u && (best == NULL || s->received_us >= best->received_us)) {
+            best = s;
+        }
+    }
+    if (best == NULL || best->received_us < since_us || best->received_us < client->read_us[wanted] ||
+        (best->received_us == client->read_us[wanted] && best->sequence == client->read_sequence[wanted])) {
+        return false;
+    }
+    *snapshot = *best;
+    client->read_us[wanted] = best->received_us;
+    client->read_sequence[wanted] = best->sequence;
+    return true;
+}
+
+brace_client_status_t brace_can_read(brace_client_t *client, uint32_t wanted, uint64_t deadline_us,
+                                     brace_client_snapshot_t *snapshot)
+{
+    memset(client->heard, 0, sizeof client->heard);
+    int wait_ms = 0; /* first what waits already, the newest of it */
+    for (;;) {
+        const brace_client_status_t status = listen(client, wait_ms, NULL);
+        if (status != BRACE_CLIENT_OK && status != BRACE_CLIENT_E_TIMEOUT) {
+            return status;
+        }
+        const int left_ms = brace_bus_left_ms(deadline_us);
+        if (status == BRACE_CLIENT_OK && left_ms > 0) {
+            wait_ms = 0;
+            continue;
+        }
+        /* A queue that was full holds old frames only: rather wait for the next. */
+        const uint64_t now_us = brace_bus_now_us();
+        if (newest(client, wanted, left_ms > 0 && now_us > OLD_US ? now_us - OLD_US : 0u, snapshot)) {
+            return BRACE_CLIENT_OK;
+        }
+        if (left_ms == 0) {
+            return explain_silence(client, "the wanted part of a snapshot (controller.stiffness_hz, posture_hz)");
+        }
+        wait_ms = left_ms;
+    }
+}

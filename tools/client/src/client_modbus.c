@@ -1,0 +1,371 @@
+/* Over Modbus, through libmodbus. Registers: docs/modbus.md. */
+#include "client_internal.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool brace_modbus_is_url(const char *url)
+{
+    return strncmp(url, "modbus:", 7) == 0 || strncmp(url, "modbus-tcp://", 13) == 0;
+}
+
+#ifdef BRACE_WITH_MODBUS
+
+#include <errno.h>
+#include <math.h>
+#include <modbus.h>
+
+#include "brace/can_messages.h"
+
+enum { TRY_MS = 800, REGISTERS_AT_ONCE = 125 };
+
+/* High word first. libmodbus 3.1.6 swaps bytes in its own float setters on this kind of host. */
+static uint32_t join(const uint16_t words[2])
+{
+    return (uint32_t)words[0] << 16 | words[1];
+}
+
+static void split(float value, uint16_t words[2])
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    words[0] = (uint16_t)(bits >> 16);
+    words[1] = (uint16_t)bits;
+}
+
+/* Text behind a last '/' that is a number, cut off and returned; fallback when there is none. */
+static long cut_unit(char *text, long fallback)
+{
+    char *slash = strrchr(text, '/');
+    if (slash == NULL || slash == text || slash[1] == '\0' || strspn(slash + 1, "0123456789") != strlen(slash + 1)) {
+        return fallback;
+    }
+    *slash = '\0';
+    if (strcmp(text, "/dev/pts") == 0) { /* a device, not a unit */
+        *slash = '/';
+        return fallback;
+    }
+    return strtol(slash + 1, NULL, 10);
+}
+
+static brace_client_status_t no_url(brace_client_t *client)
+{
+    return brace_client_fail(client, BRACE_CLIENT_E_USAGE,
+                             "%s: expected modbus:/dev/ttyUSB0@115200/1 or modbus-tcp://host:port/1, units 1 to 247",
+                             client->url);
+}
+
+static brace_client_status_t make(brace_client_t *client, modbus_t **made)
+{
+    char text[sizeof client->url];
+    const bool is_tcp = strncmp(client->url, "modbus-tcp://", 13) == 0;
+    strcpy(text, client->url + (is_tcp ? 13 : 7));
+    char *at = is_tcp ? NULL : strrchr(text, '@');
+    const long unit = cut_unit(text, 1);
+    long baud = 115200;
+    if (at != NULL) {
+        char *end;
+        *at = '\0';
+        baud = strtol(at + 1, &end, 10);
+        if (*end != '\0' || end == at + 1) {
+            return no_url(client);
+        }
+    }
+    if (text[0] == '\0' || unit < 1 || unit > 247 || baud < 1200 || baud > 4000000) {
+        return no_url(client);
+    }
+    client->unit = (uint32_t)unit;
+    if (!is_tcp) {
+        *made = modbus_new_rtu(text, (int)baud, 'N', 8, 1);
+    } else {
+        char *port = strrchr(text, ':');
+        char *host = text;
+        if (port != NULL && strchr(port, ']') == NULL) {
+            *port++ = '\0';
+        } else {
+            port = NULL;
+        }
+        if (host[0] == '[' && host[strlen(host) - 1u] == ']') {
+            host[strlen(host) - 1u] = '\0';
+            host++;
+        }
+        *made = modbus_new_tcp_pi(host, port == NULL ? "502" : port);
+    }
+    if (*made == NULL || modbus_set_slave(*made, (int)unit) != 0) {
+        return no_url(client);
+    }
+    return BRACE_CLIENT_OK;
+}
+
+static void limit_wait(modbus_t *modbus, uint64_t deadline_us)
+{
+    const int left_ms = brace_bus_left_ms(deadline_us);
+    const int wait_ms = left_ms < 1 ? 1 : left_ms < TRY_MS ? left_ms : TRY_MS;
+    modbus_set_response_timeout(modbus, (uint32_t)(wait_ms / 1000), (uint32_t)(wait_ms % 1000) * 1000u);
+}
+
+static brace_client_status_t fail(brace_client_t *client, int error)
+{
+    switch (error) {
+    case ETIMEDOUT:
+    case EAGAIN:
+    case EINPROGRESS:
+        return brace_client_fail(client, BRACE_CLIENT_E_SILENT,
+                                 "%s: unit %u does not answer; is it powered and wired, its address "
+                                 "(controller.modbus_address) %u, its baud rate (controller.modbus_baud) this one?",
+                                 client->url, (unsigned)client->unit, (unsigned)client->unit);
+    case EMBBADCRC:
+    case EMBBADDATA:
+    case EMBMDATA:
+    case EMBBADEXC:
+        return brace_client_fail(client, BRACE_CLIENT_E_BIT_RATE,
+                                 "%s: what comes is broken (%s): not its baud rate, or two units of one address; try "
+                                 "modbus:DEVICE@19200", client->url, modbus_strerror(error));
+    case EMBBADSLAVE:
+    case EMBXGPATH:
+    case EMBXGTAR:
+        return brace_client_fail(client, BRACE_CLIENT_E_NODE, "%s: there is no unit %u behind this port (%s)", client->url,
+                                 (unsigned)client->unit, modbus_strerror(error));
+    case ECONNRESET:
+    case EPIPE:
+    case EBADF:
+    case EIO:
+        return brace_client_fail(client, BRACE_CLIENT_E_DOWN, "%s: the connection has gone (%s); connect again", client->url,
+                                 modbus_strerror(error));
+    default: break;
+    }
+    if (error > MODBUS_ENOBASE) {
+        client->refusal = error - MODBUS_ENOBASE;
+        return brace_client_fail(client, BRACE_CLIENT_E_REFUSED, "%s: unit %u refuses: %s (exception %d)", client->url,
+                                 (unsigned)client->unit, modbus_strerror(error), error - MODBUS_ENOBASE);
+    }
+    return brace_client_fail(client, BRACE_CLIENT_E_DOWN, "%s: %s", client->url, modbus_strerror(error));
+}
+
+/* Worth another try: nothing or something broken came, or the unit is busy. */
+static bool may_pass(int error)
+{
+    return error == ETIMEDOUT || error == EAGAIN || error == EMBBADCRC || error == EMBBADDATA || error == EMBXSBUSY;
+}
+
+typedef int (*transfer_t)(modbus_t *, int, int, uint16_t *);
+
+static int write_words(modbus_t *modbus, int address, int count, uint16_t *words)
+{
+    return modbus_write_registers(modbus, address, count, words);
+}
+
+static brace_client_status_t transfer(brace_client_t *client, transfer_t how, uint32_t address, uint32_t count,
+                                      uint16_t *words, uint64_t deadline_us)
+{
+    int error = ETIMEDOUT;
+    do {
+        limit_wait(client->modbus, deadline_us);
+        if (how(client->modbus, (int)address, (int)count, words) == (int)count) {
+            return BRACE_CLIENT_OK;
+        }
+        error = errno;
+        (void)modbus_flush(client->modbus); /* a late answer must not be taken for the next one */
+    } while (may_pass(error) && brace_bus_left_ms(deadline_us) > 0);
+    return fail(client, error);
+}
+
+brace_client_status_t brace_modbus_open(brace_client_t *client, uint64_t deadline_us)
+{
+    modbus_t *modbus = NULL;
+    const brace_client_status_t made = make(client, &modbus);
+    client->modbus = modbus;
+    if (made != BRACE_CLIENT_OK) {
+        return made;
+    }
+    limit_wait(modbus, deadline_us);
+    errno = 0;
+    if (modbus_connect(modbus) != 0) {
+        const int error = errno == EINPROGRESS || errno == 0 ? ETIMEDOUT : errno;
+        modbus_free(modbus);
+        client->modbus = NULL;
+        return brace_client_fail(client, BRACE_CLIENT_E_NO_DEVICE, "%s: %s; %s", client->url, modbus_strerror(error),
+                                 strncmp(client->url, "modbus:", 7) == 0
+                                     ? "is the adapter plugged in and free? 'ls /dev/tty*' lists the devices there are"
+                                     : "does anything listen there? ('brace sim' prints its port)");
+    }
+    uint16_t words[8];
+    const brace_client_status_t status = transfer(client, modbus_read_input_registers, 0u, 8u, words, deadline_us);
+    if (status != BRACE_CLIENT_OK) {
+        return status;
+    }
+    if (join(words) != 0x4640e600u || join(words + 2) != 0x01020304u) {
+        return brace_client_fail(client, BRACE_CLIENT_E_VERSION,
+                                 "%s: input registers 0 to 3 read 0x%08x 0x%08x, a Brace controller's read 0x4640e600 "
+                                 "0x01020304; is it another device, or a gateway that swaps words?",
+                                 client->url, (unsigned)join(words), (unsigned)join(words + 2));
+    }
+    if (join(words + 4) != BRACE_DICTIONARY_HASH) {
+        return brace_client_fail_version(client, client->unit, join(words + 4));
+    }
+    client->identity = (brace_client_identity_t){
+        .node = client->unit, .dictionary_hash = join(words + 4), .firmware_version = join(words + 6)};
+    const brace_client_status_t crc = brace_modbus_entry(client, BRACE_CLIENT_ENTRY(parameter_crc), deadline_us,
+                                                         &client->identity.parameter_crc);
+    return crc != BRACE_CLIENT_OK ? crc
+                                  : brace_modbus_entry(client, BRACE_CLIENT_ENTRY(parameter_origin), deadline_us,
+                                                       &client->identity.parameter_origin);
+}
+
+void brace_modbus_close(brace_client_t *client)
+{
+    if (client->modbus != NULL) {
+        modbus_close(client->modbus);
+        modbus_free(client->modbus);
+    }
+}
+
+static void take(const brace_measured_t *m, uint64_t received_us, brace_client_snapshot_t *s)
+{
+    *s = (brace_client_snapshot_t){
+        .parts = BRACE_PART_ALL,
+        .sequence = m->sequence,
+        .received_us = received_us,
+        .age_ms = m->age_us == UINT32_MAX ? NAN : (float)m->age_us * 1e-3f,
+        .k_is_valid = m->k_is_valid == 1u,
+        .flags = m->flags,
+        .k_xx_n_per_mm = m->k_xx_n_per_mm,
+        .k_xz_n_per_mm = m->k_xz_n_per_mm,
+        .k_zz_n_per_mm = m->k_zz_n_per_mm,
+        .play_femur = m->play_femur,
+        .play_tibia = m->play_tibia,
+        .parameter_tag = m->parameter_crc & 0xffffu,
+        .lambda_min_n_per_mm = m->lambda_min_n_per_mm,
+        .lambda_max_n_per_mm = m->lambda_max_n_per_mm,
+        .stiff_axis_rad = m->stiff_axis_rad,
+        .theta1_rad = m->theta1_rad,
+        .theta2_rad = m->theta2_rad,
+        .mode = m->mode,
+        .faults = m->faults,
+    };
+}
+
+/* One read, so one snapshot. */
+brace_client_status_t brace_modbus_read(brace_client_t *client, uint64_t deadline_us, brace_client_snapshot_t *snapshot)
+{
+    _Static_assert(2 * BRACE_MEASURED_COUNT <= REGISTERS_AT_ONCE, "one read holds every measured value");
+    uint16_t words[2 * BRACE_MEASURED_COUNT];
+    uint32_t values[BRACE_MEASURED_COUNT];
+    brace_measured_t measured;
+    const brace_client_status_t status =
+        transfer(client, modbus_read_input_registers, 0u, 2u * BRACE_MEASURED_COUNT, words, deadline_us);
+    if (status != BRACE_CLIENT_OK) {
+        return status;
+    }
+    for (uint32_t i = 0u; i < BRACE_MEASURED_COUNT; i++) {
+        values[i] = join(words + 2u * i);
+    }
+    memcpy(&measured, values, sizeof measured);
+    if (measured.dictionary_hash != BRACE_DICTIONARY_HASH) { /* flashed anew since */
+        return brace_client_fail_version(client, client->unit, measured.dictionary_hash);
+    }
+    take(&measured, brace_bus_now_us(), snapshot);
+    return BRACE_CLIENT_OK;
+}
+
+brace_client_status_t brace_modbus_entry(brace_client_t *client, uint32_t index, uint64_t deadline_us, uint32_t *value)
+{
+    uint16_t words[2];
+    const bool is_answer = index >= BRACE_ENTRY_ANSWERED, is_measured = index >= BRACE_ENTRY_MEASURED;
+    const uint32_t address = is_answer     ? 0x1000u + 2u * (index - BRACE_ENTRY_ANSWERED)
+                             : is_measured ? 2u * (index - BRACE_ENTRY_MEASURED)
+                                           : 2u * index;
+    const brace_client_status_t status =
+        transfer(client, is_measured ? modbus_read_input_registers : modbus_read_registers, address, 2u, words, deadline_us);
+    if (status == BRACE_CLIENT_OK) {
+        *value = join(words);
+    }
+    return status;
+}
+
+brace_client_status_t brace_modbus_k_at_posture(brace_client_t *client, float theta1_rad, float theta2_rad,
+                                                uint64_t deadline_us, brace_client_k_t *k)
+{
+    const uint32_t asked_at = BRACE_REGISTER_COMMANDS + (uint32_t)(offsetof(brace_commands_t, asked_theta1_rad) / 2u);
+    uint16_t posture[4], words[2 * BRACE_ANSWERED_COUNT], readback[4];
+    uint32_t values[BRACE_ANSWERED_COUNT];
+    brace_answered_t answered;
+    split(theta1_rad, posture);
+    split(theta2_rad, posture + 2);
+    brace_client_status_t status = transfer(client, write_words, asked_at, 4u, posture, deadline_us);
+    if (status == BRACE_CLIENT_OK) {
+        status = transfer(client, modbus_read_input_registers, 0x1000u, 2u * BRACE_ANSWERED_COUNT, words, deadline_us);
+    }
+    if (status == BRACE_CLIENT_OK) {
+        status = transfer(client, modbus_read_registers, asked_at, 4u, readback, deadline_us);
+    }
+    if (status != BRACE_CLIENT_OK) {
+        return status;
+    }
+    if (memcmp(posture, readback, sizeof posture) != 0) {
+        return brace_client_fail(client, BRACE_CLIENT_E_REFUSED,
+                                 "%s: another client has asked for another posture meanwhile; ask again", client->url);
+    }
+    for (uint32_t i = 0u; i < BRACE_ANSWERED_COUNT; i++) {
+        values[i] = join(words + 2u * i);
+    }
+    memcpy(&answered, values, sizeof answered);
+    *k = (brace_client_k_t){
+        .k_xx_n_per_mm = answered.asked_k_xx_n_per_mm,
+        .k_xz_n_per_mm = answered.asked_k_xz_n_per_mm,
+        .k_zz_n_per_mm = answered.asked_k_zz_n_per_mm,
+        .lambda_min_n_per_mm = answered.asked_lambda_min_n_per_mm,
+        .lambda_max_n_per_mm = answered.asked_lambda_max_n_per_mm,
+        .stiff_axis_rad = answered.asked_stiff_axis_rad,
+        .flags = answered.asked_flags,
+    };
+    return BRACE_CLIENT_OK;
+}
+
+#else
+
+static brace_client_status_t absent(brace_client_t *client)
+{
+    return brace_client_fail(client, BRACE_CLIENT_E_UNSUPPORTED,
+                             "%s: this client was built without libmodbus; install it (Debian: libmodbus-dev) and build "
+                             "again", client->url);
+}
+
+brace_client_status_t brace_modbus_open(brace_client_t *client, uint64_t deadline_us)
+{
+    (void)deadline_us;
+    return absent(client);
+}
+
+void brace_modbus_close(brace_client_t *client)
+{
+    (void)client;
+}
+
+brace_client_status_t brace_modbus_read(brace_client_t *client, uint64_t deadline_us, brace_client_snapshot_t *snapshot)
+{
+    (void)deadline_us;
+    (void)snapshot;
+    return absent(client);
+}
+
+brace_client_status_t brace_modbus_entry(brace_client_t *client, uint32_t index, uint64_t deadline_us, uint32_t *value)
+{
+    (void)index;
+    (void)deadline_us;
+    (void)value;
+    return absent(client);
+}
+
+brace_client_status_t brace_modbus_k_at_posture(brace_client_t *client, float theta1_rad, float theta2_rad,
+                                                uint64_t deadline_us, brace_client_k_t *k)
+{
+    (void)theta1_rad;
+    (void)theta2_rad;
+    (void)deadline_us;
+    (void)k;
+    return absent(client);
+}
+
+#endif
