@@ -12,7 +12,7 @@ static int32_t open_line(brace_posix_bus_t *bus, const char *place)
     const int32_t status =
         strcmp(place, "pty") == 0 ? io_pty(&file, &bus->kept, bus->where) : io_tty(place, &file, bus->where);
     if (status == BRACE_POSIX_OK) {
-        slcan_start(&bus->client[0], file);
+        posix_slcan_start(&bus->client[0], file);
     }
     return status;
 }
@@ -59,7 +59,7 @@ static void accept_client(brace_posix_bus_t *bus)
     int file = io_accept(bus->listener);
     for (uint32_t i = 0; file >= 0 && i < BRACE_POSIX_CLIENTS; i++) {
         if (bus->client[i].file < 0) {
-            slcan_start(&bus->client[i], file);
+            posix_slcan_start(&bus->client[i], file);
             return;
         }
     }
@@ -72,7 +72,7 @@ void brace_posix_bus_poll(brace_posix_bus_t *bus, uint32_t now_us)
     accept_client(bus);
     for (uint32_t i = 0; i < BRACE_POSIX_CLIENTS; i++) {
         if (bus->client[i].file >= 0) {
-            slcan_poll(bus, &bus->client[i]);
+            posix_slcan_poll(bus, &bus->client[i]);
         }
     }
     if (bus->socket_can >= 0) {
@@ -133,7 +133,7 @@ void bus_to_outside(brace_posix_bus_t *bus, const brace_posix_slcan_t *sender,
 {
     for (uint32_t i = 0; i < BRACE_POSIX_CLIENTS; i++) {
         if (&bus->client[i] != sender) {
-            slcan_frame(bus, &bus->client[i], frame);
+            posix_slcan_frame(bus, &bus->client[i], frame);
         }
     }
     if (bus->socket_can >= 0) {

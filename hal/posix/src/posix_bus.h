@@ -17,9 +17,9 @@ void bus_to_outside(brace_posix_bus_t *bus, const brace_posix_slcan_t *sender,
 /* The rate of the controllers on the bus; 0: none is on yet. */
 uint32_t bus_bit_rate(const brace_posix_bus_t *bus);
 
-void slcan_start(brace_posix_slcan_t *client, int file);
-void slcan_poll(brace_posix_bus_t *bus, brace_posix_slcan_t *client);
-void slcan_frame(const brace_posix_bus_t *bus, brace_posix_slcan_t *client,
+void posix_slcan_start(brace_posix_slcan_t *client, int file);
+void posix_slcan_poll(brace_posix_bus_t *bus, brace_posix_slcan_t *client);
+void posix_slcan_frame(const brace_posix_bus_t *bus, brace_posix_slcan_t *client,
                  const brace_posix_wire_frame_t *frame);
 
 int32_t socketcan_open(brace_posix_bus_t *bus, const char *interface);

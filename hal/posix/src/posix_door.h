@@ -19,8 +19,8 @@ int32_t stream_write(brace_posix_stream_t *stream, const uint8_t *bytes, uint32_
 int32_t stream_read(brace_posix_stream_t *stream, uint8_t *bytes, uint32_t room);
 void stream_poll(brace_posix_stream_t *stream);
 
-int32_t modbus_write(brace_posix_modbus_t *modbus, const uint8_t *bytes, uint32_t count);
-int32_t modbus_read(brace_posix_modbus_t *modbus, uint8_t *bytes, uint32_t room);
-void modbus_poll(brace_posix_modbus_t *modbus);
+int32_t posix_modbus_write(brace_posix_modbus_t *modbus, const uint8_t *bytes, uint32_t count);
+int32_t posix_modbus_read(brace_posix_modbus_t *modbus, uint8_t *bytes, uint32_t room);
+void posix_modbus_poll(brace_posix_modbus_t *modbus);
 
 #endif

@@ -55,7 +55,7 @@ static int32_t door_serial_write(void *context, brace_serial_port_t port, const 
 {
     brace_posix_t *posix = context;
     if (port == BRACE_SERIAL_MODBUS_TCP) {
-        return modbus_write(&posix->modbus, bytes, count);
+        return posix_modbus_write(&posix->modbus, bytes, count);
     }
     return port <= BRACE_SERIAL_SLCAN ? stream_write(&posix->stream[port], bytes, count)
                                       : BRACE_HAL_E_UNSUPPORTED;
@@ -65,7 +65,7 @@ static int32_t door_serial_read(void *context, brace_serial_port_t port, uint8_t
 {
     brace_posix_t *posix = context;
     if (port == BRACE_SERIAL_MODBUS_TCP) {
-        return modbus_read(&posix->modbus, bytes, room);
+        return posix_modbus_read(&posix->modbus, bytes, room);
     }
     return port <= BRACE_SERIAL_SLCAN ? stream_read(&posix->stream[port], bytes, room)
                                       : BRACE_HAL_E_UNSUPPORTED;
@@ -166,7 +166,7 @@ void brace_posix_poll(brace_posix_t *posix)
     for (uint32_t i = 0; i <= BRACE_SERIAL_SLCAN; i++) {
         stream_poll(&posix->stream[i]);
     }
-    modbus_poll(&posix->modbus);
+    posix_modbus_poll(&posix->modbus);
 }
 
 void brace_posix_close(brace_posix_t *posix)

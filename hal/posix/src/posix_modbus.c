@@ -80,7 +80,7 @@ static void poll_client(brace_posix_modbus_t *modbus, brace_posix_modbus_client_
     }
 }
 
-void modbus_poll(brace_posix_modbus_t *modbus)
+void posix_modbus_poll(brace_posix_modbus_t *modbus)
 {
     modbus->polls++;
     const int file = io_accept(modbus->listener);
@@ -120,7 +120,7 @@ static bool take_adu(brace_posix_modbus_t *modbus)
     return false;
 }
 
-int32_t modbus_read(brace_posix_modbus_t *modbus, uint8_t *bytes, uint32_t room)
+int32_t posix_modbus_read(brace_posix_modbus_t *modbus, uint8_t *bytes, uint32_t room)
 {
     if (modbus->listener < 0) {
         return BRACE_HAL_E_UNSUPPORTED;
@@ -135,7 +135,7 @@ int32_t modbus_read(brace_posix_modbus_t *modbus, uint8_t *bytes, uint32_t room)
     return (int32_t)count;
 }
 
-int32_t modbus_write(brace_posix_modbus_t *modbus, const uint8_t *bytes, uint32_t count)
+int32_t posix_modbus_write(brace_posix_modbus_t *modbus, const uint8_t *bytes, uint32_t count)
 {
     if (modbus->listener < 0) {
         return BRACE_HAL_E_UNSUPPORTED;

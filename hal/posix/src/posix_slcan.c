@@ -7,7 +7,7 @@
 
 enum { READS_PER_POLL = 4, READ_BYTES = 1024, STAMP_PERIOD_MS = 60000 };
 
-void slcan_start(brace_posix_slcan_t *client, int file)
+void posix_slcan_start(brace_posix_slcan_t *client, int file)
 {
     memset(client, 0, offsetof(brace_posix_slcan_t, out));
     client->out.start = client->out.count = 0u;
@@ -30,7 +30,7 @@ static bool send_frame(brace_posix_bus_t *bus, brace_posix_slcan_t *client, cons
                        uint32_t length)
 {
     brace_posix_wire_frame_t frame;
-    if (!client->open || client->listen_only || !slcan_read(command, length, &frame)) {
+    if (!client->open || client->listen_only || !posix_slcan_read(command, length, &frame)) {
         return false;
     }
     if (hears(bus, client)) {
@@ -54,12 +54,12 @@ static bool open_channel(brace_posix_slcan_t *client, bool listen_only, uint32_t
 
 static bool set_rate(brace_posix_slcan_t *client, const char *command, uint32_t length)
 {
-    const bool by_number = command[0] == 'S' && length == 2u && slcan_bit_rate(command[1]) != 0u;
+    const bool by_number = command[0] == 'S' && length == 2u && posix_slcan_bit_rate(command[1]) != 0u;
     const bool by_registers = command[0] == 's' && length >= 5u; /* of some controller: any rate is meant */
     if (client->open || (!by_number && !by_registers)) {
         return false;
     }
-    client->bit_rate = by_number ? slcan_bit_rate(command[1]) : 0u;
+    client->bit_rate = by_number ? posix_slcan_bit_rate(command[1]) : 0u;
     answer(client, "\r");
     return true;
 }
@@ -129,7 +129,7 @@ static void take_byte(brace_posix_bus_t *bus, brace_posix_slcan_t *client, char 
     client->command_too_long = false;
 }
 
-void slcan_poll(brace_posix_bus_t *bus, brace_posix_slcan_t *client)
+void posix_slcan_poll(brace_posix_bus_t *bus, brace_posix_slcan_t *client)
 {
     uint8_t bytes[READ_BYTES];
     int32_t count = 0;
@@ -149,7 +149,7 @@ void slcan_poll(brace_posix_bus_t *bus, brace_posix_slcan_t *client)
     }
 }
 
-void slcan_frame(const brace_posix_bus_t *bus, brace_posix_slcan_t *client,
+void posix_slcan_frame(const brace_posix_bus_t *bus, brace_posix_slcan_t *client,
                  const brace_posix_wire_frame_t *frame)
 {
     if (client->file < 0 || !client->open || !hears(bus, client)) {
@@ -157,7 +157,7 @@ void slcan_frame(const brace_posix_bus_t *bus, brace_posix_slcan_t *client,
     }
     char line[SLCAN_LINE_BYTES];
     const int32_t stamp = client->stamps ? (int32_t)(bus->milliseconds % STAMP_PERIOD_MS) : -1;
-    if (!queue_put(&client->out, (const uint8_t *)line, slcan_write(frame, stamp, line))) {
+    if (!queue_put(&client->out, (const uint8_t *)line, posix_slcan_write(frame, stamp, line))) {
         client->frames_lost += client->frames_lost != UINT32_MAX;
     }
 }

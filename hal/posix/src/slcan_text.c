@@ -30,7 +30,7 @@ static bool hex_number(const char *text, uint32_t digits, uint32_t *number)
     return true;
 }
 
-bool slcan_read(const char *text, uint32_t length, brace_posix_wire_frame_t *frame)
+bool posix_slcan_read(const char *text, uint32_t length, brace_posix_wire_frame_t *frame)
 {
     brace_posix_wire_frame_t read = {{0}, false, false};
     const char kind = length > 0u ? text[0] : '\0';
@@ -71,7 +71,7 @@ static char *put_hex(char *to, uint32_t number, uint32_t digits)
     return to + digits;
 }
 
-uint32_t slcan_write(const brace_posix_wire_frame_t *frame, int32_t stamp_ms, char *line)
+uint32_t posix_slcan_write(const brace_posix_wire_frame_t *frame, int32_t stamp_ms, char *line)
 {
     const brace_can_frame_t *can = &frame->frame;
     char *end = line;
@@ -93,7 +93,7 @@ uint32_t slcan_write(const brace_posix_wire_frame_t *frame, int32_t stamp_ms, ch
     return (uint32_t)(end - line);
 }
 
-uint32_t slcan_bit_rate(char digit)
+uint32_t posix_slcan_bit_rate(char digit)
 {
     static const uint32_t rate[] = {10000, 20000, 50000, 100000, 125000, 250000, 500000, 800000, 1000000};
     return digit >= '0' && digit <= '8' ? rate[digit - '0'] : 0u;

@@ -8,12 +8,12 @@
 enum { SLCAN_LINE_BYTES = 160 };
 
 /* The frame of a command t T r R d b; length without the CR. false: not one. */
-bool slcan_read(const char *text, uint32_t length, brace_posix_wire_frame_t *frame);
+bool posix_slcan_read(const char *text, uint32_t length, brace_posix_wire_frame_t *frame);
 
 /* The line with its CR; room SLCAN_LINE_BYTES. stamp_ms < 0: none. Returns its length. */
-uint32_t slcan_write(const brace_posix_wire_frame_t *frame, int32_t stamp_ms, char *line);
+uint32_t posix_slcan_write(const brace_posix_wire_frame_t *frame, int32_t stamp_ms, char *line);
 
 /* The bit rate of S0-S8; 0: no such. */
-uint32_t slcan_bit_rate(char digit);
+uint32_t posix_slcan_bit_rate(char digit);
 
 #endif
