@@ -49,7 +49,7 @@ static void test_a_heartbeat_each_second_tells_mode_faults_and_dictionary(void)
     TEST_ASSERT_EQUAL_HEX8(0x05, frame.data[0]);
     TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, frame.data[1]);
     TEST_ASSERT_EQUAL(0, frame.data[2] | frame.data[3]);
-    TEST_ASSERT_EQUAL_HEX32(BRACE_SCHEMA_HASH, u32(&frame.data[4]));
+    TEST_ASSERT_EQUAL_HEX32(BRACE_DICTIONARY_HASH, u32(&frame.data[4]));
     TEST_ASSERT_EQUAL(10, frames(0x705, 10005));
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
     TEST_ASSERT_TRUE(frame_with(0x705, 10, &frame));
@@ -64,7 +64,8 @@ static void test_a_fault_is_told_at_once_and_so_is_its_end(void)
     fake.joint[BRACE_TIBIA].not_newer = true;
     TEST_ASSERT_TRUE(frame_with(0x085, 25, &frame));
     TEST_ASSERT_EQUAL_HEX16(0x7300, frame.data[0] | frame.data[1] << 8);
-    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, frame.data[2]);
+    TEST_ASSERT_EQUAL(1, frame.data[2]);
+    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, frame.data[3]);
     TEST_ASSERT_EQUAL_HEX32(BRACE_FAULT_SENSOR_TIBIA, u32(&frame.data[4]));
     TEST_ASSERT_TRUE(frame_with(0x705, 5, &frame));
     TEST_ASSERT_EQUAL_HEX8(0x04, frame.data[0]);

@@ -37,5 +37,6 @@ def _struct(name: str, values: Sequence[Measured], words: str) -> str:
     return (
         "".join(lines)
         + f"}} brace_{name}_t;\n\nenum {{ BRACE_{upper}_COUNT = {count} }};\n"
-        + f"_Static_assert(sizeof(brace_{name}_t) == 4 * BRACE_{upper}_COUNT, \"32 bits each\");\n\n"
+        + "#ifndef __cplusplus\n"
+        + f"_Static_assert(sizeof(brace_{name}_t) == 4 * BRACE_{upper}_COUNT, \"32 bits each\");\n#endif\n\n"
     )

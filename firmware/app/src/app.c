@@ -7,7 +7,6 @@
 #include "motion/command.h"
 #include "motion/joints.h"
 #include "motion/takeup.h"
-#include "report/announce.h"
 #include "report/services.h"
 #include "supervise/supervisor.h"
 
@@ -45,18 +44,18 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal)
     if (hal->reset_cause(hal->context) == BRACE_RESET_FAULT) {
         supervisor_latch(app, BRACE_FAULT_CRASHED);
     }
-    announce_start(app);
+    services_start(app);
     control_blank(app, &app->snapshot[0]);
     app->snapshot[0].taken_us = hal->now_us(hal->context);
     return BRACE_OK;
 }
 
 /* The mode in which parameters are stored and put in force: nothing is computed beside it. */
-static void configuration_tick(brace_app_t *app, uint32_t now_us, brace_snapshot_t *snapshot)
+static void configuration_tick(brace_app_t *app, uint32_t now_us, bool serves, brace_snapshot_t *snapshot)
 {
     control_blank(app, snapshot);
     command_send(app, snapshot);
-    if (!configure_piece(app)) {
+    if (!serves && !configure_piece(app)) {
         storing_step(app);
         joints_read(app, now_us);
     }
@@ -64,13 +63,15 @@ static void configuration_tick(brace_app_t *app, uint32_t now_us, brace_snapshot
     control_seal(app, snapshot);
 }
 
-static void control_tick(brace_app_t *app, uint32_t now_us, bool late, brace_snapshot_t *snapshot)
+/* serves: a request is answered beside it, and K is left out. */
+static void control_tick(brace_app_t *app, uint32_t now_us, bool late, bool serves, brace_snapshot_t *snapshot)
 {
-    const bool piece = app->loading.phase == LOADING_READ;
+    const bool reads = app->loading.phase == LOADING_READ;
+    const bool piece = reads || serves;
     control_sense(app, now_us, snapshot);
-    if (piece) {
+    if (reads) {
         loading_piece(app);
-    } else {
+    } else if (!serves) {
         control_stiffness(app, snapshot);
     }
     takeup_advance(app, snapshot);
@@ -92,14 +93,16 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     app->counters.ticks_late += late && app->counters.ticks_late < UINT32_MAX;
     app->last_us = now_us;
     app->ticked = true;
+    const bool measures = app->loading.phase >= LOADING_READ && app->loading.phase <= LOADING_JUDGE;
+    const bool serves = services_listen(app, !measures);
     if (app->mode == BRACE_MODE_CONFIGURATION) {
-        configuration_tick(app, now_us, next);
+        configuration_tick(app, now_us, serves, next);
     } else if (app->loading.phase == LOADING_DRIFT || app->loading.phase == LOADING_JUDGE) {
         loading_piece(app); /* as dear as a whole tick: the joints' filters bear a missed one */
     } else {
-        control_tick(app, now_us, late, next);
+        control_tick(app, now_us, late, serves, next);
     }
-    services_run(app);
+    services_run(app, serves);
     app->hal->watchdog_feed(app->hal->context);
 }
 

@@ -16,11 +16,13 @@
 #define BRACE_APP_H
 
 #include "brace/backlash.h"
+#include "brace/can_messages.h"
 #include "brace/chain.h"
 #include "brace/drift.h"
 #include "brace/gap_stiffness.h"
 #include "brace/kinematics.h"
 #include "brace/loading.h"
+#include "brace/measured.h"
 #include "brace/parameters.h"
 #include "brace/planar.h"
 #include "brace/recorder.h"
@@ -81,7 +83,7 @@ typedef struct {
     uint32_t ticks_late;
     uint32_t samples_bad;     /* refused, not finite or out of range */
     uint32_t frames_refused;  /* by the bus: no room, bus off */
-    uint32_t frames_unknown;  /* received, for nobody */
+    uint32_t frames_unknown;  /* received, of no kind that is known, or a request of another length or form */
     uint32_t commands_failed; /* joint_command refused */
     uint32_t modbus_broken;   /* frames with a wrong CRC or length */
     uint32_t modbus_refused;  /* answered with an exception */
@@ -137,19 +139,90 @@ typedef struct {
     bool letting_go;
 } brace_app_takeup_t;
 
+enum { BRACE_APP_LINE_BYTES = 32, BRACE_APP_IN_BYTES = 24, BRACE_APP_ANSWERS = 8 };
+
+/* CAN as text over a serial port (LAWICEL's SLCAN). */
+typedef struct {
+    bool fitted;
+    bool open, listen_only;   /* the channel, as whoever is at the other end wants it */
+    bool too_long;
+    uint8_t line[BRACE_APP_LINE_BYTES], in[BRACE_APP_IN_BYTES], out[BRACE_APP_LINE_BYTES];
+    uint8_t line_count, in_first, in_count, out_first, out_count;
+} brace_app_slcan_t;
+
 typedef struct {
     bool listens, speaks;     /* CAN is there; and the node's number is set */
     uint8_t node_id;
+    uint32_t bit_rate;
     bool bus_off;
-    uint32_t heartbeat_us, health_us, recover_us;
+    uint32_t health_us, recover_us, recover_wait_us;
+    brace_app_slcan_t slcan;
+} brace_app_bus_t;
+
+typedef struct {
+    uint32_t heartbeat_us;
     uint32_t faults_told;
     brace_mode_t mode_told;
 } brace_app_report_t;
+
+/* Process data: the frames of one snapshot, and when the next is due. */
+typedef struct {
+    uint32_t parameter_crc;   /* of the set that periods were worked out from */
+    uint32_t period_us, waited_us;
+    uint32_t stiffness_every, posture_every, stiffness_in, posture_in; /* snapshots; every 0: never */
+    uint8_t due;              /* frames of this snapshot still to be sent */
+    uint32_t taken_us;
+    brace_can_stiffness_a_t stiffness_a;
+    brace_can_stiffness_b_t stiffness_b;
+    brace_can_eigenvalues_t eigenvalues;
+    brace_can_posture_t posture;
+} brace_app_cyclic_t;
+
+typedef struct {
+    bool waiting;             /* request holds one to be answered */
+    bool rested;              /* the last tick answered none */
+    uint8_t request[8];
+    uint8_t answer[BRACE_APP_ANSWERS][8];
+    uint8_t answer_first, answer_count;
+    uint8_t storing, storing_token; /* the request that is answered when the store is done; 0: none */
+    bool upload_open;
+    uint32_t upload_next, upload_crc; /* words so far; the CRC that it will end with */
+    uint8_t upload[BRACE_BLOCK_BYTES];
+    uint32_t download_next, download_crc, download_set; /* words so far, of the set with that CRC */
+} brace_app_requests_t;
 
 typedef struct {
     bool begun;               /* set holds what is written; begun as a copy of what is in force */
     brace_parameters_t set;
 } brace_app_staging_t;
+
+enum { BRACE_APP_ADU_BYTES = 260 };
+
+typedef struct {
+    bool begun, checked;
+    uint8_t area;
+    uint16_t start, count, done;
+} brace_app_modbus_work_t;
+
+typedef struct {
+    bool there, drop;
+    uint8_t phase;
+    uint16_t count, checked, sent, crc;
+    uint32_t heard_us;
+    brace_app_modbus_work_t work;
+    uint8_t bytes[BRACE_APP_ADU_BYTES]; /* the request, then its answer */
+} brace_app_modbus_link_t;
+
+typedef struct {
+    brace_app_modbus_link_t line, tcp;
+    bool turn, half_known;
+    uint8_t address;
+    uint16_t half, half_place;    /* of a value written in two requests: the high one, and its register */
+    uint16_t messages, broken, refused, served, unanswered, busy; /* function 08's counters; wrap */
+    uint32_t silence_us, take_up, asked[2];
+    brace_answered_t answered;
+    brace_measured_t measured;    /* of the block that is being read */
+} brace_app_modbus_t;
 
 typedef struct {
     const brace_hal_t *hal;
@@ -175,7 +248,11 @@ typedef struct {
     brace_app_sensor_t sensor;
     brace_app_supervisor_t supervisor;
     brace_app_takeup_t takeup;
+    brace_app_bus_t bus;
     brace_app_report_t report;
+    brace_app_modbus_t modbus;
+    brace_app_cyclic_t cyclic;
+    brace_app_requests_t requests;
     brace_loading_t loading;
     brace_drift_t drift;
     brace_recorder_t recorder;

@@ -38,13 +38,11 @@ void control_sense(brace_app_t *app, uint32_t now_us, brace_snapshot_t *snapshot
     snapshot->taken_us = (int32_t)(femur_us - tibia_us) < 0 ? femur_us : tibia_us;
 }
 
-/* Each joint's temperature, the other's where it has no sensor; what is told is the warmer one. */
-static void temperatures(const brace_app_t *app, brace_snapshot_t *snapshot, float temp_degc[BRACE_APP_JOINTS])
+void control_temperatures(const brace_app_t *app, float temp_degc[BRACE_APP_JOINTS])
 {
     const float femur = app->joint[0].sample.temp_degc, tibia = app->joint[1].sample.temp_degc;
     temp_degc[0] = femur == femur ? femur : tibia;
     temp_degc[1] = tibia == tibia ? tibia : femur;
-    snapshot->temp_degc = temp_degc[0] > temp_degc[1] ? temp_degc[0] : temp_degc[1];
 }
 
 static void posture(brace_app_t *app, brace_snapshot_t *snapshot)
@@ -81,7 +79,8 @@ void control_stiffness(brace_app_t *app, brace_snapshot_t *snapshot)
     const bool sound = app->joint[0].sound && app->joint[1].sound;
     brace_gap_stiffness_t *k = &snapshot->stiffness;
     float temp_degc[BRACE_APP_JOINTS];
-    temperatures(app, snapshot, temp_degc);
+    control_temperatures(app, temp_degc);
+    snapshot->temp_degc = temp_degc[0] > temp_degc[1] ? temp_degc[0] : temp_degc[1];
     posture(app, snapshot);
     bool computed = false;
     if (sound && app->posed) {

@@ -10,6 +10,9 @@ void control_blank(const brace_app_t *app, brace_snapshot_t *snapshot);
 /* Joints, sensor, the joints' state machines. */
 void control_sense(brace_app_t *app, uint32_t now_us, brace_snapshot_t *snapshot);
 
+/* Each joint's temperature, the other's where it has no sensor; NaN: neither. What is told is the warmer one. */
+void control_temperatures(const brace_app_t *app, float temp_degc[BRACE_APP_JOINTS]);
+
 /* Angles, levers, force, K now and engaged, their flags. */
 void control_stiffness(brace_app_t *app, brace_snapshot_t *snapshot);
 

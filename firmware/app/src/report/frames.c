@@ -1,18 +1,6 @@
 #include "report/frames.h"
 
-static void put_u16(uint8_t *bytes, uint32_t value)
-{
-    bytes[0] = (uint8_t)value;
-    bytes[1] = (uint8_t)(value >> 8);
-}
-
-static void put_u32(uint8_t *bytes, uint32_t value)
-{
-    put_u16(bytes, value);
-    put_u16(bytes + 2, value >> 16);
-}
-
-static uint8_t state_of(brace_mode_t mode)
+static uint32_t state_of(brace_mode_t mode)
 {
     switch (mode) {
     case BRACE_MODE_START: return 0x00;
@@ -22,15 +10,9 @@ static uint8_t state_of(brace_mode_t mode)
     }
 }
 
-void frame_heartbeat(brace_can_frame_t *frame, uint8_t node_id, brace_mode_t mode, uint32_t faults)
+void frame_heartbeat(uint8_t data[8], brace_mode_t mode, uint32_t faults)
 {
-    frame->id = 0x700u + node_id;
-    frame->length = 8;
-    frame->fd = false;
-    frame->data[0] = state_of(mode);
-    frame->data[1] = (uint8_t)mode;
-    put_u16(&frame->data[2], faults);
-    put_u32(&frame->data[4], BRACE_SCHEMA_HASH);
+    (void)brace_can_pack_heartbeat(&(brace_can_heartbeat_t){state_of(mode), mode, faults, BRACE_DICTIONARY_HASH}, data);
 }
 
 /* CANopen's ranges: 0x5000 device hardware, 0x6000 software and data, 0x7000 additional modules, 0x8000
@@ -47,14 +29,8 @@ uint16_t frame_emergency_code(uint32_t fresh, uint32_t faults)
     return faults != 0u ? 0x1000 : 0;
 }
 
-void frame_emergency(brace_can_frame_t *frame, uint8_t node_id, uint32_t faults_before, uint32_t faults,
-                     brace_mode_t mode)
+void frame_emergency(uint8_t data[8], uint32_t faults_before, uint32_t faults, brace_mode_t mode)
 {
-    frame->id = 0x080u + node_id;
-    frame->length = 8;
-    frame->fd = false;
-    put_u16(frame->data, frame_emergency_code(faults & ~faults_before, faults));
-    frame->data[2] = (uint8_t)mode;
-    frame->data[3] = 0;
-    put_u32(&frame->data[4], faults);
+    (void)brace_can_pack_emergency(&(brace_can_emergency_t){frame_emergency_code(faults & ~faults_before, faults),
+                                                            faults != 0u, mode, faults}, data);
 }

@@ -1,15 +1,14 @@
-/* The two CAN frames that every node sends: heartbeat 0x700 + node, emergency 0x080 + node. Little-endian. */
+/* What the two frames say that every node sends by itself: heartbeat and emergency. */
 #ifndef BRACE_APP_FRAMES_H
 #define BRACE_APP_FRAMES_H
 
 #include "brace/app.h"
 
-/* state u8 (0 start, 5 operational, 0x7f configuration, 4 fault), mode u8, faults u16, dictionary's hash u32 */
-void frame_heartbeat(brace_can_frame_t *frame, uint8_t node_id, brace_mode_t mode, uint32_t faults);
+/* State as CANopen numbers them, mode, faults, the dictionary's hash. */
+void frame_heartbeat(uint8_t data[8], brace_mode_t mode, uint32_t faults);
 
-/* code u16 (of the lowest new fault; 0: every fault is over), mode u8, 0 u8, faults u32 */
-void frame_emergency(brace_can_frame_t *frame, uint8_t node_id, uint32_t faults_before, uint32_t faults,
-                     brace_mode_t mode);
+/* The code of the lowest new fault; 0: every fault is over. */
+void frame_emergency(uint8_t data[8], uint32_t faults_before, uint32_t faults, brace_mode_t mode);
 
 /* CANopen's emergency code for the lowest of these faults; 0x1000 for faults that only ended in part, 0
  * for none. */

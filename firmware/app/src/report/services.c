@@ -1,24 +1,33 @@
 #include "report/services.h"
 
+#include "can/bus.h"
+#include "can/cyclic.h"
+#include "can/requests.h"
 #include "report/announce.h"
 
-#define FRAMES_PER_TICK 4u /* the rest waits in the bus' own ring; what finds no room there is counted there */
-
-static void count_strangers(brace_app_t *app)
+void services_start(brace_app_t *app)
 {
-    const brace_hal_t *hal = app->hal;
-    brace_can_frame_t frame;
-    uint32_t count = 0;
-    while (count < FRAMES_PER_TICK && hal->can_receive(hal->context, &frame) == 1) {
-        count++;
-    }
-    const uint32_t before = app->counters.frames_unknown;
-    app->counters.frames_unknown = before + count >= before ? before + count : UINT32_MAX;
+    app->report = (brace_app_report_t){0};
+    bus_start(app);
+    requests_start(app);
+    cyclic_configure(app);
 }
 
-void services_run(brace_app_t *app)
+bool services_listen(brace_app_t *app, bool may_serve)
 {
-    if (!announce(app) && app->report.listens) { /* frames that wait another tick lie in the bus' own ring */
-        count_strangers(app);
+    return requests_take(app, may_serve);
+}
+
+void services_run(brace_app_t *app, bool serves)
+{
+    bus_watch(app);
+    if (serves) {
+        requests_serve(app);
+    }
+    requests_send(app);
+    if (app->cyclic.parameter_crc != app->parameter_crc) {
+        cyclic_configure(app);
+    } else if (!announce(app) && bus_speaks(app)) {
+        cyclic_send(app);
     }
 }

@@ -25,7 +25,7 @@ void supervisor_faults(brace_app_t *app, bool late)
                            (app->joint[1].sound ? 0u : (uint32_t)BRACE_FAULT_SENSOR_TIBIA) |
                            (app->joint[0].stuck || app->joint[1].stuck ? (uint32_t)BRACE_FAULT_ENCODER_STUCK : 0u) |
                            (late ? (uint32_t)BRACE_FAULT_TICK_LATE : 0u) |
-                           (app->report.bus_off ? (uint32_t)BRACE_FAULT_CAN_BUS_OFF : 0u);
+                           (app->bus.bus_off ? (uint32_t)BRACE_FAULT_CAN_BUS_OFF : 0u);
     if (app->mode == BRACE_MODE_START) { /* nothing has been seen yet: no fault */
         return;
     }

@@ -77,7 +77,9 @@ typedef struct {
 } brace_measured_t;
 
 enum { BRACE_MEASURED_COUNT = 58 };
+#ifndef __cplusplus
 _Static_assert(sizeof(brace_measured_t) == 4 * BRACE_MEASURED_COUNT, "32 bits each");
+#endif
 
 /* K at the posture asked for over Modbus. */
 typedef struct {
@@ -91,7 +93,9 @@ typedef struct {
 } brace_answered_t;
 
 enum { BRACE_ANSWERED_COUNT = 7 };
+#ifndef __cplusplus
 _Static_assert(sizeof(brace_answered_t) == 4 * BRACE_ANSWERED_COUNT, "32 bits each");
+#endif
 
 /* What was last written to the command registers. */
 typedef struct {
@@ -106,6 +110,8 @@ typedef struct {
 } brace_commands_t;
 
 enum { BRACE_COMMANDS_COUNT = 8 };
+#ifndef __cplusplus
 _Static_assert(sizeof(brace_commands_t) == 4 * BRACE_COMMANDS_COUNT, "32 bits each");
+#endif
 
 #endif

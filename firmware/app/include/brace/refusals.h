@@ -1,0 +1,16 @@
+/* Why a request over CAN was refused: the status in part 7 of an answer. From -1 to -63 a brace_status_t; these beside
+ * it. Values never change. */
+#ifndef BRACE_REFUSALS_H
+#define BRACE_REFUSALS_H
+
+enum {
+    BRACE_REFUSED_UNKNOWN = -64, /* no such request; detail: the highest one there is */
+    BRACE_REFUSED_KEY = -65,     /* set_mode without its key */
+    BRACE_REFUSED_BUSY = -66,    /* a set is being stored or put in force; ask again */
+    BRACE_REFUSED_ORDER = -67,   /* words in order only; detail: the one that is expected */
+    BRACE_REFUSED_CHANGED = -68, /* the set in force has changed meanwhile: begin again with word 0 */
+    BRACE_REFUSED_READ_ONLY = -69,
+    BRACE_REFUSED_STORE = -80    /* plus brace_store_failure_t (-81 to -86): the set of before stays in force */
+};
+
+#endif

@@ -1,0 +1,96 @@
+#include "can/bus.h"
+
+#include "can/slcan.h"
+
+#define HEALTH_US 10000u
+#define RECOVER_FIRST_US 125000u
+#define RECOVER_MOST_US 2000000u
+
+void bus_start(brace_app_t *app)
+{
+    const brace_hal_t *hal = app->hal;
+    const brace_controller_t *controller = &app->parameters.controller;
+    brace_app_bus_t *bus = &app->bus;
+    *bus = (brace_app_bus_t){.node_id = (uint8_t)controller->node_id, .bit_rate = controller->can_bit_rate,
+                             .recover_wait_us = RECOVER_FIRST_US};
+    slcan_port_start(app);
+    if (hal->can_setup != NULL && hal->can_send != NULL && hal->can_receive != NULL && hal->can_health != NULL &&
+        hal->can_recover != NULL) {
+        const brace_can_setup_t setup = {.bit_rate = controller->can_bit_rate,
+                                         .listen_only = controller->node_id == 0u};
+        bus->listens = hal->can_setup(hal->context, &setup) == BRACE_HAL_OK;
+    }
+    bus->speaks = controller->node_id >= 1u && controller->node_id <= 127u && (bus->listens || bus->slcan.fitted);
+}
+
+void bus_watch(brace_app_t *app)
+{
+    brace_app_bus_t *bus = &app->bus;
+    brace_can_health_t health;
+    if (!bus->listens) {
+        return;
+    }
+    bus->health_us += app->tick_us;
+    if (bus->health_us >= HEALTH_US) {
+        bus->health_us = 0;
+        if (app->hal->can_health(app->hal->context, &health) == BRACE_HAL_OK) {
+            bus->bus_off = health.bus_off;
+            if (!health.bus_off && health.tx_errors == 0u) {
+                bus->recover_wait_us = RECOVER_FIRST_US; /* it has sent since: the way back was one */
+            }
+        }
+    }
+    bus->recover_us = bus->bus_off ? bus->recover_us + app->tick_us : 0u;
+    if (bus->recover_us >= bus->recover_wait_us) {
+        bus->recover_us = 0;
+        bus->recover_wait_us = bus->recover_wait_us < RECOVER_MOST_US / 2u ? 2u * bus->recover_wait_us : RECOVER_MOST_US;
+        (void)app->hal->can_recover(app->hal->context);
+    }
+}
+
+bool bus_speaks(const brace_app_t *app)
+{
+    const brace_app_bus_t *bus = &app->bus;
+    return bus->speaks && ((bus->listens && !bus->bus_off) || bus->slcan.open);
+}
+
+static int32_t send_can(brace_app_t *app, const brace_can_frame_t *frame)
+{
+    const int32_t answer = app->hal->can_send(app->hal->context, frame);
+    if (answer != BRACE_HAL_OK && answer != BRACE_HAL_AGAIN) {
+        app->counters.frames_refused += app->counters.frames_refused < UINT32_MAX;
+        app->bus.bus_off = app->bus.bus_off || answer == BRACE_HAL_E_BUS_OFF;
+    }
+    return answer;
+}
+
+bool bus_send(brace_app_t *app, uint32_t function, const uint8_t data[8])
+{
+    const brace_app_bus_t *bus = &app->bus;
+    const bool can = bus->listens && bus->node_id != 0u && !bus->bus_off;
+    brace_can_frame_t frame;
+    frame.id = function + bus->node_id;
+    frame.length = 8;
+    frame.fd = false;
+    for (int i = 0; i < 8; i++) {
+        frame.data[i] = data[i];
+    }
+    if (bus->slcan.open) {
+        if (!slcan_port_send(app, &frame)) {
+            return false;
+        }
+        if (can) {
+            (void)send_can(app, &frame);
+        }
+        return true;
+    }
+    return can && send_can(app, &frame) == BRACE_HAL_OK;
+}
+
+bool bus_receive(brace_app_t *app, brace_can_frame_t *frame)
+{
+    if (app->bus.listens && app->hal->can_receive(app->hal->context, frame) == 1) {
+        return true;
+    }
+    return app->bus.slcan.fitted && slcan_port_receive(app, frame);
+}

@@ -1,0 +1,140 @@
+#include "can/cyclic.h"
+
+#include "can/bus.h"
+
+#define FRAMES_PER_TICK 2
+
+/* What a frame can say of a K; a larger one is limited and flagged. */
+#define K_MOST_N_PER_MM 4194.3f
+#define LAMBDA_MIN_MOST_N_PER_MM 524.28f
+#define LAMBDA_MAX_MOST_N_PER_MM 5242.8f
+
+enum { FRAME_A = 1, FRAME_B = 2, FRAME_EIGENVALUES = 4, FRAME_POSTURE = 8 };
+
+static uint32_t every(uint32_t base_hz, uint32_t hz)
+{
+    return hz == 0u ? 0u : (base_hz + hz / 2u) / hz;
+}
+
+void cyclic_configure(brace_app_t *app)
+{
+    const brace_controller_t *wanted = &app->parameters.controller;
+    brace_app_cyclic_t *cyclic = &app->cyclic;
+    const uint32_t base_hz = wanted->stiffness_hz > wanted->posture_hz ? wanted->stiffness_hz : wanted->posture_hz;
+    cyclic->parameter_crc = app->parameter_crc;
+    cyclic->period_us = 0;
+    if (base_hz == 0u) {
+        return;
+    }
+    cyclic->stiffness_every = every(base_hz, wanted->stiffness_hz);
+    cyclic->posture_every = every(base_hz, wanted->posture_hz);
+    const float base = (float)base_hz;
+    const float frames_per_s = 2.0f * (cyclic->stiffness_every > 0u ? base / (float)cyclic->stiffness_every : 0.0f) +
+                               2.0f * (cyclic->posture_every > 0u ? base / (float)cyclic->posture_every : 0.0f);
+    /* heartbeats come first: they are never thinned */
+    const float allowed_per_s = wanted->bus_load_ratio * (float)app->bus.bit_rate / (float)CYCLIC_FRAME_BITS -
+                                (float)wanted->heartbeat_hz;
+    const float thinned = allowed_per_s >= frames_per_s ? 1.0f : frames_per_s / (allowed_per_s > 0.1f ? allowed_per_s : 0.1f);
+    const float period_us = 1e6f * thinned / base;
+    cyclic->period_us = period_us < 1e8f ? (uint32_t)(period_us + 0.5f) : 100000000u;
+    cyclic->stiffness_in = cyclic->posture_in = 0;
+    const uint32_t offset_us = (uint32_t)app->bus.node_id * (uint32_t)CYCLIC_STAGGER_US % cyclic->period_us;
+    cyclic->waited_us = cyclic->period_us - offset_us; /* the first one so much later than at once */
+}
+
+static bool beyond(float value, float most)
+{
+    return value > most || value < -most;
+}
+
+/* Copies what goes out of a snapshot. */
+static void take(brace_app_t *app)
+{
+    const brace_snapshot_t *snapshot = brace_app_snapshot(app);
+    const brace_stiffness_t *k = &snapshot->stiffness.now;
+    const bool valid = snapshot->k_is_valid;
+    const float unknown = __builtin_nanf("");
+    brace_app_cyclic_t *cyclic = &app->cyclic;
+    const uint32_t sequence = snapshot->sequence & 0xffu;
+    const bool limited = valid && (beyond(k->k_xx_n_per_mm, K_MOST_N_PER_MM) || beyond(k->k_xz_n_per_mm, K_MOST_N_PER_MM) ||
+                                   beyond(k->k_zz_n_per_mm, K_MOST_N_PER_MM) ||
+                                   beyond(k->lambda_min_n_per_mm, LAMBDA_MIN_MOST_N_PER_MM) ||
+                                   beyond(k->lambda_max_n_per_mm, LAMBDA_MAX_MOST_N_PER_MM));
+    cyclic->taken_us = snapshot->taken_us;
+    if ((cyclic->due & (FRAME_A | FRAME_B)) != 0u) {
+        cyclic->stiffness_a = (brace_can_stiffness_a_t){
+            sequence, k->flags | (limited ? (uint32_t)BRACE_FLAG_SATURATED : 0u), valid ? k->k_xx_n_per_mm : unknown,
+            valid ? k->k_xz_n_per_mm : unknown};
+        cyclic->stiffness_b = (brace_can_stiffness_b_t){
+            sequence, valid ? k->k_zz_n_per_mm : unknown, unknown, snapshot->play[BRACE_FEMUR].state,
+            snapshot->play[BRACE_TIBIA].state, snapshot->parameter_crc & 0xffffu};
+    }
+    if ((cyclic->due & (FRAME_EIGENVALUES | FRAME_POSTURE)) != 0u) {
+        cyclic->eigenvalues = (brace_can_eigenvalues_t){sequence, valid ? k->lambda_min_n_per_mm : unknown,
+                                                        valid ? k->lambda_max_n_per_mm : unknown,
+                                                        valid ? k->stiff_axis_rad : unknown};
+        cyclic->posture = (brace_can_posture_t){sequence, snapshot->theta_rad[BRACE_FEMUR],
+                                                snapshot->theta_rad[BRACE_TIBIA], snapshot->mode,
+                                                snapshot->faults & 0xfffu};
+    }
+}
+
+static bool comes_round(uint32_t *left, uint32_t every_so_many)
+{
+    if (every_so_many == 0u) {
+        return false;
+    }
+    const bool now = *left == 0u;
+    *left = (now ? every_so_many : *left) - 1u;
+    return now;
+}
+
+/* The first frame of those due; packed when it is sent, so that the age is that of this moment. */
+static bool send_first(brace_app_t *app)
+{
+    brace_app_cyclic_t *cyclic = &app->cyclic;
+    uint8_t data[8];
+    uint32_t function, frame;
+    if ((cyclic->due & FRAME_A) != 0u) {
+        frame = FRAME_A, function = BRACE_CAN_ID_STIFFNESS_A;
+        (void)brace_can_pack_stiffness_a(&cyclic->stiffness_a, data);
+    } else if ((cyclic->due & FRAME_B) != 0u) {
+        frame = FRAME_B, function = BRACE_CAN_ID_STIFFNESS_B;
+        cyclic->stiffness_b.age_ms = 1e-3f * (float)(app->hal->now_us(app->hal->context) - cyclic->taken_us);
+        (void)brace_can_pack_stiffness_b(&cyclic->stiffness_b, data);
+    } else if ((cyclic->due & FRAME_EIGENVALUES) != 0u) {
+        frame = FRAME_EIGENVALUES, function = BRACE_CAN_ID_EIGENVALUES;
+        (void)brace_can_pack_eigenvalues(&cyclic->eigenvalues, data);
+    } else {
+        frame = FRAME_POSTURE, function = BRACE_CAN_ID_POSTURE;
+        (void)brace_can_pack_posture(&cyclic->posture, data);
+    }
+    if (!bus_send(app, function, data)) {
+        return false;
+    }
+    cyclic->due &= (uint8_t)~frame;
+    return true;
+}
+
+void cyclic_send(brace_app_t *app)
+{
+    brace_app_cyclic_t *cyclic = &app->cyclic;
+    if (cyclic->period_us == 0u) {
+        return;
+    }
+    cyclic->waited_us += app->tick_us;
+    if (cyclic->due == 0u && cyclic->waited_us >= cyclic->period_us) {
+        /* the remainder stays, so that the rate is kept in the mean; a bus that was away is not caught up with */
+        const uint32_t over_us = cyclic->waited_us - cyclic->period_us;
+        cyclic->waited_us = over_us < cyclic->period_us ? over_us : 0u;
+        const bool stiffness = comes_round(&cyclic->stiffness_in, cyclic->stiffness_every);
+        const bool posture = comes_round(&cyclic->posture_in, cyclic->posture_every);
+        cyclic->due = (uint8_t)((stiffness ? FRAME_A | FRAME_B : 0) | (posture ? FRAME_EIGENVALUES | FRAME_POSTURE : 0));
+        take(app);
+    }
+    for (int i = 0; i < FRAMES_PER_TICK && cyclic->due != 0u; i++) {
+        if (!send_first(app)) {
+            return;
+        }
+    }
+}

@@ -1,0 +1,24 @@
+/* Process data: K, its eigenvalues and the posture of one snapshot, at the parameters' rates.
+ *
+ * All frames of a snapshot are packed from one copy of it, so nothing is ever mixed from two; the next snapshot is
+ * taken when the last frame of this one has left, so a busy bus thins the data and never splits them. Rates are lowered
+ * in proportion when they would take more than controller.bus_load_ratio of the bus, every frame counted with all the
+ * stuff bits it could have. Nodes that start together begin at different moments: node * 1.25 ms within the period. */
+#ifndef BRACE_APP_CYCLIC_H
+#define BRACE_APP_CYCLIC_H
+
+#include "brace/app.h"
+
+enum {
+    CYCLIC_FRAME_BITS = 135, /* standard identifier, eight bytes: 108, at most 24 stuff bits, 3 between frames */
+    CYCLIC_STAGGER_US = 1250
+};
+
+/* Works the periods out; again when parameters are put in force. About 250 instructions, the divisions counted. */
+void cyclic_configure(brace_app_t *app);
+
+/* A tick: counts time, takes the newest snapshot when one is due, sends at most two frames. At most 400
+ * instructions. */
+void cyclic_send(brace_app_t *app);
+
+#endif

@@ -1,0 +1,165 @@
+#include "can/requests.h"
+
+#include "can/bus.h"
+#include "can/request.h"
+
+#define FRAMES_PER_MS 4u
+#define FRAMES_MOST 20u
+#define PARTS_MOST 4u
+#define SENT_PER_TICK 4u
+
+void requests_start(brace_app_t *app)
+{
+    brace_app_requests_t *requests = &app->requests;
+    requests->waiting = requests->upload_open = false;
+    requests->rested = true;
+    requests->answer_first = requests->answer_count = 0;
+    requests->storing = 0;
+    requests->upload_next = requests->download_next = 0;
+}
+
+void answer_put(brace_app_t *app, const uint8_t data[8])
+{
+    brace_app_requests_t *requests = &app->requests;
+    if (requests->answer_count < BRACE_APP_ANSWERS) {
+        uint8_t *place = requests->answer[(requests->answer_first + requests->answer_count) % BRACE_APP_ANSWERS];
+        for (int i = 0; i < 8; i++) {
+            place[i] = data[i];
+        }
+        requests->answer_count++;
+    }
+}
+
+void answer_refusal(brace_app_t *app, uint32_t code, uint32_t token, int32_t status, uint32_t detail)
+{
+    uint8_t data[8];
+    (void)brace_can_pack_refusal(&(brace_can_refusal_t){token, status, detail}, data);
+    data[0] = (uint8_t)(data[0] | (code & 31u));
+    answer_put(app, data);
+}
+
+/* Identifiers that the other nodes of a bus use among themselves: none of ours, and nothing strange. */
+static bool is_known_function(uint32_t id)
+{
+    switch (id & 0x780u) {
+    case BRACE_CAN_ID_EMERGENCY:
+    case BRACE_CAN_ID_STIFFNESS_A:
+    case BRACE_CAN_ID_STIFFNESS_B:
+    case BRACE_CAN_ID_EIGENVALUES:
+    case BRACE_CAN_ID_POSTURE:
+    case BRACE_CAN_ID_HEARTBEAT:
+    case BRACE_CAN_ID_REQUEST:
+    case BRACE_CAN_ID_ANSWER: return true;
+    default: return false;
+    }
+}
+
+static void count_unknown(brace_app_t *app)
+{
+    app->counters.frames_unknown += app->counters.frames_unknown < UINT32_MAX;
+}
+
+/* Is this a request to us? Then it is taken. */
+static bool accept(brace_app_t *app, const brace_can_frame_t *frame)
+{
+    brace_app_requests_t *requests = &app->requests;
+    if (frame->id != (uint32_t)BRACE_CAN_ID_REQUEST + app->bus.node_id) {
+        if (!is_known_function(frame->id)) {
+            count_unknown(app);
+        }
+        return false;
+    }
+    if (frame->length != 8u || frame->fd || frame->data[0] >= BRACE_ANSWER_PART) {
+        count_unknown(app);
+        return false;
+    }
+    if (!app->bus.speaks && !app->bus.slcan.open) {
+        return false;
+    }
+    for (int i = 0; i < 8; i++) {
+        requests->request[i] = frame->data[i];
+    }
+    return true;
+}
+
+bool requests_take(brace_app_t *app, bool may_serve)
+{
+    brace_app_requests_t *requests = &app->requests;
+    const uint32_t per_tick = app->tick_us * FRAMES_PER_MS / 1000u;
+    const uint32_t most = per_tick < FRAMES_PER_MS ? FRAMES_PER_MS : per_tick > FRAMES_MOST ? FRAMES_MOST : per_tick;
+    if (!app->bus.listens && !app->bus.slcan.fitted) {
+        return false;
+    }
+    for (uint32_t i = 0; i < most && !requests->waiting; i++) {
+        brace_can_frame_t frame;
+        if (!bus_receive(app, &frame)) {
+            break;
+        }
+        requests->waiting = accept(app, &frame);
+    }
+    const bool room = requests->answer_count + PARTS_MOST <= (uint32_t)BRACE_APP_ANSWERS;
+    const bool serves = requests->waiting && room && may_serve && requests->rested;
+    requests->rested = !serves;
+    return serves;
+}
+
+static int32_t dispatch(brace_app_t *app, request_t *request)
+{
+    switch (request->code) {
+    case BRACE_REQUEST_READ_ENTRY: return request_read_entry(app, request);
+    case BRACE_REQUEST_WRITE_ENTRY: return request_write_entry(app, request);
+    case BRACE_REQUEST_K_AT_POSTURE: return request_k_at_posture(app, request);
+    case BRACE_REQUEST_K_AT_TIP_KNEE_UP:
+    case BRACE_REQUEST_K_AT_TIP_KNEE_DOWN: return request_k_at_tip(app, request);
+    case BRACE_REQUEST_CONTACT_FORCE: return request_contact_force(app, request);
+    case BRACE_REQUEST_SAG_FOR_LOAD: return request_sag_for_load(app, request);
+    case BRACE_REQUEST_FRICTION_MARGIN: return request_friction_margin(app, request);
+    case BRACE_REQUEST_SET_MODE: return request_set_mode(app, request);
+    case BRACE_REQUEST_UPLOAD_BEGIN: return request_upload_begin(app, request);
+    case BRACE_REQUEST_UPLOAD_WORD: return request_upload_word(app, request);
+    case BRACE_REQUEST_COMMIT: return request_commit(app, request);
+    case BRACE_REQUEST_ROLLBACK: return request_rollback(app, request);
+    case BRACE_REQUEST_DOWNLOAD_WORD: return request_download_word(app, request);
+    case BRACE_REQUEST_TAKE_UP: return request_take_up(app, request);
+    case BRACE_REQUEST_LET_GO: return request_let_go(app, request);
+    case BRACE_REQUEST_LOADING_TEST_START: return request_loading_start(app, request);
+    case BRACE_REQUEST_LOADING_TEST_STOP: return request_loading_stop(app, request);
+    case BRACE_REQUEST_FETCH_ROW: return request_fetch_row(app, request);
+    case BRACE_REQUEST_IDENTIFY: return request_identify(app, request);
+    case BRACE_REQUEST_LOADING_TEST_RESULT: return request_loading_result(app, request);
+    case BRACE_REQUEST_CLEAR: return request_clear(app, request);
+    default:
+        count_unknown(app);
+        request->detail = BRACE_REQUEST_CLEAR;
+        return BRACE_REFUSED_UNKNOWN;
+    }
+}
+
+void requests_serve(brace_app_t *app)
+{
+    brace_app_requests_t *requests = &app->requests;
+    request_t request = {requests->request, requests->request[0], requests->request[1], 0};
+    requests->waiting = false;
+    const int32_t status = dispatch(app, &request);
+    if (status != BRACE_OK) {
+        answer_refusal(app, request.code, request.token, status, request.detail);
+    }
+}
+
+void requests_send(brace_app_t *app)
+{
+    brace_app_requests_t *requests = &app->requests;
+    if (app->mode != BRACE_MODE_CONFIGURATION) {
+        requests->upload_open = false;
+    }
+    if (requests->storing != 0u && requests->answer_count + PARTS_MOST <= (uint32_t)BRACE_APP_ANSWERS) {
+        request_storing_answer(app);
+    }
+    for (uint32_t i = 0; i < SENT_PER_TICK && requests->answer_count > 0u; i++) {
+        if (!bus_send(app, BRACE_CAN_ID_ANSWER, requests->answer[requests->answer_first])) {
+            return;
+        }
+        requests->answer_first = (uint8_t)((requests->answer_first + 1u) % BRACE_APP_ANSWERS);
+        requests->answer_count--;
+    }
+}
