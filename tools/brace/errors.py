@@ -15,6 +15,7 @@ EXIT_CHECK_FAILED = 1
 EXIT_USAGE = 2
 EXIT_BAD_FILE = 3
 EXIT_NO_DEVICE = 4
+EXIT_DEVICE_FAULT = 5
 EXIT_VERSION = 6
 EXIT_NOT_VERIFIED = 7
 EXIT_INTERRUPTED = 130
@@ -72,6 +73,12 @@ class NoDeviceError(BraceError):
     """No device, port or bus to talk to, or one that does not answer in time."""
 
     exit_code = EXIT_NO_DEVICE
+
+
+class DeviceFaultError(BraceError):
+    """A device that answers, and has a fault, refuses, or has no valid K."""
+
+    exit_code = EXIT_DEVICE_FAULT
 
 
 class NotVerifiedError(BraceError):

@@ -13,7 +13,10 @@ from brace.cli.options import OptionParser
 from brace.cli.streams import OutputLost, finish, prepare, say
 from brace.errors import EXIT_CHECK_FAILED, EXIT_OK, EXIT_USAGE, BraceError
 
-SUBCOMMANDS = ("k", "map", "simulate", "predict", "identify", "params", "demo", "sim", "flash", "doctor")
+SUBCOMMANDS = (
+    *("k", "map", "simulate", "predict", "identify", "params", "demo"),
+    *("sim", "query", "monitor", "record", "replay", "flash", "doctor"),
+)
 _NEGATIVE_NUMBER = re.compile(r"^-(\d|\.\d|inf|nan)", re.IGNORECASE)
 
 
@@ -63,7 +66,8 @@ def build_parser() -> OptionParser:
         prog="brace",
         description="Stiffness at the tip of a climbing robot's limb: predict it, measure it, explain it. "
         "Units: mm, N, N mm, rad, s, degC.",
-        epilog="Exit codes: 0 done, 1 a check failed, 2 usage, 3 bad model or data file, 4 no device or port, 130 interrupted.",
+        epilog="Exit codes: 0 done, 1 a check failed, 2 usage, 3 bad model or data file, 4 no device or time-out, 5 device "
+        "fault or K not valid, 6 version mismatch, 7 write not verified and rolled back, 130 interrupted.",
     )
     parser.add_argument("--version", action="version", version=f"brace {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", dest="command")

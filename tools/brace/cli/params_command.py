@@ -1,4 +1,4 @@
-"""`brace params`: a limb model as the controller's parameter block, and back."""
+"""`brace params`: a limb model as the controller's parameter block, and back; in files and on a controller."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ import argparse
 import math
 from typing import Any
 
-from brace.cli import common
+from brace.cli import common, params_bus
+from brace.cli.bus_options import add_bus
 
 _SEQUENCE_MAX = (1 << 32) - 1
 
@@ -23,6 +24,7 @@ def add(commands: Any) -> None:
     _add_pack(actions)
     _add_unpack(actions)
     _add_diff(actions)
+    params_bus.add(actions)
     parser.set_defaults(run=lambda _arguments: _help(parser))
 
 
@@ -68,11 +70,12 @@ def _add_diff(actions: Any) -> None:
     parser = actions.add_parser(
         "diff",
         help="where two sets differ",
-        description="Compares two sets as a controller would hold them; each is a limb.toml or a block. Exit code 0 "
-        "whether they differ or not, unless --check is given.",
+        description="Compares two sets as a controller would hold them; each is a limb.toml or a block. With --bus the second "
+        "is what a controller has in force. Exit code 0 whether they differ or not, unless --check is given.",
     )
     parser.add_argument("first", type=common.path, metavar="A", help="limb.toml or block")
-    parser.add_argument("second", type=common.path, metavar="B", help="limb.toml or block")
+    parser.add_argument("second", type=common.path, nargs="?", metavar="B", help="limb.toml or block; or --bus")
+    add_bus(parser, required=False)
     parser.add_argument("--check", action="store_true", help="exit code 1 when they differ")
     common.add_json(parser)
     parser.set_defaults(run=_diff)
@@ -136,10 +139,19 @@ def _unpack(arguments: argparse.Namespace) -> int:
 
 
 def _diff(arguments: argparse.Namespace) -> int:
-    from brace.errors import EXIT_CHECK_FAILED
+    from brace.errors import EXIT_CHECK_FAILED, UsageError
     from brace.params import differences, read_either
 
-    found = differences(read_either(arguments.first), read_either(arguments.second))
+    if (arguments.second is None) == (arguments.bus is None):
+        raise UsageError(
+            "one set against one other",
+            where="params diff",
+            why="the second set is a file B or the controller on --bus, one of the two",
+            next_step="brace params diff A B, or brace params diff A --bus can0",
+        )
+    first = read_either(arguments.first)
+    second = params_bus.block_of(arguments) if arguments.second is None else read_either(arguments.second)
+    found = differences(first, second)
     if arguments.json:
         common.print_json(
             {

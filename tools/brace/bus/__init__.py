@@ -1,0 +1,1 @@
+"""A controller on a bus, as the robot's computer reaches it."""

@@ -1,0 +1,180 @@
+"""A controller over CAN."""
+
+from __future__ import annotations
+
+import struct
+import time
+from typing import TYPE_CHECKING
+
+from brace.bus.controller import Advance, Identity, StiffnessAnswer, Stored, check_dictionary
+from brace.bus.entries import index_of
+from brace.bus.session import Session
+from brace.bus.snapshot import Snapshot, names_of_bits
+from brace.errors import DeviceFaultError, NoDeviceError, NotVerifiedError, VersionMismatchError
+from brace.wire.frames import ANSWERS, MESSAGES, REQUESTS
+from brace.wire.layout import Value
+
+if TYPE_CHECKING:
+    from brace.params import Block
+
+KEY = 0xC0DE
+COMMIT_S = 2.5  # the store erases, writes and reads back
+MODE_S = 0.5
+LIVE_S = 0.6  # twelve periods of the slower frames
+_SIZE_WORD = 0xFFFF
+_MODES = {name.lower(): code for code, name in next(f.names for f in REQUESTS["set_mode"].fields if f.name == "mode").items()}
+_ORIGINS = next(f.names for f in ANSWERS["identify"][3].fields if f.name == "origin")
+_FLAGS = next(f.bit_names for f in MESSAGES["stiffness_a"].fields if f.name == "flags")
+_STATES = next(f.names for f in MESSAGES["posture"].fields if f.name == "mode")
+
+
+class CanController:
+    """One node. The dictionary is compared before anything else is asked."""
+
+    def __init__(self, session: Session) -> None:
+        self.session = session
+        self.node = session.node
+        self.url = session.bus.url
+        self._identity = self._identify()
+
+    def _identify(self) -> Identity:
+        answer = {name: int(value or 0) for name, value in self.session.ask("identify").items()}
+        version = f"{answer['major']}.{answer['minor']}.{answer['patch']}"
+        check_dictionary(answer["dictionary_hash"], self.session.where, version)
+        self._schema_hash = answer["schema_hash"]
+        origin = _ORIGINS.get(answer["origin"], str(answer["origin"])).lower()
+        return Identity(self.node, version, answer["dictionary_hash"], answer["parameter_crc"], origin)
+
+    def identify(self) -> Identity:
+        """Asked anew."""
+        self._identity = self._identify()
+        return self._identity
+
+    def live(self) -> Snapshot:
+        """The next snapshot that comes with its eigenvalues and posture; K alone where those are not sent."""
+        until = time.monotonic() + LIVE_S
+        alone: Snapshot | None = None
+        while (left := until - time.monotonic()) > 0:
+            frame = self.session.receive(left)
+            newest = self.session.newest.get(self.node)
+            if frame is None or frame.node != self.node or newest is None:
+                continue
+            if newest.has_posture:
+                del self.session.newest[self.node]
+                return newest
+            alone = newest
+        if alone is not None:
+            return alone
+        raise NoDeviceError(
+            "no K comes",
+            where=self.session.where,
+            why="the controller answers, and sends no process data",
+            next_step="set controller.stiffness_hz and posture_hz (brace params push), or ask: --theta1 --theta2",
+        )
+
+    def k_at_posture(self, theta1_rad: float, theta2_rad: float) -> StiffnessAnswer:
+        """True angles."""
+        return _stiffness(self.session.ask("k_at_posture", {"theta1": theta1_rad, "theta2": theta2_rad}))
+
+    def k_at_tip(self, x_mm: float, z_mm: float, knee_up: bool) -> StiffnessAnswer:
+        """From the femur axis."""
+        name = "k_at_tip_knee_up" if knee_up else "k_at_tip_knee_down"
+        return _stiffness(self.session.ask(name, {"x": x_mm, "z": z_mm}))
+
+    def read_entry(self, name: str) -> int:
+        """32 bits."""
+        index = index_of(name)
+        answer = self.session.ask("read_entry", {"index": index})
+        if answer["index"] != index:
+            raise NoDeviceError("an answer to another question", where=self.session.where, why="index", next_step="try again")
+        return int(answer["value"] or 0)
+
+    # --------------------------------------------------------------------------------------- parameters
+
+    def enter_configuration(self) -> None:
+        """From MONITOR or FAULT."""
+        self._set_mode("configuration")
+
+    def leave_configuration(self) -> None:
+        """Back to MONITOR, by way of START."""
+        self._set_mode("monitor")
+
+    def _set_mode(self, mode: str) -> None:
+        answer = self.session.ask("set_mode", {"mode": _MODES[mode], "key": KEY})
+        now = _STATES.get(int(answer["mode"] or 0), str(answer["mode"])).lower()
+        if (now == "configuration") != (mode == "configuration"):
+            raise DeviceFaultError(
+                f"the controller is in {now}, not in {mode}",
+                where=self.session.where,
+                why="it did not follow",
+                next_step="brace query shows mode and faults",
+            )
+
+    def check_schema(self, ours: int) -> None:
+        """The same list of parameters."""
+        if self._schema_hash != ours:
+            raise VersionMismatchError(
+                f"the controller's list of parameters is {self._schema_hash:08x}, ours {ours:08x}",
+                where=self.session.where,
+                why="its block has other members",
+                next_step="flash the firmware of this version (brace flash), or use the brace that came with that firmware",
+            )
+
+    def upload(self, block: Block, advance: Advance) -> None:
+        """Word by word, each echoed."""
+        content = block.content
+        (crc,) = struct.unpack("<I", content[-4:])
+        words = struct.unpack(f"<{len(content) // 4}I", content)
+        expected = self.session.ask("upload_begin", {"bytes": len(content), "crc": crc})["words"]
+        if expected != len(words):
+            raise NotVerifiedError(
+                f"the controller expects {expected} words, we have {len(words)}",
+                where=self.session.where,
+                why="nothing was changed: the set before is in force",
+                next_step="brace query --entry dictionary_hash; flash the firmware of this version",
+            )
+        for number, word in enumerate(words):
+            echo = self.session.ask("upload_word", {"word": number, "data": word})
+            if echo["word"] != number or echo["data"] != word:
+                raise NotVerifiedError(
+                    f"word {number} came back as {int(echo['data'] or 0):08x}, not {word:08x}",
+                    where=self.session.where,
+                    why="nothing was changed: the set before is in force",
+                    next_step="check the bus (brace monitor), and push again",
+                )
+            advance(number + 1)
+
+    def commit(self, block: Block) -> Stored:
+        """Answered when it is stored, read back and in force."""
+        (crc,) = struct.unpack("<I", block.content[-4:])
+        return _stored(self.session.ask("commit", {"crc": crc}, COMMIT_S))
+
+    def rollback(self) -> Stored:
+        """The set before."""
+        return _stored(self.session.ask("rollback", timeout_s=COMMIT_S))
+
+    def download(self, advance: Advance) -> Block:
+        """The block in force, checked as any file."""
+        from brace.params.block import unpack
+
+        size = int(self.session.ask("download_word", {"word": _SIZE_WORD})["data"] or 0) & 0xFFFF
+        words = []
+        for number in range(size // 4):
+            answer = self.session.ask("download_word", {"word": number})
+            words.append(int(answer["data"] or 0))
+            advance(number + 1)
+        return unpack(struct.pack(f"<{len(words)}I", *words), self.session.where)
+
+    def close(self) -> None:
+        """The bus too."""
+        self.session.bus.close()
+
+
+def _stiffness(answer: dict[str, Value]) -> StiffnessAnswer:
+    names = ("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max", "stiff_axis")
+    values = {name: answer[name] for name in names}
+    return StiffnessAnswer(**values, flags=names_of_bits(_FLAGS, int(answer["flags"] or 0)))
+
+
+def _stored(answer: dict[str, Value]) -> Stored:
+    return Stored(int(answer["sequence"] or 0), int(answer["crc"] or 0))

@@ -1,0 +1,53 @@
+"""Logs as candump -L writes them: `(1436509052.249713) can0 181#0102030405060708`, a frame a line."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import BinaryIO
+
+from brace.bus.frame import Frame
+from brace.errors import BadFileError
+
+_LINE = re.compile(r"\((\d+\.\d+)\)\s+(\S+)\s+([0-9A-Fa-f]{3})#((?:[0-9A-Fa-f]{2}){0,8})(?:\s+[RT])?\s*")
+_OTHER = re.compile(r"\((\d+\.\d+)\)\s+(\S+)\s+[0-9A-Fa-f]{3,8}#.*")  # extended, remote, FD, error frames
+
+
+def line_of(frame: Frame, interface: str) -> str:
+    """One line, with its end."""
+    return f"({frame.time_s:.6f}) {interface} {frame.identifier:03X}#{frame.data.hex().upper()}\n"
+
+
+class CandumpWriter:
+    """Frames to a file that is being written."""
+
+    def __init__(self, file: BinaryIO, interface: str) -> None:
+        self._file = file
+        self._interface = interface
+
+    def add(self, frame: Frame) -> None:
+        """One more."""
+        self._file.write(line_of(frame, self._interface).encode())
+
+    def finish(self) -> None:
+        """Nothing is held back."""
+
+
+def read(path: Path) -> Iterator[Frame]:
+    """The frames of a log; a last line that was cut off is passed over."""
+    with path.open("rb") as file:
+        for number, raw in enumerate(file, 1):
+            text = raw.decode("latin-1")
+            found = _LINE.fullmatch(text)
+            if found is not None:
+                identifier = int(found[3], 16)
+                if identifier <= 0x7FF:
+                    yield Frame(float(found[1]), identifier, bytes.fromhex(found[4]))
+            elif text.strip() and text.endswith("\n") and not _OTHER.fullmatch(text.rstrip()):
+                raise BadFileError(
+                    "not a line of a candump log",
+                    where=f"{path}:{number}",
+                    why=f"{text.rstrip()[:60]!r}; the form is (SECONDS) can0 181#0102030405060708",
+                    next_step="candump -L writes this form, and so does brace record --out FILE.log",
+                )

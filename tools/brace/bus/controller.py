@@ -1,0 +1,96 @@
+"""What a controller can be asked, whatever the wire."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+from brace.bus.snapshot import Snapshot
+from brace.errors import VersionMismatchError
+from brace.wire.frames import DICTIONARY_HASH
+from brace.wire.layout import Value
+
+if TYPE_CHECKING:
+    from brace.params import Block
+
+Advance = Callable[[int], None]
+
+
+@dataclass(frozen=True)
+class Identity:
+    """Who speaks."""
+
+    node: int
+    version: str
+    dictionary_hash: int
+    parameter_crc: int
+    origin: str  # default, slot_a, slot_b
+
+
+@dataclass(frozen=True)
+class StiffnessAnswer:
+    """K where the limb need not be; None: not known."""
+
+    k_xx: Value  # N/mm
+    k_xz: Value
+    k_zz: Value
+    lambda_min: Value
+    lambda_max: Value
+    stiff_axis: Value  # rad
+    flags: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Stored:
+    """A set that is in force now."""
+
+    sequence: int
+    crc: int  # of its values
+
+
+class Controller(Protocol):
+    """One controller. Every call ends in time, NoDeviceError when no answer came."""
+
+    url: str
+    node: int
+
+    def identify(self) -> Identity: ...
+
+    def live(self) -> Snapshot:
+        """The newest snapshot, with eigenvalues and posture."""
+
+    def k_at_posture(self, theta1_rad: float, theta2_rad: float) -> StiffnessAnswer: ...
+
+    def k_at_tip(self, x_mm: float, z_mm: float, knee_up: bool) -> StiffnessAnswer: ...
+
+    def read_entry(self, name: str) -> int:
+        """32 bits of a measured value or a parameter."""
+
+    def enter_configuration(self) -> None: ...
+
+    def leave_configuration(self) -> None: ...
+
+    def upload(self, block: Block, advance: Advance) -> None:
+        """Hands a set over; nothing is in force yet."""
+
+    def commit(self, block: Block) -> Stored: ...
+
+    def rollback(self) -> Stored: ...
+
+    def download(self, advance: Advance) -> Block:
+        """The set in force."""
+
+    def close(self) -> None: ...
+
+
+def check_dictionary(found: int, where: str, version: str = "") -> None:
+    """Both ends speak of the same values, or not at all."""
+    if found != DICTIONARY_HASH:
+        raise VersionMismatchError(
+            f"the controller's dictionary is {found:08x}, ours {DICTIONARY_HASH:08x}",
+            where=where,
+            why=f"firmware{' ' + version if version else ''} and this brace were built from different lists of values: the "
+            "same bits would mean something else",
+            next_step="flash the firmware of this version (brace flash), or use the brace that came with that firmware",
+        )

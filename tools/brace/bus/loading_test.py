@@ -1,0 +1,125 @@
+"""A loading test that the controller runs: started, waited for, fetched."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from brace.bus.entries import value_of
+from brace.bus.session import Session
+from brace.dataset.columns import LOADING
+from brace.errors import DeviceFaultError, NoDeviceError
+
+POLL_S = 0.2
+SERVO_S = 3.0  # what the controller grants its servos at each step
+COLUMNS = tuple(column.name for column in LOADING)[:15]
+_OUTCOMES = {
+    0: "none was run",
+    1: "running",
+    2: "done",
+    3: "stopped on request",
+    -1: "the force passed its bound",
+    -2: "a motor's torque passed its bound",
+    -3: "a motor went too far, or out of its travel",
+    -4: "it took too long",
+    -5: "neither sensor nor joints tell the force",
+    -6: "a fault came, or a flank that was taken up let go",
+    -7: "too few steps moved the tip: the motors do not follow",
+}
+RUNNING, DONE = 1, 2
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What the controller is asked to do."""
+
+    axis: str
+    steps_per_side: int
+    step_mm: float
+    dwell_s: float
+
+
+def run(session: Session, plan: Plan, advance: Callable[[int], None]) -> None:
+    """Until it is done; stopped when we are. DeviceFaultError says how it failed."""
+    request = {
+        "axis": "xz".index(plan.axis),
+        "steps_per_side": plan.steps_per_side,
+        "step": plan.step_mm,
+        "dwell_ms": round(plan.dwell_s * 1000),
+    }
+    rows = int(session.ask("loading_test_start", request, 0.5)["rows"] or 0)
+    limit_s = time.monotonic() + 2 * rows * (plan.dwell_s + 0.05) + rows * SERVO_S + 5.0
+    try:
+        while True:
+            session.listen(POLL_S)
+            outcome = _outcome(session)
+            if outcome != RUNNING:
+                break
+            advance(0)
+            if time.monotonic() > limit_s:
+                raise NoDeviceError(
+                    "the loading test does not end",
+                    where=session.where,
+                    why=f"{rows} rows are past their time",
+                    next_step="brace monitor shows mode and faults",
+                )
+    except BaseException:
+        try:
+            session.ask("loading_test_stop")
+        except Exception:  # what went wrong first is what matters
+            pass
+        raise
+    if outcome != DONE:
+        raise DeviceFaultError(
+            f"the loading test along {plan.axis} failed: {_OUTCOMES.get(outcome, outcome)}",
+            where=session.where,
+            why=f"outcome {outcome}; nothing was written",
+            next_step="a smaller --step-mm or fewer --steps; the tip must stand on something that does not yield",
+        )
+
+
+def _outcome(session: Session) -> int:
+    return int(session.ask("loading_test_result", {"item": 0})["outcome"] or 0)
+
+
+def fetch(session: Session, runs: int, advance: Callable[[int], None]) -> dict[str, np.ndarray]:
+    """The rows of the newest `runs` tests, as columns of data.csv; a column that is nowhere known is left out."""
+    count = int(value_of("loading_rows", _entry(session, "loading_rows")))
+    if count == 0:
+        raise DeviceFaultError(
+            "the controller holds no rows", where=session.where, why="no loading test since its start", next_step="--loading-test runs one"
+        )
+    newest = _cell(session, count - 1, 0)
+    first = count - 1
+    while first > 0 and _cell(session, first - 1, 0) > newest - runs:
+        first -= 1
+    table = np.full((count - first, len(COLUMNS)), np.nan)
+    for row in range(first, count):
+        for column in range(len(COLUMNS)):
+            table[row - first, column] = _cell(session, row, column)
+        advance(row - first + 1)
+    columns: dict[str, np.ndarray] = {}
+    for index, known in enumerate(LOADING[: len(COLUMNS)]):
+        values = table[:, index]
+        if not known.required and np.isnan(values).any():
+            continue
+        columns[known.name] = values.astype(int) if known.kind in ("int", "axis") else values
+    return columns
+
+
+def _entry(session: Session, name: str) -> int:
+    from brace.bus.entries import index_of
+
+    return int(session.ask("read_entry", {"index": index_of(name)})["value"] or 0)
+
+
+def _cell(session: Session, row: int, column: int) -> float:
+    for _ in range(3):
+        answer = session.ask("fetch_row", {"row": row, "column": column})
+        if answer["row"] == row & 0x3FF and answer["column"] == column:
+            value = answer["value"]
+            return float("nan") if value is None else float(value)
+    raise NoDeviceError("rows come mixed up", where=session.where, why="answers to other questions", next_step="try again")

@@ -1,0 +1,286 @@
+"""A controller over Modbus RTU or TCP, through pymodbus."""
+
+from __future__ import annotations
+
+import math
+import struct
+import time
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from brace.bus.controller import Advance, Identity, StiffnessAnswer, Stored, check_dictionary
+from brace.bus.snapshot import Snapshot, names_of_bits
+from brace.bus.url import BusUrl
+from brace.errors import BraceError, DeviceFaultError, MissingLibraryError, NoDeviceError, UsageError
+from brace.wire.measured import MEASURED
+from brace.wire.register import Register
+from brace.wire.registers import REGISTERS
+
+if TYPE_CHECKING:
+    from brace.params import Block
+
+ANSWER_S = 0.6
+RETRIES = 2
+COMMIT_S = 2.5
+_BLOCK = 120  # registers in a request; 125 may be read, 123 written
+_KEY = 0xC0DE0000
+_INPUT = [r for r in REGISTERS if r.table == "input" and r.address < 4096]
+_ASKED = [r for r in REGISTERS if r.table == "input" and r.address >= 4096]
+_PARAMETERS = [r for r in REGISTERS if r.table == "holding" and r.access == "rw"]
+_BY_NAME = {r.name: r for r in REGISTERS}
+_ENTRIES = {entry.name: entry for entry in MEASURED}
+_EXCEPTIONS = {
+    1: "this function is not there",
+    2: "no such registers",
+    3: "a value that is refused",
+    4: "the controller failed at it",
+    5: "it is at work on it",
+    6: "busy",
+}
+
+
+class ModbusController:
+    """One unit. The dictionary is compared before anything else is asked."""
+
+    def __init__(self, url: BusUrl) -> None:
+        self.url = url.text
+        self._url = url
+        self._client = _connected(url)
+        try:
+            self.node = url.unit
+            self._check_words()
+            self.identify()
+            self.node = self._holding("controller.node_id")
+        except BaseException:
+            self.close()
+            raise
+
+    def _check_words(self) -> None:
+        """The two registers whose values are known: is it a controller of ours, and are its words in order?"""
+        words = self._read("input", 0, 4)
+        if words != struct.unpack(">4H", struct.pack(">fI", 12345.5, 0x01020304)):
+            raise NoDeviceError(
+                "it answers, and is no controller of ours",
+                where=self.url,
+                why=f"the probe registers hold {' '.join(f'{word:04x}' for word in words)}, not 4640 e600 0102 0304",
+                next_step="check host, port and unit",
+            )
+
+    def identify(self) -> Identity:
+        """From the input registers."""
+        values = self._input()
+        version = int(values["firmware_version"] or 0)
+        text = f"{version >> 16}.{version >> 8 & 0xFF}.{version & 0xFF}"
+        check_dictionary(int(values["dictionary_hash"] or 0), self.url, text)
+        origin = _name("parameter_origin", values)
+        return Identity(self.node, text, int(values["dictionary_hash"] or 0), int(values["parameter_crc"] or 0), origin)
+
+    def live(self) -> Snapshot:
+        """One read is one snapshot."""
+        v = self._input()
+        valid = bool(v["k_is_valid"])
+        age = v["age_us"]
+        return Snapshot(
+            node=self.node,
+            time_s=time.time(),
+            sequence=int(v["sequence"] or 0),
+            k_xx=v["k_xx"] if valid else None,
+            k_xz=v["k_xz"] if valid else None,
+            k_zz=v["k_zz"] if valid else None,
+            flags=_bits("flags", v),
+            age_ms=None if age is None else age / 1000,
+            play=(_name("play_femur", v), _name("play_tibia", v)),
+            parameter_tag=int(v["parameter_crc"] or 0) & 0xFFFF,
+            has_posture=True,
+            lambda_min=v["lambda_min"],
+            lambda_max=v["lambda_max"],
+            stiff_axis=v["stiff_axis"],
+            theta1=v["theta1"],
+            theta2=v["theta2"],
+            mode=_name("mode", v),
+            faults=tuple(name.lower() for name in _bits("faults", v)),
+        )
+
+    def k_at_posture(self, theta1_rad: float, theta2_rad: float) -> StiffnessAnswer:
+        """Written, then read."""
+        self._write(_BY_NAME["asked_theta1"].address, struct.unpack(">4H", struct.pack(">ff", theta1_rad, theta2_rad)))
+        v = _decoded(_ASKED, self._read("input", _ASKED[0].address, 2 * len(_ASKED)))
+        names = ("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max", "stiff_axis")
+        values = {name: v[f"asked_{name}"] for name in names}
+        flags = names_of_bits(_ENTRIES["flags"].bit_names, int(v["asked_flags"] or 0))
+        return StiffnessAnswer(**values, flags=flags)
+
+    def k_at_tip(self, x_mm: float, z_mm: float, knee_up: bool) -> StiffnessAnswer:
+        """CAN only."""
+        raise UsageError(
+            "K at a tip position over Modbus", where=self.url, why="its registers take postures", next_step="--theta1 --theta2, or a CAN bus"
+        )
+
+    def read_entry(self, name: str) -> int:
+        """32 bits."""
+        register = _BY_NAME[name]
+        high, low = self._read(register.table, register.address, 2)
+        return high << 16 | low
+
+    def _holding(self, name: str) -> int:
+        return self.read_entry(name)
+
+    # --------------------------------------------------------------------------------------- parameters
+
+    def enter_configuration(self) -> None:
+        """From MONITOR or FAULT."""
+        self._command("set_mode", _KEY | 2)
+
+    def leave_configuration(self) -> None:
+        """Back to MONITOR, by way of START."""
+        self._command("set_mode", _KEY | 1)
+
+    def upload(self, block: Block, advance: Advance) -> None:
+        """Into the holding registers, where it is staged."""
+        words = struct.unpack(f">{2 * len(block.words)}H", block.words.astype(">u4").tobytes())
+        for start in range(0, len(words), _BLOCK):
+            self._write(start, words[start : start + _BLOCK])
+            advance(min(start + _BLOCK, len(words)) // 2)
+
+    def commit(self, block: Block) -> Stored:
+        """Until the CRC in force is the block's."""
+        before = self._input()["parameter_sequence"]
+        self._command("commit", _KEY | 1)
+        return self._stored(before, block.identity)
+
+    def rollback(self) -> Stored:
+        """The set before."""
+        before = self._input()
+        self._command("rollback", _KEY | 1)
+        return self._stored(before["parameter_sequence"], None)
+
+    def _stored(self, sequence_before: Any, crc: int | None) -> Stored:
+        until = time.monotonic() + COMMIT_S
+        while True:
+            v = self._input()
+            found = int(v["parameter_crc"] or 0)
+            if v["parameter_sequence"] != sequence_before and (crc is None or found == crc):
+                return Stored(int(v["parameter_sequence"] or 0), found)
+            if time.monotonic() > until:
+                return Stored(int(v["parameter_sequence"] or 0), found)
+            time.sleep(0.02)
+
+    def download(self, advance: Advance) -> Block:
+        """The holding registers as a block."""
+        import numpy as np
+
+        from brace.params.block import pack
+        from brace.params.values import model_of
+
+        halves: list[int] = []
+        total = 2 * len(_PARAMETERS)
+        for start in range(0, total, _BLOCK):
+            halves += self._read("holding", start, min(_BLOCK, total - start))
+            advance(len(halves) // 2)
+        words = np.frombuffer(struct.pack(f">{total}H", *halves), dtype=">u4").astype(np.uint32)
+        sequence = int(self._input()["parameter_sequence"] or 0)
+        return pack(model_of(words), sequence)
+
+    def close(self) -> None:
+        """The connection."""
+        self._client.close()
+
+    # ---------------------------------------------------------------------------------------- registers
+
+    def _input(self) -> dict[str, Any]:
+        return _decoded(_INPUT, self._read("input", 0, 2 * len(_INPUT)))
+
+    def _read(self, table: str, address: int, count: int) -> tuple[int, ...]:
+        function = self._client.read_input_registers if table == "input" else self._client.read_holding_registers
+        return tuple(self._done(lambda: function(address, count=count, device_id=self._url.unit), f"reading {table} {address}").registers)
+
+    def _write(self, address: int, words: Sequence[int]) -> None:
+        self._done(
+            lambda: self._client.write_registers(address, list(words), device_id=self._url.unit), f"writing holding {address}"
+        )
+
+    def _command(self, name: str, value: int) -> None:
+        self._write(_BY_NAME[name].address, (value >> 16, value & 0xFFFF))
+
+    def _done(self, request: Any, what: str) -> Any:
+        try:
+            answer = request()
+        except Exception as error:  # pymodbus has its own, and passes on the system's
+            raise _no_answer(self._url, error) from None
+        if answer.isError():
+            code = getattr(answer, "exception_code", 0)
+            raise self._refused(what, code)
+        return answer
+
+    def _refused(self, what: str, code: int) -> BraceError:
+        return DeviceFaultError(
+            f"the controller refuses {what}: {_EXCEPTIONS.get(code, 'no reason given')}",
+            where=self.url,
+            why=f"Modbus exception {code}",
+            next_step="brace query shows its mode; parameters are written in CONFIGURATION only, which a loading test or "
+            "play being taken up prevents",
+        )
+
+
+def _decoded(registers: Sequence[Register], words: Sequence[int]) -> dict[str, Any]:
+    first = registers[0].address
+    values: dict[str, Any] = {}
+    for register in registers:
+        at = register.address - first
+        raw = struct.pack(">2H", *words[at : at + 2])
+        if register.type == "f32":
+            (number,) = struct.unpack(">f", raw)
+            values[register.name] = None if math.isnan(number) else number
+        else:
+            (number,) = struct.unpack(">I", raw)
+            known = number != 0xFFFFFFFF or register.name in ("parameter_crc", "sequence", "dictionary_hash")
+            values[register.name] = number if known else None
+    return values
+
+
+def _name(name: str, values: Mapping[str, Any]) -> str:
+    code = int(values[name] or 0)
+    names = _ENTRIES[name].names
+    return names[code].lower() if code < len(names) else str(code)
+
+
+def _bits(name: str, values: Mapping[str, Any]) -> tuple[str, ...]:
+    return names_of_bits(_ENTRIES[name].bit_names, int(values[name] or 0))
+
+
+def _connected(url: BusUrl) -> Any:
+    try:
+        from pymodbus.client import ModbusSerialClient, ModbusTcpClient
+    except ImportError as error:
+        raise MissingLibraryError(
+            "pymodbus is not installed", why=str(error), next_step="pip install pymodbus pyserial, or ./dev setup"
+        ) from None
+    import logging
+
+    logging.getLogger("pymodbus").setLevel(logging.CRITICAL)  # what goes wrong is told in our words
+    if url.kind == "modbus-tcp":
+        from brace.bus.lines import TcpLine
+
+        TcpLine(url).close()  # says why not, in our words
+        client: Any = ModbusTcpClient(url.place, port=url.port, timeout=ANSWER_S, retries=RETRIES)
+    else:
+        from brace.bus.lines import SerialLine
+
+        SerialLine(url).close()
+        client = ModbusSerialClient(url.place, baudrate=url.baud, timeout=ANSWER_S, retries=RETRIES)
+    if not client.connect():
+        raise NoDeviceError("no connection", where=url.text, why="it was there a moment ago", next_step="try again")
+    return client
+
+
+def _no_answer(url: BusUrl, error: Exception) -> NoDeviceError:
+    if url.kind == "modbus-tcp":
+        way = "the unit behind /: brace sim prints its own; modbus-tcp://HOST:PORT/UNIT"
+    else:
+        way = "modbus:DEVICE@BAUD/UNIT: controller.modbus_baud and controller.modbus_address of the controller"
+    return NoDeviceError(
+        f"unit {url.unit} does not answer",
+        where=url.text,
+        why=f"no answer within {ANSWER_S * (RETRIES + 1):.1f} s: another unit, another baud rate, or nobody ({type(error).__name__})",
+        next_step=way,
+    )

@@ -1,0 +1,38 @@
+"""What a controller's refusal means to the person who asked."""
+
+from __future__ import annotations
+
+from brace.errors import BraceError, DeviceFaultError, UsageError
+
+_STATUS = {  # brace_status_t: what, and whether the question was at fault
+    -2: ("a value that is not finite", True),
+    -3: ("out of range", True),
+    -4: ("out of the limb's reach", True),
+    -5: ("values that no limb can have", True),
+    -6: ("K has no answer there: the compliance is singular", True),
+    -7: ("too few samples for an answer", False),
+    -8: ("not there on this controller", False),
+    -10: ("not a parameter block", False),
+    -11: ("a parameter block of another format", False),
+    -12: ("bytes are missing or too many", False),
+    -13: ("the CRC does not fit", False),
+    -14: ("a parameter block for another list of parameters", False),
+    -15: ("not in this mode", False),
+}
+_WAYS = {
+    -3: "values inside the range that the firmware's dictionary names",
+    -4: "a place nearer than the straight limb reaches, and not nearer than the folded one",
+    -15: "brace query shows its mode; a loading test, play being taken up or a fault stands in the way",
+}
+
+
+def error_of(what: str, status: int, detail: int, where: str) -> BraceError:
+    """An error with its exit code: 2 where the question was at fault, 5 where the device is."""
+    reason, asked_wrong = _STATUS.get(status, (f"status {status}", False))
+    kind = UsageError if asked_wrong else DeviceFaultError
+    return kind(
+        f"the controller refuses {what}: {reason}",
+        where=where,
+        why=f"status {status}, detail {detail}",
+        next_step=_WAYS.get(status, "brace query shows mode, faults and parameters"),
+    )

@@ -1,0 +1,143 @@
+"""Requests and answers with one node of a CAN bus: tokens, repeats, and why nothing came."""
+
+from __future__ import annotations
+
+import secrets
+import time
+from collections.abc import Mapping
+
+from brace.bus.frame import NODE_MASK, Bus, EndOfLog, Frame
+from brace.bus.refusal import error_of
+from brace.bus.snapshot import Heartbeat, Joiner, Snapshot, heartbeat_of
+from brace.errors import NoDeviceError, UsageError
+from brace.wire.frames import ANSWER_ID, ANSWERS, MESSAGES, REFUSAL, REFUSED_PART, REQUEST_ID, REQUESTS
+from brace.wire.layout import Value
+
+ANSWER_S = 0.25
+TRIES = 3
+HEARTBEAT_S = 1.15  # a heartbeat comes each second
+GATHER_S = 0.25  # for the other nodes of a bus, once one is heard
+_SENT_BY_NODES = {layout.identifier for layout in MESSAGES.values()} | {ANSWER_ID}
+_NOT_REPEATED = frozenset({"commit", "rollback", "loading_test_start", "take_up"})  # whose second time is not the first
+
+
+class Session:
+    """One node, all of whose frames are looked at while an answer is waited for."""
+
+    def __init__(self, bus: Bus, node: int | None = None) -> None:
+        self.bus = bus
+        self.joiner = Joiner()
+        self.heard: dict[int, float] = {}  # node -> when last
+        self.heartbeats: dict[int, Heartbeat] = {}
+        self.newest: dict[int, Snapshot] = {}
+        self._token = secrets.randbelow(256)
+        self.node = node if node is not None else self._find()
+
+    @property
+    def where(self) -> str:
+        """For messages."""
+        return f"{self.bus.url}, node {self.node}"
+
+    # ---------------------------------------------------------------------------------------- listening
+
+    def receive(self, timeout_s: float) -> Frame | None:
+        """The next frame, looked at; None when none came in time."""
+        frame = self.bus.receive(timeout_s)
+        if frame is None:
+            return None
+        if frame.node and frame.identifier & ~NODE_MASK in _SENT_BY_NODES:
+            self.heard[frame.node] = frame.time_s
+        snapshot = self.joiner.add(frame)
+        if snapshot is not None:
+            self.newest[frame.node] = snapshot
+        beat = heartbeat_of(frame)
+        if beat is not None:
+            self.heartbeats[frame.node] = beat
+        return frame
+
+    def listen(self, seconds: float) -> None:
+        """Takes what comes for a time."""
+        until = time.monotonic() + seconds
+        try:
+            while (left := until - time.monotonic()) > 0:
+                self.receive(left)
+        except EndOfLog:
+            return
+
+    def _find(self) -> int:
+        """The one node of the bus."""
+        until = time.monotonic() + HEARTBEAT_S
+        try:
+            while not self.heard and (left := until - time.monotonic()) > 0:
+                self.receive(left)
+        except EndOfLog:
+            pass
+        self.listen(GATHER_S if self.heard else 0.0)
+        if not self.heard:
+            why, way = self.bus.silence()
+            raise NoDeviceError("no controller is heard", where=self.bus.url, why=why, next_step=way)
+        nodes = sorted(self.heard)
+        if len(nodes) > 1:
+            raise UsageError(
+                f"{len(nodes)} controllers are on this bus",
+                where=self.bus.url,
+                why=f"nodes {', '.join(map(str, nodes))} are heard",
+                next_step=f"--node {nodes[0]}",
+            )
+        return nodes[0]
+
+    # ------------------------------------------------------------------------------------------- asking
+
+    def ask(self, name: str, values: Mapping[str, Value] | None = None, timeout_s: float = ANSWER_S) -> dict[str, Value]:
+        """The answer's fields, all parts together; repeated when nothing comes, where that does no harm."""
+        for _ in range(1 if name in _NOT_REPEATED else TRIES):
+            answer = self._ask_once(name, values or {}, timeout_s)
+            if answer is not None:
+                return answer
+        raise self._no_answer(name)
+
+    def _ask_once(self, name: str, values: Mapping[str, Value], timeout_s: float) -> dict[str, Value] | None:
+        self._token = (self._token + 1) & 0xFF
+        request = REQUESTS[name]
+        try:
+            data = request.encode(values, self._token)
+        except ValueError as error:
+            raise UsageError(
+                f"{name}: {error}", where=self.where, why="the frame has no room for it", next_step="a value in this range"
+            ) from None
+        self.bus.send(REQUEST_ID + self.node, data)
+        parts = ANSWERS[name]
+        came: dict[int, dict[str, Value]] = {}
+        until = time.monotonic() + timeout_s
+        while (left := until - time.monotonic()) > 0:
+            frame = self.receive(left)
+            if frame is None or frame.identifier != ANSWER_ID + self.node or len(frame.data) != 8:
+                continue
+            if frame.data[1] != self._token:
+                continue
+            part, command = frame.data[0] >> 5, frame.data[0] & 0x1F
+            if command != request.command:
+                continue
+            if part == REFUSED_PART:
+                refused = REFUSAL.decode(frame.data)
+                raise error_of(name, int(refused["status"] or 0), int(refused["detail"] or 0), self.where)
+            if part < len(parts):
+                came[part] = parts[part].decode(frame.data)
+            if len(came) == len(parts):
+                return {key: value for index in sorted(came) for key, value in came[index].items()}
+        return None
+
+    def _no_answer(self, name: str) -> NoDeviceError:
+        """Nothing heard at all, others heard, or this node heard and silent on this: three different things."""
+        if not self.heard:
+            self.listen(HEARTBEAT_S - ANSWER_S)
+        others = sorted(set(self.heard) - {self.node})
+        if self.node in self.heard:
+            why = f"it sends, and does not answer {name!r}"
+            way = "another firmware, or a bus so full that the request got no place: brace monitor shows rates"
+        elif others:
+            why = f"nothing of node {self.node} is heard; nodes on this bus: {', '.join(map(str, others))}"
+            way = f"--node {others[0]}"
+        else:
+            why, way = self.bus.silence()
+        return NoDeviceError(f"node {self.node} does not answer", where=self.bus.url, why=why, next_step=way)

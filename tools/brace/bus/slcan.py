@@ -1,0 +1,192 @@
+"""SLCAN: CAN frames as lines of text, over a serial device or TCP.
+
+The LAWICEL protocol: commands end with CR, an adapter answers CR (done) or BEL (refused); frames come as
+tIIILDD...CR. python-can's own sleeps two seconds at each opening; this one does not wait for what it can ask for.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import time
+from collections import deque
+from typing import Protocol
+
+from brace.bus.frame import Frame
+from brace.bus.url import BusUrl
+from brace.errors import NoDeviceError, UsageError
+
+BIT_RATES = {10000: 0, 20000: 1, 50000: 2, 100000: 3, 125000: 4, 250000: 5, 500000: 6, 800000: 7, 1000000: 8}
+CONNECT_S = 1.0
+ANSWER_S = 0.7
+SYNC_S = 0.4
+SEND_S = 1.0
+_LONGEST_LINE = 64
+_HEX = frozenset(b"0123456789abcdefABCDEF")
+_ERROR_BITS = ("receive queue full", "send queue full", "error warning", "", "data overrun", "error passive", "arbitration lost", "bus error")
+
+
+class Line(Protocol):
+    """Bytes both ways."""
+
+    def read(self, timeout_s: float) -> bytes:
+        """What has come; empty when nothing came in time. OSError when the other end has gone."""
+
+    def write(self, data: bytes) -> None:
+        """All of it, or OSError."""
+
+    def close(self) -> None: ...
+
+
+class SlcanBus:
+    """An adapter with its channel open."""
+
+    def __init__(self, url: BusUrl, line: Line, bit_rate: int) -> None:
+        self.url = url.text
+        self.bit_rate: int | None = bit_rate
+        self._line = line
+        self._rest = b""
+        self._frames: deque[Frame] = deque()
+        self._answers: deque[bytes] = deque()
+        try:
+            self._open(bit_rate)
+        except BaseException:
+            line.close()
+            raise
+
+    def _open(self, bit_rate: int) -> None:
+        self._write(b"\r\rC\rV\r")  # ends what somebody left half said, and closes what was left open
+        self._swallow_until_version(SYNC_S)
+        for command in (b"S%d" % BIT_RATES[bit_rate], b"O"):
+            answer = self._ask(command)
+            if answer is None:
+                raise NoDeviceError(
+                    "it does not answer as an SLCAN adapter does",
+                    where=self.url,
+                    why=f"no answer to {command.decode()!r} within {ANSWER_S} s",
+                    next_step="check that this is the adapter's port (not its console), and its baud rate: slcan:PLACE@BAUD",
+                )
+            if answer.endswith(b"\a"):
+                raise NoDeviceError(
+                    f"the SLCAN adapter refuses {command.decode()!r}",
+                    where=self.url,
+                    why=f"it cannot do {bit_rate} bit/s, or another program has the channel open",
+                    next_step="another --bit-rate, or end the other program",
+                )
+
+    def receive(self, timeout_s: float) -> Frame | None:
+        """The next frame."""
+        until = time.monotonic() + timeout_s
+        while not self._frames:
+            left = until - time.monotonic()
+            self._take(max(left, 0.0))
+            if left <= 0 and not self._frames:
+                return None
+        return self._frames.popleft()
+
+    def send(self, identifier: int, data: bytes) -> None:
+        """One frame. The adapter's word for it is not waited for: the answer, if one is wanted, tells more."""
+        self._answers.clear()
+        self._write(b"t%03X%d%s\r" % (identifier, len(data), data.hex().upper().encode()))
+
+    def silence(self) -> tuple[str, str]:
+        """The adapter's flags know of another bit rate."""
+        answer = self._ask(b"F") or b""
+        if answer.startswith(b"F") and len(answer) == 4:
+            with contextlib.suppress(ValueError):
+                flags = int(answer[1:3], 16)
+                if flags & 0xA4:
+                    said = ", ".join(name for bit, name in enumerate(_ERROR_BITS) if flags >> bit & 1 and name)
+                    return (
+                        f"the adapter sees errors on the bus ({said}): another bit rate than {self.bit_rate} bit/s, or the wiring",
+                        "--bit-rate 500000, 250000 or 125000; or check wires and both 120 ohm ends",
+                    )
+        return (
+            f"the adapter answers, and nothing is on the bus at {self.bit_rate} bit/s",
+            "check the controller's power and wiring; one whose node_id is 0 sends nothing by itself (--node 0 asks it)",
+        )
+
+    def close(self) -> None:
+        """Closes channel and line."""
+        with contextlib.suppress(OSError, NoDeviceError):
+            self._line.write(b"C\r")
+        self._line.close()
+
+    # -------------------------------------------------------------------------------------------- lines
+
+    def _ask(self, command: bytes) -> bytes | None:
+        """The answer to a command; frames that come between are kept."""
+        self._answers.clear()
+        self._write(command + b"\r")
+        until = time.monotonic() + ANSWER_S
+        while not self._answers:
+            if time.monotonic() > until:
+                return None
+            self._take(0.05)
+        return self._answers.popleft()
+
+    def _swallow_until_version(self, seconds: float) -> None:
+        """Drops what was under way before us; an adapter that knows no V is not waited for longer."""
+        until = time.monotonic() + seconds
+        while time.monotonic() < until and not any(answer.startswith(b"V") for answer in self._answers):
+            self._take(0.02)
+        self._frames.clear()
+        self._answers.clear()
+
+    def _take(self, timeout_s: float) -> None:
+        try:
+            part = self._line.read(timeout_s)
+        except OSError as error:
+            raise self._gone(error) from None
+        if not part:
+            return
+        now = time.time()
+        self._rest += part
+        start = 0
+        for index, byte in enumerate(self._rest):
+            if byte in (0x0D, 0x07):
+                self._sort(self._rest[start : index + 1], now)
+                start = index + 1
+        self._rest = self._rest[start:][-_LONGEST_LINE:]
+
+    def _sort(self, text: bytes, now: float) -> None:
+        frame = frame_of(text[:-1], now) if text.endswith(b"\r") else None
+        if frame is not None:
+            self._frames.append(frame)
+        elif text[:1] not in b"tTrR" or len(text) == 1:
+            if len(self._answers) < 1000:
+                self._answers.append(text)
+
+    def _write(self, data: bytes) -> None:
+        try:
+            self._line.write(data)
+        except OSError as error:
+            raise self._gone(error) from None
+
+    def _gone(self, error: OSError) -> NoDeviceError:
+        return NoDeviceError(
+            "the connection is lost",
+            where=self.url,
+            why=error.strerror or str(error) or "the other end has closed it",
+            next_step="check that the adapter (or brace sim) still runs, and try again",
+        )
+
+
+def frame_of(text: bytes, time_s: float) -> Frame | None:
+    """tIIILDD...[TTTT] as a frame; None for everything else, remote and extended frames too."""
+    if len(text) < 5 or text[:1] != b"t" or not _HEX.issuperset(text[1:]):
+        return None
+    identifier, length = int(text[1:4], 16), int(text[4:5], 16)
+    if identifier > 0x7FF or length > 8 or len(text) not in (5 + 2 * length, 9 + 2 * length):
+        return None
+    return Frame(time_s, identifier, bytes.fromhex(text[5 : 5 + 2 * length].decode()))
+
+
+def check_bit_rate(bit_rate: int) -> None:
+    """Rates that SLCAN has a letter for."""
+    if bit_rate not in BIT_RATES:
+        raise UsageError(
+            f"{bit_rate} bit/s",
+            where="--bit-rate",
+            why=f"SLCAN knows {', '.join(map(str, BIT_RATES))}",
+            next_step="--bit-rate 1000000",
+        )

@@ -1,0 +1,125 @@
+"""SocketCAN, through python-can."""
+
+from __future__ import annotations
+
+import errno
+import socket
+from pathlib import Path
+from typing import Any
+
+from brace.bus.frame import Frame
+from brace.bus.url import BusUrl
+from brace.errors import MissingLibraryError, NoDeviceError
+
+SEND_S = 1.0
+_INTERFACES = Path("/sys/class/net")
+
+
+class SocketCanBus:
+    """A CAN interface of the kernel; its bit rate is the system's to set."""
+
+    def __init__(self, url: BusUrl) -> None:
+        self.url = url.text
+        self.bit_rate: int | None = None
+        self._errors = 0
+        refuse_absent(url)
+        try:
+            import can
+        except ImportError as error:
+            raise MissingLibraryError(
+                "python-can is not installed", why=str(error), next_step="pip install python-can, or ./dev setup"
+            ) from None
+        self._can = can
+        try:
+            self._bus: Any = can.Bus(interface="socketcan", channel=url.place)
+        except (OSError, can.CanError) as error:
+            raise self._lost(error) from None
+
+    def receive(self, timeout_s: float) -> Frame | None:
+        """The next frame; error frames are counted."""
+        try:
+            message = self._bus.recv(timeout_s)
+        except (OSError, self._can.CanError) as error:
+            raise self._lost(error) from None
+        if message is None:
+            return None
+        if message.is_error_frame:
+            self._errors += 1
+            return None
+        if message.is_extended_id or message.is_remote_frame or message.is_fd:
+            return None
+        return Frame(message.timestamp, message.arbitration_id, bytes(message.data))
+
+    def send(self, identifier: int, data: bytes) -> None:
+        """One frame."""
+        message = self._can.Message(arbitration_id=identifier, data=data, is_extended_id=False)
+        try:
+            self._bus.send(message, timeout=SEND_S)
+        except (OSError, self._can.CanError) as error:
+            raise self._lost(error) from None
+
+    def silence(self) -> tuple[str, str]:
+        """Error frames tell of another bit rate."""
+        if self._errors:
+            return (
+                f"{self._errors} error frames were heard: the interface's bit rate is not the controller's, or the wiring",
+                f"ip -details link show {self.url}; ip link set {self.url} down; ip link set {self.url} type can bitrate 1000000",
+            )
+        return (
+            f"{self.url} is up, and nothing is on the bus",
+            "check the controller's power, wiring and bit rate; a controller whose node_id is 0 only listens",
+        )
+
+    def close(self) -> None:
+        """For good."""
+        self._bus.shutdown()
+
+    def _lost(self, error: Exception) -> NoDeviceError:
+        number = getattr(error, "error_code", None) or getattr(error, "errno", None)
+        if number == errno.ENETDOWN:
+            why = "the interface is down"
+            way = f"ip link set {self.url} up type can bitrate 1000000"
+        elif number == errno.ENOBUFS:
+            why, way = "the interface takes no more frames: nobody on the bus acknowledges them", "check wiring and bit rate"
+        else:
+            why, way = str(error), f"ip -details link show {self.url}"
+        return NoDeviceError("the CAN interface does not work", where=self.url, why=why, next_step=way)
+
+
+def refuse_absent(url: BusUrl) -> None:
+    """No CAN in the kernel, no such interface, an interface that is down: each in its own words."""
+    family = getattr(socket, "AF_CAN", None)
+    try:
+        if family is None:
+            raise OSError(errno.EAFNOSUPPORT, "no SocketCAN on this system")
+        socket.socket(family, socket.SOCK_RAW, getattr(socket, "CAN_RAW", 1)).close()
+    except OSError as error:
+        raise NoDeviceError(
+            "this kernel has no CAN",
+            where=url.text,
+            why=f"SocketCAN is not there ({error.strerror or error})",
+            next_step="modprobe can_raw; or --bus slcan:/dev/ttyACM0 or tcp://HOST:PORT, which need none",
+        ) from None
+    if _INTERFACES.is_dir() and not (_INTERFACES / url.place).exists():
+        known = sorted(entry.name for entry in _INTERFACES.iterdir() if _kind(entry) == "280")
+        raise NoDeviceError(
+            "no such CAN interface",
+            where=url.text,
+            why=f"CAN interfaces here: {', '.join(known) or 'none'}",
+            next_step=(
+                f"--bus {known[0]}"
+                if known
+                else f"ip link add dev {url.place} type vcan && ip link set {url.place} up, or plug the adapter in"
+            ),
+        )
+    if (_INTERFACES / url.place).is_dir() and _kind(_INTERFACES / url.place) != "280":
+        raise NoDeviceError(
+            "not a CAN interface", where=url.text, why="it is a network interface of another kind", next_step="ip -brief link"
+        )
+
+
+def _kind(entry: Path) -> str:
+    try:
+        return (entry / "type").read_text().strip()
+    except OSError:
+        return ""

@@ -1,0 +1,103 @@
+"""What a bus says, node by node: the newest K, posture, heartbeat, and how often they come."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass, field
+from typing import Any
+
+from brace.bus.controller import check_dictionary
+from brace.bus.frame import Frame
+from brace.bus.snapshot import Emergency, Heartbeat, Joiner, Snapshot, emergency_of, heartbeat_of
+
+RATE_S = 2.0
+
+Event = Snapshot | Heartbeat | Emergency
+
+
+@dataclass
+class NodeState:
+    """The newest of each."""
+
+    snapshot: Snapshot | None = None  # K
+    posture: Snapshot | None = None  # the newest with eigenvalues and posture
+    heartbeat: Heartbeat | None = None
+    snapshots: int = 0
+    valid: int = 0
+    frames: int = 0
+    last_s: float = 0.0
+    times_s: deque[float] = field(default_factory=deque)
+
+    @property
+    def rate_hz(self) -> float:
+        """Snapshots a second, over the last two."""
+        if len(self.times_s) < 2 or self.times_s[-1] <= self.times_s[0]:
+            return 0.0
+        return (len(self.times_s) - 1) / (self.times_s[-1] - self.times_s[0])
+
+
+class Watch:
+    """Frames in, events out."""
+
+    def __init__(self, where: str, node: int | None = None, any_dictionary: bool = False) -> None:
+        self.nodes: dict[int, NodeState] = {}
+        self.joiner = Joiner()
+        self.first_s = self.last_s = 0.0
+        self._where = where
+        self._only = node
+        self._any_dictionary = any_dictionary
+
+    def add(self, frame: Frame) -> Event | None:
+        """What the frame tells or completes. VersionMismatchError when a node speaks another dictionary."""
+        if frame.node == 0 or (self._only is not None and frame.node != self._only):
+            return None
+        event = self.joiner.add(frame) or heartbeat_of(frame) or emergency_of(frame)
+        if event is None and frame.node not in self.nodes:
+            return None
+        state = self.nodes.setdefault(frame.node, NodeState())
+        self.first_s = self.first_s or frame.time_s
+        state.last_s = self.last_s = frame.time_s
+        state.frames += 1
+        if isinstance(event, Heartbeat):
+            if not self._any_dictionary:
+                check_dictionary(event.dictionary_hash, f"{self._where}, node {frame.node}")
+            state.heartbeat = event
+        elif isinstance(event, Snapshot):
+            if event.has_posture:
+                state.posture = state.snapshot = event
+            else:
+                self.count(state, event)
+        return event
+
+    def count(self, state: NodeState, snapshot: Snapshot) -> None:
+        """One more K of a node."""
+        state.snapshot = snapshot
+        state.snapshots += 1
+        state.valid += snapshot.is_valid
+        state.times_s.append(snapshot.time_s)
+        while state.times_s[-1] - state.times_s[0] > RATE_S:
+            state.times_s.popleft()
+
+
+def as_json(event: Event) -> dict[str, Any]:
+    """One object for a line of --json."""
+    if isinstance(event, Snapshot):
+        return {"event": "posture" if event.has_posture else "stiffness"} | event.as_json()
+    if isinstance(event, Heartbeat):
+        return {
+            "event": "heartbeat",
+            "node": event.node,
+            "time_s": round(event.time_s, 6),
+            "state": event.state,
+            "mode": event.mode,
+            "faults": list(event.faults),
+            "dictionary_hash": f"{event.dictionary_hash:08x}",
+        }
+    return {
+        "event": "emergency",
+        "node": event.node,
+        "time_s": round(event.time_s, 6),
+        "error_code": f"{event.error_code:04x}",
+        "mode": event.mode,
+        "faults": list(event.faults),
+    }

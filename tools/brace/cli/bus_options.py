@@ -1,0 +1,103 @@
+"""--bus, --node, --bit-rate: what the commands on a bus share."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import signal
+import threading
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from brace.cli import common
+
+if TYPE_CHECKING:
+    from brace.bus.controller import Controller
+    from brace.bus.session import Session
+    from brace.bus.url import BusUrl
+
+
+def add_bus(parser: Any, required: bool = True) -> None:
+    """--bus URL and what belongs to it."""
+    parser.add_argument(
+        "--bus",
+        required=required,
+        metavar="URL",
+        help="can0, slcan:/dev/ttyACM0[@BAUD], tcp://HOST:PORT (SLCAN), modbus:/dev/ttyUSB0[@BAUD][/UNIT], "
+        "modbus-tcp://HOST:PORT[/UNIT], log:FILE",
+    )
+    parser.add_argument(
+        "--node",
+        type=common.count(0, 127),
+        metavar="N",
+        help="CAN node; default: the only one on the bus. 0: a controller without a number, over its own SLCAN port",
+    )
+    parser.add_argument(
+        "--bit-rate",
+        type=common.count(10000, 1000000),
+        default=1000000,
+        metavar="BPS",
+        help="of CAN through SLCAN; default 1000000. A SocketCAN interface has its own",
+    )
+
+
+def bus_url(arguments: argparse.Namespace, frames_for: str = "") -> BusUrl:
+    """The URL; refused where frames are needed and it has registers."""
+    from brace.bus.url import parse
+    from brace.errors import UsageError
+
+    url = parse(arguments.bus)
+    if frames_for and url.is_modbus:
+        raise UsageError(
+            f"{frames_for} over Modbus",
+            where=url.text,
+            why="it needs the frames of a CAN bus",
+            next_step="--bus can0, slcan:DEVICE or tcp://HOST:PORT; brace query and monitor work over Modbus",
+        )
+    return url
+
+
+@contextlib.contextmanager
+def session(arguments: argparse.Namespace, url: BusUrl) -> Iterator[Session]:
+    """A CAN session with the node asked for, or the only one."""
+    from brace.bus.open import open_bus
+    from brace.bus.session import Session
+
+    bus = open_bus(url, arguments.bit_rate)
+    try:
+        yield Session(bus, arguments.node)
+    finally:
+        bus.close()
+
+
+@contextlib.contextmanager
+def controller(arguments: argparse.Namespace) -> Iterator[Controller]:
+    """A controller that speaks our dictionary, on whatever wire."""
+    url = bus_url(arguments)
+    if url.is_modbus:
+        from brace.bus.modbus_controller import ModbusController
+
+        device = ModbusController(url)
+        try:
+            yield device
+        finally:
+            device.close()
+        return
+    from brace.bus.can_controller import CanController
+
+    with session(arguments, url) as opened:
+        yield CanController(opened)
+
+
+@contextlib.contextmanager
+def ended_by_signal() -> Iterator[threading.Event]:
+    """An event that SIGTERM sets: an orderly end."""
+    ended = threading.Event()
+    if threading.current_thread() is not threading.main_thread():
+        yield ended
+        return
+    before = signal.signal(signal.SIGTERM, lambda _number, _frame: ended.set())
+    try:
+        yield ended
+    finally:
+        signal.signal(signal.SIGTERM, before)
