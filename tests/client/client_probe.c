@@ -1,0 +1,153 @@
+/* client_probe BUS NODE TIMEOUT_MS CALL [NUMBER...]: one call of the C client; numbers it gives on stdout as "name value"
+ * lines, its reason on stderr, its status as exit code (positive).
+ *   identity | read PARTS COUNT | posture T1 T2 | tip X Z UP | force DX DZ | sag FX FZ | margin NORMAL MU
+ *   entry_u32 INDEX | entry_f32 INDEX | dump SECONDS_MS (bus only) | send ID BYTE... (bus only) */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "brace/bus.h"
+#include "brace/client.h"
+
+static float numbers[12];
+static int timeout_ms;
+
+static int bus_call(const char *url, const char *call, int count)
+{
+    char why[BRACE_CLIENT_WHY_ROOM];
+    brace_bus_t *bus;
+    brace_bus_frame_t frame = {.id = (uint32_t)numbers[0], .length = (uint8_t)(count < 1 ? 0 : count - 1)};
+    brace_bus_status_t status = brace_bus_open(url, 0u, timeout_ms, &bus, why, sizeof why);
+    if (status != BRACE_BUS_OK) {
+        fprintf(stderr, "%s\n", why);
+        return -status;
+    }
+    if (strcmp(call, "send") == 0) {
+        for (int i = 1; i < count && i <= 8; i++) {
+            frame.data[i - 1] = (uint8_t)numbers[i];
+        }
+        status = brace_bus_send(bus, &frame, timeout_ms);
+    } else {
+        setvbuf(stdout, NULL, _IOLBF, 0u);
+        printf("open\n");
+        while ((status = brace_bus_receive(bus, &frame, (int)numbers[0])) == BRACE_BUS_OK) {
+            printf("%03x", (unsigned)frame.id);
+            for (unsigned i = 0u; i < frame.length; i++) {
+                printf("%s%02x", i == 0u ? " " : "", frame.data[i]);
+            }
+            printf("\n");
+        }
+        printf("errors %u\nlost %u\n", (unsigned)brace_bus_errors(bus, 200), (unsigned)brace_bus_lost(bus));
+    }
+    brace_bus_close(bus);
+    return -status;
+}
+
+static void print_k(const brace_client_k_t *k)
+{
+    printf("k_xx %.9g\nk_xz %.9g\nk_zz %.9g\nlambda_min %.9g\nlambda_max %.9g\nstiff_axis %.9g\nflags %u\n", k->k_xx_n_per_mm,
+           k->k_xz_n_per_mm, k->k_zz_n_per_mm, k->lambda_min_n_per_mm, k->lambda_max_n_per_mm, k->stiff_axis_rad,
+           (unsigned)k->flags);
+}
+
+static brace_client_status_t read_some(brace_client_t *client)
+{
+    for (int i = 0; i < (int)numbers[1]; i++) {
+        brace_client_snapshot_t s;
+        const brace_client_status_t status = brace_client_read(client, (uint32_t)numbers[0], timeout_ms, &s);
+        if (status != BRACE_CLIENT_OK) {
+            return status;
+        }
+        const brace_client_k_t k = {s.k_xx_n_per_mm, s.k_xz_n_per_mm, s.k_zz_n_per_mm, s.lambda_min_n_per_mm,
+                                    s.lambda_max_n_per_mm, s.stiff_axis_rad, s.flags};
+        printf("snapshot %u\nparts %u\nvalid %d\nage_ms %.9g\ntheta1 %.9g\ntheta2 %.9g\nmode %u\nfaults %u\n",
+               (unsigned)s.sequence, (unsigned)s.parts, s.k_is_valid, s.age_ms, s.theta1_rad, s.theta2_rad,
+               (unsigned)s.mode, (unsigned)s.faults);
+        print_k(&k);
+    }
+    return BRACE_CLIENT_OK;
+}
+
+static brace_client_status_t client_call(brace_client_t *client, const char *call)
+{
+    const float *n = numbers;
+    const uint32_t index = (uint32_t)n[0];
+    brace_client_status_t status = BRACE_CLIENT_E_USAGE;
+    brace_client_k_t k;
+    if (strcmp(call, "identity") == 0) {
+        brace_client_identity_t who;
+        brace_client_identity(client, &who);
+        printf("node %u\nhash %u\nversion %u\ncrc %u\norigin %u\n", (unsigned)who.node, (unsigned)who.dictionary_hash,
+               (unsigned)who.firmware_version, (unsigned)who.parameter_crc, (unsigned)who.parameter_origin);
+        status = BRACE_CLIENT_OK;
+    } else if (strcmp(call, "read") == 0) {
+        status = read_some(client);
+    } else if (strcmp(call, "posture") == 0 || strcmp(call, "tip") == 0) {
+        status = call[0] == 'p' ? brace_client_k_at_posture(client, n[0], n[1], timeout_ms, &k)
+                                : brace_client_k_at_tip(client, n[0], n[1], n[2] > 0.5f, timeout_ms, &k);
+        if (status == BRACE_CLIENT_OK) {
+            print_k(&k);
+        }
+    } else if (strcmp(call, "force") == 0) {
+        brace_client_force_t force;
+        status = brace_client_contact_force(client, n[0], n[1], timeout_ms, &force);
+        if (status == BRACE_CLIENT_OK) {
+            printf("fx %.9g\nfz %.9g\nlow %.9g\nhigh %.9g\n", force.fx_n, force.fz_n, force.low_n, force.high_n);
+        }
+    } else if (strcmp(call, "sag") == 0) {
+        float dx_mm, dz_mm;
+        status = brace_client_sag(client, n[0], n[1], timeout_ms, &dx_mm, &dz_mm);
+        if (status == BRACE_CLIENT_OK) {
+            printf("dx %.9g\ndz %.9g\n", dx_mm, dz_mm);
+        }
+    } else if (strcmp(call, "margin") == 0) {
+        brace_client_margin_t margin;
+        status = brace_client_margin(client, n[0], n[1], timeout_ms, &margin);
+        if (status == BRACE_CLIENT_OK) {
+            printf("margin %.9g\nangle_left %.9g\ncontact %u\n", margin.margin_n, margin.angle_left_rad,
+                   (unsigned)margin.contact);
+        }
+    } else if (strcmp(call, "entry_u32") == 0) {
+        uint32_t value;
+        status = brace_client_entry_u32(client, index, timeout_ms, &value);
+        if (status == BRACE_CLIENT_OK) {
+            printf("value %u\n", (unsigned)value);
+        }
+    } else if (strcmp(call, "entry_f32") == 0) {
+        float value;
+        status = brace_client_entry_f32(client, index, timeout_ms, &value);
+        if (status == BRACE_CLIENT_OK) {
+            printf("value %.9g\n", value);
+        }
+    }
+    if (status != BRACE_CLIENT_OK) {
+        fprintf(stderr, "%s\nrefusal %d\n", brace_client_why(client), (int)brace_client_refusal(client));
+    }
+    return status;
+}
+
+int main(int argc, char **argv)
+{
+    char why[BRACE_CLIENT_WHY_ROOM];
+    brace_client_t *client;
+    if (argc < 5) {
+        fprintf(stderr, "usage: client_probe BUS NODE TIMEOUT_MS CALL [NUMBER...]\n");
+        return 64;
+    }
+    timeout_ms = atoi(argv[3]);
+    for (int i = 5; i < argc && i - 5 < 12; i++) {
+        numbers[i - 5] = strtof(argv[i], NULL);
+    }
+    if (strcmp(argv[4], "dump") == 0 || strcmp(argv[4], "send") == 0) {
+        return bus_call(argv[1], argv[4], argc - 5);
+    }
+    brace_client_status_t status =
+        brace_client_open(argv[1], (uint32_t)atoi(argv[2]), 0u, timeout_ms, &client, why, sizeof why);
+    if (status != BRACE_CLIENT_OK) {
+        fprintf(stderr, "%s\nexit %d\n", why, brace_client_exit_code(status));
+        return -status;
+    }
+    status = client_call(client, argv[4]);
+    brace_client_close(client);
+    return -status;
+}

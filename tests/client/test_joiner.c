@@ -1,0 +1,186 @@
+/* A snapshot's frames put together: everything of one tick or nothing. */
+#include "joiner.h"
+
+#include <math.h>
+#include <string.h>
+#include <unity.h>
+
+#include "brace/can_messages.h"
+
+enum { NODE = 9, TICK_US = 250 };
+
+void setUp(void) {}
+void tearDown(void) {}
+
+/* Every member of a snapshot tells the tick it is of: 19 bits of it. */
+static float mark(uint32_t tick)
+{
+    return (float)(tick & 0x7ffffu) * 0.002f; /* whole steps of 0.0005 N/mm, within every range used */
+}
+
+static uint32_t tick_of(float value)
+{
+    return (uint32_t)lroundf(value / 0.002f);
+}
+
+static brace_bus_frame_t frame_of(uint32_t kind, uint32_t tick, uint64_t now_us)
+{
+    static const uint32_t id[] = {BRACE_CAN_ID_STIFFNESS_A, BRACE_CAN_ID_STIFFNESS_B, BRACE_CAN_ID_EIGENVALUES,
+                                  BRACE_CAN_ID_POSTURE};
+    brace_bus_frame_t frame = {.id = id[kind] + NODE, .length = 8u, .received_us = now_us};
+    const uint32_t sequence = tick & 0xffu;
+    if (kind == 0u) {
+        const brace_can_stiffness_a_t a = {.sequence = sequence, .k_xx_n_per_mm = mark(tick), .k_xz_n_per_mm = mark(tick)};
+        (void)brace_can_pack_stiffness_a(&a, frame.data);
+    } else if (kind == 1u) {
+        const brace_can_stiffness_b_t b = {.sequence = sequence, .k_zz_n_per_mm = mark(tick), .age_ms = 0.5f};
+        (void)brace_can_pack_stiffness_b(&b, frame.data);
+    } else if (kind == 2u) {
+        const brace_can_eigenvalues_t e = {.sequence = sequence, .lambda_max_n_per_mm = (float)(tick & 0x7ffffu) * 0.005f};
+        (void)brace_can_pack_eigenvalues(&e, frame.data);
+    } else {
+        const brace_can_posture_t p = {.sequence = sequence, .theta1_rad = (float)(tick & 0x7ffffu) * 2e-5f};
+        (void)brace_can_pack_posture(&p, frame.data);
+    }
+    return frame;
+}
+
+static void is_of_one_tick(const brace_client_snapshot_t *s)
+{
+    uint32_t tick = UINT32_MAX;
+    if (s->parts & BRACE_PART_K) {
+        tick = tick_of(s->k_xx_n_per_mm);
+        TEST_ASSERT_EQUAL_UINT32(tick, tick_of(s->k_xz_n_per_mm));
+        TEST_ASSERT_EQUAL_UINT32(tick, tick_of(s->k_zz_n_per_mm));
+        TEST_ASSERT_EQUAL_UINT32(tick & 0xffu, s->sequence);
+        TEST_ASSERT_TRUE(s->k_is_valid);
+    }
+    if (s->parts & BRACE_PART_EIGENVALUES) {
+        const uint32_t of_eigenvalues = (uint32_t)lroundf(s->lambda_max_n_per_mm / 0.005f);
+        TEST_ASSERT_EQUAL_UINT32(tick == UINT32_MAX ? of_eigenvalues : tick, of_eigenvalues);
+        tick = of_eigenvalues;
+    }
+    if (s->parts & BRACE_PART_POSTURE) {
+        const uint32_t of_posture = (uint32_t)lroundf(s->theta1_rad / 2e-5f);
+        TEST_ASSERT_EQUAL_UINT32(tick == UINT32_MAX ? of_posture : tick, of_posture);
+    }
+}
+
+static uint32_t state = 1u;
+
+static uint32_t random_below(uint32_t limit)
+{
+    state ^= state << 13;
+    state ^= state >> 17;
+    state ^= state << 5;
+    return state % limit;
+}
+
+/* 1.2 million snapshots, each frame of them lost with probability 1/8, whole stretches of random length lost too (the
+ * receiver's queue was full: told; the sender's: not told, time passes). */
+static void test_no_snapshot_is_of_two_ticks(void)
+{
+    brace_joiner_t joiner = {0};
+    uint32_t tick = 0u, lost = 0u, whole = 0u, complete = 0u;
+    for (uint32_t i = 0u; i < 1200000u; i++) {
+        tick += 1u + random_below(20u);
+        bool skipping = false;
+        for (uint32_t kind = 0u; kind < 4u; kind++) {
+            const uint32_t fate = random_below(4000u);
+            if (fate < 500u) { /* lost without a word */
+                continue;
+            }
+            if (fate == 500u) { /* a queue overflowed: told with the frame after */
+                lost += 1u + random_below(5u);
+                tick += random_below(600u);
+                skipping = true;
+            } else if (fate == 501u) { /* the sender had no room for a while */
+                tick += 160u + random_below(2000u);
+                skipping = true;
+            }
+            const brace_bus_frame_t frame = frame_of(kind, tick, 1000u + (uint64_t)tick * TICK_US + kind * 130u);
+            const brace_client_snapshot_t *s = brace_joiner_add(&joiner, NODE, &frame, lost);
+            if (s != NULL) {
+                is_of_one_tick(s);
+                whole += (s->parts & BRACE_PART_K) != 0u && kind == 1u;
+                complete += s->parts == BRACE_PART_ALL;
+            }
+        }
+        tick += skipping ? 1u : 0u;
+    }
+    /* what no loss touched comes out: (7/8)^2 and (7/8)^4 of all */
+    TEST_ASSERT_GREATER_THAN_UINT32(900000u, whole);
+    TEST_ASSERT_GREATER_THAN_UINT32(690000u, complete);
+}
+
+static void test_halves_of_two_rounds_of_the_number_do_not_meet(void)
+{
+    brace_joiner_t joiner = {0};
+    const brace_bus_frame_t a = frame_of(0u, 5u, 1000u);
+    const brace_bus_frame_t b = frame_of(1u, 5u + 256u, 1000u + 256u * TICK_US);
+    TEST_ASSERT_NULL(brace_joiner_add(&joiner, NODE, &a, 0u));
+    TEST_ASSERT_NULL(brace_joiner_add(&joiner, NODE, &b, 0u));
+}
+
+static void test_a_loss_in_between_parts_the_halves(void)
+{
+    brace_joiner_t joiner = {0};
+    const brace_bus_frame_t a = frame_of(0u, 5u, 1000u);
+    const brace_bus_frame_t b = frame_of(1u, 5u, 1100u);
+    TEST_ASSERT_NULL(brace_joiner_add(&joiner, NODE, &a, 0u));
+    TEST_ASSERT_NULL(brace_joiner_add(&joiner, NODE, &b, 1u));
+}
+
+static void test_a_newer_k_may_overtake_an_older_posture(void)
+{
+    brace_joiner_t joiner = {0};
+    const uint32_t kinds[] = {0u, 1u, 2u, 0u, 1u, 3u}, ticks[] = {5u, 5u, 5u, 10u, 10u, 5u};
+    const brace_client_snapshot_t *s = NULL;
+    for (uint32_t i = 0u; i < 6u; i++) {
+        const brace_bus_frame_t frame = frame_of(kinds[i], ticks[i], 1000u + 200u * i);
+        s = brace_joiner_add(&joiner, NODE, &frame, 0u);
+    }
+    TEST_ASSERT_NOT_NULL(s);
+    TEST_ASSERT_EQUAL_UINT32(BRACE_PART_ALL, s->parts);
+    TEST_ASSERT_EQUAL_UINT32(5u, s->sequence);
+    is_of_one_tick(s);
+}
+
+static void test_others_and_short_frames_are_passed_over(void)
+{
+    brace_joiner_t joiner = {0};
+    brace_bus_frame_t a = frame_of(0u, 5u, 1000u), b = frame_of(1u, 5u, 1100u);
+    a.id++;
+    TEST_ASSERT_NULL(brace_joiner_add(&joiner, NODE, &a, 0u));
+    TEST_ASSERT_NULL(brace_joiner_add(&joiner, NODE, &b, 0u));
+    a.id--;
+    a.length = 7u;
+    TEST_ASSERT_NULL(brace_joiner_add(&joiner, NODE, &a, 0u));
+}
+
+static void test_an_unknown_k_is_not_valid_and_never_zero(void)
+{
+    brace_joiner_t joiner = {0};
+    brace_bus_frame_t a = frame_of(0u, 5u, 1000u), b = frame_of(1u, 5u, 1100u);
+    const brace_can_stiffness_a_t unknown = {.sequence = 5u, .k_xx_n_per_mm = NAN, .k_xz_n_per_mm = NAN};
+    (void)brace_can_pack_stiffness_a(&unknown, a.data);
+    (void)brace_joiner_add(&joiner, NODE, &a, 0u);
+    const brace_client_snapshot_t *s = brace_joiner_add(&joiner, NODE, &b, 0u);
+    TEST_ASSERT_NOT_NULL(s);
+    TEST_ASSERT_FALSE(s->k_is_valid);
+    TEST_ASSERT_TRUE(isnan(s->k_xx_n_per_mm));
+    TEST_ASSERT_TRUE(isnan(s->lambda_min_n_per_mm));
+    TEST_ASSERT_TRUE(isnan(s->theta1_rad));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_no_snapshot_is_of_two_ticks);
+    RUN_TEST(test_halves_of_two_rounds_of_the_number_do_not_meet);
+    RUN_TEST(test_a_loss_in_between_parts_the_halves);
+    RUN_TEST(test_a_newer_k_may_overtake_an_older_posture);
+    RUN_TEST(test_others_and_short_frames_are_passed_over);
+    RUN_TEST(test_an_unknown_k_is_not_valid_and_never_zero);
+    return UNITY_END();
+}
