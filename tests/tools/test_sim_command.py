@@ -117,6 +117,19 @@ def test_sigterm_ends_it_with_0_and_ctrl_c_with_130(paper_limb: Path) -> None:
             assert "Traceback" not in err
 
 
+def test_ctrl_c_in_the_middle_of_a_run_waits_for_the_limbs(paper_limb: Path) -> None:
+    """Their thread ticks on until it has seen the order; nothing it uses may go before."""
+    for _ in range(2):
+        with spawn("sim", "--model", paper_limb, *FREE) as process:
+            assert process.stdout is not None
+            assert process.stdout.readline().startswith("limb 1: node")
+            time.sleep(0.5)
+            process.send_signal(signal.SIGINT)
+            out, err = process.communicate(timeout=10)
+            assert process.returncode == 130, (process.returncode, err)
+            assert "monitor" in out
+
+
 def test_a_port_in_use_is_4_with_a_way_out(brace: Callable[..., Outcome], paper_limb: Path) -> None:
     with socket.create_server((LOOPBACK, 0)) as taken:
         port = taken.getsockname()[1]

@@ -80,7 +80,8 @@ class Node:
     def __init__(self, limbs: Sequence[LimbSetup], can: str | None = "none", seed: int = 0) -> None:
         self.native = node_library()
         self._setups = list(limbs)
-        self._thread: threading.Thread | None = None
+        # set at the end of a run; a Ctrl-C within Thread.join would have Python 3.11 call a running thread ended
+        self._over: threading.Event | None = None
         ffi, lib = self.native.ffi, self.native.lib
         keep: list[Any] = []
         structs = ffi.new("brace_node_limb_t[]", len(limbs))
@@ -176,24 +177,27 @@ class Node:
     def start(self, until_s: float = math.inf) -> None:
         """Runs in step with the wall clock, in a thread, until a time of the simulation or stop()."""
         until_us = 2**63 if math.isinf(until_s) else round(until_s * 1e6)
-        self._thread = threading.Thread(
-            target=self.native.lib.brace_node_run, args=(self._node, until_us), name="limbs", daemon=True
-        )
-        self._thread.start()
+        over = threading.Event()
+
+        def run() -> None:
+            try:
+                self.native.lib.brace_node_run(self._node, until_us)
+            finally:
+                over.set()
+
+        self._over = over
+        threading.Thread(target=run, name="limbs", daemon=True).start()
 
     def wait(self, seconds: float) -> bool:
         """True when the run is over, at once or within a time."""
-        if self._thread is None:
-            return True
-        self._thread.join(seconds)
-        return not self._thread.is_alive()
+        return self._over is None or self._over.wait(seconds)
 
     def stop(self) -> None:
         """Ends a run; returns when it has ended."""
-        if self._thread is not None:
+        if self._over is not None:
             self.native.lib.brace_node_stop(self._node)
-            self._thread.join()
-            self._thread = None
+            self._over.wait()
+            self._over = None
 
     def add_fault(self, fault: Fault) -> None:
         """At its time, in its limb or in all."""
