@@ -38,7 +38,7 @@ def test_four_limbs_at_200_hz_use_less_than_a_quarter_of_the_bus() -> None:
         client.close()
     for limb in range(4):
         for message in (STIFFNESS_A, STIFFNESS_B):
-            assert counts[message + NODE + limb] == pytest.approx(200 * seconds, abs=2)
+            assert counts[message + NODE + limb] == pytest.approx(200 * seconds, rel=0.005)
         assert counts[HEARTBEAT + NODE + limb] == pytest.approx(seconds, abs=1)
     share = bits / (BIT_RATE * seconds)
     print(f"four limbs at 200 Hz: {100 * share:.2f} % of 1 Mbit/s")
@@ -79,7 +79,8 @@ def test_a_flooded_limb_keeps_its_tick_and_heartbeat(kind: str) -> None:
         state = node.state()
         flooder.close()
         listener.close()
-    assert state["sequence"] - before >= seconds * 1000
+    # a tick that answers a request leaves out K, and the next one does not answer: every second K at least is there
+    assert state["sequence"] - before >= seconds * 500
     assert state["k_is_valid"] and state["mode"] == "monitor" and state["faults"] == []
     assert state["k_xx_n_per_mm"] == pytest.approx(3.964, abs=0.01)  # of the set it was started with
     assert counts[HEARTBEAT + NODE] >= seconds - 1

@@ -35,9 +35,11 @@ TICK_S = 1e-3
 EVERY_TICK = {"controller.stiffness_hz": 1000, "controller.posture_hz": 1000, "controller.bus_load_ratio": 1.0}
 
 
-def test_k_at_a_posture_is_answered_within_a_tick() -> None:
-    """The whole answer, three frames, is on the bus when the tick ends in which the request was read, whatever process
-    data is due in it; over a thousand ticks so that every phase of the rates is met."""
+@pytest.mark.parametrize(("resting_ticks", "most"), [(1, 1), (0, 2)])
+def test_k_at_a_posture_is_answered_within_a_tick(resting_ticks: int, most: int) -> None:
+    """The whole answer, three frames, is on the bus when the tick ends that comes next after the request, whatever
+    process data is due in it; over a thousand requests so that every phase of the rates is met. The tick behind an
+    answer makes K instead: a request that comes at once after an answer is answered in the second."""
     rng = random.Random(5)
     with limbs(1, **EVERY_TICK) as node:
         client = SlcanClient(node.can_place)
@@ -45,6 +47,8 @@ def test_k_at_a_posture_is_answered_within_a_tick() -> None:
         list(client.frames())
         slowest = 0
         for number in range(1000):
+            for _ in range(resting_ticks * rng.randrange(1, 9)):
+                node.step(TICK_S)
             asked = (rng.uniform(-0.5, 1.5), rng.uniform(0.4, 2.4))
             client.send([(REQUEST + NODE, k_request(number & 0xFF, *asked))])
             answer: list[bytes] = []
@@ -57,8 +61,7 @@ def test_k_at_a_posture_is_answered_within_a_tick() -> None:
             check(k_of_answers(answer), *asked)
             slowest = max(slowest, ticks)
         client.close()
-    # the bus is polled, then the tick runs: what came before it is answered in it, or in the next one
-    assert slowest <= 1, f"{slowest} ticks"
+    assert slowest <= most, f"{slowest} ticks"
 
 
 @pytest.mark.parametrize("name", ["netduinoplus2", "mps2-an386"])
@@ -119,14 +122,14 @@ def test_no_k_is_made_of_two_ticks() -> None:
     least_change = []
     with limbs(LIMBS, **EVERY_TICK) as node:
         receiver, asker = SlcanClient(node.can_place), SlcanClient(node.can_place)
-        _move_all_the_time(node, SNAPSHOTS / LIMBS * TICK_S * 1.3)
+        _move_all_the_time(node, 3 * SNAPSHOTS / LIMBS * TICK_S)
         node.step(0.2)
         receiver.text()
         asker.text()
         carried = {limb: np.empty((0, 9), np.uint8) for limb in range(LIMBS)}
         while checked.min() < SNAPSHOTS // LIMBS:
             _ask(asker, rng)
-            node.step(0.05)
+            node.step(0.1)
             asker.text()
             identifiers, data = eight_byte_frames(receiver.text())
             for limb in range(LIMBS):
@@ -136,7 +139,7 @@ def test_no_k_is_made_of_two_ticks() -> None:
                 count, change, carried[limb] = _check_stream(np.concatenate([carried[limb], frames]))
                 checked[limb] += count
                 least_change.append(change)
-            assert node.stats()["time_us"] < 2 * SNAPSHOTS / LIMBS * 1e3, f"only {checked} snapshots"
+            assert node.stats()["time_us"] < 3 * SNAPSHOTS / LIMBS * 1e3, f"only {checked} snapshots"
         receiver.close()
         asker.close()
     assert checked.sum() >= SNAPSHOTS
@@ -157,7 +160,7 @@ def _ask(asker: SlcanClient, rng: random.Random) -> None:
     """What a busy robot's computer asks of all limbs at once."""
     frames = []
     for limb in range(LIMBS):
-        for _ in range(12):
+        for _ in range(24):
             asked = k_request(rng.randrange(256), rng.uniform(-0.5, 1.5), rng.uniform(0.4, 2.4))
             frames.append((REQUEST + NODE + limb, rng.choice([asked, entry_request(0, SEQUENCE_ENTRY)])))
     asker.send(frames)

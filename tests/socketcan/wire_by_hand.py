@@ -3,11 +3,13 @@ what it judges."""
 
 from __future__ import annotations
 
+import functools
 import math
 import struct
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -62,9 +64,14 @@ def k_of_answers(parts: list[bytes]) -> K:
     return K(xx, xz, zz, low, high, axis)
 
 
+@functools.cache
+def _paper_limb() -> dict[str, Any]:
+    return tomllib.loads(LIMB.read_text())
+
+
 def paper_k(theta1_rad: np.ndarray | float, theta2_rad: np.ndarray | float) -> np.ndarray:
     """K of the paper's limb at postures, ... x 2 x 2 [N/mm]."""
-    limb = tomllib.loads(LIMB.read_text())
+    limb = _paper_limb()
     length1, length2 = limb["geometry"]["femur_mm"], limb["geometry"]["tibia_mm"]
     femur, tibia = limb["link"]["femur"], limb["link"]["tibia"]
     assert not femur["moment_transfer"], "this formula is for links without moment transfer"
@@ -88,7 +95,8 @@ def paper_k(theta1_rad: np.ndarray | float, theta2_rad: np.ndarray | float) -> n
         + femur["axial_mm_per_n"] * outer(u1, u1)
         + tibia["axial_mm_per_n"] * outer(u2, u2)
     )
-    return np.linalg.inv(c)
+    inverse: np.ndarray = np.linalg.inv(c)
+    return inverse
 
 
 def expected(theta1_rad: float, theta2_rad: float) -> K:
