@@ -180,7 +180,7 @@ typedef struct {
 
 typedef struct {
     bool waiting;             /* request holds one to be answered */
-    bool rested;              /* the last tick answered none */
+    bool rested;              /* the last tick answered none, on any bus */
     uint8_t request[8];
     uint8_t answer[BRACE_APP_ANSWERS][8];
     uint8_t answer_first, answer_count;
@@ -201,7 +201,7 @@ enum { BRACE_APP_ADU_BYTES = 260 };
 typedef struct {
     bool begun, checked;
     uint8_t area;
-    uint16_t start, count, done;
+    uint16_t start, count, done; /* values */
 } brace_app_modbus_work_t;
 
 typedef struct {
@@ -219,9 +219,10 @@ typedef struct {
     uint8_t address;
     uint16_t half, half_place;    /* of a value written in two requests: the high one, and its register */
     uint16_t messages, broken, refused, served, unanswered, busy; /* function 08's counters; wrap */
+    uint16_t waited;              /* ticks, for one that is kept free */
+    bool serves;                  /* in this tick */
     uint32_t silence_us, take_up, asked[2];
     brace_answered_t answered;
-    brace_measured_t measured;    /* of the block that is being read */
 } brace_app_modbus_t;
 
 typedef struct {

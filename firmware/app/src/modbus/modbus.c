@@ -1,0 +1,57 @@
+#include "modbus/modbus.h"
+
+#include "modbus/command.h"
+#include "modbus/link.h"
+
+#define CHARACTER_BITS 11u
+#define LEAST_SILENCE_US 1750u /* above 19200 bit/s, whatever the rate */
+
+void modbus_start(brace_app_t *app)
+{
+    const brace_hal_t *hal = app->hal;
+    const uint32_t baud = app->parameters.controller.modbus_baud;
+    brace_app_modbus_t *modbus = &app->modbus;
+    *modbus = (brace_app_modbus_t){.address = (uint8_t)app->parameters.controller.modbus_address};
+    command_ask_nothing(app);
+    if (hal->serial_setup == NULL || hal->serial_read == NULL || hal->serial_write == NULL) {
+        return;
+    }
+    const uint32_t characters_us = 3500000u * CHARACTER_BITS / baud;
+    modbus->silence_us = baud > 19200u ? LEAST_SILENCE_US : characters_us;
+    modbus->line.there = hal->serial_setup(hal->context, BRACE_SERIAL_MODBUS, baud, BRACE_PARITY_EVEN) == BRACE_HAL_OK;
+    modbus->tcp.there =
+        hal->serial_setup(hal->context, BRACE_SERIAL_MODBUS_TCP, baud, BRACE_PARITY_NONE) == BRACE_HAL_OK;
+}
+
+static bool wants(const brace_app_modbus_link_t *link)
+{
+    return link->phase == LINK_CHECK || link->phase == LINK_WORK || link->phase == LINK_SEAL;
+}
+
+uint32_t modbus_poll(brace_app_t *app, uint32_t now_us)
+{
+    brace_app_modbus_t *modbus = &app->modbus;
+    if (modbus->line.there) {
+        line_poll(app, now_us);
+    }
+    if (modbus->tcp.there) {
+        tcp_poll(app, now_us);
+    }
+    const bool waits = wants(&modbus->line) || wants(&modbus->tcp);
+    modbus->waited = waits ? (uint16_t)(modbus->waited + (modbus->waited < UINT16_MAX)) : 0u;
+    return modbus->waited;
+}
+
+/* The ports take turns. */
+void modbus_serve(brace_app_t *app, uint32_t now_us)
+{
+    brace_app_modbus_t *modbus = &app->modbus;
+    const bool line = wants(&modbus->line), tcp = wants(&modbus->tcp);
+    modbus->waited = 0;
+    modbus->turn = !modbus->turn;
+    if (line && (modbus->turn || !tcp)) {
+        line_serve(app, now_us);
+    } else if (tcp) {
+        tcp_serve(app, now_us);
+    }
+}
