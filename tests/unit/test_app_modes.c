@@ -236,6 +236,50 @@ static void test_an_encoder_that_stands_while_the_torque_swings_is_stuck(void)
     TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
 }
 
+static void test_a_stuck_encoder_is_found_in_drives_that_are_sampled_every_other_tick(void)
+{
+    for (int joint = BRACE_FEMUR; joint <= BRACE_TIBIA; joint++) {
+        for (int phase = 0; phase < 2; phase++) { /* on the ticks that look after this joint, or the other */
+            setUp();
+            for (int i = 0; i < 600; i++) {
+                const float torque = 3000.0f * (float)(i % 400 < 200 ? i % 200 : 200 - i % 200) / 200.0f;
+                fake.joint[joint].sample.torque_n_mm = torque;
+                fake.joint[BRACE_FEMUR].not_newer = fake.joint[BRACE_TIBIA].not_newer = i % 2 == phase;
+                ticks(1);
+            }
+            TEST_ASSERT_EQUAL(BRACE_FAULT_ENCODER_STUCK, now()->faults);
+        }
+    }
+}
+
+static void test_a_force_that_stays_the_last_one_is_not_known_for_long(void)
+{
+    ticks(5);
+    fake.force_z_n = 3.0f;
+    ticks(1);
+    fake.force_not_newer = true;
+    ticks(20);
+    TEST_ASSERT_TRUE(now()->force_is_sensed);
+    ASSERT_CLOSE(3.0, now()->force_z_n, 1e-5);
+    ticks(1);
+    TEST_ASSERT_FALSE(now()->force_is_sensed);
+    fake.force_not_newer = false;
+    ticks(1);
+    TEST_ASSERT_TRUE(now()->force_is_sensed);
+}
+
+static void test_a_force_sensor_that_never_had_a_reading_tells_none(void)
+{
+    const brace_parameters_t p = bench_parameters();
+    bench_board();
+    bench_store(&p);
+    fake.force_not_newer = true;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    ticks(2);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    TEST_ASSERT_FALSE(now()->force_is_sensed);
+}
+
 static void test_a_link_that_moves_away_from_a_standing_encoder_tells_too(void)
 {
     fake.joint[BRACE_TIBIA].sample.link_rad = 1.4f;
@@ -457,6 +501,9 @@ int main(void)
     RUN_TEST(test_zero_offsets_are_added);
     RUN_TEST(test_an_encoder_that_follows_its_torque_is_alive);
     RUN_TEST(test_an_encoder_that_stands_while_the_torque_swings_is_stuck);
+    RUN_TEST(test_a_stuck_encoder_is_found_in_drives_that_are_sampled_every_other_tick);
+    RUN_TEST(test_a_force_that_stays_the_last_one_is_not_known_for_long);
+    RUN_TEST(test_a_force_sensor_that_never_had_a_reading_tells_none);
     RUN_TEST(test_a_link_that_moves_away_from_a_standing_encoder_tells_too);
     RUN_TEST(test_a_limb_at_rest_is_not_stuck);
     RUN_TEST(test_a_late_tick_is_a_fault_for_a_second_and_K_stays_valid);

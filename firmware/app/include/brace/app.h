@@ -122,7 +122,8 @@ typedef struct {
 
 typedef struct {
     bool fitted;              /* there is a sensor, and its matrix has an inverse */
-    bool known;               /* x_n, z_n are of this tick */
+    bool known;               /* x_n, z_n are no older than controller.age_limit_us */
+    uint32_t age_us;          /* since the sensor last gave a new reading */
     float x_n, z_n;
     float inverse[4];
 } brace_app_sensor_t;

@@ -5,6 +5,7 @@
 #define SENSOR_SIGMAS 6.0f
 #define LEAST_DETERMINANT 1e-3f
 #define LEAST_KNEE_SINE 0.1f
+#define AGE_MOST_US 0x40000000u
 
 void force_configure(brace_app_t *app)
 {
@@ -32,6 +33,7 @@ void force_configure(brace_app_t *app)
         ours->inverse[3] = a / determinant;
     }
     ours->known = false;
+    ours->age_us = AGE_MOST_US; /* no reading yet */
 }
 
 void force_sense(brace_app_t *app)
@@ -44,7 +46,13 @@ void force_sense(brace_app_t *app)
     }
     const int32_t answer = app->hal->tip_force_read(app->hal->context, &x_n, &z_n);
     const float saturation_n = app->parameters.sensor.saturation_n;
-    if ((answer == BRACE_HAL_OK || answer == BRACE_HAL_AGAIN) && __builtin_fabsf(x_n) < saturation_n &&
+    if (answer == BRACE_HAL_OK) {
+        ours->age_us = 0;
+    } else if (ours->age_us < AGE_MOST_US) { /* AGAIN is the last reading, however old */
+        ours->age_us += app->tick_us;
+    }
+    if ((answer == BRACE_HAL_OK || answer == BRACE_HAL_AGAIN) &&
+        ours->age_us <= app->parameters.controller.age_limit_us && __builtin_fabsf(x_n) < saturation_n &&
         __builtin_fabsf(z_n) < saturation_n && __builtin_fabsf(x_n) < 1e6f && __builtin_fabsf(z_n) < 1e6f) {
         const float dx_n = x_n - app->parameters.sensor.bias_x_n, dz_n = z_n - app->parameters.sensor.bias_z_n;
         ours->x_n = ours->inverse[0] * dx_n + ours->inverse[1] * dz_n;

@@ -84,13 +84,13 @@ static void read_one(brace_app_t *app, int index, uint32_t now_us)
         } else {
             const float tick_us = (float)app->tick_us;
             joint->torque_n_mm += tick_us / (TORQUE_MEAN_US + tick_us) * (fresh.torque_n_mm - joint->torque_n_mm);
-            if (app->joint_of_tick == index) { /* one a tick is enough */
-                watch_encoder(joint, drive, &app->parameters.limb.joint[BRACE_FEMUR + index],
-                              BRACE_APP_JOINTS * app->tick_us);
-            }
         }
     } else if (newer || (answer != BRACE_HAL_OK && answer != BRACE_HAL_AGAIN)) {
         app->counters.samples_bad += app->counters.samples_bad < UINT32_MAX;
+    }
+    /* one a tick is enough; new or not, or a drive sampled every other tick would have one joint never watched */
+    if (joint->seen && app->joint_of_tick == index) {
+        watch_encoder(joint, drive, &app->parameters.limb.joint[BRACE_FEMUR + index], BRACE_APP_JOINTS * app->tick_us);
     }
     /* once too old it stays unseen, or the clock's wrap would make it young again */
     const int32_t age_us = (int32_t)(now_us - joint->sample.taken_us);
