@@ -216,7 +216,7 @@ typedef struct {
 
 typedef struct {
     brace_app_modbus_link_t line, tcp;
-    bool turn, half_known;
+    bool polls_tcp, turn, half_known;
     uint8_t address;
     uint16_t half, half_place;    /* of a value written in two requests: the high one, and its register */
     uint16_t messages, broken, refused, served, unanswered, busy; /* function 08's counters; wrap */

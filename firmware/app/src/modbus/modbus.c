@@ -31,11 +31,11 @@ static bool wants(const brace_app_modbus_link_t *link)
 uint32_t modbus_poll(brace_app_t *app, uint32_t now_us)
 {
     brace_app_modbus_t *modbus = &app->modbus;
-    if (modbus->line.there) {
-        line_poll(app, now_us);
-    }
-    if (modbus->tcp.there) {
+    modbus->polls_tcp = modbus->tcp.there && !(modbus->polls_tcp && modbus->line.there);
+    if (modbus->polls_tcp) {
         tcp_poll(app, now_us);
+    } else if (modbus->line.there) {
+        line_poll(app, now_us);
     }
     const bool waits = wants(&modbus->line) || wants(&modbus->tcp);
     modbus->waited = waits ? (uint16_t)(modbus->waited + (modbus->waited < UINT16_MAX)) : 0u;

@@ -8,7 +8,7 @@
 /* Opens the ports that the board has; not for the tick. */
 void modbus_start(brace_app_t *app);
 
-/* Gathers and sends, each tick; at most 80 instructions a port.
+/* Gathers and sends, each tick, the ports in turn; at most 110 instructions.
  * returns how many ticks a request has waited to be worked on; 0: none does */
 uint32_t modbus_poll(brace_app_t *app, uint32_t now_us);
 
