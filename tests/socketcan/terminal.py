@@ -12,29 +12,33 @@ import struct
 import termios
 import time
 
+import pyte
+
 SHOWN_WITHIN_S = 20.0  # python-can itself sleeps 2 s when it opens
-ESCAPES = re.compile(rb"\x1b(?:\[[0-9;?]*[A-Za-z]|\(B|[=>])")
+ROWS, COLUMNS = 24, 140
 
 
 def screen_of(command: list[str], wanted: list[str]) -> str:
-    """What a full-screen program writes to a terminal until all of it is there; without the escapes between."""
+    """Runs a program at a terminal until its screen shows all that is wanted; the screen."""
     child, terminal = pty.fork()
     if child == 0:
-        os.environ["TERM"] = "xterm"
+        os.environ["TERM"] = "linux"
+        fcntl.ioctl(1, termios.TIOCSWINSZ, struct.pack("HHHH", ROWS, COLUMNS, 0, 0))
         os.execv(command[0], command)
-    fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 60, 160, 0, 0))
-    shown, end = b"", time.monotonic() + SHOWN_WITHIN_S
+    screen = pyte.Screen(COLUMNS, ROWS)
+    stream = pyte.ByteStream(screen)
+    end = time.monotonic() + SHOWN_WITHIN_S
     try:
         while time.monotonic() < end:
             if select.select([terminal], [], [], 0.2)[0]:
                 try:
-                    shown += os.read(terminal, 65536)
+                    stream.feed(os.read(terminal, 65536))
                 except OSError:
                     break  # it has ended
-            text = ESCAPES.sub(b"", shown).decode(errors="replace")
+            text = "\n".join(line.rstrip() for line in screen.display).strip()
             if all(re.search(pattern, text) for pattern in wanted):
                 return text
-        raise AssertionError(f"not all of {wanted} in: {ESCAPES.sub(b'', shown).decode(errors='replace')}")
+        raise AssertionError(f"not all of {wanted} in:\n" + "\n".join(screen.display))
     finally:
         with contextlib.suppress(OSError):
             os.write(terminal, b"q")

@@ -95,7 +95,7 @@ def _check_board(line: int) -> None:
 
     tty.setraw(line)
     os.write(line, b"\rC\rS8\rO\r")
-    time.sleep(1.0)
+    _frames_until(line, 1, 1.0)  # nothing is asked yet: the line is kept empty
     gaps = []
     for number in range(20):
         asked = (0.1 * number - 0.5, 0.5 + 0.09 * number)

@@ -56,7 +56,7 @@ def test_cantools_monitor_shows_k(channel: str) -> None:
     true = expected(*STANDS_RAD)
     names = ("k_xx", "k_xz", "k_zz", "lambda_min")
     text = screen_of(
-        [program, "monitor", "-i", "slcan", "-c", channel, "-b", "1000000", str(DBC)],
+        [program, "monitor", "-s", "-i", "slcan", "-c", channel, "-b", "1000000", str(DBC)],
         [rf"{name}: -?\d+\.?\d* N/mm" for name in names],
     )
     for name, value in zip(names, (true.xx, true.xz, true.zz, true.low), strict=True):
