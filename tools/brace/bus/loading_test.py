@@ -101,6 +101,8 @@ def fetch(session: Session, runs: int, advance: Callable[[int], None]) -> dict[s
         for column in range(len(COLUMNS)):
             table[row - first, column] = _cell(session, row, column)
         advance(row - first + 1)
+    for column in (COLUMNS.index("fx_n"), COLUMNS.index("fz_n")):
+        _count_from_first(table, column)
     columns: dict[str, np.ndarray] = {}
     for index, known in enumerate(LOADING[: len(COLUMNS)]):
         values = table[:, index]
@@ -108,6 +110,13 @@ def fetch(session: Session, runs: int, advance: Callable[[int], None]) -> dict[s
             continue
         columns[known.name] = values.astype(int) if known.kind in ("int", "axis") else values
     return columns
+
+
+def _count_from_first(table: np.ndarray, column: int) -> None:
+    """Each run's first reading is its preload point, where displacement is zero too."""
+    for run in np.unique(table[:, 0]):
+        rows = table[:, 0] == run
+        table[rows, column] -= table[rows, column][0]
 
 
 def _entry(session: Session, name: str) -> int:

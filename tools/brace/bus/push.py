@@ -9,8 +9,6 @@ from brace.bus.controller import Advance, Controller, Stored
 from brace.errors import BraceError, NotVerifiedError
 from brace.params import Block, differences
 
-CONTROLLERS_OWN = ("controller.node_id",)  # kept where the file does not say: 0 would leave it without a voice
-
 
 @contextlib.contextmanager
 def configuration(device: Controller) -> Iterator[None]:
@@ -44,7 +42,7 @@ def push(device: Controller, block: Block, advance: Advance) -> Stored:
 def _after_lost_commit(device: Controller, block: Block, before: int, error: BraceError) -> Stored:
     """The answer was lost, or the commit refused: which set is in force says it."""
     now = device.identify().parameter_crc
-    if now == block.identity and now != before:
+    if now == block.identity:
         return Stored(0, now)
     if now == before:
         raise NotVerifiedError(

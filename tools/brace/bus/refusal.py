@@ -18,10 +18,26 @@ _STATUS = {  # brace_status_t: what, and whether the question was at fault
     -13: ("the CRC does not fit", False),
     -14: ("a parameter block for another list of parameters", False),
     -15: ("not in this mode", False),
+    -64: ("it knows no such request", False),  # refusals.h
+    -65: ("without its key", False),
+    -66: ("it is storing a set", False),
+    -67: ("words came out of order", False),
+    -68: ("the set in force has changed meanwhile", False),
+    -69: ("it can only be read", True),
+    -81: ("the memory refused to read, write or erase", False),
+    -82: ("the memory is not blank after an erase", False),
+    -83: ("what was written is not what reads back", False),
+    -84: ("there is no set to go back to", False),
+    -85: ("the store is full of interrupted updates", False),
+    -86: ("the memory is too small for a set", False),
 }
+BUSY = -66
 _WAYS = {
     -3: "values inside the range that the firmware's dictionary names",
     -4: "a place nearer than the straight limb reaches, and not nearer than the folded one",
+    -64: "flash the firmware of this version (brace flash)",
+    -68: "once more",
+    -84: "brace params push FILE stores one",
     -15: "brace query shows its mode; a loading test, play being taken up or a fault stands in the way",
 }
 

@@ -7,7 +7,7 @@ import time
 from collections.abc import Mapping
 
 from brace.bus.frame import NODE_MASK, Bus, EndOfLog, Frame
-from brace.bus.refusal import error_of
+from brace.bus.refusal import BUSY, error_of
 from brace.bus.snapshot import Heartbeat, Joiner, Snapshot, heartbeat_of
 from brace.errors import NoDeviceError, UsageError
 from brace.wire.frames import ANSWER_ID, ANSWERS, MESSAGES, REFUSAL, REFUSED_PART, REQUEST_ID, REQUESTS
@@ -16,9 +16,19 @@ from brace.wire.layout import Value
 ANSWER_S = 0.25
 TRIES = 3
 HEARTBEAT_S = 1.15  # a heartbeat comes each second
+BUSY_S = 1.5  # a set that is being stored is waited for
+BUSY_POLL_S = 0.02
 GATHER_S = 0.25  # for the other nodes of a bus, once one is heard
 _SENT_BY_NODES = {layout.identifier for layout in MESSAGES.values()} | {ANSWER_ID}
 _NOT_REPEATED = frozenset({"commit", "rollback", "loading_test_start", "take_up"})  # whose second time is not the first
+
+
+class _Refused(Exception):
+    """Part 7 of an answer."""
+
+    def __init__(self, status: int, detail: int) -> None:
+        super().__init__(status)
+        self.status, self.detail = status, detail
 
 
 class Session:
@@ -90,10 +100,19 @@ class Session:
 
     def ask(self, name: str, values: Mapping[str, Value] | None = None, timeout_s: float = ANSWER_S) -> dict[str, Value]:
         """The answer's fields, all parts together; repeated when nothing comes, where that does no harm."""
-        for _ in range(1 if name in _NOT_REPEATED else TRIES):
-            answer = self._ask_once(name, values or {}, timeout_s)
+        busy_until = time.monotonic() + BUSY_S
+        tries = 1 if name in _NOT_REPEATED else TRIES
+        while tries > 0:
+            try:
+                answer = self._ask_once(name, values or {}, timeout_s)
+            except _Refused as refused:
+                if refused.status != BUSY or time.monotonic() > busy_until:
+                    raise error_of(name, refused.status, refused.detail, self.where) from None
+                self.listen(BUSY_POLL_S)
+                continue
             if answer is not None:
                 return answer
+            tries -= 1
         raise self._no_answer(name)
 
     def _ask_once(self, name: str, values: Mapping[str, Value], timeout_s: float) -> dict[str, Value] | None:
@@ -120,7 +139,7 @@ class Session:
                 continue
             if part == REFUSED_PART:
                 refused = REFUSAL.decode(frame.data)
-                raise error_of(name, int(refused["status"] or 0), int(refused["detail"] or 0), self.where)
+                raise _Refused(int(refused["status"] or 0), int(refused["detail"] or 0))
             if part < len(parts):
                 came[part] = parts[part].decode(frame.data)
             if len(came) == len(parts):

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from brace.cli import common
-from brace.cli.bus_options import add_bus, controller
+from brace.cli.bus_options import add_bus, controller, undone_by_signal
 
 
 def add(actions: Any) -> None:
@@ -50,6 +50,13 @@ def block_of(arguments: argparse.Namespace) -> Any:
         return _download(device)
 
 
+def with_node(block: Any, node: int) -> Any:
+    """The same set for another node."""
+    from brace.params.block import pack
+
+    return pack(block.model.with_values({"controller.node_id": node}), block.sequence)
+
+
 def _download(device: Any) -> Any:
     with common.progress("reading back") as advance:
         return device.download(advance)
@@ -58,13 +65,12 @@ def _download(device: Any) -> Any:
 def _push(arguments: argparse.Namespace) -> int:
     from brace.bus.push import push
     from brace.params import read_either
-    from brace.params.block import pack
 
     block = read_either(arguments.file)
-    with controller(arguments) as device:
+    with controller(arguments) as device, undone_by_signal():
         node = _own_node(device, block)
         if node is not None:
-            block = pack(block.model.with_values({"controller.node_id": node}), block.sequence)
+            block = with_node(block, node)
         with common.progress(f"pushing {arguments.file}") as advance:
             stored = push(device, block, advance)
         if arguments.json:
@@ -127,7 +133,7 @@ def _pull(arguments: argparse.Namespace) -> int:
 def _rollback(arguments: argparse.Namespace) -> int:
     from brace.bus.push import configuration
 
-    with controller(arguments) as device:
+    with controller(arguments) as device, undone_by_signal():
         before = device.identify().parameter_crc
         with configuration(device):
             stored = device.rollback()

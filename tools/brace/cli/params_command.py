@@ -150,7 +150,13 @@ def _diff(arguments: argparse.Namespace) -> int:
             next_step="brace params diff A B, or brace params diff A --bus can0",
         )
     first = read_either(arguments.first)
-    second = params_bus.block_of(arguments) if arguments.second is None else read_either(arguments.second)
+    if arguments.second is None:
+        second = params_bus.block_of(arguments)
+        node = int(second.model.number("controller.node_id"))
+        if int(first.model.number("controller.node_id")) == 0 and node != 0:
+            first = params_bus.with_node(first, node)  # as a push would
+    else:
+        second = read_either(arguments.second)
     found = differences(first, second)
     if arguments.json:
         common.print_json(

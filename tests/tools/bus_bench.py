@@ -1,0 +1,87 @@
+"""What the tests of buses share: a simulation on TCP, one command with its time, and adapters that misbehave."""
+
+from __future__ import annotations
+
+import contextlib
+import socket
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from conftest import Outcome, spawn
+from test_sim_command import FREE, running
+
+TELLING_S = 3.0  # within which every failure is told
+
+
+@contextlib.contextmanager
+def limb_on_tcp(model: Path, *options: object) -> Iterator[str]:
+    """The CAN bus' URL."""
+    with running(model, *FREE, *options) as (_, ready):
+        yield ready["limbs"][0]["can"]
+
+
+def timed(*arguments: object) -> tuple[Outcome, float]:
+    """A command in a process of its own, and how long it took [s]."""
+    started = time.monotonic()
+    process = spawn(*arguments)
+    try:
+        out, err = process.communicate(timeout=60)
+    finally:
+        process.kill()
+    assert "Traceback" not in err and "internal error" not in err, err
+    return Outcome(process.returncode, out, err), time.monotonic() - started
+
+
+def told_in_time(code: int, *arguments: object) -> str:
+    """Its message; the exit code and the time are as promised, and there is a way on."""
+    outcome, seconds = timed(*arguments)
+    assert outcome.code == code, outcome.err
+    assert seconds < TELLING_S, f"{seconds:.1f} s: {outcome.err}"
+    assert "why:" in outcome.err and "try:" in outcome.err
+    return outcome.err
+
+
+@contextlib.contextmanager
+def adapter(answer: Callable[[bytes], bytes], sends: bytes = b"", period_s: float = 0.1) -> Iterator[str]:
+    """A TCP server: answers each line as told, and sends something again and again. Yields its URL."""
+    server = socket.create_server(("127.0.0.1", 0))
+    ended = threading.Event()
+
+    def serve(client: socket.socket) -> None:
+        client.settimeout(0.02)
+        rest, next_s = b"", time.monotonic()
+        with client, contextlib.suppress(OSError):
+            while not ended.is_set():
+                if sends and time.monotonic() >= next_s:
+                    client.sendall(sends)
+                    next_s = time.monotonic() + period_s
+                try:
+                    part = client.recv(4096)
+                except TimeoutError:
+                    continue
+                if not part:
+                    return
+                *lines, rest = (rest + part).split(b"\r")
+                for line in lines:
+                    if reply := answer(line):
+                        client.sendall(reply)
+
+    def accept() -> None:
+        with contextlib.suppress(OSError):
+            while True:
+                client, _ = server.accept()
+                threading.Thread(target=serve, args=(client,), daemon=True).start()
+
+    threading.Thread(target=accept, daemon=True).start()
+    try:
+        yield f"tcp://127.0.0.1:{server.getsockname()[1]}"
+    finally:
+        ended.set()
+        server.close()
+
+
+def obliging(line: bytes) -> bytes:
+    """An adapter with nothing on its bus."""
+    return b"V1013\r" if line == b"V" else b"F00\r" if line == b"F" else b"\r"

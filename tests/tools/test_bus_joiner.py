@@ -1,0 +1,99 @@
+"""Frames of two ticks are never put together, whatever is lost, repeated or late."""
+
+from __future__ import annotations
+
+import random
+
+from brace.bus.frame import Frame
+from brace.bus.snapshot import Joiner, Snapshot
+from brace.wire.frames import MESSAGES
+
+STEP = 0.0005
+PERIOD_S = 0.005
+TICKS_A_PERIOD = 5  # the sequence counts control ticks, eight bits of it
+
+
+def frames_of(tick: int, node: int = 1) -> list[Frame]:
+    """All four frames of a snapshot; every value tells its tick."""
+    sequence, time_s, mark = tick * TICKS_A_PERIOD & 0xFF, 1000.0 + tick * PERIOD_S, (tick % 4_000_000) * STEP
+    contents = {
+        "stiffness_a": {"sequence": sequence, "flags": 0, "k_xx": mark, "k_xz": -mark},
+        "stiffness_b": {"sequence": sequence, "k_zz": mark, "age": 0, "play_femur": 0, "play_tibia": 0, "parameter_tag": tick & 0xFFFF},
+        "eigenvalues": {"sequence": sequence, "lambda_min": (tick % 1_000_000) * STEP, "lambda_max": 1, "stiff_axis": 0},
+        "posture": {"sequence": sequence, "theta1": (tick % 500_000) * 2e-5, "theta2": 0, "mode": 1, "faults": 0},
+    }
+    return [
+        Frame(time_s + 1e-4 * index, MESSAGES[name].identifier + node, MESSAGES[name].encode(values))
+        for index, (name, values) in enumerate(contents.items())
+    ]
+
+
+def assert_of_one_tick(snapshot: Snapshot) -> None:
+    marks = [round(float(value or 0) / STEP) for value in (snapshot.k_xx, snapshot.k_zz)]
+    assert marks[0] == marks[1] == -round(float(snapshot.k_xz or 0) / STEP), snapshot
+    assert marks[0] & 0xFFFF == snapshot.parameter_tag
+    if snapshot.has_posture:
+        assert round(float(snapshot.lambda_min or 0) / STEP) == marks[0] % 1_000_000
+        assert round(float(snapshot.theta1 or 0) / 2e-5) == marks[0] % 500_000
+
+
+def test_every_snapshot_of_a_good_bus_is_joined() -> None:
+    joiner = Joiner()
+    joined = [snapshot for tick in range(2000) for frame in frames_of(tick) if (snapshot := joiner.add(frame))]
+    assert len(joined) == 4000 and sum(snapshot.has_posture for snapshot in joined) == 2000
+    assert joiner.unmatched == 0
+    for snapshot in joined:
+        assert_of_one_tick(snapshot)
+
+
+def test_lost_and_repeated_frames_and_other_nodes_mix_nothing() -> None:
+    chance = random.Random(7)
+    joiner = Joiner()
+    joined = lost = 0
+    for tick in range(60_000):
+        if chance.random() < 0.01:
+            tick_frames = frames_of(tick, node=2)
+        else:
+            tick_frames = frames_of(tick)
+        for frame in tick_frames:
+            kind = chance.random()
+            if kind < 0.3:
+                lost += 1
+                continue
+            for _ in range(1 + (kind > 0.97)):
+                snapshot = joiner.add(frame)
+                if snapshot is not None:
+                    joined += 1
+                    assert_of_one_tick(snapshot)
+    assert joined > 30_000 and lost > 60_000 and joiner.unmatched > 10_000
+
+
+def test_a_long_loss_of_the_counter_s_round_mixes_nothing() -> None:
+    """256 snapshots later the eight bits are the same again: half of one and half of the other are no snapshot."""
+    joiner = Joiner()
+    first, later = frames_of(0), frames_of(256)
+    assert joiner.add(first[0]) is None
+    assert joiner.add(later[1]) is None
+    assert joiner.add(first[0]) is None
+    assert joiner.add(later[2]) is None and joiner.add(later[3]) is None
+    assert joiner.unmatched >= 1
+
+
+def test_what_is_not_known_stays_unknown() -> None:
+    joiner = Joiner()
+    unknown = {"sequence": 3, "flags": 0x10, "k_xx": None, "k_xz": None}
+    b = {"sequence": 3, "k_zz": None, "age": None, "play_femur": 0, "play_tibia": 5, "parameter_tag": 1}
+    assert joiner.add(Frame(0.0, 0x185, MESSAGES["stiffness_a"].encode(unknown))) is None
+    snapshot = joiner.add(Frame(0.0, 0x285, MESSAGES["stiffness_b"].encode(b)))
+    assert snapshot is not None and not snapshot.is_valid
+    assert (snapshot.k_xx, snapshot.k_xz, snapshot.k_zz, snapshot.age_ms) == (None, None, None, None)
+    assert snapshot.flags == ("STALE",) and snapshot.play == ("unknown", "fault")
+
+
+def test_short_frames_and_node_0_are_nobody_s() -> None:
+    joiner = Joiner()
+    a, b, *_ = frames_of(0)
+    assert joiner.add(Frame(a.time_s, a.identifier, a.data[:7])) is None
+    assert joiner.add(b) is None
+    for frame in frames_of(1, node=0):
+        assert joiner.add(frame) is None

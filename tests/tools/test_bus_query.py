@@ -1,0 +1,242 @@
+"""`brace query` and `brace monitor` against `brace sim`: right values, and every failure told in time."""
+
+from __future__ import annotations
+
+import json
+import os
+import pty
+import re
+import socket
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from bus_bench import adapter, limb_on_tcp, obliging, told_in_time
+from conftest import LIMB, Outcome, physics_k
+
+from brace.bus.url import parse
+from brace.errors import UsageError
+from brace.wire.frames import ANSWERS, DICTIONARY_HASH, MESSAGES
+
+STEP_N_PER_MM = 0.0005
+MATRIX = ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm")
+
+
+def assert_k(entry: dict[str, float], theta1: float, theta2: float, angle_step_rad: float = 0.0) -> None:
+    """Within the wire's half step, single precision (1e-5 of K), and what the angle's own step makes."""
+    k = physics_k(theta1, theta2)
+    turned = physics_k(theta1 + angle_step_rad, theta2 + angle_step_rad)
+    bound = STEP_N_PER_MM / 2 + 1e-5 * np.abs(k).max() + np.abs(turned - k).max()
+    got = np.array([entry[name] for name in MATRIX])
+    assert np.abs(got - np.array([k[0, 0], k[0, 1], k[1, 1]])).max() < bound
+
+
+@pytest.fixture
+def limb(tmp_path: Path) -> Path:
+    path = tmp_path / "limb.toml"
+    path.write_text(LIMB)
+    return path
+
+
+def test_values_are_those_of_physics(brace: Callable[..., Outcome], limb: Path) -> None:
+    with limb_on_tcp(limb, "--posture", "0.9,1.5") as url:
+        live = json.loads(brace("query", "--bus", url, "--json").out)
+        assert live["k_is_valid"] and live["mode"] == "monitor" and live["faults"] == []
+        assert abs(live["theta1_rad"] - 0.9) < 2e-3 and abs(live["theta2_rad"] - 1.5) < 2e-3
+        assert_k(live, live["theta1_rad"], live["theta2_rad"], 2e-5)
+        assert live["dictionary_hash"] == f"{DICTIONARY_HASH:08x}"
+        for theta1, theta2 in ((0.2, 0.8), (1.3, 2.1), (-0.4, -1.0)):
+            asked = brace("query", "--bus", url, "--theta1", theta1, "--theta2", theta2, "--json")
+            assert asked.code == 0, asked.err
+            assert_k(json.loads(asked.out), theta1, theta2)
+        x = 185 * np.cos(0.7) + 313.5 * np.cos(0.7 - 1.2)
+        z = 185 * np.sin(0.7) + 313.5 * np.sin(0.7 - 1.2)
+        at_tip = json.loads(brace("query", "--bus", url, "--x", x, "--z", z, "--json").out)
+        assert_k(at_tip, 0.7, 1.2, 1e-5)  # a position's step of 0.001 mm, at 185 mm
+        down = json.loads(brace("query", "--bus", url, "--x", x, "--z", z, "--knee", "down", "--json").out)
+        assert abs(down["k_xz_n_per_mm"] - at_tip["k_xz_n_per_mm"]) > 0.1
+        entries = brace("query", "--bus", url, "--entry", "probe_f32", "--entry", "geometry.tibia_mm", "--entry", "mode", "--json")
+        values = {name: entry["value"] for name, entry in json.loads(entries.out)["entries"].items()}
+        assert values == {"probe_f32": 12345.5, "geometry.tibia_mm": 313.5, "mode": "monitor"}
+        assert "K = [" in brace("query", "--bus", url).out
+
+
+def test_an_unreachable_tip_is_the_question_s_fault(brace: Callable[..., Outcome], limb: Path) -> None:
+    with limb_on_tcp(limb) as url:
+        outcome = brace("query", "--bus", url, "--x", 600, "--z", 0)
+        assert outcome.code == 2 and "reach" in outcome.err, outcome.err
+        assert brace("query", "--bus", url, "--theta1", 1).code == 2
+        outcome = brace("query", "--bus", url, "--entry", "lambda_mni")
+        assert outcome.code == 2 and "lambda_min" in outcome.err
+
+
+def test_several_nodes_need_a_number(brace: Callable[..., Outcome], limb: Path) -> None:
+    with limb_on_tcp(limb, "--limbs", 3) as url:
+        outcome = brace("query", "--bus", url)
+        assert outcome.code == 2 and "nodes 1, 2, 3" in outcome.err
+        assert json.loads(brace("query", "--bus", url, "--node", 2, "--json").out)["node"] == 2
+        lines = brace("monitor", "--bus", url, "--seconds", 1.3).out.splitlines()
+        assert [line.split(":")[0] for line in lines[-3:]] == ["node 1", "node 2", "node 3"]
+
+
+def test_a_k_that_is_not_valid_is_5(brace: Callable[..., Outcome], limb: Path) -> None:
+    with limb_on_tcp(limb, "--fault", "sensor_dead:femur@0.3") as url:
+        brace("monitor", "--bus", url, "--seconds", 0.8)
+        outcome = brace("query", "--bus", url, "--json")
+        entry = json.loads(outcome.out)
+        assert outcome.code == 5 and entry["k_xx_n_per_mm"] is None and not entry["k_is_valid"]
+        assert "sensor_femur" in outcome.err and "try:" in outcome.err
+        outcome = brace("monitor", "--bus", url, "--seconds", 1.2)
+        assert outcome.code == 5 and "K not valid" in outcome.out and "fault sensor_femur" in outcome.out
+
+
+def test_a_pty_is_a_bus_too(brace: Callable[..., Outcome], limb: Path) -> None:
+    with limb_on_tcp(limb, "--can", "slcan:pty") as url:
+        assert url.startswith("slcan:/dev/")
+        outcome = brace("query", "--bus", url, "--json")
+        assert outcome.code == 0, outcome.err
+        assert_k(json.loads(outcome.out), 1.0, 1.4, 2e-3)
+
+
+# ---------------------------------------------------------------------------------- failures, each in its words
+
+
+def test_nobody_there(limb: Path) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+    said = told_in_time(4, "query", "--bus", f"tcp://127.0.0.1:{port}")
+    assert "nobody listens there" in said and "brace sim" in said
+    assert "there is no /dev/ttyNONE" in told_in_time(4, "query", "--bus", "slcan:/dev/ttyNONE")
+    assert "there is no /dev/ttyNONE" in told_in_time(4, "query", "--bus", "modbus:/dev/ttyNONE@115200/1")
+    assert "nobody listens" in told_in_time(4, "monitor", "--bus", f"modbus-tcp://127.0.0.1:{port}/1")
+
+
+def test_no_can_in_the_kernel_or_no_such_interface() -> None:
+    said = told_in_time(4, "query", "--bus", "can7")
+    try:
+        socket.socket(socket.AF_CAN, socket.SOCK_RAW, socket.CAN_RAW).close()
+        assert "no such CAN interface" in said
+    except OSError:
+        assert "this kernel has no CAN" in said and "tcp://" in said
+
+
+def test_what_is_no_adapter(limb: Path) -> None:
+    with adapter(lambda _line: b"") as url:
+        assert "does not answer as an SLCAN adapter" in told_in_time(4, "query", "--bus", url)
+    with adapter(lambda _line: b"", sends=b"HTTP/1.1 400 Bad Request and so on\n") as url:
+        assert "does not answer as an SLCAN adapter" in told_in_time(4, "query", "--bus", url)
+    with adapter(lambda line: b"\a" if line == b"O" else obliging(line)) as url:
+        assert "refuses 'O'" in told_in_time(4, "query", "--bus", url)
+    ours, theirs = pty.openpty()
+    try:
+        assert "does not answer" in told_in_time(4, "query", "--bus", f"slcan:{os.ttyname(theirs)}")
+    finally:
+        os.close(ours)
+        os.close(theirs)
+
+
+def test_a_silent_bus(limb: Path) -> None:
+    with adapter(obliging) as url:
+        for command in ("query", "monitor", "params pull", "params rollback"):
+            said = told_in_time(4, *command.split(), "--bus", url)
+            assert "nothing is on the bus at 1000000 bit/s" in said
+        assert "node 3 does not answer" in told_in_time(4, "query", "--bus", url, "--node", 3)
+        assert "node 3 is not heard" in told_in_time(4, "monitor", "--bus", url, "--node", 3)
+
+
+def test_another_bit_rate_and_another_node(limb: Path) -> None:
+    with limb_on_tcp(limb) as url:
+        for command in ("query", "monitor"):
+            said = told_in_time(4, command, "--bus", url, "--bit-rate", 250000)
+            assert "another bit rate than 250000" in said and "--bit-rate" in said
+        said = told_in_time(4, "query", "--bus", url, "--node", 9)
+        assert "node 9 does not answer" in said and "nodes on this bus: 1" in said and "--node 1" in said
+        assert "SLCAN knows" in told_in_time(2, "query", "--bus", url, "--bit-rate", 123456)
+
+
+def test_a_bus_that_goes_away(limb: Path) -> None:
+    beat = MESSAGES["heartbeat"].encode({"state": 5, "mode": 1, "faults": 0, "dictionary_hash": DICTIONARY_HASH})
+    with adapter(obliging, sends=b"t7058" + beat.hex().encode() + b"\r") as url:
+        said = told_in_time(4, "query", "--bus", url)  # it beats, and answers nothing
+        assert "it sends, and does not answer 'identify'" in said
+
+
+def test_another_dictionary_is_6_with_both(limb: Path) -> None:
+    other = DICTIONARY_HASH ^ 0xFFFF
+    parts = (
+        {"major": 9, "minor": 8, "patch": 7, "protocol": 1, "node": 5},
+        {"dictionary_hash": other},
+        {"schema_hash": 0},
+        {"parameter_crc": 0, "origin": 0},
+    )
+
+    def answer(line: bytes) -> bytes:
+        if not line.startswith(b"t605"):
+            return obliging(line)
+        token = int(line[7:9], 16)
+        frames = [layout.encode(values, token) for layout, values in zip(ANSWERS["identify"], parts)]
+        return b"z\r" + b"".join(b"t5858" + frame.hex().encode() + b"\r" for frame in frames)
+
+    beat = MESSAGES["heartbeat"].encode({"state": 5, "mode": 1, "faults": 0, "dictionary_hash": other})
+    with adapter(answer, sends=b"t7058" + beat.hex().encode() + b"\r") as url:
+        for command in (("query",), ("monitor",), ("params", "pull"), ("params", "push", limb)):
+            said = told_in_time(6, *command, "--bus", url)
+            assert f"{other:08x}" in said and f"{DICTIONARY_HASH:08x}" in said
+        assert "9.8.7" in told_in_time(6, "query", "--bus", url)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("can0", ("can", "can0", 0, 115200, 1)),
+        ("slcan:/dev/ttyACM0", ("slcan", "/dev/ttyACM0", 0, 115200, 1)),
+        ("slcan:/dev/pts/3@1000000", ("slcan", "/dev/pts/3", 0, 1000000, 1)),
+        ("tcp://robot:29536", ("tcp", "robot", 29536, 115200, 1)),
+        ("tcp://[::1]:29536", ("tcp", "::1", 29536, 115200, 1)),
+        ("modbus:/dev/ttyUSB0@19200/7", ("modbus", "/dev/ttyUSB0", 0, 19200, 7)),
+        ("modbus:/dev/ttyUSB0", ("modbus", "/dev/ttyUSB0", 0, 115200, 1)),
+        ("modbus:/dev/pts/3", ("modbus", "/dev/pts/3", 0, 115200, 1)),
+        ("modbus:/dev/pts/3@9600/2", ("modbus", "/dev/pts/3", 0, 9600, 2)),
+        ("modbus-tcp://127.0.0.1:1502/4", ("modbus-tcp", "127.0.0.1", 1502, 115200, 4)),
+        ("modbus-tcp://robot", ("modbus-tcp", "robot", 502, 115200, 1)),
+        ("log:some/a.log", ("log", "some/a.log", 0, 115200, 1)),
+    ],
+)
+def test_urls(text: str, expected: tuple[object, ...]) -> None:
+    url = parse(text)
+    assert (url.kind, url.place, url.port, url.baud, url.unit) == expected
+
+
+@pytest.mark.parametrize("text", ["", "/dev/ttyACM0", "tcp://host", "tcp://host:0", "tcp://:1", "modbus-tcp://h:1/300", "http://x", "log:", "a b"])
+def test_what_is_no_url(text: str) -> None:
+    with pytest.raises(UsageError) as refused:
+        parse(text)
+    assert refused.value.next_step
+
+
+def test_a_terminal_gets_a_picture(limb: Path) -> None:
+    with limb_on_tcp(limb) as url:
+        ours, theirs = pty.openpty()
+        process = subprocess.Popen(
+            [sys.executable, "-m", "brace", "monitor", "--bus", url, "--seconds", "1.5"],
+            stdout=theirs,
+            stderr=subprocess.PIPE,
+            env={**os.environ, "TERM": "xterm", "COLUMNS": "100", "LINES": "40"},
+        )
+        os.close(theirs)
+        shown = b""
+        try:
+            while part := os.read(ours, 4096):
+                shown += part
+        except OSError:
+            pass
+        os.close(ours)
+        assert process.wait(10) == 0
+        text = shown.decode(errors="replace")
+        assert "node 1" in text and "N/mm" in text and "stiff axis" in text
+        rates = [int(rate) for rate in re.findall(r"(\d+) Hz", text)]
+        assert rates and 150 < rates[-1] < 250
+        assert sum(0x2800 < ord(character) < 0x2900 for character in text) > 50  # the ellipse
