@@ -11,8 +11,6 @@
 #define SIN_5 2.60373686e-4f
 #define SIN_7 (-1.52292930e-6f)
 
-enum { ELEMENT_FLOATS = sizeof(brace_element_t) / sizeof(float) };
-
 /* Root of the bending that goes with moment transfer: 0.75 kappa of it. */
 static inline float moment_root(const brace_link_t *link)
 {
@@ -20,9 +18,10 @@ static inline float moment_root(const brace_link_t *link)
 }
 
 /* Splits a link's ellipsoid, less that bending, into iso, which it returns [mm/N], and its longer axis; both vectors
- * sqrt(mm/N), in the link's frame. */
-BRACE_OFF_TICK static float bend(const brace_link_t *link, float root, brace_vec_t *excess, brace_vec_t *with_moment)
+ * sqrt(mm/N), in the link's frame. with_moment->x is the bending's root when called. */
+BRACE_OFF_TICK static float bend(const brace_link_t *link, brace_vec_t *excess, brace_vec_t *with_moment)
 {
+    const float root = with_moment->x;
     const float tilt = link->tilt_rad, w = tilt * tilt;
     const float half_sin =
         tilt * __builtin_fmaf(w, __builtin_fmaf(w, __builtin_fmaf(w, SIN_7, SIN_5), SIN_3), 0.5f);
@@ -43,11 +42,10 @@ BRACE_OFF_TICK static float bend(const brace_link_t *link, float root, brace_vec
 #if defined(__GNUC__) && !defined(__clang__)
 __attribute__((optimize("no-tree-loop-distribute-patterns")))
 #endif
-BRACE_OFF_TICK static void clear(brace_element_t *element, int count)
+BRACE_OFF_TICK static void clear(brace_element_t *element, const brace_element_t *end)
 {
-    float *field = &element->femur.x;
-    for (int i = 0; i < count * ELEMENT_FLOATS; i++) {
-        field[i] = 0.0f;
+    for (float *field = &element->femur.x; field < &end->femur.x; field++) { /* at most five elements */
+        *field = 0.0f;
     }
 }
 
@@ -58,35 +56,37 @@ BRACE_OFF_TICK float brace_chain_firm(const brace_limb_t *limb, brace_element_t 
     const float hip = __builtin_sqrtf(limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm +
                                       limb->base.rotation_rad_per_n_mm);
     const float knee = __builtin_sqrtf(limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm);
-    clear(element, BRACE_CHAIN_FIRM);
+    clear(element, element + BRACE_CHAIN_FIRM);
     element[3].femur.z = hip * femur_mm;
     element[3].tibia.z = hip * tibia_mm;
     element[4].tibia.z = knee * tibia_mm;
 
     /* The tibia has nothing beyond it to pass a moment to: zero goes to the knee, which has no femur part. */
     const float root = moment_root(femur);
+    element[1].femur.x = root;
     element[1].tibia.z = 2.0f * root * tibia_mm / femur_mm;
-    return bend(femur, root, &element[0].femur, &element[1].femur) +
-           bend(femur + 1, 0.0f, &element[2].tibia, &element[4].femur);
+    return bend(femur, &element[0].femur, &element[1].femur) +
+           bend(femur + 1, &element[2].tibia, &element[4].femur);
 }
 
 BRACE_OFF_TICK float brace_chain_coxa(const brace_limb_t *limb, brace_element_t element[2])
 {
     const brace_link_t *link = &limb->link[BRACE_COXA];
-    clear(element, 2);
+    clear(element, element + 2);
     const float root = moment_root(link);
     if (root > 0.0f) {
         const float lever = 2.0f * root / limb->coxa_mm;
         element[1].femur.z = lever * limb->femur_mm;
         element[1].tibia.z = lever * limb->tibia_mm;
     }
-    return bend(link, root, &element[0].base, &element[1].base);
+    element[1].base.x = root;
+    return bend(link, &element[0].base, &element[1].base);
 }
 
 BRACE_OFF_TICK float brace_chain_base(const brace_limb_t *limb, brace_element_t *element)
 {
     const float x = limb->base.x_mm_per_n, z = limb->base.z_mm_per_n;
-    clear(element, 1);
+    clear(element, element + 1);
     element->base.x = x > z ? __builtin_sqrtf(x - z) : 0.0f;
     element->base.z = z > x ? __builtin_sqrtf(z - x) : 0.0f;
     return x > z ? z : x;

@@ -23,7 +23,7 @@ float brace_chain_list(const brace_limb_t *limb, int with_coxa, brace_element_t 
  * count: [0, BRACE_CHAIN_MAX] */
 void brace_harmonics_list(float iso, brace_element_t *element, uint32_t count, brace_harmonics_t *harmonics);
 
-/* The same of the elements alone, count of them [0, BRACE_CHAIN_MAX]: iso is neither in nor written. */
-void brace_harmonics_sum(brace_element_t *element, uint32_t count, brace_harmonics_t *harmonics);
+/* The same of the elements alone, up to end, at most BRACE_CHAIN_MAX: iso is neither in nor written. */
+void brace_harmonics_sum(brace_element_t *element, const brace_element_t *end, brace_harmonics_t *harmonics);
 
 #endif

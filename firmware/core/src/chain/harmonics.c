@@ -9,22 +9,21 @@
 #define STRAIGHT femur
 #define FOLDED tibia
 
-static void halve(brace_element_t *element, uint32_t count)
+static void halve(brace_element_t *element, const brace_element_t *end)
 {
-    for (uint32_t i = 0; i < count; i++) {
-        const brace_vec_t f = element[i].femur, t = element[i].tibia;
-        element[i].STRAIGHT = (brace_vec_t){f.x + t.x, f.z + t.z};
-        element[i].FOLDED = vec_quarter(vec_minus(f, t));
+    for (brace_element_t *e = element; e < end; e++) {
+        const brace_vec_t f = e->femur, t = e->tibia;
+        e->STRAIGHT = (brace_vec_t){f.x + t.x, f.z + t.z};
+        e->FOLDED = (brace_vec_t){t.z - f.z, f.x - t.x}; /* f - t, a quarter turned */
     }
 }
 
 /* Half the trace and deviator of sum v v': of folded folded', straight straight' and straight folded' in turn, which
  * come with sin^2 h, cos^2 h and sin theta2. */
-static void sum_squares(const brace_element_t *element, uint32_t count, brace_harmonic_t *harmonic)
+static void sum_squares(const brace_element_t *element, const brace_element_t *end, brace_harmonic_t *harmonic)
 {
     float *to = &harmonic->at_fold;
     for (int term = 0; term < 3; term++) {
-        const brace_element_t *end = element + count;
         float xx = 0.0f, xz = 0.0f, zz = 0.0f;
         for (const brace_element_t *e = element; e < end; e++) {
             const brace_vec_t *a = term == 0 ? &e->FOLDED : &e->STRAIGHT;
@@ -48,20 +47,19 @@ typedef struct {
     float aa, ab, bb, rb, rr, ra;
 } crosses_t;
 
-/* Each cross is k + a n.u + b s.u with u = (1 + cos, sin), n = s turned clockwise; r = k - c b. */
-static crosses_t sum_crosses(const brace_element_t *element, uint32_t count, brace_vec_t s, float c)
+/* Each cross is k + a n.u + b s.u with u = (1 + cos, sin), n = s turned clockwise; r = c b - k. */
+static crosses_t sum_crosses(const brace_element_t *element, const brace_element_t *end, brace_vec_t s, float c)
 {
     crosses_t sum = {0};
-    const brace_element_t *end = element + count;
     for (const brace_element_t *e = element; e < end; e++) {
         for (const brace_element_t *o = element; o < e; o++) {
             const brace_vec_t p = o->STRAIGHT, q = o->FOLDED, ep = e->STRAIGHT, eq = e->FOLDED;
             /* In this order of factors what must vanish does so exactly. */
-            const float at_fold = -vec_cross(eq, q);
-            const brace_vec_t slope = {0.5f * (vec_cross(p, ep) - at_fold),
+            const float minus_fold = vec_cross(eq, q);
+            const brace_vec_t slope = {0.5f * (vec_cross(p, ep) + minus_fold),
                                        0.5f * (vec_cross(p, eq) - vec_cross(ep, q))};
             const float a = vec_cross(slope, s), b = vec_dot(slope, s);
-            const float r = __builtin_fmaf(-c, b, at_fold);
+            const float r = __builtin_fmaf(c, b, minus_fold);
             sum.aa = __builtin_fmaf(a, a, sum.aa);
             sum.ab = __builtin_fmaf(a, b, sum.ab);
             sum.bb = __builtin_fmaf(b, b, sum.bb);
@@ -75,19 +73,19 @@ static crosses_t sum_crosses(const brace_element_t *element, uint32_t count, bra
 
 /* The squares of all crosses gather into one square of c + s.u and a remainder that is linear in u because
  * |u|^2 = 2 (1 + cos):
- *     sum cross^2 = (B (c + s.u))^2 + mu (c^2 + 2 c s.u + 2 (1 + cos)) + sum r^2 + 2 (sum r a) n.u
+ *     sum cross^2 = (B (c + s.u))^2 + mu (c^2 + 2 c s.u + 2 (1 + cos)) + sum r^2 - 2 (sum r a) n.u
  * with s the direction in which the sum varies most, c = sum k b / sum b^2, mu = sum a^2, B^2 = sum b^2 - mu.
  * Only squares are added, each pass along the s and c that the one before has found: the sums as differences of
  * larger ones would lose the digits that matter. */
 enum { PASSES = 4 };
 
-static void gather_crosses(const brace_element_t *element, uint32_t count, brace_harmonics_t *harmonics)
+static void gather_crosses(const brace_element_t *element, const brace_element_t *end, brace_harmonics_t *harmonics)
 {
     brace_vec_t s = {0.0f, 1.0f};
     float c = 0.0f;
     crosses_t sum;
     for (int pass = 1;; pass++) {
-        sum = sum_crosses(element, count, s, c);
+        sum = sum_crosses(element, end, s, c);
         const float half = 0.5f * (sum.bb - sum.aa);
         const float radius = __builtin_sqrtf(__builtin_fmaf(half, half, sum.ab * sum.ab));
         if (pass == PASSES || !(radius > 0.0f)) {
@@ -98,28 +96,29 @@ static void gather_crosses(const brace_element_t *element, uint32_t count, brace
         } else {
             const float tangent = sum.ab / (half + radius);
             s = (brace_vec_t){__builtin_fmaf(tangent, s.z, s.x), __builtin_fmaf(-tangent, s.x, s.z)};
-            c += sum.rb / sum.bb;
+            c -= sum.rb / sum.bb;
         }
     }
     const float square = vec_dot(s, s), c_a = c * sum.aa;
     const float amplitude = __builtin_sqrtf(sum.bb > sum.aa ? sum.bb - sum.aa : 0.0f);
     const brace_vec_t per_b = vec_scaled(s, amplitude / square);
     harmonics->cross = (brace_harmonic_t){c * amplitude, per_b.x, per_b.z};
-    harmonics->rest = (brace_harmonic_t){sum.rr + c * c_a, 2.0f * (sum.aa + c_a * s.x + sum.ra * s.z) / square,
-                                         2.0f * (c_a * s.z - sum.ra * s.x) / square};
+    harmonics->rest = (brace_harmonic_t){sum.rr + c * c_a, 2.0f * (sum.aa + c_a * s.x - sum.ra * s.z) / square,
+                                         2.0f * (c_a * s.z + sum.ra * s.x) / square};
 }
 
-BRACE_OFF_TICK void brace_harmonics_sum(brace_element_t *element, uint32_t count, brace_harmonics_t *harmonics)
+BRACE_OFF_TICK void brace_harmonics_sum(brace_element_t *element, const brace_element_t *end,
+                                        brace_harmonics_t *harmonics)
 {
-    halve(element, count);
-    sum_squares(element, count, &harmonics->mean);
-    gather_crosses(element, count, harmonics);
+    halve(element, end);
+    sum_squares(element, end, &harmonics->mean);
+    gather_crosses(element, end, harmonics);
 }
 
 BRACE_OFF_TICK void brace_harmonics_list(float iso, brace_element_t *element, uint32_t count,
                                          brace_harmonics_t *harmonics)
 {
-    brace_harmonics_sum(element, count, harmonics);
+    brace_harmonics_sum(element, element + count, harmonics);
     const float twice = 2.0f * iso;
     harmonics->rest.at_fold += iso * iso + twice * harmonics->mean.at_fold;
     harmonics->rest.per_cos += twice * harmonics->mean.per_cos;

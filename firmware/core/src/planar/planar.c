@@ -51,15 +51,23 @@ static inline int64_t harmonic(int64_t any, const brace_planar_harmonic_t *h, su
     return start + PRODUCT(h->per_cos, HIGH(knee.cos)) + PRODUCT(h->per_sin, HIGH(knee.sin));
 }
 
+/* One step of a polynomial in t: c + t times the sum so far, by high words. As above it starts from the low word that
+ * is at hand. */
+static inline int64_t step(int32_t c, int64_t sum, int32_t t)
+{
+    return (int64_t)((uint64_t)(uint32_t)c << 32 | (uint32_t)sum) + PRODUCT(HIGH(sum), t);
+}
+
 /* pi/4 - atan t, rad q29. The tick's address of the table is one row short, so that no part of a row lies at it. */
 static inline int32_t axis(const brace_planar_t *planar, int32_t t)
 {
-    const uintptr_t row_before = (uintptr_t)((const brace_axis_row_t *)planar->axis + (t >> 28));
+    const int32_t place = t >> 29;
+    const uintptr_t row_before = (uintptr_t)((const brace_axis_row_t *)planar->axis + place);
     const brace_axis_row_t *row = (const brace_axis_row_t *)(row_before + sizeof(brace_axis_row_t));
-    const int32_t d = t & 0x0fffffff;
-    const int32_t square = HIGH(row->c2_c3 + PRODUCT(row->c2_c3, d));
-    const int32_t slope = (int32_t)row->c0_c1 + HIGH(PRODUCT(square, d));
-    return HIGH(row->c0_c1 + PRODUCT(slope, d));
+    const int64_t c2_c3 = row->c2_c3, c0_c1 = row->c0_c1;
+    const int64_t fourth = (int64_t)((uint64_t)(uint32_t)((uint32_t)c2_c3 << 16) << 32 | (uint32_t)place);
+    const int64_t cubic = step((int32_t)c2_c3, fourth, t);
+    return HIGH(step(HIGH(c0_c1), step((int32_t)c0_c1, step(HIGH(c2_c3), cubic, t), t), t));
 }
 
 brace_status_t brace_planar_stiffness(const brace_planar_t *planar, float theta1_rad, float theta2_rad,
@@ -67,7 +75,7 @@ brace_status_t brace_planar_stiffness(const brace_planar_t *planar, float theta1
 {
     const float reach = theta1_rad * theta1_rad + theta2_rad * theta2_rad;
     if (!(reach <= BRACE_PLANAR_REACH_RAD2)) {
-        return reach <= 3.4028234e38f ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
+        return reach - reach == 0.0f ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
     }
     const uint32_t knee_turn = (uint32_t)HIGH(PRODUCT(theta2_rad * 0x1p28f, TURN_PER_RAD));
     const uint32_t femur_turn = (uint32_t)HIGH(PRODUCT(theta1_rad * 0x1p28f, TURN_PER_RAD));

@@ -27,7 +27,7 @@ static inline rest_t affine_rest(brace_harmonics_t *h, float most)
     const brace_vec_t cross = {h->cross.per_cos, h->cross.per_sin};
     const brace_vec_t beyond = {h->rest.per_cos, h->rest.per_sin};
     const float square = vec_dot(cross, cross);
-    float more = 0.0f, shift = 0.0f;
+    float more = square, shift = square; /* nothing, if there is nothing to share */
     if (square > 0.0f) {
         const float apart = vec_cross(cross, mean), noise = ROUNDING_RAD * most * __builtin_sqrtf(square);
         more = vec_cross(cross, beyond) / (apart + noise / apart * noise);
@@ -52,7 +52,7 @@ static inline int accurate(const brace_harmonics_t *h, rest_t rest, float least,
 {
     const float smaller = rest.constant + rest.per_mean * (rest.per_mean < 0.0f ? most : least);
     const float error = 2.0f * unit + 6e-8f * (__builtin_fabsf(h->cross.per_cos) + __builtin_fabsf(h->cross.at_fold));
-    return __builtin_fabsf(rest.constant) * (1.0f / 16.0f) + error * error * 2.5e11f < smaller &&
+    return __builtin_fabsf(rest.constant) + error * error * 4e12f < 16.0f * smaller &&
            most < 40.0f * least;
 }
 
@@ -62,7 +62,7 @@ static inline void fix(const brace_harmonic_t *h, float units, brace_planar_harm
     const float per_word = -units * PER_WORD;
     const int32_t per_cos = (int32_t)(h->per_cos * per_word);
     const int64_t at_fold = (int64_t)per_cos * (2 * TICK_ONE);
-    fixed->constant = ((int32_t)(2.0f * h->at_fold * units) - (int32_t)(at_fold >> 32)) >> 1;
+    fixed->constant = ((int32_t)(h->at_fold * units * 2.0f) - (int32_t)(at_fold >> 32)) >> 1;
     fixed->per_cos = per_cos;
     fixed->per_sin = (int32_t)(h->per_sin * per_word);
 }
@@ -83,7 +83,7 @@ BRACE_OFF_TICK brace_status_t brace_planar_constants(brace_harmonics_t *h, brace
         return BRACE_E_PARAMETER;
     }
     /* Every factor below its word, the mean below two scales. */
-    float square = 0.26f * most * most;
+    float square = 0.25f * most * most;
     for (int i = 2; i < 4; i++) {
         const float size = swing_square(&from[i]);
         square = size > square ? size : square;

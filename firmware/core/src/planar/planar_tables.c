@@ -1,26 +1,17 @@
 #include "planar/planar_tables.h"
 
-/* pi/4 - atan(t 2^31/BRACE_AXIS_ONE) on the sixteenths [i/8, (i+1)/8) of [-1, 1], as cubics in the place d within the
- * sixteenth: Chebyshev interpolation, error 4e-7 rad. Each row is two words of 64 bits that start a
- * multiply-accumulate: their low halves are themselves factors, and weigh as fractions below the last bit. */
-#define ROW(c0, c1, c2, c3) {WORD(c0, c1), WORD(c2, c3)}
+/* pi/4 - atan(t 2^31/BRACE_AXIS_ONE) on the eighths [i/4, (i+1)/4) of [-1, 1], as quartics, error 3e-7 rad: each
+ * coefficient rounded to what its place holds, from the highest, and the lower ones fitted anew to what is left. */
+#define ROW(c0, c1, c2, c3, c4) {WORD(c0, c1), WORD(c2, (uint32_t)(c3) << 16 | (uint16_t)(c4))}
 #define WORD(high, low) ((int64_t)(((uint64_t)(uint32_t)(high) << 32) | (uint32_t)(low)))
 
 const brace_axis_row_t brace_axis_table[BRACE_AXIS_ROWS] = {
-    ROW(843315105, -536867199, -537141488, -352700339),
-    ROW(807576565, -608119743, -604095015, -305869509),
-    ROW(767134627, -687157053, -662676090, -186098831),
-    ROW(721553257, -772065081, -699110918, 33277329),
-    ROW(670576372, -858904261, -694311553, 361467536),
-    ROW(614270935, -941261733, -627105475, 765230194),
-    ROW(553179300, -1010495544, -482517957, 1152716458),
-    ROW(488419996, -1057185296, -263470281, 1395275489),
-    ROW(421657479, -1073768196, 1856127, 1395275489),
-    ROW(354894939, -1057301893, 266383621, 1152716458),
-    ROW(290135587, -1010682376, 483624813, 765230194),
-    ROW(229043906, -941457258, 626536390, 361467536),
-    ROW(172738445, -859063977, 692871419, 33277329),
-    ROW(121761558, -772172410, 697569621, -186098831),
-    ROW(76180196, -687216028, 661445548, -305869509),
-    ROW(35738269, -608143092, 603272802, -352700339),
+    ROW(405077202, -1264280841, -825104493, -78, 2865),
+    ROW(418270607, -1123564444, -259085606, 15450, 13393),
+    ROW(421692933, -1071831626, 36580051, 27015, 24622),
+    ROW(421657583, -1073678039, 4289634, 23371, 14779),
+    ROW(421657269, -1073677717, -4296344, 23371, -14779),
+    ROW(421621830, -1071830023, -36589054, 27015, -24622),
+    ROW(425045050, -1123572251, 259110753, 15449, -13393),
+    ROW(438238126, -1264284120, 825112020, -79, -2865),
 };

@@ -4,14 +4,14 @@
 
 #include <stdint.h>
 
-/* A cubic in d, the low 28 bits of t (q31): angle (rad q29) = c0 + d (c1 + d (c2 + d c3)), products by high words. */
+/* A quartic in t q31: angle (rad q29) = c0 + t (c1 + t (c2 + t (c3 + t c4))), products by high words. */
 typedef struct {
     int64_t c0_c1; /* high word, low word */
-    int64_t c2_c3;
+    int64_t c2_c3; /* the lower half of c3 is c4, in its upper 16 bits */
 } brace_axis_row_t;
 
 /* t runs from -1 to 1. */
-enum { BRACE_AXIS_ROWS = 16 };
+enum { BRACE_AXIS_ROWS = 8 };
 
 extern const brace_axis_row_t brace_axis_table[BRACE_AXIS_ROWS];
 
