@@ -137,6 +137,36 @@ static void test_a_sample_that_never_ages_in_name_is_not_believed(void)
     }
 }
 
+static void test_a_snapshot_is_as_old_as_its_older_sample_across_the_clock_s_wrap(void)
+{
+    fake.now_us = 0xffffff00u - 5u * TICK_US;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    for (int joint = BRACE_FEMUR; joint <= BRACE_TIBIA; joint++) {
+        fake.now_us = 0xffffff00u - 5u * TICK_US;
+        ticks(5);
+        fake.joint[joint].not_newer = true;
+        ticks(1);
+        TEST_ASSERT_EQUAL_HEX32(0xffffff00u, now()->taken_us);
+        TEST_ASSERT_TRUE(now()->k_is_valid);
+        fake.joint[joint].not_newer = false;
+    }
+}
+
+static void test_play_that_no_load_can_tell_is_always_open(void)
+{
+    brace_parameters_t p = bench_parameters();
+    p.limb.joint[BRACE_FEMUR].gap_rad = 0.005f;
+    p.drive[BRACE_FEMUR].takeup_torque_n_mm = 30.0f; /* less than friction and noise hide */
+    bench_start(&p);
+    fake.joint[BRACE_FEMUR].sample.torque_n_mm = 5000.0f;
+    ticks(500);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    TEST_ASSERT_FALSE(now()->play[BRACE_FEMUR].valid);
+    TEST_ASSERT_BITS(BRACE_FLAG_GAP_OPEN, BRACE_FLAG_GAP_OPEN, now()->stiffness.now.flags);
+    TEST_ASSERT_TRUE(now()->stiffness.now.lambda_max_n_per_mm < now()->stiffness.engaged.lambda_max_n_per_mm);
+    TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_app_take_up(&app, BRACE_FEMUR, 1));
+}
+
 static void test_absurd_samples_are_never_used(void)
 {
     static const float absurd[] = {(float)NAN, (float)INFINITY, -(float)INFINITY, 1e6f, -3e38f};
@@ -494,6 +524,8 @@ int main(void)
     RUN_TEST(test_a_short_gap_in_the_samples_keeps_the_last_K);
     RUN_TEST(test_samples_too_old_are_stale_and_a_fault_until_they_have_been_back_for_a_while);
     RUN_TEST(test_a_sample_that_never_ages_in_name_is_not_believed);
+    RUN_TEST(test_a_snapshot_is_as_old_as_its_older_sample_across_the_clock_s_wrap);
+    RUN_TEST(test_play_that_no_load_can_tell_is_always_open);
     RUN_TEST(test_absurd_samples_are_never_used);
     RUN_TEST(test_every_tick_without_sound_joints_is_invalid);
     RUN_TEST(test_coxa_is_told_and_not_needed);
