@@ -44,18 +44,19 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal)
     if (hal->reset_cause(hal->context) == BRACE_RESET_FAULT) {
         supervisor_latch(app, BRACE_FAULT_CRASHED);
     }
+    app->last_us = hal->now_us(hal->context);
     services_start(app);
     control_blank(app, &app->snapshot[0]);
-    app->snapshot[0].taken_us = hal->now_us(hal->context);
+    app->snapshot[0].taken_us = app->last_us;
     return BRACE_OK;
 }
 
 /* The mode in which parameters are stored and put in force: nothing is computed beside it. */
-static void configuration_tick(brace_app_t *app, uint32_t now_us, bool serves, brace_snapshot_t *snapshot)
+static void configuration_tick(brace_app_t *app, uint32_t now_us, bool lean, brace_snapshot_t *snapshot)
 {
     control_blank(app, snapshot);
     command_send(app, snapshot);
-    if (!serves && !configure_piece(app)) {
+    if (!lean && !configure_piece(app)) {
         storing_step(app);
         joints_read(app, now_us);
     }
@@ -63,15 +64,15 @@ static void configuration_tick(brace_app_t *app, uint32_t now_us, bool serves, b
     control_seal(app, snapshot);
 }
 
-/* serves: a request is answered beside it, and K is left out. */
-static void control_tick(brace_app_t *app, uint32_t now_us, bool late, bool serves, brace_snapshot_t *snapshot)
+/* lean: K is left out for what services have to do. */
+static void control_tick(brace_app_t *app, uint32_t now_us, bool late, bool lean, brace_snapshot_t *snapshot)
 {
     const bool reads = app->loading.phase == LOADING_READ;
-    const bool piece = reads || serves;
+    const bool piece = reads || lean;
     control_sense(app, now_us, snapshot);
     if (reads) {
         loading_piece(app);
-    } else if (!serves) {
+    } else if (!lean) {
         control_stiffness(app, snapshot);
     }
     takeup_advance(app, snapshot);
@@ -94,15 +95,15 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     app->last_us = now_us;
     app->ticked = true;
     const bool measures = app->loading.phase >= LOADING_READ && app->loading.phase <= LOADING_JUDGE;
-    const bool serves = services_listen(app, !measures);
+    const bool lean = services_listen(app, !measures);
     if (app->mode == BRACE_MODE_CONFIGURATION) {
-        configuration_tick(app, now_us, serves, next);
+        configuration_tick(app, now_us, lean, next);
     } else if (app->loading.phase == LOADING_DRIFT || app->loading.phase == LOADING_JUDGE) {
         loading_piece(app); /* as dear as a whole tick: the joints' filters bear a missed one */
     } else {
-        control_tick(app, now_us, late, serves, next);
+        control_tick(app, now_us, late, lean, next);
     }
-    services_run(app, serves);
+    services_run(app, lean);
     app->hal->watchdog_feed(app->hal->context);
 }
 

@@ -1,23 +1,132 @@
-/* Bits of a CAN frame as one number, first byte lowest; values to and from a run of them. */
+/* Bits of a CAN frame as one number, first byte lowest; values to and from a run of them. Inline: start, count and
+ * step are constants at every call: half of the instructions fall away. */
 #ifndef BRACE_CAN_BITS_H
 #define BRACE_CAN_BITS_H
 
+#include <math.h>
 #include <stdint.h>
+#include <string.h>
 
-void brace_bits_store(uint64_t bits, uint8_t data[8]);
-uint64_t brace_bits_load(const uint8_t data[8]);
+static inline void brace_bits_store(uint64_t bits, uint8_t data[8])
+{
+    const uint32_t low = (uint32_t)bits, high = (uint32_t)(bits >> 32);
+    data[0] = (uint8_t)low;
+    data[1] = (uint8_t)(low >> 8);
+    data[2] = (uint8_t)(low >> 16);
+    data[3] = (uint8_t)(low >> 24);
+    data[4] = (uint8_t)high;
+    data[5] = (uint8_t)(high >> 8);
+    data[6] = (uint8_t)(high >> 16);
+    data[7] = (uint8_t)(high >> 24);
+}
+
+static inline uint64_t brace_bits_load(const uint8_t data[8])
+{
+    const uint32_t low =
+        (uint32_t)data[0] | (uint32_t)data[1] << 8 | (uint32_t)data[2] << 16 | (uint32_t)data[3] << 24;
+    const uint32_t high =
+        (uint32_t)data[4] | (uint32_t)data[5] << 8 | (uint32_t)data[6] << 16 | (uint32_t)data[7] << 24;
+    return (uint64_t)high << 32 | low;
+}
+
+static inline uint32_t brace_bits_mask(uint32_t count)
+{
+    return 0xffffffffu >> (32u - count);
+}
+
+static inline uint64_t brace_bits_placed(uint32_t code, uint32_t start, uint32_t count)
+{
+    return (uint64_t)(code & brace_bits_mask(count)) << start;
+}
+
+/* Nearest whole number within [low, high], halves away from zero. At 24 bits a float rounds by up to a step: only more
+ * than that beyond the range counts as limited. */
+static inline int32_t brace_bits_nearest(float steps, int32_t low, int32_t high, uint32_t *limited)
+{
+    if (steps >= (float)high) {
+        *limited += steps - (float)high > 1.0f;
+        return high;
+    }
+    if (steps <= (float)low) {
+        *limited += (float)low - steps > 1.0f;
+        return low;
+    }
+    const float half = steps < -0x1p22f || steps > 0x1p22f ? 0.0f : 0.5f; /* beyond, a float knows no finer */
+    return (int32_t)(steps < 0.0f ? steps - half : steps + half);
+}
 
 /* A value in steps; NaN is the code of 'not known', a value beyond the range is limited and counted. */
-uint64_t brace_bits_signed(float value, float per_step, uint32_t start, uint32_t count, uint32_t *limited);
-uint64_t brace_bits_unsigned(float value, float per_step, uint32_t start, uint32_t count, uint32_t *limited);
-uint64_t brace_bits_number(uint32_t value, uint32_t start, uint32_t count, uint32_t *limited);
-uint64_t brace_bits_whole(int32_t value, uint32_t start, uint32_t count, uint32_t *limited);
-uint64_t brace_bits_float(float value, uint32_t start);
+static inline uint64_t brace_bits_signed(float value, float per_step, uint32_t start, uint32_t count,
+                                         uint32_t *limited)
+{
+    const int32_t high = (int32_t)(brace_bits_mask(count) >> 1);
+    const int32_t code = isnan(value) ? -high - 1 : brace_bits_nearest(value * per_step, -high, high, limited);
+    return brace_bits_placed((uint32_t)code, start, count);
+}
 
-float brace_value_signed(uint64_t bits, uint32_t start, uint32_t count, float step);
-float brace_value_unsigned(uint64_t bits, uint32_t start, uint32_t count, float step);
-uint32_t brace_value_number(uint64_t bits, uint32_t start, uint32_t count);
-int32_t brace_value_whole(uint64_t bits, uint32_t start, uint32_t count);
-float brace_value_float(uint64_t bits, uint32_t start);
+static inline uint64_t brace_bits_unsigned(float value, float per_step, uint32_t start, uint32_t count,
+                                           uint32_t *limited)
+{
+    const int32_t high = (int32_t)(brace_bits_mask(count) - 1u);
+    const int32_t code = isnan(value) ? high + 1 : brace_bits_nearest(value * per_step, 0, high, limited);
+    return brace_bits_placed((uint32_t)code, start, count);
+}
+
+static inline uint64_t brace_bits_number(uint32_t value, uint32_t start, uint32_t count, uint32_t *limited)
+{
+    const uint32_t high = brace_bits_mask(count);
+    *limited += value > high;
+    return brace_bits_placed(value > high ? high : value, start, count);
+}
+
+static inline uint64_t brace_bits_whole(int32_t value, uint32_t start, uint32_t count, uint32_t *limited)
+{
+    const int32_t high = (int32_t)(brace_bits_mask(count) >> 1);
+    const int32_t kept = value > high ? high : value < -high - 1 ? -high - 1 : value;
+    *limited += kept != value;
+    return brace_bits_placed((uint32_t)kept, start, count);
+}
+
+static inline uint64_t brace_bits_float(float value, uint32_t start)
+{
+    uint32_t code;
+    memcpy(&code, &value, sizeof code);
+    return (uint64_t)code << start;
+}
+
+static inline uint32_t brace_value_number(uint64_t bits, uint32_t start, uint32_t count);
+static inline int32_t brace_value_whole(uint64_t bits, uint32_t start, uint32_t count);
+
+static inline float brace_value_signed(uint64_t bits, uint32_t start, uint32_t count, float step)
+{
+    const int32_t code = brace_value_whole(bits, start, count);
+    return code == -(int32_t)(brace_bits_mask(count) >> 1) - 1 ? NAN : (float)code * step;
+}
+
+static inline float brace_value_unsigned(uint64_t bits, uint32_t start, uint32_t count, float step)
+{
+    const uint32_t code = brace_value_number(bits, start, count);
+    return code == brace_bits_mask(count) ? NAN : (float)code * step;
+}
+
+static inline uint32_t brace_value_number(uint64_t bits, uint32_t start, uint32_t count)
+{
+    return (uint32_t)(bits >> start) & brace_bits_mask(count);
+}
+
+static inline int32_t brace_value_whole(uint64_t bits, uint32_t start, uint32_t count)
+{
+    const uint32_t code = brace_value_number(bits, start, count);
+    const uint32_t sign = 1u << (count - 1u);
+    return (int32_t)((code ^ sign) - sign);
+}
+
+static inline float brace_value_float(uint64_t bits, uint32_t start)
+{
+    const uint32_t code = (uint32_t)(bits >> start);
+    float value;
+    memcpy(&value, &code, sizeof value);
+    return value;
+}
 
 #endif

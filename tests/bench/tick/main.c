@@ -4,6 +4,7 @@
  *
  *   M monitor  T taking up  L loading test  R its readings  D drift step  J its judgement  C configuration
  *   P a piece of putting parameters in force  S storing  0 start  F fault
+ *   Q one that answers a request over CAN  B one that checks and packs a set to be stored, in configuration
  */
 #include <stdio.h>
 
@@ -125,6 +126,57 @@ static void random_request(void)
     }
 }
 
+/* A request over CAN: of every code, mostly with sense in it. */
+static void random_question(void)
+{
+    uint8_t data[8];
+    for (int i = 0; i < 8; i++) {
+        data[i] = (uint8_t)dice_below(&dice, 256);
+    }
+    const uint32_t code = dice_in(&dice, 20)  ? dice_below(&dice, 256)
+                          : dice_in(&dice, 2) ? 3u + dice_below(&dice, 3)
+                                              : 1u + dice_below(&dice, 22);
+    const uint32_t token = data[1];
+    data[0] = (uint8_t)code;
+    if (code == BRACE_REQUEST_K_AT_POSTURE) {
+        (void)brace_can_pack_k_at_posture_request(
+            &(brace_can_k_at_posture_request_t){token, dice_between(&dice, -3.0f, 3.0f), dice_between(&dice, -3.0f, 3.0f)},
+            data);
+    } else if (code == BRACE_REQUEST_K_AT_TIP_KNEE_UP || code == BRACE_REQUEST_K_AT_TIP_KNEE_DOWN) {
+        (void)brace_can_pack_k_at_tip_knee_up_request(
+            &(brace_can_k_at_tip_knee_up_request_t){token, dice_between(&dice, -300.0f, 300.0f),
+                                                    dice_between(&dice, -300.0f, 300.0f)}, data);
+        data[0] = (uint8_t)code;
+    } else if (code == BRACE_REQUEST_READ_ENTRY && !dice_in(&dice, 10)) {
+        const uint32_t entry = dice_in(&dice, 4) ? dice_below(&dice, 105) : 0x1000u + dice_below(&dice, 58);
+        data[2] = (uint8_t)entry;
+        data[3] = (uint8_t)(entry >> 8);
+    } else if (code == BRACE_REQUEST_CONTACT_FORCE || code == BRACE_REQUEST_SAG_FOR_LOAD) {
+        data[4] = data[7] = 0;
+    } else if (code == BRACE_REQUEST_FRICTION_MARGIN) {
+        data[3] &= 0x3fu;
+        data[5] = 2;
+    } else if (code == BRACE_REQUEST_FETCH_ROW) {
+        data[3] = 0;
+        data[4] = (uint8_t)dice_below(&dice, 16);
+    } else if (code == BRACE_REQUEST_WRITE_ENTRY || code == BRACE_REQUEST_DOWNLOAD_WORD) {
+        data[2] = (uint8_t)dice_below(&dice, 112);
+        data[3] = 0;
+    } else if (code == BRACE_REQUEST_COMMIT) {
+        data[2] = data[3] = data[4] = data[5] = 0;
+    }
+    world_asks(app.bus.node_id, data);
+}
+
+/* What the tick was, now that it is known whether it answered. */
+static char answered(char kind)
+{
+    if (!app.requests.serves) {
+        return kind;
+    }
+    return app.requests.request[0] == BRACE_REQUEST_COMMIT && (kind == 'C' || kind == 'S' || kind == 'P') ? 'B' : 'Q';
+}
+
 /* What the coming tick is. */
 static char kind(void)
 {
@@ -154,8 +206,12 @@ int main(void)
         if (dice_in(&dice, 20)) {
             random_request();
         }
-        line[tick % LINE] = kind();
+        if (dice_in(&dice, 3)) {
+            random_question();
+        }
+        const char expected = kind();
         brace_app_tick(&app, world_now_us);
+        line[tick % LINE] = answered(expected);
         if (tick % LINE == LINE - 1) {
             puts(line);
         }

@@ -11,7 +11,17 @@ static brace_hal_joint_command_t command[BRACE_LINK_COUNT];
 static float rest_rad[BRACE_LINK_COUNT], load_n_mm[BRACE_LINK_COUNT], force_n[2], force_rest_n[2];
 static int32_t force_answer, command_answer, send_answer;
 static uint32_t frames_waiting;
+static uint8_t request[8];
+static bool request_waits;
+static uint32_t request_id;
 static bool bus_off, fresh_bus_off;
+typedef struct {
+    uint32_t first, count;
+    uint8_t byte[300];
+} world_serial_t;
+
+static world_serial_t line, tcp;
+static uint32_t serial_room;
 static uint8_t nvm[BRACE_NVM_SLOT_COUNT][SLOT_BYTES];
 
 /* --------------------------------------------------------------------------------------------- the door -- */
@@ -95,12 +105,21 @@ static int32_t door_can_send(void *context, const brace_can_frame_t *frame)
 static int32_t door_can_receive(void *context, brace_can_frame_t *frame)
 {
     (void)context;
+    frame->length = 8;
+    frame->fd = false;
+    if (request_waits && (frames_waiting & 1u) == 0u) {
+        request_waits = false;
+        frame->id = request_id;
+        for (int i = 0; i < 8; i++) {
+            frame->data[i] = request[i];
+        }
+        return 1;
+    }
     if (frames_waiting == 0u) {
         return 0;
     }
     frames_waiting--;
     frame->id = 0x600u + (frames_waiting & 0x7fu);
-    frame->length = 8;
     for (int i = 0; i < 8; i++) {
         frame->data[i] = (uint8_t)frames_waiting;
     }
@@ -127,10 +146,9 @@ static int32_t door_can_recover(void *context)
 static int32_t door_serial_setup(void *context, brace_serial_port_t port, uint32_t baud, brace_parity_t parity)
 {
     (void)context;
-    (void)port;
     (void)baud;
     (void)parity;
-    return BRACE_HAL_E_UNSUPPORTED;
+    return port == BRACE_SERIAL_MODBUS || port == BRACE_SERIAL_MODBUS_TCP ? BRACE_HAL_OK : BRACE_HAL_E_UNSUPPORTED;
 }
 
 static int32_t door_serial_write(void *context, brace_serial_port_t port, const uint8_t *bytes, uint32_t count)
@@ -138,17 +156,18 @@ static int32_t door_serial_write(void *context, brace_serial_port_t port, const 
     (void)context;
     (void)port;
     (void)bytes;
-    (void)count;
-    return BRACE_HAL_E_UNSUPPORTED;
+    return count < serial_room ? (int32_t)count : (int32_t)serial_room;
 }
 
 static int32_t door_serial_read(void *context, brace_serial_port_t port, uint8_t *bytes, uint32_t room)
 {
     (void)context;
-    (void)port;
-    (void)bytes;
-    (void)room;
-    return BRACE_HAL_E_UNSUPPORTED;
+    world_serial_t *serial = port == BRACE_SERIAL_MODBUS ? &line : &tcp;
+    uint32_t count = 0;
+    while (count < room && serial->first < serial->count) {
+        bytes[count++] = serial->byte[serial->first++];
+    }
+    return (int32_t)count;
 }
 
 static void door_nothing(void *context)
@@ -226,6 +245,15 @@ bool dice_in(dice_t *dice, uint32_t n)
 
 /* --------------------------------------------------------------------------------------------- the limb -- */
 
+void world_asks(uint32_t node_id, const uint8_t data[8])
+{
+    request_id = 0x600u + node_id;
+    for (int i = 0; i < 8; i++) {
+        request[i] = data[i];
+    }
+    request_waits = true;
+}
+
 void world_erase(void)
 {
     for (uint32_t slot = 0; slot < BRACE_NVM_SLOT_COUNT; slot++) {
@@ -272,8 +300,73 @@ static void spoil(dice_t *dice, int joint)
     }
 }
 
+/* A request of every function, mostly of registers that are there, behind `head` bytes. */
+static uint32_t random_pdu(dice_t *dice, uint8_t *pdu)
+{
+    static const uint8_t functions[] = {3, 4, 4, 4, 6, 8, 16, 16, 17, 43, 99};
+    static const uint16_t starts[] = {0, 0, 2, 100, 4096, 16384, 16386, 16390, 16392, 16394, 16396};
+    const uint32_t start = starts[dice_below(dice, 11)], function = functions[dice_below(dice, 11)];
+    const uint32_t count = dice_in(dice, 2) ? 1u + dice_below(dice, 120) : start == 16396 ? 4 : 2;
+    pdu[0] = (uint8_t)function;
+    pdu[1] = (uint8_t)(start >> 8);
+    pdu[2] = (uint8_t)start;
+    pdu[3] = 0;
+    pdu[4] = (uint8_t)count;
+    pdu[5] = (uint8_t)(2u * count);
+    for (uint32_t i = 0; i < 2u * count; i++) {
+        const float angle = dice_between(dice, 0.2f, 1.5f);
+        pdu[6u + i] = start == 16396 ? ((const uint8_t *)&angle)[3u - i % 4u] : (uint8_t)dice_below(dice, 256);
+    }
+    if (start == 16384 && function == 16) {
+        pdu[6] = 0xc0;
+        pdu[7] = 0xde;
+        pdu[8] = 0;
+        pdu[9] = (uint8_t)(1u + dice_below(dice, 2));
+    }
+    return function == 16 ? 6u + 2u * count : function == 17 ? 1u : function == 43 ? 4u : 5u;
+}
+
+static void random_traffic(dice_t *dice)
+{
+    static uint8_t pdu[300];
+    serial_room = dice_in(dice, 4) ? dice_below(dice, 4) : 300u;
+    if (line.first == line.count && dice_in(dice, 12)) {
+        const uint32_t length = random_pdu(dice, pdu);
+        line.first = 0;
+        line.count = length + 3u;
+        line.byte[0] = 1;
+        uint32_t crc = 0xffff ^ 1u;
+        for (uint32_t i = 0; i <= length; i++) {
+            for (int bit = 0; bit < 8; bit++) {
+                crc = (crc & 1u) != 0u ? crc >> 1 ^ 0xa001u : crc >> 1;
+            }
+            if (i < length) {
+                line.byte[1u + i] = pdu[i];
+                crc ^= pdu[i];
+            }
+        }
+        line.byte[1u + length] = (uint8_t)crc;
+        line.byte[2u + length] = (uint8_t)(crc >> 8);
+        if (dice_in(dice, 10)) {
+            line.count -= dice_below(dice, line.count);
+        }
+    }
+    if (tcp.first == tcp.count && dice_in(dice, 12)) {
+        const uint32_t length = random_pdu(dice, tcp.byte + 7);
+        tcp.first = 0;
+        tcp.count = 7u + length;
+        for (uint32_t i = 0; i < 6u; i++) {
+            tcp.byte[i] = 0;
+        }
+        tcp.byte[4] = (uint8_t)((length + 1u) >> 8);
+        tcp.byte[5] = (uint8_t)(length + 1u);
+        tcp.byte[6] = 1;
+    }
+}
+
 void world_step(dice_t *dice)
 {
+    random_traffic(dice);
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         if (!manner.cooperative) {
             rest_rad[i] = manner.restless && dice_in(dice, 50) ? dice_between(dice, -3.2f, 3.2f)

@@ -32,6 +32,9 @@ void world_begin(dice_t *dice, const world_manner_t *manner);
 /* Before a tick: samples, force, frames and temperatures of this tick. */
 void world_step(dice_t *dice);
 
+/* A request to a node comes over CAN, among whatever else does. */
+void world_asks(uint32_t node_id, const uint8_t data[8]);
+
 /* Forgets what is stored. */
 void world_erase(void);
 

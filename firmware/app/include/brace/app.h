@@ -161,7 +161,8 @@ typedef struct {
 } brace_app_bus_t;
 
 typedef struct {
-    uint32_t heartbeat_us;
+    bool runs;                /* services have their turn in this tick */
+    uint32_t beat_us;         /* when the heart beat last */
     uint32_t faults_told;
     brace_mode_t mode_told;
 } brace_app_report_t;
@@ -169,8 +170,9 @@ typedef struct {
 /* Process data: the frames of one snapshot, and when the next is due. */
 typedef struct {
     uint32_t parameter_crc;   /* of the set that periods were worked out from */
-    uint32_t period_us, waited_us;
+    uint32_t period_us, next_us;
     uint32_t stiffness_every, posture_every, stiffness_in, posture_in; /* snapshots; every 0: never */
+    uint32_t frames_per_tick;
     uint8_t due;              /* frames of this snapshot still to be sent */
     uint32_t taken_us;
     brace_can_stiffness_a_t stiffness_a;
@@ -181,7 +183,8 @@ typedef struct {
 
 typedef struct {
     bool waiting;             /* request holds one to be answered */
-    bool rested;              /* the last tick answered none, on any bus */
+    bool serves;              /* this tick answers it */
+    bool rested;              /* K was not left out in the last tick, for any bus */
     uint8_t request[8];
     uint8_t answer[BRACE_APP_ANSWERS][8];
     uint8_t answer_first, answer_count;

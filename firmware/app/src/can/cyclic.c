@@ -2,7 +2,8 @@
 
 #include "can/bus.h"
 
-#define FRAMES_PER_TICK 2
+#define FRAMES_MOST 4u
+#define FRAME_US 625u /* one frame for so much of a tick */
 
 /* What a frame can say of a K; a larger one is limited and flagged. */
 #define K_MOST_N_PER_MM 4194.3f
@@ -39,7 +40,9 @@ void cyclic_configure(brace_app_t *app)
     cyclic->period_us = period_us < 1e8f ? (uint32_t)(period_us + 0.5f) : 100000000u;
     cyclic->stiffness_in = cyclic->posture_in = 0;
     const uint32_t offset_us = (uint32_t)app->bus.node_id * (uint32_t)CYCLIC_STAGGER_US % cyclic->period_us;
-    cyclic->waited_us = cyclic->period_us - offset_us; /* the first one so much later than at once */
+    cyclic->next_us = app->last_us + offset_us;
+    const uint32_t frames = app->parameters.controller.tick_us / FRAME_US;
+    cyclic->frames_per_tick = frames < 1u ? 1u : frames > FRAMES_MOST ? FRAMES_MOST : frames;
 }
 
 static bool beyond(float value, float most)
@@ -100,7 +103,7 @@ static bool send_first(brace_app_t *app)
         (void)brace_can_pack_stiffness_a(&cyclic->stiffness_a, data);
     } else if ((cyclic->due & FRAME_B) != 0u) {
         frame = FRAME_B, function = BRACE_CAN_ID_STIFFNESS_B;
-        cyclic->stiffness_b.age_ms = 1e-3f * (float)(app->hal->now_us(app->hal->context) - cyclic->taken_us);
+        cyclic->stiffness_b.age_ms = 1e-3f * (float)(app->last_us - cyclic->taken_us);
         (void)brace_can_pack_stiffness_b(&cyclic->stiffness_b, data);
     } else if ((cyclic->due & FRAME_EIGENVALUES) != 0u) {
         frame = FRAME_EIGENVALUES, function = BRACE_CAN_ID_EIGENVALUES;
@@ -116,23 +119,40 @@ static bool send_first(brace_app_t *app)
     return true;
 }
 
+static bool is_due(const brace_app_cyclic_t *cyclic, uint32_t now_us)
+{
+    const int32_t over_us = (int32_t)(now_us - cyclic->next_us);
+    return over_us >= 0 || (uint32_t)-over_us > cyclic->period_us; /* never further off than a period: time has gone by */
+}
+
+bool cyclic_wants(const brace_app_t *app)
+{
+    const brace_app_cyclic_t *cyclic = &app->cyclic;
+    return cyclic->period_us != 0u && bus_speaks(app) && (cyclic->due != 0u || is_due(cyclic, app->last_us));
+}
+
+/* The next is due a period later, so that the rate is kept in the mean; what a bus has missed is not caught up with. */
+static void begin(brace_app_t *app)
+{
+    brace_app_cyclic_t *cyclic = &app->cyclic;
+    const uint32_t over_us = app->last_us - cyclic->next_us;
+    cyclic->next_us = (over_us < cyclic->period_us ? cyclic->next_us : app->last_us) + cyclic->period_us;
+    const bool stiffness = comes_round(&cyclic->stiffness_in, cyclic->stiffness_every);
+    const bool posture = comes_round(&cyclic->posture_in, cyclic->posture_every);
+    cyclic->due = (uint8_t)((stiffness ? FRAME_A | FRAME_B : 0) | (posture ? FRAME_EIGENVALUES | FRAME_POSTURE : 0));
+    take(app);
+}
+
 void cyclic_send(brace_app_t *app)
 {
     brace_app_cyclic_t *cyclic = &app->cyclic;
     if (cyclic->period_us == 0u) {
         return;
     }
-    cyclic->waited_us += app->tick_us;
-    if (cyclic->due == 0u && cyclic->waited_us >= cyclic->period_us) {
-        /* the remainder stays, so that the rate is kept in the mean; a bus that was away is not caught up with */
-        const uint32_t over_us = cyclic->waited_us - cyclic->period_us;
-        cyclic->waited_us = over_us < cyclic->period_us ? over_us : 0u;
-        const bool stiffness = comes_round(&cyclic->stiffness_in, cyclic->stiffness_every);
-        const bool posture = comes_round(&cyclic->posture_in, cyclic->posture_every);
-        cyclic->due = (uint8_t)((stiffness ? FRAME_A | FRAME_B : 0) | (posture ? FRAME_EIGENVALUES | FRAME_POSTURE : 0));
-        take(app);
+    if (cyclic->due == 0u && is_due(cyclic, app->last_us)) {
+        begin(app);
     }
-    for (int i = 0; i < FRAMES_PER_TICK && cyclic->due != 0u; i++) {
+    for (uint32_t i = 0; i < cyclic->frames_per_tick && cyclic->due != 0u; i++) {
         if (!send_first(app)) {
             return;
         }

@@ -17,8 +17,11 @@ enum {
 /* Works the periods out; again when parameters are put in force. About 250 instructions, the divisions counted. */
 void cyclic_configure(brace_app_t *app);
 
-/* A tick: counts time, takes the newest snapshot when one is due, sends at most two frames. At most 400
- * instructions. */
+/* Is there a frame to be sent in this tick? About 20 instructions. */
+bool cyclic_wants(const brace_app_t *app);
+
+/* Takes the newest snapshot when one is due, sends a frame; two where a tick is longer than 1.25 ms, at most four. At
+ * most 250 instructions, and 130 for each frame more. */
 void cyclic_send(brace_app_t *app);
 
 #endif

@@ -41,17 +41,13 @@ void answer_refusal(brace_app_t *app, uint32_t code, uint32_t token, int32_t sta
 /* Identifiers that the other nodes of a bus use among themselves: none of ours, and nothing strange. */
 static bool is_known_function(uint32_t id)
 {
-    switch (id & 0x780u) {
-    case BRACE_CAN_ID_EMERGENCY:
-    case BRACE_CAN_ID_STIFFNESS_A:
-    case BRACE_CAN_ID_STIFFNESS_B:
-    case BRACE_CAN_ID_EIGENVALUES:
-    case BRACE_CAN_ID_POSTURE:
-    case BRACE_CAN_ID_HEARTBEAT:
-    case BRACE_CAN_ID_REQUEST:
-    case BRACE_CAN_ID_ANSWER: return true;
-    default: return false;
-    }
+    enum {
+        KNOWN = 1 << (BRACE_CAN_ID_EMERGENCY >> 7) | 1 << (BRACE_CAN_ID_STIFFNESS_A >> 7) |
+                1 << (BRACE_CAN_ID_STIFFNESS_B >> 7) | 1 << (BRACE_CAN_ID_EIGENVALUES >> 7) |
+                1 << (BRACE_CAN_ID_POSTURE >> 7) | 1 << (BRACE_CAN_ID_HEARTBEAT >> 7) |
+                1 << (BRACE_CAN_ID_REQUEST >> 7) | 1 << (BRACE_CAN_ID_ANSWER >> 7)
+    };
+    return ((uint32_t)KNOWN >> (id >> 7 & 15u) & 1u) != 0u;
 }
 
 static void count_unknown(brace_app_t *app)
@@ -98,9 +94,7 @@ bool requests_take(brace_app_t *app, bool may_serve)
         requests->waiting = accept(app, &frame);
     }
     const bool room = requests->answer_count + PARTS_MOST <= (uint32_t)BRACE_APP_ANSWERS;
-    const bool serves = requests->waiting && room && may_serve && requests->rested;
-    requests->rested = !serves;
-    return serves;
+    return requests->waiting && room && may_serve;
 }
 
 static int32_t dispatch(brace_app_t *app, request_t *request)

@@ -10,4 +10,7 @@
  * returns whether a frame was due */
 bool announce(brace_app_t *app);
 
+/* Is there anything to say now? About 20 instructions. */
+bool announce_wants(const brace_app_t *app);
+
 #endif

@@ -17,28 +17,53 @@ void services_start(brace_app_t *app)
     modbus_start(app);
 }
 
-/* CAN first, since its answers are due within a tick; Modbus, whose own line takes milliseconds, before it has waited
- * for long. */
-bool services_listen(brace_app_t *app, bool may_serve)
+/* Is there room beside K? A limb on the general path fills its tick: what there is to say waits for a lean one. */
+static bool is_roomy(const brace_app_t *app)
 {
-    const uint32_t waited = modbus_poll(app, app->last_us);
-    const bool may = may_serve && app->requests.rested;
-    app->modbus.serves = may && waited > PATIENCE_TICKS;
-    const bool can = requests_take(app, may && !app->modbus.serves);
-    app->modbus.serves = app->modbus.serves || (may && !can && waited > 0u);
-    app->requests.rested = !can && !app->modbus.serves;
-    return !app->requests.rested;
+    return app->model.collapsed || app->mode == BRACE_MODE_CONFIGURATION;
 }
 
-void services_run(brace_app_t *app, bool serves)
+/* Which bus answers in this tick? CAN first, since its answers are due within a tick; Modbus, whose own line takes
+ * milliseconds, before it has waited for long. */
+static void choose(brace_app_t *app, bool may)
 {
+    const bool modbus_first = may && app->modbus.waited > PATIENCE_TICKS;
+    app->requests.serves = requests_take(app, may && !modbus_first);
+    if (!app->requests.serves) {
+        app->modbus.serves = modbus_poll(app, app->last_us) > 0u && may;
+    }
+}
+
+bool services_listen(brace_app_t *app, bool may_be_lean)
+{
+    const bool may = may_be_lean && app->requests.rested;
+    app->requests.serves = app->modbus.serves = false;
+    app->report.runs = may || (may_be_lean && is_roomy(app));
+    if (app->report.runs) {
+        choose(app, may);
+    }
+    const bool lean = app->requests.serves || app->modbus.serves ||
+                      (app->report.runs && !is_roomy(app) && (announce_wants(app) || cyclic_wants(app)));
+    app->requests.rested = !lean;
+    return lean;
+}
+
+void services_run(brace_app_t *app, bool lean)
+{
+    const bool serves = app->requests.serves || app->modbus.serves;
     bus_watch(app);
+    if (!app->report.runs || !(lean || is_roomy(app))) {
+        return;
+    }
     if (app->modbus.serves) {
         modbus_serve(app, app->last_us);
-    } else if (serves) {
+    } else if (app->requests.serves) {
         requests_serve(app);
     }
     requests_send(app);
+    if (serves && !is_roomy(app)) {
+        return;
+    }
     if (app->cyclic.parameter_crc != app->parameter_crc) {
         cyclic_configure(app);
     } else if (!announce(app) && bus_speaks(app)) {

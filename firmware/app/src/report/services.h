@@ -8,12 +8,15 @@
 /* At start; not for the tick. */
 void services_start(brace_app_t *app);
 
-/* What has come, before the tick's other work. may_serve: this tick has room for an answer.
- * returns whether it is to be kept free for one: services_run answers it then */
-bool services_listen(brace_app_t *app, bool may_serve);
+/* What has come, and what there is to say, before the tick's other work. A tick with an answer to work out is lean: K is
+ * left out. So is one with something to say when the limb takes the general path, whose K fills a tick. Two lean ticks
+ * never follow each other.
+ *   may_be_lean: nothing in this tick has to be done now
+ * returns whether it is lean */
+bool services_listen(brace_app_t *app, bool may_be_lean);
 
-/* After the tick's snapshot is sealed. At most 500 instructions; 2,500 when a request is answered; a commit, 21,000.
- *   serves: as services_listen said */
-void services_run(brace_app_t *app, bool serves);
+/* After the tick's snapshot is sealed. At most 450 instructions; in a lean tick 2,500; a commit, 21,000.
+ *   lean: as services_listen said */
+void services_run(brace_app_t *app, bool lean);
 
 #endif
