@@ -12,6 +12,7 @@ from interface.dictionary import Dictionary, load
 from interface.keys_page import keys_page
 from interface.measured import Values, load_values
 from interface.messages import Wire, dictionary_hash, load_wire
+from interface.protocol_page import protocol_page
 from interface.python_messages import frames_module
 from interface.python_names import names_module
 from interface.registers import measured_module, registers, registers_csv, registers_module, registers_page
@@ -32,6 +33,7 @@ def outputs(dictionary: Dictionary, wire: Wire, values: Values) -> dict[str, str
         "firmware/interface/generated/brace/measured.h": measured_header(values),
         "firmware/interface/modbus.csv": registers_csv(rows),
         "docs/modbus.md": registers_page(rows),
+        "docs/protocol.md": protocol_page(wire, values, language),
         "tools/brace/wire/registers.py": registers_module(rows),
         "tools/brace/wire/measured.py": measured_module(values),
         "tools/brace/wire/frames.py": frames_module(wire, language),

@@ -1,0 +1,74 @@
+"""docs/protocol.md: the frames of the wire, for people."""
+
+from __future__ import annotations
+
+from interface.measured import Values
+from interface.messages import Frame, Signal, Wire
+from interface.registers import MEASURED_ENTRY
+
+_HEAD = """# Frames on CAN
+
+Written by tools/interface from the dictionary; do not edit. As a CAN database: `firmware/interface/brace.dbc`.
+
+Classic CAN, 11-bit identifiers shaped like CANopen's, eight bytes a frame, least significant bit first (Intel). A
+controller adds its node number, 1 to 127, to the identifiers below; without a number it only listens. A value that is not
+known has a code of its own, never zero: the most negative one of a signed value, all ones of an unsigned one. A value
+beyond its range is limited, and K then carries the flag SATURATED.
+
+All frames of one snapshot carry the same sequence: put together only what agrees. Two ends that do not have the same
+dictionary hash (heartbeat, `identify`) speak different languages and have to say so.
+"""
+
+
+def protocol_page(wire: Wire, values: Values, dictionary_hash: int) -> str:
+    """The whole page."""
+    parts = [_HEAD, f"\nProtocol {wire.protocol}, dictionary 0x{dictionary_hash:08x}.\n\n## What a controller sends by itself\n"]
+    for frame in wire.messages:
+        often = f" As often as `{frame.rate}` says." if frame.rate else ""
+        parts.append(f"\n### {frame.name}, 0x{frame.identifier:03x} + node\n\n{_sentence(frame.description)}{often}\n\n")
+        parts.append(_table(frame))
+    parts.append(
+        f"\n## What it answers\n\nAsked on 0x{wire.request_id:03x} + node, answered on 0x{wire.answer_id:03x} + node. Byte 0 is"
+        " the request's code; in an answer plus 32 times its part. Byte 1 is a token that comes back in every part. The"
+        f" fields begin at bit 16. A request is answered in the tick that takes it; an answer of part {wire.refused_part} is a"
+        " refusal:\n\n"
+    )
+    parts.append(_table(wire.refusal))
+    for request in wire.requests:
+        parts.append(f"\n### {request.code} {request.name}\n\n{_sentence(request.description)}\n\n")
+        parts.append(_table(request.question) if request.question.signals else "Nothing more is asked.\n")
+        for part, answer in enumerate(request.answers):
+            parts.append(f"\nAnswer, part {part}:\n\n" + _table(answer))
+    parts.append(
+        "\n## Entries\n\nFor `read_entry`: parameters are numbered from 0 in the order of [limb.toml's keys](limb-keys.md)"
+        f" as the block has them, measured values from {MEASURED_ENTRY}:\n\n| number | name | type | unit |\n|---|---|---|---|\n"
+    )
+    parts += [f"| {MEASURED_ENTRY + v.index} | `{v.name}` | {v.type} | {v.unit} |\n" for v in values.measured]
+    return "".join(parts)
+
+
+def _sentence(words: str) -> str:
+    return words[0].upper() + words[1:] + "."
+
+
+def _table(frame: Frame) -> str:
+    rows = [
+        f"| {s.start} | {s.bits} | `{s.name}` | {_kind(s)} | {s.description}{_meanings(s)} |\n" for s in frame.signals
+    ]
+    return "| bit | bits | name | what it counts | what it is |\n|---|---|---|---|---|\n" + "".join(rows)
+
+
+def _kind(signal: Signal) -> str:
+    sign = "signed" if signal.signed else "unsigned"
+    if signal.kind == "value":
+        unit = "" if signal.unit == "1" else f" {signal.unit}"
+        return f"steps of {signal.step:.10g}{unit}, {sign}"
+    return "float" if signal.kind == "f32" else f"a number, {sign}"
+
+
+def _meanings(signal: Signal) -> str:
+    if signal.names:
+        return ": " + ", ".join(f"{number} {name}" for number, name in sorted(signal.names.items()))
+    if signal.bit_names:
+        return "; bits from 0: " + ", ".join(signal.bit_names)
+    return ""
