@@ -172,8 +172,8 @@ def build_objects(build: Path) -> list[tuple[Path, Path]]:
 def firmware_sources(build: Path) -> Iterator[Source]:
     """Every .c under firmware/ and hal/: as its build compiles it, or, if that does not, with the host's compiler."""
     commands = build_commands(build)
-    everywhere = sorted({f"-I{path}" for f in FOLDERS for path in (ROOT / f).rglob("include") if path.is_dir()} |
-                        {f"-I{path}" for f in FOLDERS for path in (ROOT / f).rglob("src") if path.is_dir()})
+    everywhere = sorted(f"-I{path}" for f in FOLDERS for name in ("include", "src", "generated")
+                        for path in (ROOT / f).rglob(name) if path.is_dir())
     for folder in FOLDERS:
         for path in sorted((ROOT / folder).rglob("*.c")):
             if path in commands:
