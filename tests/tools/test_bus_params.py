@@ -130,8 +130,10 @@ def test_a_killed_or_interrupted_push(limb: Path, other: Path) -> None:
                 pytest.skip("the push was done before the signal came")
             assert process.returncode == code
             assert crc_in_force(url) == before
-            if sent != signal.SIGKILL:  # it has put the controller back
-                _wait_for_mode(url, "monitor")
+            if sent == signal.SIGKILL:
+                with device_on(url) as device:
+                    device.leave_configuration()
+            _wait_for_mode(url, "monitor")  # which the others have done themselves
 
 
 def _wait_for_mode(url: str, mode: str) -> None:

@@ -67,7 +67,7 @@ def _push(arguments: argparse.Namespace) -> int:
     from brace.params import read_either
 
     block = read_either(arguments.file)
-    with controller(arguments) as device, undone_by_signal():
+    with undone_by_signal(), controller(arguments) as device:
         node = _own_node(device, block)
         if node is not None:
             block = with_node(block, node)
@@ -133,7 +133,7 @@ def _pull(arguments: argparse.Namespace) -> int:
 def _rollback(arguments: argparse.Namespace) -> int:
     from brace.bus.push import configuration
 
-    with controller(arguments) as device, undone_by_signal():
+    with undone_by_signal(), controller(arguments) as device:
         before = device.identify().parameter_crc
         with configuration(device):
             stored = device.rollback()

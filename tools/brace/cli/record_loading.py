@@ -22,7 +22,7 @@ def record_loading(arguments: argparse.Namespace) -> int:
             "a dataset is a folder", where=f"--out {arguments.out}", why="it has meta.toml and data.csv", next_step="--out DIR"
         )
     axes = "xz" if arguments.axis == "both" else arguments.axis
-    with session(arguments, bus_url(arguments, "a loading test")) as opened, undone_by_signal():
+    with undone_by_signal(), session(arguments, bus_url(arguments, "a loading test")) as opened:
         device = CanController(opened)
         with common.progress("loading test") as advance:
             for axis in axes:

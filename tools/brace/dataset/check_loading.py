@@ -163,6 +163,12 @@ def _sensor_range(columns: Columns, meta: Meta) -> Iterator[DataFault]:
             )
 
 
+def _share(part: np.ndarray, whole: np.ndarray, otherwise: float) -> np.ndarray:
+    """part / whole in [0, 2]: where a limb's own motors move the tip, its steps are not even."""
+    moves = np.abs(whole) > 1e-9
+    return np.clip(np.where(moves, part / np.where(moves, whole, 1.0), otherwise), 0.0, 2.0)
+
+
 def _slipped_decimals(columns: Columns, meta: Meta) -> Iterator[DataFault]:
     """A single reading far off the line through its neighbours, and in place once its decimal point is moved."""
     run, floor_n = columns["run"], max(meta.number("sensor.resolution_n"), 1e-3)
@@ -173,12 +179,14 @@ def _slipped_decimals(columns: Columns, meta: Meta) -> Iterator[DataFault]:
     inner[1:-1] = run[:-2] == run[2:]
     turning = np.zeros(run.size, dtype=bool)
     turning[1:-1] = (moved[1:-1] - moved[:-2]) * (moved[2:] - moved[1:-1]) < 0
+    between = _share(moved - np.roll(moved, 1), np.roll(moved, -1) - np.roll(moved, 1), 0.5)
+    beyond = _share(moved - np.roll(moved, 1), np.roll(moved, 1) - np.roll(moved, 2), 1.0)
     for name in ("fx_n", "fz_n"):
         force = columns[name]
         before, after = np.roll(force, 1), np.roll(force, -1)
-        expected = np.where(inner, 0.5 * (before + after), force)
+        expected = np.where(inner, before + between * (after - before), force)
         back = inner & turning & (np.roll(run, 2) == run)
-        expected = np.where(back, 2 * before - np.roll(force, 2), expected)
+        expected = np.where(back, before + beyond * (before - np.roll(force, 2)), expected)
         expected = np.where(inner & turning & ~back, force, expected)
         off = np.abs(force - expected)
         typical = max(float(np.median(off)), floor_n)
