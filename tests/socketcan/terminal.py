@@ -22,7 +22,7 @@ def screen_of(command: list[str], wanted: list[str]) -> str:
     """Runs a program at a terminal until its screen shows all that is wanted; the screen."""
     child, terminal = pty.fork()
     if child == 0:
-        os.environ["TERM"] = "linux"
+        os.environ |= {"TERM": "linux", "LINES": str(ROWS), "COLUMNS": str(COLUMNS)}
         fcntl.ioctl(1, termios.TIOCSWINSZ, struct.pack("HHHH", ROWS, COLUMNS, 0, 0))
         os.execv(command[0], command)
     screen = pyte.Screen(COLUMNS, ROWS)
