@@ -101,7 +101,7 @@ brace_bus_status_t brace_slcan_open_tty(brace_bus_t *bus, const char *where, cha
     }
     struct termios settings;
     if (tcgetattr(bus->fd, &settings) < 0) {
-        brace_bus_say(why, why_room, "%s: not a serial device", path);
+        brace_bus_say(why, why_room, "%s: not a serial device; 'ls /dev/tty*' lists those there are", path);
         return BRACE_BUS_E_NO_DEVICE;
     }
     cfmakeraw(&settings);

@@ -18,7 +18,7 @@ bool brace_modbus_is_url(const char *url)
 
 #include "brace/can_messages.h"
 
-enum { TRY_MS = 800, REGISTERS_AT_ONCE = 125 };
+enum { TRY_MS = 800, BETWEEN_BYTES_US = 200000, REGISTERS_AT_ONCE = 125 };
 
 /* High word first. libmodbus 3.1.6 swaps bytes in its own float setters on this kind of host. */
 static uint32_t join(const uint16_t words[2])
@@ -179,6 +179,7 @@ brace_client_status_t brace_modbus_open(brace_client_t *client, uint64_t deadlin
     if (made != BRACE_CLIENT_OK) {
         return made;
     }
+    modbus_set_byte_timeout(modbus, 0u, BETWEEN_BYTES_US);
     limit_wait(modbus, deadline_us);
     errno = 0;
     if (modbus_connect(modbus) != 0) {

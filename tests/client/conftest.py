@@ -1,0 +1,99 @@
+"""The C client's tests: a probe that makes its calls, `brace sim` to call, and a controller made of Python that misbehaves."""
+
+from __future__ import annotations
+
+import json
+import os
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+PROJECT = Path(__file__).resolve().parents[2]
+BUILD = Path(os.environ.get("BRACE_HOST_BUILD", PROJECT / "build" / "host"))
+PROBE = BUILD / "tests" / "client" / "client_probe"
+PRINT_K = BUILD / "tools" / "client" / "print_k"
+LIMB = PROJECT / "tools" / "brace" / "data" / "paper-limb.toml"
+sys.path.insert(0, str(Path(__file__).parent))
+
+
+@dataclass
+class Answer:
+    """What one call of the client gave."""
+
+    code: int  # positive: brace_client_status_t less its sign
+    out: str
+    err: str
+    seconds: float
+
+    @property
+    def values(self) -> dict[str, float]:
+        return {name: float(value) for name, value in (line.split() for line in self.out.splitlines())}
+
+    @property
+    def snapshots(self) -> list[dict[str, float]]:
+        parts = self.out.split("snapshot ")[1:]
+        return [
+            {name: float(value) for name, value in (line.split() for line in ("snapshot " + part).splitlines())}
+            for part in parts
+        ]
+
+
+@pytest.fixture(scope="session")
+def probe() -> Callable[..., Answer]:
+    """One call of the C client in a process of its own: probe(url, call, numbers..., node=, timeout_ms=)."""
+    if not PROBE.exists():
+        pytest.fail(f"{PROBE} is missing; ./dev setup builds it")
+
+    def call(url: str, name: str, *numbers: float, node: int = 1, timeout_ms: int = 2500) -> Answer:
+        begin = time.monotonic()
+        done = subprocess.run(
+            [PROBE, url, str(node), str(timeout_ms), name, *map(str, numbers)],
+            capture_output=True, text=True, timeout=20,
+        )
+        return Answer(done.returncode, done.stdout, done.stderr, time.monotonic() - begin)
+
+    return call
+
+
+def free_port() -> int:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        return int(taken.getsockname()[1])
+
+
+@dataclass
+class Sim:
+    """A `brace sim` that runs."""
+
+    can: str
+    modbus: str
+
+
+@pytest.fixture(scope="session")
+def sim(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Sim]:
+    """The paper's limb standing at (1.0, 1.4) rad, pressed so that the tip has a force."""
+    can = os.environ.get("BRACE_TEST_CAN") or f"tcp://127.0.0.1:{free_port()}"
+    modbus = f"modbus-tcp://127.0.0.1:{free_port()}"
+    errors = (tmp_path_factory.mktemp("sim") / "errors").open("w+")
+    process = subprocess.Popen(
+        [sys.executable, "-m", "brace", "sim", "--model", LIMB, "--can", can, "--modbus", modbus, "--limbs", "2",
+         "--press", "1.5,-3", "--seconds", "300", "--json"],
+        stdout=subprocess.PIPE, stderr=errors, text=True,
+    )  # fmt: skip
+    assert process.stdout is not None
+    line = process.stdout.readline()
+    if not line:
+        errors.seek(0)
+        pytest.fail("brace sim did not start: " + errors.read())
+    assert json.loads(line)["event"] == "ready"
+    yield Sim(can, modbus)
+    process.terminate()
+    process.wait(timeout=20)
+    process.stdout.close()
+    errors.close()

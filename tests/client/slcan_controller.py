@@ -1,0 +1,127 @@
+"""A controller on SLCAN over TCP, in Python, that can be made to misbehave. Shares no code with the C on either side."""
+
+from __future__ import annotations
+
+import socket
+import struct
+import threading
+import time
+from types import TracebackType
+
+from brace.wire.frames import DICTIONARY_HASH, PROTOCOL
+
+IDENTIFY, READ_ENTRY, CONTACT_FORCE = 20, 1, 6
+
+
+class SlcanController:
+    """Heartbeats, and answers to identify, read_entry and contact_force. One connection at a time."""
+
+    def __init__(
+        self,
+        node: int = 1,
+        hash_: int = DICTIONARY_HASH,
+        speaks: bool = True,
+        answers: bool = True,
+        errors: int = 0,
+        garbage: bytes = b"",
+        hangs_up: bool = False,
+        echo_first: bool = False,
+    ) -> None:
+        self.node, self.hash, self.speaks, self.answers, self.errors = node, hash_, speaks, answers, errors
+        self.garbage, self.hangs_up, self.echo_first = garbage, hangs_up, echo_first
+        self.requests: list[bytes] = []
+        self.forced: list[float] = []
+        self._server = socket.create_server(("127.0.0.1", 0))
+        self._server.settimeout(0.1)
+        self._ends = False
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self.url = f"tcp://127.0.0.1:{self._server.getsockname()[1]}"
+
+    def __enter__(self) -> SlcanController:
+        self._thread.start()
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+        self._ends = True
+        self._thread.join(timeout=5)
+        self._server.close()
+
+    def _run(self) -> None:
+        while not self._ends:
+            try:
+                line, _ = self._server.accept()
+            except TimeoutError:
+                continue
+            with line:
+                line.settimeout(0.02)
+                try:
+                    self._serve(line)
+                except OSError:
+                    pass  # the client has gone
+
+    def _serve(self, line: socket.socket) -> None:
+        rest, beat = b"", 0.0
+        while not self._ends:
+            if time.monotonic() >= beat:
+                beat = time.monotonic() + 0.1
+                if self.speaks:
+                    self._frame(line, 0x700 + self.node, struct.pack("<BBHI", 5, 1, 0, self.hash))
+                if self.garbage:
+                    line.sendall(self.garbage)
+            try:
+                part = line.recv(4096)
+            except TimeoutError:
+                continue
+            if not part:
+                return
+            *commands, rest = (rest + part).split(b"\r")
+            for command in commands:
+                if command == b"F":
+                    line.sendall(b"F%02X\r" % self.errors)
+                elif command.startswith(b"t"):
+                    if self.hangs_up:
+                        return
+                    self._request(line, int(command[1:4], 16), bytes.fromhex(command[5:].decode()))
+
+    def _request(self, line: socket.socket, identifier: int, data: bytes) -> None:
+        if identifier != 0x600 + self.node or not self.answers:
+            return
+        self.requests.append(data)
+        code, token = data[0], data[1]
+        if self.echo_first and len(self.requests) == 2:  # another client asks the same; the answer is to it
+            self._frame(line, 0x600 + self.node, data)
+            self._answer(line, code, 0, token, b"\x11" * 6)
+            self._answer(line, code, 1, token, b"\x11" * 6)
+            return
+        if code == IDENTIFY:
+            for part, fields in enumerate((
+                struct.pack("<BBBBBB", 1, 2, 3, PROTOCOL, self.node, 0),
+                struct.pack("<IH", self.hash, 0),
+                struct.pack("<IH", 0xAABBCCDD, 0),
+                struct.pack("<IBB", 0x12345678, 2, 0),
+            )):  # fmt: skip
+                self._answer(line, code, part, token, fields)
+        elif code == READ_ENTRY:
+            index = int.from_bytes(data[2:4], "little")
+            if index == 77:
+                self._answer(line, code, 7, token, struct.pack("<bI", -3, index) + b"\0")
+            elif index == 78:  # an older answer of another token comes first, then a foreign code
+                self._answer(line, code, 0, (token - 1) & 255, struct.pack("<HI", index, 111))
+                self._answer(line, 2, 0, token, struct.pack("<HI", index, 222))
+                self._answer(line, code, 0, token, struct.pack("<HI", index, 333))
+            else:
+                self._answer(line, code, 0, token, struct.pack("<Hf", index, 12345.5))
+        elif code == CONTACT_FORCE:  # each try is another tick; of the first, half an answer
+            tick = len(self.forced) + 1.0
+            self.forced.append(tick)
+            step = round(tick * 1000)
+            self._answer(line, code, 0, token, step.to_bytes(3, "little") * 2)
+            if tick > 1.0:
+                self._answer(line, code, 1, token, step.to_bytes(3, "little") * 2)
+
+    def _answer(self, line: socket.socket, code: int, part: int, token: int, fields: bytes) -> None:
+        self._frame(line, 0x580 + self.node, bytes((code + 32 * part, token)) + fields)
+
+    @staticmethod
+    def _frame(line: socket.socket, identifier: int, data: bytes) -> None:
+        line.sendall(b"t%03X%d%s\r" % (identifier, len(data), data.hex().upper().encode()))

@@ -1,0 +1,148 @@
+"""The C client against `brace sim`: every call, over CAN and Modbus, equal to what the model says within a step."""
+
+from __future__ import annotations
+
+import json
+import math
+import subprocess
+import sys
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from conftest import LIMB, PROBE, PRINT_K, Answer, Sim
+
+from brace.wire.measured import MEASURED
+from brace.wire.names import PARAMETERS
+
+STEP = 0.0005  # N/mm; a value is rounded to the nearest, so half of it and a float's rounding
+POSTURE = (1.0, 1.4)
+Probe = Callable[..., Answer]
+INDEX = {entry.name: entry.index for entry in MEASURED}
+
+
+def model_k(*place: object) -> dict[str, float]:
+    """What `brace k` says of the limb at a place."""
+    done = subprocess.run(
+        [sys.executable, "-m", "brace", "k", "--model", LIMB, "--json", *map(str, place)], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    return {name.removesuffix("_n_per_mm").removesuffix("_rad"): value for name, value in json.loads(done.stdout).items()}
+
+
+def check_k(got: dict[str, float], place: tuple[object, ...], lambda_max_step: float = STEP) -> None:
+    wanted = model_k(*place)
+    steps = {"k_xx": STEP, "k_xz": STEP, "k_zz": STEP, "lambda_min": STEP, "lambda_max": lambda_max_step, "stiff_axis": 1e-4}
+    for name, step in steps.items():
+        assert got[name] == pytest.approx(wanted[name], abs=0.51 * step, rel=3e-6), name
+
+
+@pytest.fixture(params=["can", "modbus"])
+def url(request: pytest.FixtureRequest, sim: Sim) -> str:
+    return str(getattr(sim, request.param))
+
+
+def test_snapshots(probe: Probe, url: str) -> None:
+    answer = probe(url, "read", 7, 5)
+    assert answer.code == 0, answer.err
+    assert len(answer.snapshots) == 5
+    for snapshot in answer.snapshots:
+        assert snapshot["parts"] == 7 and snapshot["valid"] == 1 and snapshot["mode"] == 1 and snapshot["faults"] == 0
+        assert 0 <= snapshot["age_ms"] < 20
+        where = (snapshot["theta1"], snapshot["theta2"])
+        assert np.allclose(where, POSTURE, atol=0.1)  # pressed: the gears' springs give a little
+        # K of the true angles, known to the wire's step of 2e-5 rad: K's slope is below 20 N/mm/rad here
+        wanted = model_k("--theta1", where[0], "--theta2", where[1])
+        for name in ("k_xx", "k_xz", "k_zz"):
+            assert snapshot[name] == pytest.approx(wanted[name], abs=0.5 * STEP + 20 * 2e-5), name
+
+
+def test_k_comes_at_its_rate(probe: Probe, sim: Sim) -> None:
+    answer = probe(sim.can, "read", 1, 100)
+    assert answer.code == 0 and len(answer.snapshots) == 100
+    assert answer.seconds < 1.5  # 200 Hz: half a second
+    numbers = [snapshot["snapshot"] for snapshot in answer.snapshots]
+    assert all(one != other for one, other in zip(numbers, numbers[1:], strict=False))  # none twice
+
+
+@pytest.mark.parametrize("posture", [(1.0, 1.4), (0.2, 2.2), (-0.5, 0.6)])
+def test_k_at_a_posture(probe: Probe, url: str, posture: tuple[float, float]) -> None:
+    answer = probe(url, "posture", *posture)
+    assert answer.code == 0, answer.err
+    check_k(answer.values, ("--theta1", posture[0], "--theta2", posture[1]))
+
+
+@pytest.mark.parametrize(("knee_up", "sign"), [(1, 1.0), (0, -1.0)])
+def test_k_at_a_tip_position(probe: Probe, sim: Sim, knee_up: int, sign: float) -> None:
+    first, second = 185.0, 313.5
+    theta1, theta2 = 0.7, sign * 1.3
+    x = first * math.cos(theta1) + second * math.cos(theta1 - theta2)
+    z = first * math.sin(theta1) + second * math.sin(theta1 - theta2)
+    answer = probe(sim.can, "tip", x, z, knee_up)
+    assert answer.code == 0, answer.err
+    wanted = model_k("--theta1", theta1, "--theta2", theta2)
+    for name in ("k_xx", "k_xz", "k_zz"):
+        # the tip's place is known to half of 0.001 mm; K's slope along it is below 0.2 N/mm a mm
+        assert answer.values[name] == pytest.approx(wanted[name], abs=0.51 * STEP + 0.2 * 0.001), name
+
+
+def test_sag_and_force_are_inverse_and_as_k_says(probe: Probe, sim: Sim) -> None:
+    k = probe(sim.can, "read", 1, 1).snapshots[0]
+    matrix = np.array([[k["k_xx"], k["k_xz"]], [k["k_xz"], k["k_zz"]]])
+    force = probe(sim.can, "force", 0.5, -1.5).values
+    wanted = matrix @ [0.5, -1.5]
+    assert (force["fx"], force["fz"]) == pytest.approx(tuple(wanted), abs=2 * STEP + 0.001)
+    length = math.hypot(0.5, 1.5)
+    low, high = np.linalg.eigvalsh(matrix) * length
+    assert (force["low"], force["high"]) == pytest.approx((low, high), abs=2 * STEP * length + 0.001)
+    sag = probe(sim.can, "sag", force["fx"], force["fz"]).values
+    compliance = 1.0 / np.linalg.eigvalsh(matrix)[0]
+    assert (sag["dx"], sag["dz"]) == pytest.approx((0.5, -1.5), abs=0.002 * compliance)
+
+
+def test_margin_as_the_force_of_now_says(probe: Probe, sim: Sim) -> None:
+    force = np.array([probe(sim.can, "entry_f32", INDEX[name]).values["value"] for name in ("force_x", "force_z")])
+    normal, friction = math.atan2(force[1], force[0]) + 0.2, 0.5
+    margin = probe(sim.can, "margin", normal, friction).values
+    pressing, sliding = np.hypot(*force) * math.cos(0.2), np.hypot(*force) * math.sin(0.2)
+    assert margin["contact"] == 0
+    # the sensor's noise, five sigmas of 0.1 N, in both readings
+    assert margin["margin"] == pytest.approx(friction * pressing - sliding, abs=1.0)
+    assert margin["angle_left"] == pytest.approx(math.atan(friction) - 0.2, abs=1.0 / np.hypot(*force))
+    assert probe(sim.can, "margin", normal + math.pi, friction).values["contact"] == 2
+
+
+def test_entries(probe: Probe, url: str) -> None:
+    assert probe(url, "entry_f32", INDEX["probe_f32"]).values == {"value": 12345.5}
+    assert probe(url, "entry_u32", INDEX["probe_u32"]).values == {"value": 0x01020304}
+    femur = next(parameter for parameter in PARAMETERS if parameter.key == "geometry.femur_mm")
+    assert probe(url, "entry_f32", femur.index).values == {"value": 185.0}
+    refused = probe(url, "entry_u32", 9999)
+    assert refused.code == 11 and "refuses" in refused.err
+
+
+def test_limbs_on_one_bus_and_a_node_that_is_not_there(probe: Probe, sim: Sim) -> None:
+    assert probe(sim.can, "identity", node=2).values["node"] == 2
+    answer = probe(sim.can, "identity", node=9)
+    assert answer.code == 9 and "heard: 1, 2" in answer.err and answer.seconds < 3.0
+
+
+def test_two_clients_at_once(probe: Probe, sim: Sim) -> None:
+    """Each gets its own answer although both are on one bus and ask one controller."""
+    postures = [(0.1 * i, 1.0 + 0.1 * i) for i in range(8)]
+    processes = [
+        subprocess.Popen(
+            [PROBE, sim.can, "1", "2500", "posture", *map(str, posture)], stdout=subprocess.PIPE, text=True
+        )
+        for posture in postures
+    ]
+    for posture, process in zip(postures, processes, strict=True):
+        out, _ = process.communicate(timeout=10)
+        assert process.returncode == 0
+        check_k(Answer(0, out, "", 0).values, ("--theta1", posture[0], "--theta2", posture[1]))
+
+
+def test_the_example(url: str) -> None:
+    done = subprocess.run([PRINT_K, url], capture_output=True, text=True, timeout=10)
+    assert done.returncode == 0, done.stderr
+    assert len(done.stdout.splitlines()) == 10 and "N/mm" in done.stdout
