@@ -162,6 +162,7 @@ typedef struct {
 
 typedef struct {
     bool runs;                /* services have their turn in this tick */
+    bool owed;                /* the last lean tick answered, and something else was due */
     uint32_t beat_us;         /* when the heart beat last */
     uint32_t faults_told;
     brace_mode_t mode_told;
@@ -186,6 +187,8 @@ typedef struct {
     bool serves;              /* this tick answers it */
     bool rested;              /* K was not left out in the last tick, for any bus */
     uint8_t request[8];
+    bool located;             /* the posture of a tip that was asked for is known, and its K is still to come */
+    float located_rad[BRACE_APP_JOINTS];
     uint8_t answer[BRACE_APP_ANSWERS][8];
     uint8_t answer_first, answer_count;
     uint8_t storing, storing_token; /* the request that is answered when the store is done; 0: none */

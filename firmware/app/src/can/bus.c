@@ -1,5 +1,7 @@
 #include "can/bus.h"
 
+#include <string.h>
+
 #include "can/slcan.h"
 
 #define HEALTH_US 10000u
@@ -72,9 +74,7 @@ bool bus_send(brace_app_t *app, uint32_t function, const uint8_t data[8])
     frame.id = function + bus->node_id;
     frame.length = 8;
     frame.fd = false;
-    for (int i = 0; i < 8; i++) {
-        frame.data[i] = data[i];
-    }
+    memcpy(frame.data, data, 8);
     if (bus->slcan.open) {
         if (!slcan_port_send(app, &frame)) {
             return false;

@@ -36,16 +36,28 @@ int32_t request_k_at_posture(brace_app_t *app, request_t *request)
     return answer_k(app, request, asked.theta1_rad, asked.theta2_rad);
 }
 
+/* On the general path posture and K are two pieces, each for a lean tick of its own. */
 int32_t request_k_at_tip(brace_app_t *app, request_t *request)
 {
-    brace_can_k_at_tip_knee_up_request_t asked;
-    float theta1_rad, theta2_rad;
-    brace_can_unpack_k_at_tip_knee_up_request(request->data, &asked);
-    const brace_knee_t knee =
-        request->code == BRACE_REQUEST_K_AT_TIP_KNEE_UP ? BRACE_KNEE_UP : BRACE_KNEE_DOWN;
-    const brace_status_t status = brace_kinematics_inverse(
-        &app->parameters.limb, (brace_point_t){asked.x_mm, asked.z_mm}, knee, &theta1_rad, &theta2_rad);
-    return status != BRACE_OK ? (int32_t)status : answer_k(app, request, theta1_rad, theta2_rad);
+    brace_app_requests_t *requests = &app->requests;
+    float *theta_rad = requests->located_rad;
+    if (!requests->located) {
+        brace_can_k_at_tip_knee_up_request_t asked;
+        brace_can_unpack_k_at_tip_knee_up_request(request->data, &asked);
+        const brace_knee_t knee =
+            request->code == BRACE_REQUEST_K_AT_TIP_KNEE_UP ? BRACE_KNEE_UP : BRACE_KNEE_DOWN;
+        const brace_status_t status = brace_kinematics_inverse(
+            &app->parameters.limb, (brace_point_t){asked.x_mm, asked.z_mm}, knee, &theta_rad[0], &theta_rad[1]);
+        if (status != BRACE_OK) {
+            return status;
+        }
+        requests->located = requests->waiting = !app->model.collapsed;
+        if (requests->located) {
+            return BRACE_OK;
+        }
+    }
+    requests->located = false;
+    return answer_k(app, request, theta_rad[0], theta_rad[1]);
 }
 
 int32_t request_contact_force(brace_app_t *app, request_t *request)

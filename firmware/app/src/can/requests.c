@@ -1,5 +1,7 @@
 #include "can/requests.h"
 
+#include <string.h>
+
 #include "can/bus.h"
 #include "can/request.h"
 
@@ -11,7 +13,7 @@
 void requests_start(brace_app_t *app)
 {
     brace_app_requests_t *requests = &app->requests;
-    requests->waiting = requests->upload_open = false;
+    requests->waiting = requests->upload_open = requests->located = false;
     requests->rested = true;
     requests->answer_first = requests->answer_count = 0;
     requests->storing = 0;
@@ -23,9 +25,7 @@ void answer_put(brace_app_t *app, const uint8_t data[8])
     brace_app_requests_t *requests = &app->requests;
     if (requests->answer_count < BRACE_APP_ANSWERS) {
         uint8_t *place = requests->answer[(requests->answer_first + requests->answer_count) % BRACE_APP_ANSWERS];
-        for (int i = 0; i < 8; i++) {
-            place[i] = data[i];
-        }
+        memcpy(place, data, 8);
         requests->answer_count++;
     }
 }
@@ -72,9 +72,7 @@ static bool accept(brace_app_t *app, const brace_can_frame_t *frame)
     if (!app->bus.speaks && !app->bus.slcan.open) {
         return false;
     }
-    for (int i = 0; i < 8; i++) {
-        requests->request[i] = frame->data[i];
-    }
+    memcpy(requests->request, frame->data, 8);
     return true;
 }
 

@@ -1,6 +1,7 @@
 /* What others ask of the node over CAN: one request taken and answered per tick, and not two ticks in a row while K is
  * computed, since a tick that answers computes none (the snapshot before stays, its age tells). The next request waits
- * in the bus' own ring. A request is refused or answered, never left; what has a wrong length is none, and counted. */
+ * in the bus' own ring. K at a tip's place takes two such ticks where the limb takes the general path. A request is
+ * refused or answered, never left; what has a wrong length is none, and counted. */
 #ifndef BRACE_APP_REQUESTS_H
 #define BRACE_APP_REQUESTS_H
 

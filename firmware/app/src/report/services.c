@@ -34,23 +34,32 @@ static void choose(brace_app_t *app, bool may)
     }
 }
 
+static bool wants_to_say(const brace_app_t *app)
+{
+    return announce_wants(app) || cyclic_wants(app);
+}
+
+/* A tick that answers says nothing else. Where only lean ticks speak, answers and the rest take turns. */
 bool services_listen(brace_app_t *app, bool may_be_lean)
 {
     const bool may = may_be_lean && app->requests.rested;
+    const bool roomy = is_roomy(app);
     app->requests.serves = app->modbus.serves = false;
-    app->report.runs = may || (may_be_lean && is_roomy(app));
-    if (app->report.runs) {
-        choose(app, may);
+    app->report.runs = may || (may_be_lean && roomy);
+    if (!app->report.runs) {
+        app->requests.rested = true;
+        return false;
     }
-    const bool lean = app->requests.serves || app->modbus.serves ||
-                      (app->report.runs && !is_roomy(app) && (announce_wants(app) || cyclic_wants(app)));
-    app->requests.rested = !lean;
-    return lean;
+    const bool says = !roomy && wants_to_say(app);
+    choose(app, may && !(says && app->report.owed));
+    const bool serves = app->requests.serves || app->modbus.serves;
+    app->report.owed = serves && says;
+    app->requests.rested = !(serves || says);
+    return serves || says;
 }
 
 void services_run(brace_app_t *app, bool lean)
 {
-    const bool serves = app->requests.serves || app->modbus.serves;
     bus_watch(app);
     if (!app->report.runs || !(lean || is_roomy(app))) {
         return;
@@ -61,7 +70,7 @@ void services_run(brace_app_t *app, bool lean)
         requests_serve(app);
     }
     requests_send(app);
-    if (serves && !is_roomy(app)) {
+    if (app->requests.serves || app->modbus.serves) {
         return;
     }
     if (app->cyclic.parameter_crc != app->parameter_crc) {
