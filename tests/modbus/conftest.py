@@ -1,0 +1,70 @@
+"""Servers: a simulated controller by TCP and on a pty, and the firmware's images on emulated boards, on a pty each."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import select
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE), str(HERE.parent / "socketcan")]
+
+from clients import CLIENTS, Client, Place  # noqa: E402
+from processes import PATIENCE_S, emulated, simulated  # noqa: E402
+
+SIM = ("--can", "none", "--modbus")
+
+
+@contextlib.contextmanager
+def server(name: str, folder: Path) -> Iterator[Place]:
+    """A server by its name."""
+    if name == "sim-tcp":
+        with simulated(*SIM, "modbus-tcp://127.0.0.1:0") as ready:
+            host, _, port = ready["limbs"][0]["modbus_tcp"].removeprefix("modbus-tcp://").rpartition(":")
+            yield Place(name, host=host, port=int(port))
+    elif name == "sim-line":
+        with simulated(*SIM, "modbus:pty") as ready:
+            yield Place(name, device=ready["limbs"][0]["modbus"].removeprefix("modbus:"))
+    else:
+        with emulated(folder, name) as places:
+            wait_for_banner(places["console"])
+            yield Place(name, device=places["modbus"])
+
+
+def wait_for_banner(console: str) -> None:
+    """Until the board has started."""
+    descriptor = os.open(console, os.O_RDWR | os.O_NOCTTY)
+    said, end = b"", time.monotonic() + PATIENCE_S
+    try:
+        while b"stack: " not in said:
+            assert time.monotonic() < end, f"no banner: {said!r}"
+            if select.select([descriptor], [], [], 0.5)[0]:
+                said += os.read(descriptor, 4096)
+            else:
+                os.write(descriptor, b"b")
+    finally:
+        os.close(descriptor)
+
+
+@pytest.fixture(scope="module", params=["sim-tcp", "sim-line", "netduinoplus2", "mps2-an386"])
+def place(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Place]:
+    """Each server in turn."""
+    with server(request.param, tmp_path_factory.mktemp("board")) as found:
+        yield found
+
+
+@pytest.fixture(params=list(CLIENTS))
+def client(request: pytest.FixtureRequest, place: Place) -> Iterator[Client]:
+    """Each client of it in turn."""
+    made: Any = CLIENTS[request.param](place)
+    try:
+        yield made
+    finally:
+        made.close()

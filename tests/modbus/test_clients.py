@@ -1,0 +1,123 @@
+"""Three independent clients against the simulated controller (TCP, RTU on a pty) and the firmware on emulated boards (RTU on
+a pty): the same registers, the same K, the same refusals."""
+
+from __future__ import annotations
+
+import math
+import time
+
+import pytest
+from clients import Client, Libmodbus, Place, Pymodbus, Refused
+from values import MAP, PROJECT, block, enter, get, put, registers_of, store
+from wire_by_hand import expected
+
+from brace.wire.frames import DICTIONARY_HASH
+
+F32 = 2e-6  # of the largest entry: what the core is held to
+LAST = "modbus_refused"
+POSTURE_RAD = (0.7, 1.1)
+
+
+def wait_for_k(client: Client) -> dict[str, float]:
+    """The whole block once K is valid: the first samples have to come in."""
+    end = time.monotonic() + 10.0
+    while True:
+        values = block(client, "probe_f32", LAST)
+        if values["k_is_valid"] == 1:
+            return values
+        assert time.monotonic() < end, f"no valid K within 10 s: {values}"
+
+
+def test_probes_tell_the_word_order(client: Client) -> None:
+    assert client.read("input", 0, 4) == [0x4640, 0xE600, 0x0102, 0x0304]
+    assert get(client, "probe_f32") == 12345.5 and get(client, "probe_u32") == 0x01020304
+    assert get(client, "dictionary_hash") == DICTIONARY_HASH
+
+
+def test_k_is_the_paper_limbs(client: Client) -> None:
+    values = wait_for_k(client)
+    assert len(values) == 58 and values["mode"] == 1
+    k = expected(values["theta1"], values["theta2"])
+    for name, true in (("k_xx", k.xx), ("k_xz", k.xz), ("k_zz", k.zz), ("lambda_min", k.low), ("lambda_max", k.high)):
+        assert abs(values[name] - true) <= F32 * k.high, (name, values[name], true)
+    turn = (values["stiff_axis"] - k.axis + math.pi / 2) % math.pi - math.pi / 2
+    assert abs(turn) <= 2 * F32 * k.high / (k.high - k.low) + 1e-6
+
+
+def test_each_block_is_a_later_snapshot(client: Client) -> None:
+    first, second = (block(client, "sequence", "lambda_max") for _ in range(2))
+    assert 0 < second["sequence"] - first["sequence"] < 1e6
+    for values in (first, second):
+        assert 0 <= values["age_us"] < 1e6
+
+
+def test_refusals(client: Client) -> None:
+    for table, address, count in (("input", 115, 2), ("input", 116, 2), ("input", 5000, 1), ("holding", 210, 2)):
+        with pytest.raises(Refused) as refused:
+            client.read(table, address, count)
+        assert refused.value.code == 2, (table, address, count)
+    wanted = {
+        1: ("geometry.tibia_mm", 200.0),  # not in CONFIGURATION: the server is in the wrong state
+        2: (None, 0),
+        3: ("set_mode", 1),  # without its key
+    }
+    for code, (name, value) in wanted.items():
+        with pytest.raises(Refused) as refused:
+            put(client, name, value) if name else client.write(999, [0, 0])
+        assert refused.value.code == code, name
+
+
+def test_k_at_a_posture(client: Client) -> None:
+    asked = [register for angle in POSTURE_RAD for register in registers_of(angle, "f32")]
+    client.write(int(MAP["asked_theta1"]["address"]), asked)
+    answered = block(client, "asked_k_xx", "asked_flags")
+    k = expected(*POSTURE_RAD)
+    for name, true in (("k_xx", k.xx), ("k_xz", k.xz), ("k_zz", k.zz), ("lambda_min", k.low), ("lambda_max", k.high)):
+        assert abs(answered[f"asked_{name}"] - true) <= F32 * k.high, name
+    assert answered["asked_flags"] == 0
+
+
+def test_a_parameter_is_staged_committed_read_back_and_rolled_back(client: Client) -> None:
+    name, wanted = "geometry.tibia_mm", 231.25
+    enter(client, "CONFIGURATION")
+    before, crc = get(client, name), get(client, "parameter_crc")
+    with pytest.raises(Refused) as refused:
+        put(client, name, -1.0)
+    assert refused.value.code == 3
+    put(client, name, wanted)
+    assert get(client, name) == wanted and get(client, "parameter_crc") == crc
+    store(client, "commit")
+    assert get(client, name) == wanted
+    enter(client, "MONITOR")
+    values = wait_for_k(client)
+    assert values["parameter_crc"] != crc and get(client, name) == wanted
+    enter(client, "CONFIGURATION")
+    store(client, "rollback")
+    assert get(client, name) == before
+    enter(client, "MONITOR")
+    assert wait_for_k(client)["parameter_crc"] == crc
+
+
+def version() -> str:
+    """The project's, as CMakeLists.txt has it."""
+    text = (PROJECT / "CMakeLists.txt").read_text()
+    return text.partition("project(brace VERSION ")[2].split()[0]
+
+
+@pytest.mark.parametrize("kind", [Libmodbus, Pymodbus])
+def test_who_answers(place: Place, kind: type[Libmodbus] | type[Pymodbus]) -> None:
+    client = kind(place)
+    try:
+        told = client.server_id()
+        words = f"Brace {version()} dictionary {DICTIONARY_HASH:08x}".encode()
+        if isinstance(client, Libmodbus):
+            assert told == b"\xb2\xff" + words
+            for half, word in enumerate(registers_of(0xC0DE0002, "u32")):  # function 06: a value in two halves
+                client.write_one(int(MAP["set_mode"]["address"]) + half, word)
+            enter(client, "CONFIGURATION")
+            enter(client, "MONITOR")
+        else:
+            assert told == (b"\xb2\xff" + words)[:-1]  # it takes the last byte for the run indicator
+            assert client.device_id() == {0: b"Brace", 1: b"limb controller", 2: version().encode()}
+    finally:
+        client.close()
