@@ -124,21 +124,21 @@ LIMBS = 4
 
 
 def test_no_k_is_made_of_two_ticks() -> None:
-    """A million snapshots of moving limbs, every tick's K on the wire, requests from a second client all the while;
+    """A million snapshots of moving limbs as fast as they go onto the wire, requests from a second client all the while;
     each K must be the one of the posture that carries the same number, by physics.md."""
     rng = random.Random(11)
     checked = np.zeros(LIMBS, int)
     least_change = []
     with limbs(LIMBS, **EVERY_TICK) as node:
         receiver, asker = SlcanClient(node.can_place), SlcanClient(node.can_place)
-        _move_all_the_time(node, 3 * SNAPSHOTS / LIMBS * TICK_S)
+        _move_all_the_time(node, 6 * SNAPSHOTS / LIMBS * TICK_S)
         node.step(0.2)
         receiver.text()
         asker.text()
         carried = {limb: np.empty((0, 9), np.uint8) for limb in range(LIMBS)}
         while checked.min() < SNAPSHOTS // LIMBS:
             _ask(asker, rng)
-            node.step(0.1)
+            node.step(0.4)
             asker.text()
             identifiers, data = eight_byte_frames(receiver.text())
             for limb in range(LIMBS):
@@ -148,7 +148,7 @@ def test_no_k_is_made_of_two_ticks() -> None:
                 count, change, carried[limb] = _check_stream(np.concatenate([carried[limb], frames]))
                 checked[limb] += count
                 least_change.append(change)
-            assert node.stats()["time_us"] < 3 * SNAPSHOTS / LIMBS * 1e3, f"only {checked} snapshots"
+            assert node.stats()["time_us"] < 6 * SNAPSHOTS / LIMBS * 1e3, f"only {checked} snapshots"
         receiver.close()
         asker.close()
     assert checked.sum() >= SNAPSHOTS
@@ -169,7 +169,7 @@ def _ask(asker: SlcanClient, rng: random.Random) -> None:
     """What a busy robot's computer asks of all limbs at once."""
     frames = []
     for limb in range(LIMBS):
-        for _ in range(24):
+        for _ in range(100):
             asked = k_request(rng.randrange(256), rng.uniform(-0.5, 1.5), rng.uniform(0.4, 2.4))
             frames.append((REQUEST + NODE + limb, rng.choice([asked, entry_request(0, SEQUENCE_ENTRY)])))
     asker.send(frames)
