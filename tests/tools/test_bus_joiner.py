@@ -18,9 +18,27 @@ def frames_of(tick: int, node: int = 1) -> list[Frame]:
     sequence, time_s, mark = tick * TICKS_A_PERIOD & 0xFF, 1000.0 + tick * PERIOD_S, (tick % 4_000_000) * STEP
     contents = {
         "stiffness_a": {"sequence": sequence, "flags": 0, "k_xx": mark, "k_xz": -mark},
-        "stiffness_b": {"sequence": sequence, "k_zz": mark, "age": 0, "play_femur": 0, "play_tibia": 0, "parameter_tag": tick & 0xFFFF},
-        "eigenvalues": {"sequence": sequence, "lambda_min": (tick % 1_000_000) * STEP, "lambda_max": 1, "stiff_axis": 0},
-        "posture": {"sequence": sequence, "theta1": (tick % 500_000) * 2e-5, "theta2": 0, "mode": 1, "faults": 0},
+        "stiffness_b": {
+            "sequence": sequence,
+            "k_zz": mark,
+            "age": 0,
+            "play_femur": 0,
+            "play_tibia": 0,
+            "parameter_tag": tick & 0xFFFF,
+        },
+        "eigenvalues": {
+            "sequence": sequence,
+            "lambda_min": (tick % 1_000_000) * STEP,
+            "lambda_max": 1,
+            "stiff_axis": 0,
+        },
+        "posture": {
+            "sequence": sequence,
+            "theta1": (tick % 500_000) * 2e-5,
+            "theta2": 0,
+            "mode": 1,
+            "faults": 0,
+        },
     }
     return [
         Frame(time_s + 1e-4 * index, MESSAGES[name].identifier + node, MESSAGES[name].encode(values))
@@ -39,7 +57,9 @@ def assert_of_one_tick(snapshot: Snapshot) -> None:
 
 def test_every_snapshot_of_a_good_bus_is_joined() -> None:
     joiner = Joiner()
-    joined = [snapshot for tick in range(2000) for frame in frames_of(tick) if (snapshot := joiner.add(frame))]
+    joined = [
+        snapshot for tick in range(2000) for frame in frames_of(tick) if (snapshot := joiner.add(frame))
+    ]
     assert len(joined) == 4000 and sum(snapshot.has_posture for snapshot in joined) == 2000
     assert joiner.unmatched == 0
     for snapshot in joined:

@@ -88,15 +88,22 @@ def _as_other_tools_read_it(folder: Path, ours: list[tuple[Any, ...]]) -> None:
             halves[node] = database.decode_message(0x181, message.data, decode_choices=False)
         elif function == 0x280 and node in halves:
             b, a = database.decode_message(0x281, message.data, decode_choices=False), halves.pop(node)
-            values = {name.split("_", 2)[-1] if name.startswith("stiffness_") else name: v for name, v in {**a, **b}.items()}
+            values = {
+                name.split("_", 2)[-1] if name.startswith("stiffness_") else name: v
+                for name, v in {**a, **b}.items()
+            }
             theirs.append((node, *(struct.pack("<d", values[name]) for name in ("k_xx", "k_xz", "k_zz"))))
     assert theirs == [(entry[0], *entry[2:5]) for entry in ours]
 
     from mcap.reader import make_reader
 
     with (folder / "a.mcap").open("rb") as file:
-        frames = [json.loads(message.data) for _, _, message in make_reader(file).iter_messages(topics=["/can"])]
-    assert [(f["id"], f["data"]) for f in frames] == [(f.identifier, f.data.hex()) for f in read(folder / "a.log")]
+        frames = [
+            json.loads(message.data) for _, _, message in make_reader(file).iter_messages(topics=["/can"])
+        ]
+    assert [(f["id"], f["data"]) for f in frames] == [
+        (f.identifier, f.data.hex()) for f in read(folder / "a.log")
+    ]
 
 
 @pytest.mark.parametrize("ending", [".log", ".mcap"])
@@ -234,7 +241,9 @@ def test_a_loading_test_becomes_a_dataset(brace: Callable[..., Outcome], limb: P
     k = physics_k(live["theta1_rad"], live["theta2_rad"])
     for column, expected in (("fx_n", k[0, 0]), ("fz_n", k[1, 0])):
         slope = np.polyfit(dataset["dx_mm"], dataset[column], 1)[0]
-        assert abs(slope - expected) < 0.02 * k[0, 0]  # sensor noise 0.02 N over 1 mm; motor play in the readings
+        assert (
+            abs(slope - expected) < 0.02 * k[0, 0]
+        )  # sensor noise 0.02 N over 1 mm; motor play in the readings
     outcome = brace("identify", tmp_path / "test", "--model", limb, "--out", tmp_path / "fitted.toml")
     assert outcome.code == 0, outcome.err
 

@@ -55,7 +55,9 @@ def crc_in_force(url: str) -> int:
         return device.identify().parameter_crc
 
 
-def test_push_pull_diff_rollback(brace: Callable[..., Outcome], limb: Path, other: Path, tmp_path: Path) -> None:
+def test_push_pull_diff_rollback(
+    brace: Callable[..., Outcome], limb: Path, other: Path, tmp_path: Path
+) -> None:
     with limb_on_tcp(limb) as url:
         assert brace("params", "diff", limb, "--bus", url, "--check").code == 0
         assert brace("params", "diff", other, "--bus", url, "--check").code == 1
@@ -210,7 +212,10 @@ def test_what_reads_back_otherwise_is_rolled_back(limb: Path, other: Path, lies:
         push(device, wanted, lambda _: None)  # type: ignore[arg-type]
     assert device.calls == ["enter", "upload", "rollback", "leave"]
     assert device.held is held
-    assert "rolled back" in refused.value.what and "geometry.tibia_mm is 301.5 mm, not 301.25" in refused.value.why
+    assert (
+        "rolled back" in refused.value.what
+        and "geometry.tibia_mm is 301.5 mm, not 301.25" in refused.value.why
+    )
     assert refused.value.exit_code == 7
 
 
@@ -257,7 +262,10 @@ def test_parameters_over_modbus(brace: Callable[..., Outcome], limb: Path, other
         live, over_can = (json.loads(brace("query", "--bus", bus, "--json").out) for bus in (url, can))
         for name in ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm"):
             assert abs(live[name] - over_can[name]) < 0.0005
-        asked = [json.loads(brace("query", "--bus", b, "--theta1", 0.4, "--theta2", 1.1, "--json").out) for b in (url, can)]
+        asked = [
+            json.loads(brace("query", "--bus", b, "--theta1", 0.4, "--theta2", 1.1, "--json").out)
+            for b in (url, can)
+        ]
         assert abs(asked[0]["k_xx_n_per_mm"] - asked[1]["k_xx_n_per_mm"]) < 0.0005
         assert brace("monitor", "--bus", url, "--seconds", 0.5).code == 0
         assert brace("query", "--bus", url, "--x", 1, "--z", 1).code == 2

@@ -58,7 +58,18 @@ def test_values_are_those_of_physics(brace: Callable[..., Outcome], limb: Path) 
         assert_k(at_tip, 0.7, 1.2, 1e-5)  # a position's step of 0.001 mm, at 185 mm
         down = json.loads(brace("query", "--bus", url, "--x", x, "--z", z, "--knee", "down", "--json").out)
         assert abs(down["k_xz_n_per_mm"] - at_tip["k_xz_n_per_mm"]) > 0.1
-        entries = brace("query", "--bus", url, "--entry", "probe_f32", "--entry", "geometry.tibia_mm", "--entry", "mode", "--json")
+        entries = brace(
+            "query",
+            "--bus",
+            url,
+            "--entry",
+            "probe_f32",
+            "--entry",
+            "geometry.tibia_mm",
+            "--entry",
+            "mode",
+            "--json",
+        )
         values = {name: entry["value"] for name, entry in json.loads(entries.out)["entries"].items()}
         assert values == {"probe_f32": 12345.5, "geometry.tibia_mm": 313.5, "mode": "monitor"}
         assert "K = [" in brace("query", "--bus", url).out
@@ -158,7 +169,9 @@ def test_another_bit_rate_and_another_node(limb: Path) -> None:
 
 
 def test_a_bus_that_goes_away(limb: Path) -> None:
-    beat = MESSAGES["heartbeat"].encode({"state": 5, "mode": 1, "faults": 0, "dictionary_hash": DICTIONARY_HASH})
+    beat = MESSAGES["heartbeat"].encode(
+        {"state": 5, "mode": 1, "faults": 0, "dictionary_hash": DICTIONARY_HASH}
+    )
     with adapter(obliging, sends=b"t7058" + beat.hex().encode() + b"\r") as url:
         said = told_in_time(4, "query", "--bus", url)  # it beats, and answers nothing
         assert "it sends, and does not answer 'identify'" in said
@@ -210,7 +223,20 @@ def test_urls(text: str, expected: tuple[object, ...]) -> None:
     assert (url.kind, url.place, url.port, url.baud, url.unit) == expected
 
 
-@pytest.mark.parametrize("text", ["", "/dev/ttyACM0", "tcp://host", "tcp://host:0", "tcp://:1", "modbus-tcp://h:1/300", "http://x", "log:", "a b"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "/dev/ttyACM0",
+        "tcp://host",
+        "tcp://host:0",
+        "tcp://:1",
+        "modbus-tcp://h:1/300",
+        "http://x",
+        "log:",
+        "a b",
+    ],
+)
 def test_what_is_no_url(text: str) -> None:
     with pytest.raises(UsageError) as refused:
         parse(text)

@@ -22,7 +22,10 @@ COMMIT_S = 2.5  # the store erases, writes and reads back
 MODE_S = 0.5
 LIVE_S = 0.6  # twelve periods of the slower frames
 _SIZE_WORD = 0xFFFF
-_MODES = {name.lower(): code for code, name in next(f.names for f in REQUESTS["set_mode"].fields if f.name == "mode").items()}
+_MODES = {
+    name.lower(): code
+    for code, name in next(f.names for f in REQUESTS["set_mode"].fields if f.name == "mode").items()
+}
 _ORIGINS = next(f.names for f in ANSWERS["identify"][3].fields if f.name == "origin")
 _FLAGS = next(f.bit_names for f in MESSAGES["stiffness_a"].fields if f.name == "flags")
 _STATES = next(f.names for f in MESSAGES["posture"].fields if f.name == "mode")
@@ -86,7 +89,9 @@ class CanController:
         index = index_of(name)
         answer = self.session.ask("read_entry", {"index": index})
         if answer["index"] != index:
-            raise NoDeviceError("an answer to another question", where=self.session.where, why="index", next_step="try again")
+            raise NoDeviceError(
+                "an answer to another question", where=self.session.where, why="index", next_step="try again"
+            )
         return int(answer["value"] or 0)
 
     # --------------------------------------------------------------------------------------- parameters
@@ -117,7 +122,8 @@ class CanController:
                 f"the controller's list of parameters is {self._schema_hash:08x}, ours {ours:08x}",
                 where=self.session.where,
                 why="its block has other members",
-                next_step="flash the firmware of this version (brace flash), or use the brace that came with that firmware",
+                next_step="flash the firmware of this version (brace flash), or use the brace that came "
+                "with that firmware",
             )
 
     def upload(self, block: Block, advance: Advance) -> None:

@@ -90,7 +90,8 @@ def check_dictionary(found: int, where: str, version: str = "") -> None:
         raise VersionMismatchError(
             f"the controller's dictionary is {found:08x}, ours {DICTIONARY_HASH:08x}",
             where=where,
-            why=f"firmware{' ' + version if version else ''} and this brace were built from different lists of values: the "
+            why=f"firmware{' ' + version if version else ''} and this brace were built from different "
+            f"lists of values: the "
             "same bits would mean something else",
             next_step="flash the firmware of this version (brace flash), or use the brace that came with that firmware",
         )

@@ -51,7 +51,13 @@ class SerialLine:
 
         try:
             self._port: Any = serial.Serial(
-                url.place, url.baud, timeout=0, write_timeout=SEND_S, exclusive=True, dsrdtr=False, rtscts=False
+                url.place,
+                url.baud,
+                timeout=0,
+                write_timeout=SEND_S,
+                exclusive=True,
+                dsrdtr=False,
+                rtscts=False,
             )
         except (OSError, ValueError) as error:
             raise no_serial(url, error) from None

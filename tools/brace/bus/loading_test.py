@@ -90,7 +90,10 @@ def fetch(session: Session, runs: int, advance: Callable[[int], None]) -> dict[s
     count = int(value_of("loading_rows", _entry(session, "loading_rows")))
     if count == 0:
         raise DeviceFaultError(
-            "the controller holds no rows", where=session.where, why="no loading test since its start", next_step="--loading-test runs one"
+            "the controller holds no rows",
+            where=session.where,
+            why="no loading test since its start",
+            next_step="--loading-test runs one",
         )
     newest = _cell(session, count - 1, 0)
     first = count - 1
@@ -131,4 +134,6 @@ def _cell(session: Session, row: int, column: int) -> float:
         if answer["row"] == row & 0x3FF and answer["column"] == column:
             value = answer["value"]
             return float("nan") if value is None else float(value)
-    raise NoDeviceError("rows come mixed up", where=session.where, why="answers to other questions", next_step="try again")
+    raise NoDeviceError(
+        "rows come mixed up", where=session.where, why="answers to other questions", next_step="try again"
+    )

@@ -34,7 +34,10 @@ def read(path: Path) -> Iterator[Frame]:
     """Frames of a candump or MCAP log."""
     if not path.is_file():
         raise BadFileError(
-            "no such log", where=str(path), why="the file does not exist or is no regular file", next_step="check the path"
+            "no such log",
+            where=str(path),
+            why="the file does not exist or is no regular file",
+            next_step="check the path",
         )
     try:
         if is_mcap(path):
@@ -45,7 +48,10 @@ def read(path: Path) -> Iterator[Frame]:
             yield from candump.read(path)
     except OSError as error:
         raise BadFileError(
-            "the log cannot be read", where=str(path), why=error.strerror or str(error), next_step="check its permissions"
+            "the log cannot be read",
+            where=str(path),
+            why=error.strerror or str(error),
+            next_step="check its permissions",
         ) from None
 
 

@@ -28,7 +28,9 @@ def _library() -> Any:
         import mcap
     except ImportError as error:
         raise MissingLibraryError(
-            "the mcap package is not installed", why=str(error), next_step="pip install mcap, or --out FILE.log"
+            "the mcap package is not installed",
+            why=str(error),
+            next_step="pip install mcap, or --out FILE.log",
         ) from None
     return mcap
 
@@ -52,7 +54,12 @@ class McapWriter:
 
     def add(self, frame: Frame) -> None:
         """One more."""
-        entry = {"bus": self._interface, "id": frame.identifier, "data": frame.data.hex(), "time_s": frame.time_s}
+        entry = {
+            "bus": self._interface,
+            "id": frame.identifier,
+            "data": frame.data.hex(),
+            "time_s": frame.time_s,
+        }
         self._message(self._frames, frame.time_s, entry)
         snapshot = self._joiner.add(frame)
         if snapshot is not None:
@@ -64,7 +71,9 @@ class McapWriter:
 
     def _channel_of(self, node: int) -> int:
         if node not in self._channels:
-            schema = self._writer.register_schema("stiffness", "jsonschema", json.dumps({"type": "object"}).encode())
+            schema = self._writer.register_schema(
+                "stiffness", "jsonschema", json.dumps({"type": "object"}).encode()
+            )
             self._channels[node] = self._writer.register_channel(f"/limb_{node}/stiffness", "json", schema)
         return self._channels[node]
 
@@ -72,7 +81,11 @@ class McapWriter:
         stamp = round(time_s * 1e9)
         self._sequence += 1
         self._writer.add_message(
-            channel, log_time=stamp, publish_time=stamp, sequence=self._sequence, data=json.dumps(entry).encode()
+            channel,
+            log_time=stamp,
+            publish_time=stamp,
+            sequence=self._sequence,
+            data=json.dumps(entry).encode(),
         )
 
 
@@ -85,7 +98,9 @@ def read(path: Path) -> Iterator[Frame]:
     count = 0
     with path.open("rb") as file:
         try:
-            for _schema, channel, message in NonSeekingReader(file).iter_messages(topics=[TOPIC], log_time_order=False):
+            for _schema, channel, message in NonSeekingReader(file).iter_messages(
+                topics=[TOPIC], log_time_order=False
+            ):
                 if channel.topic == TOPIC:
                     entry = json.loads(message.data)
                     yield Frame(float(entry["time_s"]), int(entry["id"]), bytes.fromhex(entry["data"]))

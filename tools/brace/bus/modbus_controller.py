@@ -37,6 +37,7 @@ _EXCEPTIONS = {
     5: "it is at work on it",
     6: "busy",
 }
+_NO_SUCH_UNIT = (10, 11)  # a gateway's words: no path to it, no answer from it
 
 
 class ModbusController:
@@ -73,7 +74,9 @@ class ModbusController:
         text = f"{version >> 16}.{version >> 8 & 0xFF}.{version & 0xFF}"
         check_dictionary(int(values["dictionary_hash"] or 0), self.url, text)
         origin = _name("parameter_origin", values)
-        return Identity(self.node, text, int(values["dictionary_hash"] or 0), int(values["parameter_crc"] or 0), origin)
+        return Identity(
+            self.node, text, int(values["dictionary_hash"] or 0), int(values["parameter_crc"] or 0), origin
+        )
 
     def live(self) -> Snapshot:
         """One read is one snapshot."""
@@ -103,7 +106,9 @@ class ModbusController:
 
     def k_at_posture(self, theta1_rad: float, theta2_rad: float) -> StiffnessAnswer:
         """Written, then read."""
-        self._write(_BY_NAME["asked_theta1"].address, struct.unpack(">4H", struct.pack(">ff", theta1_rad, theta2_rad)))
+        self._write(
+            _BY_NAME["asked_theta1"].address, struct.unpack(">4H", struct.pack(">ff", theta1_rad, theta2_rad))
+        )
         v = _decoded(_ASKED, self._read("input", _ASKED[0].address, 2 * len(_ASKED)))
         names = ("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max", "stiff_axis")
         values = {name: v[f"asked_{name}"] for name in names}
@@ -113,7 +118,10 @@ class ModbusController:
     def k_at_tip(self, x_mm: float, z_mm: float, knee_up: bool) -> StiffnessAnswer:
         """CAN only."""
         raise UsageError(
-            "K at a tip position over Modbus", where=self.url, why="its registers take postures", next_step="--theta1 --theta2, or a CAN bus"
+            "K at a tip position over Modbus",
+            where=self.url,
+            why="its registers take postures",
+            next_step="--theta1 --theta2, or a CAN bus",
         )
 
     def read_entry(self, name: str) -> int:
@@ -191,12 +199,19 @@ class ModbusController:
         return _decoded(_INPUT, self._read("input", 0, 2 * len(_INPUT)))
 
     def _read(self, table: str, address: int, count: int) -> tuple[int, ...]:
-        function = self._client.read_input_registers if table == "input" else self._client.read_holding_registers
-        return tuple(self._done(lambda: function(address, count=count, device_id=self._url.unit), f"reading {table} {address}").registers)
+        function = (
+            self._client.read_input_registers if table == "input" else self._client.read_holding_registers
+        )
+        return tuple(
+            self._done(
+                lambda: function(address, count=count, device_id=self._url.unit), f"reading {table} {address}"
+            ).registers
+        )
 
     def _write(self, address: int, words: Sequence[int]) -> None:
         self._done(
-            lambda: self._client.write_registers(address, list(words), device_id=self._url.unit), f"writing holding {address}"
+            lambda: self._client.write_registers(address, list(words), device_id=self._url.unit),
+            f"writing holding {address}",
         )
 
     def _command(self, name: str, value: int) -> None:
@@ -213,11 +228,19 @@ class ModbusController:
         return answer
 
     def _refused(self, what: str, code: int) -> BraceError:
+        if code in _NO_SUCH_UNIT:
+            return NoDeviceError(
+                f"unit {self._url.unit} does not answer",
+                where=self.url,
+                why=f"the other end knows no such unit (Modbus exception {code})",
+                next_step="modbus-tcp://HOST:PORT/UNIT with the controller's controller.modbus_address, 1 unless set",
+            )
         return DeviceFaultError(
             f"the controller refuses {what}: {_EXCEPTIONS.get(code, 'no reason given')}",
             where=self.url,
             why=f"Modbus exception {code}",
-            next_step="brace query shows its mode; parameters are written in CONFIGURATION only, which a loading test or "
+            next_step="brace query shows its mode; parameters are written in CONFIGURATION only, which "
+            "a loading test or "
             "play being taken up prevents",
         )
 
@@ -253,7 +276,9 @@ def _connected(url: BusUrl) -> Any:
         from pymodbus.client import ModbusSerialClient, ModbusTcpClient
     except ImportError as error:
         raise MissingLibraryError(
-            "pymodbus is not installed", why=str(error), next_step="pip install pymodbus pyserial, or ./dev setup"
+            "pymodbus is not installed",
+            why=str(error),
+            next_step="pip install pymodbus pyserial, or ./dev setup",
         ) from None
     import logging
 
@@ -269,7 +294,9 @@ def _connected(url: BusUrl) -> Any:
         SerialLine(url).close()
         client = ModbusSerialClient(url.place, baudrate=url.baud, timeout=ANSWER_S, retries=RETRIES)
     if not client.connect():
-        raise NoDeviceError("no connection", where=url.text, why="it was there a moment ago", next_step="try again")
+        raise NoDeviceError(
+            "no connection", where=url.text, why="it was there a moment ago", next_step="try again"
+        )
     return client
 
 
@@ -277,10 +304,13 @@ def _no_answer(url: BusUrl, error: Exception) -> NoDeviceError:
     if url.kind == "modbus-tcp":
         way = "the unit behind /: brace sim prints its own; modbus-tcp://HOST:PORT/UNIT"
     else:
-        way = "modbus:DEVICE@BAUD/UNIT: controller.modbus_baud and controller.modbus_address of the controller"
+        way = (
+            "modbus:DEVICE@BAUD/UNIT: controller.modbus_baud and controller.modbus_address of the controller"
+        )
     return NoDeviceError(
         f"unit {url.unit} does not answer",
         where=url.text,
-        why=f"no answer within {ANSWER_S * (RETRIES + 1):.1f} s: another unit, another baud rate, or nobody ({type(error).__name__})",
+        why=f"no answer within {ANSWER_S * (RETRIES + 1):.1f} s: another unit, another "
+        f"baud rate, or nobody ({type(error).__name__})",
         next_step=way,
     )

@@ -35,7 +35,9 @@ def push(device: Controller, block: Block, advance: Advance) -> Stored:
             stored = _after_lost_commit(device, block, before, error)
         difference = _difference(device, block)
         if difference or stored.crc != block.identity:
-            raise _rolled_back(device, before, difference or f"its CRC is {stored.crc:08x}, ours {block.identity:08x}")
+            raise _rolled_back(
+                device, before, difference or f"its CRC is {stored.crc:08x}, ours {block.identity:08x}"
+            )
     return stored
 
 
@@ -70,7 +72,11 @@ def _difference(device: Controller, block: Block) -> str:
 def _rolled_back(device: Controller, before: int, why: str) -> NotVerifiedError:
     try:
         crc = device.rollback().crc
-        end = "rolled back" if crc == before else f"rolled back to another set, CRC {crc:08x} (before: {before:08x})"
+        end = (
+            "rolled back"
+            if crc == before
+            else f"rolled back to another set, CRC {crc:08x} (before: {before:08x})"
+        )
     except BraceError as error:
         end = f"and the roll-back failed: {error.what}"
     return NotVerifiedError(

@@ -20,7 +20,9 @@ BUSY_S = 1.5  # a set that is being stored is waited for
 BUSY_POLL_S = 0.02
 GATHER_S = 0.25  # for the other nodes of a bus, once one is heard
 _SENT_BY_NODES = {layout.identifier for layout in MESSAGES.values()} | {ANSWER_ID}
-_NOT_REPEATED = frozenset({"commit", "rollback", "loading_test_start", "take_up"})  # whose second time is not the first
+_NOT_REPEATED = frozenset(
+    {"commit", "rollback", "loading_test_start", "take_up"}
+)  # whose second time is not the first
 
 
 class _Refused(Exception):
@@ -98,7 +100,9 @@ class Session:
 
     # ------------------------------------------------------------------------------------------- asking
 
-    def ask(self, name: str, values: Mapping[str, Value] | None = None, timeout_s: float = ANSWER_S) -> dict[str, Value]:
+    def ask(
+        self, name: str, values: Mapping[str, Value] | None = None, timeout_s: float = ANSWER_S
+    ) -> dict[str, Value]:
         """The answer's fields, all parts together; repeated when nothing comes, where that does no harm."""
         busy_until = time.monotonic() + BUSY_S
         tries = 1 if name in _NOT_REPEATED else TRIES
@@ -122,7 +126,10 @@ class Session:
             data = request.encode(values, self._token)
         except ValueError as error:
             raise UsageError(
-                f"{name}: {error}", where=self.where, why="the frame has no room for it", next_step="a value in this range"
+                f"{name}: {error}",
+                where=self.where,
+                why="the frame has no room for it",
+                next_step="a value in this range",
             ) from None
         self.bus.send(REQUEST_ID + self.node, data)
         parts = ANSWERS[name]
@@ -153,7 +160,9 @@ class Session:
         others = sorted(set(self.heard) - {self.node})
         if self.node in self.heard:
             why = f"it sends, and does not answer {name!r}"
-            way = "another firmware, or a bus so full that the request got no place: brace monitor shows rates"
+            way = (
+                "another firmware, or a bus so full that the request got no place: brace monitor shows rates"
+            )
         elif others:
             why = f"nothing of node {self.node} is heard; nodes on this bus: {', '.join(map(str, others))}"
             way = f"--node {others[0]}"

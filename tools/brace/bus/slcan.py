@@ -22,7 +22,16 @@ SYNC_S = 0.4
 SEND_S = 1.0
 _LONGEST_LINE = 64
 _HEX = frozenset(b"0123456789abcdefABCDEF")
-_ERROR_BITS = ("receive queue full", "send queue full", "error warning", "", "data overrun", "error passive", "arbitration lost", "bus error")
+_ERROR_BITS = (
+    "receive queue full",
+    "send queue full",
+    "error warning",
+    "",
+    "data overrun",
+    "error passive",
+    "arbitration lost",
+    "bus error",
+)
 
 
 class Line(Protocol):
@@ -63,7 +72,8 @@ class SlcanBus:
                     "it does not answer as an SLCAN adapter does",
                     where=self.url,
                     why=f"no answer to {command.decode()!r} within {ANSWER_S} s",
-                    next_step="check that this is the adapter's port (not its console), and its baud rate: slcan:PLACE@BAUD",
+                    next_step="check that this is the adapter's port (not its console), and its baud "
+                    "rate: slcan:PLACE@BAUD",
                 )
             if answer.endswith(b"\a"):
                 raise NoDeviceError(
@@ -95,14 +105,18 @@ class SlcanBus:
             with contextlib.suppress(ValueError):
                 flags = int(answer[1:3], 16)
                 if flags & 0xA4:
-                    said = ", ".join(name for bit, name in enumerate(_ERROR_BITS) if flags >> bit & 1 and name)
+                    said = ", ".join(
+                        name for bit, name in enumerate(_ERROR_BITS) if flags >> bit & 1 and name
+                    )
                     return (
-                        f"the adapter sees errors on the bus ({said}): another bit rate than {self.bit_rate} bit/s, or the wiring",
+                        f"the adapter sees errors on the bus ({said}): another bit rate "
+                        f"than {self.bit_rate} bit/s, or the wiring",
                         "--bit-rate 500000, 250000 or 125000; or check wires and both 120 ohm ends",
                     )
         return (
-            f"the adapter answers, and nothing is on the bus at {self.bit_rate} bit/s",
-            "check the controller's power and wiring; one whose node_id is 0 sends nothing by itself (--node 0 asks it)",
+            f"the adapter answers, and nothing is on the bus at {self.bit_rate} " f"bit/s",
+            "check the controller's power and wiring; one whose node_id is 0 sends nothing by "
+            "itself (--node 0 asks it)",
         )
 
     def close(self) -> None:

@@ -108,6 +108,7 @@ class Joiner:
         self._stiffness_a: dict[int, _Half] = {}
         self._eigenvalues: dict[int, _Half] = {}
         self._whole: dict[int, Snapshot] = {}
+        self._seen: set[int] = set()
         self.unmatched = 0  # halves whose other half never came
 
     def add(self, frame: Frame) -> Snapshot | None:
@@ -118,6 +119,7 @@ class Joiner:
             return None
         values = layout.decode(frame.data)
         if layout.name == "stiffness_a":
+            self._seen.add(frame.node)
             if frame.node in self._stiffness_a:
                 self.unmatched += 1
             self._stiffness_a[frame.node] = _Half(frame.time_s, values)
@@ -132,7 +134,7 @@ class Joiner:
     def _join_stiffness(self, frame: Frame, layout: Layout, b: Mapping[str, Value]) -> Snapshot | None:
         a = self._stiffness_a.pop(frame.node, None)
         if not _fit(a, frame, b) or a is None:
-            self.unmatched += 1
+            self.unmatched += frame.node in self._seen  # we may have come between the two
             return None
         snapshot = Snapshot(
             node=frame.node,
@@ -224,4 +226,8 @@ def bit_names(layout: Layout, field: str, values: Mapping[str, Value]) -> tuple[
 
 def names_of_bits(names: tuple[str, ...], bits: int) -> tuple[str, ...]:
     """Bits without a name by their number."""
-    return tuple(names[bit] if bit < len(names) else f"BIT_{bit}" for bit in range(bits.bit_length()) if bits >> bit & 1)
+    return tuple(
+        names[bit] if bit < len(names) else f"BIT_{bit}"
+        for bit in range(bits.bit_length())
+        if bits >> bit & 1
+    )

@@ -27,7 +27,9 @@ class SocketCanBus:
             import can
         except ImportError as error:
             raise MissingLibraryError(
-                "python-can is not installed", why=str(error), next_step="pip install python-can, or ./dev setup"
+                "python-can is not installed",
+                why=str(error),
+                next_step="pip install python-can, or ./dev setup",
             ) from None
         self._can = can
         try:
@@ -62,8 +64,11 @@ class SocketCanBus:
         """Error frames tell of another bit rate."""
         if self._errors:
             return (
-                f"{self._errors} error frames were heard: the interface's bit rate is not the controller's, or the wiring",
-                f"ip -details link show {self.url}; ip link set {self.url} down; ip link set {self.url} type can bitrate 1000000",
+                f"{self._errors} error frames were heard: the interface's bit rate is not the "
+                f"controller's, or the "
+                f"wiring",
+                f"ip -details link show {self.url}; ip link set {self.url} down; "
+                f"ip link set {self.url} type can bitrate 1000000",
             )
         return (
             f"{self.url} is up, and nothing is on the bus",
@@ -78,9 +83,13 @@ class SocketCanBus:
         number = getattr(error, "error_code", None) or getattr(error, "errno", None)
         if number == errno.ENETDOWN:
             why = "the interface is down"
-            way = f"ip link set {self.url} up type can bitrate 1000000"
+            rate = "" if self.url.startswith("vcan") else " type can bitrate 1000000"
+            way = f"ip link set {self.url} up{rate}"
         elif number == errno.ENOBUFS:
-            why, way = "the interface takes no more frames: nobody on the bus acknowledges them", "check wiring and bit rate"
+            why, way = (
+                "the interface takes no more frames: nobody on the bus acknowledges them",
+                "check wiring and bit rate",
+            )
         else:
             why, way = str(error), f"ip -details link show {self.url}"
         return NoDeviceError("the CAN interface does not work", where=self.url, why=why, next_step=way)
@@ -114,7 +123,10 @@ def refuse_absent(url: BusUrl) -> None:
         )
     if (_INTERFACES / url.place).is_dir() and _kind(_INTERFACES / url.place) != "280":
         raise NoDeviceError(
-            "not a CAN interface", where=url.text, why="it is a network interface of another kind", next_step="ip -brief link"
+            "not a CAN interface",
+            where=url.text,
+            why="it is a network interface of another kind",
+            next_step="ip -brief link",
         )
 
 

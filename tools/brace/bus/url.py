@@ -54,7 +54,9 @@ def parse(text: str) -> BusUrl:
         return BusUrl(text, "modbus", place, baud=int(baud or 115200), unit=_unit(text, unit))
     if _INTERFACE.fullmatch(text) and ":" not in text:
         return BusUrl(text, "can", text)
-    raise UsageError(f"{text!r} is no bus URL", where="--bus", why=f"the forms are {FORMS}", next_step=_guess(text))
+    raise UsageError(
+        f"{text!r} is no bus URL", where="--bus", why=f"the forms are {FORMS}", next_step=_guess(text)
+    )
 
 
 def _host(text: str) -> str:
@@ -64,14 +66,24 @@ def _host(text: str) -> str:
 def _port(url: str, text: str) -> int:
     if 1 <= int(text) <= 65535:
         return int(text)
-    raise UsageError(f"{url}: port {text}", where="--bus", why="ports are 1 to 65535", next_step="the port brace sim prints")
+    raise UsageError(
+        f"{url}: port {text}",
+        where="--bus",
+        why="ports are 1 to 65535",
+        next_step="the port brace sim prints",
+    )
 
 
 def _unit(url: str, text: str | None) -> int:
     unit = int(text or 1)
     if 1 <= unit <= 247:
         return unit
-    raise UsageError(f"{url}: unit {unit}", where="--bus", why="Modbus units are 1 to 247", next_step="leave /UNIT out for 1")
+    raise UsageError(
+        f"{url}: unit {unit}",
+        where="--bus",
+        why="Modbus units are 1 to 247",
+        next_step="leave /UNIT out for 1",
+    )
 
 
 def _guess(text: str) -> str:

@@ -25,7 +25,8 @@ def add(commands: Any) -> None:
     parser = commands.add_parser(
         "monitor",
         help="live K, ellipse, states, rates, age",
-        description="Shows what the controllers of a bus send by themselves, until --seconds, Ctrl-C or the end of a log; "
+        description="Shows what the controllers of a bus send by themselves, until --seconds, Ctrl-C or "
+        "the end of a log; "
         "listens only (over Modbus it asks). A terminal gets a picture, a pipe a line a second, --json a line for "
         "every snapshot, posture, heartbeat and emergency.",
         epilog="Exit codes: 0, 4 nothing heard, 5 the last K is not valid, 6 another dictionary, 130 Ctrl-C.",
@@ -100,7 +101,9 @@ def end(arguments: argparse.Namespace, watch: Watch) -> int:
         for node, state in sorted(watch.nodes.items()):
             common.emit(line_of(node, state))
         if watch.joiner.unmatched:
-            common.say(f"note: {watch.joiner.unmatched} halves of a K came without the other half and were not shown")
+            common.say(
+                f"note: {watch.joiner.unmatched} halves of a K came without the other half and were not shown"
+            )
     last = [state.snapshot for state in watch.nodes.values() if state.snapshot is not None]
     return EXIT_OK if all(snapshot.is_valid for snapshot in last) else EXIT_DEVICE_FAULT
 
@@ -108,7 +111,11 @@ def end(arguments: argparse.Namespace, watch: Watch) -> int:
 def line_of(node: int, state: NodeState) -> str:
     """A node in a line."""
     parts = [f"node {node}:"]
-    parts.append(state.heartbeat.mode if state.heartbeat else state.posture.mode if state.posture else "no heartbeat yet")
+    parts.append(
+        state.heartbeat.mode
+        if state.heartbeat
+        else state.posture.mode if state.posture else "no heartbeat yet"
+    )
     k = state.snapshot
     if k is None:
         parts.append("K not sent")
@@ -179,7 +186,12 @@ def _lines(state: NodeState) -> list[str]:
     lines = []
     if k is None:
         lines.append("K not sent")
-    elif not k.is_valid or not isinstance(k.k_xx, float) or not isinstance(k.k_xz, float) or not isinstance(k.k_zz, float):
+    elif (
+        not k.is_valid
+        or not isinstance(k.k_xx, float)
+        or not isinstance(k.k_xz, float)
+        or not isinstance(k.k_zz, float)
+    ):
         lines.append("K not valid")
     else:
         from brace.cli.ellipse import ellipse
@@ -192,7 +204,9 @@ def _lines(state: NodeState) -> list[str]:
     if posture is not None and None not in (posture.theta1, posture.theta2):
         lines.append(f"theta1 {posture.theta1:.4f}, theta2 {posture.theta2:.4f} rad")
     if k is not None:
-        lines.append(f"age {'over 127' if k.age_ms is None else format(k.age_ms, 'g')} ms, {state.rate_hz:.0f} Hz")
+        lines.append(
+            f"age {'over 127' if k.age_ms is None else format(k.age_ms, 'g')} ms, {state.rate_hz:.0f} Hz"
+        )
         lines.append(f"play {k.play[0]}, {k.play[1]}" if len(k.play) == 2 else "play not sent")
         lines.append(f"flags {' '.join(k.flags) or 'none'}")
     if beat is not None:

@@ -15,7 +15,8 @@ def add(actions: Any) -> None:
     parser = actions.add_parser(
         "push",
         help="a limb.toml or block to a controller",
-        description="Writes a set of parameters to a controller: handed over, stored, read back and compared. If it is not "
+        description="Writes a set of parameters to a controller: handed over, stored, read back and "
+        "compared. If it is not "
         "the same afterwards, the set before is put back (exit code 7). A push that is interrupted leaves the set "
         "before in force. Node and bit rates take effect at the next start; a file without controller.node_id "
         "leaves the controller's own.",
@@ -27,8 +28,9 @@ def add(actions: Any) -> None:
 
     parser = actions.add_parser(
         "pull",
-        help="a controller's set to limb.toml or block",
-        description="Reads the set in force. --out FILE.bin is the block as it is, any other ending limb.toml; without --out "
+        help="a controller's set to limb.toml or " "block",
+        description="Reads the set in force. --out FILE.bin is the block as it is, any other ending limb.toml; "
+        "without --out "
         "limb.toml goes to stdout.",
     )
     add_bus(parser)
@@ -37,7 +39,9 @@ def add(actions: Any) -> None:
     parser.set_defaults(run=_pull)
 
     parser = actions.add_parser(
-        "rollback", help="the set before the one in force", description="Puts the set before back in force; a second one undoes it where both sets are still kept."
+        "rollback",
+        help="the set before the one in force",
+        description="Puts the set before back in force; a second one undoes it where both sets are still kept.",
     )
     add_bus(parser)
     common.add_json(parser)
@@ -114,13 +118,18 @@ def _pull(arguments: argparse.Namespace) -> int:
     if out is not None:
         write_file(out, block.content if out.suffix == ".bin" else text)
     if arguments.json:
-        parameters = {key: str(value) if value in (float("inf"),) else value for key, value in block.model.values.items()}
+        parameters = {
+            key: str(value) if value in (float("inf"),) else value
+            for key, value in block.model.values.items()
+        }
         common.print_json(
             {
                 "out": out,
                 "sequence": block.sequence,
                 "parameter_crc": f"{block.identity:08x}",
-                "parameters": {key: value for key, value in parameters.items() if key not in ("format", "name")},
+                "parameters": {
+                    key: value for key, value in parameters.items() if key not in ("format", "name")
+                },
             }
         )
     elif out is None:
@@ -147,5 +156,7 @@ def _rollback(arguments: argparse.Namespace) -> int:
                 }
             )
         else:
-            common.say(f"{device.url}, node {device.node}: CRC {before:08x} -> {stored.crc:08x}, set number {stored.sequence}")
+            common.say(
+                f"{device.url}, node {device.node}: CRC {before:08x} -> {stored.crc:08x}, set number {stored.sequence}"
+            )
     return 0

@@ -14,18 +14,27 @@ def add(commands: Any) -> None:
     parser = commands.add_parser(
         "query",
         help="K and state of a controller, once",
-        description="Asks a controller: the K of now, K at a posture or tip position that the limb need not be in, or any "
-        "entry of the dictionary.",
-        epilog="Exit codes: 0 a valid K (or the entry), 4 no answer, 5 K is not valid or the device refuses, 6 another dictionary.",
+        description="Asks a controller: the K of now, K at a posture or tip position that the limb need "
+        "not be in, or any "
+        "entry of the "
+        "dictionary.",
+        epilog="Exit codes: 0 a valid K (or the entry), 4 no answer, 5 K is not valid or the device refuses, "
+        "6 another dictionary.",
     )
     add_bus(parser)
     parser.add_argument("--theta1", type=common.angle, metavar="RAD", help="true femur angle; with --theta2")
     parser.add_argument("--theta2", type=common.flexion, metavar="RAD", help="true knee angle")
-    parser.add_argument("--x", type=common.number, metavar="MM", help="tip outwards from the femur axis; with --z")
+    parser.add_argument(
+        "--x", type=common.number, metavar="MM", help="tip outwards from the femur axis; with --z"
+    )
     parser.add_argument("--z", type=common.number, metavar="MM", help="tip above the femur axis")
     parser.add_argument("--knee", choices=("up", "down"), help="for --x --z; default up")
     parser.add_argument(
-        "--entry", action="append", default=[], metavar="NAME", help="a value of the dictionary; may be repeated"
+        "--entry",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="a value of the dictionary; may be repeated",
     )
     common.add_json(parser)
     parser.set_defaults(run=run)
@@ -56,9 +65,16 @@ def _check(arguments: argparse.Namespace) -> None:
             )
     places = [arguments.theta1 is not None, arguments.x is not None, bool(arguments.entry)]
     if sum(places) > 1:
-        raise UsageError("one question at a time", where="query", why="posture, tip and entries exclude each other", next_step="two commands")
+        raise UsageError(
+            "one question at a time",
+            where="query",
+            why="posture, tip and entries exclude each other",
+            next_step="two commands",
+        )
     if arguments.knee and arguments.x is None:
-        raise UsageError("--knee without --x --z", where="query", why="angles say it already", next_step="drop --knee")
+        raise UsageError(
+            "--knee without --x --z", where="query", why="angles say it already", next_step="drop --knee"
+        )
     for name in arguments.entry:
         index_of(name)
 
@@ -68,7 +84,12 @@ def _entries(arguments: argparse.Namespace, device: Any) -> int:
 
     values = {name: value_of(name, device.read_entry(name)) for name in arguments.entry}
     if arguments.json:
-        common.print_json({"node": device.node, "entries": {name: {"value": v, "unit": unit_of(name)} for name, v in values.items()}})
+        common.print_json(
+            {
+                "node": device.node,
+                "entries": {name: {"value": v, "unit": unit_of(name)} for name, v in values.items()},
+            }
+        )
         return 0
     for name, value in values.items():
         common.emit(f"{name} = {'not known' if value is None else _text(value)} {unit_of(name)}".rstrip())
@@ -103,11 +124,16 @@ def _asked(arguments: argparse.Namespace, device: Any) -> int:
     if arguments.json:
         common.print_json({"node": device.node, **place, "k_is_valid": valid, **k})
     else:
-        told = ", ".join(f"{name} {value:g}" if isinstance(value, float) else f"{name} {value}" for name, value in place.items())
+        told = ", ".join(
+            f"{name} {value:g}" if isinstance(value, float) else f"{name} {value}"
+            for name, value in place.items()
+        )
         common.emit(f"node {device.node} at {told}")
         _emit_k(k, valid)
     if not valid:
-        _say_invalid(device, "K there is not known", ", ".join(answer.flags) or "the controller does not say why")
+        _say_invalid(
+            device, "K there is not known", ", ".join(answer.flags) or "the controller does not say why"
+        )
     return EXIT_OK if valid else EXIT_DEVICE_FAULT
 
 
@@ -125,13 +151,18 @@ def _live(arguments: argparse.Namespace, device: Any) -> int:
     if arguments.json:
         common.print_json(entry)
     else:
-        common.emit(f"node {snapshot.node}, firmware {identity.version}: {entry.get('mode', 'mode not sent')}")
+        common.emit(
+            f"node {snapshot.node}, firmware {identity.version}: {entry.get('mode', 'mode not sent')}"
+        )
         _emit_k(entry, snapshot.is_valid)
         if snapshot.has_posture and None not in (snapshot.theta1, snapshot.theta2):
             common.emit(f"theta1 {snapshot.theta1:.5f} rad, theta2 {snapshot.theta2:.5f} rad")
         age = "over 127 ms" if snapshot.age_ms is None else f"{snapshot.age_ms:g} ms"
-        common.emit(f"age {age}; play femur {snapshot.play[0]}, tibia {snapshot.play[1]}")
-        common.emit(f"faults {' '.join(snapshot.faults) or 'none'}; parameters {identity.origin}, CRC {identity.parameter_crc:08x}")
+        common.emit(f"age {age}; play femur {snapshot.play[0]}, tibia " f"{snapshot.play[1]}")
+        common.emit(
+            f"faults {' '.join(snapshot.faults) or 'none'}; "
+            f"parameters {identity.origin}, CRC {identity.parameter_crc:08x}"
+        )
     if not snapshot.is_valid:
         reasons = [f"mode {snapshot.mode}"] if snapshot.has_posture else []
         _say_invalid(device, "K is not valid", ", ".join([*reasons, *snapshot.faults, *snapshot.flags]))
@@ -142,10 +173,19 @@ def _emit_k(entry: dict[str, Any], valid: bool) -> None:
     if not valid:
         common.emit("K not valid")
         return
-    common.emit("K = [{k_xx_n_per_mm:.4f} {k_xz_n_per_mm:.4f}; {k_xz_n_per_mm:.4f} {k_zz_n_per_mm:.4f}] N/mm".format(**entry))
-    if None not in (entry.get("lambda_min_n_per_mm"), entry.get("lambda_max_n_per_mm"), entry.get("stiff_axis_rad")):
+    common.emit(
+        "K = [{k_xx_n_per_mm:.4f} {k_xz_n_per_mm:.4f}; {k_xz_n_per_mm:.4f} {k_zz_n_per_mm:.4f}] N/mm".format(
+            **entry
+        )
+    )
+    if None not in (
+        entry.get("lambda_min_n_per_mm"),
+        entry.get("lambda_max_n_per_mm"),
+        entry.get("stiff_axis_rad"),
+    ):
         common.emit(
-            "eigenvalues {lambda_min_n_per_mm:.4f} and {lambda_max_n_per_mm:.4f} N/mm, stiff axis {stiff_axis_rad:.4f} rad".format(**entry)
+            "eigenvalues {lambda_min_n_per_mm:.4f} and {lambda_max_n_per_mm:.4f} N/mm, "
+            "stiff axis {stiff_axis_rad:.4f} rad".format(**entry)
         )
     if entry["flag_names"]:
         common.emit(f"flags {' '.join(entry['flag_names'])}")
@@ -156,7 +196,10 @@ def _say_invalid(device: Any, what: str, why: str) -> None:
 
     common.say(
         DeviceFaultError(
-            what, where=f"{device.url}, node {device.node}", why=why, next_step="brace monitor shows when it comes back"
+            what,
+            where=f"{device.url}, node {device.node}",
+            why=why,
+            next_step="brace monitor shows when it comes back",
         )
         .render()
         .removeprefix("brace: ")

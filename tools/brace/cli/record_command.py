@@ -18,18 +18,33 @@ def add(commands: Any) -> None:
     parser = commands.add_parser(
         "record",
         help="a bus to a log (candump, MCAP); or a loading test to a dataset",
-        description="Writes every frame of a CAN bus to --out FILE.log (as candump -L) or FILE.mcap, until --seconds, Ctrl-C "
+        description="Writes every frame of a CAN bus to --out FILE.log (as candump -L) or FILE.mcap, "
+        "until --seconds, Ctrl-C "
         "or SIGTERM. While it is written it is called FILE.part, and what has come is in it after any end. With "
         "--loading-test the controller presses the limb's tip in steps, and its rows become the dataset --out DIR.",
     )
     add_bus(parser)
-    parser.add_argument("--out", type=common.path, required=True, metavar="FILE", help=".log, .mcap; with --loading-test a folder")
+    parser.add_argument(
+        "--out",
+        type=common.path,
+        required=True,
+        metavar="FILE",
+        help=".log, .mcap; with --loading-test a folder",
+    )
     parser.add_argument("--seconds", type=common.positive, metavar="S", help="how long; default until Ctrl-C")
     parser.add_argument("--loading-test", action="store_true", help="start one, wait for it, fetch it")
-    parser.add_argument("--axis", choices=("x", "z", "both"), default="both", help="of the loading test; default both")
-    parser.add_argument("--steps", type=common.count(2, 60), default=6, metavar="N", help="to each side; default 6")
-    parser.add_argument("--step-mm", type=common.positive, default=0.5, metavar="MM", help="of the tip; default 0.5")
-    parser.add_argument("--dwell-s", type=common.positive, default=0.1, metavar="S", help="at each step; default 0.1")
+    parser.add_argument(
+        "--axis", choices=("x", "z", "both"), default="both", help="of the loading test; default both"
+    )
+    parser.add_argument(
+        "--steps", type=common.count(2, 60), default=6, metavar="N", help="to each side; default 6"
+    )
+    parser.add_argument(
+        "--step-mm", type=common.positive, default=0.5, metavar="MM", help="of the tip; default 0.5"
+    )
+    parser.add_argument(
+        "--dwell-s", type=common.positive, default=0.1, metavar="S", help="at each step; default 0.1"
+    )
     parser.add_argument("--title", default="", metavar="TEXT", help="of the dataset")
     common.add_json(parser)
     parser.set_defaults(run=run)
@@ -92,7 +107,11 @@ def _say_end(arguments: argparse.Namespace, recording: Any, watch: Any) -> None:
     snapshots = {node: state.snapshots for node, state in sorted(watch.nodes.items())}
     seconds = watch.last_s - watch.first_s
     if arguments.json:
-        common.print_json({"out": recording.path, "frames": recording.frames, "seconds": seconds, "snapshots": snapshots})
+        common.print_json(
+            {"out": recording.path, "frames": recording.frames, "seconds": seconds, "snapshots": snapshots}
+        )
         return
     nodes = ", ".join(f"node {node}: {count} K" for node, count in snapshots.items())
-    common.say(f"{recording.path}: {recording.frames} frames in {seconds:.1f} s; {nodes or 'no K among them'}")
+    common.say(
+        f"{recording.path}: {recording.frames} frames in {seconds:.1f} s; {nodes or 'no K among them'}"
+    )

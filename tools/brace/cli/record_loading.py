@@ -19,7 +19,10 @@ def record_loading(arguments: argparse.Namespace) -> int:
 
     if arguments.out.suffix in (".log", ".mcap"):
         raise UsageError(
-            "a dataset is a folder", where=f"--out {arguments.out}", why="it has meta.toml and data.csv", next_step="--out DIR"
+            "a dataset is a folder",
+            where=f"--out {arguments.out}",
+            why="it has meta.toml and data.csv",
+            next_step="--out DIR",
         )
     axes = "xz" if arguments.axis == "both" else arguments.axis
     with undone_by_signal(), session(arguments, bus_url(arguments, "a loading test")) as opened:
@@ -34,9 +37,14 @@ def record_loading(arguments: argparse.Namespace) -> int:
     write_dataset(arguments.out, meta, columns)
     found = _refuse_unsound(arguments)
     if arguments.json:
-        common.print_json({"out": arguments.out, "rows": rows, "runs": len(axes), "node": device.node, "faults": found})
+        common.print_json(
+            {"out": arguments.out, "rows": rows, "runs": len(axes), "node": device.node, "faults": found}
+        )
     else:
-        common.say(f"{arguments.out}: {len(axes)} run{'s' if len(axes) > 1 else ''}, {rows} rows; brace identify {arguments.out} --model LIMB.toml")
+        common.say(
+            f"{arguments.out}: {len(axes)} run{'s' if len(axes) > 1 else ''}, {rows} rows; brace "
+            f"identify {arguments.out} --model LIMB.toml"
+        )
     return 0
 
 

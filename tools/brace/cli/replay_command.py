@@ -22,9 +22,13 @@ def add(commands: Any) -> None:
     )
     parser.add_argument("file", type=common.path, metavar="FILE", help=".log (candump -L) or .mcap")
     parser.add_argument("--bus", metavar="URL", help="can0, slcan:DEVICE or tcp://HOST:PORT to send to")
-    parser.add_argument("--bit-rate", type=common.count(10000, 1000000), default=1000000, metavar="BPS", help="of SLCAN")
+    parser.add_argument(
+        "--bit-rate", type=common.count(10000, 1000000), default=1000000, metavar="BPS", help="of SLCAN"
+    )
     parser.add_argument("--node", type=common.count(1, 127), metavar="N", help="only this node's frames")
-    parser.add_argument("--speed", type=common.positive, default=1.0, metavar="F", help="with --bus: times faster; default 1")
+    parser.add_argument(
+        "--speed", type=common.positive, default=1.0, metavar="F", help="with --bus: times faster; default 1"
+    )
     common.add_json(parser)
     parser.set_defaults(run=run, seconds=None)
 
@@ -53,7 +57,9 @@ def _send(arguments: argparse.Namespace) -> int:
 
     url = bus_url(arguments, "replay")
     if url.kind == "log":
-        raise UsageError("a log onto a log", where="--bus", why="frames are sent to a bus", next_step="--bus can0")
+        raise UsageError(
+            "a log onto a log", where="--bus", why="frames are sent to a bus", next_step="--bus can0"
+        )
     frames = read(arguments.file)
     first = next(frames, None)
     bus = open_bus(url, arguments.bit_rate)
@@ -64,7 +70,9 @@ def _send(arguments: argparse.Namespace) -> int:
             frame = first
             while frame is not None and first is not None and not ended.is_set():
                 lasted_s = frame.time_s - first.time_s
-                while (wait := lasted_s / arguments.speed - (time.monotonic() - started)) > 0 and not ended.is_set():
+                while (
+                    wait := lasted_s / arguments.speed - (time.monotonic() - started)
+                ) > 0 and not ended.is_set():
                     bus.receive(min(wait, _SLICE_S))  # what others send meanwhile must not fill a buffer
                 if arguments.node is None or frame.identifier & NODE_MASK == arguments.node:
                     bus.send(frame.identifier, frame.data)

@@ -1,0 +1,50 @@
+"""Runs in a guest kernel that has CAN: brace's bus commands on vcan0. Prints one JSON object: command -> code, seconds, text."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+BRACE = [sys.executable, "-m", "brace"]
+LIMB = "tools/brace/data/paper-limb.toml"
+
+
+def run(*arguments: str) -> dict[str, object]:
+    started = time.monotonic()
+    done = subprocess.run([*BRACE, *arguments], capture_output=True, text=True, timeout=40)
+    return {"code": done.returncode, "s": time.monotonic() - started, "out": done.stdout, "err": done.stderr}
+
+
+def main() -> None:
+    sim = subprocess.Popen(
+        [*BRACE, "sim", "--model", LIMB, "--can", "vcan0", "--modbus", "none", "--json"],
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    assert sim.stdout is not None
+    sim.stdout.readline()
+    subprocess.run(["ip", "link", "add", "vcan1", "type", "vcan"], check=True)
+    log = Path("/run/a.log")
+    results = {
+        "live": run("query", "--bus", "vcan0", "--json"),
+        "asked": run("query", "--bus", "vcan0", "--theta1", "0.5", "--theta2", "1.2", "--json"),
+        "record": run("record", "--bus", "vcan0", "--out", str(log), "--seconds", "0.5", "--json"),
+        "replay": run("replay", str(log), "--bus", "vcan0", "--json"),
+        "push": run("params", "push", LIMB, "--bus", "vcan0"),
+        "wrong node": run("query", "--bus", "vcan0", "--node", "4"),
+        "no interface": run("query", "--bus", "can7"),
+        "no can": run("query", "--bus", "lo"),
+        "down": run("query", "--bus", "vcan1"),
+    }
+    subprocess.run(["ip", "link", "set", "vcan1", "up"], check=True)
+    results["silent"] = run("query", "--bus", "vcan1")
+    sim.terminate()
+    sim.wait(10)
+    print(json.dumps(results))
+
+
+if __name__ == "__main__":
+    main()

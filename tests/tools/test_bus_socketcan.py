@@ -1,0 +1,45 @@
+"""brace's bus commands on real SocketCAN: a guest kernel's vcan0."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+
+import pytest
+from conftest import PROJECT, physics_k
+
+SLOWER = 3.0  # the guest kernel, than the machine it runs on
+
+
+def test_query_record_replay_push_and_failures_on_vcan0() -> None:
+    pytest.importorskip("can")
+    ran = subprocess.run(
+        ["tests/socketcan/with_vcan", sys.executable, "tests/tools/bus_on_vcan.py"],
+        cwd=PROJECT,
+        capture_output=True,
+        text=True,
+        timeout=150,
+    )
+    if ran.returncode == 4:
+        pytest.skip(ran.stderr.strip())
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    results = json.loads(ran.stdout.splitlines()[-1])
+    for name in ("live", "asked", "record", "replay", "push"):
+        assert results[name]["code"] == 0, results[name]
+    live, asked = json.loads(results["live"]["out"]), json.loads(results["asked"]["out"])
+    for entry, k in ((live, physics_k(1.0, 1.4)), (asked, physics_k(0.5, 1.2))):
+        got = [entry[f"{name}_n_per_mm"] for name in ("k_xx", "k_xz", "k_zz")]
+        assert max(abs(a - b) for a, b in zip(got, (k[0, 0], k[0, 1], k[1, 1]))) < 0.003
+    recorded, replayed = json.loads(results["record"]["out"]), json.loads(results["replay"]["out"])
+    assert replayed["frames"] == recorded["frames"] > 100
+    for name, words in {
+        "wrong node": "nodes on this bus: 1",
+        "no interface": "CAN interfaces here: vcan0, vcan1",
+        "no can": "not a CAN interface",
+        "down": "ip link set vcan1 up",
+        "silent": "vcan1 is up, and nothing is on the bus",
+    }.items():
+        told = results[name]
+        assert told["code"] == 4 and words in told["err"] and "try:" in told["err"], told
+        assert told["s"] < 3.0 * SLOWER, told
