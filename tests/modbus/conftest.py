@@ -35,7 +35,11 @@ def server(name: str, folder: Path) -> Iterator[Place]:
     else:
         with emulated(folder, name) as places:
             wait_for_banner(places["console"])
-            yield Place(name, device=places["modbus"])
+            held = os.open(places["modbus"], os.O_RDWR | os.O_NOCTTY)  # the emulator looks for a new client once a second
+            try:
+                yield Place(name, device=places["modbus"])
+            finally:
+                os.close(held)
 
 
 def wait_for_banner(console: str) -> None:
