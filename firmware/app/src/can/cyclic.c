@@ -152,7 +152,10 @@ void cyclic_send(brace_app_t *app)
     if (cyclic->due == 0u && is_due(cyclic, app->last_us)) {
         begin(app);
     }
-    for (uint32_t i = 0; i < cyclic->frames_per_tick && cyclic->due != 0u; i++) {
+    /* where only lean ticks speak they say all at once */
+    const bool lean = !app->model.collapsed && app->mode != BRACE_MODE_CONFIGURATION;
+    const uint32_t most = lean ? FRAMES_MOST : cyclic->frames_per_tick;
+    for (uint32_t i = 0; i < most && cyclic->due != 0u; i++) {
         if (!send_first(app)) {
             return;
         }
