@@ -1,0 +1,152 @@
+"""What no client would send, on real wires: frames with wrong checks, halves, noise without end, streams that are no Modbus.
+The server counts, stays silent or answers as the standard says, and the next good request is answered."""
+
+from __future__ import annotations
+
+import os
+import random
+import select
+import socket
+import struct
+import termios
+import time
+import tty
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from clients import Place
+from conftest import server
+from values import MAP
+
+GOOD = bytes((1, 4, 0, 0, 0, 4))
+PROBES = bytes.fromhex("4640e60001020304")
+SILENT_S, PATIENCE_S = 0.25, 10.0
+
+
+def crc(data: bytes) -> bytes:
+    """Modbus over serial line 1.02, appendix B."""
+    value = 0xFFFF
+    for byte in data:
+        value ^= byte
+        for _ in range(8):
+            value = value >> 1 ^ (0xA001 if value & 1 else 0)
+    return struct.pack("<H", value)
+
+
+class Line:
+    """A serial line, raw."""
+
+    def __init__(self, device: str) -> None:
+        self.file = os.open(device, os.O_RDWR | os.O_NOCTTY | os.O_NONBLOCK)
+        tty.setraw(self.file)
+        termios.tcflush(self.file, termios.TCIOFLUSH)
+
+    def say(self, data: bytes) -> None:
+        """Writes all of it, however slowly the other end takes it."""
+        end = time.monotonic() + PATIENCE_S
+        while data:
+            assert time.monotonic() < end, "the line takes nothing"
+            if select.select([], [self.file], [], 0.1)[1]:
+                data = data[os.write(self.file, data) :]
+
+    def hear(self, first_s: float = SILENT_S) -> bytes:
+        """What comes until it is silent."""
+        heard, wait = b"", first_s
+        while select.select([self.file], [], [], wait)[0]:
+            heard += os.read(self.file, 4096)
+            wait = 0.05
+        return heard
+
+    def ask(self, pdu: bytes, unit: int = 1) -> bytes:
+        """The answer's PDU."""
+        frame = bytes((unit,)) + pdu
+        self.say(frame + crc(frame))
+        heard = self.hear(PATIENCE_S)
+        assert heard and heard[0] == unit and crc(heard[:-2]) == heard[-2:], heard
+        return heard[1:-2]
+
+    def count(self, name: str) -> int:
+        """A counter."""
+        return int.from_bytes(self.ask(struct.pack(">BHH", 4, int(MAP[name]["address"]), 2))[2:], "big")
+
+
+@pytest.fixture(scope="module", params=["sim-line", "netduinoplus2", "mps2-an386"])
+def line(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Line]:
+    with server(request.param, tmp_path_factory.mktemp("board")) as place:
+        found = Line(place.device)
+        yield found
+        os.close(found.file)
+
+
+def test_the_sample_is_good(line: Line) -> None:
+    line.say(GOOD + crc(GOOD))
+    assert line.hear(PATIENCE_S)[3:-2] == PROBES
+
+
+def test_broken_frames_are_counted_and_not_answered(line: Line) -> None:
+    whole = GOOD + crc(GOOD)
+    frames = [whole[:length] for length in (1, 2, 5, 7)]  # halves
+    frames += [whole[:-1] + bytes((whole[-1] ^ 1,)), bytes((1, 4, 0, 1)) + whole[4:]]  # wrong checks
+    frames += [whole + b"\x55", b"\1" * 300, b"\0\0\0"]  # wrong lengths
+    for frame in frames:
+        before = line.count("modbus_broken")
+        line.say(frame)
+        assert line.hear() == b"", frame
+        counted = line.count("modbus_broken") - before
+        assert counted == 1 or (len(frame) > 256 and counted > 1), frame  # the emulator may pause within a long one
+
+
+def test_others_and_everybody_get_no_answer(line: Line) -> None:
+    for unit in (0, 2, 247):
+        frame = bytes((unit,)) + GOOD[1:]
+        line.say(frame + crc(frame))
+        assert line.hear() == b""
+
+
+def test_exceptions(line: Line) -> None:
+    for pdu, code in ((b"\x63", 1), (b"\x04\xff\xff\x00\x01", 2), (b"\x04\x00\x00\x00\x7e", 3), (b"\x10\0\0\0\2\4\0\0\0\0", 1)):
+        assert line.ask(pdu) == bytes((pdu[0] | 0x80, code))
+
+
+def test_a_flood_of_noise_stops_nothing(line: Line) -> None:
+    noise = random.Random(4)
+    before, ticks = line.count("modbus_broken"), line.count("sequence")
+    for _ in range(40):
+        line.say(noise.randbytes(256))
+    end = time.monotonic() + PATIENCE_S
+    line.say(GOOD + crc(GOOD))
+    while PROBES not in line.hear(1.0):  # the noise that is still on its way swallows requests
+        assert time.monotonic() < end, "no answer after the noise"
+        line.say(GOOD + crc(GOOD))
+    assert line.count("modbus_broken") > before and line.count("sequence") > ticks
+    assert line.ask(GOOD[1:])[2:] == PROBES
+
+
+def test_tcp_streams_that_are_no_modbus(tmp_path: Path) -> None:
+    good = b"\0\7\0\0\0\6" + GOOD
+
+    def answer(place: Place, sent: bytes) -> bytes:
+        with socket.create_connection((place.host, place.port), 5.0) as wire:
+            wire.settimeout(1.0)
+            wire.sendall(sent)
+            heard = b""
+            try:
+                while len(heard) < 17 and (part := wire.recv(4096)):
+                    heard += part
+            except TimeoutError:
+                pass
+            return heard
+
+    with server("sim-tcp", tmp_path) as place:
+        whole = good[:4] + b"\0\x0b" + bytes((1, 4, 8)) + PROBES
+        assert answer(place, good) == whole
+        noise = random.Random(5)
+        for _ in range(20):
+            heard = answer(place, noise.randbytes(200))
+            assert b"\xe6\0\1\2\3" not in heard
+        assert answer(place, b"GET / HTTP/1.0\r\n\r\n") == b""
+        assert answer(place, good[:6] + b"\x09" + good[7:])[6:] == b"\x09\x84\x0b"  # no such unit behind this door
+        with socket.create_connection((place.host, place.port), 5.0) as half:
+            half.sendall(good[:9])  # and never goes on
+            assert answer(place, good) == whole
