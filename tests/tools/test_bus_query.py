@@ -14,8 +14,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from bus_bench import adapter, limb_on_tcp, obliging, told_in_time
-from conftest import LIMB, Outcome, physics_k
+from bus_bench import adapter, limb_on_tcp, obliging, timed, told_in_time
+from conftest import LIMB, PROJECT, Outcome, physics_k
 
 from brace.bus.url import parse
 from brace.errors import UsageError
@@ -266,3 +266,37 @@ def test_a_terminal_gets_a_picture(limb: Path) -> None:
         rates = [int(rate) for rate in re.findall(r"(\d+) Hz", text)]
         assert rates and 150 < rates[-1] < 250
         assert sum(0x2800 < ord(character) < 0x2900 for character in text) > 50  # the ellipse
+
+
+def test_the_python_example_prints_k(limb: Path) -> None:
+    example = PROJECT / "tools" / "client" / "examples" / "print_k.py"
+    assert len(example.read_text().splitlines()) <= 40
+    with limb_on_tcp(limb) as url:
+        channel = url.replace("tcp:", "socket:")
+        done = subprocess.run(
+            [sys.executable, example, "slcan", channel],
+            capture_output=True,
+            text=True,
+            timeout=20,
+            check=False,
+        )
+    k = physics_k(0.5, 1.2)
+    numbers = [float(text) for text in re.findall(r"-?\d+\.\d+", done.stdout)]
+    assert done.returncode == 0 and done.stdout.endswith("N/mm\n"), done.stderr
+    assert np.abs(np.array(numbers) - k.ravel()).max() < STEP_N_PER_MM
+
+
+def test_the_readme_s_lines_work_as_printed(limb: Path, paper_limb: Path) -> None:
+    """Their ports are free only where no simulation runs already."""
+    lines = [line.strip() for line in (PROJECT / "README.md").read_text().splitlines()]
+    printed = [
+        line
+        for line in lines
+        if line.startswith((".venv/bin/brace query --bus", ".venv/bin/brace monitor --bus"))
+    ]
+    assert len(printed) == 2
+    with limb_on_tcp(paper_limb) as url:
+        for line in printed:
+            given = line.replace("tcp://127.0.0.1:29536", url).split()[1:]
+            outcome, _ = timed(*given)
+            assert outcome.code == 0 and "N/mm" in outcome.out, outcome.err

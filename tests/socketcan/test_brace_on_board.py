@@ -1,0 +1,58 @@
+"""brace's own bus commands on the emulated STM32F405 image: its SLCAN port and its Modbus RTU port."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from processes import emulated
+from wire_by_hand import LIMB, paper_k
+
+STANDS_RAD, ASKED_RAD = (1.0, 1.4), (0.5, 1.2)
+MATRIX = ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm")
+
+
+@pytest.fixture(scope="module")
+def urls(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:
+    with emulated(tmp_path_factory.mktemp("board")) as places:
+        yield {"slcan": f"slcan:{places['slcan']}", "modbus": f"modbus:{places['modbus']}@115200/1"}
+
+
+def brace(*arguments: object) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "brace", *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+
+
+def assert_k(entry: dict[str, float], theta1: float, theta2: float) -> None:
+    true = paper_k(theta1, theta2)
+    for name, value in zip(MATRIX, (true[0, 0], true[0, 1], true[1, 1])):
+        assert abs(entry[name] - value) < 0.003  # the wire's step, and the encoders' at the posture it stands in
+
+
+@pytest.mark.parametrize("wire", ["slcan", "modbus"])
+def test_the_board_is_queried(urls: dict[str, str], wire: str) -> None:
+    live = brace("query", "--bus", urls[wire], "--json")
+    assert live.returncode == 0, live.stderr
+    assert_k(json.loads(live.stdout), *STANDS_RAD)
+    asked = brace("query", "--bus", urls[wire], "--theta1", ASKED_RAD[0], "--theta2", ASKED_RAD[1], "--json")
+    assert asked.returncode == 0, asked.stderr
+    assert_k(json.loads(asked.stdout), *ASKED_RAD)
+
+
+@pytest.mark.parametrize("wire", ["slcan", "modbus"])
+def test_the_board_takes_parameters_and_gives_them_back(
+    urls: dict[str, str], wire: str, tmp_path: Path
+) -> None:
+    other = tmp_path / "other.toml"
+    other.write_text(LIMB.read_text().replace("tibia_mm = 313.5", f"tibia_mm = {310 + len(wire)}.5"))
+    pushed = brace("params", "push", other, "--bus", urls[wire], "--json")
+    assert pushed.returncode == 0, pushed.stderr
+    assert brace("params", "diff", other, "--bus", urls[wire], "--check").returncode == 0
+    back = brace("params", "rollback", "--bus", urls[wire], "--json")
+    assert back.returncode == 0, back.stderr
+    assert json.loads(back.stdout)["parameter_crc_before"] == json.loads(pushed.stdout)["parameter_crc"]
+    assert brace("params", "diff", LIMB, "--bus", urls[wire], "--check").returncode == 0

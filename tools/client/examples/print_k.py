@@ -1,0 +1,36 @@
+"""K of node 1 at a posture, with python-can and the generated names alone.
+
+print_k.py socketcan can0 | print_k.py slcan socket://127.0.0.1:29536
+"""
+
+import sys
+import time
+
+import can
+from brace.wire.frames import ANSWER_ID, ANSWERS, DICTIONARY_HASH, REFUSED_PART, REQUEST_ID, REQUESTS
+
+NODE = 1
+
+
+def ask(bus, name, values, token):
+    """The answer's values by name."""
+    data = REQUESTS[name].encode(values, token)
+    bus.send(can.Message(arbitration_id=REQUEST_ID + NODE, data=data, is_extended_id=False))
+    answer, missing, until = {}, len(ANSWERS[name]), time.monotonic() + 1.0
+    while missing and time.monotonic() < until:
+        frame = bus.recv(0.1)
+        if frame is None or frame.arbitration_id != ANSWER_ID + NODE or frame.data[1] != token:
+            continue
+        part = frame.data[0] >> 5
+        if part == REFUSED_PART:
+            sys.exit(f"node {NODE} refuses {name}")
+        answer |= ANSWERS[name][part].decode(bytes(frame.data))
+        missing -= 1
+    return answer if not missing else sys.exit(f"node {NODE} does not answer")
+
+
+with can.Bus(interface=sys.argv[1], channel=sys.argv[2]) as bus:
+    if ask(bus, "identify", {}, 1)["dictionary_hash"] != DICTIONARY_HASH:
+        sys.exit("the controller speaks another dictionary")
+    k = ask(bus, "k_at_posture", {"theta1": 0.5, "theta2": 1.2}, 2)
+    print(f"K = [{k['k_xx']:.4f} {k['k_xz']:.4f}; {k['k_xz']:.4f} {k['k_zz']:.4f}] N/mm")
