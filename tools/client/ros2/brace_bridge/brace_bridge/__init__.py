@@ -1,0 +1,1 @@
+"""Limb controllers as ROS 2 topics."""
