@@ -230,7 +230,7 @@ static void feed(const uint32_t crc_of_the_bench)
 int main(int count, char **arguments)
 {
     const unsigned long wanted = count > 1 ? strtoul(arguments[1], NULL, 10) : 1000000ul;
-    chance = (count > 2 ? strtoull(arguments[2], NULL, 10) : 1u) * 0x9e3779b97f4a7c15ull | 1u;
+    fuzz_seed(count > 2 ? arguments[2] : NULL);
     uint32_t crc_of_the_bench = 0;
     for (fed = 0; fed < wanted; fed++) {
         if (fed % NEW_LIMB_AFTER == 0u) {

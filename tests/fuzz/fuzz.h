@@ -13,6 +13,7 @@ void setUp(void) {}
 void tearDown(void) {}
 
 static uint64_t chance;
+static unsigned long long seed;
 static unsigned long fed; /* requests so far, for the report */
 
 static inline uint32_t dice(uint32_t sides) /* xorshift64* */
@@ -23,9 +24,15 @@ static inline uint32_t dice(uint32_t sides) /* xorshift64* */
     return (uint32_t)((chance * 2685821657736338717ull) >> 33) % sides;
 }
 
+static inline void fuzz_seed(const char *text)
+{
+    seed = text != NULL ? strtoull(text, NULL, 10) : 1u;
+    chance = seed * 0x9e3779b97f4a7c15ull | 1u;
+}
+
 static inline void fail(const char *what, const uint8_t *bytes, uint32_t count)
 {
-    printf("request %lu: %s:", fed, what);
+    printf("seed %llu, request %lu: %s:", seed, fed, what);
     for (uint32_t i = 0; i < count; i++) {
         printf(" %02x", bytes[i]);
     }

@@ -255,7 +255,7 @@ static void over_tcp(bool was_configuring)
 int main(int count, char **arguments)
 {
     const unsigned long wanted = count > 1 ? strtoul(arguments[1], NULL, 10) : 1000000ul;
-    chance = (count > 2 ? strtoull(arguments[2], NULL, 10) : 1u) * 0x9e3779b97f4a7c15ull | 1u;
+    fuzz_seed(count > 2 ? arguments[2] : NULL);
     for (fed = 0; fed < wanted; fed++) {
         if (fed % NEW_LIMB_AFTER == 0u) {
             start();
