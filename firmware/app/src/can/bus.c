@@ -13,16 +13,18 @@ void bus_start(brace_app_t *app)
     const brace_hal_t *hal = app->hal;
     const brace_controller_t *controller = &app->parameters.controller;
     brace_app_bus_t *bus = &app->bus;
-    *bus = (brace_app_bus_t){.node_id = (uint8_t)controller->node_id, .bit_rate = controller->can_bit_rate,
+    *bus = (brace_app_bus_t){.node_id = (uint8_t)controller->node_id,
+                             .bit_rate = controller->can_bit_rate,
                              .recover_wait_us = RECOVER_FIRST_US};
     slcan_port_start(app);
-    if (hal->can_setup != NULL && hal->can_send != NULL && hal->can_receive != NULL && hal->can_health != NULL &&
-        hal->can_recover != NULL) {
+    if (hal->can_setup != NULL && hal->can_send != NULL && hal->can_receive != NULL &&
+        hal->can_health != NULL && hal->can_recover != NULL) {
         const brace_can_setup_t setup = {.bit_rate = controller->can_bit_rate,
                                          .listen_only = controller->node_id == 0u};
         bus->listens = hal->can_setup(hal->context, &setup) == BRACE_HAL_OK;
     }
-    bus->speaks = controller->node_id >= 1u && controller->node_id <= 127u && (bus->listens || bus->slcan.fitted);
+    bus->speaks =
+        controller->node_id >= 1u && controller->node_id <= 127u && (bus->listens || bus->slcan.fitted);
 }
 
 void bus_watch(brace_app_t *app)
@@ -45,7 +47,8 @@ void bus_watch(brace_app_t *app)
     bus->recover_us = bus->bus_off ? bus->recover_us + app->tick_us : 0u;
     if (bus->recover_us >= bus->recover_wait_us) {
         bus->recover_us = 0;
-        bus->recover_wait_us = bus->recover_wait_us < RECOVER_MOST_US / 2u ? 2u * bus->recover_wait_us : RECOVER_MOST_US;
+        bus->recover_wait_us =
+            bus->recover_wait_us < RECOVER_MOST_US / 2u ? 2u * bus->recover_wait_us : RECOVER_MOST_US;
         (void)app->hal->can_recover(app->hal->context);
     }
 }

@@ -1,17 +1,17 @@
-/* The node on its bus: frames of eight bytes in and out, over the CAN controller, over a serial port as SLCAN text, or
- * both. Two ports carry the same; while an SLCAN channel is open it is the one that is waited for, since a board
- * without a transceiver has nobody to acknowledge on the other. */
+/* The node on its bus: frames of eight bytes in and out, over the CAN controller, over a serial port as
+ * SLCAN text, or both. Two ports carry the same; while an SLCAN channel is open it is the one that is waited
+ * for, since a board without a transceiver has nobody to acknowledge on the other. */
 #ifndef BRACE_APP_BUS_H
 #define BRACE_APP_BUS_H
 
 #include "brace/app.h"
 
-/* Sets both up; not for the tick. With node 0 CAN only listens, and only requests to node 0 over SLCAN, which has one
- * other end, are answered: so a board is given its number. */
+/* Sets both up; not for the tick. With node 0 CAN only listens, and only requests to node 0 over SLCAN, which
+ * has one other end, are answered: so a board is given its number. */
 void bus_start(brace_app_t *app);
 
-/* Health of the CAN controller, and the way back after bus off: tried again after 125 ms, then after twice as long each
- * time, at most 2 s. About 30 instructions. */
+/* Health of the CAN controller, and the way back after bus off: tried again after 125 ms, then after twice
+ * as long each time, at most 2 s. About 30 instructions. */
 void bus_watch(brace_app_t *app);
 
 /* May this node send by itself, and is there anybody to send to? */
@@ -22,7 +22,8 @@ bool bus_speaks(const brace_app_t *app);
  * About 60 instructions; over SLCAN 300. */
 bool bus_send(brace_app_t *app, uint32_t function, const uint8_t data[8]);
 
-/* A frame that has come, whoever it is for. About 40 instructions; over SLCAN 14 for a byte, at most 24 bytes a tick. */
+/* A frame that has come, whoever it is for. About 40 instructions; over SLCAN 14 for a byte, at most 24
+ * bytes a tick. */
 bool bus_receive(brace_app_t *app, brace_can_frame_t *frame);
 
 #endif

@@ -21,7 +21,8 @@ void cyclic_configure(brace_app_t *app)
 {
     const brace_controller_t *wanted = &app->parameters.controller;
     brace_app_cyclic_t *cyclic = &app->cyclic;
-    const uint32_t base_hz = wanted->stiffness_hz > wanted->posture_hz ? wanted->stiffness_hz : wanted->posture_hz;
+    const uint32_t base_hz =
+        wanted->stiffness_hz > wanted->posture_hz ? wanted->stiffness_hz : wanted->posture_hz;
     cyclic->parameter_crc = app->parameter_crc;
     cyclic->period_us = 0;
     if (base_hz == 0u) {
@@ -30,12 +31,14 @@ void cyclic_configure(brace_app_t *app)
     cyclic->stiffness_every = every(base_hz, wanted->stiffness_hz);
     cyclic->posture_every = every(base_hz, wanted->posture_hz);
     const float base = (float)base_hz;
-    const float frames_per_s = 2.0f * (cyclic->stiffness_every > 0u ? base / (float)cyclic->stiffness_every : 0.0f) +
-                               2.0f * (cyclic->posture_every > 0u ? base / (float)cyclic->posture_every : 0.0f);
+    const float frames_per_s =
+        2.0f * (cyclic->stiffness_every > 0u ? base / (float)cyclic->stiffness_every : 0.0f) +
+        2.0f * (cyclic->posture_every > 0u ? base / (float)cyclic->posture_every : 0.0f);
     /* heartbeats come first: they are never thinned */
-    const float allowed_per_s = wanted->bus_load_ratio * (float)app->bus.bit_rate / (float)CYCLIC_FRAME_BITS -
-                                (float)wanted->heartbeat_hz;
-    const float thinned = allowed_per_s >= frames_per_s ? 1.0f : frames_per_s / (allowed_per_s > 0.1f ? allowed_per_s : 0.1f);
+    const float share_per_s = wanted->bus_load_ratio * (float)app->bus.bit_rate / (float)CYCLIC_FRAME_BITS -
+                              (float)wanted->heartbeat_hz;
+    const float allowed_per_s = share_per_s > 0.1f ? share_per_s : 0.1f;
+    const float thinned = allowed_per_s >= frames_per_s ? 1.0f : frames_per_s / allowed_per_s;
     const float period_us = 1e6f * thinned / base;
     cyclic->period_us = period_us < 1e8f ? (uint32_t)(period_us + 0.5f) : 100000000u;
     cyclic->stiffness_in = cyclic->posture_in = 0;
@@ -50,6 +53,15 @@ static bool beyond(float value, float most)
     return value > most || value < -most;
 }
 
+/* Is there a value that no frame can say? It goes out limited. */
+static bool is_limited(const brace_stiffness_t *k)
+{
+    return beyond(k->k_xx_n_per_mm, K_MOST_N_PER_MM) || beyond(k->k_xz_n_per_mm, K_MOST_N_PER_MM) ||
+           beyond(k->k_zz_n_per_mm, K_MOST_N_PER_MM) ||
+           beyond(k->lambda_min_n_per_mm, LAMBDA_MIN_MOST_N_PER_MM) ||
+           beyond(k->lambda_max_n_per_mm, LAMBDA_MAX_MOST_N_PER_MM);
+}
+
 /* Copies what goes out of a snapshot. */
 static void take(brace_app_t *app)
 {
@@ -59,14 +71,11 @@ static void take(brace_app_t *app)
     const float unknown = __builtin_nanf("");
     brace_app_cyclic_t *cyclic = &app->cyclic;
     const uint32_t sequence = snapshot->sequence & 0xffu;
-    const bool limited = valid && (beyond(k->k_xx_n_per_mm, K_MOST_N_PER_MM) || beyond(k->k_xz_n_per_mm, K_MOST_N_PER_MM) ||
-                                   beyond(k->k_zz_n_per_mm, K_MOST_N_PER_MM) ||
-                                   beyond(k->lambda_min_n_per_mm, LAMBDA_MIN_MOST_N_PER_MM) ||
-                                   beyond(k->lambda_max_n_per_mm, LAMBDA_MAX_MOST_N_PER_MM));
+    const uint32_t limited = valid && is_limited(k) ? (uint32_t)BRACE_FLAG_SATURATED : 0u;
     cyclic->taken_us = snapshot->taken_us;
     if ((cyclic->due & (FRAME_A | FRAME_B)) != 0u) {
         cyclic->stiffness_a = (brace_can_stiffness_a_t){
-            sequence, k->flags | (limited ? (uint32_t)BRACE_FLAG_SATURATED : 0u), valid ? k->k_xx_n_per_mm : unknown,
+            sequence, k->flags | limited, valid ? k->k_xx_n_per_mm : unknown,
             valid ? k->k_xz_n_per_mm : unknown};
         cyclic->stiffness_b = (brace_can_stiffness_b_t){
             sequence, valid ? k->k_zz_n_per_mm : unknown, unknown, snapshot->play[BRACE_FEMUR].state,
@@ -122,7 +131,7 @@ static bool send_first(brace_app_t *app)
 static bool is_due(const brace_app_cyclic_t *cyclic, uint32_t now_us)
 {
     const int32_t over_us = (int32_t)(now_us - cyclic->next_us);
-    return over_us >= 0 || (uint32_t)-over_us > cyclic->period_us; /* never further off than a period: time has gone by */
+    return over_us >= 0 || (uint32_t)-over_us > cyclic->period_us; /* else the clock has gone round */
 }
 
 bool cyclic_wants(const brace_app_t *app)
@@ -131,7 +140,8 @@ bool cyclic_wants(const brace_app_t *app)
     return cyclic->period_us != 0u && bus_speaks(app) && (cyclic->due != 0u || is_due(cyclic, app->last_us));
 }
 
-/* The next is due a period later, so that the rate is kept in the mean; what a bus has missed is not caught up with. */
+/* The next is due a period later, so that the rate is kept in the mean; what a bus has missed is not caught
+ * up with. */
 static void begin(brace_app_t *app)
 {
     brace_app_cyclic_t *cyclic = &app->cyclic;
@@ -139,7 +149,8 @@ static void begin(brace_app_t *app)
     cyclic->next_us = (over_us < cyclic->period_us ? cyclic->next_us : app->last_us) + cyclic->period_us;
     const bool stiffness = comes_round(&cyclic->stiffness_in, cyclic->stiffness_every);
     const bool posture = comes_round(&cyclic->posture_in, cyclic->posture_every);
-    cyclic->due = (uint8_t)((stiffness ? FRAME_A | FRAME_B : 0) | (posture ? FRAME_EIGENVALUES | FRAME_POSTURE : 0));
+    cyclic->due =
+        (uint8_t)((stiffness ? FRAME_A | FRAME_B : 0) | (posture ? FRAME_EIGENVALUES | FRAME_POSTURE : 0));
     take(app);
 }
 

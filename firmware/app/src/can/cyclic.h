@@ -1,9 +1,10 @@
 /* Process data: K, its eigenvalues and the posture of one snapshot, at the parameters' rates.
  *
- * All frames of a snapshot are packed from one copy of it, so nothing is ever mixed from two; the next snapshot is
- * taken when the last frame of this one has left, so a busy bus thins the data and never splits them. Rates are lowered
- * in proportion when they would take more than controller.bus_load_ratio of the bus, every frame counted with all the
- * stuff bits it could have. Nodes that start together begin at different moments: node * 1.25 ms within the period. */
+ * All frames of a snapshot are packed from one copy of it, so nothing is ever mixed from two; the next
+ * snapshot is taken when the last frame of this one has left, so a busy bus thins the data and never splits
+ * them. Rates are lowered in proportion when they would take more than controller.bus_load_ratio of the bus,
+ * every frame counted with all the stuff bits it could have. Nodes that start together begin at different
+ * moments: node * 1.25 ms within the period. */
 #ifndef BRACE_APP_CYCLIC_H
 #define BRACE_APP_CYCLIC_H
 
@@ -14,14 +15,15 @@ enum {
     CYCLIC_STAGGER_US = 1250
 };
 
-/* Works the periods out; again when parameters are put in force. About 250 instructions, the divisions counted. */
+/* Works the periods out; again when parameters are put in force. About 250 instructions, the divisions
+ * counted. */
 void cyclic_configure(brace_app_t *app);
 
 /* Is there a frame to be sent in this tick? About 20 instructions. */
 bool cyclic_wants(const brace_app_t *app);
 
-/* Takes the newest snapshot when one is due, sends a frame; two where a tick is longer than 1.25 ms, four on limbs
- * whose K fills a tick (services.h). At most 250 instructions, and 130 for each frame more. */
+/* Takes the newest snapshot when one is due, sends a frame; two where a tick is longer than 1.25 ms, four on
+ * limbs whose K fills a tick (services.h). At most 250 instructions, and 130 for each frame more. */
 void cyclic_send(brace_app_t *app);
 
 #endif

@@ -1,5 +1,5 @@
-/* One request on its way to its answer. Each request_... unpacks it, does it, puts its answers into the queue and
- * returns BRACE_OK, or why not: then nothing has changed and nothing has been queued. */
+/* One request on its way to its answer. Each request_... unpacks it, does it, puts its answers into the
+ * queue and returns BRACE_OK, or why not: then nothing has changed and nothing has been queued. */
 #ifndef BRACE_APP_REQUEST_H
 #define BRACE_APP_REQUEST_H
 

@@ -21,7 +21,8 @@ int32_t request_take_up(brace_app_t *app, request_t *request)
         return status;
     }
     (void)brace_can_pack_take_up_answer_0(
-        &(brace_can_take_up_answer_0_t){request->token, brace_app_snapshot(app)->play[asked.joint].phase}, data);
+        &(brace_can_take_up_answer_0_t){request->token, brace_app_snapshot(app)->play[asked.joint].phase},
+        data);
     answer_put(app, data);
     return BRACE_OK;
 }
@@ -41,7 +42,9 @@ int32_t request_let_go(brace_app_t *app, request_t *request)
 
 int32_t request_loading_start(brace_app_t *app, request_t *request)
 {
-    const brace_drive_t *femur = &app->parameters.drive[BRACE_FEMUR], *tibia = &app->parameters.drive[BRACE_TIBIA];
+    const brace_drive_t *drive = app->parameters.drive;
+    const float femur_n_mm = drive[BRACE_FEMUR].torque_range_n_mm;
+    const float tibia_n_mm = drive[BRACE_TIBIA].torque_range_n_mm;
     brace_can_loading_test_start_request_t asked;
     uint8_t data[8];
     brace_can_unpack_loading_test_start_request(request->data, &asked);
@@ -52,8 +55,7 @@ int32_t request_loading_start(brace_app_t *app, request_t *request)
         .dwell_us = 1000u * asked.dwell_ms,
         .rate_mm_per_s = RATE_MM_PER_S,
         .force_max_n = FORCE_MOST_N,
-        .torque_max_n_mm = femur->torque_range_n_mm > tibia->torque_range_n_mm ? femur->torque_range_n_mm
-                                                                               : tibia->torque_range_n_mm,
+        .torque_max_n_mm = femur_n_mm > tibia_n_mm ? femur_n_mm : tibia_n_mm,
         .source = BRACE_LOADING_ENCODED};
     request->detail = app->mode;
     const brace_status_t status = asked.axis > 1u ? BRACE_E_RANGE : brace_app_loading_start(app, &setup);
@@ -138,10 +140,11 @@ int32_t request_identify(brace_app_t *app, request_t *request)
     const uint32_t token = request->token;
     uint8_t data[8];
     (void)brace_can_pack_identify_answer_0(
-        &(brace_can_identify_answer_0_t){token, BRACE_FIRMWARE_MAJOR, BRACE_FIRMWARE_MINOR, BRACE_FIRMWARE_PATCH,
-                                         BRACE_PROTOCOL, app->bus.node_id}, data);
+        &(brace_can_identify_answer_0_t){token, BRACE_FIRMWARE_MAJOR, BRACE_FIRMWARE_MINOR,
+                                         BRACE_FIRMWARE_PATCH, BRACE_PROTOCOL, app->bus.node_id}, data);
     answer_put(app, data);
-    (void)brace_can_pack_identify_answer_1(&(brace_can_identify_answer_1_t){token, BRACE_DICTIONARY_HASH}, data);
+    (void)brace_can_pack_identify_answer_1(
+        &(brace_can_identify_answer_1_t){token, BRACE_DICTIONARY_HASH}, data);
     answer_put(app, data);
     (void)brace_can_pack_identify_answer_2(&(brace_can_identify_answer_2_t){token, BRACE_SCHEMA_HASH}, data);
     answer_put(app, data);

@@ -1,5 +1,5 @@
-/* Entries of the dictionary, and parameters: staged member by member or uploaded as a block, in force only once they
- * are stored and have read back. */
+/* Entries of the dictionary, and parameters: staged member by member or uploaded as a block, in force only
+ * once they are stored and have read back. */
 #include <string.h>
 
 #include "brace/measured.h"
@@ -11,7 +11,11 @@
 #define KEY 0xc0deu
 #define SIZE_OF_BLOCK 0xffffu /* a word's number that asks for it */
 
-enum { BLOCK_WORDS = BRACE_BLOCK_BYTES / 4, MEMBER_WORDS = BRACE_PARAMETER_COUNT, HEADER_WORDS = BRACE_BLOCK_HEADER_BYTES / 4 };
+enum {
+    BLOCK_WORDS = BRACE_BLOCK_BYTES / 4,
+    MEMBER_WORDS = BRACE_PARAMETER_COUNT,
+    HEADER_WORDS = BRACE_BLOCK_HEADER_BYTES / 4
+};
 _Static_assert(BRACE_BLOCK_BYTES % 4 == 0, "a block is whole words");
 
 int32_t request_read_entry(brace_app_t *app, request_t *request)
@@ -49,7 +53,8 @@ int32_t request_write_entry(brace_app_t *app, request_t *request)
         return status == BRACE_E_UNSUPPORTED ? (int32_t)BRACE_REFUSED_BUSY : (int32_t)status;
     }
     (void)brace_can_pack_write_entry_answer_0(
-        &(brace_can_write_entry_answer_0_t){request->token, asked.index, staging_read(app, asked.index)}, data);
+        &(brace_can_write_entry_answer_0_t){request->token, asked.index, staging_read(app, asked.index)},
+        data);
     answer_put(app, data);
     return BRACE_OK;
 }
@@ -82,7 +87,7 @@ int32_t request_set_mode(brace_app_t *app, request_t *request)
     return BRACE_OK;
 }
 
-/* ------------------------------------------------------------------------------------------------ upload -- */
+/* -------------------------------------------------------------------------------------- upload -- */
 
 /* May parameters be changed now? */
 static int32_t open_for_change(const brace_app_t *app, request_t *request)
@@ -115,7 +120,7 @@ int32_t request_upload_begin(brace_app_t *app, request_t *request)
     return BRACE_OK;
 }
 
-/* Words come in order; the last one may come again, with another content too: its answer may have been lost. */
+/* Words come in order; the last one may come again, changed or not: its answer may have been lost. */
 int32_t request_upload_word(brace_app_t *app, request_t *request)
 {
     brace_app_requests_t *requests = &app->requests;
@@ -128,7 +133,8 @@ int32_t request_upload_word(brace_app_t *app, request_t *request)
     }
     const bool again = asked.word + 1u == requests->upload_next;
     request->detail = requests->upload_open ? requests->upload_next : 0u;
-    if (!requests->upload_open || asked.word >= BLOCK_WORDS || (asked.word != requests->upload_next && !again)) {
+    if (!requests->upload_open || asked.word >= BLOCK_WORDS ||
+        (asked.word != requests->upload_next && !again)) {
         return BRACE_REFUSED_ORDER;
     }
     uint8_t *place = &requests->upload[4u * asked.word];
@@ -160,7 +166,7 @@ static int32_t stage_upload(brace_app_t *app, request_t *request, uint32_t crc)
     if (crc != requests->upload_crc || crc != request->detail) {
         return BRACE_E_CHECKSUM;
     }
-    uint32_t wrong_index = BRACE_SCHEMA_HASH; /* what a block of another dictionary is told; else the member at fault */
+    uint32_t wrong_index = BRACE_SCHEMA_HASH; /* of another dictionary; else the member at fault */
     const brace_status_t status =
         brace_parameters_unpack(requests->upload, BRACE_BLOCK_BYTES, &app->staging.set, NULL, &wrong_index);
     app->staging.begun = app->staging.begun || status == BRACE_OK;
@@ -225,7 +231,7 @@ void request_storing_answer(brace_app_t *app)
     answer_put(app, data);
 }
 
-/* ---------------------------------------------------------------------------------------------- download -- */
+/* ------------------------------------------------------------------------------------ download -- */
 
 /* A word of the block as brace_parameters_pack would write it; its CRC is kept as the words go out. */
 static uint32_t block_word(const brace_app_t *app, uint32_t word)
@@ -268,7 +274,8 @@ static int32_t download_next(brace_app_t *app, request_t *request, uint32_t word
     }
     *data = block_word(app, word);
     if (word == requests->download_next && word < BLOCK_WORDS - 1u) {
-        const uint8_t bytes[4] = {(uint8_t)*data, (uint8_t)(*data >> 8), (uint8_t)(*data >> 16), (uint8_t)(*data >> 24)};
+        const uint8_t bytes[4] = {(uint8_t)*data, (uint8_t)(*data >> 8), (uint8_t)(*data >> 16),
+                                  (uint8_t)(*data >> 24)};
         requests->download_crc = brace_crc32(requests->download_crc, bytes, 4);
     }
     requests->download_next = word + 1u;

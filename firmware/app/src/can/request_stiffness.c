@@ -15,8 +15,10 @@ static int32_t answer_k(brace_app_t *app, request_t *request, float theta1_rad, 
     uint32_t limited = brace_can_pack_k_at_posture_answer_0(
         &(brace_can_k_at_posture_answer_0_t){request->token, k.k_xx_n_per_mm, k.k_xz_n_per_mm}, part[0]);
     limited += brace_can_pack_k_at_posture_answer_1(
-        &(brace_can_k_at_posture_answer_1_t){request->token, k.k_zz_n_per_mm, k.lambda_min_n_per_mm}, part[1]);
-    brace_can_k_at_posture_answer_2_t last = {request->token, k.lambda_max_n_per_mm, k.stiff_axis_rad, k.flags};
+        &(brace_can_k_at_posture_answer_1_t){request->token, k.k_zz_n_per_mm, k.lambda_min_n_per_mm},
+        part[1]);
+    brace_can_k_at_posture_answer_2_t last = {request->token, k.lambda_max_n_per_mm, k.stiff_axis_rad,
+                                              k.flags};
     limited += brace_can_pack_k_at_posture_answer_2(&last, part[2]);
     if (limited > 0u) {
         last.flags |= BRACE_FLAG_SATURATED;
@@ -46,8 +48,9 @@ int32_t request_k_at_tip(brace_app_t *app, request_t *request)
         brace_can_unpack_k_at_tip_knee_up_request(request->data, &asked);
         const brace_knee_t knee =
             request->code == BRACE_REQUEST_K_AT_TIP_KNEE_UP ? BRACE_KNEE_UP : BRACE_KNEE_DOWN;
-        const brace_status_t status = brace_kinematics_inverse(
-            &app->parameters.limb, (brace_point_t){asked.x_mm, asked.z_mm}, knee, &theta_rad[0], &theta_rad[1]);
+        const brace_point_t tip = {asked.x_mm, asked.z_mm};
+        const brace_status_t status =
+            brace_kinematics_inverse(&app->parameters.limb, tip, knee, &theta_rad[0], &theta_rad[1]);
         if (status != BRACE_OK) {
             return status;
         }
@@ -68,10 +71,9 @@ int32_t request_contact_force(brace_app_t *app, request_t *request)
     uint8_t data[8];
     brace_can_unpack_contact_force_request(request->data, &asked);
     request->detail = now->stiffness.now.flags;
+    const brace_displacement_t displacement = {asked.dx_mm, asked.dz_mm};
     const brace_status_t status =
-        now->k_is_valid ? brace_contact_force(&now->stiffness.now, (brace_displacement_t){asked.dx_mm, asked.dz_mm},
-                                              &contact)
-                        : BRACE_E_MODE;
+        now->k_is_valid ? brace_contact_force(&now->stiffness.now, displacement, &contact) : BRACE_E_MODE;
     if (status != BRACE_OK) {
         return status;
     }
@@ -92,9 +94,9 @@ int32_t request_sag_for_load(brace_app_t *app, request_t *request)
     uint8_t data[8];
     brace_can_unpack_sag_for_load_request(request->data, &asked);
     request->detail = now->stiffness.now.flags;
+    const brace_force_t load = {asked.fx_n, asked.fz_n};
     const brace_status_t status =
-        now->k_is_valid ? brace_contact_sag(&now->stiffness.now, (brace_force_t){asked.fx_n, asked.fz_n}, &sag)
-                        : BRACE_E_MODE;
+        now->k_is_valid ? brace_contact_sag(&now->stiffness.now, load, &sag) : BRACE_E_MODE;
     if (status != BRACE_OK) {
         return status;
     }
@@ -116,14 +118,16 @@ int32_t request_friction_margin(brace_app_t *app, request_t *request)
     brace_can_unpack_friction_margin_request(request->data, &asked);
     brace_status_t status = brace_kinematics_forward(&ruler, asked.normal_rad, 0.0f, &pose);
     if (status == BRACE_OK) {
-        status = brace_contact_grip((brace_force_t){now->force_x_n, now->force_z_n}, pose.knee.x_mm, pose.knee.z_mm,
-                                    asked.friction_ratio, &grip);
+        const brace_force_t force = {now->force_x_n, now->force_z_n};
+        status = brace_contact_grip(force, pose.knee.x_mm, pose.knee.z_mm, asked.friction_ratio, &grip);
     }
     if (status != BRACE_OK) {
         return status;
     }
     (void)brace_can_pack_friction_margin_answer_0(
-        &(brace_can_friction_margin_answer_0_t){request->token, grip.margin_n, grip.angle_left_rad, grip.state}, data);
+        &(brace_can_friction_margin_answer_0_t){request->token, grip.margin_n, grip.angle_left_rad,
+                                                grip.state},
+        data);
     answer_put(app, data);
     return BRACE_OK;
 }

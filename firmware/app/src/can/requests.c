@@ -24,8 +24,8 @@ void answer_put(brace_app_t *app, const uint8_t data[8])
 {
     brace_app_requests_t *requests = &app->requests;
     if (requests->answer_count < BRACE_APP_ANSWERS) {
-        uint8_t *place = requests->answer[(requests->answer_first + requests->answer_count) % BRACE_APP_ANSWERS];
-        memcpy(place, data, 8);
+        const uint32_t place = (uint32_t)requests->answer_first + requests->answer_count;
+        memcpy(requests->answer[place % BRACE_APP_ANSWERS], data, 8);
         requests->answer_count++;
     }
 }
@@ -80,7 +80,9 @@ bool requests_take(brace_app_t *app, bool may_serve)
 {
     brace_app_requests_t *requests = &app->requests;
     const uint32_t per_tick = app->tick_us * FRAMES_PER_MS / 1000u;
-    const uint32_t most = per_tick < FRAMES_PER_MS ? FRAMES_PER_MS : per_tick > FRAMES_MOST ? FRAMES_MOST : per_tick;
+    const uint32_t most = per_tick < FRAMES_PER_MS ? FRAMES_PER_MS
+                          : per_tick > FRAMES_MOST ? FRAMES_MOST
+                                                   : per_tick;
     if (!app->bus.listens && !app->bus.slcan.fitted) {
         return false;
     }

@@ -8,11 +8,12 @@ void slcan_port_start(brace_app_t *app)
     brace_app_slcan_t *slcan = &app->bus.slcan;
     const brace_hal_t *hal = app->hal;
     *slcan = (brace_app_slcan_t){0};
-    slcan->fitted = hal->serial_setup != NULL && hal->serial_read != NULL && hal->serial_write != NULL &&
-                    hal->serial_setup(hal->context, BRACE_SERIAL_SLCAN, SLCAN_BAUD, BRACE_PARITY_NONE) == BRACE_HAL_OK;
+    slcan->fitted =
+        hal->serial_setup != NULL && hal->serial_read != NULL && hal->serial_write != NULL &&
+        hal->serial_setup(hal->context, BRACE_SERIAL_SLCAN, SLCAN_BAUD, BRACE_PARITY_NONE) == BRACE_HAL_OK;
 }
 
-/* --------------------------------------------------------------------------------------------------- out -- */
+/* ----------------------------------------------------------------------------------------- out -- */
 
 /* false: part of a line still waits. */
 static bool flush(brace_app_t *app)
@@ -77,7 +78,7 @@ static void answer(brace_app_t *app, const char *text, uint32_t count)
     (void)flush(app);
 }
 
-/* ---------------------------------------------------------------------------------------------------- in -- */
+/* ------------------------------------------------------------------------------------------ in -- */
 
 static int32_t hex_digit(uint8_t byte)
 {
@@ -127,6 +128,11 @@ static bool parse(const brace_app_slcan_t *slcan, brace_can_frame_t *frame)
     return true;
 }
 
+static bool digit_up_to(const brace_app_slcan_t *slcan, uint8_t highest)
+{
+    return slcan->line_count == 2u && slcan->line[1] >= '0' && slcan->line[1] <= highest;
+}
+
 /* A line is whole. true: it is a frame for the node. */
 static bool obey(brace_app_t *app, brace_can_frame_t *frame)
 {
@@ -136,9 +142,9 @@ static bool obey(brace_app_t *app, brace_can_frame_t *frame)
     bool good = false;
     switch (kind) {
     case CR: good = true; break; /* whoever connects clears the line with a few of them */
-    case 'S': good = !slcan->open && slcan->line_count == 2u && slcan->line[1] >= '0' && slcan->line[1] <= '8'; break;
+    case 'S': good = !slcan->open && digit_up_to(slcan, '8'); break;
     case 's': good = !slcan->open; break;
-    case 'Z': good = !slcan->open && slcan->line_count == 2u && slcan->line[1] == '0'; break;
+    case 'Z': good = !slcan->open && digit_up_to(slcan, '0'); break;
     case 'O':
     case 'L':
         good = alone && !slcan->open;

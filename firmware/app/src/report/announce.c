@@ -15,7 +15,8 @@ static bool heart_beats(const brace_app_t *app)
 bool announce_wants(const brace_app_t *app)
 {
     const brace_app_report_t *report = &app->report;
-    return bus_speaks(app) && (app->faults != report->faults_told || app->mode != report->mode_told || heart_beats(app));
+    return bus_speaks(app) &&
+           (app->faults != report->faults_told || app->mode != report->mode_told || heart_beats(app));
 }
 
 bool announce(brace_app_t *app)

@@ -12,7 +12,8 @@ static uint32_t state_of(brace_mode_t mode)
 
 void frame_heartbeat(uint8_t data[8], brace_mode_t mode, uint32_t faults)
 {
-    (void)brace_can_pack_heartbeat(&(brace_can_heartbeat_t){state_of(mode), mode, faults, BRACE_DICTIONARY_HASH}, data);
+    (void)brace_can_pack_heartbeat(
+        &(brace_can_heartbeat_t){state_of(mode), mode, faults, BRACE_DICTIONARY_HASH}, data);
 }
 
 /* CANopen's ranges: 0x5000 device hardware, 0x6000 software and data, 0x7000 additional modules, 0x8000
@@ -31,6 +32,6 @@ uint16_t frame_emergency_code(uint32_t fresh, uint32_t faults)
 
 void frame_emergency(uint8_t data[8], uint32_t faults_before, uint32_t faults, brace_mode_t mode)
 {
-    (void)brace_can_pack_emergency(&(brace_can_emergency_t){frame_emergency_code(faults & ~faults_before, faults),
-                                                            faults != 0u, mode, faults}, data);
+    const uint32_t error_code = frame_emergency_code(faults & ~faults_before, faults);
+    (void)brace_can_pack_emergency(&(brace_can_emergency_t){error_code, faults != 0u, mode, faults}, data);
 }

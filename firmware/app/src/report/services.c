@@ -17,14 +17,15 @@ void services_start(brace_app_t *app)
     modbus_start(app);
 }
 
-/* Is there room beside K? A limb on the general path fills its tick: what there is to say waits for a lean one. */
+/* Is there room beside K? A limb on the general path fills its tick: what there is to say waits for a lean
+ * one. */
 static bool is_roomy(const brace_app_t *app)
 {
     return app->model.collapsed || app->mode == BRACE_MODE_CONFIGURATION;
 }
 
-/* Which bus answers in this tick? CAN first, since its answers are due within a tick; Modbus, whose own line takes
- * milliseconds, before it has waited for long. */
+/* Which bus answers in this tick? CAN first, since its answers are due within a tick; Modbus, whose own line
+ * takes milliseconds, before it has waited for long. */
 static void choose(brace_app_t *app, bool may)
 {
     const bool modbus_first = may && app->modbus.waited > PATIENCE_TICKS;

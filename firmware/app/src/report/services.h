@@ -8,9 +8,9 @@
 /* At start; not for the tick. */
 void services_start(brace_app_t *app);
 
-/* What has come, and what there is to say, before the tick's other work. A tick with an answer to work out is lean: K is
- * left out. So is one with something to say when the limb takes the general path, whose K fills a tick. Two lean ticks
- * never follow each other.
+/* What has come, and what there is to say, before the tick's other work. A tick with an answer to work out
+ * is lean: K is left out. So is one with something to say when the limb takes the general path, whose K
+ * fills a tick. Two lean ticks never follow each other.
  *   may_be_lean: nothing in this tick has to be done now
  * returns whether it is lean */
 bool services_listen(brace_app_t *app, bool may_be_lean);
