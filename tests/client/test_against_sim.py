@@ -71,7 +71,7 @@ def test_snapshots(probe: Probe, url: str) -> None:
 def test_k_comes_at_its_rate(probe: Probe, sim: Sim) -> None:
     answer = probe(sim.can, "read", 1, 100)
     assert answer.code == 0 and len(answer.snapshots) == 100
-    assert answer.seconds < 1.5  # 200 Hz: half a second
+    assert answer.seconds < 4.0  # at 200 Hz half a second, when the machine is not busy; at 20 Hz it would be five
     numbers = [snapshot["snapshot"] for snapshot in answer.snapshots]
     assert all(one != other for one, other in zip(numbers, numbers[1:], strict=False))  # none twice
 
@@ -140,15 +140,15 @@ def test_limbs_on_one_bus_and_a_node_that_is_not_there(probe: Probe, sim: Sim) -
 
 def test_two_clients_at_once(probe: Probe, sim: Sim) -> None:
     """Each gets its own answer although both are on one bus and ask one controller."""
-    postures = [(0.1 * i, 1.0 + 0.1 * i) for i in range(8)]
+    postures = [(0.1 * i, 1.0 + 0.1 * i) for i in range(4)]
     processes = [
         subprocess.Popen(
-            [PROBE, sim.can, "1", "2500", "posture", *map(str, posture)], stdout=subprocess.PIPE, text=True
+            [PROBE, sim.can, "1", "8000", "posture", *map(str, posture)], stdout=subprocess.PIPE, text=True
         )
         for posture in postures
     ]
     for posture, process in zip(postures, processes, strict=True):
-        out, _ = process.communicate(timeout=10)
+        out, _ = process.communicate(timeout=20)
         assert process.returncode == 0
         check_k(Answer(0, out, "", 0).values, posture)
 
