@@ -75,6 +75,26 @@ def test_values_are_those_of_physics(brace: Callable[..., Outcome], limb: Path) 
         assert "K = [" in brace("query", "--bus", url).out
 
 
+def test_sag_and_force_are_k_s(brace: Callable[..., Outcome], limb: Path) -> None:
+    """With the K of now: what a load moves, that displacement meets again."""
+    with limb_on_tcp(limb) as url:
+        live = json.loads(brace("query", "--bus", url, "--json").out)
+        k = physics_k(live["theta1_rad"], live["theta2_rad"])
+        sag = json.loads(brace("query", "--bus", url, "--load", 1.0, -2.0, "--json").out)
+        expected = np.linalg.solve(k, [1.0, -2.0])
+        # the posture's step turns K by a few 1e-5, its smaller eigenvalue makes 12 times of it
+        assert (
+            np.abs(np.array([sag["dx_mm"], sag["dz_mm"]]) - expected).max()
+            < 1e-4 + 1e-3 * np.abs(expected).max()
+        )
+        force = json.loads(brace("query", "--bus", url, "--sag", sag["dx_mm"], sag["dz_mm"], "--json").out)
+        assert abs(force["fx_n"] - 1.0) < 0.003 and abs(force["fz_n"] + 2.0) < 0.003
+        values = np.linalg.eigvalsh(k) * np.hypot(*expected)
+        assert abs(force["low_n"] - values[0]) < 0.01 and abs(force["high_n"] - values[1]) < 0.05
+        outcome = brace("query", "--bus", url, "--load", 1, 2, "--theta1", 1, "--theta2", 1)
+        assert outcome.code == 2 and "one question" in outcome.err
+
+
 def test_an_unreachable_tip_is_the_question_s_fault(brace: Callable[..., Outcome], limb: Path) -> None:
     with limb_on_tcp(limb) as url:
         outcome = brace("query", "--bus", url, "--x", 600, "--z", 0)

@@ -84,6 +84,16 @@ class CanController:
         name = "k_at_tip_knee_up" if knee_up else "k_at_tip_knee_down"
         return _stiffness(self.session.ask(name, {"x": x_mm, "z": z_mm}))
 
+    def sag_for_load(self, fx_n: float, fz_n: float) -> dict[str, Value]:
+        """Displacement of the tip [mm] under a force on it, with the K of now."""
+        answer = self.session.ask("sag_for_load", {"fx": fx_n, "fz": fz_n})
+        return {"dx_mm": answer["dx"], "dz_mm": answer["dz"]}
+
+    def contact_force(self, dx_mm: float, dz_mm: float) -> dict[str, Value]:
+        """Force [N] that holds the tip at a displacement, and what any displacement of its size meets."""
+        answer = self.session.ask("contact_force", {"dx": dx_mm, "dz": dz_mm})
+        return {"fx_n": answer["fx"], "fz_n": answer["fz"], "low_n": answer["low"], "high_n": answer["high"]}
+
     def read_entry(self, name: str) -> int:
         """32 bits."""
         index = index_of(name)

@@ -64,6 +64,10 @@ class Controller(Protocol):
 
     def k_at_tip(self, x_mm: float, z_mm: float, knee_up: bool) -> StiffnessAnswer: ...
 
+    def sag_for_load(self, fx_n: float, fz_n: float) -> dict[str, Value]: ...
+
+    def contact_force(self, dx_mm: float, dz_mm: float) -> dict[str, Value]: ...
+
     def read_entry(self, name: str) -> int:
         """32 bits of a measured value or a parameter."""
 

@@ -117,8 +117,19 @@ class ModbusController:
 
     def k_at_tip(self, x_mm: float, z_mm: float, knee_up: bool) -> StiffnessAnswer:
         """CAN only."""
-        raise UsageError(
-            "K at a tip position over Modbus",
+        raise self._can_only("K at a tip position")
+
+    def sag_for_load(self, fx_n: float, fz_n: float) -> dict[str, Any]:
+        """CAN only."""
+        raise self._can_only("the sag under a load")
+
+    def contact_force(self, dx_mm: float, dz_mm: float) -> dict[str, Any]:
+        """CAN only."""
+        raise self._can_only("the force for a sag")
+
+    def _can_only(self, what: str) -> UsageError:
+        return UsageError(
+            f"{what} over Modbus",
             where=self.url,
             why="its registers take postures",
             next_step="--theta1 --theta2, or a CAN bus",

@@ -30,6 +30,20 @@ def add(commands: Any) -> None:
     parser.add_argument("--z", type=common.number, metavar="MM", help="tip above the femur axis")
     parser.add_argument("--knee", choices=("up", "down"), help="for --x --z; default up")
     parser.add_argument(
+        "--load",
+        nargs=2,
+        type=common.number,
+        metavar=("FX", "FZ"),
+        help="how far the tip yields to a force [N]",
+    )
+    parser.add_argument(
+        "--sag",
+        nargs=2,
+        type=common.number,
+        metavar=("DX", "DZ"),
+        help="what force a displacement meets [mm]",
+    )
+    parser.add_argument(
         "--entry",
         action="append",
         default=[],
@@ -48,6 +62,8 @@ def run(arguments: argparse.Namespace) -> int:
             return _entries(arguments, device)
         if arguments.theta1 is not None or arguments.x is not None:
             return _asked(arguments, device)
+        if arguments.load is not None or arguments.sag is not None:
+            return _yielding(arguments, device)
         return _live(arguments, device)
 
 
@@ -63,12 +79,13 @@ def _check(arguments: argparse.Namespace) -> None:
                 why="one of them alone is no place",
                 next_step=f"give both, or none for the K of now",
             )
-    places = [arguments.theta1 is not None, arguments.x is not None, bool(arguments.entry)]
+    places = [getattr(arguments, name) is not None for name in ("theta1", "x", "load", "sag")]
+    places.append(bool(arguments.entry))
     if sum(places) > 1:
         raise UsageError(
             "one question at a time",
             where="query",
-            why="posture, tip and entries exclude each other",
+            why="posture, tip, load, sag and entries exclude each other",
             next_step="two commands",
         )
     if arguments.knee and arguments.x is None:
@@ -135,6 +152,31 @@ def _asked(arguments: argparse.Namespace, device: Any) -> int:
             device, "K there is not known", ", ".join(answer.flags) or "the controller does not say why"
         )
     return EXIT_OK if valid else EXIT_DEVICE_FAULT
+
+
+def _yielding(arguments: argparse.Namespace, device: Any) -> int:
+    from brace.errors import EXIT_DEVICE_FAULT, EXIT_OK
+
+    if arguments.load is not None:
+        given = dict(zip(("fx_n", "fz_n"), arguments.load))
+        answer = device.sag_for_load(*arguments.load)
+    else:
+        given = dict(zip(("dx_mm", "dz_mm"), arguments.sag))
+        answer = device.contact_force(*arguments.sag)
+    known = None not in answer.values()
+    if arguments.json:
+        common.print_json({"node": device.node, "given": given, **answer})
+    else:
+        common.emit(
+            ", ".join(
+                f"{name} {'not known' if v is None else format(v, '.4f')}" for name, v in answer.items()
+            )
+        )
+    if not known:
+        _say_invalid(
+            device, "there is no answer", "K is not valid now, or the answer is beyond the frame's range"
+        )
+    return EXIT_OK if known else EXIT_DEVICE_FAULT
 
 
 def _live(arguments: argparse.Namespace, device: Any) -> int:
