@@ -172,33 +172,44 @@ static uint32_t read_exception(const uint8_t *pdu, uint32_t length)
     return there ? 0u : 2u;
 }
 
-/* What a read must tell, where the oracle knows it: probes, and parameters. */
-static void judge_read(const bytes_t *sent, const uint8_t *pdu, const bytes_t *got, const uint8_t *answer, uint32_t length)
-{
-    const uint32_t start = at16(pdu + 1), count = at16(pdu + 3);
-    if (length != 2u + 2u * count || answer[1] != 2u * count) {
-        wrong("an answer of the wrong length", sent, got);
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        const uint32_t place = start + i, told = at16(answer + 2u + 2u * i);
-        static const uint16_t probe[] = {0x4640, 0xe600, 0x0102, 0x0304};
-        if (pdu[0] == 4u && place < 4u && told != probe[place]) {
-            wrong("a probe told wrong", sent, got);
-        }
-        if (pdu[0] == 3u && place < 2u * WORDS) {
-            const uint32_t value = word(app.staging.begun ? &app.staging.set : &in_force, place / 2u);
-            if (told != ((place & 1u) == 0u ? value >> 16 : value & 0xffffu)) {
-                wrong("a parameter told wrong", sent, got);
-            }
-        }
-    }
-}
-
 typedef struct {
     brace_mode_t mode;
     bool begun;
     brace_parameters_t staged;
 } before_t;
+
+/* Are these the registers of that set, as far as they are parameters? */
+static bool tells(const uint8_t *answer, uint32_t start, uint32_t count, const brace_parameters_t *set)
+{
+    bool same = true;
+    for (uint32_t i = 0; i < count && start + i < 2u * WORDS; i++) {
+        const uint32_t value = word(set, (start + i) / 2u);
+        same = same && at16(answer + 2u + 2u * i) == (((start + i) & 1u) == 0u ? value >> 16 : value & 0xffffu);
+    }
+    return same;
+}
+
+/* What a read must tell, where the oracle knows it: probes, and parameters: of one set, the one from before the request, or
+ * the one from after it, when a commit has ended meanwhile. */
+static void judge_read(const bytes_t *sent, const uint8_t *pdu, const bytes_t *got, const uint8_t *answer, uint32_t length,
+                       const before_t *before)
+{
+    const uint32_t start = at16(pdu + 1), count = at16(pdu + 3);
+    if (length != 2u + 2u * count || answer[1] != 2u * count) {
+        wrong("an answer of the wrong length", sent, got);
+    }
+    for (uint32_t i = 0; pdu[0] == 4u && i < count && start + i < 4u; i++) {
+        static const uint16_t probe[] = {0x4640, 0xe600, 0x0102, 0x0304};
+        if (at16(answer + 2u + 2u * i) != probe[start + i]) {
+            wrong("a probe told wrong", sent, got);
+        }
+    }
+    const brace_parameters_t *old = before->begun ? &before->staged : &in_force;
+    const brace_parameters_t *new = app.staging.begun ? &app.staging.set : &app.parameters;
+    if (pdu[0] == 3u && !tells(answer, start, count, old) && !tells(answer, start, count, new)) {
+        wrong("a parameter told wrong", sent, got);
+    }
+}
 
 static void judge_write(const bytes_t *sent, const uint8_t *pdu, uint32_t length, const bytes_t *got, const before_t *before)
 {
@@ -255,7 +266,7 @@ static void judge(const bytes_t *sent, const uint8_t *pdu, uint32_t length, cons
             wrong("a refused request changed what is staged", sent, got);
         }
     } else if (is_read) {
-        judge_read(sent, pdu, got, answer, answer_length);
+        judge_read(sent, pdu, got, answer, answer_length, before);
     } else if (pdu[0] == 6u || pdu[0] == 16u) {
         if (answer_length != 5u || memcmp(pdu, answer, 5) != 0) {
             wrong("a write answered with other registers", sent, got);
