@@ -9,6 +9,7 @@
 struct brace_bus {
     int fd;
     bool is_slcan;
+    char rate; /* SLCAN: the digit behind 'S' */
     char line[64]; /* SLCAN: the command being received */
     size_t line_length;
     bool line_is_too_long;
@@ -36,6 +37,8 @@ bool brace_slcan_rate(uint32_t bit_rate, char *rate); /* the digit behind 'S'; f
 brace_bus_status_t brace_slcan_send(brace_bus_t *bus, const brace_bus_frame_t *frame, int timeout_ms);
 brace_bus_status_t brace_slcan_receive(brace_bus_t *bus, brace_bus_frame_t *frame, int timeout_ms);
 void brace_slcan_ask_status(brace_bus_t *bus, int timeout_ms);
+/* Opens the channel once more: for an adapter that was still starting, and lost the first words. */
+void brace_slcan_enter_again(brace_bus_t *bus);
 void brace_slcan_leave(brace_bus_t *bus);
 
 #endif

@@ -55,7 +55,13 @@ static brace_bus_status_t enter(brace_bus_t *bus, char rate)
 {
     const char hello[] = {'\r', '\r', 'C', '\r', 'S', rate, '\r', 'O', '\r'};
     bus->is_slcan = true;
+    bus->rate = rate;
     return write_all(bus, hello, sizeof hello, 1000);
+}
+
+void brace_slcan_enter_again(brace_bus_t *bus)
+{
+    (void)enter(bus, bus->rate);
 }
 
 void brace_slcan_leave(brace_bus_t *bus)

@@ -8,7 +8,7 @@
 #include "brace/can_messages.h"
 #include "brace/status.h"
 
-enum { STATUS_MS = 250, FIRST_TRY_MS = 250, OLD_US = 100000 };
+enum { STATUS_MS = 250, FIRST_TRY_MS = 250, AGAIN_MS = 1000, OLD_US = 100000 };
 
 /* What one frame means. Own requests are not received; a request like our own is another client's. */
 typedef struct {
@@ -187,6 +187,9 @@ brace_client_status_t brace_can_ask(brace_client_t *client, brace_question_t *qu
             }
         }
         try_us *= 2u;
+        if (client->bus->is_slcan && !is_heard(client, client->node)) {
+            brace_slcan_enter_again(client->bus);
+        }
         if (waiting.is_taken) { /* the other client looks for a new token too: not for the same */
             client->token = (uint8_t)(brace_bus_now_us() ^ (uint64_t)getpid());
         }
@@ -198,9 +201,13 @@ static brace_client_status_t find_first(brace_client_t *client, uint64_t deadlin
 {
     char heard[64];
     while (brace_bus_left_ms(deadline_us) > 0) {
-        const brace_client_status_t status = listen(client, brace_bus_left_ms(deadline_us), NULL);
+        const int left_ms = brace_bus_left_ms(deadline_us);
+        const brace_client_status_t status = listen(client, left_ms < AGAIN_MS ? left_ms : AGAIN_MS, NULL);
         if (status != BRACE_CLIENT_OK && status != BRACE_CLIENT_E_TIMEOUT) {
             return status;
+        }
+        if (status == BRACE_CLIENT_E_TIMEOUT && client->bus->is_slcan) {
+            brace_slcan_enter_again(client->bus);
         }
         client->node = list_heard(client, heard, sizeof heard);
         if (client->node != 0u) {
