@@ -88,7 +88,22 @@ written, in CONFIGURATION mode only, and are in force after `commit` has stored 
 | table | function |
 |---|---|
 | input | 04 read |
-| holding | 03 read, 06 and 16 write; both registers of a value in one request |
+| holding | 03 read, 16 write: both registers of a value; 06 write: the high register, then the low one at once |
+
+Also 08 (echo and the line's counters), 17 (who answers: "Brace", version, dictionary's hash) and 43/14 (device
+identification). RTU is 8E1 at `controller.modbus_baud`, address `controller.modbus_address`; over TCP the unit is that
+address, 0 or 255. A block is written whole or not at all; commands are written one a request, the two angles of a
+posture together. Read back, `set_mode` is the mode, `clear_faults` the faults, and `commit` and `rollback` are 1 while a
+set is being stored, 0 once it is in force, else 256 less the store's refusal.
+
+| exception | meaning here |
+|---|---|
+| 01 | no such function; or not in this mode: parameters and `commit` want CONFIGURATION |
+| 02 | no such registers, or half a value |
+| 03 | a count, length or value that can not be |
+| 04 | it could not be done: no play to take up |
+| 06 | a set is being stored: ask again |
+| 11 | TCP only: no such unit behind this connection |
 
 """
     lines = []
