@@ -8,8 +8,15 @@ import sys
 import xml.etree.ElementTree
 
 
+def reason_of(case: xml.etree.ElementTree.Element) -> str:
+    """Why a test was skipped, in one line."""
+    told = case.find("skipped")
+    text = "" if told is None else told.get("message") or told.text or ""
+    return " ".join(text.split()) or "no reason given"
+
+
 def main(folder: str, failed_stages: list[str]) -> int:
-    """Print the failures, one a line, then 'N passed, N failed, N skipped'; 0 only if all is well."""
+    """Print failures and what was skipped and why, one a line, then 'N passed, N failed, N skipped'; 0 only if all is well."""
     passed = failed = skipped = 0
     reported: set[str] = set()
     for report in sorted(pathlib.Path(folder).glob("*.xml")):
@@ -20,6 +27,7 @@ def main(folder: str, failed_stages: list[str]) -> int:
                 print(f"failed: {report.stem}: {case.get('classname', '')} {case.get('name')}")
             elif case.find("skipped") is not None or case.get("status") == "disabled":
                 skipped += 1
+                print(f"skipped: {report.stem}: {case.get('name')}: {reason_of(case)}")
             else:
                 passed += 1
         if failed > before:
