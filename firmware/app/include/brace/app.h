@@ -185,6 +185,7 @@ typedef struct {
 typedef struct {
     bool waiting;             /* request holds one to be answered */
     bool serves;              /* this tick answers it */
+    uint32_t looked;          /* frames that this tick has looked at */
     bool rested;              /* K was not left out in the last tick, for any bus */
     uint8_t request[8];
     bool located;             /* the posture of a tip that was asked for is known, and its K is still to come */

@@ -76,17 +76,21 @@ static bool accept(brace_app_t *app, const brace_can_frame_t *frame)
     return true;
 }
 
-bool requests_take(brace_app_t *app, bool may_serve)
+static uint32_t frames_per_tick(const brace_app_t *app)
+{
+    const uint32_t frames = app->tick_us * FRAMES_PER_MS / 1000u;
+    return frames < FRAMES_PER_MS ? FRAMES_PER_MS : frames > FRAMES_MOST ? FRAMES_MOST : frames;
+}
+
+bool requests_take(brace_app_t *app, bool may_serve, bool brief)
 {
     brace_app_requests_t *requests = &app->requests;
-    const uint32_t per_tick = app->tick_us * FRAMES_PER_MS / 1000u;
-    const uint32_t most = per_tick < FRAMES_PER_MS ? FRAMES_PER_MS
-                          : per_tick > FRAMES_MOST ? FRAMES_MOST
-                                                   : per_tick;
+    const uint32_t most = brief ? 1u : frames_per_tick(app);
+    requests->looked = 0;
     if (!app->bus.listens && !app->bus.slcan.fitted) {
         return false;
     }
-    for (uint32_t i = 0; i < most && !requests->waiting; i++) {
+    for (; requests->looked < most && !requests->waiting; requests->looked++) {
         brace_can_frame_t frame;
         if (!bus_receive(app, &frame)) {
             break;

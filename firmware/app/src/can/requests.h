@@ -14,8 +14,9 @@ void requests_start(brace_app_t *app);
 /* Looks through what has come, at most 4 frames a millisecond of the tick, until one is a request to this
  * node. Before the tick's other work. At most 350 instructions.
  *   may_serve: this tick has room for an answer
+ *   brief: there is other work; one frame only
  * returns whether one will be answered in this tick */
-bool requests_take(brace_app_t *app, bool may_serve);
+bool requests_take(brace_app_t *app, bool may_serve, bool brief);
 
 /* Answers the request taken. At most 2,200 instructions; a commit, in CONFIGURATION only, 21,000. */
 void requests_serve(brace_app_t *app);

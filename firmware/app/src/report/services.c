@@ -28,10 +28,11 @@ static bool is_roomy(const brace_app_t *app)
  * takes milliseconds, before it has waited for long. */
 static void choose(brace_app_t *app, bool may)
 {
-    const bool modbus_first = may && app->modbus.waited > PATIENCE_TICKS;
-    app->requests.serves = requests_take(app, may && !modbus_first);
-    if (!app->requests.serves) {
-        app->modbus.serves = modbus_poll(app, app->last_us) > 0u && may;
+    const uint32_t waited = app->modbus.waited; /* since an earlier tick: then CAN is looked through in brief */
+    app->requests.serves = requests_take(app, may && waited <= PATIENCE_TICKS, waited > 0u);
+    app->modbus.serves = !app->requests.serves && waited > 0u && may;
+    if (!app->requests.serves && !app->modbus.serves) {
+        (void)modbus_poll(app, app->last_us);
     }
 }
 
@@ -54,9 +55,11 @@ bool services_listen(brace_app_t *app, bool may_be_lean)
     const bool says = !roomy && wants_to_say(app);
     choose(app, may && !(says && app->report.owed));
     const bool serves = app->requests.serves || app->modbus.serves;
+    const bool listened = !roomy && (app->requests.looked > 1u || app->modbus.waited > 0u);
+    const bool lean = serves || says || listened;
     app->report.owed = serves && says;
-    app->requests.rested = !(serves || says);
-    return serves || says;
+    app->requests.rested = !lean;
+    return lean;
 }
 
 void services_run(brace_app_t *app, bool lean)
