@@ -162,6 +162,7 @@ typedef struct {
 
 typedef struct {
     bool runs;                /* services have their turn in this tick */
+    bool speaks;                        /* in this tick, besides answering */
     bool owed;                /* the last lean tick answered, and something else was due */
     uint32_t beat_us;         /* when the heart beat last */
     uint32_t faults_told;

@@ -37,7 +37,7 @@ static modbus_exception_t set_mode(brace_app_t *app, uint32_t value)
     return configures ? refusal_of(brace_app_configuration_leave(app)) : MODBUS_FINE;
 }
 
-static modbus_exception_t store(brace_app_t *app, uint32_t value, brace_status_t (*begin)(brace_app_t *))
+static modbus_exception_t store(brace_app_t *app, uint32_t value, bool is_commit)
 {
     if (value != (KEY | 1u)) {
         return MODBUS_E_VALUE;
@@ -46,7 +46,7 @@ static modbus_exception_t store(brace_app_t *app, uint32_t value, brace_status_t
     if (open != BRACE_OK) {
         return open == BRACE_E_UNSUPPORTED ? MODBUS_E_BUSY : refusal_of(open);
     }
-    return refusal_of(begin(app));
+    return refusal_of(is_commit ? staging_commit(app) : brace_app_parameters_rollback(app));
 }
 
 static modbus_exception_t take_up(brace_app_t *app, uint32_t value)
@@ -63,8 +63,8 @@ modbus_exception_t command_run(brace_app_t *app, uint32_t index, uint32_t value)
 {
     switch (index) {
     case COMMAND_SET_MODE: return set_mode(app, value);
-    case COMMAND_COMMIT: return store(app, value, staging_commit);
-    case COMMAND_ROLLBACK: return store(app, value, brace_app_parameters_rollback);
+    case COMMAND_COMMIT: return store(app, value, true);
+    case COMMAND_ROLLBACK: return store(app, value, false);
     case COMMAND_CLEAR_FAULTS: return refusal_of(brace_app_clear(app, value));
     case COMMAND_TAKE_UP: return take_up(app, value);
     case COMMAND_LET_GO: return refusal_of(brace_app_let_go(app));

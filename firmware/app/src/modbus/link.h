@@ -15,7 +15,7 @@ typedef enum {
 
 enum {
     LINK_READ = 64,    /* bytes taken from a port at a time */
-    LINK_PIECE = 128,  /* bytes checked in a tick */
+    LINK_PIECE = 32,   /* bytes checked in a tick */
     LINK_SHORT = 16    /* so few are checked beside other work */
 };
 

@@ -5,7 +5,7 @@
 #include "modbus/command.h"
 #include "modbus/registers.h"
 
-enum { WRITE_MOST = 123 /* registers */, PIECE = 32 /* values */, DATA = 6 };
+enum { WRITE_MOST = 123 /* registers */, PIECE = 8 /* values */, DATA = 6 };
 
 static modbus_exception_t refusal_of(brace_status_t status)
 {

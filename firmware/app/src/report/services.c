@@ -26,10 +26,10 @@ static bool is_roomy(const brace_app_t *app)
 
 /* Which bus answers in this tick? CAN first, since its answers are due within a tick; Modbus, whose own line
  * takes milliseconds, before it has waited for long. */
-static void choose(brace_app_t *app, bool may)
+static void choose(brace_app_t *app, bool may, bool in_brief)
 {
     const uint32_t waited = app->modbus.waited; /* since an earlier tick: then CAN is looked through in brief */
-    app->requests.serves = requests_take(app, may && waited <= PATIENCE_TICKS, waited > 0u);
+    app->requests.serves = requests_take(app, may && waited <= PATIENCE_TICKS, in_brief || waited > 0u);
     app->modbus.serves = !app->requests.serves && waited > 0u && may;
     if (!app->requests.serves && !app->modbus.serves) {
         (void)modbus_poll(app, app->last_us);
@@ -46,16 +46,21 @@ bool services_listen(brace_app_t *app, bool may_be_lean)
 {
     const bool may = may_be_lean && app->requests.rested;
     const bool roomy = is_roomy(app);
+    const bool moves = app->mode == BRACE_MODE_TAKING_UP || app->mode == BRACE_MODE_LOADING_TEST;
+    const bool listens = !(roomy && moves) || (brace_app_snapshot(app)->sequence & 1u) != 0u; /* else it speaks */
     app->requests.serves = app->modbus.serves = false;
+    app->report.speaks = !(roomy && moves && listens);
     app->report.runs = may || (may_be_lean && roomy);
     if (!app->report.runs) {
         app->requests.rested = true;
         return false;
     }
     const bool says = !roomy && wants_to_say(app);
-    choose(app, may && !(says && app->report.owed));
+    if (listens) {
+        choose(app, may && !(says && app->report.owed), moves);
+    }
     const bool serves = app->requests.serves || app->modbus.serves;
-    const bool listened = !roomy && (app->requests.looked > 1u || app->modbus.waited > 0u);
+    const bool listened = !roomy && (moves || app->requests.looked > 1u || app->modbus.waited > 0u);
     const bool lean = serves || says || listened;
     app->report.owed = serves && says;
     app->requests.rested = !lean;
@@ -74,7 +79,7 @@ void services_run(brace_app_t *app, bool lean)
         requests_serve(app);
     }
     requests_send(app);
-    if (app->requests.serves || app->modbus.serves) {
+    if (app->requests.serves || app->modbus.serves || !app->report.speaks) {
         return;
     }
     if (app->cyclic.parameter_crc != app->parameter_crc) {
