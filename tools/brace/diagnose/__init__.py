@@ -1,0 +1,1 @@
+"""Where model and measurement disagree: found, named, added to the model, and the gap shown to shrink."""

@@ -1,0 +1,142 @@
+"""What a diagnosis says: the contents of diagnosis.json, and what the report draws besides."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+
+from brace.dataset import DataFault
+from brace.model import LimbModel
+
+Verdict = Literal["effect", "none", "ambiguous", "unknown", "data_fault"]
+
+
+@dataclass(frozen=True)
+class Interval:
+    """A fitted value in the key's own unit with its 90 % interval; infinite ends where the record says nothing."""
+
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class NamedEffect:
+    """An effect of the catalogue at its place. `confidence` [0, 1] is the probability that it is named right;
+    `parameters` are keys of limb.toml; `gap_share` [0, 1] is its share of what was removed of the gap."""
+
+    name: str
+    where: str
+    confidence: float
+    parameters: Mapping[str, Interval]
+    gap_share: float
+
+    @property
+    def label(self) -> str:
+        """`backlash@joint.tibia`, as classes list it."""
+        return f"{self.name}@{self.where}"
+
+
+@dataclass(frozen=True)
+class Localised:
+    """A disagreement said in words ('only when unloading, near zero force'), its family-wise p, its rms size [N]
+    (joint tests: [N mm])."""
+
+    where: str
+    p: float
+    size: float
+
+
+@dataclass(frozen=True)
+class Unexplained:
+    """What is left after the last step: rms in the gap's unit, whether it still has structure, where and what shape."""
+
+    rms: float
+    structured: bool
+    description: str
+
+
+@dataclass(frozen=True)
+class GapPair:
+    """rms of measured less model, on what was fitted and on what took no part in choosing or fitting (None: nothing
+    could be held out)."""
+
+    fitted: float
+    held_out: float | None
+
+
+@dataclass(frozen=True)
+class GapStep:
+    """The gap after one thing more was added to the model."""
+
+    added: str
+    gap: GapPair
+
+
+@dataclass(frozen=True)
+class Gap:
+    """The gap in `unit` ("n", "n_mm" for joint tests, "n_per_mm" for tables)."""
+
+    unit: str
+    noise_floor: float
+    before: GapPair
+    after: GapPair
+    steps: tuple[GapStep, ...] = ()
+
+
+@dataclass(frozen=True)
+class NextExperiment:
+    """What to measure next: in words, which labels it separates, with which power [0, 1], how long it takes, and the
+    text of a rig file that plays it ("" where it is no rig's)."""
+
+    action: str
+    separates: tuple[str, ...]
+    power: float
+    minutes: float
+    rig_toml: str = ""
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """One hypothesis that was tried: labels joined by ' + ', its gain (twice the log-likelihood over the refitted
+    base), its share of the posterior."""
+
+    label: str
+    gain: float
+    posterior: float
+
+
+@dataclass(frozen=True)
+class Residuals:
+    """Measured less model, rows x channels, in the channels' units; `held_out` marks rows that took no part."""
+
+    channels: tuple[str, ...]
+    before: np.ndarray
+    after: np.ndarray
+    held_out: np.ndarray
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """All that a diagnosis found. `model` is the limb with the effects in it (the believed one where nothing may be
+    exported)."""
+
+    verdict: Verdict
+    sentence: str
+    model: LimbModel
+    gap: Gap | None = None
+    effects: tuple[NamedEffect, ...] = ()
+    indistinguishable: tuple[tuple[str, ...], ...] = ()
+    could_be: tuple[str, ...] = ()
+    localised: tuple[Localised, ...] = ()
+    unexplained: Unexplained | None = None
+    next_experiment: NextExperiment | None = None
+    data_faults: tuple[DataFault, ...] = ()
+    candidates: tuple[Candidate, ...] = ()
+    residuals: Residuals | None = None
+    notes: tuple[str, ...] = ()
+    seed: int = 0
+    details: Mapping[str, Any] = field(default_factory=dict)
