@@ -56,6 +56,7 @@ typedef struct {
     double compliance_rad_per_n_mm; /* [0, 1] */
     double gap_rad;                 /* [0, 0.5], full play: no torque within +-gap/2 */
     double coulomb_n_mm;            /* [0, 1e9] */
+    double coulomb_per_load_ratio;  /* [0, 0.9], friction = coulomb + this * |spring's torque| */
     double hardening_n_mm_per_rad3; /* [0, 1e30], torque = deflection / compliance + this * deflection^3 */
     double zero_offset_rad;         /* [-0.5, 0.5], true angle = commanded + offset */
 } brace_plant_joint_t;
@@ -188,11 +189,11 @@ typedef struct {
 int32_t brace_plant_loading(const brace_plant_model_t *model, const brace_loading_rows_t *rows,
                             const brace_loading_reading_t *reading, size_t *unsolved_rows);
 
-/* The same for many models (array of model_count) on one record: fx_n, fz_n are model_count x count,
- * row-major; status (optional) has one entry per model; refused models leave NaN. Returns the first status
- * that is not OK. */
+/* The same for many models (array of model_count) on one record: every column of `readings` that is not null is
+ * model_count x count, row-major; status (optional) has one entry per model; refused models leave NaN. Returns
+ * the first status that is not OK. */
 int32_t brace_plant_loading_many(const brace_plant_model_t *models, size_t model_count,
-                                 const brace_loading_rows_t *rows, double *fx_n, double *fz_n,
+                                 const brace_loading_rows_t *rows, const brace_loading_reading_t *readings,
                                  int32_t *status);
 
 /* --------------------------------------------------------------------------------- joint test, plant -- */

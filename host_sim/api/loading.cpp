@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 
 #include "api/checks.h"
@@ -31,6 +32,33 @@ brace_host_status_t check_loading_rows(const brace_loading_rows_t &rows)
     return never_falls(rows.t_s, rows.count) ? BRACE_HOST_OK : BRACE_HOST_E_RANGE;
 }
 
+namespace {
+
+constexpr double *brace_loading_reading_t::*kColumns[] = {
+    &brace_loading_reading_t::fx_n,      &brace_loading_reading_t::fz_n,
+    &brace_loading_reading_t::enc1_rad,  &brace_loading_reading_t::enc2_rad,
+    &brace_loading_reading_t::base_x_mm, &brace_loading_reading_t::base_z_mm,
+};
+
+brace_loading_reading_t part_of(const brace_loading_reading_t &whole, size_t offset)
+{
+    brace_loading_reading_t part{};
+    for (const auto column : kColumns) {
+        part.*column = whole.*column != nullptr ? whole.*column + offset : nullptr;
+    }
+    return part;
+}
+
+void fill_with_nan(const brace_loading_reading_t &reading, size_t count)
+{
+    for (const auto column : kColumns) {
+        if (reading.*column != nullptr) {
+            std::fill_n(reading.*column, count, std::numeric_limits<double>::quiet_NaN());
+        }
+    }
+}
+
+} // namespace
 } // namespace brace::api
 
 extern "C" int32_t brace_plant_loading(const brace_plant_model_t *model, const brace_loading_rows_t *rows,
@@ -55,10 +83,10 @@ extern "C" int32_t brace_plant_loading(const brace_plant_model_t *model, const b
 }
 
 extern "C" int32_t brace_plant_loading_many(const brace_plant_model_t *models, size_t model_count,
-                                            const brace_loading_rows_t *rows, double *fx_n, double *fz_n,
-                                            int32_t *status)
+                                            const brace_loading_rows_t *rows,
+                                            const brace_loading_reading_t *readings, int32_t *status)
 {
-    if (models == nullptr || rows == nullptr || fx_n == nullptr || fz_n == nullptr) {
+    if (models == nullptr || rows == nullptr || readings == nullptr) {
         return BRACE_HOST_E_NULL;
     }
     const brace_host_status_t sound = brace::api::check_loading_rows(*rows);
@@ -67,18 +95,14 @@ extern "C" int32_t brace_plant_loading_many(const brace_plant_model_t *models, s
     }
     brace_host_status_t worst = BRACE_HOST_OK;
     for (size_t m = 0; m < model_count; ++m) {
-        brace_loading_reading_t reading{};
-        reading.fx_n = fx_n + m * rows->count;
-        reading.fz_n = fz_n + m * rows->count;
+        const brace_loading_reading_t reading = brace::api::part_of(*readings, m * rows->count);
         brace_host_status_t one = BRACE_HOST_E_PARAMETER;
         if (brace::plant::first_fault(models[m]) == nullptr) {
             size_t unsolved = 0;
             one = brace::plant::play_loading(models[m], *rows, reading, unsolved);
         }
         if (one == BRACE_HOST_E_PARAMETER || one == BRACE_HOST_E_SINGULAR) {
-            for (size_t i = 0; i < rows->count; ++i) {
-                reading.fx_n[i] = reading.fz_n[i] = std::numeric_limits<double>::quiet_NaN();
-            }
+            brace::api::fill_with_nan(reading, rows->count);
         }
         if (status != nullptr) {
             status[m] = one;

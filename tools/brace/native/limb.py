@@ -110,13 +110,13 @@ def plant_model(native: Library, model: LimbModel) -> Any:
 
 def fill_plant(native: Library, plant: Any, model: LimbModel) -> None:
     """Writes a model into a plant struct (one of an array, say), every key of limb.toml at its own place."""
-    positions, keys = _plant_layout(native)
+    positions, keys = plant_layout(native)
     numbers = [LINKS.index(model.values[key]) if key == "change.link" else model.values[key] for key in keys]
     np.frombuffer(native.ffi.buffer(native.ffi.addressof(plant)), dtype=np.float64)[positions] = numbers
 
 
 @cache
-def _plant_layout(native: Library) -> tuple[np.ndarray, list[str]]:
+def plant_layout(native: Library) -> tuple[np.ndarray, list[str]]:
     """Index of each key's double in brace_plant_model_t, from the library's own list of keys."""
     keys, positions = [], []
     for key in LIMB_KEYS:

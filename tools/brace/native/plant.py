@@ -59,24 +59,6 @@ class LoadingPlayer:
             )
         return out
 
-    def play_many(self, models: Sequence[LimbModel]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """(fx, fz, status) of several models: models x count, models x count, models. Refused ones are NaN."""
-        ffi, lib = self._native.ffi, self._native.lib
-        plants = ffi.new("brace_plant_model_t[]", len(models))
-        for index, model in enumerate(models):
-            fill_plant(self._native, plants[index], model)
-        fx, fz = np.empty((len(models), self.count)), np.empty((len(models), self.count))
-        status = np.empty(len(models), np.int32)
-        lib.brace_plant_loading_many(
-            plants,
-            len(models),
-            self._rows,
-            ffi.from_buffer("double[]", fx),
-            ffi.from_buffer("double[]", fz),
-            ffi.from_buffer("int32_t[]", status),
-        )
-        return fx, fz, status
-
 
 class JointPlayer:
     """A joint test's sequence: the imposed deflection [rad], or the imposed torque [N mm]."""
