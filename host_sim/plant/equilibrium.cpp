@@ -58,7 +58,7 @@ Pair moving_sign(const RestProblem &problem, const Pair &deflection, const Pair 
         const double moved = deflection[i] - joint.before_rad;
         if (moved != 0.0) {
             sign[i] = std::copysign(1.0, moved);
-        } else if (std::fabs(torque[i]) > joint.law.coulomb_n_mm) {
+        } else if (std::fabs(torque[i]) > friction_n_mm(joint.law, deflection[i])) {
             sign[i] = -std::copysign(1.0, torque[i]);
         }
     }
@@ -91,7 +91,7 @@ Pair direction_of(const RestProblem &problem, const Pair &deflection, const Slop
     const Pair direction = newton_direction(slope.curvature, torque, sign);
     for (int i = 0; i < problem.joint_count; ++i) {
         const bool held =
-            problem.joint[i].law.coulomb_n_mm > 0.0 && deflection[i] == problem.joint[i].before_rad;
+            problem.joint[i].law.rubs() && deflection[i] == problem.joint[i].before_rad;
         if (held && direction[i] * sign[i] < 0.0) {
             Pair others = sign;
             others[i] = 0.0;
@@ -109,7 +109,7 @@ public:
     {
         for (int i = 0; i < problem.joint_count; ++i) {
             const double moved = from[i] - problem.joint[i].before_rad;
-            if (problem.joint[i].law.coulomb_n_mm > 0.0 && moved * direction[i] < 0.0
+            if (problem.joint[i].law.rubs() && moved * direction[i] < 0.0
                 && -moved / direction[i] < end_) {
                 end_ = -moved / direction[i];
                 turning_ = i;
@@ -133,10 +133,12 @@ public:
 
     double slope(double length) const
     {
-        const Slope here = slope_at(problem_, at(length));
+        const Pair point = at(length);
+        const Slope here = slope_at(problem_, point);
         double sum = 0.0;
         for (int i = 0; i < problem_.joint_count; ++i) {
-            sum += direction_[i] * (here.torque_n_mm[i] + sign_[i] * problem_.joint[i].law.coulomb_n_mm);
+            sum += direction_[i]
+                   * (here.torque_n_mm[i] + sign_[i] * friction_n_mm(problem_.joint[i].law, point[i]));
         }
         return sum;
     }
@@ -205,7 +207,7 @@ Balance balance_at(const RestProblem &problem, const Pair &deflection, const Slo
         const double lever_mm = joint.lever_mm.norm();
         const double size = std::fabs(deflection[i]);
         if (sign[i] != 0.0) {
-            balance.torque_n_mm[i] = slope.torque_n_mm[i] + sign[i] * joint.law.coulomb_n_mm;
+            balance.torque_n_mm[i] = slope.torque_n_mm[i] + sign[i] * friction_n_mm(joint.law, deflection[i]);
         }
         worst = std::max(worst, std::fabs(balance.torque_n_mm[i]));
         longest_mm = std::max(longest_mm, lever_mm);
@@ -226,7 +228,7 @@ void find_rest(const RestProblem &problem, RestState &state)
 {
     Pair deflection = state.deflection_rad;
     for (int step = 0;; ++step) {
-        const Slope slope = slope_at(problem, deflection);
+        Slope slope = slope_at(problem, deflection);
         const Pair sign = moving_sign(problem, deflection, slope.torque_n_mm);
         const Balance balance = balance_at(problem, deflection, slope, sign);
         if (balance.unbalance_n <= std::max(kGoodBalance_n, balance.rounding_n) || step == kMaxSteps) {
@@ -236,6 +238,9 @@ void find_rest(const RestProblem &problem, RestState &state)
             state.solved =
                 balance.unbalance_n <= std::max(kPromisedBalance_n, 8.0 * balance.rounding_at_stops_n);
             return;
+        }
+        for (int i = 0; i < problem.joint_count; ++i) {
+            slope.curvature(i, i) += sign[i] * friction_slope_n_mm_per_rad(problem.joint[i].law, deflection[i]);
         }
         const Pair direction = direction_of(problem, deflection, slope, balance.torque_n_mm, sign);
         const Line line(problem, deflection, direction, sign);

@@ -1,8 +1,9 @@
 // Where the limb comes to rest under an imposed tip displacement: the joint deflections of least energy.
 //
-// Energy of deflections e: 1/2 x'Kx + sum spring_i(e_i) - load_i e_i + coulomb_i |e_i - before_i| with
-// x = d - sum lever_i e_i, the first term being the structure's. Convex, so what is found is the one rest
-// state.
+// Energy of deflections e: 1/2 x'Kx + sum spring_i(e_i) - load_i e_i + rubbed_i(before_i, e_i) with
+// x = d - sum lever_i e_i, the first term being the structure's, and rubbed the friction, coulomb + ratio * |spring
+// torque|, summed over the way from before to e. Convex as long as the ratio is below 1 (the springs' slopes remain
+// positive after friction's share is taken from them), so what is found is the one rest state.
 #pragma once
 
 #include <Eigen/Core>

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "effects/backlash.h"
+#include "effects/coulomb_friction.h"
 #include "effects/joint_compliance.h"
 #include "effects/joint_hardening.h"
 #include "effects/thermal_softening.h"
@@ -15,12 +16,12 @@ JointLaw joint_law(const Model &model, int joint, double temp_degc)
 {
     const auto &given = model.joint[joint];
     return {given.compliance_rad_per_n_mm * thermal_softening::factor(model, temp_degc), given.gap_rad,
-            given.coulomb_n_mm, given.hardening_n_mm_per_rad3};
+            given.coulomb_n_mm, given.coulomb_per_load_ratio, given.hardening_n_mm_per_rad3};
 }
 
 bool is_linear(const JointLaw &law)
 {
-    return law.gap_rad == 0.0 && law.coulomb_n_mm == 0.0 && law.hardening_n_mm_per_rad3 == 0.0;
+    return law.gap_rad == 0.0 && !law.rubs() && law.hardening_n_mm_per_rad3 == 0.0;
 }
 
 double elastic_rad(const JointLaw &law, double deflection_rad)
@@ -43,6 +44,18 @@ double spring_stiffness_n_mm_per_rad(const JointLaw &law, double deflection_rad)
     }
     return 1.0 / law.compliance_rad_per_n_mm
            + joint_hardening::stiffness_n_mm_per_rad(law.hardening_n_mm_per_rad3, elastic);
+}
+
+double friction_n_mm(const JointLaw &law, double deflection_rad)
+{
+    return coulomb_friction::most_n_mm(law.coulomb_n_mm, law.coulomb_per_load_ratio,
+                                       spring_torque_n_mm(law, deflection_rad));
+}
+
+double friction_slope_n_mm_per_rad(const JointLaw &law, double deflection_rad)
+{
+    return std::copysign(law.coulomb_per_load_ratio * spring_stiffness_n_mm_per_rad(law, deflection_rad),
+                         deflection_rad);
 }
 
 double elastic_under_torque_rad(const JointLaw &law, double torque_n_mm)

@@ -9,7 +9,10 @@ struct JointLaw {
     double compliance_rad_per_n_mm = 0.0; // at the row's temperature
     double gap_rad = 0.0;
     double coulomb_n_mm = 0.0;
+    double coulomb_per_load_ratio = 0.0; // [0, 1)
     double hardening_n_mm_per_rad3 = 0.0;
+
+    bool rubs() const { return coulomb_n_mm > 0.0 || coulomb_per_load_ratio > 0.0; }
 };
 
 JointLaw joint_law(const effects::Model &model, int joint, double temp_degc);
@@ -20,6 +23,10 @@ bool is_linear(const JointLaw &law);
 // Needs compliance > 0. Friction left out.
 double spring_torque_n_mm(const JointLaw &law, double deflection_rad);
 double spring_stiffness_n_mm_per_rad(const JointLaw &law, double deflection_rad);
+
+// The most that friction holds at this deflection, and how fast that grows with it.
+double friction_n_mm(const JointLaw &law, double deflection_rad);
+double friction_slope_n_mm_per_rad(const JointLaw &law, double deflection_rad);
 
 // The part of the deflection that the spring feels.
 double elastic_rad(const JointLaw &law, double deflection_rad);

@@ -14,16 +14,17 @@ using effects::Model;
 struct JointState {
     double instant_rad = 0.0; // deflection without creep
     double delayed_rad = 0.0; // creep
-    double friction_n_mm = 0.0;
+    double friction_share = 0.0; // of the most that friction holds, [-1, 1]
 };
 
 double torque_at(const JointLaw &law, double deflection_rad, double reversal_rad, JointState &state)
 {
     const double before = state.instant_rad;
     state.instant_rad = deflection_rad - state.delayed_rad;
-    state.friction_n_mm = effects::coulomb_friction::turned_n_mm(state.friction_n_mm, law.coulomb_n_mm,
-                                                                 state.instant_rad - before, reversal_rad);
-    return spring_torque_n_mm(law, state.instant_rad) + state.friction_n_mm;
+    state.friction_share =
+        effects::coulomb_friction::turned_share(state.friction_share, state.instant_rad - before, reversal_rad);
+    return spring_torque_n_mm(law, state.instant_rad)
+           + state.friction_share * friction_n_mm(law, state.instant_rad);
 }
 
 // The deflections, play and all, at which the spring carries this torque: from least to most.
@@ -43,8 +44,12 @@ double most_deflection(const JointLaw &law, double torque_n_mm)
 // make.
 double deflection_under(const JointLaw &law, double torque_n_mm, JointState &state)
 {
-    state.instant_rad = std::clamp(state.instant_rad, least_deflection(law, torque_n_mm - law.coulomb_n_mm),
-                                   most_deflection(law, torque_n_mm + law.coulomb_n_mm));
+    const auto spring_n_mm = [&](double sense) {
+        return effects::coulomb_friction::spring_while_moving_n_mm(law.coulomb_n_mm, law.coulomb_per_load_ratio,
+                                                                   torque_n_mm, sense);
+    };
+    state.instant_rad = std::clamp(state.instant_rad, least_deflection(law, spring_n_mm(1.0)),
+                                   most_deflection(law, spring_n_mm(-1.0)));
     return state.instant_rad + state.delayed_rad;
 }
 

@@ -36,6 +36,7 @@ struct Key {
     KEY("joint." table ".compliance_rad_per_n_mm", joint[index].compliance_rad_per_n_mm, 0.0, 1.0),      \
     KEY("joint." table ".gap_rad", joint[index].gap_rad, 0.0, 0.5),                                      \
     KEY("joint." table ".coulomb_n_mm", joint[index].coulomb_n_mm, 0.0, 1e9),                            \
+    KEY("joint." table ".coulomb_per_load_ratio", joint[index].coulomb_per_load_ratio, 0.0, 0.9),        \
     KEY("joint." table ".hardening_n_mm_per_rad3", joint[index].hardening_n_mm_per_rad3, 0.0, 1e30),     \
     KEY("joint." table ".zero_offset_rad", joint[index].zero_offset_rad, -0.5, 0.5)
 

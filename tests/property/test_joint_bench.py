@@ -47,11 +47,21 @@ def test_friction_keeps_where_nothing_moves_and_turns_over_a_width() -> None:
                                [0, TAU, TAU / 2, 0, -TAU, -TAU], atol=1e-9)
 
 
+def test_friction_that_grows_with_the_load() -> None:
+    """On top of the constant: a share of what the spring carries, against the motion; none within play."""
+    angle = ramp(0.02)
+    model = joint(gap_rad=GAP, coulomb_n_mm=TAU, coulomb_per_load_ratio=0.2, hardening_n_mm_per_rad3=H)
+    sense = np.sign(np.concatenate([[0.0], np.diff(angle)]))
+    wanted = spring(angle) + (TAU + 0.2 * np.abs(spring(angle))) * sense
+    np.testing.assert_allclose(play_joint(model, angle), wanted, atol=1e-9)
+
+
 @pytest.mark.parametrize("gap", [0.0, GAP])
 @pytest.mark.parametrize("tau", [0.0, TAU])
-def test_imposed_torque_undoes_imposed_angle(gap: float, tau: float) -> None:
+@pytest.mark.parametrize("ratio", [0.0, 0.25])
+def test_imposed_torque_undoes_imposed_angle(gap: float, tau: float, ratio: float) -> None:
     """Angles that a torque history makes, imposed in turn, need that torque wherever the joint moves."""
-    model = joint(gap_rad=gap, coulomb_n_mm=tau, hardening_n_mm_per_rad3=H)
+    model = joint(gap_rad=gap, coulomb_n_mm=tau, coulomb_per_load_ratio=ratio, hardening_n_mm_per_rad3=H)
     torque = ramp(1500.0, 37)
     angle = play_joint(model, torque, torque_imposed=True)
     back = play_joint(model, angle)

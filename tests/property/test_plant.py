@@ -106,15 +106,24 @@ def energy(keys: dict[str, float], before: Any, q: Any, d: Any, load: Any) -> An
         total = total + beyond**2 / 2 / of("compliance_rad_per_n_mm")
         total = total + of("hardening_n_mm_per_rad3") * beyond**4 / 4
         total = total + of("coulomb_n_mm") * np.abs(q[i] - before[i]) - load[i] * q[i]
+
+        def carried(deflection: Any) -> Any:  # the spring's torque summed up to a deflection, its size taken
+            past = np.maximum(np.abs(deflection) - of("gap_rad") / 2, 0.0)
+            size = past**2 / 2 / of("compliance_rad_per_n_mm") + of("hardening_n_mm_per_rad3") * past**4 / 4
+            return np.sign(deflection) * size
+
+        total = total + of("coulomb_per_load_ratio") * np.abs(carried(q[i]) - carried(before[i]))
     return total
 
 
 def random_drive(draw: np.random.Generator) -> dict[str, float]:
     """A limb with every drive effect at both joints, sized to matter within a few mm."""
     keys = random_limb(draw)
+    rubbing = np.random.default_rng(int(1e6 * keys["geometry.femur_mm"]))
     for joint in ("femur", "tibia"):
         keys |= {f"joint.{joint}.gap_rad": draw.choice([0.0, draw.uniform(0, 6e-3)]),
                  f"joint.{joint}.coulomb_n_mm": draw.choice([0.0, 10 ** draw.uniform(0, 3)]),
+                 f"joint.{joint}.coulomb_per_load_ratio": rubbing.choice([0.0, rubbing.uniform(0, 0.9)]),
                  f"joint.{joint}.hardening_n_mm_per_rad3": draw.choice([0.0, 10 ** draw.uniform(6, 10)])}
     return keys
 

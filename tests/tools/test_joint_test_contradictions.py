@@ -101,8 +101,8 @@ def test_friction_that_grows_with_the_load_is_told_from_the_spring(
     out = tmp_path / "f.toml"
     outcome = brace("identify", tmp_path, "--model", tmp_path / "limb.toml", "--out", out, "--json")
     found = {key: entry["value"] for key, entry in json.loads(outcome.out)["parameters"].items()}
-    assert found["friction_load_share"] == pytest.approx(0.15, rel=0.05)
+    assert found["joint.femur.coulomb_per_load_ratio"] == pytest.approx(0.15, rel=0.05)
     assert found["joint.femur.compliance_rad_per_n_mm"] == pytest.approx(1e-5, rel=0.02)
     assert found["joint.femur.coulomb_n_mm"] == pytest.approx(100.0, rel=0.1)
     assert found["joint.femur.gap_rad"] == pytest.approx(0.006, rel=0.05)
-    assert "of the torque carried" in out.read_text()
+    assert "coulomb_per_load_ratio" in out.read_text()

@@ -165,8 +165,8 @@ static void test_reads_have_their_limits(void)
     TEST_ASSERT_EQUAL(34, read_asks(3, 16384, 16).count);
     refused(read_asks(3, 16384, 17), 3, 2);
     refused(read_asks(3, 16383, 2), 3, 2);
-    TEST_ASSERT_EQUAL(4, read_asks(3, 209, 1).count);
-    refused(read_asks(3, 209, 2), 3, 2);
+    TEST_ASSERT_EQUAL(4, read_asks(3, 2 * BRACE_PARAMETER_COUNT - 1, 1).count);
+    refused(read_asks(3, 2 * BRACE_PARAMETER_COUNT - 1, 2), 3, 2);
     const uint8_t too_long[] = {4, 0, 0, 0, 2, 0}, too_short[] = {4, 0, 0, 0};
     refused(line_asks(UNIT, too_long, sizeof too_long), 4, 3);
     refused(line_asks(UNIT, too_short, sizeof too_short), 4, 3);
@@ -279,7 +279,7 @@ static void test_writes_have_their_limits(void)
     refused(line_asks(UNIT, miscounted, sizeof miscounted), 16, 3);
     refused(line_asks(UNIT, missing, sizeof missing), 16, 3);
     refused(line_asks(UNIT, more, sizeof more), 16, 3);
-    refused(write_one(210, 0), 6, 2);
+    refused(write_one(2 * BRACE_PARAMETER_COUNT, 0), 6, 2);
     TEST_ASSERT_EQUAL_MEMORY(&app.parameters, &app.staging.set, sizeof app.parameters);
 }
 

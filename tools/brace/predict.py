@@ -87,7 +87,7 @@ def _predict_joint_test(dataset: Dataset, model: LimbModel) -> Prediction:
     """The joint's torque at the record's deflections. Where the encoder, the torque sensor and friction stood at the
     start is the record's and in no limb.toml: it is fitted here as `identify` fits it, and said."""
     from brace.identify.joint_test import MIN_ROWS, JointProblem
-    from brace.identify.parameters import ANGLE_ZERO, FRICTION_LOAD, FRICTION_TURN, TORQUE_OFFSET
+    from brace.identify.parameters import ANGLE_ZERO, FRICTION_TURN, TORQUE_OFFSET
 
     if dataset.rows < MIN_ROWS or any(fault.blocking for fault in dataset.faults):
         from brace.native.plant import JointPlayer
@@ -98,8 +98,8 @@ def _predict_joint_test(dataset: Dataset, model: LimbModel) -> Prediction:
     own = problem.aligned(model)
     note = (
         f"fitted to this record, not the limb's: zero of the angle {own[ANGLE_ZERO]:+.4g} rad, offset of the torque "
-        f"{own[TORQUE_OFFSET]:+.4g} N mm, friction turning over {own[FRICTION_TURN]:.3g} rad and growing by "
-        f"{own[FRICTION_LOAD]:.1%} of the torque; spring, gap, friction and hardening are the model's"
+        f"{own[TORQUE_OFFSET]:+.4g} N mm, friction turning over {own[FRICTION_TURN]:.3g} rad; "
+        "spring, gap, friction and hardening are the model's"
     )
     return Prediction({"torque_n_mm": problem.torque_n_mm(model, own)}, (note,))
 

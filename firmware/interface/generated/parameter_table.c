@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stddef.h>
 
-_Static_assert(sizeof(brace_parameters_t) == 4 * 105, "the dictionary lists every member");
+_Static_assert(sizeof(brace_parameters_t) == 4 * 108, "the dictionary lists every member");
 _Static_assert(offsetof(brace_parameters_t, limb.coxa_mm) == 0, "order");
 _Static_assert(offsetof(brace_parameters_t, limb.femur_mm) == 4, "order");
 _Static_assert(offsetof(brace_parameters_t, limb.tibia_mm) == 8, "order");
@@ -44,75 +44,78 @@ _Static_assert(offsetof(brace_parameters_t, limb.uncertainty.angle_rad) == 136, 
 _Static_assert(offsetof(brace_parameters_t, limb.uncertainty.compliance_rel) == 140, "order");
 _Static_assert(offsetof(brace_parameters_t, limb.uncertainty.gain_rel) == 144, "order");
 _Static_assert(offsetof(brace_parameters_t, drive[0].coulomb_n_mm) == 148, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[0].hardening_n_mm_per_rad3) == 152, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[0].motor_friction_n_mm) == 156, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[0].motor_friction_tolerance_ratio) == 160, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[0].motor_inertia_n_mm_s2_per_rad) == 164, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[0].torque_range_n_mm) == 168, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[0].torque_noise_n_mm) == 172, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[0].torque_bias_n_mm) == 176, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[0].angle_step_rad) == 180, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[0].angle_min_rad) == 184, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[0].angle_max_rad) == 188, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[0].takeup_torque_n_mm) == 192, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].coulomb_n_mm) == 196, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].hardening_n_mm_per_rad3) == 200, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].motor_friction_n_mm) == 204, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].motor_friction_tolerance_ratio) == 208, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].motor_inertia_n_mm_s2_per_rad) == 212, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].torque_range_n_mm) == 216, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].torque_noise_n_mm) == 220, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].torque_bias_n_mm) == 224, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].angle_step_rad) == 228, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].angle_min_rad) == 232, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].angle_max_rad) == 236, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[1].takeup_torque_n_mm) == 240, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].coulomb_n_mm) == 244, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].hardening_n_mm_per_rad3) == 248, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].motor_friction_n_mm) == 252, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].motor_friction_tolerance_ratio) == 256, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].motor_inertia_n_mm_s2_per_rad) == 260, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].torque_range_n_mm) == 264, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].torque_noise_n_mm) == 268, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].torque_bias_n_mm) == 272, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].angle_step_rad) == 276, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].angle_min_rad) == 280, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].angle_max_rad) == 284, "order");
-_Static_assert(offsetof(brace_parameters_t, drive[2].takeup_torque_n_mm) == 288, "order");
-_Static_assert(offsetof(brace_parameters_t, gravity.femur_n) == 292, "order");
-_Static_assert(offsetof(brace_parameters_t, gravity.tibia_n) == 296, "order");
-_Static_assert(offsetof(brace_parameters_t, gravity.knee_n) == 300, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.bias_x_n) == 304, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.bias_z_n) == 308, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.gain) == 312, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.rotation_rad) == 316, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.crosstalk_xz) == 320, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.crosstalk_zx) == 324, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.drift_x_n_per_s) == 328, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.drift_z_n_per_s) == 332, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.saturation_n) == 336, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.noise_n) == 340, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.creep_ratio) == 344, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.creep_time_constant_s) == 348, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.joint_compliance_per_degc) == 352, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.reference_degc) == 356, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.contact_play_mm) == 360, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.change_at_s) == 364, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.change_link) == 368, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.change_bending_factor) == 372, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.node_id) == 376, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.can_bit_rate) == 380, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.tick_us) == 384, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.age_limit_us) == 388, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.stiffness_hz) == 392, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.posture_hz) == 396, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.heartbeat_hz) == 400, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.bus_load_ratio) == 404, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.can_fd_bit_rate) == 408, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.modbus_address) == 412, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.modbus_baud) == 416, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[0].coulomb_per_load_ratio) == 152, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[0].hardening_n_mm_per_rad3) == 156, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[0].motor_friction_n_mm) == 160, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[0].motor_friction_tolerance_ratio) == 164, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[0].motor_inertia_n_mm_s2_per_rad) == 168, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[0].torque_range_n_mm) == 172, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[0].torque_noise_n_mm) == 176, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[0].torque_bias_n_mm) == 180, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[0].angle_step_rad) == 184, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[0].angle_min_rad) == 188, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[0].angle_max_rad) == 192, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[0].takeup_torque_n_mm) == 196, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].coulomb_n_mm) == 200, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].coulomb_per_load_ratio) == 204, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].hardening_n_mm_per_rad3) == 208, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].motor_friction_n_mm) == 212, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].motor_friction_tolerance_ratio) == 216, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].motor_inertia_n_mm_s2_per_rad) == 220, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].torque_range_n_mm) == 224, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].torque_noise_n_mm) == 228, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].torque_bias_n_mm) == 232, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].angle_step_rad) == 236, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].angle_min_rad) == 240, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].angle_max_rad) == 244, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[1].takeup_torque_n_mm) == 248, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].coulomb_n_mm) == 252, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].coulomb_per_load_ratio) == 256, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].hardening_n_mm_per_rad3) == 260, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].motor_friction_n_mm) == 264, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].motor_friction_tolerance_ratio) == 268, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].motor_inertia_n_mm_s2_per_rad) == 272, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].torque_range_n_mm) == 276, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].torque_noise_n_mm) == 280, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].torque_bias_n_mm) == 284, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].angle_step_rad) == 288, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].angle_min_rad) == 292, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].angle_max_rad) == 296, "order");
+_Static_assert(offsetof(brace_parameters_t, drive[2].takeup_torque_n_mm) == 300, "order");
+_Static_assert(offsetof(brace_parameters_t, gravity.femur_n) == 304, "order");
+_Static_assert(offsetof(brace_parameters_t, gravity.tibia_n) == 308, "order");
+_Static_assert(offsetof(brace_parameters_t, gravity.knee_n) == 312, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.bias_x_n) == 316, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.bias_z_n) == 320, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.gain) == 324, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.rotation_rad) == 328, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.crosstalk_xz) == 332, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.crosstalk_zx) == 336, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.drift_x_n_per_s) == 340, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.drift_z_n_per_s) == 344, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.saturation_n) == 348, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.noise_n) == 352, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.creep_ratio) == 356, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.creep_time_constant_s) == 360, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.joint_compliance_per_degc) == 364, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.reference_degc) == 368, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.contact_play_mm) == 372, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.change_at_s) == 376, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.change_link) == 380, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.change_bending_factor) == 384, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.node_id) == 388, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.can_bit_rate) == 392, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.tick_us) == 396, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.age_limit_us) == 400, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.stiffness_hz) == 404, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.posture_hz) == 408, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.heartbeat_hz) == 412, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.bus_load_ratio) == 416, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.can_fd_bit_rate) == 420, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.modbus_address) == 424, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.modbus_baud) == 428, "order");
 
-const float brace_f32_range[24][2] = {
+const float brace_f32_range[25][2] = {
     {0.0f, 10000.0f},
     {1.0f, 10000.0f},
     {0.0f, 1000.0f},
@@ -122,6 +125,7 @@ const float brace_f32_range[24][2] = {
     {-0.5f, 0.5f},
     {0.0f, 100.0f},
     {0.0f, 1000000000.0f},
+    {0.0f, 0.9f},
     {0.0f, 1e+30f},
     {0.0f, 1000000.0f},
     {0x1p-149f, 1000000.0f},
@@ -156,11 +160,11 @@ const uint32_t brace_u32_choices[2][9] = {
 };
 
 /* For each member: its range of floats, or of whole numbers after these, or its choices after those. */
-const uint8_t brace_parameter_rule[105] = {
+const uint8_t brace_parameter_rule[108] = {
     0, 1, 1, 2, 2, 3, 2, 4, 4, 2, 2, 3, 2, 4, 4, 2, 2, 3, 2, 4, 4, 4, 5, 6, 4, 5, 6, 4, 5, 6, 2, 2, 4, 7, 5,
-    4, 4, 8, 9, 10, 4, 10, 11, 10, 10, 12, 13, 13, 11, 8, 9, 10, 4, 10, 11, 10, 10, 12, 13, 13, 11, 8, 9, 10,
-    4, 10, 11, 10, 10, 12, 13, 13, 11, 10, 10, 10, 14, 14, 15, 16, 17, 17, 18, 18, 19, 10, 2, 20, 17, 21, 2,
-    22, 24, 15, 25, 32, 26, 27, 28, 28, 29, 23, 30, 31, 33,
+    4, 4, 8, 9, 10, 11, 4, 11, 12, 11, 11, 13, 14, 14, 12, 8, 9, 10, 11, 4, 11, 12, 11, 11, 13, 14, 14, 12, 8,
+    9, 10, 11, 4, 11, 12, 11, 11, 13, 14, 14, 12, 11, 11, 11, 15, 15, 16, 17, 18, 18, 19, 19, 20, 11, 2, 21,
+    18, 22, 2, 23, 25, 16, 26, 33, 27, 28, 29, 29, 30, 24, 31, 32, 34,
 };
 
 const brace_parameters_t brace_parameters_safe = {
@@ -261,6 +265,7 @@ static const char *const keys[] = {
     "uncertainty.compliance_rel",
     "uncertainty.gain_rel",
     "joint.coxa.coulomb_n_mm",
+    "joint.coxa.coulomb_per_load_ratio",
     "joint.coxa.hardening_n_mm_per_rad3",
     "motor.coxa.friction_n_mm",
     "motor.coxa.friction_tolerance_ratio",
@@ -273,6 +278,7 @@ static const char *const keys[] = {
     "motor.coxa.angle_max_rad",
     "motor.coxa.takeup_torque_n_mm",
     "joint.femur.coulomb_n_mm",
+    "joint.femur.coulomb_per_load_ratio",
     "joint.femur.hardening_n_mm_per_rad3",
     "motor.femur.friction_n_mm",
     "motor.femur.friction_tolerance_ratio",
@@ -285,6 +291,7 @@ static const char *const keys[] = {
     "motor.femur.angle_max_rad",
     "motor.femur.takeup_torque_n_mm",
     "joint.tibia.coulomb_n_mm",
+    "joint.tibia.coulomb_per_load_ratio",
     "joint.tibia.hardening_n_mm_per_rad3",
     "motor.tibia.friction_n_mm",
     "motor.tibia.friction_tolerance_ratio",
@@ -334,9 +341,9 @@ static const char *const units[] = {
     "mm", "mm", "mm", "mm/N", "mm/N", "rad", "mm/N", "rad/(N mm)", "", "mm/N", "mm/N", "rad", "mm/N",
     "rad/(N mm)", "", "mm/N", "mm/N", "rad", "mm/N", "rad/(N mm)", "", "rad/(N mm)", "rad", "rad",
     "rad/(N mm)", "rad", "rad", "rad/(N mm)", "rad", "rad", "mm/N", "mm/N", "rad/(N mm)", "mm", "rad", "", "",
-    "N mm", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm", "N mm", "N mm", "rad", "rad", "rad", "N mm",
-    "N mm", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm", "N mm", "N mm", "rad", "rad", "rad", "N mm",
-    "N mm", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm", "N mm", "N mm", "rad", "rad", "rad", "N mm",
+    "N mm", "", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm", "N mm", "N mm", "rad", "rad", "rad", "N mm",
+    "N mm", "", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm", "N mm", "N mm", "rad", "rad", "rad", "N mm",
+    "N mm", "", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm", "N mm", "N mm", "rad", "rad", "rad", "N mm",
     "N", "N", "N", "N", "N", "", "rad", "", "", "N/s", "N/s", "N", "N", "", "s", "1/degC", "degC", "mm", "s",
     "", "", "", "bit/s", "us", "us", "Hz", "Hz", "Hz", "", "bit/s", "", "bit/s",
 };

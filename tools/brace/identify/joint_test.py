@@ -1,7 +1,7 @@
 """A joint test as a fit's problem: the imposed deflection played on spring, gap, friction and hardening.
 
-Gears rub in proportion to what they carry. Without that share the fit of a gearbox takes the widening loop for a
-softer spring and a narrower gap; limb.toml has no place for it, so it is fitted and reported beside the limb.
+Gears rub in proportion to what they carry (`coulomb_per_load_ratio`). Without that share the fit of a gearbox takes
+the widening loop for a softer spring and a narrower gap.
 """
 
 from __future__ import annotations
@@ -16,7 +16,6 @@ from brace.errors import BadFileError
 from brace.identify.fit import fit
 from brace.identify.parameters import (
     ANGLE_ZERO,
-    FRICTION_LOAD,
     FRICTION_TURN,
     TORQUE_OFFSET,
     Parameter,
@@ -71,16 +70,9 @@ class JointProblem:
 
     def _played(self, player: JointPlayer, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         zero = nuisances.get(ANGLE_ZERO, -self._centre_rad) + self._centre_rad
-        turn_rad, load_share = nuisances.get(FRICTION_TURN, 0.0), nuisances.get(FRICTION_LOAD, 0.0)
         limb = model.with_values({f"joint.{self.joint}.zero_offset_rad": zero})
-        torque = player.play(limb, turn_rad) + nuisances.get(TORQUE_OFFSET, 0.0)
-        if load_share == 0.0:
-            return np.asarray(torque)
-        # the plant's friction does not know the load: a unit of it gives the direction at every row
-        friction = f"joint.{self.joint}.coulomb_n_mm"
-        spring = player.play(limb.with_values({friction: 0.0}), turn_rad)
-        direction = player.play(limb.with_values({friction: 1.0}), turn_rad) - spring
-        return np.asarray(torque + load_share * np.abs(spring) * direction)
+        torque = player.play(limb, nuisances.get(FRICTION_TURN, 0.0))
+        return np.asarray(torque + nuisances.get(TORQUE_OFFSET, 0.0))
 
     def angles(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """None: one joint has no tip."""
@@ -111,6 +103,7 @@ class JointProblem:
                     at + "gap_rad", model.number(at + "gap_rad"), 0.1 * angle_span, 0.0, min(0.5, angle_span)
                 ),
                 free("coulomb_n_mm", model.number(at + "coulomb_n_mm"), 0.05 * torque_span),
+                free("coulomb_per_load_ratio", model.number(at + "coulomb_per_load_ratio"), 0.1),
                 free(
                     "hardening_n_mm_per_rad3", model.number(at + "hardening_n_mm_per_rad3"), hardening_scale
                 ),
@@ -119,9 +112,8 @@ class JointProblem:
         )
 
     def record_parameters(self, model: LimbModel) -> ParameterSet:
-        """What no limb.toml holds: the encoder's zero, the torque's zero, the width over which friction turns, and
-        friction that grows with the load, as gears' does. The encoder starts anywhere, so its zero says nothing of
-        the limb's zero_offset_rad."""
+        """What no limb.toml holds: the encoder's zero, the torque's zero, the width over which friction turns. The
+        encoder starts anywhere, so its zero says nothing of the limb's zero_offset_rad."""
         angle, torque = self.columns["angle_rad"], self.columns["torque_n_mm"]
         angle_span, torque_span = float(np.ptp(angle)) or 1e-6, float(np.ptp(torque)) or 1.0
         zero = -self._centre_rad
@@ -139,7 +131,6 @@ class JointProblem:
                     1e-4 * angle_span,
                     min(1.0, 0.25 * angle_span),
                 ),
-                Parameter(FRICTION_LOAD, 0.05, 0.1, 0.0, 0.9),
             ),
         )
 
@@ -151,15 +142,13 @@ class JointProblem:
         """Springs with less and more gap and friction: the misfit has several valleys."""
         angle_span = float(np.ptp(self.columns["angle_rad"]))
         torque_span = float(np.ptp(self.columns["torque_n_mm"]))
-        load_place = parameters.keys.index(FRICTION_LOAD)
         points = []
         for gap, friction, cubic in product(START_GAPS, START_FRICTION, START_HARDENING):
             point = parameters.array("start")
             reach_rad = 0.5 * angle_span * (1 - gap)
             point[0] = 2 * reach_rad / torque_span * (1 + cubic)
-            point[1], point[2] = gap * angle_span, friction * torque_span
-            point[3] = cubic / (point[0] * reach_rad**2)
-            point[load_place] = 0.02
+            point[1], point[2], point[3] = gap * angle_span, friction * torque_span, 0.02
+            point[4] = cubic / (point[0] * reach_rad**2)
             points.append(point)
         return points
 

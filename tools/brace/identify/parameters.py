@@ -16,15 +16,11 @@ TIP_HEIGHT = "tip_height_mm"  # of a stiffness table that gives r alone; not a k
 TORQUE_OFFSET = "torque_offset_n_mm"  # of a joint test's torque reading; not a key of limb.toml
 FRICTION_TURN = "friction_turn_rad"  # over which a joint's friction changes sign; not a key of limb.toml
 ANGLE_ZERO = "angle_zero_rad"  # of a joint test's encoder: deflection = angle + it; not a key of limb.toml
-FRICTION_LOAD = (
-    "friction_load_share"  # friction that grows with the torque, per torque; not a key of limb.toml
-)
 _NUISANCE_UNIT = {
     TIP_HEIGHT: "mm",
     TORQUE_OFFSET: "N mm",
     FRICTION_TURN: "rad",
     ANGLE_ZERO: "rad",
-    FRICTION_LOAD: "",
 }
 NUISANCES = tuple(_NUISANCE_UNIT)
 
@@ -51,6 +47,7 @@ _NATURAL_SCALE = {
     "zero_offset_rad": 0.01,
     "gap_rad": 0.002,
     "coulomb_n_mm": 100.0,
+    "coulomb_per_load_ratio": 0.1,
     "hardening_n_mm_per_rad3": 1e7,
     "gain": 0.01,
     "rotation_rad": 0.02,

@@ -11,11 +11,10 @@ from brace.identify.combinations import MEANING
 from brace.identify.information import Estimate
 from brace.identify.joint_test import JointProblem
 from brace.identify.loading import LoadingProblem
-from brace.identify.parameters import ANGLE_ZERO, FRICTION_LOAD, TIP_HEIGHT, TORQUE_OFFSET
+from brace.identify.parameters import ANGLE_ZERO, TIP_HEIGHT, TORQUE_OFFSET
 from brace.identify.run import Identification
 
 PAPER_STRUCTURE_SHARE = 0.30
-NOTED_FRICTION_SHARE = 0.01
 OUTSIDE_TRUST_SIGMAS = 3.0
 
 
@@ -222,10 +221,5 @@ def header(result: Identification) -> list[str]:
         lines.append(
             f"the record's own, not the limb's: zero of the angle {zero:+.6g} rad, offset of the torque "
             f"{result.fit.nuisances[TORQUE_OFFSET]:+.6g} N mm (`brace predict` fits them anew to each record)"
-        )
-    share = result.fit.nuisances.get(FRICTION_LOAD, 0.0)
-    if share > NOTED_FRICTION_SHARE:
-        lines.append(
-            f"friction grows by {share:.1%} of the torque carried; the format has no key for it and it is not in here"
         )
     return [" ".join(line.split()) for line in lines]

@@ -12,7 +12,7 @@
 #include <stdint.h>
 
 /* Of every frame, entry and parameter, with types, steps and units: what two ends must agree on. */
-#define BRACE_DICTIONARY_HASH 0xab7f3415u
+#define BRACE_DICTIONARY_HASH 0x5d7b52a6u
 #define BRACE_PROTOCOL 1u
 
 /* Identifiers of node 0; a controller adds its node number, 1-127. */

@@ -31,6 +31,7 @@
 /* A joint's drive and its instruments, joint side of the reduction. */
 typedef struct {
     float coulomb_n_mm;             /* dry friction at the joint [0, 1e9] */
+    float coulomb_per_load_ratio;   /* further friction, of the spring's torque, as gears have it [0, 0.9] */
     float hardening_n_mm_per_rad3;  /* torque = deflection / compliance + this * deflection^3 [0, 1e30] */
     float motor_friction_n_mm;      /* Coulomb friction of motor and gears, before the gap [0, 1e6] */
     float motor_friction_tolerance_ratio; /* how far that may be off [0, 1] */
@@ -118,6 +119,17 @@ void brace_parameters_default(brace_parameters_t *parameters);
  * cost: 3,200 instructions; stack 100 bytes */
 brace_status_t brace_parameters_check(const brace_parameters_t *parameters, uint32_t *wrong_index);
 
+/* The same in pieces, for a tick: 0 to BRACE_CHECK_PIECES - 1, in this order until one refuses. The last one is what
+ * members say together; it takes for granted that each is in its range.
+ * returns also BRACE_E_RANGE (no such piece); cost: at most 1,000 instructions */
+enum {
+    BRACE_CHECK_MEMBERS = 24, /* a piece */
+    BRACE_CHECK_TOGETHER = (BRACE_PARAMETER_COUNT + BRACE_CHECK_MEMBERS - 1) / BRACE_CHECK_MEMBERS,
+    BRACE_CHECK_PIECES = BRACE_CHECK_TOGETHER + 1
+};
+brace_status_t brace_parameters_check_piece(const brace_parameters_t *parameters, uint32_t piece,
+                                            uint32_t *wrong_index);
+
 /* Is one member, as its 32 bits, in its own range? What members say together is brace_parameters_check's.
  * returns BRACE_OK, BRACE_E_RANGE (no such member), BRACE_E_PARAMETER, BRACE_E_NOT_FINITE; cost: at most 60 instructions */
 brace_status_t brace_parameter_in_range(uint32_t index, uint32_t word);
@@ -128,6 +140,10 @@ brace_status_t brace_parameter_in_range(uint32_t index, uint32_t word);
  * cost: 8,100 instructions; stack 150 bytes */
 brace_status_t brace_parameters_pack(const brace_parameters_t *parameters, uint32_t sequence, uint8_t *block,
                                      uint32_t room);
+
+/* The same in pieces: a block but for its last four bytes, the CRC-32 of all before them; nothing is checked. Not null.
+ * cost: 560 instructions */
+void brace_block_compose(const brace_parameters_t *parameters, uint32_t sequence, uint8_t *block);
 
 /* A block to parameters; nothing of it is believed before the CRC is right.
  *   length: bytes of the block, exactly
