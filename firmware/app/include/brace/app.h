@@ -17,9 +17,9 @@
 
 #include "brace/backlash.h"
 #include "brace/can_messages.h"
-#include "brace/chain.h"
 #include "brace/drift.h"
 #include "brace/gap_stiffness.h"
+#include "brace/general.h"
 #include "brace/kinematics.h"
 #include "brace/loading.h"
 #include "brace/measured.h"
@@ -111,9 +111,7 @@ typedef struct {
 typedef struct {
     brace_planar_t planar;    /* when the limb collapses and nothing changes its springs */
     bool collapsed;
-    brace_chain_t chain;      /* else: what does not change, `firm` elements; the joints' springs follow them */
-    uint32_t firm;
-    float femur_mm, tibia_mm;
+    brace_general_t general;  /* else */
     float spring_rad_per_n_mm[BRACE_APP_JOINTS], rotation_rad_per_n_mm;
     float warm_per_degc, reference_degc;
     float hardening_n_mm_per_rad3[BRACE_APP_JOINTS];

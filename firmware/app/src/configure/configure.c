@@ -10,7 +10,7 @@
 #define TAKEUP_SPARE_RAD 0.004f
 #define TAKEUP_DROOP_RAD 0.2f /* of a servo at the take-up's torque: what a soft one gives way by */
 
-enum { PIECE_COLLAPSE = 1, PIECE_CHAIN, PIECE_FEMUR, PIECE_TIBIA, PIECE_SENSOR, PIECE_DRIFT, PIECES_DONE };
+enum { PIECE_COLLAPSE = 1, PIECE_GENERAL, PIECE_FEMUR, PIECE_TIBIA, PIECE_SENSOR, PIECE_DRIFT, PIECES_DONE };
 
 void configure_begin(brace_app_t *app)
 {
@@ -70,7 +70,7 @@ bool configure_piece(brace_app_t *app)
         model_configure_collapse(&app->model, &app->parameters);
         app->tick_us = app->parameters.controller.tick_us;
         break;
-    case PIECE_CHAIN: model_configure_chain(&app->model, &app->parameters); break;
+    case PIECE_GENERAL: model_configure_general(&app->model, &app->parameters); break;
     case PIECE_FEMUR: configure_play(app, 0); break;
     case PIECE_TIBIA: configure_play(app, 1); break;
     case PIECE_SENSOR: force_configure(app); break;

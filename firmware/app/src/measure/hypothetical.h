@@ -7,8 +7,8 @@
 /* K with every gap closed at true joint angles, with the joints' temperatures of now and no load on their springs.
  * Flags: UNCALIBRATED, OUT_OF_RANGE (outside the drives' travel), and the model's own.
  * returns BRACE_OK, BRACE_E_NOT_FINITE, BRACE_E_RANGE, BRACE_E_MODE (parameters are being put in force), and what
- *   brace_planar_stiffness or brace_chain_stiffness do; stiffness untouched then
- * At most 1,300 instructions. */
+ *   brace_planar_stiffness or brace_general_stiffness do; stiffness untouched then
+ * At most 750 instructions. */
 brace_status_t hypothetical_stiffness(brace_app_t *app, float theta1_rad, float theta2_rad,
                                       brace_stiffness_t *stiffness);
 

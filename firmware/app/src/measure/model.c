@@ -1,7 +1,6 @@
 #include "measure/model.h"
 
 #define LEAST_FACTOR 1e-3f           /* no temperature makes a spring push the wrong way */
-#define ALL_BUT_RIGID_MM_PER_N 1e-9f /* for links that only their joints let yield */
 #define NEWTON_STEPS 2
 
 void model_configure_collapse(brace_app_model_t *model, const brace_parameters_t *parameters)
@@ -12,28 +11,13 @@ void model_configure_collapse(brace_app_model_t *model, const brace_parameters_t
     model->collapsed = !springs_change && brace_planar_collapse(&parameters->limb, &model->planar) == BRACE_OK;
 }
 
-void model_configure_chain(brace_app_model_t *model, const brace_parameters_t *parameters)
+void model_configure_general(brace_app_model_t *model, const brace_parameters_t *parameters)
 {
-    /* all that does not change; the joints' springs, with the base's rotation, are the last two elements */
-    brace_limb_t limb = parameters->limb;
-    brace_joint_t *joint = limb.joint;
-    model->spring_rad_per_n_mm[0] = joint[BRACE_FEMUR].compliance_rad_per_n_mm;
-    model->spring_rad_per_n_mm[1] = joint[BRACE_TIBIA].compliance_rad_per_n_mm;
-    model->rotation_rad_per_n_mm = limb.base.rotation_rad_per_n_mm;
-    joint[BRACE_FEMUR].compliance_rad_per_n_mm = joint[BRACE_TIBIA].compliance_rad_per_n_mm = 0.0f;
-    limb.base.rotation_rad_per_n_mm = 0.0f;
-    if (brace_chain_build(&limb, &model->chain) != BRACE_OK) {
-        brace_link_t *femur = &limb.link[BRACE_FEMUR];
-        femur->axial_mm_per_n += ALL_BUT_RIGID_MM_PER_N;
-        femur->bending_mm_per_n += ALL_BUT_RIGID_MM_PER_N;
-        model->chain.count = 0;
-        (void)brace_chain_build(&limb, &model->chain);
-    }
-    model->firm = model->chain.count;
-    model->chain.element[model->chain.count++] = (brace_element_t){{0.0f, 0.0f}, {0.0f, 0.0f}, {0.0f, 0.0f}};
-    model->chain.element[model->chain.count++] = (brace_element_t){{0.0f, 0.0f}, {0.0f, 0.0f}, {0.0f, 0.0f}};
-    model->femur_mm = limb.femur_mm;
-    model->tibia_mm = limb.tibia_mm;
+    const brace_limb_t *limb = &parameters->limb;
+    brace_general_collapse(limb, &model->general);
+    model->spring_rad_per_n_mm[0] = limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm;
+    model->spring_rad_per_n_mm[1] = limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm;
+    model->rotation_rad_per_n_mm = limb->base.rotation_rad_per_n_mm;
     model->warm_per_degc = parameters->slow.joint_compliance_per_degc;
     model->reference_degc = parameters->slow.reference_degc;
     for (int i = 0; i < BRACE_APP_JOINTS; i++) {
@@ -75,12 +59,7 @@ brace_status_t model_stiffness(brace_app_model_t *model, float theta1_rad, float
     if (model->collapsed) {
         return brace_planar_stiffness(&model->planar, theta1_rad, theta2_rad, stiffness);
     }
-    const float hip =
-        __builtin_sqrtf(yielding(model, 0, load_n_mm[0], temp_degc[0]) + model->rotation_rad_per_n_mm);
-    const float knee = __builtin_sqrtf(yielding(model, 1, load_n_mm[1], temp_degc[1]));
-    brace_element_t *element = &model->chain.element[model->firm];
-    element[0].femur.z = hip * model->femur_mm;
-    element[0].tibia.z = hip * model->tibia_mm;
-    element[1].tibia.z = knee * model->tibia_mm;
-    return brace_chain_stiffness(&model->chain, theta1_rad, theta2_rad, stiffness);
+    const float hip = yielding(model, 0, load_n_mm[0], temp_degc[0]) + model->rotation_rad_per_n_mm;
+    const float knee = yielding(model, 1, load_n_mm[1], temp_degc[1]);
+    return brace_general_stiffness(&model->general, theta1_rad, theta2_rad, hip, knee, stiffness);
 }

@@ -1,18 +1,18 @@
-/* K of the limb in force: the collapsed path where it serves, else the chain with its joints' springs of
+/* K of the limb in force: the collapsed path where it serves, else the general path with its joints' springs of
  * the moment. */
 #ifndef BRACE_APP_MODEL_H
 #define BRACE_APP_MODEL_H
 
 #include "brace/app.h"
 
-/* Prepares the model in two pieces, each for a tick of its own: at most 3,000 and 2,000 instructions. */
+/* Prepares the model in two pieces, each for a tick of its own: at most 3,000 and 1,700 instructions. */
 void model_configure_collapse(brace_app_model_t *model, const brace_parameters_t *parameters);
-void model_configure_chain(brace_app_model_t *model, const brace_parameters_t *parameters);
+void model_configure_general(brace_app_model_t *model, const brace_parameters_t *parameters);
 
 /* K with every gap closed. Joint springs that harden or soften with temperature are taken at this load and
  * temperature: a spring's share of K is the slope of its torque there.
  *   load_n_mm, temp_degc: of femur and tibia joint; NaN: at no load, at the reference temperature
- * returns as brace_planar_stiffness or brace_chain_stiffness. At most 1,200 instructions. */
+ * returns as brace_planar_stiffness or brace_general_stiffness. At most 650 instructions. */
 brace_status_t model_stiffness(brace_app_model_t *model, float theta1_rad, float theta2_rad,
                                const float load_n_mm[BRACE_APP_JOINTS], const float temp_degc[BRACE_APP_JOINTS],
                                brace_stiffness_t *stiffness);

@@ -6,24 +6,9 @@
 #include "base/trig.h"
 #include "base/turn.h"
 #include "base/vec.h"
+#include "chain/tensor.h"
 
-/* brace_chain_stiffness is on the tick: of every controller whose limb does not collapse, or whose joint springs follow
- * load and temperature. tests/bench/tick_cost.py holds that whole tick to 4,000 instructions, of which this is the largest
- * part (six elements: 1,000 at most). Speed before size here, nothing of it is BRACE_OFF_TICK. */
-
-/* det C over mean^2 below which C counts as singular, and below which its accuracy is not promised. */
-#define SINGULAR 1e-12f
-#define SLENDER 2e-5f
-
-/* C at a posture: half its trace, its deviator, its determinant. */
-typedef struct {
-    float mean, dev_x, dev_y, det;
-} tensor_t;
-
-static brace_vec_t turned(brace_vec_t v, brace_vec_t by)
-{
-    return (brace_vec_t){__builtin_fmaf(v.x, by.x, -(v.z * by.z)), __builtin_fmaf(v.x, by.z, v.z * by.x)};
-}
+/* Off the tick, which takes brace/general.h: the same sum, element by element, for whoever has a list. */
 
 /* An element seen from the femur. */
 typedef struct {
@@ -32,7 +17,7 @@ typedef struct {
 
 static inline parts_t seen_from_femur(const brace_element_t *element, brace_vec_t tibia, brace_vec_t base)
 {
-    return (parts_t){element->femur, turned(element->tibia, tibia), turned(element->base, base)};
+    return (parts_t){element->femur, brace_turned(element->tibia, tibia), brace_turned(element->base, base)};
 }
 
 /* v_a x v_b, part by part: what lies on one line in one part adds exactly nothing. */
@@ -51,7 +36,7 @@ static float cross_base(const parts_t *a, const parts_t *b)
 }
 
 /* Sums over the chain in the femur's frame, then turned into the world's. */
-static inline tensor_t tensor(const brace_chain_t *chain, float theta1_rad, float theta2_rad)
+static inline brace_tensor_t tensor(const brace_chain_t *chain, float theta1_rad, float theta2_rad)
 {
     const uint32_t femur_turn = brace_turn(theta1_rad);
     const brace_vec_t tibia = brace_direction(0u - brace_turn(theta2_rad));
@@ -72,20 +57,20 @@ static inline tensor_t tensor(const brace_chain_t *chain, float theta1_rad, floa
             parts_t b = {other->femur, turned_tibia[j], {0.0f, 0.0f}};
             float cross = cross_parts(&b, &a);
             if (other->base.x != 0.0f || other->base.z != 0.0f) {
-                b.base = turned(other->base, base);
+                b.base = brace_turned(other->base, base);
                 cross += cross_base(&b, &a);
             }
             squares = __builtin_fmaf(cross, cross, squares);
         }
     }
     const float iso = chain->iso_mm_per_n;
-    dev = turned(dev, to_world);
-    return (tensor_t){iso + 0.5f * trace, 0.5f * dev.x, 0.5f * dev.z, iso * (iso + trace) + squares};
+    dev = brace_turned(dev, to_world);
+    return (brace_tensor_t){iso + 0.5f * trace, 0.5f * dev.x, 0.5f * dev.z, iso * (iso + trace) + squares};
 }
 
 /* The tensor at a posture that the general path takes; result is whoever asks's output, not null. */
 static brace_status_t tensor_at(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
-                                               const void *result, tensor_t *c)
+                                               const void *result, brace_tensor_t *c)
 {
     if (chain == NULL || result == NULL) {
         return BRACE_E_NULL;
@@ -101,7 +86,7 @@ static brace_status_t tensor_at(const brace_chain_t *chain, float theta1_rad, fl
 BRACE_OFF_TICK brace_status_t brace_chain_compliance(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
                                       brace_compliance_t *compliance, float *det)
 {
-    tensor_t c;
+    brace_tensor_t c;
     const brace_status_t status = tensor_at(chain, theta1_rad, theta2_rad, compliance, &c);
     if (status == BRACE_OK) {
         *compliance = (brace_compliance_t){c.mean + c.dev_x, c.dev_y, c.mean - c.dev_x};
@@ -115,25 +100,10 @@ BRACE_OFF_TICK brace_status_t brace_chain_compliance(const brace_chain_t *chain,
 brace_status_t brace_chain_stiffness(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
                                      brace_stiffness_t *stiffness)
 {
-    tensor_t c;
+    brace_tensor_t c;
     const brace_status_t status = tensor_at(chain, theta1_rad, theta2_rad, stiffness, &c);
     if (status != BRACE_OK) {
         return status;
     }
-    const float square = c.mean * c.mean;
-    if (!(c.det > SINGULAR * square)) {
-        return BRACE_E_SINGULAR;
-    }
-    const float radius = __builtin_sqrtf(__builtin_fmaf(c.dev_x, c.dev_x, c.dev_y * c.dev_y));
-    const float per_det = 1.0f / c.det;
-    *stiffness = (brace_stiffness_t){
-        .k_xx_n_per_mm = (c.mean - c.dev_x) * per_det,
-        .k_xz_n_per_mm = -c.dev_y * per_det,
-        .k_zz_n_per_mm = (c.mean + c.dev_x) * per_det,
-        .lambda_min_n_per_mm = 1.0f / (c.mean + radius),
-        .lambda_max_n_per_mm = (c.mean + radius) * per_det,
-        .stiff_axis_rad = 0.5f * brace_atan2(-c.dev_y, -c.dev_x),
-        .flags = c.det < SLENDER * square ? BRACE_FLAG_NEAR_SINGULAR : 0u,
-    };
-    return BRACE_OK;
+    return brace_tensor_inverse(c, stiffness);
 }
