@@ -23,7 +23,6 @@ from toolchain import (BOARDS, BUILD, CORE, CORE_FLAGS, M4F, PREFIX, compile_sou
                        symbol_address)
 
 TICK_LIMIT = 4000  # instructions
-COMMIT_LIMIT = 25_000  # of the one tick, in configuration, that checks and packs a set to be stored
 TICK_COUNT = 1_000_000
 FUNCTION = "brace_app_tick"
 
@@ -31,7 +30,6 @@ KINDS = {"M": "monitor", "T": "taking up", "L": "loading test", "R": "loading te
          "D": "loading test: the drift check", "J": "loading test: judged against the model", "C": "configuration",
          "P": "putting parameters in force", "S": "storing parameters", "0": "start", "F": "fault",
          "Q": "answering a request over CAN"}
-COMMIT, COMMIT_NAME = "B", "configuration: a set is checked and packed"
 
 
 @dataclass(frozen=True)
@@ -53,7 +51,6 @@ class TickCost:
     maximum: int
     quantile_99: int
     kinds: tuple[TickKind, ...]
-    commit: TickKind  # not among the others: nothing is computed then, and an erase follows that stops the processor
 
 
 def _sources() -> Iterator[tuple[Path, bool]]:
@@ -121,16 +118,12 @@ def measure_ticks(ticks: int = TICK_COUNT) -> TickCost:
 
 
 def _summary(counts: np.ndarray, letters: np.ndarray) -> TickCost:
-    commits, ordinary = counts[letters == COMMIT], letters != COMMIT
-    counts, letters = counts[ordinary], letters[ordinary]
-    commit = TickKind(COMMIT_NAME, int(commits.size), float(commits.mean()) if commits.size else 0.0,
-                      int(commits.max()) if commits.size else 0)
     missing = [name for letter, name in KINDS.items() if not np.any(letters == letter)]
-    if missing and len(counts) + commit.count >= TICK_COUNT:
+    if missing and len(counts) >= TICK_COUNT:
         raise RuntimeError(f"the random ticks never came to: {', '.join(missing)}")
     kinds = tuple(TickKind(name, int(mine.size), float(mine.mean()), int(mine.max()))
                   for letter, name in KINDS.items() if (mine := counts[letters == letter]).size)
-    return TickCost(int(counts.size), float(counts.mean()), int(counts.max()), int(np.quantile(counts, 0.99)), kinds, commit)
+    return TickCost(int(counts.size), float(counts.mean()), int(counts.max()), int(np.quantile(counts, 0.99)), kinds)
 
 
 NOTE = """\
@@ -138,26 +131,23 @@ One whole tick of the controller, from samples to snapshot: K with its eigenvalu
 services. Counted over random ticks on the emulated Cortex-M4F: limbs that collapse and limbs that take the general path, every \
 mode, take-ups and loading tests, parameters stored and put in force, bad samples, late ticks, a full bus. A call of the \
 hardware layer counts as the call alone. A reading of a loading test is worked out in up to three ticks of its own, which \
-compute no K: the snapshot before stays. So it does in a tick that answers a request; two such never follow each other. The \
-tick that begins to store a set, in configuration only, checks and packs it whole; nothing else happens then."""
+compute no K: the snapshot before stays. So it does in a tick that answers a request; two such never follow each other. A set that \
+is to be stored is checked, packed, written and put in force in pieces, one a tick."""
 
 
 def extra() -> Extra:
     """Everything of it for the bench."""
     cost = measure_ticks()
     rows = [[kind.name, f"{kind.count:,}", f"{kind.mean:,.0f}", f"{kind.maximum:,}"] for kind in cost.kinds]
-    rows.append([cost.commit.name, f"{cost.commit.count:,}", f"{cost.commit.mean:,.0f}", f"{cost.commit.maximum:,}"])
-    rows.append(["all others", f"{cost.count:,}", f"{cost.mean:,.0f}", f"{cost.maximum:,}"])
+    rows.append(["all", f"{cost.count:,}", f"{cost.mean:,.0f}", f"{cost.maximum:,}"])
     data: dict[str, object] = {
         "ticks": cost.count, "instructions_mean": round(cost.mean, 1), "instructions_p99": cost.quantile_99,
         "instructions_max": cost.maximum, "limit": TICK_LIMIT,
         "kinds": {kind.name: {"ticks": kind.count, "mean": round(kind.mean, 1), "max": kind.maximum} for kind in cost.kinds}}
     check = Check(f"controller's tick, instructions, worst of {cost.count:,} random ones (mean {cost.mean:,.0f})",
                   f"{cost.maximum:,}", f"at most {TICK_LIMIT:,}", cost.maximum <= TICK_LIMIT)
-    commit = Check("controller's tick that begins to store a set, instructions", f"{cost.commit.maximum:,}",
-                   f"at most {COMMIT_LIMIT:,}", 0 < cost.commit.maximum <= COMMIT_LIMIT)
     return Extra("tick", NOTE, [("The controller's tick: instructions", ["kind of tick", "ticks", "mean", "worst"], rows)],
-                 [check, commit], data)
+                 [check], data)
 
 
 def as_text(cost: TickCost) -> str:
@@ -165,7 +155,7 @@ def as_text(cost: TickCost) -> str:
     lines = [f"{cost.count:,} random ticks: mean {cost.mean:,.0f}, 99th percentile {cost.quantile_99:,}, "
              f"worst {cost.maximum:,} instructions (limit {TICK_LIMIT:,})"]
     lines += [f"  {kind.name:42} {kind.count:9,}  mean {kind.mean:8,.0f}  worst {kind.maximum:7,}"
-              for kind in (*cost.kinds, cost.commit)]
+              for kind in cost.kinds]
     return "\n".join(lines)
 
 
@@ -173,7 +163,7 @@ def main() -> int:
     """python tests/bench/tick_cost.py [TICKS]: print; exit code 1 when the limit is passed."""
     cost = measure_ticks(int(sys.argv[1]) if len(sys.argv) > 1 else TICK_COUNT)
     print(as_text(cost))
-    return int(cost.maximum > TICK_LIMIT or cost.commit.maximum > COMMIT_LIMIT)
+    return int(cost.maximum > TICK_LIMIT)
 
 
 if __name__ == "__main__":

@@ -308,6 +308,36 @@ static int32_t fail_everywhere(const nvm_t *left, operation_t operation, int new
     return steps;
 }
 
+/* Power fails between any two steps of the store, while it checks and packs the set as well as later: no write is
+ * interrupted, and none is needed to be. */
+static void stop_everywhere(const nvm_t *left, operation_t operation, int new_set)
+{
+    static nvm_t nvm;
+    limb_t limb;
+    brace_store_state_t state = BRACE_STORE_BUSY;
+    for (now.first_step = 0; state == BRACE_STORE_BUSY; now.first_step++) {
+        nvm = *left;
+        nvm_power(&nvm, NVM_FOREVER, CUT_AFTER);
+        start(&limb, &nvm);
+        allowed_t allowed = {.count = 0};
+        allow(&allowed, limb.in_force);
+        allow(&allowed, operation == UPDATE ? new_set : set_to_go_back_to(&limb));
+        const brace_status_t status = operation == UPDATE ? brace_store_offer(&limb.store, &set[new_set])
+                                                          : brace_store_rollback(&limb.store);
+        require(status == BRACE_OK, "an operation is refused", status);
+        for (int i = 0; i < now.first_step; i++) {
+            state = brace_store_step(&limb.store);
+        }
+        start(&limb, &nvm);
+        require(is_allowed(&allowed, limb.in_force), "neither the old set nor the new one", limb.in_force);
+        require(state != BRACE_STORE_DONE || limb.in_force == allowed.set[allowed.count - 1], "done, and the old set",
+                limb.in_force);
+        go_on(&nvm, 0);
+        cases++;
+    }
+    require(state == BRACE_STORE_DONE, "an undisturbed operation is not done", state);
+}
+
 /* A program is a row of operations; each in its turn is the one that fails, those before it are undisturbed. */
 static int32_t run_program(const char *program, uint32_t unit, bool pairs, int first_operation)
 {
@@ -322,6 +352,7 @@ static int32_t run_program(const char *program, uint32_t unit, bool pairs, int f
         now.operation = i;
         if (i >= first_operation) {
             steps += fail_everywhere(&nvm, (operation_t)program[i], i + 1, pairs);
+            stop_everywhere(&nvm, (operation_t)program[i], i + 1);
         }
         nvm_power(&nvm, NVM_FOREVER, CUT_AFTER);
         start(&limb, &nvm);

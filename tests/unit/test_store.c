@@ -377,6 +377,48 @@ static void test_what_is_refused_at_once(void)
     TEST_ASSERT_EQUAL(BRACE_STORE_DONE, finish());
 }
 
+/* The first steps of an update that is offered check it, and touch nothing. */
+static void test_a_set_that_is_offered_is_judged_on_the_way(void)
+{
+    update(1);
+    for (int fault = 0; fault < 3; fault++) {
+        brace_parameters_t wrong = set_of(2);
+        uint32_t index = 0;
+        if (fault == 0) {
+            wrong.limb.coxa_mm = -1.0f;
+        } else if (fault == 1) {
+            wrong.sensor.gain = __builtin_nanf("");
+        } else { /* what members say together */
+            wrong.drive[BRACE_TIBIA].angle_max_rad = wrong.drive[BRACE_TIBIA].angle_min_rad;
+        }
+        const brace_status_t status = brace_parameters_check(&wrong, &index);
+        const uint8_t first = memory.bytes[1][0];
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_store_offer(&store, &wrong));
+        uint32_t calls = 0;
+        while (brace_store_step(&store) == BRACE_STORE_BUSY) {
+            calls++;
+            TEST_ASSERT_LESS_THAN(BRACE_CHECK_PIECES, calls);
+        }
+        TEST_ASSERT_EQUAL(BRACE_STORE_FAILED, status_now().state);
+        TEST_ASSERT_EQUAL(BRACE_STORE_E_REFUSED, status_now().failure);
+        TEST_ASSERT_EQUAL(status, status_now().refusal);
+        TEST_ASSERT_EQUAL(index, status_now().wrong_index);
+        TEST_ASSERT_FALSE(status_now().memory_fault);
+        TEST_ASSERT_EQUAL(first, memory.bytes[1][0]);
+        expect_after_start(BRACE_PARAMETERS_SLOT_A, 1);
+    }
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_store_offer(NULL, &parameters));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_store_offer(&store, NULL));
+    const brace_parameters_t right = set_of(2);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_store_offer(&store, &right));
+    TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_store_offer(&store, &right));
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, finish());
+    TEST_ASSERT_EQUAL(BRACE_OK, status_now().refusal);
+    uint8_t block[BRACE_BLOCK_BYTES];
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_parameters_pack(&right, 2, block, sizeof block));
+    TEST_ASSERT_EQUAL_MEMORY(block, memory.bytes[1], sizeof block);
+}
+
 static void test_everything_has_its_text(void)
 {
     for (int i = BRACE_SLOT_EMPTY; i <= BRACE_SLOT_UNREADABLE; i++) {
@@ -386,8 +428,8 @@ static void test_everything_has_its_text(void)
             TEST_ASSERT_NOT_EQUAL(0, strcmp(text, another));
         }
     }
-    for (int i = BRACE_STORE_E_SHAPE; i <= BRACE_STORE_FINE; i++) {
-        for (int other = BRACE_STORE_E_SHAPE; other <= i; other++) {
+    for (int i = BRACE_STORE_E_REFUSED; i <= BRACE_STORE_FINE; i++) {
+        for (int other = BRACE_STORE_E_REFUSED; other <= i; other++) {
             const char *text = brace_store_failure_text((brace_store_failure_t)i);
             const char *another = brace_store_failure_text((brace_store_failure_t)(other == i ? 99 : other));
             TEST_ASSERT_NOT_EQUAL(0, strcmp(text, another));
@@ -410,6 +452,7 @@ int main(void)
     RUN_TEST(test_each_write_refused_in_turn);
     RUN_TEST(test_a_memory_that_does_not_answer);
     RUN_TEST(test_what_is_refused_at_once);
+    RUN_TEST(test_a_set_that_is_offered_is_judged_on_the_way);
     RUN_TEST(test_everything_has_its_text);
     return UNITY_END();
 }

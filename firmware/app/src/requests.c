@@ -105,7 +105,14 @@ brace_status_t brace_app_parameters_commit(brace_app_t *app, const brace_paramet
     if (app == NULL || parameters == NULL) {
         return BRACE_E_NULL;
     }
-    return app->mode == BRACE_MODE_CONFIGURATION ? storing_commit(app, parameters) : BRACE_E_MODE;
+    if (app->mode != BRACE_MODE_CONFIGURATION) {
+        return BRACE_E_MODE;
+    }
+    if (storing_busy(app)) {
+        return BRACE_E_UNSUPPORTED;
+    }
+    const brace_status_t status = brace_parameters_check(parameters, NULL);
+    return status == BRACE_OK ? storing_commit(app, parameters) : status;
 }
 
 brace_status_t brace_app_parameters_rollback(brace_app_t *app)

@@ -29,6 +29,13 @@ brace_status_t brace_parameters_pack(const brace_parameters_t *parameters, uint3
     if (status != BRACE_OK) {
         return status;
     }
+    brace_block_compose(parameters, sequence, block);
+    brace_put_u32(block + BRACE_BLOCK_BYTES - CRC_BYTES, brace_crc32(0, block, BRACE_BLOCK_BYTES - CRC_BYTES));
+    return BRACE_OK;
+}
+
+void brace_block_compose(const brace_parameters_t *parameters, uint32_t sequence, uint8_t *block)
+{
     memcpy(block, magic, sizeof magic);
     brace_put_u32(block + AT_FORMAT, BRACE_BLOCK_FORMAT | BRACE_BLOCK_HEADER_BYTES << 16);
     brace_put_u32(block + AT_SCHEMA, BRACE_SCHEMA_HASH);
@@ -37,8 +44,6 @@ brace_status_t brace_parameters_pack(const brace_parameters_t *parameters, uint3
     for (uint32_t i = 0; i < BRACE_PARAMETER_COUNT; i++) {
         brace_put_u32(block + BRACE_BLOCK_HEADER_BYTES + 4u * i, brace_member_get(parameters, i));
     }
-    brace_put_u32(block + BRACE_BLOCK_BYTES - CRC_BYTES, brace_crc32(0, block, BRACE_BLOCK_BYTES - CRC_BYTES));
-    return BRACE_OK;
 }
 
 brace_status_t brace_block_header(const uint8_t *block, uint32_t length, brace_block_header_t *header)

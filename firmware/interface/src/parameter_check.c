@@ -86,17 +86,30 @@ static brace_status_t refuse(brace_status_t status, uint32_t index, uint32_t *wr
     return status;
 }
 
-brace_status_t brace_parameters_check(const brace_parameters_t *parameters, uint32_t *wrong_index)
+static brace_status_t check_members(const brace_parameters_t *parameters, uint32_t from, uint32_t *wrong_index)
+{
+    const uint32_t end = from + BRACE_CHECK_MEMBERS < BRACE_PARAMETER_COUNT ? from + BRACE_CHECK_MEMBERS
+                                                                            : (uint32_t)BRACE_PARAMETER_COUNT;
+    for (uint32_t i = from; i < end; i++) { /* at most BRACE_CHECK_MEMBERS */
+        const brace_status_t status = member_in_range(brace_member_get(parameters, i), brace_parameter_rule[i]);
+        if (status != BRACE_OK) {
+            return refuse(status, i, wrong_index);
+        }
+    }
+    return BRACE_OK;
+}
+
+brace_status_t brace_parameters_check_piece(const brace_parameters_t *parameters, uint32_t piece,
+                                            uint32_t *wrong_index)
 {
     if (parameters == NULL) {
         return BRACE_E_NULL;
     }
-    for (uint32_t i = 0; i < BRACE_PARAMETER_COUNT; i++) {
-        const uint32_t word = brace_member_get(parameters, i);
-        const brace_status_t status = member_in_range(word, brace_parameter_rule[i]);
-        if (status != BRACE_OK) {
-            return refuse(status, i, wrong_index);
-        }
+    if (piece < BRACE_CHECK_TOGETHER) {
+        return check_members(parameters, piece * BRACE_CHECK_MEMBERS, wrong_index);
+    }
+    if (piece > BRACE_CHECK_TOGETHER) {
+        return BRACE_E_RANGE;
     }
     const uint32_t wrong = fault_between_members(parameters);
     if (wrong != BRACE_PARAMETER_COUNT) {
@@ -104,6 +117,15 @@ brace_status_t brace_parameters_check(const brace_parameters_t *parameters, uint
     }
     const brace_status_t limb = brace_limb_check(&parameters->limb);
     return limb == BRACE_OK ? BRACE_OK : refuse(limb, BRACE_PARAMETER_COUNT, wrong_index);
+}
+
+brace_status_t brace_parameters_check(const brace_parameters_t *parameters, uint32_t *wrong_index)
+{
+    brace_status_t status = BRACE_OK;
+    for (uint32_t piece = 0; piece < BRACE_CHECK_PIECES && status == BRACE_OK; piece++) {
+        status = brace_parameters_check_piece(parameters, piece, wrong_index);
+    }
+    return status;
 }
 
 void brace_parameters_default(brace_parameters_t *parameters)

@@ -4,7 +4,7 @@
  *
  *   M monitor  T taking up  L loading test  R its readings  D drift step  J its judgement  C configuration
  *   P a piece of putting parameters in force  S storing  0 start  F fault
- *   Q one that answers a request over CAN  B one that checks and packs a set to be stored, in configuration
+ *   Q one that answers a request over CAN
  */
 #include <stdio.h>
 
@@ -18,6 +18,10 @@
 enum { EPISODE_TICKS = 2500, LINE = 100 };
 
 static brace_app_t app;
+static struct {
+    uint8_t block[BRACE_BLOCK_BYTES];
+    uint32_t next; /* 0: none under way; 1: begin; then the words; then the commit */
+} upload;
 static dice_t dice = {0x9e3779b97f4a7c15u};
 
 static brace_parameters_t random_parameters(const world_manner_t *manner)
@@ -85,6 +89,7 @@ static void begin_episode(void)
         }
     }
     world_begin(&dice, &manner);
+    upload.next = 0;
     (void)brace_app_start(&app, &world_door);
 }
 
@@ -124,6 +129,45 @@ static void random_request(void)
         const brace_parameters_t p = random_parameters(&(world_manner_t){.gap_rad = {0.01f, 0.01f, 0.005f}});
         (void)(dice_in(&dice, 3) ? brace_app_parameters_rollback(&app) : brace_app_parameters_commit(&app, &p));
     }
+}
+
+static void begin_upload(void)
+{
+    brace_parameters_t p = random_parameters(&(world_manner_t){.gap_rad = {0.01f, 0.01f, 0.005f}});
+    (void)brace_parameters_pack(&p, 1, upload.block, sizeof upload.block);
+    if (dice_in(&dice, 4)) { /* one that is refused: sealed all the same */
+        p.limb.femur_mm = -1.0f;
+        brace_block_compose(&p, 1, upload.block);
+        const uint32_t crc = brace_crc32(0, upload.block, BRACE_BLOCK_BYTES - 4);
+        for (uint32_t i = 0; i < 4u; i++) {
+            upload.block[BRACE_BLOCK_BYTES - 4 + i] = (uint8_t)(crc >> (8u * i));
+        }
+    }
+    upload.next = 1;
+}
+
+/* The next request of a block that is uploaded whole. */
+static void upload_on(void)
+{
+    const uint8_t *crc = upload.block + BRACE_BLOCK_BYTES - 4, *word = upload.block + 4u * (upload.next - 2u);
+    uint8_t data[8] = {BRACE_REQUEST_UPLOAD_BEGIN, (uint8_t)upload.next, (uint8_t)BRACE_BLOCK_BYTES,
+                       (uint8_t)(BRACE_BLOCK_BYTES >> 8), crc[0], crc[1], crc[2], crc[3]};
+    if (upload.next > 1u + BRACE_BLOCK_BYTES / 4u) {
+        data[0] = BRACE_REQUEST_COMMIT;
+        for (uint32_t i = 0; i < 4u; i++) {
+            data[2u + i] = crc[i];
+        }
+        upload.next = 0;
+    } else if (upload.next > 1u) {
+        data[0] = BRACE_REQUEST_UPLOAD_WORD;
+        data[2] = (uint8_t)(upload.next - 2u);
+        data[3] = (uint8_t)((upload.next - 2u) >> 8);
+        for (uint32_t i = 0; i < 4u; i++) {
+            data[4u + i] = word[i];
+        }
+    }
+    upload.next += upload.next > 0u;
+    world_asks(app.bus.node_id, data);
 }
 
 /* A request over CAN: of every code, mostly with sense in it. */
@@ -171,10 +215,7 @@ static void random_question(void)
 /* What the tick was, now that it is known whether it answered. */
 static char answered(char kind)
 {
-    if (!app.requests.serves) {
-        return kind;
-    }
-    return app.requests.request[0] == BRACE_REQUEST_COMMIT && (kind == 'C' || kind == 'S' || kind == 'P') ? 'B' : 'Q';
+    return app.requests.serves ? 'Q' : kind;
 }
 
 /* What the coming tick is. */
@@ -203,10 +244,17 @@ int main(void)
         }
         world_now_us += dice_in(&dice, 2000) ? 1000u + dice_below(&dice, 30000) : 1000u;
         world_step(&dice);
-        if (dice_in(&dice, 20)) {
+        if (upload.next == 0u && dice_in(&dice, 20)) {
             random_request();
+            if (app.mode == BRACE_MODE_CONFIGURATION && !app.storing && app.bus.speaks && dice_in(&dice, 8)) {
+                begin_upload();
+            }
         }
-        if (dice_in(&dice, 3)) {
+        if (upload.next > 0u) {
+            if (tick % 3u == 0u) { /* so that the answers go out in between */
+                upload_on();
+            }
+        } else if (dice_in(&dice, 3)) {
             random_question();
         }
         const char expected = kind();

@@ -194,6 +194,7 @@ typedef struct {
     uint8_t storing, storing_token; /* the request that is answered when the store is done; 0: none */
     bool upload_open;
     uint32_t upload_next, upload_crc; /* words so far; the CRC that it will end with */
+    uint32_t upload_sum;      /* CRC of all but the last word */
     uint8_t upload[BRACE_BLOCK_BYTES];
     uint32_t download_next, download_crc, download_set; /* words so far, of the set with that CRC */
 } brace_app_requests_t;
@@ -330,7 +331,7 @@ brace_status_t brace_app_configuration_leave(brace_app_t *app);
 
 /* Stores a set and puts it in force once it has read back; in CONFIGURATION only. How it goes:
  * brace_app_store. What concerns buses (node, bit rates) takes effect at the next start.
- * returns also what brace_store_begin does, at its cost */
+ * returns also what brace_store_begin does, at its cost: for hosts, not within a tick */
 brace_status_t brace_app_parameters_commit(brace_app_t *app, const brace_parameters_t *parameters);
 
 /* Puts the set before the one in force back; in CONFIGURATION only.

@@ -18,7 +18,7 @@
  *
  * Works off the tick: brace_store_step does one erase, or writes or reads at most 32 bytes. The erase stops the
  * processor (brace_hal.h), so updates are for the configuration mode. One brace_store_t per limb; one thread, the
- * application's. No heap, no recursion, no libm. Stack: at most 200 bytes; brace_store_start 1,500.
+ * application's. No heap, no recursion, no libm. Stack: at most 600 bytes; brace_store_start 1,500.
  */
 #ifndef BRACE_STORE_H
 #define BRACE_STORE_H
@@ -72,7 +72,8 @@ typedef enum {
     BRACE_STORE_E_READ_BACK = -3, /* what was written is not what reads back */
     BRACE_STORE_E_NOTHING = -4,  /* roll-back: the other slot does not count */
     BRACE_STORE_E_FULL = -5,     /* no room for a mark: some twenty updates in a row were interrupted; update once */
-    BRACE_STORE_E_SHAPE = -6     /* slots too small, or a unit other than 1, 2, 4, 8 */
+    BRACE_STORE_E_SHAPE = -6,    /* slots too small, or a unit other than 1, 2, 4, 8 */
+    BRACE_STORE_E_REFUSED = -7   /* brace_parameters_check refuses the set; nothing was touched */
 } brace_store_failure_t;
 
 /* State. Private but for what brace_store_status tells; here so that it can be placed without a heap. */
@@ -86,18 +87,21 @@ typedef struct {
     uint8_t state;
     uint8_t stage;
     uint8_t target;         /* slot that an update writes, or that a roll-back puts in force */
-    int8_t failure;
+    int8_t failure, refusal;
     bool rolling_back, memory_fault;
     uint32_t position;      /* within the stage [bytes] */
     uint32_t sequence;      /* of the set on its way */
     uint32_t block_crc;     /* of what is being read */
     uint32_t identity;      /* brace_parameters_crc, as far as it has been read */
+    uint32_t wrong_index;   /* with E_REFUSED */
     uint8_t block[BRACE_STORE_BLOCK_ROOM]; /* on its way */
 } brace_store_t;
 
 typedef struct {
     brace_store_state_t state;
     brace_store_failure_t failure; /* of the last update or roll-back */
+    brace_status_t refusal;        /* with E_REFUSED: what brace_parameters_check says, and of which member */
+    uint32_t wrong_index;
     brace_parameter_origin_t in_force;
     uint32_t sequence;             /* of the set in force; 0 for the defaults */
     brace_slot_report_t slot[BRACE_NVM_SLOT_COUNT];
@@ -113,11 +117,16 @@ typedef struct {
 brace_parameter_origin_t brace_store_start(brace_store_t *store, const brace_hal_t *hal,
                                            brace_parameters_t *parameters);
 
-/* Begins an update. The set is copied; the old one stays in force until DONE. A set that brace_parameters_check refuses
- * is refused with its status and the member at fault.
+/* Begins an update, for a tick. The set is copied; the first steps check it and work out its block, before anything is
+ * touched: FAILED with E_REFUSED when it is none.
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_UNSUPPORTED (BUSY); cost: 700 instructions */
+brace_status_t brace_store_offer(brace_store_t *store, const brace_parameters_t *parameters);
+
+/* The same off the tick, checked at once. The set is copied; the old one stays in force until DONE. A set that brace_parameters_check refuses
+ * is refused with its status and the member at fault; the store stays as it is.
  *   wrong_index (out, may be null): as brace_parameters_check
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_UNSUPPORTED (BUSY), BRACE_E_NOT_FINITE, BRACE_E_PARAMETER
- * cost: 12,000 instructions: not within a tick */
+ * cost: 4,000 instructions: not within a tick */
 brace_status_t brace_store_begin(brace_store_t *store, const brace_parameters_t *parameters, uint32_t *wrong_index);
 
 /* Begins a roll-back: the other slot's set comes back in force. Ends at once in FAILED, E_NOTHING, when there is none;
@@ -127,7 +136,7 @@ brace_status_t brace_store_rollback(brace_store_t *store);
 
 /* One bounded piece of what is under way; call it each tick. In IDLE, DONE and FAILED it does nothing.
  * returns the state after it
- * cost: at most 1,900 instructions and one call to the memory */
+ * cost: at most 2,300 instructions and one call to the memory */
 brace_store_state_t brace_store_step(brace_store_t *store);
 
 /* After DONE: the set now in force, as it was read back; the store is IDLE then.

@@ -138,6 +138,9 @@ int32_t request_upload_word(brace_app_t *app, request_t *request)
         return BRACE_REFUSED_ORDER;
     }
     uint8_t *place = &requests->upload[4u * asked.word];
+    if (!again) { /* the word before stays as it is now */
+        requests->upload_sum = asked.word == 0u ? 0u : brace_crc32(requests->upload_sum, place - 4, 4);
+    }
     for (uint32_t i = 0; i < 4u; i++) {
         place[i] = (uint8_t)(asked.data >> (8u * i));
     }
@@ -153,9 +156,12 @@ static uint32_t word_at(const uint8_t *bytes)
     return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
 }
 
-/* The uploaded block becomes the staged set, if it is whole and what was announced. */
-static int32_t stage_upload(brace_app_t *app, request_t *request, uint32_t crc)
+/* An uploaded block that is whole, what was announced and of our dictionary is stored; its values are judged by the
+ * store, on the way. What was staged stays so until then. */
+static int32_t store_upload(brace_app_t *app, request_t *request, uint32_t crc)
 {
+    brace_block_header_t header;
+    brace_parameters_t set;
     brace_app_requests_t *requests = &app->requests;
     request->detail = requests->upload_open ? requests->upload_next : 0u;
     if (!requests->upload_open || requests->upload_next != BLOCK_WORDS) {
@@ -166,16 +172,26 @@ static int32_t stage_upload(brace_app_t *app, request_t *request, uint32_t crc)
     if (crc != requests->upload_crc || crc != request->detail) {
         return BRACE_E_CHECKSUM;
     }
-    uint32_t wrong_index = BRACE_SCHEMA_HASH; /* of another dictionary; else the member at fault */
-    const brace_status_t status =
-        brace_parameters_unpack(requests->upload, BRACE_BLOCK_BYTES, &app->staging.set, NULL, &wrong_index);
-    app->staging.begun = app->staging.begun || status == BRACE_OK;
-    request->detail = wrong_index;
-    return status;
+    request->detail = BRACE_SCHEMA_HASH;
+    const brace_status_t status = brace_block_header(requests->upload, BRACE_BLOCK_BYTES, &header);
+    if (status != BRACE_OK) {
+        return status;
+    }
+    if (header.block_bytes != BRACE_BLOCK_BYTES) {
+        return BRACE_E_LENGTH;
+    }
+    if (crc != requests->upload_sum) {
+        return BRACE_E_CHECKSUM;
+    }
+    if (header.schema_hash != BRACE_SCHEMA_HASH) {
+        return BRACE_E_SCHEMA;
+    }
+    brace_block_members(requests->upload, &set);
+    return storing_commit(app, &set);
 }
 
 /* The end of it is answered by request_storing_answer. */
-static int32_t begun(brace_app_t *app, const request_t *request, brace_status_t status)
+static int32_t begun(brace_app_t *app, const request_t *request, int32_t status)
 {
     if (status == BRACE_OK) {
         app->requests.storing = (uint8_t)request->code;
@@ -188,18 +204,12 @@ int32_t request_commit(brace_app_t *app, request_t *request)
 {
     brace_can_commit_request_t asked;
     brace_can_unpack_commit_request(request->data, &asked);
-    int32_t status = open_for_change(app, request);
-    if (status == BRACE_OK && asked.crc != 0u) {
-        status = stage_upload(app, request, asked.crc);
-    }
+    const int32_t status = open_for_change(app, request);
     if (status != BRACE_OK) {
         return status;
     }
-    const brace_status_t stored = staging_commit(app);
-    if (stored == BRACE_E_PARAMETER || stored == BRACE_E_NOT_FINITE) {
-        (void)brace_parameters_check(&app->staging.set, &request->detail);
-    }
-    return begun(app, request, stored);
+    return begun(app, request, asked.crc != 0u ? store_upload(app, request, asked.crc)
+                                               : (int32_t)staging_commit(app, &request->detail));
 }
 
 int32_t request_rollback(brace_app_t *app, request_t *request)
@@ -219,6 +229,10 @@ void request_storing_answer(brace_app_t *app)
     const uint32_t code = requests->storing, token = requests->storing_token;
     requests->storing = 0;
     brace_store_status(&app->store, &store);
+    if (store.state == BRACE_STORE_FAILED && store.failure == BRACE_STORE_E_REFUSED) {
+        answer_refusal(app, code, token, store.refusal, store.wrong_index);
+        return;
+    }
     if (store.state == BRACE_STORE_FAILED) {
         answer_refusal(app, code, token, BRACE_REFUSED_STORE + (int32_t)store.failure, 0);
         return;

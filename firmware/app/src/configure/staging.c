@@ -37,11 +37,14 @@ brace_status_t staging_write(brace_app_t *app, uint32_t index, uint32_t word)
     return BRACE_OK;
 }
 
-brace_status_t staging_commit(brace_app_t *app)
+brace_status_t staging_commit(brace_app_t *app, uint32_t *wrong_index)
 {
     const brace_status_t status = staging_open(app);
     if (status != BRACE_OK) {
         return status;
     }
-    return brace_app_parameters_commit(app, app->staging.begun ? &app->staging.set : &app->parameters);
+    const brace_parameters_t *set = app->staging.begun ? &app->staging.set : &app->parameters;
+    /* each member is in its range: what is in force was judged at the start, what was written when it came */
+    const brace_status_t together = brace_parameters_check_piece(set, BRACE_CHECK_TOGETHER, wrong_index);
+    return together == BRACE_OK ? storing_commit(app, set) : together;
 }

@@ -16,7 +16,9 @@ brace_status_t staging_open(const brace_app_t *app);
  * own range; what members say together is judged by the commit). At most 450 instructions, the first time; else 60. */
 brace_status_t staging_write(brace_app_t *app, uint32_t index, uint32_t word);
 
-/* Stores what has been written: brace_app_parameters_commit. */
-brace_status_t staging_commit(brace_app_t *app);
+/* Stores what has been written. What members say together is judged at once, the rest as it was written.
+ *   wrong_index (out, may be null): as brace_parameters_check
+ * returns as staging_open; BRACE_E_PARAMETER, BRACE_E_NOT_FINITE. At most 2,000 instructions. */
+brace_status_t staging_commit(brace_app_t *app, uint32_t *wrong_index);
 
 #endif

@@ -25,7 +25,7 @@ brace_status_t storing_commit(brace_app_t *app, const brace_parameters_t *parame
     if (storing_busy(app)) {
         return BRACE_E_UNSUPPORTED;
     }
-    const brace_status_t status = brace_store_begin(&app->store, parameters, NULL);
+    const brace_status_t status = brace_store_offer(&app->store, parameters);
     app->storing = status == BRACE_OK;
     return status;
 }

@@ -7,6 +7,8 @@
 /* Takes the parameters in force from the store. */
 void storing_start(brace_app_t *app);
 
+/* Stores a set: checked by the store in its first steps. returns BRACE_OK, BRACE_E_UNSUPPORTED (busy). At most 800
+ * instructions. */
 brace_status_t storing_commit(brace_app_t *app, const brace_parameters_t *parameters);
 brace_status_t storing_rollback(brace_app_t *app);
 

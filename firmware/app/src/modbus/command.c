@@ -46,7 +46,7 @@ static modbus_exception_t store(brace_app_t *app, uint32_t value, bool is_commit
     if (open != BRACE_OK) {
         return open == BRACE_E_UNSUPPORTED ? MODBUS_E_BUSY : refusal_of(open);
     }
-    return refusal_of(is_commit ? staging_commit(app) : brace_app_parameters_rollback(app));
+    return refusal_of(is_commit ? staging_commit(app, NULL) : brace_app_parameters_rollback(app));
 }
 
 static modbus_exception_t take_up(brace_app_t *app, uint32_t value)

@@ -4,9 +4,11 @@
 
 #include "store/store_slot.h"
 
-/* What is done, in this order. An update goes through the first eight, a roll-back through AFFIRM, REREAD,
+/* What is done, in this order. An update goes through the first ten, a roll-back through AFFIRM, REREAD,
  * WITHDRAW; UNDO is where a failed last mark goes. */
 typedef enum {
+    STAGE_CHECK,    /* may the set be? Until it is, nothing is touched */
+    STAGE_SEAL,     /* the CRC of its block */
     STAGE_AFFIRM,   /* KEEP to the slot that has to count whatever happens next */
     STAGE_RETIRE,   /* VOID to the slot that will be erased */
     STAGE_SPOIL,    /* zeros over its first bytes: whatever an interrupted erase leaves, it is no block */
@@ -25,7 +27,7 @@ enum {
     MARKS_BYTES = BRACE_STORE_MARK_COUNT * BRACE_STORE_MARK_BYTES
 };
 
-enum { PLACES_FILLED = 2 };
+enum { PLACES_FILLED = 2, SEALED_BYTES = 64 /* of the CRC, at once */ };
 static const uint8_t zeros[PLACES_FILLED * BRACE_STORE_MARK_BYTES];
 
 static uint32_t other_than(uint32_t slot)
@@ -79,13 +81,13 @@ static void go_to(brace_store_t *store, stage_t stage)
     store->position = 0;
 }
 
-static void begin(brace_store_t *store, uint32_t target, bool rolling_back)
+static void begin(brace_store_t *store, uint32_t target, stage_t stage)
 {
     store->target = (uint8_t)target;
-    store->rolling_back = rolling_back;
+    store->rolling_back = stage == STAGE_AFFIRM;
     store->failure = BRACE_STORE_FINE;
     store->state = BRACE_STORE_BUSY;
-    go_to(store, STAGE_AFFIRM);
+    go_to(store, stage);
 }
 
 static brace_store_state_t fail(brace_store_t *store, brace_store_failure_t failure)
@@ -124,6 +126,25 @@ static uint32_t next_sequence(const brace_store_t *store)
     return ((int32_t)(b->sequence - a->sequence) > 0 ? b->sequence : a->sequence) + 1u;
 }
 
+brace_status_t brace_store_offer(brace_store_t *store, const brace_parameters_t *parameters)
+{
+    if (store == NULL || parameters == NULL) {
+        return BRACE_E_NULL;
+    }
+    if (store->state == BRACE_STORE_BUSY) {
+        return BRACE_E_UNSUPPORTED;
+    }
+    if (!store_fits(store->hal)) {
+        fail(store, BRACE_STORE_E_SHAPE);
+        return BRACE_OK;
+    }
+    store->sequence = next_sequence(store);
+    memset(store->block + BRACE_BLOCK_BYTES, 0xff, sizeof store->block - BRACE_BLOCK_BYTES);
+    brace_block_compose(parameters, store->sequence, store->block);
+    begin(store, slot_to_write(store), STAGE_CHECK);
+    return BRACE_OK;
+}
+
 brace_status_t brace_store_begin(brace_store_t *store, const brace_parameters_t *parameters,
                                  uint32_t *wrong_index)
 {
@@ -134,18 +155,7 @@ brace_status_t brace_store_begin(brace_store_t *store, const brace_parameters_t 
         return BRACE_E_UNSUPPORTED;
     }
     const brace_status_t status = brace_parameters_check(parameters, wrong_index);
-    if (status != BRACE_OK) {
-        return status;
-    }
-    if (!store_fits(store->hal)) {
-        fail(store, BRACE_STORE_E_SHAPE);
-        return BRACE_OK;
-    }
-    store->sequence = next_sequence(store);
-    memset(store->block, 0xff, sizeof store->block);
-    (void)brace_parameters_pack(parameters, store->sequence, store->block, sizeof store->block); /* is checked */
-    begin(store, slot_to_write(store), false);
-    return BRACE_OK;
+    return status == BRACE_OK ? brace_store_offer(store, parameters) : status;
 }
 
 static bool can_roll_back(const brace_store_t *store)
@@ -163,11 +173,45 @@ brace_status_t brace_store_rollback(brace_store_t *store)
         return BRACE_E_UNSUPPORTED;
     }
     if (can_roll_back(store)) {
-        begin(store, other_than(store->in_force - 1u), true);
+        begin(store, other_than(store->in_force - 1u), STAGE_AFFIRM);
     } else {
         fail(store, BRACE_STORE_E_NOTHING);
     }
     return BRACE_OK;
+}
+
+/* ---------------------------------------------------------------------------------- check and seal -- */
+
+static brace_store_state_t check(brace_store_t *store)
+{
+    brace_parameters_t set;
+    brace_block_members(store->block, &set);
+    const brace_status_t status = brace_parameters_check_piece(&set, store->position, &store->wrong_index);
+    if (status != BRACE_OK) {
+        store->refusal = (int8_t)status;
+        return fail(store, BRACE_STORE_E_REFUSED);
+    }
+    store->position++;
+    if (store->position == BRACE_CHECK_PIECES) {
+        go_to(store, STAGE_SEAL);
+        store->block_crc = 0;
+    }
+    return BRACE_STORE_BUSY;
+}
+
+static brace_store_state_t seal(brace_store_t *store)
+{
+    const uint32_t covered = BRACE_BLOCK_BYTES - 4, left = covered - store->position;
+    const uint32_t count = left < SEALED_BYTES ? left : (uint32_t)SEALED_BYTES;
+    store->block_crc = brace_crc32(store->block_crc, store->block + store->position, count);
+    store->position += count;
+    if (store->position == covered) {
+        for (uint32_t i = 0; i < 4u; i++) {
+            store->block[covered + i] = (uint8_t)(store->block_crc >> (8u * i));
+        }
+        go_to(store, STAGE_AFFIRM);
+    }
+    return BRACE_STORE_BUSY;
 }
 
 /* ------------------------------------------------------------------------------------------ marks -- */
@@ -468,6 +512,8 @@ brace_store_state_t brace_store_step(brace_store_t *store)
         return (brace_store_state_t)store->state;
     }
     switch ((stage_t)store->stage) {
+    case STAGE_CHECK: return check(store);
+    case STAGE_SEAL: return seal(store);
     case STAGE_AFFIRM: return affirm(store);
     case STAGE_RETIRE: return retire(store);
     case STAGE_SPOIL: return spoil(store);
@@ -512,6 +558,8 @@ void brace_store_status(const brace_store_t *store, brace_store_status_t *status
     status->sequence = store->in_force == BRACE_PARAMETERS_DEFAULT ? 0u
                                                                    : store->slot[store->in_force - 1u].sequence;
     memcpy(status->slot, store->slot, sizeof status->slot);
+    status->refusal = store->failure == BRACE_STORE_E_REFUSED ? (brace_status_t)store->refusal : BRACE_OK;
+    status->wrong_index = store->failure == BRACE_STORE_E_REFUSED ? store->wrong_index : 0u;
     status->can_roll_back = can_roll_back(store);
     status->memory_fault = store->memory_fault;
 }
@@ -525,6 +573,7 @@ const char *brace_store_failure_text(brace_store_failure_t failure)
     case BRACE_STORE_E_READ_BACK: return "what was written is not what reads back";
     case BRACE_STORE_E_NOTHING: return "there is no other set to go back to";
     case BRACE_STORE_E_FULL: return "no room for a mark: some twenty updates in a row were interrupted";
+    case BRACE_STORE_E_REFUSED: return "a value is out of range, or values contradict each other";
     case BRACE_STORE_E_SHAPE: return "the board's non-volatile memory is too small or of an unknown unit";
     default: return "not a failure of the store";
     }
