@@ -8,9 +8,9 @@ import json
 import math
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from brace.cli.options import angle, count, flexion, number, path, positive
 from brace.cli.streams import emit
@@ -33,6 +33,12 @@ __all__ = [
 ]
 
 PROGRESS_AFTER_S = 2.0
+
+
+class Advance(Protocol):
+    """Told of the work done so far."""
+
+    def __call__(self, done: int, doing: str = "") -> None: ...
 
 
 def add_model(parser: argparse.ArgumentParser, meaning: str = "the limb model") -> None:
@@ -73,12 +79,13 @@ def say(text: str) -> None:
 
 
 @contextlib.contextmanager
-def progress(label: str, total: int | None = None) -> Iterator[Callable[[int], None]]:
-    """Yields a function to call with the work done so far. Draws a bar on a terminal once two seconds are up."""
+def progress(label: str, total: int | None = None) -> Iterator[Advance]:
+    """Yields a function to call with the work done so far, and what is being done if that changes. Draws a bar on a
+    terminal once two seconds are up."""
     started = time.monotonic()
     bar: list[Any] = []
 
-    def advance(done: int) -> None:
+    def advance(done: int, doing: str = "") -> None:
         if sys.stderr is None or not sys.stderr.isatty() or time.monotonic() - started < PROGRESS_AFTER_S:
             return
         if not bar:
@@ -88,7 +95,7 @@ def progress(label: str, total: int | None = None) -> Iterator[Callable[[int], N
             shown = Progress(console=Console(stderr=True), transient=True)
             shown.start()
             bar.extend([shown, shown.add_task(label, total=total)])
-        bar[0].update(bar[1], completed=done)
+        bar[0].update(bar[1], completed=done, description=f"{label}: {doing}" if doing else label)
 
     try:
         yield advance

@@ -1,0 +1,95 @@
+"""`brace diagnose`: where model and measurement disagree, what is missing, the model with it, the gap before and after."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from brace.cli import common
+
+_PERCENT = 100
+
+
+def add(commands: Any) -> None:
+    """Declares the subcommand."""
+    parser = commands.add_parser(
+        "diagnose",
+        help="where model and data disagree, what is missing, the model with it added",
+        description="Finds where a limb's model and a record disagree, names the effect that is missing or says which "
+        "ones it cannot tell apart, adds it to the model, and shows the gap on data that took no part. Writes "
+        "diagnosis.json, limb.toml and report.html into --out. Several datasets: a folder each, and fleet.html.",
+        epilog="Exit code 0 whatever the verdict (effect, none, ambiguous, unknown, data_fault); 3 when a dataset or model "
+        "cannot be read. Of several datasets the readable ones are written all the same.",
+    )
+    parser.add_argument(
+        "datasets", type=common.path, nargs="+", metavar="DATASET", help="folder with meta.toml and data.csv"
+    )
+    parser.add_argument(
+        "--model",
+        type=common.path,
+        metavar="LIMB.toml",
+        help="what is believed of the limb; default the limb.toml in the dataset's folder; a joint test needs none",
+    )
+    parser.add_argument("--out", type=common.path, required=True, metavar="DIR", help="folder of the results")
+    parser.add_argument(
+        "--seed",
+        type=common.count(0, 2**63 - 1),
+        default=0,
+        metavar="N",
+        help="of every random draw; default 0",
+    )
+    parser.add_argument(
+        "--faults",
+        choices=("repair", "stop"),
+        default="repair",
+        help="faulty entries that the record itself corrects: say so and go on (default), or stop at them",
+    )
+    parser.add_argument(
+        "--jobs",
+        type=common.count(1, 256),
+        metavar="N",
+        help="several datasets: processes; default one a core",
+    )
+    parser.add_argument(
+        "--scheduler", metavar="ADDRESS", help="several datasets: a Dask cluster's, tcp://HOST:8786, instead"
+    )
+    common.add_json(parser)
+    parser.set_defaults(run=run)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Executes the subcommand."""
+    if len(arguments.datasets) > 1 or arguments.scheduler is not None:
+        from brace.cli.diagnose_fleet import run_fleet
+
+        return run_fleet(arguments)
+    return _run_one(arguments)
+
+
+def _run_one(arguments: argparse.Namespace) -> int:
+    from brace.diagnose.one import diagnosed, load, model_of
+    from brace.diagnose.options import Options
+    from brace.diagnose.write import REPORT, check_folder, write
+
+    folder = arguments.datasets[0]
+    model = model_of(folder, arguments.model)
+    inputs = (folder / "meta.toml", folder / "data.csv", *([model] if model else []))
+    check_folder(arguments.out, inputs)  # before the work, not after
+    given = load(folder, model)
+    for fault in given.dataset.faults[:5]:
+        common.say(f"data: {fault.sentence(given.dataset.csv_path)}")
+    options = Options(seed=arguments.seed, faults=arguments.faults)
+    with common.progress("diagnosing", _PERCENT) as advance:
+        found, written = diagnosed(
+            given, options, lambda share, doing: advance(round(_PERCENT * share), doing)
+        )
+    write(arguments.out, written, inputs)
+    if arguments.json:
+        common.print_json({**written.json_ready, "out": arguments.out})
+    else:
+        from brace.diagnose.summary import lines
+
+        for line in lines(found):
+            common.emit(line)
+        common.say(f"-> {arguments.out / REPORT}, diagnosis.json, limb.toml")
+    return 0

@@ -1,0 +1,143 @@
+"""The residuals of a record as the pictures need them: one signed gap a row, against load, branch, place and time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from brace.dataset import Dataset
+from brace.diagnose.diagnosis import Diagnosis
+
+
+@dataclass(frozen=True)
+class View:
+    """One entry a row. `before` and `after` are measured less model along the loaded direction [gap's unit];
+    `imposed` and `measured` are the axes of the test; `branch` is +1 loading, -1 unloading, 0 neither;
+    `group` numbers configurations or tests, `run` what is drawn as one loop."""
+
+    kind: str
+    before: np.ndarray
+    after: np.ndarray
+    held_out: np.ndarray
+    imposed: np.ndarray
+    measured: np.ndarray
+    branch: np.ndarray
+    group: np.ndarray
+    run: np.ndarray
+    time_s: np.ndarray
+    names: tuple[str, str, str]  # of imposed, measured, group; with units
+
+    @property
+    def believed(self) -> np.ndarray:
+        """What the model said before [unit of measured]."""
+        predicted: np.ndarray = self.measured - self.before
+        return predicted
+
+    @property
+    def corrected(self) -> np.ndarray:
+        """What it says now."""
+        predicted: np.ndarray = self.measured - self.after
+        return predicted
+
+
+def view(dataset: Dataset, found: Diagnosis) -> View | None:
+    """None where the diagnosis has no residuals, or none that can be laid beside the record's rows."""
+    residuals = found.residuals
+    if residuals is None or not len(residuals.before):
+        return None
+    rows = np.asarray(found.details.get("rows", np.arange(dataset.rows)), dtype=int)
+    if len(rows) != len(residuals.before) or (len(rows) and (rows.min() < 0 or rows.max() >= dataset.rows)):
+        return None
+    if dataset.kind == "loading":
+        return _loading(dataset, found, rows)
+    if dataset.kind == "joint_test":
+        return _joint(dataset, found, rows)
+    return _table(dataset, found, rows)
+
+
+def _loading(dataset: Dataset, found: Diagnosis, rows: np.ndarray) -> View | None:
+    residuals = found.residuals
+    assert residuals is not None
+    if not {"fx_n", "fz_n"} <= set(residuals.channels):
+        return None
+    along = dataset["axis"][rows].astype(int)
+    channel = np.array([residuals.channels.index("fx_n"), residuals.channels.index("fz_n")])[along]
+    every = np.arange(len(rows))
+    imposed = np.where(along == 1, dataset["dz_mm"][rows], dataset["dx_mm"][rows])
+    measured = np.where(along == 1, dataset["fz_n"][rows], dataset["fx_n"][rows])
+    run = dataset["run"][rows]
+    names = ("displacement of the tip along the loaded axis [mm]", "force along it [N]", "configuration")
+    return View(
+        "loading",
+        residuals.before[every, channel],
+        residuals.after[every, channel],
+        np.asarray(residuals.held_out, dtype=bool),
+        imposed,
+        measured,
+        _branch(np.abs(imposed), run),
+        dataset["config"][rows],
+        run,
+        dataset["t_s"][rows].astype(float),
+        names,
+    )
+
+
+def _joint(dataset: Dataset, found: Diagnosis, rows: np.ndarray) -> View:
+    residuals = found.residuals
+    assert residuals is not None
+    angle, torque = dataset["angle_rad"][rows], dataset["torque_n_mm"][rows]
+    test = dataset["test"][rows] if "test" in dataset else np.ones(len(rows), dtype=int)
+    names = ("deflection of the joint [rad]", "torque [N mm]", "test")
+    return View(
+        "joint_test",
+        residuals.before[:, 0],
+        residuals.after[:, 0],
+        np.asarray(residuals.held_out, dtype=bool),
+        angle,
+        torque,
+        _branch(np.abs(torque), test, 25),
+        test,
+        test,
+        dataset["t_s"][rows].astype(float),
+        names,
+    )
+
+
+def _table(dataset: Dataset, found: Diagnosis, rows: np.ndarray) -> View | None:
+    residuals = found.residuals
+    assert residuals is not None
+    known = [name for name in residuals.channels if name in dataset]
+    if not known:
+        return None
+    take = [residuals.channels.index(name) for name in known]
+    count, r_mm = len(known), dataset["r_mm"][rows].astype(float)
+    measured = np.column_stack([dataset[name][rows] for name in known]).ravel()
+    held_out: np.ndarray = np.asarray(residuals.held_out, dtype=bool)
+    if held_out.ndim > 1:
+        held_out = held_out.any(axis=1)
+    zero = np.zeros(len(rows) * count, dtype=int)
+    names = ("distance of the tip [mm]", "stiffness [N/mm]", "row")
+    return View(
+        "stiffness_table",
+        residuals.before[:, take].ravel(),
+        residuals.after[:, take].ravel(),
+        np.repeat(held_out, count),
+        np.repeat(r_mm, count),
+        measured,
+        zero,
+        np.repeat(rows + 1, count),
+        zero,
+        np.full(len(zero), np.nan),
+        names,
+    )
+
+
+def _branch(load: np.ndarray, run: np.ndarray, over: int = 1) -> np.ndarray:
+    """+1 where the load grows within its run, -1 where it falls, over `over` rows."""
+    change = np.zeros(len(load))
+    if len(load) > over:
+        change[over:] = load[over:] - load[:-over]
+        change[over:][run[over:] != run[:-over]] = 0.0
+    scale = 1e-3 * float(np.nanmax(load, initial=0.0))
+    return np.where(change > scale, 1, np.where(change < -scale, -1, 0))

@@ -1,0 +1,40 @@
+"""A diagnosis in a few lines, for the terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from brace.diagnose import plain_words as words
+from brace.diagnose.diagnosis import Diagnosis
+
+MOST_FAULTS = 5
+
+
+def lines(found: Diagnosis) -> Iterator[str]:
+    """The sentence, then a short table."""
+    yield found.sentence
+    for fault in found.data_faults[:MOST_FAULTS]:
+        place = fault.field if fault.row is None else f"row {fault.row}, {fault.field}"
+        hint = "" if fault.suggestion is None else f"; probably {fault.suggestion}"
+        yield f"  fault      {place}: {fault.why}{hint}"
+    for effect in found.effects:
+        yield f"  {words.percent(effect.confidence):10} {effect.label}: {words.meaning(effect.name)}"
+        for key, held in effect.parameters.items():
+            yield f"             {key} = {words.value_with_unit(key, held.value)}, 90 %: {words.interval(held)}"
+    for members in found.indistinguishable:
+        yield f"  one of     {', '.join(members)}"
+    if found.could_be:
+        yield f"  could be   {', '.join(found.could_be)}"
+    for spot in found.localised[:3]:
+        yield f"  where      {spot.where} (p = {words.number(spot.p)})"
+    if found.gap is not None:
+        gap = found.gap
+        yield f"  gap        before {words.gap_pair(gap.before, gap.unit)}"
+        yield f"             after  {words.gap_pair(gap.after, gap.unit)}"
+        yield f"             noise floor {words.number(gap.noise_floor)} {words.unit(gap.unit)}"
+    if found.unexplained is not None and found.unexplained.structured:
+        yield f"  left       {found.unexplained.description}"
+    if found.next_experiment is not None:
+        yield f"  next       {found.next_experiment.action}"
+    for note in found.notes:
+        yield f"  note       {note}"

@@ -1,0 +1,211 @@
+"""What a diagnosis leaves behind: diagnosis.json, limb.toml, report.html; the same bytes for the same input."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from brace import __version__
+from brace.dataset import Dataset
+from brace.diagnose import plain_words
+from brace.diagnose.diagnosis import Diagnosis, GapPair, NamedEffect
+from brace.diagnose.export import export
+from brace.errors import UsageError
+from brace.files import DATA_LIMIT_BYTES, TOML_LIMIT_BYTES, OutputSet, checked_destination, read_bytes
+from brace.model import LimbModel
+
+JSON, MODEL, REPORT = "diagnosis.json", "limb.toml", "report.html"
+_DIGITS = 9
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """Where a diagnosis comes from, told without paths or clocks."""
+
+    title: str
+    kind: str
+    rows: int
+    data_sha256: str  # over meta.toml, then data.csv
+    model_sha256: str  # over the believed limb.toml; "" where there was none
+    versions: Mapping[str, str]
+
+    @property
+    def name(self) -> str:
+        """The record's title, or its hash's beginning."""
+        return self.title or f"record {self.data_sha256[:12]}"
+
+
+@dataclass(frozen=True)
+class Written:
+    """The three files' contents, and the JSON as a person's program gets it."""
+
+    json_ready: Mapping[str, Any]
+    files: Mapping[str, bytes]
+    diagnosis: Diagnosis  # with the notes of the export
+
+
+def provenance(dataset: Dataset, believed_text: str) -> Provenance:
+    """Hashes and versions."""
+    digest = hashlib.sha256(read_bytes(dataset.folder / "meta.toml", TOML_LIMIT_BYTES, "dataset's meta.toml"))
+    digest.update(read_bytes(dataset.csv_path, DATA_LIMIT_BYTES, "dataset's data.csv"))
+    model = hashlib.sha256(believed_text.encode()).hexdigest() if believed_text else ""
+    return Provenance(dataset.meta.title, dataset.kind, dataset.rows, digest.hexdigest(), model, versions())
+
+
+def versions() -> dict[str, str]:
+    """What computed it."""
+    import numpy
+    import scipy
+
+    from brace.native import library
+    from brace.wire.names import SCHEMA_HASH
+
+    native = library()
+    core = native.ffi.string(native.lib.brace_host_version()).decode()
+    return {
+        "brace": __version__,
+        "core": core,
+        "schema": f"{SCHEMA_HASH:08x}",
+        "numpy": numpy.__version__,
+        "scipy": scipy.__version__,
+    }
+
+
+def contents(dataset: Dataset, believed: LimbModel | None, believed_text: str, found: Diagnosis) -> Written:
+    """The three files of a diagnosis."""
+    from brace.diagnose.report.page import page
+
+    origin = provenance(dataset, believed_text)
+    exported = export(found, believed, believed_text, _header(found, origin))
+    found = replace(found, model=exported.model, notes=(*found.notes, *exported.notes))
+    data = as_json(found, origin)
+    files = {
+        JSON: (json.dumps(data, indent=1, ensure_ascii=False) + "\n").encode(),
+        MODEL: exported.text.encode(),
+        REPORT: page(dataset, believed, found, origin).encode(),
+    }
+    return Written(data, files, found)
+
+
+def write(out: Path, written: Written, inputs: tuple[Path, ...] = ()) -> None:
+    """OUT/ gets all three or stays as it was."""
+    with OutputSet(inputs) as outputs:
+        for name, content in written.files.items():
+            outputs.add(out / name, content)
+        outputs.commit()
+
+
+def check_folder(out: Path, inputs: tuple[Path, ...]) -> None:
+    """Refuses a folder that cannot take the files, before any work is done."""
+    if out.exists() and not out.is_dir():
+        raise UsageError(
+            "a file is in the way of the output folder",
+            where=str(out),
+            why="the diagnosis is three files in a folder of that name",
+            next_step="choose another --out",
+        )
+    for name in (JSON, MODEL, REPORT):
+        checked_destination(out / name, inputs)
+
+
+def as_json(found: Diagnosis, origin: Provenance) -> dict[str, Any]:
+    """diagnosis.json. Sizes carry the gap's unit in their names."""
+    unit = found.gap.unit if found.gap else "n"
+    left, after = found.unexplained, found.next_experiment
+    data: dict[str, Any] = {
+        "format": 1,
+        "verdict": found.verdict,
+        "sentence": found.sentence,
+        "effects": [_effect(effect) for effect in found.effects],
+        "indistinguishable": [list(members) for members in found.indistinguishable],
+        "could_be": list(found.could_be),
+        "localised": [
+            {"where": spot.where, "p": spot.p, f"size_{unit}": spot.size} for spot in found.localised
+        ],
+        "unexplained": left
+        and {f"rms_{unit}": left.rms, "structured": bool(left.structured), "description": left.description},
+        "gap": found.gap
+        and {
+            "unit": unit,
+            "noise_floor": found.gap.noise_floor,
+            "before": _pair(found.gap.before),
+            "after": _pair(found.gap.after),
+            "steps": [{"added": step.added, **_pair(step.gap)} for step in found.gap.steps],
+        },
+        "next_experiment": after
+        and {
+            "action": after.action,
+            "separates": list(after.separates),
+            "power": after.power,
+            "minutes": after.minutes,
+            "rig_toml": after.rig_toml,
+        },
+        "data_faults": [fault.as_json() for fault in found.data_faults],
+        "candidates": [
+            {"label": tried.label, "gain": tried.gain, "posterior": tried.posterior}
+            for tried in found.candidates
+        ],
+        "notes": list(found.notes),
+        "kind": origin.kind,
+        "title": origin.title,
+        "rows": origin.rows,
+        "seed": found.seed,
+        "versions": dict(origin.versions),
+        "data_sha256": origin.data_sha256,
+        "model_sha256": origin.model_sha256,
+    }
+    ready: dict[str, Any] = plain(data)
+    return ready
+
+
+def plain(value: Any) -> Any:
+    """numpy to plain values, floats to nine digits (no last-bit noise in the bytes), what is not finite to null."""
+    if isinstance(value, Mapping):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(item) for item in value]
+    if hasattr(value, "tolist"):
+        return plain(value.tolist())
+    if isinstance(value, float):
+        return float(f"{value:.{_DIGITS}g}") + 0.0 if math.isfinite(value) else None
+    return value
+
+
+def _effect(effect: NamedEffect) -> dict[str, Any]:
+    return {
+        "name": effect.name,
+        "where": effect.where,
+        "confidence": effect.confidence,
+        "parameters": {
+            key: {"value": found.value, "low": found.low, "high": found.high}
+            for key, found in effect.parameters.items()
+        },
+        "gap_share": effect.gap_share,
+    }
+
+
+def _pair(pair: GapPair) -> dict[str, Any]:
+    return {"fitted": pair.fitted, "held_out": pair.held_out}
+
+
+def _header(found: Diagnosis, origin: Provenance) -> list[str]:
+    """Comments on top of limb.toml: what was added, from which data."""
+    lines = [f"by brace diagnose {__version__}, verdict {found.verdict}, seed {found.seed}"]
+    lines += [f"from {_one_line(origin.name)}, data sha256 {origin.data_sha256}"]
+    if found.verdict in ("effect", "ambiguous"):
+        for effect in found.effects:
+            values = ", ".join(
+                f"{key} {plain_words.interval(held)} {plain_words.key_unit(key)}".rstrip()
+                for key, held in effect.parameters.items()
+            )
+            lines.append(f"{effect.label}, confidence {effect.confidence:.2f}: {values} (90 % intervals)")
+    return lines
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.split())
