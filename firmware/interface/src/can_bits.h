@@ -4,6 +4,7 @@
 #define BRACE_CAN_BITS_H
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -39,20 +40,16 @@ static inline uint64_t brace_bits_placed(uint32_t code, uint32_t start, uint32_t
     return (uint64_t)(code & brace_bits_mask(count)) << start;
 }
 
-/* Nearest whole number within [low, high], halves away from zero. At 24 bits a float rounds by up to a step: only more
- * than that beyond the range counts as limited. */
-static inline int32_t brace_bits_nearest(float steps, int32_t low, int32_t high, uint32_t *limited)
+/* A value beyond [low, high], or none. At 24 bits a float rounds by up to a step: only more than that beyond the range
+ * counts as limited. */
+static inline int32_t brace_bits_beyond(float steps, int32_t low, int32_t high, int32_t unknown, uint32_t *limited)
 {
-    if (steps >= (float)high) {
-        *limited += steps - (float)high > 1.0f;
-        return high;
+    if (isnan(steps)) {
+        return unknown;
     }
-    if (steps <= (float)low) {
-        *limited += (float)low - steps > 1.0f;
-        return low;
-    }
-    const float half = steps < -0x1p22f || steps > 0x1p22f ? 0.0f : 0.5f; /* beyond, a float knows no finer */
-    return (int32_t)(steps < 0.0f ? steps - half : steps + half);
+    const bool above = steps >= (float)high;
+    *limited += (above ? steps - (float)high : (float)low - steps) > 1.0f;
+    return above ? high : low;
 }
 
 /* A value in steps; NaN is the code of 'not known', a value beyond the range is limited and counted. */
@@ -60,7 +57,10 @@ static inline uint64_t brace_bits_signed(float value, float per_step, uint32_t s
                                          uint32_t *limited)
 {
     const int32_t high = (int32_t)(brace_bits_mask(count) >> 1);
-    const int32_t code = isnan(value) ? -high - 1 : brace_bits_nearest(value * per_step, -high, high, limited);
+    const float steps = value * per_step;
+    const int32_t code = __builtin_fabsf(steps) < (float)high
+                             ? (int32_t)(steps + __builtin_copysignf(0.5f, steps)) /* nearest, halves away from zero */
+                             : brace_bits_beyond(steps, -high, high, -high - 1, limited);
     return brace_bits_placed((uint32_t)code, start, count);
 }
 
@@ -68,7 +68,10 @@ static inline uint64_t brace_bits_unsigned(float value, float per_step, uint32_t
                                            uint32_t *limited)
 {
     const int32_t high = (int32_t)(brace_bits_mask(count) - 1u);
-    const int32_t code = isnan(value) ? high + 1 : brace_bits_nearest(value * per_step, 0, high, limited);
+    const float steps = value * per_step;
+    const float half = steps > 0x1p22f ? 0.0f : 0.5f; /* beyond, a float knows no finer */
+    const int32_t code = steps > 0.0f && steps < (float)high ? (int32_t)(steps + half)
+                                                             : brace_bits_beyond(steps, 0, high, high + 1, limited);
     return brace_bits_placed((uint32_t)code, start, count);
 }
 

@@ -49,9 +49,12 @@ static void posture(brace_app_t *app, brace_snapshot_t *snapshot)
 {
     const float *theta_rad = snapshot->theta_rad;
     const float unknown = __builtin_nanf("");
-    app->posed = brace_kinematics_forward(&app->parameters.limb, theta_rad[BRACE_FEMUR], theta_rad[BRACE_TIBIA],
-                                          &app->pose) == BRACE_OK;
+    const float theta1_rad = theta_rad[BRACE_FEMUR], theta2_rad = theta_rad[BRACE_TIBIA];
+    const brace_limb_t *limb = &app->parameters.limb;
+    app->posed = __builtin_fabsf(theta1_rad) <= BRACE_ANGLE_LIMIT_RAD &&
+                 __builtin_fabsf(theta2_rad) <= BRACE_ANGLE_LIMIT_RAD && limb->femur_mm > 0.0f && limb->tibia_mm > 0.0f;
     if (app->posed) {
+        brace_kinematics_pose(limb, theta1_rad, theta2_rad, &app->pose);
         snapshot->tip_mm = app->pose.tip;
         (void)brace_backlash_tip_shift(&app->pose, snapshot->play[BRACE_FEMUR].offset_rad,
                                        snapshot->play[BRACE_TIBIA].offset_rad, &snapshot->play_shift_mm);
@@ -88,7 +91,7 @@ void control_stiffness(brace_app_t *app, brace_snapshot_t *snapshot)
         brace_stiffness_t engaged;
         computed = model_stiffness(&app->model, snapshot->theta_rad[BRACE_FEMUR], snapshot->theta_rad[BRACE_TIBIA],
                                    load_n_mm, temp_degc, &engaged) == BRACE_OK &&
-                   brace_gap_stiffness(&engaged, &app->pose, open_gaps(app, snapshot), k) == BRACE_OK;
+                   brace_gap_stiffness_known(&engaged, &app->pose, open_gaps(app, snapshot), k) == BRACE_OK;
     }
     if (!computed) {
         *k = (brace_gap_stiffness_t){0};

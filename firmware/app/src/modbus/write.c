@@ -25,7 +25,7 @@ modbus_exception_t modbus_write_one(brace_app_t *app, uint8_t *pdu, uint32_t len
         return MODBUS_E_VALUE;
     }
     const uint32_t start = get_16(pdu + 1), value = get_16(pdu + 3);
-    if (!registers_block(false, start, 1, &block)) {
+    if (!registers_block(app, false, start, 1, &block)) {
         return MODBUS_E_ADDRESS;
     }
     if (block.area == REGISTERS_PARAMETERS && staging_open(app) != BRACE_OK) {
@@ -47,7 +47,7 @@ modbus_exception_t modbus_write_one(brace_app_t *app, uint8_t *pdu, uint32_t len
     return block.area == REGISTERS_PARAMETERS ? refusal_of(staging_write(app, index, whole)) : command_run(app, index, whole);
 }
 
-static modbus_exception_t begin(brace_app_t *app, brace_app_modbus_work_t *work, const uint8_t *pdu, uint32_t length)
+static modbus_exception_t begin(const brace_app_t *app, brace_app_modbus_work_t *work, const uint8_t *pdu, uint32_t length)
 {
     registers_block_t block;
     if (length < DATA) {
@@ -57,7 +57,7 @@ static modbus_exception_t begin(brace_app_t *app, brace_app_modbus_work_t *work,
     if (count < 1u || count > WRITE_MOST || pdu[5] != 2u * count || length != DATA + 2u * count) {
         return MODBUS_E_VALUE;
     }
-    if (!registers_block(false, start, count, &block) || (start & 1u) != 0u) {
+    if (!registers_block(app, false, start, count, &block) || (start & 1u) != 0u) {
         return MODBUS_E_ADDRESS;
     }
     if ((count & 1u) != 0u) {

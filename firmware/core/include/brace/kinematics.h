@@ -63,6 +63,10 @@ typedef enum {
 brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
                                         brace_pose_t *pose);
 
+/* The same for the tick: limb has passed brace_limb_check, and angles are within +-7.9 rad; nothing is checked. At most 130
+ * instructions. */
+void brace_kinematics_pose(const brace_limb_t *limb, float theta1_rad, float theta2_rad, brace_pose_t *pose);
+
 /* Distance and direction of a point; phi 0 for the origin itself.
  *   point [+-1e6 mm]; polar (out): r within 2e-7 relative, phi within 3e-7 rad
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE; at most 85 instructions. */

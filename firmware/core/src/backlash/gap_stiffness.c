@@ -36,6 +36,38 @@ static void carried_along(const brace_stiffness_t *engaged, brace_vec_t along, f
     free->stiff_axis_rad = brace_atan2(side * u.z, side * u.x);
 }
 
+static void both_free(brace_vec_t femur, brace_vec_t tibia, float femur_mm, float tibia_mm, brace_stiffness_t *now)
+{
+    const bool aligned = __builtin_fabsf(vec_cross(femur, tibia)) < ALIGNED * femur_mm * tibia_mm;
+    *now = (brace_stiffness_t){.flags = now->flags | (aligned ? BRACE_FLAG_NEAR_SINGULAR : 0u)};
+}
+
+brace_status_t brace_gap_stiffness_known(const brace_stiffness_t *engaged, const brace_pose_t *pose, uint32_t open,
+                                         brace_gap_stiffness_t *result)
+{
+    const brace_vec_t femur = arm(pose->lever_femur), tibia = arm(pose->lever_tibia);
+    const bool femur_free = (open & BRACE_GAP_FEMUR) != 0u, tibia_free = (open & BRACE_GAP_TIBIA) != 0u;
+    const float femur_mm = femur_free ? brace_length(femur.x, femur.z) : LENGTH_LIMIT_MM;
+    const float tibia_mm = tibia_free ? brace_length(tibia.x, tibia.z) : LENGTH_LIMIT_MM;
+    if (femur_mm < LEAST_LEVER_MM || tibia_mm < LEAST_LEVER_MM) {
+        return BRACE_E_SINGULAR;
+    }
+    result->now = result->engaged = *engaged;
+    if (!femur_free && !tibia_free) {
+        return BRACE_OK;
+    }
+    if (femur_free && tibia_free) {
+        both_free(femur, tibia, femur_mm, tibia_mm, &result->now);
+    } else if (femur_free) {
+        carried_along(engaged, femur, femur_mm, &result->now);
+    } else {
+        carried_along(engaged, tibia, tibia_mm, &result->now);
+    }
+    result->now.lambda_min_n_per_mm = 0.0f;
+    result->now.flags |= BRACE_FLAG_GAP_OPEN;
+    return BRACE_OK;
+}
+
 brace_status_t brace_gap_stiffness(const brace_stiffness_t *engaged, const brace_pose_t *pose, uint32_t open,
                                    brace_gap_stiffness_t *result)
 {
@@ -55,29 +87,5 @@ brace_status_t brace_gap_stiffness(const brace_stiffness_t *engaged, const brace
     if (status != BRACE_OK) {
         return status;
     }
-    const brace_vec_t femur = arm(pose->lever_femur);
-    const brace_vec_t tibia = arm(pose->lever_tibia);
-    const float femur_mm = brace_length(femur.x, femur.z);
-    const float tibia_mm = brace_length(tibia.x, tibia.z);
-    const bool femur_free = (open & BRACE_GAP_FEMUR) != 0u;
-    const bool tibia_free = (open & BRACE_GAP_TIBIA) != 0u;
-    if ((femur_free && femur_mm < LEAST_LEVER_MM) || (tibia_free && tibia_mm < LEAST_LEVER_MM)) {
-        return BRACE_E_SINGULAR;
-    }
-
-    brace_gap_stiffness_t answer = {.now = *engaged, .engaged = *engaged};
-    if (femur_free && tibia_free) {
-        const bool aligned = __builtin_fabsf(vec_cross(femur, tibia)) < ALIGNED * femur_mm * tibia_mm;
-        answer.now = (brace_stiffness_t){.flags = engaged->flags | (aligned ? BRACE_FLAG_NEAR_SINGULAR : 0u)};
-    } else if (femur_free) {
-        carried_along(engaged, femur, femur_mm, &answer.now);
-    } else if (tibia_free) {
-        carried_along(engaged, tibia, tibia_mm, &answer.now);
-    }
-    if (femur_free || tibia_free) {
-        answer.now.lambda_min_n_per_mm = 0.0f;
-        answer.now.flags |= BRACE_FLAG_GAP_OPEN;
-    }
-    *result = answer;
-    return BRACE_OK;
+    return brace_gap_stiffness_known(engaged, pose, open, result);
 }

@@ -12,6 +12,20 @@
 /* A tip this far outside the reach, as a fraction of the reach, is the rounding of one on its edge. */
 #define EDGE_RATIO 5e-7f
 
+void brace_kinematics_pose(const brace_limb_t *limb, float theta1_rad, float theta2_rad, brace_pose_t *pose)
+{
+    const uint32_t femur_turn = brace_turn(theta1_rad);
+    const brace_vec_t femur = brace_direction(femur_turn);
+    const brace_vec_t tibia = brace_direction(femur_turn - brace_turn(theta2_rad));
+    const brace_point_t knee = {limb->femur_mm * femur.x, limb->femur_mm * femur.z};
+    const brace_point_t shank = {limb->tibia_mm * tibia.x, limb->tibia_mm * tibia.z};
+    const brace_point_t tip = {knee.x_mm + shank.x_mm, knee.z_mm + shank.z_mm};
+    pose->knee = knee;
+    pose->tip = tip;
+    pose->lever_femur = (brace_point_t){-tip.z_mm, tip.x_mm};
+    pose->lever_tibia = (brace_point_t){-shank.z_mm, shank.x_mm};
+}
+
 BRACE_OFF_TICK
 brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
                                         brace_pose_t *pose)
@@ -26,16 +40,7 @@ brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_r
     if (status != BRACE_OK) {
         return status;
     }
-    const uint32_t femur_turn = brace_turn(theta1_rad);
-    const brace_vec_t femur = brace_direction(femur_turn);
-    const brace_vec_t tibia = brace_direction(femur_turn - brace_turn(theta2_rad));
-    const brace_point_t knee = {limb->femur_mm * femur.x, limb->femur_mm * femur.z};
-    const brace_point_t shank = {limb->tibia_mm * tibia.x, limb->tibia_mm * tibia.z};
-    const brace_point_t tip = {knee.x_mm + shank.x_mm, knee.z_mm + shank.z_mm};
-    pose->knee = knee;
-    pose->tip = tip;
-    pose->lever_femur = (brace_point_t){-tip.z_mm, tip.x_mm};
-    pose->lever_tibia = (brace_point_t){-shank.z_mm, shank.x_mm};
+    brace_kinematics_pose(limb, theta1_rad, theta2_rad, pose);
     return BRACE_OK;
 }
 
