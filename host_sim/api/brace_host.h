@@ -210,6 +210,9 @@ typedef struct {
     int32_t torque_imposed;
     int32_t joint_index; /* 0 coxa, 1 femur, 2 tibia */
     double reversal_rad; /* [0, 1] imposed angle: turning over which friction changes sign */
+    /* imposed angle; may be null: friction relaxed where a test starts. Else count torques, of which those where a
+     * test starts are read: friction begins strained by what the spring does not carry of them. */
+    const double *start_torque_n_mm;
 } brace_joint_rows_t;
 
 /* out: torque [N mm] for imposed angles, angle [rad] for imposed torques; deflection = angle + the joint's

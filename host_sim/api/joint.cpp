@@ -11,7 +11,8 @@ extern "C" int32_t brace_plant_joint(const brace_plant_model_t *model, const bra
         return BRACE_HOST_E_NULL;
     }
     if (!all_finite(rows->t_s, rows->count) || !all_finite(rows->input, rows->count)
-        || !brace::api::all_finite_if_given(rows->temp_degc, rows->count)) {
+        || !brace::api::all_finite_if_given(rows->temp_degc, rows->count)
+        || !brace::api::all_finite_if_given(rows->start_torque_n_mm, rows->count)) {
         return BRACE_HOST_E_NOT_FINITE;
     }
     if (rows->joint_index < 0 || rows->joint_index > 2

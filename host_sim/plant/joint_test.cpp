@@ -27,6 +27,14 @@ double torque_at(const JointLaw &law, double deflection_rad, double reversal_rad
            + state.friction_share * friction_n_mm(law, state.instant_rad);
 }
 
+// How far friction is strained where a test starts at this torque: what the spring does not carry, friction does.
+double start_share(const JointLaw &law, double deflection_rad, double torque_n_mm)
+{
+    const double most = friction_n_mm(law, deflection_rad);
+    const double held = torque_n_mm - spring_torque_n_mm(law, deflection_rad);
+    return most > 0.0 ? std::clamp(held / most, -1.0, 1.0) : 0.0;
+}
+
 // The deflections, play and all, at which the spring carries this torque: from least to most.
 double least_deflection(const JointLaw &law, double torque_n_mm)
 {
@@ -76,7 +84,10 @@ void play_joint(const Model &model, const brace_joint_rows_t &rows, double *out)
             out[i] = deflection_under(law, rows.input[i], state) - offset;
         } else {
             if (starts) {
-                state.instant_rad = rows.input[i] + offset; // friction relaxed where the test starts
+                state.instant_rad = rows.input[i] + offset;
+                state.friction_share = rows.start_torque_n_mm == nullptr
+                                           ? 0.0 // relaxed
+                                           : start_share(law, state.instant_rad, rows.start_torque_n_mm[i]);
             }
             out[i] = torque_at(law, rows.input[i] + offset, rows.reversal_rad, state);
         }

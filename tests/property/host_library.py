@@ -118,7 +118,8 @@ def play(model: Model, theta1_rad: Any, theta2_rad: Any, dx_mm: Any, dz_mm: Any,
 
 
 def play_joint(model: Model, angle_or_torque: Any, *, torque_imposed: bool = False, t_s: Any = None,
-               joint: int = 1, reversal_rad: float = 0.0, test: Any = 1) -> Array:
+               joint: int = 1, reversal_rad: float = 0.0, test: Any = 1,
+               start_torque: float | None = None) -> Array:
     """A joint test: torque for imposed angles, or angles for imposed torques, one entry a row."""
     given = np.ascontiguousarray(angle_or_torque, dtype=np.float64)
     times = column(np.arange(given.size) if t_s is None else t_s, given.size)
@@ -127,6 +128,9 @@ def play_joint(model: Model, angle_or_torque: Any, *, torque_imposed: bool = Fal
         "count": given.size, "t_s": doubles(times), "input": doubles(given), "joint_index": joint,
         "test": ffi.cast("int32_t *", tests.ctypes.data), "torque_imposed": int(torque_imposed),
         "reversal_rad": reversal_rad})
+    if start_torque is not None:
+        begun = np.full(given.size, start_torque)
+        rows.start_torque_n_mm = doubles(begun)
     out = np.full(given.size, np.nan)
     check(lib.brace_plant_joint(model.c, rows, doubles(out)))
     return out

@@ -47,6 +47,15 @@ def test_friction_keeps_where_nothing_moves_and_turns_over_a_width() -> None:
                                [0, TAU, TAU / 2, 0, -TAU, -TAU], atol=1e-9)
 
 
+def test_friction_may_start_strained() -> None:
+    """What the spring does not carry of the first torque, friction does, up to all it can."""
+    model = joint(coulomb_n_mm=TAU, gap_rad=GAP)
+    angle = np.array([0.0, 1e-5, 2e-5])
+    for start, share in ((60.0, 0.5), (-60.0, -0.5), (500.0, 1.0), (0.0, 0.0)):
+        played = play_joint(model, angle, reversal_rad=1e-3, start_torque=start)
+        np.testing.assert_allclose(played, TAU * np.minimum(share + angle / 1e-3, 1.0), atol=1e-9)
+
+
 def test_friction_that_grows_with_the_load() -> None:
     """On top of the constant: a share of what the spring carries, against the motion; none within play."""
     angle = ramp(0.02)

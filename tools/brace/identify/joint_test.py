@@ -35,7 +35,7 @@ START_HARDENING = (0.0, 4.0)  # cubic share of the torque at half the range of a
 class JointProblem:
     """Torque over its noise, at the deflections of the record; rows at the drive's limit are left out."""
 
-    def __init__(self, dataset: Dataset) -> None:
+    def __init__(self, dataset: Dataset, block_rows: int = BLOCK_ROWS) -> None:
         if dataset.rows < MIN_ROWS:
             raise BadFileError(
                 f"{dataset.rows} rows are not enough to say anything",
@@ -45,11 +45,12 @@ class JointProblem:
             )
         self.dataset = dataset
         self.joint = dataset.meta.joint
-        self.columns = _averaged(dataset, max(1, dataset.rows // BLOCK_ROWS))
-        self.noise_n_mm = _noise(self.columns["torque_n_mm"])
-        self._used = ~_saturated(self.columns)
+        self.columns, self._counts = averaged(dataset, max(1, dataset.rows // block_rows))
+        self.noise_n_mm = noise(self.columns["torque_n_mm"])
+        self._used = ~saturated(self.columns)
         angle = self.columns["angle_rad"]
         self._centre_rad = float(0.5 * (angle.max() + angle.min()))
+        self._start_n_mm = _start_torque(self.columns)
         self._player = JointPlayer({**self.columns, "angle_rad": angle - self._centre_rad}, self.joint)
 
     @property
@@ -59,20 +60,24 @@ class JointProblem:
 
     def residual(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """(played - measured) / noise."""
-        played = self._played(self._player, model, nuisances)
+        played = self._played(self._player, self._start_n_mm, model, nuisances)
         return np.asarray(((played - self.columns["torque_n_mm"]) / self.noise_n_mm)[self._used])
 
     def torque_n_mm(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """The model's torque at every row of the record, not averaged."""
         angle = self.dataset["angle_rad"] - self._centre_rad
         whole = JointPlayer({**self.dataset.columns, "angle_rad": angle}, self.joint)
-        return self._played(whole, model, nuisances)
+        start_n_mm = np.repeat(self._start_n_mm, self._counts)
+        return self._played(whole, start_n_mm, model, nuisances)
 
-    def _played(self, player: JointPlayer, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
+    def _played(
+        self, player: JointPlayer, start_n_mm: np.ndarray, model: LimbModel, nuisances: dict[str, float]
+    ) -> np.ndarray:
         zero = nuisances.get(ANGLE_ZERO, -self._centre_rad) + self._centre_rad
         limb = model.with_values({f"joint.{self.joint}.zero_offset_rad": zero})
-        torque = player.play(limb, nuisances.get(FRICTION_TURN, 0.0))
-        return np.asarray(torque + nuisances.get(TORQUE_OFFSET, 0.0))
+        offset_n_mm = nuisances.get(TORQUE_OFFSET, 0.0)
+        torque = player.play(limb, nuisances.get(FRICTION_TURN, 0.0), start_n_mm - offset_n_mm)
+        return np.asarray(torque + offset_n_mm)
 
     def angles(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """None: one joint has no tip."""
@@ -153,8 +158,8 @@ class JointProblem:
         return points
 
 
-def _averaged(dataset: Dataset, block: int) -> dict[str, np.ndarray]:
-    """Means over `block` rows, never across tests."""
+def averaged(dataset: Dataset, block: int) -> tuple[dict[str, np.ndarray], np.ndarray]:
+    """Means over `block` rows, never across tests, and how many rows are in each."""
     test = dataset["test"] if "test" in dataset else np.zeros(dataset.rows, np.int32)
     starts = np.concatenate([[0], np.flatnonzero(np.diff(test)) + 1, [test.size]])
     edges = np.concatenate([np.arange(first, last, block) for first, last in zip(starts[:-1], starts[1:])])
@@ -164,10 +169,19 @@ def _averaged(dataset: Dataset, block: int) -> dict[str, np.ndarray]:
         for name, values in dataset.columns.items()
     }
     result["test"] = test[edges]
-    return result
+    return result, counts
 
 
-def _noise(torque_n_mm: np.ndarray) -> float:
+def _start_torque(columns: Mapping[str, np.ndarray]) -> np.ndarray:
+    """One entry a row: the torque that its test starts with, a few readings' mean."""
+    test, torque = columns["test"], columns["torque_n_mm"]
+    starts = np.concatenate([[0], np.flatnonzero(np.diff(test)) + 1])
+    lengths = np.diff(np.append(starts, test.size))
+    means = [torque[first : first + min(3, length)].mean() for first, length in zip(starts, lengths)]
+    return np.repeat(means, lengths)
+
+
+def noise(torque_n_mm: np.ndarray) -> float:
     """Scatter from one averaged reading to the next, slow motion taken out by third differences."""
     third = np.diff(torque_n_mm, n=3)
     return max(
@@ -175,7 +189,7 @@ def _noise(torque_n_mm: np.ndarray) -> float:
     )
 
 
-def _saturated(columns: Mapping[str, np.ndarray]) -> np.ndarray:
+def saturated(columns: Mapping[str, np.ndarray]) -> np.ndarray:
     if "command_n_mm" not in columns:
         return np.zeros(columns["torque_n_mm"].size, dtype=bool)
     torque, command = np.abs(columns["torque_n_mm"]), np.abs(columns["command_n_mm"])

@@ -83,7 +83,7 @@ class Parameter:
     @property
     def unit(self) -> str:
         """The unit as printed."""
-        return KEY_BY_NAME[self.key].unit if self.key in KEY_BY_NAME else _NUISANCE_UNIT[self.key]
+        return KEY_BY_NAME[self.key].unit if self.key in KEY_BY_NAME else _NUISANCE_UNIT.get(self.key, "")
 
 
 @dataclass(frozen=True)
@@ -107,12 +107,12 @@ class ParameterSet:
     def model(self, x: Sequence[float] | np.ndarray) -> LimbModel:
         """The limb that x describes."""
         return self.base.with_values(
-            {key: float(value) for key, value in zip(self.keys, x) if key not in NUISANCES}
+            {key: float(value) for key, value in zip(self.keys, x) if key in KEY_BY_NAME}
         )
 
     def nuisances(self, x: Sequence[float] | np.ndarray) -> dict[str, float]:
         """The parts of x that are not keys of limb.toml."""
-        return {key: float(value) for key, value in zip(self.keys, x) if key in NUISANCES}
+        return {key: float(value) for key, value in zip(self.keys, x) if key not in KEY_BY_NAME}
 
 
 def natural_scale(key: str) -> float:

@@ -80,11 +80,17 @@ class JointPlayer:
         if "temp_degc" in columns:
             self._keep.append(_point_at(self._native, self._rows, "temp_degc", columns["temp_degc"]))
 
-    def play(self, model: LimbModel, reversal_rad: float = 0.0) -> np.ndarray:
+    def play(
+        self, model: LimbModel, reversal_rad: float = 0.0, start_torque_n_mm: np.ndarray | None = None
+    ) -> np.ndarray:
         """Torque [N mm] for an imposed deflection, deflection [rad] for an imposed torque; `reversal_rad` is the
-        turning over which friction changes sign."""
+        turning over which friction changes sign. `start_torque_n_mm` (one entry a row) tells how far friction is
+        strained where each test starts; without it it starts relaxed."""
         ffi = self._native.ffi
         self._rows.reversal_rad = reversal_rad
+        self._rows.start_torque_n_mm = ffi.NULL
+        if start_torque_n_mm is not None:
+            begun = _point_at(self._native, self._rows, "start_torque_n_mm", start_torque_n_mm)  # noqa: F841
         out = np.empty(self.count)
         status = self._native.lib.brace_plant_joint(
             plant_model(self._native, model), self._rows, ffi.from_buffer("double[]", out)
