@@ -1,0 +1,400 @@
+"""Makes blind cases: cases/ID/{data.csv,meta.toml,limb.toml}, and apart from them answers/ID/{truth.json,holdout/}.
+
+usage: generate.py [--development] [--cases N] [--seed S] [--out FOLDER]
+Every case follows from the seed and its number alone; answers.sha256 seals the answers before any diagnosis."""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+import math
+import multiprocessing
+import os
+import shutil
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import effects
+import outsiders
+import spoil
+from designs import Rng, believed_limb, loading_test, true_limb, trust
+from detect import SAME_CLASS, Bench
+from files import limb_text, meta_text, noisy, table_of, write_dataset
+from plant import BUILD, IN_LIMB_TOML, INDEX, LINKS, Array, play
+from seeds import DEVELOPMENT_CASES, DEVELOPMENT_SEED, TEST_CASES, TEST_SEED
+
+DETECTABILITIES = (3.0, 5.0, 8.0, 12.0, 25.0)
+SHARES = {"single": 0.40, "none": 0.30, "pair": 0.12, "triple": 0.03, "outside": 0.09, "data_fault": 0.06}
+OUTSIDE_S = (16.0, 25.0, 50.0)
+LEFT_BY_CATALOGUE = 8.0  # sigma: what the best single entry of the catalogue must leave of an outsider
+
+
+def schedule(seed: int, cases: int) -> list[tuple[str, int]]:
+    """Kind and running number within the kind of each case, shuffled: a case's number says nothing."""
+    counts = {kind: round(share * cases) for kind, share in SHARES.items()}
+    counts["single"] += cases - sum(counts.values())
+    plan = [(kind, i) for kind, count in counts.items() for i in range(count)]
+    order = np.random.default_rng([seed, 1]).permutation(len(plan))
+    return [plan[i] for i in order]
+
+
+class Retry(Exception):
+    """This draw cannot be made as wanted: draw again."""
+
+
+def _setting(rng: Rng) -> tuple[Array, Any, Any, Any, Bench]:
+    believed = believed_limb(rng)
+    given = trust(rng)
+    shown, hidden = loading_test(rng, believed)
+    return believed, given, shown, hidden, Bench(shown, believed, given)
+
+
+def _parameters(p: Array) -> dict[str, Any]:
+    out: dict[str, Any] = {key: float(p[INDEX[key]]) for key in IN_LIMB_TOML}
+    out["change.link"] = LINKS[int(out["change.link"])]
+    return {key: value for key, value in out.items() if not (isinstance(value, float) and math.isinf(value))}
+
+
+def _classes(bench: Bench, target: Array, own: str) -> tuple[list[str], dict[str, float]]:
+    cosines = bench.cosines(target)
+    near = {label for label, value in cosines.items() if value > SAME_CLASS} | {own}
+    top = dict(sorted(cosines.items(), key=lambda item: -item[1])[:5])
+    return sorted(near), {label: round(value, 4) for label, value in top.items()}
+
+
+def make_single(rng: Rng, number: int) -> dict[str, Any]:
+    """One hidden effect: the catalogue in turn, at each detectability in turn."""
+    name, where = effects.CATALOGUE[number % len(effects.CATALOGUE)]
+    turn = number // len(effects.CATALOGUE)
+    wanted = DETECTABILITIES[(number + turn) % len(DETECTABILITIES)]
+    believed, given, shown, held, bench = _setting(rng)
+    hidden = effects.draw(rng, name, where, believed, bench.whole_s, bench.peak_n)
+    if name == "moment_transfer" and wanted >= 12.0 and rng.random() < 0.5:
+        size, s = 1.0, bench.s_of(hidden.applied(believed, 1.0))  # as it is, whatever that makes it
+        wanted = s
+    else:
+        size, s = bench.sized(hidden, wanted)
+    if not 0.6 * wanted <= s <= 1.1 * wanted or size > hidden.largest:
+        raise Retry(f"{hidden.label} reaches {s:.1f} of {wanted}")
+    cls, top = _classes(bench, bench.record(hidden.applied(believed, size)), hidden.label)
+    truth = hidden.applied(true_limb(rng, believed, given), size)
+    return {
+        "believed": believed,
+        "trust": given,
+        "shown": shown,
+        "held": held,
+        "limb": truth,
+        "outsider": None,
+        "truth": {
+            "kind": "single",
+            "effects": [{"name": name, "where": where}],
+            "detectability": round(s, 2),
+            "wanted": wanted,
+            "cls": cls,
+            "cosines": top,
+            "keys": hidden.free(),
+        },
+    }
+
+
+def make_none(rng: Rng, _number: int) -> dict[str, Any]:
+    """Nothing hidden."""
+    believed, given, shown, held, _ = _setting(rng)
+    return {
+        "believed": believed,
+        "trust": given,
+        "shown": shown,
+        "held": held,
+        "limb": true_limb(rng, believed, given),
+        "outsider": None,
+        "truth": {"kind": "none", "effects": [], "detectability": 0, "cls": []},
+    }
+
+
+def make_many(rng: Rng, count: int) -> dict[str, Any]:
+    """Several effects, each at 12 sigma after refitting the base and the others."""
+    wanted = 12.0
+    believed, given, shown, held, bench = _setting(rng)
+    chosen = [effects.CATALOGUE[i] for i in rng.choice(len(effects.CATALOGUE), count, replace=False)]
+    if len({name for name, _ in chosen}) < count:
+        raise Retry("the same name twice")
+    found = [effects.draw(rng, name, where, believed, bench.whole_s, bench.peak_n) for name, where in chosen]
+    # one that overwrites another's parameter is no pair
+    keys = [key for one in found for key in one.free()]
+    if len(set(keys)) < len(keys):
+        raise Retry("shared parameters")
+    sizes = []
+    for one in found:
+        size, s = bench.sized(one, wanted)
+        if s < 0.9 * wanted:
+            raise Retry(f"{one.label} reaches {s:.1f}")
+        sizes.append(size)
+
+    def built(skip: int = -1) -> Array:
+        p = believed.copy()
+        for i, (one, size) in enumerate(zip(found, sizes, strict=True)):
+            if i != skip:
+                p = one.applied(p, size)
+        return p
+
+    reached = [0.0] * count
+    for _ in range(8):
+        target = bench.record(built())
+        for i in range(count):
+            others = [key for j, one in enumerate(found) if j != i for key in one.free()]
+            reached[i] = math.sqrt(bench.fit(target, built(i), others)[0])
+        if all(abs(s - wanted) < 0.06 * wanted for s in reached):
+            break
+        for i, s in enumerate(reached):
+            sizes[i] *= min(max(wanted / max(s, 1e-3), 0.3), 3.0)
+            if sizes[i] > found[i].largest:
+                raise Retry(f"{found[i].label} is hidden by the others")
+    if any(abs(s - wanted) > 0.15 * wanted for s in reached):
+        raise Retry("the sizes do not settle")
+    alike = []
+    for i, one in enumerate(found):  # what each could be taken for, by itself
+        alike.append(_classes(bench, bench.record(one.applied(believed, sizes[i])), one.label)[0])
+    truth = true_limb(rng, believed, given)
+    for one, size in zip(found, sizes, strict=True):
+        truth = one.applied(truth, size)
+    return {
+        "believed": believed,
+        "trust": given,
+        "shown": shown,
+        "held": held,
+        "limb": truth,
+        "outsider": None,
+        "truth": {
+            "kind": "pair" if count == 2 else "triple",
+            "effects": [{"name": one.name, "where": one.where} for one in found],
+            "detectability": round(min(reached), 2),
+            "each": [round(s, 2) for s in reached],
+            "cls": [],
+            "cls_each": alike,
+            "keys": keys,
+        },
+    }
+
+
+def make_outside(rng: Rng, number: int) -> dict[str, Any]:
+    """What the catalogue does not know, and what no single entry of it explains away."""
+    name = outsiders.KINDS[number % len(outsiders.KINDS)]
+    wanted = OUTSIDE_S[(number // len(outsiders.KINDS)) % len(OUTSIDE_S)]
+    believed, given, shown, held, bench = _setting(rng)
+    one = outsiders.draw(rng, name, believed, bench.whole_s, bench.peak_n, bench.deepest, shown.step_mm)
+
+    def target(size: float) -> Array:
+        out: Array = (one.play(believed, shown.rows, size)[:, shown.columns] / bench.sigma).ravel()
+        return out
+
+    class Sized:
+        largest, smallest = one.largest, 1e-7 * one.largest
+
+    for _ in range(3):
+        size, s = bench.sized(Sized, wanted, lambda x: bench.s_of_record(target(x)))  # type: ignore[arg-type]
+        if s < 0.9 * wanted:
+            raise Retry(f"{name} reaches {s:.1f} of {wanted}")
+        cosines = bench.cosines(target(size))
+        nearest = max(cosines.values())
+        if nearest > SAME_CLASS:
+            raise Retry(f"{name} is of a class in the catalogue")
+        left = s * math.sqrt(1.0 - nearest**2)
+        if left >= LEFT_BY_CATALOGUE:
+            break
+        wanted *= 1.1 * LEFT_BY_CATALOGUE / left
+    else:
+        raise Retry(f"{name} looks like the catalogue")
+    top = dict(sorted(cosines.items(), key=lambda item: -item[1])[:4])
+    return {
+        "believed": believed,
+        "trust": given,
+        "shown": shown,
+        "held": held,
+        "limb": true_limb(rng, believed, given),
+        "outsider": (one, size),
+        "truth": {
+            "kind": "outside",
+            "effects": [{"name": name, "where": "outside"}],
+            "detectability": round(s, 2),
+            "left_by_catalogue": round(left, 2),
+            "cls": [],
+            "cosines": {k: round(v, 4) for k, v in top.items()},
+        },
+    }
+
+
+def make_fault(rng: Rng, number: int) -> dict[str, Any]:
+    """A healthy record, spoiled."""
+    case = make_none(rng, number)
+    kinds = list(spoil.KINDS)
+    case["spoil"] = kinds[number % len(kinds)]
+    case["truth"] = {
+        "kind": "data_fault",
+        "effects": [],
+        "detectability": 0,
+        "cls": [],
+        "fault": case["spoil"],
+    }
+    return case
+
+
+def build(kind: str, number: int, rng: Rng) -> dict[str, Any]:
+    """One case of a kind."""
+    if kind in ("pair", "triple"):
+        return make_many(rng, 2 if kind == "pair" else 3)
+    return {"single": make_single, "none": make_none, "outside": make_outside, "data_fault": make_fault}[
+        kind
+    ](rng, number)
+
+
+def identity(seed: int, index: int) -> str:
+    """A case's name."""
+    return f"b{hashlib.sha256(f'{seed}/{index}'.encode()).hexdigest()[:6]}"
+
+
+def drawn(seed: int, index: int, cases: int) -> tuple[dict[str, Any], Rng, list[str]]:
+    """A case's ingredients and the generator to go on with; also why earlier draws were given up."""
+    kind, number = schedule(seed, cases)[index]
+    given_up: list[str] = []
+    for attempt in range(60):
+        rng = np.random.default_rng([seed, 2, index, attempt])
+        try:
+            return build(kind, number, rng), rng, given_up
+        except (Retry, np.linalg.LinAlgError) as why:
+            given_up.append(str(why))
+    raise RuntimeError(f"case {index} ({kind} {number}) cannot be made: {given_up[-3:]}")
+
+
+def clean_readings(case: dict[str, Any], rows: Array) -> Array:
+    """Noise-free readings of the case's true limb."""
+    if case["outsider"] is not None:
+        one, size = case["outsider"]
+        result: Array = one.play(case["limb"], rows, size)
+        return result
+    return play(case["limb"], rows)
+
+
+def write_case(seed: int, index: int, cases: int, out: Path) -> list[str]:
+    """Writes one case and its answer; returns why draws were given up."""
+    case, rng, given_up = drawn(seed, index, cases)
+    name = identity(seed, index)
+    shown, held, truth = case["shown"], case["held"], case["truth"]
+    table = table_of(shown, noisy(rng, shown, clean_readings(case, shown.rows)))
+    if "spoil" in case:
+        truth["fields"] = spoil.KINDS[case["spoil"]](rng, table)
+    folder, answer = out / "cases" / name, out / "answers" / name
+    write_dataset(folder, meta_text(shown, f"case {name}"), table)
+    (folder / "limb.toml").write_text(limb_text(case["believed"], case["trust"], f"case {name}"))
+    answer.mkdir(parents=True, exist_ok=True)
+    if truth["kind"] != "data_fault":
+        readings = clean_readings(case, held.rows)[:, held.columns]
+        write_dataset(answer / "holdout", meta_text(held, f"holdout {name}"), table_of(held, readings))
+    truth = {
+        "id": name,
+        **truth,
+        "seed": seed,
+        "index": index,
+        "of": cases,
+        "rows": len(table["run"]),
+        "readings": list(shown.readings),
+        "noise": vars(shown.noise),
+    }
+    if truth["kind"] in ("single", "pair", "triple"):
+        truth["true_parameters"] = _parameters(case["limb"])
+    (answer / "truth.json").write_text(json.dumps(truth, indent=1) + "\n")
+    return given_up
+
+
+def _job(job: tuple[int, int, int, str]) -> tuple[int, list[str]]:
+    seed, index, cases, out = job
+    return index, write_case(seed, index, cases, Path(out))
+
+
+def seal(out: Path) -> str:
+    """One hash over all answers, and a file with each."""
+    lines = [
+        f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(out / 'answers')}"
+        for path in sorted((out / "answers").rglob("*"))
+        if path.is_file()
+    ]
+    text = "\n".join(lines) + "\n"
+    (out / "answers.sha256").write_text(text)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def generate(seed: int, cases: int, out: Path, processes: int = 2, quiet: bool = False) -> str:
+    """Makes all cases that are not there yet and seals the answers; returns the seal."""
+    wanted = {"seed": seed, "cases": cases, "generator": generator_hash()}
+    stamp = out / "set.json"
+    if stamp.exists() and json.loads(stamp.read_text()) == wanted and (out / "answers.sha256").exists():
+        return seal(out)
+    for part in ("cases", "answers"):
+        shutil.rmtree(out / part, ignore_errors=True)
+    out.mkdir(parents=True, exist_ok=True)
+    jobs = [(seed, index, cases, str(out)) for index in range(cases)]
+    begun, given_up = time.monotonic(), 0
+    with multiprocessing.get_context("spawn").Pool(processes) as pool:
+        for done, (_, why) in enumerate(pool.imap_unordered(_job, jobs, chunksize=4), start=1):
+            given_up += len(why)
+            if not quiet and (done % 20 == 0 or done == cases):
+                print(
+                    f"\rmade {done}/{cases} cases, {time.monotonic() - begun:.0f} s, {given_up} draws given up ",
+                    end="",
+                    file=sys.stderr,
+                    flush=True,
+                )
+    if not quiet:
+        print(file=sys.stderr)
+    stamp.write_text(json.dumps(wanted))
+    return seal(out)
+
+
+def generator_hash() -> str:
+    """What made the cases."""
+    here = Path(__file__).resolve().parent
+    names = (
+        "simulator.c",
+        "plant.py",
+        "designs.py",
+        "effects.py",
+        "detect.py",
+        "outsiders.py",
+        "spoil.py",
+        "files.py",
+        "generate.py",
+    )
+    return hashlib.sha256(b"".join((here / name).read_bytes() for name in names)).hexdigest()
+
+
+def default_folder(seed: int, cases: int) -> Path:
+    """Where a set is kept."""
+    label = {DEVELOPMENT_SEED: "dev", TEST_SEED: "test"}.get(seed, "seed")
+    return BUILD / f"{label}-{seed}-{cases}"
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--development", action="store_true", help="the development seed")
+    parser.add_argument("--cases", type=int, help="how many")
+    parser.add_argument("--seed", type=int, help="another seed")
+    parser.add_argument("--out", type=Path, help="folder")
+    parser.add_argument("--processes", type=int, default=min(2, os.cpu_count() or 1))
+    options = parser.parse_args()
+    seed = (
+        options.seed if options.seed is not None else DEVELOPMENT_SEED if options.development else TEST_SEED
+    )
+    cases = options.cases or (DEVELOPMENT_CASES if options.development else TEST_CASES)
+    out = options.out or default_folder(seed, cases)
+    print(f"{out}: answers sealed {generate(seed, cases, out, options.processes)}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
