@@ -31,7 +31,7 @@ from brace.simulate import simulate
 GAP_RAD = 0.0061
 GAP_KEY = "joint.tibia.gap_rad"
 RIG = """format = 1
-title = "{title}"
+title = '{title}'
 seed = 3
 [rig]
 steps = 4

@@ -10,7 +10,7 @@ from typing import Any
 
 from brace import toml
 from brace.diagnose.diagnosis import Diagnosis
-from brace.errors import BraceError
+from brace.errors import BadFileError
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
 from brace.model.limb import WHAT, limb_from_document
@@ -74,7 +74,7 @@ def _refusal(model: LimbModel) -> str:
     try:
         limb_from_document(toml.parse(model.to_toml(), Path("limb.toml"), WHAT))
         pack(model)
-    except BraceError as error:
+    except BadFileError as error:
         return f"{error.what} ({error.why})"
     return ""
 
@@ -93,7 +93,7 @@ def _text(
         try:
             if limb_from_document(toml.parse(text, Path("limb.toml"), WHAT)).values == exported.values:
                 return text
-        except BraceError:
+        except BadFileError:
             pass  # inline tables, dotted keys
     return exported.to_toml(header)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
+import matplotlib
 import numpy as np
 
 from brace.diagnose.diagnosis import Gap
@@ -20,6 +21,7 @@ POINTS = 1400  # drawn in one panel at most
 LOOP_POINTS = 400
 BEFORE, AFTER, FLOOR = STIFF, SOFT, FAINT
 _BINS = 12
+_EVERY_POINT: dict[Any, Any] = {"path.simplify": False}
 _SHORTER = re.compile(r"(\d+\.\d{2})\d+")
 
 
@@ -75,7 +77,7 @@ def gap(view: View, found: Gap) -> str:
             axes.axhspan(-2 * found.noise_floor, 2 * found.noise_floor, color=FLOOR, alpha=0.45, linewidth=0)
             axes.axhline(0.0, color=INK, linewidth=0.6)
             drawn = _thin(len(rows), POINTS)
-            axes.plot(drawn, values[rows][drawn], ".", color=colour, markersize=4.4, markeredgewidth=0)
+            _dots(axes, drawn, values[rows][drawn], colour)
             _mark_groups(axes, view.group[rows])
             rms = pair.fitted if column == 0 else pair.held_out
             said = "" if rms is None else f": rms {number(rms)} {unit(found.unit)}"
@@ -116,7 +118,8 @@ def steps(found: Gap) -> str:
 
 def svg(figure: Figure, name: str) -> str:
     """Inline SVG; `name` keeps its ids apart from the other pictures'."""
-    text = svg_bytes(figure).decode()
+    with matplotlib.rc_context(_EVERY_POINT):
+        text = svg_bytes(figure).decode()
     text = text[text.index("<svg") :]
     text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
     text = re.sub(r'\bid="', f'id="{name}-', text)
@@ -138,9 +141,7 @@ def _by_load(axes: Axes, view: View, found: Gap) -> None:
         if not rows.size or (sign == 0 and view.kind != "stiffness_table"):
             continue
         drawn = rows[_thin(rows.size, POINTS // 2)]
-        axes.plot(
-            load[drawn], view.before[drawn], ".", color=colour, alpha=0.45, markersize=5, markeredgewidth=0
-        )
+        _dots(axes, load[drawn], view.before[drawn], colour, 0.45)
         if rows.size >= 3 * _BINS:
             axes.plot(*_means(load[rows], view.before[rows]), color=colour, linewidth=1.8, label=words)
     axes.set(xlabel=axis, ylabel=f"measured − model [{unit(found.unit)}]")
@@ -184,9 +185,7 @@ def _by_time(axes: Axes, view: View, found: Gap) -> None:
     minutes = (view.time_s - view.time_s.min()) / 60.0
     rows = np.flatnonzero(np.isfinite(view.before))
     drawn = rows[_thin(rows.size, POINTS)]
-    axes.plot(
-        minutes[drawn], view.before[drawn], ".", color=STIFF, alpha=0.45, markersize=5, markeredgewidth=0
-    )
+    _dots(axes, minutes[drawn], view.before[drawn], STIFF, 0.45)
     if rows.size >= 3 * _BINS:
         axes.plot(*_means(minutes[rows], view.before[rows]), color=INK, linewidth=1.6)
     axes.set(xlabel="time [min]")
@@ -197,6 +196,18 @@ def floor(axes: Axes, found: Gap) -> None:
     """The band of two noise floors around zero."""
     axes.axhspan(-2 * found.noise_floor, 2 * found.noise_floor, color=FLOOR, alpha=0.45, linewidth=0)
     axes.axhline(0.0, color=INK, linewidth=0.6)
+
+
+def _dots(axes: Axes, x: np.ndarray, y: np.ndarray, colour: str, opacity: float = 1.0) -> None:
+    """Points as one path of strokes without length and with round ends: a tenth of the bytes of markers."""
+    strokes = []
+    for values in (x, y):
+        spread = np.repeat(np.asarray(values, dtype=float), 3)
+        spread[2::3] = np.nan
+        strokes.append(spread)
+    (line,) = axes.plot(*strokes, color=colour, alpha=opacity, linewidth=2.2, solid_capstyle="round")
+    with matplotlib.rc_context(_EVERY_POINT):
+        line.recache(always=True)
 
 
 def _sides(view: View) -> list[tuple[str, np.ndarray]]:

@@ -24,7 +24,8 @@ padding:2px 12px;font-size:.85rem;margin-bottom:6px}
 table{border-collapse:collapse;width:100%;font-size:.93rem;margin:8px 0 4px}
 th,td{text-align:left;padding:6px 10px 6px 0;border-bottom:1px solid var(--line);vertical-align:top}
 th{color:var(--soft);font-weight:600}
-td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
+td.n,th.n{text-align:right;font-variant-numeric:tabular-nums}
+td.n{white-space:nowrap}
 .wide{overflow-x:auto}
 svg{display:block;width:100%;height:auto}
 svg text{font-family:system-ui,"DejaVu Sans",sans-serif}

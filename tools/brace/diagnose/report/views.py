@@ -67,7 +67,7 @@ def _loading(dataset: Dataset, found: Diagnosis, rows: np.ndarray) -> View | Non
     imposed = np.where(along == 1, dataset["dz_mm"][rows], dataset["dx_mm"][rows])
     measured = np.where(along == 1, dataset["fz_n"][rows], dataset["fx_n"][rows])
     run = dataset["run"][rows]
-    names = ("displacement of the tip along the loaded axis [mm]", "force along it [N]", "configuration")
+    names = ("displacement along the loaded axis [mm]", "force along it [N]", "configuration")
     return View(
         "loading",
         residuals.before[every, channel],

@@ -1,0 +1,194 @@
+"""report.html: whole in itself, in words first, escaped, light; drawn for every verdict and kind of record."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from handmade import FAULT, by_hand, loading_record
+
+from brace.dataset import Dataset
+from brace.diagnose.diagnosis import Diagnosis, Gap, GapPair, Residuals
+from brace.diagnose.report.page import page
+from brace.diagnose.write import Provenance, contents, provenance
+from brace.model import LimbModel
+
+VOID = {"meta", "br", "link", "img", "hr", "path", "use", "rect", "input"}
+
+
+@pytest.fixture(scope="module")
+def limb() -> Path:
+    return Path(__file__).resolve().parents[3] / "tools" / "brace" / "data" / "paper-limb.toml"
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory, limb: Path) -> tuple[Dataset, LimbModel, Diagnosis]:
+    return by_hand(loading_record(tmp_path_factory.mktemp("record") / "data", limb, 'a <script> & "b"'), limb)
+
+
+class Reader(HTMLParser):
+    """Tags in balance, ids, and everything that would be fetched from elsewhere."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.tags: set[str] = set()
+        self.ids: list[str] = []
+        self.fetched: list[str] = []
+        self.words = ""
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.add(tag)
+        if tag not in VOID:
+            self.open.append(tag)
+        for name, value in attrs:
+            if name == "id" and value:
+                self.ids.append(value)
+            if name in ("src", "href", "xlink:href") and value and not value.startswith("#"):
+                self.fetched.append(value)
+
+    def handle_endtag(self, tag: str) -> None:
+        if tag not in VOID:
+            assert self.open and self.open[-1] == tag, (tag, self.open[-4:])
+            self.open.pop()
+
+    def handle_data(self, data: str) -> None:
+        self.words += data
+
+
+def _read(text: str) -> Reader:
+    reader = Reader()
+    reader.feed(text)
+    assert not reader.open
+    return reader
+
+
+def _origin(dataset: Dataset) -> Provenance:
+    return provenance(dataset, "")
+
+
+def test_one_file_in_balance_without_scripts_or_anything_from_elsewhere(
+    made: tuple[Dataset, LimbModel, Diagnosis], limb: Path
+) -> None:
+    dataset, believed, found = made
+    text = contents(dataset, believed, limb.read_text(), found).files["report.html"].decode()
+    reader = _read(text)
+    assert not reader.fetched and "script" not in reader.tags and "@import" not in text
+    assert "url(http" not in text and len(reader.ids) == len(set(reader.ids))
+    for used in re.findall(r'url\(#([^)]+)\)|href="#([^"]+)"', text):
+        assert (used[0] or used[1]) in reader.ids
+    assert len(text) < 1_000_000
+    assert 'a <script> & "b"' in reader.words  # the title, as text
+
+
+def test_what_it_says_in_order(made: tuple[Dataset, LimbModel, Diagnosis], limb: Path) -> None:
+    dataset, believed, found = made
+    found = replace(found, data_faults=(FAULT,), indistinguishable=(("a@b", "backlash@joint.tibia"),))
+    words = _read(page(dataset, believed, found, _origin(dataset))).words
+    order = [
+        found.sentence,
+        "97 %",
+        "Where they disagreed",
+        "only when unloading, and only near zero force",
+        "What was missing",
+        "joint.tibia.gap_rad",
+        "0.0057 to 0.0065",
+        "The gap before and after",
+        "held out, before",
+        "held out, after",
+        "What stays unexplained",
+        "What cannot be told apart",
+        "What to measure next",
+        "preloaded",
+        "Faults of the record",
+        "three times its neighbours <b>",
+        "What was tried",
+        "data sha256",
+        "core",
+    ]
+    at = 0
+    for piece in order:
+        assert piece in words[at:], piece
+        at = words.index(piece, at)
+
+
+def test_the_pictures_show_the_gap_shrink_by_the_numbers_given(
+    made: tuple[Dataset, LimbModel, Diagnosis], limb: Path
+) -> None:
+    """The rms printed over each panel is the diagnosis' own, and the residuals drawn have it."""
+    dataset, believed, found = made
+    words = _read(page(dataset, believed, found, _origin(dataset))).words
+    assert found.gap is not None and found.residuals is not None
+    for pair, part in ((found.gap.before, found.residuals.before), (found.gap.after, found.residuals.after)):
+        held = float(np.sqrt(np.mean(part[found.residuals.held_out] ** 2)))
+        assert pair.held_out == pytest.approx(held)
+        assert f"{pair.fitted:.3g} N" in words and f"{pair.held_out:.3g} N" in words
+
+
+@pytest.mark.parametrize("verdict", ["none", "unknown", "ambiguous", "effect", "data_fault"])
+def test_every_verdict_with_and_without_its_parts(
+    verdict: Any, made: tuple[Dataset, LimbModel, Diagnosis], limb: Path
+) -> None:
+    dataset, believed, found = made
+    bare = Diagnosis(verdict, "A sentence.", believed)
+    for diagnosis in (bare, replace(found, verdict=verdict), replace(found, verdict=verdict, residuals=None)):
+        assert (
+            "A sentence." in (text := page(dataset, believed, diagnosis, _origin(dataset)))
+            or diagnosis is not bare
+        )
+        _read(text)
+
+
+def test_odd_residuals_are_left_out_not_drawn_wrong(
+    made: tuple[Dataset, LimbModel, Diagnosis], limb: Path
+) -> None:
+    """Other counts than the record's rows, without saying which rows they are of."""
+    dataset, believed, found = made
+    assert found.residuals is not None
+    cut = Residuals(
+        ("fx_n", "fz_n"), found.residuals.before[:5], found.residuals.after[:5], np.zeros(5, bool)
+    )
+    assert "held out, before" not in page(dataset, believed, replace(found, residuals=cut), _origin(dataset))
+    told = replace(found, residuals=cut, details={"rows": np.arange(5)})
+    assert "all, before" in page(dataset, believed, told, _origin(dataset)) or "fitted, before" in page(
+        dataset, believed, told, _origin(dataset)
+    )
+
+
+def test_nothing_held_out_is_said(made: tuple[Dataset, LimbModel, Diagnosis], limb: Path) -> None:
+    dataset, believed, found = made
+    gap = Gap("n", 0.1, GapPair(0.5, None), GapPair(0.1, None))
+    text = page(dataset, believed, replace(found, gap=gap), _origin(dataset))
+    assert "Nothing could be held out" in text
+
+
+def test_large_records_stay_light(limb: Path, tmp_path: Path) -> None:
+    """60,000 rows of a joint test: the page thins what it draws."""
+    count = 60_000
+    folder = tmp_path / "joint"
+    folder.mkdir()
+    (folder / "meta.toml").write_text('format = 1\nkind = "joint_test"\ntitle = "long"\n')
+    t = np.arange(count) * 0.01
+    angle = 0.02 * np.sin(t / 3)
+    rows = "\n".join(f"{a:.3f},{b:.6f},{c:.3f}" for a, b, c in zip(t, angle, 1e5 * angle, strict=True))
+    (folder / "data.csv").write_text("t_s,angle_rad,torque_n_mm\n" + rows + "\n")
+    from brace.dataset import load_dataset
+    from brace.model import load_limb
+
+    dataset = load_dataset(folder)
+    before = (0.1 * dataset["torque_n_mm"])[:, None]
+    found = Diagnosis(
+        "effect",
+        "A sentence.",
+        load_limb(limb),
+        Gap("n_mm", 10.0, GapPair(100.0, 100.0), GapPair(10.0, 10.0)),
+        residuals=Residuals(("torque_n_mm",), before, 0.1 * before, np.arange(count) > 40_000),
+    )
+    text = page(dataset, None, found, _origin(dataset))
+    _read(text)
+    assert len(text) < 700_000
