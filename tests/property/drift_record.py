@@ -32,8 +32,8 @@ class Setup(ctypes.Structure):
 
 
 class Drift(ctypes.Structure):
-    _fields_ = [("setup", Setup), ("offset", ctypes.c_float * 6), ("covariance", ctypes.c_float * 21),
-                ("held", ctypes.c_float * 3), ("held_sigma", ctypes.c_float * 3), ("left", ctypes.c_float * 18),
+    _fields_ = [("setup", Setup), ("offset", ctypes.c_float * 7), ("covariance", ctypes.c_float * 28),
+                ("held", ctypes.c_float * 3), ("held_sigma", ctypes.c_float * 3), ("left", ctypes.c_float * 21),
                 ("evidence", ctypes.c_float * 4), ("score", ctypes.c_float * 3), ("information", ctypes.c_float * 3),
                 ("run_mean", ctypes.c_float * 4), ("run_theta_rad", ctypes.c_float * 2), ("steps", ctypes.c_uint32),
                 ("since", ctypes.c_uint16 * 4), ("run_count", ctypes.c_uint8), ("state", ctypes.c_uint8),

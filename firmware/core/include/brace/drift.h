@@ -68,11 +68,12 @@ typedef struct {
 /* The check's memory; read it through brace_drift_report. */
 typedef struct {
     brace_drift_setup_t setup;
-    float offset[6];     /* estimates: three compliances (relative), turn of the limb and of the knee, thermal rate */
-    float covariance[21];
+    float offset[7];     /* estimates: three compliances (relative), turn of the limb and of the knee, thermal rate, axial
+                            compliance of both links */
+    float covariance[28];
     float held[3];       /* compliance offsets when learning ended */
     float held_sigma[3];
-    float left[3][6];    /* what the estimates have not yet absorbed of a change of each cause */
+    float left[3][7];    /* what the estimates have not yet absorbed of a change of each cause */
     float evidence[4];   /* log likelihood ratio for each cause since it last was zero */
     float score[3], information[3];
     float run_mean[4];   /* displacement and force */

@@ -29,23 +29,23 @@
 #define ANGLE_WALK_RAD 3e-7f
 #define THERMAL_WALK_RATIO 1e-5f
 
-enum { ENTRIES = 21 };
-static const uint8_t diagonal[DRIFT_OFFSETS] = {0, 6, 11, 15, 18, 20};
+enum { ENTRIES = 28 };
+static const uint8_t diagonal[DRIFT_OFFSETS] = {0, 7, 13, 18, 22, 25, 27};
 
 static inline float square(float x)
 {
     return x * x;
 }
 
-static inline float weigh(const float h[DRIFT_OFFSETS], float a, float b, float c, float d, float e, float f)
+static inline float weigh(const float h[DRIFT_OFFSETS], float a, float b, float c, float d, float e, float f, float g)
 {
-    const float first = __builtin_fmaf(c, h[2], __builtin_fmaf(b, h[1], a * h[0]));
-    return __builtin_fmaf(f, h[5], __builtin_fmaf(e, h[4], __builtin_fmaf(d, h[3], first)));
+    const float first = __builtin_fmaf(d, h[3], __builtin_fmaf(c, h[2], __builtin_fmaf(b, h[1], a * h[0])));
+    return __builtin_fmaf(g, h[6], __builtin_fmaf(f, h[5], __builtin_fmaf(e, h[4], first)));
 }
 
 static inline float dot(const float a[DRIFT_OFFSETS], const float b[DRIFT_OFFSETS])
 {
-    return weigh(a, b[0], b[1], b[2], b[3], b[4], b[5]);
+    return weigh(a, b[0], b[1], b[2], b[3], b[4], b[5], b[6]);
 }
 
 static inline void add(float *a, const float *b, float by, int count)
@@ -59,23 +59,25 @@ static inline void add(float *a, const float *b, float by, int count)
 /* g = P h for the upper triangle of P, row by row. */
 static inline void spread(const float p[ENTRIES], const float h[DRIFT_OFFSETS], float g[DRIFT_OFFSETS])
 {
-    g[0] = weigh(h, p[0], p[1], p[2], p[3], p[4], p[5]);
-    g[1] = weigh(h, p[1], p[6], p[7], p[8], p[9], p[10]);
-    g[2] = weigh(h, p[2], p[7], p[11], p[12], p[13], p[14]);
-    g[3] = weigh(h, p[3], p[8], p[12], p[15], p[16], p[17]);
-    g[4] = weigh(h, p[4], p[9], p[13], p[16], p[18], p[19]);
-    g[5] = weigh(h, p[5], p[10], p[14], p[17], p[19], p[20]);
+    g[0] = weigh(h, p[0], p[1], p[2], p[3], p[4], p[5], p[6]);
+    g[1] = weigh(h, p[1], p[7], p[8], p[9], p[10], p[11], p[12]);
+    g[2] = weigh(h, p[2], p[8], p[13], p[14], p[15], p[16], p[17]);
+    g[3] = weigh(h, p[3], p[9], p[14], p[18], p[19], p[20], p[21]);
+    g[4] = weigh(h, p[4], p[10], p[15], p[19], p[22], p[23], p[24]);
+    g[5] = weigh(h, p[5], p[11], p[16], p[20], p[23], p[25], p[26]);
+    g[6] = weigh(h, p[6], p[12], p[17], p[21], p[24], p[26], p[27]);
 }
 
 /* P -= g g' / s */
 static inline void narrow(float p[ENTRIES], const float g[DRIFT_OFFSETS], float per_s)
 {
-    add(p, g, -g[0] * per_s, 6);
-    add(p + 6, g + 1, -g[1] * per_s, 5);
-    add(p + 11, g + 2, -g[2] * per_s, 4);
-    add(p + 15, g + 3, -g[3] * per_s, 3);
-    add(p + 18, g + 4, -g[4] * per_s, 2);
-    add(p + 20, g + 5, -g[5] * per_s, 1);
+    add(p, g, -g[0] * per_s, 7);
+    add(p + 7, g + 1, -g[1] * per_s, 6);
+    add(p + 13, g + 2, -g[2] * per_s, 5);
+    add(p + 18, g + 3, -g[3] * per_s, 4);
+    add(p + 22, g + 4, -g[4] * per_s, 3);
+    add(p + 25, g + 5, -g[5] * per_s, 2);
+    add(p + 27, g + 6, -g[6] * per_s, 1);
 }
 
 /* A loss of CHANGE_RATIO of each cause, as a share of the compliance it sits in. */
@@ -124,6 +126,7 @@ static void prior(const brace_limb_t *limb, const drift_compliances_t *c, float 
         2.0f * square(u->angle_rad),
         square(u->angle_rad),
         square(trust),
+        known,
     };
     for (int i = 0; i < DRIFT_OFFSETS; i++) {
         sigma[i] = brace_sqrt(variance[i] + 1e-10f);
@@ -369,7 +372,7 @@ brace_status_t brace_drift_step(brace_drift_t *drift, const brace_limb_t *limb, 
     for (int i = 0; i < DRIFT_OFFSETS; i++) {
         const float walk = i < BRACE_DRIFT_CAUSE_COUNT ? WALK_RATIO * change[i]
                            : i < DRIFT_THERMAL         ? ANGLE_WALK_RAD
-                                                       : THERMAL_WALK_RATIO;
+                                                       : THERMAL_WALK_RATIO; /* the axial one's too */
         drift->covariance[diagonal[i]] += walk * walk;
     }
     if (drift->state != BRACE_DRIFT_LEARNING) {

@@ -83,12 +83,14 @@ void drift_expect(const brace_limb_t *limb, const brace_stiffness_t *stiffness, 
     brace_vec_t vector[ELEMENTS], before[ELEMENTS];
     set_vectors(vector, bent, across_femur, across_tibia, femur_mm, tibia_mm);
     set_vectors(before, bent, across_femur, vec_quarter(believed), femur_mm, tibia_mm);
-    const float warm = per_degc * reading->warmer_degc;
-    const float hip_more = warm * limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm;
-    const float knee_more = warm * (c.shank_mm_per_n - limb->link[BRACE_TIBIA].bending_mm_per_n);
+    const float believed_warm = per_degc * reading->warmer_degc;
+    const float warm = believed_warm * (1.0f + offset[DRIFT_THERMAL]); /* as a logarithm its square would show */
+    const float knee = c.shank_mm_per_n - limb->link[BRACE_TIBIA].bending_mm_per_n;
+    const float hip = limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm;
+    const float hip_more = warm * hip, knee_more = warm * knee;
     const float hip_warm = c.hip_rad_per_n_mm + hip_more, shank_warm = c.shank_mm_per_n + knee_more;
-    const float hip_per_thermal = hip_warm > 0.0f ? hip_more / hip_warm : 0.0f;
-    const float shank_per_thermal = shank_warm > 0.0f ? knee_more / shank_warm : 0.0f;
+    const float hip_per_thermal = hip_warm > 0.0f ? believed_warm * hip / hip_warm : 0.0f;
+    const float shank_per_thermal = shank_warm > 0.0f ? believed_warm * knee / shank_warm : 0.0f;
     const float unit[ELEMENTS] = {
         [BEND] = c.femur_mm_per_n * (1.0f - coupled),
         [MOMENT] = c.femur_mm_per_n * coupled,
@@ -99,10 +101,14 @@ void drift_expect(const brace_limb_t *limb, const brace_stiffness_t *stiffness, 
     const float now[ELEMENTS] = {
         [BEND] = unit[BEND] * softer,
         [MOMENT] = unit[MOMENT] * softer,
-        [SHANK] = shank_warm * factor(offset[BRACE_DRIFT_TIBIA_OR_KNEE] + shank_per_thermal * offset[DRIFT_THERMAL]),
-        [HIP] = hip_warm * factor(offset[BRACE_DRIFT_FEMUR_JOINT_OR_BASE] + hip_per_thermal * offset[DRIFT_THERMAL]),
+        [SHANK] = shank_warm * factor(offset[BRACE_DRIFT_TIBIA_OR_KNEE]),
+        [HIP] = hip_warm * factor(offset[BRACE_DRIFT_FEMUR_JOINT_OR_BASE]),
     };
 
+    /* both axial compliances scale as one: where they show, the links lie along one line */
+    const float axial_femur = limb->link[BRACE_FEMUR].axial_mm_per_n;
+    const float axial_tibia = limb->link[BRACE_TIBIA].axial_mm_per_n;
+    const brace_vec_t along_femur = {bent.z, -bent.x};
     matrix_t k = {stiffness->k_xx_n_per_mm, stiffness->k_xz_n_per_mm, stiffness->k_zz_n_per_mm};
     invert(&k);
     UNROLLED
@@ -111,6 +117,8 @@ void drift_expect(const brace_limb_t *limb, const brace_stiffness_t *stiffness, 
         soften(&k, vector[i], now[i] - stays);
         soften(&k, before[i], stays - unit[i]);
     }
+    soften(&k, along_femur, axial_femur * offset[DRIFT_AXIAL]);
+    soften(&k, along_tibia, axial_tibia * offset[DRIFT_AXIAL]);
     invert(&k);
 
     const brace_vec_t moved = {reading->dx_mm, reading->dz_mm};
@@ -128,6 +136,8 @@ void drift_expect(const brace_limb_t *limb, const brace_stiffness_t *stiffness, 
     slope[BRACE_DRIFT_FEMUR_JOINT_OR_BASE] = vec_scaled(give[HIP], now[HIP]);
     slope[DRIFT_THERMAL] = plus(vec_scaled(slope[BRACE_DRIFT_FEMUR_JOINT_OR_BASE], hip_per_thermal),
                                 slope[BRACE_DRIFT_TIBIA_OR_KNEE], shank_per_thermal);
+    slope[DRIFT_AXIAL] = plus(vec_scaled(times(&k, along_femur), -axial_femur * vec_dot(along_femur, force)),
+                              times(&k, along_tibia), -axial_tibia * vec_dot(along_tibia, force));
 
     /* K turned with the limb; the tibia turned at the knee, with the levers and ellipsoids that go with it */
     slope[DRIFT_TURN_LIMB] = vec_minus(vec_quarter(force), times(&k, vec_quarter(moved)));

@@ -5,8 +5,9 @@
 #include "brace/drift.h"
 
 /* The estimates: three compliances, each as a share of itself, in the order of brace_drift_cause_t; turn of the whole
- * limb and of the knee [rad]; and the thermal rate as a share of the believed one. */
-enum { DRIFT_TURN_LIMB = 3, DRIFT_TURN_KNEE = 4, DRIFT_THERMAL = 5, DRIFT_OFFSETS = 6 };
+ * limb and of the knee [rad]; the thermal rate as a share of the believed one; and the axial compliance of both links as
+ * a share of itself: it shows where the limb is stretched or folded, and only there. */
+enum { DRIFT_TURN_LIMB = 3, DRIFT_TURN_KNEE = 4, DRIFT_THERMAL = 5, DRIFT_AXIAL = 6, DRIFT_OFFSETS = 7 };
 
 /* The compliances that count as one at the tip. */
 typedef struct {
