@@ -65,9 +65,7 @@ def limb_of(truth: dict[str, Any]) -> Array:
 def differences(case: Path) -> dict[str, float]:
     """Largest difference of each reading of a case's noise-free records."""
     truth = json.loads((case / "truth.json").read_text())
-    data: Any = np.genfromtxt(
-        case / "holdout" / "data.csv", delimiter=",", names=True, dtype=None, encoding="utf-8"
-    )
+    data: Any = np.genfromtxt(case / "holdout" / "data.csv", delimiter=",", names=True, dtype=None, encoding="utf-8")
     rows = np.column_stack([np.asarray(data[name], dtype=float) for name in ROW])
     out = play(limb_of(truth), rows)
     return {

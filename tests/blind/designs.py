@@ -128,14 +128,36 @@ def trust(rng: Rng) -> Trust:
     )
 
 
-def base_parameters(believed: Array, given: Trust) -> list[tuple[int, float]]:
-    """What calibration leaves open: index of a parameter and its one sigma."""
+@dataclass(frozen=True)
+class Loose:
+    """A parameter that calibration leaves open. One sigma: a length or an angle by addition; a compliance or a
+    gain, which cannot be negative, by its logarithm."""
+
+    index: int
+    sigma: float
+    relative: bool
+
+    def moved(self, p: Array, sigmas: float) -> None:
+        """Moves a limb's parameter in place."""
+        if self.relative:
+            p[self.index] *= math.exp(sigmas * self.sigma)
+        else:
+            p[self.index] += sigmas * self.sigma
+
+    def away(self, p: Array, believed: Array) -> float:
+        """How many sigmas a limb's parameter is from what is believed."""
+        at, was = float(p[self.index]), float(believed[self.index])
+        return math.log(at / was) / self.sigma if self.relative else (at - was) / self.sigma
+
+
+def base_parameters(believed: Array, given: Trust) -> list[Loose]:
+    """What calibration leaves open."""
     found = [
-        (INDEX["geometry.femur_mm"], given.length_mm),
-        (INDEX["geometry.tibia_mm"], given.length_mm),
-        (INDEX["joint.femur.zero_offset_rad"], given.angle_rad),
-        (INDEX["joint.tibia.zero_offset_rad"], given.angle_rad),
-        (INDEX["sensor.gain"], given.gain_rel),
+        Loose(INDEX["geometry.femur_mm"], given.length_mm, False),
+        Loose(INDEX["geometry.tibia_mm"], given.length_mm, False),
+        Loose(INDEX["joint.femur.zero_offset_rad"], given.angle_rad, False),
+        Loose(INDEX["joint.tibia.zero_offset_rad"], given.angle_rad, False),
+        Loose(INDEX["sensor.gain"], given.gain_rel, True),
     ]
     for key in (
         "link.femur.axial_mm_per_n",
@@ -149,15 +171,15 @@ def base_parameters(believed: Array, given: Trust) -> list[tuple[int, float]]:
         "base.rotation_rad_per_n_mm",
     ):
         if believed[INDEX[key]] > 0.0:
-            found.append((INDEX[key], given.compliance_rel * float(believed[INDEX[key]])))
+            found.append(Loose(INDEX[key], given.compliance_rel, True))
     return found
 
 
 def true_limb(rng: Rng, believed: Array, given: Trust) -> Array:
     """A limb within its calibration's trust."""
     p = believed.copy()
-    for i, sigma in base_parameters(believed, given):
-        p[i] += sigma * float(np.clip(rng.standard_normal(), -3.0, 3.0))
+    for loose in base_parameters(believed, given):
+        loose.moved(p, float(np.clip(rng.standard_normal(), -3.0, 3.0)))
     return p
 
 
@@ -218,9 +240,7 @@ def cycle(steps: int) -> Array:
     return np.array(up + up[-2::-1] + [-n for n in up[1:]] + [-n for n in up[-2::-1]], dtype=float)
 
 
-def lay_out(
-    rng: Rng, at: Array, plan: Plan, readings: tuple[str, ...], noise: Noise, resolution_n: float
-) -> Design:
+def lay_out(rng: Rng, at: Array, plan: Plan, readings: tuple[str, ...], noise: Noise, resolution_n: float) -> Design:
     """The rows of a loading test at the given poses."""
     runs = [(c, axis, rep) for c in range(len(at)) for axis in "xz" for rep in range(plan.repeats)]
     if plan.order == "shuffled":
@@ -233,9 +253,7 @@ def lay_out(
     for number, (c, axis, rep) in enumerate(runs, start=1):
         for i, level in enumerate(wave):
             d = level * plan.step_mm
-            rows.append(
-                (number, at[c, 0], at[c, 1], t, 0.0, d if axis == "x" else 0.0, d if axis == "z" else 0.0)
-            )
+            rows.append((number, at[c, 0], at[c, 1], t, 0.0, d if axis == "x" else 0.0, d if axis == "z" else 0.0))
             config.append(c + 1)
             axes.append(axis)
             reps.append(rep + 1)
@@ -269,11 +287,7 @@ def loading_test(rng: Rng, believed: Array) -> tuple[Design, Design]:
             configs, steps = max(6, configs - 1), max(3, steps - 1)
     at = poses(rng, configs + 5)
     stiffest = max(
-        float(
-            np.max(
-                np.abs(play(believed, np.array([[1, a, b, 0, 22, 0, 0], [1, a, b, 1, 22, dx, dz]]))[1, :2])
-            )
-        )
+        float(np.max(np.abs(play(believed, np.array([[1, a, b, 0, 22, 0, 0], [1, a, b, 1, 22, dx, dz]]))[1, :2])))
         for a, b in at
         for dx, dz in ((1.0, 0.0), (0.0, 1.0))
     )

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from designs import Design, Trust, base_parameters
+from designs import Design, Loose, Trust, base_parameters
 from effects import Candidate, Hidden, candidates, scales
 from plant import INDEX, Array, play
 
@@ -51,22 +51,22 @@ class Bench:
     ) -> tuple[float, Array, Array]:
         """Least squares of base (under its priors) and of the `extra` parameters (free, also where the base
         has them under a prior): chi-squared, the limb, and the residual with the priors' beneath it."""
-        steps = [(i, s) for i, s in self.base if _not_in(i, extra)]
-        steps += [(INDEX[key], self.scales[key]) for key in extra]
+        steps = [loose for loose in self.base if _not_in(loose.index, extra)]
+        steps += [Loose(INDEX[key], self.scales[key], False) for key in extra]
         bound = len(steps) - len(extra)
         p = start.copy()
 
         def residual(limb: Array) -> Array:
-            prior = [(self.believed[i] - limb[i]) / s for i, s in steps[:bound]]
+            prior = [-loose.away(limb, self.believed) for loose in steps[:bound]]
             return np.concatenate([target - self.record(limb), prior])
 
         r = residual(p)
         chi2, damping = float(r @ r), 1e-6
         for _ in range(rounds):
             jacobian = np.empty((len(r), len(steps)))
-            for k, (i, s) in enumerate(steps):
-                moved, h = p.copy(), 0.05 * s
-                moved[i] += h
+            for k, loose in enumerate(steps):
+                moved = p.copy()
+                loose.moved(moved, 0.05)
                 jacobian[:, k] = (residual(moved) - r) / -0.05
             normal, gradient = jacobian.T @ jacobian, jacobian.T @ r
             better = False
@@ -74,8 +74,8 @@ class Bench:
                 weight = np.diag(normal) + 1e-12 * float(np.max(np.diag(normal))) + 1e-300
                 move = np.linalg.solve(normal + np.diag(damping * weight), gradient)
                 tried = p.copy()
-                for (i, s), m in zip(steps, move, strict=True):
-                    tried[i] += m * s
+                for loose, sigmas in zip(steps, move, strict=True):
+                    loose.moved(tried, float(np.clip(sigmas, -100.0, 100.0)) if loose.relative else float(sigmas))
                 if _possible(tried):
                     fresh = residual(tried)
                     value = float(fresh @ fresh)
@@ -99,9 +99,7 @@ class Bench:
         """The same of a record (in standard deviations)."""
         return math.sqrt(max(0.0, self.fit(target, self.believed)[0]))
 
-    def sized(
-        self, hidden: Hidden, wanted: float, s_at: Callable[[float], float] | None = None
-    ) -> tuple[float, float]:
+    def sized(self, hidden: Hidden, wanted: float, s_at: Callable[[float], float] | None = None) -> tuple[float, float]:
         """Size at which the effect is as detectable as wanted, or its largest; and the s reached."""
         find = s_at or (lambda size: self.s_of(hidden.applied(self.believed, size)))
         high = hidden.largest
@@ -142,7 +140,7 @@ class Bench:
         trace = r / math.sqrt(chi2)
         here = self.record(at)
         size = len(here)
-        row_of = {i: size + k for k, (i, _) in enumerate(self.base)}
+        row_of = {loose.index: size + k for k, loose in enumerate(self.base)}
         for candidate in candidates(self.believed, self.design.rows, self.peak_n, self.deepest):
             best = 0.0
             best_start: tuple[tuple[str, float], ...] = ()
@@ -194,9 +192,9 @@ class Bench:
         """Orthonormal basis of what the base can do around a limb, priors beneath."""
         here = self.record(at)
         block = np.zeros((length, len(self.base)))
-        for k, (i, s) in enumerate(self.base):
+        for k, loose in enumerate(self.base):
             moved = at.copy()
-            moved[i] += 0.05 * s
+            loose.moved(moved, 0.05)
             block[: len(here), k] = (self.record(moved) - here) / 0.05
             block[len(here) + k, k] = 1.0
         return np.linalg.qr(block)[0]

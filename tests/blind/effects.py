@@ -118,16 +118,12 @@ def draw(rng: Rng, name: str, where: str, believed: Array, whole_s: float, peak_
         )
         return Hidden(name, where, tuple(Change(key, add, s) for key, s in shares if s), 0.5)
     if name == "link_compliance_error":
-        kind = str(
-            rng.choice(["bending", "both", "tilt", "bending_tilt", "axial"], p=[0.45, 0.2, 0.15, 0.1, 0.1])
-        )
+        kind = str(rng.choice(["bending", "both", "tilt", "bending_tilt", "axial"], p=[0.45, 0.2, 0.15, 0.1, 0.1]))
         changes = []
         if kind in ("bending", "both", "bending_tilt"):
             changes.append(Change(f"{where}.bending_mm_per_n", multiply, _sign(rng, 0.7)))
         if kind in ("both", "axial"):
-            changes.append(
-                Change(f"{where}.axial_mm_per_n", multiply, rng.uniform(0.5, 1.5) * _sign(rng, 0.8))
-            )
+            changes.append(Change(f"{where}.axial_mm_per_n", multiply, rng.uniform(0.5, 1.5) * _sign(rng, 0.8)))
         if kind in ("tilt", "bending_tilt"):
             changes.append(Change(f"{where}.tilt_rad", add, (0.6 if kind == "tilt" else 0.3) * _sign(rng)))
         return Hidden(name, where, tuple(changes), 1.0 if kind == "tilt" else 8.0)
@@ -140,41 +136,27 @@ def draw(rng: Rng, name: str, where: str, believed: Array, whole_s: float, peak_
     if name == "coulomb_friction":
         return Hidden(name, where, (Change(f"{joint}.coulomb_n_mm", add, 1.0),), 2000.0, (), 1e-3)
     if name == "joint_hardening":
-        lever = 0.7 * (at("geometry.femur_mm") if joint.endswith("femur") else 0.0) + 0.7 * at(
-            "geometry.tibia_mm"
-        )
+        lever = 0.7 * (at("geometry.femur_mm") if joint.endswith("femur") else 0.0) + 0.7 * at("geometry.tibia_mm")
         bent = at(f"{joint}.compliance_rad_per_n_mm") * lever * 0.5 * peak_n
         stiff = 1.0 / at(f"{joint}.compliance_rad_per_n_mm") / bent**2
         return Hidden(name, where, (Change(f"{joint}.hardening_n_mm_per_rad3", add, stiff),), 10.0)
     if name == "creep":
         time_s = round(math.exp(rng.uniform(math.log(5.0), math.log(200.0))), 2)
-        return Hidden(
-            name, where, (Change("creep.ratio", add, 1.0),), 1.0, (("creep.time_constant_s", time_s),)
-        )
+        return Hidden(name, where, (Change("creep.ratio", add, 1.0),), 1.0, (("creep.time_constant_s", time_s),))
     if name == "thermal_softening":
-        return Hidden(
-            name, where, (Change("thermal.joint_compliance_per_degc", add, _sign(rng, 0.85)),), 0.08
-        )
+        return Hidden(name, where, (Change("thermal.joint_compliance_per_degc", add, _sign(rng, 0.85)),), 0.08)
     if name == "gravity":
         weights = zip(("femur", "tibia", "knee"), rng.dirichlet([1.5, 1.5, 1.0]), strict=True)
-        return Hidden(
-            name, where, tuple(Change(f"gravity.{part}_n", add, float(s)) for part, s in weights), 30.0
-        )
+        return Hidden(name, where, tuple(Change(f"gravity.{part}_n", add, float(s)) for part, s in weights), 30.0)
     if name == "joint_zero_offset":
         return Hidden(name, where, (Change(f"{joint}.zero_offset_rad", add, _sign(rng)),), 0.2)
     if name == "link_length_error":
-        lengths = zip(
-            ("femur", "tibia"), [(1, 0), (0, 1), (1, 1), (1, -1)][int(rng.integers(4))], strict=True
-        )
+        lengths = zip(("femur", "tibia"), [(1, 0), (0, 1), (1, 1), (1, -1)][int(rng.integers(4))], strict=True)
         sign = _sign(rng)
         return Hidden(
             name,
             where,
-            tuple(
-                Change(f"geometry.{link}_mm", add, sign * s * rng.uniform(0.7, 1.3))
-                for link, s in lengths
-                if s
-            ),
+            tuple(Change(f"geometry.{link}_mm", add, sign * s * rng.uniform(0.7, 1.3)) for link, s in lengths if s),
             35.0,
         )
     if name in ("sensor_bias", "sensor_drift"):
@@ -323,8 +305,7 @@ def candidates(believed: Array, rows: Array, peak_n: float, deepest: dict[str, f
         elif name == "link_change":
             link = float(where == "link.tibia")
             starts = tuple(
-                (("change.at_s", share * whole_s), ("change.link", link))
-                for share in np.linspace(0.08, 0.92, 15)
+                (("change.at_s", share * whole_s), ("change.link", link)) for share in np.linspace(0.08, 0.92, 15)
             )
             frozen = ("change.at_s", "change.link")
         if name == "creep":

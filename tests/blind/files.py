@@ -36,7 +36,7 @@ def meta_text(design: Design, title: str) -> str:
     """meta.toml of a loading test."""
     return (
         f'format = 1\nkind = "loading"\ntitle = "{title}"\n[sensor]\nresolution_n = {design.resolution_n!r}\n'
-        f'range_n = 145.0\n[rig]\nstep_mm = {design.step_mm!r}\ndwell_s = {design.dwell_s!r}\n'
+        f"range_n = 145.0\n[rig]\nstep_mm = {design.step_mm!r}\ndwell_s = {design.dwell_s!r}\n"
         'zeroed = "never"\n'
     )
 
@@ -89,7 +89,6 @@ def write_dataset(folder: Path, meta: str, table: Table) -> None:
     (folder / "meta.toml").write_text(meta)
     lines = [",".join(table)]
     lines += [
-        ",".join(_text(n, v) for n, v in zip(table, row, strict=True))
-        for row in zip(*table.values(), strict=True)
+        ",".join(_text(n, v) for n, v in zip(table, row, strict=True)) for row in zip(*table.values(), strict=True)
     ]
     (folder / "data.csv").write_text("\n".join(lines) + "\n")

@@ -247,9 +247,9 @@ def build(kind: str, number: int, rng: Rng) -> dict[str, Any]:
     """One case of a kind."""
     if kind in ("pair", "triple"):
         return make_many(rng, 2 if kind == "pair" else 3)
-    return {"single": make_single, "none": make_none, "outside": make_outside, "data_fault": make_fault}[
-        kind
-    ](rng, number)
+    return {"single": make_single, "none": make_none, "outside": make_outside, "data_fault": make_fault}[kind](
+        rng, number
+    )
 
 
 def identity(seed: int, index: int) -> str:
@@ -378,18 +378,14 @@ def default_folder(seed: int, cases: int) -> Path:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--development", action="store_true", help="the development seed")
     parser.add_argument("--cases", type=int, help="how many")
     parser.add_argument("--seed", type=int, help="another seed")
     parser.add_argument("--out", type=Path, help="folder")
     parser.add_argument("--processes", type=int, default=min(2, os.cpu_count() or 1))
     options = parser.parse_args()
-    seed = (
-        options.seed if options.seed is not None else DEVELOPMENT_SEED if options.development else TEST_SEED
-    )
+    seed = options.seed if options.seed is not None else DEVELOPMENT_SEED if options.development else TEST_SEED
     cases = options.cases or (DEVELOPMENT_CASES if options.development else TEST_CASES)
     out = options.out or default_folder(seed, cases)
     print(f"{out}: answers sealed {generate(seed, cases, out, options.processes)}")

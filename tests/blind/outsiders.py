@@ -12,9 +12,7 @@ import numpy as np
 from designs import Rng
 from plant import INDEX, ROW, Array, play
 
-T1, T2, TIME, TEMP, DX, DZ = (
-    ROW.index(n) for n in ("theta1_rad", "theta2_rad", "t_s", "temp_degc", "dx_mm", "dz_mm")
-)
+T1, T2, TIME, TEMP, DX, DZ = (ROW.index(n) for n in ("theta1_rad", "theta2_rad", "t_s", "temp_degc", "dx_mm", "dz_mm"))
 
 Bend = Callable[[Array, float], Array]  # rows, size -> rows
 Read = Callable[[Array, Array, float], Array]  # rows, readings, size -> readings

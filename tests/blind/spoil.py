@@ -148,8 +148,7 @@ def _beyond_range(rng: Rng, table: Table) -> list[str]:
 def _mislabelled_axis(rng: Rng, table: Table) -> list[str]:
     run = int(rng.choice(np.unique(table["run"])))
     table["axis"] = [
-        ("z" if a == "x" else "x") if r == run else a
-        for a, r in zip(table["axis"], table["run"], strict=True)
+        ("z" if a == "x" else "x") if r == run else a for a, r in zip(table["axis"], table["run"], strict=True)
     ]
     return ["axis", "dx_mm", "dz_mm"]
 
