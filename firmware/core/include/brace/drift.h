@@ -127,7 +127,7 @@ brace_status_t brace_drift_run(brace_drift_t *drift);
 /* Takes one reading in.
  *   limb: as learned with; stiffness: the model's K at the reading's posture, at reference temperature
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE; drift untouched unless BRACE_OK.
- * cost: at most 2,200 instructions on a Cortex-M4F (2,000 typical), stack at most 400 bytes: once a loading step, not
+ * cost: at most 2,400 instructions on a Cortex-M4F (2,200 typical), stack at most 400 bytes: once a loading step, not
  * once a tick. */
 brace_status_t brace_drift_step(brace_drift_t *drift, const brace_limb_t *limb, const brace_stiffness_t *stiffness,
                                 const brace_drift_reading_t *reading);
