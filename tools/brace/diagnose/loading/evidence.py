@@ -1,0 +1,29 @@
+"""How much a hypothesis is worth: its likelihood after refitting everything, less what its freedoms cost.
+
+The prior of an effect's size is set in the data's own measure: of the record's readings it may move any number of
+sigmas, spread evenly over `SPREAD` of them (a g-prior), so that a freedom costs the same whatever its unit."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from brace.diagnose.loading.fit import Fit
+
+SPREAD = 40.0  # sigmas of the whole record: detectabilities of interest are some to some tens
+PRIOR_NONE = 0.5
+WAYS = 30  # effects at their places, about equally likely before the record is seen
+
+
+def freedoms(fitted: Fit) -> int:
+    """Own keys that are not held at a bound."""
+    space = fitted.space
+    own = slice(space.size - space.own, space.size)
+    inside = (fitted.x[own] > space.low[own]) & (fitted.x[own] < space.high[own])
+    return int(np.count_nonzero(inside))
+
+
+def score(fitted: Fit, base: Fit) -> float:
+    """Log posterior odds against nothing missing."""
+    effects = len(fitted.space.variants)
+    gain = 0.5 * (base.cost - fitted.cost)
+    return float(gain - freedoms(fitted) * np.log(SPREAD) - effects * np.log(WAYS / PRIOR_NONE))

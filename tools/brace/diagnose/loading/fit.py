@@ -1,0 +1,151 @@
+"""Bounded, prior-weighted least squares over a whole record, with the plant played for many points at a time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from brace.diagnose.loading.record import Record
+from brace.diagnose.loading.space import Space
+
+MAX_STEPS = 14
+STEP_LENGTHS = np.array([1.0, 0.4, 0.1, 0.02])
+SCREENING_DECREASE = 0.05  # of chi squared: a step that gains less is the last of a screening fit
+FINAL_DECREASE = 1e-4
+PROBE = 0.2  # sigmas of the whole record that a finite difference moves by, about
+BIG = 1e6  # whitened residual that stands for a model which no limb can have
+
+
+@dataclass(frozen=True)
+class Fit:
+    """`x` in the keys' units; `residual` (measured - model) / sigma; `jacobian` of the model's whitened readings by
+    x / scale; `cost` is chi squared with the priors' share."""
+
+    space: Space
+    x: np.ndarray
+    residual: np.ndarray
+    jacobian: np.ndarray
+    scale: np.ndarray
+    cost: float
+
+    @property
+    def chi2(self) -> float:
+        return float(self.residual @ self.residual)
+
+    @property
+    def model(self) -> np.ndarray:
+        """The limb's numbers."""
+        return self.space.models(self.x[None])[0]
+
+    def value(self, key: str) -> float:
+        return float(self.x[self.space.keys.index(key)])
+
+
+def cost_of(space: Space, x: np.ndarray, residual: np.ndarray) -> float:
+    pull = space.pull(x)
+    return float(residual @ residual + pull @ pull)
+
+
+def residuals(record: Record, space: Space, points: np.ndarray) -> np.ndarray:
+    """points x readings; models that cannot be played are far off."""
+    found = record.residuals(space.models(points))
+    return np.nan_to_num(found, nan=BIG, posinf=BIG, neginf=-BIG)
+
+
+def scales(record: Record, space: Space, x: np.ndarray, residual: np.ndarray) -> np.ndarray:
+    """For each key, the change that moves the whole record by about one sigma; found by doubling and halving."""
+    scale = np.where(np.isinf(space.sigma), np.maximum(np.abs(x), 1e-3) * 1e-2, 0.1 * space.sigma)
+    scale = np.where(scale > 0.0, scale, 1e-6)
+    for _ in range(3):
+        step = _inward(space, x, scale)
+        moved = residuals(record, space, x + np.diag(step)) - residual
+        length = np.linalg.norm(moved, axis=1)
+        scale = np.clip(scale / np.clip(length, 1e-4, 1e4), 1e-14, None)
+    return np.asarray(scale)
+
+
+def _inward(space: Space, x: np.ndarray, step: np.ndarray) -> np.ndarray:
+    """Steps turned round where they would leave the bounds."""
+    step = np.where(x + step > space.high, -step, step)
+    return np.asarray(np.clip(x + step, space.low, space.high) - x)
+
+
+def jacobian(
+    record: Record, space: Space, x: np.ndarray, residual: np.ndarray, scale: np.ndarray, which: np.ndarray
+) -> np.ndarray:
+    """Columns of the model's whitened readings by x / scale, for the keys in `which`."""
+    step = _inward(space, x, PROBE * scale)[which]
+    points = np.tile(x, (which.size, 1))
+    points[np.arange(which.size), which] += step
+    moved = residual - residuals(record, space, points)
+    safe = np.where(step == 0.0, np.inf, step)
+    return np.asarray(moved * (scale[which] / safe)[:, None]).T
+
+
+def fit(
+    record: Record,
+    space: Space,
+    start: np.ndarray,
+    *,
+    scale: np.ndarray | None = None,
+    trusted_jacobian: np.ndarray | None = None,
+    final: bool = True,
+) -> Fit:
+    """Gauss-Newton with bounds. `trusted_jacobian` (readings x trusted keys, by x / scale) spares computing those
+    columns while screening; a final fit computes all of them at every step."""
+    x = np.clip(start, space.low, space.high)
+    residual = residuals(record, space, x[None])[0]
+    if scale is None:
+        scale = scales(record, space, x, residual)
+    trusted = space.size - space.own
+    columns = np.empty((residual.size, space.size))
+    everything = np.arange(space.size)
+    if trusted_jacobian is not None:
+        columns[:, :trusted] = trusted_jacobian
+        columns[:, trusted:] = jacobian(record, space, x, residual, scale, everything[trusted:])
+    else:
+        columns[:] = jacobian(record, space, x, residual, scale, everything)
+    cost = cost_of(space, x, residual)
+    stop = FINAL_DECREASE if final else SCREENING_DECREASE
+    for _ in range(MAX_STEPS):
+        step = _newton_step(space, x, residual, columns, scale)
+        points = np.clip(x + STEP_LENGTHS[:, None] * step, space.low, space.high)
+        tried = residuals(record, space, points)
+        costs = np.array([cost_of(space, point, left) for point, left in zip(points, tried)])
+        best = int(np.argmin(costs))
+        gained = cost - costs[best]
+        if gained <= 0.0:
+            break
+        x, residual, cost = points[best], tried[best], float(costs[best])
+        if gained < stop:
+            break
+        if final or trusted_jacobian is None:
+            columns = jacobian(record, space, x, residual, scale, everything)
+        elif space.own:
+            columns[:, trusted:] = jacobian(record, space, x, residual, scale, everything[trusted:])
+    return Fit(space, x, residual, columns, scale, cost)
+
+
+def _newton_step(
+    space: Space, x: np.ndarray, residual: np.ndarray, columns: np.ndarray, scale: np.ndarray
+) -> np.ndarray:
+    """Gauss-Newton's step with the priors in it; keys that push against a bound stay."""
+    weight = np.where(np.isinf(space.sigma), 0.0, scale / space.sigma)
+    normal = columns.T @ columns + np.diag(weight**2)
+    downhill = columns.T @ residual - weight * space.pull(x)
+    held = np.zeros(x.size, dtype=bool)
+    for _ in range(3):
+        free = np.flatnonzero(~held)
+        if not free.size:
+            return np.zeros_like(x)
+        part = normal[np.ix_(free, free)]
+        diagonal = np.diag(part)
+        damped = part + np.diag(1e-9 * diagonal + 1e-12)
+        step = np.zeros_like(x)
+        step[free] = np.linalg.solve(damped, downhill[free]) * scale[free]
+        outward = ((x <= space.low) & (step < 0.0)) | ((x >= space.high) & (step > 0.0))
+        if not np.any(outward & ~held):
+            return step
+        held |= outward
+    return step

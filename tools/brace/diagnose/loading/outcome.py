@@ -1,0 +1,269 @@
+"""A finished search as a Diagnosis: effects with intervals, the gap before and after, what stays, in numbers and words."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from brace.diagnose.diagnosis import (
+    Candidate,
+    Diagnosis,
+    Gap,
+    GapPair,
+    GapStep,
+    Interval,
+    Localised,
+    NamedEffect,
+    NextExperiment,
+    Residuals,
+    Unexplained,
+)
+from brace.diagnose.effects import Variant
+from brace.diagnose.loading import confidence
+from brace.diagnose.loading.choose import LabelSet
+from brace.diagnose.loading.experiment import next_experiment
+from brace.diagnose.loading.fit import Fit
+from brace.diagnose.loading.intervals import intervals
+from brace.diagnose.loading.limb_of import limb_of
+from brace.diagnose.loading.localise import localise
+from brace.diagnose.loading.record import Record
+from brace.diagnose.loading.structure import STRUCTURED_P
+from brace.diagnose.options import Options
+from brace.model import LimbModel
+from brace.model.keys import KEY_BY_NAME
+from brace.native.plant_batch import model_numbers
+
+if TYPE_CHECKING:
+    from brace.diagnose.loading.run import Pass
+
+MOST_CANDIDATES = 20
+
+
+def diagnosis_of(
+    whole: Record,
+    record: Record,
+    locked: np.ndarray,
+    believed: LimbModel,
+    final: Pass,
+    twin: Pass | None,
+    variants: Sequence[Variant],
+    options: Options,
+) -> Diagnosis:
+    """`whole` is all that was measured, `record` the part that was searched, `locked` its rows that `twin` never saw."""
+    decision = final.decision
+    best = decision.chosen.best.fit
+    judged = twin or final
+    named = decision.verdict in ("effect", "ambiguous")
+    after = best if named else final.base.fit
+    exported = believed if decision.verdict == "unknown" else limb_of(believed, after.model)
+    effects = _effects(final, twin, decision.labels) if named else ()
+    return Diagnosis(
+        verdict=decision.verdict,
+        sentence=_sentence(final, effects),
+        model=exported,
+        gap=_gap(whole, record, locked, believed, judged),
+        effects=effects,
+        indistinguishable=decision.classes,
+        could_be=_could_be(final, effects),
+        localised=_localised(record, final, options),
+        unexplained=_unexplained(final, after),
+        next_experiment=next_experiment(record, final, believed, options) if named else _more_of_the_same(final),
+        data_faults=tuple(record.dataset.faults),
+        candidates=tuple(
+            Candidate(item.label, final.base.fit.cost - item.best.fit.cost, item.posterior)
+            for item in final.sets[:MOST_CANDIDATES]
+        ),
+        residuals=_residuals(whole, believed, exported, locked if whole is record else np.zeros(whole.rows, bool)),
+        notes=_notes(whole, record, final, twin),
+        seed=options.seed,
+        details=_details(record, final),
+    )
+
+
+def _effects(final: Pass, twin: Pass | None, labels: Sequence[str]) -> tuple[NamedEffect, ...]:
+    """For a class, each member with the parameters of its own fit."""
+    ambiguous = final.decision.verdict == "ambiguous"
+    found = []
+    for label in labels:
+        fitted = _set_with(final, label).best.fit if ambiguous else final.decision.chosen.best.fit
+        variant = next(item for item in fitted.space.variants if item.label == label)
+        keys = tuple(freedom.key for freedom in variant.freedoms)
+        parameters: dict[str, Interval] = dict(intervals(fitted, keys))
+        for key, value in variant.settings.items():
+            if KEY_BY_NAME[key].kind in ("number", "ratio"):
+                parameters[key] = Interval(value, value, value)
+        found.append(
+            NamedEffect(
+                variant.effect,
+                variant.where,
+                confidence.of_label(final, twin, label),
+                parameters,
+                1.0 if ambiguous else _share(final, label),
+            )
+        )
+    return tuple(found)
+
+
+def _localised(record: Record, final: Pass, options: Options) -> tuple[Localised, ...]:
+    """Contrasts that stand out; where none of them does alone, the families of shapes that do."""
+    found = localise(record, final.base.fit, options.seed)
+    if not found and final.structure.structured:
+        sigma_n = float(np.mean(record.sigma[:2]))
+        found = [
+            Localised(family.words, family.p, sigma_n * float(np.sqrt(family.gain / final.base.fit.residual.size)))
+            for family in final.structure.families[:3]
+            if family.p < STRUCTURED_P
+        ]
+    return tuple(found)
+
+
+def _set_with(final: Pass, label: str) -> LabelSet:
+    """The best set that has this label."""
+    return next(item for item in final.sets if label in item.labels and len(item.labels) == 1)
+
+
+def _share(final: Pass, label: str) -> float:
+    """An effect's share of what was removed: what is lost without it, over what is lost without each."""
+    chosen = final.decision.chosen
+    lost = {}
+    for other in chosen.labels:
+        costs = [item.best.fit.cost for item in final.sets if item.labels == chosen.labels - {other}]
+        lost[other] = max(0.0, (min(costs) if costs else final.base.fit.cost) - chosen.best.fit.cost)
+    whole = sum(lost.values())
+    return lost[label] / whole if whole > 0.0 else 1.0 / len(lost)
+
+
+def rms_force_n(record: Record, numbers: np.ndarray, rows: np.ndarray | None = None) -> float:
+    """rms of measured less model over the force channels [N]."""
+    played = record.player.play_numbers(numbers[None])[0, :2]
+    off = record.measured[:2] - played
+    return float(np.sqrt(np.mean((off if rows is None else off[:, rows]) ** 2)))
+
+
+def _pair(record: Record, numbers: np.ndarray, locked: np.ndarray) -> GapPair:
+    if not locked.any():
+        return GapPair(rms_force_n(record, numbers), None)
+    return GapPair(rms_force_n(record, numbers, ~locked), rms_force_n(record, numbers, locked))
+
+
+def _gap(whole: Record, record: Record, locked: np.ndarray, believed: LimbModel, judged: Pass) -> Gap:
+    """Models chosen and fitted without the locked rows, measured on them and on the rest."""
+    before = _pair(record, model_numbers(believed), locked)
+    steps = [GapStep("what calibration leaves open, refitted", _pair(record, judged.base.fit.model, locked))]
+    decision = judged.decision
+    last = judged.base.fit
+    if decision.verdict in ("effect", "ambiguous"):
+        ordered = decision.labels if decision.verdict == "effect" else decision.labels[:1]
+        for count in range(1, len(ordered) + 1):
+            some = frozenset(ordered[:count])
+            matching = [item for item in judged.sets if item.labels == some]
+            if matching:
+                last = matching[0].best.fit
+                steps.append(GapStep(ordered[count - 1], _pair(record, last.model, locked)))
+    noise = float(np.sqrt(np.mean(record.sigma[:2] ** 2)))
+    return Gap("n", noise, before, _pair(record, last.model, locked), tuple(steps))
+
+
+def _could_be(final: Pass, effects: Sequence[NamedEffect]) -> tuple[str, ...]:
+    """Labels that the record leaves possible besides those named."""
+    named = {effect.label for effect in effects}
+    found = []
+    for item in final.sets[:6]:
+        for label in sorted(item.labels - named):
+            if label not in found and (item.posterior > 0.01 or final.decision.verdict == "unknown"):
+                found.append(label)
+    return tuple(found)
+
+
+def _unexplained(final: Pass, after: Fit) -> Unexplained:
+    structure, record = final.structure, final.record
+    rms = float(np.sqrt(np.mean((after.residual.reshape(record.measured.shape) * record.sigma)[:2] ** 2)))
+    if not structure.structured:
+        return Unexplained(rms, False, "no more than noise")
+    shown = [family.words for family in structure.families if family.p < STRUCTURED_P][:3]
+    words = "; ".join(shown)
+    if final.decision.verdict != "unknown":
+        return Unexplained(rms, True, f"a small rest with structure: {words}")
+    nearest = final.sets[0]
+    taken = final.base.fit.cost - nearest.best.fit.cost
+    readings = final.base.fit.residual.size
+    excess = max(final.base.fit.cost - readings, 1e-9)
+    near = (
+        f"the nearest in the catalogue, {nearest.label}, takes {min(1.0, taken / excess):.0%} of it and leaves the rest"
+        if nearest.labels
+        else "nothing in the catalogue takes a part of it"
+    )
+    return Unexplained(rms, True, f"{words}; {near}")
+
+
+def _sentence(final: Pass, effects: Sequence[NamedEffect]) -> str:
+    verdict, structure = final.decision.verdict, final.structure
+    if verdict == "none":
+        return "Model and record agree within the noise and what calibration leaves open; nothing is missing."
+    if verdict == "unknown":
+        return (
+            "The record disagrees with the model in a way that no effect of the catalogue makes: it shows "
+            f"{structure.strongest.words}. Nothing was added to the model."
+        )
+    if verdict == "ambiguous":
+        names = [effect.label for effect in effects]
+        return (
+            f"Something is missing that this record cannot tell between {', '.join(names[:-1])} and {names[-1]}; "
+            f"the model has {names[0]} added."
+        )
+    names = [f"{effect.name.replace('_', ' ')} at {effect.where}" for effect in effects]
+    return f"Missing: {' and '.join(names)}. Added to the model, {'they close' if len(names) > 1 else 'it closes'} the gap."
+
+
+def _more_of_the_same(final: Pass) -> NextExperiment | None:
+    if final.decision.verdict != "unknown":
+        return None
+    where = final.structure.strongest.words
+    return NextExperiment(
+        f"repeat the runs that show it most ({where}) with smaller steps and a longer dwell, to see its shape",
+        (),
+        0.0,
+        10.0,
+    )
+
+
+def _residuals(whole: Record, believed: LimbModel, exported: LimbModel, locked: np.ndarray) -> Residuals:
+    models = np.stack([model_numbers(believed), model_numbers(exported)])
+    played = whole.player.play_numbers(models)
+    off = whole.measured[None] - played
+    return Residuals(whole.channels, off[0].T.copy(), off[1].T.copy(), locked)
+
+
+def _notes(whole: Record, record: Record, final: Pass, twin: Pass | None) -> tuple[str, ...]:
+    notes = []
+    if whole is not record:
+        notes.append(
+            f"chosen and fitted on {record.rows} of {whole.rows} rows, whole runs spread over all configurations"
+        )
+    if twin is None:
+        notes.append("too few configurations to lock one away: no held-out gap")
+    elif twin.decision.chosen.labels != final.decision.chosen.labels:
+        notes.append(
+            f"without the held-out configurations the choice is {twin.decision.chosen.label}; the gaps are that choice's"
+        )
+    for name, noise in record.noise.items():
+        if noise.growth_ratio > 0.0:
+            notes.append(f"the noise of {name} grows with the load: {noise.growth_ratio:.2%} of the reading")
+    return tuple(notes)
+
+
+def _details(record: Record, final: Pass) -> dict[str, object]:
+    return {
+        "noise": {
+            name: {"sigma": noise.floor, "growth_ratio": noise.growth_ratio, "source": noise.source}
+            for name, noise in record.noise.items()
+        },
+        "structure": [
+            {"where": family.words, "p": family.p, "gain": family.gain, "dimensions": family.dimensions}
+            for family in final.structure.families[:5]
+        ],
+        "structure_p": final.structure.p,
+        "gain": final.base.fit.cost - final.decision.chosen.best.fit.cost,
+    }

@@ -1,0 +1,109 @@
+"""A loading record as numbers for fits: readings over their noise, and the plant that plays its sequence."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from brace.dataset import Dataset
+from brace.dataset.check_runs import run_starts
+from brace.diagnose.effects import Setting
+from brace.diagnose.loading.noise import ChannelNoise, channel_noise
+from brace.model import LimbModel
+from brace.native.plant_batch import LoadingBatchPlayer, model_numbers, number_index
+
+FORCES = ("fx_n", "fz_n")
+SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
+
+
+@dataclass(frozen=True)
+class Record:
+    """`measured` and `sigma` are channels x rows, in the channels' units; forces come first."""
+
+    dataset: Dataset
+    channels: tuple[str, ...]
+    noise: dict[str, ChannelNoise]
+    measured: np.ndarray
+    sigma: np.ndarray
+    player: LoadingBatchPlayer
+
+    @property
+    def rows(self) -> int:
+        return self.dataset.rows
+
+    def residuals(self, models: np.ndarray) -> np.ndarray:
+        """(measured - played) / sigma of models (models x numbers): models x readings, channel after channel."""
+        played = self.player.play_numbers(models)
+        played -= self.measured
+        played /= -self.sigma
+        return played.reshape(len(models), -1)
+
+    def select(self, keep: np.ndarray) -> Record:
+        """The rows where `keep` is true, with the same noise."""
+        part = self.dataset.select(keep)
+        return Record(
+            part,
+            self.channels,
+            self.noise,
+            self.measured[:, keep],
+            self.sigma[:, keep],
+            LoadingBatchPlayer(part.columns, self.channels, zeroed=part.meta.zeroed_per_run),
+        )
+
+    def with_sigma_scaled(self, factors: dict[str, float]) -> Record:
+        """The same with each channel's sigma multiplied."""
+        by_channel = np.array([factors.get(name, 1.0) for name in self.channels])
+        return Record(
+            self.dataset,
+            self.channels,
+            self.noise,
+            self.measured,
+            self.sigma * by_channel[:, None],
+            self.player,
+        )
+
+
+def load_record(dataset: Dataset) -> Record:
+    """Noise per channel, from the whole record."""
+    channels = (*FORCES, *(name for name in SIDE_READINGS if name in dataset and np.ptp(dataset[name]) > 0.0))
+    noise = {name: channel_noise(dataset, name) for name in channels}
+    measured = np.stack([np.asarray(dataset[name], float) for name in channels])
+    sigma = np.stack([noise[name].sigma(values) for name, values in zip(channels, measured)])
+    player = LoadingBatchPlayer(dataset.columns, channels, zeroed=dataset.meta.zeroed_per_run)
+    return Record(dataset, channels, noise, measured, sigma, player)
+
+
+def setting_of(record: Record, believed: LimbModel) -> Setting:
+    """The sizes that this record reaches, for the catalogue's first tries."""
+    data = record.dataset
+    numbers = model_numbers(believed)
+    index = number_index()
+    force = np.stack([data["fx_n"], data["fz_n"]])
+    lever = _levers(believed, data["theta1_rad"], data["theta2_rad"])
+    torque = {
+        joint: float(np.quantile(np.abs(np.sum(lever[joint] * force, axis=0)), 0.99)) for joint in lever
+    }
+    compliance = {joint: believed.number(f"joint.{joint}.compliance_rad_per_n_mm") for joint in lever}
+    starts = run_starts(data["run"])[:-1]
+    steps = np.diff(data["t_s"])
+    return Setting(
+        believed={key: float(numbers[place]) for key, place in index.items()},
+        joint_torque_n_mm=torque,
+        joint_deflection_rad={joint: max(compliance[joint] * torque[joint], 1e-5) for joint in torque},
+        displacement_mm=float(max(np.abs(data["dx_mm"]).max(), np.abs(data["dz_mm"]).max(), 1e-6)),
+        force_n=np.sort(np.abs(force).ravel()),
+        run_starts_s=tuple(float(data["t_s"][start]) for start in starts),
+        duration_s=float(data["t_s"][-1] - data["t_s"][0]),
+        dwell_s=float(np.median(steps[steps > 0.0])) if np.any(steps > 0.0) else 1.0,
+        temperature_range_degc=float(np.ptp(data["temp_degc"])),
+        zeroed=data.meta.zeroed_per_run,
+    )
+
+
+def _levers(model: LimbModel, theta1_rad: np.ndarray, theta2_rad: np.ndarray) -> dict[str, np.ndarray]:
+    """Levers of the tip force about the joints, 2 x rows [mm]."""
+    tibia_angle = theta1_rad - theta2_rad
+    tibia = model.number("geometry.tibia_mm") * np.stack([np.cos(tibia_angle), np.sin(tibia_angle)])
+    tip = tibia + model.number("geometry.femur_mm") * np.stack([np.cos(theta1_rad), np.sin(theta1_rad)])
+    return {"femur": np.stack([-tip[1], tip[0]]), "tibia": np.stack([-tibia[1], tibia[0]])}

@@ -1,0 +1,88 @@
+"""The steps of a loading record's diagnosis, in order."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from brace.dataset import Dataset
+from brace.diagnose.diagnosis import Diagnosis
+from brace.diagnose.effects import Variant, all_variants
+from brace.diagnose.loading import outcome
+from brace.diagnose.loading.choose import LabelSet, posterior_of
+from brace.diagnose.loading.fit import fit
+from brace.diagnose.loading.gate import gate
+from brace.diagnose.loading.parts import enough_rows, locked_rows
+from brace.diagnose.loading.record import Record, load_record, setting_of
+from brace.diagnose.loading.search import Hypothesis, Search
+from brace.diagnose.loading.space import Trust, trust_of
+from brace.diagnose.loading.structure import Structure, structure_of
+from brace.diagnose.loading.verdict import Decision, decide
+from brace.diagnose.options import Advance, Options
+from brace.errors import UsageError
+from brace.model import LimbModel
+
+
+@dataclass(frozen=True)
+class Pass:
+    """One search over some rows of the record, from nothing to a decision."""
+
+    record: Record
+    trust: Trust
+    base: Hypothesis
+    sets: list[LabelSet]
+    structure: Structure
+    decision: Decision
+
+
+def diagnose_loading(
+    dataset: Dataset, believed: LimbModel | None, options: Options, advance: Advance
+) -> Diagnosis:
+    """Names what `believed` lacks. A twin search that never sees the locked configurations is judged on them; the
+    search over all configurations names and is exported."""
+    if believed is None:
+        raise UsageError(
+            "a loading record needs a model to disagree with",
+            why="nothing can be missing from no model",
+            next_step="--model limb.toml",
+        )
+    stopped = gate(dataset, believed, options)
+    if stopped is not None:
+        return stopped
+    advance(0.02, "reading the noise off the repeats")
+    whole = load_record(dataset)
+    enough = enough_rows(dataset)
+    record = whole if enough.all() else whole.select(enough)
+    trust = trust_of(believed)
+    variants = all_variants(setting_of(record, believed))
+    locked = locked_rows(record.dataset)
+    twin = None
+    if locked.any():
+        twin = search_pass(
+            record.select(~locked), trust, variants, lambda share, doing: advance(0.05 + 0.4 * share, doing)
+        )
+    final = search_pass(record, trust, variants, lambda share, doing: advance(0.45 + 0.45 * share, doing))
+    advance(0.92, "what to measure next")
+    return outcome.diagnosis_of(whole, record, locked, believed, final, twin, variants, options)
+
+
+def search_pass(record: Record, trust: Trust, variants: Sequence[Variant], advance: Advance) -> Pass:
+    """Search, then the best set fitted to the end, and what it leaves tested for structure."""
+    search = Search(record, trust, variants, advance)
+    hypotheses = search.run()
+    sets = posterior_of(hypotheses, Counter(variant.label for variant in variants))
+    sets[0] = _polished(record, sets[0])
+    structure = structure_of(record, sets[0].best.fit)
+    return Pass(record, trust, search.base, sets, structure, decide(sets, structure, search.base.fit))
+
+
+def _polished(record: Record, best: LabelSet) -> LabelSet:
+    """The best way of the best set, fitted to the end with every derivative fresh."""
+    rough = best.best
+    fitted = fit(record, rough.fit.space, rough.fit.x, scale=None)
+    if not np.isfinite(fitted.cost) or fitted.cost > rough.fit.cost:
+        fitted = rough.fit
+    return LabelSet(best.labels, Hypothesis(fitted, rough.score), best.posterior)

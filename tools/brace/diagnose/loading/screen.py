@@ -1,0 +1,128 @@
+"""What each way of each effect would gain if it were added to a fitted hypothesis: a fast estimate, and where to start
+its fit. Tries are played on the plant; everything that the hypothesis already turns is refitted linearly."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from brace.diagnose.effects import Variant
+from brace.diagnose.loading.fit import PROBE, Fit, residuals
+from brace.diagnose.loading.record import Record
+from brace.diagnose.loading.space import Space, Trust, compatible, space_of
+
+MOST_TRIES = 60
+POINTS_AT_ONCE = 128
+
+
+@dataclass(frozen=True)
+class Promise:
+    """A variant added to a hypothesis: the space of both, a start, and the cost that its fit should come down to."""
+
+    space: Space
+    start: np.ndarray
+    cost: float
+
+
+class Remover:
+    """Takes out of whitened residuals what the hypothesis' own parameters could still make up, under their priors."""
+
+    def __init__(self, fitted: Fit, without: Sequence[str] = ()) -> None:
+        keep = [i for i, key in enumerate(fitted.space.keys) if key not in without]
+        sigma, scale = fitted.space.sigma[keep], fitted.scale[keep]
+        weight = np.where(np.isinf(sigma), 1e-9, scale / sigma)
+        self._pull = fitted.space.pull(fitted.x)[keep]
+        stacked = np.vstack([fitted.jacobian[:, keep], np.diag(weight)])
+        self._basis, _ = np.linalg.qr(stacked)
+        self._readings = fitted.jacobian.shape[0]
+
+    def augmented(self, residual: np.ndarray) -> np.ndarray:
+        """Residuals with the priors' pulls behind them, the removable part removed; points x (readings + pulls)."""
+        whole = np.hstack([residual, np.tile(-self._pull, (len(residual), 1))])
+        return np.asarray(whole - (whole @ self._basis) @ self._basis.T)
+
+    def columns(self, columns: np.ndarray) -> np.ndarray:
+        """The same for signatures, readings x columns."""
+        whole = np.vstack([columns, np.zeros((self._pull.size, columns.shape[1]))])
+        return np.asarray(whole - self._basis @ (self._basis.T @ whole))
+
+
+def screen(record: Record, trust: Trust, fitted: Fit, variants: Sequence[Variant]) -> list[Promise]:
+    """All compatible variants, most promising first."""
+    held = fitted.space.variants
+    remover = Remover(fitted)
+    left = remover.augmented(fitted.residual[None])[0]
+    promises = []
+    for variant in variants:
+        if any(variant.label == other.label for other in held) or not compatible((*held, variant)):
+            continue
+        promises.append(_promise(record, fitted, space_of(trust, (*held, variant)), variant, remover, left))
+    return sorted(promises, key=lambda promise: promise.cost)
+
+
+def _promise(
+    record: Record, fitted: Fit, space: Space, variant: Variant, remover: Remover, left: np.ndarray
+) -> Promise:
+    start = space.mean.copy()
+    known = dict(zip(fitted.space.keys, fitted.x))
+    for i, key in enumerate(space.keys):
+        start[i] = min(max(known.get(key, start[i]), space.low[i]), space.high[i])
+    tries = _tries(space, start, variant)
+    left_over = remover.augmented(residuals(record, space, tries))
+    costs = np.einsum("ij,ij->i", left_over, left_over)
+    best = int(np.argmin(costs))
+    estimate = float(costs[best])
+    freed = [freedom.key for freedom in variant.freedoms]
+    if freed:
+        own = remover if not set(freed) & set(fitted.space.keys) else Remover(fitted, freed)
+        here = own.augmented(residuals(record, space, tries[best][None]))[0]
+        columns = own.columns(_signatures(record, space, tries[best], freed, fitted))
+        lengths = np.linalg.norm(columns, axis=0)
+        basis, _ = np.linalg.qr(columns[:, lengths > 1e-9] / lengths[lengths > 1e-9]) if np.any(lengths > 1e-9) else (
+            np.empty((columns.shape[0], 0)),
+            None,
+        )
+        gain = float(np.sum((basis.T @ here) ** 2))
+        estimate = min(estimate, float(here @ here) - gain)
+    return Promise(space, tries[best], estimate)
+
+
+def _tries(space: Space, start: np.ndarray, variant: Variant) -> np.ndarray:
+    """Every combination of the tries of the variant's freedoms, and the start itself."""
+    points = [start]
+    grids = [freedom.tries or (None,) for freedom in variant.freedoms]
+    places = [space.keys.index(freedom.key) for freedom in variant.freedoms]
+    mesh: list[list[float | None]] = [[]]
+    for grid in grids:
+        mesh = [[*some, value] for some in mesh for value in grid]
+    for values in mesh[:MOST_TRIES]:
+        point = start.copy()
+        for place, value in zip(places, values):
+            if value is not None:
+                point[place] = min(max(value, space.low[place]), space.high[place])
+        points.append(point)
+    return np.array(points if len(points) == 1 or any(f.tries for f in variant.freedoms) else points[:1])
+
+
+def _signatures(
+    record: Record, space: Space, point: np.ndarray, freed: Sequence[str], fitted: Fit
+) -> np.ndarray:
+    """Change of the whitened model readings along each freed key, scaled to about one sigma; readings x keys."""
+    which = np.array([space.keys.index(key) for key in freed])
+    step = np.maximum(np.abs(point[which]) * 1e-3, _small_steps(freed))
+    points = np.tile(point, (which.size, 1))
+    for row, (place, size) in enumerate(zip(which, step)):
+        size = -size if points[row, place] + size > space.high[place] else size
+        points[row, place] += size
+    base = residuals(record, space, point[None])[0]
+    moved = base - residuals(record, space, points)
+    lengths = np.linalg.norm(moved, axis=1)
+    return np.asarray((moved * (PROBE / np.where(lengths > 0.0, lengths, np.inf))[:, None]).T)
+
+
+def _small_steps(freed: Sequence[str]) -> np.ndarray:
+    from brace.identify.parameters import natural_scale
+
+    return np.array([1e-3 * natural_scale(key) for key in freed])

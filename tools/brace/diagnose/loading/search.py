@@ -1,0 +1,103 @@
+"""Hypotheses over the catalogue: every single effect, then pairs and triples from the best, each fitted on the plant."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from brace.diagnose.effects import Variant
+from brace.diagnose.loading.evidence import score
+from brace.diagnose.loading.fit import Fit, fit
+from brace.diagnose.loading.record import Record
+from brace.diagnose.loading.screen import Promise, screen
+from brace.diagnose.loading.space import Trust, space_of
+from brace.diagnose.options import Advance, silent
+
+MOST_EFFECTS = 3
+PARENTS = 6  # hypotheses of one size that the next size is grown from
+CHILDREN = 5  # labels that are fitted beside each parent
+LEAST_GAIN = 1.0  # of cost: what gains less is no hypothesis of its own
+GROW_GAIN = 9.0  # of promised cost: a child that promises less is not fitted
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """A set of effects with its fit; `score` is its log evidence over nothing missing, priors included."""
+
+    fit: Fit
+    score: float
+
+    @property
+    def variants(self) -> tuple[Variant, ...]:
+        return self.fit.space.variants
+
+    @property
+    def labels(self) -> frozenset[str]:
+        return frozenset(variant.label for variant in self.variants)
+
+    @property
+    def label(self) -> str:
+        return " + ".join(sorted(self.labels)) or "none"
+
+
+@dataclass
+class Search:
+    """What was tried, by the set of variants."""
+
+    record: Record
+    trust: Trust
+    variants: Sequence[Variant]
+    advance: Advance = silent
+    base: Hypothesis = field(init=False)
+    tried: dict[frozenset[tuple[str, tuple[str, ...]]], Hypothesis] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        space = space_of(self.trust, ())
+        fitted = fit(self.record, space, space.mean)
+        self.base = Hypothesis(fitted, 0.0)
+        self.tried[frozenset()] = self.base
+
+    def run(self) -> list[Hypothesis]:
+        """All hypotheses, best first."""
+        singles = screen(self.record, self.trust, self.base.fit, self.variants)
+        for number, promise in enumerate(singles):
+            self.advance(0.4 * number / len(singles), f"trying {promise.space.label}")
+            self._fit(promise, self.base)
+        for size in range(1, MOST_EFFECTS):
+            parents = self._best(size)[:PARENTS]
+            for number, parent in enumerate(parents):
+                share = 0.4 + 0.3 * (size - 1 + number / len(parents))
+                self.advance(share, f"trying {parent.label} and one more")
+                self._grow(parent)
+        return self.ranked()
+
+    def ranked(self) -> list[Hypothesis]:
+        return sorted(self.tried.values(), key=lambda item: (-item.score, item.label))
+
+    def _best(self, size: int) -> list[Hypothesis]:
+        """The best hypothesis of each set of labels with this many effects."""
+        best: dict[frozenset[str], Hypothesis] = {}
+        for hypothesis in self.ranked():
+            if len(hypothesis.variants) == size and hypothesis.labels not in best:
+                best[hypothesis.labels] = hypothesis
+        return list(best.values())
+
+    def _grow(self, parent: Hypothesis) -> None:
+        seen: list[str] = []
+        for promise in screen(self.record, self.trust, parent.fit, self.variants):
+            label = promise.space.variants[-1].label
+            if parent.fit.cost - promise.cost < GROW_GAIN or (label not in seen and len(seen) >= CHILDREN):
+                continue
+            if label not in seen:
+                seen.append(label)
+            self._fit(promise, parent)
+
+    def _fit(self, promise: Promise, parent: Hypothesis) -> None:
+        name = frozenset((variant.label, variant.keys) for variant in promise.space.variants)
+        if name in self.tried:
+            return
+        fitted = fit(self.record, promise.space, promise.start, final=False)
+        if parent.fit.cost - fitted.cost > LEAST_GAIN:
+            self.tried[name] = Hypothesis(fitted, score(fitted, self.base.fit))

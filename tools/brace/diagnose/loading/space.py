@@ -1,0 +1,109 @@
+"""The numbers that a hypothesis turns: what calibration trusts only so far (under its prior), and its effects' own."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from brace.diagnose.effects import Variant
+from brace.identify.parameters import PRIOR_KEYS, prior_parameter
+from brace.model import LimbModel
+from brace.native.plant_batch import model_numbers, number_index
+
+
+@dataclass(frozen=True)
+class Trust:
+    """What [uncertainty] says of the believed limb: keys, values, sigmas, bounds; `numbers` is the limb itself."""
+
+    numbers: np.ndarray
+    keys: tuple[str, ...]
+    mean: np.ndarray
+    sigma: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+
+
+def trust_of(believed: LimbModel) -> Trust:
+    """Everything that the calibration knows within a sigma."""
+    parameters = [item for key in PRIOR_KEYS if (item := prior_parameter(believed, key)) is not None]
+    return Trust(
+        model_numbers(believed),
+        tuple(item.key for item in parameters),
+        np.array([item.start for item in parameters]),
+        np.array([item.prior_sigma for item in parameters]),
+        np.array([item.low for item in parameters]),
+        np.array([item.high for item in parameters]),
+    )
+
+
+@dataclass(frozen=True)
+class Space:
+    """Trusted keys first, then the effects' freedoms (`own` of them). `sigma` is inf where no prior holds."""
+
+    numbers: np.ndarray
+    keys: tuple[str, ...]
+    places: np.ndarray
+    mean: np.ndarray
+    sigma: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    own: int
+    variants: tuple[Variant, ...] = field(default=())
+
+    @property
+    def size(self) -> int:
+        return len(self.keys)
+
+    @property
+    def label(self) -> str:
+        """`none`, or the effects' labels joined by ' + '."""
+        return " + ".join(variant.label for variant in self.variants) or "none"
+
+    def models(self, points: np.ndarray) -> np.ndarray:
+        """Points (points x size) to plant models (points x numbers)."""
+        models = np.tile(self.numbers, (len(points), 1))
+        models[:, self.places] = points
+        return models
+
+    def pull(self, x: np.ndarray) -> np.ndarray:
+        """Standardised distance from the prior's middle; 0 where there is no prior."""
+        return np.asarray(np.where(np.isinf(self.sigma), 0.0, (x - self.mean) / self.sigma))
+
+
+def space_of(trust: Trust, variants: Sequence[Variant]) -> Space:
+    """The hypothesis that these variants together are what the believed limb lacks. A key that an effect frees has no
+    prior any more."""
+    index = number_index()
+    numbers = trust.numbers.copy()
+    for variant in variants:
+        for key, value in variant.settings.items():
+            numbers[index[key]] = value
+    freed = {freedom.key: freedom for variant in variants for freedom in variant.freedoms}
+    kept = [i for i, key in enumerate(trust.keys) if key not in freed]
+    keys = (*(trust.keys[i] for i in kept), *freed)
+    places = np.array([index[key] for key in keys], dtype=int)
+    own = [freed[key] for key in freed]
+    return Space(
+        numbers,
+        keys,
+        places,
+        np.concatenate([trust.mean[kept], [_start(numbers[index[item.key]], item.low, item.high) for item in own]]),
+        np.concatenate([trust.sigma[kept], np.full(len(own), math.inf)]),
+        np.concatenate([trust.low[kept], [item.low for item in own]]),
+        np.concatenate([trust.high[kept], [item.high for item in own]]),
+        len(own),
+        tuple(variants),
+    )
+
+
+def _start(believed: float, low: float, high: float) -> float:
+    return min(max(believed, low), high)
+
+
+def compatible(variants: Sequence[Variant]) -> bool:
+    """Whether no two of them turn or set the same key."""
+    keys = [key for variant in variants for key in variant.keys]
+    return len(keys) == len(set(keys))

@@ -1,0 +1,181 @@
+"""Is there structure in what a hypothesis leaves, or only noise? Families of shapes, each tested on its own with what
+the hypothesis could still make up taken out; one family-wise p over all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from brace.dataset.check_runs import run_starts
+from brace.diagnose.loading.fit import Fit
+from brace.diagnose.loading.record import Record
+from brace.diagnose.loading.screen import Remover
+
+STRUCTURED_P = 1e-5  # family-wise; structure that matters is far below, and noise is never quite white
+MOST_DIMENSIONS = 160  # of one family
+
+
+@dataclass(frozen=True)
+class FamilyTest:
+    """`words` say what kind of disagreement; `p` is for this family alone; `gain` is what its shapes take off chi
+    squared, with `dimensions` shapes; `rms_share` of the left-over's square that they hold."""
+
+    words: str
+    p: float
+    gain: float
+    dimensions: int
+
+
+@dataclass(frozen=True)
+class Structure:
+    """`p` over all families together (Bonferroni)."""
+
+    p: float
+    families: tuple[FamilyTest, ...]
+
+    @property
+    def structured(self) -> bool:
+        return self.p < STRUCTURED_P
+
+    @property
+    def strongest(self) -> FamilyTest:
+        return min(self.families, key=lambda item: (item.p, -item.gain))
+
+
+def structure_of(record: Record, fitted: Fit) -> Structure:
+    """Tests the residuals of a fit."""
+    remover = Remover(fitted)
+    left = remover.augmented(fitted.residual[None])[0]
+    tests = []
+    for words, shapes in _families(record, fitted):
+        tests.append(_test(words, shapes, remover, left, fitted.residual.size - fitted.space.size))
+    tests.append(_neighbours(record, fitted))
+    tests.append(_outliers(fitted))
+    least = min(test.p for test in tests)
+    return Structure(min(1.0, least * len(tests)), tuple(sorted(tests, key=lambda item: item.p)))
+
+
+def _test(words: str, shapes: np.ndarray, remover: Remover, left: np.ndarray, freedom: int) -> FamilyTest:
+    """By F: what the shapes take off, over what is left beside them, so that the noise need not be known well."""
+    from scipy.stats import f as fisher
+
+    columns = remover.columns(shapes)
+    whole = np.linalg.norm(shapes, axis=0)
+    columns = columns[:, np.linalg.norm(columns, axis=0) > 1e-3 * np.maximum(whole, 1e-300)]
+    if not columns.shape[1]:
+        return FamilyTest(words, 1.0, 0.0, 0)
+    columns = columns / np.linalg.norm(columns, axis=0)
+    basis, sizes, _ = np.linalg.svd(columns, full_matrices=False)
+    basis = basis[:, sizes > 1e-4 * sizes[0]][:, :MOST_DIMENSIONS]
+    gain = float(np.sum((basis.T @ left) ** 2))
+    dimensions = basis.shape[1]
+    beside = max(freedom - dimensions, 1)
+    ratio = (gain / dimensions) / max((float(left @ left) - gain) / beside, 1e-300)
+    return FamilyTest(words, float(fisher.sf(ratio, dimensions, beside)), gain, dimensions)
+
+
+def _neighbours(record: Record, fitted: Fit) -> FamilyTest:
+    """Do readings that follow each other in a run agree in what is left of them?"""
+    from scipy.stats import norm
+
+    left = fitted.residual.reshape(len(record.channels), -1)
+    same = np.diff(record.dataset["run"]) == 0
+    product = (left[:, 1:] * left[:, :-1])[:, same]
+    z = float(product.sum() / np.sqrt(max(product.size, 1)) / max(float(np.mean(left**2)), 1e-12))
+    return FamilyTest("from one reading to the next", float(2.0 * norm.sf(abs(z))), z**2, 1)
+
+
+def _outliers(fitted: Fit) -> FamilyTest:
+    """Single readings that no noise makes."""
+    from scipy.stats import norm
+
+    size = max(1.0, float(np.sqrt(np.mean(fitted.residual**2))))
+    worst = float(np.abs(fitted.residual).max(initial=0.0)) / size
+    p = float(min(1.0, 2.0 * norm.sf(worst) * fitted.residual.size))
+    return FamilyTest("in single readings", p, worst**2, 1)
+
+
+def _families(record: Record, fitted: Fit) -> Iterator[tuple[str, np.ndarray]]:
+    """(words, readings x shapes). Shapes are of a force (the same for each channel apart) or of a displacement (what a
+    displacement of the tip along the run would do to all channels at once)."""
+    data, channels, rows = record.dataset, len(record.channels), record.rows
+    along = np.where(data["axis"] == 1, data["dz_mm"], data["dx_mm"])
+    reach = max(float(np.abs(along).max()), 1e-9)
+    s = along / reach
+    pushing = _pushing(along, data["run"])
+    time = (data["t_s"] - data["t_s"][0]) / max(float(np.ptp(data["t_s"])), 1e-9)
+    slope = slopes(record, fitted, along)
+    one = np.ones(rows)
+    config, axis = _levels(data["config"]), _levels(data["axis"])
+    places = _levels(data["config"] * 2 + data["axis"])
+    level = _levels(np.round(s * 64).astype(int) * 2 + data["axis"])
+    step = _levels(data["step"] * 2 + data["axis"])
+    run = _levels(data["run"])
+
+    def apart(columns: np.ndarray) -> np.ndarray:
+        """Rows x shapes to readings x (shapes of each channel apart)."""
+        out = np.zeros((channels, rows, channels, columns.shape[1]))
+        for channel in range(channels):
+            out[channel, :, channel] = columns / record.sigma[channel][:, None]
+        return out.reshape(channels * rows, -1)
+
+    def together(columns: np.ndarray) -> np.ndarray:
+        """Rows x shapes of displacement to readings x shapes."""
+        out = slope[:, :, None] * columns[None] / record.sigma[:, :, None]
+        return out.reshape(channels * rows, -1)
+
+    yield "at some configurations whatever the load", apart(config)
+    yield "at some configurations in proportion to the load", apart(places * s[:, None])
+    yield "in proportion to the load's size, whichever its sign", together(
+        np.hstack([places * np.abs(s)[:, None], places * (s**2)[:, None]])
+    )
+    yield "at some levels of the load", together(level)
+    yield "at some levels of the load, axis by axis of the sensor", apart(level)
+    yield "between loading and unloading", np.hstack(
+        [together(places * pushing[:, None]), together(axis * (pushing * np.abs(s))[:, None])]
+    )
+    yield "at some step of every run", together(step)
+    yield "from run to run whatever the load", apart(run) if run.shape[1] <= 40 else together(run)
+    yield "from run to run in proportion to the load", together(run * s[:, None])
+    waves = np.column_stack([one] + [np.cos(np.pi * k * time) for k in range(1, 7)])
+    yield "slowly with time", apart(waves)
+    yield "slowly with time, in proportion to the load", together(np.hstack([waves * s[:, None], axis * 0.0]))
+    pitches = reach / np.array([0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0])
+    periodic = [wave(2 * np.pi * along / pitch) for pitch in pitches for wave in (np.sin, np.cos)]
+    yield "periodic in the displacement", together(np.column_stack(periodic))
+
+
+def _levels(values: np.ndarray) -> np.ndarray:
+    """One column of zeros and ones for each distinct value; the first 120 of them."""
+    distinct, place = np.unique(values, return_inverse=True)
+    shown = min(distinct.size, 120)
+    out = np.zeros((values.size, shown))
+    kept = place.ravel() < shown
+    out[np.flatnonzero(kept), place.ravel()[kept]] = 1.0
+    return out
+
+
+def _pushing(along: np.ndarray, run: np.ndarray) -> np.ndarray:
+    """+1 while the displacement goes away from the start of the run, -1 on the way back; signed by its side."""
+    out = np.zeros(along.size)
+    starts = run_starts(run)
+    for begin, end in zip(starts[:-1], starts[1:]):
+        way = np.diff(along[begin:end], prepend=along[begin])
+        out[begin:end] = np.sign(way)
+    return out
+
+
+def slopes(record: Record, fitted: Fit, along: np.ndarray) -> np.ndarray:
+    """Channels x rows: what the channel reads per mm along the run, by the fitted model at that place."""
+    played = (record.measured - fitted.residual.reshape(record.measured.shape) * record.sigma)
+    out = np.zeros_like(played)
+    places = record.dataset["config"] * 2 + record.dataset["axis"]
+    for place in np.unique(places):
+        rows = places == place
+        d = along[rows] - along[rows].mean()
+        size = float(d @ d)
+        if size > 0.0:
+            out[:, rows] = (played[:, rows] @ d / size)[:, None]
+    return out
