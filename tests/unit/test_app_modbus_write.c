@@ -1,0 +1,286 @@
+/* The controller as a Modbus server: parameters written, staged, committed; commands. Register addresses are those of
+ * docs/modbus.md. */
+#include <math.h>
+
+#include "modbus_master.h"
+
+enum { CONFIGURE = 16384, COMMIT = 16386, ROLLBACK = 16388, CLEAR = 16390, TAKE_UP = 16392, LET_GO = 16394, ASKED = 16396 };
+enum { TO_CONFIGURATION = 0, TO_MONITOR = 1 };
+static const uint32_t mode_word[] = {0xc0de0002u, 0xc0de0001u}, go = 0xc0de0001u;
+
+void setUp(void)
+{
+    brace_parameters_t p = bench_parameters();
+    p.controller.modbus_address = UNIT;
+    bench_start(&p);
+    ticks(20);
+}
+
+void tearDown(void) {}
+
+static uint32_t bits(float value)
+{
+    uint32_t word;
+    memcpy(&word, &value, 4);
+    return word;
+}
+
+static void accepted(reply_t reply, uint8_t function)
+{
+    TEST_ASSERT_EQUAL(5, reply.count);
+    TEST_ASSERT_EQUAL_HEX8(function, reply.byte[0]);
+}
+
+static void configure(void)
+{
+    accepted(write_value(CONFIGURE, mode_word[TO_CONFIGURATION]), 16);
+    TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, app.mode);
+}
+
+static void commit(void)
+{
+    accepted(write_value(COMMIT, go), 16);
+    for (int i = 0; i < 50; i++) {
+        const reply_t reply = read_asks(3, COMMIT, 2);
+        if (value_at(&reply, 0) != 1u) {
+            TEST_ASSERT_EQUAL(0, value_at(&reply, 0));
+            return;
+        }
+    }
+    TEST_FAIL_MESSAGE("never stored");
+}
+
+static void test_parameters_are_written_staged_committed_and_read_back(void)
+{
+    const uint32_t before = bits(app.parameters.limb.tibia_mm);
+    const uint32_t values[] = {bits(181.5f), bits(204.25f)};
+    configure();
+    accepted(write_values(2, values, 2), 16);
+    reply_t reply = read_asks(3, 2, 4);
+    TEST_ASSERT_EQUAL_HEX32(values[0], value_at(&reply, 0));
+    TEST_ASSERT_EQUAL_HEX32(values[1], value_at(&reply, 1));
+    TEST_ASSERT_EQUAL_HEX32(before, bits(app.parameters.limb.tibia_mm));
+    const uint32_t crc = app.parameter_crc;
+    commit();
+    ticks(20);
+    TEST_ASSERT_EQUAL_HEX32(values[1], bits(app.parameters.limb.tibia_mm));
+    TEST_ASSERT_NOT_EQUAL(crc, app.parameter_crc);
+    accepted(write_value(CONFIGURE, mode_word[TO_MONITOR]), 16);
+    ticks(20);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, app.mode);
+    configure();
+    accepted(write_value(ROLLBACK, go), 16);
+    ticks(400);
+    TEST_ASSERT_EQUAL_HEX32(before, bits(app.parameters.limb.tibia_mm));
+    reply = read_asks(3, 4, 2);
+    TEST_ASSERT_EQUAL_HEX32(before, value_at(&reply, 0));
+}
+
+static void test_nothing_is_written_outside_configuration(void)
+{
+    const brace_parameters_t before = app.parameters;
+    refused(write_value(2, bits(100.0f)), 16, 1);
+    refused(write_one(2, 0x42c8), 6, 1);
+    refused(write_value(COMMIT, go), 16, 1);
+    refused(write_value(ROLLBACK, go), 16, 1);
+    TEST_ASSERT_FALSE(app.staging.begun);
+    TEST_ASSERT_EQUAL_MEMORY(&before, &app.parameters, sizeof before);
+}
+
+static void test_what_is_staged_is_forgotten_when_configuration_is_left(void)
+{
+    const uint32_t before = bits(app.parameters.limb.femur_mm);
+    configure();
+    accepted(write_value(2, bits(100.0f)), 16);
+    accepted(write_value(CONFIGURE, mode_word[TO_MONITOR]), 16);
+    ticks(20);
+    configure();
+    const reply_t reply = read_asks(3, 2, 2);
+    TEST_ASSERT_EQUAL_HEX32(before, value_at(&reply, 0));
+}
+
+static void test_a_block_is_written_whole_or_not_at_all(void)
+{
+    uint32_t values[60];
+    configure();
+    for (uint32_t i = 0; i < 60u; i++) {
+        memcpy(&values[i], (const uint8_t *)&app.parameters + 4u * i, 4);
+    }
+    values[0] = bits(33.0f);
+    values[59] = bits(__builtin_nanf(""));
+    refused(write_values(0, values, 60), 16, 3);
+    reply_t reply = read_asks(3, 0, 2);
+    TEST_ASSERT_EQUAL_HEX32(bits(app.parameters.limb.coxa_mm), value_at(&reply, 0));
+    memcpy(&values[59], (const uint8_t *)&app.parameters + 4u * 59u, 4);
+    accepted(write_values(0, values, 60), 16);
+    reply = read_asks(3, 0, 2);
+    TEST_ASSERT_EQUAL_HEX32(bits(33.0f), value_at(&reply, 0));
+}
+
+static void test_values_out_of_their_range_are_refused(void)
+{
+    configure();
+    refused(write_value(2, bits(-1.0f)), 16, 3);
+    refused(write_value(2, bits(INFINITY)), 16, 3);
+    refused(write_value(2 * BRACE_PARAMETER_CONTROLLER_MODBUS_ADDRESS, 248), 16, 3);
+    refused(write_value(2 * BRACE_PARAMETER_CONTROLLER_CAN_BIT_RATE, 300000), 16, 3);
+    /* what members say together is the commit's */
+    accepted(write_value(2 * BRACE_PARAMETER_CONTROLLER_AGE_LIMIT_US, 1000), 16);
+    accepted(write_value(2 * BRACE_PARAMETER_CONTROLLER_TICK_US, 5000), 16);
+    refused(write_value(COMMIT, go), 16, 3);
+    const reply_t reply = read_asks(3, COMMIT, 2);
+    TEST_ASSERT_EQUAL(0, value_at(&reply, 0));
+    TEST_ASSERT_EQUAL(1000, app.parameters.controller.tick_us);
+}
+
+static void test_writes_have_their_limits(void)
+{
+    configure();
+    uint32_t values[61];
+    for (uint32_t i = 0; i < 61u; i++) {
+        memcpy(&values[i], (const uint8_t *)&app.parameters + 4u * i, 4);
+    }
+    const uint8_t too_many[] = {16, 0, 0, 0, 124, 248, 0, 0};
+    accepted(write_values(0, values, 61), 16); /* 122 registers; 123 is odd */
+    refused(line_asks(UNIT, too_many, sizeof too_many), 16, 3);
+    refused(write_values(1, values, 1), 16, 2);
+    refused(write_values(2 * BRACE_PARAMETER_COUNT - 2, values, 2), 16, 2);
+    refused(write_values(2 * BRACE_PARAMETER_COUNT, values, 1), 16, 2);
+    refused(write_value(16400, 0), 16, 2);
+    const uint8_t none[] = {16, 0, 0, 0, 0, 0}, one[] = {16, 0, 0, 0, 1, 2, 0, 0}, miscounted[] = {16, 0, 0, 0, 2, 2, 0, 0};
+    const uint8_t missing[] = {16, 0, 0, 0, 2, 4, 0, 0, 0}, more[] = {16, 0, 0, 0, 2, 4, 0, 0, 0, 0, 0};
+    refused(line_asks(UNIT, none, sizeof none), 16, 3);
+    refused(line_asks(UNIT, one, sizeof one), 16, 3);
+    refused(line_asks(UNIT, miscounted, sizeof miscounted), 16, 3);
+    refused(line_asks(UNIT, missing, sizeof missing), 16, 3);
+    refused(line_asks(UNIT, more, sizeof more), 16, 3);
+    refused(write_one(2 * BRACE_PARAMETER_COUNT, 0), 6, 2);
+    TEST_ASSERT_EQUAL_MEMORY(&app.parameters, &app.staging.set, sizeof app.parameters);
+}
+
+static void test_function_6_writes_a_value_in_two_halves_in_order(void)
+{
+    configure();
+    const uint32_t value = bits(123.456f);
+    refused(write_one(3, value & 0xffffu), 6, 3);
+    accepted(write_one(2, value >> 16), 6);
+    TEST_ASSERT_FALSE(app.staging.begun);
+    accepted(write_one(3, value & 0xffffu), 6);
+    reply_t reply = read_asks(3, 2, 2);
+    TEST_ASSERT_EQUAL_HEX32(value, value_at(&reply, 0));
+    refused(write_one(3, 0), 6, 3); /* the first half has been used */
+    accepted(write_one(4, 0x4300), 6);
+    (void)read_asks(3, 0, 2);
+    refused(write_one(5, 0), 6, 3); /* something came between */
+    accepted(write_one(4, 0x4300), 6);
+    refused(write_one(7, 0), 6, 3); /* another value's */
+    accepted(write_one(CONFIGURE, 0xc0de), 6);
+    accepted(write_one(CONFIGURE + 1, 1), 6);
+    TEST_ASSERT_NOT_EQUAL(BRACE_MODE_CONFIGURATION, app.mode);
+}
+
+static void test_while_a_set_is_stored_the_answer_is_busy(void)
+{
+    configure();
+    accepted(write_value(2, bits(150.0f)), 16);
+    accepted(write_value(COMMIT, go), 16);
+    TEST_ASSERT_TRUE(app.storing);
+    refused(write_value(2, bits(151.0f)), 16, 6);
+    refused(write_value(COMMIT, go), 16, 6);
+    refused(write_value(CONFIGURE, mode_word[TO_MONITOR]), 16, 6);
+    const reply_t reply = read_asks(3, COMMIT, 4);
+    TEST_ASSERT_EQUAL(1, value_at(&reply, 0));
+    TEST_ASSERT_EQUAL(1, value_at(&reply, 1));
+    ticks(1000);
+    TEST_ASSERT_EQUAL_FLOAT(150.0f, app.parameters.limb.femur_mm);
+}
+
+static void test_a_store_that_fails_says_so_where_it_was_asked(void)
+{
+    configure();
+    fake.nvm_forgets = true;
+    accepted(write_value(2, bits(150.0f)), 16);
+    accepted(write_value(COMMIT, go), 16);
+    ticks(1000);
+    const reply_t reply = read_asks(3, COMMIT, 2);
+    TEST_ASSERT_GREATER_THAN(249, value_at(&reply, 0));
+    TEST_ASSERT_LESS_THAN(256, value_at(&reply, 0));
+    TEST_ASSERT_NOT_EQUAL(150.0f, app.parameters.limb.femur_mm);
+}
+
+static void test_k_at_a_posture(void)
+{
+    const uint32_t posture[] = {bits(0.7f), bits(1.1f)};
+    accepted(write_values(ASKED, posture, 2), 16);
+    const reply_t reply = read_asks(4, 4096, 14);
+    fake.joint[BRACE_FEMUR].sample.motor_rad = 0.7f;
+    fake.joint[BRACE_TIBIA].sample.motor_rad = 1.1f;
+    ticks(5);
+    const brace_stiffness_t *k = &now()->stiffness.engaged;
+    TEST_ASSERT_EQUAL_FLOAT(k->k_xx_n_per_mm, float_at(&reply, 0));
+    TEST_ASSERT_EQUAL_FLOAT(k->k_xz_n_per_mm, float_at(&reply, 1));
+    TEST_ASSERT_EQUAL_FLOAT(k->k_zz_n_per_mm, float_at(&reply, 2));
+    TEST_ASSERT_EQUAL_FLOAT(k->lambda_min_n_per_mm, float_at(&reply, 3));
+    TEST_ASSERT_EQUAL_FLOAT(k->lambda_max_n_per_mm, float_at(&reply, 4));
+    TEST_ASSERT_EQUAL_FLOAT(k->stiff_axis_rad, float_at(&reply, 5));
+    TEST_ASSERT_EQUAL(0, value_at(&reply, 6));
+    const reply_t asked = read_asks(3, ASKED, 4);
+    TEST_ASSERT_EQUAL_HEX32(posture[0], value_at(&asked, 0));
+    TEST_ASSERT_EQUAL_HEX32(posture[1], value_at(&asked, 1));
+}
+
+static void test_a_posture_needs_both_angles_and_they_must_be_angles(void)
+{
+    const uint32_t not[] = {bits(__builtin_nanf("")), bits(1.0f)}, far[] = {bits(1.0f), bits(1e6f)};
+    refused(write_value(ASKED, bits(1.0f)), 16, 3);
+    refused(write_value(ASKED + 2, bits(1.0f)), 16, 3);
+    refused(write_values(ASKED, not, 2), 16, 3);
+    refused(write_values(ASKED, far, 2), 16, 3);
+    const reply_t reply = read_asks(4, 4096, 2);
+    TEST_ASSERT_EQUAL_HEX32(0x7fc00000u, value_at(&reply, 0));
+    const uint32_t outside[] = {bits(-2.5f), bits(1.0f)};
+    accepted(write_values(ASKED, outside, 2), 16);
+    const reply_t flagged = read_asks(4, 4108, 2);
+    TEST_ASSERT_EQUAL_HEX32(BRACE_FLAG_OUT_OF_RANGE, value_at(&flagged, 0));
+}
+
+static void test_commands_need_their_key_and_their_mode(void)
+{
+    refused(write_value(CONFIGURE, 2), 16, 3);
+    refused(write_value(CONFIGURE, 0xc0de0003u), 16, 3);
+    accepted(write_value(CONFIGURE, mode_word[TO_MONITOR]), 16);
+    configure();
+    accepted(write_value(CONFIGURE, mode_word[TO_CONFIGURATION]), 16);
+    refused(write_value(COMMIT, 1), 16, 3);
+    refused(write_value(LET_GO, 1), 16, 1);
+    refused(write_value(TAKE_UP, 257), 16, 1);
+    refused(write_value(CLEAR, 1), 16, 3);
+    accepted(write_value(CLEAR, BRACE_FAULT_MODEL_DRIFT), 16);
+    accepted(write_value(CONFIGURE, mode_word[TO_MONITOR]), 16);
+    ticks(20);
+    refused(write_value(TAKE_UP, 257), 16, 4); /* this limb has no play */
+    refused(write_value(TAKE_UP, 1), 16, 3);
+    refused(write_value(TAKE_UP, 256 + 512 + 1), 16, 3);
+    refused(write_value(TAKE_UP, 256), 16, 3);
+    const uint32_t two[] = {mode_word[TO_CONFIGURATION], go};
+    refused(write_values(CONFIGURE, two, 2), 16, 3);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, app.mode);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_parameters_are_written_staged_committed_and_read_back);
+    RUN_TEST(test_nothing_is_written_outside_configuration);
+    RUN_TEST(test_what_is_staged_is_forgotten_when_configuration_is_left);
+    RUN_TEST(test_a_block_is_written_whole_or_not_at_all);
+    RUN_TEST(test_values_out_of_their_range_are_refused);
+    RUN_TEST(test_writes_have_their_limits);
+    RUN_TEST(test_function_6_writes_a_value_in_two_halves_in_order);
+    RUN_TEST(test_while_a_set_is_stored_the_answer_is_busy);
+    RUN_TEST(test_a_store_that_fails_says_so_where_it_was_asked);
+    RUN_TEST(test_k_at_a_posture);
+    RUN_TEST(test_a_posture_needs_both_angles_and_they_must_be_angles);
+    RUN_TEST(test_commands_need_their_key_and_their_mode);
+    return UNITY_END();
+}
