@@ -99,6 +99,7 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     if (app->mode == BRACE_MODE_CONFIGURATION) {
         configuration_tick(app, now_us, lean, next);
     } else if (app->loading.phase == LOADING_DRIFT || app->loading.phase == LOADING_JUDGE) {
+        supervisor_late(app, late);
         loading_piece(app); /* as dear as a whole tick: the joints' filters bear a missed one */
     } else {
         control_tick(app, now_us, late, lean, next);

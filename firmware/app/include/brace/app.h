@@ -10,7 +10,9 @@
  * When K is valid: the mode is MONITOR, TAKING_UP or LOADING_TEST; the newest sound sample of both joints
  * is no older than controller.age_limit_us; the posture is inside both drives' travel; parameters are in
  * force (safe defaults count, flagged UNCALIBRATED). A joint with play (gap_rad >= 1e-5) whose load does
- * not prove a flank carries nothing: K is then valid, flagged GAP_OPEN, with both bounds.
+ * not prove a flank carries nothing: K is then valid, flagged GAP_OPEN, with both bounds. So it is with one whose drive has
+ * had no newer sample (AGAIN) for more than four ticks, and for 20 ms after: choose a tick no shorter than a quarter of the
+ * drives' own. A flank is thus proven at most brace_backlash_detection_us and four ticks after its gap has opened.
  */
 #ifndef BRACE_APP_H
 #define BRACE_APP_H
@@ -63,7 +65,7 @@ typedef struct {
     uint32_t taken_us;    /* when the joints were sampled, the older one */
     brace_mode_t mode;
     uint32_t faults;      /* BRACE_FAULT_... */
-    bool k_is_valid;      /* stiffness may be used, with its flags; else its numbers mean nothing (flags say why) */
+    bool k_is_valid;      /* stiffness may be used, with its flags; else flags say why, and what was not computed is NaN */
     brace_gap_stiffness_t stiffness; /* now (GAP_OPEN counted) and once every gap has closed; both carry the flags */
     float theta_rad[BRACE_LINK_COUNT];       /* true joint angles, backlash and zero offset counted; NaN: not known */
     float motor_rad[BRACE_LINK_COUNT];
@@ -100,6 +102,7 @@ typedef struct {
     float still_rad;          /* where the angle has stayed, for how long, and what torque and link did meanwhile */
     float torque_n_mm, torque_low_n_mm, torque_high_n_mm, link_low_rad, link_high_rad;
     uint32_t still_us;
+    uint32_t again_us;        /* how long the drive has had nothing newer */
 } brace_app_joint_t;
 
 typedef struct {

@@ -4,12 +4,21 @@
 #include "measure/model.h"
 #include "motion/joints.h"
 
+static void tell_no_k(brace_gap_stiffness_t *k)
+{
+    const float unknown = __builtin_nanf("");
+    const brace_stiffness_t none = {unknown, unknown, unknown, unknown, unknown, unknown, 0};
+    k->now = k->engaged = none;
+}
+
 void control_blank(const brace_app_t *app, brace_snapshot_t *snapshot)
 {
     const float unknown = __builtin_nanf("");
     *snapshot = (brace_snapshot_t){.taken_us = app->last_us, .tip_mm = {unknown, unknown},
                                    .play_shift_mm = {unknown, unknown}, .force_x_n = unknown, .force_z_n = unknown,
                                    .temp_degc = unknown};
+    tell_no_k(&snapshot->stiffness);
+    snapshot->stiffness.now.flags = snapshot->stiffness.engaged.flags = BRACE_FLAG_STALE;
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         snapshot->theta_rad[i] = snapshot->motor_rad[i] = snapshot->torque_n_mm[i] = unknown;
     }
@@ -94,7 +103,8 @@ void control_stiffness(brace_app_t *app, brace_snapshot_t *snapshot)
                    brace_gap_stiffness_known(&engaged, &app->pose, open_gaps(app, snapshot), k) == BRACE_OK;
     }
     if (!computed) {
-        *k = (brace_gap_stiffness_t){0};
+        tell_no_k(k);
+        k->now.flags = k->engaged.flags = sound && inside ? (uint32_t)BRACE_FLAG_NEAR_SINGULAR : 0u; /* no K there */
     }
     const uint32_t flags = (app->origin == BRACE_PARAMETERS_DEFAULT ? (uint32_t)BRACE_FLAG_UNCALIBRATED : 0u) |
                            (sound ? 0u : (uint32_t)BRACE_FLAG_STALE) |
@@ -108,7 +118,11 @@ void control_seal(brace_app_t *app, brace_snapshot_t *snapshot)
 {
     const bool tells = app->mode == BRACE_MODE_MONITOR || app->mode == BRACE_MODE_TAKING_UP ||
                        app->mode == BRACE_MODE_LOADING_TEST;
-    snapshot->k_is_valid = snapshot->k_is_valid && tells;
+    if (!tells) { /* what there may be of K is not for use */
+        snapshot->k_is_valid = false;
+        snapshot->stiffness.now.flags |= BRACE_FLAG_STALE;
+        snapshot->stiffness.engaged.flags |= BRACE_FLAG_STALE;
+    }
     snapshot->mode = app->mode;
     snapshot->faults = app->faults;
     snapshot->parameter_crc = app->parameter_crc;

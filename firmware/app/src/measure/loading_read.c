@@ -58,7 +58,7 @@ static bool begin(brace_app_t *app, const float mean[SUMS])
     test->result.preload_x_n = mean[FORCE_X];
     test->result.preload_z_n = mean[FORCE_Z];
     test->model = now->stiffness.engaged;
-    return brace_slope_start(&test->slope, 0.0f, mean[FORCE_X], mean[FORCE_Z]) == BRACE_OK;
+    return now->k_is_valid && brace_slope_start(&test->slope, 0.0f, mean[FORCE_X], mean[FORCE_Z]) == BRACE_OK;
 }
 
 bool loading_add_to_slope(brace_loading_t *test, float fx_n, float fz_n)

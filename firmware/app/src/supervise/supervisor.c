@@ -5,6 +5,9 @@
 
 #define OVER_US 100000u
 #define LATE_OVER_US 1000000u
+#define TICK_LATE_BIT 3
+
+_Static_assert(1 << TICK_LATE_BIT == BRACE_FAULT_TICK_LATE, "the bit of the fault");
 
 /* Faults that come and go with their cause; the others are latched or lasting. */
 #define COMING_AND_GOING ((uint32_t)(BRACE_FAULTS_NO_K | BRACE_FAULT_TICK_LATE | BRACE_FAULT_CAN_BUS_OFF))
@@ -37,6 +40,14 @@ void supervisor_faults(brace_app_t *app, bool late)
     }
     const uint32_t lasting = (uint32_t)BRACE_FAULT_PARAMETERS | (uint32_t)BRACE_FAULT_STORE;
     app->faults = (app->faults & ~lasting) | app->lasting_faults | app->supervisor.latched;
+}
+
+void supervisor_late(brace_app_t *app, bool late)
+{
+    if (late) {
+        app->faults |= BRACE_FAULT_TICK_LATE;
+        app->supervisor.away_us[TICK_LATE_BIT] = 0;
+    }
 }
 
 void supervisor_latch(brace_app_t *app, uint32_t fault)

@@ -7,6 +7,9 @@
 /* The faults of this tick, from what the tick found. late: it came more than two periods late. */
 void supervisor_faults(brace_app_t *app, bool late);
 
+/* The same of a tick that looks at nothing else. */
+void supervisor_late(brace_app_t *app, bool late);
+
 /* The mode that follows: from START and FAULT to MONITOR, from anywhere to FAULT, back from what has ended. */
 void supervisor_mode(brace_app_t *app);
 

@@ -31,7 +31,7 @@ enum {
     BRACE_FLAG_NEAR_SINGULAR = 1u << 1, /* the stated accuracy is not promised for this limb or posture */
     BRACE_FLAG_SATURATED = 1u << 2,     /* a value was limited to its representable range */
     BRACE_FLAG_GAP_OPEN = 1u << 3,      /* a joint carries nothing: its play is being crossed */
-    BRACE_FLAG_STALE = 1u << 4,         /* older than its stated age limit */
+    BRACE_FLAG_STALE = 1u << 4,         /* older than its stated age limit, or in a mode that tells no K */
     BRACE_FLAG_OUT_OF_RANGE = 1u << 5   /* outside the range in which the model was identified */
 };
 
