@@ -1,5 +1,6 @@
 /* The drift check in the controller: what reaches it, what it says, what a restart keeps of it. */
 #include "loading_bench.h"
+#include "measure/loading.h"
 
 void setUp(void)
 {
@@ -53,9 +54,89 @@ static void test_a_link_that_cracks_is_noticed_and_the_alarm_is_cleared_on_reque
     TEST_ASSERT_EQUAL(0, now()->faults);
 }
 
+/* Runs a test tick by tick; run_at: how many readings the check's run has after each step. returns the steps it took in */
+static uint32_t watched_run(const brace_loading_setup_t *setup, uint8_t run_at[32])
+{
+    const uint32_t before = app.drift.steps;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_loading_start(&app, setup));
+    for (int i = 0; i < 60000 && app.mode == BRACE_MODE_LOADING_TEST; i++) {
+        const bool checks = app.loading.phase == LOADING_DRIFT;
+        const uint32_t step = app.loading.step;
+        ticks(1);
+        if (checks) {
+            run_at[step] = app.drift.run_count;
+        }
+    }
+    TEST_ASSERT_EQUAL(BRACE_LOADING_DONE, result()->outcome);
+    return app.drift.steps - before;
+}
+
+/* Friction turns round with the motion: what came before a reversal is no mean for what comes after. */
+static void test_a_run_of_the_check_ends_at_each_reversal(void)
+{
+    uint8_t run_at[32] = {0};
+    TEST_ASSERT_EQUAL(16, watched_run(&along_x, run_at));
+    static const uint8_t expected[17] = {0, 1, 2, 3, 0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4};
+    TEST_ASSERT_EQUAL_UINT8_ARRAY(expected, run_at, 17);
+}
+
+static void test_readings_with_a_gap_open_do_not_reach_the_check(void)
+{
+    uint8_t run_at[32] = {0};
+    brace_parameters_t p = bench_parameters();
+    p.limb.joint[BRACE_TIBIA].gap_rad = 0.01f;
+    stand(&p);
+    tip_is_free = true; /* nothing loads the joint: no flank carries */
+    ticks(300);
+    TEST_ASSERT_BITS(BRACE_FLAG_GAP_OPEN, BRACE_FLAG_GAP_OPEN, now()->stiffness.now.flags);
+    TEST_ASSERT_EQUAL(0, watched_run(&along_x, run_at));
+    TEST_ASSERT_EQUAL(0, app.drift.run_count);
+    p.limb.joint[BRACE_TIBIA].gap_rad = 0.0f;
+    stand(&p);
+    tip_is_free = true;
+    ticks(300);
+    TEST_ASSERT_EQUAL(16, watched_run(&along_x, run_at));
+}
+
+static void test_readings_without_a_sensor_do_not_reach_the_check(void)
+{
+    uint8_t run_at[32] = {0};
+    brace_fake_without_force(&fake);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    ticks(200);
+    TEST_ASSERT_EQUAL(0, watched_run(&along_x, run_at));
+}
+
+static void test_a_tick_that_is_late_is_told_whatever_it_works_at(void)
+{
+    static const uint8_t phases[] = {LOADING_MOVE, LOADING_READ, LOADING_DRIFT, LOADING_JUDGE};
+    for (uint32_t i = 0; i < sizeof phases; i++) {
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_loading_start(&app, &along_x));
+        for (int tick = 0; tick < 60000 && app.loading.phase != phases[i]; tick++) {
+            ticks(1);
+        }
+        TEST_ASSERT_EQUAL(phases[i], app.loading.phase);
+        const uint32_t late = brace_app_counters(&app)->ticks_late;
+        fake.now_us += 5 * TICK_US;
+        ticks(1);
+        TEST_ASSERT_EQUAL(late + 1, brace_app_counters(&app)->ticks_late);
+        ticks(8); /* the pieces that follow compute no snapshot */
+        TEST_ASSERT_BITS(BRACE_FAULT_TICK_LATE, BRACE_FAULT_TICK_LATE, now()->faults);
+        (void)brace_app_loading_stop(&app);
+        for (int tick = 0; tick < 3000 && (app.mode != BRACE_MODE_MONITOR || now()->faults != 0); tick++) {
+            ticks(1);
+        }
+        TEST_ASSERT_EQUAL(0, now()->faults);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_a_run_of_the_check_ends_at_each_reversal);
+    RUN_TEST(test_readings_with_a_gap_open_do_not_reach_the_check);
+    RUN_TEST(test_readings_without_a_sensor_do_not_reach_the_check);
+    RUN_TEST(test_a_tick_that_is_late_is_told_whatever_it_works_at);
     RUN_TEST(test_a_link_that_cracks_is_noticed_and_the_alarm_is_cleared_on_request);
     return UNITY_END();
 }

@@ -51,6 +51,28 @@ static void test_the_sensed_force_says_what_the_joints_should_carry(void)
     TEST_ASSERT_FALSE(sample.load_is_expected);
 }
 
+/* Six sigma of each of the sensor's components through the joint's lever; the tip's from the joints' axes. */
+static void test_the_sensor_s_noise_is_in_what_the_expected_load_may_be_off_by(void)
+{
+    const double tip_x = femur_mm * cos(1.0) + tibia_mm * cos(1.0 - 1.4), tip_z = femur_mm * sin(1.0) + tibia_mm * sin(1.0 - 1.4);
+    const double from_x[2] = {tip_x, tip_x - femur_mm * cos(1.0)}, from_z[2] = {tip_z, tip_z - femur_mm * sin(1.0)};
+    float off_n_mm[2][BRACE_APP_JOINTS];
+    for (int quiet = 0; quiet < 2; quiet++) {
+        brace_parameters_t p = bench_parameters();
+        p.sensor.noise_n = quiet ? 0.0f : 0.5f;
+        stand(&p);
+        for (int i = 0; i < BRACE_APP_JOINTS; i++) {
+            brace_backlash_sample_t sample = {.load_is_expected = false};
+            force_expect(&app, i, &sample);
+            TEST_ASSERT_TRUE(sample.load_is_expected);
+            off_n_mm[quiet][i] = sample.expected_off_n_mm;
+        }
+    }
+    for (int i = 0; i < BRACE_APP_JOINTS; i++) {
+        ASSERT_CLOSE(6.0 * 0.5 * (fabs(from_x[i]) + fabs(from_z[i])), off_n_mm[0][i] - off_n_mm[1][i], 1.0);
+    }
+}
+
 static void test_the_sensor_model_is_undone(void)
 {
     brace_parameters_t p = bench_parameters();
@@ -95,6 +117,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_without_a_sensor_the_joints_tell_the_force_less_gravity);
     RUN_TEST(test_the_sensed_force_says_what_the_joints_should_carry);
+    RUN_TEST(test_the_sensor_s_noise_is_in_what_the_expected_load_may_be_off_by);
     RUN_TEST(test_the_sensor_model_is_undone);
     RUN_TEST(test_a_saturated_or_silent_sensor_is_not_used);
     return UNITY_END();
