@@ -45,6 +45,11 @@ def add(commands: Any) -> None:
     parser.add_argument(
         "--dwell-s", type=common.positive, default=0.1, metavar="S", help="at each step; default 0.1"
     )
+    parser.add_argument(
+        "--add",
+        action="store_true",
+        help="to the loading record that --out already is, as its next configuration (another posture) or repeat",
+    )
     parser.add_argument("--title", default="", metavar="TEXT", help="of the dataset")
     common.add_json(parser)
     parser.set_defaults(run=run)

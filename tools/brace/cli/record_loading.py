@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import argparse
 import math
+import time
+from pathlib import Path
 from typing import Any
 
 from brace.cli import common
@@ -13,6 +15,7 @@ from brace.cli.bus_options import bus_url, session, undone_by_signal
 def record_loading(arguments: argparse.Namespace) -> int:
     """Runs, fetches, writes."""
     from brace.bus.can_controller import CanController
+    from brace.bus.loading_rows import added, on_one_clock, with_motor_angles
     from brace.bus.loading_test import Plan, fetch, run
     from brace.dataset.write import write_dataset
     from brace.errors import UsageError
@@ -25,27 +28,88 @@ def record_loading(arguments: argparse.Namespace) -> int:
             next_step="--out DIR",
         )
     axes = "xz" if arguments.axis == "both" else arguments.axis
+    before = _record_before(arguments.out) if arguments.add and arguments.out.exists() else None
+    started: list[float] = []
     with undone_by_signal(), session(arguments, bus_url(arguments, "a loading test")) as opened:
         device = CanController(opened)
+        meta = _meta(arguments, device)
+        if before is not None:
+            _refuse_other_limb(arguments.out, before.meta.document.content, meta)
         with common.progress("loading test") as advance:
             for axis in axes:
+                started.append(time.time())
                 run(opened, Plan(axis, arguments.steps, arguments.step_mm, arguments.dwell_s), advance)
         with common.progress("fetching its rows") as advance:
             columns = fetch(opened, len(axes), advance)
-        meta = _meta(arguments, device)
+        lengths = [_length_mm(device, link) for link in ("femur", "tibia")]
+    columns = with_motor_angles(on_one_clock(columns, started), *lengths)
     rows = len(columns["run"])
+    if before is not None:
+        ended_s = before.meta.document.content.get("ended_unix_s")
+        pause_s = started[0] - ended_s if isinstance(ended_s, (int, float)) else None
+        columns = added(dict(before.columns), columns, pause_s)
+        meta["title"] = arguments.title or before.meta.title
+    meta = {"ended_unix_s": round(time.time(), 3), **meta}
     write_dataset(arguments.out, meta, columns)
     found = _refuse_unsound(arguments)
+    config, total = int(columns["config"][-1]), len(set(columns["config"].tolist()))
     if arguments.json:
         common.print_json(
-            {"out": arguments.out, "rows": rows, "runs": len(axes), "node": device.node, "faults": found}
+            {
+                "out": arguments.out,
+                "rows": rows,
+                "runs": len(axes),
+                "node": device.node,
+                "config": config,
+                "configs": total,
+                "faults": found,
+            }
         )
     else:
+        many = f" as configuration {config}; {total} in all" if arguments.add else ""
         common.say(
-            f"{arguments.out}: {len(axes)} run{'s' if len(axes) > 1 else ''}, {rows} rows; brace "
-            f"identify {arguments.out} --model LIMB.toml"
+            f"{arguments.out}: {len(axes)} run{'s' if len(axes) > 1 else ''}, {rows} rows{many}; brace "
+            f"diagnose {arguments.out} --model LIMB.toml --out DIR"
         )
     return 0
+
+
+def _length_mm(device: Any, link: str) -> float:
+    """As the controller has it, which computed the displacements with it."""
+    from brace.bus.entries import value_of
+
+    key = f"geometry.{link}_mm"
+    return float(value_of(key, device.read_entry(key)))
+
+
+def _record_before(folder: Path) -> Any:
+    """The record to which a posture is added."""
+    from brace.dataset import load_dataset
+    from brace.errors import UsageError
+
+    dataset = load_dataset(folder)
+    if dataset.kind != "loading":
+        raise UsageError(
+            f"--add to a {dataset.kind.replace('_', ' ')} record",
+            where=str(folder),
+            why="a loading test is added to a loading record",
+            next_step="--out another folder",
+        )
+    return dataset
+
+
+def _refuse_other_limb(folder: Path, before: Any, now: dict[str, Any]) -> None:
+    """One record is of one limb with one set of parameters."""
+    from brace.errors import UsageError
+
+    for name, meaning in (("parameter_crc", "set of parameters"), ("firmware", "firmware")):
+        if before.get(name) != now[name]:
+            raise UsageError(
+                f"the controller has another {meaning} than when the record was begun",
+                where=str(folder),
+                why=f"{name} was {before.get(name, 'not told')}, is {now[name]}; postures of one record belong together",
+                next_step="--out another folder",
+            )
 
 
 def _meta(arguments: argparse.Namespace, device: Any) -> dict[str, Any]:
@@ -65,7 +129,7 @@ def _meta(arguments: argparse.Namespace, device: Any) -> dict[str, Any]:
         "parameter_crc": f"{identity.parameter_crc:08x}",
         "firmware": identity.version,
         "sensor": sensor,
-        "rig": {"step_mm": arguments.step_mm, "dwell_s": arguments.dwell_s},
+        "rig": {"step_mm": arguments.step_mm, "dwell_s": arguments.dwell_s, "moved_by": "motors"},
     }
 
 

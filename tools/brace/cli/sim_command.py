@@ -58,6 +58,9 @@ def add(commands: Any) -> None:
     parser.add_argument("--seconds", type=common.positive, metavar="S", help="how long; default until Ctrl-C")
     pace = parser.add_mutually_exclusive_group()
     pace.add_argument("--realtime", action="store_true", help="in step with the clock (default)")
+    pace.add_argument(
+        "--speed", type=common.positive, default=1.0, metavar="X", help="so many times faster than the clock"
+    )
     pace.add_argument("--fast", action="store_true", help="as fast as possible; needs --seconds")
     parser.add_argument(
         "--fault",
@@ -258,7 +261,7 @@ def _run_in_real_time(arguments: argparse.Namespace, node: Any, ended: threading
 
     line = LiveLine()
     try:
-        node.start(arguments.seconds if arguments.seconds is not None else math.inf)
+        node.start(arguments.seconds if arguments.seconds is not None else math.inf, arguments.speed)
         while not ended.is_set() and not node.wait(_POLL_S):
             if line.wanted:
                 stats = node.stats()

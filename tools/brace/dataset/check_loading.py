@@ -25,14 +25,15 @@ def faults(columns: Columns, meta: Meta) -> list[DataFault]:
         *_time(columns),
         *_duplicates(columns),
         *_angles(columns),
-        *check_runs.faults(columns),
+        *check_runs.faults(columns, meta.moved_by_motors),
         *_steps(columns, meta),
         *check_readings.faults(columns),
     ]
     beyond = list(_sensor_range(columns, meta))
     if any(fault.blocking for fault in found) or any(fault.row is None for fault in beyond):
         return [*found, *beyond]  # slopes mean nothing while units or order are wrong
-    slipped = list(_slipped_decimals(columns, meta))
+    # motors stop where friction lets them: a step that differs from its neighbours' is no slip
+    slipped = [] if meta.moved_by_motors else list(_slipped_decimals(columns, meta))
     mended = {(fault.row, fault.field) for fault in slipped}
     beyond = [fault for fault in beyond if (fault.row, fault.field) not in mended]
     return [*found, *beyond, *check_slopes.faults(columns), *slipped]

@@ -11,12 +11,16 @@ from brace.dataset.faults import DataFault
 Columns = Mapping[str, np.ndarray]
 MAX_LISTED = 20  # faults of one sort that are listed singly
 ANGLE_SAME_RAD = 1e-3  # a commanded angle is one number for the whole run
+ANGLE_PRESSED_RAD = 0.15  # unless the limb presses by its own motors: then it stays near
 _AXIS_NAMES = ("x", "z")
 
 
-def faults(columns: Columns) -> list[DataFault]:
+def faults(columns: Columns, moved_by_motors: bool = False) -> list[DataFault]:
     """Every contradiction within the runs."""
-    found = [*_pose(columns), *_clock(columns), *_axis_changes(columns)]
+    same = ANGLE_PRESSED_RAD if moved_by_motors else ANGLE_SAME_RAD
+    found = [*_pose(columns, same), *_clock(columns), *_axis_changes(columns)]
+    if moved_by_motors:
+        return found
     return found or [*_axis_against_motion(columns)]
 
 
@@ -30,10 +34,10 @@ def span(values: np.ndarray, starts: np.ndarray) -> np.ndarray:
     return np.asarray(np.maximum.reduceat(values, starts[:-1]) - np.minimum.reduceat(values, starts[:-1]))
 
 
-def _pose(columns: Columns) -> Iterator[DataFault]:
+def _pose(columns: Columns, same_rad: float) -> Iterator[DataFault]:
     """Angles and the pose's number hold through a run."""
     starts, run = run_starts(columns["run"]), columns["run"]
-    for name, same in (("theta1_rad", ANGLE_SAME_RAD), ("theta2_rad", ANGLE_SAME_RAD), ("config", 0.5)):
+    for name, same in (("theta1_rad", same_rad), ("theta2_rad", same_rad), ("config", 0.5)):
         values = columns[name].astype(float)
         listed = 0
         for index in np.flatnonzero(span(values, starts) > same):

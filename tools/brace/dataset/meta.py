@@ -15,6 +15,7 @@ from brace.toml import Key
 
 WHAT = "dataset's meta.toml"
 ZEROED = ("never", "per_run")
+MOVED_BY = ("rig", "motors")
 
 _KNOWN = (
     Key("format", None, "the version of the format, 1", "", 1, 1, kind="integer"),
@@ -35,6 +36,7 @@ _KNOWN = (
     Key("rig.step_mm", 0.0, "the step of the imposed displacement", "mm", 0.0, 1e3),
     Key("rig.dwell_s", 0.0, "the wait before each reading", "s", 0.0, 1e6),
     Key("rig.zeroed", "never", "when the sensor was zeroed", kind="text", choices=ZEROED),
+    Key("rig.moved_by", "rig", "what moved the tip: a rig, or the limb's own motors", kind="text", choices=MOVED_BY),
 )
 
 
@@ -56,6 +58,11 @@ class Meta:
     @property
     def zeroed_per_run(self) -> bool:
         return "per_run" in (self.values["zeroed"], self.values["rig.zeroed"])
+
+    @property
+    def moved_by_motors(self) -> bool:
+        """The limb pressed by itself: its angles differ from row to row, its tip moves a little sideways too."""
+        return self.values["rig.moved_by"] == "motors"
 
     @property
     def joint(self) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 import threading
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -32,6 +33,7 @@ FAULT_BITS = (
 ORIGINS = ("default", "slot_a", "slot_b")
 PLAY_STATES = ("unknown", "taking_up", "engaged_positive", "engaged_negative", "crossing", "fault")
 SERIAL_PORTS = {"console": 0, "modbus": 1, "slcan": 2, "modbus_tcp": 3}
+_SLICE_S = 0.001  # of the wall clock, where the limbs run at a speed of their own
 E_URL, E_IN_USE, E_NO_DEVICE, E_NO_CAN, E_DENIED, E_SYSTEM, E_SIZE = range(-1, -8, -1)
 _DRIVE_KEYS = (  # of [motor.*], and members of brace_node_drive_t
     "inertia_n_mm_s2_per_rad",
@@ -82,6 +84,7 @@ class Node:
         self._setups = list(limbs)
         # set at the end of a run; a Ctrl-C within Thread.join would have Python 3.11 call a running thread ended
         self._over: threading.Event | None = None
+        self._ended = threading.Event()
         ffi, lib = self.native.ffi, self.native.lib
         keep: list[Any] = []
         structs = ffi.new("brace_node_limb_t[]", len(limbs))
@@ -174,19 +177,32 @@ class Node:
             if left_us <= 0:
                 return now_us * 1e-6
 
-    def start(self, until_s: float = math.inf) -> None:
-        """Runs in step with the wall clock, in a thread, until a time of the simulation or stop()."""
+    def start(self, until_s: float = math.inf, speed: float = 1.0) -> None:
+        """Runs in step with the wall clock (or so many times faster), in a thread, until a time of the simulation or
+        stop()."""
         until_us = 2**63 if math.isinf(until_s) else round(until_s * 1e6)
-        over = threading.Event()
+        over, ended = threading.Event(), threading.Event()
 
         def run() -> None:
             try:
-                self.native.lib.brace_node_run(self._node, until_us)
+                if speed == 1.0:
+                    self.native.lib.brace_node_run(self._node, until_us)
+                else:
+                    self._run_at(speed, until_s, ended)
             finally:
                 over.set()
 
-        self._over = over
+        self._over, self._ended = over, ended
         threading.Thread(target=run, name="limbs", daemon=True).start()
+
+    def _run_at(self, speed: float, until_s: float, ended: threading.Event) -> None:
+        """In slices; one that comes late is made up for, up to a tenth of a second."""
+        began, done_s = time.monotonic(), 0.0
+        while not ended.wait(_SLICE_S) and done_s < until_s:
+            due_s = min((time.monotonic() - began) * speed, until_s, done_s + 0.1 * max(speed, 1.0))
+            if due_s > done_s:
+                self.step(due_s - done_s)
+                done_s = due_s
 
     def wait(self, seconds: float) -> bool:
         """True when the run is over, at once or within a time."""
@@ -195,6 +211,7 @@ class Node:
     def stop(self) -> None:
         """Ends a run; returns when it has ended."""
         if self._over is not None:
+            self._ended.set()
             self.native.lib.brace_node_stop(self._node)
             self._over.wait()
             self._over = None

@@ -41,6 +41,9 @@ def channel_noise(dataset: Dataset, channel: str) -> ChannelNoise:
         off, size, freedom_ratio = _third_differences(dataset, values)
         source = "smoothness along the runs"
     if off.size < 4:
+        off, size, freedom_ratio = _off_curves(dataset, values)
+        source = "smooth curves through the runs"
+    if off.size < 4:
         return ChannelNoise(least, 0.0, "not enough readings; the least that can be told")
     spread = _robust_sigma(off) / freedom_ratio
     if spread < least:
@@ -91,6 +94,29 @@ def _third_differences(dataset: Dataset, values: np.ndarray) -> tuple[np.ndarray
     inside = (dataset["run"][:-3] == dataset["run"][3:]) & straight[:-1] & straight[1:]
     third = np.diff(values, n=3)[inside]
     return third, np.abs(values[:-3][inside]), float(np.sqrt(20.0))
+
+
+def _off_curves(dataset: Dataset, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
+    """What smooth curves over the displacement leave of each run whose steps are uneven and are never repeated; what
+    the curves cannot follow counts as noise, so this is an upper bound."""
+    starts = run_starts(dataset["run"])
+    off, size = [], []
+    for begin, end in zip(starts[:-1], starts[1:]):
+        rows = slice(begin + 1, end)  # the first may be zero by definition
+        x, z = dataset["dx_mm"][rows], dataset["dz_mm"][rows]
+        along = z if dataset["axis"][begin] else x
+        curves = np.column_stack([np.ones(len(x)), x, z, np.abs(along), along**2, along**3])
+        basis, triangle = np.linalg.qr(curves)
+        basis = basis[:, np.abs(np.diag(triangle)) > 1e-9]
+        freedom = len(x) - basis.shape[1]
+        if freedom < 4:
+            continue
+        left = values[rows] - basis @ (basis.T @ values[rows])
+        off.append(left * np.sqrt(len(x) / freedom))
+        size.append(np.abs(values[rows]))
+    if not off:
+        return np.empty(0), np.empty(0), 1.0
+    return np.concatenate(off), np.concatenate(size), 1.0
 
 
 def _robust_sigma(off: np.ndarray) -> float:

@@ -37,7 +37,22 @@ class Record:
         played = self.player.play_numbers(models)
         played -= self.measured
         played /= -self.sigma
+        if self.dataset.meta.zeroed_per_run:
+            self._whiten_zeroing(played)
         return played.reshape(len(models), -1)
+
+    def _whiten_zeroing(self, scaled: np.ndarray) -> None:
+        """Where each run's first reading was taken off, its noise is in all others of the run: covariance I + 11'.
+        Multiplied by that covariance's inverse root, readings are independent again."""
+        starts = run_starts(self.dataset["run"])
+        lengths = np.diff(starts)
+        others = np.maximum(lengths - 1, 1)
+        forces = scaled[:, : len(FORCES)]
+        total = np.add.reduceat(forces, starts[:-1], axis=2) - forces[:, :, starts[:-1]]
+        share = total * ((1.0 - 1.0 / np.sqrt(1.0 + others)) / others)
+        first = forces[:, :, starts[:-1]].copy()
+        forces -= np.repeat(share, lengths, axis=2)
+        forces[:, :, starts[:-1]] = first
 
     def select(self, keep: np.ndarray) -> Record:
         """The rows where `keep` is true, with the same noise."""
