@@ -47,7 +47,7 @@ modbus_exception_t modbus_write_one(brace_app_t *app, uint8_t *pdu, uint32_t len
     return block.area == REGISTERS_PARAMETERS ? refusal_of(staging_write(app, index, whole)) : command_run(app, index, whole);
 }
 
-static modbus_exception_t begin(const brace_app_t *app, brace_app_modbus_work_t *work, const uint8_t *pdu, uint32_t length)
+static modbus_exception_t begin(brace_app_t *app, brace_app_modbus_work_t *work, const uint8_t *pdu, uint32_t length)
 {
     registers_block_t block;
     if (length < DATA) {
