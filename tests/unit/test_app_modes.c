@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "app_bench.h"
+#include "configure/staging.h"
 
 void setUp(void)
 {
@@ -493,6 +494,45 @@ static void test_an_erase_in_configuration_is_no_late_tick(void)
     TEST_ASSERT_BITS(BRACE_FAULT_TICK_LATE, 0, now()->faults);
 }
 
+/* Whoever asked for it may be gone. */
+static void test_configuration_that_nobody_feeds_is_left_and_nothing_has_changed(void)
+{
+    const int patience = BRACE_CONFIGURATION_PATIENCE_US / TICK_US;
+    brace_parameters_t p = bench_parameters();
+    ticks(5);
+    const uint32_t crc = now()->parameter_crc;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    ticks(patience - 100);
+    TEST_ASSERT_EQUAL(BRACE_OK, staging_write(&app, BRACE_PARAMETER_CONTROLLER_NODE_ID, 9)); /* half of a push */
+    ticks(patience - 100);
+    TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, now()->mode);
+    TEST_ASSERT_EQUAL(9, staging_read(&app, BRACE_PARAMETER_CONTROLLER_NODE_ID));
+    ticks(200);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    TEST_ASSERT_EQUAL_HEX32(crc, now()->parameter_crc);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    TEST_ASSERT_EQUAL(p.controller.node_id, staging_read(&app, BRACE_PARAMETER_CONTROLLER_NODE_ID)); /* forgotten */
+    p.limb.femur_mm = 190.0f;
+    ticks(patience - 10);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p));
+    for (int i = 0; i < 1000 && (app.storing || app.configure_piece != 0); i++) { /* as long as it takes */
+        fake.now_us += BRACE_CONFIGURATION_PATIENCE_US / 4;
+        ticks(1);
+        TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, now()->mode);
+    }
+    TEST_ASSERT_EQUAL_HEX32(brace_parameters_crc(&p), app.parameter_crc);
+    ticks(patience / 2);
+    TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, now()->mode);
+    ticks(patience / 2);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+    fake.joint[BRACE_FEMUR].absent = true; /* from FAULT back to FAULT */
+    ticks(150);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    ticks(patience + 150);
+    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, now()->mode);
+}
+
 static void test_null_is_refused_everywhere(void)
 {
     const brace_parameters_t p = bench_parameters();
@@ -549,6 +589,7 @@ int main(void)
     RUN_TEST(test_a_memory_that_does_not_keep_is_a_fault_and_the_old_set_stays);
     RUN_TEST(test_a_faulty_controller_can_still_be_configured);
     RUN_TEST(test_an_erase_in_configuration_is_no_late_tick);
+    RUN_TEST(test_configuration_that_nobody_feeds_is_left_and_nothing_has_changed);
     RUN_TEST(test_null_is_refused_everywhere);
     return UNITY_END();
 }

@@ -1,6 +1,7 @@
 #include "brace/app.h"
 
 #include "configure/configure.h"
+#include "configure/staging.h"
 #include "configure/storing.h"
 #include "measure/control.h"
 #include "measure/loading.h"
@@ -60,6 +61,7 @@ static void configuration_tick(brace_app_t *app, uint32_t now_us, bool lean, bra
         storing_step(app);
         joints_read(app, now_us);
     }
+    staging_watch(app);
     supervisor_faults(app, false); /* an erase takes its time */
     control_seal(app, snapshot);
 }

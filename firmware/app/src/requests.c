@@ -1,4 +1,5 @@
 #include "brace/app.h"
+#include "configure/staging.h"
 #include "configure/storing.h"
 #include "measure/loading.h"
 #include "motion/takeup.h"
@@ -84,6 +85,7 @@ brace_status_t brace_app_configuration_enter(brace_app_t *app)
     }
     app->mode = BRACE_MODE_CONFIGURATION;
     app->staging.begun = false;
+    staging_keep(app);
     return BRACE_OK;
 }
 

@@ -203,6 +203,7 @@ typedef struct {
 } brace_app_requests_t;
 
 typedef struct {
+    uint32_t fed_us;          /* when CONFIGURATION was last asked for anything */
     bool begun;               /* set holds what is written; begun as a copy of what is in force */
     brace_parameters_t set;
 } brace_app_staging_t;
@@ -328,7 +329,9 @@ uint32_t brace_app_row_count(const brace_app_t *app);
 brace_status_t brace_app_row(const brace_app_t *app, uint32_t index, brace_row_t *row);
 
 /* Configuration: only here may parameters be stored; nothing moves the limb, K is not valid. Entered from
- * MONITOR or FAULT, left to START. */
+ * MONITOR or FAULT, left to START; by itself after BRACE_CONFIGURATION_PATIENCE_US in which nothing was written, uploaded,
+ * stored, nor the mode asked for again: what was staged is forgotten, the set in force stays. */
+enum { BRACE_CONFIGURATION_PATIENCE_US = 10000000 };
 brace_status_t brace_app_configuration_enter(brace_app_t *app);
 brace_status_t brace_app_configuration_leave(brace_app_t *app);
 

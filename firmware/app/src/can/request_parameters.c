@@ -79,6 +79,7 @@ int32_t request_set_mode(brace_app_t *app, request_t *request)
     } else if (asked.mode != (uint32_t)app->mode) {
         return asked.mode == BRACE_MODE_MONITOR ? (int32_t)BRACE_E_MODE : (int32_t)BRACE_E_RANGE;
     }
+    staging_keep(app);
     if (status != BRACE_OK) {
         return status;
     }
@@ -90,7 +91,7 @@ int32_t request_set_mode(brace_app_t *app, request_t *request)
 /* -------------------------------------------------------------------------------------- upload -- */
 
 /* May parameters be changed now? */
-static int32_t open_for_change(const brace_app_t *app, request_t *request)
+static int32_t open_for_change(brace_app_t *app, request_t *request)
 {
     const brace_status_t status = staging_open(app);
     request->detail = app->mode;

@@ -12,11 +12,26 @@ uint32_t staging_read(const brace_app_t *app, uint32_t index)
     return word;
 }
 
-brace_status_t staging_open(const brace_app_t *app)
+void staging_keep(brace_app_t *app)
+{
+    app->staging.fed_us = app->last_us;
+}
+
+void staging_watch(brace_app_t *app)
+{
+    if (storing_busy(app)) {
+        staging_keep(app);
+    } else if (app->last_us - app->staging.fed_us >= BRACE_CONFIGURATION_PATIENCE_US) {
+        (void)brace_app_configuration_leave(app);
+    }
+}
+
+brace_status_t staging_open(brace_app_t *app)
 {
     if (app->mode != BRACE_MODE_CONFIGURATION) {
         return BRACE_E_MODE;
     }
+    staging_keep(app);
     return storing_busy(app) ? BRACE_E_UNSUPPORTED : BRACE_OK;
 }
 

@@ -8,9 +8,15 @@
 /* A member as its 32 bits: staged if any has been written, else in force. index < BRACE_PARAMETER_COUNT */
 uint32_t staging_read(const brace_app_t *app, uint32_t index);
 
-/* May members be written now? returns BRACE_OK, BRACE_E_MODE (not CONFIGURATION), BRACE_E_UNSUPPORTED (a set is being
+/* Somebody is at it: CONFIGURATION lasts BRACE_CONFIGURATION_PATIENCE_US from here. */
+void staging_keep(brace_app_t *app);
+
+/* Leaves CONFIGURATION when nobody has been at it for that long. Each tick of it. */
+void staging_watch(brace_app_t *app);
+
+/* May members be written now? That somebody asks keeps CONFIGURATION going. returns BRACE_OK, BRACE_E_MODE (not CONFIGURATION), BRACE_E_UNSUPPORTED (a set is being
  * stored) */
-brace_status_t staging_open(const brace_app_t *app);
+brace_status_t staging_open(brace_app_t *app);
 
 /* Writes one. returns as staging_open; BRACE_E_RANGE (no such member), BRACE_E_PARAMETER, BRACE_E_NOT_FINITE (not in its
  * own range; what members say together is judged by the commit). At most 450 instructions, the first time; else 60. */

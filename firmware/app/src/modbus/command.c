@@ -26,6 +26,7 @@ static modbus_exception_t set_mode(brace_app_t *app, uint32_t value)
 {
     const bool configures = app->mode == BRACE_MODE_CONFIGURATION;
     if (value == (KEY | BRACE_MODE_CONFIGURATION)) {
+        staging_keep(app);
         return configures ? MODBUS_FINE : refusal_of(brace_app_configuration_enter(app));
     }
     if (value != (KEY | BRACE_MODE_MONITOR)) {
