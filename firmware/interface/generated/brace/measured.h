@@ -99,7 +99,7 @@ _Static_assert(sizeof(brace_answered_t) == 4 * BRACE_ANSWERED_COUNT, "32 bits ea
 
 /* What was last written to the command registers. */
 typedef struct {
-    uint32_t set_mode; /* 0xc0de0002: CONFIGURATION; 0xc0de0001: back to MONITOR */
+    uint32_t set_mode; /* 0xc0de0002: CONFIGURATION; 0xc0de0001: back to MONITOR, as by itself after 10 s in which nothing was written or stored */
     uint32_t commit; /* 0xc0de0001: stores the holding registers' parameters, reads back, puts them in force; CONFIGURATION only */
     uint32_t rollback; /* 0xc0de0001: puts the set before back in force; CONFIGURATION only */
     uint32_t clear_faults; /* bits of faults to clear */
