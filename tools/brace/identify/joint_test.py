@@ -65,7 +65,8 @@ class JointProblem:
 
     def torque_n_mm(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """The model's torque at every row of the record, not averaged."""
-        angle = self.dataset["angle_rad"] - self._centre_rad
+        # an encoder's jitter is no motion: the deflection is what is left of it over a block
+        angle = smoothed(self.dataset["angle_rad"], self.columns["test"], self._counts) - self._centre_rad
         whole = JointPlayer({**self.dataset.columns, "angle_rad": angle}, self.joint)
         start_n_mm = np.repeat(self._start_n_mm, self._counts)
         return self._played(whole, start_n_mm, model, nuisances)
@@ -170,6 +171,23 @@ def averaged(dataset: Dataset, block: int) -> tuple[dict[str, np.ndarray], np.nd
     }
     result["test"] = test[edges]
     return result, counts
+
+
+def smoothed(values: np.ndarray, test: np.ndarray, counts: np.ndarray) -> np.ndarray:
+    """Moving means over as many rows as a block has, never across tests; `test` and `counts` are the blocks'."""
+    width = int(np.median(counts))
+    if width < 2:
+        return values
+    result = np.empty_like(values, dtype=float)
+    edges = np.concatenate([[0], np.cumsum(counts)])
+    block_starts = np.concatenate([[0], np.flatnonzero(np.diff(test)) + 1, [test.size]])
+    for first, last in zip(edges[block_starts[:-1]], edges[block_starts[1:]]):
+        part = values[first:last]
+        sums = np.concatenate([[0.0], np.cumsum(part)])
+        rows = np.arange(part.size)
+        reach = np.minimum(np.minimum(rows, part.size - 1 - rows), width // 2)
+        result[first:last] = (sums[rows + reach + 1] - sums[rows - reach]) / (2 * reach + 1)
+    return result
 
 
 def _start_torque(columns: Mapping[str, np.ndarray]) -> np.ndarray:

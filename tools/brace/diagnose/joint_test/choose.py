@@ -1,0 +1,193 @@
+"""Which terms the record asks for. All sets of effects are grown from the best of the next smaller ones, so that two
+effects that only make sense together are found together; then shapes that no effect has may join; then every term
+must stand up to three judges: independent readings, stretches drawn anew, and what was held out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from brace.diagnose.diagnosis import Candidate
+from brace.diagnose.joint_test.evidence import agreement, gain, independent
+from brace.diagnose.joint_test.fit import Fitted, Fitter
+from brace.diagnose.joint_test.terms import Term
+
+BEAM = 4  # sets of one size that are grown on
+LEAST_GAIN = 4.0  # twice the log of the odds, ln(n) for every parameter paid
+LEAST_AGREEMENT = 0.9
+LEAST_SHRINK = 0.002  # of the rms: less is of no use to anybody
+MOST_SHAPES = 2
+MOST_STIFFENING = 5.0  # of a spring within one record; gears and belts stiffen by two or three
+
+_NEVER_AT_ITS_BOUND = ("creep.ratio", "time_constant_s", "coulomb_per_load_ratio", "gap_rad")
+
+Trying = Callable[[str], None]
+Shapes = Callable[[Fitted], list[Term]]
+
+
+@dataclass(frozen=True)
+class Choice:
+    """`base` has no terms; `sets` are all sets of effects that were fitted; `best` may have shapes in it."""
+
+    base: Fitted
+    sets: tuple[Fitted, ...]
+    best: Fitted
+    count: float  # independent readings
+    candidates: tuple[Candidate, ...]
+
+
+def choose(
+    fitter: Fitter, effects: Sequence[Term], shapes: Shapes, random: np.random.Generator, trying: Trying
+) -> Choice:
+    """`shapes` gives the shapes to compete, for the residuals of a fit."""
+    base = fitter.fit(())
+    sets = _grown(fitter, base, effects, trying)
+    record = fitter.record
+    count = independent(record, min(sets, key=lambda one: one.rss).off_n_mm)
+
+    def worth(one: Fitted) -> float:
+        return gain(record, base, one, count) - _paid(one, count)
+
+    best = max((one for one in sets if not strained(fitter, one)), key=worth)
+    for _ in range(MOST_SHAPES):
+        have = {term.name for term in best.terms}
+        joined = []
+        for shape in shapes(best):
+            if shape.name not in have:
+                trying(shape.label)
+                joined.append(fitter.fit((*best.terms, shape), best, shape))
+        sound = [one for one in joined if not strained(fitter, one) and _needed(fitter, best, one, random)]
+        if not sound:
+            break
+        best = max(sound, key=worth)
+    best = _kept(fitter, best, random)
+    best = _joined_by_rows(fitter, best, sets, effects, random, trying)
+    listed = [one for one in sets if not strained(fitter, one)]
+    return Choice(base, tuple(sets), best, count, _candidates(listed, worth))
+
+
+def _joined_by_rows(
+    fitter: Fitter,
+    best: Fitted,
+    sets: Sequence[Fitted],
+    effects: Sequence[Term],
+    random: np.random.Generator,
+    trying: Trying,
+) -> Fitted:
+    """Readings by the way they stand for tell best where the joint slips; counted alike, they tell best what it does
+    under high load, where it stays longest. An effect that all judges ask for there joins too, beside what was found."""
+    by_rows = fitter.by_rows()
+    while best.terms:
+        current = by_rows.fit(best.terms, best)
+        have = {term.name for term in best.terms}
+        joined = []
+        for term in effects:
+            if term.name not in have:
+                trying(term.label)
+                joined.append(by_rows.fit((*best.terms, term), current, term))
+        sound = [one for one in joined if not strained(fitter, one) and _needed(by_rows, current, one, random)]
+        if not sound:
+            break
+        chosen = min(sound, key=lambda one: one.rss)
+        have = {term.name for term in chosen.terms}
+        known = [one for one in sets if {term.name for term in one.terms} == have]
+        best = min([fitter.fit(chosen.terms, chosen), *known], key=lambda one: one.rss)
+    return best
+
+
+def _grown(fitter: Fitter, base: Fitted, effects: Sequence[Term], trying: Trying) -> list[Fitted]:
+    sets, level = [base], [base]
+    for _ in effects:
+        found: dict[frozenset[str], Fitted] = {}
+        for smaller in level:
+            have = {term.name for term in smaller.terms}
+            for term in effects:
+                if term.name in have:
+                    continue
+                trying(" + ".join((*(one.label for one in smaller.terms), term.label)))
+                grown = fitter.fit((*smaller.terms, term), smaller, term)
+                key = frozenset(have | {term.name})
+                if key not in found or grown.rss < found[key].rss:
+                    found[key] = grown
+        if not found:
+            break
+        level = sorted(found.values(), key=lambda one: one.rss)[:BEAM]
+        sets += found.values()
+    return sets
+
+
+def strained(fitter: Fitter, fitted: Fitted) -> bool:
+    """An effect that only helps with a value that it cannot have stands for something else: creep as slow as the whole
+    record, friction that grows as fast as the load, a spring so soft in the middle that it is a dead zone in disguise."""
+    values = fitted.values
+    for parameter in (parameter for term in fitted.terms for parameter in term.parameters):
+        inside = parameter.low + 0.98 * (parameter.high - parameter.low)
+        if parameter.key.endswith(_NEVER_AT_ITS_BOUND) and values[parameter.key] >= inside:
+            return True
+    return _stiffening(fitter, fitted) > MOST_STIFFENING
+
+
+def _stiffening(fitter: Fitter, fitted: Fitted) -> float:
+    """How many times stiffer the spring is at the ends of the record than in its middle."""
+    at = f"joint.{fitter.record.joint}."
+    number = fitted.model.number
+    reach_rad = 0.5 * (fitter.record.extent.angle_rad - number(at + "gap_rad"))
+    spring, cubic = number(at + "compliance_rad_per_n_mm"), number(at + "hardening_n_mm_per_rad3")
+    return 1.0 + 3.0 * cubic * spring * reach_rad**2 if cubic > 0.0 else 1.0
+
+
+def _paid(fitted: Fitted, count: float) -> float:
+    return sum(len(term.parameters) for term in fitted.terms) * float(np.log(max(count, 3.0)))
+
+
+def without(fitter: Fitter, fitted: Fitted, term: Term) -> Fitted:
+    """The best fit of the other terms."""
+    rest = tuple(other for other in fitted.terms if other is not term)
+    near = fitter.fit(rest, fitted)
+    fresh = fitter.fit(())
+    for other in rest:  # from the other side: what the missing term held up may settle elsewhere
+        fresh = fitter.fit((*fresh.terms, other), fresh, other)
+    poorer = near if near.rss <= fresh.rss else fresh
+    if not strained(fitter, poorer):
+        return poorer
+    # what only fits by a value that it cannot have is no rival: the sound ones of what else is left
+    rivals = [without(fitter, poorer, other) for other in poorer.terms]
+    return min(rivals, key=lambda one: one.rss)
+
+
+def _needed(fitter: Fitter, poorer: Fitted, richer: Fitted, random: np.random.Generator) -> bool:
+    """Do all three judges ask for what the richer fit has more?"""
+    record = fitter.record
+    count = independent(record, richer.off_n_mm)
+    net = gain(record, poorer, richer, count) - (_paid(richer, count) - _paid(poorer, count))
+    if net < LEAST_GAIN or richer.rss > (1.0 - LEAST_SHRINK) ** 2 * poorer.rss:
+        return False
+    if record.kept.any() and richer.held_rss >= poorer.held_rss:
+        return False
+    return agreement(record, poorer, richer, random) >= LEAST_AGREEMENT
+
+
+def _kept(fitter: Fitter, best: Fitted, random: np.random.Generator) -> Fitted:
+    """Terms that are not needed beside the others are taken out, the least needed first."""
+    while best.terms:
+        poorer = sorted((without(fitter, best, term) for term in best.terms), key=lambda one: one.rss)
+        for one in poorer:
+            if not _needed(fitter, one, best, random):
+                best = one
+                break
+        else:
+            return best
+    return best
+
+
+def _candidates(sets: Sequence[Fitted], worth: Callable[[Fitted], float]) -> tuple[Candidate, ...]:
+    values = np.array([worth(one) for one in sets])
+    shares = np.exp(0.5 * (values - values.max()))
+    shares /= shares.sum()
+    listed = [
+        Candidate(" + ".join(term.label for term in one.terms) or "nothing", float(value), float(share))
+        for one, value, share in zip(sets, values, shares)
+    ]
+    return tuple(sorted(listed, key=lambda one: -one.gain)[:12])

@@ -1,0 +1,48 @@
+"""Is a fitted gap a gap? Only where the record shows both flanks and, between them, hardly any rise of torque.
+
+A soft spring with a large gap and hardening fits many loops well. Such a gap is a shape, not a play.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from brace.diagnose.joint_test.fit import Fitted
+from brace.diagnose.joint_test.record import JointRecord
+from brace.identify.parameters import ANGLE_ZERO
+
+MIN_INSIDE = 6
+FLAT = 0.5  # slope inside over slope outside, at most
+FLANK = 0.1  # of the gap, that the record goes beyond each side
+LARGEST = 0.5  # of the range of angles
+
+
+def refusal(record: JointRecord, fitted: Fitted) -> str:
+    """Why no play may be claimed; empty when it may."""
+    at = f"joint.{record.joint}."
+    gap_rad = fitted.model.number(at + "gap_rad")
+    deflection = record.columns["angle_rad"] + fitted.nuisances[ANGLE_ZERO]
+    used = record.fitted
+    if gap_rad > LARGEST * record.extent.angle_rad * (1.0 - 1e-3):
+        return "it would take half of the angles that were visited or more"
+    inside = used & (np.abs(deflection) < 0.5 * gap_rad)
+    above, below = deflection[used].max() - 0.5 * gap_rad, -deflection[used].min() - 0.5 * gap_rad
+    if min(above, below) < FLANK * gap_rad:
+        return "the record does not reach both of its flanks"
+    if np.count_nonzero(inside) < MIN_INSIDE:
+        return "hardly any reading lies inside it"
+    without = fitted.model.with_values({at + "coulomb_n_mm": 0.0, at + "coulomb_per_load_ratio": 0.0})
+    spring = record.torque(without, fitted.nuisances)
+    friction = record.torque(fitted.model, fitted.nuisances) - spring
+    carried = record.columns["torque_n_mm"] - friction
+    slope_inside = _slope(deflection[inside], carried[inside])
+    beyond = used & ~inside
+    rise = np.ptp(carried[beyond]) / max(np.ptp(deflection[beyond]) - gap_rad, 1e-12)
+    if slope_inside > FLAT * rise:
+        return f"the joint carries torque inside it: its slope there is {slope_inside / rise:.0%} of the one outside"
+    return ""
+
+
+def _slope(x: np.ndarray, y: np.ndarray) -> float:
+    centred = x - x.mean()
+    return float(centred @ y / max(float(centred @ centred), 1e-30))

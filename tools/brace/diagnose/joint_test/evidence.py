@@ -1,0 +1,102 @@
+"""How much a record says: independent readings, gains that agree between its parts, intervals of parameters.
+
+Residuals of a real joint hang together for many readings. Counting each as independent would make any shape
+significant; so gains use the number of independent readings, and what is drawn anew are whole stretches.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from brace.diagnose.joint_test.fit import Fitted, Fitter
+from brace.diagnose.joint_test.record import JointRecord
+
+DRAWS = 400
+MIN_STRETCHES = 10
+LOW, HIGH = 0.05, 0.95  # of a 90 % interval
+
+
+def independent(record: JointRecord, off_n_mm: np.ndarray) -> float:
+    """How many independent readings the fitted ones are worth, by their residuals' autocorrelation."""
+    test = record.columns["test"][record.fitted]
+    off = off_n_mm[record.fitted] - off_n_mm[record.fitted].mean()
+    lags = min(200, off.size // 4)
+    power = float(off @ off) or 1.0
+    kept = np.zeros(lags)
+    for lag in range(1, lags):
+        together = test[lag:] == test[:-lag]
+        kept[lag] = float((off[lag:] * off[:-lag])[together].sum()) / power
+        if kept[lag] <= 0.05:
+            kept[lag] = 0.0
+            break
+    total = 1.0 + 2.0 * float(kept.sum())
+    return max(float(off.size) / total, 4.0)
+
+
+def gain(record: JointRecord, poorer: Fitted, richer: Fitted, count: float) -> float:
+    """Twice the log-likelihood that the richer fit gains over `count` independent readings."""
+    floor = record.noise_n_mm**2 * np.count_nonzero(record.fitted)
+    small = max(richer.rss, 1e-6 * floor, 1e-12 * record.extent.torque_n_mm**2)
+    return count * float(np.log(max(poorer.rss, small) / small))
+
+
+def stretches(record: JointRecord, off_n_mm: np.ndarray) -> np.ndarray:
+    """Number of the stretch that each fitted reading belongs to: ramps, cut where they are fewer than enough, never
+    shorter than what hangs together."""
+    ramp = record.ramp[record.fitted]
+    _, number = np.unique(ramp, return_inverse=True)
+    count = int(number.max()) + 1
+    together = int(np.ceil(ramp.size / independent(record, off_n_mm)))
+    while count < MIN_STRETCHES:
+        sizes = np.bincount(number)
+        largest = int(np.argmax(sizes))
+        if sizes[largest] < 2 * max(together, 4):
+            break
+        members = np.flatnonzero(number == largest)
+        number[members[members.size // 2 :]] = count
+        count += 1
+    return np.asarray(number)
+
+
+def agreement(record: JointRecord, poorer: Fitted, richer: Fitted, random: np.random.Generator) -> float:
+    """Share of the records drawn anew from stretches in which the richer fit is the better one."""
+    better = (poorer.off_n_mm**2 - richer.off_n_mm**2)[record.fitted]
+    sums = np.bincount(stretches(record, richer.off_n_mm), weights=better)
+    drawn = random.multinomial(sums.size, np.full(sums.size, 1.0 / sums.size), size=DRAWS)
+    return float(np.mean(drawn @ sums > 0.0))
+
+
+def intervals(
+    fitter: Fitter, fitted: Fitted, random: np.random.Generator
+) -> dict[str, tuple[float, float, float]]:
+    """value, low, high (90 %) of every parameter: stretches drawn anew, the fit moved by its slope."""
+    record = fitter.record
+    slope = fitter.slope_n_mm(fitted)
+    off = fitted.off_n_mm[record.fitted]
+    number = stretches(record, fitted.off_n_mm)
+    scale, low, high = (fitted.parameters.array(name) for name in ("scale", "low", "high"))
+    free = np.linalg.norm(slope, axis=0) > 1e-12
+    count = int(number.max()) + 1
+    ridge = 1e-9 * np.diag(np.einsum("ij,ij->j", slope, slope))
+    squares = np.stack([slope[number == i].T @ slope[number == i] for i in range(count)])
+    pushes = np.stack([slope[number == i].T @ off[number == i] for i in range(count)])
+    drawn = random.multinomial(count, np.full(count, 1.0 / count), size=DRAWS).astype(float)
+    # few stretches scatter too little by themselves: n / (n - 1), and one parameter's share of the readings
+    widen = np.sqrt(count / max(count - 1.0, 1.0)) if count > 1 else 1.0
+    moved = np.zeros((DRAWS, fitted.x.size))
+    for row, weights in enumerate(drawn):
+        normal = np.tensordot(weights, squares, 1)[np.ix_(free, free)] + ridge[np.ix_(free, free)]
+        try:
+            moved[row, free] = -np.linalg.solve(normal, (weights @ pushes)[free])
+        except np.linalg.LinAlgError:
+            moved[row, free] = 0.0
+    x = fitted.x + widen * (moved - np.median(moved, axis=0)) * scale
+    result = {}
+    for place, key in enumerate(fitted.parameters.keys):
+        value = float(fitted.x[place])
+        if not free[place]:
+            result[key] = (value, float(low[place]), float(high[place]))
+            continue
+        ends = np.clip(np.quantile(x[:, place], [LOW, HIGH]), low[place], high[place])
+        result[key] = (value, float(min(ends[0], value)), float(max(ends[1], value)))
+    return result

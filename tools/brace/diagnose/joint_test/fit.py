@@ -1,0 +1,156 @@
+"""Weighted least squares of a set of terms over the fitted readings, from several starts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from brace.diagnose.joint_test.record import JointRecord
+from brace.diagnose.joint_test.terms import Term
+from brace.errors import BadFileError
+from brace.identify.parameters import ANGLE_ZERO, TORQUE_OFFSET, Parameter, ParameterSet
+from brace.model import LimbModel
+
+STEP = 1e-4
+REFUSED = 1e6
+PLENTY = 40  # evaluations of the slope
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """`off_n_mm` is played less measured at every averaged reading, times the root of its weight; `rss` and `held_rss`
+    sum its squares over fitted and held-out readings."""
+
+    terms: tuple[Term, ...]
+    parameters: ParameterSet
+    x: np.ndarray
+    off_n_mm: np.ndarray
+    rss: float
+    held_rss: float
+
+    @property
+    def model(self) -> LimbModel:
+        return self.parameters.model(self.x)
+
+    @property
+    def nuisances(self) -> dict[str, float]:
+        return self.parameters.nuisances(self.x)
+
+    @property
+    def values(self) -> dict[str, float]:
+        return dict(zip(self.parameters.keys, map(float, self.x)))
+
+
+class Fitter:
+    """Fits over one record from one base model. `trust` is the relative sigma of the base's spring; inf: free."""
+
+    def __init__(self, record: JointRecord, base: LimbModel, trust: float) -> None:
+        self.record, self.base, self.trust = record, base, trust
+        self.root_weight = record.root_weight
+
+    def by_rows(self) -> Fitter:
+        """The same, every reading counted alike: least squares of what is read."""
+        other = Fitter(self.record, self.base, self.trust)
+        other.root_weight = np.ones_like(self.root_weight)
+        return other
+
+    def own(self) -> tuple[Parameter, ...]:
+        """The spring and the record's zeros, free in every fit."""
+        extent, centre = self.record.extent, -self.record._centre_rad
+        key = f"joint.{self.record.joint}.compliance_rad_per_n_mm"
+        start = self.base.number(key) or extent.angle_rad / extent.torque_n_mm
+        scale = extent.angle_rad / extent.torque_n_mm if np.isinf(self.trust) else self.trust * start
+        least, most = 1e-3 * extent.angle_rad / extent.torque_n_mm, 1.0
+        if np.isfinite(self.trust):  # inside the calibration's trust a deviation is no missing effect
+            least, most = (1.0 - 2.0 * self.trust) * start, (1.0 + 2.0 * self.trust) * start
+        spring = Parameter(key, float(np.clip(start, least, most)), scale, least, most)
+        half = 0.5 * extent.angle_rad
+        return (
+            *([spring] if self.trust > 0.0 else []),
+            Parameter(ANGLE_ZERO, centre, 0.1 * extent.angle_rad, centre - half, centre + half),
+            Parameter(TORQUE_OFFSET, 0.0, 0.02 * extent.torque_n_mm, -extent.torque_n_mm, extent.torque_n_mm),
+        )
+
+    def parameter_set(self, terms: tuple[Term, ...]) -> ParameterSet:
+        freed = [parameter for term in terms for parameter in term.parameters]
+        keys = {parameter.key for parameter in freed}
+        return ParameterSet(self.base, (*(p for p in self.own() if p.key not in keys), *freed))
+
+    def fit(self, terms: tuple[Term, ...], near: Fitted | None = None, added: Term | None = None) -> Fitted:
+        """The best fit; starts `near` another fit, with each of the starts of the `added` term."""
+        chosen = self.parameter_set(terms)
+        known = near.values if near is not None else {}
+        points = []
+        for start in added.starts if added is not None else ({},):
+            values = {parameter.key: parameter.start for parameter in chosen.parameters} | known | dict(start)
+            points.append(np.array([values[key] for key in chosen.keys]))
+            if added is not None and added.name in ("backlash", "joint_hardening"):
+                points.append(self._reshaped(chosen, points[-1], added))
+        best = min((self._from(chosen, point) for point in points), key=lambda pair: pair[1])
+        off = self._off(chosen, best[0])
+        record = self.record
+        fitted, kept = off[record.fitted], off[record.kept]
+        return Fitted(terms, chosen, best[0], off, float(fitted @ fitted), float(kept @ kept))
+
+    def _reshaped(self, chosen: ParameterSet, point: np.ndarray, added: Term) -> np.ndarray:
+        """A gap leaves less way to the spring, hardening takes torque from it: the same torque at the ends."""
+        spring = f"joint.{self.record.joint}.compliance_rad_per_n_mm"
+        point = point.copy()
+        if spring in chosen.keys:
+            place = chosen.keys.index(spring)
+            if added.name == "backlash":
+                gap = point[chosen.keys.index(f"joint.{self.record.joint}.gap_rad")]
+                point[place] *= max(1.0 - gap / self.record.extent.angle_rad, 0.1)
+            else:
+                point[place] *= 3.0
+        return point
+
+    def _off(self, chosen: ParameterSet, x: np.ndarray) -> np.ndarray:
+        try:
+            return np.asarray(self.record.off(chosen.model(x), chosen.nuisances(x)) * self.root_weight)
+        except BadFileError:
+            return np.full(self.record.fitted.size, REFUSED * self.record.extent.torque_n_mm)
+
+    def _from(self, chosen: ParameterSet, point: np.ndarray) -> tuple[np.ndarray, float]:
+        scale, low, high = (chosen.array(name) for name in ("scale", "low", "high"))
+        unit = max(self.record.noise_n_mm, 1e-3 * self.record.extent.torque_n_mm)
+
+        def whole(u: np.ndarray) -> np.ndarray:
+            return np.asarray(self._off(chosen, u * scale)[self.record.fitted] / unit)
+
+        def slope(u: np.ndarray) -> np.ndarray:
+            here = whole(u)
+            columns = []
+            for index in range(u.size):
+                step = STEP if u[index] + STEP <= high[index] / scale[index] else -STEP
+                moved = u.copy()
+                moved[index] += step
+                columns.append((whole(moved) - here) / step)
+            return np.column_stack(columns)
+
+        inside = np.clip(point / scale, low / scale + 1e-9, high / scale - 1e-9)
+        found = least_squares(
+            whole,
+            inside,
+            jac=slope,
+            bounds=(low / scale, high / scale),
+            ftol=1e-7,
+            xtol=1e-7,
+            gtol=1e-9,
+            max_nfev=PLENTY,
+        )
+        return found.x * scale, float(found.cost)
+
+    def slope_n_mm(self, fitted: Fitted) -> np.ndarray:
+        """Readings x parameters: how the weighted torque moves per scale of each parameter."""
+        scale, low, high = (fitted.parameters.array(name) for name in ("scale", "low", "high"))
+        columns = []
+        for index in range(fitted.x.size):
+            up, down = fitted.x.copy(), fitted.x.copy()
+            up[index] = min(up[index] + 1e-3 * scale[index], high[index])
+            down[index] = max(down[index] - 1e-3 * scale[index], low[index])
+            step = (up[index] - down[index]) / scale[index]
+            columns.append((self._off(fitted.parameters, up) - self._off(fitted.parameters, down)) / step)
+        return np.asarray(np.column_stack(columns)[self.record.fitted])

@@ -1,0 +1,139 @@
+"""The readings that a joint test is judged by: averaged, weighted by the way they stand for, some held out, those at the
+drive's limit left out."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.ndimage import uniform_filter1d
+
+from brace.dataset import Dataset
+from brace.diagnose.joint_test.hold_out import held_out, ramps
+from brace.diagnose.joint_test.terms import (
+    ASYMMETRY,
+    COG_COS,
+    COG_PERIOD,
+    COG_SIN,
+    TORQUE_DRIFT,
+    VISCOUS,
+    Extent,
+)
+from brace.identify.joint_test import JointProblem, noise, saturated
+from brace.identify.parameters import ANGLE_ZERO
+from brace.model import LimbModel
+
+BLOCK_ROWS = 1200  # averaged readings: enough for every ramp's shape, few enough to try some hundred models
+
+
+class JointRecord(JointProblem):
+    """`fitted` and `kept` mark the averaged readings that are fitted and that are held out; `torque` plays a model with
+    the shapes of terms.py added."""
+
+    def __init__(self, dataset: Dataset) -> None:
+        super().__init__(dataset, BLOCK_ROWS)
+        columns = self.columns
+        usable = ~saturated(columns)
+        kept, self.held_words = held_out(columns["angle_rad"], columns["torque_n_mm"], columns["test"])
+        if np.count_nonzero(usable & ~kept) < 12:
+            kept, self.held_words = np.zeros_like(kept), ""
+        self.fitted, self.kept, self.held_rows = usable & ~kept, usable & kept, kept
+        self.block_counts = self._counts
+        self.ramp = ramps(columns["angle_rad"], columns["test"])
+        test = columns["test"]
+        self._start = np.concatenate([[True], np.diff(test) != 0])
+        time = columns["t_s"]
+        self._since_s = time - time[np.maximum.accumulate(np.where(self._start, np.arange(test.size), 0))]
+        step_s = np.where(self._start, 0.0, np.diff(time, prepend=time[0]))
+        turn = np.where(self._start, 0.0, np.diff(columns["angle_rad"], prepend=columns["angle_rad"][0]))
+        self._speed = np.divide(turn, step_s, out=np.zeros_like(turn), where=step_s > 0.0)
+        temp = columns.get("temp_degc")
+        self.extent = Extent(
+            float(np.ptp(columns["angle_rad"])),
+            float(np.ptp(columns["torque_n_mm"])),
+            float(self._since_s.max()),
+            float(np.ptp(temp)) if temp is not None else 0.0,
+            float(np.quantile(np.abs(self._speed), 0.98)),
+        )
+        labels = np.unique(test)
+        self.minutes = float(sum(np.ptp(self._since_s[test == label]) for label in labels)) / 60.0
+        self.raw_noise_n_mm = noise(dataset["torque_n_mm"])
+        self.root_weight = np.sqrt(self._path())
+        self.rests = self._dwells()
+
+    def _path(self) -> np.ndarray:
+        """The way that each reading stands for, in the plane of angle and torque, as a weight of mean 1. A joint that
+        friction holds is read again and again and says nothing new; what it passes in a slip is read but once."""
+        away = np.zeros(self.fitted.size)
+        for name, span in (("angle_rad", self.extent.angle_rad), ("torque_n_mm", self.extent.torque_n_mm)):
+            smooth = uniform_filter1d(self.columns[name], 3) / span
+            away += np.where(self._start, 0.0, np.abs(np.diff(smooth, prepend=smooth[0])))
+        away = uniform_filter1d(away, 3)
+        weight = np.clip(away / max(float(away[self.fitted].mean()), 1e-30), 0.1, 10.0)
+        return np.asarray(weight / weight[self.fitted].mean())
+
+    def _dwells(self) -> bool:
+        """Whether time can show: the joint rests under load now and then, or large ramps differ in speed threefold."""
+        if self.extent.length_s <= 0.0:
+            return False
+        torque, angle, time = (self.columns[name] for name in ("torque_n_mm", "angle_rad", "t_s"))
+        resting, rates = 0, []
+        for label in np.unique(self.columns["test"]):
+            rows = np.flatnonzero((self.columns["test"] == label) & self.fitted)
+            width = max(5, rows.size // 20)
+            if rows.size < 2 * width:
+                continue
+            still = np.ones(rows.size - width + 1, dtype=bool)
+            for values, noise_size in ((torque[rows], 4.0 * self.noise_n_mm), (angle[rows], 0.0)):
+                window = np.lib.stride_tricks.sliding_window_view(values, width)
+                still &= np.ptp(window, axis=1) < 0.03 * np.ptp(values) + noise_size
+            resting += int(np.count_nonzero(still))
+        if resting > 0.03 * np.count_nonzero(self.fitted):
+            return True
+        for number in np.unique(self.ramp[self.fitted]):
+            rows = np.flatnonzero((self.ramp == number) & self.fitted)
+            way, took = abs(torque[rows[-1]] - torque[rows[0]]), time[rows[-1]] - time[rows[0]]
+            if took > 0.0 and way > 0.5 * self.extent.torque_n_mm:
+                rates.append(way / took)
+        return len(rates) >= 4 and max(rates) > 3.0 * min(rates)
+
+    def torque(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
+        """The model's torque at every averaged reading [N mm]."""
+        played = self._played(self._player, self._start_n_mm, model, nuisances)
+        angle = self.columns["angle_rad"]
+        if ASYMMETRY in nuisances:
+            zeroed = angle + nuisances.get(ANGLE_ZERO, -self._centre_rad)
+            played = played * np.where(zeroed > 0.0, 1.0 + nuisances[ASYMMETRY], 1.0)
+        if COG_PERIOD in nuisances:
+            phase = 2.0 * np.pi * (angle - self._centre_rad) / nuisances[COG_PERIOD]
+            played = played + nuisances[COG_SIN] * np.sin(phase) + nuisances[COG_COS] * np.cos(phase)
+        if VISCOUS in nuisances:
+            played = played + nuisances[VISCOUS] * self._speed
+        if TORQUE_DRIFT in nuisances:
+            played = played + nuisances[TORQUE_DRIFT] * self._since_s
+        return np.asarray(played)
+
+    def off(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
+        """Played less measured [N mm], at every averaged reading."""
+        return np.asarray(self.torque(model, nuisances) - self.columns["torque_n_mm"])
+
+    def raw_off(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
+        """Measured less played [N mm], at every row of the record; the model alone, no shapes."""
+        return np.asarray(self.dataset["torque_n_mm"] - self.torque_n_mm(model, nuisances))
+
+    def raw_marks(self) -> tuple[np.ndarray, np.ndarray]:
+        """`fitted` and `kept` of every row of the record."""
+        usable = ~saturated(self.dataset.columns)
+        return np.repeat(self.fitted, self._counts) & usable, np.repeat(self.kept, self._counts) & usable
+
+    def strongest_period_rad(self, off_n_mm: np.ndarray) -> float:
+        """The period in the angle that residuals follow most: between the spacing of readings and a third of the range."""
+        x = self.columns["angle_rad"][self.fitted] - self._centre_rad
+        y = off_n_mm[self.fitted] - off_n_mm[self.fitted].mean()
+        longest = self.extent.angle_rad / 3.0
+        periods = longest / np.linspace(1.0, 16.0, 91)
+        best, most = longest, -1.0
+        for period in periods:
+            phase = 2.0 * np.pi * x / period
+            power = abs(np.exp(1j * phase) @ y)
+            if power > most:
+                best, most = float(period), float(power)
+        return best

@@ -1,0 +1,296 @@
+"""All steps of a joint test's diagnosis in order."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from brace.dataset import DataFault, Dataset
+from brace.diagnose.diagnosis import (
+    Diagnosis,
+    Gap,
+    GapPair,
+    GapStep,
+    Interval,
+    NamedEffect,
+    Residuals,
+    Unexplained,
+    Verdict,
+)
+from brace.diagnose.joint_test import words
+from brace.diagnose.joint_test.choose import Choice, choose, without
+from brace.diagnose.joint_test.dead_zone import refusal
+from brace.diagnose.joint_test.evidence import gain, independent, intervals
+from brace.diagnose.joint_test.fit import Fitted, Fitter
+from brace.diagnose.joint_test.intake import blocking_faults, require_enough, spring_alone
+from brace.diagnose.joint_test.localise import localise
+from brace.diagnose.joint_test.record import JointRecord
+from brace.diagnose.joint_test.terms import Term, catalogue, shapes
+from brace.diagnose.options import Advance, Options
+from brace.identify.parameters import ANGLE_ZERO, TORQUE_OFFSET
+from brace.model import LimbModel
+from brace.model.keys import KEY_BY_NAME
+
+DRAWN_ROWS = 20000  # residuals that a report lays beside the record
+STRUCTURED = 1.3  # rms over noise, above which what is left is more than noise
+EXPECTED_FITS = 60.0
+SUREST = 0.99  # no test of one joint makes surer of a name
+
+
+def diagnose_joint_test(
+    dataset: Dataset, believed: LimbModel | None, options: Options, advance: Advance
+) -> Diagnosis:
+    """Which effects one joint shows beyond `believed` (None: beyond a spring alone)."""
+    require_enough(dataset)
+    base = believed if believed is not None else spring_alone(dataset)
+    faults = tuple(dataset.faults)
+    blocking = blocking_faults(dataset)
+    if blocking or (options.faults == "stop" and faults):
+        return _faulty(dataset, base, blocking or list(faults), options)
+    advance(0.02, "reading the loops")
+    record = JointRecord(dataset)
+    fitter = Fitter(record, base, _trust(believed))
+    random = np.random.default_rng(options.seed)
+    given = believed is not None
+    effects = catalogue(base, record.joint, record.extent, given=given, rests=record.rests)
+    tried = 0
+
+    def trying(label: str) -> None:
+        nonlocal tried
+        tried += 1
+        advance(0.05 + 0.75 * min(tried / EXPECTED_FITS, 1.0), f"trying {label}")
+
+    def competing(fitted: Fitted) -> list[Term]:
+        return shapes(record.extent, record.strongest_period_rad(fitted.off_n_mm))
+
+    choice = choose(fitter, effects, competing, random, trying)
+    refused = _refused_gap(record, choice.best)
+    if refused:
+        effects = [term for term in effects if term.name != "backlash"]
+        choice = choose(fitter, effects, competing, random, trying)
+    advance(0.85, "weighing what was found")
+    return _told(dataset, believed, fitter, choice, refused, faults, options, random, advance)
+
+
+def _trust(believed: LimbModel | None) -> float:
+    return float("inf") if believed is None else believed.number("uncertainty.compliance_rel")
+
+
+def _faulty(dataset: Dataset, base: LimbModel, faults: Sequence[DataFault], options: Options) -> Diagnosis:
+    first = faults[0].sentence(Path(dataset.csv_path.name))
+    more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
+    return Diagnosis(
+        "data_fault",
+        f"The record is faulty, so nothing is said about the joint: {first}{more}.",
+        base,
+        data_faults=tuple({id(f): f for f in (*dataset.faults, *faults)}.values()),
+        seed=options.seed,
+    )
+
+
+def _refused_gap(record: JointRecord, best: Fitted) -> str:
+    if not any(term.name == "backlash" for term in best.terms):
+        return ""
+    return refusal(record, best)
+
+
+def _told(
+    dataset: Dataset,
+    believed: LimbModel | None,
+    fitter: Fitter,
+    choice: Choice,
+    refused: str,
+    faults: tuple[DataFault, ...],
+    options: Options,
+    random: np.random.Generator,
+    advance: Advance,
+) -> Diagnosis:
+    record, best = fitter.record, choice.best
+    by_rows = fitter.by_rows()
+    base = by_rows.fit((), choice.base)
+    found = [term for term in best.terms if term.catalogued]
+    left = [term for term in best.terms if not term.catalogued]
+    exported = by_rows.fit(tuple(found), best)  # shapes are no physics: never exported
+    effects = _named(fitter, by_rows, best, exported, found, choice.count, random)
+    advance(0.93, "where they disagreed")
+    spots = localise(record, base.off_n_mm, random)
+    gap, residuals, rows = _gaps(by_rows, base, effects, exported)
+    after = gap.after.fitted
+    remainder_noise = max(record.noise_n_mm, 1e-9)
+    after_averaged = float(np.sqrt(np.mean(exported.off_n_mm[record.fitted] ** 2)))
+    remains = localise(record, exported.off_n_mm, random)
+    count = independent(record, exported.off_n_mm)
+    hangs = bool(count < 0.3 * np.count_nonzero(record.fitted))
+    structured = bool(left) or (hangs and after_averaged > STRUCTURED * remainder_noise)
+    verdict: Verdict = "effect" if effects else ("unknown" if structured else "none")
+    shown = [words.shape(term.name, best.values) for term in left]
+    notes = _notes(record, dataset, gap, exported, refused, believed)
+    if verdict == "none":
+        exported = base
+    model = _exportable(fitter.base, exported if effects else base, believed)
+    could_be = tuple(one.label for one in choice.candidates if one.gain > 0.0 and " + " not in one.label)[:4]
+    description = _description(shown, structured, remains, refused, after, record.raw_noise_n_mm)
+    minutes = max(1.0, record.minutes)
+    return Diagnosis(
+        verdict,
+        words.sentence(verdict, effects, gap.before.fitted, after, record.raw_noise_n_mm, shown),
+        model,
+        gap if effects else replace(gap, after=gap.before, steps=()),
+        effects,
+        (),
+        could_be,
+        spots,
+        Unexplained(after if effects else gap.before.fitted, structured, description),
+        words.next_experiment(effects, [term.name for term in left], could_be, minutes)
+        if verdict != "none"
+        else None,
+        faults,
+        choice.candidates,
+        residuals if effects else Residuals(residuals.channels, residuals.before, residuals.before, residuals.held_out),
+        notes,
+        options.seed,
+        {"rows": rows, "held_out": record.held_words, "independent_readings": float(count)},
+    )
+
+
+def _named(
+    fitter: Fitter,
+    by_rows: Fitter,
+    best: Fitted,
+    exported: Fitted,
+    found: Sequence[Term],
+    count: float,
+    random: np.random.Generator,
+) -> tuple[NamedEffect, ...]:
+    """Effects, the surest first; of those equally sure the one that accounts for most of the angle."""
+    if not found:
+        return ()
+    record = fitter.record
+    limits = intervals(by_rows, exported, random)
+    weighted = best if len(best.terms) == len(found) else fitter.fit(tuple(found), best)
+    named = []
+    for term in found:
+        poorer = without(fitter, best, term)
+        rows_count = independent(record, exported.off_n_mm)
+        both = (
+            gain(record, poorer, best, count),
+            gain(record, without(by_rows, exported, term), exported, rows_count),
+        )
+        net = max(both) - len(term.parameters) * float(np.log(max(count, 3.0)))
+        confidence = min(SUREST, 1.0 / (1.0 + float(np.exp(-0.5 * net))))
+        parameters = {}
+        for key in (parameter.key for parameter in term.parameters if parameter.key in KEY_BY_NAME):
+            value, low, high = limits[key]
+            other = weighted.values[key]  # two sound ways of weighting: the interval holds what both say
+            parameters[key] = Interval(value, min(low, other), max(high, other))
+        named.append((NamedEffect(term.name, term.where, confidence, parameters, 0.0), poorer.rss - best.rss))
+    total = sum(max(rss, 0.0) for _, rss in named) or 1.0
+    shared = [replace(effect, gap_share=max(rss, 0.0) / total) for effect, rss in named]
+    return tuple(
+        sorted(shared, key=lambda one: (-one.confidence, -_lost_rad(one.name, exported.values, record)))
+    )
+
+
+def _lost_rad(name: str, values: Mapping[str, float], record: JointRecord) -> float:
+    """How far an effect moves the joint [rad]: what it takes from knowing the angle."""
+    at = f"joint.{record.joint}."
+    spring = values.get(at + "compliance_rad_per_n_mm", record.extent.angle_rad / record.extent.torque_n_mm)
+    if name == "backlash":
+        return values[at + "gap_rad"]
+    if name == "coulomb_friction":
+        return 2.0 * spring * values[at + "coulomb_n_mm"]
+    if name == "joint_hardening":
+        reach = 0.5 * record.extent.angle_rad
+        return spring * values[at + "hardening_n_mm_per_rad3"] * reach**3 * 0.1
+    return 0.0
+
+
+def _gaps(
+    by_rows: Fitter, base: Fitted, effects: Sequence[NamedEffect], exported: Fitted
+) -> tuple[Gap, Residuals, np.ndarray]:
+    """The gap before, after each effect in the order they are named, and after all."""
+    record = by_rows.record
+    fitted, kept = record.raw_marks()
+
+    def pair(off: np.ndarray) -> GapPair:
+        held = float(np.sqrt(np.mean(off[kept] ** 2))) if kept.any() else None
+        return GapPair(float(np.sqrt(np.mean(off[fitted] ** 2))), held)
+
+    before, after = (record.raw_off(one.model, one.nuisances) for one in (base, exported))
+    by_label = {term.label: term for term in exported.terms}
+    steps, current = [], base
+    for number, effect in enumerate(effects):
+        term = by_label[effect.label]
+        last = number == len(effects) - 1
+        current = exported if last else by_rows.fit((*current.terms, term), current, term)
+        off = after if last else record.raw_off(current.model, current.nuisances)
+        steps.append(GapStep(effect.label, pair(off)))
+    rows = np.flatnonzero(fitted | kept)
+    rows = rows[:: max(1, -(-rows.size // DRAWN_ROWS))]
+    residuals = Residuals(
+        ("torque_n_mm",), before[rows][:, None], after[rows][:, None], np.asarray(kept[rows])
+    )
+    return Gap("n_mm", record.raw_noise_n_mm, pair(before), pair(after), tuple(steps)), residuals, rows
+
+
+def _exportable(base: LimbModel, fitted: Fitted, believed: LimbModel | None) -> LimbModel:
+    """The base with what was fitted of limb.toml's keys; the spring only where it was free to be fitted."""
+    values = {key: value for key, value in fitted.values.items() if key in KEY_BY_NAME}
+    if believed is not None and not fitted.terms:
+        return believed
+    return base.with_values(values)
+
+
+def _notes(
+    record: JointRecord, dataset: Dataset, gap: Gap, exported: Fitted, refused: str, believed: LimbModel | None
+) -> tuple[str, ...]:
+    notes = []
+    _, kept = record.raw_marks()
+    if gap.after.held_out is not None:
+        torque = dataset["torque_n_mm"]
+        whole = np.repeat(record.held_rows, record.block_counts)
+        off = record.raw_off(exported.model, exported.nuisances)
+        alike, all_rows = (max(float(np.std(torque[rows])), 1e-9) for rows in (kept, whole))
+        with_limit = float(np.sqrt(np.mean(off[whole] ** 2)))
+        notes.append(
+            f"held out: {record.held_words}; the gap there is {gap.after.held_out / alike:.1%} of the torque's standard "
+            f"deviation ({alike:.4g} N mm) without rows at the drive's limit, {with_limit / all_rows:.1%} with them "
+            f"({with_limit:.4g} of {all_rows:.4g} N mm)"
+        )
+    else:
+        notes.append("nothing could be held out: fewer than three tests and too few ramps")
+    own = exported.nuisances
+    notes.append(
+        f"the record's own, not the limb's: zero of the angle {own[ANGLE_ZERO]:+.4g} rad, offset of the torque "
+        f"{own[TORQUE_OFFSET]:+.4g} N mm, friction's state where each test starts"
+    )
+    if believed is None:
+        notes.append(
+            "no model was given: the joint alone is fitted, in the example limb, which stands in for the rest"
+        )
+    if refused:
+        notes.append(f"no backlash is claimed although a gap lowers the residual: {refused}")
+    return tuple(notes)
+
+
+def _description(
+    shown: Sequence[str],
+    structured: bool,
+    remains: Sequence[object],
+    refused: str,
+    after: float,
+    noise_n_mm: float,
+) -> str:
+    if not structured:
+        return f"what is left ({after:.3g} N mm) has no structure beyond the noise of {noise_n_mm:.3g} N mm"
+    parts = list(shown)
+    where = [str(getattr(one, "where")) for one in remains][:2]
+    parts += where
+    if refused:
+        parts.append(f"a soft region that is no play: {refused}")
+    if not parts:
+        parts.append("slow deviations that differ from ramp to ramp")
+    return f"{after:.3g} N mm remain over a noise of {noise_n_mm:.3g} N mm: " + "; ".join(parts)
