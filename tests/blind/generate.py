@@ -5,6 +5,8 @@ Every case follows from the seed and its number alone; answers.sha256 seals the 
 
 from __future__ import annotations
 
+import one_thread  # noqa: F401, I001  before numpy is loaded
+
 import argparse
 import hashlib
 import json

@@ -1,0 +1,75 @@
+"""The tool under test, called as `brace diagnose` and `brace predict` call it. The only module here that imports it."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import signal
+import time
+import traceback
+from pathlib import Path
+from types import FrameType
+from typing import Any
+
+from plant import BUILD
+
+PATIENCE_S = 180
+PROJECT = BUILD.parents[1]
+
+
+def version() -> str:
+    """Hash of the tool's sources: results of another tool are not this tool's."""
+    digest = hashlib.sha256()
+    for path in sorted((PROJECT / "tools" / "brace").rglob("*.py")) + sorted(
+        path for folder in ("host_sim", "firmware/core") for path in (PROJECT / folder).rglob("*.[ch]*")
+    ):
+        digest.update(str(path.relative_to(PROJECT)).encode() + b"\0" + path.read_bytes())
+    return digest.hexdigest()[:12]
+
+
+class TooSlowError(Exception):
+    """No diagnosis in time."""
+
+
+def _alarm(_signal: int, _frame: FrameType | None) -> None:
+    raise TooSlowError(f"no diagnosis after {PATIENCE_S} s")
+
+
+def diagnose(case: Path, out: Path, seed: int = 0) -> dict[str, Any]:
+    """Diagnoses one folder into `out` (the tool's three files, and run.json). Errors are noted, not raised."""
+    from brace.diagnose.one import diagnosed, load
+    from brace.diagnose.options import Options
+    from brace.diagnose.write import write
+    from brace.errors import BraceError
+
+    out.mkdir(parents=True, exist_ok=True)
+    note: dict[str, Any] = {}
+    signal.signal(signal.SIGALRM, _alarm)
+    signal.alarm(PATIENCE_S)
+    begun = time.perf_counter()
+    try:
+        given = load(case, case / "limb.toml")
+        _, written = diagnosed(given, Options(seed=seed))
+        write(out, written)
+    except BraceError as error:
+        note["refused"] = str(error)
+    except TooSlowError as error:
+        note["crashed"] = str(error)
+    except Exception:  # whatever else comes is a fault of the tool, to be counted
+        note["crashed"] = traceback.format_exc(limit=-3)
+    finally:
+        signal.alarm(0)
+    note["seconds"] = time.perf_counter() - begun
+    (out / "run.json").write_text(json.dumps(note))
+    return note
+
+
+def predict(dataset: Path, limb: Path, out: Path) -> None:
+    """`brace predict`: forces of a limb for a dataset's rows, as CSV."""
+    from brace.dataset import load_dataset
+    from brace.model import load_limb
+    from brace.predict import predict as played
+
+    columns = played(load_dataset(dataset), load_limb(limb)).columns
+    lines = ["fx_n,fz_n"] + [f"{x:.6f},{z:.6f}" for x, z in zip(columns["fx_n"], columns["fz_n"], strict=True)]
+    out.write_text("\n".join(lines) + "\n")

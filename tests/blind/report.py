@@ -1,0 +1,263 @@
+"""The benchmark's tables: every line that must be reached, where it fails, what is confused with what."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter, defaultdict
+from collections.abc import Sequence
+from statistics import median, quantiles
+from typing import Any
+
+from scoring import VISIBLE_GAP_N, Judged, Share, calibration, closed, coverage, share, strong, weak
+
+HOW = """Effects are hidden in simulated loading tests by a simulator and a generator that share no code with the tool
+([tests/blind](../tests/blind/README.md)); the answers lie apart and are sealed before the run. Limbs, poses,
+designs, noise, sizes and directions are random; each true limb also differs from what is believed within the
+calibration's trust. Detectability s = sqrt(2 x log-likelihood gain of the truth after refitting the base). An
+effect's class: those whose trace in this design has a cosine above 0.95 with the truth's."""
+
+READING = f"""Intervals are Wilson's, 95 %. Gap closed: 1 - rms after / rms before on other poses, without noise, over
+single effects and pairs of every s whose gap there is above {VISIBLE_GAP_N} N. Calibration: the confidence of every
+effect named against whether it is one of the hidden. Coverage: the intervals of effects named right. After the next
+experiment: over all single effects of s >= 12; where the tool proposes none that a rig can play, its first word
+counts."""
+
+__all__ = ["VISIBLE_GAP_N", "as_json", "figures", "page", "table"]
+
+
+def _line(name: str, target: str, ok: bool | None, value: str, interval: str = "", of: int = 0) -> dict[str, Any]:
+    met = "no data" if ok is None else "met" if ok else "MISSED"
+    return {"figure": name, "target": target, "measured": value, "interval": interval, "of": of, "met": met}
+
+
+def _at_least(name: str, s: Share, target: float) -> dict[str, Any]:
+    return _share_line(name, f"at least {100 * target:g} %", s, s.value is not None and s.value >= target)
+
+
+def _at_most(name: str, s: Share, target: float) -> dict[str, Any]:
+    return _share_line(name, f"at most {100 * target:g} %", s, s.value is not None and s.value <= target)
+
+
+def _share_line(name: str, target: str, s: Share, ok: bool) -> dict[str, Any]:
+    if s.value is None:
+        return _line(name, target, None, "-")
+    low, high = s.wilson()
+    return _line(name, target, ok, f"{100 * s.value:.1f} %", f"{100 * low:.1f}-{100 * high:.1f} %", s.of)
+
+
+def figures(
+    judged: Sequence[Judged], after: dict[str, Any], steady: dict[str, Any], made: dict[str, Any]
+) -> dict[str, Any]:
+    """All figures of one run."""
+    lines = [
+        _at_least("right effect or its class first, s >= 12", share(judged, "class", strong), 0.97),
+        _at_least("right effect or its class first, s = 8", share(judged, "class", weak), 0.90),
+        _at_least("exactly the right effect first, s >= 12", share(judged, "exact", strong), 0.88),
+        _at_least(
+            "right joint or link, where the class allows it (right effect first, s >= 12)",
+            share(judged, "where", lambda j: strong(j) and j.flags["place_determined"] and j.flags["exact"]),
+            0.95,
+        ),
+        _at_most("false alarm when nothing is hidden", share(judged, "false_alarm"), 0.01),
+        _at_least("both of two hidden effects and nothing else, 12 each", share(_of(judged, "pair"), "set"), 0.85),
+        _at_least("outside the catalogue called unknown", share(judged, "unknown"), 0.90),
+        _at_most("outside the catalogue confidently misnamed", share(judged, "misnamed"), 0.02),
+    ]
+    middle, low, count = closed(judged)
+    lines.append(_line("gap closed on configurations never seen, median", "at least 95 %", _ok(middle >= 0.95, count),
+                       f"{100 * middle:.1f} %", "", count))  # fmt: skip
+    lines.append(_line("gap closed on configurations never seen, 5th percentile", "at least 80 %",
+                       _ok(low >= 0.80, count), f"{100 * low:.1f} %", "", count))  # fmt: skip
+    held = coverage(judged)
+    lines.append(_share_line("90 % intervals that hold the true parameter", "86-94 %", held,
+                             held.value is not None and 0.86 <= held.value <= 0.94))  # fmt: skip
+    error, claims, bins = calibration(judged)
+    lines.append(_line("expected calibration error of the confidence", "at most 0.04", _ok(error <= 0.04, claims),
+                       f"{error:.3f}", "", claims))  # fmt: skip
+    rows = after["cases"]
+    then = Share(sum(r["exact_after"] for r in rows), len(rows)) if any(r["played"] for r in rows) else Share(0, 0)
+    lines.append(_at_least("after the tool's own next experiment: exactly right, s >= 12", then, 0.95))
+    lines.append(_at_least("same data and seed, same bytes", Share(*steady["same_bytes"]), 1.0))
+    lines.append(_at_least("five seeds, same verdict and effects", Share(*steady["same_verdict"]), 0.99))
+
+    played = [r for r in rows if r["played"]]
+    strict = [j for j in judged if strong(j)]
+    middle12, low12, n12 = closed(judged, strong)
+    by_key: dict[str, list[bool]] = defaultdict(list)
+    for j in judged:
+        for key, ok in j.intervals:
+            by_key[key].append(ok)
+    seconds = sorted(j.seconds for j in judged)
+    besides = [
+        ("right effect and place first, s >= 12, no allowance for the class", share(judged, "where", strong)),
+        ("right effect or its class first, s = 5", share(judged, "class", lambda j: 4 <= j.s < 6.5)),
+        ("right effect or its class first, s = 3", share(judged, "class", lambda j: j.s < 4)),
+        ("single effect: more than one named as sure", share(judged, "extra")),
+        ("pairs: names or members of their classes", share(_of(judged, "pair"), "set_or_class")),
+        ("triples: all three and nothing else", share(_of(judged, "triple"), "set")),
+        ("triples: names or members of their classes", share(_of(judged, "triple"), "set_or_class")),
+        ("data fault found, in one of the right fields", share(judged, "fault")),
+        ("data fault found, in any field", share(judged, "fault_any_field")),
+        ("next experiment played: right first before", Share(sum(r["exact_before"] for r in played), len(played))),
+        ("next experiment played: right first after", Share(sum(r["exact_after"] for r in played), len(played))),
+        (
+            "next experiment played: named alone and right after",
+            Share(sum(r["right_after"] for r in played), len(played)),
+        ),
+        ("cases refused or crashed", Share(sum(j.verdict == "nothing" for j in judged), len(judged))),
+    ]
+    return {
+        "made": made,
+        "lines": lines,
+        "besides": [(name, s.hits, s.of, s.value, s.wilson()) for name, s in besides if s.of],
+        "closed_s12": {"median": middle12, "p5": low12, "cases": n12},
+        "seconds": {"median": median(seconds), "p95": quantiles(seconds, n=20)[-1] if len(seconds) > 1 else seconds[0],
+                    "longest": seconds[-1]} if seconds else {},
+        "calibration": bins,
+        "coverage_by_key": {key: (sum(v), len(v)) for key, v in sorted(by_key.items())},
+        "after_next": rows,
+        "strong": len(strict),
+        "kinds": dict(Counter(j.kind for j in judged)),
+    }  # fmt: skip
+
+
+def _of(judged: Sequence[Judged], kind: str) -> list[Judged]:
+    return [j for j in judged if j.kind == kind]
+
+
+def _ok(met: bool, count: int) -> bool | None:
+    return met if count else None
+
+
+# --- words ----------------------------------------------------------------------------------------------------
+
+
+def table(found: dict[str, Any]) -> str:
+    """What must be reached, and what was."""
+    rows = ["| figure | must reach | measured | 95 % interval | of | |", "|---|---|---|---|---|---|"]
+    rows += [
+        f"| {x['figure']} | {x['target']} | {x['measured']} | {x['interval']} | {x['of'] or ''} | {x['met']} |"
+        for x in found["lines"]
+    ]
+    return "\n".join(rows)
+
+
+def _first(j: Judged) -> str:
+    """What a diagnosis says first, by its effect's name; or its verdict."""
+    if j.verdict in ("effect", "ambiguous") and j.said:
+        return j.said[0].split("@")[0]
+    return j.verdict
+
+
+def _confusion(judged: Sequence[Judged]) -> str:
+    """Truth by row, what was said first by column; a dot is none."""
+    counts: dict[str, Counter[str]] = defaultdict(Counter)
+    for j in judged:
+        counts[j.truth[0].split("@")[0]][_first(j)] += 1
+    heads = sorted({said for row in counts.values() for said in row})
+    rows = ["| truth \\ said first | " + " | ".join(heads) + " |", "|---" * (len(heads) + 1) + "|"]
+    for name in sorted(counts):
+        rows.append(f"| {name} | " + " | ".join(str(counts[name][h] or ".") for h in heads) + " |")
+    return "\n".join(rows)
+
+
+def _by_effect(judged: Sequence[Judged]) -> str:
+    """Per effect: exact and class at each detectability."""
+    groups: dict[str, dict[str, list[Judged]]] = defaultdict(lambda: defaultdict(list))
+    for j in _of(judged, "single"):
+        level = "12 and more" if j.s >= 11.5 else "8" if j.s >= 6.5 else "5" if j.s >= 4 else "3"
+        groups[j.truth[0]][level].append(j)
+    heads = ("3", "5", "8", "12 and more")
+    rows = ["| effect | " + " | ".join(f"s = {h}: exact, class, of" for h in heads) + " |", "|---" * 5 + "|"]
+    for name in sorted(groups):
+        cells = []
+        for head in heads:
+            inside = groups[name][head]
+            exact, kin = (sum(j.flags[f] for j in inside) for f in ("exact", "class"))
+            cells.append(f"{exact}, {kin}, {len(inside)}" if inside else "")
+        rows.append(f"| {name} | " + " | ".join(cells) + " |")
+    return "\n".join(rows)
+
+
+def _said_by_truth(judged: Sequence[Judged]) -> str:
+    """For outsiders and faults: how often what was said."""
+    counts: dict[str, Counter[str]] = defaultdict(Counter)
+    for j in judged:
+        counts[j.truth[0]][", ".join(j.said) if j.verdict in ("effect", "ambiguous") else j.verdict] += 1
+    rows = ["| hidden | said |", "|---|---|"]
+    for name in sorted(counts):
+        rows.append(f"| {name} | " + "; ".join(f"{n} x {said}" for said, n in counts[name].most_common()) + " |")
+    return "\n".join(rows)
+
+
+def _percent(value: float | None) -> str:
+    return "-" if value is None or math.isnan(value) else f"{100 * value:.1f} %"
+
+
+def page(found: dict[str, Any], judged: Sequence[Judged], command: str) -> str:
+    """docs/blind.md."""
+    made, seconds = found["made"], found["seconds"]
+    kinds = ", ".join(f"{n} {kind}" for kind, n in sorted(found["kinds"].items()))
+    besides = ["| figure | measured | 95 % interval | of |", "|---|---|---|---|"]
+    besides += [
+        f"| {name} | {_percent(value)} | {100 * low:.1f}-{100 * high:.1f} % | {of} |"
+        for name, _, of, value, (low, high) in found["besides"]
+    ]
+    strong12 = found["closed_s12"]
+    bins = ["| mean confidence | share right | claims |", "|---|---|---|"]
+    bins += [f"| {c:.2f} | {r:.2f} | {n} |" for c, r, n in found["calibration"]]
+    keys = ["| parameter | in its interval | of |", "|---|---|---|"]
+    keys += [f"| {key} | {ok} | {n} |" for key, (ok, n) in found["coverage_by_key"].items()]
+    troubles = [f"- {j.id} ({j.kind}, {j.truth[0]}): {j.note.strip().splitlines()[-1][:200]}" for j in judged if j.note]
+    return "\n\n".join(
+        [
+            "# Blind benchmark",
+            f"    {command}",
+            HOW,
+            f"This run: {made['cases']} cases ({kinds}), {made['set']} seed {made['seed']}, answers' seal "
+            f"`{made['seal_sha256'][:16]}`, generator `{made['generator_sha256'][:12]}`, tool `{made['tool']}`.",
+            table(found),
+            f"{READING} With s >= 12 alone the gap closed is {_percent(strong12['median'])} (median), "
+            f"{_percent(strong12['p5'])} (5th percentile) of {strong12['cases']}.",
+            f"A diagnosis took {seconds.get('median', 0):.1f} s (median), {seconds.get('p95', 0):.1f} s (95th percentile), "
+            f"{seconds.get('longest', 0):.1f} s (longest), one core each, 150 to 1000 rows." if seconds else "",
+            "## Besides",
+            "\n".join(besides),
+            "## Single effects, by effect and detectability",
+            _by_effect(judged),
+            "## What is said first, single effects with s of 12 and more, and none",
+            _confusion([j for j in judged if (j.kind == "single" and strong(j)) or j.kind == "none"]),
+            "## What is said first, single effects with s = 8",
+            _confusion([j for j in judged if j.kind == "single" and weak(j)]),
+            "## Pairs and triples",
+            _said_by_truth_many([j for j in judged if j.kind in ("pair", "triple")]),
+            "## Outside the catalogue",
+            _said_by_truth(_of(judged, "outside")),
+            "## Data faults",
+            _said_by_truth(_of(judged, "data_fault")),
+            "## Confidence against share right",
+            "\n".join(bins),
+            "## Intervals",
+            "\n".join(keys),
+            *(["## Refused or crashed", "\n".join(troubles)] if troubles else []),
+        ]
+    ) + "\n"  # fmt: skip
+
+
+def _said_by_truth_many(judged: Sequence[Judged]) -> str:
+    rows = ["| hidden | said | verdict |", "|---|---|---|"]
+    for j in sorted(judged, key=lambda j: j.truth):
+        mark = "" if j.flags["set"] else " (not the set)"
+        rows.append(f"| {', '.join(j.truth)} | {', '.join(j.said) or '-'}{mark} | {j.verdict} |")
+    return "\n".join(rows)
+
+
+def as_json(found: dict[str, Any], judged: Sequence[Judged]) -> dict[str, Any]:
+    """docs/blind.json: the figures, and one entry a case."""
+    cases = [
+        {"id": j.id, "kind": j.kind, "s": j.s, "truth": j.truth, "verdict": j.verdict, "said": j.said, **j.flags,
+         "closed": j.closed}
+        for j in judged
+    ]  # fmt: skip
+    shown = {key: value for key, value in found.items() if key != "after_next"}
+    return {**shown, "cases": cases}

@@ -1,0 +1,234 @@
+"""Runs the blind benchmark: makes the cases, seals the answers, diagnoses every case, judges, writes the tables.
+
+usage: run.py [--development] [--cases N] [--seed S] [--processes P] [--out FOLDER]
+An interrupted run goes on where it was; a changed tool starts anew."""
+
+from __future__ import annotations
+
+import one_thread  # noqa: F401, I001  before numpy is loaded
+
+import argparse
+import json
+import multiprocessing
+import os
+import sys
+import time
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+import diagnoser
+import follow_up
+import report
+from generate import default_folder, generate, generator_hash
+from plant import BUILD
+from scoring import STRONG, Judged, gap_n, judge
+from seeds import DEVELOPMENT_CASES, DEVELOPMENT_SEED, TEST_CASES, TEST_SEED
+
+SAME_BYTES_CASES = 16
+SEEDS_CASES = 30
+SEEDS = (1, 2, 3, 4)
+THREE_FILES = ("diagnosis.json", "limb.toml", "report.html")
+
+
+def read(path: Path) -> dict[str, Any]:
+    """A JSON file, or nothing."""
+    if not path.exists():
+        return {}
+    content: dict[str, Any] = json.loads(path.read_text())
+    return content
+
+
+def _main_job(job: tuple[str, str, str]) -> str:
+    """First diagnosis of a case, and what the believed and the corrected model predict for unseen poses."""
+    root, results, name = Path(job[0]), Path(job[1]), job[2]
+    out, case = results / "main" / name, root / "cases" / name
+    if (out / "done").exists():
+        return name
+    diagnoser.diagnose(case, out)
+    unseen = root / "answers" / name / "holdout"
+    if unseen.is_dir() and (out / "diagnosis.json").exists():
+        try:
+            diagnoser.predict(unseen, case / "limb.toml", out / "holdout_before.csv")
+            diagnoser.predict(unseen, out / "limb.toml", out / "holdout_after.csv")
+        except Exception as error:  # an exported model that cannot be played is the tool's fault
+            (out / "holdout_after.csv").unlink(missing_ok=True)
+            (out / "unplayable").write_text(str(error))
+    (out / "done").touch()
+    return name
+
+
+def _seed_job(job: tuple[str, str, str, int]) -> str:
+    root, results, name, seed = Path(job[0]), Path(job[1]), job[2], job[3]
+    out = results / (f"seed{seed}" if seed else "again") / name
+    if not (out / "done").exists():
+        diagnoser.diagnose(root / "cases" / name, out, seed)
+        (out / "done").touch()
+    return name
+
+
+def _next_job(job: tuple[str, str, str]) -> str:
+    root, results, name = Path(job[0]), Path(job[1]), job[2]
+    out = results / "next" / name
+    if (out / "done").exists():
+        return name
+    rig = (read(results / "main" / name / "diagnosis.json").get("next_experiment") or {}).get("rig_toml", "")
+    try:
+        follow_up.play(read(root / "answers" / name / "truth.json"), rig, root / "cases" / name, out / "case")
+        diagnoser.diagnose(out / "case", out)
+    except Exception as error:
+        out.mkdir(parents=True, exist_ok=True)
+        (out / "run.json").write_text(json.dumps({"unplayed": f"{type(error).__name__}: {error}"}))
+    (out / "done").touch()
+    return name
+
+
+def in_turn(what: str, work: Callable[[Any], str], jobs: list[Any], processes: int) -> None:
+    """Runs jobs on some processes and says how far it is."""
+    if not jobs:
+        return
+    begun = time.monotonic()
+    with multiprocessing.get_context("spawn").Pool(processes) as pool:
+        for done, _ in enumerate(pool.imap_unordered(work, jobs), start=1):
+            spent = time.monotonic() - begun
+            print(
+                f"\r{what}: {done}/{len(jobs)}, {spent:.0f} s, about {spent / done * (len(jobs) - done):.0f} s left   ",
+                end="" if done < len(jobs) else "\n", file=sys.stderr, flush=True,
+            )  # fmt: skip
+
+
+def judge_all(root: Path, results: Path, names: Iterable[str]) -> list[Judged]:
+    """Judges every case's first diagnosis."""
+    out = []
+    for name in names:
+        truth, folder = read(root / "answers" / name / "truth.json"), results / "main" / name
+        j = judge(truth, read(folder / "diagnosis.json"))
+        run = read(folder / "run.json")
+        j.seconds = float(run.get("seconds", 0.0))
+        j.note = str(run.get("crashed", run.get("refused", "")))
+        unseen = root / "answers" / name / "holdout" / "data.csv"
+        if j.kind in ("single", "pair") and (folder / "holdout_before.csv").exists():
+            j.gap_before_n = gap_n(unseen, folder / "holdout_before.csv")
+            if j.gap_before_n > report.VISIBLE_GAP_N:
+                after = folder / "holdout_after.csv"
+                j.closed = 1.0 - gap_n(unseen, after) / j.gap_before_n if after.exists() else -1.0
+        out.append(j)
+    return out
+
+
+def after_next(root: Path, results: Path, judged: list[Judged]) -> dict[str, Any]:
+    """Exactly right after the tool's own next experiment, over single effects of s = 12 and more: those for which
+    it proposes none are counted as they stand."""
+    rows = []
+    for j in judged:
+        if j.kind != "single" or j.s < STRONG:
+            continue
+        folder, before = results / "next" / j.id, j.flags["exact"] and j.flags["where"] and j.verdict == "effect"
+        run, found = read(folder / "run.json"), read(folder / "diagnosis.json")
+        played = bool(found)
+        right = before
+        exact = j.flags["exact"]
+        if played:
+            k = judge(read(root / "answers" / j.id / "truth.json"), found)
+            right, exact = k.flags["exact"] and k.flags["where"] and k.verdict == "effect", k.flags["exact"]
+        rows.append(
+            {
+                "id": j.id,
+                "was": j.verdict,
+                "played": played,
+                "exact_before": j.flags["exact"],
+                "exact_after": exact,
+                "right_before": before,
+                "right_after": right,
+                "why_not": run.get("unplayed", run.get("crashed", "")),
+            }
+        )
+    return {"cases": rows}
+
+
+def steadiness(results: Path, names: list[str], seeds_names: list[str]) -> dict[str, Any]:
+    """Same bytes twice; same verdict and effects with five seeds."""
+    same = [
+        all(
+            (results / "main" / n / f).exists() == (results / "again" / n / f).exists()
+            and (
+                not (results / "main" / n / f).exists()
+                or (results / "main" / n / f).read_bytes() == (results / "again" / n / f).read_bytes()
+            )
+            for f in THREE_FILES
+        )
+        for n in names
+    ]
+
+    def said(folder: Path) -> tuple[Any, ...]:
+        found = read(folder / "diagnosis.json")
+        return found.get("verdict"), tuple(sorted(f"{e['name']}@{e['where']}" for e in found.get("effects", [])))
+
+    steady = []
+    for n in seeds_names:
+        first = said(results / "main" / n)
+        steady += [said(results / f"seed{s}" / n) == first for s in SEEDS]
+    return {"same_bytes": (sum(same), len(same)), "same_verdict": (sum(steady), len(steady))}
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--development", action="store_true", help="the development seed; nothing is written to docs/")
+    parser.add_argument("--cases", type=int, help=f"how many (default {TEST_CASES}; development {DEVELOPMENT_CASES})")
+    parser.add_argument("--only", type=int, help="of the set, diagnose only the first so many: for a quick look")
+    parser.add_argument("--seed", type=int, help="another seed; nothing is written to docs/")
+    parser.add_argument("--processes", type=int, default=min(2, os.cpu_count() or 1))
+    parser.add_argument("--out", type=Path, help="folder of the tables; default docs/ for the test set")
+    parser.add_argument("--quick", action="store_true", help="no next experiments, no repeats, no other seeds")
+    options = parser.parse_args()
+    seed = options.seed if options.seed is not None else DEVELOPMENT_SEED if options.development else TEST_SEED
+    cases = options.cases or (DEVELOPMENT_CASES if options.development else TEST_CASES)
+    root, version = default_folder(seed, cases), diagnoser.version()
+    if seed == TEST_SEED:
+        print("the test set: its figures are for reporting, not for tuning", file=sys.stderr)
+    seal = generate(seed, cases, root, options.processes)
+    print(f"answers sealed before the run: sha256 {seal}", file=sys.stderr)
+    results = root / f"results-{version}-{generator_hash()[:6]}"
+    results.mkdir(exist_ok=True)
+    names = sorted(path.name for path in (root / "cases").iterdir())[: options.only]
+
+    begun = time.monotonic()
+    in_turn("diagnosing", _main_job, [(str(root), str(results), n) for n in names], options.processes)
+    judged = judge_all(root, results, names)
+    again, seeds_names = [], []
+    if not options.quick:
+        again, seeds_names = names[:SAME_BYTES_CASES], names[SAME_BYTES_CASES : SAME_BYTES_CASES + SEEDS_CASES]
+        proposed = [
+            j.id for j in judged
+            if j.kind == "single" and j.s >= STRONG
+            and (read(results / "main" / j.id / "diagnosis.json").get("next_experiment") or {}).get("rig_toml")
+        ]  # fmt: skip
+        in_turn("next experiments", _next_job, [(str(root), str(results), n) for n in proposed], options.processes)
+        jobs = [(str(root), str(results), n, 0) for n in again]
+        jobs += [(str(root), str(results), n, s) for n in seeds_names for s in SEEDS]
+        in_turn("again, other seeds", _seed_job, jobs, options.processes)
+    made = {
+        "seed": seed,
+        "cases": len(names),
+        "set": {DEVELOPMENT_SEED: "development", TEST_SEED: "test"}.get(seed, "other"),
+        "seal_sha256": seal,
+        "generator_sha256": generator_hash(),
+        "tool": version,
+    }
+    figures = report.figures(judged, after_next(root, results, judged), steadiness(results, again, seeds_names), made)
+    command = "./dev blind" + (" --development" if options.development else "")
+    command += f" --cases {options.cases}" if options.cases else ""
+    command += f" --seed {options.seed}" if options.seed is not None else ""
+    text = report.page(figures, judged, command)
+    whole = seed == TEST_SEED and options.only is None and not options.quick and cases >= TEST_CASES
+    out = options.out or (BUILD.parents[1] / "docs" if whole else results)
+    out.mkdir(parents=True, exist_ok=True)
+    (out / "blind.md").write_text(text)
+    (out / "blind.json").write_text(json.dumps(report.as_json(figures, judged), indent=1) + "\n")
+    print(report.table(figures))
+    print(f"\n{time.monotonic() - begun:.0f} s; tables in {out / 'blind.md'}", file=sys.stderr)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
