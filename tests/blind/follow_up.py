@@ -11,10 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from designs import Design, Noise, Rng, cycle
+from designs import Design, Rng, cycle
 from files import meta_text, noisy, table_of, write_dataset
 from generate import clean_readings, drawn
 from plant import INDEX, Array
+
+
+SET_UP_S = 60.0  # from the record's last row to the experiment's first
 
 
 class NotPlayable(Exception):
@@ -71,27 +74,28 @@ def _pose(pose: dict[str, Any], limb: Array) -> tuple[float, float]:
     return round(th1, 6), round(th2, 6)
 
 
-def play(truth: dict[str, Any], rig_toml: str, record: Path, out: Path) -> None:
-    """Writes the record with the experiment's rows after it; where the experiment reads other columns (encoders,
-    gauges) than the record, the experiment alone."""
+def play(truth: dict[str, Any], rig_toml: str, record: Path, together: Path, alone: Path) -> None:
+    """Writes the experiment twice: its rows after the record's, empty where one of the two reads a column that the
+    other does not (an encoder was fitted, a gauge put up), and by itself."""
     case, _, _ = drawn(truth["seed"], truth["index"], truth["of"])
     shown: Design = case["shown"]
     with (record / "data.csv").open(newline="") as file:
         reader = csv.DictReader(file)
         names, before = list(reader.fieldnames or []), list(reader)
     rng = np.random.default_rng([truth["seed"], 3, truth["index"]])
-    start_s = float(before[-1]["t_s"]) + 60.0
-    design = design_of(rng, rig_toml, shown, case["limb"], start_s, int(before[-1]["run"]),
-                       max(int(row["config"]) for row in before))  # fmt: skip
-    noise: Noise = shown.noise
-    if noise.encoder_rad <= 0.0 or noise.gauge_mm <= 0.0:
-        raise NotPlayable("the case has no noise for encoders and gauges")
+    start_s = float(before[-1]["t_s"]) + SET_UP_S
+    runs, configs = int(before[-1]["run"]), max(int(row["config"]) for row in before)
+    design = design_of(rng, rig_toml, shown, case["limb"], start_s, runs, configs)
     fresh = table_of(design, noisy(rng, design, clean_readings(case, design.rows)))
-    if list(fresh) == names:
-        write_dataset(out, (record / "meta.toml").read_text(), fresh)
-        old = (record / "data.csv").read_text()
-        lines = (out / "data.csv").read_text().split("\n", 1)[1]
-        (out / "data.csv").write_text(old + lines)
-    else:
-        write_dataset(out, meta_text(design, "next experiment"), fresh)
-    shutil.copyfile(record / "limb.toml", out / "limb.toml")
+    write_dataset(alone, meta_text(design, "next experiment"), fresh)
+    shutil.copyfile(record / "limb.toml", alone / "limb.toml")
+    with (alone / "data.csv").open(newline="") as file:
+        after = list(csv.DictReader(file))
+    together.mkdir(parents=True, exist_ok=True)
+    for name in ("meta.toml", "limb.toml"):
+        shutil.copyfile(record / name, together / name)
+    columns = names + [name for name in fresh if name not in names]
+    with (together / "data.csv").open("w", newline="") as file:
+        writer = csv.DictWriter(file, columns, restval="", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows([*before, *after])

@@ -219,8 +219,8 @@ def page(found: dict[str, Any], judged: Sequence[Judged], command: str) -> str:
             table(found),
             f"{READING} With s >= 12 alone the gap closed is {_percent(strong12['median'])} (median), "
             f"{_percent(strong12['p5'])} (5th percentile) of {strong12['cases']}.",
-            f"A diagnosis took {seconds.get('median', 0):.1f} s (median), {seconds.get('p95', 0):.1f} s (95th percentile), "
-            f"{seconds.get('longest', 0):.1f} s (longest), one core each, 150 to 1000 rows." if seconds else "",
+            f"A diagnosis took {seconds.get('median', 0):.1f} s (median), {seconds.get('p95', 0):.1f} s (95th "
+            f"percentile), {seconds.get('longest', 0):.1f} s (longest), one core each, 150 to 1000 rows.",
             "## Besides",
             "\n".join(besides),
             "## Single effects, by effect and detectability",

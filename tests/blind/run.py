@@ -74,8 +74,11 @@ def _next_job(job: tuple[str, str, str]) -> str:
         return name
     rig = (read(results / "main" / name / "diagnosis.json").get("next_experiment") or {}).get("rig_toml", "")
     try:
-        follow_up.play(read(root / "answers" / name / "truth.json"), rig, root / "cases" / name, out / "case")
-        diagnoser.diagnose(out / "case", out)
+        truth = read(root / "answers" / name / "truth.json")
+        follow_up.play(truth, rig, root / "cases" / name, out / "together", out / "alone")
+        diagnoser.diagnose(out / "together", out)
+        if read(out / "diagnosis.json").get("verdict", "data_fault") == "data_fault":  # takes no empty cells
+            diagnoser.diagnose(out / "alone", out)
     except Exception as error:
         out.mkdir(parents=True, exist_ok=True)
         (out / "run.json").write_text(json.dumps({"unplayed": f"{type(error).__name__}: {error}"}))

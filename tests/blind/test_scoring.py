@@ -71,8 +71,9 @@ def test_intervals_of_what_is_named_right() -> None:
     real = truth("single", "sensor_bias@sensor", true_parameters={"sensor.bias_x_n": 0.5, "sensor.bias_z_n": 0.5})
     found = said("effect", "sensor_bias@sensor", "creep@creep")
     found["effects"][0]["parameters"] = {
-        "sensor.bias_x_n": {"value": 0.4, "low": 0.3, "high": 0.6}, "sensor.bias_z_n": {"value": 0.1, "low": None, "high": 0.2},
-    }  # fmt: skip
+        "sensor.bias_x_n": {"value": 0.4, "low": 0.3, "high": 0.6},
+        "sensor.bias_z_n": {"value": 0.1, "low": None, "high": 0.2},
+    }
     found["effects"][1]["parameters"] = {"sensor.bias_x_n": {"value": 9.0, "low": 8.0, "high": 10.0}}
     assert judge(real, found).intervals == [("sensor.bias_x_n", True), ("sensor.bias_z_n", False)]
 

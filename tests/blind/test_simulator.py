@@ -63,7 +63,7 @@ def test_moment_transfer_changes_only_the_cross_term() -> None:
 
 
 def test_play_carries_nothing_within_and_is_a_spring_beyond() -> None:
-    """Tip's compliance at a small push: a free joint adds what a spring does not; far out the force lags by a constant."""
+    """Tip's compliance at a small push: the joint is free; far out the force lags by a constant."""
     loose = limb(joint__tibia__gap_rad=0.002)
     far = play(loose, run([0.0, 5.0, 6.0]))
     assert (far[2, :2] - far[1, :2]) == pytest.approx(stiffness(limb())[:, 0], rel=1e-9)
