@@ -84,6 +84,28 @@ def test_friction_leaves_a_loop_of_constant_height() -> None:
     assert play(p, run([0.0, 1e-3]))[1, :2] / 1e-3 == pytest.approx(rigid[:, 0], rel=1e-5)
 
 
+@pytest.mark.parametrize("joint", [0, 1])
+def test_each_joint_by_its_own_law(joint: int) -> None:
+    """Torque from the tip's force, deflection from the encoder: half the play further than the spring; friction against
+    the motion, the same on the way back."""
+    name, compliance = ("femur", 1.0e-5) if joint == 0 else ("tibia", 1.6e-5)
+    knee = 185.0 * np.array([np.cos(1.0), np.sin(1.0)])
+    w = 313.5 * np.array([np.cos(-0.4), np.sin(-0.4)])
+    arm = knee + w if joint == 0 else w
+
+    def torque_and_deflection(p: Array, wave: list[float]) -> tuple[Array, Array]:
+        out = play(p, run(wave))[1:]
+        return -arm[1] * out[:, 0] + arm[0] * out[:, 1], out[:, 2 + joint]
+
+    wave = [0.0, 4.0, 8.0, 12.0, 8.0, -12.0]
+    torque, q = torque_and_deflection(limb(**{f"joint__{name}__gap_rad": 0.002}), wave)
+    assert q == pytest.approx(torque * compliance + 0.001 * np.sign(torque), rel=1e-9)
+    torque, q = torque_and_deflection(limb(**{f"joint__{name}__coulomb_n_mm": 15.0}), wave)
+    way = np.sign(np.diff(np.concatenate([[0.0], q])))
+    assert list(way) == [way[0], way[0], way[0], -way[0], -way[0]]
+    assert torque == pytest.approx(q / compliance + 15.0 * way, rel=1e-9)
+
+
 def test_creep_relaxes_to_its_ratio() -> None:
     """After many time constants the joints are softer by 1 + ratio."""
     p = limb(creep__ratio=0.2, creep__time_constant_s=3.0)
