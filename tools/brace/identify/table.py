@@ -40,7 +40,7 @@ class TableProblem:
         self.poses: TablePoses = table_poses(dataset, model, knee)
         self.k = stiffness(dataset.columns)
         self.weight = weight
-        self._sigma = weight.absolute_n_per_mm + weight.relative * np.abs(self.k)
+        self.sigma = weight.absolute_n_per_mm + weight.relative * np.abs(self.k)
 
     @property
     def count(self) -> int:
@@ -49,7 +49,7 @@ class TableProblem:
 
     def residual(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """(model - measured) / sigma, row by row."""
-        return np.asarray((self.predicted(model, nuisances) - self.k) / self._sigma).ravel()
+        return np.asarray((self.predicted(model, nuisances) - self.k) / self.sigma).ravel()
 
     def predicted(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """rows x (k_xx, k_xz, k_zz) [N/mm]."""

@@ -131,7 +131,8 @@ def _told(
     if verdict == "none":
         exported = base
     model = _exportable(fitter.base, exported if effects else base, believed)
-    could_be = tuple(one.label for one in choice.candidates if one.gain > 0.0 and " + " not in one.label)[:4]
+    nearest = [one.label for one in choice.candidates if one.gain > 0.0 and " + " not in one.label]
+    could_be = tuple(nearest[:4]) if verdict == "unknown" else ()
     description = _description(shown, structured, remains, refused, after, record.raw_noise_n_mm)
     minutes = max(1.0, record.minutes)
     return Diagnosis(

@@ -1,0 +1,148 @@
+"""Kinds of limb beside the believed one, each fitted to the table and judged on rows that were left out."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from brace.errors import BadFileError
+from brace.identify.families import scattered_starts
+from brace.identify.fit import Fit, fit
+from brace.identify.parameters import (
+    JOINT_COMPLIANCES,
+    LINK_COMPLIANCES,
+    ParameterSet,
+    free_parameter,
+)
+from brace.identify.table import TableProblem
+from brace.model import LimbModel
+
+FOLDS = 4
+STARTS = 4
+_TILTS = ("link.femur.tilt_rad", "link.tibia.tilt_rad")
+_TRANSFER = "link.femur.moment_transfer"
+_BASE = ("base.x_mm_per_n", "base.z_mm_per_n")
+
+SPRINGS = ("joint_compliance@joint.femur", "joint_compliance@joint.tibia")
+LINKS = ("link_compliance_error@link.femur", "link_compliance_error@link.tibia")
+TRANSFER = ("moment_transfer@link.femur",)
+BASE = ("base_compliance@base",)
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """What is free beside the believed limb, what is set, and the effects that this amounts to. Links are free in all
+    but the first: a table cannot hold them to a calibration and tell anything."""
+
+    name: str
+    labels: tuple[str, ...]
+    keys: tuple[str, ...]
+    transfer: float | None = None
+
+
+BELIEVED = Alternative("the believed limb", (), ())
+ALTERNATIVES = (
+    Alternative("other links", LINKS, LINK_COMPLIANCES),
+    Alternative("tilted links", LINKS, LINK_COMPLIANCES + _TILTS),
+    Alternative("joint springs", SPRINGS, LINK_COMPLIANCES + JOINT_COMPLIANCES),
+    Alternative("moment transfer", TRANSFER, LINK_COMPLIANCES, 1.0),
+    Alternative(
+        "joint springs and moment transfer", SPRINGS + TRANSFER, LINK_COMPLIANCES + JOINT_COMPLIANCES, 1.0
+    ),
+    Alternative("a yielding base", BASE, LINK_COMPLIANCES + _BASE),
+)
+
+
+@dataclass(frozen=True)
+class Judged:
+    """`off_n_per_mm` is measured less model, rows x 3; `left_out_n_per_mm` the same with each row predicted by a fit
+    that did not see it; `folds` are those fits."""
+
+    alternative: Alternative
+    fit: Fit
+    off_n_per_mm: np.ndarray
+    left_out_n_per_mm: np.ndarray
+    folds: tuple[Fit, ...]
+    left_out_misfit: float  # mean square of left_out over the weight of an entry
+
+    @property
+    def rms(self) -> float:
+        return float(np.sqrt(np.mean(self.off_n_per_mm**2)))
+
+    @property
+    def left_out_rms(self) -> float:
+        return float(np.sqrt(np.mean(self.left_out_n_per_mm**2)))
+
+
+class _Part:
+    """A table without some of its rows, as a fit's problem."""
+
+    def __init__(self, whole: TableProblem, keep: np.ndarray) -> None:
+        self.whole, self._keep = whole, np.repeat(keep, 3)
+
+    @property
+    def count(self) -> int:
+        return int(np.count_nonzero(self._keep))
+
+    def residual(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
+        return np.asarray(self.whole.residual(model, nuisances)[self._keep])
+
+    def angles(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
+        return self.whole.angles(model, nuisances)
+
+
+def missing_from(believed: LimbModel) -> tuple[Alternative, ...]:
+    """Alternatives that are none yet in the believed limb."""
+    found = []
+    for one in ALTERNATIVES:
+        if one.transfer is not None and believed.number(_TRANSFER) > 0.0:
+            continue
+        if one.labels == SPRINGS and all(believed.number(key) > 0.0 for key in JOINT_COMPLIANCES):
+            continue
+        found.append(one)
+    return tuple(found)
+
+
+def judge(
+    problem: TableProblem, believed: LimbModel, alternative: Alternative, advance: Callable[[], None]
+) -> Judged | None:
+    """One alternative fitted, then fitted anew without each quarter of the rows; None where it cannot be such a limb."""
+    with contextlib.suppress(BadFileError):
+        chosen = _parameters(problem, believed, alternative)
+        best = fit(problem, chosen, scattered_starts(chosen, STARTS) if alternative.keys else ())
+        advance()
+        rows = len(problem.k)
+        fold = np.arange(rows) % min(FOLDS, rows)
+        left_out = np.zeros_like(problem.k)
+        folds = []
+        for number in range(int(fold.max()) + 1):
+            part = fit(_Part(problem, fold != number), chosen, [best.x])
+            folds.append(part)
+            predicted = problem.predicted(part.model, part.nuisances)
+            left_out[fold == number] = (problem.k - predicted)[fold == number]
+            advance()
+        off = problem.k - problem.predicted(best.model, best.nuisances)
+        misfit = float(np.mean((left_out / problem.sigma) ** 2))
+        return Judged(alternative, best, off, left_out, tuple(folds), misfit)
+    return None
+
+
+def _parameters(problem: TableProblem, believed: LimbModel, alternative: Alternative) -> ParameterSet:
+    """The believed limb is held as it is: inside its trust it would only bend towards the table. What is free starts
+    from the believed value, or where that is nothing from its natural size."""
+    start = believed
+    if alternative.transfer is not None:
+        start = start.with_values({_TRANSFER: alternative.transfer})
+    fresh = {
+        key: free_parameter(start, key).scale
+        for key in alternative.keys
+        if key not in _TILTS and start.number(key) == 0.0
+    }
+    start = start.with_values(fresh)
+    parameters = [free_parameter(start, key) for key in alternative.keys]
+    if problem.poses.needs_height:
+        parameters.append(problem.height_parameter())
+    return ParameterSet(start, tuple(parameters))
