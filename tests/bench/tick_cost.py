@@ -27,9 +27,11 @@ TICK_COUNT = 1_000_000
 FUNCTION = "brace_app_tick"
 
 KINDS = {"M": "monitor", "T": "taking up", "L": "loading test", "R": "loading test: a reading",
-         "D": "loading test: the drift check", "J": "loading test: judged against the model", "C": "configuration",
+         "D": "loading test: the drift check", "J": "loading test: its slopes", "K": "loading test: slopes against the model",
+         "C": "configuration",
          "P": "putting parameters in force", "S": "storing parameters", "0": "start", "F": "fault",
-         "Q": "answering a request over CAN"}
+         "Q": "answering a request over CAN, beside K", "G": "the same, K by the general path",
+         "A": "answering, K left out", "E": "answering beside a piece of a loading test"}
 
 
 @dataclass(frozen=True)
@@ -129,9 +131,9 @@ def _summary(counts: np.ndarray, letters: np.ndarray) -> TickCost:
 NOTE = """\
 One whole tick of the controller, from samples to snapshot: K with its eigenvalues, both joints' state machines, supervisor, \
 services. Counted over random ticks on the emulated Cortex-M4F: limbs that collapse and limbs that take the general path, every \
-mode, take-ups and loading tests, parameters stored and put in force, bad samples, late ticks, a full bus. A call of the \
-hardware layer counts as the call alone. A reading of a loading test is worked out in up to three ticks of its own, which \
-compute no K: the snapshot before stays. So it does in a tick that answers a request; two such never follow each other. A set that \
+mode, take-ups and loading tests, parameters stored and put in force, bad samples, late ticks, a full bus, requests \
+in every tick over CAN and over SLCAN, Modbus on both ports. A call of the hardware layer counts as the call alone. A reading of a loading test is worked out in up to three ticks of its own, which \
+compute no K: the snapshot before stays. So it does in some that answer, above all on limbs of the general path. A set that \
 is to be stored is checked, packed, written and put in force in pieces, one a tick."""
 
 

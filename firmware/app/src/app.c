@@ -90,17 +90,25 @@ static void control_tick(brace_app_t *app, uint32_t now_us, bool late, bool lean
 }
 
 void brace_app_tick(brace_app_t *app, uint32_t now_us)
+static services_room_t room_of(const brace_app_t *app)
+{
+    const bool measures = app->loading.phase >= LOADING_READ && app->loading.phase <= LOADING_COMPARE;
+    if (app->mode == BRACE_MODE_CONFIGURATION) {
+        return storing_busy(app) ? SERVICES_BESIDE_A_PIECE : SERVICES_BESIDE_LITTLE;
+    }
+    return measures ? SERVICES_BESIDE_LITTLE : SERVICES_BESIDE_K;
+}
+
 {
     brace_snapshot_t *next = &app->snapshot[app->newest ^ 1u];
     const bool late = app->ticked && now_us - app->last_us > LATE_PERIODS * app->tick_us;
     app->counters.ticks_late += late && app->counters.ticks_late < UINT32_MAX;
     app->last_us = now_us;
     app->ticked = true;
-    const bool measures = app->loading.phase >= LOADING_READ && app->loading.phase <= LOADING_JUDGE;
-    const bool lean = services_listen(app, !measures);
+    const bool lean = services_listen(app, room_of(app));
     if (app->mode == BRACE_MODE_CONFIGURATION) {
         configuration_tick(app, now_us, lean, next);
-    } else if (app->loading.phase == LOADING_DRIFT || app->loading.phase == LOADING_JUDGE) {
+    } else if (app->loading.phase >= LOADING_DRIFT && app->loading.phase <= LOADING_COMPARE) {
         supervisor_late(app, late);
         loading_piece(app); /* as dear as a whole tick: the joints' filters bear a missed one */
     } else {

@@ -2,9 +2,11 @@
  * bad samples, late ticks, traffic. Prints one letter per tick: what kind of tick it was. The plugin
  * counts meanwhile.
  *
- *   M monitor  T taking up  L loading test  R its readings  D drift step  J its judgement  C configuration
+ *   M monitor  T taking up  L loading test  R its readings  D drift step  J its slopes  K against the model
+ *   C configuration
  *   P a piece of putting parameters in force  S storing  0 start  F fault
- *   Q one that answers a request over CAN
+ *   and those that answer a request over CAN: Q beside K  G beside K of the general path  A with K left out
+ *   E beside a piece of a loading test
  */
 #include <stdio.h>
 
@@ -73,7 +75,8 @@ static brace_parameters_t random_parameters(const world_manner_t *manner)
 static void begin_episode(void)
 {
     world_manner_t manner = {.cooperative = dice_in(&dice, 2), .restless = dice_in(&dice, 2),
-                             .drives_fail = dice_in(&dice, 4), .spring_n_mm_per_rad = dice_between(&dice, 2e4f, 1e5f)};
+                             .drives_fail = dice_in(&dice, 4), .slcan = dice_in(&dice, 3),
+                             .spring_n_mm_per_rad = dice_between(&dice, 2e4f, 1e5f)};
     static const uint32_t bad_in[] = {0, 1000, 50, 5};
     manner.bad_in = bad_in[dice_below(&dice, manner.cooperative ? 2 : 4)];
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
@@ -212,10 +215,14 @@ static void random_question(void)
     world_asks(app.bus.node_id, data);
 }
 
-/* What the tick was, now that it is known whether it answered. */
-static char answered(char kind)
+/* What the tick was, now that it is known whether it answered, and whether it told K. */
+static char answered(char kind, uint32_t sequence)
 {
-    return app.requests.serves ? 'Q' : kind;
+    const bool told = app.sequence != sequence;
+    if (!app.requests.serves) {
+        return kind;
+    }
+    return kind == 'D' || kind == 'J' || kind == 'K' ? 'E' : !told ? 'A' : app.model.collapsed ? 'Q' : 'G';
 }
 
 /* What the coming tick is. */
@@ -232,15 +239,18 @@ static char kind(void)
     return app.loading.phase == LOADING_READ    ? 'R'
            : app.loading.phase == LOADING_DRIFT ? 'D'
            : app.loading.phase == LOADING_JUDGE ? 'J'
+           : app.loading.phase == LOADING_COMPARE ? 'K'
                                                 : 'L';
 }
 
 int main(void)
 {
     static char line[LINE + 1];
+    bool flood = false;
     for (uint32_t tick = 0; tick < TICKS; tick++) {
         if (tick % EPISODE_TICKS == 0) {
             begin_episode();
+            flood = dice_in(&dice, 4); /* requests in every tick */
         }
         world_now_us += dice_in(&dice, 2000) ? 1000u + dice_below(&dice, 30000) : 1000u;
         world_step(&dice);
@@ -258,8 +268,9 @@ int main(void)
             random_question();
         }
         const char expected = kind();
+        const uint32_t sequence = app.sequence;
         brace_app_tick(&app, world_now_us);
-        line[tick % LINE] = answered(expected);
+        line[tick % LINE] = answered(expected, sequence);
         if (tick % LINE == LINE - 1) {
             puts(line);
         }

@@ -20,7 +20,7 @@ typedef struct {
     uint8_t byte[300];
 } world_serial_t;
 
-static world_serial_t line, tcp;
+static world_serial_t line, tcp, text;
 static uint32_t serial_room;
 static uint8_t nvm[BRACE_NVM_SLOT_COUNT][SLOT_BYTES];
 
@@ -148,7 +148,8 @@ static int32_t door_serial_setup(void *context, brace_serial_port_t port, uint32
     (void)context;
     (void)baud;
     (void)parity;
-    return port == BRACE_SERIAL_MODBUS || port == BRACE_SERIAL_MODBUS_TCP ? BRACE_HAL_OK : BRACE_HAL_E_UNSUPPORTED;
+    const bool modbus = port == BRACE_SERIAL_MODBUS || port == BRACE_SERIAL_MODBUS_TCP;
+    return modbus || (port == BRACE_SERIAL_SLCAN && manner.slcan) ? BRACE_HAL_OK : BRACE_HAL_E_UNSUPPORTED;
 }
 
 static int32_t door_serial_write(void *context, brace_serial_port_t port, const uint8_t *bytes, uint32_t count)
@@ -162,7 +163,7 @@ static int32_t door_serial_write(void *context, brace_serial_port_t port, const 
 static int32_t door_serial_read(void *context, brace_serial_port_t port, uint8_t *bytes, uint32_t room)
 {
     (void)context;
-    world_serial_t *serial = port == BRACE_SERIAL_MODBUS ? &line : &tcp;
+    world_serial_t *serial = port == BRACE_SERIAL_MODBUS ? &line : port == BRACE_SERIAL_SLCAN ? &text : &tcp;
     uint32_t count = 0;
     while (count < room && serial->first < serial->count) {
         bytes[count++] = serial->byte[serial->first++];
@@ -245,8 +246,44 @@ bool dice_in(dice_t *dice, uint32_t n)
 
 /* --------------------------------------------------------------------------------------------- the limb -- */
 
+/* What comes over the serial port at once: the line, and mostly all of it. */
+static void asks_in_text(uint32_t node_id, const uint8_t data[8])
+{
+    static const char digit[] = "0123456789abcdef";
+    const uint32_t id = 0x600u + node_id;
+    text.first = text.count = 0;
+    text.byte[text.count++] = 't';
+    for (int i = 2; i >= 0; i--) {
+        text.byte[text.count++] = (uint8_t)digit[id >> (4 * i) & 15u];
+    }
+    text.byte[text.count++] = '8';
+    for (int i = 0; i < 8; i++) {
+        text.byte[text.count++] = (uint8_t)digit[data[i] >> 4];
+        text.byte[text.count++] = (uint8_t)digit[data[i] & 15u];
+    }
+    text.byte[text.count++] = '\r';
+}
+
+/* The channel is open, most of the time; and what else may come. */
+static void random_text(dice_t *dice)
+{
+    static const char *const words[] = {"\rO\r", "O\r", "V\r", "C\rO\r", "t12", "x\r", "F\r",
+                                        "rubbish that is no line of any kind and too long\r"};
+    const char *word = words[dice_below(dice, 8)];
+    if (text.first < text.count || !dice_in(dice, 40)) {
+        return;
+    }
+    for (text.first = text.count = 0; word[text.count] != '\0'; text.count++) {
+        text.byte[text.count] = (uint8_t)word[text.count];
+    }
+}
+
 void world_asks(uint32_t node_id, const uint8_t data[8])
 {
+    if (manner.slcan && text.first == text.count) {
+        asks_in_text(node_id, data);
+        return;
+    }
     request_id = 0x600u + node_id;
     for (int i = 0; i < 8; i++) {
         request[i] = data[i];
@@ -272,7 +309,8 @@ void world_begin(dice_t *dice, const world_manner_t *wanted)
     }
     force_rest_n[0] = dice_between(dice, -3.0f, 3.0f);
     force_rest_n[1] = dice_between(dice, 0.0f, 10.0f);
-    bus_off = fresh_bus_off = false;
+    bus_off = fresh_bus_off = request_waits = false;
+    text = (world_serial_t){.count = manner.slcan ? 2 : 0, .byte = "O\r"};
 }
 
 /* A held link: what the motor is commanded beyond the gap winds its spring. */
@@ -367,6 +405,7 @@ static void random_traffic(dice_t *dice)
 void world_step(dice_t *dice)
 {
     random_traffic(dice);
+    random_text(dice);
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         if (!manner.cooperative) {
             rest_rad[i] = manner.restless && dice_in(dice, 50) ? dice_between(dice, -3.2f, 3.2f)

@@ -19,6 +19,7 @@ typedef struct {
     uint32_t bad_in;     /* a bad sample once in so many; 0: never */
     bool restless;       /* postures jump */
     bool drives_fail;    /* commands are refused now and then */
+    bool slcan;          /* CAN comes as text over a serial port too, and most requests do */
     float gap_rad[BRACE_LINK_COUNT];
     float spring_n_mm_per_rad;
 } world_manner_t;

@@ -147,7 +147,7 @@ enum { BRACE_APP_LINE_BYTES = 32, BRACE_APP_IN_BYTES = 24, BRACE_APP_ANSWERS = 8
 typedef struct {
     bool fitted;
     bool open, listen_only;   /* the channel, as whoever is at the other end wants it */
-    bool too_long;
+    bool too_long, heard;     /* the line; and a line has come in this tick */
     uint8_t line[BRACE_APP_LINE_BYTES], in[BRACE_APP_IN_BYTES], out[BRACE_APP_LINE_BYTES];
     uint8_t line_count, in_first, in_count, out_first, out_count;
 } brace_app_slcan_t;
@@ -162,9 +162,8 @@ typedef struct {
 } brace_app_bus_t;
 
 typedef struct {
-    bool runs;                /* services have their turn in this tick */
-    bool speaks;                        /* in this tick, besides answering */
-    bool owed;                /* the last lean tick answered, and something else was due */
+    bool speaks;              /* in this tick, besides answering */
+    uint8_t waited;           /* ticks, for answers to leave over SLCAN */
     uint32_t beat_us;         /* when the heart beat last */
     uint32_t faults_told;
     brace_mode_t mode_told;
@@ -187,11 +186,8 @@ typedef struct {
 typedef struct {
     bool waiting;             /* request holds one to be answered */
     bool serves;              /* this tick answers it */
-    uint32_t looked;          /* frames that this tick has looked at */
-    bool rested;              /* K was not left out in the last tick, for any bus */
+    uint8_t yielded;          /* ticks in a row in which K, or a piece of work, was left out */
     uint8_t request[8];
-    bool located;             /* the posture of a tip that was asked for is known, and its K is still to come */
-    float located_rad[BRACE_APP_JOINTS];
     uint8_t answer[BRACE_APP_ANSWERS][8];
     uint8_t answer_first, answer_count;
     uint8_t storing, storing_token; /* the request that is answered when the store is done; 0: none */
@@ -231,8 +227,8 @@ typedef struct {
     uint8_t address;
     uint16_t half, half_place;    /* of a value written in two requests: the high one, and its register */
     uint16_t messages, broken, refused, served, unanswered, busy; /* function 08's counters; wrap */
-    uint16_t waited;              /* ticks, for one that is kept free */
-    bool serves;                  /* in this tick */
+    uint16_t waited;              /* ticks since its last turn */
+    bool polls, serves;           /* in this tick */
     uint32_t silence_us, take_up, asked[2];
     brace_answered_t answered;
 } brace_app_modbus_t;

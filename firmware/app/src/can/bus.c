@@ -92,8 +92,5 @@ bool bus_send(brace_app_t *app, uint32_t function, const uint8_t data[8])
 
 bool bus_receive(brace_app_t *app, brace_can_frame_t *frame)
 {
-    if (app->bus.listens && app->hal->can_receive(app->hal->context, frame) == 1) {
-        return true;
-    }
-    return app->bus.slcan.fitted && slcan_port_receive(app, frame);
+    return app->bus.listens && app->hal->can_receive(app->hal->context, frame) == 1;
 }

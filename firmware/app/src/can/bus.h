@@ -22,8 +22,8 @@ bool bus_speaks(const brace_app_t *app);
  * About 60 instructions; over SLCAN 300. */
 bool bus_send(brace_app_t *app, uint32_t function, const uint8_t data[8]);
 
-/* A frame that has come, whoever it is for. About 40 instructions; over SLCAN 14 for a byte, at most 24
- * bytes a tick. */
+/* A frame that has come over CAN, whoever it is for; what comes over SLCAN: slcan_port_receive. About 40
+ * instructions. */
 bool bus_receive(brace_app_t *app, brace_can_frame_t *frame);
 
 #endif

@@ -154,7 +154,7 @@ static void begin(brace_app_t *app)
     take(app);
 }
 
-void cyclic_send(brace_app_t *app)
+void cyclic_send(brace_app_t *app, uint32_t most)
 {
     brace_app_cyclic_t *cyclic = &app->cyclic;
     if (cyclic->period_us == 0u) {
@@ -163,9 +163,6 @@ void cyclic_send(brace_app_t *app)
     if (cyclic->due == 0u && is_due(cyclic, app->last_us)) {
         begin(app);
     }
-    /* where only lean ticks speak they say all at once */
-    const bool lean = !app->model.collapsed && app->mode != BRACE_MODE_CONFIGURATION;
-    const uint32_t most = lean ? FRAMES_MOST : cyclic->frames_per_tick;
     for (uint32_t i = 0; i < most && cyclic->due != 0u; i++) {
         if (!send_first(app)) {
             return;

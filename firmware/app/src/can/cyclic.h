@@ -22,8 +22,8 @@ void cyclic_configure(brace_app_t *app);
 /* Is there a frame to be sent in this tick? About 20 instructions. */
 bool cyclic_wants(const brace_app_t *app);
 
-/* Takes the newest snapshot when one is due, sends a frame; two where a tick is longer than 1.25 ms, four on
- * limbs whose K fills a tick (services.h). At most 250 instructions, and 130 for each frame more. */
-void cyclic_send(brace_app_t *app);
+/* Takes the newest snapshot when one is due, sends frames. At most 250 instructions, and 130 for each frame more.
+ *   most: frames that this tick has room for [1, 4] */
+void cyclic_send(brace_app_t *app, uint32_t most);
 
 #endif

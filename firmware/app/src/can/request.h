@@ -12,7 +12,10 @@ typedef struct {
     uint32_t detail; /* (out) what a refusal has to add */
 } request_t;
 
-/* Queues one frame of an answer; requests_take leaves room for all parts of one. */
+/* Queues one frame of an answer, to be written where this says; requests_take leaves room for all parts of one. */
+uint8_t *answer_place(brace_app_t *app);
+
+/* Queues a frame that is written already. */
 void answer_put(brace_app_t *app, const uint8_t data[8]);
 
 /* Queues a refusal. */

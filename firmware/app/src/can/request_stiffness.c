@@ -7,27 +7,25 @@
 static int32_t answer_k(brace_app_t *app, request_t *request, float theta1_rad, float theta2_rad)
 {
     brace_stiffness_t k;
-    uint8_t part[3][8];
     const brace_status_t status = hypothetical_stiffness(app, theta1_rad, theta2_rad, &k);
     if (status != BRACE_OK) {
         return status;
     }
+    uint8_t *part = answer_place(app);
     uint32_t limited = brace_can_pack_k_at_posture_answer_0(
-        &(brace_can_k_at_posture_answer_0_t){request->token, k.k_xx_n_per_mm, k.k_xz_n_per_mm}, part[0]);
+        &(brace_can_k_at_posture_answer_0_t){request->token, k.k_xx_n_per_mm, k.k_xz_n_per_mm}, part);
+    part[0] = (uint8_t)request->code;
+    part = answer_place(app);
     limited += brace_can_pack_k_at_posture_answer_1(
-        &(brace_can_k_at_posture_answer_1_t){request->token, k.k_zz_n_per_mm, k.lambda_min_n_per_mm},
-        part[1]);
-    brace_can_k_at_posture_answer_2_t last = {request->token, k.lambda_max_n_per_mm, k.stiff_axis_rad,
-                                              k.flags};
-    limited += brace_can_pack_k_at_posture_answer_2(&last, part[2]);
-    if (limited > 0u) {
+        &(brace_can_k_at_posture_answer_1_t){request->token, k.k_zz_n_per_mm, k.lambda_min_n_per_mm}, part);
+    part[0] = (uint8_t)(request->code + BRACE_ANSWER_PART);
+    part = answer_place(app);
+    brace_can_k_at_posture_answer_2_t last = {request->token, k.lambda_max_n_per_mm, k.stiff_axis_rad, k.flags};
+    if (limited + brace_can_pack_k_at_posture_answer_2(&last, part) > 0u) {
         last.flags |= BRACE_FLAG_SATURATED;
-        (void)brace_can_pack_k_at_posture_answer_2(&last, part[2]);
+        (void)brace_can_pack_k_at_posture_answer_2(&last, part);
     }
-    for (int i = 0; i < 3; i++) {
-        part[i][0] = (uint8_t)(request->code + (uint32_t)i * BRACE_ANSWER_PART);
-        answer_put(app, part[i]);
-    }
+    part[0] = (uint8_t)(request->code + 2u * BRACE_ANSWER_PART);
     return BRACE_OK;
 }
 
@@ -38,29 +36,17 @@ int32_t request_k_at_posture(brace_app_t *app, request_t *request)
     return answer_k(app, request, asked.theta1_rad, asked.theta2_rad);
 }
 
-/* On the general path posture and K are two pieces, each for a lean tick of its own. */
 int32_t request_k_at_tip(brace_app_t *app, request_t *request)
 {
-    brace_app_requests_t *requests = &app->requests;
-    float *theta_rad = requests->located_rad;
-    if (!requests->located) {
-        brace_can_k_at_tip_knee_up_request_t asked;
-        brace_can_unpack_k_at_tip_knee_up_request(request->data, &asked);
-        const brace_knee_t knee =
-            request->code == BRACE_REQUEST_K_AT_TIP_KNEE_UP ? BRACE_KNEE_UP : BRACE_KNEE_DOWN;
-        const brace_point_t tip = {asked.x_mm, asked.z_mm};
-        const brace_status_t status =
-            brace_kinematics_inverse(&app->parameters.limb, tip, knee, &theta_rad[0], &theta_rad[1]);
-        if (status != BRACE_OK) {
-            return status;
-        }
-        requests->located = requests->waiting = !app->model.collapsed;
-        if (requests->located) {
-            return BRACE_OK;
-        }
-    }
-    requests->located = false;
-    return answer_k(app, request, theta_rad[0], theta_rad[1]);
+    brace_can_k_at_tip_knee_up_request_t asked;
+    float theta1_rad, theta2_rad;
+    brace_can_unpack_k_at_tip_knee_up_request(request->data, &asked);
+    const brace_knee_t knee =
+        request->code == BRACE_REQUEST_K_AT_TIP_KNEE_UP ? BRACE_KNEE_UP : BRACE_KNEE_DOWN;
+    const brace_point_t tip = {asked.x_mm, asked.z_mm};
+    const brace_status_t status =
+        brace_kinematics_inverse(&app->parameters.limb, tip, knee, &theta1_rad, &theta2_rad);
+    return status == BRACE_OK ? answer_k(app, request, theta1_rad, theta2_rad) : (int32_t)status;
 }
 
 int32_t request_contact_force(brace_app_t *app, request_t *request)

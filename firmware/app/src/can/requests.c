@@ -4,38 +4,42 @@
 
 #include "can/bus.h"
 #include "can/request.h"
+#include "can/slcan.h"
 
 #define FRAMES_PER_MS 4u
 #define FRAMES_MOST 20u
 #define PARTS_MOST 4u
 #define SENT_PER_TICK 4u
+#define LINES_PER_TICK 1u /* over SLCAN: its line takes 0.3 ms for each */
 
 void requests_start(brace_app_t *app)
 {
     brace_app_requests_t *requests = &app->requests;
-    requests->waiting = requests->upload_open = requests->located = false;
-    requests->rested = true;
+    requests->waiting = requests->upload_open = false;
+    requests->yielded = 0;
     requests->answer_first = requests->answer_count = 0;
     requests->storing = 0;
     requests->upload_next = requests->download_next = 0;
 }
 
-void answer_put(brace_app_t *app, const uint8_t data[8])
+uint8_t *answer_place(brace_app_t *app)
 {
     brace_app_requests_t *requests = &app->requests;
-    if (requests->answer_count < BRACE_APP_ANSWERS) {
-        const uint32_t place = (uint32_t)requests->answer_first + requests->answer_count;
-        memcpy(requests->answer[place % BRACE_APP_ANSWERS], data, 8);
-        requests->answer_count++;
-    }
+    const uint32_t place = ((uint32_t)requests->answer_first + requests->answer_count) % BRACE_APP_ANSWERS;
+    requests->answer_count = (uint8_t)(requests->answer_count + (requests->answer_count < BRACE_APP_ANSWERS));
+    return requests->answer[place];
+}
+
+void answer_put(brace_app_t *app, const uint8_t data[8])
+{
+    memcpy(answer_place(app), data, 8);
 }
 
 void answer_refusal(brace_app_t *app, uint32_t code, uint32_t token, int32_t status, uint32_t detail)
 {
-    uint8_t data[8];
+    uint8_t *data = answer_place(app);
     (void)brace_can_pack_refusal(&(brace_can_refusal_t){token, status, detail}, data);
     data[0] = (uint8_t)(data[0] | (code & 31u));
-    answer_put(app, data);
 }
 
 /* Identifiers that the other nodes of a bus use among themselves: none of ours, and nothing strange. */
@@ -82,23 +86,32 @@ static uint32_t frames_per_tick(const brace_app_t *app)
     return frames < FRAMES_PER_MS ? FRAMES_PER_MS : frames > FRAMES_MOST ? FRAMES_MOST : frames;
 }
 
-bool requests_take(brace_app_t *app, bool may_serve, bool brief)
+/* What comes as text takes a tick to be read, and is answered in the next. */
+static void take_text(brace_app_t *app)
+{
+    brace_can_frame_t frame;
+    const bool full = !app->model.collapsed || app->mode == BRACE_MODE_CONFIGURATION;
+    const bool rests = full && app->requests.yielded > 0u; /* it is K's turn, or a piece's */
+    app->bus.slcan.heard = false;
+    if (!app->requests.waiting && !rests && slcan_port_receive(app, &frame)) {
+        app->requests.waiting = accept(app, &frame);
+    }
+}
+
+bool requests_take(brace_app_t *app)
 {
     brace_app_requests_t *requests = &app->requests;
-    const uint32_t most = brief ? 1u : frames_per_tick(app);
-    requests->looked = 0;
+    const uint32_t most = app->bus.slcan.open ? 1u : frames_per_tick(app);
+    brace_can_frame_t frame;
     if (!app->bus.listens && !app->bus.slcan.fitted) {
         return false;
     }
-    for (; requests->looked < most && !requests->waiting; requests->looked++) {
-        brace_can_frame_t frame;
-        if (!bus_receive(app, &frame)) {
-            break;
-        }
+    for (uint32_t i = 0; i < most && !requests->waiting && bus_receive(app, &frame); i++) {
         requests->waiting = accept(app, &frame);
     }
-    const bool room = requests->answer_count + PARTS_MOST <= (uint32_t)BRACE_APP_ANSWERS;
-    return requests->waiting && room && may_serve;
+    const bool waits = requests->waiting;
+    take_text(app);
+    return waits && requests->answer_count + PARTS_MOST <= (uint32_t)BRACE_APP_ANSWERS;
 }
 
 static int32_t dispatch(brace_app_t *app, request_t *request)
@@ -153,7 +166,8 @@ void requests_send(brace_app_t *app)
     if (requests->storing != 0u && requests->answer_count + PARTS_MOST <= (uint32_t)BRACE_APP_ANSWERS) {
         request_storing_answer(app);
     }
-    for (uint32_t i = 0; i < SENT_PER_TICK && requests->answer_count > 0u; i++) {
+    const uint32_t most = app->bus.slcan.open ? LINES_PER_TICK : SENT_PER_TICK;
+    for (uint32_t i = 0; i < most && requests->answer_count > 0u; i++) {
         if (!bus_send(app, BRACE_CAN_ID_ANSWER, requests->answer[requests->answer_first])) {
             return;
         }

@@ -1,8 +1,5 @@
-/* What others ask of the node over CAN: one request taken and answered per tick, and not two ticks in a row
- * while K is computed, since a tick that answers computes none (the snapshot before stays, its age tells).
- * The next request waits in the bus' own ring. K at a tip's place takes two such ticks where the limb takes
- * the general path. A request is refused or answered, never left; what has a wrong length is none, and
- * counted. */
+/* What others ask of the node over CAN: one request a tick is taken and answered in it; the next waits in
+ * the bus' own ring. A request is refused or answered, never left; what has a wrong length is none, and counted. */
 #ifndef BRACE_APP_REQUESTS_H
 #define BRACE_APP_REQUESTS_H
 
@@ -11,14 +8,12 @@
 /* Nothing waits, nothing is open. */
 void requests_start(brace_app_t *app);
 
-/* Looks through what has come, at most 4 frames a millisecond of the tick, until one is a request to this
- * node. Before the tick's other work. At most 350 instructions.
- *   may_serve: this tick has room for an answer
- *   brief: there is other work; one frame only
- * returns whether one will be answered in this tick */
-bool requests_take(brace_app_t *app, bool may_serve, bool brief);
+/* Looks through what has come, at most 4 frames a millisecond of the tick and a line of SLCAN, until one is a
+ * request to this node. Before the tick's other work. At most 250 instructions; with SLCAN 700.
+ * returns whether there is one, and room for its answer */
+bool requests_take(brace_app_t *app);
 
-/* Answers the request taken. At most 2,200 instructions; a commit, in CONFIGURATION only, 21,000. */
+/* Answers the request taken. At most 1,000 instructions; in CONFIGURATION 2,200. */
 void requests_serve(brace_app_t *app);
 
 /* The answer to a commit or roll-back whose end has come, and what of the answers finds room on the bus. At

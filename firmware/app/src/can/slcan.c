@@ -1,7 +1,10 @@
 #include "can/slcan.h"
 
+#include <string.h>
+
 #define CR '\r'
 #define BEL '\a'
+#define LINES_MOST 4u /* in a tick */
 
 void slcan_port_start(brace_app_t *app)
 {
@@ -30,17 +33,14 @@ static bool flush(brace_app_t *app)
     return slcan->out_count == 0u;
 }
 
-static void put(brace_app_slcan_t *slcan, char byte)
+/* Two bytes as four digits, all at once: a byte of the word is a digit, the first one lowest. */
+static inline void put_four(uint8_t *to, uint32_t first, uint32_t second)
 {
-    slcan->out[slcan->out_count++] = (uint8_t)byte;
-}
-
-static void put_hex(brace_app_slcan_t *slcan, uint32_t value, uint32_t digits)
-{
-    static const char digit[] = "0123456789ABCDEF";
-    for (uint32_t i = digits; i > 0u; i--) {
-        put(slcan, digit[value >> (4u * (i - 1u)) & 15u]);
-    }
+    const uint32_t pair = first | second << 16;
+    const uint32_t nibbles = (pair >> 4 & 0x000f000fu) | (pair & 0x000f000fu) << 8;
+    const uint32_t letters = (nibbles + 0x06060606u) >> 4 & 0x01010101u;
+    const uint32_t digits = nibbles + 0x30303030u + 7u * letters;
+    memcpy(to, &digits, 4);
 }
 
 bool slcan_port_send(brace_app_t *app, const brace_can_frame_t *frame)
@@ -49,17 +49,20 @@ bool slcan_port_send(brace_app_t *app, const brace_can_frame_t *frame)
     if (!slcan->open || frame->length > 8u) {
         return true;
     }
-    if (!flush(app)) {
+    if (slcan->out_count > 0u && !flush(app)) {
         return false;
     }
-    slcan->out_first = 0;
-    put(slcan, 't');
-    put_hex(slcan, frame->id, 3);
-    put_hex(slcan, frame->length, 1);
-    for (uint32_t i = 0; i < frame->length; i++) {
-        put_hex(slcan, frame->data[i], 2);
+    const uint32_t count = frame->length;
+    uint8_t *out = slcan->out;
+    put_four(out, frame->id >> 8, frame->id & 0xffu);
+    out[0] = 't';
+    out[4] = (uint8_t)('0' + count);
+    for (uint32_t i = 0; i < count; i += 2u) {
+        put_four(out + 5u + 2u * i, frame->data[i], frame->data[i + 1u]);
     }
-    put(slcan, CR);
+    out[5u + 2u * count] = CR;
+    slcan->out_first = 0;
+    slcan->out_count = (uint8_t)(6u + 2u * count);
     (void)flush(app);
     return true;
 }
@@ -73,55 +76,61 @@ static void answer(brace_app_t *app, const char *text, uint32_t count)
     }
     slcan->out_first = 0;
     for (uint32_t i = 0; i < count; i++) {
-        put(slcan, text[i]);
+        slcan->out[slcan->out_count++] = (uint8_t)text[i];
     }
     (void)flush(app);
 }
 
 /* ------------------------------------------------------------------------------------------ in -- */
 
-static int32_t hex_digit(uint8_t byte)
+/* Four digits at once; a byte of the result is a digit's number. Anything else sets a bit of *wrong. */
+static inline uint32_t four_digits(const uint8_t *text, uint32_t *wrong)
 {
-    if (byte >= '0' && byte <= '9') {
-        return byte - '0';
-    }
-    const uint8_t upper = byte & (uint8_t)~0x20u;
-    return upper >= 'A' && upper <= 'F' ? upper - 'A' + 10 : -1;
+    uint32_t digits;
+    memcpy(&digits, text, 4);
+    const uint32_t small = digits | 0x20202020u;
+    const uint32_t numbers = (small & 0x0f0f0f0fu) + 9u * (small >> 6 & 0x01010101u);
+    const uint32_t nibbles = numbers & 0x0f0f0f0fu, letters = (nibbles + 0x06060606u) >> 4 & 0x01010101u;
+    *wrong |= (nibbles + 0x30303030u + 39u * letters) ^ small; /* it must be what these digits are written as */
+    *wrong |= ~(digits | digits >> 1) & 0x20202020u;           /* and have been a character, not a control code */
+    return nibbles;
 }
 
-/* Digits of a line as a number; false: another character. */
-static bool hex_number(const uint8_t *digits, uint32_t count, uint32_t *number)
+static inline uint32_t number_of(uint32_t nibbles) /* the first digit is the highest */
 {
-    *number = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        const int32_t digit = hex_digit(digits[i]);
-        if (digit < 0) {
-            return false;
-        }
-        *number = *number << 4 | (uint32_t)digit;
-    }
-    return true;
+    const uint32_t pairs = (nibbles & 0x000f000fu) << 4 | (nibbles >> 8 & 0x000f000fu);
+    return (pairs & 0xffu) << 8 | pairs >> 16;
 }
 
 /* tiiildd... or Tiiiiiiiildd..., r and R without data. */
-static bool parse(const brace_app_slcan_t *slcan, brace_can_frame_t *frame)
+static bool parse(brace_app_slcan_t *slcan, brace_can_frame_t *frame)
 {
-    const uint8_t kind = slcan->line[0];
+    const uint8_t kind = slcan->line[0], *line = slcan->line;
     const uint32_t id_digits = kind == 'T' || kind == 'R' ? 8u : 3u;
-    uint32_t length, byte;
-    if (slcan->line_count < 2u + id_digits || !hex_number(&slcan->line[1], id_digits, &frame->id) ||
-        !hex_number(&slcan->line[1u + id_digits], 1, &length) || length > 8u) {
-        return false;
-    }
+    const uint32_t length = (uint32_t)line[1u + id_digits] - '0', count = slcan->line_count;
     const uint32_t bytes = kind == 't' || kind == 'T' ? length : 0u;
-    if (slcan->line_count != 2u + id_digits + 2u * bytes || (id_digits == 3u && frame->id > 0x7ffu)) {
+    uint32_t wrong = 0;
+    if (count < 2u + id_digits || length > 8u || count != 2u + id_digits + 2u * bytes) {
         return false;
     }
-    for (uint32_t i = 0; i < bytes; i++) {
-        if (!hex_number(&slcan->line[2u + id_digits + 2u * i], 2, &byte)) {
-            return false;
-        }
-        frame->data[i] = (uint8_t)byte;
+    if (id_digits == 3u) {
+        const uint8_t id[4] = {'0', line[1], line[2], line[3]};
+        frame->id = number_of(four_digits(id, &wrong));
+        wrong |= frame->id & ~0x7ffu;
+    } else {
+        frame->id = number_of(four_digits(line + 1, &wrong)) << 16 | number_of(four_digits(line + 5, &wrong));
+    }
+    if ((bytes & 1u) != 0u) { /* an even number goes through */
+        slcan->line[count] = slcan->line[count + 1u] = '0';
+    }
+    const uint8_t *digits = &line[2u + id_digits];
+    for (uint32_t i = 0; i < bytes; i += 2u) {
+        const uint32_t pair = number_of(four_digits(digits + 2u * i, &wrong));
+        frame->data[i] = (uint8_t)(pair >> 8);
+        frame->data[i + 1u] = (uint8_t)pair;
+    }
+    if (wrong != 0u) {
+        return false;
     }
     frame->length = (uint8_t)length;
     frame->fd = false;
@@ -175,20 +184,15 @@ static bool obey(brace_app_t *app, brace_can_frame_t *frame)
     return false;
 }
 
-static bool take_byte(brace_app_t *app, uint8_t byte, brace_can_frame_t *frame)
+/* A line has come to its end. true: it is a frame for the node. */
+static bool take_line(brace_app_t *app, brace_can_frame_t *frame)
 {
     brace_app_slcan_t *slcan = &app->bus.slcan;
-    if (byte == '\n') {
-        return false;
-    }
-    if (byte != CR) {
-        slcan->too_long = slcan->too_long || slcan->line_count == BRACE_APP_LINE_BYTES;
-        if (!slcan->too_long) {
-            slcan->line[slcan->line_count++] = byte;
-        }
-        return false;
-    }
     bool is_frame = false;
+    if (slcan->line_count > 0u && slcan->line[0] == '\n') { /* of whoever ends lines with both */
+        slcan->line_count--;
+        memmove(slcan->line, slcan->line + 1, slcan->line_count);
+    }
     if (slcan->too_long) {
         const char bell = BEL;
         answer(app, &bell, 1);
@@ -200,21 +204,50 @@ static bool take_byte(brace_app_t *app, uint8_t byte, brace_can_frame_t *frame)
     return is_frame;
 }
 
+/* What was read, up to the end of a line. returns whether there was one */
+static bool gather(brace_app_slcan_t *slcan)
+{
+    const uint8_t *from = &slcan->in[slcan->in_first];
+    uint8_t *to = &slcan->line[slcan->line_count];
+    const uint32_t here = slcan->in_count, room = (uint32_t)BRACE_APP_LINE_BYTES - slcan->line_count;
+    uint32_t count = 0;
+    for (; count < here && from[count] != CR && count < room; count++) { /* at most BRACE_APP_IN_BYTES */
+        to[count] = from[count];
+    }
+    slcan->line_count = (uint8_t)(slcan->line_count + count);
+    slcan->too_long = slcan->too_long || (count < here && from[count] != CR);
+    while (count < here && from[count] != CR) { /* what is too long goes by */
+        count++;
+    }
+    const bool whole = count < here;
+    count += whole;
+    slcan->in_first = (uint8_t)(slcan->in_first + count);
+    slcan->in_count = (uint8_t)(slcan->in_count - count);
+    return whole;
+}
+
 bool slcan_port_receive(brace_app_t *app, brace_can_frame_t *frame)
 {
     brace_app_slcan_t *slcan = &app->bus.slcan;
+    bool is_frame = false;
+    slcan->heard = false;
+    if (!slcan->fitted) {
+        return false;
+    }
     if (slcan->in_count == 0u) {
         const int32_t read =
             app->hal->serial_read(app->hal->context, BRACE_SERIAL_SLCAN, slcan->in, BRACE_APP_IN_BYTES);
         slcan->in_first = 0;
         slcan->in_count = read > 0 && read <= BRACE_APP_IN_BYTES ? (uint8_t)read : 0u;
     }
-    (void)flush(app);
-    while (slcan->in_count > 0u) { /* at most BRACE_APP_IN_BYTES */
-        slcan->in_count--;
-        if (take_byte(app, slcan->in[slcan->in_first++], frame)) {
-            return true;
+    if (slcan->out_count > 0u) {
+        (void)flush(app);
+    }
+    for (uint32_t i = 0; i < LINES_MOST && !is_frame && slcan->in_count > 0u; i++) {
+        if (gather(slcan)) {
+            slcan->heard = true;
+            is_frame = take_line(app, frame);
         }
     }
-    return false;
+    return is_frame;
 }

@@ -11,7 +11,8 @@ enum { SLCAN_BAUD = 921600 };
 
 void slcan_port_start(brace_app_t *app);
 
-/* Takes bytes until a frame is whole: at most BRACE_APP_IN_BYTES of them, then false. */
+/* Takes bytes until a frame is whole, at most BRACE_APP_IN_BYTES and four lines of them; false: none is. At most
+ * 600 instructions. */
 bool slcan_port_receive(brace_app_t *app, brace_can_frame_t *frame);
 
 /* Writes a line, at once or when the one before is out; false: that one still waits. Nothing is sent, and

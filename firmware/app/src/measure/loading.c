@@ -268,6 +268,13 @@ void loading_piece(brace_app_t *app)
         loading_drift(app);
         next_step(app);
     } else if (test->phase == LOADING_JUDGE) {
-        loading_end(app, loading_judge(app));
+        if (loading_judge(app)) {
+            test->phase = LOADING_COMPARE;
+        } else {
+            loading_end(app, BRACE_LOADING_E_FLAT);
+        }
+    } else if (test->phase == LOADING_COMPARE) {
+        loading_compare(app);
+        loading_end(app, BRACE_LOADING_DONE);
     }
 }

@@ -10,8 +10,9 @@ enum {
     LOADING_DWELL = 2,
     LOADING_READ = 3,  /* a piece: slope and row */
     LOADING_DRIFT = 4, /* a piece, with nothing beside it: the reading goes to the drift detector */
-    LOADING_JUDGE = 5, /* a piece, with nothing beside it: slopes against the model */
-    LOADING_RETURN = 6
+    LOADING_JUDGE = 5, /* a piece, with nothing beside it: slopes */
+    LOADING_COMPARE = 6, /* a piece, with nothing beside it: slopes against the model */
+    LOADING_RETURN = 7
 };
 
 brace_status_t loading_start(brace_app_t *app, const brace_loading_setup_t *setup);
@@ -25,8 +26,8 @@ void loading_end(brace_app_t *app, brace_loading_outcome_t outcome);
 /* A tick of it, from this tick's samples. At most 150 instructions. */
 void loading_advance(brace_app_t *app, const brace_snapshot_t *snapshot);
 
-/* The piece that is due: READ in a tick that computes no K, at most 700 instructions; DRIFT and JUDGE in
- * one that does nothing else, at most 3,700. */
+/* The piece that is due: READ in a tick that computes no K, at most 700 instructions; DRIFT, JUDGE and
+ * COMPARE in one that does nothing else but answer, at most 2,600. */
 void loading_piece(brace_app_t *app);
 
 #endif

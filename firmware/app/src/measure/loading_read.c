@@ -1,5 +1,6 @@
 #include "measure/loading_read.h"
 
+#include "configure/keeping.h"
 #include "measure/model.h"
 #include "supervise/supervisor.h"
 #include "supervise/supervisor.h"
@@ -149,6 +150,7 @@ void loading_drift(brace_app_t *app)
         .theta1_rad = result->theta1_rad, .theta2_rad = result->theta2_rad, .dx_mm = test->dx_mm,
         .dz_mm = test->dz_mm, .fx_n = test->fx_n, .fz_n = test->fz_n, .warmer_degc = measured ? warmer_degc : 0.0f};
     (void)brace_drift_step(&app->drift, &app->parameters.limb, &test->at_reference, &reading);
+    keeping_look(app);
     const uint32_t side = result->setup.steps_per_side;
     if (test->step == side || test->step == 3u * side) {
         (void)brace_drift_run(&app->drift); /* friction turns round with the motion */
@@ -165,18 +167,21 @@ static float deviation(float measured, float sigma_measured, float model, float 
     return variance > 0.0f ? (measured - model) / __builtin_sqrtf(variance) : 0.0f;
 }
 
-brace_loading_outcome_t loading_judge(brace_app_t *app)
+bool loading_judge(brace_app_t *app)
 {
-    brace_loading_t *test = &app->loading;
-    brace_loading_result_t *result = &test->result;
+    const brace_slope_t *slope = &app->loading.slope;
+    brace_loading_result_t *result = &app->loading.result;
+    return brace_slope_column(slope, BRACE_SLOPE_LEAST_SQUARES, &result->least_squares) == BRACE_OK &&
+           brace_slope_column(slope, BRACE_SLOPE_MEAN_OF_RATIOS, &result->mean_of_ratios) == BRACE_OK;
+}
+
+void loading_compare(brace_app_t *app)
+{
+    brace_loading_result_t *result = &app->loading.result;
     const bool along_x = result->setup.axis == BRACE_AXIS_X;
-    const brace_stiffness_t *model = &test->model;
-    if (brace_slope_column(&test->slope, BRACE_SLOPE_LEAST_SQUARES, &result->least_squares) != BRACE_OK ||
-        brace_slope_column(&test->slope, BRACE_SLOPE_MEAN_OF_RATIOS, &result->mean_of_ratios) != BRACE_OK) {
-        return BRACE_LOADING_E_FLAT;
-    }
+    const brace_stiffness_t *model = &app->loading.model;
     brace_stiffness_sigma_t sigma;
-    if (brace_uncertainty_stiffness(&app->parameters.limb, result->theta1_rad, result->theta2_rad, model, &sigma) !=
+    if (brace_uncertainty_known(&app->parameters.limb, result->theta1_rad, result->theta2_rad, model, &sigma) !=
         BRACE_OK) {
         sigma.k_xx_n_per_mm = sigma.k_xz_n_per_mm = sigma.k_zz_n_per_mm = __builtin_nanf("");
     }
@@ -188,5 +193,4 @@ brace_loading_outcome_t loading_judge(brace_app_t *app)
                             result->model_k_x_n_per_mm, result->sigma_model_k_x_n_per_mm);
     result->z_z = deviation(result->least_squares.k_z_n_per_mm, result->least_squares.sigma_k_z_n_per_mm,
                             result->model_k_z_n_per_mm, result->sigma_model_k_z_n_per_mm);
-    return BRACE_LOADING_DONE;
 }

@@ -17,7 +17,10 @@ bool loading_add_to_slope(brace_loading_t *test, float fx_n, float fz_n);
 /* The reading goes to the drift detector, if a sensor measured the force and no gap was open. */
 void loading_drift(brace_app_t *app);
 
-/* Slopes, and how far they are from the model: DONE, or E_FLAT. */
-brace_loading_outcome_t loading_judge(brace_app_t *app);
+/* Slopes; false: there are none, it was flat. */
+bool loading_judge(brace_app_t *app);
+
+/* How far they are from the model. */
+void loading_compare(brace_app_t *app);
 
 #endif

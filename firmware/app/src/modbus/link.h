@@ -15,7 +15,7 @@ typedef enum {
 
 enum {
     LINK_READ = 64,    /* bytes taken from a port at a time */
-    LINK_PIECE = 32,   /* bytes checked in a tick */
+    LINK_PIECE = 16,   /* bytes checked in a tick */
     LINK_SHORT = 16    /* so few are checked beside other work */
 };
 
@@ -34,7 +34,7 @@ void link_broken(brace_app_t *app, brace_app_modbus_link_t *link);
 void line_poll(brace_app_t *app, uint32_t now_us);
 void tcp_poll(brace_app_t *app, uint32_t now_us);
 
-/* In a tick that is kept free for it: judges, works, or makes the check; at most 2,200 instructions. */
+/* In a tick that has room for it: judges, works, or makes the check; at most 1,100 instructions, in CONFIGURATION 2,200. */
 void line_serve(brace_app_t *app, uint32_t now_us);
 void tcp_serve(brace_app_t *app, uint32_t now_us);
 

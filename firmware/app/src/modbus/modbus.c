@@ -28,7 +28,7 @@ static bool wants(const brace_app_modbus_link_t *link)
     return link->phase == LINK_CHECK || link->phase == LINK_WORK || link->phase == LINK_SEAL;
 }
 
-uint32_t modbus_poll(brace_app_t *app, uint32_t now_us)
+bool modbus_poll(brace_app_t *app, uint32_t now_us)
 {
     brace_app_modbus_t *modbus = &app->modbus;
     modbus->polls_tcp = modbus->tcp.there && !(modbus->polls_tcp && modbus->line.there);
@@ -37,9 +37,7 @@ uint32_t modbus_poll(brace_app_t *app, uint32_t now_us)
     } else if (modbus->line.there) {
         line_poll(app, now_us);
     }
-    const bool waits = wants(&modbus->line) || wants(&modbus->tcp);
-    modbus->waited = waits ? (uint16_t)(modbus->waited + (modbus->waited < UINT16_MAX)) : 0u;
-    return modbus->waited;
+    return wants(&modbus->line) || wants(&modbus->tcp);
 }
 
 /* The ports take turns. */
@@ -47,7 +45,6 @@ void modbus_serve(brace_app_t *app, uint32_t now_us)
 {
     brace_app_modbus_t *modbus = &app->modbus;
     const bool line = wants(&modbus->line), tcp = wants(&modbus->tcp);
-    modbus->waited = 0;
     modbus->turn = !modbus->turn;
     if (line && (modbus->turn || !tcp)) {
         line_serve(app, now_us);

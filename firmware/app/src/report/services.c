@@ -6,7 +6,9 @@
 #include "modbus/modbus.h"
 #include "report/announce.h"
 
-#define PATIENCE_TICKS 20u
+#define PATIENCE_TICKS 8u
+#define MOST_YIELDED 4u /* ticks in a row without K */
+#define LINES_OF_ANSWERS 3u
 
 void services_start(brace_app_t *app)
 {
@@ -17,74 +19,135 @@ void services_start(brace_app_t *app)
     modbus_start(app);
 }
 
-/* Is there room beside K? A limb on the general path fills its tick: what there is to say waits for a lean
- * one. */
-static bool is_roomy(const brace_app_t *app)
-{
-    return app->model.collapsed || app->mode == BRACE_MODE_CONFIGURATION;
-}
-
-/* Which bus answers in this tick? CAN first, since its answers are due within a tick; Modbus, whose own line
- * takes milliseconds, before it has waited for long. */
-static void choose(brace_app_t *app, bool may, bool in_brief)
-{
-    const uint32_t waited = app->modbus.waited; /* since an earlier tick: then CAN is looked through in brief */
-    app->requests.serves = requests_take(app, may && waited <= PATIENCE_TICKS, in_brief || waited > 0u);
-    app->modbus.serves = !app->requests.serves && waited > 0u && may;
-    if (!app->requests.serves && !app->modbus.serves) {
-        (void)modbus_poll(app, app->last_us);
-    }
-}
-
 static bool wants_to_say(const brace_app_t *app)
 {
     return announce_wants(app) || cyclic_wants(app);
 }
 
-/* A tick that answers says nothing else. Where only lean ticks speak, answers and the rest take turns. */
-bool services_listen(brace_app_t *app, bool may_be_lean)
+static bool moves(const brace_app_t *app)
 {
-    const bool may = may_be_lean && app->requests.rested;
-    const bool roomy = is_roomy(app);
-    const bool moves = app->mode == BRACE_MODE_TAKING_UP || app->mode == BRACE_MODE_LOADING_TEST;
-    const bool listens = !(roomy && moves) || (brace_app_snapshot(app)->sequence & 1u) != 0u; /* else it speaks */
-    app->requests.serves = app->modbus.serves = false;
-    app->report.speaks = !(roomy && moves && listens);
-    app->report.runs = may || (may_be_lean && roomy);
-    if (!app->report.runs) {
-        app->requests.rested = true;
-        return false;
+    return app->mode == BRACE_MODE_TAKING_UP || app->mode == BRACE_MODE_LOADING_TEST;
+}
+
+/* The dearest question: K at a place of the tip. */
+static bool locates(const brace_app_t *app)
+{
+    const uint32_t code = app->requests.request[0];
+    return code == BRACE_REQUEST_K_AT_TIP_KNEE_UP || code == BRACE_REQUEST_K_AT_TIP_KNEE_DOWN;
+}
+
+/* Is the answer by itself too much beside K? Only where K takes the general path, or lines are text. */
+static bool is_long(const brace_app_t *app)
+{
+    const bool plays = app->play[0].watched && app->play[1].watched;
+    return app->bus.slcan.open || (locates(app) && moves(app)) ||
+           (!app->model.collapsed && (plays || locates(app) || moves(app)));
+}
+
+/* Has an SLCAN line anything to do in this tick? */
+static bool writes_text(const brace_app_t *app)
+{
+    return app->bus.slcan.open && (app->report.speaks || app->requests.answer_count > 0u);
+}
+
+/* Does what was chosen go into a tick together with K, or with a piece of work? */
+static bool is_too_much(const brace_app_t *app, services_room_t room)
+{
+    const bool answers = app->requests.serves, works = app->modbus.serves, says = app->report.speaks;
+    switch (room) {
+    case SERVICES_BESIDE_LITTLE: return false;
+    case SERVICES_BESIDE_A_PIECE: return answers || works || app->bus.slcan.heard || writes_text(app);
+    case SERVICES_BESIDE_K:
+    default: break;
     }
-    const bool says = !roomy && wants_to_say(app);
-    if (listens) {
-        choose(app, may && !(says && app->report.owed), moves);
+    if (app->bus.slcan.heard && (works || writes_text(app) || (moves(app) && !app->model.collapsed))) {
+        return true;
     }
-    const bool serves = app->requests.serves || app->modbus.serves;
-    const bool listened = !roomy && (moves || app->requests.looked > 1u || app->modbus.waited > 0u);
-    const bool lean = serves || says || listened;
-    app->report.owed = serves && says;
-    app->requests.rested = !lean;
-    return lean;
+    if (answers && (works || is_long(app) || (says && (moves(app) || locates(app))))) {
+        return true;
+    }
+    if (works && says && moves(app)) {
+        return true;
+    }
+    return !app->model.collapsed && (works || (answers && (says || app->modbus.polls)));
+}
+
+/* Modbus, whose own line takes milliseconds, has its turn where CAN asks nothing, or when it has had none for
+ * some ticks. */
+static void choose_modbus(brace_app_t *app, bool may)
+{
+    brace_app_modbus_t *modbus = &app->modbus;
+    modbus->polls = may && (!app->requests.serves || modbus->waited >= PATIENCE_TICKS);
+    modbus->serves = modbus->polls && modbus_poll(app, app->last_us);
+    modbus->waited = modbus->polls ? 0u : (uint16_t)(modbus->waited + 1u);
+}
+
+/* Over SLCAN a tick has a line: three of answers, then one of the rest. */
+static bool may_say(brace_app_t *app)
+{
+    brace_app_report_t *report = &app->report;
+    const bool answers = app->requests.serves || app->requests.answer_count > 0u;
+    if (!app->bus.slcan.open) {
+        return true;
+    }
+    report->waited = (uint8_t)(answers && report->waited < LINES_OF_ANSWERS ? report->waited + 1u : 0u);
+    return !app->modbus.serves && report->waited == 0u;
+}
+
+static void choose(brace_app_t *app, services_room_t room)
+{
+    brace_app_requests_t *requests = &app->requests;
+    const bool piece = room == SERVICES_BESIDE_A_PIECE;
+    requests->serves = requests_take(app);
+    if (requests->serves && ((piece && requests->yielded > 0u) ||
+                             (room == SERVICES_BESIDE_K && requests->yielded >= MOST_YIELDED && is_long(app)))) {
+        requests->serves = false; /* it goes on waiting */
+    }
+    const bool little = room == SERVICES_BESIDE_LITTLE && app->mode != BRACE_MODE_CONFIGURATION;
+    choose_modbus(app, !(little && requests->serves));
+    app->report.speaks = wants_to_say(app) && may_say(app) && !(little && requests->serves);
+}
+
+bool services_listen(brace_app_t *app, services_room_t room)
+{
+    brace_app_requests_t *requests = &app->requests;
+    choose(app, room);
+    if (requests->yielded > 0u && is_too_much(app, room)) {
+        app->modbus.serves = false;
+        app->report.speaks = app->report.speaks && !requests->serves && !app->bus.slcan.heard;
+    }
+    const bool yields = is_too_much(app, room);
+    requests->yielded = yields ? (uint8_t)(requests->yielded + 1u) : 0u;
+    return yields;
+}
+
+/* Frames of process data that this tick has room for. */
+static uint32_t room_to_say(const brace_app_t *app, bool lean)
+{
+    if (!lean || app->bus.slcan.open) {
+        return app->cyclic.frames_per_tick;
+    }
+    return !app->requests.serves ? 4u : locates(app) ? 1u : 2u;
 }
 
 void services_run(brace_app_t *app, bool lean)
 {
     bus_watch(app);
-    if (!app->report.runs || !(lean || is_roomy(app))) {
-        return;
+    if (app->requests.serves) {
+        requests_serve(app);
     }
     if (app->modbus.serves) {
         modbus_serve(app, app->last_us);
-    } else if (app->requests.serves) {
-        requests_serve(app);
     }
-    requests_send(app);
-    if (app->requests.serves || app->modbus.serves || !app->report.speaks) {
+    if (!app->report.speaks || !app->bus.slcan.open) {
+        requests_send(app);
+    }
+    if (!app->report.speaks) {
         return;
     }
     if (app->cyclic.parameter_crc != app->parameter_crc) {
         cyclic_configure(app);
     } else if (!announce(app) && bus_speaks(app)) {
-        cyclic_send(app);
+        cyclic_send(app, room_to_say(app, lean));
     }
 }

@@ -140,10 +140,15 @@ brace_status_t brace_uncertainty_stiffness(const brace_limb_t *limb, float theta
     if (sigma == NULL) {
         return BRACE_E_NULL;
     }
-    brace_status_t status = brace_limb_check(limb);
-    if (status == BRACE_OK) {
-        status = brace_check_two(theta1_rad, theta2_rad, BRACE_ANGLE_LIMIT_RAD);
-    }
+    const brace_status_t status = brace_limb_check(limb);
+    return status == BRACE_OK ? brace_uncertainty_known(limb, theta1_rad, theta2_rad, stiffness, sigma) : status;
+}
+
+BRACE_OFF_TICK
+brace_status_t brace_uncertainty_known(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
+                                       const brace_stiffness_t *stiffness, brace_stiffness_sigma_t *sigma)
+{
+    brace_status_t status = brace_check_two(theta1_rad, theta2_rad, BRACE_ANGLE_LIMIT_RAD);
     if (status == BRACE_OK) {
         status = brace_check_stiffness(stiffness);
     }
