@@ -89,7 +89,6 @@ static void control_tick(brace_app_t *app, uint32_t now_us, bool late, bool lean
     }
 }
 
-void brace_app_tick(brace_app_t *app, uint32_t now_us)
 static services_room_t room_of(const brace_app_t *app)
 {
     const bool measures = app->loading.phase >= LOADING_READ && app->loading.phase <= LOADING_COMPARE;
@@ -99,6 +98,7 @@ static services_room_t room_of(const brace_app_t *app)
     return measures ? SERVICES_BESIDE_LITTLE : SERVICES_BESIDE_K;
 }
 
+void brace_app_tick(brace_app_t *app, uint32_t now_us)
 {
     brace_snapshot_t *next = &app->snapshot[app->newest ^ 1u];
     const bool late = app->ticked && now_us - app->last_us > LATE_PERIODS * app->tick_us;
