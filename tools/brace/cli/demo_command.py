@@ -18,7 +18,8 @@ def add(commands: Any) -> None:
         "demo", help="the paper's table and a simulated limb, end to end",
         description="Takes the paper's table as printed, finds its faults, identifies the limb, and draws the paper's "
                     "figures: eigenvalues over r, ellipses, the cyclic test with its zero-force shift, the choice of "
-                    "stiffness. Writes pictures, table.csv, limb.toml and facts.json into --out.")
+                    "stiffness; then has a simulated controller's own loading tests tell what its model lacks, and mends "
+                    "it. Writes pictures, table.csv, limb.toml, wire/ and facts.json into --out.")
     parser.add_argument("--out", type=common.path, default=Path("brace-demo"), metavar="DIR", help="default: brace-demo")
     common.add_json(parser)
     parser.set_defaults(run=run)
@@ -43,7 +44,8 @@ def run(arguments: argparse.Namespace) -> int:
         common.print_json({**story.facts, "out": arguments.out})
         return 0
     model = arguments.out / "limb.toml"
-    common.emit(f"-> {arguments.out}/: {', '.join([*story.files, 'facts.json'])}")
+    names = [name for name in story.files if "/" not in name]
+    common.emit(f"-> {arguments.out}/: {', '.join([*names, 'facts.json'])}, wire/wire-diagnosis/report.html")
     common.emit("Next, three commands to try:")
     common.emit(f"   .venv/bin/brace k --model {model} --r 300 --phi -0.4")
     common.emit(f"   .venv/bin/brace map --model {model} --out {arguments.out}/map")

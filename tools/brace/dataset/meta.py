@@ -62,7 +62,7 @@ class Meta:
     @property
     def moved_by_motors(self) -> bool:
         """The limb pressed by itself: its angles differ from row to row, its tip moves a little sideways too."""
-        return self.values["rig.moved_by"] == "motors"
+        return bool(self.values["rig.moved_by"] == "motors")
 
     @property
     def joint(self) -> str:

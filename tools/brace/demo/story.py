@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy as np
 
 from brace.dataset.write import csv_text
-from brace.demo import contact, cyclic, paper_table, postures
+from brace.demo import contact, cyclic, paper_table, postures, wire_loop
 from brace.demo.band import band
 from brace.identify import report
 from brace.model import LimbModel, load_limb
@@ -52,6 +54,8 @@ def tell(story: Story, advance: Advance) -> Iterator[str]:
     yield from _cyclic(story, load_limb(paper_table.DATA / "paper-limb.toml"))
     yield "6. Choice of stiffness for a foot on a ledge (Fig. 2) -> contact.png"
     yield from _contact(story, table.limb, table.tip_height_mm)
+    yield "7. The loop over the wire: a controller whose model lacks something, tested, diagnosed, mended -> wire/"
+    yield from _wire(story)
 
 
 def _eigenvalues(story: Story, table: paper_table.PaperTable) -> Iterator[str]:
@@ -122,3 +126,19 @@ def _contact(story: Story, model: LimbModel, height_mm: float) -> Iterator[str]:
     for stand in (firm, loose):
         yield (f"   foot at r = {stand.r_mm:.0f} mm: the ledge pushes with ({stand.force_n[0]:+.2f}, "
                f"{stand.force_n[1]:+.2f}) N; {'holds' if stand.holds else 'slides'}, margin {stand.margin_n:+.2f} N")
+
+
+def _wire(story: Story) -> Iterator[str]:
+    with tempfile.TemporaryDirectory() as name:
+        turn = yield from wire_loop.play(Path(name))
+        for path in sorted(Path(name).rglob("*")):
+            if path.is_file():
+                story.files[f"wire/{path.relative_to(name).as_posix()}"] = path.read_bytes()
+    theta1, theta2 = turn.posture
+    yield f"   K at theta1 = {theta1:g}, theta2 = {theta2:g} rad [N/mm]:   k_xx     k_xz     k_zz    off by"
+    for words, k in (("the limb's own", turn.truth), ("reported before", turn.before), ("reported after", turn.after)):
+        yield f"     {words:34}" + "".join(f"{entry:9.3f}" for entry in k) + f"{100 * turn.off(k):8.1f} %"
+    story.facts["wire"] = {"verdict": turn.diagnosis["verdict"], "effects": turn.diagnosis["effects"],
+                           "k_before_n_per_mm": turn.before, "k_after_n_per_mm": turn.after,
+                           "k_true_n_per_mm": turn.truth, "off_before_ratio": turn.off(turn.before),
+                           "off_after_ratio": turn.off(turn.after)}

@@ -1,0 +1,132 @@
+"""Several loading tests as one record: each row at its motors' angles, postures as configurations, one clock."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from bus_bench import limb_on_tcp
+from conftest import LIMB, Outcome, physics_k
+
+from brace.bus.loading_rows import added, on_one_clock, with_motor_angles
+from brace.dataset import load_dataset
+
+FEMUR_MM, TIBIA_MM = 185.0, 313.5
+TEST = ("--loading-test", "--axis", "x", "--steps", 2, "--step-mm", 0.5, "--add", "--json")
+
+
+def _tip(theta1: np.ndarray, theta2: np.ndarray) -> np.ndarray:
+    shank = theta1 - theta2
+    return np.stack(
+        [
+            FEMUR_MM * np.cos(theta1) + TIBIA_MM * np.cos(shank),
+            FEMUR_MM * np.sin(theta1) + TIBIA_MM * np.sin(shank),
+        ]
+    )
+
+
+def _columns(run: int, theta: tuple[float, float], d_mm: np.ndarray) -> dict[str, np.ndarray]:
+    count = d_mm.shape[1]
+    whole = {"run": run, "config": 1, "axis": 0, "rep": 0}
+    return {
+        **{name: np.full(count, value) for name, value in whole.items()},
+        "step": np.arange(count),
+        "theta1_rad": np.full(count, theta[0]),
+        "theta2_rad": np.full(count, theta[1]),
+        "t_s": 0.5 * np.arange(count) + 0.1,
+        "dx_mm": d_mm[0],
+        "dz_mm": d_mm[1],
+    }
+
+
+def test_motors_angles_are_those_of_the_unloaded_shape() -> None:
+    """The tip of the shape that the motors hold is the planted one, less the displacement."""
+    d_mm = np.array([[0.0, 1.5, -2.0, 0.1], [0.0, 0.3, 0.0, -1.9]])
+    columns = with_motor_angles(_columns(1, (0.7, 1.3), d_mm), FEMUR_MM, TIBIA_MM)
+    tip = _tip(columns["theta1_rad"], columns["theta2_rad"])
+    planted = _tip(np.full(4, 0.7), np.full(4, 1.3))
+    assert np.abs(planted - tip - d_mm).max() < 1e-9
+    assert columns["theta1_rad"][0] == 0.7 and np.abs(columns["theta2_rad"] - 1.3).max() < 0.02
+
+
+def test_a_straight_knee_keeps_the_angles_told() -> None:
+    columns = _columns(1, (0.7, 0.0), np.array([[0.0, 1.0], [0.0, 0.0]]))
+    assert with_motor_angles(columns, FEMUR_MM, TIBIA_MM) is columns
+
+
+def test_one_clock_and_counted_on() -> None:
+    d_mm = np.zeros((2, 4))
+    first = _columns(5, (0.7, 1.3), d_mm)
+    second = _columns(6, (0.7, 1.3), d_mm)
+    both = {name: np.concatenate([first[name], second[name]]) for name in first}
+    clocked = on_one_clock(both, [1000.0, 1010.0])
+    assert clocked["t_s"][4] == pytest.approx(10.1)
+    assert on_one_clock(both, [1000.0, 1000.1])["t_s"][4] > 1.6  # never before the end of the one before
+    again = added(clocked, _columns(1, (0.7001, 1.2999), d_mm), 60.0)
+    assert again["run"].tolist()[-4:] == [7] * 4 and again["config"].tolist()[-4:] == [1] * 4
+    assert again["rep"].tolist()[-4:] == [1] * 4 and again["t_s"][8] == pytest.approx(
+        clocked["t_s"][7] + 60.1
+    )
+    other = added(again, _columns(1, (0.2, 1.3), d_mm), None)
+    assert other["config"].tolist()[-4:] == [2] * 4 and other["rep"].tolist()[-4:] == [0] * 4
+    assert np.all(np.diff(other["t_s"]) > 0)
+
+
+def test_postures_over_a_bus_become_one_record(brace: Callable[..., Outcome], tmp_path: Path) -> None:
+    """Each configuration's slope is K there; another set of parameters is refused before the limb moves."""
+    limb, other = tmp_path / "limb.toml", tmp_path / "other.toml"
+    limb.write_text(LIMB)
+    other.write_text(LIMB.replace("= 0.25", "= 0.26"))
+    postures = ((1.0, 1.4), (0.4, 1.0))
+    out = tmp_path / "test"
+    for posture in postures:
+        with limb_on_tcp(limb, f"--posture={posture[0]},{posture[1]}", "--speed", 5) as url:
+            outcome = brace("record", "--bus", url, *TEST, "--out", out)
+            assert outcome.code == 0, outcome.err
+            if posture == postures[1]:
+                outcome = brace("record", "--bus", url, *TEST, "--out", out)  # once more: a repeat
+                assert outcome.code == 0, outcome.err
+    told = json.loads(outcome.out)
+    assert (told["config"], told["configs"], told["faults"]) == (2, 2, [])
+    dataset = load_dataset(out)
+    dataset.require_sound()
+    assert dataset.meta.moved_by_motors and set(dataset["config"].tolist()) == {1, 2}
+    assert np.unique(dataset["run"]).tolist() == [1, 2, 3] and set(dataset["rep"].tolist()) == {0, 1}
+    for config, posture in enumerate(postures, start=1):
+        rows = (dataset["config"] == config) & (dataset["rep"] == 0)
+        k = physics_k(*posture)
+        d = np.column_stack([dataset["dx_mm"][rows], dataset["dz_mm"][rows]])
+        left = dataset["fx_n"][rows] - d @ k[0]
+        assert np.abs(left - left.mean()).max() < 0.1 < np.ptp(dataset["fx_n"][rows])
+        assert np.ptp(dataset["theta1_rad"][rows]) > 1e-4
+    before = (out / "data.csv").read_bytes()
+    with limb_on_tcp(other, "--speed", 5) as url:
+        outcome = brace("record", "--bus", url, *TEST, "--out", out)
+    assert outcome.code == 2 and "another set of parameters" in outcome.err
+    assert (out / "data.csv").read_bytes() == before
+
+
+def test_adding_to_something_else_is_refused(
+    brace: Callable[..., Outcome], paper_table: Path, tmp_path: Path
+) -> None:
+    outcome = brace("record", "--bus", "tcp://127.0.0.1:9", *TEST, "--out", paper_table)
+    assert outcome.code == 2 and "stiffness table" in outcome.err
+
+
+def test_what_a_rig_may_not_do_motors_may(tmp_path: Path) -> None:
+    """Angles that differ within a run, and motion across, are faults of a rig's record only; far ones of both."""
+    from conftest import LOADING_META, loading_rows, write_loading
+
+    rows = loading_rows()
+    for row in rows[1:17]:
+        row[2] = f"{float(row[2]) + 0.004:.6f}"
+    motors = LOADING_META + 'moved_by = "motors"\n'
+    faults = load_dataset(write_loading(tmp_path / "rig", rows)).faults
+    assert any(fault.field == "theta1_rad" for fault in faults)
+    assert not load_dataset(write_loading(tmp_path / "motors", rows, meta=motors)).faults
+    rows[3][2] = "1.9"
+    faults = load_dataset(write_loading(tmp_path / "far", rows, meta=motors)).faults
+    assert [fault.row for fault in faults if fault.field == "theta1_rad"] == [4]
