@@ -13,7 +13,10 @@
 
 #include "brace_hal.h"
 
-enum { NVM_SLOT_BYTES = 4096, NVM_FOREVER = -1 };
+#ifndef NVM_MODEL_SLOT_BYTES
+#define NVM_MODEL_SLOT_BYTES 4096
+#endif
+enum { NVM_SLOT_BYTES = NVM_MODEL_SLOT_BYTES, NVM_FOREVER = -1 };
 
 /* What the interrupted step leaves behind. For a write the unit was `old` (erased) and should be `new`. */
 typedef enum {

@@ -28,30 +28,163 @@ static void test_at(int turn, const brace_limb_t *limb, const brace_loading_setu
     TEST_ASSERT_EQUAL(BRACE_LOADING_DONE, result()->outcome);
 }
 
-static void test_a_link_that_cracks_is_noticed_and_the_alarm_is_cleared_on_request(void)
+static brace_loading_setup_t quick_setup(void)
 {
     brace_loading_setup_t quick = along_x;
     quick.dwell_us = 20000;
     quick.rate_mm_per_s = 200.0f;
     quick.source = BRACE_LOADING_COMMANDED; /* stiff servos follow at once */
+    return quick;
+}
+
+/* Learns the limb of the parameters. returns the next turn */
+static int learn(void)
+{
+    const brace_loading_setup_t quick = quick_setup();
     servo_n_mm_per_rad = 1e9;
     noise_n = 0.02f;
-    brace_limb_t limb = app.parameters.limb;
     int turn = 0;
     for (; turn < BRACE_DRIFT_LEARN_MOST / 16 + 4 && app.drift.state == BRACE_DRIFT_LEARNING; turn++) {
-        test_at(turn, &limb, &quick);
+        test_at(turn, &app.parameters.limb, &quick);
     }
     TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, app.drift.state);
-    TEST_ASSERT_EQUAL(0, now()->faults);
+    return turn;
+}
+
+static void crack(int turn)
+{
+    const brace_loading_setup_t quick = quick_setup();
+    brace_limb_t limb = app.parameters.limb;
     limb.link[BRACE_TIBIA].bending_mm_per_n *= 1.5f;
     for (int i = 0; i < 8 && now()->faults == 0; i++) {
         test_at(turn++, &limb, &quick);
     }
     TEST_ASSERT_EQUAL(BRACE_FAULT_MODEL_DRIFT, now()->faults);
+}
+
+static void restart(void)
+{
+    ticks(300); /* a record is written in pieces */
+    brace_fake_reset(&fake, BRACE_RESET_POWER);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    ticks(5);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+}
+
+static void store(const brace_parameters_t *p)
+{
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    TEST_ASSERT_EQUAL(BRACE_OK, p != NULL ? brace_app_parameters_commit(&app, p) : brace_app_parameters_rollback(&app));
+    for (int i = 0; i < 4000 && brace_app_configuration_leave(&app) != BRACE_OK; i++) {
+        ticks(1);
+    }
+    ticks(5);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+}
+
+static void test_a_link_that_cracks_is_noticed_and_the_alarm_is_cleared_on_request(void)
+{
+    const int turn = learn();
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    crack(turn);
     TEST_ASSERT_TRUE(now()->k_is_valid);
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_clear(&app, BRACE_FAULT_MODEL_DRIFT));
     ticks(1);
     TEST_ASSERT_EQUAL(0, now()->faults);
+}
+
+static void test_what_was_learned_outlives_a_restart(void)
+{
+    const int turn = learn();
+    ticks(300);
+    const brace_drift_t learned = app.drift;
+    restart();
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, app.drift.state);
+    TEST_ASSERT_EQUAL(learned.steps, app.drift.steps);
+    TEST_ASSERT_EQUAL_MEMORY(learned.offset, app.drift.offset, sizeof learned.offset);
+    TEST_ASSERT_EQUAL_MEMORY(learned.covariance, app.drift.covariance, sizeof learned.covariance);
+    TEST_ASSERT_EQUAL_MEMORY(learned.held, app.drift.held, sizeof learned.held);
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    crack(turn); /* what broke while it was switched off, or after, shows against the baseline of before */
+    restart();
+    TEST_ASSERT_EQUAL(BRACE_FAULT_MODEL_DRIFT, now()->faults);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_DRIFTED, app.drift.state);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_clear(&app, BRACE_FAULT_MODEL_DRIFT));
+    restart();
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, app.drift.state);
+}
+
+static void test_half_learned_goes_on_where_it_was(void)
+{
+    const brace_loading_setup_t quick = quick_setup();
+    servo_n_mm_per_rad = 1e9;
+    for (int turn = 0; app.drift.steps < 600u; turn++) {
+        test_at(turn, &app.parameters.limb, &quick);
+    }
+    restart();
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_LEARNING, app.drift.state);
+    TEST_ASSERT_TRUE(app.drift.steps >= 512u && app.drift.steps <= 600u);
+}
+
+static void test_a_set_that_is_stored_is_learned_anew_and_a_roll_back_comes_back_to_what_was_known(void)
+{
+    (void)learn();
+    ticks(300);
+    const uint32_t steps = app.drift.steps;
+    brace_parameters_t p = app.parameters;
+    p.limb.femur_mm = 186.0f;
+    store(&p);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_LEARNING, app.drift.state);
+    TEST_ASSERT_EQUAL(0, app.drift.steps);
+    restart();
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_LEARNING, app.drift.state);
+    store(NULL);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, app.drift.state);
+    TEST_ASSERT_EQUAL(steps, app.drift.steps);
+    p = app.parameters;
+    store(&p); /* the very same values: a commissioning */
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_LEARNING, app.drift.state);
+}
+
+/* Ten records fit the fake's slot: what is written is what has changed, and the last ones are for alarms. */
+static void test_records_are_few_and_alarms_find_room(void)
+{
+    const int turn = learn();
+    const brace_loading_setup_t quick = quick_setup();
+    ticks(300);
+    const uint32_t room = brace_journal_room(&app.keeping.journal);
+    TEST_ASSERT_TRUE(room >= 2u);
+    const uint32_t writes = fake.calls[BRACE_FAKE_NVM_WRITE];
+    for (int i = 0; i < 20; i++) { /* 320 readings of an unchanged limb */
+        test_at(turn + i, &app.parameters.limb, &quick);
+    }
+    ticks(300);
+    TEST_ASSERT_TRUE(fake.calls[BRACE_FAKE_NVM_WRITE] - writes <= 2u * BRACE_JOURNAL_PIECES);
+    while (brace_journal_room(&app.keeping.journal) > 2u) { /* as if years had passed */
+        TEST_ASSERT_TRUE(brace_journal_begin(&app.keeping.journal, &app.drift));
+        while (brace_journal_step(&app.keeping.journal) == BRACE_JOURNAL_BUSY) {
+        }
+    }
+    crack(turn);
+    restart();
+    TEST_ASSERT_EQUAL(BRACE_FAULT_MODEL_DRIFT, now()->faults);
+}
+
+static void test_a_memory_that_does_not_keep_is_a_fault(void)
+{
+    const int turn = learn();
+    ticks(300);
+    fake.nvm_stuck = 0x04;
+    const brace_loading_setup_t quick = quick_setup();
+    brace_limb_t limb = app.parameters.limb;
+    limb.link[BRACE_TIBIA].bending_mm_per_n *= 1.5f;
+    for (int i = 0; i < 8 && (now()->faults & BRACE_FAULT_STORE) == 0; i++) {
+        test_at(turn + i, &limb, &quick);
+        ticks(300);
+    }
+    TEST_ASSERT_BITS(BRACE_FAULT_STORE, BRACE_FAULT_STORE, now()->faults);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
 }
 
 /* Runs a test tick by tick; run_at: how many readings the check's run has after each step. returns the steps it took in */
@@ -136,6 +269,11 @@ int main(void)
     RUN_TEST(test_a_run_of_the_check_ends_at_each_reversal);
     RUN_TEST(test_readings_with_a_gap_open_do_not_reach_the_check);
     RUN_TEST(test_readings_without_a_sensor_do_not_reach_the_check);
+    RUN_TEST(test_what_was_learned_outlives_a_restart);
+    RUN_TEST(test_half_learned_goes_on_where_it_was);
+    RUN_TEST(test_a_set_that_is_stored_is_learned_anew_and_a_roll_back_comes_back_to_what_was_known);
+    RUN_TEST(test_records_are_few_and_alarms_find_room);
+    RUN_TEST(test_a_memory_that_does_not_keep_is_a_fault);
     RUN_TEST(test_a_tick_that_is_late_is_told_whatever_it_works_at);
     RUN_TEST(test_a_link_that_cracks_is_noticed_and_the_alarm_is_cleared_on_request);
     return UNITY_END();

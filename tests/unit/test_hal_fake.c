@@ -68,7 +68,7 @@ static void test_memory_is_flash(void)
     const uint8_t both[4] = {0x30, 0x0f, 0x55, 0x00};
     TEST_ASSERT_EQUAL_HEX8_ARRAY(both, bytes, 4);
     TEST_ASSERT_EQUAL(BRACE_HAL_E_RANGE, fake.hal.nvm_write(door(), 1, 6, first, 4));
-    TEST_ASSERT_EQUAL(BRACE_HAL_E_RANGE, fake.hal.nvm_write(door(), 1, 4096, first, 4));
+    TEST_ASSERT_EQUAL(BRACE_HAL_E_RANGE, fake.hal.nvm_write(door(), 1, BRACE_FAKE_SLOT_BYTES, first, 4));
     TEST_ASSERT_EQUAL(BRACE_HAL_E_RANGE, fake.hal.nvm_read(door(), 2, 0, bytes, 4));
     brace_fake_reset(&fake, BRACE_RESET_POWER);
     TEST_ASSERT_EQUAL(BRACE_HAL_OK, fake.hal.nvm_read(door(), 1, 8, bytes, 4));

@@ -1,6 +1,7 @@
 #include "brace/app.h"
 
 #include "configure/configure.h"
+#include "configure/keeping.h"
 #include "configure/staging.h"
 #include "configure/storing.h"
 #include "measure/control.h"
@@ -39,8 +40,8 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal)
     *app = (brace_app_t){.hal = hal};
     forget_samples(app);
     storing_start(app);
-    configure_begin(app);
-    while (configure_piece(app)) { /* at most six */
+    configure_begin(app, false);
+    for (uint32_t i = 0; i < CONFIGURE_PIECES && configure_piece(app); i++) {
     }
     if (hal->reset_cause(hal->context) == BRACE_RESET_FAULT) {
         supervisor_latch(app, BRACE_FAULT_CRASHED);
@@ -111,6 +112,9 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     } else if (app->loading.phase >= LOADING_DRIFT && app->loading.phase <= LOADING_COMPARE) {
         supervisor_late(app, late);
         loading_piece(app); /* as dear as a whole tick: the joints' filters bear a missed one */
+    } else if (keeping_due(app)) {
+        supervisor_late(app, late);
+        keeping_piece(app);
     } else {
         control_tick(app, now_us, late, lean, next);
     }

@@ -1,4 +1,5 @@
 #include "brace/app.h"
+#include "configure/keeping.h"
 #include "configure/staging.h"
 #include "configure/storing.h"
 #include "measure/loading.h"
@@ -135,6 +136,7 @@ brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults)
     }
     if ((faults & BRACE_FAULT_MODEL_DRIFT) != 0u) {
         (void)brace_drift_reset(&app->drift);
+        keeping_look(app);
     }
     if ((faults & BRACE_FAULT_CRASHED) != 0u) {
         app->hal->crash_clear(app->hal->context);

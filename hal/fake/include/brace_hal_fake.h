@@ -39,7 +39,7 @@ typedef enum {
 } brace_fake_entry_t;
 
 enum {
-    BRACE_FAKE_SLOT_BYTES = 4096,
+    BRACE_FAKE_SLOT_BYTES = 8192,
     BRACE_FAKE_FRAMES = 64,      /* of each queue */
     BRACE_FAKE_SERIAL_BYTES = 512,
     BRACE_FAKE_FAILURES = 8,

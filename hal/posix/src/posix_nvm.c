@@ -7,6 +7,8 @@
 #include "posix_door.h"
 #include "posix_io.h"
 
+enum { SYNCED_BYTES = 4096 }; /* of a slot: the parameters */
+
 int32_t brace_posix_nvm_open(brace_posix_nvm_t *nvm, const char *path, bool *is_new)
 {
     nvm->file = -1;
@@ -52,7 +54,8 @@ void brace_posix_nvm_close(brace_posix_nvm_t *nvm)
     io_close(&nvm->file);
 }
 
-/* What is in memory, onto the disk; only then does the call answer. */
+/* What is in memory, onto the disk; of parameters, only then does the call answer. What is learned besides is written
+ * while the limb works, which cannot wait for a disk: it outlives the process, not the computer's power. */
 static int32_t keep(brace_posix_nvm_t *nvm, uint32_t slot, uint32_t offset, uint32_t count)
 {
     if (nvm->file < 0) {
@@ -60,7 +63,7 @@ static int32_t keep(brace_posix_nvm_t *nvm, uint32_t slot, uint32_t offset, uint
     }
     const off_t place = (off_t)slot * BRACE_POSIX_SLOT_BYTES + (off_t)offset;
     const bool kept = pwrite(nvm->file, &nvm->bytes[slot][offset], count, place) == (ssize_t)count
-                      && fdatasync(nvm->file) == 0;
+                      && (offset >= SYNCED_BYTES || fdatasync(nvm->file) == 0);
     return kept ? BRACE_HAL_OK : BRACE_HAL_E_DEVICE;
 }
 

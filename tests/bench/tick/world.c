@@ -1,6 +1,6 @@
 #include "world.h"
 
-enum { SLOT_BYTES = 4096 };
+enum { SLOT_BYTES = 12288 };
 
 uint32_t world_now_us;
 

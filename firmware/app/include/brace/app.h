@@ -21,6 +21,7 @@
 #include "brace/can_messages.h"
 #include "brace/drift.h"
 #include "brace/gap_stiffness.h"
+#include "brace/journal.h"
 #include "brace/general.h"
 #include "brace/kinematics.h"
 #include "brace/loading.h"
@@ -204,6 +205,16 @@ typedef struct {
     brace_parameters_t set;
 } brace_app_staging_t;
 
+/* What the drift check knows, as it is kept. */
+typedef struct {
+    brace_journal_t journal;
+    bool look;                /* the check has learned something since it was last asked */
+    uint8_t ticks;            /* since the last piece */
+    uint8_t state;            /* of the check, in the newest record */
+    uint32_t steps;
+    float evidence[BRACE_DRIFT_CAUSE_COUNT + 1];
+} brace_app_keeping_t;
+
 enum { BRACE_APP_ADU_BYTES = 260 };
 
 typedef struct {
@@ -241,6 +252,7 @@ typedef struct {
     brace_store_t store;
     bool storing;            /* the store is at work */
     uint8_t configure_piece; /* 0: nothing is to be put in force */
+    bool configures_fresh;   /* what is put in force has just been written */
     brace_app_staging_t staging;
 
     brace_mode_t mode;
@@ -264,6 +276,7 @@ typedef struct {
     brace_app_requests_t requests;
     brace_loading_t loading;
     brace_drift_t drift;
+    brace_app_keeping_t keeping;
     brace_recorder_t recorder;
     brace_app_counters_t counters;
 

@@ -1,5 +1,6 @@
 #include "configure/configure.h"
 
+#include "configure/keeping.h"
 #include "measure/force.h"
 #include "measure/model.h"
 
@@ -10,11 +11,12 @@
 #define TAKEUP_SPARE_RAD 0.004f
 #define TAKEUP_DROOP_RAD 0.2f /* of a servo at the take-up's torque: what a soft one gives way by */
 
-enum { PIECE_COLLAPSE = 1, PIECE_GENERAL, PIECE_FEMUR, PIECE_TIBIA, PIECE_SENSOR, PIECE_DRIFT, PIECES_DONE };
+enum { PIECE_COLLAPSE = 1, PIECE_GENERAL, PIECE_FEMUR, PIECE_TIBIA, PIECE_SENSOR, PIECE_DRIFT, PIECE_KEPT, PIECES_DONE };
 
-void configure_begin(brace_app_t *app)
+void configure_begin(brace_app_t *app, bool fresh)
 {
     app->configure_piece = PIECE_COLLAPSE;
+    app->configures_fresh = fresh;
 }
 
 /* The take-up's bounds: a quarter more than the gap, and what gives way under its torque. */
@@ -61,6 +63,7 @@ static void configure_drift(brace_app_t *app)
         .joint_compliance_trust_ratio = 0.2f};
     (void)brace_drift_learn(&app->drift, &parameters->limb, &setup);
     app->supervisor.latched &= ~(uint32_t)BRACE_FAULT_MODEL_DRIFT;
+    keeping_open(app, app->configures_fresh);
 }
 
 bool configure_piece(brace_app_t *app)
@@ -75,6 +78,11 @@ bool configure_piece(brace_app_t *app)
     case PIECE_TIBIA: configure_play(app, 1); break;
     case PIECE_SENSOR: force_configure(app); break;
     case PIECE_DRIFT: configure_drift(app); break;
+    case PIECE_KEPT:
+        if (keeping_scan(app)) {
+            return true;
+        }
+        break;
     default: return false;
     }
     app->configure_piece = app->configure_piece + 1u < PIECES_DONE ? (uint8_t)(app->configure_piece + 1u) : 0u;

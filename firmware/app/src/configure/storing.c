@@ -54,7 +54,7 @@ void storing_step(brace_app_t *app)
     if (state == BRACE_STORE_DONE) {
         (void)brace_store_take(&app->store, &app->parameters, &app->parameter_crc);
         app->staging.begun = false;
-        configure_begin(app);
+        configure_begin(app, !app->store.rolling_back);
     }
     app->storing = false;
     judge(app);

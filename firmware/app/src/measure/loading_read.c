@@ -1,5 +1,6 @@
 #include "measure/loading_read.h"
 
+#include "configure/keeping.h"
 #include "measure/model.h"
 #include "supervise/supervisor.h"
 #include "supervise/supervisor.h"
@@ -149,6 +150,7 @@ void loading_drift(brace_app_t *app)
         .theta1_rad = result->theta1_rad, .theta2_rad = result->theta2_rad, .dx_mm = test->dx_mm,
         .dz_mm = test->dz_mm, .fx_n = test->fx_n, .fz_n = test->fz_n, .warmer_degc = measured ? warmer_degc : 0.0f};
     (void)brace_drift_step(&app->drift, &app->parameters.limb, &test->at_reference, &reading);
+    keeping_look(app);
     const uint32_t side = result->setup.steps_per_side;
     if (test->step == side || test->step == 3u * side) {
         (void)brace_drift_run(&app->drift); /* friction turns round with the motion */

@@ -1,0 +1,181 @@
+#include <string.h>
+
+#include "brace/journal.h"
+#include "unity.h"
+
+enum { SLOT_BYTES = 8192, IDENTITY = 0x1234 };
+
+/* A memory that a unit is written into once; and the ways in which it may not do what it is told. */
+static struct {
+    uint8_t bytes[2][SLOT_BYTES];
+    bool read_refused, write_refused, write_lost;
+    uint32_t calls, misuse;
+} memory;
+
+static brace_hal_t hal;
+static brace_journal_t journal;
+static brace_drift_t state;
+
+static int32_t memory_read(void *context, uint32_t slot, uint32_t offset, uint8_t *bytes, uint32_t count)
+{
+    (void)context;
+    memory.calls++;
+    if (memory.read_refused) {
+        return BRACE_HAL_E_DEVICE;
+    }
+    memcpy(bytes, memory.bytes[slot] + offset, count);
+    return BRACE_HAL_OK;
+}
+
+static int32_t memory_write(void *context, uint32_t slot, uint32_t offset, const uint8_t *bytes, uint32_t count)
+{
+    (void)context;
+    memory.calls++;
+    TEST_ASSERT_GREATER_OR_EQUAL(BRACE_JOURNAL_AT, offset); /* the store's part is never touched */
+    TEST_ASSERT_LESS_OR_EQUAL(SLOT_BYTES, offset + count);
+    if (memory.write_refused) {
+        return BRACE_HAL_E_DEVICE;
+    }
+    for (uint32_t i = 0; i < count && !memory.write_lost; i++) {
+        memory.misuse += bytes[i] != 0u && memory.bytes[slot][offset + i] != 0xffu;
+        memory.bytes[slot][offset + i] &= bytes[i];
+    }
+    return BRACE_HAL_OK;
+}
+
+void setUp(void)
+{
+    memset(&memory, 0, sizeof memory);
+    memset(memory.bytes, 0xff, sizeof memory.bytes);
+    hal = (brace_hal_t){.nvm_shape = {.slot_bytes = SLOT_BYTES, .write_bytes = 8}, .nvm_read = memory_read,
+                        .nvm_write = memory_write};
+    brace_journal_open_erased(&journal, &hal, 0, IDENTITY);
+}
+
+void tearDown(void)
+{
+    TEST_ASSERT_EQUAL(0, memory.misuse);
+}
+
+static void fill(brace_drift_t *drift, uint8_t with)
+{
+    memset(drift, with, sizeof *drift);
+}
+
+static brace_journal_state_t keep(uint8_t with)
+{
+    fill(&state, with);
+    TEST_ASSERT_TRUE(brace_journal_begin(&journal, &state));
+    TEST_ASSERT_FALSE(brace_journal_begin(&journal, &state)); /* one at a time */
+    brace_journal_state_t now = BRACE_JOURNAL_BUSY;
+    for (int i = 0; i < BRACE_JOURNAL_PIECES + 1 && now == BRACE_JOURNAL_BUSY; i++) {
+        memory.calls = 0;
+        now = brace_journal_step(&journal);
+        TEST_ASSERT_LESS_OR_EQUAL(2, memory.calls);
+    }
+    TEST_ASSERT_NOT_EQUAL(BRACE_JOURNAL_BUSY, now);
+    return now;
+}
+
+/* A start. returns what the newest record was filled with; -1: none */
+static int restart(uint32_t slot, uint32_t identity)
+{
+    fill(&state, 0);
+    brace_journal_open(&journal, &hal, slot, identity);
+    for (int i = 0; i < BRACE_JOURNAL_SCANS && brace_journal_scan(&journal, &state); i++) {
+    }
+    TEST_ASSERT_FALSE(brace_journal_scan(&journal, &state));
+    brace_drift_t same;
+    fill(&same, *(const uint8_t *)&state);
+    TEST_ASSERT_EQUAL_MEMORY(&same, &state, sizeof same); /* whole */
+    return journal.found ? *(const uint8_t *)&state : -1;
+}
+
+static void test_the_newest_record_is_found_again(void)
+{
+    TEST_ASSERT_EQUAL(-1, restart(0, IDENTITY));
+    for (uint8_t i = 1; i <= 5; i++) {
+        TEST_ASSERT_EQUAL(BRACE_JOURNAL_READY, keep(i));
+        if (i % 2 == 0) {
+            TEST_ASSERT_EQUAL(i, restart(0, IDENTITY));
+        }
+    }
+    TEST_ASSERT_EQUAL(5, restart(0, IDENTITY));
+    TEST_ASSERT_EQUAL(-1, restart(1, IDENTITY));
+    TEST_ASSERT_EQUAL(-1, restart(0, IDENTITY + 1));
+    TEST_ASSERT_EQUAL(-1, restart(BRACE_NVM_SLOT_COUNT, IDENTITY));
+    TEST_ASSERT_FALSE(brace_journal_begin(&journal, &state));
+}
+
+static void test_it_fills_up_and_says_how_far(void)
+{
+    uint32_t room = brace_journal_room(&journal);
+    TEST_ASSERT_EQUAL((SLOT_BYTES - BRACE_JOURNAL_AT) / BRACE_JOURNAL_RECORD_BYTES, room);
+    for (uint8_t i = 1; room > 0; i++, room--) {
+        TEST_ASSERT_EQUAL(room, brace_journal_room(&journal));
+        TEST_ASSERT_EQUAL(BRACE_JOURNAL_READY, keep(i));
+    }
+    TEST_ASSERT_FALSE(brace_journal_begin(&journal, &state));
+    TEST_ASSERT_EQUAL((SLOT_BYTES - BRACE_JOURNAL_AT) / BRACE_JOURNAL_RECORD_BYTES, restart(0, IDENTITY));
+    TEST_ASSERT_EQUAL(0, brace_journal_room(&journal));
+    hal.nvm_shape.slot_bytes = BRACE_JOURNAL_AT; /* the least that a slot may have */
+    TEST_ASSERT_EQUAL(-1, restart(0, IDENTITY));
+    TEST_ASSERT_FALSE(brace_journal_begin(&journal, &state));
+}
+
+static void test_a_record_with_any_bit_wrong_is_none(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_JOURNAL_READY, keep(1));
+    TEST_ASSERT_EQUAL(BRACE_JOURNAL_READY, keep(2));
+    for (uint32_t bit = 0; bit < 8u * (BRACE_JOURNAL_COVERED_BYTES + 4); bit++) {
+        uint8_t *byte = &memory.bytes[0][BRACE_JOURNAL_AT + BRACE_JOURNAL_RECORD_BYTES + bit / 8u];
+        *byte ^= (uint8_t)(1u << bit % 8u);
+        TEST_ASSERT_EQUAL(1, restart(0, IDENTITY));
+        *byte ^= (uint8_t)(1u << bit % 8u);
+    }
+    TEST_ASSERT_EQUAL(2, restart(0, IDENTITY));
+}
+
+static void test_half_a_record_does_not_hide_the_one_behind_it(void)
+{
+    for (int pieces = 1; pieces < BRACE_JOURNAL_PIECES; pieces++) {
+        setUp();
+        TEST_ASSERT_EQUAL(BRACE_JOURNAL_READY, keep(1));
+        fill(&state, 2);
+        TEST_ASSERT_TRUE(brace_journal_begin(&journal, &state));
+        for (int i = 0; i < pieces; i++) {
+            TEST_ASSERT_EQUAL(BRACE_JOURNAL_BUSY, brace_journal_step(&journal));
+        }
+        TEST_ASSERT_EQUAL(1, restart(0, IDENTITY));
+        TEST_ASSERT_EQUAL(BRACE_JOURNAL_READY, keep(3));
+        TEST_ASSERT_EQUAL(3, restart(0, IDENTITY));
+        tearDown();
+    }
+}
+
+static void test_a_memory_that_refuses_or_does_not_keep(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_JOURNAL_READY, keep(1));
+    memory.write_refused = true;
+    TEST_ASSERT_EQUAL(BRACE_JOURNAL_FAILED, keep(2));
+    memory.write_refused = false;
+    memory.write_lost = true;
+    TEST_ASSERT_EQUAL(BRACE_JOURNAL_FAILED, keep(3));
+    memory.write_lost = false;
+    TEST_ASSERT_EQUAL(BRACE_JOURNAL_READY, keep(4));
+    TEST_ASSERT_EQUAL(4, restart(0, IDENTITY));
+    memory.read_refused = true;
+    TEST_ASSERT_EQUAL(-1, restart(0, IDENTITY));
+    TEST_ASSERT_FALSE(brace_journal_begin(&journal, &state));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_the_newest_record_is_found_again);
+    RUN_TEST(test_it_fills_up_and_says_how_far);
+    RUN_TEST(test_a_record_with_any_bit_wrong_is_none);
+    RUN_TEST(test_half_a_record_does_not_hide_the_one_behind_it);
+    RUN_TEST(test_a_memory_that_refuses_or_does_not_keep);
+    return UNITY_END();
+}
