@@ -8,7 +8,8 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from brace.dataset import check_readings, check_runs, check_slopes
+from brace.dataset import check_clock, check_copies, check_poses, check_readings, check_runs, check_slopes
+from brace.dataset.check_copies import row_keys
 from brace.dataset.check_runs import MAX_LISTED, run_starts
 from brace.dataset.columns import ANGLE_LIMIT_RAD, FULL_TURN_RAD
 from brace.dataset.faults import DataFault
@@ -21,14 +22,20 @@ ANGLE_SLACK_RAD = 1e-6
 
 def faults(columns: Columns, meta: Meta) -> list[DataFault]:
     """Every fault found, file order within each check; empty for a sound record."""
+    copied = [*_duplicates(columns)]
     found = [
         *_time(columns),
-        *_duplicates(columns),
+        *copied,
+        *([] if copied else check_clock.faults(columns, meta)),
         *_angles(columns),
         *check_runs.faults(columns, meta.moved_by_motors),
         *_steps(columns, meta),
         *check_readings.faults(columns),
     ]
+    if not any(fault.blocking for fault in found) and not meta.moved_by_motors:
+        found += check_poses.faults(columns, meta.number("rig.step_mm"))
+    if not any(fault.blocking for fault in found):
+        found += check_copies.faults(columns)
     beyond = list(_sensor_range(columns, meta))
     if any(fault.blocking for fault in found) or any(fault.row is None for fault in beyond):
         return [*found, *beyond]  # slopes mean nothing while units or order are wrong
@@ -40,10 +47,13 @@ def faults(columns: Columns, meta: Meta) -> list[DataFault]:
 
 
 def _time(columns: Columns) -> Iterator[DataFault]:
-    back = np.flatnonzero(np.diff(columns["t_s"]) < 0)
+    time = columns["t_s"]
+    back = np.flatnonzero(np.diff(time) < 0)
     for row in back[:MAX_LISTED]:
+        # the entry before it may be the one that is wrong: then this one goes on after the one before that
+        early = row > 0 and row + 2 < time.size and time[row - 1] <= time[row + 1] and time[row] > time[row + 2]
         yield DataFault(
-            int(row) + 2, "t_s", "time runs backwards: creep, drift and friction follow the order"
+            int(row) + (1 if early else 2), "t_s", "time runs backwards: creep, drift and friction follow the order"
         )
     starts = run_starts(columns["run"])[:-1]
     names, counts = np.unique(columns["run"][starts], return_counts=True)
@@ -61,7 +71,7 @@ def _duplicates(columns: Columns) -> Iterator[DataFault]:
     table = np.column_stack([values.astype(float) for values in columns.values()])
     same = np.flatnonzero((table[1:] == table[:-1]).all(axis=1)) + 1
     if not same.size:  # elsewhere than right below each other? A hash per row finds candidates
-        keys = _row_keys(table)
+        keys = row_keys(table)
         _, first, counts = np.unique(keys, return_index=True, return_counts=True)
         if (counts > 1).any():
             repeated = np.flatnonzero(np.isin(keys, keys[first[counts > 1]]))
@@ -73,18 +83,6 @@ def _duplicates(columns: Columns) -> Iterator[DataFault]:
             f"the row repeats another one entry by entry "
             f"({same.size} such row{'s' if same.size > 1 else ''})",
         )
-
-
-def _row_keys(table: np.ndarray) -> np.ndarray:
-    """A 64-bit key for each row; equal rows have equal keys."""
-    words = (table + 0.0).view(np.uint64)
-    keys = np.zeros(table.shape[0], dtype=np.uint64)
-    for column in range(table.shape[1]):
-        keys ^= (
-            words[:, column] + np.uint64(0x9E3779B97F4A7C15) + (keys << np.uint64(6)) + (keys >> np.uint64(2))
-        )
-        keys *= np.uint64(0xBF58476D1CE4E5B9)
-    return keys
 
 
 def _angles(columns: Columns) -> Iterator[DataFault]:

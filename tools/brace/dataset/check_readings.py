@@ -1,4 +1,5 @@
-"""Readings that no sensor in order gives: a force column that stands still, a temperature out of this world."""
+"""Readings that no sensor in order gives: a force column that stands still, a temperature out of this world, a base
+that moves further than the tip."""
 
 from __future__ import annotations
 
@@ -13,11 +14,13 @@ Columns = Mapping[str, np.ndarray]
 TEMPERATURE_DEGC = (-60.0, 150.0)  # beyond it no servo and no sensor works
 KELVIN = 273.15
 MIN_READINGS = 5  # fewer equal ones may be chance
+JUMP_DEGC = 5.0  # to and fro between readings: no limb warms and cools as fast
+STEADY_DEGC = 1.0
 
 
 def faults(columns: Columns) -> list[DataFault]:
     """Every fault found."""
-    return [*_stuck(columns), *_temperature(columns)]
+    return [*_stuck(columns), *_temperature(columns), *_temperature_jumps(columns), *_gauges(columns)]
 
 
 def _stuck(columns: Columns) -> Iterator[DataFault]:
@@ -67,3 +70,38 @@ def _temperature(columns: Columns) -> Iterator[DataFault]:
             why + ("; the entry fits only in kelvin" if kelvin else ""),
             float(degc[row] - KELVIN) if kelvin else None,
         )
+
+
+def _temperature_jumps(columns: Columns) -> Iterator[DataFault]:
+    """A single reading far from two before and two after it that agree."""
+    degc = columns["temp_degc"]
+    if degc.size < MIN_READINGS:
+        return
+    around = np.stack([degc[:-4], degc[1:-3], degc[3:-1], degc[4:]])
+    off = np.abs(degc[2:-2] - np.median(around, axis=0))
+    for row in np.flatnonzero((off > JUMP_DEGC) & (np.ptp(around, axis=0) < STEADY_DEGC))[:MAX_LISTED] + 2:
+        yield DataFault(
+            int(row) + 1,
+            "temp_degc",
+            f"{degc[row]:g} degC between readings of {degc[row - 1]:g} and {degc[row + 1]:g} degC: no limb warms and cools "
+            "as fast",
+            float(degc[row - 1]),
+        )
+
+
+def _gauges(columns: Columns) -> Iterator[DataFault]:
+    """The base gives way less than the tip is moved."""
+    furthest = max(float(np.abs(columns[name]).max()) for name in ("dx_mm", "dz_mm"))
+    for name in ("base_x_mm", "base_z_mm"):
+        if name not in columns or furthest <= 0.0:
+            continue
+        reach = float(np.ptp(columns[name]))
+        if reach > 3.0 * furthest:
+            unit, factor = ("um", 1e-3) if reach < 1e3 * furthest else ("", 1.0)
+            yield DataFault(
+                None,
+                name,
+                f"it moves by {reach:.3g} where the tip is moved by {furthest:.3g} mm at most"
+                + (f"; the column fits only in {unit}" if unit else ""),
+                f"{unit}: multiply by {factor:g}" if unit else None,
+            )

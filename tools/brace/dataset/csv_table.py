@@ -10,17 +10,22 @@ from pathlib import Path
 
 import numpy as np
 
-from brace.dataset.columns import MAX_INT, Column
+from brace.dataset.columns import Column
+from brace.dataset.entries import entry_by_entry, entry_limit
+from brace.dataset.faults import DataFault
 from brace.errors import BadFileError, did_you_mean
 from brace.files import DATA_LIMIT_BYTES, read_bytes
 
 WHAT = "dataset's data.csv"
 
 
-def read_columns(path: Path, wanted: Sequence[Column]) -> tuple[dict[str, np.ndarray], list[bytes]]:
+def read_columns(
+    path: Path, wanted: Sequence[Column], unreadable: list[DataFault] | None = None
+) -> tuple[dict[str, np.ndarray], list[bytes]]:
     """The wanted columns as arrays of one entry per row (axis: 0 x, 1 z), and the file's lines without header.
 
-    Refuses anything that is not a complete rectangular table of finite numbers, naming line, row, column."""
+    Refuses anything that is not a complete rectangular table of finite numbers, naming line, row, column. Where a list
+    for `unreadable` entries is given, single entries that are none are put there, and read as 0."""
     data = read_bytes(path, DATA_LIMIT_BYTES, WHAT)
     lines = _lines(data, path)
     header = _header(lines[0], path)
@@ -40,9 +45,18 @@ def read_columns(path: Path, wanted: Sequence[Column]) -> tuple[dict[str, np.nda
     _check_widths(rows, len(header), path)
     present = [column for column in wanted if column.name in header]
     positions = [header.index(column.name) for column in present]
-    columns = _parse(rows, present, positions, path)
-    for column, position in zip(present, positions):
-        _check_entries(columns[column.name], column, rows, position, path)
+    refused: list[DataFault] = []
+    try:
+        columns = _parse(rows, present, positions, path)
+        for column, position in zip(present, positions):
+            _check_entries(columns[column.name], column, rows, position, path)
+    except BadFileError:
+        if unreadable is None:
+            raise
+        columns, refused = entry_by_entry(rows, present, positions)
+        if not refused:
+            raise
+        unreadable += refused
     return {column.name: _typed(columns[column.name], column) for column in present}, rows
 
 
@@ -216,7 +230,7 @@ def _check_entries(values: np.ndarray, column: Column, rows: list[bytes], positi
         bad = ~np.isfinite(values)
         why, way = "a reading that is not finite says nothing", "delete the row or record it again"
         if not bad.any():
-            bad = np.abs(values) > (MAX_INT if column.kind == "int" else column.limit)
+            bad = np.abs(values) > entry_limit(column)
             why, way = (
                 "no record has such a value",
                 f"check the entry; {column.name} is in {column.unit or 'counts'}",

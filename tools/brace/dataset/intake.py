@@ -60,12 +60,16 @@ class Dataset:
             raise blocking[0].error(self.csv_path, len(blocking) - 1)
 
 
-def load_dataset(folder: Path) -> Dataset:
+def load_dataset(folder: Path, *, keep_unreadable: bool = False) -> Dataset:
     """Reads FOLDER/meta.toml and FOLDER/data.csv. What cannot be a record at all is refused; doubts about a
-    record that can be read are in `faults`."""
+    record that can be read are in `faults`. With `keep_unreadable`, single entries that are no numbers are faults
+    too (blocking, and the only ones that are looked for then); such an entry is 0 in `columns`."""
     meta = read_meta(folder)
-    columns, raw_rows = read_columns(folder / "data.csv", KINDS[meta.kind])
+    unreadable: list[DataFault] | None = [] if keep_unreadable else None
+    columns, raw_rows = read_columns(folder / "data.csv", KINDS[meta.kind], unreadable)
     dataset = Dataset(folder, meta, columns)
+    if unreadable:
+        return replace(dataset, faults=unreadable)
     if meta.kind == "loading":
         return replace(dataset, faults=check_loading.faults(columns, meta))
     if meta.kind == "joint_test":
