@@ -29,7 +29,7 @@ FUNCTION = "brace_app_tick"
 KINDS = {"M": "monitor", "T": "taking up", "L": "loading test", "R": "loading test: a reading",
          "D": "loading test: the drift check", "J": "loading test: its slopes", "K": "loading test: slopes against the model",
          "C": "configuration",
-         "P": "putting parameters in force", "S": "storing parameters", "0": "start", "F": "fault",
+         "P": "putting parameters in force", "W": "keeping what the drift check knows", "S": "storing parameters", "0": "start", "F": "fault",
          "Q": "answering a request over CAN, beside K", "G": "the same, K by the general path",
          "A": "answering, K left out", "E": "answering beside a piece of a loading test"}
 

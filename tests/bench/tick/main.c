@@ -5,11 +5,13 @@
  *   M monitor  T taking up  L loading test  R its readings  D drift step  J its slopes  K against the model
  *   C configuration
  *   P a piece of putting parameters in force  S storing  0 start  F fault
+ *   W a piece of a record of what the drift check knows
  *   and those that answer a request over CAN: Q beside K  G beside K of the general path  A with K left out
  *   E beside a piece of a loading test
  */
 #include <stdio.h>
 
+#include "configure/keeping.h"
 #include "measure/loading.h"
 #include "world.h"
 
@@ -124,7 +126,10 @@ static void random_request(void)
     case 9:
     case 10: (void)brace_app_loading_start(&app, &setup); break;
     case 11: (void)(dice_in(&dice, 8) ? brace_app_loading_stop(&app) : 0); break;
-    case 12: (void)brace_app_clear(&app, BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_CRASHED); break;
+    case 12:
+        (void)brace_app_clear(&app, BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_CRASHED);
+        app.keeping.state = (uint8_t)dice_below(&dice, 4); /* as if the check's had changed: a record is due */
+        break;
     case 13: (void)(dice_in(&dice, 4) ? brace_app_configuration_enter(&app) : 0); break;
     default: (void)(dice_in(&dice, 2) ? brace_app_configuration_leave(&app) : 0); break;
     }
@@ -243,6 +248,15 @@ static char kind(void)
                                                 : 'L';
 }
 
+/* Will the coming tick work at a record of what the drift check knows? */
+static bool keeping_is_due(void)
+{
+    const brace_app_keeping_t before = app.keeping;
+    const bool due = keeping_due(&app);
+    app.keeping = before;
+    return due;
+}
+
 int main(void)
 {
     static char line[LINE + 1];
@@ -269,8 +283,9 @@ int main(void)
         }
         const char expected = kind();
         const uint32_t sequence = app.sequence;
+        const bool keeps = (expected == 'M' || expected == 'F') && keeping_is_due();
         brace_app_tick(&app, world_now_us);
-        line[tick % LINE] = answered(expected, sequence);
+        line[tick % LINE] = answered(keeps ? 'W' : expected, sequence);
         if (tick % LINE == LINE - 1) {
             puts(line);
         }
