@@ -76,8 +76,6 @@ def _run_one(arguments: argparse.Namespace) -> int:
     inputs = (folder / "meta.toml", folder / "data.csv", *([model] if model else []))
     check_folder(arguments.out, inputs)  # before the work, not after
     given = load(folder, model)
-    for fault in given.dataset.faults[:5]:
-        common.say(f"data: {fault.sentence(given.dataset.csv_path)}")
     options = Options(seed=arguments.seed, faults=arguments.faults)
     with common.progress("diagnosing", _PERCENT) as advance:
         found, written = diagnosed(

@@ -84,7 +84,12 @@ def _where(found: Diagnosis, seen: View | None) -> str:
     if seen is not None and found.gap is not None:
         from brace.diagnose.report import pictures
 
-        shown = "The model as given. Lines are means of neighbouring readings, the grey band is two noise floors wide."
+        whose = (
+            "The model as given"
+            if seen.refitted is None
+            else "The model refitted within its calibration’s trust"
+        )
+        shown = f"{whose}. Lines are means of neighbouring readings; the grey band is two noise floors to each side."
         drawn = html.picture(pictures.disagreement(seen, found.gap), shown)
     if found.gap is None and not rows:
         return ""
@@ -108,22 +113,11 @@ def _missing(believed: LimbModel | None, found: Diagnosis) -> str:
                         if believed is not None and _is_number(believed, key)
                         else "–"
                     ),
-                    text(words.percent(effect.gap_share)) if index == 0 else "",
-                    text(words.percent(effect.confidence)) if index == 0 else "",
                 ]
             )
         if not effect.parameters:
-            share, sure = words.percent(effect.gap_share), words.percent(effect.confidence)
-            rows.append([_named(effect), "", "", "", "", text(share), text(sure)])
-    head = (
-        "effect",
-        "key of limb.toml",
-        "value",
-        "90 % interval",
-        "model before",
-        "share of the gap",
-        "confidence",
-    )
+            rows.append([_named(effect), "", "", "", ""])
+    head = ("effect", "key of limb.toml", "value", "90 % interval", "before")
     title = "What was missing" if found.verdict == "effect" else "What it could be"
     meanings = [
         f"{words.effect(effect.name)[0].upper()}{words.effect(effect.name)[1:]}: {words.meaning(effect.name)}."
@@ -133,17 +127,21 @@ def _missing(believed: LimbModel | None, found: Diagnosis) -> str:
     return html.section(
         title,
         *(html.paragraph(meaning) for meaning in meanings),
-        html.table(head, rows, numeric=(2, 3, 4, 5, 6)),
+        html.table(head, rows, numeric=(2, 3, 4)),
         _base(believed, found),
     )
 
 
 def _named(effect: NamedEffect) -> str:
-    return f"<b>{text(words.named(effect))}</b><br><code>{text(effect.label)}</code>"
+    sure = f"{words.percent(effect.confidence)} sure, {words.percent(effect.gap_share)} of what was closed"
+    return (
+        f"<b>{text(words.named(effect))}</b><br><code>{text(effect.label)}</code>"
+        f'<br><span class="small">{text(sure)}</span>'
+    )
 
 
-def _is_number(model: LimbModel, key: str) -> bool:
-    return isinstance(model.values.get(key), (int, float))
+def _is_number(model: LimbModel | None, key: str) -> bool:
+    return model is not None and isinstance(model.values.get(key), (int, float))
 
 
 def _base(believed: LimbModel | None, found: Diagnosis) -> str:
@@ -209,7 +207,9 @@ def _unexplained(found: Diagnosis) -> str:
         if left.structured
         else f"{size} (rms) is left, without structure: as far as this record can tell, it is noise."
     )
-    return html.section("What stays unexplained", html.paragraph(lead), html.paragraph(left.description))
+    return html.section(
+        "What stays unexplained", html.paragraph(lead), html.paragraph(_capital(left.description))
+    )
 
 
 def _apart(found: Diagnosis) -> str:
@@ -235,7 +235,7 @@ def _next(found: Diagnosis) -> str:
     after = found.next_experiment
     if after is None:
         return ""
-    parts = [html.paragraph(after.action)]
+    parts = [html.paragraph(_capital(after.action))]
     if after.separates:
         labels = [words.label(label) for label in after.separates]
         parts.append(
@@ -327,6 +327,10 @@ def _origin(found: Diagnosis, origin: Provenance) -> str:
             "The same data, model, seed and versions give this page again, byte for byte.", "small"
         ),
     )
+
+
+def _capital(words_: str) -> str:
+    return words_[:1].upper() + words_[1:]
 
 
 def _unit(found: Diagnosis) -> str:

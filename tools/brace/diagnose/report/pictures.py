@@ -26,7 +26,7 @@ _SHORTER = re.compile(r"(\d+\.\d{2})\d+")
 
 
 def disagreement(view: View, gap: Gap) -> str:
-    """The gap of the believed model by load and branch, by configuration, by time."""
+    """The gap by load and branch, by configuration, by time; of the model refitted within its trust, where told."""
     with_time = bool(np.isfinite(view.time_s).all()) and np.ptp(view.time_s) > 0
     figure = new_figure(9.4, 3.0)
     panels = figure.subplots(1, 3 if with_time else 2, sharey=False)
@@ -53,6 +53,7 @@ def loops(view: View) -> str:
             x, view.measured[rows], "o", color=INK, markersize=small, markeredgewidth=0, label="measured"
         )
         axes.set(xlabel=view.names[0], ylabel=view.names[1])
+        axes.locator_params(axis="x", nbins=7)
         group = f"{view.names[2]} {view.group[rows[0]]}"
         axes.set_title(
             f"{words}: {group}" + ("" if view.kind == "joint_test" else f", run {view.run[rows[0]]}"),
@@ -77,7 +78,7 @@ def gap(view: View, found: Gap) -> str:
             axes.axhspan(-2 * found.noise_floor, 2 * found.noise_floor, color=FLOOR, alpha=0.45, linewidth=0)
             axes.axhline(0.0, color=INK, linewidth=0.6)
             drawn = _thin(len(rows), POINTS)
-            _dots(axes, drawn, values[rows][drawn], colour)
+            _dots(axes, drawn, values[rows][drawn], colour, size=2.2 if len(drawn) > 80 else 5.0)
             _mark_groups(axes, view.group[rows])
             rms = pair.fitted if column == 0 else pair.held_out
             said = "" if rms is None else f": rms {number(rms)} {unit(found.unit)}"
@@ -92,7 +93,7 @@ def gap(view: View, found: Gap) -> str:
 def steps(found: Gap) -> str:
     """The gap as one thing after the other was added to the model; the noise floor below."""
     stages = [("the model as given", found.before), *((step.added, step.gap) for step in found.steps)]
-    if len(stages) == 1 or stages[-1][1] != found.after:
+    if stages[-1][1] != found.after:
         stages.append(("the model as written", found.after))
     figure = new_figure(9.4, 0.75 + 0.46 * len(stages))
     axes = figure.subplots()
@@ -111,8 +112,9 @@ def steps(found: Gap) -> str:
     axes.set_yticks(at, [words if len(words) < 60 else words[:57] + "…" for words, _ in stages])
     axes.set_xlabel(f"rms of measured − model [{unit(found.unit)}]")
     axes.grid(False, axis="y")
+    axes.margins(x=0.08)
     if several:
-        axes.legend(loc="lower right")
+        axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, borderaxespad=0.2)
     return svg(figure, "steps")
 
 
@@ -137,13 +139,19 @@ def _by_load(axes: Axes, view: View, found: Gap) -> None:
         (view.measured, view.names[1]) if view.kind == "joint_test" else (view.imposed, view.names[0])
     )
     for sign, colour, words in branches:
-        rows = np.flatnonzero((view.branch == sign) & np.isfinite(view.before))
+        rows = np.flatnonzero((view.branch == sign) & np.isfinite(view.localised))
         if not rows.size or (sign == 0 and view.kind != "stiffness_table"):
             continue
         drawn = rows[_thin(rows.size, POINTS // 2)]
-        _dots(axes, load[drawn], view.before[drawn], colour, 0.45)
+        _dots(axes, load[drawn], view.localised[drawn], colour, 0.45)
         if rows.size >= 3 * _BINS:
-            axes.plot(*_means(load[rows], view.before[rows]), color=colour, linewidth=1.8, label=words)
+            axes.plot(
+                *_means(load[rows], view.localised[rows]),
+                color=colour,
+                linewidth=1.8,
+                label=words if sign else None,
+            )
+    axes.locator_params(axis="x", nbins=5)
     axes.set(xlabel=axis, ylabel=f"measured − model [{unit(found.unit)}]")
     axes.set_title(
         "by load" + (" and branch" if view.kind != "stiffness_table" else ""), loc="left", fontsize=9.5
@@ -154,7 +162,7 @@ def _by_load(axes: Axes, view: View, found: Gap) -> None:
 
 def _by_group(axes: Axes, view: View, found: Gap) -> None:
     groups = np.unique(view.group)
-    sizes = np.array([_rms(view.before[view.group == group]) for group in groups])
+    sizes = np.array([_rms(view.localised[view.group == group]) for group in groups])
     held = np.array([view.held_out[view.group == group].mean() > 0.5 for group in groups])
     place = np.arange(len(groups))
     axes.bar(place[~held], sizes[~held], color=STIFF, width=0.75, label="fitted")
@@ -177,17 +185,18 @@ def _by_group(axes: Axes, view: View, found: Gap) -> None:
     axes.grid(False, axis="x")
     axes.set_title(f"by {view.names[2]}; noise floor dashed", loc="left", fontsize=9.5)
     if held.any():
-        axes.legend(loc="best", fontsize=8)
+        axes.set_ylim(0.0, 1.25 * max(float(sizes.max()), found.noise_floor))
+        axes.legend(loc="upper right", fontsize=8, ncols=2)
 
 
 def _by_time(axes: Axes, view: View, found: Gap) -> None:
     floor(axes, found)
     minutes = (view.time_s - view.time_s.min()) / 60.0
-    rows = np.flatnonzero(np.isfinite(view.before))
+    rows = np.flatnonzero(np.isfinite(view.localised))
     drawn = rows[_thin(rows.size, POINTS)]
-    _dots(axes, minutes[drawn], view.before[drawn], STIFF, 0.45)
+    _dots(axes, minutes[drawn], view.localised[drawn], STIFF, 0.45)
     if rows.size >= 3 * _BINS:
-        axes.plot(*_means(minutes[rows], view.before[rows]), color=INK, linewidth=1.6)
+        axes.plot(*_means(minutes[rows], view.localised[rows]), color=INK, linewidth=1.6)
     axes.set(xlabel="time [min]")
     axes.set_title("by time; line: mean", loc="left", fontsize=9.5)
 
@@ -198,14 +207,16 @@ def floor(axes: Axes, found: Gap) -> None:
     axes.axhline(0.0, color=INK, linewidth=0.6)
 
 
-def _dots(axes: Axes, x: np.ndarray, y: np.ndarray, colour: str, opacity: float = 1.0) -> None:
+def _dots(
+    axes: Axes, x: np.ndarray, y: np.ndarray, colour: str, opacity: float = 1.0, size: float = 2.2
+) -> None:
     """Points as one path of strokes without length and with round ends: a tenth of the bytes of markers."""
     strokes = []
     for values in (x, y):
         spread = np.repeat(np.asarray(values, dtype=float), 3)
         spread[2::3] = np.nan
         strokes.append(spread)
-    (line,) = axes.plot(*strokes, color=colour, alpha=opacity, linewidth=2.2, solid_capstyle="round")
+    (line,) = axes.plot(*strokes, color=colour, alpha=opacity, linewidth=size, solid_capstyle="round")
     with matplotlib.rc_context(_EVERY_POINT):
         line.recache(always=True)
 

@@ -13,6 +13,7 @@ from brace.diagnose.diagnosis import Diagnosis
 @dataclass(frozen=True)
 class View:
     """One entry a row. `before` and `after` are measured less model along the loaded direction [gap's unit];
+    `refitted` is the same with only what calibration leaves open refitted, None where that is not told;
     `imposed` and `measured` are the axes of the test; `branch` is +1 loading, -1 unloading, 0 neither;
     `group` numbers configurations or tests, `run` what is drawn as one loop."""
 
@@ -27,6 +28,12 @@ class View:
     run: np.ndarray
     time_s: np.ndarray
     names: tuple[str, str, str]  # of imposed, measured, group; with units
+    refitted: np.ndarray | None = None
+
+    @property
+    def localised(self) -> np.ndarray:
+        """What is shown of where they disagree."""
+        return self.before if self.refitted is None else self.refitted
 
     @property
     def believed(self) -> np.ndarray:
@@ -64,6 +71,7 @@ def _loading(dataset: Dataset, found: Diagnosis, rows: np.ndarray) -> View | Non
     along = dataset["axis"][rows].astype(int)
     channel = np.array([residuals.channels.index("fx_n"), residuals.channels.index("fz_n")])[along]
     every = np.arange(len(rows))
+    refitted = found.details.get("refitted")
     imposed = np.where(along == 1, dataset["dz_mm"][rows], dataset["dx_mm"][rows])
     measured = np.where(along == 1, dataset["fz_n"][rows], dataset["fx_n"][rows])
     run = dataset["run"][rows]
@@ -80,6 +88,7 @@ def _loading(dataset: Dataset, found: Diagnosis, rows: np.ndarray) -> View | Non
         run,
         dataset["t_s"][rows].astype(float),
         names,
+        refitted[every, channel] if refitted is not None and len(refitted) == len(rows) else None,
     )
 
 
@@ -113,9 +122,7 @@ def _table(dataset: Dataset, found: Diagnosis, rows: np.ndarray) -> View | None:
     take = [residuals.channels.index(name) for name in known]
     count, r_mm = len(known), dataset["r_mm"][rows].astype(float)
     measured = np.column_stack([dataset[name][rows] for name in known]).ravel()
-    held_out: np.ndarray = np.asarray(residuals.held_out, dtype=bool)
-    if held_out.ndim > 1:
-        held_out = held_out.any(axis=1)
+    held_out = np.asarray(np.any(np.reshape(residuals.held_out, (len(rows), -1)), axis=1))
     zero = np.zeros(len(rows) * count, dtype=int)
     names = ("distance of the tip [mm]", "stiffness [N/mm]", "row")
     return View(
