@@ -19,6 +19,7 @@ LEAST_GAIN = 4.0  # twice the log of the odds, ln(n) for every parameter paid
 LEAST_AGREEMENT = 0.9
 LEAST_SHRINK = 0.002  # of the rms: less is of no use to anybody
 MOST_SHAPES = 2
+SHAPES_SHRINK = 0.02  # what is only described may leave more unsaid
 MOST_STIFFENING = 5.0  # of a spring within one record; gears and belts stiffen by two or three
 
 _NEVER_AT_ITS_BOUND = ("creep.ratio", "time_constant_s", "coulomb_per_load_ratio", "gap_rad")
@@ -58,7 +59,11 @@ def choose(
             if shape.name not in have:
                 trying(shape.label)
                 joined.append(fitter.fit((*best.terms, shape), best, shape))
+                for term in best.terms:  # or in an effect's stead
+                    rest = tuple(other for other in best.terms if other is not term)
+                    joined.append(fitter.fit((*rest, shape), best if rest else base, shape))
         sound = [one for one in joined if not strained(fitter, one) and _needed(fitter, best, one, random)]
+        sound = [one for one in sound if one.rss < (1.0 - SHAPES_SHRINK) ** 2 * best.rss]
         if not sound:
             break
         best = max(sound, key=worth)
@@ -145,11 +150,15 @@ def _paid(fitted: Fitted, count: float) -> float:
 def without(fitter: Fitter, fitted: Fitted, term: Term) -> Fitted:
     """The best fit of the other terms."""
     rest = tuple(other for other in fitted.terms if other is not term)
-    near = fitter.fit(rest, fitted)
-    fresh = fitter.fit(())
-    for other in rest:  # from the other side: what the missing term held up may settle elsewhere
-        fresh = fitter.fit((*fresh.terms, other), fresh, other)
-    poorer = near if near.rss <= fresh.rss else fresh
+    names, larger = frozenset(term.name for term in rest), frozenset(term.name for term in fitted.terms)
+    if names not in fitter.known:  # from below: what the missing term held up may settle elsewhere
+        grown = fitter.fit(())
+        for other in rest:
+            grown = fitter.fit((*grown.terms, other), grown, other)
+    if (names, larger) not in fitter.left:  # and from above
+        fitter.left.add((names, larger))
+        fitter.fit(rest, fitted)
+    poorer = fitter.known[names]
     if not strained(fitter, poorer):
         return poorer
     # what only fits by a value that it cannot have is no rival: the sound ones of what else is left

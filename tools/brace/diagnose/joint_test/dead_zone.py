@@ -12,7 +12,7 @@ from brace.diagnose.joint_test.record import JointRecord
 from brace.identify.parameters import ANGLE_ZERO
 
 MIN_INSIDE = 6
-FLAT = 0.5  # slope inside over slope outside, at most
+FLAT = 0.4  # slope inside over slope outside, at most
 FLANK = 0.1  # of the gap, that the record goes beyond each side
 LARGEST = 0.5  # of the range of angles
 

@@ -49,6 +49,8 @@ class Fitter:
     def __init__(self, record: JointRecord, base: LimbModel, trust: float) -> None:
         self.record, self.base, self.trust = record, base, trust
         self.root_weight = record.root_weight
+        self.known: dict[frozenset[str], Fitted] = {}  # the best fit of every set of terms so far
+        self.left: set[tuple[frozenset[str], frozenset[str]]] = set()  # sets that were reached from larger ones
 
     def by_rows(self) -> Fitter:
         """The same, every reading counted alike: least squares of what is read."""
@@ -92,7 +94,11 @@ class Fitter:
         off = self._off(chosen, best[0])
         record = self.record
         fitted, kept = off[record.fitted], off[record.kept]
-        return Fitted(terms, chosen, best[0], off, float(fitted @ fitted), float(kept @ kept))
+        found = Fitted(terms, chosen, best[0], off, float(fitted @ fitted), float(kept @ kept))
+        names = frozenset(term.name for term in terms)
+        if names not in self.known or found.rss < self.known[names].rss:
+            self.known[names] = found
+        return found
 
     def _reshaped(self, chosen: ParameterSet, point: np.ndarray, added: Term) -> np.ndarray:
         """A gap leaves less way to the spring, hardening takes torque from it: the same torque at the ends."""

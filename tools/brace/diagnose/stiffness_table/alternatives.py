@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from brace.errors import BadFileError
 from brace.identify.families import scattered_starts
-from brace.identify.fit import Fit, fit
+from brace.identify.fit import Fit, Problem, fit
 from brace.identify.parameters import (
     JOINT_COMPLIANCES,
     LINK_COMPLIANCES,
@@ -112,14 +112,14 @@ def judge(
     """One alternative fitted, then fitted anew without each quarter of the rows; None where it cannot be such a limb."""
     with contextlib.suppress(BadFileError):
         chosen = _parameters(problem, believed, alternative)
-        best = fit(problem, chosen, scattered_starts(chosen, STARTS) if alternative.keys else ())
+        best = _fit(problem, chosen, scattered_starts(chosen, STARTS) if alternative.keys else ())
         advance()
         rows = len(problem.k)
         fold = np.arange(rows) % min(FOLDS, rows)
         left_out = np.zeros_like(problem.k)
         folds = []
         for number in range(int(fold.max()) + 1):
-            part = fit(_Part(problem, fold != number), chosen, [best.x])
+            part = _fit(_Part(problem, fold != number), chosen, [best.x])
             folds.append(part)
             predicted = problem.predicted(part.model, part.nuisances)
             left_out[fold == number] = (problem.k - predicted)[fold == number]
@@ -128,6 +128,13 @@ def judge(
         misfit = float(np.mean((left_out / problem.sigma) ** 2))
         return Judged(alternative, best, off, left_out, tuple(folds), misfit)
     return None
+
+
+def _fit(problem: Problem, chosen: ParameterSet, starts: Sequence[np.ndarray]) -> Fit:
+    """As `fit`, where nothing is free too."""
+    if len(chosen):
+        return fit(problem, chosen, starts)
+    return Fit(chosen, np.empty(0), problem.residual(chosen.base, {}), np.empty((problem.count, 0)))
 
 
 def _parameters(problem: TableProblem, believed: LimbModel, alternative: Alternative) -> ParameterSet:
