@@ -1,7 +1,7 @@
 """A small fixed set through the tool: 24 cases of their own seed, judged as ./dev blind judges its hundreds.
 
-Bounds: a tool that just reaches what it must (97 % of classes right, 1 % false alarms, 90 % of outsiders) falls below
-them less than once in a hundred sets; one that has lost an effect, or cries wolf, does not stay above them for long."""
+Each bound allows one miss: a tool that just reaches what it must (97 % of classes right, 1 % false alarms, 2 % of
+outsiders misnamed) has two of so few less than once in a hundred sets; one that cries wolf has two at once."""
 
 from __future__ import annotations
 
@@ -54,5 +54,5 @@ def test_gap_closes_on_unseen_poses(judged: list[Judged]) -> None:
 
 
 def test_outsiders_are_not_named(judged: list[Judged]) -> None:
-    """No outsider is named with confidence."""
-    assert share(judged, "misnamed").hits == 0
+    """At most one of the two outsiders is named with confidence."""
+    assert share(judged, "misnamed").hits <= 1

@@ -1,0 +1,81 @@
+"""PySINDy's sequentially thresholded least squares, alone and as an ensemble over bags of runs."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+
+import numpy as np
+
+from baselines.answer import Answer, answer
+from baselines.knobs import Knobs, Space, between, evenly, one_of
+from baselines.signatures import Array, Signatures
+
+SPACE = Space(
+    {"threshold": 4.0, "alpha": 0.05, "normalize": True, "screened": True, "signed": True, "unknown_p": 0.0},
+    {
+        "threshold": between(1.5, 30.0),
+        "alpha": between(1e-4, 10.0),
+        "normalize": one_of(True, True, False),
+        "screened": one_of(True, True, False),
+        "signed": one_of(True, True, False),
+        "unknown_p": one_of(0.0, 1e-12, 1e-8, 1e-5, 1e-3),
+    },
+)
+ENSEMBLE_SPACE = Space(
+    {"threshold": 4.0, "alpha": 0.05, "models": 20, "inclusion": 0.6, "median": True, "signed": True,
+     "unknown_p": 0.0},
+    {
+        "threshold": between(1.5, 30.0),
+        "alpha": between(1e-4, 10.0),
+        "models": one_of(10, 20),
+        "inclusion": evenly(0.3, 0.95),
+        "median": one_of(False, True),
+        "signed": one_of(True, True, False),
+        "unknown_p": one_of(0.0, 1e-12, 1e-8, 1e-5, 1e-3),
+    },
+)  # fmt: skip
+
+
+def _stlsq(columns: Array, left: Array, threshold: float, alpha: float) -> Array:
+    """Coefficients of STLSQ; all 0 where it takes everything out."""
+    from pysindy.optimizers import STLSQ
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        fitted = STLSQ(threshold=threshold, alpha=alpha, unbias=False).fit(columns, left[:, None])
+    return np.asarray(fitted.coef_, float).ravel()
+
+
+def stlsq(sig: Signatures, knobs: Knobs) -> Answer:
+    """Once. `normalize`: coefficients in sigmas of the record; else in the catalogue's typical sizes, so that the
+    threshold is one of size."""
+    allowed = sig.screened if knobs["screened"] else np.arange(len(sig.columns))
+    columns, threshold = sig.matrix[:, allowed], knobs["threshold"]
+    if not knobs["normalize"]:
+        lengths = np.array([sig.columns[i].length for i in allowed])
+        columns = columns * lengths
+        threshold /= float(np.median(lengths))  # the same range of thresholds serves both
+    coefficients = _stlsq(columns, sig.left, threshold, knobs["alpha"])
+    return answer(sig, _chosen(allowed, coefficients != 0.0), knobs["unknown_p"], knobs["signed"])
+
+
+def ensemble(sig: Signatures, knobs: Knobs) -> Answer:
+    """Bags of runs, drawn with replacement; a column is kept that is chosen in enough of the bags."""
+    rng = np.random.default_rng(0)
+    runs, priors = sig.blocks[:-1], sig.blocks[-1]
+    found = []
+    for _ in range(knobs["models"]):
+        weight = np.bincount(rng.integers(len(runs), size=len(runs)), minlength=len(runs))
+        stacked = [np.sqrt(w) * root for w, root in zip(weight, runs, strict=True) if w]
+        root = np.linalg.qr(np.vstack([*stacked, priors]), mode="r")
+        found.append(_stlsq(root[:, :-1], root[:, -1], knobs["threshold"], knobs["alpha"]))
+    coefficients = np.array(found)
+    kept = np.mean(coefficients != 0.0, axis=0) >= knobs["inclusion"]
+    if knobs["median"]:  # and whose middle coefficient passes the threshold as well
+        kept &= np.abs(np.median(coefficients, axis=0)) >= knobs["threshold"]
+    return answer(sig, _chosen(sig.screened, kept), knobs["unknown_p"], knobs["signed"])
+
+
+def _chosen(allowed: Sequence[int] | np.ndarray, kept: np.ndarray) -> list[int]:
+    return [int(i) for i, keep in zip(allowed, kept, strict=True) if keep]
