@@ -26,6 +26,8 @@ from brace.diagnose.effects import (
 )
 from brace.diagnose.effects.variant import Setting, Variant
 
+__all__ = ["PLUG_INS", "Setting", "Variant", "all_variants"]
+
 PLUG_INS = (
     sensor_bias,
     sensor_drift,

@@ -8,7 +8,7 @@ from brace.diagnose.effects.variant import Freedom, Setting, Variant
 
 NAME = "link_change"
 
-MOST_TIMES = 24
+MOST_TIMES = 40
 LINK_INDEX = {"femur": 1.0, "tibia": 2.0}
 
 
@@ -25,8 +25,8 @@ def variants(setting: Setting) -> Iterator[Variant]:
             NAME,
             f"link.{link}",
             (
-                Freedom("change.bending_factor", 0.05, 50.0, (0.8, 1.25)),
-                Freedom("change.at_s", starts[0] - 0.5 * setting.dwell_s, starts[-1], times),
+                Freedom("change.bending_factor", 0.05, 50.0, (1.05,)),
+                Freedom("change.at_s", starts[0] - 0.5 * setting.dwell_s, starts[-1], times, stepwise=True),
             ),
             {"change.link": LINK_INDEX[link]},
         )

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from brace.diagnose.effects.variant import Setting, Variant
+from brace.diagnose.effects.variant import Freedom, Setting, Variant
 
 NAME = "moment_transfer"
 
 
 def variants(setting: Setting) -> Iterator[Variant]:
-    """Present or not."""
-    if setting.number("link.femur.moment_transfer") == 0.0:
-        yield Variant(NAME, "link.femur", (), {"link.femur.moment_transfer": 1.0})
+    """Wholly present, or in part."""
+    key = "link.femur.moment_transfer"
+    if setting.number(key) == 0.0:
+        yield Variant(NAME, "link.femur", (), {key: 1.0})
+        yield Variant(NAME, "link.femur", (Freedom(key, 0.0, 1.0, (0.15, 0.5)),))

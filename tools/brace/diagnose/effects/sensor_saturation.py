@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from brace.diagnose.effects.variant import Freedom, Setting, Variant
 
 NAME = "sensor_saturation"
 
-SHARES = (0.6, 0.8, 0.9, 0.95, 0.98, 0.995)
+COUNTS = (4, 8, 16, 32, 64, 128, 256)
 
 
 def variants(setting: Setting) -> Iterator[Variant]:
-    """Tried where the largest readings lie."""
+    """Tried a few sigmas below the largest reading, and where the largest few lie."""
     if not setting.force_n.size:
         return
-    tries = tuple(float(np.quantile(setting.force_n, share)) for share in SHARES)
     highest = float(setting.force_n[-1])
+    below = (highest - count * setting.force_sigma_n for count in range(7))
+    counted = (float(setting.force_n[-count]) for count in COUNTS if count < setting.force_n.size)
+    tries = tuple(sorted({level for level in (*below, *counted) if level > 0.05 * highest}))
     yield Variant(NAME, "sensor", (Freedom("sensor.saturation_n", 0.05 * highest, 1.02 * highest, tries),))

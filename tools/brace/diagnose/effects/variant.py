@@ -11,12 +11,13 @@ import numpy as np
 @dataclass(frozen=True)
 class Freedom:
     """One key of limb.toml that a fit may turn, between `low` and `high`, tried first at each of `tries` (the key's own
-    unit)."""
+    unit). `stepwise` is a time: readings jump as it passes them and stand still between."""
 
     key: str
     low: float
     high: float
     tries: tuple[float, ...] = ()
+    stepwise: bool = False
 
 
 @dataclass(frozen=True)
@@ -48,6 +49,7 @@ class Setting:
     joint_deflection_rad: Mapping[str, float]  # elastic, at that torque
     displacement_mm: float  # largest imposed
     force_n: np.ndarray  # |reading| of both axes, sorted
+    force_sigma_n: float
     run_starts_s: Sequence[float]
     duration_s: float
     dwell_s: float

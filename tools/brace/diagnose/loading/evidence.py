@@ -22,8 +22,18 @@ def freedoms(fitted: Fit) -> int:
     return int(np.count_nonzero(inside))
 
 
-def score(fitted: Fit, base: Fit) -> float:
-    """Log posterior odds against nothing missing."""
+def score(fitted: Fit, base: Fit, readings: int, noise_freedom: float) -> float:
+    """Log posterior odds against nothing missing. The noise is known only as well as `noise_freedom` independent
+    readings tell it, and integrated out (a Student likelihood)."""
     effects = len(fitted.space.variants)
-    gain = 0.5 * (base.cost - fitted.cost)
+    known = max(noise_freedom, 1.0)
+    gain = 0.5 * (known + readings) * np.log((known + base.cost) / (known + fitted.cost))
     return float(gain - freedoms(fitted) * np.log(SPREAD) - effects * np.log(WAYS / PRIOR_NONE))
+
+
+def log_likelihood(fitted: Fit, sigma: np.ndarray, readings: int, noise_freedom: float) -> float:
+    """Of the readings themselves, so that noises can be compared as well."""
+    known = max(noise_freedom, 1.0)
+    return float(
+        -0.5 * (known + readings) * np.log1p(fitted.cost / known) - np.sum(np.log(sigma))
+    )

@@ -14,6 +14,8 @@ STEP_LENGTHS = np.array([1.0, 0.4, 0.1, 0.02])
 SCREENING_DECREASE = 0.05  # of chi squared: a step that gains less is the last of a screening fit
 FINAL_DECREASE = 1e-4
 PROBE = 0.2  # sigmas of the whole record that a finite difference moves by, about
+STEPWISE_ROUNDS = 3
+MOST_TIMES = 120
 BIG = 1e6  # whitened residual that stands for a model which no limb can have
 
 
@@ -36,7 +38,7 @@ class Fit:
     @property
     def model(self) -> np.ndarray:
         """The limb's numbers."""
-        return self.space.models(self.x[None])[0]
+        return np.asarray(self.space.models(self.x[None])[0])
 
     def value(self, key: str) -> float:
         return float(self.x[self.space.keys.index(key)])
@@ -50,7 +52,7 @@ def cost_of(space: Space, x: np.ndarray, residual: np.ndarray) -> float:
 def residuals(record: Record, space: Space, points: np.ndarray) -> np.ndarray:
     """points x readings; models that cannot be played are far off."""
     found = record.residuals(space.models(points))
-    return np.nan_to_num(found, nan=BIG, posinf=BIG, neginf=-BIG)
+    return np.asarray(np.nan_to_num(found, nan=BIG, posinf=BIG, neginf=-BIG))
 
 
 def scales(record: Record, space: Space, x: np.ndarray, residual: np.ndarray) -> np.ndarray:
@@ -61,7 +63,8 @@ def scales(record: Record, space: Space, x: np.ndarray, residual: np.ndarray) ->
         step = _inward(space, x, scale)
         moved = residuals(record, space, x + np.diag(step)) - residual
         length = np.linalg.norm(moved, axis=1)
-        scale = np.clip(scale / np.clip(length, 1e-4, 1e4), 1e-14, None)
+        scale = np.asarray(np.clip(scale / np.clip(length, 1e-4, 1e4), 1e-14, None))
+    scale[list(space.stepwise)] = 1.0
     return np.asarray(scale)
 
 
@@ -79,35 +82,31 @@ def jacobian(
     points = np.tile(x, (which.size, 1))
     points[np.arange(which.size), which] += step
     moved = residual - residuals(record, space, points)
-    safe = np.where(step == 0.0, np.inf, step)
+    safe = np.where((step == 0.0) | np.isin(which, space.stepwise), np.inf, step)
     return np.asarray(moved * (scale[which] / safe)[:, None]).T
 
 
-def fit(
-    record: Record,
-    space: Space,
-    start: np.ndarray,
-    *,
-    scale: np.ndarray | None = None,
-    trusted_jacobian: np.ndarray | None = None,
-    final: bool = True,
-) -> Fit:
-    """Gauss-Newton with bounds. `trusted_jacobian` (readings x trusted keys, by x / scale) spares computing those
-    columns while screening; a final fit computes all of them at every step."""
+def fit(record: Record, space: Space, start: np.ndarray, *, final: bool = True) -> Fit:
+    """Gauss-Newton with bounds; times at which readings jump are searched reading by reading in between."""
     x = np.clip(start, space.low, space.high)
     residual = residuals(record, space, x[None])[0]
-    if scale is None:
-        scale = scales(record, space, x, residual)
-    trusted = space.size - space.own
-    columns = np.empty((residual.size, space.size))
+    scale = scales(record, space, x, residual)
+    found = _descend(record, space, x, residual, scale, FINAL_DECREASE if final else SCREENING_DECREASE)
+    for _ in range(STEPWISE_ROUNDS if space.stepwise else 0):
+        moved, left, cost = _step_times(record, space, found.x, found.residual, found.cost)
+        if cost > found.cost - SCREENING_DECREASE:
+            break
+        found = _descend(record, space, moved, left, scale, SCREENING_DECREASE)
+    return found
+
+
+def _descend(
+    record: Record, space: Space, x: np.ndarray, residual: np.ndarray, scale: np.ndarray, stop: float
+) -> Fit:
+    """Steps until one gains less than `stop` of the cost."""
     everything = np.arange(space.size)
-    if trusted_jacobian is not None:
-        columns[:, :trusted] = trusted_jacobian
-        columns[:, trusted:] = jacobian(record, space, x, residual, scale, everything[trusted:])
-    else:
-        columns[:] = jacobian(record, space, x, residual, scale, everything)
     cost = cost_of(space, x, residual)
-    stop = FINAL_DECREASE if final else SCREENING_DECREASE
+    columns = jacobian(record, space, x, residual, scale, everything)
     for _ in range(MAX_STEPS):
         step = _newton_step(space, x, residual, columns, scale)
         points = np.clip(x + STEP_LENGTHS[:, None] * step, space.low, space.high)
@@ -120,11 +119,36 @@ def fit(
         x, residual, cost = points[best], tried[best], float(costs[best])
         if gained < stop:
             break
-        if final or trusted_jacobian is None:
-            columns = jacobian(record, space, x, residual, scale, everything)
-        elif space.own:
-            columns[:, trusted:] = jacobian(record, space, x, residual, scale, everything[trusted:])
+        columns = jacobian(record, space, x, residual, scale, everything)
     return Fit(space, x, residual, columns, scale, cost)
+
+
+def times_near(record: Record, time_s: float, runs: float = 2.0) -> np.ndarray:
+    """Middles between neighbouring readings, within about so many runs of a time."""
+    clock = record.dataset["t_s"]
+    between = 0.5 * (clock[1:] + clock[:-1])
+    length = float(np.ptp(clock)) / max(int(np.unique(record.dataset["run"]).size), 1)
+    near = between[np.abs(between - time_s) <= runs * length]
+    return np.asarray(near[:: max(1, near.size // MOST_TIMES)])
+
+
+def _step_times(
+    record: Record, space: Space, x: np.ndarray, residual: np.ndarray, cost: float
+) -> tuple[np.ndarray, np.ndarray, float]:
+    """The best time between readings near each stepwise key, the rest held."""
+    for place in space.stepwise:
+        times = times_near(record, float(x[place]))
+        times = times[(times >= space.low[place]) & (times <= space.high[place])]
+        if not times.size:
+            continue
+        points = np.tile(x, (times.size, 1))
+        points[:, place] = times
+        tried = residuals(record, space, points)
+        costs = np.array([cost_of(space, point, left) for point, left in zip(points, tried)])
+        best = int(np.argmin(costs))
+        if costs[best] < cost:
+            x, residual, cost = points[best], tried[best], float(costs[best])
+    return x, residual, cost
 
 
 def _newton_step(

@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from brace.diagnose.diagnosis import Interval
-from brace.diagnose.loading.fit import Fit
+from brace.diagnose.loading.fit import Fit, cost_of, residuals, times_near
+from brace.diagnose.loading.record import Record
 from brace.model.keys import KEY_BY_NAME
 
 Z_90 = 1.6449
 
 
-def intervals(fitted: Fit, keys: tuple[str, ...], inflation: float = 1.0) -> dict[str, Interval]:
+def intervals(record: Record, fitted: Fit, keys: tuple[str, ...], inflation: float = 1.0) -> dict[str, Interval]:
     """By the curvature at the best fit; `inflation` multiplies sigma (noise underrated). A key that the record does not
     tell has infinite ends, cut at what the format allows."""
     space = fitted.space
@@ -22,13 +23,31 @@ def intervals(fitted: Fit, keys: tuple[str, ...], inflation: float = 1.0) -> dic
     for key in keys:
         place = space.keys.index(key)
         value = float(fitted.x[place])
+        if place in space.stepwise:
+            found[key] = _time_interval(record, fitted, place)
+            continue
         free = np.flatnonzero(inside | (np.arange(space.size) == place))
         part = normal[np.ix_(free, free)]
         spread = np.sqrt(np.clip(np.diag(np.linalg.pinv(part, rcond=1e-14, hermitian=True)), 0.0, None))
-        sigma = float(spread[list(free).index(place)] * fitted.scale[place]) * inflation
+        sigma = float(spread[free.tolist().index(place)] * fitted.scale[place]) * inflation
         if fitted.jacobian[:, place] @ fitted.jacobian[:, place] < 1e-6:
             sigma = np.inf
         low, high = value - Z_90 * sigma, value + Z_90 * sigma
         entry = KEY_BY_NAME[key]
         found[key] = Interval(value, max(low, entry.low), min(high, entry.high))
     return found
+
+
+def _time_interval(record: Record, fitted: Fit, place: int) -> Interval:
+    """From the reading before the first time that fits to the reading after the last."""
+    space, x = fitted.space, fitted.x
+    times = times_near(record, float(x[place]))
+    points = np.tile(x, (times.size, 1))
+    points[:, place] = times
+    costs = np.array([cost_of(space, p, r) for p, r in zip(points, residuals(record, space, points))])
+    good = times[costs <= fitted.cost + Z_90**2]
+    clock = record.dataset["t_s"]
+    first, last = (float(good.min()), float(good.max())) if good.size else (float(x[place]), float(x[place]))
+    low = clock[max(int(np.searchsorted(clock, first)) - 1, 0)]
+    high = clock[min(int(np.searchsorted(clock, last)), clock.size - 1)]
+    return Interval(float(x[place]), float(low), float(high))

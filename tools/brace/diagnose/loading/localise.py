@@ -43,7 +43,7 @@ def localise(record: Record, fitted: Fit, seed: int) -> list[Localised]:
     rng = np.random.default_rng([seed, 0x10CA115E])
     signs = rng.integers(0, 2, size=(FLIPS, left.size), dtype=np.int8).astype(np.float32) * 2 - 1
     noise = np.sort(np.abs(signs @ (basis * left[:, None]).astype(np.float32)).max(axis=1))
-    found = []
+    found: list[Localised] = []
     for place in np.argsort(-seen, kind="stable"):
         above = FLIPS - int(np.searchsorted(noise, seen[place], side="left"))
         p = (above + 1) / (FLIPS + 1)

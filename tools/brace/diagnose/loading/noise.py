@@ -12,46 +12,60 @@ from brace.dataset.check_runs import run_starts
 
 LEAST_FORCE_SIGMA_N = 1e-3  # a simulated record without noise is still not known better
 LEAST_SHARE = 1e-4  # of what a channel moves by
-GROWTH_GAIN = 15.0  # twice the log-likelihood that a noise growing with load must gain to be believed
+REPEATS = "repeats"
+THIRD_DIFFERENCES_SHARE = 2.31  # how many third differences of white noise tell as much as one independent reading
+GROWTH_GAIN = 9.0  # twice the log-likelihood that a noise growing with load must gain to be believed
 
 
 @dataclass(frozen=True)
 class ChannelNoise:
-    """sigma^2 = floor^2 + (growth * |reading|)^2, in the channel's unit."""
+    """sigma^2 = floor^2 + (growth * |reading|)^2, in the channel's unit; `freedom` is the number of independent
+    differences that it was taken from."""
 
     floor: float
     growth_ratio: float
     source: str
+    freedom: float = 0.0
 
     def sigma(self, reading: np.ndarray) -> np.ndarray:
         """One sigma of each reading."""
-        return np.hypot(self.floor, self.growth_ratio * np.abs(reading))
+        return np.asarray(np.hypot(self.floor, self.growth_ratio * np.abs(reading)))
 
 
 def channel_noise(dataset: Dataset, channel: str) -> ChannelNoise:
     """From repeats where there are any, else from the smoothness along the runs."""
     values = dataset[channel]
+    if np.isnan(values).any():  # a reading that only a part of the record has
+        dataset = dataset.select(~np.isnan(values))
+        values = dataset[channel]
     least = LEAST_SHARE * float(np.ptp(values)) + 1e-12
     if channel in ("fx_n", "fz_n"):
         resolution = dataset.meta.number("sensor.resolution_n") / np.sqrt(12.0)
         least = max(least, LEAST_FORCE_SIGMA_N, 0.1 * resolution)
     off, size, freedom_ratio = _repeat_differences(dataset, values)
-    source = "repeats"
+    source, freedom = REPEATS, 0.75 * off.size
     if off.size < 30:
         off, size, freedom_ratio = _third_differences(dataset, values)
-        source = "smoothness along the runs"
+        source, freedom = "smoothness along the runs", off.size / THIRD_DIFFERENCES_SHARE
     if off.size < 4:
         off, size, freedom_ratio = _off_curves(dataset, values)
-        source = "smooth curves through the runs"
+        source, freedom = "smooth curves through the runs", 0.5 * off.size
     if off.size < 4:
         return ChannelNoise(least, 0.0, "not enough readings; the least that can be told")
-    spread = _robust_sigma(off) / freedom_ratio
+    spread = robust_sigma(off) / freedom_ratio
     if spread < least:
         return ChannelNoise(least, 0.0, "the sensor's resolution")
-    growth = _growth(off / freedom_ratio, size, spread)
+    growth = growth_of(off / freedom_ratio, size, spread) if source == REPEATS else None
     if growth is None:
-        return ChannelNoise(spread, 0.0, source)
-    return ChannelNoise(max(growth[0], least), growth[1], source + ", growing with load")
+        return ChannelNoise(spread, 0.0, source, freedom)
+    return ChannelNoise(max(growth[0], least), growth[1], source + ", growing with load", freedom)
+
+
+def robust_sigma(off: np.ndarray) -> float:
+    """Standard deviation with the largest per cent left out, which a slip or a glitch may own."""
+    square = np.sort(off**2)
+    kept = square[: max(1, int(np.ceil(0.99 * square.size)))]
+    return float(np.sqrt(np.mean(kept) / (0.9238 if kept.size < square.size else 1.0)))
 
 
 def _repeat_differences(dataset: Dataset, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
@@ -119,14 +133,7 @@ def _off_curves(dataset: Dataset, values: np.ndarray) -> tuple[np.ndarray, np.nd
     return np.concatenate(off), np.concatenate(size), 1.0
 
 
-def _robust_sigma(off: np.ndarray) -> float:
-    """Standard deviation with the largest per cent left out, which a slip or a glitch may own."""
-    square = np.sort(off**2)
-    kept = square[: max(1, int(np.ceil(0.99 * square.size)))]
-    return float(np.sqrt(np.mean(kept) / (0.9238 if kept.size < square.size else 1.0)))
-
-
-def _growth(off: np.ndarray, size: np.ndarray, spread: float) -> tuple[float, float] | None:
+def growth_of(off: np.ndarray, size: np.ndarray, spread: float) -> tuple[float, float] | None:
     """(floor, growth) when a noise that grows with the reading is far more likely than a constant one."""
     scale = float(np.sqrt(np.mean(size**2)))
     if scale <= 0.0:

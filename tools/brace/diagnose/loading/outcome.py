@@ -58,7 +58,7 @@ def diagnosis_of(
     named = decision.verdict in ("effect", "ambiguous")
     after = best if named else final.base.fit
     exported = believed if decision.verdict == "unknown" else limb_of(believed, after.model)
-    effects = _effects(final, twin, decision.labels) if named else ()
+    effects = _effects(record, final, twin, decision.labels) if named else ()
     return Diagnosis(
         verdict=decision.verdict,
         sentence=_sentence(final, effects),
@@ -78,11 +78,11 @@ def diagnosis_of(
         residuals=_residuals(whole, believed, exported, locked if whole is record else np.zeros(whole.rows, bool)),
         notes=_notes(whole, record, final, twin),
         seed=options.seed,
-        details=_details(record, final),
+        details={**_details(record, final), "refitted": _refitted(whole, believed, final)},
     )
 
 
-def _effects(final: Pass, twin: Pass | None, labels: Sequence[str]) -> tuple[NamedEffect, ...]:
+def _effects(record: Record, final: Pass, twin: Pass | None, labels: Sequence[str]) -> tuple[NamedEffect, ...]:
     """For a class, each member with the parameters of its own fit."""
     ambiguous = final.decision.verdict == "ambiguous"
     found = []
@@ -90,7 +90,7 @@ def _effects(final: Pass, twin: Pass | None, labels: Sequence[str]) -> tuple[Nam
         fitted = _set_with(final, label).best.fit if ambiguous else final.decision.chosen.best.fit
         variant = next(item for item in fitted.space.variants if item.label == label)
         keys = tuple(freedom.key for freedom in variant.freedoms)
-        parameters: dict[str, Interval] = dict(intervals(fitted, keys))
+        parameters: dict[str, Interval] = dict(intervals(record, fitted, keys))
         for key, value in variant.settings.items():
             if KEY_BY_NAME[key].kind in ("number", "ratio"):
                 parameters[key] = Interval(value, value, value)
@@ -234,6 +234,12 @@ def _residuals(whole: Record, believed: LimbModel, exported: LimbModel, locked: 
     played = whole.player.play_numbers(models)
     off = whole.measured[None] - played
     return Residuals(whole.channels, off[0].T.copy(), off[1].T.copy(), locked)
+
+
+def _refitted(whole: Record, believed: LimbModel, final: Pass) -> np.ndarray:
+    """Measured less the model with only what calibration leaves open refitted, rows x channels: what is localised."""
+    refitted = model_numbers(limb_of(believed, final.base.fit.model))
+    return np.asarray((whole.measured - whole.player.play_numbers(refitted[None])[0]).T)
 
 
 def _notes(whole: Record, record: Record, final: Pass, twin: Pass | None) -> tuple[str, ...]:

@@ -14,12 +14,14 @@ from brace.model import LimbModel
 from brace.native.plant_batch import LoadingBatchPlayer, model_numbers, number_index
 
 FORCES = ("fx_n", "fz_n")
+NOT_MEASURED = 1e30  # sigma of a reading that was not taken
 SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
 
 
 @dataclass(frozen=True)
 class Record:
-    """`measured` and `sigma` are channels x rows, in the channels' units; forces come first."""
+    """`measured` and `sigma` are channels x rows, in the channels' units; forces come first. Where a channel was not
+    read, `measured` is 0 and sigma is NOT_MEASURED."""
 
     dataset: Dataset
     channels: tuple[str, ...]
@@ -66,27 +68,31 @@ class Record:
             LoadingBatchPlayer(part.columns, self.channels, zeroed=part.meta.zeroed_per_run),
         )
 
-    def with_sigma_scaled(self, factors: dict[str, float]) -> Record:
-        """The same with each channel's sigma multiplied."""
-        by_channel = np.array([factors.get(name, 1.0) for name in self.channels])
-        return Record(
-            self.dataset,
-            self.channels,
-            self.noise,
-            self.measured,
-            self.sigma * by_channel[:, None],
-            self.player,
-        )
+    @property
+    def readings(self) -> int:
+        """How many readings were taken."""
+        return int(np.count_nonzero(self.sigma < NOT_MEASURED))
+
+    @property
+    def noise_freedom(self) -> float:
+        """On how many independent readings the noise rests, all channels together."""
+        return float(sum(noise.freedom for noise in self.noise.values()))
 
 
 def load_record(dataset: Dataset) -> Record:
     """Noise per channel, from the whole record."""
-    channels = (*FORCES, *(name for name in SIDE_READINGS if name in dataset and np.ptp(dataset[name]) > 0.0))
+    channels = (*FORCES, *(name for name in SIDE_READINGS if name in dataset and np.nanstd(dataset[name]) > 0.0))
     noise = {name: channel_noise(dataset, name) for name in channels}
     measured = np.stack([np.asarray(dataset[name], float) for name in channels])
-    sigma = np.stack([noise[name].sigma(values) for name, values in zip(channels, measured)])
+    sigma = np.stack([sigma_of(noise[name], values) for name, values in zip(channels, measured)])
+    measured = np.nan_to_num(measured, nan=0.0)
     player = LoadingBatchPlayer(dataset.columns, channels, zeroed=dataset.meta.zeroed_per_run)
     return Record(dataset, channels, noise, measured, sigma, player)
+
+
+def sigma_of(noise: ChannelNoise, values: np.ndarray) -> np.ndarray:
+    """One sigma of each reading; a reading that was not taken (NaN) weighs nothing."""
+    return np.where(np.isnan(values), NOT_MEASURED, noise.sigma(np.nan_to_num(values)))
 
 
 def setting_of(record: Record, believed: LimbModel) -> Setting:
@@ -108,6 +114,7 @@ def setting_of(record: Record, believed: LimbModel) -> Setting:
         joint_deflection_rad={joint: max(compliance[joint] * torque[joint], 1e-5) for joint in torque},
         displacement_mm=float(max(np.abs(data["dx_mm"]).max(), np.abs(data["dz_mm"]).max(), 1e-6)),
         force_n=np.sort(np.abs(force).ravel()),
+        force_sigma_n=float(np.mean(record.sigma[:2])),
         run_starts_s=tuple(float(data["t_s"][start]) for start in starts),
         duration_s=float(data["t_s"][-1] - data["t_s"][0]),
         dwell_s=float(np.median(steps[steps > 0.0])) if np.any(steps > 0.0) else 1.0,

@@ -13,8 +13,10 @@ from brace.diagnose.diagnosis import Diagnosis
 from brace.diagnose.effects import Variant, all_variants
 from brace.diagnose.loading import outcome
 from brace.diagnose.loading.choose import LabelSet, posterior_of
+from brace.diagnose.loading.evidence import log_likelihood, score
 from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.gate import gate
+from brace.diagnose.loading.noise_after_base import with_growth, with_known_noise
 from brace.diagnose.loading.parts import enough_rows, locked_rows
 from brace.diagnose.loading.record import Record, load_record, setting_of
 from brace.diagnose.loading.search import Hypothesis, Search
@@ -24,6 +26,9 @@ from brace.diagnose.loading.verdict import Decision, decide
 from brace.diagnose.options import Advance, Options
 from brace.errors import UsageError
 from brace.model import LimbModel
+
+
+GROWTH_MUST_GAIN = 3.0  # nats that a noise growing with the load must be ahead of a constant one
 
 
 @dataclass(frozen=True)
@@ -53,10 +58,10 @@ def diagnose_loading(
     if stopped is not None:
         return stopped
     advance(0.02, "reading the noise off the repeats")
-    whole = load_record(dataset)
+    trust = trust_of(believed)
+    whole = with_known_noise(load_record(dataset), trust)
     enough = enough_rows(dataset)
     record = whole if enough.all() else whole.select(enough)
-    trust = trust_of(believed)
     variants = all_variants(setting_of(record, believed))
     locked = locked_rows(record.dataset)
     twin = None
@@ -71,6 +76,15 @@ def diagnose_loading(
 
 def search_pass(record: Record, trust: Trust, variants: Sequence[Variant], advance: Advance) -> Pass:
     """Search, then the best set fitted to the end, and what it leaves tested for structure."""
+    found = _searched(record, trust, variants, advance)
+    growing = with_growth(record, found.sets[0].best.fit)
+    if growing is None:
+        return found
+    other = _searched(growing, trust, variants, advance)
+    return other if _likelihood(other) > _likelihood(found) + GROWTH_MUST_GAIN else found
+
+
+def _searched(record: Record, trust: Trust, variants: Sequence[Variant], advance: Advance) -> Pass:
     search = Search(record, trust, variants, advance)
     hypotheses = search.run()
     sets = posterior_of(hypotheses, Counter(variant.label for variant in variants))
@@ -79,10 +93,17 @@ def search_pass(record: Record, trust: Trust, variants: Sequence[Variant], advan
     return Pass(record, trust, search.base, sets, structure, decide(sets, structure, search.base.fit))
 
 
+def _likelihood(found: Pass) -> float:
+    """Log posterior of what a pass chose, its noise included."""
+    best, base = found.sets[0].best, found.base.fit
+    count, freedom = found.record.readings, found.record.noise_freedom
+    return log_likelihood(base, found.record.sigma, count, freedom) + score(best.fit, base, count, freedom)
+
+
 def _polished(record: Record, best: LabelSet) -> LabelSet:
     """The best way of the best set, fitted to the end with every derivative fresh."""
     rough = best.best
-    fitted = fit(record, rough.fit.space, rough.fit.x, scale=None)
+    fitted = fit(record, rough.fit.space, rough.fit.x)
     if not np.isfinite(fitted.cost) or fitted.cost > rough.fit.cost:
         fitted = rough.fit
     return LabelSet(best.labels, Hypothesis(fitted, rough.score), best.posterior)

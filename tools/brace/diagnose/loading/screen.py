@@ -13,8 +13,8 @@ from brace.diagnose.loading.fit import PROBE, Fit, residuals
 from brace.diagnose.loading.record import Record
 from brace.diagnose.loading.space import Space, Trust, compatible, space_of
 
-MOST_TRIES = 60
-POINTS_AT_ONCE = 128
+MOST_TRIES = 120
+MOST_SCALED = 6
 
 
 @dataclass(frozen=True)
@@ -72,6 +72,11 @@ def _promise(
     tries = _tries(space, start, variant)
     left_over = remover.augmented(residuals(record, space, tries))
     costs = np.einsum("ij,ij->i", left_over, left_over)
+    if len(tries) > 1:
+        scaled = _scaled_tries(space, variant, tries, left_over, left)
+        left_scaled = remover.augmented(residuals(record, space, scaled))
+        tries = np.vstack([tries, scaled])
+        costs = np.concatenate([costs, np.einsum("ij,ij->i", left_scaled, left_scaled)])
     best = int(np.argmin(costs))
     estimate = float(costs[best])
     freed = [freedom.key for freedom in variant.freedoms]
@@ -104,6 +109,25 @@ def _tries(space: Space, start: np.ndarray, variant: Variant) -> np.ndarray:
                 point[place] = min(max(value, space.low[place]), space.high[place])
         points.append(point)
     return np.array(points if len(points) == 1 or any(f.tries for f in variant.freedoms) else points[:1])
+
+
+def _scaled_tries(
+    space: Space, variant: Variant, tries: np.ndarray, left_over: np.ndarray, left: np.ndarray
+) -> np.ndarray:
+    """The most promising tries with their size (the variant's first key) scaled as if readings were linear in it."""
+    change = left - left_over
+    power = np.einsum("ij,ij->i", change, change)
+    along = change @ left
+    ratio = np.divide(along, power, out=np.zeros_like(along), where=power > 1e-12)
+    gain = np.where(power > 1e-12, along * ratio, 0.0)
+    best = np.argsort(-gain, kind="stable")[:MOST_SCALED]
+    place = space.keys.index(variant.freedoms[0].key)
+    scaled = tries[best].copy()
+    believed = tries[0, place]
+    scaled[:, place] = np.clip(
+        believed + ratio[best] * (scaled[:, place] - believed), space.low[place], space.high[place]
+    )
+    return scaled
 
 
 def _signatures(

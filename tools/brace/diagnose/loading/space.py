@@ -41,7 +41,8 @@ def trust_of(believed: LimbModel) -> Trust:
 
 @dataclass(frozen=True)
 class Space:
-    """Trusted keys first, then the effects' freedoms (`own` of them). `sigma` is inf where no prior holds."""
+    """Trusted keys first, then the effects' freedoms (`own` of them). `sigma` is inf where no prior holds; `stepwise`
+    are places of times at which readings jump."""
 
     numbers: np.ndarray
     keys: tuple[str, ...]
@@ -51,6 +52,7 @@ class Space:
     low: np.ndarray
     high: np.ndarray
     own: int
+    stepwise: tuple[int, ...] = ()
     variants: tuple[Variant, ...] = field(default=())
 
     @property
@@ -95,6 +97,7 @@ def space_of(trust: Trust, variants: Sequence[Variant]) -> Space:
         np.concatenate([trust.low[kept], [item.low for item in own]]),
         np.concatenate([trust.high[kept], [item.high for item in own]]),
         len(own),
+        tuple(len(kept) + place for place, item in enumerate(own) if item.stepwise),
         tuple(variants),
     )
 

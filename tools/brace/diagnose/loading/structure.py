@@ -51,6 +51,7 @@ def structure_of(record: Record, fitted: Fit) -> Structure:
     tests = []
     for words, shapes in _families(record, fitted):
         tests.append(_test(words, shapes, remover, left, fitted.residual.size - fitted.space.size))
+    tests.append(_lack_of_fit(record, fitted))
     tests.append(_neighbours(record, fitted))
     tests.append(_outliers(fitted))
     least = min(test.p for test in tests)
@@ -74,6 +75,29 @@ def _test(words: str, shapes: np.ndarray, remover: Remover, left: np.ndarray, fr
     beside = max(freedom - dimensions, 1)
     ratio = (gain / dimensions) / max((float(left @ left) - gain) / beside, 1e-300)
     return FamilyTest(words, float(fisher.sf(ratio, dimensions, beside)), gain, dimensions)
+
+
+def _lack_of_fit(record: Record, fitted: Fit) -> FamilyTest:
+    """Do repeats agree with each other better than with the model? The means of repeats against their spread."""
+    from scipy.stats import f as fisher
+
+    words = "alike in every repeat"
+    data = record.dataset
+    along = np.round(np.stack([data["dx_mm"], data["dz_mm"]], axis=1), 6)
+    keys = np.column_stack([data["config"], data["axis"], data["step"], along])
+    _, group, counts = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
+    group = group.ravel()
+    if counts.max() < 2:
+        return FamilyTest(words, 1.0, 0.0, 0)
+    left = fitted.residual.reshape(len(record.channels), -1)
+    mean = np.stack([np.bincount(group, weights=channel) for channel in left]) / counts
+    between = float(np.sum(mean**2 * counts))
+    within = float(np.sum((left - mean[:, group]) ** 2))
+    channels = len(record.channels)
+    freedom = max(channels * counts.size - fitted.space.size, 1)
+    beside = channels * int(np.sum(counts - 1))
+    ratio = (between / freedom) / max(within / beside, 1e-300)
+    return FamilyTest(words, float(fisher.sf(ratio, freedom, beside)), between, freedom)
 
 
 def _neighbours(record: Record, fitted: Fit) -> FamilyTest:
@@ -124,7 +148,7 @@ def _families(record: Record, fitted: Fit) -> Iterator[tuple[str, np.ndarray]]:
     def together(columns: np.ndarray) -> np.ndarray:
         """Rows x shapes of displacement to readings x shapes."""
         out = slope[:, :, None] * columns[None] / record.sigma[:, :, None]
-        return out.reshape(channels * rows, -1)
+        return np.asarray(out.reshape(channels * rows, -1))
 
     yield "at some configurations whatever the load", apart(config)
     yield "at some configurations in proportion to the load", apart(places * s[:, None])
@@ -170,7 +194,7 @@ def _pushing(along: np.ndarray, run: np.ndarray) -> np.ndarray:
 def slopes(record: Record, fitted: Fit, along: np.ndarray) -> np.ndarray:
     """Channels x rows: what the channel reads per mm along the run, by the fitted model at that place."""
     played = (record.measured - fitted.residual.reshape(record.measured.shape) * record.sigma)
-    out = np.zeros_like(played)
+    out: np.ndarray = np.zeros_like(played)
     places = record.dataset["config"] * 2 + record.dataset["axis"]
     for place in np.unique(places):
         rows = places == place

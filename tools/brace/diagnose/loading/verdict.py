@@ -10,6 +10,7 @@ from brace.diagnose.loading.choose import LabelSet, label_probability, rivals
 from brace.diagnose.loading.fit import Fit
 from brace.diagnose.loading.structure import Structure
 
+NOTHING_STANDS = 0.2  # posterior share of nothing missing from which nothing is claimed
 SURE = 0.8  # posterior share from which one member of a class is named alone
 SMALL_REST = 0.03  # of what an effect explains: structure left below it does not unname the effect
 
@@ -31,8 +32,9 @@ def decide(sets: Sequence[LabelSet], structure: Structure, base: Fit) -> Decisio
     best = sets[0]
     if structure.structured and not _small_rest(best, structure, base):
         return Decision("unknown", (), (), best, structure)
-    if not best.labels:
-        return Decision("none", (), (), best, structure)
+    nothing = next((item for item in sets if not item.labels), None)
+    if nothing is not None and nothing.posterior > NOTHING_STANDS:
+        return Decision("none", (), (), nothing, structure)
     ordered = sorted(best.labels, key=lambda label: (-_drop(sets, best, label), label))
     classes = tuple(
         tuple(group) for label in ordered if len(group := rivals(sets, label)) > 1
