@@ -1,17 +1,242 @@
-"""What to measure next."""
+"""What to measure next: of the loading tests that the rig could make, the shortest that tells the named
+effect from its rivals about as well as any of them could."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from brace.diagnose.diagnosis import NextExperiment
+from brace.diagnose.loading.menu import (
+    CHANNELS,
+    ENCODER_NOISE_RAD,
+    ENCODERS,
+    GAUGE,
+    GAUGE_NOISE_MM,
+    GROUPS,
+    Condition,
+    as_record,
+    conditions,
+    postures,
+)
 from brace.diagnose.loading.record import Record
+from brace.diagnose.loading.separation import (
+    Contender,
+    Played,
+    contenders,
+    lambda_squared,
+    no_rivals,
+    pairs_told,
+    play,
+    power,
+    weights,
+)
 from brace.diagnose.options import Options
 from brace.model import LimbModel
 
 if TYPE_CHECKING:
     from brace.diagnose.loading.run import Pass
 
+POSTURES_AND_REPEATS = ((3, 1), (5, 1), (8, 1), (8, 2), (8, 4))
+GOOD_ENOUGH = 0.99  # a test that is as sure as this need not be surer
+NEAR_BEST = 0.01  # of worth that is given up for a shorter test
+NO_POWER = 0.05  # below it nothing is separated
 
-def next_experiment(record: Record, final: Pass, believed: LimbModel, options: Options) -> NextExperiment | None:
-    return None
+
+@dataclass(frozen=True)
+class Plan:
+    """A test in full. `worth` [0, 1]: the mean of its power and of the share of pairs that it tells apart."""
+
+    condition: Condition
+    angles: np.ndarray
+    repeats: int
+    encoders: bool
+    gauge: bool
+    minutes: float
+    worth: float
+
+
+def next_experiment(
+    record: Record, final: Pass, believed: LimbModel, options: Options
+) -> NextExperiment | None:
+    """None where the best set has no rival at all."""
+    hypotheses = contenders(final.sets)
+    if no_rivals(hypotheses).all():
+        return None
+    first = hypotheses[0].fit.model
+    limits = {f"motor.{joint}.angle_{end}_rad": believed.number(f"motor.{joint}.angle_{end}_rad")
+              for joint in ("femur", "tibia") for end in ("min", "max")}  # fmt: skip
+    angles = postures(record, limits)
+    plans = [
+        plan
+        for condition in conditions(record, [item.fit for item in hypotheses])
+        for plan in _plans(record, hypotheses, condition, angles, first)
+    ]
+    best = _shortest_of_the_best(plans)
+    test = as_record(record, best.condition, best.angles, first)
+    played = play(test, hypotheses, GROUPS)
+    amount = (
+        best.repeats * _read(best.encoders, best.gauge)[None, :, None] * np.ones((1, 1, len(best.angles)))
+    )
+    found = lambda_squared(played, hypotheses, amount)
+    chance = float(power(found, hypotheses)[0])
+    separates = _separated(hypotheses)
+    if chance < NO_POWER:
+        return NextExperiment(
+            f"nothing on this rig's menu separates {' and '.join(separates)}: other postures, larger, "
+            "smaller, slower, preloaded or repeated runs, warmth, encoders and a dial gauge would all read the same",
+            separates,
+            chance,
+            best.minutes,
+        )
+    return NextExperiment(
+        _in_words(record, best, separates),
+        separates,
+        chance,
+        round(best.minutes, 1),
+        _rig_toml(record, best, options.seed),
+    )
+
+
+def _plans(
+    record: Record,
+    hypotheses: Sequence[Contender],
+    condition: Condition,
+    angles: np.ndarray,
+    first: np.ndarray,
+) -> Iterator[Plan]:
+    """The best postures for each choice of instruments, in several numbers."""
+    played = play(as_record(record, condition, angles, first), hypotheses, GROUPS)
+    for encoders, gauge in _instruments(record):
+        order = _best_postures(played, hypotheses, _read(encoders, gauge), POSTURES_AND_REPEATS[-1][0])
+        sizes = [(count, repeats) for count, repeats in POSTURES_AND_REPEATS if count <= len(order)]
+        amount = np.zeros((len(sizes), len(GROUPS), len(angles)))
+        for row, (count, repeats) in enumerate(sizes):
+            amount[row][:, order[:count]] = repeats * _read(encoders, gauge)[:, None]
+        found = lambda_squared(played, hypotheses, amount)
+        worths = 0.5 * (power(found, hypotheses) + pairs_told(found, hypotheses))
+        for (count, repeats), worth in zip(sizes, worths):
+            minutes = condition.minutes(count, repeats, encoders, gauge, record)
+            yield Plan(condition, angles[order[:count]], repeats, encoders, gauge, minutes, float(worth))
+
+
+def _instruments(record: Record) -> list[tuple[bool, bool]]:
+    """(encoders, gauge); what the record has stays on."""
+    return [
+        (encoders, gauge)
+        for encoders in ((True,) if ENCODERS[0] in record.channels else (False, True))
+        for gauge in ((True,) if set(GAUGE) & set(record.channels) else (False, True))
+    ]
+
+
+def _read(encoders: bool, gauge: bool) -> np.ndarray:
+    """Which of GROUPS are read."""
+    return np.array([1.0, float(encoders), float(gauge)])
+
+
+def _best_postures(played: Played, hypotheses: Sequence[Contender], read: np.ndarray, most: int) -> list[int]:
+    """One after the other, the posture that separates most together with those before it."""
+    share = weights(hypotheses)
+    none = no_rivals(hypotheses)
+    configs = played.square.shape[1]
+    chosen: list[int] = []
+    while len(chosen) < min(most, configs):
+        left = [place for place in range(configs) if place not in chosen]
+        amount = np.zeros((len(left), len(GROUPS), configs))
+        amount[:, :, chosen] = read[:, None]
+        for row, place in enumerate(left):
+            amount[row, :, place] = read
+        found = np.log1p(lambda_squared(played, hypotheses, amount))
+        worst = np.where(none, np.inf, found).min(axis=2)
+        worth = np.where(np.isfinite(worst), worst, 0.0) @ share
+        chosen.append(left[int(np.argmax(worth))])
+    return chosen
+
+
+def _shortest_of_the_best(plans: Sequence[Plan]) -> Plan:
+    """Gain per minute, where gain beyond enough is worth nothing."""
+    enough = min(GOOD_ENOUGH, max(plan.worth for plan in plans) - NEAR_BEST)
+    return min((plan for plan in plans if plan.worth >= enough), key=lambda plan: (plan.minutes, -plan.worth))
+
+
+def _separated(hypotheses: Sequence[Contender]) -> tuple[str, ...]:
+    """The best set and its rivals."""
+    return tuple(dict.fromkeys(item.label for item in hypotheses))
+
+
+def _in_words(record: Record, plan: Plan, separates: Sequence[str]) -> str:
+    angles = "; ".join(f"{one:.3f}, {two:.3f}" for one, two in plan.angles)
+    rig = plan.condition.rig
+    often = {1: "once", 2: "twice"}.get(plan.repeats, f"{plan.repeats} times")
+    words = (
+        f"load the limb at {len(plan.angles)} postures (theta1, theta2 [rad]: {angles}), along x and z, "
+        f"{often} each, {rig['rig.steps']} steps of {rig['rig.step_mm']:g} mm to each side, "
+        f"{rig['rig.dwell_s']:g} s before each reading"
+    )
+    if plan.condition.name != "again":
+        words += f", {plan.condition.words}"
+    mounted = []
+    if plan.encoders and ENCODERS[0] not in record.channels:
+        mounted.append("encoders on the joints' output sides")
+    if plan.gauge and not set(GAUGE) & set(record.channels):
+        mounted.append("a dial gauge on the base along x and z")
+    if mounted:
+        words += f", with {' and '.join(mounted)} besides"
+    return f"{words}: about {plan.minutes:.0f} min; add the rows to this record and diagnose again"
+
+
+def _rig_toml(record: Record, plan: Plan, seed: int) -> str:
+    """What `brace simulate --rig` plays, with this record's noise."""
+    meta = record.dataset.meta
+    noise = record.noise
+    values: dict[str, dict[str, object]] = {
+        "": {"format": 1, "title": "the next experiment", "seed": seed + 1},
+        "rig": {
+            **{
+                key.removeprefix("rig."): value
+                for key, value in plan.condition.rig.items()
+                if key.startswith("rig.")
+            },
+            "repeats": plan.repeats,
+            "zeroed": "per_run" if meta.zeroed_per_run else "never",
+        },
+        "sensor": {
+            "noise_n": float(f"{np.hypot(noise['fx_n'].floor, noise['fz_n'].floor) / np.sqrt(2.0):.3g}"),
+            "resolution_n": meta.number("sensor.resolution_n"),
+            "range_n": meta.number("sensor.range_n"),
+            "encoders": plan.encoders,
+            "encoder_noise_rad": _floor(record, ENCODERS[0], ENCODER_NOISE_RAD),
+            "base_gauge": plan.gauge,
+            "base_noise_mm": _floor(record, GAUGE[0], GAUGE_NOISE_MM),
+        },
+        "temperature": {
+            key.removeprefix("temperature."): value
+            for key, value in plan.condition.rig.items()
+            if key.startswith("temperature.")
+        },
+    }
+    lines = []
+    for table, entries in values.items():
+        lines += [f"\n[{table}]"] if table else []
+        lines += [f"{key} = {_toml(value)}" for key, value in entries.items()]
+    for theta1, theta2 in plan.angles:
+        lines += ["\n[[configuration]]", f"theta1_rad = {theta1:.6f}", f"theta2_rad = {theta2:.6f}"]
+    return "\n".join(lines) + "\n"
+
+
+def _floor(record: Record, channel: str, stated: float) -> float:
+    assert channel in CHANNELS
+    return float(f"{record.noise[channel].floor:.3g}") if channel in record.noise else stated
+
+
+def _toml(value: object) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, str):
+        return f'"{value}"'
+    if isinstance(value, float) and np.isinf(value):
+        return "inf"
+    return repr(value)
