@@ -79,8 +79,10 @@ def case(kind: str, random: np.random.Generator) -> Case:
         beyond = np.sign(angle) * np.maximum(np.abs(angle) - gap / 2, 0.0)
         spring = stiffness * beyond * np.where(beyond > 0, 1 + one_side, 1.0) + cubic * beyond**3
         sense = np.sign(np.diff(angle, prepend=-1e-9))
-        torque = spring + (dry + share * np.abs(spring)) * sense + tooth * np.sin(
-            2 * np.pi * angle / period + phase
+        torque = (
+            spring
+            + (dry + share * np.abs(spring)) * sense
+            + tooth * np.sin(2 * np.pi * angle / period + phase)
         )
         torque = torque + offset + noise * random.standard_normal(legs)
         read = np.round((angle + zero) / 1e-5) * 1e-5
@@ -110,8 +112,8 @@ class Tally:
 
 
 def tally(count: int, seed: int, folder: Path) -> Tally:
-    """Diagnoses `count` cases. Right is: exactly what is hidden, nothing for none, and for what is outside the
-    catalogue no effect named with a confidence of half or more."""
+    """Diagnoses `count` cases. Right is: exactly what is hidden, nothing for none, and for what is outside
+    the catalogue no effect named with a confidence of half or more."""
     from brace.dataset import load_dataset
     from brace.diagnose.options import Options
     from brace.diagnose.run import diagnose
@@ -126,7 +128,9 @@ def tally(count: int, seed: int, folder: Path) -> Tally:
         result.right[one.kind] += right
         result.false_names += bool(named - one.hidden)
         if not right:
-            result.misses.append(f"{number} {one.kind}: {found.verdict} {sorted(named)} {found.sentence[:160]}")
+            result.misses.append(
+                f"{number} {one.kind}: {found.verdict} {sorted(named)} {found.sentence[:160]}"
+            )
         for effect in found.effects:
             for key, interval in effect.parameters.items():
                 truth = one.truth.get(key.rpartition(".")[2])

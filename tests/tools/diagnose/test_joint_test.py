@@ -1,4 +1,5 @@
-"""Diagnosis of joint tests: what is hidden is named, what is not there is not, bad records are told from bad joints."""
+"""Diagnosis of joint tests: what is hidden is named, what is not there is not, bad records are told from bad
+joints."""
 
 from __future__ import annotations
 
@@ -83,8 +84,9 @@ def limb(folder: Path, compliance: float, extra: str = "") -> Path:
     """A believed limb whose femur joint has this spring."""
     path = folder / "believed.toml"
     path.write_text(
-        "format = 1\n[geometry]\nfemur_mm = 185.0\ntibia_mm = 313.5\n[link.tibia]\nbending_mm_per_n = 0.25\n"
-        f"[joint.femur]\ncompliance_rad_per_n_mm = {compliance!r}\n{extra}[uncertainty]\ncompliance_rel = 0.05\n"
+        "format = 1\n[geometry]\nfemur_mm = 185.0\ntibia_mm = 313.5\n[link.tibia]\nbending_mm_per_n ="
+        " 0.25\n[joint.femur]\ncompliance_rad_per_n_mm ="
+        f" {compliance!r}\n{extra}[uncertainty]\ncompliance_rel = 0.05\n"
     )
     return path
 
@@ -170,7 +172,8 @@ def test_ramps_and_what_is_held_out() -> None:
 
 
 def test_a_gap_that_carries_torque_is_no_play(tmp_path: Path) -> None:
-    """A spring half as stiff in its middle: a gap lowers the residual, and the readings inside it are on a slope."""
+    """A spring half as stiff in its middle: a gap lowers the residual, and the readings inside it are on a
+    slope."""
     random = np.random.default_rng(1)
     rows = []
     for test in range(5):
@@ -178,7 +181,9 @@ def test_a_gap_that_carries_torque_is_no_play(tmp_path: Path) -> None:
         torque = 1e5 * np.sign(angle) * np.maximum(np.abs(angle) - 0.008, 0) + 1e5 * angle
         torque = torque + 10.0 * random.standard_normal(260)
         rows.append(np.column_stack([0.02 * np.arange(260), angle, torque, np.full(260, test)]))
-    case = joint_cases.Case("soft", {}, dict(zip(("t_s", "angle_rad", "torque_n_mm", "test"), np.vstack(rows).T)))
+    case = joint_cases.Case(
+        "soft", {}, dict(zip(("t_s", "angle_rad", "torque_n_mm", "test"), np.vstack(rows).T))
+    )
     folder = case.write(tmp_path)
     record = JointRecord(load_dataset(folder))
     fitter = Fitter(record, spring_alone(load_dataset(folder)), np.inf)

@@ -40,7 +40,9 @@ def table(folder: Path, model: LimbModel, scale: float = 1.0) -> Path:
         f"{x:.2f},{c:.2f},{c:.2f},{z:.2f}"
         for (a, b), (x, c, z) in zip(POSES, k)
     ]
-    (folder / "data.csv").write_text("theta1_rad,theta2_rad,r_mm,k_xx,k_xz,k_zx,k_zz\n" + "\n".join(lines) + "\n")
+    (folder / "data.csv").write_text(
+        "theta1_rad,theta2_rad,r_mm,k_xx,k_xz,k_zx,k_zz\n" + "\n".join(lines) + "\n"
+    )
     return folder
 
 

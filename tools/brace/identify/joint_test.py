@@ -1,7 +1,7 @@
 """A joint test as a fit's problem: the imposed deflection played on spring, gap, friction and hardening.
 
-Gears rub in proportion to what they carry (`coulomb_per_load_ratio`). Without that share the fit of a gearbox takes
-the widening loop for a softer spring and a narrower gap.
+Gears rub in proportion to what they carry (`coulomb_per_load_ratio`). Without that share the fit of a gearbox
+takes the widening loop for a softer spring and a narrower gap.
 """
 
 from __future__ import annotations
@@ -118,8 +118,8 @@ class JointProblem:
         )
 
     def record_parameters(self, model: LimbModel) -> ParameterSet:
-        """What no limb.toml holds: the encoder's zero, the torque's zero, the width over which friction turns. The
-        encoder starts anywhere, so its zero says nothing of the limb's zero_offset_rad."""
+        """What no limb.toml holds: the encoder's zero, the torque's zero, the width over which friction
+        turns. The encoder starts anywhere, so its zero says nothing of the limb's zero_offset_rad."""
         angle, torque = self.columns["angle_rad"], self.columns["torque_n_mm"]
         angle_span, torque_span = float(np.ptp(angle)) or 1e-6, float(np.ptp(torque)) or 1.0
         zero = -self._centre_rad
@@ -174,7 +174,8 @@ def averaged(dataset: Dataset, block: int) -> tuple[dict[str, np.ndarray], np.nd
 
 
 def smoothed(values: np.ndarray, test: np.ndarray, counts: np.ndarray) -> np.ndarray:
-    """Moving means over as many rows as a block has, never across tests; `test` and `counts` are the blocks'."""
+    """Moving means over as many rows as a block has, never across tests; `test` and `counts` are the
+    blocks'."""
     width = int(np.median(counts))
     if width < 2:
         return values

@@ -1,6 +1,7 @@
-"""Which terms the record asks for. All sets of effects are grown from the best of the next smaller ones, so that two
-effects that only make sense together are found together; then shapes that no effect has may join; then every term
-must stand up to three judges: independent readings, stretches drawn anew, and what was held out."""
+"""Which terms the record asks for. All sets of effects are grown from the best of the next smaller ones, so
+that two effects that only make sense together are found together; then shapes that no effect has may join;
+then every term must stand up to three judges: independent readings, stretches drawn anew, and what was held
+out."""
 
 from __future__ import annotations
 
@@ -81,8 +82,9 @@ def _joined_by_rows(
     random: np.random.Generator,
     trying: Trying,
 ) -> Fitted:
-    """Readings by the way they stand for tell best where the joint slips; counted alike, they tell best what it does
-    under high load, where it stays longest. An effect that all judges ask for there joins too, beside what was found."""
+    """Readings by the way they stand for tell best where the joint slips; counted alike, they tell best what
+    it does under high load, where it stays longest. An effect that all judges ask for there joins too, beside
+    what was found."""
     by_rows = fitter.by_rows()
     while best.terms:
         current = by_rows.fit(best.terms, best)
@@ -92,7 +94,9 @@ def _joined_by_rows(
             if term.name not in have:
                 trying(term.label)
                 joined.append(by_rows.fit((*best.terms, term), current, term))
-        sound = [one for one in joined if not strained(fitter, one) and _needed(by_rows, current, one, random)]
+        sound = [
+            one for one in joined if not strained(fitter, one) and _needed(by_rows, current, one, random)
+        ]
         if not sound:
             break
         chosen = min(sound, key=lambda one: one.rss)
@@ -124,8 +128,9 @@ def _grown(fitter: Fitter, base: Fitted, effects: Sequence[Term], trying: Trying
 
 
 def strained(fitter: Fitter, fitted: Fitted) -> bool:
-    """An effect that only helps with a value that it cannot have stands for something else: creep as slow as the whole
-    record, friction that grows as fast as the load, a spring so soft in the middle that it is a dead zone in disguise."""
+    """An effect that only helps with a value that it cannot have stands for something else: creep as slow as
+    the whole record, friction that grows as fast as the load, a spring so soft in the middle that it is a
+    dead zone in disguise."""
     values = fitted.values
     for parameter in (parameter for term in fitted.terms for parameter in term.parameters):
         inside = parameter.low + 0.98 * (parameter.high - parameter.low)

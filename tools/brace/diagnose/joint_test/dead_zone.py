@@ -1,4 +1,5 @@
-"""Is a fitted gap a gap? Only where the record shows both flanks and, between them, hardly any rise of torque.
+"""Is a fitted gap a gap? Only where the record shows both flanks and, between them, hardly any rise of
+torque.
 
 A soft spring with a large gap and hardening fits many loops well. Such a gap is a shape, not a play.
 """
@@ -39,7 +40,10 @@ def refusal(record: JointRecord, fitted: Fitted) -> str:
     beyond = used & ~inside
     rise = np.ptp(carried[beyond]) / max(np.ptp(deflection[beyond]) - gap_rad, 1e-12)
     if slope_inside > FLAT * rise:
-        return f"the joint carries torque inside it: its slope there is {slope_inside / rise:.0%} of the one outside"
+        return (
+            f"the joint carries torque inside it: its slope there is {slope_inside / rise:.0%} of the one"
+            " outside"
+        )
     return ""
 
 

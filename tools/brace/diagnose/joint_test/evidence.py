@@ -41,8 +41,8 @@ def gain(record: JointRecord, poorer: Fitted, richer: Fitted, count: float) -> f
 
 
 def stretches(record: JointRecord, off_n_mm: np.ndarray) -> np.ndarray:
-    """Number of the stretch that each fitted reading belongs to: ramps, cut where they are fewer than enough, never
-    shorter than what hangs together."""
+    """Number of the stretch that each fitted reading belongs to: ramps, cut where they are fewer than enough,
+    never shorter than what hangs together."""
     ramp = record.ramp[record.fitted]
     _, number = np.unique(ramp, return_inverse=True)
     count = int(number.max()) + 1

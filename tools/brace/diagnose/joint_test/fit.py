@@ -20,8 +20,8 @@ PLENTY = 40  # evaluations of the slope
 
 @dataclass(frozen=True)
 class Fitted:
-    """`off_n_mm` is played less measured at every averaged reading, times the root of its weight; `rss` and `held_rss`
-    sum its squares over fitted and held-out readings."""
+    """`off_n_mm` is played less measured at every averaged reading, times the root of its weight; `rss` and
+    `held_rss` sum its squares over fitted and held-out readings."""
 
     terms: tuple[Term, ...]
     parameters: ParameterSet
@@ -44,13 +44,16 @@ class Fitted:
 
 
 class Fitter:
-    """Fits over one record from one base model. `trust` is the relative sigma of the base's spring; inf: free."""
+    """Fits over one record from one base model. `trust` is the relative sigma of the base's spring; inf:
+    free."""
 
     def __init__(self, record: JointRecord, base: LimbModel, trust: float) -> None:
         self.record, self.base, self.trust = record, base, trust
         self.root_weight = record.root_weight
         self.known: dict[frozenset[str], Fitted] = {}  # the best fit of every set of terms so far
-        self.left: set[tuple[frozenset[str], frozenset[str]]] = set()  # sets that were reached from larger ones
+        self.left: set[tuple[frozenset[str], frozenset[str]]] = (
+            set()
+        )  # sets that were reached from larger ones
 
     def by_rows(self) -> Fitter:
         """The same, every reading counted alike: least squares of what is read."""
@@ -101,7 +104,8 @@ class Fitter:
         return found
 
     def _reshaped(self, chosen: ParameterSet, point: np.ndarray, added: Term) -> np.ndarray:
-        """A gap leaves less way to the spring, hardening takes torque from it: the same torque at the ends."""
+        """A gap leaves less way to the spring, hardening takes torque from it: the same torque at the
+        ends."""
         spring = f"joint.{self.record.joint}.compliance_rad_per_n_mm"
         point = point.copy()
         if spring in chosen.keys:

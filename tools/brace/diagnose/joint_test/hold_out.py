@@ -1,4 +1,4 @@
-"""What is locked away before anything is fitted: whole tests, or where there is but one, whole ramps of it."""
+"""What is locked away before anything is fitted: whole tests, or with but one of them whole ramps of it."""
 
 from __future__ import annotations
 
@@ -33,8 +33,9 @@ def ramps(angle_rad: np.ndarray, test: np.ndarray) -> np.ndarray:
 
 
 def held_out(angle_rad: np.ndarray, torque_n_mm: np.ndarray, test: np.ndarray) -> tuple[np.ndarray, str]:
-    """Which readings take no part, and what they are in words ("" when nothing can be spared). Of the tests that reach
-    about the same torque the last one is held out, so that both small and large loops are predicted."""
+    """Which readings take no part, and what they are in words ("" when nothing can be spared). Of the tests
+    that reach about the same torque the last one is held out, so that both small and large loops are
+    predicted."""
     labels = np.unique(test)
     if labels.size >= 3:
         sizes = {label: float(np.ptp(torque_n_mm[test == label])) for label in labels}

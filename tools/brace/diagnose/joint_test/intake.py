@@ -36,8 +36,8 @@ def blocking_faults(dataset: Dataset) -> list[DataFault]:
 
 
 def spring_alone(dataset: Dataset) -> LimbModel:
-    """The start when no model is given: the example limb with nothing but a spring at the joint, as stiff as a straight
-    line through the record says."""
+    """The start when no model is given: the example limb with nothing but a spring at the joint, as stiff as
+    a straight line through the record says."""
     joint = dataset.meta.joint
     compliance = float(np.ptp(dataset["angle_rad"]) / max(float(np.ptp(dataset["torque_n_mm"])), 1e-9))
     values = {f"joint.{joint}.{leaf}": 0.0 for leaf in _DRIVE}

@@ -1,7 +1,7 @@
 """Where a model disagrees with a joint test: fixed contrasts of the residuals, with one family-wise level.
 
-Under no disagreement each stretch's residuals could as well have the other sign; signs are drawn anew, and the
-largest of all contrasts sets the level.
+Under no disagreement each stretch's residuals could as well have the other sign; signs are drawn anew, and
+the largest of all contrasts sets the level.
 """
 
 from __future__ import annotations
@@ -35,11 +35,7 @@ def localise(record: JointRecord, off_n_mm: np.ndarray, random: np.random.Genera
     most = (np.abs(signs @ parts) / scale).max(axis=1)
     p = (1.0 + (most[:, None] >= seen[None, :] - 1e-9).sum(axis=0)) / (DRAWS + 1.0)
     size = np.abs(weights.T @ off) / np.sqrt((weights != 0.0).sum(axis=0))
-    found = [
-        Localised(name, float(p[i]), float(size[i]))
-        for i, name in enumerate(names)
-        if p[i] <= LEVEL
-    ]
+    found = [Localised(name, float(p[i]), float(size[i])) for i, name in enumerate(names) if p[i] <= LEVEL]
     return tuple(sorted(found, key=lambda one: (one.p, -one.size))[:SHOWN])
 
 

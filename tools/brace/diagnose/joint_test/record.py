@@ -1,5 +1,5 @@
-"""The readings that a joint test is judged by: averaged, weighted by the way they stand for, some held out, those at the
-drive's limit left out."""
+"""The readings that a joint test is judged by: averaged, weighted by the way they stand for, some held out,
+those at the drive's limit left out."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ BLOCK_ROWS = 1200  # averaged readings: enough for every ramp's shape, few enoug
 
 
 class JointRecord(JointProblem):
-    """`fitted` and `kept` mark the averaged readings that are fitted and that are held out; `torque` plays a model with
-    the shapes of terms.py added."""
+    """`fitted` and `kept` mark the averaged readings that are fitted and that are held out; `torque` plays a
+    model with the shapes of terms.py added."""
 
     def __init__(self, dataset: Dataset) -> None:
         super().__init__(dataset, BLOCK_ROWS)
@@ -60,8 +60,9 @@ class JointRecord(JointProblem):
         self.rests = self._dwells()
 
     def _path(self) -> np.ndarray:
-        """The way that each reading stands for, in the plane of angle and torque, as a weight of mean 1. A joint that
-        friction holds is read again and again and says nothing new; what it passes in a slip is read but once."""
+        """The way that each reading stands for, in the plane of angle and torque, as a weight of mean 1. A
+        joint that friction holds is read again and again and says nothing new; what it passes in a slip is
+        read but once."""
         away = np.zeros(self.fitted.size)
         for name, span in (("angle_rad", self.extent.angle_rad), ("torque_n_mm", self.extent.torque_n_mm)):
             smooth = uniform_filter1d(self.columns[name], 3) / span
@@ -71,7 +72,8 @@ class JointRecord(JointProblem):
         return np.asarray(weight / weight[self.fitted].mean())
 
     def _dwells(self) -> bool:
-        """Whether time can show: the joint rests under load now and then, or large ramps differ in speed threefold."""
+        """Whether time can show: the joint rests under load now and then, or large ramps differ in speed
+        threefold."""
         if self.extent.length_s <= 0.0:
             return False
         torque, angle, time = (self.columns[name] for name in ("torque_n_mm", "angle_rad", "t_s"))
@@ -125,7 +127,8 @@ class JointRecord(JointProblem):
         return np.repeat(self.fitted, self._counts) & usable, np.repeat(self.kept, self._counts) & usable
 
     def strongest_period_rad(self, off_n_mm: np.ndarray) -> float:
-        """The period in the angle that residuals follow most: between the spacing of readings and a third of the range."""
+        """The period in the angle that residuals follow most: between the spacing of readings and a third of
+        the range."""
         x = self.columns["angle_rad"][self.fitted] - self._centre_rad
         y = off_n_mm[self.fitted] - off_n_mm[self.fitted].mean()
         longest = self.extent.angle_rad / 3.0

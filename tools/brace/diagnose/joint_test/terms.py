@@ -23,7 +23,8 @@ TORQUE_DRIFT = "torque_drift_n_mm_per_s"  # of the reading's zero
 
 @dataclass(frozen=True)
 class Extent:
-    """How large a record is: ranges of angle [rad] and torque [N mm], length [s], range of temperature [degC]."""
+    """How large a record is: ranges of angle [rad] and torque [N mm], length [s], range of temperature
+    [degC]."""
 
     angle_rad: float
     torque_n_mm: float
@@ -48,8 +49,9 @@ class Term:
 
 
 def catalogue(model: LimbModel, joint: str, extent: Extent, *, given: bool, rests: bool) -> list[Term]:
-    """Effects that a joint test can show; `given` says that the model was measured, so that its spring can be wrong;
-    `rests` that the record dwells or changes its speed: at one steady speed creep makes a loop as friction does."""
+    """Effects that a joint test can show; `given` says that the model was measured, so that its spring can be
+    wrong; `rests` that the record dwells or changes its speed: at one steady speed creep makes a loop as
+    friction does."""
     at = f"joint.{joint}."
     angle, torque = extent.angle_rad, extent.torque_n_mm
     stiffness = torque / angle
@@ -72,9 +74,7 @@ def catalogue(model: LimbModel, joint: str, extent: Extent, *, given: bool, rest
             (
                 free(at + "coulomb_n_mm", 0.05 * torque),
                 free(at + "coulomb_per_load_ratio", 0.1),
-                Parameter(
-                    FRICTION_TURN, 0.01 * angle, 0.01 * angle, 1e-4 * angle, min(1.0, 0.25 * angle)
-                ),
+                Parameter(FRICTION_TURN, 0.01 * angle, 0.01 * angle, 1e-4 * angle, min(1.0, 0.25 * angle)),
             ),
             (
                 {at + "coulomb_n_mm": 0.05 * torque, at + "coulomb_per_load_ratio": 0.05},

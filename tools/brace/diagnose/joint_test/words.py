@@ -29,11 +29,14 @@ def shape(name: str, values: Mapping[str, float]) -> str:
     if name == "cogging":
         size = math.hypot(values[COG_SIN], values[COG_COS])
         return (
-            f"a torque that repeats every {values[COG_PERIOD]:.3g} rad of the angle, amplitude {size:.3g} N mm "
-            "(as cogging or tooth errors do)"
+            f"a torque that repeats every {values[COG_PERIOD]:.3g} rad of the angle, amplitude {size:.3g} N"
+            " mm (as cogging or tooth errors do)"
         )
     if name == "asymmetric_spring":
-        return f"a spring that is {abs(values[ASYMMETRY]):.0%} {'stiffer' if values[ASYMMETRY] > 0 else 'softer'} on one side"
+        return (
+            f"a spring that is {abs(values[ASYMMETRY]):.0%}"
+            f" {'stiffer' if values[ASYMMETRY] > 0 else 'softer'} on one side"
+        )
     if name == "viscous_friction":
         return f"a torque that grows with speed, {values[VISCOUS]:.3g} N mm s/rad"
     if name == "torque_drift":
@@ -42,7 +45,12 @@ def shape(name: str, values: Mapping[str, float]) -> str:
 
 
 def sentence(
-    verdict: str, effects: Sequence[NamedEffect], before: float, after: float, noise: float, shapes: Sequence[str]
+    verdict: str,
+    effects: Sequence[NamedEffect],
+    before: float,
+    after: float,
+    noise: float,
+    shapes: Sequence[str],
 ) -> str:
     """The whole in one or two sentences, forces in N mm."""
     rest = f" What stays also shows {'; '.join(shapes)}: no effect of the catalogue." if shapes else ""
@@ -50,13 +58,18 @@ def sentence(
         return (
             f"The joint lacks {listed([effect.name for effect in effects])}; with "
             f"{'it' if len(effects) == 1 else 'them'} the gap falls from {before:.4g} to {after:.4g} N mm "
-            f"(noise {noise:.3g} N mm)." + rest
+            f"(noise {noise:.3g} N mm)."
+            + rest
         )
     if verdict == "none":
-        return f"Nothing is missing that this record can show: the gap is {before:.4g} N mm, noise {noise:.3g} N mm."
+        return (
+            f"Nothing is missing that this record can show: the gap is {before:.4g} N mm, noise {noise:.3g}"
+            " N mm."
+        )
     return (
-        f"Model and record disagree by {before:.4g} N mm (noise {noise:.3g} N mm), and no effect of the catalogue "
-        "explains it." + rest
+        f"Model and record disagree by {before:.4g} N mm (noise {noise:.3g} N mm), and no effect of the"
+        " catalogue explains it."
+        + rest
     )
 
 
@@ -68,31 +81,31 @@ def next_experiment(
     labels = tuple(effect.label for effect in effects)
     if "cogging" in shapes:
         return NextExperiment(
-            "the same ramps with the output locked half a tooth further: what repeats with the angle moves along, play, "
-            "friction and hardening stay",
+            "the same ramps with the output locked half a tooth further: what repeats with the angle moves"
+            " along, play, friction and hardening stay",
             ("cogging", *labels[:1]),
             0.9,
             minutes,
         )
     if "asymmetric_spring" in shapes:
         return NextExperiment(
-            "the same ramps with the joint mounted the other way round: a one-sided spring changes sides, a sensor's "
-            "fault stays",
+            "the same ramps with the joint mounted the other way round: a one-sided spring changes sides, a"
+            " sensor's fault stays",
             ("asymmetric_spring", *labels[:1]),
             0.9,
             minutes,
         )
     if "creep" in "".join((*labels, *could_be)) or "viscous_friction" in shapes:
         return NextExperiment(
-            "hold the torque for a minute at both ends and at zero, then repeat the ramps at a quarter of the speed: "
-            "creep goes on while held, friction does not",
+            "hold the torque for a minute at both ends and at zero, then repeat the ramps at a quarter of the"
+            " speed: creep goes on while held, friction does not",
             ("creep@creep", "coulomb_friction"),
             0.9,
             minutes + 4.0,
         )
     return NextExperiment(
-        "repeat the ramps at a third and at three times the torque: play stays what it is, friction's constant and "
-        "growing parts and hardening come apart",
+        "repeat the ramps at a third and at three times the torque: play stays what it is, friction's"
+        " constant and growing parts and hardening come apart",
         labels or tuple(could_be[:2]),
         max(0.5, min(0.99, weakest)),
         2.0 * minutes,

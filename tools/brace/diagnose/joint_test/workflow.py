@@ -145,12 +145,18 @@ def _told(
         could_be,
         spots,
         Unexplained(after if effects else gap.before.fitted, structured, description),
-        words.next_experiment(effects, [term.name for term in left], could_be, minutes)
-        if verdict != "none"
-        else None,
+        (
+            words.next_experiment(effects, [term.name for term in left], could_be, minutes)
+            if verdict != "none"
+            else None
+        ),
         faults,
         choice.candidates,
-        residuals if effects else Residuals(residuals.channels, residuals.before, residuals.before, residuals.held_out),
+        (
+            residuals
+            if effects
+            else Residuals(residuals.channels, residuals.before, residuals.before, residuals.held_out)
+        ),
         notes,
         options.seed,
         {"rows": rows, "held_out": record.held_words, "independent_readings": float(count)},
@@ -246,7 +252,12 @@ def _exportable(base: LimbModel, fitted: Fitted, believed: LimbModel | None) -> 
 
 
 def _notes(
-    record: JointRecord, dataset: Dataset, gap: Gap, exported: Fitted, refused: str, believed: LimbModel | None
+    record: JointRecord,
+    dataset: Dataset,
+    gap: Gap,
+    exported: Fitted,
+    refused: str,
+    believed: LimbModel | None,
 ) -> tuple[str, ...]:
     notes = []
     _, kept = record.raw_marks()
@@ -257,16 +268,16 @@ def _notes(
         alike, all_rows = (max(float(np.std(torque[rows])), 1e-9) for rows in (kept, whole))
         with_limit = float(np.sqrt(np.mean(off[whole] ** 2)))
         notes.append(
-            f"held out: {record.held_words}; the gap there is {gap.after.held_out / alike:.1%} of the torque's standard "
-            f"deviation ({alike:.4g} N mm) without rows at the drive's limit, {with_limit / all_rows:.1%} with them "
-            f"({with_limit:.4g} of {all_rows:.4g} N mm)"
+            f"held out: {record.held_words}; the gap there is {gap.after.held_out / alike:.1%} of the"
+            f" torque's standard deviation ({alike:.4g} N mm) without rows at the drive's limit,"
+            f" {with_limit / all_rows:.1%} with them ({with_limit:.4g} of {all_rows:.4g} N mm)"
         )
     else:
         notes.append("nothing could be held out: fewer than three tests and too few ramps")
     own = exported.nuisances
     notes.append(
-        f"the record's own, not the limb's: zero of the angle {own[ANGLE_ZERO]:+.4g} rad, offset of the torque "
-        f"{own[TORQUE_OFFSET]:+.4g} N mm, friction's state where each test starts"
+        f"the record's own, not the limb's: zero of the angle {own[ANGLE_ZERO]:+.4g} rad, offset of the"
+        f" torque {own[TORQUE_OFFSET]:+.4g} N mm, friction's state where each test starts"
     )
     if believed is None:
         notes.append(

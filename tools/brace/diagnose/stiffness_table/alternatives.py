@@ -34,8 +34,8 @@ BASE = ("base_compliance@base",)
 
 @dataclass(frozen=True)
 class Alternative:
-    """What is free beside the believed limb, what is set, and the effects that this amounts to. Links are free in all
-    but the first: a table cannot hold them to a calibration and tell anything."""
+    """What is free beside the believed limb, what is set, and the effects that this amounts to. Links are
+    free in all but the first: a table cannot hold them to a calibration and tell anything."""
 
     name: str
     labels: tuple[str, ...]
@@ -58,8 +58,8 @@ ALTERNATIVES = (
 
 @dataclass(frozen=True)
 class Judged:
-    """`off_n_per_mm` is measured less model, rows x 3; `left_out_n_per_mm` the same with each row predicted by a fit
-    that did not see it; `folds` are those fits."""
+    """`off_n_per_mm` is measured less model, rows x 3; `left_out_n_per_mm` the same with each row predicted
+    by a fit that did not see it; `folds` are those fits."""
 
     alternative: Alternative
     fit: Fit
@@ -109,7 +109,8 @@ def missing_from(believed: LimbModel) -> tuple[Alternative, ...]:
 def judge(
     problem: TableProblem, believed: LimbModel, alternative: Alternative, advance: Callable[[], None]
 ) -> Judged | None:
-    """One alternative fitted, then fitted anew without each quarter of the rows; None where it cannot be such a limb."""
+    """One alternative fitted, then fitted anew without each quarter of the rows; None where it cannot be such
+    a limb."""
     with contextlib.suppress(BadFileError):
         chosen = _parameters(problem, believed, alternative)
         best = _fit(problem, chosen, scattered_starts(chosen, STARTS) if alternative.keys else ())
@@ -138,8 +139,8 @@ def _fit(problem: Problem, chosen: ParameterSet, starts: Sequence[np.ndarray]) -
 
 
 def _parameters(problem: TableProblem, believed: LimbModel, alternative: Alternative) -> ParameterSet:
-    """The believed limb is held as it is: inside its trust it would only bend towards the table. What is free starts
-    from the believed value, or where that is nothing from its natural size."""
+    """The believed limb is held as it is: inside its trust it would only bend towards the table. What is free
+    starts from the believed value, or where that is nothing from its natural size."""
     start = believed
     if alternative.transfer is not None:
         start = start.with_values({_TRANSFER: alternative.transfer})

@@ -1,4 +1,4 @@
-"""Where a limb and a table disagree: entry by entry, folded against stretched; signs drawn anew row by row."""
+"""Where a limb and a table disagree: by entry, folded against stretched; signs drawn anew row by row."""
 
 from __future__ import annotations
 
@@ -21,7 +21,14 @@ def localise(
         column = size[:, place]
         sign = "too soft" if column.sum() > 0 else "too stiff"
         for name, weight in (
-            (f"{entry} at all postures: the model is {sign}" if entry != "k_xz" else f"{entry} at all postures", 1.0),
+            (
+                (
+                    f"{entry} at all postures: the model is {sign}"
+                    if entry != "k_xz"
+                    else f"{entry} at all postures"
+                ),
+                1.0,
+            ),
             (f"{entry}, one way when folded and the other when stretched", reach),
             (f"{entry}, most when folded", np.maximum(-reach, 0.0)),
             (f"{entry}, most when stretched", np.maximum(reach, 0.0)),
@@ -37,7 +44,5 @@ def localise(
     signs = random.choice([-1.0, 1.0], size=(DRAWS, len(table)))
     most = (np.abs(signs @ table) / scale).max(axis=1)
     p = (1.0 + (most[:, None] >= seen[None, :] - 1e-9).sum(axis=0)) / (DRAWS + 1.0)
-    found = [
-        Localised(name, float(p[i]), sizes[i]) for i, name in enumerate(names) if p[i] <= LEVEL
-    ]
+    found = [Localised(name, float(p[i]), sizes[i]) for i, name in enumerate(names) if p[i] <= LEVEL]
     return tuple(sorted(found, key=lambda one: (one.p, -one.size)))

@@ -131,7 +131,9 @@ def _told(
     before = GapPair(base.rms, base.left_out_rms)
     gap_steps = (GapStep(best.alternative.name, after),) if better else ()
     gap = Gap("n_per_mm", noise, before, after, gap_steps)
-    could_be = _could_be(better) if better else tuple(label for one in judged for label in one.alternative.labels)
+    could_be = (
+        _could_be(better) if better else tuple(label for one in judged for label in one.alternative.labels)
+    )
     could_be = tuple(dict.fromkeys(could_be)) if verdict in ("ambiguous", "unknown") else ()
     return Diagnosis(
         verdict,
@@ -150,7 +152,10 @@ def _told(
             for one, share in zip(judged, _shares(judged))
         ),
         Residuals(
-            ("k_xx", "k_xz", "k_zz"), base.off_n_per_mm, best.off_n_per_mm, np.zeros(len(problem.k), dtype=bool)
+            ("k_xx", "k_xz", "k_zz"),
+            base.off_n_per_mm,
+            best.off_n_per_mm,
+            np.zeros(len(problem.k), dtype=bool),
         ),
         _notes(problem, best, done),
         options.seed,
@@ -159,14 +164,15 @@ def _told(
 
 
 def _worth(base: Judged, one: Judged, spread: float, entries: int) -> float:
-    """Twice the log-likelihood gained, in units of what the best kind of limb leaves, less what its freedom gains."""
+    """Twice the log-likelihood gained, in units of what the best kind of limb leaves, less what its freedom
+    gains."""
     more = len(one.fit.parameters) - len(base.fit.parameters)
     return (base.fit.chi2 - one.fit.chi2) / spread - more * float(np.log(entries))
 
 
 def _shares(judged: Sequence[Judged]) -> list[float]:
-    """How likely each is, by the rows it had not seen, their scale unknown and each row one piece of evidence: the
-    weight of an entry is assumed, so its squares may not be counted as if it were measured."""
+    """How likely each is, by the rows it had not seen, their scale unknown and each row one piece of
+    evidence: the weight of an entry is assumed, so its squares may not be counted as if it were measured."""
     if not judged:
         return []
     misses = np.log([max(one.left_out_misfit, 1e-6) for one in judged])
@@ -199,7 +205,8 @@ def _members(better: Sequence[Judged], best: Judged) -> tuple[NamedEffect, ...]:
     ]
     explained = {effect.label for effect in removed} & set(best.alternative.labels)
     listed = [
-        replace(effect, gap_share=1.0 / len(explained) if effect.label in explained else 0.0) for effect in removed
+        replace(effect, gap_share=1.0 / len(explained) if effect.label in explained else 0.0)
+        for effect in removed
     ]
     return tuple(sorted(listed, key=lambda one: -one.confidence))
 
@@ -210,7 +217,8 @@ def _split(label: str) -> tuple[str, str]:
 
 
 def _intervals(label: str, judged: Judged) -> dict[str, Interval]:
-    """90 % from the fits without each part of the rows (jackknife); a parameter of the sign of a choice has none."""
+    """90 % from the fits without each part of the rows (jackknife); a parameter of the sign of a choice has
+    none."""
     name, where = _split(label)
     keys = [f"{where}.{leaf}" for leaf in _OF_EFFECT[name]]
     found = {}
@@ -235,8 +243,8 @@ def _left(best: Judged, entries: int) -> str:
     if each <= AGREES:
         return f"what is left is within the weight of an entry ({each:.2g} of its square)"
     return (
-        f"no kind of limb that was tried reaches the weight of an entry: {each:.2g} times its square is left, so the "
-        "table cannot settle which one is right"
+        f"no kind of limb that was tried reaches the weight of an entry: {each:.2g} times its square is left,"
+        " so the table cannot settle which one is right"
     )
 
 
@@ -254,30 +262,35 @@ def _sentence(
         kinds = ", ".join(one.alternative.name for one in better[:-1])
         kinds += (" or " if kinds else "") + better[-1].alternative.name
         return (
-            f"{first}The believed limb misses the table by {before.fitted:.3g} N/mm; {kinds} would each lessen that "
-            f"(to {after.fitted:.3g} N/mm at best), and a table of K alone cannot tell which."
+            f"{first}The believed limb misses the table by {before.fitted:.3g} N/mm; {kinds} would each"
+            f" lessen that (to {after.fitted:.3g} N/mm at best), and a table of K alone cannot tell which."
         )
     if verdict == "unknown":
         return (
-            f"{first}The believed limb misses the table by {before.fitted:.3g} N/mm, and no kind of limb that is known "
-            "here fits rows that it has not seen better."
+            f"{first}The believed limb misses the table by {before.fitted:.3g} N/mm, and no kind of limb that"
+            " is known here fits rows that it has not seen better."
         )
     if verdict == "data_fault":
-        return f"{first}With them corrected the believed limb agrees with the table ({before.fitted:.3g} N/mm)."
-    return f"The believed limb agrees with the table: {before.fitted:.3g} N/mm, {misfit:.2g} of what an entry is trusted to."
+        return (
+            f"{first}With them corrected the believed limb agrees with the table ({before.fitted:.3g} N/mm)."
+        )
+    return (
+        f"The believed limb agrees with the table: {before.fitted:.3g} N/mm, {misfit:.2g} of what an entry is"
+        " trusted to."
+    )
 
 
 def _notes(problem: TableProblem, best: Judged, done: Sequence[str]) -> tuple[str, ...]:
     notes = [f"data: {text}" for text in done]
     notes.append(
-        f"an entry of K is trusted to {WEIGHT.absolute_n_per_mm:g} N/mm + {WEIGHT.relative:.0%}; held out means: each "
-        "row predicted by a fit that did not see it"
+        f"an entry of K is trusted to {WEIGHT.absolute_n_per_mm:g} N/mm + {WEIGHT.relative:.0%}; held out"
+        " means: each row predicted by a fit that did not see it"
     )
     height = best.fit.nuisances.get(TIP_HEIGHT)
     if height is not None and problem.poses.needs_height:
         notes.append(
-            f"the table gives no direction of the tip: one height of z = {height:.0f} mm for all rows is fitted, an "
-            "inference"
+            f"the table gives no direction of the tip: one height of z = {height:.0f} mm for all rows is"
+            " fitted, an inference"
         )
     if any(key in LINK_COMPLIANCES for key in best.fit.parameters.keys):
         notes.append("in the exported limb the links are fitted too: one member of the class, not the cause")
@@ -286,9 +299,10 @@ def _notes(problem: TableProblem, best: Judged, done: Sequence[str]) -> tuple[st
 
 def _next(could_be: Sequence[str]) -> NextExperiment:
     return NextExperiment(
-        "record the loading cycles behind the table, with the tip's direction, encoders behind the gearboxes and a dial "
-        "gauge on the base, folded, half open and nearly straight: encoders tell joints from links, the gauge the base "
-        "from both, the sign of the coupling between the two levers moment transfer",
+        "record the loading cycles behind the table, with the tip's direction, encoders behind the gearboxes"
+        " and a dial gauge on the base, folded, half open and nearly straight: encoders tell joints from"
+        " links, the gauge the base from both, the sign of the coupling between the two levers moment"
+        " transfer",
         tuple(could_be[:4]),
         0.95,
         45.0,
