@@ -173,6 +173,38 @@ static void test_an_unknown_k_is_not_valid_and_never_zero(void)
     TEST_ASSERT_TRUE(isnan(s->theta1_rad));
 }
 
+static void test_a_frame_of_can_fd_is_a_whole_snapshot(void)
+{
+    brace_joiner_t joiner = {0};
+    brace_bus_frame_t frame = {.id = BRACE_CAN_ID_SNAPSHOT_FD + NODE, .length = 64u, .fd = true, .received_us = 1000000u};
+    const brace_can_snapshot_fd_t sent = {
+        .sequence = 0x12345607u, .parameter_crc = 0xabcd1234u, .age_ms = 1.5f, .flags = 9u, .mode = 1u, .faults = 0x84u,
+        .play_tibia = 3u, .k_xx_n_per_mm = 4.0f, .k_xz_n_per_mm = -0.5f, .k_zz_n_per_mm = 1.0f,
+        .lambda_min_n_per_mm = 0.9f, .lambda_max_n_per_mm = 4.1f, .stiff_axis_rad = 0.2f, .theta1_rad = 0.25f,
+        .theta2_rad = 1.25f};
+    TEST_ASSERT_EQUAL(0, brace_can_pack_snapshot_fd(&sent, frame.data));
+    const brace_client_snapshot_t *s = brace_joiner_add(&joiner, NODE, &frame, 0u);
+    TEST_ASSERT_NOT_NULL(s);
+    TEST_ASSERT_EQUAL(BRACE_PART_ALL, s->parts);
+    TEST_ASSERT_TRUE(s->k_is_valid);
+    TEST_ASSERT_EQUAL(7, s->sequence);
+    TEST_ASSERT_EQUAL_HEX16(0x1234, s->parameter_tag);
+    TEST_ASSERT_EQUAL_FLOAT(4.0f, s->k_xx_n_per_mm);
+    TEST_ASSERT_EQUAL_FLOAT(-0.5f, s->k_xz_n_per_mm);
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, s->k_zz_n_per_mm);
+    TEST_ASSERT_EQUAL_FLOAT(0.9f, s->lambda_min_n_per_mm);
+    TEST_ASSERT_EQUAL_FLOAT(4.1f, s->lambda_max_n_per_mm);
+    TEST_ASSERT_EQUAL_FLOAT(0.2f, s->stiff_axis_rad);
+    TEST_ASSERT_EQUAL_FLOAT(0.25f, s->theta1_rad);
+    TEST_ASSERT_EQUAL_FLOAT(1.25f, s->theta2_rad);
+    TEST_ASSERT_EQUAL_FLOAT(1.5f, s->age_ms);
+    TEST_ASSERT_EQUAL(9, s->flags);
+    TEST_ASSERT_EQUAL(0x84, s->faults);
+    TEST_ASSERT_EQUAL(3, s->play_tibia);
+    frame.length = 48u;
+    TEST_ASSERT_NULL(brace_joiner_add(&joiner, NODE, &frame, 0u));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -182,5 +214,6 @@ int main(void)
     RUN_TEST(test_a_newer_k_may_overtake_an_older_posture);
     RUN_TEST(test_others_and_short_frames_are_passed_over);
     RUN_TEST(test_an_unknown_k_is_not_valid_and_never_zero);
+    RUN_TEST(test_a_frame_of_can_fd_is_a_whole_snapshot);
     return UNITY_END();
 }

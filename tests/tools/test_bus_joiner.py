@@ -6,7 +6,7 @@ import random
 
 from brace.bus.frame import Frame
 from brace.bus.snapshot import Joiner, Snapshot
-from brace.wire.frames import MESSAGES
+from brace.wire.frames import FD_MESSAGES, MESSAGES
 
 STEP = 0.0005
 PERIOD_S = 0.005
@@ -117,3 +117,36 @@ def test_short_frames_and_node_0_are_nobody_s() -> None:
     assert joiner.add(b) is None
     for frame in frames_of(1, node=0):
         assert joiner.add(frame) is None
+
+
+def whole_of(tick: int) -> Frame:
+    """The same in one frame of CAN FD."""
+    layout = FD_MESSAGES["snapshot_fd"]
+    values: dict[str, float | int | None] = {item.name: 0 for item in layout.fields}
+    values |= {"sequence": 0x12345600 | tick & 0xFF, "k_xx": 4.0, "k_xz": -0.5, "k_zz": 1.0, "lambda_min": 0.9}
+    values |= {"parameter_crc": 0xABCD1234, "mode": 1, "flags": 9, "faults": 0x84, "theta1": 0.25, "age": 1.5, "play_tibia": 3}
+    return Frame(1.0, layout.identifier + 5, layout.encode(values))
+
+
+def test_a_frame_of_can_fd_is_a_whole_snapshot() -> None:
+    snapshot = Joiner().add(whole_of(7))
+    assert snapshot is not None and snapshot.is_valid and snapshot.has_posture
+    assert (snapshot.node, snapshot.sequence, snapshot.k_xx, snapshot.k_xz, snapshot.k_zz) == (5, 7, 4.0, -0.5, 1.0)
+    assert (snapshot.parameter_tag, snapshot.mode, snapshot.age_ms, snapshot.theta1) == (0x1234, "monitor", 1.5, 0.25)
+    assert snapshot.flags == ("UNCALIBRATED", "GAP_OPEN") and snapshot.faults == ("encoder_stuck", "model_drift")
+    assert snapshot.play == ("unknown", "engaged_negative")
+
+
+def test_part_of_one_is_none() -> None:
+    whole = whole_of(7)
+    assert Joiner().add(Frame(1.0, whole.identifier, whole.data[:48])) is None
+
+
+def test_halves_a_round_of_the_number_apart_do_not_fit() -> None:
+    """The shortest round of the 8-bit number, at the shortest tick, takes 64 ms."""
+    joiner = Joiner()
+    a, b = frames_of(3)[:2]
+    assert joiner.add(a) is None
+    assert joiner.add(Frame(a.time_s + 0.064, b.identifier, b.data)) is None
+    assert joiner.add(a) is None
+    assert joiner.add(Frame(a.time_s + 0.039, b.identifier, b.data)) is not None

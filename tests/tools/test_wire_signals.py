@@ -19,6 +19,7 @@ from brace.wire.layout import Field, Layout
 PROJECT = Path(__file__).resolve().parents[2]
 HEADER = PROJECT / "firmware" / "interface" / "generated" / "brace" / "can_messages.h"
 DBC = PROJECT / "firmware" / "interface" / "brace.dbc"
+DBC_FD = DBC.with_name("brace_fd.dbc")
 SUFFIX = {"": "", "1": "_ratio", "N/mm": "_n_per_mm", "rad": "_rad", "ms": "_ms", "mm": "_mm", "N": "_n"}
 RANDOM = 1000
 
@@ -32,12 +33,14 @@ def c() -> tuple[Any, Any]:
 
 @pytest.fixture(scope="module")
 def database() -> Any:
-    return cantools.database.load_file(DBC, strict=True)
+    loaded = cantools.database.load_file(DBC, strict=True)
+    loaded.add_dbc_file(DBC_FD)
+    return loaded
 
 
 def layouts() -> list[tuple[Layout, str, str]]:
     """Each layout with its message in the database and what its signals' names begin with there."""
-    listed = [(layout, name, "") for name, layout in frames.MESSAGES.items()]
+    listed = [(layout, name, "") for name, layout in (*frames.MESSAGES.items(), *frames.FD_MESSAGES.items())]
     listed += [(layout, "request", name + "_") for name, layout in frames.REQUESTS.items()]
     for name, parts in frames.ANSWERS.items():
         listed += [(layout, "answer", f"{name}_{part}_") for part, layout in enumerate(parts)]
@@ -80,7 +83,7 @@ def test_every_signal(layout: Layout, message: str, prefix: str, c: tuple[Any, A
     assert known.frame_id == identifier
     pack = getattr(lib, f"brace_can_pack_{layout.name}")
     unpack = getattr(lib, f"brace_can_unpack_{layout.name}")
-    struct, data = ffi.new(f"brace_can_{layout.name}_t *"), ffi.new("uint8_t[8]")
+    struct, data = ffi.new(f"brace_can_{layout.name}_t *"), ffi.new("uint8_t[]", layout.size)
     dice = random.Random(layout.name)
     for field in layout.fields:
         member, signal = field.name + SUFFIX[field.unit], prefix + field.name
@@ -97,7 +100,7 @@ def test_every_signal(layout: Layout, message: str, prefix: str, c: tuple[Any, A
             assert close(field, read[signal], value), f"{signal}: C wrote {value}, cantools reads {read[signal]}"
 
             sent = known.encode({**others(layout, prefix), signal: value}, strict=True, padding=False)
-            ffi.memmove(data, bytes(sent).ljust(8, b"\0"), 8)
+            ffi.memmove(data, bytes(sent).ljust(layout.size, b"\0"), layout.size)
             unpack(data, struct)
             got = getattr(struct, member)
             assert close(field, got, value), f"{signal}: cantools wrote {value}, C reads {got}"
@@ -111,10 +114,15 @@ def check_unknown(
     field: Field, signal: str, member: str, struct: Any, data: Any, known: Any, layout: Layout, pack: Any, unpack: Any
 ) -> None:
     """NaN travels as the code that the database calls NOT_KNOWN, and never as zero."""
-    if field.kind != "value":
+    if field.kind == "number":
         return
     setattr(struct, member, math.nan)
     assert pack(struct, data) == 0
+    if field.kind == "f32":
+        assert math.isnan(known.decode(bytes(data), decode_choices=False)[signal])
+        assert layout.decode(bytes(data))[field.name] is None
+        setattr(struct, member, 0)
+        return
     assert str(known.decode(bytes(data))[signal]) == "NOT_KNOWN"
     assert layout.decode(bytes(data))[field.name] is None
     unpack(data, struct)
@@ -132,6 +140,17 @@ def check_limits(field: Field, member: str, struct: Any, data: Any, layout: Layo
         limit = bound(value_of(field, code) for code in codes(field, random.Random(0))[:2])
         assert layout.decode(bytes(data))[field.name] == pytest.approx(limit)
     setattr(struct, member, 0)
+
+
+def test_the_frame_of_can_fd_is_one_in_its_database() -> None:
+    """As the attributes of the format have it, with the rate switched; and the other database has none."""
+    fd = cantools.database.load_file(DBC_FD, strict=True)
+    assert [message.name for message in fd.messages if message.is_fd] == list(frames.FD_MESSAGES)
+    (message,) = fd.messages
+    assert (message.frame_id, message.length) == (0x501, 64)
+    assert str(message.dbc.attributes["VFrameFormat"].value) in ("StandardCAN_FD", "14")
+    assert str(message.dbc.attributes["CANFD_BRS"].value) == "1"
+    assert not any(message.is_fd for message in cantools.database.load_file(DBC, strict=True).messages)
 
 
 def test_database_has_the_promised_names(database: Any) -> None:

@@ -372,6 +372,103 @@ static void test_both_ports_carry_the_same(void)
     TEST_ASSERT_TRUE(seen);
 }
 
+/* --------------------------------------------------------------------------------------- CAN FD -- */
+
+static void start_fd(bool board_can)
+{
+    brace_parameters_t p = bench_parameters();
+    p.controller.can_fd_bit_rate = 2000000;
+    p.controller.stiffness_hz = 100;
+    p.controller.posture_hz = 20;
+    p.controller.bus_load_ratio = 1.0f;
+    bench_board();
+    fake.can_takes_fd = board_can;
+    bench_store(&p);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    ticks(50);
+    drain();
+}
+
+static void test_a_snapshot_is_one_frame_of_can_fd(void)
+{
+    start_fd(true);
+    TEST_ASSERT_EQUAL(2000000, fake.can_setup.fd_bit_rate);
+    uint32_t whole = 0, others = 0;
+    for (int i = 0; i < 2000; i++) {
+        brace_can_frame_t frame;
+        ticks(1);
+        while (brace_fake_frame_take(&fake, &frame)) {
+            if (frame.id != 0x500u + NODE) {
+                others++;
+                TEST_ASSERT_FALSE(frame.fd);
+                TEST_ASSERT_EQUAL(0x700u + NODE, frame.id);
+                continue;
+            }
+            brace_can_snapshot_fd_t got;
+            const brace_snapshot_t *wanted = now();
+            TEST_ASSERT_TRUE(frame.fd);
+            TEST_ASSERT_EQUAL(64, frame.length);
+            brace_can_unpack_snapshot_fd(frame.data, &got);
+            TEST_ASSERT_EQUAL_UINT32(wanted->sequence, got.sequence);
+            TEST_ASSERT_EQUAL_UINT32(wanted->parameter_crc, got.parameter_crc);
+            TEST_ASSERT_EQUAL_UINT32(wanted->stiffness.now.flags, got.flags);
+            TEST_ASSERT_EQUAL(wanted->mode, got.mode);
+            TEST_ASSERT_EQUAL_FLOAT(wanted->stiffness.now.k_xx_n_per_mm, got.k_xx_n_per_mm);
+            TEST_ASSERT_EQUAL_FLOAT(wanted->stiffness.now.k_xz_n_per_mm, got.k_xz_n_per_mm);
+            TEST_ASSERT_EQUAL_FLOAT(wanted->stiffness.now.k_zz_n_per_mm, got.k_zz_n_per_mm);
+            TEST_ASSERT_EQUAL_FLOAT(wanted->stiffness.now.lambda_min_n_per_mm, got.lambda_min_n_per_mm);
+            TEST_ASSERT_EQUAL_FLOAT(wanted->stiffness.now.lambda_max_n_per_mm, got.lambda_max_n_per_mm);
+            TEST_ASSERT_EQUAL_FLOAT(wanted->stiffness.now.stiff_axis_rad, got.stiff_axis_rad);
+            TEST_ASSERT_EQUAL_FLOAT(wanted->theta_rad[BRACE_FEMUR], got.theta1_rad);
+            TEST_ASSERT_EQUAL_FLOAT(wanted->theta_rad[BRACE_TIBIA], got.theta2_rad);
+            TEST_ASSERT_EQUAL_FLOAT(wanted->tip_mm.x_mm, got.tip_x_mm);
+            TEST_ASSERT_EQUAL_FLOAT(wanted->tip_mm.z_mm, got.tip_z_mm);
+            TEST_ASSERT_EQUAL_FLOAT(wanted->force_x_n, got.force_x_n);
+            TEST_ASSERT_FLOAT_WITHIN(0.5f, 0.0f, got.age_ms);
+            whole++;
+        }
+    }
+    TEST_ASSERT_UINT32_WITHIN(1, 200, whole);
+    TEST_ASSERT_UINT32_WITHIN(1, 2, others);
+}
+
+static void test_where_can_is_classic_only_it_stays_so(void)
+{
+    start_fd(false);
+    TEST_ASSERT_EQUAL(0, fake.can_setup.fd_bit_rate);
+    count_t seen = {0};
+    brace_can_frame_t frame;
+    for (int i = 0; i < 1000; i++) {
+        ticks(1);
+        while (brace_fake_frame_take(&fake, &frame)) {
+            TEST_ASSERT_FALSE(frame.fd);
+            seen.function[frame.id >> 7]++;
+        }
+    }
+    TEST_ASSERT_UINT32_WITHIN(1, 100, of(&seen, 0x180));
+    TEST_ASSERT_UINT32_WITHIN(1, 100, of(&seen, 0x280));
+    TEST_ASSERT_EQUAL(0, of(&seen, 0x500));
+}
+
+/* Who listens over SLCAN gets classic frames, and CAN FD comes back when the channel closes. */
+static void test_can_fd_gives_way_to_text(void)
+{
+    start_fd(true);
+    says("O\r");
+    TEST_ASSERT_NOT_NULL(strstr(hears(60), "t185"));
+    says("C\r");
+    (void)hears(5);
+    drain();
+    ticks(30);
+    uint32_t whole = 0;
+    brace_can_frame_t frame;
+    while (brace_fake_frame_take(&fake, &frame)) {
+        whole += frame.fd;
+        TEST_ASSERT_TRUE(frame.fd || frame.id == 0x700u + NODE);
+    }
+    TEST_ASSERT_TRUE(whole >= 2u);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -387,5 +484,8 @@ int main(void)
     RUN_TEST(test_slcan_refuses_what_is_no_command);
     RUN_TEST(test_a_fresh_board_answers_as_node_0_over_slcan_and_is_silent_otherwise);
     RUN_TEST(test_both_ports_carry_the_same);
+    RUN_TEST(test_a_snapshot_is_one_frame_of_can_fd);
+    RUN_TEST(test_where_can_is_classic_only_it_stays_so);
+    RUN_TEST(test_can_fd_gives_way_to_text);
     return UNITY_END();
 }

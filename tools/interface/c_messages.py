@@ -1,6 +1,8 @@
-"""The C side of the frames: can_messages.h and can_messages.c."""
+"""The C side of the frames: can_messages.h and the sources of the codecs."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 from interface.messages import FRAME_BITS, Frame, Signal, Wire
 
@@ -9,9 +11,9 @@ _HEAD = """
 /* The frames of the wire, for the controller and for whoever speaks to it. Formats: docs/protocol.md.
  *
  * A value that is not known is NaN here and a code of its own on the wire, never zero. brace_can_pack_... limits what
- * does not fit and answers how many values it limited; the frame's eight bytes are always written. brace_can_unpack_...
+ * does not fit and answers how many values it limited; the frame's bytes are always written. brace_can_unpack_...
  * always writes the struct: every bit pattern means something. Pure functions, no libm; any thread.
- * accuracy: half a step, and a float's rounding. cost on a Cortex-M4F: below 120 instructions each.
+ * accuracy: half a step, and a float's rounding. cost on a Cortex-M4F: below 120 instructions each; of the CAN FD frame 250.
  */
 """
 
@@ -25,7 +27,7 @@ def messages_header(wire: Wire, dictionary_hash: int) -> str:
         f"#define BRACE_DICTIONARY_HASH 0x{dictionary_hash:08x}u\n",
         f"#define BRACE_PROTOCOL {wire.protocol}u\n\n",
         "/* Identifiers of node 0; a controller adds its node number, 1-127. */\nenum {\n",
-        *(f"    BRACE_CAN_ID_{frame.name.upper()} = 0x{frame.identifier:03x},\n" for frame in wire.messages),
+        *(f"    BRACE_CAN_ID_{frame.name.upper()} = 0x{frame.identifier:03x},\n" for frame in (*wire.messages, *wire.fd_messages)),
         f"    BRACE_CAN_ID_REQUEST = 0x{wire.request_id:03x},\n    BRACE_CAN_ID_ANSWER = 0x{wire.answer_id:03x}\n}};\n\n",
         "/* First byte of a request; of an answer: plus 32 times its part. */\nenum {\n",
         *(f"    BRACE_REQUEST_{request.name.upper()} = {request.code},\n" for request in wire.requests),
@@ -38,16 +40,25 @@ def messages_header(wire: Wire, dictionary_hash: int) -> str:
     return "".join(parts) + "\n#endif\n"
 
 
-def messages_source(wire: Wire) -> str:
-    """generated/can_messages.c"""
+def messages_sources(wire: Wire) -> dict[str, str]:
+    """generated/can_process.c, can_questions.c, can_answers.c: what a controller sends by itself, what it is asked, and what
+    it answers."""
     counts = {request.code: len(request.answers) for request in wire.requests}
-    parts = [
-        _MADE, '#include "brace/can_messages.h"\n\n#include "can_bits.h"\n\n',
-        "const uint8_t brace_can_answer_parts[32] = {", ", ".join(str(counts.get(code, 0)) for code in range(32)), "};\n",
-    ]
-    for frame in wire.frames:
-        parts += ["\n", _pack(frame), "\n", _unpack(frame)]
-    return "".join(parts)
+    parts = ", ".join(str(counts.get(code, 0)) for code in range(32))
+    return {
+        "can_process": _source((*wire.messages, *wire.fd_messages)),
+        "can_questions": _source([request.question for request in wire.requests]),
+        "can_answers": _source(
+            [*(frame for request in wire.requests for frame in request.answers), wire.refusal],
+            f"const uint8_t brace_can_answer_parts[32] = {{{parts}}};\n",
+        ),
+    }
+
+
+def _source(frames: Sequence[Frame], before: str = "") -> str:
+    codecs = [text for frame in frames for text in ("\n", _pack(frame), "\n", _unpack(frame))]
+    head = f'{_MADE}#include "brace/can_messages.h"\n\n#include "can_bits.h"\n'
+    return "".join([head, "\n" if before else "", before, *codecs])
 
 
 def _struct(frame: Frame) -> str:
@@ -62,8 +73,8 @@ def _struct(frame: Frame) -> str:
 
 def _prototypes(frame: Frame) -> str:
     return (
-        f"uint32_t brace_can_pack_{frame.name}(const brace_can_{frame.name}_t *message, uint8_t data[8]);\n"
-        f"void brace_can_unpack_{frame.name}(const uint8_t data[8], brace_can_{frame.name}_t *message);\n"
+        f"uint32_t brace_can_pack_{frame.name}(const brace_can_{frame.name}_t *message, uint8_t data[{frame.bytes}]);\n"
+        f"void brace_can_unpack_{frame.name}(const uint8_t data[{frame.bytes}], brace_can_{frame.name}_t *message);\n"
     )
 
 
@@ -74,53 +85,66 @@ def _c_type(signal: Signal) -> str:
 
 
 def _reach(signal: Signal) -> str:
-    return f"{signal.start}u, {signal.bits}u"
+    return f"{signal.start % FRAME_BITS}u, {signal.bits}u"
+
+
+def _words(frame: Frame) -> list[tuple[str, list[Signal]]]:
+    """Where each eight bytes lie, and the signals in them."""
+    return [
+        (f"data + {8 * word}" if word else "data", [s for s in frame.signals if s.start // FRAME_BITS == word])
+        for word in range(frame.bytes * 8 // FRAME_BITS)
+    ]
 
 
 def _pack(frame: Frame) -> str:
     lines = [
-        f"uint32_t brace_can_pack_{frame.name}(const brace_can_{frame.name}_t *message, uint8_t data[8])\n{{\n",
+        f"uint32_t brace_can_pack_{frame.name}(const brace_can_{frame.name}_t *message, uint8_t data[{frame.bytes}])\n{{\n",
         "    uint32_t limited = 0u;\n    uint64_t bits = 0u;\n",
     ]
     if frame.command is not None:
         lines.append(f"    bits = {frame.command}u | (uint64_t)(message->token & 0xffu) << 8;\n")
-    for signal in frame.signals:
-        member = f"message->{signal.member}"
-        if signal.kind == "value":
-            whole = "signed" if signal.signed else "unsigned"
-            lines.append(
-                f"    bits |= brace_bits_{whole}({member}, {_per_step(signal)}, {_reach(signal)}, &limited);\n"
-            )
-        elif signal.kind == "f32":
-            lines.append(f"    bits |= brace_bits_float({member}, {signal.start}u);\n")
-        elif signal.signed:
-            lines.append(f"    bits |= brace_bits_whole({member}, {_reach(signal)}, &limited);\n")
-        else:
-            lines.append(f"    bits |= brace_bits_number({member}, {_reach(signal)}, &limited);\n")
-    return "".join(lines) + "    brace_bits_store(bits, data);\n    return limited;\n}\n"
+    for number, (place, signals) in enumerate(_words(frame)):
+        if number:
+            lines.append("    bits = 0u;\n")
+        lines += [f"    bits |= {_packed(signal)};\n" for signal in signals]
+        lines.append(f"    brace_bits_store(bits, {place});\n")
+    return "".join(lines) + "    return limited;\n}\n"
+
+
+def _packed(signal: Signal) -> str:
+    member = f"message->{signal.member}"
+    if signal.kind == "value":
+        whole = "signed" if signal.signed else "unsigned"
+        return f"brace_bits_{whole}({member}, {_per_step(signal)}, {_reach(signal)}, &limited)"
+    if signal.kind == "f32":
+        return f"brace_bits_float({member}, {signal.start % FRAME_BITS}u)"
+    return f"brace_bits_{'whole' if signal.signed else 'number'}({member}, {_reach(signal)}, &limited)"
 
 
 def _unpack(frame: Frame) -> str:
+    several = frame.bytes * 8 > FRAME_BITS
     lines = [
-        f"void brace_can_unpack_{frame.name}(const uint8_t data[8], brace_can_{frame.name}_t *message)\n{{\n",
-        "    const uint64_t bits = brace_bits_load(data);\n",
+        f"void brace_can_unpack_{frame.name}(const uint8_t data[{frame.bytes}], brace_can_{frame.name}_t *message)\n{{\n",
+        f"    {'' if several else 'const '}uint64_t bits = brace_bits_load(data);\n",
     ]
     if frame.command is not None:
         lines.append("    message->token = (uint32_t)(bits >> 8) & 0xffu;\n")
     elif not frame.signals:
         lines.append("    (void)bits;\n")
-    for signal in frame.signals:
-        member = f"message->{signal.member}"
-        if signal.kind == "value":
-            whole = "signed" if signal.signed else "unsigned"
-            lines.append(f"    {member} = brace_value_{whole}(bits, {_reach(signal)}, {signal.step!r}f);\n")
-        elif signal.kind == "f32":
-            lines.append(f"    {member} = brace_value_float(bits, {signal.start}u);\n")
-        elif signal.signed:
-            lines.append(f"    {member} = brace_value_whole(bits, {_reach(signal)});\n")
-        else:
-            lines.append(f"    {member} = brace_value_number(bits, {_reach(signal)});\n")
+    for number, (place, signals) in enumerate(_words(frame)):
+        if number:
+            lines.append(f"    bits = brace_bits_load({place});\n")
+        lines += [f"    message->{signal.member} = {_unpacked(signal)};\n" for signal in signals]
     return "".join(lines) + "}\n"
+
+
+def _unpacked(signal: Signal) -> str:
+    if signal.kind == "value":
+        whole = "signed" if signal.signed else "unsigned"
+        return f"brace_value_{whole}(bits, {_reach(signal)}, {signal.step!r}f)"
+    if signal.kind == "f32":
+        return f"brace_value_float(bits, {signal.start % FRAME_BITS}u)"
+    return f"brace_value_{'whole' if signal.signed else 'number'}(bits, {_reach(signal)})"
 
 
 def _per_step(signal: Signal) -> str:

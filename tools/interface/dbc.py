@@ -1,4 +1,4 @@
-"""brace.dbc: the frames as a CAN database, for one node or several."""
+"""brace.dbc and brace_fd.dbc: the frames as CAN databases, for one node or several."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from interface.messages import Signal, Wire
 
 _CONTROLLER, _COMPUTER = "LIMB", "ROBOT"
+# The attribute's meanings, by their numbers.
+_FORMATS = ("StandardCAN", "ExtendedCAN", *("reserved",) * 12, "StandardCAN_FD", "ExtendedCAN_FD")
 
 
 def dbc(wire: Wire, dictionary_hash: int, nodes: Sequence[int] = (1,)) -> str:
@@ -57,8 +59,44 @@ def dbc(wire: Wire, dictionary_hash: int, nodes: Sequence[int] = (1,)) -> str:
     return "\n".join([head, *messages, *comments, *values, *floats]) + "\n"
 
 
-def _message(identifier: int, name: str, sender: str, lines: Sequence[str]) -> str:
-    return f"BO_ {identifier} {name}: 8 {sender}\n" + "\n".join(lines) + "\n"
+def dbc_fd(wire: Wire, dictionary_hash: int, nodes: Sequence[int] = (1,)) -> str:
+    """Text of the database of CAN FD frames alone; read it beside brace.dbc."""
+    several = len(nodes) > 1
+    messages: list[str] = []
+    comments: list[str] = [
+        f'CM_ "Brace: stiffness on the limb, CAN FD. Written from messages.toml. Dictionary 0x{dictionary_hash:08x}.";'
+    ]
+    attributes: list[str] = []
+    values: list[str] = []
+    floats: list[str] = []
+    senders: list[str] = []
+    for node in nodes:
+        suffix = f"_{node}" if several else ""
+        senders.append(_CONTROLLER + suffix)
+        for frame in wire.fd_messages:
+            identifier = frame.identifier + node
+            lines = [_signal_line(signal, signal.name, "", _COMPUTER) for signal in frame.signals]
+            messages.append(_message(identifier, frame.name + suffix, senders[-1], lines, frame.bytes))
+            comments.append(f'CM_ BO_ {identifier} "{frame.description}";')
+            attributes.append(f'BA_ "VFrameFormat" BO_ {identifier} {_FORMATS.index("StandardCAN_FD")};')
+            attributes.append(f'BA_ "CANFD_BRS" BO_ {identifier} 1;')
+            for signal in frame.signals:
+                comments.append(f'CM_ SG_ {identifier} {signal.name} "{_words(signal)}";')
+                values += _value_table(identifier, signal, signal.name)
+                if signal.kind == "f32":
+                    floats.append(f"SIG_VALTYPE_ {identifier} {signal.name} : 1;")
+    head = 'VERSION ""\n\nNS_ :\n\nBS_:\n\nBU_: ' + " ".join([*senders, _COMPUTER]) + "\n"
+    formats = ",".join(f'"{name}"' for name in _FORMATS)
+    definitions = [
+        'BA_DEF_ "BusType" STRING ;', f'BA_DEF_ BO_ "VFrameFormat" ENUM {formats};', 'BA_DEF_ BO_ "CANFD_BRS" ENUM "0","1";',
+        'BA_DEF_DEF_ "BusType" "CAN FD";', 'BA_DEF_DEF_ "VFrameFormat" "StandardCAN";', 'BA_DEF_DEF_ "CANFD_BRS" "1";',
+        'BA_ "BusType" "CAN FD";',
+    ]
+    return "\n".join([head, *messages, *comments, *definitions, *attributes, *values, *floats]) + "\n"
+
+
+def _message(identifier: int, name: str, sender: str, lines: Sequence[str], length: int = 8) -> str:
+    return f"BO_ {identifier} {name}: {length} {sender}\n" + "\n".join(lines) + "\n"
 
 
 def _signal_line(signal: Signal, name: str, multiplexed: str, receiver: str) -> str:

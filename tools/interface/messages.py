@@ -69,6 +69,12 @@ class Frame:
     signals: tuple[Signal, ...]
     description: str
     command: int | None = None  # first byte of a request or an answer: code + 32 * part
+    bytes: int = 8  # more: CAN FD
+
+    @property
+    def is_fd(self) -> bool:
+        """Does classic CAN know no such frame?"""
+        return self.bytes > FRAME_BITS // 8
 
 
 @dataclass(frozen=True)
@@ -91,6 +97,7 @@ class Wire:
     answer_id: int
     refused_part: int
     messages: tuple[Frame, ...]
+    fd_messages: tuple[Frame, ...]
     requests: tuple[Request, ...]
     refusal: Frame
 
@@ -98,7 +105,7 @@ class Wire:
     def frames(self) -> tuple[Frame, ...]:
         """All layouts, each once."""
         exchanged = [frame for request in self.requests for frame in (request.question, *request.answers)]
-        return (*self.messages, *exchanged, self.refusal)
+        return (*self.messages, *self.fd_messages, *exchanged, self.refusal)
 
     @property
     def schema(self) -> str:
@@ -124,6 +131,13 @@ def load_wire(path: Path) -> Wire:
         )
         for raw in content["message"]
     )
+    fd_messages = tuple(
+        Frame(
+            raw["name"], raw["id"], raw.get("rate", ""),
+            _signals(raw["signal"], 0, raw["name"], 8 * raw["bytes"]), raw["description"], bytes=raw["bytes"],
+        )
+        for raw in content.get("fd_message", [])
+    )
     request_id, answer_id = content["request_id"], content["answer_id"]
     requests = tuple(_request(raw, request_id, answer_id) for raw in content["request"])
     codes = [request.code for request in requests]
@@ -141,7 +155,7 @@ def load_wire(path: Path) -> Wire:
         "a request is refused; code + 32 * part 7", content["refused_part"] * 32,
     )
     wire = Wire(
-        content["protocol"], request_id, answer_id, content["refused_part"], messages, requests, refusal
+        content["protocol"], request_id, answer_id, content["refused_part"], messages, fd_messages, requests, refusal
     )
     names = [frame.name for frame in wire.frames]
     if len(set(names)) != len(names):
@@ -164,7 +178,9 @@ def _request(raw: Mapping[str, Any], request_id: int, answer_id: int) -> Request
     return Request(code, name, raw["description"], question, answers)
 
 
-def _signals(raws: Sequence[Mapping[str, Any]], start: int, where: str) -> tuple[Signal, ...]:
+def _signals(
+    raws: Sequence[Mapping[str, Any]], start: int, where: str, room: int = FRAME_BITS
+) -> tuple[Signal, ...]:
     signals: list[Signal] = []
     for raw in raws:
         at = f"{where}.{raw['name']}"
@@ -184,8 +200,10 @@ def _signals(raws: Sequence[Mapping[str, Any]], start: int, where: str) -> tuple
             raise DictionaryError(f"{at}: a value has a step and a known unit, nothing else has a step")
         if kind == "value" and signal.bits > 24:
             raise DictionaryError(f"{at}: a value of more than 24 bits is more than a float can tell apart")
+        if start // FRAME_BITS != (start + signal.bits - 1) // FRAME_BITS and start + signal.bits <= room:
+            raise DictionaryError(f"{at}: reaches over bit {(start // FRAME_BITS + 1) * FRAME_BITS}")
         signals.append(signal)
         start += signal.bits
-    if start > FRAME_BITS:
-        raise DictionaryError(f"{where}: {start} bits do not go into {FRAME_BITS}")
+    if start > room:
+        raise DictionaryError(f"{where}: {start} bits do not go into {room}")
     return tuple(signals)

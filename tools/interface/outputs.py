@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from interface.c_measured import measured_header
-from interface.c_messages import messages_header, messages_source
+from interface.c_messages import messages_header, messages_sources
 from interface.c_table import list_header, table_header, table_source
-from interface.dbc import dbc
+from interface.dbc import dbc, dbc_fd
 from interface.dictionary import Dictionary, load
 from interface.keys_page import keys_page
 from interface.measured import Values, load_values
@@ -28,8 +28,9 @@ def outputs(dictionary: Dictionary, wire: Wire, values: Values) -> dict[str, str
     rows = registers(dictionary, values)
     return {
         "firmware/interface/brace.dbc": dbc(wire, language),
+        "firmware/interface/brace_fd.dbc": dbc_fd(wire, language),
         "firmware/interface/generated/brace/can_messages.h": messages_header(wire, language),
-        "firmware/interface/generated/can_messages.c": messages_source(wire),
+        **{f"firmware/interface/generated/{name}.c": text for name, text in messages_sources(wire).items()},
         "firmware/interface/generated/brace/measured.h": measured_header(values),
         "firmware/interface/modbus.csv": registers_csv(rows),
         "docs/modbus.md": registers_page(rows),

@@ -8,7 +8,8 @@ from interface.registers import MEASURED_ENTRY
 
 _HEAD = """# Frames on CAN
 
-Written by tools/interface from the dictionary; do not edit. As a CAN database: `firmware/interface/brace.dbc`.
+Written by tools/interface from the dictionary; do not edit. As CAN databases: `firmware/interface/brace.dbc`,
+and `brace_fd.dbc` for the frame of CAN FD.
 
 Classic CAN, 11-bit identifiers shaped like CANopen's, eight bytes a frame, least significant bit first (Intel). A
 controller adds its node number, 1 to 127, to the identifiers below; without a number it only listens. A value that is not
@@ -19,6 +20,15 @@ All frames of one snapshot carry the same sequence: put together only what agree
 dictionary hash (heartbeat, `identify`) speak different languages and have to say so.
 """
 
+_FD = """
+## In one frame, where CAN FD is
+
+With `controller.can_fd_bit_rate` set, and from the next start on, a controller whose CAN can do it sends each snapshot as one
+frame of CAN FD with bit-rate switch; all else stays classic. Everything in it is of one tick; its numbers are floats as the
+controller has them, NaN where a value is not known. Where the controller's CAN is classic only (bxCAN), or the interface's
+MTU is (SocketCAN, 16), it goes on with classic frames. Over SLCAN snapshots are classic too.
+"""
+
 
 def protocol_page(wire: Wire, values: Values, dictionary_hash: int) -> str:
     """The whole page."""
@@ -26,6 +36,11 @@ def protocol_page(wire: Wire, values: Values, dictionary_hash: int) -> str:
     for frame in wire.messages:
         often = f" As often as `{frame.rate}` says." if frame.rate else ""
         parts.append(f"\n### {frame.name}, 0x{frame.identifier:03x} + node\n\n{_sentence(frame.description)}{often}\n\n")
+        parts.append(_table(frame))
+    parts.append(_FD)
+    for frame in wire.fd_messages:
+        parts.append(f"\n### {frame.name}, 0x{frame.identifier:03x} + node, {frame.bytes} bytes\n\n{_sentence(frame.description)}")
+        parts.append(f" As often as `{frame.rate}` says.\n\n")
         parts.append(_table(frame))
     parts.append(
         f"\n## What it answers\n\nAsked on 0x{wire.request_id:03x} + node, answered on 0x{wire.answer_id:03x} + node. Byte 0 is"

@@ -24,6 +24,10 @@ def frames_module(wire: Wire, dictionary_hash: int) -> str:
         *(line for frame in wire.messages for line in _entry(frame)),
         "}",
         "",
+        "FD_MESSAGES: dict[str, Layout] = {",
+        *(line for frame in wire.fd_messages for line in _entry(frame)),
+        "}",
+        "",
         "REQUESTS: dict[str, Layout] = {",
         *(line for request in wire.requests for line in _entry(request.question, request.name)),
         "}",
@@ -49,7 +53,7 @@ def _layout(frame: Frame) -> list[str]:
     return [
         f'    Layout("{frame.name}", 0x{frame.identifier:03X}, {command}, (',
         *(f"        {_field(signal)}," for signal in frame.signals),
-        "    )),",
+        "    ))," if not frame.is_fd else f"    ), {frame.bytes}),",
     ]
 
 
@@ -61,6 +65,7 @@ def _field(signal: Signal) -> str:
         parts.append("signed=True")
     if signal.kind == "value":
         parts.append(f"step={signal.step!r}")
+    if signal.unit:
         parts.append(f'unit="{signal.unit}"')
     if signal.names:
         parts.append("names={" + ", ".join(f'{n}: "{text}"' for n, text in sorted(signal.names.items())) + "}")

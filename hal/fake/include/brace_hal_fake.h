@@ -94,6 +94,7 @@ struct brace_fake {
     brace_can_setup_t can_setup;
     brace_can_health_t can_health;
     uint32_t can_room;    /* frames that may wait to be sent; more: AGAIN */
+    bool can_takes_fd;    /* else CAN FD is refused */
     brace_fake_frames_t can_sent, can_received; /* can_received: put there by the test */
 
     uint32_t baud[BRACE_SERIAL_PORT_COUNT];

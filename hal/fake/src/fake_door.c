@@ -106,7 +106,7 @@ static int32_t nvm_erase(void *context, uint32_t slot)
 static int32_t can_setup(void *context, const brace_can_setup_t *setup)
 {
     CALLED(CAN_SETUP)
-    if (setup->fd_bit_rate != 0u) {
+    if (setup->fd_bit_rate != 0u && !fake->can_takes_fd) {
         return BRACE_HAL_E_UNSUPPORTED;
     }
     fake->can_setup = *setup;
@@ -116,7 +116,9 @@ static int32_t can_setup(void *context, const brace_can_setup_t *setup)
 static int32_t can_send(void *context, const brace_can_frame_t *frame)
 {
     CALLED(CAN_SEND)
-    if (frame->id > 0x7ffu || frame->length > 8u || fake->can_setup.listen_only || fake->can_setup.bit_rate == 0u) {
+    if (frame->id > 0x7ffu || frame->length > (frame->fd ? 64u : 8u) ||
+        (frame->fd && fake->can_setup.fd_bit_rate == 0u) || fake->can_setup.listen_only ||
+        fake->can_setup.bit_rate == 0u) {
         return BRACE_HAL_E_RANGE;
     }
     if (fake->can_health.bus_off) {

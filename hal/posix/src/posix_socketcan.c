@@ -34,7 +34,10 @@ int32_t socketcan_open(brace_posix_bus_t *bus, const char *interface)
     bool bound = ioctl(file, SIOCGIFINDEX, &request) == 0;
     if (bound) {
         address.can_ifindex = request.ifr_ifindex;
-        bus->socket_can_fd = setsockopt(file, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &yes, sizeof yes) == 0;
+        /* both the kernel's sockets and the interface must be for it: 'ip link set vcan0 mtu 72' */
+        struct ifreq room = request;
+        const bool broad = ioctl(file, SIOCGIFMTU, &room) == 0 && room.ifr_mtu == (int)CANFD_MTU;
+        bus->socket_can_fd = broad && setsockopt(file, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &yes, sizeof yes) == 0;
         bound = bind(file, (const struct sockaddr *)&address, sizeof address) == 0;
     }
     if (!bound) {

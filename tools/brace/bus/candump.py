@@ -10,13 +10,18 @@ from typing import BinaryIO
 from brace.bus.frame import Frame
 from brace.errors import BadFileError
 
-_LINE = re.compile(r"\((\d+\.\d+)\)\s+(\S+)\s+([0-9A-Fa-f]{3})#((?:[0-9A-Fa-f]{2}){0,8})(?:\s+[RT])?\s*")
-_OTHER = re.compile(r"\((\d+\.\d+)\)\s+(\S+)\s+[0-9A-Fa-f]{3,8}#.*")  # extended, remote, FD, error frames
+_LINE = re.compile(
+    r"\((\d+\.\d+)\)\s+(\S+)\s+([0-9A-Fa-f]{3})"
+    r"(?:#((?:[0-9A-Fa-f]{2}){0,8})|##[0-9A-Fa-f]((?:[0-9A-Fa-f]{2}){0,64}))(?:\s+[RT])?\s*"
+)
+_OTHER = re.compile(r"\((\d+\.\d+)\)\s+(\S+)\s+[0-9A-Fa-f]{3,8}#.*")  # extended, remote, error frames
+_RATE_SWITCH = "#1"  # of a CAN FD frame: its flags
 
 
 def line_of(frame: Frame, interface: str) -> str:
     """One line, with its end."""
-    return f"({frame.time_s:.6f}) {interface} {frame.identifier:03X}#{frame.data.hex().upper()}\n"
+    kind = _RATE_SWITCH if frame.is_fd else ""
+    return f"({frame.time_s:.6f}) {interface} {frame.identifier:03X}#{kind}{frame.data.hex().upper()}\n"
 
 
 class CandumpWriter:
@@ -43,7 +48,7 @@ def read(path: Path) -> Iterator[Frame]:
             if found is not None:
                 identifier = int(found[3], 16)
                 if identifier <= 0x7FF:
-                    yield Frame(float(found[1]), identifier, bytes.fromhex(found[4]))
+                    yield Frame(float(found[1]), identifier, bytes.fromhex(found[4] if found[4] is not None else found[5]))
             elif text.strip() and text.endswith("\n") and not _OTHER.fullmatch(text.rstrip()):
                 raise BadFileError(
                     "not a line of a candump log",

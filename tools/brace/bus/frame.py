@@ -1,4 +1,4 @@
-"""One classic CAN frame with the time it was received."""
+"""One CAN frame with the time it was received."""
 
 from __future__ import annotations
 
@@ -11,11 +11,16 @@ BROADEST_BYTES = 8
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """Eleven-bit identifier, up to eight bytes."""
+    """Eleven-bit identifier, up to eight bytes; with more it is one of CAN FD."""
 
     time_s: float  # since 1970, on this computer's clock
     identifier: int
     data: bytes
+
+    @property
+    def is_fd(self) -> bool:
+        """More than classic CAN can carry."""
+        return len(self.data) > BROADEST_BYTES
 
     @property
     def node(self) -> int:

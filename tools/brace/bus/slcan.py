@@ -20,7 +20,8 @@ CONNECT_S = 1.0
 ANSWER_S = 0.7
 SYNC_S = 0.4
 SEND_S = 1.0
-_LONGEST_LINE = 64
+_LONGEST_LINE = 160
+_BYTES = (*range(9), 12, 16, 20, 24, 32, 48, 64)  # by a line's length code
 _HEX = frozenset(b"0123456789abcdefABCDEF")
 _ERROR_BITS = (
     "receive queue full",
@@ -166,7 +167,7 @@ class SlcanBus:
         frame = frame_of(text[:-1], now) if text.endswith(b"\r") else None
         if frame is not None:
             self._frames.append(frame)
-        elif text[:1] not in b"tTrR" or len(text) == 1:
+        elif text[:1] not in b"tTrRdDbB" or len(text) == 1:
             if len(self._answers) < 1000:
                 self._answers.append(text)
 
@@ -186,11 +187,12 @@ class SlcanBus:
 
 
 def frame_of(text: bytes, time_s: float) -> Frame | None:
-    """tIIILDD...[TTTT] as a frame; None for everything else, remote and extended frames too."""
-    if len(text) < 5 or text[:1] != b"t" or not _HEX.issuperset(text[1:]):
+    """tIIILDD...[TTTT] as a frame, dIII... and bIII... of CAN FD too; None for everything else."""
+    if len(text) < 5 or text[:1] not in b"tdb" or not _HEX.issuperset(text[1:]):
         return None
-    identifier, length = int(text[1:4], 16), int(text[4:5], 16)
-    if identifier > 0x7FF or length > 8 or len(text) not in (5 + 2 * length, 9 + 2 * length):
+    identifier, code = int(text[1:4], 16), int(text[4:5], 16)
+    length = _BYTES[code]
+    if identifier > 0x7FF or (text[:1] == b"t" and code > 8) or len(text) not in (5 + 2 * length, 9 + 2 * length):
         return None
     return Frame(time_s, identifier, bytes.fromhex(text[5 : 5 + 2 * length].decode()))
 

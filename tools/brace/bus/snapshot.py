@@ -7,11 +7,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from brace.bus.frame import NODE_MASK, Frame
-from brace.wire.frames import MESSAGES
+from brace.wire.frames import FD_MESSAGES, MESSAGES
 from brace.wire.layout import Layout, Value
 
-PAIR_S = 0.25  # halves with one number that lie further apart are of two rounds of the counter
+# Halves with one number that lie further apart are of two rounds of the 8-bit counter: the shortest round is 256 ticks of
+# 250 us, 0.064 s.
+PAIR_S = 0.040
 _LAYOUT_OF = {layout.identifier: layout for layout in MESSAGES.values()}
+_WHOLE = FD_MESSAGES["snapshot_fd"]
 _PARTS = ("stiffness_a", "stiffness_b", "eigenvalues", "posture")
 
 
@@ -113,7 +116,9 @@ class Joiner:
 
     def add(self, frame: Frame) -> Snapshot | None:
         """The snapshot that this frame completes: first with K alone, then, where they are sent, with eigenvalues and
-        posture too (has_posture)."""
+        posture too (has_posture). Over CAN FD one frame has all of it."""
+        if frame.identifier & ~NODE_MASK == _WHOLE.identifier and len(frame.data) == _WHOLE.size and frame.node != 0:
+            return _whole(frame)
         layout = _LAYOUT_OF.get(frame.identifier & ~NODE_MASK)
         if layout is None or layout.name not in _PARTS or len(frame.data) != 8 or frame.node == 0:
             return None
@@ -170,6 +175,30 @@ class Joiner:
             mode=name_of(layout, "mode", posture),
             faults=bit_names(layout, "faults", posture),
         )
+
+
+def _whole(frame: Frame) -> Snapshot:
+    values = _WHOLE.decode(frame.data)
+    return Snapshot(
+        node=frame.node,
+        time_s=frame.time_s,
+        sequence=int(values["sequence"] or 0) & 0xFF,
+        k_xx=values["k_xx"],
+        k_xz=values["k_xz"],
+        k_zz=values["k_zz"],
+        flags=bit_names(_WHOLE, "flags", values),
+        age_ms=values["age"],
+        play=(name_of(_WHOLE, "play_femur", values), name_of(_WHOLE, "play_tibia", values)),
+        parameter_tag=int(values["parameter_crc"] or 0) & 0xFFFF,
+        has_posture=True,
+        lambda_min=values["lambda_min"],
+        lambda_max=values["lambda_max"],
+        stiff_axis=values["stiff_axis"],
+        theta1=values["theta1"],
+        theta2=values["theta2"],
+        mode=name_of(_WHOLE, "mode", values),
+        faults=bit_names(_WHOLE, "faults", values),
+    )
 
 
 def _fit(half: _Half | None, frame: Frame, values: Mapping[str, Value]) -> bool:

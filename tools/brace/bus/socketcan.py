@@ -33,7 +33,7 @@ class SocketCanBus:
             ) from None
         self._can = can
         try:
-            self._bus: Any = can.Bus(interface="socketcan", channel=url.place)
+            self._bus: Any = can.Bus(interface="socketcan", channel=url.place, fd=True)
         except (OSError, can.CanError) as error:
             raise self._lost(error) from None
 
@@ -48,7 +48,7 @@ class SocketCanBus:
         if message.is_error_frame:
             self._errors += 1
             return None
-        if message.is_extended_id or message.is_remote_frame or message.is_fd:
+        if message.is_extended_id or message.is_remote_frame:
             return None
         return Frame(message.timestamp, message.arbitration_id, bytes(message.data))
 

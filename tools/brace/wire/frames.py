@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from brace.wire.layout import Field, Layout
 
-DICTIONARY_HASH = 0x5D7B52A6
+DICTIONARY_HASH = 0xAC717698
 PROTOCOL = 1
 REQUEST_ID = 0x600
 ANSWER_ID = 0x580
@@ -50,6 +50,31 @@ MESSAGES: dict[str, Layout] = {
         Field("faults", 16, 16, bit_names=("SENSOR_FEMUR", "SENSOR_TIBIA", "ENCODER_STUCK", "TICK_LATE", "PARAMETERS", "STORE", "CAN_BUS_OFF", "MODEL_DRIFT", "CRASHED",)),
         Field("dictionary_hash", 32, 32),
     )),
+}
+
+FD_MESSAGES: dict[str, Layout] = {
+    "snapshot_fd": Layout("snapshot_fd", 0x500, None, (
+        Field("sequence", 0, 32),
+        Field("parameter_crc", 32, 32),
+        Field("age", 64, 16, kind="value", step=0.5, unit="ms"),
+        Field("flags", 80, 16, bit_names=("UNCALIBRATED", "NEAR_SINGULAR", "SATURATED", "GAP_OPEN", "STALE", "OUT_OF_RANGE",)),
+        Field("mode", 96, 8, names={0: "START", 1: "MONITOR", 2: "CONFIGURATION", 3: "TAKING_UP", 4: "LOADING_TEST", 5: "FAULT"}),
+        Field("play_femur", 104, 4, names={0: "UNKNOWN", 1: "TAKING_UP", 2: "ENGAGED_POSITIVE", 3: "ENGAGED_NEGATIVE", 4: "CROSSING", 5: "FAULT"}),
+        Field("play_tibia", 108, 4, names={0: "UNKNOWN", 1: "TAKING_UP", 2: "ENGAGED_POSITIVE", 3: "ENGAGED_NEGATIVE", 4: "CROSSING", 5: "FAULT"}),
+        Field("faults", 112, 16, bit_names=("SENSOR_FEMUR", "SENSOR_TIBIA", "ENCODER_STUCK", "TICK_LATE", "PARAMETERS", "STORE", "CAN_BUS_OFF", "MODEL_DRIFT", "CRASHED",)),
+        Field("k_xx", 128, 32, kind="f32", unit="N/mm"),
+        Field("k_xz", 160, 32, kind="f32", unit="N/mm"),
+        Field("k_zz", 192, 32, kind="f32", unit="N/mm"),
+        Field("lambda_min", 224, 32, kind="f32", unit="N/mm"),
+        Field("lambda_max", 256, 32, kind="f32", unit="N/mm"),
+        Field("stiff_axis", 288, 32, kind="f32", unit="rad"),
+        Field("theta1", 320, 32, kind="f32", unit="rad"),
+        Field("theta2", 352, 32, kind="f32", unit="rad"),
+        Field("tip_x", 384, 32, kind="f32", unit="mm"),
+        Field("tip_z", 416, 32, kind="f32", unit="mm"),
+        Field("force_x", 448, 32, kind="f32", unit="N"),
+        Field("force_z", 480, 32, kind="f32", unit="N"),
+    ), 64),
 }
 
 REQUESTS: dict[str, Layout] = {

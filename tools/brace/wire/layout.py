@@ -1,4 +1,4 @@
-"""Eight bytes <-> named values: the layouts that the dictionary's frames have."""
+"""Bytes of a frame <-> named values: the layouts that the dictionary's frames have."""
 
 from __future__ import annotations
 
@@ -66,15 +66,16 @@ class Layout:
     identifier: int  # of node 0
     command: int | None  # first byte of requests and answers
     fields: tuple[Field, ...]
+    size: int = 8  # bytes; more: CAN FD
 
     def decode(self, data: bytes) -> dict[str, Value]:
         """Name -> value."""
-        bits = int.from_bytes(data[:8].ljust(8, b"\0"), "little")
+        bits = int.from_bytes(data[: self.size].ljust(self.size, b"\0"), "little")
         return {item.name: item.decode(bits) for item in self.fields}
 
     def encode(self, values: Mapping[str, Value], token: int = 0) -> bytes:
-        """Eight bytes. KeyError for a field that is missing, ValueError for one that does not fit."""
+        """`size` bytes. KeyError for a field that is missing, ValueError for one that does not fit."""
         bits = 0 if self.command is None else self.command | (token & 0xFF) << 8
         for item in self.fields:
             bits |= item.encode(values[item.name])
-        return bits.to_bytes(8, "little")
+        return bits.to_bytes(self.size, "little")

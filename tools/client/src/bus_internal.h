@@ -10,7 +10,7 @@ struct brace_bus {
     int fd;
     bool is_slcan;
     char rate; /* SLCAN: the digit behind 'S' */
-    char line[64]; /* SLCAN: the command being received */
+    char line[160]; /* SLCAN: the command being received */
     size_t line_length;
     bool line_is_too_long;
     unsigned char chunk[512];

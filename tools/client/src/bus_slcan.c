@@ -210,12 +210,22 @@ static bool hex_value(const char *text, size_t digits, uint32_t *value)
     return true;
 }
 
+static bool is_data_frame(char kind)
+{
+    return kind == 't' || kind == 'd' || kind == 'b'; /* d, b: CAN FD without and with bit-rate switch */
+}
+
 /* A line without its end; true when it is a data frame with an 11-bit identifier. A time stamp may follow. */
 static bool read_frame(const char *line, size_t length, brace_bus_frame_t *frame)
 {
-    uint32_t id, count;
-    if (length < 5u || line[0] != 't' || !hex_value(line + 1, 3u, &id) || !hex_value(line + 4, 1u, &count) ||
-        id > 0x7ffu || count > 8u || (length != 5u + 2u * count && length != 9u + 2u * count)) {
+    static const uint8_t bytes[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64};
+    uint32_t id, code;
+    if (length < 5u || !is_data_frame(line[0]) || !hex_value(line + 1, 3u, &id) || !hex_value(line + 4, 1u, &code) ||
+        id > 0x7ffu || (line[0] == 't' && code > 8u)) {
+        return false;
+    }
+    const uint32_t count = bytes[code];
+    if (length != 5u + 2u * count && length != 9u + 2u * count) {
         return false;
     }
     memset(frame, 0, sizeof *frame);
@@ -228,6 +238,7 @@ static bool read_frame(const char *line, size_t length, brace_bus_frame_t *frame
     }
     frame->id = id;
     frame->length = (uint8_t)count;
+    frame->fd = line[0] != 't';
     frame->received_us = brace_bus_now_us();
     return true;
 }
@@ -240,7 +251,7 @@ static void note_line(brace_bus_t *bus)
         bus->has_status = true;
         bus->errors += (status & 0xa4u) != 0u; /* bus error, error passive, error warning */
         bus->lost += (status & 0x09u) != 0u;   /* overrun, receive queue full */
-    } else if (bus->line_is_too_long || (bus->line_length > 0u && bus->line[0] == 't')) {
+    } else if (bus->line_is_too_long || (bus->line_length > 0u && is_data_frame(bus->line[0]))) {
         bus->lost++;
     }
     for (size_t i = 0u; i < bus->line_length; i++) {

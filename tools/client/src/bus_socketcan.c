@@ -53,6 +53,7 @@ brace_bus_status_t brace_socketcan_open(brace_bus_t *bus, const char *name, char
     (void)setsockopt(bus->fd, SOL_SOCKET, SO_TIMESTAMP, &on, sizeof on);
     (void)setsockopt(bus->fd, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
     (void)setsockopt(bus->fd, SOL_SOCKET, SO_RCVBUF, &room, sizeof room);
+    (void)setsockopt(bus->fd, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on); /* an old kernel: classic frames alone */
     (void)setsockopt(bus->fd, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &errors, sizeof errors);
     return BRACE_BUS_OK;
 }
@@ -105,7 +106,7 @@ brace_bus_status_t brace_socketcan_receive(brace_bus_t *bus, brace_bus_frame_t *
 {
     const uint64_t deadline_us = brace_bus_now_us() + (uint64_t)timeout_ms * 1000u;
     for (;;) {
-        struct can_frame got;
+        struct canfd_frame got; /* a classic frame is its beginning */
         struct iovec part = {.iov_base = &got, .iov_len = sizeof got};
         union {
             struct cmsghdr aligned;
@@ -114,14 +115,17 @@ brace_bus_status_t brace_socketcan_receive(brace_bus_t *bus, brace_bus_frame_t *
         struct msghdr message = {
             .msg_iov = &part, .msg_iovlen = 1, .msg_control = &notes, .msg_controllen = sizeof notes};
         const ssize_t size = recvmsg(bus->fd, &message, 0);
-        if (size == (ssize_t)sizeof got) {
-            bus->errors += (got.can_id & CAN_ERR_FLAG) != 0u;
-            if (got.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_ERR_FLAG) || got.can_dlc > 8u) {
+        if (size == (ssize_t)CAN_MTU || size == (ssize_t)CANFD_MTU) {
+            const bool fd = size == (ssize_t)CANFD_MTU;
+            bus->errors += !fd && (got.can_id & CAN_ERR_FLAG) != 0u;
+            if (got.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_ERR_FLAG) || got.len > (fd ? 64u : 8u)) {
                 continue;
             }
             frame->id = got.can_id;
-            frame->length = got.can_dlc;
-            memcpy(frame->data, got.data, sizeof frame->data);
+            frame->length = got.len;
+            frame->fd = fd;
+            memcpy(frame->data, got.data, got.len);
+            memset(frame->data + got.len, 0, sizeof frame->data - got.len);
             read_notes(bus, &message, frame);
             return BRACE_BUS_OK;
         }

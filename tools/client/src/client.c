@@ -128,6 +128,13 @@ static bool is_number(float value)
     return value - value == 0.0f; /* neither NaN, which would be sent as 'not known', nor infinite */
 }
 
+/* A question of two numbers. */
+static brace_client_status_t ask_two(brace_client_t *client, brace_question_t *question, uint32_t code, uint32_t limited,
+                                     float a, float b, int timeout_ms)
+{
+    return ask(client, question, code, limited + !is_number(a) + !is_number(b), timeout_ms);
+}
+
 static void take_k(const brace_question_t *question, brace_client_k_t *k)
 {
     brace_can_k_at_posture_answer_0_t first;
@@ -184,9 +191,9 @@ brace_client_status_t brace_client_contact_force(brace_client_t *client, float d
 {
     const brace_can_contact_force_request_t request = {.dx_mm = dx_mm, .dz_mm = dz_mm};
     brace_question_t question;
-    const uint32_t limited = brace_can_pack_contact_force_request(&request, question.data) + !is_number(dx_mm) +
-                             !is_number(dz_mm);
-    const brace_client_status_t status = ask(client, &question, BRACE_REQUEST_CONTACT_FORCE, limited, timeout_ms);
+    const uint32_t limited = brace_can_pack_contact_force_request(&request, question.data);
+    const brace_client_status_t status =
+        ask_two(client, &question, BRACE_REQUEST_CONTACT_FORCE, limited, dx_mm, dz_mm, timeout_ms);
     if (status == BRACE_CLIENT_OK) {
         brace_can_contact_force_answer_0_t first;
         brace_can_contact_force_answer_1_t second;
@@ -203,9 +210,9 @@ brace_client_status_t brace_client_sag(brace_client_t *client, float fx_n, float
 {
     const brace_can_sag_for_load_request_t request = {.fx_n = fx_n, .fz_n = fz_n};
     brace_question_t question;
-    const uint32_t limited = brace_can_pack_sag_for_load_request(&request, question.data) + !is_number(fx_n) +
-                             !is_number(fz_n);
-    const brace_client_status_t status = ask(client, &question, BRACE_REQUEST_SAG_FOR_LOAD, limited, timeout_ms);
+    const uint32_t limited = brace_can_pack_sag_for_load_request(&request, question.data);
+    const brace_client_status_t status =
+        ask_two(client, &question, BRACE_REQUEST_SAG_FOR_LOAD, limited, fx_n, fz_n, timeout_ms);
     if (status == BRACE_CLIENT_OK) {
         brace_can_sag_for_load_answer_0_t answer;
         brace_can_unpack_sag_for_load_answer_0(question.answers[0], &answer);
@@ -220,9 +227,9 @@ brace_client_status_t brace_client_margin(brace_client_t *client, float normal_r
 {
     const brace_can_friction_margin_request_t request = {.normal_rad = normal_rad, .friction_ratio = friction_ratio};
     brace_question_t question;
-    const uint32_t limited = brace_can_pack_friction_margin_request(&request, question.data) + !is_number(normal_rad) +
-                             !is_number(friction_ratio);
-    const brace_client_status_t status = ask(client, &question, BRACE_REQUEST_FRICTION_MARGIN, limited, timeout_ms);
+    const uint32_t limited = brace_can_pack_friction_margin_request(&request, question.data);
+    const brace_client_status_t status =
+        ask_two(client, &question, BRACE_REQUEST_FRICTION_MARGIN, limited, normal_rad, friction_ratio, timeout_ms);
     if (status == BRACE_CLIENT_OK) {
         brace_can_friction_margin_answer_0_t answer;
         brace_can_unpack_friction_margin_answer_0(question.answers[0], &answer);

@@ -40,7 +40,7 @@ static bool is_from_controller(uint32_t base)
 {
     static const uint32_t bases[] = {BRACE_CAN_ID_EMERGENCY,   BRACE_CAN_ID_STIFFNESS_A, BRACE_CAN_ID_STIFFNESS_B,
                                      BRACE_CAN_ID_EIGENVALUES, BRACE_CAN_ID_POSTURE,     BRACE_CAN_ID_HEARTBEAT,
-                                     BRACE_CAN_ID_ANSWER};
+                                     BRACE_CAN_ID_ANSWER,      BRACE_CAN_ID_SNAPSHOT_FD};
     for (size_t i = 0u; i < sizeof bases / sizeof bases[0]; i++) {
         if (base == bases[i]) {
             return true;
@@ -55,7 +55,7 @@ static void hear(brace_client_t *client, const brace_bus_frame_t *frame, waiting
     if (node != 0u && is_from_controller(base)) {
         client->heard[node >> 5] |= 1u << (node & 31u);
     }
-    if (node != client->node || node == 0u || frame->length != 8u) {
+    if (node != client->node || node == 0u || (frame->length != 8u && base != BRACE_CAN_ID_SNAPSHOT_FD)) {
         return;
     }
     if (base == BRACE_CAN_ID_HEARTBEAT) {

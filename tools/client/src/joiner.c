@@ -41,52 +41,54 @@ static brace_joiner_slot_t *slot_of(brace_joiner_t *joiner, uint32_t sequence, u
     return older;
 }
 
-static void take_a(brace_client_snapshot_t *s, const uint8_t data[8])
+/* Members of a frame into those of the snapshot that have the same names. */
+#define UNPACKED(kind) \
+    brace_can_##kind##_t got; \
+    brace_can_unpack_##kind(data, &got)
+#define TAKE(member) s->member = got.member
+
+static void take_a(brace_client_snapshot_t *s, const uint8_t *data)
 {
-    brace_can_stiffness_a_t a;
-    brace_can_unpack_stiffness_a(data, &a);
-    s->flags = a.flags;
-    s->k_xx_n_per_mm = a.k_xx_n_per_mm;
-    s->k_xz_n_per_mm = a.k_xz_n_per_mm;
+    UNPACKED(stiffness_a);
+    TAKE(flags), TAKE(k_xx_n_per_mm), TAKE(k_xz_n_per_mm);
 }
 
-static void take_b(brace_client_snapshot_t *s, const uint8_t data[8])
+static void take_b(brace_client_snapshot_t *s, const uint8_t *data)
 {
-    brace_can_stiffness_b_t b;
-    brace_can_unpack_stiffness_b(data, &b);
-    s->k_zz_n_per_mm = b.k_zz_n_per_mm;
-    s->age_ms = b.age_ms;
-    s->play_femur = b.play_femur;
-    s->play_tibia = b.play_tibia;
-    s->parameter_tag = b.parameter_tag;
+    UNPACKED(stiffness_b);
+    TAKE(k_zz_n_per_mm), TAKE(age_ms), TAKE(play_femur), TAKE(play_tibia), TAKE(parameter_tag);
 }
 
-static void take_eigenvalues(brace_client_snapshot_t *s, const uint8_t data[8])
+static void take_eigenvalues(brace_client_snapshot_t *s, const uint8_t *data)
 {
-    brace_can_eigenvalues_t e;
-    brace_can_unpack_eigenvalues(data, &e);
-    s->lambda_min_n_per_mm = e.lambda_min_n_per_mm;
-    s->lambda_max_n_per_mm = e.lambda_max_n_per_mm;
-    s->stiff_axis_rad = e.stiff_axis_rad;
+    UNPACKED(eigenvalues);
+    TAKE(lambda_min_n_per_mm), TAKE(lambda_max_n_per_mm), TAKE(stiff_axis_rad);
 }
 
-static void take_posture(brace_client_snapshot_t *s, const uint8_t data[8])
+static void take_posture(brace_client_snapshot_t *s, const uint8_t *data)
 {
-    brace_can_posture_t p;
-    brace_can_unpack_posture(data, &p);
-    s->theta1_rad = p.theta1_rad;
-    s->theta2_rad = p.theta2_rad;
-    s->mode = p.mode;
-    s->faults = p.faults;
+    UNPACKED(posture);
+    TAKE(theta1_rad), TAKE(theta2_rad), TAKE(mode), TAKE(faults);
+}
+
+static void take_whole(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(snapshot_fd);
+    TAKE(flags), TAKE(k_xx_n_per_mm), TAKE(k_xz_n_per_mm), TAKE(k_zz_n_per_mm);
+    TAKE(age_ms), TAKE(play_femur), TAKE(play_tibia);
+    TAKE(lambda_min_n_per_mm), TAKE(lambda_max_n_per_mm), TAKE(stiff_axis_rad);
+    TAKE(theta1_rad), TAKE(theta2_rad), TAKE(mode), TAKE(faults);
+    s->parameter_tag = got.parameter_crc & 0xffffu;
 }
 
 static const struct {
-    uint32_t id, bit;
-    void (*take)(brace_client_snapshot_t *, const uint8_t[8]);
-} kinds[] = {{BRACE_CAN_ID_STIFFNESS_A, A, take_a},
-             {BRACE_CAN_ID_STIFFNESS_B, B, take_b},
-             {BRACE_CAN_ID_EIGENVALUES, EIGENVALUES, take_eigenvalues},
-             {BRACE_CAN_ID_POSTURE, POSTURE, take_posture}};
+    uint32_t id, bits, length;
+    void (*take)(brace_client_snapshot_t *, const uint8_t *);
+} kinds[] = {{BRACE_CAN_ID_STIFFNESS_A, A, 8u, take_a},
+             {BRACE_CAN_ID_STIFFNESS_B, B, 8u, take_b},
+             {BRACE_CAN_ID_EIGENVALUES, EIGENVALUES, 8u, take_eigenvalues},
+             {BRACE_CAN_ID_POSTURE, POSTURE, 8u, take_posture},
+             {BRACE_CAN_ID_SNAPSHOT_FD, A | B | EIGENVALUES | POSTURE, 64u, take_whole}};
 
 const brace_client_snapshot_t *brace_joiner_add(brace_joiner_t *joiner, uint32_t node, const brace_bus_frame_t *frame,
                                                 uint32_t lost)
@@ -95,7 +97,7 @@ const brace_client_snapshot_t *brace_joiner_add(brace_joiner_t *joiner, uint32_t
     while (kind < sizeof kinds / sizeof kinds[0] && frame->id != kinds[kind].id + node) {
         kind++;
     }
-    if (kind == sizeof kinds / sizeof kinds[0] || frame->length != 8u) {
+    if (kind == sizeof kinds / sizeof kinds[0] || frame->length != kinds[kind].length) {
         return NULL;
     }
     if (lost != joiner->lost) { /* whatever is begun may have lost its other half */
@@ -103,12 +105,12 @@ const brace_client_snapshot_t *brace_joiner_add(brace_joiner_t *joiner, uint32_t
         joiner->lost = lost;
     }
     brace_joiner_slot_t *slot = slot_of(joiner, frame->data[0], frame->received_us);
-    if (slot->frames & kinds[kind].bit) { /* the same frame again: the number has come round, or an adapter repeats */
+    if (slot->frames & kinds[kind].bits) { /* the same frame again: the number has come round, or an adapter repeats */
         begin(slot, frame->data[0], frame->received_us);
     }
     brace_client_snapshot_t *s = &slot->snapshot;
     kinds[kind].take(s, frame->data);
-    slot->frames |= kinds[kind].bit;
+    slot->frames |= kinds[kind].bits;
     s->parts = ((slot->frames & (A | B)) == (A | B) ? BRACE_PART_K : 0u) |
                (slot->frames & EIGENVALUES ? BRACE_PART_EIGENVALUES : 0u) |
                (slot->frames & POSTURE ? BRACE_PART_POSTURE : 0u);

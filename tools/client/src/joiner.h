@@ -20,7 +20,7 @@ typedef struct {
     uint32_t lost;
 } brace_joiner_t;
 
-/* Takes one frame of process data (0x180, 0x280, 0x380, 0x480 + node; anything else is passed over). lost: the bus' count of
+/* Takes one frame of process data (0x180, 0x280, 0x380, 0x480 + node, or the whole snapshot of CAN FD, 0x500 + node; anything else is passed over). lost: the bus' count of
  * lost frames up to this one.
  * returns the snapshot that the frame has added a whole part to, valid until the next call; null: none */
 const brace_client_snapshot_t *brace_joiner_add(brace_joiner_t *joiner, uint32_t node, const brace_bus_frame_t *frame,

@@ -154,7 +154,7 @@ typedef struct {
 } brace_app_slcan_t;
 
 typedef struct {
-    bool listens, speaks;     /* CAN is there; and the node's number is set */
+    bool listens, speaks, fd; /* CAN is there; the node's number is set; it takes frames of CAN FD */
     uint8_t node_id;
     uint32_t bit_rate;
     bool bus_off;
@@ -177,7 +177,9 @@ typedef struct {
     uint32_t stiffness_every, posture_every, stiffness_in, posture_in; /* snapshots; every 0: never */
     uint32_t frames_per_tick;
     uint8_t due;              /* frames of this snapshot still to be sent */
+    bool fd;                  /* periods are those of CAN FD's frame */
     uint32_t taken_us;
+    brace_can_snapshot_fd_t whole;
     brace_can_stiffness_a_t stiffness_a;
     brace_can_stiffness_b_t stiffness_b;
     brace_can_eigenvalues_t eigenvalues;

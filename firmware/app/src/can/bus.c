@@ -19,9 +19,12 @@ void bus_start(brace_app_t *app)
     slcan_port_start(app);
     if (hal->can_setup != NULL && hal->can_send != NULL && hal->can_receive != NULL &&
         hal->can_health != NULL && hal->can_recover != NULL) {
-        const brace_can_setup_t setup = {.bit_rate = controller->can_bit_rate,
-                                         .listen_only = controller->node_id == 0u};
-        bus->listens = hal->can_setup(hal->context, &setup) == BRACE_HAL_OK;
+        brace_can_setup_t setup = {.bit_rate = controller->can_bit_rate,
+                                   .fd_bit_rate = controller->can_fd_bit_rate,
+                                   .listen_only = controller->node_id == 0u};
+        bus->fd = setup.fd_bit_rate != 0u && hal->can_setup(hal->context, &setup) == BRACE_HAL_OK;
+        setup.fd_bit_rate = 0; /* where there is none: classic frames rather than silence */
+        bus->listens = bus->fd || hal->can_setup(hal->context, &setup) == BRACE_HAL_OK;
     }
     bus->speaks =
         controller->node_id >= 1u && controller->node_id <= 127u && (bus->listens || bus->slcan.fitted);
@@ -88,6 +91,25 @@ bool bus_send(brace_app_t *app, uint32_t function, const uint8_t data[8])
         return true;
     }
     return can && send_can(app, &frame) == BRACE_HAL_OK;
+}
+
+bool bus_takes_fd(const brace_app_t *app)
+{
+    return app->bus.fd && !app->bus.slcan.open;
+}
+
+bool bus_send_fd(brace_app_t *app, uint32_t function, const uint8_t data[64])
+{
+    const brace_app_bus_t *bus = &app->bus;
+    brace_can_frame_t frame;
+    if (!bus->listens || bus->node_id == 0u || bus->bus_off) {
+        return false;
+    }
+    frame.id = function + bus->node_id;
+    frame.length = 64;
+    frame.fd = true;
+    memcpy(frame.data, data, 64);
+    return send_can(app, &frame) == BRACE_HAL_OK;
 }
 
 bool bus_receive(brace_app_t *app, brace_can_frame_t *frame)

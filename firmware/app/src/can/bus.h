@@ -1,4 +1,4 @@
-/* The node on its bus: frames of eight bytes in and out, over the CAN controller, over a serial port as
+/* The node on its bus: frames of eight bytes in and out, a snapshot's of CAN FD out, over the CAN controller, over a serial port as
  * SLCAN text, or both. Two ports carry the same; while an SLCAN channel is open it is the one that is waited
  * for, since a board without a transceiver has nobody to acknowledge on the other. */
 #ifndef BRACE_APP_BUS_H
@@ -21,6 +21,13 @@ bool bus_speaks(const brace_app_t *app);
  *   function: identifier of node 0 (BRACE_CAN_ID_...)
  * About 60 instructions; over SLCAN 300. */
 bool bus_send(brace_app_t *app, uint32_t function, const uint8_t data[8]);
+
+/* Do snapshots go out as one frame of CAN FD? Where the parameters and the controller's CAN have it, and nobody listens
+ * over SLCAN. */
+bool bus_takes_fd(const brace_app_t *app);
+
+/* As bus_send; a frame of 64 bytes. About 100 instructions. */
+bool bus_send_fd(brace_app_t *app, uint32_t function, const uint8_t data[64]);
 
 /* A frame that has come over CAN, whoever it is for; what comes over SLCAN: slcan_port_receive. About 40
  * instructions. */

@@ -1,4 +1,4 @@
-/* Process data: K, its eigenvalues and the posture of one snapshot, at the parameters' rates.
+/* Process data: K, its eigenvalues and the posture of one snapshot, at the parameters' rates; over CAN FD in one frame.
  *
  * All frames of a snapshot are packed from one copy of it, so nothing is ever mixed from two; the next
  * snapshot is taken when the last frame of this one has left, so a busy bus thins the data and never splits
@@ -18,6 +18,9 @@ enum {
 /* Works the periods out; again when parameters are put in force. About 250 instructions, the divisions
  * counted. */
 void cyclic_configure(brace_app_t *app);
+
+/* Have parameters, or what the bus takes, changed since? */
+bool cyclic_is_stale(const brace_app_t *app);
 
 /* Is there a frame to be sent in this tick? About 20 instructions. */
 bool cyclic_wants(const brace_app_t *app);

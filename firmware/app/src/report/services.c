@@ -145,7 +145,7 @@ void services_run(brace_app_t *app, bool lean)
     if (!app->report.speaks) {
         return;
     }
-    if (app->cyclic.parameter_crc != app->parameter_crc) {
+    if (cyclic_is_stale(app)) {
         cyclic_configure(app);
     } else if (!announce(app) && bus_speaks(app)) {
         cyclic_send(app, room_to_say(app, lean));

@@ -28,8 +28,9 @@ typedef enum {
 
 typedef struct {
     uint32_t id;     /* 11 bits */
-    uint8_t length;  /* 0-8 */
-    uint8_t data[8];
+    uint8_t length;  /* 0-8; of CAN FD up to 64 */
+    bool fd;         /* a frame of CAN FD; received only */
+    uint8_t data[64];
     uint64_t received_us; /* CLOCK_MONOTONIC, the kernel's stamp where it gives one; 0 for frames to send */
 } brace_bus_frame_t;
 
@@ -48,7 +49,7 @@ void brace_bus_close(brace_bus_t *bus);
  * returns OK, E_USAGE, E_DOWN, E_FULL */
 brace_bus_status_t brace_bus_send(brace_bus_t *bus, const brace_bus_frame_t *frame, int timeout_ms);
 
-/* The next frame, of whatever identifier (remote, extended, error and FD frames are passed over).
+/* The next frame, of whatever identifier (remote, extended and error frames are passed over).
  * returns OK, E_TIMEOUT, E_DOWN */
 brace_bus_status_t brace_bus_receive(brace_bus_t *bus, brace_bus_frame_t *frame, int timeout_ms);
 

@@ -43,7 +43,7 @@ enum { BRACE_CLIENT_WHY_ROOM = 400 };
 
 typedef struct brace_client brace_client_t;
 
-/* Parts of a snapshot. */
+/* Parts of a snapshot; over CAN FD all of them come with each. */
 enum {
     BRACE_PART_K = 1,           /* K, flags, play states: with every snapshot that is sent (200 Hz, controller.stiffness_hz) */
     BRACE_PART_EIGENVALUES = 2, /* lambda_min, lambda_max, stiff axis: 20 Hz (controller.posture_hz) */
@@ -53,7 +53,7 @@ enum {
 
 typedef struct {
     uint32_t parts;       /* that are of this snapshot; members of the others are NaN or all ones */
-    uint32_t sequence;    /* 8 bits over CAN */
+    uint32_t sequence;    /* 8 bits over CAN, over CAN FD too */
     uint64_t received_us; /* when its first frame came, CLOCK_MONOTONIC */
     float age_ms;         /* of the samples when it was sent */
     bool k_is_valid;      /* K may be used, with its flags */

@@ -1,0 +1,210 @@
+/* Written by tools/interface from messages.toml; do not edit. */
+#include "brace/can_messages.h"
+
+#include "can_bits.h"
+
+uint32_t brace_can_pack_emergency(const brace_can_emergency_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits |= brace_bits_number(message->error_code, 0u, 16u, &limited);
+    bits |= brace_bits_number(message->error_register, 16u, 8u, &limited);
+    bits |= brace_bits_number(message->mode, 24u, 8u, &limited);
+    bits |= brace_bits_number(message->faults, 32u, 32u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_emergency(const uint8_t data[8], brace_can_emergency_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->error_code = brace_value_number(bits, 0u, 16u);
+    message->error_register = brace_value_number(bits, 16u, 8u);
+    message->mode = brace_value_number(bits, 24u, 8u);
+    message->faults = brace_value_number(bits, 32u, 32u);
+}
+
+uint32_t brace_can_pack_stiffness_a(const brace_can_stiffness_a_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_number(message->flags, 8u, 8u, &limited);
+    bits |= brace_bits_signed(message->k_xx_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->k_xz_n_per_mm, 2000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_stiffness_a(const uint8_t data[8], brace_can_stiffness_a_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->flags = brace_value_number(bits, 8u, 8u);
+    message->k_xx_n_per_mm = brace_value_signed(bits, 16u, 24u, 0.0005f);
+    message->k_xz_n_per_mm = brace_value_signed(bits, 40u, 24u, 0.0005f);
+}
+
+uint32_t brace_can_pack_stiffness_b(const brace_can_stiffness_b_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_signed(message->k_zz_n_per_mm, 2000.0f, 8u, 24u, &limited);
+    bits |= brace_bits_unsigned(message->age_ms, 2.0f, 32u, 8u, &limited);
+    bits |= brace_bits_number(message->play_femur, 40u, 4u, &limited);
+    bits |= brace_bits_number(message->play_tibia, 44u, 4u, &limited);
+    bits |= brace_bits_number(message->parameter_tag, 48u, 16u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_stiffness_b(const uint8_t data[8], brace_can_stiffness_b_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->k_zz_n_per_mm = brace_value_signed(bits, 8u, 24u, 0.0005f);
+    message->age_ms = brace_value_unsigned(bits, 32u, 8u, 0.5f);
+    message->play_femur = brace_value_number(bits, 40u, 4u);
+    message->play_tibia = brace_value_number(bits, 44u, 4u);
+    message->parameter_tag = brace_value_number(bits, 48u, 16u);
+}
+
+uint32_t brace_can_pack_eigenvalues(const brace_can_eigenvalues_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_unsigned(message->lambda_min_n_per_mm, 2000.0f, 8u, 20u, &limited);
+    bits |= brace_bits_unsigned(message->lambda_max_n_per_mm, 200.0f, 28u, 20u, &limited);
+    bits |= brace_bits_signed(message->stiff_axis_rad, 10000.0f, 48u, 16u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_eigenvalues(const uint8_t data[8], brace_can_eigenvalues_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->lambda_min_n_per_mm = brace_value_unsigned(bits, 8u, 20u, 0.0005f);
+    message->lambda_max_n_per_mm = brace_value_unsigned(bits, 28u, 20u, 0.005f);
+    message->stiff_axis_rad = brace_value_signed(bits, 48u, 16u, 0.0001f);
+}
+
+uint32_t brace_can_pack_posture(const brace_can_posture_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_signed(message->theta1_rad, 50000.0f, 8u, 20u, &limited);
+    bits |= brace_bits_signed(message->theta2_rad, 50000.0f, 28u, 20u, &limited);
+    bits |= brace_bits_number(message->mode, 48u, 4u, &limited);
+    bits |= brace_bits_number(message->faults, 52u, 12u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_posture(const uint8_t data[8], brace_can_posture_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->theta1_rad = brace_value_signed(bits, 8u, 20u, 2e-05f);
+    message->theta2_rad = brace_value_signed(bits, 28u, 20u, 2e-05f);
+    message->mode = brace_value_number(bits, 48u, 4u);
+    message->faults = brace_value_number(bits, 52u, 12u);
+}
+
+uint32_t brace_can_pack_heartbeat(const brace_can_heartbeat_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits |= brace_bits_number(message->state, 0u, 8u, &limited);
+    bits |= brace_bits_number(message->mode, 8u, 8u, &limited);
+    bits |= brace_bits_number(message->faults, 16u, 16u, &limited);
+    bits |= brace_bits_number(message->dictionary_hash, 32u, 32u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_heartbeat(const uint8_t data[8], brace_can_heartbeat_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->state = brace_value_number(bits, 0u, 8u);
+    message->mode = brace_value_number(bits, 8u, 8u);
+    message->faults = brace_value_number(bits, 16u, 16u);
+    message->dictionary_hash = brace_value_number(bits, 32u, 32u);
+}
+
+uint32_t brace_can_pack_snapshot_fd(const brace_can_snapshot_fd_t *message, uint8_t data[64])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits |= brace_bits_number(message->sequence, 0u, 32u, &limited);
+    bits |= brace_bits_number(message->parameter_crc, 32u, 32u, &limited);
+    brace_bits_store(bits, data);
+    bits = 0u;
+    bits |= brace_bits_unsigned(message->age_ms, 2.0f, 0u, 16u, &limited);
+    bits |= brace_bits_number(message->flags, 16u, 16u, &limited);
+    bits |= brace_bits_number(message->mode, 32u, 8u, &limited);
+    bits |= brace_bits_number(message->play_femur, 40u, 4u, &limited);
+    bits |= brace_bits_number(message->play_tibia, 44u, 4u, &limited);
+    bits |= brace_bits_number(message->faults, 48u, 16u, &limited);
+    brace_bits_store(bits, data + 8);
+    bits = 0u;
+    bits |= brace_bits_float(message->k_xx_n_per_mm, 0u);
+    bits |= brace_bits_float(message->k_xz_n_per_mm, 32u);
+    brace_bits_store(bits, data + 16);
+    bits = 0u;
+    bits |= brace_bits_float(message->k_zz_n_per_mm, 0u);
+    bits |= brace_bits_float(message->lambda_min_n_per_mm, 32u);
+    brace_bits_store(bits, data + 24);
+    bits = 0u;
+    bits |= brace_bits_float(message->lambda_max_n_per_mm, 0u);
+    bits |= brace_bits_float(message->stiff_axis_rad, 32u);
+    brace_bits_store(bits, data + 32);
+    bits = 0u;
+    bits |= brace_bits_float(message->theta1_rad, 0u);
+    bits |= brace_bits_float(message->theta2_rad, 32u);
+    brace_bits_store(bits, data + 40);
+    bits = 0u;
+    bits |= brace_bits_float(message->tip_x_mm, 0u);
+    bits |= brace_bits_float(message->tip_z_mm, 32u);
+    brace_bits_store(bits, data + 48);
+    bits = 0u;
+    bits |= brace_bits_float(message->force_x_n, 0u);
+    bits |= brace_bits_float(message->force_z_n, 32u);
+    brace_bits_store(bits, data + 56);
+    return limited;
+}
+
+void brace_can_unpack_snapshot_fd(const uint8_t data[64], brace_can_snapshot_fd_t *message)
+{
+    uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 32u);
+    message->parameter_crc = brace_value_number(bits, 32u, 32u);
+    bits = brace_bits_load(data + 8);
+    message->age_ms = brace_value_unsigned(bits, 0u, 16u, 0.5f);
+    message->flags = brace_value_number(bits, 16u, 16u);
+    message->mode = brace_value_number(bits, 32u, 8u);
+    message->play_femur = brace_value_number(bits, 40u, 4u);
+    message->play_tibia = brace_value_number(bits, 44u, 4u);
+    message->faults = brace_value_number(bits, 48u, 16u);
+    bits = brace_bits_load(data + 16);
+    message->k_xx_n_per_mm = brace_value_float(bits, 0u);
+    message->k_xz_n_per_mm = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 24);
+    message->k_zz_n_per_mm = brace_value_float(bits, 0u);
+    message->lambda_min_n_per_mm = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 32);
+    message->lambda_max_n_per_mm = brace_value_float(bits, 0u);
+    message->stiff_axis_rad = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 40);
+    message->theta1_rad = brace_value_float(bits, 0u);
+    message->theta2_rad = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 48);
+    message->tip_x_mm = brace_value_float(bits, 0u);
+    message->tip_z_mm = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 56);
+    message->force_x_n = brace_value_float(bits, 0u);
+    message->force_z_n = brace_value_float(bits, 32u);
+}

@@ -1,0 +1,111 @@
+"""Run where the kernel has CAN (test_vcan.py does): snapshots as frames of CAN FD, from `brace sim` to other people's tools,
+to ours, and to the C client."""
+
+from __future__ import annotations
+
+import json
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import can
+import cantools
+import pytest
+from conftest import LIMB, PROJECT
+
+INTERFACE = PROJECT / "firmware" / "interface"
+PROBE_ALL = 7
+LINE = re.compile(r"\((\d+\.\d+)\) vcan0 501##[15]([0-9A-F]{128})(?: [RT])?")
+
+
+@pytest.fixture(scope="module")
+def limb(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The paper's limb, with CAN FD on."""
+    path = tmp_path_factory.mktemp("fd") / "limb.toml"
+    text = LIMB.read_text()
+    keys = "can_fd_bit_rate = 4000000\nstiffness_hz = 100\nbus_load_ratio = 0.5\n"
+    path.write_text(text.replace("[controller]\n", "[controller]\n" + keys) if "[controller]" in text else text + "\n[controller]\n" + keys)
+    return path
+
+
+@pytest.fixture
+def sim(limb: Path) -> Iterator[dict[str, Any]]:
+    """`brace sim` on vcan0."""
+    command = [sys.executable, "-m", "brace", "sim", "--model", str(limb), "--json", "--can", "vcan0", "--modbus", "none"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    yield json.loads(process.stdout.readline())
+    process.send_signal(signal.SIGTERM)
+    process.communicate(timeout=20)
+
+
+def test_candump_shows_two_hashes(sim: dict[str, Any]) -> None:
+    done = subprocess.run(["candump", "-L", "-T", "1500", "-n", "120", "vcan0"], capture_output=True, text=True, timeout=30)
+    whole = [found for line in done.stdout.splitlines() if (found := LINE.fullmatch(line))]
+    assert len(whole) > 60, done.stdout[:600]
+    assert not re.search(r" (181|281|381|481)#", done.stdout)
+    stamps = [float(found[1]) for found in whole]
+    assert 80 < (len(stamps) - 1) / (stamps[-1] - stamps[0]) < 120
+
+
+def test_python_can_and_cantools_read_the_k_that_brace_reads(sim: dict[str, Any]) -> None:
+    database = cantools.database.load_file(INTERFACE / "brace_fd.dbc")
+    asked = json.loads(subprocess.run(
+        [sys.executable, "-m", "brace", "query", "--bus", "vcan0", "--json"], capture_output=True, text=True, timeout=30, check=True
+    ).stdout)
+    with can.Bus(interface="socketcan", channel="vcan0", fd=True) as bus:
+        until = time.monotonic() + 3
+        decoded: list[dict[str, Any]] = []
+        while time.monotonic() < until and len(decoded) < 100:
+            message = bus.recv(1)
+            if message is not None and message.arbitration_id == 0x501:
+                assert message.is_fd and message.bitrate_switch and message.dlc == 64
+                decoded.append(dict(database.decode_message(0x501, message.data, decode_choices=False)))
+    assert len(decoded) == 100
+    sequences = [d["sequence"] for d in decoded]
+    assert sequences == sorted(sequences)
+    for d in decoded:
+        for name in ("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max"):
+            assert d[name] == pytest.approx(asked[f"{name}_n_per_mm"], rel=2e-3, abs=2e-3), (name, asked)
+        # the eigenvalues are those of the same K: one tick
+        assert d["lambda_min"] * d["lambda_max"] == pytest.approx(d["k_xx"] * d["k_zz"] - d["k_xz"] ** 2, rel=1e-4)
+        assert d["lambda_min"] + d["lambda_max"] == pytest.approx(d["k_xx"] + d["k_zz"], rel=1e-5)
+        assert 0 <= d["age"] < 5 and d["mode"] == 1
+
+
+def test_the_c_client_reads_them(sim: dict[str, Any], probe: Any) -> None:
+    answer = probe("vcan0", "read", PROBE_ALL, 20)
+    assert answer.code == 0, answer.err
+    assert len(answer.snapshots) == 20 and all(s["parts"] == PROBE_ALL and s["valid"] == 1 for s in answer.snapshots)
+    assert len({s["snapshot"] for s in answer.snapshots}) > 10
+    posture = probe("vcan0", "posture", 0.5, 1.2)  # requests stay classic
+    assert posture.code == 0 and posture.values["k_xx"] > 0
+
+
+def test_brace_records_and_replays_them(sim: dict[str, Any], tmp_path: Path) -> None:
+    run = [sys.executable, "-m", "brace"]
+    log = tmp_path / "fd.log"
+    subprocess.run([*run, "record", "--bus", "vcan0", "--out", log, "--seconds", "1"], check=True, capture_output=True, timeout=30)
+    assert sum(LINE.fullmatch(line) is not None for line in log.read_text().splitlines()) > 60
+    again = subprocess.run([*run, "replay", log, "--json"], check=True, capture_output=True, text=True, timeout=30).stdout
+    snapshots = [entry for line in again.splitlines() if "k_xx_n_per_mm" in (entry := json.loads(line))]
+    assert len(snapshots) > 60 and all(entry["k_is_valid"] and "theta1_rad" in entry for entry in snapshots)
+
+
+def test_an_interface_for_classic_frames_gets_classic_ones(limb: Path) -> None:
+    subprocess.run(["ip", "link", "add", "vcan8", "type", "vcan"], check=True)
+    subprocess.run(["ip", "link", "set", "vcan8", "mtu", "16"], check=True)
+    subprocess.run(["ip", "link", "set", "vcan8", "up"], check=True)
+    command = [sys.executable, "-m", "brace", "sim", "--model", str(limb), "--json", "--can", "vcan8", "--modbus", "none"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None and process.stdout.readline()
+    done = subprocess.run(["candump", "-L", "-T", "1500", "-n", "100", "vcan8"], capture_output=True, text=True, timeout=30)
+    process.send_signal(signal.SIGTERM)
+    process.communicate(timeout=20)
+    subprocess.run(["ip", "link", "del", "vcan8"], check=True)
+    assert " 181#" in done.stdout and "##" not in done.stdout
