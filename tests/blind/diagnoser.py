@@ -46,7 +46,7 @@ def diagnose(case: Path, out: Path, seed: int = 0) -> dict[str, Any]:
     note: dict[str, Any] = {}
     signal.signal(signal.SIGALRM, _alarm)
     signal.alarm(PATIENCE_S)
-    begun = time.perf_counter()
+    begun, busy = time.perf_counter(), time.process_time()
     try:
         given = load(case, case / "limb.toml")
         _, written = diagnosed(given, Options(seed=seed))
@@ -60,6 +60,7 @@ def diagnose(case: Path, out: Path, seed: int = 0) -> dict[str, Any]:
     finally:
         signal.alarm(0)
     note["seconds"] = time.perf_counter() - begun
+    note["cpu_seconds"] = time.process_time() - busy
     (out / "run.json").write_text(json.dumps(note))
     return note
 

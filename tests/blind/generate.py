@@ -1,7 +1,7 @@
 """Makes blind cases: cases/ID/{data.csv,meta.toml,limb.toml}, and apart from them answers/ID/{truth.json,holdout/}.
 
 usage: generate.py [--development] [--cases N] [--seed S] [--out FOLDER]
-Every case follows from the seed and its number alone; answers.sha256 seals the answers before any diagnosis."""
+Every case follows from the seed and its number alone; sealed.sha256 seals them before any diagnosis."""
 
 from __future__ import annotations
 
@@ -317,43 +317,53 @@ def _job(job: tuple[int, int, int, str]) -> tuple[int, list[str]]:
     return index, write_case(seed, index, cases, Path(out))
 
 
-def seal(out: Path) -> str:
-    """One hash over all answers, and a file with each."""
-    lines = [
-        f"{hashlib.sha256(path.read_bytes()).hexdigest()}  {path.relative_to(out / 'answers')}"
-        for path in sorted((out / "answers").rglob("*"))
-        if path.is_file()
-    ]
-    text = "\n".join(lines) + "\n"
-    (out / "answers.sha256").write_text(text)
+SEAL = "sealed.sha256"
+
+
+def listing(out: Path) -> str:
+    """The hash of every answer and every case."""
+    paths = sorted(p for part in ("answers", "cases") for p in (out / part).rglob("*") if p.is_file())
+    return "".join(f"{hashlib.sha256(p.read_bytes()).hexdigest()}  {p.relative_to(out)}\n" for p in paths)
+
+
+def seal_of(out: Path) -> str:
+    """One hash over all that was sealed; an error when something has changed since."""
+    text = (out / SEAL).read_text()
+    if listing(out) != text:
+        raise RuntimeError(
+            f"{out}: cases or answers are not those that were sealed; remove the folder to make them anew"
+        )
     return hashlib.sha256(text.encode()).hexdigest()
 
 
 def generate(seed: int, cases: int, out: Path, processes: int = 2, quiet: bool = False) -> str:
-    """Makes all cases that are not there yet and seals the answers; returns the seal."""
+    """Makes a set, unless this generator made it before, and seals it; returns the seal. A set that comes out as it was
+    stays in place."""
     wanted = {"seed": seed, "cases": cases, "generator": generator_hash()}
     stamp = out / "set.json"
-    if stamp.exists() and json.loads(stamp.read_text()) == wanted and (out / "answers.sha256").exists():
-        return seal(out)
-    for part in ("cases", "answers"):
-        shutil.rmtree(out / part, ignore_errors=True)
+    if stamp.exists() and json.loads(stamp.read_text()) == wanted and (out / SEAL).exists():
+        return seal_of(out)
     out.mkdir(parents=True, exist_ok=True)
-    jobs = [(seed, index, cases, str(out)) for index in range(cases)]
+    fresh = out / "being-made"
+    shutil.rmtree(fresh, ignore_errors=True)
+    jobs = [(seed, index, cases, str(fresh)) for index in range(cases)]
     begun, given_up = time.monotonic(), 0
     with multiprocessing.get_context("spawn").Pool(processes) as pool:
         for done, (_, why) in enumerate(pool.imap_unordered(_job, jobs, chunksize=4), start=1):
             given_up += len(why)
             if not quiet and (done % 20 == 0 or done == cases):
-                print(
-                    f"\rmade {done}/{cases} cases, {time.monotonic() - begun:.0f} s, {given_up} draws given up ",
-                    end="",
-                    file=sys.stderr,
-                    flush=True,
-                )
-    if not quiet:
-        print(file=sys.stderr)
+                spent = time.monotonic() - begun
+                text = f"made {done}/{cases} cases, {spent:.0f} s, {given_up} draws given up "
+                print(f"\r{text}", end="" if done < cases else "\n", file=sys.stderr, flush=True)
+    if listing(fresh) != (listing(out) if (out / "cases").is_dir() else ""):
+        for part in ("answers", "cases"):
+            shutil.rmtree(out / part, ignore_errors=True)
+            (fresh / part).rename(out / part)
+        shutil.rmtree(out / "best", ignore_errors=True)
+    shutil.rmtree(fresh)
+    (out / SEAL).write_text(listing(out))
     stamp.write_text(json.dumps(wanted))
-    return seal(out)
+    return seal_of(out)
 
 
 def generator_hash() -> str:

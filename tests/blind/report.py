@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections import Counter, defaultdict
 from collections.abc import Sequence
-from statistics import median, quantiles
+from statistics import median
 from typing import Any
 
-from scoring import VISIBLE_GAP_N, Judged, Share, calibration, closed, coverage, share, strong, weak
+from scoring import VISIBLE_GAP_N, Judged, Share, calibration, closed, coverage, of_removable, share, strong, weak
 
 HOW = """Effects are hidden in simulated loading tests by a simulator and a generator that share no code with the tool
 ([tests/blind](../tests/blind/README.md)); the answers lie apart and are sealed before the run. Limbs, poses,
@@ -16,8 +16,10 @@ designs, noise, sizes and directions are random; each true limb also differs fro
 calibration's trust. Detectability s = sqrt(2 x log-likelihood gain of the truth after refitting the base). An
 effect's class: those whose trace in this design has a cosine above 0.95 with the truth's."""
 
-READING = f"""Intervals are Wilson's, 95 %. Gap closed: 1 - rms after / rms before on other poses, without noise, over
-single effects and pairs of every s whose gap there is above {VISIBLE_GAP_N} N. Calibration: the confidence of every
+READING = f"""Intervals are Wilson's, 95 %. Whole gap closed: 1 - rms after / rms before on other
+poses, without noise, over single effects and pairs of every s whose gap there is above {VISIBLE_GAP_N} N. The record's
+noise leaves a part of it even to somebody who is told what is hidden and fits just that to the same record;
+removable is the rest, and its share that the tool closes is the line above. Calibration: the confidence of every
 effect named against whether it is one of the hidden. Coverage: the intervals of effects named right. After the next
 experiment: over all single effects of s >= 12; where the tool proposes none that a rig can play, its first word
 counts."""
@@ -63,11 +65,15 @@ def figures(
         _at_least("outside the catalogue called unknown", share(judged, "unknown"), 0.90),
         _at_most("outside the catalogue confidently misnamed", share(judged, "misnamed"), 0.02),
     ]
-    middle, low, count = closed(judged)
-    lines.append(_line("gap closed on configurations never seen, median", "at least 95 %", _ok(middle >= 0.95, count),
-                       f"{100 * middle:.1f} %", "", count))  # fmt: skip
-    lines.append(_line("gap closed on configurations never seen, 5th percentile", "at least 80 %",
-                       _ok(low >= 0.80, count), f"{100 * low:.1f} %", "", count))  # fmt: skip
+    for what, value in (
+        ("removable gap closed on configurations never seen", of_removable),
+        ("whole gap closed on configurations never seen", _whole),
+    ):
+        middle, low, count = closed(judged, value=value)
+        lines += [
+            _line(f"{what}, median", "at least 95 %", _ok(middle >= 0.95, count), _percent(middle), "", count),
+            _line(f"{what}, 5th percentile", "at least 80 %", _ok(low >= 0.80, count), _percent(low), "", count),
+        ]
     held = coverage(judged)
     lines.append(_share_line("90 % intervals that hold the true parameter", "86-94 %", held,
                              held.value is not None and 0.86 <= held.value <= 0.94))  # fmt: skip
@@ -87,7 +93,7 @@ def figures(
     for j in judged:
         for key, ok in j.intervals:
             by_key[key].append(ok)
-    seconds = sorted(j.seconds for j in judged)
+    clocks = {"wall": sorted(j.seconds for j in judged), "cpu": sorted(j.cpu_seconds for j in judged)}
     besides = [
         ("right effect and place first, s >= 12, no allowance for the class", share(judged, "where", strong)),
         ("right effect or its class first, s = 5", share(judged, "class", lambda j: 4 <= j.s < 6.5)),
@@ -111,8 +117,13 @@ def figures(
         "lines": lines,
         "besides": [(name, s.hits, s.of, s.value, s.wilson()) for name, s in besides if s.of],
         "closed_s12": {"median": middle12, "p5": low12, "cases": n12},
-        "seconds": {"median": median(seconds), "p95": quantiles(seconds, n=20)[-1] if len(seconds) > 1 else seconds[0],
-                    "longest": seconds[-1]} if seconds else {},
+        "closed_by_knowing": _named(closed(judged, value=lambda j: j.closable)),
+        "closed_of_that": _named(closed(judged, value=of_removable)),
+        "seconds": {
+            clock: {"median": median(v), "p95": v[int(0.95 * (len(v) - 1))], "longest": v[-1]}
+            for clock, v in clocks.items()
+            if v
+        },
         "calibration": bins,
         "coverage_by_key": {key: (sum(v), len(v)) for key, v in sorted(by_key.items())},
         "after_next": rows,
@@ -123,6 +134,14 @@ def figures(
 
 def _of(judged: Sequence[Judged], kind: str) -> list[Judged]:
     return [j for j in judged if j.kind == kind]
+
+
+def _named(of_cases: tuple[float, float, int]) -> dict[str, float]:
+    return dict(zip(("median", "p5", "cases"), of_cases, strict=True))
+
+
+def _whole(j: Judged) -> float | None:
+    return j.closed
 
 
 def _ok(met: bool, count: int) -> bool | None:
@@ -194,9 +213,20 @@ def _percent(value: float | None) -> str:
     return "-" if value is None or math.isnan(value) else f"{100 * value:.1f} %"
 
 
+def _closable(found: dict[str, Any]) -> str:
+    """What was closed beside what could be."""
+    known, of_that = found["closed_by_knowing"], found["closed_of_that"]
+    return (
+        "To be told what is hidden and to fit just that to the same noisy record would close "
+        f"{_percent(known['median'])} (median), {_percent(known['p5'])} (5th percentile) of the same gaps; of what "
+        f"that would close, the tool closes {_percent(of_that['median'])} (median), {_percent(of_that['p5'])} (5th "
+        f"percentile) of {of_that['cases']} cases."
+    )
+
+
 def page(found: dict[str, Any], judged: Sequence[Judged], command: str) -> str:
     """docs/blind.md."""
-    made, seconds = found["made"], found["seconds"]
+    made = found["made"]
     kinds = ", ".join(f"{n} {kind}" for kind, n in sorted(found["kinds"].items()))
     besides = ["| figure | measured | 95 % interval | of |", "|---|---|---|---|"]
     besides += [
@@ -219,8 +249,12 @@ def page(found: dict[str, Any], judged: Sequence[Judged], command: str) -> str:
             table(found),
             f"{READING} With s >= 12 alone the gap closed is {_percent(strong12['median'])} (median), "
             f"{_percent(strong12['p5'])} (5th percentile) of {strong12['cases']}.",
-            f"A diagnosis took {seconds.get('median', 0):.1f} s (median), {seconds.get('p95', 0):.1f} s (95th "
-            f"percentile), {seconds.get('longest', 0):.1f} s (longest), one core each, 150 to 1000 rows.",
+            _closable(found),
+            "A diagnosis of 150 to 1000 rows, one core each, took (median, 95th percentile, longest): "
+            + "; ".join(
+                f"{v['median']:.1f}, {v['p95']:.1f}, {v['longest']:.1f} s by the {clock} clock"
+                for clock, v in found["seconds"].items()
+            ) + ".",
             "## Besides",
             "\n".join(besides),
             "## Single effects, by effect and detectability",

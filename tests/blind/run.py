@@ -17,10 +17,11 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
+import best
 import diagnoser
 import follow_up
 import report
-from generate import default_folder, generate, generator_hash
+from generate import default_folder, generate, generator_hash, seal_of
 from plant import BUILD
 from scoring import STRONG, Judged, gap_n, judge
 from seeds import DEVELOPMENT_CASES, DEVELOPMENT_SEED, TEST_CASES, TEST_SEED
@@ -86,6 +87,11 @@ def _next_job(job: tuple[str, str, str]) -> str:
     return name
 
 
+def _best_job(job: tuple[str, str]) -> str:
+    best.gaps(Path(job[0]), job[1])
+    return job[1]
+
+
 def in_turn(what: str, work: Callable[[Any], str], jobs: list[Any], processes: int) -> None:
     """Runs jobs on some processes and says how far it is."""
     if not jobs:
@@ -107,7 +113,7 @@ def judge_all(root: Path, results: Path, names: Iterable[str]) -> list[Judged]:
         truth, folder = read(root / "answers" / name / "truth.json"), results / "main" / name
         j = judge(truth, read(folder / "diagnosis.json"))
         run = read(folder / "run.json")
-        j.seconds = float(run.get("seconds", 0.0))
+        j.seconds, j.cpu_seconds = float(run.get("seconds", 0.0)), float(run.get("cpu_seconds", 0.0))
         j.note = str(run.get("crashed", run.get("refused", "")))
         unseen = root / "answers" / name / "holdout" / "data.csv"
         if j.kind in ("single", "pair") and (folder / "holdout_before.csv").exists():
@@ -115,6 +121,8 @@ def judge_all(root: Path, results: Path, names: Iterable[str]) -> list[Judged]:
             if j.gap_before_n > report.VISIBLE_GAP_N:
                 after = folder / "holdout_after.csv"
                 j.closed = 1.0 - gap_n(unseen, after) / j.gap_before_n if after.exists() else -1.0
+                told = read(root / "best" / f"{name}.json")
+                j.closable = 1.0 - told["best"] / told["believed"] if told else None
         out.append(j)
     return out
 
@@ -197,6 +205,9 @@ def main() -> int:
 
     begun = time.monotonic()
     in_turn("diagnosing", _main_job, [(str(root), str(results), n) for n in names], options.processes)
+    hidden = [n for n in names if read(root / "answers" / n / "truth.json")["kind"] in ("single", "pair")]
+    missing = [(str(root), n) for n in hidden if not (root / "best" / f"{n}.json").exists()]
+    in_turn("what could be closed", _best_job, missing, options.processes)
     judged = judge_all(root, results, names)
     again, seeds_names = [], []
     if not options.quick:
@@ -210,6 +221,8 @@ def main() -> int:
         jobs = [(str(root), str(results), n, 0) for n in again]
         jobs += [(str(root), str(results), n, s) for n in seeds_names for s in SEEDS]
         in_turn("again, other seeds", _seed_job, jobs, options.processes)
+    if seal_of(root) != seal:
+        raise RuntimeError("the seal changed during the run")
     made = {
         "seed": seed,
         "cases": len(names),

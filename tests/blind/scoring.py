@@ -29,10 +29,12 @@ class Judged:
     said: list[str]
     flags: dict[str, bool] = field(default_factory=dict)
     closed: float | None = None
+    closable: float | None = None
     gap_before_n: float = 0.0
     claims: list[tuple[float, bool]] = field(default_factory=list)
     intervals: list[tuple[str, bool]] = field(default_factory=list)
     seconds: float = 0.0
+    cpu_seconds: float = 0.0
     note: str = ""
 
 
@@ -127,6 +129,13 @@ def _forces(path: Path) -> list[float]:
         return [float(row[name]) for row in csv.DictReader(file) for name in ("fx_n", "fz_n")]
 
 
+def of_removable(j: Judged) -> float | None:
+    """Gap closed as a share of what knowing the truth's effects would have closed."""
+    if j.closed is None or j.closable is None or j.closable <= 0.0:
+        return None
+    return j.closed / j.closable
+
+
 # --- shares ---------------------------------------------------------------------------------------------------
 
 
@@ -187,9 +196,14 @@ def coverage(cases: Iterable[Judged]) -> Share:
     return Share(sum(held), len(held))
 
 
-def closed(cases: Iterable[Judged], where: Callable[[Judged], bool] = lambda _: True) -> tuple[float, float, int]:
+def closed(
+    cases: Iterable[Judged],
+    where: Callable[[Judged], bool] = lambda _: True,
+    value: Callable[[Judged], float | None] = lambda j: j.closed,
+) -> tuple[float, float, int]:
     """Share of the gap on unseen configurations that the corrected model closes: median, 5th percentile, cases."""
-    values = sorted(j.closed for j in cases if j.closed is not None and j.kind in ("single", "pair") and where(j))
+    found = [value(j) for j in cases if j.kind in ("single", "pair") and where(j)]
+    values = sorted(x for x in found if x is not None)
     if not values:
         return math.nan, math.nan, 0
     return median(values), values[int(0.05 * len(values))], len(values)

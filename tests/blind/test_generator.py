@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from designs import believed_limb, loading_test, trust
 from detect import Bench
-from generate import generate, schedule, seal, write_case
+from generate import generate, listing, schedule, seal_of, write_case
 from seeds import DEVELOPMENT_SEED, SUBSET_SEED, TEST_CASES, TEST_SEED
 
 
@@ -19,7 +19,7 @@ def test_same_seed_same_bytes(tmp_path: Path) -> None:
     for out in ("a", "b"):
         for index in range(4):
             write_case(SUBSET_SEED, index, 40, tmp_path / out)
-    assert seal(tmp_path / "a") == seal(tmp_path / "b")
+    assert listing(tmp_path / "a") == listing(tmp_path / "b")
     for path in sorted((tmp_path / "a").rglob("*.*")):
         assert path.read_bytes() == (tmp_path / "b" / path.relative_to(tmp_path / "a")).read_bytes()
 
@@ -32,6 +32,18 @@ def test_case_holds_no_answer(tmp_path: Path) -> None:
         truth = json.loads((tmp_path / "answers" / case.name / "truth.json").read_text())
         for text in (path.read_text() for path in case.iterdir()):
             assert all(effect["name"] not in text for effect in truth["effects"])
+
+
+def test_seal_holds(tmp_path: Path) -> None:
+    """The same set is not made twice; an answer that is touched breaks the seal."""
+    first = generate(SUBSET_SEED, 2, tmp_path, processes=1, quiet=True)
+    made = {path: path.stat().st_mtime_ns for path in (tmp_path / "cases").rglob("*")}
+    assert generate(SUBSET_SEED, 2, tmp_path, processes=1, quiet=True) == first == seal_of(tmp_path)
+    assert {path: path.stat().st_mtime_ns for path in (tmp_path / "cases").rglob("*")} == made
+    answer = next((tmp_path / "answers").rglob("truth.json"))
+    answer.write_text(answer.read_text() + " ")
+    with pytest.raises(RuntimeError, match="sealed"):
+        seal_of(tmp_path)
 
 
 def test_seeds_differ_and_the_plan_is_whole() -> None:

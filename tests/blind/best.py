@@ -1,0 +1,40 @@
+"""How much of the gap anybody could close: the truth's own parameters fitted to the noisy record, played elsewhere.
+
+Noise and the calibration's slack leave a gap on unseen configurations even to somebody who has been told what is
+hidden. What a tool closes is shown beside that."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from detect import Bench
+from generate import clean_readings, drawn
+from plant import play
+
+
+def gaps(root: Path, name: str) -> dict[str, float]:
+    """rms of force on the holdout [N]: of the believed limb, and of the truth's effects fitted to the record."""
+    kept = root / "best" / f"{name}.json"
+    if kept.exists():
+        found: dict[str, float] = json.loads(kept.read_text())
+        return found
+    truth: dict[str, Any] = json.loads((root / "answers" / name / "truth.json").read_text())
+    case, _, _ = drawn(truth["seed"], truth["index"], truth["of"])
+    shown, held, believed = case["shown"], case["held"], case["believed"]
+    bench = Bench(shown, believed, case["trust"])
+    with (root / "cases" / name / "data.csv").open(newline="") as file:
+        record = np.array([[float(row[c]) for c in shown.readings] for row in csv.DictReader(file)])
+    fitted = bench.fit((record / bench.sigma).ravel(), case["limb"], truth["keys"], rounds=20)[1]
+    real = clean_readings(case, held.rows)[:, :2]
+    found = {
+        which: math.sqrt(float(np.mean((play(limb, held.rows)[:, :2] - real) ** 2)))
+        for which, limb in (("believed", believed), ("best", fitted))
+    }
+    kept.parent.mkdir(exist_ok=True)
+    kept.write_text(json.dumps(found))
+    return found
