@@ -243,7 +243,7 @@ def loading_test(one: Node, axis: int, step_mm: float = 0.4) -> Any:
     setup.dwell_us, setup.rate_mm_per_s = 200_000, 10.0
     setup.force_max_n, setup.torque_max_n_mm = 60.0, 8000.0
     assert one.native.lib.brace_app_loading_start(one.app(), setup) == 0
-    for _ in range(1200):  # against dry friction each step may take some seconds
+    for _ in range(1200):  # against dry friction a step may take a second
         one.step(0.1)
         result = one.native.lib.brace_app_loading_result(one.app())
         if result.outcome != 1 and MODES[one.raw_snapshot().mode] == "monitor":
@@ -269,6 +269,27 @@ def test_the_limbs_own_loading_test_measures_the_plant(paper: LimbModel, axis: i
     assert np.all(np.abs(measured - true) <= 4 * sigma + 0.01 * np.abs(true).max())
     assert [result.model_k_x_n_per_mm, result.model_k_z_n_per_mm] == pytest.approx(believed, rel=1e-3)
     assert np.linalg.norm(measured - true) < np.linalg.norm(measured - believed)
+
+
+@pytest.mark.parametrize(("friction_n_mm", "longest_s"), [(0.0, 10.0), (FRICTION_N_MM, 25.0)])
+@pytest.mark.parametrize("axis", [0, 1])
+def test_the_loading_test_waits_for_no_finer_than_encoders_and_comes_back(
+    paper: LimbModel, axis: int, friction_n_mm: float, longest_s: float
+) -> None:
+    """Seventeen steps with a dwell of 0.2 s: their way and dwell take 4.2 s. An encoder step at a lever of 450 mm is 0.009 mm;
+    with friction the motors are left alone within three times a hundredth of a step and an encoder step, 0.05 mm at the tip."""
+    with node(paper, press_mm=(0.5, 1.0), drive={"friction_n_mm": friction_n_mm}) as one:
+        one.step(0.5)
+        assert loading_test(one, axis).outcome == 2
+        lib, row = one.native.lib, one.native.ffi.new("brace_row_t *")
+        rows = []
+        for index in range(17):
+            assert lib.brace_app_row(one.app(), index, row) == 0
+            rows.append((row.t_s, row.dx_mm, row.dz_mm))
+    t_s, along_mm, across_mm = (np.array(column) for column in zip(*((r[0], r[1 + axis], r[2 - axis]) for r in rows), strict=True))
+    assert t_s[-1] < longest_s
+    places = 0.4 * np.array([0, 1, 2, 3, 4, 3, 2, 1, 0, -1, -2, -3, -4, -3, -2, -1, 0])
+    assert np.abs(along_mm - places).max() < 0.06 and np.abs(across_mm).max() < 0.06
 
 
 def test_the_loading_test_tells_a_soft_limb_from_the_believed_one(paper: LimbModel) -> None:

@@ -112,7 +112,7 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     } else if (app->loading.phase >= LOADING_DRIFT && app->loading.phase <= LOADING_COMPARE) {
         supervisor_late(app, late);
         loading_piece(app); /* as dear as a whole tick: the joints' filters bear a missed one */
-    } else if (keeping_due(app)) {
+    } else if (app->keeping.look && keeping_due(app)) {
         supervisor_late(app, late);
         keeping_piece(app);
     } else {

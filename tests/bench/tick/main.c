@@ -252,7 +252,7 @@ static char kind(void)
 static bool keeping_is_due(void)
 {
     const brace_app_keeping_t before = app.keeping;
-    const bool due = keeping_due(&app);
+    const bool due = app.keeping.look && keeping_due(&app);
     app.keeping = before;
     return due;
 }

@@ -10,9 +10,9 @@
  * When K is valid: the mode is MONITOR, TAKING_UP or LOADING_TEST; the newest sound sample of both joints
  * is no older than controller.age_limit_us; the posture is inside both drives' travel; parameters are in
  * force (safe defaults count, flagged UNCALIBRATED). A joint with play (gap_rad >= 1e-5) whose load does
- * not prove a flank carries nothing: K is then valid, flagged GAP_OPEN, with both bounds. So it is with one whose drive has
- * had no newer sample (AGAIN) for more than four ticks, and for 20 ms after: choose a tick no shorter than a quarter of the
- * drives' own. A flank is thus proven at most brace_backlash_detection_us and four ticks after its gap has opened.
+ * not prove a flank carries nothing: K is then valid, flagged GAP_OPEN, with both bounds. So it is with one whose newest
+ * sample is more than four ticks old (its drive answers AGAIN), and for 20 ms after: choose a tick no shorter than a quarter
+ * of the drives' own. A flank is thus proven at most brace_backlash_detection_us and four ticks after its gap has opened.
  */
 #ifndef BRACE_APP_H
 #define BRACE_APP_H
@@ -100,10 +100,10 @@ enum { BRACE_APP_JOINTS = 2 }; /* femur and tibia: [0] and [1] wherever only the
 typedef struct {
     brace_hal_joint_t sample; /* the last sound one; NaN before the first */
     bool seen, sound, stuck;
+    bool proves;              /* sound, and new enough to prove a flank */
     float still_rad;          /* where the angle has stayed, for how long, and what torque and link did meanwhile */
     float torque_n_mm, torque_low_n_mm, torque_high_n_mm, link_low_rad, link_high_rad;
     uint32_t still_us;
-    uint32_t again_us;        /* how long the drive has had nothing newer */
 } brace_app_joint_t;
 
 typedef struct {
@@ -210,7 +210,7 @@ typedef struct {
 /* What the drift check knows, as it is kept. */
 typedef struct {
     brace_journal_t journal;
-    bool look;                /* the check has learned something since it was last asked */
+    bool look;                /* the check has learned something since it was last asked, or a record is being written */
     uint8_t ticks;            /* since the last piece */
     uint8_t state;            /* of the check, in the newest record */
     uint32_t steps;

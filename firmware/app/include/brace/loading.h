@@ -71,10 +71,13 @@ typedef struct {
     uint8_t phase;
     uint16_t step;                 /* being gone to or read */
     uint32_t phase_us, test_us, limit_us;
+    uint32_t resting_us;           /* how long the motors have been where they should */
     float along_mm;                /* where the free shape is commanded to */
     float per_mm[2];               /* joint offsets for 1 mm of it */
     float give_rad_per_mm[2];      /* what the servos give way by, for 1 mm of it */
-    float step_rad[2];             /* a step, of each motor */
+    float trim_rad[2];             /* and what friction keeps them from going back by, where it is none */
+    float there_rad[2];            /* how near the motors have to be */
+    bool rests[2];                 /* has come there at this step, and is left alone while it stays near */
     float torque_max_n_mm[2];
     float lever[4];                /* the tip's movement for the joints', theta2's sense counted */
     float start_motor_rad[2], start_link_rad[2];

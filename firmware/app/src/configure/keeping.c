@@ -66,8 +66,7 @@ void keeping_look(brace_app_t *app)
 bool keeping_due(brace_app_t *app)
 {
     brace_app_keeping_t *keeping = &app->keeping;
-    const bool wanted = keeping->look || keeping->journal.state == BRACE_JOURNAL_BUSY;
-    if (!wanted || (app->mode != BRACE_MODE_MONITOR && app->mode != BRACE_MODE_FAULT) || app->storing) {
+    if ((app->mode != BRACE_MODE_MONITOR && app->mode != BRACE_MODE_FAULT) || app->storing) {
         return false;
     }
     keeping->ticks = keeping->ticks + 1u < EVERY_TICKS ? (uint8_t)(keeping->ticks + 1u) : 0u;
@@ -91,11 +90,13 @@ void keeping_piece(brace_app_t *app)
     if (keeping->journal.state == BRACE_JOURNAL_BUSY) {
         if (brace_journal_step(&keeping->journal) == BRACE_JOURNAL_FAILED) {
             app->lasting_faults |= BRACE_FAULT_STORE;
+            keeping->look = false;
         }
-        return;
+        return; /* once it stands there is another look: readings may have come meanwhile */
     }
     keeping->look = false;
     if (worth_a_record(keeping, &app->drift) && brace_journal_begin(&keeping->journal, &app->drift)) {
         remember(keeping, &app->drift);
+        keeping->look = true;
     }
 }

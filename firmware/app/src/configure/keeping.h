@@ -18,7 +18,7 @@ bool keeping_scan(brace_app_t *app);
 /* The check has learned something, or was told to forget. */
 void keeping_look(brace_app_t *app);
 
-/* Is this tick for a piece of a record? One in eight, in MONITOR and FAULT, while there is anything to do. */
+/* While there is anything to do (keeping.look): is this tick for a piece of it? One in eight, in MONITOR and FAULT. */
 bool keeping_due(brace_app_t *app);
 
 /* The piece: at most 900 instructions and two calls to the memory, in a tick that computes no K. */

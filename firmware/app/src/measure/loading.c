@@ -8,8 +8,12 @@
 #define TORQUE_SHARE 0.95f       /* of the bound: a drive that limits its torque never passes it */
 #define CORRECTION_US 50000.0f
 #define CORRECTION_MOST_RAD 0.3f
+#define CRAWL_RAD_PER_S 0.005f   /* at least: what is nearly there would take seconds to wind up against friction */
 #define SETTLE_US 3000000u       /* for the servos, at most; then the step is read where it is */
-#define THERE_SHARE 0.01f        /* of a step */
+#define THERE_SHARE 0.01f        /* of a step, of the joint that goes further */
+#define NEAR_THERE 3.0f
+#define RESTING_US 20000u        /* there, and not on its way through */
+#define TRIM_RATE_RAD_PER_S 0.1f /* back to none */
 #define SAME_POSTURE_RAD 0.01f
 #define TIME_SPARE_US 2000000u
 
@@ -80,6 +84,9 @@ brace_status_t loading_start(brace_app_t *app, const brace_loading_setup_t *setu
     test->result = (brace_loading_result_t){.outcome = BRACE_LOADING_RUNNING, .setup = *setup};
     count_run(test, setup->axis, now->theta_rad);
     test->model = now->stiffness.engaged;
+    const float furthest_rad = setup->step_mm * (__builtin_fabsf(per_mm[0]) > __builtin_fabsf(per_mm[1])
+                                                     ? __builtin_fabsf(per_mm[0])
+                                                     : __builtin_fabsf(per_mm[1]));
     for (int i = 0; i < BRACE_APP_JOINTS; i++) {
         const brace_drive_t *drive = &app->parameters.drive[BRACE_FEMUR + i];
         const bool held = now->play[BRACE_FEMUR + i].phase == BRACE_TAKEUP_HOLD;
@@ -91,8 +98,9 @@ brace_status_t loading_start(brace_app_t *app, const brace_loading_setup_t *setu
         test->per_mm[i] = per_mm[i];
         test->held[i] = held;
         test->torque_max_n_mm[i] = most_n_mm;
-        test->give_rad_per_mm[i] = 0.0f;
-        test->step_rad[i] = __builtin_fabsf(per_mm[i] * setup->step_mm) + drive->angle_step_rad;
+        test->give_rad_per_mm[i] = test->trim_rad[i] = 0.0f;
+        /* within it nothing is corrected: an encoder knows no finer, and a servo that sticks would go to and fro */
+        test->there_rad[i] = THERE_SHARE * furthest_rad + drive->angle_step_rad;
         test->start_motor_rad[i] = app->joint[i].sample.motor_rad;
     }
     test->along_mm = 0.0f;
@@ -131,7 +139,7 @@ static float nearer(float value, float target, float step)
 
 float loading_offset(const brace_loading_t *test, int index)
 {
-    return (test->per_mm[index] + test->give_rad_per_mm[index]) * test->along_mm;
+    return (test->per_mm[index] + test->give_rad_per_mm[index]) * test->along_mm + test->trim_rad[index];
 }
 
 /* Bounds that end a test. */
@@ -163,27 +171,40 @@ static brace_loading_outcome_t broken_bound(const brace_app_t *app, const brace_
     return test->test_us > test->limit_us ? BRACE_LOADING_E_TIME : BRACE_LOADING_RUNNING;
 }
 
-/* Raises the offsets by what the servos give way by under load, so that the motors stand where the step
- * wants them. A linear limb wants the same per millimetre at each step, so what one step has learned
- * serves the next. Worth a look where the free shape is off its rest only. returns whether the motors are
+static float limited(float value, float most)
+{
+    return value > most ? most : value < -most ? -most : value;
+}
+
+/* Raises the offsets by what the servos give way by under load, so that the motors stand where the step wants them. A
+ * linear limb wants the same per millimetre at each step, so what one step has learned serves the next. Where the free
+ * shape is at its rest there is no such thing: what friction holds back there is trimmed. returns whether the motors are
  * there */
 static bool correct(brace_app_t *app)
 {
     brace_loading_t *test = &app->loading;
-    if (test->result.setup.source != BRACE_LOADING_ENCODED || test->along_mm == 0.0f) {
+    if (test->result.setup.source != BRACE_LOADING_ENCODED) {
         return true;
     }
-    const float gain_per_mm = (float)app->tick_us / (CORRECTION_US * test->along_mm);
-    const float most_rad_per_mm = CORRECTION_MOST_RAD / __builtin_fabsf(test->along_mm);
+    const float gain = (float)app->tick_us / CORRECTION_US, along_mm = test->along_mm;
+    const float crawl_rad = CRAWL_RAD_PER_S * 1e-6f * (float)app->tick_us;
     bool there = true;
     for (int i = 0; i < BRACE_APP_JOINTS; i++) {
         const float moved_rad = app->joint[i].sample.motor_rad - test->start_motor_rad[i];
-        const float off_rad = test->per_mm[i] * test->along_mm - moved_rad;
-        const float wanted = test->give_rad_per_mm[i] + gain_per_mm * off_rad;
-        test->give_rad_per_mm[i] = wanted > most_rad_per_mm    ? most_rad_per_mm
-                                   : wanted < -most_rad_per_mm ? -most_rad_per_mm
-                                                               : wanted;
-        there = there && __builtin_fabsf(off_rad) <= THERE_SHARE * test->step_rad[i];
+        const float off_rad = test->per_mm[i] * along_mm - moved_rad;
+        const float near_rad = test->rests[i] ? NEAR_THERE * test->there_rad[i] : test->there_rad[i];
+        test->rests[i] = __builtin_fabsf(off_rad) <= near_rad;
+        if (test->rests[i]) {
+            continue;
+        }
+        there = false;
+        const float more_rad = gain * off_rad + (off_rad > 0.0f ? crawl_rad : -crawl_rad);
+        if (along_mm == 0.0f) {
+            test->trim_rad[i] = limited(test->trim_rad[i] + more_rad, CORRECTION_MOST_RAD);
+        } else {
+            test->give_rad_per_mm[i] = limited(test->give_rad_per_mm[i] + more_rad / along_mm,
+                                               CORRECTION_MOST_RAD / __builtin_fabsf(along_mm));
+        }
     }
     return there;
 }
@@ -196,11 +217,14 @@ static void move(brace_app_t *app, float step_mm)
     const float target_mm = -setup->step_mm * (float)place_of(test->step, setup->steps_per_side);
     if (test->along_mm != target_mm) {
         test->along_mm = nearer(test->along_mm, target_mm, step_mm);
+        test->rests[0] = test->rests[1] = false;
+        test->resting_us = 0;
         test->phase_us = 0;
         return;
     }
     test->phase_us += app->tick_us;
-    if (correct(app) || test->phase_us >= SETTLE_US) {
+    test->resting_us = correct(app) ? test->resting_us + app->tick_us : 0u;
+    if (test->resting_us >= RESTING_US || test->phase_us >= SETTLE_US) {
         test->phase = LOADING_DWELL;
         test->phase_us = 0;
         loading_read_begin(test);
@@ -224,8 +248,13 @@ static void dwell(brace_app_t *app, const brace_snapshot_t *snapshot)
 static void go_back(brace_app_t *app, float step_mm)
 {
     brace_loading_t *test = &app->loading;
+    bool back = true;
     test->along_mm = nearer(test->along_mm, 0.0f, step_mm);
-    test->phase = test->along_mm == 0.0f ? (uint8_t)LOADING_IDLE : (uint8_t)LOADING_RETURN;
+    for (int i = 0; i < BRACE_APP_JOINTS; i++) {
+        test->trim_rad[i] = nearer(test->trim_rad[i], 0.0f, TRIM_RATE_RAD_PER_S * 1e-6f * (float)app->tick_us);
+        back = back && test->trim_rad[i] == 0.0f;
+    }
+    test->phase = back && test->along_mm == 0.0f ? (uint8_t)LOADING_IDLE : (uint8_t)LOADING_RETURN;
 }
 
 void loading_advance(brace_app_t *app, const brace_snapshot_t *snapshot)

@@ -14,8 +14,8 @@
 #define STUCK_LINK_RAD 0.005f
 #define TORQUE_MEAN_US 20000.0f
 
-/* The state machines' filters know nothing of a longer stretch without a sample. */
-#define AGAIN_TICKS 4u
+/* What is older proves no flank: the state machines' filters know nothing of a longer stretch without a sample. */
+#define PROVING_TICKS 4u
 
 static bool is_sound(const brace_hal_joint_t *sample, const brace_drive_t *drive)
 {
@@ -77,9 +77,7 @@ static void read_one(brace_app_t *app, int index, uint32_t now_us)
     const int32_t answer = app->hal->joint_read(app->hal->context, BRACE_FEMUR + index, &fresh);
     const bool none_yet = joint->sample.motor_rad != joint->sample.motor_rad;
     const bool newer = answer == BRACE_HAL_OK && (none_yet || fresh.taken_us != joint->sample.taken_us);
-    joint->again_us += joint->again_us < 0x40000000u ? app->tick_us : 0u;
     if (newer && is_sound(&fresh, drive)) {
-        joint->again_us = 0;
         const bool first = !joint->seen;
         joint->sample = fresh;
         joint->seen = true;
@@ -101,6 +99,7 @@ static void read_one(brace_app_t *app, int index, uint32_t now_us)
     const int32_t age_us = (int32_t)(now_us - joint->sample.taken_us);
     joint->seen = joint->seen && age_us <= (int32_t)app->parameters.controller.age_limit_us;
     joint->sound = joint->seen;
+    joint->proves = joint->seen && age_us <= (int32_t)(PROVING_TICKS * app->tick_us);
 }
 
 void joints_read(brace_app_t *app, uint32_t now_us)
@@ -119,7 +118,7 @@ void joints_play(brace_app_t *app, uint32_t now_us, brace_snapshot_t *snapshot)
         if (app->play[i].watched) {
             brace_backlash_sample_t seen = {.now_us = now_us, .motor_rad = sample->motor_rad,
                                             .torque_n_mm = sample->torque_n_mm};
-            if (!app->joint[i].sound || app->joint[i].again_us > AGAIN_TICKS * app->tick_us) {
+            if (!app->joint[i].proves) {
                 seen.motor_rad = __builtin_nanf(""); /* the state machine's own way into FAULT, and out of it */
             }
             force_expect(app, i, &seen);
