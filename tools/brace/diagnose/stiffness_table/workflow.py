@@ -43,6 +43,8 @@ from brace.model import LimbModel
 WEIGHT = Weight()  # of an entry: what printing, sensor and set-up leave, 0.3 N/mm + 10 %
 AGREES = 1.5  # squared misfit per entry, in that weight, up to which the believed limb is no surprise
 WORTH = 10.0  # twice the log-likelihood that an alternative must gain over the believed limb
+SURPRISING_RATIO = 10.0  # one sigma of what a link's bending may be off before the rest of the table is blamed
+SURPRISING_TILT_RAD = 0.2
 SUREST = 0.8  # no member of a class is surer than this
 _RIG = Path(__file__).resolve().parents[2] / "data" / "paper-rig.toml"
 _OF_EFFECT = {
@@ -125,7 +127,7 @@ def _told(
     if verdict == "none" and any(fault.blocking and fault.suggestion is not None for fault in faults):
         verdict = "data_fault"
     best = min(better, key=lambda one: one.left_out_misfit) if better else base
-    effects = _members(better, best) if better else ()
+    effects = _members(better, best, believed) if better else ()
     noise = float(np.sqrt(np.mean(half_units(settled.columns, settled.decimals) ** 2 / 3.0)))
     after = GapPair(best.rms, best.left_out_rms)
     before = GapPair(base.rms, base.left_out_rms)
@@ -149,7 +151,7 @@ def _told(
         faults,
         tuple(
             Candidate(one.alternative.name, worth[id(one)], share)
-            for one, share in zip(judged, _shares(judged))
+            for one, share in zip(judged, _shares(judged, believed))
         ),
         Residuals(
             ("k_xx", "k_xz", "k_zz"),
@@ -170,14 +172,29 @@ def _worth(base: Judged, one: Judged, spread: float, entries: int) -> float:
     return (base.fit.chi2 - one.fit.chi2) / spread - more * float(np.log(entries))
 
 
-def _shares(judged: Sequence[Judged]) -> list[float]:
-    """How likely each is, by the rows it had not seen, their scale unknown and each row one piece of
-    evidence: the weight of an entry is assumed, so its squares may not be counted as if it were measured."""
+def _shares(judged: Sequence[Judged], believed: LimbModel) -> list[float]:
+    """How likely each is, by the rows it had not seen, their scale unknown and each row one piece of evidence: the
+    weight of an entry is assumed, so its squares may not be counted as if it were measured. A kind of limb that
+    needs links far from the believed ones is the less likely for it."""
     if not judged:
         return []
     misses = np.log([max(one.left_out_misfit, 1e-6) for one in judged])
-    shares = np.exp(-0.5 * len(judged[0].off_n_per_mm) * (misses - misses.min()))
+    surprise = np.array([_surprise(one.fit.model, believed) for one in judged])
+    worth = -0.5 * len(judged[0].off_n_per_mm) * misses - 0.5 * surprise
+    shares = np.exp(worth - worth.max())
     return [float(share) for share in shares / shares.sum()]
+
+
+def _surprise(model: LimbModel, believed: LimbModel) -> float:
+    """Squared sigmas by which bending and tilt of the links are off."""
+    total = 0.0
+    for link in ("link.femur", "link.tibia"):
+        was, now = believed.number(f"{link}.bending_mm_per_n"), model.number(f"{link}.bending_mm_per_n")
+        if was > 0.0:
+            total += min(abs(np.log(max(now, 1e-12) / was) / np.log(SURPRISING_RATIO)), 3.0) ** 2
+        tilt = model.number(f"{link}.tilt_rad") - believed.number(f"{link}.tilt_rad")
+        total += min(abs(tilt) / SURPRISING_TILT_RAD, 3.0) ** 2
+    return float(total)
 
 
 def _could_be(better: Sequence[Judged]) -> tuple[str, ...]:
@@ -190,9 +207,9 @@ def _could_be(better: Sequence[Judged]) -> tuple[str, ...]:
     return tuple(labels)
 
 
-def _members(better: Sequence[Judged], best: Judged) -> tuple[NamedEffect, ...]:
+def _members(better: Sequence[Judged], best: Judged, believed: LimbModel) -> tuple[NamedEffect, ...]:
     """One entry for every effect that a better kind of limb has; no certainty about any."""
-    shares = _shares(better)
+    shares = _shares(better, believed)
     chance: dict[str, float] = {}
     source: dict[str, Judged] = {}
     for one, share in zip(better, shares):
