@@ -193,7 +193,7 @@ def _slipped_decimals(columns: Columns, meta: Meta) -> Iterator[DataFault]:
         for row in np.flatnonzero((off > 12 * typical) & large)[:200]:
             near = max(4 * typical, 0.02 * abs(expected[row]))
             for factor in (0.1, 10.0, 0.01, 100.0):
-                if abs(force[row] * factor - expected[row]) < near:
+                if abs(force[row] * factor - expected[row]) < near and abs(force[row] * factor) > 8 * typical:
                     yield DataFault(
                         int(row) + 1,
                         name,

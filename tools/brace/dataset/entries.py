@@ -64,9 +64,5 @@ def _why(value: float, column: Column) -> str:
 
 def _fault(index: int, column: Column, text: bytes, why: str) -> DataFault:
     shown = text[:40].decode("utf-8", "replace")
-    return DataFault(
-        index + 1,
-        column.name,
-        f"{shown!r} cannot be: {why}" if shown else "the entry is empty",
-        "delete the row or record it again",
-    )
+    why = f"{shown!r} cannot be: {why}" if shown else "the entry is empty"
+    return DataFault(index + 1, column.name, f"{why} (delete the row, or record it again)")

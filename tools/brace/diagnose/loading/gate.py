@@ -2,31 +2,29 @@
 
 from __future__ import annotations
 
-import numpy as np
+from collections.abc import Sequence
 
-from brace.dataset import Dataset
+import numpy as np
+from scipy.stats import f as f_distribution
+
+from brace.dataset import DataFault, Dataset
 from brace.diagnose.diagnosis import Diagnosis
+from brace.diagnose.loading import model_faults
 from brace.diagnose.options import Options
 from brace.errors import BadFileError
 from brace.identify.loading import MIN_ROWS
 from brace.model import LimbModel
 
 MOST_LISTED = 200
+FOLLOWS_P = 1e-6  # forces that follow the displacement by chance
 
 
 def gate(dataset: Dataset, believed: LimbModel, options: Options) -> Diagnosis | None:
     """The diagnosis that ends here, or None: go on."""
     blocking = [fault for fault in dataset.faults if fault.blocking]
-    if blocking:
-        first = blocking[0].sentence(dataset.csv_path.relative_to(dataset.folder))
-        more = f", and {len(blocking) - 1} more" if len(blocking) > 1 else ""
-        return Diagnosis(
-            verdict="data_fault",
-            sentence=f"The record is faulty, so nothing is said of the limb: {first}{more}.",
-            model=believed,
-            data_faults=tuple(dataset.faults[:MOST_LISTED]),
-            seed=options.seed,
-        )
+    slips_only = all(fault.repair for fault in blocking)
+    if blocking and not (slips_only and dataset.rows >= MIN_ROWS):
+        return _faulty(dataset, dataset.faults, believed, options)
     if dataset.rows < MIN_ROWS:
         raise BadFileError(
             f"{dataset.rows} rows are not enough to say anything",
@@ -39,7 +37,28 @@ def gate(dataset: Dataset, believed: LimbModel, options: Options) -> Diagnosis |
         return _too_little(believed, options, "the tip was never moved")
     if np.ptp(force) == 0.0:
         return _too_little(believed, options, f"every force reads {force.flat[0]:g} N")
+    if not _forces_follow(dataset):
+        return _too_little(
+            believed, options, "the forces do not follow the displacement; is the tip held, is the sensor alive?"
+        )
+    found = model_faults.faults(dataset, believed)  # the neighbours alone took a slip for one: does the limb, too?
+    found += [fault for fault in model_faults.confirmed(dataset, believed, blocking) if fault not in found]
+    if any(fault.blocking for fault in found):
+        return _faulty(dataset, [*found, *(fault for fault in dataset.faults if not fault.blocking)], believed, options)
     return None
+
+
+def _faulty(dataset: Dataset, faults: Sequence[DataFault], believed: LimbModel, options: Options) -> Diagnosis:
+    blocking = [fault for fault in faults if fault.blocking]
+    first = blocking[0].sentence(dataset.csv_path.relative_to(dataset.folder))
+    more = f", and {len(blocking) - 1} more" if len(blocking) > 1 else ""
+    return Diagnosis(
+        verdict="data_fault",
+        sentence=f"The record is faulty, so nothing is said of the limb: {first}{more}.",
+        model=believed,
+        data_faults=tuple(faults[:MOST_LISTED]),
+        seed=options.seed,
+    )
 
 
 def _too_little(believed: LimbModel, options: Options, why: str) -> Diagnosis:
@@ -50,3 +69,26 @@ def _too_little(believed: LimbModel, options: Options, why: str) -> Diagnosis:
         seed=options.seed,
         notes=(why,),
     )
+
+
+def _forces_follow(dataset: Dataset) -> bool:
+    """Whether slopes over the displacement, free in every configuration, explain the forces better than chance."""
+    run_ids, run = np.unique(dataset["run"], return_inverse=True)
+    force = np.column_stack([dataset["fx_n"], dataset["fz_n"]]).astype(float)
+    moved = np.column_stack([dataset["dx_mm"], dataset["dz_mm"]]).astype(float)
+    counts = np.bincount(run)
+    for values in (force, moved):  # each run counts from its own mean
+        for column in range(2):
+            values[:, column] -= (np.bincount(run, weights=values[:, column]) / counts)[run]
+    explained, left, slopes = 0.0, 0.0, 0
+    for config in np.unique(dataset["config"]):
+        rows = dataset["config"] == config
+        slope, _, rank, _ = np.linalg.lstsq(moved[rows], force[rows], rcond=1e-9)
+        fit = moved[rows] @ slope
+        explained += float(np.sum(fit**2))
+        left += float(np.sum((force[rows] - fit) ** 2))
+        slopes += 2 * int(rank)
+    free = 2 * (len(force) - len(run_ids)) - slopes
+    if slopes == 0 or free <= 0 or left <= 0.0:
+        return explained > 0.0
+    return bool(f_distribution.sf((explained / slopes) / (left / free), slopes, free) < FOLLOWS_P)
