@@ -72,7 +72,7 @@ def _connected(address: str) -> tuple[Any, Any]:
             f"--scheduler {address}", why="an address has a protocol", next_step="--scheduler tcp://HOST:8786"
         )
     try:
-        client = distributed.Client(address, timeout=CONNECT_S, set_as_default=False)
+        client = distributed.Client(address, timeout=CONNECT_S)
     except (OSError, TimeoutError, ValueError) as error:
         raise NoDeviceError(
             "no Dask scheduler there",

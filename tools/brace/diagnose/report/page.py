@@ -98,7 +98,7 @@ def _where(found: Diagnosis, seen: View | None) -> str:
 
 def _missing(believed: LimbModel | None, found: Diagnosis) -> str:
     if not found.effects:
-        return ""
+        return html.section("What was refitted", _base(believed, found))
     rows = []
     for effect in found.effects:
         for index, (key, held) in enumerate(effect.parameters.items()):
