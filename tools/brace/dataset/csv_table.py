@@ -13,6 +13,7 @@ import numpy as np
 from brace.dataset.columns import Column
 from brace.dataset.entries import entry_by_entry, entry_limit
 from brace.dataset.faults import DataFault
+from brace.dataset.not_read import without_blanks
 from brace.errors import BadFileError, did_you_mean
 from brace.files import DATA_LIMIT_BYTES, read_bytes
 
@@ -25,7 +26,8 @@ def read_columns(
     """The wanted columns as arrays of one entry per row (axis: 0 x, 1 z), and the file's lines without header.
 
     Refuses anything that is not a complete rectangular table of finite numbers, naming line, row, column. Where a list
-    for `unreadable` entries is given, single entries that are none are put there, and read as 0."""
+    for `unreadable` entries is given, single entries that are none are put there, and read as 0. Optional columns may
+    be empty for whole runs, and are NaN there."""
     data = read_bytes(path, DATA_LIMIT_BYTES, WHAT)
     lines = _lines(data, path)
     header = _header(lines[0], path)
@@ -45,6 +47,7 @@ def read_columns(
     _check_widths(rows, len(header), path)
     present = [column for column in wanted if column.name in header]
     positions = [header.index(column.name) for column in present]
+    rows, not_read = without_blanks(rows, present, positions)
     refused: list[DataFault] = []
     try:
         columns = _parse(rows, present, positions, path)
@@ -57,6 +60,8 @@ def read_columns(
         if not refused:
             raise
         unreadable += refused
+    for name, blank in not_read.items():
+        columns[name] = np.where(blank, np.nan, columns[name])
     return {column.name: _typed(columns[column.name], column) for column in present}, rows
 
 

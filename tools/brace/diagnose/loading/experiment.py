@@ -63,6 +63,7 @@ def next_experiment(
     record: Record, final: Pass, believed: LimbModel, options: Options
 ) -> NextExperiment | None:
     """None where the best set has no rival at all."""
+    record = final.record  # the same rows, with the noise that the fits were made with
     hypotheses = contenders(final.sets)
     if no_rivals(hypotheses).all():
         return None
@@ -157,9 +158,9 @@ def _best_postures(played: Played, hypotheses: Sequence[Contender], read: np.nda
 
 
 def _shortest_of_the_best(plans: Sequence[Plan]) -> Plan:
-    """Gain per minute, where gain beyond enough is worth nothing."""
+    """Gain per minute, where gain beyond enough is worth nothing. Of equal ones the first: nearest to the record."""
     enough = min(GOOD_ENOUGH, max(plan.worth for plan in plans) - NEAR_BEST)
-    return min((plan for plan in plans if plan.worth >= enough), key=lambda plan: (plan.minutes, -plan.worth))
+    return min((plan for plan in plans if plan.worth >= enough), key=lambda plan: plan.minutes)
 
 
 def _separated(hypotheses: Sequence[Contender]) -> tuple[str, ...]:
