@@ -27,6 +27,13 @@ def version() -> str:
     return digest.hexdigest()[:12]
 
 
+def require() -> None:
+    """Raises the tool's own error when it cannot run at all: rather at once than for every case."""
+    from brace.native import library
+
+    library()
+
+
 class TooSlowError(Exception):
     """No diagnosis in time."""
 

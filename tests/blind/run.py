@@ -8,6 +8,7 @@ from __future__ import annotations
 import one_thread  # noqa: F401, I001  before numpy is loaded
 
 import argparse
+import importlib.util
 import json
 import multiprocessing
 import os
@@ -27,7 +28,7 @@ from scoring import STRONG, Judged, gap_n, judge
 from seeds import DEVELOPMENT_CASES, DEVELOPMENT_SEED, TEST_CASES, TEST_SEED
 
 SAME_BYTES_CASES = 16
-SEEDS_CASES = 30
+SEEDS_CASES = 25
 SEEDS = (1, 2, 3, 4)
 THREE_FILES = ("diagnosis.json", "limb.toml", "report.html")
 
@@ -182,6 +183,19 @@ def steadiness(results: Path, names: list[str], seeds_names: list[str]) -> dict[
     return {"same_bytes": (sum(same), len(same)), "same_verdict": (sum(steady), len(steady))}
 
 
+def beside_baselines(
+    root: Path, results: Path, names: list[str], judged: list[Judged], processes: int
+) -> dict[str, Any]:
+    """Other ways to choose, on the same cases; nothing where their libraries are not there."""
+    if any(importlib.util.find_spec(library) is None for library in ("sklearn", "pysindy")):
+        print("no baselines: scikit-learn and pysindy are not installed (pip install 'tools[blind]')", file=sys.stderr)
+        return {}
+    from baselines import compare, run_case
+
+    in_turn("baselines", run_case.job, [(str(root), str(results), n) for n in names], processes)
+    return compare.comparison(root, results, judged)
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--development", action="store_true", help="the development seed; nothing is written to docs/")
@@ -194,6 +208,11 @@ def main() -> int:
     options = parser.parse_args()
     seed = options.seed if options.seed is not None else DEVELOPMENT_SEED if options.development else TEST_SEED
     cases = options.cases or (DEVELOPMENT_CASES if options.development else TEST_CASES)
+    try:
+        diagnoser.require()
+    except Exception as error:
+        print(f"blind: the tool cannot run: {error}; try: ./dev setup", file=sys.stderr)
+        return 4
     root, version = default_folder(seed, cases), diagnoser.version()
     if seed == TEST_SEED:
         print("the test set: its figures are for reporting, not for tuning", file=sys.stderr)
@@ -221,6 +240,7 @@ def main() -> int:
         jobs = [(str(root), str(results), n, 0) for n in again]
         jobs += [(str(root), str(results), n, s) for n in seeds_names for s in SEEDS]
         in_turn("again, other seeds", _seed_job, jobs, options.processes)
+    beside = beside_baselines(root, results, names, judged, options.processes)
     if seal_of(root) != seal:
         raise RuntimeError("the seal changed during the run")
     made = {
@@ -232,6 +252,8 @@ def main() -> int:
         "tool": version,
     }
     figures = report.figures(judged, after_next(root, results, judged), steadiness(results, again, seeds_names), made)
+    figures["lines"] += beside.get("lines", [])
+    figures |= {key: value for key, value in beside.items() if key != "lines"}
     command = "./dev blind" + (" --development" if options.development else "")
     command += f" --cases {options.cases}" if options.cases else ""
     command += f" --seed {options.seed}" if options.seed is not None else ""
