@@ -43,7 +43,7 @@ from brace.model import LimbModel
 WEIGHT = Weight()  # of an entry: what printing, sensor and set-up leave, 0.3 N/mm + 10 %
 AGREES = 1.5  # squared misfit per entry, in that weight, up to which the believed limb is no surprise
 WORTH = 10.0  # twice the log-likelihood that an alternative must gain over the believed limb
-SURPRISING_RATIO = 10.0  # one sigma of what a link's bending may be off before the rest of the table is blamed
+SURPRISING_RATIO = 10.0  # one sigma of what a link's bending may be off
 SURPRISING_TILT_RAD = 0.2
 SUREST = 0.8  # no member of a class is surer than this
 _RIG = Path(__file__).resolve().parents[2] / "data" / "paper-rig.toml"
@@ -173,9 +173,9 @@ def _worth(base: Judged, one: Judged, spread: float, entries: int) -> float:
 
 
 def _shares(judged: Sequence[Judged], believed: LimbModel) -> list[float]:
-    """How likely each is, by the rows it had not seen, their scale unknown and each row one piece of evidence: the
-    weight of an entry is assumed, so its squares may not be counted as if it were measured. A kind of limb that
-    needs links far from the believed ones is the less likely for it."""
+    """How likely each is, by the rows it had not seen, their scale unknown and each row one piece of evidence:
+    the weight of an entry is assumed, so its squares may not be counted as if it were measured. A kind of limb
+    that needs links far from the believed ones is the less likely for it."""
     if not judged:
         return []
     misses = np.log([max(one.left_out_misfit, 1e-6) for one in judged])
