@@ -1,4 +1,5 @@
-"""Several loading tests as one record: each row at its motors' angles, postures as configurations, one clock."""
+"""Several loading tests as one record: each row at its motors' angles, postures as configurations, one
+clock."""
 
 from __future__ import annotations
 
@@ -117,7 +118,8 @@ def test_adding_to_something_else_is_refused(
 
 
 def test_what_a_rig_may_not_do_motors_may(tmp_path: Path) -> None:
-    """Angles that differ within a run, and motion across, are faults of a rig's record only; far ones of both."""
+    """Angles that differ within a run, and motion across, are faults of a rig's record only; far ones of
+    both."""
     from conftest import LOADING_META, loading_rows, write_loading
 
     rows = loading_rows()

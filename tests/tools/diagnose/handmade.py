@@ -1,5 +1,5 @@
-"""A record whose hidden effect we put there ourselves, and a diagnosis written by hand: what report and files are
-tested with. No diagnosing is done here."""
+"""A record whose hidden effect we put there ourselves, and a diagnosis written by hand: what report and files
+are tested with. No diagnosing is done here."""
 
 from __future__ import annotations
 

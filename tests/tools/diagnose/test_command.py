@@ -1,4 +1,5 @@
-"""`brace diagnose` around the diagnosis itself: what is written, what is printed, what a failure leaves alone.
+"""`brace diagnose` around the diagnosis itself: what is written, what is printed, what a failure leaves
+alone.
 
 The diagnosis is one written by hand."""
 

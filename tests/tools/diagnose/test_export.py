@@ -1,4 +1,5 @@
-"""limb.toml of a diagnosis: the believed file with the finding in it, its comments kept, fit for every command."""
+"""limb.toml of a diagnosis: the believed file with the finding in it, its comments kept, fit for every
+command."""
 
 from __future__ import annotations
 

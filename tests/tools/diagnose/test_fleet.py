@@ -1,4 +1,5 @@
-"""Many records at once: on processes, on a Dask cluster; a broken one is told, the others go on; the worst comes first."""
+"""Many records at once: on processes, on a Dask cluster; a broken one is told, the others go on; the worst
+comes first."""
 
 from __future__ import annotations
 

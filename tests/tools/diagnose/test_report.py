@@ -1,4 +1,5 @@
-"""report.html: whole in itself, in words first, escaped, light; drawn for every verdict and kind of record."""
+"""report.html: whole in itself, in words first, escaped, light; drawn for every verdict and kind of
+record."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
-"""Rows of a controller's loading tests as a dataset's: where the motors stood at each reading, several postures as
-configurations 1..n of one record, one clock."""
+"""Rows of a controller's loading tests as a dataset's: where the motors stood at each reading, several
+postures as configurations 1..n of one record, one clock."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ _ITERATIONS = 12
 def with_motor_angles(columns: Columns, femur_mm: float, tibia_mm: float) -> Columns:
     """The same rows, each with the angles at which its motors stood.
 
-    A controller presses by moving its motors: the tip stays, and the shape that the unloaded limb would have moves
-    away by (dx, dz). The angles of that shape are what the limb's stiffness at the reading depends on; taken as
-    constant they leave an error that grows with the square of the stroke."""
+    A controller presses by moving its motors: the tip stays, and the shape that the unloaded limb would have
+    moves away by (dx, dz). The angles of that shape are what the limb's stiffness at the reading depends on;
+    taken as constant they leave an error that grows with the square of the stroke."""
     theta1, theta2 = columns["theta1_rad"].astype(float), columns["theta2_rad"].astype(float)
     target = _tip(theta1, theta2, femur_mm, tibia_mm) - np.stack([columns["dx_mm"], columns["dz_mm"]])
     for _ in range(_ITERATIONS):
@@ -35,8 +35,9 @@ def with_motor_angles(columns: Columns, femur_mm: float, tibia_mm: float) -> Col
 
 
 def on_one_clock(columns: Columns, started_s: Sequence[float]) -> Columns:
-    """Each test counts its time from its own start; `started_s` are the starts of the runs, in order. A controller
-    whose clock is ahead of ours (a simulation faster than time) still gets one test after the other."""
+    """Each test counts its time from its own start; `started_s` are the starts of the runs, in order. A
+    controller whose clock is ahead of ours (a simulation faster than time) still gets one test after the
+    other."""
     time_s, end_s = columns["t_s"].astype(float), 0.0
     for run, start_s in zip(np.unique(columns["run"]).tolist(), started_s, strict=True):
         rows = columns["run"] == run
@@ -46,8 +47,9 @@ def on_one_clock(columns: Columns, started_s: Sequence[float]) -> Columns:
 
 
 def added(before: Columns, new: Columns, pause_s: float | None) -> Columns:
-    """`new` behind `before`: runs counted on, a posture that is there already as a repeat of its configuration, any
-    other as the next. `pause_s` lies between the last reading and the new test's start; None: unknown."""
+    """`new` behind `before`: runs counted on, a posture that is there already as a repeat of its
+    configuration, any other as the next. `pause_s` lies between the last reading and the new test's start;
+    None: unknown."""
     config, rep = _place(before, new)
     moved: Mapping[str, np.ndarray] = {
         **new,
@@ -64,9 +66,8 @@ def _place(before: Columns, new: Columns) -> tuple[int, int]:
     for config in np.unique(before["config"]):
         rows = before["config"] == config
         first = int(np.flatnonzero(rows)[0])
-        if all(
-            abs(before[name][first] - new[name][0]) < SAME_POSTURE_RAD for name in ("theta1_rad", "theta2_rad")
-        ):
+        away_rad = [abs(before[name][first] - new[name][0]) for name in ("theta1_rad", "theta2_rad")]
+        if max(away_rad) < SAME_POSTURE_RAD:
             return int(config), int(before["rep"][rows].max()) + 1
     return int(before["config"].max()) + 1, int(new["rep"].min())
 

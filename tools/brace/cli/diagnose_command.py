@@ -1,4 +1,5 @@
-"""`brace diagnose`: where model and measurement disagree, what is missing, the model with it, the gap before and after."""
+"""`brace diagnose`: where model and measurement disagree, what is missing, the model with it, the gap before
+and after."""
 
 from __future__ import annotations
 
@@ -15,10 +16,14 @@ def add(commands: Any) -> None:
     parser = commands.add_parser(
         "diagnose",
         help="where model and data disagree, what is missing, the model with it added",
-        description="Finds where a limb's model and a record disagree, names the effect that is missing or says which "
-        "ones it cannot tell apart, adds it to the model, and shows the gap on data that took no part. Writes "
-        "diagnosis.json, limb.toml and report.html into --out. Several datasets: a folder each, and fleet.html.",
-        epilog="Exit code 0 whatever the verdict (effect, none, ambiguous, unknown, data_fault); 3 when a dataset or model "
+        description="Finds where a limb's model and a record disagree, names the effect that is missing or "
+        "says which "
+        "ones it cannot tell apart, adds it to the model, and shows the gap on data that took no part. "
+        "Writes "
+        "diagnosis.json, limb.toml and report.html into --out. Several datasets: a folder each, and "
+        "fleet.html.",
+        epilog="Exit code 0 whatever the verdict (effect, none, ambiguous, unknown, data_fault); 3 when a "
+        "dataset or model "
         "cannot be read. Of several datasets the readable ones are written all the same.",
     )
     parser.add_argument(
@@ -28,7 +33,8 @@ def add(commands: Any) -> None:
         "--model",
         type=common.path,
         metavar="LIMB.toml",
-        help="what is believed of the limb; default the limb.toml in the dataset's folder; a joint test needs none",
+        help="what is believed of the limb; default the limb.toml in the dataset's folder; a joint test "
+        "needs none",
     )
     parser.add_argument("--out", type=common.path, required=True, metavar="DIR", help="folder of the results")
     parser.add_argument(

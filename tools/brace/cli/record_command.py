@@ -20,8 +20,10 @@ def add(commands: Any) -> None:
         help="a bus to a log (candump, MCAP); or a loading test to a dataset",
         description="Writes every frame of a CAN bus to --out FILE.log (as candump -L) or FILE.mcap, "
         "until --seconds, Ctrl-C "
-        "or SIGTERM. While it is written it is called FILE.part, and what has come is in it after any end. With "
-        "--loading-test the controller presses the limb's tip in steps, and its rows become the dataset --out DIR.",
+        "or SIGTERM. While it is written it is called FILE.part, and what has come is in it after any end. "
+        "With "
+        "--loading-test the controller presses the limb's tip in steps, and its rows become the dataset "
+        "--out DIR.",
     )
     add_bus(parser)
     parser.add_argument(
@@ -48,7 +50,8 @@ def add(commands: Any) -> None:
     parser.add_argument(
         "--add",
         action="store_true",
-        help="to the loading record that --out already is, as its next configuration (another posture) or repeat",
+        help="to the loading record that --out already is, as its next configuration (another posture) or "
+        "repeat",
     )
     parser.add_argument("--title", default="", metavar="TEXT", help="of the dataset")
     common.add_json(parser)

@@ -107,7 +107,8 @@ def _refuse_other_limb(folder: Path, before: Any, now: dict[str, Any]) -> None:
             raise UsageError(
                 f"the controller has another {meaning} than when the record was begun",
                 where=str(folder),
-                why=f"{name} was {before.get(name, 'not told')}, is {now[name]}; postures of one record belong together",
+                why=f"{name} was {before.get(name, 'not told')}, is {now[name]}; postures of one record "
+                "belong together",
                 next_step="--out another folder",
             )
 

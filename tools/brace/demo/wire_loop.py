@@ -1,5 +1,5 @@
-"""The loop over the wire: a controller that believes one limb moves another one; its own loading tests tell what its
-model lacks, the model with that in it is pushed back, and the K it reports is nearer to the truth.
+"""The loop over the wire: a controller that believes one limb moves another one; its own loading tests tell
+what its model lacks, the model with that in it is pushed back, and the K it reports is nearer to the truth.
 
 Every step is the command that a person would type, run as it is printed."""
 
@@ -61,7 +61,8 @@ def true_limb(believed: LimbModel) -> LimbModel:
 
 
 def play(folder: Path) -> Generator[str, None, Turn]:
-    """Writes believed.toml, true.toml and all that the commands make into `folder`; yields what a person reads."""
+    """Writes believed.toml, true.toml and all that the commands make into `folder`; yields what a person
+    reads."""
     model = load_limb(DATA / "paper-limb.toml")
     (folder / "believed.toml").write_text(model.to_toml(["what the controller believes"]))
     (folder / "true.toml").write_text(true_limb(model).to_toml(["what is true"]))
@@ -70,8 +71,10 @@ def play(folder: Path) -> Generator[str, None, Turn]:
         start = _sim(posture)
         yield _shown(start)
         with _controller(folder, start) as bus:
-            record = ("record", "--bus", bus, "--loading-test", "--add", "--steps", STEPS, "--step-mm", STEP_MM,
-                      "--title", "loading tests over the wire", "--out", RECORD)  # fmt: skip
+            record = (
+                *("record", "--bus", bus, "--loading-test", "--add", "--steps", STEPS, "--step-mm", STEP_MM),
+                *("--title", "loading tests over the wire", "--out", RECORD),
+            )
             yield _shown(record)
             _run(folder, record)
     diagnose = ("diagnose", RECORD, "--model", "believed.toml", "--out", FOUND)

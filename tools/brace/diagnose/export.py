@@ -32,8 +32,8 @@ class Exported:
 def export(
     diagnosis: Diagnosis, believed: LimbModel | None, believed_text: str, header: Sequence[str]
 ) -> Exported:
-    """The diagnosed model as a file. `believed_text` is the believed model's file ("" when there is none); `header`
-    lines become comments on top. What format or firmware would refuse is left out, and said."""
+    """The diagnosed model as a file. `believed_text` is the believed model's file ("" when there is none);
+    `header` lines become comments on top. What format or firmware would refuse is left out, and said."""
     wanted = diagnosis.model
     if believed is None:
         wanted = wanted.with_values(_rounded({key: wanted.values[key] for key in wanted.given}))

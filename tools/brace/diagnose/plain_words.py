@@ -22,7 +22,8 @@ _EFFECTS = {
     "backlash": ("backlash", "the joint moves freely through its play before it carries torque"),
     "coulomb_friction": (
         "dry friction",
-        "the joint's deflection sticks until the torque out of balance exceeds a bound: force depends on direction",
+        "the joint's deflection sticks until the torque out of balance exceeds a bound: force depends on "
+        "direction",
     ),
     "joint_hardening": ("a joint that hardens", "the joint gets stiffer the more it is loaded"),
     "creep": ("creep", "the joints go on yielding after the load is on, so the force relaxes"),

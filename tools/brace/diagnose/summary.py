@@ -20,7 +20,8 @@ def lines(found: Diagnosis) -> Iterator[str]:
     for effect in found.effects:
         yield f"  {words.percent(effect.confidence):10} {effect.label}: {words.meaning(effect.name)}"
         for key, held in effect.parameters.items():
-            yield f"             {key} = {words.value_with_unit(key, held.value)}, 90 %: {words.interval(held)}"
+            value = words.value_with_unit(key, held.value)
+            yield f"             {key} = {value}, 90 %: {words.interval(held)}"
     for members in found.indistinguishable:
         yield f"  one of     {', '.join(members)}"
     if found.could_be:

@@ -1,4 +1,5 @@
-"""What a diagnosis leaves behind: diagnosis.json, limb.toml, report.html; the same bytes for the same input."""
+"""What a diagnosis leaves behind: diagnosis.json, limb.toml, report.html; the same bytes for the same
+input."""
 
 from __future__ import annotations
 
@@ -164,7 +165,8 @@ def as_json(found: Diagnosis, origin: Provenance) -> dict[str, Any]:
 
 
 def plain(value: Any) -> Any:
-    """numpy to plain values, floats to nine digits (no last-bit noise in the bytes), what is not finite to null."""
+    """numpy to plain values, floats to nine digits (no last-bit noise in the bytes), what is not finite to
+    null."""
     if isinstance(value, Mapping):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):

@@ -54,7 +54,8 @@ def _outcomes(client: Any, distributed: Any, futures: dict[Any, Job], address: s
                 "the cluster has no workers any more",
                 where=address,
                 why=f"{len(pending)} of {len(futures)} records are not diagnosed",
-                next_step="start workers and run the command again; without --scheduler it runs on this machine",
+                next_step="start workers and run the command again; without --scheduler it runs on this "
+                "machine",
             )
 
 
@@ -65,7 +66,8 @@ def _connected(address: str) -> tuple[Any, Any]:
         raise UsageError(
             "--scheduler needs Dask",
             why="dask.distributed is not installed",
-            next_step="pip install 'brace[cluster]', or leave --scheduler out: it runs on this machine's cores",
+            next_step="pip install 'brace[cluster]', or leave --scheduler out: it runs on this machine's "
+            "cores",
         ) from None
     if "://" not in address:
         raise UsageError(

@@ -18,7 +18,8 @@ _RECORD = ("meta.toml", "data.csv")
 
 @dataclass(frozen=True)
 class Job:
-    """`carried` holds the files themselves where the other side cannot read ours (a cluster); else it is empty."""
+    """`carried` holds the files themselves where the other side cannot read ours (a cluster); else it is
+    empty."""
 
     name: str  # of the results' folder
     folder: Path
@@ -38,8 +39,8 @@ class Job:
 
 @dataclass(frozen=True)
 class Outcome:
-    """`files` and `data` (diagnosis.json) of a record that was diagnosed; `error` and its exit code of one that was
-    not."""
+    """`files` and `data` (diagnosis.json) of a record that was diagnosed; `error` and its exit code of one
+    that was not."""
 
     name: str
     files: Mapping[str, bytes] = field(default_factory=dict)
@@ -108,7 +109,8 @@ def jobs_of(folders: Sequence[Path], model: Path | None, options: Options) -> li
 
 def lost(job: Job, why: str) -> Outcome:
     """The process that had the record is gone."""
-    text = f"brace: {job.folder}: the process that diagnosed it ended\n  why: {why}\n  try: brace diagnose on it alone"
+    what = f"brace: {job.folder}: the process that diagnosed it ended"
+    text = f"{what}\n  why: {why}\n  try: brace diagnose on it alone"
     return Outcome(job.name, error=text, code=EXIT_CHECK_FAILED)
 
 

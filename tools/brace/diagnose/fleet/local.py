@@ -21,8 +21,8 @@ def cores() -> int:
 
 
 def run_local(jobs: Sequence[Job], processes: int) -> Iterator[Outcome]:
-    """Outcomes as they come. When a process dies (out of memory, say) all that were under way are tried again, one
-    at a time, so that only the one that kills its process is lost."""
+    """Outcomes as they come. When a process dies (out of memory, say) all that were under way are tried
+    again, one at a time, so that only the one that kills its process is lost."""
     suspects: list[Job] = []
     waiting = list(jobs)
     with _one_thread_each():

@@ -23,7 +23,8 @@ class Line:
 
     @property
     def distance(self) -> float:
-        """How far the believed model is from the record, in noise floors; infinite where the record is faulty."""
+        """How far the believed model is from the record, in noise floors; infinite where the record is
+        faulty."""
         gap = self.data["gap"]
         if gap is None:
             return math.inf
@@ -67,7 +68,8 @@ def as_lines(outcomes: Sequence[Outcome]) -> list[str]:
     lines = ranked(outcomes)
     width = max([len(line.name) for line in lines] + [5])
     shown = [
-        f"{line.name:{width}}  {line.data['verdict']:10}  {_times(line.distance):>8}  {_change(line.data):28}  {line.said}"
+        f"{line.name:{width}}  {line.data['verdict']:10}  {_times(line.distance):>8}  "
+        f"{_change(line.data):28}  {line.said}"
         for line in lines
     ]
     head = (
@@ -94,7 +96,8 @@ def page(outcomes: Sequence[Outcome]) -> str:
     rows = [
         [
             f'<span class="dot" style="--accent:var(--{line.data["verdict"]})"></span>'
-            f'<a href="{text(_link(line.name))}">{text(line.name)}</a><br><span class="small">{text(line.data["title"])}</span>',
+            f'<a href="{text(_link(line.name))}">{text(line.name)}</a>'
+            f'<br><span class="small">{text(line.data["title"])}</span>',
             text(line.data["verdict"].replace("_", " ")),
             html.bar(line.distance / worst if math.isfinite(line.distance) else 1.0),
             text(_times(line.distance)),

@@ -1,1 +1,2 @@
-"""report.html: what a diagnosis says, for people; one file without scripts, fonts or pictures from elsewhere."""
+"""report.html: what a diagnosis says, for people; one file without scripts, fonts or pictures from
+elsewhere."""

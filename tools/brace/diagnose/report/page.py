@@ -78,7 +78,7 @@ def _where(found: Diagnosis, seen: View | None) -> str:
     lead = (
         "Contrasts over the record, each tested by shuffling; 'by chance' is for all of them together."
         if rows
-        else "No contrast over load, direction, configuration, order, time or temperature stands out of the noise."
+        else "No contrast over load, direction, configuration, order, time or temperature stands out."
     )
     drawn = ""
     if seen is not None and found.gap is not None:
@@ -89,7 +89,7 @@ def _where(found: Diagnosis, seen: View | None) -> str:
             if seen.refitted is None
             else "The model refitted within its calibration’s trust"
         )
-        shown = f"{whose}. Lines are means of neighbouring readings; the grey band is two noise floors to each side."
+        shown = f"{whose}. Lines: means of neighbouring readings. Grey band: two noise floors either side."
         drawn = html.picture(pictures.disagreement(seen, found.gap), shown)
     if found.gap is None and not rows:
         return ""
@@ -120,7 +120,8 @@ def _missing(believed: LimbModel | None, found: Diagnosis) -> str:
     head = ("effect", "key of limb.toml", "value", "90 % interval", "before")
     title = "What was missing" if found.verdict == "effect" else "What it could be"
     meanings = [
-        f"{words.effect(effect.name)[0].upper()}{words.effect(effect.name)[1:]}: {words.meaning(effect.name)}."
+        f"{words.effect(effect.name)[0].upper()}{words.effect(effect.name)[1:]}: "
+        f"{words.meaning(effect.name)}."
         for index, effect in enumerate(found.effects)
         if words.meaning(effect.name) and effect.name not in {before.name for before in found.effects[:index]}
     ]
@@ -163,7 +164,8 @@ def _base(believed: LimbModel | None, found: Diagnosis) -> str:
         return ""
     inside = html.table(("key", "before", "after", "unit"), rows, numeric=(1, 2))
     count = f"{len(rows)} value{'s' if len(rows) > 1 else ''}"
-    return f"<details><summary>{count} refitted besides, within the calibration’s trust</summary>{inside}</details>"
+    summary = f"<summary>{count} refitted besides, within the calibration’s trust</summary>"
+    return f"<details>{summary}{inside}</details>"
 
 
 def _shown(model: LimbModel, key: str) -> str:
@@ -290,7 +292,8 @@ def _candidates(found: Diagnosis) -> str:
         for tried in found.candidates[:MOST_CANDIDATES]
     ]
     lead = (
-        "Each was fitted to the whole sequence. Gain: twice the log-likelihood won over the refitted model without "
+        "Each was fitted to the whole sequence. Gain: twice the log-likelihood won over the refitted model "
+        "without "
         "it. A larger model is not a better one; the share of belief weighs that."
     )
     more = len(found.candidates) - MOST_CANDIDATES
@@ -308,7 +311,8 @@ def _origin(found: Diagnosis, origin: Provenance) -> str:
         ["record", text(f"{origin.name}: {origin.kind.replace('_', ' ')}, {origin.rows} rows")],
         [
             "data sha256",
-            f"<code class='hash'>{origin.data_sha256}</code> <span class='small'>(meta.toml, then data.csv)</span>",
+            f"<code class='hash'>{origin.data_sha256}</code> <span class='small'>(meta.toml, then "
+            "data.csv)</span>",
         ],
     ]
     if origin.model_sha256:

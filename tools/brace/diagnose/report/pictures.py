@@ -26,7 +26,8 @@ _SHORTER = re.compile(r"(\d+\.\d{2})\d+")
 
 
 def disagreement(view: View, gap: Gap) -> str:
-    """The gap by load and branch, by configuration, by time; of the model refitted within its trust, where told."""
+    """The gap by load and branch, by configuration, by time; of the model refitted within its trust, where
+    told."""
     with_time = bool(np.isfinite(view.time_s).all()) and np.ptp(view.time_s) > 0
     figure = new_figure(9.4, 3.0)
     panels = figure.subplots(1, 3 if with_time else 2, sharey=False)
@@ -38,8 +39,8 @@ def disagreement(view: View, gap: Gap) -> str:
 
 
 def loops(view: View) -> str:
-    """One run that was fitted and one that was held out, where the believed model did worst: measured, believed,
-    corrected."""
+    """One run that was fitted and one that was held out, where the believed model did worst: measured,
+    believed, corrected."""
     chosen = [(words, _worst_run(view, rows)) for words, rows in _sides(view)]
     figure = new_figure(9.4, 3.6)
     panels = figure.subplots(1, len(chosen), squeeze=False)[0]
@@ -65,7 +66,8 @@ def loops(view: View) -> str:
 
 
 def gap(view: View, found: Gap) -> str:
-    """Measured less model in the record's order, before above after, fitted beside held out, on the same axes."""
+    """Measured less model in the record's order, before above after, fitted beside held out, on the same
+    axes."""
     sides = _sides(view)
     figure = new_figure(9.4, 4.4)
     panels: Any = figure.subplots(2, len(sides), sharey=True, squeeze=False, sharex="col")

@@ -42,6 +42,8 @@ ul{margin:4px 0 10px;padding-left:22px}
 a{color:#2d6a8e}
 footer{color:var(--soft);font-size:.85rem;padding:4px 26px}
 details summary{cursor:pointer;color:var(--soft)}
-@media(max-width:600px){header,section{padding:16px}.lead{font-size:1.2rem}.pic{overflow-x:auto}.pic svg{min-width:640px}}
-@media print{body{background:#fff}header,section{border:0;padding:8px 0;break-inside:avoid}pre{max-height:none}}
+@media(max-width:600px){header,section{padding:16px}.lead{font-size:1.2rem}.pic{overflow-x:auto}
+.pic svg{min-width:640px}}
+@media print{body{background:#fff}header,section{border:0;padding:8px 0;break-inside:avoid}
+pre{max-height:none}}
 """

@@ -1,4 +1,5 @@
-"""The residuals of a record as the pictures need them: one signed gap a row, against load, branch, place and time."""
+"""The residuals of a record as the pictures need them: one signed gap a row, against load, branch, place and
+time."""
 
 from __future__ import annotations
 
