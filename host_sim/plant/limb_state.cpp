@@ -109,6 +109,7 @@ bool LimbState::prepare()
         compliance += kRigidCompliance * whole.trace() * Matrix2d::Identity();
     }
     compliance_mm_per_n_ = compliance;
+    held_free_axis_ = kNotHeld;
     return true;
 }
 
@@ -141,7 +142,10 @@ void LimbState::let_creep(double t_s)
 LimbRest LimbState::hold_tip(const Vector2d &displacement_mm, int free_axis)
 {
     tip_mm_ = effects::contact_play::dragged_mm(model_, tip_mm_, displacement_mm);
-    problem_.stiffness_n_per_mm = stiffness_held(compliance_mm_per_n_, free_axis);
+    if (free_axis != held_free_axis_) { // one inversion a pose, not one a row
+        held_free_axis_ = free_axis;
+        problem_.stiffness_n_per_mm = stiffness_held(compliance_mm_per_n_, free_axis);
+    }
     Vector2d rest_mm = tip_mm_; // left for force to make
     for (const int i : {0, 1}) {
         double without_force = delayed_rad_[i];

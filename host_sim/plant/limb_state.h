@@ -40,6 +40,8 @@ private:
     double theta1_rad_ = 0.0, theta2_rad_ = 0.0, t_s_ = 0.0, temp_degc_ = 0.0;
     Structure structure_{};
     Eigen::Matrix2d compliance_mm_per_n_; // of the structure, with the joints that are but springs
+    static constexpr int kNotHeld = -1;
+    int held_free_axis_ = kNotHeld; // for which the stiffness stands in problem_
     RestProblem problem_{};               // its unknowns are the other joints
     std::array<int, 2> unknown_joint_{};  // which joint each of its unknowns is
     std::array<JointLaw, 2> law_{};

@@ -59,7 +59,7 @@ def scales(record: Record, space: Space, x: np.ndarray, residual: np.ndarray) ->
     """For each key, the change that moves the whole record by about one sigma; found by doubling and halving."""
     scale = np.where(np.isinf(space.sigma), np.maximum(np.abs(x), 1e-3) * 1e-2, 0.1 * space.sigma)
     scale = np.where(scale > 0.0, scale, 1e-6)
-    for _ in range(3):
+    for _ in range(2):
         step = _inward(space, x, scale)
         moved = residuals(record, space, x + np.diag(step)) - residual
         length = np.linalg.norm(moved, axis=1)

@@ -14,7 +14,7 @@ LEAST_FORCE_SIGMA_N = 1e-3  # a simulated record without noise is still not know
 LEAST_SHARE = 1e-4  # of what a channel moves by
 REPEATS = "repeats"
 THIRD_DIFFERENCES_SHARE = 2.31  # how many third differences of white noise tell as much as one independent reading
-GROWTH_GAIN = 9.0  # twice the log-likelihood that a noise growing with load must gain to be believed
+GROWTH_GAIN = 12.0  # twice the log-likelihood that a noise growing with load must gain to be believed
 
 
 @dataclass(frozen=True)

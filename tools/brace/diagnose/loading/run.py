@@ -28,7 +28,7 @@ from brace.errors import UsageError
 from brace.model import LimbModel
 
 
-GROWTH_MUST_GAIN = 3.0  # nats that a noise growing with the load must be ahead of a constant one
+GROWTH_MUST_GAIN = 6.0  # nats that a noise growing with the load must be ahead of a constant one
 
 
 @dataclass(frozen=True)

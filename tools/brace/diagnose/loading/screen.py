@@ -14,7 +14,8 @@ from brace.diagnose.loading.record import Record
 from brace.diagnose.loading.space import Space, Trust, compatible, space_of
 
 MOST_TRIES = 120
-MOST_SCALED = 6
+MOST_SCALED = 4
+THINNED = 3
 
 
 @dataclass(frozen=True)
@@ -50,7 +51,8 @@ class Remover:
 
 
 def screen(record: Record, trust: Trust, fitted: Fit, variants: Sequence[Variant]) -> list[Promise]:
-    """All compatible variants, most promising first."""
+    """All compatible variants, most promising first. Beside effects that are already there, every third try will do:
+    their sizes are scaled anyway."""
     held = fitted.space.variants
     remover = Remover(fitted)
     left = remover.augmented(fitted.residual[None])[0]
@@ -69,7 +71,7 @@ def _promise(
     known = dict(zip(fitted.space.keys, fitted.x))
     for i, key in enumerate(space.keys):
         start[i] = min(max(known.get(key, start[i]), space.low[i]), space.high[i])
-    tries = _tries(space, start, variant)
+    tries = _tries(space, start, variant, THINNED if fitted.space.variants else 1)
     left_over = remover.augmented(residuals(record, space, tries))
     costs = np.einsum("ij,ij->i", left_over, left_over)
     if len(tries) > 1:
@@ -94,7 +96,7 @@ def _promise(
     return Promise(space, tries[best], estimate)
 
 
-def _tries(space: Space, start: np.ndarray, variant: Variant) -> np.ndarray:
+def _tries(space: Space, start: np.ndarray, variant: Variant, every: int) -> np.ndarray:
     """Every combination of the tries of the variant's freedoms, and the start itself."""
     points = [start]
     grids = [freedom.tries or (None,) for freedom in variant.freedoms]
@@ -102,7 +104,7 @@ def _tries(space: Space, start: np.ndarray, variant: Variant) -> np.ndarray:
     mesh: list[list[float | None]] = [[]]
     for grid in grids:
         mesh = [[*some, value] for some in mesh for value in grid]
-    for values in mesh[:MOST_TRIES]:
+    for values in mesh[every // 2 : MOST_TRIES : every]:
         point = start.copy()
         for place, value in zip(places, values):
             if value is not None:

@@ -16,7 +16,7 @@ from brace.diagnose.loading.space import Trust, space_of
 from brace.diagnose.options import Advance, silent
 
 MOST_EFFECTS = 3
-PARENTS = 6  # hypotheses of one size that the next size is grown from
+PARENTS = {1: 5, 2: 3}  # hypotheses of so many effects that the next are grown from
 CHILDREN = 5  # labels that are fitted beside each parent
 LEAST_GAIN = 1.0  # of cost: what gains less is no hypothesis of its own
 GROW_GAIN = 9.0  # of promised cost: a child that promises less is not fitted
@@ -66,7 +66,7 @@ class Search:
             self.advance(0.4 * number / len(singles), f"trying {promise.space.label}")
             self._fit(promise, self.base)
         for size in range(1, MOST_EFFECTS):
-            parents = self._best(size)[:PARENTS]
+            parents = self._best(size)[: PARENTS[size]]
             for number, parent in enumerate(parents):
                 share = 0.4 + 0.3 * (size - 1 + number / len(parents))
                 self.advance(share, f"trying {parent.label} and one more")

@@ -13,7 +13,7 @@ from brace.diagnose.loading.fit import Fit
 from brace.diagnose.loading.record import Record
 from brace.diagnose.loading.screen import Remover
 
-STRUCTURED_P = 1e-5  # family-wise; structure that matters is far below, and noise is never quite white
+STRUCTURED_P = 3e-5  # family-wise; structure that matters is far below, and noise is never quite white
 MOST_DIMENSIONS = 160  # of one family
 
 

@@ -1,0 +1,169 @@
+"""The steps of a loading record's diagnosis, each against what statistics or hand calculation say it must give."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from brace.dataset import load_dataset
+from brace.dataset.intake import Dataset
+from brace.diagnose.effects import PLUG_INS, all_variants
+from brace.diagnose.loading.fit import fit
+from brace.diagnose.loading.noise import channel_noise
+from brace.diagnose.loading.parts import enough_rows, locked_rows
+from brace.diagnose.loading.record import load_record, setting_of
+from brace.diagnose.loading.search import Search
+from brace.diagnose.loading.space import compatible, space_of, trust_of
+from brace.diagnose.loading.structure import structure_of
+from brace.model import LimbModel, load_limb
+from brace.native.plant import play_rig
+
+NOISE_N = 0.06
+META = """format = 1
+kind = "loading"
+[sensor]
+resolution_n = 0.0
+range_n = 1e3
+[rig]
+step_mm = 0.6
+dwell_s = 4.0
+"""
+POSES = np.array([(0.4, 0.6), (0.9, 1.1), (1.3, 1.7), (0.6, 1.5), (1.5, 2.2), (1.0, 0.8), (0.2, 1.2), (1.7, 2.5)])
+
+
+@pytest.fixture(scope="module")
+def believed(tmp_path_factory: pytest.TempPathFactory) -> LimbModel:
+    path = tmp_path_factory.mktemp("limb") / "limb.toml"
+    path.write_text(
+        "format = 1\n[geometry]\nfemur_mm = 210.0\ntibia_mm = 280.0\n"
+        "[link.femur]\naxial_mm_per_n = 0.001\nbending_mm_per_n = 0.05\n"
+        "[link.tibia]\naxial_mm_per_n = 0.002\nbending_mm_per_n = 0.2\n"
+        "[joint.femur]\ncompliance_rad_per_n_mm = 1.1e-5\n[joint.tibia]\ncompliance_rad_per_n_mm = 1.5e-5\n"
+        "[uncertainty]\nlength_mm = 0.5\nangle_rad = 0.003\ncompliance_rel = 0.05\ngain_rel = 0.005\n"
+    )
+    return load_limb(path)
+
+
+def recorded(
+    folder: Path, limb: LimbModel, seed: int, *, repeats: int = 2, noise_n: float = NOISE_N, growth: float = 0.0
+) -> Dataset:
+    """A record of this limb with white noise, and noise that grows with the load."""
+    design = {
+        "theta1_rad": POSES[:, 0].copy(),
+        "theta2_rad": POSES[:, 1].copy(),
+        "step_mm": 0.6,
+        "repeats": repeats,
+        "resolution_n": 0.0,
+        "range_n": 1e3,
+        "seed": seed,
+    }
+    columns: Mapping[str, Any] = play_rig(limb, design)
+    rng = np.random.default_rng(seed)
+    names = ("run", "config", "theta1_rad", "theta2_rad", "axis", "rep", "step", "t_s", "temp_degc", "dx_mm", "dz_mm")
+    lines = [",".join((*names, "fx_n", "fz_n"))]
+    for row in range(len(columns["run"])):
+        cells = ["xz"[columns["axis"][row]] if name == "axis" else repr(columns[name][row].item()) for name in names]
+        for axis in ("fx_n", "fz_n"):
+            force = columns[axis][row]
+            cells.append(repr(float(force + rng.normal() * np.hypot(noise_n, growth * force))))
+        lines.append(",".join(cells))
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "meta.toml").write_text(META)
+    (folder / "data.csv").write_text("\n".join(lines) + "\n")
+    return load_dataset(folder)
+
+
+@pytest.mark.parametrize("repeats", [1, 3])
+def test_noise_is_read_off_the_record(tmp_path: Path, believed: LimbModel, repeats: int) -> None:
+    """Within 15 %: some hundred differences tell a sigma to about 5 %."""
+    noise = channel_noise(recorded(tmp_path, believed, 1, repeats=repeats), "fx_n")
+    assert noise.floor == pytest.approx(NOISE_N, rel=0.15)
+    assert noise.growth_ratio == 0.0
+
+
+def test_noise_that_grows_with_load_is_told_by_repeats(tmp_path: Path, believed: LimbModel) -> None:
+    noise = channel_noise(recorded(tmp_path, believed, 2, repeats=3, growth=0.01), "fx_n")
+    assert noise.growth_ratio == pytest.approx(0.01, rel=0.5)
+    assert noise.floor == pytest.approx(NOISE_N, rel=0.3)
+
+
+def test_base_fit_finds_the_least_of_a_linear_problem(tmp_path: Path, believed: LimbModel) -> None:
+    """At the least, the slope of the cost is nothing beside its curvature: no key could gain a hundredth."""
+    record = load_record(recorded(tmp_path, believed, 3))
+    space = space_of(trust_of(believed), ())
+    found = fit(record, space, space.mean)
+    slope = found.jacobian.T @ found.residual - found.scale / space.sigma * space.pull(found.x)
+    curvature = np.sum(found.jacobian**2, axis=0) + (found.scale / space.sigma) ** 2
+    assert np.max(slope**2 / curvature) < 0.01
+    assert found.chi2 == pytest.approx(found.residual.size, rel=0.15)
+
+
+def test_structure_of_pure_noise_is_none_and_of_a_shape_is_found(tmp_path: Path, believed: LimbModel) -> None:
+    """p is about uniform for noise (20 records: none under 0.001); a wave of 1 sigma amplitude is 25 sigma in all."""
+    space = space_of(trust_of(believed), ())
+    for seed in range(20):
+        record = load_record(recorded(tmp_path / str(seed), believed, 100 + seed))
+        assert structure_of(record, fit(record, space, space.mean)).p > 1e-3, seed
+    data = recorded(tmp_path / "wave", believed, 7)
+    wave = NOISE_N * np.sin(2 * np.pi * data["dx_mm"] / 1.3)
+    record = load_record(data.with_columns({"fx_n": data["fx_n"] + wave}))
+    assert structure_of(record, fit(record, space, space.mean)).structured
+
+
+def test_nothing_hidden_nothing_found(tmp_path: Path, believed: LimbModel) -> None:
+    record = load_record(recorded(tmp_path, believed, 11))
+    search = Search(record, trust_of(believed), all_variants(setting_of(record, believed)))
+    assert search.run()[0].label == "none"
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "label"),
+    [
+        ("joint.tibia.gap_rad", 1.5e-3, "backlash@joint.tibia"),
+        ("joint.femur.coulomb_n_mm", 40.0, "coulomb_friction@joint.femur"),
+        ("sensor.bias_z_n", 0.1, "sensor_bias@sensor"),
+        ("contact.play_mm", 0.06, "contact_play@contact"),
+    ],
+)
+def test_a_hidden_effect_is_found_with_its_size(
+    tmp_path: Path, believed: LimbModel, key: str, value: float, label: str
+) -> None:
+    record = load_record(recorded(tmp_path, believed.with_values({key: value}), 12))
+    search = Search(record, trust_of(believed), all_variants(setting_of(record, believed)))
+    best = search.run()[0]
+    assert best.label == label
+    assert best.fit.value(key) == pytest.approx(value, rel=0.25)
+
+
+def test_a_quarter_of_the_configurations_is_locked_and_none_at_the_ends(tmp_path: Path, believed: LimbModel) -> None:
+    data = recorded(tmp_path, believed, 1, repeats=1)
+    locked = locked_rows(data)
+    knees = np.unique(data["theta2_rad"][locked])
+    assert len(knees) == 2
+    assert POSES[:, 1].min() < knees.min() and knees.max() < POSES[:, 1].max()
+    few = data.select(data["config"] <= 3)
+    assert not locked_rows(few).any()
+
+
+def test_a_long_record_is_thinned_by_whole_runs(tmp_path: Path, believed: LimbModel) -> None:
+    data = recorded(tmp_path, believed, 1, repeats=12)
+    keep = enough_rows(data, 600)
+    assert 300 <= keep.sum() <= 1200
+    assert set(np.unique(data["config"][keep])) == set(np.unique(data["config"]))
+    for run in np.unique(data["run"]):
+        assert len(set(keep[data["run"] == run].tolist())) == 1
+
+
+def test_the_catalogue_is_whole_and_its_keys_exist(tmp_path: Path, believed: LimbModel) -> None:
+    """Twenty names as the format lists them; each variant makes a space of its own."""
+    record = load_record(recorded(tmp_path, believed, 1, repeats=1))
+    variants = all_variants(setting_of(record, believed))
+    assert len(PLUG_INS) == 20
+    trust = trust_of(believed)
+    for variant in variants:
+        space = space_of(trust, (variant,))
+        assert len(space.keys) == len(set(space.keys)) == len(space.mean)
+        assert not compatible((variant, variant)) or not variant.keys
