@@ -39,6 +39,7 @@ def design_of(rng: Rng, text: str, like: Design, limb: Array, start_s: float, ru
     if test.get("cyclic", False):  # first to the minus side, then over
         wave = np.concatenate([-cycle(steps)[: 2 * steps + 1], cycle(steps)[1:]])
     x0, z0 = float(test.get("preload_x_mm", 0.0)), float(test.get("preload_z_mm", 0.0))
+    start_s = max(start_s, float(test.get("start_s", 0.0)))
     t, rows, labels = 0.0, [], []
     start, rise = float(warmth.get("start_degc", 22.0)), float(warmth.get("rise_degc", 0.0))
     for number, (c, axis, rep) in enumerate(plan, start=1):
