@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 from brace.diagnose.loading.choose import label_probability
 
 if TYPE_CHECKING:
+    from brace.diagnose.loading.agreement import Agreement
     from brace.diagnose.loading.run import Pass
 
 
-def of_label(final: Pass, twin: Pass | None, label: str) -> float:
+def of_label(final: Pass, agreed: Agreement, label: str) -> float:
     """Probability [0, 1] that this effect at this place is in the limb."""
     return min(0.99, label_probability(final.sets, label))

@@ -22,6 +22,7 @@ from brace.diagnose.diagnosis import (
 )
 from brace.diagnose.effects import Variant
 from brace.diagnose.loading import confidence
+from brace.diagnose.loading.agreement import Agreement, agreement
 from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.experiment import next_experiment
 from brace.diagnose.loading.fit import Fit
@@ -39,6 +40,9 @@ if TYPE_CHECKING:
     from brace.diagnose.loading.run import Pass
 
 MOST_CANDIDATES = 20
+FAR_OUT = 3.0  # sigmas of the calibration from which a refitted number is a finding
+STAYS_AHEAD = 0.5
+LOST_NATS = -2.0  # of the held-out configurations: more than refitting alone makes
 
 
 def diagnosis_of(
@@ -58,7 +62,8 @@ def diagnosis_of(
     named = decision.verdict in ("effect", "ambiguous")
     after = best if named else final.base.fit
     exported = believed if decision.verdict == "unknown" else limb_of(believed, after.model)
-    effects = _effects(record, final, twin, decision.labels) if named else ()
+    agreed = agreement(record, locked, final, twin, options.seed)
+    effects = _effects(record, final, agreed, decision.labels) if named else ()
     return Diagnosis(
         verdict=decision.verdict,
         sentence=_sentence(final, effects),
@@ -76,13 +81,13 @@ def diagnosis_of(
             for item in final.sets[:MOST_CANDIDATES]
         ),
         residuals=_residuals(whole, believed, exported, locked if whole is record else np.zeros(whole.rows, bool)),
-        notes=_notes(whole, record, final, twin),
+        notes=_notes(whole, record, final, twin, agreed, after),
         seed=options.seed,
-        details={**_details(record, final), "refitted": _refitted(whole, believed, final)},
+        details={**_details(record, final, agreed), "refitted": _refitted(whole, believed, final)},
     )
 
 
-def _effects(record: Record, final: Pass, twin: Pass | None, labels: Sequence[str]) -> tuple[NamedEffect, ...]:
+def _effects(record: Record, final: Pass, agreed: Agreement, labels: Sequence[str]) -> tuple[NamedEffect, ...]:
     """For a class, each member with the parameters of its own fit."""
     ambiguous = final.decision.verdict == "ambiguous"
     found = []
@@ -98,7 +103,7 @@ def _effects(record: Record, final: Pass, twin: Pass | None, labels: Sequence[st
             NamedEffect(
                 variant.effect,
                 variant.where,
-                confidence.of_label(final, twin, label),
+                confidence.of_label(final, agreed, label),
                 parameters,
                 1.0 if ambiguous else _share(final, label),
             )
@@ -242,7 +247,9 @@ def _refitted(whole: Record, believed: LimbModel, final: Pass) -> np.ndarray:
     return np.asarray((whole.measured - whole.player.play_numbers(refitted[None])[0]).T)
 
 
-def _notes(whole: Record, record: Record, final: Pass, twin: Pass | None) -> tuple[str, ...]:
+def _notes(
+    whole: Record, record: Record, final: Pass, twin: Pass | None, agreed: Agreement, after: Fit
+) -> tuple[str, ...]:
     notes = []
     if whole is not record:
         notes.append(
@@ -254,13 +261,21 @@ def _notes(whole: Record, record: Record, final: Pass, twin: Pass | None) -> tup
         notes.append(
             f"without the held-out configurations the choice is {twin.decision.chosen.label}; the gaps are that choice's"
         )
+    if final.decision.chosen.labels and agreed.held_out_nats is not None and agreed.held_out_nats < LOST_NATS:
+        notes.append("the configurations that were held out do not gain from what was chosen without them")
+    if final.decision.verdict == "effect" and agreed.bootstrap_share < STAYS_AHEAD:
+        notes.append(f"with the runs drawn anew, the choice stays ahead in {agreed.bootstrap_share:.0%} of draws only")
+    space = after.space
+    for key, pull in zip(space.keys, space.pull(after.x)):
+        if abs(pull) > FAR_OUT:
+            notes.append(f"{key} is pulled {pull:+.1f} sigma from what calibration says")
     for name, noise in record.noise.items():
         if noise.growth_ratio > 0.0:
             notes.append(f"the noise of {name} grows with the load: {noise.growth_ratio:.2%} of the reading")
     return tuple(notes)
 
 
-def _details(record: Record, final: Pass) -> dict[str, object]:
+def _details(record: Record, final: Pass, agreed: Agreement) -> dict[str, object]:
     return {
         "noise": {
             name: {"sigma": noise.floor, "growth_ratio": noise.growth_ratio, "source": noise.source}
@@ -271,5 +286,8 @@ def _details(record: Record, final: Pass) -> dict[str, object]:
             for family in final.structure.families[:5]
         ],
         "structure_p": final.structure.p,
+        "posterior": final.sets[0].posterior,
+        "held_out_nats": agreed.held_out_nats,
+        "bootstrap_share": agreed.bootstrap_share,
         "gain": final.base.fit.cost - final.decision.chosen.best.fit.cost,
     }
