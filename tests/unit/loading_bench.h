@@ -32,9 +32,15 @@ static inline void play(void *user, brace_fake_t *board, int32_t joint)
 {
     (void)user;
     (void)joint;
-    const double tip_x = femur_mm * cos(theta1) + tibia_mm * cos(theta1 - theta2);
-    const double tip_z = femur_mm * sin(theta1) + tibia_mm * sin(theta1 - theta2);
-    const double knee_x = femur_mm * cos(theta1), knee_z = femur_mm * sin(theta1);
+    static double at1 = NAN, at2 = NAN, tip_x, tip_z, knee_x, knee_z; /* an emulated board is slow at these */
+    if (at1 != theta1 || at2 != theta2) {
+        at1 = theta1;
+        at2 = theta2;
+        tip_x = femur_mm * cos(theta1) + tibia_mm * cos(theta1 - theta2);
+        tip_z = femur_mm * sin(theta1) + tibia_mm * sin(theta1 - theta2);
+        knee_x = femur_mm * cos(theta1);
+        knee_z = femur_mm * sin(theta1);
+    }
     /* tip's movement for theta1 and for theta2, which is flexion */
     const double l[2][2] = {{-tip_z, tip_z - knee_z}, {tip_x, -(tip_x - knee_x)}};
     const double k[2][2] = {{truth.xx, truth.xz}, {truth.xz, truth.zz}};
