@@ -240,7 +240,7 @@ typedef struct {
     double preload_z_mm;
     double dwell_s;         /* [0, 1e6] between readings */
     double pause_s;         /* [0, 1e6] between runs, on top of dwell */
-    double temp_start_degc; /* temperature = start + rise * (1 - exp(-t / time constant)) */
+    double temp_start_degc; /* temperature = start + rise * (1 - exp(-(t - start_s) / time constant)) */
     double temp_rise_degc;
     double temp_time_constant_s; /* (0, inf) */
     double noise_n;              /* one sigma of each force reading, before rounding */
@@ -249,6 +249,7 @@ typedef struct {
     double encoder_noise_rad;
     double base_noise_mm;
     uint64_t seed; /* the same seed, the same noise, on every machine */
+    double start_s; /* [0, 1e9] when the first reading is taken; the temperature's course begins there too */
 } brace_rig_design_t;
 
 /* The paper's test, ready to change: 1 configuration needed, both axes, 2 repeats, 4 steps of 0.635 mm,

@@ -43,7 +43,8 @@ std::vector<Run> runs_of(const brace_rig_design_t &design)
 
 double temperature(const brace_rig_design_t &design, double t_s)
 {
-    return design.temp_start_degc - design.temp_rise_degc * std::expm1(-t_s / design.temp_time_constant_s);
+    const double since_s = t_s - design.start_s;
+    return design.temp_start_degc - design.temp_rise_degc * std::expm1(-since_s / design.temp_time_constant_s);
 }
 
 bool is_between(double value, double least, double most)
@@ -97,10 +98,12 @@ bool is_sound(const brace_rig_design_t &design)
     }
     constexpr double kFar = 1e3;
     constexpr double kLong = 1e6;
+    constexpr double kLast = 1e9;
     return is_between(design.axes, 1, 3) && is_between(design.repeats, 1, 1000)
            && is_between(design.steps_per_side, 1, 10000) && design.step_mm > 0.0 && design.step_mm <= 100.0
            && is_between(design.preload_x_mm, -kFar, kFar) && is_between(design.preload_z_mm, -kFar, kFar)
-           && is_between(design.dwell_s, 0.0, kLong) && is_between(design.pause_s, 0.0, kLong)
+           && is_between(design.start_s, 0.0, kLast) && is_between(design.dwell_s, 0.0, kLong)
+           && is_between(design.pause_s, 0.0, kLong)
            && is_between(design.temp_start_degc, -273.15, 1e4) && is_between(design.temp_rise_degc, -1e4, 1e4)
            && design.temp_time_constant_s > 0.0 && std::isfinite(design.temp_time_constant_s)
            && is_between(design.noise_n, 0.0, kLong) && is_between(design.resolution_n, 0.0, kLong)
@@ -122,7 +125,7 @@ std::vector<Reading> sequence(const brace_rig_design_t &design)
     std::vector<Reading> readings;
     readings.reserve(reading_count(design));
     int number = 0;
-    double t_s = 0.0;
+    double t_s = design.start_s;
     for (const Run &run : runs_of(design)) {
         t_s += number > 0 ? design.dwell_s + design.pause_s : 0.0;
         ++number;

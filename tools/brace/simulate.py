@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from brace.dataset import Dataset
+from brace.errors import UsageError
 from brace.model import LimbModel
 from brace.native.plant import play_rig
 from brace.rig import Rig
+
+BETWEEN_TESTS_S = 60.0
 
 _BASE_COLUMNS = (
     "run",
@@ -53,3 +59,55 @@ def simulate(model: LimbModel, rig: Rig) -> tuple[dict[str, Any], dict[str, np.n
         "source": {"what": "simulated", "limb": model.name, "seed": value["seed"]},
     }
     return meta, {name: played[name] for name in names}
+
+
+def behind(before: Dataset, rig: Rig) -> Rig:
+    """The rig's test starting after a record's last reading, unless its file says when it starts."""
+    end_s = float(before["t_s"].max())
+    start_s = rig.values["rig.start_s"]
+    if start_s == 0.0:
+        return replace(rig, values={**rig.values, "rig.start_s": end_s + BETWEEN_TESTS_S})
+    if start_s <= end_s:
+        raise UsageError(
+            "the test would start before the record that it comes after has ended",
+            where=rig.document.where("rig.start_s"),
+            why=f"rig.start_s = {start_s:g} s, and the record's last reading was taken at {end_s:g} s",
+            next_step="leave rig.start_s out, or write a later one",
+        )
+    return rig
+
+
+def joined(
+    before: Dataset, meta: dict[str, Any], new: dict[str, np.ndarray]
+) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+    """One record of both tests, with the first one's step and dwell: runs and configurations counted on; readings
+    that only one of them has are NaN in the other's rows."""
+    if before.kind != "loading":
+        raise UsageError(
+            "a loading test comes after a loading record only",
+            where=str(before.folder / "meta.toml"),
+            why=f'its kind is "{before.kind}"',
+            next_step="give --after the loading record that this test adds to",
+        )
+    zeroed = "per_run" if before.meta.zeroed_per_run else "never"
+    if meta["rig"]["zeroed"] != zeroed:
+        raise UsageError(
+            "the two tests cannot be one record",
+            where="rig.zeroed",
+            why=f"the record's sensor was zeroed {zeroed}, the rig's is {meta['rig']['zeroed']}",
+            next_step=f'rig.zeroed = "{zeroed}"',
+        )
+    moved = dict(new)
+    for name in ("run", "config"):
+        moved[name] = new[name] + int(before[name].max())
+    names = [*before.columns, *(name for name in new if name not in before)]
+    rows = len(new["run"])
+
+    def part(columns: Mapping[str, np.ndarray], name: str, count: int) -> np.ndarray:
+        return columns[name] if name in columns else np.full(count, np.nan)
+
+    own = {key: before.meta.number(f"rig.{key}") for key in ("step_mm", "dwell_s")}
+    columns = {
+        name: np.concatenate([part(before.columns, name, before.rows), part(moved, name, rows)]) for name in names
+    }
+    return {**meta, "rig": {**meta["rig"], **own}}, columns

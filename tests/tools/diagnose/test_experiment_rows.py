@@ -1,4 +1,4 @@
-"""Rows of a further test behind a record's: instruments that the record did not have are empty in its rows."""
+"""Rows of a further test behind a record's; instruments that the record lacked are empty in its rows."""
 
 from __future__ import annotations
 
@@ -7,11 +7,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from brace.dataset import load_dataset
+from brace.dataset import Dataset, load_dataset
+from brace.dataset.write import write_dataset
 from brace.diagnose.loading.record import NOT_MEASURED, load_record
 from brace.errors import BraceError
-from brace.model import load_limb
+from brace.model import LimbModel, load_limb
 from brace.native.plant_batch import model_numbers, number_index
+from brace.rig import load_rig
+from brace.simulate import behind, joined, simulate
 
 META = (
     'format = 1\nkind = "loading"\ntitle = "two"\n[sensor]\nresolution_n = 0.01\nrange_n = 145.0\n'
@@ -94,3 +97,40 @@ def test_forces_may_not_be_left_out(tmp_path: Path) -> None:
         lines[line] = ",".join(fields)
     (folder / "data.csv").write_text("\n".join(lines) + "\n")
     assert refused_field(folder) == "fz_n"
+
+
+def test_a_simulated_test_after_a_record(tmp_path: Path) -> None:
+    """Rows counted on, on one clock; a preload is no fault, nor is an encoder that only the second test has."""
+    limb = tmp_path / "limb.toml"
+    limb.write_text(
+        "format = 1\n[geometry]\nfemur_mm = 185.0\ntibia_mm = 313.5\n[link.femur]\naxial_mm_per_n = 0.001\n"
+        "bending_mm_per_n = 0.06\n[link.tibia]\naxial_mm_per_n = 0.002\nbending_mm_per_n = 0.25\n"
+        "[joint.tibia]\ncompliance_rad_per_n_mm = 1.6e-5\n[sensor]\ndrift_x_n_per_s = 0.01\n"
+    )
+    pose = "[[configuration]]\ntheta1_rad = 0.5\ntheta2_rad = 1.5\n"
+    (tmp_path / "first.toml").write_text(f"format = 1\n[sensor]\nresolution_n = 0.0\n{pose}")
+    (tmp_path / "next.toml").write_text(
+        "format = 1\n[rig]\npreload_x_mm = 1.0\npreload_z_mm = 2.0\n[temperature]\nrise_degc = 5.0\n"
+        f"[sensor]\nresolution_n = 0.0\nencoders = true\n{pose}"
+    )
+    model = load_limb(limb)
+    write_dataset(tmp_path / "a", *simulate(model, load_rig(tmp_path / "first.toml")))
+    before = load_dataset(tmp_path / "a")
+    write_dataset(
+        tmp_path / "b", *joined(before, *simulate(model, behind(before, load_rig(tmp_path / "next.toml"))))
+    )
+    both, rows = load_dataset(tmp_path / "b"), before.rows
+    assert not both.faults and both.rows == 2 * rows
+    assert both["run"][rows] == before["run"][-1] + 1 and both["config"][rows] == 2
+    assert both["t_s"][rows] == before["t_s"][-1] + 60.0
+    assert both["temp_degc"][rows] == 22.0 and both["temp_degc"][-1] > 22.5
+    assert np.isnan(both["enc1_rad"][:rows]).all() and np.isfinite(both["enc1_rad"][rows:]).all()
+    # drift goes on by the clock: the same displacement reads more by the time between
+    alone = load_dataset_of(tmp_path / "c", model, tmp_path / "next.toml")
+    later = both["fx_n"][rows:] - alone["fx_n"]
+    np.testing.assert_allclose(later, 0.01 * both["t_s"][rows], atol=2e-5)
+
+
+def load_dataset_of(folder: Path, model: LimbModel, rig: Path) -> Dataset:
+    write_dataset(folder, *simulate(model, load_rig(rig)))
+    return load_dataset(folder)

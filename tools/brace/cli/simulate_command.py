@@ -27,6 +27,12 @@ def add(commands: Any) -> None:
         help="poses, axes, steps, noise; brace/data/paper-rig.toml is an example",
     )
     parser.add_argument("--out", type=common.path, required=True, metavar="DIR", help="folder of the dataset")
+    parser.add_argument(
+        "--after",
+        type=common.path,
+        metavar="DATASET",
+        help="a record that this test comes after: --out holds the rows of both, as one record",
+    )
     parser.add_argument("--seed", type=common.count(0, 2**63 - 1), help="instead of the rig file's seed")
     common.add_json(parser)
     parser.set_defaults(run=run)
@@ -36,11 +42,12 @@ def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from dataclasses import replace
 
+    from brace.dataset import load_dataset
     from brace.dataset.write import write_dataset
     from brace.files import checked_destination
     from brace.model import load_limb
     from brace.rig import load_rig
-    from brace.simulate import simulate
+    from brace.simulate import behind, joined, simulate
 
     model = load_limb(arguments.model)
     rig = load_rig(arguments.rig)
@@ -48,9 +55,17 @@ def run(arguments: argparse.Namespace) -> int:
         rig = replace(rig, values={**rig.values, "seed": arguments.seed})
     _refuse_measured(arguments.out)
     inputs = [arguments.model, arguments.rig]
+    before = None
+    if arguments.after is not None:
+        before = load_dataset(arguments.after)
+        before.require_sound()
+        rig = behind(before, rig)
+        inputs += [arguments.after / "meta.toml", arguments.after / "data.csv"]
     for name in ("meta.toml", "data.csv"):
         checked_destination(arguments.out / name, inputs)
     meta, columns = simulate(model, rig)
+    if before is not None:
+        meta, columns = joined(before, meta, columns)
     write_dataset(arguments.out, meta, columns)
     rows = len(columns["run"])
     if arguments.json:

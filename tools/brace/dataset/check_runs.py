@@ -84,10 +84,11 @@ def _axis_changes(columns: Columns) -> Iterator[DataFault]:
 
 
 def _axis_against_motion(columns: Columns) -> Iterator[DataFault]:
-    """`axis` names the column that moves."""
+    """`axis` names the column that moves; a preload holds both columns off 0 through a whole run."""
     along_z, starts = columns["axis"] == 1, run_starts(columns["run"])
-    named = np.abs(np.where(along_z, columns["dz_mm"], columns["dx_mm"]))
-    other = np.abs(np.where(along_z, columns["dx_mm"], columns["dz_mm"]))
+    x, z = (_from_middle(columns[name], starts) for name in ("dx_mm", "dz_mm"))
+    named = np.abs(np.where(along_z, z, x))
+    other = np.abs(np.where(along_z, x, z))
     steps = np.hypot(np.diff(columns["dx_mm"]), np.diff(columns["dz_mm"]))
     steps = steps[steps > 0.0]
     if not steps.size:
@@ -117,6 +118,12 @@ def _axis_against_motion(columns: Columns) -> Iterator[DataFault]:
             f"{columns[f'd{moving}_mm'][row]:g} in run {columns['run'][row]}, which goes along {says}",
             f"0, and the entry in d{says}_mm" if named[row] <= still_mm else 0.0,
         )
+
+
+def _from_middle(values: np.ndarray, starts: np.ndarray) -> np.ndarray:
+    """Less each run's median."""
+    middle = [float(np.median(values[begin:end])) for begin, end in zip(starts[:-1], starts[1:])]
+    return np.asarray(values - np.repeat(middle, np.diff(starts)))
 
 
 def _exchanged(columns: Columns) -> Iterator[DataFault]:

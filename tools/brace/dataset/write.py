@@ -15,7 +15,8 @@ _DEFAULT_DECIMALS = 6
 
 
 def csv_text(columns: Mapping[str, np.ndarray], decimals: Mapping[str, int] | None = None) -> str:
-    """Columns as CSV; whole numbers stay whole, `axis` becomes x or z, the rest gets a fixed number of decimals."""
+    """Columns as CSV; whole numbers stay whole, `axis` becomes x or z, the rest gets a fixed number of
+    decimals, and is left empty where it is NaN: not read."""
     places = {**_DECIMALS, **(decimals or {})}
     texts: list[list[str]] = []
     for name, values in columns.items():
@@ -25,7 +26,7 @@ def csv_text(columns: Mapping[str, np.ndarray], decimals: Mapping[str, int] | No
             texts.append([str(value) for value in values.tolist()])
         else:
             form = f"%.{places.get(name, _DEFAULT_DECIMALS)}f"
-            texts.append([form % value for value in (values + 0.0).tolist()])
+            texts.append([form % value if value == value else "" for value in (values + 0.0).tolist()])
     lines = [",".join(columns), *(",".join(row) for row in zip(*texts))]
     return "\n".join(lines) + "\n"
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from brace.diagnose.diagnosis import NextExperiment
 from brace.diagnose.loading.menu import (
+    BEFORE_S,
     CHANNELS,
     ENCODER_NOISE_RAD,
     ENCODERS,
@@ -202,6 +203,7 @@ def _rig_toml(record: Record, plan: Plan, seed: int) -> str:
                 if key.startswith("rig.")
             },
             "repeats": plan.repeats,
+            "start_s": round(float(record.dataset["t_s"][-1]) + BEFORE_S, 3),
             "zeroed": "per_run" if meta.zeroed_per_run else "never",
         },
         "sensor": {
