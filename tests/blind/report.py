@@ -255,6 +255,7 @@ def page(found: dict[str, Any], judged: Sequence[Judged], command: str) -> str:
                 f"{v['median']:.1f}, {v['p95']:.1f}, {v['longest']:.1f} s by the {clock} clock"
                 for clock, v in found["seconds"].items()
             ) + ".",
+            *(["## Beside other ways to choose", found["baselines_text"]] if "baselines_text" in found else []),
             "## Besides",
             "\n".join(besides),
             "## Single effects, by effect and detectability",
@@ -293,5 +294,5 @@ def as_json(found: dict[str, Any], judged: Sequence[Judged]) -> dict[str, Any]:
          "closed": j.closed}
         for j in judged
     ]  # fmt: skip
-    shown = {key: value for key, value in found.items() if key != "after_next"}
+    shown = {key: value for key, value in found.items() if key not in ("after_next", "baselines_text")}
     return {**shown, "cases": cases}

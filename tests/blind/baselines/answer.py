@@ -28,7 +28,7 @@ def refitted(sig: Signatures, chosen: Sequence[int]) -> tuple[Array, float]:
     if not len(chosen):
         return np.empty(0), float(sig.left @ sig.left)
     part = sig.matrix[:, list(chosen)]
-    coefficients, *_ = np.linalg.lstsq(part, sig.left, rcond=1e-8)
+    coefficients = np.asarray(np.linalg.lstsq(part, sig.left, rcond=1e-8)[0], float)
     off = sig.left - part @ coefficients
     return coefficients, float(off @ off)
 

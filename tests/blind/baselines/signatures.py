@@ -75,6 +75,11 @@ class Signatures:
         return tuple(column.label for column in self.columns)
 
 
+def triangle(rows: Array) -> Array:
+    """The triangular factor: least squares on it are least squares on the rows."""
+    return np.asarray(np.linalg.qr(rows, mode="r"), float)
+
+
 def prepared(case: Path) -> Any:
     """(given, record, trust, fitted base) of a case; None where the tool's own gate stops it."""
     from brace.diagnose.loading.fit import fit
@@ -119,12 +124,12 @@ def signatures_of(case: Path) -> Signatures | None:
     bare = remover.columns(np.array(raw).T)
     columns, kept = _unlike(found, np.array(raw).T, bare)
     whole = np.column_stack([kept, left])
-    root = np.linalg.qr(whole, mode="r")
+    root = triangle(whole)
     screened = _best_tries(columns, kept, left)
     few = np.column_stack([kept[:, screened], left])
     _, run = np.unique(record.dataset["run"], return_inverse=True)
     group = np.concatenate([np.tile(run % BLOCKS, len(record.channels)), np.full(len(left) - base.residual.size, -1)])
-    blocks = tuple(np.linalg.qr(few[group == g], mode="r") for g in (*range(BLOCKS), -1))
+    blocks = tuple(triangle(few[group == g]) for g in (*range(BLOCKS), -1))
     return Signatures(tuple(columns), root, screened, blocks, record.readings)
 
 
@@ -167,8 +172,9 @@ def _changes(record: Any, trust: Any, base: Any, variant: Any) -> list[tuple[Col
     for one, point, change in zip(keys, points, moved, strict=True):
         places = [space.keys.index(key) for key in one]
         believed = tuple(float(start[place]) for place in places)
-        at_edge = bool(places) and (start[places[0]] <= space.low[places[0]] or start[places[0]] >= space.high[places[0]])
-        sided = at_edge or not places or one[0].endswith("saturation_n")
+        sided = not places or one[0].endswith("saturation_n")
+        if places:
+            sided |= bool(start[places[0]] <= space.low[places[0]] or start[places[0]] >= space.high[places[0]])
         values = tuple(float(point[place]) for place in places)
         out.append((Column(variant.label, one, believed, values, settings, 1.0, sided), np.asarray(change, float)))
     return out

@@ -9,7 +9,9 @@ import numpy as np
 
 from baselines.answer import Answer, answer
 from baselines.knobs import Knobs, Space, between, evenly, one_of
-from baselines.signatures import Array, Signatures
+from baselines.signatures import Array, Signatures, triangle
+
+BAGS = 10
 
 SPACE = Space(
     {"threshold": 4.0, "alpha": 0.05, "normalize": True, "screened": True, "signed": True, "unknown_p": 0.0},
@@ -23,18 +25,16 @@ SPACE = Space(
     },
 )
 ENSEMBLE_SPACE = Space(
-    {"threshold": 4.0, "alpha": 0.05, "models": 20, "inclusion": 0.6, "median": True, "signed": True,
-     "unknown_p": 0.0},
+    {"threshold": 4.0, "alpha": 0.05, "inclusion": 0.6, "median": True, "signed": True, "unknown_p": 0.0},
     {
         "threshold": between(1.5, 30.0),
         "alpha": between(1e-4, 10.0),
-        "models": one_of(10, 20),
         "inclusion": evenly(0.3, 0.95),
         "median": one_of(False, True),
         "signed": one_of(True, True, False),
         "unknown_p": one_of(0.0, 1e-12, 1e-8, 1e-5, 1e-3),
     },
-)  # fmt: skip
+)
 
 
 def _stlsq(columns: Array, left: Array, threshold: float, alpha: float) -> Array:
@@ -65,10 +65,10 @@ def ensemble(sig: Signatures, knobs: Knobs) -> Answer:
     rng = np.random.default_rng(0)
     runs, priors = sig.blocks[:-1], sig.blocks[-1]
     found = []
-    for _ in range(knobs["models"]):
+    for _ in range(BAGS):
         weight = np.bincount(rng.integers(len(runs), size=len(runs)), minlength=len(runs))
         stacked = [np.sqrt(w) * root for w, root in zip(weight, runs, strict=True) if w]
-        root = np.linalg.qr(np.vstack([*stacked, priors]), mode="r")
+        root = triangle(np.vstack([*stacked, priors]))
         found.append(_stlsq(root[:, :-1], root[:, -1], knobs["threshold"], knobs["alpha"]))
     coefficients = np.array(found)
     kept = np.mean(coefficients != 0.0, axis=0) >= knobs["inclusion"]
