@@ -494,17 +494,24 @@ static void test_an_erase_in_configuration_is_no_late_tick(void)
     TEST_ASSERT_BITS(BRACE_FAULT_TICK_LATE, 0, now()->faults);
 }
 
+/* So much later; a tick at the end of it. In CONFIGURATION none is late. */
+static void later(uint32_t us)
+{
+    fake.now_us += us - TICK_US;
+    ticks(1);
+}
+
 /* Whoever asked for it may be gone. */
 static void test_configuration_that_nobody_feeds_is_left_and_nothing_has_changed(void)
 {
-    const int patience = BRACE_CONFIGURATION_PATIENCE_US / TICK_US;
+    const uint32_t patience_us = BRACE_CONFIGURATION_PATIENCE_US, near_us = 100 * TICK_US;
     brace_parameters_t p = bench_parameters();
     ticks(5);
     const uint32_t crc = now()->parameter_crc;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
-    ticks(patience - 100);
+    later(patience_us - near_us);
     TEST_ASSERT_EQUAL(BRACE_OK, staging_write(&app, BRACE_PARAMETER_CONTROLLER_NODE_ID, 9)); /* half of a push */
-    ticks(patience - 100);
+    later(patience_us - near_us);
     TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, now()->mode);
     TEST_ASSERT_EQUAL(9, staging_read(&app, BRACE_PARAMETER_CONTROLLER_NODE_ID));
     ticks(200);
@@ -514,7 +521,7 @@ static void test_configuration_that_nobody_feeds_is_left_and_nothing_has_changed
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
     TEST_ASSERT_EQUAL(p.controller.node_id, staging_read(&app, BRACE_PARAMETER_CONTROLLER_NODE_ID)); /* forgotten */
     p.limb.femur_mm = 190.0f;
-    ticks(patience - 10);
+    later(patience_us - near_us);
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p));
     for (int i = 0; i < 1000 && (app.storing || app.configure_piece != 0); i++) { /* as long as it takes */
         fake.now_us += BRACE_CONFIGURATION_PATIENCE_US / 4;
@@ -522,14 +529,16 @@ static void test_configuration_that_nobody_feeds_is_left_and_nothing_has_changed
         TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, now()->mode);
     }
     TEST_ASSERT_EQUAL_HEX32(brace_parameters_crc(&p), app.parameter_crc);
-    ticks(patience / 2);
+    later(patience_us / 2);
     TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, now()->mode);
-    ticks(patience / 2);
+    later(patience_us / 2);
+    ticks(5);
     TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
     fake.joint[BRACE_FEMUR].absent = true; /* from FAULT back to FAULT */
     ticks(150);
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
-    ticks(patience + 150);
+    later(patience_us);
+    ticks(150);
     TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, now()->mode);
 }
 
