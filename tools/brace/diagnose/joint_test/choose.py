@@ -20,6 +20,7 @@ LEAST_GAIN = 4.0  # twice the log of the odds, ln(n) for every parameter paid
 LEAST_AGREEMENT = 0.9
 LEAST_SHRINK = 0.002  # of the rms: less is of no use to anybody
 MOST_SHAPES = 2
+SECOND_SHRINK = 0.03  # of the rms: what joins on a second look must do more than mend another term's shape
 SHAPES_SHRINK = 0.02  # what is only described may leave more unsaid
 MOST_STIFFENING = 5.0  # of a spring within one record; gears and belts stiffen by two or three
 
@@ -94,6 +95,7 @@ def _joined_by_rows(
             if term.name not in have:
                 trying(term.label)
                 joined.append(by_rows.fit((*best.terms, term), current, term))
+        joined = [one for one in joined if one.rss < (1.0 - SECOND_SHRINK) ** 2 * current.rss]
         sound = [
             one for one in joined if not strained(fitter, one) and _needed(by_rows, current, one, random)
         ]
