@@ -28,7 +28,7 @@ from brace.diagnose.fleet.job import Outcome as Diagnosed
 from brace.diagnose.options import Options
 
 FILES = ("diagnosis.json", "limb.toml", "report.html")
-LIMIT_S = 240.0
+LIMIT_S = 400.0
 
 
 def _joint_test(folder: Path, gap_rad: float, noise_n_mm: float = 40.0, seed: int = 1) -> Path:

@@ -29,8 +29,8 @@ STEPS, STEP_MM = 3, 0.6
 RECORD, FOUND = "wire-test", "wire-diagnosis"
 DATA = Path(__file__).resolve().parents[1] / "data"
 SPEED = 8  # times the clock
-_LIMIT_S = 120.0
-_READY_S = 30.0
+_LIMIT_S = 300.0
+_READY_S = 60.0
 
 Command = tuple[object, ...]
 
