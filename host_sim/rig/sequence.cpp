@@ -44,7 +44,8 @@ std::vector<Run> runs_of(const brace_rig_design_t &design)
 double temperature(const brace_rig_design_t &design, double t_s)
 {
     const double since_s = t_s - design.start_s;
-    return design.temp_start_degc - design.temp_rise_degc * std::expm1(-since_s / design.temp_time_constant_s);
+    return design.temp_start_degc
+           - design.temp_rise_degc * std::expm1(-since_s / design.temp_time_constant_s);
 }
 
 bool is_between(double value, double least, double most)

@@ -34,8 +34,8 @@ _BASE_COLUMNS = (
 
 
 def simulate(model: LimbModel, rig: Rig) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
-    """(content of meta.toml, columns of data.csv). The design is rounded as the file will round it before it is
-    played, so that playing the file back meets the same angles."""
+    """(content of meta.toml, columns of data.csv). The design is rounded as the file will round it before
+    it is played, so that playing the file back meets the same angles."""
     design = rig.design(model)
     for angle in ("theta1_rad", "theta2_rad"):
         design[angle] = np.round(design[angle], 6)
@@ -80,8 +80,8 @@ def behind(before: Dataset, rig: Rig) -> Rig:
 def joined(
     before: Dataset, meta: dict[str, Any], new: dict[str, np.ndarray]
 ) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
-    """One record of both tests, with the first one's step and dwell: runs and configurations counted on; readings
-    that only one of them has are NaN in the other's rows."""
+    """One record of both tests, with the first one's step and dwell: runs and configurations counted on;
+    readings that only one of them has are NaN in the other's rows."""
     if before.kind != "loading":
         raise UsageError(
             "a loading test comes after a loading record only",
@@ -108,6 +108,7 @@ def joined(
 
     own = {key: before.meta.number(f"rig.{key}") for key in ("step_mm", "dwell_s")}
     columns = {
-        name: np.concatenate([part(before.columns, name, before.rows), part(moved, name, rows)]) for name in names
+        name: np.concatenate([part(before.columns, name, before.rows), part(moved, name, rows)])
+        for name in names
     }
     return {**meta, "rig": {**meta["rig"], **own}}, columns
