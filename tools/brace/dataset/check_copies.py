@@ -12,7 +12,7 @@ from brace.dataset.faults import DataFault
 Columns = Mapping[str, np.ndarray]
 FORCES = ("fx_n", "fz_n")
 WINDOW = 6  # readings of both forces that chance does not repeat
-RICH = 20  # quanta that a run must move by: within play all readings are alike
+RICH = (400, 20)  # quanta that a run must move by, by the number of columns: within play all readings are alike
 MOST = 0.6  # of a run's windows
 FEW_REPEATS = 0.2  # share of a pose's repeats that may be copies; more, and the record has no noise
 UNLIKELY = 1e-6
@@ -47,7 +47,7 @@ def _copies(columns: Columns, names: tuple[str, ...]) -> Iterator[DataFault]:
     starts = run_starts(run)
     moving = np.zeros(starts.size - 1, dtype=bool)
     for name in names:
-        moving |= span(columns[name], starts) > RICH * _quantum(columns[name])
+        moving |= span(columns[name], starts) > RICH[len(names) - 1] * _quantum(columns[name])
     candidates = np.flatnonzero((run[:count] == run[width - 1 :]) & np.repeat(moving, np.diff(starts))[:count])
     keys = keys[candidates]
     _, inverse, counts = np.unique(keys, return_inverse=True, return_counts=True)

@@ -113,24 +113,27 @@ def _angles(columns: Columns) -> Iterator[DataFault]:
 def _steps(columns: Columns, meta: Meta) -> Iterator[DataFault]:
     step_mm = meta.number("rig.step_mm")
     inside = np.diff(columns["run"]) == 0
-    moved = np.hypot(np.diff(columns["dx_mm"]), np.diff(columns["dz_mm"]))[inside]
-    moved = moved[moved > 0]
-    if not moved.size:
+    if not any(np.any(np.diff(columns[name])[inside]) for name in ("dx_mm", "dz_mm")):
         yield DataFault(None, "dx_mm", "the tip never moves within a run: there is nothing to learn from")
         return
-    typical_mm = float(np.median(moved))
-    if step_mm <= 0 or 0.5 < typical_mm / step_mm < 2.0:
+    if step_mm <= 0:
         return
-    unit, factor = slip_of(typical_mm / step_mm, LENGTH_SLIPS)
-    why = f"steps of {typical_mm:.4g} in the record, rig.step_mm = {step_mm:g} in meta.toml"
     for name in ("dx_mm", "dz_mm"):
-        if np.any(columns[name]):
-            yield DataFault(
-                None,
-                name,
-                why + (f"; the column fits only in {unit}" if unit else ""),
-                f"{unit}: multiply by {factor:g}" if unit else None,
-            )
+        moved = np.abs(np.diff(columns[name])[inside])
+        moved = moved[moved > 1e-6 * np.ptp(columns[name])]
+        if not moved.size:
+            continue
+        typical_mm = float(np.median(moved))
+        unit, factor = slip_of(typical_mm / step_mm, LENGTH_SLIPS)
+        if 0.5 < typical_mm / step_mm < 2.0 or (meta.moved_by_motors and not unit):
+            continue  # motors move the tip aside a little, too
+        why = f"steps of {typical_mm:.4g} in the record, rig.step_mm = {step_mm:g} in meta.toml"
+        yield DataFault(
+            None,
+            name,
+            why + (f"; the column fits only in {unit}" if unit else ""),
+            f"{unit}: multiply by {factor:g}" if unit else None,
+        )
 
 
 def _sensor_range(columns: Columns, meta: Meta) -> Iterator[DataFault]:
@@ -201,5 +204,6 @@ def _slipped_decimals(columns: Columns, meta: Meta) -> Iterator[DataFault]:
                         f"{expected[row]:.3g}: a slipped decimal point",
                         float(force[row] * factor),
                         repair=True,
+                        doubtful=True,
                     )
                     break

@@ -48,6 +48,7 @@ def _stuck(columns: Columns) -> Iterator[DataFault]:
                 row + 1,
                 name,
                 f"it stands at {force[row]:g} N through run {columns['run'][row]}, and moves in the pose's other runs",
+                doubtful=True,
             )
 
 

@@ -141,6 +141,7 @@ def _units(runs: _RunSlopes, poses: _PoseSlopes) -> Iterator[DataFault]:
                 f"a typical slope of {typical:.3g} N/mm: no limb that servos hold has it"
                 + (f"; the column fits only in {unit}" if unit else ""),
                 f"{unit}: multiply by {factor:g}" if unit else None,
+                doubtful=True,
             )
 
 
@@ -181,12 +182,14 @@ def _signs(columns: Columns, runs: _RunSlopes) -> Iterator[DataFault]:
     for axis, name in enumerate(("fx_n", "fz_n")):
         here = runs.axis == axis
         if here.any() and falls[here].all():
-            yield DataFault(
-                None,
-                name,
-                "the force falls in every run that pushes along its axis: no limb does",
-                "the column with its sign turned",
-            )
+            for field in (name, ("dx_mm", "dz_mm")[axis]):
+                yield DataFault(
+                    None,
+                    field,
+                    f"{name} falls in every run that pushes along its axis: no limb does, so it or the displacement has "
+                    "its sign turned",
+                    "the column with its sign turned",
+                )
             return
         for first in runs.first[here & falls][:MAX_LISTED]:
             yield DataFault(
@@ -217,4 +220,5 @@ def _signs(columns: Columns, runs: _RunSlopes) -> Iterator[DataFault]:
             f"run {number[first]}: slope {runs.cross[index]:+.3g} N/mm where the pose's "
             f"other runs have {middle[index]:+.3g}",
             "the run with this sign turned",
+            doubtful=True,
         )

@@ -13,7 +13,8 @@ from brace.errors import BadFileError
 class DataFault:
     """`row` is 1-based without the header, None for a whole column or file. `repair` says whether `suggestion`
     follows from the rest of the record alone, so that it may stand in for the entry once it is said aloud.
-    `blocking` says that no result may be drawn from the record while the fault stands."""
+    `blocking` says that no result may be drawn from the record while the fault stands. `doubtful`: something about the
+    limb may look the same, so whoever has a model of it asks that before."""
 
     row: int | None
     field: str
@@ -21,6 +22,7 @@ class DataFault:
     suggestion: float | str | None = None
     repair: bool = False
     blocking: bool = True
+    doubtful: bool = False
 
     def as_json(self) -> dict[str, Any]:
         """The entry of `data_faults` in every --json report."""

@@ -154,14 +154,14 @@ def _exchanged(one: str, other: str) -> Change:
 
 
 def _shifted(by: int) -> Change:
-    """Forces moved along within each run; the end that is left without keeps its own."""
+    """Forces moved along the whole record; the end that is left without keeps its own."""
 
     def change(columns: Columns) -> dict[str, np.ndarray]:
-        run, mended = columns["run"], {}
-        inside = np.roll(run, by) == run
-        inside[-1 if by < 0 else 0] = False
+        mended = {}
         for name in FORCES:
-            mended[name] = np.where(inside, np.roll(columns[name], by), columns[name])
+            mended[name] = np.roll(columns[name], by)
+            end = -1 if by < 0 else 0
+            mended[name][end] = columns[name][end]
         return mended
 
     return change

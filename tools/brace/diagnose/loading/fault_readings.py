@@ -165,11 +165,11 @@ def _chance_alike(judge: Judge, name: str) -> float:
 
 
 def _at_limit(judge: Judge, place: int, rows: slice, value: float) -> bool:
-    """A clipped reading: the limb would pull as much or more all along."""
-    slack = 0.15 * abs(value) + 4.0 * float(np.median(judge.sigma[place, rows]))
-    return bool(value != 0.0 and np.all(np.sign(value) * judge.played[place, rows] >= abs(value) - slack)) and bool(
-        abs(value) >= 0.5 * float(np.abs(judge.measured[place]).max())
-    )
+    """A clipped reading: hardly any other goes beyond, and the limb pulls that way all along."""
+    slack = 0.02 * abs(value) + 4.0 * float(np.median(judge.sigma[place, rows]))
+    beyond = np.count_nonzero(np.abs(judge.measured[place]) > abs(value) + slack)
+    pulls = np.sign(value) * judge.played[place, rows] > 0.4 * abs(value)
+    return bool(value != 0.0 and beyond <= 0.02 * judge.dataset.rows and pulls.all())
 
 
 def _stands_under_load(judge: Judge, place: int, rows: slice) -> bool:

@@ -5,14 +5,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 
 from brace.dataset import DataFault, Dataset
 from brace.diagnose.loading.fault_columns import FORCES, UNITS
-from brace.diagnose.loading.fault_judge import Judge
+from brace.diagnose.loading.fault_judge import Judge, misfit
 
 MOST_LEFT_OUT = 4  # poses that are left out on trial
+LEAST_EXCESS = 1.5
+EXCHANGED_NOISE = 0.5  # excess that a record may keep once two poses have changed places
+EXCHANGED_LEFT = 0.03
 CLEAN = 0.5  # excess of chi squared per reading that calls for no more
 LEFT_WITHOUT = 0.4  # of the excess, at most, without a pose that is at fault
 MOST_BAD = 0.34  # of the poses: more is no slip
@@ -43,7 +47,7 @@ def faults(judge: Judge) -> list[DataFault]:
     config = judge.dataset["config"]
     suspects = _suspected_poses(judge)
     if not suspects:
-        return []
+        return _exchanged_poses(judge)
     good = np.flatnonzero(~np.isin(config, suspects))
     few = good[np.isin(good, judge.few)]
     limb = judge.agreement(judge.dataset, few if few.size else good).numbers
@@ -70,6 +74,42 @@ def faults(judge: Judge) -> list[DataFault]:
             rows = np.arange(judge.starts[run], judge.starts[run + 1])
             found += _run(judge, limb, _bad(judge, rows, played, usual), played)
     return found
+
+
+def _exchanged_poses(judge: Judge) -> list[DataFault]:
+    """Two poses that have each other's angles: neither stands out alone."""
+    data = judge.dataset
+    config = data["config"]
+    poses, group = np.unique(config, return_inverse=True)
+    before = judge.as_it_is.excess
+    if poses.size < 4 or before < LEAST_EXCESS:
+        return []
+    square = np.sum(((judge.measured - judge.played) / judge.sigma) ** 2, axis=0)
+    worst = poses[np.argsort(np.bincount(group, weights=square) / np.bincount(group))[::-1][: MOST_LEFT_OUT + 1]]
+    tried = []
+    for one, other in combinations([int(pose) for pose in worst], 2):
+        rows = {pose: np.flatnonzero(config == pose) for pose in (one, other)}
+        columns = {name: data[name].copy() for name in ANGLES}
+        for name in ANGLES:
+            columns[name][rows[one]], columns[name][rows[other]] = data[name][rows[other][0]], data[name][rows[one][0]]
+        mended = data.with_columns(columns)
+        left = misfit(judge.measured, judge.play(mended, judge.trust.numbers))
+        tried.append((left, one, other, mended))
+    tried.sort(key=lambda item: item[0])
+    for _, one, other, mended in tried[:2]:
+        left = judge.agreement(mended, judge.few).excess
+        if left <= max(EXCHANGED_NOISE, EXCHANGED_LEFT * before):
+            return [
+                DataFault(
+                    int(np.argmax(config == one)) + 1,
+                    name,
+                    f"poses {one} and {other} have each other's angles: the limb misses the record by "
+                    f"{np.sqrt(1.0 + before):.3g} times its noise, and by {np.sqrt(1.0 + left):.3g} times once they change places",
+                    f"poses {one} and {other} exchanged",
+                )
+                for name in ("config", *ANGLES)
+            ]
+    return []
 
 
 def _bad(judge: Judge, rows: np.ndarray, played: np.ndarray, usual: float) -> _Bad:

@@ -18,6 +18,7 @@ SAME_KIND = (("enc1_rad", "enc2_rad"), ("base_x_mm", "base_z_mm"))
 FAHRENHEIT_DEGC = (35.0, 10.0)  # above the reference at least; within this of it once converted
 MANY_SIGMAS = 10.0
 LEAST_RUNS = 4
+LEAST_MOVE = 1e-4  # rad of a joint, mm of the base
 
 
 def faults(judge: Judge) -> list[DataFault]:
@@ -34,7 +35,10 @@ def _side_readings(judge: Judge) -> Iterator[DataFault]:
     played = dict(zip(channels, player.play_numbers(judge.as_it_is.numbers[None])[0]))
     for pair in SAME_KIND:
         here = [name for name in pair if name in played]
-        known = {name: np.ptp(played[name]) > 20.0 * judge.noise[name].floor for name in here}
+        # the column moves, and the limb should move it
+        known = {
+            name: np.ptp(data[name]) > 20.0 * judge.noise[name].floor and np.ptp(played[name]) > LEAST_MOVE for name in here
+        }
         wrong = {}
         for name in here:
             wrong[name] = misfit(_level(judge, data[name]), _level(judge, played[name])) if known[name] else 0.0

@@ -22,8 +22,8 @@ FOLLOWS_P = 1e-6  # forces that follow the displacement by chance
 def gate(dataset: Dataset, believed: LimbModel, options: Options) -> Diagnosis | None:
     """The diagnosis that ends here, or None: go on."""
     blocking = [fault for fault in dataset.faults if fault.blocking]
-    slips_only = all(fault.repair for fault in blocking)
-    if blocking and not (slips_only and dataset.rows >= MIN_ROWS):
+    certain = [fault for fault in blocking if not fault.doubtful]
+    if certain or (blocking and dataset.rows < MIN_ROWS):
         return _faulty(dataset, dataset.faults, believed, options)
     if dataset.rows < MIN_ROWS:
         raise BadFileError(
@@ -41,8 +41,9 @@ def gate(dataset: Dataset, believed: LimbModel, options: Options) -> Diagnosis |
         return _too_little(
             believed, options, "the forces do not follow the displacement; is the tip held, is the sensor alive?"
         )
-    found = model_faults.faults(dataset, believed)  # the neighbours alone took a slip for one: does the limb, too?
-    found += [fault for fault in model_faults.confirmed(dataset, believed, blocking) if fault not in found]
+    found = model_faults.faults(dataset, believed)
+    if not found:  # what the record alone looked like: does the limb say so, too?
+        found = model_faults.confirmed(dataset, believed, blocking)
     if any(fault.blocking for fault in found):
         return _faulty(dataset, [*found, *(fault for fault in dataset.faults if not fault.blocking)], believed, options)
     return None
