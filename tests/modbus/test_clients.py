@@ -15,6 +15,7 @@ from brace.wire.frames import DICTIONARY_HASH
 
 F32 = 2e-6  # of the largest entry: what the core is held to
 LAST = "modbus_refused"
+END = 2 + max(int(row["address"]) for row in MAP.values() if row["table"] == "holding" and row["access"] == "rw")
 POSTURE_RAD = (0.7, 1.1)
 
 
@@ -52,7 +53,7 @@ def test_each_block_is_a_later_snapshot(client: Client) -> None:
 
 
 def test_refusals(client: Client) -> None:
-    for table, address, count in (("input", 115, 2), ("input", 116, 2), ("input", 5000, 1), ("holding", 210, 2)):
+    for table, address, count in (("input", 115, 2), ("input", 116, 2), ("input", 5000, 1), ("holding", END, 2)):
         with pytest.raises(Refused) as refused:
             client.read(table, address, count)
         assert refused.value.code == 2, (table, address, count)
@@ -75,6 +76,50 @@ def test_k_at_a_posture(client: Client) -> None:
     for name, true in (("k_xx", k.xx), ("k_xz", k.xz), ("k_zz", k.zz), ("lambda_min", k.low), ("lambda_max", k.high)):
         assert abs(answered[f"asked_{name}"] - true) <= F32 * k.high, name
     assert answered["asked_flags"] == 0
+
+
+def ask(client: Client, first: str, *values: float, kinds: str = "") -> None:
+    words = [w for value, kind in zip(values, kinds or "f" * len(values)) for w in registers_of(value, "f32" if kind == "f" else "u32")]
+    client.write(int(MAP[first]["address"]), words)
+
+
+def test_k_at_a_tip_position(client: Client) -> None:
+    theta1, theta2 = POSTURE_RAD
+    x = 185.0 * math.cos(theta1) + 313.5 * math.cos(theta1 - theta2)
+    z = 185.0 * math.sin(theta1) + 313.5 * math.sin(theta1 - theta2)
+    ask(client, "asked_tip_x", x, z, 0, kinds="ffu")
+    answered, k = block(client, "asked_k_xx", "asked_flags"), expected(theta1, theta2)
+    for name, true in (("k_xx", k.xx), ("k_xz", k.xz), ("k_zz", k.zz), ("lambda_min", k.low), ("lambda_max", k.high)):
+        assert abs(answered[f"asked_{name}"] - true) <= 1e-4 * k.high, name
+    with pytest.raises(Refused) as refused:
+        ask(client, "asked_tip_x", 5000.0, 0.0, 0, kinds="ffu")
+    assert refused.value.code == 3
+
+
+def test_contact_force_and_sag_undo_each_other(client: Client) -> None:
+    measured = block(client, "k_xx", "k_zz")
+    ask(client, "asked_dx", 0.2, -0.4)
+    force = block(client, "asked_force_x", "asked_force_high")
+    assert abs(force["asked_force_x"] - (0.2 * measured["k_xx"] - 0.4 * measured["k_xz"])) < 0.02
+    assert abs(force["asked_force_z"] - (0.2 * measured["k_xz"] - 0.4 * measured["k_zz"])) < 0.02
+    size = math.hypot(force["asked_force_x"], force["asked_force_z"])
+    assert force["asked_force_low"] <= size <= force["asked_force_high"]
+    ask(client, "asked_load_x", force["asked_force_x"], force["asked_force_z"])
+    sag = block(client, "asked_sag_x", "asked_sag_z")
+    assert abs(sag["asked_sag_x"] - 0.2) < 5e-3 and abs(sag["asked_sag_z"] + 0.4) < 5e-3
+
+
+def test_friction_margin_is_of_the_force_that_is_told(client: Client) -> None:
+    told = block(client, "force_x", "force_z")
+    if any(math.isnan(value) for value in told.values()):
+        with pytest.raises(Refused) as refused:
+            ask(client, "asked_normal", math.pi / 2, 0.5)
+        assert refused.value.code == 4
+        return
+    ask(client, "asked_normal", math.pi / 2, 0.5)
+    answered = block(client, "asked_margin", "asked_contact")
+    assert abs(answered["asked_margin"] - (0.5 * told["force_z"] - abs(told["force_x"]))) < 0.5
+    assert answered["asked_contact"] in (0, 1, 2)
 
 
 def test_a_parameter_is_staged_committed_read_back_and_rolled_back(client: Client) -> None:

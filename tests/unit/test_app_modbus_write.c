@@ -146,7 +146,7 @@ static void test_writes_have_their_limits(void)
     refused(write_values(1, values, 1), 16, 2);
     refused(write_values(2 * BRACE_PARAMETER_COUNT - 2, values, 2), 16, 2);
     refused(write_values(2 * BRACE_PARAMETER_COUNT, values, 1), 16, 2);
-    refused(write_value(16400, 0), 16, 2);
+    refused(write_value(16418, 0), 16, 2);
     const uint8_t none[] = {16, 0, 0, 0, 0, 0}, one[] = {16, 0, 0, 0, 1, 2, 0, 0}, miscounted[] = {16, 0, 0, 0, 2, 2, 0, 0};
     const uint8_t missing[] = {16, 0, 0, 0, 2, 4, 0, 0, 0}, more[] = {16, 0, 0, 0, 2, 4, 0, 0, 0, 0, 0};
     refused(line_asks(UNIT, none, sizeof none), 16, 3);
@@ -229,6 +229,79 @@ static void test_k_at_a_posture(void)
     TEST_ASSERT_EQUAL_HEX32(posture[1], value_at(&asked, 1));
 }
 
+/* Answers, as floats; 4096 is the first. */
+static float answer_at(uint32_t index)
+{
+    const reply_t reply = read_asks(4, 4096 + 2 * index, 2);
+    return float_at(&reply, 0);
+}
+
+static void test_k_at_a_tip_is_k_at_its_posture(void)
+{
+    const uint32_t posture[] = {bits(0.7f), bits(1.1f)};
+    accepted(write_values(ASKED, posture, 2), 16);
+    const reply_t there = read_asks(4, 4096, 14);
+    brace_pose_t pose;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_kinematics_forward(&app.parameters.limb, 0.7f, 1.1f, &pose));
+    uint32_t tip[] = {bits(pose.tip.x_mm), bits(pose.tip.z_mm), 0};
+    accepted(write_values(ASKED + 4, tip, 3), 16);
+    const reply_t same = read_asks(4, 4096, 14);
+    for (uint32_t i = 0; i < 6u; i++) {
+        TEST_ASSERT_FLOAT_WITHIN(1e-3f, float_at(&there, i), float_at(&same, i));
+    }
+    tip[2] = 1; /* knee down: another posture, another K */
+    accepted(write_values(ASKED + 4, tip, 3), 16);
+    TEST_ASSERT_TRUE(__builtin_fabsf(answer_at(0) - float_at(&there, 0)) > 1e-3f);
+    const reply_t asked = read_asks(3, ASKED + 4, 6);
+    TEST_ASSERT_EQUAL_HEX32(tip[0], value_at(&asked, 0));
+    TEST_ASSERT_EQUAL_HEX32(1, value_at(&asked, 2));
+    tip[2] = 2;
+    refused(write_values(ASKED + 4, tip, 3), 16, 3);
+    const uint32_t far[] = {bits(5000.0f), bits(0.0f), 0};
+    refused(write_values(ASKED + 4, far, 3), 16, 3);
+    refused(write_values(ASKED + 4, tip, 2), 16, 3); /* knee is part of it */
+    refused(write_values(ASKED + 2, posture, 2), 16, 3); /* parts of two questions */
+}
+
+static void test_what_the_k_of_now_means_at_the_contact(void)
+{
+    TEST_ASSERT_TRUE(isnan(answer_at(7)) && isnan(answer_at(11)) && isnan(answer_at(13)));
+    const brace_stiffness_t *k = &now()->stiffness.now;
+    const uint32_t displacement[] = {bits(0.25f), bits(-0.5f)};
+    accepted(write_values(ASKED + 10, displacement, 2), 16);
+    const float fx = answer_at(7), fz = answer_at(8);
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, k->k_xx_n_per_mm * 0.25f - k->k_xz_n_per_mm * 0.5f, fx);
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, k->k_xz_n_per_mm * 0.25f - k->k_zz_n_per_mm * 0.5f, fz);
+    const float size = sqrtf(0.25f * 0.25f + 0.5f * 0.5f);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, k->lambda_min_n_per_mm * size, answer_at(9));
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, k->lambda_max_n_per_mm * size, answer_at(10));
+    const uint32_t load[] = {bits(fx), bits(fz)}; /* the sag under it is that displacement */
+    accepted(write_values(ASKED + 14, load, 2), 16);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.25f, answer_at(11));
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, -0.5f, answer_at(12));
+    const uint32_t surface[] = {bits(1.5707963f), bits(0.5f)};
+    const float force_x = now()->force_x_n, force_z = now()->force_z_n;
+    accepted(write_values(ASKED + 18, surface, 2), 16);
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 0.5f * force_z - __builtin_fabsf(force_x), answer_at(13));
+    const uint32_t broken[] = {bits(__builtin_nanf("")), bits(1.0f)};
+    refused(write_values(ASKED + 10, broken, 2), 16, 3);
+    refused(write_values(ASKED + 14, broken, 2), 16, 3);
+    refused(write_values(ASKED + 18, broken, 2), 16, 3);
+    refused(write_value(ASKED + 10, 0), 16, 3);
+}
+
+static void test_without_a_k_there_is_no_answer_from_it(void)
+{
+    fake.joint[BRACE_TIBIA].absent = true;
+    ticks(200);
+    TEST_ASSERT_FALSE(now()->k_is_valid);
+    const uint32_t two[] = {bits(0.25f), bits(0.5f)};
+    refused(write_values(ASKED + 10, two, 2), 16, 4);
+    refused(write_values(ASKED + 14, two, 2), 16, 4);
+    TEST_ASSERT_TRUE(isnan(answer_at(7)) && isnan(answer_at(11)));
+    fake.joint[BRACE_TIBIA].absent = false;
+}
+
 static void test_a_posture_needs_both_angles_and_they_must_be_angles(void)
 {
     const uint32_t not[] = {bits(__builtin_nanf("")), bits(1.0f)}, far[] = {bits(1.0f), bits(1e6f)};
@@ -281,6 +354,9 @@ int main(void)
     RUN_TEST(test_a_store_that_fails_says_so_where_it_was_asked);
     RUN_TEST(test_k_at_a_posture);
     RUN_TEST(test_a_posture_needs_both_angles_and_they_must_be_angles);
+    RUN_TEST(test_k_at_a_tip_is_k_at_its_posture);
+    RUN_TEST(test_what_the_k_of_now_means_at_the_contact);
+    RUN_TEST(test_without_a_k_there_is_no_answer_from_it);
     RUN_TEST(test_commands_need_their_key_and_their_mode);
     return UNITY_END();
 }

@@ -342,9 +342,10 @@ static void spoil(dice_t *dice, int joint)
 static uint32_t random_pdu(dice_t *dice, uint8_t *pdu)
 {
     static const uint8_t functions[] = {3, 4, 4, 4, 6, 8, 16, 16, 17, 43, 99};
-    static const uint16_t starts[] = {0, 0, 2, 100, 4096, 16384, 16386, 16390, 16392, 16394, 16396};
-    const uint32_t start = starts[dice_below(dice, 11)], function = functions[dice_below(dice, 11)];
-    const uint32_t count = dice_in(dice, 2) ? 1u + dice_below(dice, 120) : start == 16396 ? 4 : 2;
+    static const uint16_t starts[] = {0, 0, 2, 100, 4096, 16384, 16386, 16390, 16392, 16394,
+                                      16396, 16400, 16406, 16410, 16414};
+    const uint32_t start = starts[dice_below(dice, 15)], function = functions[dice_below(dice, 11)];
+    const uint32_t count = dice_in(dice, 2) ? 1u + dice_below(dice, 120) : start == 16400 ? 6 : start >= 16396 ? 4 : 2;
     pdu[0] = (uint8_t)function;
     pdu[1] = (uint8_t)(start >> 8);
     pdu[2] = (uint8_t)start;
@@ -352,8 +353,10 @@ static uint32_t random_pdu(dice_t *dice, uint8_t *pdu)
     pdu[4] = (uint8_t)count;
     pdu[5] = (uint8_t)(2u * count);
     for (uint32_t i = 0; i < 2u * count; i++) {
-        const float angle = dice_between(dice, 0.2f, 1.5f);
-        pdu[6u + i] = start == 16396 ? ((const uint8_t *)&angle)[3u - i % 4u] : (uint8_t)dice_below(dice, 256);
+        const float angle = start == 16400 ? dice_between(dice, 100.0f, 300.0f) : dice_between(dice, 0.2f, 1.5f);
+        pdu[6u + i] = start == 16400 && i >= 8u ? (uint8_t)(i == 11u) /* the knee */
+                      : start >= 16396          ? ((const uint8_t *)&angle)[3u - i % 4u]
+                                                : (uint8_t)dice_below(dice, 256);
     }
     if (start == 16384 && function == 16) {
         pdu[6] = 0xc0;

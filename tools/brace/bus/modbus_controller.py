@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 from brace.bus.controller import Advance, Identity, StiffnessAnswer, Stored, check_dictionary
 from brace.bus.snapshot import Snapshot, names_of_bits
 from brace.bus.url import BusUrl
-from brace.errors import BraceError, DeviceFaultError, MissingLibraryError, NoDeviceError, UsageError
+from brace.errors import BraceError, DeviceFaultError, MissingLibraryError, NoDeviceError
+from brace.wire.layout import Value
 from brace.wire.measured import MEASURED
 from brace.wire.register import Register
 from brace.wire.registers import REGISTERS
@@ -28,6 +29,7 @@ _INPUT = [r for r in REGISTERS if r.table == "input" and r.address < 4096]
 _ASKED = [r for r in REGISTERS if r.table == "input" and r.address >= 4096]
 _PARAMETERS = [r for r in REGISTERS if r.table == "holding" and r.access == "rw"]
 _BY_NAME = {r.name: r for r in REGISTERS}
+_FORCES = (("fx_n", "x"), ("fz_n", "z"), ("low_n", "low"), ("high_n", "high"))
 _ENTRIES = {entry.name: entry for entry in MEASURED}
 _EXCEPTIONS = {
     1: "this function is not there",
@@ -106,34 +108,33 @@ class ModbusController:
 
     def k_at_posture(self, theta1_rad: float, theta2_rad: float) -> StiffnessAnswer:
         """Written, then read."""
-        self._write(
-            _BY_NAME["asked_theta1"].address, struct.unpack(">4H", struct.pack(">ff", theta1_rad, theta2_rad))
-        )
-        v = _decoded(_ASKED, self._read("input", _ASKED[0].address, 2 * len(_ASKED)))
-        names = ("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max", "stiff_axis")
-        values = {name: v[f"asked_{name}"] for name in names}
-        flags = names_of_bits(_ENTRIES["flags"].bit_names, int(v["asked_flags"] or 0))
-        return StiffnessAnswer(**values, flags=flags)
+        return self._stiffness(self._ask("asked_theta1", ">ff", theta1_rad, theta2_rad))
 
     def k_at_tip(self, x_mm: float, z_mm: float, knee_up: bool) -> StiffnessAnswer:
-        """CAN only."""
-        raise self._can_only("K at a tip position")
+        """From the femur axis."""
+        return self._stiffness(self._ask("asked_tip_x", ">ffI", x_mm, z_mm, int(not knee_up)))
 
     def sag_for_load(self, fx_n: float, fz_n: float) -> dict[str, Any]:
-        """CAN only."""
-        raise self._can_only("the sag under a load")
+        """Displacement of the tip [mm] under a force on it, with the K of now."""
+        v = self._ask("asked_load_x", ">ff", fx_n, fz_n)
+        return {"dx_mm": v["asked_sag_x"], "dz_mm": v["asked_sag_z"]}
 
     def contact_force(self, dx_mm: float, dz_mm: float) -> dict[str, Any]:
-        """CAN only."""
-        raise self._can_only("the force for a sag")
+        """Force [N] that holds the tip at a displacement, and what any displacement of its size meets."""
+        v = self._ask("asked_dx", ">ff", dx_mm, dz_mm)
+        return {name: v[f"asked_force_{of}"] for name, of in _FORCES}
 
-    def _can_only(self, what: str) -> UsageError:
-        return UsageError(
-            f"{what} over Modbus",
-            where=self.url,
-            why="its registers take postures",
-            next_step="--theta1 --theta2, or a CAN bus",
-        )
+    def _ask(self, first: str, form: str, *values: float) -> dict[str, Value]:
+        """What belongs to one question is written at once; all answers."""
+        data = struct.pack(form, *values)
+        self._write(_BY_NAME[first].address, struct.unpack(f">{len(data) // 2}H", data))
+        return _decoded(_ASKED, self._read("input", _ASKED[0].address, 2 * len(_ASKED)))
+
+    @staticmethod
+    def _stiffness(v: dict[str, Value]) -> StiffnessAnswer:
+        names = ("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max", "stiff_axis")
+        flags = names_of_bits(_ENTRIES["flags"].bit_names, int(v["asked_flags"] or 0))
+        return StiffnessAnswer(**{name: v[f"asked_{name}"] for name in names}, flags=flags)
 
     def read_entry(self, name: str) -> int:
         """32 bits."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from brace.wire.layout import Field, Layout
 
-DICTIONARY_HASH = 0xAC717698
+DICTIONARY_HASH = 0x588D26D8
 PROTOCOL = 1
 REQUEST_ID = 0x600
 ANSWER_ID = 0x580

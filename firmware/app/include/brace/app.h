@@ -148,7 +148,7 @@ enum { BRACE_APP_LINE_BYTES = 32, BRACE_APP_IN_BYTES = 24, BRACE_APP_ANSWERS = 8
 typedef struct {
     bool fitted;
     bool open, listen_only;   /* the channel, as whoever is at the other end wants it */
-    bool too_long, heard;     /* the line; and a line has come in this tick */
+    bool too_long, heard;     /* the line; and something has come in this tick */
     uint8_t line[BRACE_APP_LINE_BYTES], in[BRACE_APP_IN_BYTES], out[BRACE_APP_LINE_BYTES];
     uint8_t line_count, in_first, in_count, out_first, out_count;
 } brace_app_slcan_t;
@@ -217,7 +217,7 @@ typedef struct {
     float evidence[BRACE_DRIFT_CAUSE_COUNT + 1];
 } brace_app_keeping_t;
 
-enum { BRACE_APP_ADU_BYTES = 260 };
+enum { BRACE_APP_ADU_BYTES = 260, BRACE_APP_ASKED = 11 };
 
 typedef struct {
     bool begun, checked;
@@ -242,7 +242,7 @@ typedef struct {
     uint16_t messages, broken, refused, served, unanswered, busy; /* function 08's counters; wrap */
     uint16_t waited;              /* ticks since its last turn */
     bool polls, serves;           /* in this tick */
-    uint32_t silence_us, take_up, asked[2];
+    uint32_t silence_us, take_up, asked[BRACE_APP_ASKED];
     brace_answered_t answered;
 } brace_app_modbus_t;
 

@@ -244,10 +244,8 @@ bool slcan_port_receive(brace_app_t *app, brace_can_frame_t *frame)
         (void)flush(app);
     }
     for (uint32_t i = 0; i < LINES_MOST && !is_frame && slcan->in_count > 0u; i++) {
-        if (gather(slcan)) {
-            slcan->heard = true;
-            is_frame = take_line(app, frame);
-        }
+        slcan->heard = true;
+        is_frame = gather(slcan) && take_line(app, frame);
     }
     return is_frame;
 }

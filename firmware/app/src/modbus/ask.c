@@ -1,46 +1,182 @@
 #include <string.h>
 
 #include "measure/hypothetical.h"
+#include "measure/questions.h"
+#include "modbus/bytes.h"
 #include "modbus/command.h"
 
-static void unknown(brace_answered_t *answered)
+enum { QUESTION_MOST = 3 };
+
+static void k_is_unknown(brace_answered_t *answered)
 {
-    const float nan = __builtin_nanf("");
-    *answered = (brace_answered_t){nan, nan, nan, nan, nan, nan, UINT32_MAX};
+    answered->asked_k_xx_n_per_mm = answered->asked_k_xz_n_per_mm = answered->asked_k_zz_n_per_mm = __builtin_nanf("");
+    answered->asked_lambda_min_n_per_mm = answered->asked_lambda_max_n_per_mm = __builtin_nanf("");
+    answered->asked_stiff_axis_rad = __builtin_nanf("");
+    answered->asked_flags = UINT32_MAX;
+}
+
+static void force_is_unknown(brace_answered_t *answered)
+{
+    answered->asked_force_x_n = answered->asked_force_z_n = __builtin_nanf("");
+    answered->asked_force_low_n = answered->asked_force_high_n = __builtin_nanf("");
+}
+
+static void sag_is_unknown(brace_answered_t *answered)
+{
+    answered->asked_sag_x_mm = answered->asked_sag_z_mm = __builtin_nanf("");
+}
+
+static void grip_is_unknown(brace_answered_t *answered)
+{
+    answered->asked_margin_n = answered->asked_angle_left_rad = __builtin_nanf("");
+    answered->asked_contact = UINT32_MAX;
 }
 
 void command_ask_nothing(brace_app_t *app)
 {
     const float nan = __builtin_nanf("");
-    memcpy(&app->modbus.asked[0], &nan, 4);
-    memcpy(&app->modbus.asked[1], &nan, 4);
-    unknown(&app->modbus.answered);
+    for (uint32_t i = 0; i < BRACE_APP_ASKED; i++) {
+        memcpy(&app->modbus.asked[i], &nan, 4);
+    }
+    app->modbus.asked[COMMAND_ASKED_KNEE - COMMAND_ASKED_THETA1] = UINT32_MAX;
+    k_is_unknown(&app->modbus.answered);
+    force_is_unknown(&app->modbus.answered);
+    sag_is_unknown(&app->modbus.answered);
+    grip_is_unknown(&app->modbus.answered);
 }
 
-modbus_exception_t command_ask(brace_app_t *app, uint32_t theta1, uint32_t theta2)
+static void take_k(brace_answered_t *answered, brace_status_t status, const brace_stiffness_t *k)
 {
-    float theta1_rad, theta2_rad;
-    brace_stiffness_t k;
-    memcpy(&theta1_rad, &theta1, 4);
-    memcpy(&theta2_rad, &theta2, 4);
-    const brace_status_t status = hypothetical_stiffness(app, theta1_rad, theta2_rad, &k);
-    if (status == BRACE_E_MODE) { /* the model is being made anew */
-        return MODBUS_E_BUSY;
+    k_is_unknown(answered);
+    if (status == BRACE_OK) {
+        answered->asked_k_xx_n_per_mm = k->k_xx_n_per_mm;
+        answered->asked_k_xz_n_per_mm = k->k_xz_n_per_mm;
+        answered->asked_k_zz_n_per_mm = k->k_zz_n_per_mm;
+        answered->asked_lambda_min_n_per_mm = k->lambda_min_n_per_mm;
+        answered->asked_lambda_max_n_per_mm = k->lambda_max_n_per_mm;
+        answered->asked_stiff_axis_rad = k->stiff_axis_rad;
+        answered->asked_flags = k->flags;
     }
-    if (status == BRACE_E_NOT_FINITE || status == BRACE_E_RANGE) {
+}
+
+static modbus_exception_t k_refusal(brace_status_t status)
+{
+    switch (status) {
+    case BRACE_E_MODE: return MODBUS_E_BUSY; /* the model is being made anew */
+    case BRACE_E_NOT_FINITE:
+    case BRACE_E_RANGE:
+    case BRACE_E_PARAMETER:
+    case BRACE_E_UNREACHABLE: return MODBUS_E_VALUE;
+    default: return MODBUS_FINE; /* there is no K there, and that is the answer */
+    }
+}
+
+static modbus_exception_t refusal_of(brace_status_t status)
+{
+    return status == BRACE_OK ? MODBUS_FINE : status == BRACE_E_MODE ? MODBUS_E_DEVICE : MODBUS_E_VALUE;
+}
+
+static float real(uint32_t word)
+{
+    float value;
+    memcpy(&value, &word, 4);
+    return value;
+}
+
+static modbus_exception_t ask_posture(brace_app_t *app, const uint32_t asked[])
+{
+    brace_stiffness_t k;
+    const brace_status_t status = hypothetical_stiffness(app, real(asked[0]), real(asked[1]), &k);
+    const modbus_exception_t why = k_refusal(status);
+    if (why == MODBUS_FINE) {
+        take_k(&app->modbus.answered, status, &k);
+    }
+    return why;
+}
+
+static modbus_exception_t ask_tip(brace_app_t *app, const uint32_t asked[])
+{
+    brace_stiffness_t k;
+    if (asked[2] > 1u) {
         return MODBUS_E_VALUE;
     }
-    app->modbus.asked[0] = theta1;
-    app->modbus.asked[1] = theta2;
-    unknown(&app->modbus.answered);
-    if (status == BRACE_OK) {
-        app->modbus.answered = (brace_answered_t){.asked_k_xx_n_per_mm = k.k_xx_n_per_mm,
-                                                  .asked_k_xz_n_per_mm = k.k_xz_n_per_mm,
-                                                  .asked_k_zz_n_per_mm = k.k_zz_n_per_mm,
-                                                  .asked_lambda_min_n_per_mm = k.lambda_min_n_per_mm,
-                                                  .asked_lambda_max_n_per_mm = k.lambda_max_n_per_mm,
-                                                  .asked_stiff_axis_rad = k.stiff_axis_rad,
-                                                  .asked_flags = k.flags};
+    const brace_status_t status = question_k_at_tip(app, (brace_point_t){real(asked[0]), real(asked[1])},
+                                                    asked[2] == 0u ? BRACE_KNEE_UP : BRACE_KNEE_DOWN, &k);
+    const modbus_exception_t why = k_refusal(status);
+    if (why == MODBUS_FINE) {
+        take_k(&app->modbus.answered, status, &k);
     }
-    return MODBUS_FINE;
+    return why;
+}
+
+static modbus_exception_t ask_force(brace_app_t *app, const uint32_t asked[])
+{
+    brace_answered_t *answered = &app->modbus.answered;
+    brace_contact_force_t contact;
+    const brace_status_t status =
+        question_contact_force(app, (brace_displacement_t){real(asked[0]), real(asked[1])}, &contact);
+    force_is_unknown(answered);
+    if (status == BRACE_OK) {
+        answered->asked_force_x_n = contact.force.x_n;
+        answered->asked_force_z_n = contact.force.z_n;
+        answered->asked_force_low_n = contact.low_n;
+        answered->asked_force_high_n = contact.high_n;
+    }
+    return refusal_of(status);
+}
+
+static modbus_exception_t ask_sag(brace_app_t *app, const uint32_t asked[])
+{
+    brace_answered_t *answered = &app->modbus.answered;
+    brace_displacement_t sag;
+    const brace_status_t status = question_sag(app, (brace_force_t){real(asked[0]), real(asked[1])}, &sag);
+    sag_is_unknown(answered);
+    if (status == BRACE_OK) {
+        answered->asked_sag_x_mm = sag.x_mm;
+        answered->asked_sag_z_mm = sag.z_mm;
+    }
+    return refusal_of(status);
+}
+
+static modbus_exception_t ask_grip(brace_app_t *app, const uint32_t asked[])
+{
+    const brace_snapshot_t *now = brace_app_snapshot(app);
+    brace_answered_t *answered = &app->modbus.answered;
+    brace_contact_grip_t grip;
+    const bool known = now->force_x_n == now->force_x_n && now->force_z_n == now->force_z_n;
+    const brace_status_t status = known ? question_grip(app, real(asked[0]), real(asked[1]), &grip) : BRACE_E_MODE;
+    grip_is_unknown(answered);
+    if (status == BRACE_OK) {
+        answered->asked_margin_n = grip.margin_n;
+        answered->asked_angle_left_rad = grip.angle_left_rad;
+        answered->asked_contact = grip.state;
+    }
+    return refusal_of(status);
+}
+
+modbus_exception_t command_ask(brace_app_t *app, uint32_t index, uint32_t count, const uint8_t *data)
+{
+    static const struct {
+        uint32_t first, count;
+        modbus_exception_t (*ask)(brace_app_t *app, const uint32_t asked[]);
+    } questions[] = {{COMMAND_ASKED_THETA1, 2, ask_posture},
+                     {COMMAND_ASKED_TIP_X, 3, ask_tip},
+                     {COMMAND_ASKED_DX, 2, ask_force},
+                     {COMMAND_ASKED_LOAD_X, 2, ask_sag},
+                     {COMMAND_ASKED_NORMAL, 2, ask_grip}};
+    uint32_t asked[QUESTION_MOST];
+    for (uint32_t i = 0; i < sizeof questions / sizeof *questions; i++) {
+        if (questions[i].first != index || questions[i].count != count) {
+            continue;
+        }
+        for (uint32_t j = 0; j < count; j++) { /* at most QUESTION_MOST */
+            asked[j] = get_32(data + 4u * j);
+        }
+        const modbus_exception_t why = questions[i].ask(app, asked);
+        if (why == MODBUS_FINE) {
+            memcpy(&app->modbus.asked[index - COMMAND_ASKED_THETA1], asked, 4u * count);
+        }
+        return why;
+    }
+    return MODBUS_E_VALUE;
 }

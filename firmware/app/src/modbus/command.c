@@ -69,7 +69,7 @@ modbus_exception_t command_run(brace_app_t *app, uint32_t index, uint32_t value)
     case COMMAND_CLEAR_FAULTS: return refusal_of(brace_app_clear(app, value));
     case COMMAND_TAKE_UP: return take_up(app, value);
     case COMMAND_LET_GO: return refusal_of(brace_app_let_go(app));
-    default: return MODBUS_E_VALUE; /* an angle without the other */
+    default: return MODBUS_E_VALUE; /* part of a question */
     }
 }
 
@@ -88,8 +88,7 @@ uint32_t command_read(const brace_app_t *app, uint32_t index)
     case COMMAND_ROLLBACK: return stored(app);
     case COMMAND_CLEAR_FAULTS: return app->faults;
     case COMMAND_TAKE_UP: return app->modbus.take_up;
-    case COMMAND_ASKED_THETA1: return app->modbus.asked[0];
-    case COMMAND_ASKED_THETA2: return app->modbus.asked[1];
-    default: return 0;
+    case COMMAND_LET_GO: return 0;
+    default: return app->modbus.asked[index - COMMAND_ASKED_THETA1];
     }
 }

@@ -91,15 +91,13 @@ static modbus_exception_t parameters(brace_app_t *app, brace_app_modbus_work_t *
     return MODBUS_FINE;
 }
 
-/* One command, or both angles of a posture. */
+/* One command, or what belongs to one question. */
 static modbus_exception_t commands(brace_app_t *app, brace_app_modbus_work_t *work, const uint8_t *data)
 {
     work->checked = true;
     work->done = work->count;
-    if (work->start == COMMAND_ASKED_THETA1 && work->count == 2u) {
-        return command_ask(app, get_32(data), get_32(data + 4));
-    }
-    return work->count == 1u ? command_run(app, work->start, get_32(data)) : MODBUS_E_VALUE;
+    return work->count == 1u ? command_run(app, work->start, get_32(data))
+                             : command_ask(app, work->start, work->count, data);
 }
 
 modbus_exception_t modbus_write_block(brace_app_t *app, brace_app_modbus_work_t *work, uint8_t *pdu, uint32_t length,

@@ -66,7 +66,7 @@ static bool is_too_much(const brace_app_t *app, services_room_t room)
     if (answers && (works || is_long(app) || (says && (moves(app) || locates(app))))) {
         return true;
     }
-    if (works && says && moves(app)) {
+    if (works && (says || moves(app))) {
         return true;
     }
     return !app->model.collapsed && (works || (answers && (says || app->modbus.polls)));

@@ -83,16 +83,25 @@ _Static_assert(sizeof(brace_measured_t) == 4 * BRACE_MEASURED_COUNT, "32 bits ea
 
 /* K at the posture asked for over Modbus. */
 typedef struct {
-    float asked_k_xx_n_per_mm; /* k_xx at the posture asked for */
-    float asked_k_xz_n_per_mm; /* k_xz at the posture asked for */
-    float asked_k_zz_n_per_mm; /* k_zz at the posture asked for */
-    float asked_lambda_min_n_per_mm; /* lambda_min at the posture asked for */
-    float asked_lambda_max_n_per_mm; /* lambda_max at the posture asked for */
-    float asked_stiff_axis_rad; /* stiff axis at the posture asked for */
+    float asked_k_xx_n_per_mm; /* k_xx at the posture or tip asked for */
+    float asked_k_xz_n_per_mm; /* k_xz at the posture or tip asked for */
+    float asked_k_zz_n_per_mm; /* k_zz at the posture or tip asked for */
+    float asked_lambda_min_n_per_mm; /* lambda_min at the posture or tip asked for */
+    float asked_lambda_max_n_per_mm; /* lambda_max at the posture or tip asked for */
+    float asked_stiff_axis_rad; /* stiff axis at the posture or tip asked for */
     uint32_t asked_flags; /* quality of that K */
+    float asked_force_x_n; /* force of the ground on the tip for the displacement asked for, outwards */
+    float asked_force_z_n; /* the same, upwards */
+    float asked_force_low_n; /* what any displacement of that size gives at least */
+    float asked_force_high_n; /* what any displacement of that size gives at most */
+    float asked_sag_x_mm; /* how far the tip yields to the load asked for, outwards */
+    float asked_sag_z_mm; /* the same, upwards */
+    float asked_margin_n; /* what may be added along the surface asked for before the foot slides */
+    float asked_angle_left_rad; /* from the force of now to the edge of the friction cone */
+    uint32_t asked_contact; /* what the foot does there */
 } brace_answered_t;
 
-enum { BRACE_ANSWERED_COUNT = 7 };
+enum { BRACE_ANSWERED_COUNT = 16 };
 #ifndef __cplusplus
 _Static_assert(sizeof(brace_answered_t) == 4 * BRACE_ANSWERED_COUNT, "32 bits each");
 #endif
@@ -107,9 +116,18 @@ typedef struct {
     uint32_t let_go; /* any value: lets every joint go, ends a loading test */
     float asked_theta1_rad; /* a posture to know K at; write both in one request */
     float asked_theta2_rad; /* a posture to know K at; write both in one request */
+    float asked_tip_x_mm; /* a place of the tip to know K at, outwards from the hip; write tip_x, tip_z and knee in one request */
+    float asked_tip_z_mm; /* the same, upwards */
+    uint32_t asked_knee; /* 0: knee up, 1: knee down */
+    float asked_dx_mm; /* a displacement of the tip to know the contact force of; write both in one request */
+    float asked_dz_mm; /* the same, upwards */
+    float asked_load_x_n; /* a load on the tip to know the sag of; write both in one request */
+    float asked_load_z_n; /* the same, upwards */
+    float asked_normal_rad; /* direction of the surface's normal, to know how far the foot is from sliding; write both in one request */
+    float asked_friction; /* friction coefficient of that surface */
 } brace_commands_t;
 
-enum { BRACE_COMMANDS_COUNT = 8 };
+enum { BRACE_COMMANDS_COUNT = 17 };
 #ifndef __cplusplus
 _Static_assert(sizeof(brace_commands_t) == 4 * BRACE_COMMANDS_COUNT, "32 bits each");
 #endif
