@@ -80,8 +80,8 @@ def behind(before: Dataset, rig: Rig) -> Rig:
 def joined(
     before: Dataset, meta: dict[str, Any], new: dict[str, np.ndarray]
 ) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
-    """One record of both tests, with the first one's step and dwell: runs and configurations counted on;
-    readings that only one of them has are NaN in the other's rows."""
+    """One record of both tests, with the first one's step, dwell and sensor: runs and configurations
+    counted on; readings that only one of them has are NaN in the other's rows."""
     if before.kind != "loading":
         raise UsageError(
             "a loading test comes after a loading record only",
@@ -106,9 +106,10 @@ def joined(
     def part(columns: Mapping[str, np.ndarray], name: str, count: int) -> np.ndarray:
         return columns[name] if name in columns else np.full(count, np.nan)
 
-    own = {key: before.meta.number(f"rig.{key}") for key in ("step_mm", "dwell_s")}
+    rig = {key: before.meta.number(f"rig.{key}") for key in ("step_mm", "dwell_s")}
+    sensor = {key: before.meta.number(f"sensor.{key}") for key in ("resolution_n", "range_n")}
     columns = {
         name: np.concatenate([part(before.columns, name, before.rows), part(moved, name, rows)])
         for name in names
     }
-    return {**meta, "rig": {**meta["rig"], **own}}, columns
+    return {**meta, "sensor": sensor, "rig": {**meta["rig"], **rig}}, columns

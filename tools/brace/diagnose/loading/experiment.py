@@ -89,7 +89,8 @@ def next_experiment(
     if chance < NO_POWER:
         return NextExperiment(
             f"nothing on this rig's menu separates {' and '.join(separates)}: other postures, larger, "
-            "smaller, slower, preloaded or repeated runs, warmth, encoders and a dial gauge would all read the same",
+            "smaller, slower, preloaded or repeated runs, warmth, encoders and a dial gauge would all read "
+            "the same",
             separates,
             chance,
             best.minutes,
@@ -159,7 +160,7 @@ def _best_postures(played: Played, hypotheses: Sequence[Contender], read: np.nda
 
 
 def _shortest_of_the_best(plans: Sequence[Plan]) -> Plan:
-    """Gain per minute, where gain beyond enough is worth nothing. Of equal ones the first: nearest to the record."""
+    """Gain per minute, where gain beyond enough is worth nothing. Of equal ones the first: the record's way."""
     enough = min(GOOD_ENOUGH, max(plan.worth for plan in plans) - NEAR_BEST)
     return min((plan for plan in plans if plan.worth >= enough), key=lambda plan: plan.minutes)
 
@@ -208,7 +209,7 @@ def _rig_toml(record: Record, plan: Plan, seed: int) -> str:
         },
         "sensor": {
             "noise_n": float(f"{np.hypot(noise['fx_n'].floor, noise['fz_n'].floor) / np.sqrt(2.0):.3g}"),
-            "resolution_n": meta.number("sensor.resolution_n"),
+            "resolution_n": _resolution_n(record),
             "range_n": meta.number("sensor.range_n"),
             "encoders": plan.encoders,
             "encoder_noise_rad": _floor(record, ENCODERS[0], ENCODER_NOISE_RAD),
@@ -228,6 +229,15 @@ def _rig_toml(record: Record, plan: Plan, seed: int) -> str:
     for theta1, theta2 in plan.angles:
         lines += ["\n[[configuration]]", f"theta1_rad = {theta1:.6f}", f"theta2_rad = {theta2:.6f}"]
     return "\n".join(lines) + "\n"
+
+
+def _resolution_n(record: Record) -> float:
+    """What readings are rounded to: the sensor's resolution, or nothing where the rig gives averages."""
+    step = record.dataset.meta.number("sensor.resolution_n")
+    if step <= 0.0:
+        return 0.0
+    off = np.abs(record.measured[:2] / step - np.round(record.measured[:2] / step))
+    return step if float(np.median(off)) * step < 1e-5 else 0.0
 
 
 def _floor(record: Record, channel: str, stated: float) -> float:
