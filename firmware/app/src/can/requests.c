@@ -5,6 +5,7 @@
 #include "can/bus.h"
 #include "can/request.h"
 #include "can/slcan.h"
+#include "modbus/modbus.h"
 
 #define FRAMES_PER_MS 4u
 #define FRAMES_MOST 20u
@@ -91,7 +92,8 @@ static void take_text(brace_app_t *app)
 {
     brace_can_frame_t frame;
     const bool full = !app->model.collapsed || app->mode == BRACE_MODE_CONFIGURATION;
-    const bool rests = full && app->requests.yielded > 0u; /* it is K's turn, or a piece's */
+    const bool rests = (full && app->requests.yielded > 0u) ||                  /* it is K's turn, or a piece's */
+                       app->modbus.waited >= (uint32_t)MODBUS_PATIENCE_TICKS; /* or that of Modbus */
     app->bus.slcan.heard = false;
     if (!app->requests.waiting && !rests && slcan_port_receive(app, &frame)) {
         app->requests.waiting = accept(app, &frame);

@@ -5,6 +5,9 @@
 
 #include "brace/app.h"
 
+/* Without a turn for so long, Modbus has one beside an answer, and text over SLCAN waits for it. */
+enum { MODBUS_PATIENCE_TICKS = 8 };
+
 /* Opens the ports that the board has; not for the tick. */
 void modbus_start(brace_app_t *app);
 

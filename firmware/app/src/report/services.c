@@ -6,7 +6,6 @@
 #include "modbus/modbus.h"
 #include "report/announce.h"
 
-#define PATIENCE_TICKS 8u
 #define MOST_YIELDED 4u /* ticks in a row without K */
 #define LINES_OF_ANSWERS 3u
 
@@ -77,7 +76,7 @@ static bool is_too_much(const brace_app_t *app, services_room_t room)
 static void choose_modbus(brace_app_t *app, bool may)
 {
     brace_app_modbus_t *modbus = &app->modbus;
-    modbus->polls = may && (!app->requests.serves || modbus->waited >= PATIENCE_TICKS);
+    modbus->polls = may && (!app->requests.serves || modbus->waited >= (uint32_t)MODBUS_PATIENCE_TICKS);
     modbus->serves = modbus->polls && modbus_poll(app, app->last_us);
     modbus->waited = modbus->polls ? 0u : (uint16_t)(modbus->waited + 1u);
 }
@@ -104,7 +103,7 @@ static void choose(brace_app_t *app, services_room_t room)
         requests->serves = false; /* it goes on waiting */
     }
     const bool little = room == SERVICES_BESIDE_LITTLE && app->mode != BRACE_MODE_CONFIGURATION;
-    choose_modbus(app, !(little && requests->serves));
+    choose_modbus(app, !(little && requests->serves) && !app->bus.slcan.heard);
     app->report.speaks = wants_to_say(app) && may_say(app) && !(little && requests->serves);
 }
 
@@ -127,7 +126,10 @@ static uint32_t room_to_say(const brace_app_t *app, bool lean)
     if (!lean || app->bus.slcan.open) {
         return app->cyclic.frames_per_tick;
     }
-    return !app->requests.serves ? 4u : locates(app) ? 1u : 2u;
+    if (app->modbus.serves || (app->requests.serves && locates(app))) {
+        return 1;
+    }
+    return app->requests.serves ? 2u : 4u;
 }
 
 void services_run(brace_app_t *app, bool lean)
