@@ -10,8 +10,7 @@ NAME = "gravity"
 
 
 def variants(setting: Setting) -> Iterator[Variant]:
-    """Femur and knee load the same joint in the same proportion: the knee stands for both here."""
+    """Femur and knee load the same joint in the same proportion: the knee stands for both."""
     knee, tibia = (Freedom(f"gravity.{part}_n", 0.0, 1e4) for part in ("knee", "tibia"))
-    yield Variant(NAME, "gravity", (knee,))
-    yield Variant(NAME, "gravity", (tibia,))
-    yield Variant(NAME, "gravity", (knee, tibia))
+    # the femur's weight hangs at half its length
+    yield Variant(NAME, "gravity", (knee, tibia), stands_for={"gravity.knee_n": ("gravity.femur_n", 2.0)})

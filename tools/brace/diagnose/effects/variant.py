@@ -22,12 +22,14 @@ class Freedom:
 
 @dataclass(frozen=True)
 class Variant:
-    """One way for an effect to show. `settings` are keys that are set and not fitted."""
+    """One way for an effect to show. `settings` are keys that are set and not fitted. `stands_for` maps a fitted key to
+    another that the record tells only in sum with it, and how much of the other makes the same readings."""
 
     effect: str
     where: str
     freedoms: tuple[Freedom, ...]
     settings: Mapping[str, float] = field(default_factory=dict)
+    stands_for: Mapping[str, tuple[str, float]] = field(default_factory=dict)
 
     @property
     def label(self) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from brace.diagnose.effects import Variant
 from brace.diagnose.loading.search import Hypothesis
 
 WORTH_SAYING = 0.05  # posterior share from which a rival is listed
@@ -25,12 +26,32 @@ class LabelSet:
         return self.best.label
 
 
-def posterior_of(hypotheses: Sequence[Hypothesis], ways_of_label: dict[str, int]) -> list[LabelSet]:
+def way_prior(variants: Sequence[Variant]) -> dict[tuple[str, tuple[str, ...]], float]:
+    """Log prior of each way of an effect, by (label, keys): its principal way, listed first, has half of it, the others
+    share the rest."""
+    ways: dict[str, list[Variant]] = {}
+    for variant in variants:
+        ways.setdefault(variant.label, []).append(variant)
+    prior: dict[tuple[str, tuple[str, ...]], float] = {}
+    for label, all_ways in ways.items():
+        for place, variant in enumerate(all_ways):
+            part = 1.0 if len(all_ways) == 1 else 0.5 if place == 0 else 0.5 / (len(all_ways) - 1)
+            prior[label, _way(variant)] = float(np.log(part))
+    return prior
+
+
+def _way(variant: Variant) -> tuple[str, ...]:
+    """Freedoms and settings apart, so that a key that is set and one that is fitted are two ways."""
+    return (*(freedom.key for freedom in variant.freedoms), "set", *variant.settings)
+
+
+def posterior_of(hypotheses: Sequence[Hypothesis], variants: Sequence[Variant]) -> list[LabelSet]:
     """Sets of effects by falling posterior; the ways of one effect share its prior."""
+    prior = way_prior(variants)
     groups: dict[frozenset[str], list[tuple[float, Hypothesis]]] = {}
     for hypothesis in hypotheses:
-        spread = sum(np.log(ways_of_label[variant.label]) for variant in hypothesis.variants)
-        groups.setdefault(hypothesis.labels, []).append((hypothesis.score - spread, hypothesis))
+        share = sum(prior[variant.label, _way(variant)] for variant in hypothesis.variants)
+        groups.setdefault(hypothesis.labels, []).append((hypothesis.score + share, hypothesis))
     logs = {labels: _log_sum([value for value, _ in ways]) for labels, ways in groups.items()}
     whole = _log_sum(list(logs.values()))
     found = [

@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from brace.diagnose.diagnosis import Interval
-from brace.diagnose.loading.fit import Fit, cost_of, residuals, times_near
+from brace.diagnose.loading.fit import Fit, residuals
 from brace.diagnose.loading.record import Record
+from brace.diagnose.loading.screen import Remover
 from brace.model.keys import KEY_BY_NAME
 
 Z_90 = 1.6449
+TIMES_AT_ONCE = 100
 
 
 def intervals(record: Record, fitted: Fit, keys: tuple[str, ...], inflation: float = 1.0) -> dict[str, Interval]:
@@ -39,15 +41,26 @@ def intervals(record: Record, fitted: Fit, keys: tuple[str, ...], inflation: flo
 
 
 def _time_interval(record: Record, fitted: Fit, place: int) -> Interval:
-    """From the reading before the first time that fits to the reading after the last."""
+    """From the times' own posterior, the other keys refitted linearly at each: the reading before its 5 % point to the
+    reading after its 95 % point."""
     space, x = fitted.space, fitted.x
-    times = times_near(record, float(x[place]))
-    points = np.tile(x, (times.size, 1))
-    points[:, place] = times
-    costs = np.array([cost_of(space, p, r) for p, r in zip(points, residuals(record, space, points))])
-    good = times[costs <= fitted.cost + Z_90**2]
     clock = record.dataset["t_s"]
-    first, last = (float(good.min()), float(good.max())) if good.size else (float(x[place]), float(x[place]))
+    between = 0.5 * (clock[1:] + clock[:-1])
+    widths = np.diff(clock)
+    inside = (between >= space.low[place]) & (between <= space.high[place]) & (widths > 0.0)
+    times, widths = between[inside], widths[inside]
+    if not times.size:
+        return Interval(float(x[place]), float(x[place]), float(x[place]))
+    remover = Remover(fitted)
+    costs = np.empty(times.size)
+    for begin in range(0, times.size, TIMES_AT_ONCE):
+        points = np.tile(x, (min(TIMES_AT_ONCE, times.size - begin), 1))
+        points[:, place] = times[begin : begin + TIMES_AT_ONCE]
+        left = remover.augmented(residuals(record, space, points))
+        costs[begin : begin + TIMES_AT_ONCE] = np.einsum("ij,ij->i", left, left)
+    weight = widths * np.exp(-0.5 * (costs - costs.min()))
+    share = np.cumsum(weight) / weight.sum()
+    first, last = times[np.searchsorted(share, 0.05)], times[min(np.searchsorted(share, 0.95), times.size - 1)]
     low = clock[max(int(np.searchsorted(clock, first)) - 1, 0)]
     high = clock[min(int(np.searchsorted(clock, last)), clock.size - 1)]
     return Interval(float(x[place]), float(low), float(high))

@@ -55,7 +55,7 @@ def channel_noise(dataset: Dataset, channel: str) -> ChannelNoise:
     spread = robust_sigma(off) / freedom_ratio
     if spread < least:
         return ChannelNoise(least, 0.0, "the sensor's resolution")
-    growth = growth_of(off / freedom_ratio, size, spread) if source == REPEATS else None
+    growth = growth_of(off / freedom_ratio, size, spread) if source == REPEATS and channel in ("fx_n", "fz_n") else None
     if growth is None:
         return ChannelNoise(spread, 0.0, source, freedom)
     return ChannelNoise(max(growth[0], least), growth[1], source + ", growing with load", freedom)

@@ -10,7 +10,7 @@ import numpy as np
 from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading.noise import REPEATS, THIRD_DIFFERENCES_SHARE, ChannelNoise, growth_of, robust_sigma
 from brace.diagnose.loading.parts import enough_rows
-from brace.diagnose.loading.record import NOT_MEASURED, Record
+from brace.diagnose.loading.record import FORCES, NOT_MEASURED, Record
 from brace.diagnose.loading.space import Trust, space_of
 
 LEAST_DIFFERENCES = 30
@@ -45,8 +45,8 @@ def with_growth(record: Record, fitted: Fit) -> Record | None:
     left = fitted.residual.reshape(record.measured.shape) * record.sigma
     noise, grows = dict(record.noise), False
     for place, name in enumerate(record.channels):
-        if record.noise[name].source.startswith(REPEATS):
-            continue
+        if name not in FORCES or record.noise[name].source.startswith(REPEATS):
+            continue  # where noise is as large as the reading, weighing by the reading would bias it
         taken = record.sigma[place] < NOT_MEASURED
         off = left[place][taken]
         found = growth_of(off, np.abs(record.measured[place][taken]), robust_sigma(off))

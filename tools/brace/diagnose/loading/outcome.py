@@ -29,7 +29,7 @@ from brace.diagnose.loading.fit import Fit
 from brace.diagnose.loading.intervals import intervals
 from brace.diagnose.loading.limb_of import limb_of
 from brace.diagnose.loading.localise import localise
-from brace.diagnose.loading.record import Record
+from brace.diagnose.loading.record import NOT_MEASURED, Record
 from brace.diagnose.loading.structure import STRUCTURED_P
 from brace.diagnose.options import Options
 from brace.model import LimbModel
@@ -96,6 +96,10 @@ def _effects(record: Record, final: Pass, agreed: Agreement, labels: Sequence[st
         variant = next(item for item in fitted.space.variants if item.label == label)
         keys = tuple(freedom.key for freedom in variant.freedoms)
         parameters: dict[str, Interval] = dict(intervals(record, fitted, keys))
+        for key, (other, ratio) in variant.stands_for.items():
+            both = parameters[key]
+            parameters[key] = Interval(both.value, KEY_BY_NAME[key].low, both.high)
+            parameters[other] = Interval(0.0, KEY_BY_NAME[other].low, ratio * both.high)
         for key, value in variant.settings.items():
             if KEY_BY_NAME[key].kind in ("number", "ratio"):
                 parameters[key] = Interval(value, value, value)
@@ -185,15 +189,15 @@ def _could_be(final: Pass, effects: Sequence[NamedEffect]) -> tuple[str, ...]:
 def _unexplained(final: Pass, after: Fit) -> Unexplained:
     structure, record = final.structure, final.record
     rms = float(np.sqrt(np.mean((after.residual.reshape(record.measured.shape) * record.sigma)[:2] ** 2)))
-    if not structure.structured:
+    if not structure.structured and not final.decision.extension:
         return Unexplained(rms, False, "no more than noise")
     shown = [family.words for family in structure.families if family.p < STRUCTURED_P][:3]
-    words = "; ".join(shown)
+    words = "; ".join([*([final.decision.extension] if final.decision.extension else []), *shown])
     if final.decision.verdict != "unknown":
         return Unexplained(rms, True, f"a small rest with structure: {words}")
     nearest = final.sets[0]
     taken = final.base.fit.cost - nearest.best.fit.cost
-    readings = final.base.fit.residual.size
+    readings = final.record.readings
     excess = max(final.base.fit.cost - readings, 1e-9)
     near = (
         f"the nearest in the catalogue, {nearest.label}, takes {min(1.0, taken / excess):.0%} of it and leaves the rest"
@@ -210,7 +214,7 @@ def _sentence(final: Pass, effects: Sequence[NamedEffect]) -> str:
     if verdict == "unknown":
         return (
             "The record disagrees with the model in a way that no effect of the catalogue makes: it shows "
-            f"{structure.strongest.words}. Nothing was added to the model."
+            f"{final.decision.extension or structure.strongest.words}. Nothing was added to the model."
         )
     if verdict == "ambiguous":
         names = [effect.label for effect in effects]
@@ -237,7 +241,7 @@ def _more_of_the_same(final: Pass) -> NextExperiment | None:
 def _residuals(whole: Record, believed: LimbModel, exported: LimbModel, locked: np.ndarray) -> Residuals:
     models = np.stack([model_numbers(believed), model_numbers(exported)])
     played = whole.player.play_numbers(models)
-    off = whole.measured[None] - played
+    off = np.where(whole.sigma < NOT_MEASURED, whole.measured[None] - played, np.nan)
     return Residuals(whole.channels, off[0].T.copy(), off[1].T.copy(), locked)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -14,6 +13,7 @@ from brace.diagnose.effects import Variant, all_variants
 from brace.diagnose.loading import outcome
 from brace.diagnose.loading.choose import LabelSet, posterior_of
 from brace.diagnose.loading.evidence import log_likelihood, score
+from brace.diagnose.loading.extensions import better_extension
 from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.gate import gate
 from brace.diagnose.loading.noise_after_base import with_growth, with_known_noise
@@ -87,10 +87,10 @@ def search_pass(record: Record, trust: Trust, variants: Sequence[Variant], advan
 def _searched(record: Record, trust: Trust, variants: Sequence[Variant], advance: Advance) -> Pass:
     search = Search(record, trust, variants, advance)
     hypotheses = search.run()
-    sets = posterior_of(hypotheses, Counter(variant.label for variant in variants))
+    sets = posterior_of(hypotheses, variants)
     sets[0] = _polished(record, sets[0])
     structure = structure_of(record, sets[0].best.fit)
-    return Pass(record, trust, search.base, sets, structure, decide(sets, structure, search.base.fit))
+    return Pass(record, trust, search.base, sets, structure, decide(sets, structure, search.base.fit, better_extension(record, sets)))
 
 
 def _likelihood(found: Pass) -> float:

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-import numpy as np
-
 from brace.diagnose.effects import Variant
 from brace.diagnose.loading.evidence import score
 from brace.diagnose.loading.fit import Fit, fit

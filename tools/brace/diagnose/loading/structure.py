@@ -10,7 +10,7 @@ import numpy as np
 
 from brace.dataset.check_runs import run_starts
 from brace.diagnose.loading.fit import Fit
-from brace.diagnose.loading.record import Record
+from brace.diagnose.loading.record import NOT_MEASURED, Record
 from brace.diagnose.loading.screen import Remover
 
 STRUCTURED_P = 3e-5  # family-wise; structure that matters is far below, and noise is never quite white
@@ -50,10 +50,10 @@ def structure_of(record: Record, fitted: Fit) -> Structure:
     left = remover.augmented(fitted.residual[None])[0]
     tests = []
     for words, shapes in _families(record, fitted):
-        tests.append(_test(words, shapes, remover, left, fitted.residual.size - fitted.space.size))
+        tests.append(_test(words, shapes, remover, left, record.readings - fitted.space.size))
     tests.append(_lack_of_fit(record, fitted))
     tests.append(_neighbours(record, fitted))
-    tests.append(_outliers(fitted))
+    tests.append(_outliers(record, fitted))
     least = min(test.p for test in tests)
     return Structure(min(1.0, least * len(tests)), tuple(sorted(tests, key=lambda item: item.p)))
 
@@ -90,12 +90,17 @@ def _lack_of_fit(record: Record, fitted: Fit) -> FamilyTest:
     if counts.max() < 2:
         return FamilyTest(words, 1.0, 0.0, 0)
     left = fitted.residual.reshape(len(record.channels), -1)
-    mean = np.stack([np.bincount(group, weights=channel) for channel in left]) / counts
-    between = float(np.sum(mean**2 * counts))
-    within = float(np.sum((left - mean[:, group]) ** 2))
-    channels = len(record.channels)
-    freedom = max(channels * counts.size - fitted.space.size, 1)
-    beside = channels * int(np.sum(counts - 1))
+    between = within = 0.0
+    freedom, beside = -fitted.space.size, 0
+    for channel, sigma in zip(left, record.sigma):
+        taken = sigma < NOT_MEASURED
+        count = np.bincount(group[taken], minlength=counts.size)
+        mean = np.bincount(group[taken], weights=channel[taken], minlength=counts.size) / np.maximum(count, 1)
+        between += float(np.sum(mean**2 * count))
+        within += float(np.sum((channel - mean[group])[taken] ** 2))
+        freedom += int(np.count_nonzero(count))
+        beside += int(np.sum(np.maximum(count - 1, 0)))
+    freedom = max(freedom, 1)
     ratio = (between / freedom) / max(within / beside, 1e-300)
     return FamilyTest(words, float(fisher.sf(ratio, freedom, beside)), between, freedom)
 
@@ -107,17 +112,19 @@ def _neighbours(record: Record, fitted: Fit) -> FamilyTest:
     left = fitted.residual.reshape(len(record.channels), -1)
     same = np.diff(record.dataset["run"]) == 0
     product = (left[:, 1:] * left[:, :-1])[:, same]
-    z = float(product.sum() / np.sqrt(max(product.size, 1)) / max(float(np.mean(left**2)), 1e-12))
+    pairs = int(np.count_nonzero(product))
+    size = float(np.sum(left**2)) / max(record.readings, 1)
+    z = float(product.sum() / np.sqrt(max(pairs, 1)) / max(size, 1e-12))
     return FamilyTest("from one reading to the next", float(2.0 * norm.sf(abs(z))), z**2, 1)
 
 
-def _outliers(fitted: Fit) -> FamilyTest:
+def _outliers(record: Record, fitted: Fit) -> FamilyTest:
     """Single readings that no noise makes."""
     from scipy.stats import norm
 
-    size = max(1.0, float(np.sqrt(np.mean(fitted.residual**2))))
+    size = max(1.0, float(np.sqrt(fitted.chi2 / max(record.readings, 1))))
     worst = float(np.abs(fitted.residual).max(initial=0.0)) / size
-    p = float(min(1.0, 2.0 * norm.sf(worst) * fitted.residual.size))
+    p = float(min(1.0, 2.0 * norm.sf(worst) * record.readings))
     return FamilyTest("in single readings", p, worst**2, 1)
 
 

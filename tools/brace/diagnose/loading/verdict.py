@@ -25,13 +25,15 @@ class Decision:
     classes: tuple[tuple[str, ...], ...]
     chosen: LabelSet
     structure: Structure
+    extension: str = ""
 
 
-def decide(sets: Sequence[LabelSet], structure: Structure, base: Fit) -> Decision:
-    """`structure` is what the best set leaves."""
+def decide(sets: Sequence[LabelSet], structure: Structure, base: Fit, extension: str = "") -> Decision:
+    """`structure` is what the best set leaves; `extension` says what no entry of the catalogue does and what explains
+    more than the best set."""
     best = sets[0]
-    if structure.structured and not _small_rest(best, structure, base):
-        return Decision("unknown", (), (), best, structure)
+    if extension or (structure.structured and not _small_rest(best, structure, base)):
+        return Decision("unknown", (), (), best, structure, extension)
     nothing = next((item for item in sets if not item.labels), None)
     if nothing is not None and nothing.posterior > NOTHING_STANDS:
         return Decision("none", (), (), nothing, structure)
