@@ -13,7 +13,7 @@ from brace.dataset.unit_slips import slip_of
 
 Columns = Mapping[str, np.ndarray]
 # time between readings over rig.dwell_s -> the unit that the clock is written in, the factor that mends it
-TIME_SLIPS = {1e3: ("ms", 1e-3), 1e6: ("us", 1e-6), 1 / 60: ("min", 60.0), 1 / 3600: ("h", 3600.0), 1 / 86400: ("days", 86400.0)}
+TIME_SLIPS = {1e3: ("ms", 1e-3), 1e6: ("us", 1e-6), 1 / 60: ("min", 60.0), 1 / 3600: ("h", 3600.0)}
 REGULAR_SHARE = 0.9  # of the rows of a record whose counter counts one by one
 STANDS_SHARE = 0.3  # above it, the clock is merely coarse
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from brace.dataset import DataFault, Dataset
 from brace.dataset.unit_slips import FORCE_SLIPS, LENGTH_SLIPS
-from brace.diagnose.loading.fault_judge import Judge, misfit
+from brace.diagnose.loading.fault_judge import Judge, alike, misfit
 
 Columns = Mapping[str, np.ndarray]
 Change = Callable[[Columns], dict[str, np.ndarray]]
@@ -22,6 +22,7 @@ LEAST_EXCESS = 1.5  # per reading, that a fault of a whole column makes
 REMOVED = 0.95  # of the excess, by a repair that is believed
 NEAR_NOISE = 0.5  # excess per reading that a repaired record may keep
 TIED = 1.5  # a repair that leaves no more than this factor of the best's is as likely
+SAME_SHAPE = 0.8  # correlation with the believed limb's forces, from which a unit can be told
 UNITS = {**FORCE_SLIPS, 0.1: ("daN", 10.0), 1 / 0.27801385: ("ozf", 0.27801385)}
 FORCES: tuple[str, ...] = ("fx_n", "fz_n")
 SHIFTS: tuple[str, ...] = ("dx_mm", "dz_mm")
@@ -43,11 +44,15 @@ def faults(judge: Judge) -> list[DataFault]:
     """The repairs that explain the record, best first; empty where none is needed or none helps."""
     data = judge.dataset.select(_mask(judge))
     measured = np.stack([data[name] for name in FORCES])
-    before = misfit(measured, judge.play(data, judge.trust.numbers))
+    played = judge.play(data, judge.trust.numbers)
+    before = misfit(measured, played)
     if before < SUSPECT or judge.as_it_is.excess < LEAST_EXCESS:
         return []
     tried = []
+    shaped = [abs(alike(measured[place], played[place])) > SAME_SHAPE for place in (0, 1)]
     for repair in repairs(judge.dataset):
+        if any(factor > 1.0 and not same for factor, same in zip(repair.scale, shaped)):
+            continue  # noise fits in any unit that is large enough
         mended = data.with_columns(repair.change(data.columns))
         after = misfit(np.stack([mended[name] for name in FORCES]), judge.play(mended, judge.trust.numbers))
         if after < SHORTLISTED * before:

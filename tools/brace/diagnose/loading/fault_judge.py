@@ -95,3 +95,9 @@ def misfit(measured: np.ndarray, played: np.ndarray) -> float:
     """0 where they agree, 1 where they have nothing in common."""
     both = float(np.sum(measured**2) + np.sum(played**2))
     return float(np.sqrt(np.sum((measured - played) ** 2) / both)) if both > 0.0 else 0.0
+
+
+def alike(one: np.ndarray, other: np.ndarray) -> float:
+    """Cosine of the angle between them: 1 where they differ by a factor alone."""
+    size = float(np.sqrt(np.sum(one**2) * np.sum(other**2)))
+    return float(np.sum(one * other)) / size if size > 0.0 else 0.0

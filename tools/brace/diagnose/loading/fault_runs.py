@@ -10,8 +10,8 @@ from itertools import combinations
 import numpy as np
 
 from brace.dataset import DataFault, Dataset
-from brace.diagnose.loading.fault_columns import FORCES, UNITS
-from brace.diagnose.loading.fault_judge import Judge, misfit
+from brace.diagnose.loading.fault_columns import FORCES, SAME_SHAPE, UNITS
+from brace.diagnose.loading.fault_judge import Judge, alike, misfit
 
 MOST_LEFT_OUT = 4  # poses that are left out on trial
 LEAST_EXCESS = 1.5
@@ -25,6 +25,7 @@ BAD_RATIO = 20.0  # times the middle one's
 MENDED = 4.0  # chi squared per reading that a repaired run may keep
 MENDED_RATIO = 1.5  # times the middle one's
 NEAR_NOISE = 2.0
+LEAST_HEARD = 3.0  # times noise and resolution together: a run that says less is not judged
 LEFT = 0.01  # of chi squared, by a repair that is believed
 MOST_RUNS = 0.5  # of a pose's runs that are bad: it is the pose
 LEAST_TURN_RAD = 0.05  # an angle that is off by less is the limb's business
@@ -104,7 +105,8 @@ def _exchanged_poses(judge: Judge) -> list[DataFault]:
                     int(np.argmax(config == one)) + 1,
                     name,
                     f"poses {one} and {other} have each other's angles: the limb misses the record by "
-                    f"{np.sqrt(1.0 + before):.3g} times its noise, and by {np.sqrt(1.0 + left):.3g} times once they change places",
+                    f"{np.sqrt(1.0 + before):.3g} times its noise, and by {np.sqrt(1.0 + left):.3g} times once they "
+                    "change places",
                     f"poses {one} and {other} exchanged",
                 )
                 for name in ("config", *ANGLES)
@@ -239,6 +241,10 @@ def _run(judge: Judge, limb: np.ndarray, bad: _Bad, played: np.ndarray) -> list[
     number = judge.dataset["run"][row]
     measured, model = judge.measured[:, bad.rows], played[:, bad.rows]
 
+    quiet_n = float(np.sqrt(np.mean(bad.sigma**2))) + judge.dataset.meta.number("sensor.resolution_n")
+    if float(np.sqrt(np.mean(measured**2))) < LEAST_HEARD * quiet_n:
+        return []
+
     def left(values: np.ndarray, scale: np.ndarray | float = 1.0) -> float:
         return float(np.mean(((values - model) / (bad.sigma * scale)) ** 2))
 
@@ -252,7 +258,7 @@ def _run(judge: Judge, limb: np.ndarray, bad: _Bad, played: np.ndarray) -> list[
         turned = np.array(signs)[:, None] * measured
         tried.append((left(turned), fields, "its sign is turned", "the run with this sign turned"))
     tried.append((left(measured[::-1]), FORCES, "fx_n and fz_n are exchanged in it", "fx_n and fz_n exchanged"))
-    for unit, factor in UNITS.values():
+    for unit, factor in UNITS.values() if alike(measured, model) > SAME_SHAPE else ():
         for fields in (FORCES, FORCES[:1], FORCES[1:]):  # type: tuple[str, ...]
             scale = np.array([[factor if name in fields else 1.0] for name in FORCES])
             words = f"it fits only in {unit}"
