@@ -113,6 +113,18 @@ def test_stlsq_on_the_root_is_stlsq_on_all_rows() -> None:
         assert thresholded.stlsq(given(rng, left, matrix), knobs).chosen == tuple(np.flatnonzero(direct.coef_[0]))
 
 
+@pytest.mark.parametrize("threshold", [0.5, 2.0, 4.0, 50.0])
+def test_quick_stlsq_is_stlsq(threshold: float) -> None:
+    """The ensemble's own rounds end at PySINDy's coefficients."""
+    pytest.importorskip("pysindy")
+    for seed in range(5):
+        rng = np.random.default_rng(seed)
+        matrix = library(rng)
+        left = rng.standard_normal(ROWS) + matrix[:, :3] @ [3.0, 4.0, 6.0]
+        slow, fast = (one(matrix, left, threshold, 0.3) for one in (thresholded._stlsq, thresholded.quick_stlsq))
+        assert np.allclose(slow, fast, atol=1e-9)
+
+
 def test_answer() -> None:
     """Order by gain, impossible signs out, look-alikes beside, unknown where much is left, the weak dropped."""
     rng = np.random.default_rng(3)
@@ -127,6 +139,9 @@ def test_answer() -> None:
     assert said(answer(sided, [0, 1, 2], 0.0, True).found) == ["b@x", "a@x"]
     assert said(answer(sided, [0, 1, 2], 0.0, False).found) == ["b@x", "c@x", "a@x"]
     assert said(answer(sig, [0, 1, 2, 3], 0.0, False, least_gain=4.0).found) == ["b@x", "c@x", "a@x"]
+    weak = math.sqrt(refitted(sig, [1, 2])[1] - refitted(sig, [0, 1, 2])[1])
+    assert "a@x" in said(answer(sig, [0, 1, 2], 0.0, False, least_gain=0.99 * weak).found)
+    assert "a@x" not in said(answer(sig, [0, 1, 2], 0.0, False, least_gain=1.01 * weak).found)
     assert answer(sig, [], 1e-6, False).found["verdict"] == "unknown"
     assert answer(sig, [0, 1, 2], 1e-6, False).found["verdict"] == "effect"
     assert answer(sig, [], 0.0, False).found["verdict"] == "none"

@@ -162,8 +162,8 @@ def section(
     return "\n\n".join(
         [
             f"""Other people's ways to choose, on the same cases in the same run, judged by the same judge. Each is
-given the tool's own noise, refitted base and catalogue: one whitened column per way of an effect, played on the plant, the
-base taken out ([tests/blind/baselines](../tests/blind/baselines)). Each was tuned with {made['trials']} random trials
+given the tool's own noise, refitted base and catalogue: one whitened column per way of an effect, played on the plant,
+the base taken out ([tests/blind/baselines](../tests/blind/baselines)). Each was tuned with {made['trials']} random trials
 on the development set (`{made['command']}`), for naming, pairs and no false alarm in equal parts. Labels whose
 columns have a cosine above 0.9 with a chosen one are printed with it, as its class. An `unknown` comes from a chi
 squared test of what is left, its threshold tuned as well. On unseen configurations the chosen effects are fitted on

@@ -28,15 +28,15 @@ from baselines.knobs import Knobs, Space  # noqa: E402
 from baselines.methods import NAMING, PROCESS, TUNED, spaces, tuned  # noqa: E402
 from baselines.play import Unseen  # noqa: E402
 from baselines.signatures import Signatures, cached, prepared  # noqa: E402
+import diagnoser  # noqa: E402
 from generate import default_folder, generator_hash  # noqa: E402
 from plant import BUILD  # noqa: E402
 from scoring import VISIBLE_GAP_N, Judged, judge, share, strong  # noqa: E402
 from seeds import DEVELOPMENT_CASES, DEVELOPMENT_SEED  # noqa: E402
 
 TRIALS = 24
-GAP_CASES = 40  # that the Gaussian process is tuned on
+GAP_CASES = 20  # that the Gaussian process is tuned on
 TRIAL_SEED = 20_011
-KEEP = BUILD / "baselines-tuning"  # columns, once made; to be removed by hand when the tool has changed
 
 
 def worth(judged: list[Judged]) -> float:
@@ -62,6 +62,7 @@ def _read(
 ) -> tuple[list[tuple[dict[str, Any], Signatures]], list[Discrepancy]]:
     from brace.errors import BadFileError
 
+    keep.mkdir(parents=True, exist_ok=True)
     named, gaps = [], []
     for done, name in enumerate(names, start=1):
         truth = json.loads((root / "answers" / name / "truth.json").read_text())
@@ -104,7 +105,8 @@ def main() -> int:
         print("only the development set is for tuning", file=sys.stderr)
         return 2
     names = sorted(path.name for path in (options.set / "cases").iterdir())[: options.cases]
-    named, gaps = _read(options.set, KEEP, names)
+    keep = BUILD / "baselines-tuning" / diagnoser.version()
+    named, gaps = _read(options.set, keep, names)
     gaps = gaps[:GAP_CASES]
     content: dict[str, Any] = {
         "command": "python tests/blind/baselines/tune.py",
