@@ -20,6 +20,7 @@ from brace.model import LimbModel
 from brace.native.plant_batch import LoadingBatchPlayer
 
 FIT_ROWS = 1500  # a comparison needs no more
+NOISE_ROWS = 6000
 
 
 @dataclass(frozen=True)
@@ -42,22 +43,16 @@ class Judge:
     def __init__(self, dataset: Dataset, believed: LimbModel) -> None:
         self.dataset = dataset
         self.believed = believed
-        self.whole: Record = load_record(dataset)
-        self.noise: Mapping[str, ChannelNoise] = self.whole.noise
+        known = load_record(dataset.select(enough_rows(dataset, NOISE_ROWS)))
+        self.channels: tuple[str, ...] = known.channels
+        self.noise: Mapping[str, ChannelNoise] = known.noise
+        # both forces, 2 x rows [N], and their noise
+        self.measured = np.stack([np.asarray(dataset[name], float) for name in FORCES])
+        self.sigma = np.stack([self.noise[name].sigma(dataset[name]) for name in FORCES])
         self.trust: Trust = trust_of(believed)
         self.space: Space = space_of(self.trust, ())
         self.few = np.flatnonzero(enough_rows(dataset, FIT_ROWS))
         self.starts = run_starts(dataset["run"])
-
-    @property
-    def sigma(self) -> np.ndarray:
-        """Of both forces, 2 x rows [N]."""
-        return self.whole.sigma[: len(FORCES)]
-
-    @property
-    def measured(self) -> np.ndarray:
-        """Both forces, 2 x rows [N]."""
-        return self.whole.measured[: len(FORCES)]
 
     @cached_property
     def as_it_is(self) -> Agreement:

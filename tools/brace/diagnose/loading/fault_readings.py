@@ -26,7 +26,7 @@ BEYOND_ALL = 3.0  # times the largest other reading: no loading test gives it on
 
 def faults(judge: Judge) -> list[DataFault]:
     """Stuck stretches first: their ends look like slips."""
-    stuck = [fault for name in judge.whole.channels for fault in _stuck(judge, name)]
+    stuck = [fault for name in judge.channels for fault in _stuck(judge, name)]
     return stuck or lone(judge, [*_slips(judge)])
 
 

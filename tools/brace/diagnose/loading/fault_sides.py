@@ -27,7 +27,7 @@ def faults(judge: Judge) -> list[DataFault]:
 
 
 def _side_readings(judge: Judge) -> Iterator[DataFault]:
-    channels = [name for pair in SAME_KIND for name in pair if name in judge.whole.channels]
+    channels = [name for pair in SAME_KIND for name in pair if name in judge.channels]
     if not channels:
         return
     data = judge.dataset
