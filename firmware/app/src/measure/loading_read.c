@@ -3,7 +3,6 @@
 #include "configure/keeping.h"
 #include "measure/model.h"
 #include "supervise/supervisor.h"
-#include "supervise/supervisor.h"
 
 /* What is averaged. */
 enum { MOTOR = 0, LINK = 2, FORCE_X = 4, FORCE_Z = 5, TEMP = 6, SUMS = 7 };

@@ -154,29 +154,43 @@ static modbus_exception_t ask_grip(brace_app_t *app, const uint32_t asked[])
     return refusal_of(status);
 }
 
+/* How many registers of 32 bits the question that begins at a register has; 0: none begins there. */
+static uint32_t length_of(uint32_t first)
+{
+    switch (first) {
+    case COMMAND_ASKED_TIP_X: return 3;
+    case COMMAND_ASKED_THETA1:
+    case COMMAND_ASKED_DX:
+    case COMMAND_ASKED_LOAD_X:
+    case COMMAND_ASKED_NORMAL: return 2;
+    default: return 0;
+    }
+}
+
+static modbus_exception_t ask(brace_app_t *app, uint32_t first, const uint32_t asked[])
+{
+    switch (first) {
+    case COMMAND_ASKED_THETA1: return ask_posture(app, asked);
+    case COMMAND_ASKED_TIP_X: return ask_tip(app, asked);
+    case COMMAND_ASKED_DX: return ask_force(app, asked);
+    case COMMAND_ASKED_LOAD_X: return ask_sag(app, asked);
+    case COMMAND_ASKED_NORMAL: return ask_grip(app, asked);
+    default: return MODBUS_E_VALUE;
+    }
+}
+
 modbus_exception_t command_ask(brace_app_t *app, uint32_t index, uint32_t count, const uint8_t *data)
 {
-    static const struct {
-        uint32_t first, count;
-        modbus_exception_t (*ask)(brace_app_t *app, const uint32_t asked[]);
-    } questions[] = {{COMMAND_ASKED_THETA1, 2, ask_posture},
-                     {COMMAND_ASKED_TIP_X, 3, ask_tip},
-                     {COMMAND_ASKED_DX, 2, ask_force},
-                     {COMMAND_ASKED_LOAD_X, 2, ask_sag},
-                     {COMMAND_ASKED_NORMAL, 2, ask_grip}};
     uint32_t asked[QUESTION_MOST];
-    for (uint32_t i = 0; i < sizeof questions / sizeof *questions; i++) {
-        if (questions[i].first != index || questions[i].count != count) {
-            continue;
-        }
-        for (uint32_t j = 0; j < count; j++) { /* at most QUESTION_MOST */
-            asked[j] = get_32(data + 4u * j);
-        }
-        const modbus_exception_t why = questions[i].ask(app, asked);
-        if (why == MODBUS_FINE) {
-            memcpy(&app->modbus.asked[index - COMMAND_ASKED_THETA1], asked, 4u * count);
-        }
-        return why;
+    if (count == 0u || count != length_of(index)) {
+        return MODBUS_E_VALUE;
     }
-    return MODBUS_E_VALUE;
+    for (uint32_t i = 0; i < count; i++) { /* at most QUESTION_MOST */
+        asked[i] = get_32(data + 4u * i);
+    }
+    const modbus_exception_t why = ask(app, index, asked);
+    if (why == MODBUS_FINE) {
+        memcpy(&app->modbus.asked[index - COMMAND_ASKED_THETA1], asked, 4u * count);
+    }
+    return why;
 }
