@@ -24,6 +24,7 @@ from brace.diagnose.effects import Variant
 from brace.diagnose.loading import confidence
 from brace.diagnose.loading.agreement import Agreement, agreement
 from brace.diagnose.loading.choose import LabelSet
+from brace.diagnose.loading.confusability import Confusability, confusability, in_words
 from brace.diagnose.loading.experiment import next_experiment
 from brace.diagnose.loading.fit import Fit
 from brace.diagnose.loading.intervals import intervals
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
 MOST_CANDIDATES = 20
 FAR_OUT = 3.0  # sigmas of the calibration from which a refitted number is a finding
 STAYS_AHEAD = 0.5
+TOLD_APART = 0.95  # power from which a look-alike is no member of the class
 LOST_NATS = -2.0  # of the held-out configurations: more than refitting alone makes
 
 
@@ -63,6 +65,7 @@ def diagnosis_of(
     after = best if named else final.base.fit
     exported = believed if decision.verdict == "unknown" else limb_of(believed, after.model)
     agreed = agreement(record, locked, final, twin, options.seed)
+    alike = confusability(final.base.fit, final.sets)
     effects = _effects(record, final, agreed, decision.labels) if named else ()
     return Diagnosis(
         verdict=decision.verdict,
@@ -70,7 +73,7 @@ def diagnosis_of(
         model=exported,
         gap=_gap(whole, record, locked, believed, judged),
         effects=effects,
-        indistinguishable=decision.classes,
+        indistinguishable=_classes(final, alike),
         could_be=_could_be(final, effects),
         localised=_localised(record, final, options),
         unexplained=_unexplained(final, after),
@@ -81,7 +84,10 @@ def diagnosis_of(
             for item in final.sets[:MOST_CANDIDATES]
         ),
         residuals=_residuals(whole, believed, exported, locked if whole is record else np.zeros(whole.rows, bool)),
-        notes=_notes(whole, record, final, twin, agreed, after),
+        notes=(
+            *(words for effect in effects if (words := in_words(alike, effect.label))),
+            *_notes(whole, record, final, twin, agreed, after),
+        ),
         seed=options.seed,
         details={**_details(record, final, agreed), "refitted": _refitted(whole, believed, final)},
     )
@@ -113,6 +119,25 @@ def _effects(record: Record, final: Pass, agreed: Agreement, labels: Sequence[st
             )
         )
     return tuple(found)
+
+
+def _classes(final: Pass, alike: Confusability) -> tuple[tuple[str, ...], ...]:
+    """For each named effect what the evidence leaves in its place, and what looks the same in this record."""
+    decision = final.decision
+    found: list[tuple[str, ...]] = []
+    for label in decision.labels if decision.verdict == "effect" else decision.labels[:1]:
+        rivals = next((members for members in decision.classes if members[0] == label), (label,))
+        look_alikes = [other for other in alike.look_alikes(label) if not _told_apart(alike, label, other)]
+        group = tuple(dict.fromkeys((*rivals, *look_alikes)))
+        if len(group) > 1 and set(group) not in [set(other) for other in found]:
+            found.append(group)
+    return tuple(found)
+
+
+def _told_apart(alike: Confusability, label: str, other: str) -> bool:
+    if label == other or label not in alike.labels or other not in alike.labels:
+        return False
+    return bool(alike.power[alike.labels.index(label), alike.labels.index(other)] > TOLD_APART)
 
 
 def _localised(record: Record, final: Pass, options: Options) -> tuple[Localised, ...]:
