@@ -17,13 +17,13 @@ from brace.dataset.write import write_dataset
 from brace.diagnose.diagnosis import NextExperiment
 from brace.diagnose.effects.variant import Freedom, Variant
 from brace.diagnose.loading.choose import LabelSet
-from brace.diagnose.loading.confusability import confusability, in_words
-from brace.diagnose.loading.experiment import next_experiment
+from brace.diagnose.loading.next_experiment.confusability import confusability, in_words
+from brace.diagnose.loading.next_experiment.experiment import next_experiment
 from brace.diagnose.loading.fit import fit
-from brace.diagnose.loading.menu import CHANNELS, GROUPS, as_record, conditions
+from brace.diagnose.loading.next_experiment.menu import CHANNELS, GROUPS, as_record, conditions
 from brace.diagnose.loading.record import Record, load_record
 from brace.diagnose.loading.search import Hypothesis
-from brace.diagnose.loading.separation import (
+from brace.diagnose.loading.next_experiment.separation import (
     Contender,
     chance_to_win,
     contenders,

@@ -24,8 +24,8 @@ from brace.diagnose.effects import Variant
 from brace.diagnose.loading import confidence
 from brace.diagnose.loading.agreement import Agreement, agreement
 from brace.diagnose.loading.choose import LabelSet
-from brace.diagnose.loading.confusability import Confusability, confusability, in_words
-from brace.diagnose.loading.experiment import next_experiment
+from brace.diagnose.loading.next_experiment.confusability import Confusability, confusability, in_words
+from brace.diagnose.loading.next_experiment.experiment import next_experiment
 from brace.diagnose.loading.fit import Fit
 from brace.diagnose.loading.intervals import intervals
 from brace.diagnose.loading.limb_of import limb_of

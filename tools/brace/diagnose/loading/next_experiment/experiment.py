@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from brace.diagnose.diagnosis import NextExperiment
-from brace.diagnose.loading.menu import (
+from brace.diagnose.loading.next_experiment.menu import (
     BEFORE_S,
     CHANNELS,
     ENCODER_NOISE_RAD,
@@ -24,7 +24,7 @@ from brace.diagnose.loading.menu import (
     postures,
 )
 from brace.diagnose.loading.record import Record
-from brace.diagnose.loading.separation import (
+from brace.diagnose.loading.next_experiment.separation import (
     Contender,
     Played,
     contenders,

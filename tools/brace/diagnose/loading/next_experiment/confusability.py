@@ -11,7 +11,7 @@ import numpy as np
 
 from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.fit import Fit
-from brace.diagnose.loading.separation import WIN_NATS, chance_to_win
+from brace.diagnose.loading.next_experiment.separation import WIN_NATS, chance_to_win
 
 SAME_COSINE = 0.95  # above it two effects are one class: what they differ by is a tenth of either's square
 DEPENDENT = 1e-6  # of a span's columns: shorter than this share after the others are taken out

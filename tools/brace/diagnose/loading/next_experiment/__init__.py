@@ -1,0 +1,1 @@
+"""What looks alike in a record, and the test that would tell it apart."""
