@@ -49,6 +49,12 @@ static bool writes_text(const brace_app_t *app)
     return app->bus.slcan.open && (app->report.speaks || app->requests.answer_count > 0u);
 }
 
+/* No room beside the answer for a new set of process data: it begins in one of the next ticks. */
+static bool fills_a_tick(const brace_app_t *app)
+{
+    return app->requests.serves && locates(app) && moves(app) && !app->model.collapsed && app->cyclic.due == 0u;
+}
+
 /* Does what was chosen go into a tick together with K, or with a piece of work? */
 static bool is_too_much(const brace_app_t *app, services_room_t room)
 {
@@ -104,7 +110,7 @@ static void choose(brace_app_t *app, services_room_t room)
     }
     const bool little = room == SERVICES_BESIDE_LITTLE && app->mode != BRACE_MODE_CONFIGURATION;
     choose_modbus(app, !(little && requests->serves) && !app->bus.slcan.heard);
-    app->report.speaks = wants_to_say(app) && may_say(app) && !(little && requests->serves);
+    app->report.speaks = wants_to_say(app) && may_say(app) && !(little && requests->serves) && !fills_a_tick(app);
 }
 
 bool services_listen(brace_app_t *app, services_room_t room)
