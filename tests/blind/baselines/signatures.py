@@ -83,7 +83,7 @@ def triangle(rows: Array) -> Array:
 def prepared(case: Path) -> Any:
     """(given, record, trust, fitted base) of a case; None where the tool's own gate stops it."""
     from brace.diagnose.loading.fit import fit
-    from brace.diagnose.loading.gate import gate
+    from brace.diagnose.loading.data_faults.gate import gate
     from brace.diagnose.loading.noise_after_base import with_known_noise
     from brace.diagnose.loading.record import load_record
     from brace.diagnose.loading.space import space_of, trust_of

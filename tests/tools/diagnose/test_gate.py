@@ -11,7 +11,7 @@ import pytest
 
 from brace.dataset import load_dataset
 from brace.diagnose.diagnosis import Diagnosis
-from brace.diagnose.loading.gate import gate
+from brace.diagnose.loading.data_faults.gate import gate
 from brace.diagnose.options import Options
 from brace.model import LimbModel
 from spoiled import (

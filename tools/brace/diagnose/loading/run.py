@@ -15,7 +15,7 @@ from brace.diagnose.loading.choose import LabelSet, posterior_of
 from brace.diagnose.loading.evidence import log_likelihood, score
 from brace.diagnose.loading.extensions import better_extension
 from brace.diagnose.loading.fit import fit
-from brace.diagnose.loading.gate import gate
+from brace.diagnose.loading.data_faults.gate import gate
 from brace.diagnose.loading.noise_after_base import with_growth, with_known_noise
 from brace.diagnose.loading.parts import enough_rows, locked_rows
 from brace.diagnose.loading.record import Record, load_record, setting_of

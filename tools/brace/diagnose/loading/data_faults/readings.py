@@ -10,8 +10,8 @@ import numpy as np
 
 from brace.dataset import DataFault
 from brace.dataset.check_runs import MAX_LISTED
-from brace.diagnose.loading.fault_columns import FORCES
-from brace.diagnose.loading.fault_judge import Judge
+from brace.diagnose.loading.data_faults.columns import FORCES
+from brace.diagnose.loading.data_faults.judge import Judge
 
 LOUD = 12.0  # times the usual step aside between neighbours
 QUIET = 4.0

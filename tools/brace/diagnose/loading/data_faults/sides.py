@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from brace.dataset import DataFault
-from brace.diagnose.loading.fault_columns import FORCES
-from brace.diagnose.loading.fault_judge import Judge, misfit
+from brace.diagnose.loading.data_faults.columns import FORCES
+from brace.diagnose.loading.data_faults.judge import Judge, misfit
 from brace.native.plant_batch import LoadingBatchPlayer
 
 SUSPECT = 0.35  # misfit of an encoder beyond what effects of joints make

@@ -7,9 +7,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from brace.dataset import DataFault, Dataset
-from brace.diagnose.loading import fault_columns, fault_readings, fault_runs, fault_sides
-from brace.diagnose.loading.fault_columns import FORCES
-from brace.diagnose.loading.fault_judge import Judge
+from brace.diagnose.loading.data_faults import columns, readings, runs, sides
+from brace.diagnose.loading.data_faults.columns import FORCES
+from brace.diagnose.loading.data_faults.judge import Judge
 from brace.model import LimbModel
 
 CLEAN_EXCESS = 1.0  # of chi squared per reading: below it neither columns nor runs are wrong
@@ -19,11 +19,11 @@ def faults(dataset: Dataset, believed: LimbModel) -> list[DataFault]:
     """What is wrong with the record, by the believed limb; empty for a healthy one, whatever effects it holds."""
     judge = Judge(dataset, believed)
     clean = judge.as_it_is.excess < CLEAN_EXCESS
-    found = [] if clean else fault_columns.faults(judge)
-    found = found or fault_readings.faults(judge)
+    found = [] if clean else columns.faults(judge)
+    found = found or readings.faults(judge)
     if not found and not clean:
-        found = fault_runs.faults(judge)
-    return found or fault_sides.faults(judge)
+        found = runs.faults(judge)
+    return found or sides.faults(judge)
 
 
 def confirmed(dataset: Dataset, believed: LimbModel, slips: Sequence[DataFault]) -> list[DataFault]:
@@ -39,4 +39,4 @@ def confirmed(dataset: Dataset, believed: LimbModel, slips: Sequence[DataFault])
         due = judge.played[FORCES.index(fault.field), fault.row - 1]
         if abs(fault.suggestion - due) < 0.5 * abs(dataset[fault.field][fault.row - 1] - due):
             kept.append(fault)
-    return fault_readings.lone(judge, kept)
+    return readings.lone(judge, kept)

@@ -9,7 +9,7 @@ from scipy.stats import f as f_distribution
 
 from brace.dataset import DataFault, Dataset
 from brace.diagnose.diagnosis import Diagnosis
-from brace.diagnose.loading import model_faults
+from brace.diagnose.loading.data_faults import against_limb
 from brace.diagnose.options import Options
 from brace.errors import BadFileError
 from brace.identify.loading import MIN_ROWS
@@ -41,9 +41,9 @@ def gate(dataset: Dataset, believed: LimbModel, options: Options) -> Diagnosis |
         return _too_little(
             believed, options, "the forces do not follow the displacement; is the tip held, is the sensor alive?"
         )
-    found = model_faults.faults(dataset, believed)
+    found = against_limb.faults(dataset, believed)
     if not found:  # what the record alone looked like: does the limb say so, too?
-        found = model_faults.confirmed(dataset, believed, blocking)
+        found = against_limb.confirmed(dataset, believed, blocking)
     if any(fault.blocking for fault in found):
         return _faulty(dataset, [*found, *(fault for fault in dataset.faults if not fault.blocking)], believed, options)
     return None

@@ -1,0 +1,1 @@
+"""Is it the record that is wrong, before any physics is blamed?"""
