@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,10 +12,12 @@ import pytest
 from brace.dataset import load_dataset
 from brace.dataset.intake import Dataset
 from brace.diagnose.effects import PLUG_INS, all_variants
+from brace.diagnose.loading.evidence import SPREAD, score
 from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.noise import channel_noise
 from brace.diagnose.loading.parts import enough_rows, locked_rows
 from brace.diagnose.loading.record import load_record, setting_of
+from brace.diagnose.loading.screen import Remover
 from brace.diagnose.loading.search import Search
 from brace.diagnose.loading.space import compatible, space_of, trust_of
 from brace.diagnose.loading.structure import structure_of
@@ -111,6 +114,39 @@ def test_structure_of_pure_noise_is_none_and_of_a_shape_is_found(tmp_path: Path,
     wave = NOISE_N * np.sin(2 * np.pi * data["dx_mm"] / 1.3)
     record = load_record(data.with_columns({"fx_n": data["fx_n"] + wave}))
     assert structure_of(record, fit(record, space, space.mean)).structured
+
+
+def test_what_the_base_can_make_up_is_taken_out_and_nothing_else(tmp_path: Path, believed: LimbModel) -> None:
+    """A signature that is one of the base's own leaves only what its prior holds back: 1 / (1 + power of the data over
+    the prior's) of its square. One that the base cannot make stays whole."""
+    record = load_record(recorded(tmp_path, believed, 4))
+    space = space_of(trust_of(believed), ())
+    found = fit(record, space, space.mean)
+    remover = Remover(found)
+    place = space.keys.index("sensor.gain")
+    own = found.jacobian[:, place]
+    alone = np.linalg.norm(own) ** 2 / (1.0 + np.linalg.norm(own) ** 2 / (found.scale[place] / space.sigma[place]) ** 2)
+    assert np.linalg.norm(remover.columns(own[:, None])) ** 2 <= alone * (1.0 + 1e-9)
+    moved = remover.augmented(np.stack([found.residual + own, found.residual]))
+    assert np.linalg.norm(moved[0] - moved[1]) ** 2 <= alone * (1.0 + 1e-9)
+    foreign = np.random.default_rng(1).normal(size=own.size)
+    basis, _ = np.linalg.qr(found.jacobian)
+    foreign -= basis @ (basis.T @ foreign)
+    left = remover.columns(foreign[:, None])[: own.size, 0]
+    assert np.linalg.norm(left - foreign) < 1e-6 * np.linalg.norm(foreign)
+
+
+def test_a_freedom_that_gains_nothing_costs_its_share(tmp_path: Path, believed: LimbModel) -> None:
+    """Two fits of the same cost, one with a freedom more: log SPREAD apart; a second effect costs its prior besides."""
+    record = load_record(recorded(tmp_path, believed, 5))
+    trust = trust_of(believed)
+    variants = [v for v in all_variants(setting_of(record, believed)) if v.label == "sensor_bias@sensor"]
+    base = fit(record, space_of(trust, ()), space_of(trust, ()).mean)
+    one, _, both = (fit(record, space_of(trust, (way,)), space_of(trust, (way,)).mean) for way in variants)
+    same = replace(both, cost=one.cost)
+    assert score(one, base, record.readings, 1e9) - score(same, base, record.readings, 1e9) == pytest.approx(
+        np.log(SPREAD), abs=1e-6
+    )
 
 
 def test_nothing_hidden_nothing_found(tmp_path: Path, believed: LimbModel) -> None:
