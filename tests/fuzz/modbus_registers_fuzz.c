@@ -11,7 +11,8 @@
 #include "app_bench.h"
 #include "brace/measured.h"
 
-enum { UNIT = 17, WORDS = (int)(sizeof(brace_parameters_t) / 4), MOST_TICKS = 120, HEADER = 7 };
+enum { UNIT = 17, WORDS = (int)(sizeof(brace_parameters_t) / 4), MOST_TICKS = 120, HEADER = 7,
+       ANSWERED = 16, COMMANDS = 17 /* values from 4096 and from 16384 on, by docs/modbus.md */ };
 
 static const uint32_t key = 0xc0de0000u;
 
@@ -26,6 +27,7 @@ void tearDown(void) {}
 static uint64_t chance;
 static unsigned long number;
 static brace_parameters_t in_force; /* as the oracle knows them */
+static unsigned long questions[COMMANDS]; /* answered, by the first value's place after 16396 */
 static unsigned long answered, refused_by[256], silent, commits;
 
 static uint32_t dice(uint32_t sides)
@@ -83,7 +85,7 @@ static uint32_t at32(const uint8_t *b)
 static uint32_t some_start(void)
 {
     static const uint16_t edge[] = {0, 2, 114, 116, 208, 210, 4096, 4108, 4110, 16384, 16386, 16388, 16390, 16392, 16394, 16396,
-                                    16398, 16400, 65535, 65534, 32768};
+                                    16398, 16400, 16406, 16410, 16414, 16416, 16418, 4122, 4126, 4128, 65535, 65534, 32768};
     return dice(4) == 0u ? dice(65536) : edge[dice(sizeof edge / sizeof *edge)];
 }
 
@@ -100,8 +102,23 @@ static uint32_t some_value(uint32_t start)
     case 16392: return 256u << dice(2) | (1u + dice(2));
     case 16396:
     case 16398: return bits(0.3f + 1e-3f * (float)dice(1000));
+    case 16400:
+    case 16402: return bits((float)dice(600) - 300.0f);
+    case 16404: return dice(8) == 0u ? dice(4) : dice(2);
+    case 16406:
+    case 16408:
+    case 16410:
+    case 16412:
+    case 16414:
+    case 16416: return bits(1e-2f * (float)dice(200) - 0.5f);
     default: return dice(2) == 0u ? dice(1024) : dice(0x10000) << 16 | dice(0x10000);
     }
+}
+
+/* Values of the question that begins there. */
+static uint32_t question_of(uint32_t start)
+{
+    return start == 16400u ? 3u : start == 16396u || start == 16406u || start == 16410u || start == 16414u ? 2u : 0u;
 }
 
 static void some_pdu(bytes_t *b)
@@ -128,7 +145,8 @@ static void some_pdu(bytes_t *b)
         put16(b, function == 6u || dice(8) == 0u ? dice(65536) : 1u + dice(130));
         return;
     }
-    const uint32_t values = start == 16396u ? 2u : start >= 16384u || dice(2) != 0u ? 1u : 1u + dice(61);
+    const uint32_t question = dice(16) == 0u ? 0u : question_of(start);
+    const uint32_t values = question > 0u ? question : start >= 16384u || dice(2) != 0u ? 1u : 1u + dice(61);
     put16(b, 2u * values);
     b->byte[b->count++] = (uint8_t)(4u * values);
     for (uint32_t i = 0; i < values; i++, start += 2u) {
@@ -167,8 +185,8 @@ static uint32_t read_exception(const uint8_t *pdu, uint32_t length)
     if (length != 5u || count < 1u || count > 125u) {
         return 3;
     }
-    const bool there = pdu[0] == 4u ? holds(start, count, 0, BRACE_MEASURED_COUNT) || holds(start, count, 4096, 7)
-                                    : holds(start, count, 0, WORDS) || holds(start, count, 16384, 8);
+    const bool there = pdu[0] == 4u ? holds(start, count, 0, BRACE_MEASURED_COUNT) || holds(start, count, 4096, ANSWERED)
+                                    : holds(start, count, 0, WORDS) || holds(start, count, 16384, COMMANDS);
     return there ? 0u : 2u;
 }
 
@@ -233,6 +251,10 @@ static void judge_write(const bytes_t *sent, const uint8_t *pdu, uint32_t length
     if (start == 16384u && (value & ~3u) != key) {
         wrong("a mode was set without its key", sent, got);
     }
+    if (start >= 16396u && start < 16384u + 2u * COMMANDS && (pdu[5] / 4u != question_of(start) || pdu[5] == 0u)) {
+        wrong("half a question was answered", sent, got);
+    }
+    questions[(start - 16396u) / 2u % COMMANDS] += start >= 16396u;
     if (start < 2u * WORDS) {
         for (uint32_t i = 0; i < pdu[5] / 4u; i++) {
             if (word(&app.staging.set, start / 2u + i) != at32(pdu + 6u + 4u * i)) {
@@ -413,7 +435,8 @@ int main(int argc, char **argv)
     }
     printf("%lu requests: %lu answered (refused: 01 %lu, 02 %lu, 03 %lu, 04 %lu, 06 %lu), %lu in silence, %lu commits\n", requests,
            answered, refused_by[1], refused_by[2], refused_by[3], refused_by[4], refused_by[6], silent, commits);
-    const bool every = answered > 0u && refused_by[1] > 0u && refused_by[2] > 0u && refused_by[3] > 0u && refused_by[4] > 0u &&
+    const bool asked = questions[0] > 0u && questions[2] > 0u && questions[5] > 0u && questions[7] > 0u && questions[9] > 0u;
+    const bool every = asked && answered > 0u && refused_by[1] > 0u && refused_by[2] > 0u && refused_by[3] > 0u && refused_by[4] > 0u &&
                        refused_by[6] > 0u && silent > 0u && commits > 0u;
     if (!every && requests >= 20000ul) {
         printf("chance never came to some of these: the test has lost its point\n");
