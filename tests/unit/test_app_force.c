@@ -73,6 +73,35 @@ static void test_the_sensor_s_noise_is_in_what_the_expected_load_may_be_off_by(v
     }
 }
 
+/* Dry friction holds up to coulomb + ratio * |spring's torque|, with the spring carrying the load and the friction: solved
+ * here step by step. */
+static void test_dry_friction_is_in_it_the_constant_and_the_load_s_share(void)
+{
+    static const double constant_n_mm[] = {0.0, 40.0, 0.0, 40.0}, ratio[] = {0.0, 0.0, 0.2, 0.2};
+    float none_n_mm[BRACE_APP_JOINTS] = {0.0f};
+    for (int i = 0; i < 4; i++) {
+        brace_parameters_t p = bench_parameters();
+        p.gravity.tibia_n = 2.0f;
+        for (int j = 0; j < BRACE_APP_JOINTS; j++) {
+            p.drive[BRACE_FEMUR + j].coulomb_n_mm = (float)constant_n_mm[i];
+            p.drive[BRACE_FEMUR + j].coulomb_per_load_ratio = (float)ratio[i];
+        }
+        stand(&p);
+        for (int j = 0; j < BRACE_APP_JOINTS; j++) {
+            brace_backlash_sample_t sample = {.load_is_expected = false};
+            force_expect(&app, j, &sample);
+            TEST_ASSERT_TRUE(sample.load_is_expected);
+            none_n_mm[j] = i == 0 ? sample.expected_off_n_mm : none_n_mm[j];
+            double friction_n_mm = 0.0;
+            for (int step = 0; step < 60; step++) {
+                friction_n_mm = constant_n_mm[i] + ratio[i] * (fabs((double)sample.expected_n_mm) + friction_n_mm);
+            }
+            TEST_ASSERT_TRUE(fabsf(sample.expected_n_mm) > 50.0f);
+            ASSERT_CLOSE(friction_n_mm, sample.expected_off_n_mm - none_n_mm[j], 1.0);
+        }
+    }
+}
+
 static void test_the_sensor_model_is_undone(void)
 {
     brace_parameters_t p = bench_parameters();
@@ -118,6 +147,7 @@ int main(void)
     RUN_TEST(test_without_a_sensor_the_joints_tell_the_force_less_gravity);
     RUN_TEST(test_the_sensed_force_says_what_the_joints_should_carry);
     RUN_TEST(test_the_sensor_s_noise_is_in_what_the_expected_load_may_be_off_by);
+    RUN_TEST(test_dry_friction_is_in_it_the_constant_and_the_load_s_share);
     RUN_TEST(test_the_sensor_model_is_undone);
     RUN_TEST(test_a_saturated_or_silent_sensor_is_not_used);
     return UNITY_END();

@@ -80,10 +80,13 @@ void force_expect(const brace_app_t *app, int index, brace_backlash_sample_t *sa
     const float by_tip_n_mm = lever.x_mm * ours->x_n + lever.z_mm * ours->z_n;
     const float expected_n_mm = force_gravity(app, index) + (index == 0 ? -by_tip_n_mm : by_tip_n_mm);
     const brace_uncertainty_t *trust = &app->parameters.limb.uncertainty;
+    const brace_drive_t *drive = &app->parameters.drive[BRACE_FEMUR + index];
+    /* friction holds up to coulomb + ratio * |spring|, and the spring carries up to the load and that friction */
+    const float friction_n_mm = (drive->coulomb_n_mm + drive->coulomb_per_load_ratio * __builtin_fabsf(expected_n_mm)) /
+                                (1.0f - drive->coulomb_per_load_ratio);
     const float off_n_mm =
         SENSOR_SIGMAS * app->parameters.sensor.noise_n * (__builtin_fabsf(lever.x_mm) + __builtin_fabsf(lever.z_mm)) +
-        (0.02f + SENSOR_SIGMAS * trust->gain_rel) * __builtin_fabsf(expected_n_mm) +
-        app->parameters.drive[BRACE_FEMUR + index].coulomb_n_mm;
+        (0.02f + SENSOR_SIGMAS * trust->gain_rel) * __builtin_fabsf(expected_n_mm) + friction_n_mm;
     sample->load_is_expected = true;
     sample->expected_n_mm = expected_n_mm;
     sample->expected_off_n_mm = off_n_mm;
