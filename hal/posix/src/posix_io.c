@@ -222,6 +222,7 @@ int32_t io_tty_setup(int file, uint32_t baud, brace_parity_t parity)
     }
     cfmakeraw(&line);
     line.c_cflag &= ~(tcflag_t)(CSTOPB | PARENB | PARODD);
+    line.c_iflag &= ~(tcflag_t)INPCK;
     line.c_cflag |= CLOCAL | CREAD;
     if (parity != BRACE_PARITY_NONE) {
         line.c_cflag |= PARENB | (parity == BRACE_PARITY_ODD ? (tcflag_t)PARODD : 0u);
