@@ -235,7 +235,7 @@ static void say_begin(void)
 {
     uint8_t data[8] = {BEGIN, (uint8_t)dice(250)};
     put(data, 2, 2, BRACE_BLOCK_BYTES);
-    put(data, 4, 4, block[WORDS - 1]);
+    put(data, 4, 4, block[WORDS - 1] ^ (dice(40) == 0u ? 1u << dice(32) : 0u)); /* now and then another is announced */
     send(data);
 }
 
@@ -321,6 +321,9 @@ static void push(void)
         }
     }
     say(COMMIT, 2, 4, dice(50) == 0u ? 1u + dice(65536) : block[WORDS - 1]);
+    if (dice(4) == 0u) {
+        say(COMMIT, 2, 4, block[WORDS - 1]); /* once more: nothing is open any longer */
+    }
 }
 
 static void start(void)

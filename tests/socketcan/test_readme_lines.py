@@ -35,7 +35,7 @@ def ports() -> Iterator[dict[str, str]]:
     with contextlib.ExitStack() as stack:
         end = time.monotonic() + 20.0
         while True:
-            sim = subprocess.Popen(["bash", "-c", f"exec {line_with('brace sim')}"], cwd=PROJECT, text=True,
+            sim = subprocess.Popen(["bash", "-c", f"exec {line_with('brace sim ')}"], cwd=PROJECT, text=True,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # fmt: skip
             stack.enter_context(sim)
             stack.callback(sim.kill)
