@@ -1,6 +1,7 @@
 /* The controller as a Modbus server: what is read, who answers, identification, diagnostics. Register addresses are those of
  * docs/modbus.md. */
 #include "modbus_master.h"
+#include "report/measured.h"
 
 void setUp(void)
 {
@@ -220,9 +221,21 @@ static void test_unknown_functions_are_refused(void)
     }
 }
 
+/* A drive's sample may be younger than the tick that reads it. */
+static void test_an_age_is_never_negative(void)
+{
+    brace_measured_t measured;
+    ticks(3);
+    brace_measured_take(&app, now()->taken_us - 3u, &measured);
+    TEST_ASSERT_EQUAL_UINT32(0, measured.age_us);
+    brace_measured_take(&app, now()->taken_us + 3u, &measured);
+    TEST_ASSERT_EQUAL_UINT32(3, measured.age_us);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_an_age_is_never_negative);
     RUN_TEST(test_the_line_is_set_up_as_the_standard_wants_it);
     RUN_TEST(test_probes_tell_the_word_order);
     RUN_TEST(test_k_is_the_snapshots);

@@ -155,11 +155,18 @@ static bool comes_round(uint32_t *left, uint32_t every_so_many)
     return now;
 }
 
+/* Of the samples; they may have come a little after the tick's own time. */
+static float age_ms(const brace_app_t *app)
+{
+    const int32_t age_us = (int32_t)(app->last_us - app->cyclic.taken_us);
+    return age_us > 0 ? 1e-3f * (float)age_us : 0.0f;
+}
+
 static bool send_whole(brace_app_t *app)
 {
     brace_app_cyclic_t *cyclic = &app->cyclic;
     uint8_t data[64];
-    cyclic->whole.age_ms = 1e-3f * (float)(app->last_us - cyclic->taken_us);
+    cyclic->whole.age_ms = age_ms(app);
     (void)brace_can_pack_snapshot_fd(&cyclic->whole, data);
     if (!bus_send_fd(app, BRACE_CAN_ID_SNAPSHOT_FD, data)) {
         return false;
@@ -182,7 +189,7 @@ static bool send_first(brace_app_t *app)
         (void)brace_can_pack_stiffness_a(&cyclic->stiffness_a, data);
     } else if ((cyclic->due & FRAME_B) != 0u) {
         frame = FRAME_B, function = BRACE_CAN_ID_STIFFNESS_B;
-        cyclic->stiffness_b.age_ms = 1e-3f * (float)(app->last_us - cyclic->taken_us);
+        cyclic->stiffness_b.age_ms = age_ms(app);
         (void)brace_can_pack_stiffness_b(&cyclic->stiffness_b, data);
     } else if ((cyclic->due & FRAME_EIGENVALUES) != 0u) {
         frame = FRAME_EIGENVALUES, function = BRACE_CAN_ID_EIGENVALUES;

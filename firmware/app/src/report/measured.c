@@ -79,7 +79,8 @@ void brace_measured_take(const brace_app_t *app, uint32_t now_us, brace_measured
     m->dictionary_hash = BRACE_DICTIONARY_HASH;
     m->firmware_version = BRACE_FIRMWARE_VERSION;
     m->sequence = snapshot->sequence;
-    m->age_us = now_us - snapshot->taken_us;
+    const int32_t age_us = (int32_t)(now_us - snapshot->taken_us); /* samples may come after the tick's own time */
+    m->age_us = age_us > 0 ? (uint32_t)age_us : 0u;
     m->mode = snapshot->mode;
     m->faults = snapshot->faults;
     take_stiffness(snapshot, m);
