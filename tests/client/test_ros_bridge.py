@@ -122,3 +122,16 @@ def test_the_node_publishes_what_is_decoded(monkeypatch: pytest.MonkeyPatch) -> 
     [(topic, message)] = published
     assert topic == "limb_3/stiffness" and message.header.frame_id == "limb_3" and stamp.sec == 100
     assert (message.k_xx, message.k_zz) == pytest.approx((4000.0, 250.0))
+
+
+@pytest.mark.parametrize(("name", "build", "needed"), [("brace_msgs", "ament_cmake", {"std_msgs"}),
+                                                       ("brace_bridge", "ament_python", {"brace_msgs", "rclpy"})])
+def test_packages_as_ros_reads_them(name: str, build: str, needed: set[str]) -> None:
+    from catkin_pkg.package import parse_package  # what ament and colcon read package.xml with
+
+    warnings: list[str] = []
+    package = parse_package(str(ROS / name), warnings=warnings)
+    package.validate(warnings=warnings)
+    assert (package.name, package.get_build_type(), warnings) == (name, build, [])
+    assert needed <= {d.name for d in package.exec_depends}
+    assert (name == "brace_msgs") == ("rosidl_interface_packages" in [g.name for g in package.member_of_groups])
