@@ -145,6 +145,8 @@ def test_no_k_is_made_of_two_ticks() -> None:
                 mine = (identifiers & 0x7F) == NODE + limb
                 kinds = (identifiers[mine] >> 7).astype(np.uint8)
                 frames = np.column_stack([kinds, data[mine]])
+                if not checked[limb] and not carried[limb].size:
+                    frames = _from_the_first_whole(frames)
                 count, change, carried[limb] = _check_stream(np.concatenate([carried[limb], frames]))
                 checked[limb] += count
                 least_change.append(change)
@@ -173,6 +175,14 @@ def _ask(asker: SlcanClient, rng: random.Random) -> None:
             asked = k_request(rng.randrange(256), rng.uniform(-0.5, 1.5), rng.uniform(0.4, 2.4))
             frames.append((REQUEST + NODE + limb, rng.choice([asked, entry_request(0, SEQUENCE_ENTRY)])))
     asker.send(frames)
+
+
+def _from_the_first_whole(frames: np.ndarray) -> np.ndarray:
+    """Without what a listener heard of a snapshot that was under way when it began to listen."""
+    kinds = [kind >> 7 for kind in (STIFFNESS_A, STIFFNESS_B, EIGENVALUES, POSTURE)]
+    frames = frames[np.isin(frames[:, 0], kinds)]
+    changes = np.flatnonzero(np.diff(frames[:, 1])) + 1
+    return frames[changes[0] :] if changes.size else frames[:0]
 
 
 def _check_stream(frames: np.ndarray) -> tuple[int, float, np.ndarray]:

@@ -42,9 +42,9 @@ def test_every_plant_key_has_its_place() -> None:
     """Each key of limb.toml that the plant knows is written where the plant reads it, and no two at one place."""
     from brace.model import LIMB_KEYS
     from brace.model.keys import CONTROLLER_KEYS
-    from brace.native.limb import _plant_layout
+    from brace.native.limb import plant_layout
 
-    positions, keys = _plant_layout(library())
+    positions, keys = plant_layout(library())
     elsewhere = ("uncertainty.", "format", "name")
     expected = [key.name for key in LIMB_KEYS if not key.name.startswith(elsewhere) and key.name not in CONTROLLER_KEYS]
     assert keys == expected

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 ANSWER_S = 0.6
 RETRIES = 2
 COMMIT_S = 2.5
+BUSY_S = 2.5  # as long as a commit may take
 _BLOCK = 120  # registers in a request; 125 may be read, 123 written
 _KEY = 0xC0DE0000
 _INPUT = [r for r in REGISTERS if r.table == "input" and r.address < 4096]
@@ -39,7 +40,12 @@ _EXCEPTIONS = {
     5: "it is at work on it",
     6: "busy",
 }
+_BUSY = 6
 _NO_SUCH_UNIT = (10, 11)  # a gateway's words: no path to it, no answer from it
+
+
+class _BusyError(DeviceFaultError):
+    """Exception 6: the same request may be asked again."""
 
 
 class ModbusController:
@@ -227,7 +233,16 @@ class ModbusController:
         )
 
     def _command(self, name: str, value: int) -> None:
-        self._write(_BY_NAME[name].address, (value >> 16, value & 0xFFFF))
+        """A controller that is still storing says busy, which is to be asked again (Modbus exception 6)."""
+        until = time.monotonic() + BUSY_S
+        address, words = _BY_NAME[name].address, (value >> 16, value & 0xFFFF)
+        while True:
+            try:
+                return self._write(address, words)
+            except _BusyError:
+                if time.monotonic() > until:
+                    raise
+                time.sleep(0.02)
 
     def _done(self, request: Any, what: str) -> Any:
         try:
@@ -247,7 +262,8 @@ class ModbusController:
                 why=f"the other end knows no such unit (Modbus exception {code})",
                 next_step="modbus-tcp://HOST:PORT/UNIT with the controller's controller.modbus_address, 1 unless set",
             )
-        return DeviceFaultError(
+        kind = _BusyError if code == _BUSY else DeviceFaultError
+        return kind(
             f"the controller refuses {what}: {_EXCEPTIONS.get(code, 'no reason given')}",
             where=self.url,
             why=f"Modbus exception {code}",

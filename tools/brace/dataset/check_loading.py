@@ -118,15 +118,17 @@ def _steps(columns: Columns, meta: Meta) -> Iterator[DataFault]:
         return
     if step_mm <= 0:
         return
-    for name in ("dx_mm", "dz_mm"):
-        moved = np.abs(np.diff(columns[name])[inside])
+    for axis, name in enumerate(("dx_mm", "dz_mm")):
+        # motors move the tip aside a little, too: only steps along the run's own axis are steps
+        own = inside & (columns["axis"][1:] == axis) if meta.moved_by_motors else inside
+        moved = np.abs(np.diff(columns[name])[own])
         moved = moved[moved > 1e-6 * np.ptp(columns[name])]
         if not moved.size:
             continue
         typical_mm = float(np.median(moved))
         unit, factor = slip_of(typical_mm / step_mm, LENGTH_SLIPS)
         if 0.5 < typical_mm / step_mm < 2.0 or (meta.moved_by_motors and not unit):
-            continue  # motors move the tip aside a little, too
+            continue
         why = f"steps of {typical_mm:.4g} in the record, rig.step_mm = {step_mm:g} in meta.toml"
         yield DataFault(
             None,
