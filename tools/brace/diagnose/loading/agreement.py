@@ -28,7 +28,7 @@ class Agreement:
 
 
 def agreement(record: Record, locked: np.ndarray, final: Pass, twin: Pass | None, seed: int) -> Agreement:
-    """For the report and for the confidence."""
+    """For the report; neither turns the choice."""
     held_out = None
     if twin is not None and twin.decision.chosen.labels:
         models = np.stack([twin.base.fit.model, twin.decision.chosen.best.fit.model])

@@ -8,16 +8,14 @@ from typing import TYPE_CHECKING
 from brace.diagnose.loading.choose import label_probability
 
 if TYPE_CHECKING:
-    from brace.diagnose.loading.agreement import Agreement
     from brace.diagnose.loading.run import Pass
 
 # Share of the sets of one, two, three effects with all of the posterior behind them that were right.
 RIGHT_BY_EFFECTS = {1: 0.985, 2: 0.97, 3: 0.93}
 
 
-def of_label(final: Pass, agreed: Agreement, label: str) -> float:
-    """Probability [0, 1] that this effect at this place is in the limb. A set that falls behind when the runs are drawn
-    anew is only as sure as it stays ahead."""
+def of_label(final: Pass, label: str) -> float:
+    """Probability [0, 1] that this effect at this place is in the limb."""
     share = label_probability(final.sets, label)
     effects = max(1, len(final.decision.chosen.labels))
     return RIGHT_BY_EFFECTS[min(effects, 3)] * share

@@ -20,7 +20,6 @@ from brace.diagnose.diagnosis import (
     Residuals,
     Unexplained,
 )
-from brace.diagnose.effects import Variant
 from brace.diagnose.loading import confidence
 from brace.diagnose.loading.agreement import Agreement, agreement
 from brace.diagnose.loading.choose import LabelSet
@@ -54,7 +53,6 @@ def diagnosis_of(
     believed: LimbModel,
     final: Pass,
     twin: Pass | None,
-    variants: Sequence[Variant],
     options: Options,
 ) -> Diagnosis:
     """`whole` is all that was measured, `record` the part that was searched, `locked` its rows that `twin` never saw."""
@@ -66,7 +64,7 @@ def diagnosis_of(
     exported = believed if decision.verdict == "unknown" else limb_of(believed, after.model)
     agreed = agreement(record, locked, final, twin, options.seed)
     alike = confusability(final.base.fit, final.sets)
-    effects = _effects(record, final, agreed, decision.labels) if named else ()
+    effects = _effects(record, final, decision.labels) if named else ()
     return Diagnosis(
         verdict=decision.verdict,
         sentence=_sentence(final, effects),
@@ -93,7 +91,7 @@ def diagnosis_of(
     )
 
 
-def _effects(record: Record, final: Pass, agreed: Agreement, labels: Sequence[str]) -> tuple[NamedEffect, ...]:
+def _effects(record: Record, final: Pass, labels: Sequence[str]) -> tuple[NamedEffect, ...]:
     """For a class, each member with the parameters of its own fit."""
     ambiguous = final.decision.verdict == "ambiguous"
     found = []
@@ -113,7 +111,7 @@ def _effects(record: Record, final: Pass, agreed: Agreement, labels: Sequence[st
             NamedEffect(
                 variant.effect,
                 variant.where,
-                confidence.of_label(final, agreed, label),
+                confidence.of_label(final, label),
                 parameters,
                 1.0 if ambiguous else _share(final, label),
             )

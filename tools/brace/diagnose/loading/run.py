@@ -71,7 +71,7 @@ def diagnose_loading(
         )
     final = search_pass(record, trust, variants, lambda share, doing: advance(0.45 + 0.45 * share, doing))
     advance(0.92, "what to measure next")
-    return outcome.diagnosis_of(whole, record, locked, believed, final, twin, variants, options)
+    return outcome.diagnosis_of(whole, record, locked, believed, final, twin, options)
 
 
 def search_pass(record: Record, trust: Trust, variants: Sequence[Variant], advance: Advance) -> Pass:
