@@ -81,7 +81,9 @@ def diagnosis_of(
             Candidate(item.label, final.base.fit.cost - item.best.fit.cost, item.posterior)
             for item in final.sets[:MOST_CANDIDATES]
         ),
-        residuals=_residuals(whole, believed, exported, locked if whole is record else np.zeros(whole.rows, bool)),
+        residuals=_residuals(
+            whole, believed, exported, judged, locked if whole is record else np.zeros(whole.rows, bool)
+        ),
         notes=(
             *(words for effect in effects if (words := in_words(alike, effect.label))),
             *_notes(whole, record, final, twin, agreed, after),
@@ -198,6 +200,12 @@ def _gap(whole: Record, record: Record, locked: np.ndarray, believed: LimbModel,
     return Gap("n", noise, before, _pair(record, last.model, locked), tuple(steps))
 
 
+def _judged_fit(judged: Pass) -> Fit:
+    """What the pass would export."""
+    named = judged.decision.verdict in ("effect", "ambiguous")
+    return judged.decision.chosen.best.fit if named else judged.base.fit
+
+
 def _could_be(final: Pass, effects: Sequence[NamedEffect]) -> tuple[str, ...]:
     """Labels that the record leaves possible besides those named."""
     named = {effect.label for effect in effects}
@@ -261,9 +269,14 @@ def _more_of_the_same(final: Pass) -> NextExperiment | None:
     )
 
 
-def _residuals(whole: Record, believed: LimbModel, exported: LimbModel, locked: np.ndarray) -> Residuals:
-    models = np.stack([model_numbers(believed), model_numbers(exported)])
+def _residuals(
+    whole: Record, believed: LimbModel, exported: LimbModel, judged: Pass, locked: np.ndarray
+) -> Residuals:
+    """After: the exported limb, but on the locked rows the one that never saw them."""
+    models = np.stack([model_numbers(believed), model_numbers(exported), _judged_fit(judged).model])
     played = whole.player.play_numbers(models)
+    if exported is not believed:
+        played[1][:, locked] = played[2][:, locked]
     off = np.where(whole.sigma < NOT_MEASURED, whole.measured[None] - played, np.nan)
     return Residuals(whole.channels, off[0].T.copy(), off[1].T.copy(), locked)
 
