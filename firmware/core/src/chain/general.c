@@ -39,10 +39,11 @@ BRACE_OFF_TICK static brace_cross_t cross_of(const brace_element_t *a, const bra
 
 BRACE_OFF_TICK void brace_general_collapse(const brace_limb_t *limb, brace_general_t *general)
 {
-    brace_element_t element[BRACE_CHAIN_FIRM], base;
+    brace_element_t element[BRACE_CHAIN_FIRM];
     brace_cross_t *cross = general->cross;
-    general->iso_mm_per_n = brace_chain_firm(limb, element) + brace_chain_base(limb, &base);
-    general->base = base.base;
+    general->iso_mm_per_n = brace_chain_firm(limb, element);
+    general->iso_mm_per_n += brace_chain_base(limb, &element[HIP]); /* the springs come anew below */
+    general->base = element[HIP].base;
     general->femur_mm = limb->femur_mm;
     general->tibia_mm = limb->tibia_mm;
     general->mean = general->dev_x = general->dev_y = (brace_quadratic_t){0.0f, 0.0f, 0.0f};
