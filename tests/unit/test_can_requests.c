@@ -437,6 +437,29 @@ static void test_take_up_and_loading_test_over_the_bus(void)
     TEST_ASSERT_EQUAL_FLOAT((float)rows, result.value);
 }
 
+/* The way back takes its time: who asks for the next test meanwhile is told to ask again, and then has it. */
+static void test_the_next_loading_test_waits_for_the_way_back(void)
+{
+    uint8_t data[8];
+    const uint8_t stop[8] = {BRACE_REQUEST_LOADING_TEST_STOP, 1};
+    brace_can_pack_loading_test_start_request(&(brace_can_loading_test_start_request_t){1, 0, 2, 0.5f, 20}, data);
+    (void)ask(data);
+    ticks(100);
+    drain();
+    answer_t answer = ask(data);
+    TEST_ASSERT_EQUAL(BRACE_E_MODE, refusal_of(&answer, BRACE_REQUEST_LOADING_TEST_START).status);
+    (void)ask(stop);
+    answer = ask(data);
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_BUSY, refusal_of(&answer, BRACE_REQUEST_LOADING_TEST_START).status);
+    uint32_t asked = 1;
+    while (answer.part[0][0] != BRACE_REQUEST_LOADING_TEST_START) {
+        TEST_ASSERT_EQUAL(BRACE_REFUSED_BUSY, refusal_of(&answer, BRACE_REQUEST_LOADING_TEST_START).status);
+        TEST_ASSERT_TRUE(asked++ < 4000u); /* trims go back at 0.1 rad/s, from 0.3 rad at most */
+        answer = ask(data);
+    }
+    TEST_ASSERT_EQUAL(BRACE_LOADING_RUNNING, app.loading.result.outcome);
+}
+
 static void test_faults_that_stay_are_cleared(void)
 {
     uint8_t data[8];
@@ -474,6 +497,7 @@ int main(void)
     RUN_TEST(test_a_push_interrupted_at_any_frame_leaves_the_old_set);
     RUN_TEST(test_a_push_with_a_word_missing_twice_or_changed_is_refused);
     RUN_TEST(test_take_up_and_loading_test_over_the_bus);
+    RUN_TEST(test_the_next_loading_test_waits_for_the_way_back);
     RUN_TEST(test_faults_that_stay_are_cleared);
     return UNITY_END();
 }

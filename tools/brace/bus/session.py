@@ -16,7 +16,7 @@ from brace.wire.layout import Value
 ANSWER_S = 0.25
 TRIES = 3
 HEARTBEAT_S = 1.15  # a heartbeat comes each second
-BUSY_S = 1.5  # a set that is being stored is waited for
+BUSY_S = 4.0  # a set that is being stored, a limb that goes back from a loading test: waited for
 BUSY_POLL_S = 0.02
 GATHER_S = 0.25  # for the other nodes of a bus, once one is heard
 _SENT_BY_NODES = {layout.identifier for layout in (*MESSAGES.values(), *FD_MESSAGES.values())} | {ANSWER_ID}

@@ -132,7 +132,7 @@ def _first_line(process: subprocess.Popen[str]) -> str:
         line = ""
     if not line:
         process.kill()
-        raise BraceError("the simulated controller did not start", why=_last(process.stderr.read()))
+        raise BraceError("the simulated controller did not start", why=_reason(process.stderr.read()))
     return line
 
 
@@ -151,7 +151,7 @@ def _run(folder: Path, command: Command) -> str:
         process.kill()
         raise
     if process.returncode != 0:
-        raise BraceError(f"brace {command[0]} ended with {process.returncode}", why=_last(err))
+        raise BraceError(f"brace {command[0]} ended with {process.returncode}", why=_reason(err))
     return out
 
 
@@ -171,6 +171,7 @@ def _k(text: str) -> tuple[float, float, float]:
     return tuple(float(data[f"k_{entry}_n_per_mm"]) for entry in ("xx", "xz", "zz"))  # type: ignore[return-value]
 
 
-def _last(text: str) -> str:
-    lines = text.strip().splitlines()
-    return lines[-1] if lines else "it says nothing"
+def _reason(text: str) -> str:
+    """What a command said went wrong: the head of its error, else its last words."""
+    lines = text.strip().splitlines() or ["it says nothing"]
+    return next((line.removeprefix("brace: ") for line in lines if line.startswith("brace: ")), lines[-1])

@@ -3,6 +3,7 @@
 
 #include "brace/measured.h"
 #include "can/request.h"
+#include "measure/loading.h"
 #include "report/measured.h"
 #include "report/version.h"
 
@@ -58,6 +59,9 @@ int32_t request_loading_start(brace_app_t *app, request_t *request)
         .torque_max_n_mm = femur_n_mm > tibia_n_mm ? femur_n_mm : tibia_n_mm,
         .source = BRACE_LOADING_ENCODED};
     request->detail = app->mode;
+    if (app->loading.phase == LOADING_RETURN) {
+        return BRACE_REFUSED_BUSY; /* the last test is over by itself in a moment */
+    }
     const brace_status_t status = asked.axis > 1u ? BRACE_E_RANGE : brace_app_loading_start(app, &setup);
     if (status != BRACE_OK) {
         return status;
