@@ -16,6 +16,8 @@ from brace.bus.loading_rows import added, on_one_clock, with_motor_angles
 from brace.dataset import load_dataset
 
 FEMUR_MM, TIBIA_MM = 185.0, 313.5
+ENCODER_STEP_RAD = 2e-5  # the dictionary's default
+FORCE_STEP_N = 0.002  # K and the angles as they are written down
 TEST = ("--loading-test", "--axis", "x", "--steps", 2, "--step-mm", 0.5, "--add", "--json")
 
 
@@ -43,14 +45,22 @@ def _columns(run: int, theta: tuple[float, float], d_mm: np.ndarray) -> dict[str
     }
 
 
-def test_motors_angles_are_those_of_the_unloaded_shape() -> None:
-    """The tip of the shape that the motors hold is the planted one, less the displacement."""
-    d_mm = np.array([[0.0, 1.5, -2.0, 0.1], [0.0, 0.3, 0.0, -1.9]])
-    columns = with_motor_angles(_columns(1, (0.7, 1.3), d_mm), FEMUR_MM, TIBIA_MM)
-    tip = _tip(columns["theta1_rad"], columns["theta2_rad"])
+def _by_levers(theta: tuple[float, float], moved: np.ndarray) -> np.ndarray:
+    """What a controller tells of motors that move by small angles: the tip's shift by the levers of where they
+    were, here from differences; minus, since the tip stays and the unloaded shape moves away."""
+    at, tiny = np.array(theta), 1e-6
+    levers = [(_tip(*(at + tiny * one)) - _tip(*(at - tiny * one))) / (2 * tiny) for one in np.eye(2)]
+    return -np.column_stack(levers) @ moved
+
+
+def test_motors_angles_and_the_tips_arc_from_what_levers_tell() -> None:
+    moved = np.array([[0.0, 0.011, -0.02, 0.004], [0.0, -0.013, 0.0, 0.021]])
+    columns = with_motor_angles(_columns(1, (0.7, 1.3), _by_levers((0.7, 1.3), moved)), FEMUR_MM, TIBIA_MM)
+    assert np.abs(columns["theta1_rad"] - 0.7 - moved[0]).max() < 1e-9
+    assert np.abs(columns["theta2_rad"] - 1.3 - moved[1]).max() < 1e-9
     planted = _tip(np.full(4, 0.7), np.full(4, 1.3))
-    assert np.abs(planted - tip - d_mm).max() < 1e-9
-    assert columns["theta1_rad"][0] == 0.7 and np.abs(columns["theta2_rad"] - 1.3).max() < 0.02
+    told = np.stack([columns["dx_mm"], columns["dz_mm"]])
+    assert np.abs(planted - _tip(0.7 + moved[0], 1.3 + moved[1]) - told).max() < 1e-6
 
 
 def test_a_straight_knee_keeps_the_angles_told() -> None:
@@ -108,6 +118,26 @@ def test_postures_over_a_bus_become_one_record(brace: Callable[..., Outcome], tm
         outcome = brace("record", "--bus", url, *TEST, "--out", out)
     assert outcome.code == 2 and "another set of parameters" in outcome.err
     assert (out / "data.csv").read_bytes() == before
+
+
+def test_a_long_stroke_over_a_bus_is_the_limbs_to_the_encoders_step(
+    brace: Callable[..., Outcome], tmp_path: Path
+) -> None:
+    """Every row's force is K at its own angles times its displacement: the stroke's square leaves nothing."""
+    limb, out = tmp_path / "limb.toml", tmp_path / "long"
+    limb.write_text(LIMB + "[sensor]\nnoise_n = 0.0\n")
+    long = ("--loading-test", "--axis", "x", "--steps", 3, "--step-mm", 2.5)
+    with limb_on_tcp(limb, "--posture=1.0,1.4", "--speed", 5) as url:
+        outcome = brace("record", "--bus", url, *long, "--out", out)
+    assert outcome.code == 0, outcome.err
+    dataset = load_dataset(out)
+    d = np.column_stack([dataset["dx_mm"], dataset["dz_mm"]])
+    angles = zip(dataset["theta1_rad"].tolist(), dataset["theta2_rad"].tolist())
+    force = np.array([physics_k(*angle) @ each for angle, each in zip(angles, d)])
+    left = np.column_stack([dataset["fx_n"], dataset["fz_n"]]) - force
+    # half an encoder's step of the first row and half of this one, of either joint, by what its turn presses
+    per_rad = np.abs(physics_k(1.0, 1.4) @ _by_levers((1.0, 1.4), np.eye(2))).sum(axis=1)
+    assert np.all(np.abs(left).max(axis=0) < ENCODER_STEP_RAD * per_rad + FORCE_STEP_N)
 
 
 def test_adding_to_something_else_is_refused(

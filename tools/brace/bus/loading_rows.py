@@ -10,28 +10,27 @@ import numpy as np
 Columns = dict[str, np.ndarray]
 SAME_POSTURE_RAD = 0.01
 _PAUSE_S = 1.0  # between two tests of which nobody knows how far they were apart
-_ITERATIONS = 12
 
 
 def with_motor_angles(columns: Columns, femur_mm: float, tibia_mm: float) -> Columns:
-    """The same rows, each with the angles at which its motors stood.
+    """The same rows, each with the angles at which its motors stood and the tip's displacement on its arc.
 
     A controller presses by moving its motors: the tip stays, and the shape that the unloaded limb would have
-    moves away by (dx, dz). The angles of that shape are what the limb's stiffness at the reading depends on;
-    taken as constant they leave an error that grows with the square of the stroke."""
+    moves away. It tells (dx, dz) by the levers of the posture that the run began at. The same levers give the
+    motors' angles back, at which the limb's stiffness is the reading's, and the angles tell where the unloaded
+    tip went. Angles taken as constant, or an arc as straight, leave an error that grows with the stroke's square."""
     theta1, theta2 = columns["theta1_rad"].astype(float), columns["theta2_rad"].astype(float)
-    target = _tip(theta1, theta2, femur_mm, tibia_mm) - np.stack([columns["dx_mm"], columns["dz_mm"]])
-    for _ in range(_ITERATIONS):
-        tip = _tip(theta1, theta2, femur_mm, tibia_mm)
-        shank = theta1 - theta2
-        j12, j22 = tibia_mm * np.sin(shank), -tibia_mm * np.cos(shank)
-        det = -tip[1] * j22 - j12 * tip[0]
-        if np.any(np.abs(det) < 1e-3 * femur_mm * tibia_mm):
-            return columns  # nearly straight: angles hardly tell where the tip is; the run's own are as good
-        error = target - tip
-        theta1 = theta1 + (j22 * error[0] - j12 * error[1]) / det
-        theta2 = theta2 + (-tip[0] * error[0] - tip[1] * error[1]) / det
-    return {**columns, "theta1_rad": theta1, "theta2_rad": theta2}
+    start = _tip(theta1, theta2, femur_mm, tibia_mm)
+    shank = theta1 - theta2
+    j12, j22 = tibia_mm * np.sin(shank), -tibia_mm * np.cos(shank)
+    det = -start[1] * j22 - j12 * start[0]
+    if np.any(np.abs(det) < 1e-3 * femur_mm * tibia_mm):
+        return columns  # nearly straight: levers hardly tell the angles; the run's own are as good
+    dx, dz = columns["dx_mm"].astype(float), columns["dz_mm"].astype(float)
+    theta1 = theta1 - (j22 * dx - j12 * dz) / det
+    theta2 = theta2 + (start[0] * dx + start[1] * dz) / det
+    moved = _tip(theta1, theta2, femur_mm, tibia_mm) - start
+    return {**columns, "theta1_rad": theta1, "theta2_rad": theta2, "dx_mm": -moved[0], "dz_mm": -moved[1]}
 
 
 def on_one_clock(columns: Columns, started_s: Sequence[float]) -> Columns:

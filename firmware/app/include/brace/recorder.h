@@ -21,7 +21,8 @@ typedef struct {
     float theta1_rad, theta2_rad; /* at the preload point */
     float t_s;       /* since the test began */
     float temp_degc;
-    float dx_mm, dz_mm, fx_n, fz_n;
+    float dx_mm, dz_mm; /* by the levers of the preload point: straight, where the tip goes on an arc */
+    float fx_n, fz_n;
     float enc1_rad, enc2_rad; /* deflection between motor and link encoder; NaN without one */
 } brace_row_t;
 
