@@ -46,8 +46,8 @@ def _columns(run: int, theta: tuple[float, float], d_mm: np.ndarray) -> dict[str
 
 
 def _by_levers(theta: tuple[float, float], moved: np.ndarray) -> np.ndarray:
-    """What a controller tells of motors that move by small angles: the tip's shift by the levers of where they
-    were, here from differences; minus, since the tip stays and the unloaded shape moves away."""
+    """What a controller tells of motors that move by small angles: the tip's shift by the levers of where
+    they were, here from differences; minus, since the tip stays and the unloaded shape moves away."""
     at, tiny = np.array(theta), 1e-6
     levers = [(_tip(*(at + tiny * one)) - _tip(*(at - tiny * one))) / (2 * tiny) for one in np.eye(2)]
     return -np.column_stack(levers) @ moved

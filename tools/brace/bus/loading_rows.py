@@ -16,9 +16,10 @@ def with_motor_angles(columns: Columns, femur_mm: float, tibia_mm: float) -> Col
     """The same rows, each with the angles at which its motors stood and the tip's displacement on its arc.
 
     A controller presses by moving its motors: the tip stays, and the shape that the unloaded limb would have
-    moves away. It tells (dx, dz) by the levers of the posture that the run began at. The same levers give the
-    motors' angles back, at which the limb's stiffness is the reading's, and the angles tell where the unloaded
-    tip went. Angles taken as constant, or an arc as straight, leave an error that grows with the stroke's square."""
+    moves away. It tells (dx, dz) by the levers of the posture that the run began at. The same levers give
+    the motors' angles back, at which the limb's stiffness is the reading's, and the angles tell where the
+    unloaded tip went. Taken as constant, or the arc as straight, they leave an error that grows with the
+    stroke's square."""
     theta1, theta2 = columns["theta1_rad"].astype(float), columns["theta2_rad"].astype(float)
     start = _tip(theta1, theta2, femur_mm, tibia_mm)
     shank = theta1 - theta2
