@@ -31,7 +31,7 @@ KINDS = {"M": "monitor", "T": "taking up", "L": "loading test", "R": "loading te
          "C": "configuration",
          "P": "putting parameters in force", "W": "keeping what the drift check knows", "S": "storing parameters", "0": "start", "F": "fault",
          "Q": "answering a request over CAN, beside K", "G": "the same, K by the general path",
-         "A": "answering, K left out", "E": "answering beside a piece of a loading test"}
+         "A": "answering, K left out or a piece of it", "E": "answering beside a piece of a loading test"}
 
 
 @dataclass(frozen=True)

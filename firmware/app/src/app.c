@@ -48,77 +48,143 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal)
     }
     app->last_us = hal->now_us(hal->context);
     services_start(app);
-    control_blank(app, &app->snapshot[0]);
-    app->snapshot[0].taken_us = app->last_us;
+    app->next = 1;
+    control_blank(app, &app->snapshot[app->newest]);
     return BRACE_OK;
 }
 
 /* The mode in which parameters are stored and put in force: nothing is computed beside it. */
-static void configuration_tick(brace_app_t *app, uint32_t now_us, bool lean, brace_snapshot_t *snapshot)
+static void configuration_tick(brace_app_t *app, uint32_t now_us, bool works)
 {
+    brace_snapshot_t *snapshot = &app->snapshot[app->next];
+    app->k = (brace_app_k_t){0}; /* what is left of it is of another set */
     control_blank(app, snapshot);
     command_send(app, snapshot);
-    if (!lean && !configure_piece(app)) {
+    if (works && !configure_piece(app)) {
         storing_step(app);
         joints_read(app, now_us);
     }
     staging_watch(app);
     supervisor_faults(app, false); /* an erase takes its time */
-    control_seal(app, snapshot);
+    control_stamp(app, snapshot);
+    control_publish(app);
 }
 
-/* lean: K is left out for what services have to do. */
-static void control_tick(brace_app_t *app, uint32_t now_us, bool late, bool lean, brace_snapshot_t *snapshot)
+/* K in one tick, or pieces of it. A snapshot waits for its K while others are sensed; what it says of mode and faults is
+ * of its own tick, and a mode that has changed since makes it void. */
+static void compute(brace_app_t *app, uint32_t pieces)
 {
-    const bool reads = app->loading.phase == LOADING_READ;
-    const bool piece = reads || lean;
-    control_sense(app, now_us, snapshot);
+    brace_app_k_t *k = &app->k;
+    if (pieces == (uint32_t)SERVICES_K_WHOLE) {
+        pieces = CONTROL_PIECES;
+        k->advances = false;
+    }
+    if (pieces > 0u && k->advances) {
+        loading_advance(app, brace_app_snapshot(app));
+        k->advances = false;
+        pieces--;
+    }
+    for (; pieces > 0u && !k->told; pieces--) {
+        k->told = control_piece(app);
+    }
+}
+
+static void publish(brace_app_t *app, bool whole)
+{
+    brace_snapshot_t *snapshot = &app->snapshot[app->next];
+    brace_app_k_t *k = &app->k;
+    if (k->is_fresh) {
+        control_stamp(app, snapshot);
+    }
+    if (snapshot->mode != app->mode) {
+        k->done = 0;
+    } else if (k->told) {
+        control_publish(app);
+        k->waits = 0;
+        k->advances = !whole && app->loading.phase != LOADING_IDLE;
+    }
+    k->told = false;
+    k->waits = (uint8_t)(k->waits + (k->waits < UINT8_MAX));
+}
+
+static void control_tick(brace_app_t *app, uint32_t now_us, bool late, uint32_t pieces)
+{
+    const bool reads = app->loading.phase == LOADING_READ, whole = pieces == (uint32_t)SERVICES_K_WHOLE && !reads;
+    brace_app_k_t *k = &app->k;
+    k->done = whole || reads ? 0u : k->done;
+    k->is_fresh = k->done == 0u;
+    brace_snapshot_t *sensed = &app->snapshot[k->is_fresh ? app->next : control_spare(app)];
+    control_sense(app, now_us, sensed);
     if (reads) {
         loading_piece(app);
-    } else if (!lean) {
-        control_stiffness(app, snapshot);
+    } else {
+        compute(app, pieces);
     }
-    takeup_advance(app, snapshot);
-    if (!piece) {
-        loading_advance(app, snapshot);
+    takeup_advance(app, sensed);
+    if (whole) {
+        loading_advance(app, sensed);
     }
     supervisor_faults(app, late);
     supervisor_mode(app);
-    command_send(app, snapshot);
-    if (!piece) {
-        control_seal(app, snapshot);
+    command_send(app, sensed);
+    if (!reads) {
+        publish(app, whole);
     }
 }
 
 static services_room_t room_of(const brace_app_t *app)
 {
-    const bool measures = app->loading.phase >= LOADING_READ && app->loading.phase <= LOADING_COMPARE;
+    const uint8_t phase = app->loading.phase;
     if (app->mode == BRACE_MODE_CONFIGURATION) {
         return storing_busy(app) ? SERVICES_BESIDE_A_PIECE : SERVICES_BESIDE_LITTLE;
     }
-    return measures ? SERVICES_BESIDE_LITTLE : SERVICES_BESIDE_K;
+    return phase < LOADING_READ || phase > LOADING_TELL ? SERVICES_BESIDE_K
+           : phase == LOADING_READ                      ? SERVICES_BESIDE_A_READING
+           : phase == LOADING_COMPARE                   ? SERVICES_BESIDE_MUCH
+                                                        : SERVICES_BESIDE_SOME;
+}
+
+/* A tick that senses nothing, for what is as dear as sensing: the joints' filters bear a missed one. A loading test's piece,
+ * Modbus, or K of the samples that the last tick took. */
+static void blind_tick(brace_app_t *app, bool late, services_room_t room, uint32_t pieces)
+{
+    brace_app_k_t *k = &app->k;
+    supervisor_late(app, late);
+    if (room != SERVICES_BESIDE_K) {
+        if (pieces > 0u) {
+            loading_piece(app);
+        }
+    } else if (!app->modbus.serves) {
+        if (!k->is_fresh) { /* another waits: the later one goes first */
+            app->next = control_spare(app);
+            k->is_fresh = true;
+            k->done = 0;
+        }
+        compute(app, SERVICES_K_WHOLE);
+        loading_advance(app, &app->snapshot[app->next]);
+        publish(app, true);
+    }
 }
 
 void brace_app_tick(brace_app_t *app, uint32_t now_us)
 {
-    brace_snapshot_t *next = &app->snapshot[app->newest ^ 1u];
     const bool late = app->ticked && now_us - app->last_us > LATE_PERIODS * app->tick_us;
     app->counters.ticks_late += late && app->counters.ticks_late < UINT32_MAX;
     app->last_us = now_us;
     app->ticked = true;
-    const bool lean = services_listen(app, room_of(app));
+    const services_room_t room = room_of(app);
+    const uint32_t pieces = services_listen(app, room);
     if (app->mode == BRACE_MODE_CONFIGURATION) {
-        configuration_tick(app, now_us, lean, next);
-    } else if (app->loading.phase >= LOADING_DRIFT && app->loading.phase <= LOADING_COMPARE) {
-        supervisor_late(app, late);
-        loading_piece(app); /* as dear as a whole tick: the joints' filters bear a missed one */
+        configuration_tick(app, now_us, pieces > 0u);
+    } else if (pieces == (uint32_t)SERVICES_BLIND || room == SERVICES_BESIDE_SOME || room == SERVICES_BESIDE_MUCH) {
+        blind_tick(app, late, room, pieces);
     } else if (app->keeping.look && keeping_due(app)) {
         supervisor_late(app, late);
         keeping_piece(app);
     } else {
-        control_tick(app, now_us, late, lean, next);
+        control_tick(app, now_us, late, pieces);
     }
-    services_run(app, lean);
+    services_run(app);
     app->hal->watchdog_feed(app->hal->context);
 }
 

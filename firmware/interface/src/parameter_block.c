@@ -74,9 +74,13 @@ brace_status_t brace_block_header(const uint8_t *block, uint32_t length, brace_b
 
 void brace_block_members(const uint8_t *block, brace_parameters_t *parameters)
 {
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    memcpy(parameters, block + BRACE_BLOCK_HEADER_BYTES, sizeof *parameters);
+#else
     for (uint32_t i = 0; i < BRACE_PARAMETER_COUNT; i++) {
         brace_member_put(parameters, i, brace_get_u32(block + BRACE_BLOCK_HEADER_BYTES + 4u * i));
     }
+#endif
 }
 
 brace_status_t brace_parameters_unpack(const uint8_t *block, uint32_t length, brace_parameters_t *parameters,

@@ -6,7 +6,7 @@
  *   C configuration
  *   P a piece of putting parameters in force  S storing  0 start  F fault
  *   W a piece of a record of what the drift check knows
- *   and those that answer a request over CAN: Q beside K  G beside K of the general path  A with K left out
+ *   and those that answer a request over CAN: Q beside K  G beside K of the general path  A with K left out, or a piece of it
  *   E beside a piece of a loading test
  */
 #include <stdio.h>
@@ -74,13 +74,18 @@ static brace_parameters_t random_parameters(const world_manner_t *manner)
     return p;
 }
 
-static void begin_episode(void)
+static void begin_episode(bool tests)
 {
     world_manner_t manner = {.cooperative = dice_in(&dice, 2), .restless = dice_in(&dice, 2),
                              .drives_fail = dice_in(&dice, 4), .slcan = dice_in(&dice, 3),
                              .spring_n_mm_per_rad = dice_between(&dice, 2e4f, 1e5f)};
     static const uint32_t bad_in[] = {0, 1000, 50, 5};
     manner.bad_in = bad_in[dice_below(&dice, manner.cooperative ? 2 : 4)];
+    if (tests) {
+        manner.cooperative = true;
+        manner.restless = manner.drives_fail = false;
+        manner.bad_in = 0;
+    }
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         manner.gap_rad[i] = dice_in(&dice, 3) ? 0.0f : dice_between(&dice, 0.002f, 0.025f);
     }
@@ -179,13 +184,14 @@ static void upload_on(void)
 }
 
 /* A request over CAN: of every code, mostly with sense in it. */
-static void random_question(void)
+static void random_question(bool harmless)
 {
     uint8_t data[8];
     for (int i = 0; i < 8; i++) {
         data[i] = (uint8_t)dice_below(&dice, 256);
     }
-    const uint32_t code = dice_in(&dice, 20)  ? dice_below(&dice, 256)
+    const uint32_t code = harmless            ? 1u + dice_below(&dice, 8)
+                          : dice_in(&dice, 20)  ? dice_below(&dice, 256)
                           : dice_in(&dice, 2) ? 3u + dice_below(&dice, 3)
                                               : 1u + dice_below(&dice, 22);
     const uint32_t token = data[1];
@@ -244,7 +250,7 @@ static char kind(void)
     return app.loading.phase == LOADING_READ    ? 'R'
            : app.loading.phase == LOADING_DRIFT ? 'D'
            : app.loading.phase == LOADING_JUDGE ? 'J'
-           : app.loading.phase == LOADING_COMPARE ? 'K'
+           : app.loading.phase >= LOADING_COMPARE && app.loading.phase <= LOADING_TELL ? 'K'
                                                 : 'L';
 }
 
@@ -260,15 +266,19 @@ static bool keeping_is_due(void)
 int main(void)
 {
     static char line[LINE + 1];
-    bool flood = false;
+    bool flood = false, tests = false;
     for (uint32_t tick = 0; tick < TICKS; tick++) {
         if (tick % EPISODE_TICKS == 0) {
-            begin_episode();
             flood = dice_in(&dice, 4); /* requests in every tick */
+            tests = dice_in(&dice, 6); /* nothing but loading tests, and nobody who stops them */
+            begin_episode(tests);
         }
         world_now_us += dice_in(&dice, 2000) ? 1000u + dice_below(&dice, 30000) : 1000u;
         world_step(&dice);
-        if (upload.next == 0u && dice_in(&dice, 20)) {
+        if (tests && dice_in(&dice, 20)) {
+            const brace_loading_setup_t setup = random_setup();
+            (void)brace_app_loading_start(&app, &setup);
+        } else if (upload.next == 0u && !tests && dice_in(&dice, 20)) {
             random_request();
             if (app.mode == BRACE_MODE_CONFIGURATION && !app.storing && app.bus.speaks && dice_in(&dice, 8)) {
                 begin_upload();
@@ -278,8 +288,8 @@ int main(void)
             if (tick % 3u == 0u) { /* so that the answers go out in between */
                 upload_on();
             }
-        } else if (dice_in(&dice, 3)) {
-            random_question();
+        } else if (flood || dice_in(&dice, 3)) {
+            random_question(tests);
         }
         const char expected = kind();
         const uint32_t sequence = app.sequence;

@@ -122,6 +122,18 @@ typedef struct {
     float deflection_rad[BRACE_APP_JOINTS];
 } brace_app_model_t;
 
+/* K of the samples in snapshot[next], on its way. */
+typedef struct {
+    uint8_t done;             /* pieces; 0: none is on its way */
+    bool inside, posed, sound; /* within travel; where there are levers; the samples */
+    uint8_t waits;            /* ticks since there was one */
+    bool is_fresh, told;      /* of the last samples; this tick ends it */
+    bool advances;            /* the loading test has yet to go on with the newest */
+    float spring_rad_per_n_mm[BRACE_APP_JOINTS]; /* hip, with the base's rotation, and knee, as they are at the moment */
+    brace_status_t status;
+    brace_stiffness_t engaged;
+} brace_app_k_t;
+
 typedef struct {
     bool fitted;              /* there is a sensor, and its matrix has an inverse */
     bool known;               /* x_n, z_n are no older than controller.age_limit_us */
@@ -164,6 +176,8 @@ typedef struct {
 
 typedef struct {
     bool speaks;              /* in this tick, besides answering */
+    uint8_t frames;           /* of process data, at most, in this tick */
+    uint8_t left_out;         /* ticks in a row without a piece of K, or of other work */
     uint8_t waited;           /* ticks, for answers to leave over SLCAN */
     uint32_t beat_us;         /* when the heart beat last */
     uint32_t faults_told;
@@ -188,8 +202,7 @@ typedef struct {
 
 typedef struct {
     bool waiting;             /* request holds one to be answered */
-    bool serves;              /* this tick answers it */
-    uint8_t yielded;          /* ticks in a row in which K, or a piece of work, was left out */
+    bool serves, refuses;     /* this tick answers it; there is no time for it */
     uint8_t request[8];
     uint8_t answer[BRACE_APP_ANSWERS][8];
     uint8_t answer_first, answer_count;
@@ -241,7 +254,7 @@ typedef struct {
     uint16_t half, half_place;    /* of a value written in two requests: the high one, and its register */
     uint16_t messages, broken, refused, served, unanswered, busy; /* function 08's counters; wrap */
     uint16_t waited;              /* ticks since its last turn */
-    bool polls, serves;           /* in this tick */
+    bool polls, serves, all;      /* in this tick; all steps of a request at once */
     uint32_t silence_us, take_up, asked[BRACE_APP_ASKED];
     brace_answered_t answered;
 } brace_app_modbus_t;
@@ -282,8 +295,9 @@ typedef struct {
     brace_recorder_t recorder;
     brace_app_counters_t counters;
 
-    brace_snapshot_t snapshot[2]; /* one is whole while the other is written */
-    uint32_t newest;
+    brace_app_k_t k;
+    brace_snapshot_t snapshot[3]; /* the newest; the next, and what is sensed while that one waits for its K */
+    uint8_t newest, next;
 } brace_app_t;
 
 /* ---------------------------------------------------------------------------------------------- running -- */
@@ -300,9 +314,10 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal);
  * cost on a Cortex-M4F: at most 4,000 instructions in every mode, HAL excluded; measured by the bench. */
 void brace_app_tick(brace_app_t *app, uint32_t now_us);
 
-/* The newest tick, whole: everything in it is of the same samples. Never null; its content stays until the
+/* The newest snapshot, whole: everything in it is of one tick's samples. Never null; its content stays until the
  * tick after next. Its sequence counts snapshots: a tick that works on a loading test's reading leaves the
- * one before. */
+ * one before; where a tick has no room for all of K it comes some ticks after its samples, and taken_us says when they were
+ * taken. */
 const brace_snapshot_t *brace_app_snapshot(const brace_app_t *app);
 
 /* The parameters in force. */

@@ -72,25 +72,46 @@ static int32_t send_can(brace_app_t *app, const brace_can_frame_t *frame)
     return answer;
 }
 
-bool bus_send(brace_app_t *app, uint32_t function, const uint8_t data[8])
+static bool is_ours(const brace_app_bus_t *bus)
+{
+    return bus->listens && bus->node_id != 0u && !bus->bus_off;
+}
+
+/* As text; and over CAN, where there is one, whatever comes of it. */
+static bool send_text(brace_app_t *app, const brace_can_frame_t *frame)
+{
+    if (!slcan_port_send(app, frame)) {
+        return false;
+    }
+    if (is_ours(&app->bus)) {
+        (void)send_can(app, frame);
+    }
+    return true;
+}
+
+uint32_t bus_send_some(brace_app_t *app, uint32_t function, const uint8_t (*data)[8], uint32_t count)
 {
     const brace_app_bus_t *bus = &app->bus;
-    const bool can = bus->listens && bus->node_id != 0u && !bus->bus_off;
     brace_can_frame_t frame;
+    uint32_t sent = 0;
+    if (!bus->slcan.open && !is_ours(bus)) {
+        return 0;
+    }
     frame.id = function + bus->node_id;
     frame.length = 8;
     frame.fd = false;
-    memcpy(frame.data, data, 8);
-    if (bus->slcan.open) {
-        if (!slcan_port_send(app, &frame)) {
-            return false;
+    for (; sent < count; sent++) {
+        memcpy(frame.data, data[sent], 8);
+        if (bus->slcan.open ? !send_text(app, &frame) : send_can(app, &frame) != BRACE_HAL_OK) {
+            return sent;
         }
-        if (can) {
-            (void)send_can(app, &frame);
-        }
-        return true;
     }
-    return can && send_can(app, &frame) == BRACE_HAL_OK;
+    return sent;
+}
+
+bool bus_send(brace_app_t *app, uint32_t function, const uint8_t data[8])
+{
+    return bus_send_some(app, function, (const uint8_t(*)[8])data, 1) == 1u;
 }
 
 bool bus_takes_fd(const brace_app_t *app)
@@ -102,7 +123,7 @@ bool bus_send_fd(brace_app_t *app, uint32_t function, const uint8_t data[64])
 {
     const brace_app_bus_t *bus = &app->bus;
     brace_can_frame_t frame;
-    if (!bus->listens || bus->node_id == 0u || bus->bus_off) {
+    if (!is_ours(bus)) {
         return false;
     }
     frame.id = function + bus->node_id;

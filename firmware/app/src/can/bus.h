@@ -22,6 +22,9 @@ bool bus_speaks(const brace_app_t *app);
  * About 60 instructions; over SLCAN 300. */
 bool bus_send(brace_app_t *app, uint32_t function, const uint8_t data[8]);
 
+/* Sends frames of one identifier, in this order, as far as there is room. returns how many */
+uint32_t bus_send_some(brace_app_t *app, uint32_t function, const uint8_t (*data)[8], uint32_t count);
+
 /* Do snapshots go out as one frame of CAN FD? Where the parameters and the controller's CAN have it, and nobody listens
  * over SLCAN. */
 bool bus_takes_fd(const brace_app_t *app);

@@ -13,7 +13,13 @@ typedef struct {
 } request_t;
 
 /* Queues one frame of an answer, to be written where this says; requests_take leaves room for all parts of one. */
-uint8_t *answer_place(brace_app_t *app);
+static inline uint8_t *answer_place(brace_app_t *app)
+{
+    brace_app_requests_t *requests = &app->requests;
+    const uint32_t count = requests->answer_count, place = (requests->answer_first + count) % BRACE_APP_ANSWERS;
+    requests->answer_count = (uint8_t)(count + (count < (uint32_t)BRACE_APP_ANSWERS));
+    return requests->answer[place];
+}
 
 /* Queues a frame that is written already. */
 void answer_put(brace_app_t *app, const uint8_t data[8]);

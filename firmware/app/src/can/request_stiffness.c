@@ -3,6 +3,8 @@
 #include "measure/hypothetical.h"
 #include "measure/questions.h"
 
+enum { FLAGS_BYTE = 7 }; /* of the answer's last part: all of it */
+
 /* The answer to both questions for K has one shape; only its first byte differs. */
 static int32_t answer_k(brace_app_t *app, const request_t *request, brace_status_t status, const brace_stiffness_t *k)
 {
@@ -18,11 +20,9 @@ static int32_t answer_k(brace_app_t *app, const request_t *request, brace_status
         &(brace_can_k_at_posture_answer_1_t){request->token, k->k_zz_n_per_mm, k->lambda_min_n_per_mm}, part);
     part[0] = (uint8_t)(request->code + BRACE_ANSWER_PART);
     part = answer_place(app);
-    brace_can_k_at_posture_answer_2_t last = {request->token, k->lambda_max_n_per_mm, k->stiff_axis_rad, k->flags};
-    if (limited + brace_can_pack_k_at_posture_answer_2(&last, part) > 0u) {
-        last.flags |= BRACE_FLAG_SATURATED;
-        (void)brace_can_pack_k_at_posture_answer_2(&last, part);
-    }
+    limited += brace_can_pack_k_at_posture_answer_2(
+        &(brace_can_k_at_posture_answer_2_t){request->token, k->lambda_max_n_per_mm, k->stiff_axis_rad, k->flags}, part);
+    part[FLAGS_BYTE] |= limited > 0u ? (uint8_t)BRACE_FLAG_SATURATED : 0u; /* packed anew it would cost as much again */
     part[0] = (uint8_t)(request->code + 2u * BRACE_ANSWER_PART);
     return BRACE_OK;
 }

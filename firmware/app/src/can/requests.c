@@ -17,18 +17,9 @@ void requests_start(brace_app_t *app)
 {
     brace_app_requests_t *requests = &app->requests;
     requests->waiting = requests->upload_open = false;
-    requests->yielded = 0;
     requests->answer_first = requests->answer_count = 0;
     requests->storing = 0;
     requests->upload_next = requests->download_next = 0;
-}
-
-uint8_t *answer_place(brace_app_t *app)
-{
-    brace_app_requests_t *requests = &app->requests;
-    const uint32_t place = ((uint32_t)requests->answer_first + requests->answer_count) % BRACE_APP_ANSWERS;
-    requests->answer_count = (uint8_t)(requests->answer_count + (requests->answer_count < BRACE_APP_ANSWERS));
-    return requests->answer[place];
 }
 
 void answer_put(brace_app_t *app, const uint8_t data[8])
@@ -91,8 +82,7 @@ static uint32_t frames_per_tick(const brace_app_t *app)
 static void take_text(brace_app_t *app)
 {
     brace_can_frame_t frame;
-    const bool full = !app->model.collapsed || app->mode == BRACE_MODE_CONFIGURATION;
-    const bool rests = (full && app->requests.yielded > 0u) ||                  /* it is K's turn, or a piece's */
+    const bool rests = (app->mode == BRACE_MODE_CONFIGURATION && app->report.left_out > 0u) || /* it is a piece's turn */
                        app->modbus.waited >= (uint32_t)MODBUS_PATIENCE_TICKS; /* or that of Modbus */
     app->bus.slcan.heard = false;
     if (!app->requests.waiting && !rests && slcan_port_receive(app, &frame)) {
@@ -153,7 +143,7 @@ void requests_serve(brace_app_t *app)
     brace_app_requests_t *requests = &app->requests;
     request_t request = {requests->request, requests->request[0], requests->request[1], 0};
     requests->waiting = false;
-    const int32_t status = dispatch(app, &request);
+    const int32_t status = requests->refuses ? (int32_t)BRACE_REFUSED_BUSY : dispatch(app, &request);
     if (status != BRACE_OK) {
         answer_refusal(app, request.code, request.token, status, request.detail);
     }
@@ -169,11 +159,13 @@ void requests_send(brace_app_t *app)
         request_storing_answer(app);
     }
     const uint32_t most = app->bus.slcan.open ? LINES_PER_TICK : SENT_PER_TICK;
-    for (uint32_t i = 0; i < most && requests->answer_count > 0u; i++) {
-        if (!bus_send(app, BRACE_CAN_ID_ANSWER, requests->answer[requests->answer_first])) {
-            return;
-        }
-        requests->answer_first = (uint8_t)((requests->answer_first + 1u) % BRACE_APP_ANSWERS);
-        requests->answer_count--;
+    uint32_t left = requests->answer_count < most ? requests->answer_count : most;
+    while (left > 0u) { /* twice, where the ring comes round */
+        const uint32_t first = requests->answer_first, to_end = (uint32_t)BRACE_APP_ANSWERS - first;
+        const uint32_t count = left < to_end ? left : to_end;
+        const uint32_t sent = bus_send_some(app, BRACE_CAN_ID_ANSWER, &requests->answer[first], count);
+        requests->answer_first = (uint8_t)((first + sent) % BRACE_APP_ANSWERS);
+        requests->answer_count = (uint8_t)(requests->answer_count - sent);
+        left = sent == count ? left - count : 0u;
     }
 }

@@ -11,7 +11,7 @@
 #define TAKEUP_SPARE_RAD 0.004f
 #define TAKEUP_DROOP_RAD 0.2f /* of a servo at the take-up's torque: what a soft one gives way by */
 
-enum { PIECE_COLLAPSE = 1, PIECE_GENERAL, PIECE_FEMUR, PIECE_TIBIA, PIECE_SENSOR, PIECE_DRIFT, PIECE_KEPT, PIECES_DONE };
+enum { PIECE_COLLAPSE = 1, PIECE_GENERAL, PIECE_FEMUR, PIECE_TIBIA, PIECE_SENSOR, PIECE_DRIFT, PIECE_OPEN, PIECE_KEPT, PIECES_DONE };
 
 void configure_begin(brace_app_t *app, bool fresh)
 {
@@ -63,7 +63,6 @@ static void configure_drift(brace_app_t *app)
         .joint_compliance_trust_ratio = 0.2f};
     (void)brace_drift_learn(&app->drift, &parameters->limb, &setup);
     app->supervisor.latched &= ~(uint32_t)BRACE_FAULT_MODEL_DRIFT;
-    keeping_open(app, app->configures_fresh);
 }
 
 bool configure_piece(brace_app_t *app)
@@ -78,6 +77,7 @@ bool configure_piece(brace_app_t *app)
     case PIECE_TIBIA: configure_play(app, 1); break;
     case PIECE_SENSOR: force_configure(app); break;
     case PIECE_DRIFT: configure_drift(app); break;
+    case PIECE_OPEN: keeping_open(app, app->configures_fresh); break;
     case PIECE_KEPT:
         if (keeping_scan(app)) {
             return true;

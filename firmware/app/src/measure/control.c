@@ -41,7 +41,7 @@ void control_sense(brace_app_t *app, uint32_t now_us, brace_snapshot_t *snapshot
 {
     read_coxa(app, snapshot);
     joints_read(app, now_us);
-    force_sense(app);
+    force_sense(app, snapshot);
     joints_play(app, now_us, snapshot);
     const uint32_t femur_us = app->joint[0].sample.taken_us, tibia_us = app->joint[1].sample.taken_us;
     snapshot->taken_us = (int32_t)(femur_us - tibia_us) < 0 ? femur_us : tibia_us;
@@ -54,16 +54,32 @@ void control_temperatures(const brace_app_t *app, float temp_degc[BRACE_APP_JOIN
     temp_degc[1] = tibia == tibia ? tibia : femur;
 }
 
-static void posture(brace_app_t *app, brace_snapshot_t *snapshot)
+/* Angles and joints' springs. */
+static void angles(brace_app_t *app, brace_snapshot_t *snapshot)
 {
     const float *theta_rad = snapshot->theta_rad;
-    const float unknown = __builtin_nanf("");
-    const float theta1_rad = theta_rad[BRACE_FEMUR], theta2_rad = theta_rad[BRACE_TIBIA];
+    brace_app_k_t *k = &app->k;
     const brace_limb_t *limb = &app->parameters.limb;
-    app->posed = __builtin_fabsf(theta1_rad) <= BRACE_ANGLE_LIMIT_RAD &&
-                 __builtin_fabsf(theta2_rad) <= BRACE_ANGLE_LIMIT_RAD && limb->femur_mm > 0.0f && limb->tibia_mm > 0.0f;
+    const float load_n_mm[BRACE_APP_JOINTS] = {joints_load(snapshot, 0), joints_load(snapshot, 1)};
+    float temp_degc[BRACE_APP_JOINTS];
+    k->inside = joints_angles(app, snapshot);
+    k->sound = app->joint[0].sound && app->joint[1].sound;
+    control_temperatures(app, temp_degc);
+    snapshot->temp_degc = temp_degc[0] > temp_degc[1] ? temp_degc[0] : temp_degc[1];
+    model_springs(&app->model, load_n_mm, temp_degc, k->spring_rad_per_n_mm);
+    const float theta1_rad = theta_rad[BRACE_FEMUR], theta2_rad = theta_rad[BRACE_TIBIA];
+    k->posed = __builtin_fabsf(theta1_rad) <= BRACE_ANGLE_LIMIT_RAD &&
+               __builtin_fabsf(theta2_rad) <= BRACE_ANGLE_LIMIT_RAD && limb->femur_mm > 0.0f && limb->tibia_mm > 0.0f;
+}
+
+/* Levers, tip, force. */
+static void posture(brace_app_t *app, brace_snapshot_t *snapshot)
+{
+    const float unknown = __builtin_nanf("");
+    app->posed = app->k.posed;
     if (app->posed) {
-        brace_kinematics_pose(limb, theta1_rad, theta2_rad, &app->pose);
+        brace_kinematics_pose(&app->parameters.limb, snapshot->theta_rad[BRACE_FEMUR], snapshot->theta_rad[BRACE_TIBIA],
+                              &app->pose);
         snapshot->tip_mm = app->pose.tip;
         (void)brace_backlash_tip_shift(&app->pose, snapshot->play[BRACE_FEMUR].offset_rad,
                                        snapshot->play[BRACE_TIBIA].offset_rad, &snapshot->play_shift_mm);
@@ -85,23 +101,13 @@ static uint32_t open_gaps(const brace_app_t *app, const brace_snapshot_t *snapsh
     return open;
 }
 
-void control_stiffness(brace_app_t *app, brace_snapshot_t *snapshot)
+/* K now and engaged, and what is to be said of it. */
+static void tell_stiffness(const brace_app_t *app, brace_snapshot_t *snapshot)
 {
-    const bool inside = joints_angles(app, snapshot);
-    const bool sound = app->joint[0].sound && app->joint[1].sound;
+    const bool inside = app->k.inside, sound = app->k.sound;
     brace_gap_stiffness_t *k = &snapshot->stiffness;
-    float temp_degc[BRACE_APP_JOINTS];
-    control_temperatures(app, temp_degc);
-    snapshot->temp_degc = temp_degc[0] > temp_degc[1] ? temp_degc[0] : temp_degc[1];
-    posture(app, snapshot);
-    bool computed = false;
-    if (sound && app->posed) {
-        const float load_n_mm[BRACE_APP_JOINTS] = {joints_load(app, snapshot, 0), joints_load(app, snapshot, 1)};
-        brace_stiffness_t engaged;
-        computed = model_stiffness(&app->model, snapshot->theta_rad[BRACE_FEMUR], snapshot->theta_rad[BRACE_TIBIA],
-                                   load_n_mm, temp_degc, &engaged) == BRACE_OK &&
-                   brace_gap_stiffness_known(&engaged, &app->pose, open_gaps(app, snapshot), k) == BRACE_OK;
-    }
+    const bool computed = app->k.status == BRACE_OK &&
+                          brace_gap_stiffness_known(&app->k.engaged, &app->pose, open_gaps(app, snapshot), k) == BRACE_OK;
     if (!computed) {
         tell_no_k(k);
         k->now.flags = k->engaged.flags = sound && inside ? (uint32_t)BRACE_FLAG_NEAR_SINGULAR : 0u; /* no K there */
@@ -114,19 +120,46 @@ void control_stiffness(brace_app_t *app, brace_snapshot_t *snapshot)
     snapshot->k_is_valid = computed && inside;
 }
 
-void control_seal(brace_app_t *app, brace_snapshot_t *snapshot)
+bool control_piece(brace_app_t *app)
 {
-    const bool tells = app->mode == BRACE_MODE_MONITOR || app->mode == BRACE_MODE_TAKING_UP ||
-                       app->mode == BRACE_MODE_LOADING_TEST;
+    brace_snapshot_t *snapshot = &app->snapshot[app->next];
+    const float *theta_rad = snapshot->theta_rad;
+    brace_app_k_t *k = &app->k;
+    switch (k->done++) {
+    case 0: angles(app, snapshot); return false;
+    case 1:
+        k->status = k->sound && k->posed ? model_stiffness(&app->model, theta_rad[BRACE_FEMUR], theta_rad[BRACE_TIBIA],
+                                                           k->spring_rad_per_n_mm, &k->engaged)
+                                         : BRACE_E_MODE;
+        return false;
+    case 2: posture(app, snapshot); return false;
+    default:
+        tell_stiffness(app, snapshot);
+        k->done = 0;
+        return true;
+    }
+}
+
+void control_stamp(const brace_app_t *app, brace_snapshot_t *snapshot)
+{
+    snapshot->mode = app->mode;
+    snapshot->faults = app->faults;
+    snapshot->parameter_crc = app->parameter_crc;
+    snapshot->parameter_origin = app->origin;
+}
+
+void control_publish(brace_app_t *app)
+{
+    brace_snapshot_t *snapshot = &app->snapshot[app->next];
+    const brace_mode_t mode = snapshot->mode;
+    const bool tells = mode == BRACE_MODE_MONITOR || mode == BRACE_MODE_TAKING_UP || mode == BRACE_MODE_LOADING_TEST;
     if (!tells) { /* what there may be of K is not for use */
         snapshot->k_is_valid = false;
         snapshot->stiffness.now.flags |= BRACE_FLAG_STALE;
         snapshot->stiffness.engaged.flags |= BRACE_FLAG_STALE;
     }
-    snapshot->mode = app->mode;
-    snapshot->faults = app->faults;
-    snapshot->parameter_crc = app->parameter_crc;
-    snapshot->parameter_origin = app->origin;
     snapshot->sequence = ++app->sequence;
-    app->newest ^= 1u;
+    const uint8_t spare = control_spare(app);
+    app->newest = app->next;
+    app->next = spare;
 }

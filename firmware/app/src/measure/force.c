@@ -36,11 +36,11 @@ void force_configure(brace_app_t *app)
     ours->age_us = AGE_MOST_US; /* no reading yet */
 }
 
-void force_sense(brace_app_t *app)
+void force_sense(brace_app_t *app, brace_snapshot_t *snapshot)
 {
     brace_app_sensor_t *ours = &app->sensor;
     float x_n = 0.0f, z_n = 0.0f;
-    ours->known = false;
+    ours->known = snapshot->force_is_sensed = false;
     if (!ours->fitted) {
         return;
     }
@@ -57,7 +57,9 @@ void force_sense(brace_app_t *app)
         const float dx_n = x_n - app->parameters.sensor.bias_x_n, dz_n = z_n - app->parameters.sensor.bias_z_n;
         ours->x_n = ours->inverse[0] * dx_n + ours->inverse[1] * dz_n;
         ours->z_n = ours->inverse[2] * dx_n + ours->inverse[3] * dz_n;
-        ours->known = true;
+        snapshot->force_x_n = ours->x_n;
+        snapshot->force_z_n = ours->z_n;
+        ours->known = snapshot->force_is_sensed = true;
     }
 }
 
@@ -94,18 +96,15 @@ void force_expect(const brace_app_t *app, int index, brace_backlash_sample_t *sa
 
 void force_tell(const brace_app_t *app, brace_snapshot_t *snapshot)
 {
-    snapshot->force_is_sensed = app->sensor.known;
-    if (app->sensor.known) {
-        snapshot->force_x_n = app->sensor.x_n;
-        snapshot->force_z_n = app->sensor.z_n;
+    if (snapshot->force_is_sensed) {
         return;
     }
     const brace_point_t femur = app->pose.lever_femur, tibia = app->pose.lever_tibia;
     const float cross = femur.x_mm * tibia.z_mm - femur.z_mm * tibia.x_mm;
     snapshot->force_x_n = snapshot->force_z_n = __builtin_nanf("");
     if (__builtin_fabsf(cross) >= LEAST_KNEE_SINE * app->parameters.limb.femur_mm * app->parameters.limb.tibia_mm) {
-        const float a = force_gravity(app, 0) - joints_load(app, snapshot, 0); /* lever_femur . force */
-        const float b = joints_load(app, snapshot, 1) - force_gravity(app, 1); /* lever_tibia . force */
+        const float a = force_gravity(app, 0) - joints_load(snapshot, 0); /* lever_femur . force */
+        const float b = joints_load(snapshot, 1) - force_gravity(app, 1); /* lever_tibia . force */
         snapshot->force_x_n = (a * tibia.z_mm - b * femur.z_mm) / cross;
         snapshot->force_z_n = (b * femur.x_mm - a * tibia.x_mm) / cross;
     }

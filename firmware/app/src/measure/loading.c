@@ -304,6 +304,9 @@ void loading_piece(brace_app_t *app)
         }
     } else if (test->phase == LOADING_COMPARE) {
         loading_compare(app);
+        test->phase = LOADING_TELL;
+    } else if (test->phase == LOADING_TELL) {
+        loading_tell(app);
         loading_end(app, BRACE_LOADING_DONE);
     }
 }

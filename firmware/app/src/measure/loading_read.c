@@ -20,7 +20,7 @@ void loading_read_sample(brace_app_t *app, const brace_snapshot_t *snapshot)
     brace_loading_t *test = &app->loading;
     for (int i = 0; i < BRACE_APP_JOINTS; i++) {
         /* from where the test began: sums of differences lose nothing */
-        test->sum[MOTOR + i] += app->joint[i].sample.motor_rad - test->start_motor_rad[i];
+        test->sum[MOTOR + i] += snapshot->motor_rad[BRACE_FEMUR + i] - test->start_motor_rad[i];
         test->sum[LINK + i] += app->joint[i].sample.link_rad - app->joint[i].sample.motor_rad;
     }
     test->sum[FORCE_X] += snapshot->force_x_n;
@@ -123,9 +123,11 @@ static void model_at_reference(brace_app_t *app)
 {
     brace_loading_t *test = &app->loading;
     const float unknown[BRACE_APP_JOINTS] = {__builtin_nanf(""), __builtin_nanf("")};
+    float spring_rad_per_n_mm[BRACE_APP_JOINTS];
     test->at_reference = test->model;
     if (!app->model.collapsed) {
-        (void)model_stiffness(&app->model, test->result.theta1_rad, test->result.theta2_rad, unknown, unknown,
+        model_springs_at_rest(&app->model, unknown, spring_rad_per_n_mm);
+        (void)model_stiffness(&app->model, test->result.theta1_rad, test->result.theta2_rad, spring_rad_per_n_mm,
                               &test->at_reference);
     }
 }
@@ -188,6 +190,11 @@ void loading_compare(brace_app_t *app)
     result->model_k_z_n_per_mm = along_x ? model->k_xz_n_per_mm : model->k_zz_n_per_mm;
     result->sigma_model_k_x_n_per_mm = along_x ? sigma.k_xx_n_per_mm : sigma.k_xz_n_per_mm;
     result->sigma_model_k_z_n_per_mm = along_x ? sigma.k_xz_n_per_mm : sigma.k_zz_n_per_mm;
+}
+
+void loading_tell(brace_app_t *app)
+{
+    brace_loading_result_t *result = &app->loading.result;
     result->z_x = deviation(result->least_squares.k_x_n_per_mm, result->least_squares.sigma_k_x_n_per_mm,
                             result->model_k_x_n_per_mm, result->sigma_model_k_x_n_per_mm);
     result->z_z = deviation(result->least_squares.k_z_n_per_mm, result->least_squares.sigma_k_z_n_per_mm,

@@ -20,7 +20,8 @@ void loading_drift(brace_app_t *app);
 /* Slopes; false: there are none, it was flat. */
 bool loading_judge(brace_app_t *app);
 
-/* How far they are from the model. */
+/* The model's slopes, and how sure it is of them; then how far those measured are from them. */
 void loading_compare(brace_app_t *app);
+void loading_tell(brace_app_t *app);
 
 #endif

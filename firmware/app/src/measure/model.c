@@ -26,16 +26,20 @@ void model_configure_general(brace_app_model_t *model, const brace_parameters_t 
     }
 }
 
-/* 1 / (d torque / d deflection) of torque = deflection / compliance + hardening deflection^3 at a load.
- * The deflection is followed from tick to tick, two of Newton's steps from the last one: a load changes
- * little in a tick, and after a jump it is right within a few. */
-static float yielding(brace_app_model_t *model, int index, float load_n_mm, float temp_degc)
+/* A joint's compliance at no load. */
+static inline float at_rest(const brace_app_model_t *model, int index, float temp_degc)
 {
-    const float at_reference = model->spring_rad_per_n_mm[index];
     const float warmer_degc = temp_degc - model->reference_degc;
     const bool measured = __builtin_fabsf(warmer_degc) <= 200.0f;
     const float factor = measured ? 1.0f + model->warm_per_degc * warmer_degc : 1.0f;
-    const float compliance = at_reference * (factor > LEAST_FACTOR ? factor : LEAST_FACTOR);
+    return model->spring_rad_per_n_mm[index] * (factor > LEAST_FACTOR ? factor : LEAST_FACTOR);
+}
+
+/* 1 / (d torque / d deflection) of torque = deflection / compliance + hardening deflection^3 at a load.
+ * compliance: at no load. The deflection is followed from tick to tick, two of Newton's steps from the last one: a load changes
+ * little in a tick, and after a jump it is right within a few. */
+static float yielding(brace_app_model_t *model, int index, float load_n_mm, float compliance)
+{
     const float hardening = model->hardening_n_mm_per_rad3[index];
     if (!(hardening > 0.0f && compliance > 0.0f) || !(__builtin_fabsf(load_n_mm) <= 1e9f)) {
         return compliance;
@@ -52,14 +56,29 @@ static float yielding(brace_app_model_t *model, int index, float load_n_mm, floa
     return 1.0f / (stiffness + 3.0f * hardening * deflection * deflection);
 }
 
-brace_status_t model_stiffness(brace_app_model_t *model, float theta1_rad, float theta2_rad,
-                               const float load_n_mm[BRACE_APP_JOINTS], const float temp_degc[BRACE_APP_JOINTS],
-                               brace_stiffness_t *stiffness)
+void model_springs_at_rest(const brace_app_model_t *model, const float temp_degc[BRACE_APP_JOINTS],
+                           float spring_rad_per_n_mm[BRACE_APP_JOINTS])
 {
-    if (model->collapsed) {
-        return brace_planar_stiffness(&model->planar, theta1_rad, theta2_rad, stiffness);
+    if (!model->collapsed) {
+        spring_rad_per_n_mm[0] = at_rest(model, 0, temp_degc[0]) + model->rotation_rad_per_n_mm;
+        spring_rad_per_n_mm[1] = at_rest(model, 1, temp_degc[1]);
     }
-    const float hip = yielding(model, 0, load_n_mm[0], temp_degc[0]) + model->rotation_rad_per_n_mm;
-    const float knee = yielding(model, 1, load_n_mm[1], temp_degc[1]);
-    return brace_general_stiffness(&model->general, theta1_rad, theta2_rad, hip, knee, stiffness);
+}
+
+void model_springs(brace_app_model_t *model, const float load_n_mm[BRACE_APP_JOINTS],
+                   const float temp_degc[BRACE_APP_JOINTS], float spring_rad_per_n_mm[BRACE_APP_JOINTS])
+{
+    if (!model->collapsed) {
+        const float hip = yielding(model, 0, load_n_mm[0], at_rest(model, 0, temp_degc[0]));
+        spring_rad_per_n_mm[0] = hip + model->rotation_rad_per_n_mm;
+        spring_rad_per_n_mm[1] = yielding(model, 1, load_n_mm[1], at_rest(model, 1, temp_degc[1]));
+    }
+}
+
+brace_status_t model_stiffness(const brace_app_model_t *model, float theta1_rad, float theta2_rad,
+                               const float spring_rad_per_n_mm[BRACE_APP_JOINTS], brace_stiffness_t *stiffness)
+{
+    return model->collapsed ? brace_planar_stiffness(&model->planar, theta1_rad, theta2_rad, stiffness)
+                            : brace_general_stiffness(&model->general, theta1_rad, theta2_rad, spring_rad_per_n_mm[0],
+                                                      spring_rad_per_n_mm[1], stiffness);
 }

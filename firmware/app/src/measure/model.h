@@ -9,12 +9,20 @@
 void model_configure_collapse(brace_app_model_t *model, const brace_parameters_t *parameters);
 void model_configure_general(brace_app_model_t *model, const brace_parameters_t *parameters);
 
-/* K with every gap closed. Joint springs that harden or soften with temperature are taken at this load and
- * temperature: a spring's share of K is the slope of its torque there.
+/* Both joints' compliances at this load and temperature, the hip's with the base's rotation: a spring's share of K is the
+ * slope of its torque there.
  *   load_n_mm, temp_degc: of femur and tibia joint; NaN: at no load, at the reference temperature
- * returns as brace_planar_stiffness or brace_general_stiffness. At most 650 instructions. */
-brace_status_t model_stiffness(brace_app_model_t *model, float theta1_rad, float theta2_rad,
-                               const float load_n_mm[BRACE_APP_JOINTS], const float temp_degc[BRACE_APP_JOINTS],
-                               brace_stiffness_t *stiffness);
+ * At most 120 instructions; none worth counting of a limb that collapses. */
+void model_springs(brace_app_model_t *model, const float load_n_mm[BRACE_APP_JOINTS],
+                   const float temp_degc[BRACE_APP_JOINTS], float spring_rad_per_n_mm[BRACE_APP_JOINTS]);
+
+/* The same at no load. At most 50 instructions. */
+void model_springs_at_rest(const brace_app_model_t *model, const float temp_degc[BRACE_APP_JOINTS],
+                           float spring_rad_per_n_mm[BRACE_APP_JOINTS]);
+
+/* K with every gap closed, by the collapsed path where it serves, else with these springs.
+ * returns as brace_planar_stiffness or brace_general_stiffness. At most 440 instructions. */
+brace_status_t model_stiffness(const brace_app_model_t *model, float theta1_rad, float theta2_rad,
+                               const float spring_rad_per_n_mm[BRACE_APP_JOINTS], brace_stiffness_t *stiffness);
 
 #endif

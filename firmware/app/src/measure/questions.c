@@ -5,6 +5,9 @@
 brace_status_t question_k_at_tip(brace_app_t *app, brace_point_t tip, brace_knee_t knee, brace_stiffness_t *stiffness)
 {
     float theta1_rad, theta2_rad;
+    if (app->configure_piece != 0u) {
+        return BRACE_E_MODE; /* known before anything is worked out */
+    }
     const brace_status_t status =
         brace_kinematics_inverse(&app->parameters.limb, tip, knee, &theta1_rad, &theta2_rad);
     return status == BRACE_OK ? hypothetical_stiffness(app, theta1_rad, theta2_rad, stiffness) : status;
@@ -30,6 +33,9 @@ brace_status_t question_grip(const brace_app_t *app, float normal_rad, float fri
     const brace_snapshot_t *now = brace_app_snapshot(app);
     const brace_force_t force = {now->force_x_n, now->force_z_n};
     brace_pose_t pose;
+    if (force.x_n != force.x_n || force.z_n != force.z_n) {
+        return BRACE_E_NOT_FINITE; /* as brace_contact_grip would say, before anything is worked out */
+    }
     const brace_status_t status = brace_kinematics_forward(&ruler, normal_rad, 0.0f, &pose);
     return status == BRACE_OK ? brace_contact_grip(force, pose.knee.x_mm, pose.knee.z_mm, friction_ratio, grip) : status;
 }

@@ -116,7 +116,7 @@ static void seal(brace_app_modbus_link_t *link, uint32_t now_us)
     }
 }
 
-void line_serve(brace_app_t *app, uint32_t now_us)
+void line_serve(brace_app_t *app, uint32_t now_us, bool all)
 {
     brace_app_modbus_link_t *link = &app->modbus.line;
     if (link->phase == LINK_CHECK) {
@@ -124,13 +124,13 @@ void line_serve(brace_app_t *app, uint32_t now_us)
         if (link->drop || check(link)) {
             judge(app, link, now_us - link->heard_us);
         }
-        if (!is_short) {
+        if (!is_short || !all) {
             return;
         }
     }
     if (link->phase == LINK_WORK) {
         work(app, link, now_us);
-        if (link->phase != LINK_SEAL || link->count > LINK_SHORT) {
+        if (link->phase != LINK_SEAL || link->count > LINK_SHORT || !all) {
             return;
         }
     }

@@ -34,8 +34,9 @@ void link_broken(brace_app_t *app, brace_app_modbus_link_t *link);
 void line_poll(brace_app_t *app, uint32_t now_us);
 void tcp_poll(brace_app_t *app, uint32_t now_us);
 
-/* In a tick that has room for it: judges, works, or makes the check; at most 1,100 instructions, in CONFIGURATION 2,200. */
-void line_serve(brace_app_t *app, uint32_t now_us);
+/* In a tick that has room for it: judges, works, or makes the check; all of these at once of what is short.
+ * Instructions: modbus.h */
+void line_serve(brace_app_t *app, uint32_t now_us, bool all);
 void tcp_serve(brace_app_t *app, uint32_t now_us);
 
 #endif

@@ -40,14 +40,27 @@ bool modbus_poll(brace_app_t *app, uint32_t now_us)
     return wants(&modbus->line) || wants(&modbus->tcp);
 }
 
+static uint32_t step_costs(const brace_app_modbus_link_t *link, const uint8_t *pdu)
+{
+    return link->phase != LINK_WORK ? MODBUS_CHECK_COSTS : pdu[0] == MODBUS_WRITE_BLOCK ? MODBUS_ASK_COSTS : MODBUS_READ_COSTS;
+}
+
+uint32_t modbus_costs(const brace_app_t *app)
+{
+    const brace_app_modbus_t *modbus = &app->modbus;
+    const uint32_t line = wants(&modbus->line) ? step_costs(&modbus->line, modbus->line.bytes + 1) : 0u;
+    const uint32_t tcp = wants(&modbus->tcp) ? step_costs(&modbus->tcp, modbus->tcp.bytes + 7) : 0u;
+    return line > tcp ? line : tcp;
+}
+
 /* The ports take turns. */
-void modbus_serve(brace_app_t *app, uint32_t now_us)
+void modbus_serve(brace_app_t *app, uint32_t now_us, bool all)
 {
     brace_app_modbus_t *modbus = &app->modbus;
     const bool line = wants(&modbus->line), tcp = wants(&modbus->tcp);
     modbus->turn = !modbus->turn;
     if (line && (modbus->turn || !tcp)) {
-        line_serve(app, now_us);
+        line_serve(app, now_us, all);
     } else if (tcp) {
         tcp_serve(app, now_us);
     }

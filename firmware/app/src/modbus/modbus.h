@@ -5,8 +5,9 @@
 
 #include "brace/app.h"
 
-/* Without a turn for so long, Modbus has one beside an answer, and text over SLCAN waits for it. */
-enum { MODBUS_PATIENCE_TICKS = 8 };
+/* Without a turn for so long, Modbus has one beside an answer, and text over SLCAN waits for it; then in a tick that senses
+ * nothing. */
+enum { MODBUS_PATIENCE_TICKS = 8, MODBUS_LONGEST_TICKS = 16 };
 
 /* Opens the ports that the board has; not for the tick. */
 void modbus_start(brace_app_t *app);
@@ -15,7 +16,11 @@ void modbus_start(brace_app_t *app);
  * returns whether a request waits to be worked on */
 bool modbus_poll(brace_app_t *app, uint32_t now_us);
 
-/* Works on what waits, at most 1,100 instructions; in CONFIGURATION 2,200. */
-void modbus_serve(brace_app_t *app, uint32_t now_us);
+/* Works on what waits: the next step, or all of a short request's at once. Instructions at most, in CONFIGURATION 2,200. */
+enum { MODBUS_CHECK_COSTS = 240, MODBUS_READ_COSTS = 740, MODBUS_ASK_COSTS = 1080, MODBUS_ALL_COSTS = 1260 };
+void modbus_serve(brace_app_t *app, uint32_t now_us, bool all);
+
+/* What the next step costs at most; 0: nothing waits. */
+uint32_t modbus_costs(const brace_app_t *app);
 
 #endif

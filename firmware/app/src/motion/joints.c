@@ -147,8 +147,3 @@ bool joints_angles(const brace_app_t *app, brace_snapshot_t *snapshot)
     }
     return inside;
 }
-
-float joints_load(const brace_app_t *app, const brace_snapshot_t *snapshot, int index)
-{
-    return app->play[index].watched ? snapshot->play[BRACE_FEMUR + index].load_n_mm : app->joint[index].torque_n_mm;
-}

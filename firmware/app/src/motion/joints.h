@@ -15,7 +15,10 @@ void joints_play(brace_app_t *app, uint32_t now_us, brace_snapshot_t *snapshot);
 /* True joint angles from motor angles, play and zero offset; is the posture inside both drives' travel? */
 bool joints_angles(const brace_app_t *app, brace_snapshot_t *snapshot);
 
-/* Load that a joint transmits [N mm], motor's sense. index: 0 femur, 1 tibia */
-float joints_load(const brace_app_t *app, const brace_snapshot_t *snapshot, int index);
+/* Load that a joint transmits [N mm], motor's sense, as joints_play told it. index: 0 femur, 1 tibia */
+static inline float joints_load(const brace_snapshot_t *snapshot, int index)
+{
+    return snapshot->play[BRACE_FEMUR + index].load_n_mm;
+}
 
 #endif

@@ -3,11 +3,27 @@
 #include "can/bus.h"
 #include "can/cyclic.h"
 #include "can/requests.h"
+#include "measure/control.h"
 #include "modbus/modbus.h"
 #include "report/announce.h"
 
-#define MOST_YIELDED 4u /* ticks in a row without K */
 #define LINES_OF_ANSWERS 3u
+#define K_WAITS_MOST 6u
+#define TEST_WAITS_MOST 50u
+
+/* Instructions at most, as tests/bench/tick_cost.py counts them; there the sum is held to 4,000. What is dearest by itself
+ * seldom comes together: K costs most with one gap open, which is not where both joints' watching does. */
+enum {
+    ROOM = 3940,
+    REST = 1510,       /* what every tick does: listening, samples, faults, drives, watchdog */
+    MOVES = 200,       /* take-up, loading test */
+    K_COLLAPSED = 700, K_GENERAL = 1100, K_ADVANCES = 40 /* beyond MOVES */, ADVANCES = 220 /* by itself */,
+    K_PIECE = 435,     /* the dearest */
+    ANSWER = 450, ANSWER_K_COLLAPSED = 450, ANSWER_K_GENERAL = 750, ANSWER_TIP = 380,
+    SAYS_ANNOUNCES = 400, SAYS_BEGINS = 490, SAYS_GOES_ON = 250, SAYS_MORE = 130 /* each further frame */,
+    HEARD = 560, TEXT = 100 /* a line of SLCAN read; written */
+};
+static const uint16_t play_costs[] = {0, 560, 1030}, k_play_costs[] = {0, 165, 80}; /* joints that are watched */
 
 void services_start(brace_app_t *app)
 {
@@ -23,68 +39,36 @@ static bool wants_to_say(const brace_app_t *app)
     return announce_wants(app) || cyclic_wants(app);
 }
 
-static bool moves(const brace_app_t *app)
+static uint32_t saying_costs(const brace_app_t *app)
 {
-    return app->mode == BRACE_MODE_TAKING_UP || app->mode == BRACE_MODE_LOADING_TEST;
+    return announce_wants(app) ? SAYS_ANNOUNCES : !cyclic_wants(app) ? 0u : app->cyclic.due != 0u ? SAYS_GOES_ON : SAYS_BEGINS;
 }
 
-/* The dearest question: K at a place of the tip. */
-static bool locates(const brace_app_t *app)
+static uint32_t answer_costs(const brace_app_t *app)
 {
-    const uint32_t code = app->requests.request[0];
-    return code == BRACE_REQUEST_K_AT_TIP_KNEE_UP || code == BRACE_REQUEST_K_AT_TIP_KNEE_DOWN;
-}
-
-/* Is the answer by itself too much beside K? Only where K takes the general path, or lines are text. */
-static bool is_long(const brace_app_t *app)
-{
-    const bool plays = app->play[0].watched && app->play[1].watched;
-    return app->bus.slcan.open || (locates(app) && moves(app)) ||
-           (!app->model.collapsed && (plays || locates(app) || moves(app)));
-}
-
-/* Has an SLCAN line anything to do in this tick? */
-static bool writes_text(const brace_app_t *app)
-{
-    return app->bus.slcan.open && (app->report.speaks || app->requests.answer_count > 0u);
-}
-
-/* No room beside the answer for a new set of process data: it begins in one of the next ticks. */
-static bool fills_a_tick(const brace_app_t *app)
-{
-    return app->requests.serves && locates(app) && moves(app) && !app->model.collapsed && app->cyclic.due == 0u;
-}
-
-/* Does what was chosen go into a tick together with K, or with a piece of work? */
-static bool is_too_much(const brace_app_t *app, services_room_t room)
-{
-    const bool answers = app->requests.serves, works = app->modbus.serves, says = app->report.speaks;
-    switch (room) {
-    case SERVICES_BESIDE_LITTLE: return false;
-    case SERVICES_BESIDE_A_PIECE: return answers || works || app->bus.slcan.heard || writes_text(app);
-    case SERVICES_BESIDE_K:
-    default: break;
+    const uint32_t k = app->model.collapsed ? ANSWER_K_COLLAPSED : ANSWER_K_GENERAL;
+    switch (app->requests.request[0]) {
+    case BRACE_REQUEST_K_AT_TIP_KNEE_UP:
+    case BRACE_REQUEST_K_AT_TIP_KNEE_DOWN: return k + ANSWER_TIP;
+    case BRACE_REQUEST_K_AT_POSTURE: return k;
+    default: return ANSWER;
     }
-    if (app->bus.slcan.heard && (works || writes_text(app) || (moves(app) && !app->model.collapsed))) {
-        return true;
-    }
-    if (answers && (works || is_long(app) || (says && (moves(app) || locates(app))))) {
-        return true;
-    }
-    if (works && (says || moves(app))) {
-        return true;
-    }
-    return !app->model.collapsed && (works || (answers && (says || app->modbus.polls)));
 }
 
 /* Modbus, whose own line takes milliseconds, has its turn where CAN asks nothing, or when it has had none for
- * some ticks. */
-static void choose_modbus(brace_app_t *app, bool may)
+ * some ticks; and then it waits until there is room.
+ *   beside: what a request is not to be worked on at once for
+ * returns what it costs */
+static uint32_t choose_modbus(brace_app_t *app, uint32_t room, uint32_t beside)
 {
     brace_app_modbus_t *modbus = &app->modbus;
-    modbus->polls = may && (!app->requests.serves || modbus->waited >= (uint32_t)MODBUS_PATIENCE_TICKS);
-    modbus->serves = modbus->polls && modbus_poll(app, app->last_us);
-    modbus->waited = modbus->polls ? 0u : (uint16_t)(modbus->waited + 1u);
+    modbus->polls = !app->bus.slcan.heard && (!app->requests.serves || modbus->waited >= (uint32_t)MODBUS_PATIENCE_TICKS);
+    const bool wants = modbus->polls && modbus_poll(app, app->last_us);
+    modbus->all = (uint32_t)MODBUS_ALL_COSTS + beside <= room;
+    const uint32_t costs = !wants ? 0u : modbus->all ? (uint32_t)MODBUS_ALL_COSTS : modbus_costs(app);
+    modbus->serves = wants && costs <= room;
+    modbus->waited = modbus->polls && modbus->serves == wants ? 0u : (uint16_t)(modbus->waited + 1u);
+    return modbus->serves ? costs : 0u;
 }
 
 /* Over SLCAN a tick has a line: three of answers, then one of the rest. */
@@ -99,53 +83,121 @@ static bool may_say(brace_app_t *app)
     return !app->modbus.serves && report->waited == 0u;
 }
 
-static void choose(brace_app_t *app, services_room_t room)
+/* The pieces of K that are next, as far as they fit. */
+static uint32_t pieces_within(const brace_app_t *app, uint32_t room)
 {
-    brace_app_requests_t *requests = &app->requests;
-    const bool piece = room == SERVICES_BESIDE_A_PIECE;
-    requests->serves = requests_take(app);
-    if (requests->serves && ((piece && requests->yielded > 0u) ||
-                             (room == SERVICES_BESIDE_K && requests->yielded >= MOST_YIELDED && is_long(app)))) {
-        requests->serves = false; /* it goes on waiting */
+    static const uint16_t cost[][CONTROL_PIECES] = {{200, 170, 290, 300}, {430, 435, 290, 300}};
+    const uint16_t *of_limb = cost[!app->model.collapsed];
+    uint32_t pieces = 0;
+    if (app->k.advances) {
+        if (room < (uint32_t)ADVANCES) {
+            return 0;
+        }
+        room -= ADVANCES;
+        pieces++;
     }
-    const bool little = room == SERVICES_BESIDE_LITTLE && app->mode != BRACE_MODE_CONFIGURATION;
-    choose_modbus(app, !(little && requests->serves) && !app->bus.slcan.heard);
-    app->report.speaks = wants_to_say(app) && may_say(app) && !(little && requests->serves) && !fills_a_tick(app);
+    for (uint32_t i = app->k.done; i < (uint32_t)CONTROL_PIECES && of_limb[i] <= room; i++) {
+        room -= of_limb[i];
+        pieces++;
+    }
+    return pieces;
 }
 
-bool services_listen(brace_app_t *app, services_room_t room)
+/* All but K, what is done over Modbus, and what is said. */
+static uint32_t tick_costs(const brace_app_t *app, uint32_t plays, bool moves)
 {
-    brace_app_requests_t *requests = &app->requests;
-    choose(app, room);
-    if (requests->yielded > 0u && is_too_much(app, room)) {
-        app->modbus.serves = false;
-        app->report.speaks = app->report.speaks && !requests->serves && !app->bus.slcan.heard;
-    }
-    const bool yields = is_too_much(app, room);
-    requests->yielded = yields ? (uint8_t)(requests->yielded + 1u) : 0u;
-    return yields;
+    const brace_app_slcan_t *slcan = &app->bus.slcan;
+    return REST + play_costs[plays] + (moves ? MOVES : 0u) + (app->requests.serves ? answer_costs(app) : 0u) +
+           (slcan->open ? TEXT : 0u) + (slcan->heard ? HEARD : 0u);
 }
 
-/* Frames of process data that this tick has room for. */
-static uint32_t room_to_say(const brace_app_t *app, bool lean)
+/* A tick that senses nothing, for Modbus or for K of the last samples. */
+static uint32_t blindly(brace_app_t *app, bool for_modbus)
 {
-    if (!lean || app->bus.slcan.open) {
-        return app->cyclic.frames_per_tick;
-    }
-    if (app->modbus.serves || (app->requests.serves && locates(app))) {
-        return 1;
-    }
-    return app->requests.serves ? 2u : 4u;
+    app->modbus.serves = for_modbus;
+    app->modbus.waited = for_modbus ? 0u : app->modbus.waited;
+    app->report.speaks = !for_modbus && wants_to_say(app) && may_say(app);
+    return SERVICES_BLIND;
 }
 
-void services_run(brace_app_t *app, bool lean)
+/* Whole, or pieces, or not: then others have the tick. They have no two of them in a row, and K comes within
+ * K_WAITS_MOST. */
+static uint32_t beside_k(brace_app_t *app)
+{
+    brace_app_report_t *report = &app->report;
+    const bool tests = app->mode == BRACE_MODE_LOADING_TEST, moves = tests || app->mode == BRACE_MODE_TAKING_UP;
+    const uint32_t plays = (uint32_t)app->play[0].watched + app->play[1].watched;
+    const uint32_t k = (app->model.collapsed ? K_COLLAPSED : K_GENERAL) + k_play_costs[plays] + (tests ? K_ADVANCES : 0u);
+    if (app->k.waits >= (uint8_t)K_WAITS_MOST) {
+        return blindly(app, false);
+    }
+    uint32_t used = tick_costs(app, plays, moves);
+    const bool is_on_its_way = app->k.done > 0u || app->k.advances || report->left_out > 0u; /* then K goes first */
+    const uint32_t most = ROOM - (is_on_its_way ? (uint32_t)K_PIECE : 0u);
+    used += choose_modbus(app, used < most ? most - used : 0u, k);
+    if (app->modbus.waited >= (uint32_t)MODBUS_LONGEST_TICKS && modbus_costs(app) > 0u) {
+        return blindly(app, true);
+    }
+    const uint32_t saying = saying_costs(app);
+    report->speaks = saying > 0u && used + saying <= most && may_say(app);
+    used += report->speaks ? saying : 0u;
+    const uint32_t room = used < ROOM ? ROOM - used : 0u;
+    const bool whole = k <= room;
+    const uint32_t more = whole ? (room - k) / SAYS_MORE : 0u, frames = app->cyclic.frames_per_tick;
+    report->frames = (uint8_t)(1u + more < frames ? 1u + more : frames);
+    return whole ? (uint32_t)SERVICES_K_WHOLE : pieces_within(app, room);
+}
+
+/* A set of parameters goes on beside every answer; to Modbus and to text it yields, but not twice. */
+static uint32_t in_configuration(brace_app_t *app, bool works)
+{
+    brace_app_report_t *report = &app->report;
+    const bool serves = app->requests.serves;
+    (void)choose_modbus(app, works && (serves || report->left_out > 0u) ? 0u : ROOM, 0);
+    report->speaks = wants_to_say(app) && may_say(app) && !(works && serves);
+    const bool text = app->bus.slcan.heard || (app->bus.slcan.open && report->speaks);
+    return works && (app->modbus.serves || text) && report->left_out == 0u ? 0u : (uint32_t)SERVICES_K_WHOLE;
+}
+
+/* A loading test's piece: an answer goes beside it, beside a reading if nothing is sensed. For the dearest question beside
+ * the dearest piece the piece waits, and in the end it is refused. */
+static uint32_t beside_test(brace_app_t *app, services_room_t room)
+{
+    brace_app_report_t *report = &app->report;
+    const bool serves = app->requests.serves;
+    app->modbus.polls = app->modbus.serves = false;
+    report->speaks = !serves && wants_to_say(app) && may_say(app);
+    if (room == SERVICES_BESIDE_MUCH && serves && answer_costs(app) > (uint32_t)ANSWER_K_GENERAL) {
+        app->requests.refuses = report->left_out >= TEST_WAITS_MOST;
+        return app->requests.refuses ? (uint32_t)SERVICES_K_WHOLE : 0u;
+    }
+    return serves && room == SERVICES_BESIDE_A_READING ? (uint32_t)SERVICES_BLIND : (uint32_t)SERVICES_K_WHOLE;
+}
+
+uint32_t services_listen(brace_app_t *app, services_room_t room)
+{
+    uint32_t pieces;
+    app->report.frames = 1;
+    app->requests.refuses = false;
+    app->requests.serves = requests_take(app);
+    switch (room) {
+    case SERVICES_BESIDE_K: pieces = beside_k(app); break;
+    case SERVICES_BESIDE_LITTLE:
+    case SERVICES_BESIDE_A_PIECE: pieces = in_configuration(app, room == SERVICES_BESIDE_A_PIECE); break;
+    default: pieces = beside_test(app, room); break;
+    }
+    app->report.left_out = pieces == 0u ? (uint8_t)(app->report.left_out + 1u) : 0u;
+    return pieces;
+}
+
+void services_run(brace_app_t *app)
 {
     bus_watch(app);
     if (app->requests.serves) {
         requests_serve(app);
     }
     if (app->modbus.serves) {
-        modbus_serve(app, app->last_us);
+        modbus_serve(app, app->last_us, app->modbus.all);
     }
     if (!app->report.speaks || !app->bus.slcan.open) {
         requests_send(app);
@@ -156,6 +208,6 @@ void services_run(brace_app_t *app, bool lean)
     if (cyclic_is_stale(app)) {
         cyclic_configure(app);
     } else if (!announce(app) && bus_speaks(app)) {
-        cyclic_send(app, room_to_say(app, lean));
+        cyclic_send(app, app->report.frames);
     }
 }

@@ -10,20 +10,27 @@ void services_start(brace_app_t *app);
 
 /* What else a tick has to do. */
 typedef enum {
-    SERVICES_BESIDE_K = 0,    /* K of this tick */
-    SERVICES_BESIDE_LITTLE,   /* no K is due */
-    SERVICES_BESIDE_A_PIECE   /* a piece of work that may wait for a tick */
+    SERVICES_BESIDE_K = 0,     /* K of this tick */
+    SERVICES_BESIDE_A_READING, /* of a loading test, and this tick's samples */
+    SERVICES_BESIDE_SOME,      /* a piece of a loading test that a tick is for; an answer goes beside it */
+    SERVICES_BESIDE_MUCH,      /* the same, and the dearest answer does not */
+    SERVICES_BESIDE_LITTLE,    /* CONFIGURATION, no K */
+    SERVICES_BESIDE_A_PIECE    /* CONFIGURATION, and a set of parameters on its way */
 } services_room_t;
 
-/* What has come, and what there is to say, before the tick's other work. A request over CAN is answered in the tick that
- * takes it; K is worked out beside it, and beside what is said. What does not go into one tick is told apart here: on limbs
- * of the general path K yields to Modbus, and to an answer beside which something else is due; a piece of work yields to
- * any answer. That happens in no two ticks in a row: the second time it is Modbus, and what there is to say, that waits.
- * returns whether the tick is lean: K, or the piece, is left out */
-bool services_listen(brace_app_t *app, services_room_t room);
+enum {
+    SERVICES_BLIND = 254,  /* no samples are taken in this tick */
+    SERVICES_K_WHOLE = 255 /* all of K, of this tick's samples; the piece of work */
+};
 
-/* After the tick's snapshot is sealed. At most 1,300 instructions; in a lean tick 2,000.
- *   lean: as services_listen said */
-void services_run(brace_app_t *app, bool lean);
+/* What has come, and what there is to say, before the tick's other work. A request over CAN is answered in the tick that
+ * takes it, always; what the tick has room for beside it is worked out here. Where K as a whole has none, as on limbs of the
+ * general path with play, it comes in pieces; a tick without even one, for Modbus or for what there is to say, is followed
+ * by one in which they wait.
+ * returns how many pieces of K, or of other work, fit; or SERVICES_... */
+uint32_t services_listen(brace_app_t *app, services_room_t room);
+
+/* After the tick's snapshot is sealed. */
+void services_run(brace_app_t *app);
 
 #endif

@@ -33,10 +33,8 @@ void supervisor_faults(brace_app_t *app, bool late)
         return;
     }
     app->faults |= cause;
-    for (uint32_t bit = 0, left = app->faults & COMING_AND_GOING; left != 0u; bit++, left >>= 1) {
-        if ((left & 1u) != 0u) {
-            with_hysteresis(app, cause, bit);
-        }
+    for (uint32_t left = app->faults & COMING_AND_GOING; left != 0u; left &= left - 1u) { /* bit by bit */
+        with_hysteresis(app, cause, (uint32_t)__builtin_ctz(left));
     }
     const uint32_t lasting = (uint32_t)BRACE_FAULT_PARAMETERS | (uint32_t)BRACE_FAULT_STORE;
     app->faults = (app->faults & ~lasting) | app->lasting_faults | app->supervisor.latched;
