@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,7 +22,8 @@ SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
 @dataclass(frozen=True)
 class Record:
     """`measured` and `sigma` are channels x rows, in the channels' units; forces come first. Where a channel was not
-    read, `measured` is 0 and sigma is NOT_MEASURED."""
+    read, `measured` is 0 and sigma is NOT_MEASURED. `zeroed` are the places of the channels of which each run's first
+    reading was taken off."""
 
     dataset: Dataset
     channels: tuple[str, ...]
@@ -29,6 +31,7 @@ class Record:
     measured: np.ndarray
     sigma: np.ndarray
     player: LoadingBatchPlayer
+    zeroed: tuple[int, ...] = ()
 
     @property
     def rows(self) -> int:
@@ -37,24 +40,14 @@ class Record:
     def residuals(self, models: np.ndarray) -> np.ndarray:
         """(measured - played) / sigma of models (models x numbers): models x readings, channel after channel."""
         played = self.player.play_numbers(models)
+        starts = run_starts(self.dataset["run"])
+        for channel in self.zeroed[len(FORCES) :]:  # the player takes the forces' own off
+            played[:, channel] -= np.repeat(played[:, channel, starts[:-1]], np.diff(starts), axis=1)
         played -= self.measured
         played /= -self.sigma
-        if self.dataset.meta.zeroed_per_run:
-            self._whiten_zeroing(played)
+        for channel in self.zeroed:
+            _whiten_zeroing(played[:, channel], starts)
         return played.reshape(len(models), -1)
-
-    def _whiten_zeroing(self, scaled: np.ndarray) -> None:
-        """Where each run's first reading was taken off, its noise is in all others of the run: covariance I + 11'.
-        Multiplied by that covariance's inverse root, readings are independent again."""
-        starts = run_starts(self.dataset["run"])
-        lengths = np.diff(starts)
-        others = np.maximum(lengths - 1, 1)
-        forces = scaled[:, : len(FORCES)]
-        total = np.add.reduceat(forces, starts[:-1], axis=2) - forces[:, :, starts[:-1]]
-        share = total * ((1.0 - 1.0 / np.sqrt(1.0 + others)) / others)
-        first = forces[:, :, starts[:-1]].copy()
-        forces -= np.repeat(share, lengths, axis=2)
-        forces[:, :, starts[:-1]] = first
 
     def select(self, keep: np.ndarray) -> Record:
         """The rows where `keep` is true, with the same noise."""
@@ -66,6 +59,7 @@ class Record:
             self.measured[:, keep],
             self.sigma[:, keep],
             LoadingBatchPlayer(part.columns, self.channels, zeroed=part.meta.zeroed_per_run),
+            self.zeroed,
         )
 
     @property
@@ -87,7 +81,29 @@ def load_record(dataset: Dataset) -> Record:
     sigma = np.stack([sigma_of(noise[name], values) for name, values in zip(channels, measured)])
     measured = np.nan_to_num(measured, nan=0.0)
     player = LoadingBatchPlayer(dataset.columns, channels, zeroed=dataset.meta.zeroed_per_run)
-    return Record(dataset, channels, noise, measured, sigma, player)
+    return Record(dataset, channels, noise, measured, sigma, player, _zeroed(dataset, channels))
+
+
+def _zeroed(dataset: Dataset, channels: Sequence[str]) -> tuple[int, ...]:
+    """The forces, and what else begins each run at exactly nothing, when the record says that runs are zeroed."""
+    if not dataset.meta.zeroed_per_run:
+        return ()
+    first = run_starts(dataset["run"])[:-1]
+    return tuple(
+        place for place, name in enumerate(channels) if name in FORCES or not np.any(dataset[name][first])
+    )
+
+
+def _whiten_zeroing(scaled: np.ndarray, starts: np.ndarray) -> None:
+    """Where each run's first reading was taken off, its noise is in all others of the run: covariance I + 11'.
+    Multiplied by that covariance's inverse root, readings (models x rows, changed in place) are independent again."""
+    lengths = np.diff(starts)
+    others = np.maximum(lengths - 1, 1)
+    total = np.add.reduceat(scaled, starts[:-1], axis=1) - scaled[:, starts[:-1]]
+    share = total * ((1.0 - 1.0 / np.sqrt(1.0 + others)) / others)
+    first = scaled[:, starts[:-1]].copy()
+    scaled -= np.repeat(share, lengths, axis=1)
+    scaled[:, starts[:-1]] = first
 
 
 def sigma_of(noise: ChannelNoise, values: np.ndarray) -> np.ndarray:
@@ -101,7 +117,8 @@ def setting_of(record: Record, believed: LimbModel) -> Setting:
     numbers = model_numbers(believed)
     index = number_index()
     force = np.stack([data["fx_n"], data["fz_n"]])
-    lever = _levers(believed, data["theta1_rad"], data["theta2_rad"])
+    femur_mm, tibia_mm = (believed.number(f"geometry.{link}_mm") for link in ("femur", "tibia"))
+    lever = levers(femur_mm, tibia_mm, data["theta1_rad"], data["theta2_rad"])
     torque = {
         joint: float(np.quantile(np.abs(np.sum(lever[joint] * force, axis=0)), 0.99)) for joint in lever
     }
@@ -123,9 +140,11 @@ def setting_of(record: Record, believed: LimbModel) -> Setting:
     )
 
 
-def _levers(model: LimbModel, theta1_rad: np.ndarray, theta2_rad: np.ndarray) -> dict[str, np.ndarray]:
+def levers(
+    femur_mm: float, tibia_mm: float, theta1_rad: np.ndarray, theta2_rad: np.ndarray
+) -> dict[str, np.ndarray]:
     """Levers of the tip force about the joints, 2 x rows [mm]."""
     tibia_angle = theta1_rad - theta2_rad
-    tibia = model.number("geometry.tibia_mm") * np.stack([np.cos(tibia_angle), np.sin(tibia_angle)])
-    tip = tibia + model.number("geometry.femur_mm") * np.stack([np.cos(theta1_rad), np.sin(theta1_rad)])
+    tibia = tibia_mm * np.stack([np.cos(tibia_angle), np.sin(tibia_angle)])
+    tip = tibia + femur_mm * np.stack([np.cos(theta1_rad), np.sin(theta1_rad)])
     return {"femur": np.stack([-tip[1], tip[0]]), "tibia": np.stack([-tibia[1], tibia[0]])}
