@@ -15,6 +15,7 @@ typedef struct {
 
 static symmetric_t truth;       /* N/mm */
 static double servo_n_mm_per_rad, preload_x_n, preload_z_n, weight_n;
+static double drive_rad_per_n_mm; /* between motor and link encoder; 0: there is none */
 static bool tip_is_free;
 static float noise_n;
 static uint32_t noise_state;
@@ -66,6 +67,10 @@ static inline void play(void *user, brace_fake_t *board, int32_t joint)
     const double w1 = weight_n * 0.5 * (knee_x + tip_x), w2 = -weight_n * 0.5 * (tip_x - knee_x);
     board->joint[1].sample.torque_n_mm = (float)(w1 - (l[0][0] * fx + l[1][0] * fz));
     board->joint[2].sample.torque_n_mm = (float)(w2 - (l[0][1] * fx + l[1][1] * fz));
+    for (int i = 1; i <= 2 && drive_rad_per_n_mm > 0.0; i++) { /* the link stays behind what its motor brings */
+        brace_hal_joint_t *sample = &board->joint[i].sample;
+        sample->link_rad = (float)((double)sample->motor_rad - drive_rad_per_n_mm * (double)sample->torque_n_mm);
+    }
     board->force_x_n = (float)fx + noise();
     board->force_z_n = (float)fz + noise();
 }
@@ -83,7 +88,7 @@ static inline void stand(const brace_parameters_t *p)
     servo_n_mm_per_rad = 60000.0;
     preload_x_n = 1.0;
     preload_z_n = 6.0;
-    weight_n = 0.0;
+    weight_n = drive_rad_per_n_mm = 0.0;
     tip_is_free = false;
     noise_n = 0.0f;
     noise_state = 1;

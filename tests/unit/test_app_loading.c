@@ -122,6 +122,26 @@ static void test_rows_are_a_pass_in_the_columns_of_a_dataset(void)
     TEST_ASSERT_EQUAL_STRING("dx_mm", brace_row_column_name(9));
 }
 
+/* Counter-clockwise by the tip force's moments about the joints, as physics has them, and counted from the preload. */
+static void test_link_encoders_tell_deflections_of_a_dataset(void)
+{
+    drive_rad_per_n_mm = 1.5e-5;
+    ticks(50);
+    run(&along_x);
+    TEST_ASSERT_EQUAL(17, brace_app_row_count(&app));
+    const double shank_x = tibia_mm * cos(theta1 - theta2), shank_z = tibia_mm * sin(theta1 - theta2);
+    const double tip_x = femur_mm * cos(theta1) + shank_x, tip_z = femur_mm * sin(theta1) + shank_z;
+    for (uint32_t i = 0; i < 17; i++) {
+        brace_row_t row;
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_row(&app, i, &row));
+        const double fx = (double)row.fx_n - preload_x_n, fz = (double)row.fz_n - preload_z_n;
+        /* an angle near 1.4 rad in float, twice */
+        ASSERT_CLOSE(drive_rad_per_n_mm * (tip_x * fz - tip_z * fx), row.enc1_rad, 1e-6);
+        ASSERT_CLOSE(drive_rad_per_n_mm * (shank_x * fz - shank_z * fx), row.enc2_rad, 1e-6);
+        TEST_ASSERT_TRUE(i % 8u != 4u || fabs((double)row.enc2_rad) > 1e-4);
+    }
+}
+
 static void test_runs_repetitions_and_postures_are_counted(void)
 {
     brace_loading_setup_t quick = along_x;
@@ -180,6 +200,7 @@ int main(void)
     RUN_TEST(test_commanded_displacement_has_the_servo_in_it);
     RUN_TEST(test_what_is_off_the_axis_is_taken_off_by_the_model);
     RUN_TEST(test_rows_are_a_pass_in_the_columns_of_a_dataset);
+    RUN_TEST(test_link_encoders_tell_deflections_of_a_dataset);
     RUN_TEST(test_runs_repetitions_and_postures_are_counted);
     RUN_TEST(test_the_recorder_keeps_the_newest_rows);
     return UNITY_END();

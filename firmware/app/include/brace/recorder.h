@@ -23,7 +23,9 @@ typedef struct {
     float temp_degc;
     float dx_mm, dz_mm; /* by the levers of the preload point: straight, where the tip goes on an arc */
     float fx_n, fz_n;
-    float enc1_rad, enc2_rad; /* deflection between motor and link encoder; NaN without one */
+    /* Deflections between motor and link encoder since the preload point, counter-clockwise: enc2_rad opens the knee.
+     * NaN without such an encoder. */
+    float enc1_rad, enc2_rad;
 } brace_row_t;
 
 /* The columns in the order of data.csv, with enc1_rad and enc2_rad. */

@@ -82,7 +82,7 @@ static void record(brace_app_t *app, const float mean[SUMS])
                              .t_s = 1e-6f * (float)test->test_us, .temp_degc = mean[TEMP],
                              .dx_mm = test->dx_mm, .dz_mm = test->dz_mm, .fx_n = mean[FORCE_X], .fz_n = mean[FORCE_Z],
                              .enc1_rad = mean[LINK] - test->start_link_rad[0],
-                             .enc2_rad = mean[LINK + 1] - test->start_link_rad[1]};
+                             .enc2_rad = test->start_link_rad[1] - mean[LINK + 1]};
     brace_recorder_add(&app->recorder, &row);
 }
 
