@@ -1,6 +1,7 @@
 """Makes blind cases: cases/ID/{data.csv,meta.toml,limb.toml}, and apart from them answers/ID/{truth.json,holdout/}.
 
 usage: generate.py [--development] [--cases N] [--seed S] [--out FOLDER]
+N is a number, shared out among the kinds as SHARES has it, or a plan: `none=1000,pair=400,single@12=216`.
 Every case follows from the seed and its number alone; sealed.sha256 seals them before any diagnosis."""
 
 from __future__ import annotations
@@ -30,16 +31,36 @@ from files import limb_text, meta_text, noisy, table_of, write_dataset
 from plant import BUILD, IN_LIMB_TOML, INDEX, LINKS, Array, play
 from seeds import DEVELOPMENT_CASES, DEVELOPMENT_SEED, TEST_CASES, TEST_SEED
 
+Cases = int | str  # a number, or a plan
 DETECTABILITIES = (3.0, 5.0, 8.0, 12.0, 25.0)
 SHARES = {"single": 0.40, "none": 0.30, "pair": 0.12, "triple": 0.03, "outside": 0.09, "data_fault": 0.06}
 OUTSIDE_S = (16.0, 25.0, 50.0)
 LEFT_BY_CATALOGUE = 8.0  # sigma: what the best single entry of the catalogue must leave of an outsider
 
 
-def schedule(seed: int, cases: int) -> list[tuple[str, int]]:
-    """Kind and running number within the kind of each case, shuffled: a case's number says nothing."""
+def counts_of(cases: Cases) -> dict[str, int]:
+    """Cases of each kind, of a number or of a plan. A kind may have its detectability behind an @."""
+    if isinstance(cases, str):
+        parts = (part.split("=") for part in cases.split(","))
+        return {kind: int(count) for kind, count in parts}
     counts = {kind: round(share * cases) for kind, share in SHARES.items()}
     counts["single"] += cases - sum(counts.values())
+    return counts
+
+
+def cases_of(text: str) -> Cases:
+    """What a command line says."""
+    return int(text) if text.isdigit() else text
+
+
+def total(cases: Cases) -> int:
+    """How many cases a number or a plan means."""
+    return sum(counts_of(cases).values())
+
+
+def schedule(seed: int, cases: Cases) -> list[tuple[str, int]]:
+    """Kind and running number within the kind of each case, shuffled: a case's number says nothing."""
+    counts = counts_of(cases)
     plan = [(kind, i) for kind, count in counts.items() for i in range(count)]
     order = np.random.default_rng([seed, 1]).permutation(len(plan))
     return [plan[i] for i in order]
@@ -69,11 +90,11 @@ def _classes(bench: Bench, target: Array, own: str) -> tuple[list[str], dict[str
     return sorted(near), {label: round(value, 4) for label, value in top.items()}
 
 
-def make_single(rng: Rng, number: int) -> dict[str, Any]:
-    """One hidden effect: the catalogue in turn, at each detectability in turn."""
+def make_single(rng: Rng, number: int, wanted: float | None = None) -> dict[str, Any]:
+    """One hidden effect: the catalogue in turn, as detectable as wanted, or at each detectability in turn."""
     name, where = effects.CATALOGUE[number % len(effects.CATALOGUE)]
     turn = number // len(effects.CATALOGUE)
-    wanted = DETECTABILITIES[(number + turn) % len(DETECTABILITIES)]
+    wanted = wanted or DETECTABILITIES[(number + turn) % len(DETECTABILITIES)]
     believed, given, shown, held, bench = _setting(rng)
     hidden = effects.draw(rng, name, where, believed, bench.whole_s, bench.peak_n)
     if name == "moment_transfer" and wanted >= 12.0 and rng.random() < 0.5:
@@ -247,11 +268,12 @@ def make_fault(rng: Rng, number: int) -> dict[str, Any]:
 
 def build(kind: str, number: int, rng: Rng) -> dict[str, Any]:
     """One case of a kind."""
+    kind, _, level = kind.partition("@")
+    if kind == "single":
+        return make_single(rng, number, float(level) if level else None)
     if kind in ("pair", "triple"):
         return make_many(rng, 2 if kind == "pair" else 3)
-    return {"single": make_single, "none": make_none, "outside": make_outside, "data_fault": make_fault}[kind](
-        rng, number
-    )
+    return {"none": make_none, "outside": make_outside, "data_fault": make_fault}[kind](rng, number)
 
 
 def identity(seed: int, index: int) -> str:
@@ -259,7 +281,7 @@ def identity(seed: int, index: int) -> str:
     return f"b{hashlib.sha256(f'{seed}/{index}'.encode()).hexdigest()[:6]}"
 
 
-def drawn(seed: int, index: int, cases: int) -> tuple[dict[str, Any], Rng, list[str]]:
+def drawn(seed: int, index: int, cases: Cases) -> tuple[dict[str, Any], Rng, list[str]]:
     """A case's ingredients and the generator to go on with; also why earlier draws were given up."""
     kind, number = schedule(seed, cases)[index]
     given_up: list[str] = []
@@ -281,7 +303,7 @@ def clean_readings(case: dict[str, Any], rows: Array) -> Array:
     return play(case["limb"], rows)
 
 
-def write_case(seed: int, index: int, cases: int, out: Path) -> list[str]:
+def write_case(seed: int, index: int, cases: Cases, out: Path) -> list[str]:
     """Writes one case and its answer; returns why draws were given up."""
     case, rng, given_up = drawn(seed, index, cases)
     name = identity(seed, index)
@@ -312,7 +334,7 @@ def write_case(seed: int, index: int, cases: int, out: Path) -> list[str]:
     return given_up
 
 
-def _job(job: tuple[int, int, int, str]) -> tuple[int, list[str]]:
+def _job(job: tuple[int, int, Cases, str]) -> tuple[int, list[str]]:
     seed, index, cases, out = job
     return index, write_case(seed, index, cases, Path(out))
 
@@ -336,7 +358,7 @@ def seal_of(out: Path) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def generate(seed: int, cases: int, out: Path, processes: int = 2, quiet: bool = False) -> str:
+def generate(seed: int, cases: Cases, out: Path, processes: int = 2, quiet: bool = False) -> str:
     """Makes a set, unless this generator made it before, and seals it; returns the seal. A set that comes out as it was
     stays in place."""
     wanted = {"seed": seed, "cases": cases, "generator": generator_hash()}
@@ -346,15 +368,16 @@ def generate(seed: int, cases: int, out: Path, processes: int = 2, quiet: bool =
     out.mkdir(parents=True, exist_ok=True)
     fresh = out / "being-made"
     shutil.rmtree(fresh, ignore_errors=True)
-    jobs = [(seed, index, cases, str(fresh)) for index in range(cases)]
+    count = total(cases)
+    jobs = [(seed, index, cases, str(fresh)) for index in range(count)]
     begun, given_up = time.monotonic(), 0
     with multiprocessing.get_context("spawn").Pool(processes) as pool:
         for done, (_, why) in enumerate(pool.imap_unordered(_job, jobs, chunksize=4), start=1):
             given_up += len(why)
-            if not quiet and (done % 20 == 0 or done == cases):
+            if not quiet and (done % 20 == 0 or done == count):
                 spent = time.monotonic() - begun
-                text = f"made {done}/{cases} cases, {spent:.0f} s, {given_up} draws given up "
-                print(f"\r{text}", end="" if done < cases else "\n", file=sys.stderr, flush=True)
+                text = f"made {done}/{count} cases, {spent:.0f} s, {given_up} draws given up "
+                print(f"\r{text}", end="" if done < count else "\n", file=sys.stderr, flush=True)
     if listing(fresh) != (listing(out) if (out / "cases").is_dir() else ""):
         for part in ("answers", "cases"):
             shutil.rmtree(out / part, ignore_errors=True)
@@ -383,16 +406,17 @@ def generator_hash() -> str:
     return hashlib.sha256(b"".join((here / name).read_bytes() for name in names)).hexdigest()
 
 
-def default_folder(seed: int, cases: int) -> Path:
+def default_folder(seed: int, cases: Cases) -> Path:
     """Where a set is kept."""
     label = {DEVELOPMENT_SEED: "dev", TEST_SEED: "test"}.get(seed, "seed")
-    return BUILD / f"{label}-{seed}-{cases}"
+    plan = "" if isinstance(cases, int) else "-" + hashlib.sha256(cases.encode()).hexdigest()[:6]
+    return BUILD / f"{label}-{seed}-{total(cases)}{plan}"
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--development", action="store_true", help="the development seed")
-    parser.add_argument("--cases", type=int, help="how many")
+    parser.add_argument("--cases", type=cases_of, help="how many, or a plan")
     parser.add_argument("--seed", type=int, help="another seed")
     parser.add_argument("--out", type=Path, help="folder")
     parser.add_argument("--processes", type=int, default=min(2, os.cpu_count() or 1))

@@ -1,6 +1,7 @@
 """Runs the blind benchmark: makes the cases, seals the answers, diagnoses every case, judges, writes the tables.
 
 usage: run.py [--development] [--cases N] [--seed S] [--processes P] [--out FOLDER]
+N is a number or a plan, as generate.py says.
 An interrupted run goes on where it was; a changed tool starts anew."""
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ import best
 import diagnoser
 import follow_up
 import report
-from generate import default_folder, generate, generator_hash, seal_of
+from generate import cases_of, default_folder, generate, generator_hash, seal_of
 from plant import BUILD
 from scoring import STRONG, Judged, gap_n, judge
 from seeds import DEVELOPMENT_CASES, DEVELOPMENT_SEED, TEST_CASES, TEST_SEED
@@ -41,6 +42,11 @@ def read(path: Path) -> dict[str, Any]:
     return content
 
 
+def _gap_counts(root: Path, name: str) -> bool:
+    """Whether the gap on unseen poses is scored: of single effects and pairs."""
+    return read(root / "answers" / name / "truth.json").get("kind") in ("single", "pair")
+
+
 def _main_job(job: tuple[str, str, str]) -> str:
     """First diagnosis of a case, and what the believed and the corrected model predict for unseen poses."""
     root, results, name = Path(job[0]), Path(job[1]), job[2]
@@ -49,7 +55,7 @@ def _main_job(job: tuple[str, str, str]) -> str:
         return name
     diagnoser.diagnose(case, out)
     unseen = root / "answers" / name / "holdout"
-    if unseen.is_dir() and (out / "diagnosis.json").exists():
+    if _gap_counts(root, name) and (out / "diagnosis.json").exists():
         try:
             diagnoser.predict(unseen, case / "limb.toml", out / "holdout_before.csv")
             diagnoser.predict(unseen, out / "limb.toml", out / "holdout_after.csv")
@@ -199,7 +205,7 @@ def beside_baselines(
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--development", action="store_true", help="the development seed; nothing is written to docs/")
-    parser.add_argument("--cases", type=int, help=f"how many (default {TEST_CASES}; development {DEVELOPMENT_CASES})")
+    parser.add_argument("--cases", type=cases_of, help=f"how many, or a plan (default {TEST_CASES})")
     parser.add_argument("--only", type=int, help="of the set, diagnose only the first so many: for a quick look")
     parser.add_argument("--seed", type=int, help="another seed; nothing is written to docs/")
     parser.add_argument("--processes", type=int, default=min(2, os.cpu_count() or 1))
@@ -224,8 +230,7 @@ def main() -> int:
 
     begun = time.monotonic()
     in_turn("diagnosing", _main_job, [(str(root), str(results), n) for n in names], options.processes)
-    hidden = [n for n in names if read(root / "answers" / n / "truth.json")["kind"] in ("single", "pair")]
-    missing = [(str(root), n) for n in hidden if not (root / "best" / f"{n}.json").exists()]
+    missing = [(str(root), n) for n in names if _gap_counts(root, n) and not (root / "best" / f"{n}.json").exists()]
     in_turn("what could be closed", _best_job, missing, options.processes)
     judged = judge_all(root, results, names)
     again, seeds_names = [], []
@@ -258,7 +263,7 @@ def main() -> int:
     command += f" --cases {options.cases}" if options.cases else ""
     command += f" --seed {options.seed}" if options.seed is not None else ""
     text = report.page(figures, judged, command)
-    whole = seed == TEST_SEED and options.only is None and not options.quick and cases >= TEST_CASES
+    whole = seed == TEST_SEED and options.only is None and not options.quick and cases == TEST_CASES
     out = options.out or (BUILD.parents[1] / "docs" if whole else results)
     out.mkdir(parents=True, exist_ok=True)
     (out / "blind.md").write_text(text)

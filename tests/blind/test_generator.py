@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from designs import believed_limb, loading_test, trust
 from detect import Bench
-from generate import generate, listing, schedule, seal_of, write_case
-from seeds import DEVELOPMENT_SEED, SUBSET_SEED, TEST_CASES, TEST_SEED
+from generate import DETECTABILITIES, build, generate, listing, schedule, seal_of, total, write_case
+from seeds import DEVELOPMENT_CASES, DEVELOPMENT_SEED, SUBSET_SEED, TEST_CASES, TEST_SEED
 
 
 def test_same_seed_same_bytes(tmp_path: Path) -> None:
@@ -50,10 +50,19 @@ def test_seeds_differ_and_the_plan_is_whole() -> None:
     """Development and test share no seed; a test set has every effect at every detectability, and enough of none."""
     assert len({DEVELOPMENT_SEED, TEST_SEED, SUBSET_SEED}) == 3
     plan = schedule(TEST_SEED, TEST_CASES)
-    assert len(plan) == TEST_CASES >= 600
-    singles = [number for kind, number in plan if kind == "single"]
-    assert max(singles) + 1 >= 5 * len(effects.CATALOGUE)
+    assert len(plan) == total(TEST_CASES) >= 600
+    for level in DETECTABILITIES:
+        assert {number for kind, number in plan if kind == f"single@{level:g}"} >= set(range(len(effects.CATALOGUE)))
     assert sum(kind == "none" for kind, _ in plan) >= 200
+    assert len(schedule(DEVELOPMENT_SEED, DEVELOPMENT_CASES)) == DEVELOPMENT_CASES
+
+
+def test_a_plan_may_say_how_detectable() -> None:
+    """A case of `single@8` is the catalogue's next effect, at 8."""
+    (kind, number), *_ = schedule(SUBSET_SEED, "single@8=1")
+    truth = build(kind, number, np.random.default_rng(5))["truth"]
+    assert (truth["kind"], truth["wanted"]) == ("single", 8.0)
+    assert truth["effects"] == [dict(zip(("name", "where"), effects.CATALOGUE[0], strict=True))]
 
 
 def _bench(seed: int) -> tuple[Bench, np.random.Generator]:

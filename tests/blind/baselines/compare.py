@@ -52,7 +52,7 @@ LINES = (
     Line("right effect first, s >= 12", _single("exact", strong), "naming"),
     Line("no alarm when nothing is hidden", _quiet, "false alarms"),
     Line("both of two hidden effects and nothing else", _pair, "pairs"),
-    Line("these three together", _together),
+    Line("these three together", _together, "these three together"),
     Line("right effect first and no second one, s >= 12", _alone),
     Line("right effect or its class first, s >= 12", _single("class", strong)),
     Line("right effect first, s = 8", _single("exact", weak)),

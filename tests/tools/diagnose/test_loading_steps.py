@@ -12,11 +12,15 @@ import pytest
 from brace.dataset import load_dataset
 from brace.dataset.intake import Dataset
 from brace.diagnose.effects import PLUG_INS, all_variants
+from brace.diagnose.loading.choose import posterior_of
+from brace.diagnose.loading.confidence import of_label
 from brace.diagnose.loading.evidence import SPREAD, score
+from brace.diagnose.loading.extensions import Outside, outside
 from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.noise import channel_noise
 from brace.diagnose.loading.parts import enough_rows, locked_rows
 from brace.diagnose.loading.record import load_record, setting_of
+from brace.diagnose.loading.run import search_pass
 from brace.diagnose.loading.screen import Remover
 from brace.diagnose.loading.search import Search
 from brace.diagnose.loading.space import compatible, space_of, trust_of
@@ -172,6 +176,76 @@ def test_a_hidden_effect_is_found_with_its_size(
     best = search.run()[0]
     assert best.label == label
     assert best.fit.value(key) == pytest.approx(value, rel=0.25)
+
+
+def against_the_catalogue(data: Dataset, believed: LimbModel) -> tuple[Outside, str]:
+    """What speaks for something outside the catalogue, and what the best in it is called."""
+    record = load_record(data)
+    variants = all_variants(setting_of(record, believed))
+    sets = posterior_of(Search(record, trust_of(believed), variants).run(), variants)
+    return outside(record, sets, variants), sets[0].label
+
+
+def clock(data: Dataset) -> np.ndarray:
+    """0 at the record's start, 1 at its end."""
+    return np.asarray(data["t_s"] / np.ptp(data["t_s"]))
+
+
+def test_what_changes_during_the_record_is_not_in_the_catalogue(tmp_path: Path, believed: LimbModel) -> None:
+    """A gain that grows by 6 % over the record, of 6 N rms in 544 rows: some 20 sigma after refitting, and a link that
+    changes half way makes most of it; the words say what changes, and with what."""
+    data = recorded(tmp_path / "gain", believed, 21)
+    gain = 1.0 + 0.06 * clock(data)
+    grown = data.with_columns({name: data[name] * gain for name in ("fx_n", "fz_n")})
+    found, _ = against_the_catalogue(grown, believed)
+    assert found.likely and found.probability > 0.99
+    assert found.words == "sensor.gain growing with time"
+    soft = recorded(tmp_path / "soft", believed.with_values({"joint.tibia.compliance_rad_per_n_mm": 1.8e-5}), 22)
+    stiff = recorded(tmp_path / "stiff", believed, 22)
+    side = np.where(soft["axis"] == 1, soft["dz_mm"], soft["dx_mm"]) > 0.0
+    both = {name: np.where(side, soft[name], stiff[name]) for name in ("fx_n", "fz_n")}
+    found, _ = against_the_catalogue(soft.with_columns(both), believed)
+    assert found.likely
+    assert "load only" in found.words
+
+
+@pytest.mark.parametrize(
+    ("values", "label"),
+    [
+        ({}, "none"),
+        ({"joint.femur.hardening_n_mm_per_rad3": 4e9}, "joint_hardening@joint.femur"),
+        ({"joint.tibia.gap_rad": 2e-3}, "backlash@joint.tibia"),
+        ({"sensor.drift_x_n_per_s": 2e-4}, "sensor_drift@sensor"),
+        (
+            {"joint.femur.coulomb_n_mm": 40.0, "sensor.bias_z_n": 0.1},
+            "coulomb_friction@joint.femur + sensor_bias@sensor",
+        ),
+        ({"change.link": "tibia", "change.at_s": 1100.0, "change.bending_factor": 1.4}, "link_change@link.tibia"),
+    ],
+)
+def test_an_effect_of_the_catalogue_is_not_outside_it(
+    tmp_path: Path, believed: LimbModel, values: dict[str, Any], label: str
+) -> None:
+    """Hardening is a compliance that changes with the load, drift a bias that changes with time, a cracked link a
+    bending that does: by another name they are still what they are."""
+    found, best = against_the_catalogue(recorded(tmp_path, believed.with_values(values), 23), believed)
+    assert best == label
+    assert not found.likely and found.probability < 0.3
+
+
+def test_the_odds_of_an_outsider_lower_the_confidence(tmp_path: Path, believed: LimbModel) -> None:
+    """By just their share; a lead of nothing is even odds."""
+    assert Outside(0.0, "").probability == 0.5
+    assert not Outside(0.0, "").likely
+    record = load_record(recorded(tmp_path, believed.with_values({"joint.tibia.gap_rad": 2e-3}), 24))
+    variants = all_variants(setting_of(record, believed))
+    found = search_pass(record, trust_of(believed), variants, lambda share, doing: None)
+    sure, torn = (
+        of_label(replace(found, decision=replace(found.decision, outside=Outside(lead, ""))), "backlash@joint.tibia")
+        for lead in (-50.0, 0.0)
+    )
+    assert sure > 0.95
+    assert torn == pytest.approx(0.5 * sure)
 
 
 def test_a_quarter_of_the_configurations_is_locked_and_none_at_the_ends(tmp_path: Path, believed: LimbModel) -> None:

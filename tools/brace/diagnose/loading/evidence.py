@@ -23,12 +23,18 @@ def freedoms(fitted: Fit) -> int:
 
 
 def score(fitted: Fit, base: Fit, readings: int, noise_freedom: float) -> float:
-    """Log posterior odds against nothing missing. The noise is known only as well as `noise_freedom` independent
-    readings tell it, and integrated out (a Student likelihood)."""
+    """Log posterior odds of a fit against nothing missing."""
     effects = len(fitted.space.variants)
+    return evidence(fitted.cost, base.cost, freedoms(fitted), effects, readings, noise_freedom)
+
+
+def evidence(cost: float, base: float, own: int, effects: int, readings: int, noise_freedom: float) -> float:
+    """Log posterior odds of `effects` with so many freedoms of their `own` that bring the cost down from `base`. The
+    noise is known only as well as `noise_freedom` independent readings tell it, and integrated out (a Student
+    likelihood)."""
     known = max(noise_freedom, 1.0)
-    gain = 0.5 * (known + readings) * np.log((known + base.cost) / (known + fitted.cost))
-    return float(gain - freedoms(fitted) * np.log(SPREAD) - effects * np.log(WAYS / PRIOR_NONE))
+    gain = 0.5 * (known + readings) * np.log((known + base) / (known + cost))
+    return float(gain - own * np.log(SPREAD) - effects * np.log(WAYS / PRIOR_NONE))
 
 
 def log_likelihood(fitted: Fit, sigma: np.ndarray, readings: int, noise_freedom: float) -> float:

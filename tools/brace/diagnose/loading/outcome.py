@@ -220,10 +220,11 @@ def _could_be(final: Pass, effects: Sequence[NamedEffect]) -> tuple[str, ...]:
 def _unexplained(final: Pass, after: Fit) -> Unexplained:
     structure, record = final.structure, final.record
     rms = float(np.sqrt(np.mean((after.residual.reshape(record.measured.shape) * record.sigma)[:2] ** 2)))
-    if not structure.structured and not final.decision.extension:
+    changing = _changing(final)
+    if not structure.structured and not changing:
         return Unexplained(rms, False, "no more than noise")
     shown = [family.words for family in structure.families if family.p < STRUCTURED_P][:3]
-    words = "; ".join([*([final.decision.extension] if final.decision.extension else []), *shown])
+    words = "; ".join([*([changing] if changing else []), *shown])
     if final.decision.verdict != "unknown":
         return Unexplained(rms, True, f"a small rest with structure: {words}")
     nearest = final.sets[0]
@@ -238,6 +239,12 @@ def _unexplained(final: Pass, after: Fit) -> Unexplained:
     return Unexplained(rms, True, f"{words}; {near}")
 
 
+def _changing(final: Pass) -> str:
+    """Words for what is not in the catalogue and does better than what is, or nothing."""
+    outside = final.decision.outside
+    return f"what {outside.words} would make" if outside.likely else ""
+
+
 def _sentence(final: Pass, effects: Sequence[NamedEffect]) -> str:
     verdict, structure = final.decision.verdict, final.structure
     if verdict == "none":
@@ -245,7 +252,7 @@ def _sentence(final: Pass, effects: Sequence[NamedEffect]) -> str:
     if verdict == "unknown":
         return (
             "The record disagrees with the model in a way that no effect of the catalogue makes: it shows "
-            f"{final.decision.extension or structure.strongest.words}. Nothing was added to the model."
+            f"{_changing(final) or structure.strongest.words}. Nothing was added to the model."
         )
     if verdict == "ambiguous":
         names = [effect.label for effect in effects]

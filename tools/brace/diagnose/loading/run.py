@@ -13,7 +13,7 @@ from brace.diagnose.effects import Variant, all_variants
 from brace.diagnose.loading import outcome
 from brace.diagnose.loading.choose import LabelSet, posterior_of
 from brace.diagnose.loading.evidence import log_likelihood, score
-from brace.diagnose.loading.extensions import better_extension
+from brace.diagnose.loading.extensions import outside
 from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.data_faults.gate import gate
 from brace.diagnose.loading.noise_after_base import with_growth, with_known_noise
@@ -90,7 +90,8 @@ def _searched(record: Record, trust: Trust, variants: Sequence[Variant], advance
     sets = posterior_of(hypotheses, variants)
     sets[0] = _polished(record, sets[0])
     structure = structure_of(record, sets[0].best.fit)
-    return Pass(record, trust, search.base, sets, structure, decide(sets, structure, search.base.fit, better_extension(record, sets)))
+    decision = decide(sets, structure, search.base.fit, outside(record, sets, variants))
+    return Pass(record, trust, search.base, sets, structure, decision)
 
 
 def _likelihood(found: Pass) -> float:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from brace.diagnose.diagnosis import Verdict
 from brace.diagnose.loading.choose import LabelSet, label_probability, rivals
+from brace.diagnose.loading.extensions import Outside
 from brace.diagnose.loading.fit import Fit
 from brace.diagnose.loading.structure import Structure
 
@@ -25,25 +26,24 @@ class Decision:
     classes: tuple[tuple[str, ...], ...]
     chosen: LabelSet
     structure: Structure
-    extension: str = ""
+    outside: Outside
 
 
-def decide(sets: Sequence[LabelSet], structure: Structure, base: Fit, extension: str = "") -> Decision:
-    """`structure` is what the best set leaves; `extension` says what no entry of the catalogue does and what explains
-    more than the best set."""
+def decide(sets: Sequence[LabelSet], structure: Structure, base: Fit, outside: Outside) -> Decision:
+    """`structure` is what the best set leaves; `outside` is what speaks for something that is not in the catalogue."""
     best = sets[0]
-    if extension or (structure.structured and not _small_rest(best, structure, base)):
-        return Decision("unknown", (), (), best, structure, extension)
+    if outside.likely or (structure.structured and not _small_rest(best, structure, base)):
+        return Decision("unknown", (), (), best, structure, outside)
     nothing = next((item for item in sets if not item.labels), None)
     if nothing is not None and nothing.posterior > NOTHING_STANDS:
-        return Decision("none", (), (), nothing, structure)
+        return Decision("none", (), (), nothing, structure, outside)
     ordered = sorted(best.labels, key=lambda label: (-_drop(sets, best, label), label))
     classes = tuple(
         tuple(group) for label in ordered if len(group := rivals(sets, label)) > 1
     )
     if len(ordered) == 1 and classes and label_probability(sets, ordered[0]) < SURE:
-        return Decision("ambiguous", classes[0], classes, best, structure)
-    return Decision("effect", tuple(ordered), classes, best, structure)
+        return Decision("ambiguous", classes[0], classes, best, structure, outside)
+    return Decision("effect", tuple(ordered), classes, best, structure, outside)
 
 
 def _small_rest(best: LabelSet, structure: Structure, base: Fit) -> bool:
