@@ -126,7 +126,8 @@ static void ask(const uint8_t data[8])
             if (got[0][0] != (BEGIN | REFUSED << 5)) {
                 fail("a begin of three bytes was taken", data, 8);
             }
-            got_count = 0;
+            got_count--; /* in the same tick there may be the answer that is waited for */
+            memmove(got[0], got[1], sizeof got[0] * got_count);
         }
     }
     if (got_count == 0u) {

@@ -289,6 +289,57 @@ static void test_while_parameters_are_stored_and_put_in_force(void)
     TEST_ASSERT_TRUE(sets_stored >= 10u);
 }
 
+static void say(const char *text)
+{
+    const uint32_t length = (uint32_t)strlen(text);
+    TEST_ASSERT_EQUAL(length, brace_fake_bytes_arrive(&fake, BRACE_SERIAL_SLCAN, (const uint8_t *)text, length));
+}
+
+/* Parts of K's answer to a token among the lines of a tick; what else is said comes between them. */
+static uint32_t parts_as_text(uint32_t token)
+{
+    char text[600], part[16];
+    uint32_t parts = 0;
+    const uint32_t length = brace_fake_bytes_take(&fake, BRACE_SERIAL_SLCAN, (uint8_t *)text, sizeof text - 1u);
+    text[length] = '\0';
+    for (uint32_t i = 0; i < 3u; i++) {
+        (void)snprintf(part, sizeof part, "t5858%02X%02X", (unsigned)(BRACE_REQUEST_K_AT_POSTURE + 32u * i), (unsigned)token);
+        parts += strstr(text, part) != NULL;
+    }
+    return parts;
+}
+
+/* Its line is read in one tick, and answered as a whole in the next. */
+static void test_over_slcan(void)
+{
+    const brace_parameters_t p = with_play(general_limb());
+    start(&p);
+    say("O\r");
+    ticks(2);
+    const uint32_t first = now()->sequence, started = fake.now_us;
+    for (uint32_t i = 0; i < 1000u; i++) {
+        char line[40];
+        uint8_t data[8];
+        const uint8_t token = (uint8_t)i;
+        brace_can_pack_k_at_posture_request(
+            &(brace_can_k_at_posture_request_t){token, between(-1.5f, 2.5f), between(-1.5f, 2.5f)}, data);
+        uint32_t at = (uint32_t)snprintf(line, sizeof line, "t6058");
+        for (uint32_t j = 0; j < 8u; j++) {
+            at += (uint32_t)snprintf(line + at, sizeof line - at, "%02x", data[j]);
+        }
+        (void)snprintf(line + at, sizeof line - at, "\r");
+        say(line);
+        ticks(1);
+        uint32_t parts = parts_as_text(token);
+        ticks(1);
+        parts += parts_as_text(token);
+        TEST_ASSERT_EQUAL(3, parts);
+        ticks((int)below(3));
+        (void)parts_as_text(token);
+    }
+    TEST_ASSERT_TRUE(now()->sequence - first >= (fake.now_us - started) / TICK_US / 4u);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -297,6 +348,7 @@ int main(void)
     RUN_TEST(test_with_play_in_both_joints);
     RUN_TEST(test_behind_questions_for_the_tip);
     RUN_TEST(test_beside_a_loading_test);
+    RUN_TEST(test_over_slcan);
     RUN_TEST(test_while_parameters_are_stored_and_put_in_force);
     return UNITY_END();
 }

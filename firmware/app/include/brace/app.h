@@ -177,6 +177,7 @@ typedef struct {
 typedef struct {
     bool speaks;              /* in this tick, besides answering */
     uint8_t frames;           /* of process data, at most, in this tick */
+    uint8_t lines;            /* of answers over SLCAN, at most, in this tick */
     uint8_t left_out;         /* ticks in a row without a piece of K, or of other work */
     uint8_t waited;           /* ticks, for answers to leave over SLCAN */
     uint32_t beat_us;         /* when the heart beat last */

@@ -100,7 +100,7 @@ uint32_t bus_send_some(brace_app_t *app, uint32_t function, const uint8_t (*data
     frame.id = function + bus->node_id;
     frame.length = 8;
     frame.fd = false;
-    for (; sent < count; sent++) {
+    for (; sent < count; sent++) { /* at most BRACE_APP_ANSWERS */
         memcpy(frame.data, data[sent], 8);
         if (bus->slcan.open ? !send_text(app, &frame) : send_can(app, &frame) != BRACE_HAL_OK) {
             return sent;

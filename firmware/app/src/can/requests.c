@@ -11,7 +11,6 @@
 #define FRAMES_MOST 20u
 #define PARTS_MOST 4u
 #define SENT_PER_TICK 4u
-#define LINES_PER_TICK 1u /* over SLCAN: its line takes 0.3 ms for each */
 
 void requests_start(brace_app_t *app)
 {
@@ -82,8 +81,8 @@ static uint32_t frames_per_tick(const brace_app_t *app)
 static void take_text(brace_app_t *app)
 {
     brace_can_frame_t frame;
-    const bool rests = (app->mode == BRACE_MODE_CONFIGURATION && app->report.left_out > 0u) || /* it is a piece's turn */
-                       app->modbus.waited >= (uint32_t)MODBUS_PATIENCE_TICKS; /* or that of Modbus */
+    const bool rests = app->mode == BRACE_MODE_CONFIGURATION && /* it is a piece's turn, or that of Modbus */
+                       (app->report.left_out > 0u || app->modbus.waited >= (uint32_t)MODBUS_PATIENCE_TICKS);
     app->bus.slcan.heard = false;
     if (!app->requests.waiting && !rests && slcan_port_receive(app, &frame)) {
         app->requests.waiting = accept(app, &frame);
@@ -158,9 +157,9 @@ void requests_send(brace_app_t *app)
     if (requests->storing != 0u && requests->answer_count + PARTS_MOST <= (uint32_t)BRACE_APP_ANSWERS) {
         request_storing_answer(app);
     }
-    const uint32_t most = app->bus.slcan.open ? LINES_PER_TICK : SENT_PER_TICK;
+    const uint32_t most = app->bus.slcan.open ? app->report.lines : SENT_PER_TICK;
     uint32_t left = requests->answer_count < most ? requests->answer_count : most;
-    while (left > 0u) { /* twice, where the ring comes round */
+    while (left > 0u) { /* at most twice: where the ring comes round */
         const uint32_t first = requests->answer_first, to_end = (uint32_t)BRACE_APP_ANSWERS - first;
         const uint32_t count = left < to_end ? left : to_end;
         const uint32_t sent = bus_send_some(app, BRACE_CAN_ID_ANSWER, &requests->answer[first], count);

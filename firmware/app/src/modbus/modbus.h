@@ -5,8 +5,8 @@
 
 #include "brace/app.h"
 
-/* Without a turn for so long, Modbus has one beside an answer, and text over SLCAN waits for it; then in a tick that senses
- * nothing. */
+/* Without a turn for so long, Modbus has one beside an answer, if there is room, and in CONFIGURATION text over SLCAN waits
+ * for it; then it has one in a tick that senses nothing. */
 enum { MODBUS_PATIENCE_TICKS = 8, MODBUS_LONGEST_TICKS = 16 };
 
 /* Opens the ports that the board has; not for the tick. */

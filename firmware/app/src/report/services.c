@@ -8,6 +8,7 @@
 #include "report/announce.h"
 
 #define LINES_OF_ANSWERS 3u
+#define LINES_OF_K 3u
 #define K_WAITS_MOST 6u
 #define TEST_WAITS_MOST 50u
 
@@ -21,7 +22,7 @@ enum {
     K_PIECE = 435,     /* the dearest */
     ANSWER = 450, ANSWER_K_COLLAPSED = 450, ANSWER_K_GENERAL = 750, ANSWER_TIP = 380,
     SAYS_ANNOUNCES = 400, SAYS_BEGINS = 490, SAYS_GOES_ON = 250, SAYS_MORE = 130 /* each further frame */,
-    HEARD = 560, TEXT = 100 /* a line of SLCAN read; written */
+    HEARD = 560, TEXT = 110 /* a line of SLCAN read; written */
 };
 static const uint16_t play_costs[] = {0, 560, 1030}, k_play_costs[] = {0, 165, 80}; /* joints that are watched */
 
@@ -62,7 +63,7 @@ static uint32_t answer_costs(const brace_app_t *app)
 static uint32_t choose_modbus(brace_app_t *app, uint32_t room, uint32_t beside)
 {
     brace_app_modbus_t *modbus = &app->modbus;
-    modbus->polls = !app->bus.slcan.heard && (!app->requests.serves || modbus->waited >= (uint32_t)MODBUS_PATIENCE_TICKS);
+    modbus->polls = (!app->bus.slcan.heard && !app->requests.serves) || modbus->waited >= (uint32_t)MODBUS_PATIENCE_TICKS;
     const bool wants = modbus->polls && modbus_poll(app, app->last_us);
     modbus->all = (uint32_t)MODBUS_ALL_COSTS + beside <= room;
     const uint32_t costs = !wants ? 0u : modbus->all ? (uint32_t)MODBUS_ALL_COSTS : modbus_costs(app);
@@ -71,7 +72,7 @@ static uint32_t choose_modbus(brace_app_t *app, uint32_t room, uint32_t beside)
     return modbus->serves ? costs : 0u;
 }
 
-/* Over SLCAN a tick has a line: three of answers, then one of the rest. */
+/* Over SLCAN a tick says what it answers, or has a line: three of answers that are left, then one of the rest. */
 static bool may_say(brace_app_t *app)
 {
     brace_app_report_t *report = &app->report;
@@ -80,7 +81,7 @@ static bool may_say(brace_app_t *app)
         return true;
     }
     report->waited = (uint8_t)(answers && report->waited < LINES_OF_ANSWERS ? report->waited + 1u : 0u);
-    return !app->modbus.serves && report->waited == 0u;
+    return !app->modbus.serves && !app->requests.serves && report->waited == 0u;
 }
 
 /* The pieces of K that are next, as far as they fit. */
@@ -108,7 +109,7 @@ static uint32_t tick_costs(const brace_app_t *app, uint32_t plays, bool moves)
 {
     const brace_app_slcan_t *slcan = &app->bus.slcan;
     return REST + play_costs[plays] + (moves ? MOVES : 0u) + (app->requests.serves ? answer_costs(app) : 0u) +
-           (slcan->open ? TEXT : 0u) + (slcan->heard ? HEARD : 0u);
+           (slcan->open ? app->report.lines * TEXT : 0u) + (slcan->heard ? HEARD : 0u);
 }
 
 /* A tick that senses nothing, for Modbus or for K of the last samples. */
@@ -153,7 +154,8 @@ static uint32_t in_configuration(brace_app_t *app, bool works)
 {
     brace_app_report_t *report = &app->report;
     const bool serves = app->requests.serves;
-    (void)choose_modbus(app, works && (serves || report->left_out > 0u) ? 0u : ROOM, 0);
+    const bool waits = app->bus.slcan.heard || (works && (serves || report->left_out > 0u));
+    (void)choose_modbus(app, waits ? 0u : ROOM, 0);
     report->speaks = wants_to_say(app) && may_say(app) && !(works && serves);
     const bool text = app->bus.slcan.heard || (app->bus.slcan.open && report->speaks);
     return works && (app->modbus.serves || text) && report->left_out == 0u ? 0u : (uint32_t)SERVICES_K_WHOLE;
@@ -177,9 +179,11 @@ static uint32_t beside_test(brace_app_t *app, services_room_t room)
 uint32_t services_listen(brace_app_t *app, services_room_t room)
 {
     uint32_t pieces;
-    app->report.frames = 1;
     app->requests.refuses = false;
     app->requests.serves = requests_take(app);
+    const bool asks_k = app->requests.serves && app->requests.request[0] == BRACE_REQUEST_K_AT_POSTURE;
+    app->report.frames = 1;
+    app->report.lines = asks_k && room < SERVICES_BESIDE_MUCH ? LINES_OF_K : 1u; /* other answers leave line by line */
     switch (room) {
     case SERVICES_BESIDE_K: pieces = beside_k(app); break;
     case SERVICES_BESIDE_LITTLE:

@@ -33,7 +33,7 @@ void supervisor_faults(brace_app_t *app, bool late)
         return;
     }
     app->faults |= cause;
-    for (uint32_t left = app->faults & COMING_AND_GOING; left != 0u; left &= left - 1u) { /* bit by bit */
+    for (uint32_t left = app->faults & COMING_AND_GOING; left != 0u; left &= left - 1u) { /* at most a round for each fault */
         with_hysteresis(app, cause, (uint32_t)__builtin_ctz(left));
     }
     const uint32_t lasting = (uint32_t)BRACE_FAULT_PARAMETERS | (uint32_t)BRACE_FAULT_STORE;
