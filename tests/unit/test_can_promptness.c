@@ -1,4 +1,5 @@
 /* K at a posture is answered in the tick that finds the question, whatever else goes on. */
+#include "brace/chain.h"
 #include "can_bench.h"
 #include "modbus_master.h"
 
@@ -289,6 +290,67 @@ static void test_while_parameters_are_stored_and_put_in_force(void)
     TEST_ASSERT_TRUE(sets_stored >= 10u);
 }
 
+/* Each joint's angle tells when it was sampled. */
+static float angle_at(uint32_t taken_us, int joint)
+{
+    const uint32_t tick = taken_us / TICK_US % 1000u;
+    return joint == BRACE_FEMUR ? 0.5f + 1e-3f * (float)tick : 1.9f - 5e-4f * (float)tick;
+}
+
+static uint32_t in_pieces; /* snapshots that were told later than in the tick of their samples */
+
+static void judge_newest(const brace_parameters_t *p)
+{
+    const brace_snapshot_t *snapshot = now();
+    const float femur_rad = snapshot->theta_rad[BRACE_FEMUR], tibia_rad = snapshot->theta_rad[BRACE_TIBIA];
+    brace_chain_t chain;
+    brace_stiffness_t k;
+    brace_pose_t pose;
+    TEST_ASSERT_EQUAL_FLOAT(angle_at(snapshot->taken_us, BRACE_FEMUR), snapshot->motor_rad[BRACE_FEMUR]);
+    TEST_ASSERT_EQUAL_FLOAT(angle_at(snapshot->taken_us, BRACE_TIBIA), snapshot->motor_rad[BRACE_TIBIA]);
+    TEST_ASSERT_EQUAL_FLOAT(snapshot->motor_rad[BRACE_FEMUR] + snapshot->play[BRACE_FEMUR].offset_rad, femur_rad);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_kinematics_forward(&p->limb, femur_rad, tibia_rad, &pose));
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, pose.tip.x_mm, snapshot->tip_mm.x_mm);
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, pose.tip.z_mm, snapshot->tip_mm.z_mm);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_build(&p->limb, &chain));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_stiffness(&chain, femur_rad, tibia_rad, &k));
+    const float off = 1e-5f * k.lambda_max_n_per_mm;
+    TEST_ASSERT_FLOAT_WITHIN(off, k.k_xx_n_per_mm, snapshot->stiffness.engaged.k_xx_n_per_mm);
+    TEST_ASSERT_FLOAT_WITHIN(off, k.k_zz_n_per_mm, snapshot->stiffness.engaged.k_zz_n_per_mm);
+    TEST_ASSERT_EQUAL(snapshot->sequence, app.sequence);
+    in_pieces += snapshot->taken_us != fake.now_us;
+}
+
+/* K in pieces, and K of a tick that senses nothing: all of a snapshot is of one tick's samples, while the limb moves by
+ * hundreds of the tolerance from tick to tick. */
+static void test_a_snapshot_in_pieces_is_of_one_tick(void)
+{
+    const brace_parameters_t p = with_play(general_limb());
+    uint32_t last = 0, told = 0;
+    start(&p);
+    in_pieces = 0;
+    for (uint32_t i = 0; i < 20000u; i++) {
+        uint8_t data[8];
+        for (int joint = BRACE_FEMUR; joint <= BRACE_TIBIA; joint++) {
+            fake.joint[joint].sample.motor_rad = angle_at(fake.now_us + TICK_US, joint);
+        }
+        brace_can_pack_k_at_posture_request(&(brace_can_k_at_posture_request_t){1, 0.5f, 1.0f}, data);
+        if (i % 3000u < 1500u && i % 4u != 0u) {
+            arrives(0x600u + NODE, data, 8);
+        } else if (i % 3000u >= 1500u) {
+            the_tip_is_asked();
+        }
+        modbus_traffic();
+        (void)answers_of_tick(1);
+        if (now()->sequence != last && now()->k_is_valid) {
+            judge_newest(&p);
+            told++;
+        }
+        last = now()->sequence;
+    }
+    TEST_ASSERT_TRUE(told > 20000u / 7u && in_pieces > told / 4u);
+}
+
 static void say(const char *text)
 {
     const uint32_t length = (uint32_t)strlen(text);
@@ -348,6 +410,7 @@ int main(void)
     RUN_TEST(test_with_play_in_both_joints);
     RUN_TEST(test_behind_questions_for_the_tip);
     RUN_TEST(test_beside_a_loading_test);
+    RUN_TEST(test_a_snapshot_in_pieces_is_of_one_tick);
     RUN_TEST(test_over_slcan);
     RUN_TEST(test_while_parameters_are_stored_and_put_in_force);
     return UNITY_END();
