@@ -1,0 +1,105 @@
+"""What the proofs say, as lines for a terminal and as docs/proofs.md."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cbmc
+
+HEAD = f"{'proof':22} {'properties':>10} {'seconds':>8}  {'verdict':10} broken on purpose"
+
+INTRODUCTION = """# What is proven
+
+`./dev proofs` writes this page. Each claim below holds for **every** input within its bound, not for samples of it:
+[CBMC](https://github.com/diffblue/cbmc) {version} turns the firmware's own C, as a Cortex-M4F's compiler reads it (32-bit
+integers and pointers), into one formula and finds no input that breaks it. Beside each claim it checks every array index,
+pointer, shift, division and signed overflow on the way, and that no loop goes further than the bound says.
+
+A proof that cannot fail proves nothing: every one is run again on code with a mistake put in, and has to find it. The
+mistakes stand at the end. What a proof takes from elsewhere stands under *stands on*: a function that has its own proof is
+replaced by what that proof promises, and the outside (memory, ports, drives) by something that may answer anything.
+
+Not proven here: what the floating-point results are worth (property tests and the reference judge that), time (the bench
+counts instructions), interrupts, and what compilers make of the C.
+"""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A claim and what came of it."""
+
+    name: str
+    claim: str
+    functions: tuple[str, ...]
+    bound: str
+    stands_on: tuple[str, ...]
+    verdict: cbmc.Verdict
+    twins: tuple[tuple[str, cbmc.Verdict], ...]
+
+    @property
+    def good(self) -> bool:
+        """Proven, and every mistake was found."""
+        return self.verdict.holds and all(found(twin) for _, twin in self.twins)
+
+    @property
+    def seconds(self) -> float:
+        """Of proof and twins together."""
+        return self.verdict.seconds + sum(twin.seconds for _, twin in self.twins)
+
+
+def found(twin: cbmc.Verdict) -> bool:
+    """Was the mistake found? One that only makes CBMC give up is not."""
+    return bool(twin.failures)
+
+
+def word(verdict: cbmc.Verdict) -> str:
+    """The verdict in a word."""
+    return "proven" if verdict.holds else "undecided" if verdict.trouble else "REFUTED"
+
+
+def line(outcome: Outcome) -> str:
+    """One row of the terminal's table."""
+    refuted = sum(found(twin) for _, twin in outcome.twins)
+    return (f"{outcome.name:22} {outcome.verdict.properties:10} {outcome.seconds:8.1f}  {word(outcome.verdict):10} "
+            f"{refuted} of {len(outcome.twins)} found")
+
+
+def trouble(outcome: Outcome) -> str:
+    """What is wrong, where, and the inputs that show it; nothing if all is well."""
+    lines = []
+    if outcome.verdict.trouble:
+        lines.append(f"{outcome.name}: {outcome.verdict.trouble}")
+    for failure in outcome.verdict.failures:
+        lines.append(f"{outcome.name}: {failure}")
+    if outcome.verdict.trace:
+        lines.append("    with")
+        lines += [f"    {step.what} = {step.value}    ({step.where})" for step in outcome.verdict.trace[:60]]
+    for change, twin in outcome.twins:
+        if not found(twin):
+            lines.append(f"{outcome.name}: the proof does not notice {change} {twin.trouble}".rstrip())
+    return "\n".join(lines)
+
+
+def _code(text: str) -> str:
+    fence = "``" if "`" in text else "`"
+    return f"{fence}{' '.join(text.split())}{fence}".replace("|", "\\|")
+
+
+def page(outcomes: list[Outcome], version: str) -> str:
+    """docs/proofs.md."""
+    lines = [INTRODUCTION.format(version=version)]
+    lines += ["| claim | functions | for | stands on | properties | seconds | verdict |", "|---|---|---|---|---|---|---|"]
+    for outcome in outcomes:
+        functions = ", ".join(_code(name) for name in outcome.functions)
+        lines.append(f"| **{outcome.name}**: {outcome.claim} | {functions} | {outcome.bound} | "
+                     f"{'; '.join(outcome.stands_on) or '-'} | {outcome.verdict.properties} | "
+                     f"{outcome.verdict.seconds:.0f} | {word(outcome.verdict)} |")
+    total = sum(outcome.seconds for outcome in outcomes)
+    count = sum(outcome.verdict.properties for outcome in outcomes)
+    lines += ["", f"{len(outcomes)} claims, {count} properties, {total / 60.0:.0f} minutes of one core with the mistakes "
+              "below.", "", "| proof | mistake put in | found as |", "|---|---|---|"]
+    for outcome in outcomes:
+        for change, twin in outcome.twins:
+            said = twin.failures[0] if twin.failures else f"**not found** {twin.trouble}"
+            lines.append(f"| {outcome.name} | {_code(change)} | {said} |")
+    return "\n".join(lines) + "\n"
