@@ -20,7 +20,7 @@ _STATUS = {  # brace_status_t: what, and whether the question was at fault
     -15: ("not in this mode", False),
     -64: ("it knows no such request", False),  # refusals.h
     -65: ("without its key", False),
-    -66: ("it is storing a set, or on its way back from a loading test", False),
+    -66: ("it is storing a set, judging a loading test, or on its way back from one", False),
     -67: ("words came out of order", False),
     -68: ("the set in force has changed meanwhile", False),
     -69: ("it can only be read", True),
