@@ -132,9 +132,9 @@ NOTE = """\
 One whole tick of the controller, from samples to snapshot: K with its eigenvalues, both joints' state machines, supervisor, \
 services. Counted over random ticks on the emulated Cortex-M4F: limbs that collapse and limbs that take the general path, every \
 mode, take-ups and loading tests, parameters stored and put in force, bad samples, late ticks, a full bus, requests \
-in every tick over CAN and over SLCAN, Modbus on both ports. A call of the hardware layer counts as the call alone. A reading of a loading test is worked out in up to three ticks of its own, which \
-compute no K: the snapshot before stays. So it does in some that answer, above all on limbs of the general path. A set that \
-is to be stored is checked, packed, written and put in force in pieces, one a tick."""
+over CAN and SLCAN, in some runs in every tick, Modbus on both ports. A call of the hardware layer counts as the call alone. A reading of a loading test is worked out in up to three ticks of its own, which \
+compute no K: the snapshot before stays. Beside an answer K comes in pieces where it has no room as a whole, above all on limbs \
+of the general path. A set that is to be stored is checked, packed, written and put in force in pieces, one a tick."""
 
 
 def extra() -> Extra:
