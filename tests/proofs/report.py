@@ -85,8 +85,8 @@ def _code(text: str) -> str:
     return f"{fence}{' '.join(text.split())}{fence}".replace("|", "\\|")
 
 
-def page(outcomes: list[Outcome], version: str) -> str:
-    """docs/proofs.md."""
+def page(outcomes: list[Outcome], version: str, absent: list[str]) -> str:
+    """docs/proofs.md. absent: proofs that have not been run on this text."""
     lines = [INTRODUCTION.format(version=version)]
     lines += ["| claim | functions | for | stands on | properties | seconds | verdict |", "|---|---|---|---|---|---|---|"]
     for outcome in outcomes:
@@ -97,7 +97,7 @@ def page(outcomes: list[Outcome], version: str) -> str:
     total = sum(outcome.seconds for outcome in outcomes)
     count = sum(outcome.verdict.properties for outcome in outcomes)
     lines += ["", f"{len(outcomes)} claims, {count} properties, {total / 60.0:.0f} minutes of one core with the mistakes "
-              "below.", "", "| proof | mistake put in | found as |", "|---|---|---|"]
+              "below.", *(["", f"Not run since their text changed: {', '.join(absent)}."] if absent else []), "", "| proof | mistake put in | found as |", "|---|---|---|"]
     for outcome in outcomes:
         for change, twin in outcome.twins:
             said = twin.failures[0] if twin.failures else f"**not found** {twin.trouble}"

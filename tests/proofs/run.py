@@ -1,6 +1,6 @@
 """Prove the claims of proofs.toml with CBMC, show that each proof can fail, and write docs/proofs.md.
 
-usage: run.py [--only NAME ...] [--jobs N] [--seconds-most S] [--afresh] [--list]
+usage: run.py [--only NAME ...] [--jobs N] [--seconds-most S] [--afresh] [--known] [--list]
 
 What was proven of the same text with the same bounds is kept in build/proofs and not proven again.
 """
@@ -107,16 +107,22 @@ def key_of(proof: Proof, whole: cbmc.Program, version: str) -> str:
 
 def prove(proof: Proof, tool: str, version: str, seconds_most: float, afresh: bool) -> report.Outcome:
     """The claim, then its broken twins; or what is known of them."""
+    earlier = None if afresh else known(proof, version)
+    if earlier is not None:
+        return earlier
     whole = program(proof, BUILD / proof.name / "whole")
-    kept, key = BUILD / proof.name / "outcome", key_of(proof, whole, version)
-    if kept.is_file() and not afresh:
-        known, outcome = pickle.loads(kept.read_bytes())
-        if known == key and isinstance(outcome, report.Outcome):
-            return outcome
     outcome = prove_now(proof, whole, tool, seconds_most)
     if outcome.good:
-        kept.write_bytes(pickle.dumps((key, outcome)))
+        (BUILD / proof.name / "outcome").write_bytes(pickle.dumps((key_of(proof, whole, version), outcome)))
     return outcome
+
+
+def known(proof: Proof, version: str) -> report.Outcome | None:
+    """What is known of it from an earlier run, of the text as it is now."""
+    whole = program(proof, BUILD / proof.name / "whole")
+    kept = BUILD / proof.name / "outcome"
+    key, outcome = pickle.loads(kept.read_bytes()) if kept.is_file() else ("", None)
+    return outcome if key == key_of(proof, whole, version) and isinstance(outcome, report.Outcome) else None
 
 
 def prove_now(proof: Proof, whole: cbmc.Program, tool: str, seconds_most: float) -> report.Outcome:
@@ -150,6 +156,7 @@ def main() -> int:
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="at a time (default: one a core)")
     parser.add_argument("--seconds-most", type=float, default=900.0, help="for one run of CBMC (default: %(default)s)")
     parser.add_argument("--afresh", action="store_true", help="prove again what was proven of the same text")
+    parser.add_argument("--known", action="store_true", help="write docs/proofs.md from earlier runs and prove nothing")
     parser.add_argument("--list", action="store_true", help="name the claims and prove nothing")
     asked = parser.parse_args()
     proofs = read_proofs()
@@ -161,6 +168,12 @@ def main() -> int:
             print(f"{proof.name:22} {proof.claim}")
         return 0
     tool, version = find_cbmc()
+    if asked.known:
+        outcomes_known = [outcome for outcome in (known(proof, version) for proof in proofs) if outcome is not None]
+        absent = [proof.name for proof in proofs if proof.name not in {outcome.name for outcome in outcomes_known}]
+        (cbmc.ROOT / "docs" / "proofs.md").write_text(report.page(outcomes_known, version, absent))
+        print(f"{len(outcomes_known)} known, not known: {', '.join(absent) or 'none'}")
+        return 0
     chosen = [proof for proof in proofs if not asked.only or proof.name in asked.only]
     outcomes = {}
     print(report.HEAD)
@@ -174,7 +187,7 @@ def main() -> int:
         print(text)
     good = sum(outcome.good for outcome in told)
     if not asked.only:
-        (cbmc.ROOT / "docs" / "proofs.md").write_text(report.page(told, version))
+        (cbmc.ROOT / "docs" / "proofs.md").write_text(report.page(told, version, []))
     print(f"{good} passed, {len(told) - good} failed")
     return 0 if good == len(told) else 1
 
