@@ -19,6 +19,10 @@ A proof that cannot fail proves nothing: every one is run again on code with a m
 mistakes stand at the end. What a proof takes from elsewhere stands under *stands on*: a function that has its own proof is
 replaced by what that proof promises, and the outside (memory, ports, drives) by something that may answer anything.
 
+CBMC's own checks know where an object ends, not where an array inside a struct does: there the claims name the bounds
+themselves, and what none of them names is not noticed before it leaves the struct (the sanitized tests and fuzzers look
+there too).
+
 Not proven here: what the floating-point results are worth (property tests and the reference judge that), time (the bench
 counts instructions), interrupts, and what compilers make of the C.
 """
@@ -96,8 +100,8 @@ def page(outcomes: list[Outcome], version: str, absent: list[str]) -> str:
                      f"{outcome.verdict.seconds:.0f} | {word(outcome.verdict)} |")
     total = sum(outcome.seconds for outcome in outcomes)
     count = sum(outcome.verdict.properties for outcome in outcomes)
-    lines += ["", f"{len(outcomes)} claims, {count} properties, {total / 60.0:.0f} minutes of one core with the mistakes "
-              "below.", *(["", f"Not run since their text changed: {', '.join(absent)}."] if absent else []), "", "| proof | mistake put in | found as |", "|---|---|---|"]
+    lines += ["", f"{len(outcomes)} claims, {count} properties, {total / 60.0:.0f} minutes by the clock, runs added up, "
+              "with the mistakes below; a busy machine takes longer.", *(["", f"Not run since their text changed: {', '.join(absent)}."] if absent else []), "", "| proof | mistake put in | found as |", "|---|---|---|"]
     for outcome in outcomes:
         for change, twin in outcome.twins:
             said = twin.failures[0] if twin.failures else f"**not found** {twin.trouble}"

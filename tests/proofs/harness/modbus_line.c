@@ -7,7 +7,7 @@
 uint16_t modbus_crc(uint16_t crc, const uint8_t *bytes, uint32_t count)
 {
     (void)crc;
-    PROVE(__CPROVER_r_ok(bytes, count), "the check is of bytes that came");
+    PROVE(bytes >= in_from && bytes <= in_end && count <= (size_t)(in_end - bytes), "the check is of bytes that came");
     return any_u16();
 }
 
@@ -16,7 +16,7 @@ uint32_t modbus_pdu_work(brace_app_t *whose, brace_app_modbus_work_t *work, uint
     (void)whose;
     (void)work;
     (void)now_us;
-    PROVE(length >= 1u && length <= MODBUS_PDU_BYTES && __CPROVER_rw_ok(pdu, MODBUS_PDU_BYTES), "a request as promised");
+    PROVE(length >= 1u && length <= MODBUS_PDU_BYTES && pdu > in_from && pdu + MODBUS_PDU_BYTES <= in_end, "a request as promised");
     const uint32_t answer = any_u32();
     ASSUME(answer <= MODBUS_PDU_BYTES);
     return answer;
@@ -44,6 +44,8 @@ int main(void)
     brace_app_t app; /* of any content */
     brace_app_modbus_link_t *line = &app.modbus.line;
     app.hal = &any_hal;
+    in_from = out_from = line->bytes;
+    in_end = out_end = line->bytes + sizeof line->bytes;
     ASSUME(sound(line));
     const uint32_t now_us = any_u32();
     const uint8_t phase = line->phase;

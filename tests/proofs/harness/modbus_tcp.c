@@ -7,7 +7,7 @@ uint32_t modbus_pdu_work(brace_app_t *whose, brace_app_modbus_work_t *work, uint
     (void)whose;
     (void)work;
     (void)now_us;
-    PROVE(length >= 1u && length <= MODBUS_PDU_BYTES && __CPROVER_rw_ok(pdu, MODBUS_PDU_BYTES), "a request as promised");
+    PROVE(length >= 1u && length <= MODBUS_PDU_BYTES && pdu > in_from && pdu + MODBUS_PDU_BYTES <= in_end, "a request as promised");
     const uint32_t answer = any_u32();
     ASSUME(answer <= MODBUS_PDU_BYTES);
     return answer;
@@ -38,6 +38,8 @@ int main(void)
     brace_app_t app; /* of any content */
     brace_app_modbus_link_t *tcp = &app.modbus.tcp;
     app.hal = &any_hal;
+    in_from = out_from = tcp->bytes;
+    in_end = out_end = tcp->bytes + sizeof tcp->bytes;
     ASSUME(sound(tcp));
     const uint32_t now_us = any_u32();
     const uint8_t phase = tcp->phase;

@@ -27,6 +27,13 @@ int main(void)
     brace_app_slcan_t *slcan = &app.bus.slcan;
     brace_can_frame_t frame, before;
     app.hal = &any_hal;
+    in_from = slcan->in;
+    in_end = slcan->in + sizeof slcan->in;
+    out_from = slcan->out;
+    out_end = slcan->out + sizeof slcan->out;
+    const uint32_t at = any_u32(), line_at = any_u32();
+    ASSUME(at < BRACE_APP_IN_BYTES && line_at < BRACE_APP_LINE_BYTES);
+    const uint8_t behind = slcan->in[at], line_before = slcan->line[line_at]; /* any byte of what lies next to each buffer */
     before = frame;
     ASSUME(sound(slcan));
     if (any_bool()) {
@@ -36,9 +43,11 @@ int main(void)
         }
     } else {
         const bool taken = slcan_port_send(&app, &frame);
+        PROVE(slcan->line[line_at] == line_before, "what is sent leaves what comes alone");
         PROVE(taken || slcan->out_count > 0u, "a frame waits only behind another");
         PROVE(same(&frame, &before, sizeof frame), "a frame that is sent is not changed");
     }
+    PROVE(slcan->in[at] == behind, "nothing is written behind the line");
     PROVE(sound(slcan), "a line from a sound state ends in one");
     return 0;
 }
