@@ -15,8 +15,17 @@ MEMORY_BYTES = 8 << 30
 
 # The processor that the firmware is for: its integers' sizes, its char, its libc's headers.
 TARGET = ("-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=hard", "-mfpu=fpv4-sp-d16", "-std=c11")
-INCLUDES = ("firmware/core/include", "firmware/core/src", "firmware/interface/include", "firmware/interface/generated",
-            "firmware/interface/src", "firmware/app/include", "firmware/app/src", "hal/include", "tests/proofs/harness")
+INCLUDES = (
+    "firmware/core/include",
+    "firmware/core/src",
+    "firmware/interface/include",
+    "firmware/interface/generated",
+    "firmware/interface/src",
+    "firmware/app/include",
+    "firmware/app/src",
+    "hal/include",
+    "tests/proofs/harness",
+)
 
 # Beyond what CBMC checks by itself: bounds, pointers, division by zero, signed overflow, shifts, unwinding.
 CHECKS = ("--pointer-overflow-check", "--object-bits", "12")
@@ -59,10 +68,21 @@ class Program:
     options: tuple[str, ...] = ()
 
 
-def preprocess(compiler: str, source: pathlib.Path, into: pathlib.Path, extra: tuple[str, ...]) -> pathlib.Path:
+def preprocess(
+    compiler: str, source: pathlib.Path, into: pathlib.Path, extra: tuple[str, ...]
+) -> pathlib.Path:
     """The source as the target's own compiler sees it, in folder `into`. extra: further arguments of the compiler."""
     out = into / ("_".join(source.relative_to(ROOT).with_suffix("").parts[-3:]) + ".i")
-    command = [compiler, *TARGET, "-E", *(f"-I{folder}" for folder in INCLUDES), *extra, str(source.relative_to(ROOT)), "-o", str(out)]
+    command = [
+        compiler,
+        *TARGET,
+        "-E",
+        *(f"-I{folder}" for folder in INCLUDES),
+        *extra,
+        str(source.relative_to(ROOT)),
+        "-o",
+        str(out),
+    ]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise ToolError(f"{shlex.join(command)}\n{done.stderr.strip()}")
@@ -78,15 +98,26 @@ def _run(cbmc: str, arguments: list[str], seconds_most: float) -> tuple[list[dic
     begun = time.monotonic()
     command = [cbmc, "--arch", "arm", "--os", "none", "--json-ui", *arguments]
     try:
-        done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=seconds_most, check=False,
-                              preexec_fn=_limit_memory)
+        done = subprocess.run(
+            command,
+            cwd=ROOT,
+            capture_output=True,
+            text=True,
+            timeout=seconds_most,
+            check=False,
+            preexec_fn=_limit_memory,
+        )
     except subprocess.TimeoutExpired:
         return [], time.monotonic() - begun, f"not decided in {seconds_most:.0f} s"
     seconds = time.monotonic() - begun
     try:
         messages: list[dict[str, object]] = json.loads(done.stdout)
     except json.JSONDecodeError:
-        return [], seconds, f"CBMC ended with {done.returncode}: {(done.stderr or done.stdout)[-500:].strip()}"
+        return (
+            [],
+            seconds,
+            f"CBMC ended with {done.returncode}: {(done.stderr or done.stdout)[-500:].strip()}",
+        )
     if done.returncode not in (0, 10):
         errors = [str(m["messageText"]) for m in messages if m.get("messageType") == "ERROR"]
         return [], seconds, "; ".join(errors) or f"CBMC ended with {done.returncode}"
@@ -140,7 +171,9 @@ def _trace(steps: list[dict[str, object]]) -> tuple[Step, ...]:
         value = step.get("value")
         data = value.get("data", value.get("name", "?")) if isinstance(value, dict) else "?"
         name = str(step.get("lhs"))
-        given = not name.startswith("return_value") and "$" not in name and "!" not in str(data) and data != "?"
+        given = (
+            not name.startswith("return_value") and "$" not in name and "!" not in str(data) and data != "?"
+        )
         if given and name.split(".")[-1].split("[")[0] != "any":
             last.pop(name, None)
             last[name] = Step(place, name, str(data))
@@ -157,8 +190,13 @@ def check(cbmc: str, program: Program, seconds_most: float) -> Verdict:
         return Verdict(False, 0, seconds, trouble=trouble)
     results = [result for message in messages for result in _dicts(message.get("result"))]
     failures = tuple(_failure(result) for result in results if result["status"] != "SUCCESS")
-    return Verdict(not failures and bool(results), len(results), seconds, failures,
-                   trouble="" if results else "CBMC found nothing to check")
+    return Verdict(
+        not failures and bool(results),
+        len(results),
+        seconds,
+        failures,
+        trouble="" if results else "CBMC found nothing to check",
+    )
 
 
 def refute(cbmc: str, program: Program, seconds_most: float) -> Verdict:

@@ -64,8 +64,10 @@ def word(verdict: cbmc.Verdict) -> str:
 def line(outcome: Outcome) -> str:
     """One row of the terminal's table."""
     refuted = sum(found(twin) for _, twin in outcome.twins)
-    return (f"{outcome.name:22} {outcome.verdict.properties:10} {outcome.seconds:8.1f}  {word(outcome.verdict):10} "
-            f"{refuted} of {len(outcome.twins)} found")
+    return (
+        f"{outcome.name:22} {outcome.verdict.properties:10} {outcome.seconds:8.1f}  {word(outcome.verdict):10} "
+        f"{refuted} of {len(outcome.twins)} found"
+    )
 
 
 def trouble(outcome: Outcome) -> str:
@@ -92,16 +94,28 @@ def _code(text: str) -> str:
 def page(outcomes: list[Outcome], version: str, absent: list[str]) -> str:
     """docs/proofs.md. absent: proofs that have not been run on this text."""
     lines = [INTRODUCTION.format(version=version)]
-    lines += ["| claim | functions | for | stands on | properties | seconds | verdict |", "|---|---|---|---|---|---|---|"]
+    lines += [
+        "| claim | functions | for | stands on | properties | seconds | verdict |",
+        "|---|---|---|---|---|---|---|",
+    ]
     for outcome in outcomes:
         functions = ", ".join(_code(name) for name in outcome.functions)
-        lines.append(f"| **{outcome.name}**: {outcome.claim} | {functions} | {outcome.bound} | "
-                     f"{'; '.join(outcome.stands_on) or '-'} | {outcome.verdict.properties} | "
-                     f"{outcome.verdict.seconds:.0f} | {word(outcome.verdict)} |")
-    total = sum(outcome.seconds for outcome in outcomes)
+        lines.append(
+            f"| **{outcome.name}**: {outcome.claim} | {functions} | {outcome.bound} | "
+            f"{'; '.join(outcome.stands_on) or '-'} | {outcome.verdict.properties} | "
+            f"{outcome.verdict.seconds:.0f} | {word(outcome.verdict)} |"
+        )
+    minutes = sum(outcome.seconds for outcome in outcomes) / 60.0
     count = sum(outcome.verdict.properties for outcome in outcomes)
-    lines += ["", f"{len(outcomes)} claims, {count} properties, {total / 60.0:.0f} minutes by the clock, runs added up, "
-              "with the mistakes below; a busy machine takes longer.", *(["", f"Not run since their text changed: {', '.join(absent)}."] if absent else []), "", "| proof | mistake put in | found as |", "|---|---|---|"]
+    lines += [
+        "",
+        f"{len(outcomes)} claims, {count} properties; with the mistakes below {minutes:.0f} minutes by the clock, "
+        + "runs added up. A busy machine takes longer.",
+        "",
+    ]
+    if absent:
+        lines += [f"Not run since their text changed: {', '.join(absent)}.", ""]
+    lines += ["| proof | mistake put in | found as |", "|---|---|---|"]
     for outcome in outcomes:
         for change, twin in outcome.twins:
             said = twin.failures[0] if twin.failures else f"**not found** {twin.trouble}"

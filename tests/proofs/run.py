@@ -62,11 +62,25 @@ def read_proofs() -> list[Proof]:
     for item in table["proof"]:
         broken = tuple(Broken(twin["old"], twin["new"], 900.0) for twin in item["broken"])
         if not broken:
-            raise SystemExit(f"proofs.toml: {item['name']}: no broken twin, so nothing shows that it can fail")
-        proofs.append(Proof(item["name"], " ".join(item["claim"].split()), tuple(item["functions"]),
-                            " ".join(item["bound"].split()), tuple(item.get("stands_on", ())),
-                            tuple(item["sources"]), item.get("parts", ""), item["unwind"], dict(item.get("unwindset", {})),
-                            bool(item.get("conversions", False)), tuple(item.get("options", ())), broken))
+            raise SystemExit(
+                f"proofs.toml: {item['name']}: no broken twin, so nothing shows that it can fail"
+            )
+        proofs.append(
+            Proof(
+                item["name"],
+                " ".join(item["claim"].split()),
+                tuple(item["functions"]),
+                " ".join(item["bound"].split()),
+                tuple(item.get("stands_on", ())),
+                tuple(item["sources"]),
+                item.get("parts", ""),
+                item["unwind"],
+                dict(item.get("unwindset", {})),
+                bool(item.get("conversions", False)),
+                tuple(item.get("options", ())),
+                broken,
+            )
+        )
     return proofs
 
 
@@ -93,7 +107,9 @@ def breaks(whole: cbmc.Program, twin: Broken, into: pathlib.Path) -> cbmc.Progra
         copy.write_text(text)
         files.append(copy)
     if places == 0:
-        raise SystemExit(f"proofs.toml: {into.parent.name}: the code has no {twin.old!r} any more to be broken")
+        raise SystemExit(
+            f"proofs.toml: {into.parent.name}: the code has no {twin.old!r} any more to be broken"
+        )
     return cbmc.Program(tuple(files), whole.unwind, whole.unwindset, whole.conversions, whole.options)
 
 
@@ -129,48 +145,74 @@ def prove_now(proof: Proof, whole: cbmc.Program, tool: str, seconds_most: float)
     """The same, from CBMC."""
     verdict = cbmc.check(tool, whole, seconds_most)
     if verdict.failures:
-        verdict = cbmc.Verdict(False, verdict.properties, verdict.seconds, verdict.failures,
-                               cbmc.refute(tool, whole, seconds_most).trace)
+        verdict = cbmc.Verdict(
+            False,
+            verdict.properties,
+            verdict.seconds,
+            verdict.failures,
+            cbmc.refute(tool, whole, seconds_most).trace,
+        )
     twins = []
     for number, twin in enumerate(proof.broken):
         copy = breaks(whole, twin, BUILD / proof.name / f"broken{number}")
         twins.append((f"{twin.old} → {twin.new}", cbmc.refute(tool, copy, seconds_most)))
-    return report.Outcome(proof.name, proof.claim, proof.functions, proof.bound, proof.stands_on, verdict,
-                          tuple(twins))
+    return report.Outcome(
+        proof.name, proof.claim, proof.functions, proof.bound, proof.stands_on, verdict, tuple(twins)
+    )
 
 
 def find_cbmc() -> tuple[str, str]:
     """The command and its version."""
-    found = subprocess.run([cbmc.ROOT / "tests" / "fetch" / "cbmc"], capture_output=True, text=True, check=False)
+    found = subprocess.run(
+        [cbmc.ROOT / "tests" / "fetch" / "cbmc"], capture_output=True, text=True, check=False
+    )
     if found.returncode != 0:
         print(found.stderr.strip(), file=sys.stderr)
         raise SystemExit(found.returncode)
     tool = found.stdout.strip()
-    version = subprocess.run([tool, "--version"], capture_output=True, text=True, check=True).stdout.split()[0]
+    version = subprocess.run([tool, "--version"], capture_output=True, text=True, check=True).stdout.split()[
+        0
+    ]
     return tool, version
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description="prove the claims of tests/proofs/proofs.toml; writes docs/proofs.md")
-    parser.add_argument("--only", nargs="+", metavar="NAME", help="these proofs; docs/proofs.md stays as it is")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="at a time (default: one a core)")
-    parser.add_argument("--seconds-most", type=float, default=900.0, help="for one run of CBMC (default: %(default)s)")
+    parser = argparse.ArgumentParser(
+        description="prove the claims of tests/proofs/proofs.toml; writes docs/proofs.md"
+    )
+    parser.add_argument(
+        "--only", nargs="+", metavar="NAME", help="these proofs; docs/proofs.md stays as it is"
+    )
+    parser.add_argument(
+        "--jobs", type=int, default=os.cpu_count() or 1, help="at a time (default: one a core)"
+    )
+    parser.add_argument(
+        "--seconds-most", type=float, default=900.0, help="for one run of CBMC (default: %(default)s)"
+    )
     parser.add_argument("--afresh", action="store_true", help="prove again what was proven of the same text")
-    parser.add_argument("--known", action="store_true", help="write docs/proofs.md from earlier runs and prove nothing")
+    parser.add_argument(
+        "--known", action="store_true", help="write docs/proofs.md from earlier runs and prove nothing"
+    )
     parser.add_argument("--list", action="store_true", help="name the claims and prove nothing")
     asked = parser.parse_args()
     proofs = read_proofs()
     unknown = set(asked.only or ()) - {proof.name for proof in proofs}
     if unknown:
-        parser.error(f"no such proof: {', '.join(sorted(unknown))}; there are {', '.join(p.name for p in proofs)}")
+        parser.error(
+            f"no such proof: {', '.join(sorted(unknown))}; there are {', '.join(p.name for p in proofs)}"
+        )
     if asked.list:
         for proof in proofs:
             print(f"{proof.name:22} {proof.claim}")
         return 0
     tool, version = find_cbmc()
     if asked.known:
-        outcomes_known = [outcome for outcome in (known(proof, version) for proof in proofs) if outcome is not None]
-        absent = [proof.name for proof in proofs if proof.name not in {outcome.name for outcome in outcomes_known}]
+        outcomes_known = [
+            outcome for outcome in (known(proof, version) for proof in proofs) if outcome is not None
+        ]
+        absent = [
+            proof.name for proof in proofs if proof.name not in {outcome.name for outcome in outcomes_known}
+        ]
         (cbmc.ROOT / "docs" / "proofs.md").write_text(report.page(outcomes_known, version, absent))
         print(f"{len(outcomes_known)} known, not known: {', '.join(absent) or 'none'}")
         return 0
@@ -178,7 +220,10 @@ def main() -> int:
     outcomes = {}
     print(report.HEAD)
     with concurrent.futures.ThreadPoolExecutor(asked.jobs) as pool:
-        waiting = {pool.submit(prove, proof, tool, version, asked.seconds_most, asked.afresh): proof.name for proof in chosen}
+        waiting = {
+            pool.submit(prove, proof, tool, version, asked.seconds_most, asked.afresh): proof.name
+            for proof in chosen
+        }
         for done in concurrent.futures.as_completed(waiting):
             outcomes[waiting[done]] = done.result()
             print(report.line(done.result()), flush=True)
