@@ -8,6 +8,7 @@ import signal
 import struct
 import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -54,10 +55,12 @@ def test_replay_of_a_log_gives_the_same_k_bit_for_bit(
     brace: Callable[..., Outcome], moving: str, tmp_path: Path
 ) -> None:
     live = spawn("monitor", "--bus", moving, "--json", "--seconds", 4.0)
-    time.sleep(1.2)  # it listens before the recording begins, and after it ends
-    outcome = brace("record", "--bus", moving, "--out", tmp_path / "a.log", "--seconds", 1.0, "--json")
-    assert outcome.code == 0, outcome.err
-    seen, said = live.communicate(timeout=20)
+    with ThreadPoolExecutor(1) as reading:  # a full pipe would stop it in the middle of a set, which it then drops
+        told = reading.submit(live.communicate, timeout=20)
+        time.sleep(1.2)  # it listens before the recording begins, and after it ends
+        outcome = brace("record", "--bus", moving, "--out", tmp_path / "a.log", "--seconds", 1.0, "--json")
+        assert outcome.code == 0, outcome.err
+        seen, said = told.result()
     assert live.returncode == 0, said
     heard = [key(entry) for entry in events(seen, "stiffness")]
     replayed = brace("replay", tmp_path / "a.log", "--json")
