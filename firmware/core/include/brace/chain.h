@@ -35,6 +35,12 @@ typedef struct {
     brace_vec_t base;  /* part of v that does not turn */
 } brace_element_t;
 
+/* What is left of an element without base part at the straight and at the folded knee: seen from the bisector of femur and
+ * tibia it is straight cos(theta2/2) + folded sin(theta2/2). */
+typedef struct {
+    brace_vec_t straight, folded;
+} brace_bent_t;
+
 typedef struct {
     float iso_mm_per_n; /* compliance shared by every direction */
     uint32_t count;     /* elements in use, [0, BRACE_CHAIN_MAX] */

@@ -1,5 +1,7 @@
 #include "brace/chain.h"
 
+#include <float.h>
+
 #include "chain/chain_list.h"
 #include "base/off_tick.h"
 #include "base/vec.h"
@@ -123,7 +125,7 @@ BRACE_OFF_TICK void brace_harmonics_list(float iso, brace_element_t *element, ui
     harmonics->rest.at_fold += iso * iso + twice * harmonics->mean.at_fold;
     harmonics->rest.per_cos += twice * harmonics->mean.per_cos;
     harmonics->rest.per_sin += twice * harmonics->mean.per_sin;
-    harmonics->mean.at_fold += iso;
+    harmonics->mean.at_fold += iso + FLT_MIN; /* never quite nothing: brace_tensor_plus divides by it */
     harmonics->iso_mm_per_n = iso;
 }
 

@@ -1,43 +1,80 @@
-/* From C at a posture to K. */
+/* C in the limb's plane at a posture: element by element, and from it K. What every float path but the planar tick
+ * (planar/planar.c) is made of.
+ */
 #ifndef BRACE_CHAIN_TENSOR_H
 #define BRACE_CHAIN_TENSOR_H
 
+#include <float.h>
+
 #include "brace/chain.h"
-#include "base/trig.h"
+#include "brace/planar.h"
+#include "base/vec.h"
 
-/* det C over mean^2 below which C counts as singular, and below which its accuracy is not promised. */
-#define BRACE_SINGULAR 1e-12f
-#define BRACE_SLENDER 2e-5f
-
-/* C at a posture: half its trace, its deviator, its determinant. */
+/* C and its determinant. */
 typedef struct {
-    float mean, dev_x, dev_y, det;
+    float xx, xz, zz, det;
 } brace_tensor_t;
+
+/* Directions of half the knee angle, and of the bisector of femur and tibia in the world. */
+typedef struct {
+    brace_vec_t half, bisector;
+} brace_posture_t;
+
+/* Angles in [-7.9, 7.9]; small numbers at the straight and at the folded knee stay exact. */
+void brace_posture(float theta1_rad, float theta2_rad, brace_posture_t *at);
+
+/* BRACE_OK, BRACE_E_RANGE beyond BRACE_PLANAR_REACH_RAD2, BRACE_E_NOT_FINITE. */
+static inline brace_status_t brace_check_reach(float theta1_rad, float theta2_rad)
+{
+    const float reach = theta1_rad * theta1_rad + theta2_rad * theta2_rad;
+    if (reach <= BRACE_PLANAR_REACH_RAD2) {
+        return BRACE_OK;
+    }
+    return reach <= FLT_MAX ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
+}
+
+/* iso I; never quite nothing, so that brace_tensor_plus can divide by its trace. */
+static inline brace_tensor_t brace_tensor_iso(float iso)
+{
+    return (brace_tensor_t){iso + FLT_MIN, 0.0f, iso + FLT_MIN, iso * iso};
+}
+
+/* c + v v'. Its determinant is det + v' adj(c) v, and v' adj(c) v times the trace is |adj(c) v|^2 + det |v|^2: positive
+ * terms only, so nothing cancels however slender c is. */
+brace_tensor_t brace_tensor_plus(brace_tensor_t c, brace_vec_t v);
 
 static inline brace_vec_t brace_turned(brace_vec_t v, brace_vec_t by)
 {
     return (brace_vec_t){__builtin_fmaf(v.x, by.x, -(v.z * by.z)), __builtin_fmaf(v.x, by.z, v.z * by.x)};
 }
 
-/* BRACE_OK or BRACE_E_SINGULAR: then stiffness is untouched. */
-static inline brace_status_t brace_tensor_inverse(brace_tensor_t c, brace_stiffness_t *stiffness)
+/* C of harmonics at half a knee angle, seen from the bisector. */
+brace_tensor_t brace_harmonics_at(const brace_harmonics_t *h, brace_vec_t half);
+
+/* The same tensor, seen from the bisector, in the world's frame. */
+brace_tensor_t brace_tensor_to_world(brace_tensor_t c, brace_vec_t bisector);
+
+/* K of C in the world's frame, as brace_chain_stiffness says. BRACE_OK or BRACE_E_SINGULAR: then stiffness is untouched. */
+brace_status_t brace_tensor_inverse(brace_tensor_t c, brace_stiffness_t *stiffness);
+
+/* A vector of the world, seen from a direction. */
+static inline brace_vec_t brace_seen_from(brace_vec_t v, brace_vec_t from)
 {
-    const float square = c.mean * c.mean;
-    if (!(c.det > BRACE_SINGULAR * square)) {
-        return BRACE_E_SINGULAR;
-    }
-    const float radius = __builtin_sqrtf(__builtin_fmaf(c.dev_x, c.dev_x, c.dev_y * c.dev_y));
-    const float per_det = 1.0f / c.det;
-    *stiffness = (brace_stiffness_t){
-        .k_xx_n_per_mm = (c.mean - c.dev_x) * per_det,
-        .k_xz_n_per_mm = -c.dev_y * per_det,
-        .k_zz_n_per_mm = (c.mean + c.dev_x) * per_det,
-        .lambda_min_n_per_mm = 1.0f / (c.mean + radius),
-        .lambda_max_n_per_mm = (c.mean + radius) * per_det,
-        .stiff_axis_rad = 0.5f * brace_atan2(-c.dev_y, -c.dev_x),
-        .flags = c.det < BRACE_SLENDER * square ? BRACE_FLAG_NEAR_SINGULAR : 0u,
-    };
-    return BRACE_OK;
+    return (brace_vec_t){__builtin_fmaf(v.x, from.x, v.z * from.z), __builtin_fmaf(v.z, from.x, -(v.x * from.z))};
+}
+
+/* What is left of an element at the straight and at the folded knee: seen from the bisector it is
+ * straight cos(theta2/2) + folded sin(theta2/2). */
+static inline brace_bent_t brace_bent(const brace_element_t *element)
+{
+    const brace_vec_t f = element->femur, t = element->tibia;
+    return (brace_bent_t){{f.x + t.x, f.z + t.z}, {t.z - f.z, f.x - t.x}};
+}
+
+static inline brace_vec_t brace_bent_at(brace_bent_t e, brace_vec_t half)
+{
+    return (brace_vec_t){__builtin_fmaf(e.straight.x, half.x, e.folded.x * half.z),
+                         __builtin_fmaf(e.straight.z, half.x, e.folded.z * half.z)};
 }
 
 #endif
