@@ -29,6 +29,7 @@ FIRMWARE_HEADERS = (
     "slope.h",
     "contact.h",
     "parameters.h",
+    "status_text.h",
 )
 HOST_HEADER = "brace_host.h"
 NODE_HEADER = "brace_node.h"  # the controller and its limb in one process
@@ -126,7 +127,8 @@ def _headers() -> tuple[list[Path], list[Path]]:
 def _node_headers() -> tuple[list[Path], list[Path]]:
     """The same for the controller in this process; a world of its own, which other commands need not read."""
     _, folders = _headers()
-    return [root for folder in folders if (root := folder / NODE_HEADER).is_file()], folders
+    names = (NODE_HEADER, "brace/status_text.h")
+    return [root for name in names for folder in folders if (root := folder / name).is_file()], folders
 
 
 def _refuse_stale(library_path: Path, headers: list[Path], folders: list[Path]) -> None:

@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "brace/can_messages.h"
-#include "brace/status.h"
+#include "brace/status_text.h"
 
 enum { STATUS_MS = 250, FIRST_TRY_MS = 250, AGAIN_MS = 1000, OLD_US = 100000 };
 

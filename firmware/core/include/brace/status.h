@@ -1,7 +1,7 @@
 /* What a call can answer and what can be said of a result.
  *
  * Every function of the core that can refuse returns a brace_status_t. BRACE_OK is 0, every refusal is
- * negative and its value never changes. A refused call leaves its outputs untouched.
+ * negative and its value never changes. A refused call leaves its outputs untouched. In words: brace/status_text.h.
  */
 #ifndef BRACE_STATUS_H
 #define BRACE_STATUS_H
@@ -34,8 +34,5 @@ enum {
     BRACE_FLAG_STALE = 1u << 4,         /* older than its stated age limit, or in a mode that tells no K */
     BRACE_FLAG_OUT_OF_RANGE = 1u << 5   /* outside the range in which the model was identified */
 };
-
-/* One line of English for a status, never null; constant storage. */
-const char *brace_status_text(brace_status_t status);
 
 #endif

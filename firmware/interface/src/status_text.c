@@ -1,8 +1,6 @@
-#include "brace/status.h"
+#include "brace/status_text.h"
 
 #include <stdint.h>
-
-#include "base/off_tick.h"
 
 /* One after the other as the statuses count down; the host library's place is that of no status at all. */
 enum { UNKNOWN = 9, LAST = -BRACE_E_MODE };
@@ -25,7 +23,6 @@ static const char texts[] =
     "written for another list of parameters\0"
     "not in the mode that the controller is in";
 
-BRACE_OFF_TICK
 const char *brace_status_text(brace_status_t status)
 {
     const int32_t number = -(int32_t)status;
