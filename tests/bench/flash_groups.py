@@ -1,23 +1,13 @@
-"""What a planar limb's flash is made of: jobs added one after the other, each with what it alone pulls in."""
+"""What the core's flash is made of: jobs added one after the other, each with what it alone pulls in."""
+
+from dataclasses import dataclass
 
 from extra import Extra
+from flash_kinds import CONSTANTS, KINDS, kinds_of
 from measure import object_of
 from toolchain import BUILD, CORE, M4F, flash_bytes
 from versions import core_sources
-from weights import functions_of
-
-# A job and the header whose functions it is, in the order in which a limb comes to need them.
-JOBS = (
-    ("status texts", "status"),
-    ("is this a limb", "limb"),
-    ("kinematics, planar and spatial", "kinematics"),
-    ("the general path: any chain, coxa and base included; harmonics", "chain"),
-    ("contact: sag, force, friction cone", "contact"),
-    ("slopes of a loading test", "slope"),
-    ("K's uncertainty", "uncertainty"),
-)
-FIRST = (("K at the tick", ("brace_planar_stiffness",)),
-         ("parameter change, and the tick's tables, whose addresses it sets", ("brace_planar_collapse",)))
+from weights import functions_of, without_space
 
 
 def _functions_of(header: str) -> tuple[str, ...]:
@@ -25,26 +15,67 @@ def _functions_of(header: str) -> tuple[str, ...]:
     return functions_of((CORE / "include" / "brace" / f"{header}.h").read_text())
 
 
-def weigh_jobs() -> dict[str, tuple[int, int]]:
-    """Job -> flash it adds and flash up to it [B], Cortex-M4F."""
+# A job and its functions, in the order in which a limb comes to need them. Up to LAST_OF_A_LIMB: a planar limb's.
+JOBS = (
+    ("K at the tick", ("brace_planar_stiffness",)),
+    ("parameter change, and the tick's tables, whose addresses it sets", ("brace_planar_collapse",)),
+    ("the general path: any base, springs of the moment", _functions_of("general")),
+    ("is this a limb", _functions_of("limb")),
+    ("kinematics", without_space(_functions_of("kinematics"))),
+    ("contact: sag, force, friction cone", _functions_of("contact")),
+    ("slopes of a loading test", _functions_of("slope")),
+    ("K's uncertainty", _functions_of("uncertainty")),
+    ("kinematics in space", _functions_of("kinematics")),
+    ("K in space", _functions_of("spatial")),
+    ("any list of elements, for hosts: its K, C and harmonics", _functions_of("chain")),
+    ("the table variant, for where flash allows; without the table's 20,480 B", _functions_of("planar_table")),
+)
+LAST_OF_A_LIMB = "K's uncertainty"
+
+
+@dataclass(frozen=True)
+class Job:
+    """Flash that a job adds and flash up to it [B], the added by kinds of instructions [B]."""
+
+    name: str
+    adds: int
+    total: int
+    kinds: dict[str, int]
+
+
+def weigh_jobs() -> list[Job]:
+    """All jobs, Cortex-M4F."""
     objects = [object_of(source, M4F, ()) for source in core_sources()]
+    image = BUILD / "images" / "core_job.elf"
     functions: tuple[str, ...] = ()
-    found: dict[str, tuple[int, int]] = {}
-    before = 0
-    for job, added in (*FIRST, *((name, _functions_of(header)) for name, header in JOBS)):
+    jobs: list[Job] = []
+    before, kinds_before = 0, dict.fromkeys(KINDS, 0)
+    for name, added in JOBS:
         functions += added
-        total = flash_bytes(objects, functions, BUILD / "images" / "core_job.elf", M4F)
-        found[job] = (total - before, total)
-        before = total
-    return found
+        total = flash_bytes(objects, functions, image, M4F)
+        kinds = kinds_of(image, total)
+        jobs.append(Job(name, total - before, total, {kind: kinds[kind] - kinds_before[kind] for kind in KINDS}))
+        before, kinds_before = total, kinds
+    return jobs
+
+
+def _row(job: Job) -> list[str]:
+    return [job.name, f"{job.adds:,}", f"{job.total:,}", *(f"{job.kinds[kind]:,}" for kind in KINDS)]
 
 
 def extra() -> Extra:
     """For the report."""
     jobs = weigh_jobs()
-    rows = [[name, f"{own:,}", f"{total:,}"] for name, (own, total) in jobs.items()]
-    return Extra("planar_limb_flash_bytes",
+    rows = []
+    for index, job in enumerate(jobs):
+        rows.append(_row(job))
+        if job.name == LAST_OF_A_LIMB:
+            sums = {kind: sum(each.kinds[kind] for each in jobs[:index + 1]) for kind in KINDS}
+            rows.append(_row(Job("**a planar limb's jobs**", job.total, job.total, sums)))
+    heads = ["job", "adds [B]", "up to here [B]", *(f"{kind} [B]" for kind in KINDS)]
+    return Extra("flash_bytes_of_jobs",
                  "Linked one after the other, so each row holds only what no row before has brought in. A controller "
-                 "links what it calls: nothing of the rows that it does not use.",
-                 [("What a planar limb's flash is made of, Cortex-M4F", ["job", "adds [B]", "up to here [B]"], rows)], [],
-                 {name: own for name, (own, _) in jobs.items()})
+                 "links what it calls: nothing of the rows that it does not use. By kinds of instructions as "
+                 f"disassembled; \"{CONSTANTS}\" are literals, their loads and tables. What that says: [kernel.md](kernel.md).",
+                 [("What the flash is made of, Cortex-M4F", heads, rows)], [],
+                 {job.name: {"adds": job.adds, "up_to_here": job.total, **job.kinds} for job in jobs})

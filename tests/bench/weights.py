@@ -9,9 +9,10 @@ from versions import core_sources
 
 NO_FPU_ONLY = ("planar_fixed",)  # headers for controllers without an FPU
 HOST_ONLY = ("planar_batch", "chain_batch")
-NOT_FOR_ONE_PLANE = ("spatial", "planar_table", "backlash", "gap_stiffness", "drift")  # a planar limb's K does without
+TWICE = ("planar_table", "chain")  # the same jobs once more: where flash allows a table, and lists of elements for hosts
 
 WATCHING = ("backlash", "gap_stiffness", "drift")  # what watches the limb; the estimator does without
+LIMB_FLASH = "flash, Cortex-M4F, a planar limb: kinematics, K on any base, slope, contact, uncertainty"
 CORE_FLASH = "flash, Cortex-M4F, the estimator, planar and spatial (fixed point, play and drift left out)"
 PLANAR_RAM = "RAM, one limb: parameters and planar constants"
 FIXED_RAM = "RAM, one limb: parameters and fixed-point constants"
@@ -24,6 +25,11 @@ def functions_of(header: str) -> tuple[str, ...]:
     return tuple(re.findall(r"^[\w ]+[ *](brace_\w+)\(", header, re.MULTILINE))
 
 
+def without_space(functions: tuple[str, ...]) -> tuple[str, ...]:
+    """Those that a limb in its plane needs."""
+    return tuple(name for name in functions if "_spatial" not in name)
+
+
 def public_functions(headers_without: tuple[str, ...]) -> tuple[str, ...]:
     """Functions that the core's public headers declare, but for headers whose name starts with one of the given."""
     names: set[str] = set()
@@ -33,11 +39,10 @@ def public_functions(headers_without: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(sorted(names))
 
 
-def _weigh(name: str, without: tuple[str, ...]) -> tuple[int, int, str]:
-    """Flash on the Cortex-M4F of all public functions and what they call [B], the deepest stack below any [B], and
-    which function needs it."""
+def _weigh(name: str, functions: tuple[str, ...]) -> tuple[int, int, str]:
+    """Flash on the Cortex-M4F of public functions and what they call [B], the deepest stack below any [B], and which
+    function needs it."""
     objects = [object_of(source, M4F, ()) for source in core_sources()]
-    functions = public_functions(without)
     flash = flash_bytes(objects, functions, BUILD / "images" / f"core_{name}.elf", M4F)
     deepest, needs = max((worst_stack_bytes(objects, function)[0], function) for function in functions)
     return flash, deepest, needs
@@ -60,15 +65,18 @@ def _deepest(function: str, processor: Processor) -> int:
 
 def weigh_core() -> dict[str, int]:
     """Name -> bytes; the names say what and on which controller."""
-    flash, deepest, needs = _weigh("with_fpu", (*NO_FPU_ONLY, *HOST_ONLY, *WATCHING))
-    everything, deepest_of_all, needs_most = _weigh("everything", HOST_ONLY)
-    planar, _, _ = _weigh("planar_limb", (*NO_FPU_ONLY, *HOST_ONLY, *NOT_FOR_ONE_PLANE))
+    estimator = (*NO_FPU_ONLY, *HOST_ONLY, *WATCHING)
+    flash, deepest, needs = _weigh("with_fpu", public_functions(estimator))
+    everything, deepest_of_all, needs_most = _weigh("everything", public_functions(HOST_ONLY))
+    once, _, _ = _weigh("once", public_functions((*estimator, *TWICE)))
+    limb_only, _, _ = _weigh("planar_limb", without_space(public_functions((*estimator, *TWICE, "spatial"))))
     sizes = type_sizes(("brace_limb_t", "brace_planar_t", "brace_planar_fixed_t", "brace_spatial_t"),
                        ("brace/limb.h", "brace/planar.h", "brace/planar_fixed.h", "brace/spatial.h"), M4F)
     limb = sizes["brace_limb_t"]
     return {
         CORE_FLASH: flash,
-        "flash, Cortex-M4F, a planar limb: kinematics, K, slope, contact, uncertainty": planar,
+        "flash, Cortex-M4F, the same, each job once: no table variant, no lists of elements, which are for hosts": once,
+        LIMB_FLASH: limb_only,
         "flash, Cortex-M4F, all of the core: fixed point, play and drift as well": everything,
         PLANAR_RAM: limb + sizes["brace_planar_t"],
         FIXED_RAM: limb + sizes["brace_planar_fixed_t"],
