@@ -54,7 +54,8 @@ def weigh_jobs() -> list[Job]:
         functions += added
         total = flash_bytes(objects, functions, image, M4F)
         kinds = kinds_of(image, total)
-        jobs.append(Job(name, total - before, total, {kind: kinds[kind] - kinds_before[kind] for kind in KINDS}))
+        own = {kind: kinds[kind] - kinds_before[kind] for kind in KINDS}
+        jobs.append(Job(name, total - before, total, own))
         before, kinds_before = total, kinds
     return jobs
 
@@ -75,7 +76,7 @@ def extra() -> Extra:
     heads = ["job", "adds [B]", "up to here [B]", *(f"{kind} [B]" for kind in KINDS)]
     return Extra("flash_bytes_of_jobs",
                  "Linked one after the other, so each row holds only what no row before has brought in. A controller "
-                 "links what it calls: nothing of the rows that it does not use. By kinds of instructions as "
-                 f"disassembled; \"{CONSTANTS}\" are literals, their loads and tables. What that says: [kernel.md](kernel.md).",
+                 "links what it calls: nothing of the rows that it does not use. By kinds of instructions as disassembled; "
+                 f"\"{CONSTANTS}\" are literals, their loads and tables. What that says: [kernel.md](kernel.md).",
                  [("What the flash is made of, Cortex-M4F", heads, rows)], [],
                  {job.name: {"adds": job.adds, "up_to_here": job.total, **job.kinds} for job in jobs})

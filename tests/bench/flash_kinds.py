@@ -16,9 +16,11 @@ RULES = (
     (CONSTANTS, r"vmov\S* \S+, #"),
     (MOVES, r"(v?push|v?pop)\b|(ldmia|stmdb)\S* sp!|(add|sub)w? sp,"),
     (MEMORY, r"v?(ldr|str|ldm|stm)"),
-    (CONTROL, r"v(cmp|mrs)|(b|bl|bx|cbz|cbnz)(eq|ne|cs|cc|mi|pl|vs|vc|hi|ls|ge|lt|gt|le)?(\.[nw])? |it\S* |(cmp|cmn|tst)\b"),
+    (CONTROL, r"v(cmp|mrs)|(cmp|cmn|tst)\b|it\S* "),
+    (CONTROL, r"(b|bl|bx|cbz|cbnz)(eq|ne|cs|cc|mi|pl|vs|vc|hi|ls|ge|lt|gt|le)?(\.[nw])? "),
     (ARITHMETIC, r"v(add|sub|mul|fma|fms|fnm|nmul|mla|mls|nml|div|sqrt|abs|neg|cvt)"),
-    (ARITHMETIC, r"(smull|smlal|smmul|umull|mul|mla|mls|lsl|lsr|asr|ror|add|adc|sub|sbc|rsb|and|orr|eor|bic|ubfx|sbfx|bfi)"),
+    (ARITHMETIC, r"(smull|smlal|smmul|umull|mul|mla|mls|lsl|lsr|asr|ror)"),
+    (ARITHMETIC, r"(add|adc|sub|sbc|rsb|and|orr|eor|bic|ubfx|sbfx|bfi)"),
 )
 
 

@@ -9,7 +9,8 @@ from versions import core_sources
 
 NO_FPU_ONLY = ("planar_fixed",)  # headers for controllers without an FPU
 HOST_ONLY = ("planar_batch", "chain_batch")
-TWICE = ("planar_table", "chain")  # the same jobs once more: where flash allows a table, and lists of elements for hosts
+TWICE = ("planar_table", "chain")  # the same once more: where flash allows a table, and lists of elements for hosts
+ONCE_FLASH = "flash, Cortex-M4F, the same, each job once: no table variant, no lists of elements, which are for hosts"
 
 WATCHING = ("backlash", "gap_stiffness", "drift")  # what watches the limb; the estimator does without
 LIMB_FLASH = "flash, Cortex-M4F, a planar limb: kinematics, K on any base, slope, contact, uncertainty"
@@ -75,7 +76,7 @@ def weigh_core() -> dict[str, int]:
     limb = sizes["brace_limb_t"]
     return {
         CORE_FLASH: flash,
-        "flash, Cortex-M4F, the same, each job once: no table variant, no lists of elements, which are for hosts": once,
+        ONCE_FLASH: once,
         LIMB_FLASH: limb_only,
         "flash, Cortex-M4F, all of the core: fixed point, play and drift as well": everything,
         PLANAR_RAM: limb + sizes["brace_planar_t"],

@@ -36,12 +36,6 @@ typedef struct {
     brace_vec_t base;  /* part of v that does not turn */
 } brace_element_t;
 
-/* What is left of an element without base part at the straight and at the folded knee: seen from the bisector of femur and
- * tibia it is straight cos(theta2/2) + folded sin(theta2/2). */
-typedef struct {
-    brace_vec_t straight, folded;
-} brace_bent_t;
-
 typedef struct {
     float iso_mm_per_n; /* compliance shared by every direction */
     uint32_t count;     /* elements in use, [0, BRACE_CHAIN_MAX] */
@@ -68,8 +62,8 @@ brace_status_t brace_chain_compliance(const brace_chain_t *chain, float theta1_r
  * rad times lambda_max / (lambda_max - lambda_min), unless flagged.
  * flags: BRACE_FLAG_NEAR_SINGULAR when C is so slender (det C < 2e-5 of the squared half trace) that this is not
  * promised.
- * Cost on a Cortex-M4F: at most 650 instructions for six elements, 65 an element; 150 bytes of stack. A controller's tick
- * has brace/general.h.
+ * Cost on a Cortex-M4F: at most 650 instructions for six elements, 65 an element; 150 bytes of stack. The tick has
+ * brace/general.h.
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE, BRACE_E_SINGULAR (det C is zero). */
 brace_status_t brace_chain_stiffness(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
                                      brace_stiffness_t *stiffness);

@@ -1,8 +1,8 @@
 /* K of any planar limb at the tick, its joints' springs as they are at the moment.
  *
- * What is firm, ellipsoids and moment transfer, is a few harmonics of the knee angle (brace/chain.h), worked out when
- * parameters change. Each tick adds what is not: both joints' springs and a base that yields more in one direction, as
- * C + v v' each, whose determinant is a sum of positive terms.
+ * What is firm, ellipsoids and moment transfer, is a few harmonics of the knee angle (brace/chain.h), worked out
+ * when parameters change. Each tick adds what is not: both joints' springs, and a base that yields more in one
+ * direction, as C + v v' each, whose determinant is a sum of positive terms.
  */
 #ifndef BRACE_GENERAL_H
 #define BRACE_GENERAL_H
@@ -17,7 +17,8 @@ typedef struct {
 } brace_general_t;
 
 /* Collapses all of a limb but its joints' springs and its base's rotation; to be called when parameters change.
- * limb: one that brace_limb_check accepts. general, limb: not null. At most 1,400 instructions, 220 bytes of stack. */
+ * limb: one that brace_limb_check accepts. general, limb: not null.
+ * Cost on a Cortex-M4F: at most 1,400 instructions; 220 bytes of stack. */
 void brace_general_collapse(const brace_limb_t *limb, brace_general_t *general);
 
 /* K at a posture, with the flags and statuses of brace_chain_stiffness.

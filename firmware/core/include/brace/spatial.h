@@ -44,8 +44,8 @@ brace_status_t brace_spatial_collapse(const brace_limb_t *limb, brace_spatial_t 
  *            ratio beyond 6,000) that the accuracy below is not promised.
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE, or
  *         BRACE_E_SINGULAR: nothing yields across the plane, or in some direction in it.
- * Cost on a Cortex-M4F: 454 or 455 instructions, six divisions and two roots among them; stack 208 bytes. Meant
- *       for controllers with an FPU: without one it is right, but slow.
+ * Cost on a Cortex-M4F: 454 or 455 instructions, six divisions and two roots among them; stack 210 bytes.
+ *       Meant for controllers with an FPU: without one it is right, but slow.
  * Accuracy: K within 4e-6 of lambda_max and each eigenvalue within 4e-6 of itself (1e-5 promised), the axis an
  *       eigenvector as well.
  * Formula: docs/physics.md; moment transfer across the plane as in it. */

@@ -1,7 +1,8 @@
 /* What a call can answer and what can be said of a result.
  *
  * Every function of the core that can refuse returns a brace_status_t. BRACE_OK is 0, every refusal is
- * negative and its value never changes. A refused call leaves its outputs untouched. In words: brace/status_text.h.
+ * negative and its value never changes. A refused call leaves its outputs untouched.
+ * In words: brace/status_text.h.
  */
 #ifndef BRACE_STATUS_H
 #define BRACE_STATUS_H

@@ -45,7 +45,8 @@ brace_status_t brace_uncertainty_stiffness(const brace_limb_t *limb, float theta
                                            const brace_stiffness_t *stiffness,
                                            brace_stiffness_sigma_t *sigma);
 
-/* The same of a limb that has passed brace_limb_check, and outputs that are not null: at most 2,500 instructions. */
+/* The same of a limb that has passed brace_limb_check, and outputs that are not null.
+ * Cost on a Cortex-M4F: at most 2,500 instructions. */
 brace_status_t brace_uncertainty_known(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
                                        const brace_stiffness_t *stiffness, brace_stiffness_sigma_t *sigma);
 

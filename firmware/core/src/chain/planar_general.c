@@ -4,9 +4,20 @@
 #include "base/off_tick.h"
 #include "chain/tensor.h"
 
+/* An element at a posture, seen from the bisector. What is left of it at the straight and at the folded knee comes first:
+ * what vanishes there does so before anything is added. */
+static inline brace_vec_t element_at(const brace_element_t *element, const brace_posture_t *at)
+{
+    const brace_vec_t f = element->femur, t = element->tibia, still = brace_seen_from(element->base, at->bisector);
+    const brace_vec_t straight = {f.x + t.x, f.z + t.z}, folded = {t.z - f.z, f.x - t.x};
+    return (brace_vec_t){__builtin_fmaf(straight.x, at->half.x, folded.x * at->half.z) + still.x,
+                         __builtin_fmaf(straight.z, at->half.x, folded.z * at->half.z) + still.z};
+}
+
 /* C at a posture; result is whoever asks's output, not null. */
-BRACE_OFF_TICK static brace_status_t tensor_at(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
-                                               const void *result, brace_tensor_t *c)
+BRACE_OFF_TICK
+static brace_status_t tensor_at(const brace_chain_t *chain, float theta1_rad, float theta2_rad, const void *result,
+                                brace_tensor_t *c)
 {
     if (chain == NULL || result == NULL) {
         return BRACE_E_NULL;
@@ -17,17 +28,18 @@ BRACE_OFF_TICK static brace_status_t tensor_at(const brace_chain_t *chain, float
     }
     brace_posture_t at;
     brace_posture(theta1_rad, theta2_rad, &at);
-    brace_tensor_t sum = brace_tensor_iso(chain->iso_mm_per_n);
+    const float iso = chain->iso_mm_per_n;
+    brace_tensor_t sum = {iso + FLT_MIN, 0.0f, iso + FLT_MIN, iso * iso};
     for (const brace_element_t *e = chain->element; e < chain->element + chain->count; e++) {
-        const brace_vec_t v = brace_bent_at(brace_bent(e), at.half), still = brace_seen_from(e->base, at.bisector);
-        sum = brace_tensor_plus(sum, (brace_vec_t){v.x + still.x, v.z + still.z});
+        sum = brace_tensor_plus(sum, element_at(e, &at));
     }
     *c = brace_tensor_to_world(sum, at.bisector);
     return BRACE_OK;
 }
 
-BRACE_OFF_TICK brace_status_t brace_chain_compliance(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
-                                                     brace_compliance_t *compliance, float *det)
+BRACE_OFF_TICK
+brace_status_t brace_chain_compliance(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
+                                      brace_compliance_t *compliance, float *det)
 {
     brace_tensor_t c;
     const brace_status_t status = tensor_at(chain, theta1_rad, theta2_rad, compliance, &c);
@@ -40,8 +52,9 @@ BRACE_OFF_TICK brace_status_t brace_chain_compliance(const brace_chain_t *chain,
     return status;
 }
 
-BRACE_OFF_TICK brace_status_t brace_chain_stiffness(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
-                                                    brace_stiffness_t *stiffness)
+BRACE_OFF_TICK
+brace_status_t brace_chain_stiffness(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
+                                     brace_stiffness_t *stiffness)
 {
     brace_tensor_t c;
     const brace_status_t status = tensor_at(chain, theta1_rad, theta2_rad, stiffness, &c);

@@ -1,6 +1,7 @@
 #include "chain/tensor.h"
 
 #include "base/trig.h"
+#include "base/vec.h"
 
 /* det C over mean^2 below which C counts as singular, and below which its accuracy is not promised. */
 #define SINGULAR 1e-12f
@@ -29,7 +30,8 @@ brace_tensor_t brace_harmonics_at(const brace_harmonics_t *h, brace_vec_t half)
 
 brace_tensor_t brace_tensor_plus(brace_tensor_t c, brace_vec_t v)
 {
-    const brace_vec_t adj_v = {__builtin_fmaf(c.zz, v.x, -(c.xz * v.z)), __builtin_fmaf(c.xx, v.z, -(c.xz * v.x))};
+    const brace_vec_t adj_v = {__builtin_fmaf(c.zz, v.x, -(c.xz * v.z)),
+                               __builtin_fmaf(c.xx, v.z, -(c.xz * v.x))};
     const float forms = __builtin_fmaf(c.det, vec_dot(v, v), vec_dot(adj_v, adj_v));
     return (brace_tensor_t){__builtin_fmaf(v.x, v.x, c.xx), __builtin_fmaf(v.x, v.z, c.xz),
                             __builtin_fmaf(v.z, v.z, c.zz), c.det + forms / (c.xx + c.zz)};
@@ -37,7 +39,8 @@ brace_tensor_t brace_tensor_plus(brace_tensor_t c, brace_vec_t v)
 
 brace_tensor_t brace_tensor_to_world(brace_tensor_t c, brace_vec_t bisector)
 {
-    const brace_vec_t twice = {__builtin_fmaf(-2.0f * bisector.z, bisector.z, 1.0f), 2.0f * bisector.z * bisector.x};
+    const brace_vec_t twice = {__builtin_fmaf(-2.0f * bisector.z, bisector.z, 1.0f),
+                               2.0f * bisector.z * bisector.x};
     const float mean = 0.5f * (c.xx + c.zz);
     const brace_vec_t dev = brace_turned((brace_vec_t){0.5f * (c.xx - c.zz), c.xz}, twice);
     return (brace_tensor_t){mean + dev.x, dev.z, mean - dev.x, c.det};

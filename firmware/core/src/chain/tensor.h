@@ -1,5 +1,5 @@
-/* C in the limb's plane at a posture: element by element, and from it K. What every float path but the planar tick
- * (planar/planar.c) is made of.
+/* C in the limb's plane at a posture, and from it K. What every float path but the planar tick (planar/planar.c) is made
+ * of.
  */
 #ifndef BRACE_CHAIN_TENSOR_H
 #define BRACE_CHAIN_TENSOR_H
@@ -8,7 +8,6 @@
 
 #include "brace/chain.h"
 #include "brace/planar.h"
-#include "base/vec.h"
 
 /* C and its determinant. */
 typedef struct {
@@ -33,48 +32,30 @@ static inline brace_status_t brace_check_reach(float theta1_rad, float theta2_ra
     return reach <= FLT_MAX ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
 }
 
-/* iso I; never quite nothing, so that brace_tensor_plus can divide by its trace. */
-static inline brace_tensor_t brace_tensor_iso(float iso)
-{
-    return (brace_tensor_t){iso + FLT_MIN, 0.0f, iso + FLT_MIN, iso * iso};
-}
+/* C of harmonics at half a knee angle, seen from the bisector. */
+brace_tensor_t brace_harmonics_at(const brace_harmonics_t *h, brace_vec_t half);
 
-/* c + v v'. Its determinant is det + v' adj(c) v, and v' adj(c) v times the trace is |adj(c) v|^2 + det |v|^2: positive
- * terms only, so nothing cancels however slender c is. */
+/* c + v v'; c's trace is not zero (FLT_MIN does). Its determinant is det + v' adj(c) v, and v' adj(c) v times the trace is
+ * |adj(c) v|^2 + det |v|^2: positive terms only, so nothing cancels however slender c is. */
 brace_tensor_t brace_tensor_plus(brace_tensor_t c, brace_vec_t v);
+
+/* The same tensor, seen from the bisector, in the world's frame. */
+brace_tensor_t brace_tensor_to_world(brace_tensor_t c, brace_vec_t bisector);
+
+/* K of C in the world's frame, as brace_chain_stiffness says.
+ * BRACE_OK or BRACE_E_SINGULAR: then stiffness is untouched. */
+brace_status_t brace_tensor_inverse(brace_tensor_t c, brace_stiffness_t *stiffness);
 
 static inline brace_vec_t brace_turned(brace_vec_t v, brace_vec_t by)
 {
     return (brace_vec_t){__builtin_fmaf(v.x, by.x, -(v.z * by.z)), __builtin_fmaf(v.x, by.z, v.z * by.x)};
 }
 
-/* C of harmonics at half a knee angle, seen from the bisector. */
-brace_tensor_t brace_harmonics_at(const brace_harmonics_t *h, brace_vec_t half);
-
-/* The same tensor, seen from the bisector, in the world's frame. */
-brace_tensor_t brace_tensor_to_world(brace_tensor_t c, brace_vec_t bisector);
-
-/* K of C in the world's frame, as brace_chain_stiffness says. BRACE_OK or BRACE_E_SINGULAR: then stiffness is untouched. */
-brace_status_t brace_tensor_inverse(brace_tensor_t c, brace_stiffness_t *stiffness);
-
-/* A vector of the world, seen from a direction. */
+/* Turned back: a vector of the world, seen from a direction. */
 static inline brace_vec_t brace_seen_from(brace_vec_t v, brace_vec_t from)
 {
-    return (brace_vec_t){__builtin_fmaf(v.x, from.x, v.z * from.z), __builtin_fmaf(v.z, from.x, -(v.x * from.z))};
-}
-
-/* What is left of an element at the straight and at the folded knee: seen from the bisector it is
- * straight cos(theta2/2) + folded sin(theta2/2). */
-static inline brace_bent_t brace_bent(const brace_element_t *element)
-{
-    const brace_vec_t f = element->femur, t = element->tibia;
-    return (brace_bent_t){{f.x + t.x, f.z + t.z}, {t.z - f.z, f.x - t.x}};
-}
-
-static inline brace_vec_t brace_bent_at(brace_bent_t e, brace_vec_t half)
-{
-    return (brace_vec_t){__builtin_fmaf(e.straight.x, half.x, e.folded.x * half.z),
-                         __builtin_fmaf(e.straight.z, half.x, e.folded.z * half.z)};
+    return (brace_vec_t){__builtin_fmaf(v.x, from.x, v.z * from.z),
+                         __builtin_fmaf(v.z, from.x, -(v.x * from.z))};
 }
 
 #endif

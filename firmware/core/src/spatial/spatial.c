@@ -34,9 +34,10 @@ static inline reach_t reach_of(const brace_spatial_t *s, const brace_posture_t *
 /* Femur, tibia and their joints, what stands still, and the coxa's moment transfer. */
 static inline brace_tensor_t plane_of(const brace_spatial_t *s, const brace_posture_t *at, brace_vec_t tip_mm)
 {
-    const brace_tensor_t moving = brace_tensor_to_world(brace_harmonics_at(&s->plane, at->half), at->bisector);
-    const brace_tensor_t in_plane = brace_tensor_plus(moving, s->still);
-    const brace_vec_t bent = {fma(-s->coxa_per_mm, tip_mm.z, s->coxa.x), fma(s->coxa_per_mm, tip_mm.x, s->coxa.z)};
+    const brace_tensor_t seen = brace_harmonics_at(&s->plane, at->half);
+    const brace_tensor_t in_plane = brace_tensor_plus(brace_tensor_to_world(seen, at->bisector), s->still);
+    const brace_vec_t bent = {fma(-s->coxa_per_mm, tip_mm.z, s->coxa.x),
+                              fma(s->coxa_per_mm, tip_mm.x, s->coxa.z)};
     return brace_tensor_plus(in_plane, bent);
 }
 
