@@ -60,10 +60,10 @@ def _address_of(elf: Path, symbol: str) -> int:
 
 @contextlib.contextmanager
 def emulated(
-    folder: Path, name: str = "netduinoplus2", changes: dict[str, float] | None = None
+    folder: Path, name: str = "netduinoplus2", changes: dict[str, float] | None = None, options: tuple[str, ...] = ()
 ) -> Iterator[dict[str, str]]:
     """A controller image on an emulated board with the paper's limb in its memory; ptys of its serial ports console,
-    modbus, slcan."""
+    modbus, slcan. Options are the emulator's."""
     program = shutil.which("qemu-system-arm")
     if program is None or shutil.which("arm-none-eabi-nm") is None:
         pytest.skip("qemu-system-arm or binutils-arm-none-eabi is missing")
@@ -75,7 +75,7 @@ def emulated(
     serial = [word for port in ports for word in ("-chardev", f"pty,id={port}", "-serial", f"chardev:{port}")]
     loaded = ["-device", f"loader,file={memory},addr={_address_of(elf, '_kept_nvm'):#x}"]
     quiet = ["-display", "none", "-monitor", "none"]
-    command = [program, "-machine", name, *quiet, *serial, "-kernel", str(elf.with_suffix(".bin")), *loaded]
+    command = [program, "-machine", name, *quiet, *serial, "-kernel", str(elf.with_suffix(".bin")), *loaded, *options]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     try:
         yield _places(process, len(ports))
