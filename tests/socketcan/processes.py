@@ -22,6 +22,10 @@ from wire_by_hand import LIMB, NODE, PROJECT
 
 IMAGES = Path(os.environ.get("BRACE_IMAGES", PROJECT / "build" / "m4f" / "images"))
 PATIENCE_S = 30.0  # a loaded machine; an idle one takes a second
+# The board's clock counts its instructions, 1 ns each: the host may take it off the processor for as long as it likes,
+# its timers and its line's silences stay in step with its program. In the host's time a tick so lasts some ten
+# milliseconds: for what is counted or silent on the board, not for rates.
+COUNTED = ("-icount", "shift=0")
 
 
 @contextlib.contextmanager

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 from bus_of_ticks import SlcanClient, eight_byte_frames, limbs
-from processes import PATIENCE_S, emulated
+from processes import COUNTED, PATIENCE_S, emulated
 from wire_by_hand import (
     ANSWER,
     EIGENVALUES,
@@ -68,9 +68,6 @@ def test_k_at_a_posture_is_answered_within_a_tick(resting_ticks: int, most: int)
     assert slowest <= most, f"{slowest} ticks"
 
 
-# The board's clock counts its instructions, 1 ns each: the host may take it off the processor for as long as it likes,
-# between two ticks there are always a million of them. In the host's time a tick so lasts some ten milliseconds.
-COUNTED = ("-icount", "shift=0")
 STEADY = 0.8  # share of one entry's gaps that are the same, in a round that counts
 
 
