@@ -106,7 +106,7 @@ def in_guest(*command: object, serial: str | None = None) -> subprocess.Complete
     """Runs a command where the kernel has CAN; skips when this machine cannot."""
     runner = [str(PROJECT / "tests" / "socketcan" / "with_vcan"), *(("--serial", serial) if serial else ())]
     run = subprocess.run(
-        [*runner, *map(str, command)], cwd=PROJECT, capture_output=True, text=True, timeout=180, check=False
+        [*runner, *map(str, command)], cwd=PROJECT, capture_output=True, text=True, timeout=400, check=False
     )
     if run.returncode == 4:
         pytest.skip(run.stderr.strip())

@@ -15,6 +15,7 @@ from typing import Any
 import pytest
 from bus_bench import limb_on_tcp, told_in_time
 from conftest import LIMB, PROJECT, Outcome, spawn
+from test_bus_params import wait_for_mode
 
 from brace.bus.log import read
 from brace.bus.session import Session
@@ -115,10 +116,10 @@ def test_sigterm_ends_a_recording_well_and_ctrl_c_with_130(limb: Path, tmp_path:
         for sent, code in ((signal.SIGTERM, 0), (signal.SIGINT, 130)):
             path = tmp_path / f"{code}{ending}"
             process = spawn("record", "--bus", url, "--out", path)
-            _wait_for(lambda: path.with_name(path.name + ".part").exists())
-            time.sleep(0.3)
+            part = path.with_name(path.name + ".part")
+            _wait_for(lambda: part.exists() and part.stat().st_size > 20_000)
             process.send_signal(sent)
-            _, said = process.communicate(timeout=10)
+            _, said = process.communicate(timeout=60)
             assert process.returncode == code, said
             assert len(list(read(path))) > 50
             assert os.listdir(tmp_path).count(path.name + ".part") == 0
@@ -145,13 +146,13 @@ def test_a_bus_that_goes_away_keeps_what_came(limb: Path, tmp_path: Path) -> Non
         process = spawn("record", "--bus", url, "--out", path)
         part = path.with_name(path.name + ".part")
         _wait_for(lambda: part.exists() and part.stat().st_size > 5_000)
-    _, said = process.communicate(timeout=10)
+    _, said = process.communicate(timeout=60)
     assert process.returncode == 4 and "the connection is lost" in said and str(part) in said
     assert len(list(read(part))) > 50 and not path.exists()
 
 
 def _wait_for(found: Callable[[], bool]) -> None:
-    until = time.monotonic() + 15
+    until = time.monotonic() + 60
     while not found():
         assert time.monotonic() < until
         time.sleep(0.02)
@@ -178,7 +179,7 @@ def test_replay_onto_a_bus(brace: Callable[..., Outcome], limb: Path, tmp_path: 
         started = time.monotonic()
         outcome = brace("replay", tmp_path / "a.log", "--bus", url, "--json")
         assert outcome.code == 0 and json.loads(outcome.out)["frames"] == len(recorded)
-        assert 0.5 < time.monotonic() - started < 3.0
+        assert 0.5 < time.monotonic() - started < 10.0  # as long as it took, not at once; the rest is the machine's
         heard = []
         while (frame := listener.receive(0.3)) is not None and len(heard) < 10_000:
             if frame.node == 1:
@@ -254,11 +255,11 @@ def test_a_loading_test_becomes_a_dataset(brace: Callable[..., Outcome], limb: P
 def test_an_interrupted_loading_test_is_stopped(limb: Path, tmp_path: Path) -> None:
     with limb_on_tcp(limb) as url:
         process = spawn("record", "--bus", url, "--loading-test", "--axis", "x", "--out", tmp_path / "test")
-        time.sleep(2.5)
+        wait_for_mode(url, "loading_test")
         process.send_signal(signal.SIGTERM)
-        _, said = process.communicate(timeout=10)
+        _, said = process.communicate(timeout=60)
         assert process.returncode == 130, said
         process = spawn("query", "--bus", url, "--entry", "loading_outcome", "--json")
-        out, _ = process.communicate(timeout=10)
+        out, _ = process.communicate(timeout=60)
         assert json.loads(out)["entries"]["loading_outcome"]["value"] == 3  # stopped on request
     assert not (tmp_path / "test").exists()
