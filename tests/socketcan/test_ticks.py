@@ -85,7 +85,7 @@ def test_an_emulated_board_answers_k_as_soon_as_anything(name: str, tmp_path: Pa
             if np.mean(round_other == np.median(round_other)) >= STEADY:
                 k, other = round_k, round_other
                 break
-    assert np.median(k) <= np.median(other), f"ticks that K took {k}, an entry {other}"
+    assert np.median(k) < np.median(other) + 1, f"ticks that K took {k}, an entry {other}"
 
 
 class Wire:
