@@ -42,21 +42,22 @@ def _alarm(_signal: int, _frame: FrameType | None) -> None:
     raise TooSlowError(f"no diagnosis after {PATIENCE_S} s")
 
 
-def diagnose(case: Path, out: Path, seed: int = 0) -> dict[str, Any]:
-    """Diagnoses one folder into `out` (the tool's three files, and run.json). Errors are noted, not raised."""
+def diagnose(case: Path, out: Path, seed: int = 0, report: bool = True) -> dict[str, Any]:
+    """Diagnoses one folder into `out`: the tool's files, its report where wanted (it takes as long as the rest), and
+    run.json. Errors are noted, not raised."""
     from brace.diagnose.one import diagnosed, load
     from brace.diagnose.options import Options
     from brace.diagnose.write import write
     from brace.errors import BraceError
 
     out.mkdir(parents=True, exist_ok=True)
-    note: dict[str, Any] = {}
+    note: dict[str, Any] = {"report": report}
     signal.signal(signal.SIGALRM, _alarm)
     signal.alarm(PATIENCE_S)
     begun, busy = time.perf_counter(), time.process_time()
     try:
         given = load(case, case / "limb.toml")
-        _, written = diagnosed(given, Options(seed=seed))
+        _, written = diagnosed(given, Options(seed=seed), report=report)
         write(out, written)
     except BraceError as error:
         note["refused"] = str(error)

@@ -17,6 +17,7 @@ import os
 import shutil
 import sys
 import time
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +26,7 @@ import numpy as np
 import effects
 import outsiders
 import spoil
-from designs import Rng, believed_limb, loading_test, true_limb, trust
+from designs import Design, Rng, Trust, believed_limb, loading_test, true_limb, trust
 from detect import SAME_CLASS, Bench
 from files import limb_text, meta_text, noisy, table_of, write_dataset
 from plant import BUILD, IN_LIMB_TOML, INDEX, LINKS, Array, play
@@ -90,12 +91,20 @@ def _classes(bench: Bench, target: Array, own: str) -> tuple[list[str], dict[str
     return sorted(near), {label: round(value, 4) for label, value in top.items()}
 
 
+def _true_limb_first(rng: Rng, names: Iterable[str], believed: Array, given: Trust, shown: Design) -> Bench | None:
+    """Whether a reading ever reaches a saturation's level hangs on the largest force of the very limb that is played:
+    with one among the effects, s is worked out on the true limb. None without."""
+    return Bench(shown, true_limb(rng, believed, given), given) if "sensor_saturation" in names else None
+
+
 def make_single(rng: Rng, number: int, wanted: float | None = None) -> dict[str, Any]:
     """One hidden effect: the catalogue in turn, as detectable as wanted, or at each detectability in turn."""
     name, where = effects.CATALOGUE[number % len(effects.CATALOGUE)]
     turn = number // len(effects.CATALOGUE)
     wanted = wanted or DETECTABILITIES[(number + turn) % len(DETECTABILITIES)]
     believed, given, shown, held, bench = _setting(rng)
+    of_truth = _true_limb_first(rng, [name], believed, given, shown)
+    bench = of_truth or bench
     hidden = effects.draw(rng, name, where, believed, bench.whole_s, bench.peak_n)
     if name == "moment_transfer" and wanted >= 12.0 and rng.random() < 0.5:
         size, s = 1.0, bench.s_of(hidden.applied(believed, 1.0))  # as it is, whatever that makes it
@@ -104,8 +113,8 @@ def make_single(rng: Rng, number: int, wanted: float | None = None) -> dict[str,
         size, s = bench.sized(hidden, wanted)
     if not 0.6 * wanted <= s <= 1.1 * wanted or size > hidden.largest:
         raise Retry(f"{hidden.label} reaches {s:.1f} of {wanted}")
-    cls, top = _classes(bench, bench.record(hidden.applied(believed, size)), hidden.label)
-    truth = hidden.applied(true_limb(rng, believed, given), size)
+    cls, top = _classes(bench, bench.record(hidden.applied(bench.believed, size)), hidden.label)
+    truth = hidden.applied(of_truth.believed if of_truth else true_limb(rng, believed, given), size)
     return {
         "believed": believed,
         "trust": given,
@@ -146,6 +155,8 @@ def make_many(rng: Rng, count: int) -> dict[str, Any]:
     chosen = [effects.CATALOGUE[i] for i in rng.choice(len(effects.CATALOGUE), count, replace=False)]
     if len({name for name, _ in chosen}) < count:
         raise Retry("the same name twice")
+    of_truth = _true_limb_first(rng, [name for name, _ in chosen], believed, given, shown)
+    bench = of_truth or bench
     found = [effects.draw(rng, name, where, believed, bench.whole_s, bench.peak_n) for name, where in chosen]
     # one that overwrites another's parameter is no pair
     keys = [key for one in found for key in one.free()]
@@ -159,7 +170,7 @@ def make_many(rng: Rng, count: int) -> dict[str, Any]:
         sizes.append(size)
 
     def built(skip: int = -1) -> Array:
-        p = believed.copy()
+        p = bench.believed.copy()
         for i, (one, size) in enumerate(zip(found, sizes, strict=True)):
             if i != skip:
                 p = one.applied(p, size)
@@ -181,8 +192,8 @@ def make_many(rng: Rng, count: int) -> dict[str, Any]:
         raise Retry("the sizes do not settle")
     alike = []
     for i, one in enumerate(found):  # what each could be taken for, by itself
-        alike.append(_classes(bench, bench.record(one.applied(believed, sizes[i])), one.label)[0])
-    truth = true_limb(rng, believed, given)
+        alike.append(_classes(bench, bench.record(one.applied(bench.believed, sizes[i])), one.label)[0])
+    truth = of_truth.believed if of_truth else true_limb(rng, believed, given)
     for one, size in zip(found, sizes, strict=True):
         truth = one.applied(truth, size)
     return {

@@ -1,7 +1,7 @@
 """How many cases it takes to show that the diagnosis is better than a baseline, line by line, at p < 0.01.
 
 usage: power.py [N ...]
-From what the earlier run had (earlier_run.json): the shares of cases that only one of the two has right. Prints, for
+From what the last run had (earlier_runs.json): the shares of cases that only one of the two has right. Prints, for
 each number of cases, the chance that the exact McNemar test comes out below 0.01 if those shares are the true ones."""
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ import numpy as np
 from baselines.compare import SIGNIFICANT, mcnemar_p
 from scipy.stats import binom
 
-EARLIER = Path(__file__).with_name("earlier_run.json")
+EARLIER = Path(__file__).with_name("earlier_runs.json")
 
 
 def earlier() -> dict[str, Any]:
-    """Lines and paired counts of the earlier run."""
-    found: dict[str, Any] = json.loads(EARLIER.read_text())
-    return found
+    """Lines and paired counts of the last run before."""
+    found: list[dict[str, Any]] = json.loads(EARLIER.read_text())
+    return found[-1]
 
 
 def chance(cases: int, ours: float, theirs: float) -> float:

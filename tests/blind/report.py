@@ -11,6 +11,7 @@ from statistics import median
 from typing import Any
 
 from scoring import VISIBLE_GAP_N, Judged, Share, calibration, closed, coverage, of_removable, share, strong, weak
+from seeds import REPORTED_CASES
 
 HOW = """Effects are hidden in simulated loading tests by a simulator and a generator that share no code with the tool
 ([tests/blind](../tests/blind/README.md)); the answers lie apart and are sealed before the run. Limbs, poses,
@@ -26,7 +27,7 @@ effect named against whether it is one of the hidden. Coverage: the intervals of
 experiment: over all single effects of s >= 12; where the tool proposes none that a rig can play, its first word
 counts."""
 
-EARLIER = Path(__file__).with_name("earlier_run.json")
+EARLIER = Path(__file__).with_name("earlier_runs.json")
 
 __all__ = ["VISIBLE_GAP_N", "as_json", "figures", "page", "table"]
 
@@ -97,7 +98,10 @@ def figures(
     for j in judged:
         for key, ok in j.intervals:
             by_key[key].append(ok)
-    clocks = {"wall": sorted(j.seconds for j in judged), "cpu": sorted(j.cpu_seconds for j in judged)}
+    clocks = {
+        "wall": sorted(j.seconds for j in judged if j.seconds),
+        "cpu": sorted(j.cpu_seconds for j in judged if j.cpu_seconds),
+    }
     besides = [
         ("right effect and place first, s >= 12, no allowance for the class", share(judged, "where", strong)),
         ("right effect or its class first, s = 5", share(judged, "class", lambda j: 4 <= j.s < 6.5)),
@@ -229,21 +233,24 @@ def _closable(found: dict[str, Any]) -> str:
 
 
 def _earlier(found: dict[str, Any]) -> str:
-    """The same lines of the run before, on a seed and cases of its own."""
-    was = json.loads(EARLIER.read_text())
+    """The same lines of the runs before, each on a seed and cases of its own."""
+    runs = json.loads(EARLIER.read_text())
     now = {x["figure"]: x for x in found["lines"]}
-    rows = ["| figure | must reach | earlier run | of | this run | of |", "|---" * 6 + "|"]
-    for x in was["lines"]:
-        y = now.get(x["figure"], {"measured": "-", "of": 0, "met": ""})
-        rows.append(
-            f"| {x['figure']} | {x['target']} | {x['measured']}, {x['met']} | {x['of'] or ''} | "
-            f"{y['measured']}, {y['met']} | {y['of'] or ''} |"
-        )
+    heads = [f"seed {run['seed']} | of" for run in runs]
+    rows = [f"| figure | must reach | {' | '.join(heads)} | this run | of |", "|---" * (2 * len(runs) + 4) + "|"]
+    for figure, this in now.items():
+        cells = []
+        for run in [*({x["figure"]: x for x in run["lines"]} for run in runs), now]:
+            x = run.get(figure, {"measured": "-", "of": 0, "met": ""})
+            cells.append(f"{x['measured']}, {x['met']} | {x['of'] or ''}" if x["met"] else "- |")
+        rows.append(f"| {figure} | {this['target']} | {' | '.join(cells)} |")
+    told = [
+        f"Test seed {run['seed']}, {run['cases']} cases, tool `{run['tool']}`: before {run['before']}." for run in runs
+    ]
     return (
-        f"Test seed {was['seed']}, {was['cases']} cases, tool `{was['tool']}`, before the diagnosis asked whether "
-        "something outside the catalogue does better (`loading/extensions.py`). No case of it was used for that; its "
-        "counts of cases that only one of two methods has right set the size of this run "
-        "([power.py](../tests/blind/power.py)).\n\n" + "\n".join(rows)
+        "\n".join(told) + "\n\nA seed's cases may be looked at once its run is over, and what they showed was worked on; "
+        "so each run has a seed of its own. The counts of cases that only one of two methods has right in the last one "
+        "set the size of this ([power.py](../tests/blind/power.py)).\n\n" + "\n".join(rows)
     )
 
 
@@ -273,12 +280,13 @@ def page(found: dict[str, Any], judged: Sequence[Judged], command: str) -> str:
             f"{READING} With s >= 12 alone the gap closed is {_percent(strong12['median'])} (median), "
             f"{_percent(strong12['p5'])} (5th percentile) of {strong12['cases']}.",
             _closable(found),
-            "A diagnosis of 150 to 1000 rows, one core each, took (median, 95th percentile, longest): "
+            f"A diagnosis of 150 to 1000 rows with its report, one core each, took ({REPORTED_CASES} cases; median, "
+            "95th percentile, longest): "
             + "; ".join(
                 f"{v['median']:.1f}, {v['p95']:.1f}, {v['longest']:.1f} s by the {clock} clock"
                 for clock, v in found["seconds"].items()
             ) + ".",
-            *(["## The earlier run", _earlier(found)] if made["set"] == "test" else []),
+            *(["## Earlier runs", _earlier(found)] if made["set"] == "test" else []),
             *(["## Beside other ways to choose", found["baselines_text"]] if "baselines_text" in found else []),
             "## Besides",
             "\n".join(besides),

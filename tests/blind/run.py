@@ -26,7 +26,7 @@ import report
 from generate import cases_of, default_folder, generate, generator_hash, seal_of
 from plant import BUILD
 from scoring import STRONG, Judged, gap_n, judge
-from seeds import DEVELOPMENT_CASES, DEVELOPMENT_SEED, TEST_CASES, TEST_SEED
+from seeds import DEVELOPMENT_CASES, DEVELOPMENT_SEED, REPORTED_CASES, TEST_CASES, TEST_SEED
 
 SAME_BYTES_CASES = 16
 SEEDS_CASES = 25
@@ -47,13 +47,13 @@ def _gap_counts(root: Path, name: str) -> bool:
     return read(root / "answers" / name / "truth.json").get("kind") in ("single", "pair")
 
 
-def _main_job(job: tuple[str, str, str]) -> str:
+def _main_job(job: tuple[str, str, str, bool]) -> str:
     """First diagnosis of a case, and what the believed and the corrected model predict for unseen poses."""
-    root, results, name = Path(job[0]), Path(job[1]), job[2]
+    root, results, name, with_report = Path(job[0]), Path(job[1]), job[2], job[3]
     out, case = results / "main" / name, root / "cases" / name
     if (out / "done").exists():
         return name
-    diagnoser.diagnose(case, out)
+    diagnoser.diagnose(case, out, report=with_report)
     unseen = root / "answers" / name / "holdout"
     if _gap_counts(root, name) and (out / "diagnosis.json").exists():
         try:
@@ -70,7 +70,7 @@ def _seed_job(job: tuple[str, str, str, int]) -> str:
     root, results, name, seed = Path(job[0]), Path(job[1]), job[2], job[3]
     out = results / (f"seed{seed}" if seed else "again") / name
     if not (out / "done").exists():
-        diagnoser.diagnose(root / "cases" / name, out, seed)
+        diagnoser.diagnose(root / "cases" / name, out, seed, report=not seed)
         (out / "done").touch()
     return name
 
@@ -84,9 +84,9 @@ def _next_job(job: tuple[str, str, str]) -> str:
     try:
         truth = read(root / "answers" / name / "truth.json")
         follow_up.play(truth, rig, root / "cases" / name, out / "together", out / "alone")
-        diagnoser.diagnose(out / "together", out)
+        diagnoser.diagnose(out / "together", out, report=False)
         if read(out / "diagnosis.json").get("verdict", "data_fault") == "data_fault":  # takes no empty cells
-            diagnoser.diagnose(out / "alone", out)
+            diagnoser.diagnose(out / "alone", out, report=False)
     except Exception as error:
         out.mkdir(parents=True, exist_ok=True)
         (out / "run.json").write_text(json.dumps({"unplayed": f"{type(error).__name__}: {error}"}))
@@ -120,7 +120,8 @@ def judge_all(root: Path, results: Path, names: Iterable[str]) -> list[Judged]:
         truth, folder = read(root / "answers" / name / "truth.json"), results / "main" / name
         j = judge(truth, read(folder / "diagnosis.json"))
         run = read(folder / "run.json")
-        j.seconds, j.cpu_seconds = float(run.get("seconds", 0.0)), float(run.get("cpu_seconds", 0.0))
+        if run.get("report"):
+            j.seconds, j.cpu_seconds = float(run.get("seconds", 0.0)), float(run.get("cpu_seconds", 0.0))
         j.note = str(run.get("crashed", run.get("refused", "")))
         unseen = root / "answers" / name / "holdout" / "data.csv"
         if j.kind in ("single", "pair") and (folder / "holdout_before.csv").exists():
@@ -229,7 +230,8 @@ def main() -> int:
     names = sorted(path.name for path in (root / "cases").iterdir())[: options.only]
 
     begun = time.monotonic()
-    in_turn("diagnosing", _main_job, [(str(root), str(results), n) for n in names], options.processes)
+    jobs = [(str(root), str(results), n, k < REPORTED_CASES) for k, n in enumerate(names)]
+    in_turn("diagnosing", _main_job, jobs, options.processes)
     missing = [(str(root), n) for n in names if _gap_counts(root, n) and not (root / "best" / f"{n}.json").exists()]
     in_turn("what could be closed", _best_job, missing, options.processes)
     judged = judge_all(root, results, names)
@@ -242,9 +244,9 @@ def main() -> int:
             and (read(results / "main" / j.id / "diagnosis.json").get("next_experiment") or {}).get("rig_toml")
         ]  # fmt: skip
         in_turn("next experiments", _next_job, [(str(root), str(results), n) for n in proposed], options.processes)
-        jobs = [(str(root), str(results), n, 0) for n in again]
-        jobs += [(str(root), str(results), n, s) for n in seeds_names for s in SEEDS]
-        in_turn("again, other seeds", _seed_job, jobs, options.processes)
+        repeats = [(str(root), str(results), n, 0) for n in again]
+        repeats += [(str(root), str(results), n, s) for n in seeds_names for s in SEEDS]
+        in_turn("again, other seeds", _seed_job, repeats, options.processes)
     beside = beside_baselines(root, results, names, judged, options.processes)
     if seal_of(root) != seal:
         raise RuntimeError("the seal changed during the run")

@@ -176,6 +176,11 @@ def weak(j: Judged) -> bool:
     return WEAK <= j.s < STRONG
 
 
+def told(j: Judged) -> bool:
+    """s = 8 and more: what must be named."""
+    return j.s >= WEAK
+
+
 def calibration(cases: Iterable[Judged], bins: int = 10) -> tuple[float, int, list[tuple[float, float, int]]]:
     """Expected calibration error of the confidences of all that was named; how many; per bin mean confidence, share
     right, count."""

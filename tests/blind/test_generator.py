@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from designs import believed_limb, loading_test, trust
 from detect import Bench
-from generate import DETECTABILITIES, build, generate, listing, schedule, seal_of, total, write_case
+from generate import DETECTABILITIES, Retry, build, generate, listing, schedule, seal_of, total, write_case
+from plant import INDEX, play
 from seeds import DEVELOPMENT_CASES, DEVELOPMENT_SEED, SUBSET_SEED, TEST_CASES, TEST_SEED
 
 
@@ -63,6 +64,31 @@ def test_a_plan_may_say_how_detectable() -> None:
     truth = build(kind, number, np.random.default_rng(5))["truth"]
     assert (truth["kind"], truth["wanted"]) == ("single", 8.0)
     assert truth["effects"] == [dict(zip(("name", "where"), effects.CATALOGUE[0], strict=True))]
+
+
+@pytest.mark.parametrize("kind", ["single@8", "single@25", "pair"])
+def test_a_saturation_is_reached_in_its_record(kind: str) -> None:
+    """On the limb that is played, not only on the one that is believed: what is cut off, in sigmas of the readings, is
+    at least s, since a refit of the base can only take from it."""
+    at, found = [name for name, _ in effects.CATALOGUE].index("sensor_saturation"), 0
+    for seed in range(40):
+        try:
+            case = build(kind, at, np.random.default_rng(seed))
+        except Retry:
+            continue
+        if not any(effect["name"] == "sensor_saturation" for effect in case["truth"]["effects"]):
+            continue
+        found += 1
+        design, level = case["shown"], case["limb"][INDEX["sensor.saturation_n"]]
+        free = case["limb"].copy()
+        free[INDEX["sensor.saturation_n"]] = np.inf
+        forces_n = play(free, design.rows)[:, :2]
+        cut = np.clip(np.abs(forces_n) - level, 0.0, None) / design.sigma(forces_n)[:, :2]
+        wanted = case["truth"].get("each", [case["truth"]["detectability"]])
+        assert np.linalg.norm(cut) > 0.9 * min(wanted)
+        if found == 4:
+            return
+    assert kind == "pair" and found
 
 
 def _bench(seed: int) -> tuple[Bench, np.random.Generator]:

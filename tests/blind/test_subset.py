@@ -22,7 +22,7 @@ def judged(tmp_path_factory: pytest.TempPathFactory) -> list[Judged]:
     root: Path = tmp_path_factory.mktemp("blind")
     generate(SUBSET_SEED, CASES, root, processes=2, quiet=True)
     names = sorted(path.name for path in (root / "cases").iterdir())
-    run.in_turn("diagnosing", run._main_job, [(str(root), str(root), name) for name in names], 2)
+    run.in_turn("diagnosing", run._main_job, [(str(root), str(root), name, True) for name in names], 2)
     return run.judge_all(root, root, names)
 
 

@@ -1,7 +1,8 @@
 /* client_probe BUS NODE TIMEOUT_MS CALL [NUMBER...]: one call of the C client; numbers it gives on stdout as "name value"
  * lines, its reason on stderr, its status as exit code (positive).
  *   identity | read PARTS COUNT | posture T1 T2 | tip X Z UP | force DX DZ | sag FX FZ | margin NORMAL MU
- *   entry_u32 INDEX | entry_f32 INDEX | dump SECONDS_MS (bus only) | send ID BYTE... (bus only) */
+ *   entry_u32 INDEX | entry_f32 INDEX | dump SILENT_MS [FRAMES] (bus only:
+ *   until that silence, or that many) | send ID BYTE... (bus only) */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,7 +31,9 @@ static int bus_call(const char *url, const char *call, int count)
     } else {
         setvbuf(stdout, NULL, _IOLBF, 0u);
         printf("open\n");
-        while ((status = brace_bus_receive(bus, &frame, (int)numbers[0])) == BRACE_BUS_OK) {
+        int left = count > 1 ? (int)numbers[1] : -1;
+        while (left != 0 && (status = brace_bus_receive(bus, &frame, (int)numbers[0])) == BRACE_BUS_OK) {
+            left -= left > 0;
             printf("%03x", (unsigned)frame.id);
             for (unsigned i = 0u; i < frame.length; i++) {
                 printf("%s%02x", i == 0u ? " " : "", frame.data[i]);

@@ -26,21 +26,22 @@ def empty() -> Iterator[str]:
 
 
 def test_frames_from_python_can(empty: str) -> None:
-    process = dump(empty)
+    process = dump(empty, len(FRAMES) + 1)
     with can.Bus(interface="socketcan", channel=empty) as bus:
         for identifier, data in FRAMES:
             bus.send(can.Message(arbitration_id=identifier, data=data, is_extended_id=False))
         bus.send(can.Message(arbitration_id=0x181, data=b"x", is_extended_id=True))
         bus.send(can.Message(arbitration_id=0x181, is_remote_frame=True, is_extended_id=False))
-        out, _ = process.communicate(timeout=10)
-    assert frames_in(out) == FRAMES
+        bus.send(can.Message(arbitration_id=0x123, data=b"end", is_extended_id=False))
+        out, _ = process.communicate(timeout=60)
+    assert frames_in(out) == [*FRAMES, (0x123, b"end")]
 
 
 def test_frames_to_python_can(empty: str, probe: Probe) -> None:
     with can.Bus(interface="socketcan", channel=empty) as bus:
         for identifier, data in FRAMES:
             assert probe(empty, "send", identifier, *data).code == 0
-            message = bus.recv(2)
+            message = bus.recv(20)
             assert message is not None and (message.arbitration_id, bytes(message.data)) == (identifier, data)
 
 
@@ -63,13 +64,13 @@ def test_interface_goes_down_meanwhile(empty: str) -> None:
     )
     time.sleep(0.5)
     subprocess.run(["ip", "link", "set", empty, "down"], check=True)
-    _, err = process.communicate(timeout=5)
+    _, err = process.communicate(timeout=30)
     assert process.returncode == DOWN and "has gone" in err
 
 
 def test_silence(empty: str, probe: Probe) -> None:
     answer = probe(empty, "identity")
-    assert answer.code == SILENT and answer.seconds < 3.0
+    assert answer.code == SILENT and answer.told_in_time
 
 
 def test_error_frames_are_a_wrong_bit_rate(empty: str, probe: Probe) -> None:
@@ -80,7 +81,7 @@ def test_error_frames_are_a_wrong_bit_rate(empty: str, probe: Probe) -> None:
         for _ in range(10):
             time.sleep(0.1)
             bus.send(can.Message(arbitration_id=0x88, is_error_frame=True, is_extended_id=False, data=bytes(8)))
-    _, err = process.communicate(timeout=5)
+    _, err = process.communicate(timeout=30)
     assert process.returncode == BIT_RATE and "bit rate" in err and "exit 4" in err
 
 
@@ -94,7 +95,7 @@ def test_a_full_queue_is_told(empty: str) -> None:
         subprocess.run(["kill", "-CONT", str(process.pid)], check=True)
         time.sleep(0.5)
         bus.send(can.Message(arbitration_id=0x181, data=b"last", is_extended_id=False))
-        out, _ = process.communicate(timeout=10)
+        out, _ = process.communicate(timeout=30)
     frames = frames_in(out)
     lost = int(out.splitlines()[-1].split()[1])
     assert frames[-1] == (0x181, b"last")

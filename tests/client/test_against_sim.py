@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import statistics
 import subprocess
 from collections.abc import Callable
 
@@ -71,9 +72,11 @@ def test_snapshots(probe: Probe, url: str) -> None:
 def test_k_comes_at_its_rate(probe: Probe, sim: Sim) -> None:
     answer = probe(sim.can, "read", 1, 100)
     assert answer.code == 0 and len(answer.snapshots) == 100
-    assert answer.seconds < 4.0  # at 200 Hz half a second, when the machine is not busy; at 20 Hz it would be five
     numbers = [snapshot["snapshot"] for snapshot in answer.snapshots]
-    assert all(one != other for one, other in zip(numbers, numbers[1:], strict=False))  # none twice
+    steps = [(other - one) % 256 for one, other in zip(numbers, numbers[1:], strict=False)]
+    assert min(steps) > 0  # none twice
+    # 200 Hz, counted on the controller's own clock of 1 kHz: the machine may be slow, and a limb that is late leaves out ticks
+    assert 3 <= statistics.median(steps) <= 6, steps
 
 
 @pytest.mark.parametrize("posture", [(1.0, 1.4), (0.2, 2.2), (-0.5, 0.6)])
@@ -135,7 +138,7 @@ def test_entries(probe: Probe, url: str) -> None:
 def test_limbs_on_one_bus_and_a_node_that_is_not_there(probe: Probe, sim: Sim) -> None:
     assert probe(sim.can, "identity", node=2).values["node"] == 2
     answer = probe(sim.can, "identity", node=9)
-    assert answer.code == 9 and "heard: 1, 2" in answer.err and answer.seconds < 3.0
+    assert answer.code == 9 and "heard: 1, 2" in answer.err and answer.told_in_time
 
 
 def test_two_clients_at_once(probe: Probe, sim: Sim) -> None:
@@ -143,17 +146,17 @@ def test_two_clients_at_once(probe: Probe, sim: Sim) -> None:
     postures = [(0.1 * i, 1.0 + 0.1 * i) for i in range(4)]
     processes = [
         subprocess.Popen(
-            [PROBE, sim.can, "1", "8000", "posture", *map(str, posture)], stdout=subprocess.PIPE, text=True
+            [PROBE, sim.can, "1", "20000", "posture", *map(str, posture)], stdout=subprocess.PIPE, text=True
         )
         for posture in postures
     ]
     for posture, process in zip(postures, processes, strict=True):
-        out, _ = process.communicate(timeout=20)
+        out, _ = process.communicate(timeout=60)
         assert process.returncode == 0
         check_k(Answer(0, out, "", 0).values, posture)
 
 
 def test_the_example(url: str) -> None:
-    done = subprocess.run([PRINT_K, url], capture_output=True, text=True, timeout=10)
+    done = subprocess.run([PRINT_K, url], capture_output=True, text=True, timeout=60)
     assert done.returncode == 0, done.stderr
     assert len(done.stdout.splitlines()) == 10 and "N/mm" in done.stdout

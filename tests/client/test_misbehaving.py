@@ -54,39 +54,39 @@ def test_wrong_node(probe: Probe) -> None:
         answer = probe(controller.url, "identity", node=7)
         assert answer.code == NODE and "exit 4" in answer.err
         assert "heard: 3" in answer.err and "try node 3" in answer.err
-        assert answer.seconds < 3.0
+        assert answer.told_in_time
 
 
 def test_silence(probe: Probe) -> None:
     with SlcanController(speaks=False, answers=False) as controller:
         answer = probe(controller.url, "identity")
         assert answer.code == SILENT and "powered" in answer.err and "exit 4" in answer.err
-        assert answer.seconds < 3.0
+        assert answer.told_in_time
 
 
 def test_wrong_bit_rate_as_an_adapter_tells_it(probe: Probe) -> None:
     with SlcanController(speaks=False, answers=False, errors=0x80) as controller:
         answer = probe(controller.url, "identity")
         assert answer.code == BIT_RATE and "bit rate" in answer.err and "exit 4" in answer.err
-        assert answer.seconds < 3.0
+        assert answer.told_in_time
 
 
 def test_wrong_baud_rate_of_the_serial_line(probe: Probe) -> None:
     with SlcanController(speaks=False, answers=False, garbage=b"\xf0\x81\r\x05\xfe\r") as controller:
         answer = probe(controller.url, "identity")
-        assert answer.code == BIT_RATE and answer.seconds < 3.0
+        assert answer.code == BIT_RATE and answer.told_in_time
 
 
 def test_heard_but_no_answer(probe: Probe) -> None:
     with SlcanController(answers=False) as controller:
         answer = probe(controller.url, "identity")
-        assert answer.code == TIMEOUT and "is heard" in answer.err and answer.seconds < 3.0
+        assert answer.code == TIMEOUT and "is heard" in answer.err and answer.told_in_time
 
 
 def test_the_other_end_hangs_up(probe: Probe) -> None:
     with SlcanController(hangs_up=True) as controller:
-        answer = probe(controller.url, "identity")
-        assert answer.code == DOWN and answer.seconds < 1.0
+        answer = probe(controller.url, "identity", timeout_ms=8000)
+        assert answer.code == DOWN and answer.seconds < 6.0  # at once, long before it would give up
 
 
 def test_refusal(probe: Probe) -> None:
@@ -133,14 +133,14 @@ def test_values_out_of_range_are_not_sent(probe: Probe) -> None:
 )  # fmt: skip
 def test_no_device(probe: Probe, url: str, status: int) -> None:
     answer = probe(url, "identity")
-    assert answer.code == status and answer.seconds < 3.0
+    assert answer.code == status and answer.told_in_time
     assert f"exit {2 if status == USAGE else 4}" in answer.err
     assert len(answer.err.splitlines()[0]) > 30
 
 
 def test_socketcan_where_the_kernel_has_none(probe: Probe) -> None:
     answer = probe("can-none0", "identity")
-    assert answer.code in (NO_KERNEL, NO_DEVICE) and "exit 4" in answer.err and answer.seconds < 3.0
+    assert answer.code in (NO_KERNEL, NO_DEVICE) and "exit 4" in answer.err and answer.told_in_time
     assert "no CAN" in answer.err or "no such interface" in answer.err
 
 
@@ -149,7 +149,7 @@ def test_a_serial_device_that_says_nothing(probe: Probe, kind: str) -> None:
     ours, theirs = pty.openpty()
     try:
         answer = probe(f"{kind}:{os.ttyname(theirs)}", "identity")
-        assert answer.code == SILENT and "exit 4" in answer.err and answer.seconds < 3.0, answer.err
+        assert answer.code == SILENT and "exit 4" in answer.err and answer.told_in_time, answer.err
     finally:
         os.close(ours)
         os.close(theirs)
@@ -159,7 +159,7 @@ def test_a_serial_device_that_says_nothing(probe: Probe, kind: str) -> None:
 def test_a_port_that_accepts_and_says_nothing(probe: Probe, kind: str) -> None:
     with socket.create_server(("127.0.0.1", 0)) as server:
         answer = probe(f"{kind}://127.0.0.1:{server.getsockname()[1]}", "identity")
-        assert answer.code == SILENT and answer.seconds < 3.0, answer.err
+        assert answer.code == SILENT and answer.told_in_time, answer.err
 
 
 def test_modbus_noise(probe: Probe) -> None:
@@ -173,11 +173,11 @@ def test_modbus_noise(probe: Probe) -> None:
 
     threading.Thread(target=answer_with_noise, daemon=True).start()
     answer = probe(f"modbus:{os.ttyname(theirs)}", "identity")
-    assert answer.code == BIT_RATE and answer.seconds < 3.0, answer.err
+    assert answer.code == BIT_RATE and answer.told_in_time, answer.err
     os.close(theirs)
 
 
 def test_the_example_ends_with_a_reason_too() -> None:
-    done = subprocess.run([PRINT_K, "tcp://127.0.0.1:1"], capture_output=True, text=True, timeout=5)
+    done = subprocess.run([PRINT_K, "tcp://127.0.0.1:1"], capture_output=True, text=True, timeout=30)
     assert done.returncode == 4 and "refused" in done.stderr
-    assert subprocess.run([PRINT_K], capture_output=True, timeout=5).returncode == 2
+    assert subprocess.run([PRINT_K], capture_output=True, timeout=30).returncode == 2

@@ -19,13 +19,13 @@ def test_socketcan() -> None:
     if missing:
         pytest.skip(f"no guest kernel: Debian packages {', '.join(missing)} are missing")
     environment = dict(
-        os.environ, BRACE_TEST_CAN="vcan0", BRACE_GUEST_TIMEOUT_S="200", BRACE_GUEST_MEMORY="512M",
+        os.environ, BRACE_TEST_CAN="vcan0", BRACE_GUEST_TIMEOUT_S="500", BRACE_GUEST_MEMORY="512M",
         PYTHONDONTWRITEBYTECODE="1",
     )  # fmt: skip
     done = subprocess.run(
         [PROJECT / "tests" / "socketcan" / "with_vcan", "env", "TMPDIR=/dev/shm", sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider",
          "tests/client/on_vcan.py", "tests/client/fd_on_vcan.py", "tests/client/test_against_sim.py", "-k", "not modbus"],
-        cwd=PROJECT, env=environment, capture_output=True, text=True, timeout=240,
+        cwd=PROJECT, env=environment, capture_output=True, text=True, timeout=540,
     )  # fmt: skip
     assert done.returncode == 0, done.stdout[-6000:] + done.stderr[-2000:]
     assert " passed" in done.stdout and "skipped" not in done.stdout

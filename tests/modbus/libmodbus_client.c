@@ -80,7 +80,8 @@ int main(int argc, char **argv)
         printf("failed %s\n", modbus_strerror(errno));
         return 4;
     }
-    modbus_set_response_timeout(bus, 3, 0);
+    modbus_set_response_timeout(bus, 10, 0); /* an emulated board on a busy machine takes one */
+    modbus_set_byte_timeout(bus, 5, 0);
     setvbuf(stdout, NULL, _IOLBF, 0);
     while (fgets(line, sizeof line, stdin) != NULL) {
         request(bus, line);

@@ -22,6 +22,10 @@ from wire_by_hand import LIMB, NODE, PROJECT
 
 IMAGES = Path(os.environ.get("BRACE_IMAGES", PROJECT / "build" / "m4f" / "images"))
 PATIENCE_S = 30.0  # a loaded machine; an idle one takes a second
+# The board's clock counts its instructions, 1 ns each: the host may take it off the processor for as long as it likes,
+# its timers and its line's silences stay in step with its program. In the host's time a tick so lasts some ten
+# milliseconds: for what is counted or silent on the board, not for rates.
+COUNTED = ("-icount", "shift=0")
 
 
 @contextlib.contextmanager
@@ -60,10 +64,10 @@ def _address_of(elf: Path, symbol: str) -> int:
 
 @contextlib.contextmanager
 def emulated(
-    folder: Path, name: str = "netduinoplus2", changes: dict[str, float] | None = None
+    folder: Path, name: str = "netduinoplus2", changes: dict[str, float] | None = None, options: tuple[str, ...] = ()
 ) -> Iterator[dict[str, str]]:
     """A controller image on an emulated board with the paper's limb in its memory; ptys of its serial ports console,
-    modbus, slcan."""
+    modbus, slcan. Options are the emulator's."""
     program = shutil.which("qemu-system-arm")
     if program is None or shutil.which("arm-none-eabi-nm") is None:
         pytest.skip("qemu-system-arm or binutils-arm-none-eabi is missing")
@@ -75,7 +79,7 @@ def emulated(
     serial = [word for port in ports for word in ("-chardev", f"pty,id={port}", "-serial", f"chardev:{port}")]
     loaded = ["-device", f"loader,file={memory},addr={_address_of(elf, '_kept_nvm'):#x}"]
     quiet = ["-display", "none", "-monitor", "none"]
-    command = [program, "-machine", name, *quiet, *serial, "-kernel", str(elf.with_suffix(".bin")), *loaded]
+    command = [program, "-machine", name, *quiet, *serial, "-kernel", str(elf.with_suffix(".bin")), *loaded, *options]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     try:
         yield _places(process, len(ports))
@@ -102,7 +106,7 @@ def in_guest(*command: object, serial: str | None = None) -> subprocess.Complete
     """Runs a command where the kernel has CAN; skips when this machine cannot."""
     runner = [str(PROJECT / "tests" / "socketcan" / "with_vcan"), *(("--serial", serial) if serial else ())]
     run = subprocess.run(
-        [*runner, *map(str, command)], cwd=PROJECT, capture_output=True, text=True, timeout=180, check=False
+        [*runner, *map(str, command)], cwd=PROJECT, capture_output=True, text=True, timeout=400, check=False
     )
     if run.returncode == 4:
         pytest.skip(run.stderr.strip())

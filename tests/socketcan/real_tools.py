@@ -32,7 +32,7 @@ def process(*command: object, **options: Any) -> Iterator[subprocess.Popen[str]]
     finally:
         running.send_signal(signal.SIGTERM)
         try:
-            running.communicate(timeout=10)
+            running.communicate(timeout=30)
         except subprocess.TimeoutExpired:
             running.kill()
             running.communicate()
@@ -51,7 +51,7 @@ def simulated(interface: str) -> Iterator[None]:
 def adapted(interface: str, tty: str) -> Iterator[None]:
     """slcand makes an interface of a serial line."""
     with process("slcand", "-F", "-o", "-c", "-s8", tty, interface, stdout=subprocess.DEVNULL):
-        end = time.monotonic() + 10.0
+        end = time.monotonic() + 40.0
         while not Path(f"/sys/class/net/{interface}").exists():
             assert time.monotonic() < end, f"slcand made no {interface}"
             time.sleep(0.05)
@@ -59,14 +59,14 @@ def adapted(interface: str, tty: str) -> Iterator[None]:
         yield
 
 
-def lines_of(*command: object, timeout: float = 20.0) -> list[str]:
+def lines_of(*command: object, timeout: float = 60.0) -> list[str]:
     run = subprocess.run([str(word) for word in command], capture_output=True, text=True, timeout=timeout, check=False)
     return (run.stdout + run.stderr).splitlines()
 
 
 def with_candump(interface: str) -> list[str]:
     """What goes by in a while."""
-    return lines_of("timeout", 8, "candump", "-L", "-n", 250, interface)
+    return lines_of("timeout", 30, "candump", "-L", "-n", 250, interface)
 
 
 def with_cansend(interface: str) -> list[str]:
@@ -74,11 +74,11 @@ def with_cansend(interface: str) -> list[str]:
     request = k_request(0xA5, *ASKED_RAD).hex()
     only = f"{interface},{ANSWER + NODE:x}:7ff"
     with subprocess.Popen(
-        ["candump", "-L", "-n", str(ANSWERS), "-T", "4000", only], stdout=subprocess.PIPE, text=True
+        ["candump", "-L", "-n", str(ANSWERS), "-T", "8000", only], stdout=subprocess.PIPE, text=True
     ) as dump:
-        time.sleep(0.3)
+        time.sleep(1.0)
         subprocess.run(["cansend", interface, f"{REQUEST + NODE:x}#{request}"], check=True)
-        out, _ = dump.communicate(timeout=20)
+        out, _ = dump.communicate(timeout=60)
     return out.splitlines()
 
 
@@ -92,8 +92,8 @@ def with_python_can(interface: str) -> dict[str, Any]:
         fields = {"command": 3, "token": 90, "k_at_posture_theta1": theta1, "k_at_posture_theta2": theta2}
         request = database.get_message_by_name("request")
         bus.send(can.Message(arbitration_id=request.frame_id, data=request.encode(fields), is_extended_id=False))
-        end = time.monotonic() + 4.0
-        while time.monotonic() < end and (len(first) < 5 or len(answer) < 12):
+        end = time.monotonic() + 10.0
+        while time.monotonic() < end and (len(first.keys() - {"emergency"}) < 5 or len(answer) < 12):
             frame = bus.recv(0.2)
             if frame is None or frame.arbitration_id == request.frame_id:
                 continue
@@ -114,7 +114,7 @@ def with_c_client(interface: str) -> dict[str, Any] | None:
     if not found:
         return None
     run = subprocess.run(
-        [found[0], interface, str(NODE)], capture_output=True, text=True, timeout=20, check=False
+        [found[0], interface, str(NODE)], capture_output=True, text=True, timeout=60, check=False
     )
     return {"code": run.returncode, "out": run.stdout, "err": run.stderr}
 

@@ -24,7 +24,7 @@ def urls(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:
 
 def brace(*arguments: object) -> subprocess.CompletedProcess[str]:
     command = [sys.executable, "-m", "brace", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    return subprocess.run(command, capture_output=True, text=True, timeout=180, check=False)
 
 
 def assert_k(entry: dict[str, float], theta1: float, theta2: float) -> None:

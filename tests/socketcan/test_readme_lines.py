@@ -39,7 +39,7 @@ def ports() -> Iterator[dict[str, str]]:
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE)  # fmt: skip
             stack.enter_context(sim)
             stack.callback(sim.kill)
-            assert sim.stdout is not None and select.select([sim.stdout], [], [], 30.0)[0], "brace sim says nothing"
+            assert sim.stdout is not None and select.select([sim.stdout], [], [], 60.0)[0], "brace sim says nothing"
             first = sim.stdout.readline()
             found = {name: match[1] for name, pattern in PLACES.items() if (match := re.search(pattern, first))}
             assert set(found) == set(PLACES), first
@@ -72,7 +72,7 @@ def test_mbpoll_as_printed(ports: dict[str, str]) -> None:
     if shutil.which("mbpoll") is None:
         pytest.skip("mbpoll is missing (Debian package mbpoll)")
     command = as_printed("mbpoll", (PRINTED["modbus"], ports["modbus"]))
-    run = subprocess.run(command, capture_output=True, text=True, timeout=20, check=False)
+    run = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
     assert run.returncode == 0, run.stdout + run.stderr
     values = [float(value) for value in re.findall(r"^\[\d+\]:\s+(-?\d+\.?\d*(?:e-?\d+)?)\s*$", run.stdout, re.M)]
     true = expected(*STANDS_RAD)

@@ -5,14 +5,16 @@ from __future__ import annotations
 import math
 import os
 import random
+import select
 import time
+import tty
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from bus_of_ticks import SlcanClient, eight_byte_frames, limbs
-from processes import emulated
+from processes import COUNTED, PATIENCE_S, emulated
 from wire_by_hand import (
     ANSWER,
     EIGENVALUES,
@@ -66,57 +68,90 @@ def test_k_at_a_posture_is_answered_within_a_tick(resting_ticks: int, most: int)
     assert slowest <= most, f"{slowest} ticks"
 
 
+STEADY = 0.8  # share of one entry's gaps that are the same, in a round that counts
+
+
 @pytest.mark.parametrize("name", ["netduinoplus2", "mps2-an386"])
-def test_an_emulated_board_answers_within_a_tick(name: str, tmp_path: Path) -> None:
-    """The board's own tick counter, asked before and after: the three requests are served in following ticks, each
-    within one of its own."""
-    with emulated(tmp_path, name) as places:
-        line = os.open(places["slcan"], os.O_RDWR | os.O_NOCTTY)
-        try:
-            _check_board(line)
-        finally:
-            os.close(line)
+def test_an_emulated_board_answers_k_as_soon_as_anything(name: str, tmp_path: Path) -> None:
+    """The image as a whole, by the board's own tick counter, asked before and after: between those two K costs no tick
+    more than an entry, whose answer is a third as long. That it is within one tick, tests/unit/test_can_promptness.c
+    says; here the serial line's own pace comes in, which is the same for both."""
+    with emulated(tmp_path, name, options=COUNTED) as places, Wire(places["slcan"]) as wire:
+        wire.wait_for_board()
+        k, other = np.empty(0, int), np.empty(0, int)
+        for _ in range(8):  # what the host still decides is when it passes on a byte: rounds, until it does so evenly
+            round_k, round_other = _gaps(wire, 12)
+            k, other = np.append(k, round_k), np.append(other, round_other)
+            if np.mean(round_other == np.median(round_other)) >= STEADY:
+                k, other = round_k, round_other
+                break
+    assert np.median(k) < np.median(other) + 1, f"ticks that K took {k}, an entry {other}"
 
 
-def _frames_until(line: int, wanted: int, seconds: float) -> list[bytes]:
-    """Data of answers from a serial line."""
-    import select
+class Wire:
+    """Requests and answers on a board's serial line."""
 
-    text, end = b"", time.monotonic() + seconds
-    while time.monotonic() < end:
-        if select.select([line], [], [], 0.1)[0]:
-            text += os.read(line, 4096)
-        answers = [part[5:] for part in text.split(b"\r")[:-1] if part.startswith(b"t%03X8" % (ANSWER + NODE))]
-        if len(answers) >= wanted:
-            break
-    return [bytes.fromhex(answer.decode()) for answer in answers]
+    def __init__(self, place: str) -> None:
+        self._file = os.open(place, os.O_RDWR | os.O_NOCTTY)
+        tty.setraw(self._file)
+        self._text = b""
+
+    def __enter__(self) -> Wire:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        os.close(self._file)
+
+    def ask(self, *requests: bytes) -> None:
+        """In one piece."""
+        os.write(self._file, b"".join(b"t%03X8%s\r" % (REQUEST + NODE, each.hex().upper().encode()) for each in requests))
+
+    def answer(self, seconds: float = PATIENCE_S) -> bytes | None:
+        """The next answer's data, other frames passed over."""
+        end = time.monotonic() + seconds
+        while True:
+            *lines, self._text = self._text.split(b"\r", 1)
+            if lines and lines[0].startswith(b"t%03X8" % (ANSWER + NODE)):
+                return bytes.fromhex(lines[0][5:].decode())
+            if lines:
+                continue
+            if time.monotonic() > end:
+                return None
+            if select.select([self._file], [], [], 0.1)[0]:
+                self._text += os.read(self._file, 4096)
+
+    def answers(self, count: int) -> list[bytes]:
+        """The next ones."""
+        found = [self.answer() for _ in range(count)]
+        assert all(found), f"{found}: the board has stopped answering"
+        return [data for data in found if data]
+
+    def wait_for_board(self) -> None:
+        """Bytes that come before it has started are lost."""
+        end = time.monotonic() + 2 * PATIENCE_S
+        while self.answer(0.5) is None:
+            assert time.monotonic() < end, "the board does not answer"
+            os.write(self._file, b"\rC\rS8\rO\r")
+            self.ask(entry_request(0, SEQUENCE_ENTRY))
+        self.ask(entry_request(9, SEQUENCE_ENTRY))
+        while self.answers(1)[0][1] != 9:  # the earlier ones' answers
+            pass
 
 
-def _check_board(line: int) -> None:
-    import tty
-
-    tty.setraw(line)
-    hello = entry_request(0, SEQUENCE_ENTRY)
-    for _ in range(30):  # bytes that come before it has started are lost
-        os.write(line, b"\rC\rS8\rO\r" + b"t%03X8%s\r" % (REQUEST + NODE, hello.hex().upper().encode()))
-        if _frames_until(line, 1, 0.5):
-            break
-    _frames_until(line, 99, 0.5)
+def _gaps(wire: Wire, pairs: int) -> tuple[np.ndarray, np.ndarray]:
+    """Ticks from the request before to the request behind: around K, and around an entry; in turns."""
     gaps: dict[int, list[int]] = {K_AT_POSTURE: [], READ_ENTRY: []}
-    for number in range(20):
-        asked = (0.1 * number - 0.5, 0.5 + 0.09 * number)
-        for kind, between in ((K_AT_POSTURE, k_request(2, *asked)), (READ_ENTRY, hello)):
-            requests = [entry_request(1, SEQUENCE_ENTRY), between, entry_request(3, SEQUENCE_ENTRY)]
-            os.write(line, b"".join(b"t%03X8%s\r" % (REQUEST + NODE, each.hex().upper().encode()) for each in requests))
+    for number in range(pairs):
+        asked = (0.15 * number - 0.5, 0.5 + 0.15 * number)
+        for kind, between in ((K_AT_POSTURE, k_request(2, *asked)), (READ_ENTRY, entry_request(2, SEQUENCE_ENTRY))):
+            wire.ask(entry_request(1, SEQUENCE_ENTRY), between, entry_request(3, SEQUENCE_ENTRY))
             parts = 3 if kind == K_AT_POSTURE else 1
-            answers = _frames_until(line, 2 + parts, 10.0)
+            answers = wire.answers(2 + parts)
             assert [data[0] & 31 for data in answers] == [READ_ENTRY, *[kind] * parts, READ_ENTRY], answers
             if kind == K_AT_POSTURE:
                 check(k_of_answers(answers[1:4]), *asked)
             gaps[kind].append(whole(answers[-1], 32, 32) - whole(answers[0], 32, 32))
-    # The line brings a request in no time on one board, byte by byte on the other; and the host may be busy, so the
-    # least disturbed try counts. Another entry in K's place tells how long the line takes.
-    assert min(gaps[K_AT_POSTURE]) <= max(2, min(gaps[READ_ENTRY]) + 1), gaps
+    return np.array(gaps[K_AT_POSTURE]), np.array(gaps[READ_ENTRY])
 
 
 SNAPSHOTS = 1_000_000

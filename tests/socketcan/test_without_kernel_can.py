@@ -42,7 +42,7 @@ def test_python_can_asks_and_is_answered(channel: str) -> None:
     parts: list[bytes] = []
     with can.Bus(interface="slcan", channel=channel, bitrate=1_000_000, sleep_after_open=0.2) as bus:
         bus.send(request)
-        end = time.monotonic() + 5.0
+        end = time.monotonic() + 60.0
         while len(parts) < 3 and time.monotonic() < end:
             frame = bus.recv(0.2)
             if frame is not None and frame.arbitration_id == ANSWER + NODE and frame.data[1] == 7:
@@ -68,7 +68,7 @@ def test_cantools_decodes_a_log(channel: str, tmp_path: Path) -> None:
     """`candump`'s text through `cantools decode`, as one does without a terminal."""
     lines: list[str] = []
     with can.Bus(interface="slcan", channel=channel, bitrate=1_000_000, sleep_after_open=0.2) as bus:
-        end = time.monotonic() + 3.0
+        end = time.monotonic() + 60.0
         while len(lines) < 40 and time.monotonic() < end:
             if (frame := bus.recv(0.2)) is not None:
                 lines.append(f"({time.time():.6f}) can0 {frame.arbitration_id:03X}#{frame.data.hex().upper()}")

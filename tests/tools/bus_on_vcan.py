@@ -14,7 +14,7 @@ LIMB = "tools/brace/data/paper-limb.toml"
 
 def run(*arguments: str) -> dict[str, object]:
     started = time.monotonic()
-    done = subprocess.run([*BRACE, *arguments], capture_output=True, text=True, timeout=40)
+    done = subprocess.run([*BRACE, *arguments], capture_output=True, text=True, timeout=90)
     return {"code": done.returncode, "s": time.monotonic() - started, "out": done.stdout, "err": done.stderr}
 
 
@@ -42,7 +42,7 @@ def main() -> None:
     subprocess.run(["ip", "link", "set", "vcan1", "up"], check=True)
     results["silent"] = run("query", "--bus", "vcan1")
     sim.terminate()
-    sim.wait(10)
+    sim.wait(60)
     print(json.dumps(results))
 
 

@@ -76,6 +76,24 @@ def spawn(*arguments: object, **options: object) -> subprocess.Popen[str]:
     )  # type: ignore[call-overload]
 
 
+def processor_s(*arguments: object) -> tuple[float, str]:
+    """Processor time of a command that succeeds, start of Python included [s]; what it prints."""
+    before = os.times()
+    process = spawn(*arguments)
+    out, err = process.communicate(timeout=300)
+    after = os.times()
+    assert process.returncode == 0, err
+    return after.children_user + after.children_system - before.children_user - before.children_system, out
+
+
+def assert_a_million_takes_two_seconds(spent_s: float, model: Path, folder: Path) -> None:
+    """Processor time, so that other programs do not decide. They do make it dearer, and a machine may be slow: beyond two
+    seconds a map of few postures, made now, says what a start costs; a million may cost as much again."""
+    if spent_s >= 2.0:
+        start_s, _ = processor_s("map", "--model", model, "--postures", 1000, "--out", folder)
+        assert spent_s < 2.0 * start_s, f"{spent_s:.2f} s; {start_s:.2f} s for a thousand"
+
+
 LIMB = """format = 1
 name = "test"
 [geometry]

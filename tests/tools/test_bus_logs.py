@@ -15,6 +15,7 @@ from typing import Any
 import pytest
 from bus_bench import limb_on_tcp, told_in_time
 from conftest import LIMB, PROJECT, Outcome, spawn
+from test_bus_params import wait_for_mode
 
 from brace.bus.log import read
 from brace.bus.session import Session
@@ -22,6 +23,7 @@ from brace.bus.slcan import SlcanBus
 from brace.bus.lines import TcpLine
 from brace.bus.url import parse
 
+WRAP = 256  # of a snapshot's sequence number on the bus
 MATRIX = ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm")
 
 
@@ -56,7 +58,7 @@ def test_replay_of_a_log_gives_the_same_k_bit_for_bit(
 ) -> None:
     live = spawn("monitor", "--bus", moving, "--json", "--seconds", 4.0)
     with ThreadPoolExecutor(1) as reading:  # a full pipe would stop it in the middle of a set, which it then drops
-        told = reading.submit(live.communicate, timeout=20)
+        told = reading.submit(live.communicate, timeout=60)
         time.sleep(1.2)  # it listens before the recording begins, and after it ends
         outcome = brace("record", "--bus", moving, "--out", tmp_path / "a.log", "--seconds", 1.0, "--json")
         assert outcome.code == 0, outcome.err
@@ -69,14 +71,34 @@ def test_replay_of_a_log_gives_the_same_k_bit_for_bit(
     assert len(again) == sum(json.loads(outcome.out)["snapshots"].values()) > 300
     assert len({entry[2] for entry in again}) > 50  # K changed
     for node in (1, 2):
-        of_node, again_of_node = [e for e in heard if e[0] == node], [e for e in again if e[0] == node]
-        start = of_node.index(again_of_node[0])
-        assert of_node[start : start + len(again_of_node)] == again_of_node
+        _agree([e for e in heard if e[0] == node], [e for e in again if e[0] == node])
 
     assert brace("record", "--bus", f"log:{tmp_path / 'a.log'}", "--out", tmp_path / "a.mcap").code == 0
     assert brace("replay", tmp_path / "a.mcap", "--json").out == replayed.out
     assert brace("monitor", "--bus", f"log:{tmp_path / 'a.mcap'}", "--json").out == replayed.out
     _as_other_tools_read_it(tmp_path, again)
+
+
+def _agree(live: list[tuple[Any, ...]], logged: list[tuple[Any, ...]]) -> None:
+    """Of each tick that both listeners have, the same bits. On a busy machine either may miss ticks, and the one may
+    begin late: most are in both all the same."""
+    first, other = _by_tick(live), _by_tick(logged)
+    shifts = range(-8 * WRAP, 9 * WRAP, WRAP)
+    shift = max(shifts, key=lambda by: sum(first.get(tick + by) == entry for tick, entry in other.items()))
+    common = [tick for tick in other if tick + shift in first]
+    assert len(common) > 0.5 * len(other)
+    assert [other[tick] for tick in common] == [first[tick + shift] for tick in common]
+
+
+def _by_tick(entries: list[tuple[Any, ...]]) -> dict[int, tuple[Any, ...]]:
+    """By sequence number, its wraps undone."""
+    ticks: dict[int, tuple[Any, ...]] = {}
+    tick = entries[0][1]
+    for entry in entries:
+        tick += (entry[1] - tick) % WRAP
+        ticks[tick] = entry
+    assert len(ticks) == len(entries)  # no K twice
+    return ticks
 
 
 def _as_other_tools_read_it(folder: Path, ours: list[tuple[Any, ...]]) -> None:
@@ -115,10 +137,10 @@ def test_sigterm_ends_a_recording_well_and_ctrl_c_with_130(limb: Path, tmp_path:
         for sent, code in ((signal.SIGTERM, 0), (signal.SIGINT, 130)):
             path = tmp_path / f"{code}{ending}"
             process = spawn("record", "--bus", url, "--out", path)
-            _wait_for(lambda: path.with_name(path.name + ".part").exists())
-            time.sleep(0.3)
+            part = path.with_name(path.name + ".part")
+            _wait_for(lambda: part.exists() and part.stat().st_size > 20_000)
             process.send_signal(sent)
-            _, said = process.communicate(timeout=10)
+            _, said = process.communicate(timeout=60)
             assert process.returncode == code, said
             assert len(list(read(path))) > 50
             assert os.listdir(tmp_path).count(path.name + ".part") == 0
@@ -145,13 +167,13 @@ def test_a_bus_that_goes_away_keeps_what_came(limb: Path, tmp_path: Path) -> Non
         process = spawn("record", "--bus", url, "--out", path)
         part = path.with_name(path.name + ".part")
         _wait_for(lambda: part.exists() and part.stat().st_size > 5_000)
-    _, said = process.communicate(timeout=10)
+    _, said = process.communicate(timeout=60)
     assert process.returncode == 4 and "the connection is lost" in said and str(part) in said
     assert len(list(read(part))) > 50 and not path.exists()
 
 
 def _wait_for(found: Callable[[], bool]) -> None:
-    until = time.monotonic() + 15
+    until = time.monotonic() + 60
     while not found():
         assert time.monotonic() < until
         time.sleep(0.02)
@@ -178,7 +200,7 @@ def test_replay_onto_a_bus(brace: Callable[..., Outcome], limb: Path, tmp_path: 
         started = time.monotonic()
         outcome = brace("replay", tmp_path / "a.log", "--bus", url, "--json")
         assert outcome.code == 0 and json.loads(outcome.out)["frames"] == len(recorded)
-        assert 0.5 < time.monotonic() - started < 3.0
+        assert 0.5 < time.monotonic() - started < 10.0  # as long as it took, not at once; the rest is the machine's
         heard = []
         while (frame := listener.receive(0.3)) is not None and len(heard) < 10_000:
             if frame.node == 1:
@@ -254,11 +276,11 @@ def test_a_loading_test_becomes_a_dataset(brace: Callable[..., Outcome], limb: P
 def test_an_interrupted_loading_test_is_stopped(limb: Path, tmp_path: Path) -> None:
     with limb_on_tcp(limb) as url:
         process = spawn("record", "--bus", url, "--loading-test", "--axis", "x", "--out", tmp_path / "test")
-        time.sleep(2.5)
+        wait_for_mode(url, "loading_test")
         process.send_signal(signal.SIGTERM)
-        _, said = process.communicate(timeout=10)
+        _, said = process.communicate(timeout=60)
         assert process.returncode == 130, said
         process = spawn("query", "--bus", url, "--entry", "loading_outcome", "--json")
-        out, _ = process.communicate(timeout=10)
+        out, _ = process.communicate(timeout=60)
         assert json.loads(out)["entries"]["loading_outcome"]["value"] == 3  # stopped on request
     assert not (tmp_path / "test").exists()

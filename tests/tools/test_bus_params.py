@@ -125,9 +125,9 @@ def test_a_killed_or_interrupted_push(limb: Path, other: Path) -> None:
         before = crc_in_force(url)
         for sent, code in ((signal.SIGKILL, -9), (signal.SIGTERM, 130), (signal.SIGINT, 130)):
             process = spawn("params", "push", other, "--bus", url)
-            _wait_for_mode(url, "configuration")
+            wait_for_mode(url, "configuration")
             process.send_signal(sent)
-            process.communicate(timeout=10)
+            process.communicate(timeout=60)
             if process.returncode == 0:
                 pytest.skip("the push was done before the signal came")
             assert process.returncode == code
@@ -135,23 +135,23 @@ def test_a_killed_or_interrupted_push(limb: Path, other: Path) -> None:
             if sent == signal.SIGKILL:
                 with device_on(url) as device:
                     device.leave_configuration()
-            _wait_for_mode(url, "monitor")  # which the others have done themselves
+            wait_for_mode(url, "monitor")  # which the others have done themselves
 
 
-def _wait_for_mode(url: str, mode: str) -> None:
-    until = time.monotonic() + 10
+def wait_for_mode(url: str, mode: str) -> None:
+    until = time.monotonic() + 60
     with device_on(url) as device:
-        while device.read_entry("mode") != {"monitor": 1, "configuration": 2}[mode]:
+        while device.read_entry("mode") != {"monitor": 1, "configuration": 2, "loading_test": 4}[mode]:
             assert time.monotonic() < until, f"never in {mode}"
 
 
-@pytest.mark.parametrize("fault", ["nvm_fails@1.5", "nvm_forgets@1.5"])
+@pytest.mark.parametrize("fault", ["nvm_fails@0.4", "nvm_forgets@0.4"])
 def test_a_memory_that_does_not_keep_it_is_7_with_the_set_before(
     brace: Callable[..., Outcome], limb: Path, other: Path, fault: str
 ) -> None:
     with limb_on_tcp(limb, "--fault", fault) as url:
         before = crc_in_force(url)
-        time.sleep(1.6)
+        time.sleep(1.6)  # in the limb's time; a machine that is late may take four times as long
         outcome = brace("params", "push", other, "--bus", url)
         assert outcome.code == 7, outcome.err
         assert "try:" in outcome.err

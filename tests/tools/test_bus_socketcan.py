@@ -9,7 +9,6 @@ import sys
 import pytest
 from conftest import PROJECT, physics_k
 
-SLOWER = 3.0  # the guest kernel, than the machine it runs on
 
 
 def test_query_record_replay_push_and_failures_on_vcan0() -> None:
@@ -19,7 +18,7 @@ def test_query_record_replay_push_and_failures_on_vcan0() -> None:
         cwd=PROJECT,
         capture_output=True,
         text=True,
-        timeout=150,
+        timeout=400,
     )
     if ran.returncode == 4:
         pytest.skip(ran.stderr.strip())
@@ -42,4 +41,5 @@ def test_query_record_replay_push_and_failures_on_vcan0() -> None:
     }.items():
         told = results[name]
         assert told["code"] == 4 and words in told["err"] and "try:" in told["err"], told
-        assert told["s"] < 3.0 * SLOWER, told
+        # the guest is slower than the machine it runs on, by how much a failure that waits for nothing says
+        assert told["s"] < 3.0 + 2.0 * results["no interface"]["s"], told

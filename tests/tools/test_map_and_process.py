@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import json
-import os
 import signal
 import time
 from collections.abc import Callable
@@ -13,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from conftest import LIMB, physics_k, spawn
+from conftest import LIMB, assert_a_million_takes_two_seconds, physics_k, processor_s, spawn
 
 
 def test_map_draws_the_papers_curves(tmp_path: Path, brace: Callable[..., object], paper_limb: Path) -> None:
@@ -78,14 +77,8 @@ def test_map_refuses_ranges_that_are_none(
 
 
 def test_a_million_postures_in_two_seconds_of_processor(tmp_path: Path, paper_limb: Path) -> None:
-    """Processor time of the whole command, start of Python included, so that a busy machine does not decide."""
-    before = os.times()
-    process = spawn("map", "--model", paper_limb, "--postures", 1_000_000, "--out", tmp_path / "m")
-    _, err = process.communicate(timeout=60)
-    after = os.times()
-    assert process.returncode == 0, err
-    spent = after.children_user + after.children_system - before.children_user - before.children_system
-    assert spent < 2.0
+    spent_s, _ = processor_s("map", "--model", paper_limb, "--postures", 1_000_000, "--out", tmp_path / "m")
+    assert_a_million_takes_two_seconds(spent_s, paper_limb, tmp_path / "few")
 
 
 def test_interruption_leaves_nothing(tmp_path: Path, paper_limb: Path) -> None:
@@ -95,7 +88,7 @@ def test_interruption_leaves_nothing(tmp_path: Path, paper_limb: Path) -> None:
     process = spawn("map", "--model", limb, "--postures", 40_000_000, "--out", out)
     time.sleep(1.5)
     process.send_signal(signal.SIGINT)
-    _, err = process.communicate(timeout=30)
+    _, err = process.communicate(timeout=120)
     assert process.returncode == 130 and "interrupted" in err and "Traceback" not in err
     assert not out.exists() and sorted(path.name for path in tmp_path.iterdir()) == ["limb.toml"]
 
@@ -107,7 +100,7 @@ def test_a_missing_library_is_said(tmp_path: Path, paper_limb: Path, monkeypatch
             path.write_bytes(content)
         monkeypatch.setenv("BRACE_LIBRARY", str(path))
         process = spawn("k", "--model", paper_limb, "--theta1", 1, "--theta2", 1)
-        out, err = process.communicate(timeout=30)
+        out, err = process.communicate(timeout=120)
         assert process.returncode == 2 and out == "" and "libbrace_host.so" in err and "try:" in err
         assert "Traceback" not in err
 
@@ -118,4 +111,4 @@ def test_a_closed_pipe_is_no_error(paper_limb: Path) -> None:
     process.stdout.close()
     assert process.stderr is not None
     err = process.stderr.read()
-    assert process.wait(timeout=30) == 0 and "Traceback" not in err and "Error" not in err
+    assert process.wait(timeout=120) == 0 and "Traceback" not in err and "Error" not in err

@@ -32,7 +32,7 @@ def running(limb: Path, *options: object) -> Iterator[tuple[subprocess.Popen[str
     process = spawn("sim", "--model", limb, "--json", *options)
     try:
         assert process.stdout is not None
-        ready, _, _ = select.select([process.stdout], [], [], 20.0)
+        ready, _, _ = select.select([process.stdout], [], [], 60.0)
         line = process.stdout.readline() if ready else ""
         assert line, process.stderr.read() if process.poll() is not None and process.stderr else "silent"
         yield process, json.loads(line)
@@ -43,7 +43,7 @@ def running(limb: Path, *options: object) -> Iterator[tuple[subprocess.Popen[str
 
 def connected(place: str) -> socket.socket:
     host, _, port = place.rpartition("/")[2].rpartition(":")
-    client = socket.create_connection((host, int(port)), timeout=5.0)
+    client = socket.create_connection((host, int(port)), timeout=30.0)
     return client
 
 
@@ -57,7 +57,7 @@ class Slcan:
     def send(self, text: bytes) -> None:
         self.socket.sendall(text)
 
-    def line(self, timeout: float = 3.0) -> bytes:
+    def line(self, timeout: float = 20.0) -> bytes:
         """The next answer: up to CR, or BEL alone."""
         until = time.monotonic() + timeout
         while True:
@@ -111,7 +111,7 @@ def test_sigterm_ends_it_with_0_and_ctrl_c_with_130(paper_limb: Path) -> None:
     for number, code in ((signal.SIGTERM, 0), (signal.SIGINT, 130)):
         with running(paper_limb, *FREE) as (process, _):
             process.send_signal(number)
-            out, err = process.communicate(timeout=10)
+            out, err = process.communicate(timeout=60)
             assert process.returncode == code, err
             assert json.loads(out.splitlines()[-1])["event"] == "end"
             assert "Traceback" not in err
@@ -125,7 +125,7 @@ def test_ctrl_c_in_the_middle_of_a_run_waits_for_the_limbs(paper_limb: Path) -> 
             assert process.stdout.readline().startswith("limb 1: node")
             time.sleep(0.5)
             process.send_signal(signal.SIGINT)
-            out, err = process.communicate(timeout=10)
+            out, err = process.communicate(timeout=60)
             assert process.returncode == 130, (process.returncode, err)
             assert "monitor" in out
 
@@ -285,7 +285,7 @@ def test_python_can_sees_the_heartbeats_over_tcp_and_pty(paper_limb: Path) -> No
             channel = place.replace("tcp://", "socket://").removeprefix("slcan:")
             with can.Bus(interface="slcan", channel=channel, sleep_after_open=0.1) as bus:
                 seen: dict[int, bytes] = {}
-                until = time.monotonic() + 5.0
+                until = time.monotonic() + 30.0
                 while len(seen) < 4 and time.monotonic() < until:
                     frame = bus.recv(0.5)
                     if frame is not None and 0x700 < frame.arbitration_id < 0x780:
@@ -299,7 +299,7 @@ def test_modbus_tcp_takes_connections_and_drops_what_is_no_modbus(paper_limb: Pa
         place = ready["limbs"][0]["modbus_tcp"]
         with connected(place) as client:
             client.sendall(struct.pack(">HHHBB", 1, 7, 2, 1, 3))  # protocol 7
-            client.settimeout(3.0)
+            client.settimeout(30.0)
             assert client.recv(100) == b""
         many = [connected(place) for _ in range(12)]
         assert process.poll() is None
@@ -325,7 +325,7 @@ def test_a_terminal_gets_a_live_line(paper_limb: Path) -> None:
         stderr=theirs,
         text=True,
     )
-    process.communicate(timeout=20)
+    process.communicate(timeout=60)
     os.close(theirs)
     shown = b""
     with contextlib.suppress(OSError):

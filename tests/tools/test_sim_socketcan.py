@@ -19,7 +19,7 @@ def test_the_limbs_are_on_vcan0() -> None:
         cwd=PROJECT,
         capture_output=True,
         text=True,
-        timeout=150,
+        timeout=300,
     )
     if run.returncode == 4:
         pytest.skip(run.stderr.strip())

@@ -64,7 +64,7 @@ typedef struct {
     uint32_t us, reads, fed;
     uint8_t nvm[BRACE_NVM_SLOT_COUNT][SLOT_BYTES];
     brace_can_frame_t frames[FRAMES_MAX];
-    uint32_t queued, taken;
+    uint32_t queued, taken, early_counts;
     bool loopback, moves;
 } world_t;
 
@@ -96,6 +96,23 @@ static uint32_t falling_count(void *context)
     (void)context;
     const uint32_t us = world.us;
     return (100u - (world.lie == CLOCK_FAST ? us / 8u * 7u : world.lie == CLOCK_SLOW ? 2u * us : us)) & 0xffffu;
+}
+
+/* As if an emulator had been away between the first readings of now_us and of the count: the window is over before the
+ * count has moved. */
+static uint32_t count_after_a_pause(void *context)
+{
+    if (world.early_counts > 0u) {
+        world.early_counts--;
+        return 77u;
+    }
+    return falling_count(context);
+}
+
+static uint32_t standing_count(void *context)
+{
+    (void)context;
+    return 77u;
 }
 
 static int32_t joint_read(void *context, int32_t index, brace_hal_joint_t *joint)
@@ -547,6 +564,31 @@ static void what_is_optional_may_be_absent(void)
     TEST_ASSERT_EQUAL_INT32(0, brace_selftest_run(&door, NULL, NULL));
 }
 
+static bool is_found(brace_selftest_verdict_t verdict, const char *words)
+{
+    bool found = false;
+    for (uint32_t i = 0u; i < finding_count; i++) {
+        found = found || (findings[i].verdict == verdict && strstr(findings[i].what, words) != NULL);
+    }
+    return found;
+}
+
+static void the_other_clock_stands_only_when_it_always_does(void)
+{
+    open_door(TRUTH);
+    world.early_counts = 2u; /* at the start and the end of the first attempt */
+    brace_selftest_setup_t setup = setup_of(0);
+    setup.reference_count = count_after_a_pause;
+    TEST_ASSERT_EQUAL_INT32(0, brace_selftest_run(&door, &setup, NULL));
+    TEST_ASSERT_EQUAL_UINT32(0u, world.early_counts);
+    TEST_ASSERT_TRUE(is_found(BRACE_SELFTEST_PASS, "rate agrees"));
+    open_door(TRUTH);
+    setup = setup_of(0);
+    setup.reference_count = standing_count;
+    TEST_ASSERT_EQUAL_INT32(0, brace_selftest_run(&door, &setup, NULL));
+    TEST_ASSERT_TRUE(is_found(BRACE_SELFTEST_NOTE, "the other clock stands"));
+}
+
 static void impossible_requests_are_refused(void)
 {
     open_door(TRUTH);
@@ -584,6 +626,7 @@ int main(void)
     RUN_TEST(every_null_is_named);
     RUN_TEST(memory_is_kept_when_asked);
     RUN_TEST(what_is_optional_may_be_absent);
+    RUN_TEST(the_other_clock_stands_only_when_it_always_does);
     RUN_TEST(impossible_requests_are_refused);
     RUN_TEST(the_blank_door_is_told_what_it_lacks);
     return UNITY_END();

@@ -12,7 +12,7 @@ from typing import Any
 
 from baselines.methods import NAMING, PROCESS, tuned
 from baselines.run_case import folder_of
-from scoring import VISIBLE_GAP_N, Judged, closed, judge, share, strong, weak
+from scoring import VISIBLE_GAP_N, Judged, closed, judge, share, strong, told, weak
 
 SIGNIFICANT = 0.01
 US = "brace diagnose"
@@ -44,17 +44,18 @@ def _pair(j: Judged) -> bool | None:
 
 
 def _together(j: Judged) -> bool | None:
-    exact = _single("exact", strong)
+    exact = _single("exact", told)
     return next((value for one in (exact, _quiet, _pair) if (value := one(j)) is not None), None)
 
 
 LINES = (
-    Line("right effect first, s >= 12", _single("exact", strong), "naming"),
+    Line("right effect first, s >= 8", _single("exact", told), "naming"),
     Line("no alarm when nothing is hidden", _quiet, "false alarms"),
     Line("both of two hidden effects and nothing else", _pair, "pairs"),
     Line("these three together", _together, "these three together"),
     Line("right effect first and no second one, s >= 12", _alone),
     Line("right effect or its class first, s >= 12", _single("class", strong)),
+    Line("right effect first, s >= 12", _single("exact", strong)),
     Line("right effect first, s = 8", _single("exact", weak)),
     Line("outside the catalogue called unknown", lambda j: j.flags["unknown"] if j.kind == "outside" else None),
 )

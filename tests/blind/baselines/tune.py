@@ -1,8 +1,8 @@
 """Tunes every baseline on the development set: the same number of random trials each, the first the textbook's.
 
 usage: python tests/blind/baselines/tune.py [--cases N] [--set FOLDER] [--method NAME]
-Writes tuned.json beside this file, method by method. What a trial is worth: the mean of the shares of strong
-single effects named right first, of pairs named right with nothing else, and of healthy records without an alarm; a
+Writes tuned.json beside this file, method by method. What a trial is worth: the mean of the shares of
+single effects of s = 8 and more named right first, of pairs named right with nothing else, and of healthy records without an alarm; a
 tenth of the share of outsiders called unknown decides between equals. For the Gaussian process: the mean share of the
 gap closed, each case's within 0 to 1."""
 
@@ -31,8 +31,8 @@ from baselines.signatures import Signatures, cached, prepared  # noqa: E402
 import diagnoser  # noqa: E402
 from generate import default_folder, generator_hash  # noqa: E402
 from plant import BUILD  # noqa: E402
-from scoring import VISIBLE_GAP_N, Judged, judge, share, strong  # noqa: E402
-from seeds import DEVELOPMENT_CASES, DEVELOPMENT_SEED  # noqa: E402
+from scoring import VISIBLE_GAP_N, Judged, judge, share, told  # noqa: E402
+from seeds import DEVELOPMENT_SEED, TUNING_CASES  # noqa: E402
 
 TRIALS = 24
 GAP_CASES = 20  # that the Gaussian process is tuned on
@@ -43,7 +43,7 @@ def worth(judged: list[Judged]) -> float:
     """Of a trial of a naming baseline."""
     pairs = [j for j in judged if j.kind == "pair"]
     shares = [
-        share(judged, "exact", strong).value or 0.0,
+        share(judged, "exact", told).value or 0.0,
         share(pairs, "set").value or 0.0,
         1.0 - (share(judged, "false_alarm").value or 0.0),
     ]
@@ -53,7 +53,7 @@ def worth(judged: list[Judged]) -> float:
 def _counts(truth: dict[str, Any]) -> bool:
     """Whether a case is of a kind that a trial's worth looks at."""
     return truth["kind"] in ("none", "pair", "outside") or (
-        truth["kind"] == "single" and strong(judge(truth, {}))
+        truth["kind"] == "single" and told(judge(truth, {}))
     )
 
 
@@ -94,11 +94,11 @@ def _gap_of(root: Path, keep: Path, name: str) -> Discrepancy | None:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cases", type=int, help="only so many of the set: for a quick look; writes nothing")
-    parser.add_argument("--set", type=Path, default=default_folder(DEVELOPMENT_SEED, DEVELOPMENT_CASES))
+    parser.add_argument("--set", type=Path, default=default_folder(DEVELOPMENT_SEED, TUNING_CASES))
     parser.add_argument("--method", help="only those whose name has this in it")
     options = parser.parse_args()
     if not (options.set / "cases").is_dir():
-        print("there is no development set yet: python tests/blind/generate.py --development", file=sys.stderr)
+        print(f"there is no such set yet: python tests/blind/generate.py --development --cases {TUNING_CASES}", file=sys.stderr)
         return 3
     stamp = json.loads((options.set / "set.json").read_text())
     if stamp["seed"] != DEVELOPMENT_SEED:

@@ -50,8 +50,10 @@ def load(folder: Path, model: Path | None) -> Given:
     return Given(dataset, believed, text)
 
 
-def diagnosed(given: Given, options: Options, advance: Advance = silent) -> tuple[Diagnosis, Written]:
-    """The diagnosis, and what it leaves behind."""
+def diagnosed(
+    given: Given, options: Options, advance: Advance = silent, report: bool = True
+) -> tuple[Diagnosis, Written]:
+    """The diagnosis, and what it leaves behind; `report` as for `contents`."""
     found = diagnose(given.dataset, given.believed, options, advance)
-    written = contents(given.dataset, given.believed, given.believed_text, found)
+    written = contents(given.dataset, given.believed, given.believed_text, found, report)
     return written.diagnosis, written

@@ -18,7 +18,8 @@ from brace.diagnose.effects import Variant
 from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.evidence import evidence, freedoms, score
 from brace.diagnose.loading.fit import Fit
-from brace.diagnose.loading.record import FORCES, Record, levers
+from brace.diagnose.loading.noise import FORCES
+from brace.diagnose.loading.record import Record, levers
 from brace.diagnose.loading.screen import Remover
 from brace.identify.parameters import natural_scale
 from brace.model.keys import KEY_BY_NAME
@@ -26,7 +27,7 @@ from brace.native.plant_batch import number_index
 
 PRIOR_OUTSIDE = 0.05  # of anything outside the catalogue, against nothing missing: a tenth of what is in it
 SAME_COSINE = 0.95  # from which a change is an effect of the catalogue by another name
-MUST_LEAD = 4.0  # nats, 55 to 1, to take back what is named; below that, the odds only lower the confidence
+MUST_LEAD = 6.0  # nats, 400 to 1, to take back what is named; below that, the odds only lower the confidence
 PROBE_SIGMAS = 3.0  # of the whole record: how far a number is turned to see what it does
 HIDDEN = 0.02  # share of a change that must stay when all that the hypothesis turns is taken out
 LEAST_RANGE_DEGC = 0.1

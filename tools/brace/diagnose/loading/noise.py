@@ -3,6 +3,7 @@ disagree by (which time, drift and temperature make, and not noise)."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +13,10 @@ from brace.dataset.check_runs import run_starts
 
 LEAST_FORCE_SIGMA_N = 1e-3  # a simulated record without noise is still not known better
 LEAST_SHARE = 1e-4  # of what a channel moves by
-REPEATS = "repeats"
+FORCES: tuple[str, ...] = ("fx_n", "fz_n")
+REPEATS, GROWING = "repeats", ", growing with load"
+FAR_SIGMAS = 4.5  # from which a difference is no noise; of white noise it cuts 7 in a million, 0.02 % of the variance
+MEDIAN_OF_SQUARES = 0.4549  # of a normal variable with variance 1
 THIRD_DIFFERENCES_SHARE = 2.31  # how many third differences of white noise tell as much as one independent reading
 GROWTH_GAIN = 12.0  # twice the log-likelihood that a noise growing with load must gain to be believed
 
@@ -32,40 +36,78 @@ class ChannelNoise:
         return np.asarray(np.hypot(self.floor, self.growth_ratio * np.abs(reading)))
 
 
-def channel_noise(dataset: Dataset, channel: str) -> ChannelNoise:
-    """From repeats where there are any, else from the smoothness along the runs."""
+@dataclass(frozen=True)
+class _Differences:
+    """What one channel's readings disagree by, scaled to one reading's noise, and the readings' sizes."""
+
+    off: np.ndarray
+    size: np.ndarray
+    source: str
+    freedom: float
+    least: float
+
+    @property
+    def spread(self) -> float:
+        return robust_sigma(self.off)
+
+
+def noise_of(dataset: Dataset, channels: Sequence[str]) -> dict[str, ChannelNoise]:
+    """Of each channel: from repeats where there are any, else from the smoothness along the runs. Whether it grows with
+    the load is asked of the force's channels together, which are one sensor's."""
+    noise: dict[str, ChannelNoise] = {}
+    growing: dict[str, _Differences] = {}
+    for name in channels:
+        found = _differences(dataset, name)
+        if found.off.size < 4:
+            noise[name] = ChannelNoise(found.least, 0.0, "not enough readings; the least that can be told")
+        elif found.spread < found.least:
+            noise[name] = ChannelNoise(found.least, 0.0, "the sensor's resolution")
+        else:
+            noise[name] = ChannelNoise(found.spread, 0.0, found.source, found.freedom)
+            if found.source == REPEATS and name in FORCES:
+                growing[name] = found
+    for name, growth in zip(growing, growth_of([(found.off, found.size) for found in growing.values()])):
+        if growth is not None:
+            found = growing[name]
+            noise[name] = ChannelNoise(max(growth[0], found.least), growth[1], found.source + GROWING, found.freedom)
+    return noise
+
+
+def _differences(dataset: Dataset, channel: str) -> _Differences:
     values = dataset[channel]
     if np.isnan(values).any():  # a reading that only a part of the record has
         dataset = dataset.select(~np.isnan(values))
         values = dataset[channel]
     least = LEAST_SHARE * float(np.ptp(values)) + 1e-12
-    if channel in ("fx_n", "fz_n"):
+    if channel in FORCES:
         resolution = dataset.meta.number("sensor.resolution_n") / np.sqrt(12.0)
         least = max(least, LEAST_FORCE_SIGMA_N, 0.1 * resolution)
-    off, size, freedom_ratio = _repeat_differences(dataset, values)
+    off, size, sigmas = _repeat_differences(dataset, values)
     source, freedom = REPEATS, 0.75 * off.size
     if off.size < 30:
-        off, size, freedom_ratio = _third_differences(dataset, values)
+        off, size, sigmas = _third_differences(dataset, values)
         source, freedom = "smoothness along the runs", off.size / THIRD_DIFFERENCES_SHARE
     if off.size < 4:
-        off, size, freedom_ratio = _off_curves(dataset, values)
+        off, size, sigmas = _off_curves(dataset, values)
         source, freedom = "smooth curves through the runs", 0.5 * off.size
-    if off.size < 4:
-        return ChannelNoise(least, 0.0, "not enough readings; the least that can be told")
-    spread = robust_sigma(off) / freedom_ratio
-    if spread < least:
-        return ChannelNoise(least, 0.0, "the sensor's resolution")
-    growth = growth_of(off / freedom_ratio, size, spread) if source == REPEATS and channel in ("fx_n", "fz_n") else None
-    if growth is None:
-        return ChannelNoise(spread, 0.0, source, freedom)
-    return ChannelNoise(max(growth[0], least), growth[1], source + ", growing with load", freedom)
+    return _Differences(off / sigmas, size, source, freedom, least)
 
 
 def robust_sigma(off: np.ndarray) -> float:
-    """Standard deviation with the largest per cent left out, which a slip or a glitch may own."""
-    square = np.sort(off**2)
-    kept = square[: max(1, int(np.ceil(0.99 * square.size)))]
-    return float(np.sqrt(np.mean(kept) / (0.9238 if kept.size < square.size else 1.0)))
+    """Standard deviation of what lies within `FAR_SIGMAS` of it: the rest, up to nearly a half, belongs to slips, to
+    glitches, or to the corners of readings that are cut off."""
+    square = off**2
+    sigma2 = float(np.median(square)) / MEDIAN_OF_SQUARES
+    if sigma2 <= 0.0:  # most differences are of less than the resolution
+        kept = np.sort(square)[: max(1, int(np.ceil(0.99 * square.size)))]
+        return float(np.sqrt(np.mean(kept)))
+    for _ in range(20):
+        inside = square[square <= FAR_SIGMAS**2 * sigma2]
+        fresh = float(np.mean(inside))
+        if abs(fresh - sigma2) <= 1e-9 * sigma2:
+            break
+        sigma2 = fresh
+    return float(np.sqrt(sigma2))
 
 
 def _repeat_differences(dataset: Dataset, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
@@ -133,17 +175,26 @@ def _off_curves(dataset: Dataset, values: np.ndarray) -> tuple[np.ndarray, np.nd
     return np.concatenate(off), np.concatenate(size), 1.0
 
 
-def growth_of(off: np.ndarray, size: np.ndarray, spread: float) -> tuple[float, float] | None:
-    """(floor, growth) when a noise that grows with the reading is far more likely than a constant one."""
-    scale = float(np.sqrt(np.mean(size**2)))
-    if scale <= 0.0:
-        return None
-    ratios = np.linspace(0.0, 3.0, 31)[:, None]  # of growth * scale to floor
-    shape = 1.0 + (ratios * size / scale) ** 2
-    floor2 = np.mean(off**2 / shape, axis=1)
-    cost = off.size * np.log(floor2) + np.sum(np.log(shape), axis=1)
-    best = int(np.argmin(cost))
-    if best == 0 or cost[0] - cost[best] < GROWTH_GAIN:
-        return None
-    floor = float(np.sqrt(floor2[best]))
-    return floor, float(ratios[best, 0]) * floor / scale
+def growth_of(channels: Sequence[tuple[np.ndarray, np.ndarray]]) -> list[tuple[float, float] | None]:
+    """(floor, growth) of each channel (differences, sizes of the readings) whose noise grows with the reading, far more
+    likely than that it does not: all of them in one ratio to their floors, or one or the other by itself."""
+    scales = [float(np.sqrt(np.mean(size**2))) if size.size else 0.0 for _, size in channels]
+    if not scales or max(scales) <= 0.0:
+        return [None] * len(channels)
+    ratios = np.linspace(0.0, 3.0, 31)[:, None] / max(scales)  # of growth to floor
+    floors2, costs = [], []
+    for off, size in channels:
+        shape = 1.0 + (ratios * size) ** 2
+        floor2 = np.mean(off**2 / shape, axis=1)
+        floors2.append(floor2)
+        costs.append(off.size * np.log(floor2) + np.sum(np.log(shape), axis=1))
+    together = np.sum(costs, axis=0)
+    shared = int(np.argmin(together))
+    own = [int(np.argmin(cost)) for cost in costs]
+    pays = [max(0.0, float(cost[0] - cost[best]) - GROWTH_GAIN) for cost, best in zip(costs, own)]
+    if float(together[0] - together[shared]) - GROWTH_GAIN > sum(pays):
+        own, pays = [shared] * len(own), [1.0] * len(own)
+    return [
+        (float(np.sqrt(floor2[best])), float(ratios[best, 0] * np.sqrt(floor2[best]))) if pay > 0.0 else None
+        for floor2, best, pay in zip(floors2, own, pays)
+    ]

@@ -8,9 +8,17 @@ from dataclasses import replace
 import numpy as np
 
 from brace.diagnose.loading.fit import Fit, fit
-from brace.diagnose.loading.noise import REPEATS, THIRD_DIFFERENCES_SHARE, ChannelNoise, growth_of, robust_sigma
+from brace.diagnose.loading.noise import (
+    FORCES,
+    GROWING,
+    REPEATS,
+    THIRD_DIFFERENCES_SHARE,
+    ChannelNoise,
+    growth_of,
+    robust_sigma,
+)
 from brace.diagnose.loading.parts import enough_rows
-from brace.diagnose.loading.record import FORCES, NOT_MEASURED, Record
+from brace.diagnose.loading.record import NOT_MEASURED, Record
 from brace.diagnose.loading.space import Trust, space_of
 
 LEAST_DIFFERENCES = 30
@@ -43,18 +51,20 @@ def with_growth(record: Record, fitted: Fit) -> Record | None:
     """The record with noise that grows with the load where a fit's residuals show that far better than a constant
     one; None where they do not. Channels whose repeats have spoken stay."""
     left = fitted.residual.reshape(record.measured.shape) * record.sigma
-    noise, grows = dict(record.noise), False
+    asked, given = [], []
     for place, name in enumerate(record.channels):
         if name not in FORCES or record.noise[name].source.startswith(REPEATS):
             continue  # where noise is as large as the reading, weighing by the reading would bias it
         taken = record.sigma[place] < NOT_MEASURED
-        off = left[place][taken]
-        found = growth_of(off, np.abs(record.measured[place][taken]), robust_sigma(off))
-        if found is not None:
-            grows = True
-            source = record.noise[name].source + ", growing with load"
-            noise[name] = ChannelNoise(found[0], found[1], source, record.noise[name].freedom)
-    return _with_noise(record, noise) if grows else None
+        asked.append(name)
+        given.append((left[place][taken], np.abs(record.measured[place][taken])))
+    found = {name: growth for name, growth in zip(asked, growth_of(given)) if growth is not None}
+    if not found:
+        return None
+    noise = dict(record.noise)
+    for name, (floor, growth) in found.items():
+        noise[name] = ChannelNoise(floor, growth, noise[name].source + GROWING, noise[name].freedom)
+    return _with_noise(record, noise)
 
 
 def _with_noise(record: Record, noise: dict[str, ChannelNoise]) -> Record:

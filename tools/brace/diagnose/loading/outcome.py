@@ -31,6 +31,7 @@ from brace.diagnose.loading.limb_of import limb_of
 from brace.diagnose.loading.localise import localise
 from brace.diagnose.loading.record import NOT_MEASURED, Record
 from brace.diagnose.loading.structure import STRUCTURED_P
+from brace.diagnose.loading.verdict import NOTHING_STANDS
 from brace.diagnose.options import Options
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
@@ -312,6 +313,11 @@ def _notes(
         notes.append("the configurations that were held out do not gain from what was chosen without them")
     if final.decision.verdict == "effect" and agreed.bootstrap_share < STAYS_AHEAD:
         notes.append(f"with the runs drawn anew, the choice stays ahead in {agreed.bootstrap_share:.0%} of draws only")
+    if (odds := final.decision.hint_odds) is not None:
+        notes.append(
+            f"a hint of {final.sets[0].label}: {odds:.0f} to 1 against nothing missing, where {1 / NOTHING_STANDS:.0f} "
+            "to 1 is asked of a name; another record like this one would settle it"
+        )
     space = after.space
     for key, pull in zip(space.keys, space.pull(after.x)):
         if abs(pull) > FAR_OUT:

@@ -10,11 +10,10 @@ import numpy as np
 from brace.dataset import Dataset
 from brace.dataset.check_runs import run_starts
 from brace.diagnose.effects import Setting
-from brace.diagnose.loading.noise import ChannelNoise, channel_noise
+from brace.diagnose.loading.noise import FORCES, ChannelNoise, noise_of
 from brace.model import LimbModel
 from brace.native.plant_batch import LoadingBatchPlayer, model_numbers, number_index
 
-FORCES = ("fx_n", "fz_n")
 NOT_MEASURED = 1e30  # sigma of a reading that was not taken
 SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
 
@@ -76,7 +75,7 @@ class Record:
 def load_record(dataset: Dataset) -> Record:
     """Noise per channel, from the whole record."""
     channels = (*FORCES, *(name for name in SIDE_READINGS if name in dataset and np.nanstd(dataset[name]) > 0.0))
-    noise = {name: channel_noise(dataset, name) for name in channels}
+    noise = noise_of(dataset, channels)
     measured = np.stack([np.asarray(dataset[name], float) for name in channels])
     sigma = np.stack([sigma_of(noise[name], values) for name, values in zip(channels, measured)])
     measured = np.nan_to_num(measured, nan=0.0)

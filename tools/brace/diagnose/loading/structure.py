@@ -10,11 +10,13 @@ import numpy as np
 
 from brace.dataset.check_runs import run_starts
 from brace.diagnose.loading.fit import Fit
+from brace.diagnose.loading.noise import robust_sigma
 from brace.diagnose.loading.record import NOT_MEASURED, Record
 from brace.diagnose.loading.screen import Remover
 
-STRUCTURED_P = 3e-5  # family-wise; structure that matters is far below, and noise is never quite white
+STRUCTURED_P = 1e-6  # family-wise; structure that matters is far below, and noise is never quite white
 MOST_DIMENSIONS = 160  # of one family
+ALIKE = 60  # readings of about the same size: enough to tell their own noise within a tenth
 
 
 @dataclass(frozen=True)
@@ -119,11 +121,17 @@ def _neighbours(record: Record, fitted: Fit) -> FamilyTest:
 
 
 def _outliers(record: Record, fitted: Fit) -> FamilyTest:
-    """Single readings that no noise makes."""
+    """Single readings that no noise makes, neither the record's nor that of its readings under like load."""
     from scipy.stats import norm
 
     size = max(1.0, float(np.sqrt(fitted.chi2 / max(record.readings, 1))))
-    worst = float(np.abs(fitted.residual).max(initial=0.0)) / size
+    worst = 0.0
+    for left, reading, sigma in zip(fitted.residual.reshape(record.measured.shape), record.measured, record.sigma):
+        taken = np.flatnonzero(sigma < NOT_MEASURED)
+        alike = taken[np.argsort(np.abs(reading[taken]), kind="stable")]
+        for begin in range(0, alike.size, ALIKE):
+            some = left[alike[max(0, min(begin, alike.size - ALIKE)) : begin + ALIKE]]
+            worst = max(worst, float(np.abs(some).max(initial=0.0)) / max(size, robust_sigma(some)))
     p = float(min(1.0, 2.0 * norm.sf(worst) * record.readings))
     return FamilyTest("in single readings", p, worst**2, 1)
 

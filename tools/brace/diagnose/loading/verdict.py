@@ -11,7 +11,9 @@ from brace.diagnose.loading.extensions import Outside
 from brace.diagnose.loading.fit import Fit
 from brace.diagnose.loading.structure import Structure
 
-NOTHING_STANDS = 0.2  # posterior share of nothing missing from which nothing is claimed
+NOTHING_STANDS = 0.01  # posterior share of nothing missing from which nothing is claimed: a healthy limb that is called
+# faulty costs more trust than a weak effect that a second record would show
+HINT = 0.2  # share of nothing missing below which a second record is worth its time
 SURE = 0.8  # posterior share from which one member of a class is named alone
 SMALL_REST = 0.03  # of what an effect explains: structure left below it does not unname the effect
 
@@ -27,6 +29,13 @@ class Decision:
     chosen: LabelSet
     structure: Structure
     outside: Outside
+
+    @property
+    def hint_odds(self) -> float | None:
+        """Of something missing against nothing, where they are worth telling but not enough to name it."""
+        nothing = self.chosen.posterior
+        told = self.verdict == "none" and nothing < HINT
+        return (1.0 - nothing) / nothing if told else None
 
 
 def decide(sets: Sequence[LabelSet], structure: Structure, base: Fit, outside: Outside) -> Decision:

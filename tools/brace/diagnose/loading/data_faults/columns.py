@@ -11,6 +11,7 @@ import numpy as np
 from brace.dataset import DataFault, Dataset
 from brace.dataset.unit_slips import FORCE_SLIPS, LENGTH_SLIPS
 from brace.diagnose.loading.data_faults.judge import Judge, alike, misfit
+from brace.diagnose.loading.noise import FORCES
 
 Columns = Mapping[str, np.ndarray]
 Change = Callable[[Columns], dict[str, np.ndarray]]
@@ -24,7 +25,6 @@ NEAR_NOISE = 0.5  # excess per reading that a repaired record may keep
 TIED = 1.5  # a repair that leaves no more than this factor of the best's is as likely
 SAME_SHAPE = 0.8  # correlation with the believed limb's forces, from which a unit can be told
 UNITS = {**FORCE_SLIPS, 0.1: ("daN", 10.0), 1 / 0.27801385: ("ozf", 0.27801385)}
-FORCES: tuple[str, ...] = ("fx_n", "fz_n")
 SHIFTS: tuple[str, ...] = ("dx_mm", "dz_mm")
 ANGLES: tuple[str, ...] = ("theta1_rad", "theta2_rad")
 

@@ -10,7 +10,8 @@ from itertools import combinations
 import numpy as np
 
 from brace.dataset import DataFault, Dataset
-from brace.diagnose.loading.data_faults.columns import FORCES, SAME_SHAPE, UNITS
+from brace.diagnose.loading.data_faults.columns import SAME_SHAPE, UNITS
+from brace.diagnose.loading.noise import FORCES
 from brace.diagnose.loading.data_faults.judge import Judge, alike, misfit
 
 MOST_LEFT_OUT = 4  # poses that are left out on trial

@@ -12,7 +12,8 @@ import numpy as np
 from brace.dataset.check_runs import run_starts
 from brace.diagnose.loading.fit import Fit
 from brace.diagnose.loading.noise import ChannelNoise
-from brace.diagnose.loading.record import FORCES, Record
+from brace.diagnose.loading.noise import FORCES
+from brace.diagnose.loading.record import Record
 from brace.native.plant import play_rig
 from brace.native.plant_batch import LoadingBatchPlayer
 
