@@ -17,8 +17,7 @@ static const float limit[] = {
     1e6f,                       10.0f,                      10.0f,                      10.0f,
 };
 
-BRACE_OFF_TICK
-static brace_status_t judge(uint32_t magnitude, float most)
+static inline brace_status_t judge(uint32_t magnitude, float most)
 {
     return magnitude <= brace_magnitude_bits(most) ? BRACE_OK
            : magnitude < BRACE_INFINITE_BITS       ? BRACE_E_RANGE
@@ -32,19 +31,13 @@ brace_status_t brace_check(const void *given, const float *value, brace_input_t 
         return BRACE_E_NULL;
     }
     const float *most = limit + (what >> 4);
-    for (uint32_t count = what & 0xfu; count > 0u; count--) {
-        const uint32_t magnitude = brace_magnitude_bits(*value++);
-        if (magnitude > brace_magnitude_bits(*most++)) {
-            return magnitude < BRACE_INFINITE_BITS ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
-        }
-    }
-    return BRACE_OK;
-}
-
-BRACE_OFF_TICK
-brace_status_t brace_check_magnitude(float value, float most)
-{
-    return judge(brace_magnitude_bits(value), most);
+    uint32_t left = what & 0xfu;
+    brace_status_t status;
+    do { /* at most six */
+        status = judge(brace_magnitude_bits(*value++), *most++);
+        left--;
+    } while (status == BRACE_OK && left > 0u);
+    return status;
 }
 
 BRACE_OFF_TICK
@@ -55,14 +48,24 @@ brace_status_t brace_check_two(float a, float b, float most)
 }
 
 BRACE_OFF_TICK
-brace_status_t brace_check_stiffness(const brace_stiffness_t *stiffness)
+brace_status_t brace_check_magnitude(float value, float most)
 {
-    const brace_status_t status = brace_check(stiffness, (const float *)stiffness, BRACE_INPUT_STIFFNESS);
-    if (status != BRACE_OK) {
-        return status;
+    return brace_check_two(value, value, most);
+}
+
+BRACE_OFF_TICK
+brace_status_t brace_check_stiffness(const brace_stiffness_t *stiffness, const void *given, const float *value,
+                                     brace_input_t what)
+{
+    brace_status_t status = brace_check(given, value, what);
+    if (status == BRACE_OK) {
+        status = brace_check(stiffness, (const float *)stiffness, BRACE_INPUT_STIFFNESS);
     }
-    const int32_t smaller = brace_bits(stiffness->lambda_min_n_per_mm); /* far below that of SMALLEST when negative */
-    return smaller >= brace_bits(SMALLEST_STIFFNESS_N_PER_MM) && smaller <= brace_bits(stiffness->lambda_max_n_per_mm)
-               ? BRACE_OK
-               : BRACE_E_RANGE;
+    if (status == BRACE_OK) {
+        const int32_t smaller = brace_bits(stiffness->lambda_min_n_per_mm); /* below all others when negative */
+        if (smaller < brace_bits(SMALLEST_STIFFNESS_N_PER_MM) || smaller > brace_bits(stiffness->lambda_max_n_per_mm)) {
+            status = BRACE_E_RANGE;
+        }
+    }
+    return status;
 }

@@ -36,9 +36,10 @@ brace_status_t brace_check_two(float a, float b, float limit);
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_PARAMETER */
 brace_status_t brace_check_lengths(const brace_limb_t *limb);
 
-/* A stiffness that can be divided by: numbers within their limits, eigenvalues positive and in order.
- * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE */
-brace_status_t brace_check_stiffness(const brace_stiffness_t *stiffness);
+/* The same, and then whether a stiffness can be divided by: numbers within their limits, eigenvalues positive and in
+ * order. */
+brace_status_t brace_check_stiffness(const brace_stiffness_t *stiffness, const void *given, const float *value,
+                                     brace_input_t what);
 
 /* A float's bits. As integers they are in the floats' own order while these are not negative, NaN and infinity above
  * all: comparing them needs no FPU, and takes half the code where there is one. */

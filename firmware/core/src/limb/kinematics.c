@@ -1,5 +1,6 @@
 #include "brace/kinematics.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "base/check.h"
@@ -27,9 +28,9 @@ brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_r
                                         brace_pose_t *pose)
 {
     const float theta_rad[] = {theta1_rad, theta2_rad};
-    brace_status_t status = brace_check_lengths(limb);
+    brace_status_t status = brace_check(pose != NULL ? limb : NULL, theta_rad, BRACE_INPUT_ANGLES);
     if (status == BRACE_OK) {
-        status = brace_check(pose, theta_rad, BRACE_INPUT_ANGLES);
+        status = brace_check_lengths(limb);
     }
     if (status == BRACE_OK) {
         brace_kinematics_pose(limb, theta_rad[0], theta_rad[1], pose);
@@ -55,9 +56,10 @@ BRACE_OFF_TICK
 brace_status_t brace_kinematics_inverse_polar(const brace_limb_t *limb, brace_polar_t tip, brace_knee_t knee,
                                               float *theta1_rad, float *theta2_rad)
 {
-    brace_status_t status = brace_check_lengths(limb);
+    const bool given = theta1_rad != NULL && theta2_rad != NULL;
+    brace_status_t status = brace_check(given ? limb : NULL, &tip.r_mm, BRACE_INPUT_POLAR);
     if (status == BRACE_OK) {
-        status = brace_check(theta1_rad != NULL ? theta2_rad : NULL, &tip.r_mm, BRACE_INPUT_POLAR);
+        status = brace_check_lengths(limb);
     }
     if (status == BRACE_OK && (tip.r_mm < 0.0f || (knee != BRACE_KNEE_UP && knee != BRACE_KNEE_DOWN))) {
         status = BRACE_E_RANGE;
@@ -78,8 +80,9 @@ brace_status_t brace_kinematics_inverse_polar(const brace_limb_t *limb, brace_po
     const float open = beyond_surplus * beyond_deficit;
     const float square = bent * open;
     const float across = square > 0.0f ? 2.0f * brace_sqrt(square) : 0.0f; /* beyond the edge is on it */
+    const float along = perimeter * beyond_deficit - to_straight * beyond_surplus;
     float flexion_rad = brace_atan2(across, open - bent);
-    float femur_from_tip_rad = brace_atan2(across, perimeter * beyond_deficit - to_straight * beyond_surplus);
+    float femur_from_tip_rad = brace_atan2(across, along);
     if (knee == BRACE_KNEE_DOWN) {
         flexion_rad = -flexion_rad;
         femur_from_tip_rad = -femur_from_tip_rad;

@@ -12,10 +12,7 @@ BRACE_OFF_TICK
 brace_status_t brace_contact_sag(const brace_stiffness_t *stiffness, brace_force_t load,
                                  brace_displacement_t *sag)
 {
-    brace_status_t status = brace_check(sag, &load.x_n, BRACE_INPUT_FORCE);
-    if (status == BRACE_OK) {
-        status = brace_check_stiffness(stiffness);
-    }
+    const brace_status_t status = brace_check_stiffness(stiffness, sag, &load.x_n, BRACE_INPUT_FORCE);
     if (status == BRACE_OK) {
         const float det = stiffness->lambda_min_n_per_mm * stiffness->lambda_max_n_per_mm;
         sag->x_mm = (stiffness->k_zz_n_per_mm * load.x_n - stiffness->k_xz_n_per_mm * load.z_n) / det;
@@ -28,10 +25,7 @@ BRACE_OFF_TICK
 brace_status_t brace_contact_force(const brace_stiffness_t *stiffness, brace_displacement_t displacement,
                                    brace_contact_force_t *contact)
 {
-    brace_status_t status = brace_check(contact, &displacement.x_mm, BRACE_INPUT_DISPLACEMENT);
-    if (status == BRACE_OK) {
-        status = brace_check_stiffness(stiffness);
-    }
+    const brace_status_t status = brace_check_stiffness(stiffness, contact, &displacement.x_mm, BRACE_INPUT_DISPLACEMENT);
     if (status == BRACE_OK) {
         const float x = displacement.x_mm, z = displacement.z_mm, size_mm = brace_length(x, z);
         const float force_x = stiffness->k_xx_n_per_mm * x + stiffness->k_xz_n_per_mm * z;

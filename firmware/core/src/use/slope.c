@@ -30,7 +30,7 @@ static void extend_line(brace_slope_line_t *line, float weight, const float step
     const float unexplained = weight * line->spread / spread;
     line->spread = spread;
     float *slope = line->slope, *residual = line->residual;
-    for (const float *force = step + FORCE_X_N; force < step + READING_COUNT; force++) {
+    for (const float *force = step + FORCE_X_N; force < step + READING_COUNT; force++) { /* at most two */
         const float surprise = *force - *slope * displacement;
         *residual++ += unexplained * surprise * surprise;
         *slope++ += gain * surprise;
@@ -44,7 +44,8 @@ brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, fl
     const float reading[READING_COUNT] = {displacement_mm, force_x_n, force_z_n};
     const brace_status_t status = brace_check(slope, reading, BRACE_INPUT_READING);
     if (status == BRACE_OK) {
-        for (float *field = slope->mean; field < &slope->line[BRACE_SLOPE_METHOD_COUNT].spread; field++) {
+        float *end = &slope->line[BRACE_SLOPE_METHOD_COUNT].spread;
+        for (float *field = slope->mean; field < end; field++) { /* at most eighteen */
             *field = 0.0f;
         }
         for (int i = 0; i < READING_COUNT; i++) {

@@ -17,8 +17,8 @@
 /* pi / sqrt(12): an axis that may point anywhere. */
 #define UNKNOWN_AXIS_RAD 0.906899682f
 
-/* The vectors that C and its derivatives are made of: a pose's four, the links' principal axes, the base's x; */
-enum { KNEE, TIP, FEMUR_JOINT, TIBIA_JOINT, FEMUR, TIBIA, BASE, DIRECTION_COUNT };
+/* The vectors that C and its derivatives are made of: a pose's, its tip replaced by the base's x, and the links' axes; */
+enum { KNEE, BASE, FEMUR_JOINT, TIBIA_JOINT, AXES, DIRECTION_COUNT = AXES + 2 };
 
 _Static_assert(offsetof(brace_pose_t, lever_femur) == FEMUR_JOINT * sizeof(brace_vec_t) &&
                    offsetof(brace_pose_t, lever_tibia) == TIBIA_JOINT * sizeof(brace_vec_t),
@@ -26,16 +26,16 @@ _Static_assert(offsetof(brace_pose_t, lever_femur) == FEMUR_JOINT * sizeof(brace
 
 /* each followed by itself turned by -90 degrees. */
 enum {
-    LEVER_THIGH = 2 * KNEE + 1,      /* the femur joint's shift for a unit turn about the knee [mm] */
-    LEVER_FEMUR = 2 * FEMUR_JOINT,   /* the tip's shift for a unit turn about the femur's joint */
-    LEVER_TIBIA = 2 * TIBIA_JOINT,   /* and about the knee */
-    SHANK,                           /* knee to tip */
-    FEMUR_AXIAL = 2 * FEMUR,         /* the ellipsoids' principal axes, tilt included; unit vectors */
-    FEMUR_BENDING,
-    TIBIA_AXIAL = 2 * TIBIA,
-    TIBIA_BENDING,
-    BASE_X = 2 * BASE,
+    LEVER_THIGH = 2 * KNEE + 1,    /* the femur joint's shift for a unit turn about the knee [mm] */
+    BASE_X = 2 * BASE,             /* unit vectors */
     BASE_Z,
+    LEVER_FEMUR = 2 * FEMUR_JOINT, /* the tip's shift for a unit turn about the femur's joint */
+    LEVER_TIBIA = 2 * TIBIA_JOINT, /* and about the knee */
+    SHANK,                         /* knee to tip */
+    FEMUR_AXIAL = 2 * AXES,        /* the ellipsoids' principal axes, tilt included; unit vectors */
+    FEMUR_BENDING,
+    TIBIA_AXIAL,
+    TIBIA_BENDING,
     VECTOR_COUNT
 };
 
@@ -111,11 +111,13 @@ static void find_vectors(const brace_limb_t *limb, const float theta_rad[2], con
     const float lambda_stiff = stiffness->lambda_max_n_per_mm;
     const float lambda_soft = stiffness->lambda_min_n_per_mm;
     brace_kinematics_pose(limb, theta_rad[0], theta_rad[1], (brace_pose_t *)vectors);
-    uint32_t turn = brace_turn(theta_rad[0]);
-    vectors[FEMUR] = brace_direction(turn + brace_turn(limb->link[BRACE_FEMUR].tilt_rad));
-    turn -= brace_turn(theta_rad[1]);
-    vectors[TIBIA] = brace_direction(turn + brace_turn(limb->link[BRACE_TIBIA].tilt_rad));
     vectors[BASE] = (brace_vec_t){1.0f, 0.0f};
+    uint32_t turn = brace_turn(theta_rad[0]);
+    brace_vec_t *axis = &vectors[AXES];
+    for (const brace_link_t *link = &limb->link[BRACE_FEMUR]; link <= &limb->link[BRACE_TIBIA]; link++) {
+        *axis++ = brace_direction(turn + brace_turn(link->tilt_rad));
+        turn -= brace_turn(theta_rad[1]);
+    }
     for (int i = DIRECTION_COUNT - 1; i >= 0; i--) { /* backwards: each makes room for two */
         const brace_vec_t v = brace_turned(vectors[i], x);
         vectors[2 * i] = (brace_vec_t){lambda_stiff * v.x, lambda_soft * v.z};
@@ -128,17 +130,14 @@ enum { XX, XZ, ZZ, SOFT, STIFF, CROSS, FIGURE_COUNT };
 
 _Static_assert(offsetof(brace_stiffness_sigma_t, stiff_axis_rad) == CROSS * sizeof(float), "one order");
 
-BRACE_OFF_TICK
+BRACE_OFF_TICK BRACE_LOOPS_STAY
 static brace_status_t estimate(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
                                const brace_stiffness_t *stiffness, brace_stiffness_sigma_t *sigma, bool limb_is_known)
 {
     const float theta_rad[] = {theta1_rad, theta2_rad};
     brace_status_t status = limb_is_known ? BRACE_OK : brace_limb_check(limb);
     if (status == BRACE_OK) {
-        status = brace_check(sigma, theta_rad, BRACE_INPUT_ANGLES);
-    }
-    if (status == BRACE_OK) {
-        status = brace_check_stiffness(stiffness);
+        status = brace_check_stiffness(stiffness, sigma, theta_rad, BRACE_INPUT_ANGLES);
     }
     if (status != BRACE_OK) {
         return status;
@@ -165,12 +164,9 @@ static brace_status_t estimate(const brace_limb_t *limb, float theta1_rad, float
     };
 
     float *variance = (float *)sigma; /* until the roots are taken */
-    const float *entry = (const float *)stiffness;
-    for (int figure = 0; figure < CROSS; figure++) {
-        const float by_gain = entry[figure] * trust->gain_rel; /* scales all of K alike */
-        variance[figure] = by_gain * by_gain;
+    for (int figure = 0; figure < FIGURE_COUNT; figure++) {
+        variance[figure] = 0.0f;
     }
-    variance[CROSS] = 0.0f;
     /* from K's axes to the limb's, twice the angle */
     const brace_vec_t twice = {x.x * x.x - x.z * x.z, -2.0f * x.x * x.z};
     const float apart = stiffness->lambda_max_n_per_mm - stiffness->lambda_min_n_per_mm;
@@ -202,11 +198,13 @@ static brace_status_t estimate(const brace_limb_t *limb, float theta1_rad, float
         }
         stiff = cross = soft = 0.0f;
     }
-    for (int figure = 0; figure < FIGURE_COUNT; figure++) {
-        variance[figure] = brace_sqrt(variance[figure]);
+    const float *entry = (const float *)stiffness;
+    for (int figure = 0; figure < CROSS; figure++) {
+        const float by_gain = entry[figure] * trust->gain_rel; /* scales all of K alike */
+        variance[figure] = brace_sqrt(variance[figure] + by_gain * by_gain);
     }
     sigma->flags = stiffness->flags;
-    sigma->stiff_axis_rad /= apart;
+    sigma->stiff_axis_rad = brace_sqrt(variance[CROSS]) / apart;
     if (!(sigma->stiff_axis_rad < UNKNOWN_AXIS_RAD)) {
         sigma->stiff_axis_rad = UNKNOWN_AXIS_RAD;
         sigma->flags |= BRACE_FLAG_SATURATED;
