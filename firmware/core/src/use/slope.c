@@ -48,7 +48,7 @@ brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, fl
     const float reading[READING_COUNT] = {displacement_mm, force_x_n, force_z_n};
     const brace_status_t status = brace_check(slope, reading, BRACE_INPUT_READING);
     if (status == BRACE_OK) {
-        float *end = &slope->line[BRACE_SLOPE_METHOD_COUNT].spread;
+        const float *end = (const float *)(slope->line + BRACE_SLOPE_METHOD_COUNT);
         for (float *field = slope->mean; field < end; field += 3) { /* at most six times */
             field[0] = field[1] = field[2] = 0.0f;
         }
