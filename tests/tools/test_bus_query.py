@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 from bus_bench import adapter, limb_on_tcp, obliging, timed, told_in_time
 from conftest import LIMB, PROJECT, Outcome, physics_k
+from test_sim_command import FREE, running
 
 from brace.bus.url import parse
 from brace.errors import UsageError
@@ -169,6 +170,15 @@ def test_what_is_no_adapter(limb: Path) -> None:
     finally:
         os.close(ours)
         os.close(theirs)
+
+
+def test_the_other_protocol_s_port(limb: Path) -> None:
+    with running(limb, *FREE) as (_, ready):
+        can, modbus = (ready["limbs"][0][name] for name in ("can", "modbus_tcp"))
+        said = told_in_time(4, "query", "--bus", modbus.replace("modbus-tcp://", "tcp://"))
+        assert "a Modbus port is modbus-tcp://" in said
+        said = told_in_time(4, "query", "--bus", can.replace("tcp://", "modbus-tcp://"))
+        assert "an SLCAN port is tcp://" in said
 
 
 def test_a_silent_bus(limb: Path) -> None:

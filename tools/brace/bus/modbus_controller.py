@@ -340,15 +340,16 @@ def _connected(url: BusUrl) -> Any:
 
 def _no_answer(url: BusUrl, error: Exception) -> NoDeviceError:
     if url.kind == "modbus-tcp":
-        way = "the unit behind /: brace sim prints its own; modbus-tcp://HOST:PORT/UNIT"
+        cause = "another unit, or no Modbus at that port"
+        way = "modbus-tcp://HOST:PORT/UNIT; brace sim prints its own; an SLCAN port is tcp://HOST:PORT"
     else:
+        cause = "another unit, another baud rate, or nobody"
         way = (
             "modbus:DEVICE@BAUD/UNIT: controller.modbus_baud and controller.modbus_address of the controller"
         )
     return NoDeviceError(
         f"unit {url.unit} does not answer",
         where=url.text,
-        why=f"no answer within {ANSWER_S * (RETRIES + 1):.1f} s: another unit, another "
-        f"baud rate, or nobody ({type(error).__name__})",
+        why=f"no answer within {ANSWER_S * (RETRIES + 1):.1f} s: {cause} ({type(error).__name__})",
         next_step=way,
     )
