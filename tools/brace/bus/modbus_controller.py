@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import struct
 import time
 from collections.abc import Mapping, Sequence
@@ -330,12 +331,19 @@ def _connected(url: BusUrl) -> Any:
         from brace.bus.lines import SerialLine
 
         SerialLine(url).close()
-        client = ModbusSerialClient(url.place, baudrate=url.baud, timeout=ANSWER_S, retries=RETRIES)
+        client = ModbusSerialClient(
+            url.place, baudrate=url.baud, parity=parity_of(url.place), timeout=ANSWER_S, retries=RETRIES
+        )
     if not client.connect():
         raise NoDeviceError(
             "no connection", where=url.text, why="it was there a moment ago", next_step="try again"
         )
     return client
+
+
+def parity_of(place: str) -> str:
+    """Even, as Modbus RTU and so the controller has it; a pseudo-terminal has none and refuses any."""
+    return "N" if os.path.realpath(place).startswith("/dev/pts/") else "E"
 
 
 def _no_answer(url: BusUrl, error: Exception) -> NoDeviceError:
