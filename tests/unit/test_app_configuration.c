@@ -171,6 +171,30 @@ static void test_configuration_that_nobody_feeds_is_left_and_nothing_has_changed
     TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, now()->mode);
 }
 
+/* A joint that is away as CONFIGURATION is left, and comes back at any moment of START or after it. */
+static void test_a_fault_from_before_configuration_has_no_K_after_it(void)
+{
+    for (int back = 0; back <= 150; back += 5) {
+        setUp();
+        fake.joint[BRACE_FEMUR].not_newer = true;
+        ticks(150);
+        TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, now()->mode);
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+        ticks(2);
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_leave(&app));
+        bool was_valid = false;
+        for (int i = 0; i < 400; i++) {
+            fake.joint[BRACE_FEMUR].not_newer = i < back;
+            ticks(1);
+            TEST_ASSERT_FALSE(now()->k_is_valid && (now()->faults & BRACE_FAULTS_NO_K) != 0u);
+            TEST_ASSERT_FALSE(was_valid && !now()->k_is_valid); /* nor is there one that goes again */
+            was_valid = now()->k_is_valid;
+        }
+        TEST_ASSERT_TRUE(was_valid);
+        TEST_ASSERT_EQUAL(0, now()->faults);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -182,5 +206,6 @@ int main(void)
     RUN_TEST(test_a_faulty_controller_can_still_be_configured);
     RUN_TEST(test_an_erase_in_configuration_is_no_late_tick);
     RUN_TEST(test_configuration_that_nobody_feeds_is_left_and_nothing_has_changed);
+    RUN_TEST(test_a_fault_from_before_configuration_has_no_K_after_it);
     return UNITY_END();
 }

@@ -255,6 +255,51 @@ static void test_a_force_sensor_that_never_had_a_reading_tells_none(void)
     TEST_ASSERT_FALSE(now()->force_is_sensed);
 }
 
+/* A drive whose clock is ahead would be young for as long as that. */
+static void test_a_sample_from_the_future_does_not_stay_young(void)
+{
+    static const uint32_t ahead_us[] = {25000, 1000000, 0x40000000, 0x7fffff00};
+    for (size_t i = 0; i < sizeof ahead_us / sizeof *ahead_us; i++) {
+        setUp();
+        ticks(5);
+        fake.joint[BRACE_TIBIA].keeps_taken_us = true;
+        fake.joint[BRACE_TIBIA].sample.taken_us = fake.now_us + ahead_us[i];
+        ticks(1);
+        fake.joint[BRACE_TIBIA].not_newer = true; /* and that was its last */
+        ticks(2);
+        TEST_ASSERT_FALSE(now()->k_is_valid);
+        TEST_ASSERT_EQUAL(BRACE_FAULT_SENSOR_TIBIA, now()->faults);
+        fake.joint[BRACE_TIBIA].keeps_taken_us = fake.joint[BRACE_TIBIA].not_newer = false;
+        ticks(150);
+        TEST_ASSERT_TRUE(now()->k_is_valid);
+    }
+    setUp();
+    ticks(5);
+    for (int i = 0; i < 50; i++) { /* taken after the tick began: that is in order */
+        fake.joint[BRACE_TIBIA].keeps_taken_us = true;
+        fake.joint[BRACE_TIBIA].sample.taken_us = fake.now_us + TICK_US + 300u;
+        ticks(1);
+        TEST_ASSERT_TRUE(now()->k_is_valid);
+        TEST_ASSERT_EQUAL(0, now()->faults);
+    }
+}
+
+/* One wild reading behind the gearbox says nothing of the encoder before it. */
+static void test_an_absurd_link_angle_is_none(void)
+{
+    static const float absurd[] = {(float)INFINITY, -(float)INFINITY, 1e6f};
+    for (size_t i = 0; i < sizeof absurd / sizeof *absurd; i++) {
+        setUp();
+        fake.joint[BRACE_TIBIA].sample.link_rad = 1.4f;
+        ticks(300);
+        fake.joint[BRACE_TIBIA].sample.link_rad = absurd[i];
+        ticks(2);
+        fake.joint[BRACE_TIBIA].sample.link_rad = 1.4f;
+        ticks(300);
+        TEST_ASSERT_EQUAL(0, now()->faults);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -275,5 +320,7 @@ int main(void)
     RUN_TEST(test_a_limb_at_rest_is_not_stuck);
     RUN_TEST(test_a_force_that_stays_the_last_one_is_not_known_for_long);
     RUN_TEST(test_a_force_sensor_that_never_had_a_reading_tells_none);
+    RUN_TEST(test_a_sample_from_the_future_does_not_stay_young);
+    RUN_TEST(test_an_absurd_link_angle_is_none);
     return UNITY_END();
 }
