@@ -255,6 +255,13 @@ static void test_k_at_a_tip_is_k_at_its_posture(void)
     const reply_t asked = read_asks(3, ASKED + 4, 6);
     TEST_ASSERT_EQUAL_HEX32(tip[0], value_at(&asked, 0));
     TEST_ASSERT_EQUAL_HEX32(1, value_at(&asked, 2));
+    reply_t of_both = read_asks(3, ASKED, 10); /* whose answer it is: the tip's, and no posture's any more */
+    TEST_ASSERT_TRUE(isnan(float_at(&of_both, 0)) && isnan(float_at(&of_both, 1)));
+    accepted(write_values(ASKED, posture, 2), 16);
+    of_both = read_asks(3, ASKED, 10);
+    TEST_ASSERT_EQUAL_HEX32(posture[1], value_at(&of_both, 1));
+    TEST_ASSERT_TRUE(isnan(float_at(&of_both, 2)) && isnan(float_at(&of_both, 3)));
+    TEST_ASSERT_EQUAL_HEX32(UINT32_MAX, value_at(&of_both, 4));
     tip[2] = 2;
     refused(write_values(ASKED + 4, tip, 3), 16, 3);
     const uint32_t far[] = {bits(5000.0f), bits(0.0f), 0};
