@@ -36,6 +36,21 @@ typedef struct {
     brace_vec_t base;  /* part of v that does not turn */
 } brace_element_t;
 
+/* Femur ellipsoid, femur moment transfer, tibia ellipsoid, joints 1 and 2: the limb's elements without base part. */
+enum { BRACE_CHAIN_FIRM = 5 };
+
+/* One of them. With h = theta2/2 it is, seen from the bisector of femur and tibia,
+ * v = straight cos h + folded sin h: halved, the same place holds what is left of it at the straight and at the folded
+ * knee. */
+typedef struct {
+    union {
+        brace_vec_t femur, straight;
+    };
+    union {
+        brace_vec_t tibia, folded;
+    };
+} brace_swing_t;
+
 typedef struct {
     float iso_mm_per_n; /* compliance shared by every direction */
     uint32_t count;     /* elements in use, [0, BRACE_CHAIN_MAX] */

@@ -11,9 +11,8 @@
 
 /* Written by brace_general_collapse; nothing in it is for others. */
 typedef struct {
-    brace_harmonics_t firm; /* ellipsoids, the femur's moment transfer */
-    float femur_mm, tibia_mm;
-    brace_vec_t base;       /* where it yields more in one direction [sqrt(mm/N)] */
+    float mean_mm_per_n, dev_mm_per_n, det; /* of the base and of what yields equally in every direction */
+    brace_swing_t element[BRACE_CHAIN_FIRM]; /* halved; both joints as springs of 1 rad/(N mm) */
 } brace_general_t;
 
 /* Collapses all of a limb but its joints' springs and its base's rotation; to be called when parameters change.

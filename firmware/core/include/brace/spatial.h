@@ -18,7 +18,7 @@
 /* A collapsed limb. Opaque; written by brace_spatial_collapse. */
 typedef struct {
     brace_harmonics_t plane; /* femur, tibia, joints 1 and 2, everything that yields equally in the plane */
-    brace_vec_t still;       /* v of what stands still in the plane [sqrt(mm/N)] */
+    brace_vec_t still[2];    /* v of what stands still in the plane: coxa, base [sqrt(mm/N)] */
     brace_vec_t coxa;        /* v of the coxa's moment transfer, [sqrt(mm/N)] */
     float coxa_per_mm;       /* and its part for each mm of the tip's lever [sqrt(mm/N)/mm] */
     float coxa_mm, femur_mm, tibia_mm;

@@ -1,7 +1,5 @@
 #include "brace/chain.h"
 
-#include <stdbool.h>
-
 #include "chain/chain_list.h"
 #include "base/off_tick.h"
 #include "base/vec.h"
@@ -42,21 +40,20 @@ BRACE_OFF_TICK static float bend(const brace_link_t *link, brace_vec_t *excess, 
 #if defined(__GNUC__) && !defined(__clang__)
 __attribute__((optimize("no-tree-loop-distribute-patterns")))
 #endif
-BRACE_OFF_TICK static void clear(brace_element_t *element, const brace_element_t *end)
+BRACE_OFF_TICK static void clear(float *field, const float *end)
 {
-    for (float *field = &element->femur.x; field < &end->femur.x; field++) { /* at most five elements */
-        *field = 0.0f;
+    while (field < end) { /* at most twenty */
+        *field++ = 0.0f;
     }
 }
 
-BRACE_OFF_TICK float brace_chain_firm(const brace_limb_t *limb, brace_element_t element[BRACE_CHAIN_FIRM])
+BRACE_OFF_TICK float brace_chain_firm(const brace_limb_t *limb, float hip_rad_per_n_mm, float knee_rad_per_n_mm,
+                                      brace_swing_t element[BRACE_CHAIN_FIRM])
 {
     const brace_link_t *femur = &limb->link[BRACE_FEMUR];
     const float femur_mm = limb->femur_mm, tibia_mm = limb->tibia_mm;
-    const float hip = __builtin_sqrtf(limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm +
-                                      limb->base.rotation_rad_per_n_mm);
-    const float knee = __builtin_sqrtf(limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm);
-    clear(element, element + BRACE_CHAIN_FIRM);
+    const float hip = __builtin_sqrtf(hip_rad_per_n_mm), knee = __builtin_sqrtf(knee_rad_per_n_mm);
+    clear(&element->femur.x, &element[BRACE_CHAIN_FIRM].femur.x);
     element[3].femur.z = hip * femur_mm;
     element[3].tibia.z = hip * tibia_mm;
     element[4].tibia.z = knee * tibia_mm;
@@ -72,7 +69,7 @@ BRACE_OFF_TICK float brace_chain_firm(const brace_limb_t *limb, brace_element_t 
 BRACE_OFF_TICK float brace_chain_coxa(const brace_limb_t *limb, brace_element_t element[2])
 {
     const brace_link_t *link = &limb->link[BRACE_COXA];
-    clear(element, element + 2);
+    clear(&element->femur.x, &element[2].femur.x);
     const float root = moment_root(link);
     if (root > 0.0f) {
         const float lever = 2.0f * root / limb->coxa_mm;
@@ -83,54 +80,10 @@ BRACE_OFF_TICK float brace_chain_coxa(const brace_limb_t *limb, brace_element_t 
     return bend(link, &element[0].base, &element[1].base);
 }
 
-BRACE_OFF_TICK float brace_chain_base(const brace_limb_t *limb, brace_element_t *element)
+BRACE_OFF_TICK float brace_chain_base(const brace_limb_t *limb, brace_vec_t *excess)
 {
     const float x = limb->base.x_mm_per_n, z = limb->base.z_mm_per_n;
-    clear(element, element + 1);
-    element->base.x = x > z ? __builtin_sqrtf(x - z) : 0.0f;
-    element->base.z = z > x ? __builtin_sqrtf(z - x) : 0.0f;
+    excess->x = x > z ? __builtin_sqrtf(x - z) : 0.0f;
+    excess->z = z > x ? __builtin_sqrtf(z - x) : 0.0f;
     return x > z ? z : x;
-}
-
-BRACE_OFF_TICK static bool yields(const brace_element_t *element)
-{
-    return vec_dot(element->femur, element->femur) + vec_dot(element->tibia, element->tibia) +
-               vec_dot(element->base, element->base) > 0.0f;
-}
-
-BRACE_OFF_TICK float brace_chain_list(const brace_limb_t *limb, int with_coxa, brace_element_t *element, uint32_t *count)
-{
-    uint32_t used = BRACE_CHAIN_FIRM, kept = 0;
-    float iso = brace_chain_firm(limb, element);
-    if (with_coxa) {
-        iso += brace_chain_coxa(limb, &element[used]);
-        used += 2;
-    }
-    iso += brace_chain_base(limb, &element[used++]);
-    for (uint32_t i = 0; i < used; i++) { /* at most the elements named above */
-        if (yields(&element[i])) {
-            element[kept++] = element[i];
-        }
-    }
-    *count = kept;
-    return iso;
-}
-
-BRACE_OFF_TICK static brace_status_t build(const brace_limb_t *limb, int with_coxa, brace_chain_t *chain)
-{
-    const brace_status_t status = chain == NULL ? BRACE_E_NULL : brace_limb_check(limb);
-    if (status == BRACE_OK) {
-        chain->iso_mm_per_n = brace_chain_list(limb, with_coxa, chain->element, &chain->count);
-    }
-    return status;
-}
-
-BRACE_OFF_TICK brace_status_t brace_chain_build(const brace_limb_t *limb, brace_chain_t *chain)
-{
-    return build(limb, false, chain);
-}
-
-BRACE_OFF_TICK brace_status_t brace_chain_build_with_coxa(const brace_limb_t *limb, brace_chain_t *chain)
-{
-    return build(limb, true, chain);
 }

@@ -6,30 +6,25 @@
 #include "base/off_tick.h"
 #include "base/vec.h"
 
-/* With h = theta2/2, v = femur e^ih + tibia e^-ih = straight cos h + folded sin h: what is left of an element at the
- * straight and at the folded knee, put in the places of its femur and its tibia part. */
-#define STRAIGHT femur
-#define FOLDED tibia
-
-static void halve(brace_element_t *element, const brace_element_t *end)
+BRACE_OFF_TICK void brace_chain_halve(brace_swing_t *element, const brace_swing_t *end)
 {
-    for (brace_element_t *e = element; e < end; e++) {
+    for (brace_swing_t *e = element; e < end; e++) {
         const brace_vec_t f = e->femur, t = e->tibia;
-        e->STRAIGHT = (brace_vec_t){f.x + t.x, f.z + t.z};
-        e->FOLDED = (brace_vec_t){t.z - f.z, f.x - t.x}; /* f - t, a quarter turned */
+        e->straight = (brace_vec_t){f.x + t.x, f.z + t.z};
+        e->folded = (brace_vec_t){t.z - f.z, f.x - t.x}; /* f - t, a quarter turned */
     }
 }
 
 /* Half the trace and deviator of sum v v': of folded folded', straight straight' and straight folded' in turn, which
  * come with sin^2 h, cos^2 h and sin theta2. */
-static void sum_squares(const brace_element_t *element, const brace_element_t *end, brace_harmonic_t *harmonic)
+static void sum_squares(const brace_swing_t *element, const brace_swing_t *end, brace_harmonic_t *harmonic)
 {
     float *to = &harmonic->at_fold;
     for (int term = 0; term < 3; term++) {
         float xx = 0.0f, xz = 0.0f, zz = 0.0f;
-        for (const brace_element_t *e = element; e < end; e++) {
-            const brace_vec_t *a = term == 0 ? &e->FOLDED : &e->STRAIGHT;
-            const brace_vec_t *b = term == 1 ? &e->STRAIGHT : &e->FOLDED;
+        for (const brace_swing_t *e = element; e < end; e++) {
+            const brace_vec_t *a = term == 0 ? &e->folded : &e->straight;
+            const brace_vec_t *b = term == 1 ? &e->straight : &e->folded;
             xx = __builtin_fmaf(a->x, b->x, xx);
             zz = __builtin_fmaf(a->z, b->z, zz);
             xz = __builtin_fmaf(a->x, b->z, xz);
@@ -50,12 +45,12 @@ typedef struct {
 } crosses_t;
 
 /* Each cross is k + a n.u + b s.u with u = (1 + cos, sin), n = s turned clockwise; r = c b - k. */
-static crosses_t sum_crosses(const brace_element_t *element, const brace_element_t *end, brace_vec_t s, float c)
+static crosses_t sum_crosses(const brace_swing_t *element, const brace_swing_t *end, brace_vec_t s, float c)
 {
     crosses_t sum = {0};
-    for (const brace_element_t *e = element; e < end; e++) {
-        for (const brace_element_t *o = element; o < e; o++) {
-            const brace_vec_t p = o->STRAIGHT, q = o->FOLDED, ep = e->STRAIGHT, eq = e->FOLDED;
+    for (const brace_swing_t *e = element; e < end; e++) {
+        for (const brace_swing_t *o = element; o < e; o++) {
+            const brace_vec_t p = o->straight, q = o->folded, ep = e->straight, eq = e->folded;
             /* In this order of factors what must vanish does so exactly. */
             const float minus_fold = vec_cross(eq, q);
             const brace_vec_t slope = {0.5f * (vec_cross(p, ep) + minus_fold),
@@ -81,7 +76,7 @@ static crosses_t sum_crosses(const brace_element_t *element, const brace_element
  * larger ones would lose the digits that matter. */
 enum { PASSES = 4 };
 
-static void gather_crosses(const brace_element_t *element, const brace_element_t *end, brace_harmonics_t *harmonics)
+static void gather_crosses(const brace_swing_t *element, const brace_swing_t *end, brace_harmonics_t *harmonics)
 {
     brace_vec_t s = {0.0f, 1.0f};
     float c = 0.0f;
@@ -109,15 +104,15 @@ static void gather_crosses(const brace_element_t *element, const brace_element_t
                                          2.0f * (c_a * s.z + sum.ra * s.x) / square};
 }
 
-BRACE_OFF_TICK void brace_harmonics_sum(brace_element_t *element, const brace_element_t *end,
+BRACE_OFF_TICK void brace_harmonics_sum(brace_swing_t *element, const brace_swing_t *end,
                                         brace_harmonics_t *harmonics)
 {
-    halve(element, end);
+    brace_chain_halve(element, end);
     sum_squares(element, end, &harmonics->mean);
     gather_crosses(element, end, harmonics);
 }
 
-BRACE_OFF_TICK void brace_harmonics_list(float iso, brace_element_t *element, uint32_t count,
+BRACE_OFF_TICK void brace_harmonics_list(float iso, brace_swing_t *element, uint32_t count,
                                          brace_harmonics_t *harmonics)
 {
     brace_harmonics_sum(element, element + count, harmonics);
@@ -137,12 +132,12 @@ BRACE_OFF_TICK brace_status_t brace_harmonics(const brace_chain_t *chain, brace_
     if (chain->count > BRACE_CHAIN_FIRM) {
         return BRACE_E_UNSUPPORTED;
     }
-    brace_element_t element[BRACE_CHAIN_FIRM];
+    brace_swing_t element[BRACE_CHAIN_FIRM];
     for (uint32_t i = 0; i < chain->count; i++) {
         if (vec_dot(chain->element[i].base, chain->element[i].base) > 0.0f) {
             return BRACE_E_UNSUPPORTED;
         }
-        element[i] = chain->element[i];
+        element[i] = (brace_swing_t){.femur = chain->element[i].femur, .tibia = chain->element[i].tibia};
     }
     brace_harmonics_list(chain->iso_mm_per_n, element, chain->count, harmonics);
     return BRACE_OK;

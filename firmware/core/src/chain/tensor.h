@@ -8,11 +8,18 @@
 
 #include "brace/chain.h"
 #include "brace/planar.h"
+#include "base/vec.h"
 
 /* C and its determinant. */
 typedef struct {
     float xx, xz, zz, det;
 } brace_tensor_t;
+
+/* Mohr's circle of a tensor: half its trace, and its deviator [[dev.x, dev.z], [dev.z, -dev.x]]. */
+typedef struct {
+    float mean;
+    brace_vec_t dev;
+} brace_circle_t;
 
 /* Directions of half the knee angle, and of the bisector of femur and tibia in the world. */
 typedef struct {
@@ -32,19 +39,9 @@ static inline brace_status_t brace_check_reach(float theta1_rad, float theta2_ra
     return reach <= FLT_MAX ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
 }
 
-/* C of harmonics at half a knee angle, seen from the bisector. */
-brace_tensor_t brace_harmonics_at(const brace_harmonics_t *h, brace_vec_t half);
-
-/* c + v v'; c's trace is not zero (FLT_MIN does). Its determinant is det + v' adj(c) v, and v' adj(c) v times the trace is
- * |adj(c) v|^2 + det |v|^2: positive terms only, so nothing cancels however slender c is. */
-brace_tensor_t brace_tensor_plus(brace_tensor_t c, brace_vec_t v);
-
-/* The same tensor, seen from the bisector, in the world's frame. */
-brace_tensor_t brace_tensor_to_world(brace_tensor_t c, brace_vec_t bisector);
-
-/* K of C in the world's frame, as brace_chain_stiffness says.
- * BRACE_OK or BRACE_E_SINGULAR: then stiffness is untouched. */
-brace_status_t brace_tensor_inverse(brace_tensor_t c, brace_stiffness_t *stiffness);
+/* K in the world's frame of C seen from the bisector, as brace_chain_stiffness says. to_world: direction of twice the
+ * bisector's angle. BRACE_OK or BRACE_E_SINGULAR: then stiffness is untouched. */
+brace_status_t brace_tensor_inverse(brace_tensor_t c, brace_vec_t to_world, brace_stiffness_t *stiffness);
 
 static inline brace_vec_t brace_turned(brace_vec_t v, brace_vec_t by)
 {
@@ -56,6 +53,37 @@ static inline brace_vec_t brace_seen_from(brace_vec_t v, brace_vec_t from)
 {
     return (brace_vec_t){__builtin_fmaf(v.x, from.x, v.z * from.z),
                          __builtin_fmaf(v.z, from.x, -(v.x * from.z))};
+}
+
+/* The direction of twice the angle. */
+static inline brace_vec_t brace_doubled(brace_vec_t direction)
+{
+    const float twice = 2.0f * direction.z;
+    return (brace_vec_t){__builtin_fmaf(-twice, direction.z, 1.0f), twice * direction.x};
+}
+
+/* What halved elements come to at half a knee angle, in the bisector's frame. */
+static inline brace_vec_t brace_swing_at(const brace_swing_t *halved, brace_vec_t half)
+{
+    return (brace_vec_t){__builtin_fmaf(halved->straight.x, half.x, halved->folded.x * half.z),
+                         __builtin_fmaf(halved->straight.z, half.x, halved->folded.z * half.z)};
+}
+
+/* c + v v'; c's trace is not zero (FLT_MIN does). Its determinant is det + v' adj(c) v, and v' adj(c) v times the trace is
+ * |adj(c) v|^2 + det |v|^2: positive terms only, so nothing cancels however slender c is. */
+static inline brace_tensor_t brace_tensor_plus(brace_tensor_t c, brace_vec_t v)
+{
+    const brace_vec_t adj_v = {__builtin_fmaf(c.zz, v.x, -(c.xz * v.z)),
+                               __builtin_fmaf(c.xx, v.z, -(c.xz * v.x))};
+    const float forms = __builtin_fmaf(c.det, vec_dot(v, v), vec_dot(adj_v, adj_v));
+    return (brace_tensor_t){__builtin_fmaf(v.x, v.x, c.xx), __builtin_fmaf(v.x, v.z, c.xz),
+                            __builtin_fmaf(v.z, v.z, c.zz), c.det + forms / (c.xx + c.zz)};
+}
+
+/* The circle of a tensor seen from the bisector, in the world's frame. */
+static inline brace_circle_t brace_circle_in_world(brace_tensor_t c, brace_vec_t to_world)
+{
+    return (brace_circle_t){0.5f * (c.xx + c.zz), brace_turned((brace_vec_t){0.5f * (c.xx - c.zz), c.xz}, to_world)};
 }
 
 #endif

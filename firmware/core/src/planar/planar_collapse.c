@@ -15,8 +15,8 @@ BRACE_OFF_TICK brace_status_t brace_planar_collapse(const brace_limb_t *limb, br
         return BRACE_E_UNSUPPORTED;
     }
     brace_harmonics_t h;
-    brace_element_t element[BRACE_CHAIN_FIRM];
-    h.iso_mm_per_n = brace_chain_firm(limb, element) + base;
+    brace_swing_t element[BRACE_CHAIN_FIRM];
+    h.iso_mm_per_n = brace_chain_at_rest(limb, element) + base;
     brace_harmonics_sum(element, element + BRACE_CHAIN_FIRM, &h);
     return brace_planar_constants(&h, planar);
 }

@@ -31,14 +31,32 @@ static inline reach_t reach_of(const brace_spatial_t *s, const brace_posture_t *
     };
 }
 
-/* Femur, tibia and their joints, what stands still, and the coxa's moment transfer. */
+static inline float harmonic(const brace_harmonic_t *h, float one_plus_cos, float sin)
+{
+    return fma(h->per_cos, one_plus_cos, fma(h->per_sin, sin, h->at_fold));
+}
+
+/* Femur, tibia and their joints in the world's frame. */
+static inline brace_tensor_t limb_of(const brace_harmonics_t *h, const brace_posture_t *at)
+{
+    const float one_plus_cos = 2.0f * at->half.x * at->half.x, sin = 2.0f * at->half.x * at->half.z;
+    const float mean = harmonic(&h->mean, one_plus_cos, sin), cross = harmonic(&h->cross, one_plus_cos, sin);
+    const brace_vec_t seen = {harmonic(&h->dev_x, one_plus_cos, sin), harmonic(&h->dev_y, one_plus_cos, sin)};
+    const brace_vec_t dev = brace_turned(seen, brace_doubled(at->bisector));
+    return (brace_tensor_t){mean + dev.x, dev.z, mean - dev.x, fma(cross, cross, harmonic(&h->rest, one_plus_cos, sin))};
+}
+
+/* And with them what stands still, and the coxa's moment transfer. */
 static inline brace_tensor_t plane_of(const brace_spatial_t *s, const brace_posture_t *at, brace_vec_t tip_mm)
 {
-    const brace_tensor_t seen = brace_harmonics_at(&s->plane, at->half);
-    const brace_tensor_t in_plane = brace_tensor_plus(brace_tensor_to_world(seen, at->bisector), s->still);
     const brace_vec_t bent = {fma(-s->coxa_per_mm, tip_mm.z, s->coxa.x),
                               fma(s->coxa_per_mm, tip_mm.x, s->coxa.z)};
-    return brace_tensor_plus(in_plane, bent);
+    const brace_vec_t more[3] = {s->still[0], s->still[1], bent};
+    brace_tensor_t c = limb_of(&s->plane, at);
+    for (int i = 0; i < 3; i++) {
+        c = brace_tensor_plus(c, more[i]);
+    }
+    return c;
 }
 
 /* The compliance across the plane [mm/N]. */

@@ -7,22 +7,6 @@
 #include "base/trig.h"
 #include "base/vec.h"
 
-/* a a' + b b' = equal I + v v': equal in every direction, and one direction more. */
-BRACE_OFF_TICK static float merged(brace_vec_t a, brace_vec_t b, brace_vec_t *v)
-{
-    const float dev_x = 0.5f * (a.x * a.x - a.z * a.z + b.x * b.x - b.z * b.z);
-    const float dev_y = a.x * a.z + b.x * b.z;
-    const float mean = 0.5f * (vec_dot(a, a) + vec_dot(b, b));
-    const float radius = brace_length(dev_x, dev_y);
-    const float cross = vec_cross(a, b);
-    /* long axis of the deviator: of its two forms, the one in which nothing cancels */
-    const brace_vec_t axis =
-        dev_x > 0.0f ? (brace_vec_t){radius + dev_x, dev_y} : (brace_vec_t){dev_y, radius - dev_x};
-    const float length = brace_length(axis.x, axis.z);
-    *v = vec_scaled(axis, length > 0.0f ? brace_sqrt(2.0f * radius) / length : 0.0f);
-    return mean > 0.0f ? cross * cross / (mean + radius) : 0.0f;
-}
-
 static void collapse_across(const brace_limb_t *limb, brace_spatial_t *spatial)
 {
     const brace_link_t *coxa = &limb->link[BRACE_COXA], *femur = &limb->link[BRACE_FEMUR];
@@ -46,11 +30,12 @@ static void collapse_across(const brace_limb_t *limb, brace_spatial_t *spatial)
 /* Coxa and base: what stands still in the plane. Returns what of it yields equally in every direction. */
 static float collapse_still(const brace_limb_t *limb, brace_spatial_t *spatial)
 {
-    brace_element_t coxa[2], base;
-    const float iso = brace_chain_coxa(limb, coxa) + brace_chain_base(limb, &base);
-    spatial->coxa = coxa[1].base;
+    brace_element_t coxa[2];
+    const float iso = brace_chain_coxa(limb, coxa) + brace_chain_base(limb, &spatial->still[1]);
     spatial->coxa_per_mm = coxa[1].femur.z / limb->femur_mm;
-    return iso + merged(coxa[0].base, base.base, &spatial->still);
+    spatial->coxa = coxa[1].base;
+    spatial->still[0] = coxa[0].base;
+    return iso;
 }
 
 BRACE_OFF_TICK brace_status_t brace_spatial_collapse(const brace_limb_t *limb, brace_spatial_t *spatial)
@@ -61,8 +46,8 @@ BRACE_OFF_TICK brace_status_t brace_spatial_collapse(const brace_limb_t *limb, b
     }
     collapse_across(limb, spatial);
     float iso = collapse_still(limb, spatial);
-    brace_element_t element[BRACE_CHAIN_FIRM];
-    iso += brace_chain_firm(limb, element);
+    brace_swing_t element[BRACE_CHAIN_FIRM];
+    iso += brace_chain_at_rest(limb, element);
     brace_harmonics_list(iso, element, BRACE_CHAIN_FIRM, &spatial->plane);
     return BRACE_OK;
 }
