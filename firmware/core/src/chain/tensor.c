@@ -20,7 +20,7 @@ brace_status_t brace_tensor_inverse(brace_tensor_t c, brace_vec_t to_world, brac
     if (!(det > SINGULAR * square)) {
         return BRACE_E_SINGULAR;
     }
-    const float longest = mean + brace_length(circle.dev.x, circle.dev.z);
+    const float longest = mean + brace_sqrt(vec_dot(circle.dev, circle.dev));
     const float per_det = 1.0f / det;
     stiffness->flags = det < SLENDER * square ? BRACE_FLAG_NEAR_SINGULAR : 0u;
     stiffness->k_xx_n_per_mm = (mean - circle.dev.x) * per_det;
