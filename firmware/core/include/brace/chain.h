@@ -42,13 +42,14 @@ enum { BRACE_CHAIN_FIRM = 5 };
 /* One of them. With h = theta2/2 it is, seen from the bisector of femur and tibia,
  * v = straight cos h + folded sin h: halved, the same place holds what is left of it at the straight and at the folded
  * knee. */
-typedef struct {
-    union {
-        brace_vec_t femur, straight;
+typedef union {
+    struct {
+        brace_vec_t femur, tibia;
     };
-    union {
-        brace_vec_t tibia, folded;
+    struct {
+        brace_vec_t straight, folded;
     };
+    brace_vec_t part[2];
 } brace_swing_t;
 
 typedef struct {

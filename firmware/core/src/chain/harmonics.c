@@ -21,14 +21,14 @@ static void sum_squares(const brace_swing_t *element, const brace_swing_t *end, 
 {
     float *to = &harmonic->at_fold;
     for (int term = 0; term < 3; term++) {
+        const int first = term == 0, second = term != 1;
         float xx = 0.0f, xz = 0.0f, zz = 0.0f;
         for (const brace_swing_t *e = element; e < end; e++) {
-            const brace_vec_t *a = term == 0 ? &e->folded : &e->straight;
-            const brace_vec_t *b = term == 1 ? &e->straight : &e->folded;
-            xx = __builtin_fmaf(a->x, b->x, xx);
-            zz = __builtin_fmaf(a->z, b->z, zz);
-            xz = __builtin_fmaf(a->x, b->z, xz);
-            xz = __builtin_fmaf(a->z, b->x, xz);
+            const brace_vec_t a = e->part[first], b = e->part[second];
+            xx = __builtin_fmaf(a.x, b.x, xx);
+            zz = __builtin_fmaf(a.z, b.z, zz);
+            xz = __builtin_fmaf(a.x, b.z, xz);
+            xz = __builtin_fmaf(a.z, b.x, xz);
         }
         to[term] = 0.5f * (xx + zz);
         to[term + 3] = 0.5f * (xx - zz);
@@ -39,22 +39,24 @@ static void sum_squares(const brace_swing_t *element, const brace_swing_t *end, 
     }
 }
 
-/* Sums over all pairs of elements of what their crosses are along and across a direction of (1 + cos, sin). */
+/* Sums over all pairs of elements of what their crosses are along and across a direction of (1 + cos, sin)/2. */
 typedef struct {
     float aa, ab, bb, rb, rr, ra;
 } crosses_t;
 
-/* Each cross is k + a n.u + b s.u with u = (1 + cos, sin), n = s turned clockwise; r = c b - k. */
+/* Next to nothing [(mm/N)^2]: it keeps the quotients of sums finite where there is nothing to sum. */
+#define NEARLY_NOTHING 1e-30f
+
+/* With u = (1 + cos, sin)/2 each cross is k + a n.u + b s.u, n = s turned clockwise; r = c b - k. */
 static crosses_t sum_crosses(const brace_swing_t *element, const brace_swing_t *end, brace_vec_t s, float c)
 {
-    crosses_t sum = {0};
+    crosses_t sum = {.bb = NEARLY_NOTHING};
     for (const brace_swing_t *e = element; e < end; e++) {
         for (const brace_swing_t *o = element; o < e; o++) {
             const brace_vec_t p = o->straight, q = o->folded, ep = e->straight, eq = e->folded;
             /* In this order of factors what must vanish does so exactly. */
             const float minus_fold = vec_cross(eq, q);
-            const brace_vec_t slope = {0.5f * (vec_cross(p, ep) + minus_fold),
-                                       0.5f * (vec_cross(p, eq) - vec_cross(ep, q))};
+            const brace_vec_t slope = {vec_cross(p, ep) + minus_fold, vec_cross(p, eq) - vec_cross(ep, q)};
             const float a = vec_cross(slope, s), b = vec_dot(slope, s);
             const float r = __builtin_fmaf(c, b, minus_fold);
             sum.aa = __builtin_fmaf(a, a, sum.aa);
@@ -69,9 +71,9 @@ static crosses_t sum_crosses(const brace_swing_t *element, const brace_swing_t *
 }
 
 /* The squares of all crosses gather into one square of c + s.u and a remainder that is linear in u because
- * |u|^2 = 2 (1 + cos):
- *     sum cross^2 = (B (c + s.u))^2 + mu (c^2 + 2 c s.u + 2 (1 + cos)) + sum r^2 - 2 (sum r a) n.u
- * with s the direction in which the sum varies most, c = sum k b / sum b^2, mu = sum a^2, B^2 = sum b^2 - mu.
+ * |u|^2 = (1 + cos)/2:
+ *     sum cross^2 = (B (c + s.u))^2 + sum a^2 (c^2 + 2 c s.u + (1 + cos)/2) + sum r^2 - 2 (sum r a) n.u
+ * with s, of length one, the direction in which the sum varies most, c = sum k b / sum b^2, B^2 = sum b^2 - sum a^2.
  * Only squares are added, each pass along the s and c that the one before has found: the sums as differences of
  * larger ones would lose the digits that matter. */
 enum { PASSES = 4 };
@@ -79,13 +81,13 @@ enum { PASSES = 4 };
 static void gather_crosses(const brace_swing_t *element, const brace_swing_t *end, brace_harmonics_t *harmonics)
 {
     brace_vec_t s = {0.0f, 1.0f};
-    float c = 0.0f;
+    float c = 0.0f, radius;
     crosses_t sum;
     for (int pass = 1;; pass++) {
         sum = sum_crosses(element, end, s, c);
         const float half = 0.5f * (sum.bb - sum.aa);
-        const float radius = __builtin_sqrtf(__builtin_fmaf(half, half, sum.ab * sum.ab));
-        if (pass == PASSES || !(radius > 0.0f)) {
+        radius = __builtin_sqrtf(__builtin_fmaf(half, half, sum.ab * sum.ab));
+        if (pass == PASSES) {
             break;
         }
         if (half < 0.0f) {
@@ -96,12 +98,13 @@ static void gather_crosses(const brace_swing_t *element, const brace_swing_t *en
             c -= sum.rb / sum.bb;
         }
     }
+    /* The length of s has grown, and with it a and b. */
     const float square = vec_dot(s, s), c_a = c * sum.aa;
-    const float amplitude = __builtin_sqrtf(sum.bb > sum.aa ? sum.bb - sum.aa : 0.0f);
-    const brace_vec_t per_b = vec_scaled(s, amplitude / square);
+    const float amplitude = __builtin_sqrtf(2.0f * radius);
+    const brace_vec_t per_b = vec_scaled(s, 0.5f * amplitude / square);
     harmonics->cross = (brace_harmonic_t){c * amplitude, per_b.x, per_b.z};
-    harmonics->rest = (brace_harmonic_t){sum.rr + c * c_a, 2.0f * (sum.aa + c_a * s.x - sum.ra * s.z) / square,
-                                         2.0f * (c_a * s.z + sum.ra * s.x) / square};
+    harmonics->rest = (brace_harmonic_t){sum.rr + c * c_a, (0.5f * sum.aa + c_a * s.x - sum.ra * s.z) / square,
+                                         (c_a * s.z + sum.ra * s.x) / square};
 }
 
 BRACE_OFF_TICK void brace_harmonics_sum(brace_swing_t *element, const brace_swing_t *end,
