@@ -81,13 +81,14 @@ enum { PASSES = 4 };
 static void gather_crosses(const brace_swing_t *element, const brace_swing_t *end, brace_harmonics_t *harmonics)
 {
     brace_vec_t s = {0.0f, 1.0f};
-    float c = 0.0f, radius;
+    float c = 0.0f, amplitude;
     crosses_t sum;
     for (int pass = 1;; pass++) {
         sum = sum_crosses(element, end, s, c);
         const float half = 0.5f * (sum.bb - sum.aa);
-        radius = __builtin_sqrtf(__builtin_fmaf(half, half, sum.ab * sum.ab));
+        const float radius = __builtin_sqrtf(__builtin_fmaf(half, half, sum.ab * sum.ab));
         if (pass == PASSES) {
+            amplitude = __builtin_sqrtf(__builtin_fabsf(half) + radius);
             break;
         }
         if (half < 0.0f) {
@@ -100,7 +101,6 @@ static void gather_crosses(const brace_swing_t *element, const brace_swing_t *en
     }
     /* The length of s has grown, and with it a and b. */
     const float square = vec_dot(s, s), c_a = c * sum.aa;
-    const float amplitude = __builtin_sqrtf(2.0f * radius);
     const brace_vec_t per_b = vec_scaled(s, 0.5f * amplitude / square);
     harmonics->cross = (brace_harmonic_t){c * amplitude, per_b.x, per_b.z};
     harmonics->rest = (brace_harmonic_t){sum.rr + c * c_a, (0.5f * sum.aa + c_a * s.x - sum.ra * s.z) / square,
