@@ -2,12 +2,8 @@
 
 #include "chain/chain_list.h"
 #include "base/off_tick.h"
+#include "base/trig.h"
 #include "base/vec.h"
-
-/* sin(tilt/2) = tilt (1/2 + w (SIN_3 + w (SIN_5 + w SIN_7))) with w = tilt^2, within 2e-9 for a quarter turn. */
-#define SIN_3 (-2.08333127e-2f)
-#define SIN_5 2.60373686e-4f
-#define SIN_7 (-1.52292930e-6f)
 
 /* Root of the bending that goes with moment transfer: 0.75 kappa of it. */
 static inline float moment_root(const brace_link_t *link)
@@ -20,20 +16,12 @@ static inline float moment_root(const brace_link_t *link)
 BRACE_OFF_TICK static float bend(const brace_link_t *link, brace_vec_t *excess, brace_vec_t *with_moment)
 {
     const float root = with_moment->x;
-    const float tilt = link->tilt_rad, w = tilt * tilt;
-    const float half_sin =
-        tilt * __builtin_fmaf(w, __builtin_fmaf(w, __builtin_fmaf(w, SIN_7, SIN_5), SIN_3), 0.5f);
-    const float half_cos = __builtin_sqrtf(__builtin_fmaf(-half_sin, half_sin, 1.0f));
-    const float sin = 2.0f * half_sin * half_cos, cos = 1.0f - 2.0f * half_sin * half_sin;
-    const float axial = link->axial_mm_per_n, bending = link->bending_mm_per_n - root * root, more = bending - axial;
+    const brace_vec_t along = brace_direction(brace_turn(link->tilt_rad));
+    const float axial = link->axial_mm_per_n, bending = __builtin_fmaf(-root, root, link->bending_mm_per_n), more = bending - axial;
     const float length = __builtin_sqrtf(__builtin_fabsf(more));
-    *with_moment = (brace_vec_t){-sin * root, cos * root};
-    if (more > 0.0f) {
-        *excess = (brace_vec_t){-sin * length, cos * length};
-        return axial;
-    }
-    *excess = (brace_vec_t){cos * length, sin * length};
-    return bending;
+    *with_moment = vec_scaled(vec_quarter(along), root);
+    *excess = vec_scaled(more > 0.0f ? vec_quarter(along) : along, length);
+    return more > 0.0f ? axial : bending;
 }
 
 /* A loop, because a call of the C library's memset would be longer. */

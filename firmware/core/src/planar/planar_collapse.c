@@ -60,8 +60,8 @@ static inline void fix(const brace_harmonic_t *h, float units, brace_planar_harm
 {
     const float per_word = -units * PER_WORD;
     const int32_t per_cos = (int32_t)(h->per_cos * per_word);
-    const int64_t at_fold = (int64_t)per_cos * (2 * TICK_ONE);
-    fixed->constant = ((int32_t)(h->at_fold * units * 2.0f) - (int32_t)(at_fold >> 32)) >> 1;
+    const int32_t at_fold = (per_cos - (per_cos >> 20)) >> 1;
+    fixed->constant = ((int32_t)(h->at_fold * units * 2.0f) - at_fold) >> 1;
     fixed->per_cos = per_cos;
     fixed->per_sin = (int32_t)(h->per_sin * per_word);
 }
@@ -79,13 +79,9 @@ static inline brace_status_t give_constants(brace_harmonics_t *h, brace_planar_t
         return BRACE_E_PARAMETER;
     }
     const rest_t rest = affine_rest(h, most);
-    /* Every factor below its word, the mean below two scales. */
-    float square = 0.25f * most * most;
-    for (int i = 2; i < 4; i++) {
-        const float size = swing_square(&from[i]);
-        square = size > square ? size : square;
-    }
-    const float unit = __builtin_sqrtf(square) * (1.001f / 0x1p27f), units = 1.0f / unit;
+    /* The middle of the mean is 2^27 units: no more than that swing any of the four, because |dev| is at most the mean, and
+     * half a turn apart two means make twice the middle. */
+    const float unit = middle * (1.001f / 0x1p27f), units = 1.0f / unit;
     if (!accurate(h, rest, least, most, unit)) {
         return BRACE_E_UNSUPPORTED;
     }
