@@ -24,11 +24,19 @@ float brace_chain_base(const brace_limb_t *limb, brace_vec_t *excess);
 /* From femur and tibia parts to straight and folded ones. */
 void brace_chain_halve(brace_swing_t *element, const brace_swing_t *end);
 
-/* brace_harmonics of a bare list, whose elements are halved by it.
- * count: [0, BRACE_CHAIN_MAX] */
-void brace_harmonics_list(float iso, brace_swing_t *element, uint32_t count, brace_harmonics_t *harmonics);
-
-/* The same of the elements alone, up to end, at most BRACE_CHAIN_MAX: iso is neither in nor written. */
+/* Harmonics of a bare list up to end, at most BRACE_CHAIN_MAX, whose elements are halved by it: iso is neither in nor
+ * written. */
 void brace_harmonics_sum(brace_swing_t *element, const brace_swing_t *end, brace_harmonics_t *harmonics);
+
+/* The same with iso: det (A + iso I) = det A + iso trace A + iso^2. */
+static inline void brace_harmonics_plus(brace_harmonics_t *harmonics, float iso_mm_per_n)
+{
+    const float twice = 2.0f * iso_mm_per_n;
+    harmonics->rest.at_fold += iso_mm_per_n * iso_mm_per_n + twice * harmonics->mean.at_fold;
+    harmonics->rest.per_cos += twice * harmonics->mean.per_cos;
+    harmonics->rest.per_sin += twice * harmonics->mean.per_sin;
+    harmonics->mean.at_fold += iso_mm_per_n;
+    harmonics->iso_mm_per_n = iso_mm_per_n;
+}
 
 #endif

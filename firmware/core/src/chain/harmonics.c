@@ -1,6 +1,6 @@
 #include "brace/chain.h"
 
-#include <float.h>
+#include <stddef.h>
 
 #include "chain/chain_list.h"
 #include "base/off_tick.h"
@@ -115,18 +115,6 @@ BRACE_OFF_TICK void brace_harmonics_sum(brace_swing_t *element, const brace_swin
     gather_crosses(element, end, harmonics);
 }
 
-BRACE_OFF_TICK void brace_harmonics_list(float iso, brace_swing_t *element, uint32_t count,
-                                         brace_harmonics_t *harmonics)
-{
-    brace_harmonics_sum(element, element + count, harmonics);
-    const float twice = 2.0f * iso;
-    harmonics->rest.at_fold += iso * iso + twice * harmonics->mean.at_fold;
-    harmonics->rest.per_cos += twice * harmonics->mean.per_cos;
-    harmonics->rest.per_sin += twice * harmonics->mean.per_sin;
-    harmonics->mean.at_fold += iso + FLT_MIN; /* never quite nothing: brace_tensor_plus divides by it */
-    harmonics->iso_mm_per_n = iso;
-}
-
 BRACE_OFF_TICK brace_status_t brace_harmonics(const brace_chain_t *chain, brace_harmonics_t *harmonics)
 {
     if (chain == NULL || harmonics == NULL) {
@@ -142,6 +130,7 @@ BRACE_OFF_TICK brace_status_t brace_harmonics(const brace_chain_t *chain, brace_
         }
         element[i] = (brace_swing_t){.femur = chain->element[i].femur, .tibia = chain->element[i].tibia};
     }
-    brace_harmonics_list(chain->iso_mm_per_n, element, chain->count, harmonics);
+    brace_harmonics_sum(element, element + chain->count, harmonics);
+    brace_harmonics_plus(harmonics, chain->iso_mm_per_n);
     return BRACE_OK;
 }

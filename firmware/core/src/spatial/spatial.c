@@ -13,6 +13,9 @@
  * its root. */
 #define SLENDER 6e-4f
 
+/* Added to a length [mm/N] that is divided by. */
+#define NEARLY_NOTHING 1e-15f
+
 /* Where the tip is in the plane. */
 typedef struct {
     brace_vec_t tip_mm; /* from the femur's axis */
@@ -53,6 +56,7 @@ static inline brace_tensor_t plane_of(const brace_spatial_t *s, const brace_post
                               fma(s->coxa_per_mm, tip_mm.x, s->coxa.z)};
     const brace_vec_t more[3] = {s->still[0], s->still[1], bent};
     brace_tensor_t c = limb_of(&s->plane, at);
+#pragma GCC unroll 1
     for (int i = 0; i < 3; i++) {
         c = brace_tensor_plus(c, more[i]);
     }
@@ -75,13 +79,10 @@ static inline float across(const brace_spatial_t *s, const reach_t *at)
 /* Unit vector of the least compliance, x not negative; x for a matrix that is the same in every direction. */
 static inline brace_vec_t stiff_direction(float dev_x, float dev_y, float radius)
 {
-    const float lever = radius + __builtin_fabsf(dev_x);
-    const float scale = lever > 0.0f ? 1.0f / brace_length(lever, dev_y) : 0.0f;
-    const float larger = lever * scale, smaller = -dev_y * scale;
-    if (!(dev_x > 0.0f)) {
-        return (brace_vec_t){lever > 0.0f ? larger : 1.0f, smaller};
-    }
-    return smaller < 0.0f ? (brace_vec_t){-smaller, -larger} : (brace_vec_t){smaller, larger};
+    const float longer = radius + __builtin_fabsf(dev_x) + NEARLY_NOTHING, shorter = __builtin_fabsf(dev_y);
+    const float scale = 1.0f / brace_length(longer, shorter);
+    const float x = scale * (dev_x > 0.0f ? shorter : longer), z = scale * (dev_x > 0.0f ? longer : shorter);
+    return (brace_vec_t){x, dev_y > 0.0f ? -z : z};
 }
 
 static inline void sort(float least, float most, float other, float ascending[3])

@@ -1,5 +1,6 @@
 #include "brace/spatial.h"
 
+#include <float.h>
 #include <stddef.h>
 
 #include "chain/chain_list.h"
@@ -45,9 +46,10 @@ BRACE_OFF_TICK brace_status_t brace_spatial_collapse(const brace_limb_t *limb, b
         return status;
     }
     collapse_across(limb, spatial);
-    float iso = collapse_still(limb, spatial);
+    float iso = collapse_still(limb, spatial) + FLT_MIN; /* never quite nothing: brace_tensor_plus divides by the trace */
     brace_swing_t element[BRACE_CHAIN_FIRM];
     iso += brace_chain_at_rest(limb, element);
-    brace_harmonics_list(iso, element, BRACE_CHAIN_FIRM, &spatial->plane);
+    brace_harmonics_sum(element, element + BRACE_CHAIN_FIRM, &spatial->plane);
+    brace_harmonics_plus(&spatial->plane, iso);
     return BRACE_OK;
 }
