@@ -8,7 +8,12 @@
 
 #include "brace/chain.h"
 #include "brace/planar.h"
+#include "base/trig.h"
 #include "base/vec.h"
+
+/* det C over mean^2 below which C counts as singular, and below which its accuracy is not promised. */
+#define BRACE_SINGULAR 1e-12f
+#define BRACE_SLENDER 2e-5f
 
 /* C and its determinant. */
 typedef struct {
@@ -38,10 +43,6 @@ static inline brace_status_t brace_check_reach(float theta1_rad, float theta2_ra
     }
     return reach <= FLT_MAX ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
 }
-
-/* K in the world's frame of C seen from the bisector, as brace_chain_stiffness says. to_world: direction of twice the
- * bisector's angle. BRACE_OK or BRACE_E_SINGULAR: then stiffness is untouched. */
-brace_status_t brace_tensor_inverse(brace_tensor_t c, brace_vec_t to_world, brace_stiffness_t *stiffness);
 
 static inline brace_vec_t brace_turned(brace_vec_t v, brace_vec_t by)
 {
@@ -84,6 +85,27 @@ static inline brace_tensor_t brace_tensor_plus(brace_tensor_t c, brace_vec_t v)
 static inline brace_circle_t brace_circle_in_world(brace_tensor_t c, brace_vec_t to_world)
 {
     return (brace_circle_t){0.5f * (c.xx + c.zz), brace_turned((brace_vec_t){0.5f * (c.xx - c.zz), c.xz}, to_world)};
+}
+
+/* K in the world's frame of C seen from the bisector, as brace_chain_stiffness says. to_world: direction of twice the
+ * bisector's angle. BRACE_OK or BRACE_E_SINGULAR: then stiffness is untouched. */
+static inline brace_status_t brace_tensor_inverse(brace_tensor_t c, brace_vec_t to_world, brace_stiffness_t *stiffness)
+{
+    const brace_circle_t circle = brace_circle_in_world(c, to_world);
+    const float det = c.det, mean = circle.mean, square = mean * mean;
+    if (!(det > BRACE_SINGULAR * square)) {
+        return BRACE_E_SINGULAR;
+    }
+    const float longest = mean + brace_sqrt(vec_dot(circle.dev, circle.dev));
+    const float per_det = 1.0f / det;
+    stiffness->flags = det < BRACE_SLENDER * square ? BRACE_FLAG_NEAR_SINGULAR : 0u;
+    stiffness->k_xx_n_per_mm = (mean - circle.dev.x) * per_det;
+    stiffness->k_xz_n_per_mm = -circle.dev.z * per_det;
+    stiffness->k_zz_n_per_mm = (mean + circle.dev.x) * per_det;
+    stiffness->lambda_min_n_per_mm = 1.0f / longest;
+    stiffness->lambda_max_n_per_mm = longest * per_det;
+    stiffness->stiff_axis_rad = 0.5f * brace_atan2(-circle.dev.z, -circle.dev.x);
+    return BRACE_OK;
 }
 
 #endif

@@ -22,14 +22,14 @@ typedef struct {
 /* Brings det C into this form: 2 iso mean - iso^2 and what the elements bring themselves. Of that first harmonic,
  * what stands across `cross` in the plane of (1 + cos, sin) is taken up by more of the mean, and what lies along it by
  * shifting cross. Where cross and mean point the same way within rounding, the mean takes up nothing. */
-static inline rest_t affine_rest(brace_harmonics_t *h, float most)
+static inline rest_t affine_rest(brace_harmonics_t *h, float grain)
 {
     const float iso = h->iso_mm_per_n;
     const brace_vec_t mean = {h->mean.per_cos, h->mean.per_sin};
     const brace_vec_t cross = {h->cross.per_cos, h->cross.per_sin};
     const brace_vec_t beyond = {h->rest.per_cos, h->rest.per_sin};
     const float square = vec_dot(cross, cross); /* never nothing */
-    const float apart = vec_cross(cross, mean), noise = ROUNDING * most * __builtin_sqrtf(square);
+    const float apart = vec_cross(cross, mean), noise = grain * __builtin_sqrtf(square);
     const float more = vec_cross(cross, beyond) / (apart + noise / apart * noise);
     const float shift = 0.5f * (vec_dot(cross, beyond) - more * vec_dot(cross, mean)) / square;
     const float constant = h->rest.at_fold - iso * iso - more * h->mean.at_fold -
@@ -75,10 +75,11 @@ static inline brace_status_t give_constants(brace_harmonics_t *h, brace_planar_t
     h->mean.at_fold += h->iso_mm_per_n;
     const float middle = h->mean.at_fold + h->mean.per_cos, swing = __builtin_sqrtf(swing_square(&h->mean));
     const float most = middle + swing, least = middle - swing;
-    if (!(least > -1e-6f * most)) {
+    const float grain = ROUNDING * most;
+    if (!(least > -16.0f * grain)) {
         return BRACE_E_PARAMETER;
     }
-    const rest_t rest = affine_rest(h, most);
+    const rest_t rest = affine_rest(h, grain);
     /* The middle of the mean is 2^27 units: no more than that swing any of the four, because |dev| is at most the mean, and
      * half a turn apart two means make twice the middle. */
     const float unit = middle * (1.001f / 0x1p27f), units = 1.0f / unit;
