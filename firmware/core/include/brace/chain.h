@@ -52,6 +52,13 @@ typedef union {
     brace_vec_t part[2];
 } brace_swing_t;
 
+/* The coxa link, which lies along x, its moment being that of the tip force about the hip: its ellipsoid's excess, and its
+ * moment transfer, the bending that goes with it and what comes to it per mm of the tip's lever. */
+typedef struct {
+    brace_vec_t excess, bent; /* [sqrt(mm/N)] */
+    float bent_per_mm;
+} brace_coxa_t;
+
 typedef struct {
     float iso_mm_per_n; /* compliance shared by every direction */
     uint32_t count;     /* elements in use, [0, BRACE_CHAIN_MAX] */

@@ -15,19 +15,21 @@
 #include "brace/limb.h"
 #include "brace/stiffness.h"
 
+/* What a link yields across the plane under what lies beyond it: moment transfer per mm and mm^2 along the link, torsion
+ * per mm^2 beside it. */
+typedef struct {
+    float per_mm, per_mm2, torsion;
+} brace_aside_t;
+
 /* A collapsed limb. Opaque; written by brace_spatial_collapse. */
 typedef struct {
     brace_harmonics_t plane; /* femur, tibia, joints 1 and 2, everything that yields equally in the plane */
-    brace_vec_t still[2];    /* v of what stands still in the plane: coxa, base [sqrt(mm/N)] */
-    brace_vec_t coxa;        /* v of the coxa's moment transfer, [sqrt(mm/N)] */
-    float coxa_per_mm;       /* and its part for each mm of the tip's lever [sqrt(mm/N)/mm] */
+    brace_coxa_t coxa;       /* in the plane */
+    brace_vec_t base;        /* where it yields more in one direction [sqrt(mm/N)] */
     float coxa_mm, femur_mm, tibia_mm;
-    float yaw_rad_per_n_mm;    /* joint 0 */
-    float across_mm_per_n;     /* lateral bending of the three links */
-    float across_per_reach[2]; /* coxa's moment transfer, per mm and mm^2 of the tip's distance */
-    float across_per_height2;  /* coxa's torsion, per mm^2 of the tip's height */
-    float across_per_along[2]; /* femur's moment transfer, per mm and mm^2 of the tip beyond the knee */
-    float across_per_aside2;   /* femur's torsion, per mm^2 of the tip's distance from the femur's line */
+    float yaw_rad_per_n_mm;  /* joint 0 */
+    float across_mm_per_n;   /* lateral bending of the three links */
+    brace_aside_t aside[2];  /* coxa, with the tip's distance and height; femur, with what is beyond the knee */
 } brace_spatial_t;
 
 /* The limb's constants; whenever its parameters change.

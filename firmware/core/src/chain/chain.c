@@ -1,5 +1,7 @@
 #include "brace/chain.h"
 
+#include <float.h>
+
 #include "chain/chain_list.h"
 #include "base/off_tick.h"
 #include "base/trig.h"
@@ -54,24 +56,17 @@ BRACE_OFF_TICK float brace_chain_firm(const brace_limb_t *limb, float hip_rad_pe
            bend(femur + 1, &element[2].tibia, &element[4].femur);
 }
 
-BRACE_OFF_TICK float brace_chain_coxa(const brace_limb_t *limb, brace_element_t element[2])
+BRACE_OFF_TICK float brace_chain_coxa(const brace_limb_t *limb, brace_coxa_t *coxa)
 {
     const brace_link_t *link = &limb->link[BRACE_COXA];
-    clear(&element->femur.x, &element[2].femur.x);
-    const float root = moment_root(link);
-    if (root > 0.0f) {
-        const float lever = 2.0f * root / limb->coxa_mm;
-        element[1].femur.z = lever * limb->femur_mm;
-        element[1].tibia.z = lever * limb->tibia_mm;
-    }
-    element[1].base.x = root;
-    return bend(link, &element[0].base, &element[1].base);
+    coxa->bent.x = moment_root(link);
+    coxa->bent_per_mm = 2.0f * coxa->bent.x / (limb->coxa_mm + FLT_MIN); /* a coxa of no length passes nothing on */
+    return bend(link, &coxa->excess, &coxa->bent);
 }
 
 BRACE_OFF_TICK float brace_chain_base(const brace_limb_t *limb, brace_vec_t *excess)
 {
-    const float x = limb->base.x_mm_per_n, z = limb->base.z_mm_per_n;
-    excess->x = x > z ? __builtin_sqrtf(x - z) : 0.0f;
-    excess->z = z > x ? __builtin_sqrtf(z - x) : 0.0f;
+    const float x = limb->base.x_mm_per_n, z = limb->base.z_mm_per_n, root = __builtin_sqrtf(__builtin_fabsf(x - z));
+    *excess = x > z ? (brace_vec_t){root, 0.0f} : (brace_vec_t){0.0f, root};
     return x > z ? z : x;
 }

@@ -28,10 +28,11 @@ BRACE_OFF_TICK static brace_status_t build(const brace_limb_t *limb, bool with_c
         append(chain, &(brace_element_t){.femur = swing[i].femur, .tibia = swing[i].tibia});
     }
     if (with_coxa) {
-        brace_element_t coxa[2];
-        chain->iso_mm_per_n += brace_chain_coxa(limb, coxa);
-        append(chain, &coxa[0]);
-        append(chain, &coxa[1]);
+        brace_coxa_t coxa;
+        chain->iso_mm_per_n += brace_chain_coxa(limb, &coxa);
+        append(chain, &(brace_element_t){.base = coxa.excess});
+        append(chain, &(brace_element_t){.femur = {0.0f, coxa.bent_per_mm * limb->femur_mm},
+                                         .tibia = {0.0f, coxa.bent_per_mm * limb->tibia_mm}, .base = coxa.bent});
     }
     brace_element_t base = {0};
     chain->iso_mm_per_n += brace_chain_base(limb, &base.base);

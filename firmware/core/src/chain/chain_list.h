@@ -16,9 +16,8 @@ static inline float brace_chain_at_rest(const brace_limb_t *limb, brace_swing_t 
                             limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm, element);
 }
 
-/* What has a base part: the coxa link's two, ellipsoid and moment transfer, and where the base yields more in one
- * direction. The coxa lies along x, its moment is that of the tip force about the hip. Each returns its iso. */
-float brace_chain_coxa(const brace_limb_t *limb, brace_element_t element[2]);
+/* What stands still: the coxa link, and where the base yields more in one direction. Each returns its iso. */
+float brace_chain_coxa(const brace_limb_t *limb, brace_coxa_t *coxa);
 float brace_chain_base(const brace_limb_t *limb, brace_vec_t *excess);
 
 /* From femur and tibia parts to straight and folded ones. */

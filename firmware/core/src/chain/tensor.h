@@ -26,7 +26,8 @@ typedef struct {
     brace_vec_t dev;
 } brace_circle_t;
 
-/* Directions of half the knee angle, and of the bisector of femur and tibia in the world. */
+/* Directions of half the knee angle, and of the bisector of femur and tibia in the world; both may be the opposite ones,
+ * which changes every vector's sign and no square. */
 typedef struct {
     brace_vec_t half, bisector;
 } brace_posture_t;

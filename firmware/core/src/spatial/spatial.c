@@ -24,11 +24,9 @@ typedef struct {
 
 static inline reach_t reach_of(const brace_spatial_t *s, const brace_posture_t *at)
 {
-    const brace_vec_t half = at->half;
-    const brace_vec_t femur = brace_turned(at->bisector, half), tibia = brace_seen_from(at->bisector, half);
+    const brace_vec_t half = at->half, seen = {(s->femur_mm + s->tibia_mm) * half.x, (s->femur_mm - s->tibia_mm) * half.z};
     return (reach_t){
-        .tip_mm = {fma(s->femur_mm, femur.x, s->tibia_mm * tibia.x),
-                   fma(s->femur_mm, femur.z, s->tibia_mm * tibia.z)},
+        .tip_mm = brace_turned(seen, at->bisector),
         .along_mm = s->tibia_mm * fma(2.0f * half.x, half.x, -1.0f),
         .aside_mm = s->tibia_mm * (2.0f * half.x * half.z),
     };
@@ -52,9 +50,10 @@ static inline brace_tensor_t limb_of(const brace_harmonics_t *h, const brace_pos
 /* And with them what stands still, and the coxa's moment transfer. */
 static inline brace_tensor_t plane_of(const brace_spatial_t *s, const brace_posture_t *at, brace_vec_t tip_mm)
 {
-    const brace_vec_t bent = {fma(-s->coxa_per_mm, tip_mm.z, s->coxa.x),
-                              fma(s->coxa_per_mm, tip_mm.x, s->coxa.z)};
-    const brace_vec_t more[3] = {s->still[0], s->still[1], bent};
+    const brace_coxa_t *coxa = &s->coxa;
+    const brace_vec_t bent = {fma(-coxa->bent_per_mm, tip_mm.z, coxa->bent.x),
+                              fma(coxa->bent_per_mm, tip_mm.x, coxa->bent.z)};
+    const brace_vec_t more[3] = {coxa->excess, s->base, bent};
     brace_tensor_t c = limb_of(&s->plane, at);
 #pragma GCC unroll 1
     for (int i = 0; i < 3; i++) {
@@ -63,17 +62,17 @@ static inline brace_tensor_t plane_of(const brace_spatial_t *s, const brace_post
     return c;
 }
 
+static inline float aside_at(const brace_aside_t *link, float along_mm, float beside_mm)
+{
+    return fma(along_mm, fma(along_mm, link->per_mm2, link->per_mm), link->torsion * beside_mm * beside_mm);
+}
+
 /* The compliance across the plane [mm/N]. */
 static inline float across(const brace_spatial_t *s, const reach_t *at)
 {
-    const float reach = at->tip_mm.x, height = at->tip_mm.z, from_yaw = s->coxa_mm + reach;
-    const float along = at->along_mm, aside = at->aside_mm;
-    float sum = s->across_mm_per_n;
-    sum = fma(reach, fma(reach, s->across_per_reach[1], s->across_per_reach[0]), sum);
-    sum = fma(along, fma(along, s->across_per_along[1], s->across_per_along[0]), sum);
-    sum = fma(s->across_per_height2 * height, height, sum);
-    sum = fma(s->across_per_aside2 * aside, aside, sum);
-    return fma(s->yaw_rad_per_n_mm * from_yaw, from_yaw, sum);
+    const float from_yaw = s->coxa_mm + at->tip_mm.x;
+    return fma(s->yaw_rad_per_n_mm * from_yaw, from_yaw, s->across_mm_per_n) +
+           aside_at(&s->aside[0], at->tip_mm.x, at->tip_mm.z) + aside_at(&s->aside[1], at->along_mm, at->aside_mm);
 }
 
 /* Unit vector of the least compliance, x not negative; x for a matrix that is the same in every direction. */
