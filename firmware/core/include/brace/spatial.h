@@ -23,7 +23,7 @@ typedef struct {
 
 /* A collapsed limb. Opaque; written by brace_spatial_collapse. */
 typedef struct {
-    brace_harmonics_t plane; /* femur, tibia, joints 1 and 2, everything that yields equally in the plane */
+    brace_harmonics_t plane; /* femur, tibia, joints 1 and 2; beside them, not in them, what yields equally in the plane */
     brace_coxa_t coxa;       /* in the plane */
     brace_vec_t base;        /* where it yields more in one direction [sqrt(mm/N)] */
     float coxa_mm, femur_mm, tibia_mm;

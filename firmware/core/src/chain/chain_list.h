@@ -27,15 +27,4 @@ void brace_chain_halve(brace_swing_t *element, const brace_swing_t *end);
  * written. */
 void brace_harmonics_sum(brace_swing_t *element, const brace_swing_t *end, brace_harmonics_t *harmonics);
 
-/* The same with iso: det (A + iso I) = det A + iso trace A + iso^2. */
-static inline void brace_harmonics_plus(brace_harmonics_t *harmonics, float iso_mm_per_n)
-{
-    const float twice = 2.0f * iso_mm_per_n;
-    harmonics->rest.at_fold += iso_mm_per_n * iso_mm_per_n + twice * harmonics->mean.at_fold;
-    harmonics->rest.per_cos += twice * harmonics->mean.per_cos;
-    harmonics->rest.per_sin += twice * harmonics->mean.per_sin;
-    harmonics->mean.at_fold += iso_mm_per_n;
-    harmonics->iso_mm_per_n = iso_mm_per_n;
-}
-
 #endif

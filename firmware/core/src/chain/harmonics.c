@@ -115,6 +115,17 @@ BRACE_OFF_TICK void brace_harmonics_sum(brace_swing_t *element, const brace_swin
     gather_crosses(element, end, harmonics);
 }
 
+/* det (A + iso I) = det A + iso trace A + iso^2 */
+static inline void add_iso(brace_harmonics_t *harmonics, float iso_mm_per_n)
+{
+    const float twice = 2.0f * iso_mm_per_n;
+    harmonics->rest.at_fold += iso_mm_per_n * iso_mm_per_n + twice * harmonics->mean.at_fold;
+    harmonics->rest.per_cos += twice * harmonics->mean.per_cos;
+    harmonics->rest.per_sin += twice * harmonics->mean.per_sin;
+    harmonics->mean.at_fold += iso_mm_per_n;
+    harmonics->iso_mm_per_n = iso_mm_per_n;
+}
+
 BRACE_OFF_TICK brace_status_t brace_harmonics(const brace_chain_t *chain, brace_harmonics_t *harmonics)
 {
     if (chain == NULL || harmonics == NULL) {
@@ -131,6 +142,6 @@ BRACE_OFF_TICK brace_status_t brace_harmonics(const brace_chain_t *chain, brace_
         element[i] = (brace_swing_t){.femur = chain->element[i].femur, .tibia = chain->element[i].tibia};
     }
     brace_harmonics_sum(element, element + chain->count, harmonics);
-    brace_harmonics_plus(harmonics, chain->iso_mm_per_n);
+    add_iso(harmonics, chain->iso_mm_per_n);
     return BRACE_OK;
 }

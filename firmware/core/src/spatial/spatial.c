@@ -37,14 +37,16 @@ static inline float harmonic(const brace_harmonic_t *h, float one_plus_cos, floa
     return fma(h->per_cos, one_plus_cos, fma(h->per_sin, sin, h->at_fold));
 }
 
-/* Femur, tibia and their joints in the world's frame. */
+/* Femur, tibia and their joints in the world's frame, and what yields equally in every direction of the plane:
+ * det (A + iso I) = det A + iso (trace A + iso). */
 static inline brace_tensor_t limb_of(const brace_harmonics_t *h, const brace_posture_t *at)
 {
     const float one_plus_cos = 2.0f * at->half.x * at->half.x, sin = 2.0f * at->half.x * at->half.z;
-    const float mean = harmonic(&h->mean, one_plus_cos, sin), cross = harmonic(&h->cross, one_plus_cos, sin);
+    const float links = harmonic(&h->mean, one_plus_cos, sin), cross = harmonic(&h->cross, one_plus_cos, sin);
     const brace_vec_t seen = {harmonic(&h->dev_x, one_plus_cos, sin), harmonic(&h->dev_y, one_plus_cos, sin)};
     const brace_vec_t dev = brace_turned(seen, brace_doubled(at->bisector));
-    return (brace_tensor_t){mean + dev.x, dev.z, mean - dev.x, fma(cross, cross, harmonic(&h->rest, one_plus_cos, sin))};
+    const float mean = links + h->iso_mm_per_n, det = fma(cross, cross, harmonic(&h->rest, one_plus_cos, sin));
+    return (brace_tensor_t){mean + dev.x, dev.z, mean - dev.x, fma(h->iso_mm_per_n, links + mean, det)};
 }
 
 /* And with them what stands still, and the coxa's moment transfer. */
@@ -84,22 +86,18 @@ static inline brace_vec_t stiff_direction(float dev_x, float dev_y, float radius
     return (brace_vec_t){x, dev_y > 0.0f ? -z : z};
 }
 
-static inline void sort(float least, float most, float other, float ascending[3])
+/* The two in the plane, and the one across it between them, below or above. */
+static inline void sort(float least, float most, float across, float ascending[3])
 {
-    ascending[0] = other < least ? other : least;
-    ascending[1] = other < least ? least : other > most ? most : other;
-    ascending[2] = other > most ? other : most;
+    const int below = across < least, above = across > most;
+    ascending[0] = below ? across : least;
+    ascending[1] = below ? least : above ? most : across;
+    ascending[2] = above ? across : most;
 }
 
-static inline brace_status_t check(float theta0_rad, float theta1_rad, float theta2_rad)
+static inline int usable(float angle_rad)
 {
-    const float angle[3] = {theta0_rad, theta1_rad, theta2_rad};
-    for (int i = 0; i < 3; i++) {
-        if (!(__builtin_fabsf(angle[i]) <= BRACE_ANGLE_LIMIT_RAD)) {
-            return brace_check_magnitude(angle[i], BRACE_ANGLE_LIMIT_RAD);
-        }
-    }
-    return BRACE_OK;
+    return __builtin_fabsf(angle_rad) <= BRACE_ANGLE_LIMIT_RAD;
 }
 
 brace_status_t brace_spatial_stiffness(const brace_spatial_t *spatial, float theta0_rad, float theta1_rad,
@@ -108,9 +106,8 @@ brace_status_t brace_spatial_stiffness(const brace_spatial_t *spatial, float the
     if (spatial == NULL || stiffness == NULL) {
         return BRACE_E_NULL;
     }
-    const brace_status_t status = check(theta0_rad, theta1_rad, theta2_rad);
-    if (status != BRACE_OK) {
-        return status;
+    if (!(usable(theta0_rad) && usable(theta1_rad) && usable(theta2_rad))) {
+        return brace_check_two(usable(theta0_rad) ? theta1_rad : theta0_rad, theta2_rad, BRACE_ANGLE_LIMIT_RAD);
     }
     brace_posture_t at;
     brace_posture(theta1_rad, theta2_rad, &at);
@@ -127,11 +124,11 @@ brace_status_t brace_spatial_stiffness(const brace_spatial_t *spatial, float the
     sort(1.0f / (mean + radius), most, side, stiffness->lambda_n_per_mm);
 
     const brace_vec_t yaw = brace_direction(brace_turn(theta0_rad));
-    const float out = c.zz * per_det, skew = -c.xz * per_det;
-    stiffness->k_xx_n_per_mm = fma(out * yaw.x, yaw.x, side * yaw.z * yaw.z);
-    stiffness->k_xy_n_per_mm = (out - side) * yaw.x * yaw.z;
+    const float more = c.zz * per_det - side, skew = -c.xz * per_det; /* more: than aside, outwards */
+    stiffness->k_xx_n_per_mm = fma(more * yaw.x, yaw.x, side);
+    stiffness->k_xy_n_per_mm = more * yaw.x * yaw.z;
     stiffness->k_xz_n_per_mm = skew * yaw.x;
-    stiffness->k_yy_n_per_mm = fma(out * yaw.z, yaw.z, side * yaw.x * yaw.x);
+    stiffness->k_yy_n_per_mm = fma(more * yaw.z, yaw.z, side);
     stiffness->k_yz_n_per_mm = skew * yaw.z;
     stiffness->k_zz_n_per_mm = c.xx * per_det;
 
