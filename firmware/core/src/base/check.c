@@ -1,62 +1,71 @@
 #include "base/check.h"
 
-#include <float.h>
 #include <stddef.h>
 
-#include "brace/kinematics.h"
 #include "base/off_tick.h"
-
-#define LENGTH_LIMIT_MM 1e4f
+#include "brace/kinematics.h"
 
 /* Softer than any limb in range, and its inverse and its square still far from the ends of the format. */
 #define SMALLEST_STIFFNESS_N_PER_MM 1e-12f
+#define LARGEST_STIFFNESS_N_PER_MM (1.0f / SMALLEST_STIFFNESS_N_PER_MM)
 
-/* Comparisons with NaN are false, so NaN falls through to the last line. */
-BRACE_OFF_TICK
-brace_status_t brace_check_magnitude(float value, float limit)
+/* What brace_input_t counts in; runs overlap where their limits are the same. */
+static const float limit[] = {
+    LARGEST_STIFFNESS_N_PER_MM, LARGEST_STIFFNESS_N_PER_MM, LARGEST_STIFFNESS_N_PER_MM, LARGEST_STIFFNESS_N_PER_MM,
+    LARGEST_STIFFNESS_N_PER_MM, BRACE_ANGLE_LIMIT_RAD,      BRACE_ANGLE_LIMIT_RAD,      2e6f,
+    BRACE_ANGLE_LIMIT_RAD,      1e4f,                       1e4f,                       1e6f,
+    1e6f,                       10.0f,                      10.0f,                      10.0f,
+};
+
+static inline brace_status_t judge(uint32_t magnitude, float most)
 {
-    const float magnitude = __builtin_fabsf(value);
-    if (magnitude <= limit) {
-        return BRACE_OK;
-    }
-    return magnitude <= FLT_MAX ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
+    return magnitude <= brace_magnitude_bits(most) ? BRACE_OK
+           : magnitude < BRACE_INFINITE_BITS       ? BRACE_E_RANGE
+                                                   : BRACE_E_NOT_FINITE;
 }
 
 BRACE_OFF_TICK
-brace_status_t brace_check_two(float a, float b, float limit)
+brace_status_t brace_check(const void *given, const float *value, brace_input_t what)
 {
-    return brace_check_magnitude(__builtin_fabsf(a) <= limit ? b : a, limit);
-}
-
-BRACE_OFF_TICK
-brace_status_t brace_check_lengths(const brace_limb_t *limb)
-{
-    if (limb == NULL) {
+    if (given == NULL) {
         return BRACE_E_NULL;
     }
-    const float *length = (const float *)limb; /* coxa, femur, tibia come first */
-    float least = 0.0f;
-    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-        if (!(length[i] >= least && length[i] <= LENGTH_LIMIT_MM)) {
-            return BRACE_E_PARAMETER;
+    const float *most = limit + (what >> 4);
+    uint32_t left = what & 0xfu;
+    brace_status_t status;
+    do { /* at most six */
+        status = judge(brace_magnitude_bits(*value++), *most++);
+        left--;
+    } while (status == BRACE_OK && left > 0u);
+    return status;
+}
+
+BRACE_OFF_TICK
+brace_status_t brace_check_two(float a, float b, float most)
+{
+    const uint32_t of_a = brace_magnitude_bits(a), of_b = brace_magnitude_bits(b);
+    return judge(of_a > of_b ? of_a : of_b, most);
+}
+
+BRACE_OFF_TICK
+brace_status_t brace_check_magnitude(float value, float most)
+{
+    return brace_check_two(value, value, most);
+}
+
+BRACE_OFF_TICK
+brace_status_t brace_check_stiffness(const brace_stiffness_t *stiffness, const void *given, const float *value,
+                                     brace_input_t what)
+{
+    brace_status_t status = brace_check(given, value, what);
+    if (status == BRACE_OK) {
+        status = brace_check(stiffness, (const float *)stiffness, BRACE_INPUT_STIFFNESS);
+    }
+    if (status == BRACE_OK) {
+        const int32_t smaller = brace_bits(stiffness->lambda_min_n_per_mm); /* below all others when negative */
+        if (smaller < brace_bits(SMALLEST_STIFFNESS_N_PER_MM) || smaller > brace_bits(stiffness->lambda_max_n_per_mm)) {
+            status = BRACE_E_RANGE;
         }
-        least = 1.0f;
     }
-    return BRACE_OK;
-}
-
-BRACE_OFF_TICK
-brace_status_t brace_check_stiffness(const brace_stiffness_t *stiffness)
-{
-    if (stiffness == NULL) {
-        return BRACE_E_NULL;
-    }
-    const float smaller = stiffness->lambda_min_n_per_mm;
-    const float larger = stiffness->lambda_max_n_per_mm;
-    brace_status_t status = brace_check_two(smaller, larger, 1.0f / SMALLEST_STIFFNESS_N_PER_MM);
-    if (status == BRACE_OK && (smaller < SMALLEST_STIFFNESS_N_PER_MM || smaller > larger)) {
-        status = BRACE_E_RANGE;
-    }
-    return status != BRACE_OK ? status
-                              : brace_check_magnitude(stiffness->stiff_axis_rad, BRACE_ANGLE_LIMIT_RAD);
+    return status;
 }

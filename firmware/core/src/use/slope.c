@@ -5,9 +5,8 @@
 #include "base/check.h"
 #include "base/off_tick.h"
 #include "base/trig.h"
+#include "use/unroll.h"
 
-#define DISPLACEMENT_LIMIT_MM 1e4f
-#define FORCE_LIMIT_N 1e6f
 #define SMALLEST_STEP_MM 1e-6f
 #define STEPS_LIMIT (1u << 24)
 
@@ -29,68 +28,55 @@ static void extend_line(brace_slope_line_t *line, float weight, const float step
     }
     gain /= spread;
     const float unexplained = weight * line->spread / spread;
-    for (int i = 0; i < 2; i++) {
-        const float surprise = step[FORCE_X_N + i] - line->slope[i] * displacement;
-        line->residual[i] += unexplained * surprise * surprise;
-        line->slope[i] += gain * surprise;
-    }
     line->spread = spread;
-}
-
-BRACE_OFF_TICK
-static brace_status_t check_reading(const brace_slope_t *slope, const float reading[READING_COUNT])
-{
-    if (slope == NULL) {
-        return BRACE_E_NULL;
+    float *slope = line->slope, *residual = line->residual;
+    for (const float *force = step + FORCE_X_N; force < step + READING_COUNT; force++) { /* at most two */
+        const float surprise = *force - *slope * displacement;
+        *residual++ += unexplained * surprise * surprise;
+        *slope++ += gain * surprise;
     }
-    const brace_status_t status = brace_check_magnitude(reading[DISPLACEMENT_MM], DISPLACEMENT_LIMIT_MM);
-    return status != BRACE_OK ? status
-                              : brace_check_two(reading[FORCE_X_N], reading[FORCE_Z_N], FORCE_LIMIT_N);
 }
 
-BRACE_OFF_TICK
+BRACE_OFF_TICK BRACE_LOOPS_STAY
 brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, float force_x_n,
                                  float force_z_n)
 {
     const float reading[READING_COUNT] = {displacement_mm, force_x_n, force_z_n};
-    const brace_status_t status = check_reading(slope, reading);
-    if (status != BRACE_OK) {
-        return status;
+    const brace_status_t status = brace_check(slope, reading, BRACE_INPUT_READING);
+    if (status == BRACE_OK) {
+        float *end = &slope->line[BRACE_SLOPE_METHOD_COUNT].spread;
+        for (float *field = slope->mean; field < end; field++) { /* at most eighteen */
+            *field = 0.0f;
+        }
+        for (int i = 0; i < READING_COUNT; i++) {
+            slope->preload[i] = reading[i];
+        }
+        slope->used = slope->skipped = 0;
     }
-    slope->preload[DISPLACEMENT_MM] = reading[DISPLACEMENT_MM];
-    slope->preload[FORCE_X_N] = reading[FORCE_X_N];
-    slope->preload[FORCE_Z_N] = reading[FORCE_Z_N];
-    slope->used = slope->skipped = 0;
-    slope->mean[0] = slope->mean[1] = slope->mean[2] = 0.0f;
-    for (brace_slope_line_t *line = slope->line; line < slope->line + BRACE_SLOPE_METHOD_COUNT; line++) {
-        /* one by one: all at once would be a call of the C library's memset */
-        line->spread = line->slope[0] = line->slope[1] = line->residual[0] = line->residual[1] = 0.0f;
-    }
-    return BRACE_OK;
+    return status;
 }
 
 BRACE_OFF_TICK
 brace_status_t brace_slope_step(brace_slope_t *slope, float displacement_mm, float force_x_n, float force_z_n)
 {
-    const float reading[READING_COUNT] = {displacement_mm, force_x_n, force_z_n};
-    const brace_status_t status = check_reading(slope, reading);
+    float step[READING_COUNT] = {displacement_mm, force_x_n, force_z_n};
+    const brace_status_t status = brace_check(slope, step, BRACE_INPUT_READING);
     if (status != BRACE_OK) {
         return status;
     }
     if (slope->used + slope->skipped >= STEPS_LIMIT) {
         return BRACE_E_RANGE;
     }
-    const float step_mm = reading[DISPLACEMENT_MM] - slope->preload[DISPLACEMENT_MM];
+    const float step_mm = step[DISPLACEMENT_MM] - slope->preload[DISPLACEMENT_MM];
     if (__builtin_fabsf(step_mm) < SMALLEST_STEP_MM) {
         slope->skipped++;
         return BRACE_OK;
     }
     slope->used++;
     const float newest = 1.0f / (float)slope->used;
-    float step[READING_COUNT];
     float from_mean[READING_COUNT];
     for (int i = 0; i < READING_COUNT; i++) {
-        step[i] = reading[i] - slope->preload[i];
+        step[i] -= slope->preload[i];
         from_mean[i] = step[i] - slope->mean[i];
         slope->mean[i] += newest * from_mean[i];
     }
@@ -111,15 +97,15 @@ brace_status_t brace_slope_column(const brace_slope_t *slope, brace_slope_method
         return BRACE_E_RANGE;
     }
     const brace_slope_line_t *line = &slope->line[method];
-    const uint32_t fitted = method == BRACE_SLOPE_FREE_INTERCEPT ? 2 : 1;
-    if (slope->used <= fitted || !(line->spread > 0.0f)) {
+    const int32_t freedom = (int32_t)slope->used - (method == BRACE_SLOPE_FREE_INTERCEPT ? 2 : 1);
+    if (freedom <= 0 || !(line->spread > 0.0f)) {
         return BRACE_E_TOO_FEW;
     }
-    const float per_freedom = 1.0f / ((float)(slope->used - fitted) * line->spread);
+    const float spread = (float)freedom * line->spread;
     column->k_x_n_per_mm = line->slope[0];
     column->k_z_n_per_mm = line->slope[1];
-    column->sigma_k_x_n_per_mm = brace_sqrt(line->residual[0] * per_freedom);
-    column->sigma_k_z_n_per_mm = brace_sqrt(line->residual[1] * per_freedom);
+    column->sigma_k_x_n_per_mm = brace_sqrt(line->residual[0] / spread);
+    column->sigma_k_z_n_per_mm = brace_sqrt(line->residual[1] / spread);
     column->used = slope->used;
     column->skipped = slope->skipped;
     return BRACE_OK;
@@ -146,36 +132,33 @@ brace_status_t brace_slope_stiffness(const brace_slope_t *along_x, const brace_s
     if (status != BRACE_OK) {
         return status;
     }
+    float *entry = &stiffness->k_xx_n_per_mm;
+    const float *of_x = &x.k_x_n_per_mm, *of_z = &z.k_x_n_per_mm;
+    ROLLED
+    for (int i = 0; i < 4; i++) { /* entries, then their errors: force along x, along z */
+        entry[2 * i] = of_x[i];
+        entry[2 * i + 1] = of_z[i];
+    }
+    stiffness->asymmetry_n_per_mm = z.k_x_n_per_mm - x.k_z_n_per_mm;
+    const float variance_asymmetry = square(z.sigma_k_x_n_per_mm) + square(x.sigma_k_z_n_per_mm);
+    stiffness->sigma_asymmetry_n_per_mm = brace_sqrt(variance_asymmetry);
+
+    brace_stiffness_t *symmetric = &stiffness->symmetric;
     const float cross = 0.5f * (z.k_x_n_per_mm + x.k_z_n_per_mm);
     const float mean = 0.5f * (x.k_x_n_per_mm + z.k_z_n_per_mm);
     const float deviation = 0.5f * (x.k_x_n_per_mm - z.k_z_n_per_mm);
-    const float radius = brace_sqrt(square(deviation) + square(cross));
-    const float axis_rad = 0.5f * brace_atan2(cross, deviation);
-    const brace_vec_t stiff = brace_direction(brace_turn(axis_rad));
-    const float variance_asymmetry = square(z.sigma_k_x_n_per_mm) + square(x.sigma_k_z_n_per_mm);
-    const float sigma_lambda_min = brace_sqrt(square(square(stiff.z) * x.sigma_k_x_n_per_mm) +
-                                              square(square(stiff.x) * z.sigma_k_z_n_per_mm) +
-                                              square(stiff.z * stiff.x) * variance_asymmetry);
-
-    stiffness->k_xx_n_per_mm = x.k_x_n_per_mm;
-    stiffness->k_xz_n_per_mm = z.k_x_n_per_mm;
-    stiffness->k_zx_n_per_mm = x.k_z_n_per_mm;
-    stiffness->k_zz_n_per_mm = z.k_z_n_per_mm;
-    stiffness->sigma_k_xx_n_per_mm = x.sigma_k_x_n_per_mm;
-    stiffness->sigma_k_xz_n_per_mm = z.sigma_k_x_n_per_mm;
-    stiffness->sigma_k_zx_n_per_mm = x.sigma_k_z_n_per_mm;
-    stiffness->sigma_k_zz_n_per_mm = z.sigma_k_z_n_per_mm;
-    stiffness->asymmetry_n_per_mm = z.k_x_n_per_mm - x.k_z_n_per_mm;
-    stiffness->sigma_asymmetry_n_per_mm = brace_sqrt(variance_asymmetry);
-    stiffness->sigma_lambda_min_n_per_mm = sigma_lambda_min;
-    stiffness->symmetric = (brace_stiffness_t){
-        .k_xx_n_per_mm = x.k_x_n_per_mm,
-        .k_xz_n_per_mm = cross,
-        .k_zz_n_per_mm = z.k_z_n_per_mm,
-        .lambda_min_n_per_mm = mean - radius,
-        .lambda_max_n_per_mm = mean + radius,
-        .stiff_axis_rad = axis_rad,
-        .flags = mean - radius > sigma_lambda_min ? 0u : (uint32_t)BRACE_FLAG_NEAR_SINGULAR,
-    };
+    const float radius = brace_length(deviation, cross);
+    symmetric->k_xx_n_per_mm = x.k_x_n_per_mm;
+    symmetric->k_xz_n_per_mm = cross;
+    symmetric->k_zz_n_per_mm = z.k_z_n_per_mm;
+    symmetric->lambda_min_n_per_mm = mean - radius;
+    symmetric->lambda_max_n_per_mm = mean + radius;
+    symmetric->stiff_axis_rad = 0.5f * brace_atan2(cross, deviation);
+    const brace_vec_t stiff = brace_direction(brace_turn(symmetric->stiff_axis_rad));
+    const float sigma = brace_sqrt(square(square(stiff.z) * x.sigma_k_x_n_per_mm) +
+                                   square(square(stiff.x) * z.sigma_k_z_n_per_mm) +
+                                   square(stiff.z * stiff.x) * variance_asymmetry);
+    stiffness->sigma_lambda_min_n_per_mm = sigma;
+    symmetric->flags = symmetric->lambda_min_n_per_mm > sigma ? 0u : (uint32_t)BRACE_FLAG_NEAR_SINGULAR;
     return BRACE_OK;
 }
