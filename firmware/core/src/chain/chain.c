@@ -56,6 +56,15 @@ BRACE_OFF_TICK float brace_chain_firm(const brace_limb_t *limb, float hip_rad_pe
            bend(femur + 1, &element[2].tibia, &element[4].femur);
 }
 
+BRACE_OFF_TICK void brace_chain_halve(brace_swing_t *element, const brace_swing_t *end)
+{
+    for (brace_swing_t *e = element; e < end; e++) { /* at most BRACE_CHAIN_FIRM */
+        const brace_vec_t f = e->femur, t = e->tibia;
+        e->straight = (brace_vec_t){f.x + t.x, f.z + t.z};
+        e->folded = (brace_vec_t){t.z - f.z, f.x - t.x}; /* f - t, a quarter turned */
+    }
+}
+
 BRACE_OFF_TICK float brace_chain_coxa(const brace_limb_t *limb, brace_coxa_t *coxa)
 {
     const brace_link_t *link = &limb->link[BRACE_COXA];
