@@ -1,8 +1,8 @@
 /* K of any planar limb at the tick, its joints' springs as they are at the moment.
  *
- * When parameters change the limb becomes five elements (brace/chain.h), halved, and what the base yields. Each tick starts
- * from the base and adds the elements one by one, both joints' springs among them, as C + v v' each, whose determinant is a
- * sum of positive terms.
+ * When parameters change the limb becomes five elements (brace/chain.h), halved, and what the base yields. Each
+ * tick starts from the base and adds the elements one by one, both joints' springs among them, as C + v v' each,
+ * whose determinant is a sum of positive terms.
  */
 #ifndef BRACE_GENERAL_H
 #define BRACE_GENERAL_H

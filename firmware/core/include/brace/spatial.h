@@ -15,15 +15,15 @@
 #include "brace/limb.h"
 #include "brace/stiffness.h"
 
-/* What a link yields across the plane under what lies beyond it: moment transfer per mm and mm^2 along the link, torsion
- * per mm^2 beside it. */
+/* What a link yields across the plane under what lies beyond it: moment transfer per mm and mm^2 along the link,
+ * torsion per mm^2 beside it. */
 typedef struct {
     float per_mm, per_mm2, torsion;
 } brace_aside_t;
 
 /* A collapsed limb. Opaque; written by brace_spatial_collapse. */
 typedef struct {
-    brace_harmonics_t plane; /* femur, tibia, joints 1 and 2; beside them, not in them, what yields equally in the plane */
+    brace_harmonics_t plane; /* femur, tibia, joints 1 and 2; iso, which is more, is beside them, not in them */
     brace_coxa_t coxa;       /* in the plane */
     brace_vec_t base;        /* where it yields more in one direction [sqrt(mm/N)] */
     float coxa_mm, femur_mm, tibia_mm;

@@ -18,11 +18,11 @@ static inline float moment_root(const brace_link_t *link)
 BRACE_OFF_TICK static float bend(const brace_link_t *link, brace_vec_t *excess, brace_vec_t *with_moment)
 {
     const float root = with_moment->x;
-    const brace_vec_t along = brace_direction(brace_turn(link->tilt_rad));
-    const float axial = link->axial_mm_per_n, bending = __builtin_fmaf(-root, root, link->bending_mm_per_n), more = bending - axial;
-    const float length = __builtin_sqrtf(__builtin_fabsf(more));
-    *with_moment = vec_scaled(vec_quarter(along), root);
-    *excess = vec_scaled(more > 0.0f ? vec_quarter(along) : along, length);
+    const brace_vec_t along = brace_direction(brace_turn(link->tilt_rad)), across = vec_quarter(along);
+    const float axial = link->axial_mm_per_n, bending = __builtin_fmaf(-root, root, link->bending_mm_per_n);
+    const float more = bending - axial, length = __builtin_sqrtf(__builtin_fabsf(more));
+    *with_moment = vec_scaled(across, root);
+    *excess = vec_scaled(more > 0.0f ? across : along, length);
     return more > 0.0f ? axial : bending;
 }
 
