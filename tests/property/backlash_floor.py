@@ -15,7 +15,7 @@ import backlash_histories as bench
 
 class OracleCounts(ctypes.Structure):
     _fields_ = [("ticks", ctypes.c_double), ("beyond_a_tenth", ctypes.c_double), ("open_beyond_a_tenth", ctypes.c_double),
-                ("error", ctypes.c_double * bench.BINS)]
+                ("judged", ctypes.c_double), ("flank_wrong", ctypes.c_double), ("error", ctypes.c_double * bench.BINS)]
 
 
 def oracle(lib: ctypes.CDLL, first: int, count: int, particles: int, exact: bool, told: bool) -> OracleCounts:
@@ -36,13 +36,15 @@ def main() -> int:
     machine = bench.histories(lib, options.seed, options.count, exact=False, expecting=False)
     print(f"machine: 95 % within {bench.percentile(machine.all, 0.95):.3f} gaps, beyond a tenth "
           f"{100.0 * bench.beyond_a_tenth(machine.all):.1f} % of {machine.ticks:.0f} ticks; gap open "
-          f"{100.0 * machine.open / machine.ticks:.1f} %")
+          f"{100.0 * machine.open / machine.ticks:.1f} %; outside the crossing flank wrong at every tick, guesses too, "
+          f"{100.0 * machine.best_wrong / machine.judged:.2f} %")
     for exact in (False, True):
         for told in (False, True):
             c = oracle(lib, options.seed, options.count, options.particles, exact, told)
             print(f"oracle, current {'exact' if exact else 'noisy'}, world {'told' if told else 'unknown'}: 95 % within "
                   f"{bench.percentile(c.error, 0.95):.3f} gaps, beyond a tenth {100.0 * c.beyond_a_tenth / c.ticks:.1f} % "
-                  f"(with the gap open {100.0 * c.open_beyond_a_tenth / c.ticks:.1f} %)", flush=True)
+                  f"(with the gap open {100.0 * c.open_beyond_a_tenth / c.ticks:.1f} %), outside the crossing flank wrong "
+                  f"{100.0 * c.flank_wrong / c.judged:.2f} %", flush=True)
     return 0
 
 

@@ -12,6 +12,9 @@
 
 enum { PARTICLES_MOST = 8000, SUBSTEPS = 5, BINS = 12000, CELLS = 101, NEIGHBOURS = 9 };
 
+/* What the machine states: so long after the gap has closed is still the crossing. */
+enum { DETECTION_TICKS = 52 };
+
 typedef struct {
     double link_rad, link_speed, world_n_mm, base_n_mm, hold_stiffness, hold_rad, friction_n_mm;
 } particle_t;
@@ -36,7 +39,8 @@ typedef struct {
 
 typedef struct {
     double ticks, beyond_a_tenth, open_beyond_a_tenth;
-    double error[BINS]; /* |error| / gap to the nearest 0.0001 */
+    double judged, flank_wrong; /* outside the crossing */
+    double error[BINS];         /* |error| / gap to the nearest 0.0001 */
 } oracle_counts_t;
 
 static double clamp(double value, double limit)
@@ -187,6 +191,16 @@ static double best_offset_rad(const cloud_t *cloud, const plant_t *p, double mot
     return (0.5 * (first + last) / (CELLS - 1) - 0.5) * p->gap_rad;
 }
 
+/* The flank on whose side of the gap most of the probability lies. */
+static int best_flank(const cloud_t *cloud, double motor_rad)
+{
+    double lead = 0.0;
+    for (int i = 0; i < cloud->count; i++) {
+        lead += copysign(exp(cloud->log_weight[i]), motor_rad - cloud->of[i].link_rad);
+    }
+    return (lead > 0.0) - (lead < 0.0);
+}
+
 static void normalise_and_resample(cloud_t *cloud)
 {
     double most = -INFINITY, sum = 0.0, squares = 0.0;
@@ -227,6 +241,7 @@ int backlash_oracle(uint64_t seed, int particles, int exact_torque, int told_wor
     cloud_t cloud = {of, resampled, log_weight, particles, {seed * 77u + 5u}};
     begin(&cloud, p, p->motor_rad);
     motor_t m = {.rad1 = p->motor_rad};
+    int since_open = HISTORY_TICKS;
     for (int tick = 0; tick < HISTORY_TICKS; tick++) {
         const bool held_before = h.segment.held;
         const brace_backlash_sample_t sample = history_tick(&h);
@@ -254,6 +269,11 @@ int backlash_oracle(uint64_t seed, int particles, int exact_torque, int told_wor
         counts->ticks += 1.0;
         counts->beyond_a_tenth += error > 0.1;
         counts->open_beyond_a_tenth += error > 0.1 && plant_flank(p) == 0;
+        since_open = plant_flank(p) == 0 ? 0 : since_open + 1;
+        if (since_open > DETECTION_TICKS) {
+            counts->judged += 1.0;
+            counts->flank_wrong += best_flank(&cloud, m.rad1) != plant_flank(p);
+        }
     }
     return 0;
 }

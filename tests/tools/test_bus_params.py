@@ -259,6 +259,9 @@ def test_parameters_over_modbus(brace: Callable[..., Outcome], limb: Path, other
         assert brace("params", "diff", other, "--bus", can, "--check").code == 0
         assert brace("params", "rollback", "--bus", url).code == 0
         assert crc_in_force(can) == before
+        for bus in (can, url):
+            nothing = brace("params", "rollback", "--bus", bus)
+            assert nothing.code == 5 and "there is no set to go back to" in nothing.err, nothing.err
         live, over_can = (json.loads(brace("query", "--bus", bus, "--json").out) for bus in (url, can))
         for name in ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm"):
             assert abs(live[name] - over_can[name]) < 0.0005

@@ -102,6 +102,8 @@ def test_an_unreachable_tip_is_the_question_s_fault(brace: Callable[..., Outcome
         assert brace("query", "--bus", url, "--theta1", 1).code == 2
         outcome = brace("query", "--bus", url, "--entry", "lambda_mni")
         assert outcome.code == 2 and "lambda_min" in outcome.err
+        outcome = brace("query", "--bus", url, "--entry", "femur_mm")
+        assert outcome.code == 2 and "did you mean geometry.femur_mm?" in outcome.err
 
 
 def test_several_nodes_need_a_number(brace: Callable[..., Outcome], limb: Path) -> None:

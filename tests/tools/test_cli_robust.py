@@ -104,6 +104,8 @@ def test_bad_models_name_their_line(brace: Brace, tmp_path: Path, text: str, lin
     [
         (("--theta1", "57deg", "--theta2", 1), "try: --theta1 0.994838"),
         (("--theta1", "1,0", "--theta2", 1), "try: --theta1 1.0"),
+        (("--theta1", "\u22121.5", "--theta2", 1), "try: --theta1 -1.5"),
+        (("--theta1", "\u20131,5", "--theta2", 1), "typographic one (U+2013)"),
         (("--theta1", "nan", "--theta2", 1), "not a finite number"),
         (("--thetal", 1, "--theta2", 1), "did you mean --theta1?"),
         (("--theta1", 1, "--theta2", 1, "--jsn"), "did you mean --json?"),
@@ -143,6 +145,38 @@ def test_misspelt_words_elsewhere(brace: Brace, paper_limb: Path, paper_table: P
     rig.write_text('format = 1\n[rig]\naxes = "x"\n[[configuration]]\ntheta1_rad = 0.5\ntheta2_rad = 1.0\n')
     refused = brace("simulate", "--model", paper_limb, "--rig", rig, "--out", tmp_path / "d")
     assert refused.code == 3 and 'a list such as ["x", "z"]' in refused.err
+
+
+def test_files_in_the_wrong_order(brace: Brace, paper_limb: Path, paper_table: Path, tmp_path: Path) -> None:
+    rig = tmp_path / "rig.toml"
+    rig.write_text('format = 1\ntitle = "t"\n[[configuration]]\ntheta1_rad = 0.5\ntheta2_rad = 1.0\n')
+    out = ("--out", tmp_path / "out")
+    for arguments, words in (
+        (("simulate", "--model", rig, "--rig", paper_limb), "a rig file, where a limb model is wanted"),
+        (("simulate", "--model", paper_limb, "--rig", paper_limb), "a limb model, where a rig file is wanted"),
+        (("map", "--model", paper_table / "meta.toml"), "a dataset's meta.toml, where a limb model is wanted"),
+        (("identify", paper_limb, "--model", paper_table), "a dataset's folder comes first"),
+    ):
+        outcome = brace(*arguments, *out)
+        assert outcome.code == 3 and words in outcome.err and "try:" in outcome.err, outcome.err
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("command", ["map", "simulate", "diagnose", "demo"])
+def test_a_folder_in_which_nothing_may_be_written_is_told_before_the_work(
+    brace: Brace, paper_limb: Path, paper_table: Path, tmp_path: Path, command: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By os.access, asked of the folder that is there: who runs the tests as root may write anywhere."""
+    closed = tmp_path / "closed"
+    closed.mkdir()
+    may = os.access
+    monkeypatch.setattr(os, "access", lambda path, mode: Path(path) != closed and may(path, mode))
+    rig = paper_limb.parent / "paper-rig.toml"
+    given = {"map": ["--model", paper_limb], "simulate": ["--model", paper_limb, "--rig", rig],
+             "diagnose": [paper_table, "--model", paper_limb], "demo": []}  # fmt: skip
+    outcome = brace(command, *given[command], "--out", closed / "new")
+    assert outcome.code == 2 and f"nothing may be written in {closed}" in outcome.err and not outcome.out, outcome.err
+    assert not list(closed.iterdir())
 
 
 def test_a_full_turn_is_the_same_posture(brace: Brace, paper_limb: Path) -> None:

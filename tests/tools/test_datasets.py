@@ -44,6 +44,7 @@ REFUSED = {  # what is done to row 30 (1-based) -> words in the message
     "nan": (("fx_n", "nan"), "cannot be"),
     "infinite": (("fz_n", "-inf"), "cannot be"),
     "decimal comma": (("fz_n", "1,5"), "14 fields"),
+    "typographic minus": (("fz_n", "\u22121.5"), "write -1.5"),
     "underscore": (("fz_n", "1_000"), "not a number"),
     "axis": (("axis", "y"), "x or z"),
     "half a run": (("run", "1.5"), "whole number"),
@@ -158,7 +159,8 @@ def test_wrong_headers(tmp_path: Path) -> None:
         (LOADING_HEADER.replace("theta1_rad", "theta1_deg"), "theta1_deg"),
         (LOADING_HEADER.replace("fz_n", "fx_n"), "twice"),
         (LOADING_HEADER.replace(",", ";"), "separated by commas"),
-        ("1,2,3", "missing columns"),
+        ("a,b,c", "missing columns"),
+        ("1,2,x,3.5", "no column names"),
     ):
         with pytest.raises(BadFileError) as caught:
             load_dataset(write_loading(tmp_path, rows, header))
@@ -175,6 +177,15 @@ def test_extra_columns_quotes_and_line_ends_are_taken(tmp_path: Path) -> None:
     assert not again.faults
     for name, values in plain.items():
         assert np.array_equal(values, again[name])
+
+
+def test_blanks_beside_entries_are_taken(tmp_path: Path) -> None:
+    rows = loading_rows()
+    plain = load_dataset(write_loading(tmp_path, rows))
+    spaced = [[f" {text} " for text in row] for row in rows]
+    again = load_dataset(write_loading(tmp_path, spaced, LOADING_HEADER.replace(",", ", ")))
+    assert not again.faults
+    assert all(np.array_equal(values, again[name]) for name, values in plain.columns.items())
 
 
 @pytest.mark.parametrize(
@@ -216,6 +227,11 @@ def test_a_folder_that_is_none(tmp_path: Path, brace: Callable[..., object], pap
     for folder in (tmp_path / "none", paper_limb):
         outcome = brace("predict", folder, "--model", paper_limb, "--out", tmp_path / "p.csv")
         assert outcome.code == 3 and "dataset" in outcome.err and not (tmp_path / "p.csv").exists()
+    for name, words in (("other.txt", "no dataset in this folder"), ("data.csv", "no meta.toml in this folder")):
+        (tmp_path / "folder").mkdir(exist_ok=True)
+        (tmp_path / "folder" / name).write_text("")
+        outcome = brace("predict", tmp_path / "folder", "--model", paper_limb, "--out", tmp_path / "p.csv")
+        assert outcome.code == 3 and words in outcome.err, outcome.err
 
 
 def test_mutated_records_never_break_the_reader(tmp_path: Path) -> None:

@@ -139,7 +139,12 @@ def test_a_port_in_use_is_4_with_a_way_out(brace: Callable[..., Outcome], paper_
             assert url in outcome.err and "in use" in outcome.err and "try:" in outcome.err
 
 
-def test_default_ports_that_are_in_use_give_way_to_free_ones(paper_limb: Path) -> None:
+def test_default_ports_that_are_in_use_give_way_to_free_ones_and_it_says_so(
+    brace: Callable[..., Outcome], paper_limb: Path
+) -> None:
+    with running(paper_limb):  # on the default ports, unless somebody else has them
+        outcome = brace("sim", "--model", paper_limb, "--seconds", 0.1)
+        assert outcome.code == 0 and "tcp://127.0.0.1:29536 is taken" in outcome.err, outcome.err
     with running(paper_limb) as (_, first), running(paper_limb) as (_, second):
         assert first["limbs"][0]["can"] != second["limbs"][0]["can"]
         assert first["limbs"][0]["modbus_tcp"] != second["limbs"][0]["modbus_tcp"]

@@ -34,7 +34,11 @@ def read_bytes(path: Path, limit_bytes: int, what: str) -> bytes:
             f"a folder, where a {what} is wanted",
             where=str(path),
             why="a folder has no text to read",
-            next_step=f"name the {what} inside it",
+            next_step=(
+                f"a dataset's folder comes first, without an option; name the {what}, a file"
+                if (path / "data.csv").is_file()
+                else f"name the {what} inside it"
+            ),
         )
     if not stat.S_ISREG(info.st_mode):
         raise BadFileError(
@@ -160,6 +164,19 @@ def write_file(path: Path, content: bytes | str, inputs: Iterable[Path] = ()) ->
     with OutputSet(inputs) as outputs:
         outputs.add(path, content)
         outputs.commit()
+
+
+def check_folder(folder: Path, names: Iterable[str], inputs: Iterable[Path] = ()) -> None:
+    """Refuses, before any work is done, a folder that cannot take files of these names."""
+    for name in names:
+        anchor = _existing_parent(checked_destination(folder / name, inputs))
+        if not os.access(anchor, os.W_OK | os.X_OK):
+            raise UsageError(
+                "the output cannot be written",
+                where=str(folder / name),
+                why=f"nothing may be written in {anchor}: its permissions, or a read-only file system",
+                next_step="choose another --out",
+            )
 
 
 def checked_destination(path: Path, inputs: Iterable[Path] = ()) -> Path:

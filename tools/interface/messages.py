@@ -147,7 +147,7 @@ def load_wire(path: Path) -> Wire:
         "refusal", answer_id, "",
         _signals(
             [
-                {"name": "status", "bits": 8, "signed": True, "description": "why, as brace_status_t counts"},
+                {"name": "status", "bits": 8, "signed": True, "description": "why: docs/errors.md, statuses and refusals"},
                 {"name": "detail", "bits": 32, "description": "what more there is to say: an index, a mode, a hash"},
             ],
             _PAYLOAD_START, "refusal",

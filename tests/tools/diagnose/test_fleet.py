@@ -218,8 +218,9 @@ def _started(*arguments: str, says: str) -> tuple[subprocess.Popen[str], str]:
     until, said = time.monotonic() + 60.0, ""
     while time.monotonic() < until and process.poll() is None:
         if select.select([process.stderr], [], [], 1.0)[0]:
-            said += (line := process.stderr.readline())
-            if found := re.search(says, line):
+            # all that is there: a line left in a buffer of Python's would be one that select never tells of
+            said += os.read(process.stderr.fileno(), 65536).decode(errors="replace")
+            if found := re.search(says + r"\s", said):
                 return process, found.group(1)
     process.kill()
     raise AssertionError(said)

@@ -4,6 +4,8 @@ record."""
 from __future__ import annotations
 
 import re
+import shutil
+import subprocess
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
@@ -19,7 +21,8 @@ from brace.diagnose.report.page import page
 from brace.diagnose.write import Provenance, contents, provenance
 from brace.model import LimbModel
 
-VOID = {"meta", "br", "link", "img", "hr", "path", "use", "rect", "input"}
+VOID = {"meta", "br", "link", "img", "hr", "path", "use", "rect", "input", "wbr"}
+BROWSER = shutil.which("chromium") or shutil.which("google-chrome")
 
 
 @pytest.fixture(scope="module")
@@ -85,6 +88,29 @@ def test_one_file_in_balance_without_scripts_or_anything_from_elsewhere(
         assert (used[0] or used[1]) in reader.ids
     assert len(text) < 1_000_000
     assert 'a <script> & "b"' in reader.words  # the title, as text
+
+
+@pytest.mark.skipif(BROWSER is None, reason="no chromium here")
+@pytest.mark.parametrize("width_px", [800, 1000])
+def test_no_table_is_wider_than_the_page(
+    made: tuple[Dataset, LimbModel, Diagnosis], tmp_path: Path, width_px: int
+) -> None:
+    """With the longest key that there is, and its unit."""
+    dataset, believed, found = made
+    key = "joint.femur.hardening_n_mm_per_rad3"
+    held = next(iter(found.effects[0].parameters.values()))
+    large = replace(held, value=1.49e8, low=1.44e8, high=1.53e8)
+    effect = replace(found.effects[0], name="joint_hardening", where="joint.femur", parameters={key: large})
+    widths = "[...document.querySelectorAll('.wide')].map(e=>e.scrollWidth-e.clientWidth).join(' ')"
+    text = page(dataset, believed, replace(found, effects=(effect,)), _origin(dataset))
+    (tmp_path / "report.html").write_text(text.replace("</body>", f"<script>document.title={widths}</script></body>"))
+    command = [str(BROWSER), "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={tmp_path}/profile",
+               f"--window-size={width_px},2000", "--dump-dom", f"file://{tmp_path}/report.html"]  # fmt: skip
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    title = re.search(r"<title>([-\d ]+)</title>", done.stdout)
+    if title is None:
+        pytest.skip(f"the browser does not start here: {done.stderr.strip()[-200:]}")
+    assert len(title.group(1).split()) >= 3 and max(map(int, title.group(1).split())) <= 0, title.group(1)
 
 
 def test_what_it_says_in_order(made: tuple[Dataset, LimbModel, Diagnosis], limb: Path) -> None:

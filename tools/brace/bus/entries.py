@@ -20,7 +20,8 @@ def index_of(name: str) -> int:
         return _MEASURED[name].index
     if name in _PARAMETERS:
         return _PARAMETERS[name].index
-    near = did_you_mean(name, [*_MEASURED, *_PARAMETERS])
+    leaves = [key for key in _PARAMETERS if key.endswith(f".{name}")]
+    near = " or ".join(leaves) or did_you_mean(name, [*_MEASURED, *_PARAMETERS])
     raise UsageError(
         f"no entry {name!r}",
         where="--entry",

@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from brace.bus.controller import Advance, Identity, StiffnessAnswer, Stored, check_dictionary
+from brace.bus.refusal import STORE, error_of
 from brace.bus.snapshot import Snapshot, names_of_bits
 from brace.bus.url import BusUrl
 from brace.errors import BraceError, DeviceFaultError, MissingLibraryError, NoDeviceError
@@ -40,6 +41,7 @@ _EXCEPTIONS = {
     5: "it is at work on it",
     6: "busy",
 }
+_STORING, _STORE_REFUSED = 1, 256  # what `commit` and `rollback` read: at work; this less the store's refusal
 _BUSY = 6
 _NO_SUCH_UNIT = (10, 11)  # a gateway's words: no path to it, no answer from it
 
@@ -172,24 +174,32 @@ class ModbusController:
         """Until the CRC in force is the block's."""
         before = self._input()["parameter_sequence"]
         self._command("commit", _KEY | 1)
-        return self._stored(before, block.identity)
+        return self._stored("commit", before, block.identity)
 
     def rollback(self) -> Stored:
         """The set before."""
         before = self._input()
         self._command("rollback", _KEY | 1)
-        return self._stored(before["parameter_sequence"], None)
+        return self._stored("rollback", before["parameter_sequence"], None)
 
-    def _stored(self, sequence_before: Any, crc: int | None) -> Stored:
+    def _stored(self, command: str, sequence_before: Any, crc: int | None) -> Stored:
+        """Waits until another set is in force; a store that refused says so in the command's own register."""
         until = time.monotonic() + COMMIT_S
-        while True:
+        while time.monotonic() < until:
+            state = self._holding(command)
+            if state > _STORING:
+                raise error_of(command, STORE + state - _STORE_REFUSED, 0, self.url)
             v = self._input()
             found = int(v["parameter_crc"] or 0)
             if v["parameter_sequence"] != sequence_before and (crc is None or found == crc):
                 return Stored(int(v["parameter_sequence"] or 0), found)
-            if time.monotonic() > until:
-                return Stored(int(v["parameter_sequence"] or 0), found)
             time.sleep(0.02)
+        raise NoDeviceError(
+            f"{command} does not come to an end",
+            where=self.url,
+            why=f"no other set is in force after {COMMIT_S:g} s",
+            next_step="brace query shows which set is in force, and its faults",
+        )
 
     def download(self, advance: Advance) -> Block:
         """The holding registers as a block."""

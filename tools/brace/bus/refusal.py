@@ -30,8 +30,10 @@ _STATUS = {  # brace_status_t: what, and whether the question was at fault
     -84: ("there is no set to go back to", False),
     -85: ("the store is full of interrupted updates", False),
     -86: ("the memory is too small for a set", False),
+    -87: ("a value is out of range, or values contradict each other", True),
 }
 BUSY = -66
+STORE = -80  # plus what the store says, -1 to -7
 _WAYS = {
     -3: "values inside the range that the firmware's dictionary names",
     -4: "a place nearer than the straight limb reaches, and not nearer than the folded one",

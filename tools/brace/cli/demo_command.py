@@ -28,8 +28,9 @@ def add(commands: Any) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from brace.demo.story import Story, tell
-    from brace.files import OutputSet
+    from brace.files import OutputSet, check_folder
 
+    check_folder(arguments.out, ["facts.json"])
     story = Story()
     show = common.say if arguments.json else common.emit
     with common.progress("fitting the table", STEPS) as advance:

@@ -57,7 +57,7 @@ def add(commands: Any) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from brace import workspace
-    from brace.files import OutputSet
+    from brace.files import OutputSet, check_folder
     from brace.model import load_limb
 
     for name in ("theta1", "theta2"):
@@ -69,6 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
                 next_step=f"--{name} -1.5 1.5",
             )
     model = load_limb(arguments.model)
+    check_folder(arguments.out, ["map.png"], [arguments.model])
     with common.progress("K over the workspace", arguments.postures) as advance:
         grid = workspace.compute(
             model, arguments.postures, tuple(arguments.theta1), tuple(arguments.theta2), advance

@@ -12,11 +12,11 @@ from typing import Any, NoReturn
 
 from brace.cli.streams import emit, say
 from brace.errors import UsageError, did_you_mean
+from brace.slips import slip
 
 _PART = "\x1f"  # between what, why and try of a refused value, through argparse and back
 _FULL_TURN_RAD = 2 * math.pi
 _DEGREES = re.compile(r"\s*([-+]?[\d.]+(?:e[-+]?\d+)?)\s*(?:deg|degrees?|\u00b0)\s*", re.IGNORECASE)
-_DECIMAL_COMMA = re.compile(r"[-+]?\d+,\d+")
 _REFUSED_VALUE = re.compile(r"argument ([^:]+): (.*)", re.DOTALL)
 _CHOICE = re.compile(r"invalid choice: '(.*)' \(choose from (.*)\)", re.DOTALL)
 
@@ -113,10 +113,9 @@ def number(text: str) -> float:
             raise refused(
                 f"{text!r} is not a number", "angles are plain numbers in rad", f"OPTION {radians:.6g}"
             ) from None
-        if _DECIMAL_COMMA.fullmatch(text):
-            raise refused(
-                f"{text!r} is not a number", "the decimal sign is a point", f"OPTION {text.replace(',', '.')}"
-            ) from None
+        why, meant = slip(text)
+        if meant:
+            raise refused(f"{text!r} is not a number", why, f"OPTION {meant}") from None
         raise refused(f"{text!r} is not a number", "a plain number is wanted", "OPTION 1.25, say") from None
     if not math.isfinite(value):
         raise refused(f"{text!r} is not a finite number", "nothing follows from it", "OPTION 1.25, say")

@@ -137,12 +137,18 @@ def _make_node(arguments: argparse.Namespace, model: Any, plant: Any) -> Any:
             return Node(_setups(arguments, model, plant, modbus), can, arguments.seed)
         except PortBusy as busy:
             if busy.url == can and arguments.can is None:
+                _say_taken(busy.url)
                 can = "tcp://127.0.0.1:0"
             elif busy.url.startswith("modbus-tcp:") and arguments.modbus is None:
+                _say_taken(busy.url)
                 modbus = "modbus-tcp://127.0.0.1:0"
             else:
                 raise
     raise AssertionError("unreachable")
+
+
+def _say_taken(url: str) -> None:
+    common.say(f"note: {url} is taken, by another brace sim perhaps; a free port is used instead")
 
 
 def _setups(arguments: argparse.Namespace, model: Any, plant: Any, modbus: str) -> list[Any]:

@@ -44,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     from brace.dataset import load_dataset
     from brace.dataset.write import write_dataset
-    from brace.files import checked_destination
+    from brace.files import check_folder
     from brace.model import load_limb
     from brace.rig import load_rig
     from brace.simulate import behind, joined, simulate
@@ -61,8 +61,7 @@ def run(arguments: argparse.Namespace) -> int:
         before.require_sound()
         rig = behind(before, rig)
         inputs += [arguments.after / "meta.toml", arguments.after / "data.csv"]
-    for name in ("meta.toml", "data.csv"):
-        checked_destination(arguments.out / name, inputs)
+    check_folder(arguments.out, ("meta.toml", "data.csv"), inputs)
     meta, columns = simulate(model, rig)
     if before is not None:
         meta, columns = joined(before, meta, columns)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
@@ -16,6 +17,7 @@ from brace.dataset.faults import DataFault
 from brace.dataset.not_read import without_blanks
 from brace.errors import BadFileError, did_you_mean
 from brace.files import DATA_LIMIT_BYTES, read_bytes
+from brace.slips import slip
 
 WHAT = "dataset's data.csv"
 
@@ -43,6 +45,8 @@ def read_columns(
         )
     if any(b'"' in line for line in (lines[0], rows[0])):
         rows = [b",".join(field.strip() for field in _unquoted(row)) for row in rows]
+    elif any(b" " in row for row in rows):
+        rows = [b",".join(field.strip() for field in row.split(b",")) for row in rows]
     _check_header(header, wanted, path)
     _check_widths(rows, len(header), path)
     present = [column for column in wanted if column.name in header]
@@ -110,7 +114,23 @@ def _header(line: bytes, path: Path) -> list[str]:
             why="';' or tabs stand where commas are wanted",
             next_step="export with ',' between columns and '.' as decimal point",
         )
-    return [name.strip().strip('"') for name in text.split(",")]
+    names = [name.strip().strip('"') for name in text.split(",")]
+    if all(_is_entry(name) for name in names):
+        raise BadFileError(
+            "no column names",
+            where=f"{path}:1",
+            why="data.csv starts with a line of column names, and this one begins with readings",
+            next_step="put the names above: docs/datasets.md has them",
+        )
+    return names
+
+
+def _is_entry(text: str) -> bool:
+    """A number, or the name of an axis: what stands below a header."""
+    try:
+        return text in ("x", "z") or math.isfinite(float(text))
+    except ValueError:
+        return False
 
 
 def _unquoted(row: bytes) -> list[bytes]:
@@ -213,11 +233,14 @@ def _first_bad_number(
             except ValueError:
                 pass
             shown = text if len(text) <= 40 else text[:37] + "..."
+            why, meant = slip(text)
             return BadFileError(
                 f"{shown!r} is not a number" if text else "an entry is empty",
                 where=f"{path}:{number + 1} (row {number}), {column.name}",
-                why=f"{column.name} is the {column.meaning}" + (f" in {column.unit}" if column.unit else ""),
-                next_step="write a number with a decimal point, or delete the row",
+                why=why or f"{column.name} is the {column.meaning}" + (f" in {column.unit}" if column.unit else ""),
+                next_step=f"write {meant}; so throughout the file"
+                if meant
+                else "write a number with a decimal point, or delete the row",
             )
     return BadFileError(
         "not a table of numbers",

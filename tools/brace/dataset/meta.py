@@ -97,6 +97,14 @@ def read_meta(folder: Path) -> Meta:
                 f"did you mean {folder.parent / near}?" if near and near != folder.name else "name the folder"
             ),
         )
+    if not (folder / "meta.toml").exists():
+        only_csv = (folder / "data.csv").exists()
+        raise BadFileError(
+            "no meta.toml in this folder" if only_csv else "no dataset in this folder",
+            where=str(folder),
+            why="a dataset is a folder with meta.toml and data.csv; meta.toml says what kind of record data.csv is",
+            next_step="add one: docs/datasets.md shows what it says" if only_csv else "check the path",
+        )
     document = toml.read(folder / "meta.toml", WHAT)
     values = toml.check(document, _KNOWN, WHAT, content=_known_part(document.content))
     _check_zeroed_once(document)

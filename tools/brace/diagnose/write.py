@@ -16,8 +16,8 @@ from brace.dataset import Dataset
 from brace.diagnose import plain_words
 from brace.diagnose.diagnosis import Diagnosis, GapPair, NamedEffect
 from brace.diagnose.export import export
-from brace.errors import UsageError
-from brace.files import DATA_LIMIT_BYTES, TOML_LIMIT_BYTES, OutputSet, checked_destination, read_bytes
+from brace import files
+from brace.files import DATA_LIMIT_BYTES, TOML_LIMIT_BYTES, OutputSet, read_bytes
 from brace.model import LimbModel
 
 JSON, MODEL, REPORT = "diagnosis.json", "limb.toml", "report.html"
@@ -106,15 +106,7 @@ def write(out: Path, written: Written, inputs: tuple[Path, ...] = ()) -> None:
 
 def check_folder(out: Path, inputs: tuple[Path, ...]) -> None:
     """Refuses a folder that cannot take the files, before any work is done."""
-    if out.exists() and not out.is_dir():
-        raise UsageError(
-            "a file is in the way of the output folder",
-            where=str(out),
-            why="the diagnosis is three files in a folder of that name",
-            next_step="choose another --out",
-        )
-    for name in (JSON, MODEL, REPORT):
-        checked_destination(out / name, inputs)
+    files.check_folder(out, (JSON, MODEL, REPORT), inputs)
 
 
 def as_json(found: Diagnosis, origin: Provenance) -> dict[str, Any]:

@@ -10,11 +10,13 @@ from typing import Any
 
 from brace.errors import BadFileError, place
 from brace.files import TOML_LIMIT_BYTES, read_text
+from brace.slips import slip
 
 _BARE_OR_QUOTED = r"""(?:[A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*')"""
 _KEY = rf"{_BARE_OR_QUOTED}(?:\s*\.\s*{_BARE_OR_QUOTED})*"
 _TABLE_LINE = re.compile(rf"^\s*\[(\[)?\s*({_KEY})\s*\]")
 _KEY_LINE = re.compile(rf"^\s*({_KEY})\s*=")
+_NUMBER_WITH_UNIT = re.compile(r"([-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?)\s*[A-Za-z\u00b0/]+[\w/ ]*")
 MAX_DEPTH = 8
 _ERROR_LINE = re.compile(r"\(at line (\d+), column \d+\)|\(at end of document\)")
 
@@ -113,13 +115,24 @@ def _syntax_error(message: str, text: str, path: Path, what: str) -> BadFileErro
         next_step = "keep one of the two entries"
         reason = f"a key or table is given twice ({reason})"
     else:
-        next_step = "see docs for the file's format; text needs quotes, numbers a point, tables [brackets]"
+        next_step = _way_on(lines[line - 1] if shown else "")
     return BadFileError(
         f"not valid TOML: {shown!r}",
         where=place(path, line),
         why=f"a {what} is a TOML file: {reason}",
         next_step=next_step,
     )
+
+
+def _way_on(line: str) -> str:
+    """For a line that is no TOML."""
+    key, equals, value = (part.strip() for part in line.partition("#")[0].partition("="))
+    why, meant = slip(value)
+    if meant:
+        return f"{key} = {meant}: {why}"
+    if equals and (with_unit := _NUMBER_WITH_UNIT.fullmatch(value)):
+        return f"{key} = {with_unit.group(1)}: the unit is in the key's name"
+    return "text needs quotes, numbers a point, tables [brackets]; docs/limb-keys.md has the keys of a limb model"
 
 
 def _locate(text: str) -> dict[str, int]:

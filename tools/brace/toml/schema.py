@@ -46,9 +46,17 @@ class Key:
         else:
             right = f"{self.high:g}]" if self.high < math.inf else "inf)"
         left = "(" if self.open_low or self.low == -math.inf else "["
+        if self.low == self.high:
+            return f"{self.low:g}{unit}"
         noun = "a whole number" if self.kind == "integer" else "a number"
         also = ", or true/false" if self.kind == "ratio" else ""
         return f"{noun} in {left}{self.low:g}, {right}{unit}{also}"
+
+
+    @property
+    def entry_text(self) -> str:
+        """What may stand behind the equals sign."""
+        return self.range_text if self.low == self.high else f"... ({self.range_text})"
 
 
 def check(
@@ -70,7 +78,7 @@ def check(
             continue
         if name in tables and value == {}:
             continue  # an empty table says nothing
-        raise _unknown(document, prefix, name, value, known, tables, what)
+        raise _another_kind(document, what) or _unknown(document, prefix, name, value, known, tables, what)
     values: dict[str, Any] = {}
     for key in keys:
         if key.name in given:
@@ -80,7 +88,7 @@ def check(
                 f"{prefix}{key.name} is missing",
                 where=document.where((prefix + key.name)),
                 why=f"a {what} needs it: {key.meaning}",
-                next_step=f"add {key.name.rpartition('.')[2]} = ... ({key.range_text})"
+                next_step=f"add {key.name.rpartition('.')[2]} = {key.entry_text}"
                 + (f" under [{prefix}{key.name.rpartition('.')[0]}]" if "." in key.name else ""),
             )
         else:
@@ -95,6 +103,23 @@ def _flatten(content: Mapping[str, Any], prefix: str = "") -> Iterable[tuple[str
             yield from _flatten(value, f"{dotted}.")
         else:
             yield dotted, value
+
+
+_KINDS = {"geometry": "limb model", "configuration": "rig file", "kind": "dataset's meta.toml"}
+"""What a file is that has such a key."""
+
+
+def _another_kind(document: Document, what: str) -> BadFileError | None:
+    """The refusal of a whole file that is of another kind, if this is one: files in the wrong order."""
+    for mark, kind in _KINDS.items():
+        if mark in document.content and kind != what:
+            return BadFileError(
+                f"a {kind}, where a {what} is wanted",
+                where=document.where(mark),
+                why=f"it has {mark}, as no {what} has",
+                next_step=f"name the {what} here; were two files exchanged?",
+            )
+    return None
 
 
 def _unknown(
@@ -121,7 +146,7 @@ def _unknown(
     near = did_you_mean(leaf, siblings)
     better = siblings[near] if near else did_you_mean(name, known)
     if table and table not in tables:
-        near_table = did_you_mean(table, tables)
+        near_table = _near_table(table, tables)
         return BadFileError(
             f"unknown table [{prefix}{table}]",
             where=document.where(prefix + table),
@@ -129,7 +154,7 @@ def _unknown(
             next_step=(
                 f"did you mean [{near_table}]?"
                 if near_table
-                else f"known tables: {', '.join(sorted(tables))}"
+                else f"known tables: {', '.join(sorted(_beside(table, tables)))}"
             ),
         )
     listed = ", ".join(sorted(siblings)[:12])
@@ -144,6 +169,23 @@ def _unknown(
         why=f"a {what} has no such key; a misspelt one would silently do nothing",
         next_step=next_step,
     )
+
+
+def _beside(table: str, tables: set[str]) -> set[str]:
+    """The tables under the same parent, or all."""
+    parent = table.rpartition(".")[0]
+    return {name for name in tables if parent and name.rpartition(".")[0] == parent} or tables
+
+
+def _near_table(table: str, tables: set[str]) -> str:
+    """The table that was probably meant. Under a parent that there is, the last word alone decides: [joint.knee] is no
+    slip of [joint.femur]."""
+    parent, _, leaf = table.rpartition(".")
+    siblings = {name.rpartition(".")[2]: name for name in tables if parent and name.rpartition(".")[0] == parent}
+    if not siblings:
+        return did_you_mean(table, tables)
+    near = did_you_mean(leaf, siblings)
+    return siblings[near] if near else ""
 
 
 def _checked(document: Document, name: str, key: Key, value: Any) -> Any:

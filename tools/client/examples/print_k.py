@@ -29,6 +29,8 @@ def ask(bus, name, values, token):
     return answer if not missing else sys.exit(f"node {NODE} does not answer")
 
 
+if len(sys.argv) != 3:
+    sys.exit(__doc__)
 with can.Bus(interface=sys.argv[1], channel=sys.argv[2]) as bus:
     if ask(bus, "identify", {}, 1)["dictionary_hash"] != DICTIONARY_HASH:
         sys.exit("the controller speaks another dictionary")

@@ -18,11 +18,11 @@ static inline float moment_root(const brace_link_t *link)
 BRACE_OFF_TICK static float bend(const brace_link_t *link, brace_vec_t *excess, brace_vec_t *with_moment)
 {
     const float root = with_moment->x;
-    const brace_vec_t along = brace_direction(brace_turn(link->tilt_rad));
-    const float axial = link->axial_mm_per_n, bending = __builtin_fmaf(-root, root, link->bending_mm_per_n), more = bending - axial;
-    const float length = __builtin_sqrtf(__builtin_fabsf(more));
-    *with_moment = vec_scaled(vec_quarter(along), root);
-    *excess = vec_scaled(more > 0.0f ? vec_quarter(along) : along, length);
+    const brace_vec_t along = brace_direction(brace_turn(link->tilt_rad)), across = vec_quarter(along);
+    const float axial = link->axial_mm_per_n, bending = __builtin_fmaf(-root, root, link->bending_mm_per_n);
+    const float more = bending - axial, length = __builtin_sqrtf(__builtin_fabsf(more));
+    *with_moment = vec_scaled(across, root);
+    *excess = vec_scaled(more > 0.0f ? across : along, length);
     return more > 0.0f ? axial : bending;
 }
 
@@ -54,6 +54,15 @@ BRACE_OFF_TICK float brace_chain_firm(const brace_limb_t *limb, float hip_rad_pe
     element[1].tibia.z = 2.0f * root * tibia_mm / femur_mm;
     return bend(femur, &element[0].femur, &element[1].femur) +
            bend(femur + 1, &element[2].tibia, &element[4].femur);
+}
+
+BRACE_OFF_TICK void brace_chain_halve(brace_swing_t *element, const brace_swing_t *end)
+{
+    for (brace_swing_t *e = element; e < end; e++) { /* at most BRACE_CHAIN_FIRM */
+        const brace_vec_t f = e->femur, t = e->tibia;
+        e->straight = (brace_vec_t){f.x + t.x, f.z + t.z};
+        e->folded = (brace_vec_t){t.z - f.z, f.x - t.x}; /* f - t, a quarter turned */
+    }
 }
 
 BRACE_OFF_TICK float brace_chain_coxa(const brace_limb_t *limb, brace_coxa_t *coxa)

@@ -4,8 +4,8 @@
 
 #include "brace/chain.h"
 
-/* Writes the five without base part, zero where nothing yields, and returns their iso. limb has passed brace_limb_check;
- * the springs are the caller's. */
+/* Writes the five without base part, zero where nothing yields, and returns their iso. limb has passed
+ * brace_limb_check; the springs are the caller's. */
 float brace_chain_firm(const brace_limb_t *limb, float hip_rad_per_n_mm, float knee_rad_per_n_mm,
                        brace_swing_t element[BRACE_CHAIN_FIRM]);
 

@@ -26,10 +26,12 @@ brace_status_t brace_general_stiffness(const brace_general_t *general, float the
     if (status != BRACE_OK) {
         return status;
     }
-    const float root[BRACE_CHAIN_FIRM] = {1.0f, 1.0f, 1.0f, brace_sqrt(hip_rad_per_n_mm), brace_sqrt(knee_rad_per_n_mm)};
-    /* Half the knee, or half a turn beyond: that changes every element's sign and no square. */
-    const uint32_t knee = brace_turn(theta2_rad);
-    const brace_vec_t to_world = brace_direction(2u * brace_turn(theta1_rad) - knee), half = brace_direction(knee / 2u);
+    const float hip = brace_sqrt(hip_rad_per_n_mm), knee = brace_sqrt(knee_rad_per_n_mm);
+    const float root[BRACE_CHAIN_FIRM] = {1.0f, 1.0f, 1.0f, hip, knee};
+    const uint32_t knee_turn = brace_turn(theta2_rad), femur_turn = brace_turn(theta1_rad);
+    const brace_vec_t to_world = brace_direction(2u * femur_turn - knee_turn);
+    /* Of half the knee, or half a turn beyond: that changes every element's sign and no square. */
+    const brace_vec_t half = brace_direction(knee_turn / 2u);
     const float mean = general->mean_mm_per_n, dev = general->dev_mm_per_n * to_world.x;
     brace_tensor_t c = {mean + dev, -general->dev_mm_per_n * to_world.z, mean - dev, general->det};
     for (int i = 0; i < BRACE_CHAIN_FIRM; i++) {

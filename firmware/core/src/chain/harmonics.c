@@ -6,15 +6,6 @@
 #include "base/off_tick.h"
 #include "base/vec.h"
 
-BRACE_OFF_TICK void brace_chain_halve(brace_swing_t *element, const brace_swing_t *end)
-{
-    for (brace_swing_t *e = element; e < end; e++) {
-        const brace_vec_t f = e->femur, t = e->tibia;
-        e->straight = (brace_vec_t){f.x + t.x, f.z + t.z};
-        e->folded = (brace_vec_t){t.z - f.z, f.x - t.x}; /* f - t, a quarter turned */
-    }
-}
-
 /* Half the trace and deviator of sum v v': of folded folded', straight straight' and straight folded' in turn, which
  * come with sin^2 h, cos^2 h and sin theta2. */
 static void sum_squares(const brace_swing_t *element, const brace_swing_t *end, brace_harmonic_t *harmonic)

@@ -26,8 +26,8 @@ typedef struct {
     brace_vec_t dev;
 } brace_circle_t;
 
-/* Directions of half the knee angle, and of the bisector of femur and tibia in the world; both may be the opposite ones,
- * which changes every vector's sign and no square. */
+/* Directions of half the knee angle, and of the bisector of femur and tibia in the world; together they may be the
+ * opposite ones, which leaves where the tip is and changes only the signs of what is squared. */
 typedef struct {
     brace_vec_t half, bisector;
 } brace_posture_t;

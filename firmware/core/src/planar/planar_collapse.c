@@ -21,7 +21,8 @@ typedef struct {
 
 /* Brings det C into this form: 2 iso mean - iso^2 and what the elements bring themselves. Of that first harmonic,
  * what stands across `cross` in the plane of (1 + cos, sin) is taken up by more of the mean, and what lies along it by
- * shifting cross. Where cross and mean point the same way within rounding, the mean takes up nothing. */
+ * shifting cross. Where cross and mean point the same way within rounding, the mean takes up nothing.
+ * grain: what the mean is uncertain by at its most. */
 static inline rest_t affine_rest(brace_harmonics_t *h, float grain)
 {
     const float iso = h->iso_mm_per_n;
@@ -38,21 +39,17 @@ static inline rest_t affine_rest(brace_harmonics_t *h, float grain)
     return (rest_t){2.0f * iso + more, constant};
 }
 
-static inline float swing_square(const brace_harmonic_t *h)
-{
-    return h->per_cos * h->per_cos + h->per_sin * h->per_sin;
-}
-
 /* Is the accuracy of the tick safe? Where rest could lose digits against its parts, at the mean's least or most, it must
  * not be less than a sixteenth of them; and where det is least, at the zeros of cross, an error of cross, from rounded
  * constants and from the last place of the tick, must stay below 2e-6 of the square root of the rest: both together, as
  * squares. And the mean's own rounding, 3e-8 of the most, must stay below 1.2e-6 of the least. */
-static inline int accurate(const brace_harmonics_t *h, rest_t rest, float least, float most, float unit)
+static inline int accurate(const brace_harmonics_t *h, rest_t rest, float middle, float swing, float unit)
 {
-    const float smaller = rest.constant + rest.per_mean * (rest.per_mean < 0.0f ? most : least);
-    const float error = 2.0f * unit + ROUNDING * (__builtin_fabsf(h->cross.per_cos) + __builtin_fabsf(h->cross.at_fold));
+    const float smaller = rest.constant + rest.per_mean * middle - __builtin_fabsf(rest.per_mean) * swing;
+    const float error =
+        2.0f * unit + ROUNDING * (__builtin_fabsf(h->cross.per_cos) + __builtin_fabsf(h->cross.at_fold));
     return __builtin_fabsf(rest.constant) + error * error * 4e12f < 16.0f * smaller &&
-           most < 40.0f * least;
+           middle + swing < 40.0f * (middle - swing);
 }
 
 /* At the fold minus the cosine is TICK_ONE: there the rounding of its factor goes into the constant. */
@@ -66,24 +63,25 @@ static inline void fix(const brace_harmonic_t *h, float units, brace_planar_harm
     fixed->per_sin = (int32_t)(h->per_sin * per_word);
 }
 
-/* The tick's constants from the harmonics of the elements, with iso beside them; h is used up. planar: written on success only. */
+/* The tick's constants from the harmonics of the elements, with iso beside them; h is used up.
+ * planar: written on success only. */
 static inline brace_status_t give_constants(brace_harmonics_t *h, brace_planar_t *planar)
 {
     const brace_harmonic_t *from = &h->cross;     /* then mean, dev_x, dev_y: */
     brace_planar_harmonic_t *to = &planar->cross; /* the same order in both */
 
     h->mean.at_fold += h->iso_mm_per_n;
-    const float middle = h->mean.at_fold + h->mean.per_cos, swing = __builtin_sqrtf(swing_square(&h->mean));
-    const float most = middle + swing, least = middle - swing;
-    const float grain = ROUNDING * most;
-    if (!(least > -16.0f * grain)) {
+    const float per_cos = h->mean.per_cos, per_sin = h->mean.per_sin;
+    const float middle = h->mean.at_fold + per_cos, swing = __builtin_sqrtf(per_cos * per_cos + per_sin * per_sin);
+    const float grain = ROUNDING * (middle + swing);
+    if (!(middle - swing > -16.0f * grain)) {
         return BRACE_E_PARAMETER;
     }
     const rest_t rest = affine_rest(h, grain);
-    /* The middle of the mean is 2^27 units: no more than that swing any of the four, because |dev| is at most the mean, and
-     * half a turn apart two means make twice the middle. */
+    /* The middle of the mean is 2^27 units. No more than that swings any of the four: none is ever above the mean, and
+     * two means half a turn apart are twice the middle. */
     const float unit = middle * (1.001f / 0x1p27f), units = 1.0f / unit;
-    if (!accurate(h, rest, least, most, unit)) {
+    if (!accurate(h, rest, middle, swing, unit)) {
         return BRACE_E_UNSUPPORTED;
     }
     float by = units;

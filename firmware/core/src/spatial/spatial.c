@@ -24,7 +24,8 @@ typedef struct {
 
 static inline reach_t reach_of(const brace_spatial_t *s, const brace_posture_t *at)
 {
-    const brace_vec_t half = at->half, seen = {(s->femur_mm + s->tibia_mm) * half.x, (s->femur_mm - s->tibia_mm) * half.z};
+    const brace_vec_t half = at->half;
+    const brace_vec_t seen = {(s->femur_mm + s->tibia_mm) * half.x, (s->femur_mm - s->tibia_mm) * half.z};
     return (reach_t){
         .tip_mm = brace_turned(seen, at->bisector),
         .along_mm = s->tibia_mm * fma(2.0f * half.x, half.x, -1.0f),
@@ -57,7 +58,6 @@ static inline brace_tensor_t plane_of(const brace_spatial_t *s, const brace_post
                               fma(coxa->bent_per_mm, tip_mm.x, coxa->bent.z)};
     const brace_vec_t more[3] = {coxa->excess, s->base, bent};
     brace_tensor_t c = limb_of(&s->plane, at);
-#pragma GCC unroll 1
     for (int i = 0; i < 3; i++) {
         c = brace_tensor_plus(c, more[i]);
     }

@@ -61,7 +61,7 @@ extern const uint8_t brace_can_answer_parts[32];
 
 /* a fault has come or gone */
 typedef struct {
-    uint32_t error_code; /* as CANopen orders them: 0x0000 all is well again, 0x5000 device, 0x6300 parameters, 0x7300 sensor, 0x8140 bus off, 0xff01 model drift */
+    uint32_t error_code; /* of the fault that came, as CANopen orders them: 0x7300 sensor, 0x7305 encoder stuck, 0x6100 tick late, 0x6320 parameters, 0x5530 memory, 0x8140 bus off, 0xff01 model drift, 0x6010 crashed; 0x1000 one is gone, others are there; 0x0000 all is well again */
     uint32_t error_register; /* 1 while any fault is there */
     uint32_t mode; /* what the controller is doing */
     uint32_t faults; /* all faults that are there now */
@@ -583,7 +583,7 @@ void brace_can_unpack_clear_answer_0(const uint8_t data[8], brace_can_clear_answ
 
 typedef struct {
     uint32_t token;
-    int32_t status; /* why, as brace_status_t counts */
+    int32_t status; /* why: docs/errors.md, statuses and refusals */
     uint32_t detail; /* what more there is to say: an index, a mode, a hash */
 } brace_can_refusal_t;
 uint32_t brace_can_pack_refusal(const brace_can_refusal_t *message, uint8_t data[8]);

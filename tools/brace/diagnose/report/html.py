@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from html import escape
 
@@ -16,6 +17,11 @@ def text(words: object) -> str:
 def paragraph(words: str, kind: str = "") -> str:
     """Plain words."""
     return f'<p class="{kind}">{text(words)}</p>' if kind else f"<p>{text(words)}</p>"
+
+
+def code(name: object) -> str:
+    """A name of the files, which a narrow page may break behind its dots and underscores."""
+    return f"<code>{re.sub(r'(?<=[._@])(?=.)', '<wbr>', text(name))}</code>"
 
 
 def section(title: str, *parts: str) -> str:

@@ -105,7 +105,7 @@ def _missing(believed: LimbModel | None, found: Diagnosis) -> str:
             rows.append(
                 [
                     _named(effect) if index == 0 else "",
-                    f"<code>{text(key)}</code>",
+                    html.code(key),
                     text(words.value_with_unit(key, held.value)),
                     text(words.interval(held)),
                     text(
@@ -136,7 +136,7 @@ def _missing(believed: LimbModel | None, found: Diagnosis) -> str:
 def _named(effect: NamedEffect) -> str:
     sure = f"{words.percent(effect.confidence)} sure, {words.percent(effect.gap_share)} of what was closed"
     return (
-        f"<b>{text(words.named(effect))}</b><br><code>{text(effect.label)}</code>"
+        f"<b>{text(words.named(effect))}</b><br>{html.code(effect.label)}"
         f'<br><span class="small">{text(sure)}</span>'
     )
 
@@ -152,7 +152,7 @@ def _base(believed: LimbModel | None, found: Diagnosis) -> str:
     named = {key for effect in found.effects for key in effect.parameters}
     rows = [
         [
-            f"<code>{text(key)}</code>",
+            html.code(key),
             text(_shown(believed, key)),
             text(_shown(found.model, key)),
             text(words.key_unit(key)),
@@ -217,7 +217,7 @@ def _unexplained(found: Diagnosis) -> str:
 def _apart(found: Diagnosis) -> str:
     parts = [
         '<div class="class"><p>'
-        + " <b>or</b> ".join(f"{text(words.label(member))} <code>{text(member)}</code>" for member in members)
+        + " <b>or</b> ".join(f"{text(words.label(member))} {html.code(member)}" for member in members)
         + "</p></div>"
         for members in found.indistinguishable
     ]
@@ -261,7 +261,7 @@ def _faults(found: Diagnosis) -> str:
     rows = [
         [
             text("all" if fault.row is None else fault.row),
-            f"<code>{text(fault.field)}</code>",
+            html.code(fault.field),
             text(fault.why),
             text("" if fault.suggestion is None else fault.suggestion),
         ]
@@ -281,7 +281,7 @@ def _candidates(found: Diagnosis) -> str:
     rows = [
         [
             (
-                f"{text(words.label(tried.label))}<br><code>{text(tried.label)}</code>"
+                f"{text(words.label(tried.label))}<br>{html.code(tried.label)}"
                 if "@" in tried.label
                 else text(tried.label)
             ),

@@ -31,7 +31,7 @@ svg{display:block;width:100%;height:auto}
 svg text{font-family:system-ui,"DejaVu Sans",sans-serif}
 code,pre{font:.86rem/1.45 ui-monospace,"DejaVu Sans Mono",Menlo,monospace}
 code{overflow-wrap:anywhere}
-td code{white-space:nowrap}td code.hash{white-space:normal}
+td code{overflow-wrap:normal}td code.hash{overflow-wrap:anywhere}
 .small{max-width:none}
 pre{background:var(--wash);border:1px solid var(--line);border-radius:8px;padding:12px 14px;overflow-x:auto;
 user-select:all;-webkit-user-select:all;max-height:340px}

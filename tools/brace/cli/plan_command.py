@@ -1,0 +1,196 @@
+"""`brace plan`: where a foot should stand and how hard it should press, for a wanted stiffness, contact and payload."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from typing import TYPE_CHECKING, Any
+
+from brace.cli import common
+from brace.errors import BraceError, UsageError
+
+if TYPE_CHECKING:
+    from brace.plan import Plan, Wish
+
+APART_RATIO = 0.05  # of the reach, between the tips of postures that are printed
+_NEEDS = {"steady": ("payload", "a payload"), "light": ("friction", "the surface's friction"), "k": ("k", "a K")}
+
+
+def add(commands: Any) -> None:
+    """Declares the subcommand."""
+    parser = commands.add_parser(
+        "plan",
+        help="a posture and a pressing force for a wanted stiffness, contact and payload",
+        description="Looks over the places that the tip can reach within the joints' travel, keeps the postures that "
+        "satisfy every demand, and prints the best: angles to command, K, the sag under the payload, the force with "
+        "which to press against the surface, where to set the tip for it. K is the firmware's own, every gap closed.",
+        epilog="Exit code 1 when no posture satisfies all demands; the message says how far each can be met.",
+    )
+    common.add_model(parser)
+    where = parser.add_argument_group("where the tip may stand [mm], x outwards, z up, from the femur axis")
+    span: dict[str, Any] = {"type": common.number, "nargs": 2, "metavar": ("LOW", "HIGH")}
+    where.add_argument("--x", **span, help="default: from 0 as far as it reaches")
+    where.add_argument("--z", **span, help="default: as far as it reaches")
+    where.add_argument("--knee", choices=("up", "down", "either"), default="either", help="default either")
+    contact = parser.add_argument_group("contact and payload")
+    contact.add_argument("--payload", type=common.number, metavar="N", help="weight that the foot carries")
+    contact.add_argument(
+        "--friction", type=common.positive, metavar="MU", help="of the surface: the foot must not slide"
+    )
+    contact.add_argument(
+        "--normal", type=common.angle, default=math.pi / 2, metavar="RAD",
+        help="direction out of the surface, towards the limb; default pi/2, a floor; pi is a wall ahead",
+    )  # fmt: skip
+    contact.add_argument(
+        "--bears", type=common.number, default=0.0, metavar="MM",
+        help="error of position, in any direction, that must not let it slide; default 0",
+    )  # fmt: skip
+    demands = parser.add_argument_group("demands")
+    for option, unit, meaning in (
+        ("--lambda-min", "N_PER_MM", "stiffness at least, in any direction"),
+        ("--lambda-max", "N_PER_MM", "stiffness at most, in any direction"),
+        ("--sag-most", "MM", "under the payload"),
+        ("--press-most", "N", "against the surface, beside the payload"),
+    ):
+        demands.add_argument(option, type=common.positive, metavar=unit, help=meaning)
+    demands.add_argument(
+        "--k", type=common.number, nargs=3, metavar=("XX", "XZ", "ZZ"), help="the K that is wanted [N/mm]"
+    )
+    parser.add_argument(
+        "--prefer", choices=("firm", "soft", "steady", "light", "k"),
+        help="largest lambda_min, smallest lambda_max, least sag, least pressing, nearest K; default: k with --k, else "
+        "light with --friction, else steady with --payload, else firm",
+    )  # fmt: skip
+    parser.add_argument(
+        "--count", type=common.count(1, 1000), default=3, metavar="N", help="postures to print; default 3"
+    )
+    parser.add_argument(
+        "--places", type=common.count(100, 1_000_000), default=10_000, metavar="N", help="of the tip; default 10000"
+    )
+    common.add_json(parser)
+    parser.set_defaults(run=run)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Executes the subcommand."""
+    from brace.model import load_limb
+    from brace.plan import KNEES, PREFERENCES, Wish, plan
+
+    _check(arguments)
+    model = load_limb(arguments.model)
+    prefer = arguments.prefer or _preference(arguments)
+    wish = Wish(
+        x_mm=tuple(arguments.x) if arguments.x else None,
+        z_mm=tuple(arguments.z) if arguments.z else None,
+        knees=KNEES if arguments.knee == "either" else (arguments.knee,),
+        payload_n=arguments.payload or 0.0,
+        normal_rad=arguments.normal,
+        friction_ratio=arguments.friction,
+        bears_mm=arguments.bears,
+        lambda_min_n_per_mm=arguments.lambda_min,
+        lambda_max_n_per_mm=arguments.lambda_max,
+        sag_most_mm=arguments.sag_most,
+        press_most_n=arguments.press_most,
+        k_n_per_mm=tuple(arguments.k) if arguments.k else None,
+    )
+    found = plan(model, wish, arguments.places)
+    if not found.count:
+        raise BraceError(
+            "no posture reaches there",
+            where=str(arguments.model),
+            why="the tip's places lie beyond the links, or the joints' travel ([motor.*] angle_min_rad, angle_max_rad) "
+            "keeps it away",
+            next_step="a wider --x or --z; brace map draws what the limb reaches",
+        )
+    reach = model.number("geometry.femur_mm") + model.number("geometry.tibia_mm")
+    best = found.best(prefer, arguments.count, APART_RATIO * reach)
+    if not best:
+        raise _nothing(found, str(arguments.model))
+    postures = [
+        {name: float(column[index]) for name, column in found.columns.items()} | {"knee": str(found.knee[index])}
+        for index in best
+    ]
+    if arguments.json:
+        common.print_json(
+            {"model": model.name, "postures": found.count, "satisfying": int(found.kept.sum()), "prefer": prefer,
+             "demands": {demand.words: int(demand.satisfied.sum()) for demand in found.demands}, "best": postures}
+        )  # fmt: skip
+        return 0
+    common.emit(
+        f"{model.name}: {found.kept.sum()} of {found.count} postures satisfy all demands; best first: "
+        f"{PREFERENCES[prefer][0]}"
+    )
+    for number, posture in enumerate(postures, start=1):
+        for line in _lines(number, posture, wish):
+            common.emit(line)
+    return 0
+
+
+def _check(arguments: argparse.Namespace) -> None:
+    for axis in ("x", "z"):
+        span = getattr(arguments, axis)
+        if span and span[0] > span[1]:
+            raise UsageError(
+                f"--{axis} {span[0]:g} {span[1]:g} is no range",
+                why="low comes before high",
+                next_step=f"--{axis} {span[1]:g} {span[0]:g}",
+            )
+    for option, needed in (("sag_most", "payload"), ("press_most", "friction")):
+        if getattr(arguments, option) is not None and getattr(arguments, needed) is None:
+            raise UsageError(
+                f"--{option.replace('_', '-')} without --{needed}",
+                why="without it there is none",
+                next_step=f"add --{needed}",
+            )
+    for option in ("payload", "bears"):
+        if (getattr(arguments, option) or 0.0) < 0.0:
+            raise UsageError(
+                f"--{option} is negative",
+                why="a payload is a weight, an error of position a size",
+                next_step=f"--{option} {-getattr(arguments, option):g}",
+            )
+    needed, what = _NEEDS.get(arguments.prefer, ("model", ""))
+    if getattr(arguments, needed) is None:
+        raise UsageError(
+            f"--prefer {arguments.prefer} without --{needed}", why=f"it needs {what}", next_step=f"add --{needed}"
+        )
+
+
+def _preference(arguments: argparse.Namespace) -> str:
+    for prefer, given in (("k", arguments.k), ("light", arguments.friction), ("steady", arguments.payload)):
+        if given is not None:
+            return prefer
+    return "firm"
+
+
+def _nothing(found: Plan, model: str) -> BraceError:
+    """No posture satisfies all: how many each demand leaves, and how far it can be met."""
+    each = (f"{demand.words}: {demand.satisfied.sum()} of {found.count} postures, the best {demand.best:.4g}"
+            for demand in found.demands)  # fmt: skip
+    return BraceError(
+        "no posture satisfies all demands",
+        where=model,
+        why="; ".join(each),
+        next_step="a wider --x or --z, or less of the demand that the fewest satisfy",
+    )
+
+
+def _lines(number: int, p: dict[str, Any], wish: Wish) -> list[str]:
+    lines = [
+        f"{number}. tip at x {p['x_mm']:.1f}, z {p['z_mm']:.1f} mm, knee {p['knee']}: "
+        f"theta1 {p['theta1_rad']:.4f}, theta2 {p['theta2_rad']:.4f} rad",
+        f"   K [N/mm] {p['k_xx_n_per_mm']:.4g}, {p['k_xz_n_per_mm']:.4g}, {p['k_zz_n_per_mm']:.4g}; eigenvalues "
+        f"{p['lambda_min_n_per_mm']:.4g} and {p['lambda_max_n_per_mm']:.4g}, stiff axis {p['stiff_axis_rad']:.3f} rad",
+    ]
+    if "off_n_per_mm" in p:
+        lines.append(f"   off the wanted K by {p['off_n_per_mm']:.3g} N/mm")
+    if wish.payload_n:
+        lines.append(f"   {wish.payload_n:g} N let it sag by {p['sag_mm']:.3g} mm")
+    if wish.friction_ratio is not None:
+        lines.append(
+            f"   press with {p['press_n']:.3g} N: force on the foot ({p['force_x_n']:.3g}, {p['force_z_n']:.3g}) N, "
+            f"bears {p['bears_mm']:.3g} mm"
+        )
+    if wish.payload_n or wish.friction_ratio is not None:
+        lines.append(f"   set the tip to x {p['set_x_mm']:.2f}, z {p['set_z_mm']:.2f} mm while it stands there")
+    return lines
