@@ -186,6 +186,9 @@ static void test_what_is_no_limb_is_refused(void)
     limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = -1e-5f;
     refused(&limb, BRACE_E_PARAMETER);
     limb = sample_limb[SAMPLE_PAPER];
+    limb.link[BRACE_TIBIA].bending_mm_per_n = -2.6f; /* pushes back, folded more than all else yields */
+    refused(&limb, BRACE_E_PARAMETER);
+    limb = sample_limb[SAMPLE_PAPER];
     limb.femur_mm = INFINITY;
     refused(&limb, BRACE_E_PARAMETER);
 }
