@@ -1,5 +1,6 @@
 #include "base/check.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "base/off_tick.h"
@@ -9,6 +10,8 @@
 #define SMALLEST_STIFFNESS_N_PER_MM 1e-12f
 #define LARGEST_STIFFNESS_N_PER_MM (1.0f / SMALLEST_STIFFNESS_N_PER_MM)
 
+#define LONGEST_MM 1e4f
+
 /* What brace_input_t counts in; runs overlap where their limits are the same. */
 static const float limit[] = {
     LARGEST_STIFFNESS_N_PER_MM, LARGEST_STIFFNESS_N_PER_MM, LARGEST_STIFFNESS_N_PER_MM, LARGEST_STIFFNESS_N_PER_MM,
@@ -17,14 +20,13 @@ static const float limit[] = {
     1e6f,                       10.0f,                      10.0f,                      10.0f,
 };
 
-static inline brace_status_t judge(uint32_t magnitude, float most)
+/* Of a magnitude that is beyond its limit. */
+static inline brace_status_t beyond(uint32_t magnitude)
 {
-    return magnitude <= brace_magnitude_bits(most) ? BRACE_OK
-           : magnitude < BRACE_INFINITE_BITS       ? BRACE_E_RANGE
-                                                   : BRACE_E_NOT_FINITE;
+    return magnitude < BRACE_INFINITE_BITS ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
 }
 
-BRACE_OFF_TICK
+/* Not off the tick: questions to the controller pass here. */
 brace_status_t brace_check(const void *given, const float *value, brace_input_t what)
 {
     if (given == NULL) {
@@ -32,25 +34,46 @@ brace_status_t brace_check(const void *given, const float *value, brace_input_t 
     }
     const float *most = limit + (what >> 4);
     uint32_t left = what & 0xfu;
-    brace_status_t status;
     do { /* at most six */
-        status = judge(brace_magnitude_bits(*value++), *most++);
-        left--;
-    } while (status == BRACE_OK && left > 0u);
-    return status;
+        if (brace_magnitude_bits(*value) > brace_magnitude_bits(*most)) {
+            return beyond(brace_magnitude_bits(*value));
+        }
+        value++;
+        most++;
+    } while (--left > 0u);
+    return BRACE_OK;
 }
 
 BRACE_OFF_TICK
 brace_status_t brace_check_two(float a, float b, float most)
 {
     const uint32_t of_a = brace_magnitude_bits(a), of_b = brace_magnitude_bits(b);
-    return judge(of_a > of_b ? of_a : of_b, most);
+    const uint32_t larger = of_a > of_b ? of_a : of_b;
+    return larger <= brace_magnitude_bits(most) ? BRACE_OK : beyond(larger);
 }
 
 BRACE_OFF_TICK
 brace_status_t brace_check_magnitude(float value, float most)
 {
     return brace_check_two(value, value, most);
+}
+
+/* Not below one, nor above the most: one comparison, for what lies below wraps round to above all. */
+static bool is_length(float length)
+{
+    const uint32_t one = (uint32_t)brace_bits(1.0f), most = (uint32_t)brace_bits(LONGEST_MM);
+    return (uint32_t)brace_bits(length) - one <= most - one;
+}
+
+BRACE_OFF_TICK
+brace_status_t brace_check_lengths(const brace_limb_t *limb)
+{
+    if (limb == NULL) {
+        return BRACE_E_NULL;
+    }
+    return limb->coxa_mm >= 0.0f && limb->coxa_mm <= LONGEST_MM && is_length(limb->femur_mm) && is_length(limb->tibia_mm)
+               ? BRACE_OK
+               : BRACE_E_PARAMETER;
 }
 
 BRACE_OFF_TICK

@@ -1,17 +1,24 @@
 #include "brace/slope.h"
 
+#include <float.h>
 #include <stddef.h>
 
 #include "base/check.h"
 #include "base/off_tick.h"
 #include "base/trig.h"
-#include "use/unroll.h"
 
 #define SMALLEST_STEP_MM 1e-6f
 #define STEPS_LIMIT (1u << 24)
 
 /* What a reading holds. */
 enum { DISPLACEMENT_MM, FORCE_X_N, FORCE_Z_N, READING_COUNT };
+
+/* Where a line holds its slopes, and what they leave. */
+enum { SLOPE = 1, RESIDUAL = 3 };
+
+_Static_assert(offsetof(brace_slope_line_t, slope) == SLOPE * sizeof(float) &&
+                   offsetof(brace_slope_line_t, residual) == RESIDUAL * sizeof(float),
+               "a line is five floats");
 
 /* All three estimates are one thing, a weighted least-squares line through a point: through the preload point
  * with weight 1/displacement^2, the mean of ratios, or with weight one; or through the mean, where the weight
@@ -21,19 +28,16 @@ BRACE_OFF_TICK
 static void extend_line(brace_slope_line_t *line, float weight, const float step[READING_COUNT])
 {
     const float displacement = step[DISPLACEMENT_MM];
-    float gain = weight * displacement;
-    const float spread = line->spread + gain * displacement;
-    if (!(spread > 0.0f)) {
-        return;
-    }
-    gain /= spread;
-    const float unexplained = weight * line->spread / spread;
+    const float moment = weight * displacement;
+    const float spread = line->spread + moment * displacement;
+    const float divisor = spread + FLT_MIN; /* while there is no spread nothing changes */
+    const float gain = moment / divisor, unexplained = weight * line->spread / divisor;
     line->spread = spread;
-    float *slope = line->slope, *residual = line->residual;
+    float *at = (float *)line + SLOPE;
     for (const float *force = step + FORCE_X_N; force < step + READING_COUNT; force++) { /* at most two */
-        const float surprise = *force - *slope * displacement;
-        *residual++ += unexplained * surprise * surprise;
-        *slope++ += gain * surprise;
+        const float surprise = *force - *at * displacement;
+        at[RESIDUAL - SLOPE] += unexplained * surprise * surprise;
+        *at++ += gain * surprise;
     }
 }
 
@@ -44,9 +48,9 @@ brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, fl
     const float reading[READING_COUNT] = {displacement_mm, force_x_n, force_z_n};
     const brace_status_t status = brace_check(slope, reading, BRACE_INPUT_READING);
     if (status == BRACE_OK) {
-        float *end = &slope->line[BRACE_SLOPE_METHOD_COUNT].spread;
-        for (float *field = slope->mean; field < end; field++) { /* at most eighteen */
-            *field = 0.0f;
+        const float *end = (const float *)(slope->line + BRACE_SLOPE_METHOD_COUNT);
+        for (float *field = slope->mean; field < end; field += 3) { /* at most six times */
+            field[0] = field[1] = field[2] = 0.0f;
         }
         for (int i = 0; i < READING_COUNT; i++) {
             slope->preload[i] = reading[i];
@@ -59,30 +63,34 @@ brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, fl
 BRACE_OFF_TICK
 brace_status_t brace_slope_step(brace_slope_t *slope, float displacement_mm, float force_x_n, float force_z_n)
 {
-    float step[READING_COUNT] = {displacement_mm, force_x_n, force_z_n};
-    const brace_status_t status = brace_check(slope, step, BRACE_INPUT_READING);
+    struct {
+        float from_preload[READING_COUNT], from_mean[READING_COUNT];
+    } step;
+    step.from_preload[DISPLACEMENT_MM] = displacement_mm;
+    step.from_preload[FORCE_X_N] = force_x_n;
+    step.from_preload[FORCE_Z_N] = force_z_n;
+    const brace_status_t status = brace_check(slope, step.from_preload, BRACE_INPUT_READING);
     if (status != BRACE_OK) {
         return status;
     }
     if (slope->used + slope->skipped >= STEPS_LIMIT) {
         return BRACE_E_RANGE;
     }
-    const float step_mm = step[DISPLACEMENT_MM] - slope->preload[DISPLACEMENT_MM];
-    if (__builtin_fabsf(step_mm) < SMALLEST_STEP_MM) {
+    const float step_mm = step.from_preload[DISPLACEMENT_MM] - slope->preload[DISPLACEMENT_MM];
+    if (brace_magnitude_bits(step_mm) < brace_magnitude_bits(SMALLEST_STEP_MM)) {
         slope->skipped++;
         return BRACE_OK;
     }
     slope->used++;
     const float newest = 1.0f / (float)slope->used;
-    float from_mean[READING_COUNT];
     for (int i = 0; i < READING_COUNT; i++) {
-        step[i] -= slope->preload[i];
-        from_mean[i] = step[i] - slope->mean[i];
-        slope->mean[i] += newest * from_mean[i];
+        step.from_preload[i] -= slope->preload[i];
+        step.from_mean[i] = step.from_preload[i] - slope->mean[i];
+        slope->mean[i] += newest * step.from_mean[i];
     }
-    extend_line(&slope->line[BRACE_SLOPE_MEAN_OF_RATIOS], 1.0f / (step_mm * step_mm), step);
-    extend_line(&slope->line[BRACE_SLOPE_LEAST_SQUARES], 1.0f, step);
-    extend_line(&slope->line[BRACE_SLOPE_FREE_INTERCEPT], 1.0f - newest, from_mean);
+    extend_line(&slope->line[BRACE_SLOPE_MEAN_OF_RATIOS], 1.0f / (step_mm * step_mm), step.from_preload);
+    extend_line(&slope->line[BRACE_SLOPE_LEAST_SQUARES], 1.0f, step.from_preload);
+    extend_line(&slope->line[BRACE_SLOPE_FREE_INTERCEPT], 1.0f - newest, step.from_mean);
     return BRACE_OK;
 }
 
@@ -132,13 +140,14 @@ brace_status_t brace_slope_stiffness(const brace_slope_t *along_x, const brace_s
     if (status != BRACE_OK) {
         return status;
     }
-    float *entry = &stiffness->k_xx_n_per_mm;
-    const float *of_x = &x.k_x_n_per_mm, *of_z = &z.k_x_n_per_mm;
-    ROLLED
-    for (int i = 0; i < 4; i++) { /* entries, then their errors: force along x, along z */
-        entry[2 * i] = of_x[i];
-        entry[2 * i + 1] = of_z[i];
-    }
+    stiffness->k_xx_n_per_mm = x.k_x_n_per_mm;
+    stiffness->k_xz_n_per_mm = z.k_x_n_per_mm;
+    stiffness->k_zx_n_per_mm = x.k_z_n_per_mm;
+    stiffness->k_zz_n_per_mm = z.k_z_n_per_mm;
+    stiffness->sigma_k_xx_n_per_mm = x.sigma_k_x_n_per_mm;
+    stiffness->sigma_k_xz_n_per_mm = z.sigma_k_x_n_per_mm;
+    stiffness->sigma_k_zx_n_per_mm = x.sigma_k_z_n_per_mm;
+    stiffness->sigma_k_zz_n_per_mm = z.sigma_k_z_n_per_mm;
     stiffness->asymmetry_n_per_mm = z.k_x_n_per_mm - x.k_z_n_per_mm;
     const float variance_asymmetry = square(z.sigma_k_x_n_per_mm) + square(x.sigma_k_z_n_per_mm);
     stiffness->sigma_asymmetry_n_per_mm = brace_sqrt(variance_asymmetry);

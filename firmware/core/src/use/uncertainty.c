@@ -1,6 +1,6 @@
 /* Everything here lives in K's principal frame, x along the stiff axis. There C and K are diagonal, so the
- * eigenvalues' shifts are dK's diagonal and the axis's turn its corner over the eigenvalues' difference; and
- * the small component of a lever along the stiff axis is computed, not left over from a subtraction.
+ * eigenvalues' shifts are dK's diagonal and the axis's turn its corner over the eigenvalues' difference. What a lever
+ * has along the stiff axis, little, is known to a few 1e-7 of the whole lever: the axis itself is not known better.
  */
 #include "brace/uncertainty.h"
 
@@ -38,6 +38,11 @@ enum {
     TIBIA_BENDING,
     VECTOR_COUNT
 };
+
+typedef union {
+    brace_pose_t pose;
+    brace_vec_t at[VECTOR_COUNT];
+} vectors_t;
 
 /* The compliances that weigh them: what follows from the limb's, */
 enum {
@@ -106,22 +111,22 @@ static const term_t terms[] = {
 /* As seen from K's axes and scaled by the eigenvalues: what a compliance is between the bare vectors, -dK is between
  * these. x: the limb's, seen from the same axes. */
 static void find_vectors(const brace_limb_t *limb, const float theta_rad[2], const brace_stiffness_t *stiffness,
-                         brace_vec_t x, brace_vec_t vectors[VECTOR_COUNT])
+                         brace_vec_t x, vectors_t *vectors)
 {
     const float lambda_stiff = stiffness->lambda_max_n_per_mm;
     const float lambda_soft = stiffness->lambda_min_n_per_mm;
-    brace_kinematics_pose(limb, theta_rad[0], theta_rad[1], (brace_pose_t *)vectors);
-    vectors[BASE] = (brace_vec_t){1.0f, 0.0f};
+    brace_kinematics_pose(limb, theta_rad[0], theta_rad[1], &vectors->pose);
+    vectors->at[BASE] = (brace_vec_t){1.0f, 0.0f};
     uint32_t turn = brace_turn(theta_rad[0]);
-    brace_vec_t *axis = &vectors[AXES];
-    for (const brace_link_t *link = &limb->link[BRACE_FEMUR]; link <= &limb->link[BRACE_TIBIA]; link++) {
+    brace_vec_t *axis = &vectors->at[AXES];
+    for (const brace_link_t *link = &limb->link[BRACE_FEMUR]; link <= &limb->link[BRACE_TIBIA]; link++) { /* at most two */
         *axis++ = brace_direction(turn + brace_turn(link->tilt_rad));
         turn -= brace_turn(theta_rad[1]);
     }
     for (int i = DIRECTION_COUNT - 1; i >= 0; i--) { /* backwards: each makes room for two */
-        const brace_vec_t v = brace_turned(vectors[i], x);
-        vectors[2 * i] = (brace_vec_t){lambda_stiff * v.x, lambda_soft * v.z};
-        vectors[2 * i + 1] = (brace_vec_t){lambda_stiff * v.z, -lambda_soft * v.x};
+        const brace_vec_t v = brace_turned(vectors->at[i], x);
+        vectors->at[2 * i] = (brace_vec_t){lambda_stiff * v.x, lambda_soft * v.z};
+        vectors->at[2 * i + 1] = (brace_vec_t){lambda_stiff * v.z, -lambda_soft * v.x};
     }
 }
 
@@ -142,9 +147,9 @@ static brace_status_t estimate(const brace_limb_t *limb, float theta1_rad, float
     if (status != BRACE_OK) {
         return status;
     }
-    brace_vec_t vectors[VECTOR_COUNT];
+    vectors_t vectors;
     const brace_vec_t x = brace_direction(0u - brace_turn(stiffness->stiff_axis_rad));
-    find_vectors(limb, theta_rad, stiffness, x, vectors);
+    find_vectors(limb, theta_rad, stiffness, x, &vectors);
     const brace_link_t *femur = &limb->link[BRACE_FEMUR];
     const brace_link_t *tibia = &limb->link[BRACE_TIBIA];
     const float *fields = (const float *)limb + PLACE(FIRST);
@@ -172,8 +177,8 @@ static brace_status_t estimate(const brace_limb_t *limb, float theta1_rad, float
     const float apart = stiffness->lambda_max_n_per_mm - stiffness->lambda_min_n_per_mm;
     float stiff = 0.0f, cross = -apart, soft = 0.0f; /* half of dK's diagonal, and its corner */
     for (const term_t *term = terms; term < terms + sizeof terms / sizeof *terms; term++) {
-        const brace_vec_t u = vectors[term->u];
-        const brace_vec_t v = vectors[term->v];
+        const brace_vec_t u = vectors.at[term->u];
+        const brace_vec_t v = vectors.at[term->v];
         const unsigned place = term->weight;
         const float weight = place < WEIGHT_COUNT ? weights[place] : fields[place - WEIGHT_COUNT];
         stiff += weight * u.x * v.x;
