@@ -9,6 +9,7 @@ import socket
 import subprocess
 import threading
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from conftest import PRINT_K, Answer
@@ -75,6 +76,20 @@ def test_wrong_baud_rate_of_the_serial_line(probe: Probe) -> None:
     with SlcanController(speaks=False, answers=False, garbage=b"\xf0\x81\r\x05\xfe\r") as controller:
         answer = probe(controller.url, "identity")
         assert answer.code == BIT_RATE and answer.told_in_time
+
+
+def test_a_peer_that_goes_is_told_and_kills_nobody(probe: Probe) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def hang_up() -> None:
+            taken, _ = server.accept()
+            taken.recv(100)
+            taken.close()
+
+        threading.Thread(target=hang_up, daemon=True).start()
+        answer = probe(f"tcp://127.0.0.1:{server.getsockname()[1]}", "dump", 500)
+        assert answer.code == DOWN  # -13 would be SIGPIPE, of the farewell to nobody
+        assert answer.told_in_time
 
 
 def test_heard_but_no_answer(probe: Probe) -> None:
@@ -153,6 +168,34 @@ def test_a_serial_device_that_says_nothing(probe: Probe, kind: str) -> None:
     finally:
         os.close(ours)
         os.close(theirs)
+
+
+SHIM = """
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <stdio.h>
+typedef void *(*new_rtu_t)(const char *, int, char, int, int);
+void *modbus_new_rtu(const char *device, int baud, char parity, int data_bits, int stop_bits)
+{
+    const new_rtu_t real = (new_rtu_t)dlsym(RTLD_NEXT, __func__);
+    fprintf(stderr, "line %d %d%c%d\\n", baud, data_bits, parity, stop_bits);
+    return real(device, baud, parity, data_bits, stop_bits);
+}
+"""
+
+
+def test_modbus_on_a_serial_line_has_the_controller_s_parity(
+    probe: Probe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """8E1 (docs/modbus.md). Pseudo-terminals, which the other tests run on, have no parity: there it would not show."""
+    (tmp_path / "shim.c").write_text(SHIM)
+    subprocess.run(["cc", "-shared", "-fPIC", "-o", tmp_path / "shim.so", tmp_path / "shim.c", "-ldl"], check=True)
+    monkeypatch.setenv("LD_PRELOAD", str(tmp_path / "shim.so"))
+    assert "line 19200 8E1" in probe("modbus:/dev/tty-none@19200", "identity").err
+    ours, theirs = pty.openpty()
+    assert "line 115200 8N1" in probe(f"modbus:{os.ttyname(theirs)}", "identity", timeout_ms=300).err
+    os.close(ours)
+    os.close(theirs)
 
 
 @pytest.mark.parametrize("kind", ["modbus-tcp", "tcp"])
