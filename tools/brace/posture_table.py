@@ -178,7 +178,7 @@ def _angles(table: PostureTable, texts: list[str], name: str, limit_rad: float) 
         row = int(np.argmax(bad))
         shown, finite = _readable(texts[row]).strip(), math.isfinite(values[row])
         why, meant = slip(shown)
-        way = f"write {meant}; so throughout the file" if meant else "write a number with a decimal point, or delete the row"
+        way = f"write {meant}; so throughout" if meant else "write a number with a decimal point, or delete the row"
         raise BadFileError(
             (f"{name} = {shown[:40]!r} cannot be" if finite else f"{shown[:40]!r} is no number")
             if shown
