@@ -78,6 +78,20 @@ def test_wrong_baud_rate_of_the_serial_line(probe: Probe) -> None:
         assert answer.code == BIT_RATE and answer.told_in_time
 
 
+def test_a_peer_that_goes_is_told_and_kills_nobody(probe: Probe) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def hang_up() -> None:
+            taken, _ = server.accept()
+            taken.recv(100)
+            taken.close()
+
+        threading.Thread(target=hang_up, daemon=True).start()
+        answer = probe(f"tcp://127.0.0.1:{server.getsockname()[1]}", "dump", 500)
+        assert answer.code == DOWN  # -13 would be SIGPIPE, of the farewell to nobody
+        assert answer.told_in_time
+
+
 def test_heard_but_no_answer(probe: Probe) -> None:
     with SlcanController(answers=False) as controller:
         answer = probe(controller.url, "identity")

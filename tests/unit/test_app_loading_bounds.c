@@ -202,6 +202,31 @@ static void test_setups_that_cannot_be_are_refused(void)
     TEST_ASSERT_EQUAL(BRACE_E_MODE, brace_app_loading_start(&app, &along_x));
 }
 
+/* At 32 mm a float's last place is 3.8e-6 mm: a tick's way of 1e-6 mm would be none, there and back. */
+static void test_a_rate_that_would_stand_far_out_is_refused(void)
+{
+    brace_loading_setup_t s = along_x;
+    s.steps_per_side = 16, s.step_mm = 2.0f, s.rate_mm_per_s = 1e-3f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_app_loading_start(&app, &s));
+    s.rate_mm_per_s = 1.001f * 1e3f * BRACE_LOADING_LEAST_WAY * 32.0f; /* the slowest that is taken */
+    s.force_max_n = 1e6f;
+    truth = (symmetric_t){0.01, 0.0, 0.01}; /* so soft that it gets there */
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_loading_start(&app, &s));
+    app.loading.step = 16;
+    app.loading.along_mm = -31.99f; /* as after hours */
+    for (int i = 0; i < 5000 && app.loading.along_mm != -32.0f; i++) {
+        for (int j = 0; j < BRACE_APP_JOINTS; j++) {
+            app.loading.start_motor_rad[j] = app.joint[j].sample.motor_rad;
+        }
+        ticks(1);
+    }
+    ASSERT_CLOSE(-32.0, app.loading.along_mm, 0.0);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_loading_stop(&app));
+    const float from_mm = app.loading.along_mm;
+    ticks(100);
+    TEST_ASSERT_TRUE(app.loading.along_mm > from_mm + 50.0f * 1e-3f * s.rate_mm_per_s);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -218,5 +243,6 @@ int main(void)
     RUN_TEST(test_a_fault_ends_it);
     RUN_TEST(test_a_force_that_is_lost_ends_it);
     RUN_TEST(test_setups_that_cannot_be_are_refused);
+    RUN_TEST(test_a_rate_that_would_stand_far_out_is_refused);
     return UNITY_END();
 }

@@ -255,6 +255,13 @@ static void test_k_at_a_tip_is_k_at_its_posture(void)
     const reply_t asked = read_asks(3, ASKED + 4, 6);
     TEST_ASSERT_EQUAL_HEX32(tip[0], value_at(&asked, 0));
     TEST_ASSERT_EQUAL_HEX32(1, value_at(&asked, 2));
+    reply_t of_both = read_asks(3, ASKED, 10); /* whose answer it is: the tip's, and no posture's any more */
+    TEST_ASSERT_TRUE(isnan(float_at(&of_both, 0)) && isnan(float_at(&of_both, 1)));
+    accepted(write_values(ASKED, posture, 2), 16);
+    of_both = read_asks(3, ASKED, 10);
+    TEST_ASSERT_EQUAL_HEX32(posture[1], value_at(&of_both, 1));
+    TEST_ASSERT_TRUE(isnan(float_at(&of_both, 2)) && isnan(float_at(&of_both, 3)));
+    TEST_ASSERT_EQUAL_HEX32(UINT32_MAX, value_at(&of_both, 4));
     tip[2] = 2;
     refused(write_values(ASKED + 4, tip, 3), 16, 3);
     const uint32_t far[] = {bits(5000.0f), bits(0.0f), 0};
@@ -340,6 +347,24 @@ static void test_commands_need_their_key_and_their_mode(void)
     TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, app.mode);
 }
 
+/* Function 06 writes a value in two requests; what somebody else does on the other port meanwhile is no part of it. */
+static void test_halves_of_two_masters_do_not_meet(void)
+{
+    const uint32_t ours = bits(181.5f), theirs = bits(204.25f);
+    const uint8_t high[] = {6, 0, 2, (uint8_t)(theirs >> 24), (uint8_t)(theirs >> 16)};
+    const uint8_t low[] = {6, 0, 3, (uint8_t)(theirs >> 8), (uint8_t)theirs}, asks[] = {4, 0, 0, 0, 2};
+    configure();
+    accepted(write_one(2, ours >> 16), 6);
+    TEST_ASSERT_GREATER_THAN(2, tcp_asks(UNIT, asks, sizeof asks).count); /* a question is no end of it */
+    accepted(tcp_asks(UNIT, high, sizeof high), 6);
+    accepted(write_one(3, ours & 0xffffu), 6);
+    reply_t reply = read_asks(3, 2, 2);
+    TEST_ASSERT_EQUAL_HEX32(ours, value_at(&reply, 0));
+    accepted(tcp_asks(UNIT, low, sizeof low), 6);
+    reply = read_asks(3, 2, 2);
+    TEST_ASSERT_EQUAL_HEX32(theirs, value_at(&reply, 0));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -358,5 +383,6 @@ int main(void)
     RUN_TEST(test_what_the_k_of_now_means_at_the_contact);
     RUN_TEST(test_without_a_k_there_is_no_answer_from_it);
     RUN_TEST(test_commands_need_their_key_and_their_mode);
+    RUN_TEST(test_halves_of_two_masters_do_not_meet);
     return UNITY_END();
 }

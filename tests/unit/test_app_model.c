@@ -76,11 +76,45 @@ static void test_a_limb_that_only_its_joints_let_yield_works_too(void)
     ASSERT_CLOSE(expected.k_zz_n_per_mm, now()->stiffness.now.k_zz_n_per_mm, 1e-5 * (double)expected.lambda_max_n_per_mm);
 }
 
+/* At the ends of the parameters' ranges: compliances up to 1 rad/(N mm), hardening up to 1e30, torques ten times the
+ * range. Where the cube carries all of the load, q = (torque / hardening)^(1/3) and the slope is 3 hardening q^2. */
+static void test_a_spring_that_hardens_beyond_measure_stays_a_spring(void)
+{
+    static const float hardening[] = {1e12f, 1e24f, 1e30f}, torque_n_mm[] = {1e3f, -1e7f, 20.0f};
+    for (size_t i = 0; i < sizeof hardening / sizeof *hardening; i++) {
+        brace_parameters_t p = bench_parameters();
+        p.limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = 1.0f;
+        p.drive[BRACE_FEMUR].torque_range_n_mm = 1e6f;
+        p.drive[BRACE_FEMUR].hardening_n_mm_per_rad3 = hardening[i];
+        bench_start(&p);
+        for (size_t j = 0; j < sizeof torque_n_mm / sizeof *torque_n_mm; j++) {
+            /* it moves: a motor that stands while its torque swings seems stuck */
+            const float theta1_rad = 1.0f + 0.001f * (float)j;
+            fake.joint[BRACE_FEMUR].sample.torque_n_mm = torque_n_mm[j];
+            ticks(200);
+            fake.joint[BRACE_FEMUR].sample.motor_rad = theta1_rad;
+            ticks(200);
+            TEST_ASSERT_TRUE(now()->k_is_valid);
+            const double load = fabs((double)torque_n_mm[j]), h = (double)hardening[i];
+            const double q = cbrt(load / h), slope = 1.0 + 3.0 * h * q * q;
+            brace_limb_t hard = p.limb;
+            hard.joint[BRACE_FEMUR].compliance_rad_per_n_mm = (float)(1.0 / slope);
+            brace_chain_t chain;
+            brace_stiffness_t expected;
+            TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_build(&hard, &chain));
+            TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_stiffness(&chain, theta1_rad, 1.4f, &expected));
+            ASSERT_CLOSE(expected.lambda_min_n_per_mm, now()->stiffness.now.lambda_min_n_per_mm,
+                         1e-3 * (double)expected.lambda_min_n_per_mm);
+        }
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_springs_follow_temperature_and_load);
     RUN_TEST(test_a_base_that_yields_unequally_takes_the_general_path);
     RUN_TEST(test_a_limb_that_only_its_joints_let_yield_works_too);
+    RUN_TEST(test_a_spring_that_hardens_beyond_measure_stays_a_spring);
     return UNITY_END();
 }

@@ -469,6 +469,31 @@ static void test_can_fd_gives_way_to_text(void)
     TEST_ASSERT_TRUE(whole >= 2u);
 }
 
+/* What concerns the bus takes effect at the next start; until then it goes on as it was set up. */
+static void test_can_fd_goes_on_until_the_next_start_whatever_is_put_in_force(void)
+{
+    start_fd(true);
+    brace_parameters_t p = *brace_app_parameters(&app);
+    p.controller.can_fd_bit_rate = 0;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p));
+    for (int i = 0; i < 2000 && brace_app_configuration_leave(&app) != BRACE_OK; i++) {
+        ticks(1);
+    }
+    ticks(50);
+    TEST_ASSERT_EQUAL(0, brace_app_parameters(&app)->controller.can_fd_bit_rate);
+    drain();
+    uint32_t whole = 0;
+    brace_can_frame_t frame;
+    for (int i = 0; i < 1000; i++) {
+        ticks(1);
+        while (brace_fake_frame_take(&fake, &frame)) {
+            whole += frame.fd;
+        }
+    }
+    TEST_ASSERT_UINT32_WITHIN(1, 100, whole);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -487,5 +512,6 @@ int main(void)
     RUN_TEST(test_a_snapshot_is_one_frame_of_can_fd);
     RUN_TEST(test_where_can_is_classic_only_it_stays_so);
     RUN_TEST(test_can_fd_gives_way_to_text);
+    RUN_TEST(test_can_fd_goes_on_until_the_next_start_whatever_is_put_in_force);
     return UNITY_END();
 }

@@ -478,6 +478,49 @@ static void test_faults_that_stay_are_cleared(void)
     TEST_ASSERT_EQUAL_HEX32(0, now()->faults);
 }
 
+static void arrives_commit(uint32_t token)
+{
+    uint8_t data[8];
+    brace_can_pack_commit_request(&(brace_can_commit_request_t){token, 0}, data);
+    arrives(0x600u + NODE, data, 8);
+}
+
+/* Two push at once: whenever the second one's commit comes, each hears of its own, in two parts or a refusal. */
+static void test_two_commits_are_two_answers_whenever_the_second_comes(void)
+{
+    enum { FIRST = 21, SECOND = 22, STORED_WITHIN = 150 };
+    uint32_t busy = 0, stored = 0;
+    for (int at = 0; at < STORED_WITHIN; at++) {
+        uint32_t parts[2] = {0, 0}, refusals[2] = {0, 0};
+        brace_can_frame_t frame;
+        setUp();
+        (void)set_mode(BRACE_MODE_CONFIGURATION);
+        drain();
+        arrives_commit(FIRST);
+        for (int i = 0; i < 3 * STORED_WITHIN; i++) {
+            if (i == at) {
+                arrives_commit(SECOND);
+            }
+            ticks(1);
+            while (brace_fake_frame_take(&fake, &frame)) {
+                const uint32_t whose = frame.data[1] == SECOND;
+                if (frame.id == 0x580u + NODE) {
+                    TEST_ASSERT_EQUAL(BRACE_REQUEST_COMMIT, frame.data[0] & 31u);
+                    parts[whose] += frame.data[0] < 0xe0u;
+                    refusals[whose] += frame.data[0] >= 0xe0u;
+                }
+            }
+        }
+        TEST_ASSERT_EQUAL(2, parts[0]);
+        TEST_ASSERT_EQUAL(0, refusals[0]);
+        TEST_ASSERT_EQUAL(refusals[1] > 0u ? 0 : 2, parts[1]);
+        TEST_ASSERT_TRUE(refusals[1] <= 1u);
+        busy += refusals[1];
+        stored += parts[1] / 2u;
+    }
+    TEST_ASSERT_TRUE(busy > 10u && stored > 10u); /* both came to pass */
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -499,5 +542,6 @@ int main(void)
     RUN_TEST(test_take_up_and_loading_test_over_the_bus);
     RUN_TEST(test_the_next_loading_test_waits_for_the_way_back);
     RUN_TEST(test_faults_that_stay_are_cleared);
+    RUN_TEST(test_two_commits_are_two_answers_whenever_the_second_comes);
     return UNITY_END();
 }

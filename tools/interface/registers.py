@@ -93,8 +93,10 @@ written, in CONFIGURATION mode only, and are in force after `commit` has stored 
 Also 08 (echo and the line's counters), 17 (who answers: "Brace", version, dictionary's hash) and 43/14 (device
 identification). RTU is 8E1 at `controller.modbus_baud`, address `controller.modbus_address`; over TCP the unit is that
 address, 0 or 255. A block is written whole or not at all; commands are written one a request; what belongs to
-one question (`asked_...`) is written in one request, and answered when the write is. Read back, `set_mode` is the mode, `clear_faults` the faults, and `commit` and `rollback` are 1 while a
-set is being stored, 0 once it is in force, else 256 less the store's refusal.
+one question (`asked_...`) is written in one request, and answered when the write is. K at a posture and K at a tip are
+answered in the same registers: the question of the two that was asked last reads back, the other as no number. Read back,
+`set_mode` is the mode, `clear_faults` the faults, and `commit` and `rollback` are 1 while a set is being stored, 0 once it
+is in force, else 256 less the store's refusal. Function 06's two requests have to come one after the other on their port.
 
 | exception | meaning here |
 |---|---|

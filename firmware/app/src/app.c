@@ -138,14 +138,14 @@ static services_room_t room_of(const brace_app_t *app)
     if (app->mode == BRACE_MODE_CONFIGURATION) {
         return storing_busy(app) ? SERVICES_BESIDE_A_PIECE : SERVICES_BESIDE_LITTLE;
     }
-    return phase < LOADING_READ || phase > LOADING_TELL ? SERVICES_BESIDE_K
+    return phase < LOADING_READ || phase > LOADING_TELL || app->k.blind ? SERVICES_BESIDE_K
            : phase == LOADING_READ                      ? SERVICES_BESIDE_A_READING
            : phase == LOADING_COMPARE                   ? SERVICES_BESIDE_MUCH
                                                         : SERVICES_BESIDE_SOME;
 }
 
-/* A tick that senses nothing, for what is as dear as sensing: the joints' filters bear a missed one. A loading test's piece,
- * Modbus, or K of the samples that the last tick took. */
+/* A tick that senses nothing, for what is as dear as sensing: the joints' filters bear a missed one, and the next tick
+ * senses. A loading test's piece, Modbus, or K of the samples that the last tick took. */
 static void blind_tick(brace_app_t *app, bool late, services_room_t room, uint32_t pieces)
 {
     brace_app_k_t *k = &app->k;
@@ -174,13 +174,17 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     app->ticked = true;
     const services_room_t room = room_of(app);
     const uint32_t pieces = services_listen(app, room);
+    const bool may_be_blind = !app->k.blind;
+    app->k.blind = false;
     if (app->mode == BRACE_MODE_CONFIGURATION) {
         configuration_tick(app, now_us, pieces > 0u);
     } else if (pieces == (uint32_t)SERVICES_BLIND || room == SERVICES_BESIDE_SOME || room == SERVICES_BESIDE_MUCH) {
         blind_tick(app, late, room, pieces);
-    } else if (app->keeping.look && keeping_due(app)) {
+        app->k.blind = true;
+    } else if (may_be_blind && app->keeping.look && keeping_due(app)) {
         supervisor_late(app, late);
         keeping_piece(app);
+        app->k.blind = true;
     } else {
         control_tick(app, now_us, late, pieces);
     }

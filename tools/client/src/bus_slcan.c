@@ -16,11 +16,18 @@
 #include <termios.h>
 #include <unistd.h>
 
+/* Where the other end of a connection has gone that is a status, and no signal to the robot's process. */
+static ssize_t put(int fd, const char *text, size_t length)
+{
+    const ssize_t size = send(fd, text, length, MSG_NOSIGNAL);
+    return size < 0 && errno == ENOTSOCK ? write(fd, text, length) : size;
+}
+
 static brace_bus_status_t write_all(brace_bus_t *bus, const char *text, size_t length, int timeout_ms)
 {
     const uint64_t deadline_us = brace_bus_now_us() + (uint64_t)timeout_ms * 1000u;
     for (size_t sent = 0u; sent < length;) {
-        const ssize_t size = write(bus->fd, text + sent, length - sent);
+        const ssize_t size = put(bus->fd, text + sent, length - sent);
         if (size > 0) {
             sent += (size_t)size;
             continue;

@@ -128,6 +128,7 @@ typedef struct {
     bool inside, posed, sound; /* within travel; where there are levers; the samples */
     uint8_t waits;            /* ticks since there was one */
     bool is_fresh, told;      /* of the last samples; this tick ends it */
+    bool blind;               /* the last tick took no samples: this one does */
     bool advances;            /* the loading test has yet to go on with the newest */
     float spring_rad_per_n_mm[BRACE_APP_JOINTS]; /* hip, with the base's rotation, and knee, as they are at the moment */
     brace_status_t status;
@@ -166,9 +167,9 @@ typedef struct {
 } brace_app_slcan_t;
 
 typedef struct {
-    bool listens, speaks, fd; /* CAN is there; the node's number is set; it takes frames of CAN FD */
+    bool listens, speaks;     /* CAN is there; the node's number is set */
     uint8_t node_id;
-    uint32_t bit_rate;
+    uint32_t bit_rate, fd_bit_rate; /* as they were set up; 0: no CAN FD */
     bool bus_off;
     uint32_t health_us, recover_us, recover_wait_us;
     brace_app_slcan_t slcan;
@@ -179,6 +180,7 @@ typedef struct {
     uint8_t frames;           /* of process data, at most, in this tick */
     uint8_t lines;            /* of answers over SLCAN, at most, in this tick */
     uint8_t left_out;         /* ticks in a row without a piece of K, or of other work */
+    uint8_t test_waits;       /* how often a loading test's piece has waited for a question */
     uint8_t waited;           /* ticks, for answers to leave over SLCAN */
     uint32_t beat_us;         /* when the heart beat last */
     uint32_t faults_told;
@@ -237,6 +239,8 @@ typedef struct {
     bool begun, checked;
     uint8_t area;
     uint16_t start, count, done; /* values */
+    bool half_known;             /* of a value written in two requests, one after the other on this port: */
+    uint16_t half, half_place;   /* the high one, and its register */
 } brace_app_modbus_work_t;
 
 typedef struct {
@@ -250,9 +254,8 @@ typedef struct {
 
 typedef struct {
     brace_app_modbus_link_t line, tcp;
-    bool polls_tcp, turn, half_known;
+    bool polls_tcp, turn;
     uint8_t address;
-    uint16_t half, half_place;    /* of a value written in two requests: the high one, and its register */
     uint16_t messages, broken, refused, served, unanswered, busy; /* function 08's counters; wrap */
     uint16_t waited;              /* ticks since its last turn */
     bool polls, serves, all;      /* in this tick; all steps of a request at once */

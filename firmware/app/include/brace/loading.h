@@ -21,6 +21,8 @@
 #include "brace/stiffness.h"
 #include "brace/uncertainty.h"
 
+#define BRACE_LOADING_LEAST_WAY 1.2e-7f /* two of a float's last places: what is less would not move it */
+
 typedef enum { BRACE_AXIS_X = 0, BRACE_AXIS_Z = 1 } brace_axis_t;
 
 typedef enum { BRACE_LOADING_ENCODED = 0, BRACE_LOADING_COMMANDED = 1 } brace_loading_source_t;
@@ -30,7 +32,8 @@ typedef struct {
     uint32_t steps_per_side;      /* [2, 60] */
     float step_mm;                /* [0.001, 50] */
     uint32_t dwell_us;            /* at each step; the second half is averaged [20 000, 1e7] */
-    float rate_mm_per_s;          /* of the tip's free shape (0, 1000] */
+    float rate_mm_per_s;          /* of the tip's free shape [0.001, 1000]; in a tick at least BRACE_LOADING_LEAST_WAY
+                                     of steps_per_side * step_mm: 0.002 mm/s for 16 mm and a tick of 1 ms */
     float force_max_n;            /* on the tip, change from the preload point (0, 1e6] */
     float torque_max_n_mm;        /* of each motor (0, 1e6]; never above the drive's range */
     brace_loading_source_t source;

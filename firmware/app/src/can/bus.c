@@ -22,9 +22,10 @@ void bus_start(brace_app_t *app)
         brace_can_setup_t setup = {.bit_rate = controller->can_bit_rate,
                                    .fd_bit_rate = controller->can_fd_bit_rate,
                                    .listen_only = controller->node_id == 0u};
-        bus->fd = setup.fd_bit_rate != 0u && hal->can_setup(hal->context, &setup) == BRACE_HAL_OK;
+        const bool fd = setup.fd_bit_rate != 0u && hal->can_setup(hal->context, &setup) == BRACE_HAL_OK;
+        bus->fd_bit_rate = fd ? setup.fd_bit_rate : 0u;
         setup.fd_bit_rate = 0; /* where there is none: classic frames rather than silence */
-        bus->listens = bus->fd || hal->can_setup(hal->context, &setup) == BRACE_HAL_OK;
+        bus->listens = fd || hal->can_setup(hal->context, &setup) == BRACE_HAL_OK;
     }
     bus->speaks =
         controller->node_id >= 1u && controller->node_id <= 127u && (bus->listens || bus->slcan.fitted);
@@ -116,7 +117,7 @@ bool bus_send(brace_app_t *app, uint32_t function, const uint8_t data[8])
 
 bool bus_takes_fd(const brace_app_t *app)
 {
-    return app->bus.fd && !app->bus.slcan.open;
+    return app->bus.fd_bit_rate != 0u && !app->bus.slcan.open;
 }
 
 bool bus_send_fd(brace_app_t *app, uint32_t function, const uint8_t data[64])

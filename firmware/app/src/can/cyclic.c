@@ -27,8 +27,7 @@ static float frames_per_s(const brace_app_t *app, float base_hz)
 {
     const brace_app_cyclic_t *cyclic = &app->cyclic;
     if (cyclic->fd) {
-        const float data_rate = (float)app->parameters.controller.can_fd_bit_rate;
-        const float bits = FD_BITS_SLOW + FD_BITS_FAST * (float)app->bus.bit_rate / data_rate;
+        const float bits = FD_BITS_SLOW + FD_BITS_FAST * (float)app->bus.bit_rate / (float)app->bus.fd_bit_rate;
         return base_hz * bits / (float)CYCLIC_FRAME_BITS;
     }
     return 2.0f * (cyclic->stiffness_every > 0u ? base_hz / (float)cyclic->stiffness_every : 0.0f) +

@@ -89,6 +89,12 @@ static void take_text(brace_app_t *app)
     }
 }
 
+/* For all parts of an answer. */
+static bool has_room(const brace_app_requests_t *requests)
+{
+    return requests->answer_count + PARTS_MOST <= (uint32_t)BRACE_APP_ANSWERS;
+}
+
 bool requests_take(brace_app_t *app)
 {
     brace_app_requests_t *requests = &app->requests;
@@ -102,7 +108,7 @@ bool requests_take(brace_app_t *app)
     }
     const bool waits = requests->waiting;
     take_text(app);
-    return waits && requests->answer_count + PARTS_MOST <= (uint32_t)BRACE_APP_ANSWERS;
+    return waits && has_room(requests);
 }
 
 static int32_t dispatch(brace_app_t *app, request_t *request)
@@ -137,10 +143,20 @@ static int32_t dispatch(brace_app_t *app, request_t *request)
     }
 }
 
+void requests_end_storing(brace_app_t *app)
+{
+    if (has_room(&app->requests)) {
+        request_storing_answer(app);
+    }
+}
+
 void requests_serve(brace_app_t *app)
 {
     brace_app_requests_t *requests = &app->requests;
     request_t request = {requests->request, requests->request[0], requests->request[1], 0};
+    if (!has_room(requests)) {
+        return; /* what a commit has come to has taken it: the next tick */
+    }
     requests->waiting = false;
     const int32_t status = requests->refuses ? (int32_t)BRACE_REFUSED_BUSY : dispatch(app, &request);
     if (status != BRACE_OK) {
@@ -153,9 +169,6 @@ void requests_send(brace_app_t *app)
     brace_app_requests_t *requests = &app->requests;
     if (app->mode != BRACE_MODE_CONFIGURATION) {
         requests->upload_open = false;
-    }
-    if (requests->storing != 0u && requests->answer_count + PARTS_MOST <= (uint32_t)BRACE_APP_ANSWERS) {
-        request_storing_answer(app);
     }
     const uint32_t most = app->bus.slcan.open ? app->report.lines : SENT_PER_TICK;
     uint32_t left = requests->answer_count < most ? requests->answer_count : most;

@@ -13,11 +13,14 @@ void requests_start(brace_app_t *app);
  * returns whether there is one, and room for its answer */
 bool requests_take(brace_app_t *app);
 
+/* While a commit or roll-back is to be answered: answers it once its end has come, before anything else may be stored.
+ * At most 60 instructions. */
+void requests_end_storing(brace_app_t *app);
+
 /* Answers the request taken. At most 1,000 instructions; in CONFIGURATION 2,200. */
 void requests_serve(brace_app_t *app);
 
-/* The answer to a commit or roll-back whose end has come, and what of the answers finds room on the bus. At
- * most 60 instructions and 60 for each of four frames. */
+/* What of the answers finds room on the bus. At most 60 instructions for each of four frames. */
 void requests_send(brace_app_t *app);
 
 #endif

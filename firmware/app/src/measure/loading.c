@@ -22,6 +22,13 @@ static bool inside(float value, float low, float high)
     return value >= low && value <= high;
 }
 
+/* Far out a float's last place is coarser than a tick's way at a slow rate: the shape would stand there for ever. */
+static bool moves_everywhere(const brace_loading_setup_t *setup, uint32_t tick_us)
+{
+    const float furthest_mm = (float)setup->steps_per_side * setup->step_mm;
+    return setup->rate_mm_per_s * 1e-6f * (float)tick_us >= BRACE_LOADING_LEAST_WAY * furthest_mm;
+}
+
 static bool setup_is_sound(const brace_loading_setup_t *setup)
 {
     return (setup->axis == BRACE_AXIS_X || setup->axis == BRACE_AXIS_Z) && setup->steps_per_side >= 2u &&
@@ -75,7 +82,7 @@ brace_status_t loading_start(brace_app_t *app, const brace_loading_setup_t *setu
     brace_loading_t *test = &app->loading;
     const brace_snapshot_t *now = brace_app_snapshot(app);
     float per_mm[2];
-    if (!setup_is_sound(setup)) {
+    if (!setup_is_sound(setup) || !moves_everywhere(setup, app->tick_us)) {
         return BRACE_E_RANGE;
     }
     if (!now->k_is_valid || !levers_allow(app, setup->axis, per_mm)) {

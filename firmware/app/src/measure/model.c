@@ -2,6 +2,7 @@
 
 #define LEAST_FACTOR 1e-3f           /* no temperature makes a spring push the wrong way */
 #define NEWTON_STEPS 2
+#define DEFLECTION_MOST_RAD 8.0f     /* no spring is wound further than a joint turns */
 
 void model_configure_collapse(brace_app_model_t *model, const brace_parameters_t *parameters)
 {
@@ -51,6 +52,9 @@ static float yielding(brace_app_model_t *model, int index, float load_n_mm, floa
         const float cubic = hardening * deflection * deflection;
         slope = stiffness + 3.0f * cubic;
         deflection = (load_n_mm + 2.0f * cubic * deflection) / slope;
+    }
+    if (!(__builtin_fabsf(deflection) <= DEFLECTION_MOST_RAD)) { /* from there the steps stay finite, whatever the spring */
+        deflection = load_n_mm < 0.0f ? -DEFLECTION_MOST_RAD : DEFLECTION_MOST_RAD;
     }
     model->deflection_rad[index] = deflection;
     return 1.0f / (stiffness + 3.0f * hardening * deflection * deflection);

@@ -32,13 +32,19 @@ static void grip_is_unknown(brace_answered_t *answered)
     answered->asked_contact = UINT32_MAX;
 }
 
-void command_ask_nothing(brace_app_t *app)
+/* Of the first so many: those that ask for K, or all. */
+static void ask_nothing(brace_app_t *app, uint32_t count)
 {
     const float nan = __builtin_nanf("");
-    for (uint32_t i = 0; i < BRACE_APP_ASKED; i++) {
+    for (uint32_t i = 0; i < count; i++) { /* at most BRACE_APP_ASKED */
         memcpy(&app->modbus.asked[i], &nan, 4);
     }
     app->modbus.asked[COMMAND_ASKED_KNEE - COMMAND_ASKED_THETA1] = UINT32_MAX;
+}
+
+void command_ask_nothing(brace_app_t *app)
+{
+    ask_nothing(app, BRACE_APP_ASKED);
     k_is_unknown(&app->modbus.answered);
     force_is_unknown(&app->modbus.answered);
     sag_is_unknown(&app->modbus.answered);
@@ -190,6 +196,9 @@ modbus_exception_t command_ask(brace_app_t *app, uint32_t index, uint32_t count,
     }
     const modbus_exception_t why = ask(app, index, asked);
     if (why == MODBUS_FINE) {
+        if (index <= COMMAND_ASKED_KNEE) { /* K at a posture and at a tip are answered in the same place: one question stands */
+            ask_nothing(app, COMMAND_ASKED_KNEE - COMMAND_ASKED_THETA1 + 1u);
+        }
         memcpy(&app->modbus.asked[index - COMMAND_ASKED_THETA1], asked, 4u * count);
     }
     return why;

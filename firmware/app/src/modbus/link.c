@@ -5,7 +5,7 @@ void link_rest(brace_app_modbus_link_t *link)
     link->phase = LINK_LISTEN;
     link->count = link->sent = link->checked = 0;
     link->drop = false;
-    link->work = (brace_app_modbus_work_t){0};
+    link->work.begun = false;
 }
 
 void link_send(brace_app_t *app, brace_app_modbus_link_t *link, brace_serial_port_t port, uint32_t now_us)

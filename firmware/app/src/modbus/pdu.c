@@ -59,12 +59,12 @@ uint32_t modbus_pdu_work(brace_app_t *app, brace_app_modbus_work_t *work, uint8_
     uint32_t answer = 0;
     modbus_exception_t why = MODBUS_E_FUNCTION;
     if (pdu[0] != MODBUS_WRITE_ONE) {
-        app->modbus.half_known = false;
+        work->half_known = false;
     }
     switch (pdu[0]) {
     case MODBUS_READ_HOLDING:
     case MODBUS_READ_INPUT: why = modbus_read(app, pdu, length, now_us, &answer); break;
-    case MODBUS_WRITE_ONE: why = modbus_write_one(app, pdu, length, &answer); break;
+    case MODBUS_WRITE_ONE: why = modbus_write_one(app, work, pdu, length, &answer); break;
     case MODBUS_WRITE_BLOCK: why = modbus_write_block(app, work, pdu, length, &answer); break;
     case MODBUS_DIAGNOSE: why = diagnose(&app->modbus, pdu, length, &answer); break;
     case MODBUS_SERVER_ID: why = modbus_server_id(pdu, length, &answer); break;

@@ -17,9 +17,9 @@ static modbus_exception_t refusal_of(brace_status_t status)
     }
 }
 
-modbus_exception_t modbus_write_one(brace_app_t *app, uint8_t *pdu, uint32_t length, uint32_t *answer)
+modbus_exception_t modbus_write_one(brace_app_t *app, brace_app_modbus_work_t *work, uint8_t *pdu, uint32_t length,
+                                    uint32_t *answer)
 {
-    brace_app_modbus_t *modbus = &app->modbus;
     registers_block_t block;
     if (length != 5u) {
         return MODBUS_E_VALUE;
@@ -29,21 +29,21 @@ modbus_exception_t modbus_write_one(brace_app_t *app, uint8_t *pdu, uint32_t len
         return MODBUS_E_ADDRESS;
     }
     if (block.area == REGISTERS_PARAMETERS && staging_open(app) != BRACE_OK) {
-        modbus->half_known = false;
+        work->half_known = false;
         return refusal_of(staging_open(app));
     }
     *answer = 5;
-    const bool follows = modbus->half_known && start == modbus->half_place + 1u;
-    modbus->half_known = (start & 1u) == 0u;
-    if (modbus->half_known) {
-        modbus->half_place = (uint16_t)start;
-        modbus->half = (uint16_t)value;
+    const bool follows = work->half_known && start == work->half_place + 1u;
+    work->half_known = (start & 1u) == 0u;
+    if (work->half_known) {
+        work->half_place = (uint16_t)start;
+        work->half = (uint16_t)value;
         return MODBUS_FINE;
     }
     if (!follows) {
         return MODBUS_E_VALUE;
     }
-    const uint32_t whole = (uint32_t)modbus->half << 16 | value, index = block.start / 2u;
+    const uint32_t whole = (uint32_t)work->half << 16 | value, index = block.start / 2u;
     return block.area == REGISTERS_PARAMETERS ? refusal_of(staging_write(app, index, whole)) : command_run(app, index, whole);
 }
 

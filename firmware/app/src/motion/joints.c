@@ -53,7 +53,7 @@ static void watch_encoder(brace_app_joint_t *joint, const brace_drive_t *drive, 
     joint->torque_low_n_mm = lower(joint->torque_low_n_mm, joint->torque_n_mm);
     joint->torque_high_n_mm = higher(joint->torque_high_n_mm, joint->torque_n_mm);
     const float link_rad = joint->sample.link_rad;
-    if (link_rad == link_rad) { /* there is an encoder behind the gearbox */
+    if (__builtin_fabsf(link_rad) <= ANGLE_ABSURD_RAD) { /* there is an encoder behind the gearbox */
         joint->link_low_rad = lower(joint->link_low_rad, link_rad);
         joint->link_high_rad = higher(joint->link_high_rad, link_rad);
     }
@@ -97,7 +97,8 @@ static void read_one(brace_app_t *app, int index, uint32_t now_us)
     }
     /* once too old it stays unseen, or the clock's wrap would make it young again */
     const int32_t age_us = (int32_t)(now_us - joint->sample.taken_us);
-    joint->seen = joint->seen && age_us <= (int32_t)app->parameters.controller.age_limit_us;
+    const int32_t limit_us = (int32_t)app->parameters.controller.age_limit_us;
+    joint->seen = joint->seen && age_us <= limit_us && age_us >= -limit_us; /* nor is one from the future young */
     joint->sound = joint->seen;
     joint->proves = joint->seen && age_us <= (int32_t)(PROVING_TICKS * app->tick_us);
 }

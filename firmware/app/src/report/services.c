@@ -16,7 +16,7 @@
  * seldom comes together: K costs most with one gap open, which is not where both joints' watching does. */
 enum {
     ROOM = 3940,
-    REST = 1510,       /* what every tick does: listening, samples, faults, drives, watchdog */
+    REST = 1530,       /* what every tick does: listening, samples, faults, drives, watchdog */
     MOVES = 200,       /* take-up, loading test */
     K_COLLAPSED = 700, K_GENERAL = 1100, K_ADVANCES = 40 /* beyond MOVES */, ADVANCES = 220 /* by itself */,
     K_PIECE = 435,     /* the dearest */
@@ -24,11 +24,11 @@ enum {
     SAYS_ANNOUNCES = 400, SAYS_BEGINS = 490, SAYS_GOES_ON = 250, SAYS_MORE = 130 /* each further frame */,
     HEARD = 560, TEXT = 110 /* a line of SLCAN read; written */
 };
-static const uint16_t play_costs[] = {0, 560, 1030}, k_play_costs[] = {0, 165, 80}; /* joints that are watched */
+static const uint16_t play_costs[] = {0, 560, 1030}, k_play_costs[] = {0, 230, 80}; /* joints that are watched */
 
 void services_start(brace_app_t *app)
 {
-    app->report = (brace_app_report_t){0};
+    app->report = (brace_app_report_t){.beat_us = app->last_us};
     bus_start(app);
     requests_start(app);
     cyclic_configure(app);
@@ -122,21 +122,21 @@ static uint32_t blindly(brace_app_t *app, bool for_modbus)
 }
 
 /* Whole, or pieces, or not: then others have the tick. They have no two of them in a row, and K comes within
- * K_WAITS_MOST. */
+ * K_WAITS_MOST, or the tick after. */
 static uint32_t beside_k(brace_app_t *app)
 {
     brace_app_report_t *report = &app->report;
     const bool tests = app->mode == BRACE_MODE_LOADING_TEST, moves = tests || app->mode == BRACE_MODE_TAKING_UP;
     const uint32_t plays = (uint32_t)app->play[0].watched + app->play[1].watched;
     const uint32_t k = (app->model.collapsed ? K_COLLAPSED : K_GENERAL) + k_play_costs[plays] + (tests ? K_ADVANCES : 0u);
-    if (app->k.waits >= (uint8_t)K_WAITS_MOST) {
+    if (app->k.waits >= (uint8_t)K_WAITS_MOST && !app->k.blind) {
         return blindly(app, false);
     }
     uint32_t used = tick_costs(app, plays, moves);
     const bool is_on_its_way = app->k.done > 0u || app->k.advances || report->left_out > 0u; /* then K goes first */
     const uint32_t most = ROOM - (is_on_its_way ? (uint32_t)K_PIECE : 0u);
     used += choose_modbus(app, used < most ? most - used : 0u, k);
-    if (app->modbus.waited >= (uint32_t)MODBUS_LONGEST_TICKS && modbus_costs(app) > 0u) {
+    if (app->modbus.waited >= (uint32_t)MODBUS_LONGEST_TICKS && !app->k.blind && modbus_costs(app) > 0u) {
         return blindly(app, true);
     }
     const uint32_t saying = saying_costs(app);
@@ -149,14 +149,15 @@ static uint32_t beside_k(brace_app_t *app)
     return whole ? (uint32_t)SERVICES_K_WHOLE : pieces_within(app, room);
 }
 
-/* A set of parameters goes on beside every answer; to Modbus and to text it yields, but not twice. */
+/* A set of parameters goes on beside every answer; to Modbus, to text and to what is to be said it yields, but not twice
+ * in a row. */
 static uint32_t in_configuration(brace_app_t *app, bool works)
 {
     brace_app_report_t *report = &app->report;
     const bool serves = app->requests.serves;
     const bool waits = app->bus.slcan.heard || (works && (serves || report->left_out > 0u));
     (void)choose_modbus(app, waits ? 0u : ROOM, 0);
-    report->speaks = wants_to_say(app) && may_say(app) && !(works && serves);
+    report->speaks = wants_to_say(app) && may_say(app) && !(works && (serves || report->left_out > 0u));
     const bool text = app->bus.slcan.heard || (app->bus.slcan.open && report->speaks);
     return works && (app->modbus.serves || text) && report->left_out == 0u ? 0u : (uint32_t)SERVICES_K_WHOLE;
 }
@@ -170,9 +171,11 @@ static uint32_t beside_test(brace_app_t *app, services_room_t room)
     app->modbus.polls = app->modbus.serves = false;
     report->speaks = !serves && wants_to_say(app) && may_say(app);
     if (room == SERVICES_BESIDE_MUCH && serves && answer_costs(app) > (uint32_t)ANSWER_K_GENERAL) {
-        app->requests.refuses = report->left_out >= TEST_WAITS_MOST;
+        app->requests.refuses = report->test_waits >= TEST_WAITS_MOST;
+        report->test_waits = (uint8_t)(app->requests.refuses ? 0u : report->test_waits + 1u);
         return app->requests.refuses ? (uint32_t)SERVICES_K_WHOLE : 0u;
     }
+    report->test_waits = 0;
     return serves && room == SERVICES_BESIDE_A_READING ? (uint32_t)SERVICES_BLIND : (uint32_t)SERVICES_K_WHOLE;
 }
 
@@ -197,6 +200,9 @@ uint32_t services_listen(brace_app_t *app, services_room_t room)
 void services_run(brace_app_t *app)
 {
     bus_watch(app);
+    if (app->requests.storing != 0u) {
+        requests_end_storing(app);
+    }
     if (app->requests.serves) {
         requests_serve(app);
     }

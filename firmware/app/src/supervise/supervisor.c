@@ -29,10 +29,7 @@ void supervisor_faults(brace_app_t *app, bool late)
                            (app->joint[0].stuck || app->joint[1].stuck ? (uint32_t)BRACE_FAULT_ENCODER_STUCK : 0u) |
                            (late ? (uint32_t)BRACE_FAULT_TICK_LATE : 0u) |
                            (app->bus.bus_off ? (uint32_t)BRACE_FAULT_CAN_BUS_OFF : 0u);
-    if (app->mode == BRACE_MODE_START) { /* nothing has been seen yet: no fault */
-        return;
-    }
-    app->faults |= cause;
+    app->faults |= app->mode == BRACE_MODE_START ? 0u : cause; /* there nothing has been seen yet: no new fault */
     for (uint32_t left = app->faults & COMING_AND_GOING; left != 0u; left &= left - 1u) { /* at most a round for each fault */
         with_hysteresis(app, cause, (uint32_t)__builtin_ctz(left));
     }
@@ -70,7 +67,7 @@ void supervisor_mode(brace_app_t *app)
     switch (app->mode) {
     case BRACE_MODE_START:
         app->start_us += app->tick_us;
-        if (sound) {
+        if (sound && !no_k) { /* START after CONFIGURATION may have brought a fault along */
             app->mode = BRACE_MODE_MONITOR;
         } else if (app->start_us >= OVER_US) {
             app->mode = BRACE_MODE_FAULT; /* the next tick names the joints */
