@@ -17,14 +17,14 @@ typedef struct {
 
 /* Collapses all of a limb but its joints' springs and its base's rotation; to be called when parameters change.
  * limb: one that brace_limb_check accepts. general, limb: not null.
- * Cost on a Cortex-M4F: at most 420 instructions; 110 bytes of stack. */
+ * Cost on a Cortex-M4F: at most 420 instructions; 80 bytes of stack. */
 void brace_general_collapse(const brace_limb_t *limb, brace_general_t *general);
 
 /* K at a posture, with the flags and statuses of brace_chain_stiffness.
  * Accuracy: as there while det C is above 1e-3 of the squared half trace, ten times less down to where it is flagged.
  *   hip_rad_per_n_mm: the femur joint's compliance and the base's rotation; knee_rad_per_n_mm: the tibia joint's; >= 0
  *   general, stiffness: not null (not checked: this is the tick)
- * Cost on a Cortex-M4F: at most 380 instructions; 100 bytes of stack. */
+ * Cost on a Cortex-M4F: at most 380 instructions; 64 bytes of stack. */
 brace_status_t brace_general_stiffness(const brace_general_t *general, float theta1_rad, float theta2_rad,
                                        float hip_rad_per_n_mm, float knee_rad_per_n_mm, brace_stiffness_t *stiffness);
 

@@ -71,7 +71,8 @@ brace_status_t brace_check_lengths(const brace_limb_t *limb)
     if (limb == NULL) {
         return BRACE_E_NULL;
     }
-    return limb->coxa_mm >= 0.0f && limb->coxa_mm <= LONGEST_MM && is_length(limb->femur_mm) && is_length(limb->tibia_mm)
+    return brace_magnitude_bits(limb->coxa_mm) <= brace_magnitude_bits(LONGEST_MM) && !(limb->coxa_mm < 0.0f) &&
+                   is_length(limb->femur_mm) && is_length(limb->tibia_mm)
                ? BRACE_OK
                : BRACE_E_PARAMETER;
 }

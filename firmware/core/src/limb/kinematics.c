@@ -82,12 +82,12 @@ brace_status_t brace_kinematics_inverse_polar(const brace_limb_t *limb, brace_po
     const float across = square > 0.0f ? 2.0f * brace_sqrt(square) : 0.0f; /* beyond the edge is on it */
     const float along = perimeter * beyond_deficit - to_straight * beyond_surplus;
     float flexion_rad = brace_atan2(across, open - bent);
-    float femur_from_tip_rad = brace_atan2(across, along);
+    uint32_t ahead_of_tip = brace_turn(brace_atan2(across, along));
     if (knee == BRACE_KNEE_DOWN) {
         flexion_rad = -flexion_rad;
-        femur_from_tip_rad = -femur_from_tip_rad;
+        ahead_of_tip = 0u - ahead_of_tip;
     }
-    *theta1_rad = brace_turn_angle(brace_turn(tip.phi_rad) + brace_turn(femur_from_tip_rad));
+    *theta1_rad = brace_turn_angle(brace_turn(tip.phi_rad) + ahead_of_tip);
     *theta2_rad = flexion_rad;
     return BRACE_OK;
 }

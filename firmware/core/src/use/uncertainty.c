@@ -152,7 +152,7 @@ static brace_status_t estimate(const brace_limb_t *limb, float theta1_rad, float
     find_vectors(limb, theta_rad, stiffness, x, &vectors);
     const brace_link_t *femur = &limb->link[BRACE_FEMUR];
     const brace_link_t *tibia = &limb->link[BRACE_TIBIA];
-    const float *fields = (const float *)limb + PLACE(FIRST);
+    const float *fields = (const float *)limb + PLACE(FIRST) - WEIGHT_COUNT;
     const float bend = -1.5f * femur->moment_transfer_ratio * femur->bending_mm_per_n / limb->femur_mm;
     const float weights[WEIGHT_COUNT] = {
         [BEND_PER_MOMENT] = bend,
@@ -179,8 +179,7 @@ static brace_status_t estimate(const brace_limb_t *limb, float theta1_rad, float
     for (const term_t *term = terms; term < terms + sizeof terms / sizeof *terms; term++) {
         const brace_vec_t u = vectors.at[term->u];
         const brace_vec_t v = vectors.at[term->v];
-        const unsigned place = term->weight;
-        const float weight = place < WEIGHT_COUNT ? weights[place] : fields[place - WEIGHT_COUNT];
+        const float weight = (term->weight < WEIGHT_COUNT ? weights : fields)[term->weight];
         stiff += weight * u.x * v.x;
         cross += weight * (u.x * v.z + u.z * v.x);
         soft += weight * u.z * v.z;
