@@ -43,3 +43,18 @@ def test_a_soft_drive_is_named(brace: Callable[..., Outcome], tmp_path: Path, en
         assert size["high"] < 1.1 * size["low"]
         # the interval holds 90 %: its half is 1.6 sigma, and 5 sigma no run of this test ever sees
         assert abs(size["value"] - TRUE_RAD_PER_N_MM) < 5.0 / 1.64 * 0.5 * (size["high"] - size["low"])
+
+
+def test_a_sound_limb_is_sound_at_a_posture_that_is_repeated(brace: Callable[..., Outcome], tmp_path: Path) -> None:
+    """Motors that go to the same angles again are off by the same rounding again: that is no effect of the limb's."""
+    believed, record, found = tmp_path / "believed.toml", tmp_path / "record", tmp_path / "found"
+    believed.write_text(LIMB)
+    with limb_on_tcp(believed, "--speed", 8) as url:
+        for _ in range(2):
+            outcome = brace("record", "--bus", url, "--loading-test", "--add", "--out", record)
+            assert outcome.code == 0, outcome.err
+    outcome = brace("diagnose", record, "--model", believed, "--out", found)
+    assert outcome.code == 0, outcome.err
+    said = json.loads((found / "diagnosis.json").read_text())
+    assert said["verdict"] == "none", said["sentence"]
+    assert not said["unexplained"]["structured"]
