@@ -9,6 +9,7 @@ import socket
 import subprocess
 import threading
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from conftest import PRINT_K, Answer
@@ -167,6 +168,34 @@ def test_a_serial_device_that_says_nothing(probe: Probe, kind: str) -> None:
     finally:
         os.close(ours)
         os.close(theirs)
+
+
+SHIM = """
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <stdio.h>
+typedef void *(*new_rtu_t)(const char *, int, char, int, int);
+void *modbus_new_rtu(const char *device, int baud, char parity, int data_bits, int stop_bits)
+{
+    const new_rtu_t real = (new_rtu_t)dlsym(RTLD_NEXT, __func__);
+    fprintf(stderr, "line %d %d%c%d\\n", baud, data_bits, parity, stop_bits);
+    return real(device, baud, parity, data_bits, stop_bits);
+}
+"""
+
+
+def test_modbus_on_a_serial_line_has_the_controller_s_parity(
+    probe: Probe, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """8E1 (docs/modbus.md). Pseudo-terminals, which the other tests run on, have no parity: there it would not show."""
+    (tmp_path / "shim.c").write_text(SHIM)
+    subprocess.run(["cc", "-shared", "-fPIC", "-o", tmp_path / "shim.so", tmp_path / "shim.c", "-ldl"], check=True)
+    monkeypatch.setenv("LD_PRELOAD", str(tmp_path / "shim.so"))
+    assert "line 19200 8E1" in probe("modbus:/dev/tty-none@19200", "identity").err
+    ours, theirs = pty.openpty()
+    assert "line 115200 8N1" in probe(f"modbus:{os.ttyname(theirs)}", "identity", timeout_ms=300).err
+    os.close(ours)
+    os.close(theirs)
 
 
 @pytest.mark.parametrize("kind", ["modbus-tcp", "tcp"])

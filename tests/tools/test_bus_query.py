@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import pty
@@ -16,9 +17,11 @@ import numpy as np
 import pytest
 from bus_bench import adapter, limb_on_tcp, obliging, timed, told_in_time
 from conftest import LIMB, PROJECT, Outcome, physics_k
+from test_sim_command import FREE, running
 
+from brace.bus.modbus_controller import ModbusController
 from brace.bus.url import parse
-from brace.errors import UsageError
+from brace.errors import NoDeviceError, UsageError
 from brace.wire.frames import ANSWERS, DICTIONARY_HASH, MESSAGES
 
 STEP_N_PER_MM = 0.0005
@@ -169,6 +172,37 @@ def test_what_is_no_adapter(limb: Path) -> None:
     finally:
         os.close(ours)
         os.close(theirs)
+
+
+def test_the_other_protocol_s_port(limb: Path) -> None:
+    with running(limb, *FREE) as (_, ready):
+        can, modbus = (ready["limbs"][0][name] for name in ("can", "modbus_tcp"))
+        said = told_in_time(4, "query", "--bus", modbus.replace("modbus-tcp://", "tcp://"))
+        assert "a Modbus port is modbus-tcp://" in said
+        said = told_in_time(4, "query", "--bus", can.replace("tcp://", "modbus-tcp://"))
+        assert "an SLCAN port is tcp://" in said
+
+
+def test_modbus_on_a_serial_line_has_the_controller_s_parity(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """8E1 (docs/modbus.md). Pseudo-terminals, which the other tests run on, have no parity: there it would not show."""
+    asked: list[tuple[str, dict[str, object]]] = []
+
+    class Nobody:
+        def __init__(self, place: str, **how: object) -> None:
+            asked.append((place, how))
+
+        def connect(self) -> bool:
+            return False
+
+    monkeypatch.setattr("pymodbus.client.ModbusSerialClient", Nobody)
+    monkeypatch.setattr("brace.bus.lines.SerialLine", lambda _url: io.BytesIO())
+    _, theirs = pty.openpty()
+    (tmp_path / "link").symlink_to(os.ttyname(theirs))
+    for place, parity in (("/dev/ttyUSB7", "E"), (os.ttyname(theirs), "N"), (str(tmp_path / "link"), "N")):
+        with pytest.raises(NoDeviceError):
+            ModbusController(parse(f"modbus:{place}@19200/1"))
+        assert asked[-1][0] == place and asked[-1][1]["parity"] == parity and asked[-1][1]["baudrate"] == 19200
+        assert {"bytesize", "stopbits"}.isdisjoint(asked[-1][1])  # 8 and 1 unless told
 
 
 def test_a_silent_bus(limb: Path) -> None:

@@ -95,6 +95,17 @@ static void test_bounds_are_inclusive_and_sharp(void)
     }
 }
 
+/* Zero has a sign, and a field that may be zero takes it with either. */
+static void test_minus_zero_is_zero(void)
+{
+    limb.link[BRACE_COXA].moment_transfer_ratio = -0.0f;
+    limb.coxa_mm = -0.0f;
+    limb.base.x_mm_per_n = -0.0f;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_limb_check(&limb));
+    limb.femur_mm = -0.0f;
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_limb_check(&limb));
+}
+
 static void all_rigid(void)
 {
     memset(limb.link, 0, sizeof limb.link);
@@ -121,6 +132,14 @@ static void test_knee_spring_and_tibia_bending_are_one_direction(void)
     limb.link[BRACE_TIBIA].bending_mm_per_n = 0.1f;
     TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_limb_check(&limb));
     limb.link[BRACE_TIBIA].tilt_rad = 0.1f;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_limb_check(&limb));
+    limb.link[BRACE_TIBIA].tilt_rad = -0.1f;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_limb_check(&limb));
+    limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = 0.0f; /* tilted, but alone */
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_limb_check(&limb));
+    limb.link[BRACE_FEMUR].moment_transfer_ratio = 1.0f; /* of a femur that does not bend */
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_limb_check(&limb));
+    limb.base.z_mm_per_n = 1e-38f;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_limb_check(&limb));
 }
 
@@ -158,6 +177,7 @@ int main(void)
     RUN_TEST(test_every_field_must_be_finite);
     RUN_TEST(test_every_field_has_an_upper_bound);
     RUN_TEST(test_bounds_are_inclusive_and_sharp);
+    RUN_TEST(test_minus_zero_is_zero);
     RUN_TEST(test_something_must_yield_in_each_direction);
     RUN_TEST(test_knee_spring_and_tibia_bending_are_one_direction);
     RUN_TEST(test_a_bending_femur_that_passes_moments_yields_in_two_directions);

@@ -1,9 +1,9 @@
 /* What the kinematics refuse, and that a refusal leaves its outputs alone. */
 #define brace_atan2 brace_atan2_itself
-#define brace_direction brace_direction_itself
+#define brace_unit brace_unit_itself
 #include "base/trig.c" /* for brace_turn */
 #undef brace_atan2
-#undef brace_direction
+#undef brace_unit
 
 #include "brace/kinematics.h"
 #include "proof.h"
@@ -12,15 +12,16 @@
 float brace_atan2(float y, float x)
 {
     const float angle = any_float();
+    (void)x;
     ASSUME(angle >= -3.1415928f && angle <= 3.1415928f);
-    ASSUME(!(y >= 0.0f && x >= 0.0f) || (angle >= 0.0f && angle <= 1.5707965f));
+    ASSUME(!(y >= 0.0f) || angle >= 0.0f);
     return angle;
 }
 
-brace_vec_t brace_direction(uint32_t turn)
+float _Complex brace_unit(uint32_t turn)
 {
     (void)turn;
-    return (brace_vec_t){any_float(), any_float()};
+    return __builtin_complex(any_float(), any_float());
 }
 
 static uint32_t bits(float value)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import struct
 import time
 from collections.abc import Mapping, Sequence
@@ -330,7 +331,9 @@ def _connected(url: BusUrl) -> Any:
         from brace.bus.lines import SerialLine
 
         SerialLine(url).close()
-        client = ModbusSerialClient(url.place, baudrate=url.baud, timeout=ANSWER_S, retries=RETRIES)
+        client = ModbusSerialClient(
+            url.place, baudrate=url.baud, parity=parity_of(url.place), timeout=ANSWER_S, retries=RETRIES
+        )
     if not client.connect():
         raise NoDeviceError(
             "no connection", where=url.text, why="it was there a moment ago", next_step="try again"
@@ -338,17 +341,23 @@ def _connected(url: BusUrl) -> Any:
     return client
 
 
+def parity_of(place: str) -> str:
+    """Even, as Modbus RTU and so the controller has it; a pseudo-terminal has none and refuses any."""
+    return "N" if os.path.realpath(place).startswith("/dev/pts/") else "E"
+
+
 def _no_answer(url: BusUrl, error: Exception) -> NoDeviceError:
     if url.kind == "modbus-tcp":
-        way = "the unit behind /: brace sim prints its own; modbus-tcp://HOST:PORT/UNIT"
+        cause = "another unit, or no Modbus at that port"
+        way = "modbus-tcp://HOST:PORT/UNIT; brace sim prints its own; an SLCAN port is tcp://HOST:PORT"
     else:
+        cause = "another unit, another baud rate, or nobody"
         way = (
             "modbus:DEVICE@BAUD/UNIT: controller.modbus_baud and controller.modbus_address of the controller"
         )
     return NoDeviceError(
         f"unit {url.unit} does not answer",
         where=url.text,
-        why=f"no answer within {ANSWER_S * (RETRIES + 1):.1f} s: another unit, another "
-        f"baud rate, or nobody ({type(error).__name__})",
+        why=f"no answer within {ANSWER_S * (RETRIES + 1):.1f} s: {cause} ({type(error).__name__})",
         next_step=way,
     )

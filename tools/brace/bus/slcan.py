@@ -57,8 +57,10 @@ class SlcanBus:
         self._rest = b""
         self._frames: deque[Frame] = deque()
         self._answers: deque[bytes] = deque()
+        self._opened = False
         try:
             self._open(bit_rate)
+            self._opened = True
         except BaseException:
             line.close()
             raise
@@ -182,7 +184,9 @@ class SlcanBus:
             "the connection is lost",
             where=self.url,
             why=error.strerror or str(error) or "the other end has closed it",
-            next_step="check that the adapter (or brace sim) still runs, and try again",
+            next_step="check that the adapter (or brace sim) still runs, and try again"
+            if self._opened
+            else "check that SLCAN is spoken there; a Modbus port is modbus-tcp://HOST:PORT",
         )
 
 

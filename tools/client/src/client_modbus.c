@@ -13,6 +13,7 @@ bool brace_modbus_is_url(const char *url)
 #ifdef BRACE_WITH_MODBUS
 
 #include <errno.h>
+#include <limits.h>
 #include <math.h>
 #include <modbus.h>
 
@@ -56,6 +57,13 @@ static brace_client_status_t no_url(brace_client_t *client)
                              client->url);
 }
 
+/* Even, as Modbus RTU and so the controller has it; a pseudo-terminal has none and refuses any. */
+static char parity_of(const char *device)
+{
+    char path[PATH_MAX];
+    return realpath(device, path) != NULL && strncmp(path, "/dev/pts/", 9) == 0 ? 'N' : 'E';
+}
+
 static brace_client_status_t make(brace_client_t *client, modbus_t **made)
 {
     char text[sizeof client->url];
@@ -77,7 +85,7 @@ static brace_client_status_t make(brace_client_t *client, modbus_t **made)
     }
     client->unit = (uint32_t)unit;
     if (!is_tcp) {
-        *made = modbus_new_rtu(text, (int)baud, 'N', 8, 1);
+        *made = modbus_new_rtu(text, (int)baud, parity_of(text), 8, 1);
     } else {
         char *port = strrchr(text, ':');
         char *host = text;

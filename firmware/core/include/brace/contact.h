@@ -44,7 +44,7 @@ typedef struct {
 /* Displacement of the tip under a force on it: d = C f. Sag under a payload of weight W: f = (0, -W).
  *   stiffness: K at the posture; load [+-1e6 N]
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE (a load outside its range; eigenvalues
- *   that are not positive and in order)
+ *   that are not positive and in order; any number of K beyond 1e12 N/mm)
  * accuracy: 5e-6 |f| / lambda_min, for the K of any of the core's planar paths.
  * cost: at most 160 instructions on a Cortex-M4F; stack at most 100 bytes. */
 brace_status_t brace_contact_sag(const brace_stiffness_t *stiffness, brace_force_t load,
@@ -53,7 +53,7 @@ brace_status_t brace_contact_sag(const brace_stiffness_t *stiffness, brace_force
 /* Force on the tip that holds it at a displacement: f = K d, with the bounds of the paper's eq. 2.
  *   stiffness: K at the posture; displacement [+-1e4 mm]
  * returns as brace_contact_sag
- * accuracy: 5e-6 lambda_max |d|; low <= magnitude <= high up to rounding (3e-7), by construction.
+ * accuracy: 5e-6 lambda_max |d|; low <= magnitude <= high, for the magnitude is limited to what K can give at all.
  * cost: at most 180 instructions; stack at most 120 bytes. */
 brace_status_t brace_contact_force(const brace_stiffness_t *stiffness, brace_displacement_t displacement,
                                    brace_contact_force_t *contact);

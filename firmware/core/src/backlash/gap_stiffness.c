@@ -74,12 +74,9 @@ brace_status_t brace_gap_stiffness(const brace_stiffness_t *engaged, const brace
     if (pose == NULL || result == NULL) {
         return BRACE_E_NULL;
     }
-    brace_status_t status = brace_check_stiffness(engaged);
+    brace_status_t status = brace_check(pose, &pose->lever_femur.x_mm, BRACE_INPUT_POINT);
     if (status == BRACE_OK) {
-        status = brace_check_two(pose->lever_femur.x_mm, pose->lever_femur.z_mm, LENGTH_LIMIT_MM);
-    }
-    if (status == BRACE_OK) {
-        status = brace_check_two(pose->lever_tibia.x_mm, pose->lever_tibia.z_mm, LENGTH_LIMIT_MM);
+        status = brace_check_stiffness(engaged, pose, &pose->lever_tibia.x_mm, BRACE_INPUT_POINT);
     }
     if (status == BRACE_OK && (open & ~(uint32_t)(BRACE_GAP_FEMUR | BRACE_GAP_TIBIA)) != 0u) {
         status = BRACE_E_RANGE;

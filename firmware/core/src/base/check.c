@@ -1,31 +1,68 @@
 #include "base/check.h"
 
-#include <float.h>
+#include <stdbool.h>
 #include <stddef.h>
 
-#include "brace/kinematics.h"
 #include "base/off_tick.h"
-
-#define LENGTH_LIMIT_MM 1e4f
+#include "brace/kinematics.h"
 
 /* Softer than any limb in range, and its inverse and its square still far from the ends of the format. */
 #define SMALLEST_STIFFNESS_N_PER_MM 1e-12f
+#define LARGEST_STIFFNESS_N_PER_MM (1.0f / SMALLEST_STIFFNESS_N_PER_MM)
 
-/* Comparisons with NaN are false, so NaN falls through to the last line. */
-BRACE_OFF_TICK
-brace_status_t brace_check_magnitude(float value, float limit)
+#define LONGEST_MM 1e4f
+
+/* What brace_input_t counts in; runs overlap where their limits are the same. */
+static const float limit[] = {
+    LARGEST_STIFFNESS_N_PER_MM, LARGEST_STIFFNESS_N_PER_MM, LARGEST_STIFFNESS_N_PER_MM, LARGEST_STIFFNESS_N_PER_MM,
+    LARGEST_STIFFNESS_N_PER_MM, BRACE_ANGLE_LIMIT_RAD,      BRACE_ANGLE_LIMIT_RAD,      2e6f,
+    BRACE_ANGLE_LIMIT_RAD,      1e4f,                       1e4f,                       1e6f,
+    1e6f,                       10.0f,                      10.0f,                      10.0f,
+};
+
+/* Of a magnitude that is beyond its limit. */
+static inline brace_status_t beyond(uint32_t magnitude)
 {
-    const float magnitude = __builtin_fabsf(value);
-    if (magnitude <= limit) {
-        return BRACE_OK;
+    return magnitude < BRACE_INFINITE_BITS ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
+}
+
+/* Not off the tick: questions to the controller pass here. */
+brace_status_t brace_check(const void *given, const float *value, brace_input_t what)
+{
+    if (given == NULL) {
+        return BRACE_E_NULL;
     }
-    return magnitude <= FLT_MAX ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
+    const float *most = limit + (what >> 4);
+    uint32_t left = what & 0xfu;
+    do { /* at most six */
+        if (brace_magnitude_bits(*value) > brace_magnitude_bits(*most)) {
+            return beyond(brace_magnitude_bits(*value));
+        }
+        value++;
+        most++;
+    } while (--left > 0u);
+    return BRACE_OK;
 }
 
 BRACE_OFF_TICK
-brace_status_t brace_check_two(float a, float b, float limit)
+brace_status_t brace_check_two(float a, float b, float most)
 {
-    return brace_check_magnitude(__builtin_fabsf(a) <= limit ? b : a, limit);
+    const uint32_t of_a = brace_magnitude_bits(a), of_b = brace_magnitude_bits(b);
+    const uint32_t larger = of_a > of_b ? of_a : of_b;
+    return larger <= brace_magnitude_bits(most) ? BRACE_OK : beyond(larger);
+}
+
+BRACE_OFF_TICK
+brace_status_t brace_check_magnitude(float value, float most)
+{
+    return brace_check_two(value, value, most);
+}
+
+/* Not below one, nor above the most: one comparison, for what lies below wraps round to above all. */
+static bool is_length(float length)
+{
+    const uint32_t one = (uint32_t)brace_bits(1.0f), most = (uint32_t)brace_bits(LONGEST_MM);
+    return (uint32_t)brace_bits(length) - one <= most - one;
 }
 
 BRACE_OFF_TICK
@@ -34,29 +71,25 @@ brace_status_t brace_check_lengths(const brace_limb_t *limb)
     if (limb == NULL) {
         return BRACE_E_NULL;
     }
-    const float *length = (const float *)limb; /* coxa, femur, tibia come first */
-    float least = 0.0f;
-    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-        if (!(length[i] >= least && length[i] <= LENGTH_LIMIT_MM)) {
-            return BRACE_E_PARAMETER;
-        }
-        least = 1.0f;
-    }
-    return BRACE_OK;
+    return brace_magnitude_bits(limb->coxa_mm) <= brace_magnitude_bits(LONGEST_MM) && !(limb->coxa_mm < 0.0f) &&
+                   is_length(limb->femur_mm) && is_length(limb->tibia_mm)
+               ? BRACE_OK
+               : BRACE_E_PARAMETER;
 }
 
 BRACE_OFF_TICK
-brace_status_t brace_check_stiffness(const brace_stiffness_t *stiffness)
+brace_status_t brace_check_stiffness(const brace_stiffness_t *stiffness, const void *given, const float *value,
+                                     brace_input_t what)
 {
-    if (stiffness == NULL) {
-        return BRACE_E_NULL;
+    brace_status_t status = brace_check(given, value, what);
+    if (status == BRACE_OK) {
+        status = brace_check(stiffness, (const float *)stiffness, BRACE_INPUT_STIFFNESS);
     }
-    const float smaller = stiffness->lambda_min_n_per_mm;
-    const float larger = stiffness->lambda_max_n_per_mm;
-    brace_status_t status = brace_check_two(smaller, larger, 1.0f / SMALLEST_STIFFNESS_N_PER_MM);
-    if (status == BRACE_OK && (smaller < SMALLEST_STIFFNESS_N_PER_MM || smaller > larger)) {
-        status = BRACE_E_RANGE;
+    if (status == BRACE_OK) {
+        const int32_t smaller = brace_bits(stiffness->lambda_min_n_per_mm); /* below all others when negative */
+        if (smaller < brace_bits(SMALLEST_STIFFNESS_N_PER_MM) || smaller > brace_bits(stiffness->lambda_max_n_per_mm)) {
+            status = BRACE_E_RANGE;
+        }
     }
-    return status != BRACE_OK ? status
-                              : brace_check_magnitude(stiffness->stiff_axis_rad, BRACE_ANGLE_LIMIT_RAD);
+    return status;
 }

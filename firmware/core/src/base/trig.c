@@ -12,10 +12,10 @@ uint32_t brace_turn(float angle_rad)
     return brace_turn_from_q28((int32_t)(angle_rad * 0x1p28f));
 }
 
-brace_vec_t brace_direction(uint32_t turn)
+float _Complex brace_unit(uint32_t turn)
 {
     const brace_sincos_t at = brace_turn_sincos(turn);
-    return (brace_vec_t){(float)at.cos * (1.0f / BRACE_TURN_ONE), (float)at.sin * (1.0f / BRACE_TURN_ONE)};
+    return __builtin_complex((float)at.cos * (1.0f / BRACE_TURN_ONE), (float)at.sin * (1.0f / BRACE_TURN_ONE));
 }
 
 /* The angle of (|x|, |y|) from whichever of +x, the diagonal and +y is nearest, then mirrored. */

@@ -20,9 +20,14 @@ static inline float brace_turn_angle(uint32_t turn)
 }
 
 /* Unit vector {cosine, sine} of an angle given as a turn; each within 4e-8. About 40 instructions. */
-brace_vec_t brace_direction(uint32_t turn);
+float _Complex brace_unit(uint32_t turn);
+static inline brace_vec_t brace_direction(uint32_t turn)
+{
+    const float _Complex unit = brace_unit(turn);
+    return (brace_vec_t){__builtin_crealf(unit), __builtin_cimagf(unit)};
+}
 
-/* Angle of (x, y) from +x, [-pi, pi], within 3e-7 rad; 0 for the zero vector. x, y [-1e37, 1e37].
+/* Angle of (x, y) from +x, [-pi, pi] and not negative unless y is, within 3e-7 rad; 0 for the zero vector. x, y [-1e37, 1e37].
  * About 50 instructions. */
 float brace_atan2(float y, float x);
 

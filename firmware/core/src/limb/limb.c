@@ -4,78 +4,92 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/check.h"
 #include "base/off_tick.h"
 
 #define HALF_TURN_RAD_MAX 1.5707965f
 
-/* What a field may be; every field of brace_limb_t has one of these ranges. */
-enum { COXA_MM, LENGTH_MM, LINEAR, ANGULAR, RATIO, TILT, ANGLE, OFFSET, LENGTH_SIGMA };
+/* What a field may be: at most so much, and not negative but for the first two. Lengths have a least one, too. */
+enum { TILT, OFFSET, ANGLE, LENGTH_MM, LENGTH_SIGMA, LINEAR, ANGULAR, RATIO = ANGULAR };
 
-static const struct {
-    float low, high;
-} range[] = {[COXA_MM] = {0.0f, 1e4f},     [LENGTH_MM] = {1.0f, 1e4f},
-             [LINEAR] = {0.0f, 1e3f},      [ANGULAR] = {0.0f, 1.0f},
-             [RATIO] = {0.0f, 1.0f},       [TILT] = {-HALF_TURN_RAD_MAX, HALF_TURN_RAD_MAX},
-             [ANGLE] = {0.0f, 0.5f},       [OFFSET] = {-0.5f, 0.5f},
-             [LENGTH_SIGMA] = {0.0f, 100.0f}};
+static const float most[] = {[TILT] = HALF_TURN_RAD_MAX, [OFFSET] = 0.5f,  [ANGLE] = 0.5f,  [LENGTH_MM] = 1e4f,
+                             [LENGTH_SIGMA] = 100.0f,    [LINEAR] = 1e3f, [ANGULAR] = 1.0f};
 
-#define LINK_FIELDS LINEAR, LINEAR, TILT, LINEAR, ANGULAR, RATIO
-#define JOINT_FIELDS ANGULAR, ANGLE, OFFSET
+/* What of a limb decides whether its tip can yield: the lines in the plane along which it does. Tibia bending and knee joint
+ * share theirs unless the tibia's ellipsoid is tilted; a bending femur that passes moments on has a second. */
+enum { FEMUR_AXIAL = 1, FEMUR_BENDING, TIBIA_AXIAL, TIBIA_BENDING, KNEE, HIP, BASE_X, BASE_Z, TILTED, FEMUR_MOMENT, COXA_MOMENT };
+
+#define BIT(what) (1 << (what))
+#define LINES (BIT(BASE_Z + 1) - BIT(FEMUR_AXIAL))
+
+/* A field's range, and what it says when it is not zero: one of those, or nothing. */
+#define SAYS(what, range) ((range) | (what) << 3)
+#define RANGE(kind) ((kind) & 7u)
+#define SAID(kind) ((kind) >> 3)
+
+#define LINK(axial, bending, tilt, moment)                                                                            \
+    SAYS(axial, LINEAR), SAYS(bending, LINEAR), SAYS(tilt, TILT), LINEAR, ANGULAR, SAYS(moment, RATIO)
+#define JOINT(compliance) SAYS(compliance, ANGULAR), ANGLE, OFFSET
 
 /* The fields in the order of brace_limb_t. */
-static const uint8_t kind[] = {COXA_MM,      LENGTH_MM,    LENGTH_MM,    LINK_FIELDS, LINK_FIELDS,
-                               LINK_FIELDS,  JOINT_FIELDS, JOINT_FIELDS, JOINT_FIELDS, LINEAR,
-                               LINEAR,       ANGULAR,      LENGTH_SIGMA, ANGLE,       RATIO,
-                               RATIO};
+static const uint8_t kind[] = {
+    LENGTH_MM, LENGTH_MM, LENGTH_MM,
+    LINK(0, 0, 0, COXA_MOMENT),
+    LINK(FEMUR_AXIAL, FEMUR_BENDING, 0, FEMUR_MOMENT),
+    LINK(TIBIA_AXIAL, TIBIA_BENDING, TILTED, 0),
+    JOINT(0), JOINT(HIP), JOINT(KNEE),
+    SAYS(BASE_X, LINEAR), SAYS(BASE_Z, LINEAR), SAYS(HIP, ANGULAR),
+    LENGTH_SIGMA, ANGLE, RATIO, RATIO};
 
 _Static_assert(sizeof kind * sizeof(float) == sizeof(brace_limb_t), "one kind for each field of the limb");
 
-#define PLACE(name) ((uint8_t)(offsetof(brace_limb_t, name) / sizeof(float)))
-
-/* What yields along a line of its own. */
-static const uint8_t source[] = {PLACE(link[BRACE_FEMUR].axial_mm_per_n), PLACE(link[BRACE_FEMUR].bending_mm_per_n),
-                                 PLACE(link[BRACE_TIBIA].axial_mm_per_n), PLACE(link[BRACE_TIBIA].bending_mm_per_n),
-                                 PLACE(joint[BRACE_TIBIA].compliance_rad_per_n_mm), PLACE(base.x_mm_per_n),
-                                 PLACE(base.z_mm_per_n)};
-
-/* Does C have an inverse at some posture: are there two sources of compliance that do not always act along
- * the same line? Tibia bending and knee joint do, unless the tibia's ellipsoid is tilted. */
-BRACE_OFF_TICK
-static bool yields_in_two_directions(const brace_limb_t *limb)
+/* Does C have an inverse at some posture: does the tip yield along two lines? */
+static bool yields_in_two_directions(int32_t said)
 {
-    const brace_link_t *femur = &limb->link[BRACE_FEMUR], *tibia = &limb->link[BRACE_TIBIA];
-    const float *field = &limb->coxa_mm;
-    int sources = (femur->bending_mm_per_n * femur->moment_transfer_ratio > 0.0f) +
-                  (limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm + limb->base.rotation_rad_per_n_mm > 0.0f) -
-                  (limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm * tibia->bending_mm_per_n > 0.0f &&
-                   tibia->tilt_rad == 0.0f);
-    for (size_t i = 0; i < sizeof source; i++) {
-        sources += field[source[i]] > 0.0f;
+    const int32_t lines = said & LINES;
+    int32_t second = lines & (lines - 1);
+    if (lines == BIT(FEMUR_BENDING)) {
+        second = said & BIT(FEMUR_MOMENT);
     }
-    return sources >= 2;
+    if (lines == (BIT(TIBIA_BENDING) | BIT(KNEE))) {
+        second = said & BIT(TILTED);
+    }
+    return second != 0;
 }
 
 /* Moment transfer divides by the link's length; the other links have a least length anyway. */
-static bool coxa_is_long_enough(const brace_limb_t *limb)
+static bool coxa_is_long_enough(const brace_limb_t *limb, int32_t said)
 {
-    return limb->coxa_mm >= 1.0f || !(limb->link[BRACE_COXA].moment_transfer_ratio > 0.0f);
+    return (said & BIT(COXA_MOMENT)) == 0 || brace_bits(limb->coxa_mm) >= brace_bits(1.0f);
 }
 
 BRACE_OFF_TICK
 brace_status_t brace_limb_check(const brace_limb_t *limb)
 {
-    if (limb == NULL) {
-        return BRACE_E_NULL;
+    brace_status_t status = brace_check_lengths(limb);
+    if (status == BRACE_E_NULL) {
+        return status;
     }
     const float *field = &limb->coxa_mm;
-    bool inside = true;
+    int32_t said = 0;
     for (size_t i = 0; i < sizeof kind; i++) {
-        if (!(__builtin_fabsf(field[i]) <= 3.4028234e38f)) {
+        const uint32_t magnitude = brace_magnitude_bits(field[i]);
+        if (magnitude >= BRACE_INFINITE_BITS) {
             return BRACE_E_NOT_FINITE;
         }
-        inside = inside && field[i] >= range[kind[i]].low && field[i] <= range[kind[i]].high;
+        if (magnitude == 0u) {
+            continue;
+        }
+        said |= BIT(SAID(kind[i]));
+        if (magnitude > brace_magnitude_bits(most[RANGE(kind[i])]) ||
+            (brace_bits(field[i]) < 0 && RANGE(kind[i]) > OFFSET)) {
+            status = BRACE_E_PARAMETER;
+        }
     }
-    return inside && yields_in_two_directions(limb) && coxa_is_long_enough(limb) ? BRACE_OK : BRACE_E_PARAMETER;
+    if (!yields_in_two_directions(said) || !coxa_is_long_enough(limb, said)) {
+        status = BRACE_E_PARAMETER;
+    }
+    return status;
 }
 
 float brace_limb_true_angle(const brace_limb_t *limb, int index, float commanded_rad)

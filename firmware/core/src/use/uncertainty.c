@@ -1,9 +1,10 @@
 /* Everything here lives in K's principal frame, x along the stiff axis. There C and K are diagonal, so the
- * eigenvalues' shifts are dK's diagonal and the axis's turn its corner over the eigenvalues' difference; and
- * the small component of a lever along the stiff axis is computed, not left over from a subtraction.
+ * eigenvalues' shifts are dK's diagonal and the axis's turn its corner over the eigenvalues' difference. What a lever
+ * has along the stiff axis, little, is known to a few 1e-7 of the whole lever: the axis itself is not known better.
  */
 #include "brace/uncertainty.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "brace/kinematics.h"
@@ -11,36 +12,43 @@
 #include "base/off_tick.h"
 #include "base/trig.h"
 #include "base/vec.h"
+#include "chain/tensor.h"
 
 /* pi / sqrt(12): an axis that may point anywhere. */
 #define UNKNOWN_AXIS_RAD 0.906899682f
 
-#define HALF_TURN 0x80000000u
+/* The vectors that C and its derivatives are made of: a pose's, its tip replaced by the base's x, and the links' axes; */
+enum { KNEE, BASE, FEMUR_JOINT, TIBIA_JOINT, AXES, DIRECTION_COUNT = AXES + 2 };
 
-/* The vectors that C and its derivatives are made of: five, */
-enum { BASE, FEMUR, TIBIA, HIP, TIP, DIRECTION_COUNT };
+_Static_assert(offsetof(brace_pose_t, lever_femur) == FEMUR_JOINT * sizeof(brace_vec_t) &&
+                   offsetof(brace_pose_t, lever_tibia) == TIBIA_JOINT * sizeof(brace_vec_t),
+               "a pose is four vectors");
 
-/* each followed by itself turned by +90 degrees. */
+/* each followed by itself turned by -90 degrees. */
 enum {
-    BASE_X = 2 * BASE, /* unit, as the next five */
+    LEVER_THIGH = 2 * KNEE + 1,    /* the femur joint's shift for a unit turn about the knee [mm] */
+    BASE_X = 2 * BASE,             /* unit vectors */
     BASE_Z,
-    FEMUR_AXIAL = 2 * FEMUR, /* the ellipsoids' principal axes, tilt included */
+    LEVER_FEMUR = 2 * FEMUR_JOINT, /* the tip's shift for a unit turn about the femur's joint */
+    LEVER_TIBIA = 2 * TIBIA_JOINT, /* and about the knee */
+    SHANK,                         /* knee to tip */
+    FEMUR_AXIAL = 2 * AXES,        /* the ellipsoids' principal axes, tilt included; unit vectors */
     FEMUR_BENDING,
-    TIBIA_AXIAL = 2 * TIBIA,
+    TIBIA_AXIAL,
     TIBIA_BENDING,
-    THIGH = 2 * HIP, /* knee to femur joint [mm] */
-    LEVER_THIGH,     /* the femur joint's shift for a unit turn about the knee */
-    SHANK = 2 * TIP, /* knee to tip [mm] */
-    LEVER_TIBIA,     /* the tip's shift for the same */
-    LEVER_FEMUR,     /* and for a unit turn about the femur's joint */
     VECTOR_COUNT
 };
+
+typedef union {
+    brace_pose_t pose;
+    brace_vec_t at[VECTOR_COUNT];
+} vectors_t;
 
 /* The compliances that weigh them: what follows from the limb's, */
 enum {
     BEND_PER_MOMENT, /* the femur's shift and turn per moment of the tip force about the knee */
     TURN_PER_MOMENT,
-    TIBIA_SLENDERNESS, /* what shows of an ellipsoid's turning: bending - axial */
+    TIBIA_SLENDERNESS, /* what shows of an ellipsoid's turning: axial - bending */
     BASE_SLENDERNESS,
     WEIGHT_COUNT
 };
@@ -100,74 +108,57 @@ static const term_t terms[] = {
     {LEVER_FEMUR, LEVER_FEMUR, SPRING_BASE, COMPLIANCE},
 };
 
-/* Scaled by the eigenvalues: what a compliance is between the bare vectors, -dK is between these. */
-static void find_vectors(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
-                         const brace_stiffness_t *stiffness, brace_vec_t vectors[VECTOR_COUNT])
+/* As seen from K's axes and scaled by the eigenvalues: what a compliance is between the bare vectors, -dK is between
+ * these. x: the limb's, seen from the same axes. */
+static void find_vectors(const brace_limb_t *limb, const float theta_rad[2], const brace_stiffness_t *stiffness,
+                         brace_vec_t x, vectors_t *vectors)
 {
     const float lambda_stiff = stiffness->lambda_max_n_per_mm;
     const float lambda_soft = stiffness->lambda_min_n_per_mm;
-    const uint32_t axis = brace_turn(stiffness->stiff_axis_rad);
-    const uint32_t femur = brace_turn(theta1_rad) - axis;
-    const uint32_t tibia = femur - brace_turn(theta2_rad);
-    const uint32_t turn[DIRECTION_COUNT] = {
-        [BASE] = 0u - axis,
-        [FEMUR] = femur + brace_turn(limb->link[BRACE_FEMUR].tilt_rad),
-        [TIBIA] = tibia + brace_turn(limb->link[BRACE_TIBIA].tilt_rad),
-        [HIP] = femur + HALF_TURN,
-        [TIP] = tibia,
-    };
-    const float *lengths = (const float *)limb + PLACE(femur_mm); /* and tibia_mm */
-    for (int i = 0; i < DIRECTION_COUNT; i++) {
-        const float length = i < HIP ? 1.0f : lengths[i - HIP];
-        const brace_vec_t v = vec_scaled(brace_direction(turn[i]), length);
-        vectors[2 * i] = (brace_vec_t){lambda_stiff * v.x, lambda_soft * v.z};
-        vectors[2 * i + 1] = (brace_vec_t){-lambda_stiff * v.z, lambda_soft * v.x};
+    brace_kinematics_pose(limb, theta_rad[0], theta_rad[1], &vectors->pose);
+    vectors->at[BASE] = (brace_vec_t){1.0f, 0.0f};
+    uint32_t turn = brace_turn(theta_rad[0]);
+    brace_vec_t *axis = &vectors->at[AXES];
+    for (const brace_link_t *link = &limb->link[BRACE_FEMUR]; link <= &limb->link[BRACE_TIBIA]; link++) { /* at most two */
+        *axis++ = brace_direction(turn + brace_turn(link->tilt_rad));
+        turn -= brace_turn(theta_rad[1]);
     }
-    vectors[LEVER_FEMUR] = vec_minus(vectors[LEVER_TIBIA], vectors[LEVER_THIGH]);
+    for (int i = DIRECTION_COUNT - 1; i >= 0; i--) { /* backwards: each makes room for two */
+        const brace_vec_t v = brace_turned(vectors->at[i], x);
+        vectors->at[2 * i] = (brace_vec_t){lambda_stiff * v.x, lambda_soft * v.z};
+        vectors->at[2 * i + 1] = (brace_vec_t){lambda_stiff * v.z, -lambda_soft * v.x};
+    }
 }
 
 /* The figures a stiffness begins with and, behind them, that of the axis; as brace_stiffness_sigma_t. */
-enum { XX, XZ, ZZ, SOFT, STIFF, ENTRY_COUNT, CROSS = ENTRY_COUNT, FIGURE_COUNT };
+enum { XX, XZ, ZZ, SOFT, STIFF, CROSS, FIGURE_COUNT };
 
-_Static_assert(offsetof(brace_stiffness_t, stiff_axis_rad) == ENTRY_COUNT * sizeof(float) &&
-                   offsetof(brace_stiffness_sigma_t, stiff_axis_rad) == ENTRY_COUNT * sizeof(float),
-               "entries and eigenvalues first, and in one order");
+_Static_assert(offsetof(brace_stiffness_sigma_t, stiff_axis_rad) == CROSS * sizeof(float), "one order");
 
-BRACE_OFF_TICK
-brace_status_t brace_uncertainty_stiffness(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
-                                           const brace_stiffness_t *stiffness, brace_stiffness_sigma_t *sigma)
+BRACE_OFF_TICK BRACE_LOOPS_STAY
+static brace_status_t estimate(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
+                               const brace_stiffness_t *stiffness, brace_stiffness_sigma_t *sigma, bool limb_is_known)
 {
-    if (sigma == NULL) {
-        return BRACE_E_NULL;
-    }
-    const brace_status_t status = brace_limb_check(limb);
-    return status == BRACE_OK ? brace_uncertainty_known(limb, theta1_rad, theta2_rad, stiffness, sigma) : status;
-}
-
-BRACE_OFF_TICK
-brace_status_t brace_uncertainty_known(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
-                                       const brace_stiffness_t *stiffness, brace_stiffness_sigma_t *sigma)
-{
-    brace_status_t status = brace_check_two(theta1_rad, theta2_rad, BRACE_ANGLE_LIMIT_RAD);
+    const float theta_rad[] = {theta1_rad, theta2_rad};
+    brace_status_t status = limb_is_known ? BRACE_OK : brace_limb_check(limb);
     if (status == BRACE_OK) {
-        status = brace_check_stiffness(stiffness);
+        status = brace_check_stiffness(stiffness, sigma, theta_rad, BRACE_INPUT_ANGLES);
     }
     if (status != BRACE_OK) {
         return status;
     }
-    const float lambda_stiff = stiffness->lambda_max_n_per_mm;
-    const float lambda_soft = stiffness->lambda_min_n_per_mm;
-    brace_vec_t vectors[VECTOR_COUNT];
-    find_vectors(limb, theta1_rad, theta2_rad, stiffness, vectors);
+    vectors_t vectors;
+    const brace_vec_t x = brace_direction(0u - brace_turn(stiffness->stiff_axis_rad));
+    find_vectors(limb, theta_rad, stiffness, x, &vectors);
     const brace_link_t *femur = &limb->link[BRACE_FEMUR];
     const brace_link_t *tibia = &limb->link[BRACE_TIBIA];
-    const float *fields = (const float *)limb + PLACE(FIRST);
-    const float bend = 1.5f * femur->moment_transfer_ratio * femur->bending_mm_per_n / limb->femur_mm;
+    const float *fields = (const float *)limb + PLACE(FIRST) - WEIGHT_COUNT;
+    const float bend = -1.5f * femur->moment_transfer_ratio * femur->bending_mm_per_n / limb->femur_mm;
     const float weights[WEIGHT_COUNT] = {
         [BEND_PER_MOMENT] = bend,
-        [TURN_PER_MOMENT] = 2.0f * bend / limb->femur_mm,
-        [TIBIA_SLENDERNESS] = tibia->bending_mm_per_n - tibia->axial_mm_per_n,
-        [BASE_SLENDERNESS] = limb->base.z_mm_per_n - limb->base.x_mm_per_n,
+        [TURN_PER_MOMENT] = -2.0f * bend / limb->femur_mm,
+        [TIBIA_SLENDERNESS] = tibia->axial_mm_per_n - tibia->bending_mm_per_n,
+        [BASE_SLENDERNESS] = limb->base.x_mm_per_n - limb->base.z_mm_per_n,
     };
     const brace_uncertainty_t *trust = &limb->uncertainty;
     const float one_sigma[TRUST_COUNT] = {
@@ -177,36 +168,32 @@ brace_status_t brace_uncertainty_known(const brace_limb_t *limb, float theta1_ra
         [COMPLIANCE] = 0.5f * trust->compliance_rel,
     };
 
-    const float *entry = (const float *)stiffness;
     float *variance = (float *)sigma; /* until the roots are taken */
-    for (int figure = 0; figure < ENTRY_COUNT; figure++) {
-        const float by_gain = entry[figure] * trust->gain_rel; /* scales all of K alike */
-        variance[figure] = by_gain * by_gain;
+    for (int figure = 0; figure < FIGURE_COUNT; figure++) {
+        variance[figure] = 0.0f;
     }
-    variance[CROSS] = 0.0f;
-    /* the limb's x, seen from the axes */
-    const brace_vec_t x = brace_direction(0u - brace_turn(stiffness->stiff_axis_rad));
-    float stiff = 0.0f;
-    float cross = lambda_soft - lambda_stiff;
-    float soft = 0.0f;
+    /* from K's axes to the limb's, twice the angle */
+    const brace_vec_t twice = {x.x * x.x - x.z * x.z, -2.0f * x.x * x.z};
+    const float apart = stiffness->lambda_max_n_per_mm - stiffness->lambda_min_n_per_mm;
+    float stiff = 0.0f, cross = -apart, soft = 0.0f; /* half of dK's diagonal, and its corner */
     for (const term_t *term = terms; term < terms + sizeof terms / sizeof *terms; term++) {
-        const brace_vec_t u = vectors[term->u];
-        const brace_vec_t v = vectors[term->v];
-        const unsigned place = term->weight;
-        const float weight = place < WEIGHT_COUNT ? weights[place] : fields[place - WEIGHT_COUNT];
-        stiff += 2.0f * weight * u.x * v.x;
+        const brace_vec_t u = vectors.at[term->u];
+        const brace_vec_t v = vectors.at[term->v];
+        const float weight = (term->weight < WEIGHT_COUNT ? weights : fields)[term->weight];
+        stiff += weight * u.x * v.x;
         cross += weight * (u.x * v.z + u.z * v.x);
-        soft += 2.0f * weight * u.z * v.z;
+        soft += weight * u.z * v.z;
         if (term->known_to == MORE) {
             continue;
         }
-        const float shear = 2.0f * x.x * x.z * cross;
+        const float mean = stiff + soft;
+        const brace_vec_t dev = brace_turned((brace_vec_t){stiff - soft, cross}, twice);
         const float shift[FIGURE_COUNT] = {
-            [XX] = x.x * x.x * stiff + shear + x.z * x.z * soft,
-            [XZ] = x.x * x.z * (soft - stiff) + (x.x * x.x - x.z * x.z) * cross,
-            [ZZ] = x.z * x.z * stiff - shear + x.x * x.x * soft,
-            [SOFT] = soft,
-            [STIFF] = stiff,
+            [XX] = mean + dev.x,
+            [XZ] = dev.z,
+            [ZZ] = mean - dev.x,
+            [SOFT] = 2.0f * soft,
+            [STIFF] = 2.0f * stiff,
             [CROSS] = cross,
         };
         for (int figure = 0; figure < FIGURE_COUNT; figure++) {
@@ -215,16 +202,30 @@ brace_status_t brace_uncertainty_known(const brace_limb_t *limb, float theta1_ra
         }
         stiff = cross = soft = 0.0f;
     }
-    for (int figure = 0; figure < FIGURE_COUNT; figure++) {
-        variance[figure] = brace_sqrt(variance[figure]);
+    const float *entry = (const float *)stiffness;
+    for (int figure = 0; figure < CROSS; figure++) {
+        const float by_gain = entry[figure] * trust->gain_rel; /* scales all of K alike */
+        variance[figure] = brace_sqrt(variance[figure] + by_gain * by_gain);
     }
-    const float apart = lambda_stiff - lambda_soft;
     sigma->flags = stiffness->flags;
-    if (sigma->stiff_axis_rad < UNKNOWN_AXIS_RAD * apart) {
-        sigma->stiff_axis_rad /= apart;
-    } else {
+    sigma->stiff_axis_rad = brace_sqrt(variance[CROSS]) / apart;
+    if (!(sigma->stiff_axis_rad < UNKNOWN_AXIS_RAD)) {
         sigma->stiff_axis_rad = UNKNOWN_AXIS_RAD;
         sigma->flags |= BRACE_FLAG_SATURATED;
     }
     return BRACE_OK;
+}
+
+BRACE_OFF_TICK
+brace_status_t brace_uncertainty_stiffness(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
+                                           const brace_stiffness_t *stiffness, brace_stiffness_sigma_t *sigma)
+{
+    return estimate(limb, theta1_rad, theta2_rad, stiffness, sigma, false);
+}
+
+BRACE_OFF_TICK
+brace_status_t brace_uncertainty_known(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
+                                       const brace_stiffness_t *stiffness, brace_stiffness_sigma_t *sigma)
+{
+    return estimate(limb, theta1_rad, theta2_rad, stiffness, sigma, true);
 }

@@ -3,7 +3,7 @@
  *   can0                              SocketCAN
  *   slcan:/dev/ttyACM0[@baud]         SLCAN over a serial device, 115200
  *   tcp://host:port                   SLCAN over TCP
- *   modbus:/dev/ttyUSB0[@baud][/unit] Modbus RTU, 115200 baud 8N1, unit 1
+ *   modbus:/dev/ttyUSB0[@baud][/unit] Modbus RTU, 115200 baud 8E1, unit 1
  *   modbus-tcp://host:port[/unit]     Modbus TCP, unit 1
  *
  * Lengths in mm, forces in N, stiffness in N/mm, angles in rad; x outwards, z up. What is not known is NaN, never zero.
