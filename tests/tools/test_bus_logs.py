@@ -260,6 +260,10 @@ def test_a_loading_test_becomes_a_dataset(brace: Callable[..., Outcome], limb: P
         live = json.loads(brace("query", "--bus", url, "--json").out)
         refused = brace("record", "--bus", url, "--loading-test", "--step-mm", 70, "--out", tmp_path / "no")
         assert refused.code == 2 and not (tmp_path / "no").exists()
+        measured = (tmp_path / "test" / "data.csv").read_bytes()
+        refused = brace("record", "--bus", url, *given, "--out", tmp_path / "test")  # measured, and not again
+        assert refused.code == 2 and "--add" in refused.err
+        assert (tmp_path / "test" / "data.csv").read_bytes() == measured
     dataset = load_dataset(tmp_path / "test")
     dataset.require_sound()
     assert dataset["step"].tolist() == list(range(13)) and set(dataset["run"].tolist()) == {1}

@@ -137,6 +137,8 @@ def test_bad_tables_are_not_called_datasets(brace: Brace, paper_limb: Path, tmp_
         ("theta1_rad,theta2_rad\n1,3.15\n", ":2 (row 1), theta2_rad"),
         ("theta1_rad,theta2_rad\n1,\n", "an entry is empty"),
         ("theta1_rad,theta2_rad\n1,1_0\n", "is no number"),
+        ("theta1_rad,theta2_rad\n\u22121.0,1\n", "'\u22121.0' is no number"),
+        ("theta1_rad,theta2_rad\n\u22121.0,1\n", "write -1.0"),
         ("theta1_rad,theta2_rad\n1,1,1\n", "has 3 fields, the header 2"),
         ("theta1_rad;theta2_rad\n1;1\n", "not separated by commas"),
         ("theta1_rad,theta2_deg\n1,1\n", "theta2_deg"),

@@ -161,6 +161,9 @@ static void test_what_only_the_general_path_can_serve_is_refused(void)
     limb = sample_limb[SAMPLE_PAPER];
     memset(limb.link, 0, sizeof limb.link); /* springs only: singular when straight */
     refused(&limb, BRACE_E_UNSUPPORTED);
+    limb.tibia_mm = limb.femur_mm; /* the hip's alone: nothing yields when folded */
+    limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = 0.0f;
+    refused(&limb, BRACE_E_UNSUPPORTED);
     limb = sample_limb[SAMPLE_EQUAL]; /* nearly nothing yields when folded: the mean loses its digits there */
     limb.link[BRACE_FEMUR] = (brace_link_t){0.0212f, 0.045f, 0.0f, 0, 0, 1.0f};
     limb.link[BRACE_TIBIA] = (brace_link_t){1.0e-4f, 0.00135f, 0.0f, 0, 0, 0};
@@ -181,6 +184,9 @@ static void test_what_is_no_limb_is_refused(void)
     refused(&limb, BRACE_E_PARAMETER);
     limb = sample_limb[SAMPLE_PAPER];
     limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = -1e-5f;
+    refused(&limb, BRACE_E_PARAMETER);
+    limb = sample_limb[SAMPLE_PAPER];
+    limb.link[BRACE_TIBIA].bending_mm_per_n = -2.6f; /* pushes back, folded more than all else yields */
     refused(&limb, BRACE_E_PARAMETER);
     limb = sample_limb[SAMPLE_PAPER];
     limb.femur_mm = INFINITY;

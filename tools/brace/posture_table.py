@@ -13,6 +13,7 @@ import numpy as np
 
 from brace.errors import BadFileError, did_you_mean
 from brace.files import DATA_LIMIT_BYTES, read_bytes
+from brace.slips import slip
 
 WHAT = "table of postures"
 _SLACK_RAD = 1e-5
@@ -110,12 +111,12 @@ def _fields(record: bytes, quoted: bool) -> list[str]:
     return next(csv.reader([text], skipinitialspace=True), [""]) if quoted and '"' in text else text.split(",")
 
 
-def _readable(name: str) -> str:
-    """A column's name as UTF-8 if it is that."""
+def _readable(field: str) -> str:
+    """A field as UTF-8 if it is that."""
     try:
-        return name.encode("latin-1").decode()
+        return field.encode("latin-1").decode()
     except UnicodeDecodeError:
-        return name
+        return field
 
 
 def _check_names(names: Sequence[str], path: Path) -> None:
@@ -175,16 +176,16 @@ def _angles(table: PostureTable, texts: list[str], name: str, limit_rad: float) 
     bad = ~(np.abs(values) <= limit_rad + _SLACK_RAD)
     if bad.any():
         row = int(np.argmax(bad))
-        shown, finite = texts[row].strip(), math.isfinite(values[row])
+        shown, finite = _readable(texts[row]).strip(), math.isfinite(values[row])
+        why, meant = slip(shown)
+        way = f"write {meant}; so throughout" if meant else "write a number with a decimal point, or delete the row"
         raise BadFileError(
             (f"{name} = {shown[:40]!r} cannot be" if finite else f"{shown[:40]!r} is no number")
             if shown
             else "an entry is empty",
             where=f"{table.place(row)}, {name}",
-            why=f"{name} is the commanded {_MEANING[name]} in rad, within +-{limit_rad:.6g}",
-            next_step=f"{math.radians(values[row]):.6g} if the column is in degrees"
-            if finite
-            else "write a number with a decimal point, or delete the row",
+            why=why or f"{name} is the commanded {_MEANING[name]} in rad, within +-{limit_rad:.6g}",
+            next_step=f"{math.radians(values[row]):.6g} if the column is in degrees" if finite else way,
         )
     return values
 

@@ -11,6 +11,8 @@ from typing import Any
 from brace.cli import common
 from brace.cli.bus_options import bus_url, session, undone_by_signal
 
+_FILES = ("meta.toml", "data.csv")
+
 
 def record_loading(arguments: argparse.Namespace) -> int:
     """Runs, fetches, writes."""
@@ -19,6 +21,7 @@ def record_loading(arguments: argparse.Namespace) -> int:
     from brace.bus.loading_test import Plan, fetch, run
     from brace.dataset.write import write_dataset
     from brace.errors import UsageError
+    from brace.files import check_folder
 
     if arguments.out.suffix in (".log", ".mcap"):
         raise UsageError(
@@ -27,6 +30,9 @@ def record_loading(arguments: argparse.Namespace) -> int:
             why="it has meta.toml and data.csv",
             next_step="--out DIR",
         )
+    check_folder(arguments.out, _FILES)  # before anything moves
+    if not arguments.add:
+        _refuse_record(arguments.out)
     axes = "xz" if arguments.axis == "both" else arguments.axis
     before = _record_before(arguments.out) if arguments.add and arguments.out.exists() else None
     started: list[float] = []
@@ -80,6 +86,20 @@ def _length_mm(device: Any, link: str) -> float:
 
     key = f"geometry.{link}_mm"
     return float(value_of(key, device.read_entry(key)))
+
+
+def _refuse_record(folder: Path) -> None:
+    """What was measured is added to, never replaced."""
+    from brace.errors import UsageError
+
+    for name in _FILES:
+        if (folder / name).exists():
+            raise UsageError(
+                "the output would replace a record that is there",
+                where=str(folder / name),
+                why="a test may not come out the same again",
+                next_step="--add makes this one its next configuration or repeat; or choose another --out",
+            )
 
 
 def _record_before(folder: Path) -> Any:

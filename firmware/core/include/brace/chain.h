@@ -36,6 +36,28 @@ typedef struct {
     brace_vec_t base;  /* part of v that does not turn */
 } brace_element_t;
 
+/* Femur ellipsoid, femur moment transfer, tibia ellipsoid, joints 1 and 2: the limb's elements without base part. */
+enum { BRACE_CHAIN_FIRM = 5 };
+
+/* One of them. Seen from the bisector of femur and tibia it is v = straight cos h + folded sin h with h = theta2/2:
+ * halved, the same place holds what is left of it at the straight and at the folded knee. */
+typedef union {
+    struct {
+        brace_vec_t femur, tibia;
+    };
+    struct {
+        brace_vec_t straight, folded;
+    };
+    brace_vec_t part[2];
+} brace_swing_t;
+
+/* The coxa link, which lies along x, its moment being that of the tip force about the hip: its ellipsoid's excess,
+ * and of its moment transfer the bending that goes with it and what each mm of the tip's lever adds to that. */
+typedef struct {
+    brace_vec_t excess, bent; /* [sqrt(mm/N)] */
+    float bent_per_mm;
+} brace_coxa_t;
+
 typedef struct {
     float iso_mm_per_n; /* compliance shared by every direction */
     uint32_t count;     /* elements in use, [0, BRACE_CHAIN_MAX] */
@@ -62,7 +84,7 @@ brace_status_t brace_chain_compliance(const brace_chain_t *chain, float theta1_r
  * rad times lambda_max / (lambda_max - lambda_min), unless flagged.
  * flags: BRACE_FLAG_NEAR_SINGULAR when C is so slender (det C < 2e-5 of the squared half trace) that this is not
  * promised.
- * Cost on a Cortex-M4F: at most 650 instructions for six elements, 65 an element; 150 bytes of stack. The tick has
+ * Cost on a Cortex-M4F: at most 530 instructions for six elements, 45 an element; 112 bytes of stack. The tick has
  * brace/general.h.
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE, BRACE_E_SINGULAR (det C is zero). */
 brace_status_t brace_chain_stiffness(const brace_chain_t *chain, float theta1_rad, float theta2_rad,

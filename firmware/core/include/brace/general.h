@@ -1,8 +1,8 @@
 /* K of any planar limb at the tick, its joints' springs as they are at the moment.
  *
- * What is firm, ellipsoids and moment transfer, is a few harmonics of the knee angle (brace/chain.h), worked out
- * when parameters change. Each tick adds what is not: both joints' springs, and a base that yields more in one
- * direction, as C + v v' each, whose determinant is a sum of positive terms.
+ * When parameters change the limb becomes five elements (brace/chain.h), halved, and what the base yields. Each
+ * tick starts from the base and adds the elements one by one, both joints' springs among them, as C + v v' each,
+ * whose determinant is a sum of positive terms.
  */
 #ifndef BRACE_GENERAL_H
 #define BRACE_GENERAL_H
@@ -11,21 +11,20 @@
 
 /* Written by brace_general_collapse; nothing in it is for others. */
 typedef struct {
-    brace_harmonics_t firm; /* ellipsoids, the femur's moment transfer */
-    float femur_mm, tibia_mm;
-    brace_vec_t base;       /* where it yields more in one direction [sqrt(mm/N)] */
+    float mean_mm_per_n, dev_mm_per_n, det; /* of the base and of what yields equally in every direction */
+    brace_swing_t element[BRACE_CHAIN_FIRM]; /* halved; both joints as springs of 1 rad/(N mm) */
 } brace_general_t;
 
 /* Collapses all of a limb but its joints' springs and its base's rotation; to be called when parameters change.
  * limb: one that brace_limb_check accepts. general, limb: not null.
- * Cost on a Cortex-M4F: at most 1,400 instructions; 220 bytes of stack. */
+ * Cost on a Cortex-M4F: at most 420 instructions; 80 bytes of stack. */
 void brace_general_collapse(const brace_limb_t *limb, brace_general_t *general);
 
 /* K at a posture, with the flags and statuses of brace_chain_stiffness.
  * Accuracy: as there while det C is above 1e-3 of the squared half trace, ten times less down to where it is flagged.
  *   hip_rad_per_n_mm: the femur joint's compliance and the base's rotation; knee_rad_per_n_mm: the tibia joint's; >= 0
  *   general, stiffness: not null (not checked: this is the tick)
- * Cost on a Cortex-M4F: at most 390 instructions; 170 bytes of stack. */
+ * Cost on a Cortex-M4F: at most 380 instructions; 64 bytes of stack. */
 brace_status_t brace_general_stiffness(const brace_general_t *general, float theta1_rad, float theta2_rad,
                                        float hip_rad_per_n_mm, float knee_rad_per_n_mm, brace_stiffness_t *stiffness);
 

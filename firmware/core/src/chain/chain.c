@@ -1,15 +1,11 @@
 #include "brace/chain.h"
 
-#include <stdbool.h>
+#include <float.h>
 
 #include "chain/chain_list.h"
 #include "base/off_tick.h"
+#include "base/trig.h"
 #include "base/vec.h"
-
-/* sin(tilt/2) = tilt (1/2 + w (SIN_3 + w (SIN_5 + w SIN_7))) with w = tilt^2, within 2e-9 for a quarter turn. */
-#define SIN_3 (-2.08333127e-2f)
-#define SIN_5 2.60373686e-4f
-#define SIN_7 (-1.52292930e-6f)
 
 /* Root of the bending that goes with moment transfer: 0.75 kappa of it. */
 static inline float moment_root(const brace_link_t *link)
@@ -22,41 +18,32 @@ static inline float moment_root(const brace_link_t *link)
 BRACE_OFF_TICK static float bend(const brace_link_t *link, brace_vec_t *excess, brace_vec_t *with_moment)
 {
     const float root = with_moment->x;
-    const float tilt = link->tilt_rad, w = tilt * tilt;
-    const float half_sin =
-        tilt * __builtin_fmaf(w, __builtin_fmaf(w, __builtin_fmaf(w, SIN_7, SIN_5), SIN_3), 0.5f);
-    const float half_cos = __builtin_sqrtf(__builtin_fmaf(-half_sin, half_sin, 1.0f));
-    const float sin = 2.0f * half_sin * half_cos, cos = 1.0f - 2.0f * half_sin * half_sin;
-    const float axial = link->axial_mm_per_n, bending = link->bending_mm_per_n - root * root, more = bending - axial;
-    const float length = __builtin_sqrtf(__builtin_fabsf(more));
-    *with_moment = (brace_vec_t){-sin * root, cos * root};
-    if (more > 0.0f) {
-        *excess = (brace_vec_t){-sin * length, cos * length};
-        return axial;
-    }
-    *excess = (brace_vec_t){cos * length, sin * length};
-    return bending;
+    const brace_vec_t along = brace_direction(brace_turn(link->tilt_rad)), across = vec_quarter(along);
+    const float axial = link->axial_mm_per_n, bending = __builtin_fmaf(-root, root, link->bending_mm_per_n);
+    const float more = bending - axial, length = __builtin_sqrtf(__builtin_fabsf(more));
+    *with_moment = vec_scaled(across, root);
+    *excess = vec_scaled(more > 0.0f ? across : along, length);
+    return more > 0.0f ? axial : bending;
 }
 
 /* A loop, because a call of the C library's memset would be longer. */
 #if defined(__GNUC__) && !defined(__clang__)
 __attribute__((optimize("no-tree-loop-distribute-patterns")))
 #endif
-BRACE_OFF_TICK static void clear(brace_element_t *element, const brace_element_t *end)
+BRACE_OFF_TICK static void clear(float *field, const float *end)
 {
-    for (float *field = &element->femur.x; field < &end->femur.x; field++) { /* at most five elements */
-        *field = 0.0f;
+    while (field < end) { /* at most twenty */
+        *field++ = 0.0f;
     }
 }
 
-BRACE_OFF_TICK float brace_chain_firm(const brace_limb_t *limb, brace_element_t element[BRACE_CHAIN_FIRM])
+BRACE_OFF_TICK float brace_chain_firm(const brace_limb_t *limb, float hip_rad_per_n_mm, float knee_rad_per_n_mm,
+                                      brace_swing_t element[BRACE_CHAIN_FIRM])
 {
     const brace_link_t *femur = &limb->link[BRACE_FEMUR];
     const float femur_mm = limb->femur_mm, tibia_mm = limb->tibia_mm;
-    const float hip = __builtin_sqrtf(limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm +
-                                      limb->base.rotation_rad_per_n_mm);
-    const float knee = __builtin_sqrtf(limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm);
-    clear(element, element + BRACE_CHAIN_FIRM);
+    const float hip = __builtin_sqrtf(hip_rad_per_n_mm), knee = __builtin_sqrtf(knee_rad_per_n_mm);
+    clear(&element->femur.x, &element[BRACE_CHAIN_FIRM].femur.x);
     element[3].femur.z = hip * femur_mm;
     element[3].tibia.z = hip * tibia_mm;
     element[4].tibia.z = knee * tibia_mm;
@@ -69,68 +56,26 @@ BRACE_OFF_TICK float brace_chain_firm(const brace_limb_t *limb, brace_element_t 
            bend(femur + 1, &element[2].tibia, &element[4].femur);
 }
 
-BRACE_OFF_TICK float brace_chain_coxa(const brace_limb_t *limb, brace_element_t element[2])
+BRACE_OFF_TICK void brace_chain_halve(brace_swing_t *element, const brace_swing_t *end)
+{
+    for (brace_swing_t *e = element; e < end; e++) { /* at most BRACE_CHAIN_FIRM */
+        const brace_vec_t f = e->femur, t = e->tibia;
+        e->straight = (brace_vec_t){f.x + t.x, f.z + t.z};
+        e->folded = (brace_vec_t){t.z - f.z, f.x - t.x}; /* f - t, a quarter turned */
+    }
+}
+
+BRACE_OFF_TICK float brace_chain_coxa(const brace_limb_t *limb, brace_coxa_t *coxa)
 {
     const brace_link_t *link = &limb->link[BRACE_COXA];
-    clear(element, element + 2);
-    const float root = moment_root(link);
-    if (root > 0.0f) {
-        const float lever = 2.0f * root / limb->coxa_mm;
-        element[1].femur.z = lever * limb->femur_mm;
-        element[1].tibia.z = lever * limb->tibia_mm;
-    }
-    element[1].base.x = root;
-    return bend(link, &element[0].base, &element[1].base);
+    coxa->bent.x = moment_root(link);
+    coxa->bent_per_mm = 2.0f * coxa->bent.x / (limb->coxa_mm + FLT_MIN); /* a coxa of no length passes nothing on */
+    return bend(link, &coxa->excess, &coxa->bent);
 }
 
-BRACE_OFF_TICK float brace_chain_base(const brace_limb_t *limb, brace_element_t *element)
+BRACE_OFF_TICK float brace_chain_base(const brace_limb_t *limb, brace_vec_t *excess)
 {
-    const float x = limb->base.x_mm_per_n, z = limb->base.z_mm_per_n;
-    clear(element, element + 1);
-    element->base.x = x > z ? __builtin_sqrtf(x - z) : 0.0f;
-    element->base.z = z > x ? __builtin_sqrtf(z - x) : 0.0f;
+    const float x = limb->base.x_mm_per_n, z = limb->base.z_mm_per_n, root = __builtin_sqrtf(__builtin_fabsf(x - z));
+    *excess = x > z ? (brace_vec_t){root, 0.0f} : (brace_vec_t){0.0f, root};
     return x > z ? z : x;
-}
-
-BRACE_OFF_TICK static bool yields(const brace_element_t *element)
-{
-    return vec_dot(element->femur, element->femur) + vec_dot(element->tibia, element->tibia) +
-               vec_dot(element->base, element->base) > 0.0f;
-}
-
-BRACE_OFF_TICK float brace_chain_list(const brace_limb_t *limb, int with_coxa, brace_element_t *element, uint32_t *count)
-{
-    uint32_t used = BRACE_CHAIN_FIRM, kept = 0;
-    float iso = brace_chain_firm(limb, element);
-    if (with_coxa) {
-        iso += brace_chain_coxa(limb, &element[used]);
-        used += 2;
-    }
-    iso += brace_chain_base(limb, &element[used++]);
-    for (uint32_t i = 0; i < used; i++) { /* at most the elements named above */
-        if (yields(&element[i])) {
-            element[kept++] = element[i];
-        }
-    }
-    *count = kept;
-    return iso;
-}
-
-BRACE_OFF_TICK static brace_status_t build(const brace_limb_t *limb, int with_coxa, brace_chain_t *chain)
-{
-    const brace_status_t status = chain == NULL ? BRACE_E_NULL : brace_limb_check(limb);
-    if (status == BRACE_OK) {
-        chain->iso_mm_per_n = brace_chain_list(limb, with_coxa, chain->element, &chain->count);
-    }
-    return status;
-}
-
-BRACE_OFF_TICK brace_status_t brace_chain_build(const brace_limb_t *limb, brace_chain_t *chain)
-{
-    return build(limb, false, chain);
-}
-
-BRACE_OFF_TICK brace_status_t brace_chain_build_with_coxa(const brace_limb_t *limb, brace_chain_t *chain)
-{
-    return build(limb, true, chain);
 }

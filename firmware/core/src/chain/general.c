@@ -11,12 +11,12 @@
 
 BRACE_OFF_TICK void brace_general_collapse(const brace_limb_t *limb, brace_general_t *general)
 {
-    brace_element_t element[BRACE_CHAIN_FIRM], base;
-    const float iso = brace_chain_base(limb, &base) + brace_chain_firm(limb, element);
-    brace_harmonics_list(iso, element, BRACE_CHAIN_FIRM - 2, &general->firm); /* without the springs */
-    general->femur_mm = limb->femur_mm;
-    general->tibia_mm = limb->tibia_mm;
-    general->base = base.base;
+    const float iso = brace_chain_firm(limb, 1.0f, 1.0f, general->element) + FLT_MIN;
+    const float x = iso + limb->base.x_mm_per_n, z = iso + limb->base.z_mm_per_n;
+    brace_chain_halve(general->element, general->element + BRACE_CHAIN_FIRM);
+    general->mean_mm_per_n = 0.5f * (x + z);
+    general->dev_mm_per_n = 0.5f * (x - z);
+    general->det = x * z;
 }
 
 brace_status_t brace_general_stiffness(const brace_general_t *general, float theta1_rad, float theta2_rad,
@@ -26,16 +26,16 @@ brace_status_t brace_general_stiffness(const brace_general_t *general, float the
     if (status != BRACE_OK) {
         return status;
     }
-    brace_posture_t at;
-    brace_posture(theta1_rad, theta2_rad, &at);
-    const float femur_mm = general->femur_mm, tibia_mm = general->tibia_mm;
-    const brace_vec_t hip_lever = {(tibia_mm - femur_mm) * at.half.z, (tibia_mm + femur_mm) * at.half.x};
-    const brace_vec_t knee_lever = {tibia_mm * at.half.z, tibia_mm * at.half.x};
-    brace_tensor_t c = brace_harmonics_at(&general->firm, at.half);
-    c = brace_tensor_plus(c, vec_scaled(hip_lever, brace_sqrt(hip_rad_per_n_mm)));
-    c = brace_tensor_plus(c, vec_scaled(knee_lever, brace_sqrt(knee_rad_per_n_mm)));
-    if (general->base.x + general->base.z > 0.0f) {
-        c = brace_tensor_plus(c, brace_seen_from(general->base, at.bisector));
+    const float hip = brace_sqrt(hip_rad_per_n_mm), knee = brace_sqrt(knee_rad_per_n_mm);
+    const float root[BRACE_CHAIN_FIRM] = {1.0f, 1.0f, 1.0f, hip, knee};
+    const uint32_t knee_turn = brace_turn(theta2_rad), femur_turn = brace_turn(theta1_rad);
+    const brace_vec_t to_world = brace_direction(2u * femur_turn - knee_turn);
+    /* Of half the knee, or half a turn beyond: that changes every element's sign and no square. */
+    const brace_vec_t half = brace_direction(knee_turn / 2u);
+    const float mean = general->mean_mm_per_n, dev = general->dev_mm_per_n * to_world.x;
+    brace_tensor_t c = {mean + dev, -general->dev_mm_per_n * to_world.z, mean - dev, general->det};
+    for (int i = 0; i < BRACE_CHAIN_FIRM; i++) {
+        c = brace_tensor_plus(c, brace_swing_at(&general->element[i], vec_scaled(half, root[i])));
     }
-    return brace_tensor_inverse(brace_tensor_to_world(c, at.bisector), stiffness);
+    return brace_tensor_inverse(c, to_world, stiffness);
 }

@@ -1,39 +1,25 @@
 #include "brace/chain.h"
 
-#include <float.h>
+#include <stddef.h>
 
 #include "chain/chain_list.h"
 #include "base/off_tick.h"
 #include "base/vec.h"
 
-/* With h = theta2/2, v = femur e^ih + tibia e^-ih = straight cos h + folded sin h: what is left of an element at the
- * straight and at the folded knee, put in the places of its femur and its tibia part. */
-#define STRAIGHT femur
-#define FOLDED tibia
-
-static void halve(brace_element_t *element, const brace_element_t *end)
-{
-    for (brace_element_t *e = element; e < end; e++) {
-        const brace_vec_t f = e->femur, t = e->tibia;
-        e->STRAIGHT = (brace_vec_t){f.x + t.x, f.z + t.z};
-        e->FOLDED = (brace_vec_t){t.z - f.z, f.x - t.x}; /* f - t, a quarter turned */
-    }
-}
-
 /* Half the trace and deviator of sum v v': of folded folded', straight straight' and straight folded' in turn, which
  * come with sin^2 h, cos^2 h and sin theta2. */
-static void sum_squares(const brace_element_t *element, const brace_element_t *end, brace_harmonic_t *harmonic)
+static void sum_squares(const brace_swing_t *element, const brace_swing_t *end, brace_harmonic_t *harmonic)
 {
     float *to = &harmonic->at_fold;
     for (int term = 0; term < 3; term++) {
+        const int first = term == 0, second = term != 1;
         float xx = 0.0f, xz = 0.0f, zz = 0.0f;
-        for (const brace_element_t *e = element; e < end; e++) {
-            const brace_vec_t *a = term == 0 ? &e->FOLDED : &e->STRAIGHT;
-            const brace_vec_t *b = term == 1 ? &e->STRAIGHT : &e->FOLDED;
-            xx = __builtin_fmaf(a->x, b->x, xx);
-            zz = __builtin_fmaf(a->z, b->z, zz);
-            xz = __builtin_fmaf(a->x, b->z, xz);
-            xz = __builtin_fmaf(a->z, b->x, xz);
+        for (const brace_swing_t *e = element; e < end; e++) {
+            const brace_vec_t a = e->part[first], b = e->part[second];
+            xx = __builtin_fmaf(a.x, b.x, xx);
+            zz = __builtin_fmaf(a.z, b.z, zz);
+            xz = __builtin_fmaf(a.x, b.z, xz);
+            xz = __builtin_fmaf(a.z, b.x, xz);
         }
         to[term] = 0.5f * (xx + zz);
         to[term + 3] = 0.5f * (xx - zz);
@@ -44,22 +30,24 @@ static void sum_squares(const brace_element_t *element, const brace_element_t *e
     }
 }
 
-/* Sums over all pairs of elements of what their crosses are along and across a direction of (1 + cos, sin). */
+/* Sums over all pairs of elements of what their crosses are along and across a direction of (1 + cos, sin)/2. */
 typedef struct {
     float aa, ab, bb, rb, rr, ra;
 } crosses_t;
 
-/* Each cross is k + a n.u + b s.u with u = (1 + cos, sin), n = s turned clockwise; r = c b - k. */
-static crosses_t sum_crosses(const brace_element_t *element, const brace_element_t *end, brace_vec_t s, float c)
+/* Next to nothing [(mm/N)^2]: it keeps the quotients of sums finite where there is nothing to sum. */
+#define NEARLY_NOTHING 1e-30f
+
+/* With u = (1 + cos, sin)/2 each cross is k + a n.u + b s.u, n = s turned clockwise; r = c b - k. */
+static crosses_t sum_crosses(const brace_swing_t *element, const brace_swing_t *end, brace_vec_t s, float c)
 {
-    crosses_t sum = {0};
-    for (const brace_element_t *e = element; e < end; e++) {
-        for (const brace_element_t *o = element; o < e; o++) {
-            const brace_vec_t p = o->STRAIGHT, q = o->FOLDED, ep = e->STRAIGHT, eq = e->FOLDED;
+    crosses_t sum = {.bb = NEARLY_NOTHING};
+    for (const brace_swing_t *e = element; e < end; e++) {
+        for (const brace_swing_t *o = element; o < e; o++) {
+            const brace_vec_t p = o->straight, q = o->folded, ep = e->straight, eq = e->folded;
             /* In this order of factors what must vanish does so exactly. */
             const float minus_fold = vec_cross(eq, q);
-            const brace_vec_t slope = {0.5f * (vec_cross(p, ep) + minus_fold),
-                                       0.5f * (vec_cross(p, eq) - vec_cross(ep, q))};
+            const brace_vec_t slope = {vec_cross(p, ep) + minus_fold, vec_cross(p, eq) - vec_cross(ep, q)};
             const float a = vec_cross(slope, s), b = vec_dot(slope, s);
             const float r = __builtin_fmaf(c, b, minus_fold);
             sum.aa = __builtin_fmaf(a, a, sum.aa);
@@ -74,23 +62,24 @@ static crosses_t sum_crosses(const brace_element_t *element, const brace_element
 }
 
 /* The squares of all crosses gather into one square of c + s.u and a remainder that is linear in u because
- * |u|^2 = 2 (1 + cos):
- *     sum cross^2 = (B (c + s.u))^2 + mu (c^2 + 2 c s.u + 2 (1 + cos)) + sum r^2 - 2 (sum r a) n.u
- * with s the direction in which the sum varies most, c = sum k b / sum b^2, mu = sum a^2, B^2 = sum b^2 - mu.
+ * |u|^2 = (1 + cos)/2:
+ *     sum cross^2 = (B (c + s.u))^2 + sum a^2 (c^2 + 2 c s.u + (1 + cos)/2) + sum r^2 - 2 (sum r a) n.u
+ * with s, of length one, the direction in which the sum varies most, c = sum k b / sum b^2, B^2 = sum b^2 - sum a^2.
  * Only squares are added, each pass along the s and c that the one before has found: the sums as differences of
  * larger ones would lose the digits that matter. */
 enum { PASSES = 4 };
 
-static void gather_crosses(const brace_element_t *element, const brace_element_t *end, brace_harmonics_t *harmonics)
+static void gather_crosses(const brace_swing_t *element, const brace_swing_t *end, brace_harmonics_t *harmonics)
 {
     brace_vec_t s = {0.0f, 1.0f};
-    float c = 0.0f;
+    float c = 0.0f, amplitude;
     crosses_t sum;
     for (int pass = 1;; pass++) {
         sum = sum_crosses(element, end, s, c);
         const float half = 0.5f * (sum.bb - sum.aa);
         const float radius = __builtin_sqrtf(__builtin_fmaf(half, half, sum.ab * sum.ab));
-        if (pass == PASSES || !(radius > 0.0f)) {
+        if (pass == PASSES) {
+            amplitude = __builtin_sqrtf(__builtin_fabsf(half) + radius);
             break;
         }
         if (half < 0.0f) {
@@ -101,32 +90,31 @@ static void gather_crosses(const brace_element_t *element, const brace_element_t
             c -= sum.rb / sum.bb;
         }
     }
+    /* The length of s has grown, and with it a and b. */
     const float square = vec_dot(s, s), c_a = c * sum.aa;
-    const float amplitude = __builtin_sqrtf(sum.bb > sum.aa ? sum.bb - sum.aa : 0.0f);
-    const brace_vec_t per_b = vec_scaled(s, amplitude / square);
+    const brace_vec_t per_b = vec_scaled(s, 0.5f * amplitude / square);
     harmonics->cross = (brace_harmonic_t){c * amplitude, per_b.x, per_b.z};
-    harmonics->rest = (brace_harmonic_t){sum.rr + c * c_a, 2.0f * (sum.aa + c_a * s.x - sum.ra * s.z) / square,
-                                         2.0f * (c_a * s.z + sum.ra * s.x) / square};
+    harmonics->rest = (brace_harmonic_t){sum.rr + c * c_a, (0.5f * sum.aa + c_a * s.x - sum.ra * s.z) / square,
+                                         (c_a * s.z + sum.ra * s.x) / square};
 }
 
-BRACE_OFF_TICK void brace_harmonics_sum(brace_element_t *element, const brace_element_t *end,
+BRACE_OFF_TICK void brace_harmonics_sum(brace_swing_t *element, const brace_swing_t *end,
                                         brace_harmonics_t *harmonics)
 {
-    halve(element, end);
+    brace_chain_halve(element, end);
     sum_squares(element, end, &harmonics->mean);
     gather_crosses(element, end, harmonics);
 }
 
-BRACE_OFF_TICK void brace_harmonics_list(float iso, brace_element_t *element, uint32_t count,
-                                         brace_harmonics_t *harmonics)
+/* det (A + iso I) = det A + iso trace A + iso^2 */
+static inline void add_iso(brace_harmonics_t *harmonics, float iso_mm_per_n)
 {
-    brace_harmonics_sum(element, element + count, harmonics);
-    const float twice = 2.0f * iso;
-    harmonics->rest.at_fold += iso * iso + twice * harmonics->mean.at_fold;
+    const float twice = 2.0f * iso_mm_per_n;
+    harmonics->rest.at_fold += iso_mm_per_n * iso_mm_per_n + twice * harmonics->mean.at_fold;
     harmonics->rest.per_cos += twice * harmonics->mean.per_cos;
     harmonics->rest.per_sin += twice * harmonics->mean.per_sin;
-    harmonics->mean.at_fold += iso + FLT_MIN; /* never quite nothing: brace_tensor_plus divides by it */
-    harmonics->iso_mm_per_n = iso;
+    harmonics->mean.at_fold += iso_mm_per_n;
+    harmonics->iso_mm_per_n = iso_mm_per_n;
 }
 
 BRACE_OFF_TICK brace_status_t brace_harmonics(const brace_chain_t *chain, brace_harmonics_t *harmonics)
@@ -137,13 +125,14 @@ BRACE_OFF_TICK brace_status_t brace_harmonics(const brace_chain_t *chain, brace_
     if (chain->count > BRACE_CHAIN_FIRM) {
         return BRACE_E_UNSUPPORTED;
     }
-    brace_element_t element[BRACE_CHAIN_FIRM];
+    brace_swing_t element[BRACE_CHAIN_FIRM];
     for (uint32_t i = 0; i < chain->count; i++) {
         if (vec_dot(chain->element[i].base, chain->element[i].base) > 0.0f) {
             return BRACE_E_UNSUPPORTED;
         }
-        element[i] = chain->element[i];
+        element[i] = (brace_swing_t){.femur = chain->element[i].femur, .tibia = chain->element[i].tibia};
     }
-    brace_harmonics_list(chain->iso_mm_per_n, element, chain->count, harmonics);
+    brace_harmonics_sum(element, element + chain->count, harmonics);
+    add_iso(harmonics, chain->iso_mm_per_n);
     return BRACE_OK;
 }

@@ -14,10 +14,10 @@ static inline brace_vec_t element_at(const brace_element_t *element, const brace
                          __builtin_fmaf(straight.z, at->half.x, folded.z * at->half.z) + still.z};
 }
 
-/* C at a posture; result is whoever asks's output, not null. */
+/* C seen from the bisector at a posture; result is whoever asks's output, not null. */
 BRACE_OFF_TICK
 static brace_status_t tensor_at(const brace_chain_t *chain, float theta1_rad, float theta2_rad, const void *result,
-                                brace_tensor_t *c)
+                                brace_tensor_t *c, brace_posture_t *at)
 {
     if (chain == NULL || result == NULL) {
         return BRACE_E_NULL;
@@ -26,14 +26,13 @@ static brace_status_t tensor_at(const brace_chain_t *chain, float theta1_rad, fl
     if (status != BRACE_OK) {
         return status;
     }
-    brace_posture_t at;
-    brace_posture(theta1_rad, theta2_rad, &at);
+    brace_posture(theta1_rad, theta2_rad, at);
     const float iso = chain->iso_mm_per_n;
     brace_tensor_t sum = {iso + FLT_MIN, 0.0f, iso + FLT_MIN, iso * iso};
     for (const brace_element_t *e = chain->element; e < chain->element + chain->count; e++) {
-        sum = brace_tensor_plus(sum, element_at(e, &at));
+        sum = brace_tensor_plus(sum, element_at(e, at));
     }
-    *c = brace_tensor_to_world(sum, at.bisector);
+    *c = sum;
     return BRACE_OK;
 }
 
@@ -42,9 +41,11 @@ brace_status_t brace_chain_compliance(const brace_chain_t *chain, float theta1_r
                                       brace_compliance_t *compliance, float *det)
 {
     brace_tensor_t c;
-    const brace_status_t status = tensor_at(chain, theta1_rad, theta2_rad, compliance, &c);
+    brace_posture_t at;
+    const brace_status_t status = tensor_at(chain, theta1_rad, theta2_rad, compliance, &c, &at);
     if (status == BRACE_OK) {
-        *compliance = (brace_compliance_t){c.xx, c.xz, c.zz};
+        const brace_circle_t circle = brace_circle_in_world(c, brace_doubled(at.bisector));
+        *compliance = (brace_compliance_t){circle.mean + circle.dev.x, circle.dev.z, circle.mean - circle.dev.x};
         if (det != NULL) {
             *det = c.det;
         }
@@ -57,6 +58,7 @@ brace_status_t brace_chain_stiffness(const brace_chain_t *chain, float theta1_ra
                                      brace_stiffness_t *stiffness)
 {
     brace_tensor_t c;
-    const brace_status_t status = tensor_at(chain, theta1_rad, theta2_rad, stiffness, &c);
-    return status == BRACE_OK ? brace_tensor_inverse(c, stiffness) : status;
+    brace_posture_t at;
+    const brace_status_t status = tensor_at(chain, theta1_rad, theta2_rad, stiffness, &c, &at);
+    return status == BRACE_OK ? brace_tensor_inverse(c, brace_doubled(at.bisector), stiffness) : status;
 }

@@ -8,13 +8,26 @@
 
 #include "brace/chain.h"
 #include "brace/planar.h"
+#include "base/trig.h"
+#include "base/vec.h"
+
+/* det C over mean^2 below which C counts as singular, and below which its accuracy is not promised. */
+#define BRACE_SINGULAR 1e-12f
+#define BRACE_SLENDER 2e-5f
 
 /* C and its determinant. */
 typedef struct {
     float xx, xz, zz, det;
 } brace_tensor_t;
 
-/* Directions of half the knee angle, and of the bisector of femur and tibia in the world. */
+/* Mohr's circle of a tensor: half its trace, and its deviator [[dev.x, dev.z], [dev.z, -dev.x]]. */
+typedef struct {
+    float mean;
+    brace_vec_t dev;
+} brace_circle_t;
+
+/* Directions of half the knee angle, and of the bisector of femur and tibia in the world; together they may be the
+ * opposite ones, which leaves where the tip is and changes only the signs of what is squared. */
 typedef struct {
     brace_vec_t half, bisector;
 } brace_posture_t;
@@ -32,20 +45,6 @@ static inline brace_status_t brace_check_reach(float theta1_rad, float theta2_ra
     return reach <= FLT_MAX ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
 }
 
-/* C of harmonics at half a knee angle, seen from the bisector. */
-brace_tensor_t brace_harmonics_at(const brace_harmonics_t *h, brace_vec_t half);
-
-/* c + v v'; c's trace is not zero (FLT_MIN does). Its determinant is det + v' adj(c) v, and v' adj(c) v times the trace is
- * |adj(c) v|^2 + det |v|^2: positive terms only, so nothing cancels however slender c is. */
-brace_tensor_t brace_tensor_plus(brace_tensor_t c, brace_vec_t v);
-
-/* The same tensor, seen from the bisector, in the world's frame. */
-brace_tensor_t brace_tensor_to_world(brace_tensor_t c, brace_vec_t bisector);
-
-/* K of C in the world's frame, as brace_chain_stiffness says.
- * BRACE_OK or BRACE_E_SINGULAR: then stiffness is untouched. */
-brace_status_t brace_tensor_inverse(brace_tensor_t c, brace_stiffness_t *stiffness);
-
 static inline brace_vec_t brace_turned(brace_vec_t v, brace_vec_t by)
 {
     return (brace_vec_t){__builtin_fmaf(v.x, by.x, -(v.z * by.z)), __builtin_fmaf(v.x, by.z, v.z * by.x)};
@@ -56,6 +55,58 @@ static inline brace_vec_t brace_seen_from(brace_vec_t v, brace_vec_t from)
 {
     return (brace_vec_t){__builtin_fmaf(v.x, from.x, v.z * from.z),
                          __builtin_fmaf(v.z, from.x, -(v.x * from.z))};
+}
+
+/* The direction of twice the angle. */
+static inline brace_vec_t brace_doubled(brace_vec_t direction)
+{
+    const float twice = 2.0f * direction.z;
+    return (brace_vec_t){__builtin_fmaf(-twice, direction.z, 1.0f), twice * direction.x};
+}
+
+/* What halved elements come to at half a knee angle, in the bisector's frame. */
+static inline brace_vec_t brace_swing_at(const brace_swing_t *halved, brace_vec_t half)
+{
+    return (brace_vec_t){__builtin_fmaf(halved->straight.x, half.x, halved->folded.x * half.z),
+                         __builtin_fmaf(halved->straight.z, half.x, halved->folded.z * half.z)};
+}
+
+/* c + v v'; c's trace is not zero (FLT_MIN does). Its determinant is det + v' adj(c) v, and v' adj(c) v times the trace is
+ * |adj(c) v|^2 + det |v|^2: positive terms only, so nothing cancels however slender c is. */
+static inline brace_tensor_t brace_tensor_plus(brace_tensor_t c, brace_vec_t v)
+{
+    const brace_vec_t adj_v = {__builtin_fmaf(c.zz, v.x, -(c.xz * v.z)),
+                               __builtin_fmaf(c.xx, v.z, -(c.xz * v.x))};
+    const float forms = __builtin_fmaf(c.det, vec_dot(v, v), vec_dot(adj_v, adj_v));
+    return (brace_tensor_t){__builtin_fmaf(v.x, v.x, c.xx), __builtin_fmaf(v.x, v.z, c.xz),
+                            __builtin_fmaf(v.z, v.z, c.zz), c.det + forms / (c.xx + c.zz)};
+}
+
+/* The circle of a tensor seen from the bisector, in the world's frame. */
+static inline brace_circle_t brace_circle_in_world(brace_tensor_t c, brace_vec_t to_world)
+{
+    return (brace_circle_t){0.5f * (c.xx + c.zz), brace_turned((brace_vec_t){0.5f * (c.xx - c.zz), c.xz}, to_world)};
+}
+
+/* K in the world's frame of C seen from the bisector, as brace_chain_stiffness says. to_world: direction of twice the
+ * bisector's angle. BRACE_OK or BRACE_E_SINGULAR: then stiffness is untouched. */
+static inline brace_status_t brace_tensor_inverse(brace_tensor_t c, brace_vec_t to_world, brace_stiffness_t *stiffness)
+{
+    const brace_circle_t circle = brace_circle_in_world(c, to_world);
+    const float det = c.det, mean = circle.mean, square = mean * mean;
+    if (!(det > BRACE_SINGULAR * square)) {
+        return BRACE_E_SINGULAR;
+    }
+    const float longest = mean + brace_sqrt(vec_dot(circle.dev, circle.dev));
+    const float per_det = 1.0f / det;
+    stiffness->flags = det < BRACE_SLENDER * square ? BRACE_FLAG_NEAR_SINGULAR : 0u;
+    stiffness->k_xx_n_per_mm = (mean - circle.dev.x) * per_det;
+    stiffness->k_xz_n_per_mm = -circle.dev.z * per_det;
+    stiffness->k_zz_n_per_mm = (mean + circle.dev.x) * per_det;
+    stiffness->lambda_min_n_per_mm = 1.0f / longest;
+    stiffness->lambda_max_n_per_mm = longest * per_det;
+    stiffness->stiff_axis_rad = 0.5f * brace_atan2(-circle.dev.z, -circle.dev.x);
+    return BRACE_OK;
 }
 
 #endif

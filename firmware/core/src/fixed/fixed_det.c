@@ -46,7 +46,7 @@ static crest_t crest_of(double cc, double cs, double ss)
 /* With u = (cos, sin) of the knee angle each pair's v x v is k + p.u, and the sum of their squares is
  * sum k^2 + 2 (sum k p).u + u' P u, P = sum p p' = more s s' + least I with its crest s. Of it
  * more (c + s.u)^2 is the cross, c = sum k p.s / sum (p.s)^2, and what remains is linear in u. */
-brace_det_t brace_det_of(float iso, const brace_element_t *element, uint32_t count)
+brace_det_t brace_det_of(float iso, const brace_swing_t *element, uint32_t count)
 {
     brace_det_harmonic_t trace = {iso, 0.0, 0.0}, rest = {0.0, 0.0, 0.0};
     double cc = 0.0, cs = 0.0, ss = 0.0;

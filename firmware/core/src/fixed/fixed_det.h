@@ -16,8 +16,8 @@ typedef struct {
     brace_det_harmonic_t cross; /* [mm/N] */
 } brace_det_t;
 
-/* element: count of them [0, BRACE_CHAIN_MAX] without base parts, as brace_harmonics_list takes them. */
-brace_det_t brace_det_of(float iso, const brace_element_t *element, uint32_t count);
+/* element: count of them [0, BRACE_CHAIN_MAX], not yet halved. */
+brace_det_t brace_det_of(float iso, const brace_swing_t *element, uint32_t count);
 
 /* Over all knee angles. */
 typedef struct {

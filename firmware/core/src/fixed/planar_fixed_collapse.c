@@ -119,10 +119,11 @@ brace_status_t brace_planar_fixed_collapse(const brace_limb_t *limb, brace_plana
     brace_harmonics_t plane;
     brace_det_t det;
     {
-        brace_element_t element[BRACE_CHAIN_FIRM];
-        const float iso = brace_chain_firm(limb, element) + limb->base.x_mm_per_n;
+        brace_swing_t element[BRACE_CHAIN_FIRM];
+        const float iso = brace_chain_at_rest(limb, element) + limb->base.x_mm_per_n;
         det = brace_det_of(iso, element, BRACE_CHAIN_FIRM);
-        brace_harmonics_list(iso, element, BRACE_CHAIN_FIRM, &plane);
+        brace_harmonics_sum(element, element + BRACE_CHAIN_FIRM, &plane);
+        plane.mean.at_fold += iso;
     }
     return quantise(&plane, &det, fixed);
 }

@@ -1,56 +1,30 @@
 #include "brace/spatial.h"
 
+#include <float.h>
 #include <stddef.h>
 
 #include "chain/chain_list.h"
 #include "base/off_tick.h"
-#include "base/trig.h"
-#include "base/vec.h"
 
-/* a a' + b b' = equal I + v v': equal in every direction, and one direction more. */
-BRACE_OFF_TICK static float merged(brace_vec_t a, brace_vec_t b, brace_vec_t *v)
+BRACE_OFF_TICK static void collapse_aside(const brace_link_t *link, float length_mm, brace_aside_t *aside)
 {
-    const float dev_x = 0.5f * (a.x * a.x - a.z * a.z + b.x * b.x - b.z * b.z);
-    const float dev_y = a.x * a.z + b.x * b.z;
-    const float mean = 0.5f * (vec_dot(a, a) + vec_dot(b, b));
-    const float radius = brace_length(dev_x, dev_y);
-    const float cross = vec_cross(a, b);
-    /* long axis of the deviator: of its two forms, the one in which nothing cancels */
-    const brace_vec_t axis =
-        dev_x > 0.0f ? (brace_vec_t){radius + dev_x, dev_y} : (brace_vec_t){dev_y, radius - dev_x};
-    const float length = brace_length(axis.x, axis.z);
-    *v = vec_scaled(axis, length > 0.0f ? brace_sqrt(2.0f * radius) / length : 0.0f);
-    return mean > 0.0f ? cross * cross / (mean + radius) : 0.0f;
+    const float length = length_mm + FLT_MIN; /* a coxa of no length passes nothing on */
+    aside->per_mm = 3.0f * link->moment_transfer_ratio * link->lateral_mm_per_n / length;
+    aside->per_mm2 = aside->per_mm / length;
+    aside->torsion = link->torsion_rad_per_n_mm;
 }
 
 static void collapse_across(const brace_limb_t *limb, brace_spatial_t *spatial)
 {
-    const brace_link_t *coxa = &limb->link[BRACE_COXA], *femur = &limb->link[BRACE_FEMUR];
-    const float coxa_transfer =
-        limb->coxa_mm > 0.0f ? 3.0f * coxa->moment_transfer_ratio / limb->coxa_mm : 0.0f;
-    const float femur_transfer = 3.0f * femur->moment_transfer_ratio / limb->femur_mm;
+    const brace_link_t *link = limb->link;
     spatial->coxa_mm = limb->coxa_mm;
     spatial->femur_mm = limb->femur_mm;
     spatial->tibia_mm = limb->tibia_mm;
     spatial->yaw_rad_per_n_mm = limb->joint[BRACE_COXA].compliance_rad_per_n_mm;
-    spatial->across_mm_per_n =
-        coxa->lateral_mm_per_n + femur->lateral_mm_per_n + limb->link[BRACE_TIBIA].lateral_mm_per_n;
-    spatial->across_per_reach[0] = coxa_transfer * coxa->lateral_mm_per_n;
-    spatial->across_per_reach[1] = coxa_transfer > 0.0f ? spatial->across_per_reach[0] / limb->coxa_mm : 0.0f;
-    spatial->across_per_height2 = coxa->torsion_rad_per_n_mm;
-    spatial->across_per_along[0] = femur_transfer * femur->lateral_mm_per_n;
-    spatial->across_per_along[1] = spatial->across_per_along[0] / limb->femur_mm;
-    spatial->across_per_aside2 = femur->torsion_rad_per_n_mm;
-}
-
-/* Coxa and base: what stands still in the plane. Returns what of it yields equally in every direction. */
-static float collapse_still(const brace_limb_t *limb, brace_spatial_t *spatial)
-{
-    brace_element_t coxa[2], base;
-    const float iso = brace_chain_coxa(limb, coxa) + brace_chain_base(limb, &base);
-    spatial->coxa = coxa[1].base;
-    spatial->coxa_per_mm = coxa[1].femur.z / limb->femur_mm;
-    return iso + merged(coxa[0].base, base.base, &spatial->still);
+    spatial->across_mm_per_n = link[BRACE_COXA].lateral_mm_per_n + link[BRACE_FEMUR].lateral_mm_per_n +
+                               link[BRACE_TIBIA].lateral_mm_per_n;
+    collapse_aside(&link[BRACE_COXA], limb->coxa_mm, &spatial->aside[0]);
+    collapse_aside(&link[BRACE_FEMUR], limb->femur_mm, &spatial->aside[1]);
 }
 
 BRACE_OFF_TICK brace_status_t brace_spatial_collapse(const brace_limb_t *limb, brace_spatial_t *spatial)
@@ -60,9 +34,12 @@ BRACE_OFF_TICK brace_status_t brace_spatial_collapse(const brace_limb_t *limb, b
         return status;
     }
     collapse_across(limb, spatial);
-    float iso = collapse_still(limb, spatial);
-    brace_element_t element[BRACE_CHAIN_FIRM];
-    iso += brace_chain_firm(limb, element);
-    brace_harmonics_list(iso, element, BRACE_CHAIN_FIRM, &spatial->plane);
+    brace_swing_t element[BRACE_CHAIN_FIRM];
+    float iso = FLT_MIN; /* never quite nothing: brace_tensor_plus divides by the trace */
+    iso += brace_chain_coxa(limb, &spatial->coxa);
+    iso += brace_chain_base(limb, &spatial->base);
+    iso += brace_chain_at_rest(limb, element);
+    brace_harmonics_sum(element, element + BRACE_CHAIN_FIRM, &spatial->plane);
+    spatial->plane.iso_mm_per_n = iso;
     return BRACE_OK;
 }
