@@ -10,11 +10,16 @@ from versions import core_sources
 NO_FPU_ONLY = ("planar_fixed",)  # headers for controllers without an FPU
 HOST_ONLY = ("planar_batch", "chain_batch")
 TWICE = ("planar_table", "chain")  # the same once more: where flash allows a table, and lists of elements for hosts
-ONCE_FLASH = "flash, Cortex-M4F, the same, each job once: no table variant, no lists of elements, which are for hosts"
+ONCE_FLASH = "flash, Cortex-M4F, every job in the plane and in space, each once"
+
+JOBS = ("limb", "kinematics", "slope", "contact")  # of every limb, beside its K and, in the plane, its uncertainty
+EQUAL_FLASH = "flash, Cortex-M4F, every job of a limb in its plane, base yielding equally"
+ANY_FLASH = "flash, Cortex-M4F, every job of a limb in its plane, any base (the general path)"
+SPACE_FLASH = "flash, Cortex-M4F, every job of a limb in space"
 
 WATCHING = ("backlash", "gap_stiffness", "drift")  # what watches the limb; the estimator does without
-LIMB_FLASH = "flash, Cortex-M4F, a planar limb: kinematics, K on any base, slope, contact, uncertainty"
-CORE_FLASH = "flash, Cortex-M4F, the estimator, planar and spatial (fixed point, play and drift left out)"
+LIMB_FLASH = "flash, Cortex-M4F, every job in the plane, both paths to K, for a limb not known before its parameters come"
+CORE_FLASH = "flash, Cortex-M4F, every function of the estimator: with the table variant, and lists of elements, which are for hosts"
 PLANAR_RAM = "RAM, one limb: parameters and planar constants"
 FIXED_RAM = "RAM, one limb: parameters and fixed-point constants"
 SPATIAL_RAM = "RAM, one limb: parameters and spatial constants"
@@ -38,6 +43,21 @@ def public_functions(headers_without: tuple[str, ...]) -> tuple[str, ...]:
         if not header.stem.startswith(headers_without):
             names.update(functions_of(header.read_text()))
     return tuple(sorted(names))
+
+
+def _declared(headers: tuple[str, ...]) -> tuple[str, ...]:
+    """The functions of some public headers, "name" without its ".h"."""
+    return tuple(name for header in headers for name in functions_of((CORE / "include" / "brace" / f"{header}.h").read_text()))
+
+
+def limb_kinds() -> dict[str, tuple[str, ...]]:
+    """Kinds of limbs -> all public functions that have a job there. A limb is of one of them, and links no other's K."""
+    plane = without_space(_declared((*JOBS, "uncertainty")))
+    return {
+        EQUAL_FLASH: (*_declared(("planar",)), *plane),
+        ANY_FLASH: (*_declared(("general",)), *plane),
+        SPACE_FLASH: (*_declared(("spatial", *JOBS)),),
+    }
 
 
 def _weigh(name: str, functions: tuple[str, ...]) -> tuple[int, int, str]:
@@ -71,13 +91,15 @@ def weigh_core() -> dict[str, int]:
     everything, deepest_of_all, needs_most = _weigh("everything", public_functions(HOST_ONLY))
     once, _, _ = _weigh("once", public_functions((*estimator, *TWICE)))
     limb_only, _, _ = _weigh("planar_limb", without_space(public_functions((*estimator, *TWICE, "spatial"))))
+    kinds = {kind: _weigh(f"limb_{number}", functions)[0] for number, (kind, functions) in enumerate(limb_kinds().items())}
     sizes = type_sizes(("brace_limb_t", "brace_planar_t", "brace_planar_fixed_t", "brace_spatial_t"),
                        ("brace/limb.h", "brace/planar.h", "brace/planar_fixed.h", "brace/spatial.h"), M4F)
     limb = sizes["brace_limb_t"]
     return {
-        CORE_FLASH: flash,
-        ONCE_FLASH: once,
+        **kinds,
         LIMB_FLASH: limb_only,
+        ONCE_FLASH: once,
+        CORE_FLASH: flash,
         "flash, Cortex-M4F, all of the core: fixed point, play and drift as well": everything,
         PLANAR_RAM: limb + sizes["brace_planar_t"],
         FIXED_RAM: limb + sizes["brace_planar_fixed_t"],

@@ -19,8 +19,11 @@ static inline float brace_turn_angle(uint32_t turn)
     return (float)(int32_t)turn * (BRACE_PI / 0x1p31f);
 }
 
-/* Unit vector {cosine, sine} of an angle given as a turn; each within 4e-8. About 40 instructions. */
+/* Cosine and sine of an angle given as a turn, each within 4e-8. About 40 instructions. A complex number, because GCC returns
+ * that in registers and a structure by way of memory. */
 float _Complex brace_unit(uint32_t turn);
+
+/* The same as a unit vector. */
 static inline brace_vec_t brace_direction(uint32_t turn)
 {
     const float _Complex unit = brace_unit(turn);
