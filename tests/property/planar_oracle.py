@@ -132,6 +132,10 @@ def limbs() -> list[Limb]:
         Limb("small stiff", coxa_mm=10, femur_mm=40, tibia_mm=55, femur=Link(2e-5, 1e-3), tibia=Link(4e-5, 2e-3),
              joints=(0, 2e-6, 2e-6)),
         Limb("axial longest", femur=Link(0.08, 0.004, 0.2), tibia=Link(0.05, 0.01), joints=(0, 1e-6, 2e-6)),
+        # the crosses of its elements vary hardly more in one direction than in another
+        Limb("round crosses", femur_mm=210.5356, tibia_mm=22.307497,
+             femur=Link(0.00019863536, 0.0023855101, 0.75385618, moment_transfer=0.33090669),
+             tibia=Link(0.0112077, 0), joints=(0, 1.0915657e-6, 2.2507449e-5)),
         Limb("floating base", femur=steel, tibia=shank, joints=(0, 1e-5, 1.6e-5), base_x=0.02, base_z=0.02),
     ]
 

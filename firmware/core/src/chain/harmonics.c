@@ -87,7 +87,7 @@ static void gather_crosses(const brace_swing_t *element, const brace_swing_t *en
         } else {
             const float tangent = sum.ab / (half + radius);
             s = (brace_vec_t){__builtin_fmaf(tangent, s.z, s.x), __builtin_fmaf(-tangent, s.x, s.z)};
-            c -= sum.rb / sum.bb;
+            c -= __builtin_fmaf(tangent, sum.ra, sum.rb) / sum.bb; /* sum k b as it is along the new s */
         }
     }
     /* The length of s has grown, and with it a and b. */
