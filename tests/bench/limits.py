@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from measure import Measured
 from throughput import Rate
 from versions import COLLAPSE, PLANAR, PLANAR_NO_FPU, SPATIAL
-from weights import ANY_FLASH, CORE_STACK, EQUAL_FLASH, FIXED_RAM, PLANAR_RAM, SPACE_FLASH, SPATIAL_RAM
+from weights import (ANY_FLASH, CORE_FLASH, CORE_STACK, EQUAL_FLASH, FIXED_RAM, LIMB_FLASH, ONCE_FLASH, PLANAR_RAM,
+                     SPACE_FLASH, SPATIAL_RAM)
 
 
 @dataclass(frozen=True)
@@ -110,7 +111,8 @@ class Limits:
         planar = max(m.flash_bytes for m in self._ours(PLANAR) if "table" not in m.version.name)
         stack = next(value for name, value in self.weights.items() if name.startswith(CORE_STACK))
         return [
-            *(_at_most(name, self.weights[name], 6 * 1024, " B") for name in (EQUAL_FLASH, ANY_FLASH, SPACE_FLASH)),
+            *(_at_most(name, self.weights[name], 6 * 1024, " B") for name in (
+                EQUAL_FLASH, ANY_FLASH, SPACE_FLASH, LIMB_FLASH, ONCE_FLASH, CORE_FLASH)),
             _at_most("flash, planar float path with the parameter change", planar, 2560, " B"),
             *(_at_most(name, self.weights[name], 512, " B") for name in (PLANAR_RAM, FIXED_RAM, SPATIAL_RAM)),
             _at_most(CORE_STACK, stack, 256, " B"),

@@ -8,7 +8,7 @@ detection time (52 ms). All other ticks are judged; where no flank is told is co
 best guess (the sign of the offset), which is always there.
 
 The angle error is told five ways: of all ticks, with a flank touching, outside the crossing, and where the machine tells a
-flank, so where it compensates, and says valid. With the gap believed 20 % wrong the right flank alone leaves up to a tenth
+flank, and says valid. With the gap believed 20 % wrong the right flank alone leaves up to a tenth
 of the gap. Of all ticks, the gap's being open included, a tenth is not reached, and not in reach: backlash_floor.py.
 
 Seeds 1-1000 were used while the machine was made; the figures reported come from seeds 1,000,001 on. Exit code 1 when
