@@ -105,10 +105,10 @@ typedef struct {
  *     stiff axis = 1/2 atan2(-dev_y, -dev_x) in the world's frame.
  * rest > 0 is nearly always what cross^2 leaves: forming det from the two loses nothing. */
 typedef struct {
-    brace_harmonic_t cross; /* [mm/N] */
     brace_harmonic_t mean;  /* half the trace of C [mm/N] */
     brace_harmonic_t dev_x; /* deviator of C [mm/N] */
     brace_harmonic_t dev_y; /* [mm/N] */
+    brace_harmonic_t cross; /* [mm/N] */
     brace_harmonic_t rest;  /* [(mm/N)^2] */
     float iso_mm_per_n;     /* the chain's: compliance shared by every direction */
 } brace_harmonics_t;

@@ -98,10 +98,9 @@ static void gather_crosses(const brace_swing_t *element, const brace_swing_t *en
                                          (c_a * s.z + sum.ra * s.x) / square};
 }
 
-BRACE_OFF_TICK void brace_harmonics_sum(brace_swing_t *element, const brace_swing_t *end,
+BRACE_OFF_TICK void brace_harmonics_sum(const brace_swing_t *element, const brace_swing_t *end,
                                         brace_harmonics_t *harmonics)
 {
-    brace_chain_halve(element, end);
     sum_squares(element, end, &harmonics->mean);
     gather_crosses(element, end, harmonics);
 }
@@ -130,7 +129,7 @@ BRACE_OFF_TICK brace_status_t brace_harmonics(const brace_chain_t *chain, brace_
         if (vec_dot(chain->element[i].base, chain->element[i].base) > 0.0f) {
             return BRACE_E_UNSUPPORTED;
         }
-        element[i] = (brace_swing_t){.femur = chain->element[i].femur, .tibia = chain->element[i].tibia};
+        element[i] = brace_halved(chain->element[i].femur, chain->element[i].tibia);
     }
     brace_harmonics_sum(element, element + chain->count, harmonics);
     add_iso(harmonics, chain->iso_mm_per_n);
