@@ -45,8 +45,8 @@ static inline brace_off_entry_t brace_off_entry(int32_t d)
     const int32_t e = brace_mulh(d, d);
     const int32_t sin = brace_mulh(d, 421657326 - brace_mulh(e, 2707738));
     const int32_t half_square = brace_mulh(sin, sin); /* q31 */
-    const int32_t versin = half_square + brace_mulh(half_square, half_square);
-    return (brace_off_entry_t){sin, (int32_t)((uint32_t)versin ^ 0x80000000u)};
+    const uint32_t less_one = (uint32_t)half_square - 0x80000000u;
+    return (brace_off_entry_t){sin, (int32_t)(less_one + (uint32_t)brace_mulh(half_square, half_square))};
 }
 
 /* Minus sine and minus cosine of the sum of an entry's angle and that off it. */

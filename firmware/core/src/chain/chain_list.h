@@ -33,7 +33,7 @@ static inline brace_swing_t brace_whole(const brace_swing_t *halved)
                            .tibia = {0.5f * (p.x - q.z), 0.5f * (p.z + q.x)}};
 }
 
-/* Harmonics of a bare list up to end, at most BRACE_CHAIN_MAX, of halved elements: iso is neither in nor written. */
-void brace_harmonics_sum(const brace_swing_t *element, const brace_swing_t *end, brace_harmonics_t *harmonics);
+/* Harmonics of halved elements: iso is neither in nor written. */
+void brace_harmonics_sum(const brace_swing_t element[BRACE_CHAIN_FIRM], brace_harmonics_t *harmonics);
 
 #endif

@@ -119,7 +119,7 @@ brace_status_t brace_planar_fixed_collapse(const brace_limb_t *limb, brace_plana
         brace_swing_t element[BRACE_CHAIN_FIRM];
         const float iso = brace_chain_at_rest(limb, element) + limb->base.x_mm_per_n;
         det = brace_det_of(iso, element, BRACE_CHAIN_FIRM);
-        brace_harmonics_sum(element, element + BRACE_CHAIN_FIRM, &plane);
+        brace_harmonics_sum(element, &plane);
         plane.mean.at_fold += iso;
     }
     return quantise(&plane, &det, fixed);

@@ -108,6 +108,6 @@ BRACE_OFF_TICK brace_status_t brace_planar_collapse(const brace_limb_t *limb, br
     brace_harmonics_t h;
     brace_swing_t element[BRACE_CHAIN_FIRM];
     h.iso_mm_per_n = brace_chain_at_rest(limb, element) + base;
-    brace_harmonics_sum(element, element + BRACE_CHAIN_FIRM, &h);
+    brace_harmonics_sum(element, &h);
     return give_constants(&h, planar);
 }
