@@ -43,6 +43,7 @@ HISTORY_TICKS = 6000
 TAKEUP_FIELDS = ["done", "really_done", "ok", "torque", "travel", "reach", "time", "verify", "lost", "fault",
                  "torque_over", "travel_over", "time_over", "not_idle", "preload_error", "preload_error_max"]
 REPORTED_SEED = 1_000_001
+SLIPS, STICKS_UNKNOWN, STICKS_ALLOWED = range(3)  # breakaway_t
 
 
 class HistoryCounts(ctypes.Structure):
@@ -76,11 +77,11 @@ def beyond_a_tenth(bins: ctypes.Array[ctypes.c_double]) -> float:
     return float(count[1001:].sum() / count.sum())
 
 
-def histories(lib: ctypes.CDLL, first: int, count: int, exact: bool, expecting: bool) -> HistoryCounts:
+def histories(lib: ctypes.CDLL, first: int, count: int, exact: bool, expecting: bool, breakaway: int = SLIPS) -> HistoryCounts:
     counts = HistoryCounts()
     for seed in range(first, first + count):
-        status = lib.backlash_history(ctypes.c_uint64(seed), int(exact), int(expecting), ctypes.byref(counts),
-                                      None)
+        status = lib.backlash_history(ctypes.c_uint64(seed), int(exact), int(expecting), breakaway,
+                                      ctypes.byref(counts), None)
         assert status == 0, f"seed {seed}: status {status}"
     return counts
 
@@ -88,7 +89,7 @@ def histories(lib: ctypes.CDLL, first: int, count: int, exact: bool, expecting: 
 def trace(lib: ctypes.CDLL, seed: int) -> dict[str, np.ndarray]:
     """One history, tick by tick."""
     rows = np.zeros((HISTORY_TICKS, len(TRACE_FIELDS)))
-    status = lib.backlash_history(ctypes.c_uint64(seed), 0, 0, ctypes.byref(HistoryCounts()),
+    status = lib.backlash_history(ctypes.c_uint64(seed), 0, 0, SLIPS, ctypes.byref(HistoryCounts()),
                                   ctypes.c_void_p(rows.ctypes.data))
     assert status == 0, f"seed {seed}: status {status}"
     return dict(zip(TRACE_FIELDS, rows.T, strict=True))
