@@ -120,7 +120,8 @@ typedef enum {
     BRACE_NODE_FAULT_BUS_OFF = 8,
     BRACE_NODE_FAULT_TICK_LATE = 9,      /* value [ms]: the time between ticks */
     BRACE_NODE_FAULT_TIP_LOST = 10,      /* the contact lets go; planted again where the tip then is */
-    BRACE_NODE_FAULT_COUNT = 11
+    BRACE_NODE_FAULT_CRASH = 11,         /* the controller crashes when it begins, once, and starts again */
+    BRACE_NODE_FAULT_COUNT = 12
 } brace_node_fault_t;
 
 /* The name as on the command line; null for none. */

@@ -183,6 +183,11 @@ void LimbNode::follow_faults()
                         Vector2d::Zero(), 1e-6 * static_cast<double>(now_us_),
                         temp_degc(1e-6 * static_cast<double>(now_us_)));
     }
+    const bool crashes = faults.is_on(BRACE_NODE_FAULT_CRASH) && !has_crashed_;
+    has_crashed_ = faults.is_on(BRACE_NODE_FAULT_CRASH);
+    if (crashes) {
+        restart(BRACE_RESET_FAULT);
+    }
 }
 
 void LimbNode::hold(double hold_n_per_mm, double press_x_mm, double press_z_mm)

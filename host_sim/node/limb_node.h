@@ -76,7 +76,7 @@ private:
     std::array<Command, 2> command_;
     std::array<brace_hal_joint_t, 3> sample_{};
     std::array<float, 2> force_sample_n_{};
-    bool tip_was_lost_ = false;
+    bool tip_was_lost_ = false, has_crashed_ = false;
 
     std::uint64_t now_us_ = 0, due_us_ = 0, ticks_ = 0;
     std::uint32_t watchdog_resets_ = 0;

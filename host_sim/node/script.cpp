@@ -63,7 +63,7 @@ extern "C" const char *brace_node_fault_name(int32_t fault)
 {
     static const char *const name[BRACE_NODE_FAULT_COUNT] = {
         "encoder_stuck", "sensor_dead", "sensor_nan", "current_offset", "force_dead", "force_offset",
-        "nvm_fails",     "nvm_forgets", "bus_off",    "tick_late",      "tip_lost",
+        "nvm_fails",     "nvm_forgets", "bus_off",    "tick_late",      "tip_lost",   "crash",
     };
     return fault >= 0 && fault < BRACE_NODE_FAULT_COUNT ? name[fault] : nullptr;
 }

@@ -73,4 +73,9 @@ static inline const brace_snapshot_t *now(void)
     return brace_app_snapshot(&app);
 }
 
+static inline uint32_t engaged_flags(void)
+{
+    return now()->stiffness.engaged.flags;
+}
+
 #endif

@@ -9,11 +9,6 @@ void setUp(void)
 
 void tearDown(void) {}
 
-static uint32_t engaged_flags(void)
-{
-    return now()->stiffness.engaged.flags;
-}
-
 /* ------------------------------------------------------------------------------------------- starting -- */
 
 static void test_start_needs_a_whole_door(void)

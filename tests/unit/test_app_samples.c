@@ -9,11 +9,6 @@ void setUp(void)
 
 void tearDown(void) {}
 
-static uint32_t engaged_flags(void)
-{
-    return now()->stiffness.engaged.flags;
-}
-
 /* -------------------------------------------------------------------------------------------- samples -- */
 
 static void test_a_short_gap_in_the_samples_keeps_the_last_K(void)

@@ -1,28 +1,11 @@
 /* A request of any bytes, whatever the controller's state. What it asks of the rest of the controller may answer anything
  * that the header in question allows. */
-#include "configure/staging.h"
-#include "configure/storing.h"
-#include "measure/hypothetical.h"
-#include "measure/questions.h"
 #include "modbus/pdu.h"
 #include "modbus/read.h"
 #include "modbus/write.h"
+#include "answers.h"
 #include "copies.h"
 #include "proof.h"
-
-static brace_status_t any_status(void)
-{
-    const int32_t status = any_i32();
-    ASSUME(status <= 0 && status >= BRACE_E_MODE);
-    return (brace_status_t)status;
-}
-
-uint32_t staging_read(const brace_app_t *app, uint32_t index)
-{
-    (void)app;
-    PROVE(index < BRACE_PARAMETER_COUNT, "a member that there is");
-    return any_u32();
-}
 
 void staging_keep(brace_app_t *app) { (void)app; }
 
@@ -46,7 +29,6 @@ brace_status_t brace_parameter_in_range(uint32_t index, uint32_t word)
 }
 
 brace_status_t staging_commit(brace_app_t *app, uint32_t *wrong_index) { (void)app; (void)wrong_index; return any_status(); }
-bool storing_busy(const brace_app_t *app) { (void)app; return any_bool(); }
 brace_status_t brace_app_configuration_enter(brace_app_t *app) { (void)app; return any_status(); }
 brace_status_t brace_app_configuration_leave(brace_app_t *app) { (void)app; return any_status(); }
 brace_status_t brace_app_parameters_rollback(brace_app_t *app) { (void)app; return any_status(); }
@@ -58,13 +40,6 @@ brace_status_t brace_app_take_up(brace_app_t *app, int32_t joint, int32_t flank)
     (void)joint;
     PROVE(flank == 1 || flank == -1, "a flank that there is");
     return any_status();
-}
-
-void brace_store_status(const brace_store_t *store, brace_store_status_t *status)
-{
-    (void)store;
-    brace_store_status_t any;
-    *status = any;
 }
 
 modbus_exception_t modbus_read(const brace_app_t *app, uint8_t *pdu, uint32_t length, uint32_t now_us, uint32_t *answer)
@@ -80,53 +55,6 @@ modbus_exception_t modbus_read(const brace_app_t *app, uint8_t *pdu, uint32_t le
     pdu[1] = bytes;
     *answer = 2u + bytes;
     return MODBUS_FINE;
-}
-
-static brace_snapshot_t snapshot;
-const brace_snapshot_t *brace_app_snapshot(const brace_app_t *app) { (void)app; return &snapshot; }
-
-brace_status_t hypothetical_stiffness(brace_app_t *app, float theta1_rad, float theta2_rad, brace_stiffness_t *stiffness)
-{
-    (void)app;
-    (void)theta1_rad;
-    (void)theta2_rad;
-    brace_stiffness_t any;
-    *stiffness = any;
-    return any_status();
-}
-
-brace_status_t question_k_at_tip(brace_app_t *app, brace_point_t tip, brace_knee_t knee, brace_stiffness_t *stiffness)
-{
-    PROVE(knee == BRACE_KNEE_UP || knee == BRACE_KNEE_DOWN, "a knee that there is");
-    return hypothetical_stiffness(app, tip.x_mm, tip.z_mm, stiffness);
-}
-
-brace_status_t question_contact_force(const brace_app_t *app, brace_displacement_t displacement, brace_contact_force_t *contact)
-{
-    (void)app;
-    (void)displacement;
-    brace_contact_force_t any;
-    *contact = any;
-    return any_status();
-}
-
-brace_status_t question_sag(const brace_app_t *app, brace_force_t load, brace_displacement_t *sag)
-{
-    (void)app;
-    (void)load;
-    brace_displacement_t any;
-    *sag = any;
-    return any_status();
-}
-
-brace_status_t question_grip(const brace_app_t *app, float normal_rad, float friction_ratio, brace_contact_grip_t *grip)
-{
-    (void)app;
-    (void)normal_rad;
-    (void)friction_ratio;
-    brace_contact_grip_t any;
-    *grip = any;
-    return any_status();
 }
 
 /* What modbus_write_block has left for its next piece; nothing at first. */

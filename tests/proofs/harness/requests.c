@@ -3,10 +3,7 @@
 #include "brace/measured.h"
 #include "can/request.h"
 #include "can/requests.h"
-#include "configure/staging.h"
-#include "configure/storing.h"
-#include "measure/hypothetical.h"
-#include "measure/questions.h"
+#include "answers.h"
 #include "proof.h"
 #include "report/measured.h"
 
@@ -15,13 +12,6 @@
 /* What was done, besides answering. */
 enum { MOVES = 1, CONFIGURES = 2, LEAVES = 4, STAGES = 8, STORES = 16, ROLLS_BACK = 32, CLEARS = 64, TESTS = 128, FEEDS = 256 };
 static uint32_t done;
-
-static brace_status_t any_status(void)
-{
-    const int32_t status = any_i32();
-    ASSUME(status <= 0 && status >= BRACE_E_MODE);
-    return (brace_status_t)status;
-}
 
 static brace_status_t asked_for(uint32_t what)
 {
@@ -69,20 +59,9 @@ brace_status_t staging_write(brace_app_t *app, uint32_t index, uint32_t word)
     return status;
 }
 
-/* --------------------------------------------------------------------------------------- what only tells -- */
+/* ----------------------------------------------------------------------- what only tells (else: answers.h) -- */
 
-uint32_t staging_read(const brace_app_t *app, uint32_t index)
-{
-    (void)app;
-    PROVE(index < BRACE_PARAMETER_COUNT, "a member that there is");
-    return any_u32();
-}
-
-bool storing_busy(const brace_app_t *app) { (void)app; return any_bool(); }
-
-static brace_snapshot_t snapshot;
 static brace_loading_result_t result;
-const brace_snapshot_t *brace_app_snapshot(const brace_app_t *app) { (void)app; return &snapshot; }
 const brace_loading_result_t *brace_app_loading_result(const brace_app_t *app) { (void)app; return &result; }
 uint32_t brace_app_row_count(const brace_app_t *app) { (void)app; return any_u32(); }
 brace_status_t brace_app_row(const brace_app_t *app, uint32_t index, brace_row_t *row)
@@ -120,13 +99,6 @@ brace_status_t measured_entry(const brace_measured_t *measured, uint32_t entry, 
     return BRACE_OK;
 }
 
-void brace_store_status(const brace_store_t *store, brace_store_status_t *status)
-{
-    (void)store;
-    brace_store_status_t any;
-    *status = any;
-}
-
 uint32_t brace_crc32(uint32_t crc, const uint8_t *bytes, uint32_t count)
 {
     (void)crc;
@@ -147,57 +119,6 @@ void brace_block_members(const uint8_t *block, brace_parameters_t *parameters)
     PROVE(__CPROVER_r_ok(block, BRACE_BLOCK_BYTES), "a whole block");
     brace_parameters_t any;
     *parameters = any;
-}
-
-static brace_status_t any_k(brace_stiffness_t *stiffness)
-{
-    brace_stiffness_t any;
-    *stiffness = any;
-    return any_status();
-}
-
-brace_status_t hypothetical_stiffness(brace_app_t *app, float theta1_rad, float theta2_rad, brace_stiffness_t *stiffness)
-{
-    (void)app;
-    (void)theta1_rad;
-    (void)theta2_rad;
-    return any_k(stiffness);
-}
-
-brace_status_t question_k_at_tip(brace_app_t *app, brace_point_t tip, brace_knee_t knee, brace_stiffness_t *stiffness)
-{
-    (void)app;
-    (void)tip;
-    PROVE(knee == BRACE_KNEE_UP || knee == BRACE_KNEE_DOWN, "a knee that there is");
-    return any_k(stiffness);
-}
-
-brace_status_t question_contact_force(const brace_app_t *app, brace_displacement_t displacement, brace_contact_force_t *contact)
-{
-    (void)app;
-    (void)displacement;
-    brace_contact_force_t any;
-    *contact = any;
-    return any_status();
-}
-
-brace_status_t question_sag(const brace_app_t *app, brace_force_t load, brace_displacement_t *sag)
-{
-    (void)app;
-    (void)load;
-    brace_displacement_t any;
-    *sag = any;
-    return any_status();
-}
-
-brace_status_t question_grip(const brace_app_t *app, float normal_rad, float friction_ratio, brace_contact_grip_t *grip)
-{
-    (void)app;
-    (void)normal_rad;
-    (void)friction_ratio;
-    brace_contact_grip_t any;
-    *grip = any;
-    return any_status();
 }
 
 /* A frame begins with code and part, then the token (the dictionary's tests); the rest is any (codec_numbers, codec_whole). */

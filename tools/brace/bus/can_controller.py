@@ -104,6 +104,10 @@ class CanController:
             )
         return int(answer["value"] or 0)
 
+    def clear(self, faults: int) -> int:
+        """The answer has what is there now."""
+        return int(self.session.ask("clear", {"faults": faults})["faults"] or 0)
+
     # --------------------------------------------------------------------------------------- parameters
 
     def enter_configuration(self) -> None:

@@ -71,6 +71,9 @@ class Controller(Protocol):
     def read_entry(self, name: str) -> int:
         """32 bits of a measured value or a parameter."""
 
+    def clear(self, faults: int) -> int:
+        """Takes back faults that stay until cleared; both as the dictionary's bits. returns those there now."""
+
     def enter_configuration(self) -> None: ...
 
     def leave_configuration(self) -> None: ...

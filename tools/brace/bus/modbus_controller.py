@@ -151,6 +151,11 @@ class ModbusController:
         high, low = self._read(register.table, register.address, 2)
         return high << 16 | low
 
+    def clear(self, faults: int) -> int:
+        """Read back, the register has what is there now."""
+        self._command("clear_faults", faults)
+        return self._holding("clear_faults")
+
     def _holding(self, name: str) -> int:
         return self.read_entry(name)
 

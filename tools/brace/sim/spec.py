@@ -22,6 +22,7 @@ FAULTS = {  # name as in brace_node.h: whether it is a joint's, unit of its valu
     "bus_off": (False, "", 0.0),
     "tick_late": (False, "ms", 5.0),
     "tip_lost": (False, "", 0.0),
+    "crash": (False, "", 0.0),
 }
 _FAULT = re.compile(
     r"(?P<name>[a-z_]+)(?::(?P<where>[^=@]*))?(?:=(?P<value>[^@]*))?(?:@(?P<at>[^+]*)(?:\+(?P<time>.*))?)?"

@@ -1,0 +1,81 @@
+"""`brace clear`: takes back a controller's faults that wait for somebody to have seen to them."""
+
+from __future__ import annotations
+
+import argparse
+from typing import Any
+
+from brace.cli import common
+from brace.cli.bus_options import add_bus, controller
+from brace.cli.options import refused
+
+STAYING = {"drift": "model_drift", "crash": "crashed"}  # said on the command line: the fault's name in the dictionary
+
+
+def add(commands: Any) -> None:
+    """Declares the subcommand."""
+    parser = commands.add_parser(
+        "clear",
+        help="a fault of a controller that stays until somebody has seen to it",
+        description="drift (model_drift): the limb is again what it was commissioned as; the check watches on from the "
+        "baseline it holds. A limb that is another one now wants its parameters instead: brace identify, brace params push. "
+        "crash (crashed): the crash has been looked into; its record is gone afterwards, so read the console's banner "
+        "first. All other faults end with their cause.",
+        epilog="Exit codes: 0 it is not there (any more), 2 a fault that cannot be cleared, 4 no answer, 5 the device refuses "
+        "or the fault is back at once, 6 another dictionary.",
+    )
+    parser.add_argument("faults", nargs="+", type=_staying, metavar="FAULT", help=" or ".join(STAYING))
+    add_bus(parser)
+    common.add_json(parser)
+    parser.set_defaults(run=run)
+
+
+def _staying(text: str) -> str:
+    """A fault that is cleared on request, by either name."""
+    name = STAYING.get(text.lower(), text.lower())
+    if name not in STAYING.values():
+        raise refused(
+            f"{text!r} is no fault that is cleared",
+            f"only {' and '.join(STAYING)} stay until then, all others end with their cause",
+            "brace query shows which faults are there, docs/errors.md what each of them wants",
+        )
+    return name
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Executes the subcommand."""
+    from brace.errors import DeviceFaultError
+
+    with controller(arguments) as device:
+        before = _names(device.read_entry("faults"))
+        asked = [name for name in dict.fromkeys(arguments.faults) if name in before]
+        faults = _names(device.clear(_bits(asked))) if asked else before
+        where = f"{device.url}, node {device.node}"
+    back = [name for name in asked if name in faults]
+    if back:
+        raise DeviceFaultError(
+            f"{' and '.join(back)} cleared, and there again",
+            where=where,
+            why="its cause is still there",
+            next_step="docs/errors.md says what each fault wants; brace monitor shows when it comes",
+        )
+    if arguments.json:
+        common.print_json({"node": device.node, "cleared": asked, "faults": faults})
+        return 0
+    for name in dict.fromkeys(arguments.faults):
+        common.say(f"{where}: {f'cleared {name}' if name in asked else f'{name} is not there, nothing to clear'}")
+    common.say(f"faults now: {' '.join(faults) or 'none'}")
+    return 0
+
+
+def _names(bits: int) -> list[str]:
+    from brace.bus.entries import value_of
+
+    return [name.lower() for name in value_of("faults", bits)]
+
+
+def _bits(names: list[str]) -> int:
+    from brace.wire.measured import MEASURED
+
+    known = next(entry.bit_names for entry in MEASURED if entry.name == "faults")
+    return sum(1 << bit for bit, name in enumerate(known) if name.lower() in names)
