@@ -37,13 +37,13 @@ typedef struct {
     int32_t sin, minus_cos;
 } brace_off_entry_t;
 
-/* Of d q31, where 1 is half an entry, pi/32. With e = d^2 q30, sin d = d (421657326 - 2707738 e) q31, error 5e-9;
+/* Of d q31, where 1 is half an entry, pi/32. With e = d^2 q30, sin d = d (421657315 - 2707609 e) q31;
  * 1 - cos d = sin^2 d/2 + sin^4 d/8, error 6e-8 at half an entry, falling with the sixth power of d: nearly all of it is
- * length, not direction. Straight-line code, in an order of operations that GCC turns into few instructions. */
+ * length, the direction is right within 6e-9. Straight-line code, in an order of operations that GCC turns into few instructions. */
 static inline brace_off_entry_t brace_off_entry(int32_t d)
 {
     const int32_t e = brace_mulh(d, d);
-    const int32_t sin = brace_mulh(d, 421657326 - brace_mulh(e, 2707738));
+    const int32_t sin = brace_mulh(d, 421657315 - brace_mulh(e, 2707609));
     const int32_t half_square = brace_mulh(sin, sin); /* q31 */
     const uint32_t less_one = (uint32_t)half_square - 0x80000000u;
     return (brace_off_entry_t){sin, (int32_t)(less_one + (uint32_t)brace_mulh(half_square, half_square))};
@@ -62,10 +62,15 @@ static inline const int32_t *brace_opposite_entry(uint32_t turn)
     return brace_sine_table + ((turn + 0x84000000u) >> 27);
 }
 
+/* Sine and cosine, error 7e-9: what the tick leaves out, sin^6 d/16, is in. */
 static inline brace_sum_sincos_t brace_turn_sincos(uint32_t turn)
 {
     const int32_t *entry = brace_opposite_entry(turn);
-    return brace_opposite(entry[0], entry[BRACE_SINE_QUARTER], brace_off_entry((int32_t)(turn << 5)));
+    brace_off_entry_t off = brace_off_entry((int32_t)(turn << 5));
+    const int32_t half_square = brace_mulh(off.sin, off.sin);
+    const int32_t sixth = brace_mulh(half_square, brace_mulh(half_square, half_square)); /* q30 */
+    off.minus_cos = (int32_t)((uint32_t)off.minus_cos + 2u * (uint32_t)sixth);
+    return brace_opposite(entry[0], entry[BRACE_SINE_QUARTER], off);
 }
 
 #endif

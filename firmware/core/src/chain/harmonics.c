@@ -42,7 +42,7 @@ typedef struct {
 static crosses_t sum_crosses(const brace_swing_t element[BRACE_CHAIN_FIRM], brace_vec_t s, float c)
 {
     crosses_t sum = {.bb = NEARLY_NOTHING};
-    for (const brace_swing_t *e = element + 1; e < element + BRACE_CHAIN_FIRM; e++) {
+    for (const brace_swing_t *e = element + 1; e < element + BRACE_CHAIN_FIRM; e++) { /* at most BRACE_CHAIN_FIRM */
         for (const brace_swing_t *o = element; o < e; o++) {
             const brace_vec_t p = o->straight, q = o->folded, ep = e->straight, eq = e->folded;
             /* In this order of factors what must vanish does so exactly. */

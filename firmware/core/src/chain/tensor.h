@@ -102,10 +102,9 @@ static inline brace_status_t brace_tensor_inverse(brace_tensor_t c, brace_vec_t 
     if (!(slenderness > BRACE_SINGULAR)) {
         return BRACE_E_SINGULAR;
     }
-    const float per_det = 1.0f / c.det;
     stiffness->flags = brace_bits(slenderness) < brace_bits(BRACE_SLENDER) ? BRACE_FLAG_NEAR_SINGULAR : 0u;
-    brace_stiffness_of_circle(circle.dev.z * per_det, circle.dev.x * per_det, mean * per_det, stiffness);
-    stiffness->lambda_min_n_per_mm = per_det / stiffness->lambda_max_n_per_mm; /* no difference, so nothing cancels */
+    brace_stiffness_of_circle(circle.dev.z / c.det, circle.dev.x / c.det, mean / c.det, stiffness);
+    stiffness->lambda_min_n_per_mm = 1.0f / (c.det * stiffness->lambda_max_n_per_mm); /* no difference: nothing cancels */
     return BRACE_OK;
 }
 
