@@ -25,12 +25,12 @@ class Check:
         return "PASS" if self.passed else "MISS"
 
 
-def _at_most(name: str, value: float, limit: float, unit: str = "",
-             text: Callable[[float], str] = "{:,.0f}".format) -> Check:
+def at_most(name: str, value: float, limit: float, unit: str = "",
+            text: Callable[[float], str] = "{:,.0f}".format) -> Check:
     return Check(name, text(value) + unit, f"at most {text(limit)}{unit}", value <= limit)
 
 
-def _at_least(name: str, value: float, limit: float, unit: str = "") -> Check:
+def at_least(name: str, value: float, limit: float, unit: str = "") -> Check:
     return Check(name, f"{value:.2f}{unit}", f"at least {limit:g}{unit}", value >= limit)
 
 
@@ -58,11 +58,11 @@ class Limits:
         best = min(self._peers(PLANAR), key=lambda m: m.median)
         cycles = [m.cycles for m in ticks if m.cycles]
         return [
-            _at_most("planar K, instructions at every posture", most, 140),
-            _at_most("planar K, cycles by the manual", max(c.manual for c in cycles), 230),
-            _at_least(f"planar K, times fewer instructions than the best peer ({best.version.name}, median)",
+            at_most("planar K, instructions at every posture", most, 140),
+            at_most("planar K, cycles by the manual", max(c.manual for c in cycles), 230),
+            at_least(f"planar K, times fewer instructions than the best peer ({best.version.name}, median)",
                       best.median / most, 3.3),
-            _at_most("planar K from a table, instructions at every posture", max(m.maximum for m in table), 80),
+            at_most("planar K from a table, instructions at every posture", max(m.maximum for m in table), 80),
         ]
 
     def _others(self) -> list[Check]:
@@ -73,11 +73,11 @@ class Limits:
         refused = sum(m.refused for m in collapse)
         casadi = min(m.median for m in self._peers(SPATIAL, "CasADi"))
         return [
-            _at_most("fixed point on Cortex-M3, instructions at every posture", fixed, 260),
-            _at_least("fixed point, times fewer instructions than soft float (best median)", soft / fixed, 35),
-            _at_most("spatial K, instructions, worst posture and limb", spatial, 900),
-            _at_least("spatial K, times fewer instructions than CasADi's median", casadi / spatial, 2),
-            _at_most(f"parameter change, instructions, worst limb ({refused} left to the general path)",
+            at_most("fixed point on Cortex-M3, instructions at every posture", fixed, 260),
+            at_least("fixed point, times fewer instructions than soft float (best median)", soft / fixed, 35),
+            at_most("spatial K, instructions, worst posture and limb", spatial, 900),
+            at_least("spatial K, times fewer instructions than CasADi's median", casadi / spatial, 2),
+            at_most(f"parameter change, instructions, worst limb ({refused} left to the general path)",
                      max(m.maximum for m in collapse), 3000),
         ]
 
@@ -101,9 +101,9 @@ class Limits:
             errors = [e for m in measured for e in (m.error, m.workspace_error) if e]
             least = [max(e.eigenvalues) if measured is spatial else e.eigenvalues[0] for e in errors]
             which = "eigenvalues" if measured is spatial else "lambda_min"
-            checks.append(_at_most(f"{name}: error over lambda_max, whole workspace", max(e.k for e in errors), k_limit,
+            checks.append(at_most(f"{name}: error over lambda_max, whole workspace", max(e.k for e in errors), k_limit,
                                    text=_error_text))
-            checks.append(_at_most(f"{name}: relative error of {which}, whole workspace", max(least), lambda_limit,
+            checks.append(at_most(f"{name}: relative error of {which}, whole workspace", max(least), lambda_limit,
                                    text=_error_text))
         return checks
 
@@ -111,19 +111,19 @@ class Limits:
         planar = max(m.flash_bytes for m in self._ours(PLANAR) if "table" not in m.version.name)
         stack = next(value for name, value in self.weights.items() if name.startswith(CORE_STACK))
         return [
-            *(_at_most(name, self.weights[name], 6 * 1024, " B") for name in (
+            *(at_most(name, self.weights[name], 6 * 1024, " B") for name in (
                 EQUAL_FLASH, ANY_FLASH, SPACE_FLASH, LIMB_FLASH, ONCE_FLASH, CORE_FLASH)),
-            _at_most("flash, planar float path with the parameter change", planar, 2560, " B"),
-            *(_at_most(name, self.weights[name], 512, " B") for name in (PLANAR_RAM, FIXED_RAM, SPATIAL_RAM)),
-            _at_most(CORE_STACK, stack, 256, " B"),
+            at_most("flash, planar float path with the parameter change", planar, 2560, " B"),
+            *(at_most(name, self.weights[name], 512, " B") for name in (PLANAR_RAM, FIXED_RAM, SPATIAL_RAM)),
+            at_most(CORE_STACK, stack, 256, " B"),
         ]
 
     def _host(self) -> list[Check]:
         eigen = next(r for r in self.rates if r.name.startswith("Eigen"))
         batch = next(r for r in self.rates if r.name == "Brace, batch")
-        return [_at_least("host batches, times Eigen's throughput", batch.postures_per_s / eigen.postures_per_s, 40),
-                _at_most("host batches: error of K over lambda_max", batch.error.k, 2e-6, text=_error_text),
-                _at_most("brace map over a million postures, processor time", self.map_s, 2.0, " s", "{:.2f}".format)]
+        return [at_least("host batches, times Eigen's throughput", batch.postures_per_s / eigen.postures_per_s, 40),
+                at_most("host batches: error of K over lambda_max", batch.error.k, 2e-6, text=_error_text),
+                at_most("brace map over a million postures, processor time", self.map_s, 2.0, " s", "{:.2f}".format)]
 
     def checks(self) -> list[Check]:
         """All limits, in the order a reader wants them."""

@@ -7,6 +7,9 @@ firmware. The crossing itself, from the simulation's truth: the ticks with the g
 detection time (52 ms). All other ticks are judged; where no flank is told is counted apart ("withheld"), and once more by the
 best guess (the sign of the offset), which is always there.
 
+The motor's friction is the same at rest as in motion there. Gears stick (backlash_measured.py): two more runs take up to twice as
+much to break away, once with a machine that knows nothing of it, once with one that is told as docs/backlash.md says.
+
 The angle error is told five ways: of all ticks, with a flank touching, outside the crossing, and where the machine tells a
 flank, and says valid. With the gap believed 20 % wrong the right flank alone leaves up to a tenth
 of the gap. Of all ticks, the gap's being open included, a tenth is not reached, and not in reach: backlash_floor.py.
@@ -29,7 +32,7 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 CORE = HERE.parents[1] / "firmware" / "core"
 SOURCES = [*sorted((CORE / "src").glob("backlash/backlash*.c")), CORE / "src" / "base" / "check.c",
-           *(HERE / f"backlash_{name}.c" for name in ("plant", "history", "run", "oracle"))]
+           *(HERE / f"backlash_{name}.c" for name in ("plant", "history", "run", "oracle", "measured"))]
 BINS = 12_000
 HISTORY_FIELDS = ["ticks", "open", "excluded", "judged", "wrong", "withheld", "best_wrong", "valid", "valid_wrong",
                   "late_valid", "longest_valid_open_us", "cnc_command_wrong", "cnc_encoder_wrong", "detection_us_max",
@@ -43,6 +46,7 @@ HISTORY_TICKS = 6000
 TAKEUP_FIELDS = ["done", "really_done", "ok", "torque", "travel", "reach", "time", "verify", "lost", "fault",
                  "torque_over", "travel_over", "time_over", "not_idle", "preload_error", "preload_error_max"]
 REPORTED_SEED = 1_000_001
+SLIPS, STICKS_UNKNOWN, STICKS_ALLOWED = range(3)  # breakaway_t
 
 
 class HistoryCounts(ctypes.Structure):
@@ -76,11 +80,11 @@ def beyond_a_tenth(bins: ctypes.Array[ctypes.c_double]) -> float:
     return float(count[1001:].sum() / count.sum())
 
 
-def histories(lib: ctypes.CDLL, first: int, count: int, exact: bool, expecting: bool) -> HistoryCounts:
+def histories(lib: ctypes.CDLL, first: int, count: int, exact: bool, expecting: bool, breakaway: int = SLIPS) -> HistoryCounts:
     counts = HistoryCounts()
     for seed in range(first, first + count):
-        status = lib.backlash_history(ctypes.c_uint64(seed), int(exact), int(expecting), ctypes.byref(counts),
-                                      None)
+        status = lib.backlash_history(ctypes.c_uint64(seed), int(exact), int(expecting), breakaway,
+                                      ctypes.byref(counts), None)
         assert status == 0, f"seed {seed}: status {status}"
     return counts
 
@@ -88,7 +92,7 @@ def histories(lib: ctypes.CDLL, first: int, count: int, exact: bool, expecting: 
 def trace(lib: ctypes.CDLL, seed: int) -> dict[str, np.ndarray]:
     """One history, tick by tick."""
     rows = np.zeros((HISTORY_TICKS, len(TRACE_FIELDS)))
-    status = lib.backlash_history(ctypes.c_uint64(seed), 0, 0, ctypes.byref(HistoryCounts()),
+    status = lib.backlash_history(ctypes.c_uint64(seed), 0, 0, SLIPS, ctypes.byref(HistoryCounts()),
                                   ctypes.c_void_p(rows.ctypes.data))
     assert status == 0, f"seed {seed}: status {status}"
     return dict(zip(TRACE_FIELDS, rows.T, strict=True))
@@ -160,9 +164,12 @@ def main() -> int:
     options = parser.parse_args()
     lib = library()
     met = True
-    for name, exact, expecting in (("gap within 20 %", False, False), ("gap exactly 20 % off", True, False),
-                                   ("gap within 20 %, gravity expected", False, True)):
-        counts = histories(lib, options.seed, options.count, exact, expecting)
+    for name, exact, expecting, breakaway in (
+            ("gap within 20 %", False, False, SLIPS), ("gap exactly 20 % off", True, False, SLIPS),
+            ("gap within 20 %, gravity expected", False, True, SLIPS),
+            ("gap within 20 %, sticking, and nobody knows", False, False, STICKS_UNKNOWN),
+            ("gap within 20 %, sticking, friction trusted to 100 %", False, False, STICKS_ALLOWED)):
+        counts = histories(lib, options.seed, options.count, exact, expecting, breakaway)
         print(f"histories, {name}: {options.count}")
         report_histories(counts)
         for bound, reached in history_bounds(counts).items():

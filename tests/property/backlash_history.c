@@ -77,7 +77,7 @@ static double segment_torque(const segment_t *s, double t)
     return torque;
 }
 
-history_t history_begin(uint64_t seed, gap_belief_t belief, bool expecting)
+history_t history_begin(uint64_t seed, gap_belief_t belief, bool expecting, breakaway_t breakaway)
 {
     history_t h = {.dice = {seed * 0x2545f4914f6cdd1du + 99u}, .expecting = expecting};
     h.plant = plant_random(&h.dice);
@@ -86,6 +86,13 @@ history_t history_begin(uint64_t seed, gap_belief_t belief, bool expecting)
     h.believed = joint_as_believed(&h.plant, gap_off, &h.dice, 0.0);
     h.hold_stiffness = dice_log_uniform(&h.dice, 5e4, 6e5);
     h.gravity_off = dice_uniform(&h.dice, 0.85, 1.15);
+    if (breakaway != SLIPS) {
+        h.plant.breakaway_ratio = dice_uniform(&h.dice, 1.0, 2.0);
+    }
+    if (breakaway == STICKS_ALLOWED) {
+        h.believed.friction_tolerance_ratio = 1.0f;
+        h.believed.friction_n_mm *= 1.15f; /* the upper end of what it may be */
+    }
     h.setpoint_rad = h.setpoint_before_rad = h.plant.motor_rad;
     h.segment = (segment_t){.kind = REST, .length_s = 0.3, .from_rad = h.setpoint_rad, .to_rad = h.setpoint_rad};
     return h;

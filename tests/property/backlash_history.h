@@ -22,6 +22,9 @@ typedef struct {
 /* How far the gap is believed wrong: anything within 20 %, or exactly 20 % up or down. */
 typedef enum { GAP_WITHIN_20_PERCENT, GAP_EXACTLY_20_PERCENT_OFF } gap_belief_t;
 
+/* Friction at rest: no more than in motion; up to twice that, and nobody knows; or so, and the belief allows for it. */
+typedef enum { SLIPS, STICKS_UNKNOWN, STICKS_ALLOWED } breakaway_t;
+
 typedef struct {
     dice_t dice;
     plant_t plant;
@@ -38,7 +41,7 @@ typedef struct {
 /* gap_off: the belief's error as a ratio. */
 brace_backlash_params_t joint_as_believed(const plant_t *plant, double gap_off, dice_t *dice, double hold_stiffness);
 
-history_t history_begin(uint64_t seed, gap_belief_t belief, bool expecting);
+history_t history_begin(uint64_t seed, gap_belief_t belief, bool expecting, breakaway_t breakaway);
 
 /* Goes on by a millisecond and reads the instruments. */
 brace_backlash_sample_t history_tick(history_t *history);

@@ -236,7 +236,7 @@ int backlash_oracle(uint64_t seed, int particles, int exact_torque, int told_wor
         return -1;
     }
     const knows_t knows = {.exact_torque = exact_torque != 0, .told_world = told_world != 0};
-    history_t h = history_begin(seed, GAP_WITHIN_20_PERCENT, false);
+    history_t h = history_begin(seed, GAP_WITHIN_20_PERCENT, false, SLIPS);
     const plant_t *p = &h.plant;
     cloud_t cloud = {of, resampled, log_weight, particles, {seed * 77u + 5u}};
     begin(&cloud, p, p->motor_rad);

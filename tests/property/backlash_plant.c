@@ -4,6 +4,7 @@
 
 enum { STEPS_PER_TICK = 10 };
 static const double tick_s = 1e-3;
+static const double stribeck_rad_per_s = 0.01; /* where sticking has become slipping */
 
 static uint64_t dice_next(dice_t *dice) /* splitmix64 */
 {
@@ -39,6 +40,7 @@ plant_t plant_random(dice_t *dice)
     p.step_rad = dice_log_uniform(dice, 1e-5, 1e-4);
     p.motor_inertia = dice_uniform(dice, 10.0, 50.0);
     p.motor_friction_n_mm = dice_uniform(dice, 0.01, 0.06) * p.range_n_mm;
+    p.breakaway_ratio = 1.0;
     p.motor_damping = dice_uniform(dice, 0.0, 50.0);
     p.gap_rad = degree * dice_uniform(dice, 0.1, 1.5);
     p.stiffness = dice_log_uniform(dice, 5e4, 2e5);
@@ -77,6 +79,13 @@ static double rubbed(double speed, double inertia, double friction_n_mm, double 
     return speed - clamp(speed, friction_n_mm * dt / inertia);
 }
 
+/* Stribeck's curve without its viscous part. */
+static double motor_friction_n_mm(const plant_t *p)
+{
+    const double slip = p->motor_speed / stribeck_rad_per_s;
+    return p->motor_friction_n_mm * (1.0 + (p->breakaway_ratio - 1.0) * exp(-slip * slip));
+}
+
 double plant_gravity_n_mm(const plant_t *p, double link_rad)
 {
     return -p->gravity_n_mm * cos(link_rad + p->gravity_phase_rad);
@@ -95,9 +104,10 @@ void plant_tick(plant_t *p, double setpoint_rad, double setspeed_rad_per_s, cons
             outside -= world->hold_stiffness * (p->link_rad - world->hold_rad) +
                        world->hold_damping * p->link_speed;
         }
+        const double friction_n_mm = motor_friction_n_mm(p);
         p->motor_speed += dt * (p->torque_n_mm - passed - p->motor_damping * p->motor_speed) / p->motor_inertia;
         p->link_speed += dt * (passed + outside) / p->link_inertia;
-        p->motor_speed = rubbed(p->motor_speed, p->motor_inertia, p->motor_friction_n_mm, dt);
+        p->motor_speed = rubbed(p->motor_speed, p->motor_inertia, friction_n_mm, dt);
         p->link_speed = rubbed(p->link_speed, p->link_inertia, p->link_friction_n_mm, dt);
         p->motor_rad += dt * p->motor_speed;
         p->link_rad += dt * p->link_speed;

@@ -58,9 +58,9 @@ static void cnc_follow(cnc_t *cnc, const history_t *h, double read_rad)
 }
 
 /* trace: HISTORY_TICKS rows, or null */
-int backlash_history(uint64_t seed, int belief, int expecting, history_counts_t *counts, trace_tick_t *trace)
+int backlash_history(uint64_t seed, int belief, int expecting, int breakaway, history_counts_t *counts, trace_tick_t *trace)
 {
-    history_t h = history_begin(seed, (gap_belief_t)belief, expecting != 0);
+    history_t h = history_begin(seed, (gap_belief_t)belief, expecting != 0, (breakaway_t)breakaway);
     const plant_t *p = &h.plant;
     brace_backlash_t joint;
     const int status = brace_backlash_init(&joint, &h.believed);

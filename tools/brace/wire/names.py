@@ -216,8 +216,8 @@ PARAMETERS: tuple[Parameter, ...] = (
     ),
     Parameter(
         41, "motor.coxa.friction_tolerance_ratio",
-        unit="", low=0.0, high=1.0, default=0.2, safe=0.2,
-        description="how far the motor's friction may be off, of itself",
+        unit="", low=0.0, high=1.0, default=1.0, safe=1.0,
+        description="how far the motor's friction may be off, of itself: sticking, creeping, changing with load and place; gears as measured: 1",
     ),
     Parameter(
         42, "motor.coxa.inertia_n_mm_s2_per_rad",
@@ -281,8 +281,8 @@ PARAMETERS: tuple[Parameter, ...] = (
     ),
     Parameter(
         54, "motor.femur.friction_tolerance_ratio",
-        unit="", low=0.0, high=1.0, default=0.2, safe=0.2,
-        description="how far the motor's friction may be off, of itself",
+        unit="", low=0.0, high=1.0, default=1.0, safe=1.0,
+        description="how far the motor's friction may be off, of itself: sticking, creeping, changing with load and place; gears as measured: 1",
     ),
     Parameter(
         55, "motor.femur.inertia_n_mm_s2_per_rad",
@@ -346,8 +346,8 @@ PARAMETERS: tuple[Parameter, ...] = (
     ),
     Parameter(
         67, "motor.tibia.friction_tolerance_ratio",
-        unit="", low=0.0, high=1.0, default=0.2, safe=0.2,
-        description="how far the motor's friction may be off, of itself",
+        unit="", low=0.0, high=1.0, default=1.0, safe=1.0,
+        description="how far the motor's friction may be off, of itself: sticking, creeping, changing with load and place; gears as measured: 1",
     ),
     Parameter(
         68, "motor.tibia.inertia_n_mm_s2_per_rad",

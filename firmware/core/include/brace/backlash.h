@@ -77,7 +77,7 @@ typedef struct {
     uint32_t tick_us;                 /* period of brace_backlash_tick [100, 5000] */
     float gap_rad;                    /* full width as believed [1e-5, 0.5]; 20 % off is expected */
     float friction_n_mm;              /* Coulomb friction of motor and gears, before the gap [0, 1e6] */
-    float friction_tolerance_ratio;   /* how far that may be off [0, 1] */
+    float friction_tolerance_ratio;   /* how far that may be off [0, 1]; gears stick and creep: 1 (docs/backlash.md) */
     float inertia_n_mm_s2_per_rad;    /* of motor and gears, joint side [0, 1e6]; trusted to 25 % */
     float torque_range_n_mm;          /* of the motor (0, 1e6] */
     float torque_noise_n_mm;          /* one sigma of a torque sample, white [0, torque_range] */
