@@ -7,8 +7,8 @@
 /* What the means need of the tick's period. */
 void joints_configure(brace_app_t *app);
 
-/* Reads femur and tibia. Samples that are refused, not finite or absurd (such as a torque of more than twice the motor's
- * greatest) are counted and the last sound one stays, until it is older than controller.age_limit_us. At most 280
+/* Reads femur and tibia. Samples that are refused, not finite or absurd (a torque of more than twice the motor's
+ * greatest, say) are counted and the last sound one stays, until it is older than controller.age_limit_us. At most 280
  * instructions. */
 void joints_read(brace_app_t *app, uint32_t now_us);
 
