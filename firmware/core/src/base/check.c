@@ -1,6 +1,5 @@
 #include "base/check.h"
 
-#include <stdbool.h>
 #include <stddef.h>
 
 #include "base/off_tick.h"
@@ -71,10 +70,17 @@ brace_status_t brace_check_lengths(const brace_limb_t *limb)
     if (limb == NULL) {
         return BRACE_E_NULL;
     }
-    return brace_magnitude_bits(limb->coxa_mm) <= brace_magnitude_bits(LONGEST_MM) && !(limb->coxa_mm < 0.0f) &&
+    return !brace_is_negative(limb->coxa_mm) && brace_magnitude_bits(limb->coxa_mm) <= brace_magnitude_bits(LONGEST_MM) &&
                    is_length(limb->femur_mm) && is_length(limb->tibia_mm)
                ? BRACE_OK
                : BRACE_E_PARAMETER;
+}
+
+BRACE_OFF_TICK
+brace_status_t brace_check_limb(const void *given, const float *value, brace_input_t what, const brace_limb_t *limb)
+{
+    const brace_status_t status = brace_check(limb != NULL ? given : NULL, value, what);
+    return status == BRACE_OK ? brace_check_lengths(limb) : status;
 }
 
 BRACE_OFF_TICK

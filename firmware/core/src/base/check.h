@@ -2,6 +2,7 @@
 #ifndef BRACE_CORE_CHECK_H
 #define BRACE_CORE_CHECK_H
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -36,7 +37,10 @@ brace_status_t brace_check_two(float a, float b, float limit);
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_PARAMETER */
 brace_status_t brace_check_lengths(const brace_limb_t *limb);
 
-/* The same, and then whether a stiffness can be divided by: numbers within their limits, eigenvalues positive and in
+/* brace_check, and then brace_check_lengths; null before all else. */
+brace_status_t brace_check_limb(const void *given, const float *value, brace_input_t what, const brace_limb_t *limb);
+
+/* brace_check, and then whether a stiffness can be divided by: numbers within their limits, eigenvalues positive and in
  * order. */
 brace_status_t brace_check_stiffness(const brace_stiffness_t *stiffness, const void *given, const float *value,
                                      brace_input_t what);
@@ -54,6 +58,12 @@ static inline int32_t brace_bits(float value)
 static inline uint32_t brace_magnitude_bits(float value)
 {
     return (uint32_t)brace_bits(value) << 1;
+}
+
+/* Below zero; minus zero is not. */
+static inline bool brace_is_negative(float value)
+{
+    return (uint32_t)brace_bits(value) > 0x80000000u;
 }
 
 #define BRACE_INFINITE_BITS 0xff000000u /* of infinity; of NaN more */

@@ -88,6 +88,9 @@ static inline brace_circle_t brace_circle_in_world(brace_tensor_t c, brace_vec_t
     return (brace_circle_t){0.5f * (c.xx + c.zz), brace_turned((brace_vec_t){0.5f * (c.xx - c.zz), c.xz}, to_world)};
 }
 
+/* All of a K but its flags, from its circle (brace_circle_t, the deviator first: it comes to where its angle is asked for). */
+void brace_stiffness_of_circle(float dev_z, float dev_x, float mean, brace_stiffness_t *stiffness);
+
 /* K in the world's frame of C seen from the bisector, as brace_chain_stiffness says. to_world: direction of twice the
  * bisector's angle. BRACE_OK or BRACE_E_SINGULAR: then stiffness is untouched. */
 static inline brace_status_t brace_tensor_inverse(brace_tensor_t c, brace_vec_t to_world, brace_stiffness_t *stiffness)
@@ -97,15 +100,10 @@ static inline brace_status_t brace_tensor_inverse(brace_tensor_t c, brace_vec_t 
     if (!(det > BRACE_SINGULAR * square)) {
         return BRACE_E_SINGULAR;
     }
-    const float longest = mean + brace_sqrt(vec_dot(circle.dev, circle.dev));
     const float per_det = 1.0f / det;
     stiffness->flags = det < BRACE_SLENDER * square ? BRACE_FLAG_NEAR_SINGULAR : 0u;
-    stiffness->k_xx_n_per_mm = (mean - circle.dev.x) * per_det;
-    stiffness->k_xz_n_per_mm = -circle.dev.z * per_det;
-    stiffness->k_zz_n_per_mm = (mean + circle.dev.x) * per_det;
-    stiffness->lambda_min_n_per_mm = 1.0f / longest;
-    stiffness->lambda_max_n_per_mm = longest * per_det;
-    stiffness->stiff_axis_rad = 0.5f * brace_atan2(-circle.dev.z, -circle.dev.x);
+    brace_stiffness_of_circle(-circle.dev.z * per_det, -circle.dev.x * per_det, mean * per_det, stiffness);
+    stiffness->lambda_min_n_per_mm = per_det / stiffness->lambda_max_n_per_mm; /* no difference, so nothing cancels */
     return BRACE_OK;
 }
 
