@@ -10,18 +10,18 @@
 #include "brace/status.h"
 #include "brace/stiffness.h"
 
-/* What a public function is given: a run of numbers, each within plus and minus a limit of its own (check.c). The number is
- * sixteen times the place of the first limit, and how many. */
+/* What a public function is given: a run of numbers, each within plus and minus a limit of its own (check.c). A digit for
+ * each, the first one last: 1 an angle of a joint, 2 a part of a normal or a friction, 3 a displacement, 4 a force or a
+ * coordinate, 5 a distance, 6 a stiffness. */
 typedef enum {
-    BRACE_INPUT_STIFFNESS = 0x06,    /* what a brace_stiffness_t begins with: entries, eigenvalues, axis */
-    BRACE_INPUT_ANGLE = 0x51,        /* of a joint [rad] */
-    BRACE_INPUT_ANGLES = 0x52,       /* of two */
-    BRACE_INPUT_POLAR = 0x72,        /* distance [mm], direction [rad] */
-    BRACE_INPUT_DISPLACEMENT = 0x92, /* two components [mm] */
-    BRACE_INPUT_READING = 0xa3,      /* displacement [mm], two components of the force [N] */
-    BRACE_INPUT_FORCE = 0xb2,        /* two components [N] */
-    BRACE_INPUT_POINT = 0xb2,        /* two components [mm] */
-    BRACE_INPUT_GRIP = 0xb5          /* two components of the force [N], two of the surface's normal, friction */
+    BRACE_INPUT_STIFFNESS = 0x166666, /* what a brace_stiffness_t begins with: entries, eigenvalues, axis */
+    BRACE_INPUT_ANGLES = 0x11,        /* of two joints [rad] */
+    BRACE_INPUT_POLAR = 0x15,         /* distance [mm], direction [rad] */
+    BRACE_INPUT_DISPLACEMENT = 0x33,  /* two components [mm] */
+    BRACE_INPUT_READING = 0x443,      /* displacement [mm], two components of the force [N] */
+    BRACE_INPUT_FORCE = 0x44,         /* two components [N] */
+    BRACE_INPUT_POINT = 0x44,         /* two components [mm] */
+    BRACE_INPUT_GRIP = 0x22244        /* two components of the force [N], two of the surface's normal, friction */
 } brace_input_t;
 
 /* Are those numbers what they may be? given: whatever the caller must have been given a pointer to.

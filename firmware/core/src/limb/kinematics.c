@@ -11,15 +11,13 @@
 
 void brace_kinematics_pose(const brace_limb_t *limb, float theta1_rad, float theta2_rad, brace_pose_t *pose)
 {
-    const uint32_t femur_turn = brace_turn(theta1_rad);
+    const uint32_t femur_turn = brace_turn(theta1_rad), tibia_turn = femur_turn - brace_turn(theta2_rad);
     const brace_vec_t femur = brace_direction(femur_turn);
-    pose->knee = (brace_point_t){limb->femur_mm * femur.x, limb->femur_mm * femur.z};
-    const brace_vec_t tibia = brace_direction(femur_turn - brace_turn(theta2_rad));
-    const brace_point_t shank = {limb->tibia_mm * tibia.x, limb->tibia_mm * tibia.z};
-    const brace_point_t tip = {pose->knee.x_mm + shank.x_mm, pose->knee.z_mm + shank.z_mm};
-    pose->tip = tip;
-    pose->lever_femur = (brace_point_t){-tip.z_mm, tip.x_mm};
-    pose->lever_tibia = (brace_point_t){-shank.z_mm, shank.x_mm};
+    const float knee_x = limb->femur_mm * femur.x, knee_z = limb->femur_mm * femur.z;
+    const brace_vec_t tibia = brace_direction(tibia_turn);
+    const float shank_x = limb->tibia_mm * tibia.x, shank_z = limb->tibia_mm * tibia.z;
+    const float x = knee_x + shank_x, z = knee_z + shank_z;
+    *pose = (brace_pose_t){{knee_x, knee_z}, {x, z}, {-z, x}, {-shank_z, shank_x}};
 }
 
 BRACE_OFF_TICK

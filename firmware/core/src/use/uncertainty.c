@@ -119,10 +119,10 @@ static void find_vectors(const brace_limb_t *limb, const float theta_rad[2], con
     const uint32_t femur_turn = brace_turn(theta_rad[0]), tibia_turn = femur_turn - brace_turn(theta_rad[1]);
     vectors->at[AXES] = brace_direction(femur_turn + brace_turn(limb->link[BRACE_FEMUR].tilt_rad));
     vectors->at[AXES + 1] = brace_direction(tibia_turn + brace_turn(limb->link[BRACE_TIBIA].tilt_rad));
-    for (int i = DIRECTION_COUNT - 1; i >= 0; i--) { /* backwards: each makes room for two */
+    for (int i = DIRECTION_COUNT; i-- > 0;) { /* backwards: each makes room for two */
         const brace_vec_t v = brace_turned(vectors->at[i], x);
         vectors->at[2 * i] = (brace_vec_t){lambda_stiff * v.x, lambda_soft * v.z};
-        vectors->at[2 * i + 1] = (brace_vec_t){lambda_stiff * v.z, -lambda_soft * v.x};
+        vectors->at[2 * i + 1] = (brace_vec_t){lambda_stiff * v.z, -(lambda_soft * v.x)};
     }
 }
 
