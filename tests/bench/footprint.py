@@ -1,37 +1,34 @@
-"""What the controller's images weigh, as the linker left them beside each image, and what of that computes K."""
+"""What the controller's images weigh, as the linker left them, and what of that is the estimator."""
 
 import json
-import re
 from pathlib import Path
 from typing import Any
 
 from extra import Extra
 from fetch import ROOT
 from limits import at_most
-from weights import WATCHING
+from measure import object_of
+from toolchain import BUILD, M4F, compiled_symbols, flash_bytes
+from versions import core_sources
+from weights import HOST_ONLY, NO_FPU_ONLY, WATCHING, public_functions
 
 IMAGES = ROOT / "build" / "m4f" / "images"
-MEMORY_MAP = "Linker script and memory map"
-# a section that was kept, its name on the same line or the one before: address, size, library(object of the source)
-PLACED = re.compile(r"^ \.(?:text|rodata|data)(?:\.\S+)?\s+0x([0-9a-f]+)\s+0x([0-9a-f]+)\s+\S*libbrace_core\.a\((\w+)\.c\.\w+\)$",
-                    re.MULTILINE)
 
-NOTE = """The whole controller: start-up, hardware layer, application, stores and core. No heap; the stack is a part of the RAM. The estimator: what of it the core brings in, by the linker's map, to know K and to use it, whatever the limb: limb check, kinematics, both planar paths to K, parameter change, uncertainty, contact, slopes; without what watches the limb (play, drift)."""
+NOTE = """The whole controller: start-up, hardware layer, application, stores and core. No heap; the stack is a part of the RAM. The estimator: every function of the core that the image has to know K and to use it, whatever the limb, linked alone: limb check, kinematics, both planar paths to K, parameter change, uncertainty, contact, slopes; without what watches the limb (play, drift)."""
 
 
-def estimator_bytes(memory_map: str) -> dict[str, int]:
-    """Source of the estimator -> bytes of code and constants that a linker's map shows in the image."""
-    bytes_of: dict[str, int] = {}
-    for address, size, source in PLACED.findall(memory_map[memory_map.index(MEMORY_MAP):]):
-        if int(address, 16) and not source.startswith(WATCHING):
-            bytes_of[source] = bytes_of.get(source, 0) + int(size, 16)
-    return bytes_of
+def estimator_functions(image: Path) -> tuple[str, ...]:
+    """The estimator's public functions that an image has."""
+    there = compiled_symbols(image)
+    return tuple(name for name in public_functions((*NO_FPU_ONLY, *HOST_ONLY, *WATCHING)) if name in there)
 
 
 def _weigh(size_file: Path) -> dict[str, Any]:
     name = size_file.name.removesuffix(".size.json")
-    estimator = estimator_bytes(size_file.with_name(name + ".map").read_text())
-    return {**json.loads(size_file.read_text()), "estimator_bytes": sum(estimator.values())}
+    functions = estimator_functions(size_file.with_name(name + ".elf"))
+    objects = [object_of(source, M4F, ()) for source in core_sources()]
+    estimator = flash_bytes(objects, functions, BUILD / "images" / f"estimator_of_{name}.elf", M4F)
+    return {**json.loads(size_file.read_text()), "estimator_functions": functions, "estimator_bytes": estimator}
 
 
 def extra() -> Extra:
@@ -41,5 +38,5 @@ def extra() -> Extra:
     heads = ["image", "flash [B]", "of", "estimator [B]", "RAM [B]", "of", "stack [B]"]
     rows = [[str(image["image"]), *(f"{image[field]:,}" for field in fields)] for image in images]
     most = max(image["estimator_bytes"] for image in images)
-    check = at_most("flash, Cortex-M4F, the estimator as linked into the images", most, 6 * 1024, " B")
+    check = at_most("flash, Cortex-M4F, the estimator of the images, both planar paths", most, 6 * 1024, " B")
     return Extra("images", NOTE, [("Images", heads, rows)], [check], {str(image["image"]): image for image in images})
