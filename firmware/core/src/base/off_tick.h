@@ -8,4 +8,11 @@
 #define BRACE_OFF_TICK
 #endif
 
+/* Its loops stay loops: a call of the C library's memset would be longer. */
+#if defined(__GNUC__) && !defined(__clang__)
+#define BRACE_LOOPS_STAY __attribute__((optimize("no-tree-loop-distribute-patterns")))
+#else
+#define BRACE_LOOPS_STAY
+#endif
+
 #endif
