@@ -24,11 +24,12 @@ class SlcanController:
         answers: bool = True,
         errors: int = 0,
         garbage: bytes = b"",
+        flood: bytes = b"",
         hangs_up: bool = False,
         echo_first: bool = False,
     ) -> None:
         self.node, self.hash, self.speaks, self.answers, self.errors = node, hash_, speaks, answers, errors
-        self.garbage, self.hangs_up, self.echo_first = garbage, hangs_up, echo_first
+        self.garbage, self.flood, self.hangs_up, self.echo_first = garbage, flood, hangs_up, echo_first
         self.requests: list[bytes] = []
         self.forced: list[float] = []
         self._server = socket.create_server(("127.0.0.1", 0))
@@ -61,6 +62,10 @@ class SlcanController:
 
     def _serve(self, line: socket.socket) -> None:
         rest, beat = b"", 0.0
+        if self.flood:  # faster than it can be read
+            line.settimeout(5.0)
+            while not self._ends:
+                line.sendall(self.flood)
         while not self._ends:
             if time.monotonic() >= beat:
                 beat = time.monotonic() + 0.1

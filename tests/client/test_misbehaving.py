@@ -78,6 +78,17 @@ def test_wrong_baud_rate_of_the_serial_line(probe: Probe) -> None:
         assert answer.code == BIT_RATE and answer.told_in_time
 
 
+@pytest.mark.parametrize("what", [b"\r", b"z", b"T000000010\r", b"\xf0\x81\r", b"t70015\r"])
+def test_an_endless_flood_of_what_is_no_frame(probe: Probe, what: bytes) -> None:
+    """More of it is there whenever the client looks: empty lines, a line without an end, another kind of frame, noise,
+    half a frame."""
+    with SlcanController(flood=what * (65536 // len(what))) as controller:
+        answer = probe(controller.url, "identity")
+        assert answer.code in (SILENT, BIT_RATE) and "exit 4" in answer.err and answer.told_in_time, answer.err
+        answer = probe(controller.url, "dump", 200)
+        assert answer.code == TIMEOUT and answer.told_in_time and answer.out.splitlines()[0] == "open"
+
+
 def test_a_peer_that_goes_is_told_and_kills_nobody(probe: Probe) -> None:
     with socket.create_server(("127.0.0.1", 0)) as server:
 

@@ -125,7 +125,8 @@ class Image:
     def handlers(self, table: str = "vectors") -> set[str]:
         """Functions of the vector table but the reset handler."""
         start, size = self.symbols[table]
-        dump = _run(CROSS + "objdump", "-s", f"--start-address={start}", f"--stop-address={start + size}", self.path)
+        dump = _run(CROSS + "objdump", "-s", "-j", f".{table}", f"--start-address={start}",  # debug sections begin at 0 as well
+                    f"--stop-address={start + size}", self.path)
         rows = re.findall(r"^ [0-9a-f]+ ((?:[0-9a-f]{8} ){1,4}) ", dump, re.M)
         words = [int.from_bytes(bytes.fromhex(word), "little") for row in rows for word in row.split()]
         at = {address & ~1: name for name, (address, _) in self.symbols.items() if name in self.functions}

@@ -220,6 +220,74 @@ static void test_a_limb_at_rest_is_not_stuck(void)
     TEST_ASSERT_EQUAL(0, now()->faults);
 }
 
+/* --------------------------------------------------------------------------------- the motor's current -- */
+
+static void longer_ticks(uint32_t tick_us, int count)
+{
+    for (int i = 0; i < count; i++) {
+        fake.now_us += tick_us;
+        brace_app_tick(&app, fake.now_us);
+    }
+}
+
+/* Whenever it comes, the first sample of all included, and however long a tick is. */
+static void test_one_wild_torque_while_the_limb_stands_blames_no_encoder(void)
+{
+    static const float times_range[] = {1.0f, 1.9f, 2.0f, 9.0f, 10.0f, 1e4f};
+    static const uint32_t tick_us[] = {500, 1000, 5000};
+    for (size_t i = 0; i < 3u * sizeof times_range / sizeof *times_range; i++) {
+        brace_parameters_t p = bench_parameters();
+        p.controller.tick_us = tick_us[i % 3u];
+        for (int before = 0; before < 6; before++) {
+            const int joint = before % 2 == 0 ? BRACE_FEMUR : BRACE_TIBIA;
+            bench_start(&p);
+            fake.joint[joint].sample.torque_n_mm = -3000.0f;
+            longer_ticks(p.controller.tick_us, before < 4 ? before : 400 + before);
+            fake.joint[joint].sample.torque_n_mm = times_range[i / 3u] * p.drive[joint].torque_range_n_mm;
+            longer_ticks(p.controller.tick_us, 1);
+            fake.joint[joint].sample.torque_n_mm = -3000.0f;
+            longer_ticks(p.controller.tick_us, 1000);
+            TEST_ASSERT_EQUAL(0, now()->faults);
+            TEST_ASSERT_TRUE(now()->k_is_valid);
+            ASSERT_CLOSE(-3000.0, now()->play[joint].load_n_mm, 1.0);
+        }
+    }
+}
+
+static void test_wild_torques_that_go_on_are_the_sensor_s(void)
+{
+    static const uint32_t named[] = {[BRACE_FEMUR] = BRACE_FAULT_SENSOR_FEMUR,
+                                     [BRACE_TIBIA] = BRACE_FAULT_SENSOR_TIBIA};
+    for (int joint = BRACE_FEMUR; joint <= BRACE_TIBIA; joint++) {
+        setUp();
+        ticks(50);
+        for (int i = 0; i < 600; i++) {
+            fake.joint[joint].sample.torque_n_mm = i / 7 % 2 == 0 ? 25000.0f : -1e5f;
+            ticks(1);
+            TEST_ASSERT_EQUAL(i < 20 ? 0u : named[joint], now()->faults);
+        }
+        fake.joint[joint].sample.torque_n_mm = 100.0f;
+        ticks(600);
+        TEST_ASSERT_EQUAL(0, now()->faults);
+        TEST_ASSERT_TRUE(now()->k_is_valid);
+    }
+}
+
+/* Every other one is wild, or all are, and never two in a row agree. */
+static void test_a_torque_that_flickers_blames_no_encoder(void)
+{
+    static const float between_n_mm[][2] = {{20000.0f, 100.0f}, {20000.0f, -15000.0f}, {-20000.0f, 15000.0f}};
+    for (size_t i = 0; i < sizeof between_n_mm / sizeof *between_n_mm; i++) {
+        setUp();
+        ticks(50);
+        for (int j = 0; j < 1000; j++) {
+            fake.joint[BRACE_FEMUR].sample.torque_n_mm = between_n_mm[i][j % 2];
+            ticks(1);
+            TEST_ASSERT_EQUAL(0, now()->faults);
+        }
+    }
+}
+
 /* ----------------------------------------------------------------------------------------- the sensor -- */
 
 static void test_a_force_that_stays_the_last_one_is_not_known_for_long(void)
@@ -313,6 +381,9 @@ int main(void)
     RUN_TEST(test_a_stuck_encoder_is_found_in_drives_that_are_sampled_every_other_tick);
     RUN_TEST(test_a_link_that_moves_away_from_a_standing_encoder_tells_too);
     RUN_TEST(test_a_limb_at_rest_is_not_stuck);
+    RUN_TEST(test_one_wild_torque_while_the_limb_stands_blames_no_encoder);
+    RUN_TEST(test_wild_torques_that_go_on_are_the_sensor_s);
+    RUN_TEST(test_a_torque_that_flickers_blames_no_encoder);
     RUN_TEST(test_a_force_that_stays_the_last_one_is_not_known_for_long);
     RUN_TEST(test_a_force_sensor_that_never_had_a_reading_tells_none);
     RUN_TEST(test_a_sample_from_the_future_does_not_stay_young);

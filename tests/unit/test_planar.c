@@ -170,8 +170,13 @@ static void test_what_only_the_general_path_can_serve_is_refused(void)
     limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = 2e-5f;
     refused(&limb, BRACE_E_UNSUPPORTED);
     limb = sample_limb[SAMPLE_PAPER]; /* springs so soft that the links are needles beside them */
-    limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = 1e-3f;
-    limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = 1e-3f;
+    limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = 3e-3f;
+    limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = 3e-3f;
+    refused(&limb, BRACE_E_UNSUPPORTED);
+    limb = sample_limb[SAMPLE_PAPER]; /* no springs: the mean hardly swings, what is left of det swings more */
+    limb.link[BRACE_FEMUR] = (brace_link_t){3.6e-4f, 4.2e-6f, 0.0f, 0, 0, 4.5e-4f};
+    limb.link[BRACE_TIBIA] = (brace_link_t){0.66f, 0.0f, 0.0f, 0, 0, 0};
+    limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = 0.0f;
     refused(&limb, BRACE_E_UNSUPPORTED);
 }
 

@@ -12,8 +12,8 @@
 float brace_atan2(float y, float x)
 {
     const float angle = any_float();
-    (void)x;
     ASSUME(angle >= -3.1415928f && angle <= 3.1415928f);
+    ASSUME(!(x >= 0.0f) || (angle >= -1.5707964f && angle <= 1.5707964f));
     ASSUME(!(y >= 0.0f) || angle >= 0.0f);
     return angle;
 }

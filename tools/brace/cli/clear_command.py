@@ -18,11 +18,11 @@ def add(commands: Any) -> None:
         "clear",
         help="a fault of a controller that stays until somebody has seen to it",
         description="drift (model_drift): the limb is again what it was commissioned as; the check watches on from the "
-        "baseline it holds. A limb that is another one now wants its parameters instead: brace identify, brace params push. "
-        "crash (crashed): the crash has been looked into; its record is gone afterwards, so read the console's banner "
-        "first. All other faults end with their cause.",
-        epilog="Exit codes: 0 it is not there (any more), 2 a fault that cannot be cleared, 4 no answer, 5 the device refuses "
-        "or the fault is back at once, 6 another dictionary.",
+        "baseline it holds. A limb that is another one now wants its parameters instead: brace identify, brace params "
+        "push. crash (crashed): the crash has been looked into; its record is gone afterwards, so read the console's "
+        "banner first. All other faults end with their cause.",
+        epilog="Exit codes: 0 it is not there (any more), 2 a fault that cannot be cleared, 4 no answer, 5 the device "
+        "refuses or the fault is back at once, 6 another dictionary.",
     )
     parser.add_argument("faults", nargs="+", type=_staying, metavar="FAULT", help=" or ".join(STAYING))
     add_bus(parser)

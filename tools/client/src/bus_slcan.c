@@ -298,26 +298,23 @@ static bool next_frame(brace_bus_t *bus, brace_bus_frame_t *frame)
 brace_bus_status_t brace_slcan_receive(brace_bus_t *bus, brace_bus_frame_t *frame, int timeout_ms)
 {
     const uint64_t deadline_us = brace_bus_now_us() + (uint64_t)timeout_ms * 1000u;
-    for (;;) {
-        if (next_frame(bus, frame)) {
-            return BRACE_BUS_OK;
-        }
+    while (!next_frame(bus, frame)) {
         const ssize_t size = read(bus->fd, bus->chunk, sizeof bus->chunk);
-        if (size > 0) {
-            bus->chunk_at = 0u;
-            bus->chunk_end = (size_t)size;
-            continue;
-        }
-        if (size == 0 || (errno != EAGAIN && errno != EINTR)) {
+        if (size == 0 || (size < 0 && errno != EAGAIN && errno != EINTR)) {
             return BRACE_BUS_E_DOWN;
         }
+        bus->chunk_at = 0u;
+        bus->chunk_end = size > 0 ? (size_t)size : 0u;
         const int left_ms = brace_bus_left_ms(deadline_us);
-        if (left_ms == 0) {
-            return BRACE_BUS_E_TIMEOUT;
+        if (left_ms == 0) { /* also where there is always more, and none of it a frame */
+            return next_frame(bus, frame) ? BRACE_BUS_OK : BRACE_BUS_E_TIMEOUT;
         }
-        struct pollfd news = {.fd = bus->fd, .events = POLLIN};
-        poll(&news, 1, left_ms);
+        if (size < 0) {
+            struct pollfd news = {.fd = bus->fd, .events = POLLIN};
+            poll(&news, 1, left_ms);
+        }
     }
+    return BRACE_BUS_OK;
 }
 
 void brace_slcan_ask_status(brace_bus_t *bus, int timeout_ms)

@@ -118,16 +118,15 @@ brace_bus_status_t brace_socketcan_receive(brace_bus_t *bus, brace_bus_frame_t *
         if (size == (ssize_t)CAN_MTU || size == (ssize_t)CANFD_MTU) {
             const bool fd = size == (ssize_t)CANFD_MTU;
             bus->errors += !fd && (got.can_id & CAN_ERR_FLAG) != 0u;
-            if (got.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_ERR_FLAG) || got.len > (fd ? 64u : 8u)) {
-                continue;
+            if ((got.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG | CAN_ERR_FLAG)) == 0u && got.len <= (fd ? 64u : 8u)) {
+                frame->id = got.can_id;
+                frame->length = got.len;
+                frame->fd = fd;
+                memcpy(frame->data, got.data, got.len);
+                memset(frame->data + got.len, 0, sizeof frame->data - got.len);
+                read_notes(bus, &message, frame);
+                return BRACE_BUS_OK;
             }
-            frame->id = got.can_id;
-            frame->length = got.len;
-            frame->fd = fd;
-            memcpy(frame->data, got.data, got.len);
-            memset(frame->data + got.len, 0, sizeof frame->data - got.len);
-            read_notes(bus, &message, frame);
-            return BRACE_BUS_OK;
         }
         if (size < 0 && errno != EAGAIN && errno != EINTR) {
             return BRACE_BUS_E_DOWN;

@@ -99,7 +99,8 @@ enum { BRACE_APP_JOINTS = 2 }; /* femur and tibia: [0] and [1] wherever only the
 
 typedef struct {
     brace_hal_joint_t sample; /* the last sound one; NaN before the first */
-    bool seen, sound, stuck;
+    uint8_t seen;             /* samples since there was none for too long; counts to 3 */
+    bool sound, stuck;
     bool proves;              /* sound, and new enough to prove a flank */
     float still_rad;          /* where the angle has stayed, for how long, and what torque and link did meanwhile */
     float torque_n_mm, torque_low_n_mm, torque_high_n_mm, link_low_rad, link_high_rad;
@@ -276,6 +277,7 @@ typedef struct {
 
     brace_mode_t mode;
     uint32_t faults, lasting_faults, last_us, tick_us, start_us, sequence;
+    float torque_share;    /* that a sample has in its joint's mean torque */
     int joint_of_tick;     /* the joint that this tick looks after: one a tick is enough */
     bool ticked;
     bool told;               /* the drives hold a command of ours */

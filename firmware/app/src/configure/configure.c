@@ -3,6 +3,7 @@
 #include "configure/keeping.h"
 #include "measure/force.h"
 #include "measure/model.h"
+#include "motion/joints.h"
 
 #define LEAST_GAP_RAD 1e-5f /* below it there is no play to watch */
 #define TAKEUP_RATE_RAD_PER_S 0.1f
@@ -71,6 +72,7 @@ bool configure_piece(brace_app_t *app)
     case PIECE_COLLAPSE:
         model_configure_collapse(&app->model, &app->parameters);
         app->tick_us = app->parameters.controller.tick_us;
+        joints_configure(app);
         break;
     case PIECE_GENERAL: model_configure_general(&app->model, &app->parameters); break;
     case PIECE_FEMUR: configure_play(app, 0); break;

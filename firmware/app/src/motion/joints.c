@@ -3,16 +3,19 @@
 #include "measure/force.h"
 
 #define ANGLE_ABSURD_RAD 100.0f
-#define TORQUE_ABSURD 10.0f /* of the motor's range */
+#define TORQUE_ABSURD 2.0f /* of the motor's greatest; bias and noise do not add as much again */
 
-/* An encoder that stands while its motor's torque swings by a quarter of its range, or by what friction
- * can hide four
+/* An encoder that stands while its motor's torque swings by a quarter of its range, or by what friction can hide four
  * times over, is stuck: any position servo gives way by more than an encoder step under that. */
 #define STUCK_US 250000u
 #define STUCK_SWING_OF_RANGE 0.25f
 #define STUCK_SWING_OF_FRICTION 4.0f
 #define STUCK_LINK_RAD 0.005f
+
+/* The torque's mean begins as the median of the first three samples and follows what two in a row agree on: a wild one
+ * does not move it. Its time is that of a step; where noise hides the step it takes up to twice as long. */
 #define TORQUE_MEAN_US 20000.0f
+#define SAMPLES_FIRST 3u
 
 /* What is older proves no flank: the state machines' filters know nothing of a longer stretch without a sample. */
 #define PROVING_TICKS 4u
@@ -69,6 +72,27 @@ static void watch_encoder(brace_app_joint_t *joint, const brace_drive_t *drive, 
     joint->stuck = torque_works || link_moves;
 }
 
+/* What two changes have in common: none of different signs, else the smaller. */
+static float agreed(float a, float b)
+{
+    const float smaller = __builtin_fabsf(a) < __builtin_fabsf(b) ? a : b;
+    return a * b > 0.0f ? smaller : 0.0f;
+}
+
+static void take_sample(brace_app_joint_t *joint, const brace_hal_joint_t *fresh, float share)
+{
+    const float mean_n_mm = joint->torque_n_mm;
+    const float moves_n_mm = agreed(joint->sample.torque_n_mm - mean_n_mm, fresh->torque_n_mm - mean_n_mm);
+    joint->sample = *fresh;
+    if (joint->seen < SAMPLES_FIRST) {
+        joint->torque_n_mm = joint->seen == 0u ? fresh->torque_n_mm : mean_n_mm + moves_n_mm;
+        joint->seen++;
+        stands_anew(joint);
+    } else {
+        joint->torque_n_mm = mean_n_mm + share * moves_n_mm;
+    }
+}
+
 static void read_one(brace_app_t *app, int index, uint32_t now_us)
 {
     brace_app_joint_t *joint = &app->joint[index];
@@ -78,29 +102,26 @@ static void read_one(brace_app_t *app, int index, uint32_t now_us)
     const bool none_yet = joint->sample.motor_rad != joint->sample.motor_rad;
     const bool newer = answer == BRACE_HAL_OK && (none_yet || fresh.taken_us != joint->sample.taken_us);
     if (newer && is_sound(&fresh, drive)) {
-        const bool first = !joint->seen;
-        joint->sample = fresh;
-        joint->seen = true;
-        if (first) {
-            joint->torque_n_mm = fresh.torque_n_mm;
-            stands_anew(joint);
-        } else {
-            const float tick_us = (float)app->tick_us;
-            joint->torque_n_mm += tick_us / (TORQUE_MEAN_US + tick_us) * (fresh.torque_n_mm - joint->torque_n_mm);
-        }
+        take_sample(joint, &fresh, app->torque_share);
     } else if (newer || (answer != BRACE_HAL_OK && answer != BRACE_HAL_AGAIN)) {
         app->counters.samples_bad += app->counters.samples_bad < UINT32_MAX;
     }
     /* one a tick is enough; new or not, or a drive sampled every other tick would have one joint never watched */
-    if (joint->seen && app->joint_of_tick == index) {
+    if (joint->seen != 0u && app->joint_of_tick == index) {
         watch_encoder(joint, drive, &app->parameters.limb.joint[BRACE_FEMUR + index], BRACE_APP_JOINTS * app->tick_us);
     }
-    /* once too old it stays unseen, or the clock's wrap would make it young again */
+    /* once too old it stays unseen, or the clock's wrap would make it young again; nor is one from the future young */
     const int32_t age_us = (int32_t)(now_us - joint->sample.taken_us);
     const int32_t limit_us = (int32_t)app->parameters.controller.age_limit_us;
-    joint->seen = joint->seen && age_us <= limit_us && age_us >= -limit_us; /* nor is one from the future young */
-    joint->sound = joint->seen;
-    joint->proves = joint->seen && age_us <= (int32_t)(PROVING_TICKS * app->tick_us);
+    joint->sound = joint->seen != 0u && age_us <= limit_us && age_us >= -limit_us;
+    joint->seen = joint->sound ? joint->seen : 0u;
+    joint->proves = joint->sound && age_us <= (int32_t)(PROVING_TICKS * app->tick_us);
+}
+
+void joints_configure(brace_app_t *app)
+{
+    const float tick_us = (float)app->tick_us;
+    app->torque_share = tick_us / (TORQUE_MEAN_US + tick_us);
 }
 
 void joints_read(brace_app_t *app, uint32_t now_us)

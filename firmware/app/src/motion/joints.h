@@ -4,8 +4,12 @@
 
 #include "brace/app.h"
 
-/* Reads femur and tibia. Samples that are refused, not finite or absurd are counted and the last sound one
- * stays, until it is older than controller.age_limit_us. At most 120 instructions a joint. */
+/* What the means need of the tick's period. */
+void joints_configure(brace_app_t *app);
+
+/* Reads femur and tibia. Samples that are refused, not finite or absurd (a torque of more than twice the motor's
+ * greatest, say) are counted and the last sound one stays, until it is older than controller.age_limit_us. At most 280
+ * instructions. */
 void joints_read(brace_app_t *app, uint32_t now_us);
 
 /* Ticks the state machine of every joint with play, so that play[] is of this sample; a joint without play is

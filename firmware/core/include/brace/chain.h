@@ -40,7 +40,7 @@ typedef struct {
 enum { BRACE_CHAIN_FIRM = 5 };
 
 /* One of them. Seen from the bisector of femur and tibia it is v = straight cos h + folded sin h with h = theta2/2:
- * halved, the same place holds what is left of it at the straight and at the folded knee. */
+ * halved, as nearly all use it, the same place holds what is left of it at the straight and at the folded knee. */
 typedef union {
     struct {
         brace_vec_t femur, tibia;
@@ -84,7 +84,7 @@ brace_status_t brace_chain_compliance(const brace_chain_t *chain, float theta1_r
  * rad times lambda_max / (lambda_max - lambda_min), unless flagged.
  * flags: BRACE_FLAG_NEAR_SINGULAR when C is so slender (det C < 2e-5 of the squared half trace) that this is not
  * promised.
- * Cost on a Cortex-M4F: at most 530 instructions for six elements, 45 an element; 112 bytes of stack. The tick has
+ * Cost on a Cortex-M4F: at most 530 instructions for six elements, 45 an element; 120 bytes of stack. The tick has
  * brace/general.h.
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE, BRACE_E_SINGULAR (det C is zero). */
 brace_status_t brace_chain_stiffness(const brace_chain_t *chain, float theta1_rad, float theta2_rad,
@@ -105,10 +105,10 @@ typedef struct {
  *     stiff axis = 1/2 atan2(-dev_y, -dev_x) in the world's frame.
  * rest > 0 is nearly always what cross^2 leaves: forming det from the two loses nothing. */
 typedef struct {
-    brace_harmonic_t cross; /* [mm/N] */
     brace_harmonic_t mean;  /* half the trace of C [mm/N] */
     brace_harmonic_t dev_x; /* deviator of C [mm/N] */
     brace_harmonic_t dev_y; /* [mm/N] */
+    brace_harmonic_t cross; /* [mm/N] */
     brace_harmonic_t rest;  /* [(mm/N)^2] */
     float iso_mm_per_n;     /* the chain's: compliance shared by every direction */
 } brace_harmonics_t;

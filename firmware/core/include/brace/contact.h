@@ -65,7 +65,7 @@ brace_status_t brace_contact_force(const brace_stiffness_t *stiffness, brace_dis
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE. A foot that slides or lifts is a
  *   result, told by grip->state, not a refusal.
  * accuracy: forces 5e-7 |f|, margin 5e-7 (1 + mu) |f|, angle 7e-7 rad.
- * cost: at most 160 instructions; stack at most 60 bytes. */
+ * cost: at most 180 instructions; stack at most 60 bytes. */
 brace_status_t brace_contact_grip(brace_force_t force, float normal_x, float normal_z, float friction_ratio,
                                   brace_contact_grip_t *grip);
 

@@ -24,7 +24,7 @@ void brace_general_collapse(const brace_limb_t *limb, brace_general_t *general);
  * Accuracy: as there while det C is above 1e-3 of the squared half trace, ten times less down to where it is flagged.
  *   hip_rad_per_n_mm: the femur joint's compliance and the base's rotation; knee_rad_per_n_mm: the tibia joint's; >= 0
  *   general, stiffness: not null (not checked: this is the tick)
- * Cost on a Cortex-M4F: at most 380 instructions; 64 bytes of stack. */
+ * Cost on a Cortex-M4F: at most 380 instructions; 72 bytes of stack. */
 brace_status_t brace_general_stiffness(const brace_general_t *general, float theta1_rad, float theta2_rad,
                                        float hip_rad_per_n_mm, float knee_rad_per_n_mm, brace_stiffness_t *stiffness);
 

@@ -59,7 +59,7 @@ typedef enum {
  *   theta1_rad, theta2_rad [+-7.9 rad]
  *   pose (out): accuracy 3e-7 of femur + tibia in every component
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_PARAMETER (a length no limb has), BRACE_E_NOT_FINITE, BRACE_E_RANGE
- * cost: at most 200 instructions on a Cortex-M4F. */
+ * cost: at most 210 instructions on a Cortex-M4F. */
 brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
                                         brace_pose_t *pose);
 
@@ -69,7 +69,7 @@ void brace_kinematics_pose(const brace_limb_t *limb, float theta1_rad, float the
 
 /* Distance and direction of a point; phi 0 for the origin itself.
  *   point [+-1e6 mm]; polar (out): r within 2e-7 relative, phi within 3e-7 rad
- * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE; at most 85 instructions. */
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE; at most 100 instructions. */
 brace_status_t brace_kinematics_polar(brace_point_t point, brace_polar_t *polar);
 
 /* The angles that put the tip at a point.
@@ -85,7 +85,7 @@ brace_status_t brace_kinematics_polar(brace_point_t point, brace_polar_t *polar)
  *   and folded included. The angles themselves are as sharp as the question: for a tip known to e,
  *   theta2 is known to e r / (femur tibia |sin theta2|), and at sin theta2 = 0 to the root of twice that
  *   without the sine.
- * cost: at most 350 instructions.
+ * cost: at most 360 instructions.
  * source: half-angle form of the law of cosines; every factor is a difference of two given lengths. */
 brace_status_t brace_kinematics_inverse(const brace_limb_t *limb, brace_point_t tip, brace_knee_t knee,
                                         float *theta1_rad, float *theta2_rad);
@@ -106,7 +106,7 @@ brace_status_t brace_kinematics_forward_spatial(const brace_limb_t *limb, float 
  *   tip [+-1e6 mm]; yaw, knee: which of the four postures
  *   theta0_rad (out) [-pi, pi], 0 for a tip on the yaw axis, where any would do
  *   theta1_rad, theta2_rad (out) as for brace_kinematics_inverse
- * returns as brace_kinematics_inverse; accuracy 1e-6 of coxa + femur + tibia at the tip; at most 460
+ * returns as brace_kinematics_inverse; accuracy 1e-6 of coxa + femur + tibia at the tip; at most 490
  * instructions. */
 brace_status_t brace_kinematics_inverse_spatial(const brace_limb_t *limb, brace_point_spatial_t tip,
                                                 brace_yaw_t yaw, brace_knee_t knee, float *theta0_rad,

@@ -27,7 +27,7 @@ typedef struct {
 typedef struct {
     const int32_t *sine, *cosine; /* tables of the tick, carried along: one load brings both addresses */
     const void *axis;
-    brace_planar_harmonic_t cross, mean, dev_x, dev_y;
+    brace_planar_harmonic_t mean, dev_x, dev_y, cross;
     float rest_per_mean, rest;
     float per_unit_n_per_mm; /* one over the compliance of one unit of the last place */
     float slope_per_unit;    /* nearly 2^31 over that: undoes it for the axis */

@@ -70,14 +70,14 @@ typedef struct {
 /* Begins a test at the preload point.
  *   displacement_mm [+-1e4]: along the test's axis; force_x_n, force_z_n [+-1e6]: on the limb's tip
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE; slope untouched unless BRACE_OK.
- * cost: at most 90 instructions on a Cortex-M4F; stack at most 50 bytes. */
+ * cost: at most 130 instructions on a Cortex-M4F; stack at most 50 bytes. */
 brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, float force_x_n,
                                  float force_z_n);
 
 /* Takes one reading, same arguments. A step within 1e-6 mm of the preload point says nothing about a slope:
  * it is counted as skipped, and the call returns BRACE_OK.
  * returns also BRACE_E_RANGE after 2^24 steps; slope untouched unless BRACE_OK.
- * cost: at most 220 instructions; stack at most 80 bytes. */
+ * cost: at most 240 instructions; stack at most 80 bytes. */
 brace_status_t brace_slope_step(brace_slope_t *slope, float displacement_mm, float force_x_n,
                                 float force_z_n);
 
@@ -91,7 +91,7 @@ brace_status_t brace_slope_column(const brace_slope_t *slope, brace_slope_method
 
 /* K from a test along x and a test along z.
  * returns as brace_slope_column; stiffness untouched unless BRACE_OK.
- * cost: at most 270 instructions; stack at most 150 bytes. */
+ * cost: at most 290 instructions; stack at most 150 bytes. */
 brace_status_t brace_slope_stiffness(const brace_slope_t *along_x, const brace_slope_t *along_z,
                                      brace_slope_method_t method, brace_slope_stiffness_t *stiffness);
 

@@ -35,7 +35,7 @@ typedef struct {
 /* The limb's constants; whenever its parameters change.
  * limb: any that brace_limb_check accepts. spatial: written on success only.
  * returns BRACE_OK or what brace_limb_check says.
- * Cost on a Cortex-M4F: at most 3,200 instructions; stack 160 bytes. RAM: 136 bytes a limb. */
+ * Cost on a Cortex-M4F: at most 3,200 instructions; stack 168 bytes. RAM: 136 bytes a limb. */
 brace_status_t brace_spatial_collapse(const brace_limb_t *limb, brace_spatial_t *spatial);
 
 /* K, its eigenvalues, ascending, and the direction of the largest.
@@ -46,7 +46,7 @@ brace_status_t brace_spatial_collapse(const brace_limb_t *limb, brace_spatial_t 
  *            ratio beyond 6,000) that the accuracy below is not promised.
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE, or
  *         BRACE_E_SINGULAR: nothing yields across the plane, or in some direction in it.
- * Cost on a Cortex-M4F: 442 to 444 instructions, seven divisions and two roots among them; stack 136 bytes.
+ * Cost on a Cortex-M4F: 427 to 429 instructions, seven divisions and two roots among them; stack 144 bytes.
  *       Meant for controllers with an FPU: without one it is right, but slow.
  * Accuracy: K within 4e-6 of lambda_max and each eigenvalue within 4e-6 of itself (1e-5 promised), the axis an
  *       eigenvector as well.

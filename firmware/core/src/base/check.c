@@ -1,6 +1,5 @@
 #include "base/check.h"
 
-#include <stdbool.h>
 #include <stddef.h>
 
 #include "base/off_tick.h"
@@ -12,13 +11,8 @@
 
 #define LONGEST_MM 1e4f
 
-/* What brace_input_t counts in; runs overlap where their limits are the same. */
-static const float limit[] = {
-    LARGEST_STIFFNESS_N_PER_MM, LARGEST_STIFFNESS_N_PER_MM, LARGEST_STIFFNESS_N_PER_MM, LARGEST_STIFFNESS_N_PER_MM,
-    LARGEST_STIFFNESS_N_PER_MM, BRACE_ANGLE_LIMIT_RAD,      BRACE_ANGLE_LIMIT_RAD,      2e6f,
-    BRACE_ANGLE_LIMIT_RAD,      1e4f,                       1e4f,                       1e6f,
-    1e6f,                       10.0f,                      10.0f,                      10.0f,
-};
+/* By the digits of brace_input_t, which begin with one. */
+static const float limit[] = {BRACE_ANGLE_LIMIT_RAD, 10.0f, 1e4f, 1e6f, 2e6f, LARGEST_STIFFNESS_N_PER_MM};
 
 /* Of a magnitude that is beyond its limit. */
 static inline brace_status_t beyond(uint32_t magnitude)
@@ -26,21 +20,19 @@ static inline brace_status_t beyond(uint32_t magnitude)
     return magnitude < BRACE_INFINITE_BITS ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
 }
 
-/* Not off the tick: questions to the controller pass here. */
+/* Small rather than fast, though questions to the controller pass here on its tick. */
+BRACE_OFF_TICK
 brace_status_t brace_check(const void *given, const float *value, brace_input_t what)
 {
     if (given == NULL) {
         return BRACE_E_NULL;
     }
-    const float *most = limit + (what >> 4);
-    uint32_t left = what & 0xfu;
-    do { /* at most six */
-        if (brace_magnitude_bits(*value) > brace_magnitude_bits(*most)) {
-            return beyond(brace_magnitude_bits(*value));
+    for (uint32_t digits = what; digits > 0u; digits /= 16u) { /* at most six */
+        const uint32_t magnitude = brace_magnitude_bits(*value++);
+        if (magnitude > brace_magnitude_bits(limit[digits % 16u - 1u])) {
+            return beyond(magnitude);
         }
-        value++;
-        most++;
-    } while (--left > 0u);
+    }
     return BRACE_OK;
 }
 
@@ -71,10 +63,17 @@ brace_status_t brace_check_lengths(const brace_limb_t *limb)
     if (limb == NULL) {
         return BRACE_E_NULL;
     }
-    return brace_magnitude_bits(limb->coxa_mm) <= brace_magnitude_bits(LONGEST_MM) && !(limb->coxa_mm < 0.0f) &&
+    return !brace_is_negative(limb->coxa_mm) && brace_magnitude_bits(limb->coxa_mm) <= brace_magnitude_bits(LONGEST_MM) &&
                    is_length(limb->femur_mm) && is_length(limb->tibia_mm)
                ? BRACE_OK
                : BRACE_E_PARAMETER;
+}
+
+BRACE_OFF_TICK
+brace_status_t brace_check_limb(const void *given, const float *value, brace_input_t what, const brace_limb_t *limb)
+{
+    const brace_status_t status = brace_check(limb != NULL ? given : NULL, value, what);
+    return status == BRACE_OK ? brace_check_lengths(limb) : status;
 }
 
 BRACE_OFF_TICK

@@ -19,7 +19,7 @@ static inline float brace_turn_angle(uint32_t turn)
     return (float)(int32_t)turn * (BRACE_PI / 0x1p31f);
 }
 
-/* Cosine and sine of an angle given as a turn, each within 4e-8. About 40 instructions. A complex number, because GCC returns
+/* Cosine and sine of an angle given as a turn, each within 4e-8. About 35 instructions. A complex number, because GCC returns
  * that in registers and a structure by way of memory. */
 float _Complex brace_unit(uint32_t turn);
 
@@ -30,8 +30,8 @@ static inline brace_vec_t brace_direction(uint32_t turn)
     return (brace_vec_t){__builtin_crealf(unit), __builtin_cimagf(unit)};
 }
 
-/* Angle of (x, y) from +x, [-pi, pi] and not negative unless y is, within 3e-7 rad; 0 for the zero vector. x, y [-1e37, 1e37].
- * About 50 instructions. */
+/* Angle of (x, y) from +x, [-pi, pi], within 3e-7 rad; within half of that unless x is negative, and not negative unless
+ * y is; 0 for the zero vector. x, y [-1e37, 1e37]. About 50 instructions. */
 float brace_atan2(float y, float x);
 
 /* An instruction where there is an FPU, correctly rounded everywhere. value >= 0. */

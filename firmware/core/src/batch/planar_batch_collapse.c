@@ -66,7 +66,7 @@ brace_status_t brace_planar_batch_collapse(const brace_limb_t *limb, brace_plana
     const float iso = brace_chain_at_rest(limb, element) + limb->base.x_mm_per_n;
     const brace_det_t det = brace_det_of(iso, element, BRACE_CHAIN_FIRM);
     brace_harmonics_t plane;
-    brace_harmonics_sum(element, element + BRACE_CHAIN_FIRM, &plane);
+    brace_harmonics_sum(element, &plane);
     plane.mean.at_fold += iso;
     const double mean_most = (double)plane.mean.at_fold + (double)plane.mean.per_cos +
                              hypot(plane.mean.per_cos, plane.mean.per_sin);

@@ -26,43 +26,30 @@ BRACE_OFF_TICK static float bend(const brace_link_t *link, brace_vec_t *excess, 
     return more > 0.0f ? axial : bending;
 }
 
-/* A loop, because a call of the C library's memset would be longer. */
-#if defined(__GNUC__) && !defined(__clang__)
-__attribute__((optimize("no-tree-loop-distribute-patterns")))
-#endif
-BRACE_OFF_TICK static void clear(float *field, const float *end)
-{
-    while (field < end) { /* at most twenty */
-        *field++ = 0.0f;
-    }
-}
-
-BRACE_OFF_TICK float brace_chain_firm(const brace_limb_t *limb, float hip_rad_per_n_mm, float knee_rad_per_n_mm,
-                                      brace_swing_t element[BRACE_CHAIN_FIRM])
+BRACE_OFF_TICK BRACE_LOOPS_STAY
+float brace_chain_firm(const brace_limb_t *limb, float hip_rad_per_n_mm, float knee_rad_per_n_mm,
+                       brace_swing_t element[BRACE_CHAIN_FIRM])
 {
     const brace_link_t *femur = &limb->link[BRACE_FEMUR];
     const float femur_mm = limb->femur_mm, tibia_mm = limb->tibia_mm;
     const float hip = __builtin_sqrtf(hip_rad_per_n_mm), knee = __builtin_sqrtf(knee_rad_per_n_mm);
-    clear(&element->femur.x, &element[BRACE_CHAIN_FIRM].femur.x);
+    const float root = moment_root(femur);
+    const brace_swing_t *end = element + BRACE_CHAIN_FIRM;
+    for (float *field = &element->femur.x; field < &end->femur.x; field++) { /* at most twenty */
+        *field = 0.0f;
+    }
+    element[1].femur.x = root;
+    element[1].tibia.z = 2.0f * root * tibia_mm / femur_mm;
     element[3].femur.z = hip * femur_mm;
     element[3].tibia.z = hip * tibia_mm;
     element[4].tibia.z = knee * tibia_mm;
-
     /* The tibia has nothing beyond it to pass a moment to: zero goes to the knee, which has no femur part. */
-    const float root = moment_root(femur);
-    element[1].femur.x = root;
-    element[1].tibia.z = 2.0f * root * tibia_mm / femur_mm;
-    return bend(femur, &element[0].femur, &element[1].femur) +
-           bend(femur + 1, &element[2].tibia, &element[4].femur);
-}
-
-BRACE_OFF_TICK void brace_chain_halve(brace_swing_t *element, const brace_swing_t *end)
-{
+    const float iso = bend(femur, &element[0].femur, &element[1].femur) +
+                      bend(femur + 1, &element[2].tibia, &element[4].femur);
     for (brace_swing_t *e = element; e < end; e++) { /* at most BRACE_CHAIN_FIRM */
-        const brace_vec_t f = e->femur, t = e->tibia;
-        e->straight = (brace_vec_t){f.x + t.x, f.z + t.z};
-        e->folded = (brace_vec_t){t.z - f.z, f.x - t.x}; /* f - t, a quarter turned */
+        *e = brace_halved(e->femur, e->tibia);
     }
+    return iso;
 }
 
 BRACE_OFF_TICK float brace_chain_coxa(const brace_limb_t *limb, brace_coxa_t *coxa)

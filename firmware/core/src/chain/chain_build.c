@@ -25,7 +25,8 @@ BRACE_OFF_TICK static brace_status_t build(const brace_limb_t *limb, bool with_c
     chain->iso_mm_per_n = brace_chain_at_rest(limb, swing);
     chain->count = 0;
     for (int i = 0; i < BRACE_CHAIN_FIRM; i++) {
-        append(chain, swing[i].femur, swing[i].tibia, none);
+        const brace_swing_t whole = brace_whole(&swing[i]);
+        append(chain, whole.femur, whole.tibia, none);
     }
     if (with_coxa) {
         brace_coxa_t coxa;

@@ -4,7 +4,7 @@
 
 #include "brace/chain.h"
 
-/* Writes the five without base part, zero where nothing yields, and returns their iso. limb has passed
+/* Writes the five without base part, halved, zero where nothing yields, and returns their iso. limb has passed
  * brace_limb_check; the springs are the caller's. */
 float brace_chain_firm(const brace_limb_t *limb, float hip_rad_per_n_mm, float knee_rad_per_n_mm,
                        brace_swing_t element[BRACE_CHAIN_FIRM]);
@@ -20,11 +20,20 @@ static inline float brace_chain_at_rest(const brace_limb_t *limb, brace_swing_t 
 float brace_chain_coxa(const brace_limb_t *limb, brace_coxa_t *coxa);
 float brace_chain_base(const brace_limb_t *limb, brace_vec_t *excess);
 
-/* From femur and tibia parts to straight and folded ones. */
-void brace_chain_halve(brace_swing_t *element, const brace_swing_t *end);
+/* From femur and tibia parts to straight and folded ones, and back. */
+static inline brace_swing_t brace_halved(brace_vec_t f, brace_vec_t t)
+{
+    return (brace_swing_t){.straight = {f.x + t.x, f.z + t.z}, .folded = {t.z - f.z, f.x - t.x}};
+}
 
-/* Harmonics of a bare list up to end, at most BRACE_CHAIN_MAX, whose elements are halved by it: iso is neither in nor
- * written. */
-void brace_harmonics_sum(brace_swing_t *element, const brace_swing_t *end, brace_harmonics_t *harmonics);
+static inline brace_swing_t brace_whole(const brace_swing_t *halved)
+{
+    const brace_vec_t p = halved->straight, q = halved->folded;
+    return (brace_swing_t){.femur = {0.5f * (p.x + q.z), 0.5f * (p.z - q.x)},
+                           .tibia = {0.5f * (p.x - q.z), 0.5f * (p.z + q.x)}};
+}
+
+/* Harmonics of halved elements: iso is neither in nor written. */
+void brace_harmonics_sum(const brace_swing_t element[BRACE_CHAIN_FIRM], brace_harmonics_t *harmonics);
 
 #endif

@@ -13,7 +13,6 @@ BRACE_OFF_TICK void brace_general_collapse(const brace_limb_t *limb, brace_gener
 {
     const float iso = brace_chain_firm(limb, 1.0f, 1.0f, general->element) + FLT_MIN;
     const float x = iso + limb->base.x_mm_per_n, z = iso + limb->base.z_mm_per_n;
-    brace_chain_halve(general->element, general->element + BRACE_CHAIN_FIRM);
     general->mean_mm_per_n = 0.5f * (x + z);
     general->dev_mm_per_n = 0.5f * (x - z);
     general->det = x * z;

@@ -8,13 +8,13 @@
 
 /* Half the trace and deviator of sum v v': of folded folded', straight straight' and straight folded' in turn, which
  * come with sin^2 h, cos^2 h and sin theta2. */
-static void sum_squares(const brace_swing_t *element, const brace_swing_t *end, brace_harmonic_t *harmonic)
+static void sum_squares(const brace_swing_t element[BRACE_CHAIN_FIRM], brace_harmonic_t *harmonic)
 {
     float *to = &harmonic->at_fold;
     for (int term = 0; term < 3; term++) {
         const int first = term == 0, second = term != 1;
         float xx = 0.0f, xz = 0.0f, zz = 0.0f;
-        for (const brace_swing_t *e = element; e < end; e++) {
+        for (const brace_swing_t *e = element; e < element + BRACE_CHAIN_FIRM; e++) {
             const brace_vec_t a = e->part[first], b = e->part[second];
             xx = __builtin_fmaf(a.x, b.x, xx);
             zz = __builtin_fmaf(a.z, b.z, zz);
@@ -39,10 +39,10 @@ typedef struct {
 #define NEARLY_NOTHING 1e-30f
 
 /* With u = (1 + cos, sin)/2 each cross is k + a n.u + b s.u, n = s turned clockwise; r = c b - k. */
-static crosses_t sum_crosses(const brace_swing_t *element, const brace_swing_t *end, brace_vec_t s, float c)
+static crosses_t sum_crosses(const brace_swing_t element[BRACE_CHAIN_FIRM], brace_vec_t s, float c)
 {
     crosses_t sum = {.bb = NEARLY_NOTHING};
-    for (const brace_swing_t *e = element; e < end; e++) {
+    for (const brace_swing_t *e = element + 1; e < element + BRACE_CHAIN_FIRM; e++) { /* at most BRACE_CHAIN_FIRM */
         for (const brace_swing_t *o = element; o < e; o++) {
             const brace_vec_t p = o->straight, q = o->folded, ep = e->straight, eq = e->folded;
             /* In this order of factors what must vanish does so exactly. */
@@ -69,13 +69,13 @@ static crosses_t sum_crosses(const brace_swing_t *element, const brace_swing_t *
  * larger ones would lose the digits that matter. */
 enum { PASSES = 4 };
 
-static void gather_crosses(const brace_swing_t *element, const brace_swing_t *end, brace_harmonics_t *harmonics)
+static void gather_crosses(const brace_swing_t element[BRACE_CHAIN_FIRM], brace_harmonics_t *harmonics)
 {
     brace_vec_t s = {0.0f, 1.0f};
     float c = 0.0f, amplitude;
     crosses_t sum;
     for (int pass = 1;; pass++) {
-        sum = sum_crosses(element, end, s, c);
+        sum = sum_crosses(element, s, c);
         const float half = 0.5f * (sum.bb - sum.aa);
         const float radius = __builtin_sqrtf(__builtin_fmaf(half, half, sum.ab * sum.ab));
         if (pass == PASSES) {
@@ -98,12 +98,10 @@ static void gather_crosses(const brace_swing_t *element, const brace_swing_t *en
                                          (c_a * s.z + sum.ra * s.x) / square};
 }
 
-BRACE_OFF_TICK void brace_harmonics_sum(brace_swing_t *element, const brace_swing_t *end,
-                                        brace_harmonics_t *harmonics)
+BRACE_OFF_TICK void brace_harmonics_sum(const brace_swing_t element[BRACE_CHAIN_FIRM], brace_harmonics_t *harmonics)
 {
-    brace_chain_halve(element, end);
-    sum_squares(element, end, &harmonics->mean);
-    gather_crosses(element, end, harmonics);
+    sum_squares(element, &harmonics->mean);
+    gather_crosses(element, harmonics);
 }
 
 /* det (A + iso I) = det A + iso trace A + iso^2 */
@@ -125,14 +123,14 @@ BRACE_OFF_TICK brace_status_t brace_harmonics(const brace_chain_t *chain, brace_
     if (chain->count > BRACE_CHAIN_FIRM) {
         return BRACE_E_UNSUPPORTED;
     }
-    brace_swing_t element[BRACE_CHAIN_FIRM];
+    brace_swing_t element[BRACE_CHAIN_FIRM] = {0};
     for (uint32_t i = 0; i < chain->count; i++) {
         if (vec_dot(chain->element[i].base, chain->element[i].base) > 0.0f) {
             return BRACE_E_UNSUPPORTED;
         }
-        element[i] = (brace_swing_t){.femur = chain->element[i].femur, .tibia = chain->element[i].tibia};
+        element[i] = brace_halved(chain->element[i].femur, chain->element[i].tibia);
     }
-    brace_harmonics_sum(element, element + chain->count, harmonics);
+    brace_harmonics_sum(element, harmonics);
     add_iso(harmonics, chain->iso_mm_per_n);
     return BRACE_OK;
 }

@@ -8,6 +8,7 @@
 
 #include "brace/chain.h"
 #include "brace/planar.h"
+#include "base/check.h"
 #include "base/trig.h"
 #include "base/vec.h"
 
@@ -38,11 +39,11 @@ void brace_posture(float theta1_rad, float theta2_rad, brace_posture_t *at);
 /* BRACE_OK, BRACE_E_RANGE beyond BRACE_PLANAR_REACH_RAD2, BRACE_E_NOT_FINITE. */
 static inline brace_status_t brace_check_reach(float theta1_rad, float theta2_rad)
 {
-    const float reach = theta1_rad * theta1_rad + theta2_rad * theta2_rad;
-    if (reach <= BRACE_PLANAR_REACH_RAD2) {
+    const uint32_t reach = brace_magnitude_bits(theta1_rad * theta1_rad + theta2_rad * theta2_rad);
+    if (reach <= brace_magnitude_bits(BRACE_PLANAR_REACH_RAD2)) {
         return BRACE_OK;
     }
-    return reach <= FLT_MAX ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
+    return reach < BRACE_INFINITE_BITS ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
 }
 
 static inline brace_vec_t brace_turned(brace_vec_t v, brace_vec_t by)
@@ -88,24 +89,22 @@ static inline brace_circle_t brace_circle_in_world(brace_tensor_t c, brace_vec_t
     return (brace_circle_t){0.5f * (c.xx + c.zz), brace_turned((brace_vec_t){0.5f * (c.xx - c.zz), c.xz}, to_world)};
 }
 
+/* All of a K but its flags, from its circle (brace_circle_t, the deviator first: it comes to where its angle is asked for). */
+void brace_stiffness_of_circle(float dev_z, float dev_x, float mean, brace_stiffness_t *stiffness);
+
 /* K in the world's frame of C seen from the bisector, as brace_chain_stiffness says. to_world: direction of twice the
  * bisector's angle. BRACE_OK or BRACE_E_SINGULAR: then stiffness is untouched. */
 static inline brace_status_t brace_tensor_inverse(brace_tensor_t c, brace_vec_t to_world, brace_stiffness_t *stiffness)
 {
-    const brace_circle_t circle = brace_circle_in_world(c, to_world);
-    const float det = c.det, mean = circle.mean, square = mean * mean;
-    if (!(det > BRACE_SINGULAR * square)) {
+    const brace_tensor_t adjugate = {c.zz, -c.xz, c.xx, c.det}; /* K times det C */
+    const brace_circle_t circle = brace_circle_in_world(adjugate, to_world);
+    const float mean = circle.mean, slenderness = c.det / (mean * mean);
+    if (!(slenderness > BRACE_SINGULAR)) {
         return BRACE_E_SINGULAR;
     }
-    const float longest = mean + brace_sqrt(vec_dot(circle.dev, circle.dev));
-    const float per_det = 1.0f / det;
-    stiffness->flags = det < BRACE_SLENDER * square ? BRACE_FLAG_NEAR_SINGULAR : 0u;
-    stiffness->k_xx_n_per_mm = (mean - circle.dev.x) * per_det;
-    stiffness->k_xz_n_per_mm = -circle.dev.z * per_det;
-    stiffness->k_zz_n_per_mm = (mean + circle.dev.x) * per_det;
-    stiffness->lambda_min_n_per_mm = 1.0f / longest;
-    stiffness->lambda_max_n_per_mm = longest * per_det;
-    stiffness->stiff_axis_rad = 0.5f * brace_atan2(-circle.dev.z, -circle.dev.x);
+    stiffness->flags = brace_bits(slenderness) < brace_bits(BRACE_SLENDER) ? BRACE_FLAG_NEAR_SINGULAR : 0u;
+    brace_stiffness_of_circle(circle.dev.z / c.det, circle.dev.x / c.det, mean / c.det, stiffness);
+    stiffness->lambda_min_n_per_mm = 1.0f / (c.det * stiffness->lambda_max_n_per_mm); /* no difference: nothing cancels */
     return BRACE_OK;
 }
 

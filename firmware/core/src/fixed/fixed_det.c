@@ -51,12 +51,13 @@ brace_det_t brace_det_of(float iso, const brace_swing_t *element, uint32_t count
     brace_det_harmonic_t trace = {iso, 0.0, 0.0}, rest = {0.0, 0.0, 0.0};
     double cc = 0.0, cs = 0.0, ss = 0.0;
     for (uint32_t i = 0; i < count; i++) {
-        const brace_vec_t f = element[i].femur, t = element[i].tibia;
-        add(&trace, 1.0, (brace_det_harmonic_t){dot(f, f) + dot(t, t), 2.0 * dot(f, t), 2.0 * cross(f, t)});
+        const brace_vec_t p = element[i].straight, q = element[i].folded;
+        add(&trace, 0.5, (brace_det_harmonic_t){dot(p, p) + dot(q, q), dot(p, p) - dot(q, q), 2.0 * dot(p, q)});
         for (uint32_t j = 0; j < i; j++) {
-            const brace_vec_t fj = element[j].femur, tj = element[j].tibia;
-            const brace_det_harmonic_t pair = {cross(fj, f) + cross(tj, t), cross(fj, t) + cross(tj, f),
-                                               dot(tj, f) - dot(fj, t)};
+            const brace_vec_t pj = element[j].straight, qj = element[j].folded;
+            const double straight = 0.5 * cross(pj, p), folded = 0.5 * cross(qj, q);
+            const brace_det_harmonic_t pair = {straight + folded, straight - folded,
+                                               0.5 * (cross(pj, q) - cross(p, qj))};
             add(&rest, pair.constant,
                 (brace_det_harmonic_t){pair.constant, 2.0 * pair.per_cos, 2.0 * pair.per_sin});
             cc += pair.per_cos * pair.per_cos;

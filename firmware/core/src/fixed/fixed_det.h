@@ -16,7 +16,7 @@ typedef struct {
     brace_det_harmonic_t cross; /* [mm/N] */
 } brace_det_t;
 
-/* element: count of them [0, BRACE_CHAIN_MAX], not yet halved. */
+/* element: count of them [0, BRACE_CHAIN_MAX], halved. */
 brace_det_t brace_det_of(float iso, const brace_swing_t *element, uint32_t count);
 
 /* Over all knee angles. */

@@ -1,6 +1,6 @@
 #include "fixed/fixed_table.h"
 
-/* round(BRACE_TURN_ONE * {sin, cos}(2 pi i / 64)) */
+/* round(BRACE_FIXED_ONE * {sin, cos}(2 pi i / 64)) */
 const brace_sincos_t brace_fixed_sincos[64] = {
     {0, 2147481600}, {210490005, 2137140889}, {418952877, 2106218343}, {623381003, 2055011763},
     {821805630, 1984014297}, {1012315819, 1893909688}, {1193076853, 1785565693}, {1362347905, 1660025725},

@@ -6,6 +6,13 @@
 
 #include "base/turn.h"
 
+/* Full scale of sine and cosine: a little under 2^31, so that no rounding can carry +1 over the edge. */
+#define BRACE_FIXED_ONE 2147481600
+
+typedef struct {
+    int32_t sin, cos; /* times BRACE_FIXED_ONE */
+} brace_sincos_t;
+
 /* With u = d/(pi/64), |u| <= 1: sin d = u (s1 - s3 u^2) within 2e-10; cos d - 1 = u^2 (c2 + c4 u^2) within
  * 1e-12, or c2_alone u^2 within 4.2e-8. */
 enum {
@@ -14,7 +21,7 @@ enum {
     COS_D2 = -20698061,       /* c2 q34 */
     COS_D4 = 16623,           /* c4 q36 */
     COS_D2_ALONE = -20694699, /* q34 */
-    LENGTHEN = 3840           /* 2^31 / BRACE_TURN_ONE - 1, q32, less what rounding could carry over 1 */
+    LENGTHEN = 3840           /* 2^31 / BRACE_FIXED_ONE - 1, q32, less what rounding could carry over 1 */
 };
 
 /* asin(s) = a1 s + a3 s^3 within 6.5e-8 for |s| <= 0.107, in turns, negated. */
@@ -28,7 +35,7 @@ enum { ASIN_1 = -683563198, ASIN_3 = -114659455 };
 /* Half a turn in 2^32, times pi in q30: the exponent field of float_bits for the axis. */
 #define AXIS_EXPONENT ((157u - 30u) << 23)
 
-/* A turn in 64 steps, times BRACE_TURN_ONE. */
+/* A turn in 64 steps, times BRACE_FIXED_ONE. */
 extern const brace_sincos_t brace_fixed_sincos[64];
 
 /* First guess of 1/sqrt(z), z in [i/64, (i + 1)/64): (at - slope u)/2^13, u in [0, 1) across the cell. */

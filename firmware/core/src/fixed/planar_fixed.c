@@ -44,8 +44,7 @@ static inline brace_sincos_t nearest(uint32_t turn)
     return brace_fixed_sincos[(turn + 0x02000000u) >> 26];
 }
 
-/* Sine and cosine as brace_turn_sincos has them, in fewer instructions where a sum of 64-bit products takes
- * one a term. d: what is left from the nearest table entry, 2^31 = pi/64; cos_d_less_1: q32. */
+/* Sine and cosine off the nearest entry; a sum of 64-bit products takes one instruction a term. d: what is left from the nearest table entry, 2^31 = pi/64; cos_d_less_1: q32. */
 static inline brace_sincos_t add_angle(brace_sincos_t near, int32_t d, int32_t d2, int32_t cos_d_less_1)
 {
     const int32_t sin_d = high(d, SIN_D1 + high(d2, SIN_D3)); /* q32 */
@@ -60,7 +59,7 @@ static inline brace_sincos_t sincos_of(uint32_t turn)
     return add_angle(nearest(turn), d, d2, high(d2, COS_D2 + high(d2, COS_D4)));
 }
 
-/* To turn a vector by: right in direction within 1e-9, and its length is one (2^31, not BRACE_TURN_ONE)
+/* To turn a vector by: right in direction within 1e-9, and its length is one (2^31, not BRACE_FIXED_ONE)
  * within 1.1e-7 and never more. */
 static inline brace_sincos_t direction_of(uint32_t turn)
 {

@@ -5,10 +5,7 @@
 
 #include "chain/chain_list.h"
 #include "fixed/fixed_det.h"
-#include "base/turn.h"
-
-/* BRACE_TURN_ONE as an integer: the tick's sine and cosine of one. */
-#define TRIG_ONE 2147481600
+#include "fixed/fixed_table.h"
 
 /* The least mean over the largest below which the words that hold it grow too short for the stated accuracy.
  */
@@ -35,11 +32,11 @@ static float two_to(int32_t exponent)
 /* Anchored at the folded knee, where the levers nearly cancel: they do so exactly in the integers too. */
 static brace_fixed_harmonic_t quantised(const brace_det_harmonic_t *h, int32_t scale)
 {
-    const double unit = (double)two_to(scale), per_turn = unit * (0x1p32 / TRIG_ONE);
+    const double unit = (double)two_to(scale), per_turn = unit * (0x1p32 / BRACE_FIXED_ONE);
     const int32_t per_cos = (int32_t)(h->per_cos * per_turn), per_sin = (int32_t)(h->per_sin * per_turn);
     const int64_t at_fold = (int64_t)((h->constant - h->per_cos) * unit * 0x1p32);
     return (brace_fixed_harmonic_t){
-        .constant = at_fold + (int64_t)per_cos * TRIG_ONE + (int64_t)0x80000000,
+        .constant = at_fold + (int64_t)per_cos * BRACE_FIXED_ONE + (int64_t)0x80000000,
         .per_turn = (uint32_t)per_cos | (uint64_t)(uint32_t)per_sin << 32,
     };
 }
@@ -122,7 +119,7 @@ brace_status_t brace_planar_fixed_collapse(const brace_limb_t *limb, brace_plana
         brace_swing_t element[BRACE_CHAIN_FIRM];
         const float iso = brace_chain_at_rest(limb, element) + limb->base.x_mm_per_n;
         det = brace_det_of(iso, element, BRACE_CHAIN_FIRM);
-        brace_harmonics_sum(element, element + BRACE_CHAIN_FIRM, &plane);
+        brace_harmonics_sum(element, &plane);
         plane.mean.at_fold += iso;
     }
     return quantise(&plane, &det, fixed);

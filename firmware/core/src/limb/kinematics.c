@@ -1,6 +1,5 @@
 #include "brace/kinematics.h"
 
-#include <stdbool.h>
 #include <stddef.h>
 
 #include "base/check.h"
@@ -12,15 +11,13 @@
 
 void brace_kinematics_pose(const brace_limb_t *limb, float theta1_rad, float theta2_rad, brace_pose_t *pose)
 {
-    const uint32_t femur_turn = brace_turn(theta1_rad);
+    const uint32_t femur_turn = brace_turn(theta1_rad), tibia_turn = femur_turn - brace_turn(theta2_rad);
     const brace_vec_t femur = brace_direction(femur_turn);
-    pose->knee = (brace_point_t){limb->femur_mm * femur.x, limb->femur_mm * femur.z};
-    const brace_vec_t tibia = brace_direction(femur_turn - brace_turn(theta2_rad));
-    const brace_point_t shank = {limb->tibia_mm * tibia.x, limb->tibia_mm * tibia.z};
-    const brace_point_t tip = {pose->knee.x_mm + shank.x_mm, pose->knee.z_mm + shank.z_mm};
-    pose->tip = tip;
-    pose->lever_femur = (brace_point_t){-tip.z_mm, tip.x_mm};
-    pose->lever_tibia = (brace_point_t){-shank.z_mm, shank.x_mm};
+    const float knee_x = limb->femur_mm * femur.x, knee_z = limb->femur_mm * femur.z;
+    const brace_vec_t tibia = brace_direction(tibia_turn);
+    const float shank_x = limb->tibia_mm * tibia.x, shank_z = limb->tibia_mm * tibia.z;
+    const float x = knee_x + shank_x, z = knee_z + shank_z;
+    *pose = (brace_pose_t){{knee_x, knee_z}, {x, z}, {-z, x}, {-shank_z, shank_x}};
 }
 
 BRACE_OFF_TICK
@@ -28,10 +25,7 @@ brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_r
                                         brace_pose_t *pose)
 {
     const float theta_rad[] = {theta1_rad, theta2_rad};
-    brace_status_t status = brace_check(pose != NULL ? limb : NULL, theta_rad, BRACE_INPUT_ANGLES);
-    if (status == BRACE_OK) {
-        status = brace_check_lengths(limb);
-    }
+    const brace_status_t status = brace_check_limb(pose, theta_rad, BRACE_INPUT_ANGLES, limb);
     if (status == BRACE_OK) {
         brace_kinematics_pose(limb, theta_rad[0], theta_rad[1], pose);
     }
@@ -49,40 +43,37 @@ brace_status_t brace_kinematics_polar(brace_point_t point, brace_polar_t *polar)
     return status;
 }
 
-/* The triangle femur, tibia, r. reach^2 - r^2 and r^2 - surplus^2 are 2 femur tibia (1 -+ cos flexion), so their difference
- * and twice the root of their product are the flexion's cosine and sine, but for one factor; the angle between femur and tip
- * has the same sine but for another. Products of four lengths, in which nothing cancels but lengths as they were given. */
+/* The triangle femur, tibia, r, by the sums and differences of its sides. reach^2 - r^2 and r^2 - surplus^2 are
+ * 2 femur tibia (1 -+ cos flexion), so the former over the root of their product is the tangent of half the flexion;
+ * that of half the angle between femur and tip is to_straight beyond_surplus over the same root. Nothing cancels but
+ * lengths as they were given. */
 BRACE_OFF_TICK
 brace_status_t brace_kinematics_inverse_polar(const brace_limb_t *limb, brace_polar_t tip, brace_knee_t knee,
                                               float *theta1_rad, float *theta2_rad)
 {
-    const bool given = theta1_rad != NULL && theta2_rad != NULL;
-    brace_status_t status = brace_check(given ? limb : NULL, &tip.r_mm, BRACE_INPUT_POLAR);
-    if (status == BRACE_OK) {
-        status = brace_check_lengths(limb);
-    }
-    if (status == BRACE_OK && (tip.r_mm < 0.0f || (knee != BRACE_KNEE_UP && knee != BRACE_KNEE_DOWN))) {
-        status = BRACE_E_RANGE;
-    }
+    const void *given = theta1_rad != NULL ? theta2_rad : NULL;
+    const brace_status_t status = brace_check_limb(given, &tip.r_mm, BRACE_INPUT_POLAR, limb);
     if (status != BRACE_OK) {
         return status;
     }
+    if (brace_is_negative(tip.r_mm) || (knee != BRACE_KNEE_UP && knee != BRACE_KNEE_DOWN)) {
+        return BRACE_E_RANGE;
+    }
     const float reach = limb->femur_mm + limb->tibia_mm;
-    const float surplus = limb->femur_mm - limb->tibia_mm;
-    const float to_straight = reach - tip.r_mm;
-    if (to_straight < -EDGE_RATIO * reach || tip.r_mm - __builtin_fabsf(surplus) < -EDGE_RATIO * reach) {
+    const float surplus = limb->femur_mm - limb->tibia_mm, least = __builtin_fabsf(surplus);
+    float r_mm = tip.r_mm < least ? least : tip.r_mm;
+    r_mm = r_mm > reach ? reach : r_mm;
+    if (__builtin_fabsf(r_mm - tip.r_mm) > EDGE_RATIO * reach) {
         return BRACE_E_UNREACHABLE;
     }
-    const float perimeter = reach + tip.r_mm;
-    const float beyond_surplus = tip.r_mm - surplus;
-    const float beyond_deficit = tip.r_mm + surplus;
+    const float to_straight = reach - r_mm;
+    const float perimeter = reach + r_mm;
+    const float beyond_surplus = r_mm - surplus;
+    const float beyond_deficit = r_mm + surplus;
     const float bent = to_straight * perimeter;
-    const float open = beyond_surplus * beyond_deficit;
-    const float square = bent * open;
-    const float across = square > 0.0f ? 2.0f * brace_sqrt(square) : 0.0f; /* beyond the edge is on it */
-    const float along = perimeter * beyond_deficit - to_straight * beyond_surplus;
-    float flexion_rad = brace_atan2(across, open - bent);
-    uint32_t ahead_of_tip = brace_turn(brace_atan2(across, along));
+    const float root = brace_sqrt(bent * (beyond_surplus * beyond_deficit));
+    float flexion_rad = 2.0f * brace_atan2(bent, root);
+    uint32_t ahead_of_tip = 2u * brace_turn(brace_atan2(to_straight * beyond_surplus, root));
     if (knee == BRACE_KNEE_DOWN) {
         flexion_rad = -flexion_rad;
         ahead_of_tip = 0u - ahead_of_tip;

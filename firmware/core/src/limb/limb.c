@@ -73,6 +73,7 @@ brace_status_t brace_limb_check(const brace_limb_t *limb)
     const float *field = &limb->coxa_mm;
     int32_t said = 0;
     for (size_t i = 0; i < sizeof kind; i++) {
+        uint32_t bits = (uint32_t)brace_bits(field[i]);
         const uint32_t magnitude = brace_magnitude_bits(field[i]);
         if (magnitude >= BRACE_INFINITE_BITS) {
             return BRACE_E_NOT_FINITE;
@@ -81,8 +82,10 @@ brace_status_t brace_limb_check(const brace_limb_t *limb)
             continue;
         }
         said |= BIT(SAID(kind[i]));
-        if (magnitude > brace_magnitude_bits(most[RANGE(kind[i])]) ||
-            (brace_bits(field[i]) < 0 && RANGE(kind[i]) > OFFSET)) {
+        if (RANGE(kind[i]) <= OFFSET) {
+            bits = magnitude / 2u;
+        }
+        if (bits > (uint32_t)brace_bits(most[RANGE(kind[i])])) { /* as is all that is negative */
             status = BRACE_E_PARAMETER;
         }
     }

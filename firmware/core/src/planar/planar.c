@@ -11,41 +11,23 @@
 
 /* Straight-line code, in an order of operations that GCC turns into few instructions for ARMv7E-M: sums of 64-bit
  * products of 32-bit factors (one smlal each), only high words used. */
-#define PRODUCT(a, b) ((int64_t)(int32_t)(a) * (int32_t)(b))
-#define HIGH(sum) ((int32_t)(uint32_t)((uint64_t)(sum) >> 32))
+#define PRODUCT BRACE_PRODUCT
+#define HIGH BRACE_HIGH
 
 /* 2^29 units are one turn: from radians q28, 2^29/(2 pi) * 16 by high words. 2^24 units are one table entry. */
 #define TURN_PER_RAD 1367130551
 #define HALF_ENTRY 0x00800000u
 
-/* Of d q31, where 1 is half an entry, pi/32, and e = d^2 q30: sin q31 = d (SIN_D - e SIN_D3), error 5e-9. */
-#define SIN_D 421657326
-#define SIN_D3 2707738
-
-/* Sums of products: only their high words, q30, count. */
-typedef struct {
-    int64_t sin, cos;
-} sum_sincos_t;
-
-/* Minus sine and minus cosine of a fraction of a turn. 1 - cos d = sin^2 d/2 + sin^4 d/8, error 6e-8 at half an entry,
- * falling with the sixth power of d. */
-static inline sum_sincos_t opposite(const brace_planar_t *planar, uint32_t turn)
+/* Minus sine and minus cosine of a fraction of a turn. */
+static inline brace_sum_sincos_t opposite(const brace_planar_t *planar, uint32_t turn)
 {
     const uint32_t entry = (turn + HALF_ENTRY) >> 24 & (BRACE_SINE_TABLE_SIZE - 1);
-    const int32_t sin = planar->sine[entry], cos = planar->cosine[entry];
-    const int32_t d = (int32_t)(turn << 8);
-    const int32_t e = HIGH(PRODUCT(d, d));
-    const int32_t sin_d = HIGH(PRODUCT(d, SIN_D - HIGH(PRODUCT(e, SIN_D3))));
-    const int32_t half_square = HIGH(PRODUCT(sin_d, sin_d)); /* q31 */
-    const int32_t versin_d = half_square + HIGH(PRODUCT(half_square, half_square));
-    const int32_t minus_cos_d = (int32_t)((uint32_t)versin_d ^ 0x80000000u);
-    return (sum_sincos_t){PRODUCT(sin, minus_cos_d) + PRODUCT(cos, -sin_d),
-                          PRODUCT(cos, minus_cos_d) + PRODUCT(sin, sin_d)};
+    return brace_opposite(planar->sine[entry], planar->cosine[entry], brace_off_entry((int32_t)(turn << 8)));
 }
 
 /* The sum starts from whatever low word is at hand: it weighs half a unit of the last place on average, which makes
  * up for taking the high word alone. */
-static inline int64_t harmonic(int64_t any, const brace_planar_harmonic_t *h, sum_sincos_t knee)
+static inline int64_t harmonic(int64_t any, const brace_planar_harmonic_t *h, brace_sum_sincos_t knee)
 {
     const int64_t start = (int64_t)((uint64_t)(uint32_t)h->constant << 32 | (uint32_t)any);
     return start + PRODUCT(h->per_cos, HIGH(knee.cos)) + PRODUCT(h->per_sin, HIGH(knee.sin));
@@ -79,18 +61,18 @@ brace_status_t brace_planar_stiffness(const brace_planar_t *planar, float theta1
     }
     const uint32_t knee_turn = (uint32_t)HIGH(PRODUCT(theta2_rad * 0x1p28f, TURN_PER_RAD));
     const uint32_t femur_turn = (uint32_t)HIGH(PRODUCT(theta1_rad * 0x1p28f, TURN_PER_RAD));
-    const sum_sincos_t to_world = opposite(planar, 2u * femur_turn - knee_turn);
-    const sum_sincos_t knee = opposite(planar, knee_turn);
+    const brace_sum_sincos_t to_world = opposite(planar, 2u * femur_turn - knee_turn);
+    const brace_sum_sincos_t knee = opposite(planar, knee_turn);
 
-    /* In the frame of the bisector. */
+    /* In the frame of the bisector: the mean in units, all else in quarters of a unit. */
     const int64_t cross_sum = harmonic(knee.cos, &planar->cross, knee);
     const int64_t x = harmonic(cross_sum, &planar->dev_x, knee);
-    const float cross = (float)HIGH(cross_sum);
+    const float cross = (float)HIGH(cross_sum) * 0.25f;
     const int64_t mean_sum = harmonic(x, &planar->mean, knee);
     const float mean = (float)HIGH(mean_sum);
     const int64_t y = harmonic(mean_sum, &planar->dev_y, knee);
 
-    /* Minus the deviator in the world's frame. Never zero, so that the axis of a round C is some axis. */
+    /* Minus the deviator in the world's frame, in units. Never zero, so that the axis of a round C is some axis. */
     const int32_t world_y =
         HIGH(PRODUCT(HIGH(y), HIGH(to_world.cos)) + PRODUCT(HIGH(x), HIGH(to_world.sin))) | 1;
     const float dev_y = (float)world_y;

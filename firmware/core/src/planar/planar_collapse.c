@@ -7,13 +7,9 @@
 #include "base/turn.h"
 #include "base/vec.h"
 
-/* What the tick's sine of a quarter turn is, q30, and four over it. */
-#define TICK_ONE 1073740800
-#define PER_WORD (4.0f * 1073741824.0f / 1073740800.0f)
-
-/* det C = per_mean mean + constant + cross^2. */
+/* det C = per_mean mean + constant + cross^2, but for a first harmonic of the amplitude leftover. */
 typedef struct {
-    float per_mean, constant;
+    float per_mean, constant, leftover;
 } rest_t;
 
 /* What a number is uncertain by, and [rad] a direction in the plane of (1 + cos, sin). */
@@ -21,7 +17,7 @@ typedef struct {
 
 /* Brings det C into this form: 2 iso mean - iso^2 and what the elements bring themselves. Of that first harmonic,
  * what stands across `cross` in the plane of (1 + cos, sin) is taken up by more of the mean, and what lies along it by
- * shifting cross. Where cross and mean point the same way within rounding, the mean takes up nothing.
+ * shifting cross. Where cross and mean point the same way within rounding, the mean takes up nothing: that is left over.
  * grain: what the mean is uncertain by at its most. */
 static inline rest_t affine_rest(brace_harmonics_t *h, float grain)
 {
@@ -29,14 +25,15 @@ static inline rest_t affine_rest(brace_harmonics_t *h, float grain)
     const brace_vec_t mean = {h->mean.per_cos, h->mean.per_sin};
     const brace_vec_t cross = {h->cross.per_cos, h->cross.per_sin};
     const brace_vec_t beyond = {h->rest.per_cos, h->rest.per_sin};
-    const float square = vec_dot(cross, cross); /* never nothing */
-    const float apart = vec_cross(cross, mean), noise = grain * __builtin_sqrtf(square);
-    const float more = vec_cross(cross, beyond) / (apart + noise / apart * noise);
+    const float square = vec_dot(cross, cross), length = __builtin_sqrtf(square); /* never nothing */
+    const float apart = vec_cross(cross, mean) / length, noise = grain * grain;
+    const float across = vec_cross(cross, beyond) / length / __builtin_fmaf(apart, apart, noise);
+    const float more = across * apart;
     const float shift = 0.5f * (vec_dot(cross, beyond) - more * vec_dot(cross, mean)) / square;
     const float constant = h->rest.at_fold - iso * iso - more * h->mean.at_fold -
                            shift * (2.0f * h->cross.at_fold + shift);
     h->cross.at_fold += shift;
-    return (rest_t){2.0f * iso + more, constant};
+    return (rest_t){2.0f * iso + more, constant, across * noise};
 }
 
 /* Is the accuracy of the tick safe? Where rest could lose digits against its parts, at the mean's least or most, it must
@@ -47,28 +44,28 @@ static inline int accurate(const brace_harmonics_t *h, rest_t rest, float middle
 {
     const float smaller = rest.constant + rest.per_mean * middle - __builtin_fabsf(rest.per_mean) * swing;
     const float error =
-        2.0f * unit + ROUNDING * (__builtin_fabsf(h->cross.per_cos) + __builtin_fabsf(h->cross.at_fold));
-    return __builtin_fabsf(rest.constant) + error * error * 4e12f < 16.0f * smaller &&
+        unit + ROUNDING * (__builtin_fabsf(h->cross.per_cos) + __builtin_fabsf(h->cross.at_fold));
+    return __builtin_fabsf(rest.constant) + __builtin_fabsf(rest.leftover) / ROUNDING + error * error * 4e12f <
+               16.0f * smaller &&
            middle + swing < 40.0f * (middle - swing);
 }
 
-/* At the fold minus the cosine is TICK_ONE: there the rounding of its factor goes into the constant. */
+/* The factors are those of minus cosine and minus sine, q30, of whose products the high words are a quarter. At the fold
+ * minus the cosine is one: there the rounding of its factor goes into the constant. */
 static inline void fix(const brace_harmonic_t *h, float units, brace_planar_harmonic_t *fixed)
 {
-    const float per_word = -units * PER_WORD;
-    const int32_t per_cos = (int32_t)(h->per_cos * per_word);
-    const int32_t at_fold = (per_cos - (per_cos >> 20)) >> 1;
-    fixed->constant = ((int32_t)(h->at_fold * units * 2.0f) - at_fold) >> 1;
-    fixed->per_cos = per_cos;
+    const float per_word = -4.0f * units;
+    fixed->per_cos = (int32_t)(h->per_cos * per_word);
     fixed->per_sin = (int32_t)(h->per_sin * per_word);
+    fixed->constant = (int32_t)(h->at_fold * units) - (fixed->per_cos >> 2);
 }
 
 /* The tick's constants from the harmonics of the elements, with iso beside them; h is used up.
  * planar: written on success only. */
 static inline brace_status_t give_constants(brace_harmonics_t *h, brace_planar_t *planar)
 {
-    const brace_harmonic_t *from = &h->cross;     /* then mean, dev_x, dev_y: */
-    brace_planar_harmonic_t *to = &planar->cross; /* the same order in both */
+    const brace_harmonic_t *from = &h->mean;     /* then dev_x, dev_y, cross: */
+    brace_planar_harmonic_t *to = &planar->mean; /* the same order in both */
 
     h->mean.at_fold += h->iso_mm_per_n;
     const float per_cos = h->mean.per_cos, per_sin = h->mean.per_sin;
@@ -86,10 +83,8 @@ static inline brace_status_t give_constants(brace_harmonics_t *h, brace_planar_t
     }
     float by = units;
     for (int i = 0; i < 4; i++) {
-        if (i == 2) { /* the deviators bring two bits more into the turn to the world's frame, which takes them again */
-            by *= PER_WORD;
-        }
         fix(&from[i], by, &to[i]);
+        by = 4.0f * units; /* what the deviator's turn into the world's frame takes, and a finer cross */
     }
     planar->sine = brace_sine_table;
     planar->cosine = brace_sine_table + BRACE_SINE_QUARTER;
@@ -113,6 +108,6 @@ BRACE_OFF_TICK brace_status_t brace_planar_collapse(const brace_limb_t *limb, br
     brace_harmonics_t h;
     brace_swing_t element[BRACE_CHAIN_FIRM];
     h.iso_mm_per_n = brace_chain_at_rest(limb, element) + base;
-    brace_harmonics_sum(element, element + BRACE_CHAIN_FIRM, &h);
+    brace_harmonics_sum(element, &h);
     return give_constants(&h, planar);
 }

@@ -39,7 +39,7 @@ BRACE_OFF_TICK brace_status_t brace_spatial_collapse(const brace_limb_t *limb, b
     iso += brace_chain_coxa(limb, &spatial->coxa);
     iso += brace_chain_base(limb, &spatial->base);
     iso += brace_chain_at_rest(limb, element);
-    brace_harmonics_sum(element, element + BRACE_CHAIN_FIRM, &spatial->plane);
+    brace_harmonics_sum(element, &spatial->plane);
     spatial->plane.iso_mm_per_n = iso;
     return BRACE_OK;
 }

@@ -52,7 +52,8 @@ brace_status_t brace_contact_grip(brace_force_t force, float normal_x, float nor
         return status;
     }
     const float length = brace_length(at.normal_x, at.normal_z);
-    if (__builtin_fabsf(length - 1.0f) > NORMAL_TOLERANCE || at.friction_ratio < 0.0f) {
+    if (brace_magnitude_bits(length - 1.0f) > brace_magnitude_bits(NORMAL_TOLERANCE) ||
+        brace_is_negative(at.friction_ratio)) {
         return BRACE_E_RANGE;
     }
     const float pressing_n = (at.force_x * at.normal_x + at.force_z * at.normal_z) / length;
@@ -61,10 +62,10 @@ brace_status_t brace_contact_grip(brace_force_t force, float normal_x, float nor
     grip->normal_n = pressing_n;
     grip->tangent_n = sliding_n;
     grip->margin_n = -excess_n;
+    grip->state = brace_bits(pressing_n) <= 0 ? BRACE_CONTACT_LIFTS
+                  : brace_bits(excess_n) <= 0 ? BRACE_CONTACT_HOLDS
+                                              : BRACE_CONTACT_SLIDES;
     /* from the cone's edge (1, mu) to the force (pressing, sliding): their cross product over their dot */
     grip->angle_left_rad = -brace_atan2(excess_n, pressing_n + at.friction_ratio * sliding_n);
-    grip->state = !(pressing_n > 0.0f) ? BRACE_CONTACT_LIFTS
-                  : excess_n > 0.0f    ? BRACE_CONTACT_SLIDES
-                                       : BRACE_CONTACT_HOLDS;
     return BRACE_OK;
 }

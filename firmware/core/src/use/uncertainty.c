@@ -48,8 +48,6 @@ typedef union {
 enum {
     BEND_PER_MOMENT, /* the femur's shift and turn per moment of the tip force about the knee */
     TURN_PER_MOMENT,
-    TIBIA_SLENDERNESS, /* what shows of an ellipsoid's turning: axial - bending */
-    BASE_SLENDERNESS,
     WEIGHT_COUNT
 };
 
@@ -62,8 +60,9 @@ enum {
 #define SPRING_BASE FIELD(base.rotation_rad_per_n_mm)
 
 /* What one sigma of a cause is: of its own dimension, or as a fraction of the cause's own size; or that the
- * cause has more terms. */
-enum { ANGLE, FEMUR_LENGTH, TIBIA_LENGTH, COMPLIANCE, TRUST_COUNT, MORE = TRUST_COUNT };
+ * cause has more terms. Of an angle's last term an ellipsoid turns, of which only the difference of its two compliances
+ * shows: the weight is the named less the one behind it. */
+enum { MORE, ANGLE, FEMUR_LENGTH, TIBIA_LENGTH, COMPLIANCE, TRUST_COUNT };
 
 /* One term of dC: (u v' + v u') weight. A cause is a run of terms; the last of them says how well the cause
  * is known. What is a compliance times u u' comes out doubled, so its causes are spelt doubled and known to
@@ -74,14 +73,14 @@ typedef struct {
 
 static const term_t terms[] = {
     /* theta1 turns all of C, from which the sum starts, but the base */
-    {BASE_X, BASE_Z, BASE_SLENDERNESS, ANGLE},
+    {BASE_X, BASE_Z, FIELD(base.x_mm_per_n), ANGLE},
     /* theta2 moves the tip across the shank, so the levers along it, and turns the tibia's ellipsoid */
     {SHANK, LEVER_FEMUR, SPRING_FEMUR, MORE},
     {SHANK, LEVER_FEMUR, SPRING_BASE, MORE},
     {SHANK, LEVER_TIBIA, SPRING_TIBIA, MORE},
     {SHANK, LEVER_TIBIA, TURN_PER_MOMENT, MORE},
     {SHANK, FEMUR_BENDING, BEND_PER_MOMENT, MORE},
-    {TIBIA_AXIAL, TIBIA_BENDING, TIBIA_SLENDERNESS, ANGLE},
+    {TIBIA_AXIAL, TIBIA_BENDING, FIELD(link[BRACE_TIBIA].axial_mm_per_n), ANGLE},
     /* a longer femur grows the levers about its joint, and yields less (here with the sign turned) */
     {LEVER_THIGH, LEVER_FEMUR, SPRING_FEMUR, MORE},
     {LEVER_THIGH, LEVER_FEMUR, SPRING_BASE, MORE},
@@ -117,16 +116,13 @@ static void find_vectors(const brace_limb_t *limb, const float theta_rad[2], con
     const float lambda_soft = stiffness->lambda_min_n_per_mm;
     brace_kinematics_pose(limb, theta_rad[0], theta_rad[1], &vectors->pose);
     vectors->at[BASE] = (brace_vec_t){1.0f, 0.0f};
-    uint32_t turn = brace_turn(theta_rad[0]);
-    brace_vec_t *axis = &vectors->at[AXES];
-    for (const brace_link_t *link = &limb->link[BRACE_FEMUR]; link <= &limb->link[BRACE_TIBIA]; link++) { /* at most two */
-        *axis++ = brace_direction(turn + brace_turn(link->tilt_rad));
-        turn -= brace_turn(theta_rad[1]);
-    }
-    for (int i = DIRECTION_COUNT - 1; i >= 0; i--) { /* backwards: each makes room for two */
+    const uint32_t femur_turn = brace_turn(theta_rad[0]), tibia_turn = femur_turn - brace_turn(theta_rad[1]);
+    vectors->at[AXES] = brace_direction(femur_turn + brace_turn(limb->link[BRACE_FEMUR].tilt_rad));
+    vectors->at[AXES + 1] = brace_direction(tibia_turn + brace_turn(limb->link[BRACE_TIBIA].tilt_rad));
+    for (int i = DIRECTION_COUNT; i-- > 0;) { /* backwards: each makes room for two */
         const brace_vec_t v = brace_turned(vectors->at[i], x);
         vectors->at[2 * i] = (brace_vec_t){lambda_stiff * v.x, lambda_soft * v.z};
-        vectors->at[2 * i + 1] = (brace_vec_t){lambda_stiff * v.z, -lambda_soft * v.x};
+        vectors->at[2 * i + 1] = (brace_vec_t){lambda_stiff * v.z, -(lambda_soft * v.x)};
     }
 }
 
@@ -135,7 +131,7 @@ enum { XX, XZ, ZZ, SOFT, STIFF, CROSS, FIGURE_COUNT };
 
 _Static_assert(offsetof(brace_stiffness_sigma_t, stiff_axis_rad) == CROSS * sizeof(float), "one order");
 
-BRACE_OFF_TICK BRACE_LOOPS_STAY
+BRACE_OFF_TICK
 static brace_status_t estimate(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
                                const brace_stiffness_t *stiffness, brace_stiffness_sigma_t *sigma, bool limb_is_known)
 {
@@ -151,41 +147,47 @@ static brace_status_t estimate(const brace_limb_t *limb, float theta1_rad, float
     const brace_vec_t x = brace_direction(0u - brace_turn(stiffness->stiff_axis_rad));
     find_vectors(limb, theta_rad, stiffness, x, &vectors);
     const brace_link_t *femur = &limb->link[BRACE_FEMUR];
-    const brace_link_t *tibia = &limb->link[BRACE_TIBIA];
     const float *fields = (const float *)limb + PLACE(FIRST) - WEIGHT_COUNT;
     const float bend = -1.5f * femur->moment_transfer_ratio * femur->bending_mm_per_n / limb->femur_mm;
     const float weights[WEIGHT_COUNT] = {
         [BEND_PER_MOMENT] = bend,
         [TURN_PER_MOMENT] = -2.0f * bend / limb->femur_mm,
-        [TIBIA_SLENDERNESS] = tibia->axial_mm_per_n - tibia->bending_mm_per_n,
-        [BASE_SLENDERNESS] = limb->base.x_mm_per_n - limb->base.z_mm_per_n,
     };
     const brace_uncertainty_t *trust = &limb->uncertainty;
-    const float one_sigma[TRUST_COUNT] = {
-        [ANGLE] = trust->angle_rad,
-        [FEMUR_LENGTH] = trust->length_mm / limb->femur_mm,
-        [TIBIA_LENGTH] = trust->length_mm / limb->tibia_mm,
-        [COMPLIANCE] = 0.5f * trust->compliance_rel,
-    };
+    float one_sigma[TRUST_COUNT];
+    one_sigma[ANGLE] = trust->angle_rad;
+    one_sigma[FEMUR_LENGTH] = trust->length_mm / limb->femur_mm;
+    one_sigma[TIBIA_LENGTH] = trust->length_mm / limb->tibia_mm;
+    one_sigma[COMPLIANCE] = 0.5f * trust->compliance_rel;
 
     float *variance = (float *)sigma; /* until the roots are taken */
-    for (int figure = 0; figure < FIGURE_COUNT; figure++) {
-        variance[figure] = 0.0f;
+    const float gain = trust->gain_rel;
+    const float *entry = (const float *)stiffness;
+    for (int figure = 0; figure < CROSS; figure++) {
+        const float by_gain = entry[figure] * gain; /* scales all of K alike */
+        variance[figure] = by_gain * by_gain;
     }
+    variance[CROSS] = 0.0f;
+
     /* from K's axes to the limb's, twice the angle */
     const brace_vec_t twice = {x.x * x.x - x.z * x.z, -2.0f * x.x * x.z};
     const float apart = stiffness->lambda_max_n_per_mm - stiffness->lambda_min_n_per_mm;
     float stiff = 0.0f, cross = -apart, soft = 0.0f; /* half of dK's diagonal, and its corner */
-    for (const term_t *term = terms; term < terms + sizeof terms / sizeof *terms; term++) {
-        const brace_vec_t u = vectors.at[term->u];
-        const brace_vec_t v = vectors.at[term->v];
-        const float weight = (term->weight < WEIGHT_COUNT ? weights : fields)[term->weight];
-        stiff += weight * u.x * v.x;
-        cross += weight * (u.x * v.z + u.z * v.x);
-        soft += weight * u.z * v.z;
-        if (term->known_to == MORE) {
-            continue;
-        }
+    for (const term_t *term = terms; term < terms + sizeof terms / sizeof *terms;) { /* at most thirteen, the causes */
+        unsigned known_to;
+        do { /* at most six, its terms */
+            const brace_vec_t u = vectors.at[term->u];
+            const brace_vec_t v = vectors.at[term->v];
+            const float *at = (term->weight < WEIGHT_COUNT ? weights : fields) + term->weight;
+            known_to = term->known_to;
+            const float weight = known_to == ANGLE ? at[0] - at[1] : at[0];
+            const brace_vec_t weighted = {weight * u.x, weight * u.z};
+            stiff += weighted.x * v.x;
+            cross += weighted.x * v.z;
+            cross += weighted.z * v.x;
+            soft += weighted.z * v.z;
+            term++;
+        } while (known_to == MORE);
         const float mean = stiff + soft;
         const brace_vec_t dev = brace_turned((brace_vec_t){stiff - soft, cross}, twice);
         const float shift[FIGURE_COUNT] = {
@@ -197,19 +199,17 @@ static brace_status_t estimate(const brace_limb_t *limb, float theta1_rad, float
             [CROSS] = cross,
         };
         for (int figure = 0; figure < FIGURE_COUNT; figure++) {
-            const float known_to = shift[figure] * one_sigma[term->known_to];
-            variance[figure] += known_to * known_to;
+            const float by_cause = shift[figure] * one_sigma[known_to];
+            variance[figure] += by_cause * by_cause;
         }
         stiff = cross = soft = 0.0f;
     }
-    const float *entry = (const float *)stiffness;
-    for (int figure = 0; figure < CROSS; figure++) {
-        const float by_gain = entry[figure] * trust->gain_rel; /* scales all of K alike */
-        variance[figure] = brace_sqrt(variance[figure] + by_gain * by_gain);
+    for (int figure = 0; figure < FIGURE_COUNT; figure++) {
+        variance[figure] = brace_sqrt(variance[figure]);
     }
+    sigma->stiff_axis_rad = variance[CROSS] / apart;
     sigma->flags = stiffness->flags;
-    sigma->stiff_axis_rad = brace_sqrt(variance[CROSS]) / apart;
-    if (!(sigma->stiff_axis_rad < UNKNOWN_AXIS_RAD)) {
+    if (brace_magnitude_bits(sigma->stiff_axis_rad) >= brace_magnitude_bits(UNKNOWN_AXIS_RAD)) {
         sigma->stiff_axis_rad = UNKNOWN_AXIS_RAD;
         sigma->flags |= BRACE_FLAG_SATURATED;
     }

@@ -49,7 +49,8 @@ void brace_bus_close(brace_bus_t *bus);
  * returns OK, E_USAGE, E_DOWN, E_FULL */
 brace_bus_status_t brace_bus_send(brace_bus_t *bus, const brace_bus_frame_t *frame, int timeout_ms);
 
-/* The next frame, of whatever identifier (remote, extended and error frames are passed over).
+/* The next frame, of whatever identifier (remote, extended and error frames are passed over); waits at most timeout_ms,
+ * however much comes that is passed over.
  * returns OK, E_TIMEOUT, E_DOWN */
 brace_bus_status_t brace_bus_receive(brace_bus_t *bus, brace_bus_frame_t *frame, int timeout_ms);
 
