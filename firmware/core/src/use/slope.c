@@ -24,7 +24,7 @@ _Static_assert(offsetof(brace_slope_line_t, slope) == SLOPE * sizeof(float) &&
                    offsetof(brace_slope_line_t, residual) == RESIDUAL * sizeof(float),
                "a line is five floats");
 
-BRACE_OFF_TICK BRACE_LOOPS_STAY
+BRACE_OFF_TICK
 brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, float force_x_n,
                                  float force_z_n)
 {

@@ -131,7 +131,7 @@ enum { XX, XZ, ZZ, SOFT, STIFF, CROSS, FIGURE_COUNT };
 
 _Static_assert(offsetof(brace_stiffness_sigma_t, stiff_axis_rad) == CROSS * sizeof(float), "one order");
 
-BRACE_OFF_TICK BRACE_LOOPS_STAY
+BRACE_OFF_TICK
 static brace_status_t estimate(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
                                const brace_stiffness_t *stiffness, brace_stiffness_sigma_t *sigma, bool limb_is_known)
 {
