@@ -148,6 +148,8 @@ def test_nobody_there(limb: Path) -> None:
     assert "there is no /dev/ttyNONE" in told_in_time(4, "query", "--bus", "slcan:/dev/ttyNONE")
     assert "there is no /dev/ttyNONE" in told_in_time(4, "query", "--bus", "modbus:/dev/ttyNONE@115200/1")
     assert "nobody listens" in told_in_time(4, "monitor", "--bus", f"modbus-tcp://127.0.0.1:{port}/1")
+    said = told_in_time(4, "query", "--bus", "modbus-tcp://127.0.0.253")  # the port that was not named is told
+    assert "nobody listens there, on port 502" in said
 
 
 def test_no_can_in_the_kernel_or_no_such_interface() -> None:

@@ -162,7 +162,7 @@ def test_files_in_the_wrong_order(brace: Brace, paper_limb: Path, paper_table: P
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.parametrize("command", ["map", "simulate", "diagnose", "demo"])
+@pytest.mark.parametrize("command", ["map", "simulate", "diagnose", "demo", "identify", "predict", "k"])
 def test_a_folder_in_which_nothing_may_be_written_is_told_before_the_work(
     brace: Brace, paper_limb: Path, paper_table: Path, tmp_path: Path, command: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -172,8 +172,12 @@ def test_a_folder_in_which_nothing_may_be_written_is_told_before_the_work(
     may = os.access
     monkeypatch.setattr(os, "access", lambda path, mode: Path(path) != closed and may(path, mode))
     rig = paper_limb.parent / "paper-rig.toml"
+    postures = tmp_path / "postures.csv"
+    postures.write_text("theta1_rad,theta2_rad\n1,1.4\n")
     given = {"map": ["--model", paper_limb], "simulate": ["--model", paper_limb, "--rig", rig],
-             "diagnose": [paper_table, "--model", paper_limb], "demo": []}  # fmt: skip
+             "diagnose": [paper_table, "--model", paper_limb], "demo": [],
+             "identify": [paper_table, "--model", paper_limb], "predict": [paper_table, "--model", paper_limb],
+             "k": ["--model", paper_limb, "--csv", postures]}  # fmt: skip
     outcome = brace(command, *given[command], "--out", closed / "new")
     assert outcome.code == 2 and f"nothing may be written in {closed}" in outcome.err and not outcome.out, outcome.err
     assert not list(closed.iterdir())

@@ -169,14 +169,19 @@ def write_file(path: Path, content: bytes | str, inputs: Iterable[Path] = ()) ->
 def check_folder(folder: Path, names: Iterable[str], inputs: Iterable[Path] = ()) -> None:
     """Refuses, before any work is done, a folder that cannot take files of these names."""
     for name in names:
-        anchor = _existing_parent(checked_destination(folder / name, inputs))
-        if not os.access(anchor, os.W_OK | os.X_OK):
-            raise UsageError(
-                "the output cannot be written",
-                where=str(folder / name),
-                why=f"nothing may be written in {anchor}: its permissions, or a read-only file system",
-                next_step="choose another --out",
-            )
+        check_file(folder / name, inputs)
+
+
+def check_file(path: Path, inputs: Iterable[Path] = ()) -> None:
+    """Refuses, before any work is done, a file that cannot be written there."""
+    anchor = _existing_parent(checked_destination(path, inputs))
+    if not os.access(anchor, os.W_OK | os.X_OK):
+        raise UsageError(
+            "the output cannot be written",
+            where=str(path),
+            why=f"nothing may be written in {anchor}: its permissions, or a read-only file system",
+            next_step="choose another --out",
+        )
 
 
 def checked_destination(path: Path, inputs: Iterable[Path] = ()) -> Path:

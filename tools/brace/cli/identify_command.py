@@ -73,14 +73,14 @@ def add(commands: Any) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from brace.dataset import load_dataset
-    from brace.files import checked_destination, write_file
+    from brace.files import check_file, write_file
     from brace.identify import report
     from brace.identify.run import Options, identify
     from brace.identify.table import Weight
     from brace.model import load_limb
 
     inputs = [arguments.model, arguments.dataset / "data.csv", arguments.dataset / "meta.toml"]
-    checked_destination(arguments.out, inputs)  # before the work, not after
+    check_file(arguments.out, inputs)  # before the work, not after
     options = Options(
         mode=arguments.mode or "",
         extra_keys=tuple(_keys_of("--fit", arguments.fit)),

@@ -9,7 +9,7 @@ import numpy as np
 from brace import stiffness
 from brace.cli import common
 from brace.errors import BadFileError, UsageError
-from brace.files import checked_destination, write_file
+from brace.files import check_file, write_file
 from brace.model import LimbModel
 from brace.posture_table import PostureTable, read_postures
 
@@ -17,7 +17,7 @@ from brace.posture_table import PostureTable, read_postures
 def run_table(arguments: argparse.Namespace, model: LimbModel) -> int:
     """Reads IN, computes, writes OUT whole or not at all."""
     inputs = [arguments.model, arguments.csv]
-    checked_destination(arguments.out, inputs)
+    check_file(arguments.out, inputs)
     table = read_postures(arguments.csv)
     spatial = "theta0_rad" in table.angles
     rest = stiffness.SPATIAL_REST if spatial else stiffness.PLANAR_REST

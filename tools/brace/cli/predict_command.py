@@ -40,10 +40,12 @@ def run(arguments: argparse.Namespace) -> int:
     import numpy as np
 
     from brace.dataset import load_dataset
-    from brace.files import write_file
+    from brace.files import check_file, write_file
     from brace.model import load_limb
     from brace.predict import predict, require_sound_inputs
 
+    inputs = [arguments.model, arguments.dataset / "data.csv", arguments.dataset / "meta.toml"]
+    check_file(arguments.out, inputs)  # before the work, not after
     model = load_limb(arguments.model)
     dataset = load_dataset(arguments.dataset)
     for fault in require_sound_inputs(dataset):
@@ -54,7 +56,6 @@ def run(arguments: argparse.Namespace) -> int:
     columns = prediction.columns
     texts = [[f"{value:.9g}" for value in (values + 0.0).tolist()] for values in columns.values()]
     lines = [",".join(columns), *(",".join(row) for row in zip(*texts))]
-    inputs = [arguments.model, dataset.csv_path, dataset.folder / "meta.toml"]
     write_file(arguments.out, "\n".join(lines) + "\n", inputs)
     gap = {
         f"rms_gap_{name}": float(np.sqrt(np.mean((values - dataset[name]) ** 2)))
