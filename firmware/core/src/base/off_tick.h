@@ -2,7 +2,10 @@
 #ifndef BRACE_OFF_TICK_H
 #define BRACE_OFF_TICK_H
 
-#if defined(__GNUC__)
+#if defined(__GNUC__) && !defined(__clang__)
+/* Scheduling before registers are allotted costs moves. */
+#define BRACE_OFF_TICK __attribute__((cold, noinline, optimize("no-schedule-insns")))
+#elif defined(__GNUC__)
 #define BRACE_OFF_TICK __attribute__((cold, noinline))
 #else
 #define BRACE_OFF_TICK
