@@ -70,7 +70,7 @@ static void each_lie_is_named(void)
         {JOINT_FUTURE, "joint_read(1)", "taken_us"},
         {JOINT_SAME_SAMPLE, "joint_read(1)", "the same sample"},
         {JOINT_STUCK, "joint_read(1)", "stuck"},
-        {JOINT_INDEX_UNCHECKED, "joint_read", "joint -1 or 3"},
+        {JOINT_INDEX_UNCHECKED, "joint_read", "is answered or written to"},
         {COMMAND_REFUSED, "joint_command", "refuses an offset of 0"},
         {COMMAND_INDEX_UNCHECKED, "joint_command", "joint 3 is accepted"},
         {FORCE_AGAIN_FOR_EVER, "tip_force_read", "no sample in 50 ms"},

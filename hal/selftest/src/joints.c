@@ -96,12 +96,18 @@ static void one_joint(selftest_t *test, int32_t index)
 static void refusals(selftest_t *test)
 {
     const brace_hal_t *const hal = test->hal;
-    static const int32_t none[] = {-1, JOINT_COUNT};
+    static const struct {
+        int32_t index;
+        const char *passed, *failed;
+    } none[] = {
+        {-1, "a joint before the first is refused", "joint -1 is answered or written to: check the index first"},
+        {JOINT_COUNT, "a joint after the last is refused", "joint 3 is answered or written to: check the index first"},
+    };
     for (uint32_t i = 0u; i < sizeof none / sizeof none[0]; i++) {
         brace_hal_joint_t joint = {.motor_rad = sentinel};
-        const int32_t answer = hal->joint_read(hal->context, none[i], &joint);
-        selftest_expect(test, answer < BRACE_HAL_AGAIN && joint.motor_rad == sentinel, "joint_read",
-            "a joint that can not be is refused", "joint -1 or 3 is answered or written to: check the index first");
+        const int32_t answer = hal->joint_read(hal->context, none[i].index, &joint);
+        selftest_expect(test, answer < BRACE_HAL_AGAIN && joint.motor_rad == sentinel, "joint_read", none[i].passed,
+            none[i].failed);
     }
 }
 

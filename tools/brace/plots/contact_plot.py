@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-MARGIN_MM = 110.0
+LEDGE_MM = 260.0
+MARGIN_MM = 0.5 * LEDGE_MM + 20.0
 
 
 @dataclass(frozen=True)
@@ -41,7 +42,7 @@ def contact_figure(footings: Sequence[Footing], friction_ratio: float, sag_mm: f
     low, high = corners.min(axis=0) - MARGIN_MM, corners.max(axis=0) + MARGIN_MM
     for axes, footing in zip(panels, footings):
         _draw_footing(axes, footing, friction_ratio, sag_mm)
-        axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1] + MARGIN_MM / 2))
+        axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
     plane = panels[-1]
     mesh = plane.pcolormesh(r_mm, height_mm, np.minimum(needed_ratio, 2.0), shading="gouraud", cmap="RdYlGn_r",
                             vmin=0.0, vmax=2.0 * friction_ratio, rasterized=True)
@@ -61,7 +62,7 @@ def _draw_footing(axes: Axes, footing: Footing, friction_ratio: float, sag_mm: f
     for side in (-1.0, 1.0):
         axes.plot([tip[0], tip[0] + side * length * np.sin(half)], [tip[1], tip[1] + length * np.cos(half)], color=INK,
                   linewidth=0.8, linestyle="--")
-    axes.plot([tip[0] - 130, tip[0] + 130], [tip[1], tip[1]], color=FAINT, linewidth=8, zorder=0)
+    axes.plot([tip[0] - 0.5 * LEDGE_MM, tip[0] + 0.5 * LEDGE_MM], [tip[1], tip[1]], color=FAINT, linewidth=8, zorder=0)
     size = float(np.linalg.norm(footing.force_n))
     arrow = footing.force_n / size * length
     colour = MODEL if footing.holds else STIFF
