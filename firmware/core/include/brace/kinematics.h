@@ -68,7 +68,7 @@ brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_r
 void brace_kinematics_pose(const brace_limb_t *limb, float theta1_rad, float theta2_rad, brace_pose_t *pose);
 
 /* Distance and direction of a point; phi 0 for the origin itself.
- *   point [+-1e6 mm]; polar (out): r within 2e-7 relative, phi within 3e-7 rad
+ *   point [+-1e6 mm]; polar (out): r within 2e-7 relative, phi within 3e-7 rad (r above 1e-30 mm)
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE; at most 100 instructions. */
 brace_status_t brace_kinematics_polar(brace_point_t point, brace_polar_t *polar);
 

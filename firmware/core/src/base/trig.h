@@ -31,7 +31,7 @@ static inline brace_vec_t brace_direction(uint32_t turn)
 }
 
 /* Angle of (x, y) from +x, [-pi, pi], within 3e-7 rad; within half of that unless x is negative, and not negative unless
- * y is; 0 for the zero vector. x, y [-1e37, 1e37]. About 50 instructions. */
+ * y is; 0 for the zero vector, and less sharp for one shorter than 1e-30. x, y [-1e37, 1e37]. About 50 instructions. */
 float brace_atan2(float y, float x);
 
 /* An instruction where there is an FPU, correctly rounded everywhere. value >= 0. */

@@ -7,7 +7,8 @@
 
 #include <stdint.h>
 
-/* 32 entries are a turn; a quarter more, so that the cosine lies a fixed way behind the sine. Of the sine, 0x7fffffff is one. */
+/* 32 entries are a turn; a quarter more, so that the cosine lies a fixed way behind the sine. Of the sine, 0x7fffffff is
+ * one. */
 enum { BRACE_SINE_TABLE_SIZE = 32, BRACE_SINE_QUARTER = 8 };
 
 extern const int32_t brace_sine_table[BRACE_SINE_TABLE_SIZE + BRACE_SINE_QUARTER];
@@ -39,7 +40,8 @@ typedef struct {
 
 /* Of d q31, where 1 is half an entry, pi/32. With e = d^2 q30, sin d = d (421657315 - 2707609 e) q31;
  * 1 - cos d = sin^2 d/2 + sin^4 d/8, error 6e-8 at half an entry, falling with the sixth power of d: nearly all of it is
- * length, the direction is right within 6e-9. Straight-line code, in an order of operations that GCC turns into few instructions. */
+ * length, the direction is right within 6e-9. Straight-line code, in an order of operations that GCC turns into few
+ * instructions. */
 static inline brace_off_entry_t brace_off_entry(int32_t d)
 {
     const int32_t e = brace_mulh(d, d);

@@ -44,7 +44,8 @@ static inline brace_sincos_t nearest(uint32_t turn)
     return brace_fixed_sincos[(turn + 0x02000000u) >> 26];
 }
 
-/* Sine and cosine off the nearest entry; a sum of 64-bit products takes one instruction a term. d: what is left from the nearest table entry, 2^31 = pi/64; cos_d_less_1: q32. */
+/* Sine and cosine off the nearest entry; a sum of 64-bit products takes one instruction a term. d: what is left from the
+ * nearest table entry, 2^31 = pi/64; cos_d_less_1: q32. */
 static inline brace_sincos_t add_angle(brace_sincos_t near, int32_t d, int32_t d2, int32_t cos_d_less_1)
 {
     const int32_t sin_d = high(d, SIN_D1 + high(d2, SIN_D3)); /* q32 */
