@@ -1,6 +1,7 @@
 /* client_probe BUS NODE TIMEOUT_MS CALL [NUMBER...]: one call of the C client; numbers it gives on stdout as "name value"
  * lines, its reason on stderr, its status as exit code (positive).
- *   identity | read PARTS COUNT | posture T1 T2 [COUNT] (the last one's) | tip X Z UP | force DX DZ | sag FX FZ | margin NORMAL MU
+ *   identity | read PARTS COUNT | posture T1 T2 [COUNT] (the last one's) | tip X Z UP | force DX DZ | sag FX FZ
+ *   margin NORMAL MU
  *   loop WAIT_MS FOR_MS: reads K in a control loop, each time with that time-out
  *   entry_u32 INDEX | entry_f32 INDEX | dump SILENT_MS [FRAMES] (bus only:
  *   until that silence, or that many) | send ID BYTE... (bus only) */

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import math
+import os
 import socket
 import statistics
 import subprocess
@@ -21,6 +22,7 @@ from brace.wire.names import PARAMETERS
 STEP = 0.0005  # N/mm; a value is rounded to the nearest, so half of it and a float's rounding
 POSTURE = (1.0, 1.4)
 Probe = Callable[..., Answer]
+STREAMS = ["modbus"] if os.environ.get("BRACE_TEST_CAN") else ["can", "modbus"]  # an interface can not be held up
 INDEX = {entry.name: entry.index for entry in MEASURED}
 
 
@@ -197,7 +199,7 @@ def test_two_clients_at_once(probe: Probe, sim: Sim) -> None:
 
 
 def test_two_clients_at_once_over_modbus(sim: Sim) -> None:
-    """There is one place for the question and one for the answer: whom another comes between asks again, till it is its own."""
+    """There is one place for questions and one for answers: whom another comes between asks again."""
     postures = [(0.5, 1.2), (1.0, 1.4)]
     processes = [
         subprocess.Popen(
@@ -211,9 +213,9 @@ def test_two_clients_at_once_over_modbus(sim: Sim) -> None:
         check_k(Answer(0, out, "", 0).values, posture)
 
 
-@pytest.mark.parametrize("kind", ["can", "modbus"])
+@pytest.mark.parametrize("kind", STREAMS)
 def test_a_link_that_stalls_is_taken_up_again(probe: Probe, sim: Sim, kind: str) -> None:
-    """For a second nothing comes through, then all of it at once: answers that are late must not make the next ones late."""
+    """For a second nothing comes through, then all of it at once: late answers must not make the next ones late."""
     scheme, _, place = getattr(sim, kind).partition("://")
     with stalling(place, after_s=1.0, for_s=1.0) as held:
         loop = probe(f"{scheme}://{held}", "loop", 100, 4000).values

@@ -136,7 +136,7 @@ class ModbusController:
         return {name: v[f"asked_force_{of}"] for name, of in _FORCES}
 
     def _ask(self, first: str, form: str, *values: float) -> dict[str, Value]:
-        """What belongs to one question is written at once; all answers, which are to this question if it still reads back."""
+        """What belongs to one question is written at once; all answers. They are to it if it still reads back."""
         data = struct.pack(form, *values)
         address, words = _BY_NAME[first].address, struct.unpack(f">{len(data) // 2}H", data)
         until = time.monotonic() + BUSY_S

@@ -179,8 +179,9 @@ static brace_client_status_t explain_silence(brace_client_t *client, const char 
 /* A refusal in words: what a status means depends on what was asked. */
 static const char *reason(uint32_t code, const brace_can_refusal_t *refusal)
 {
-    const bool is_of_now = code == BRACE_REQUEST_CONTACT_FORCE || code == BRACE_REQUEST_SAG_FOR_LOAD; /* detail: K's flags */
-    if (is_of_now && refusal->status == BRACE_E_RANGE && (refusal->detail & BRACE_CLIENT_FLAG_GAP_OPEN) != 0u) {
+    const bool is_of_now = code == BRACE_REQUEST_CONTACT_FORCE || code == BRACE_REQUEST_SAG_FOR_LOAD;
+    const bool is_open = (refusal->detail & BRACE_CLIENT_FLAG_GAP_OPEN) != 0u; /* of those the detail is K's flags */
+    if (is_of_now && is_open && refusal->status == BRACE_E_RANGE) {
         return "a joint's play is open, so nothing carries the tip in some direction; take it up first";
     }
     if (is_of_now && refusal->status == BRACE_E_MODE) {

@@ -167,8 +167,8 @@ static int write_words(modbus_t *modbus, int address, int count, uint16_t *words
     return modbus_write_registers(modbus, address, count, words);
 }
 
-/* Waits out answers that came too late for their own calls. A request sent before they are through would be answered behind
- * them, too late in its turn, and so every one after it. False when that takes the whole call. */
+/* Waits out answers that came too late for their own calls. A request sent before they are through would be answered
+ * behind them, too late in its turn, and so every one after it. False when that takes the whole call. */
 static bool settle(brace_client_t *client, uint64_t deadline_us)
 {
     struct pollfd news = {.fd = modbus_get_socket(client->modbus), .events = POLLIN};
@@ -356,8 +356,8 @@ brace_client_status_t brace_modbus_k_at_posture(brace_client_t *client, float th
         const brace_client_status_t status = ask_posture(client, posture, deadline_us, words, &is_mine);
         if (is_contested && !is_mine && (status == BRACE_CLIENT_E_SILENT || brace_bus_left_ms(deadline_us) == 0)) {
             return brace_client_fail(client, BRACE_CLIENT_E_TIMEOUT,
-                                     "%s: other clients asked for other postures all the time; try a longer time-out, or CAN, "
-                                     "where each has its own answer", client->url);
+                                     "%s: other clients asked for other postures all the time; try a longer time-out, "
+                                     "or CAN, where each has its own answer", client->url);
         }
         if (status != BRACE_CLIENT_OK) {
             return status;

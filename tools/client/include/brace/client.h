@@ -119,9 +119,9 @@ void brace_client_identity(const brace_client_t *client, brace_client_identity_t
 brace_client_status_t brace_client_read(brace_client_t *client, uint32_t wanted, int timeout_ms,
                                         brace_client_snapshot_t *snapshot);
 
-/* K at true joint angles [rad] that the limb need not have: each from -3.9 to 3.9, and further where the limb's model
- * reaches; what lies outside is refused. Over Modbus it is asked again where another client's question comes between, until
- * the time-out. */
+/* K at true joint angles [rad] that the limb need not have: each from -3.9 to 3.9, and further as far as the limb's
+ * model reaches; beyond that it is refused. Over Modbus it is asked again, until the time-out, where another client's
+ * question comes between. */
 brace_client_status_t brace_client_k_at_posture(brace_client_t *client, float theta1_rad, float theta2_rad,
                                                 int timeout_ms, brace_client_k_t *k);
 
@@ -129,8 +129,8 @@ brace_client_status_t brace_client_k_at_posture(brace_client_t *client, float th
 brace_client_status_t brace_client_k_at_tip(brace_client_t *client, float x_mm, float z_mm, bool knee_up, int timeout_ms,
                                             brace_client_k_t *k);
 
-/* Force on the tip that holds it at a displacement [mm, -838 to 838], with the K of now. This and the sag are refused while
- * K is not valid or flagged GAP_OPEN: then nothing carries the tip in some direction. CAN only. */
+/* Force on the tip that holds it at a displacement [mm, -838 to 838], with the K of now. This and the sag are refused
+ * while K is not valid, or flagged GAP_OPEN: then nothing carries the tip in some direction. CAN only. */
 brace_client_status_t brace_client_contact_force(brace_client_t *client, float dx_mm, float dz_mm, int timeout_ms,
                                                  brace_client_force_t *force);
 
