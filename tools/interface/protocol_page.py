@@ -56,8 +56,8 @@ def protocol_page(wire: Wire, values: Values, dictionary_hash: int) -> str:
             parts.append(f"\nAnswer, part {part}:\n\n" + _table(answer))
     parts.append(
         "\n## Entries\n\nFor `read_entry` and `write_entry` parameters have the numbers that"
-        " [limb.toml's keys](limb-keys.md) are listed with, half their Modbus addresses; for `read_entry` measured values count from"
-        f" {MEASURED_ENTRY}:\n\n| number | name | type | unit |\n|---|---|---|---|\n"
+        " [limb.toml's keys](limb-keys.md) are listed with, half their Modbus addresses; for `read_entry`"
+        f" measured values count from {MEASURED_ENTRY}:\n\n| number | name | type | unit |\n|---|---|---|---|\n"
     )
     parts += [f"| {MEASURED_ENTRY + v.index} | `{v.name}` | {v.type} | {v.unit} |\n" for v in values.measured]
     return "".join(parts)
