@@ -37,6 +37,7 @@ from brace.model.keys import KEY_BY_NAME
 DRAWN_ROWS = 20000  # residuals that a report lays beside the record
 STRUCTURED = 1.3  # rms over noise, above which what is left is more than noise
 EXPECTED_FITS = 60.0
+LIKELIER_THAN_NOT = 0.5  # an effect that is rather not there is not named
 SUREST = 0.99  # no test of one joint makes surer of a name
 
 
@@ -115,6 +116,11 @@ def _told(
     left = [term for term in best.terms if not term.catalogued]
     exported = by_rows.fit(tuple(found), best)  # shapes are no physics: never exported
     effects = _named(fitter, by_rows, best, exported, found, choice.count, random)
+    while effects and effects[-1].confidence < LIKELIER_THAN_NOT:  # beside a shape it explains next to nothing
+        found = [term for term in found if term.name != effects[-1].name]
+        best = fitter.fit((*found, *left), best)
+        exported = by_rows.fit(tuple(found), best)
+        effects = _named(fitter, by_rows, best, exported, found, choice.count, random)
     advance(0.93, "where they disagreed")
     spots = localise(record, base.off_n_mm, random)
     gap, residuals, rows = _gaps(by_rows, base, effects, exported)
