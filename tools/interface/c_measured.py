@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 
 from interface.measured import Measured, Values
@@ -23,6 +24,7 @@ def measured_header(values: Values) -> str:
         + _struct("measured", values.measured, "All of one tick. A float that is not known is NaN, a u32 all ones.")
         + _struct("answered", values.answered, "K at the posture asked for over Modbus.")
         + _struct("commands", values.commands, "What was last written to the command registers.")
+        + _names([*values.measured, *values.answered])
         + "#endif\n"
     )
 
@@ -40,3 +42,13 @@ def _struct(name: str, values: Sequence[Measured], words: str) -> str:
         + "#ifndef __cplusplus\n"
         + f"_Static_assert(sizeof(brace_{name}_t) == 4 * BRACE_{upper}_COUNT, \"32 bits each\");\n#endif\n\n"
     )
+
+
+def _names(values: Sequence[Measured]) -> str:
+    lines = ["/* What numbers are called, and bits, from 0: to initialise arrays of const char * with. */\n"]
+    for value in values:
+        words = [f'"{word}"' for word in value.names or value.bit_names]
+        if words:
+            rows = textwrap.wrap(", ".join(words), 110)
+            lines.append(f"#define BRACE_{value.name.upper()}_NAMES \\\n    {{ " + " \\\n      ".join(rows) + " }\n")
+    return "".join(lines) + "\n"
