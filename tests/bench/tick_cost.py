@@ -15,8 +15,7 @@ import numpy as np
 BENCH = Path(__file__).resolve().parent
 sys.path.insert(0, str(BENCH))
 
-import fetch  # noqa: E402
-from emulate import RUN_IMAGE  # noqa: E402
+from emulate import RUN_IMAGE, build_plugin  # noqa: E402
 from extra import Extra  # noqa: E402
 from limits import Check  # noqa: E402
 from toolchain import (BOARDS, BUILD, CORE, CORE_FLAGS, M4F, PREFIX, compile_source, link_image, run,  # noqa: E402
@@ -91,18 +90,9 @@ def _door(image: Path) -> tuple[int, int]:
     return min(door)[0], sum(max(door))
 
 
-def build_plugin() -> Path:
-    """The counting plugin, compiled for this machine's emulator."""
-    output = BUILD / "count_ticks.so"
-    output.parent.mkdir(parents=True, exist_ok=True)
-    run(["gcc", "-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", f"-I{fetch.plugin_header()}",
-         BENCH / "tick" / "count_ticks.c", "-o", output])
-    return output
-
-
 def measure_ticks(ticks: int = TICK_COUNT) -> TickCost:
     """Build, run, count."""
-    image, plugin = build_image(ticks), build_plugin()
+    image, plugin = build_image(ticks), build_plugin(BENCH / "tick" / "count_ticks.c")
     record = image.with_suffix(".counts")
     low, high = _door(image)
     entry = symbol_address(image, FUNCTION) & ~1

@@ -10,6 +10,7 @@
 
 #include "app_bench.h"
 #include "brace/measured.h"
+#include "modbus_crc.h"
 
 enum { UNIT = 17, WORDS = (int)(sizeof(brace_parameters_t) / 4), MOST_TICKS = 120, HEADER = 7,
        ANSWERED = 16, COMMANDS = 17 /* values from 4096 and from 16384 on, by docs/modbus.md */ };
@@ -301,18 +302,6 @@ static void judge(const bytes_t *sent, const uint8_t *pdu, uint32_t length, cons
 
 /* --------------------------------------------------------------------------------------------- wires -- */
 
-static uint32_t crc(const uint8_t *bytes, uint32_t count)
-{
-    uint32_t sum = 0xffff;
-    for (uint32_t i = 0; i < count; i++) {
-        sum ^= bytes[i];
-        for (int bit = 0; bit < 8; bit++) {
-            sum = (sum & 1u) != 0u ? sum >> 1 ^ 0xa001u : sum >> 1;
-        }
-    }
-    return sum;
-}
-
 static bool hear(brace_serial_port_t port, bytes_t *got, int most)
 {
     got->count = 0;
@@ -353,21 +342,21 @@ static void on_the_line(const before_t *before)
     if (dice(3) == 0u) {
         mutate(&sent, 2);
     }
-    const uint32_t sum = crc(sent.byte, sent.count);
+    const uint32_t sum = crc_by_bits(sent.byte, sent.count);
     sent.byte[sent.count++] = (uint8_t)sum;
     sent.byte[sent.count++] = (uint8_t)(sum >> 8);
     if (dice(3) == 0u) {
         mutate(&sent, 0);
     }
     (void)brace_fake_bytes_arrive(&fake, BRACE_SERIAL_MODBUS, sent.byte, sent.count);
-    const bool whole = sent.count >= 4u && sent.count <= 256u && crc(sent.byte, sent.count) == 0u;
+    const bool whole = sent.count >= 4u && sent.count <= 256u && crc_by_bits(sent.byte, sent.count) == 0u;
     const bool due = whole && sent.byte[0] == UNIT && sent.byte[1] < 0x80u;
     const bool came = hear(BRACE_SERIAL_MODBUS, &got, due ? MOST_TICKS : 50);
     silent += !came;
     if (came != due) {
         wrong(due ? "no answer" : "an answer that nobody may give", &sent, &got);
     }
-    if (came && (got.byte[0] != UNIT || got.count < 4u || crc(got.byte, got.count) != 0u)) {
+    if (came && (got.byte[0] != UNIT || got.count < 4u || crc_by_bits(got.byte, got.count) != 0u)) {
         wrong("an answer with a wrong check", &sent, &got);
     }
     if (came) {

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,6 +22,18 @@ DATA = PROJECT / "tools" / "brace" / "data"
 # A shell starts what it puts in the background with Ctrl-C ignored, and children would inherit that.
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def in_guest(script: str, timeout_s: float) -> dict[str, Any]:
+    """What a script of tests/ prints last, run in a guest kernel that has vcan0; skips where there can be no guest."""
+    pytest.importorskip("can")
+    command = ["tests/socketcan/with_vcan", sys.executable, script]
+    ran = subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, timeout=timeout_s)
+    if ran.returncode == 4:
+        pytest.skip(ran.stderr.strip())
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    told: dict[str, Any] = json.loads(ran.stdout.splitlines()[-1])
+    return told
 
 
 @pytest.fixture

@@ -5,20 +5,10 @@
 
 void setUp(void)
 {
-    brace_parameters_t p = bench_parameters();
-    p.controller.modbus_address = UNIT;
-    bench_start(&p);
-    ticks(20);
+    start_unit();
 }
 
 void tearDown(void) {}
-
-static uint32_t bits(float value)
-{
-    uint32_t word;
-    memcpy(&word, &value, 4);
-    return word;
-}
 
 static void test_the_line_is_set_up_as_the_standard_wants_it(void)
 {

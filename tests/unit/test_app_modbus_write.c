@@ -10,20 +10,10 @@ static const uint32_t mode_word[] = {0xc0de0002u, 0xc0de0001u}, go = 0xc0de0001u
 
 void setUp(void)
 {
-    brace_parameters_t p = bench_parameters();
-    p.controller.modbus_address = UNIT;
-    bench_start(&p);
-    ticks(20);
+    start_unit();
 }
 
 void tearDown(void) {}
-
-static uint32_t bits(float value)
-{
-    uint32_t word;
-    memcpy(&word, &value, 4);
-    return word;
-}
 
 static void accepted(reply_t reply, uint8_t function)
 {
