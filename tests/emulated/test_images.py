@@ -145,7 +145,7 @@ def test_the_source_hash_says_dirty(tmp_path: Path) -> None:
                   "-DBRACE_BUILD_TYPE=Release", "-P", script)  # fmt: skip
         text = (tmp_path / "build_info.h").read_text()
         assert '"1.2.3"' in text and '"Release"' in text
-        return re.findall(r'SOURCE_HASH "(.*)"', text)[0]
+        return str(re.findall(r'SOURCE_HASH "(.*)"', text)[0])
 
     def git(*arguments: str) -> str:
         return output_of(

@@ -27,6 +27,6 @@ def core_library() -> ctypes.CDLL:
         return ctypes.CDLL(str(path))
 
 
-def floats_of(array: np.ndarray) -> ctypes.Array[ctypes.c_float]:
+def floats_of(array: np.ndarray) -> ctypes._Pointer[ctypes.c_float]:
     """A float32 array as C sees it."""
     return array.ctypes.data_as(ctypes.POINTER(ctypes.c_float))

@@ -143,7 +143,7 @@ def quiet_when_the_knee_scatters(seed: int, knee_rad: float, chosen: bool) -> bo
     record = check_runs(limb, 300)
     off = knee_rad * limb.rng.standard_normal(record.run[-1] + 1)[record.run]
     limb.check.watch(record, measured(limb.true, replace(record, theta=record.theta + off[:, None] * [0.0, 1.0]), limb.rng))
-    return limb.check.state.state == DRIFTED
+    return bool(limb.check.state.state == DRIFTED)
 
 
 @dataclass
@@ -244,16 +244,16 @@ Bound = Callable[[str, bool], None]
 def at_nine(pool: ProcessPoolExecutor, seed: int, sequences: int, bound: Bound) -> None:
     """Check runs at the best of the nine postures, and mixed runs."""
     print("unchanged limbs, temperature +-10 degC, thermal rate 20 % off")
-    jobs = [pool.submit(quiet, seed + i, NAMED[name], PRACTICE, 1_000_000) for name in NAMED for i in range(3)]
-    alarms = [job.result() for job in jobs]
+    quiet_jobs = [pool.submit(quiet, seed + i, NAMED[name], PRACTICE, 1_000_000) for name in NAMED for i in range(3)]
+    alarms = [job.result() for job in quiet_jobs]
     print(f"  practice limbs: {sum(a for a, _ in alarms)} alarms in {sum(n for _, n in alarms):,} readings")
     bound("no false alarm in 10^6 readings", not any(a for a, _ in alarms))
     cases = list(pool.map(random_case, range(seed + 1000, seed + 1000 + sequences), chunksize=20))
     ready = [case for case in cases if case.watching]
     print(f"  random limbs: {sum(case.false_alarm for case in cases)} of {len(cases)} raised an alarm within 5,000 "
           f"readings; {len(ready)} had learned after 4,284")
-    jobs = [pool.submit(quiet, seed + 200_000 + i, limbs.PAPER, PRACTICE, 500_000, True) for i in range(2)]
-    alarms = [job.result() for job in jobs]
+    quiet_jobs = [pool.submit(quiet, seed + 200_000 + i, limbs.PAPER, PRACTICE, 500_000, True) for i in range(2)]
+    alarms = [job.result() for job in quiet_jobs]
     print(f"  paper limb with friction: {sum(a for a, _ in alarms)} alarms in {sum(n for _, n in alarms):,} readings")
     bound("no false alarm by friction in 10^6 readings", not any(a for a, _ in alarms))
     for kind, axial_too, friction in (("bending and axial compliance", True, False), ("with friction", False, True)):

@@ -144,7 +144,7 @@ def split_at_reversals(record: Record) -> Record:
 def random_believed(rng: np.random.Generator) -> dict[str, float]:
     """A limb about as slender as those of the practice records: lengths by a third, compliances by a factor of two."""
     def about(value: float, factor: float = 2.0) -> float:
-        return value * factor ** rng.uniform(-1, 1)
+        return value * float(factor ** rng.uniform(-1, 1))
     keys = {"geometry.femur_mm": about(190.0, 1.35), "geometry.tibia_mm": about(260.0, 1.35)}
     for link, bending in (("femur", 0.06), ("tibia", 0.16)):
         keys |= {f"link.{link}.axial_mm_per_n": about(0.001), f"link.{link}.bending_mm_per_n": about(bending)}

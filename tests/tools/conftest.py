@@ -77,7 +77,7 @@ def brace(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -
     return run
 
 
-def spawn(*arguments: object, **options: object) -> subprocess.Popen[str]:
+def spawn(*arguments: object, **options: Any) -> subprocess.Popen[str]:
     """Starts the command as its users do, in a process of its own."""
     environment = {key: value for key, value in os.environ.items() if key != "BRACE_DEBUG"}
     return subprocess.Popen(
@@ -87,7 +87,7 @@ def spawn(*arguments: object, **options: object) -> subprocess.Popen[str]:
         text=True,
         env=environment,
         **options,
-    )  # type: ignore[call-overload]
+    )
 
 
 def processor_s(*arguments: object) -> tuple[float, str]:
@@ -176,12 +176,12 @@ dwell_s = 4.0
 POSES = ((0.74, 1.0), (0.2, 1.6), (1.1, 2.2), (0.5, 0.6), (-0.3, 1.9))
 
 
-def loading_rows(noise_n: float = 0.1, seed: int = 0, **limb: object) -> list[list[str]]:
+def loading_rows(noise_n: float = 0.1, seed: int = 0, **limb: Any) -> list[list[str]]:
     """Rows of a linear limb's loading record, f = K d + noise; fields as text."""
     random = np.random.default_rng(seed)
     rows, run, clock = [], 0, 0.0
     for config, (theta1, theta2) in enumerate(POSES, start=1):
-        k = physics_k(theta1, theta2, **limb)  # type: ignore[arg-type]
+        k = physics_k(theta1, theta2, **limb)
         for axis in "xz":
             for rep in (1, 2):
                 run += 1

@@ -201,7 +201,7 @@ def test_replay_onto_a_bus(brace: Callable[..., Outcome], limb: Path, tmp_path: 
         outcome = brace("replay", tmp_path / "a.log", "--bus", url, "--json")
         assert outcome.code == 0 and json.loads(outcome.out)["frames"] == len(recorded)
         assert 0.5 < time.monotonic() - started < 10.0  # as long as it took, not at once; the rest is the machine's
-        heard = []
+        heard: list[tuple[int, bytes]] = []
         while (frame := listener.receive(0.3)) is not None and len(heard) < 10_000:
             if frame.node == 1:
                 heard.append((frame.identifier, frame.data))

@@ -14,11 +14,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from conftest import Outcome
 
 from brace.flash import console, usb
 from brace.flash.image import ImageInfo, read_image
 
-Brace = Callable[..., object]
+Brace = Callable[..., Outcome]
 START = 0x08000000
 
 

@@ -82,9 +82,10 @@ def test_the_round_trip_is_byte_identical(tmp_path: Path, brace: Brace) -> None:
             outcome = brace("params", *arguments)
             assert outcome.code == 0, outcome.err + outcome.out
         assert blocks[0].read_bytes() == blocks[1].read_bytes()
-        for key, value in load_limb(unpacked).values.items():
+        for name, value in load_limb(unpacked).values.items():
             if isinstance(value, float) and np.isfinite(value):
-                assert value == pytest.approx(start.number(key), rel=2**-23, abs=1e-44)  # half a step each: to the float, to its decimals
+                # half a step each: to the float, to its decimals
+                assert value == pytest.approx(start.number(name), rel=2**-23, abs=1e-44)
 
 
 def test_rounding_is_told(tmp_path: Path, brace: Brace) -> None:
