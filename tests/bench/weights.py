@@ -51,7 +51,8 @@ def _declared(headers: tuple[str, ...]) -> tuple[str, ...]:
 
 
 def limb_kinds() -> dict[str, tuple[str, ...]]:
-    """Kinds of limbs -> all public functions that have a job there. A limb is of one of them, and links no other's K."""
+    """Kinds of limbs -> all public functions that have a job there. A limb is of one of them,
+    and links no other's K."""
     plane = without_space(_declared((*JOBS, "uncertainty")))
     return {
         EQUAL_FLASH: (*_declared(("planar",)), *plane),

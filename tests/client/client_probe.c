@@ -1,5 +1,5 @@
-/* client_probe BUS NODE TIMEOUT_MS CALL [NUMBER...]: one call of the C client; numbers it gives on stdout as "name value"
- * lines, its reason on stderr, its status as exit code (positive).
+/* client_probe BUS NODE TIMEOUT_MS CALL [NUMBER...]: one call of the C client; numbers it gives on stdout as "name
+ * value" lines, its reason on stderr, its status as exit code (positive).
  *   identity | read PARTS COUNT | posture T1 T2 | tip X Z UP | force DX DZ | sag FX FZ | margin NORMAL MU
  *   entry_u32 INDEX | entry_f32 INDEX | dump SILENT_MS [FRAMES] (bus only:
  *   until that silence, or that many) | send ID BYTE... (bus only) */

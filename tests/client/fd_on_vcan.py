@@ -1,5 +1,5 @@
-"""Run where the kernel has CAN (test_vcan.py does): snapshots as frames of CAN FD, from `brace sim` to other people's tools,
-to ours, and to the C client."""
+"""Run where the kernel has CAN (test_vcan.py does): snapshots as frames of CAN FD, from `brace sim` to other people's
+tools, to ours, and to the C client."""
 
 from __future__ import annotations
 

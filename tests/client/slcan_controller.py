@@ -1,4 +1,5 @@
-"""A controller on SLCAN over TCP, in Python, that can be made to misbehave. Shares no code with the C on either side."""
+"""A controller on SLCAN over TCP, in Python, that can be made to misbehave.
+Shares no code with the C on either side."""
 
 from __future__ import annotations
 

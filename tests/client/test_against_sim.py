@@ -75,7 +75,8 @@ def test_k_comes_at_its_rate(probe: Probe, sim: Sim) -> None:
     numbers = [snapshot["snapshot"] for snapshot in answer.snapshots]
     steps = [(other - one) % 256 for one, other in zip(numbers, numbers[1:], strict=False)]
     assert min(steps) > 0  # none twice
-    # 200 Hz, counted on the controller's own clock of 1 kHz: the machine may be slow, and a limb that is late leaves out ticks
+    # 200 Hz, counted on the controller's own clock of 1 kHz: the machine may be slow,
+    # and a limb that is late leaves out ticks
     assert 3 <= statistics.median(steps) <= 6, steps
 
 

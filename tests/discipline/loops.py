@@ -1,7 +1,7 @@
 """Every loop has a bound that can be seen.
 
-Accepted: a condition one of whose parts compares a counter with a bound, where every change of the counter in the loop goes
-towards the bound, one of them at every turn, and the bound is bounded itself:
+Accepted: a condition one of whose parts compares a counter with a bound, where every change of the counter in the loop
+goes towards the bound, one of them at every turn, and the bound is bounded itself:
  - a constant, or made of such by arithmetic, min-like choice, masking or remainder;
  - a variable that only ever gets such values, or a static function's argument that only ever is one;
  - what a function of the same file answers, if all its answers are bounded;
@@ -232,7 +232,8 @@ class Function:
         return False
 
     def _asked(self, cond: c_ast.Node, text: str, depth: int) -> bool:
-        """A function of this file was asked whether it is too large: it compares that argument with something bounded."""
+        """A function of this file was asked whether it is too large:
+        it compares that argument with something bounded."""
         for call in walk(cond):
             if isinstance(call, c_ast.FuncCall) and call.args is not None:
                 place = next((i for i, at in enumerate(call.args.exprs) if written(at) == text), None)

@@ -143,14 +143,15 @@ class Image:
         return seen
 
     def library_stack_bytes(self, name: str) -> int:
-        """Deepest stack of a function of the C library, all it calls on top of one another; 0 for what is no function."""
+        """Deepest stack of a function of the C library, all it calls on top of one another;
+        0 for what is no function."""
         return sum(self.functions[f].frame_bytes for f in self.reached(name))
 
 
 def interrupt_findings(image: Image, where: dict[str, tuple[Path, int]],
                        pointed: Callable[[str], set[str]] = lambda _: set()) -> list[Finding]:
-    """Floating-point instructions in any handler or what it calls; `where`: function -> source and line; `pointed`: what
-    a function calls through pointers."""
+    """Floating-point instructions in any handler or what it calls; `where`: function -> source and line; `pointed`:
+    what a function calls through pointers."""
     found = []
     for handler in sorted(image.handlers()):
         for name in image.reached(handler, pointed):

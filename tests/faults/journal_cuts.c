@@ -1,6 +1,6 @@
-/* Power fails at every single write step of the drift check's journal, in every manner of nvm_model.h, and again in what
- * follows. After each failure a start has to find the record before or the new one, whole, the store's part of the slot has
- * to be as it was, and the next record has to be kept as if nothing had been.
+/* Power fails at every single write step of the drift check's journal, in every manner of nvm_model.h, and again in
+ * what follows. After each failure a start has to find the record before or the new one, whole, the store's part of the
+ * slot has to be as it was, and the next record has to be kept as if nothing had been.
  *
  *   journal_cuts            single failures with units of 1, 2, 4, 8 bytes; pairs of failures with units of 8
  *   journal_cuts --broken   for a journal broken on purpose: 0 when the enumeration finds it out
@@ -140,7 +140,8 @@ static void fail_again(const nvm_t *left, int old, int new, const cut_manner_t *
     now.second_step = 0;
 }
 
-/* Record n of the journal in `left`, failing at each of its steps in each manner; in_session: not the session's first. */
+/* Record n of the journal in `left`, failing at each of its steps in each manner;
+ * in_session: not the session's first. */
 static int32_t fail_everywhere(const nvm_t *left, int n, bool in_session, bool pairs)
 {
     static const cut_manner_t pair_manners[] = {CUT_BEFORE, CUT_AFTER, CUT_RANDOM_BITS, CUT_UNSTABLE_WHOLE};

@@ -1,4 +1,5 @@
-/* can_fuzz [REQUESTS [SEED]]: random, mutated and well-formed CAN frames to a controller, noise between them. It fails when
+/* can_fuzz [REQUESTS [SEED]]: random, mutated and well-formed CAN frames to a controller, noise between them.
+ * It fails when
  *   a request is not answered, or anything else is; an answer's command, parts or token are not the request's
  *   K at a posture is not physics.md's, a parameter read is not the one in force
  *   the mode becomes CONFIGURATION without the key, or parameters change without commit or rollback in that mode

@@ -1,6 +1,6 @@
 /* Random and mutated Modbus requests, on the line and over TCP, against the whole controller on the fake board: each is
- * answered as the standard says or, on the line, not at all; what is answered is right; no parameter changes without its
- * commit, none is staged outside CONFIGURATION, and the controller ticks on. Build it with the sanitizers.
+ * answered as the standard says or, on the line, not at all; what is answered is right; no parameter changes without
+ * its commit, none is staged outside CONFIGURATION, and the controller ticks on. Build it with the sanitizers.
  *
  *     modbus_registers_fuzz [REQUESTS] [SEED]     exit code 1 and the request, at the first thing wrong
  */
@@ -208,8 +208,8 @@ static bool tells(const uint8_t *answer, uint32_t start, uint32_t count, const b
     return same;
 }
 
-/* What a read must tell, where the oracle knows it: probes, and parameters: of one set, the one from before the request, or
- * the one from after it, when a commit has ended meanwhile. */
+/* What a read must tell, where the oracle knows it: probes, and parameters: of one set, the one from before the
+ * request, or the one from after it, when a commit has ended meanwhile. */
 static void judge_read(const bytes_t *sent, const uint8_t *pdu, const bytes_t *got, const uint8_t *answer, uint32_t length,
                        const before_t *before)
 {

@@ -1,6 +1,6 @@
-/* upload_fuzz [REQUESTS [SEED]]: parameter blocks uploaded over CAN, word by word, mostly with something wrong on the way:
- * words lost, repeated, changed, out of order; a begin, a read, a roll-back or a commit in between; CONFIGURATION left or
- * let time out; the power cut; blocks that are sealed and still no good. It fails when
+/* upload_fuzz [REQUESTS [SEED]]: parameter blocks uploaded over CAN, word by word, mostly with something wrong on the
+ * way: words lost, repeated, changed, out of order; a begin, a read, a roll-back or a commit in between; CONFIGURATION
+ * left or let time out; the power cut; blocks that are sealed and still no good. It fails when
  *   a request is answered otherwise than the protocol page has it, or not at all
  *   a block is put in force that is not the one announced, whole, in order, of this dictionary and in range
  *   an undisturbed upload of a good one is refused, or something else than its words is in force

@@ -1,5 +1,5 @@
-"""What no client would send, on real wires: frames with wrong checks, halves, noise without end, streams that are no Modbus.
-The server counts, stays silent or answers as the standard says, and the next good request is answered."""
+"""What no client would send, on real wires: frames with wrong checks, halves, noise without end, streams that are no
+Modbus. The server counts, stays silent or answers as the standard says, and the next good request is answered."""
 
 from __future__ import annotations
 
@@ -51,8 +51,8 @@ class Line:
                 data = data[os.write(self.file, data) :]
 
     def hear(self, first_s: float = SILENT_S) -> bytes:
-        """What comes until it is silent. Silence alone proves little on a busy machine: whatever comes later stands before
-        the next answer, which is then not a good one."""
+        """What comes until it is silent. Silence alone proves little on a busy machine: whatever comes later stands
+        before the next answer, which is then not a good one."""
         heard, wait = b"", first_s
         while select.select([self.file], [], [], wait)[0]:
             heard += os.read(self.file, 4096)

@@ -1,5 +1,5 @@
-"""Three independent clients against the simulated controller (TCP, RTU on a pty) and the firmware on emulated boards (RTU on
-a pty): the same registers, the same K, the same refusals."""
+"""Three independent clients against the simulated controller (TCP, RTU on a pty) and the firmware on emulated boards
+(RTU on a pty): the same registers, the same K, the same refusals."""
 
 from __future__ import annotations
 

@@ -1,9 +1,9 @@
 """What the drift check sees and when, on simulated limbs: false alarms, delays, names and sizes of losses.
 
-Each limb is learned from 14 rounds of nine postures along both axes (4,284 readings, the temperature through half its swing
-of +-10 degC), then either watched unchanged, or a link loses stiffness somewhere in a run and every reading from there to
-the alarm counts. Check runs are at the posture and along the axis the check's own outlook finds best for the link,
-among the nine or, where it says of its choice, among all those within reach; mixed runs are at all nine postures
+Each limb is learned from 14 rounds of nine postures along both axes (4,284 readings, the temperature through half its
+swing of +-10 degC), then either watched unchanged, or a link loses stiffness somewhere in a run and every reading from
+there to the alarm counts. Check runs are at the posture and along the axis the check's own outlook finds best for the
+link, among the nine or, where it says of its choice, among all those within reach; mixed runs are at all nine postures
 and both axes in random order. `python drift_figures.py` prints the figures, `--only` some of them,
 exit code 1 when a bound is not met.
 """
@@ -93,7 +93,8 @@ FRICTION = {"joint.femur.coulomb_n_mm": 8.3, "joint.tibia.coulomb_n_mm": 18.6}
 
 def learned(seed: int, believed: dict[str, float] | None = None, postures: np.ndarray | None = None,
             friction: bool = False) -> Limb:
-    """A named limb, or without arguments a random one at random postures. With friction, a run ends at each reversal."""
+    """A named limb, or without arguments a random one at random postures. With friction,
+    a run ends at each reversal."""
     rng = np.random.default_rng(seed)
     believed = random_believed(rng) if believed is None else believed
     postures = random_postures(rng) if postures is None else postures
@@ -136,8 +137,8 @@ def quiet_at_choice(seed: int, believed: dict[str, float] | None, postures: np.n
 
 
 def quiet_when_the_knee_scatters(seed: int, knee_rad: float, chosen: bool) -> bool:
-    """Whether the unchanged paper limb raised an alarm in 10,200 readings of check runs, at the best of the nine postures
-    or those of its choice, its knee off by another angle (one sigma) at each run; learned without that."""
+    """Whether the unchanged paper limb raised an alarm in 10,200 readings of check runs, at the best of the nine
+    postures or those of its choice, its knee off by another angle (one sigma) at each run; learned without that."""
     limb = learned(seed, limbs.PAPER, PRACTICE)
     limb = of_its_choice(limb, True) if chosen else replace(limb, choices=[best_run(limb, link)[:2] for link in (0, 1)])
     record = check_runs(limb, 300)

@@ -1,8 +1,8 @@
 """Loading records on the simulated limb, and the drift check fed with them; shared by the drift sweeps.
 
 The simulated limb (host_sim, double precision) shares no code with the firmware. It differs from what the controller
-believes by what a calibration is trusted to, drawn once per limb: compliances 5 %, lengths 0.5 mm, angles 3 mrad, sensor
-gain 0.5 %, thermal rate 20 %. Readings: noise of 0.1 N one sigma, rounded to 1/16 N, as in the practice records.
+believes by what a calibration is trusted to, drawn once per limb: compliances 5 %, lengths 0.5 mm, angles 3 mrad,
+sensor gain 0.5 %, thermal rate 20 %. Readings: noise of 0.1 N one sigma, rounded to 1/16 N, as in the practice records.
 """
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""The enumeration of power cuts of the drift check's journal (tests/faults) finds out every journal broken on purpose."""
+"""The enumeration of power cuts of the drift check's journal (tests/faults)
+finds out every journal broken on purpose."""
 
 from __future__ import annotations
 

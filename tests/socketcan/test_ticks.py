@@ -159,8 +159,8 @@ LIMBS = 4
 
 
 def test_no_k_is_made_of_two_ticks() -> None:
-    """A million snapshots of moving limbs as fast as they go onto the wire, requests from a second client all the while;
-    each K must be the one of the posture that carries the same number, by physics.md."""
+    """A million snapshots of moving limbs as fast as they go onto the wire, requests from a second client all the
+    while; each K must be the one of the posture that carries the same number, by physics.md."""
     rng = random.Random(11)
     checked = np.zeros(LIMBS, int)
     least_change = []

@@ -101,8 +101,8 @@ def processor_s(*arguments: object) -> tuple[float, str]:
 
 
 def assert_a_million_takes_two_seconds(spent_s: float, model: Path, folder: Path) -> None:
-    """Processor time, so that other programs do not decide. They do make it dearer, and a machine may be slow: beyond two
-    seconds a map of few postures, made now, says what a start costs; a million may cost as much again."""
+    """Processor time, so that other programs do not decide. They do make it dearer, and a machine may be slow: beyond
+    two seconds a map of few postures, made now, says what a start costs; a million may cost as much again."""
     if spent_s >= 2.0:
         start_s, _ = processor_s("map", "--model", model, "--postures", 1000, "--out", folder)
         assert spent_s < 2.0 * start_s, f"{spent_s:.2f} s; {start_s:.2f} s for a thousand"

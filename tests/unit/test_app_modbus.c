@@ -1,5 +1,5 @@
-/* The controller as a Modbus server: what is read, who answers, identification, diagnostics. Register addresses are those of
- * docs/modbus.md. */
+/* The controller as a Modbus server: what is read, who answers, identification, diagnostics. Register addresses are
+ * those of docs/modbus.md. */
 #include "modbus_master.h"
 #include "report/measured.h"
 

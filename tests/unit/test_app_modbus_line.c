@@ -1,4 +1,5 @@
-/* The controller as a Modbus server: frames that are broken, halved, too long, for others; floods; TCP beside the line. */
+/* The controller as a Modbus server: frames that are broken, halved, too long, for others; floods;
+ * TCP beside the line. */
 #include "modbus_master.h"
 
 void setUp(void)

@@ -114,8 +114,8 @@ static void watch_k(void)
     newest = now()->sequence;
 }
 
-/* What the worst of many questions waits for, in ticks; each comes alone, right after the last answer or some ticks later,
- * and in the ticks between something else is asked: any number of ticks in a row has a request. */
+/* What the worst of many questions waits for, in ticks; each comes alone, right after the last answer or some ticks
+ * later, and in the ticks between something else is asked: any number of ticks in a row has a request. */
 static uint32_t worst_wait(const traffic_t *traffic)
 {
     uint32_t worst = 0;
@@ -199,8 +199,8 @@ static void start(const brace_parameters_t *p)
     drain();
 }
 
-/* Under all this traffic a question is answered in its tick, K comes in `share` of the ticks in the mean, and is never older
- * than so many ticks. */
+/* Under all this traffic a question is answered in its tick, K comes in `share` of the ticks in the mean, and is never
+ * older than so many ticks. */
 static void answers_and_computes(const traffic_t *traffic, float share, uint32_t oldest_ticks)
 {
     const uint32_t first = now()->sequence, started = fake.now_us;

@@ -41,8 +41,8 @@ def messages_header(wire: Wire, dictionary_hash: int) -> str:
 
 
 def messages_sources(wire: Wire) -> dict[str, str]:
-    """generated/can_process.c, can_questions.c, can_answers.c: what a controller sends by itself, what it is asked, and what
-    it answers."""
+    """generated/can_process.c, can_questions.c, can_answers.c: what a controller sends by itself, what it is asked, and
+    what it answers."""
     counts = {request.code: len(request.answers) for request in wire.requests}
     parts = ", ".join(str(counts.get(code, 0)) for code in range(32))
     return {

@@ -1,4 +1,5 @@
-"""The C side: parameter_list.h (count, hash, an index for each member) and parameter_table.c (rules, defaults, keys)."""
+"""The C side: parameter_list.h (count, hash, an index for each member) and parameter_table.c
+(rules, defaults, keys)."""
 
 from __future__ import annotations
 

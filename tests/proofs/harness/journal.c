@@ -1,5 +1,5 @@
-/* A piece of a journal's scan, the beginning of a record or a piece of its writing, from any state that a journal can be in,
- * over a memory of any content that refuses what it likes. */
+/* A piece of a journal's scan, the beginning of a record or a piece of its writing, from any state that a journal can
+ * be in, over a memory of any content that refuses what it likes. */
 #include "brace/journal.h"
 
 #include "memory.h"

@@ -1,5 +1,5 @@
-/* The non-volatile memory as any content and any answer: what is read is anything, differently each time, and each call may
- * be refused. What is asked of it is proven to be what brace_hal.h allows. */
+/* The non-volatile memory as any content and any answer: what is read is anything, differently each time, and each call
+ * may be refused. What is asked of it is proven to be what brace_hal.h allows. */
 #ifndef BRACE_PROOF_MEMORY_H
 #define BRACE_PROOF_MEMORY_H
 

@@ -1,4 +1,5 @@
-/* The serial line, a step at a time: whatever state the invariant allows and whatever comes, a step ends in one again. */
+/* The serial line, a step at a time: whatever state the invariant allows and whatever comes,
+ * a step ends in one again. */
 #include "app.h"
 #include "modbus/crc.h"
 #include "modbus/link.h"

@@ -1,5 +1,5 @@
-/* A request of any bytes, whatever the controller's state. What it asks of the rest of the controller may answer anything
- * that the header in question allows. */
+/* A request of any bytes, whatever the controller's state. What it asks of the rest of the controller may answer
+ * anything that the header in question allows. */
 #include "modbus/pdu.h"
 #include "modbus/read.h"
 #include "modbus/write.h"

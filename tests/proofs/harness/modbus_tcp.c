@@ -1,4 +1,5 @@
-/* A TCP connection, a step at a time: whatever state the invariant allows and whatever comes, a step ends in one again. */
+/* A TCP connection, a step at a time: whatever state the invariant allows and whatever comes,
+ * a step ends in one again. */
 #include "app.h"
 #include "modbus/link.h"
 

@@ -1,5 +1,5 @@
-/* Any 8 bytes that come as a request, whatever the controller's state. What a request asks of the rest of the controller may
- * answer anything that its header allows, and notes that it was asked. */
+/* Any 8 bytes that come as a request, whatever the controller's state. What a request asks of the rest of the
+ * controller may answer anything that its header allows, and notes that it was asked. */
 #include "brace/measured.h"
 #include "can/request.h"
 #include "can/requests.h"
@@ -121,7 +121,8 @@ void brace_block_members(const uint8_t *block, brace_parameters_t *parameters)
     *parameters = any;
 }
 
-/* A frame begins with code and part, then the token (the dictionary's tests); the rest is any (codec_numbers, codec_whole). */
+/* A frame begins with code and part, then the token (the dictionary's tests);
+ * the rest is any (codec_numbers, codec_whole). */
 #define PACKS(frame, head)                                                                                             \
     uint32_t brace_can_pack_##frame(const brace_can_##frame##_t *message, uint8_t data[8])                             \
     {                                                                                                                  \

@@ -1,5 +1,5 @@
-/* A step of an update or a roll-back, from any state that one can be in, over a memory of any content that refuses what it
- * likes. */
+/* A step of an update or a roll-back, from any state that one can be in, over a memory of any content that refuses what
+ * it likes. */
 #include "brace/store.h"
 
 #include "memory.h"

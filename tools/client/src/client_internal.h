@@ -1,5 +1,5 @@
-/* A client's two ways to a controller. can_... and modbus_... answer what client.h says of the call of that name; they write
- * client->why when it is not OK. */
+/* A client's two ways to a controller. can_... and modbus_... answer what client.h says of the call of that name; they
+ * write client->why when it is not OK. */
 #ifndef BRACE_CLIENT_INTERNAL_H
 #define BRACE_CLIENT_INTERNAL_H
 

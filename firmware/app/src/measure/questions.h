@@ -1,4 +1,5 @@
-/* What is asked about the limb from outside, whatever bus asks: from the newest snapshot, or of places where the limb is not. */
+/* What is asked about the limb from outside, whatever bus asks: from the newest snapshot,
+ * or of places where the limb is not. */
 #ifndef BRACE_APP_QUESTIONS_H
 #define BRACE_APP_QUESTIONS_H
 

@@ -1,9 +1,9 @@
-/* Modbus' functions, whatever carries them (Modbus application protocol 1.1b3): 03, 04, 06, 08, 16, 17, 43/14. Registers
- * as docs/modbus.md lists them.
+/* Modbus' functions, whatever carries them (Modbus application protocol 1.1b3): 03, 04, 06, 08, 16, 17, 43/14.
+ * Registers as docs/modbus.md lists them.
  *
- * Exceptions: 01 no such function, or not in this mode (the protocol's own use of it: the server is in the wrong state);
- * 02 no such registers; 03 a number that can not be: a count, a length, a value out of its range; 04 it could not be done;
- * 06 a set of parameters is being stored: ask again.
+ * Exceptions: 01 no such function, or not in this mode (the protocol's own use of it: the server is in the wrong
+ * state); 02 no such registers; 03 a number that can not be: a count, a length, a value out of its range; 04 it could
+ * not be done; 06 a set of parameters is being stored: ask again.
  */
 #ifndef BRACE_APP_MODBUS_PDU_H
 #define BRACE_APP_MODBUS_PDU_H

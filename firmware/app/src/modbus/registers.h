@@ -12,7 +12,8 @@ typedef struct {
     const void *values; /* of the area, where it lies in memory as it is told; the measured ones are put there by the caller */
 } registers_block_t;
 
-/* Registers of the input table or the holding one, if one area holds them all. returns whether there are such registers */
+/* Registers of the input table or the holding one, if one area holds them all.
+ * returns whether there are such registers */
 bool registers_block(const brace_app_t *app, bool input, uint32_t start, uint32_t count, registers_block_t *block);
 
 /* A value of its area, by its place there. */

@@ -1,5 +1,5 @@
-/* Modbus TCP: transaction 2, protocol 2, length 2 (from the unit on), unit 1, PDU; high bytes first (Modbus messaging on
- * TCP/IP 1.0b, 3.1.3). The door hands over whole ADUs, one after another, and sends the answer to who asked. */
+/* Modbus TCP: transaction 2, protocol 2, length 2 (from the unit on), unit 1, PDU; high bytes first (Modbus messaging
+ * on TCP/IP 1.0b, 3.1.3). The door hands over whole ADUs, one after another, and sends the answer to who asked. */
 #include "modbus/bytes.h"
 #include "modbus/link.h"
 

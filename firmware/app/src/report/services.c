@@ -12,8 +12,8 @@
 #define K_WAITS_MOST 6u
 #define TEST_WAITS_MOST 50u
 
-/* Instructions at most, as tests/bench/tick_cost.py counts them; there the sum is held to 4,000. What is dearest by itself
- * seldom comes together: K costs most with one gap open, which is not where both joints' watching does. */
+/* Instructions at most, as tests/bench/tick_cost.py counts them; there the sum is held to 4,000. What is dearest by
+ * itself seldom comes together: K costs most with one gap open, which is not where both joints' watching does. */
 enum {
     ROOM = 3940,
     REST = 1530,       /* what every tick does: listening, samples, faults, drives, watchdog */
@@ -149,8 +149,8 @@ static uint32_t beside_k(brace_app_t *app)
     return whole ? (uint32_t)SERVICES_K_WHOLE : pieces_within(app, room);
 }
 
-/* A set of parameters goes on beside every answer; to Modbus, to text and to what is to be said it yields, but not twice
- * in a row. */
+/* A set of parameters goes on beside every answer; to Modbus, to text and to what is to be said it yields, but not
+ * twice in a row. */
 static uint32_t in_configuration(brace_app_t *app, bool works)
 {
     brace_app_report_t *report = &app->report;
@@ -162,8 +162,8 @@ static uint32_t in_configuration(brace_app_t *app, bool works)
     return works && (app->modbus.serves || text) && report->left_out == 0u ? 0u : (uint32_t)SERVICES_K_WHOLE;
 }
 
-/* A loading test's piece: an answer goes beside it, beside a reading if nothing is sensed. For the dearest question beside
- * the dearest piece the piece waits, and in the end it is refused. */
+/* A loading test's piece: an answer goes beside it, beside a reading if nothing is sensed. For the dearest question
+ * beside the dearest piece the piece waits, and in the end it is refused. */
 static uint32_t beside_test(brace_app_t *app, services_room_t room)
 {
     brace_app_report_t *report = &app->report;

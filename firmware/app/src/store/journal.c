@@ -60,7 +60,8 @@ static uint32_t crc_of_record(const brace_journal_t *journal)
     return (uint32_t)crc[0] | (uint32_t)crc[1] << 8 | (uint32_t)crc[2] << 16 | (uint32_t)crc[3] << 24;
 }
 
-/* Another piece of a record has been read. One that is not whole may hide a later one: the scan goes on behind its header. */
+/* Another piece of a record has been read. One that is not whole may hide a later one:
+ * the scan goes on behind its header. */
 static void take_piece(brace_journal_t *journal, void *state)
 {
     cover(journal, (uint32_t)journal->pieces * PIECE);

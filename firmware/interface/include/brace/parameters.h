@@ -131,7 +131,8 @@ brace_status_t brace_parameters_check_piece(const brace_parameters_t *parameters
                                             uint32_t *wrong_index);
 
 /* Is one member, as its 32 bits, in its own range? What members say together is brace_parameters_check's.
- * returns BRACE_OK, BRACE_E_RANGE (no such member), BRACE_E_PARAMETER, BRACE_E_NOT_FINITE; cost: at most 60 instructions */
+ * returns BRACE_OK, BRACE_E_RANGE (no such member), BRACE_E_PARAMETER, BRACE_E_NOT_FINITE;
+ * cost: at most 60 instructions */
 brace_status_t brace_parameter_in_range(uint32_t index, uint32_t word);
 
 /* Parameters to a block of BRACE_BLOCK_BYTES. What brace_parameters_check refuses is refused.

@@ -21,7 +21,8 @@ AXES = ("x", "z")
 
 
 def localise(record: Record, fitted: Fit, seed: int) -> list[Localised]:
-    """The contrasts that stand out of the noise, strongest first; sizes are rms over the rows that they speak of, in N."""
+    """The contrasts that stand out of the noise, strongest first; sizes are rms over the rows that they speak of,
+    in N."""
     remover = Remover(fitted)
     names, columns, raw = [], [], []
     for name, shape in _contrasts(record, fitted):

@@ -1,4 +1,5 @@
-"""A finished search as a Diagnosis: effects with intervals, the gap before and after, what stays, in numbers and words."""
+"""A finished search as a Diagnosis: effects with intervals, the gap before and after, what stays,
+in numbers and words."""
 
 from __future__ import annotations
 
@@ -56,7 +57,8 @@ def diagnosis_of(
     twin: Pass | None,
     options: Options,
 ) -> Diagnosis:
-    """`whole` is all that was measured, `record` the part that was searched, `locked` its rows that `twin` never saw."""
+    """`whole` is all that was measured, `record` the part that was searched,
+    `locked` its rows that `twin` never saw."""
     decision = final.decision
     best = decision.chosen.best.fit
     judged = twin or final

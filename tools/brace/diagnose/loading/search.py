@@ -1,4 +1,5 @@
-"""Hypotheses over the catalogue: every single effect, then pairs and triples from the best, each fitted on the plant."""
+"""Hypotheses over the catalogue: every single effect, then pairs and triples from the best,
+each fitted on the plant."""
 
 from __future__ import annotations
 

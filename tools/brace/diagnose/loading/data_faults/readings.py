@@ -1,5 +1,5 @@
-"""Single readings and stretches of them: a sign or a decimal point that slipped, a sensor that stood still, seen against
-what the refitted limb would read."""
+"""Single readings and stretches of them: a sign or a decimal point that slipped, a sensor that stood still, seen
+against what the refitted limb would read."""
 
 from __future__ import annotations
 
