@@ -100,7 +100,8 @@ def stalls(steps: list[Step]) -> int:
     """Floating-point results consumed by the instruction right after."""
     count = 0
     for first, second in zip(steps, steps[1:]):
-        arithmetic = first.mnemonic.startswith("v") and not first.mnemonic.startswith(("vldr", "vstr", "vmov", "vmrs", "vcmp"))
+        moves = first.mnemonic.startswith(("vldr", "vstr", "vmov", "vmrs", "vcmp"))
+        arithmetic = first.mnemonic.startswith("v") and not moves
         result = first.operands.split(",")[0].strip()
         sources = second.operands if second.mnemonic.startswith(("vstr", "vcmp", "vfma", "vfms", "vfnm")) \
             else second.operands.partition(",")[2]

@@ -48,9 +48,9 @@ static int bus_call(const char *url, const char *call, int count)
 
 static void print_k(const brace_client_k_t *k)
 {
-    printf("k_xx %.9g\nk_xz %.9g\nk_zz %.9g\nlambda_min %.9g\nlambda_max %.9g\nstiff_axis %.9g\nflags %u\n", k->k_xx_n_per_mm,
-           k->k_xz_n_per_mm, k->k_zz_n_per_mm, k->lambda_min_n_per_mm, k->lambda_max_n_per_mm, k->stiff_axis_rad,
-           (unsigned)k->flags);
+    printf("k_xx %.9g\nk_xz %.9g\nk_zz %.9g\nlambda_min %.9g\nlambda_max %.9g\nstiff_axis %.9g\nflags %u\n",
+           k->k_xx_n_per_mm, k->k_xz_n_per_mm, k->k_zz_n_per_mm, k->lambda_min_n_per_mm, k->lambda_max_n_per_mm,
+           k->stiff_axis_rad, (unsigned)k->flags);
 }
 
 static brace_client_status_t read_some(brace_client_t *client)

@@ -39,7 +39,8 @@ def model_k(theta1: float, theta2: float) -> dict[str, float]:
     k = np.linalg.inv(compliance)
     values, vectors = np.linalg.eigh(k)
     axis = math.atan(vectors[1, 1] / vectors[0, 1])
-    return {"k_xx": k[0, 0], "k_xz": k[0, 1], "k_zz": k[1, 1], "lambda_min": values[0], "lambda_max": values[1], "stiff_axis": axis}
+    return {"k_xx": k[0, 0], "k_xz": k[0, 1], "k_zz": k[1, 1], "lambda_min": values[0], "lambda_max": values[1],
+            "stiff_axis": axis}
 
 
 def check_k(got: dict[str, float], posture: tuple[float, float]) -> None:

@@ -143,7 +143,8 @@ def test_another_client_with_the_same_token(probe: Probe) -> None:
 
 def test_values_out_of_range_are_not_sent(probe: Probe) -> None:
     with SlcanController() as controller:
-        for call in (("posture", 9, 1), ("posture", "nan", 1), ("tip", 9000, 0, 1), ("force", 900, 0), ("sag", "inf", 0)):
+        for call in (("posture", 9, 1), ("posture", "nan", 1), ("tip", 9000, 0, 1), ("force", 900, 0),
+                     ("sag", "inf", 0)):
             assert probe(controller.url, *call).code == USAGE, call
         assert all(request[0] == 20 for request in controller.requests)
 

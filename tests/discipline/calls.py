@@ -247,7 +247,8 @@ def pointer_findings(graph: Graph) -> list[Finding]:
                 found.append(Finding(node.path, line, POINTER, f"in {short(node.key)}: through {name}; list it in "
                                      "tests/discipline/pointers.txt and say what it is"))
             elif not graph.targets.get(place) and name not in graph.members | elsewhere:
-                found.append(Finding(node.path, line, POINTER, f"in {short(node.key)}: nothing is ever put into {name}"))
+                found.append(Finding(node.path, line, POINTER,
+                                     f"in {short(node.key)}: nothing is ever put into {name}"))
     return found
 
 

@@ -110,7 +110,8 @@ static void note(void)
     }
     const uint32_t first = word(pdu + 1), last = pdu[0] == 6u ? first : first + word(pdu + 3) - 1u;
     if (pdu[0] == 16u && pdu_count >= 10u && first <= CONFIGURE && last > CONFIGURE &&
-        6u + 2u * (CONFIGURE - first) + 4u <= pdu_count && value_of(pdu + 6u + 2u * (CONFIGURE - first)) == configuration_key) {
+        6u + 2u * (CONFIGURE - first) + 4u <= pdu_count &&
+        value_of(pdu + 6u + 2u * (CONFIGURE - first)) == configuration_key) {
         keyed = true;
     }
     committed = committed || (keyed && last >= COMMIT && first < ROLLBACK + 2u);

@@ -67,9 +67,10 @@ def limb_floats(keys: dict[str, float]) -> np.ndarray:
     """brace_limb_t of a model, with the trust every calibration has here."""
     def links(name: str) -> list[float]:
         at = f"link.{name}."
-        return [keys.get(at + key, 0.0) for key in ("axial_mm_per_n", "bending_mm_per_n", "tilt_rad", "lateral_mm_per_n",
-                                                     "torsion_rad_per_n_mm", "moment_transfer")]
-    values = [keys.get("geometry.coxa_mm", 57.0), keys.get("geometry.femur_mm", 185.0), keys.get("geometry.tibia_mm", 313.5)]
+        return [keys.get(at + key, 0.0) for key in ("axial_mm_per_n", "bending_mm_per_n", "tilt_rad",
+                                                    "lateral_mm_per_n", "torsion_rad_per_n_mm", "moment_transfer")]
+    values = [keys.get("geometry.coxa_mm", 57.0), keys.get("geometry.femur_mm", 185.0),
+              keys.get("geometry.tibia_mm", 313.5)]
     for name in ("coxa", "femur", "tibia"):
         values += links(name)
     for name in ("coxa", "femur", "tibia"):
@@ -78,7 +79,8 @@ def limb_floats(keys: dict[str, float]) -> np.ndarray:
     return np.array([*values, 0.5, 0.003, 0.05, 0.005], dtype=np.float32)
 
 
-def true_limb(believed: dict[str, float], rng: np.random.Generator, per_degc: float, sigmas: float = 1.0) -> dict[str, float]:
+def true_limb(believed: dict[str, float], rng: np.random.Generator, per_degc: float,
+              sigmas: float = 1.0) -> dict[str, float]:
     """What the calibration of `believed` may have missed; `sigmas` times what it is trusted to."""
     keys = dict(believed)
     for key, value in believed.items():
@@ -116,7 +118,8 @@ def runs(theta: np.ndarray, direction: np.ndarray, rng: np.random.Generator, swi
     count = len(theta) * len(RUN_STEPS)
     d = (STEP_MM * RUN_STEPS)[None, :, None] * direction[:, None, :]
     phase = rng.uniform(0, 2 * np.pi) + np.arange(count) * 2 * np.pi / period
-    return Record(np.repeat(np.arange(len(theta), dtype=np.int32), len(RUN_STEPS)), np.repeat(theta, len(RUN_STEPS), axis=0),
+    return Record(np.repeat(np.arange(len(theta), dtype=np.int32), len(RUN_STEPS)),
+                  np.repeat(theta, len(RUN_STEPS), axis=0),
                   d.reshape(-1, 2), 22.0 + swing_degc * np.sin(phase))
 
 

@@ -104,7 +104,8 @@ class Wire:
 
     def ask(self, *requests: bytes) -> None:
         """In one piece."""
-        os.write(self._file, b"".join(b"t%03X8%s\r" % (REQUEST + NODE, each.hex().upper().encode()) for each in requests))
+        os.write(self._file, b"".join(b"t%03X8%s\r" % (REQUEST + NODE, each.hex().upper().encode())
+                                      for each in requests))
 
     def answer(self, seconds: float = PATIENCE_S) -> bytes | None:
         """The next answer's data, other frames passed over."""

@@ -16,9 +16,11 @@ def measured_header(values: Values) -> str:
     return (
         _MADE
         + "#ifndef BRACE_MEASURED_H\n#define BRACE_MEASURED_H\n\n#include <stdint.h>\n\n"
-        + "/* Entries of the dictionary by number: parameters from 0 on, these from here on. As Modbus input registers: two\n"
+        + "/* Entries of the dictionary by number: parameters from 0 on, these from here on. As Modbus input "
+          "registers: two\n"
         + f" * each, high word first, from 0 on and from {2 * (ANSWERED_ENTRY - MEASURED_ENTRY):#06x} on. */\n"
-        + f"enum {{\n    BRACE_ENTRY_MEASURED = {MEASURED_ENTRY:#06x},\n    BRACE_ENTRY_ANSWERED = {ANSWERED_ENTRY:#06x}\n}};\n\n"
+        + f"enum {{\n    BRACE_ENTRY_MEASURED = {MEASURED_ENTRY:#06x},\n    BRACE_ENTRY_ANSWERED = "
+          f"{ANSWERED_ENTRY:#06x}\n}};\n\n"
         + "/* First Modbus register of the commands, two each. */\n"
         + f"enum {{ BRACE_REGISTER_COMMANDS = {COMMAND_REGISTER:#06x} }};\n\n"
         + _struct("measured", values.measured, "All of one tick. A float that is not known is NaN, a u32 all ones.")

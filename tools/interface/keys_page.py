@@ -21,7 +21,8 @@ def keys_page(dictionary: Dictionary) -> str:
         tables.setdefault(entry.key.rpartition(".")[0], []).append(entry)
     text = _HEAD
     for table, entries in tables.items():
-        text += f"## `[{table}]`\n\n| key | unit | range | default | means | without a block |\n|---|---|---|---|---|---|\n"
+        text += f"## `[{table}]`\n\n| key | unit | range | default | means | without a block |\n"
+        text += "|---|---|---|---|---|---|\n"
         text += "".join(_row(entry) for entry in entries) + "\n"
     return text.rstrip("\n") + "\n"
 

@@ -32,20 +32,26 @@ MTU is (SocketCAN, 16), it goes on with classic frames. Over SLCAN snapshots are
 
 def protocol_page(wire: Wire, values: Values, dictionary_hash: int) -> str:
     """The whole page."""
-    parts = [_HEAD, f"\nProtocol {wire.protocol}, dictionary 0x{dictionary_hash:08x}.\n\n## What a controller sends by itself\n"]
+    parts = [_HEAD,
+             f"\nProtocol {wire.protocol}, dictionary 0x{dictionary_hash:08x}.\n\n## What a controller sends by "
+             "itself\n"]
     for frame in wire.messages:
         often = f" As often as `{frame.rate}` says." if frame.rate else ""
-        parts.append(f"\n### {frame.name}, 0x{frame.identifier:03x} + node\n\n{_sentence(frame.description)}{often}\n\n")
+        parts.append(f"\n### {frame.name}, 0x{frame.identifier:03x} + node\n\n{_sentence(frame.description)}"
+                     f"{often}\n\n")
         parts.append(_table(frame))
     parts.append(_FD)
     for frame in wire.fd_messages:
-        parts.append(f"\n### {frame.name}, 0x{frame.identifier:03x} + node, {frame.bytes} bytes\n\n{_sentence(frame.description)}")
+        parts.append(f"\n### {frame.name}, 0x{frame.identifier:03x} + node, {frame.bytes} bytes\n\n"
+                     f"{_sentence(frame.description)}")
         parts.append(f" As often as `{frame.rate}` says.\n\n")
         parts.append(_table(frame))
     parts.append(
-        f"\n## What it answers\n\nAsked on 0x{wire.request_id:03x} + node, answered on 0x{wire.answer_id:03x} + node. Byte 0 is"
+        f"\n## What it answers\n\nAsked on 0x{wire.request_id:03x} + node, answered on 0x{wire.answer_id:03x} + node. "
+        "Byte 0 is"
         " the request's code; in an answer plus 32 times its part. Byte 1 is a token that comes back in every part. The"
-        f" fields begin at bit 16. A request is answered in the tick that takes it; an answer of part {wire.refused_part} is a"
+        " fields begin at bit 16. A request is answered in the tick that takes it; an answer of part "
+        f"{wire.refused_part} is a"
         " refusal:\n\n"
     )
     parts.append(_table(wire.refusal))
@@ -55,8 +61,10 @@ def protocol_page(wire: Wire, values: Values, dictionary_hash: int) -> str:
         for part, answer in enumerate(request.answers):
             parts.append(f"\nAnswer, part {part}:\n\n" + _table(answer))
     parts.append(
-        "\n## Entries\n\nFor `read_entry`: parameters are numbered from 0 in the order of [limb.toml's keys](limb-keys.md)"
-        f" as the block has them, measured values from {MEASURED_ENTRY}:\n\n| number | name | type | unit |\n|---|---|---|---|\n"
+        "\n## Entries\n\nFor `read_entry`: parameters are numbered from 0 in the order of [limb.toml's "
+        "keys](limb-keys.md)"
+        f" as the block has them, measured values from {MEASURED_ENTRY}:\n\n| number | name | type | unit |\n"
+        "|---|---|---|---|\n"
     )
     parts += [f"| {MEASURED_ENTRY + v.index} | `{v.name}` | {v.type} | {v.unit} |\n" for v in values.measured]
     return "".join(parts)

@@ -29,7 +29,9 @@ def entry_by_entry(
         texts = [row[position].strip() for row in fields]
         if column.kind == "axis":
             kept[column.name] = np.array([text if text in (b"x", b"z") else b"x" for text in texts], dtype="S4")
-            found += [_fault(i, column, text, "axis is x or z") for i, text in enumerate(texts) if text not in (b"x", b"z")]
+            found += [
+                _fault(i, column, text, "axis is x or z") for i, text in enumerate(texts) if text not in (b"x", b"z")
+            ]
             continue
         values = np.array([_number(text) for text in texts])
         with np.errstate(invalid="ignore"):

@@ -120,29 +120,36 @@ static brace_client_status_t explain_silence(brace_client_t *client, const char 
 {
     char heard[64];
     if (is_heard(client, client->node)) {
-        return brace_client_fail(client, BRACE_CLIENT_E_TIMEOUT,
-                                 "%s: controller %u is heard, but %s did not come in time; try a longer time-out, or less "
-                                 "on the bus", client->url, (unsigned)client->node, what);
+        return brace_client_fail(
+            client, BRACE_CLIENT_E_TIMEOUT,
+            "%s: controller %u is heard, but %s did not come in time; try a longer time-out, or less "
+            "on the bus",
+            client->url, (unsigned)client->node, what);
     }
     const uint32_t other = list_heard(client, heard, sizeof heard);
     if (other != 0u) {
-        return brace_client_fail(client, BRACE_CLIENT_E_NODE,
-                                 "%s: controller %u is not on this bus; heard: %s; try node %u, or give the controller its "
-                                 "number (controller.node_id)", client->url, (unsigned)client->node, heard, (unsigned)other);
+        return brace_client_fail(
+            client, BRACE_CLIENT_E_NODE,
+            "%s: controller %u is not on this bus; heard: %s; try node %u, or give the controller its "
+            "number (controller.node_id)",
+            client->url, (unsigned)client->node, heard, (unsigned)other);
     }
     const bool is_slcan = client->bus->is_slcan;
     const uint32_t errors = brace_bus_errors(client->bus, STATUS_MS);
     if (errors != 0u || brace_bus_lost(client->bus) != 0u) {
-        return brace_client_fail(client, BRACE_CLIENT_E_BIT_RATE,
-                                 is_slcan ? "%s: the bus is there and can not be read: not the controller's bit rate (or the "
-                                            "serial line's baud rate); try 500000, or slcan:DEVICE@BAUD"
-                                          : "%s: error frames only: not the controller's bit rate, or no termination; try "
-                                            "'ip link set %s down', then up with 'type can bitrate 500000'",
-                                 client->url, client->url);
+        return brace_client_fail(
+            client, BRACE_CLIENT_E_BIT_RATE,
+            is_slcan ? "%s: the bus is there and can not be read: not the controller's bit rate (or the "
+                       "serial line's baud rate); try 500000, or slcan:DEVICE@BAUD"
+                     : "%s: error frames only: not the controller's bit rate, or no termination; try "
+                       "'ip link set %s down', then up with 'type can bitrate 500000'",
+            client->url, client->url);
     }
-    return brace_client_fail(client, BRACE_CLIENT_E_SILENT,
-                             "%s: nothing at all is heard; is the controller powered and wired, its bit rate this bus' own, "
-                             "its node number set (controller.node_id)? 'candump' shows what is on a bus", client->url);
+    return brace_client_fail(
+        client, BRACE_CLIENT_E_SILENT,
+        "%s: nothing at all is heard; is the controller powered and wired, its bit rate this bus' own, "
+        "its node number set (controller.node_id)? 'candump' shows what is on a bus",
+        client->url);
 }
 
 brace_client_status_t brace_can_ask(brace_client_t *client, brace_question_t *question, uint64_t deadline_us)
@@ -159,9 +166,11 @@ brace_client_status_t brace_can_ask(brace_client_t *client, brace_question_t *qu
         request.data[1] = waiting.token;
         const brace_bus_status_t sent = brace_bus_send(client->bus, &request, brace_bus_left_ms(deadline_us));
         if (sent == BRACE_BUS_E_FULL) {
-            return brace_client_fail(client, BRACE_CLIENT_E_FULL,
-                                     "%s: the bus takes no frame: nobody acknowledges it (power, wiring, termination, bit "
-                                     "rate), or it is overloaded", client->url);
+            return brace_client_fail(
+                client, BRACE_CLIENT_E_FULL,
+                "%s: the bus takes no frame: nobody acknowledges it (power, wiring, termination, bit "
+                "rate), or it is overloaded",
+                client->url);
         }
         if (sent != BRACE_BUS_OK) {
             return brace_client_fail(client, BRACE_CLIENT_E_DOWN,
@@ -177,10 +186,10 @@ brace_client_status_t brace_can_ask(brace_client_t *client, brace_question_t *qu
             }
             if (waiting.is_refused) {
                 client->refusal = waiting.refusal.status;
-                return brace_client_fail(client, BRACE_CLIENT_E_REFUSED, "%s: controller %u refuses: %s (status %d, detail %u)",
-                                         client->url, (unsigned)client->node,
-                                         brace_status_text((brace_status_t)waiting.refusal.status),
-                                         (int)waiting.refusal.status, (unsigned)waiting.refusal.detail);
+                return brace_client_fail(
+                    client, BRACE_CLIENT_E_REFUSED, "%s: controller %u refuses: %s (status %d, detail %u)", client->url,
+                    (unsigned)client->node, brace_status_text((brace_status_t)waiting.refusal.status),
+                    (int)waiting.refusal.status, (unsigned)waiting.refusal.detail);
             }
             if (waiting.parts_seen == parts && !waiting.is_taken) {
                 return BRACE_CLIENT_OK;
@@ -247,8 +256,8 @@ static brace_client_status_t identify(brace_client_t *client, uint64_t deadline_
 
 brace_client_status_t brace_can_open(brace_client_t *client, uint32_t node, uint32_t bit_rate, uint64_t deadline_us)
 {
-    const brace_bus_status_t opened = brace_bus_open(client->url, bit_rate, brace_bus_left_ms(deadline_us), &client->bus,
-                                                     client->why, sizeof client->why);
+    const brace_bus_status_t opened = brace_bus_open(client->url, bit_rate, brace_bus_left_ms(deadline_us),
+                                                     &client->bus, client->why, sizeof client->why);
     if (opened != BRACE_BUS_OK) {
         return (brace_client_status_t)opened; /* the same numbers */
     }

@@ -47,7 +47,8 @@ brace_client_status_t brace_can_ask(brace_client_t *client, brace_question_t *qu
 bool brace_modbus_is_url(const char *url);
 brace_client_status_t brace_modbus_open(brace_client_t *client, uint64_t deadline_us);
 void brace_modbus_close(brace_client_t *client);
-brace_client_status_t brace_modbus_read(brace_client_t *client, uint64_t deadline_us, brace_client_snapshot_t *snapshot);
+brace_client_status_t brace_modbus_read(brace_client_t *client, uint64_t deadline_us,
+                                        brace_client_snapshot_t *snapshot);
 brace_client_status_t brace_modbus_k_at_posture(brace_client_t *client, float theta1_rad, float theta2_rad,
                                                 uint64_t deadline_us, brace_client_k_t *k);
 brace_client_status_t brace_modbus_entry(brace_client_t *client, uint32_t index, uint64_t deadline_us, uint32_t *value);

@@ -67,7 +67,8 @@ typedef struct {
     uint32_t taken_us;    /* when the joints were sampled, the older one */
     brace_mode_t mode;
     uint32_t faults;      /* BRACE_FAULT_... */
-    bool k_is_valid;      /* stiffness may be used, with its flags; else flags say why, and what was not computed is NaN */
+    bool k_is_valid;      /* stiffness may be used, with its flags; else flags say why, and what was not computed is
+                             NaN */
     brace_gap_stiffness_t stiffness; /* now (GAP_OPEN counted) and once every gap has closed; both carry the flags */
     float theta_rad[BRACE_LINK_COUNT];       /* true joint angles, backlash and zero offset counted; NaN: not known */
     float motor_rad[BRACE_LINK_COUNT];
@@ -132,7 +133,7 @@ typedef struct {
     bool is_fresh, told;      /* of the last samples; this tick ends it */
     bool blind;               /* the last tick took no samples: this one does */
     bool advances;            /* the loading test has yet to go on with the newest */
-    float spring_rad_per_n_mm[BRACE_APP_JOINTS]; /* hip, with the base's rotation, and knee, as they are at the moment */
+    float spring_rad_per_n_mm[BRACE_APP_JOINTS]; /* hip, with the base's rotation, and knee, at the moment */
     brace_status_t status;
     brace_stiffness_t engaged;
 } brace_app_k_t;
@@ -228,7 +229,7 @@ typedef struct {
 /* What the drift check knows, as it is kept. */
 typedef struct {
     brace_journal_t journal;
-    bool look;                /* the check has learned something since it was last asked, or a record is being written */
+    bool look;                /* the check has learned something since last asked, or a record is being written */
     uint8_t ticks;            /* since the last piece */
     uint8_t state;            /* of the check, in the newest record */
     uint32_t steps;

@@ -53,7 +53,8 @@ static float yielding(brace_app_model_t *model, int index, float load_n_mm, floa
         slope = stiffness + 3.0f * cubic;
         deflection = (load_n_mm + 2.0f * cubic * deflection) / slope;
     }
-    if (!(__builtin_fabsf(deflection) <= DEFLECTION_MOST_RAD)) { /* from there the steps stay finite, whatever the spring */
+    /* from there the steps stay finite, whatever the spring */
+    if (!(__builtin_fabsf(deflection) <= DEFLECTION_MOST_RAD)) {
         deflection = load_n_mm < 0.0f ? -DEFLECTION_MOST_RAD : DEFLECTION_MOST_RAD;
     }
     model->deflection_rad[index] = deflection;

@@ -37,7 +37,8 @@ typedef enum {
  *   pdu: room for MODBUS_PDU_BYTES
  *   length: of the request [1, MODBUS_PDU_BYTES]
  * returns the answer's length, or 0: there is more to do. At most 2,000 instructions; a commit, 21,000. */
-uint32_t modbus_pdu_work(brace_app_t *app, brace_app_modbus_work_t *work, uint8_t *pdu, uint32_t length, uint32_t now_us);
+uint32_t modbus_pdu_work(brace_app_t *app, brace_app_modbus_work_t *work, uint8_t *pdu, uint32_t length,
+                         uint32_t now_us);
 
 /* An exception as the answer; counted. returns its length */
 uint32_t modbus_refuse(brace_app_t *app, uint8_t *pdu, modbus_exception_t why);

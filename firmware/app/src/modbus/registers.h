@@ -9,7 +9,8 @@ typedef enum { REGISTERS_MEASURED = 0, REGISTERS_ANSWERED, REGISTERS_PARAMETERS,
 typedef struct {
     registers_area_t area;
     uint32_t start;     /* its first register, within the area */
-    const void *values; /* of the area, where it lies in memory as it is told; the measured ones are put there by the caller */
+    const void *values; /* of the area, where it lies in memory as it is told; the measured ones are put there by the
+                           caller */
 } registers_block_t;
 
 /* Registers of the input table or the holding one, if one area holds them all.

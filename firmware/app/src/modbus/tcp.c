@@ -3,7 +3,8 @@
 #include "modbus/bytes.h"
 #include "modbus/link.h"
 
-enum { LENGTH_AT = 4, UNIT_AT = 6, HEADER = 7, LEAST_LENGTH = 2, MOST_LENGTH = MODBUS_PDU_BYTES + 1, LEAST = HEADER + 1 };
+enum { LENGTH_AT = 4, UNIT_AT = 6, HEADER = 7, LEAST_LENGTH = 2, MOST_LENGTH = MODBUS_PDU_BYTES + 1, LEAST = HEADER +
+       1 };
 enum { ANY_UNIT = 0, DEVICE_ITSELF = 255 };
 
 #define PATIENCE_US 1000000u

@@ -42,7 +42,10 @@ static bool wants_to_say(const brace_app_t *app)
 
 static uint32_t saying_costs(const brace_app_t *app)
 {
-    return announce_wants(app) ? SAYS_ANNOUNCES : !cyclic_wants(app) ? 0u : app->cyclic.due != 0u ? SAYS_GOES_ON : SAYS_BEGINS;
+    return announce_wants(app)     ? SAYS_ANNOUNCES
+           : !cyclic_wants(app)    ? 0u
+           : app->cyclic.due != 0u ? SAYS_GOES_ON
+                                   : SAYS_BEGINS;
 }
 
 static uint32_t answer_costs(const brace_app_t *app)
@@ -63,7 +66,8 @@ static uint32_t answer_costs(const brace_app_t *app)
 static uint32_t choose_modbus(brace_app_t *app, uint32_t room, uint32_t beside)
 {
     brace_app_modbus_t *modbus = &app->modbus;
-    modbus->polls = (!app->bus.slcan.heard && !app->requests.serves) || modbus->waited >= (uint32_t)MODBUS_PATIENCE_TICKS;
+    modbus->polls =
+        (!app->bus.slcan.heard && !app->requests.serves) || modbus->waited >= (uint32_t)MODBUS_PATIENCE_TICKS;
     const bool wants = modbus->polls && modbus_poll(app, app->last_us);
     modbus->all = (uint32_t)MODBUS_ALL_COSTS + beside <= room;
     const uint32_t costs = !wants ? 0u : modbus->all ? (uint32_t)MODBUS_ALL_COSTS : modbus_costs(app);
@@ -128,7 +132,8 @@ static uint32_t beside_k(brace_app_t *app)
     brace_app_report_t *report = &app->report;
     const bool tests = app->mode == BRACE_MODE_LOADING_TEST, moves = tests || app->mode == BRACE_MODE_TAKING_UP;
     const uint32_t plays = (uint32_t)app->play[0].watched + app->play[1].watched;
-    const uint32_t k = (app->model.collapsed ? K_COLLAPSED : K_GENERAL) + k_play_costs[plays] + (tests ? K_ADVANCES : 0u);
+    const uint32_t k =
+        (app->model.collapsed ? K_COLLAPSED : K_GENERAL) + k_play_costs[plays] + (tests ? K_ADVANCES : 0u);
     if (app->k.waits >= (uint8_t)K_WAITS_MOST && !app->k.blind) {
         return blindly(app, false);
     }

@@ -7,7 +7,8 @@
  * A value that is not known is NaN here and a code of its own on the wire, never zero. brace_can_pack_... limits what
  * does not fit and answers how many values it limited; the frame's bytes are always written. brace_can_unpack_...
  * always writes the struct: every bit pattern means something. Pure functions, no libm; any thread.
- * accuracy: half a step, and a float's rounding. cost on a Cortex-M4F: below 120 instructions each; of the CAN FD frame 250.
+ * accuracy: half a step, and a float's rounding.
+ * cost on a Cortex-M4F: below 120 instructions each; of the CAN FD frame 250.
  */
 #include <stdint.h>
 

@@ -49,7 +49,8 @@ typedef struct {
 } brace_gravity_t;
 
 typedef struct {
-    float bias_x_n, bias_z_n, gain, rotation_rad, crosstalk_xz, crosstalk_zx, drift_x_n_per_s, drift_z_n_per_s, saturation_n;
+    float bias_x_n, bias_z_n, gain, rotation_rad, crosstalk_xz, crosstalk_zx, drift_x_n_per_s, drift_z_n_per_s,
+        saturation_n;
     float noise_n; /* one sigma of a reading [0, 1e6] */
 } brace_sensor_t;
 

@@ -99,4 +99,6 @@ class Search:
             return
         fitted = fit(self.record, promise.space, promise.start, final=False)
         if parent.fit.cost - fitted.cost > LEAST_GAIN:
-            self.tried[name] = Hypothesis(fitted, score(fitted, self.base.fit, self.record.readings, self.record.noise_freedom))
+            self.tried[name] = Hypothesis(
+                fitted, score(fitted, self.base.fit, self.record.readings, self.record.noise_freedom)
+            )

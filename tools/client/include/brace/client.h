@@ -45,7 +45,7 @@ typedef struct brace_client brace_client_t;
 
 /* Parts of a snapshot; over CAN FD all of them come with each. */
 enum {
-    BRACE_PART_K = 1,           /* K, flags, play states: with every snapshot that is sent (200 Hz, controller.stiffness_hz) */
+    BRACE_PART_K = 1,           /* K, flags, play states: with every snapshot sent, 200 Hz (controller.stiffness_hz) */
     BRACE_PART_EIGENVALUES = 2, /* lambda_min, lambda_max, stiff axis: 20 Hz (controller.posture_hz) */
     BRACE_PART_POSTURE = 4,     /* joint angles, mode, faults: 20 Hz */
     BRACE_PART_ALL = 7
@@ -124,8 +124,8 @@ brace_client_status_t brace_client_k_at_posture(brace_client_t *client, float th
                                                 int timeout_ms, brace_client_k_t *k);
 
 /* K with the tip at a place [mm from the femur axis, -8388 to 8388]. CAN only. */
-brace_client_status_t brace_client_k_at_tip(brace_client_t *client, float x_mm, float z_mm, bool knee_up, int timeout_ms,
-                                            brace_client_k_t *k);
+brace_client_status_t brace_client_k_at_tip(brace_client_t *client, float x_mm, float z_mm, bool knee_up,
+                                            int timeout_ms, brace_client_k_t *k);
 
 /* Force on the tip that holds it at a displacement [mm, -838 to 838], with the K of now. CAN only. */
 brace_client_status_t brace_client_contact_force(brace_client_t *client, float dx_mm, float dz_mm, int timeout_ms,
@@ -137,8 +137,8 @@ brace_client_status_t brace_client_sag(brace_client_t *client, float fx_n, float
 
 /* How far the tip's force of now is from sliding on a surface whose normal, towards the limb, points along normal_rad
  * from +x [rad, -3.27 to 3.27], with friction coefficient [0, 65]. CAN only. */
-brace_client_status_t brace_client_margin(brace_client_t *client, float normal_rad, float friction_ratio, int timeout_ms,
-                                          brace_client_margin_t *margin);
+brace_client_status_t brace_client_margin(brace_client_t *client, float normal_rad, float friction_ratio,
+                                          int timeout_ms, brace_client_margin_t *margin);
 
 /* Number of a measured value, by its member of brace_measured_t.
  * Parameters are numbered as in brace/parameter_list.h. */
