@@ -1,11 +1,14 @@
-/* client_probe BUS NODE TIMEOUT_MS CALL [NUMBER...]: one call of the C client; numbers it gives on stdout as "name
- * value" lines, its reason on stderr, its status as exit code (positive).
- *   identity | read PARTS COUNT | posture T1 T2 | tip X Z UP | force DX DZ | sag FX FZ | margin NORMAL MU
+/* client_probe BUS NODE TIMEOUT_MS CALL [NUMBER...]: one call of the C client; numbers it gives on stdout as "name value"
+ * lines, its reason on stderr, its status as exit code (positive).
+ *   identity | read PARTS COUNT | posture T1 T2 [COUNT] (the last one's) | tip X Z UP | force DX DZ | sag FX FZ
+ *   margin NORMAL MU
+ *   loop WAIT_MS FOR_MS: reads K in a control loop, each time with that time-out
  *   entry_u32 INDEX | entry_f32 INDEX | dump SILENT_MS [FRAMES] (bus only:
  *   until that silence, or that many) | send ID BYTE... (bus only) */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "brace/bus.h"
 #include "brace/client.h"
@@ -71,6 +74,32 @@ static brace_client_status_t read_some(brace_client_t *client)
     return BRACE_CLIENT_OK;
 }
 
+static double now_ms(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
+}
+
+/* Counts, and the last failure's status. */
+static void read_in_a_loop(brace_client_t *client)
+{
+    const double end_ms = now_ms() + (double)numbers[1];
+    int good = 0, failed = 0, good_again = 0, last_failure = 0;
+    while (now_ms() < end_ms && last_failure != -BRACE_CLIENT_E_DOWN) {
+        brace_client_snapshot_t s;
+        const brace_client_status_t status = brace_client_read(client, BRACE_PART_K, (int)numbers[0], &s);
+        if (status == BRACE_CLIENT_OK) {
+            good++;
+            good_again += failed > 0;
+        } else {
+            failed++;
+            last_failure = -(int)status;
+        }
+    }
+    printf("good %d\nfailed %d\ngood_again %d\nlast_failure %d\n", good, failed, good_again, last_failure);
+}
+
 static brace_client_status_t client_call(brace_client_t *client, const char *call)
 {
     const float *n = numbers;
@@ -85,9 +114,15 @@ static brace_client_status_t client_call(brace_client_t *client, const char *cal
         status = BRACE_CLIENT_OK;
     } else if (strcmp(call, "read") == 0) {
         status = read_some(client);
+    } else if (strcmp(call, "loop") == 0) {
+        read_in_a_loop(client);
+        status = BRACE_CLIENT_OK;
     } else if (strcmp(call, "posture") == 0 || strcmp(call, "tip") == 0) {
-        status = call[0] == 'p' ? brace_client_k_at_posture(client, n[0], n[1], timeout_ms, &k)
-                                : brace_client_k_at_tip(client, n[0], n[1], n[2] > 0.5f, timeout_ms, &k);
+        int left = call[0] == 'p' ? (int)n[2] : 1;
+        do {
+            status = call[0] == 'p' ? brace_client_k_at_posture(client, n[0], n[1], timeout_ms, &k)
+                                    : brace_client_k_at_tip(client, n[0], n[1], n[2] > 0.5f, timeout_ms, &k);
+        } while (status == BRACE_CLIENT_OK && --left > 0);
         if (status == BRACE_CLIENT_OK) {
             print_k(&k);
         }

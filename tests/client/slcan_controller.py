@@ -28,9 +28,11 @@ class SlcanController:
         flood: bytes = b"",
         hangs_up: bool = False,
         echo_first: bool = False,
+        refuses_force: tuple[int, int] | None = None,
     ) -> None:
         self.node, self.hash, self.speaks, self.answers, self.errors = node, hash_, speaks, answers, errors
         self.garbage, self.flood, self.hangs_up, self.echo_first = garbage, flood, hangs_up, echo_first
+        self.refuses_force = refuses_force  # status, detail
         self.requests: list[bytes] = []
         self.forced: list[float] = []
         self._server = socket.create_server(("127.0.0.1", 0))
@@ -118,6 +120,8 @@ class SlcanController:
                 self._answer(line, code, 0, token, struct.pack("<HI", index, 333))
             else:
                 self._answer(line, code, 0, token, struct.pack("<Hf", index, 12345.5))
+        elif code == CONTACT_FORCE and self.refuses_force:
+            self._answer(line, code, 7, token, struct.pack("<bI", *self.refuses_force) + b"\0")
         elif code == CONTACT_FORCE:  # each try is another tick; of the first, half an answer
             tick = len(self.forced) + 1.0
             self.forced.append(tick)

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
+import os
+import socket
 import statistics
 import subprocess
-from collections.abc import Callable
+import threading
+import time
+from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
@@ -17,6 +22,7 @@ from brace.wire.names import PARAMETERS
 STEP = 0.0005  # N/mm; a value is rounded to the nearest, so half of it and a float's rounding
 POSTURE = (1.0, 1.4)
 Probe = Callable[..., Answer]
+STREAMS = ["modbus"] if os.environ.get("BRACE_TEST_CAN") else ["can", "modbus"]  # an interface can not be held up
 INDEX = {entry.name: entry.index for entry in MEASURED}
 
 
@@ -41,6 +47,36 @@ def model_k(theta1: float, theta2: float) -> dict[str, float]:
     axis = math.atan(vectors[1, 1] / vectors[0, 1])
     return {"k_xx": k[0, 0], "k_xz": k[0, 1], "k_zz": k[1, 1], "lambda_min": values[0], "lambda_max": values[1],
             "stiff_axis": axis}
+
+
+@contextlib.contextmanager
+def stalling(place: str, after_s: float, for_s: float) -> Iterator[str]:
+    """host:port of a way to a server on which nothing moves for a while, and nothing is lost."""
+    host, _, port = place.rpartition(":")
+    moves = threading.Event()
+    moves.set()
+
+    def pump(source: socket.socket, sink: socket.socket) -> None:
+        with contextlib.suppress(OSError):
+            while part := source.recv(65536):
+                moves.wait()
+                sink.sendall(part)
+            sink.shutdown(socket.SHUT_WR)
+
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def run() -> None:
+            ours, theirs = server.accept()[0], socket.create_connection((host, int(port)))
+            for one, other in ((ours, theirs), (theirs, ours)):
+                one.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+                threading.Thread(target=pump, args=(one, other), daemon=True).start()
+            time.sleep(after_s)
+            moves.clear()
+            time.sleep(for_s)
+            moves.set()
+
+        threading.Thread(target=run, daemon=True).start()
+        yield f"127.0.0.1:{server.getsockname()[1]}"
 
 
 def check_k(got: dict[str, float], posture: tuple[float, float]) -> None:
@@ -137,6 +173,12 @@ def test_entries(probe: Probe, url: str) -> None:
     assert refused.code == 11 and "refuses" in refused.err
 
 
+@pytest.mark.parametrize("angle", [9.0, math.nan])
+def test_a_posture_that_can_not_be_is_not_asked(probe: Probe, url: str, angle: float) -> None:
+    answer = probe(url, "posture", angle, 1.4)
+    assert answer.code == 1 and "outside its range" in answer.err  # E_USAGE
+
+
 def test_limbs_on_one_bus_and_a_node_that_is_not_there(probe: Probe, sim: Sim) -> None:
     assert probe(sim.can, "identity", node=2).values["node"] == 2
     answer = probe(sim.can, "identity", node=9)
@@ -156,6 +198,30 @@ def test_two_clients_at_once(probe: Probe, sim: Sim) -> None:
         out, _ = process.communicate(timeout=60)
         assert process.returncode == 0
         check_k(Answer(0, out, "", 0).values, posture)
+
+
+def test_two_clients_at_once_over_modbus(sim: Sim) -> None:
+    """There is one place for questions and one for answers: whom another comes between asks again."""
+    postures = [(0.5, 1.2), (1.0, 1.4)]
+    processes = [
+        subprocess.Popen(
+            [PROBE, sim.modbus, "1", "20000", "posture", *map(str, posture), "100"], stdout=subprocess.PIPE, text=True
+        )
+        for posture in postures
+    ]
+    for posture, process in zip(postures, processes, strict=True):
+        out, _ = process.communicate(timeout=120)
+        assert process.returncode == 0
+        check_k(Answer(0, out, "", 0).values, posture)
+
+
+@pytest.mark.parametrize("kind", STREAMS)
+def test_a_link_that_stalls_is_taken_up_again(probe: Probe, sim: Sim, kind: str) -> None:
+    """For a second nothing comes through, then all of it at once: late answers must not make the next ones late."""
+    scheme, _, place = getattr(sim, kind).partition("://")
+    with stalling(place, after_s=1.0, for_s=1.0) as held:
+        loop = probe(f"{scheme}://{held}", "loop", 100, 4000).values
+    assert loop["failed"] > 0 and loop["good_again"] > 10, loop
 
 
 def test_the_example(url: str) -> None:

@@ -121,6 +121,35 @@ def test_refusal(probe: Probe) -> None:
         assert answer.code == REFUSED and "refusal -3" in answer.err and "outside its stated range" in answer.err
 
 
+@pytest.mark.parametrize(
+    ("status", "detail", "words"),
+    [
+        (-3, 8, "play is open"), (-3, 0, "outside its stated range"), (-15, 16, "not valid"), (-66, 0, "ask again"),
+        (-64, 22, "no such question"),
+    ],
+)  # fmt: skip
+def test_refusals_in_words_for_what_was_asked(probe: Probe, status: int, detail: int, words: str) -> None:
+    with SlcanController(refuses_force=(status, detail)) as controller:
+        answer = probe(controller.url, "force", 0, -1)
+        assert answer.code == REFUSED and f"refusal {status}" in answer.err and words in answer.err, answer.err
+
+
+@pytest.mark.parametrize(("errors", "status"), [(0, SILENT), (0x80, BIT_RATE)])
+def test_silence_holds_a_control_loop_up_no_longer_than_its_time_out(probe: Probe, errors: int, status: int) -> None:
+    """It has answered, and then says nothing more. An adapter's error flags are known all the same: to a later read."""
+    with SlcanController(speaks=False, errors=errors) as controller:
+        loop = probe(controller.url, "loop", 20, 1000).values
+        # 50 of 20 ms each; of a busy machine a fifth is asked. Waiting 250 ms for the adapter's flags there would be 4
+        assert loop["good"] == 0 and loop["failed"] >= 10 and loop["last_failure"] == status, loop
+
+
+@pytest.mark.parametrize(("speaks", "status"), [(False, SILENT), (True, TIMEOUT)])
+def test_what_was_heard_before_a_question_is_no_sign_of_life(probe: Probe, speaks: bool, status: int) -> None:
+    with SlcanController(speaks=speaks) as controller:  # answers identify, not this
+        answer = probe(controller.url, "posture", 1, 1.4)
+        assert answer.code == status, answer.err
+
+
 def test_answers_to_others_are_not_believed(probe: Probe) -> None:
     with SlcanController() as controller:
         assert probe(controller.url, "entry_u32", 78).values == {"value": 333}

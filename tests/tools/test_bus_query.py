@@ -207,6 +207,34 @@ def test_modbus_on_a_serial_line_has_the_controller_s_parity(monkeypatch: pytest
         assert {"bytesize", "stopbits"}.isdisjoint(asked[-1][1])  # 8 and 1 unless told
 
 
+def test_over_modbus_another_master_s_answer_is_not_taken(limb: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """There is one place for all masters' questions: another one asks between our question and its answer."""
+    with running(limb, *FREE) as (_, ready):
+        ours, theirs = (ModbusController(parse(ready["limbs"][0]["modbus_tcp"])) for _ in range(2))
+        read, between = ours._read, [(1.3, 2.1), (0.2, 0.8)]
+
+        def late(table: str, address: int, count: int) -> tuple[int, ...]:
+            if table == "input" and between:
+                theirs.k_at_posture(*between.pop())
+            return read(table, address, count)
+
+        monkeypatch.setattr(ours, "_read", late)
+        answer = ours.k_at_posture(0.9, 1.5)
+        assert not between
+        # a float's rounding in K and in the angles
+        assert np.allclose([answer.k_xx, answer.k_xz, answer.k_zz], physics_k(0.9, 1.5).ravel()[[0, 1, 3]], rtol=1e-5)
+        ours.close(), theirs.close()
+
+
+@pytest.mark.parametrize("question", ["--load", "--sag"])
+def test_an_open_gap_is_what_is_told(brace: Callable[..., Outcome], limb: Path, question: str) -> None:
+    """No number of the question's was wrong."""
+    limb.write_text(LIMB.replace("[joint.tibia]", "[joint.tibia]\ngap_rad = 0.006"))
+    with limb_on_tcp(limb) as url:
+        outcome = brace("query", "--bus", url, question, 0, -2)
+        assert outcome.code == 5 and "play is open" in outcome.err, outcome.err
+
+
 def test_a_silent_bus(limb: Path) -> None:
     with adapter(obliging) as url:
         for command in ("query", "monitor", "params pull", "params rollback"):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import sys
 import zlib
 from pathlib import Path
@@ -35,6 +36,22 @@ def test_a_changed_dictionary_changes_what_is_generated(tmp_path: Path) -> None:
     for ending in ("parameter_list.h", "parameter_table.c", "names.py", "limb-keys.md"):
         (name,) = (name for name in texts[0] if name.endswith(ending))
         assert texts[0][name] != texts[1][name], name
+
+
+def test_pages_have_the_numbers_of_the_wire() -> None:
+    """What read_entry, write_entry and fetch_row are asked for by is what people read."""
+    tables = (PROJECT / "docs" / "limb-keys.md").read_text().split("## `[")[1:]
+    listed = {
+        f"{table.partition(']')[0]}.{key}": int(number)
+        for table in tables
+        for number, key in re.findall(r"^\| (\d+) \| `(\w+)` \|", table, re.M)
+    }
+    assert listed == {p.key: p.index for p in PARAMETERS}
+    recorder = (PROJECT / "firmware/app/src/record/recorder.c").read_text()
+    (names,) = re.findall(r"name\[\w*\] = \{(.*?)\}", recorder, re.S)
+    (row,) = re.findall(r"^\| 32 \| 8 \| `column`.*", (PROJECT / "docs" / "protocol.md").read_text(), re.M)
+    for number, column in enumerate(re.findall(r'"(\w+)"', names)):
+        assert re.search(rf"\b{number} {column}\b", row), column
 
 
 def test_schema_hash_is_of_keys_types_and_units() -> None:

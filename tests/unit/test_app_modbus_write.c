@@ -331,6 +331,8 @@ static void test_commands_need_their_key_and_their_mode(void)
     accepted(write_value(CONFIGURE, mode_word[TO_MONITOR]), 16);
     ticks(20);
     refused(write_value(TAKE_UP, 257), 16, 4); /* this limb has no play */
+    reply_t reply = read_asks(3, TAKE_UP, 2);
+    TEST_ASSERT_EQUAL_HEX32(0, value_at(&reply, 0)); /* refused, so not what reads back */
     refused(write_value(TAKE_UP, 1), 16, 3);
     refused(write_value(TAKE_UP, 256 + 512 + 1), 16, 3);
     refused(write_value(TAKE_UP, 256), 16, 3);

@@ -61,10 +61,9 @@ def protocol_page(wire: Wire, values: Values, dictionary_hash: int) -> str:
         for part, answer in enumerate(request.answers):
             parts.append(f"\nAnswer, part {part}:\n\n" + _table(answer))
     parts.append(
-        "\n## Entries\n\nFor `read_entry`: parameters are numbered from 0 in the order of [limb.toml's "
-        "keys](limb-keys.md)"
-        f" as the block has them, measured values from {MEASURED_ENTRY}:\n\n| number | name | type | unit |\n"
-        "|---|---|---|---|\n"
+        "\n## Entries\n\nFor `read_entry` and `write_entry` parameters have the numbers that"
+        " [limb.toml's keys](limb-keys.md) are listed with, half their Modbus addresses; for `read_entry`"
+        f" measured values count from {MEASURED_ENTRY}:\n\n| number | name | type | unit |\n|---|---|---|---|\n"
     )
     parts += [f"| {MEASURED_ENTRY + v.index} | `{v.name}` | {v.type} | {v.unit} |\n" for v in values.measured]
     return "".join(parts)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import random
 import struct
 import time
 from collections.abc import Mapping, Sequence
@@ -26,6 +27,7 @@ ANSWER_S = 0.6
 RETRIES = 2
 COMMIT_S = 2.5
 BUSY_S = 2.5  # as long as a commit may take
+APART_S = 0.03  # between two questions that another client's came between
 _BLOCK = 120  # registers in a request; 125 may be read, 123 written
 _KEY = 0xC0DE0000
 _INPUT = [r for r in REGISTERS if r.table == "input" and r.address < 4096]
@@ -134,10 +136,23 @@ class ModbusController:
         return {name: v[f"asked_force_{of}"] for name, of in _FORCES}
 
     def _ask(self, first: str, form: str, *values: float) -> dict[str, Value]:
-        """What belongs to one question is written at once; all answers."""
+        """What belongs to one question is written at once; all answers. They are to it if it still reads back."""
         data = struct.pack(form, *values)
-        self._write(_BY_NAME[first].address, struct.unpack(f">{len(data) // 2}H", data))
-        return _decoded(_ASKED, self._read("input", _ASKED[0].address, 2 * len(_ASKED)))
+        address, words = _BY_NAME[first].address, struct.unpack(f">{len(data) // 2}H", data)
+        until = time.monotonic() + BUSY_S
+        while True:
+            self._write(address, words)
+            answers = self._read("input", _ASKED[0].address, 2 * len(_ASKED))
+            if self._read("holding", address, len(words)) == words:
+                return _decoded(_ASKED, answers)
+            if time.monotonic() > until:
+                raise DeviceFaultError(
+                    "other clients asked other questions all the time",
+                    where=self.url,
+                    why="answers are to the question that was asked last, whoever asked it",
+                    next_step="once more, or over CAN, where each has its own answer",
+                )
+            time.sleep(random.uniform(0.0, APART_S))  # the other asks again too: not in step with it
 
     @staticmethod
     def _stiffness(v: dict[str, Value]) -> StiffnessAnswer:

@@ -32,6 +32,8 @@ _STATUS = {  # brace_status_t: what, and whether the question was at fault
     -86: ("the memory is too small for a set", False),
     -87: ("a value is out of range, or values contradict each other", True),
 }
+_OF_NOW = ("contact_force", "sag_for_load")  # asked of the K of now; the detail is its flags
+_GAP_OPEN = 8
 BUSY = -66
 STORE = -80  # plus what the store says, -1 to -7
 _WAYS = {
@@ -46,6 +48,13 @@ _WAYS = {
 
 def error_of(what: str, status: int, detail: int, where: str) -> BraceError:
     """An error with its exit code: 2 where the question was at fault, 5 where the device is."""
+    if what in _OF_NOW and status == -3 and detail & _GAP_OPEN:
+        return DeviceFaultError(
+            f"the controller refuses {what}: a joint's play is open, so nothing carries the tip in some direction",
+            where=where,
+            why=f"status {status}, detail {detail}: K of now is flagged GAP_OPEN",
+            next_step="take the play up first (request take_up), or ask for K with the play closed: --theta1 --theta2",
+        )
     reason, asked_wrong = _STATUS.get(status, (f"status {status}", False))
     kind = UsageError if asked_wrong else DeviceFaultError
     return kind(

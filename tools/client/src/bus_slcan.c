@@ -16,6 +16,8 @@
 #include <termios.h>
 #include <unistd.h>
 
+enum { ENTER_MS = 1000 };
+
 /* Where the other end of a connection has gone that is a status, and no signal to the robot's process. */
 static ssize_t put(int fd, const char *text, size_t length)
 {
@@ -58,17 +60,17 @@ bool brace_slcan_rate(uint32_t bit_rate, char *rate)
 }
 
 /* Ends a command that somebody left half-sent, closes, sets the rate (a controller's own port ignores it), opens. */
-static brace_bus_status_t enter(brace_bus_t *bus, char rate)
+static brace_bus_status_t enter(brace_bus_t *bus, char rate, int timeout_ms)
 {
     const char hello[] = {'\r', '\r', 'C', '\r', 'S', rate, '\r', 'O', '\r'};
     bus->is_slcan = true;
     bus->rate = rate;
-    return write_all(bus, hello, sizeof hello, 1000);
+    return write_all(bus, hello, sizeof hello, timeout_ms);
 }
 
 void brace_slcan_enter_again(brace_bus_t *bus)
 {
-    (void)enter(bus, bus->rate);
+    (void)enter(bus, bus->rate, 0);
 }
 
 void brace_slcan_leave(brace_bus_t *bus)
@@ -127,7 +129,7 @@ brace_bus_status_t brace_slcan_open_tty(brace_bus_t *bus, const char *where, cha
         brace_bus_say(why, why_room, "%s: %s; it does not take this baud rate", path, strerror(errno));
         return BRACE_BUS_E_NO_DEVICE;
     }
-    const brace_bus_status_t status = enter(bus, rate);
+    const brace_bus_status_t status = enter(bus, rate, ENTER_MS);
     if (status != BRACE_BUS_OK) {
         brace_bus_say(why, why_room, "%s: the adapter takes no commands; unplug it and plug it in again", path);
     }
@@ -190,7 +192,7 @@ brace_bus_status_t brace_slcan_open_tcp(brace_bus_t *bus, const char *where, cha
     }
     const int on = 1;
     (void)setsockopt(bus->fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
-    return enter(bus, rate);
+    return enter(bus, rate, ENTER_MS);
 }
 
 brace_bus_status_t brace_slcan_send(brace_bus_t *bus, const brace_bus_frame_t *frame, int timeout_ms)

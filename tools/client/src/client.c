@@ -113,12 +113,12 @@ brace_client_status_t brace_client_read(brace_client_t *client, uint32_t wanted,
 static brace_client_status_t ask(brace_client_t *client, brace_question_t *question, uint32_t code, uint32_t limited,
                                  int timeout_ms)
 {
+    if (limited != 0u) {
+        return brace_client_fail(client, BRACE_CLIENT_E_USAGE, "a value lies outside its range; client.h states them");
+    }
     if (client->bus == NULL) {
         return brace_client_fail(client, BRACE_CLIENT_E_UNSUPPORTED,
                                  "%s: not over Modbus; connect over CAN, or ask for K at a posture", client->url);
-    }
-    if (limited != 0u) {
-        return brace_client_fail(client, BRACE_CLIENT_E_USAGE, "a value lies outside its range; client.h states them");
     }
     question->code = code;
     return brace_can_ask(client, question, deadline_after(timeout_ms));

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "brace/can_messages.h"
+#include "brace/refusals.h"
 #include "brace/status_text.h"
 
 enum { STATUS_MS = 250, FIRST_TRY_MS = 250, AGAIN_MS = 1000, OLD_US = 100000 };
@@ -75,11 +76,41 @@ static void hear(brace_client_t *client, const brace_bus_frame_t *frame, waiting
     }
 }
 
+/* A call begins: what was heard before it does not count. */
+static void begin(brace_client_t *client, uint64_t deadline_us)
+{
+    const uint64_t answer_us = STATUS_MS * 1000u;
+    const bool is_long = brace_bus_now_us() + 2u * answer_us <= deadline_us;
+    memset(client->heard, 0, sizeof client->heard);
+    client->ask_errors_us = client->bus->is_slcan && is_long ? deadline_us - answer_us : 0u;
+}
+
+static bool is_silent(const brace_client_t *client)
+{
+    return (client->heard[0] | client->heard[1] | client->heard[2] | client->heard[3]) == 0u;
+}
+
+/* Where it stays silent an SLCAN adapter is asked for its error flags while there is time to hear them. */
+static brace_bus_status_t receive(brace_client_t *client, brace_bus_frame_t *frame, int timeout_ms)
+{
+    const int ask_ms = brace_bus_left_ms(client->ask_errors_us);
+    if (client->ask_errors_us == 0u || !is_silent(client) || ask_ms > timeout_ms) {
+        return brace_bus_receive(client->bus, frame, timeout_ms);
+    }
+    const brace_bus_status_t status = brace_bus_receive(client->bus, frame, ask_ms);
+    if (status != BRACE_BUS_E_TIMEOUT) {
+        return status;
+    }
+    client->ask_errors_us = 0u;
+    (void)brace_bus_errors(client->bus, 0);
+    return brace_bus_receive(client->bus, frame, timeout_ms - ask_ms);
+}
+
 /* One frame, or none within timeout_ms. */
 static brace_client_status_t listen(brace_client_t *client, int timeout_ms, waiting_t *waiting)
 {
     brace_bus_frame_t frame;
-    const brace_bus_status_t status = brace_bus_receive(client->bus, &frame, timeout_ms);
+    const brace_bus_status_t status = receive(client, &frame, timeout_ms);
     if (status == BRACE_BUS_OK) {
         hear(client, &frame, waiting);
     } else if (status != BRACE_BUS_E_TIMEOUT) {
@@ -135,7 +166,7 @@ static brace_client_status_t explain_silence(brace_client_t *client, const char 
             client->url, (unsigned)client->node, heard, (unsigned)other);
     }
     const bool is_slcan = client->bus->is_slcan;
-    const uint32_t errors = brace_bus_errors(client->bus, STATUS_MS);
+    const uint32_t errors = brace_bus_errors(client->bus, 0); /* of short calls: the next hears the answer */
     if (errors != 0u || brace_bus_lost(client->bus) != 0u) {
         return brace_client_fail(
             client, BRACE_CLIENT_E_BIT_RATE,
@@ -152,7 +183,28 @@ static brace_client_status_t explain_silence(brace_client_t *client, const char 
         client->url);
 }
 
-brace_client_status_t brace_can_ask(brace_client_t *client, brace_question_t *question, uint64_t deadline_us)
+/* A refusal in words: what a status means depends on what was asked. */
+static const char *reason(uint32_t code, const brace_can_refusal_t *refusal)
+{
+    const bool is_of_now = code == BRACE_REQUEST_CONTACT_FORCE || code == BRACE_REQUEST_SAG_FOR_LOAD;
+    const bool is_open = (refusal->detail & BRACE_CLIENT_FLAG_GAP_OPEN) != 0u; /* of those the detail is K's flags */
+    if (is_of_now && is_open && refusal->status == BRACE_E_RANGE) {
+        return "a joint's play is open, so nothing carries the tip in some direction; take it up first";
+    }
+    if (is_of_now && refusal->status == BRACE_E_MODE) {
+        return "K of now is not valid; its mode and faults tell why";
+    }
+    if (code == BRACE_REQUEST_FRICTION_MARGIN && refusal->status == BRACE_E_NOT_FINITE) {
+        return "the force on the tip is not known now";
+    }
+    switch (refusal->status) {
+    case BRACE_REFUSED_UNKNOWN: return "it knows no such question; flash the firmware of this library's version";
+    case BRACE_REFUSED_BUSY: return "it is storing a set or judging a loading test; ask again";
+    default: return brace_status_text((brace_status_t)refusal->status);
+    }
+}
+
+static brace_client_status_t ask(brace_client_t *client, brace_question_t *question, uint64_t deadline_us)
 {
     static const char what[] = "its answer";
     const uint32_t parts = (1u << brace_can_answer_parts[question->code]) - 1u;
@@ -186,10 +238,10 @@ brace_client_status_t brace_can_ask(brace_client_t *client, brace_question_t *qu
             }
             if (waiting.is_refused) {
                 client->refusal = waiting.refusal.status;
-                return brace_client_fail(
-                    client, BRACE_CLIENT_E_REFUSED, "%s: controller %u refuses: %s (status %d, detail %u)", client->url,
-                    (unsigned)client->node, brace_status_text((brace_status_t)waiting.refusal.status),
-                    (int)waiting.refusal.status, (unsigned)waiting.refusal.detail);
+                return brace_client_fail(client, BRACE_CLIENT_E_REFUSED, "%s: controller %u refuses: %s (status %d, detail %u)",
+                                         client->url, (unsigned)client->node,
+                                         reason(waiting.code, &waiting.refusal), (int)waiting.refusal.status,
+                                         (unsigned)waiting.refusal.detail);
             }
             if (waiting.parts_seen == parts && !waiting.is_taken) {
                 return BRACE_CLIENT_OK;
@@ -204,6 +256,12 @@ brace_client_status_t brace_can_ask(brace_client_t *client, brace_question_t *qu
         }
     }
     return explain_silence(client, what);
+}
+
+brace_client_status_t brace_can_ask(brace_client_t *client, brace_question_t *question, uint64_t deadline_us)
+{
+    begin(client, deadline_us);
+    return ask(client, question, deadline_us);
 }
 
 static brace_client_status_t find_first(brace_client_t *client, uint64_t deadline_us)
@@ -231,7 +289,7 @@ static brace_client_status_t identify(brace_client_t *client, uint64_t deadline_
     const brace_can_identify_request_t request = {0};
     brace_question_t question = {.code = BRACE_REQUEST_IDENTIFY};
     (void)brace_can_pack_identify_request(&request, question.data);
-    const brace_client_status_t status = brace_can_ask(client, &question, deadline_us);
+    const brace_client_status_t status = ask(client, &question, deadline_us);
     if (status != BRACE_CLIENT_OK) {
         return status;
     }
@@ -261,8 +319,7 @@ brace_client_status_t brace_can_open(brace_client_t *client, uint32_t node, uint
     if (opened != BRACE_BUS_OK) {
         return (brace_client_status_t)opened; /* the same numbers */
     }
-    const uint64_t reserve_us = client->bus->is_slcan ? STATUS_MS * 1000u : 0u; /* to ask the adapter for errors */
-    deadline_us = deadline_us > brace_bus_now_us() + reserve_us ? deadline_us - reserve_us : deadline_us;
+    begin(client, deadline_us);
     client->node = node;
     client->token = (uint8_t)(brace_bus_now_us() ^ (uint64_t)getpid());
     const brace_client_status_t status = node == 0u ? find_first(client, deadline_us) : BRACE_CLIENT_OK;
@@ -292,7 +349,7 @@ static bool newest(brace_client_t *client, uint32_t wanted, uint64_t since_us, b
 brace_client_status_t brace_can_read(brace_client_t *client, uint32_t wanted, uint64_t deadline_us,
                                      brace_client_snapshot_t *snapshot)
 {
-    memset(client->heard, 0, sizeof client->heard);
+    begin(client, deadline_us);
     int wait_ms = 0; /* first what waits already, the newest of it */
     for (;;) {
         const brace_client_status_t status = listen(client, wait_ms, NULL);

@@ -18,13 +18,15 @@ struct brace_client {
     brace_client_snapshot_t latest[BRACE_PART_ALL + 1]; /* by its parts; of none: parts 0 */
     uint64_t read_us[BRACE_PART_ALL + 1];               /* of the last one read, by what was wanted */
     uint32_t read_sequence[BRACE_PART_ALL + 1];
-    uint32_t heard[4];                                  /* nodes, one bit each */
+    uint32_t heard[4];                                  /* nodes, in this call, one bit each */
+    uint64_t ask_errors_us;                             /* when this call asks an SLCAN adapter for errors; 0: not */
     bool speaks_another;                                /* heartbeat of our node with another dictionary */
     uint32_t other_hash;
     uint8_t token;
 
     void *modbus; /* modbus_t; null over CAN */
     uint32_t unit;
+    uint64_t late_until_us; /* until then an answer may come that nobody waits for any more */
 };
 
 typedef struct {

@@ -16,10 +16,13 @@ bool brace_modbus_is_url(const char *url)
 #include <limits.h>
 #include <math.h>
 #include <modbus.h>
+#include <poll.h>
+#include <sys/ioctl.h>
 
 #include "brace/can_messages.h"
 
-enum { TRY_MS = 800, BETWEEN_BYTES_US = 200000, REGISTERS_AT_ONCE = 125 };
+enum { TRY_MS = 800, LATE_US = 250000, REST_US = 10000, BETWEEN_BYTES_US = 200000 };
+enum { REGISTERS_AT_ONCE = 125, APART_MS = 32 };
 
 /* High word first. libmodbus 3.1.6 swaps bytes in its own float setters on this kind of host. */
 static uint32_t join(const uint16_t words[2])
@@ -164,17 +167,47 @@ static int write_words(modbus_t *modbus, int address, int count, uint16_t *words
     return modbus_write_registers(modbus, address, count, words);
 }
 
+/* Waits out answers that came too late for their own calls. A request sent before they are through would be answered
+ * behind them, too late in its turn, and so every one after it. False when that takes the whole call. */
+static bool settle(brace_client_t *client, uint64_t deadline_us)
+{
+    struct pollfd news = {.fd = modbus_get_socket(client->modbus), .events = POLLIN};
+    for (int left_ms; (left_ms = brace_bus_left_ms(client->late_until_us)) > 0;) {
+        const int call_ms = brace_bus_left_ms(deadline_us);
+        int bytes = 0;
+        if (call_ms == 0) {
+            return false;
+        }
+        if (poll(&news, 1, left_ms < call_ms ? left_ms : call_ms) > 0) {
+            if (ioctl(news.fd, FIONREAD, &bytes) != 0 || bytes == 0) {
+                break; /* the connection has gone: the next request tells how */
+            }
+            (void)modbus_flush(client->modbus);
+            client->late_until_us = brace_bus_now_us() + REST_US;
+        }
+    }
+    client->late_until_us = 0u;
+    return true;
+}
+
 static brace_client_status_t transfer(brace_client_t *client, transfer_t how, uint32_t address, uint32_t count,
                                       uint16_t *words, uint64_t deadline_us)
 {
     int error = ETIMEDOUT;
     do {
+        if (!settle(client, deadline_us)) {
+            break;
+        }
+        const uint64_t sent_us = brace_bus_now_us();
         limit_wait(client->modbus, deadline_us);
         if (how(client->modbus, (int)address, (int)count, words) == (int)count) {
             return BRACE_CLIENT_OK;
         }
         error = errno;
         (void)modbus_flush(client->modbus); /* a late answer must not be taken for the next one */
+        client->late_until_us = error == ETIMEDOUT || error == EAGAIN ? sent_us + LATE_US
+                                : error == EMBBADDATA                 ? brace_bus_now_us() + REST_US
+                                                                      : 0u;
     } while (may_pass(error) && brace_bus_left_ms(deadline_us) > 0);
     return fail(client, error);
 }
@@ -293,15 +326,12 @@ brace_client_status_t brace_modbus_entry(brace_client_t *client, uint32_t index,
     return status;
 }
 
-brace_client_status_t brace_modbus_k_at_posture(brace_client_t *client, float theta1_rad, float theta2_rad,
-                                                uint64_t deadline_us, brace_client_k_t *k)
+/* One try. *is_mine: no other client has asked for another posture meanwhile. */
+static brace_client_status_t ask_posture(brace_client_t *client, uint16_t posture[4], uint64_t deadline_us,
+                                         uint16_t words[2 * BRACE_ANSWERED_COUNT], bool *is_mine)
 {
     const uint32_t asked_at = BRACE_REGISTER_COMMANDS + (uint32_t)(offsetof(brace_commands_t, asked_theta1_rad) / 2u);
-    uint16_t posture[4], words[2 * BRACE_ANSWERED_COUNT], readback[4];
-    uint32_t values[BRACE_ANSWERED_COUNT];
-    brace_answered_t answered;
-    split(theta1_rad, posture);
-    split(theta2_rad, posture + 2);
+    uint16_t readback[4];
     brace_client_status_t status = transfer(client, write_words, asked_at, 4u, posture, deadline_us);
     if (status == BRACE_CLIENT_OK) {
         status = transfer(client, modbus_read_input_registers, 0x1000u, 2u * BRACE_ANSWERED_COUNT, words, deadline_us);
@@ -309,12 +339,34 @@ brace_client_status_t brace_modbus_k_at_posture(brace_client_t *client, float th
     if (status == BRACE_CLIENT_OK) {
         status = transfer(client, modbus_read_registers, asked_at, 4u, readback, deadline_us);
     }
-    if (status != BRACE_CLIENT_OK) {
-        return status;
-    }
-    if (memcmp(posture, readback, sizeof posture) != 0) {
-        return brace_client_fail(client, BRACE_CLIENT_E_REFUSED,
-                                 "%s: another client has asked for another posture meanwhile; ask again", client->url);
+    *is_mine = status == BRACE_CLIENT_OK && memcmp(posture, readback, sizeof readback) == 0;
+    return status;
+}
+
+brace_client_status_t brace_modbus_k_at_posture(brace_client_t *client, float theta1_rad, float theta2_rad,
+                                                uint64_t deadline_us, brace_client_k_t *k)
+{
+    uint16_t posture[4], words[2 * BRACE_ANSWERED_COUNT];
+    uint32_t values[BRACE_ANSWERED_COUNT];
+    brace_answered_t answered;
+    bool is_mine, is_contested = false;
+    split(theta1_rad, posture);
+    split(theta2_rad, posture + 2);
+    for (;; is_contested = true) {
+        const brace_client_status_t status = ask_posture(client, posture, deadline_us, words, &is_mine);
+        if (is_contested && !is_mine && (status == BRACE_CLIENT_E_SILENT || brace_bus_left_ms(deadline_us) == 0)) {
+            return brace_client_fail(client, BRACE_CLIENT_E_TIMEOUT,
+                                     "%s: other clients asked for other postures all the time; try a longer time-out, "
+                                     "or CAN, where each has its own answer", client->url);
+        }
+        if (status != BRACE_CLIENT_OK) {
+            return status;
+        }
+        if (is_mine) {
+            break;
+        }
+        const int pause_ms = (int)(brace_bus_now_us() % APART_MS), left_ms = brace_bus_left_ms(deadline_us);
+        poll(NULL, 0, pause_ms < left_ms ? pause_ms : left_ms); /* the other asks again too: not in step with it */
     }
     for (uint32_t i = 0u; i < BRACE_ANSWERED_COUNT; i++) {
         values[i] = join(words + 2u * i);

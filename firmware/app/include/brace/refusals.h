@@ -12,7 +12,7 @@ enum {
     BRACE_REFUSED_ORDER = -67,   /* words in order only; detail: the one that is expected */
     BRACE_REFUSED_CHANGED = -68, /* the set in force has changed meanwhile: begin again with word 0 */
     BRACE_REFUSED_READ_ONLY = -69,
-    BRACE_REFUSED_STORE = -80    /* plus brace_store_failure_t (-81 to -86): the set of before stays in force */
+    BRACE_REFUSED_STORE = -80    /* plus brace_store_failure_t (-81 to -87): the set of before stays in force */
 };
 
 #endif

@@ -56,8 +56,9 @@ static modbus_exception_t take_up(brace_app_t *app, uint32_t value)
     if (flank != FLANK_POSITIVE && flank != FLANK_NEGATIVE) {
         return MODBUS_E_VALUE;
     }
-    app->modbus.take_up = value;
-    return refusal_of(brace_app_take_up(app, (int32_t)joint, flank == FLANK_POSITIVE ? 1 : -1));
+    const brace_status_t status = brace_app_take_up(app, (int32_t)joint, flank == FLANK_POSITIVE ? 1 : -1);
+    app->modbus.take_up = status == BRACE_OK ? value : app->modbus.take_up;
+    return refusal_of(status);
 }
 
 modbus_exception_t command_run(brace_app_t *app, uint32_t index, uint32_t value)

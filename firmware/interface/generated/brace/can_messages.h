@@ -322,7 +322,7 @@ void brace_can_unpack_sag_for_load_answer_0(const uint8_t data[8], brace_can_sag
 typedef struct {
     uint32_t token;
     float normal_rad; /* direction of the surface's normal, towards the limb, from +x [rad, -3.2767 to 3.2767] */
-    float friction_ratio; /* friction coefficient mu [1, 0 to 65.534] */
+    float friction_ratio; /* friction coefficient mu, at most 10 [1, 0 to 65.534] */
 } brace_can_friction_margin_request_t;
 uint32_t brace_can_pack_friction_margin_request(const brace_can_friction_margin_request_t *message, uint8_t data[8]);
 void brace_can_unpack_friction_margin_request(const uint8_t data[8], brace_can_friction_margin_request_t *message);
@@ -346,7 +346,7 @@ void brace_can_unpack_set_mode_request(const uint8_t data[8], brace_can_set_mode
 
 typedef struct {
     uint32_t token;
-    uint32_t mode; /* the controller's mode now */
+    uint32_t mode; /* the controller's mode now; on the way back to MONITOR that is START, until there are samples */
 } brace_can_set_mode_answer_0_t;
 uint32_t brace_can_pack_set_mode_answer_0(const brace_can_set_mode_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_set_mode_answer_0(const uint8_t data[8], brace_can_set_mode_answer_0_t *message);
@@ -433,7 +433,7 @@ void brace_can_unpack_download_word_request(const uint8_t data[8], brace_can_dow
 typedef struct {
     uint32_t token;
     uint32_t word; /* number of the 4-byte word of the block, from 0 */
-    uint32_t data; /* its bytes, first byte lowest */
+    uint32_t data; /* its bytes, first byte lowest; of word 65535 the block's bytes in the low half, in the high one where the set comes from: 0 DEFAULT, 1 SLOT_A, 2 SLOT_B */
 } brace_can_download_word_answer_0_t;
 uint32_t brace_can_pack_download_word_answer_0(const brace_can_download_word_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_download_word_answer_0(const uint8_t data[8], brace_can_download_word_answer_0_t *message);
@@ -448,7 +448,7 @@ void brace_can_unpack_take_up_request(const uint8_t data[8], brace_can_take_up_r
 
 typedef struct {
     uint32_t token;
-    uint32_t phase; /* of the take-up */
+    uint32_t phase; /* of the joint's take-up, as it was when this was asked */
 } brace_can_take_up_answer_0_t;
 uint32_t brace_can_pack_take_up_answer_0(const brace_can_take_up_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_take_up_answer_0(const uint8_t data[8], brace_can_take_up_answer_0_t *message);
@@ -469,9 +469,9 @@ void brace_can_unpack_let_go_answer_0(const uint8_t data[8], brace_can_let_go_an
 typedef struct {
     uint32_t token;
     uint32_t axis; /* 0 x, 1 z */
-    uint32_t steps_per_side; /* to each side */
-    float step_mm; /* of the tip [mm, 0 to 65.534] */
-    uint32_t dwell_ms; /* at each step */
+    uint32_t steps_per_side; /* to each side, 2 to 60 */
+    float step_mm; /* of the tip, 0.001 to 50 mm [mm, 0 to 65.534] */
+    uint32_t dwell_ms; /* at each step, 20 to 10000 */
 } brace_can_loading_test_start_request_t;
 uint32_t brace_can_pack_loading_test_start_request(const brace_can_loading_test_start_request_t *message, uint8_t data[8]);
 void brace_can_unpack_loading_test_start_request(const uint8_t data[8], brace_can_loading_test_start_request_t *message);
@@ -499,7 +499,7 @@ void brace_can_unpack_loading_test_stop_answer_0(const uint8_t data[8], brace_ca
 typedef struct {
     uint32_t token;
     uint32_t row; /* 0 is the oldest */
-    uint32_t column; /* in the order of data.csv, from 0 */
+    uint32_t column; /* 0 run, 1 config, 2 theta1_rad, 3 theta2_rad, 4 axis (0 x, 1 z), 5 rep, 6 step, 7 t_s, 8 temp_degc, 9 dx_mm, 10 dz_mm, 11 fx_n, 12 fz_n, 13 enc1_rad, 14 enc2_rad: docs/datasets.md has what they are */
 } brace_can_fetch_row_request_t;
 uint32_t brace_can_pack_fetch_row_request(const brace_can_fetch_row_request_t *message, uint8_t data[8]);
 void brace_can_unpack_fetch_row_request(const uint8_t data[8], brace_can_fetch_row_request_t *message);
@@ -554,7 +554,7 @@ void brace_can_unpack_identify_answer_3(const uint8_t data[8], brace_can_identif
 
 typedef struct {
     uint32_t token;
-    uint32_t item; /* as the dictionary's loading entries count */
+    uint32_t item; /* 0 loading_outcome, 1 loading_rows and so on, as the entries below go on */
 } brace_can_loading_test_result_request_t;
 uint32_t brace_can_pack_loading_test_result_request(const brace_can_loading_test_result_request_t *message, uint8_t data[8]);
 void brace_can_unpack_loading_test_result_request(const uint8_t data[8], brace_can_loading_test_result_request_t *message);
@@ -562,7 +562,7 @@ void brace_can_unpack_loading_test_result_request(const uint8_t data[8], brace_c
 typedef struct {
     uint32_t token;
     uint32_t item; /* as asked */
-    int32_t outcome; /* of the test */
+    int32_t outcome; /* of the test: 0 none, 1 running, 2 done, 3 stopped; -1 force, -2 torque, -3 travel beyond its bound, -4 not done in time, -5 no force known, -6 a fault or a flank let go, -7 the motors do not follow */
     float value; /* the number */
 } brace_can_loading_test_result_answer_0_t;
 uint32_t brace_can_pack_loading_test_result_answer_0(const brace_can_loading_test_result_answer_0_t *message, uint8_t data[8]);

@@ -60,7 +60,7 @@ typedef struct {
     uint32_t parameter_crc; /* of the parameters in force */
     uint32_t parameter_origin; /* where they come from */
     uint32_t parameter_sequence; /* of the parameter set in force */
-    uint32_t loading_outcome; /* of the last loading test: 0 none, 1 running, 2 done, 3 stopped; else 256 less the refusal's number */
+    uint32_t loading_outcome; /* of the last loading test: 0 none, 1 running, 2 done, 3 stopped; else why it ended, 256 less 1 force, 2 torque, 3 travel beyond its bound, 4 not done in time, 5 no force known, 6 a fault or a flank let go, 7 the motors do not follow */
     uint32_t loading_rows; /* recorded and not fetched away */
     float loading_k_x_n_per_mm; /* force along x per displacement along the test's axis, least squares */
     float loading_k_z_n_per_mm; /* force along z per displacement along the test's axis, least squares */

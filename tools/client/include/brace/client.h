@@ -119,7 +119,9 @@ void brace_client_identity(const brace_client_t *client, brace_client_identity_t
 brace_client_status_t brace_client_read(brace_client_t *client, uint32_t wanted, int timeout_ms,
                                         brace_client_snapshot_t *snapshot);
 
-/* K at true joint angles [rad, -8.38 to 8.38] that the limb need not have. */
+/* K at true joint angles [rad] that the limb need not have: each from -3.9 to 3.9, and further as far as the limb's
+ * model reaches; beyond that it is refused. Over Modbus it is asked again, until the time-out, where another client's
+ * question comes between. */
 brace_client_status_t brace_client_k_at_posture(brace_client_t *client, float theta1_rad, float theta2_rad,
                                                 int timeout_ms, brace_client_k_t *k);
 
@@ -127,7 +129,8 @@ brace_client_status_t brace_client_k_at_posture(brace_client_t *client, float th
 brace_client_status_t brace_client_k_at_tip(brace_client_t *client, float x_mm, float z_mm, bool knee_up,
                                             int timeout_ms, brace_client_k_t *k);
 
-/* Force on the tip that holds it at a displacement [mm, -838 to 838], with the K of now. CAN only. */
+/* Force on the tip that holds it at a displacement [mm, -838 to 838], with the K of now. This and the sag are refused
+ * while K is not valid, or flagged GAP_OPEN: then nothing carries the tip in some direction. CAN only. */
 brace_client_status_t brace_client_contact_force(brace_client_t *client, float dx_mm, float dz_mm, int timeout_ms,
                                                  brace_client_force_t *force);
 
@@ -135,10 +138,10 @@ brace_client_status_t brace_client_contact_force(brace_client_t *client, float d
 brace_client_status_t brace_client_sag(brace_client_t *client, float fx_n, float fz_n, int timeout_ms, float *dx_mm,
                                        float *dz_mm);
 
-/* How far the tip's force of now is from sliding on a surface whose normal, towards the limb, points along normal_rad
- * from +x [rad, -3.27 to 3.27], with friction coefficient [0, 65]. CAN only. */
-brace_client_status_t brace_client_margin(brace_client_t *client, float normal_rad, float friction_ratio,
-                                          int timeout_ms, brace_client_margin_t *margin);
+/* How far the tip's force of now is from sliding on a surface whose normal, towards the limb, points along normal_rad from
+ * +x [rad, -3.27 to 3.27], with friction coefficient [0, 10]. Where no force is known it is refused. CAN only. */
+brace_client_status_t brace_client_margin(brace_client_t *client, float normal_rad, float friction_ratio, int timeout_ms,
+                                          brace_client_margin_t *margin);
 
 /* Number of a measured value, by its member of brace_measured_t.
  * Parameters are numbered as in brace/parameter_list.h. */
@@ -151,7 +154,7 @@ brace_client_status_t brace_client_entry_f32(brace_client_t *client, uint32_t in
 /* What the last call that did not answer OK has to say: one line, what, why, what to try. Never null. */
 const char *brace_client_why(const brace_client_t *client);
 
-/* Of the last E_REFUSED: the controller's status (negative, as docs/protocol.md lists them) or the Modbus exception. */
+/* Of the last E_REFUSED: the controller's status (negative, as docs/errors.md lists them) or the Modbus exception. */
 int32_t brace_client_refusal(const brace_client_t *client);
 
 /* As the brace command ends: 0 done, 2 usage, 4 no device or time-out, 5 refused, 6 version. */
