@@ -1,5 +1,5 @@
-/* client_probe BUS NODE TIMEOUT_MS CALL [NUMBER...]: one call of the C client; numbers it gives on stdout as "name value"
- * lines, its reason on stderr, its status as exit code (positive).
+/* client_probe BUS NODE TIMEOUT_MS CALL [NUMBER...]: one call of the C client; numbers it gives on stdout as "name
+ * value" lines, its reason on stderr, its status as exit code (positive).
  *   identity | read PARTS COUNT | posture T1 T2 [COUNT] (the last one's) | tip X Z UP | force DX DZ | sag FX FZ
  *   margin NORMAL MU
  *   loop WAIT_MS FOR_MS: reads K in a control loop, each time with that time-out

@@ -238,10 +238,10 @@ static brace_client_status_t ask(brace_client_t *client, brace_question_t *quest
             }
             if (waiting.is_refused) {
                 client->refusal = waiting.refusal.status;
-                return brace_client_fail(client, BRACE_CLIENT_E_REFUSED, "%s: controller %u refuses: %s (status %d, detail %u)",
-                                         client->url, (unsigned)client->node,
-                                         reason(waiting.code, &waiting.refusal), (int)waiting.refusal.status,
-                                         (unsigned)waiting.refusal.detail);
+                return brace_client_fail(client, BRACE_CLIENT_E_REFUSED,
+                                         "%s: controller %u refuses: %s (status %d, detail %u)", client->url,
+                                         (unsigned)client->node, reason(waiting.code, &waiting.refusal),
+                                         (int)waiting.refusal.status, (unsigned)waiting.refusal.detail);
             }
             if (waiting.parts_seen == parts && !waiting.is_taken) {
                 return BRACE_CLIENT_OK;

@@ -138,10 +138,10 @@ brace_client_status_t brace_client_contact_force(brace_client_t *client, float d
 brace_client_status_t brace_client_sag(brace_client_t *client, float fx_n, float fz_n, int timeout_ms, float *dx_mm,
                                        float *dz_mm);
 
-/* How far the tip's force of now is from sliding on a surface whose normal, towards the limb, points along normal_rad from
- * +x [rad, -3.27 to 3.27], with friction coefficient [0, 10]. Where no force is known it is refused. CAN only. */
-brace_client_status_t brace_client_margin(brace_client_t *client, float normal_rad, float friction_ratio, int timeout_ms,
-                                          brace_client_margin_t *margin);
+/* How far the tip's force of now is from sliding on a surface whose normal, towards the limb, points along normal_rad
+ * from +x [rad, -3.27 to 3.27], with friction coefficient [0, 10]. Where no force is known it is refused. CAN only. */
+brace_client_status_t brace_client_margin(brace_client_t *client, float normal_rad, float friction_ratio,
+                                          int timeout_ms, brace_client_margin_t *margin);
 
 /* Number of a measured value, by its member of brace_measured_t.
  * Parameters are numbered as in brace/parameter_list.h. */
