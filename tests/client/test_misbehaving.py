@@ -143,6 +143,12 @@ def test_silence_holds_a_control_loop_up_no_longer_than_its_time_out(probe: Prob
         assert loop["good"] == 0 and loop["failed"] >= 10 and loop["last_failure"] == status, loop
 
 
+def test_what_was_broken_before_it_was_heard_is_no_wrong_bit_rate(probe: Probe) -> None:
+    """Noise while the line was opened; it has answered since, and is silent now."""
+    with SlcanController(speaks=False, noise_first=b"\xf0\x81\rt70015\r") as controller:
+        assert probe(controller.url, "loop", 20, 300).values["last_failure"] == SILENT
+
+
 @pytest.mark.parametrize(("speaks", "status"), [(False, SILENT), (True, TIMEOUT)])
 def test_what_was_heard_before_a_question_is_no_sign_of_life(probe: Probe, speaks: bool, status: int) -> None:
     with SlcanController(speaks=speaks) as controller:  # answers identify, not this

@@ -66,6 +66,47 @@ def test_what_cannot_be_a_record_is_refused_by_row_and_column(case: str, tmp_pat
         assert name in message and "row 30" in message
 
 
+ALL_WRONG = {  # what a whole column reads -> words that say what is wrong with it
+    "decimal comma": ("theta1_rad", lambda text: '"' + text.replace(".", ",") + '"', "write 0.740000"),
+    "upper case": ("axis", str.upper, "write x or z"),
+    "seconds since 1970": ("t_s", lambda text: f"{float(text) + 1.795e9:.3f}", "take the first reading's off all"),
+    "date": ("t_s", lambda text: f"2026-01-01T00:00:{float(text):06.3f}", "time in s"),
+}
+
+
+@pytest.mark.parametrize("case", ALL_WRONG)
+def test_a_column_that_cannot_be_read_is_told_once_and_with_the_way_out(case: str, tmp_path: Path) -> None:
+    name, change, words = ALL_WRONG[case]
+    rows = loading_rows()
+    for row in rows:
+        row[column(name)] = change(row[column(name)])
+    with pytest.raises(BadFileError) as caught:
+        load_dataset(write_loading(tmp_path, rows))
+    assert words in caught.value.render()
+    (fault,) = load_dataset(tmp_path, keep_unreadable=True).faults
+    assert (fault.row, fault.field) == (None, name)
+    assert words.removeprefix("write ") in fault.sentence(tmp_path)
+
+
+def test_a_clock_that_starts_again_with_each_run(tmp_path: Path) -> None:
+    rows = loading_rows()
+    began = {row[0]: float(row[column("t_s")]) for row in reversed(rows)}
+    for row in rows:
+        row[column("t_s")] = f"{float(row[column('t_s')]) - began[row[0]]:.3f}"
+    (fault,) = load_dataset(write_loading(tmp_path, rows)).faults
+    assert fault.field == "t_s" and fault.blocking and "starts again with each of 20 runs" in fault.why
+
+
+def test_remarks_above_the_column_names(tmp_path: Path) -> None:
+    write_loading(tmp_path, loading_rows())
+    whole = (tmp_path / "data.csv").read_text()
+    (tmp_path / "data.csv").write_text("# limb 3, Anna\n# second day\n" + whole)
+    with pytest.raises(BadFileError) as caught:
+        load_dataset(tmp_path)
+    assert "the column names stand in line 3" in caught.value.render()
+    assert "take the 2 lines above away" in caught.value.render()
+
+
 def _set(
     rows: list[list[str]], name: str, change: Callable[[float], float], where: slice = slice(None)
 ) -> None:

@@ -14,7 +14,7 @@ and `brace_fd.dbc` for the frame of CAN FD.
 Classic CAN, 11-bit identifiers shaped like CANopen's, eight bytes a frame, least significant bit first (Intel). A
 controller adds its node number, 1 to 127, to the identifiers below; without a number it only listens. A value that is not
 known has a code of its own, never zero: the most negative one of a signed value, all ones of an unsigned one. A value
-beyond its range is limited, and K then carries the flag SATURATED.
+beyond its range is limited; where one of K is, it carries the flag SATURATED.
 
 All frames of one snapshot carry the same sequence: put together only what agrees. Two ends that do not have the same
 dictionary hash (heartbeat, `identify`) speak different languages and have to say so.

@@ -47,15 +47,22 @@ def faults(columns: Columns, meta: Meta) -> list[DataFault]:
 
 
 def _time(columns: Columns) -> Iterator[DataFault]:
-    time = columns["t_s"]
+    time, starts = columns["t_s"], run_starts(columns["run"])[:-1]
     back = np.flatnonzero(np.diff(time) < 0)
+    if starts.size > 2 and np.array_equal(back + 1, starts[1:]) and np.ptp(time[starts]) < np.ptp(time[: starts[1]]):
+        back = back[:0]
+        yield DataFault(
+            None,
+            "t_s",
+            f"the clock starts again with each of {starts.size} runs: creep, drift and friction follow one clock",
+            "the time since the first run began, in every run",
+        )
     for row in back[:MAX_LISTED]:
         # the entry before it may be the one that is wrong: then this one goes on after the one before that
         early = row > 0 and row + 2 < time.size and time[row - 1] <= time[row + 1] and time[row] > time[row + 2]
         yield DataFault(
             int(row) + (1 if early else 2), "t_s", "time runs backwards: creep, drift and friction follow the order"
         )
-    starts = run_starts(columns["run"])[:-1]
     names, counts = np.unique(columns["run"][starts], return_counts=True)
     if (counts > 1).any():
         run = names[counts > 1][0]

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Column:
-    """A column of data.csv; entries lie in [-limit, limit], and in [0, limit] when `positive`."""
+    """A column of data.csv; entries lie in [-limit, limit], and in [0, limit] when `positive`. `beyond` says what an
+    entry outside may be."""
 
     name: str
     unit: str
@@ -17,11 +18,14 @@ class Column:
     kind: str = "float"  # float, int, axis
     limit: float = 1e9
     positive: bool = False
+    beyond: str = ""
 
 
 def _optional(name: str, unit: str, meaning: str, kind: str = "float", **more: float) -> Column:
     return Column(name, unit, meaning, required=False, kind=kind, limit=more.get("limit", 1e9))
 
+
+TIME = Column("t_s", "s", "time", beyond=": of seconds since 1970, take the first reading's off all")
 
 LOADING = (
     Column("run", "", "number of the pass", kind="int"),
@@ -31,7 +35,7 @@ LOADING = (
     Column("axis", "", "x or z, the axis of the imposed displacement", kind="axis"),
     Column("rep", "", "repeat of the same pass", kind="int"),
     Column("step", "", "step within the pass", kind="int"),
-    Column("t_s", "s", "time"),
+    TIME,
     Column("temp_degc", "degC", "temperature", limit=1e4),
     Column("dx_mm", "mm", "imposed displacement of the tip", limit=1e6),
     Column("dz_mm", "mm", "imposed displacement of the tip", limit=1e6),
@@ -58,7 +62,7 @@ STIFFNESS_TABLE = (
 )
 
 JOINT_TEST = (
-    Column("t_s", "s", "time"),
+    TIME,
     Column("angle_rad", "rad", "deflection of the joint", limit=1e4),
     Column("torque_n_mm", "N mm", "torque in the joint", limit=1e12),
     _optional("command_n_mm", "N mm", "commanded torque", limit=1e12),

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from brace.dataset.columns import Column
-from brace.dataset.entries import entry_by_entry, entry_limit
+from brace.dataset.entries import QUOTED_COMMA, beyond_limit, entry_by_entry, entry_limit, entry_text
 from brace.dataset.faults import DataFault
 from brace.dataset.not_read import without_blanks
 from brace.errors import BadFileError, did_you_mean
@@ -20,6 +20,7 @@ from brace.files import DATA_LIMIT_BYTES, read_bytes
 from brace.slips import slip
 
 WHAT = "dataset's data.csv"
+MOST_REMARKS = 100  # lines above the column names that are looked through
 
 
 def read_columns(
@@ -47,7 +48,7 @@ def read_columns(
         rows = [b",".join(field.strip() for field in _unquoted(row)) for row in rows]
     elif any(b" " in row for row in rows):
         rows = [b",".join(field.strip() for field in row.split(b",")) for row in rows]
-    _check_header(header, wanted, path)
+    _check_header(header, wanted, path, lines)
     _check_widths(rows, len(header), path)
     present = [column for column in wanted if column.name in header]
     positions = [header.index(column.name) for column in present]
@@ -71,7 +72,7 @@ def read_columns(
 
 def field_text(row: bytes, position: int) -> str:
     """One field of a raw line as text."""
-    return row.split(b",")[position].strip().decode("utf-8", "replace")
+    return entry_text(row.split(b",")[position])
 
 
 def _lines(data: bytes, path: Path) -> list[bytes]:
@@ -135,10 +136,10 @@ def _is_entry(text: str) -> bool:
 
 def _unquoted(row: bytes) -> list[bytes]:
     fields = next(csv.reader(io.StringIO(row.decode("utf-8", "replace"))), [])
-    return [field.replace(",", " ").encode() for field in fields]
+    return [field.encode().replace(b",", QUOTED_COMMA) for field in fields]
 
 
-def _check_header(header: list[str], wanted: Sequence[Column], path: Path) -> None:
+def _check_header(header: list[str], wanted: Sequence[Column], path: Path, lines: Sequence[bytes]) -> None:
     for position, name in enumerate(header):
         if name in header[:position]:
             raise BadFileError(
@@ -150,6 +151,8 @@ def _check_header(header: list[str], wanted: Sequence[Column], path: Path) -> No
     missing = [column for column in wanted if column.required and column.name not in header]
     if not missing:
         return
+    if len(missing) == sum(column.required for column in wanted):
+        _refuse_preamble(lines, missing, path)
     column = missing[0]
     spare = [name for name in header if name not in {item.name for item in wanted}]
     near = did_you_mean(column.name, spare)
@@ -167,6 +170,18 @@ def _check_header(header: list[str], wanted: Sequence[Column], path: Path) -> No
             else f"add {column.name}"
         ),
     )
+
+
+def _refuse_preamble(lines: Sequence[bytes], required: Sequence[Column], path: Path) -> None:
+    """Remarks above the column names."""
+    for number, line in enumerate(lines[1:MOST_REMARKS], start=2):
+        if {column.name.encode() for column in required} <= {name.strip().strip(b'"') for name in line.split(b",")}:
+            raise BadFileError(
+                f"the column names stand in line {number}",
+                where=f"{path}:1",
+                why="data.csv starts with the line of column names; remarks go into meta.toml, which keeps them",
+                next_step=f"take the {number - 1} line{'s' if number > 2 else ''} above away",
+            )
 
 
 def _check_widths(rows: list[bytes], width: int, path: Path) -> None:
@@ -259,10 +274,7 @@ def _check_entries(values: np.ndarray, column: Column, rows: list[bytes], positi
         why, way = "a reading that is not finite says nothing", "delete the row or record it again"
         if not bad.any():
             bad = np.abs(values) > entry_limit(column)
-            why, way = (
-                "no record has such a value",
-                f"check the entry; {column.name} is in {column.unit or 'counts'}",
-            )
+            why, way = beyond_limit(column), "correct the entry"
         if not bad.any() and column.positive:
             bad = values <= 0.0
             why, way = f"{column.name}, the {column.meaning}, is positive", "correct the entry"

@@ -20,6 +20,7 @@ from brace.diagnose.loading.evidence import evidence, freedoms, score
 from brace.diagnose.loading.fit import Fit
 from brace.diagnose.loading.noise import FORCES
 from brace.diagnose.loading.record import Record, levers
+from brace.diagnose.loading.rounding import rounds_to_record
 from brace.diagnose.loading.screen import Remover
 from brace.identify.parameters import natural_scale
 from brace.model.keys import KEY_BY_NAME
@@ -55,6 +56,8 @@ def outside(record: Record, sets: Sequence[LabelSet], variants: Sequence[Variant
     """Everything outside the catalogue against the best set; `sets` are sorted, and one of them has no labels."""
     known = {item.labels: item for item in sets}
     best, base = sets[0], known[frozenset()].best.fit
+    if rounds_to_record(record, best.best.fit):
+        return Outside(-np.inf, "")
     rests = [frozenset[str](), *(best.labels - {label} for label in sorted(best.labels)), best.labels]
     found: list[tuple[float, str]] = []
     for rest in dict.fromkeys(rests):

@@ -3,7 +3,7 @@ disagree by (which time, drift and temperature make, and not noise)."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +15,8 @@ LEAST_FORCE_SIGMA_N = 1e-3  # a simulated record without noise is still not know
 LEAST_SHARE = 1e-4  # of what a channel moves by
 FORCES: tuple[str, ...] = ("fx_n", "fz_n")
 REPEATS, GROWING = "repeats", ", growing with load"
+ROUNDING = "rounding to the sensor's resolution"
+ON_GRID = 1e-3  # of a step: how near to whole steps the readings of a sensor that rounds stand in the file
 FAR_SIGMAS = 4.5  # from which a difference is no noise; of white noise it cuts 7 in a million, 0.02 % of the variance
 MEDIAN_OF_SQUARES = 0.4549  # of a normal variable with variance 1
 THIRD_DIFFERENCES_SHARE = 2.31  # how many third differences of white noise tell as much as one independent reading
@@ -24,12 +26,14 @@ GROWTH_GAIN = 12.0  # twice the log-likelihood that a noise growing with load mu
 @dataclass(frozen=True)
 class ChannelNoise:
     """sigma^2 = floor^2 + (growth * |reading|)^2, in the channel's unit; `freedom` is the number of independent
-    differences that it was taken from."""
+    differences that it was taken from. Where rounding hides the noise, a limb whose force is within `rounds_n` of a
+    reading gives this very reading; 0: it is noise that decides."""
 
     floor: float
     growth_ratio: float
     source: str
     freedom: float = 0.0
+    rounds_n: float = 0.0
 
     def sigma(self, reading: np.ndarray) -> np.ndarray:
         """One sigma of each reading."""
@@ -58,7 +62,10 @@ def noise_of(dataset: Dataset, channels: Sequence[str]) -> dict[str, ChannelNois
     growing: dict[str, _Differences] = {}
     for name in channels:
         found = _differences(dataset, name)
-        if found.off.size < 4:
+        rounding = rounding_of(dataset, name)
+        if found.off.size >= 4 and found.spread < rounding:
+            noise[name] = _rounded(dataset, found, rounding)
+        elif found.off.size < 4:
             noise[name] = ChannelNoise(found.least, 0.0, "not enough readings; the least that can be told")
         elif found.spread < found.least:
             noise[name] = ChannelNoise(found.least, 0.0, "the sensor's resolution")
@@ -71,6 +78,24 @@ def noise_of(dataset: Dataset, channels: Sequence[str]) -> dict[str, ChannelNois
             found = growing[name]
             noise[name] = ChannelNoise(max(growth[0], found.least), growth[1], found.source + GROWING, found.freedom)
     return noise
+
+
+def rounding_of(dataset: Dataset, channel: str) -> float:
+    """One sigma of a force's rounding, where every reading is a whole number of the sensor's steps from the first;
+    else 0."""
+    step = dataset.meta.number("sensor.resolution_n") if channel in FORCES else 0.0
+    if step <= 0.0:
+        return 0.0
+    steps = (dataset[channel] - dataset[channel][0]) / step
+    return float(step / np.sqrt(12.0)) if np.abs(steps - np.rint(steps)).max() < ON_GRID else 0.0
+
+
+def _rounded(dataset: Dataset, found: _Differences, rounding: float) -> ChannelNoise:
+    """Rounding that noise does not blur comes again in every repeat: all repeats together tell as much of it as one."""
+    repeats = len(list(_runs(dataset))) / len({key for key, _, _ in _runs(dataset)})
+    floor = float(np.sqrt(found.spread**2 + repeats * (rounding**2 - found.spread**2)))
+    half_step = (1.0 if dataset.meta.zeroed_per_run else 0.5) * np.sqrt(12.0) * rounding
+    return ChannelNoise(floor, 0.0, ROUNDING, found.freedom, float(half_step + FAR_SIGMAS * found.spread))
 
 
 def _differences(dataset: Dataset, channel: str) -> _Differences:
@@ -113,18 +138,11 @@ def robust_sigma(off: np.ndarray) -> float:
 def _repeat_differences(dataset: Dataset, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
     """Differences between runs that repeat each other, step by step, less each pair's own mean and trend; what one
     reading's sigma makes of them."""
-    starts = run_starts(dataset["run"])
     seen: dict[tuple[object, ...], int] = {}
     off, size = [], []
-    for begin, end in zip(starts[:-1], starts[1:]):
-        key = (
-            int(dataset["config"][begin]),
-            int(dataset["axis"][begin]),
-            dataset["dx_mm"][begin:end].round(6).tobytes(),
-            dataset["dz_mm"][begin:end].round(6).tobytes(),
-        )
+    for key, begin, end in _runs(dataset):
         before = seen.get(key)
-        seen[key] = int(begin)
+        seen[key] = begin
         if before is None or end - begin < 6:
             continue
         change = values[begin:end] - values[before : before + end - begin]
@@ -140,6 +158,19 @@ def _repeat_differences(dataset: Dataset, values: np.ndarray) -> tuple[np.ndarra
     if not off:
         return np.empty(0), np.empty(0), 1.0
     return np.concatenate(off), np.concatenate(size), float(np.sqrt(2.0))
+
+
+def _runs(dataset: Dataset) -> Iterator[tuple[tuple[object, ...], int, int]]:
+    """(what repeats of a run have in common, its first row, the next run's first row) of every run."""
+    starts = run_starts(dataset["run"]).tolist()
+    for begin, end in zip(starts[:-1], starts[1:]):
+        key = (
+            int(dataset["config"][begin]),
+            int(dataset["axis"][begin]),
+            dataset["dx_mm"][begin:end].round(6).tobytes(),
+            dataset["dz_mm"][begin:end].round(6).tobytes(),
+        )
+        yield key, begin, end
 
 
 def _third_differences(dataset: Dataset, values: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:

@@ -12,10 +12,12 @@ from brace.diagnose.loading.noise import (
     FORCES,
     GROWING,
     REPEATS,
+    ROUNDING,
     THIRD_DIFFERENCES_SHARE,
     ChannelNoise,
     growth_of,
     robust_sigma,
+    rounding_of,
 )
 from brace.diagnose.loading.parts import enough_rows
 from brace.diagnose.loading.record import NOT_MEASURED, Record
@@ -27,7 +29,7 @@ LEAST_DIFFERENCES = 30
 def with_known_noise(record: Record, trust: Trust) -> Record:
     """The record with the noise of channels that have no repeats taken from what the refitted base leaves: its third
     differences along the runs, which any smooth disagreement hardly touches."""
-    poor = [name for name, noise in record.noise.items() if not noise.source.startswith(REPEATS)]
+    poor = [name for name, noise in record.noise.items() if not noise.source.startswith((REPEATS, ROUNDING))]
     if not poor:
         return record
     keep = enough_rows(record.dataset)
@@ -41,7 +43,7 @@ def with_known_noise(record: Record, trust: Trust) -> Record:
         whole = same & taken[:-3] & taken[1:-2] & taken[2:-1] & taken[3:]
         off = np.diff(left[place], n=3)[whole] / np.sqrt(20.0)
         if name in poor and off.size >= LEAST_DIFFERENCES:
-            floor = max(robust_sigma(off), 1e-12)
+            floor = max(robust_sigma(off), rounding_of(record.dataset, name), 1e-12)
             freedom = off.size / THIRD_DIFFERENCES_SHARE
             noise[name] = ChannelNoise(floor, 0.0, "smoothness of what the believed limb leaves", freedom)
     return _with_noise(record, noise)
@@ -53,7 +55,7 @@ def with_growth(record: Record, fitted: Fit) -> Record | None:
     left = fitted.residual.reshape(record.measured.shape) * record.sigma
     asked, given = [], []
     for place, name in enumerate(record.channels):
-        if name not in FORCES or record.noise[name].source.startswith(REPEATS):
+        if name not in FORCES or record.noise[name].source.startswith((REPEATS, ROUNDING)):
             continue  # where noise is as large as the reading, weighing by the reading would bias it
         taken = record.sigma[place] < NOT_MEASURED
         asked.append(name)

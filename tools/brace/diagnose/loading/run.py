@@ -19,6 +19,7 @@ from brace.diagnose.loading.data_faults.gate import gate
 from brace.diagnose.loading.noise_after_base import with_growth, with_known_noise
 from brace.diagnose.loading.parts import enough_rows, locked_rows
 from brace.diagnose.loading.record import Record, load_record, setting_of
+from brace.diagnose.loading.rounding import asked_for
 from brace.diagnose.loading.search import Hypothesis, Search
 from brace.diagnose.loading.space import Trust, trust_of
 from brace.diagnose.loading.structure import Structure, structure_of
@@ -86,7 +87,7 @@ def search_pass(record: Record, trust: Trust, variants: Sequence[Variant], advan
 
 def _searched(record: Record, trust: Trust, variants: Sequence[Variant], advance: Advance) -> Pass:
     search = Search(record, trust, variants, advance)
-    hypotheses = search.run()
+    hypotheses = asked_for(record, search.run())
     sets = posterior_of(hypotheses, variants)
     sets[0] = _polished(record, sets[0])
     structure = structure_of(record, sets[0].best.fit)

@@ -55,7 +55,7 @@ typedef struct {
     uint32_t parts;       /* that are of this snapshot; members of the others are NaN or all ones */
     uint32_t sequence;    /* 8 bits over CAN, over CAN FD too */
     uint64_t received_us; /* when its first frame came, CLOCK_MONOTONIC */
-    float age_ms;         /* of the samples when it was sent */
+    float age_ms;         /* of the samples when it was sent; over classic CAN 127 at most */
     bool k_is_valid;      /* K may be used, with its flags */
     uint32_t flags;       /* BRACE_CLIENT_FLAG_... */
     float k_xx_n_per_mm, k_xz_n_per_mm, k_zz_n_per_mm;
