@@ -66,7 +66,8 @@ def test_what_cannot_be_a_record_is_refused_by_row_and_column(case: str, tmp_pat
         assert name in message and "row 30" in message
 
 
-ALL_WRONG = {  # what a whole column reads -> words that say what is wrong with it
+# What a whole column reads -> words that say what is wrong with it
+ALL_WRONG: dict[str, tuple[str, Callable[[str], str], str]] = {
     "decimal comma": ("theta1_rad", lambda text: '"' + text.replace(".", ",") + '"', "write 0.740000"),
     "upper case": ("axis", str.upper, "write x or z"),
     "seconds since 1970": ("t_s", lambda text: f"{float(text) + 1.795e9:.3f}", "take the first reading's off all"),

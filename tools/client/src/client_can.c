@@ -170,12 +170,13 @@ static brace_client_status_t explain_silence(brace_client_t *client, const char 
     const bool is_slcan = client->bus->is_slcan;
     const uint32_t errors = brace_bus_errors(client->bus, 0); /* of short calls: the next hears the answer */
     if (errors != client->errors_before || brace_bus_lost(client->bus) != client->lost_before) {
-        return brace_client_fail(client, BRACE_CLIENT_E_BIT_RATE,
-                                 is_slcan ? "%s: the bus is there and can not be read: not the controller's bit rate (or the "
-                                            "serial line's baud rate); try 500000, or slcan:DEVICE@BAUD"
-                                          : "%s: error frames only: not the controller's bit rate, or no termination; try "
-                                            "'ip link set %s down', then up with 'type can bitrate 500000'",
-                                 client->url, client->url);
+        return brace_client_fail(
+            client, BRACE_CLIENT_E_BIT_RATE,
+            is_slcan ? "%s: the bus is there and can not be read: not the controller's bit rate (or the "
+                       "serial line's baud rate); try 500000, or slcan:DEVICE@BAUD"
+                     : "%s: error frames only: not the controller's bit rate, or no termination; try "
+                       "'ip link set %s down', then up with 'type can bitrate 500000'",
+            client->url, client->url);
     }
     return brace_client_fail(
         client, BRACE_CLIENT_E_SILENT,

@@ -19,7 +19,7 @@ struct brace_client {
     uint64_t read_us[BRACE_PART_ALL + 1];               /* of the last one read, by what was wanted */
     uint32_t read_sequence[BRACE_PART_ALL + 1];
     uint32_t heard[4];                                  /* nodes, in this call, one bit each */
-    uint32_t errors_before, lost_before;                /* of the bus, when our node was last heard: it can be read since */
+    uint32_t errors_before, lost_before;                /* of the bus, when our node was last heard: readable since */
     uint64_t ask_errors_us;                             /* when this call asks an SLCAN adapter for errors; 0: not */
     bool speaks_another;                                /* heartbeat of our node with another dictionary */
     uint32_t other_hash;
