@@ -16,7 +16,8 @@ def reason_of(case: xml.etree.ElementTree.Element) -> str:
 
 
 def main(folder: str, failed_stages: list[str]) -> int:
-    """Print failures and what was skipped and why, one a line, then 'N passed, N failed, N skipped'; 0 only if all is well."""
+    """Print failures and what was skipped and why, one a line, then 'N passed, N failed, N skipped';
+    0 only if all is well."""
     passed = failed = skipped = 0
     reported: set[str] = set()
     for report in sorted(pathlib.Path(folder).glob("*.xml")):

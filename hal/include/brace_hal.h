@@ -80,10 +80,10 @@ typedef enum { BRACE_PARITY_NONE = 0, BRACE_PARITY_EVEN = 1, BRACE_PARITY_ODD = 
 
 /* ------------------------------------------------------------------------- non-volatile memory, crash -- */
 
-/* Two slots, each erased as a whole to 0xff and then written in rising order, its first 4096 bytes and what it has beyond
- * them each for itself, each unit once; save that zeros may be written over any unit at any time, and stay. Parameters
- * stand in the former, what the drift check has learned in the latter, up to 32768: some 384 bytes a record, so slots of
- * 16384 bytes or more are worth having. */
+/* Two slots, each erased as a whole to 0xff and then written in rising order, its first 4096 bytes and what it has
+ * beyond them each for itself, each unit once; save that zeros may be written over any unit at any time, and stay.
+ * Parameters stand in the former, what the drift check has learned in the latter, up to 32768: some 384 bytes a record,
+ * so slots of 16384 bytes or more are worth having. */
 enum { BRACE_NVM_SLOT_COUNT = 2 };
 
 typedef struct {
@@ -132,9 +132,10 @@ typedef struct {
     int32_t (*tip_force_read)(void *context, float *force_x_n, float *force_z_n);
 
     /* Bytes of the non-volatile slots. Reading does not block. A write is whole units at a multiple of write_bytes and
-     * blocks at most 1 ms, in any mode; an erase may stop the processor for up to 2 s, so it is for the configuration mode
-     * only, and the watchdog's patience is longer. When power fails within a call, the units it was about may read as
-     * anything, differently each time. returns OK, E_RANGE, E_DEVICE (what was written is not what reads back is NOT checked) */
+     * blocks at most 1 ms, in any mode; an erase may stop the processor for up to 2 s, so it is for the configuration
+     * mode only, and the watchdog's patience is longer. When power fails within a call, the units it was about may read
+     * as anything, differently each time. returns OK, E_RANGE,
+     * E_DEVICE (what was written is not what reads back is NOT checked) */
     brace_nvm_shape_t nvm_shape;
     int32_t (*nvm_read)(void *context, uint32_t slot, uint32_t offset, uint8_t *bytes, uint32_t count);
     int32_t (*nvm_write)(void *context, uint32_t slot, uint32_t offset, const uint8_t *bytes, uint32_t count);

@@ -39,7 +39,7 @@ typedef struct {
 typedef struct {
     brace_plant_model_t plant;
     brace_node_drive_t drive[3];
-    double theta_rad[3];             /* set-points to begin with: commanded angles, the plant's zero offsets are added */
+    double theta_rad[3];             /* set-points to begin with: commanded; the plant's zero offsets are added */
     double hold_n_per_mm;            /* of the contact: inf: tip held, 0: tip free, else by a spring */
     double press_x_mm, press_z_mm;   /* where it holds the tip, from where the unloaded limb has it */
     double force_noise_n;            /* one sigma of a reading [0, 1e6] */

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "api/checks.h"
@@ -51,6 +52,22 @@ brace_host_status_t check(const brace_plant_model_t *model, size_t count, const 
     return all_finite(theta1, count) && all_finite(theta2, count) ? BRACE_HOST_OK : BRACE_HOST_E_NOT_FINITE;
 }
 
+/* A row for every posture, or none: out is untouched when one of them has no K. */
+template <size_t Entries, typename RowAt>
+int32_t all_rows(size_t count, double *out, RowAt row_at)
+{
+    std::vector<std::array<double, Entries>> rows(count);
+    for (size_t i = 0; i < count; ++i) {
+        if (!row_at(i, rows[i])) {
+            return BRACE_HOST_E_SINGULAR;
+        }
+    }
+    for (const auto &row : rows) {
+        out = std::copy(row.begin(), row.end(), out);
+    }
+    return BRACE_HOST_OK;
+}
+
 } // namespace
 
 extern "C" int32_t brace_reference_planar(const brace_plant_model_t *model, size_t count,
@@ -61,16 +78,9 @@ extern "C" int32_t brace_reference_planar(const brace_plant_model_t *model, size
         return status;
     }
     const Limb limb = limb_of(*model);
-    std::vector<std::array<double, 9>> rows(count);
-    for (size_t i = 0; i < count; ++i) {
-        if (!brace::reference::planar(limb, Posture{theta1_rad[i], theta2_rad[i]}, rows[i])) {
-            return BRACE_HOST_E_SINGULAR;
-        }
-    }
-    for (size_t i = 0; i < count; ++i) {
-        std::copy(rows[i].begin(), rows[i].end(), out + i * rows[i].size());
-    }
-    return BRACE_HOST_OK;
+    return all_rows<9>(count, out, [&](size_t i, std::array<double, 9> &row) {
+        return brace::reference::planar(limb, Posture{theta1_rad[i], theta2_rad[i]}, row);
+    });
 }
 
 extern "C" int32_t brace_reference_spatial(const brace_plant_model_t *model, size_t count,
@@ -88,16 +98,9 @@ extern "C" int32_t brace_reference_spatial(const brace_plant_model_t *model, siz
         return BRACE_HOST_E_NOT_FINITE;
     }
     const Limb limb = limb_of(*model);
-    std::vector<std::array<double, 18>> rows(count);
-    for (size_t i = 0; i < count; ++i) {
-        if (!brace::reference::spatial(limb, theta0_rad[i], Posture{theta1_rad[i], theta2_rad[i]}, rows[i])) {
-            return BRACE_HOST_E_SINGULAR;
-        }
-    }
-    for (size_t i = 0; i < count; ++i) {
-        std::copy(rows[i].begin(), rows[i].end(), out + i * rows[i].size());
-    }
-    return BRACE_HOST_OK;
+    return all_rows<18>(count, out, [&](size_t i, std::array<double, 18> &row) {
+        return brace::reference::spatial(limb, theta0_rad[i], Posture{theta1_rad[i], theta2_rad[i]}, row);
+    });
 }
 
 extern "C" int32_t brace_reference_tip(const brace_plant_model_t *model, size_t count,

@@ -45,7 +45,8 @@ inline void none(Model &model)
     }
 }
 
-inline constexpr const char *kLaw = "deflection changes only where the torque out of balance exceeds coulomb + ratio * |spring torque|";
+inline constexpr const char *kLaw =
+    "deflection changes only where the torque out of balance exceeds coulomb + ratio * |spring torque|";
 inline constexpr Entry kEntries[] = {
     {"coulomb_friction", "joint.femur", "joint.femur.coulomb_n_mm joint.femur.coulomb_per_load_ratio", kLaw},
     {"coulomb_friction", "joint.tibia", "joint.tibia.coulomb_n_mm joint.tibia.coulomb_per_load_ratio", kLaw},

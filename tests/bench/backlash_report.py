@@ -35,7 +35,8 @@ At every tick at which the machine tells a flank 95 % of the errors are within a
 which a flank touches, told or not. Where it tells none, its guess is applied all the same. **Of all ticks, gap open included, 95 % within a tenth of the gap is not \
 reached.** Nor is it by the oracle, a particle filter \
 that knows every parameter of joint and link exactly, the gap too, and the motor's motion without quantisation, but not what the \
-world does: with the gap open and the motor at rest within its friction, nothing of the link reaches the motor's side.
+world does: with the gap open and the motor at rest within its friction, nothing of the link reaches the motor's side. What \
+a motor would tell that leaves its setpoint to feel for the flank: [backlash.md](backlash.md).
 
 ![wrong flanks, angle errors, one history](backlash.svg)"""
 

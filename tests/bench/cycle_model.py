@@ -33,7 +33,7 @@ class Step:
 def _registers(text: str) -> int:
     """How many registers a {list} names."""
     count = 0
-    for part in re.search(r"\{(.*?)\}", text).group(1).split(","):
+    for part in text.partition("{")[2].partition("}")[0].split(","):
         low, _, high = part.strip().partition("-")
         count += int(high[1:]) - int(low[1:]) + 1 if high else 1
     return count
@@ -79,26 +79,29 @@ def walk(code: dict[int, tuple[str, str]]) -> tuple[list[Step], int]:
         mnemonic, operands = code[at]
         base = mnemonic.split(".")[0]
         cost = cycles_of(mnemonic, operands)
-        target = re.match(r"(?:\w+, )?([0-9a-f]+)\b", operands) if base[0] == "b" or base.startswith("cb") else None
-        branches = base in ("b", "cbz", "cbnz") or (len(base) == 3 and base[0] == "b" and base not in ("bic", "bfi", "bfc"))
+        jump = re.match(r"(?:\w+, )?([0-9a-f]+)\b", operands) if base[0] == "b" or base.startswith("cb") else None
+        target = int(jump[1], 16) if jump else -1
+        conditionally = len(base) == 3 and base[0] == "b" and base not in ("bic", "bfi", "bfc")
+        branches = base in ("b", "cbz", "cbnz") or conditionally
         if branches and base != "b":
             conditional += 1
             cost = 1
-            if int(target[1], 16) <= at:
+            if target <= at:
                 raise SystemExit(f"{at:x}: a loop; this model is for straight-line code")
         steps.append(Step(at, mnemonic, operands, cost))
         if base in ("bl", "blx"):
             raise SystemExit(f"{at:x}: a call; this model is for straight-line code")
         if base == "bx" or (base in ("pop", "ldmia", "ldm", "ldmfd") and "pc" in operands):
             return steps, conditional
-        at = int(target[1], 16) if base == "b" else following[at]
+        at = target if base == "b" else following[at]
 
 
 def stalls(steps: list[Step]) -> int:
     """Floating-point results consumed by the instruction right after."""
     count = 0
     for first, second in zip(steps, steps[1:]):
-        arithmetic = first.mnemonic.startswith("v") and not first.mnemonic.startswith(("vldr", "vstr", "vmov", "vmrs", "vcmp"))
+        moves = first.mnemonic.startswith(("vldr", "vstr", "vmov", "vmrs", "vcmp"))
+        arithmetic = first.mnemonic.startswith("v") and not moves
         result = first.operands.split(",")[0].strip()
         sources = second.operands if second.mnemonic.startswith(("vstr", "vcmp", "vfma", "vfms", "vfnm")) \
             else second.operands.partition(",")[2]

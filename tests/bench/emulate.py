@@ -25,12 +25,12 @@ class Counted:
     calls_before: int
 
 
-def build_plugin() -> Path:
-    """The plugin, compiled for this machine's emulator."""
-    output = BUILD / "count_instructions.so"
+def build_plugin(source: Path = BENCH / "plugin" / "count_instructions.c") -> Path:
+    """A counting plugin, compiled for this machine's emulator."""
+    output = BUILD / f"{source.stem}.so"
     output.parent.mkdir(parents=True, exist_ok=True)
-    run(["gcc", "-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", f"-I{fetch.plugin_header()}",
-         BENCH / "plugin" / "count_instructions.c", "-o", output])
+    run(["gcc", "-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", f"-I{fetch.plugin_header()}", source,
+         "-o", output])
     return output
 
 

@@ -76,7 +76,8 @@ def extra() -> Extra:
     heads = ["job", "adds [B]", "up to here [B]", *(f"{kind} [B]" for kind in KINDS)]
     return Extra("flash_bytes_of_jobs",
                  "Linked one after the other, so each row holds only what no row before has brought in. A controller "
-                 "links what it calls: nothing of the rows that it does not use. By kinds of instructions as disassembled; "
-                 f"\"{CONSTANTS}\" are literals, their loads and tables. What that says: [kernel.md](kernel.md).",
+                 "links what it calls: nothing of the rows that it does not use. By kinds of instructions as "
+                 f"disassembled; \"{CONSTANTS}\" are literals, their loads and tables. What that says: "
+                 "[kernel.md](kernel.md).",
                  [("What the flash is made of, Cortex-M4F", heads, rows)], [],
                  {job.name: {"adds": job.adds, "up_to_here": job.total, **job.kinds} for job in jobs})

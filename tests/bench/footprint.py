@@ -14,7 +14,11 @@ from weights import HOST_ONLY, NO_FPU_ONLY, WATCHING, public_functions
 
 IMAGES = ROOT / "build" / "m4f" / "images"
 
-NOTE = """The whole controller: start-up, hardware layer, application, stores and core. No heap; the stack is a part of the RAM. The estimator: every function of the core that the image has to know K and to use it, whatever the limb, linked alone: limb check, kinematics, both planar paths to K, parameter change, uncertainty, contact, slopes; without what watches the limb (play, drift)."""
+NOTE = """\
+The whole controller: start-up, hardware layer, application, stores and core. No heap; the stack is a part of the \
+RAM. The estimator: every function of the core that the image has to know K and to use it, whatever the limb, linked \
+alone: limb check, kinematics, both planar paths to K, parameter change, uncertainty, contact, slopes; without what \
+watches the limb (play, drift)."""
 
 
 def estimator_functions(image: Path) -> tuple[str, ...]:

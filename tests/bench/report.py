@@ -76,14 +76,15 @@ def tables(bench: Bench) -> list[Table]:
 
 NOTES = """\
 The same 200 postures for all (theta1 -1 to 1.5, theta2 0.2 to 2.9 rad, fixed seed), the paper's limb with moment \
-transfer and joint springs, the same outputs: K, both eigenvalues, the stiff axis. GCC -O2 unless a row says otherwise; \
-peers with GCC's own contraction of multiply and add. Instructions are counted in the emulator from a function's entry \
-to its return, callees included. Ratio: median over that of the first row. Cycles: for the call of median count \
-(parameter change: the longest), by the Cortex-M4 manual's timings without overlap of loads and stores, and \
-in brackets with its one cycle for a floating-point result used by the next instruction; then llvm-mca's estimate of \
-the same sequence. Neither is silicon. Flash: what the function pulls in, library and constants included; for the \
+transfer and joint springs, the same outputs: K, both eigenvalues, the stiff axis. GCC -O2 unless a row says \
+otherwise; peers with GCC's own contraction of multiply and add. Instructions are counted in the emulator from a \
+function's entry to its return, callees included. Ratio: median over that of the first row. Cycles: for the call of \
+median count (parameter change: the longest), by the Cortex-M4 manual's timings without overlap of loads and stores, \
+and in brackets with its one cycle for a floating-point result used by the next instruction; then llvm-mca's estimate \
+of the same sequence. Neither is silicon. Flash: what the function pulls in, library and constants included; for the \
 planar and spatial paths the parameter change too. Stack: ours by the compiler's figures, peers' as far down as it was \
-written. Errors: the largest against the double-precision reference, K as a fraction of lambda_max. The peers' model has no \
+written. Errors: the largest against the double-precision reference, K as a fraction of lambda_max. The peers' model \
+has no \
 tilt, which is to their favour."""
 
 

@@ -1,6 +1,7 @@
 """`./dev bench`: what a K costs, side by side with its peers, on the same postures; PASS or MISS per limit.
 
-Writes docs/bench.json, docs/bench.md and docs/backlash.svg. Exit codes: 0 every limit kept, 1 one missed, 4 something is missing here.
+Writes docs/bench.json, docs/bench.md and docs/backlash.svg. Exit codes: 0 every limit kept, 1 one missed,
+4 something is missing here.
 """
 
 import argparse

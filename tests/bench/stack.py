@@ -29,8 +29,9 @@ def _jumps(objectfile: Path) -> set[tuple[str, str]]:
     kinds: dict[tuple[str, str], set[str]] = defaultdict(set)
     for part in text.split("\n\n"):
         section = SECTION.search(part)
-        for kind, target in TARGET.findall(part) if section else ():
-            kinds[section[1], target].add(kind)
+        if section:
+            for kind, target in TARGET.findall(part):
+                kinds[section[1], target].add(kind)
     return {call for call, found in kinds.items() if found <= JUMPS}
 
 
@@ -60,7 +61,7 @@ def worst_stack_bytes(objects: list[Path], function: str) -> tuple[int, tuple[st
         if title in above:
             raise RuntimeError(f"recursion: {' -> '.join((*above, title))}")
         frame = frames.get(title, 0)
-        sizes = [(frame, ())]
+        sizes: list[tuple[int, tuple[str, ...]]] = [(frame, ())]
         for callee in sorted(calls.get(title, ())):
             size, chain = deepest(callee, (*above, title))
             sizes.append((size if (title, callee) in jumps else frame + size, chain))

@@ -15,8 +15,7 @@ import numpy as np
 BENCH = Path(__file__).resolve().parent
 sys.path.insert(0, str(BENCH))
 
-import fetch  # noqa: E402
-from emulate import RUN_IMAGE  # noqa: E402
+from emulate import RUN_IMAGE, build_plugin  # noqa: E402
 from extra import Extra  # noqa: E402
 from limits import Check  # noqa: E402
 from toolchain import (BOARDS, BUILD, CORE, CORE_FLAGS, M4F, PREFIX, compile_source, link_image, run,  # noqa: E402
@@ -27,9 +26,11 @@ TICK_COUNT = 1_000_000
 FUNCTION = "brace_app_tick"
 
 KINDS = {"M": "monitor", "T": "taking up", "L": "loading test", "R": "loading test: a reading",
-         "D": "loading test: the drift check", "J": "loading test: its slopes", "K": "loading test: slopes against the model",
+         "D": "loading test: the drift check", "J": "loading test: its slopes",
+         "K": "loading test: slopes against the model",
          "C": "configuration",
-         "P": "putting parameters in force", "W": "keeping what the drift check knows", "S": "storing parameters", "0": "start", "F": "fault",
+         "P": "putting parameters in force", "W": "keeping what the drift check knows", "S": "storing parameters",
+         "0": "start", "F": "fault",
          "Q": "answering a request over CAN, beside K", "G": "the same, K by the general path",
          "A": "answering, K left out or a piece of it", "E": "answering beside a piece of a loading test"}
 
@@ -91,18 +92,9 @@ def _door(image: Path) -> tuple[int, int]:
     return min(door)[0], sum(max(door))
 
 
-def build_plugin() -> Path:
-    """The counting plugin, compiled for this machine's emulator."""
-    output = BUILD / "count_ticks.so"
-    output.parent.mkdir(parents=True, exist_ok=True)
-    run(["gcc", "-O2", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", f"-I{fetch.plugin_header()}",
-         BENCH / "tick" / "count_ticks.c", "-o", output])
-    return output
-
-
 def measure_ticks(ticks: int = TICK_COUNT) -> TickCost:
     """Build, run, count."""
-    image, plugin = build_image(ticks), build_plugin()
+    image, plugin = build_image(ticks), build_plugin(BENCH / "tick" / "count_ticks.c")
     record = image.with_suffix(".counts")
     low, high = _door(image)
     entry = symbol_address(image, FUNCTION) & ~1
@@ -129,11 +121,13 @@ def _summary(counts: np.ndarray, letters: np.ndarray) -> TickCost:
 
 
 NOTE = """\
-One whole tick of the controller, from samples to snapshot: K with its eigenvalues, both joints' state machines, supervisor, \
-services. Counted over random ticks on the emulated Cortex-M4F: limbs that collapse and limbs that take the general path, every \
-mode, take-ups and loading tests, parameters stored and put in force, bad samples, late ticks, a full bus, requests \
-over CAN and SLCAN, in some runs in every tick, Modbus on both ports. A call of the hardware layer counts as the call alone. A reading of a loading test is worked out in up to three ticks of its own, which \
-compute no K: the snapshot before stays. Beside an answer K comes in pieces where it has no room as a whole, above all on limbs \
+One whole tick of the controller, from samples to snapshot: K with its eigenvalues, both joints' state machines, \
+supervisor, services. Counted over random ticks on the emulated Cortex-M4F: limbs that collapse and limbs that take \
+the general path, every mode, take-ups and loading tests, parameters stored and put in force, bad samples, late \
+ticks, a full bus, requests over CAN and SLCAN, in some runs in every tick, Modbus on both ports. A call of the \
+hardware layer counts as the call alone. A reading of a loading test is worked out in up to three ticks of its own, \
+which compute no K: the snapshot before stays. Beside an answer K comes in pieces where it has no room as a whole, \
+above all on limbs \
 of the general path. A set that is to be stored is checked, packed, written and put in force in pieces, one a tick."""
 
 
@@ -145,11 +139,12 @@ def extra() -> Extra:
     data: dict[str, object] = {
         "ticks": cost.count, "instructions_mean": round(cost.mean, 1), "instructions_p99": cost.quantile_99,
         "instructions_max": cost.maximum, "limit": TICK_LIMIT,
-        "kinds": {kind.name: {"ticks": kind.count, "mean": round(kind.mean, 1), "max": kind.maximum} for kind in cost.kinds}}
+        "kinds": {kind.name: {"ticks": kind.count, "mean": round(kind.mean, 1), "max": kind.maximum}
+                  for kind in cost.kinds}}
     check = Check(f"controller's tick, instructions, worst of {cost.count:,} random ones (mean {cost.mean:,.0f})",
                   f"{cost.maximum:,}", f"at most {TICK_LIMIT:,}", cost.maximum <= TICK_LIMIT)
-    return Extra("tick", NOTE, [("The controller's tick: instructions", ["kind of tick", "ticks", "mean", "worst"], rows)],
-                 [check], data)
+    table = ("The controller's tick: instructions", ["kind of tick", "ticks", "mean", "worst"], rows)
+    return Extra("tick", NOTE, [table], [check], data)
 
 
 def as_text(cost: TickCost) -> str:

@@ -52,7 +52,8 @@ def _ours(name: str, group: str, function: str, job: str, limb: str = "PAPER", p
           flash_with: tuple[str, ...] = (), flash_table: str = "") -> Version:
     limbs = {"PAPER": paper_limb, "TILTED": tilted_limb, "COXA": coxa_limb}
     job_flags = (f"-DBENCH_LIMB=BENCH_{limb}_LIMB",)
-    return Version(name, group, processor, function, core_sources(), OURS / job, (), job_flags, flash_with, flash_table, limbs[limb](), True)
+    return Version(name, group, processor, function, core_sources(), OURS / job, (), job_flags, flash_with, flash_table,
+                   limbs[limb](), True)
 
 
 def ours() -> list[Version]:

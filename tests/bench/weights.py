@@ -18,8 +18,10 @@ ANY_FLASH = "flash, Cortex-M4F, every job of a limb in its plane, any base (the 
 SPACE_FLASH = "flash, Cortex-M4F, every job of a limb in space"
 
 WATCHING = ("backlash", "gap_stiffness", "drift")  # what watches the limb; the estimator does without
-LIMB_FLASH = "flash, Cortex-M4F, every job in the plane, both paths to K, for a limb not known before its parameters come"
-CORE_FLASH = "flash, Cortex-M4F, every function of the estimator: with the table variant, and lists of elements, which are for hosts"
+LIMB_FLASH = ("flash, Cortex-M4F, every job in the plane, both paths to K, "
+              "for a limb not known before its parameters come")
+CORE_FLASH = ("flash, Cortex-M4F, every function of the estimator: with the table variant, and lists of elements, "
+              "which are for hosts")
 PLANAR_RAM = "RAM, one limb: parameters and planar constants"
 FIXED_RAM = "RAM, one limb: parameters and fixed-point constants"
 SPATIAL_RAM = "RAM, one limb: parameters and spatial constants"
@@ -47,11 +49,13 @@ def public_functions(headers_without: tuple[str, ...]) -> tuple[str, ...]:
 
 def _declared(headers: tuple[str, ...]) -> tuple[str, ...]:
     """The functions of some public headers, "name" without its ".h"."""
-    return tuple(name for header in headers for name in functions_of((CORE / "include" / "brace" / f"{header}.h").read_text()))
+    return tuple(name for header in headers
+                 for name in functions_of((CORE / "include" / "brace" / f"{header}.h").read_text()))
 
 
 def limb_kinds() -> dict[str, tuple[str, ...]]:
-    """Kinds of limbs -> all public functions that have a job there. A limb is of one of them, and links no other's K."""
+    """Kinds of limbs -> all public functions that have a job there. A limb is of one of them,
+    and links no other's K."""
     plane = without_space(_declared((*JOBS, "uncertainty")))
     return {
         EQUAL_FLASH: (*_declared(("planar",)), *plane),
@@ -91,7 +95,8 @@ def weigh_core() -> dict[str, int]:
     everything, deepest_of_all, needs_most = _weigh("everything", public_functions(HOST_ONLY))
     once, _, _ = _weigh("once", public_functions((*estimator, *TWICE)))
     limb_only, _, _ = _weigh("planar_limb", without_space(public_functions((*estimator, *TWICE, "spatial"))))
-    kinds = {kind: _weigh(f"limb_{number}", functions)[0] for number, (kind, functions) in enumerate(limb_kinds().items())}
+    kinds = {kind: _weigh(f"limb_{number}", functions)[0]
+             for number, (kind, functions) in enumerate(limb_kinds().items())}
     sizes = type_sizes(("brace_limb_t", "brace_planar_t", "brace_planar_fixed_t", "brace_spatial_t"),
                        ("brace/limb.h", "brace/planar.h", "brace/planar_fixed.h", "brace/spatial.h"), M4F)
     limb = sizes["brace_limb_t"]

@@ -1,5 +1,5 @@
-/* client_probe BUS NODE TIMEOUT_MS CALL [NUMBER...]: one call of the C client; numbers it gives on stdout as "name value"
- * lines, its reason on stderr, its status as exit code (positive).
+/* client_probe BUS NODE TIMEOUT_MS CALL [NUMBER...]: one call of the C client; numbers it gives on stdout as "name
+ * value" lines, its reason on stderr, its status as exit code (positive).
  *   identity | read PARTS COUNT | posture T1 T2 [COUNT] (the last one's) | tip X Z UP | force DX DZ | sag FX FZ
  *   margin NORMAL MU
  *   loop WAIT_MS FOR_MS: reads K in a control loop, each time with that time-out
@@ -51,9 +51,9 @@ static int bus_call(const char *url, const char *call, int count)
 
 static void print_k(const brace_client_k_t *k)
 {
-    printf("k_xx %.9g\nk_xz %.9g\nk_zz %.9g\nlambda_min %.9g\nlambda_max %.9g\nstiff_axis %.9g\nflags %u\n", k->k_xx_n_per_mm,
-           k->k_xz_n_per_mm, k->k_zz_n_per_mm, k->lambda_min_n_per_mm, k->lambda_max_n_per_mm, k->stiff_axis_rad,
-           (unsigned)k->flags);
+    printf("k_xx %.9g\nk_xz %.9g\nk_zz %.9g\nlambda_min %.9g\nlambda_max %.9g\nstiff_axis %.9g\nflags %u\n",
+           k->k_xx_n_per_mm, k->k_xz_n_per_mm, k->k_zz_n_per_mm, k->lambda_min_n_per_mm, k->lambda_max_n_per_mm,
+           k->stiff_axis_rad, (unsigned)k->flags);
 }
 
 static brace_client_status_t read_some(brace_client_t *client)

@@ -1,4 +1,5 @@
-"""The C client's tests: a probe that makes its calls, `brace sim` to call, and a controller made of Python that misbehaves."""
+"""The C client's tests: a probe that makes its calls, `brace sim` to call,
+and a controller made of Python that misbehaves."""
 
 from __future__ import annotations
 
@@ -34,8 +35,8 @@ class Answer:
 
     @property
     def told_in_time(self) -> bool:
-        """Within the 3 s that are promised for every failure; where the machine is so busy that processes start late, so
-        much later as ten of them do."""
+        """Within the 3 s that are promised for every failure; where the machine is so busy that processes start late,
+        so much later as ten of them do."""
         if self.seconds < TELLING_S:
             return True
         begin = time.monotonic()

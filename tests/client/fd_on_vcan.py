@@ -1,5 +1,5 @@
-"""Run where the kernel has CAN (test_vcan.py does): snapshots as frames of CAN FD, from `brace sim` to other people's tools,
-to ours, and to the C client."""
+"""Run where the kernel has CAN (test_vcan.py does): snapshots as frames of CAN FD, from `brace sim` to other people's
+tools, to ours, and to the C client."""
 
 from __future__ import annotations
 
@@ -30,14 +30,16 @@ def limb(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("fd") / "limb.toml"
     text = LIMB.read_text()
     keys = "can_fd_bit_rate = 4000000\nstiffness_hz = 100\nbus_load_ratio = 0.5\n"
-    path.write_text(text.replace("[controller]\n", "[controller]\n" + keys) if "[controller]" in text else text + "\n[controller]\n" + keys)
+    whole = text if "[controller]" in text else text + "\n[controller]\n"
+    path.write_text(whole.replace("[controller]\n", "[controller]\n" + keys))
     return path
 
 
 @pytest.fixture
 def sim(limb: Path) -> Iterator[dict[str, Any]]:
     """`brace sim` on vcan0."""
-    command = [sys.executable, "-m", "brace", "sim", "--model", str(limb), "--json", "--can", "vcan0", "--modbus", "none"]
+    command = [sys.executable, "-m", "brace", "sim", "--model", str(limb), "--json", "--can", "vcan0", "--modbus",
+               "none"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None
     yield json.loads(process.stdout.readline())
@@ -46,7 +48,8 @@ def sim(limb: Path) -> Iterator[dict[str, Any]]:
 
 
 def test_candump_shows_two_hashes(sim: dict[str, Any]) -> None:
-    done = subprocess.run(["candump", "-L", "-T", "5000", "-n", "120", "vcan0"], capture_output=True, text=True, timeout=90)
+    done = subprocess.run(["candump", "-L", "-T", "5000", "-n", "120", "vcan0"], capture_output=True, text=True,
+                          timeout=90)
     whole = [found for line in done.stdout.splitlines() if (found := LINE.fullmatch(line))]
     assert len(whole) > 60, done.stdout[:600]
     assert not re.search(r" (181|281|381|481)#", done.stdout)
@@ -59,7 +62,8 @@ def test_candump_shows_two_hashes(sim: dict[str, Any]) -> None:
 def test_python_can_and_cantools_read_the_k_that_brace_reads(sim: dict[str, Any]) -> None:
     database = cantools.database.load_file(INTERFACE / "brace_fd.dbc")
     asked = json.loads(subprocess.run(
-        [sys.executable, "-m", "brace", "query", "--bus", "vcan0", "--json"], capture_output=True, text=True, timeout=90, check=True
+        [sys.executable, "-m", "brace", "query", "--bus", "vcan0", "--json"], capture_output=True, text=True,
+        timeout=90, check=True
     ).stdout)
     with can.Bus(interface="socketcan", channel="vcan0", fd=True) as bus:
         until = time.monotonic() + 30
@@ -93,9 +97,11 @@ def test_the_c_client_reads_them(sim: dict[str, Any], probe: Any) -> None:
 def test_brace_records_and_replays_them(sim: dict[str, Any], tmp_path: Path) -> None:
     run = [sys.executable, "-m", "brace"]
     log = tmp_path / "fd.log"
-    subprocess.run([*run, "record", "--bus", "vcan0", "--out", log, "--seconds", "2"], check=True, capture_output=True, timeout=90)
+    subprocess.run([*run, "record", "--bus", "vcan0", "--out", log, "--seconds", "2"], check=True, capture_output=True,
+                   timeout=90)
     assert sum(LINE.fullmatch(line) is not None for line in log.read_text().splitlines()) > 60
-    again = subprocess.run([*run, "replay", log, "--json"], check=True, capture_output=True, text=True, timeout=90).stdout
+    again = subprocess.run([*run, "replay", log, "--json"], check=True, capture_output=True, text=True,
+                           timeout=90).stdout
     snapshots = [entry for line in again.splitlines() if "k_xx_n_per_mm" in (entry := json.loads(line))]
     assert len(snapshots) > 60 and all(entry["k_is_valid"] and "theta1_rad" in entry for entry in snapshots)
 
@@ -104,10 +110,12 @@ def test_an_interface_for_classic_frames_gets_classic_ones(limb: Path) -> None:
     subprocess.run(["ip", "link", "add", "vcan8", "type", "vcan"], check=True)
     subprocess.run(["ip", "link", "set", "vcan8", "mtu", "16"], check=True)
     subprocess.run(["ip", "link", "set", "vcan8", "up"], check=True)
-    command = [sys.executable, "-m", "brace", "sim", "--model", str(limb), "--json", "--can", "vcan8", "--modbus", "none"]
+    command = [sys.executable, "-m", "brace", "sim", "--model", str(limb), "--json", "--can", "vcan8", "--modbus",
+               "none"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None and process.stdout.readline()
-    done = subprocess.run(["candump", "-L", "-T", "1500", "-n", "100", "vcan8"], capture_output=True, text=True, timeout=90)
+    done = subprocess.run(["candump", "-L", "-T", "1500", "-n", "100", "vcan8"], capture_output=True, text=True,
+                          timeout=90)
     process.send_signal(signal.SIGTERM)
     process.communicate(timeout=60)
     subprocess.run(["ip", "link", "del", "vcan8"], check=True)

@@ -1,4 +1,5 @@
-"""Run where the kernel has CAN (test_vcan.py does): the client's SocketCAN against python-can and the kernel's own faults."""
+"""Run where the kernel has CAN (test_vcan.py does):
+the client's SocketCAN against python-can and the kernel's own faults."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""A controller on SLCAN over TCP, in Python, that can be made to misbehave. Shares no code with the C on either side."""
+"""A controller on SLCAN over TCP, in Python, that can be made to misbehave.
+Shares no code with the C on either side."""
 
 from __future__ import annotations
 
@@ -28,10 +29,11 @@ class SlcanController:
         hangs_up: bool = False,
         echo_first: bool = False,
         refuses_force: tuple[int, int] | None = None,
+        noise_first: bytes = b"",
     ) -> None:
         self.node, self.hash, self.speaks, self.answers, self.errors = node, hash_, speaks, answers, errors
         self.garbage, self.flood, self.hangs_up, self.echo_first = garbage, flood, hangs_up, echo_first
-        self.refuses_force = refuses_force  # status, detail
+        self.refuses_force, self.noise_first = refuses_force, noise_first  # status and detail; sent once
         self.requests: list[bytes] = []
         self.forced: list[float] = []
         self._server = socket.create_server(("127.0.0.1", 0))
@@ -44,7 +46,8 @@ class SlcanController:
         self._thread.start()
         return self
 
-    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None, trace: TracebackType | None) -> None:
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None,
+                 trace: TracebackType | None) -> None:
         self._ends = True
         self._thread.join(timeout=5)
         self._server.close()
@@ -64,6 +67,7 @@ class SlcanController:
 
     def _serve(self, line: socket.socket) -> None:
         rest, beat = b"", 0.0
+        line.sendall(self.noise_first)
         if self.flood:  # faster than it can be read
             line.settimeout(5.0)
             while not self._ends:

@@ -45,7 +45,8 @@ def model_k(theta1: float, theta2: float) -> dict[str, float]:
     k = np.linalg.inv(compliance)
     values, vectors = np.linalg.eigh(k)
     axis = math.atan(vectors[1, 1] / vectors[0, 1])
-    return {"k_xx": k[0, 0], "k_xz": k[0, 1], "k_zz": k[1, 1], "lambda_min": values[0], "lambda_max": values[1], "stiff_axis": axis}
+    return {"k_xx": k[0, 0], "k_xz": k[0, 1], "k_zz": k[1, 1], "lambda_min": values[0], "lambda_max": values[1],
+            "stiff_axis": axis}
 
 
 @contextlib.contextmanager
@@ -111,7 +112,8 @@ def test_k_comes_at_its_rate(probe: Probe, sim: Sim) -> None:
     numbers = [snapshot["snapshot"] for snapshot in answer.snapshots]
     steps = [(other - one) % 256 for one, other in zip(numbers, numbers[1:], strict=False)]
     assert min(steps) > 0  # none twice
-    # 200 Hz, counted on the controller's own clock of 1 kHz: the machine may be slow, and a limb that is late leaves out ticks
+    # 200 Hz, counted on the controller's own clock of 1 kHz: the machine may be slow,
+    # and a limb that is late leaves out ticks
     assert 3 <= statistics.median(steps) <= 6, steps
 
 

@@ -30,13 +30,15 @@ static brace_bus_frame_t frame_of(uint32_t kind, uint32_t tick, uint64_t now_us)
     brace_bus_frame_t frame = {.id = id[kind] + NODE, .length = 8u, .received_us = now_us};
     const uint32_t sequence = tick & 0xffu;
     if (kind == 0u) {
-        const brace_can_stiffness_a_t a = {.sequence = sequence, .k_xx_n_per_mm = mark(tick), .k_xz_n_per_mm = mark(tick)};
+        const brace_can_stiffness_a_t a = {
+            .sequence = sequence, .k_xx_n_per_mm = mark(tick), .k_xz_n_per_mm = mark(tick)};
         (void)brace_can_pack_stiffness_a(&a, frame.data);
     } else if (kind == 1u) {
         const brace_can_stiffness_b_t b = {.sequence = sequence, .k_zz_n_per_mm = mark(tick), .age_ms = 0.5f};
         (void)brace_can_pack_stiffness_b(&b, frame.data);
     } else if (kind == 2u) {
-        const brace_can_eigenvalues_t e = {.sequence = sequence, .lambda_max_n_per_mm = (float)(tick & 0x7ffffu) * 0.005f};
+        const brace_can_eigenvalues_t e = {.sequence = sequence,
+                                           .lambda_max_n_per_mm = (float)(tick & 0x7ffffu) * 0.005f};
         (void)brace_can_pack_eigenvalues(&e, frame.data);
     } else {
         const brace_can_posture_t p = {.sequence = sequence, .theta1_rad = (float)(tick & 0x7ffffu) * 2e-5f};
@@ -176,7 +178,8 @@ static void test_an_unknown_k_is_not_valid_and_never_zero(void)
 static void test_a_frame_of_can_fd_is_a_whole_snapshot(void)
 {
     brace_joiner_t joiner = {0};
-    brace_bus_frame_t frame = {.id = BRACE_CAN_ID_SNAPSHOT_FD + NODE, .length = 64u, .fd = true, .received_us = 1000000u};
+    brace_bus_frame_t frame = {
+        .id = BRACE_CAN_ID_SNAPSHOT_FD + NODE, .length = 64u, .fd = true, .received_us = 1000000u};
     const brace_can_snapshot_fd_t sent = {
         .sequence = 0x12345607u, .parameter_crc = 0xabcd1234u, .age_ms = 1.5f, .flags = 9u, .mode = 1u, .faults = 0x84u,
         .play_tibia = 3u, .k_xx_n_per_mm = 4.0f, .k_xz_n_per_mm = -0.5f, .k_zz_n_per_mm = 1.0f,

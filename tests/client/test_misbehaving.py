@@ -143,6 +143,12 @@ def test_silence_holds_a_control_loop_up_no_longer_than_its_time_out(probe: Prob
         assert loop["good"] == 0 and loop["failed"] >= 10 and loop["last_failure"] == status, loop
 
 
+def test_what_was_broken_before_it_was_heard_is_no_wrong_bit_rate(probe: Probe) -> None:
+    """Noise while the line was opened; it has answered since, and is silent now."""
+    with SlcanController(speaks=False, noise_first=b"\xf0\x81\rt70015\r") as controller:
+        assert probe(controller.url, "loop", 20, 300).values["last_failure"] == SILENT
+
+
 @pytest.mark.parametrize(("speaks", "status"), [(False, SILENT), (True, TIMEOUT)])
 def test_what_was_heard_before_a_question_is_no_sign_of_life(probe: Probe, speaks: bool, status: int) -> None:
     with SlcanController(speaks=speaks) as controller:  # answers identify, not this
@@ -172,7 +178,8 @@ def test_another_client_with_the_same_token(probe: Probe) -> None:
 
 def test_values_out_of_range_are_not_sent(probe: Probe) -> None:
     with SlcanController() as controller:
-        for call in (("posture", 9, 1), ("posture", "nan", 1), ("tip", 9000, 0, 1), ("force", 900, 0), ("sag", "inf", 0)):
+        for call in (("posture", 9, 1), ("posture", "nan", 1), ("tip", 9000, 0, 1), ("force", 900, 0),
+                     ("sag", "inf", 0)):
             assert probe(controller.url, *call).code == USAGE, call
         assert all(request[0] == 20 for request in controller.requests)
 

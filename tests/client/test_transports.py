@@ -105,12 +105,14 @@ def test_serial_to_python_can(pair: tuple[Path, Path, subprocess.Popen[bytes]], 
 
 def test_text_in_every_cut() -> None:
     """An adapter's answers, time stamps, frames of other kinds, lines that are broken: only frames come out."""
-    text = b"\r\az\rZ\rV1013\rt1812abcd\rt18120102FFFF\rT000001812abcd\rr1810\rt1819\rt181\rtXYZ0\rt7ff0\r" + b"t" * 100 + b"\rt0011EE\r"
+    text = b"\r\az\rZ\rV1013\rt1812abcd\rt18120102FFFF\rT000001812abcd\rr1810\rt1819\rt181\rtXYZ0\rt7ff0\r"
+    text += b"t" * 100 + b"\rt0011EE\r"
     whole = [(0x181, b"\xab\xcd"), (0x181, b"\x01\x02"), (0x7FF, b""), (0x001, b"\xee")]
     with socket.create_server(("127.0.0.1", 0)) as server:
         for cut in range(1, len(text), 5):
             process = subprocess.Popen(
-                [PROBE, f"tcp://127.0.0.1:{server.getsockname()[1]}", "0", "1000", "dump", str(PATIENCE_MS), str(len(whole))],
+                [PROBE, f"tcp://127.0.0.1:{server.getsockname()[1]}", "0", "1000", "dump", str(PATIENCE_MS),
+                 str(len(whole))],
                 stdout=subprocess.PIPE, text=True,
             )  # fmt: skip
             line, _ = server.accept()

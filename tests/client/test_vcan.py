@@ -23,8 +23,10 @@ def test_socketcan() -> None:
         PYTHONDONTWRITEBYTECODE="1",
     )  # fmt: skip
     done = subprocess.run(
-        [PROJECT / "tests" / "socketcan" / "with_vcan", "env", "TMPDIR=/dev/shm", sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider",
-         "tests/client/on_vcan.py", "tests/client/fd_on_vcan.py", "tests/client/test_against_sim.py", "-k", "not modbus"],
+        [PROJECT / "tests" / "socketcan" / "with_vcan", "env", "TMPDIR=/dev/shm", sys.executable, "-m", "pytest", "-q",
+         "-p", "no:cacheprovider",
+         "tests/client/on_vcan.py", "tests/client/fd_on_vcan.py", "tests/client/test_against_sim.py", "-k",
+         "not modbus"],
         cwd=PROJECT, env=environment, capture_output=True, text=True, timeout=540,
     )  # fmt: skip
     assert done.returncode == 0, done.stdout[-6000:] + done.stderr[-2000:]

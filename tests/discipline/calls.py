@@ -1,5 +1,5 @@
-"""Who calls whom, from the sources: no recursion, every call through a pointer known, and with the compiler's own figures
-(-fstack-usage) how deep the stack can get.
+"""Who calls whom, from the sources: no recursion, every call through a pointer known, and with the compiler's own
+figures (-fstack-usage) how deep the stack can get.
 
 A call through a structure's member can reach every function that is ever put there; one through an argument, every
 function that is ever passed for it. Such calls go only through the members of brace_hal_t and the names in POINTERS.
@@ -247,7 +247,8 @@ def pointer_findings(graph: Graph) -> list[Finding]:
                 found.append(Finding(node.path, line, POINTER, f"in {short(node.key)}: through {name}; list it in "
                                      "tests/discipline/pointers.txt and say what it is"))
             elif not graph.targets.get(place) and name not in graph.members | elsewhere:
-                found.append(Finding(node.path, line, POINTER, f"in {short(node.key)}: nothing is ever put into {name}"))
+                found.append(Finding(node.path, line, POINTER,
+                                     f"in {short(node.key)}: nothing is ever put into {name}"))
     return found
 
 

@@ -1,10 +1,10 @@
-"""The firmware's discipline: no heap, no stdio, no recursion, a bound on every loop, no floating point in interrupt handlers,
-every call through a pointer known; and how deep the stack can get.
+"""The firmware's discipline: no heap, no stdio, no recursion, a bound on every loop, no floating point in interrupt
+handlers, every call through a pointer known; and how deep the stack can get.
 
     python tests/discipline/check.py [BUILD]     BUILD: a Cortex-M4F build, build/m4f if not given
 
-Sources are all .c under firmware/ and hal/, found by looking; objects and images those of the build. Every finding names
-file, line and rule. Exit codes: 0 none, 1 some, 4 no build.
+Sources are all .c under firmware/ and hal/, found by looking; objects and images those of the build. Every finding
+names file, line and rule. Exit codes: 0 none, 1 some, 4 no build.
 """
 from __future__ import annotations
 
@@ -86,7 +86,8 @@ def run(build: Path) -> Report:
     for image in objects.controller_images(build):
         def pointed(name: str, image: objects.Image = image) -> set[str]:
             node = graph.nodes.get(_key(graph, name, image))
-            names = {calls.short(t) for place, _ in (node.through if node else ()) for t in graph.targets.get(place, ())}
+            names = {calls.short(t) for place, _ in (node.through if node else ())
+                     for t in graph.targets.get(place, ())}
             return names & set(image.functions)
 
         findings += objects.interrupt_findings(image, where, pointed) + objects.forbidden_in_image(image)
@@ -109,8 +110,8 @@ def as_text(report: Report) -> str:
     """For a terminal."""
     lines = [f"{report.sources} sources, {report.objects} objects, {report.functions} functions, {report.loops} loops"]
     for d in report.depths:
-        lines += [f"{d.image}: stack at most {d.worst_bytes} B of {d.room_bytes} B (main {d.main_bytes}, a tick {d.tick_bytes}, an "
-                  f"interrupt on top {d.handler_bytes})", "  " + " -> ".join(d.chain)]
+        lines += [f"{d.image}: stack at most {d.worst_bytes} B of {d.room_bytes} B (main {d.main_bytes}, "
+                  f"a tick {d.tick_bytes}, an interrupt on top {d.handler_bytes})", "  " + " -> ".join(d.chain)]
     return "\n".join([*lines, *map(str, report.findings), f"{len(report.findings)} findings"])
 
 

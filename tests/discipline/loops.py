@@ -1,7 +1,7 @@
 """Every loop has a bound that can be seen.
 
-Accepted: a condition one of whose parts compares a counter with a bound, where every change of the counter in the loop goes
-towards the bound, one of them at every turn, and the bound is bounded itself:
+Accepted: a condition one of whose parts compares a counter with a bound, where every change of the counter in the loop
+goes towards the bound, one of them at every turn, and the bound is bounded itself:
  - a constant, or made of such by arithmetic, min-like choice, masking or remainder;
  - a variable that only ever gets such values, or a static function's argument that only ever is one;
  - what a function of the same file answers, if all its answers are bounded;
@@ -224,15 +224,18 @@ class Function:
             if isinstance(at, c_ast.If) and returns(at.iftrue) and at.coord.line < self.before_line:
                 for cond in alternatives(at.cond):
                     if isinstance(cond, c_ast.BinaryOp) and (
-                            (cond.op in (">", ">=") and written(cond.left) == text and self.bounded(cond.right, depth + 1)) or
-                            (cond.op in ("<", "<=") and written(cond.right) == text and self.bounded(cond.left, depth + 1))):
+                            (cond.op in (">", ">=") and written(cond.left) == text
+                             and self.bounded(cond.right, depth + 1)) or
+                            (cond.op in ("<", "<=") and written(cond.right) == text
+                             and self.bounded(cond.left, depth + 1))):
                         return True
                     if self._asked(cond, text, depth):
                         return True
         return False
 
     def _asked(self, cond: c_ast.Node, text: str, depth: int) -> bool:
-        """A function of this file was asked whether it is too large: it compares that argument with something bounded."""
+        """A function of this file was asked whether it is too large:
+        it compares that argument with something bounded."""
         for call in walk(cond):
             if isinstance(call, c_ast.FuncCall) and call.args is not None:
                 place = next((i for i, at in enumerate(call.args.exprs) if written(at) == text), None)
@@ -311,8 +314,8 @@ class Function:
         """Of this function."""
         for at in walk(self.node.body):
             if isinstance(at, LOOPS) and not self._accepted(at):
-                yield self._finding(at, "no counter is seen that reaches a bound; give it one, document the bound's range, "
-                                        "or say in the loop's comment 'at most ...'")
+                yield self._finding(at, "no counter is seen that reaches a bound; give it one, document the bound's "
+                                        "range, or say in the loop's comment 'at most ...'")
         yield from self._jumps()
 
     def _finding(self, node: c_ast.Node, why: str) -> Finding:
@@ -394,7 +397,8 @@ class Function:
             return self.is_static and self._arguments_bounded(name, 0)
         values = [at.init for at in walk(self.node.body)
                   if isinstance(at, c_ast.Decl) and at.name == name and at.init is not None]
-        values += [at.rvalue for at in changes(self.node.body, name) if isinstance(at, c_ast.Assignment) and at.op == "="]
+        values += [at.rvalue for at in changes(self.node.body, name) if isinstance(at, c_ast.Assignment)
+                   and at.op == "="]
         return bool(values) and all(self.bounded(value) for value in values)
 
     @staticmethod

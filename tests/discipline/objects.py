@@ -14,10 +14,10 @@ LIBRARY = "library"
 FLOATING_POINT = "floating point in an interrupt"
 INDIRECT = "indirect call in an interrupt"
 
-HEAP = {"malloc", "calloc", "realloc", "free", "aligned_alloc", "strdup", "_malloc_r", "_calloc_r", "_realloc_r", "_free_r",
-        "sbrk", "_sbrk", "_sbrk_r", "alloca", "_Znwj", "_Znaj"}
-STDIO = re.compile(r"^_?(v?[fs]?n?i?printf|v?[fs]?scanf|f?puts|f?putc(har)?|f?getc(har)?|fopen|fclose|fwrite|fread|fflush|perror"
-                   r"|std(in|out|err))(_r)?$")
+HEAP = {"malloc", "calloc", "realloc", "free", "aligned_alloc", "strdup", "_malloc_r", "_calloc_r", "_realloc_r",
+        "_free_r", "sbrk", "_sbrk", "_sbrk_r", "alloca", "_Znwj", "_Znaj"}
+STDIO = re.compile(r"^_?(v?[fs]?n?i?printf|v?[fs]?scanf|f?puts|f?putc(har)?|f?getc(har)?|fopen|fclose|fwrite|fread"
+                   r"|fflush|perror|std(in|out|err))(_r)?$")
 SETJMP = {"setjmp", "longjmp"}
 UNKNOWN = {"system", "exit", "abort", "signal", "atexit"}
 
@@ -125,7 +125,8 @@ class Image:
     def handlers(self, table: str = "vectors") -> set[str]:
         """Functions of the vector table but the reset handler."""
         start, size = self.symbols[table]
-        dump = _run(CROSS + "objdump", "-s", "-j", f".{table}", f"--start-address={start}",  # debug sections begin at 0 as well
+        # debug sections begin at 0 as well
+        dump = _run(CROSS + "objdump", "-s", "-j", f".{table}", f"--start-address={start}",
                     f"--stop-address={start + size}", self.path)
         rows = re.findall(r"^ [0-9a-f]+ ((?:[0-9a-f]{8} ){1,4}) ", dump, re.M)
         words = [int.from_bytes(bytes.fromhex(word), "little") for row in rows for word in row.split()]
@@ -139,18 +140,20 @@ class Image:
             name = pending.pop()
             if name not in seen and name in self.functions:
                 seen.append(name)
-                pending += sorted(self.functions[name].calls | (pointed(name) if self.functions[name].indirect else set()))
+                pending += sorted(self.functions[name].calls
+                                  | (pointed(name) if self.functions[name].indirect else set()))
         return seen
 
     def library_stack_bytes(self, name: str) -> int:
-        """Deepest stack of a function of the C library, all it calls on top of one another; 0 for what is no function."""
+        """Deepest stack of a function of the C library, all it calls on top of one another;
+        0 for what is no function."""
         return sum(self.functions[f].frame_bytes for f in self.reached(name))
 
 
 def interrupt_findings(image: Image, where: dict[str, tuple[Path, int]],
                        pointed: Callable[[str], set[str]] = lambda _: set()) -> list[Finding]:
-    """Floating-point instructions in any handler or what it calls; `where`: function -> source and line; `pointed`: what
-    a function calls through pointers."""
+    """Floating-point instructions in any handler or what it calls; `where`: function -> source and line; `pointed`:
+    what a function calls through pointers."""
     found = []
     for handler in sorted(image.handlers()):
         for name in image.reached(handler, pointed):
@@ -159,9 +162,11 @@ def interrupt_findings(image: Image, where: dict[str, tuple[Path, int]],
             floating = next((m for m, _ in machine.instructions if m.startswith("v")), None)
             soft = [c for c in machine.calls if SOFT_FLOAT.match(c)]
             if floating or soft:
-                found.append(Finding(path, line, FLOATING_POINT, f"{name} ({floating or soft[0]}), called from {handler}"))
+                found.append(Finding(path, line, FLOATING_POINT,
+                                     f"{name} ({floating or soft[0]}), called from {handler}"))
             if machine.indirect and not pointed(name):
-                found.append(Finding(path, line, INDIRECT, f"{name}, called from {handler}: what it reaches is not known"))
+                found.append(Finding(path, line, INDIRECT,
+                                     f"{name}, called from {handler}: what it reaches is not known"))
     return found
 
 

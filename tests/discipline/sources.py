@@ -25,7 +25,8 @@ TYPES = "".join(f"typedef {'unsigned ' if u else ''}{base} {'u' if u else ''}{na
                                                           ("int64", "long long"), ("intptr", "long"))) + """
 typedef _Bool bool; typedef unsigned long size_t; typedef long ssize_t; typedef long ptrdiff_t; typedef long time_t;
 typedef unsigned socklen_t; typedef unsigned long nfds_t; typedef unsigned speed_t; typedef unsigned tcflag_t;
-typedef int FILE; typedef unsigned mode_t; typedef unsigned short in_port_t; typedef long off_t; typedef unsigned sa_family_t; typedef int va_list;
+typedef int FILE; typedef unsigned mode_t; typedef unsigned short in_port_t; typedef long off_t;
+typedef unsigned sa_family_t; typedef int va_list;
 typedef int uint_fast8_t; typedef unsigned long uintmax_t; typedef long intmax_t;
 """
 ASSEMBLY = re.compile(r"\b(?:__asm__|__asm|asm)\b\s*(?:volatile|__volatile__)?\s*(?=\()")
@@ -138,7 +139,8 @@ def parse(source: Source) -> c_ast.FileAST:
         for name in SYSTEM_INCLUDE.findall(source.documents):
             (fake / name).parent.mkdir(parents=True, exist_ok=True)
             (fake / name).write_text("")
-        command = [source.compiler, "-E", "-nostdinc", f"-I{fake}", *source.flags, "-D__attribute__(x)=", "-D__extension__=",
+        command = [source.compiler, "-E", "-nostdinc", f"-I{fake}", *source.flags, "-D__attribute__(x)=",
+                   "-D__extension__=",
                    "-D__restrict=", "-D__inline=inline", "-include", "types_of_the_checker.h", str(source.path)]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode != 0:

@@ -37,7 +37,8 @@ def seen(findings: list[Finding]) -> set[tuple[int, str]]:
 def compiled(sample: Path, folder: Path, *more: str) -> Path:
     """A sample's object."""
     out = folder / f"{sample.stem}.o"
-    subprocess.run([CROSS + "gcc", *CORTEX_M4F, "-O2", "-fno-builtin", *more, "-c", str(sample), "-o", str(out)], check=True)
+    subprocess.run([CROSS + "gcc", *CORTEX_M4F, "-O2", "-fno-builtin", *more, "-c", str(sample), "-o", str(out)],
+                   check=True)
     return out
 
 
@@ -51,9 +52,11 @@ def test_good_loops_are_not() -> None:
 
 
 @pytest.mark.parametrize(("was", "becomes"), [
-    (" [0, 64]", ""), ("MOST ? wanted : MOST", "MOST ? MOST : wanted"), ("polls--;", "polls -= 0u;"), ("sum(bytes, MOST)", "sum(bytes, wanted)"),
+    (" [0, 64]", ""), ("MOST ? wanted : MOST", "MOST ? MOST : wanted"), ("polls--;", "polls -= 0u;"),
+    ("sum(bytes, MOST)", "sum(bytes, wanted)"),
     ("/= 10u", "/= ready"), ("pass == MOST", "pass == (int)ready"), ("bytes + count;", "bytes + wanted;"),
-    ("end > 256u", "end > ready"), ("uint8_t few", "uint32_t few"), ("at most 4", "some"), ("i < 1000u && ready", "ready")])
+    ("end > 256u", "end > ready"), ("uint8_t few", "uint32_t few"), ("at most 4", "some"),
+    ("i < 1000u && ready", "ready")])
 def test_a_good_loop_made_worse_is_found(tmp_path: Path, was: str, becomes: str) -> None:
     text = (HERE / "samples" / "loops_good.c").read_text()
     assert was in text

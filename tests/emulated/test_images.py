@@ -17,8 +17,8 @@ from brace.flash.image import read_image
 
 CONTROLLERS = tuple(f"brace-{board}" for board in BOARDS)
 LIBRARIES_OF_HOSTS = re.compile(
-    r"^_*(malloc|calloc|realloc|free|s?brk|[a-z]*printf(_float)?|[a-z]*scanf|puts|putchar|fopen|fwrite|write|read|open|exit|"
-    r"impure_ptr|initialise_monitor_handles)(_r)?$"
+    r"^_*(malloc|calloc|realloc|free|s?brk|[a-z]*printf(_float)?|[a-z]*scanf|puts|putchar|fopen|fwrite|write|read|open|"
+    r"exit|impure_ptr|initialise_monitor_handles)(_r)?$"
 )
 
 
@@ -116,7 +116,8 @@ def test_only_test_images_crash_on_request() -> None:
 @pytest.mark.parametrize(
     ("script", "source", "options", "words"),
     [
-        ("stm32f405/memory.ld", "char big[130 * 1024]; int main(void) { return big[5]; }", (), "region `RAM' overflowed"),
+        ("stm32f405/memory.ld", "char big[130 * 1024]; int main(void) { return big[5]; }", (),
+         "region `RAM' overflowed"),
         ("stm32f405/memory.ld", "const char big[800 * 1024] = {1}; int main(void) { return big[5]; }", (),
          "region `FLASH' overflowed"),
         ("stm32f405/memory.ld", "int main(void) { return 0; }", ("-Wl,--defsym=_stack_size=1024",), "2 KiB of stack"),
@@ -132,7 +133,8 @@ def test_the_linker_refuses_what_does_not_fit(
     code = "extern int main(void); void reset_handler(void); void reset_handler(void) { main(); }"
     (tmp_path / "main.c").write_text(f"{code}\n{source}\n")
     done = subprocess.run(
-        ["arm-none-eabi-gcc", "-mcpu=cortex-m4", "-mthumb", "-nostartfiles", "-nostdlib", *options, f"-L{boards}/common",
+        ["arm-none-eabi-gcc", "-mcpu=cortex-m4", "-mthumb", "-nostartfiles", "-nostdlib", *options,
+         f"-L{boards}/common",
          f"-T{memory}", tmp_path / "main.c", "-o", tmp_path / "image.elf"],
         capture_output=True, text=True, check=False)  # fmt: skip
     assert done.returncode != 0 and words in done.stderr
@@ -145,7 +147,7 @@ def test_the_source_hash_says_dirty(tmp_path: Path) -> None:
                   "-DBRACE_BUILD_TYPE=Release", "-P", script)  # fmt: skip
         text = (tmp_path / "build_info.h").read_text()
         assert '"1.2.3"' in text and '"Release"' in text
-        return re.findall(r'SOURCE_HASH "(.*)"', text)[0]
+        return str(re.findall(r'SOURCE_HASH "(.*)"', text)[0])
 
     def git(*arguments: str) -> str:
         return output_of(

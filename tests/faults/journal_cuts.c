@@ -1,6 +1,6 @@
-/* Power fails at every single write step of the drift check's journal, in every manner of nvm_model.h, and again in what
- * follows. After each failure a start has to find the record before or the new one, whole, the store's part of the slot has
- * to be as it was, and the next record has to be kept as if nothing had been.
+/* Power fails at every single write step of the drift check's journal, in every manner of nvm_model.h, and again in
+ * what follows. After each failure a start has to find the record before or the new one, whole, the store's part of the
+ * slot has to be as it was, and the next record has to be kept as if nothing had been.
  *
  *   journal_cuts            single failures with units of 1, 2, 4, 8 bytes; pairs of failures with units of 8
  *   journal_cuts --broken   for a journal broken on purpose: 0 when the enumeration finds it out
@@ -34,9 +34,9 @@ static void require(bool holds, const char *what, int found)
         printf("found out after %lu cases: %s (%d)\n", cases, what, found);
         exit(0);
     }
-    printf("journal_cuts: %s (%d)\n  unit %u, record %d, failure at step %d manner %d, then at step %d manner %d\n", what,
-           found, (unsigned)now.unit, now.record, (int)now.first_step, (int)now.first_manner, (int)now.second_step,
-           (int)now.second_manner);
+    printf("journal_cuts: %s (%d)\n  unit %u, record %d, failure at step %d manner %d, then at step %d manner %d\n",
+           what, found, (unsigned)now.unit, now.record, (int)now.first_step, (int)now.first_manner,
+           (int)now.second_step, (int)now.second_manner);
     exit(1);
 }
 
@@ -67,7 +67,8 @@ static void start(limb_t *limb, nvm_t *nvm)
     limb->newest = limb->journal.found ? (int)found.steps : NONE;
     starts++;
     compose(&expected, limb->newest);
-    require(limb->newest == NONE || memcmp(&found, &expected, sizeof found) == 0, "a state that nobody kept", limb->newest);
+    require(limb->newest == NONE || memcmp(&found, &expected, sizeof found) == 0, "a state that nobody kept",
+            limb->newest);
     require(memcmp(nvm->bytes[SLOT], before.bytes[SLOT], BRACE_JOURNAL_AT) == 0 &&
                 memcmp(nvm->unstable[SLOT], before.unstable[SLOT], BRACE_JOURNAL_AT) == 0,
             "the store's part is touched", 0);
@@ -140,7 +141,8 @@ static void fail_again(const nvm_t *left, int old, int new, const cut_manner_t *
     now.second_step = 0;
 }
 
-/* Record n of the journal in `left`, failing at each of its steps in each manner; in_session: not the session's first. */
+/* Record n of the journal in `left`, failing at each of its steps in each manner;
+ * in_session: not the session's first. */
 static int32_t fail_everywhere(const nvm_t *left, int n, bool in_session, bool pairs)
 {
     static const cut_manner_t pair_manners[] = {CUT_BEFORE, CUT_AFTER, CUT_RANDOM_BITS, CUT_UNSTABLE_WHOLE};
@@ -167,7 +169,8 @@ static int32_t fail_everywhere(const nvm_t *left, int n, bool in_session, bool p
                 break;
             }
             nvm_power(&nvm, NVM_FOREVER, CUT_AFTER);
-            for (int i = 0; i < (pairs ? (starts_after(now.first_manner) + 1) / 2 : starts_after(now.first_manner)); i++) {
+            for (int i = 0; i < (pairs ? (starts_after(now.first_manner) + 1) / 2 : starts_after(now.first_manner));
+                 i++) {
                 start(&limb, &nvm);
                 require(limb.newest == old || limb.newest == n, "neither the old record nor the new one", limb.newest);
                 if (pairs) {
@@ -210,8 +213,8 @@ int main(int argc, char **argv)
     expect_broken = argc == 2 && strcmp(argv[1], "--broken") == 0;
     for (uint32_t unit = 1; unit <= 8; unit *= 2) {
         const int32_t steps = enumerate(unit, false);
-        printf("units of %u bytes: power fails at %d steps of three records in %d manners\n", (unsigned)unit, (int)steps,
-               CUT_MANNER_COUNT);
+        printf("units of %u bytes: power fails at %d steps of three records in %d manners\n", (unsigned)unit,
+               (int)steps, CUT_MANNER_COUNT);
     }
     printf("single failures: %lu cases, %lu starts: the old record or the new one, whole, each time\n", cases, starts);
     const unsigned long single = cases;

@@ -101,7 +101,8 @@ static void start(limb_t *limb, nvm_t *nvm)
     brace_store_status(&limb->store, &status);
     starts++;
     require(limb->in_force != NO_SET, "a set that nobody gave", limb->in_force);
-    require((origin == BRACE_PARAMETERS_DEFAULT) == (limb->in_force == 0), "origin and set contradict each other", origin);
+    require((origin == BRACE_PARAMETERS_DEFAULT) == (limb->in_force == 0), "origin and set contradict each other",
+            origin);
     require(status.in_force == origin, "status and start contradict each other", origin);
 }
 
@@ -253,8 +254,8 @@ static void fail_again(const nvm_t *left, uint32_t first_lot, const allowed_t *o
                 nvm_power(&nvm, NVM_FOREVER, CUT_AFTER);
                 for (int i = 0; i < starts_after(now.first_manner > manners[m] ? now.first_manner : manners[m]); i++) {
                     start(&limb, &nvm);
-                    require(is_allowed(&allowed, limb.in_force), "after two failures: neither the old set nor the new one",
-                            limb.in_force);
+                    require(is_allowed(&allowed, limb.in_force),
+                            "after two failures: neither the old set nor the new one", limb.in_force);
                 }
                 if (undisturbed) {
                     break;
@@ -380,7 +381,8 @@ static void enumerate_single(void)
 static void enumerate_pairs(void)
 {
     const unsigned long before = cases, starts_before = starts;
-    const int32_t steps = run_program("U", 8, true, 0) + run_program("UUU", 8, true, 2) + run_program("UUR", 8, true, 2);
+    const int32_t steps =
+        run_program("U", 8, true, 0) + run_program("UUU", 8, true, 2) + run_program("UUR", 8, true, 2);
     printf("pairs of failures: %lu cases on %d first steps, %lu starts: the old set or the new one each time\n",
            cases - before, (int)steps, starts - starts_before);
 }

@@ -1,4 +1,5 @@
-/* can_fuzz [REQUESTS [SEED]]: random, mutated and well-formed CAN frames to a controller, noise between them. It fails when
+/* can_fuzz [REQUESTS [SEED]]: random, mutated and well-formed CAN frames to a controller, noise between them.
+ * It fails when
  *   a request is not answered, or anything else is; an answer's command, parts or token are not the request's
  *   K at a posture is not physics.md's, a parameter read is not the one in force
  *   the mode becomes CONFIGURATION without the key, or parameters change without commit or rollback in that mode
@@ -165,8 +166,8 @@ static void check_answer(const uint8_t *request, bool is_the_benchs)
         if ((int8_t)answer[0][2] >= 0) {
             fail("a refusal that is none", request, 8);
         }
-        if (command == 3u && is_the_benchs && app.mode != BRACE_MODE_CONFIGURATION && fabs(signed24(request, 2)) < 3e6 &&
-            signed24(request, 5) > 3e5 && signed24(request, 5) < 2.8e6) {
+        if (command == 3u && is_the_benchs && app.mode != BRACE_MODE_CONFIGURATION &&
+            fabs(signed24(request, 2)) < 3e6 && signed24(request, 5) > 3e5 && signed24(request, 5) < 2.8e6) {
             fail("no K where there is one", request, 8);
         }
         return;
@@ -239,7 +240,7 @@ int main(int count, char **arguments)
         }
         feed(crc_of_the_bench);
     }
-    printf("%lu CAN requests: %u refused, %u K checked, parameters changed %u times, each after a commit\n", wanted, refused,
-           k_checked, changes);
+    printf("%lu CAN requests: %u refused, %u K checked, parameters changed %u times, each after a commit\n", wanted,
+           refused, k_checked, changes);
     return wanted < 10000u || (k_checked > wanted / 20u && changes > 0u && refused > 0u) ? 0 : 1;
 }

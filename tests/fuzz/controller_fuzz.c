@@ -197,7 +197,8 @@ static bool is_stiffness(const brace_stiffness_t *k)
     const double xx = k->k_xx_n_per_mm, xz = k->k_xz_n_per_mm, zz = k->k_zz_n_per_mm;
     const double low = k->lambda_min_n_per_mm, high = k->lambda_max_n_per_mm, room = 1e-5 * high;
     const bool numbers = isfinite(xx) && isfinite(xz) && isfinite(zz) && isfinite(high) && isfinite(k->stiff_axis_rad);
-    return numbers && low >= 0.0 && high >= low && fabs(xx + zz - low - high) <= room && xx >= -room && zz >= -room && fabs(xz) <= high + room;
+    return numbers && low >= 0.0 && high >= low && fabs(xx + zz - low - high) <= room && xx >= -room && zz >= -room &&
+           fabs(xz) <= high + room;
 }
 
 static void judge(void)

@@ -62,7 +62,8 @@ static inline bool paper_stiffness(const brace_parameters_t *p, double theta1, d
     double c[3];
     for (int i = 0; i < 3; i++) {
         const int r = i == 2, s = i > 0;
-        c[i] = ((double)p->limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm + a1) * p1[r] * p1[s] - a1 * (p1[r] * p2[s] + p2[r] * p1[s]) +
+        c[i] = ((double)p->limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm + a1) * p1[r] * p1[s] -
+               a1 * (p1[r] * p2[s] + p2[r] * p1[s]) +
                ((double)p->limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm + a1 + a2) * p2[r] * p2[s] +
                (double)p->limb.link[BRACE_FEMUR].axial_mm_per_n * u1[r] * u1[s] +
                (double)p->limb.link[BRACE_TIBIA].axial_mm_per_n * u2[r] * u2[s];

@@ -6,6 +6,7 @@
  *   the mode becomes CONFIGURATION without the key, or parameters change without commit or rollback in that mode
  * Exit code 0 and one line when all is well. */
 #include "fuzz.h"
+#include "modbus_crc.h"
 
 enum { UNIT = 17, CONFIGURE = 16384, COMMIT = 16386, ROLLBACK = 16388, PDU_BYTES = 253, NEW_LIMB_AFTER = 2000 };
 enum { ANSWER_TICKS = 400, QUIET_TICKS = 6, LINE_QUIET_TICKS = 40 };
@@ -15,18 +16,6 @@ static bool keyed, committed;
 static uint32_t crc_known, changes, answered, exceptions, silent;
 static uint8_t pdu[300], reply[600];
 static uint32_t pdu_count, reply_count;
-
-static uint32_t crc16(const uint8_t *bytes, uint32_t count) /* Modbus over serial line 1.02, appendix B */
-{
-    uint32_t crc = 0xffff;
-    for (uint32_t i = 0; i < count; i++) {
-        crc ^= bytes[i];
-        for (int bit = 0; bit < 8; bit++) {
-            crc = (crc & 1u) != 0u ? crc >> 1 ^ 0xa001u : crc >> 1;
-        }
-    }
-    return crc;
-}
 
 static uint32_t word(const uint8_t *bytes)
 {
@@ -121,7 +110,8 @@ static void note(void)
     }
     const uint32_t first = word(pdu + 1), last = pdu[0] == 6u ? first : first + word(pdu + 3) - 1u;
     if (pdu[0] == 16u && pdu_count >= 10u && first <= CONFIGURE && last > CONFIGURE &&
-        6u + 2u * (CONFIGURE - first) + 4u <= pdu_count && value_of(pdu + 6u + 2u * (CONFIGURE - first)) == configuration_key) {
+        6u + 2u * (CONFIGURE - first) + 4u <= pdu_count &&
+        value_of(pdu + 6u + 2u * (CONFIGURE - first)) == configuration_key) {
         keyed = true;
     }
     committed = committed || (keyed && last >= COMMIT && first < ROLLBACK + 2u);
@@ -208,7 +198,7 @@ static void over_line(bool was_configuring)
     frame[0] = other ? (uint8_t)(1u + dice(247)) : UNIT;
     memcpy(frame + 1, pdu, pdu_count);
     uint32_t count = pdu_count + 1u;
-    const uint32_t crc = crc16(frame, count);
+    const uint32_t crc = crc_by_bits(frame, count);
     frame[count++] = (uint8_t)crc, frame[count++] = (uint8_t)(crc >> 8);
     if (broken && dice(2) != 0u) {
         count = dice(count);
@@ -216,12 +206,12 @@ static void over_line(bool was_configuring)
         mutate(frame, count);
     }
     /* a function code with the top bit is an answer's, come back over a line of two wires */
-    const bool sound = count >= 4u && frame[0] == UNIT && crc16(frame, count) == 0u && frame[1] < 0x80u;
+    const bool sound = count >= 4u && frame[0] == UNIT && crc_by_bits(frame, count) == 0u && frame[1] < 0x80u;
     if (sound) { /* a mutation may have left it so */
         pdu_count = count - 3u;
         memcpy(pdu, frame + 1, pdu_count);
         note();
-    } else if (count >= 4u && frame[0] == 0u && crc16(frame, count) == 0u) {
+    } else if (count >= 4u && frame[0] == 0u && crc_by_bits(frame, count) == 0u) {
         pdu_count = count - 3u;
         memcpy(pdu, frame + 1, pdu_count);
         note(); /* to all: obeyed, not answered */
@@ -232,7 +222,7 @@ static void over_line(bool was_configuring)
         if (reply_count > 0u) {
             fail("an answer to what was no request", frame, count);
         }
-    } else if (reply_count < 4u || reply[0] != UNIT || crc16(reply, reply_count) != 0u) {
+    } else if (reply_count < 4u || reply[0] != UNIT || crc_by_bits(reply, reply_count) != 0u) {
         fail("no sound answer", frame, count);
     } else {
         check(reply + 1, reply_count - 3u, was_configuring);

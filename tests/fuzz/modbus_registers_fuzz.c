@@ -1,6 +1,6 @@
 /* Random and mutated Modbus requests, on the line and over TCP, against the whole controller on the fake board: each is
- * answered as the standard says or, on the line, not at all; what is answered is right; no parameter changes without its
- * commit, none is staged outside CONFIGURATION, and the controller ticks on. Build it with the sanitizers.
+ * answered as the standard says or, on the line, not at all; what is answered is right; no parameter changes without
+ * its commit, none is staged outside CONFIGURATION, and the controller ticks on. Build it with the sanitizers.
  *
  *     modbus_registers_fuzz [REQUESTS] [SEED]     exit code 1 and the request, at the first thing wrong
  */
@@ -10,6 +10,7 @@
 
 #include "app_bench.h"
 #include "brace/measured.h"
+#include "modbus_crc.h"
 
 enum { UNIT = 17, WORDS = (int)(sizeof(brace_parameters_t) / 4), MOST_TICKS = 120, HEADER = 7,
        ANSWERED = 16, COMMANDS = 17 /* values from 4096 and from 16384 on, by docs/modbus.md */ };
@@ -84,8 +85,9 @@ static uint32_t at32(const uint8_t *b)
 
 static uint32_t some_start(void)
 {
-    static const uint16_t edge[] = {0, 2, 114, 116, 208, 210, 4096, 4108, 4110, 16384, 16386, 16388, 16390, 16392, 16394, 16396,
-                                    16398, 16400, 16406, 16410, 16414, 16416, 16418, 4122, 4126, 4128, 65535, 65534, 32768};
+    static const uint16_t edge[] = {0,     2,     114,   116,   208,   210,   4096,  4108,  4110,  16384,
+                                    16386, 16388, 16390, 16392, 16394, 16396, 16398, 16400, 16406, 16410,
+                                    16414, 16416, 16418, 4122,  4126,  4128,  65535, 65534, 32768};
     return dice(4) == 0u ? dice(65536) : edge[dice(sizeof edge / sizeof *edge)];
 }
 
@@ -185,8 +187,9 @@ static uint32_t read_exception(const uint8_t *pdu, uint32_t length)
     if (length != 5u || count < 1u || count > 125u) {
         return 3;
     }
-    const bool there = pdu[0] == 4u ? holds(start, count, 0, BRACE_MEASURED_COUNT) || holds(start, count, 4096, ANSWERED)
-                                    : holds(start, count, 0, WORDS) || holds(start, count, 16384, COMMANDS);
+    const bool there = pdu[0] == 4u
+                           ? holds(start, count, 0, BRACE_MEASURED_COUNT) || holds(start, count, 4096, ANSWERED)
+                           : holds(start, count, 0, WORDS) || holds(start, count, 16384, COMMANDS);
     return there ? 0u : 2u;
 }
 
@@ -207,10 +210,10 @@ static bool tells(const uint8_t *answer, uint32_t start, uint32_t count, const b
     return same;
 }
 
-/* What a read must tell, where the oracle knows it: probes, and parameters: of one set, the one from before the request, or
- * the one from after it, when a commit has ended meanwhile. */
-static void judge_read(const bytes_t *sent, const uint8_t *pdu, const bytes_t *got, const uint8_t *answer, uint32_t length,
-                       const before_t *before)
+/* What a read must tell, where the oracle knows it: probes, and parameters: of one set, the one from before the
+ * request, or the one from after it, when a commit has ended meanwhile. */
+static void judge_read(const bytes_t *sent, const uint8_t *pdu, const bytes_t *got, const uint8_t *answer,
+                       uint32_t length, const before_t *before)
 {
     const uint32_t start = at16(pdu + 1), count = at16(pdu + 3);
     if (length != 2u + 2u * count || answer[1] != 2u * count) {
@@ -229,7 +232,8 @@ static void judge_read(const bytes_t *sent, const uint8_t *pdu, const bytes_t *g
     }
 }
 
-static void judge_write(const bytes_t *sent, const uint8_t *pdu, uint32_t length, const bytes_t *got, const before_t *before)
+static void judge_write(const bytes_t *sent, const uint8_t *pdu, uint32_t length, const bytes_t *got,
+                        const before_t *before)
 {
     const uint32_t start = at16(pdu + 1);
     if (pdu[0] == 16u && (length < 6u || length != 6u + pdu[5] || pdu[5] != 2u * at16(pdu + 3))) {
@@ -284,7 +288,8 @@ static void judge(const bytes_t *sent, const uint8_t *pdu, uint32_t length, cons
         wrong("a read's exception", sent, got);
     }
     if (is_refusal) {
-        if (before->begun && app.staging.begun && memcmp(&before->staged, &app.staging.set, sizeof before->staged) != 0) {
+        if (before->begun && app.staging.begun &&
+            memcmp(&before->staged, &app.staging.set, sizeof before->staged) != 0) {
             wrong("a refused request changed what is staged", sent, got);
         }
     } else if (is_read) {
@@ -301,24 +306,13 @@ static void judge(const bytes_t *sent, const uint8_t *pdu, uint32_t length, cons
 
 /* --------------------------------------------------------------------------------------------- wires -- */
 
-static uint32_t crc(const uint8_t *bytes, uint32_t count)
-{
-    uint32_t sum = 0xffff;
-    for (uint32_t i = 0; i < count; i++) {
-        sum ^= bytes[i];
-        for (int bit = 0; bit < 8; bit++) {
-            sum = (sum & 1u) != 0u ? sum >> 1 ^ 0xa001u : sum >> 1;
-        }
-    }
-    return sum;
-}
-
 static bool hear(brace_serial_port_t port, bytes_t *got, int most)
 {
     got->count = 0;
     for (int i = 0; i < most; i++) {
         ticks(1);
-        got->count += brace_fake_bytes_take(&fake, port, got->byte + got->count, (uint32_t)sizeof got->byte - got->count);
+        got->count +=
+            brace_fake_bytes_take(&fake, port, got->byte + got->count, (uint32_t)sizeof got->byte - got->count);
         if (got->count > 0u) {
             return true; /* the fake port takes an answer whole */
         }
@@ -353,21 +347,21 @@ static void on_the_line(const before_t *before)
     if (dice(3) == 0u) {
         mutate(&sent, 2);
     }
-    const uint32_t sum = crc(sent.byte, sent.count);
+    const uint32_t sum = crc_by_bits(sent.byte, sent.count);
     sent.byte[sent.count++] = (uint8_t)sum;
     sent.byte[sent.count++] = (uint8_t)(sum >> 8);
     if (dice(3) == 0u) {
         mutate(&sent, 0);
     }
     (void)brace_fake_bytes_arrive(&fake, BRACE_SERIAL_MODBUS, sent.byte, sent.count);
-    const bool whole = sent.count >= 4u && sent.count <= 256u && crc(sent.byte, sent.count) == 0u;
+    const bool whole = sent.count >= 4u && sent.count <= 256u && crc_by_bits(sent.byte, sent.count) == 0u;
     const bool due = whole && sent.byte[0] == UNIT && sent.byte[1] < 0x80u;
     const bool came = hear(BRACE_SERIAL_MODBUS, &got, due ? MOST_TICKS : 50);
     silent += !came;
     if (came != due) {
         wrong(due ? "no answer" : "an answer that nobody may give", &sent, &got);
     }
-    if (came && (got.byte[0] != UNIT || got.count < 4u || crc(got.byte, got.count) != 0u)) {
+    if (came && (got.byte[0] != UNIT || got.count < 4u || crc_by_bits(got.byte, got.count) != 0u)) {
         wrong("an answer with a wrong check", &sent, &got);
     }
     if (came) {
@@ -433,11 +427,13 @@ int main(int argc, char **argv)
             commits_seen = commits;
         }
     }
-    printf("%lu requests: %lu answered (refused: 01 %lu, 02 %lu, 03 %lu, 04 %lu, 06 %lu), %lu in silence, %lu commits\n", requests,
-           answered, refused_by[1], refused_by[2], refused_by[3], refused_by[4], refused_by[6], silent, commits);
-    const bool asked = questions[0] > 0u && questions[2] > 0u && questions[5] > 0u && questions[7] > 0u && questions[9] > 0u;
-    const bool every = asked && answered > 0u && refused_by[1] > 0u && refused_by[2] > 0u && refused_by[3] > 0u && refused_by[4] > 0u &&
-                       refused_by[6] > 0u && silent > 0u && commits > 0u;
+    printf(
+        "%lu requests: %lu answered (refused: 01 %lu, 02 %lu, 03 %lu, 04 %lu, 06 %lu), %lu in silence, %lu commits\n",
+        requests, answered, refused_by[1], refused_by[2], refused_by[3], refused_by[4], refused_by[6], silent, commits);
+    const bool asked =
+        questions[0] > 0u && questions[2] > 0u && questions[5] > 0u && questions[7] > 0u && questions[9] > 0u;
+    const bool every = asked && answered > 0u && refused_by[1] > 0u && refused_by[2] > 0u && refused_by[3] > 0u &&
+                       refused_by[4] > 0u && refused_by[6] > 0u && silent > 0u && commits > 0u;
     if (!every && requests >= 20000ul) {
         printf("chance never came to some of these: the test has lost its point\n");
         return 1;

@@ -1,6 +1,6 @@
-/* upload_fuzz [REQUESTS [SEED]]: parameter blocks uploaded over CAN, word by word, mostly with something wrong on the way:
- * words lost, repeated, changed, out of order; a begin, a read, a roll-back or a commit in between; CONFIGURATION left or
- * let time out; the power cut; blocks that are sealed and still no good. It fails when
+/* upload_fuzz [REQUESTS [SEED]]: parameter blocks uploaded over CAN, word by word, mostly with something wrong on the
+ * way: words lost, repeated, changed, out of order; a begin, a read, a roll-back or a commit in between; CONFIGURATION
+ * left or let time out; the power cut; blocks that are sealed and still no good. It fails when
  *   a request is answered otherwise than the protocol page has it, or not at all
  *   a block is put in force that is not the one announced, whole, in order, of this dictionary and in range
  *   an undisturbed upload of a good one is refused, or something else than its words is in force
@@ -9,7 +9,8 @@
 
 enum { NODE = 5, WORDS = BRACE_BLOCK_BYTES / 4, HEADER = 5, STORE_TICKS = 4000, SILENCE_TICKS = 10100 };
 enum { READ = 1, SET_MODE = 9, BEGIN = 10, WORD = 11, COMMIT = 12, ROLLBACK = 13, REFUSED = 7 };
-enum { BLOCK_GOOD, BLOCK_NOT_FINITE, BLOCK_OUT_OF_RANGE, BLOCK_OTHER_SCHEMA, BLOCK_OTHER_HEADER, BLOCK_BAD_CRC, BLOCK_KINDS };
+enum { BLOCK_GOOD, BLOCK_NOT_FINITE, BLOCK_OUT_OF_RANGE, BLOCK_OTHER_SCHEMA, BLOCK_OTHER_HEADER, BLOCK_BAD_CRC,
+       BLOCK_KINDS };
 
 static struct {
     bool open;
@@ -111,7 +112,8 @@ static void ask(const uint8_t data[8])
     (void)brace_fake_frame_arrives(&fake, &frame);
     const bool stores = data[0] == COMMIT || data[0] == ROLLBACK;
     const uint32_t patience = stores ? (uint32_t)STORE_TICKS : 10u;
-    const uint32_t meddles = stores && dice(4) == 0u ? 1u + dice(20) : 0u; /* what nobody may do while a set is stored */
+    /* what nobody may do while a set is stored */
+    const uint32_t meddles = stores && dice(4) == 0u ? 1u + dice(20) : 0u;
     for (uint32_t i = 0; i < patience && got_count == 0u; i++) {
         if (!stores) {
             unchanged(data);
@@ -179,7 +181,8 @@ static void judge_commit(const uint8_t *data, bool may)
 {
     const uint32_t crc = field(data, 2, 4);
     const bool whole = may && model.open && model.next == (uint32_t)WORDS;
-    const bool sealed = whole && crc == model.announced && crc == model.word[WORDS - 1] && crc == crc_of(model.word, WORDS - 1);
+    const bool sealed =
+        whole && crc == model.announced && crc == model.word[WORDS - 1] && crc == crc_of(model.word, WORDS - 1);
     const bool right = sealed && kind == BLOCK_GOOD && memcmp(model.word, block, sizeof block) == 0;
     if (ok(data) != right) {
         fail(right ? "a good block was refused" : "a block that is none was taken", data, 8);
@@ -347,8 +350,8 @@ int main(int count, char **arguments)
     while (fed < wanted) {
         push();
     }
-    printf("%lu requests: %u uploads begun, %u words, %u put in force, %u broken ones refused; whole ones refused:", fed, begun,
-           words, taken, broken);
+    printf("%lu requests: %u uploads begun, %u words, %u put in force, %u broken ones refused; whole ones refused:",
+           fed, begun, words, taken, broken);
     bool every = taken > 0u && broken > 0u && silences > 0u && cuts > 0u;
     for (uint32_t i = BLOCK_NOT_FINITE; i < BLOCK_KINDS; i++) {
         printf(" %u", refused[i]);

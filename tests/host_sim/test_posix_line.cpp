@@ -1,4 +1,5 @@
-// A serial line's settings: speed, parity, stop bits. A pty keeps no parity bit, so what is asked of the driver is judged.
+// A serial line's settings: speed, parity, stop bits. A pty keeps no parity bit, so what is asked of the driver is
+// judged.
 #include <cerrno>
 #include <cstdlib>
 #include <dlfcn.h>

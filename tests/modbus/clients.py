@@ -57,7 +57,8 @@ class Client(Protocol):
 def _libmodbus_program() -> Path:
     if shutil.which("pkg-config") is None or shutil.which("gcc") is None:
         pytest.skip("pkg-config or gcc is missing")
-    found = subprocess.run(["pkg-config", "--cflags", "--libs", "libmodbus"], capture_output=True, text=True, check=False)
+    found = subprocess.run(["pkg-config", "--cflags", "--libs", "libmodbus"], capture_output=True, text=True,
+                           check=False)
     if found.returncode != 0:
         pytest.skip("libmodbus is missing (Debian package libmodbus-dev)")
     program = Path(tempfile.mkdtemp(prefix="brace-libmodbus-")) / "client"
@@ -108,7 +109,8 @@ class Libmodbus:
 class Mbpoll:
     """Debian's mbpoll, a process per request."""
 
-    WORDS = {"Illegal function": 1, "Illegal data address": 2, "Illegal data value": 3, "Slave device or server failure": 4,
+    WORDS = {"Illegal function": 1, "Illegal data address": 2, "Illegal data value": 3,
+             "Slave device or server failure": 4,
              "Slave device or server is busy": 6}  # fmt: skip
 
     def __init__(self, place: Place) -> None:
@@ -119,8 +121,10 @@ class Mbpoll:
     def _run(self, options: list[str], values: list[int]) -> str:
         place = self._place
         where = ["-m", "rtu", "-b", str(BAUD), "-P", "none"] if place.device else ["-m", "tcp", "-p", str(place.port)]
-        command = ["mbpoll", *where, "-a", str(place.unit), "-0", "-1", "-o", f"{ANSWER_S:.0f}", *options, place.device or place.host]
-        run = subprocess.run([*command, *map(str, values)], capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+        command = ["mbpoll", *where, "-a", str(place.unit), "-0", "-1", "-o", f"{ANSWER_S:.0f}", *options,
+                   place.device or place.host]
+        run = subprocess.run([*command, *map(str, values)], capture_output=True, text=True, timeout=PATIENCE_S,
+                             check=False)
         said = run.stdout + run.stderr
         for words, code in self.WORDS.items():
             if words in said:

@@ -35,7 +35,8 @@ def server(name: str, folder: Path) -> Iterator[Place]:
     else:
         with emulated(folder, name, options=COUNTED) as places:  # a frame ends with a silence on the board's clock
             wait_for_banner(places["console"])
-            held = os.open(places["modbus"], os.O_RDWR | os.O_NOCTTY)  # the emulator looks for a new client once a second
+            # the emulator looks for a new client once a second
+            held = os.open(places["modbus"], os.O_RDWR | os.O_NOCTTY)
             try:
                 yield Place(name, device=places["modbus"])
             finally:

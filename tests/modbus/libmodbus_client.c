@@ -1,5 +1,5 @@
-/* libmodbus at the end of a pipe: connects (tcp HOST PORT UNIT, or rtu DEVICE BAUD UNIT), then for each line of input one
- * request, one line of output.
+/* libmodbus at the end of a pipe: connects (tcp HOST PORT UNIT, or rtu DEVICE BAUD UNIT), then for each line of input
+ * one request, one line of output.
  *   r3 ADDRESS COUNT | r4 ADDRESS COUNT -> ok VALUE...   w ADDRESS VALUE... (function 16)   w6 ADDRESS VALUE -> ok
  *   id -> ok BYTE...   refused: exception NUMBER   else: failed WORDS
  */

@@ -1,5 +1,5 @@
-"""What no client would send, on real wires: frames with wrong checks, halves, noise without end, streams that are no Modbus.
-The server counts, stays silent or answers as the standard says, and the next good request is answered."""
+"""What no client would send, on real wires: frames with wrong checks, halves, noise without end, streams that are no
+Modbus. The server counts, stays silent or answers as the standard says, and the next good request is answered."""
 
 from __future__ import annotations
 
@@ -51,8 +51,8 @@ class Line:
                 data = data[os.write(self.file, data) :]
 
     def hear(self, first_s: float = SILENT_S) -> bytes:
-        """What comes until it is silent. Silence alone proves little on a busy machine: whatever comes later stands before
-        the next answer, which is then not a good one."""
+        """What comes until it is silent. Silence alone proves little on a busy machine: whatever comes later stands
+        before the next answer, which is then not a good one."""
         heard, wait = b"", first_s
         while select.select([self.file], [], [], wait)[0]:
             heard += os.read(self.file, 4096)
@@ -117,7 +117,8 @@ def test_others_and_everybody_get_no_answer(line: Line) -> None:
 
 
 def test_exceptions(line: Line) -> None:
-    for pdu, code in ((b"\x63", 1), (b"\x04\xff\xff\x00\x01", 2), (b"\x04\x00\x00\x00\x7e", 3), (b"\x10\0\0\0\2\4\0\0\0\0", 1)):
+    for pdu, code in ((b"\x63", 1), (b"\x04\xff\xff\x00\x01", 2), (b"\x04\x00\x00\x00\x7e", 3),
+                      (b"\x10\0\0\0\2\4\0\0\0\0", 1)):
         assert line.ask(pdu) == bytes((pdu[0] | 0x80, code))
 
 
@@ -161,7 +162,8 @@ def test_tcp_streams_that_are_no_modbus(tmp_path: Path) -> None:
             heard = answer(place, noise.randbytes(200), patience_s=1.0)
             assert b"\xe6\0\1\2\3" not in heard
         assert answer(place, b"GET / HTTP/1.0\r\n\r\n") == b""
-        assert answer(place, good[:6] + b"\x09" + good[7:], wanted=9)[6:] == b"\x09\x84\x0b"  # no such unit behind this door
+        # no such unit behind this door
+        assert answer(place, good[:6] + b"\x09" + good[7:], wanted=9)[6:] == b"\x09\x84\x0b"
         with socket.create_connection((place.host, place.port), PATIENCE_S) as half:
             half.sendall(good[:9])  # and never goes on
             assert answer(place, good) == whole

@@ -1,5 +1,5 @@
-"""Three independent clients against the simulated controller (TCP, RTU on a pty) and the firmware on emulated boards (RTU on
-a pty): the same registers, the same K, the same refusals."""
+"""Three independent clients against the simulated controller (TCP, RTU on a pty) and the firmware on emulated boards
+(RTU on a pty): the same registers, the same K, the same refusals."""
 
 from __future__ import annotations
 
@@ -79,7 +79,8 @@ def test_k_at_a_posture(client: Client) -> None:
 
 
 def ask(client: Client, first: str, *values: float, kinds: str = "") -> None:
-    words = [w for value, kind in zip(values, kinds or "f" * len(values)) for w in registers_of(value, "f32" if kind == "f" else "u32")]
+    words = [w for value, kind in zip(values, kinds or "f" * len(values))
+             for w in registers_of(value, "f32" if kind == "f" else "u32")]
     client.write(int(MAP[first]["address"]), words)
 
 

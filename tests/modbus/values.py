@@ -1,4 +1,5 @@
-"""Values of the register map by name, two registers each, high word first: from modbus.csv, as a stranger would read it."""
+"""Values of the register map by name, two registers each, high word first: from modbus.csv,
+as a stranger would read it."""
 
 from __future__ import annotations
 

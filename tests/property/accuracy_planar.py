@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ctypes
 import sys
+from collections.abc import Callable
 
 import numpy as np
 
@@ -21,7 +22,7 @@ PATHS = {"tick": ("planar_rows", LIMITS), "table": ("planar_table_rows", TABLE_L
          "general": ("planar_general_rows", LIMITS)}
 
 
-def variant(rows_function: ctypes._CFuncPtr) -> Variant:
+def variant(rows_function: Callable[..., int]) -> Variant:
     """One of the driver's loops as the judge wants it."""
     def columns(limb: oracle.Limb, theta1: np.ndarray, theta2: np.ndarray) -> tuple[Columns, bool] | None:
         angles = [t.astype(np.float32) for t in (theta1, theta2)]

@@ -49,7 +49,8 @@ def random_limb(rng: np.random.Generator) -> plane.Limb:
 
     return replace(limb, coxa=side(coxa.femur), femur=side(limb.femur), tibia=side(limb.tibia),
                    joints=(rng.choice([0.0, 10 ** rng.uniform(-7, -4)]), *limb.joints[1:]),
-                   base_x=rng.choice([0.0, 10 ** rng.uniform(-4, -1)]), base_z=rng.choice([0.0, 10 ** rng.uniform(-4, -1)]))
+                   base_x=rng.choice([0.0, 10 ** rng.uniform(-4, -1)]),
+                   base_z=rng.choice([0.0, 10 ** rng.uniform(-4, -1)]))
 
 
 def errors(library: ctypes.CDLL, limb: plane.Limb, postures: list[np.ndarray]) -> tuple[np.ndarray, float] | None:
@@ -104,8 +105,8 @@ def main() -> int:
         if index >= len(named):
             worst_random = np.maximum(worst_random, found)
     print(f"{options.random:4d} random      " + " ".join(f"{e:9.1e}" for e in worst_random))
-    print(f"refused {refused} of {len(named) + options.random}, at most {most_flagged:.1%} of a limb's postures flagged; "
-          f"{failed} beyond the limits")
+    print(f"refused {refused} of {len(named) + options.random}, at most {most_flagged:.1%} of a limb's postures "
+          f"flagged; {failed} beyond the limits")
     return 1 if failed else 0
 
 

@@ -36,12 +36,17 @@ typedef struct {
     segment_t segment;
     uint32_t tick;
     double setpoint_rad, setpoint_before_rad;
+    double sent_before_rad, astray_rad; /* how far off its setpoint the motor is sent by history_feel_for_flank */
 } history_t;
 
 /* gap_off: the belief's error as a ratio. */
 brace_backlash_params_t joint_as_believed(const plant_t *plant, double gap_off, dice_t *dice, double hold_stiffness);
 
 history_t history_begin(uint64_t seed, gap_belief_t belief, bool expecting, breakaway_t breakaway);
+
+/* Before a tick: the motor may leave its setpoint, by reach_gaps of the gap as believed at most, to touch what cannot be
+ * told from where it stands. While no flank is told (0) it goes to the one that the offset lies nearer to; else back. */
+void history_feel_for_flank(history_t *history, int flank, double offset_rad, double reach_gaps);
 
 /* Goes on by a millisecond and reads the instruments. */
 brace_backlash_sample_t history_tick(history_t *history);

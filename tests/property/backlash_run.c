@@ -57,8 +57,10 @@ static void cnc_follow(cnc_t *cnc, const history_t *h, double read_rad)
     }
 }
 
-/* trace: HISTORY_TICKS rows, or null */
-int backlash_history(uint64_t seed, int belief, int expecting, int breakaway, history_counts_t *counts, trace_tick_t *trace)
+/* reach_gaps: how far the motor may leave its setpoint to feel for a flank; 0: not
+ * trace: HISTORY_TICKS rows, or null */
+int backlash_history(uint64_t seed, int belief, int expecting, int breakaway, double reach_gaps, history_counts_t *counts,
+                     trace_tick_t *trace)
 {
     history_t h = history_begin(seed, (gap_belief_t)belief, expecting != 0, (breakaway_t)breakaway);
     const plant_t *p = &h.plant;
@@ -75,6 +77,7 @@ int backlash_history(uint64_t seed, int belief, int expecting, int breakaway, hi
         const brace_backlash_sample_t sample = history_tick(&h);
         brace_backlash_out_t out;
         brace_backlash_tick(&joint, &sample, &out);
+        history_feel_for_flank(&h, out.flank, (double)out.offset_rad, reach_gaps);
         cnc_follow(&cnc, &h, plant_angle_read_rad(p));
 
         const int truth = plant_flank(p);

@@ -21,12 +21,13 @@ def core_library() -> ctypes.CDLL:
         return ctypes.CDLL(given)
     with tempfile.TemporaryDirectory(prefix="brace-core-") as folder:
         path = Path(folder) / "libcore.so"
-        sources = [*map(str, sorted((CORE / "src").glob("*/*.c"))), *map(str, sorted(Path(__file__).parent.glob("*_driver.c")))]
+        sources = [*map(str, sorted((CORE / "src").glob("*/*.c"))),
+                   *map(str, sorted(Path(__file__).parent.glob("*_driver.c")))]
         command = [os.environ.get("CC", "cc"), *FLAGS, f"-I{CORE / 'include'}", f"-I{CORE / 'src'}", *sources]
         subprocess.run([*command, "-o", str(path), "-lm"], check=True)
         return ctypes.CDLL(str(path))
 
 
-def floats_of(array: np.ndarray) -> ctypes.Array[ctypes.c_float]:
+def floats_of(array: np.ndarray) -> ctypes._Pointer[ctypes.c_float]:
     """A float32 array as C sees it."""
     return array.ctypes.data_as(ctypes.POINTER(ctypes.c_float))

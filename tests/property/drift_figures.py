@@ -1,9 +1,9 @@
 """What the drift check sees and when, on simulated limbs: false alarms, delays, names and sizes of losses.
 
-Each limb is learned from 14 rounds of nine postures along both axes (4,284 readings, the temperature through half its swing
-of +-10 degC), then either watched unchanged, or a link loses stiffness somewhere in a run and every reading from there to
-the alarm counts. Check runs are at the posture and along the axis the check's own outlook finds best for the link,
-among the nine or, where it says of its choice, among all those within reach; mixed runs are at all nine postures
+Each limb is learned from 14 rounds of nine postures along both axes (4,284 readings, the temperature through half its
+swing of +-10 degC), then either watched unchanged, or a link loses stiffness somewhere in a run and every reading from
+there to the alarm counts. Check runs are at the posture and along the axis the check's own outlook finds best for the
+link, among the nine or, where it says of its choice, among all those within reach; mixed runs are at all nine postures
 and both axes in random order. `python drift_figures.py` prints the figures, `--only` some of them,
 exit code 1 when a bound is not met.
 """
@@ -93,7 +93,8 @@ FRICTION = {"joint.femur.coulomb_n_mm": 8.3, "joint.tibia.coulomb_n_mm": 18.6}
 
 def learned(seed: int, believed: dict[str, float] | None = None, postures: np.ndarray | None = None,
             friction: bool = False) -> Limb:
-    """A named limb, or without arguments a random one at random postures. With friction, a run ends at each reversal."""
+    """A named limb, or without arguments a random one at random postures. With friction,
+    a run ends at each reversal."""
     rng = np.random.default_rng(seed)
     believed = random_believed(rng) if believed is None else believed
     postures = random_postures(rng) if postures is None else postures
@@ -119,7 +120,8 @@ def quiet(seed: int, believed: dict[str, float] | None, postures: np.ndarray | N
 
 def best_run(limb: Limb, link: int) -> tuple[np.ndarray, np.ndarray, Outlook]:
     """Posture, direction and outlook where the check expects to see this link's loss first."""
-    all_runs = [(theta, axis, limb.check.outlook(theta, axis, LOSS_SWING_DEGC / 2**0.5)) for theta, axis in limb.choices]
+    all_runs = [(theta, axis, limb.check.outlook(theta, axis, LOSS_SWING_DEGC / 2**0.5))
+                for theta, axis in limb.choices]
     return min(all_runs, key=lambda run: (run[2].steps_needed[link], run[2].sigma_of_loss_ratio[link]))
 
 
@@ -136,14 +138,15 @@ def quiet_at_choice(seed: int, believed: dict[str, float] | None, postures: np.n
 
 
 def quiet_when_the_knee_scatters(seed: int, knee_rad: float, chosen: bool) -> bool:
-    """Whether the unchanged paper limb raised an alarm in 10,200 readings of check runs, at the best of the nine postures
-    or those of its choice, its knee off by another angle (one sigma) at each run; learned without that."""
+    """Whether the unchanged paper limb raised an alarm in 10,200 readings of check runs, at the best of the nine
+    postures or those of its choice, its knee off by another angle (one sigma) at each run; learned without that."""
     limb = learned(seed, limbs.PAPER, PRACTICE)
     limb = of_its_choice(limb, True) if chosen else replace(limb, choices=[best_run(limb, link)[:2] for link in (0, 1)])
     record = check_runs(limb, 300)
     off = knee_rad * limb.rng.standard_normal(record.run[-1] + 1)[record.run]
-    limb.check.watch(record, measured(limb.true, replace(record, theta=record.theta + off[:, None] * [0.0, 1.0]), limb.rng))
-    return limb.check.state.state == DRIFTED
+    limb.check.watch(record, measured(limb.true, replace(record, theta=record.theta + off[:, None] * [0.0, 1.0]),
+                                      limb.rng))
+    return bool(limb.check.state.state == DRIFTED)
 
 
 @dataclass
@@ -163,7 +166,8 @@ def lose(limb: Limb, link: int, loss: float, check_run: bool, axial_too: bool = 
     check, rng = limb.check.copy(), limb.rng
     theta, axis, outlook = best_run(limb, link)
     if check_run:
-        record = runs(np.tile(theta, (LONGEST_RUNS, 1)), np.tile(axis, (LONGEST_RUNS, 1)), rng, swing_degc=LOSS_SWING_DEGC)
+        record = runs(np.tile(theta, (LONGEST_RUNS, 1)), np.tile(axis, (LONGEST_RUNS, 1)), rng,
+                      swing_degc=LOSS_SWING_DEGC)
     else:
         record = mixed(limb.postures, 5 * LONGEST_RUNS, rng, swing_degc=LOSS_SWING_DEGC)
     onset = int(rng.integers(len(RUN_STEPS)))
@@ -228,8 +232,8 @@ def text(found: list[Flagged]) -> str:
     size = np.median([f.loss for f in alarms])
     return (f"delay 10/50/90/99 %: {delay[0]:.0f}/{delay[1]:.0f}/{delay[2]:.0f}/{delay[3]:.0f}, within {WITHIN}: "
             f"{within(found):.1%}, never {1 - np.mean([f.alarm for f in found]):.1%}, likeliest cause right "
-            f"{np.mean([f.named for f in alarms]):.0%}, among the possible {np.mean([f.possible for f in alarms]):.0%}, "
-            f"loss found (median) {size:.3f}")
+            f"{np.mean([f.named for f in alarms]):.0%}, among the possible "
+            f"{np.mean([f.possible for f in alarms]):.0%}, loss found (median) {size:.3f}")
 
 
 def within(found: list[Flagged]) -> float:
@@ -244,22 +248,24 @@ Bound = Callable[[str, bool], None]
 def at_nine(pool: ProcessPoolExecutor, seed: int, sequences: int, bound: Bound) -> None:
     """Check runs at the best of the nine postures, and mixed runs."""
     print("unchanged limbs, temperature +-10 degC, thermal rate 20 % off")
-    jobs = [pool.submit(quiet, seed + i, NAMED[name], PRACTICE, 1_000_000) for name in NAMED for i in range(3)]
-    alarms = [job.result() for job in jobs]
+    quiet_jobs = [pool.submit(quiet, seed + i, NAMED[name], PRACTICE, 1_000_000) for name in NAMED for i in range(3)]
+    alarms = [job.result() for job in quiet_jobs]
     print(f"  practice limbs: {sum(a for a, _ in alarms)} alarms in {sum(n for _, n in alarms):,} readings")
     bound("no false alarm in 10^6 readings", not any(a for a, _ in alarms))
     cases = list(pool.map(random_case, range(seed + 1000, seed + 1000 + sequences), chunksize=20))
     ready = [case for case in cases if case.watching]
     print(f"  random limbs: {sum(case.false_alarm for case in cases)} of {len(cases)} raised an alarm within 5,000 "
           f"readings; {len(ready)} had learned after 4,284")
-    jobs = [pool.submit(quiet, seed + 200_000 + i, limbs.PAPER, PRACTICE, 500_000, True) for i in range(2)]
-    alarms = [job.result() for job in jobs]
+    quiet_jobs = [pool.submit(quiet, seed + 200_000 + i, limbs.PAPER, PRACTICE, 500_000, True) for i in range(2)]
+    alarms = [job.result() for job in quiet_jobs]
     print(f"  paper limb with friction: {sum(a for a, _ in alarms)} alarms in {sum(n for _, n in alarms):,} readings")
     bound("no false alarm by friction in 10^6 readings", not any(a for a, _ in alarms))
     for kind, axial_too, friction in (("bending and axial compliance", True, False), ("with friction", False, True)):
         for link in (0, 1):
-            jobs = [pool.submit(named_losses, "paper", seed + i, link, 0.10, True, 10, axial_too, friction) for i in range(20)]
-            print(f"check runs, paper, {LINKS[link]} loses 10%, {kind}: {text([f for job in jobs for f in job.result()])}")
+            jobs = [pool.submit(named_losses, "paper", seed + i, link, 0.10, True, 10, axial_too, friction)
+                    for i in range(20)]
+            found = [f for job in jobs for f in job.result()]
+            print(f"check runs, paper, {LINKS[link]} loses 10%, {kind}: {text(found)}")
     for check_run in (True, False):
         print("check runs" if check_run else "mixed runs")
         for name in NAMED:
@@ -296,8 +302,8 @@ def when_the_knee_scatters(pool: ProcessPoolExecutor, seed: int, sequences: int,
     for knee_rad in (0.25e-3, 0.5e-3, 1e-3):
         alarms = [sum(pool.map(quiet_when_the_knee_scatters, range(seed, seed + 5), [knee_rad] * 5, [chosen] * 5))
                   for chosen in (False, True)]
-        print(f"knee off by {1e3 * knee_rad} mrad from run to run, unchanged limbs with an alarm: {alarms[0]} of 5 at the "
-              f"best of the nine postures, {alarms[1]} of 5 at those of its choice")
+        print(f"knee off by {1e3 * knee_rad} mrad from run to run, unchanged limbs with an alarm: {alarms[0]} of 5 at "
+              f"the best of the nine postures, {alarms[1]} of 5 at those of its choice")
 
 
 def at_choice(pool: ProcessPoolExecutor, seed: int, sequences: int, bound: Bound, rehearsed: bool = True) -> None:
@@ -317,7 +323,8 @@ def at_choice(pool: ProcessPoolExecutor, seed: int, sequences: int, bound: Bound
         watched = [pool.submit(quiet_at_choice, seed + i, NAMED[name], PRACTICE, 500_000, rehearsed, friction)
                    for i in range(2)]
         ends = [job.result() for job in watched]
-        print(f"  {what}, unchanged: {sum(a for a, _ in ends)} alarms in {sum(n for _, n in ends):,} readings", flush=True)
+        print(f"  {what}, unchanged: {sum(a for a, _ in ends)} alarms in {sum(n for _, n in ends):,} readings",
+              flush=True)
         if rehearsed:
             bound(f"{what}: no false alarm in 10^6 readings", not any(a for a, _ in ends))
     cases = list(pool.map(random_choice, range(seed + 1000, seed + 1000 + sequences), [rehearsed] * sequences,
@@ -355,7 +362,8 @@ def at_margins(pool: ProcessPoolExecutor, seed: int, sequences: int, bound: Boun
                               [knee_least_rad] * sequences, chunksize=20))
         print(f"  random limbs: {sum(alarm for _, alarm, _ in cases)} of {len(cases)} raised an alarm unchanged; "
               f"{sum(watching for watching, _, _ in cases)} had learned")
-        print(f"  random limbs, either link loses 10%: {text([f for _, _, losses in cases for f in losses])}", flush=True)
+        print(f"  random limbs, either link loses 10%: {text([f for _, _, losses in cases for f in losses])}",
+              flush=True)
 
 
 PARTS = {"nine": (at_nine, 0), "scatter": (when_the_knee_scatters, 400_000), "choice": (at_choice, 400_000),
@@ -366,7 +374,8 @@ PARTS = {"nine": (at_nine, 0), "scatter": (when_the_knee_scatters, 400_000), "ch
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seed", type=int, default=5_000_001, help="1,000,001 was used while the check was made")
-    parser.add_argument("--sequences", type=int, default=2000, help="random limbs, at most 600 at postures of their choice")
+    parser.add_argument("--sequences", type=int, default=2000,
+                        help="random limbs, at most 600 at postures of their choice")
     parser.add_argument("--only", nargs="+", choices=PARTS, default=list(PARTS), help="these parts")
     parser.add_argument("--jobs", type=int, default=2, help="processes")
     options = parser.parse_args()

@@ -1,8 +1,8 @@
 """Loading records on the simulated limb, and the drift check fed with them; shared by the drift sweeps.
 
 The simulated limb (host_sim, double precision) shares no code with the firmware. It differs from what the controller
-believes by what a calibration is trusted to, drawn once per limb: compliances 5 %, lengths 0.5 mm, angles 3 mrad, sensor
-gain 0.5 %, thermal rate 20 %. Readings: noise of 0.1 N one sigma, rounded to 1/16 N, as in the practice records.
+believes by what a calibration is trusted to, drawn once per limb: compliances 5 %, lengths 0.5 mm, angles 3 mrad,
+sensor gain 0.5 %, thermal rate 20 %. Readings: noise of 0.1 N one sigma, rounded to 1/16 N, as in the practice records.
 """
 from __future__ import annotations
 
@@ -67,9 +67,10 @@ def limb_floats(keys: dict[str, float]) -> np.ndarray:
     """brace_limb_t of a model, with the trust every calibration has here."""
     def links(name: str) -> list[float]:
         at = f"link.{name}."
-        return [keys.get(at + key, 0.0) for key in ("axial_mm_per_n", "bending_mm_per_n", "tilt_rad", "lateral_mm_per_n",
-                                                     "torsion_rad_per_n_mm", "moment_transfer")]
-    values = [keys.get("geometry.coxa_mm", 57.0), keys.get("geometry.femur_mm", 185.0), keys.get("geometry.tibia_mm", 313.5)]
+        return [keys.get(at + key, 0.0) for key in ("axial_mm_per_n", "bending_mm_per_n", "tilt_rad",
+                                                    "lateral_mm_per_n", "torsion_rad_per_n_mm", "moment_transfer")]
+    values = [keys.get("geometry.coxa_mm", 57.0), keys.get("geometry.femur_mm", 185.0),
+              keys.get("geometry.tibia_mm", 313.5)]
     for name in ("coxa", "femur", "tibia"):
         values += links(name)
     for name in ("coxa", "femur", "tibia"):
@@ -78,7 +79,8 @@ def limb_floats(keys: dict[str, float]) -> np.ndarray:
     return np.array([*values, 0.5, 0.003, 0.05, 0.005], dtype=np.float32)
 
 
-def true_limb(believed: dict[str, float], rng: np.random.Generator, per_degc: float, sigmas: float = 1.0) -> dict[str, float]:
+def true_limb(believed: dict[str, float], rng: np.random.Generator, per_degc: float,
+              sigmas: float = 1.0) -> dict[str, float]:
     """What the calibration of `believed` may have missed; `sigmas` times what it is trusted to."""
     keys = dict(believed)
     for key, value in believed.items():
@@ -116,7 +118,8 @@ def runs(theta: np.ndarray, direction: np.ndarray, rng: np.random.Generator, swi
     count = len(theta) * len(RUN_STEPS)
     d = (STEP_MM * RUN_STEPS)[None, :, None] * direction[:, None, :]
     phase = rng.uniform(0, 2 * np.pi) + np.arange(count) * 2 * np.pi / period
-    return Record(np.repeat(np.arange(len(theta), dtype=np.int32), len(RUN_STEPS)), np.repeat(theta, len(RUN_STEPS), axis=0),
+    return Record(np.repeat(np.arange(len(theta), dtype=np.int32), len(RUN_STEPS)),
+                  np.repeat(theta, len(RUN_STEPS), axis=0),
                   d.reshape(-1, 2), 22.0 + swing_degc * np.sin(phase))
 
 
@@ -144,7 +147,7 @@ def split_at_reversals(record: Record) -> Record:
 def random_believed(rng: np.random.Generator) -> dict[str, float]:
     """A limb about as slender as those of the practice records: lengths by a third, compliances by a factor of two."""
     def about(value: float, factor: float = 2.0) -> float:
-        return value * factor ** rng.uniform(-1, 1)
+        return value * float(factor ** rng.uniform(-1, 1))
     keys = {"geometry.femur_mm": about(190.0, 1.35), "geometry.tibia_mm": about(260.0, 1.35)}
     for link, bending in (("femur", 0.06), ("tibia", 0.16)):
         keys |= {f"link.{link}.axial_mm_per_n": about(0.001), f"link.{link}.bending_mm_per_n": about(bending)}

@@ -47,7 +47,7 @@ def sweep(title: str, variant: Variant, limits: np.ndarray, step_rad: float | No
         result = variant(limb, theta1, theta2)
         found = None if result is None else errors(limb, theta1, theta2, result[0])
         text = "" if found is None else " ".join(f"{e:9.1e}" for e in found)
-        if found is None or result[1]:
+        if result is None or found is None or result[1]:
             tally["refused" if found is None else "flagged"] += 1
             verdict = "refused" if found is None else "flagged"
         elif np.all(found <= limits):

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import ctypes
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -107,7 +108,9 @@ def planar(limb: Limb, theta1: NDArray[np.float32], theta2: NDArray[np.float32])
 
     det = c_xx * c_zz - c_xz * c_xz
     mean, dev = (c_xx + c_zz) / 2, np.hypot((c_xx - c_zz) / 2, c_xz)
-    return Planar(c_xx, c_xz, c_zz, c_zz / det, -c_xz / det, c_xx / det, 1 / (mean + dev), (mean + dev) / det,
+    lambda_min: Any = 1 / (mean + dev)  # NumPy's stubs take these two for float64
+    lambda_max: Any = (mean + dev) / det
+    return Planar(c_xx, c_xz, c_zz, c_zz / det, -c_xz / det, c_xx / det, lambda_min, lambda_max,
                   np.arctan2(-2 * c_xz, c_zz - c_xx) / 2)
 
 

@@ -14,5 +14,6 @@ HERE = Path(__file__).parent
 
 @pytest.mark.parametrize("arithmetic", ["planar", "fixed", "spatial", "batch"])
 def test_within_the_stated_accuracy(arithmetic: str) -> None:
-    sweep = subprocess.run([sys.executable, HERE / f"accuracy_{arithmetic}.py"], capture_output=True, text=True, timeout=300)
+    sweep = subprocess.run([sys.executable, HERE / f"accuracy_{arithmetic}.py"], capture_output=True, text=True,
+                           timeout=300)
     assert sweep.returncode == 0, sweep.stdout + sweep.stderr

@@ -11,7 +11,7 @@ import backlash_histories as bench
 import backlash_measured as measured
 
 SEED, COUNT = 2_000_001, 150
-NOT_REACHED = "of all ticks"  # nor by anyone: backlash_floor.py
+NOT_REACHED = "of all ticks"  # nor in reach of who only looks on: backlash_floor.py
 
 
 @pytest.fixture(scope="module")
@@ -74,3 +74,11 @@ def test_the_oracle_does_better_and_still_not_well(lib) -> None:
     oracle = floor.oracle(lib, SEED, 6, 400, exact=False, told=False)
     assert oracle.ticks == machine.ticks
     assert 0.02 < oracle.beyond_a_tenth / oracle.ticks < bench.beyond_a_tenth(machine.all)
+
+
+def test_a_motor_that_feels_for_the_flank_tells_more(lib) -> None:
+    """So does a filter that knows only what a controller may know."""
+    looking, feeling = (floor.oracle(lib, SEED, 8, 400, exact=False, told=False, joint_exact=False, reach_gaps=reach)
+                        for reach in (0.0, 1.5))
+    assert looking.beyond_a_tenth > 0.05 * looking.ticks  # else the line would be in reach of looking on
+    assert feeling.beyond_a_tenth < 0.75 * looking.beyond_a_tenth

@@ -1,4 +1,5 @@
-"""The enumeration of power cuts of the drift check's journal (tests/faults) finds out every journal broken on purpose."""
+"""The enumeration of power cuts of the drift check's journal (tests/faults)
+finds out every journal broken on purpose."""
 
 from __future__ import annotations
 
@@ -16,8 +17,10 @@ BROKEN = {
     "believes a record without its checksum": ("if (journal->crc == crc_of_record(journal))", "if (true)"),
     "lets half a record hide the one behind it": ("journal->position = journal->begun + PIECE;", ""),
     "writes over what may have been touched": ("is_blank(piece) || journal->next > at ?", "true ?"),
-    "covers the header only": ("at + PIECE < BRACE_JOURNAL_COVERED_BYTES ?", "at + PIECE < BRACE_JOURNAL_COVERED_BYTES && at == 0u ?"),
-    "writes into the store's part": ("BRACE_JOURNAL_AT + offset, bytes, count", "BRACE_JOURNAL_AT - 64 + offset, bytes, count"),
+    "covers the header only": ("at + PIECE < BRACE_JOURNAL_COVERED_BYTES ?",
+                               "at + PIECE < BRACE_JOURNAL_COVERED_BYTES && at == 0u ?"),
+    "writes into the store's part": ("BRACE_JOURNAL_AT + offset, bytes, count",
+                                     "BRACE_JOURNAL_AT - 64 + offset, bytes, count"),
 }
 SOURCES = ("firmware/interface/src/crc32.c", "tests/faults/nvm_model.c", "tests/faults/journal_cuts.c")
 
@@ -31,7 +34,8 @@ def test_a_broken_journal_is_found_out(name: str, tmp_path: Path) -> None:
     (tmp_path / "journal.c").write_text(text.replace(before, after))
     program = tmp_path / "journal_cuts"
     subprocess.run(
-        ["gcc", "-std=c11", "-O2", "-w", "-DNVM_MODEL_SLOT_BYTES=8192", *(f"-I{PROJECT / folder}" for folder in (*INCLUDES, *INTERFACE)),
+        ["gcc", "-std=c11", "-O2", "-w", "-DNVM_MODEL_SLOT_BYTES=8192",
+         *(f"-I{PROJECT / folder}" for folder in (*INCLUDES, *INTERFACE)),
          "-o", program, *(PROJECT / source for source in SOURCES), tmp_path / "journal.c"], check=True)
     outcome = subprocess.run([program, "--broken"], capture_output=True, text=True, timeout=300)
     assert outcome.returncode == 0, outcome.stdout

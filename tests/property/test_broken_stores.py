@@ -10,7 +10,8 @@ import pytest
 
 PROJECT = Path(__file__).resolve().parents[2]
 STORE = PROJECT / "firmware" / "app" / "src" / "store"
-INCLUDES = ("firmware/app/include", "firmware/app/src", "firmware/core/include", "firmware/core/src", "hal/include", "tests/faults")
+INCLUDES = ("firmware/app/include", "firmware/app/src", "firmware/core/include", "firmware/core/src", "hal/include",
+            "tests/faults")
 INTERFACE = ("firmware/interface/include", "firmware/interface/generated", "firmware/interface/src")
 SOURCES = (
     "firmware/interface/src/*.c",
@@ -28,8 +29,8 @@ BROKEN: dict[str, list[Edit]] = {
         ("store.c", "go_to(store, STAGE_WRITE)", "go_to(store, STAGE_COMMIT)"),
         (
             "store.c",
-            "return done(store);\n    }\n    store->failure = (int8_t)mark_failure(result);\n    go_to(store, STAGE_UNDO);\n"
-            "    return BRACE_STORE_BUSY;\n}\n\nstatic brace_store_state_t withdraw",
+            "return done(store);\n    }\n    store->failure = (int8_t)mark_failure(result);\n"
+            "    go_to(store, STAGE_UNDO);\n    return BRACE_STORE_BUSY;\n}\n\nstatic brace_store_state_t withdraw",
             "go_to(store, STAGE_WRITE);\n        return BRACE_STORE_BUSY;\n    }\n    go_to(store, STAGE_UNDO);\n"
             "    return BRACE_STORE_BUSY;\n}\n\nstatic brace_store_state_t withdraw",
         ),
@@ -41,7 +42,8 @@ BROKEN: dict[str, list[Edit]] = {
     ],
     "does not erase": [("store.c", "store->hal->nvm_erase(store->hal->context, slot) != BRACE_HAL_OK", "false")],
     "writes the slot in force": [
-        ("store.c", "return other_than(store->in_force - 1u);\n    }\n    const", "return store->in_force - 1u;\n    }\n    const")
+        ("store.c", "return other_than(store->in_force - 1u);\n    }\n    const",
+         "return store->in_force - 1u;\n    }\n    const")
     ],
     "does not affirm the slot in force": [
         ("store.c", "settle(store, other, STORE_KEEP, STAGE_RETIRE)", GO_ON.format("STAGE_RETIRE"))
@@ -53,7 +55,8 @@ BROKEN: dict[str, list[Edit]] = {
         ("store.c", "settle(store, store->target, STORE_VOID, STAGE_SPOIL)", GO_ON.format("STAGE_SPOIL"))
     ],
     "does not spoil the slot it erases": [
-        ("store.c", "settle(store, store->target, STORE_VOID, STAGE_SPOIL)", "settle(store, store->target, STORE_VOID, STAGE_ERASE)")
+        ("store.c", "settle(store, store->target, STORE_VOID, STAGE_SPOIL)",
+         "settle(store, store->target, STORE_VOID, STAGE_ERASE)")
     ],
     "believes any sound block": [("store_slot.c", "if (marks.kept)", "if (true)")],
     "believes a void slot": [("store_slot.c", "marks.kept = false;\n", "\n")],
@@ -68,7 +71,8 @@ BROKEN: dict[str, list[Edit]] = {
     ],
     "does not clear the next place": [("store.c", "if (!store->clean[slot])", "if (false)")],
     "takes the older set": [
-        ("store.c", "(store->slot[1].sequence - store->slot[0].sequence) > 0;", "(store->slot[1].sequence - store->slot[0].sequence) < 0;")
+        ("store.c", "(store->slot[1].sequence - store->slot[0].sequence) > 0;",
+         "(store->slot[1].sequence - store->slot[0].sequence) < 0;")
     ],
 }
 
@@ -86,7 +90,8 @@ def test_a_broken_store_is_found_out(name: str, tmp_path: Path) -> None:
     sources = [path for pattern in SOURCES for path in sorted(PROJECT.glob(pattern))] + sorted(folder.glob("*.c"))
     folders = [tmp_path, *(PROJECT / include for include in (*INCLUDES, *INTERFACE))]
     subprocess.run(
-        ["gcc", "-std=c11", "-O2", "-w", *(f"-I{folder}" for folder in folders), "-o", program, *sources, "-lm"], check=True
+        ["gcc", "-std=c11", "-O2", "-w", *(f"-I{folder}" for folder in folders), "-o", program, *sources, "-lm"],
+        check=True
     )
     outcome = subprocess.run([program, "--broken"], capture_output=True, text=True, timeout=300)
     assert outcome.returncode == 0, outcome.stdout

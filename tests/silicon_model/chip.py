@@ -43,7 +43,8 @@ SOFT_FLOAT = ("-mfloat-abi=soft",)  # for callers that compute: the emulator's F
 class Image:
     """The layer and a file of tests/silicon_model/image, compiled for the Cortex-M4 and linked; symbols by name."""
 
-    def __init__(self, folder: Path, calls: str = "calls.c", flags: tuple[str, ...] = SHIPPED, beside: str = "") -> None:
+    def __init__(self, folder: Path, calls: str = "calls.c", flags: tuple[str, ...] = SHIPPED,
+                 beside: str = "") -> None:
         hal, here = PROJECT / "hal", Path(__file__).parent / "image"
         elf, flat = folder / "image.elf", folder / "image.bin"
         parts = ["stm32f405"] + ([beside] if beside else [])
@@ -56,7 +57,8 @@ class Image:
         subprocess.run(["arm-none-eabi-objcopy", "-O", "binary", elf, flat], check=True)
         self.bytes = flat.read_bytes()
         listing = subprocess.run(["arm-none-eabi-nm", elf], check=True, capture_output=True, text=True).stdout
-        self.symbols = {line.split()[2]: int(line.split()[0], 16) for line in listing.splitlines() if len(line.split()) == 3}
+        self.symbols = {line.split()[2]: int(line.split()[0], 16) for line in listing.splitlines()
+                        if len(line.split()) == 3}
 
 
 class Nvic:

@@ -14,7 +14,8 @@ class Rcc:
 
     BASE = 0x40023800
 
-    def __init__(self, chip: Chip, crystal_hz: int | None = 8_000_000, pll_locks: bool = True, csr: int = 0x0E000000) -> None:
+    def __init__(self, chip: Chip, crystal_hz: int | None = 8_000_000, pll_locks: bool = True,
+                 csr: int = 0x0E000000) -> None:
         self.chip, self.crystal_hz, self.pll_locks = chip, crystal_hz, pll_locks
         self.registers = {0x00: 0x83, 0x04: 0x24003010, 0x08: 0, 0x20: 0, 0x30: 0x00100000, 0x40: 0, 0x44: 0, 0x74: csr}
         self.wait_states = 0
@@ -76,7 +77,8 @@ class Rcc:
         core = source / (1 if ahb < 8 else (2, 4, 8, 16, 64, 128, 256, 512)[ahb - 8])
         bus = [core / (1 if code < 4 else 2 ** (code - 3)) for code in (config >> 10 & 7, config >> 13 & 7)]
         timer = bus[0] if config >> 10 & 7 < 4 else 2 * bus[0]
-        return {"core": core, "apb1": bus[0], "apb2": bus[1], "timer": timer, "vco_in": vco_in, "vco": vco_in * multiplier}
+        return {"core": core, "apb1": bus[0], "apb2": bus[1], "timer": timer, "vco_in": vco_in,
+                "vco": vco_in * multiplier}
 
     def check(self) -> None:
         """Limits of 7.3.2 and of the data sheet's general operating conditions at 2.7-3.6 V."""

@@ -15,7 +15,8 @@ from watchdog_model import Iwdg
 class Silicon:
     """A chip with every model there is, and calls of the image in Python's terms."""
 
-    def __init__(self, image: Image, seed: int, crystal_hz: int | None, pll_locks: bool, csr: int, lsi_hz: float) -> None:
+    def __init__(self, image: Image, seed: int, crystal_hz: int | None, pll_locks: bool, csr: int,
+                 lsi_hz: float) -> None:
         self.chip = Chip(image, seed)
         self.rcc = Rcc(self.chip, crystal_hz, pll_locks, csr)
         self.flash = Flash(self.chip, self.rcc)

@@ -288,7 +288,8 @@ def drive_off(chip: Silicon) -> None:
 
 
 @pytest.mark.parametrize("acknowledge_after_us", [0.0, 30.0, 900.0])
-def test_bus_off_stays_until_recovered_and_stale_frames_are_forgotten(silicon: Maker, acknowledge_after_us: float) -> None:
+def test_bus_off_stays_until_recovered_and_stale_frames_are_forgotten(silicon: Maker,
+                                                                      acknowledge_after_us: float) -> None:
     chip = joined(silicon)
     drive_off(chip)
     chip.chip.wait_us(50_000)

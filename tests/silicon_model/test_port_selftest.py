@@ -1,4 +1,5 @@
-"""The port self-test (hal/selftest) on the layer over all register models at once: what the door promises, end to end."""
+"""The port self-test (hal/selftest) on the layer over all register models at once: what the door promises,
+end to end."""
 
 from __future__ import annotations
 

@@ -32,7 +32,8 @@ class Gpio:
 
 
 class Usart:
-    def __init__(self, chip: Chip, base: int, irq: int, handler: str, clock_hz: float, drive: tuple[Gpio, int] | None) -> None:
+    def __init__(self, chip: Chip, base: int, irq: int, handler: str, clock_hz: float,
+                 drive: tuple[Gpio, int] | None) -> None:
         self.chip, self.clock_hz, self.drive = chip, clock_hz, drive
         self.cr1, self.brr = 0, 0
         self.shift: int | None = None  # the byte on the line

@@ -104,7 +104,8 @@ class Wire:
 
     def ask(self, *requests: bytes) -> None:
         """In one piece."""
-        os.write(self._file, b"".join(b"t%03X8%s\r" % (REQUEST + NODE, each.hex().upper().encode()) for each in requests))
+        os.write(self._file, b"".join(b"t%03X8%s\r" % (REQUEST + NODE, each.hex().upper().encode())
+                                      for each in requests))
 
     def answer(self, seconds: float = PATIENCE_S) -> bytes | None:
         """The next answer's data, other frames passed over."""
@@ -159,8 +160,8 @@ LIMBS = 4
 
 
 def test_no_k_is_made_of_two_ticks() -> None:
-    """A million snapshots of moving limbs as fast as they go onto the wire, requests from a second client all the while;
-    each K must be the one of the posture that carries the same number, by physics.md."""
+    """A million snapshots of moving limbs as fast as they go onto the wire, requests from a second client all the
+    while; each K must be the one of the posture that carries the same number, by physics.md."""
     rng = random.Random(11)
     checked = np.zeros(LIMBS, int)
     least_change = []

@@ -86,7 +86,7 @@ def paper_k(theta1_rad: np.ndarray | float, theta2_rad: np.ndarray | float) -> n
     joint1, joint2 = (limb["joint"][name]["compliance_rad_per_n_mm"] for name in ("femur", "tibia"))
 
     def outer(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        return a[..., :, None] * b[..., None, :]
+        return np.asarray(a[..., :, None] * b[..., None, :])
 
     c = (
         (joint1 + bend1) * outer(p1, p1)

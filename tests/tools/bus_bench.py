@@ -39,7 +39,8 @@ def told_in_time(code: int, *arguments: object) -> str:
     """Its message; the exit code and the time are as promised, and there is a way on."""
     outcome, seconds = timed(*arguments)
     assert outcome.code == code, outcome.err
-    if seconds >= TELLING_S:  # a busy machine? the waits are the same there, the rest takes as much longer as this one does
+    # a busy machine? the waits are the same there, the rest takes as much longer as this one does
+    if seconds >= TELLING_S:
         nothing = [timed("query", "--bus", "slcan:/dev/ttyNONE")[1] for _ in range(2)]
         slack = 2.0 * max(max(nothing) - START_S, 0.0)
         assert seconds < TELLING_S + slack, f"{seconds:.1f} s, of which {slack:.1f} s are the machine's: {outcome.err}"

@@ -1,4 +1,5 @@
-"""Runs in a guest kernel that has CAN: brace's bus commands on vcan0. Prints one JSON object: command -> code, seconds, text."""
+"""Runs in a guest kernel that has CAN: brace's bus commands on vcan0. Prints one JSON object: command -> code,
+seconds, text."""
 
 from __future__ import annotations
 

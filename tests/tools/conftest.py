@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
 import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,6 +22,18 @@ DATA = PROJECT / "tools" / "brace" / "data"
 # A shell starts what it puts in the background with Ctrl-C ignored, and children would inherit that.
 if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def in_guest(script: str, timeout_s: float) -> dict[str, Any]:
+    """What a script of tests/ prints last, run in a guest kernel that has vcan0; skips where there can be no guest."""
+    pytest.importorskip("can")
+    command = ["tests/socketcan/with_vcan", sys.executable, script]
+    ran = subprocess.run(command, cwd=PROJECT, capture_output=True, text=True, timeout=timeout_s)
+    if ran.returncode == 4:
+        pytest.skip(ran.stderr.strip())
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    told: dict[str, Any] = json.loads(ran.stdout.splitlines()[-1])
+    return told
 
 
 @pytest.fixture
@@ -63,7 +77,7 @@ def brace(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -
     return run
 
 
-def spawn(*arguments: object, **options: object) -> subprocess.Popen[str]:
+def spawn(*arguments: object, **options: Any) -> subprocess.Popen[str]:
     """Starts the command as its users do, in a process of its own."""
     environment = {key: value for key, value in os.environ.items() if key != "BRACE_DEBUG"}
     return subprocess.Popen(
@@ -73,7 +87,7 @@ def spawn(*arguments: object, **options: object) -> subprocess.Popen[str]:
         text=True,
         env=environment,
         **options,
-    )  # type: ignore[call-overload]
+    )
 
 
 def processor_s(*arguments: object) -> tuple[float, str]:
@@ -87,8 +101,8 @@ def processor_s(*arguments: object) -> tuple[float, str]:
 
 
 def assert_a_million_takes_two_seconds(spent_s: float, model: Path, folder: Path) -> None:
-    """Processor time, so that other programs do not decide. They do make it dearer, and a machine may be slow: beyond two
-    seconds a map of few postures, made now, says what a start costs; a million may cost as much again."""
+    """Processor time, so that other programs do not decide. They do make it dearer, and a machine may be slow: beyond
+    two seconds a map of few postures, made now, says what a start costs; a million may cost as much again."""
     if spent_s >= 2.0:
         start_s, _ = processor_s("map", "--model", model, "--postures", 1000, "--out", folder)
         assert spent_s < 2.0 * start_s, f"{spent_s:.2f} s; {start_s:.2f} s for a thousand"
@@ -162,12 +176,12 @@ dwell_s = 4.0
 POSES = ((0.74, 1.0), (0.2, 1.6), (1.1, 2.2), (0.5, 0.6), (-0.3, 1.9))
 
 
-def loading_rows(noise_n: float = 0.1, seed: int = 0, **limb: object) -> list[list[str]]:
+def loading_rows(noise_n: float = 0.1, seed: int = 0, **limb: Any) -> list[list[str]]:
     """Rows of a linear limb's loading record, f = K d + noise; fields as text."""
     random = np.random.default_rng(seed)
     rows, run, clock = [], 0, 0.0
     for config, (theta1, theta2) in enumerate(POSES, start=1):
-        k = physics_k(theta1, theta2, **limb)  # type: ignore[arg-type]
+        k = physics_k(theta1, theta2, **limb)
         for axis in "xz":
             for rep in (1, 2):
                 run += 1

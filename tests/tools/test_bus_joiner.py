@@ -124,7 +124,8 @@ def whole_of(tick: int) -> Frame:
     layout = FD_MESSAGES["snapshot_fd"]
     values: dict[str, float | int | None] = {item.name: 0 for item in layout.fields}
     values |= {"sequence": 0x12345600 | tick & 0xFF, "k_xx": 4.0, "k_xz": -0.5, "k_zz": 1.0, "lambda_min": 0.9}
-    values |= {"parameter_crc": 0xABCD1234, "mode": 1, "flags": 9, "faults": 0x84, "theta1": 0.25, "age": 1.5, "play_tibia": 3}
+    values |= {"parameter_crc": 0xABCD1234, "mode": 1, "flags": 9, "faults": 0x84, "theta1": 0.25, "age": 1.5,
+               "play_tibia": 3}
     return Frame(1.0, layout.identifier + 5, layout.encode(values))
 
 

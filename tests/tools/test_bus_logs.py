@@ -201,7 +201,7 @@ def test_replay_onto_a_bus(brace: Callable[..., Outcome], limb: Path, tmp_path: 
         outcome = brace("replay", tmp_path / "a.log", "--bus", url, "--json")
         assert outcome.code == 0 and json.loads(outcome.out)["frames"] == len(recorded)
         assert 0.5 < time.monotonic() - started < 10.0  # as long as it took, not at once; the rest is the machine's
-        heard = []
+        heard: list[tuple[int, bytes]] = []
         while (frame := listener.receive(0.3)) is not None and len(heard) < 10_000:
             if frame.node == 1:
                 heard.append((frame.identifier, frame.data))
@@ -223,7 +223,19 @@ def test_logs_that_are_none(brace: Callable[..., Outcome], tmp_path: Path) -> No
     assert brace("replay", tmp_path / "b.mcap").code in (3, 4)
     (tmp_path / "empty.log").write_text("")
     assert brace("replay", tmp_path / "empty.log").code == 4
-    assert brace("query", "--bus", f"log:{path}").code in (2, 4)
+
+
+@pytest.mark.parametrize("text", ["", "(1.0) can0 123#00\n", "(1.0) can0 701#05010000DDCCBBAA\n"])
+@pytest.mark.parametrize("asks", ["query", "clear drift", "params pull", "params rollback", "record --loading-test"])
+def test_a_log_is_not_asked_whoever_is_in_it(
+    brace: Callable[..., Outcome], tmp_path: Path, asks: str, text: str
+) -> None:
+    path, out = tmp_path / "a.log", tmp_path / "out"
+    path.write_text(text)
+    written = ("--out", out) if asks in ("params pull", "record --loading-test") else ()
+    outcome = brace(*asks.split(), "--bus", f"log:{path}", *written)
+    assert outcome.code == 2 and "a log answers no requests" in outcome.err and "brace replay" in outcome.err
+    assert not out.exists()
 
 
 def test_another_dictionary_in_a_log_is_6(brace: Callable[..., Outcome], tmp_path: Path) -> None:

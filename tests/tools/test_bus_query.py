@@ -222,8 +222,10 @@ def test_over_modbus_another_master_s_answer_is_not_taken(limb: Path, monkeypatc
         answer = ours.k_at_posture(0.9, 1.5)
         assert not between
         # a float's rounding in K and in the angles
-        assert np.allclose([answer.k_xx, answer.k_xz, answer.k_zz], physics_k(0.9, 1.5).ravel()[[0, 1, 3]], rtol=1e-5)
-        ours.close(), theirs.close()
+        k = np.array([answer.k_xx, answer.k_xz, answer.k_zz], dtype=float)
+        assert np.allclose(k, physics_k(0.9, 1.5).ravel()[[0, 1, 3]], rtol=1e-5)
+        ours.close()
+        theirs.close()
 
 
 @pytest.mark.parametrize("question", ["--load", "--sag"])

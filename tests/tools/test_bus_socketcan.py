@@ -3,27 +3,12 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 
-import pytest
-from conftest import PROJECT, physics_k
-
+from conftest import in_guest, physics_k
 
 
 def test_query_record_replay_push_and_failures_on_vcan0() -> None:
-    pytest.importorskip("can")
-    ran = subprocess.run(
-        ["tests/socketcan/with_vcan", sys.executable, "tests/tools/bus_on_vcan.py"],
-        cwd=PROJECT,
-        capture_output=True,
-        text=True,
-        timeout=400,
-    )
-    if ran.returncode == 4:
-        pytest.skip(ran.stderr.strip())
-    assert ran.returncode == 0, ran.stdout + ran.stderr
-    results = json.loads(ran.stdout.splitlines()[-1])
+    results = in_guest("tests/tools/bus_on_vcan.py", timeout_s=400)
     for name in ("live", "asked", "record", "replay", "push"):
         assert results[name]["code"] == 0, results[name]
     live, asked = json.loads(results["live"]["out"]), json.loads(results["asked"]["out"])

@@ -10,12 +10,13 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from conftest import LIMB, assert_a_million_takes_two_seconds, processor_s, spawn
+from conftest import LIMB, Outcome, assert_a_million_takes_two_seconds, processor_s, spawn
 
-Brace = Callable[..., object]
+Brace = Callable[..., Outcome]
 POSTURE = ("--theta1", 1.0, "--theta2", 1.4)
 ENVIRONMENT = {key: value for key, value in os.environ.items() if key != "BRACE_DEBUG"}
 
@@ -184,7 +185,7 @@ def test_a_folder_in_which_nothing_may_be_written_is_told_before_the_work(
 
 
 def test_a_full_turn_is_the_same_posture(brace: Brace, paper_limb: Path) -> None:
-    def k(*arguments: object) -> dict[str, float]:
+    def k(*arguments: object) -> dict[str, Any]:
         return dict(json.loads(brace("k", "--model", paper_limb, *arguments, "--json").out))
 
     for name in ("k_xx_n_per_mm", "k_xz_n_per_mm", "lambda_max_n_per_mm"):
@@ -206,7 +207,8 @@ def test_the_knee_is_named_by_its_true_angle(brace: Brace, tmp_path: Path) -> No
 def test_little_is_imported_before_ctrl_c_is_caught() -> None:
     code = "import sys; before = set(sys.modules); import brace.cli; print(sorted(set(sys.modules) - before))"
     loaded = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
-    assert not set(re.findall(r"'([\w.]+)'", loaded)) & {"argparse", "re", "numpy", "collections.abc", "brace.errors"}, loaded
+    assert not set(re.findall(r"'([\w.]+)'", loaded)) & {"argparse", "re", "numpy", "collections.abc",
+                                                         "brace.errors"}, loaded
 
 
 def test_ctrl_c_while_the_command_is_being_imported(tmp_path: Path) -> None:

@@ -11,7 +11,7 @@ import pytest
 
 from brace.dataset import Dataset, load_dataset
 from brace.errors import BadFileError
-from conftest import LOADING_HEADER, LOADING_META, loading_rows, write_loading
+from conftest import LOADING_HEADER, LOADING_META, Outcome, loading_rows, write_loading
 
 
 def fields(dataset: Dataset) -> set[tuple[int | None, str]]:
@@ -66,7 +66,8 @@ def test_what_cannot_be_a_record_is_refused_by_row_and_column(case: str, tmp_pat
         assert name in message and "row 30" in message
 
 
-ALL_WRONG = {  # what a whole column reads -> words that say what is wrong with it
+# What a whole column reads -> words that say what is wrong with it
+ALL_WRONG: dict[str, tuple[str, Callable[[str], str], str]] = {
     "decimal comma": ("theta1_rad", lambda text: '"' + text.replace(".", ",") + '"', "write 0.740000"),
     "upper case": ("axis", str.upper, "write x or z"),
     "seconds since 1970": ("t_s", lambda text: f"{float(text) + 1.795e9:.3f}", "take the first reading's off all"),
@@ -117,8 +118,8 @@ def _set(
 def test_units_are_recognised(tmp_path: Path) -> None:
     for factor, unit in ((1 / 25.4, "inches"), (1e-3, "m"), (1e3, "um")):
         rows = loading_rows()
-        _set(rows, "dx_mm", lambda value, factor=factor: value * factor)
-        _set(rows, "dz_mm", lambda value, factor=factor: value * factor)
+        _set(rows, "dx_mm", factor.__mul__)
+        _set(rows, "dz_mm", factor.__mul__)
         faults = load_dataset(write_loading(tmp_path, rows)).faults
         assert {fault.field for fault in faults} == {"dx_mm", "dz_mm"}
         assert all(str(fault.suggestion).startswith(unit + ":") for fault in faults)
@@ -154,7 +155,7 @@ def test_a_slipped_decimal_is_found_and_mended(tmp_path: Path) -> None:
             right = float(rows[row][column(name)])
             if abs(right) < 4.0:
                 continue
-            _set(rows, name, lambda value, factor=factor: value * factor, slice(row, row + 1))
+            _set(rows, name, factor.__mul__, slice(row, row + 1))
             faults = load_dataset(write_loading(tmp_path, rows)).faults
             assert [(fault.row, fault.field) for fault in faults] == [(row + 1, name)]
             assert faults[0].suggestion == pytest.approx(right) and faults[0].repair
@@ -264,7 +265,7 @@ def test_wrong_meta(tmp_path: Path) -> None:
     ]
 
 
-def test_a_folder_that_is_none(tmp_path: Path, brace: Callable[..., object], paper_limb: Path) -> None:
+def test_a_folder_that_is_none(tmp_path: Path, brace: Callable[..., Outcome], paper_limb: Path) -> None:
     for folder in (tmp_path / "none", paper_limb):
         outcome = brace("predict", folder, "--model", paper_limb, "--out", tmp_path / "p.csv")
         assert outcome.code == 3 and "dataset" in outcome.err and not (tmp_path / "p.csv").exists()

@@ -31,7 +31,7 @@ def names(cell: str) -> list[str]:
     [("a loading record", "loading"), ("a stiffness table", "stiffness_table"), ("a joint test", "joint_test")],
 )
 def test_columns(title: str, kind: str) -> None:
-    said = {}
+    said: dict[str, tuple[str, bool]] = {}
     for cell, unit, what in rows(SECTIONS[f"`data.csv` of {title}"]):
         units = unit.split(", ") * (1 if ", " in unit else len(names(cell)))
         said |= {name: (one, "if there" in what) for name, one in zip(names(cell), units, strict=True)}

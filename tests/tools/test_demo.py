@@ -20,7 +20,9 @@ PNG = b"\x89PNG\r\n\x1a\n"
 @pytest.fixture(scope="module")
 def demo(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
     out = tmp_path_factory.mktemp("demo") / "out"
-    run = subprocess.run([sys.executable, "-m", "brace", "demo", "--out", out], capture_output=True, text=True, timeout=600)
+    run = subprocess.run(
+        [sys.executable, "-m", "brace", "demo", "--out", out], capture_output=True, text=True, timeout=600
+    )
     assert run.returncode == 0, run.stderr
     return out, run.stdout
 

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from conftest import Outcome
 
 from brace.doctor import finding
 from brace.doctor.builds import builds
@@ -17,7 +18,7 @@ from brace.doctor.hardware import hardware
 from brace.doctor.programs import programs, python_packages
 from test_flash import content, elf, list_them
 
-Brace = Callable[..., object]
+Brace = Callable[..., Outcome]
 
 
 @pytest.fixture

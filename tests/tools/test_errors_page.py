@@ -1,4 +1,5 @@
-"""docs/errors.md names every exit code, status, refusal, fault and flag that there is, with its number, and no other."""
+"""docs/errors.md names every exit code, status, refusal, fault and flag that there is, with its number,
+and no other."""
 
 from __future__ import annotations
 

@@ -14,11 +14,12 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from conftest import Outcome
 
 from brace.flash import console, usb
 from brace.flash.image import ImageInfo, read_image
 
-Brace = Callable[..., object]
+Brace = Callable[..., Outcome]
 START = 0x08000000
 
 
@@ -125,7 +126,8 @@ def test_dry_run_says_command_hash_and_target_and_touches_nothing(
     assert outcome.code == 0 and bench.ran() == []
     assert hashlib.sha256(built.read_bytes()).hexdigest() in outcome.out
     for words in ("openocd -f interface/stlink.cfg -f target/stm32f4x.cfg", "verify reset exit", "STM32F405RG",
-                  "0x08000000", "1000 bytes", "dry run: nothing was written", "0.1.0 (0123456789ab, Release)"):  # fmt: skip
+                  "0x08000000", "1000 bytes", "dry run: nothing was written",
+                  "0.1.0 (0123456789ab, Release)"):  # fmt: skip
         assert words in outcome.out
     told = json.loads(brace("flash", built, "--dry-run", "--json", "--tool", "dfu-util").out)
     assert told["command"][:3] == ["dfu-util", "-d", "0483:df11"] and told["image"].endswith("image.bin")

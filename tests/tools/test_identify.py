@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,7 +21,7 @@ from brace.identify.parameters import free_compliances, with_priors
 from brace.identify.run import Options, identify
 from brace.identify.table import TableProblem, Weight
 from brace.model import load_limb
-from conftest import LIMB, POSES, loading_rows, physics_k, write_loading
+from conftest import LIMB, POSES, Outcome, loading_rows, physics_k, write_loading
 
 KNEE = ("link.tibia.bending_mm_per_n", "joint.tibia.compliance_rad_per_n_mm")
 
@@ -58,7 +59,7 @@ def test_parameters_within_their_trust_are_found(tmp_path: Path) -> None:
 
 
 def test_data_alone_determine_the_femur_spring_and_not_the_knee(tmp_path: Path) -> None:
-    truth = dict(bending=(0.08, 0.2), joint=(1.3e-5, 1.2e-5))
+    truth: dict[str, Any] = dict(bending=(0.08, 0.2), joint=(1.3e-5, 1.2e-5))
     covered = 0
     for seed in range(20):
         dataset = load_dataset(write_loading(tmp_path / "d", loading_rows(seed=seed, **truth)))
@@ -77,7 +78,7 @@ def test_data_alone_determine_the_femur_spring_and_not_the_knee(tmp_path: Path) 
     assert covered >= 14
 
 
-def test_classes_are_named(tmp_path: Path, brace: Callable[..., object]) -> None:
+def test_classes_are_named(tmp_path: Path, brace: Callable[..., Outcome]) -> None:
     folder = write_loading(tmp_path / "d", loading_rows())
     outcome = brace(
         "identify", folder, "--model", limb(tmp_path), "--free", "--out", tmp_path / "f.toml", "--json"
@@ -127,7 +128,7 @@ def test_the_split_reaches_as_far_as_the_knee_can_be_exchanged(tmp_path: Path) -
     assert most - 0.01 <= found.allowed[1] < most + 0.06
 
 
-def test_slopes_by_both_estimators(tmp_path: Path, brace: Callable[..., object]) -> None:
+def test_slopes_by_both_estimators(tmp_path: Path, brace: Callable[..., Outcome]) -> None:
     folder = write_loading(tmp_path / "d", loading_rows(noise_n=0.0))
     outcome = brace("identify", folder, "--model", limb(tmp_path), "--out", tmp_path / "f.toml", "--json")
     slopes = json.loads(outcome.out)["slopes"]
@@ -139,7 +140,7 @@ def test_slopes_by_both_estimators(tmp_path: Path, brace: Callable[..., object])
             assert np.abs(np.array(found) - k).max() < 1e-5 * np.abs(k).max()
 
 
-def test_the_papers_estimator_is_its_own(tmp_path: Path, brace: Callable[..., object]) -> None:
+def test_the_papers_estimator_is_its_own(tmp_path: Path, brace: Callable[..., Outcome]) -> None:
     """One reading off by 1 N at one step: it weighs d/sum(d^2) in least squares and 1/(n d) in the mean of ratios."""
     rows = loading_rows(noise_n=0.0)
     rows[1][11] = f"{float(rows[1][11]) + 1.0:.6f}"  # first run, along x, first step, 0.635 mm; two repeats
@@ -171,7 +172,7 @@ def test_combinations_by_formula(tmp_path: Path) -> None:
 
 
 def test_encoders_separate_joints_from_links(
-    tmp_path: Path, brace: Callable[..., object], paper_rig: Path
+    tmp_path: Path, brace: Callable[..., Outcome], paper_rig: Path
 ) -> None:
     rig = tmp_path / "rig.toml"
     rig.write_text(
@@ -192,7 +193,7 @@ def test_encoders_separate_joints_from_links(
 
 
 def test_the_papers_table(
-    tmp_path: Path, brace: Callable[..., object], paper_table: Path, paper_limb: Path
+    tmp_path: Path, brace: Callable[..., Outcome], paper_table: Path, paper_limb: Path
 ) -> None:
     out = tmp_path / "fitted.toml"
     outcome = brace("identify", paper_table, "--model", paper_limb, "--out", out, "--json")
@@ -249,7 +250,7 @@ def test_families_against_an_independent_fit(paper_table: Path, paper_limb: Path
 
 
 def test_faulty_rows(
-    tmp_path: Path, brace: Callable[..., object], paper_table: Path, paper_limb: Path
+    tmp_path: Path, brace: Callable[..., Outcome], paper_table: Path, paper_limb: Path
 ) -> None:
     out = tmp_path / "f.toml"
     refused = brace("identify", paper_table, "--model", paper_limb, "--out", out, "--faults", "refuse")
@@ -268,14 +269,14 @@ def test_faulty_rows(
     assert outcome.code == 3 and "inches" in outcome.err and not (tmp_path / "g.toml").exists()
 
 
-def test_a_parameter_beyond_its_trust_is_a_finding(tmp_path: Path, brace: Callable[..., object]) -> None:
+def test_a_parameter_beyond_its_trust_is_a_finding(tmp_path: Path, brace: Callable[..., Outcome]) -> None:
     folder = write_loading(tmp_path / "d", loading_rows(bending=(0.12, 0.25)))
     outcome = brace("identify", folder, "--model", limb(tmp_path), "--out", tmp_path / "f.toml", "--json")
     found = json.loads(outcome.out)["outside_trust"]
     assert found and found[0]["key"].startswith(("link.femur", "joint.femur", "geometry.femur"))
 
 
-def test_extra_and_only_keys(tmp_path: Path, brace: Callable[..., object]) -> None:
+def test_extra_and_only_keys(tmp_path: Path, brace: Callable[..., Outcome]) -> None:
     folder = write_loading(tmp_path / "d", loading_rows(moment_transfer=1.0))
     outcome = brace(
         "identify",
@@ -297,7 +298,7 @@ def test_extra_and_only_keys(tmp_path: Path, brace: Callable[..., object]) -> No
     assert outcome.code == 2 and "sensor.bias_x_n" in outcome.err
 
 
-def test_a_joint_test_gives_back_its_joint(tmp_path: Path, brace: Callable[..., object]) -> None:
+def test_a_joint_test_gives_back_its_joint(tmp_path: Path, brace: Callable[..., Outcome]) -> None:
     """Spring, play, friction and noise written out here by hand, not by the plant."""
     random = np.random.default_rng(0)
     sweep = np.concatenate([np.linspace(0, 1, 150), np.linspace(1, -1, 300), np.linspace(-1, 1, 300)])
@@ -330,7 +331,7 @@ def test_a_joint_test_gives_back_its_joint(tmp_path: Path, brace: Callable[..., 
 
 
 @pytest.mark.parametrize("rows", [1, 5, 34])
-def test_too_little_to_say_anything(rows: int, tmp_path: Path, brace: Callable[..., object]) -> None:
+def test_too_little_to_say_anything(rows: int, tmp_path: Path, brace: Callable[..., Outcome]) -> None:
     folder = write_loading(tmp_path / "d", loading_rows()[:rows])
     outcome = brace("identify", folder, "--model", limb(tmp_path), "--out", tmp_path / "f.toml")
     assert outcome.code in (0, 3) and (outcome.code == 0) == (tmp_path / "f.toml").exists()
@@ -338,7 +339,7 @@ def test_too_little_to_say_anything(rows: int, tmp_path: Path, brace: Callable[.
         assert outcome.code == 3
 
 
-def test_all_zero_and_all_equal_records(tmp_path: Path, brace: Callable[..., object]) -> None:
+def test_all_zero_and_all_equal_records(tmp_path: Path, brace: Callable[..., Outcome]) -> None:
     for change in ({9: "0.0", 10: "0.0"}, {11: "0.0", 12: "0.0"}):
         rows = loading_rows()
         for row in rows:
@@ -356,7 +357,7 @@ def test_all_zero_and_all_equal_records(tmp_path: Path, brace: Callable[..., obj
 
 
 def test_rows_at_the_straight_and_the_folded_limb(
-    tmp_path: Path, brace: Callable[..., object], paper_limb: Path
+    tmp_path: Path, brace: Callable[..., Outcome], paper_limb: Path
 ) -> None:
     """Springs alone are rigid there: that kind of limb is left out, the others are fitted."""
     folder = tmp_path / "t"

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from brace.dataset import load_dataset
-from conftest import LIMB
+from conftest import LIMB, Outcome
 
 
 def record(
@@ -60,7 +60,7 @@ def test_a_sound_record_is_noted_to_saturate_and_no_more(tmp_path: Path) -> None
     ],
 )
 def test_what_fits_only_otherwise_is_refused(
-    change: dict[str, float], field: str, words: str, tmp_path: Path, brace: Callable[..., object]
+    change: dict[str, float], field: str, words: str, tmp_path: Path, brace: Callable[..., Outcome]
 ) -> None:
     folder = record(tmp_path / "d", **change)  # type: ignore[arg-type]
     faults = load_dataset(folder).faults
@@ -85,7 +85,7 @@ def test_copied_rows_are_flagged(tmp_path: Path) -> None:
 
 
 def test_friction_that_grows_with_the_load_is_told_from_the_spring(
-    tmp_path: Path, brace: Callable[..., object]
+    tmp_path: Path, brace: Callable[..., Outcome]
 ) -> None:
     """A gearbox's loop by formula: 100 N mm of friction and 15 % of the torque carried."""
     random = np.random.default_rng(2)

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from conftest import LIMB, physics_k
+from conftest import LIMB, Outcome, physics_k
 
 PLANAR_KEYS = {
     "k_xx_n_per_mm",
@@ -37,7 +37,7 @@ def planar(values: dict[str, float]) -> np.ndarray:
 
 
 @pytest.mark.parametrize("arith", ["f32", "fixed", "general", "table"])
-def test_check_values(arith: str, brace: Callable[..., object], paper_limb: Path) -> None:
+def test_check_values(arith: str, brace: Callable[..., Outcome], paper_limb: Path) -> None:
     outcome = brace("k", "--model", paper_limb, "--theta1", 1.0, "--theta2", 1.4, "--arith", arith, "--json")
     values = json.loads(outcome.out)
     assert outcome.code == 0 and PLANAR_KEYS <= values.keys()
@@ -48,7 +48,7 @@ def test_check_values(arith: str, brace: Callable[..., object], paper_limb: Path
 
 @pytest.mark.parametrize("arith", ["f32", "fixed", "general", "table"])
 def test_k_over_the_workspace(
-    arith: str, brace: Callable[..., object], paper_limb: Path, tmp_path: Path
+    arith: str, brace: Callable[..., Outcome], paper_limb: Path, tmp_path: Path
 ) -> None:
     random = np.random.default_rng(5)
     angles = np.column_stack([random.uniform(-3.1, 3.1, 300), random.uniform(-3.1, 3.1, 300)])
@@ -68,7 +68,7 @@ def test_k_over_the_workspace(
         assert axis @ expected @ axis == pytest.approx(high, rel=2e-5)
 
 
-def test_model_features_reach_the_firmware(brace: Callable[..., object], tmp_path: Path) -> None:
+def test_model_features_reach_the_firmware(brace: Callable[..., Outcome], tmp_path: Path) -> None:
     limb = tmp_path / "limb.toml"
     limb.write_text(
         LIMB.replace("[link.tibia]", "moment_transfer = 0.5\n[link.tibia]")
@@ -81,7 +81,7 @@ def test_model_features_reach_the_firmware(brace: Callable[..., object], tmp_pat
     assert values["theta1_true_rad"] == pytest.approx(1.0, abs=1e-6)
 
 
-def test_a_yielding_base_takes_the_general_path(brace: Callable[..., object], tmp_path: Path) -> None:
+def test_a_yielding_base_takes_the_general_path(brace: Callable[..., Outcome], tmp_path: Path) -> None:
     limb = tmp_path / "limb.toml"
     limb.write_text(LIMB + "[base]\nx_mm_per_n = 0.2\nz_mm_per_n = 0.01\nrotation_rad_per_n_mm = 2e-6\n")
     values = json.loads(brace("k", "--model", limb, "--theta1", 1.0, "--theta2", 1.4, "--json").out)
@@ -92,7 +92,7 @@ def test_a_yielding_base_takes_the_general_path(brace: Callable[..., object], tm
     assert refused.code == 2 and "--arith" in refused.err
 
 
-def test_polar_coordinates_and_both_knees(brace: Callable[..., object], paper_limb: Path) -> None:
+def test_polar_coordinates_and_both_knees(brace: Callable[..., Outcome], paper_limb: Path) -> None:
     for knee in ("up", "down"):
         values = json.loads(
             brace("k", "--model", paper_limb, "--r", 400, "--phi", -0.3, "--knee", knee, "--json").out
@@ -105,7 +105,7 @@ def test_polar_coordinates_and_both_knees(brace: Callable[..., object], paper_li
         assert values["r_mm"] == pytest.approx(400, abs=1e-3)
 
 
-def test_sigma_is_that_of_a_simulated_calibration(brace: Callable[..., object], paper_limb: Path) -> None:
+def test_sigma_is_that_of_a_simulated_calibration(brace: Callable[..., Outcome], paper_limb: Path) -> None:
     """The limb's parameters drawn from [uncertainty] 4,000 times: the spread of K is what is printed."""
     random = np.random.default_rng(2)
     values = json.loads(brace("k", "--model", paper_limb, "--theta1", 1.0, "--theta2", 1.4, "--json").out)
@@ -127,7 +127,7 @@ def test_sigma_is_that_of_a_simulated_calibration(brace: Callable[..., object], 
         assert values[f"sigma_k_{key}_n_per_mm"] == pytest.approx(entry, rel=0.08)
 
 
-def test_space_at_zero_yaw_is_the_plane(brace: Callable[..., object], tmp_path: Path) -> None:
+def test_space_at_zero_yaw_is_the_plane(brace: Callable[..., Outcome], tmp_path: Path) -> None:
     limb = tmp_path / "limb.toml"
     limb.write_text(
         LIMB.replace("[link.tibia]", "lateral_mm_per_n = 0.05\ntorsion_rad_per_n_mm = 1e-6\n[link.tibia]")
@@ -156,7 +156,7 @@ def test_space_at_zero_yaw_is_the_plane(brace: Callable[..., object], tmp_path: 
     assert c_yy == pytest.approx(8e-6 * reach**2 + 0.05 + 1e-6 * aside**2, rel=2e-5)
 
 
-def test_refusals(brace: Callable[..., object], paper_limb: Path, tmp_path: Path) -> None:
+def test_refusals(brace: Callable[..., Outcome], paper_limb: Path, tmp_path: Path) -> None:
     model = ("k", "--model", paper_limb)
     for arguments in (
         (),
@@ -178,12 +178,12 @@ def test_refusals(brace: Callable[..., object], paper_limb: Path, tmp_path: Path
     assert brace("--version").code == 0 and brace("k", "--help").code == 0
 
 
-def test_negative_numbers_are_values(brace: Callable[..., object], paper_limb: Path) -> None:
+def test_negative_numbers_are_values(brace: Callable[..., Outcome], paper_limb: Path) -> None:
     assert brace("k", "--model", paper_limb, "--theta1", "-1e-3", "--theta2", "-.5", "--json").code == 0
 
 
 def test_many_postures_keep_their_rows(
-    brace: Callable[..., object], paper_limb: Path, tmp_path: Path
+    brace: Callable[..., Outcome], paper_limb: Path, tmp_path: Path
 ) -> None:
     source, out = tmp_path / "in.csv", tmp_path / "out.csv"
     source.write_text("label,theta2_rad,theta1_rad\nfirst one,1.4,1.0\nsecond,0.5,-0.25\n")
@@ -199,7 +199,7 @@ def test_many_postures_keep_their_rows(
 
 
 def test_a_bad_row_leaves_the_old_result(
-    brace: Callable[..., object], paper_limb: Path, tmp_path: Path
+    brace: Callable[..., Outcome], paper_limb: Path, tmp_path: Path
 ) -> None:
     source, out = tmp_path / "in.csv", tmp_path / "out.csv"
     out.write_text("old")
@@ -216,7 +216,7 @@ def test_a_bad_row_leaves_the_old_result(
 
 
 def _table(
-    brace: Callable[..., object], limb: Path, folder: Path, angles: np.ndarray, arith: str
+    brace: Callable[..., Outcome], limb: Path, folder: Path, angles: np.ndarray, arith: str
 ) -> list[dict[str, str]]:
     source, out = folder / "in.csv", folder / "out.csv"
     source.write_text("theta1_rad,theta2_rad\n" + "".join(f"{a!r},{b!r}\n" for a, b in angles.tolist()))

@@ -10,13 +10,13 @@ import pytest
 
 from brace.errors import BadFileError
 from brace.model import LIMB_KEYS, load_limb
-from conftest import LIMB
+from conftest import LIMB, Outcome
 
 
 def test_written_model_reads_back_bit_for_bit(tmp_path: Path) -> None:
     random = np.random.default_rng(1)
     model = load_limb(_file(tmp_path, LIMB))
-    changes = {}
+    changes: dict[str, float | str] = {}
     for key in LIMB_KEYS:
         if key.kind == "number":
             low, high = max(key.low, -1e3), min(key.high, 1e3)
@@ -94,7 +94,7 @@ HOSTILE = {  # what is done to the file -> line, and words that the message must
 
 @pytest.mark.parametrize("case", HOSTILE)
 def test_hostile_models_are_refused_with_line_and_way_on(
-    case: str, tmp_path: Path, brace: Callable[..., object]
+    case: str, tmp_path: Path, brace: Callable[..., Outcome]
 ) -> None:
     (before, after), line, words = HOSTILE[case]
     assert before in LIMB
@@ -127,14 +127,14 @@ def test_a_limb_in_which_nothing_yields_is_refused(tmp_path: Path) -> None:
         b"format = 1\n" * 10,
     ],
 )
-def test_garbage_is_refused(content: bytes, tmp_path: Path, brace: Callable[..., object]) -> None:
+def test_garbage_is_refused(content: bytes, tmp_path: Path, brace: Callable[..., Outcome]) -> None:
     path = tmp_path / "limb.toml"
     path.write_bytes(content)
     outcome = brace("k", "--model", path, "--theta1", 1, "--theta2", 1)
     assert outcome.code == 3 and "limb.toml" in outcome.err and "try:" in outcome.err
 
 
-def test_files_that_are_none(tmp_path: Path, brace: Callable[..., object]) -> None:
+def test_files_that_are_none(tmp_path: Path, brace: Callable[..., Outcome]) -> None:
     _file(tmp_path, LIMB)
     for path, word in (
         (tmp_path, "folder"),
@@ -147,7 +147,7 @@ def test_files_that_are_none(tmp_path: Path, brace: Callable[..., object]) -> No
         assert outcome.code == 3 and word in outcome.err
 
 
-def test_an_endless_file_is_not_read(tmp_path: Path, brace: Callable[..., object]) -> None:
+def test_an_endless_file_is_not_read(tmp_path: Path, brace: Callable[..., Outcome]) -> None:
     path = tmp_path / "limb.toml"
     with path.open("wb") as file:
         file.truncate(1 << 33)

@@ -12,7 +12,7 @@ import pytest
 
 from brace.dataset import load_dataset
 from brace.errors import BadFileError
-from conftest import LIMB, LOADING_HEADER, LOADING_META, loading_rows, write_loading
+from conftest import LIMB, LOADING_HEADER, LOADING_META, Outcome, loading_rows, write_loading
 
 Rows = list[list[str]]
 ROWS_A_RUN = 17
@@ -129,7 +129,7 @@ def test_a_contradiction_is_located(case: str, tmp_path: Path) -> None:
     "case", ["all forces zero", "axis exchanged", "one axis entry", "fx in kgf", "kelvin"]
 )
 def test_a_contradictory_record_is_not_fitted(
-    case: str, tmp_path: Path, brace: Callable[..., object]
+    case: str, tmp_path: Path, brace: Callable[..., Outcome]
 ) -> None:
     rows = loading_rows()
     CASES[case][0](rows)

@@ -12,10 +12,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from conftest import LIMB, assert_a_million_takes_two_seconds, physics_k, processor_s, spawn
+from conftest import LIMB, Outcome, assert_a_million_takes_two_seconds, physics_k, processor_s, spawn
 
 
-def test_map_draws_the_papers_curves(tmp_path: Path, brace: Callable[..., object], paper_limb: Path) -> None:
+def test_map_draws_the_papers_curves(tmp_path: Path, brace: Callable[..., Outcome], paper_limb: Path) -> None:
     outcome = brace(
         "map", "--model", paper_limb, "--out", tmp_path / "m", "--postures", 10_000, "--npy", "--json"
     )
@@ -45,7 +45,7 @@ def test_map_draws_the_papers_curves(tmp_path: Path, brace: Callable[..., object
     assert (tmp_path / "m" / "map.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_map_of_a_yielding_base_shows_a_band(tmp_path: Path, brace: Callable[..., object]) -> None:
+def test_map_of_a_yielding_base_shows_a_band(tmp_path: Path, brace: Callable[..., Outcome]) -> None:
     limb = tmp_path / "limb.toml"
     limb.write_text(LIMB + "[base]\nx_mm_per_n = 0.5\n")
     outcome = brace("map", "--model", limb, "--out", tmp_path / "m", "--postures", 2500, "--json")
@@ -55,7 +55,7 @@ def test_map_of_a_yielding_base_shows_a_band(tmp_path: Path, brace: Callable[...
     assert float(row["lambda_max_high_n_per_mm"]) > 1.1 * float(row["lambda_max_low_n_per_mm"])
 
 
-def test_map_is_the_same_every_time(tmp_path: Path, brace: Callable[..., object], paper_limb: Path) -> None:
+def test_map_is_the_same_every_time(tmp_path: Path, brace: Callable[..., Outcome], paper_limb: Path) -> None:
     for name in ("a", "b"):
         assert brace("map", "--model", paper_limb, "--out", tmp_path / name, "--postures", 400).code == 0
     for name in ("map.png", "map.svg", "eigenvalues.csv", "ellipses.csv"):
@@ -63,7 +63,7 @@ def test_map_is_the_same_every_time(tmp_path: Path, brace: Callable[..., object]
 
 
 def test_map_refuses_ranges_that_are_none(
-    tmp_path: Path, brace: Callable[..., object], paper_limb: Path
+    tmp_path: Path, brace: Callable[..., Outcome], paper_limb: Path
 ) -> None:
     for arguments in (
         ("--theta2", 1, 1),

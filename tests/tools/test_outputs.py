@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from conftest import LIMB, loading_rows, physics_k, write_loading
+from conftest import LIMB, Outcome, loading_rows, physics_k, write_loading
 
-Brace = Callable[..., object]
+Brace = Callable[..., Outcome]
 
 
 @pytest.fixture
@@ -111,8 +111,8 @@ def test_rows_keep_their_bytes(brace: Brace, paper_limb: Path, tmp_path: Path, e
     assert found[0][len(rows[0]) :].startswith(b",k_xx_n_per_mm,")
     expected = physics_k(1.0, 1.4)
     parsed = list(csv.DictReader(out.read_text("latin-1").splitlines()))
-    for row in parsed:
-        assert float(row["k_xx_n_per_mm"]) == pytest.approx(expected[0, 0], rel=1e-5)
+    for fields in parsed:
+        assert float(fields["k_xx_n_per_mm"]) == pytest.approx(expected[0, 0], rel=1e-5)
     assert parsed[2]["label"] == "a,b"
 
 

@@ -82,9 +82,10 @@ def test_the_round_trip_is_byte_identical(tmp_path: Path, brace: Brace) -> None:
             outcome = brace("params", *arguments)
             assert outcome.code == 0, outcome.err + outcome.out
         assert blocks[0].read_bytes() == blocks[1].read_bytes()
-        for key, value in load_limb(unpacked).values.items():
+        for name, value in load_limb(unpacked).values.items():
             if isinstance(value, float) and np.isfinite(value):
-                assert value == pytest.approx(start.number(key), rel=2**-23, abs=1e-44)  # half a step each: to the float, to its decimals
+                # half a step each: to the float, to its decimals
+                assert value == pytest.approx(start.number(name), rel=2**-23, abs=1e-44)
 
 
 def test_rounding_is_told(tmp_path: Path, brace: Brace) -> None:
@@ -100,7 +101,9 @@ def test_rounding_is_told(tmp_path: Path, brace: Brace) -> None:
 def test_differences_have_key_values_and_unit(tmp_path: Path, brace: Brace) -> None:
     first = _file(tmp_path, LIMB)
     second = _file(
-        tmp_path, LIMB.replace("313.5", "313.6") + "[sensor]\nsaturation_n = 100.0\n[change]\nlink = 'femur'\n", "2.toml"
+        tmp_path,
+        LIMB.replace("313.5", "313.6") + "[sensor]\nsaturation_n = 100.0\n[change]\nlink = 'femur'\n",
+        "2.toml",
     )
     outcome = brace("params", "diff", first, second, "--json")
     assert outcome.code == 0
@@ -118,7 +121,9 @@ def test_the_same_values_have_the_same_identity(tmp_path: Path, brace: Brace) ->
     limb, told = _file(tmp_path, LIMB), []
     for sequence in (1, 4294967295):
         out = tmp_path / f"{sequence}.bin"
-        told.append(json.loads(brace("params", "pack", "--model", limb, "--out", out, "--sequence", sequence, "--json").out))
+        told.append(
+            json.loads(brace("params", "pack", "--model", limb, "--out", out, "--sequence", sequence, "--json").out)
+        )
     assert told[0]["parameter_crc"] == told[1]["parameter_crc"]
     unpacked = json.loads(brace("params", "unpack", tmp_path / "1.bin", "--json").out)
     assert unpacked["parameter_crc"] == told[0]["parameter_crc"] and unpacked["sequence"] == 1
@@ -130,9 +135,18 @@ def test_the_same_values_have_the_same_identity(tmp_path: Path, brace: Brace) ->
 @pytest.mark.parametrize(
     ("lines", "words"),
     [
-        ("[motor.femur]\ntorque_noise_n_mm = 9000.0\n", ["motor.femur.torque_noise_n_mm", "at most motor.femur.torque_range"]),
-        ("[motor.tibia]\nangle_min_rad = 3.5\n", ["motor.tibia.angle_max_rad", "more than motor.tibia.angle_min_rad = 3.5"]),
-        ("[controller]\ntick_us = 5000\nage_limit_us = 4000\n", ["controller.age_limit_us", "controller.tick_us = 5000"]),
+        (
+            "[motor.femur]\ntorque_noise_n_mm = 9000.0\n",
+            ["motor.femur.torque_noise_n_mm", "at most motor.femur.torque_range"],
+        ),
+        (
+            "[motor.tibia]\nangle_min_rad = 3.5\n",
+            ["motor.tibia.angle_max_rad", "more than motor.tibia.angle_min_rad = 3.5"],
+        ),
+        (
+            "[controller]\ntick_us = 5000\nage_limit_us = 4000\n",
+            ["controller.age_limit_us", "controller.tick_us = 5000"],
+        ),
         ("[controller]\ncan_bit_rate = 400000\n", ["controller.can_bit_rate", "125000 or 250000"]),
         ("[controller]\nnode_id = 128\n", ["controller.node_id", "[0, 127]"]),
         ("[controller]\nnode_id = 1.5\n", ["whole number"]),

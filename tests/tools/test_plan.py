@@ -1,4 +1,5 @@
-"""`brace plan`: what it proposes is as it says, by `brace k` and the firmware's contact functions; nothing is better."""
+"""`brace plan`: what it proposes is as it says, by `brace k` and the firmware's contact functions;
+nothing is better."""
 
 from __future__ import annotations
 

@@ -50,7 +50,8 @@ def _by_levers(theta: tuple[float, float], moved: np.ndarray) -> np.ndarray:
     they were, here from differences; minus, since the tip stays and the unloaded shape moves away."""
     at, tiny = np.array(theta), 1e-6
     levers = [(_tip(*(at + tiny * one)) - _tip(*(at - tiny * one))) / (2 * tiny) for one in np.eye(2)]
-    return -np.column_stack(levers) @ moved
+    shift: np.ndarray = -np.column_stack(levers) @ moved
+    return shift
 
 
 def test_motors_angles_and_the_tips_arc_from_what_levers_tell() -> None:

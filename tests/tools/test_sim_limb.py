@@ -276,8 +276,9 @@ def test_the_limbs_own_loading_test_measures_the_plant(paper: LimbModel, axis: i
 def test_the_loading_test_waits_for_no_finer_than_encoders_and_comes_back(
     paper: LimbModel, axis: int, friction_n_mm: float, longest_s: float
 ) -> None:
-    """Seventeen steps with a dwell of 0.2 s: their way and dwell take 4.2 s. An encoder step at a lever of 450 mm is 0.009 mm;
-    with friction the motors are left alone within three times a hundredth of a step and an encoder step, 0.05 mm at the tip."""
+    """Seventeen steps with a dwell of 0.2 s: their way and dwell take 4.2 s. An encoder step at a lever of 450 mm is
+    0.009 mm; with friction the motors are left alone within three times a hundredth of a step and an encoder step,
+    0.05 mm at the tip."""
     with node(paper, press_mm=(0.5, 1.0), drive={"friction_n_mm": friction_n_mm}) as one:
         one.step(0.5)
         assert loading_test(one, axis).outcome == 2
@@ -286,7 +287,9 @@ def test_the_loading_test_waits_for_no_finer_than_encoders_and_comes_back(
         for index in range(17):
             assert lib.brace_app_row(one.app(), index, row) == 0
             rows.append((row.t_s, row.dx_mm, row.dz_mm))
-    t_s, along_mm, across_mm = (np.array(column) for column in zip(*((r[0], r[1 + axis], r[2 - axis]) for r in rows), strict=True))
+    t_s, along_mm, across_mm = (
+        np.array(column) for column in zip(*((r[0], r[1 + axis], r[2 - axis]) for r in rows), strict=True)
+    )
     assert t_s[-1] < longest_s
     places = 0.4 * np.array([0, 1, 2, 3, 4, 3, 2, 1, 0, -1, -2, -3, -4, -3, -2, -1, 0])
     assert np.abs(along_mm - places).max() < 0.06 and np.abs(across_mm).max() < 0.06

@@ -12,7 +12,7 @@ import pytest
 
 from brace.dataset import load_dataset
 from brace.files import OutputSet
-from conftest import LIMB, LOADING_META, loading_rows, physics_k, write_loading
+from conftest import LIMB, LOADING_META, Outcome, loading_rows, physics_k, write_loading
 
 RIG = """format = 1
 seed = 3
@@ -44,7 +44,7 @@ def read(path: Path) -> dict[str, np.ndarray]:
     return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
 
 
-def test_a_simulated_test_is_a_sound_dataset(files: dict[str, Path], brace: Callable[..., object]) -> None:
+def test_a_simulated_test_is_a_sound_dataset(files: dict[str, Path], brace: Callable[..., Outcome]) -> None:
     outcome = brace(
         "simulate", "--model", files["limb"], "--rig", files["rig"], "--out", files["out"], "--json"
     )
@@ -61,7 +61,7 @@ def test_a_simulated_test_is_a_sound_dataset(files: dict[str, Path], brace: Call
     assert abs(np.mean(sigma)) < 0.025
 
 
-def test_same_seed_same_bytes(files: dict[str, Path], brace: Callable[..., object], tmp_path: Path) -> None:
+def test_same_seed_same_bytes(files: dict[str, Path], brace: Callable[..., Outcome], tmp_path: Path) -> None:
     contents = []
     for seed in (3, 3, 4):
         assert (
@@ -82,7 +82,7 @@ def test_same_seed_same_bytes(files: dict[str, Path], brace: Callable[..., objec
     assert contents[0] == contents[1] != contents[2]
 
 
-def test_sensor_columns_appear_when_asked_for(files: dict[str, Path], brace: Callable[..., object]) -> None:
+def test_sensor_columns_appear_when_asked_for(files: dict[str, Path], brace: Callable[..., Outcome]) -> None:
     files["rig"].write_text(RIG.replace("noise_n = 0.1", "noise_n = 0.0\nencoders = true\nbase_gauge = true"))
     files["limb"].write_text(LIMB + "[base]\nx_mm_per_n = 0.02\n")
     assert brace("simulate", "--model", files["limb"], "--rig", files["rig"], "--out", files["out"]).code == 0
@@ -97,7 +97,7 @@ def test_sensor_columns_appear_when_asked_for(files: dict[str, Path], brace: Cal
 
 
 def test_prediction_has_the_datasets_rows(
-    files: dict[str, Path], brace: Callable[..., object], tmp_path: Path
+    files: dict[str, Path], brace: Callable[..., Outcome], tmp_path: Path
 ) -> None:
     folder = write_loading(tmp_path / "data", loading_rows())
     out = tmp_path / "pred.csv"
@@ -113,7 +113,7 @@ def test_prediction_has_the_datasets_rows(
 
 
 def test_simulated_and_predicted_agree_with_every_effect(
-    files: dict[str, Path], brace: Callable[..., object], tmp_path: Path
+    files: dict[str, Path], brace: Callable[..., Outcome], tmp_path: Path
 ) -> None:
     files["limb"].write_text(
         LIMB.replace(
@@ -136,7 +136,7 @@ def test_simulated_and_predicted_agree_with_every_effect(
     assert np.abs(dataset["fx_n"]).max() > 0.3
 
 
-def test_zeroed_per_run(files: dict[str, Path], brace: Callable[..., object], tmp_path: Path) -> None:
+def test_zeroed_per_run(files: dict[str, Path], brace: Callable[..., Outcome], tmp_path: Path) -> None:
     files["limb"].write_text(LIMB + "[sensor]\nbias_x_n = 0.7\n[gravity]\ntibia_n = 5.0\n")
     folder = write_loading(tmp_path / "data", loading_rows(), meta=LOADING_META.replace("never", "per_run"))
     assert brace("predict", folder, "--model", files["limb"], "--out", tmp_path / "p.csv").code == 0
@@ -146,7 +146,7 @@ def test_zeroed_per_run(files: dict[str, Path], brace: Callable[..., object], tm
 
 
 def test_prediction_of_the_table_and_of_a_joint_test(
-    brace: Callable[..., object], paper_table: Path, paper_limb: Path, tmp_path: Path
+    brace: Callable[..., Outcome], paper_table: Path, paper_limb: Path, tmp_path: Path
 ) -> None:
     out = tmp_path / "p.csv"
     outcome = brace("predict", paper_table, "--model", paper_limb, "--out", out)
@@ -192,7 +192,7 @@ RIG_REFUSED = {
 
 
 @pytest.mark.parametrize("case", RIG_REFUSED)
-def test_hostile_rigs(case: str, files: dict[str, Path], brace: Callable[..., object]) -> None:
+def test_hostile_rigs(case: str, files: dict[str, Path], brace: Callable[..., Outcome]) -> None:
     (before, after), words = RIG_REFUSED[case]
     assert before in RIG
     files["rig"].write_text(RIG.replace(before, after))
@@ -203,7 +203,7 @@ def test_hostile_rigs(case: str, files: dict[str, Path], brace: Callable[..., ob
 
 
 def test_outputs_are_whole_or_untouched(
-    files: dict[str, Path], brace: Callable[..., object], tmp_path: Path
+    files: dict[str, Path], brace: Callable[..., Outcome], tmp_path: Path
 ) -> None:
     command = ("simulate", "--model", files["limb"], "--rig", files["rig"], "--out")
     (tmp_path / "file").write_text("mine")

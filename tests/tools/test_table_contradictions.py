@@ -10,7 +10,7 @@ import pytest
 
 from brace.dataset import load_dataset
 from brace.identify.faults import settle
-from conftest import LIMB, physics_k
+from conftest import LIMB, Outcome, physics_k
 
 META = 'format = 1\nkind = "stiffness_table"\n'
 POSES = ((0.74, 1.0), (0.2, 1.6), (1.1, 2.2), (0.5, 0.6), (-0.3, 1.9))
@@ -40,17 +40,17 @@ def table(
     return folder
 
 
-def identified(folder: Path, brace: Callable[..., object]) -> object:
+def identified(folder: Path, brace: Callable[..., Outcome]) -> Outcome:
     return brace("identify", folder, "--model", folder / "limb.toml", "--out", folder / "f.toml")
 
 
-def test_a_table_with_angles_is_taken(tmp_path: Path, brace: Callable[..., object]) -> None:
+def test_a_table_with_angles_is_taken(tmp_path: Path, brace: Callable[..., Outcome]) -> None:
     folder = table(tmp_path)
     assert not load_dataset(folder).faults
     assert identified(folder, brace).code == 0
 
 
-def test_angles_in_degrees_or_alone(tmp_path: Path, brace: Callable[..., object]) -> None:
+def test_angles_in_degrees_or_alone(tmp_path: Path, brace: Callable[..., Outcome]) -> None:
     folder = table(tmp_path / "degrees", angle_factor=180 / np.pi)
     faults = load_dataset(folder).faults
     assert [(fault.row, fault.field) for fault in faults] == [(None, name) for name in ANGLES]
@@ -61,7 +61,7 @@ def test_angles_in_degrees_or_alone(tmp_path: Path, brace: Callable[..., object]
     assert identified(folder, brace).code == 3
 
 
-def test_angles_must_reach_as_far_as_r_says(tmp_path: Path, brace: Callable[..., object]) -> None:
+def test_angles_must_reach_as_far_as_r_says(tmp_path: Path, brace: Callable[..., Outcome]) -> None:
     outcome = identified(table(tmp_path / "far", reach_factor=1.06), brace)
     assert outcome.code == 3 and "data.csv:2 (row 1), r_mm" in outcome.err and "theta2" in outcome.err
     # within the trust of [uncertainty] in lengths (0.5 mm) and angles (0.003 rad) it is no contradiction
@@ -87,7 +87,7 @@ def test_angles_must_reach_as_far_as_r_says(tmp_path: Path, brace: Callable[...,
     ],
 )
 def test_units_of_the_source(
-    unit: str, factor: float, words: str, tmp_path: Path, brace: Callable[..., object]
+    unit: str, factor: float, words: str, tmp_path: Path, brace: Callable[..., Outcome]
 ) -> None:
     folder = table(tmp_path, k_factor=factor, meta=META + f'[source]\nunit_as_printed = "{unit}"\n')
     outcome = identified(folder, brace)

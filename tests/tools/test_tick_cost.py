@@ -1,4 +1,5 @@
-"""The controller's whole tick on the emulated Cortex-M4F stays within its limit; the bench counts a million, this fewer."""
+"""The controller's whole tick on the emulated Cortex-M4F stays within its limit; the bench counts a million,
+this fewer."""
 
 from __future__ import annotations
 

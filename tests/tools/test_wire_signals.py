@@ -33,7 +33,7 @@ def c() -> tuple[Any, Any]:
 
 @pytest.fixture(scope="module")
 def database() -> Any:
-    loaded = cantools.database.load_file(DBC, strict=True)
+    loaded: Any = cantools.database.load_file(DBC, strict=True)
     loaded.add_dbc_file(DBC_FD)
     return loaded
 
@@ -104,7 +104,8 @@ def test_every_signal(layout: Layout, message: str, prefix: str, c: tuple[Any, A
             unpack(data, struct)
             got = getattr(struct, member)
             assert close(field, got, value), f"{signal}: cantools wrote {value}, C reads {got}"
-            assert close(field, layout.decode(bytes(sent))[field.name], value)
+            by_python = layout.decode(bytes(sent))[field.name]
+            assert by_python is not None and close(field, by_python, value)
         setattr(struct, member, 0)
         check_unknown(field, signal, member, struct, data, known, layout, pack, unpack)
         check_limits(field, member, struct, data, layout, pack)
@@ -144,13 +145,14 @@ def check_limits(field: Field, member: str, struct: Any, data: Any, layout: Layo
 
 def test_the_frame_of_can_fd_is_one_in_its_database() -> None:
     """As the attributes of the format have it, with the rate switched; and the other database has none."""
-    fd = cantools.database.load_file(DBC_FD, strict=True)
+    fd: Any = cantools.database.load_file(DBC_FD, strict=True)
     assert [message.name for message in fd.messages if message.is_fd] == list(frames.FD_MESSAGES)
     (message,) = fd.messages
     assert (message.frame_id, message.length) == (0x501, 64)
     assert str(message.dbc.attributes["VFrameFormat"].value) in ("StandardCAN_FD", "14")
     assert str(message.dbc.attributes["CANFD_BRS"].value) == "1"
-    assert not any(message.is_fd for message in cantools.database.load_file(DBC, strict=True).messages)
+    plain: Any = cantools.database.load_file(DBC, strict=True)
+    assert not any(message.is_fd for message in plain.messages)
 
 
 def test_database_has_the_promised_names(database: Any) -> None:

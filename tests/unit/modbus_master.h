@@ -6,6 +6,7 @@
 
 #include "app_bench.h"
 #include "brace/can_messages.h"
+#include "modbus_crc.h"
 
 enum { UNIT = 17, ANSWER_TICKS = 200 };
 
@@ -14,17 +15,21 @@ typedef struct {
     uint32_t count; /* 0: no answer */
 } reply_t;
 
-/* Modbus over serial line 1.02, appendix B: shift right, exclusive or with 0xa001 when a one falls out. */
-static inline uint32_t crc_by_bits(const uint8_t *bytes, uint32_t count)
+/* A controller that is the unit UNIT, past its start. */
+static inline void start_unit(void)
 {
-    uint32_t crc = 0xffff;
-    for (uint32_t i = 0; i < count; i++) {
-        crc ^= bytes[i];
-        for (int bit = 0; bit < 8; bit++) {
-            crc = (crc & 1u) != 0u ? crc >> 1 ^ 0xa001u : crc >> 1;
-        }
-    }
-    return crc;
+    brace_parameters_t p = bench_parameters();
+    p.controller.modbus_address = UNIT;
+    bench_start(&p);
+    ticks(20);
+}
+
+/* As a register pair holds it. */
+static inline uint32_t bits(float value)
+{
+    uint32_t word;
+    memcpy(&word, &value, 4);
+    return word;
 }
 
 static inline void line_says(const uint8_t *bytes, uint32_t count)

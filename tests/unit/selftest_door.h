@@ -206,6 +206,9 @@ static inline void restart(void *context)
     (void)context;
 }
 
+void setUp(void) {} /* every lie has a door opened for it */
+void tearDown(void) {}
+
 static inline void open_door(void)
 {
     memset(&world, 0, sizeof world);

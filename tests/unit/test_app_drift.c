@@ -193,7 +193,8 @@ static void test_a_memory_that_does_not_keep_is_a_fault(void)
     TEST_ASSERT_TRUE(now()->k_is_valid);
 }
 
-/* Runs a test tick by tick; run_at: how many readings the check's run has after each step. returns the steps it took in */
+/* Runs a test tick by tick; run_at: how many readings the check's run has after each step.
+ * returns the steps it took in */
 static uint32_t watched_run(const brace_loading_setup_t *setup, uint8_t run_at[32])
 {
     const uint32_t before = app.drift.steps;

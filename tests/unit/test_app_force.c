@@ -54,7 +54,8 @@ static void test_the_sensed_force_says_what_the_joints_should_carry(void)
 /* Six sigma of each of the sensor's components through the joint's lever; the tip's from the joints' axes. */
 static void test_the_sensor_s_noise_is_in_what_the_expected_load_may_be_off_by(void)
 {
-    const double tip_x = femur_mm * cos(1.0) + tibia_mm * cos(1.0 - 1.4), tip_z = femur_mm * sin(1.0) + tibia_mm * sin(1.0 - 1.4);
+    const double tip_x = femur_mm * cos(1.0) + tibia_mm * cos(1.0 - 1.4),
+                 tip_z = femur_mm * sin(1.0) + tibia_mm * sin(1.0 - 1.4);
     const double from_x[2] = {tip_x, tip_x - femur_mm * cos(1.0)}, from_z[2] = {tip_z, tip_z - femur_mm * sin(1.0)};
     float off_n_mm[2][BRACE_APP_JOINTS];
     for (int quiet = 0; quiet < 2; quiet++) {
@@ -73,8 +74,8 @@ static void test_the_sensor_s_noise_is_in_what_the_expected_load_may_be_off_by(v
     }
 }
 
-/* Dry friction holds up to coulomb + ratio * |spring's torque|, with the spring carrying the load and the friction: solved
- * here step by step. */
+/* Dry friction holds up to coulomb + ratio * |spring's torque|, with the spring carrying the load and the friction:
+ * solved here step by step. */
 static void test_dry_friction_is_in_it_the_constant_and_the_load_s_share(void)
 {
     static const double constant_n_mm[] = {0.0, 40.0, 0.0, 40.0}, ratio[] = {0.0, 0.0, 0.2, 0.2};

@@ -15,7 +15,8 @@ static void expect_no_k(uint32_t flag)
     const brace_stiffness_t *both[] = {&now()->stiffness.now, &now()->stiffness.engaged};
     TEST_ASSERT_FALSE(now()->k_is_valid);
     for (int i = 0; i < 2; i++) {
-        TEST_ASSERT_TRUE(isnan(both[i]->k_xx_n_per_mm) && isnan(both[i]->k_xz_n_per_mm) && isnan(both[i]->k_zz_n_per_mm));
+        TEST_ASSERT_TRUE(isnan(both[i]->k_xx_n_per_mm) && isnan(both[i]->k_xz_n_per_mm) &&
+                         isnan(both[i]->k_zz_n_per_mm));
         TEST_ASSERT_TRUE(isnan(both[i]->lambda_min_n_per_mm) && isnan(both[i]->lambda_max_n_per_mm));
         TEST_ASSERT_TRUE(isnan(both[i]->stiff_axis_rad));
         TEST_ASSERT_BITS(flag, flag, both[i]->flags);

@@ -29,7 +29,8 @@ static void ask_for_the_dearest(void)
     arrives(0x600u + NODE, data, 8);
 }
 
-/* To the end of a test, with or without somebody who asks in every tick. returns the most ticks in a row without samples */
+/* To the end of a test, with or without somebody who asks in every tick.
+ * returns the most ticks in a row without samples */
 static uint32_t longest_blind(bool asked)
 {
     uint32_t longest = 0, blind = 0;

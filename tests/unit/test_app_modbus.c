@@ -1,24 +1,14 @@
-/* The controller as a Modbus server: what is read, who answers, identification, diagnostics. Register addresses are those of
- * docs/modbus.md. */
+/* The controller as a Modbus server: what is read, who answers, identification, diagnostics. Register addresses are
+ * those of docs/modbus.md. */
 #include "modbus_master.h"
 #include "report/measured.h"
 
 void setUp(void)
 {
-    brace_parameters_t p = bench_parameters();
-    p.controller.modbus_address = UNIT;
-    bench_start(&p);
-    ticks(20);
+    start_unit();
 }
 
 void tearDown(void) {}
-
-static uint32_t bits(float value)
-{
-    uint32_t word;
-    memcpy(&word, &value, 4);
-    return word;
-}
 
 static void test_the_line_is_set_up_as_the_standard_wants_it(void)
 {
@@ -82,7 +72,8 @@ static void test_a_block_is_one_snapshot(void)
         for (int tick = 0; tick < 60; tick++) {
             fake.joint[BRACE_FEMUR].sample.motor_rad += 1e-4f;
             ticks(1);
-            reply.count += brace_fake_bytes_take(&fake, BRACE_SERIAL_MODBUS, reply.byte + reply.count, 260u - reply.count);
+            reply.count +=
+                brace_fake_bytes_take(&fake, BRACE_SERIAL_MODBUS, reply.byte + reply.count, 260u - reply.count);
         }
         TEST_ASSERT_EQUAL(3 + 216 + 2, reply.count);
         TEST_ASSERT_EQUAL_HEX16(0, crc_by_bits(reply.byte, reply.count));
@@ -155,7 +146,8 @@ static void test_who_answers(void)
 
 static void test_device_identification(void)
 {
-    const uint8_t stream[] = {43, 14, 1, 0}, single[] = {43, 14, 4, 2}, none[] = {43, 14, 4, 3}, other[] = {43, 13, 0, 0};
+    const uint8_t stream[] = {43, 14, 1, 0}, single[] = {43, 14, 4, 2}, none[] = {43, 14, 4, 3},
+                  other[] = {43, 13, 0, 0};
     const uint8_t bad[] = {43, 14, 5, 0}, later[] = {43, 14, 2, 1};
     reply_t reply = line_asks(UNIT, stream, 4);
     const uint8_t head[] = {43, 14, 1, 0x81, 0, 0, 3, 0, 5, 'B', 'r', 'a', 'c', 'e', 1, 15};

@@ -1,12 +1,10 @@
-/* The controller as a Modbus server: frames that are broken, halved, too long, for others; floods; TCP beside the line. */
+/* The controller as a Modbus server: frames that are broken, halved, too long, for others; floods;
+ * TCP beside the line. */
 #include "modbus_master.h"
 
 void setUp(void)
 {
-    brace_parameters_t p = bench_parameters();
-    p.controller.modbus_address = UNIT;
-    bench_start(&p);
-    ticks(20);
+    start_unit();
 }
 
 void tearDown(void) {}

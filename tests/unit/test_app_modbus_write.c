@@ -4,26 +4,17 @@
 
 #include "modbus_master.h"
 
-enum { CONFIGURE = 16384, COMMIT = 16386, ROLLBACK = 16388, CLEAR = 16390, TAKE_UP = 16392, LET_GO = 16394, ASKED = 16396 };
+enum { CONFIGURE = 16384, COMMIT = 16386, ROLLBACK = 16388, CLEAR = 16390, TAKE_UP = 16392, LET_GO = 16394,
+       ASKED = 16396 };
 enum { TO_CONFIGURATION = 0, TO_MONITOR = 1 };
 static const uint32_t mode_word[] = {0xc0de0002u, 0xc0de0001u}, go = 0xc0de0001u;
 
 void setUp(void)
 {
-    brace_parameters_t p = bench_parameters();
-    p.controller.modbus_address = UNIT;
-    bench_start(&p);
-    ticks(20);
+    start_unit();
 }
 
 void tearDown(void) {}
-
-static uint32_t bits(float value)
-{
-    uint32_t word;
-    memcpy(&word, &value, 4);
-    return word;
-}
 
 static void accepted(reply_t reply, uint8_t function)
 {
@@ -147,7 +138,8 @@ static void test_writes_have_their_limits(void)
     refused(write_values(2 * BRACE_PARAMETER_COUNT - 2, values, 2), 16, 2);
     refused(write_values(2 * BRACE_PARAMETER_COUNT, values, 1), 16, 2);
     refused(write_value(16418, 0), 16, 2);
-    const uint8_t none[] = {16, 0, 0, 0, 0, 0}, one[] = {16, 0, 0, 0, 1, 2, 0, 0}, miscounted[] = {16, 0, 0, 0, 2, 2, 0, 0};
+    const uint8_t none[] = {16, 0, 0, 0, 0, 0}, one[] = {16, 0, 0, 0, 1, 2, 0, 0},
+                  miscounted[] = {16, 0, 0, 0, 2, 2, 0, 0};
     const uint8_t missing[] = {16, 0, 0, 0, 2, 4, 0, 0, 0}, more[] = {16, 0, 0, 0, 2, 4, 0, 0, 0, 0, 0};
     refused(line_asks(UNIT, none, sizeof none), 16, 3);
     refused(line_asks(UNIT, one, sizeof one), 16, 3);

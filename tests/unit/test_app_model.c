@@ -73,7 +73,8 @@ static void test_a_limb_that_only_its_joints_let_yield_works_too(void)
     brace_stiffness_t expected;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_build(&p.limb, &chain));
     TEST_ASSERT_EQUAL(BRACE_OK, brace_chain_stiffness(&chain, 1.0f, 1.4f, &expected));
-    ASSERT_CLOSE(expected.k_zz_n_per_mm, now()->stiffness.now.k_zz_n_per_mm, 1e-5 * (double)expected.lambda_max_n_per_mm);
+    ASSERT_CLOSE(expected.k_zz_n_per_mm, now()->stiffness.now.k_zz_n_per_mm,
+                 1e-5 * (double)expected.lambda_max_n_per_mm);
 }
 
 /* At the ends of the parameters' ranges: compliances up to 1 rad/(N mm), hardening up to 1e30, torques twice the

@@ -55,8 +55,8 @@ static void line_asks_in_two_pieces(int tick)
     }
 }
 
-/* What happens before a tick: samples that stay away, a bus that is off, a loading test, play taken up and let go, a set
- * stored, a CONFIGURATION that nobody feeds, questions all along. */
+/* What happens before a tick: samples that stay away, a bus that is off, a loading test, play taken up and let go, a
+ * set stored, a CONFIGURATION that nobody feeds, questions all along. */
 static void happens(int tick)
 {
     static brace_parameters_t set;

@@ -64,7 +64,9 @@ static void something_is_asked(void)
     switch (below(4)) {
     case 0: brace_can_pack_read_entry_request(&(brace_can_read_entry_request_t){1, 0x1000u + below(50)}, data); break;
     case 1: brace_can_pack_friction_margin_request(&(brace_can_friction_margin_request_t){1, 1.5f, 0.6f}, data); break;
-    case 2: brace_can_pack_k_at_tip_knee_up_request(&(brace_can_k_at_tip_knee_up_request_t){1, 300.0f, -100.0f}, data); break;
+    case 2:
+        brace_can_pack_k_at_tip_knee_up_request(&(brace_can_k_at_tip_knee_up_request_t){1, 300.0f, -100.0f}, data);
+        break;
     default: break;
     }
     arrives(0x600u + NODE, data, 8);
@@ -114,8 +116,8 @@ static void watch_k(void)
     newest = now()->sequence;
 }
 
-/* What the worst of many questions waits for, in ticks; each comes alone, right after the last answer or some ticks later,
- * and in the ticks between something else is asked: any number of ticks in a row has a request. */
+/* What the worst of many questions waits for, in ticks; each comes alone, right after the last answer or some ticks
+ * later, and in the ticks between something else is asked: any number of ticks in a row has a request. */
 static uint32_t worst_wait(const traffic_t *traffic)
 {
     uint32_t worst = 0;
@@ -199,13 +201,14 @@ static void start(const brace_parameters_t *p)
     drain();
 }
 
-/* Under all this traffic a question is answered in its tick, K comes in `share` of the ticks in the mean, and is never older
- * than so many ticks. */
+/* Under all this traffic a question is answered in its tick, K comes in `share` of the ticks in the mean, and is never
+ * older than so many ticks. */
 static void answers_and_computes(const traffic_t *traffic, float share, uint32_t oldest_ticks)
 {
     const uint32_t first = now()->sequence, started = fake.now_us;
     TEST_ASSERT_EQUAL(1, worst_wait(traffic));
-    const float ticks_passed = (float)((fake.now_us - started) / TICK_US), rate = (float)(newest - first) / ticks_passed;
+    const float ticks_passed = (float)((fake.now_us - started) / TICK_US),
+                rate = (float)(newest - first) / ticks_passed;
     printf("K in %.3f of the ticks, at most %u us old\n", (double)rate, (unsigned)oldest_us);
     TEST_ASSERT_TRUE(rate >= share);
     TEST_ASSERT_TRUE(oldest_us <= oldest_ticks * TICK_US);
@@ -256,7 +259,8 @@ static void test_behind_questions_for_the_tip(void)
 static void test_beside_a_loading_test(void)
 {
     const traffic_t tests = {tests_go_on, something_is_asked, false};
-    const brace_parameters_t limbs[] = {plain_limb(), with_play(plain_limb()), general_limb(), with_play(general_limb())};
+    const brace_parameters_t limbs[] = {plain_limb(), with_play(plain_limb()), general_limb(),
+                                        with_play(general_limb())};
     for (uint32_t i = 0; i < 4u; i++) {
         start(&limbs[i]);
         tests_run = 0;
@@ -365,7 +369,8 @@ static uint32_t parts_as_text(uint32_t token)
     const uint32_t length = brace_fake_bytes_take(&fake, BRACE_SERIAL_SLCAN, (uint8_t *)text, sizeof text - 1u);
     text[length] = '\0';
     for (uint32_t i = 0; i < 3u; i++) {
-        (void)snprintf(part, sizeof part, "t5858%02X%02X", (unsigned)(BRACE_REQUEST_K_AT_POSTURE + 32u * i), (unsigned)token);
+        (void)snprintf(part, sizeof part, "t5858%02X%02X", (unsigned)(BRACE_REQUEST_K_AT_POSTURE + 32u * i),
+                       (unsigned)token);
         parts += strstr(text, part) != NULL;
     }
     return parts;

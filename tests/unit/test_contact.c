@@ -73,8 +73,9 @@ static void the_bounds_hold_along_the_axes(void)
             const double axis = axis_of(i / 2), along = axis + (i % 2) * PI / 2.0;
             const brace_stiffness_t stiffness = stiffness_of(eigenvalues[k][0], eigenvalues[k][1], axis);
             brace_contact_force_t contact;
-            TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_contact_force(&stiffness, (brace_displacement_t){(float)cos(along), (float)sin(along)},
-                                                                &contact));
+            TEST_ASSERT_EQUAL_INT(
+                BRACE_OK, brace_contact_force(&stiffness, (brace_displacement_t){(float)cos(along), (float)sin(along)},
+                                              &contact));
             TEST_ASSERT_TRUE(contact.low_n <= contact.magnitude_n && contact.magnitude_n <= contact.high_n);
             ASSERT_CLOSE(eigenvalues[k][1 - i % 2], contact.magnitude_n, 5e-7 * eigenvalues[k][1]);
         }

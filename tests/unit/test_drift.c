@@ -56,11 +56,13 @@ static brace_limb_t warmed(void)
 static int run(int posture, int along_z)
 {
     const brace_limb_t limb = warmed();
-    const brace_stiffness_t model = stiffness_of(&believed, postures[posture]), k = stiffness_of(&limb, postures[posture]);
+    const brace_stiffness_t model = stiffness_of(&believed, postures[posture]),
+                            k = stiffness_of(&limb, postures[posture]);
     int readings = 1;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_run(&drift));
     for (int i = 0; i < RUN; i++) {
-        const float d = 0.635f * (float)(i % 2 == 0 ? i / 2 : -(i / 2)), dx = along_z ? 0.0f : d, dz = along_z ? d : 0.0f;
+        const float d = 0.635f * (float)(i % 2 == 0 ? i / 2 : -(i / 2)), dx = along_z ? 0.0f : d,
+                    dz = along_z ? d : 0.0f;
         const brace_drift_reading_t reading = {
             postures[posture][0], postures[posture][1], 30.0f + dx, dz - 20.0f,
             12.0f + k.k_xx_n_per_mm * dx + k.k_xz_n_per_mm * dz + NOISE_N * (float)noise_normal(),
@@ -173,7 +175,8 @@ static void test_one_wild_reading_is_no_alarm(void)
     learn_a_slightly_other_limb();
     const brace_stiffness_t model = stiffness_of(&believed, postures[STRETCHED]);
     run(STRETCHED, 0);
-    const brace_drift_reading_t wild = {postures[STRETCHED][0], postures[STRETCHED][1], 31.0f, -20.0f, -140.0f, 120.0f, 0.0f};
+    const brace_drift_reading_t wild = {
+        postures[STRETCHED][0], postures[STRETCHED][1], 31.0f, -20.0f, -140.0f, 120.0f, 0.0f};
     const int outliers = drift.outliers;
     float before[6];
     memcpy(before, drift.offset, sizeof before);
@@ -244,7 +247,8 @@ static void test_the_outlook_tells_where_a_loss_shows(void)
         TEST_ASSERT_EQUAL(BRACE_OK, brace_drift_outlook(&drift, &believed, &model, &like, i == 0 ? &stretched : &bent));
     }
     TEST_ASSERT_LESS_THAN(30, stretched.steps_needed[BRACE_DRIFT_TIBIA_OR_KNEE]);
-    TEST_ASSERT_LESS_OR_EQUAL(stretched.steps_needed[BRACE_DRIFT_TIBIA_OR_KNEE], stretched.steps_needed[BRACE_DRIFT_FEMUR]);
+    TEST_ASSERT_LESS_OR_EQUAL(stretched.steps_needed[BRACE_DRIFT_TIBIA_OR_KNEE],
+                              stretched.steps_needed[BRACE_DRIFT_FEMUR]);
     TEST_ASSERT_GREATER_THAN(60, bent.steps_needed[BRACE_DRIFT_TIBIA_OR_KNEE]);
     TEST_ASSERT_TRUE(bent.sigma_of_loss_ratio[BRACE_DRIFT_TIBIA_OR_KNEE] >
                      2.0f * stretched.sigma_of_loss_ratio[BRACE_DRIFT_TIBIA_OR_KNEE]);

@@ -106,12 +106,15 @@ static void test_random_limbs(void)
     int judged = 0;
     while (judged < 20000) {
         const brace_limb_t limb = random_limb();
-        if (brace_limb_check(&limb) != BRACE_OK || limb.link[BRACE_FEMUR].bending_mm_per_n + limb.link[BRACE_TIBIA].bending_mm_per_n < 1e-3f) {
+        if (brace_limb_check(&limb) != BRACE_OK ||
+            limb.link[BRACE_FEMUR].bending_mm_per_n + limb.link[BRACE_TIBIA].bending_mm_per_n < 1e-3f) {
             continue;
         }
         brace_general_collapse(&limb, &general);
         for (int i = 0; i < 20; i++, judged++) {
-            const float theta2 = one_in(4) ? between(-0.02f, 0.02f) : one_in(4) ? between(3.12f, 3.16f) : between(-3.9f, 3.9f);
+            const float theta2 = one_in(4)   ? between(-0.02f, 0.02f)
+                                 : one_in(4) ? between(3.12f, 3.16f)
+                                             : between(-3.9f, 3.9f);
             judged_at(&limb, between(-3.9f, 3.9f), theta2, true);
         }
     }

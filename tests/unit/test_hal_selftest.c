@@ -3,9 +3,6 @@
 #include "brace_hal_blank.h"
 #include "selftest_door.h"
 
-void setUp(void) {}
-void tearDown(void) {}
-
 static void the_truth_passes(void)
 {
     for (int32_t slot = 0; slot < BRACE_NVM_SLOT_COUNT; slot++) {

@@ -45,9 +45,6 @@ static void open_lying(int lie)
     door.crash_read = lying_crash_read;
 }
 
-void setUp(void) {}
-void tearDown(void) {}
-
 static void each_lie_is_named(void)
 {
     static const named_t named[] = {

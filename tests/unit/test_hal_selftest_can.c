@@ -50,9 +50,6 @@ static void open_lying(int lie)
     door.can_recover = lie == CAN_HALF ? NULL : can_recover;
 }
 
-void setUp(void) {}
-void tearDown(void) {}
-
 static void each_lie_is_named(void)
 {
     static const named_t named[] = {

@@ -26,9 +26,6 @@ static void open_lying(int lie)
     world.count_eighths = lie == CLOCK_FAST ? 7u : lie == CLOCK_SLOW ? 16u : 8u;
 }
 
-void setUp(void) {}
-void tearDown(void) {}
-
 static void each_lie_is_named(void)
 {
     static const named_t named[] = {

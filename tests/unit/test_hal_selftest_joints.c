@@ -55,9 +55,6 @@ static void open_lying(int lie)
     world.moves = lie == JOINT_STUCK;
 }
 
-void setUp(void) {}
-void tearDown(void) {}
-
 static void each_lie_is_named(void)
 {
     static const named_t named[] = {

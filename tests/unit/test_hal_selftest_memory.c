@@ -72,9 +72,6 @@ static void open_lying(int lie)
     }
 }
 
-void setUp(void) {}
-void tearDown(void) {}
-
 static void each_lie_is_named(void)
 {
     static const named_t named[] = {

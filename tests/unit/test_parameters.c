@@ -57,7 +57,8 @@ static brace_status_t unpacked(uint32_t *wrong_index)
 static void test_crc_is_the_standard_one(void)
 {
     TEST_ASSERT_EQUAL_HEX32(0xcbf43926u, brace_crc32(0, (const uint8_t *)"123456789", 9));
-    TEST_ASSERT_EQUAL_HEX32(0xcbf43926u, brace_crc32(brace_crc32(0, (const uint8_t *)"1234", 4), (const uint8_t *)"56789", 5));
+    TEST_ASSERT_EQUAL_HEX32(0xcbf43926u,
+                            brace_crc32(brace_crc32(0, (const uint8_t *)"1234", 4), (const uint8_t *)"56789", 5));
     TEST_ASSERT_EQUAL_HEX32(0, brace_crc32(0, NULL, 0));
 }
 
@@ -80,7 +81,8 @@ static void test_layout_is_as_documented(void)
     const uint32_t expected[] = {BRACE_SCHEMA_HASH, 4 * BRACE_PARAMETER_COUNT, 7};
     for (uint32_t i = 0; i < 3; i++) {
         const uint8_t *at = block + 8 + 4 * i;
-        TEST_ASSERT_EQUAL_HEX32(expected[i], at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24);
+        TEST_ASSERT_EQUAL_HEX32(expected[i],
+                                at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24);
     }
     static const uint8_t femur_mm[4] = {0x00, 0x40, 0x34, 0x43}; /* 180.25f */
     TEST_ASSERT_EQUAL_MEMORY(femur_mm, block + 20 + 4 * BRACE_PARAMETER_GEOMETRY_FEMUR_MM, 4);
@@ -95,7 +97,8 @@ static void test_layout_is_as_documented(void)
 static void test_what_is_packed_comes_back(void)
 {
     for (uint32_t i = 0; i < 200; i++) {
-        for (uint32_t member = 0; member < BRACE_PARAMETER_COUNT; member++) { /* some member, some bits that it may have */
+        /* some member, some bits that it may have */
+        for (uint32_t member = 0; member < BRACE_PARAMETER_COUNT; member++) {
             brace_parameters_t changed = parameters;
             noise_uniform();
             memcpy((uint8_t *)&changed + 4 * member, &noise_state, 4);
@@ -271,7 +274,8 @@ static void test_ranges_are_those_of_the_limb(void)
                 uint32_t wrong = 0;
                 brace_parameters_t tried = parameters;
                 memcpy((uint8_t *)&tried + 4 * member, &middle, 4);
-                const bool allowed = brace_parameters_check(&tried, &wrong) == BRACE_OK || wrong == BRACE_PARAMETER_COUNT;
+                const bool allowed =
+                    brace_parameters_check(&tried, &wrong) == BRACE_OK || wrong == BRACE_PARAMETER_COUNT;
                 *(allowed ? &inside : &outside) = middle;
                 if (!(inside < outside || inside > outside)) {
                     break;

@@ -199,7 +199,8 @@ static void test_a_block_without_its_mark_does_not_count(void)
     put_block(1, 2, 8, false);
     expect_after_start(BRACE_PARAMETERS_SLOT_A, 1);
     TEST_ASSERT_EQUAL(BRACE_SLOT_NOT_COMMITTED, status_now().slot[1].condition);
-    memcpy(memory.bytes[1] + BRACE_STORE_MARKS_AT, memory.bytes[0] + BRACE_STORE_MARKS_AT, 8); /* another block's mark */
+    /* another block's mark */
+    memcpy(memory.bytes[1] + BRACE_STORE_MARKS_AT, memory.bytes[0] + BRACE_STORE_MARKS_AT, 8);
     expect_after_start(BRACE_PARAMETERS_SLOT_A, 1);
     TEST_ASSERT_EQUAL(BRACE_SLOT_NOT_COMMITTED, status_now().slot[1].condition);
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 
 from interface.measured import Measured, Values
@@ -15,14 +16,17 @@ def measured_header(values: Values) -> str:
     return (
         _MADE
         + "#ifndef BRACE_MEASURED_H\n#define BRACE_MEASURED_H\n\n#include <stdint.h>\n\n"
-        + "/* Entries of the dictionary by number: parameters from 0 on, these from here on. As Modbus input registers: two\n"
+        + "/* Entries of the dictionary by number: parameters from 0 on, these from here on. As Modbus input "
+          "registers: two\n"
         + f" * each, high word first, from 0 on and from {2 * (ANSWERED_ENTRY - MEASURED_ENTRY):#06x} on. */\n"
-        + f"enum {{\n    BRACE_ENTRY_MEASURED = {MEASURED_ENTRY:#06x},\n    BRACE_ENTRY_ANSWERED = {ANSWERED_ENTRY:#06x}\n}};\n\n"
+        + f"enum {{\n    BRACE_ENTRY_MEASURED = {MEASURED_ENTRY:#06x},\n    BRACE_ENTRY_ANSWERED = "
+          f"{ANSWERED_ENTRY:#06x}\n}};\n\n"
         + "/* First Modbus register of the commands, two each. */\n"
         + f"enum {{ BRACE_REGISTER_COMMANDS = {COMMAND_REGISTER:#06x} }};\n\n"
         + _struct("measured", values.measured, "All of one tick. A float that is not known is NaN, a u32 all ones.")
         + _struct("answered", values.answered, "K at the posture asked for over Modbus.")
         + _struct("commands", values.commands, "What was last written to the command registers.")
+        + _names([*values.measured, *values.answered])
         + "#endif\n"
     )
 
@@ -40,3 +44,13 @@ def _struct(name: str, values: Sequence[Measured], words: str) -> str:
         + "#ifndef __cplusplus\n"
         + f"_Static_assert(sizeof(brace_{name}_t) == 4 * BRACE_{upper}_COUNT, \"32 bits each\");\n#endif\n\n"
     )
+
+
+def _names(values: Sequence[Measured]) -> str:
+    lines = ["/* What numbers are called, and bits, from 0: to initialise arrays of const char * with. */\n"]
+    for value in values:
+        words = [f'"{word}"' for word in value.names or value.bit_names]
+        if words:
+            rows = textwrap.wrap(", ".join(words), 110)
+            lines.append(f"#define BRACE_{value.name.upper()}_NAMES \\\n    {{ " + " \\\n      ".join(rows) + " }\n")
+    return "".join(lines) + "\n"

@@ -13,7 +13,8 @@ _HEAD = """
  * A value that is not known is NaN here and a code of its own on the wire, never zero. brace_can_pack_... limits what
  * does not fit and answers how many values it limited; the frame's bytes are always written. brace_can_unpack_...
  * always writes the struct: every bit pattern means something. Pure functions, no libm; any thread.
- * accuracy: half a step, and a float's rounding. cost on a Cortex-M4F: below 120 instructions each; of the CAN FD frame 250.
+ * accuracy: half a step, and a float's rounding.
+ * cost on a Cortex-M4F: below 120 instructions each; of the CAN FD frame 250.
  */
 """
 
@@ -27,8 +28,10 @@ def messages_header(wire: Wire, dictionary_hash: int) -> str:
         f"#define BRACE_DICTIONARY_HASH 0x{dictionary_hash:08x}u\n",
         f"#define BRACE_PROTOCOL {wire.protocol}u\n\n",
         "/* Identifiers of node 0; a controller adds its node number, 1-127. */\nenum {\n",
-        *(f"    BRACE_CAN_ID_{frame.name.upper()} = 0x{frame.identifier:03x},\n" for frame in (*wire.messages, *wire.fd_messages)),
-        f"    BRACE_CAN_ID_REQUEST = 0x{wire.request_id:03x},\n    BRACE_CAN_ID_ANSWER = 0x{wire.answer_id:03x}\n}};\n\n",
+        *(f"    BRACE_CAN_ID_{frame.name.upper()} = 0x{frame.identifier:03x},\n"
+          for frame in (*wire.messages, *wire.fd_messages)),
+        f"    BRACE_CAN_ID_REQUEST = 0x{wire.request_id:03x},\n    BRACE_CAN_ID_ANSWER = 0x{wire.answer_id:03x}\n"
+        "};\n\n",
         "/* First byte of a request; of an answer: plus 32 times its part. */\nenum {\n",
         *(f"    BRACE_REQUEST_{request.name.upper()} = {request.code},\n" for request in wire.requests),
         f"    BRACE_ANSWER_PART = 32,\n    BRACE_ANSWER_REFUSED = {wire.refused_part * 32}\n}};\n\n",
@@ -41,8 +44,8 @@ def messages_header(wire: Wire, dictionary_hash: int) -> str:
 
 
 def messages_sources(wire: Wire) -> dict[str, str]:
-    """generated/can_process.c, can_questions.c, can_answers.c: what a controller sends by itself, what it is asked, and what
-    it answers."""
+    """generated/can_process.c, can_questions.c, can_answers.c: what a controller sends by itself, what it is asked, and
+    what it answers."""
     counts = {request.code: len(request.answers) for request in wire.requests}
     parts = ", ".join(str(counts.get(code, 0)) for code in range(32))
     return {
@@ -66,7 +69,9 @@ def _struct(frame: Frame) -> str:
     if frame.command is not None:
         lines.append("    uint32_t token;\n")
     for signal in frame.signals:
-        unit = f" [{signal.unit}, {signal.least * signal.step:g} to {signal.greatest * signal.step:g}]" if signal.kind == "value" else ""
+        unit = ""
+        if signal.kind == "value":
+            unit = f" [{signal.unit}, {signal.least * signal.step:g} to {signal.greatest * signal.step:g}]"
         lines.append(f"    {_c_type(signal)} {signal.member}; /* {signal.description}{unit} */\n")
     return "".join(lines) + f"}} brace_can_{frame.name}_t;\n"
 
@@ -98,7 +103,8 @@ def _words(frame: Frame) -> list[tuple[str, list[Signal]]]:
 
 def _pack(frame: Frame) -> str:
     lines = [
-        f"uint32_t brace_can_pack_{frame.name}(const brace_can_{frame.name}_t *message, uint8_t data[{frame.bytes}])\n{{\n",
+        f"uint32_t brace_can_pack_{frame.name}(const brace_can_{frame.name}_t *message, uint8_t data[{frame.bytes}])\n"
+        "{\n",
         "    uint32_t limited = 0u;\n    uint64_t bits = 0u;\n",
     ]
     if frame.command is not None:
@@ -124,7 +130,8 @@ def _packed(signal: Signal) -> str:
 def _unpack(frame: Frame) -> str:
     several = frame.bytes * 8 > FRAME_BITS
     lines = [
-        f"void brace_can_unpack_{frame.name}(const uint8_t data[{frame.bytes}], brace_can_{frame.name}_t *message)\n{{\n",
+        f"void brace_can_unpack_{frame.name}(const uint8_t data[{frame.bytes}], brace_can_{frame.name}_t *message)\n"
+        "{\n",
         f"    {'' if several else 'const '}uint64_t bits = brace_bits_load(data);\n",
     ]
     if frame.command is not None:

@@ -1,4 +1,5 @@
-"""The C side: parameter_list.h (count, hash, an index for each member) and parameter_table.c (rules, defaults, keys)."""
+"""The C side: parameter_list.h (count, hash, an index for each member) and parameter_table.c
+(rules, defaults, keys)."""
 
 from __future__ import annotations
 
@@ -63,7 +64,8 @@ def table_source(dictionary: Dictionary) -> str:
         *(f"    {{{low}, {high}}},\n" for low, high in u32),
         f"}};\n\nconst uint32_t brace_u32_choices[{len(lists)}][{longest}] = {{\n",
         *(f"    {{{values}}},\n" for values in lists),
-        "};\n\n/* For each member: its range of floats, or of whole numbers after these, or its choices after those. */\n",
+        "};\n\n/* For each member: its range of floats, or of whole numbers after these, or its choices after "
+        "those. */\n",
         f"const uint8_t brace_parameter_rule[{len(entries)}] = {{\n",
         *_wrapped([f"{rule}," for rule in rules]),
         "};\n\nconst brace_parameters_t brace_parameters_safe = {\n",

@@ -15,7 +15,8 @@ def dbc(wire: Wire, dictionary_hash: int, nodes: Sequence[int] = (1,)) -> str:
     """Text of the database. With several nodes the names of their messages and senders end in _<node>."""
     several = len(nodes) > 1
     messages: list[str] = []
-    comments: list[str] = [f'CM_ "Brace: stiffness on the limb. Written from messages.toml. Dictionary 0x{dictionary_hash:08x}.";']
+    comments: list[str] = ['CM_ "Brace: stiffness on the limb. Written from messages.toml. Dictionary '
+                           f'0x{dictionary_hash:08x}.";']
     values: list[str] = []
     floats: list[str] = []
     senders: list[str] = []
@@ -88,7 +89,8 @@ def dbc_fd(wire: Wire, dictionary_hash: int, nodes: Sequence[int] = (1,)) -> str
     head = 'VERSION ""\n\nNS_ :\n\nBS_:\n\nBU_: ' + " ".join([*senders, _COMPUTER]) + "\n"
     formats = ",".join(f'"{name}"' for name in _FORMATS)
     definitions = [
-        'BA_DEF_ "BusType" STRING ;', f'BA_DEF_ BO_ "VFrameFormat" ENUM {formats};', 'BA_DEF_ BO_ "CANFD_BRS" ENUM "0","1";',
+        'BA_DEF_ "BusType" STRING ;', f'BA_DEF_ BO_ "VFrameFormat" ENUM {formats};',
+        'BA_DEF_ BO_ "CANFD_BRS" ENUM "0","1";',
         'BA_DEF_DEF_ "BusType" "CAN FD";', 'BA_DEF_DEF_ "VFrameFormat" "StandardCAN";', 'BA_DEF_DEF_ "CANFD_BRS" "1";',
         'BA_ "BusType" "CAN FD";',
     ]

@@ -130,7 +130,8 @@ def _check(entry: Entry) -> None:
         raise refuse(f"type {entry.type}")
     if entry.type == "f32" and (entry.texts or entry.numbers):
         raise refuse("choices are for u32")
-    if entry.type == "u32" and not all(isinstance(bound, int) and 0 <= bound < 1 << 32 for bound in (entry.low, entry.high)):
+    if entry.type == "u32" and not all(isinstance(bound, int) and 0 <= bound < 1 << 32
+                                       for bound in (entry.low, entry.high)):
         raise refuse("the range of a u32 is whole numbers below 2^32")
     if 0 in entry.numbers:
         raise refuse("0 fills up the lists of choices: it cannot be one")

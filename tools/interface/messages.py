@@ -147,7 +147,8 @@ def load_wire(path: Path) -> Wire:
         "refusal", answer_id, "",
         _signals(
             [
-                {"name": "status", "bits": 8, "signed": True, "description": "why: docs/errors.md, statuses and refusals"},
+                {"name": "status", "bits": 8, "signed": True,
+                 "description": "why: docs/errors.md, statuses and refusals"},
                 {"name": "detail", "bits": 32, "description": "what more there is to say: an index, a mode, a hash"},
             ],
             _PAYLOAD_START, "refusal",
@@ -166,7 +167,8 @@ def load_wire(path: Path) -> Wire:
 def _request(raw: Mapping[str, Any], request_id: int, answer_id: int) -> Request:
     name, code = raw["name"], raw["code"]
     question = Frame(
-        f"{name}_request", request_id, "", _signals(raw.get("field", []), _PAYLOAD_START, name), raw["description"], code
+        f"{name}_request", request_id, "", _signals(raw.get("field", []), _PAYLOAD_START, name), raw["description"],
+        code
     )
     answers = tuple(
         Frame(

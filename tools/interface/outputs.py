@@ -49,7 +49,8 @@ def outputs(dictionary: Dictionary, wire: Wire, values: Values) -> dict[str, str
 def drifted(project: Path = PROJECT) -> list[str]:
     """Files that are not what the dictionary says."""
     wanted = outputs(load(DICTIONARY), load_wire(MESSAGES), load_values(DICTIONARY))
-    return [name for name, text in wanted.items() if not (project / name).is_file() or (project / name).read_text() != text]
+    return [name for name, text in wanted.items() if not (project / name).is_file()
+            or (project / name).read_text() != text]
 
 
 def write(project: Path = PROJECT) -> list[str]:

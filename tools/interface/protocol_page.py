@@ -14,7 +14,7 @@ and `brace_fd.dbc` for the frame of CAN FD.
 Classic CAN, 11-bit identifiers shaped like CANopen's, eight bytes a frame, least significant bit first (Intel). A
 controller adds its node number, 1 to 127, to the identifiers below; without a number it only listens. A value that is not
 known has a code of its own, never zero: the most negative one of a signed value, all ones of an unsigned one. A value
-beyond its range is limited, and K then carries the flag SATURATED.
+beyond its range is limited; where one of K is, it carries the flag SATURATED.
 
 All frames of one snapshot carry the same sequence: put together only what agrees. Two ends that do not have the same
 dictionary hash (heartbeat, `identify`) speak different languages and have to say so.
@@ -32,20 +32,26 @@ MTU is (SocketCAN, 16), it goes on with classic frames. Over SLCAN snapshots are
 
 def protocol_page(wire: Wire, values: Values, dictionary_hash: int) -> str:
     """The whole page."""
-    parts = [_HEAD, f"\nProtocol {wire.protocol}, dictionary 0x{dictionary_hash:08x}.\n\n## What a controller sends by itself\n"]
+    parts = [_HEAD,
+             f"\nProtocol {wire.protocol}, dictionary 0x{dictionary_hash:08x}.\n\n## What a controller sends by "
+             "itself\n"]
     for frame in wire.messages:
         often = f" As often as `{frame.rate}` says." if frame.rate else ""
-        parts.append(f"\n### {frame.name}, 0x{frame.identifier:03x} + node\n\n{_sentence(frame.description)}{often}\n\n")
+        parts.append(f"\n### {frame.name}, 0x{frame.identifier:03x} + node\n\n{_sentence(frame.description)}"
+                     f"{often}\n\n")
         parts.append(_table(frame))
     parts.append(_FD)
     for frame in wire.fd_messages:
-        parts.append(f"\n### {frame.name}, 0x{frame.identifier:03x} + node, {frame.bytes} bytes\n\n{_sentence(frame.description)}")
+        parts.append(f"\n### {frame.name}, 0x{frame.identifier:03x} + node, {frame.bytes} bytes\n\n"
+                     f"{_sentence(frame.description)}")
         parts.append(f" As often as `{frame.rate}` says.\n\n")
         parts.append(_table(frame))
     parts.append(
-        f"\n## What it answers\n\nAsked on 0x{wire.request_id:03x} + node, answered on 0x{wire.answer_id:03x} + node. Byte 0 is"
+        f"\n## What it answers\n\nAsked on 0x{wire.request_id:03x} + node, answered on 0x{wire.answer_id:03x} + node. "
+        "Byte 0 is"
         " the request's code; in an answer plus 32 times its part. Byte 1 is a token that comes back in every part. The"
-        f" fields begin at bit 16. A request is answered in the tick that takes it; an answer of part {wire.refused_part} is a"
+        " fields begin at bit 16. A request is answered in the tick that takes it; an answer of part "
+        f"{wire.refused_part} is a"
         " refusal:\n\n"
     )
     parts.append(_table(wire.refusal))

@@ -70,8 +70,8 @@ static void configuration_tick(brace_app_t *app, uint32_t now_us, bool works)
     control_publish(app);
 }
 
-/* K in one tick, or pieces of it. A snapshot waits for its K while others are sensed; what it says of mode and faults is
- * of its own tick, and a mode that has changed since makes it void. */
+/* K in one tick, or pieces of it. A snapshot waits for its K while others are sensed; what it says of mode and faults
+ * is of its own tick, and a mode that has changed since makes it void. */
 static void compute(brace_app_t *app, uint32_t pieces)
 {
     brace_app_k_t *k = &app->k;

@@ -38,7 +38,8 @@ const char *board_remark(void)
     return "nothing wired yet";
 }
 
-/* Clocks, pins, and then the door: kept_..., stack_unused_bytes and kept_restart of boards/common behind its entries. */
+/* Clocks, pins, and then the door: kept_..., stack_unused_bytes and kept_restart of boards/common
+ * behind its entries. */
 const brace_hal_t *board_start(void)
 {
     return brace_hal_blank();

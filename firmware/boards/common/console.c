@@ -40,8 +40,30 @@ static void text_value(text_t *text, const char *key, float value)
     }
 }
 
+/* The names of the bits that are set. */
+static void text_bits(text_t *text, const char *key, uint32_t bits, const char *const *names, uint32_t count)
+{
+    text_string(text, key);
+    if (bits == 0u) {
+        text_string(text, " none");
+    }
+    for (uint32_t bit = 0u; bit < count; bit++) {
+        if ((bits >> bit & 1u) != 0u) {
+            text_string(text, " ");
+            text_string(text, names[bit]);
+        }
+    }
+}
+
 static void stiffness(text_t *text, const brace_app_t *app)
 {
+    static const char *const flags[] = BRACE_FLAGS_NAMES;
+    static const char *const faults[] = BRACE_FAULTS_NAMES;
+    static const char *const modes[] = BRACE_MODE_NAMES;
+    enum { FLAGS = sizeof flags / sizeof flags[0], FAULTS = sizeof faults / sizeof faults[0] };
+    _Static_assert(1u << FLAGS == BRACE_FLAG_OUT_OF_RANGE << 1, "every flag has its name");
+    _Static_assert(1u << FAULTS == BRACE_FAULT_CRASHED << 1, "every fault has its name");
+    _Static_assert(sizeof modes / sizeof modes[0] == BRACE_MODE_FAULT + 1, "every mode has its name");
     const brace_snapshot_t *const now = brace_app_snapshot(app);
     const brace_stiffness_t *const k = &now->stiffness.now;
     text_string(text, now->k_is_valid ? "k: valid" : "k: not valid");
@@ -52,12 +74,10 @@ static void stiffness(text_t *text, const brace_app_t *app)
         text_value(text, " theta1_rad ", now->theta_rad[BRACE_FEMUR]);
         text_value(text, " theta2_rad ", now->theta_rad[BRACE_TIBIA]);
     }
-    text_string(text, " flags ");
-    text_hex(text, k->flags);
-    text_string(text, " faults ");
-    text_hex(text, now->faults);
+    text_bits(text, " flags", k->flags, flags, FLAGS);
+    text_bits(text, " faults", now->faults, faults, FAULTS);
     text_string(text, " mode ");
-    text_unsigned(text, (uint32_t)now->mode);
+    text_string(text, modes[now->mode]);
     text_string(text, " tick ");
     text_unsigned(text, now->sequence);
     text_line(text);

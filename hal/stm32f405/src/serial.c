@@ -101,17 +101,24 @@ int32_t serial_setup(void *context, brace_serial_port_t port, uint32_t baud, bra
     return BRACE_HAL_OK;
 }
 
-int32_t serial_write(void *context, brace_serial_port_t port, const uint8_t *bytes, uint32_t count)
+/* The port's USART once it is set up; else why not. */
+static int32_t ready_usart(brace_serial_port_t port)
 {
-    (void)context;
     const int32_t index = usart_of(port);
     if (index < 0) {
         return BRACE_HAL_E_UNSUPPORTED;
     }
-    usart_t *usart = &usarts[index];
-    if (!usart->ready) {
-        return BRACE_HAL_E_DEVICE;
+    return usarts[index].ready ? index : BRACE_HAL_E_DEVICE;
+}
+
+int32_t serial_write(void *context, brace_serial_port_t port, const uint8_t *bytes, uint32_t count)
+{
+    (void)context;
+    const int32_t index = ready_usart(port);
+    if (index < 0) {
+        return index;
     }
+    usart_t *usart = &usarts[index];
     uint32_t done = 0;
     while (done < count && byte_ring_put(&usart->sent, bytes[done])) { /* at most BYTE_RING_BYTES */
         done++;
@@ -127,14 +134,11 @@ int32_t serial_write(void *context, brace_serial_port_t port, const uint8_t *byt
 int32_t serial_read(void *context, brace_serial_port_t port, uint8_t *bytes, uint32_t room)
 {
     (void)context;
-    const int32_t index = usart_of(port);
+    const int32_t index = ready_usart(port);
     if (index < 0) {
-        return BRACE_HAL_E_UNSUPPORTED;
+        return index;
     }
     usart_t *usart = &usarts[index];
-    if (!usart->ready) {
-        return BRACE_HAL_E_DEVICE;
-    }
     uint32_t done = 0;
     while (done < room && byte_ring_take(&usart->received, &bytes[done])) { /* at most BYTE_RING_BYTES */
         done++;

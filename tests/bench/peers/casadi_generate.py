@@ -8,7 +8,7 @@ the bench compiles the text as it is, and once more with float_functions.h ahead
 import sys
 from pathlib import Path
 
-import casadi as ca
+import casadi as ca  # type: ignore[import-not-found]
 
 
 def along(angle: ca.SX) -> ca.SX:

@@ -6,8 +6,8 @@
  *   C configuration
  *   P a piece of putting parameters in force  S storing  0 start  F fault
  *   W a piece of a record of what the drift check knows
- *   and those that answer a request over CAN: Q beside K  G beside K of the general path  A with K left out, or a piece of it
- *   E beside a piece of a loading test
+ *   and those that answer a request over CAN: Q beside K  G beside K of the general path
+ *   A with K left out, or a piece of it  E beside a piece of a loading test
  */
 #include <stdio.h>
 
@@ -197,9 +197,10 @@ static void random_question(bool harmless)
     const uint32_t token = data[1];
     data[0] = (uint8_t)code;
     if (code == BRACE_REQUEST_K_AT_POSTURE) {
-        (void)brace_can_pack_k_at_posture_request(
-            &(brace_can_k_at_posture_request_t){token, dice_between(&dice, -3.0f, 3.0f), dice_between(&dice, -3.0f, 3.0f)},
-            data);
+        (void)brace_can_pack_k_at_posture_request(&(brace_can_k_at_posture_request_t){token,
+                                                                                      dice_between(&dice, -3.0f, 3.0f),
+                                                                                      dice_between(&dice, -3.0f, 3.0f)},
+                                                  data);
     } else if (code == BRACE_REQUEST_K_AT_TIP_KNEE_UP || code == BRACE_REQUEST_K_AT_TIP_KNEE_DOWN) {
         (void)brace_can_pack_k_at_tip_knee_up_request(
             &(brace_can_k_at_tip_knee_up_request_t){token, dice_between(&dice, -300.0f, 300.0f),

@@ -34,7 +34,8 @@ void brace_store_status(const brace_store_t *store, brace_store_status_t *status
 static brace_snapshot_t snapshot;
 const brace_snapshot_t *brace_app_snapshot(const brace_app_t *app) { (void)app; return &snapshot; }
 
-brace_status_t hypothetical_stiffness(brace_app_t *app, float theta1_rad, float theta2_rad, brace_stiffness_t *stiffness)
+brace_status_t hypothetical_stiffness(brace_app_t *app, float theta1_rad, float theta2_rad,
+                                      brace_stiffness_t *stiffness)
 {
     (void)app;
     (void)theta1_rad;
@@ -50,7 +51,8 @@ brace_status_t question_k_at_tip(brace_app_t *app, brace_point_t tip, brace_knee
     return hypothetical_stiffness(app, tip.x_mm, tip.z_mm, stiffness);
 }
 
-brace_status_t question_contact_force(const brace_app_t *app, brace_displacement_t displacement, brace_contact_force_t *contact)
+brace_status_t question_contact_force(const brace_app_t *app, brace_displacement_t displacement,
+                                      brace_contact_force_t *contact)
 {
     (void)app;
     (void)displacement;

@@ -16,7 +16,8 @@ static int32_t any_serial_read(void *context, brace_serial_port_t port, uint8_t 
     (void)context;
     (void)port;
     const int32_t count = any_i32();
-    PROVE(bytes >= in_from && bytes <= in_end && room <= (size_t)(in_end - bytes), "a port is given room that is there");
+    PROVE(bytes >= in_from && bytes <= in_end && room <= (size_t)(in_end - bytes),
+          "a port is given room that is there");
     ASSUME(count <= (int32_t)room);
     return count;
 }
@@ -26,7 +27,8 @@ static int32_t any_serial_write(void *context, brace_serial_port_t port, const u
     (void)context;
     (void)port;
     const int32_t taken = any_i32();
-    PROVE(bytes >= out_from && bytes <= out_end && count <= (size_t)(out_end - bytes), "a port is given bytes that are there");
+    PROVE(bytes >= out_from && bytes <= out_end && count <= (size_t)(out_end - bytes),
+          "a port is given bytes that are there");
     ASSUME(taken <= (int32_t)count);
     return taken;
 }

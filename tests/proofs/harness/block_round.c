@@ -31,7 +31,8 @@ int main(void)
     const uint8_t before = block[at];
 
     const brace_status_t packed = brace_parameters_pack(&parameters, sequence, block, room);
-    PROVE((packed == BRACE_OK) == (judgement == BRACE_OK && room >= BRACE_BLOCK_BYTES), "packed what may be, and only that");
+    PROVE((packed == BRACE_OK) == (judgement == BRACE_OK && room >= BRACE_BLOCK_BYTES),
+          "packed what may be, and only that");
     if (packed != BRACE_OK) {
         PROVE(block[at] == before, "refused: the block is untouched");
         return 0;

@@ -1,5 +1,5 @@
-/* A piece of a journal's scan, the beginning of a record or a piece of its writing, from any state that a journal can be in,
- * over a memory of any content that refuses what it likes. */
+/* A piece of a journal's scan, the beginning of a record or a piece of its writing, from any state that a journal can
+ * be in, over a memory of any content that refuses what it likes. */
 #include "brace/journal.h"
 
 #include "memory.h"
@@ -21,11 +21,11 @@ static bool whole_pieces(uint32_t bytes)
 static bool scan_is_sound(const brace_journal_t *j)
 {
     const uint32_t within = (uint32_t)j->pieces * PIECE;
-    return j->state != BRACE_JOURNAL_BUSY && whole_pieces(j->end) && j->end <= BRACE_JOURNAL_MOST_BYTES && j->slot <= 2u &&
-           (j->slot < 2u || j->end == 0u) && whole_pieces(j->position) && j->position <= j->end && whole_pieces(j->next) &&
-           j->next <= j->end && j->pieces < BRACE_JOURNAL_PIECES &&
-           (j->pieces == 0u || (j->begun < j->end && j->begun + within == j->position &&
-                                j->begun + BRACE_JOURNAL_RECORD_BYTES <= j->end));
+    return j->state != BRACE_JOURNAL_BUSY && whole_pieces(j->end) && j->end <= BRACE_JOURNAL_MOST_BYTES &&
+           j->slot <= 2u && (j->slot < 2u || j->end == 0u) && whole_pieces(j->position) && j->position <= j->end &&
+           whole_pieces(j->next) && j->next <= j->end && j->pieces < BRACE_JOURNAL_PIECES &&
+           (j->pieces == 0u ||
+            (j->begun < j->end && j->begun + within == j->position && j->begun + BRACE_JOURNAL_RECORD_BYTES <= j->end));
 }
 
 /* Rises with every piece; a scan has as many as that at most. */
@@ -38,9 +38,9 @@ static uint32_t progress(const brace_journal_t *j)
 /* A record is being written where there is room for it. */
 static bool writing_is_sound(const brace_journal_t *j)
 {
-    return j->state == BRACE_JOURNAL_BUSY && j->slot < 2u && whole_pieces(j->end) && j->end <= BRACE_JOURNAL_MOST_BYTES &&
-           whole_pieces(j->next) && whole_pieces(j->position) && j->position < BRACE_JOURNAL_RECORD_BYTES &&
-           (j->clean || j->position == 0u) && j->next <= j->end &&
+    return j->state == BRACE_JOURNAL_BUSY && j->slot < 2u && whole_pieces(j->end) &&
+           j->end <= BRACE_JOURNAL_MOST_BYTES && whole_pieces(j->next) && whole_pieces(j->position) &&
+           j->position < BRACE_JOURNAL_RECORD_BYTES && (j->clean || j->position == 0u) && j->next <= j->end &&
            (j->clean ? 0u : (uint32_t)ZEROED) + BRACE_JOURNAL_RECORD_BYTES <= j->end - j->next;
 }
 
@@ -52,7 +52,8 @@ static void scans(brace_journal_t *journal)
     const uint8_t byte = state[at]; /* any one of it, so all */
     const bool found = journal->found, more = brace_journal_scan(journal, state);
 
-    PROVE(more ? scan_is_sound(journal) : journal->position >= journal->end, "a piece of a sound scan ends in one, or the scan ends");
+    PROVE(more ? scan_is_sound(journal) : journal->position >= journal->end,
+          "a piece of a sound scan ends in one, or the scan ends");
     PROVE(journal->next <= journal->end && whole_pieces(journal->next), "the next record goes within the journal");
     PROVE(!more || progress(journal) > before, "each piece comes nearer to the end");
     PROVE(!more || progress(journal) < BRACE_JOURNAL_SCANS, "and that is no further than promised");
@@ -69,7 +70,8 @@ static void writes(brace_journal_t *journal)
     const brace_journal_state_t state = brace_journal_step(journal);
 
     PROVE(memory_writes == 1u && memory_erases == 0u, "one write a step");
-    PROVE(written_slot == journal->slot && written_at == BRACE_JOURNAL_AT + next + (clean ? before - 1u : 0u), "right behind the last");
+    PROVE(written_slot == journal->slot && written_at == BRACE_JOURNAL_AT + next + (clean ? before - 1u : 0u),
+          "right behind the last");
     if (state == BRACE_JOURNAL_BUSY) {
         PROVE(writing_is_sound(journal), "a step from a sound state ends in one");
         PROVE(journal->position + (journal->clean ? 1u : 0u) > before, "each step comes nearer to the end");
@@ -94,8 +96,9 @@ int main(void)
         writes(&journal);
     } else { /* after a scan, or a record that stands or has failed: behind the end there is no room */
         brace_drift_t learned;
-        ASSUME(journal.state != BRACE_JOURNAL_BUSY && journal.slot < 2u && whole_pieces(journal.end) && whole_pieces(journal.next) &&
-               journal.end <= BRACE_JOURNAL_MOST_BYTES && journal.next <= 2u * BRACE_JOURNAL_MOST_BYTES);
+        ASSUME(journal.state != BRACE_JOURNAL_BUSY && journal.slot < 2u && whole_pieces(journal.end) &&
+               whole_pieces(journal.next) && journal.end <= BRACE_JOURNAL_MOST_BYTES &&
+               journal.next <= 2u * BRACE_JOURNAL_MOST_BYTES);
         if (brace_journal_begin(&journal, &learned)) {
             PROVE(writing_is_sound(&journal), "a record is begun where there is room for it");
         }

@@ -1,5 +1,5 @@
-/* The non-volatile memory as any content and any answer: what is read is anything, differently each time, and each call may
- * be refused. What is asked of it is proven to be what brace_hal.h allows. */
+/* The non-volatile memory as any content and any answer: what is read is anything, differently each time, and each call
+ * may be refused. What is asked of it is proven to be what brace_hal.h allows. */
 #ifndef BRACE_PROOF_MEMORY_H
 #define BRACE_PROOF_MEMORY_H
 
@@ -13,7 +13,8 @@ static uint32_t written_slot, written_at, erased_slot;
 
 static bool within(uint32_t slot, uint32_t offset, uint32_t count)
 {
-    return slot < (uint32_t)BRACE_NVM_SLOT_COUNT && offset >= memory_from && offset <= memory_end && count <= memory_end - offset;
+    return slot < (uint32_t)BRACE_NVM_SLOT_COUNT && offset >= memory_from && offset <= memory_end &&
+           count <= memory_end - offset;
 }
 
 static int32_t any_answer(void)
@@ -36,7 +37,8 @@ static int32_t any_read(void *context, uint32_t slot, uint32_t offset, uint8_t *
 static int32_t any_write(void *context, uint32_t slot, uint32_t offset, const uint8_t *bytes, uint32_t count)
 {
     (void)context;
-    PROVE(within(slot, offset, count) && offset % 8u == 0u && count % 8u == 0u, "what is written are whole units of the slot");
+    PROVE(within(slot, offset, count) && offset % 8u == 0u && count % 8u == 0u,
+          "what is written are whole units of the slot");
     PROVE(__CPROVER_r_ok(bytes, count), "what is written is there");
     memory_writes++;
     written_slot = slot;

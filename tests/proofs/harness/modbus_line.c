@@ -1,4 +1,5 @@
-/* The serial line, a step at a time: whatever state the invariant allows and whatever comes, a step ends in one again. */
+/* The serial line, a step at a time: whatever state the invariant allows and whatever comes,
+ * a step ends in one again. */
 #include "app.h"
 #include "modbus/crc.h"
 #include "modbus/link.h"
@@ -11,12 +12,14 @@ uint16_t modbus_crc(uint16_t crc, const uint8_t *bytes, uint32_t count)
     return any_u16();
 }
 
-uint32_t modbus_pdu_work(brace_app_t *whose, brace_app_modbus_work_t *work, uint8_t *pdu, uint32_t length, uint32_t now_us)
+uint32_t modbus_pdu_work(brace_app_t *whose, brace_app_modbus_work_t *work, uint8_t *pdu, uint32_t length,
+                         uint32_t now_us)
 {
     (void)whose;
     (void)work;
     (void)now_us;
-    PROVE(length >= 1u && length <= MODBUS_PDU_BYTES && pdu > in_from && pdu + MODBUS_PDU_BYTES <= in_end, "a request as promised");
+    PROVE(length >= 1u && length <= MODBUS_PDU_BYTES && pdu > in_from && pdu + MODBUS_PDU_BYTES <= in_end,
+          "a request as promised");
     const uint32_t answer = any_u32();
     ASSUME(answer <= MODBUS_PDU_BYTES);
     return answer;

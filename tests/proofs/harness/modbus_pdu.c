@@ -1,5 +1,5 @@
-/* A request of any bytes, whatever the controller's state. What it asks of the rest of the controller may answer anything
- * that the header in question allows. */
+/* A request of any bytes, whatever the controller's state. What it asks of the rest of the controller may answer
+ * anything that the header in question allows. */
 #include "modbus/pdu.h"
 #include "modbus/read.h"
 #include "modbus/write.h"
@@ -28,7 +28,12 @@ brace_status_t brace_parameter_in_range(uint32_t index, uint32_t word)
     return any_status();
 }
 
-brace_status_t staging_commit(brace_app_t *app, uint32_t *wrong_index) { (void)app; (void)wrong_index; return any_status(); }
+brace_status_t staging_commit(brace_app_t *app, uint32_t *wrong_index)
+{
+    (void)app;
+    (void)wrong_index;
+    return any_status();
+}
 brace_status_t brace_app_configuration_enter(brace_app_t *app) { (void)app; return any_status(); }
 brace_status_t brace_app_configuration_leave(brace_app_t *app) { (void)app; return any_status(); }
 brace_status_t brace_app_parameters_rollback(brace_app_t *app) { (void)app; return any_status(); }
@@ -97,10 +102,13 @@ int main(void)
         PROVE((why >= 1u && why <= 4u) || why == 6u, "an exception is one that the protocol has");
         PROVE(app.modbus.refused == (uint16_t)(refused + 1u), "an exception is counted");
     }
-    const bool known = function == 3u || function == 4u || function == 6u || function == 8u || function == 16u || function == 17u || function == 43u;
-    PROVE(known || ((pdu[0] & MODBUS_REFUSED) != 0u && why == MODBUS_E_FUNCTION && answer == 2u), "no such function: exception 1");
+    const bool known = function == 3u || function == 4u || function == 6u || function == 8u || function == 16u ||
+                       function == 17u || function == 43u;
+    PROVE(known || ((pdu[0] & MODBUS_REFUSED) != 0u && why == MODBUS_E_FUNCTION && answer == 2u),
+          "no such function: exception 1");
     if (pdu[0] == function && (function == 3u || function == 4u)) {
-        PROVE(answer == 2u + pdu[1] && pdu[1] >= 2u && pdu[1] <= 250u && pdu[1] % 2u == 0u, "registers read: as many bytes as are told");
+        PROVE(answer == 2u + pdu[1] && pdu[1] >= 2u && pdu[1] <= 250u && pdu[1] % 2u == 0u,
+              "registers read: as many bytes as are told");
     }
     if (pdu[0] == function && (function == 6u || function == 16u)) {
         PROVE(answer == 5u, "registers written: the request's first five bytes");

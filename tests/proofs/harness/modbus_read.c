@@ -49,7 +49,8 @@ int main(void)
     const modbus_exception_t why = modbus_read(&app, pdu, length, any_u32(), &answer);
     if (why == MODBUS_FINE) {
         PROVE(length == 5u, "a request of another length is refused");
-        PROVE(answer == 2u + pdu[1] && pdu[1] >= 2u && pdu[1] <= 250u && pdu[1] % 2u == 0u, "an answer says its own length");
+        PROVE(answer == 2u + pdu[1] && pdu[1] >= 2u && pdu[1] <= 250u && pdu[1] % 2u == 0u,
+              "an answer says its own length");
     } else {
         PROVE(why == MODBUS_E_VALUE || why == MODBUS_E_ADDRESS, "refused as the protocol has it");
         PROVE(answer == unanswered, "refused: no answer");

@@ -1,13 +1,16 @@
-/* A TCP connection, a step at a time: whatever state the invariant allows and whatever comes, a step ends in one again. */
+/* A TCP connection, a step at a time: whatever state the invariant allows and whatever comes,
+ * a step ends in one again. */
 #include "app.h"
 #include "modbus/link.h"
 
-uint32_t modbus_pdu_work(brace_app_t *whose, brace_app_modbus_work_t *work, uint8_t *pdu, uint32_t length, uint32_t now_us)
+uint32_t modbus_pdu_work(brace_app_t *whose, brace_app_modbus_work_t *work, uint8_t *pdu, uint32_t length,
+                         uint32_t now_us)
 {
     (void)whose;
     (void)work;
     (void)now_us;
-    PROVE(length >= 1u && length <= MODBUS_PDU_BYTES && pdu > in_from && pdu + MODBUS_PDU_BYTES <= in_end, "a request as promised");
+    PROVE(length >= 1u && length <= MODBUS_PDU_BYTES && pdu > in_from && pdu + MODBUS_PDU_BYTES <= in_end,
+          "a request as promised");
     const uint32_t answer = any_u32();
     ASSUME(answer <= MODBUS_PDU_BYTES);
     return answer;
@@ -29,7 +32,8 @@ static bool sound(const brace_app_modbus_link_t *link)
     return (link->phase == LINK_LISTEN || link->phase == LINK_WORK || link->phase == LINK_SEND) &&
            link->count <= HEADER_BYTES + MODBUS_PDU_BYTES && link->sent <= link->count &&
            (link->sent == 0u || link->phase == LINK_SEND) &&
-           (link->phase != LINK_LISTEN || link->drop || (!head || (link->count <= told && told <= HEADER_BYTES + MODBUS_PDU_BYTES))) &&
+           (link->phase != LINK_LISTEN || link->drop ||
+            (!head || (link->count <= told && told <= HEADER_BYTES + MODBUS_PDU_BYTES))) &&
            (link->phase != LINK_WORK || (head && link->count == told)) && (link->phase != LINK_SEND || head);
 }
 

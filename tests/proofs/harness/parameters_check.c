@@ -27,10 +27,12 @@ int main(void)
     memcpy(&value, &word, sizeof value);
     if (status == BRACE_OK) {
         PROVE(judgement == BRACE_OK, "accepted: the limb can exist");
-        PROVE(parameters.controller.age_limit_us >= parameters.controller.tick_us, "accepted: the age limit is a tick or more");
+        PROVE(parameters.controller.age_limit_us >= parameters.controller.tick_us,
+              "accepted: the age limit is a tick or more");
     }
     if (status == BRACE_OK && rule < BRACE_F32_RANGES) {
-        PROVE(value >= brace_f32_range[rule][0] && value <= brace_f32_range[rule][1], "accepted: every number is in its range");
+        PROVE(value >= brace_f32_range[rule][0] && value <= brace_f32_range[rule][1],
+              "accepted: every number is in its range");
     }
     if (status == BRACE_OK && rule >= BRACE_F32_RANGES && rule < BRACE_F32_RANGES + BRACE_U32_RANGES) {
         const uint32_t *range = brace_u32_range[rule - BRACE_F32_RANGES];
@@ -38,6 +40,7 @@ int main(void)
     }
     const bool told = status == BRACE_E_PARAMETER || status == BRACE_E_NOT_FINITE;
     PROVE(told || status == BRACE_OK, "accepted, or why not");
-    PROVE(told ? wrong_index <= BRACE_PARAMETER_COUNT : wrong_index == before, "the member at fault is named, and only then");
+    PROVE(told ? wrong_index <= BRACE_PARAMETER_COUNT : wrong_index == before,
+          "the member at fault is named, and only then");
     return 0;
 }

@@ -1,5 +1,5 @@
-/* Any 8 bytes that come as a request, whatever the controller's state. What a request asks of the rest of the controller may
- * answer anything that its header allows, and notes that it was asked. */
+/* Any 8 bytes that come as a request, whatever the controller's state. What a request asks of the rest of the
+ * controller may answer anything that its header allows, and notes that it was asked. */
 #include "brace/measured.h"
 #include "can/request.h"
 #include "can/requests.h"
@@ -10,7 +10,8 @@
 #include "can/requests.c"
 
 /* What was done, besides answering. */
-enum { MOVES = 1, CONFIGURES = 2, LEAVES = 4, STAGES = 8, STORES = 16, ROLLS_BACK = 32, CLEARS = 64, TESTS = 128, FEEDS = 256 };
+enum { MOVES = 1, CONFIGURES = 2, LEAVES = 4, STAGES = 8, STORES = 16, ROLLS_BACK = 32, CLEARS = 64, TESTS = 128,
+       FEEDS = 256 };
 static uint32_t done;
 
 static brace_status_t asked_for(uint32_t what)
@@ -31,14 +32,29 @@ brace_status_t brace_app_take_up(brace_app_t *app, int32_t joint, int32_t flank)
 }
 
 brace_status_t brace_app_let_go(brace_app_t *app) { (void)app; return asked_for(MOVES); }
-brace_status_t brace_app_loading_start(brace_app_t *app, const brace_loading_setup_t *setup) { (void)app; (void)setup; return asked_for(TESTS); }
+brace_status_t brace_app_loading_start(brace_app_t *app, const brace_loading_setup_t *setup)
+{
+    (void)app;
+    (void)setup;
+    return asked_for(TESTS);
+}
 brace_status_t brace_app_loading_stop(brace_app_t *app) { (void)app; return asked_for(TESTS); }
 brace_status_t brace_app_configuration_enter(brace_app_t *app) { (void)app; return asked_for(CONFIGURES); }
 brace_status_t brace_app_configuration_leave(brace_app_t *app) { (void)app; return asked_for(LEAVES); }
 brace_status_t brace_app_parameters_rollback(brace_app_t *app) { (void)app; return asked_for(ROLLS_BACK); }
 brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults) { (void)app; (void)faults; return asked_for(CLEARS); }
-brace_status_t staging_commit(brace_app_t *app, uint32_t *wrong_index) { (void)app; (void)wrong_index; return asked_for(STORES); }
-brace_status_t storing_commit(brace_app_t *app, const brace_parameters_t *set) { (void)app; (void)set; return asked_for(STORES); }
+brace_status_t staging_commit(brace_app_t *app, uint32_t *wrong_index)
+{
+    (void)app;
+    (void)wrong_index;
+    return asked_for(STORES);
+}
+brace_status_t storing_commit(brace_app_t *app, const brace_parameters_t *set)
+{
+    (void)app;
+    (void)set;
+    return asked_for(STORES);
+}
 void staging_keep(brace_app_t *app) { (void)app; done |= FEEDS; }
 
 static bool open_for_writing;
@@ -121,7 +137,8 @@ void brace_block_members(const uint8_t *block, brace_parameters_t *parameters)
     *parameters = any;
 }
 
-/* A frame begins with code and part, then the token (the dictionary's tests); the rest is any (codec_numbers, codec_whole). */
+/* A frame begins with code and part, then the token (the dictionary's tests);
+ * the rest is any (codec_numbers, codec_whole). */
 #define PACKS(frame, head)                                                                                             \
     uint32_t brace_can_pack_##frame(const brace_can_##frame##_t *message, uint8_t data[8])                             \
     {                                                                                                                  \
@@ -185,7 +202,11 @@ static uint32_t allowed(const uint8_t *request)
     const uint32_t key = (uint32_t)request[3] | (uint32_t)request[4] << 8, mode = request[2];
     switch (request[0]) {
     case BRACE_REQUEST_WRITE_ENTRY: return STAGES;
-    case BRACE_REQUEST_SET_MODE: return key != 0xc0deu ? 0u : FEEDS | (mode == BRACE_MODE_CONFIGURATION ? CONFIGURES : mode == BRACE_MODE_MONITOR ? LEAVES : 0u);
+    case BRACE_REQUEST_SET_MODE:
+        return key != 0xc0deu ? 0u
+                              : FEEDS | (mode == BRACE_MODE_CONFIGURATION ? CONFIGURES
+                                         : mode == BRACE_MODE_MONITOR     ? LEAVES
+                                                                          : 0u);
     case BRACE_REQUEST_UPLOAD_BEGIN:
     case BRACE_REQUEST_UPLOAD_WORD: return FEEDS;
     case BRACE_REQUEST_COMMIT: return FEEDS | (open_for_writing ? STORES : 0u);
@@ -202,7 +223,8 @@ static uint32_t allowed(const uint8_t *request)
 static void answers_are_of(const brace_app_requests_t *requests, const uint8_t *request, uint32_t before, bool later)
 {
     const uint32_t count = requests->answer_count - before, which = any_u32();
-    PROVE(requests->answer_count >= before && count <= PARTS_MOST && requests->answer_count <= BRACE_APP_ANSWERS, "as many parts as there is room for");
+    PROVE(requests->answer_count >= before && count <= PARTS_MOST && requests->answer_count <= BRACE_APP_ANSWERS,
+          "as many parts as there is room for");
     PROVE(later ? count == 0u : count >= 1u, "an answer or a refusal, at once; or later, when it is stored");
     ASSUME(which < count); /* any part, so all */
     const uint8_t *part = requests->answer[(requests->answer_first + before + which) % BRACE_APP_ANSWERS];
@@ -237,14 +259,21 @@ int main(void)
     const bool stores = requests->storing != 0u;
     answers_are_of(requests, request, count, stores);
     PROVE((done & ~allowed(request)) == 0u, "nothing is done but what the request names");
-    PROVE(app.mode == mode && app.faults == faults && app.parameter_crc == crc, "nor is anything changed behind its back");
-    PROVE(!stores || (requests->storing == code && requests->storing_token == request[1]), "what is stored is answered to who asked");
-    PROVE(requests->upload_next <= BRACE_BLOCK_BYTES / 4 && requests->download_next <= BRACE_BLOCK_BYTES / 4, "words within the block");
-    const bool uploads = code == BRACE_REQUEST_UPLOAD_BEGIN || code == BRACE_REQUEST_UPLOAD_WORD || code == BRACE_REQUEST_COMMIT;
+    PROVE(app.mode == mode && app.faults == faults && app.parameter_crc == crc,
+          "nor is anything changed behind its back");
+    PROVE(!stores || (requests->storing == code && requests->storing_token == request[1]),
+          "what is stored is answered to who asked");
+    PROVE(requests->upload_next <= BRACE_BLOCK_BYTES / 4 && requests->download_next <= BRACE_BLOCK_BYTES / 4,
+          "words within the block");
+    const bool uploads =
+        code == BRACE_REQUEST_UPLOAD_BEGIN || code == BRACE_REQUEST_UPLOAD_WORD || code == BRACE_REQUEST_COMMIT;
     PROVE(uploads || (requests->upload_open == before.upload_open && requests->upload_next == before.upload_next &&
-                      requests->upload_sum == before.upload_sum && requests->upload_crc == before.upload_crc), "an upload is left alone");
+                      requests->upload_sum == before.upload_sum && requests->upload_crc == before.upload_crc),
+          "an upload is left alone");
     PROVE(code == BRACE_REQUEST_UPLOAD_WORD || requests->upload[at] == before.upload[at], "and so are its words");
-    PROVE(code == BRACE_REQUEST_DOWNLOAD_WORD || (requests->download_next == before.download_next && requests->download_crc == before.download_crc &&
-                                                  requests->download_set == before.download_set), "a download is left alone");
+    PROVE(code == BRACE_REQUEST_DOWNLOAD_WORD ||
+              (requests->download_next == before.download_next && requests->download_crc == before.download_crc &&
+               requests->download_set == before.download_set),
+          "a download is left alone");
     return 0;
 }

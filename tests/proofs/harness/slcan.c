@@ -33,7 +33,8 @@ int main(void)
     out_end = slcan->out + sizeof slcan->out;
     const uint32_t at = any_u32(), line_at = any_u32();
     ASSUME(at < BRACE_APP_IN_BYTES && line_at < BRACE_APP_LINE_BYTES);
-    const uint8_t behind = slcan->in[at], line_before = slcan->line[line_at]; /* any byte of what lies next to each buffer */
+    /* any byte of what lies next to each buffer */
+    const uint8_t behind = slcan->in[at], line_before = slcan->line[line_at];
     before = frame;
     ASSUME(sound(slcan));
     if (any_bool()) {

@@ -1,5 +1,5 @@
-/* A step of an update or a roll-back, from any state that one can be in, over a memory of any content that refuses what it
- * likes. */
+/* A step of an update or a roll-back, from any state that one can be in, over a memory of any content that refuses what
+ * it likes. */
 #include "brace/store.h"
 
 #include "memory.h"
@@ -54,10 +54,11 @@ static bool sound(const brace_store_t *s)
     const uint32_t stage = s->stage;
     const bool only_rollback = stage == STAGE_REREAD || stage == STAGE_WITHDRAW;
     const bool either = stage == STAGE_AFFIRM || stage == STAGE_UNDO;
-    return s->state == BRACE_STORE_BUSY && stage <= STAGE_UNDO && position_is_sound(stage, s->position) && s->target < 2u &&
-           s->in_force <= 2u && s->in_force != s->target + 1u && s->next_mark[0] <= BRACE_STORE_MARK_COUNT &&
-           s->next_mark[1] <= BRACE_STORE_MARK_COUNT && is_bool(&s->rolling_back) && is_bool(&s->clean[0]) &&
-           is_bool(&s->clean[1]) && (s->rolling_back ? (only_rollback || either) && s->in_force != 0u : !only_rollback) &&
+    return s->state == BRACE_STORE_BUSY && stage <= STAGE_UNDO && position_is_sound(stage, s->position) &&
+           s->target < 2u && s->in_force <= 2u && s->in_force != s->target + 1u &&
+           s->next_mark[0] <= BRACE_STORE_MARK_COUNT && s->next_mark[1] <= BRACE_STORE_MARK_COUNT &&
+           is_bool(&s->rolling_back) && is_bool(&s->clean[0]) && is_bool(&s->clean[1]) &&
+           (s->rolling_back ? (only_rollback || either) && s->in_force != 0u : !only_rollback) &&
            (stage != STAGE_UNDO || s->failure < BRACE_STORE_FINE);
 }
 
@@ -81,19 +82,24 @@ int main(void)
 
     PROVE(state == store.state, "the state is told");
     PROVE(memory_erases + memory_writes <= 1u, "one call that changes the memory in a step");
-    PROVE(memory_erases == 0u || (erased_slot == target && !rolls_back && in_force != erased_slot + 1u), "what is erased is not in force");
-    PROVE(memory_writes == 0u || written_at >= BRACE_STORE_MARKS_AT || (written_slot == target && !rolls_back), "the slot in force gets marks only");
+    PROVE(memory_erases == 0u || (erased_slot == target && !rolls_back && in_force != erased_slot + 1u),
+          "what is erased is not in force");
+    PROVE(memory_writes == 0u || written_at >= BRACE_STORE_MARKS_AT || (written_slot == target && !rolls_back),
+          "the slot in force gets marks only");
     if (state == BRACE_STORE_BUSY) {
         PROVE(sound(&store), "a step from a sound state ends in one");
         PROVE(progress(&store) > before, "each step comes nearer to the end");
-        PROVE(store.in_force == in_force && store.target == target && store.rolling_back == rolls_back, "nothing changes on the way");
+        PROVE(store.in_force == in_force && store.target == target && store.rolling_back == rolls_back,
+              "nothing changes on the way");
     } else if (state == BRACE_STORE_DONE) {
-        PROVE(store.in_force == target + 1u && (stage == STAGE_COMMIT || stage == STAGE_WITHDRAW), "done: the new set is in force, by its last mark");
+        PROVE(store.in_force == target + 1u && (stage == STAGE_COMMIT || stage == STAGE_WITHDRAW),
+              "done: the new set is in force, by its last mark");
         PROVE(store.slot[target].condition == BRACE_SLOT_COUNTS || rolls_back, "and counts");
     } else {
         PROVE(state == BRACE_STORE_FAILED && store.in_force == in_force, "failed: the set of before is in force");
         PROVE(store.failure < BRACE_STORE_FINE, "and why");
     }
-    PROVE(store.next_mark[0] <= BRACE_STORE_MARK_COUNT && store.next_mark[1] <= BRACE_STORE_MARK_COUNT, "marks within their places");
+    PROVE(store.next_mark[0] <= BRACE_STORE_MARK_COUNT && store.next_mark[1] <= BRACE_STORE_MARK_COUNT,
+          "marks within their places");
     return 0;
 }

@@ -4,7 +4,7 @@ command."""
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -42,7 +42,7 @@ def _believed(tmp_path: Path, text: str) -> LimbModel:
     return load_limb(path)
 
 
-def _exported(tmp_path: Path, text: str, changes: dict[str, object]) -> tuple[LimbModel, Exported]:
+def _exported(tmp_path: Path, text: str, changes: Mapping[str, object]) -> tuple[LimbModel, Exported]:
     believed = _believed(tmp_path, text)
     found = Diagnosis("effect", "x", believed.with_values(changes))
     return believed, export(found, believed, text, HEADER)

@@ -236,4 +236,4 @@ def test_a_spring_that_is_softer_to_one_side_is_nothing_else(seed: int, tmp_path
     columns = {"t_s": t_s, "angle_rad": angle, "torque_n_mm": read, "test": 1 + t_s // 10}
     found = found_in(joint_cases.Case("asymmetric", {}, columns).write(tmp_path))
     assert found.verdict == "unknown" and not found.effects, found.sentence
-    assert "on one side" in found.unexplained.description
+    assert found.unexplained is not None and "on one side" in found.unexplained.description

@@ -130,8 +130,8 @@ def test_noise_that_grows_is_asked_of_both_channels_of_a_sensor() -> None:
 
 
 def test_a_reading_under_load_is_no_glitch(tmp_path: Path, believed: LimbModel) -> None:
-    """Where the noise grows to five times with the load, which was not told, no reading under load is a fault of its own;
-    the same deviation of one under little load is."""
+    """Where the noise grows to five times with the load, which was not told, no reading under load is a fault of its
+    own; the same deviation of one under little load is."""
     record = load_record(recorded(tmp_path, believed, 6))
     space = space_of(trust_of(believed), ())
     found = fit(record, space, space.mean)

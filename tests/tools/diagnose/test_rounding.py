@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,7 +17,7 @@ from brace.model import load_limb
 
 STEP_N = 0.0625
 FORCES = slice(11, 13)
-WITHIN_TRUST = {"joint": (1.04e-5, 1.65e-5), "lengths": (185.4, 313.2)}  # less than one sigma of LIMB's
+WITHIN_TRUST: dict[str, Any] = {"joint": (1.04e-5, 1.65e-5), "lengths": (185.4, 313.2)}  # less than one sigma of LIMB's
 
 
 def rounded(rows: list[list[str]]) -> list[list[str]]:

@@ -48,7 +48,9 @@ def read(path: Path) -> Iterator[Frame]:
             if found is not None:
                 identifier = int(found[3], 16)
                 if identifier <= 0x7FF:
-                    yield Frame(float(found[1]), identifier, bytes.fromhex(found[4] if found[4] is not None else found[5]))
+                    yield Frame(
+                        float(found[1]), identifier, bytes.fromhex(found[4] if found[4] is not None else found[5])
+                    )
             elif text.strip() and text.endswith("\n") and not _OTHER.fullmatch(text.rstrip()):
                 raise BadFileError(
                     "not a line of a candump log",

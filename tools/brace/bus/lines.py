@@ -85,7 +85,10 @@ class SerialLine:
 
 def _no_connection(url: BusUrl, error: OSError) -> NoDeviceError:
     if isinstance(error, ConnectionRefusedError):
-        why, way = f"nobody listens there, on port {url.port}", "start brace sim (it prints its ports), or check the port's number"
+        why, way = (
+            f"nobody listens there, on port {url.port}",
+            "start brace sim (it prints its ports), or check the port's number",
+        )
     elif isinstance(error, TimeoutError):
         why, way = f"no answer within {CONNECT_S:g} s", "check host name and network"
     elif isinstance(error, socket.gaierror):

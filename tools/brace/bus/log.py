@@ -64,6 +64,16 @@ def writer(file: BinaryIO, ending: str, interface: str) -> Writer:
     return candump.CandumpWriter(file, interface)
 
 
+def no_answers(url: str) -> UsageError:
+    """Said before the log is read, where a command needs answers, whatever the log holds."""
+    return UsageError(
+        "a log answers no requests",
+        where=url,
+        why="it holds what was sent when it was recorded",
+        next_step="brace monitor --bus log:FILE or brace replay FILE shows it; requests need a controller",
+    )
+
+
 class LogBus:
     """Listening only."""
 
@@ -85,12 +95,7 @@ class LogBus:
 
     def send(self, identifier: int, data: bytes) -> None:
         """Nobody is there."""
-        raise UsageError(
-            "a log answers no requests",
-            where=self.url,
-            why="it holds what was sent when it was recorded",
-            next_step="brace monitor --bus log:FILE or brace replay FILE shows it; requests need a controller",
-        )
+        raise no_answers(self.url)
 
     def silence(self) -> tuple[str, str]:
         """Short logs."""

@@ -37,7 +37,7 @@ _BY_NAME = {r.name: r for r in REGISTERS}
 _FORCES = (("fx_n", "x"), ("fz_n", "z"), ("low_n", "low"), ("high_n", "high"))
 _ENTRIES = {entry.name: entry for entry in MEASURED}
 _EXCEPTIONS = {
-    1: "this function is not there",
+    1: "not in its mode of now, or no such function",
     2: "no such registers",
     3: "a value that is refused",
     4: "the controller failed at it",

@@ -10,8 +10,8 @@ from brace.bus.frame import NODE_MASK, Frame
 from brace.wire.frames import FD_MESSAGES, MESSAGES
 from brace.wire.layout import Layout, Value
 
-# Halves with one number that lie further apart are of two rounds of the 8-bit counter: the shortest round is 256 ticks of
-# 250 us, 0.064 s.
+# Halves with one number that lie further apart are of two rounds of the 8-bit counter: the shortest round is 256 ticks
+# of 250 us, 0.064 s.
 PAIR_S = 0.040
 _LAYOUT_OF = {layout.identifier: layout for layout in MESSAGES.values()}
 _WHOLE = FD_MESSAGES["snapshot_fd"]

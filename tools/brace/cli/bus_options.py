@@ -41,8 +41,8 @@ def add_bus(parser: Any, required: bool = True) -> None:
     )
 
 
-def bus_url(arguments: argparse.Namespace, frames_for: str = "") -> BusUrl:
-    """The URL; refused where frames are needed and it has registers."""
+def bus_url(arguments: argparse.Namespace, frames_for: str = "", answers: bool = False) -> BusUrl:
+    """The URL; refused where frames are needed and it has registers, and where answers are and it is a log."""
     from brace.bus.url import parse
     from brace.errors import UsageError
 
@@ -54,6 +54,10 @@ def bus_url(arguments: argparse.Namespace, frames_for: str = "") -> BusUrl:
             why="it needs the frames of a CAN bus",
             next_step="--bus can0, slcan:DEVICE or tcp://HOST:PORT; brace query and monitor work over Modbus",
         )
+    if answers and url.kind == "log":
+        from brace.bus.log import no_answers
+
+        raise no_answers(url.text)
     return url
 
 
@@ -73,7 +77,7 @@ def session(arguments: argparse.Namespace, url: BusUrl) -> Iterator[Session]:
 @contextlib.contextmanager
 def controller(arguments: argparse.Namespace) -> Iterator[Controller]:
     """A controller that speaks our dictionary, on whatever wire."""
-    url = bus_url(arguments)
+    url = bus_url(arguments, answers=True)
     if url.is_modbus:
         from brace.bus.modbus_controller import ModbusController
 

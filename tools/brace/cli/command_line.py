@@ -66,8 +66,9 @@ def build_parser() -> OptionParser:
         prog="brace",
         description="Stiffness at the tip of a climbing robot's limb: predict it, measure it, explain it. "
         "Units: mm, N, N mm, rad, s, degC.",
-        epilog="Exit codes: 0 done, 1 a check failed, 2 usage, 3 bad model or data file, 4 no device or time-out, 5 device "
-        "fault or K not valid, 6 version mismatch, 7 write not verified and rolled back, 130 interrupted.",
+        epilog="Exit codes: 0 done, 1 a check failed, 2 usage, 3 bad model or data file, 4 no device or time-out, 5 "
+        "device fault or K not valid, 6 version mismatch, 7 write not verified and rolled back, 130 "
+        "interrupted.",
     )
     parser.add_argument("--version", action="version", version=f"brace {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", dest="command")

@@ -18,9 +18,10 @@ def add(commands: Any) -> None:
         "demo", help="the paper's table and a simulated limb, end to end",
         description="Takes the paper's table as printed, finds its faults, identifies the limb, and draws the paper's "
                     "figures: eigenvalues over r, ellipses, the cyclic test with its zero-force shift, the choice of "
-                    "stiffness; then has a simulated controller's own loading tests tell what its model lacks, and mends "
-                    "it. Writes pictures, table.csv, limb.toml, wire/ and facts.json into --out.")
-    parser.add_argument("--out", type=common.path, default=Path("brace-demo"), metavar="DIR", help="default: brace-demo")
+                    "stiffness; then has a simulated controller's own loading tests tell what its model lacks, and "
+                    "mends it. Writes pictures, table.csv, limb.toml, wire/ and facts.json into --out.")
+    parser.add_argument("--out", type=common.path, default=Path("brace-demo"), metavar="DIR",
+                        help="default: brace-demo")
     common.add_json(parser)
     parser.set_defaults(run=run)
 

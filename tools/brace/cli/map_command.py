@@ -16,8 +16,8 @@ def add(commands: Any) -> None:
     parser = commands.add_parser(
         "map",
         help="the workspace: eigenvalues over r, ellipses of K, as pictures and CSV",
-        description="Computes K over a grid of postures and writes into --out: map.png and map.svg (eigenvalues over r, "
-        "ellipses), eigenvalues.csv (a row per theta2), ellipses.csv (the drawn ones). Says where "
+        description="Computes K over a grid of postures and writes into --out: map.png and map.svg (eigenvalues over "
+        "r, ellipses), eigenvalues.csv (a row per theta2), ellipses.csv (the drawn ones). Says where "
         "quasi-convexity holds.",
     )
     common.add_model(parser)

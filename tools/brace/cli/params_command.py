@@ -56,9 +56,9 @@ def _add_unpack(actions: Any) -> None:
     parser = actions.add_parser(
         "unpack",
         help="block to limb.toml",
-        description="Writes a block as limb.toml, to --out or to stdout: what differs from the format's defaults, in the "
-        "fewest decimals that the controller reads as the same float. Packing it again gives the same bytes. A "
-        "block has no room for the limb's name.",
+        description="Writes a block as limb.toml, to --out or to stdout: what differs from the format's defaults, in "
+        "the fewest decimals that the controller reads as the same float. Packing it again gives the same "
+        "bytes. A block has no room for the limb's name.",
     )
     parser.add_argument("block", type=common.path, metavar="BLOCK.bin", help="file of the block")
     parser.add_argument("--out", type=common.path, metavar="LIMB.toml", help="default: stdout")
@@ -70,8 +70,9 @@ def _add_diff(actions: Any) -> None:
     parser = actions.add_parser(
         "diff",
         help="where two sets differ",
-        description="Compares two sets as a controller would hold them; each is a limb.toml or a block. With --bus the second "
-        "is what a controller has in force. Exit code 0 whether they differ or not, unless --check is given.",
+        description="Compares two sets as a controller would hold them; each is a limb.toml or a block. With --bus the "
+        "second is what a controller has in force. Exit code 0 whether they differ or not, unless --check "
+        "is given.",
     )
     parser.add_argument("first", type=common.path, metavar="A", help="limb.toml or block")
     parser.add_argument("second", type=common.path, nargs="?", metavar="B", help="limb.toml or block; or --bus")
@@ -91,7 +92,9 @@ def _pack(arguments: argparse.Namespace) -> int:
     block = pack(model, arguments.sequence)
     write_file(arguments.out, block.content, [arguments.model])
     for change in block.rounded:
-        common.say(f"note: {change.key} = {change.given:g} is held as {change.held:g}: below what a 32-bit float can resolve")
+        common.say(
+            f"note: {change.key} = {change.given:g} is held as {change.held:g}: below what a 32-bit float can resolve"
+        )
     if arguments.json:
         common.print_json(
             {
@@ -134,7 +137,9 @@ def _unpack(arguments: argparse.Namespace) -> int:
     elif arguments.out is None:
         common.emit(text.rstrip("\n"))
     else:
-        common.say(f"{arguments.block} -> {arguments.out}: sequence {block.sequence}, parameter CRC {block.identity:08x}")
+        common.say(
+            f"{arguments.block} -> {arguments.out}: sequence {block.sequence}, parameter CRC {block.identity:08x}"
+        )
     return 0
 
 

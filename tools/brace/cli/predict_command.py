@@ -13,8 +13,8 @@ def add(commands: Any) -> None:
     parser = commands.add_parser(
         "predict",
         help="a dataset's own load sequence played on a model",
-        description="Writes one row per row of the dataset, in order, predicted columns only: fx_n,fz_n for loading sets "
-        "(and encoder and gauge columns where the dataset has them), torque_n_mm for joint tests, K's "
+        description="Writes one row per row of the dataset, in order, predicted columns only: fx_n,fz_n for loading "
+        "sets (and encoder and gauge columns where the dataset has them), torque_n_mm for joint tests, K's "
         "columns in N/mm for stiffness tables.",
     )
     parser.add_argument("dataset", type=common.path, metavar="DATASET", help="folder with meta.toml and data.csv")

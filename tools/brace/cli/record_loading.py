@@ -36,7 +36,7 @@ def record_loading(arguments: argparse.Namespace) -> int:
     axes = "xz" if arguments.axis == "both" else arguments.axis
     before = _record_before(arguments.out) if arguments.add and arguments.out.exists() else None
     started: list[float] = []
-    with undone_by_signal(), session(arguments, bus_url(arguments, "a loading test")) as opened:
+    with undone_by_signal(), session(arguments, bus_url(arguments, "a loading test", answers=True)) as opened:
         device = CanController(opened)
         meta = _meta(arguments, device)
         if before is not None:

@@ -15,8 +15,8 @@ def add(commands: Any) -> None:
     parser = commands.add_parser(
         "simulate",
         help="a loading test on the simulated limb, written as a dataset",
-        description="Plays the loading test of rig.toml on the limb of limb.toml (gaps, friction, creep, gravity, sensor "
-        "and all) and writes meta.toml and data.csv. The same files and seed give the same bytes.",
+        description="Plays the loading test of rig.toml on the limb of limb.toml (gaps, friction, creep, gravity, "
+        "sensor and all) and writes meta.toml and data.csv. The same files and seed give the same bytes.",
     )
     common.add_model(parser, "the true limb")
     parser.add_argument(

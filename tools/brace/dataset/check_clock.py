@@ -37,8 +37,8 @@ def _unit(columns: Columns, meta: Meta, inside: np.ndarray) -> Iterator[DataFaul
         yield DataFault(
             None,
             "t_s",
-            f"{typical:.4g} between readings in the record, rig.dwell_s = {dwell_s:g} in meta.toml; the column fits only "
-            f"in {unit}",
+            f"{typical:.4g} between readings in the record, rig.dwell_s = {dwell_s:g} in meta.toml; the column fits "
+            f"only in {unit}",
             f"{unit}: multiply by {factor:g}",
         )
 
@@ -74,8 +74,8 @@ def _counter(columns: Columns, inside: np.ndarray) -> Iterator[DataFault]:
         yield DataFault(
             int(row) + 2,
             "step",
-            f"step {columns['step'][row + 1]} of run {columns['run'][row]} follows step {columns['step'][row]}: rows are "
-            "out of order, or one was written twice",
+            f"step {columns['step'][row + 1]} of run {columns['run'][row]} follows step {columns['step'][row]}: rows "
+            "are out of order, or one was written twice",
         )
     for row in np.flatnonzero(inside & (change > 1))[:MAX_LISTED]:
         yield DataFault(

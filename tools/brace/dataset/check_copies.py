@@ -61,7 +61,9 @@ def _told(columns: Columns, names: tuple[str, ...], rows: np.ndarray, group: np.
     order = np.argsort(group, kind="stable")
     same = np.flatnonzero(group[order][1:] == group[order][:-1])
     earlier, later = rows[order[same]], rows[order[same + 1]]
-    number_of_row = np.repeat(np.arange(np.count_nonzero(np.diff(columns["run"])) + 1), np.diff(run_starts(columns["run"])))
+    number_of_row = np.repeat(
+        np.arange(np.count_nonzero(np.diff(columns["run"])) + 1), np.diff(run_starts(columns["run"]))
+    )
     pairs = np.column_stack([number_of_row[later], number_of_row[earlier]])
     pairs, counts = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0, return_counts=True)
     starts = run_starts(columns["run"])
@@ -80,8 +82,8 @@ def _told(columns: Columns, names: tuple[str, ...], rows: np.ndarray, group: np.
                 row + 1,
                 name,
                 f"run {columns['run'][row]} (pose {columns['config'][row]}) has the readings of run "
-                f"{columns['run'][other]} (pose {columns['config'][other]}) bit by bit, and noise never repeats itself: "
-                "one of the two is a copy",
+                f"{columns['run'][other]} (pose {columns['config'][other]}) bit by bit, and noise never repeats "
+                "itself: one of the two is a copy",
                 f"readings of its own; compare row {other + 1}",
             )
 

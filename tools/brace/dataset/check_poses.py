@@ -32,7 +32,9 @@ def _one_pose(columns: Columns) -> Iterator[DataFault]:
     ordered = angles[order]
     spread = np.maximum.reduceat(ordered, begins) - np.minimum.reduceat(ordered, begins)
     wrong = np.flatnonzero((spread > ANGLE_SAME_RAD).any(axis=1))
-    usual = {int(c): np.median(angles[order[b:e]], axis=0) for c, b, e in zip(configs[wrong], begins[wrong], ends[wrong])}
+    usual = {
+        int(c): np.median(angles[order[b:e]], axis=0) for c, b, e in zip(configs[wrong], begins[wrong], ends[wrong])
+    }
     listed = 0
     for place in wrong:
         members = order[begins[place] : ends[place]]
@@ -90,7 +92,7 @@ def _one_path(columns: Columns, step_mm: float) -> Iterator[DataFault]:
             yield DataFault(
                 row + 1,
                 name,
-                f"{path[run, place]:g} at step {columns['step'][row]} of run {columns['run'][row]}; the other runs have "
-                f"{usual[place]:g} there",
+                f"{path[run, place]:g} at step {columns['step'][row]} of run {columns['run'][row]}; the other runs "
+                f"have {usual[place]:g} there",
                 float(usual[place]),
             )

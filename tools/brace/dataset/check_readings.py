@@ -84,8 +84,8 @@ def _temperature_jumps(columns: Columns) -> Iterator[DataFault]:
         yield DataFault(
             int(row) + 1,
             "temp_degc",
-            f"{degc[row]:g} degC between readings of {degc[row - 1]:g} and {degc[row + 1]:g} degC: no limb warms and cools "
-            "as fast",
+            f"{degc[row]:g} degC between readings of {degc[row - 1]:g} and {degc[row + 1]:g} degC: no limb warms and "
+            "cools as fast",
             float(degc[row - 1]),
         )
 

@@ -168,8 +168,8 @@ def _asymmetric_column(runs: _RunSlopes, poses: _PoseSlopes) -> DataFault | None
     return DataFault(
         None,
         name,
-        f"fx over dz is {ratio:.3g} times fz over dx in {np.count_nonzero(clear)} poses, and K is symmetric: the column "
-        f"fits only in {unit}",
+        f"fx over dz is {ratio:.3g} times fz over dx in {np.count_nonzero(clear)} poses, and K is symmetric: the "
+        f"column fits only in {unit}",
         f"{unit}: multiply by {factor:g}",
     )
 
@@ -186,8 +186,8 @@ def _signs(columns: Columns, runs: _RunSlopes) -> Iterator[DataFault]:
                 yield DataFault(
                     None,
                     field,
-                    f"{name} falls in every run that pushes along its axis: no limb does, so it or the displacement has "
-                    "its sign turned",
+                    f"{name} falls in every run that pushes along its axis: no limb does, so it or the displacement "
+                    "has its sign turned",
                     "the column with its sign turned",
                 )
             return

@@ -34,7 +34,8 @@ def cyclic_test(model: LimbModel) -> CyclicTest:
     loose = model.with_values(dict.fromkeys(GAP_KEYS, GAP_RAD))
     tight = model.with_values(dict.fromkeys(GAP_KEYS, 0.0))
     design = {"theta1_rad": np.array([THETA1_RAD]), "theta2_rad": np.array([THETA2_RAD]), "axes": 2, "repeats": 1,
-              "steps_per_side": STEPS, "step_mm": STEP_MM, "cyclic": 1, "transverse_free": 1, "noise_n": 0.05, "seed": 12}
+              "steps_per_side": STEPS, "step_mm": STEP_MM, "cyclic": 1, "transverse_free": 1, "noise_n": 0.05,
+              "seed": 12}
     record, solid = play_rig(loose, design), play_rig(tight, {**design, "noise_n": 0.0, "resolution_n": 0.0})
     exact = play_rig(loose, {**design, "noise_n": 0.0, "resolution_n": 0.0})
     shift = zero_force_shift_mm(loose, THETA1_RAD, THETA2_RAD, "z", STEP_MM, STEPS)

@@ -42,7 +42,8 @@ def tell(story: Story, advance: Advance) -> Iterator[str]:
     text = report.as_text(table.identification).splitlines()
     yield from ("   " + line for line in text)
     story.files["limb.toml"] = table.limb.to_toml(report.header(table.identification)).encode()
-    story.facts |= {"faults": table.faults, "repairs": table.repairs, "identification": report.as_json(table.identification)}
+    story.facts |= {"faults": table.faults, "repairs": table.repairs,
+                    "identification": report.as_json(table.identification)}
     yield "3. Eigenvalues over the reach (the paper's Fig. 10 and 13) -> eigenvalues.png, table.csv"
     yield from _eigenvalues(story, table)
     yield "4. Compliance ellipses as the limb reaches out (Fig. 9) -> ellipses.png"
@@ -87,8 +88,8 @@ def _eigenvalues(story: Story, table: paper_table.PaperTable) -> Iterator[str]:
            + ", ".join(f"{r:.0f}" for r in breaks) + " mm")
     turns = int(np.sum(np.diff(np.sign(np.diff(model.largest))) != 0))
     inside = (table.smallest.high >= at_rows[0]) & (table.smallest.low <= at_rows[0])
-    yield (f"   lambda_min of the identified limb agrees with the table within print rounding in {int(inside.sum())} of "
-           f"{inside.size} rows; the measurement's own scatter is larger than its print")
+    yield (f"   lambda_min of the identified limb agrees with the table within print rounding in {int(inside.sum())} "
+           f"of {inside.size} rows; the measurement's own scatter is larger than its print")
     yield f"   the identified limb's lambda_max turns {turns} time{'s' if turns != 1 else ''}: " + (
         "quasi-convex" if turns <= 1 else "not quasi-convex")
 

@@ -19,7 +19,8 @@ def cyclic_figure(displacement_mm: np.ndarray, force_n: np.ndarray, without_play
     figure = new_figure(7.4, 4.6)
     axes = figure.subplots()
     axes.axhline(0.0, color=INK, linewidth=0.8)
-    once = np.unique(displacement_mm, return_index=True)[1]  # to and fro on one line: dashes drawn twice would look solid
+    # to and fro on one line: dashes drawn twice would look solid
+    once = np.unique(displacement_mm, return_index=True)[1]
     axes.plot(displacement_mm[once], without_play_n[once], color=SOFT, linewidth=1.0, linestyle="--",
               label="the same limb without play")
     axes.plot(displacement_mm, force_n, color=STIFF, marker="o", markersize=3.2, linewidth=1.1, label="limb with play")

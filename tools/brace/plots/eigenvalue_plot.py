@@ -59,7 +59,9 @@ def _draw(axes: Axes, r_mm: np.ndarray, measured: Measured, corrected: np.ndarra
           curve: np.ndarray, colour: str) -> None:
     axes.plot(curve_r_mm, curve, color=INK, linewidth=1.3, label="identified limb, 90 % band")
     low, high = measured.value - measured.low, measured.high - measured.value
-    axes.errorbar(r_mm, measured.value, yerr=np.vstack([low, high]), fmt="none", ecolor=colour, elinewidth=1.2, capsize=3)
+    axes.errorbar(
+        r_mm, measured.value, yerr=np.vstack([low, high]), fmt="none", ecolor=colour, elinewidth=1.2, capsize=3
+    )
     solid = measured.determined
     axes.plot(r_mm[solid], measured.value[solid], "o", color=colour, label="Table I")
     axes.plot(r_mm[~solid], measured.value[~solid], "o", color=colour, markerfacecolor="white")

@@ -58,4 +58,6 @@ def _ellipse(axes: Axes, centre: np.ndarray, compliance: np.ndarray, scale: floa
     values, vectors = np.linalg.eigh(compliance)
     turn = np.linspace(0.0, 2 * np.pi, 121)
     outline = vectors @ (scale * np.sqrt(np.maximum(values, 0.0))[:, None] * np.vstack([np.cos(turn), np.sin(turn)]))
-    axes.fill(centre[0] + outline[0], centre[1] + outline[1], facecolor=colour + "35", edgecolor=colour, label=label, zorder=2)
+    axes.fill(
+        centre[0] + outline[0], centre[1] + outline[1], facecolor=colour + "35", edgecolor=colour, label=label, zorder=2
+    )

@@ -54,7 +54,9 @@ class Field:
         if self.kind == "value":
             low, high = low + self.signed, high - (not self.signed)
         if not low <= code <= high:
-            raise ValueError(f"{self.name}: {value} {self.unit} does not fit ({low * self.step:g} to {high * self.step:g})")
+            raise ValueError(
+                f"{self.name}: {value} {self.unit} does not fit ({low * self.step:g} to {high * self.step:g})"
+            )
         return (code & mask) << self.start
 
 

@@ -43,7 +43,8 @@ brace_bus_status_t brace_bus_open(const char *url, uint32_t bit_rate, int timeou
         return BRACE_BUS_E_USAGE;
     }
     if (!brace_slcan_rate(bit_rate, &rate)) {
-        brace_bus_say(why, why_room, "%u bit/s is no rate that SLCAN adapters know; try 1000000, 500000, 250000 or 125000",
+        brace_bus_say(why, why_room,
+                      "%u bit/s is no rate that SLCAN adapters know; try 1000000, 500000, 250000 or 125000",
                       (unsigned)bit_rate);
         return BRACE_BUS_E_USAGE;
     }
@@ -61,8 +62,8 @@ brace_bus_status_t brace_bus_open(const char *url, uint32_t bit_rate, int timeou
     } else if (strchr(url, ':') == NULL && strchr(url, '/') == NULL) {
         status = brace_socketcan_open(opened, url, why, why_room);
     } else {
-        brace_bus_say(why, why_room, "%s: not a bus that is known here; try can0, slcan:/dev/ttyACM0 or tcp://host:port",
-                      url);
+        brace_bus_say(why, why_room,
+                      "%s: not a bus that is known here; try can0, slcan:/dev/ttyACM0 or tcp://host:port", url);
         status = BRACE_BUS_E_USAGE;
     }
     if (status != BRACE_BUS_OK) {

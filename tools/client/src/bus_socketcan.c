@@ -36,8 +36,9 @@ brace_bus_status_t brace_socketcan_open(brace_bus_t *bus, const char *name, char
     }
     const int index = request.ifr_ifindex;
     if (ioctl(bus->fd, SIOCGIFFLAGS, &request) < 0 || !(request.ifr_flags & IFF_UP)) {
-        brace_bus_say(why, why_room, "%s: the interface is down; try 'ip link set %s up type can bitrate 1000000' as root",
-                      name, name);
+        brace_bus_say(why, why_room,
+                      "%s: the interface is down; try 'ip link set %s up type can bitrate 1000000' as root", name,
+                      name);
         return BRACE_BUS_E_DOWN;
     }
     struct sockaddr_can address;

@@ -18,10 +18,11 @@ brace_client_status_t brace_client_fail(brace_client_t *client, brace_client_sta
 
 brace_client_status_t brace_client_fail_version(brace_client_t *client, uint32_t node, uint32_t hash)
 {
-    return brace_client_fail(client, BRACE_CLIENT_E_VERSION,
-                             "%s: controller %u speaks dictionary 0x%08x, this library 0x%08x; build the client from the "
-                             "firmware's version, or flash the controller with this one's ('brace flash')",
-                             client->url, (unsigned)node, (unsigned)hash, (unsigned)BRACE_DICTIONARY_HASH);
+    return brace_client_fail(
+        client, BRACE_CLIENT_E_VERSION,
+        "%s: controller %u speaks dictionary 0x%08x, this library 0x%08x; build the client from the "
+        "firmware's version, or flash the controller with this one's ('brace flash')",
+        client->url, (unsigned)node, (unsigned)hash, (unsigned)BRACE_DICTIONARY_HASH);
 }
 
 static uint64_t deadline_after(int timeout_ms)
@@ -101,8 +102,8 @@ brace_client_status_t brace_client_read(brace_client_t *client, uint32_t wanted,
                                         brace_client_snapshot_t *snapshot)
 {
     if (wanted == 0u || wanted > BRACE_PART_ALL) {
-        return brace_client_fail(client, BRACE_CLIENT_E_USAGE, "parts 0x%x: want BRACE_PART_K or more of BRACE_PART_ALL",
-                                 (unsigned)wanted);
+        return brace_client_fail(client, BRACE_CLIENT_E_USAGE,
+                                 "parts 0x%x: want BRACE_PART_K or more of BRACE_PART_ALL", (unsigned)wanted);
     }
     return client->bus != NULL ? brace_can_read(client, wanted, deadline_after(timeout_ms), snapshot)
                                : brace_modbus_read(client, deadline_after(timeout_ms), snapshot);
@@ -129,8 +130,8 @@ static bool is_number(float value)
 }
 
 /* A question of two numbers. */
-static brace_client_status_t ask_two(brace_client_t *client, brace_question_t *question, uint32_t code, uint32_t limited,
-                                     float a, float b, int timeout_ms)
+static brace_client_status_t ask_two(brace_client_t *client, brace_question_t *question, uint32_t code,
+                                     uint32_t limited, float a, float b, int timeout_ms)
 {
     return ask(client, question, code, limited + !is_number(a) + !is_number(b), timeout_ms);
 }
@@ -169,8 +170,8 @@ brace_client_status_t brace_client_k_at_posture(brace_client_t *client, float th
     return status;
 }
 
-brace_client_status_t brace_client_k_at_tip(brace_client_t *client, float x_mm, float z_mm, bool knee_up, int timeout_ms,
-                                            brace_client_k_t *k)
+brace_client_status_t brace_client_k_at_tip(brace_client_t *client, float x_mm, float z_mm, bool knee_up,
+                                            int timeout_ms, brace_client_k_t *k)
 {
     const brace_can_k_at_tip_knee_up_request_t up = {.x_mm = x_mm, .z_mm = z_mm};
     const brace_can_k_at_tip_knee_down_request_t down = {.x_mm = x_mm, .z_mm = z_mm};
@@ -222,8 +223,8 @@ brace_client_status_t brace_client_sag(brace_client_t *client, float fx_n, float
     return status;
 }
 
-brace_client_status_t brace_client_margin(brace_client_t *client, float normal_rad, float friction_ratio, int timeout_ms,
-                                          brace_client_margin_t *margin)
+brace_client_status_t brace_client_margin(brace_client_t *client, float normal_rad, float friction_ratio,
+                                          int timeout_ms, brace_client_margin_t *margin)
 {
     const brace_can_friction_margin_request_t request = {.normal_rad = normal_rad, .friction_ratio = friction_ratio};
     brace_question_t question;

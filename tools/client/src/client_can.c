@@ -59,6 +59,8 @@ static void hear(brace_client_t *client, const brace_bus_frame_t *frame, waiting
     if (node != client->node || node == 0u || (frame->length != 8u && base != BRACE_CAN_ID_SNAPSHOT_FD)) {
         return;
     }
+    client->errors_before = client->bus->errors;
+    client->lost_before = client->bus->lost;
     if (base == BRACE_CAN_ID_HEARTBEAT) {
         brace_can_heartbeat_t heartbeat;
         brace_can_unpack_heartbeat(frame->data, &heartbeat);
@@ -151,29 +153,36 @@ static brace_client_status_t explain_silence(brace_client_t *client, const char 
 {
     char heard[64];
     if (is_heard(client, client->node)) {
-        return brace_client_fail(client, BRACE_CLIENT_E_TIMEOUT,
-                                 "%s: controller %u is heard, but %s did not come in time; try a longer time-out, or less "
-                                 "on the bus", client->url, (unsigned)client->node, what);
+        return brace_client_fail(
+            client, BRACE_CLIENT_E_TIMEOUT,
+            "%s: controller %u is heard, but %s did not come in time; try a longer time-out, or less "
+            "on the bus",
+            client->url, (unsigned)client->node, what);
     }
     const uint32_t other = list_heard(client, heard, sizeof heard);
     if (other != 0u) {
-        return brace_client_fail(client, BRACE_CLIENT_E_NODE,
-                                 "%s: controller %u is not on this bus; heard: %s; try node %u, or give the controller its "
-                                 "number (controller.node_id)", client->url, (unsigned)client->node, heard, (unsigned)other);
+        return brace_client_fail(
+            client, BRACE_CLIENT_E_NODE,
+            "%s: controller %u is not on this bus; heard: %s; try node %u, or give the controller its "
+            "number (controller.node_id)",
+            client->url, (unsigned)client->node, heard, (unsigned)other);
     }
     const bool is_slcan = client->bus->is_slcan;
     const uint32_t errors = brace_bus_errors(client->bus, 0); /* of short calls: the next hears the answer */
-    if (errors != 0u || brace_bus_lost(client->bus) != 0u) {
-        return brace_client_fail(client, BRACE_CLIENT_E_BIT_RATE,
-                                 is_slcan ? "%s: the bus is there and can not be read: not the controller's bit rate (or the "
-                                            "serial line's baud rate); try 500000, or slcan:DEVICE@BAUD"
-                                          : "%s: error frames only: not the controller's bit rate, or no termination; try "
-                                            "'ip link set %s down', then up with 'type can bitrate 500000'",
-                                 client->url, client->url);
+    if (errors != client->errors_before || brace_bus_lost(client->bus) != client->lost_before) {
+        return brace_client_fail(
+            client, BRACE_CLIENT_E_BIT_RATE,
+            is_slcan ? "%s: the bus is there and can not be read: not the controller's bit rate (or the "
+                       "serial line's baud rate); try 500000, or slcan:DEVICE@BAUD"
+                     : "%s: error frames only: not the controller's bit rate, or no termination; try "
+                       "'ip link set %s down', then up with 'type can bitrate 500000'",
+            client->url, client->url);
     }
-    return brace_client_fail(client, BRACE_CLIENT_E_SILENT,
-                             "%s: nothing at all is heard; is the controller powered and wired, its bit rate this bus' own, "
-                             "its node number set (controller.node_id)? 'candump' shows what is on a bus", client->url);
+    return brace_client_fail(
+        client, BRACE_CLIENT_E_SILENT,
+        "%s: nothing at all is heard; is the controller powered and wired, its bit rate this bus' own, "
+        "its node number set (controller.node_id)? 'candump' shows what is on a bus",
+        client->url);
 }
 
 /* A refusal in words: what a status means depends on what was asked. */
@@ -211,9 +220,11 @@ static brace_client_status_t ask(brace_client_t *client, brace_question_t *quest
         request.data[1] = waiting.token;
         const brace_bus_status_t sent = brace_bus_send(client->bus, &request, brace_bus_left_ms(deadline_us));
         if (sent == BRACE_BUS_E_FULL) {
-            return brace_client_fail(client, BRACE_CLIENT_E_FULL,
-                                     "%s: the bus takes no frame: nobody acknowledges it (power, wiring, termination, bit "
-                                     "rate), or it is overloaded", client->url);
+            return brace_client_fail(
+                client, BRACE_CLIENT_E_FULL,
+                "%s: the bus takes no frame: nobody acknowledges it (power, wiring, termination, bit "
+                "rate), or it is overloaded",
+                client->url);
         }
         if (sent != BRACE_BUS_OK) {
             return brace_client_fail(client, BRACE_CLIENT_E_DOWN,
@@ -229,10 +240,10 @@ static brace_client_status_t ask(brace_client_t *client, brace_question_t *quest
             }
             if (waiting.is_refused) {
                 client->refusal = waiting.refusal.status;
-                return brace_client_fail(client, BRACE_CLIENT_E_REFUSED, "%s: controller %u refuses: %s (status %d, detail %u)",
-                                         client->url, (unsigned)client->node,
-                                         reason(waiting.code, &waiting.refusal), (int)waiting.refusal.status,
-                                         (unsigned)waiting.refusal.detail);
+                return brace_client_fail(client, BRACE_CLIENT_E_REFUSED,
+                                         "%s: controller %u refuses: %s (status %d, detail %u)", client->url,
+                                         (unsigned)client->node, reason(waiting.code, &waiting.refusal),
+                                         (int)waiting.refusal.status, (unsigned)waiting.refusal.detail);
             }
             if (waiting.parts_seen == parts && !waiting.is_taken) {
                 return BRACE_CLIENT_OK;
@@ -305,8 +316,8 @@ static brace_client_status_t identify(brace_client_t *client, uint64_t deadline_
 
 brace_client_status_t brace_can_open(brace_client_t *client, uint32_t node, uint32_t bit_rate, uint64_t deadline_us)
 {
-    const brace_bus_status_t opened = brace_bus_open(client->url, bit_rate, brace_bus_left_ms(deadline_us), &client->bus,
-                                                     client->why, sizeof client->why);
+    const brace_bus_status_t opened = brace_bus_open(client->url, bit_rate, brace_bus_left_ms(deadline_us),
+                                                     &client->bus, client->why, sizeof client->why);
     if (opened != BRACE_BUS_OK) {
         return (brace_client_status_t)opened; /* the same numbers */
     }

@@ -1,5 +1,5 @@
-/* A client's two ways to a controller. can_... and modbus_... answer what client.h says of the call of that name; they write
- * client->why when it is not OK. */
+/* A client's two ways to a controller. can_... and modbus_... answer what client.h says of the call of that name; they
+ * write client->why when it is not OK. */
 #ifndef BRACE_CLIENT_INTERNAL_H
 #define BRACE_CLIENT_INTERNAL_H
 
@@ -19,6 +19,7 @@ struct brace_client {
     uint64_t read_us[BRACE_PART_ALL + 1];               /* of the last one read, by what was wanted */
     uint32_t read_sequence[BRACE_PART_ALL + 1];
     uint32_t heard[4];                                  /* nodes, in this call, one bit each */
+    uint32_t errors_before, lost_before;                /* of the bus, when our node was last heard: readable since */
     uint64_t ask_errors_us;                             /* when this call asks an SLCAN adapter for errors; 0: not */
     bool speaks_another;                                /* heartbeat of our node with another dictionary */
     uint32_t other_hash;
@@ -49,7 +50,8 @@ brace_client_status_t brace_can_ask(brace_client_t *client, brace_question_t *qu
 bool brace_modbus_is_url(const char *url);
 brace_client_status_t brace_modbus_open(brace_client_t *client, uint64_t deadline_us);
 void brace_modbus_close(brace_client_t *client);
-brace_client_status_t brace_modbus_read(brace_client_t *client, uint64_t deadline_us, brace_client_snapshot_t *snapshot);
+brace_client_status_t brace_modbus_read(brace_client_t *client, uint64_t deadline_us,
+                                        brace_client_snapshot_t *snapshot);
 brace_client_status_t brace_modbus_k_at_posture(brace_client_t *client, float theta1_rad, float theta2_rad,
                                                 uint64_t deadline_us, brace_client_k_t *k);
 brace_client_status_t brace_modbus_entry(brace_client_t *client, uint32_t index, uint64_t deadline_us, uint32_t *value);

@@ -136,14 +136,14 @@ static brace_client_status_t fail(brace_client_t *client, int error)
     case EMBBADSLAVE:
     case EMBXGPATH:
     case EMBXGTAR:
-        return brace_client_fail(client, BRACE_CLIENT_E_NODE, "%s: there is no unit %u behind this port (%s)", client->url,
-                                 (unsigned)client->unit, modbus_strerror(error));
+        return brace_client_fail(client, BRACE_CLIENT_E_NODE, "%s: there is no unit %u behind this port (%s)",
+                                 client->url, (unsigned)client->unit, modbus_strerror(error));
     case ECONNRESET:
     case EPIPE:
     case EBADF:
     case EIO:
-        return brace_client_fail(client, BRACE_CLIENT_E_DOWN, "%s: the connection has gone (%s); connect again", client->url,
-                                 modbus_strerror(error));
+        return brace_client_fail(client, BRACE_CLIENT_E_DOWN, "%s: the connection has gone (%s); connect again",
+                                 client->url, modbus_strerror(error));
     default: break;
     }
     if (error > MODBUS_ENOBASE) {
@@ -318,8 +318,8 @@ brace_client_status_t brace_modbus_entry(brace_client_t *client, uint32_t index,
     const uint32_t address = is_answer     ? 0x1000u + 2u * (index - BRACE_ENTRY_ANSWERED)
                              : is_measured ? 2u * (index - BRACE_ENTRY_MEASURED)
                                            : 2u * index;
-    const brace_client_status_t status =
-        transfer(client, is_measured ? modbus_read_input_registers : modbus_read_registers, address, 2u, words, deadline_us);
+    const brace_client_status_t status = transfer(
+        client, is_measured ? modbus_read_input_registers : modbus_read_registers, address, 2u, words, deadline_us);
     if (status == BRACE_CLIENT_OK) {
         *value = join(words);
     }
@@ -388,9 +388,11 @@ brace_client_status_t brace_modbus_k_at_posture(brace_client_t *client, float th
 
 static brace_client_status_t absent(brace_client_t *client)
 {
-    return brace_client_fail(client, BRACE_CLIENT_E_UNSUPPORTED,
-                             "%s: this client was built without libmodbus; install it (Debian: libmodbus-dev) and build "
-                             "again", client->url);
+    return brace_client_fail(
+        client, BRACE_CLIENT_E_UNSUPPORTED,
+        "%s: this client was built without libmodbus; install it (Debian: libmodbus-dev) and build "
+        "again",
+        client->url);
 }
 
 brace_client_status_t brace_modbus_open(brace_client_t *client, uint64_t deadline_us)

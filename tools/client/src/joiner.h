@@ -1,6 +1,7 @@
-/* Frames of one snapshot, put together. A K of two ticks never comes out: frames count as one snapshot's when they carry
- * one sequence number, came within BRACE_JOINER_SPAN_US of each other, and nothing was lost in between. The span is shorter
- * than the shortest round of the 8-bit number (256 ticks of 250 us), so that an old half finds no partner a round later. */
+/* Frames of one snapshot, put together. A K of two ticks never comes out: frames count as one snapshot's when they
+ * carry one sequence number, came within BRACE_JOINER_SPAN_US of each other, and nothing was lost in between. The span
+ * is shorter than the shortest round of the 8-bit number (256 ticks of 250 us),
+ * so that an old half finds no partner a round later. */
 #ifndef BRACE_JOINER_H
 #define BRACE_JOINER_H
 
@@ -20,8 +21,8 @@ typedef struct {
     uint32_t lost;
 } brace_joiner_t;
 
-/* Takes one frame of process data (0x180, 0x280, 0x380, 0x480 + node, or the whole snapshot of CAN FD, 0x500 + node; anything else is passed over). lost: the bus' count of
- * lost frames up to this one.
+/* Takes one frame of process data (0x180, 0x280, 0x380, 0x480 + node, or the whole snapshot of CAN FD, 0x500 + node;
+ * anything else is passed over). lost: the bus' count of lost frames up to this one.
  * returns the snapshot that the frame has added a whole part to, valid until the next call; null: none */
 const brace_client_snapshot_t *brace_joiner_add(brace_joiner_t *joiner, uint32_t node, const brace_bus_frame_t *frame,
                                                 uint32_t lost);

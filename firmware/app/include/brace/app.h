@@ -10,9 +10,10 @@
  * When K is valid: the mode is MONITOR, TAKING_UP or LOADING_TEST; the newest sound sample of both joints
  * is no older than controller.age_limit_us; the posture is inside both drives' travel; parameters are in
  * force (safe defaults count, flagged UNCALIBRATED). A joint with play (gap_rad >= 1e-5) whose load does
- * not prove a flank carries nothing: K is then valid, flagged GAP_OPEN, with both bounds. So it is with one whose newest
- * sample is more than four ticks old (its drive answers AGAIN), and for 20 ms after: choose a tick no shorter than a quarter
- * of the drives' own. A flank is thus proven at most brace_backlash_detection_us and four ticks after its gap has opened.
+ * not prove a flank carries nothing: K is then valid, flagged GAP_OPEN, with both bounds. So it is with one whose
+ * newest sample is more than four ticks old (its drive answers AGAIN), and for 20 ms after: choose a tick no shorter
+ * than a quarter of the drives' own. A flank is thus proven at most brace_backlash_detection_us
+ * and four ticks after its gap has opened.
  */
 #ifndef BRACE_APP_H
 #define BRACE_APP_H
@@ -66,7 +67,8 @@ typedef struct {
     uint32_t taken_us;    /* when the joints were sampled, the older one */
     brace_mode_t mode;
     uint32_t faults;      /* BRACE_FAULT_... */
-    bool k_is_valid;      /* stiffness may be used, with its flags; else flags say why, and what was not computed is NaN */
+    bool k_is_valid;      /* stiffness may be used, with its flags; else flags say why, and what was not computed is
+                             NaN */
     brace_gap_stiffness_t stiffness; /* now (GAP_OPEN counted) and once every gap has closed; both carry the flags */
     float theta_rad[BRACE_LINK_COUNT];       /* true joint angles, backlash and zero offset counted; NaN: not known */
     float motor_rad[BRACE_LINK_COUNT];
@@ -131,7 +133,7 @@ typedef struct {
     bool is_fresh, told;      /* of the last samples; this tick ends it */
     bool blind;               /* the last tick took no samples: this one does */
     bool advances;            /* the loading test has yet to go on with the newest */
-    float spring_rad_per_n_mm[BRACE_APP_JOINTS]; /* hip, with the base's rotation, and knee, as they are at the moment */
+    float spring_rad_per_n_mm[BRACE_APP_JOINTS]; /* hip, with the base's rotation, and knee, at the moment */
     brace_status_t status;
     brace_stiffness_t engaged;
 } brace_app_k_t;
@@ -227,7 +229,7 @@ typedef struct {
 /* What the drift check knows, as it is kept. */
 typedef struct {
     brace_journal_t journal;
-    bool look;                /* the check has learned something since it was last asked, or a record is being written */
+    bool look;                /* the check has learned something since last asked, or a record is being written */
     uint8_t ticks;            /* since the last piece */
     uint8_t state;            /* of the check, in the newest record */
     uint32_t steps;
@@ -322,8 +324,8 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us);
 
 /* The newest snapshot, whole: everything in it is of one tick's samples. Never null; its content stays until the
  * tick after next. Its sequence counts snapshots: a tick that works on a loading test's reading leaves the
- * one before; where a tick has no room for all of K it comes some ticks after its samples, and taken_us says when they were
- * taken. */
+ * one before; where a tick has no room for all of K it comes some ticks after its samples, and taken_us says when they
+ * were taken. */
 const brace_snapshot_t *brace_app_snapshot(const brace_app_t *app);
 
 /* The parameters in force. */
@@ -361,8 +363,8 @@ uint32_t brace_app_row_count(const brace_app_t *app);
 brace_status_t brace_app_row(const brace_app_t *app, uint32_t index, brace_row_t *row);
 
 /* Configuration: only here may parameters be stored; nothing moves the limb, K is not valid. Entered from
- * MONITOR or FAULT, left to START; by itself after BRACE_CONFIGURATION_PATIENCE_US in which nothing was written, uploaded,
- * stored, nor the mode asked for again: what was staged is forgotten, the set in force stays. */
+ * MONITOR or FAULT, left to START; by itself after BRACE_CONFIGURATION_PATIENCE_US in which nothing was written,
+ * uploaded, stored, nor the mode asked for again: what was staged is forgotten, the set in force stays. */
 enum { BRACE_CONFIGURATION_PATIENCE_US = 10000000 };
 brace_status_t brace_app_configuration_enter(brace_app_t *app);
 brace_status_t brace_app_configuration_leave(brace_app_t *app);

@@ -1,16 +1,16 @@
-/* A journal of one small state in the part of a parameter slot that the store leaves free: what the drift check knows of
- * a limb outlives restarts with it.
+/* A journal of one small state in the part of a parameter slot that the store leaves free: what the drift check knows
+ * of a limb outlives restarts with it.
  *
  *     slot  0..4095  the store's (brace/store.h)
- *           4096     records in rising order, each of 32-byte pieces: "DRFT", the state's bytes and format, identity, state,
- *                    CRC-32 of all that; the rest of the last piece is 0xff
+ *           4096     records in rising order, each of 32-byte pieces: "DRFT", the state's bytes and format, identity,
+ *                    state, CRC-32 of all that; the rest of the last piece is 0xff
  *
  * The newest whole record counts. It stands in the slot of the parameter set it belongs to, and goes with it: an update
- * writes the other slot, whose erase has emptied it; a roll-back comes back to the records of the set before. Nothing here
- * is ever erased, and nothing is written below 4096. When it is full, the newest record stays.
+ * writes the other slot, whose erase has emptied it; a roll-back comes back to the records of the set before. Nothing
+ * here is ever erased, and nothing is written below 4096. When it is full, the newest record stays.
  *
- * Power may fail at any write: a start finds the record before or the new one, whole. As with the store's marks, a piece
- * that looks erased may have been touched then, so each session writes zeros over two before its first record.
+ * Power may fail at any write: a start finds the record before or the new one, whole. As with the store's marks, a
+ * piece that looks erased may have been touched then, so each session writes zeros over two before its first record.
  * tests/faults enumerates it.
  *
  * Off and on the tick: each call is one bounded piece. One thread. No heap, no recursion. Stack: at most 100 bytes.
@@ -31,7 +31,8 @@ enum {
     BRACE_JOURNAL_HEADER_BYTES = 12,
     BRACE_JOURNAL_STATE_BYTES = 344, /* of a brace_drift_t */
     BRACE_JOURNAL_COVERED_BYTES = BRACE_JOURNAL_HEADER_BYTES + BRACE_JOURNAL_STATE_BYTES, /* by the CRC */
-    BRACE_JOURNAL_PIECES = (BRACE_JOURNAL_COVERED_BYTES + 4 + BRACE_JOURNAL_PIECE_BYTES - 1) / BRACE_JOURNAL_PIECE_BYTES,
+    BRACE_JOURNAL_PIECES =
+        (BRACE_JOURNAL_COVERED_BYTES + 4 + BRACE_JOURNAL_PIECE_BYTES - 1) / BRACE_JOURNAL_PIECE_BYTES,
     BRACE_JOURNAL_RECORD_BYTES = BRACE_JOURNAL_PIECES * BRACE_JOURNAL_PIECE_BYTES,
     BRACE_JOURNAL_SCANS = BRACE_JOURNAL_MOST_BYTES / BRACE_JOURNAL_PIECE_BYTES * (BRACE_JOURNAL_PIECES + 1),
     BRACE_JOURNAL_FORMAT = 1 /* raised whenever the state's layout changes and its size does not */

@@ -113,7 +113,8 @@ typedef struct {
  *   hal: lives as long as the store
  *   parameters (out): the set in force; the safe defaults when neither slot counts; always written
  * returns where they come from
- * cost: 33,000 instructions; with 3.5 kB of another firmware in both slots 14 more for each byte. Before the first tick */
+ * cost: 33,000 instructions; with 3.5 kB of another firmware in both slots 14 more for each byte.
+ * Before the first tick */
 brace_parameter_origin_t brace_store_start(brace_store_t *store, const brace_hal_t *hal,
                                            brace_parameters_t *parameters);
 
@@ -122,8 +123,8 @@ brace_parameter_origin_t brace_store_start(brace_store_t *store, const brace_hal
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_UNSUPPORTED (BUSY); cost: 700 instructions */
 brace_status_t brace_store_offer(brace_store_t *store, const brace_parameters_t *parameters);
 
-/* The same off the tick, checked at once. The set is copied; the old one stays in force until DONE. A set that brace_parameters_check refuses
- * is refused with its status and the member at fault; the store stays as it is.
+/* The same off the tick, checked at once. The set is copied; the old one stays in force until DONE. A set that
+ * brace_parameters_check refuses is refused with its status and the member at fault; the store stays as it is.
  *   wrong_index (out, may be null): as brace_parameters_check
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_UNSUPPORTED (BUSY), BRACE_E_NOT_FINITE, BRACE_E_PARAMETER
  * cost: 4,000 instructions: not within a tick */

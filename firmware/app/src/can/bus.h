@@ -1,6 +1,6 @@
-/* The node on its bus: frames of eight bytes in and out, a snapshot's of CAN FD out, over the CAN controller, over a serial port as
- * SLCAN text, or both. Two ports carry the same; while an SLCAN channel is open it is the one that is waited
- * for, since a board without a transceiver has nobody to acknowledge on the other. */
+/* The node on its bus: frames of eight bytes in and out, a snapshot's of CAN FD out, over the CAN controller, over a
+ * serial port as SLCAN text, or both. Two ports carry the same; while an SLCAN channel is open it is the one that is
+ * waited for, since a board without a transceiver has nobody to acknowledge on the other. */
 #ifndef BRACE_APP_BUS_H
 #define BRACE_APP_BUS_H
 

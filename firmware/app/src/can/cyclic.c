@@ -10,8 +10,8 @@
 #define LAMBDA_MIN_MOST_N_PER_MM 524.28f
 #define LAMBDA_MAX_MOST_N_PER_MM 5242.8f
 
-/* A CAN FD frame of 64 bytes: identifier, acknowledgement and pause at the slower rate, with 4 stuff bits; 512 bits of data,
- * length, count, CRC of 21 bits and all stuff bits there could be at the faster. */
+/* A CAN FD frame of 64 bytes: identifier, acknowledgement and pause at the slower rate, with 4 stuff bits; 512 bits of
+ * data, length, count, CRC of 21 bits and all stuff bits there could be at the faster. */
 #define FD_BITS_SLOW 35.0f
 #define FD_BITS_FAST 680.0f
 

@@ -21,7 +21,8 @@ static int32_t answer_k(brace_app_t *app, const request_t *request, brace_status
     part[0] = (uint8_t)(request->code + BRACE_ANSWER_PART);
     part = answer_place(app);
     limited += brace_can_pack_k_at_posture_answer_2(
-        &(brace_can_k_at_posture_answer_2_t){request->token, k->lambda_max_n_per_mm, k->stiff_axis_rad, k->flags}, part);
+        &(brace_can_k_at_posture_answer_2_t){request->token, k->lambda_max_n_per_mm, k->stiff_axis_rad, k->flags},
+        part);
     part[FLAGS_BYTE] |= limited > 0u ? (uint8_t)BRACE_FLAG_SATURATED : 0u; /* packed anew it would cost as much again */
     part[0] = (uint8_t)(request->code + 2u * BRACE_ANSWER_PART);
     return BRACE_OK;

@@ -38,9 +38,9 @@ static bool is_known_function(uint32_t id)
 {
     enum {
         KNOWN = 1 << (BRACE_CAN_ID_EMERGENCY >> 7) | 1 << (BRACE_CAN_ID_STIFFNESS_A >> 7) |
-                1 << (BRACE_CAN_ID_STIFFNESS_B >> 7) | 1 << (BRACE_CAN_ID_EIGENVALUES >> 7) |
-                1 << (BRACE_CAN_ID_POSTURE >> 7) | 1 << (BRACE_CAN_ID_SNAPSHOT_FD >> 7) | 1 << (BRACE_CAN_ID_HEARTBEAT >> 7) |
-                1 << (BRACE_CAN_ID_REQUEST >> 7) | 1 << (BRACE_CAN_ID_ANSWER >> 7)
+        1 << (BRACE_CAN_ID_STIFFNESS_B >> 7) | 1 << (BRACE_CAN_ID_EIGENVALUES >> 7) | 1 << (BRACE_CAN_ID_POSTURE >> 7) |
+        1 << (BRACE_CAN_ID_SNAPSHOT_FD >> 7) | 1 << (BRACE_CAN_ID_HEARTBEAT >> 7) | 1 << (BRACE_CAN_ID_REQUEST >> 7) |
+        1 << (BRACE_CAN_ID_ANSWER >> 7)
     };
     return ((uint32_t)KNOWN >> (id >> 7 & 15u) & 1u) != 0u;
 }

@@ -12,7 +12,8 @@
 #define TAKEUP_SPARE_RAD 0.004f
 #define TAKEUP_DROOP_RAD 0.2f /* of a servo at the take-up's torque: what a soft one gives way by */
 
-enum { PIECE_COLLAPSE = 1, PIECE_GENERAL, PIECE_FEMUR, PIECE_TIBIA, PIECE_SENSOR, PIECE_DRIFT, PIECE_OPEN, PIECE_KEPT, PIECES_DONE };
+enum { PIECE_COLLAPSE = 1, PIECE_GENERAL, PIECE_FEMUR, PIECE_TIBIA, PIECE_SENSOR, PIECE_DRIFT, PIECE_OPEN, PIECE_KEPT,
+       PIECES_DONE };
 
 void configure_begin(brace_app_t *app, bool fresh)
 {
@@ -51,7 +52,8 @@ static void configure_play(brace_app_t *app, int index)
                                             .takeup = bounds_of(drive, joint)};
     const bool has_play = joint->gap_rad >= LEAST_GAP_RAD;
     play->watched = has_play && brace_backlash_init(&play->backlash, &params) == BRACE_OK;
-    play->unwatchable = has_play && !play->watched; /* its take-up torque is too small to be told from noise and friction */
+    /* its take-up torque is too small to be told from noise and friction */
+    play->unwatchable = has_play && !play->watched;
 }
 
 static void configure_drift(brace_app_t *app)
@@ -59,7 +61,8 @@ static void configure_drift(brace_app_t *app)
     const brace_parameters_t *parameters = &app->parameters;
     const brace_drift_setup_t setup = {
         .noise_n = parameters->sensor.noise_n > 1e-3f ? parameters->sensor.noise_n : 1e-3f,
-        .model_error_ratio = 0.0005f, /* more would hide a tenth of the tibia: 0.7 % of the force where it is stretched */
+        /* more would hide a tenth of the tibia: 0.7 % of the force where it is stretched */
+        .model_error_ratio = 0.0005f,
         .joint_compliance_per_degc = parameters->slow.joint_compliance_per_degc,
         .joint_compliance_trust_ratio = 0.2f};
     (void)brace_drift_learn(&app->drift, &parameters->limb, &setup);

@@ -9,8 +9,8 @@
  *   fresh: the set has just been written; else it was there before, with what is known of its limb */
 void configure_begin(brace_app_t *app, bool fresh);
 
-/* One piece, at most 2,300 instructions; false once nothing is left to do. What the drift check knew of the limb is found
- * in pieces of its own: all of them, at most. */
+/* One piece, at most 2,300 instructions; false once nothing is left to do. What the drift check knew of the limb is
+ * found in pieces of its own: all of them, at most. */
 enum { CONFIGURE_PIECES = 7 + BRACE_JOURNAL_SCANS };
 bool configure_piece(brace_app_t *app);
 

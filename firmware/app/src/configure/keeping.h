@@ -1,8 +1,8 @@
 /* What the drift check knows of the limb, over restarts: brace/journal.h, in the slot of the parameters in force.
  *
- * A record is written after a loading test or a cleared alarm, when the check's state has changed, when its evidence has
- * moved by KEEPING_EVIDENCE either way, or after 512 readings while it learns, 4,096 while it watches. Evidence that fell
- * is kept as well: a start that found it high again and again would be an alarm in the end. */
+ * A record is written after a loading test or a cleared alarm, when the check's state has changed, when its evidence
+ * has moved by KEEPING_EVIDENCE either way, or after 512 readings while it learns, 4,096 while it watches. Evidence
+ * that fell is kept as well: a start that found it high again and again would be an alarm in the end. */
 #ifndef BRACE_APP_KEEPING_H
 #define BRACE_APP_KEEPING_H
 

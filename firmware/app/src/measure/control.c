@@ -106,8 +106,9 @@ static void tell_stiffness(const brace_app_t *app, brace_snapshot_t *snapshot)
 {
     const bool inside = app->k.inside, sound = app->k.sound;
     brace_gap_stiffness_t *k = &snapshot->stiffness;
-    const bool computed = app->k.status == BRACE_OK &&
-                          brace_gap_stiffness_known(&app->k.engaged, &app->pose, open_gaps(app, snapshot), k) == BRACE_OK;
+    const bool computed =
+        app->k.status == BRACE_OK &&
+        brace_gap_stiffness_known(&app->k.engaged, &app->pose, open_gaps(app, snapshot), k) == BRACE_OK;
     if (!computed) {
         tell_no_k(k);
         k->now.flags = k->engaged.flags = sound && inside ? (uint32_t)BRACE_FLAG_NEAR_SINGULAR : 0u; /* no K there */

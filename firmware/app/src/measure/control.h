@@ -13,8 +13,8 @@ void control_sense(brace_app_t *app, uint32_t now_us, brace_snapshot_t *snapshot
 /* Each joint's temperature, the other's where it has no sensor; NaN: neither. What is told is the warmer one. */
 void control_temperatures(const brace_app_t *app, float temp_degc[BRACE_APP_JOINTS]);
 
-/* The next piece of K of the samples in snapshot[next]: angles and springs, model, posture and force, K now and engaged. The
- * first belongs into the tick of the samples. At most 430 instructions. true: it was the last */
+/* The next piece of K of the samples in snapshot[next]: angles and springs, model, posture and force, K now and
+ * engaged. The first belongs into the tick of the samples. At most 430 instructions. true: it was the last */
 enum { CONTROL_PIECES = 4 };
 bool control_piece(brace_app_t *app);
 

@@ -68,8 +68,9 @@ float force_gravity(const brace_app_t *app, int index)
     const brace_gravity_t *weight = &app->parameters.gravity;
     const float knee_mm = app->pose.knee.x_mm, shank_mm = 0.5f * (app->pose.tip.x_mm - knee_mm);
     /* theta2 is flexion: it turns the tibia clockwise, and its motor holds the other way */
-    return index == 0 ? (0.5f * weight->femur_n + weight->knee_n + weight->tibia_n) * knee_mm + weight->tibia_n * shank_mm
-                      : -weight->tibia_n * shank_mm;
+    return index == 0
+               ? (0.5f * weight->femur_n + weight->knee_n + weight->tibia_n) * knee_mm + weight->tibia_n * shank_mm
+               : -weight->tibia_n * shank_mm;
 }
 
 void force_expect(const brace_app_t *app, int index, brace_backlash_sample_t *sample)

@@ -8,9 +8,9 @@
 /* Prepares the correction of the sensor; not for the tick. */
 void force_configure(brace_app_t *app);
 
-/* Reads and corrects the sensor: the force is known, and in the snapshot, or not. Bias, gain, rotation and cross-talk are
- * undone; drift is not (nobody here knows when the sensor was zeroed). A saturated reading is not known, nor one older than
- * controller.age_limit_us. */
+/* Reads and corrects the sensor: the force is known, and in the snapshot, or not. Bias, gain, rotation and cross-talk
+ * are undone; drift is not (nobody here knows when the sensor was zeroed). A saturated reading is not known, nor one
+ * older than controller.age_limit_us. */
 void force_sense(brace_app_t *app, brace_snapshot_t *snapshot);
 
 /* Adds to a joint's sample what the joint should transmit, when the force on the tip is sensed: gravity

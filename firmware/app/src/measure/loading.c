@@ -185,8 +185,8 @@ static float limited(float value, float most)
 
 /* Raises the offsets by what the servos give way by under load, so that the motors stand where the step wants them. A
  * linear limb wants the same per millimetre at each step, so what one step has learned serves the next. Where the free
- * shape is at its rest there is no such thing: what friction holds back there is trimmed. returns whether the motors are
- * there */
+ * shape is at its rest there is no such thing: what friction holds back there is trimmed. returns whether the motors
+ * are there */
 static bool correct(brace_app_t *app)
 {
     brace_loading_t *test = &app->loading;

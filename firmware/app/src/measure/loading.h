@@ -27,8 +27,8 @@ void loading_end(brace_app_t *app, brace_loading_outcome_t outcome);
 /* A tick of it, from this tick's samples. At most 150 instructions. */
 void loading_advance(brace_app_t *app, const brace_snapshot_t *snapshot);
 
-/* The piece that is due: READ in a tick that computes no K, at most 550 instructions; DRIFT, JUDGE, COMPARE and TELL in one
- * that does nothing else but answer, at most 2,450. */
+/* The piece that is due: READ in a tick that computes no K, at most 550 instructions; DRIFT, JUDGE, COMPARE and TELL in
+ * one that does nothing else but answer, at most 2,450. */
 void loading_piece(brace_app_t *app);
 
 #endif

@@ -37,8 +37,8 @@ static inline float at_rest(const brace_app_model_t *model, int index, float tem
 }
 
 /* 1 / (d torque / d deflection) of torque = deflection / compliance + hardening deflection^3 at a load.
- * compliance: at no load. The deflection is followed from tick to tick, two of Newton's steps from the last one: a load changes
- * little in a tick, and after a jump it is right within a few. */
+ * compliance: at no load. The deflection is followed from tick to tick, two of Newton's steps from the last one: a load
+ * changes little in a tick, and after a jump it is right within a few. */
 static float yielding(brace_app_model_t *model, int index, float load_n_mm, float compliance)
 {
     const float hardening = model->hardening_n_mm_per_rad3[index];
@@ -53,7 +53,8 @@ static float yielding(brace_app_model_t *model, int index, float load_n_mm, floa
         slope = stiffness + 3.0f * cubic;
         deflection = (load_n_mm + 2.0f * cubic * deflection) / slope;
     }
-    if (!(__builtin_fabsf(deflection) <= DEFLECTION_MOST_RAD)) { /* from there the steps stay finite, whatever the spring */
+    /* from there the steps stay finite, whatever the spring */
+    if (!(__builtin_fabsf(deflection) <= DEFLECTION_MOST_RAD)) {
         deflection = load_n_mm < 0.0f ? -DEFLECTION_MOST_RAD : DEFLECTION_MOST_RAD;
     }
     model->deflection_rad[index] = deflection;

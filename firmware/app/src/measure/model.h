@@ -9,8 +9,8 @@
 void model_configure_collapse(brace_app_model_t *model, const brace_parameters_t *parameters);
 void model_configure_general(brace_app_model_t *model, const brace_parameters_t *parameters);
 
-/* Both joints' compliances at this load and temperature, the hip's with the base's rotation: a spring's share of K is the
- * slope of its torque there.
+/* Both joints' compliances at this load and temperature, the hip's with the base's rotation: a spring's share of K is
+ * the slope of its torque there.
  *   load_n_mm, temp_degc: of femur and tibia joint; NaN: at no load, at the reference temperature
  * At most 120 instructions; none worth counting of a limb that collapses. */
 void model_springs(brace_app_model_t *model, const float load_n_mm[BRACE_APP_JOINTS],

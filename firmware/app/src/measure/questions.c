@@ -37,5 +37,6 @@ brace_status_t question_grip(const brace_app_t *app, float normal_rad, float fri
         return BRACE_E_NOT_FINITE; /* as brace_contact_grip would say, before anything is worked out */
     }
     const brace_status_t status = brace_kinematics_forward(&ruler, normal_rad, 0.0f, &pose);
-    return status == BRACE_OK ? brace_contact_grip(force, pose.knee.x_mm, pose.knee.z_mm, friction_ratio, grip) : status;
+    return status == BRACE_OK ? brace_contact_grip(force, pose.knee.x_mm, pose.knee.z_mm, friction_ratio, grip)
+                              : status;
 }

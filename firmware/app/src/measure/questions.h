@@ -1,4 +1,5 @@
-/* What is asked about the limb from outside, whatever bus asks: from the newest snapshot, or of places where the limb is not. */
+/* What is asked about the limb from outside, whatever bus asks: from the newest snapshot,
+ * or of places where the limb is not. */
 #ifndef BRACE_APP_QUESTIONS_H
 #define BRACE_APP_QUESTIONS_H
 
@@ -17,6 +18,7 @@ brace_status_t question_sag(const brace_app_t *app, brace_force_t load, brace_di
 
 /* How far the force of now is from sliding on a surface.
  * returns as brace_contact_grip; BRACE_E_NOT_FINITE also where the force is not known */
-brace_status_t question_grip(const brace_app_t *app, float normal_rad, float friction_ratio, brace_contact_grip_t *grip);
+brace_status_t question_grip(const brace_app_t *app, float normal_rad, float friction_ratio,
+                             brace_contact_grip_t *grip);
 
 #endif

@@ -196,7 +196,8 @@ modbus_exception_t command_ask(brace_app_t *app, uint32_t index, uint32_t count,
     }
     const modbus_exception_t why = ask(app, index, asked);
     if (why == MODBUS_FINE) {
-        if (index <= COMMAND_ASKED_KNEE) { /* K at a posture and at a tip are answered in the same place: one question stands */
+        /* K at a posture and at a tip are answered in the same place: one question stands */
+        if (index <= COMMAND_ASKED_KNEE) {
             ask_nothing(app, COMMAND_ASKED_KNEE - COMMAND_ASKED_THETA1 + 1u);
         }
         memcpy(&app->modbus.asked[index - COMMAND_ASKED_THETA1], asked, 4u * count);

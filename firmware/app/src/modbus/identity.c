@@ -6,7 +6,8 @@
 #include "report/version.h"
 
 
-enum { SERVER_ID = 0xb2, RUNS = 0xff, READ_DEVICE_ID = 14, OBJECTS = 3, CONFORMITY = 0x81 /* basic, stream and single */ };
+enum { SERVER_ID = 0xb2, RUNS = 0xff, READ_DEVICE_ID = 14, OBJECTS = 3,
+       CONFORMITY = 0x81 /* basic, stream and single */ };
 
 static const char name[] = "Brace";
 static const char code[] = "limb controller";

@@ -1,5 +1,5 @@
-/* The two ways by which requests come: frames on a serial line (RTU), and ADUs of TCP connections. One request at a time on
- * each; what comes meanwhile waits in the port's own ring. */
+/* The two ways by which requests come: frames on a serial line (RTU), and ADUs of TCP connections. One request at a
+ * time on each; what comes meanwhile waits in the port's own ring. */
 #ifndef BRACE_APP_MODBUS_LINK_H
 #define BRACE_APP_MODBUS_LINK_H
 

@@ -42,7 +42,9 @@ bool modbus_poll(brace_app_t *app, uint32_t now_us)
 
 static uint32_t step_costs(const brace_app_modbus_link_t *link, const uint8_t *pdu)
 {
-    return link->phase != LINK_WORK ? MODBUS_CHECK_COSTS : pdu[0] == MODBUS_WRITE_BLOCK ? MODBUS_ASK_COSTS : MODBUS_READ_COSTS;
+    return link->phase != LINK_WORK       ? MODBUS_CHECK_COSTS
+           : pdu[0] == MODBUS_WRITE_BLOCK ? MODBUS_ASK_COSTS
+                                          : MODBUS_READ_COSTS;
 }
 
 uint32_t modbus_costs(const brace_app_t *app)

@@ -54,7 +54,8 @@ static modbus_exception_t diagnose(brace_app_modbus_t *modbus, uint8_t *pdu, uin
     return MODBUS_FINE;
 }
 
-uint32_t modbus_pdu_work(brace_app_t *app, brace_app_modbus_work_t *work, uint8_t *pdu, uint32_t length, uint32_t now_us)
+uint32_t modbus_pdu_work(brace_app_t *app, brace_app_modbus_work_t *work, uint8_t *pdu, uint32_t length,
+                         uint32_t now_us)
 {
     uint32_t answer = 0;
     modbus_exception_t why = MODBUS_E_FUNCTION;

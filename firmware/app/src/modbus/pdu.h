@@ -1,9 +1,9 @@
-/* Modbus' functions, whatever carries them (Modbus application protocol 1.1b3): 03, 04, 06, 08, 16, 17, 43/14. Registers
- * as docs/modbus.md lists them.
+/* Modbus' functions, whatever carries them (Modbus application protocol 1.1b3): 03, 04, 06, 08, 16, 17, 43/14.
+ * Registers as docs/modbus.md lists them.
  *
- * Exceptions: 01 no such function, or not in this mode (the protocol's own use of it: the server is in the wrong state);
- * 02 no such registers; 03 a number that can not be: a count, a length, a value out of its range; 04 it could not be done;
- * 06 a set of parameters is being stored: ask again.
+ * Exceptions: 01 no such function, or not in this mode (the protocol's own use of it: the server is in the wrong
+ * state); 02 no such registers; 03 a number that can not be: a count, a length, a value out of its range; 04 it could
+ * not be done; 06 a set of parameters is being stored: ask again.
  */
 #ifndef BRACE_APP_MODBUS_PDU_H
 #define BRACE_APP_MODBUS_PDU_H
@@ -37,7 +37,8 @@ typedef enum {
  *   pdu: room for MODBUS_PDU_BYTES
  *   length: of the request [1, MODBUS_PDU_BYTES]
  * returns the answer's length, or 0: there is more to do. At most 2,000 instructions; a commit, 21,000. */
-uint32_t modbus_pdu_work(brace_app_t *app, brace_app_modbus_work_t *work, uint8_t *pdu, uint32_t length, uint32_t now_us);
+uint32_t modbus_pdu_work(brace_app_t *app, brace_app_modbus_work_t *work, uint8_t *pdu, uint32_t length,
+                         uint32_t now_us);
 
 /* An exception as the answer; counted. returns its length */
 uint32_t modbus_refuse(brace_app_t *app, uint8_t *pdu, modbus_exception_t why);

@@ -1,9 +1,10 @@
-/* Modbus TCP: transaction 2, protocol 2, length 2 (from the unit on), unit 1, PDU; high bytes first (Modbus messaging on
- * TCP/IP 1.0b, 3.1.3). The door hands over whole ADUs, one after another, and sends the answer to who asked. */
+/* Modbus TCP: transaction 2, protocol 2, length 2 (from the unit on), unit 1, PDU; high bytes first (Modbus messaging
+ * on TCP/IP 1.0b, 3.1.3). The door hands over whole ADUs, one after another, and sends the answer to who asked. */
 #include "modbus/bytes.h"
 #include "modbus/link.h"
 
-enum { LENGTH_AT = 4, UNIT_AT = 6, HEADER = 7, LEAST_LENGTH = 2, MOST_LENGTH = MODBUS_PDU_BYTES + 1, LEAST = HEADER + 1 };
+enum { LENGTH_AT = 4, UNIT_AT = 6, HEADER = 7, LEAST_LENGTH = 2, MOST_LENGTH = MODBUS_PDU_BYTES + 1, LEAST = HEADER +
+       1 };
 enum { ANY_UNIT = 0, DEVICE_ITSELF = 255 };
 
 #define PATIENCE_US 1000000u

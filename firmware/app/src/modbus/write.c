@@ -44,7 +44,8 @@ modbus_exception_t modbus_write_one(brace_app_t *app, brace_app_modbus_work_t *w
         return MODBUS_E_VALUE;
     }
     const uint32_t whole = (uint32_t)work->half << 16 | value, index = block.start / 2u;
-    return block.area == REGISTERS_PARAMETERS ? refusal_of(staging_write(app, index, whole)) : command_run(app, index, whole);
+    return block.area == REGISTERS_PARAMETERS ? refusal_of(staging_write(app, index, whole))
+                                              : command_run(app, index, whole);
 }
 
 static modbus_exception_t begin(brace_app_t *app, brace_app_modbus_work_t *work, const uint8_t *pdu, uint32_t length)

@@ -1,5 +1,5 @@
-/* Functions 06 and 16. A block is written whole or not at all; a value's two registers belong together: function 06 holds
- * the high one back until the low one follows it on the same port. */
+/* Functions 06 and 16. A block is written whole or not at all; a value's two registers belong together: function 06
+ * holds the high one back until the low one follows it on the same port. */
 #ifndef BRACE_APP_MODBUS_WRITE_H
 #define BRACE_APP_MODBUS_WRITE_H
 

@@ -64,7 +64,8 @@ static void watch_encoder(brace_app_joint_t *joint, const brace_drive_t *drive, 
         return;
     }
     const float swing = joint->torque_high_n_mm - joint->torque_low_n_mm;
-    const float link_swing = joint->link_high_rad - joint->link_low_rad; /* NaN unless it was there from the beginning */
+    /* NaN unless it was there from the beginning */
+    const float link_swing = joint->link_high_rad - joint->link_low_rad;
     const bool torque_works = swing > STUCK_SWING_OF_RANGE * drive->torque_range_n_mm &&
                               swing > STUCK_SWING_OF_FRICTION * drive->motor_friction_n_mm;
     const bool link_moves =

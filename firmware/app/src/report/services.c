@@ -12,8 +12,8 @@
 #define K_WAITS_MOST 6u
 #define TEST_WAITS_MOST 50u
 
-/* Instructions at most, as tests/bench/tick_cost.py counts them; there the sum is held to 4,000. What is dearest by itself
- * seldom comes together: K costs most with one gap open, which is not where both joints' watching does. */
+/* Instructions at most, as tests/bench/tick_cost.py counts them; there the sum is held to 4,000. What is dearest by
+ * itself seldom comes together: K costs most with one gap open, which is not where both joints' watching does. */
 enum {
     ROOM = 3940,
     REST = 1530,       /* what every tick does: listening, samples, faults, drives, watchdog */
@@ -42,7 +42,10 @@ static bool wants_to_say(const brace_app_t *app)
 
 static uint32_t saying_costs(const brace_app_t *app)
 {
-    return announce_wants(app) ? SAYS_ANNOUNCES : !cyclic_wants(app) ? 0u : app->cyclic.due != 0u ? SAYS_GOES_ON : SAYS_BEGINS;
+    return announce_wants(app)     ? SAYS_ANNOUNCES
+           : !cyclic_wants(app)    ? 0u
+           : app->cyclic.due != 0u ? SAYS_GOES_ON
+                                   : SAYS_BEGINS;
 }
 
 static uint32_t answer_costs(const brace_app_t *app)
@@ -63,7 +66,8 @@ static uint32_t answer_costs(const brace_app_t *app)
 static uint32_t choose_modbus(brace_app_t *app, uint32_t room, uint32_t beside)
 {
     brace_app_modbus_t *modbus = &app->modbus;
-    modbus->polls = (!app->bus.slcan.heard && !app->requests.serves) || modbus->waited >= (uint32_t)MODBUS_PATIENCE_TICKS;
+    modbus->polls =
+        (!app->bus.slcan.heard && !app->requests.serves) || modbus->waited >= (uint32_t)MODBUS_PATIENCE_TICKS;
     const bool wants = modbus->polls && modbus_poll(app, app->last_us);
     modbus->all = (uint32_t)MODBUS_ALL_COSTS + beside <= room;
     const uint32_t costs = !wants ? 0u : modbus->all ? (uint32_t)MODBUS_ALL_COSTS : modbus_costs(app);
@@ -128,7 +132,8 @@ static uint32_t beside_k(brace_app_t *app)
     brace_app_report_t *report = &app->report;
     const bool tests = app->mode == BRACE_MODE_LOADING_TEST, moves = tests || app->mode == BRACE_MODE_TAKING_UP;
     const uint32_t plays = (uint32_t)app->play[0].watched + app->play[1].watched;
-    const uint32_t k = (app->model.collapsed ? K_COLLAPSED : K_GENERAL) + k_play_costs[plays] + (tests ? K_ADVANCES : 0u);
+    const uint32_t k =
+        (app->model.collapsed ? K_COLLAPSED : K_GENERAL) + k_play_costs[plays] + (tests ? K_ADVANCES : 0u);
     if (app->k.waits >= (uint8_t)K_WAITS_MOST && !app->k.blind) {
         return blindly(app, false);
     }
@@ -149,8 +154,8 @@ static uint32_t beside_k(brace_app_t *app)
     return whole ? (uint32_t)SERVICES_K_WHOLE : pieces_within(app, room);
 }
 
-/* A set of parameters goes on beside every answer; to Modbus, to text and to what is to be said it yields, but not twice
- * in a row. */
+/* A set of parameters goes on beside every answer; to Modbus, to text and to what is to be said it yields, but not
+ * twice in a row. */
 static uint32_t in_configuration(brace_app_t *app, bool works)
 {
     brace_app_report_t *report = &app->report;
@@ -162,8 +167,8 @@ static uint32_t in_configuration(brace_app_t *app, bool works)
     return works && (app->modbus.serves || text) && report->left_out == 0u ? 0u : (uint32_t)SERVICES_K_WHOLE;
 }
 
-/* A loading test's piece: an answer goes beside it, beside a reading if nothing is sensed. For the dearest question beside
- * the dearest piece the piece waits, and in the end it is refused. */
+/* A loading test's piece: an answer goes beside it, beside a reading if nothing is sensed. For the dearest question
+ * beside the dearest piece the piece waits, and in the end it is refused. */
 static uint32_t beside_test(brace_app_t *app, services_room_t room)
 {
     brace_app_report_t *report = &app->report;

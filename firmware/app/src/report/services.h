@@ -23,10 +23,10 @@ enum {
     SERVICES_K_WHOLE = 255 /* all of K, of this tick's samples; the piece of work */
 };
 
-/* What has come, and what there is to say, before the tick's other work. A request over CAN is answered in the tick that
- * takes it, always; what the tick has room for beside it is worked out here. Where K as a whole has none, as on limbs of the
- * general path with play, it comes in pieces; a tick without even one, for Modbus or for what there is to say, is followed
- * by one in which they wait.
+/* What has come, and what there is to say, before the tick's other work. A request over CAN is answered in the tick
+ * that takes it, always; what the tick has room for beside it is worked out here. Where K as a whole has none, as on
+ * limbs of the general path with play, it comes in pieces; a tick without even one, for Modbus or for what there is to
+ * say, is followed by one in which they wait.
  * returns how many pieces of K, or of other work, fit; or SERVICES_... */
 uint32_t services_listen(brace_app_t *app, services_room_t room);
 

@@ -9,11 +9,13 @@ enum { PIECE = BRACE_JOURNAL_PIECE_BYTES, ZEROED = 2 * PIECE };
 static const uint8_t zeros[ZEROED];
 
 _Static_assert(BRACE_JOURNAL_STATE_BYTES == sizeof(brace_drift_t), "the state is the check's");
-_Static_assert(BRACE_JOURNAL_COVERED_BYTES / PIECE == (BRACE_JOURNAL_COVERED_BYTES + 3) / PIECE, "the CRC is in one piece");
+_Static_assert(BRACE_JOURNAL_COVERED_BYTES / PIECE == (BRACE_JOURNAL_COVERED_BYTES + 3) / PIECE,
+               "the CRC is in one piece");
 
 static void compose_header(const brace_journal_t *journal, uint8_t header[BRACE_JOURNAL_HEADER_BYTES])
 {
-    const uint32_t words[2] = {(uint32_t)BRACE_JOURNAL_STATE_BYTES | (uint32_t)BRACE_JOURNAL_FORMAT << 16, journal->identity};
+    const uint32_t words[2] = {(uint32_t)BRACE_JOURNAL_STATE_BYTES | (uint32_t)BRACE_JOURNAL_FORMAT << 16,
+                               journal->identity};
     memcpy(header, "DRFT", 4);
     for (uint32_t i = 0; i < 8u; i++) {
         header[4u + i] = (uint8_t)(words[i / 4u] >> (8u * (i % 4u)));
@@ -60,7 +62,8 @@ static uint32_t crc_of_record(const brace_journal_t *journal)
     return (uint32_t)crc[0] | (uint32_t)crc[1] << 8 | (uint32_t)crc[2] << 16 | (uint32_t)crc[3] << 24;
 }
 
-/* Another piece of a record has been read. One that is not whole may hide a later one: the scan goes on behind its header. */
+/* Another piece of a record has been read. One that is not whole may hide a later one:
+ * the scan goes on behind its header. */
 static void take_piece(brace_journal_t *journal, void *state)
 {
     cover(journal, (uint32_t)journal->pieces * PIECE);
@@ -84,8 +87,8 @@ bool brace_journal_scan(brace_journal_t *journal, void *state)
         return false;
     }
     uint8_t *piece = journal->record + (uint32_t)journal->pieces * PIECE;
-    if (journal->hal->nvm_read(journal->hal->context, journal->slot, BRACE_JOURNAL_AT + journal->position, piece, PIECE) !=
-        BRACE_HAL_OK) {
+    if (journal->hal->nvm_read(journal->hal->context, journal->slot, BRACE_JOURNAL_AT + journal->position, piece,
+                               PIECE) != BRACE_HAL_OK) {
         journal->next = journal->position = journal->end; /* no journal: what was found so far counts */
         return false;
     }

@@ -30,7 +30,7 @@ void supervisor_faults(brace_app_t *app, bool late)
                            (late ? (uint32_t)BRACE_FAULT_TICK_LATE : 0u) |
                            (app->bus.bus_off ? (uint32_t)BRACE_FAULT_CAN_BUS_OFF : 0u);
     app->faults |= app->mode == BRACE_MODE_START ? 0u : cause; /* there nothing has been seen yet: no new fault */
-    for (uint32_t left = app->faults & COMING_AND_GOING; left != 0u; left &= left - 1u) { /* at most a round for each fault */
+    for (uint32_t left = app->faults & COMING_AND_GOING; left != 0u; left &= left - 1u) { /* at most one a fault */
         with_hysteresis(app, cause, (uint32_t)__builtin_ctz(left));
     }
     const uint32_t lasting = (uint32_t)BRACE_FAULT_PARAMETERS | (uint32_t)BRACE_FAULT_STORE;

@@ -11,7 +11,7 @@
  * Slow and clear by 0.7 of its bounds and three sigma, or narrowed by an expected load: the flank is told, not valid,
  * and remembered for 250 ms. Where nothing tells, no flank is told; the offset still goes where the slow mean of a moving
  * motor leans to, or else follows the motor's travel through the gap, as a play operator: a guess, off by up to the gap.
- * What is reached, and what nobody could reach from the motor's side: docs/backlash.md.
+ * What is reached, and what could not be by looking on from the motor's side: docs/backlash.md.
  *
  * A table of transitions (src/backlash_table.c) moves the state; a second one the phases of a take-up.
  *

@@ -68,8 +68,8 @@ typedef struct {
 /* The check's memory; read it through brace_drift_report. */
 typedef struct {
     brace_drift_setup_t setup;
-    float offset[7];     /* estimates: three compliances (relative), turn of the limb and of the knee, thermal rate, axial
-                            compliance of both links */
+    float offset[7];     /* estimates: three compliances (relative), turn of the limb and of the knee, thermal rate,
+                            axial compliance of both links */
     float covariance[28];
     float held[3];       /* compliance offsets when learning ended */
     float held_sigma[3];

@@ -39,8 +39,8 @@ typedef struct {
 brace_status_t brace_gap_stiffness(const brace_stiffness_t *engaged, const brace_pose_t *pose, uint32_t open,
                                    brace_gap_stiffness_t *result);
 
-/* The same for the tick, of a K that a planar path of the core has just given and a pose of the same posture: nothing is
- * checked but the free joint's lever. engaged may not lie in result. At most 200 instructions.
+/* The same for the tick, of a K that a planar path of the core has just given and a pose of the same posture: nothing
+ * is checked but the free joint's lever. engaged may not lie in result. At most 200 instructions.
  * returns BRACE_OK, BRACE_E_SINGULAR */
 brace_status_t brace_gap_stiffness_known(const brace_stiffness_t *engaged, const brace_pose_t *pose, uint32_t open,
                                          brace_gap_stiffness_t *result);

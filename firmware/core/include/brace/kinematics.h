@@ -63,8 +63,8 @@ typedef enum {
 brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
                                         brace_pose_t *pose);
 
-/* The same for the tick: limb has passed brace_limb_check, and angles are within +-7.9 rad; nothing is checked. At most 130
- * instructions. */
+/* The same for the tick: limb has passed brace_limb_check, and angles are within +-7.9 rad; nothing is checked. At most
+ * 130 instructions. */
 void brace_kinematics_pose(const brace_limb_t *limb, float theta1_rad, float theta2_rad, brace_pose_t *pose);
 
 /* Distance and direction of a point; phi 0 for the origin itself.

@@ -38,8 +38,8 @@ brace_status_t brace_planar_table_build(const brace_planar_t *planar, brace_plan
  * table, stiffness: not null (not checked). theta1_rad, theta2_rad: true angles, theta1^2 + theta2^2 <=
  * BRACE_PLANAR_REACH_RAD2. stiffness: written on success only; flags are 0.
  * returns BRACE_OK, BRACE_E_RANGE, BRACE_E_NOT_FINITE.
- * Accuracy: each entry of K within 2e-6 of lambda_max, eigenvalues within 2e-6 of themselves, stiff axis within 1.5e-6 rad
- * times lambda_max / (lambda_max - lambda_min).
+ * Accuracy: each entry of K within 2e-6 of lambda_max, eigenvalues within 2e-6 of themselves, stiff axis within 1.5e-6
+ * rad times lambda_max / (lambda_max - lambda_min).
  * Cost on a Cortex-M4F: the same straight line of at most 80 instructions for every posture; 24 bytes of stack. */
 brace_status_t brace_planar_table_stiffness(const brace_planar_table_t *table, float theta1_rad, float theta2_rad,
                                             brace_stiffness_t *stiffness);

@@ -7,7 +7,8 @@
  * A value that is not known is NaN here and a code of its own on the wire, never zero. brace_can_pack_... limits what
  * does not fit and answers how many values it limited; the frame's bytes are always written. brace_can_unpack_...
  * always writes the struct: every bit pattern means something. Pure functions, no libm; any thread.
- * accuracy: half a step, and a float's rounding. cost on a Cortex-M4F: below 120 instructions each; of the CAN FD frame 250.
+ * accuracy: half a step, and a float's rounding.
+ * cost on a Cortex-M4F: below 120 instructions each; of the CAN FD frame 250.
  */
 #include <stdint.h>
 
@@ -83,7 +84,7 @@ void brace_can_unpack_stiffness_a(const uint8_t data[8], brace_can_stiffness_a_t
 typedef struct {
     uint32_t sequence; /* of the snapshot; equal in all frames of one */
     float k_zz_n_per_mm; /* force along z per displacement along z [N/mm, -4194.3 to 4194.3] */
-    float age_ms; /* of the samples when the frame was made [ms, 0 to 127] */
+    float age_ms; /* of the samples when the frame was made; more than 127 ms are sent as 127 [ms, 0 to 127] */
     uint32_t play_femur; /* which flank of the femur joint's play carries */
     uint32_t play_tibia; /* which flank of the tibia joint's play carries */
     uint32_t parameter_tag; /* low half of the CRC of the parameters in force */
@@ -126,7 +127,7 @@ void brace_can_unpack_heartbeat(const uint8_t data[8], brace_can_heartbeat_t *me
 typedef struct {
     uint32_t sequence; /* of the snapshot */
     uint32_t parameter_crc; /* CRC of the parameters in force */
-    float age_ms; /* of the samples when the frame was made [ms, 0 to 32767] */
+    float age_ms; /* of the samples when the frame was made; more than 32767 ms are sent as 32767 [ms, 0 to 32767] */
     uint32_t flags; /* quality of K */
     uint32_t mode; /* what the controller is doing */
     uint32_t play_femur; /* which flank of the femur joint's play carries */

@@ -132,4 +132,21 @@ enum { BRACE_COMMANDS_COUNT = 17 };
 _Static_assert(sizeof(brace_commands_t) == 4 * BRACE_COMMANDS_COUNT, "32 bits each");
 #endif
 
+/* What numbers are called, and bits, from 0: to initialise arrays of const char * with. */
+#define BRACE_MODE_NAMES \
+    { "START", "MONITOR", "CONFIGURATION", "TAKING_UP", "LOADING_TEST", "FAULT" }
+#define BRACE_FAULTS_NAMES \
+    { "SENSOR_FEMUR", "SENSOR_TIBIA", "ENCODER_STUCK", "TICK_LATE", "PARAMETERS", "STORE", "CAN_BUS_OFF", \
+      "MODEL_DRIFT", "CRASHED" }
+#define BRACE_FLAGS_NAMES \
+    { "UNCALIBRATED", "NEAR_SINGULAR", "SATURATED", "GAP_OPEN", "STALE", "OUT_OF_RANGE" }
+#define BRACE_PLAY_FEMUR_NAMES \
+    { "UNKNOWN", "TAKING_UP", "ENGAGED_POSITIVE", "ENGAGED_NEGATIVE", "CROSSING", "FAULT" }
+#define BRACE_PLAY_TIBIA_NAMES \
+    { "UNKNOWN", "TAKING_UP", "ENGAGED_POSITIVE", "ENGAGED_NEGATIVE", "CROSSING", "FAULT" }
+#define BRACE_PARAMETER_ORIGIN_NAMES \
+    { "DEFAULT", "SLOT_A", "SLOT_B" }
+#define BRACE_ASKED_CONTACT_NAMES \
+    { "HOLDS", "SLIDES", "LIFTS" }
+
 #endif

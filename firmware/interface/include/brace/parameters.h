@@ -49,7 +49,8 @@ typedef struct {
 } brace_gravity_t;
 
 typedef struct {
-    float bias_x_n, bias_z_n, gain, rotation_rad, crosstalk_xz, crosstalk_zx, drift_x_n_per_s, drift_z_n_per_s, saturation_n;
+    float bias_x_n, bias_z_n, gain, rotation_rad, crosstalk_xz, crosstalk_zx, drift_x_n_per_s, drift_z_n_per_s,
+        saturation_n;
     float noise_n; /* one sigma of a reading [0, 1e6] */
 } brace_sensor_t;
 
@@ -131,7 +132,8 @@ brace_status_t brace_parameters_check_piece(const brace_parameters_t *parameters
                                             uint32_t *wrong_index);
 
 /* Is one member, as its 32 bits, in its own range? What members say together is brace_parameters_check's.
- * returns BRACE_OK, BRACE_E_RANGE (no such member), BRACE_E_PARAMETER, BRACE_E_NOT_FINITE; cost: at most 60 instructions */
+ * returns BRACE_OK, BRACE_E_RANGE (no such member), BRACE_E_PARAMETER, BRACE_E_NOT_FINITE;
+ * cost: at most 60 instructions */
 brace_status_t brace_parameter_in_range(uint32_t index, uint32_t word);
 
 /* Parameters to a block of BRACE_BLOCK_BYTES. What brace_parameters_check refuses is refused.

@@ -21,7 +21,8 @@ AXES = ("x", "z")
 
 
 def localise(record: Record, fitted: Fit, seed: int) -> list[Localised]:
-    """The contrasts that stand out of the noise, strongest first; sizes are rms over the rows that they speak of, in N."""
+    """The contrasts that stand out of the noise, strongest first; sizes are rms over the rows that they speak of,
+    in N."""
     remover = Remover(fitted)
     names, columns, raw = [], [], []
     for name, shape in _contrasts(record, fitted):
@@ -113,7 +114,8 @@ def _contrasts(record: Record, fitted: Fit) -> Iterator[tuple[str, np.ndarray]]:
     if configs.size <= 40:
         for config, row in zip(configs, first):
             here = (data["config"] == config).astype(float)
-            where = f"at configuration {config} (theta1 {data['theta1_rad'][row]:.2f}, theta2 {data['theta2_rad'][row]:.2f} rad)"
+            theta1, theta2 = data["theta1_rad"][row], data["theta2_rad"][row]
+            where = f"at configuration {config} (theta1 {theta1:.2f}, theta2 {theta2:.2f} rad)"
             yield f"{where}, in proportion to the load", moved(here * s)
             for channel, axis_name in enumerate(AXES):
                 yield f"{where}, in f{axis_name} whatever the load", pushed(channel, here)

@@ -1,5 +1,5 @@
-"""What a fit tells of the noise: of a record without repeats its floor, once the limb's own shape is out of the way, and
-whether the noise grows with the load."""
+"""What a fit tells of the noise: of a record without repeats its floor, once the limb's own shape is out of the way,
+and whether the noise grows with the load."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""A finished search as a Diagnosis: effects with intervals, the gap before and after, what stays, in numbers and words."""
+"""A finished search as a Diagnosis: effects with intervals, the gap before and after, what stays,
+in numbers and words."""
 
 from __future__ import annotations
 
@@ -56,7 +57,8 @@ def diagnosis_of(
     twin: Pass | None,
     options: Options,
 ) -> Diagnosis:
-    """`whole` is all that was measured, `record` the part that was searched, `locked` its rows that `twin` never saw."""
+    """`whole` is all that was measured, `record` the part that was searched,
+    `locked` its rows that `twin` never saw."""
     decision = final.decision
     best = decision.chosen.best.fit
     judged = twin or final
@@ -262,7 +264,8 @@ def _sentence(final: Pass, effects: Sequence[NamedEffect]) -> str:
             f"the model has {names[0]} added."
         )
     names = [f"{effect.name.replace('_', ' ')} at {effect.where}" for effect in effects]
-    return f"Missing: {' and '.join(names)}. Added to the model, {'they close' if len(names) > 1 else 'it closes'} the gap."
+    closes = "they close" if len(names) > 1 else "it closes"
+    return f"Missing: {' and '.join(names)}. Added to the model, {closes} the gap."
 
 
 def _more_of_the_same(final: Pass) -> NextExperiment | None:
@@ -307,7 +310,8 @@ def _notes(
         notes.append("too few configurations to lock one away: no held-out gap")
     elif twin.decision.chosen.labels != final.decision.chosen.labels:
         notes.append(
-            f"without the held-out configurations the choice is {twin.decision.chosen.label}; the gaps are that choice's"
+            f"without the held-out configurations the choice is {twin.decision.chosen.label}; the gaps are that "
+            "choice's"
         )
     if final.decision.chosen.labels and agreed.held_out_nats is not None and agreed.held_out_nats < LOST_NATS:
         notes.append("the configurations that were held out do not gain from what was chosen without them")

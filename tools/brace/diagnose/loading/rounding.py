@@ -25,6 +25,7 @@ def rounds_to_record(record: Record, fitted: Fit) -> bool:
 
 
 def asked_for(record: Record, hypotheses: Sequence[Hypothesis]) -> list[Hypothesis]:
-    """Those whose every effect the record asks for: where fewer effects round to it, more of them fit what was rounded."""
+    """Those whose every effect the record asks for: where fewer effects round to it,
+    more of them fit what was rounded."""
     enough = [item.labels for item in hypotheses if rounds_to_record(record, item.fit)]
     return [item for item in hypotheses if not any(labels < item.labels for labels in enough)]

@@ -1,4 +1,5 @@
-"""Hypotheses over the catalogue: every single effect, then pairs and triples from the best, each fitted on the plant."""
+"""Hypotheses over the catalogue: every single effect, then pairs and triples from the best,
+each fitted on the plant."""
 
 from __future__ import annotations
 
@@ -98,4 +99,6 @@ class Search:
             return
         fitted = fit(self.record, promise.space, promise.start, final=False)
         if parent.fit.cost - fitted.cost > LEAST_GAIN:
-            self.tried[name] = Hypothesis(fitted, score(fitted, self.base.fit, self.record.readings, self.record.noise_freedom))
+            self.tried[name] = Hypothesis(
+                fitted, score(fitted, self.base.fit, self.record.readings, self.record.noise_freedom)
+            )

@@ -36,9 +36,9 @@ typedef struct {
 
 typedef struct brace_bus brace_bus_t;
 
-/* Opens a bus within timeout_ms [1, 60 000]. bit_rate [bit/s] is set on an SLCAN adapter (10 000 to 1 000 000 as it knows
- * them; 0: 1 000 000); a SocketCAN interface has the system's. On anything but OK *bus is null and `why`, when not null,
- * gets one line that says what, why and what to try (at most why_room characters with its end). */
+/* Opens a bus within timeout_ms [1, 60 000]. bit_rate [bit/s] is set on an SLCAN adapter (10 000 to 1 000 000 as it
+ * knows them; 0: 1 000 000); a SocketCAN interface has the system's. On anything but OK *bus is null and `why`, when
+ * not null, gets one line that says what, why and what to try (at most why_room characters with its end). */
 brace_bus_status_t brace_bus_open(const char *url, uint32_t bit_rate, int timeout_ms, brace_bus_t **bus, char *why,
                                   unsigned why_room);
 
@@ -58,8 +58,8 @@ brace_bus_status_t brace_bus_receive(brace_bus_t *bus, brace_bus_frame_t *frame,
  * SLCAN was broken. Counts before the frame that was received after the loss. */
 uint32_t brace_bus_lost(const brace_bus_t *bus);
 
-/* Errors of the bus that its interface has told of (a wrong bit rate gives them). An SLCAN adapter is asked, and answers
- * within timeout_ms or not at all; frames received meanwhile are dropped. */
+/* Errors of the bus that its interface has told of (a wrong bit rate gives them). An SLCAN adapter is asked, and
+ * answers within timeout_ms or not at all; frames received meanwhile are dropped. */
 uint32_t brace_bus_errors(brace_bus_t *bus, int timeout_ms);
 
 #ifdef __cplusplus

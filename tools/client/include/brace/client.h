@@ -7,8 +7,8 @@
  *   modbus-tcp://host:port[/unit]     Modbus TCP, unit 1
  *
  * Lengths in mm, forces in N, stiffness in N/mm, angles in rad; x outwards, z up. What is not known is NaN, never zero.
- * Every call ends within its time-out and answers a status; brace_client_why then says what, why and what to try. A call
- * that refuses leaves its outputs untouched. One thread per client; several clients may share a bus.
+ * Every call ends within its time-out and answers a status; brace_client_why then says what, why and what to try. A
+ * call that refuses leaves its outputs untouched. One thread per client; several clients may share a bus.
  */
 #ifndef BRACE_CLIENT_H
 #define BRACE_CLIENT_H
@@ -45,7 +45,7 @@ typedef struct brace_client brace_client_t;
 
 /* Parts of a snapshot; over CAN FD all of them come with each. */
 enum {
-    BRACE_PART_K = 1,           /* K, flags, play states: with every snapshot that is sent (200 Hz, controller.stiffness_hz) */
+    BRACE_PART_K = 1,           /* K, flags, play states: with every snapshot sent, 200 Hz (controller.stiffness_hz) */
     BRACE_PART_EIGENVALUES = 2, /* lambda_min, lambda_max, stiff axis: 20 Hz (controller.posture_hz) */
     BRACE_PART_POSTURE = 4,     /* joint angles, mode, faults: 20 Hz */
     BRACE_PART_ALL = 7
@@ -55,7 +55,7 @@ typedef struct {
     uint32_t parts;       /* that are of this snapshot; members of the others are NaN or all ones */
     uint32_t sequence;    /* 8 bits over CAN, over CAN FD too */
     uint64_t received_us; /* when its first frame came, CLOCK_MONOTONIC */
-    float age_ms;         /* of the samples when it was sent */
+    float age_ms;         /* of the samples when it was sent; over classic CAN 127 at most */
     bool k_is_valid;      /* K may be used, with its flags */
     uint32_t flags;       /* BRACE_CLIENT_FLAG_... */
     float k_xx_n_per_mm, k_xz_n_per_mm, k_zz_n_per_mm;
@@ -102,8 +102,8 @@ typedef struct {
 
 /* Opens a bus, finds the controller, and refuses one that speaks another dictionary. node [1, 127; 0: the first that is
  * heard] counts on CAN only; a Modbus URL names its unit. bit_rate [bit/s; 0: 1 000 000] is set on SLCAN adapters only.
- * timeout_ms [100, 60 000]: of the whole call; 2500 finds what is there. On anything but OK *client is null and why, when
- * not null, gets one line (at most why_room characters with its end). */
+ * timeout_ms [100, 60 000]: of the whole call; 2500 finds what is there. On anything but OK *client is null and why,
+ * when not null, gets one line (at most why_room characters with its end). */
 brace_client_status_t brace_client_open(const char *url, uint32_t node, uint32_t bit_rate, int timeout_ms,
                                         brace_client_t **client, char *why, unsigned why_room);
 
@@ -113,8 +113,8 @@ void brace_client_close(brace_client_t *client);
 void brace_client_identity(const brace_client_t *client, brace_client_identity_t *identity);
 
 /* The newest snapshot that is whole in the wanted parts (of BRACE_PART_ALL) and was not read before; waits for the next
- * one when there is none. Its frames are of one tick: they carry one number, came together, and nothing was lost between
- * them. Over Modbus every part is always there, and each call reads anew.
+ * one when there is none. Its frames are of one tick: they carry one number, came together, and nothing was lost
+ * between them. Over Modbus every part is always there, and each call reads anew.
  * returns OK, E_TIMEOUT, E_SILENT, E_BIT_RATE, E_NODE, E_DOWN, E_VERSION */
 brace_client_status_t brace_client_read(brace_client_t *client, uint32_t wanted, int timeout_ms,
                                         brace_client_snapshot_t *snapshot);
@@ -126,8 +126,8 @@ brace_client_status_t brace_client_k_at_posture(brace_client_t *client, float th
                                                 int timeout_ms, brace_client_k_t *k);
 
 /* K with the tip at a place [mm from the femur axis, -8388 to 8388]. CAN only. */
-brace_client_status_t brace_client_k_at_tip(brace_client_t *client, float x_mm, float z_mm, bool knee_up, int timeout_ms,
-                                            brace_client_k_t *k);
+brace_client_status_t brace_client_k_at_tip(brace_client_t *client, float x_mm, float z_mm, bool knee_up,
+                                            int timeout_ms, brace_client_k_t *k);
 
 /* Force on the tip that holds it at a displacement [mm, -838 to 838], with the K of now. This and the sag are refused
  * while K is not valid, or flagged GAP_OPEN: then nothing carries the tip in some direction. CAN only. */
@@ -138,12 +138,13 @@ brace_client_status_t brace_client_contact_force(brace_client_t *client, float d
 brace_client_status_t brace_client_sag(brace_client_t *client, float fx_n, float fz_n, int timeout_ms, float *dx_mm,
                                        float *dz_mm);
 
-/* How far the tip's force of now is from sliding on a surface whose normal, towards the limb, points along normal_rad from
- * +x [rad, -3.27 to 3.27], with friction coefficient [0, 10]. Where no force is known it is refused. CAN only. */
-brace_client_status_t brace_client_margin(brace_client_t *client, float normal_rad, float friction_ratio, int timeout_ms,
-                                          brace_client_margin_t *margin);
+/* How far the tip's force of now is from sliding on a surface whose normal, towards the limb, points along normal_rad
+ * from +x [rad, -3.27 to 3.27], with friction coefficient [0, 10]. Where no force is known it is refused. CAN only. */
+brace_client_status_t brace_client_margin(brace_client_t *client, float normal_rad, float friction_ratio,
+                                          int timeout_ms, brace_client_margin_t *margin);
 
-/* Number of a measured value, by its member of brace_measured_t. Parameters are numbered as in brace/parameter_list.h. */
+/* Number of a measured value, by its member of brace_measured_t.
+ * Parameters are numbered as in brace/parameter_list.h. */
 #define BRACE_CLIENT_ENTRY(member) (BRACE_ENTRY_MEASURED + (uint32_t)(offsetof(brace_measured_t, member) / 4u))
 
 /* Any entry of the dictionary: of a u32's, of a f32's type. */

@@ -107,7 +107,9 @@ def _units(dataset: Dataset) -> Iterator[Repair]:
     for unit, factor in UNITS.values():
         for names in (FORCES, FORCES[:1], FORCES[1:]):
             scale = (factor if FORCES[0] in names else 1.0, factor if FORCES[1] in names else 1.0)
-            yield Repair(names, f"fits only in {unit}", f"{unit}: multiply by {factor:g}", _scaled(names, factor), scale)
+            yield Repair(
+                names, f"fits only in {unit}", f"{unit}: multiply by {factor:g}", _scaled(names, factor), scale
+            )
     if dataset.meta.number("rig.step_mm") > 0.0:
         return  # the step tells the unit of displacements
     for unit, factor in LENGTH_SLIPS.values():

@@ -1,5 +1,5 @@
-"""Single readings and stretches of them: a sign or a decimal point that slipped, a sensor that stood still, seen against
-what the refitted limb would read."""
+"""Single readings and stretches of them: a sign or a decimal point that slipped, a sensor that stood still, seen
+against what the refitted limb would read."""
 
 from __future__ import annotations
 
@@ -75,12 +75,16 @@ def _slips(judge: Judge) -> Iterator[DataFault]:
                     )
                     break
             else:
-                if abs(value) == largest[1] and largest[1] > BEYOND_ALL * largest[0] and abs(aside[row]) > 0.5 * abs(value):
+                if (
+                    abs(value) == largest[1]
+                    and largest[1] > BEYOND_ALL * largest[0]
+                    and abs(aside[row]) > 0.5 * abs(value)
+                ):
                     yield DataFault(
                         int(row) + 1,
                         name,
-                        f"{value:g} where {expected:.3g} is due, and nothing else in the record reads {largest[0]:.3g} or "
-                        "more: not a reading of this test",
+                        f"{value:g} where {expected:.3g} is due, and nothing else in the record reads {largest[0]:.3g} "
+                        "or more: not a reading of this test",
                     )
 
 
@@ -141,8 +145,8 @@ def _stuck(judge: Judge, name: str) -> Iterator[DataFault]:
             yield DataFault(
                 begin + 1,
                 name,
-                f"it stands at {values[begin]:g} for {count} readings while the tip goes on: the sensor was stuck, or a "
-                "reading was filled in",
+                f"it stands at {values[begin]:g} for {count} readings while the tip goes on: the sensor was stuck, or "
+                "a reading was filled in",
             )
 
 

@@ -37,7 +37,8 @@ def _side_readings(judge: Judge) -> Iterator[DataFault]:
         here = [name for name in pair if name in played]
         # the column moves, and the limb should move it
         known = {
-            name: np.ptp(data[name]) > 20.0 * judge.noise[name].floor and np.ptp(played[name]) > LEAST_MOVE for name in here
+            name: np.ptp(data[name]) > 20.0 * judge.noise[name].floor and np.ptp(played[name]) > LEAST_MOVE
+            for name in here
         }
         wrong = {}
         for name in here:
@@ -68,7 +69,8 @@ def _mended(judge: Judge, name: str, played: np.ndarray, before: float) -> Itera
                   for unit, factor in UNITS.items()]  # fmt: skip
     else:
         tried += [(factor, f"the column fits only in {unit}", f"{unit}: multiply by {factor:g}")
-                  for unit, factor in (("um", 1e-3), ("inches", 25.4), ("m", 1e3), ("thousandths of an inch", 25.4e-3))]  # fmt: skip
+                  for unit, factor in (("um", 1e-3), ("inches", 25.4), ("m", 1e3),
+                                       ("thousandths of an inch", 25.4e-3))]  # fmt: skip
     left, words, suggestion = min(
         (misfit(measured * factor, model), words, suggestion) for factor, words, suggestion in tried
     )
@@ -94,11 +96,16 @@ def _fahrenheit(judge: Judge) -> Iterator[DataFault]:
     reference = judge.believed.number("thermal.reference_degc")
     above, near = FAHRENHEIT_DEGC
     low, high = float(degc.min()), float(degc.max())
-    if low > reference + above and abs((low - 32.0) / 1.8 - reference) < near and (high - 32.0) / 1.8 < reference + 2 * near:
+    if (
+        low > reference + above
+        and abs((low - 32.0) / 1.8 - reference) < near
+        and (high - 32.0) / 1.8 < reference + 2 * near
+    ):
         yield DataFault(
             None,
             "temp_degc",
-            f"{low:g} to {high:g}, where the limb is calibrated at {reference:g} degC: the column fits only in Fahrenheit",
+            f"{low:g} to {high:g}, where the limb is calibrated at {reference:g} degC: the column fits only in "
+            "Fahrenheit",
             "Fahrenheit: subtract 32, divide by 1.8",
         )
 
@@ -127,7 +134,7 @@ def _zero(judge: Judge) -> Iterator[DataFault]:
         yield DataFault(
             None,
             "zeroed",
-            f"the first reading of each of {first.size} runs is exactly 0 N and all others have noise: they were zeroed, and "
-            "meta.toml says never",
+            f"the first reading of each of {first.size} runs is exactly 0 N and all others have noise: they were "
+            "zeroed, and meta.toml says never",
             'zeroed = "per_run"',
         )
