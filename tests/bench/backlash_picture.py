@@ -14,8 +14,8 @@ import numpy as np  # noqa: E402
 from matplotlib import pyplot as plt  # noqa: E402
 
 MACHINE, GUESS, COMMAND, ENCODER, ORACLE = "#1b6ca8", "#7fb2d9", "#c8553d", "#e0a458", "#555555"
-STYLE = {"svg.hashsalt": "brace", "svg.fonttype": "none", "font.size": 9.0, "axes.spines.top": False,
-         "axes.spines.right": False, "path.simplify_threshold": 0.5}
+STYLE: dict[Any, Any] = {"svg.hashsalt": "brace", "svg.fonttype": "none", "font.size": 9.0, "axes.spines.top": False,
+                         "axes.spines.right": False, "path.simplify_threshold": 0.5}
 
 
 def _wrong(axes: Any, n: Any) -> None:

@@ -1,6 +1,7 @@
 """The preload state machine keeps its bounds on fewer histories than the report's, and on other seeds."""
 from __future__ import annotations
 
+import ctypes
 import os
 from pathlib import Path
 
@@ -15,13 +16,13 @@ NOT_REACHED = "of all ticks"  # nor in reach of who only looks on: backlash_floo
 
 
 @pytest.fixture(scope="module")
-def lib():
+def lib() -> ctypes.CDLL:
     return bench.library()
 
 
 @pytest.mark.parametrize("exact", [False, True])
 @pytest.mark.parametrize("expecting", [False, True])
-def test_histories(lib, exact: bool, expecting: bool) -> None:
+def test_histories(lib: ctypes.CDLL, exact: bool, expecting: bool) -> None:
     counts = bench.histories(lib, SEED, COUNT, exact, expecting)
     missed = [name for name, met in bench.history_bounds(counts).items() if not met and NOT_REACHED not in name]
     assert not missed
@@ -30,7 +31,7 @@ def test_histories(lib, exact: bool, expecting: bool) -> None:
     assert counts.valid > 0.35 * counts.ticks and counts.valid_wrong == 0
 
 
-def test_a_gear_that_sticks(lib) -> None:
+def test_a_gear_that_sticks(lib: ctypes.CDLL) -> None:
     """What it takes to break away is up to twice the friction in motion: allowed for, nothing is told that is not so; not
     allowed for, that is seen."""
     allowed, unknown = (bench.histories(lib, SEED, COUNT, False, False, breakaway)
@@ -48,7 +49,7 @@ REAL = Path(os.environ.get("BRACE_REAL_DATA", ""))
 @pytest.mark.skipif(not os.environ.get("BRACE_REAL_DATA") or not (REAL / "cycloidal_base").is_dir(),
                     reason="BRACE_REAL_DATA names no folder with cycloidal_base, cycloidal_preloaded, cycloidal_polymer")
 @pytest.mark.parametrize("record", measured.RECORDS)
-def test_measured_joints(lib, record: str) -> None:
+def test_measured_joints(lib: ctypes.CDLL, record: str) -> None:
     """The same bounds on gears that nobody here made."""
     judged = {(setting, full): j for setting, full, j in measured.judge(lib, REAL / record)}
     for full in (False, True):
@@ -63,12 +64,12 @@ def test_measured_joints(lib, record: str) -> None:
     assert sum(j.late_valid for j in as_found) > 0  # or there would be nothing to allow for
 
 
-def test_takeups(lib) -> None:
+def test_takeups(lib: ctypes.CDLL) -> None:
     held, free = (bench.takeups(lib, SEED, COUNT, h) for h in (True, False))
     assert all(bench.takeup_bounds(held, free, COUNT).values())
 
 
-def test_the_oracle_does_better_and_still_not_well(lib) -> None:
+def test_the_oracle_does_better_and_still_not_well(lib: ctypes.CDLL) -> None:
     """Else it would say nothing of what is attainable."""
     machine = bench.histories(lib, SEED, 6, exact=False, expecting=False)
     oracle = floor.oracle(lib, SEED, 6, 400, exact=False, told=False)
@@ -76,7 +77,7 @@ def test_the_oracle_does_better_and_still_not_well(lib) -> None:
     assert 0.02 < oracle.beyond_a_tenth / oracle.ticks < bench.beyond_a_tenth(machine.all)
 
 
-def test_a_motor_that_feels_for_the_flank_tells_more(lib) -> None:
+def test_a_motor_that_feels_for_the_flank_tells_more(lib: ctypes.CDLL) -> None:
     """So does a filter that knows only what a controller may know."""
     looking, feeling = (floor.oracle(lib, SEED, 8, 400, exact=False, told=False, joint_exact=False, reach_gaps=reach)
                         for reach in (0.0, 1.5))
