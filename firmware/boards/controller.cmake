@@ -1,10 +1,10 @@
 # brace_controller_image(TARGET BOARD FOLDER MEMORY HAL SOURCE... [DEFINE NAME]...)
-# An image that is flashed: <TARGET>.elf with .hex, .bin, .map and a size report beside it, in build/<preset>/images.
-# No semihosting, no heap, no stdio: there is nothing behind malloc or a file for the linker to find.
+# An image to flash: <TARGET>.elf with .hex, .bin, .map and a size report beside it, in build/<preset>/images. It has no
+# semihosting, no heap and no stdio, so the linker refuses a call of malloc or of a file function.
 set(BRACE_IMAGES_DIR ${PROJECT_BINARY_DIR}/images)
 set(BRACE_BUILD_INFO_DIR ${CMAKE_CURRENT_BINARY_DIR}/generated)
 
-# Runs with every build, since the source's state may have changed though no file of the image has.
+# Runs with every build, because the state of the source may have changed though no file of the image has.
 add_custom_target(brace_build_info
     COMMAND ${CMAKE_COMMAND} -DSOURCE=${PROJECT_SOURCE_DIR} -DOUT=${BRACE_BUILD_INFO_DIR}
         -DBRACE_VERSION=${PROJECT_VERSION} -DBRACE_BUILD_TYPE=${CMAKE_BUILD_TYPE}
@@ -26,7 +26,7 @@ function(brace_controller_image target)
         LINK_DEPENDS "${boards}/common/controller.ld;${boards}/${image_MEMORY}")
     target_compile_definitions(${target} PRIVATE BRACE_BOARD_NAME="${image_BOARD}" ${image_DEFINES})
     target_include_directories(${target} PRIVATE ${boards}/common ${BRACE_BUILD_INFO_DIR})
-    # Start-up clears memory itself: the compiler must not make that a call into a library.
+    # Start-up code clears memory itself, so the compiler must not make that a call into a library.
     target_compile_options(${target} PRIVATE -Os -ffreestanding -fno-tree-loop-distribute-patterns -fstack-usage)
     set_source_files_properties(${boards}/common/fault.c ${boards}/common/kept.c ${boards}/common/start.c
         PROPERTIES COMPILE_OPTIONS -mgeneral-regs-only)
@@ -43,7 +43,7 @@ function(brace_controller_image target)
     set_property(GLOBAL APPEND PROPERTY BRACE_CONTROLLER_IMAGES ${target})
 endfunction()
 
-# brace_controller_sums(): SHA256SUMS over all images, once they are all there. After the last brace_controller_image.
+# brace_controller_sums(): SHA256SUMS over all images. Call it after the last brace_controller_image.
 function(brace_controller_sums)
     get_property(images GLOBAL PROPERTY BRACE_CONTROLLER_IMAGES)
     list(TRANSFORM images APPEND .elf OUTPUT_VARIABLE elves)

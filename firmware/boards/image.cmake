@@ -2,7 +2,7 @@
 # BRACE_CORE_NAME comes from the toolchain file (firmware/boards/toolchain/).
 set(BRACE_BOARDS_DIR ${CMAKE_CURRENT_LIST_DIR})
 
-# The MPS2 board carries either processor. Cortex-M0+ code runs on its Cortex-M3, with unaligned access made a fault.
+# The MPS2 board has either processor. Cortex-M0+ code runs on its Cortex-M3, with a fault on every unaligned access.
 set(BRACE_MACHINE_m4f mps2-an386)
 set(BRACE_MACHINE_m3 mps2-an385)
 set(BRACE_MACHINE_m0plus mps2-an385)

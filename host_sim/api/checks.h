@@ -1,4 +1,4 @@
-// What every call asks of its inputs.
+// Checks that every call makes on its inputs.
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,7 @@ inline bool all_finite(const double *values, std::size_t count)
     return true;
 }
 
-// A column that may be left out.
+// A column that may be null.
 inline bool all_finite_if_given(const double *values, std::size_t count)
 {
     return values == nullptr || all_finite(values, count);

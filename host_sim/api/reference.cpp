@@ -52,7 +52,7 @@ brace_host_status_t check(const brace_plant_model_t *model, size_t count, const 
     return all_finite(theta1, count) && all_finite(theta2, count) ? BRACE_HOST_OK : BRACE_HOST_E_NOT_FINITE;
 }
 
-/* A row for every posture, or none: out is untouched when one of them has no K. */
+/* Writes a row for every posture, or none: if one of them has no K, out is untouched. */
 template <size_t Entries, typename RowAt>
 int32_t all_rows(size_t count, double *out, RowAt row_at)
 {

@@ -5,7 +5,7 @@
 
 namespace brace::effects::backlash {
 
-// The part of a deflection beyond the play: what the spring feels.
+// The spring feels only the part of the deflection beyond the play.
 inline double beyond_rad(double deflection_rad, double gap_rad)
 {
     const double half = 0.5 * gap_rad;
@@ -14,18 +14,5 @@ inline double beyond_rad(double deflection_rad, double gap_rad)
     }
     return deflection_rad < -half ? deflection_rad + half : 0.0;
 }
-
-inline void none(Model &model)
-{
-    for (auto &joint : model.joint) {
-        joint.gap_rad = 0.0;
-    }
-}
-
-inline constexpr const char *kLaw = "no torque while the deflection is within +-gap/2, a spring beyond";
-inline constexpr Entry kEntries[] = {
-    {"backlash", "joint.femur", "joint.femur.gap_rad", kLaw},
-    {"backlash", "joint.tibia", "joint.tibia.gap_rad", kLaw},
-};
 
 } // namespace brace::effects::backlash

@@ -1,19 +1,26 @@
-// What the limb stands on moves and turns: displacement = compliance * force, rotation = compliance * moment
+// The base moves and turns: displacement = compliance * force, rotation = compliance * moment
 // about the femur axis.
 #pragma once
+
+#include <Eigen/Core>
 
 #include "effects/effect.h"
 
 namespace brace::effects::base_compliance {
 
-inline void none(Model &model)
+// Tip displacement per tip force; `femur_lever_mm` is the tip's displacement per turn about the femur axis.
+inline Eigen::Matrix2d compliance_mm_per_n(const Model &model, const Eigen::Vector2d &femur_lever_mm)
 {
-    model.base = {0.0, 0.0, 0.0};
+    Eigen::Matrix2d compliance = Eigen::Matrix2d::Zero();
+    compliance.diagonal() << model.base.x_mm_per_n, model.base.z_mm_per_n;
+    compliance += model.base.rotation_rad_per_n_mm * femur_lever_mm * femur_lever_mm.transpose();
+    return compliance;
 }
 
-inline constexpr Entry kEntries[] = {
-    {"base_compliance", "base", "base.x_mm_per_n base.z_mm_per_n base.rotation_rad_per_n_mm",
-     "base displacement = compliance * force; base rotation = compliance * moment about the femur axis"},
-};
+// The reading of a dial gauge against the base.
+inline Eigen::Vector2d shift_mm(const Model &model, const Eigen::Vector2d &force_n)
+{
+    return {model.base.x_mm_per_n * force_n.x(), model.base.z_mm_per_n * force_n.y()};
+}
 
 } // namespace brace::effects::base_compliance

@@ -1,5 +1,5 @@
-// A joint's further, delayed deflection runs after ratio * elastic with one time constant; the elastic
-// deflection is held between readings, so the step is exact.
+// A joint deflects further with delay: the delayed deflection approaches ratio * elastic with one time constant. The
+// elastic deflection stands still between readings, so the step is exact.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace brace::effects::creep {
 
-// Share of the way to its target that the delayed deflection goes in dt.
+// In dt the delayed deflection goes this share of the way to its target.
 inline double approach(double time_constant_s, double dt_s)
 {
     return -std::expm1(-dt_s / time_constant_s);
@@ -18,15 +18,5 @@ inline double delayed_rad(double before_rad, double ratio, double elastic_rad, d
 {
     return before_rad + approach * (ratio * elastic_rad - before_rad);
 }
-
-inline void none(Model &model)
-{
-    model.creep = {0.0, 1.0};
-}
-
-inline constexpr Entry kEntries[] = {
-    {"creep", "creep", "creep.ratio creep.time_constant_s",
-     "delayed' = (ratio * elastic - delayed) / time constant, for each joint"},
-};
 
 } // namespace brace::effects::creep

@@ -1,4 +1,4 @@
-// What every effect's file offers: its law, how to switch it off, and where it may sit in a limb.
+// What the laws of all effects share: the limb's numbers, and the indices of joints and links.
 #pragma once
 
 extern "C" {
@@ -8,7 +8,6 @@ extern "C" {
 namespace brace::effects {
 
 using Model = brace_plant_model_t;
-using Entry = brace_effect_t;
 
 inline constexpr int kCoxa = 0;
 inline constexpr int kFemur = 1;

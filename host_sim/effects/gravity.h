@@ -1,5 +1,5 @@
-// The weights of femur and tibia (at mid-length) and knee load the joints by posture; links and base are not
-// loaded by them.
+// The weights of femur, tibia (both at mid-length) and knee load the joints by posture. They do not load links and
+// base.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,15 +17,5 @@ inline Eigen::Vector2d torques_n_mm(const Model &model, const Eigen::Vector2d &f
     const double at_knee = (0.5 * weight.femur_n + weight.knee_n + weight.tibia_n) * femur_mm.x();
     return {-(at_knee + beyond_knee), -beyond_knee};
 }
-
-inline void none(Model &model)
-{
-    model.gravity = {0.0, 0.0, 0.0};
-}
-
-inline constexpr Entry kEntries[] = {
-    {"gravity", "gravity", "gravity.femur_n gravity.tibia_n gravity.knee_n",
-     "weights at mid-femur, mid-tibia and knee act along -z on the joints"},
-};
 
 } // namespace brace::effects::gravity

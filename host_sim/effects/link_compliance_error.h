@@ -1,5 +1,5 @@
-// A link's compliance ellipsoid: principal compliances of its far end, its axes turned by tilt from the
-// link's. The effect of this name is the ellipsoid being another than the calibration says.
+// A link yields as an ellipsoid: it has principal compliances at the far end, and tilt turns its axes away from the
+// link's. The effect is that the ellipsoid differs from the calibration's.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 
 namespace brace::effects::link_compliance_error {
 
-// Axes of the ellipsoid for a link pointing along `link_axis`: columns are the axial and bending directions.
+// The ellipsoid's axes for a link that points along `link_axis`; the columns are the axial and the bending direction.
 inline Eigen::Matrix2d axes(const Eigen::Vector2d &link_axis, double tilt_rad)
 {
     const double c = std::cos(tilt_rad);
@@ -26,20 +26,5 @@ inline Eigen::Matrix2d compliance(const Eigen::Matrix2d &axes, double axial_mm_p
     return axial_mm_per_n * axes.col(0) * axes.col(0).transpose()
            + bending_mm_per_n * axes.col(1) * axes.col(1).transpose();
 }
-
-inline void none(Model &model)
-{
-    for (auto &link : model.link) {
-        link = {};
-    }
-}
-
-inline constexpr const char *kLaw = "end displacement = compliance ellipsoid * force";
-inline constexpr Entry kEntries[] = {
-    {"link_compliance_error", "link.femur",
-     "link.femur.axial_mm_per_n link.femur.bending_mm_per_n link.femur.tilt_rad", kLaw},
-    {"link_compliance_error", "link.tibia",
-     "link.tibia.axial_mm_per_n link.tibia.bending_mm_per_n link.tibia.tilt_rad", kLaw},
-};
 
 } // namespace brace::effects::link_compliance_error

@@ -19,16 +19,4 @@ inline double rotation_rad_per_n_mm(double bending_mm_per_n, double length_mm, d
     return length_mm > 0.0 ? 3.0 * bending_mm_per_n * strength / (length_mm * length_mm) : 0.0;
 }
 
-inline void none(Model &model)
-{
-    for (auto &link : model.link) {
-        link.moment_transfer_ratio = 0.0;
-    }
-}
-
-inline constexpr Entry kEntries[] = {
-    {"moment_transfer", "link.femur", "link.femur.moment_transfer",
-     "end [deflection; rotation] = [[b, 3b/2L], [3b/2L, 3b/L^2]] [force; moment]"},
-};
-
 } // namespace brace::effects::moment_transfer

@@ -13,15 +13,4 @@ inline Eigen::Vector2d mixed_n(const Model &model, const Eigen::Vector2d &force_
             model.sensor.crosstalk_zx * force_n.x() + force_n.y()};
 }
 
-inline void none(Model &model)
-{
-    model.sensor.crosstalk_xz = 0.0;
-    model.sensor.crosstalk_zx = 0.0;
-}
-
-inline constexpr Entry kEntries[] = {
-    {"sensor_crosstalk", "sensor", "sensor.crosstalk_xz sensor.crosstalk_zx",
-     "reading = [[1, xz], [zx, 1]] * force"},
-};
-
 } // namespace brace::effects::sensor_crosstalk

@@ -12,15 +12,4 @@ inline Eigen::Vector2d offset_n(const Model &model, double t_s)
     return t_s * Eigen::Vector2d(model.sensor.drift_x_n_per_s, model.sensor.drift_z_n_per_s);
 }
 
-inline void none(Model &model)
-{
-    model.sensor.drift_x_n_per_s = 0.0;
-    model.sensor.drift_z_n_per_s = 0.0;
-}
-
-inline constexpr Entry kEntries[] = {
-    {"sensor_drift", "sensor", "sensor.drift_x_n_per_s sensor.drift_z_n_per_s",
-     "reading = force + drift * t"},
-};
-
 } // namespace brace::effects::sensor_drift

@@ -12,13 +12,4 @@ inline Eigen::Vector2d scaled_n(const Model &model, const Eigen::Vector2d &force
     return model.sensor.gain * force_n;
 }
 
-inline void none(Model &model)
-{
-    model.sensor.gain = 1.0;
-}
-
-inline constexpr Entry kEntries[] = {
-    {"sensor_gain", "sensor", "sensor.gain", "reading = gain * force"},
-};
-
 } // namespace brace::effects::sensor_gain

@@ -15,13 +15,4 @@ inline Eigen::Vector2d turned_n(const Model &model, const Eigen::Vector2d &force
     return {c * force_n.x() - s * force_n.y(), s * force_n.x() + c * force_n.y()};
 }
 
-inline void none(Model &model)
-{
-    model.sensor.rotation_rad = 0.0;
-}
-
-inline constexpr Entry kEntries[] = {
-    {"sensor_rotation", "sensor", "sensor.rotation_rad", "reading = [[cos, -sin], [sin, cos]] * force"},
-};
-
 } // namespace brace::effects::sensor_rotation

@@ -1,8 +1,7 @@
-// The sensor's axes end: readings are clipped to +-limit, after everything else.
+// The sensor clips what each axis reads to +-limit, after everything else.
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 
 #include "effects/effect.h"
 
@@ -13,14 +12,5 @@ inline Eigen::Vector2d clipped_n(const Model &model, const Eigen::Vector2d &read
     const double limit = model.sensor.saturation_n;
     return reading_n.cwiseMin(limit).cwiseMax(-limit);
 }
-
-inline void none(Model &model)
-{
-    model.sensor.saturation_n = std::numeric_limits<double>::infinity();
-}
-
-inline constexpr Entry kEntries[] = {
-    {"sensor_saturation", "sensor", "sensor.saturation_n", "each axis of the reading within +-limit"},
-};
 
 } // namespace brace::effects::sensor_saturation

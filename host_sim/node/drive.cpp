@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace brace::node
@@ -9,8 +10,10 @@ namespace brace::node
 namespace
 {
 
-using Eigen::Matrix2d;
-using Eigen::Vector2d;
+template <int N>
+using Vector = Eigen::Matrix<double, N, 1>;
+template <int N>
+using Matrix = Eigen::Matrix<double, N, N>;
 
 constexpr int kSweeps = 60;
 
@@ -21,13 +24,17 @@ double damping(const brace_node_drive_t &drive)
                : drive.servo_n_mm_s_per_rad;
 }
 
-// The speeds v of least 1/2 v'Mv - b'v + sum rub |v|: M v = b with dry friction, each joint in turn.
-Vector2d speeds_with_friction(const Matrix2d &inertia, const Vector2d &impulse, const Vector2d &rub)
+// Finds the speeds v that make 1/2 v'Mv - b'v + sum rub |v| least: M v = b with dry friction, one joint after another.
+template <int N>
+Vector<N> speeds_with_friction(const Matrix<N> &inertia, const Vector<N> &impulse, const Vector<N> &rub)
 {
-    Vector2d speed = inertia.inverse() * impulse;
+    Vector<N> speed = inertia.inverse() * impulse;
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
-        for (const int i : {0, 1}) {
-            const double pushed = impulse[i] - inertia(i, 1 - i) * speed[1 - i];
+        for (int i = 0; i < N; ++i) {
+            double pushed = impulse[i];
+            for (int other = 0; other < N; ++other) {
+                pushed -= other != i ? inertia(i, other) * speed[other] : 0.0;
+            }
             speed[i] = std::copysign(std::max(std::fabs(pushed) - rub[i], 0.0), pushed) / inertia(i, i);
         }
     }
@@ -36,36 +43,36 @@ Vector2d speeds_with_friction(const Matrix2d &inertia, const Vector2d &impulse, 
 
 } // namespace
 
-void step_motors(const std::array<const brace_node_drive_t *, 2> &drive, double dt_s, const Vector2d &set_rad,
-                 const Vector2d &load_n_mm, const Matrix2d &stiffness_n_mm_per_rad,
-                 std::array<Motor, 2> &motor)
+template <int N>
+void step_motors(const brace_node_drive_t *drive, double dt_s, const Vector<N> &set_rad, const Vector<N> &load_n_mm,
+                 const Matrix<N> &stiffness_n_mm_per_rad, Motor *motor)
 {
-    std::array<bool, 2> limited{};
-    Vector2d speed;
-    for (int pass = 0; pass < 3; ++pass) { // a torque at its limit is a constant: found, then solved again
-        Matrix2d inertia = dt_s * dt_s * stiffness_n_mm_per_rad;
-        Vector2d impulse, rub;
-        for (const int i : {0, 1}) {
-            const double p = drive[i]->servo_n_mm_per_rad;
-            inertia(i, i) += drive[i]->inertia_n_mm_s2_per_rad;
-            impulse[i] = drive[i]->inertia_n_mm_s2_per_rad * motor[i].speed_rad_per_s - dt_s * load_n_mm[i];
-            rub[i] = dt_s * drive[i]->friction_n_mm;
+    std::array<bool, N> limited{};
+    Vector<N> speed;
+    for (int pass = 0; pass <= N; ++pass) { // a torque at its limit is a constant, so solve again
+        Matrix<N> inertia = dt_s * dt_s * stiffness_n_mm_per_rad;
+        Vector<N> impulse, rub;
+        for (int i = 0; i < N; ++i) {
+            const double p = drive[i].servo_n_mm_per_rad;
+            inertia(i, i) += drive[i].inertia_n_mm_s2_per_rad;
+            impulse[i] = drive[i].inertia_n_mm_s2_per_rad * motor[i].speed_rad_per_s - dt_s * load_n_mm[i];
+            rub[i] = dt_s * drive[i].friction_n_mm;
             if (limited[i]) {
                 impulse[i] += dt_s * motor[i].torque_n_mm;
             } else {
-                inertia(i, i) += dt_s * (damping(*drive[i]) + dt_s * p);
+                inertia(i, i) += dt_s * (damping(drive[i]) + dt_s * p);
                 impulse[i] += dt_s * p * (set_rad[i] - motor[i].angle_rad);
             }
         }
-        speed = speeds_with_friction(inertia, impulse, rub);
+        speed = speeds_with_friction<N>(inertia, impulse, rub);
         bool again = false;
-        for (const int i : {0, 1}) {
+        for (int i = 0; i < N; ++i) {
             if (limited[i]) {
                 continue;
             }
             const double wanted =
-                drive[i]->servo_n_mm_per_rad * (set_rad[i] - motor[i].angle_rad - dt_s * speed[i])
-                - damping(*drive[i]) * speed[i];
+                drive[i].servo_n_mm_per_rad * (set_rad[i] - motor[i].angle_rad - dt_s * speed[i])
+                - damping(drive[i]) * speed[i];
             motor[i].torque_n_mm = std::clamp(wanted, -motor[i].limit_n_mm, motor[i].limit_n_mm);
             limited[i] = motor[i].torque_n_mm != wanted;
             again |= limited[i];
@@ -74,10 +81,15 @@ void step_motors(const std::array<const brace_node_drive_t *, 2> &drive, double 
             break;
         }
     }
-    for (const int i : {0, 1}) {
+    for (int i = 0; i < N; ++i) {
         motor[i].speed_rad_per_s = speed[i];
         motor[i].angle_rad += dt_s * speed[i];
     }
 }
+
+template void step_motors<1>(const brace_node_drive_t *, double, const Vector<1> &, const Vector<1> &,
+                             const Matrix<1> &, Motor *);
+template void step_motors<2>(const brace_node_drive_t *, double, const Vector<2> &, const Vector<2> &,
+                             const Matrix<2> &, Motor *);
 
 } // namespace brace::node

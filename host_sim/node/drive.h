@@ -1,9 +1,8 @@
-// The two servos of the limb's plane: P and D on the motor's angle, inertia, dry friction, bounded torque.
-// Implicit Euler: stable whatever stands behind the motors, and friction holds exactly.
+// The servos of joints that load one another: P and D on the motor's angle, inertia, dry friction, bounded torque.
+// Implicit Euler keeps it stable whatever the motors drive, and holds a motor exactly where friction holds it.
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 
 extern "C" {
 #include "api/brace_node.h"
@@ -16,13 +15,15 @@ struct Motor {
     double angle_rad = 0.0;
     double speed_rad_per_s = 0.0;
     double torque_n_mm = 0.0;
-    double limit_n_mm = 0.0; // of the torque, now
+    double limit_n_mm = 0.0; // present limit of the torque
 };
 
-// One step. load_n_mm: torque that each motor has to bring to what hangs on it, at the angles now;
-// stiffness_n_mm_per_rad: how it grows with the angles, at most.
-void step_motors(const std::array<const brace_node_drive_t *, 2> &drive, double dt_s,
-                 const Eigen::Vector2d &set_rad, const Eigen::Vector2d &load_n_mm,
-                 const Eigen::Matrix2d &stiffness_n_mm_per_rad, std::array<Motor, 2> &motor);
+// One step of the motors of N joints: 2 in the limb's plane, 1 across it. drive and motor have N entries each.
+//   load_n_mm: torque that each motor has to bring to its link, at the present angles
+//   stiffness_n_mm_per_rad: the largest change of that torque with the angles
+template <int N>
+void step_motors(const brace_node_drive_t *drive, double dt_s, const Eigen::Matrix<double, N, 1> &set_rad,
+                 const Eigen::Matrix<double, N, 1> &load_n_mm,
+                 const Eigen::Matrix<double, N, N> &stiffness_n_mm_per_rad, Motor *motor);
 
 } // namespace brace::node

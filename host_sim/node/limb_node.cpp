@@ -8,6 +8,7 @@
 #include "plant/sensor.h"
 
 extern "C" {
+#include "brace/app_memory.h"
 #include "brace/store.h"
 }
 
@@ -17,12 +18,13 @@ namespace
 {
 
 using Eigen::Vector2d;
+using Scalar = Eigen::Matrix<double, 1, 1>; // of one joint alone
 
-constexpr double kStep_s = 1e-3;                   // of the motors, at most
+constexpr double kStep_s = 1e-3;                   // longest step of the motors
 constexpr int kSettleSteps = 1000;                 // before the controller starts
 constexpr std::uint64_t kCommandHolds_us = 100000; // brace_hal.h, joint_command
 constexpr double kCommandFades_rad_per_s = 0.1;
-constexpr std::uint32_t kPatience_us = 4000000; // of the watchdog
+constexpr std::uint32_t kPatience_us = 4000000; // time that the watchdog waits
 constexpr double kDefaultLate_ms = 5.0;
 constexpr int kStoreSteps = 100000;
 
@@ -39,13 +41,14 @@ LimbNode::LimbNode(const brace_node_limb_t &limb, std::uint64_t seed)
     : plant_(limb.plant), drive_{limb.drive[0], limb.drive[1], limb.drive[2]},
       force_noise_n_(limb.force_noise_n), temp_start_degc_(limb.temp_start_degc),
       temp_rise_degc_(limb.temp_rise_degc), temp_time_constant_s_(limb.temp_time_constant_s),
-      has_link_encoder_(limb.has_link_encoder != 0), hold_n_per_mm_(limb.hold_n_per_mm), noise_(seed),
-      limb_(plant_), app_(std::make_unique<brace_app_t>())
+      has_link_encoder_(limb.has_link_encoder != 0), has_coxa_joint_(node::has_coxa_joint(limb.plant)),
+      hold_n_per_mm_(limb.hold_n_per_mm), noise_(seed), limb_(plant_), chain_(plant_),
+      app_(std::make_unique<brace_app_t>())
 {
     setpoints.start({limb.theta_rad[0], limb.theta_rad[1], limb.theta_rad[2]});
-    for (const int i : {0, 1}) {
-        motor_[i].angle_rad = limb.theta_rad[i + 1];
-        motor_[i].limit_n_mm = drive_[i + 1].torque_range_n_mm;
+    for (std::size_t i = 0; i < motor_.size(); ++i) {
+        motor_[i].angle_rad = limb.theta_rad[i];
+        motor_[i].limit_n_mm = drive_[i].torque_range_n_mm;
     }
     brace_posix_init(&posix_);
     posix_.time_is_given = true;
@@ -85,9 +88,11 @@ brace_node_failure_t LimbNode::open(const brace_node_limb_t &limb, brace_posix_b
     if (!store_block(limb, memory_is_new, failure)) {
         return failure;
     }
-    limb_.take_hold({motor_[0].angle_rad, motor_[1].angle_rad}, hold_n_per_mm_,
-                    {limb.press_x_mm, limb.press_z_mm}, 0.0, temp_degc(0.0));
-    if (!limb_.settle({motor_[0].angle_rad, motor_[1].angle_rad}, 0.0, temp_degc(0.0), pressed_)) {
+    take_hold(hold_n_per_mm_, limb.press);
+    const bool rests = limb_.settle(plane_motors_rad(), 0.0, temp_degc(0.0), pressed_)
+                       && (!has_coxa_joint_
+                           || chain_.settle(motor_[0].angle_rad, plane_posture(), 0.0, temp_degc(0.0), across_));
+    if (!rests) {
         return {BRACE_NODE_PART_LIMB, BRACE_HOST_E_SINGULAR, 0, 0};
     }
     for (int i = 0; i < kSettleSteps; ++i) {
@@ -98,7 +103,7 @@ brace_node_failure_t LimbNode::open(const brace_node_limb_t &limb, brace_posix_b
     return {};
 }
 
-// Through the controller's own store: what its start finds is what an update would have left.
+// Stores the block through the controller's own store, so that its start finds what an update would have left.
 bool LimbNode::store_block(const brace_node_limb_t &limb, bool memory_is_new, brace_node_failure_t &failure)
 {
     if (limb.block == nullptr || (!memory_is_new && limb.block_replaces == 0)) {
@@ -179,9 +184,7 @@ void LimbNode::follow_faults()
     const bool tip_is_lost = faults.is_on(BRACE_NODE_FAULT_TIP_LOST);
     if (tip_is_lost != tip_was_lost_) {
         tip_was_lost_ = tip_is_lost;
-        limb_.take_hold({motor_[0].angle_rad, motor_[1].angle_rad}, tip_is_lost ? 0.0 : hold_n_per_mm_,
-                        Vector2d::Zero(), 1e-6 * static_cast<double>(now_us_),
-                        temp_degc(1e-6 * static_cast<double>(now_us_)));
+        take_hold(tip_is_lost ? 0.0 : hold_n_per_mm_, {});
     }
     const bool crashes = faults.is_on(BRACE_NODE_FAULT_CRASH) && !has_crashed_;
     has_crashed_ = faults.is_on(BRACE_NODE_FAULT_CRASH);
@@ -190,39 +193,55 @@ void LimbNode::follow_faults()
     }
 }
 
-void LimbNode::hold(double hold_n_per_mm, double press_x_mm, double press_z_mm)
+void LimbNode::hold(double hold_n_per_mm, const brace_node_press_t &press)
 {
-    const double t_s = 1e-6 * static_cast<double>(now_us_);
     hold_n_per_mm_ = hold_n_per_mm;
-    limb_.take_hold({motor_[0].angle_rad, motor_[1].angle_rad}, hold_n_per_mm, {press_x_mm, press_z_mm}, t_s,
-                    temp_degc(t_s));
+    take_hold(hold_n_per_mm, press);
 }
 
-// A command that is not repeated fades, as brace_hal.h says.
-Vector2d LimbNode::set_rad() const
+void LimbNode::take_hold(double hold_n_per_mm, const brace_node_press_t &press)
 {
-    Vector2d set;
-    for (const int i : {0, 1}) {
-        set[i] = setpoints.now_rad()[static_cast<std::size_t>(i) + 1] + command_[i].offset_rad;
+    limb_.take_hold(plane_motors_rad(), hold_n_per_mm, {press.x_mm, press.z_mm}, now_s(), temp_degc(now_s()));
+    chain_.take_hold(motor_[0].angle_rad, hold_n_per_mm, press.y_mm, now_s());
+}
+
+double LimbNode::set_rad(std::size_t joint) const
+{
+    return setpoints.now_rad()[joint] + command_[joint].offset_rad;
+}
+
+PlanePosture LimbNode::plane_posture() const
+{
+    const Vector2d unbent = limb_.unbent_rad(plane_motors_rad());
+    return {unbent[0], unbent[1]};
+}
+
+// A command that is not repeated fades out, as brace_hal.h says.
+void LimbNode::follow_command(std::size_t joint, double dt_s)
+{
+    Command &command = command_[joint];
+    const double range = drive_[joint].torque_range_n_mm;
+    if (command.given && now_us_ - command.since_us > kCommandHolds_us) {
+        const double most = dt_s * kCommandFades_rad_per_s;
+        command.offset_rad -= std::clamp(command.offset_rad, -most, most);
+        command.limit_n_mm = range;
     }
-    return set;
+    motor_[joint].limit_n_mm = command.given ? std::min(range, command.limit_n_mm) : range;
 }
 
 void LimbNode::move_limb(double t_s, double dt_s)
 {
-    for (const int i : {0, 1}) {
-        Command &command = command_[i];
-        const double range = drive_[static_cast<std::size_t>(i) + 1].torque_range_n_mm;
-        if (command.given && now_us_ - command.since_us > kCommandHolds_us) {
-            const double most = dt_s * kCommandFades_rad_per_s;
-            command.offset_rad -= std::clamp(command.offset_rad, -most, most);
-            command.limit_n_mm = range;
-        }
-        motor_[i].limit_n_mm = command.given ? std::min(range, command.limit_n_mm) : range;
+    for (std::size_t i = 0; i < motor_.size(); ++i) {
+        follow_command(i, dt_s);
     }
-    step_motors({&drive_[1], &drive_[2]}, dt_s, set_rad(), pressed_.load_n_mm,
-                pressed_.stiffness_n_mm_per_rad, motor_);
-    (void)limb_.settle({motor_[0].angle_rad, motor_[1].angle_rad}, t_s, temp_degc(t_s), pressed_);
+    step_motors<2>(&drive_[1], dt_s, {set_rad(1), set_rad(2)}, pressed_.load_n_mm, pressed_.stiffness_n_mm_per_rad,
+                   &motor_[1]);
+    (void)limb_.settle(plane_motors_rad(), t_s, temp_degc(t_s), pressed_);
+    if (has_coxa_joint_) {
+        step_motors<1>(&drive_[0], dt_s, Scalar(set_rad(0)), Scalar(across_.load_n_mm),
+                       Scalar(across_.stiffness_n_mm_per_rad), &motor_[0]);
+        (void)chain_.settle(motor_[0].angle_rad, plane_posture(), t_s, temp_degc(t_s), across_);
+    }
 }
 
 double LimbNode::temp_degc(double t_s) const
@@ -230,28 +249,32 @@ double LimbNode::temp_degc(double t_s) const
     return temp_start_degc_ + temp_rise_degc_ * (1.0 - std::exp(-t_s / temp_time_constant_s_));
 }
 
-// ------------------------------------------------------------------------------------------- what is read
+// ------------------------------------------------------------------------------------------------- readings
+
+std::array<double, 3> LimbNode::true_angles_rad() const
+{
+    return {has_coxa_joint_ ? across_.link_rad : motor_[0].angle_rad, pressed_.link_rad[0], pressed_.link_rad[1]};
+}
 
 void LimbNode::sample()
 {
-    const double t_s = 1e-6 * static_cast<double>(now_us_);
-    for (int joint = 0; joint < 3; ++joint) {
+    const double t_s = now_s();
+    const std::array<double, 3> link_rad = true_angles_rad();
+    for (int joint = 0; joint < 3; ++joint) { // noise is drawn for a joint that is not fitted, too: the others' stays
         const brace_node_drive_t &drive = drive_[static_cast<std::size_t>(joint)];
-        const bool moves = joint > 0; // the coxa stands
-        const double motor_rad = moves ? motor_[joint - 1].angle_rad : setpoints.now_rad()[0];
-        const double torque_n_mm = moves ? motor_[joint - 1].torque_n_mm : 0.0;
-        const double link_rad = moves ? pressed_.link_rad[joint - 1] : motor_rad;
+        const Motor &motor = motor_[static_cast<std::size_t>(joint)];
         const double *offset_n_mm = faults.value(BRACE_NODE_FAULT_CURRENT_OFFSET, joint);
-        const double read_n_mm = torque_n_mm + drive.torque_bias_n_mm
+        const double read_n_mm = motor.torque_n_mm + drive.torque_bias_n_mm
                                  + drive.torque_noise_n_mm * noise_.normal()
                                  + (offset_n_mm != nullptr ? *offset_n_mm : 0.0);
         brace_hal_joint_t &read = sample_[static_cast<std::size_t>(joint)];
         const double step_rad = drive.angle_step_rad;
         if (!faults.is_on(BRACE_NODE_FAULT_ENCODER_STUCK, joint)) {
-            read.motor_rad = static_cast<float>(step_rad * std::round(motor_rad / step_rad));
+            read.motor_rad = static_cast<float>(step_rad * std::round(motor.angle_rad / step_rad));
         }
         read.torque_n_mm = static_cast<float>(read_n_mm);
-        read.link_rad = has_link_encoder_ ? static_cast<float>(step_rad * std::round(link_rad / step_rad))
+        const double behind_gear_rad = link_rad[static_cast<std::size_t>(joint)];
+        read.link_rad = has_link_encoder_ ? static_cast<float>(step_rad * std::round(behind_gear_rad / step_rad))
                                           : std::numeric_limits<float>::quiet_NaN();
         read.temp_degc = static_cast<float>(temp_degc(t_s));
         read.taken_us = static_cast<std::uint32_t>(now_us_);
@@ -265,10 +288,16 @@ void LimbNode::sample()
     }
 }
 
+// A limb in which nothing yields across its plane has no coxa joint.
+bool LimbNode::is_fitted(std::int32_t joint_index) const
+{
+    return joint_index >= (has_coxa_joint_ ? 0 : 1) && joint_index <= 2;
+}
+
 std::int32_t LimbNode::joint_read(void *context, std::int32_t joint_index, brace_hal_joint_t *joint)
 {
     const LimbNode &node = *static_cast<LimbNode *>(context);
-    if (joint_index < 0 || joint_index > 2) {
+    if (!node.is_fitted(joint_index)) {
         return BRACE_HAL_E_UNSUPPORTED;
     }
     if (node.faults.is_on(BRACE_NODE_FAULT_SENSOR_DEAD, joint_index)) {
@@ -285,17 +314,15 @@ std::int32_t LimbNode::joint_command(void *context, std::int32_t joint_index,
                                      const brace_hal_joint_command_t *command)
 {
     LimbNode &node = *static_cast<LimbNode *>(context);
-    if (joint_index < 0 || joint_index > 2) {
+    if (!node.is_fitted(joint_index)) {
         return BRACE_HAL_E_UNSUPPORTED;
     }
     if (!std::isfinite(command->offset_rad) || !(command->torque_limit_n_mm >= 0.0f)) {
         return BRACE_HAL_E_RANGE;
     }
-    if (joint_index > 0) {
-        node.command_[static_cast<std::size_t>(joint_index) - 1] = {
-            static_cast<double>(command->offset_rad), static_cast<double>(command->torque_limit_n_mm),
-            node.now_us_, true};
-    }
+    node.command_[static_cast<std::size_t>(joint_index)] = {static_cast<double>(command->offset_rad),
+                                                            static_cast<double>(command->torque_limit_n_mm),
+                                                            node.now_us_, true};
     return BRACE_HAL_OK;
 }
 
@@ -313,20 +340,23 @@ std::int32_t LimbNode::tip_force_read(void *context, float *force_x_n, float *fo
 brace_node_truth_t LimbNode::truth() const
 {
     brace_node_truth_t truth{};
-    const Vector2d set = set_rad();
-    truth.set_rad[0] = truth.motor_rad[0] = truth.link_rad[0] = setpoints.now_rad()[0];
-    for (const int i : {0, 1}) {
-        truth.set_rad[i + 1] = set[i];
-        truth.motor_rad[i + 1] = motor_[i].angle_rad;
-        truth.link_rad[i + 1] = pressed_.link_rad[i];
-        truth.torque_n_mm[i + 1] = motor_[i].torque_n_mm;
-        truth.load_n_mm[i + 1] = pressed_.load_n_mm[i];
-        truth.flank[i + 1] = pressed_.flank[i];
+    const std::array<double, 3> link_rad = true_angles_rad();
+    const std::array<double, 3> load_n_mm = {across_.load_n_mm, pressed_.load_n_mm[0], pressed_.load_n_mm[1]};
+    const std::array<int, 3> flank = {across_.flank, pressed_.flank[0], pressed_.flank[1]};
+    for (std::size_t i = 0; i < motor_.size(); ++i) {
+        truth.set_rad[i] = set_rad(i);
+        truth.motor_rad[i] = motor_[i].angle_rad;
+        truth.torque_n_mm[i] = motor_[i].torque_n_mm;
+        truth.link_rad[i] = link_rad[i];
+        truth.load_n_mm[i] = load_n_mm[i];
+        truth.flank[i] = flank[i];
     }
+    truth.has_coxa_joint = has_coxa_joint_ ? 1 : 0;
+    truth.force_y_n = across_.force_n;
     truth.force_x_n = pressed_.force_n.x();
     truth.force_z_n = pressed_.force_n.y();
-    truth.temp_degc = temp_degc(1e-6 * static_cast<double>(now_us_));
-    truth.solved = pressed_.solved;
+    truth.temp_degc = temp_degc(now_s());
+    truth.solved = pressed_.solved && across_.solved;
     return truth;
 }
 

@@ -1,10 +1,11 @@
-// One controller with the limb that it believes to have: firmware/app over hal/posix, its joints and sensors
-// simulated.
+// One controller and its limb: firmware/app with hal/posix, and simulated joints and sensors.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 
+#include "node/coxa_chain.h"
 #include "node/drive.h"
 #include "node/pressed_limb.h"
 #include "node/script.h"
@@ -29,11 +30,12 @@ public:
     brace_node_failure_t open(const brace_node_limb_t &limb, brace_posix_bus_t *bus);
 
     std::uint64_t due_us() const { return due_us_; }
-    void tick(std::uint64_t now_us); // limb and controller, from the last tick to now
+    void tick(std::uint64_t now_us); // advances limb and controller from the last tick to now
     void poll() { brace_posix_poll(&posix_); }
     void restart(brace_reset_cause_t cause);
 
-    void hold(double hold_n_per_mm, double press_x_mm, double press_z_mm);
+    void hold(double hold_n_per_mm, const brace_node_press_t &press);
+    bool has_coxa_joint() const { return has_coxa_joint_; }
 
     Setpoints setpoints;
     Faults faults;
@@ -60,20 +62,29 @@ private:
     bool store_block(const brace_node_limb_t &limb, bool memory_is_new, brace_node_failure_t &failure);
     void follow_faults();
     void move_limb(double t_s, double dt_s);
+    void take_hold(double hold_n_per_mm, const brace_node_press_t &press);
     void sample();
-    Eigen::Vector2d set_rad() const;
+    void follow_command(std::size_t joint, double dt_s);
+    std::array<double, 3> true_angles_rad() const;
+    bool is_fitted(std::int32_t joint_index) const;
+    Eigen::Vector2d plane_motors_rad() const { return {motor_[1].angle_rad, motor_[2].angle_rad}; }
+    PlanePosture plane_posture() const;
+    double set_rad(std::size_t joint) const;
+    double now_s() const { return 1e-6 * static_cast<double>(now_us_); }
     double temp_degc(double t_s) const;
 
     const brace_plant_model_t plant_;
     const std::array<brace_node_drive_t, 3> drive_;
     const double force_noise_n_, temp_start_degc_, temp_rise_degc_, temp_time_constant_s_;
-    const bool has_link_encoder_;
+    const bool has_link_encoder_, has_coxa_joint_;
     double hold_n_per_mm_;
     rig::Noise noise_;
     PressedLimb limb_;
     Pressed pressed_;
-    std::array<Motor, 2> motor_;
-    std::array<Command, 2> command_;
+    CoxaChain chain_; // the chain across the plane and its rest state `across_`, only where there is a coxa joint
+    Across across_;
+    std::array<Motor, 3> motor_; // coxa, femur, tibia, as everything per joint here
+    std::array<Command, 3> command_;
     std::array<brace_hal_joint_t, 3> sample_{};
     std::array<float, 2> force_sample_n_{};
     bool tip_was_lost_ = false, has_crashed_ = false;

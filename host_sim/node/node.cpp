@@ -1,4 +1,4 @@
-// The C surface of a node: its limbs, their bus, and the time they share.
+// The C interface of a node: its limbs, their bus, and their common time.
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
@@ -57,8 +57,8 @@ struct brace_node {
         }
     }
 
-    // All limbs that are due, and the world outside before and after them: an answer leaves with the tick
-    // that made it.
+    // Runs all limbs that are due, and serves the outside before and after them. So an answer leaves with the tick that
+    // made it.
     void advance_to(std::uint64_t time_us)
     {
         const std::lock_guard<std::mutex> held(lock);
@@ -91,13 +91,17 @@ bool is_sound(const brace_node_drive_t &drive)
            && in_range(drive.rate_rad_per_s, 1e-6, 100.0);
 }
 
+bool is_sound(const brace_node_press_t &press)
+{
+    return in_range(press.x_mm, -1e3, 1e3) && in_range(press.y_mm, -1e3, 1e3) && in_range(press.z_mm, -1e3, 1e3);
+}
+
 std::int32_t fault_of(const brace_node_limb_t &limb)
 {
     if (brace::plant::first_fault(limb.plant) != nullptr) {
         return BRACE_HOST_E_PARAMETER;
     }
-    bool sound = limb.hold_n_per_mm >= 0.0 && in_range(limb.press_x_mm, -1e3, 1e3)
-                 && in_range(limb.press_z_mm, -1e3, 1e3) && in_range(limb.force_noise_n, 0.0, 1e6)
+    bool sound = limb.hold_n_per_mm >= 0.0 && is_sound(limb.press) && in_range(limb.force_noise_n, 0.0, 1e6)
                  && in_range(limb.temp_start_degc, -273.15, 1e3) && in_range(limb.temp_rise_degc, -1e3, 1e3)
                  && limb.temp_time_constant_s > 0.0 && std::isfinite(limb.temp_time_constant_s);
     for (int i = 0; i < 3; ++i) {
@@ -254,15 +258,14 @@ extern "C" int32_t brace_node_posture(brace_node_t *node, int32_t limb, double a
 }
 
 extern "C" int32_t brace_node_contact(brace_node_t *node, int32_t limb, double hold_n_per_mm,
-                                      double press_x_mm, double press_z_mm)
+                                      const brace_node_press_t *press)
 {
     LimbNode *one = node != nullptr ? node->limb(limb) : nullptr;
-    if (one == nullptr || !(hold_n_per_mm >= 0.0) || !in_range(press_x_mm, -1e3, 1e3)
-        || !in_range(press_z_mm, -1e3, 1e3)) {
+    if (one == nullptr || press == nullptr || !(hold_n_per_mm >= 0.0) || !is_sound(*press)) {
         return BRACE_HOST_E_RANGE;
     }
     const std::lock_guard<std::mutex> held(node->lock);
-    one->hold(hold_n_per_mm, press_x_mm, press_z_mm);
+    one->hold(hold_n_per_mm, *press);
     return BRACE_HOST_OK;
 }
 
@@ -272,7 +275,7 @@ extern "C" int32_t brace_node_fault(brace_node_t *node, int32_t limb, int32_t fa
     LimbNode *one = node != nullptr ? node->limb(limb) : nullptr;
     if (one == nullptr || fault < 0 || fault >= BRACE_NODE_FAULT_COUNT || !std::isfinite(value)
         || !(at_s >= 0.0) || !(for_s >= 0.0)
-        || (brace::node::is_of_a_joint(fault) && (joint < 0 || joint > 2))
+        || (brace::node::is_of_a_joint(fault) && (joint < (one->has_coxa_joint() ? 0 : 1) || joint > 2))
         || (fault == BRACE_NODE_FAULT_TICK_LATE && !in_range(value, 0.0, 1e4))) {
         return BRACE_HOST_E_RANGE;
     }

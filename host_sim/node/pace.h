@@ -1,4 +1,4 @@
-// The wall clock's pace: sleeping until a time, and giving up what cannot be caught up with.
+// Keeps pace with the wall clock: sleeps until a time, and gives up time that cannot be caught up.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ class Pace
 public:
     void start(std::uint64_t sim_us);
 
-    // Returns when the wall clock has come to this time of the simulation, at once when it is past.
+    // Returns when the wall clock has reached this time of the simulation, or at once when that time is past.
     void wait_for(std::uint64_t sim_us);
 
     std::uint32_t late_wakes() const { return late_wakes_; }
@@ -24,7 +24,7 @@ private:
     std::uint64_t worst_late_us_ = 0, slipped_us_ = 0;
 };
 
-// No signal is delivered to this thread while it lives: they are for whoever waits for it.
+// Blocks all signals in this thread while it lives, because another thread waits for them.
 class SignalsBlocked
 {
 public:

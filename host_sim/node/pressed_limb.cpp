@@ -1,10 +1,11 @@
 #include "node/pressed_limb.h"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
 
 #include "effects/joint_zero_offset.h"
+#include "node/contact.h"
+#include "node/coxa_chain.h"
 #include "plant/joint_law.h"
 #include "plant/structure.h"
 
@@ -16,17 +17,21 @@ namespace
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-// A free tip is held by next to nothing: 1e-3 N a metre.
-constexpr double kFree_n_per_mm = 1e-6;
 constexpr double kSense[] = {1.0, -1.0}; // of theta1 and theta2, counter-clockwise being positive
-constexpr double kOpen_n_mm = 1e-3;      // a gap that carries less is open
-constexpr double kSmallestShare = 1e-12; // of compliance, so that a rigid direction has a stiffness
+constexpr double kSmallestShare = 1e-12; // share of compliance that gives a rigid direction a stiffness
+
+// A coxa link yields in the plane as a part of the base does, and points along x.
+Vector2d coxa_link_mm_per_n(const plant::Model &model)
+{
+    const auto &link = model.link[effects::kCoxa];
+    return has_coxa_joint(model) ? Vector2d(link.axial_mm_per_n, link.bending_mm_per_n) : Vector2d(0.0, 0.0);
+}
 
 } // namespace
 
 PressedLimb::PressedLimb(const plant::Model &model)
-    : model_(model), base_x_mm_per_n_(model.base.x_mm_per_n), base_z_mm_per_n_(model.base.z_mm_per_n),
-      state_(model_)
+    : model_(model), base_x_mm_per_n_(model.base.x_mm_per_n + coxa_link_mm_per_n(model).x()),
+      base_z_mm_per_n_(model.base.z_mm_per_n + coxa_link_mm_per_n(model).y()), state_(model_)
 {
 }
 
@@ -47,13 +52,12 @@ Vector2d PressedLimb::tip_mm(const Vector2d &motor_rad) const
 void PressedLimb::take_hold(const Vector2d &motor_rad, double hold_n_per_mm, const Vector2d &press_mm,
                             double t_s, double temp_degc)
 {
-    const double yields_mm_per_n =
-        std::isinf(hold_n_per_mm) ? 0.0 : 1.0 / std::max(hold_n_per_mm, kFree_n_per_mm);
+    const double yields_mm_per_n = contact_yields_mm_per_n(hold_n_per_mm);
     model_.base.x_mm_per_n = base_x_mm_per_n_ + yields_mm_per_n;
     model_.base.z_mm_per_n = base_z_mm_per_n_ + yields_mm_per_n;
     anchor_mm_ = tip_mm(motor_rad) + press_mm;
     (void)state_.move_to(motor_rad[0] + 1.0, motor_rad[1], t_s,
-                         temp_degc); // what it keeps of the posture is old
+                         temp_degc); // its stored posture is old
     sound_ = state_.move_to(motor_rad[0], motor_rad[1], t_s, temp_degc);
     state_.start_run(false);
 }
@@ -75,8 +79,7 @@ bool PressedLimb::settle(const Vector2d &motor_rad, double t_s, double temp_degc
         const double torque = structure.lever_mm[i].dot(rest.force_n) + structure.gravity_n_mm[i];
         pressed.load_n_mm[i] = -kSense[i] * torque;
         pressed.link_rad[i] = unbent[i] + kSense[i] * rest.joint_deflection_rad[i];
-        const bool carries = law.gap_rad == 0.0 || std::fabs(torque) > law.coulomb_n_mm + kOpen_n_mm;
-        pressed.flank[i] = carries ? (pressed.load_n_mm[i] > 0.0) - (pressed.load_n_mm[i] < 0.0) : 0;
+        pressed.flank[i] = flank_that_carries(law, pressed.load_n_mm[i]);
         lever.col(i) = kSense[i] * structure.lever_mm[i];
         compliance += law.compliance_rad_per_n_mm * structure.lever_mm[i] * structure.lever_mm[i].transpose();
     }

@@ -11,11 +11,11 @@ namespace brace::node
 
 // Joint senses: theta1 counter-clockwise, theta2 the knee's flexion. [0] femur, [1] tibia.
 struct Pressed {
-    Eigen::Vector2d force_n = Eigen::Vector2d::Zero();   // of the contact on the tip
-    Eigen::Vector2d load_n_mm = Eigen::Vector2d::Zero(); // what each motor brings to its link
+    Eigen::Vector2d force_n = Eigen::Vector2d::Zero();   // force of the contact on the tip
+    Eigen::Vector2d load_n_mm = Eigen::Vector2d::Zero(); // torque of each motor on its link
     Eigen::Vector2d link_rad = Eigen::Vector2d::Zero();  // true joint angles
-    std::array<int, 2> flank{};                          // which one carries; 0: the gap is open
-    Eigen::Matrix2d stiffness_n_mm_per_rad;              // of load over motor angles, every gap closed
+    std::array<int, 2> flank{};                          // flank that carries; 0: the gap is open
+    Eigen::Matrix2d stiffness_n_mm_per_rad;              // change of load with motor angles, every gap closed
     bool solved = true;
 };
 
@@ -26,20 +26,20 @@ public:
     PressedLimb(const PressedLimb &) = delete;
     PressedLimb &operator=(const PressedLimb &) = delete;
 
-    // Holds the tip at press_mm from where the limb, unloaded at these motor angles, has it. 0: free.
+    // Holds the tip at press_mm from its unloaded place at these motor angles. 0 stiffness: the tip is free.
     void take_hold(const Eigen::Vector2d &motor_rad, double hold_n_per_mm, const Eigen::Vector2d &press_mm,
                    double t_s, double temp_degc);
 
-    // False: nothing yields in some direction.
+    // Finds the rest state. False: nothing yields in some direction.
     bool settle(const Eigen::Vector2d &motor_rad, double t_s, double temp_degc, Pressed &pressed);
 
-    // The true angles that motor angles stand for, nothing bent.
+    // The true joint angles of motor angles, with nothing bent.
     Eigen::Vector2d unbent_rad(const Eigen::Vector2d &motor_rad) const;
 
 private:
     Eigen::Vector2d tip_mm(const Eigen::Vector2d &motor_rad) const;
 
-    plant::Model model_; // with the contact's yielding in its base, which is in series with it
+    plant::Model model_; // its base has the contact's compliance too, because both are in series
     double base_x_mm_per_n_, base_z_mm_per_n_;
     plant::LimbState state_;
     Eigen::Vector2d anchor_mm_ = Eigen::Vector2d::Zero();

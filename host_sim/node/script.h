@@ -1,4 +1,4 @@
-// What is to happen to a limb, and when: set-points, faults.
+// What happens to a limb, and when: set-points, faults.
 #pragma once
 
 #include <array>
@@ -37,7 +37,7 @@ public:
     void add(int fault, int joint, double value, double at_s, double for_s);
     void step(double t_s);
 
-    // The fault that is there now, null: none.
+    // The fault that is active now; null: none is active.
     const double *value(int fault, int joint = 0) const;
     bool is_on(int fault, int joint = 0) const { return value(fault, joint) != nullptr; }
 

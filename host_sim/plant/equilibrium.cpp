@@ -49,7 +49,7 @@ Slope slope_at(const RestProblem &problem, const Pair &deflection)
     return slope;
 }
 
-// Which way each joint would move: the sign of friction's slope there; 0 where friction holds it.
+// The sign of each joint's motion, and so the sign of friction's slope; 0 where friction holds the joint.
 Pair moving_sign(const RestProblem &problem, const Pair &deflection, const Pair &torque)
 {
     Pair sign{};
@@ -65,8 +65,8 @@ Pair moving_sign(const RestProblem &problem, const Pair &deflection, const Pair 
     return sign;
 }
 
-// Newton's direction among the joints that move. Two joints that do nearly the same to the tip leave a valley
-// with almost no curvature along it: it is given the least that rounding lets one divide by.
+// Newton's direction among the joints that move. Two joints that move the tip almost alike leave a valley with almost
+// no curvature along it; the curvature there is raised to the least that rounding allows to divide by.
 Pair newton_direction(const Matrix2d &curvature, const Pair &torque, const Pair &sign)
 {
     if (sign[0] != 0.0 && sign[1] != 0.0) {
@@ -83,8 +83,8 @@ Pair newton_direction(const Matrix2d &curvature, const Pair &torque, const Pair 
     return direction;
 }
 
-// The same, with every joint that friction still holds leaving its place in the sense it is pushed, or not at
-// all.
+// The same, where every joint that friction still holds either leaves its place in the direction of its load, or does
+// not move.
 Pair direction_of(const RestProblem &problem, const Pair &deflection, const Slope &slope, const Pair &torque,
                   const Pair &sign)
 {
@@ -101,7 +101,7 @@ Pair direction_of(const RestProblem &problem, const Pair &deflection, const Slop
     return direction;
 }
 
-// The energy along a direction from a point, up to the first place where a joint's friction would turn round.
+// The energy along a direction from a point, up to the first place where a joint's friction would change its sign.
 class Line {
 public:
     Line(const RestProblem &problem, const Pair &from, const Pair &direction, const Pair &sign)
@@ -152,7 +152,7 @@ private:
     int turning_ = 0;
 };
 
-// How far to go along the line: all of Newton's step where that is good, else to the least energy on it.
+// How far to go along the line: all of Newton's step if that is good, else to the least energy on the line.
 double length_of(const Line &line)
 {
     const double start = line.slope(0.0);
@@ -173,7 +173,7 @@ double length_of(const Line &line)
         high_slope = line.slope(high);
     }
     for (int i = 0; i < kMaxSearch; ++i) {
-        // Secant while it shortens the bracket, halving every other time.
+        // Secant steps while they shorten the bracket; every other step halves it.
         const double secant = low - low_slope * (high - low) / (high_slope - low_slope);
         const double middle = i % 2 == 0 ? secant : 0.5 * (low + high);
         const double slope = line.slope(middle);
@@ -186,12 +186,12 @@ double length_of(const Line &line)
     return low > 0.0 ? low : high;
 }
 
-// How far from rest a point is, and what rounding makes of one that is at rest.
+// How far from rest a point is, and how far rounding puts a point that is at rest.
 struct Balance {
-    Pair torque_n_mm{};       // out of balance, friction counted in
-    double unbalance_n = 0.0; // the largest over the longest lever
+    Pair torque_n_mm{};       // unbalance, with friction
+    double unbalance_n = 0.0; // the largest unbalance over the longest lever
     double rounding_n = 0.0;
-    double rounding_at_stops_n = 0.0; // were each joint at the edge of its play, where its spring may begin
+    double rounding_at_stops_n = 0.0; // the same if each joint were at the edge of its backlash
 };
 
 Balance balance_at(const RestProblem &problem, const Pair &deflection, const Slope &slope, const Pair &sign)

@@ -1,9 +1,9 @@
 // Where the limb comes to rest under an imposed tip displacement: the joint deflections of least energy.
 //
-// Energy of deflections e: 1/2 x'Kx + sum spring_i(e_i) - load_i e_i + rubbed_i(before_i, e_i) with
-// x = d - sum lever_i e_i, the first term being the structure's, and rubbed the friction, coulomb + ratio * |spring
-// torque|, summed over the way from before to e. Convex as long as the ratio is below 1 (the springs' slopes remain
-// positive after friction's share is taken from them), so what is found is the one rest state.
+// Energy of deflections e: 1/2 x'Kx + sum spring_i(e_i) - load_i e_i + rubbed_i(before_i, e_i) with x = d - sum lever_i
+// e_i. The first term is the structure's. rubbed is the friction, coulomb + ratio * |spring torque|, summed over the
+// way from before to e. The energy is convex while the ratio is below 1 (the springs' slopes remain positive when
+// friction's share is subtracted), so its minimum is the one rest state.
 #pragma once
 
 #include <Eigen/Core>
@@ -16,12 +16,12 @@ namespace brace::plant {
 struct JointUnknown {
     Eigen::Vector2d lever_mm; // tip displacement per deflection
     JointLaw law;             // compliance > 0
-    double load_n_mm;         // torque that acts on it besides the tip force's
-    double before_rad;        // deflection that friction holds it at
+    double load_n_mm;         // torque on the joint besides that of the tip force
+    double before_rad;        // deflection at which friction holds it
 };
 
 struct RestProblem {
-    Eigen::Matrix2d stiffness_n_per_mm; // of the structure
+    Eigen::Matrix2d stiffness_n_per_mm; // stiffness of the structure
     Eigen::Vector2d displacement_mm;
     int joint_count;
     std::array<JointUnknown, 2> joint;
@@ -30,7 +30,7 @@ struct RestProblem {
 struct RestState {
     std::array<double, 2> deflection_rad; // in: where to start; out: at rest
     Eigen::Vector2d force_n;
-    double unbalance_n; // largest torque out of balance over the longest lever
+    double unbalance_n; // largest unbalanced torque over the longest lever
     bool solved;        // unbalance within 1e-9 N, or within rounding where that is more
 };
 

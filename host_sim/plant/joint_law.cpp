@@ -14,9 +14,10 @@ using namespace effects;
 
 JointLaw joint_law(const Model &model, int joint, double temp_degc)
 {
-    const auto &given = model.joint[joint];
-    return {given.compliance_rad_per_n_mm * thermal_softening::factor(model, temp_degc), given.gap_rad,
-            given.coulomb_n_mm, given.coulomb_per_load_ratio, given.hardening_n_mm_per_rad3};
+    JointLaw law;
+    static_cast<brace_plant_joint_t &>(law) = model.joint[joint];
+    law.compliance_rad_per_n_mm *= thermal_softening::factor(model, temp_degc);
+    return law;
 }
 
 bool is_linear(const JointLaw &law)

@@ -14,7 +14,7 @@ using effects::Model;
 struct JointState {
     double instant_rad = 0.0; // deflection without creep
     double delayed_rad = 0.0; // creep
-    double friction_share = 0.0; // of the most that friction holds, [-1, 1]
+    double friction_share = 0.0; // share of the largest torque that friction holds, [-1, 1]
 };
 
 double torque_at(const JointLaw &law, double deflection_rad, double reversal_rad, JointState &state)
@@ -27,7 +27,7 @@ double torque_at(const JointLaw &law, double deflection_rad, double reversal_rad
            + state.friction_share * friction_n_mm(law, state.instant_rad);
 }
 
-// How far friction is strained where a test starts at this torque: what the spring does not carry, friction does.
+// How far friction is strained where a test starts at this torque: friction carries what the spring does not carry.
 double start_share(const JointLaw &law, double deflection_rad, double torque_n_mm)
 {
     const double most = friction_n_mm(law, deflection_rad);
@@ -35,7 +35,7 @@ double start_share(const JointLaw &law, double deflection_rad, double torque_n_m
     return most > 0.0 ? std::clamp(held / most, -1.0, 1.0) : 0.0;
 }
 
-// The deflections, play and all, at which the spring carries this torque: from least to most.
+// The smallest and the largest deflection, backlash included, at which the spring carries this torque.
 double least_deflection(const JointLaw &law, double torque_n_mm)
 {
     const double side = torque_n_mm > 0.0 ? 0.5 : -0.5;
@@ -48,8 +48,8 @@ double most_deflection(const JointLaw &law, double torque_n_mm)
     return elastic_under_torque_rad(law, torque_n_mm) + side * law.gap_rad;
 }
 
-// Friction lets the deflection stay anywhere between what the torque less friction and plus friction would
-// make.
+// Friction lets the deflection stay anywhere between those that the torque minus friction and the torque plus friction
+// would cause.
 double deflection_under(const JointLaw &law, double torque_n_mm, JointState &state)
 {
     const auto spring_n_mm = [&](double sense) {

@@ -1,4 +1,4 @@
-// One joint alone on the bench: its angle imposed and torque read, or the other way round.
+// One joint alone on the bench: its angle is imposed and its torque read, or the other way round.
 #pragma once
 
 #include "effects/effect.h"

@@ -13,11 +13,10 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-// A rigid joint with play is given this share of the limb's compliance, so that its stop is a spring.
+// A rigid joint with backlash gets this share of the limb's compliance, so that its stop is a spring.
 constexpr double kStopCompliance = 1e-8;
 
-// A structure that is rigid in one direction while joints stick in it is given this share of the limb's
-// compliance.
+// When a structure is rigid in one direction while its joints stick, it gets this share of the limb's compliance.
 constexpr double kRigidCompliance = 1e-9;
 
 bool has_changed(const Model &model, double t_s)
@@ -71,8 +70,8 @@ bool LimbState::move_to(double theta1_rad, double theta2_rad, double t_s, double
     return (same_structure && same_joints) || prepare();
 }
 
-// Springs go into the structure; a joint with more to it becomes an unknown, unless it is rigid and without
-// play.
+// Springs go into the structure. A joint that is more than a spring becomes an unknown, unless it is rigid and without
+// backlash.
 bool LimbState::prepare()
 {
     Matrix2d compliance = structure_.compliance_mm_per_n;
@@ -142,11 +141,11 @@ void LimbState::let_creep(double t_s)
 LimbRest LimbState::hold_tip(const Vector2d &displacement_mm, int free_axis)
 {
     tip_mm_ = effects::contact_play::dragged_mm(model_, tip_mm_, displacement_mm);
-    if (free_axis != held_free_axis_) { // one inversion a pose, not one a row
+    if (free_axis != held_free_axis_) { // inverts once a pose, not once a row
         held_free_axis_ = free_axis;
         problem_.stiffness_n_per_mm = stiffness_held(compliance_mm_per_n_, free_axis);
     }
-    Vector2d rest_mm = tip_mm_; // left for force to make
+    Vector2d rest_mm = tip_mm_; // the part that the force has to make
     for (const int i : {0, 1}) {
         double without_force = delayed_rad_[i];
         if (is_spring_[i]) {

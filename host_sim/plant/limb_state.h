@@ -1,4 +1,4 @@
-// The limb from one reading to the next: what it remembers, and its rest state under the next displacement.
+// The limb from one reading to the next: its memory, and its rest state under the next displacement.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,16 +19,16 @@ class LimbState {
 public:
     explicit LimbState(const Model &model) : model_(model) {}
 
-    // A posture, time and temperature to work at. False when nothing yields in some direction.
+    // Sets posture, time and temperature. False when nothing yields in some direction.
     bool move_to(double theta1_rad, double theta2_rad, double t_s, double temp_degc);
 
-    // Play centred, friction relaxed; creep too when asked.
+    // Centres the backlash and relaxes friction; removes creep too when asked.
     void start_run(bool creep_gone);
 
     // free_axis: 0 both axes are held, 1 x is free, 2 z is free.
     LimbRest hold_tip(const Eigen::Vector2d &displacement_mm, int free_axis = 0);
 
-    // At the last posture.
+    // The rest state at the last posture.
     const Structure &structure() const { return structure_; }
 
 private:
@@ -39,11 +39,11 @@ private:
     bool placed_ = false;
     double theta1_rad_ = 0.0, theta2_rad_ = 0.0, t_s_ = 0.0, temp_degc_ = 0.0;
     Structure structure_{};
-    Eigen::Matrix2d compliance_mm_per_n_; // of the structure, with the joints that are but springs
+    Eigen::Matrix2d compliance_mm_per_n_; // compliance of the structure and of the joints that are springs alone
     static constexpr int kNotHeld = -1;
-    int held_free_axis_ = kNotHeld; // for which the stiffness stands in problem_
+    int held_free_axis_ = kNotHeld; // the free axis for which problem_ has its stiffness
     RestProblem problem_{};               // its unknowns are the other joints
-    std::array<int, 2> unknown_joint_{};  // which joint each of its unknowns is
+    std::array<int, 2> unknown_joint_{};  // the joint of each unknown
     std::array<JointLaw, 2> law_{};
     std::array<bool, 2> is_spring_{};
     Eigen::Vector2d tip_mm_ = Eigen::Vector2d::Zero(); // where the contact has dragged the tip

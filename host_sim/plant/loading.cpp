@@ -1,5 +1,6 @@
 #include "plant/loading.h"
 
+#include "effects/base_compliance.h"
 #include "plant/limb_state.h"
 #include "plant/sensor.h"
 
@@ -10,7 +11,7 @@ using Eigen::Vector2d;
 brace_host_status_t play_loading(const effects::Model &model, const brace_loading_rows_t &rows,
                                  const brace_loading_reading_t &reading, std::size_t &unsolved_rows)
 {
-    // Poses first, so that a refused record leaves nothing half-written.
+    // Checks all poses first, so that a refused record leaves nothing half-written.
     for (std::size_t i = 0; i < rows.count; ++i) {
         if (i > 0 && rows.theta1_rad[i] == rows.theta1_rad[i - 1]
             && rows.theta2_rad[i] == rows.theta2_rad[i - 1]) {
@@ -50,8 +51,9 @@ brace_host_status_t play_loading(const effects::Model &model, const brace_loadin
         write(reading.fz_n, read_n.y());
         write(reading.enc1_rad, rest.joint_deflection_rad[0]);
         write(reading.enc2_rad, rest.joint_deflection_rad[1]);
-        write(reading.base_x_mm, model.base.x_mm_per_n * rest.force_n.x());
-        write(reading.base_z_mm, model.base.z_mm_per_n * rest.force_n.y());
+        const Vector2d base_mm = effects::base_compliance::shift_mm(model, rest.force_n);
+        write(reading.base_x_mm, base_mm.x());
+        write(reading.base_z_mm, base_mm.y());
     }
     return unsolved_rows == 0 ? BRACE_HOST_OK : BRACE_HOST_E_NO_CONVERGENCE;
 }

@@ -1,4 +1,4 @@
-// What the force sensor says of a force: bias + drift * t + gain * R * crosstalk * force, clipped.
+// The force sensor's reading of a force: bias + drift * t + gain * R * crosstalk * force, clipped.
 #pragma once
 
 #include "effects/sensor_bias.h"

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "effects/base_compliance.h"
 #include "effects/gravity.h"
 #include "effects/joint_zero_offset.h"
 #include "effects/link_change.h"
@@ -42,11 +43,7 @@ Structure structure_at(const Model &model, double theta1_rad, double theta2_rad,
     structure.lever_mm = {quarter_turn(femur + tibia), quarter_turn(tibia)};
     structure.gravity_n_mm = effects::gravity::torques_n_mm(model, femur, tibia);
 
-    Matrix2d compliance = Matrix2d::Zero();
-    compliance.diagonal() << model.base.x_mm_per_n, model.base.z_mm_per_n;
-    compliance +=
-        model.base.rotation_rad_per_n_mm * structure.lever_mm[0] * structure.lever_mm[0].transpose();
-
+    Matrix2d compliance = effects::base_compliance::compliance_mm_per_n(model, structure.lever_mm[0]);
     const Vector2d link_axis[] = {{}, femur_axis, tibia_axis};
     for (const int index : {kFemur, kTibia}) {
         const auto &link = model.link[index];
@@ -54,7 +51,7 @@ Structure structure_at(const Model &model, double theta1_rad, double theta2_rad,
         const Matrix2d axes = effects::link_compliance_error::axes(link_axis[index], link.tilt_rad);
         compliance += effects::link_compliance_error::compliance(axes, link.axial_mm_per_n, bending);
         if (index == kFemur && link.moment_transfer_ratio != 0.0) {
-            // Only the femur has something beyond its end that turns the tip force into a moment there.
+            // Only the femur has a part beyond its end, which turns the tip force into a moment at that end.
             using namespace effects::moment_transfer;
             const double length = model.geometry.femur_mm;
             const Vector2d &arm = structure.lever_mm[1];

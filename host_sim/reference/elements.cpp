@@ -33,13 +33,13 @@ Eigen::Matrix<Real, 1, 3> moment_row(const Vector3 &axis, const Vector3 &arm)
     return axis.cross(arm).transpose();
 }
 
-// Sense in which a turn about an axis moves the points further along e towards n, or towards y.
+// The direction in which a turn about an axis moves the points further along e: towards n, or towards y.
 Vector3 axis_turning(const Vector3 &from, const Vector3 &towards)
 {
     return from.cross(towards);
 }
 
-// A link with its far end at `arm` before the tip.
+// A link whose far end lies at `arm` before the tip.
 Element link_element(const LinkCompliance &link, Real angle, Real length_mm, const Vector3 &arm)
 {
     const Frame axis = frame_at(angle);
@@ -69,7 +69,7 @@ Element link_element(const LinkCompliance &link, Real angle, Real length_mm, con
     return element;
 }
 
-// A spring about one axis through a point, the tip at `arm` from it.
+// A spring about one axis through a point; the tip lies at `arm` from that point.
 Element hinge_element(Real compliance, const Vector3 &axis, const Vector3 &arm)
 {
     Element element;

@@ -1,5 +1,6 @@
-// The compliance chain as physics.md writes it: elements, each a compliance S in its own frame and the map T
-// from the tip force to the wrench there; C = sum T' S T. Written apart from the firmware, in long double.
+// The compliance chain as physics.md writes it: elements, each a compliance S in its own frame and the map T from the
+// tip force to the wrench at the element; C = sum T' S T. The code is written apart from the firmware's, in long
+// double.
 //
 // Wrench and motion at an element, in its own frame: [along, across, sideways; twist, turn in plane, turn
 // sideways]: forces (motions) along the element's axis, across it in the limb's plane, along y; moments
@@ -35,10 +36,10 @@ struct Element {
     WrenchMap t;
 };
 
-// Elements of the limb in its own plane frame (x outwards, y sideways, z up). Planar leaves out the coxa.
+// Elements of the limb in its own plane frame (x outwards, y sideways, z up). A planar limb has no coxa.
 std::vector<Element> elements_of(const Limb &limb, const Posture &posture, bool with_coxa);
 
-// C in the limb's plane frame; y belongs to spatial limbs only.
+// C in the limb's plane frame. Only spatial limbs have entries for y.
 Matrix3 compliance(const std::vector<Element> &elements);
 
 } // namespace brace::reference

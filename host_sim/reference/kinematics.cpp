@@ -23,7 +23,7 @@ bool posture_at(const Lengths &lengths, Real r_mm, Real phi_rad, bool knee_up, P
     if (!(r_mm >= shortest && r_mm <= l1 + l2 && r_mm > 0.0L)) {
         return false;
     }
-    // Half-angle form of the cosine rule: good at both ends of the reach.
+    // Half-angle form of the cosine rule: exact at both ends of the reach.
     const Real folded = (r_mm - shortest) * (r_mm + shortest);
     const Real straight = (l1 + l2 - r_mm) * (l1 + l2 + r_mm);
     const Real flexion = 2.0L * std::atan2(std::sqrt(straight), std::sqrt(folded));

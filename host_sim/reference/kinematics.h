@@ -22,7 +22,7 @@ struct Posture {
 // Tip in the robot's base frame: origin on the yaw axis at the height of the femur axis.
 Vector3 tip_mm(const Lengths &lengths, Real theta0_rad, const Posture &posture);
 
-// False: out of reach.
+// False: the tip is out of reach.
 bool posture_at(const Lengths &lengths, Real r_mm, Real phi_rad, bool knee_up, Posture &posture);
 
 } // namespace brace::reference

@@ -22,7 +22,7 @@ struct Spectrum {
     Eigen::Matrix<Real, N, 1> stiff_axis;
 };
 
-// Jacobi's rotations: of all methods the one that keeps the small eigenvalues of a positive definite matrix.
+// Jacobi's rotations, because this method keeps the small eigenvalues of a positive definite matrix.
 template <int N>
 void diagonalise(Matrix<N> &a, Matrix<N> &vectors)
 {

@@ -1,5 +1,5 @@
-// Repeatable noise: SplitMix64 for the bits, Box-Muller for the bell. The standard library's distributions
-// differ between implementations; this does not.
+// Repeatable noise: SplitMix64 for the bits, Box-Muller for the normal distribution. The standard library's
+// distributions differ between implementations; these do not.
 #pragma once
 
 #include <cstdint>

@@ -91,8 +91,8 @@ brace_host_status_t play(const brace_rig_design_t &design, const effects::Model 
     double zero_z = 0.0;
     for (std::size_t i = 0; i < count; ++i) {
         const Reading &each = readings[i];
-        // Every instrument draws its noise for every row, wanted or not: columns asked for do not change
-        // others.
+        // Every instrument draws its noise for every row, whether its column is asked for or not. So the columns asked
+        // for do not change one another.
         double read_x = instrument_n(design, fx[i], noise);
         double read_z = instrument_n(design, fz[i], noise);
         const double read_enc1 = enc1[i] + design.encoder_noise_rad * noise.normal();

@@ -32,7 +32,7 @@ std::vector<Run> runs_of(const brace_rig_design_t &design)
         }
     }
     if (design.shuffled != 0) {
-        // Its own stream, so that the order does not depend on how much noise is drawn.
+        // The order has a random stream of its own, so that it does not depend on how much noise is drawn.
         Noise order(design.seed ^ 0xA5A5A5A5A5A5A5A5u);
         for (std::size_t left = runs.size(); left > 1; --left) {
             std::swap(runs[left - 1], runs[order.below(left)]);
@@ -50,7 +50,7 @@ double temperature(const brace_rig_design_t &design, double t_s)
 
 bool is_between(double value, double least, double most)
 {
-    return value >= least && value <= most; // NaN is not
+    return value >= least && value <= most; // false for NaN
 }
 
 } // namespace

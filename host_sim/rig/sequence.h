@@ -13,14 +13,14 @@ struct Reading {
     double theta1_rad, theta2_rad, t_s, temp_degc, dx_mm, dz_mm;
 };
 
-// The paper's test at no pose yet.
+// The paper's test, still without a pose.
 brace_rig_design_t paper_design();
 
 bool is_sound(const brace_rig_design_t &design);
 std::size_t reading_count(const brace_rig_design_t &design);
 std::vector<Reading> sequence(const brace_rig_design_t &design);
 
-// Multiples of the step that one run passes through.
+// The displacements of one run, in multiples of the step.
 std::vector<int> run_steps(int steps_per_side, bool cyclic);
 
 } // namespace brace::rig

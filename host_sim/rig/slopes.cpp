@@ -69,8 +69,8 @@ double slope(const std::vector<double> &displacement, const std::vector<double> 
     return rule == SlopeRule::MeanOfRatios ? ratios / static_cast<double>(count) : products / squares;
 }
 
-// Displacement at which the force first comes to zero between rows from and to, by straight lines; false:
-// nowhere. Where it stays at zero, as within play, the line is that of the readings before.
+// Displacement at which the force first comes to zero between rows from and to, by straight lines; false: nowhere.
+// Where the force stays at zero, as within backlash, the line through the readings before is extended.
 bool comes_to_zero(const Sweep &sweep, int axis, std::size_t from, std::size_t to, double &at_mm)
 {
     const std::vector<double> &force = sweep.force_n[axis];

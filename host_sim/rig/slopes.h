@@ -1,4 +1,4 @@
-// What the paper takes from its loading tests: K by slopes, and the shift of the zero-force point.
+// Two results of the paper's loading tests: K by slopes, and the shift of the zero-force point.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@ namespace brace::rig {
 
 enum class SlopeRule { MeanOfRatios, LeastSquares };
 
-// k_xx k_xz k_zx k_zz at commanded angles, from readings at 1..steps_per_side steps on both sides, the
-// reading before the first step taken from each.
+// k_xx k_xz k_zx k_zz at commanded angles, from readings at 1..steps_per_side steps on both sides. The reading before
+// the first step is subtracted from each.
 brace_host_status_t measure_stiffness(const effects::Model &model, double theta1_rad, double theta2_rad,
                                       double step_mm, int steps_per_side, SlopeRule rule,
                                       std::array<double, 4> &k);

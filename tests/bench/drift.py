@@ -17,8 +17,8 @@ from stack import worst_stack_bytes
 from toolchain import BENCH, BOARDS, BUILD, HARNESS_FLAGS, M4F, flash_bytes, link_image, type_sizes
 from versions import OURS, core_sources
 
-STEP = "brace_drift_step"
-MOST_INSTRUCTIONS, MOST_RAM_BYTES = 2400, 344
+STEP, REPORT = "brace_drift_step", "brace_drift_report"
+MOST_INSTRUCTIONS, MOST_REPORT_INSTRUCTIONS, MOST_RAM_BYTES = 2400, 1500, 344
 
 
 @dataclass(frozen=True)
@@ -27,6 +27,7 @@ class DriftCost:
 
     median: int
     maximum: int
+    report_maximum: int  # of telling the state, at any of these readings
     stack_bytes: int
     flash_bytes: int  # of all its public functions and what they call
     ram_bytes: int
@@ -34,7 +35,8 @@ class DriftCost:
     @property
     def kept(self) -> bool:
         """Within what the header promises."""
-        return self.maximum <= MOST_INSTRUCTIONS and self.ram_bytes <= MOST_RAM_BYTES
+        return (self.maximum <= MOST_INSTRUCTIONS and self.report_maximum <= MOST_REPORT_INSTRUCTIONS
+                and self.ram_bytes <= MOST_RAM_BYTES)
 
 
 def cost(plugin: Path) -> DriftCost:
@@ -45,9 +47,10 @@ def cost(plugin: Path) -> DriftCost:
              (BENCH / "image" / "harness.c", BOARDS / "common" / "startup.c")]
     image = link_image([*sources, job, *frame], BUILD / "images" / "drift.elf", M4F)
     counted = count(image, M4F, plugin, STEP)
+    reported = count(image, M4F, plugin, REPORT)
     functions = tuple(f"brace_drift_{name}" for name in ("learn", "reset", "run", "step", "report", "outlook"))
     return DriftCost(median_low(counted.instructions), max(counted.instructions),
-                     worst_stack_bytes(sources, STEP)[0],
+                     max(reported.instructions), worst_stack_bytes(sources, STEP)[0],
                      flash_bytes(sources, functions, BUILD / "images" / "drift_flash.elf", M4F),
                      type_sizes(("brace_drift_t",), ("brace/drift.h",), M4F)["brace_drift_t"])
 
@@ -60,10 +63,13 @@ def extra(plugin: Path) -> Extra:
     """Everything of it for the bench."""
     found = cost(plugin)
     rows = [["a reading, instructions (median / worst)", f"{found.median:,} / {found.maximum:,}"],
+            ["telling the state, instructions (worst)", f"{found.report_maximum:,}"],
             ["flash with what it calls [B]", f"{found.flash_bytes:,}"],
             ["RAM [B]", f"{found.ram_bytes}"], ["stack of a reading [B]", f"{found.stack_bytes}"]]
     checks = [Check("drift check, a reading's instructions", f"{found.maximum:,}", f"at most {MOST_INSTRUCTIONS:,}",
                     found.maximum <= MOST_INSTRUCTIONS),
+              Check("drift check, instructions of telling the state", f"{found.report_maximum:,}",
+                    f"at most {MOST_REPORT_INSTRUCTIONS:,}", found.report_maximum <= MOST_REPORT_INSTRUCTIONS),
               Check("drift check, RAM", f"{found.ram_bytes} B", f"at most {MOST_RAM_BYTES} B",
                     found.ram_bytes <= MOST_RAM_BYTES)]
     return Extra("drift", NOTE, [("The drift check, Cortex-M4F", ["what", "measured"], rows)], checks, asdict(found))
@@ -76,7 +82,7 @@ def main() -> int:
     (BUILD / "generated" / "bench_data.h").write_text(postures.header())
     found = cost(build_plugin())
     print(f"drift check, Cortex-M4F: {found.median:,} instructions a step (median), {found.maximum:,} at most (limit "
-          f"{MOST_INSTRUCTIONS:,}); stack {found.stack_bytes} B, flash {found.flash_bytes:,} B with what it calls, "
+          f"{MOST_INSTRUCTIONS:,}), {found.report_maximum:,} to tell the state (limit {MOST_REPORT_INSTRUCTIONS:,}); stack {found.stack_bytes} B, flash {found.flash_bytes:,} B with what it calls, "
           f"RAM {found.ram_bytes} B (limit {MOST_RAM_BYTES})")
     return 0 if found.kept else 1
 

@@ -18,7 +18,7 @@ def _functions_of(header: str) -> tuple[str, ...]:
 # A job and its functions, in the order in which a limb comes to need them. Up to LAST_OF_A_LIMB: a planar limb's.
 JOBS = (
     ("K at the tick", ("brace_planar_stiffness",)),
-    ("parameter change, and the tick's tables, whose addresses it sets", ("brace_planar_collapse",)),
+    ("parameter change", ("brace_planar_collapse",)),
     ("the general path: any base, springs of the moment", _functions_of("general")),
     ("is this a limb", _functions_of("limb")),
     ("kinematics", without_space(_functions_of("kinematics"))),
@@ -27,8 +27,7 @@ JOBS = (
     ("K's uncertainty", _functions_of("uncertainty")),
     ("kinematics in space", _functions_of("kinematics")),
     ("K in space", _functions_of("spatial")),
-    ("any list of elements, for hosts: its K, C and harmonics", _functions_of("chain")),
-    ("the table variant, for where flash allows; without the table's 20,480 B", _functions_of("planar_table")),
+    ("the general path with its arguments checked, for hosts", _functions_of("chain")),
 )
 LAST_OF_A_LIMB = "K's uncertainty"
 

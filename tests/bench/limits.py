@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from measure import Measured
 from throughput import Rate
 from versions import COLLAPSE, PLANAR, PLANAR_NO_FPU, SPATIAL
-from weights import (ANY_FLASH, CORE_FLASH, CORE_STACK, EQUAL_FLASH, FIXED_RAM, LIMB_FLASH, ONCE_FLASH, PLANAR_RAM,
-                     SPACE_FLASH, SPATIAL_RAM)
+from weights import FIXED_RAM, PLANAR_RAM, SPATIAL_RAM
 
 
 @dataclass(frozen=True)
@@ -48,21 +47,17 @@ class Limits:
     def _ours(self, group: str, name: str = "") -> list[Measured]:
         return [m for m in self.measured if m.version.group == group and m.version.ours and name in m.version.name]
 
-    def _peers(self, group: str, name: str = "") -> list[Measured]:
-        return [m for m in self.measured if m.version.group == group and not m.version.ours and name in m.version.name]
+    def _peers(self, group: str) -> list[Measured]:
+        return [m for m in self.measured if m.version.group == group and not m.version.ours]
 
     def _planar(self) -> list[Check]:
-        table = self._ours(PLANAR, "table")
-        ticks = [m for m in self._ours(PLANAR) if m not in table]
+        ticks = self._ours(PLANAR)
         most = max(m.maximum for m in ticks)
         best = min(self._peers(PLANAR), key=lambda m: m.median)
-        cycles = [m.cycles for m in ticks if m.cycles]
         return [
-            at_most("planar K, instructions at every posture", most, 140),
-            at_most("planar K, cycles by the manual", max(c.manual for c in cycles), 230),
+            at_most("planar K, instructions at every posture", most, 170),
             at_least(f"planar K, times fewer instructions than the best peer ({best.version.name}, median)",
-                      best.median / most, 3.3),
-            at_most("planar K from a table, instructions at every posture", max(m.maximum for m in table), 80),
+                      best.median / most, 2.7),
         ]
 
     def _others(self) -> list[Check]:
@@ -71,12 +66,10 @@ class Limits:
         spatial = max(m.maximum for m in self._ours(SPATIAL))
         collapse = self._ours(COLLAPSE)
         refused = sum(m.refused for m in collapse)
-        casadi = min(m.median for m in self._peers(SPATIAL, "CasADi"))
         return [
             at_most("fixed point on Cortex-M3, instructions at every posture", fixed, 260),
             at_least("fixed point, times fewer instructions than soft float (best median)", soft / fixed, 35),
-            at_most("spatial K, instructions, worst posture and limb", spatial, 900),
-            at_least("spatial K, times fewer instructions than CasADi's median", casadi / spatial, 2),
+            at_most("spatial K, instructions, worst posture and limb", spatial, 500),
             at_most(f"parameter change, instructions, worst limb ({refused} left to the general path)",
                      max(m.maximum for m in collapse), 3000),
         ]
@@ -91,11 +84,9 @@ class Limits:
         return checks
 
     def _accuracy(self) -> list[Check]:
-        table = self._ours(PLANAR, "table")
-        ticks = [m for m in self._ours(PLANAR) if m not in table]
-        no_fpu, spatial = self._ours(PLANAR_NO_FPU), self._ours(SPATIAL)
-        rows = (("planar K", ticks, 2e-6, 2e-6), ("planar K from a table", table, 2e-6, 2e-6),
-                ("fixed point", no_fpu, 2e-6, 5e-6), ("spatial K", spatial, 1e-5, 1e-5))
+        ticks, no_fpu, spatial = self._ours(PLANAR), self._ours(PLANAR_NO_FPU), self._ours(SPATIAL)
+        rows = (("planar K", ticks, 1e-6, 2e-6), ("fixed point", no_fpu, 2e-6, 5e-6),
+                ("spatial K", spatial, 1e-5, 1e-5))
         checks = []
         for name, measured, k_limit, lambda_limit in rows:
             errors = [e for m in measured for e in (m.error, m.workspace_error) if e]
@@ -108,15 +99,7 @@ class Limits:
         return checks
 
     def _weight(self) -> list[Check]:
-        planar = max(m.flash_bytes for m in self._ours(PLANAR) if "table" not in m.version.name)
-        stack = next(value for name, value in self.weights.items() if name.startswith(CORE_STACK))
-        return [
-            *(at_most(name, self.weights[name], 6 * 1024, " B") for name in (
-                EQUAL_FLASH, ANY_FLASH, SPACE_FLASH, LIMB_FLASH, ONCE_FLASH, CORE_FLASH)),
-            at_most("flash, planar float path with the parameter change", planar, 2560, " B"),
-            *(at_most(name, self.weights[name], 512, " B") for name in (PLANAR_RAM, FIXED_RAM, SPATIAL_RAM)),
-            at_most(CORE_STACK, stack, 256, " B"),
-        ]
+        return [at_most(name, self.weights[name], 512, " B") for name in (PLANAR_RAM, FIXED_RAM, SPATIAL_RAM)]
 
     def _host(self) -> list[Check]:
         eigen = next(r for r in self.rates if r.name.startswith("Eigen"))

@@ -13,7 +13,7 @@ from postures import COUNT, Limb, postures, q28, workspace
 from stack import worst_stack_bytes
 from timing import Cycles, estimate
 from toolchain import (BENCH, BOARDS, BUILD, HARNESS_FLAGS, Processor, compile_source, flash_bytes, link_image,
-                       section_sizes, type_sizes)
+                       section_sizes)
 from versions import COLLAPSE, PLANAR_NO_FPU, SPATIAL, Version
 
 SAME_JOB_ERROR = 1.0e-4  # a version further off than this in K or axis does not compute what the others do
@@ -132,8 +132,6 @@ def measure(version: Version, plugin: Path) -> Measured:
 
     linked = BUILD / "images" / f"{version.key}.flash.elf"
     flash = flash_bytes(sources, (version.function, *version.flash_with), linked, version.processor)
-    if version.flash_table:
-        flash += type_sizes((version.flash_table,), ("brace/planar_table.h",), version.processor)[version.flash_table]
     sections = section_sizes(linked)
     stack, chain = _stack(version, counted, sources, job)
     return Measured(version, min(first), middle, max(first), min(counted.instructions), max(counted.instructions),

@@ -6,7 +6,7 @@ from extra import Extra, Table
 from limits import Check
 from measure import Measured
 from throughput import Rate
-from versions import COLLAPSE, GROUPS, PLANAR, PLANAR_NO_FPU, SPATIAL
+from versions import GROUPS
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,6 @@ Writes docs/bench.json, docs/bench.md and docs/backlash.svg. Exit codes: 0 every
 import argparse
 import json
 import re
-import subprocess
 import sys
 from pathlib import Path
 

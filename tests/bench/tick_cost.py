@@ -21,18 +21,16 @@ from limits import Check  # noqa: E402
 from toolchain import (BOARDS, BUILD, CORE, CORE_FLAGS, M4F, PREFIX, compile_source, link_image, run,  # noqa: E402
                        symbol_address)
 
-TICK_LIMIT = 4000  # instructions
+TICK_LIMIT = 12_000  # instructions
 TICK_COUNT = 1_000_000
 FUNCTION = "brace_app_tick"
 
-KINDS = {"M": "monitor", "T": "taking up", "L": "loading test", "R": "loading test: a reading",
-         "D": "loading test: the drift check", "J": "loading test: its slopes",
-         "K": "loading test: slopes against the model",
-         "C": "configuration",
-         "P": "putting parameters in force", "W": "keeping what the drift check knows", "S": "storing parameters",
+KINDS = {"M": "monitor", "T": "taking up", "L": "loading test", "R": "loading test: a reading, with the drift check",
+         "J": "loading test: its slopes", "K": "loading test: slopes against the model",
+         "C": "configuration", "W": "keeping what the drift check knows",
+         "S": "storing parameters, putting them in force",
          "0": "start", "F": "fault",
-         "Q": "answering a request over CAN, beside K", "G": "the same, K by the general path",
-         "A": "answering, K left out or a piece of it", "E": "answering beside a piece of a loading test"}
+         "Q": "every port flooded, limb in its plane", "X": "every port flooded, limb in space"}
 
 
 @dataclass(frozen=True)
@@ -51,6 +49,7 @@ class TickCost:
 
     count: int
     mean: float
+    median: int
     maximum: int
     quantile_99: int
     kinds: tuple[TickKind, ...]
@@ -101,7 +100,7 @@ def measure_ticks(ticks: int = TICK_COUNT) -> TickCost:
     done = subprocess.run([RUN_IMAGE, M4F.machine, image, "-plugin",
                            f"{plugin},entry={entry:#x},skip={low:#x}-{high:#x},out={record}"],
                           capture_output=True, text=True, check=False,
-                          env={"PATH": "/usr/bin:/bin", "BRACE_IMAGE_TIMEOUT_S": "400"})
+                          env={"PATH": "/usr/bin:/bin", "BRACE_IMAGE_TIMEOUT_S": "1500"})
     if done.returncode != 0:
         raise RuntimeError(f"{image.name}: exit code {done.returncode}\n{done.stdout[-300:]}{done.stderr[-300:]}")
     counts = np.fromfile(record, dtype="<u4")
@@ -117,18 +116,16 @@ def _summary(counts: np.ndarray, letters: np.ndarray) -> TickCost:
         raise RuntimeError(f"the random ticks never came to: {', '.join(missing)}")
     kinds = tuple(TickKind(name, int(mine.size), float(mine.mean()), int(mine.max()))
                   for letter, name in KINDS.items() if (mine := counts[letters == letter]).size)
-    return TickCost(int(counts.size), float(counts.mean()), int(counts.max()), int(np.quantile(counts, 0.99)), kinds)
+    return TickCost(int(counts.size), float(counts.mean()), int(np.median(counts)), int(counts.max()),
+                    int(np.quantile(counts, 0.99)), kinds)
 
 
 NOTE = """\
-One whole tick of the controller, from samples to snapshot: K with its eigenvalues, both joints' state machines, \
-supervisor, services. Counted over random ticks on the emulated Cortex-M4F: limbs that collapse and limbs that take \
-the general path, every mode, take-ups and loading tests, parameters stored and put in force, bad samples, late \
-ticks, a full bus, requests over CAN and SLCAN, in some runs in every tick, Modbus on both ports. A call of the \
-hardware layer counts as the call alone. A reading of a loading test is worked out in up to three ticks of its own, \
-which compute no K: the snapshot before stays. Beside an answer K comes in pieces where it has no room as a whole, \
-above all on limbs \
-of the general path. A set that is to be stored is checked, packed, written and put in force in pieces, one a tick."""
+One whole tick of the controller, from samples to snapshot to answers: K with its eigenvalues in every tick, the \
+joints' state machines, jobs, faults, wires. Counted over random ticks on the emulated Cortex-M4F: planar limbs that \
+collapse and that take the general path, limbs in space, every mode, take-ups and loading tests, parameters stored \
+and put in force, bad samples, late ticks, a full bus, requests over CAN, SLCAN and both Modbus ports, in some runs \
+on every port as often as its line allows. A call of the hardware layer counts as the call alone."""
 
 
 def extra() -> Extra:
@@ -137,11 +134,13 @@ def extra() -> Extra:
     rows = [[kind.name, f"{kind.count:,}", f"{kind.mean:,.0f}", f"{kind.maximum:,}"] for kind in cost.kinds]
     rows.append(["all", f"{cost.count:,}", f"{cost.mean:,.0f}", f"{cost.maximum:,}"])
     data: dict[str, object] = {
-        "ticks": cost.count, "instructions_mean": round(cost.mean, 1), "instructions_p99": cost.quantile_99,
+        "ticks": cost.count, "instructions_mean": round(cost.mean, 1), "instructions_median": cost.median,
+        "instructions_p99": cost.quantile_99,
         "instructions_max": cost.maximum, "limit": TICK_LIMIT,
         "kinds": {kind.name: {"ticks": kind.count, "mean": round(kind.mean, 1), "max": kind.maximum}
                   for kind in cost.kinds}}
-    check = Check(f"controller's tick, instructions, worst of {cost.count:,} random ones (mean {cost.mean:,.0f})",
+    check = Check(f"controller's tick, instructions, worst of {cost.count:,} random ones "
+                  f"(median {cost.median:,}, mean {cost.mean:,.0f})",
                   f"{cost.maximum:,}", f"at most {TICK_LIMIT:,}", cost.maximum <= TICK_LIMIT)
     table = ("The controller's tick: instructions", ["kind of tick", "ticks", "mean", "worst"], rows)
     return Extra("tick", NOTE, [table], [check], data)
@@ -149,8 +148,8 @@ def extra() -> Extra:
 
 def as_text(cost: TickCost) -> str:
     """For a terminal."""
-    lines = [f"{cost.count:,} random ticks: mean {cost.mean:,.0f}, 99th percentile {cost.quantile_99:,}, "
-             f"worst {cost.maximum:,} instructions (limit {TICK_LIMIT:,})"]
+    lines = [f"{cost.count:,} random ticks: median {cost.median:,}, mean {cost.mean:,.0f}, "
+             f"99th percentile {cost.quantile_99:,}, worst {cost.maximum:,} instructions (limit {TICK_LIMIT:,})"]
     lines += [f"  {kind.name:42} {kind.count:9,}  mean {kind.mean:8,.0f}  worst {kind.maximum:7,}"
               for kind in cost.kinds]
     return "\n".join(lines)

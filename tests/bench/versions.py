@@ -21,7 +21,6 @@ class Version:
     flags: tuple[str, ...] = ("-O2",)
     job_flags: tuple[str, ...] = ()
     flash_with: tuple[str, ...] = ()  # further functions whose flash belongs to it
-    flash_table: str = ""  # a type of brace/planar_table.h that it keeps in flash as well
     limb: Limb | None = None
     ours: bool = False
 
@@ -49,10 +48,10 @@ def core_sources() -> tuple[Path, ...]:
 
 
 def _ours(name: str, group: str, function: str, job: str, limb: str = "PAPER", processor: Processor = M4F,
-          flash_with: tuple[str, ...] = (), flash_table: str = "") -> Version:
+          flash_with: tuple[str, ...] = ()) -> Version:
     limbs = {"PAPER": paper_limb, "TILTED": tilted_limb, "COXA": coxa_limb}
     job_flags = (f"-DBENCH_LIMB=BENCH_{limb}_LIMB",)
-    return Version(name, group, processor, function, core_sources(), OURS / job, (), job_flags, flash_with, flash_table,
+    return Version(name, group, processor, function, core_sources(), OURS / job, (), job_flags, flash_with,
                    limbs[limb](), True)
 
 
@@ -62,10 +61,6 @@ def ours() -> list[Version]:
     return [
         _ours("Brace", PLANAR, "brace_planar_stiffness", "planar_job.c", flash_with=(collapse,)),
         _ours("Brace, tilted limb", PLANAR, "brace_planar_stiffness", "planar_job.c", "TILTED", flash_with=(collapse,)),
-        _ours("Brace, table", PLANAR, "brace_planar_table_stiffness", "planar_table_job.c",
-              flash_table="brace_planar_table_t"),
-        _ours("Brace, table, tilted limb", PLANAR, "brace_planar_table_stiffness", "planar_table_job.c", "TILTED",
-              flash_table="brace_planar_table_t"),
         _ours("Brace, fixed point", PLANAR_NO_FPU, "brace_planar_fixed_stiffness", "planar_fixed_job.c", processor=M3),
         _ours("Brace, fixed point, tilted limb", PLANAR_NO_FPU, "brace_planar_fixed_stiffness", "planar_fixed_job.c",
               "TILTED", M3),

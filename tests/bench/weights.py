@@ -9,7 +9,7 @@ from versions import core_sources
 
 NO_FPU_ONLY = ("planar_fixed",)  # headers for controllers without an FPU
 HOST_ONLY = ("planar_batch", "chain_batch")
-TWICE = ("planar_table", "chain")  # the same once more: where flash allows a table, and lists of elements for hosts
+TWICE = ("chain",)  # the general path once more, with its arguments checked, for hosts
 ONCE_FLASH = "flash, Cortex-M4F, every job in the plane and in space, each once"
 
 JOBS = ("limb", "kinematics", "slope", "contact")  # of every limb, beside its K and, in the plane, its uncertainty
@@ -20,8 +20,7 @@ SPACE_FLASH = "flash, Cortex-M4F, every job of a limb in space"
 WATCHING = ("backlash", "gap_stiffness", "drift")  # what watches the limb; the estimator does without
 LIMB_FLASH = ("flash, Cortex-M4F, every job in the plane, both paths to K, "
               "for a limb not known before its parameters come")
-CORE_FLASH = ("flash, Cortex-M4F, every function of the estimator: with the table variant, and lists of elements, "
-              "which are for hosts")
+CORE_FLASH = "flash, Cortex-M4F, every function of the estimator: with the checked general path, which is for hosts"
 PLANAR_RAM = "RAM, one limb: parameters and planar constants"
 FIXED_RAM = "RAM, one limb: parameters and fixed-point constants"
 SPATIAL_RAM = "RAM, one limb: parameters and spatial constants"

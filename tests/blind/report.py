@@ -29,7 +29,7 @@ counts."""
 
 EARLIER = Path(__file__).with_name("earlier_runs.json")
 
-__all__ = ["VISIBLE_GAP_N", "as_json", "figures", "page", "table"]
+__all__ = ["VISIBLE_GAP_N", "as_json", "cases_as_json", "figures", "page", "table"]
 
 
 def _line(name: str, target: str, ok: bool | None, value: str, interval: str = "", of: int = 0) -> dict[str, Any]:
@@ -312,7 +312,7 @@ def page(found: dict[str, Any], judged: Sequence[Judged], command: str) -> str:
 
 
 def _said_by_truth_many(judged: Sequence[Judged]) -> str:
-    """Those that were not named as they are; the others are in blind.json."""
+    """Those that were not named as they are."""
     missed = [j for j in judged if not j.flags["set"]]
     rows = ["| hidden | said | verdict |", "|---|---|---|"]
     for j in sorted(missed, key=lambda j: j.truth):
@@ -320,12 +320,15 @@ def _said_by_truth_many(judged: Sequence[Judged]) -> str:
     return f"{len(missed)} of {len(judged)}, here, were not named as they are.\n\n" + "\n".join(rows)
 
 
-def as_json(found: dict[str, Any], judged: Sequence[Judged]) -> dict[str, Any]:
-    """docs/blind.json: the figures, and one entry a case."""
-    cases = [
+def as_json(found: dict[str, Any]) -> dict[str, Any]:
+    """docs/blind.json: the figures that the page is made of."""
+    return {key: value for key, value in found.items() if key not in ("after_next", "baselines_text")}
+
+
+def cases_as_json(judged: Sequence[Judged]) -> list[dict[str, Any]]:
+    """One entry a case: what was hidden and what was said."""
+    return [
         {"id": j.id, "kind": j.kind, "s": j.s, "truth": j.truth, "verdict": j.verdict, "said": j.said, **j.flags,
          "closed": j.closed}
         for j in judged
     ]  # fmt: skip
-    shown = {key: value for key, value in found.items() if key not in ("after_next", "baselines_text")}
-    return {**shown, "cases": cases}

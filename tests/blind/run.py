@@ -269,9 +269,11 @@ def main() -> int:
     out = options.out or (BUILD.parents[1] / "docs" if whole else results)
     out.mkdir(parents=True, exist_ok=True)
     (out / "blind.md").write_text(text)
-    (out / "blind.json").write_text(json.dumps(report.as_json(figures, judged), indent=1) + "\n")
+    (out / "blind.json").write_text(json.dumps(report.as_json(figures), indent=1) + "\n")
+    (results / "judged.json").write_text(json.dumps(report.cases_as_json(judged), indent=1) + "\n")
     print(report.table(figures))
-    print(f"\n{time.monotonic() - begun:.0f} s; tables in {out / 'blind.md'}", file=sys.stderr)
+    print(f"\n{time.monotonic() - begun:.0f} s; tables in {out / 'blind.md'}, every case in {results / 'judged.json'}",
+          file=sys.stderr)  # fmt: skip
     return 0
 
 

@@ -1,7 +1,7 @@
 /* client_probe BUS NODE TIMEOUT_MS CALL [NUMBER...]: one call of the C client; numbers it gives on stdout as "name
  * value" lines, its reason on stderr, its status as exit code (positive).
  *   identity | read PARTS COUNT | posture T1 T2 [COUNT] (the last one's) | tip X Z UP | force DX DZ | sag FX FZ
- *   margin NORMAL MU
+ *   margin NORMAL MU | space COUNT (reads K in space) | space_posture T0 T1 T2 | drift | take_up JOINT
  *   loop WAIT_MS FOR_MS: reads K in a control loop, each time with that time-out
  *   entry_u32 INDEX | entry_f32 INDEX | dump SILENT_MS [FRAMES] (bus only:
  *   until that silence, or that many) | send ID BYTE... (bus only) */
@@ -74,6 +74,57 @@ static brace_client_status_t read_some(brace_client_t *client)
     return BRACE_CLIENT_OK;
 }
 
+static void print_space_k(const brace_client_space_k_t *k)
+{
+    printf("k_xx %.9g\nk_xy %.9g\nk_xz %.9g\nk_yy %.9g\nk_yz %.9g\nk_zz %.9g\n", k->k_xx_n_per_mm,
+           k->k_xy_n_per_mm, k->k_xz_n_per_mm, k->k_yy_n_per_mm, k->k_yz_n_per_mm, k->k_zz_n_per_mm);
+    printf("lambda_1 %.9g\nlambda_2 %.9g\nlambda_3 %.9g\nflags %u\n", k->lambda_n_per_mm[0], k->lambda_n_per_mm[1],
+           k->lambda_n_per_mm[2], (unsigned)k->flags);
+}
+
+static brace_client_status_t read_space(brace_client_t *client)
+{
+    for (int i = 0; i < (int)numbers[0]; i++) {
+        brace_client_snapshot_t s;
+        const brace_client_status_t status =
+            brace_client_read(client, BRACE_PART_ALL | BRACE_PART_SPACE, timeout_ms, &s);
+        if (status != BRACE_CLIENT_OK) {
+            return status;
+        }
+        printf("snapshot %u\nparts %u\nvalid %d\ntheta0 %.9g\ntheta1 %.9g\ntheta2 %.9g\n", (unsigned)s.sequence,
+               (unsigned)s.parts, s.space.k_is_valid, s.space.theta0_rad, s.theta1_rad, s.theta2_rad);
+        printf("axis_x %.9g\naxis_y %.9g\naxis_z %.9g\nacross %.9g\nplay_coxa %u\n", s.space.stiff_axis[0],
+               s.space.stiff_axis[1], s.space.stiff_axis[2], s.space.k_across_n_per_mm, (unsigned)s.space.play_coxa);
+        print_space_k(&s.space.k);
+    }
+    return BRACE_CLIENT_OK;
+}
+
+static brace_client_status_t tell_drift(brace_client_t *client)
+{
+    brace_client_drift_t drift;
+    const brace_client_status_t status = brace_client_drift(client, timeout_ms, &drift);
+    if (status == BRACE_CLIENT_OK) {
+        printf("state %u\ncause %u\ncould_be %u\nnext_step %u\nevidence %.9g\nloss_ratio %.9g\nreadings %u\n",
+               (unsigned)drift.state, (unsigned)drift.cause, (unsigned)drift.could_be, (unsigned)drift.next_step,
+               drift.evidence, drift.loss_ratio, (unsigned)drift.readings);
+        fprintf(stderr, "%s %s\n", brace_drift_state_text((int32_t)drift.state),
+                brace_drift_next_step_text((int32_t)drift.next_step));
+    }
+    return status;
+}
+
+static brace_client_status_t tell_take_up(brace_client_t *client)
+{
+    int32_t outcome;
+    const brace_client_status_t status = brace_client_take_up(client, (uint32_t)numbers[0], timeout_ms, &outcome);
+    if (status == BRACE_CLIENT_OK) {
+        printf("outcome %d\n", (int)outcome);
+        fprintf(stderr, "%s\n", brace_take_up_outcome_text(outcome));
+    }
+    return status;
+}
+
 static double now_ms(void)
 {
     struct timespec now;
@@ -126,6 +177,18 @@ static brace_client_status_t client_call(brace_client_t *client, const char *cal
         if (status == BRACE_CLIENT_OK) {
             print_k(&k);
         }
+    } else if (strcmp(call, "space") == 0) {
+        status = read_space(client);
+    } else if (strcmp(call, "space_posture") == 0) {
+        brace_client_space_k_t space;
+        status = brace_client_k_in_space(client, n[0], n[1], n[2], timeout_ms, &space);
+        if (status == BRACE_CLIENT_OK) {
+            print_space_k(&space);
+        }
+    } else if (strcmp(call, "drift") == 0) {
+        status = tell_drift(client);
+    } else if (strcmp(call, "take_up") == 0) {
+        status = tell_take_up(client);
     } else if (strcmp(call, "force") == 0) {
         brace_client_force_t force;
         status = brace_client_contact_force(client, n[0], n[1], timeout_ms, &force);

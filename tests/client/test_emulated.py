@@ -10,7 +10,7 @@ from conftest import PROJECT, Answer
 from test_against_sim import INDEX, POSTURE, check_k
 
 sys.path.append(str(PROJECT / "tests" / "socketcan"))
-from processes import emulated  # noqa: E402
+from processes import SLOWLY, emulated  # noqa: E402
 
 Probe = Callable[..., Answer]
 
@@ -18,7 +18,7 @@ Probe = Callable[..., Answer]
 @pytest.fixture(scope="module")
 def board(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:
     """Ports of a controller with the paper's limb."""
-    with emulated(tmp_path_factory.mktemp("board")) as places:
+    with emulated(tmp_path_factory.mktemp("board"), clock=SLOWLY) as places:
         yield {"can": f"slcan:{places['slcan']}", "modbus": f"modbus:{places['modbus']}"}
 
 

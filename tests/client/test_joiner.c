@@ -208,6 +208,132 @@ static void test_a_frame_of_can_fd_is_a_whole_snapshot(void)
     TEST_ASSERT_NULL(brace_joiner_add(&joiner, NODE, &frame, 0u));
 }
 
+/* ------------------------------------------------------------------------------------------ K in space -- */
+
+/* Parts 0 to 6 of K in space; every value tells the tick, as in frame_of. */
+static brace_bus_frame_t space_frame_of(uint32_t part, uint32_t tick, uint64_t now_us)
+{
+    const uint32_t sequence = tick & 0xffu;
+    const float m = mark(tick);
+    brace_bus_frame_t frame = {.id = BRACE_CAN_ID_SPACE + NODE, .length = 8u, .received_us = now_us};
+    const brace_can_space_0_t first = {.sequence = sequence, .k_xx_n_per_mm = m, .k_xy_n_per_mm = m};
+    const brace_can_space_1_t second = {.sequence = sequence, .k_xz_n_per_mm = m, .k_yy_n_per_mm = m};
+    const brace_can_space_2_t third = {.sequence = sequence, .k_yz_n_per_mm = m, .k_zz_n_per_mm = m};
+    const brace_can_space_3_t lower = {.sequence = sequence, .lambda_1_n_per_mm = m, .lambda_2_n_per_mm = m};
+    const brace_can_space_4_t largest = {.sequence = sequence, .lambda_3_n_per_mm = m, .flags = 8u, .play_coxa = 2u};
+    const brace_can_space_5_t axis = {.sequence = sequence, .stiff_axis_x = 0.0f, .stiff_axis_y = -0.5f,
+                                      .stiff_axis_z = 1.0f};
+    const brace_can_space_6_t coxa = {.sequence = sequence, .theta0_rad = 0.25f, .k_across_n_per_mm = m};
+    switch (part) {
+    case 0u: (void)brace_can_pack_space_0(&first, frame.data); break;
+    case 1u: (void)brace_can_pack_space_1(&second, frame.data); break;
+    case 2u: (void)brace_can_pack_space_2(&third, frame.data); break;
+    case 3u: (void)brace_can_pack_space_3(&lower, frame.data); break;
+    case 4u: (void)brace_can_pack_space_4(&largest, frame.data); break;
+    case 5u: (void)brace_can_pack_space_5(&axis, frame.data); break;
+    default: (void)brace_can_pack_space_6(&coxa, frame.data); break;
+    }
+    return frame;
+}
+
+static void space_is_of_tick(const brace_client_space_t *space, uint32_t tick)
+{
+    const brace_client_space_k_t *k = &space->k;
+    const float values[] = {k->k_xx_n_per_mm, k->k_xy_n_per_mm, k->k_xz_n_per_mm, k->k_yy_n_per_mm,
+                            k->k_yz_n_per_mm, k->k_zz_n_per_mm, k->lambda_n_per_mm[0], k->lambda_n_per_mm[1],
+                            k->lambda_n_per_mm[2], space->k_across_n_per_mm};
+    for (uint32_t i = 0u; i < sizeof values / sizeof values[0]; i++) {
+        TEST_ASSERT_EQUAL_UINT32(tick & 0x7ffffu, tick_of(values[i]));
+    }
+}
+
+static void test_k_in_space_is_a_part_of_its_snapshot(void)
+{
+    brace_joiner_t joiner = {0};
+    const brace_client_snapshot_t *s = NULL;
+    const brace_bus_frame_t a = frame_of(0u, 77u, 1000u), b = frame_of(1u, 77u, 1100u);
+    (void)brace_joiner_add(&joiner, NODE, &a, 0u);
+    for (uint32_t part = 0u; part < 7u; part++) { /* the lower identifier: before the second half of K in the plane */
+        const brace_bus_frame_t frame = space_frame_of(part, 77u, 1010u + part);
+        s = brace_joiner_add(&joiner, NODE, &frame, 0u);
+        TEST_ASSERT_TRUE((s != NULL) == (part == 6u));
+    }
+    TEST_ASSERT_EQUAL_UINT32(BRACE_PART_SPACE, s->parts);
+    s = brace_joiner_add(&joiner, NODE, &b, 0u);
+    TEST_ASSERT_NOT_NULL(s);
+    TEST_ASSERT_EQUAL_UINT32(BRACE_PART_K | BRACE_PART_SPACE, s->parts);
+    TEST_ASSERT_TRUE(s->k_is_valid && s->space.k_is_valid);
+    space_is_of_tick(&s->space, 77u);
+    TEST_ASSERT_EQUAL_UINT32(8u, s->space.k.flags);
+    TEST_ASSERT_EQUAL_UINT32(2u, s->space.play_coxa);
+    TEST_ASSERT_EQUAL_FLOAT(0.25f, s->space.theta0_rad);
+    TEST_ASSERT_EQUAL_FLOAT(-0.5f, s->space.stiff_axis[1]);
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, s->space.stiff_axis[2]);
+}
+
+static void test_k_in_space_is_never_of_two_ticks(void)
+{
+    brace_joiner_t joiner = {0};
+    uint32_t tick = 0u, whole = 0u;
+    for (uint32_t i = 0u; i < 200000u; i++) {
+        tick += 1u + random_below(300u); /* the number comes round within a few */
+        for (uint32_t part = 0u; part < 9u; part++) {
+            if (random_below(20u) == 0u) {
+                continue;
+            }
+            const uint64_t now_us = 1000u + (uint64_t)tick * TICK_US + part * 130u;
+            const brace_bus_frame_t frame =
+                part < 2u ? frame_of(part, tick, now_us) : space_frame_of(part - 2u, tick, now_us);
+            const brace_client_snapshot_t *s = brace_joiner_add(&joiner, NODE, &frame, 0u);
+            if (s != NULL && (s->parts & BRACE_PART_SPACE) != 0u) {
+                space_is_of_tick(&s->space, tick);
+                whole++;
+            }
+        }
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(120000u, whole); /* (19/20)^7 of all */
+}
+
+static void test_an_unknown_k_in_space_is_not_valid(void)
+{
+    brace_joiner_t joiner = {0};
+    const brace_client_snapshot_t *s = NULL;
+    for (uint32_t part = 0u; part < 7u; part++) {
+        brace_bus_frame_t frame = space_frame_of(part, 5u, 1000u + part);
+        const brace_can_space_2_t unknown = {.sequence = 5u, .k_yz_n_per_mm = NAN, .k_zz_n_per_mm = 1.0f};
+        if (part == 2u) {
+            (void)brace_can_pack_space_2(&unknown, frame.data);
+        }
+        s = brace_joiner_add(&joiner, NODE, &frame, 0u);
+    }
+    TEST_ASSERT_NOT_NULL(s);
+    TEST_ASSERT_FALSE(s->space.k_is_valid);
+    TEST_ASSERT_TRUE(isnan(s->space.k.k_yz_n_per_mm));
+    TEST_ASSERT_TRUE(isnan(s->k_xx_n_per_mm));
+}
+
+static void test_over_can_fd_k_in_space_is_a_second_frame(void)
+{
+    brace_joiner_t joiner = {0};
+    brace_bus_frame_t whole = {.id = BRACE_CAN_ID_SNAPSHOT_FD + NODE, .length = 64u, .fd = true, .received_us = 1000u};
+    brace_bus_frame_t space = {.id = BRACE_CAN_ID_SPACE_FD + NODE, .length = 64u, .fd = true, .received_us = 1100u};
+    const brace_can_snapshot_fd_t plane = {.sequence = 0x12345607u, .k_xx_n_per_mm = 4.0f};
+    const brace_can_space_fd_t sent = {.sequence = 0x12345607u, .k_xx_n_per_mm = 3.5f, .lambda_3_n_per_mm = 4.5f,
+                                       .theta0_rad = 0.5f, .play_coxa = 3u, .stiff_axis_y = 0.25f};
+    (void)brace_can_pack_snapshot_fd(&plane, whole.data);
+    (void)brace_can_pack_space_fd(&sent, space.data);
+    (void)brace_joiner_add(&joiner, NODE, &whole, 0u);
+    const brace_client_snapshot_t *s = brace_joiner_add(&joiner, NODE, &space, 0u);
+    TEST_ASSERT_NOT_NULL(s);
+    TEST_ASSERT_EQUAL_UINT32(BRACE_PART_ALL | BRACE_PART_SPACE, s->parts);
+    TEST_ASSERT_TRUE(s->space.k_is_valid);
+    TEST_ASSERT_EQUAL_FLOAT(3.5f, s->space.k.k_xx_n_per_mm);
+    TEST_ASSERT_EQUAL_FLOAT(4.5f, s->space.k.lambda_n_per_mm[2]);
+    TEST_ASSERT_EQUAL_FLOAT(0.5f, s->space.theta0_rad);
+    TEST_ASSERT_EQUAL_FLOAT(0.25f, s->space.stiff_axis[1]);
+    TEST_ASSERT_EQUAL_UINT32(3u, s->space.play_coxa);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -218,5 +344,9 @@ int main(void)
     RUN_TEST(test_others_and_short_frames_are_passed_over);
     RUN_TEST(test_an_unknown_k_is_not_valid_and_never_zero);
     RUN_TEST(test_a_frame_of_can_fd_is_a_whole_snapshot);
+    RUN_TEST(test_k_in_space_is_a_part_of_its_snapshot);
+    RUN_TEST(test_k_in_space_is_never_of_two_ticks);
+    RUN_TEST(test_an_unknown_k_in_space_is_not_valid);
+    RUN_TEST(test_over_can_fd_k_in_space_is_a_second_frame);
     return UNITY_END();
 }

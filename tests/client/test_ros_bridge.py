@@ -14,11 +14,11 @@ from conftest import PROJECT
 ROS = PROJECT / "tools" / "client" / "ros2"
 sys.path.insert(0, str(ROS / "brace_bridge"))
 
-from brace_bridge.decode import Decoder, LimbStiffness  # noqa: E402
+from brace_bridge.decode import ERROR, OK, WARN, Decoder, LimbHealth, LimbStiffness, LimbStiffnessInSpace  # noqa: E402
 
 from brace.bus.frame import Frame  # noqa: E402
 from brace.errors import VersionMismatchError  # noqa: E402
-from brace.wire.frames import DICTIONARY_HASH, MESSAGES  # noqa: E402
+from brace.wire.frames import DICTIONARY_HASH, MESSAGES, MULTIPLEXED  # noqa: E402
 
 
 def frame(name: str, node: int = 3, time_s: float = 100.0, **values: float | None) -> Frame:
@@ -35,22 +35,35 @@ def whole(sequence: int = 7, **changes: float | None) -> list[LimbStiffness]:
         frame("eigenvalues", sequence=sequence, lambda_min=0.2, lambda_max=4.1, stiff_axis=-0.13),
         frame("posture", sequence=sequence, theta1=1.0, theta2=1.4, mode=1, faults=0b10000001),
     ]
-    return [message for message in map(decoder.add, frames) if message is not None]
+    messages = [message for one in frames for message in decoder.add(one)]
+    assert all(isinstance(message, LimbStiffness) for message in messages)
+    return messages  # type: ignore[return-value]
 
 
-def test_fields_are_the_messages() -> None:
-    text = (ROS / "brace_msgs" / "msg" / "LimbStiffness.msg").read_text()
+def space_frames(sequence: int = 7, node: int = 3, time_s: float = 100.0, **changes: float | None) -> list[Frame]:
+    values = {"sequence": sequence, "flags": 8, "age": 2.0, "play_coxa": 3, "theta0": 0.25, "k_across": 0.5}
+    values |= {"k_xx": 4.0, "k_xy": -1.5, "k_xz": -0.5, "k_yy": 0.75, "k_yz": 0.125, "k_zz": 0.25}
+    values |= {"lambda_1": 0.2, "lambda_2": 0.5, "lambda_3": 4.5}
+    values |= {"stiff_axis_x": 1.0, "stiff_axis_y": -0.5, "stiff_axis_z": 0.0, **changes}
+    return [Frame(time_s, layout.identifier + node, layout.encode(values)) for layout in MULTIPLEXED["space"]]
+
+
+@pytest.mark.parametrize("kind", [LimbStiffness, LimbStiffnessInSpace])
+def test_fields_are_the_messages(kind: type) -> None:
+    text = (ROS / "brace_msgs" / "msg" / f"{kind.__name__}.msg").read_text()
     named = re.findall(r"^(?!std_msgs)\w+ +([a-z]\w*) *(?:#|$)", text, re.MULTILINE)
-    assert named == [field.name for field in fields(LimbStiffness) if field.name != "stamp_s"]
+    assert named == [field.name for field in fields(kind) if field.name != "stamp_s"]
 
 
-def test_constants_are_the_dictionarys() -> None:
-    text = (ROS / "brace_msgs" / "msg" / "LimbStiffness.msg").read_text()
+@pytest.mark.parametrize("kind", [LimbStiffness, LimbStiffnessInSpace])
+def test_constants_are_the_dictionarys(kind: type) -> None:
+    text = (ROS / "brace_msgs" / "msg" / f"{kind.__name__}.msg").read_text()
     constants = {name: int(value) for name, value in re.findall(r"^uint8 ([A-Z_]+)=(\d+)", text, re.MULTILINE)}
     of = {(name, field.name): field for name, layout in MESSAGES.items() for field in layout.fields}
     wanted = {f"FLAG_{name}": 1 << bit for bit, name in enumerate(of["stiffness_a", "flags"].bit_names)}
     wanted |= {f"PLAY_{name}": code for code, name in of["stiffness_b", "play_femur"].names.items()}
-    wanted |= {f"MODE_{name}": code for code, name in of["posture", "mode"].names.items()}
+    if kind is LimbStiffness:
+        wanted |= {f"MODE_{name}": code for code, name in of["posture", "mode"].names.items()}
     assert constants == wanted
 
 
@@ -72,16 +85,55 @@ def test_unknown_is_nan_and_not_valid() -> None:
 
 def test_halves_of_two_snapshots_give_nothing() -> None:
     decoder = Decoder()
-    assert decoder.add(frame("stiffness_a", sequence=1)) is None
-    assert decoder.add(frame("stiffness_b", sequence=2)) is None
+    assert decoder.add(frame("stiffness_a", sequence=1)) == []
+    assert decoder.add(frame("stiffness_b", sequence=2)) == []
 
 
 def test_another_dictionary_is_refused() -> None:
     decoder = Decoder()
-    assert decoder.add(frame("heartbeat", dictionary_hash=DICTIONARY_HASH)) is None
+    [health] = decoder.add(frame("heartbeat", dictionary_hash=DICTIONARY_HASH))
+    assert isinstance(health, LimbHealth) and (health.level, health.text) == (OK, "No fault is there.")
     with pytest.raises(VersionMismatchError) as refusal:
         decoder.add(frame("heartbeat", dictionary_hash=0x1234ABCD))
     assert "0x1234abcd" in refusal.value.why and f"0x{DICTIONARY_HASH:08x}" in refusal.value.why
+
+
+def test_k_in_space_in_si_units() -> None:
+    decoder = Decoder()
+    a, b = frame("stiffness_a", sequence=7, k_xx=4.0), frame("stiffness_b", sequence=7, age=2.0)
+    messages = [m for one in (a, b, *space_frames()) for m in decoder.add(one)]
+    assert [type(m) for m in messages] == [LimbStiffness, LimbStiffnessInSpace]
+    space = messages[1]
+    assert isinstance(space, LimbStiffnessInSpace) and space.k_is_valid and (space.node, space.sequence) == (3, 7)
+    told = (space.k_xx, space.k_xy, space.k_xz, space.k_yy, space.k_yz, space.k_zz)
+    assert told == pytest.approx((4000.0, -1500.0, -500.0, 750.0, 125.0, 250.0))
+    assert (space.lambda_1, space.lambda_2, space.lambda_3) == pytest.approx((200.0, 500.0, 4500.0))
+    assert (space.stiff_axis_x, space.stiff_axis_y, space.stiff_axis_z) == pytest.approx((1.0, -0.5, 0.0))
+    assert (space.theta0, space.k_across) == pytest.approx((0.25, 500.0))
+    assert (space.flags, space.play_coxa) == (8, 3) and space.stamp_s == pytest.approx(100.0 - 0.002)
+
+
+def test_k_in_space_that_comes_first_is_given_with_its_k_in_the_plane() -> None:
+    decoder = Decoder()
+    a, b = frame("stiffness_a", sequence=7, k_xx=4.0), frame("stiffness_b", sequence=7, age=2.0)
+    messages = [m for one in (a, *space_frames(k_yz=None), b) for m in decoder.add(one)]
+    assert [type(m) for m in messages] == [LimbStiffness, LimbStiffnessInSpace]
+    assert isinstance(messages[1], LimbStiffnessInSpace)
+    assert not messages[1].k_is_valid and math.isnan(messages[1].k_yz)
+
+
+def test_health_names_the_cause_of_a_drift() -> None:
+    decoder = Decoder()
+    drifted = 1 << 7
+    [early] = decoder.add(frame("heartbeat", dictionary_hash=DICTIONARY_HASH, faults=drifted))
+    assert isinstance(early, LimbHealth) and (early.level, early.drift_cause) == (WARN, "")
+    [health] = decoder.add(frame("emergency", error_code=0xFF01, drift_cause=1, faults=drifted))
+    assert isinstance(health, LimbHealth) and health.faults == ("model_drift",) and health.drift_cause == "femur_link"
+    assert "likeliest cause is femur_link: The femur's bending has changed." in health.text
+    [later] = decoder.add(frame("heartbeat", dictionary_hash=DICTIONARY_HASH, faults=drifted | 1))
+    assert isinstance(later, LimbHealth) and (later.level, later.drift_cause) == (ERROR, "femur_link")
+    [over] = decoder.add(frame("emergency", drift_cause=0, faults=0))
+    assert isinstance(over, LimbHealth) and (over.level, over.drift_cause) == (OK, "none")
 
 
 def test_the_node_publishes_what_is_decoded(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -103,14 +155,21 @@ def test_the_node_publishes_what_is_decoded(monkeypatch: pytest.MonkeyPatch) -> 
         monkeypatch.setitem(sys.modules, name, made)
 
     frames = [frame("stiffness_a", sequence=1, k_xx=4.0), frame("stiffness_b", sequence=1, k_zz=0.25)]
-    running = iter([True, True, True, False])
+    frames += [*space_frames(sequence=1), frame("emergency", error_code=0xFF01, drift_cause=1, faults=1 << 7)]
+    running = iter([True] * (len(frames) + 1) + [False])
     module("rclpy", ok=lambda: next(running), try_shutdown=lambda: None)
     module("rclpy.node", Node=StandInNode)
     module("rclpy.publisher", Publisher=object)
     module("rclpy.qos", qos_profile_sensor_data=object())
-    stamp = SimpleNamespace(sec=0, nanosec=0)
+
+    def message(**content: object) -> SimpleNamespace:
+        stamp = SimpleNamespace(sec=0, nanosec=0)
+        return SimpleNamespace(header=SimpleNamespace(stamp=stamp, frame_id=""), **content)
+
     module("brace_msgs")
-    module("brace_msgs.msg", LimbStiffness=lambda: SimpleNamespace(header=SimpleNamespace(stamp=stamp, frame_id="")))
+    module("brace_msgs.msg", LimbStiffness=message, LimbStiffnessInSpace=message)
+    module("diagnostic_msgs")
+    module("diagnostic_msgs.msg", DiagnosticArray=message, DiagnosticStatus=message, KeyValue=SimpleNamespace)
     sys.modules.pop("brace_bridge.node", None)
     import brace_bridge.node as bridge
 
@@ -119,13 +178,22 @@ def test_the_node_publishes_what_is_decoded(monkeypatch: pytest.MonkeyPatch) -> 
     node = bridge.Bridge()
     node._listener.join(timeout=5)
     assert node.failure is None
-    [(topic, message)] = published
-    assert topic == "limb_3/stiffness" and message.header.frame_id == "limb_3" and stamp.sec == 100
-    assert (message.k_xx, message.k_zz) == pytest.approx((4000.0, 250.0))
+    assert [topic for topic, _ in published] == ["limb_3/stiffness", "limb_3/stiffness_in_space", "/diagnostics"]
+    plane, space, diagnostic = (content for _, content in published)
+    assert (plane.header.frame_id, space.header.frame_id) == ("limb_3", "base_link") and plane.header.stamp.sec == 100
+    assert (plane.k_xx, plane.k_zz) == pytest.approx((4000.0, 250.0)) and space.k_xy == pytest.approx(-1500.0)
+    [status] = diagnostic.status
+    assert (status.level, status.hardware_id) == (bytes([WARN]), "limb_3") and "femur_link" in status.message
+    assert {pair.key: pair.value for pair in status.values} == {"faults": "model_drift", "drift_cause": "femur_link"}
 
 
-@pytest.mark.parametrize(("name", "build", "needed"), [("brace_msgs", "ament_cmake", {"std_msgs"}),
-                                                       ("brace_bridge", "ament_python", {"brace_msgs", "rclpy"})])
+@pytest.mark.parametrize(
+    ("name", "build", "needed"),
+    [
+        ("brace_msgs", "ament_cmake", {"std_msgs"}),
+        ("brace_bridge", "ament_python", {"brace_msgs", "diagnostic_msgs", "rclpy"}),
+    ],
+)
 def test_packages_as_ros_reads_them(name: str, build: str, needed: set[str]) -> None:
     from catkin_pkg.package import parse_package  # what ament and colcon read package.xml with
 

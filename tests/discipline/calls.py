@@ -285,13 +285,14 @@ def frames(build: Path) -> tuple[dict[str, int], list[Finding]]:
     sizes: dict[str, int] = {}
     found = []
     for path in build.rglob("*.su"):
-        for file, line, name, size, kind in SU_LINE.findall(path.read_text()):
-            if not any(Path(file).resolve().is_relative_to(folder) for folder in FOLDERS_WITH_FIGURES):
+        for told, line, name, size, kind in SU_LINE.findall(path.read_text()):
+            file = (build / told).resolve()  # ccache has the compiler name its source from the build folder
+            if not any(file.is_relative_to(folder) for folder in FOLDERS_WITH_FIGURES):
                 continue
             if kind == "dynamic":
-                found.append(Finding(Path(file), int(line), STACK, f"{name}: {kind}"))
+                found.append(Finding(file, int(line), STACK, f"{name}: {kind}"))
             bare = name.split(".")[0]
-            for key in (bare, f"{Path(file).resolve()}:{bare}"):
+            for key in (bare, f"{file}:{bare}"):
                 sizes[key] = max(sizes.get(key, 0), int(size))
     return sizes, found
 

@@ -49,6 +49,7 @@ static void interrupt(nvm_t *nvm, uint32_t slot, uint32_t offset, const uint8_t 
         if (nvm->manner >= CUT_UNSTABLE) {
             nvm->after[slot][at] = after[i];
             nvm->unstable[slot][at] = (uint8_t)nvm->manner;
+            nvm->any_unstable = true;
         } else if (nvm->manner == CUT_ZEROS) {
             *byte = 0;
         } else if (nvm->manner == CUT_NOISE) {
@@ -82,6 +83,10 @@ static int32_t nvm_read(void *context, uint32_t slot, uint32_t offset, uint8_t *
         return BRACE_HAL_E_RANGE;
     }
     const uint8_t all = (lot(nvm) & 1u) != 0 ? 0xff : 0x00; /* of CUT_UNSTABLE_WHOLE: one lot a read */
+    if (!nvm->any_unstable) {
+        memcpy(bytes, &nvm->bytes[slot][offset], count);
+        return BRACE_HAL_OK;
+    }
     for (uint32_t i = 0; i < count; i++) {
         const uint8_t before = nvm->bytes[slot][offset + i], after = nvm->after[slot][offset + i];
         const uint8_t manner = nvm->unstable[slot][offset + i];

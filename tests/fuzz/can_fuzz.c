@@ -5,6 +5,7 @@
  *   the mode becomes CONFIGURATION without the key, or parameters change without commit or rollback in that mode
  *   the heartbeat stops
  * Exit code 0 and one line when all is well. */
+#include "brace/can_messages.h"
 #include "fuzz.h"
 
 enum { NODE = 5, STORE_TICKS = 3000, QUIET_TICKS = 3, NEW_LIMB_AFTER = 2000, BEAT_TICKS = 1100 };
@@ -36,7 +37,7 @@ static void start(void)
     brace_can_frame_t frame;
     while (brace_fake_frame_take(&fake, &frame)) {
     }
-    crc_known = app.parameter_crc;
+    crc_known = app.controller.parameters.crc;
     keyed = committed = false;
     beat_age = 0;
 }
@@ -60,14 +61,14 @@ static void tick(const uint8_t *request)
     if (beat_age > BEAT_TICKS) {
         fail("no heartbeat", request, 8);
     }
-    if (app.mode == BRACE_MODE_CONFIGURATION && !keyed) {
+    if (app.controller.mode.now == BRACE_MODE_CONFIGURATION && !keyed) {
         fail("configuration without its key", request, 8);
     }
-    if (app.parameter_crc != crc_known) {
+    if (app.controller.parameters.crc != crc_known) {
         if (!committed) {
             fail("parameters changed without a commit", request, 8);
         }
-        crc_known = app.parameter_crc;
+        crc_known = app.controller.parameters.crc;
         changes++;
     }
 }
@@ -104,7 +105,7 @@ static void compose(uint8_t data[8])
         data[0] = (uint8_t)(12u + dice(2));
         put(data, 2, 4, 0);
     } else if (kind < 80u) {
-        data[0] = (uint8_t)dice(24);
+        data[0] = (uint8_t)dice(27);
     } /* else: noise throughout */
     if (dice(4) == 0u) {
         mutate(data, 8);
@@ -122,20 +123,6 @@ static void noise_frames(void)
             frame.data[i] = (uint8_t)dice(256);
         }
         (void)brace_fake_frame_arrives(&fake, &frame);
-    }
-}
-
-static uint32_t parts_of(uint32_t command)
-{
-    switch (command) {
-    case 3:
-    case 4:
-    case 5: return 3;
-    case 6:
-    case 12:
-    case 13: return 2;
-    case 20: return 4;
-    default: return 1;
     }
 }
 
@@ -166,13 +153,13 @@ static void check_answer(const uint8_t *request, bool is_the_benchs)
         if ((int8_t)answer[0][2] >= 0) {
             fail("a refusal that is none", request, 8);
         }
-        if (command == 3u && is_the_benchs && app.mode != BRACE_MODE_CONFIGURATION &&
+        if (command == 3u && is_the_benchs && app.controller.mode.now != BRACE_MODE_CONFIGURATION &&
             fabs(signed24(request, 2)) < 3e6 && signed24(request, 5) > 3e5 && signed24(request, 5) < 2.8e6) {
             fail("no K where there is one", request, 8);
         }
         return;
     }
-    if (answer_count != parts_of(command) || command == 0u || command > 22u) {
+    if (answer_count != brace_can_answer_parts[command] || command == 0u) {
         fail("as many parts as no answer has", request, 8);
     }
     for (uint32_t part = 0; part < answer_count; part++) {
@@ -185,12 +172,12 @@ static void check_answer(const uint8_t *request, bool is_the_benchs)
     } else if (command == 1u) {
         const uint32_t index = field(request, 2, 2), value = field(answer[0], 4, 4);
         uint32_t held;
-        if (index < sizeof app.parameters / 4u) {
-            memcpy(&held, (const uint8_t *)&app.parameters + 4u * index, 4);
+        if (index < sizeof app.controller.parameters.in_force / 4u) {
+            memcpy(&held, (const uint8_t *)&app.controller.parameters.in_force + 4u * index, 4);
         } else {
             held = index == 0x1001u ? 0x01020304u : value;
         }
-        if (field(answer[0], 2, 2) != index || (value != held && app.mode != BRACE_MODE_CONFIGURATION)) {
+        if (field(answer[0], 2, 2) != index || (value != held && app.controller.mode.now != BRACE_MODE_CONFIGURATION)) {
             fail("another entry", request, 8);
         }
     }
@@ -203,7 +190,7 @@ static void feed(const uint32_t crc_of_the_bench)
     const bool is_request = data[0] < 0x20u;
     keyed = keyed || (data[0] == 9u && data[2] == 2u && field(data, 3, 2) == 0xc0deu);
     committed = committed || (keyed && (data[0] == 12u || data[0] == 13u));
-    const bool is_the_benchs = app.parameter_crc == crc_of_the_bench;
+    const bool is_the_benchs = app.controller.parameters.crc == crc_of_the_bench;
     answer_count = 0;
     noise_frames();
     brace_can_frame_t frame = {.id = 0x600u + NODE, .length = 8};
@@ -224,7 +211,7 @@ static void feed(const uint32_t crc_of_the_bench)
         fail("no answer", data, 8);
     }
     if (is_request) {
-        check_answer(data, is_the_benchs && app.parameter_crc == crc_of_the_bench);
+        check_answer(data, is_the_benchs && app.controller.parameters.crc == crc_of_the_bench);
     }
 }
 

@@ -43,7 +43,7 @@ static void start(void)
     p.controller.modbus_address = UNIT;
     bench_start(&p);
     ticks(30);
-    crc_known = app.parameter_crc;
+    crc_known = app.controller.parameters.crc;
     keyed = committed = false;
 }
 
@@ -121,14 +121,14 @@ static void tick(brace_serial_port_t port)
 {
     ticks(1);
     reply_count += brace_fake_bytes_take(&fake, port, reply + reply_count, (uint32_t)sizeof reply - reply_count);
-    if (app.mode == BRACE_MODE_CONFIGURATION && !keyed) {
+    if (app.controller.mode.now == BRACE_MODE_CONFIGURATION && !keyed) {
         fail("configuration without its key", pdu, pdu_count);
     }
-    if (app.parameter_crc != crc_known) {
+    if (app.controller.parameters.crc != crc_known) {
         if (!committed) {
             fail("parameters changed without a commit", pdu, pdu_count);
         }
-        crc_known = app.parameter_crc;
+        crc_known = app.controller.parameters.crc;
         changes++;
     }
 }
@@ -176,8 +176,8 @@ static void check(const uint8_t *told, uint32_t count, bool was_configuring)
                 held = 0x4640e600u;
             } else if (pdu[0] == 4u && at == 2u) {
                 held = 0x01020304u;
-            } else if (pdu[0] == 3u && at / 2u < sizeof app.parameters / 4u && !was_configuring) {
-                memcpy(&held, (const uint8_t *)&app.parameters + 2u * at, 4);
+            } else if (pdu[0] == 3u && at / 2u < sizeof app.controller.parameters.in_force / 4u && !was_configuring) {
+                memcpy(&held, (const uint8_t *)&app.controller.parameters.in_force + 2u * at, 4);
             }
             if (got != held) {
                 fail("another value", pdu, pdu_count);
@@ -251,7 +251,7 @@ int main(int count, char **arguments)
             start();
         }
         compose();
-        const bool was_configuring = app.mode == BRACE_MODE_CONFIGURATION || keyed;
+        const bool was_configuring = app.controller.mode.now == BRACE_MODE_CONFIGURATION || keyed;
         if (dice(2) != 0u) {
             over_line(was_configuring);
         } else {

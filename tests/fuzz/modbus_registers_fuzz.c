@@ -49,7 +49,8 @@ static void wrong(const char *what, const bytes_t *sent, const bytes_t *got)
     for (uint32_t i = 0; i < got->count; i++) {
         printf(" %02x", got->byte[i]);
     }
-    printf("\n  mode %d, parameters %s\n", (int)app.mode, app.storing ? "being stored" : "at rest");
+    printf("\n  mode %d, parameters %s\n", (int)app.controller.mode.now,
+           parameter_job_is_busy(&app.controller.parameters) ? "being stored" : "at rest");
     exit(1);
 }
 
@@ -95,7 +96,7 @@ static uint32_t some_start(void)
 static uint32_t some_value(uint32_t start)
 {
     if (start < 2u * WORDS && dice(4) != 0u) {
-        return word(&app.parameters, start / 2u) + (dice(3) == 0u ? dice(64) : 0u);
+        return word(&app.controller.parameters.in_force, start / 2u) + (dice(3) == 0u ? dice(64) : 0u);
     }
     switch (start) {
     case 16384: return key | (1u + dice(2));
@@ -226,7 +227,7 @@ static void judge_read(const bytes_t *sent, const uint8_t *pdu, const bytes_t *g
         }
     }
     const brace_parameters_t *old = before->begun ? &before->staged : &in_force;
-    const brace_parameters_t *new = app.staging.begun ? &app.staging.set : &app.parameters;
+    const brace_parameters_t *new = request_staged(&app.controller);
     if (pdu[0] == 3u && !tells(answer, start, count, old) && !tells(answer, start, count, new)) {
         wrong("a parameter told wrong", sent, got);
     }
@@ -261,7 +262,7 @@ static void judge_write(const bytes_t *sent, const uint8_t *pdu, uint32_t length
     questions[(start - 16396u) / 2u % COMMANDS] += start >= 16396u;
     if (start < 2u * WORDS) {
         for (uint32_t i = 0; i < pdu[5] / 4u; i++) {
-            if (word(&app.staging.set, start / 2u + i) != at32(pdu + 6u + 4u * i)) {
+            if (word(&app.controller.parameters.staged, start / 2u + i) != at32(pdu + 6u + 4u * i)) {
                 wrong("what was written is not what is staged", sent, got);
             }
         }
@@ -288,8 +289,8 @@ static void judge(const bytes_t *sent, const uint8_t *pdu, uint32_t length, cons
         wrong("a read's exception", sent, got);
     }
     if (is_refusal) {
-        if (before->begun && app.staging.begun &&
-            memcmp(&before->staged, &app.staging.set, sizeof before->staged) != 0) {
+        if (before->begun && app.controller.parameters.has_staged &&
+            memcmp(&before->staged, &app.controller.parameters.staged, sizeof before->staged) != 0) {
             wrong("a refused request changed what is staged", sent, got);
         }
     } else if (is_read) {
@@ -376,14 +377,14 @@ static void on_the_line(const before_t *before)
 static void check_parameters(unsigned long commits_before, const bytes_t *nothing)
 {
     static unsigned long settled;
-    if (memcmp(&in_force, &app.parameters, sizeof in_force) == 0) {
+    if (memcmp(&in_force, &app.controller.parameters.in_force, sizeof in_force) == 0) {
         return;
     }
     if (commits == settled && commits == commits_before) {
         wrong("parameters changed without a commit", nothing, nothing);
     }
     settled = commits;
-    in_force = app.parameters;
+    in_force = app.controller.parameters.in_force;
 }
 
 static void start(void)
@@ -391,7 +392,7 @@ static void start(void)
     brace_parameters_t p = bench_parameters();
     p.controller.modbus_address = UNIT;
     bench_start(&p);
-    in_force = app.parameters;
+    in_force = app.controller.parameters.in_force;
     ticks(20);
 }
 
@@ -403,23 +404,24 @@ int main(int argc, char **argv)
     start();
     unsigned long commits_seen = 0;
     for (number = 1; number <= requests; number++) {
-        const uint32_t sequence = app.sequence;
-        const before_t before = {app.mode, app.staging.begun, app.staging.set};
+        const uint32_t sequence = app.controller.sequence;
+        const parameter_job_t *job = &app.controller.parameters;
+        const before_t before = {app.controller.mode.now, job->has_staged, job->staged};
         if (dice(4) == 0u) {
             on_the_line(&before);
         } else {
             over_tcp(&before);
         }
         check_parameters(commits_seen, &nothing);
-        commits_seen = app.storing || app.configure_piece != 0u ? commits_seen : commits;
-        while (app.storing || (app.configure_piece != 0u && app.mode == BRACE_MODE_CONFIGURATION)) {
+        commits_seen = parameter_job_is_busy(&app.controller.parameters) ? commits_seen : commits;
+        while (parameter_job_is_busy(&app.controller.parameters)) {
             ticks(1);
             if (dice(3) == 0u) {
                 break; /* the next request may come while a set is stored */
             }
         }
         check_parameters(commits_seen, &nothing);
-        if (app.sequence == sequence) {
+        if (app.controller.sequence == sequence) {
             wrong("no snapshot since the last request", &nothing, &nothing);
         }
         if (number % 5000u == 0u) {

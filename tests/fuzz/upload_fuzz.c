@@ -97,7 +97,7 @@ static void take_frames(const uint8_t *request)
 
 static void unchanged(const uint8_t *request)
 {
-    if (memcmp(&in_force, &app.parameters, sizeof in_force) != 0) {
+    if (memcmp(&in_force, &app.controller.parameters.in_force, sizeof in_force) != 0) {
         fail("parameters changed without an accepted commit", request, 8);
     }
 }
@@ -194,19 +194,19 @@ static void judge_commit(const uint8_t *data, bool may)
         broken += whole && memcmp(model.word, block, sizeof block) != 0;
         return;
     }
-    if (memcmp(&app.parameters, &model.word[HEADER], sizeof in_force) != 0) {
+    if (memcmp(&app.controller.parameters.in_force, &model.word[HEADER], sizeof in_force) != 0) {
         fail("another set is in force", data, 8);
     }
-    if (got_count != 2u || field(got[1], 2, 4) != app.parameter_crc) {
+    if (got_count != 2u || field(got[1], 2, 4) != app.controller.parameters.crc) {
         fail("another CRC was told", data, 8);
     }
-    in_force = app.parameters;
+    in_force = app.controller.parameters.in_force;
     taken++;
 }
 
 static void send(const uint8_t data[8])
 {
-    const bool may = app.mode == BRACE_MODE_CONFIGURATION;
+    const bool may = app.controller.mode.now == BRACE_MODE_CONFIGURATION;
     ask(data);
     switch (data[0]) {
     case BEGIN: judge_begin(data, may); break;
@@ -216,11 +216,11 @@ static void send(const uint8_t data[8])
         if (!may && ok(data)) {
             fail("rolled back outside CONFIGURATION", data, 8);
         }
-        in_force = app.parameters;
+        in_force = app.controller.parameters.in_force;
         break;
     default: unchanged(data);
     }
-    model.open = model.open && app.mode == BRACE_MODE_CONFIGURATION;
+    model.open = model.open && app.controller.mode.now == BRACE_MODE_CONFIGURATION;
 }
 
 /* ------------------------------------------------------------------------------------------------ requests -- */
@@ -288,7 +288,7 @@ static uint32_t disturb(uint32_t at)
             silences++;
             ticks(SILENCE_TICKS);
             take_frames(data);
-            if (app.mode == BRACE_MODE_CONFIGURATION) {
+            if (app.controller.mode.now == BRACE_MODE_CONFIGURATION) {
                 fail("CONFIGURATION does not end", data, 8);
             }
             model.open = false;
@@ -309,7 +309,7 @@ static void push(void)
 {
     const uint32_t one_in = dice(3) == 0u ? 0u : 1u << (1u + dice(9)); /* 0: nothing goes wrong */
     new_block();
-    if (app.mode != BRACE_MODE_CONFIGURATION && dice(20) != 0u) {
+    if (app.controller.mode.now != BRACE_MODE_CONFIGURATION && dice(20) != 0u) {
         say(SET_MODE, 2, 1, BRACE_MODE_CONFIGURATION);
     }
     say_begin();
@@ -338,7 +338,7 @@ static void start(void)
     brace_can_frame_t frame;
     while (brace_fake_frame_take(&fake, &frame)) {
     }
-    in_force = app.parameters;
+    in_force = app.controller.parameters.in_force;
     model.open = false;
 }
 

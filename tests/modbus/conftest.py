@@ -17,7 +17,7 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "socketcan")]
 
 from clients import CLIENTS, Client, Place  # noqa: E402
-from processes import COUNTED, PATIENCE_S, emulated, simulated  # noqa: E402
+from processes import PATIENCE_S, SLOWLY, emulated, simulated  # noqa: E402
 
 SIM = ("--can", "none", "--modbus")
 
@@ -33,7 +33,7 @@ def server(name: str, folder: Path) -> Iterator[Place]:
         with simulated(*SIM, "modbus:pty") as ready:
             yield Place(name, device=ready["limbs"][0]["modbus"].removeprefix("modbus:"))
     else:
-        with emulated(folder, name, options=COUNTED) as places:  # a frame ends with a silence on the board's clock
+        with emulated(folder, name, clock=SLOWLY) as places:  # a frame ends with a silence on the board's clock
             wait_for_banner(places["console"])
             # the emulator looks for a new client once a second
             held = os.open(places["modbus"], os.O_RDWR | os.O_NOCTTY)

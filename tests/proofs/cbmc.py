@@ -68,17 +68,14 @@ class Program:
     options: tuple[str, ...] = ()
 
 
-def preprocess(
-    compiler: str, source: pathlib.Path, into: pathlib.Path, extra: tuple[str, ...]
-) -> pathlib.Path:
-    """The source as the target's own compiler sees it, in folder `into`. extra: further arguments of the compiler."""
+def preprocess(compiler: str, source: pathlib.Path, into: pathlib.Path) -> pathlib.Path:
+    """The source as the target's own compiler sees it, in folder `into`."""
     out = into / ("_".join(source.relative_to(ROOT).with_suffix("").parts[-3:]) + ".i")
     command = [
         compiler,
         *TARGET,
         "-E",
         *(f"-I{folder}" for folder in INCLUDES),
-        *extra,
         str(source.relative_to(ROOT)),
         "-o",
         str(out),
@@ -140,7 +137,7 @@ def _float_conversions(cbmc: str, program: Program) -> list[str]:
     for message in messages:
         for found in _dicts(message.get("properties")):
             text = str(found["description"])
-            integer = "type conversion" in text and "floating-point" not in text
+            integer = "type conversion" in text and "float" not in text
             if not integer:
                 chosen += ["--property", str(found["name"])]
     return [CONVERSIONS, *chosen]

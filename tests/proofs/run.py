@@ -47,7 +47,6 @@ class Proof:
     bound: str
     stands_on: tuple[str, ...]  # what is replaced by a stand-in, and the proof that allows it
     sources: tuple[str, ...]
-    parts: str  # members of the controller's struct that the code is about; else the whole of it
     unwind: int
     unwindset: dict[str, int]
     conversions: bool
@@ -73,7 +72,6 @@ def read_proofs() -> list[Proof]:
                 " ".join(item["bound"].split()),
                 tuple(item.get("stands_on", ())),
                 tuple(item["sources"]),
-                item.get("parts", ""),
                 item["unwind"],
                 dict(item.get("unwindset", {})),
                 bool(item.get("conversions", False)),
@@ -89,8 +87,7 @@ def program(proof: Proof, into: pathlib.Path) -> cbmc.Program:
     shutil.rmtree(into, ignore_errors=True)
     into.mkdir(parents=True)
     sources = [HERE / "harness" / f"{proof.name}.c", *(cbmc.ROOT / source for source in proof.sources)]
-    extra = (f"-DAPP_PARTS={proof.parts}", "-include", "app_parts.h") if proof.parts else ()
-    files = tuple(cbmc.preprocess(COMPILER, source, into, extra) for source in sources)
+    files = tuple(cbmc.preprocess(COMPILER, source, into) for source in sources)
     return cbmc.Program(files, proof.unwind, proof.unwindset, proof.conversions, proof.options)
 
 

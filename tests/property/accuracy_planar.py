@@ -1,7 +1,7 @@
-"""How far the float K is from extended precision, limb by limb over the whole workspace: tick, table, general path.
+"""How far the float K is from extended precision, limb by limb over the whole workspace: tick, general path.
 
 K within 2e-6 of lambda_max and eigenvalues within 2e-6 of themselves, or the limb is flagged or refused. Exit code 1
-beyond that. --path picks one of tick, table, general (default: all three).
+beyond that. --path picks tick or general (default: both).
 """
 from __future__ import annotations
 
@@ -16,10 +16,8 @@ from core_library import core_library, floats_of
 from planar_judge import Columns, Variant, sweep
 
 LIMITS = np.array([2e-6, 2e-6, 2e-6, 1e-6])  # K, lambda_min, lambda_max, axis [rad]
-TABLE_LIMITS = np.array([2e-6, 2e-6, 2e-6, 1.5e-6])
 NEAR_SINGULAR = 2
-PATHS = {"tick": ("planar_rows", LIMITS), "table": ("planar_table_rows", TABLE_LIMITS),
-         "general": ("planar_general_rows", LIMITS)}
+PATHS = {"tick": ("planar_rows", LIMITS), "general": ("planar_general_rows", LIMITS)}
 
 
 def variant(rows_function: Callable[..., int]) -> Variant:

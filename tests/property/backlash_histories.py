@@ -12,8 +12,8 @@ much to break away, once with a machine that knows nothing of it, once with one 
 
 The angle error is told five ways: of all ticks, with a flank touching, outside the crossing, and where the machine tells a
 flank, and says valid. With the gap believed 20 % wrong the right flank alone leaves up to a tenth
-of the gap. Of all ticks, the gap's being open included, a tenth is not reached, nor in reach of who only looks on:
-backlash_floor.py.
+of the gap. Of all ticks, the gap's being open included, there is no bound: a tenth is not in reach of who only looks on
+(backlash_floor.py).
 
 Seeds 1-1000 were used while the machine was made; the figures reported come from seeds 1,000,001 on. Exit code 1 when
 a bound is not met.
@@ -120,7 +120,6 @@ def history_bounds(c: HistoryCounts) -> dict[str, bool]:
         "angle error <= a tenth of the gap at the 95th percentile, a flank touching": percentile(c.touching, 0.95) <= 0.1,
         "angle error <= a tenth of the gap at the 95th percentile, outside the crossing":
             percentile(c.outside_crossing, 0.95) <= 0.1,
-        "angle error <= a tenth of the gap at the 95th percentile, of all ticks": percentile(c.all, 0.95) <= 0.1,
         "ten times fewer wrong ticks than by direction": 10.0 * c.wrong <= cnc,
         "ten times fewer wrong ticks than by direction, guessing at every tick too": 10.0 * c.best_wrong <= cnc,
     }

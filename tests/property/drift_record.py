@@ -14,7 +14,7 @@ import numpy as np
 
 import limbs
 from core_library import core_library
-from host_library import Model, play
+from host_library import play
 
 NOISE_N, RESOLUTION_N, STEP_MM = 0.1, 0.0625, 0.635
 RUN_STEPS = np.array([0, 1, 2, 3, 4, 3, 2, 1, 0, -1, -2, -3, -4, -3, -2, -1, 0])

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 ROOT = Path(__file__).resolve().parents[2]
-HEADER = ROOT / "host_sim" / "api" / "brace_host.h"
+HEADERS = [ROOT / "host_sim" / "api" / name for name in ("brace_plant_model.h", "brace_host.h")]
 Array = NDArray[np.float64]
 
 ffi = cffi.FFI()
-ffi.cdef("\n".join(line for line in HEADER.read_text().splitlines() if not line.startswith("#")))
+ffi.cdef("\n".join(line for header in HEADERS for line in header.read_text().splitlines() if not line.startswith("#")))
 
 
 def open_library() -> Any:

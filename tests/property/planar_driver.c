@@ -4,7 +4,6 @@
 
 #include "brace/chain.h"
 #include "brace/planar.h"
-#include "brace/planar_table.h"
 
 /* One posture after the other into rows of six floats and the flags; the first status that is not BRACE_OK. */
 int planar_rows(const brace_limb_t *limb, size_t n, const float *theta1, const float *theta2, brace_stiffness_t *row)
@@ -13,21 +12,6 @@ int planar_rows(const brace_limb_t *limb, size_t n, const float *theta1, const f
     brace_status_t status = brace_planar_collapse(limb, &planar);
     for (size_t i = 0; status == BRACE_OK && i < n; i++) {
         status = brace_planar_stiffness(&planar, theta1[i], theta2[i], &row[i]);
-    }
-    return status;
-}
-
-int planar_table_rows(const brace_limb_t *limb, size_t n, const float *theta1, const float *theta2,
-                      brace_stiffness_t *row)
-{
-    static brace_planar_table_t table;
-    brace_planar_t planar;
-    brace_status_t status = brace_planar_collapse(limb, &planar);
-    if (status == BRACE_OK) {
-        status = brace_planar_table_build(&planar, &table);
-    }
-    for (size_t i = 0; status == BRACE_OK && i < n; i++) {
-        status = brace_planar_table_stiffness(&table, theta1[i], theta2[i], &row[i]);
     }
     return status;
 }

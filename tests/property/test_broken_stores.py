@@ -9,12 +9,13 @@ from pathlib import Path
 import pytest
 
 PROJECT = Path(__file__).resolve().parents[2]
-STORE = PROJECT / "firmware" / "app" / "src" / "store"
+STORE = PROJECT / "firmware" / "app" / "src" / "jobs" / "store"
 INCLUDES = ("firmware/app/include", "firmware/app/src", "firmware/core/include", "firmware/core/src", "hal/include",
             "tests/faults")
 INTERFACE = ("firmware/interface/include", "firmware/interface/generated", "firmware/interface/src")
 SOURCES = (
-    "firmware/interface/src/*.c",
+    "firmware/interface/src/[!c]*.c",  # all but crc32.c, in whose place stands
+    "tests/faults/crc32_fast.c",
     "firmware/interface/generated/*.c",
     "firmware/core/src/limb/*.c",
     "firmware/core/src/base/*.c",

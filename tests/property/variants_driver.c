@@ -47,12 +47,12 @@ int spatial_rows(const brace_limb_t *limb, size_t n, const float *theta0_rad, co
 long batch_columns(const brace_limb_t *limb, size_t n, const float *theta1_rad, const float *theta2_rad,
                    float *columns)
 {
-    brace_planar_batch_t batch;
-    const int status = brace_planar_batch_collapse(limb, &batch);
+    brace_planar_t planar;
+    const int status = brace_planar_collapse(limb, &planar);
     if (status != BRACE_OK) {
         return status;
     }
     const brace_stiffness_soa_t out = {columns,         columns + n,     columns + 2 * n,
                                        columns + 3 * n, columns + 4 * n, columns + 5 * n};
-    return (long)brace_planar_batch(&batch, n, theta1_rad, theta2_rad, &out);
+    return (long)brace_planar_batch(&planar, n, theta1_rad, theta2_rad, &out);
 }

@@ -22,10 +22,13 @@ from wire_by_hand import LIMB, NODE, PROJECT
 
 IMAGES = Path(os.environ.get("BRACE_IMAGES", PROJECT / "build" / "m4f" / "images"))
 PATIENCE_S = 30.0  # a loaded machine; an idle one takes a second
-# The board's clock counts its instructions, 1 ns each: the host may take it off the processor for as long as it likes,
-# its timers and its line's silences stay in step with its program. In the host's time a tick so lasts some ten
-# milliseconds: for what is counted or silent on the board, not for rates.
-COUNTED = ("-icount", "shift=0")
+# The board's clock counts its instructions. The host may take the emulator off the processor for as long as it likes:
+# the board's timers, rates and the silences on its lines stay in step with its program.
+AT_PACE = ("-icount", "shift=3")  # 8 ns each, about an STM32F405 at 168 MHz: a tick takes an idle host about 1 ms
+# For Modbus RTU, where a silence of 2 ms on the board's clock ends a frame, the board runs slower than the host, which
+# so has longer to pass on the next byte: 2 ns each where a program gives up on a slow board, else 1 ns each.
+SLOWER = ("-icount", "shift=1")
+SLOWLY = ("-icount", "shift=0")
 
 
 @contextlib.contextmanager
@@ -64,10 +67,13 @@ def _address_of(elf: Path, symbol: str) -> int:
 
 @contextlib.contextmanager
 def emulated(
-    folder: Path, name: str = "netduinoplus2", changes: dict[str, float] | None = None, options: tuple[str, ...] = ()
+    folder: Path,
+    name: str = "netduinoplus2",
+    changes: dict[str, float] | None = None,
+    clock: tuple[str, ...] = AT_PACE,
 ) -> Iterator[dict[str, str]]:
     """A controller image on an emulated board with the paper's limb in its memory; ptys of its serial ports console,
-    modbus, slcan. Options are the emulator's."""
+    modbus, slcan."""
     program = shutil.which("qemu-system-arm")
     if program is None or shutil.which("arm-none-eabi-nm") is None:
         pytest.skip("qemu-system-arm or binutils-arm-none-eabi is missing")
@@ -79,7 +85,7 @@ def emulated(
     serial = [word for port in ports for word in ("-chardev", f"pty,id={port}", "-serial", f"chardev:{port}")]
     loaded = ["-device", f"loader,file={memory},addr={_address_of(elf, '_kept_nvm'):#x}"]
     quiet = ["-display", "none", "-monitor", "none"]
-    command = [program, "-machine", name, *quiet, *serial, "-kernel", str(elf.with_suffix(".bin")), *loaded, *options]
+    command = [program, "-machine", name, *quiet, *serial, "-kernel", str(elf.with_suffix(".bin")), *loaded, *clock]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     try:
         yield _places(process, len(ports))

@@ -1,6 +1,6 @@
-"""real_tools.py INTERFACE [sim | slcand TTY]: run where the kernel has CAN. Brings a controller onto the interface (the
-simulated one, or whoever speaks SLCAN on TTY), then candump, cansend, python-can with cantools and the C client talk to
-it. Prints what each saw as one JSON object; judging it is the tests' part."""
+"""real_tools.py INTERFACE [sim | slcand TTY] [TOOL ...]: run where the kernel has CAN. Brings a controller onto the
+interface (the simulated one, or whoever speaks SLCAN on TTY), then candump, cansend, python-can with cantools and the C
+client talk to it, or only the tools that are named. Prints what each saw as one JSON object; the tests judge it."""
 
 from __future__ import annotations
 
@@ -119,21 +119,20 @@ def with_c_client(interface: str) -> dict[str, Any] | None:
     return {"code": run.returncode, "out": run.stdout, "err": run.stderr}
 
 
+TOOLS = {
+    "candump": with_candump,
+    "cansend": with_cansend,
+    "python_can": with_python_can,
+    "c_client": with_c_client,
+}
+
+
 def main() -> None:
     interface, kind, *rest = sys.argv[1:]
+    tools = rest if kind == "sim" else rest[1:]
     with simulated(interface) if kind == "sim" else adapted(interface, rest[0]):
         time.sleep(1.0)
-        print(
-            json.dumps(
-                {
-                    "candump": with_candump(interface),
-                    "cansend": with_cansend(interface),
-                    "python_can": with_python_can(interface),
-                    "c_client": with_c_client(interface),
-                },
-                default=float,
-            )
-        )
+        print(json.dumps({name: TOOLS[name](interface) for name in tools or TOOLS}, default=float))
 
 
 if __name__ == "__main__":

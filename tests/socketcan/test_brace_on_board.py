@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from processes import emulated
+from processes import SLOWER, emulated
 from wire_by_hand import LIMB, paper_k
 
 STANDS_RAD, ASKED_RAD = (1.0, 1.4), (0.5, 1.2)
@@ -18,7 +18,7 @@ MATRIX = ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm")
 
 @pytest.fixture(scope="module")
 def urls(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:
-    with emulated(tmp_path_factory.mktemp("board")) as places:
+    with emulated(tmp_path_factory.mktemp("board"), clock=SLOWER) as places:
         yield {"slcan": f"slcan:{places['slcan']}", "modbus": f"modbus:{places['modbus']}@115200/1"}
 
 

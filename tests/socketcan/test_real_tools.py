@@ -130,8 +130,9 @@ def test_the_c_client_prints_k(seen: dict[str, Any]) -> None:
 
 def test_the_board_is_not_the_simulation(tmp_path: Path) -> None:
     """The image holds no other limb's answer: with another node number it is silent for node 1."""
+    tools = ("candump", "cansend")
     with emulated(tmp_path, changes={"controller.node_id": 5}) as places:
-        run = in_guest(sys.executable, SCRIPT, "can0", "slcand", "ttyS0", serial=places["slcan"])
+        run = in_guest(sys.executable, SCRIPT, "can0", "slcand", "ttyS0", *tools, serial=places["slcan"])
     assert run.returncode == 0, run.stdout + run.stderr
     told = json.loads(run.stdout.splitlines()[-1])
     assert told["cansend"] == []

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 from bus_of_ticks import SlcanClient, eight_byte_frames, limbs
-from processes import COUNTED, PATIENCE_S, emulated
+from processes import PATIENCE_S, emulated
 from wire_by_hand import (
     ANSWER,
     EIGENVALUES,
@@ -74,9 +74,9 @@ STEADY = 0.8  # share of one entry's gaps that are the same, in a round that cou
 @pytest.mark.parametrize("name", ["netduinoplus2", "mps2-an386"])
 def test_an_emulated_board_answers_k_as_soon_as_anything(name: str, tmp_path: Path) -> None:
     """The image as a whole, by the board's own tick counter, asked before and after: between those two K costs no tick
-    more than an entry, whose answer is a third as long. That it is within one tick, tests/unit/test_can_promptness.c
+    more than an entry, whose answer is a third as long. That it is within one tick, tests/unit/app/test_can_promptness.c
     says; here the serial line's own pace comes in, which is the same for both."""
-    with emulated(tmp_path, name, options=COUNTED) as places, Wire(places["slcan"]) as wire:
+    with emulated(tmp_path, name) as places, Wire(places["slcan"]) as wire:
         wire.wait_for_board()
         k, other = np.empty(0, int), np.empty(0, int)
         for _ in range(8):  # what the host still decides is when it passes on a byte: rounds, until it does so evenly

@@ -12,10 +12,11 @@ import pytest
 from conftest import LIMB, Outcome
 from test_sim_command import FREE, running
 
+from brace.bus.drift import Drift, drift_of
 from brace.cli import clear_command
-from brace.wire.measured import MEASURED
+from brace.wire.codes import FAULT
 
-FAULTS = next(entry.bit_names for entry in MEASURED if entry.name == "faults")
+FAULTS = FAULT.names
 MODEL_DRIFT, CRASHED = 1 << FAULTS.index("MODEL_DRIFT"), 1 << FAULTS.index("CRASHED")
 
 
@@ -73,6 +74,11 @@ class Controller:
         assert name == "faults"
         return self.faults
 
+    def drift(self) -> Drift:
+        assert self.faults & MODEL_DRIFT  # before it is cleared
+        return drift_of({"state": 2, "cause": 1, "could_be": 1, "next_step": 4, "evidence": 30.0, "loss": 0.1,
+                         "loss_sigma": 0.01, "since_readings": 9, "readings": 500})
+
     def clear(self, faults: int) -> int:
         self.asked |= faults
         self.faults &= ~faults | self.lasting
@@ -98,7 +104,11 @@ def test_what_is_asked_for_is_cleared_and_nothing_that_is_not_there(
     device = given(Controller(MODEL_DRIFT | CRASHED | 1))
     outcome = brace("clear", "drift", "--bus", "can0", "--json")
     assert outcome.code == 0 and device.asked == MODEL_DRIFT == 1 << 7
-    assert json.loads(outcome.out)["faults"] == ["sensor_femur", "crashed"]
+    told = json.loads(outcome.out)
+    assert told["faults"] == ["sensor_femur", "crashed"] and told["drift_cause"] == "femur_link"
+    given(Controller(MODEL_DRIFT))
+    outcome = brace("clear", "drift", "--bus", "can0")
+    assert "likeliest cause was femur_link: The femur's bending has changed." in outcome.err
     device = given(Controller(CRASHED))  # the drift check's evidence is not thrown away for nothing
     assert brace("clear", "drift", "--bus", "can0").code == 0 and device.asked == 0
 

@@ -6,7 +6,7 @@ import random
 
 from brace.bus.frame import Frame
 from brace.bus.snapshot import Joiner, Snapshot
-from brace.wire.frames import FD_MESSAGES, MESSAGES
+from brace.wire.frames import FD_MESSAGES, MESSAGES, MULTIPLEXED
 
 STEP = 0.0005
 PERIOD_S = 0.005
@@ -151,3 +151,111 @@ def test_halves_a_round_of_the_number_apart_do_not_fit() -> None:
     assert joiner.add(Frame(a.time_s + 0.064, b.identifier, b.data)) is None
     assert joiner.add(a) is None
     assert joiner.add(Frame(a.time_s + 0.039, b.identifier, b.data)) is not None
+
+
+# ------------------------------------------------------------------------------------------- K in space
+
+SPACE = MULTIPLEXED["space"]
+SPACE_VALUES = ("k_xx", "k_xy", "k_xz", "k_yy", "k_yz", "k_zz", "lambda_1", "lambda_2", "lambda_3", "k_across")
+
+
+def space_frames_of(tick: int, node: int = 1) -> list[Frame]:
+    """All frames of K in space; every value tells its tick."""
+    sequence, time_s, mark = tick * TICKS_A_PERIOD & 0xFF, 1000.0 + tick * PERIOD_S + 2e-4, (tick % 4_000_000) * STEP
+    values: dict[str, float | int | None] = {name: mark for name in SPACE_VALUES}
+    values |= {"flags": 8, "age": 1.5, "play_coxa": 2, "theta0": 0.25, "sequence": sequence}
+    values |= {"stiff_axis_x": 0.0, "stiff_axis_y": -0.5, "stiff_axis_z": 1.0}
+    return [
+        Frame(time_s + 1e-5 * index, layout.identifier + node, layout.encode(values))
+        for index, layout in enumerate(SPACE)
+    ]
+
+
+def in_order_of_a_bus(tick: int, node: int = 1) -> list[Frame]:
+    """As a controller sends them: K in the plane, K in space, eigenvalues and posture."""
+    plane = frames_of(tick, node)
+    return [*plane[:2], *space_frames_of(tick, node), *plane[2:]]
+
+
+def assert_space_of_one_tick(snapshot: Snapshot) -> None:
+    assert_of_one_tick(snapshot)
+    if snapshot.space is not None:
+        told = (*snapshot.space.k, *snapshot.space.eigenvalues, snapshot.space.k_across)
+        assert {round(float(value or 0) / STEP) for value in told} == {round(float(snapshot.k_xx or 0) / STEP)}
+
+
+def test_k_in_space_joins_the_snapshot_it_belongs_to() -> None:
+    joiner = Joiner()
+    joined = [s for tick in range(500) for frame in in_order_of_a_bus(tick) if (s := joiner.add(frame))]
+    assert [s.adds for s in joined[:3]] == ["stiffness", "space", "posture"] and len(joined) == 1500
+    assert joiner.unmatched == 0
+    for snapshot in joined:
+        assert_space_of_one_tick(snapshot)
+    last = joined[-1].space
+    assert last is not None and last.is_valid and last.flags == ("GAP_OPEN",) and last.play_coxa == "engaged_positive"
+    assert (last.theta0, last.stiff_axis) == (0.25, (0.0, -0.5, 1.0))
+    entry = joined[-1].as_json()["space"]
+    assert isinstance(entry, dict) and {"k_xy_n_per_mm", "lambda_mid_n_per_mm", "stiff_axis_z"} <= entry.keys()
+
+
+def test_frames_of_two_ticks_never_make_one_k_in_space() -> None:
+    chance = random.Random(11)
+    joiner = Joiner()
+    in_space = 0
+    for tick in range(10_000):
+        frames = in_order_of_a_bus(tick, 2 if chance.random() < 0.01 else 1)
+        if chance.random() < 0.2:  # a driver that sends the lowest identifier first
+            frames = sorted(frames, key=lambda frame: frame.identifier)
+        for frame in frames:
+            kind = chance.random()
+            if kind < 0.1:
+                continue
+            for _ in range(1 + (kind > 0.97)):
+                snapshot = joiner.add(frame)
+                if snapshot is not None:
+                    in_space += snapshot.space is not None and snapshot.adds == "space"
+                    assert_space_of_one_tick(snapshot)
+    assert 2_000 < in_space < 10_000 and joiner.unmatched > 1_000
+
+
+def test_parts_a_round_of_the_number_apart_are_no_k_in_space() -> None:
+    """256 snapshots later the eight bits are the same again."""
+    joiner = Joiner()
+    now, later = in_order_of_a_bus(0), in_order_of_a_bus(256)
+    for frame in now[:5]:
+        joiner.add(frame)
+    told = [joiner.add(frame) for frame in later[5:9]]
+    assert told == [None] * 4
+
+
+def test_k_in_space_that_comes_first_waits_for_its_snapshot() -> None:
+    joiner = Joiner()
+    a, b, *space = in_order_of_a_bus(3)[:9]
+    assert [joiner.add(frame) for frame in (a, *space)] == [None] * 8
+    snapshot = joiner.add(b)
+    assert snapshot is not None and snapshot.space is not None and snapshot.adds == "space"
+
+
+def space_fd_of(sequence: int, time_s: float = 1.001) -> Frame:
+    layout = FD_MESSAGES["space_fd"]
+    values: dict[str, float | int | None] = {item.name: 0 for item in layout.fields}
+    values |= {"sequence": sequence, "k_xx": 3.5, "k_yy": None, "theta0": 0.5, "k_across": 0.25, "flags": 16}
+    return Frame(time_s, layout.identifier + 5, layout.encode(values))
+
+
+def test_over_can_fd_k_in_space_is_the_second_frame() -> None:
+    joiner = Joiner()
+    whole = joiner.add(whole_of(7))
+    assert whole is not None and not joiner.is_complete(whole)  # K in space may follow
+    assert joiner.add(space_fd_of(0x12345608)) is None  # of the next tick
+    assert joiner.add(space_fd_of(0x12345607, time_s=1.05)) is None  # of another round
+    both = joiner.add(space_fd_of(0x12345607))
+    assert both is not None and both.space is not None and both.has_posture and joiner.is_complete(both)
+    assert not both.space.is_valid and both.space.k[3] is None and both.space.flags == ("STALE",)
+    assert both.space.theta0 == 0.5 and both.is_valid
+
+
+def test_a_planar_node_over_can_fd_is_complete_with_its_second_frame() -> None:
+    joiner = Joiner()
+    complete = [s is not None and joiner.is_complete(s) for tick in (7, 8) for s in [joiner.add(whole_of(tick))]]
+    assert complete == [False, True]

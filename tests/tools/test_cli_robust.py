@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import math
 import os
@@ -14,7 +15,7 @@ from typing import Any
 
 import pytest
 
-from conftest import LIMB, Outcome, assert_a_million_takes_two_seconds, processor_s, spawn
+from conftest import LIMB, Outcome, assert_a_million_takes_two_seconds, processor_s
 
 Brace = Callable[..., Outcome]
 POSTURE = ("--theta1", 1.0, "--theta2", 1.4)
@@ -129,6 +130,24 @@ def test_options_say_why_and_what_to_try(
     outcome = brace("k", "--model", paper_limb, *arguments)
     assert outcome.code == 2 and words in outcome.err, outcome.err
     assert "why:" in outcome.err and "try:" in outcome.err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--theta1",), "--theta1: a value is missing"),
+        (("--arith", "fixd"), "--arith: 'fixd' is no choice"),
+        (("--theta1", "57deg"), "--theta1: '57deg' is not a number"),
+        (("--theta1", 1, "--modell", "x"), "unknown option --modell"),
+    ],
+)
+def test_messages_do_not_depend_on_how_argparse_words_its_own(
+    brace: Brace, monkeypatch: pytest.MonkeyPatch, arguments: tuple[object, ...], words: str
+) -> None:
+    """Python's versions word them differently. Here every text that argparse prints is another."""
+    monkeypatch.setattr(argparse, "_", lambda text: f"reworded {text}")
+    outcome = brace("k", *arguments)
+    assert outcome.code == 2 and words in outcome.err, outcome.err
 
 
 def test_misspelt_words_elsewhere(brace: Brace, paper_limb: Path, paper_table: Path, tmp_path: Path) -> None:

@@ -55,8 +55,8 @@ def test_keys_and_defaults_of_a_rig_file() -> None:
         said |= dict(zip(keys, (text.strip(" `") for text in defaults), strict=True))
     expected = {key.name: key.default for key in RIG_KEYS if key.name not in ("format", "title")}
     assert said.pop("title") == "" and said.keys() == expected.keys()
-    for name, default in expected.items():
-        if isinstance(default, float):
-            assert float(said[name]) == default, name
+    for name, given in expected.items():
+        if isinstance(given, float):
+            assert float(said[name]) == given, name
         else:  # as TOML writes it
-            assert said[name] == json.dumps(default), name
+            assert said[name] == json.dumps(given), name

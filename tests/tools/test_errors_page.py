@@ -15,9 +15,8 @@ FIRMWARE = PROJECT / "firmware"
 PAGE = (PROJECT / "docs" / "errors.md").read_text()
 STATUS = (FIRMWARE / "core/include/brace/status.h").read_text()
 REFUSALS = (FIRMWARE / "app/include/brace/refusals.h").read_text()
-STORE = (FIRMWARE / "app/include/brace/store.h").read_text()
-APP = (FIRMWARE / "app/include/brace/app.h").read_text()
-FRAMES = (FIRMWARE / "app/src/report/frames.c").read_text()
+STORE = (FIRMWARE / "app/include/brace/store_types.h").read_text()
+CODES = (FIRMWARE / "interface/generated/brace/codes.h").read_text()
 
 
 def rows(heading: str) -> list[list[str]]:
@@ -62,15 +61,14 @@ def test_refusals_are_those_of_the_firmware_and_brace_has_words_for_each() -> No
 
 
 def test_faults_and_their_emergency_codes() -> None:
-    (listed,) = re.findall(r"code\[\] = \{([^}]*)\}", FRAMES)
-    codes = [int(code, 16) for code in listed.split(",")]
-    faults = bits(APP, "BRACE_FAULT_")
+    codes = [int(code, 16) for code in re.findall(r"X\(BRACE_FAULT_\w+, (0x[0-9a-f]{4})\)", CODES)]
+    faults = bits(CODES, "BRACE_FAULT_")
     assert len(codes) == len(faults)
     assert {row[1]: (int(row[0]), int(row[2], 16)) for row in rows("Faults")} == {
         name: (bit, codes[bit]) for name, bit in faults.items()
     }
     described = (FIRMWARE / "interface/messages.toml").read_text()
-    (said,) = re.findall(r'description = "(of the fault that came, [^"]*)"', described)
+    (said,) = re.findall(r'description = "(the CANopen code of the fault that came[^"]*)"', described)
     assert {int(code, 16) for code in re.findall(r"0x[0-9a-f]{4}", said)} == {*codes, 0x1000, 0}
 
 

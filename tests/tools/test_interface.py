@@ -16,6 +16,7 @@ from brace.wire.names import PARAMETERS, SCHEMA_HASH
 from conftest import PROJECT
 
 sys.path.insert(0, str(PROJECT / "tools"))
+from interface.codes import load_codes  # noqa: E402
 from interface.dictionary import DictionaryError, load  # noqa: E402
 from interface.measured import load_values  # noqa: E402
 from interface.messages import load_wire  # noqa: E402
@@ -28,12 +29,14 @@ def test_what_is_checked_in_is_what_the_generator_writes() -> None:
 
 def test_a_changed_dictionary_changes_what_is_generated(tmp_path: Path) -> None:
     changed = tmp_path / "dictionary.toml"
-    changed.write_text(DICTIONARY.read_text().replace('name = "coxa_mm"\nunit = "mm"', 'name = "coxa_mm"\nunit = "m"'))
+    coxa = 'name = "coxa_mm"\nregister = 0\nunit = "{}"'
+    changed.write_text(DICTIONARY.read_text().replace(coxa.format("mm"), coxa.format("m")))
     before, after = load(DICTIONARY), load(changed)
     assert before.schema_hash == SCHEMA_HASH != after.schema_hash
-    beside = load_wire(MESSAGES), load_values(DICTIONARY)
+    codes = load_codes(DICTIONARY)
+    beside = codes, load_wire(MESSAGES, codes), load_values(DICTIONARY, codes)
     texts = outputs(before, *beside), outputs(after, *beside)
-    for ending in ("parameter_list.h", "parameter_table.c", "names.py", "limb-keys.md"):
+    for ending in ("parameter_list.h", "parameter_table.c", "wire/names.py", "limb-keys.md"):
         (name,) = (name for name in texts[0] if name.endswith(ending))
         assert texts[0][name] != texts[1][name], name
 
@@ -46,11 +49,12 @@ def test_pages_have_the_numbers_of_the_wire() -> None:
         for table in tables
         for number, key in re.findall(r"^\| (\d+) \| `(\w+)` \|", table, re.M)
     }
-    assert listed == {p.key: p.index for p in PARAMETERS}
-    recorder = (PROJECT / "firmware/app/src/record/recorder.c").read_text()
-    (names,) = re.findall(r"name\[\w*\] = \{(.*?)\}", recorder, re.S)
+    assert listed == {p.key: p.number for p in PARAMETERS}
+    recorder = (PROJECT / "firmware/app/src/jobs/loading/recorder.c").read_text()
     (row,) = re.findall(r"^\| 32 \| 8 \| `column`.*", (PROJECT / "docs" / "protocol.md").read_text(), re.M)
-    for number, column in enumerate(re.findall(r'"(\w+)"', names)):
+    columns = re.findall(r"case (\d+): \*value = row->(\w+);", recorder)
+    assert len(columns) == 15
+    for number, column in columns:
         assert re.search(rf"\b{number} {column}\b", row), column
 
 

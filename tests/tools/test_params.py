@@ -40,9 +40,9 @@ def test_a_block_is_what_its_layout_says(tmp_path: Path, brace: Brace) -> None:
     outcome = brace("params", "pack", "--model", limb, "--out", tmp_path / "b.bin", "--sequence", 3)
     assert outcome.code == 0, outcome.err
     model = load_limb(limb)
-    values = {
-        p.key: p.texts.index(model.values[p.key]) if p.texts else model.values[p.key] for p in PARAMETERS
-    }
+    values: dict[str, float | int] = {p.key: model.number(p.key) for p in PARAMETERS if p.type == "f32"}
+    for p in (p for p in PARAMETERS if p.type == "u32"):
+        values[p.key] = p.texts.index(str(model.values[p.key])) if p.texts else int(model.number(p.key))
     assert (tmp_path / "b.bin").read_bytes() == _block(values)
 
 

@@ -20,7 +20,7 @@ from typing import Any
 import pytest
 from conftest import Outcome, spawn
 
-from brace.sim import spec
+from brace.cli import sim_values
 
 LOOPBACK = "127.0.0.1"
 FREE = ("--can", "tcp://127.0.0.1:0", "--modbus", "modbus-tcp://127.0.0.1:0")
@@ -202,12 +202,12 @@ def test_faults_from_the_command_line_show(brace: Callable[..., Outcome], paper_
 
 
 def test_fault_specs() -> None:
-    stuck = spec.fault("encoder_stuck:femur@2.0+1.5")
+    stuck = sim_values.fault("encoder_stuck:femur@2.0+1.5")
     assert (stuck.limb, stuck.joint, stuck.at_s, stuck.for_s) == (None, 1, 2.0, 1.5)
-    offset = spec.fault("current_offset:3.tibia=-500@1e-1")
+    offset = sim_values.fault("current_offset:3.tibia=-500@1e-1")
     assert (offset.limb, offset.joint, offset.value, offset.at_s) == (2, 2, -500.0, 0.1)
-    assert spec.fault("bus_off:2@1").limb == 1
-    assert spec.fault("tick_late").value == 5.0
+    assert sim_values.fault("bus_off:2@1").limb == 1
+    assert sim_values.fault("tick_late").value == 5.0
 
 
 def test_the_plant_may_differ_from_the_model(

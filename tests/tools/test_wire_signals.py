@@ -20,7 +20,8 @@ PROJECT = Path(__file__).resolve().parents[2]
 HEADER = PROJECT / "firmware" / "interface" / "generated" / "brace" / "can_messages.h"
 DBC = PROJECT / "firmware" / "interface" / "brace.dbc"
 DBC_FD = DBC.with_name("brace_fd.dbc")
-SUFFIX = {"": "", "1": "_ratio", "N/mm": "_n_per_mm", "rad": "_rad", "ms": "_ms", "mm": "_mm", "N": "_n"}
+SUFFIX = {"": "", "1": "_ratio", "N/mm": "_n_per_mm", "rad": "_rad", "ms": "_ms", "mm": "_mm", "N": "_n",
+          "N mm": "_n_mm"}
 RANDOM = 1000
 
 
@@ -41,6 +42,7 @@ def database() -> Any:
 def layouts() -> list[tuple[Layout, str, str]]:
     """Each layout with its message in the database and what its signals' names begin with there."""
     listed = [(layout, name, "") for name, layout in (*frames.MESSAGES.items(), *frames.FD_MESSAGES.items())]
+    listed += [(layout, name, "") for name, parts in frames.MULTIPLEXED.items() for layout in parts]
     listed += [(layout, "request", name + "_") for name, layout in frames.REQUESTS.items()]
     for name, parts in frames.ANSWERS.items():
         listed += [(layout, "answer", f"{name}_{part}_") for part, layout in enumerate(parts)]
@@ -65,6 +67,8 @@ def others(layout: Layout, prefix: str) -> dict[str, float | int]:
     values: dict[str, float | int] = {prefix + field.name: 0 for field in layout.fields}
     if layout.command is not None:
         values |= {"command": layout.command, "token": 0}
+    if layout.part is not None:
+        values |= {"part": layout.part}
     return values
 
 
@@ -147,10 +151,10 @@ def test_the_frame_of_can_fd_is_one_in_its_database() -> None:
     """As the attributes of the format have it, with the rate switched; and the other database has none."""
     fd: Any = cantools.database.load_file(DBC_FD, strict=True)
     assert [message.name for message in fd.messages if message.is_fd] == list(frames.FD_MESSAGES)
-    (message,) = fd.messages
-    assert (message.frame_id, message.length) == (0x501, 64)
-    assert str(message.dbc.attributes["VFrameFormat"].value) in ("StandardCAN_FD", "14")
-    assert str(message.dbc.attributes["CANFD_BRS"].value) == "1"
+    assert [(message.frame_id, message.length) for message in fd.messages] == [(0x501, 64), (0x301, 64)]
+    for message in fd.messages:
+        assert str(message.dbc.attributes["VFrameFormat"].value) in ("StandardCAN_FD", "14")
+        assert str(message.dbc.attributes["CANFD_BRS"].value) == "1"
     plain: Any = cantools.database.load_file(DBC, strict=True)
     assert not any(message.is_fd for message in plain.messages)
 
@@ -161,3 +165,17 @@ def test_database_has_the_promised_names(database: Any) -> None:
         assert signals[name].unit == "N/mm"
     for name in ("stiff_axis", "theta1", "theta2"):
         assert signals[name].unit == "rad"
+
+
+def test_a_multiplexed_message_says_which_part_it_is(c: tuple[Any, Any], database: Any) -> None:
+    """The number that C packs is what C, cantools and Python find; cantools then shows that part's signals alone."""
+    ffi, lib = c
+    for name, parts in frames.MULTIPLEXED.items():
+        known = database.get_message_by_name(name)
+        for number, layout in enumerate(parts):
+            struct, data = ffi.new(f"brace_can_{layout.name}_t *", {"sequence": 77}), ffi.new("uint8_t[]", layout.size)
+            getattr(lib, f"brace_can_pack_{layout.name}")(struct, data)
+            assert getattr(lib, f"brace_can_{name}_part")(data) == number
+            read = known.decode(bytes(data), decode_choices=False)
+            assert (read.pop("part"), read["sequence"]) == (number, 77)
+            assert set(read) == {field.name for field in layout.fields}

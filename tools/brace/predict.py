@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from brace.dataset import DataFault, Dataset
+from brace.dataset.zeroing import zeroed
 from brace.errors import UsageError
 from brace.model import LimbModel
 from brace.tables import table_poses
@@ -69,25 +70,12 @@ def predict_loading(dataset: Dataset, model: LimbModel) -> dict[str, np.ndarray]
     return zeroed(LoadingPlayer(dataset).play(model, names), dataset)
 
 
-def zeroed(readings: dict[str, np.ndarray], dataset: Dataset) -> dict[str, np.ndarray]:
-    """Readings as the dataset's sensor was zeroed: per run, its first reading taken from all."""
-    if not dataset.meta.zeroed_per_run:
-        return readings
-    from brace.dataset.check_runs import run_starts
-
-    starts = run_starts(dataset["run"])
-    counts = np.diff(starts)
-    return {
-        name: values - np.repeat(values[starts[:-1]], counts) if name in ("fx_n", "fz_n") else values
-        for name, values in readings.items()
-    }
-
-
 def _predict_joint_test(dataset: Dataset, model: LimbModel) -> Prediction:
     """The joint's torque at the record's deflections. Where the encoder, the torque sensor and friction stood at the
     start is the record's and in no limb.toml: it is fitted here as `identify` fits it, and said."""
     from brace.identify.joint_test import MIN_ROWS, JointProblem
-    from brace.identify.parameters import ANGLE_ZERO, FRICTION_TURN, TORQUE_OFFSET
+    from brace.effects.catalogue import FRICTION_TURN
+    from brace.identify.parameters import ANGLE_ZERO, TORQUE_OFFSET
 
     if dataset.rows < MIN_ROWS or any(fault.blocking for fault in dataset.faults):
         from brace.native.plant import JointPlayer

@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -60,23 +59,23 @@ _BY_POLAR = (
 class Rig:
     """A checked rig file: its values, and the poses as tables with the line they stand on."""
 
-    values: Mapping[str, Any]
-    poses: tuple[Mapping[str, Any], ...]
+    values: Mapping[str, toml.Value]
+    poses: tuple[Mapping[str, toml.Value], ...]
     document: toml.Document
 
-    def design(self, model: LimbModel) -> dict[str, Any]:
+    def design(self, model: LimbModel) -> dict[str, object]:
         """Fields of brace_rig_design_t. Polar poses are solved on `model` by the firmware's kinematics."""
         angles = np.array([self._angles(index, model) for index in range(len(self.poses))])
         value = self.values
-        axes = sum({"x": 1, "z": 2}[axis] for axis in set(value["rig.axes"]))
+        axes = sum({"x": 1, "z": 2}[axis] for axis in _axes(value))
         return {
             "theta1_rad": angles[:, 0].copy(),
             "theta2_rad": angles[:, 1].copy(),
             "axes": axes,
-            "repeats": value["rig.repeats"],
+            "repeats": toml.whole(value, "rig.repeats"),
             "steps_per_side": value["rig.steps"],
-            "cyclic": int(value["rig.cyclic"]),
-            "shuffled": int(value["rig.shuffled"]),
+            "cyclic": toml.whole(value, "rig.cyclic"),
+            "shuffled": toml.whole(value, "rig.shuffled"),
             "zeroed": int(value["rig.zeroed"] == "per_run"),
             "step_mm": value["rig.step_mm"],
             "preload_x_mm": value["rig.preload_x_mm"],
@@ -98,11 +97,12 @@ class Rig:
     def _angles(self, index: int, model: LimbModel) -> tuple[float, float]:
         pose = self.poses[index]
         if "theta1_rad" in pose:
-            return pose["theta1_rad"], pose["theta2_rad"]
+            return toml.number(pose, "theta1_rad"), toml.number(pose, "theta2_rad")
         from brace.stiffness import PostureError, planar_limb
 
         try:
-            true1, true2 = planar_limb(model, "general").posture(pose["r_mm"], pose["phi_rad"], pose["knee"])
+            r_mm, phi_rad = toml.number(pose, "r_mm"), toml.number(pose, "phi_rad")
+            true1, true2 = planar_limb(model, "general").posture(r_mm, phi_rad, str(pose["knee"]))
         except PostureError as error:
             femur, tibia = model.number("geometry.femur_mm"), model.number("geometry.tibia_mm")
             raise BadFileError(
@@ -132,12 +132,8 @@ def load_rig(path: Path) -> Rig:
         )
     checked = tuple(_pose(document, index, pose) for index, pose in enumerate(poses))
     sides = 6 if values["rig.cyclic"] else 4
-    rows = (
-        len(checked)
-        * len(set(values["rig.axes"]))
-        * values["rig.repeats"]
-        * (sides * values["rig.steps"] + 1)
-    )
+    repeats, steps = toml.whole(values, "rig.repeats"), toml.whole(values, "rig.steps")
+    rows = len(checked) * len(_axes(values)) * repeats * (sides * steps + 1)
     if rows > MAX_ROWS:
         raise BadFileError(
             f"the test would have {rows} rows",
@@ -148,7 +144,12 @@ def load_rig(path: Path) -> Rig:
     return Rig(values, checked, document)
 
 
-def _pose(document: toml.Document, index: int, pose: Mapping[str, Any]) -> Mapping[str, Any]:
+def _axes(values: Mapping[str, toml.Value]) -> set[str]:
+    axes = values["rig.axes"]
+    return set(axes) if isinstance(axes, list) else set()
+
+
+def _pose(document: toml.Document, index: int, pose: Mapping[str, object]) -> Mapping[str, toml.Value]:
     polar = "r_mm" in pose or "phi_rad" in pose
     if polar and ("theta1_rad" in pose or "theta2_rad" in pose):
         raise BadFileError(

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import Any
+from typing import TypedDict
 
 import numpy as np
 
+from brace import toml
 from brace.dataset import Dataset
 from brace.errors import UsageError
 from brace.model import LimbModel
@@ -33,12 +34,23 @@ _BASE_COLUMNS = (
 )
 
 
-def simulate(model: LimbModel, rig: Rig) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+class MetaTables(TypedDict):
+    """Content of meta.toml."""
+
+    format: int
+    kind: str
+    title: toml.Value
+    sensor: dict[str, toml.Value]
+    rig: dict[str, toml.Value]
+    source: dict[str, toml.Value]
+
+
+def simulate(model: LimbModel, rig: Rig) -> tuple[MetaTables, dict[str, np.ndarray]]:
     """(content of meta.toml, columns of data.csv). The design is rounded as the file will round it before
     it is played, so that playing the file back meets the same angles."""
     design = rig.design(model)
     for angle in ("theta1_rad", "theta2_rad"):
-        design[angle] = np.round(design[angle], 6)
+        design[angle] = np.round(np.asarray(design[angle], float), 6)
     played = play_rig(model, design)
     names = list(_BASE_COLUMNS)
     if rig.values["sensor.encoders"]:
@@ -46,7 +58,7 @@ def simulate(model: LimbModel, rig: Rig) -> tuple[dict[str, Any], dict[str, np.n
     if rig.values["sensor.base_gauge"]:
         names += ["base_x_mm", "base_z_mm"]
     value = rig.values
-    meta: dict[str, Any] = {
+    meta: MetaTables = {
         "format": 1,
         "kind": "loading",
         "title": value["title"],
@@ -64,7 +76,7 @@ def simulate(model: LimbModel, rig: Rig) -> tuple[dict[str, Any], dict[str, np.n
 def behind(before: Dataset, rig: Rig) -> Rig:
     """The rig's test starting after a record's last reading, unless its file says when it starts."""
     end_s = float(before["t_s"].max())
-    start_s = rig.values["rig.start_s"]
+    start_s = toml.number(rig.values, "rig.start_s")
     if start_s == 0.0:
         return replace(rig, values={**rig.values, "rig.start_s": end_s + BETWEEN_TESTS_S})
     if start_s <= end_s:
@@ -78,8 +90,8 @@ def behind(before: Dataset, rig: Rig) -> Rig:
 
 
 def joined(
-    before: Dataset, meta: dict[str, Any], new: dict[str, np.ndarray]
-) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+    before: Dataset, meta: MetaTables, new: dict[str, np.ndarray]
+) -> tuple[MetaTables, dict[str, np.ndarray]]:
     """One record of both tests, with the first one's step, dwell and sensor: runs and configurations
     counted on; readings that only one of them has are NaN in the other's rows."""
     if before.kind != "loading":
@@ -107,7 +119,7 @@ def joined(
         return columns[name] if name in columns else np.full(count, np.nan)
 
     rig = {key: before.meta.number(f"rig.{key}") for key in ("step_mm", "dwell_s")}
-    sensor = {key: before.meta.number(f"sensor.{key}") for key in ("resolution_n", "range_n")}
+    sensor: dict[str, toml.Value] = {key: before.meta.number(f"sensor.{key}") for key in ("resolution_n", "range_n")}
     columns = {
         name: np.concatenate([part(before.columns, name, before.rows), part(moved, name, rows)])
         for name in names

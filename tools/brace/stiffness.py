@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import overload
 
 import numpy as np
 
 from brace.errors import BadFileError, UsageError
 from brace.model import LimbModel
 from brace.native import Library, library
+from brace.native.c_data import CData
 from brace.native.limb import firmware_limb, refused_limb, status_text
+from brace.wire.codes import FLAG
 
-ARITHMETICS = ("f32", "fixed", "general", "table")
-FLAG_NAMES = ("UNCALIBRATED", "NEAR_SINGULAR", "SATURATED", "GAP_OPEN", "STALE", "OUT_OF_RANGE")
+ARITHMETICS = ("f32", "fixed", "general")
 E_RANGE, E_UNREACHABLE, E_SINGULAR, E_UNSUPPORTED = -3, -4, -6, -8
 Q28 = float(1 << 28)
 FIXED_LIMIT_RAD = 7.99999999
@@ -64,10 +65,14 @@ class PostureError(Exception):
 
 def flag_names(flags: int) -> list[str]:
     """The names of the quality bits that are set."""
-    return [name for bit, name in enumerate(FLAG_NAMES) if flags >> bit & 1]
+    return list(FLAG.names_of_bits(flags))
 
 
-def within_half_turn(angle_rad: Any) -> Any:
+@overload
+def within_half_turn(angle_rad: float) -> float: ...
+@overload
+def within_half_turn(angle_rad: np.ndarray) -> np.ndarray: ...
+def within_half_turn(angle_rad: float | np.ndarray) -> float | np.ndarray:
     """The same direction in [-pi, pi]; what lies there already is left as it is, bit for bit."""
     turned = np.remainder(np.asarray(angle_rad) + np.pi, 2 * np.pi) - np.pi
     kept = np.where(np.abs(angle_rad) <= np.pi, angle_rad, turned)
@@ -79,10 +84,10 @@ class PlanarLimb:
     """A limb ready to give K in its plane. `path` says which of the firmware's functions answers."""
 
     native: Library
-    limb: Any
-    chain: Any
+    limb: CData
+    chain: CData
     path: str
-    _evaluate: Callable[[float, float, Any], int]
+    _evaluate: Callable[[float, float, CData], int]
 
     def true_angles(self, theta1_rad: np.ndarray, theta2_rad: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Commanded angles with the joints' zero offsets added."""
@@ -174,7 +179,7 @@ class PlanarLimb:
 
 def planar_limb(model: LimbModel, arithmetic: str = "f32") -> PlanarLimb:
     """Prepares the limb. f32 is the controller's path, or the general one for a limb that needs it; fixed is the
-    path without FPU; table the one with a table; general evaluates the compliance chain directly."""
+    path without FPU; general evaluates the compliance chain directly."""
     native = library()
     ffi, lib = native.ffi, native.lib
     limb = firmware_limb(native, model)
@@ -182,7 +187,7 @@ def planar_limb(model: LimbModel, arithmetic: str = "f32") -> PlanarLimb:
     status = lib.brace_chain_build(limb, chain)
     path = "general" if status else arithmetic
 
-    def general(theta1: float, theta2: float, out: Any) -> int:
+    def general(theta1: float, theta2: float, out: CData) -> int:
         return int(lib.brace_chain_stiffness(chain, theta1, theta2, out))
 
     evaluate = general
@@ -192,7 +197,7 @@ def planar_limb(model: LimbModel, arithmetic: str = "f32") -> PlanarLimb:
         path = "f32" if status == 0 else "general"
         if status == 0:
 
-            def evaluate(theta1: float, theta2: float, out: Any) -> int:
+            def evaluate(theta1: float, theta2: float, out: CData) -> int:
                 return int(lib.brace_planar_stiffness(planar, theta1, theta2, out))
 
         elif status == E_UNSUPPORTED:
@@ -201,17 +206,10 @@ def planar_limb(model: LimbModel, arithmetic: str = "f32") -> PlanarLimb:
         fixed = ffi.new("brace_planar_fixed_t *")
         status = lib.brace_planar_fixed_collapse(limb, fixed)
 
-        def evaluate(theta1: float, theta2: float, out: Any) -> int:
+        def evaluate(theta1: float, theta2: float, out: CData) -> int:
             if max(abs(theta1), abs(theta2)) > FIXED_LIMIT_RAD:
                 return E_RANGE
             return int(lib.brace_planar_fixed_stiffness(fixed, round(theta1 * Q28), round(theta2 * Q28), out))
-
-    elif path == "table":
-        planar, table = ffi.new("brace_planar_t *"), ffi.new("brace_planar_table_t *")
-        status = lib.brace_planar_collapse(limb, planar) or lib.brace_planar_table_build(planar, table)
-
-        def evaluate(theta1: float, theta2: float, out: Any) -> int:
-            return int(lib.brace_planar_table_stiffness(table, theta1, theta2, out))
 
     if status == E_UNSUPPORTED:
         raise UsageError(
@@ -271,7 +269,7 @@ def _inverse(k: np.ndarray) -> np.ndarray:
     return result
 
 
-def _array(native: Library, structs: Any, kind: np.dtype[Any]) -> np.ndarray:
+def _array(native: Library, structs: CData, kind: np.dtype[np.void]) -> np.ndarray:
     return np.frombuffer(native.ffi.buffer(structs), dtype=kind).copy()
 
 

@@ -90,8 +90,8 @@ def _evaluate(
     native = library()
     ffi, lib = native.ffi, native.lib
     limb = firmware_limb(native, model)
-    batch, chain = ffi.new("brace_planar_batch_t *"), ffi.new("brace_chain_t *")
-    status = lib.brace_planar_batch_collapse(limb, batch)
+    planar, chain = ffi.new("brace_planar_t *"), ffi.new("brace_chain_t *")
+    status = lib.brace_limb_check(limb) or lib.brace_planar_collapse(limb, planar)
     path = "general" if status == E_UNSUPPORTED else "batch"
     if path == "general":
         status = lib.brace_chain_build(limb, chain)
@@ -106,7 +106,7 @@ def _evaluate(
             setattr(soa, name, pointer)
         angles = [ffi.from_buffer("float[]", angle[first:last]) for angle in (theta1, theta2)]
         if path == "batch":
-            lib.brace_planar_batch(batch, last - first, *angles, soa)
+            lib.brace_planar_batch(planar, last - first, *angles, soa)
         else:
             lib.brace_chain_batch(chain, last - first, *angles, soa, ffi.NULL, ffi.NULL)
         advance(last)

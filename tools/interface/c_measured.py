@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Sequence
 
-from interface.measured import Measured, Values
-from interface.registers import ANSWERED_ENTRY, COMMAND_REGISTER, MEASURED_ENTRY
+from interface.c_comment import c_comment
+from interface.measured import ANSWERED_REGISTER, COMMAND_REGISTER, MEASURED_REGISTER, QUESTION, Measured, Values
+from interface.registers import ANSWERED_ENTRY, MEASURED_ENTRY
 
 _MADE = "/* Written by tools/interface from dictionary.toml; do not edit. */\n"
 
@@ -16,41 +16,48 @@ def measured_header(values: Values) -> str:
     return (
         _MADE
         + "#ifndef BRACE_MEASURED_H\n#define BRACE_MEASURED_H\n\n#include <stdint.h>\n\n"
-        + "/* Entries of the dictionary by number: parameters from 0 on, these from here on. As Modbus input "
-          "registers: two\n"
-        + f" * each, high word first, from 0 on and from {2 * (ANSWERED_ENTRY - MEASURED_ENTRY):#06x} on. */\n"
+        + "/* Entries of the dictionary by number: parameters from 0 on, these from here on. */\n"
         + f"enum {{\n    BRACE_ENTRY_MEASURED = {MEASURED_ENTRY:#06x},\n    BRACE_ENTRY_ANSWERED = "
           f"{ANSWERED_ENTRY:#06x}\n}};\n\n"
-        + "/* First Modbus register of the commands, two each. */\n"
-        + f"enum {{ BRACE_REGISTER_COMMANDS = {COMMAND_REGISTER:#06x} }};\n\n"
+        + "/* The first Modbus register of each struct below: input registers of what is measured and answered,\n"
+          " * holding registers of the commands. Every value takes two, high word first, in the struct's order. */\n"
+        + f"enum {{\n    BRACE_REGISTER_MEASURED = {MEASURED_REGISTER:#06x},\n"
+          f"    BRACE_REGISTER_ANSWERED = {ANSWERED_REGISTER:#06x},\n"
+          f"    BRACE_REGISTER_COMMANDS = {COMMAND_REGISTER:#06x}\n}};\n\n"
         + _struct("measured", values.measured, "All of one tick. A float that is not known is NaN, a u32 all ones.")
         + _struct("answered", values.answered, "K at the posture asked for over Modbus.")
         + _struct("commands", values.commands, "What was last written to the command registers.")
-        + _names([*values.measured, *values.answered])
+        + _list(values.commands)
         + "#endif\n"
     )
 
 
-def _struct(name: str, values: Sequence[Measured], words: str) -> str:
-    lines = [f"/* {words} */\ntypedef struct {{\n"]
-    for value in values:
-        kind = "float" if value.type == "f32" else "uint32_t"
-        lines.append(f"    {kind} {value.member}; /* {value.description} */\n")
-    upper = name.upper()
-    count = len(values)
+def _list(commands: Sequence[Measured]) -> str:
+    """The commands that do something by themselves, for the preprocessor."""
+    doing = [value.member for value in commands if not value.name.startswith(QUESTION)]
     return (
-        "".join(lines)
+        "/* X(member): every command that does something when it is written alone, for a controller's table. The\n"
+        f" * others ({QUESTION}...) are values of questions. */\n"
+        + "#define BRACE_COMMANDS(X) \\\n    "
+        + " \\\n    ".join(f"X({member})" for member in doing)
+        + "\n\n"
+    )
+
+
+def _struct(name: str, values: Sequence[Measured], words: str) -> str:
+    upper, count = name.upper(), values[-1].index + 1
+    at = {value.index: value for value in values}
+    members = [_member(at[index]) if index in at else f"    uint32_t reserved_{index};\n" for index in range(count)]
+    return (
+        f"{c_comment(words)}typedef struct {{\n"
+        + "".join(members)
         + f"}} brace_{name}_t;\n\nenum {{ BRACE_{upper}_COUNT = {count} }};\n"
         + "#ifndef __cplusplus\n"
         + f"_Static_assert(sizeof(brace_{name}_t) == 4 * BRACE_{upper}_COUNT, \"32 bits each\");\n#endif\n\n"
     )
 
 
-def _names(values: Sequence[Measured]) -> str:
-    lines = ["/* What numbers are called, and bits, from 0: to initialise arrays of const char * with. */\n"]
-    for value in values:
-        words = [f'"{word}"' for word in value.names or value.bit_names]
-        if words:
-            rows = textwrap.wrap(", ".join(words), 110)
-            lines.append(f"#define BRACE_{value.name.upper()}_NAMES \\\n    {{ " + " \\\n      ".join(rows) + " }\n")
-    return "".join(lines) + "\n"
+def _member(value: Measured) -> str:
+    kind = "float" if value.type == "f32" else "uint32_t"
+    return c_comment(value.description, "    ") + f"    {kind} {value.member};\n"
+

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from interface.messages import FRAME_BITS, Frame, Signal, Wire
+from interface.c_comment import c_comment
+from interface.messages import FRAME_BITS, Frame, Multiplexed, Signal, Wire
 
 _MADE = "/* Written by tools/interface from messages.toml; do not edit. */\n"
 _HEAD = """
 /* The frames of the wire, for the controller and for whoever speaks to it. Formats: docs/protocol.md.
  *
  * A value that is not known is NaN here and a code of its own on the wire, never zero. brace_can_pack_... limits what
- * does not fit and answers how many values it limited; the frame's bytes are always written. brace_can_unpack_...
+ * does not fit and answers how many values it limited; the frame's bytes are always written. The greatest value that a
+ * message's signal can carry is BRACE_CAN_<MESSAGE>_<MEMBER>_MOST; a signed one goes as far down. brace_can_unpack_...
  * always writes the struct: every bit pattern means something. Pure functions, no libm; any thread.
  * accuracy: half a step, and a float's rounding.
  * cost on a Cortex-M4F: below 120 instructions each; of the CAN FD frame 250.
@@ -29,7 +31,7 @@ def messages_header(wire: Wire, dictionary_hash: int) -> str:
         f"#define BRACE_PROTOCOL {wire.protocol}u\n\n",
         "/* Identifiers of node 0; a controller adds its node number, 1-127. */\nenum {\n",
         *(f"    BRACE_CAN_ID_{frame.name.upper()} = 0x{frame.identifier:03x},\n"
-          for frame in (*wire.messages, *wire.fd_messages)),
+          for frame in wire.process),
         f"    BRACE_CAN_ID_REQUEST = 0x{wire.request_id:03x},\n    BRACE_CAN_ID_ANSWER = 0x{wire.answer_id:03x}\n"
         "};\n\n",
         "/* First byte of a request; of an answer: plus 32 times its part. */\nenum {\n",
@@ -38,6 +40,8 @@ def messages_header(wire: Wire, dictionary_hash: int) -> str:
         "/* Frames of the answer, by the request's code; 0: no such request. */\n",
         "extern const uint8_t brace_can_answer_parts[32];\n",
     ]
+    for message in wire.multiplexed:
+        parts.append(_part_of(message))
     for frame in wire.frames:
         parts += ["\n", _struct(frame), _prototypes(frame)]
     return "".join(parts) + "\n#endif\n"
@@ -49,7 +53,9 @@ def messages_sources(wire: Wire) -> dict[str, str]:
     counts = {request.code: len(request.answers) for request in wire.requests}
     parts = ", ".join(str(counts.get(code, 0)) for code in range(32))
     return {
-        "can_process": _source((*wire.messages, *wire.fd_messages)),
+        "can_process": _source(
+            wire.process_frames, after="".join(_part_source(message) for message in wire.multiplexed)
+        ),
         "can_questions": _source([request.question for request in wire.requests]),
         "can_answers": _source(
             [*(frame for request in wire.requests for frame in request.answers), wire.refusal],
@@ -58,32 +64,77 @@ def messages_sources(wire: Wire) -> dict[str, str]:
     }
 
 
-def _source(frames: Sequence[Frame], before: str = "") -> str:
+def _source(frames: Sequence[Frame], before: str = "", after: str = "") -> str:
     codecs = [text for frame in frames for text in ("\n", _pack(frame), "\n", _unpack(frame))]
     head = f'{_MADE}#include "brace/can_messages.h"\n\n#include "can_bits.h"\n'
-    return "".join([head, "\n" if before else "", before, *codecs])
+    return "".join([head, "\n" if before else "", before, *codecs, after])
 
 
 def _struct(frame: Frame) -> str:
-    lines = [f"/* {frame.description} */\n" if frame.command is None else "", "typedef struct {\n"]
+    lines = [c_comment(frame.description) if frame.command is None else "", "typedef struct {\n"]
     if frame.command is not None:
         lines.append("    uint32_t token;\n")
     for signal in frame.signals:
         unit = ""
         if signal.kind == "value":
             unit = f" [{signal.unit}, {signal.least * signal.step:g} to {signal.greatest * signal.step:g}]"
-        lines.append(f"    {_c_type(signal)} {signal.member}; /* {signal.description}{unit} */\n")
-    return "".join(lines) + f"}} brace_can_{frame.name}_t;\n"
+        lines.append(c_comment(signal.description + unit, "    ") + f"    {c_type(signal)} {signal.member};\n")
+    return "".join(lines) + f"}} brace_can_{frame.name}_t;\n" + ("" if frame.command is not None else _limits(frame))
 
 
-def _prototypes(frame: Frame) -> str:
+def _limits(frame: Frame) -> str:
+    """The greatest value that each signal of a message can carry."""
+    most = {most_of(frame, s): float(f"{s.greatest * s.step:.9g}") for s in frame.signals if s.kind == "value"}
+    return "".join(f"#define {name} {value!r}f\n" for name, value in most.items())
+
+
+def most_of(frame: Frame, signal: Signal) -> str:
+    """The C name of the greatest value that a message's signal can carry."""
+    return f"BRACE_CAN_{frame.name.upper()}_{signal.member.upper()}_MOST"
+
+
+def _part_of(message: Multiplexed) -> str:
+    upper = message.name.upper()
     return (
-        f"uint32_t brace_can_pack_{frame.name}(const brace_can_{frame.name}_t *message, uint8_t data[{frame.bytes}]);\n"
-        f"void brace_can_unpack_{frame.name}(const uint8_t data[{frame.bytes}], brace_can_{frame.name}_t *message);\n"
+        f"\n/* The frames of one {message.name}, and which of them a frame is. */\n"
+        f"enum {{ BRACE_CAN_{upper}_PARTS = {len(message.parts)} }};\n"
+        f"uint32_t brace_can_{message.name}_part(const uint8_t data[8]);\n"
     )
 
 
-def _c_type(signal: Signal) -> str:
+def _part_source(message: Multiplexed) -> str:
+    return (
+        f"\nuint32_t brace_can_{message.name}_part(const uint8_t data[8])\n{{\n"
+        f"    return brace_value_number(brace_bits_load(data), {_reach(message.selector)});\n}}\n"
+    )
+
+
+def _head(head: str, first: str, second: str) -> str:
+    """A function's head, within 120 columns."""
+    one_line = f"{head}({first}, {second})"
+    return one_line if len(one_line) < 120 else f"{head}({first},\n    {second})"
+
+
+def _pack_head(frame: Frame) -> str:
+    return _head(
+        f"uint32_t brace_can_pack_{frame.name}", f"const brace_can_{frame.name}_t *message",
+        f"uint8_t data[{frame.bytes}]",
+    )
+
+
+def _unpack_head(frame: Frame) -> str:
+    return _head(
+        f"void brace_can_unpack_{frame.name}", f"const uint8_t data[{frame.bytes}]",
+        f"brace_can_{frame.name}_t *message",
+    )
+
+
+def _prototypes(frame: Frame) -> str:
+    return f"{_pack_head(frame)};\n{_unpack_head(frame)};\n"
+
+
+def c_type(signal: Signal) -> str:
+    """The type of a signal in a struct."""
     if signal.kind != "number":
         return "float"
     return "int32_t" if signal.signed else "uint32_t"
@@ -103,35 +154,35 @@ def _words(frame: Frame) -> list[tuple[str, list[Signal]]]:
 
 def _pack(frame: Frame) -> str:
     lines = [
-        f"uint32_t brace_can_pack_{frame.name}(const brace_can_{frame.name}_t *message, uint8_t data[{frame.bytes}])\n"
-        "{\n",
+        f"{_pack_head(frame)}\n{{\n",
         "    uint32_t limited = 0u;\n    uint64_t bits = 0u;\n",
     ]
     if frame.command is not None:
-        lines.append(f"    bits = {frame.command}u | (uint64_t)(message->token & 0xffu) << 8;\n")
+        lines.append(f"    bits = {frame.fixed}u | (uint64_t)(message->token & 0xffu) << 8;\n")
+    elif frame.fixed:
+        lines.append(f"    bits = {frame.fixed}u;\n")
     for number, (place, signals) in enumerate(_words(frame)):
         if number:
             lines.append("    bits = 0u;\n")
-        lines += [f"    bits |= {_packed(signal)};\n" for signal in signals]
+        lines += [f"    bits |= {packed(signal, f'message->{signal.member}')};\n" for signal in signals]
         lines.append(f"    brace_bits_store(bits, {place});\n")
     return "".join(lines) + "    return limited;\n}\n"
 
 
-def _packed(signal: Signal) -> str:
-    member = f"message->{signal.member}"
+def packed(signal: Signal, value: str) -> str:
+    """The signal's bits of a value."""
     if signal.kind == "value":
         whole = "signed" if signal.signed else "unsigned"
-        return f"brace_bits_{whole}({member}, {_per_step(signal)}, {_reach(signal)}, &limited)"
+        return f"brace_bits_{whole}({value}, {_per_step(signal)}, {_reach(signal)}, &limited)"
     if signal.kind == "f32":
-        return f"brace_bits_float({member}, {signal.start % FRAME_BITS}u)"
-    return f"brace_bits_{'whole' if signal.signed else 'number'}({member}, {_reach(signal)}, &limited)"
+        return f"brace_bits_float({value}, {signal.start % FRAME_BITS}u)"
+    return f"brace_bits_{'whole' if signal.signed else 'number'}({value}, {_reach(signal)}, &limited)"
 
 
 def _unpack(frame: Frame) -> str:
     several = frame.bytes * 8 > FRAME_BITS
     lines = [
-        f"void brace_can_unpack_{frame.name}(const uint8_t data[{frame.bytes}], brace_can_{frame.name}_t *message)\n"
-        "{\n",
+        f"{_unpack_head(frame)}\n{{\n",
         f"    {'' if several else 'const '}uint64_t bits = brace_bits_load(data);\n",
     ]
     if frame.command is not None:

@@ -3,10 +3,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from typing import TypeVar
 
+from interface.c_comment import c_comment
+from interface.c_structs import c_float, c_range
 from interface.dictionary import Dictionary, Entry
 
 _MADE = "/* Written by tools/interface from dictionary.toml; do not edit. */\n"
@@ -24,8 +25,22 @@ def list_header(dictionary: Dictionary) -> str:
         + f"#define BRACE_SCHEMA_HASH 0x{dictionary.schema_hash:08x}u\n\n"
         + "/* Members of brace_parameters_t, in its order. */\nenum {\n"
         + "\n".join(names)
-        + f"\n    BRACE_PARAMETER_COUNT = {len(dictionary.parameters)}\n}};\n\n#endif\n"
+        + f"\n    BRACE_PARAMETER_COUNT = {len(dictionary.parameters)}\n}};\n\n"
+        + c_comment("Numbers that parameters have on the wire, from 0 on: half a Modbus register, and what CAN calls"
+                    " them by. brace_parameter_index (brace/parameters.h) finds a number's member.")
+        + f"enum {{ BRACE_PARAMETER_NUMBERS = {_numbers_count(dictionary)} }};\n\n#endif\n"
     )
+
+
+def _numbers_count(dictionary: Dictionary) -> int:
+    return max(entry.number for entry in dictionary.parameters) + 1
+
+
+def _indices(dictionary: Dictionary) -> list[str]:
+    """The member of each number; where there is none, the count of all."""
+    index_of = {entry.number: entry.index for entry in dictionary.parameters}
+    none = len(dictionary.parameters)
+    return [f"{index_of.get(number, none)}," for number in range(_numbers_count(dictionary))]
 
 
 def index_name(entry: Entry) -> str:
@@ -36,16 +51,16 @@ def index_name(entry: Entry) -> str:
 def table_source(dictionary: Dictionary) -> str:
     """generated/parameter_table.c"""
     entries = dictionary.parameters
-    f32 = _distinct(_f32_range(entry) for entry in entries if entry.type == "f32")
-    u32 = _distinct(_u32_range(entry) for entry in entries if entry.type == "u32" and not entry.numbers)
+    f32 = _distinct(c_range(entry) for entry in entries if entry.type == "f32")
+    u32 = _distinct(c_range(entry) for entry in entries if entry.type == "u32" and not entry.numbers)
     lists = _distinct(_numbers(entry) for entry in entries if entry.numbers)
     rules = [
         (
-            f32.index(_f32_range(entry))
+            f32.index(c_range(entry))
             if entry.type == "f32"
             else len(f32) + len(u32) + lists.index(_numbers(entry))
             if entry.numbers
-            else len(f32) + u32.index(_u32_range(entry))
+            else len(f32) + u32.index(c_range(entry))
         )
         for entry in entries
     ]
@@ -78,7 +93,15 @@ def table_source(dictionary: Dictionary) -> str:
         "const char *brace_parameter_key(uint32_t index)\n{\n"
         '    return index < BRACE_PARAMETER_COUNT ? keys[index] : "the limb as a whole";\n}\n\n',
         "const char *brace_parameter_unit(uint32_t index)\n{\n"
-        '    return index < BRACE_PARAMETER_COUNT ? units[index] : "";\n}\n',
+        '    return index < BRACE_PARAMETER_COUNT ? units[index] : "";\n}\n\n',
+        "uint32_t brace_parameter_index(uint32_t number)\n{\n"
+        "    static const uint16_t index[BRACE_PARAMETER_NUMBERS] = {\n",
+        *("    " + line for line in _wrapped(_indices(dictionary))),
+        "    };\n    return number < BRACE_PARAMETER_NUMBERS ? index[number] : (uint32_t)BRACE_PARAMETER_COUNT;\n}\n\n",
+        "uint32_t brace_parameter_number(uint32_t index)\n{\n"
+        "    static const uint16_t number[BRACE_PARAMETER_COUNT] = {\n",
+        *("    " + line for line in _wrapped([f"{entry.number}," for entry in entries])),
+        "    };\n    return index < BRACE_PARAMETER_COUNT ? number[index] : (uint32_t)BRACE_PARAMETER_NUMBERS;\n}\n",
     ]
     return "".join(parts)
 
@@ -86,8 +109,8 @@ def table_source(dictionary: Dictionary) -> str:
 def table_header(dictionary: Dictionary) -> str:
     """generated/parameter_table.h: what the block's code reads; private to the interface."""
     entries = dictionary.parameters
-    f32 = len(_distinct(_f32_range(entry) for entry in entries if entry.type == "f32"))
-    u32 = len(_distinct(_u32_range(entry) for entry in entries if entry.type == "u32" and not entry.numbers))
+    f32 = len(_distinct(c_range(entry) for entry in entries if entry.type == "f32"))
+    u32 = len(_distinct(c_range(entry) for entry in entries if entry.type == "u32" and not entry.numbers))
     lists = len(_distinct(_numbers(entry) for entry in entries if entry.numbers))
     longest = max(len(entry.numbers) for entry in entries)
     return (
@@ -104,29 +127,12 @@ def table_header(dictionary: Dictionary) -> str:
     )
 
 
-def _f32_range(entry: Entry) -> tuple[str, str]:
-    """Bounds as C floats. Rounding is monotone: what lies within as a double lies within as a float."""
-    low = "0x1p-149f" if entry.open_low else _float(entry.low, entry.infinite)
-    return low, _float(entry.high, entry.infinite)
-
-
-def _u32_range(entry: Entry) -> tuple[str, str]:
-    return f"{entry.low:d}u", f"{entry.high:d}u"
-
-
 def _numbers(entry: Entry) -> str:
     return ", ".join(f"{number}u" for number in entry.numbers)
 
 
-def _float(value: float, infinite: bool) -> str:
-    sign = "-" if value < 0 else ""
-    if math.isinf(value):
-        return sign + ("INFINITY" if infinite else "FLT_MAX")
-    return f"{float(value)!r}f"
-
-
 def _literal(entry: Entry) -> str:
-    return f"{entry.safe}u" if entry.type == "u32" else _float(float(entry.safe), True)
+    return f"{entry.safe}u" if entry.type == "u32" else c_float(float(entry.safe), True)
 
 
 def _distinct(values: Iterable[T]) -> list[T]:

@@ -32,6 +32,19 @@ def dbc(wire: Wire, dictionary_hash: int, nodes: Sequence[int] = (1,)) -> str:
             for signal in frame.signals:
                 comments.append(f'CM_ SG_ {identifier} {signal.name} "{_words(signal)}";')
                 values += _value_table(identifier, signal, signal.name)
+        for multiplexed in wire.multiplexed:
+            identifier = multiplexed.identifier + node
+            signals = [(signal, "M " if signal is multiplexed.selector else "") for signal in multiplexed.common]
+            signals += [
+                (signal, f"m{part.part} ")
+                for part in multiplexed.parts for signal in part.signals if signal not in multiplexed.common
+            ]
+            lines = [_signal_line(signal, signal.name, how, _COMPUTER) for signal, how in signals]
+            messages.append(_message(identifier, multiplexed.name + suffix, sender, lines))
+            comments.append(f'CM_ BO_ {identifier} "{multiplexed.description}";')
+            for signal, _ in signals:
+                comments.append(f'CM_ SG_ {identifier} {signal.name} "{_words(signal)}";')
+                values += _value_table(identifier, signal, signal.name)
         questions = [request.question for request in wire.requests]
         answers = [frame for request in wire.requests for frame in request.answers]
         refusals = [(wire.refusal, request.code + 32 * wire.refused_part) for request in wire.requests]

@@ -5,16 +5,18 @@ from __future__ import annotations
 import math
 import tomllib
 import zlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 LINKS = ("coxa", "femur", "tibia")
 ANGLES = ("theta0", "theta1", "theta2")
-_GROUP_KEYS = {"table", "member", "persistence", "entry"}
+AREAS = ("parameters", "measured", "answered", "commands")
+_RESERVED_KEYS = {"area", "register", "values", "description"}
+_GROUP_KEYS = {"table", "member", "struct", "says", "persistence", "entry"}
 _ENTRY_KEYS = {
-    *("name", "table", "field", "type", "unit", "range", "open_low", "infinite", "choices", "default"),
+    *("name", "register", "table", "field", "type", "unit", "range", "open_low", "infinite", "choices", "default"),
     *("required", "safe", "ratio", "description"),
 }
 
@@ -28,6 +30,7 @@ class Entry:
     """One value visible from outside."""
 
     index: int  # among those of the same persistence, in the struct's order
+    register: int  # Modbus
     persistence: str
     key: str  # as in limb.toml
     member: str  # C expression in the struct
@@ -44,12 +47,33 @@ class Entry:
     ratio: bool
     description: str
 
+    @property
+    def field(self) -> str:
+        """The C member's own name."""
+        return self.member.rpartition(".")[2]
+
+    @property
+    def number(self) -> int:
+        """What CAN calls it by."""
+        return self.register // 2
+
+
+@dataclass(frozen=True)
+class Struct:
+    """A C struct of parameters, generated from its entries."""
+
+    member: str  # where it lies in brace_parameters_t, [*] the index
+    type: str
+    says: str  # one sentence on it
+    fields: tuple[Entry, ...]  # of its first instance
+
 
 @dataclass(frozen=True)
 class Dictionary:
     """All entries; `schema` is the canonical list that the hash is of."""
 
     entries: tuple[Entry, ...]
+    structs: tuple[Struct, ...]
 
     @property
     def parameters(self) -> tuple[Entry, ...]:
@@ -60,6 +84,11 @@ class Dictionary:
     def schema(self) -> str:
         """Key, type and unit of each parameter, one a line."""
         return "".join(f"{entry.key} {entry.type} {entry.unit}\n" for entry in self.parameters)
+
+    @property
+    def numbers(self) -> str:
+        """Key and number of each parameter, one a line: what two ends on a wire must agree on, and a block need not."""
+        return "".join(f"{entry.key} {entry.number}\n" for entry in self.parameters)
 
     @property
     def schema_hash(self) -> int:
@@ -80,7 +109,36 @@ def load(path: Path) -> Dictionary:
                 entries.append(_entry(group, raw, part, len(entries)))
     for field in ("key", "member"):
         _refuse_twice([getattr(entry, field) for entry in entries])
-    return Dictionary(tuple(entries))
+    check_area("parameters", [entry.register for entry in entries], 0, content)
+    return Dictionary(tuple(entries), _structs(content["group"], entries))
+
+
+def _structs(groups: Sequence[Mapping[str, Any]], entries: Sequence[Entry]) -> tuple[Struct, ...]:
+    structs: dict[str, Struct] = {}
+    for group in groups:
+        member = group["member"]
+        first = member.replace("*", "0")
+        fields = tuple(entry for entry in entries if entry.member.rpartition(".")[0] == first)
+        found = Struct(member, group["struct"], group["says"], fields)
+        if structs.setdefault(member, found) != found:
+            raise DictionaryError(f"{member}: its groups say different things of one struct")
+    _refuse_twice([struct.type for struct in structs.values()])
+    return tuple(structs.values())
+
+
+def check_area(area: str, registers: Sequence[int], first: int, content: Mapping[str, Any]) -> None:
+    """Every two registers from `first` on hold one value, or are reserved: none twice, and no gap."""
+    taken = list(registers)
+    for raw in content.get("reserved", []):
+        _refuse_unknown(raw, _RESERVED_KEYS, "reserved")
+        if raw["area"] not in AREAS:
+            raise DictionaryError(f"reserved: no area {raw['area']!r}; there are {', '.join(AREAS)}")
+        if raw["area"] == area:
+            taken += [raw["register"] + 2 * place for place in range(raw["values"])]
+    for place, register in enumerate(sorted(taken)):
+        if register != first + 2 * place:
+            why = "has two values" if register < first + 2 * place else f"is free, and {register} is not"
+            raise DictionaryError(f"{area}: register {min(register, first + 2 * place)} {why}")
 
 
 def _entry(group: Mapping[str, Any], raw: Mapping[str, Any], part: int, index: int) -> Entry:
@@ -100,8 +158,12 @@ def _entry(group: Mapping[str, Any], raw: Mapping[str, Any], part: int, index: i
         low, high = min(numbers), max(numbers)
     else:
         low, high = raw["range"]
+    register = raw["register"]
+    if (len(register) if isinstance(register, list) else 1) != (len(LINKS) if "*" in group["member"] else 1):
+        raise DictionaryError(f"{key}: a table with * has a list of {len(LINKS)} registers, another one has one")
     entry = Entry(
         index=index,
+        register=register[part] if isinstance(register, list) else register,
         persistence=group["persistence"],
         key=key,
         member=group["member"].replace("*", str(part)) + "." + raw.get("field", raw["name"]),

@@ -9,7 +9,7 @@ _HEAD = """# Keys of limb.toml
 Written by `tools/interface` from `firmware/interface/dictionary.toml`; do not edit. Besides these a file has `format = 1`
 and may have a `name`. What is not written has its default, the zero effect; unknown keys are refused. Every key here is
 one member of the controller's parameter block (`brace params pack`), a float or a whole number of 32 bits. Its number
-is its place there, and on CAN what `read_entry` and `write_entry` call it by; a table's keys need not be neighbours.
+is what `read_entry` and `write_entry` on CAN call it by, and half its Modbus register; it never changes.
 The last column is what a controller uses that has no valid block; it then flags every K `UNCALIBRATED`.
 
 """
@@ -32,7 +32,8 @@ def _row(entry: Entry) -> str:
     name = entry.key.rpartition(".")[2]
     default = "must be given" if entry.default is None else _number(entry, entry.default)
     safe = f'"{entry.texts[int(entry.safe)]}"' if entry.texts else _number(entry, entry.safe)
-    return f"| {entry.index} | `{name}` | {entry.unit} | {_range(entry)} | {default} | {entry.description} | {safe} |\n"
+    means = entry.description
+    return f"| {entry.number} | `{name}` | {entry.unit} | {_range(entry)} | {default} | {means} | {safe} |\n"
 
 
 def _range(entry: Entry) -> str:

@@ -8,9 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from interface.dictionary import DictionaryError
+from interface.codes import Codes, Table
+from interface.dictionary import DictionaryError, check_area
 
-_KEYS = {"name", "type", "unit", "names", "bit_names", "description"}
+MEASURED_REGISTER, ANSWERED_REGISTER, COMMAND_REGISTER = 0, 0x1000, 0x4000  # the first of each
+QUESTION = "asked_"  # the names of a question's values begin with it
+_KEYS = {"name", "register", "type", "unit", "names", "bit_names", "numeric", "description"}
 UNIT_SUFFIX = {
     "": "", "us": "", "N/mm": "_n_per_mm", "rad": "_rad", "mm": "_mm", "N": "_n", "N mm": "_n_mm", "degC": "_degc"
 }
@@ -20,12 +23,13 @@ UNIT_SUFFIX = {
 class Measured:
     """One 32-bit value."""
 
-    index: int  # in its list
+    index: int  # in its list, which is in the order of the registers
+    register: int  # Modbus
     name: str
     type: str  # f32, u32
     unit: str
-    names: tuple[str, ...]
-    bit_names: tuple[str, ...]
+    codes: Table | None  # what the number or its bits mean
+    numeric: bool  # tools give the number, not its name
     description: str
 
     @property
@@ -49,28 +53,39 @@ class Values:
         return "".join(f"{kind} {v.name} {v.type} {v.unit}\n" for kind, values in lists for v in values)
 
 
-def load_values(path: Path) -> Values:
+def load_values(path: Path, codes: Codes) -> Values:
     """Reads and checks the lists."""
     content = tomllib.loads(path.read_text())
-    values = Values(*(tuple(_values(content[kind])) for kind in ("measured", "answered", "command")))
+    values = Values(
+        _values(content, "measured", "measured", MEASURED_REGISTER, codes),
+        _values(content, "answered", "answered", ANSWERED_REGISTER, codes),
+        _values(content, "command", "commands", COMMAND_REGISTER, codes),
+    )
     names = [value.name for group in (values.measured, values.answered, values.commands) for value in group]
     if len(set(names)) != len(names):
         raise DictionaryError("two values have one name")
     return values
 
 
-def _values(raws: list[Mapping[str, Any]]) -> list[Measured]:
-    values = []
-    for index, raw in enumerate(raws):
-        if set(raw) - _KEYS:
-            raise DictionaryError(f"{raw['name']}: unknown {', '.join(sorted(set(raw) - _KEYS))}")
-        kind = raw.get("type", "f32")
-        if kind not in ("f32", "u32") or raw["unit"] not in UNIT_SUFFIX:
-            raise DictionaryError(f"{raw['name']}: type {kind}, unit {raw['unit']!r}")
-        values.append(
-            Measured(
-                index, raw["name"], kind, raw["unit"], tuple(raw.get("names", ())), tuple(raw.get("bit_names", ())),
-                raw["description"],
-            )
-        )
-    return values
+def _values(content: Mapping[str, Any], kind: str, area: str, first: int, codes: Codes) -> tuple[Measured, ...]:
+    raws = sorted(content[kind], key=lambda raw: raw["register"])
+    check_area(area, [raw["register"] for raw in raws], first, content)
+    return tuple(_value(raw, (raw["register"] - first) // 2, codes) for raw in raws)
+
+
+def _value(raw: Mapping[str, Any], index: int, codes: Codes) -> Measured:
+    if set(raw) - _KEYS:
+        raise DictionaryError(f"{raw['name']}: unknown {', '.join(sorted(set(raw) - _KEYS))}")
+    kind = raw.get("type", "f32")
+    if kind not in ("f32", "u32") or raw["unit"] not in UNIT_SUFFIX:
+        raise DictionaryError(f"{raw['name']}: type {kind}, unit {raw['unit']!r}")
+    return Measured(
+        index, raw["register"], raw["name"], kind, raw["unit"], _table(raw, codes), raw.get("numeric", False),
+        raw["description"],
+    )
+
+
+def _table(raw: Mapping[str, Any], codes: Codes) -> Table | None:
+    if "names" in raw:
+        return codes.enum(raw["names"], raw["name"])
+    return codes.bits(raw["bit_names"], raw["name"]) if "bit_names" in raw else None

@@ -9,12 +9,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from interface.codes import Codes, Table
 from interface.dictionary import DictionaryError
 
 FRAME_BITS = 64
 _PAYLOAD_START = 16  # of requests and answers: behind command and token
-_SIGNAL_KEYS = {"name", "bits", "signed", "kind", "step", "unit", "names", "bit_names", "description"}
-_UNIT_SUFFIX = {"": "", "1": "_ratio", "N/mm": "_n_per_mm", "rad": "_rad", "ms": "_ms", "mm": "_mm", "N": "_n"}
+_SIGNAL_KEYS = {"name", "bits", "signed", "kind", "step", "unit", "names", "bit_names", "description", "from", "wraps",
+                "saturated_by"}
+_UNIT_SUFFIX = {"": "", "1": "_ratio", "N/mm": "_n_per_mm", "rad": "_rad", "ms": "_ms", "mm": "_mm", "N": "_n",
+                "N mm": "_n_mm"}
+_SATURATED = "SATURATED"  # the bit of flags: a value was limited
+PART = "part"  # the common signal of a multiplexed message that says which part a frame carries
 
 
 @dataclass(frozen=True)
@@ -28,9 +33,23 @@ class Signal:
     kind: str  # value, number, f32
     step: float  # of a value; 1 for a number
     unit: str
-    names: Mapping[int, str]
-    bit_names: tuple[str, ...]
+    codes: Table | None  # what the number or its bits mean
     description: str
+    source: str = ""  # of process data: the measured value that it carries
+    wraps: bool = False  # of a source that is too large the low bits are sent, instead of the greatest number
+    saturated_by: tuple[str, ...] = ()  # of flags: the frames whose limited values set SATURATED
+
+    @property
+    def names(self) -> Mapping[int, str]:
+        """The number's meanings; empty: it has none, or they are its bits'."""
+        if self.codes is None or self.codes.is_bits:
+            return {}
+        return self.codes.names if self.signed else self.codes.unsigned_names
+
+    @property
+    def bit_names(self) -> tuple[str, ...]:
+        """The names of the bits, from bit 0 on; empty: they have none."""
+        return tuple(code.name for code in self.codes.codes) if self.codes is not None and self.codes.is_bits else ()
 
     @property
     def member(self) -> str:
@@ -70,11 +89,41 @@ class Frame:
     description: str
     command: int | None = None  # first byte of a request or an answer: code + 32 * part
     bytes: int = 8  # more: CAN FD
+    part: int | None = None  # of a multiplexed message
+    part_at: int = 0  # the first bit of the part's number
+    by_hand: bool = False  # of a message with a rate: not all that it carries is measured
+
+    @property
+    def is_measured(self) -> bool:
+        """Is it filled from measured values, at its rate?"""
+        return self.rate != "" and not self.by_hand
+
+    @property
+    def fixed(self) -> int:
+        """The bits that every frame of this layout has."""
+        return (self.command or 0) | (self.part or 0) << self.part_at
 
     @property
     def is_fd(self) -> bool:
         """Does classic CAN know no such frame?"""
         return self.bytes > FRAME_BITS // 8
+
+
+@dataclass(frozen=True)
+class Multiplexed:
+    """A message that carries a snapshot in several frames of one identifier."""
+
+    name: str
+    identifier: int  # of node 0
+    rate: str
+    description: str
+    common: tuple[Signal, ...]  # in every part, the part's number too
+    parts: tuple[Frame, ...]  # the common signals but the part's number, then their own
+
+    @property
+    def selector(self) -> Signal:
+        """The signal that says which part a frame carries."""
+        return next(signal for signal in self.common if signal.name == PART)
 
 
 @dataclass(frozen=True)
@@ -86,6 +135,7 @@ class Request:
     description: str
     question: Frame
     answers: tuple[Frame, ...]
+    answers_as: str = ""  # the request whose answer has the same fields
 
 
 @dataclass(frozen=True)
@@ -97,6 +147,7 @@ class Wire:
     answer_id: int
     refused_part: int
     messages: tuple[Frame, ...]
+    multiplexed: tuple[Multiplexed, ...]
     fd_messages: tuple[Frame, ...]
     requests: tuple[Request, ...]
     refusal: Frame
@@ -105,16 +156,37 @@ class Wire:
     def frames(self) -> tuple[Frame, ...]:
         """All layouts, each once."""
         exchanged = [frame for request in self.requests for frame in (request.question, *request.answers)]
-        return (*self.messages, *self.fd_messages, *exchanged, self.refusal)
+        parts = [part for message in self.multiplexed for part in message.parts]
+        return (*self.messages, *parts, *self.fd_messages, *exchanged, self.refusal)
+
+    @property
+    def process(self) -> tuple[Frame | Multiplexed, ...]:
+        """What a controller sends by itself."""
+        return (*self.messages, *self.multiplexed, *self.fd_messages)
+
+    @property
+    def process_frames(self) -> tuple[Frame, ...]:
+        """The frames of `process`: each part of a multiplexed message stands by itself."""
+        return (*self.messages, *(part for message in self.multiplexed for part in message.parts), *self.fd_messages)
 
     @property
     def schema(self) -> str:
         """Canonical list of all that two ends must agree on."""
         lines = [f"protocol {self.protocol}"]
         for frame in self.frames:
-            lines.append(f"{frame.name} {frame.identifier:#x} {frame.command}")
+            part = "" if frame.part is None else f" part {frame.part} at {frame.part_at}"
+            lines.append(f"{frame.name} {frame.identifier:#x} {frame.command}{part}")
             lines += [f" {s.name} {s.start} {s.bits} {s.signed} {s.kind} {s.step!r} {s.unit}" for s in frame.signals]
         return "\n".join(lines) + "\n"
+
+
+def saturated_constant(where: str, flags: Signal) -> str:
+    """The C constant of the bit that says that a value was limited."""
+    bits = flags.codes.codes if flags.codes is not None and flags.codes.is_bits else ()
+    constants = [code.constant for code in bits if code.name == _SATURATED]
+    if not constants:
+        raise DictionaryError(f"{where}: saturated_by is for bits that have {_SATURATED}")
+    return constants[0]
 
 
 def dictionary_hash(wire: Wire, value_schema: str) -> int:
@@ -122,26 +194,29 @@ def dictionary_hash(wire: Wire, value_schema: str) -> int:
     return zlib.crc32((wire.schema + value_schema).encode())
 
 
-def load_wire(path: Path) -> Wire:
+def load_wire(path: Path, codes: Codes) -> Wire:
     """Reads and checks the file."""
     content = tomllib.loads(path.read_text())
     messages = tuple(
         Frame(
-            raw["name"], raw["id"], raw.get("rate", ""), _signals(raw["signal"], 0, raw["name"]), raw["description"]
+            raw["name"], raw["id"], raw.get("rate", ""), _signals(raw["signal"], 0, raw["name"], codes),
+            raw["description"], by_hand=raw.get("by_hand", False),
         )
         for raw in content["message"]
     )
     fd_messages = tuple(
         Frame(
             raw["name"], raw["id"], raw.get("rate", ""),
-            _signals(raw["signal"], 0, raw["name"], 8 * raw["bytes"]), raw["description"], bytes=raw["bytes"],
+            _signals(raw["signal"], 0, raw["name"], codes, 8 * raw["bytes"]), raw["description"], bytes=raw["bytes"],
         )
         for raw in content.get("fd_message", [])
     )
+    multiplexed = tuple(_multiplexed(raw, codes) for raw in content.get("multiplexed", []))
     request_id, answer_id = content["request_id"], content["answer_id"]
-    requests = tuple(_request(raw, request_id, answer_id) for raw in content["request"])
-    codes = [request.code for request in requests]
-    if len(set(codes)) != len(codes) or not all(1 <= code <= 31 for code in codes):
+    answers = {raw["name"]: raw["answer"] for raw in content["request"] if "answer" in raw}
+    requests = tuple(_request(raw, answers, request_id, answer_id, codes) for raw in content["request"])
+    numbers = [request.code for request in requests]
+    if len(set(numbers)) != len(numbers) or not all(1 <= number <= 31 for number in numbers):
         raise DictionaryError("codes of requests are different numbers of 1-31")
     refusal = Frame(
         "refusal", answer_id, "",
@@ -151,37 +226,68 @@ def load_wire(path: Path) -> Wire:
                  "description": "why: docs/errors.md, statuses and refusals"},
                 {"name": "detail", "bits": 32, "description": "what more there is to say: an index, a mode, a hash"},
             ],
-            _PAYLOAD_START, "refusal",
+            _PAYLOAD_START, "refusal", codes,
         ),
         "a request is refused; code + 32 * part 7", content["refused_part"] * 32,
     )
     wire = Wire(
-        content["protocol"], request_id, answer_id, content["refused_part"], messages, fd_messages, requests, refusal
+        content["protocol"], request_id, answer_id, content["refused_part"], messages, multiplexed, fd_messages,
+        requests, refusal,
     )
     names = [frame.name for frame in wire.frames]
     if len(set(names)) != len(names):
         raise DictionaryError("two frames have one name")
+    rates = [message.rate for message in wire.process if message.rate]
+    if not all(rate.startswith("controller.") for rate in rates):
+        raise DictionaryError("a message's rate is a key of limb.toml's table [controller]")
+    identifiers = [*(message.identifier for message in wire.process), request_id, answer_id]
+    if len(set(identifiers)) != len(identifiers) or any(identifier % 0x80 for identifier in identifiers):
+        raise DictionaryError("identifiers are different multiples of 0x80: a controller adds its node number, 1-127")
     return wire
 
 
-def _request(raw: Mapping[str, Any], request_id: int, answer_id: int) -> Request:
-    name, code = raw["name"], raw["code"]
+def _multiplexed(raw: Mapping[str, Any], codes: Codes) -> Multiplexed:
+    name = raw["name"]
+    common = _signals(raw["signal"], 0, name, codes)
+    selectors = [signal for signal in common if signal.name == PART]
+    if len(selectors) != 1 or selectors[0].kind != "number" or len(raw["part"]) > 1 << selectors[0].bits:
+        raise DictionaryError(f"{name}: a multiplexed message has one signal named {PART!r} that counts its parts")
+    start = sum(signal.bits for signal in common)
+    parts = tuple(
+        Frame(
+            f"{name}_{number}", raw["id"], raw.get("rate", ""),
+            (*(signal for signal in common if signal.name != PART),
+             *_signals(part["signal"], start, f"{name}_{number}", codes)),
+            f"{raw['description']}: part {number}", part=number, part_at=selectors[0].start,
+        )
+        for number, part in enumerate(raw["part"])
+    )
+    return Multiplexed(name, raw["id"], raw.get("rate", ""), raw["description"], common, parts)
+
+
+def _request(
+    raw: Mapping[str, Any], answers_of: Mapping[str, Sequence[Mapping[str, Any]]], request_id: int, answer_id: int,
+    codes: Codes,
+) -> Request:
+    name, code, answers_as = raw["name"], raw["code"], raw.get("answers_as", "")
+    if ("answer" in raw) == bool(answers_as) or (answers_as or name) not in answers_of:
+        raise DictionaryError(f"{name}: a request has either [[request.answer]] or answers_as a request that has them")
     question = Frame(
-        f"{name}_request", request_id, "", _signals(raw.get("field", []), _PAYLOAD_START, name), raw["description"],
-        code
+        f"{name}_request", request_id, "", _signals(raw.get("field", []), _PAYLOAD_START, name, codes),
+        raw["description"], code
     )
     answers = tuple(
         Frame(
-            f"{name}_answer_{part}", answer_id, "", _signals(answer["field"], _PAYLOAD_START, name),
+            f"{name}_answer_{part}", answer_id, "", _signals(answer["field"], _PAYLOAD_START, name, codes),
             raw["description"], code + 32 * part,
         )
-        for part, answer in enumerate(raw["answer"])
+        for part, answer in enumerate(answers_of[answers_as or name])
     )
-    return Request(code, name, raw["description"], question, answers)
+    return Request(code, name, raw["description"], question, answers, answers_as)
 
 
 def _signals(
-    raws: Sequence[Mapping[str, Any]], start: int, where: str, room: int = FRAME_BITS
+    raws: Sequence[Mapping[str, Any]], start: int, where: str, codes: Codes, room: int = FRAME_BITS
 ) -> tuple[Signal, ...]:
     signals: list[Signal] = []
     for raw in raws:
@@ -190,16 +296,24 @@ def _signals(
         if unknown:
             raise DictionaryError(f"{at}: unknown {', '.join(sorted(unknown))}")
         kind = raw.get("kind", "number")
-        names = raw.get("names", {})
-        numbered = enumerate(names) if isinstance(names, list) else ((int(n), text) for n, text in names.items())
+        table = (
+            codes.enum(raw["names"], at) if "names" in raw
+            else codes.bits(raw["bit_names"], at) if "bit_names" in raw
+            else None
+        )
         signal = Signal(
             raw["name"], start, raw["bits"], raw.get("signed", False), kind, raw.get("step", 1.0), raw.get("unit", ""),
-            dict(numbered), tuple(raw.get("bit_names", ())), raw["description"],
+            table, raw["description"], raw.get("from", raw["name"]), raw.get("wraps", False),
+            tuple(raw.get("saturated_by", [])),
         )
         if kind not in ("value", "number", "f32") or (kind == "f32" and signal.bits != 32):
             raise DictionaryError(f"{at}: kind {kind} of {signal.bits} bits")
         if (kind == "value") != ("step" in raw) or signal.unit not in _UNIT_SUFFIX:
             raise DictionaryError(f"{at}: a value has a step and a known unit, nothing else has a step")
+        if table is not None and max(signal.names, default=len(signal.bit_names) - 1) > (
+            signal.greatest if signal.names else signal.bits - 1
+        ):
+            raise DictionaryError(f"{at}: {signal.bits} bits do not hold every value of {table.name}")
         if kind == "value" and signal.bits > 24:
             raise DictionaryError(f"{at}: a value of more than 24 bits is more than a float can tell apart")
         if start // FRAME_BITS != (start + signal.bits - 1) // FRAME_BITS and start + signal.bits <= room:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from interface.measured import Values
 from interface.messages import Frame, Signal, Wire
 from interface.registers import MEASURED_ENTRY
@@ -40,6 +42,12 @@ def protocol_page(wire: Wire, values: Values, dictionary_hash: int) -> str:
         parts.append(f"\n### {frame.name}, 0x{frame.identifier:03x} + node\n\n{_sentence(frame.description)}"
                      f"{often}\n\n")
         parts.append(_table(frame))
+    for message in wire.multiplexed:
+        parts.append(f"\n### {message.name}, 0x{message.identifier:03x} + node\n\n{_sentence(message.description)}"
+                     f" As often as `{message.rate}` says. Every frame has\n\n{_signals(message.common)}")
+        for frame in message.parts:
+            own = [signal for signal in frame.signals if signal not in message.common]
+            parts.append(f"\nPart {frame.part}:\n\n{_signals(own)}")
     parts.append(_FD)
     for frame in wire.fd_messages:
         parts.append(f"\n### {frame.name}, 0x{frame.identifier:03x} + node, {frame.bytes} bytes\n\n"
@@ -74,16 +82,18 @@ def _sentence(words: str) -> str:
 
 
 def _table(frame: Frame) -> str:
-    rows = [
-        f"| {s.start} | {s.bits} | `{s.name}` | {_kind(s)} | {s.description}{_meanings(s)} |\n" for s in frame.signals
-    ]
+    return _signals(frame.signals)
+
+
+def _signals(signals: Sequence[Signal]) -> str:
+    rows = [f"| {s.start} | {s.bits} | `{s.name}` | {_kind(s)} | {s.description}{_meanings(s)} |\n" for s in signals]
     return "| bit | bits | name | what it counts | what it is |\n|---|---|---|---|---|\n" + "".join(rows)
 
 
 def _kind(signal: Signal) -> str:
     sign = "signed" if signal.signed else "unsigned"
     if signal.kind == "value":
-        unit = "" if signal.unit == "1" else f" {signal.unit}"
+        unit = "" if signal.unit in ("", "1") else f" {signal.unit}"
         return f"steps of {signal.step:.10g}{unit}, {sign}"
     return "float" if signal.kind == "f32" else f"a number, {sign}"
 

@@ -12,6 +12,7 @@ def frames_module(wire: Wire, dictionary_hash: int) -> str:
         "",
         "from __future__ import annotations",
         "",
+        "from brace.wire import codes",
         "from brace.wire.layout import Field, Layout",
         "",
         f"DICTIONARY_HASH = 0x{dictionary_hash:08X}",
@@ -22,6 +23,17 @@ def frames_module(wire: Wire, dictionary_hash: int) -> str:
         "",
         "MESSAGES: dict[str, Layout] = {",
         *(line for frame in wire.messages for line in _entry(frame)),
+        "}",
+        "",
+        "# Messages that carry a snapshot in parts: each part by its number.",
+        "MULTIPLEXED: dict[str, tuple[Layout, ...]] = {",
+    ]
+    for message in wire.multiplexed:
+        lines.append(f'    "{message.name}": (')
+        for frame in message.parts:
+            lines += ["    " + line for line in _layout(frame)]
+        lines.append("    ),")
+    lines += [
         "}",
         "",
         "FD_MESSAGES: dict[str, Layout] = {",
@@ -53,8 +65,14 @@ def _layout(frame: Frame) -> list[str]:
     return [
         f'    Layout("{frame.name}", 0x{frame.identifier:03X}, {command}, (',
         *(f"        {_field(signal)}," for signal in frame.signals),
-        "    ))," if not frame.is_fd else f"    ), {frame.bytes}),",
+        f"    ){_further(frame)}),",
     ]
+
+
+def _further(frame: Frame) -> str:
+    if frame.part is not None:
+        return f", part={frame.part}, part_at={frame.part_at}"
+    return f", {frame.bytes}" if frame.is_fd else ""
 
 
 def _field(signal: Signal) -> str:
@@ -67,8 +85,6 @@ def _field(signal: Signal) -> str:
         parts.append(f"step={signal.step!r}")
     if signal.unit:
         parts.append(f'unit="{signal.unit}"')
-    if signal.names:
-        parts.append("names={" + ", ".join(f'{n}: "{text}"' for n, text in sorted(signal.names.items())) + "}")
-    if signal.bit_names:
-        parts.append("bit_names=(" + ", ".join(f'"{text}"' for text in signal.bit_names) + ",)")
+    if signal.codes is not None:
+        parts.append(f"codes=codes.{signal.codes.name.upper()}")
     return f"Field({', '.join(parts)})"

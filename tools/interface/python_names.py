@@ -47,7 +47,7 @@ def _parameter(entry: Entry) -> list[str]:
     given = ", ".join(f"{name}={_shown(value)}" for name, value in fields.items())
     return [
         "    Parameter(",
-        f"        {entry.index}, {_shown(entry.key)},",
+        f"        {entry.index}, {entry.number}, {_shown(entry.key)}, {_shown(entry.member)},",
         f"        {given},",
         f"        description={_shown(entry.description)},",
         "    ),",

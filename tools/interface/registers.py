@@ -12,7 +12,6 @@ from interface.measured import Measured, Values
 
 MEASURED_ENTRY = 0x1000  # number of the first measured value in the dictionary's count
 ANSWERED_ENTRY = 0x1800
-COMMAND_REGISTER = 0x4000  # of the commands
 INPUT, HOLDING = "input", "holding"
 _COLUMNS = ("name", "table", "address", "registers", "type", "unit", "scale", "access", "description")
 
@@ -36,32 +35,27 @@ def registers(dictionary: Dictionary, values: Values) -> list[Register]:
 
 
 def _inputs(values: Values) -> Iterator[Register]:
-    for first, group in ((0, values.measured), (2 * (ANSWERED_ENTRY - MEASURED_ENTRY), values.answered)):
-        for value in group:
-            yield Register(
-                value.name, INPUT, first + 2 * value.index, value.type, value.unit, "ro", _words(value)
-            )
+    for value in (*values.measured, *values.answered):
+        yield Register(value.name, INPUT, value.register, value.type, value.unit, "ro", _words(value))
 
 
 def _parameters(dictionary: Dictionary) -> Iterator[Register]:
-    for entry in dictionary.parameters:
-        yield Register(entry.key, HOLDING, 2 * entry.index, entry.type, entry.unit, "rw", entry.description)
+    for entry in sorted(dictionary.parameters, key=lambda entry: entry.register):
+        yield Register(entry.key, HOLDING, entry.register, entry.type, entry.unit, "rw", entry.description)
 
 
 def _commands(values: Values) -> Iterator[Register]:
     for value in values.commands:
-        yield Register(
-            value.name, HOLDING, COMMAND_REGISTER + 2 * value.index, value.type, value.unit, "wo", value.description
-        )
+        yield Register(value.name, HOLDING, value.register, value.type, value.unit, "wo", value.description)
 
 
 def _words(value: Measured) -> str:
-    words = value.description
-    if value.names:
-        words += ": " + ", ".join(f"{number} {name}" for number, name in enumerate(value.names))
-    if value.bit_names:
-        words += "; bits from 0: " + ", ".join(value.bit_names)
-    return words
+    table = value.codes
+    if table is None:
+        return value.description
+    if table.is_bits:
+        return value.description + "; bits from 0: " + ", ".join(code.name for code in table.codes)
+    return value.description + ": " + ", ".join(f"{number} {name}" for number, name in table.unsigned_names.items())
 
 
 def registers_csv(rows: list[Register]) -> str:
@@ -82,7 +76,9 @@ Written by tools/interface from the dictionary; do not edit. RTU and TCP, the sa
 from 0. Every value is 32 bits in two registers, high word first (ABCD): read `probe_f32` (12345.5) and `probe_u32`
 (0x01020304) to see that your reader agrees. A float that is not known is NaN, a whole number all ones; never zero.
 
-One read of input registers is one snapshot: all values are of the same tick. Parameters are staged where they are
+One read of input registers is one snapshot: all values are of the same tick. A read holds at most 125 registers: 0 to
+124 are K in the limb's plane and what belongs to it, 42 to 166 are posture, force, play, the parameters' CRC and K in
+space. Addresses never change; new values take free ones. Parameters are staged where they are
 written, in CONFIGURATION mode only, and are in force after `commit` has stored them and read them back.
 
 | table | function |
@@ -150,16 +146,17 @@ def measured_module(values: Values) -> str:
         "",
         "from __future__ import annotations",
         "",
+        "from brace.wire import codes",
         "from brace.wire.entry import MeasuredEntry",
         "",
         "MEASURED: tuple[MeasuredEntry, ...] = (",
     ]
     for value in values.measured:
-        names = "(" + "".join(f'"{name}", ' for name in value.names) + ")"
-        bits = "(" + "".join(f'"{name}", ' for name in value.bit_names) + ")"
+        table = "" if value.codes is None else f", codes.{value.codes.name.upper()}"
+        table += ", numeric=True" if value.numeric else ""
         lines.append(
             f'    MeasuredEntry({MEASURED_ENTRY + value.index:#06x}, "{value.name}", "{value.type}", '
-            f'"{value.unit}", {names}, {bits}),'
+            f'"{value.unit}"{table}),'
         )
     lines.append(")")
     return "\n".join(lines) + "\n"

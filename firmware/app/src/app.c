@@ -1,32 +1,69 @@
 #include "brace/app.h"
 
-#include "configure/configure.h"
-#include "configure/keeping.h"
-#include "configure/staging.h"
-#include "configure/storing.h"
-#include "measure/control.h"
-#include "measure/loading.h"
-#include "motion/command.h"
-#include "motion/joints.h"
-#include "motion/takeup.h"
-#include "report/services.h"
-#include "supervise/supervisor.h"
+#include <stddef.h>
 
-#define LATE_PERIODS 3u /* from tick to tick: more than two late */
+#include "brace/app_memory.h"
+#include "stiffness/stiffness.h"
 
-static bool door_is_whole(const brace_hal_t *hal)
+#define LATE_PERIODS 3u /* a tick that comes more than three periods after the one before is more than two late */
+
+/* -------------------------------------------------------------------------------------------- start -- */
+
+static bool door_is_complete(const brace_hal_t *hal)
 {
     return hal->now_us != NULL && hal->joint_read != NULL && hal->nvm_read != NULL && hal->nvm_write != NULL &&
            hal->nvm_erase != NULL && hal->watchdog_feed != NULL && hal->reset_cause != NULL && hal->crash_clear != NULL;
 }
 
-static void forget_samples(brace_app_t *app)
+/* One step of putting parameters in force. What is worked out from the parameters is worked out anew, one part in each
+ * step, because all parts together cost more than a tick may. returns whether that was the last part */
+static bool configure_step(controller_t *controller)
+{
+    const brace_parameters_t *parameters = &controller->parameters.in_force;
+    const bool is_spatial = controller->joints.joint[BRACE_COXA].fitted;
+    const uint32_t part = controller->configure_part++;
+    switch (part) {
+    case BRACE_COXA:
+    case BRACE_FEMUR:
+    case BRACE_TIBIA: flank_configure(&controller->flank, (int)part, &controller->joints, parameters); return false;
+    case BRACE_LINK_COUNT:
+        tip_force_configure(&controller->tip_force, controller->hal, &parameters->sensor);
+        return false;
+    case BRACE_LINK_COUNT + 1: model_configure(&controller->model, parameters, is_spatial); return false;
+    default:
+        drift_job_configure(&controller->drift, parameter_job_is_fresh(&controller->parameters));
+        controller->parameters.comes_in_force = false;
+        return true;
+    }
+}
+
+static drift_inputs_t drift_inputs(const controller_t *controller)
+{
+    const brace_mode_t mode = controller->mode.now;
+    return (drift_inputs_t){.hal = controller->hal,
+                            .parameters = &controller->parameters.in_force,
+                            .parameter_crc = controller->parameters.crc,
+                            .origin = controller->parameters.origin,
+                            .may_write = (mode == BRACE_MODE_MONITOR || mode == BRACE_MODE_FAULT) &&
+                                         !parameter_job_is_busy(&controller->parameters)};
+}
+
+static void blank_snapshot(const controller_t *controller, brace_snapshot_t *snapshot)
 {
     const float unknown = __builtin_nanf("");
-    for (int i = 0; i < BRACE_APP_JOINTS; i++) {
-        app->joint[i] = (brace_app_joint_t){.sample = {unknown, unknown, unknown, unknown, 0}};
+    *snapshot = (brace_snapshot_t){.taken_us = controller->now_us,
+                                   .parameter_crc = controller->parameters.crc,
+                                   .parameter_origin = controller->parameters.origin,
+                                   .faults = controller->faults.now,
+                                   .tip_mm = {unknown, unknown},
+                                   .play_shift_mm = {unknown, unknown},
+                                   .force_x_n = unknown,
+                                   .force_z_n = unknown,
+                                   .temp_degc = unknown};
+    stiffness_unknown(snapshot, BRACE_FLAG_STALE);
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        snapshot->theta_rad[i] = snapshot->motor_rad[i] = snapshot->torque_n_mm[i] = unknown;
     }
-    app->posed = false;
 }
 
 brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal)
@@ -34,180 +71,225 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal)
     if (app == NULL || hal == NULL) {
         return BRACE_E_NULL;
     }
-    if (!door_is_whole(hal)) {
+    if (!door_is_complete(hal)) {
         return BRACE_E_PARAMETER;
     }
-    *app = (brace_app_t){.hal = hal};
-    forget_samples(app);
-    storing_start(app);
-    configure_begin(app, false);
-    for (uint32_t i = 0; i < CONFIGURE_PIECES && configure_piece(app); i++) {
+    *app = (brace_app_t){.controller = {.hal = hal}};
+    controller_t *controller = &app->controller;
+    controller->now_us = hal->now_us(hal->context);
+    controller->has_crashed = hal->reset_cause(hal->context) == BRACE_RESET_FAULT;
+    mode_start(&controller->mode);
+    joints_start(&controller->joints, hal);
+    posture_start(&controller->posture);
+    parameter_job_start(&controller->parameters, hal);
+    for (bool done = false; !done;) { /* at most once for each part */
+        done = configure_step(controller);
     }
-    if (hal->reset_cause(hal->context) == BRACE_RESET_FAULT) {
-        supervisor_latch(app, BRACE_FAULT_CRASHED);
+    controller->drift.is_erased = false; /* what the journal knows of this set counts */
+    const drift_inputs_t inputs = drift_inputs(controller);
+    const uint32_t steps_most = 2u + (uint32_t)BRACE_JOURNAL_SCANS; /* learn the limb, open the journal, search it */
+    for (uint32_t i = 0; i < steps_most && drift_job_is_starting(&controller->drift); i++) {
+        drift_job_step(&controller->drift, &inputs);
     }
-    app->last_us = hal->now_us(hal->context);
-    services_start(app);
-    app->next = 1;
-    control_blank(app, &app->snapshot[app->newest]);
+    controller->faults.now = controller->parameters.faults;
+    blank_snapshot(controller, &controller->snapshot[0]);
+    wires_start(&app->wires, hal, controller);
     return BRACE_OK;
 }
 
-/* The mode in which parameters are stored and put in force: nothing is computed beside it. */
-static void configuration_tick(brace_app_t *app, uint32_t now_us, bool works)
+/* --------------------------------------------------------------------------------------------- tick -- */
+
+/* Is this tick more than two periods late? Every late tick is counted. Only in CONFIGURATION a late tick is no fault,
+ * because storing a set may stop the processor. */
+static bool tick_is_late(controller_t *controller, uint32_t now_us)
 {
-    brace_snapshot_t *snapshot = &app->snapshot[app->next];
-    app->k = (brace_app_k_t){0}; /* what is left of it is of another set */
-    control_blank(app, snapshot);
-    command_send(app, snapshot);
-    if (works && !configure_piece(app)) {
-        storing_step(app);
-        joints_read(app, now_us);
-    }
-    staging_watch(app);
-    supervisor_faults(app, false); /* an erase takes its time */
-    control_stamp(app, snapshot);
-    control_publish(app);
+    const uint32_t tick_us = controller->parameters.in_force.controller.tick_us;
+    controller->since_us = controller->has_ticked ? now_us - controller->now_us : 0u;
+    const bool late = controller->since_us > LATE_PERIODS * tick_us;
+    controller->ticks_late += late && controller->ticks_late < UINT32_MAX;
+    controller->now_us = now_us;
+    controller->has_ticked = true;
+    return late && controller->mode.now != BRACE_MODE_CONFIGURATION;
 }
 
-/* K in one tick, or pieces of it. A snapshot waits for its K while others are sensed; what it says of mode and faults
- * is of its own tick, and a mode that has changed since makes it void. */
-static void compute(brace_app_t *app, uint32_t pieces)
+/* True angles, levers and force: what a snapshot says beside K. */
+static void take_posture(controller_t *controller, brace_snapshot_t *snapshot)
 {
-    brace_app_k_t *k = &app->k;
-    if (pieces == (uint32_t)SERVICES_K_WHOLE) {
-        pieces = CONTROL_PIECES;
-        k->advances = false;
+    const float unknown = __builtin_nanf("");
+    posture_t *posture = &controller->posture;
+    float offset_rad[BRACE_LINK_COUNT];
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        const joint_t *joint = &controller->joints.joint[i];
+        snapshot->play[i] = controller->flank.joint[i].out;
+        snapshot->motor_rad[i] = joint->sample.motor_rad;
+        snapshot->torque_n_mm[i] = joint->sample.torque_n_mm;
+        offset_rad[i] = snapshot->play[i].offset_rad;
     }
-    if (pieces > 0u && k->advances) {
-        loading_advance(app, brace_app_snapshot(app));
-        k->advances = false;
-        pieces--;
+    posture_take(posture, &controller->parameters.in_force, snapshot->motor_rad, offset_rad);
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        snapshot->theta_rad[i] = posture->theta_rad[i];
     }
-    for (; pieces > 0u && !k->told; pieces--) {
-        k->told = control_piece(app);
+    snapshot->tip_mm = snapshot->play_shift_mm = (brace_point_t){unknown, unknown};
+    if (posture->has_levers) {
+        snapshot->tip_mm = posture->pose.tip;
+        (void)brace_backlash_tip_shift(&posture->pose, offset_rad[BRACE_FEMUR], offset_rad[BRACE_TIBIA],
+                                       &snapshot->play_shift_mm);
     }
 }
 
-static void publish(brace_app_t *app, bool whole)
+/* The tip's force: by its sensor, else from what the joints carry. Without a posture nobody could use it. */
+static void take_force(const controller_t *controller, brace_snapshot_t *snapshot)
 {
-    brace_snapshot_t *snapshot = &app->snapshot[app->next];
-    brace_app_k_t *k = &app->k;
-    if (k->is_fresh) {
-        control_stamp(app, snapshot);
-    }
-    if (snapshot->mode != app->mode) {
-        k->done = 0;
-    } else if (k->told) {
-        control_publish(app);
-        k->waits = 0;
-        k->advances = !whole && app->loading.phase != LOADING_IDLE;
-    }
-    k->told = false;
-    k->waits = (uint8_t)(k->waits + (k->waits < UINT8_MAX));
-}
-
-static void control_tick(brace_app_t *app, uint32_t now_us, bool late, uint32_t pieces)
-{
-    const bool reads = app->loading.phase == LOADING_READ, whole = pieces == (uint32_t)SERVICES_K_WHOLE && !reads;
-    brace_app_k_t *k = &app->k;
-    k->done = whole || reads ? 0u : k->done;
-    k->is_fresh = k->done == 0u;
-    brace_snapshot_t *sensed = &app->snapshot[k->is_fresh ? app->next : control_spare(app)];
-    control_sense(app, now_us, sensed);
-    if (reads) {
-        loading_piece(app);
+    const tip_force_t *force = &controller->tip_force;
+    snapshot->force_is_sensed = force->known && controller->posture.has_levers;
+    if (snapshot->force_is_sensed) {
+        snapshot->force_x_n = force->x_n;
+        snapshot->force_z_n = force->z_n;
     } else {
-        compute(app, pieces);
-    }
-    takeup_advance(app, sensed);
-    if (whole) {
-        loading_advance(app, sensed);
-    }
-    supervisor_faults(app, late);
-    supervisor_mode(app);
-    command_send(app, sensed);
-    if (!reads) {
-        publish(app, whole);
+        posture_force_of_loads(&controller->posture, &controller->parameters.in_force,
+                               snapshot->play[BRACE_FEMUR].load_n_mm, snapshot->play[BRACE_TIBIA].load_n_mm,
+                               &snapshot->force_x_n, &snapshot->force_z_n);
     }
 }
 
-static services_room_t room_of(const brace_app_t *app)
+/* K of these samples. In CONFIGURATION there is none, because the model may be in the making. */
+static void take_stiffness(controller_t *controller, brace_snapshot_t *snapshot)
 {
-    const uint8_t phase = app->loading.phase;
-    if (app->mode == BRACE_MODE_CONFIGURATION) {
-        return storing_busy(app) ? SERVICES_BESIDE_A_PIECE : SERVICES_BESIDE_LITTLE;
+    if (controller->mode.now == BRACE_MODE_CONFIGURATION) {
+        stiffness_unknown(snapshot, BRACE_FLAG_STALE);
+    } else {
+        stiffness_take(&controller->model, &controller->parameters.in_force, controller->parameters.origin,
+                       &controller->joints, &controller->flank, &controller->posture, snapshot);
     }
-    return phase < LOADING_READ || phase > LOADING_TELL || app->k.blind ? SERVICES_BESIDE_K
-           : phase == LOADING_READ                      ? SERVICES_BESIDE_A_READING
-           : phase == LOADING_COMPARE                   ? SERVICES_BESIDE_MUCH
-                                                        : SERVICES_BESIDE_SOME;
 }
 
-/* A tick that senses nothing, for what is as dear as sensing: the joints' filters bear a missed one, and the next tick
- * senses. A loading test's piece, Modbus, or K of the samples that the last tick took. */
-static void blind_tick(brace_app_t *app, bool late, services_room_t room, uint32_t pieces)
+/* One step of the loading test; its reading goes to the drift check. */
+static void step_loading(controller_t *controller, const brace_snapshot_t *now)
 {
-    brace_app_k_t *k = &app->k;
-    supervisor_late(app, late);
-    if (room != SERVICES_BESIDE_K) {
-        if (pieces > 0u) {
-            loading_piece(app);
-        }
-    } else if (!app->modbus.serves) {
-        if (!k->is_fresh) { /* another waits: the later one goes first */
-            app->next = control_spare(app);
-            k->is_fresh = true;
-            k->done = 0;
-        }
-        compute(app, SERVICES_K_WHOLE);
-        loading_advance(app, &app->snapshot[app->next]);
-        publish(app, true);
+    const loading_inputs_t inputs = {.now = now,
+                                     .joints = &controller->joints,
+                                     .flank = &controller->flank,
+                                     .posture = &controller->posture,
+                                     .model = &controller->model,
+                                     .parameters = &controller->parameters.in_force};
+    loading_reading_t reading;
+    loading_step(&controller->loading, &inputs, &controller->recorder, &reading);
+    if (reading.is_there && reading.is_fit) {
+        drift_job_take(&controller->drift, &reading.reading, &reading.model, reading.run_ends);
+    } else if (reading.is_there) {
+        drift_job_end_run(&controller->drift);
     }
+}
+
+/* One step of the job that stores parameters, or of putting a stored set in force. */
+static void step_parameters(controller_t *controller)
+{
+    if (controller->parameters.comes_in_force) {
+        (void)configure_step(controller);
+    } else if (parameter_job_step(&controller->parameters)) {
+        controller->configure_part = 0;
+    }
+    if (controller->mode.now == BRACE_MODE_CONFIGURATION &&
+        parameter_job_has_lost_patience(&controller->parameters, controller->since_us)) {
+        (void)request_configuration_leave(controller);
+    }
+}
+
+static void update_faults(controller_t *controller, bool late, bool bus_off)
+{
+    const joint_t *joint = controller->joints.joint;
+    const bool coxa_is_missing = joint[BRACE_COXA].fitted && !joint[BRACE_COXA].sound;
+    const bool stuck = joint[BRACE_COXA].stuck || joint[BRACE_FEMUR].stuck || joint[BRACE_TIBIA].stuck;
+    const bool store_failed = controller->drift.memory_failed;
+    const uint32_t causes = (joint[BRACE_FEMUR].sound ? 0u : (uint32_t)BRACE_FAULT_SENSOR_FEMUR) |
+                            (joint[BRACE_TIBIA].sound ? 0u : (uint32_t)BRACE_FAULT_SENSOR_TIBIA) |
+                            (coxa_is_missing ? (uint32_t)BRACE_FAULT_SENSOR_COXA : 0u) |
+                            (stuck ? (uint32_t)BRACE_FAULT_ENCODER_STUCK : 0u) |
+                            (late ? (uint32_t)BRACE_FAULT_TICK_LATE : 0u) |
+                            (bus_off ? (uint32_t)BRACE_FAULT_CAN_BUS_OFF : 0u);
+    const uint32_t lasting = controller->parameters.faults |
+                             (store_failed ? (uint32_t)BRACE_FAULT_STORE : 0u) |
+                             (drift_job_alarms(&controller->drift) ? (uint32_t)BRACE_FAULT_MODEL_DRIFT : 0u) |
+                             (controller->has_crashed ? (uint32_t)BRACE_FAULT_CRASHED : 0u);
+    faults_update(&controller->faults, causes, lasting, controller->mode.now != BRACE_MODE_START,
+                  controller->parameters.in_force.controller.tick_us);
+}
+
+/* A fault that makes K invalid ends a loading test and lets the backlash go. Both still move the limb back to where they
+ * began, at their own pace. */
+static void update_mode(controller_t *controller)
+{
+    const mode_inputs_t inputs = {.joints_are_sound = joints_plane_is_sound(&controller->joints),
+                                  .faults = controller->faults.now,
+                                  .tests = loading_runs(&controller->loading),
+                                  .takes_up = takeup_runs(&controller->takeup),
+                                  .tick_us = controller->parameters.in_force.controller.tick_us};
+    if (mode_update(&controller->mode, &inputs)) {
+        loading_end(&controller->loading, BRACE_LOADING_E_LOST);
+        takeup_let_go(&controller->takeup);
+    }
+}
+
+static void command_drives(controller_t *controller)
+{
+    drives_test_t test = {.runs = loading_runs(&controller->loading)};
+    for (int i = 0; i < BRACE_LINK_COUNT && test.runs; i++) {
+        test.offset_rad[i] = loading_offset_rad(&controller->loading, i);
+        test.torque_limit_n_mm[i] = loading_torque_limit_n_mm(&controller->loading, i);
+    }
+    drives_command(&controller->drives, controller->hal, &controller->joints, &controller->flank,
+                   takeup_runs(&controller->takeup), &test);
+}
+
+/* The snapshot is complete: it is the newest from here on. */
+static void publish(controller_t *controller, brace_snapshot_t *snapshot)
+{
+    snapshot->mode = controller->mode.now;
+    snapshot->faults = controller->faults.now;
+    snapshot->parameter_crc = controller->parameters.crc;
+    snapshot->parameter_origin = controller->parameters.origin;
+    if (!mode_tells_k(snapshot->mode)) {
+        stiffness_unknown(snapshot, snapshot->stiffness.now.flags | BRACE_FLAG_STALE);
+    }
+    snapshot->sequence = ++controller->sequence;
+    controller->newest = 1u - controller->newest;
 }
 
 void brace_app_tick(brace_app_t *app, uint32_t now_us)
 {
-    const bool late = app->ticked && now_us - app->last_us > LATE_PERIODS * app->tick_us;
-    app->counters.ticks_late += late && app->counters.ticks_late < UINT32_MAX;
-    app->last_us = now_us;
-    app->ticked = true;
-    const services_room_t room = room_of(app);
-    const uint32_t pieces = services_listen(app, room);
-    const bool may_be_blind = !app->k.blind;
-    app->k.blind = false;
-    if (app->mode == BRACE_MODE_CONFIGURATION) {
-        configuration_tick(app, now_us, pieces > 0u);
-    } else if (pieces == (uint32_t)SERVICES_BLIND || room == SERVICES_BESIDE_SOME || room == SERVICES_BESIDE_MUCH) {
-        blind_tick(app, late, room, pieces);
-        app->k.blind = true;
-    } else if (may_be_blind && app->keeping.look && keeping_due(app)) {
-        supervisor_late(app, late);
-        keeping_piece(app);
-        app->k.blind = true;
-    } else {
-        control_tick(app, now_us, late, pieces);
-    }
-    services_run(app);
-    app->hal->watchdog_feed(app->hal->context);
-}
+    controller_t *controller = &app->controller;
+    const brace_hal_t *hal = controller->hal;
+    const brace_parameters_t *parameters = &controller->parameters.in_force;
+    brace_snapshot_t *snapshot = &controller->snapshot[1u - controller->newest];
+    const bool late = tick_is_late(controller, now_us);
 
-const brace_snapshot_t *brace_app_snapshot(const brace_app_t *app)
-{
-    return &app->snapshot[app->newest];
-}
+    /* Sense. */
+    joints_read(&controller->joints, hal, parameters, now_us);
+    tip_force_read(&controller->tip_force, hal, parameters);
+    snapshot->taken_us = joints_taken_us(&controller->joints);
+    snapshot->temp_degc = joints_warmest_degc(&controller->joints);
 
-const brace_parameters_t *brace_app_parameters(const brace_app_t *app)
-{
-    return &app->parameters;
-}
+    /* Which flank carries, where the limb stands, how stiff it is. */
+    flank_tick(&controller->flank, &controller->joints, &controller->tip_force, &controller->posture, parameters,
+               now_us);
+    take_posture(controller, snapshot);
+    take_force(controller, snapshot);
+    take_stiffness(controller, snapshot);
 
-const brace_app_counters_t *brace_app_counters(const brace_app_t *app)
-{
-    return &app->counters;
-}
+    /* One step of each job. */
+    takeup_step(&controller->takeup, &controller->flank);
+    step_loading(controller, snapshot);
+    const drift_inputs_t inputs = drift_inputs(controller);
+    drift_job_step(&controller->drift, &inputs);
+    step_parameters(controller);
 
-const brace_store_t *brace_app_store(const brace_app_t *app)
-{
-    return &app->store;
+    /* Faults and mode, and what follows from them. */
+    update_faults(controller, late, wires_are_bus_off(&app->wires));
+    update_mode(controller);
+    command_drives(controller);
+
+    /* Tell. */
+    publish(controller, snapshot);
+    wires_tick(&app->wires, hal, controller, now_us);
+    hal->watchdog_feed(hal->context);
 }

@@ -1,12 +1,12 @@
-/* A board's file before anything is wired: where a port to another chip starts. It is built with every other image, so
- * that it always compiles; it starts, and can say nothing, because hal/blank has no console. */
+/* The first file of a port to another chip: a board before anything is wired. It is built with every other image, so
+ * that it always compiles. It starts, but prints nothing, because hal/blank has no console. */
 #include "board.h"
 
 #include "brace_hal_blank.h"
 #include "fault.h"
 #include "start.h"
 
-enum { INTERRUPTS = 32 }; /* as the chip has */
+enum { INTERRUPTS = 32 }; /* as many as the chip has */
 
 typedef struct {
     uint32_t *stack_top;
@@ -21,13 +21,13 @@ __attribute__((section(".vectors"), used)) static const vectors_t vectors = {
     {[0 ... INTERRUPTS - 1] = UNEXPECTED},
 };
 
-/* For a crash record: a register read, and 0 before the clock runs. */
+/* The clock for a crash record: it reads one register, and returns 0 before the clock runs. */
 uint32_t board_now_us(void)
 {
     return 0u;
 }
 
-/* What the self-test judges now_us by. */
+/* The second clock, by which the self-test judges now_us. */
 uint32_t board_core_hz(void)
 {
     return 1u;
@@ -38,7 +38,7 @@ const char *board_remark(void)
     return "nothing wired yet";
 }
 
-/* Clocks, pins, and then the door: kept_..., stack_unused_bytes and kept_restart of boards/common
+/* Set up clocks and pins first, and then the door: put kept_..., stack_unused_bytes and kept_restart of boards/common
  * behind its entries. */
 const brace_hal_t *board_start(void)
 {

@@ -90,6 +90,7 @@ static const char *origin_name(brace_parameter_origin_t origin)
 void banner_application(text_t *text, const brace_app_t *app, brace_status_t started)
 {
     const brace_hal_t *const hal = text->hal;
+    const brace_snapshot_t *const now = brace_app_snapshot(app);
     if (started != BRACE_OK) {
         text_string(text, "application: refused to start, status ");
         text_signed(text, started);
@@ -98,9 +99,9 @@ void banner_application(text_t *text, const brace_app_t *app, brace_status_t sta
         return;
     }
     text_string(text, "parameters: ");
-    text_string(text, origin_name(app->origin));
+    text_string(text, origin_name(now->parameter_origin));
     text_string(text, ", crc ");
-    text_hex(text, app->parameter_crc);
+    text_hex(text, now->parameter_crc);
     text_line(text);
     text_string(text, "stack: ");
     text_unsigned(text, hal->stack_unused_bytes(hal->context));

@@ -1,4 +1,4 @@
-/* What a board gives to main: its door, and a count to judge the clock by. */
+/* What a board gives to main: its door, and a second clock by which the self-test judges the door's clock. */
 #ifndef BRACE_BOARDS_BOARD_H
 #define BRACE_BOARDS_BOARD_H
 
@@ -7,10 +7,10 @@
 /* Starts the board. Once, from main; the door is never null and lives as long as the firmware. */
 const brace_hal_t *board_start(void);
 
-/* What the board is made of, for the banner: "2 joints by AS5047 on SPI1", "stand-in joints". Constant. */
+/* The parts of the board, for the banner: "2 joints by AS5047 on SPI1", "stand-in joints". Constant. */
 const char *board_remark(void);
 
-/* What SysTick counts when it counts the processor's clock [Hz]. */
+/* The rate of SysTick when it counts the processor's clock [Hz]. */
 uint32_t board_core_hz(void);
 
 enum { BOARD_CONSOLE_BAUD = 115200 };

@@ -1,5 +1,5 @@
 # cmake -DSOURCE=... -DOUT=... -DBRACE_VERSION=... -DBRACE_BUILD_TYPE=... -P build_info.cmake
-# Runs with every build; build_info.h is touched only when it says something new.
+# Runs with every build, and rewrites build_info.h only when its content changes.
 execute_process(COMMAND git -C ${SOURCE} rev-parse --short=12 HEAD
     OUTPUT_VARIABLE BRACE_SOURCE_HASH OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE no_git)
 if(no_git)

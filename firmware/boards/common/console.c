@@ -2,6 +2,7 @@
 
 #include "banner.h"
 #include "board.h"
+#include "brace/code_names.h"
 #include "brace_hal_selftest.h"
 #include "cortex_m.h"
 #if defined(BRACE_PROVOKE_FAULTS)
@@ -21,7 +22,7 @@ static void help(text_t *text)
 #endif
 }
 
-/* Four decimals; what does not fit says so. */
+/* Prints four decimals; a number that is too large is printed as such. */
 static void text_value(text_t *text, const char *key, float value)
 {
     text_string(text, key);
@@ -40,47 +41,75 @@ static void text_value(text_t *text, const char *key, float value)
     }
 }
 
-/* The names of the bits that are set. */
-static void text_bits(text_t *text, const char *key, uint32_t bits, const char *const *names, uint32_t count)
+typedef enum { FLAGS, FAULTS } bits_t;
+
+/* Prints the names of the bits that are set. */
+static void text_bits(text_t *text, const char *key, uint32_t bits, bits_t kind)
 {
     text_string(text, key);
     if (bits == 0u) {
         text_string(text, " none");
     }
-    for (uint32_t bit = 0u; bit < count; bit++) {
+    for (int32_t bit = 0; bit < 32; bit++) {
         if ((bits >> bit & 1u) != 0u) {
             text_string(text, " ");
-            text_string(text, names[bit]);
+            text_string(text, kind == FLAGS ? brace_flag_name(bit) : brace_fault_name(bit));
         }
     }
 }
 
+static void space_stiffness(text_t *text, const brace_snapshot_t *now)
+{
+    const brace_stiffness_spatial_t *const k = &now->space.now;
+    text_string(text, now->space.is_valid ? "space: valid" : "space: not valid");
+    if (now->space.is_valid) {
+        text_value(text, " k_xx_n_per_mm ", k->k_xx_n_per_mm);
+        text_value(text, " k_xy_n_per_mm ", k->k_xy_n_per_mm);
+        text_value(text, " k_xz_n_per_mm ", k->k_xz_n_per_mm);
+        text_value(text, " k_yy_n_per_mm ", k->k_yy_n_per_mm);
+        text_value(text, " k_yz_n_per_mm ", k->k_yz_n_per_mm);
+        text_value(text, " k_zz_n_per_mm ", k->k_zz_n_per_mm);
+        text_value(text, " theta0_rad ", now->theta_rad[BRACE_COXA]);
+    }
+    text_bits(text, " flags", k->flags, FLAGS);
+    text_line(text);
+}
+
+/* Prints nothing while the limb has not drifted. */
+static void drift(text_t *text, const brace_drift_report_t *report)
+{
+    if (report->state != BRACE_DRIFT_DRIFTED) {
+        return;
+    }
+    text_string(text, "drift: ");
+    text_string(text, brace_drift_cause_text((int32_t)report->cause + 1)); /* the core counts causes from one less */
+    text_value(text, " evidence ", report->evidence);
+    text_line(text);
+}
+
 static void stiffness(text_t *text, const brace_app_t *app)
 {
-    static const char *const flags[] = BRACE_FLAGS_NAMES;
-    static const char *const faults[] = BRACE_FAULTS_NAMES;
-    static const char *const modes[] = BRACE_MODE_NAMES;
-    enum { FLAGS = sizeof flags / sizeof flags[0], FAULTS = sizeof faults / sizeof faults[0] };
-    _Static_assert(1u << FLAGS == BRACE_FLAG_OUT_OF_RANGE << 1, "every flag has its name");
-    _Static_assert(1u << FAULTS == BRACE_FAULT_CRASHED << 1, "every fault has its name");
-    _Static_assert(sizeof modes / sizeof modes[0] == BRACE_MODE_FAULT + 1, "every mode has its name");
     const brace_snapshot_t *const now = brace_app_snapshot(app);
     const brace_stiffness_t *const k = &now->stiffness.now;
     text_string(text, now->k_is_valid ? "k: valid" : "k: not valid");
-    if (now->k_is_valid) { /* else there is no number to tell */
+    if (now->k_is_valid) { /* else there is no number to print */
         text_value(text, " k_xx_n_per_mm ", k->k_xx_n_per_mm);
         text_value(text, " k_xz_n_per_mm ", k->k_xz_n_per_mm);
         text_value(text, " k_zz_n_per_mm ", k->k_zz_n_per_mm);
         text_value(text, " theta1_rad ", now->theta_rad[BRACE_FEMUR]);
         text_value(text, " theta2_rad ", now->theta_rad[BRACE_TIBIA]);
     }
-    text_bits(text, " flags", k->flags, flags, FLAGS);
-    text_bits(text, " faults", now->faults, faults, FAULTS);
+    text_bits(text, " flags", k->flags, FLAGS);
+    text_bits(text, " faults", now->faults, FAULTS);
     text_string(text, " mode ");
-    text_string(text, modes[now->mode]);
+    text_string(text, brace_mode_name((int32_t)now->mode));
     text_string(text, " tick ");
     text_unsigned(text, now->sequence);
     text_line(text);
+    if (now->space.is_fitted) {
+        space_stiffness(text, now);
+    }
+    drift(text, brace_app_drift_report(app));
 }
 
 static void finding(void *context, const brace_selftest_finding_t *found)
@@ -134,7 +163,7 @@ static void selftest(text_t *text, const brace_app_t *app, bool may_erase)
     text_unsigned(text, result.failed);
     text_string(text, " failed");
     text_line(text);
-    text->hal->restart(text->hal->context); /* the application finds its buses as it would at power-on */
+    text->hal->restart(text->hal->context); /* so that the application finds its buses as at power-on */
 }
 
 void console_serve(text_t *text, const brace_app_t *app)
@@ -144,7 +173,7 @@ void console_serve(text_t *text, const brace_app_t *app)
     if (hal->serial_read(hal->context, BRACE_SERIAL_CONSOLE, &request, 1u) != 1) {
         return;
     }
-    text->gone = false; /* who asks, listens */
+    text->gone = false; /* a person who has just typed listens */
     switch (request) {
     case '?': help(text); break;
     case 'b':

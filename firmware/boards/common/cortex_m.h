@@ -1,4 +1,4 @@
-/* The registers of a Cortex-M4's own that start-up and fault handlers use (Arm DDI 0403E, B3.2). */
+/* The registers of a Cortex-M4 that start-up code and fault handlers use (Arm DDI 0403E, B3.2). */
 #ifndef BRACE_BOARDS_CORTEX_M_H
 #define BRACE_BOARDS_CORTEX_M_H
 
@@ -24,7 +24,7 @@
 
 enum {
     CCR_DIV_0_TRAP = 1u << 4,
-    SHCSR_FAULTS_ENABLED = 7u << 16, /* memory, bus and usage faults by their own names */
+    SHCSR_FAULTS_ENABLED = 7u << 16, /* memory, bus and usage faults each with its own exception */
     CPACR_FPU = 0xFu << 20,
     MPU_ON_WITH_DEFAULT_MAP = 5u,
     MPU_BASE_OF_REGION_0 = 1u << 4,

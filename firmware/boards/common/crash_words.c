@@ -36,7 +36,7 @@ const char *crash_exception(const brace_crash_record_t *record)
 
 const char *crash_reason(const brace_crash_record_t *record, uint32_t stack_limit)
 {
-    if (record->sp < stack_limit + 32u) { /* not even a frame's room was left */
+    if (record->sp < stack_limit + 32u) { /* the stack had no room even for a frame */
         return "the stack overflowed";
     }
     for (uint32_t i = 0u; i < sizeof reasons / sizeof reasons[0]; i++) {

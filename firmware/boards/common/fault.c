@@ -1,5 +1,6 @@
-/* Nothing here trusts the stack that faulted: the handler changes to one of its own before it calls C, and reads the
- * interrupted state only if it lies in RAM. No floating point, no library, no loop but the record's checksum. */
+/* This file never trusts the stack that faulted: the handler changes to a stack of its own before it calls C, and reads
+ * the interrupted state only if it lies in RAM. It uses no floating point, no library, and no loop but the record's
+ * checksum. */
 #include "fault.h"
 
 #include "cortex_m.h"
@@ -14,7 +15,7 @@ enum { EXC_RETURN_NO_FP_FRAME = 1u << 4, PSR_STACK_WAS_ALIGNED = 1u << 9 };
 __attribute__((used, section(".kept"), aligned(8))) uint32_t fault_stack[FAULT_STACK_WORDS];
 __attribute__((used, noreturn)) void fault_record(const uint32_t *frame, uint32_t exc_return);
 
-/* What the processor pushed: r0-r3, r12, lr, pc, psr. */
+/* The registers that the processor pushed: r0-r3, r12, lr, pc, psr. */
 enum { FRAME_LR = 5, FRAME_PC = 6, FRAME_PSR = 7 };
 
 __attribute__((naked)) void fault_handler(void)
@@ -37,7 +38,7 @@ static bool lies_in_ram(const uint32_t *frame)
     return frame >= _ram_start && frame + FRAME_WORDS <= _ram_end && ((uintptr_t)frame & 3u) == 0u;
 }
 
-/* The stack pointer before the exception. */
+/* The stack pointer as it was before the exception. */
 static uint32_t before(const uint32_t *frame, uint32_t exc_return)
 {
     const bool has_fp = (exc_return & EXC_RETURN_NO_FP_FRAME) == 0u;
@@ -62,7 +63,7 @@ void fault_record(const uint32_t *frame, uint32_t exc_return)
         .bfar = SCB_BFAR,
         .uptime_us = board_now_us(),
     };
-    if (lies_in_ram(frame)) { /* else the stack has left RAM, and where it happened is not known */
+    if (lies_in_ram(frame)) { /* else the stack has left RAM, and the place of the fault is not known */
         record.pc = frame[FRAME_PC];
         record.lr = frame[FRAME_LR];
         record.psr = frame[FRAME_PSR];

@@ -1,6 +1,8 @@
-/* What an image says of itself, in the image: brace flash reads it before it writes, the banner when it runs.
+/* A block in each image that describes it. brace flash reads the block before it writes, the banner when the image
+ * runs.
  *
- * Text fields are padded with zeros. The block lies behind the vector table and is found by its magic; layout fixed:
+ * Text fields are padded with zeros. The block lies behind the vector table, and readers find it by its magic. Its
+ * layout never changes:
  * magic 8, format 4, board 24, version 16, hash 32, build 16 bytes.
  */
 #ifndef BRACE_BOARDS_IMAGE_INFO_H
@@ -13,7 +15,7 @@ typedef struct {
     uint32_t format;  /* 1 */
     char board[24];   /* the image is for this board only */
     char version[16];
-    char hash[32];    /* of the source's commit, '-dirty' behind it when the source had changed since */
+    char hash[32];    /* of the source's commit, with '-dirty' appended if the source has changed since */
     char build[16];   /* Release, Debug, ... */
 } image_info_t;
 

@@ -10,14 +10,14 @@ typedef struct {
     uint32_t crash_count;
     uint32_t crash_is_kept;
     brace_crash_record_t crash;
-    uint32_t checksum; /* of all before: CRC-32 */
+    uint32_t checksum; /* CRC-32 of all members before it */
 } kept_t;
 
 __attribute__((section(".kept.record"))) static kept_t kept;
 static bool cold;
 static brace_reset_cause_t cause;
 
-/* CRC-32 (IEEE 802.3) bit by bit: smallest, and this runs a few times between start and reset. */
+/* CRC-32 (IEEE 802.3) bit by bit: the smallest way, and it runs only a few times between start and reset. */
 static uint32_t checksum(void)
 {
     const uint8_t *const bytes = (const uint8_t *)&kept;

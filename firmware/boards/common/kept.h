@@ -1,34 +1,35 @@
-/* What a reset leaves alone: why the processor started, and what its last crash was.
+/* Memory that a reset leaves alone: why the processor started, and its last crash.
  *
- * Lives in RAM that no start-up code clears, behind a magic number and a checksum, so that memory which has just
- * been powered is told from memory that was written. Written by fault handlers: no library, no floating point,
- * bounded.
+ * It lies in RAM that no start-up code clears, behind a magic number and a checksum. These show whether the memory was
+ * written or has just been powered. Fault handlers write it, so it uses no library and no floating point, and every
+ * call is bounded.
  */
 #ifndef BRACE_BOARDS_KEPT_H
 #define BRACE_BOARDS_KEPT_H
 
 #include "brace_hal.h"
 
-/* Once, early in start-up: tells power-on (nothing sound is kept; forgets all) from a reset. */
+/* Call once, early in start-up. Finds out whether this is power-on (nothing sound is kept; it forgets all) or a
+ * reset. */
 void kept_start(void);
 
-/* The last reset left nothing sound behind: power was off. */
+/* True if the last reset left nothing sound: power was off. */
 bool kept_is_cold(void);
 
-/* Why this start; a reset that nobody announced is the pin's. The context is not used. */
+/* Why the processor started. A reset that nobody announced came from the pin. The context is not used. */
 brace_reset_cause_t kept_reset_cause(void *context);
 
-/* Announces the reset to come. */
+/* Stores the cause of the reset that will follow. */
 void kept_announce(brace_reset_cause_t cause);
 
-/* Keeps a record; its count is filled in. */
+/* Stores a crash record, and fills in its count. */
 void kept_crash_store(const brace_crash_record_t *record);
 
 /* As brace_hal.h's crash_read and crash_clear. The context is not used. */
 int32_t kept_crash_read(void *context, brace_crash_record_t *record);
 void kept_crash_clear(void *context);
 
-/* As brace_hal.h's restart: announces and resets. */
+/* As brace_hal.h's restart: announces the reset and resets. */
 void kept_restart(void *context);
 
 #endif

@@ -1,7 +1,8 @@
-/* The controller: says who it is, starts the application, and gives it its ticks. */
+/* The controller: prints who it is, starts the application, and runs its ticks. */
 #include "banner.h"
 #include "board.h"
 #include "brace/app.h"
+#include "brace/app_memory.h"
 #include "console.h"
 
 static brace_app_t app;
@@ -12,7 +13,8 @@ static text_t console_open(const brace_hal_t *hal)
     return (text_t){.hal = hal, .gone = answer != BRACE_HAL_OK};
 }
 
-/* A controller that refuses to start says why, and goes on saying it to whoever connects: no reset loop. */
+/* A controller that cannot start prints why, again and again for whoever connects later. It does not reset in a
+ * loop. */
 static _Noreturn void explain(text_t *console, brace_status_t started)
 {
     enum { REPEAT_US = 1000000 };
@@ -46,7 +48,7 @@ int main(void)
         if ((int32_t)(now_us - due_us) >= 0) {
             brace_app_tick(&app, now_us); /* feeds the watchdog */
             due_us += tick_us;
-            if ((int32_t)(now_us - due_us) >= 0) { /* late by a whole period: no burst to catch up */
+            if ((int32_t)(now_us - due_us) >= 0) { /* late by a whole period: skip ticks instead of a burst */
                 due_us = now_us + tick_us;
             }
         }

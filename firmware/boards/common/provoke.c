@@ -7,7 +7,7 @@ void provoke_help(text_t *text)
     text_line(text);
 }
 
-/* Each is a function of its own, with a name that the record's pc can be looked up by. */
+/* Each fault has a function of its own, so that the record's pc can be looked up by name. */
 
 __attribute__((noinline)) static void provoke_undefined(void)
 {
@@ -16,7 +16,7 @@ __attribute__((noinline)) static void provoke_undefined(void)
 
 __attribute__((noinline)) static void provoke_missing_memory(void)
 {
-    (void)*(volatile uint32_t *)0x60000000u; /* external memory: none on these boards */
+    (void)*(volatile uint32_t *)0x60000000u; /* external memory, which these boards do not have */
 }
 
 __attribute__((noinline)) static uint32_t provoke_division(volatile uint32_t *zero)
@@ -26,7 +26,7 @@ __attribute__((noinline)) static uint32_t provoke_division(volatile uint32_t *ze
     return quotient;
 }
 
-/* Deliberately without end. */
+/* Recurses without end, on purpose. */
 __attribute__((noinline)) static uint32_t provoke_overflow(uint32_t depth)
 {
     volatile uint32_t frame[16];

@@ -1,4 +1,4 @@
-/* Faults on request: in the crash-test images only, so that the record of each kind can be seen to be right. */
+/* Faults on request, in the crash-test images only: a test provokes each kind and checks its record. */
 #ifndef BRACE_BOARDS_PROVOKE_H
 #define BRACE_BOARDS_PROVOKE_H
 
@@ -6,7 +6,7 @@
 
 void provoke_help(text_t *text);
 
-/* Does not return for a request it knows. */
+/* Causes the fault that the character asks for. It returns only for a character that it does not know. */
 void provoke(uint8_t request);
 
 #endif

@@ -1,5 +1,5 @@
 # cmake -DELF=... -DSIZE=size -DMEMORY=memory.ld -DBOARD=... -P size_report.cmake
-# Prints what an image takes of its board, and writes it beside the image as <image>.size.json.
+# Prints how much of its board an image uses, and writes it beside the image as <image>.size.json.
 execute_process(COMMAND ${SIZE} -A -d ${ELF} OUTPUT_VARIABLE listing COMMAND_ERROR_IS_FATAL ANY)
 file(READ ${MEMORY} memory)
 

@@ -1,10 +1,10 @@
-/* How much of the stack was never used. */
+/* How much of the stack nothing has ever used. */
 #ifndef BRACE_BOARDS_STACK_H
 #define BRACE_BOARDS_STACK_H
 
 #include <stdint.h>
 
-/* What start-up paints the stack with. */
+/* The pattern with which start-up fills the stack. */
 enum { STACK_PAINT = 0x5354414B };
 
 /* As brace_hal.h's entry. The context is not used. */

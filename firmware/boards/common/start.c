@@ -11,7 +11,7 @@ extern int main(void);
 
 __attribute__((used, noreturn)) void start(void);
 
-/* Paints the stack, all of it: nothing lies on it yet. Then C may begin. */
+/* Paints the whole stack, which is still empty, and then calls C. */
 __attribute__((naked, noreturn)) void reset_handler(void)
 {
     __asm__ volatile(
@@ -27,7 +27,7 @@ __attribute__((naked, noreturn)) void reset_handler(void)
         ".ltorg\n" ::"i"(STACK_PAINT));
 }
 
-/* The 4 KiB below the stack, where no RAM is but some boards answer all the same: touching them is a fault. */
+/* Forbids the 4 KiB below the stack. No RAM is there, but some boards answer all the same; now an access is a fault. */
 static void guard_stack(void)
 {
     enum { GUARD_BYTES = 4096 };
@@ -38,7 +38,7 @@ static void guard_stack(void)
 
 void start(void)
 {
-    SCB_VTOR = (uint32_t)(uintptr_t)_vectors; /* a boot loader may have left its own */
+    SCB_VTOR = (uint32_t)(uintptr_t)_vectors; /* a boot loader may have set its own table */
     SCB_CCR |= CCR_DIV_0_TRAP;
     SCB_SHCSR |= SHCSR_FAULTS_ENABLED;
     guard_stack();
@@ -56,6 +56,6 @@ void start(void)
     kept_start();
     __asm__ volatile("cpsie i" ::: "memory");
     (void)main();
-    kept_announce(BRACE_RESET_FAULT); /* main has no way out */
+    kept_announce(BRACE_RESET_FAULT); /* main never returns */
     cortex_m_reset();
 }

@@ -1,4 +1,4 @@
-/* From reset to main, for controller images. A board's vector table begins with CORTEX_M_VECTORS. */
+/* The way from reset to main, for controller images. A board's vector table begins with CORTEX_M_VECTORS. */
 #ifndef BRACE_BOARDS_START_H
 #define BRACE_BOARDS_START_H
 
@@ -11,7 +11,7 @@ extern uint32_t _stack_top[];
 void reset_handler(void);
 void fault_handler(void);
 
-/* The handler of interrupts that nobody has switched on: one that comes all the same is a fault with a record. */
+/* The handler of interrupts that nobody has switched on. If one comes nevertheless, it is a fault with a record. */
 #define UNEXPECTED fault_handler
 
 /* Exceptions 1-15 in the order of the table. */

@@ -1,4 +1,4 @@
-/* From reset to main for an image on an emulated Cortex-M, and from main's answer to the emulator's exit code.
+/* The way from reset to main on an emulated Cortex-M, and from main's result to the emulator's exit code.
  *
  * Test images only: output and exit go through semihosting (newlib's librdimon). A fault ends the run with
  * exit code 125 instead of hanging it.

@@ -1,4 +1,4 @@
-/* Text on the console, without a C library: strings, numbers, names. Waits for room, but not for ever. */
+/* Text on the console without a C library: strings, numbers, names. It waits for room, but not for ever. */
 #ifndef BRACE_BOARDS_TEXT_H
 #define BRACE_BOARDS_TEXT_H
 
@@ -6,7 +6,7 @@
 
 typedef struct {
     const brace_hal_t *hal;
-    bool gone; /* the console took nothing for 0.1 s: what follows is dropped without waiting */
+    bool gone; /* the console took nothing for 0.1 s: later text is dropped without waiting */
 } text_t;
 
 void text_string(text_t *text, const char *string);

@@ -1,4 +1,4 @@
-/* The emulated MPS2 board, AN386: vector table and what stands in for a limb. */
+/* The emulated MPS2 board, AN386: its vector table, and joints that stand in for a limb. */
 #include "board.h"
 
 #include "brace_hal_mps2.h"

@@ -1,5 +1,5 @@
 /* The Netduino Plus 2 as emulators have it: an STM32F405 with USARTs and timers, without clock control, CAN, flash
- * controller and watchdog. The driver is the real chip's; what is missing stands in. */
+ * controller and watchdog. The driver is that of the real chip; other parts stand in for what the emulator lacks. */
 #include "board.h"
 
 #include "brace_hal_stm32f405.h"
@@ -34,7 +34,7 @@ static int32_t joint_read(void *context, int32_t joint_index, brace_hal_joint_t 
 
 const brace_hal_t *board_start(void)
 {
-    /* The emulator's own rates, whatever the registers say. */
+    /* The emulator's own rates; it ignores the registers that set them. */
     static const stm32f405_clocks_t clocks = {
         .core_hz = 168000000u, .apb1_hz = 42000000u, .apb2_hz = 84000000u, .timer_hz = 1000000000u};
     static const stm32f405_joints_t joints = {.read = joint_read};

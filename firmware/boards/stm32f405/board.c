@@ -1,11 +1,11 @@
-/* A board with an STM32F405 and nothing special about it: copy this folder for yours, and say here what is wired where.
+/* A plain board with an STM32F405. Copy this folder for your board, and write here how yours is wired.
  *
  *   8 MHz crystal       console   USART1  PA9 tx, PA10 rx
  *   CAN1  PB8 rx, PB9 tx  Modbus    USART2  PA2 tx, PA3 rx, PA1 drives the RS-485 transceiver
  *                         SLCAN     USART3  PB10 tx, PB11 rx
  *   parameters: flash sectors 10 and 11, behind the image (memory.ld)
  *
- * Joints are wired differently on every limb: none here. A stm32f405_joints_t in `board` gives them. */
+ * Joints are wired differently on every limb, so this board has none. A stm32f405_joints_t in `board` adds them. */
 #include "board.h"
 
 #include "brace_hal_stm32f405.h"

@@ -1,5 +1,5 @@
-# What every Cortex-M build shares; included by the toolchain file of a core, which sets BRACE_CPU_FLAGS and
-# BRACE_CORE_NAME (m4f, m3, m0plus) first.
+# Settings of every Cortex-M build. The toolchain file of a core includes this one, after it has set BRACE_CPU_FLAGS and
+# BRACE_CORE_NAME (m4f, m3, m0plus).
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR arm)
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)

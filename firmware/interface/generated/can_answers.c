@@ -3,7 +3,7 @@
 
 #include "can_bits.h"
 
-const uint8_t brace_can_answer_parts[32] = {0, 1, 1, 3, 3, 3, 2, 1, 1, 1, 1, 1, 2, 2, 1, 1, 1, 1, 1, 1, 4, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+const uint8_t brace_can_answer_parts[32] = {0, 1, 1, 3, 3, 3, 2, 1, 1, 1, 1, 1, 2, 2, 1, 1, 1, 1, 1, 1, 4, 1, 1, 5, 3, 1, 0, 0, 0, 0, 0, 0};
 
 uint32_t brace_can_pack_read_entry_answer_0(const brace_can_read_entry_answer_0_t *message, uint8_t data[8])
 {
@@ -102,7 +102,8 @@ void brace_can_unpack_k_at_posture_answer_2(const uint8_t data[8], brace_can_k_a
     message->flags = brace_value_number(bits, 56u, 8u);
 }
 
-uint32_t brace_can_pack_k_at_tip_knee_up_answer_0(const brace_can_k_at_tip_knee_up_answer_0_t *message, uint8_t data[8])
+uint32_t brace_can_pack_k_at_tip_knee_up_answer_0(const brace_can_k_at_tip_knee_up_answer_0_t *message,
+    uint8_t data[8])
 {
     uint32_t limited = 0u;
     uint64_t bits = 0u;
@@ -121,7 +122,8 @@ void brace_can_unpack_k_at_tip_knee_up_answer_0(const uint8_t data[8], brace_can
     message->k_xz_n_per_mm = brace_value_signed(bits, 40u, 24u, 0.0005f);
 }
 
-uint32_t brace_can_pack_k_at_tip_knee_up_answer_1(const brace_can_k_at_tip_knee_up_answer_1_t *message, uint8_t data[8])
+uint32_t brace_can_pack_k_at_tip_knee_up_answer_1(const brace_can_k_at_tip_knee_up_answer_1_t *message,
+    uint8_t data[8])
 {
     uint32_t limited = 0u;
     uint64_t bits = 0u;
@@ -140,7 +142,8 @@ void brace_can_unpack_k_at_tip_knee_up_answer_1(const uint8_t data[8], brace_can
     message->lambda_min_n_per_mm = brace_value_unsigned(bits, 40u, 24u, 0.0005f);
 }
 
-uint32_t brace_can_pack_k_at_tip_knee_up_answer_2(const brace_can_k_at_tip_knee_up_answer_2_t *message, uint8_t data[8])
+uint32_t brace_can_pack_k_at_tip_knee_up_answer_2(const brace_can_k_at_tip_knee_up_answer_2_t *message,
+    uint8_t data[8])
 {
     uint32_t limited = 0u;
     uint64_t bits = 0u;
@@ -161,7 +164,8 @@ void brace_can_unpack_k_at_tip_knee_up_answer_2(const uint8_t data[8], brace_can
     message->flags = brace_value_number(bits, 56u, 8u);
 }
 
-uint32_t brace_can_pack_k_at_tip_knee_down_answer_0(const brace_can_k_at_tip_knee_down_answer_0_t *message, uint8_t data[8])
+uint32_t brace_can_pack_k_at_tip_knee_down_answer_0(const brace_can_k_at_tip_knee_down_answer_0_t *message,
+    uint8_t data[8])
 {
     uint32_t limited = 0u;
     uint64_t bits = 0u;
@@ -172,7 +176,8 @@ uint32_t brace_can_pack_k_at_tip_knee_down_answer_0(const brace_can_k_at_tip_kne
     return limited;
 }
 
-void brace_can_unpack_k_at_tip_knee_down_answer_0(const uint8_t data[8], brace_can_k_at_tip_knee_down_answer_0_t *message)
+void brace_can_unpack_k_at_tip_knee_down_answer_0(const uint8_t data[8],
+    brace_can_k_at_tip_knee_down_answer_0_t *message)
 {
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
@@ -180,7 +185,8 @@ void brace_can_unpack_k_at_tip_knee_down_answer_0(const uint8_t data[8], brace_c
     message->k_xz_n_per_mm = brace_value_signed(bits, 40u, 24u, 0.0005f);
 }
 
-uint32_t brace_can_pack_k_at_tip_knee_down_answer_1(const brace_can_k_at_tip_knee_down_answer_1_t *message, uint8_t data[8])
+uint32_t brace_can_pack_k_at_tip_knee_down_answer_1(const brace_can_k_at_tip_knee_down_answer_1_t *message,
+    uint8_t data[8])
 {
     uint32_t limited = 0u;
     uint64_t bits = 0u;
@@ -191,7 +197,8 @@ uint32_t brace_can_pack_k_at_tip_knee_down_answer_1(const brace_can_k_at_tip_kne
     return limited;
 }
 
-void brace_can_unpack_k_at_tip_knee_down_answer_1(const uint8_t data[8], brace_can_k_at_tip_knee_down_answer_1_t *message)
+void brace_can_unpack_k_at_tip_knee_down_answer_1(const uint8_t data[8],
+    brace_can_k_at_tip_knee_down_answer_1_t *message)
 {
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
@@ -199,7 +206,8 @@ void brace_can_unpack_k_at_tip_knee_down_answer_1(const uint8_t data[8], brace_c
     message->lambda_min_n_per_mm = brace_value_unsigned(bits, 40u, 24u, 0.0005f);
 }
 
-uint32_t brace_can_pack_k_at_tip_knee_down_answer_2(const brace_can_k_at_tip_knee_down_answer_2_t *message, uint8_t data[8])
+uint32_t brace_can_pack_k_at_tip_knee_down_answer_2(const brace_can_k_at_tip_knee_down_answer_2_t *message,
+    uint8_t data[8])
 {
     uint32_t limited = 0u;
     uint64_t bits = 0u;
@@ -211,7 +219,8 @@ uint32_t brace_can_pack_k_at_tip_knee_down_answer_2(const brace_can_k_at_tip_kne
     return limited;
 }
 
-void brace_can_unpack_k_at_tip_knee_down_answer_2(const uint8_t data[8], brace_can_k_at_tip_knee_down_answer_2_t *message)
+void brace_can_unpack_k_at_tip_knee_down_answer_2(const uint8_t data[8],
+    brace_can_k_at_tip_knee_down_answer_2_t *message)
 {
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
@@ -472,7 +481,8 @@ void brace_can_unpack_let_go_answer_0(const uint8_t data[8], brace_can_let_go_an
     message->mode = brace_value_number(bits, 16u, 8u);
 }
 
-uint32_t brace_can_pack_loading_test_start_answer_0(const brace_can_loading_test_start_answer_0_t *message, uint8_t data[8])
+uint32_t brace_can_pack_loading_test_start_answer_0(const brace_can_loading_test_start_answer_0_t *message,
+    uint8_t data[8])
 {
     uint32_t limited = 0u;
     uint64_t bits = 0u;
@@ -482,14 +492,16 @@ uint32_t brace_can_pack_loading_test_start_answer_0(const brace_can_loading_test
     return limited;
 }
 
-void brace_can_unpack_loading_test_start_answer_0(const uint8_t data[8], brace_can_loading_test_start_answer_0_t *message)
+void brace_can_unpack_loading_test_start_answer_0(const uint8_t data[8],
+    brace_can_loading_test_start_answer_0_t *message)
 {
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
     message->rows = brace_value_number(bits, 16u, 16u);
 }
 
-uint32_t brace_can_pack_loading_test_stop_answer_0(const brace_can_loading_test_stop_answer_0_t *message, uint8_t data[8])
+uint32_t brace_can_pack_loading_test_stop_answer_0(const brace_can_loading_test_stop_answer_0_t *message,
+    uint8_t data[8])
 {
     uint32_t limited = 0u;
     uint64_t bits = 0u;
@@ -499,7 +511,8 @@ uint32_t brace_can_pack_loading_test_stop_answer_0(const brace_can_loading_test_
     return limited;
 }
 
-void brace_can_unpack_loading_test_stop_answer_0(const uint8_t data[8], brace_can_loading_test_stop_answer_0_t *message)
+void brace_can_unpack_loading_test_stop_answer_0(const uint8_t data[8],
+    brace_can_loading_test_stop_answer_0_t *message)
 {
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
@@ -605,7 +618,8 @@ void brace_can_unpack_identify_answer_3(const uint8_t data[8], brace_can_identif
     message->origin = brace_value_number(bits, 48u, 8u);
 }
 
-uint32_t brace_can_pack_loading_test_result_answer_0(const brace_can_loading_test_result_answer_0_t *message, uint8_t data[8])
+uint32_t brace_can_pack_loading_test_result_answer_0(const brace_can_loading_test_result_answer_0_t *message,
+    uint8_t data[8])
 {
     uint32_t limited = 0u;
     uint64_t bits = 0u;
@@ -617,7 +631,8 @@ uint32_t brace_can_pack_loading_test_result_answer_0(const brace_can_loading_tes
     return limited;
 }
 
-void brace_can_unpack_loading_test_result_answer_0(const uint8_t data[8], brace_can_loading_test_result_answer_0_t *message)
+void brace_can_unpack_loading_test_result_answer_0(const uint8_t data[8],
+    brace_can_loading_test_result_answer_0_t *message)
 {
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
@@ -641,6 +656,197 @@ void brace_can_unpack_clear_answer_0(const uint8_t data[8], brace_can_clear_answ
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
     message->faults = brace_value_number(bits, 16u, 32u);
+}
+
+uint32_t brace_can_pack_k_in_space_at_posture_answer_0(const brace_can_k_in_space_at_posture_answer_0_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 23u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->k_xx_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->k_xy_n_per_mm, 2000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_in_space_at_posture_answer_0(const uint8_t data[8],
+    brace_can_k_in_space_at_posture_answer_0_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->k_xx_n_per_mm = brace_value_signed(bits, 16u, 24u, 0.0005f);
+    message->k_xy_n_per_mm = brace_value_signed(bits, 40u, 24u, 0.0005f);
+}
+
+uint32_t brace_can_pack_k_in_space_at_posture_answer_1(const brace_can_k_in_space_at_posture_answer_1_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 55u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->k_xz_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->k_yy_n_per_mm, 2000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_in_space_at_posture_answer_1(const uint8_t data[8],
+    brace_can_k_in_space_at_posture_answer_1_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->k_xz_n_per_mm = brace_value_signed(bits, 16u, 24u, 0.0005f);
+    message->k_yy_n_per_mm = brace_value_signed(bits, 40u, 24u, 0.0005f);
+}
+
+uint32_t brace_can_pack_k_in_space_at_posture_answer_2(const brace_can_k_in_space_at_posture_answer_2_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 87u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->k_yz_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->k_zz_n_per_mm, 2000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_in_space_at_posture_answer_2(const uint8_t data[8],
+    brace_can_k_in_space_at_posture_answer_2_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->k_yz_n_per_mm = brace_value_signed(bits, 16u, 24u, 0.0005f);
+    message->k_zz_n_per_mm = brace_value_signed(bits, 40u, 24u, 0.0005f);
+}
+
+uint32_t brace_can_pack_k_in_space_at_posture_answer_3(const brace_can_k_in_space_at_posture_answer_3_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 119u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_unsigned(message->lambda_1_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_unsigned(message->lambda_2_n_per_mm, 2000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_in_space_at_posture_answer_3(const uint8_t data[8],
+    brace_can_k_in_space_at_posture_answer_3_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->lambda_1_n_per_mm = brace_value_unsigned(bits, 16u, 24u, 0.0005f);
+    message->lambda_2_n_per_mm = brace_value_unsigned(bits, 40u, 24u, 0.0005f);
+}
+
+uint32_t brace_can_pack_k_in_space_at_posture_answer_4(const brace_can_k_in_space_at_posture_answer_4_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 151u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_unsigned(message->lambda_3_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_number(message->flags, 40u, 8u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_in_space_at_posture_answer_4(const uint8_t data[8],
+    brace_can_k_in_space_at_posture_answer_4_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->lambda_3_n_per_mm = brace_value_unsigned(bits, 16u, 24u, 0.0005f);
+    message->flags = brace_value_number(bits, 40u, 8u);
+}
+
+uint32_t brace_can_pack_drift_answer_0(const brace_can_drift_answer_0_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 24u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_number(message->state, 16u, 4u, &limited);
+    bits |= brace_bits_number(message->cause, 20u, 4u, &limited);
+    bits |= brace_bits_number(message->could_be, 24u, 8u, &limited);
+    bits |= brace_bits_number(message->next_step, 32u, 8u, &limited);
+    bits |= brace_bits_unsigned(message->evidence, 1000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_drift_answer_0(const uint8_t data[8], brace_can_drift_answer_0_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->state = brace_value_number(bits, 16u, 4u);
+    message->cause = brace_value_number(bits, 20u, 4u);
+    message->could_be = brace_value_number(bits, 24u, 8u);
+    message->next_step = brace_value_number(bits, 32u, 8u);
+    message->evidence = brace_value_unsigned(bits, 40u, 24u, 0.001f);
+}
+
+uint32_t brace_can_pack_drift_answer_1(const brace_can_drift_answer_1_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 56u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->loss_ratio, 100000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_unsigned(message->loss_sigma_ratio, 100000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_drift_answer_1(const uint8_t data[8], brace_can_drift_answer_1_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->loss_ratio = brace_value_signed(bits, 16u, 24u, 1e-05f);
+    message->loss_sigma_ratio = brace_value_unsigned(bits, 40u, 24u, 1e-05f);
+}
+
+uint32_t brace_can_pack_drift_answer_2(const brace_can_drift_answer_2_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 88u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_number(message->since_readings, 16u, 16u, &limited);
+    bits |= brace_bits_number(message->readings, 32u, 32u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_drift_answer_2(const uint8_t data[8], brace_can_drift_answer_2_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->since_readings = brace_value_number(bits, 16u, 16u);
+    message->readings = brace_value_number(bits, 32u, 32u);
+}
+
+uint32_t brace_can_pack_take_up_result_answer_0(const brace_can_take_up_result_answer_0_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 25u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_number(message->joint, 16u, 8u, &limited);
+    bits |= brace_bits_whole(message->outcome, 24u, 8u, &limited);
+    bits |= brace_bits_number(message->phase, 32u, 8u, &limited);
+    bits |= brace_bits_signed(message->torque_n_mm, 10.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_take_up_result_answer_0(const uint8_t data[8], brace_can_take_up_result_answer_0_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->joint = brace_value_number(bits, 16u, 8u);
+    message->outcome = brace_value_whole(bits, 24u, 8u);
+    message->phase = brace_value_number(bits, 32u, 8u);
+    message->torque_n_mm = brace_value_signed(bits, 40u, 24u, 0.1f);
 }
 
 uint32_t brace_can_pack_refusal(const brace_can_refusal_t *message, uint8_t data[8])

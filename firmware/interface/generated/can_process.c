@@ -8,7 +8,8 @@ uint32_t brace_can_pack_emergency(const brace_can_emergency_t *message, uint8_t 
     uint32_t limited = 0u;
     uint64_t bits = 0u;
     bits |= brace_bits_number(message->error_code, 0u, 16u, &limited);
-    bits |= brace_bits_number(message->error_register, 16u, 8u, &limited);
+    bits |= brace_bits_number(message->error_register, 16u, 4u, &limited);
+    bits |= brace_bits_number(message->drift_cause, 20u, 4u, &limited);
     bits |= brace_bits_number(message->mode, 24u, 8u, &limited);
     bits |= brace_bits_number(message->faults, 32u, 32u, &limited);
     brace_bits_store(bits, data);
@@ -19,7 +20,8 @@ void brace_can_unpack_emergency(const uint8_t data[8], brace_can_emergency_t *me
 {
     const uint64_t bits = brace_bits_load(data);
     message->error_code = brace_value_number(bits, 0u, 16u);
-    message->error_register = brace_value_number(bits, 16u, 8u);
+    message->error_register = brace_value_number(bits, 16u, 4u);
+    message->drift_cause = brace_value_number(bits, 20u, 4u);
     message->mode = brace_value_number(bits, 24u, 8u);
     message->faults = brace_value_number(bits, 32u, 32u);
 }
@@ -135,6 +137,151 @@ void brace_can_unpack_heartbeat(const uint8_t data[8], brace_can_heartbeat_t *me
     message->dictionary_hash = brace_value_number(bits, 32u, 32u);
 }
 
+uint32_t brace_can_pack_space_0(const brace_can_space_0_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_signed(message->k_xx_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->k_xy_n_per_mm, 2000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_space_0(const uint8_t data[8], brace_can_space_0_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->k_xx_n_per_mm = brace_value_signed(bits, 16u, 24u, 0.0005f);
+    message->k_xy_n_per_mm = brace_value_signed(bits, 40u, 24u, 0.0005f);
+}
+
+uint32_t brace_can_pack_space_1(const brace_can_space_1_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 256u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_signed(message->k_xz_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->k_yy_n_per_mm, 2000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_space_1(const uint8_t data[8], brace_can_space_1_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->k_xz_n_per_mm = brace_value_signed(bits, 16u, 24u, 0.0005f);
+    message->k_yy_n_per_mm = brace_value_signed(bits, 40u, 24u, 0.0005f);
+}
+
+uint32_t brace_can_pack_space_2(const brace_can_space_2_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 512u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_signed(message->k_yz_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->k_zz_n_per_mm, 2000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_space_2(const uint8_t data[8], brace_can_space_2_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->k_yz_n_per_mm = brace_value_signed(bits, 16u, 24u, 0.0005f);
+    message->k_zz_n_per_mm = brace_value_signed(bits, 40u, 24u, 0.0005f);
+}
+
+uint32_t brace_can_pack_space_3(const brace_can_space_3_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 768u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_unsigned(message->lambda_1_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_unsigned(message->lambda_2_n_per_mm, 2000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_space_3(const uint8_t data[8], brace_can_space_3_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->lambda_1_n_per_mm = brace_value_unsigned(bits, 16u, 24u, 0.0005f);
+    message->lambda_2_n_per_mm = brace_value_unsigned(bits, 40u, 24u, 0.0005f);
+}
+
+uint32_t brace_can_pack_space_4(const brace_can_space_4_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 1024u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_unsigned(message->lambda_3_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_number(message->flags, 40u, 8u, &limited);
+    bits |= brace_bits_unsigned(message->age_ms, 2.0f, 48u, 8u, &limited);
+    bits |= brace_bits_number(message->play_coxa, 56u, 4u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_space_4(const uint8_t data[8], brace_can_space_4_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->lambda_3_n_per_mm = brace_value_unsigned(bits, 16u, 24u, 0.0005f);
+    message->flags = brace_value_number(bits, 40u, 8u);
+    message->age_ms = brace_value_unsigned(bits, 48u, 8u, 0.5f);
+    message->play_coxa = brace_value_number(bits, 56u, 4u);
+}
+
+uint32_t brace_can_pack_space_5(const brace_can_space_5_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 1280u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_signed(message->stiff_axis_x, 20000.0f, 16u, 16u, &limited);
+    bits |= brace_bits_signed(message->stiff_axis_y, 20000.0f, 32u, 16u, &limited);
+    bits |= brace_bits_signed(message->stiff_axis_z, 20000.0f, 48u, 16u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_space_5(const uint8_t data[8], brace_can_space_5_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->stiff_axis_x = brace_value_signed(bits, 16u, 16u, 5e-05f);
+    message->stiff_axis_y = brace_value_signed(bits, 32u, 16u, 5e-05f);
+    message->stiff_axis_z = brace_value_signed(bits, 48u, 16u, 5e-05f);
+}
+
+uint32_t brace_can_pack_space_6(const brace_can_space_6_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 1536u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_signed(message->theta0_rad, 1000000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_unsigned(message->k_across_n_per_mm, 2000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_space_6(const uint8_t data[8], brace_can_space_6_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->theta0_rad = brace_value_signed(bits, 16u, 24u, 1e-06f);
+    message->k_across_n_per_mm = brace_value_unsigned(bits, 40u, 24u, 0.0005f);
+}
+
 uint32_t brace_can_pack_snapshot_fd(const brace_can_snapshot_fd_t *message, uint8_t data[64])
 {
     uint32_t limited = 0u;
@@ -207,4 +354,83 @@ void brace_can_unpack_snapshot_fd(const uint8_t data[64], brace_can_snapshot_fd_
     bits = brace_bits_load(data + 56);
     message->force_x_n = brace_value_float(bits, 0u);
     message->force_z_n = brace_value_float(bits, 32u);
+}
+
+uint32_t brace_can_pack_space_fd(const brace_can_space_fd_t *message, uint8_t data[64])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits |= brace_bits_number(message->sequence, 0u, 32u, &limited);
+    bits |= brace_bits_unsigned(message->age_ms, 2.0f, 32u, 16u, &limited);
+    bits |= brace_bits_number(message->parameter_tag, 48u, 16u, &limited);
+    brace_bits_store(bits, data);
+    bits = 0u;
+    bits |= brace_bits_number(message->flags, 0u, 16u, &limited);
+    bits |= brace_bits_number(message->mode, 16u, 8u, &limited);
+    bits |= brace_bits_number(message->play_coxa, 24u, 8u, &limited);
+    bits |= brace_bits_float(message->k_across_n_per_mm, 32u);
+    brace_bits_store(bits, data + 8);
+    bits = 0u;
+    bits |= brace_bits_float(message->k_xx_n_per_mm, 0u);
+    bits |= brace_bits_float(message->k_xy_n_per_mm, 32u);
+    brace_bits_store(bits, data + 16);
+    bits = 0u;
+    bits |= brace_bits_float(message->k_xz_n_per_mm, 0u);
+    bits |= brace_bits_float(message->k_yy_n_per_mm, 32u);
+    brace_bits_store(bits, data + 24);
+    bits = 0u;
+    bits |= brace_bits_float(message->k_yz_n_per_mm, 0u);
+    bits |= brace_bits_float(message->k_zz_n_per_mm, 32u);
+    brace_bits_store(bits, data + 32);
+    bits = 0u;
+    bits |= brace_bits_float(message->lambda_1_n_per_mm, 0u);
+    bits |= brace_bits_float(message->lambda_2_n_per_mm, 32u);
+    brace_bits_store(bits, data + 40);
+    bits = 0u;
+    bits |= brace_bits_float(message->lambda_3_n_per_mm, 0u);
+    bits |= brace_bits_float(message->theta0_rad, 32u);
+    brace_bits_store(bits, data + 48);
+    bits = 0u;
+    bits |= brace_bits_signed(message->stiff_axis_x, 20000.0f, 0u, 16u, &limited);
+    bits |= brace_bits_signed(message->stiff_axis_y, 20000.0f, 16u, 16u, &limited);
+    bits |= brace_bits_signed(message->stiff_axis_z, 20000.0f, 32u, 16u, &limited);
+    brace_bits_store(bits, data + 56);
+    return limited;
+}
+
+void brace_can_unpack_space_fd(const uint8_t data[64], brace_can_space_fd_t *message)
+{
+    uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 32u);
+    message->age_ms = brace_value_unsigned(bits, 32u, 16u, 0.5f);
+    message->parameter_tag = brace_value_number(bits, 48u, 16u);
+    bits = brace_bits_load(data + 8);
+    message->flags = brace_value_number(bits, 0u, 16u);
+    message->mode = brace_value_number(bits, 16u, 8u);
+    message->play_coxa = brace_value_number(bits, 24u, 8u);
+    message->k_across_n_per_mm = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 16);
+    message->k_xx_n_per_mm = brace_value_float(bits, 0u);
+    message->k_xy_n_per_mm = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 24);
+    message->k_xz_n_per_mm = brace_value_float(bits, 0u);
+    message->k_yy_n_per_mm = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 32);
+    message->k_yz_n_per_mm = brace_value_float(bits, 0u);
+    message->k_zz_n_per_mm = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 40);
+    message->lambda_1_n_per_mm = brace_value_float(bits, 0u);
+    message->lambda_2_n_per_mm = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 48);
+    message->lambda_3_n_per_mm = brace_value_float(bits, 0u);
+    message->theta0_rad = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 56);
+    message->stiff_axis_x = brace_value_signed(bits, 0u, 16u, 5e-05f);
+    message->stiff_axis_y = brace_value_signed(bits, 16u, 16u, 5e-05f);
+    message->stiff_axis_z = brace_value_signed(bits, 32u, 16u, 5e-05f);
+}
+
+uint32_t brace_can_space_part(const uint8_t data[8])
+{
+    return brace_value_number(brace_bits_load(data), 8u, 8u);
 }

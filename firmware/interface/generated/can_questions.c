@@ -77,7 +77,8 @@ void brace_can_unpack_k_at_tip_knee_up_request(const uint8_t data[8], brace_can_
     message->z_mm = brace_value_signed(bits, 40u, 24u, 0.001f);
 }
 
-uint32_t brace_can_pack_k_at_tip_knee_down_request(const brace_can_k_at_tip_knee_down_request_t *message, uint8_t data[8])
+uint32_t brace_can_pack_k_at_tip_knee_down_request(const brace_can_k_at_tip_knee_down_request_t *message,
+    uint8_t data[8])
 {
     uint32_t limited = 0u;
     uint64_t bits = 0u;
@@ -88,7 +89,8 @@ uint32_t brace_can_pack_k_at_tip_knee_down_request(const brace_can_k_at_tip_knee
     return limited;
 }
 
-void brace_can_unpack_k_at_tip_knee_down_request(const uint8_t data[8], brace_can_k_at_tip_knee_down_request_t *message)
+void brace_can_unpack_k_at_tip_knee_down_request(const uint8_t data[8],
+    brace_can_k_at_tip_knee_down_request_t *message)
 {
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
@@ -293,7 +295,8 @@ void brace_can_unpack_let_go_request(const uint8_t data[8], brace_can_let_go_req
     message->token = (uint32_t)(bits >> 8) & 0xffu;
 }
 
-uint32_t brace_can_pack_loading_test_start_request(const brace_can_loading_test_start_request_t *message, uint8_t data[8])
+uint32_t brace_can_pack_loading_test_start_request(const brace_can_loading_test_start_request_t *message,
+    uint8_t data[8])
 {
     uint32_t limited = 0u;
     uint64_t bits = 0u;
@@ -306,7 +309,8 @@ uint32_t brace_can_pack_loading_test_start_request(const brace_can_loading_test_
     return limited;
 }
 
-void brace_can_unpack_loading_test_start_request(const uint8_t data[8], brace_can_loading_test_start_request_t *message)
+void brace_can_unpack_loading_test_start_request(const uint8_t data[8],
+    brace_can_loading_test_start_request_t *message)
 {
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
@@ -316,7 +320,8 @@ void brace_can_unpack_loading_test_start_request(const uint8_t data[8], brace_ca
     message->dwell_ms = brace_value_number(bits, 48u, 16u);
 }
 
-uint32_t brace_can_pack_loading_test_stop_request(const brace_can_loading_test_stop_request_t *message, uint8_t data[8])
+uint32_t brace_can_pack_loading_test_stop_request(const brace_can_loading_test_stop_request_t *message,
+    uint8_t data[8])
 {
     uint32_t limited = 0u;
     uint64_t bits = 0u;
@@ -365,7 +370,8 @@ void brace_can_unpack_identify_request(const uint8_t data[8], brace_can_identify
     message->token = (uint32_t)(bits >> 8) & 0xffu;
 }
 
-uint32_t brace_can_pack_loading_test_result_request(const brace_can_loading_test_result_request_t *message, uint8_t data[8])
+uint32_t brace_can_pack_loading_test_result_request(const brace_can_loading_test_result_request_t *message,
+    uint8_t data[8])
 {
     uint32_t limited = 0u;
     uint64_t bits = 0u;
@@ -375,7 +381,8 @@ uint32_t brace_can_pack_loading_test_result_request(const brace_can_loading_test
     return limited;
 }
 
-void brace_can_unpack_loading_test_result_request(const uint8_t data[8], brace_can_loading_test_result_request_t *message)
+void brace_can_unpack_loading_test_result_request(const uint8_t data[8],
+    brace_can_loading_test_result_request_t *message)
 {
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
@@ -397,4 +404,59 @@ void brace_can_unpack_clear_request(const uint8_t data[8], brace_can_clear_reque
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
     message->faults = brace_value_number(bits, 16u, 32u);
+}
+
+uint32_t brace_can_pack_k_in_space_at_posture_request(const brace_can_k_in_space_at_posture_request_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 23u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->theta0_rad, 10000.0f, 16u, 16u, &limited);
+    bits |= brace_bits_signed(message->theta1_rad, 10000.0f, 32u, 16u, &limited);
+    bits |= brace_bits_signed(message->theta2_rad, 10000.0f, 48u, 16u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_in_space_at_posture_request(const uint8_t data[8],
+    brace_can_k_in_space_at_posture_request_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->theta0_rad = brace_value_signed(bits, 16u, 16u, 0.0001f);
+    message->theta1_rad = brace_value_signed(bits, 32u, 16u, 0.0001f);
+    message->theta2_rad = brace_value_signed(bits, 48u, 16u, 0.0001f);
+}
+
+uint32_t brace_can_pack_drift_request(const brace_can_drift_request_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 24u | (uint64_t)(message->token & 0xffu) << 8;
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_drift_request(const uint8_t data[8], brace_can_drift_request_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+}
+
+uint32_t brace_can_pack_take_up_result_request(const brace_can_take_up_result_request_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 25u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_number(message->joint, 16u, 8u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_take_up_result_request(const uint8_t data[8], brace_can_take_up_result_request_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->joint = brace_value_number(bits, 16u, 8u);
 }

@@ -1,5 +1,5 @@
-/* Bits of a CAN frame as one number, first byte lowest; values to and from a run of them. Inline: start, count and
- * step are constants at every call: half of the instructions fall away. */
+/* Bits of a CAN frame as one number, first byte lowest, and values to and from a run of bits. Everything is inline:
+ * start, count and step are constants at every call, so half of the instructions fall away. */
 #ifndef BRACE_CAN_BITS_H
 #define BRACE_CAN_BITS_H
 
@@ -40,8 +40,8 @@ static inline uint64_t brace_bits_placed(uint32_t code, uint32_t start, uint32_t
     return (uint64_t)(code & brace_bits_mask(count)) << start;
 }
 
-/* A value beyond [low, high], or none. At 24 bits a float rounds by up to a step: only more than that beyond the range
- * counts as limited. */
+/* Is a value beyond [low, high]? At 24 bits a float rounds by up to a step, so only a value that is more than one step
+ * beyond counts as limited. */
 static inline int32_t brace_bits_beyond(float steps, int32_t low, int32_t high, int32_t unknown, uint32_t *limited)
 {
     if (isnan(steps)) {
@@ -52,14 +52,14 @@ static inline int32_t brace_bits_beyond(float steps, int32_t low, int32_t high, 
     return above ? high : low;
 }
 
-/* A value in steps; NaN is the code of 'not known', a value beyond the range is limited and counted. */
+/* A value in steps. NaN becomes the code of 'not known'. A value beyond the range is limited and counted. */
 static inline uint64_t brace_bits_signed(float value, float per_step, uint32_t start, uint32_t count,
                                          uint32_t *limited)
 {
     const int32_t high = (int32_t)(brace_bits_mask(count) >> 1);
     const float steps = value * per_step;
     const int32_t code = __builtin_fabsf(steps) < (float)high
-                             ? (int32_t)(steps + __builtin_copysignf(0.5f, steps)) /* nearest, halves away from zero */
+                             ? (int32_t)(steps + __builtin_copysignf(0.5f, steps)) /* nearest, halves up in size */
                              : brace_bits_beyond(steps, -high, high, -high - 1, limited);
     return brace_bits_placed((uint32_t)code, start, count);
 }
@@ -69,7 +69,7 @@ static inline uint64_t brace_bits_unsigned(float value, float per_step, uint32_t
 {
     const int32_t high = (int32_t)(brace_bits_mask(count) - 1u);
     const float steps = value * per_step;
-    const float half = steps > 0x1p22f ? 0.0f : 0.5f; /* beyond, a float knows no finer */
+    const float half = steps > 0x1p22f ? 0.0f : 0.5f; /* beyond this size a float has no halves */
     const int32_t code = steps > 0.0f && steps < (float)high ? (int32_t)(steps + half)
                                                              : brace_bits_beyond(steps, 0, high, high + 1, limited);
     return brace_bits_placed((uint32_t)code, start, count);

@@ -1,6 +1,6 @@
 #include "brace/parameters.h"
 
-/* Half a byte a step: 64 bytes of table instead of 1024. */
+/* Each step takes half a byte, so the table has 64 bytes instead of 1024. */
 uint32_t brace_crc32(uint32_t crc, const uint8_t *bytes, uint32_t count)
 {
     static const uint32_t table[16] = {

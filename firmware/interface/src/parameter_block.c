@@ -13,7 +13,7 @@ enum {
     AT_SEQUENCE = 16,
     CRC_BYTES = 4,
     MEMBER_BYTES = 4 * BRACE_PARAMETER_COUNT,
-    MEMBER_BYTES_MAX = 1 << 20 /* of any dictionary */
+    MEMBER_BYTES_MAX = 1 << 20 /* for any dictionary */
 };
 
 brace_status_t brace_parameters_pack(const brace_parameters_t *parameters, uint32_t sequence, uint8_t *block,

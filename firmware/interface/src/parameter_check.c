@@ -43,7 +43,7 @@ brace_status_t brace_parameter_in_range(uint32_t index, uint32_t word)
     return index < BRACE_PARAMETER_COUNT ? member_in_range(word, brace_parameter_rule[index]) : BRACE_E_RANGE;
 }
 
-/* What a drive's members say together. returns the index of the one at fault, or BRACE_PARAMETER_COUNT. */
+/* Do the members of a drive agree? returns the index of the member at fault, or BRACE_PARAMETER_COUNT. */
 static uint32_t drive_fault(const brace_drive_t *drive, uint32_t first)
 {
     const float range_n_mm = drive->torque_range_n_mm;

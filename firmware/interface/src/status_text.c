@@ -2,7 +2,7 @@
 
 #include <stdint.h>
 
-/* One after the other as the statuses count down; the host library's place is that of no status at all. */
+/* In the order of the statuses, counting down. The host library's -9 has the text for a number that is no status. */
 enum { UNKNOWN = 9, LAST = -BRACE_E_MODE };
 
 static const char texts[] =

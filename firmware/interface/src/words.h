@@ -25,7 +25,7 @@ static inline void brace_put_u32(uint8_t *bytes, uint32_t value)
     bytes[3] = (uint8_t)(value >> 24);
 }
 
-/* Every member is 32 bits wide and stands at four times its index (asserted in parameter_table.c). */
+/* Every member is 32 bits wide and lies at four times its index (parameter_table.c asserts this). */
 static inline uint32_t brace_member_get(const brace_parameters_t *parameters, uint32_t index)
 {
     uint32_t word;

@@ -1,14 +1,14 @@
-/* A port's first file. Every entry says what it is to become and answers, until then, what is true of a board that has
- * nothing. The order is the one to fill them in: each step can be tried with what stands above it.
+/* A port's first file. The comment of each entry says what to write there. Until then the entry answers what is true of
+ * a board without that hardware. Fill the entries in in this order: each step can be tried with the steps above it.
  *
- * A real port keeps its state in a struct of its own, hands it to every entry as `context`, and fills the door in an
- * init function, because what a board can do (nvm_shape, a null for an absent group) may depend on what it finds. */
+ * A real port keeps its state in a struct of its own and gives it to every entry as `context`. It fills the door in an
+ * init function, because some of the door (nvm_shape, a null for an absent group) may depend on what the board has. */
 #include "brace_hal_blank.h"
 
 /* --- 1. time: everything is measured by it ------------------------------------------------------------------ */
 
-/* A free-running 32-bit counter at 1 MHz is all that is wanted. Of a 16-bit timer: extend it in its overflow interrupt,
- * and read high part, low part, high part again until both highs agree. */
+/* The firmware needs a free-running 32-bit counter at 1 MHz. A 16-bit timer can be extended in its overflow interrupt;
+ * then read high part, low part, high part again until both high parts agree. */
 static uint32_t now_us(void *context)
 {
     (void)context;
@@ -17,7 +17,7 @@ static uint32_t now_us(void *context)
 
 /* --- 2. serial: the console, so that the board can speak ----------------------------------------------------- */
 
-/* Baud, parity, pins; enable the receive interrupt. BRACE_SERIAL_CONSOLE first; the others when they are wanted. */
+/* Set baud, parity and pins; enable the receive interrupt. Start with BRACE_SERIAL_CONSOLE; the others can wait. */
 static int32_t serial_setup(void *context, brace_serial_port_t port, uint32_t baud, brace_parity_t parity)
 {
     (void)context;
@@ -27,7 +27,7 @@ static int32_t serial_setup(void *context, brace_serial_port_t port, uint32_t ba
     return BRACE_HAL_E_UNSUPPORTED;
 }
 
-/* Copy into a ring that the transmit interrupt empties; answer how many bytes it took. Never wait. */
+/* Copy into a ring that the transmit interrupt empties, and return how many bytes fitted. Never wait. */
 static int32_t serial_write(void *context, brace_serial_port_t port, const uint8_t *bytes, uint32_t count)
 {
     (void)context;
@@ -50,14 +50,14 @@ static int32_t serial_read(void *context, brace_serial_port_t port, uint8_t *byt
 
 /* --- 3. start, stop, crash: why it started, and starting anew ------------------------------------------------ */
 
-/* From the reset flags, read once at start and then cleared, so that the next start does not see old ones. */
+/* Read the reset flags once at start, and clear them, so that the next start does not see old ones. */
 static brace_reset_cause_t reset_cause(void *context)
 {
     (void)context;
     return BRACE_RESET_POWER;
 }
 
-/* firmware/boards/common/kept.h keeps the record in memory that a reset leaves alone: hand its functions on. */
+/* firmware/boards/common/kept.h keeps the record in memory that a reset leaves alone: call its functions here. */
 static int32_t crash_read(void *context, brace_crash_record_t *record)
 {
     (void)context;
@@ -70,14 +70,14 @@ static void crash_clear(void *context)
     (void)context;
 }
 
-/* firmware/boards/common/stack.h on a Cortex-M. */
+/* On a Cortex-M, firmware/boards/common/stack.h has this. */
 static uint32_t stack_unused_bytes(void *context)
 {
     (void)context;
     return 0u;
 }
 
-/* SYSRESETREQ on a Cortex-M. */
+/* On a Cortex-M, set SYSRESETREQ. */
 static void restart(void *context)
 {
     (void)context;
@@ -92,8 +92,9 @@ static void watchdog_feed(void *context)
 
 /* --- 5. joints: what the limb is about ------------------------------------------------------------------------- */
 
-/* Both angles in the joint's own sense, after the reduction; torque from the current. Sample in an interrupt or by DMA
- * and copy the newest here. AGAIN with the last one when nothing is newer; NaN for what the joint does not measure. */
+/* Return both angles in the joint's own sense, after the reduction, and the torque from the current. Sample in an
+ * interrupt or by DMA, and copy the newest sample here. When no sample is newer, return AGAIN with the last one. What
+ * the joint does not measure is NaN. */
 static int32_t joint_read(void *context, int32_t joint_index, brace_hal_joint_t *joint)
 {
     (void)context;
@@ -140,7 +141,7 @@ static int32_t can_setup(void *context, const brace_can_setup_t *setup)
     return BRACE_HAL_E_UNSUPPORTED;
 }
 
-/* Frames of one identifier leave in the order they came in: with several mailboxes that takes care. */
+/* Frames of one identifier have to leave in the order they came in; with several mailboxes this needs care. */
 static int32_t can_send(void *context, const brace_can_frame_t *frame)
 {
     (void)context;
@@ -170,7 +171,8 @@ static int32_t can_recover(void *context)
 
 /* --- 8. optional: moving the limb, feeling its tip -------------------------------------------------------------- */
 
-/* Null in the door when the firmware can not move the limb: then play is told, but not taken up on request. */
+/* Null in the door when the firmware cannot move the limb. Then it still watches the backlash, but cannot take it
+ * up. */
 static int32_t joint_command(void *context, int32_t joint_index, const brace_hal_joint_command_t *command)
 {
     (void)context;
@@ -179,7 +181,7 @@ static int32_t joint_command(void *context, int32_t joint_index, const brace_hal
     return BRACE_HAL_E_UNSUPPORTED;
 }
 
-/* Null in the door without a sensor: forces then come from the joints' torques. */
+/* Null in the door when there is no sensor. Then forces come from the joints' torques. */
 static int32_t tip_force_read(void *context, float *force_x_n, float *force_z_n)
 {
     (void)context;

@@ -1,21 +1,21 @@
-/* A controller board that exists in memory only, for tests: scripted samples, faults on demand, everything
- * counted.
+/* A controller board that exists in memory only, for tests: the test scripts its samples and provokes its faults, and
+ * it counts every call.
  *
  *     static brace_fake_t fake;
  *     brace_fake_start(&fake);
- *     fake.joint[1].sample.motor_rad = 0.3f;                      what the femur's drive will say
+ *     fake.joint[1].sample.motor_rad = 0.3f;                      the femur's drive will report this
  *     brace_fake_fail(&fake, BRACE_FAKE_JOINT_READ, 10, 19, BRACE_HAL_E_DEVICE);   calls 10 to 19 fail
  *     brace_app_start(&app, &fake.hal);
  *
- * Time stands until the test sets now_us. Everything may be written between calls; nothing has a clock or
- * a heap.
+ * Time stands still until the test sets now_us. The test may write every member between calls. The fake has no clock
+ * and no heap.
  */
 #ifndef BRACE_HAL_FAKE_H
 #define BRACE_HAL_FAKE_H
 
 #include "brace_hal.h"
 
-/* The door's entries, to be counted and made to fail. */
+/* The door's entries, which the fake counts and can make fail. */
 typedef enum {
     BRACE_FAKE_NOW_US = 0,
     BRACE_FAKE_JOINT_READ,
@@ -40,7 +40,7 @@ typedef enum {
 
 enum {
     BRACE_FAKE_SLOT_BYTES = 8192,
-    BRACE_FAKE_FRAMES = 64,      /* of each queue */
+    BRACE_FAKE_FRAMES = 64,      /* room of each queue */
     BRACE_FAKE_SERIAL_BYTES = 512,
     BRACE_FAKE_FAILURES = 8,
     BRACE_FAKE_JOINTS = 3
@@ -48,17 +48,17 @@ enum {
 
 typedef struct brace_fake brace_fake_t;
 
-/* A joint: what its drive says, and what it was told. */
+/* A joint: what its drive reports, and the last command it got. */
 typedef struct {
-    brace_hal_joint_t sample;  /* taken_us: set by the read to now_us, unless the clock of it is kept */
+    brace_hal_joint_t sample;  /* each read sets taken_us to now_us, unless the joint keeps its own clock */
     bool keeps_taken_us;
-    bool absent;               /* E_UNSUPPORTED */
-    bool not_newer;            /* AGAIN */
-    brace_hal_joint_command_t command; /* the last one */
-    uint32_t commanded_us;     /* when it came */
+    bool absent;               /* joint_read answers E_UNSUPPORTED */
+    bool not_newer;            /* joint_read answers AGAIN */
+    brace_hal_joint_command_t command; /* the last command */
+    uint32_t commanded_us;     /* time of that command */
 } brace_fake_joint_t;
 
-/* Calls number first to last (from 1) of an entry answer so instead of doing anything. */
+/* Calls number first to last (from 1) of an entry return this answer and do nothing else. */
 typedef struct {
     brace_fake_entry_t entry;
     uint32_t first, last;
@@ -68,7 +68,7 @@ typedef struct {
 typedef struct {
     brace_can_frame_t frame[BRACE_FAKE_FRAMES];
     uint32_t first, count;
-    uint32_t lost; /* no room */
+    uint32_t lost; /* frames that found no room */
 } brace_fake_frames_t;
 
 typedef struct {
@@ -81,21 +81,22 @@ struct brace_fake {
     uint32_t now_us;
 
     brace_fake_joint_t joint[BRACE_FAKE_JOINTS];
-    /* Optional: called before each sample is handed out, to work it out from the commands: a limb in a test. */
+    /* Optional: called before each sample is given out. A test can compute the sample from the commands, as a limb
+     * would. */
     void (*play)(void *user, brace_fake_t *fake, int32_t joint_index);
     void *user;
     float force_x_n, force_z_n;
     bool force_not_newer;
 
     uint8_t nvm[BRACE_NVM_SLOT_COUNT][BRACE_FAKE_SLOT_BYTES];
-    bool nvm_forgets;     /* writes answer OK and do nothing */
-    uint8_t nvm_stuck;    /* bits that every write leaves 0 */
+    bool nvm_forgets;     /* a write answers OK and does nothing */
+    uint8_t nvm_stuck;    /* bits that stay 0 in every write */
 
     brace_can_setup_t can_setup;
     brace_can_health_t can_health;
-    uint32_t can_room;    /* frames that may wait to be sent; more: AGAIN */
-    bool can_takes_fd;    /* else CAN FD is refused */
-    brace_fake_frames_t can_sent, can_received; /* can_received: put there by the test */
+    uint32_t can_room;    /* frames that may wait to be sent; a further one gets AGAIN */
+    bool can_takes_fd;    /* false: CAN FD is refused */
+    brace_fake_frames_t can_sent, can_received; /* the test fills can_received */
 
     uint32_t baud[BRACE_SERIAL_PORT_COUNT];
     brace_parity_t parity[BRACE_SERIAL_PORT_COUNT];
@@ -111,30 +112,29 @@ struct brace_fake {
     uint32_t failure_count;
 };
 
-/* A board with three joints at rest, a force sensor, CAN, every serial port and erased memory, just
- * powered on. The
- * struct must stay where it is: the door's context points to it. */
+/* A board that has just been powered on: three joints at rest, a force sensor, CAN, every serial port and erased
+ * memory. The struct must stay where it is, because the door's context points to it. */
 void brace_fake_start(brace_fake_t *fake);
 
-/* Power off and on: volatile state as at start, memory kept, with another cause. */
+/* Power off and on: volatile state is as at start, memory is kept, and the reset cause is the given one. */
 void brace_fake_reset(brace_fake_t *fake, brace_reset_cause_t cause);
 
-/* Takes optional parts of the door away. */
+/* Removes optional parts of the door. */
 void brace_fake_without_can(brace_fake_t *fake);
 void brace_fake_without_commands(brace_fake_t *fake);
 void brace_fake_without_force(brace_fake_t *fake);
 
-/* Makes calls fail; at most BRACE_FAKE_FAILURES rules, false when there is no room for another. */
+/* Makes calls fail. Takes at most BRACE_FAKE_FAILURES rules; false when there is no room for another. */
 bool brace_fake_fail(brace_fake_t *fake, brace_fake_entry_t entry, uint32_t first, uint32_t last, int32_t answer);
 
-/* The same for the next `count` calls. */
+/* Makes the next `count` calls fail. */
 bool brace_fake_fail_next(brace_fake_t *fake, brace_fake_entry_t entry, uint32_t count, int32_t answer);
 
-/* A frame arrives; one that was sent is taken: false when there is no room, or none. */
+/* A frame arrives, or the test takes a frame that was sent. false: no room for the first, or no frame to take. */
 bool brace_fake_frame_arrives(brace_fake_t *fake, const brace_can_frame_t *frame);
 bool brace_fake_frame_take(brace_fake_t *fake, brace_can_frame_t *frame);
 
-/* Bytes arrive at a port; those written to it are taken. Both answer how many. */
+/* Bytes arrive at a port, or the test takes the bytes that were written to it. Both return how many. */
 uint32_t brace_fake_bytes_arrive(brace_fake_t *fake, brace_serial_port_t port, const uint8_t *bytes, uint32_t count);
 uint32_t brace_fake_bytes_take(brace_fake_t *fake, brace_serial_port_t port, uint8_t *bytes, uint32_t room);
 

@@ -83,7 +83,7 @@ static int32_t nvm_write(void *context, uint32_t slot, uint32_t offset, const ui
         return BRACE_HAL_E_RANGE;
     }
     for (uint32_t i = 0; i < count && !fake->nvm_forgets; i++) {
-        /* as flash: bits go from 1 to 0, and back with an erase only */
+        /* as in flash: a write turns bits from 1 to 0, only an erase turns them back */
         fake->nvm[slot][offset + i] &= (uint8_t)(bytes[i] & ~fake->nvm_stuck);
     }
     return BRACE_HAL_OK;

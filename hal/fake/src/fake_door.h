@@ -1,4 +1,4 @@
-/* Inside the fake: the door's entries, and the queues behind them. */
+/* The fake's own header: the door's entries, and the queues behind them. */
 #ifndef BRACE_FAKE_DOOR_H
 #define BRACE_FAKE_DOOR_H
 
@@ -6,7 +6,7 @@
 
 #include "brace_hal_fake.h"
 
-/* Counts a call; what it is to answer instead of OK, if the test wants it to fail. */
+/* Counts a call. Returns the answer that the test wants instead of OK, if it wants the call to fail. */
 int32_t fake_called(brace_fake_t *fake, brace_fake_entry_t entry);
 
 void fake_door_fill(brace_fake_t *fake);

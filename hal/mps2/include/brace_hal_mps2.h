@@ -1,10 +1,10 @@
 /* The door (brace_hal.h) on Arm's MPS2 board with the AN385 or AN386 image, as emulators have it.
  *
- * Time from the board's counter, three serial ports (CMSDK UARTs 0-2: console, Modbus, SLCAN), the CMSDK watchdog. What
- * the board does not have stands in: two slots of non-volatile memory in RAM, joints that the caller gives. No CAN
- * controller, no force sensor.
+ * Time comes from the board's counter. There are three serial ports (CMSDK UARTs 0-2: console, Modbus, SLCAN) and the
+ * CMSDK watchdog. Two slots in RAM stand in for non-volatile memory, and the caller gives the joints. There is no CAN
+ * controller and no force sensor.
  *
- * One board, one instance: the state is static. Interrupt handlers, to be listed in the vector table:
+ * There is one board and one instance; the state is static. Interrupt handlers, to be listed in the vector table:
  *   exception 2 (NMI)  the watchdog's first time-out; the board's own, see mps2_board_t
  *   n = 0, 2, 4        uart0_rx_handler, uart1_rx_handler, uart2_rx_handler (exception number 16 + n)
  */
@@ -27,10 +27,10 @@ typedef struct {
      * board's NMI handler says where the processor hung. */
     bool watchdog;
 
-    /* As joint_read of brace_hal.h, with a null context; null: no joints. */
+    /* As joint_read of brace_hal.h, with a null context; null: the board has no joints. */
     int32_t (*joint_read)(void *context, int32_t joint_index, brace_hal_joint_t *joint);
 
-    /* The start-up code's account, as brace_hal.h's entries, with a null context. */
+    /* The start-up code's functions for these entries of brace_hal.h, with a null context. */
     brace_reset_cause_t (*reset_cause)(void *context);
     int32_t (*crash_read)(void *context, brace_crash_record_t *record);
     void (*crash_clear)(void *context);
@@ -42,13 +42,13 @@ typedef struct {
  * Returns the filled door, static; never null. Call once, from main. Does not wait for anything.
  *
  *   now_us        1 MHz counter, steps of 1 us
- *   serial_setup  baud [1200, 1500000] is set; a parity is accepted without effect: an emulator passes bytes, not bits
- *   serial_write  directly into the transmitter: takes what it takes at once; serial_read from a ring of 512 bytes
- *   nvm_...       RAM: keeps over a reset, not over the emulator's end; write unit 4
+ *   serial_setup  sets baud [1200, 1500000]; accepts a parity without effect, because an emulator passes bytes, not
+ *   bits serial_write  writes to the transmitter as many bytes as it takes at once; serial_read reads a ring of 512
+ *   bytes nvm_...       RAM that a reset keeps and the emulator's end does not; write unit 4
  */
 const brace_hal_t *brace_hal_mps2(const mps2_board_t *board);
 
-/* The same counter, for a fault handler; before brace_hal_mps2: 0 or a past run's. */
+/* The same counter, for a fault handler. Before brace_hal_mps2 it returns 0 or a time of an earlier run. */
 uint32_t mps2_now_us(void);
 
 void uart0_rx_handler(void);

@@ -1,4 +1,4 @@
-/* The door on the MPS2 board: time, memory, watchdog, and what the board hands in. */
+/* The door on the MPS2 board: time, memory, watchdog, and the entries that the board gives. */
 #include "brace_hal_mps2.h"
 
 #include "mps2_registers.h"
@@ -53,7 +53,7 @@ static int32_t nvm_write(void *context, uint32_t slot, uint32_t offset, const ui
     }
     uint8_t *const to = mps2_board->nvm + slot * MPS2_NVM_SLOT_BYTES + offset;
     for (uint32_t i = 0u; i < count; i++) {
-        to[i] &= bytes[i]; /* as flash does: a write clears bits, an erase sets them */
+        to[i] &= bytes[i]; /* as in flash: a write clears bits, an erase sets them */
     }
     return BRACE_HAL_OK;
 }

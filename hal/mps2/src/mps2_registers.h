@@ -35,7 +35,7 @@ enum { WATCHDOG_CONTROL_INTERRUPT = 1u << 0, WATCHDOG_CONTROL_RESET = 1u << 1 };
 
 #define WATCHDOG ((cmsdk_watchdog_t *)0x40008000u)
 
-/* FPGAIO: a counter that steps once every prescale + 1 periods of 25 MHz. */
+/* FPGAIO: a counter that advances once in prescale + 1 periods of 25 MHz. */
 #define FPGAIO_COUNTER (*(volatile uint32_t *)0x40028018u)
 #define FPGAIO_PRESCALE (*(volatile uint32_t *)0x4002801Cu)
 enum { FPGAIO_HZ = 25000000 };

@@ -1,5 +1,5 @@
-/* CMSDK UARTs: written directly, read by interrupt through a ring. The ring has one writer (the handler) and one
- * reader; each moves its own index only. */
+/* CMSDK UARTs: calls write to them directly; an interrupt reads them into a ring. The ring has one writer (the handler)
+ * and one reader; each moves only its own index. */
 #include "mps2_serial.h"
 
 #include "brace_hal_mps2.h"
@@ -65,7 +65,8 @@ int32_t mps2_serial_read(void *context, brace_serial_port_t port, uint8_t *bytes
     return (int32_t)count;
 }
 
-/* One byte a call: the receiver holds one. With the ring full the newest is lost, and a frame's check fails. */
+/* Takes one byte a call, because the receiver holds one. When the ring is full the newest byte is lost, and the frame's
+ * check fails. */
 static void receive(uint32_t index)
 {
     cmsdk_uart_t *const uart = uarts[index];
@@ -75,7 +76,7 @@ static void receive(uint32_t index)
         return;
     }
     const uint8_t byte = (uint8_t)uart->data;
-    uart->state = UART_STATE_RX_OVERRUN; /* written to clear */
+    uart->state = UART_STATE_RX_OVERRUN; /* writing the bit clears it */
     if (ring->written - ring->read < RING_BYTES) {
         ring->bytes[ring->written % RING_BYTES] = byte;
         ring->written++;

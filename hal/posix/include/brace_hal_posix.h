@@ -1,15 +1,16 @@
-/* The hardware door on a POSIX host: clock, non-volatile memory, CAN and serial ports of a controller that runs as a
- * process. Joints and force sensor are whatever the program puts behind them (brace_posix_limb_t).
+/* The door (brace_hal.h) on a POSIX host: clock, non-volatile memory, CAN and serial ports of a controller that runs as
+ * a process. The program provides joints and force sensor (brace_posix_limb_t).
  *
- *   bus      one CAN bus of the process with any number of its controllers on it, joined to one outside world:
+ *   bus      one CAN bus in the process. Any number of its controllers are on it, and it is joined to one outside
+ *     world:
  *            nothing, SLCAN over tcp (several clients at once), SLCAN on a pty or tty, or SocketCAN
  *   stream   a serial port: nothing, stderr, a file, a pty, a tty, a tcp listener for one client
- *   modbus   a Modbus TCP listener, requests cut by their MBAP length
+ *   modbus   a Modbus TCP listener that cuts requests by their MBAP length
  *   nvm      two slots in memory, or in a file
  *
- * Nothing here blocks but the file's write to disk: a client that reads slowly loses frames (counted), never time.
- * No heap, no global state; one thread per brace_posix_bus_t and all that hangs on it. Listeners bind to what the URL
- * names; nothing but loopback is bound unless asked. SIGPIPE need not be ignored.
+ * Only the file's write to disk blocks. A client that reads slowly loses frames, which are counted, but costs no time.
+ * No heap, no global state. One thread uses a brace_posix_bus_t and everything on it. Listeners bind to the host that
+ * the URL names, which is loopback unless somebody asks for another. SIGPIPE need not be ignored.
  */
 #ifndef BRACE_HAL_POSIX_H
 #define BRACE_HAL_POSIX_H
@@ -19,16 +20,16 @@
 
 #include "brace_hal.h"
 
-/* Why something could not be opened. errno tells more where a system call refused. */
+/* Why something could not be opened. When a system call refused, errno says more. */
 enum {
     BRACE_POSIX_OK = 0,
-    BRACE_POSIX_E_URL = -1,       /* not a URL of a kind that is known here */
-    BRACE_POSIX_E_IN_USE = -2,    /* somebody else listens on this port, or holds this device */
+    BRACE_POSIX_E_URL = -1,       /* not a URL of a known kind */
+    BRACE_POSIX_E_IN_USE = -2,    /* another program listens on this port, or holds this device */
     BRACE_POSIX_E_NO_DEVICE = -3, /* there is no such device, interface, host or folder */
-    BRACE_POSIX_E_NO_CAN = -4,    /* this kernel knows no CAN */
+    BRACE_POSIX_E_NO_CAN = -4,    /* this kernel has no CAN */
     BRACE_POSIX_E_DENIED = -5,
     BRACE_POSIX_E_SYSTEM = -6,    /* another refusal of the system: errno */
-    BRACE_POSIX_E_SIZE = -7       /* a file of another size than a controller's memory */
+    BRACE_POSIX_E_SIZE = -7       /* the file's size is not that of a controller's memory */
 };
 
 /* One line of English for these; constant storage, never null. */
@@ -46,7 +47,7 @@ enum {
 
 /* -------------------------------------------------------------------------------------- byte queue -- */
 
-/* Bytes on their way to somebody. */
+/* Bytes that wait for a reader. */
 typedef struct {
     uint32_t start, count;
     uint8_t bytes[BRACE_POSIX_OUT_BYTES];
@@ -54,17 +55,17 @@ typedef struct {
 
 /* ---------------------------------------------------------------------------------------- CAN, bus -- */
 
-/* A frame as the bus carries it: clients may send each other what no controller takes. */
+/* A frame as the bus carries it. Clients may send each other frames that no controller accepts. */
 typedef struct {
     brace_can_frame_t frame; /* id: 29 bits when extended */
     bool extended, remote;
 } brace_posix_wire_frame_t;
 
 typedef struct {
-    int file;                   /* -1: nobody */
+    int file;                   /* -1: no client */
     bool open, listen_only, stamps;
-    uint32_t bit_rate;          /* as the client set it; 0: not set, whatever the bus has */
-    uint32_t frames_lost;       /* no room left: the client reads too slowly */
+    uint32_t bit_rate;          /* as the client set it; 0: not set, so the client accepts the bus' rate */
+    uint32_t frames_lost;       /* frames that found no room: the client reads too slowly */
     uint32_t refused;           /* commands answered with BEL */
     uint32_t command_count;
     bool command_too_long;
@@ -74,10 +75,10 @@ typedef struct {
 
 /* A controller on the bus. */
 typedef struct {
-    bool used, on;              /* on: set up */
+    bool used, on;              /* on: can_setup has been called */
     brace_can_setup_t setup;
-    bool fault_bus_off;         /* injected: the bus is off and stays so */
-    bool bus_off;               /* until can_recover */
+    bool fault_bus_off;         /* injected: the bus is off and stays off */
+    bool bus_off;               /* stays until can_recover */
     uint32_t frames_lost, sent, received;
     uint32_t start, count;
     brace_can_frame_t ring[BRACE_POSIX_RING];
@@ -92,8 +93,8 @@ typedef enum {
 
 typedef struct {
     brace_posix_bus_kind_t kind;
-    char where[BRACE_POSIX_WHERE]; /* what a client connects to: tcp://127.0.0.1:29536, /dev/pts/3, vcan0 */
-    int listener, kept;            /* kept: our own hold on the pty's other end, so that it outlives its clients */
+    char where[BRACE_POSIX_WHERE]; /* the place that a client connects to: tcp://127.0.0.1:29536, /dev/pts/3, vcan0 */
+    int listener, kept;            /* kept: the pty's other end, held open so that the pty outlives its clients */
     int socket_can;
     bool socket_can_fd;
     uint32_t socket_lost;          /* frames that the kernel had no room for */
@@ -102,24 +103,25 @@ typedef struct {
     brace_posix_node_t node[BRACE_POSIX_NODES];
 } brace_posix_bus_t;
 
-/* Opens the bus' outside.
+/* Opens the bus' connection to the outside.
  *   url: "none"; "tcp://HOST:PORT" listens there for SLCAN clients, port 0 any free one; "slcan:pty" makes a pty;
  *     "slcan:/dev/ttyX[@BAUD]" speaks SLCAN on a serial line; anything else is the name of a SocketCAN interface
- * returns BRACE_POSIX_OK or why not; then nothing is left open. */
+ * returns BRACE_POSIX_OK or the reason; on a refusal nothing stays open. */
 int32_t brace_posix_bus_open(brace_posix_bus_t *bus, const char *url);
 void brace_posix_bus_close(brace_posix_bus_t *bus);
 
-/* Takes what has come from outside and sends what waits. Once a tick; does not block. now_us for time stamps. */
+/* Takes the frames that have come from outside and sends those that wait. Call it once a tick; it does not block.
+ * now_us is for time stamps. */
 void brace_posix_bus_poll(brace_posix_bus_t *bus, uint32_t now_us);
 
-/* Clients with an open channel. */
+/* The number of clients with an open channel. */
 uint32_t brace_posix_bus_clients(const brace_posix_bus_t *bus);
 
 /* ------------------------------------------------------------------------------------------ serial -- */
 
 typedef enum {
     BRACE_POSIX_STREAM_NONE = 0,
-    BRACE_POSIX_STREAM_FILE = 1, /* stderr too: written, never read */
+    BRACE_POSIX_STREAM_FILE = 1, /* also stderr: written, never read */
     BRACE_POSIX_STREAM_PTY = 2,
     BRACE_POSIX_STREAM_TTY = 3,
     BRACE_POSIX_STREAM_TCP = 4
@@ -131,7 +133,7 @@ typedef struct {
     int file, kept, listener;
 } brace_posix_stream_t;
 
-/* url: "none", "stderr", "file:PATH" (added to), "pty", "/dev/ttyX[@BAUD]", "tcp://HOST:PORT" (one client at a time).
+/* url: "none", "stderr", "file:PATH" (appends), "pty", "/dev/ttyX[@BAUD]", "tcp://HOST:PORT" (one client at a time).
  * returns as brace_posix_bus_open */
 int32_t brace_posix_stream_open(brace_posix_stream_t *stream, const char *url);
 void brace_posix_stream_close(brace_posix_stream_t *stream);
@@ -141,9 +143,9 @@ void brace_posix_stream_close(brace_posix_stream_t *stream);
 enum { BRACE_POSIX_ADU_BYTES = 260 };
 
 typedef struct {
-    int file; /* -1: nobody */
-    uint32_t serial; /* of the connection: an answer never reaches a later one */
-    uint32_t last_poll; /* when it last said something */
+    int file; /* -1: no connection */
+    uint32_t serial; /* number of the connection, so that an answer never reaches a later one */
+    uint32_t last_poll; /* poll in which it last sent something */
     uint32_t count;
     uint8_t in[2 * BRACE_POSIX_ADU_BYTES];
     brace_posix_queue_t out;
@@ -153,14 +155,14 @@ typedef struct {
     int listener;
     char where[BRACE_POSIX_WHERE];
     uint32_t polls, serials, next;
-    uint32_t refused;                 /* connections dropped: what they sent is no Modbus */
-    uint32_t current, current_serial; /* whom serial_write answers */
-    uint32_t given, whole;            /* of the ADU that is being read */
+    uint32_t refused;                 /* connections dropped because they sent no Modbus */
+    uint32_t current, current_serial; /* the connection that serial_write answers */
+    uint32_t given, whole;            /* bytes of the ADU that is being read: given so far, and all */
     uint8_t adu[BRACE_POSIX_ADU_BYTES];
     brace_posix_modbus_client_t client[BRACE_POSIX_CLIENTS];
 } brace_posix_modbus_t;
 
-/* url: "none", "modbus-tcp://HOST:PORT[/UNIT]", port 0 any free one. returns as brace_posix_bus_open */
+/* url: "none", "modbus-tcp://HOST:PORT[/UNIT]"; port 0 takes any free one. returns as brace_posix_bus_open */
 int32_t brace_posix_modbus_open(brace_posix_modbus_t *modbus, const char *url);
 void brace_posix_modbus_close(brace_posix_modbus_t *modbus);
 
@@ -169,12 +171,12 @@ void brace_posix_modbus_close(brace_posix_modbus_t *modbus);
 typedef struct {
     int file; /* -1: memory only */
     bool fails;  /* injected: write and erase answer E_DEVICE */
-    bool forgets; /* injected: they answer OK and nothing changes */
+    bool forgets; /* injected: write and erase answer OK and change nothing */
     uint8_t bytes[BRACE_NVM_SLOT_COUNT][BRACE_POSIX_SLOT_BYTES];
 } brace_posix_nvm_t;
 
-/* path: the file with both slots, made (erased) if it is not there; null: memory only, erased. A file is held by one
- * process. is_new (optional): nothing has ever been written. returns as brace_posix_bus_open, E_SIZE */
+/* path: the file with both slots, created (erased) if it does not exist; null: memory only, erased. One process at a
+ * time holds a file. is_new (optional): nothing has ever been written. returns as brace_posix_bus_open, E_SIZE */
 int32_t brace_posix_nvm_open(brace_posix_nvm_t *nvm, const char *path, bool *is_new);
 void brace_posix_nvm_close(brace_posix_nvm_t *nvm);
 
@@ -194,28 +196,29 @@ typedef struct {
     uint32_t given_us;
     int64_t started_ns;
     brace_posix_bus_t *bus;   /* null: no CAN */
-    uint32_t node;            /* which of the bus' nodes this is */
+    uint32_t node;            /* index of this controller among the bus' nodes */
     brace_posix_nvm_t nvm;
     brace_posix_stream_t stream[BRACE_SERIAL_SLCAN + 1];
     brace_posix_modbus_t modbus;
-    uint32_t fed_us;          /* when the watchdog was last fed */
+    uint32_t fed_us;          /* time at which the watchdog was last fed */
     bool restart_asked;
     brace_reset_cause_t cause;
 } brace_posix_t;
 
-/* Everything closed, clock at zero, memory erased. */
+/* Sets everything closed, the clock to zero, and the memory erased. */
 void brace_posix_init(brace_posix_t *posix);
 
-/* Takes a free place on the bus. false: none left. */
+/* Takes a free place on the bus. false: no place is free. */
 bool brace_posix_join(brace_posix_t *posix, brace_posix_bus_t *bus);
 
-/* Fills in the door; posix has to outlive it. */
+/* Fills in the door; posix has to live longer than the door. */
 void brace_posix_hal(brace_posix_t *posix, brace_hal_t *hal);
 
-/* Serial ports and Modbus connections: takes what has come, sends what waits. Once a tick; does not block. */
+/* Takes what has come over serial ports and Modbus connections, and sends what waits. Call it once a tick; it does not
+ * block. */
 void brace_posix_poll(brace_posix_t *posix);
 
-/* Closes all but the bus, and leaves it. */
+/* Closes everything except the bus, and leaves the bus. */
 void brace_posix_close(brace_posix_t *posix);
 
 #endif

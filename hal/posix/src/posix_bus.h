@@ -1,4 +1,4 @@
-/* What the bus' parts know of each other: frames go to everybody but who sent them. */
+/* What the parts of the bus share. A frame goes to everybody except its sender. */
 #ifndef POSIX_BUS_H
 #define POSIX_BUS_H
 
@@ -6,15 +6,15 @@
 
 enum { FROM_SOCKET = -1 };
 
-/* To all controllers but one; -1: to all. bit_rate 0: of no particular rate. */
+/* Sends a frame to all controllers except one; -1: to all. bit_rate 0: to controllers of any rate. */
 void bus_to_nodes(brace_posix_bus_t *bus, int32_t sender, const brace_posix_wire_frame_t *frame,
                   uint32_t bit_rate);
 
-/* To all clients but one, and out of the socket. */
+/* Sends a frame to all clients except one, and out of the socket. */
 void bus_to_outside(brace_posix_bus_t *bus, const brace_posix_slcan_t *sender,
                     const brace_posix_wire_frame_t *frame);
 
-/* The rate of the controllers on the bus; 0: none is on yet. */
+/* The bit rate of the controllers on the bus; 0: no controller is on yet. */
 uint32_t bus_bit_rate(const brace_posix_bus_t *bus);
 
 void posix_slcan_start(brace_posix_slcan_t *client, int file);

@@ -1,4 +1,4 @@
-/* The door's entries, by the file that has them. */
+/* The door's entries, grouped by the file that implements them. */
 #ifndef POSIX_DOOR_H
 #define POSIX_DOOR_H
 

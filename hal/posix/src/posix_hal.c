@@ -85,7 +85,7 @@ static int32_t door_crash_read(void *context, brace_crash_record_t *record)
 {
     (void)context;
     (void)record;
-    return 0; /* a process that crashes is the system's to tell of */
+    return 0; /* the system reports a process that crashes */
 }
 
 static void door_crash_clear(void *context)

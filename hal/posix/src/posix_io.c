@@ -76,7 +76,7 @@ static bool make_nonblocking(int file)
 
 /* ------------------------------------------------------------------------------------------- sockets -- */
 
-/* "HOST:PORT" or "[HOST]:PORT" apart; anything after a '/' is left. */
+/* Splits "HOST:PORT" or "[HOST]:PORT"; ignores everything from a '/' on. */
 static bool split_place(const char *place, char *host, char *port)
 {
     char whole[BRACE_POSIX_WHERE];
@@ -151,7 +151,7 @@ int io_accept(int listener)
         return -1;
     }
     (void)setsockopt(file, IPPROTO_TCP, TCP_NODELAY, &yes,
-                     sizeof yes); /* a frame now, not a full segment later */
+                     sizeof yes); /* send a frame at once, not a full segment later */
     return file;
 }
 

@@ -32,7 +32,7 @@ void brace_posix_modbus_close(brace_posix_modbus_t *modbus)
     }
 }
 
-/* A free place, or that of the connection that has said nothing for longest, as the guide asks. */
+/* A free place; if there is none, that of the connection that has sent nothing for longest, as the guide asks. */
 static brace_posix_modbus_client_t *place_for_client(brace_posix_modbus_t *modbus)
 {
     brace_posix_modbus_client_t *oldest = &modbus->client[0];
@@ -49,7 +49,7 @@ static brace_posix_modbus_client_t *place_for_client(brace_posix_modbus_t *modbu
     return oldest;
 }
 
-/* Bytes of the first ADU that has come whole; 0: not yet; -1: what came is no Modbus. */
+/* Size of the first ADU if all of it has come; 0: not yet; -1: the bytes are no Modbus. */
 static int32_t whole_adu(const brace_posix_modbus_client_t *client)
 {
     if (client->count < HEADER_BYTES) {
@@ -98,7 +98,7 @@ void posix_modbus_poll(brace_posix_modbus_t *modbus)
     }
 }
 
-/* The next whole ADU, connections taking turns. */
+/* The next whole ADU; the connections take turns. */
 static bool take_adu(brace_posix_modbus_t *modbus)
 {
     for (uint32_t i = 0; i < BRACE_POSIX_CLIENTS; i++) {
@@ -142,7 +142,7 @@ int32_t posix_modbus_write(brace_posix_modbus_t *modbus, const uint8_t *bytes, u
     }
     brace_posix_modbus_client_t *client = &modbus->client[modbus->current];
     if (client->file < 0 || client->serial != modbus->current_serial) {
-        return (int32_t)count; /* who asked has gone */
+        return (int32_t)count; /* the connection that asked has closed */
     }
     return queue_put(&client->out, bytes, count) ? (int32_t)count : 0;
 }

@@ -7,7 +7,7 @@
 #include "posix_door.h"
 #include "posix_io.h"
 
-enum { SYNCED_BYTES = 4096 }; /* of a slot: the parameters */
+enum { SYNCED_BYTES = 4096 }; /* the part of a slot that holds the parameters */
 
 int32_t brace_posix_nvm_open(brace_posix_nvm_t *nvm, const char *path, bool *is_new)
 {
@@ -54,8 +54,9 @@ void brace_posix_nvm_close(brace_posix_nvm_t *nvm)
     io_close(&nvm->file);
 }
 
-/* What is in memory, onto the disk; of parameters, only then does the call answer. What is learned besides is written
- * while the limb works, which cannot wait for a disk: it outlives the process, not the computer's power. */
+/* Writes memory to the file. For parameters the call returns only when the disk has them. The rest of a slot is written
+ * while the limb works, which cannot wait for a disk: it survives the process, but not a loss of the computer's
+ * power. */
 static int32_t keep(brace_posix_nvm_t *nvm, uint32_t slot, uint32_t offset, uint32_t count)
 {
     if (nvm->file < 0) {
@@ -96,7 +97,7 @@ int32_t door_nvm_write(void *context, uint32_t slot, uint32_t offset, const uint
     if (nvm->forgets) {
         return BRACE_HAL_OK;
     }
-    for (uint32_t i = 0; i < count; i++) { /* as flash: a written unit only loses ones */
+    for (uint32_t i = 0; i < count; i++) { /* as in flash: a write only turns ones to zeros */
         nvm->bytes[slot][offset + i] &= bytes[i];
     }
     return keep(nvm, slot, offset, count);

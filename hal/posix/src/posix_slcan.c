@@ -1,4 +1,4 @@
-/* One SLCAN client: its commands, as an adapter answers them; CR is yes, BEL is no. */
+/* One SLCAN client: answers its commands as an adapter does; CR is yes, BEL is no. */
 #include <string.h>
 
 #include "posix_bus.h"
@@ -19,7 +19,7 @@ static void answer(brace_posix_slcan_t *client, const char *text)
     (void)queue_put(&client->out, (const uint8_t *)text, (uint32_t)strlen(text));
 }
 
-/* A client at another rate than the bus sees no frame and reaches nobody, as on a wire. */
+/* A client at another rate than the bus receives nothing and reaches nobody, as on a wire. */
 static bool hears(const brace_posix_bus_t *bus, const brace_posix_slcan_t *client)
 {
     const uint32_t rate = bus_bit_rate(bus);
@@ -55,7 +55,7 @@ static bool open_channel(brace_posix_slcan_t *client, bool listen_only, uint32_t
 static bool set_rate(brace_posix_slcan_t *client, const char *command, uint32_t length)
 {
     const bool by_number = command[0] == 'S' && length == 2u && posix_slcan_bit_rate(command[1]) != 0u;
-    const bool by_registers = command[0] == 's' && length >= 5u; /* of some controller: any rate is meant */
+    const bool by_registers = command[0] == 's' && length >= 5u; /* registers of some controller: accept any rate */
     if (client->open || (!by_number && !by_registers)) {
         return false;
     }
@@ -64,7 +64,7 @@ static bool set_rate(brace_posix_slcan_t *client, const char *command, uint32_t 
     return true;
 }
 
-/* false: refused. */
+/* Handles one command. false: refused. */
 static bool obey(brace_posix_bus_t *bus, brace_posix_slcan_t *client, const char *command, uint32_t length)
 {
     switch (command[0]) {
@@ -82,7 +82,7 @@ static bool obey(brace_posix_bus_t *bus, brace_posix_slcan_t *client, const char
         return length == 1u;
     case 'S':
     case 's': return set_rate(client, command, length);
-    case 'Y': /* FD data rate: the bus has one */
+    case 'Y': /* FD data rate: accepted, the bus has its own */
     case 'X': /* automatic polling: always on */ answer(client, "\r"); return length == 2u;
     case 'V': answer(client, "V1013\r"); return length == 1u;
     case 'v': answer(client, "v0100\r"); return length == 1u;
@@ -121,7 +121,7 @@ static void take_byte(brace_posix_bus_t *bus, brace_posix_slcan_t *client, char 
     if (empty) {
         answer(client, "\r"); /* clients clear an adapter's line with a few CRs */
     } else if (client->command_too_long || !obey(bus, client, client->command, client->command_count)) {
-        client->out.count = waiting; /* nothing but the refusal */
+        client->out.count = waiting; /* drops the answer, keeps only the refusal */
         client->refused += client->refused != UINT32_MAX;
         answer(client, "\a");
     }

@@ -34,7 +34,7 @@ int32_t socketcan_open(brace_posix_bus_t *bus, const char *interface)
     bool bound = ioctl(file, SIOCGIFINDEX, &request) == 0;
     if (bound) {
         address.can_ifindex = request.ifr_ifindex;
-        /* both the kernel's sockets and the interface must be for it: 'ip link set vcan0 mtu 72' */
+        /* the kernel's sockets and the interface must both allow FD: 'ip link set vcan0 mtu 72' */
         struct ifreq room = request;
         const bool broad = ioctl(file, SIOCGIFMTU, &room) == 0 && room.ifr_mtu == (int)CANFD_MTU;
         bus->socket_can_fd = broad && setsockopt(file, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &yes, sizeof yes) == 0;
@@ -56,7 +56,7 @@ void socketcan_poll(brace_posix_bus_t *bus)
         struct canfd_frame raw;
         const ssize_t bytes = read(bus->socket_can, &raw, sizeof raw);
         if (bytes != (ssize_t)CAN_MTU && bytes != (ssize_t)CANFD_MTU) {
-            return; /* nothing more, or the interface is down: another poll sees */
+            return; /* no more frames, or the interface is down: the next poll tries again */
         }
         if ((raw.can_id & CAN_ERR_FLAG) != 0u || raw.len > (bytes == (ssize_t)CAN_MTU ? 8u : 64u)) {
             continue;

@@ -52,7 +52,7 @@ void stream_poll(brace_posix_stream_t *stream)
     }
     int client = io_accept(stream->listener);
     if (client >= 0 && stream->file >= 0) {
-        io_close(&client); /* a line has one other end */
+        io_close(&client); /* a line has only one other end */
     } else if (client >= 0) {
         stream->file = client;
     }
@@ -84,7 +84,7 @@ int32_t stream_write(brace_posix_stream_t *stream, const uint8_t *bytes, uint32_
         return BRACE_HAL_E_UNSUPPORTED;
     }
     if (stream->file < 0) {
-        return (int32_t)count; /* nobody listens: said to the wind, as on a real line */
+        return (int32_t)count; /* nobody listens: the bytes are lost, as on a real line */
     }
     const int32_t taken = io_write(stream->file, bytes, count);
     return taken >= 0 ? taken : lost(stream);
@@ -100,7 +100,7 @@ int32_t stream_read(brace_posix_stream_t *stream, uint8_t *bytes, uint32_t room)
     }
     const int32_t count = io_read(stream->file, bytes, room);
     if (count >= 0 || stream->kind == BRACE_POSIX_STREAM_TTY) {
-        return count >= 0 ? count : 0; /* a raw tty without bytes reads as ended */
+        return count >= 0 ? count : 0; /* a raw tty without bytes looks closed, but is not */
     }
     return lost(stream);
 }

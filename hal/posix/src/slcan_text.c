@@ -15,7 +15,7 @@ static int hex_digit(char c)
     return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-/* false: a character that is no hex digit. */
+/* Value of a hex digit. false: the character is no hex digit. */
 static bool hex_number(const char *text, uint32_t digits, uint32_t *number)
 {
     uint32_t value = 0;

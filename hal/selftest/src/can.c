@@ -1,4 +1,4 @@
-/* CAN, as far as a controller can be tried without a bus: what it sends to itself. */
+/* CAN, as far as a controller can be tested without a bus: it has to receive its own frames. */
 #include "selftest.h"
 
 enum { BIT_RATE = 500000, WINDOW_US = 20000, FRAMES = 3, IDENTIFIER = 0x555 };

@@ -1,4 +1,4 @@
-/* Does time run, forwards, finely, and at the right rate? */
+/* Checks that time runs, forwards, in fine steps, and at the right rate. */
 #include "selftest.h"
 
 enum { READINGS = 20000, STILL_MAX = 2000000, STEP_MAX_US = 10 };
@@ -19,7 +19,8 @@ static bool advances(const selftest_t *test)
     return readings < STILL_MAX;
 }
 
-/* The smallest step seen; 0: it ran backwards. A large step alone proves nothing: a host is interrupted for longer. */
+/* The smallest step seen; 0: time ran backwards. A large step alone proves nothing, because a host may be interrupted
+ * for longer. */
 static uint32_t smallest_step_us(const selftest_t *test)
 {
     uint32_t last = now(test), smallest = UINT32_MAX;
@@ -36,7 +37,8 @@ static uint32_t smallest_step_us(const selftest_t *test)
     return smallest;
 }
 
-/* now_us against the other clock, once, over less than half the other's round trip; false: that one stood. */
+/* Compares now_us once with the other clock, over less than half of that clock's period; false: that clock stood
+ * still. */
 static bool measure(const selftest_t *test, int32_t *permille)
 {
     const brace_selftest_setup_t *const setup = test->setup;
@@ -59,8 +61,9 @@ static bool measure(const selftest_t *test, int32_t *permille)
     return true;
 }
 
-/* The two clocks are not read in one instant, and on a host or an emulator whole milliseconds may lie between: a right
- * rate shows in one of a few attempts, a wrong one in none; and a clock that stands, stands in all. */
+/* The two clocks are not read at the same instant. On a host or an emulator whole milliseconds may lie between. So the
+ * test makes a few attempts: a right rate shows in at least one, a wrong rate in none. A clock that stands still does
+ * so in all. */
 static void rate(selftest_t *test)
 {
     int32_t permille = 0;

@@ -1,4 +1,4 @@
-/* Joints, their commands, and the tip's sensor: is there a fresh, finite, possible value within a window of time? */
+/* Joints, their commands, and the tip's sensor: does a fresh, finite, possible value come within a window of time? */
 #include <math.h>
 
 #include "selftest.h"
@@ -10,7 +10,7 @@ static const float sentinel = 12345.0f;
 
 typedef struct {
     uint32_t fresh, again, aged;
-    int32_t answer; /* the last one that was neither OK nor AGAIN */
+    int32_t answer; /* the last answer that was neither OK nor AGAIN */
     bool finite, possible, changed, time_changed;
     brace_hal_joint_t first;
 } seen_t;
@@ -61,7 +61,7 @@ static void judge_samples(selftest_t *test, const char *name, const seen_t *seen
     selftest_expect(test, seen->possible, name, "within what a joint can be",
         "out of range: rad and N mm on the joint's side of the reduction are wanted; degrees, turns or counts?");
     if (test->clock_runs) {
-        /* Most, not one: on a host the test itself may be stopped between a sample and the look at its age. */
+        /* Compares most samples, not one: a host may stop the test between a sample and the check of its age. */
         selftest_expect(test, seen->aged <= seen->fresh / 2u, name, "samples are fresh",
             "taken_us lies ahead of now_us or more than 10 ms back: it is to be by now_us, when sampled");
         selftest_expect(test, seen->time_changed || seen->fresh < 2u, name, "samples follow each other",
@@ -114,7 +114,7 @@ static void refusals(selftest_t *test)
 static void commands(selftest_t *test)
 {
     const brace_hal_t *const hal = test->hal;
-    const brace_hal_joint_command_t nothing = {0.0f, INFINITY}; /* no offset, no limit: what holds anyway */
+    const brace_hal_joint_command_t nothing = {0.0f, INFINITY}; /* no offset and no limit, so nothing changes */
     if (hal->joint_command == 0) {
         selftest_tell(test, BRACE_SELFTEST_NOTE, "joint_command", "not there: the firmware can not move this limb");
         return;

@@ -1,4 +1,4 @@
-/* Non-volatile memory: its shape, its bounds, and, where a slot may be used up, whether it keeps what is written. */
+/* Non-volatile memory: its shape, its bounds and, where a slot may be erased, whether it keeps what is written. */
 #include "selftest.h"
 
 enum { SLOT_BYTES_MIN = 4096, UNIT_MAX = 8, CHUNK = 64, ERASED = 0xff, ERASE_MAX_US = 2100000, WRITE_MAX_US = 1000 };
@@ -30,7 +30,7 @@ static void bounds(selftest_t *test)
         "nvm_read", "both slots are read to their ends", "the first or last byte of a slot can not be read");
 }
 
-/* Sum over a slot that tells one content from another; false: it can not be read. */
+/* A checksum over a slot, to tell one content from another; false: the slot cannot be read. */
 static bool fingerprint(const selftest_t *test, uint32_t slot, uint32_t *sum, bool *erased)
 {
     const brace_hal_t *const hal = test->hal;
@@ -82,7 +82,7 @@ static void pattern(uint8_t *bytes, uint32_t offset, uint32_t count)
     }
 }
 
-/* One unit; false: something is wrong, and told. */
+/* Writes and checks one unit; false: something is wrong, and has been reported. */
 static bool write_unit(selftest_t *test, uint32_t slot, uint32_t offset)
 {
     const brace_hal_t *const hal = test->hal;
@@ -119,7 +119,7 @@ static bool holds(const selftest_t *test, uint32_t slot, uint32_t offset, bool w
     return same;
 }
 
-/* Units at offsets 0, u, 2u, 4u, ... and the last: rising, each address line once. */
+/* Offsets 0, u, 2u, 4u, ... and the last unit: rising, and each address line is set once. */
 static uint32_t next_offset(const brace_nvm_shape_t *s, uint32_t offset)
 {
     const uint32_t next = offset == 0u ? s->write_bytes : 2u * offset;

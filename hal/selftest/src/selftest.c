@@ -1,4 +1,4 @@
-/* The run: is every entry there, then one group after another. */
+/* The run: checks that every entry is there, and then one group after another. */
 #include "selftest.h"
 
 enum { QUESTIONS_MAX = 200000 };
@@ -52,7 +52,7 @@ static void is_there(selftest_t *test, bool there, const char *entry, bool *all)
     }
 }
 
-/* Whether what must be there is. */
+/* Checks that the mandatory entries are there. */
 static bool door(selftest_t *test)
 {
     const brace_hal_t *const hal = test->hal;

@@ -1,4 +1,4 @@
-/* Between the checks: one run's state, and how a finding is told. */
+/* What the checks share: the state of one run, and how to report a finding. */
 #ifndef SELFTEST_H
 #define SELFTEST_H
 
@@ -8,17 +8,17 @@ typedef struct {
     const brace_hal_t *hal;
     const brace_selftest_setup_t *setup;
     brace_selftest_result_t result;
-    bool clock_runs; /* windows of time may be waited for */
+    bool clock_runs; /* a check may wait for a window of time */
 } selftest_t;
 
 void selftest_tell(selftest_t *test, brace_selftest_verdict_t verdict, const char *entry, const char *what);
 void selftest_tell_value(selftest_t *test, brace_selftest_verdict_t verdict, const char *entry, const char *what,
     int32_t value, const char *unit);
 
-/* PASS with `right`, or FAIL with `wrong`; gives ok back. */
+/* Reports PASS with `right`, or FAIL with `wrong`; returns ok. */
 bool selftest_expect(selftest_t *test, bool ok, const char *entry, const char *right, const char *wrong);
 
-/* A window of time to wait in: ends when it is over, or after so many questions when the clock is no good. */
+/* A window of time to wait in. It ends when the time is over, or after a number of questions if the clock is bad. */
 typedef struct {
     uint32_t began_us, window_us, asked;
 } selftest_wait_t;

@@ -1,4 +1,5 @@
-/* Serial ports: who is there, and do counts keep to what was given? The console is not read, lest a request be lost. */
+/* Serial ports: which exist, and do counts stay within what was given? The console is not read, so that no request is
+ * lost. */
 #include "selftest.h"
 
 enum { BAUD = 115200, ROOM = 16 };

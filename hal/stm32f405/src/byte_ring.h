@@ -1,4 +1,4 @@
-/* Bytes between an interrupt handler and the thread: one writes, the other reads, neither waits. */
+/* Bytes between an interrupt handler and the thread: one side writes, the other reads, and neither waits. */
 #ifndef STM32F405_BYTE_RING_H
 #define STM32F405_BYTE_RING_H
 
@@ -7,7 +7,7 @@
 enum { BYTE_RING_BYTES = 512 }; /* a power of two; two Modbus frames, 18 CAN frames as text */
 
 typedef struct {
-    volatile uint32_t written, taken; /* counted without end; their difference is what is in */
+    volatile uint32_t written, taken; /* counts since start; their difference is the number in the ring */
     uint8_t bytes[BYTE_RING_BYTES];
 } byte_ring_t;
 

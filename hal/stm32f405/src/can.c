@@ -9,7 +9,7 @@
 
 enum {
     PIN_FUNCTION = 9,
-    ACKNOWLEDGE_US = 9000, /* of entering and of leaving initialisation: a frame at 125 kbit/s takes 1.1 ms */
+    ACKNOWLEDGE_US = 9000, /* for entering and for leaving initialisation; a frame at 125 kbit/s takes 1.1 ms */
     RELEASE_POLLS = 16,
     FIFO_FRAMES = 3,
     RING_FRAMES = 64, /* a power of two; 7 ms of a full bus at 1 Mbit/s */
@@ -25,12 +25,12 @@ typedef struct {
 } stored_frame_t;
 
 static stored_frame_t ring[RING_FRAMES];
-static volatile uint32_t ring_written, ring_taken; /* counted without end */
+static volatile uint32_t ring_written, ring_taken; /* counts since start */
 static volatile uint32_t frames_lost;
 
 static const stm32f405_board_t *wiring;
 static bool running, listening_only;
-static bool recovering; /* initialisation is asked for, and to be left as soon as it is acknowledged */
+static bool recovering; /* initialisation was requested, and ends as soon as it is acknowledged */
 
 void can_use(const stm32f405_board_t *board)
 {
@@ -43,7 +43,7 @@ static volatile uint32_t *can(uint32_t offset)
     return &REGISTER(CAN1_BASE, offset);
 }
 
-/* Standard data frames only, all of them, into FIFO 0: identifier free, IDE and RTR must be 0. */
+/* Accepts all standard data frames, and only these, into FIFO 0: the identifier is free, IDE and RTR must be 0. */
 static void open_filter(void)
 {
     *can(CAN_FMR) |= CAN_FMR_FINIT;
@@ -57,7 +57,7 @@ static void open_filter(void)
     *can(CAN_FMR) &= ~CAN_FMR_FINIT;
 }
 
-/* Loopback is the manual's silent one: the line stays recessive, and what is on it is not heard. */
+/* Loopback is the manual's silent one: the line stays recessive, and frames on it are not received. */
 static uint32_t mode_bits(const brace_can_setup_t *setup)
 {
     return setup->loopback ? CAN_BTR_LBKM | CAN_BTR_SILM : setup->listen_only ? CAN_BTR_SILM : 0u;
@@ -88,18 +88,19 @@ int32_t can_setup(void *context, const brace_can_setup_t *setup)
     if (!can_timing_find(clock_report()->clocks.apb1_hz, setup->bit_rate, &timing)) {
         return BRACE_HAL_E_RANGE;
     }
-    if (!clock_report()->crystal && !setup->listen_only && !setup->loopback) { /* it would disturb the bus */
+    if (!clock_report()->crystal && !setup->listen_only && !setup->loopback) { /* an inexact clock disturbs the bus */
         return BRACE_HAL_E_DEVICE;
     }
     running = false;
     recovering = false;
-    restart_controller(); /* no interrupt from here on, nothing in its mailboxes and FIFO; asleep */
+    restart_controller(); /* now it sleeps: no interrupt, empty mailboxes and FIFO */
     ring_taken = ring_written;
     frames_lost = 0u;
     pin_give(wiring->can_rx, PIN_FUNCTION);
     pin_give(wiring->can_tx, PIN_FUNCTION);
 
-    /* Sends in the order asked for; a full FIFO keeps what it has. Retransmits; stays in bus-off until told. */
+    /* It sends in the order of requests; a full FIFO keeps its frames. It retransmits, and stays in bus-off until
+     * told. */
     const uint32_t manner = CAN_MCR_TXFP | CAN_MCR_RFLM;
     *can(CAN_MCR) = manner | CAN_MCR_INRQ;
     if (!clock_poll_until(can(CAN_MSR), CAN_MSR_INAK | CAN_MSR_SLAK, CAN_MSR_INAK, ACKNOWLEDGE_US)) {
@@ -238,7 +239,7 @@ static void store_frame(void)
         return;
     }
     stored_frame_t *place = &ring[written % RING_FRAMES];
-    const uint32_t dlc = *can(CAN_RDT0R) & CAN_RDT0R_DLC; /* a sender may put up to 15 there for 8 bytes */
+    const uint32_t dlc = *can(CAN_RDT0R) & CAN_RDT0R_DLC; /* a sender may write up to 15 for 8 bytes */
     const uint32_t length = dlc < 8u ? dlc : 8u;
     place->id_and_length = (*can(CAN_RI0R) & CAN_RI0R_STID) / FIELD(CAN_RI0R_STID, 1u) | length << 16;
     place->data_low = *can(CAN_RDL0R);
@@ -250,13 +251,13 @@ static void store_frame(void)
 void can1_rx0_handler(void)
 {
     if ((*can(CAN_RF0R) & CAN_RF0R_FOVR0) != 0u) {
-        *can(CAN_RF0R) = CAN_RF0R_FOVR0; /* one at least; the controller does not count them */
+        *can(CAN_RF0R) = CAN_RF0R_FOVR0; /* at least one frame; the controller does not count them */
         count_lost();
     }
     for (uint32_t frame = 0; frame < FIFO_FRAMES && (*can(CAN_RF0R) & CAN_RF0R_FMP0) != 0u; frame++) {
         store_frame();
         *can(CAN_RF0R) = CAN_RF0R_RFOM0;
-        /* The count is stale until the release has been taken. */
+        /* The count is old until the controller has taken the release. */
         if (!poll_until(can(CAN_RF0R), CAN_RF0R_RFOM0, 0u, RELEASE_POLLS)) {
             break;
         }

@@ -18,7 +18,7 @@ static uint32_t distance(uint32_t a, uint32_t b)
 bool can_timing_find(uint32_t clock_hz, uint32_t bit_rate, can_timing_t *timing)
 {
     bool found = false;
-    uint32_t best_miss = 0; /* of the sample point, in units of 1 / (8 quanta): compared crosswise */
+    uint32_t best_miss = 0; /* error of the sample point in units of 1 / (8 quanta), compared by cross products */
     uint32_t best_quanta = 1;
     for (uint32_t quanta = QUANTA_MAX; quanta >= QUANTA_MIN; quanta--) {
         const uint32_t rate = bit_rate * quanta;

@@ -6,7 +6,7 @@
 enum {
     HSI_HZ = 16000000,
     CORE_HZ = 168000000,
-    VCO_MHZ = 336, /* of the PLL; halved for the core, a seventh of it for USB */
+    VCO_MHZ = 336, /* the PLL's oscillator; half of it for the core, a seventh for USB */
     FLASH_WAIT_STATES = 5, /* 150-168 MHz at 2.7 V or more */
     CRYSTAL_POLLS = 200000, /* at 16 MHz 0.1 s or more; a crystal takes 2 ms */
     PLL_POLLS = 20000,      /* 10 ms; it locks within 0.3 ms */
@@ -57,11 +57,11 @@ static bool start_crystal(uint32_t hse_hz)
     return false;
 }
 
-/* Flash slow enough first, then the PLL, then the buses down, then over to it. */
+/* Makes flash slow enough first, then starts the PLL, divides the buses, and switches over to the PLL. */
 static bool start_pll(uint32_t source_hz, bool crystal)
 {
     const uint32_t source_mhz = source_hz / 1000000u;
-    /* 2 MHz into the PLL jitter less than 1 MHz. */
+    /* With 2 MHz the PLL jitters less than with 1 MHz. */
     const uint32_t divider = source_mhz % 2u == 0u ? source_mhz / 2u : source_mhz;
     const uint32_t multiplier = VCO_MHZ * divider / source_mhz;
 
@@ -93,7 +93,7 @@ static bool start_pll(uint32_t source_hz, bool crystal)
 static void start_counter(uint32_t timer_hz)
 {
     change(RCC_APB1ENR, RCC_APB1ENR_TIM2EN, RCC_APB1ENR_TIM2EN);
-    (void)REGISTER(RCC_BASE, RCC_APB1ENR); /* the clock is there two cycles after the write */
+    (void)REGISTER(RCC_BASE, RCC_APB1ENR); /* the clock runs two cycles after the write */
     REGISTER(TIM2_BASE, TIM2_PSC) = timer_hz / 1000000u - 1u;
     REGISTER(TIM2_BASE, TIM2_ARR) = UINT32_MAX;
     REGISTER(TIM2_BASE, TIM2_EGR) = TIM2_EGR_UG; /* takes the prescaler over, and starts from 0 */

@@ -4,7 +4,7 @@
 
 #include "brace_hal_stm32f405.h"
 
-/* Brings the processor to 168 MHz and starts the microsecond counter; fills what stm32f405_clock_report tells. */
+/* Brings the processor to 168 MHz, starts the microsecond counter, and fills in stm32f405_clock_report. */
 void clock_start(uint32_t hse_hz, const stm32f405_clocks_t *given);
 
 const stm32f405_clock_report_t *clock_report(void);
@@ -12,8 +12,8 @@ const stm32f405_clock_report_t *clock_report(void);
 /* Time since clock_start [us]. */
 uint32_t clock_now_us(void);
 
-/* As poll_until, by the clock: false after timeout_us [us, below 1e7], or after timeout_us * 21 polls (8 cycles each
- * at 168 MHz, so that a counter that stands still ends it too). */
+/* As poll_until, with the clock: false after timeout_us [us, below 1e7], or after timeout_us * 21 polls. A poll takes 8
+ * cycles at 168 MHz, so the count ends the wait even when the counter stands still. */
 bool clock_poll_until(volatile const uint32_t *place, uint32_t mask, uint32_t wanted, uint32_t timeout_us);
 
 #endif

@@ -9,9 +9,9 @@ enum {
     SECTOR_COUNT = 12,
     WORD_BYTES = 4,
     PARALLEL_32 = 2,      /* PSIZE: 32 bits at a time */
-    PROGRAM_US = 200,     /* a word: 16 us, at most 100 */
-    ERASE_SMALL_US = 1000000, /* 16 KiB: at most 0.5 s */
-    ERASE_LARGE_US = 4000000  /* 128 KiB: at most 2 s */
+    PROGRAM_US = 200,     /* a word takes 16 us, at most 100 */
+    ERASE_SMALL_US = 1000000, /* 16 KiB take at most 0.5 s */
+    ERASE_LARGE_US = 4000000  /* 128 KiB take at most 2 s */
 };
 
 #define FLASH_START 0x08000000u
@@ -19,7 +19,7 @@ enum {
 
 static const stm32f405_board_t *layout;
 
-/* Four of 16 KiB, one of 64, seven of 128. */
+/* The chip's sectors: four of 16 KiB, one of 64, seven of 128. */
 uint32_t stm32f405_sector_bytes(uint8_t sector)
 {
     if (sector >= SECTOR_COUNT) {
@@ -100,7 +100,8 @@ static void lock(void)
     *flash(FLASH_CR) = FLASH_CR_LOCK;
 }
 
-/* false: something is still under way, or the controller stays locked. One wrong key locks it until a reset. */
+/* Unlocks the flash. false: an operation is still running, or the controller stays locked. One wrong key locks it until
+ * a reset. */
 static bool unlock(void)
 {
     if (!finishes_within(ERASE_LARGE_US)) {
@@ -115,7 +116,7 @@ static bool unlock(void)
     return (*flash(FLASH_CR) & (FLASH_CR_LOCK | FLASH_CR_PSIZE)) == FIELD(FLASH_CR_PSIZE, PARALLEL_32);
 }
 
-/* The caches may hold what was there before; they can be reset only while they are off. */
+/* The caches may hold the old content. They can be reset only while they are off. */
 static void forget_caches(void)
 {
     const uint32_t access = *flash(FLASH_ACR);
@@ -127,7 +128,7 @@ static void forget_caches(void)
     processor_barrier();
 }
 
-/* Ends an operation: the controller locked, the caches empty, whatever came of it. */
+/* Ends an operation, whatever its result: locks the controller and empties the caches. */
 static int32_t close_up(bool finished)
 {
     const bool sound = finished && (*flash(FLASH_SR) & ERRORS) == 0u;

@@ -1,4 +1,4 @@
-/* The door: puts the parts together. */
+/* The door: puts the parts of this layer together. */
 #include "brace_hal_stm32f405.h"
 
 #include "can.h"

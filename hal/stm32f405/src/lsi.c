@@ -10,7 +10,7 @@ enum {
     EVERY_EIGHTH = 3, /* value of IC4PSC */
     ITS_OWN_INPUT = 1, /* value of CC4S */
     LSI_TO_CHANNEL_4 = 1, /* value of IT4_RMP */
-    SLOWEST_HZ = 15000, /* what is further off was no measurement */
+    SLOWEST_HZ = 15000, /* a lower result is no valid measurement */
     FASTEST_HZ = 50000
 };
 

@@ -12,7 +12,7 @@ void pin_give(stm32f405_pin_t pin, uint32_t function);
 /* Makes the pin a low output. */
 void pin_drive_low(stm32f405_pin_t pin);
 
-/* Address and value whose store sets, or clears, an output: ready made for interrupt handlers. */
+/* An output's address and the values whose store sets or clears it, prepared for interrupt handlers. */
 typedef struct {
     volatile uint32_t *place; /* null: not connected */
     uint32_t high, low;

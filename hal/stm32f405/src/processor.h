@@ -5,19 +5,20 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Every access before it is done before any after it. */
+/* Completes every memory access before it, before any access after it begins. */
 static inline void processor_barrier(void)
 {
     __asm__ volatile("dsb" ::: "memory");
 }
 
-/* The compiler moves nothing across; enough between an interrupt and what it interrupts on one processor. */
+/* Keeps the compiler from moving accesses across. On one processor this is enough between an interrupt and its
+ * thread. */
 static inline void compiler_barrier(void)
 {
     __asm__ volatile("" ::: "memory");
 }
 
-/* Polls until (register & mask) == wanted; false: not within that many polls, of at least 8 processor cycles each. */
+/* Polls until (register & mask) == wanted. false: not within that many polls of at least 8 processor cycles each. */
 static inline bool poll_until(volatile const uint32_t *place, uint32_t mask, uint32_t wanted, uint32_t polls)
 {
     for (uint32_t poll = 0; poll < polls; poll++) {

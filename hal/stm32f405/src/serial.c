@@ -36,11 +36,11 @@ void serial_use(const stm32f405_board_t *board)
         usarts[index].ready = false;
     }
     for (uint32_t port = 0; port < BRACE_SERIAL_PORT_COUNT; port++) {
-        pin_drive_low(board->serial[port].drive_enable); /* off the RS-485 line from the start */
+        pin_drive_low(board->serial[port].drive_enable); /* keeps the transmitter off the RS-485 line from the start */
     }
 }
 
-/* -1: the board has no such port. */
+/* Index of a port's USART; -1: the board has no such port. */
 static int32_t usart_of(brace_serial_port_t port)
 {
     if ((uint32_t)port >= BRACE_SERIAL_PORT_COUNT) {
@@ -84,7 +84,7 @@ int32_t serial_setup(void *context, brace_serial_port_t port, uint32_t baud, bra
     const stm32f405_serial_t *wires = &wiring->serial[port];
     REGISTER(RCC_BASE, place->clock_enable_offset) |= place->clock_enable;
     (void)REGISTER(RCC_BASE, place->clock_enable_offset);
-    REGISTER(place->base, USART_CR1) = 0u; /* off, and no interrupt from here to its end */
+    REGISTER(place->base, USART_CR1) = 0u; /* off, so no interrupt comes until the set-up ends */
     processor_barrier();
     usart->sent.taken = usart->sent.written;
     usart->received.taken = usart->received.written;
@@ -101,7 +101,7 @@ int32_t serial_setup(void *context, brace_serial_port_t port, uint32_t baud, bra
     return BRACE_HAL_OK;
 }
 
-/* The port's USART once it is set up; else why not. */
+/* The port's USART if it is set up; else the reason why not. */
 static int32_t ready_usart(brace_serial_port_t port)
 {
     const int32_t index = usart_of(port);
@@ -124,7 +124,7 @@ int32_t serial_write(void *context, brace_serial_port_t port, const uint8_t *byt
         done++;
     }
     if (done > 0u) {
-        /* The handler may clear TXEIE or TCIE between this read and write; set again they call it once more. */
+        /* The handler may clear TXEIE or TCIE between this read and write; setting them again calls it once more. */
         REGISTER(places[index].base, USART_CR1) |= USART_CR1_TXEIE;
         interrupt_request(places[index].irq); /* for emulators without transmit interrupts */
     }
@@ -165,7 +165,7 @@ static void set_switch(pin_switch_t output, uint32_t level)
     }
 }
 
-/* As many bytes as the transmitter takes: two at most, unless it is an emulated one, which takes all. */
+/* Sends as many bytes as the transmitter takes: at most two on the chip, all of them on an emulator. */
 static void send(usart_t *usart, uint32_t base)
 {
     for (uint32_t i = 0; i < BYTE_RING_BYTES && (REGISTER(base, USART_SR) & USART_SR_TXE) != 0u; i++) {

@@ -4,7 +4,7 @@
 
 #include "brace_hal_stm32f405.h"
 
-/* Says which USART each port is; board lives as long as the firmware. */
+/* Decides which USART each port is; board lives as long as the firmware. */
 void serial_use(const stm32f405_board_t *board);
 
 int32_t serial_setup(void *context, brace_serial_port_t port, uint32_t baud, brace_parity_t parity);

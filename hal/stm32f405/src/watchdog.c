@@ -25,7 +25,7 @@ void reset_cause_take(bool by_fault)
         cause = BRACE_RESET_REQUESTED;
     } else if ((flags & (RCC_CSR_PORRSTF | RCC_CSR_BORRSTF)) != 0u) {
         cause = BRACE_RESET_POWER;
-    } else if ((flags & RCC_CSR_PADRSTF) != 0u) { /* last: every other reset pulls the pin too */
+    } else if ((flags & RCC_CSR_PADRSTF) != 0u) { /* tested last, because every other reset pulls the pin too */
         cause = BRACE_RESET_PIN;
     } else {
         cause = BRACE_RESET_POWER;
@@ -39,7 +39,7 @@ brace_reset_cause_t reset_cause_read(void *context)
     return cause;
 }
 
-/* 3.5 s, or what the counter holds: 2.8 s at the fastest LSI there is, 47 kHz. */
+/* 3.5 s, or the counter's limit: 2.8 s with the fastest possible LSI, 47 kHz. */
 static uint32_t reload_for(uint32_t lsi_hz)
 {
     const uint32_t reload = (lsi_hz != 0u ? lsi_hz : (uint32_t)LSI_NOMINAL_HZ) / 32u * 7u / 2u;
@@ -50,7 +50,7 @@ void watchdog_start(uint32_t timer_hz)
 {
     const uint32_t reload = reload_for(lsi_measure_hz(timer_hz));
     REGISTER(DBG_BASE, DBG_DBGMCU_APB1_FZ) |= DBG_DBGMCU_APB1_FZ_DBG_IWDEG_STOP;
-    REGISTER(IWDG_BASE, IWDG_KR) = IWDG_KR_START_KEY; /* starts the LSI too, which the registers below need */
+    REGISTER(IWDG_BASE, IWDG_KR) = IWDG_KR_START_KEY; /* also starts the LSI, which the registers below need */
     REGISTER(IWDG_BASE, IWDG_KR) = IWDG_KR_ACCESS_KEY;
     REGISTER(IWDG_BASE, IWDG_PR) = FIELD(IWDG_PR_PR, DIVIDE_32);
     REGISTER(IWDG_BASE, IWDG_RLR) = FIELD(IWDG_RLR_RL, reload);
@@ -63,7 +63,7 @@ void watchdog_feed(void *context)
 {
     (void)context;
     if (running) {
-        REGISTER(IWDG_BASE, IWDG_KR) = IWDG_KR_RELOAD_KEY; /* and shuts the other registers again */
+        REGISTER(IWDG_BASE, IWDG_KR) = IWDG_KR_RELOAD_KEY; /* also locks the other registers again */
     }
 }
 
@@ -73,6 +73,6 @@ void processor_restart(void *context)
     processor_barrier();
     REGISTER(SCB_BASE, SCB_AIRCR) = FIELD(SCB_AIRCR_VECTKEY, SCB_AIRCR_VECTKEY_KEY) | SCB_AIRCR_SYSRESETREQ;
     processor_barrier();
-    /* Takes a few cycles; the watchdog if it is never. */
+    /* The reset takes a few cycles. If it never comes, the watchdog resets. */
     (void)poll_until(&REGISTER(SCB_BASE, SCB_AIRCR), SCB_AIRCR_VECTKEY, 0u, UPDATE_POLLS);
 }

@@ -148,10 +148,10 @@ int main()
     Columns columns, tilted_columns;
 
     brace_planar_t tick;
-    brace_planar_batch_t batch, tilted_batch;
+    brace_planar_t batch, tilted_batch;
     require(brace_planar_collapse(&limb, &tick) == BRACE_OK, "brace_planar_collapse");
-    require(brace_planar_batch_collapse(&limb, &batch) == BRACE_OK, "brace_planar_batch_collapse");
-    require(brace_planar_batch_collapse(&tilted, &tilted_batch) == BRACE_OK, "brace_planar_batch_collapse, tilted");
+    require(brace_planar_collapse(&limb, &batch) == BRACE_OK, "brace_planar_collapse");
+    require(brace_planar_collapse(&tilted, &tilted_batch) == BRACE_OK, "brace_planar_collapse, tilted");
 
     std::vector<Version> versions;
     versions.push_back({"Eigen fixed size, -O3 -march=native",
@@ -175,7 +175,7 @@ int main()
                             }
                         },
                         [&](std::size_t i) { return six(by_tick[i]); }});
-    const auto by_columns = [](const brace_planar_batch_t& model, Columns& out) {
+    const auto by_columns = [](const brace_planar_t& model, Columns& out) {
         return [&](const Inputs& x, std::size_t n) {
             const std::size_t refused =
                 brace_planar_batch(&model, n, x.theta1_rad.data(), x.theta2_rad.data(), &out.soa);

@@ -1,5 +1,5 @@
-/* The bench's job for brace_drift_step: loading runs at changing postures, learning first, then watching; a tibia that
- * goes soft ends it. Its number is the check's state. */
+/* The bench's job for brace_drift_step and brace_drift_report: loading runs at changing postures, learning first,
+ * then watching; a tibia that goes soft ends it. Its number is the check's state. */
 #include <stdlib.h>
 
 #include "bench_data.h"
@@ -50,5 +50,9 @@ void job_run(int index, float *out)
     if (index == READINGS / 4) {
         drift.state = BRACE_DRIFT_WATCHING;
     }
-    out[0] = (float)drift.state;
+    brace_drift_report_t report;
+    if (brace_drift_report(&drift, &limb, &report) != BRACE_OK) {
+        exit(1);
+    }
+    out[0] = (float)report.state;
 }

@@ -1,18 +1,20 @@
-/* Random ticks of the controller, to be counted: limbs of every kind, every mode, requests at any time,
- * bad samples, late ticks, traffic. Prints one letter per tick: what kind of tick it was. The plugin
- * counts meanwhile.
+/* Random ticks of the controller, to be counted: limbs of every kind, in their plane and in space, every mode,
+ * requests at any time and on every port, bad samples, late ticks, traffic. Prints one letter per tick, which says
+ * what kind of tick it was. The plugin counts meanwhile.
  *
- *   M monitor  T taking up  L loading test  R its readings  D drift step  J its slopes  K against the model
- *   C configuration
- *   P a piece of putting parameters in force  S storing  0 start  F fault
+ *   M monitor  T taking up  L loading test  R a reading of it, which the drift check takes in  J its slopes
+ *   K its slopes against the model
+ *   C configuration  S storing parameters, the last of these puts them in force  0 start  F fault
  *   W a piece of a record of what the drift check knows
- *   and those that answer a request over CAN: Q beside K  G beside K of the general path
- *   A with K left out, or a piece of it  E beside a piece of a loading test
+ * and those in which CAN, SLCAN and both Modbus ports are flooded with requests, whatever the tick does beside:
+ *   Q a limb in its plane  X a limb in space
  */
 #include <stdio.h>
 
-#include "configure/keeping.h"
-#include "measure/loading.h"
+#include "brace/app.h"
+#include "brace/app_memory.h"
+#include "brace/can_messages.h"
+#include "brace/measured.h"
 #include "world.h"
 
 #ifndef TICKS
@@ -27,6 +29,7 @@ static struct {
     uint32_t next; /* 0: none under way; 1: begin; then the words; then the commit */
 } upload;
 static dice_t dice = {0x9e3779b97f4a7c15u};
+static bool flooded; /* every port is asked in every tick */
 
 static brace_parameters_t random_parameters(const world_manner_t *manner)
 {
@@ -38,6 +41,8 @@ static brace_parameters_t random_parameters(const world_manner_t *manner)
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         limb->link[i].axial_mm_per_n = dice_between(&dice, 5e-4f, 5e-3f);
         limb->link[i].bending_mm_per_n = dice_between(&dice, 0.01f, 0.3f);
+        limb->link[i].lateral_mm_per_n = dice_between(&dice, 0.01f, 0.3f);
+        limb->link[i].torsion_rad_per_n_mm = dice_between(&dice, 1e-7f, 1e-5f);
         limb->link[i].tilt_rad = dice_in(&dice, 2) ? 0.0f : dice_between(&dice, -0.5f, 0.5f);
         limb->link[i].moment_transfer_ratio = dice_in(&dice, 2) ? 0.0f : dice_between(&dice, 0.1f, 1.0f);
         limb->joint[i].compliance_rad_per_n_mm = dice_between(&dice, 2e-6f, 4e-5f);
@@ -77,7 +82,9 @@ static brace_parameters_t random_parameters(const world_manner_t *manner)
 static void begin_episode(bool tests)
 {
     world_manner_t manner = {.cooperative = dice_in(&dice, 2), .restless = dice_in(&dice, 2),
-                             .drives_fail = dice_in(&dice, 4), .slcan = dice_in(&dice, 3),
+                             .drives_fail = dice_in(&dice, 4), .slcan = dice_in(&dice, 3) || flooded,
+                             .flooded = flooded,
+                             .coxa = dice_in(&dice, 3),
                              .spring_n_mm_per_rad = dice_between(&dice, 2e4f, 1e5f)};
     static const uint32_t bad_in[] = {0, 1000, 50, 5};
     manner.bad_in = bad_in[dice_below(&dice, manner.cooperative ? 2 : 4)];
@@ -123,7 +130,7 @@ static void random_request(void)
     case 1:
     case 2: (void)brace_app_take_up(&app, BRACE_FEMUR, dice_in(&dice, 2) ? 1 : -1); break;
     case 3:
-    case 4:
+    case 4: (void)brace_app_take_up(&app, BRACE_COXA, dice_in(&dice, 2) ? 1 : -1); break;
     case 5: (void)brace_app_take_up(&app, BRACE_TIBIA, dice_in(&dice, 2) ? 1 : -1); break;
     case 6: (void)brace_app_let_go(&app); break;
     case 7:
@@ -133,12 +140,13 @@ static void random_request(void)
     case 11: (void)(dice_in(&dice, 8) ? brace_app_loading_stop(&app) : 0); break;
     case 12:
         (void)brace_app_clear(&app, BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_CRASHED);
-        app.keeping.state = (uint8_t)dice_below(&dice, 4); /* as if the check's had changed: a record is due */
+        /* As if the state of the check had changed: a record is due. */
+        app.controller.drift.kept_state = (uint8_t)dice_below(&dice, 4);
         break;
     case 13: (void)(dice_in(&dice, 4) ? brace_app_configuration_enter(&app) : 0); break;
     default: (void)(dice_in(&dice, 2) ? brace_app_configuration_leave(&app) : 0); break;
     }
-    if (app.mode == BRACE_MODE_CONFIGURATION && dice_in(&dice, 3)) {
+    if (app.controller.mode.now == BRACE_MODE_CONFIGURATION && dice_in(&dice, 3)) {
         const brace_parameters_t p = random_parameters(&(world_manner_t){.gap_rad = {0.01f, 0.01f, 0.005f}});
         (void)(dice_in(&dice, 3) ? brace_app_parameters_rollback(&app) : brace_app_parameters_commit(&app, &p));
     }
@@ -180,7 +188,7 @@ static void upload_on(void)
         }
     }
     upload.next += upload.next > 0u;
-    world_asks(app.bus.node_id, data);
+    world_asks(app.wires.can.node_id, data);
 }
 
 /* A request over CAN: of every code, mostly with sense in it. */
@@ -193,7 +201,7 @@ static void random_question(bool harmless)
     const uint32_t code = harmless            ? 1u + dice_below(&dice, 8)
                           : dice_in(&dice, 20)  ? dice_below(&dice, 256)
                           : dice_in(&dice, 2) ? 3u + dice_below(&dice, 3)
-                                              : 1u + dice_below(&dice, 22);
+                                              : 1u + dice_below(&dice, BRACE_REQUEST_TAKE_UP_RESULT);
     const uint32_t token = data[1];
     data[0] = (uint8_t)code;
     if (code == BRACE_REQUEST_K_AT_POSTURE) {
@@ -207,7 +215,8 @@ static void random_question(bool harmless)
                                                     dice_between(&dice, -300.0f, 300.0f)}, data);
         data[0] = (uint8_t)code;
     } else if (code == BRACE_REQUEST_READ_ENTRY && !dice_in(&dice, 10)) {
-        const uint32_t entry = dice_in(&dice, 4) ? dice_below(&dice, 105) : 0x1000u + dice_below(&dice, 58);
+        const uint32_t entry = dice_in(&dice, 4) ? dice_below(&dice, BRACE_PARAMETER_COUNT)
+                                                 : BRACE_ENTRY_MEASURED + dice_below(&dice, BRACE_MEASURED_COUNT);
         data[2] = (uint8_t)entry;
         data[3] = (uint8_t)(entry >> 8);
     } else if (code == BRACE_REQUEST_CONTACT_FORCE || code == BRACE_REQUEST_SAG_FOR_LOAD) {
@@ -219,58 +228,43 @@ static void random_question(bool harmless)
         data[3] = 0;
         data[4] = (uint8_t)dice_below(&dice, 16);
     } else if (code == BRACE_REQUEST_WRITE_ENTRY || code == BRACE_REQUEST_DOWNLOAD_WORD) {
-        data[2] = (uint8_t)dice_below(&dice, 112);
+        data[2] = (uint8_t)dice_below(&dice, BRACE_PARAMETER_COUNT + 2u);
         data[3] = 0;
     } else if (code == BRACE_REQUEST_COMMIT) {
         data[2] = data[3] = data[4] = data[5] = 0;
     }
-    world_asks(app.bus.node_id, data);
-}
-
-/* What the tick was, now that it is known whether it answered, and whether it told K. */
-static char answered(char kind, uint32_t sequence)
-{
-    const bool told = app.sequence != sequence;
-    if (!app.requests.serves) {
-        return kind;
-    }
-    return kind == 'D' || kind == 'J' || kind == 'K' ? 'E' : !told ? 'A' : app.model.collapsed ? 'Q' : 'G';
+    world_asks(app.wires.can.node_id, data);
 }
 
 /* What the coming tick is. */
 static char kind(void)
 {
-    switch (app.mode) {
+    const controller_t *c = &app.controller;
+    if (flooded) {
+        return c->model.is_spatial ? 'X' : 'Q';
+    }
+    const bool keeps = c->drift.looks && c->drift.ticks_to_write <= 1u && !c->drift.has_reading && !c->drift.reports;
+    switch (c->mode.now) {
     case BRACE_MODE_START: return '0';
-    case BRACE_MODE_MONITOR: return 'M';
+    case BRACE_MODE_MONITOR: return keeps ? 'W' : 'M';
     case BRACE_MODE_TAKING_UP: return 'T';
     case BRACE_MODE_FAULT: return 'F';
-    case BRACE_MODE_CONFIGURATION: return app.configure_piece != 0 ? 'P' : app.storing ? 'S' : 'C';
+    case BRACE_MODE_CONFIGURATION: return parameter_job_is_busy(&c->parameters) ? 'S' : 'C';
     default: break;
     }
-    return app.loading.phase == LOADING_READ    ? 'R'
-           : app.loading.phase == LOADING_DRIFT ? 'D'
-           : app.loading.phase == LOADING_JUDGE ? 'J'
-           : app.loading.phase >= LOADING_COMPARE && app.loading.phase <= LOADING_TELL ? 'K'
-                                                : 'L';
-}
-
-/* Will the coming tick work at a record of what the drift check knows? */
-static bool keeping_is_due(void)
-{
-    const brace_app_keeping_t before = app.keeping;
-    const bool due = app.keeping.look && keeping_due(&app);
-    app.keeping = before;
-    return due;
+    return c->loading.phase == LOADING_READ      ? 'R'
+           : c->loading.phase == LOADING_JUDGE   ? 'J'
+           : c->loading.phase == LOADING_COMPARE ? 'K'
+                                                 : 'L';
 }
 
 int main(void)
 {
     static char line[LINE + 1];
-    bool flood = false, tests = false;
+    bool tests = false;
     for (uint32_t tick = 0; tick < TICKS; tick++) {
         if (tick % EPISODE_TICKS == 0) {
-            flood = dice_in(&dice, 4); /* requests in every tick */
+            flooded = dice_in(&dice, 4);
             tests = dice_in(&dice, 6); /* nothing but loading tests, and nobody who stops them */
             begin_episode(tests);
         }
@@ -281,7 +275,9 @@ int main(void)
             (void)brace_app_loading_start(&app, &setup);
         } else if (upload.next == 0u && !tests && dice_in(&dice, 20)) {
             random_request();
-            if (app.mode == BRACE_MODE_CONFIGURATION && !app.storing && app.bus.speaks && dice_in(&dice, 8)) {
+            const bool may_write = app.controller.mode.now == BRACE_MODE_CONFIGURATION &&
+                                   !parameter_job_is_busy(&app.controller.parameters);
+            if (may_write && app.wires.can.node_id != 0u && dice_in(&dice, 8)) {
                 begin_upload();
             }
         }
@@ -289,14 +285,14 @@ int main(void)
             if (tick % 3u == 0u) { /* so that the answers go out in between */
                 upload_on();
             }
-        } else if (flood || dice_in(&dice, 3)) {
+        } else if (flooded || dice_in(&dice, 3)) {
             random_question(tests);
         }
-        const char expected = kind();
-        const uint32_t sequence = app.sequence;
-        const bool keeps = (expected == 'M' || expected == 'F') && keeping_is_due();
+        if (flooded) {
+            random_question(tests); /* the first went out as text, this one over CAN */
+        }
+        line[tick % LINE] = kind();
         brace_app_tick(&app, world_now_us);
-        line[tick % LINE] = answered(keeps ? 'W' : expected, sequence);
         if (tick % LINE == LINE - 1) {
             puts(line);
         }

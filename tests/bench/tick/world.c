@@ -1,6 +1,8 @@
 #include "world.h"
 
-enum { SLOT_BYTES = 12288 };
+/* Silence ends a frame on the Modbus line: a request without a pause behind it would never be answered. So the master
+ * that floods the line sends in every third tick: bytes, a silent tick, and the tick that answers. */
+enum { SLOT_BYTES = 12288, LINE_REQUEST_TICKS = 3 };
 
 uint32_t world_now_us;
 
@@ -305,7 +307,7 @@ void world_begin(dice_t *dice, const world_manner_t *wanted)
         rest_rad[i] = dice_between(dice, 0.2f, 1.6f);
         load_n_mm[i] = 0.0f;
         command[i] = (brace_hal_joint_command_t){0.0f, __builtin_inff()};
-        answer[i] = BRACE_HAL_OK;
+        answer[i] = i == BRACE_COXA && !manner.coxa ? BRACE_HAL_E_UNSUPPORTED : BRACE_HAL_OK;
     }
     force_rest_n[0] = dice_between(dice, -3.0f, 3.0f);
     force_rest_n[1] = dice_between(dice, 0.0f, 10.0f);
@@ -370,8 +372,11 @@ static uint32_t random_pdu(dice_t *dice, uint8_t *pdu)
 static void random_traffic(dice_t *dice)
 {
     static uint8_t pdu[300];
+    static uint32_t ticks_until_next; /* of the line's next request, while every port is flooded */
     serial_room = dice_in(dice, 4) ? dice_below(dice, 4) : 300u;
-    if (line.first == line.count && dice_in(dice, 12)) {
+    ticks_until_next -= ticks_until_next > 0u;
+    if (line.first == line.count && (manner.flooded ? ticks_until_next == 0u : dice_in(dice, 12))) {
+        ticks_until_next = LINE_REQUEST_TICKS;
         const uint32_t length = random_pdu(dice, pdu);
         line.first = 0;
         line.count = length + 3u;
@@ -392,7 +397,7 @@ static void random_traffic(dice_t *dice)
             line.count -= dice_below(dice, line.count);
         }
     }
-    if (tcp.first == tcp.count && dice_in(dice, 12)) {
+    if (tcp.first == tcp.count && (manner.flooded || dice_in(dice, 12))) {
         const uint32_t length = random_pdu(dice, tcp.byte + 7);
         tcp.first = 0;
         tcp.count = 7u + length;
@@ -422,8 +427,8 @@ void world_step(dice_t *dice)
         sample[i].link_rad = dice_in(dice, 2) ? __builtin_nanf("") : rest_rad[i];
         sample[i].temp_degc = dice_between(dice, 15.0f, 40.0f);
         sample[i].taken_us = world_now_us - dice_below(dice, 300);
-        answer[i] = BRACE_HAL_OK;
-        if (dice_in(dice, manner.bad_in)) {
+        answer[i] = i == BRACE_COXA && !manner.coxa ? BRACE_HAL_E_UNSUPPORTED : BRACE_HAL_OK;
+        if (answer[i] == BRACE_HAL_OK && dice_in(dice, manner.bad_in)) {
             spoil(dice, i);
         }
     }

@@ -20,6 +20,8 @@ typedef struct {
     bool restless;       /* postures jump */
     bool drives_fail;    /* commands are refused now and then */
     bool slcan;          /* CAN comes as text over a serial port too, and most requests do */
+    bool flooded;        /* every port is asked something in every tick, or as often as its line allows */
+    bool coxa;           /* the limb has a coxa joint: it is a limb in space */
     float gap_rad[BRACE_LINK_COUNT];
     float spring_n_mm_per_rad;
 } world_manner_t;

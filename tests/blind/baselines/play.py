@@ -36,7 +36,7 @@ class Unseen:
 
 def fitted_numbers(ready: Any, sig: Signatures, said: Answer) -> Array:
     """The believed limb with the chosen effects, fitted on the record from the sizes that least squares gave them."""
-    from brace.diagnose.effects import Variant, all_variants
+    from brace.effects import Variant, all_variants
     from brace.diagnose.loading.fit import fit
     from brace.diagnose.loading.record import setting_of
     from brace.diagnose.loading.space import compatible, space_of

@@ -106,7 +106,7 @@ def signatures_of(case: Path) -> Signatures | None:
     if ready is None:
         return None
     given, record, trust, base = ready
-    from brace.diagnose.effects import all_variants
+    from brace.effects import all_variants
     from brace.diagnose.loading.record import setting_of
     from brace.diagnose.loading.screen import Remover
 

@@ -1,5 +1,5 @@
 /* modbus_crc is the CRC-16 of Modbus over serial line 1.02, 6.2.2, bit by bit, going on from any earlier value. */
-#include "modbus/crc.h"
+#include "wire/modbus/crc.h"
 #include "proof.h"
 
 enum { MOST = 3 };

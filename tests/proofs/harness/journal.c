@@ -3,7 +3,7 @@
 #include "brace/journal.h"
 
 #include "memory.h"
-#include "store/journal.c"
+#include "jobs/store/journal.c"
 
 uint32_t brace_crc32(uint32_t crc, const uint8_t *bytes, uint32_t count)
 {

@@ -1,10 +1,11 @@
-/* The serial line, a step at a time: whatever state the invariant allows and whatever comes,
- * a step ends in one again. */
-#include "app.h"
-#include "modbus/crc.h"
-#include "modbus/link.h"
+/* The serial line, a tick at a time: whatever state the invariant allows and whatever comes, a tick ends in one
+ * again. */
+#include "port.h"
+#include "wire/modbus/crc.h"
+#include "wire/modbus/line.h"
+#include "wire/modbus/pdu.h"
 
-/* 64 bytes of CRC would say nothing more: any number. */
+/* Following 260 bytes of CRC would say nothing more: any number. */
 uint16_t modbus_crc(uint16_t crc, const uint8_t *bytes, uint32_t count)
 {
     (void)crc;
@@ -12,53 +13,48 @@ uint16_t modbus_crc(uint16_t crc, const uint8_t *bytes, uint32_t count)
     return any_u16();
 }
 
-uint32_t modbus_pdu_work(brace_app_t *whose, brace_app_modbus_work_t *work, uint8_t *pdu, uint32_t length,
-                         uint32_t now_us)
+uint32_t modbus_pdu_answer(modbus_server_t *server, modbus_half_t *half, const wire_tick_t *tick, uint8_t *pdu,
+                           uint32_t length)
 {
-    (void)whose;
-    (void)work;
-    (void)now_us;
+    (void)server;
+    (void)half;
+    (void)tick;
     PROVE(length >= 1u && length <= MODBUS_PDU_BYTES && pdu > in_from && pdu + MODBUS_PDU_BYTES <= in_end,
           "a request as promised");
     const uint32_t answer = any_u32();
-    ASSUME(answer <= MODBUS_PDU_BYTES);
+    ASSUME(answer >= 2u && answer <= MODBUS_PDU_BYTES);
     return answer;
 }
 
-uint32_t modbus_request_length(const uint8_t *pdu, uint32_t length)
+uint32_t modbus_pdu_least_length(const uint8_t *pdu, uint32_t length)
 {
-    PROVE(length >= 1u && __CPROVER_r_ok(pdu, length), "a request that has begun");
+    PROVE(length >= 1u && pdu >= in_from && pdu + length <= in_end, "a request that has begun");
     return any_u32();
 }
 
-static bool sound(const brace_app_modbus_link_t *link)
+static bool sound(const modbus_line_t *line)
 {
-    const bool busy = link->phase == LINK_CHECK || link->phase == LINK_WORK || link->phase == LINK_SEAL;
-    return link->phase <= LINK_SEND && (link->drop || link->checked <= link->count) && link->sent <= link->count &&
-           (link->sent == 0u || link->phase == LINK_SEND) && (!link->drop || link->phase <= LINK_CHECK) &&
-           (link->phase != LINK_LISTEN || link->count <= 256u) && (!busy || link->count >= 1u) &&
-           (link->phase != LINK_CHECK || link->count <= 256u) && (link->phase != LINK_SEND || link->count <= 256u) &&
-           (link->phase != LINK_WORK || (link->count >= 4u && link->count <= 256u)) &&
-           (link->phase != LINK_SEAL || link->count <= 254u);
+    const modbus_link_t *link = &line->link;
+    const bool is_request = link->count > 0u && !link->is_sending;
+    return link->count <= 256u && link->sent <= link->count && (link->sent == 0u || link->is_sending) &&
+           !(link->is_sending && link->is_skipping) && (!link->is_skipping || link->count == 0u) &&
+           (!link->is_sending || link->count >= 5u) && line->checked <= MODBUS_LINK_BYTES &&
+           (!is_request || line->checked <= link->count);
 }
 
 int main(void)
 {
-    brace_app_t app; /* of any content */
-    brace_app_modbus_link_t *line = &app.modbus.line;
-    app.hal = &any_hal;
-    in_from = out_from = line->bytes;
-    in_end = out_end = line->bytes + sizeof line->bytes;
-    ASSUME(sound(line));
-    const uint32_t now_us = any_u32();
-    const uint8_t phase = line->phase;
-    if (any_bool()) {
-        line_poll(&app, now_us);
-    } else {
-        ASSUME(phase == LINK_CHECK || phase == LINK_WORK || phase == LINK_SEAL); /* modbus_serve's condition */
-        line_serve(&app, now_us, any_bool());
-    }
-    PROVE(sound(line), "a step from a sound state ends in one");
-    PROVE(phase != LINK_SEND || line->phase == LINK_SEND || line->count == 0u, "after an answer the line listens anew");
+    modbus_line_t line; /* of any content, as all of these */
+    modbus_server_t server;
+    wire_tick_t tick;
+    modbus_link_t *link = &line.link;
+    tick.hal = &any_hal;
+    in_from = out_from = link->bytes;
+    in_end = out_end = link->bytes + sizeof link->bytes;
+    ASSUME(sound(&line));
+    const bool was_sending = link->is_sending;
+    modbus_line_tick(&line, &server, &tick);
+    PROVE(sound(&line), "a tick from a sound state ends in one");
+    PROVE(!was_sending || link->is_sending || link->count == 0u, "after an answer the line listens anew");
     return 0;
 }

@@ -1,56 +1,126 @@
-/* A request of any bytes, whatever the controller's state. What it asks of the rest of the controller may answer
- * anything that the header in question allows. */
-#include "modbus/pdu.h"
-#include "modbus/read.h"
-#include "modbus/write.h"
-#include "answers.h"
+/* A request of any bytes, whatever the controller's state. What it asks of the controller may answer anything that
+ * requests.h allows. */
 #include "copies.h"
 #include "proof.h"
+#include "wire/modbus/pdu.h"
+#include "wire/modbus/read.h"
+#include "wire/modbus/write.h"
 
-void staging_keep(brace_app_t *app) { (void)app; }
-
-/* Asked twice of the same state it says the same. */
-static brace_status_t open_or_not;
-brace_status_t staging_open(brace_app_t *app) { (void)app; return open_or_not; }
-
-brace_status_t staging_write(brace_app_t *app, uint32_t index, uint32_t word)
+static brace_status_t any_status(void)
 {
-    (void)app;
-    (void)word;
-    PROVE(index < BRACE_PARAMETER_COUNT, "a member that there is is written");
+    const int32_t status = any_i32();
+    ASSUME(status <= 0 && status >= BRACE_E_MODE);
+    return (brace_status_t)status;
+}
+
+/* ------------------------------------------------------------------------------------- the controller -- */
+
+static brace_snapshot_t snapshot;
+const brace_snapshot_t *request_snapshot(const controller_t *controller) { (void)controller; return &snapshot; }
+brace_mode_t request_mode(const controller_t *controller) { (void)controller; return (brace_mode_t)any_u32(); }
+uint32_t request_faults(const controller_t *controller) { (void)controller; return any_u32(); }
+bool request_is_storing(const controller_t *controller) { (void)controller; return any_bool(); }
+void request_configuration_keep(controller_t *controller) { (void)controller; }
+brace_status_t request_configuration_enter(controller_t *controller) { (void)controller; return any_status(); }
+brace_status_t request_configuration_leave(controller_t *controller) { (void)controller; return any_status(); }
+brace_status_t request_may_write(controller_t *controller) { (void)controller; return any_status(); }
+brace_status_t request_rollback(controller_t *controller) { (void)controller; return any_status(); }
+brace_status_t request_let_go(controller_t *controller) { (void)controller; return any_status(); }
+
+brace_status_t request_clear(controller_t *controller, uint32_t faults)
+{
+    (void)controller;
+    (void)faults;
     return any_status();
 }
 
-brace_status_t brace_parameter_in_range(uint32_t index, uint32_t word)
+brace_status_t request_take_up(controller_t *controller, int32_t joint, int32_t flank)
 {
-    (void)word;
-    PROVE(index < BRACE_PARAMETER_COUNT, "a member that there is is judged");
-    return any_status();
-}
-
-brace_status_t staging_commit(brace_app_t *app, uint32_t *wrong_index)
-{
-    (void)app;
-    (void)wrong_index;
-    return any_status();
-}
-brace_status_t brace_app_configuration_enter(brace_app_t *app) { (void)app; return any_status(); }
-brace_status_t brace_app_configuration_leave(brace_app_t *app) { (void)app; return any_status(); }
-brace_status_t brace_app_parameters_rollback(brace_app_t *app) { (void)app; return any_status(); }
-brace_status_t brace_app_let_go(brace_app_t *app) { (void)app; return any_status(); }
-brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults) { (void)app; (void)faults; return any_status(); }
-brace_status_t brace_app_take_up(brace_app_t *app, int32_t joint, int32_t flank)
-{
-    (void)app;
+    (void)controller;
     (void)joint;
     PROVE(flank == 1 || flank == -1, "a flank that there is");
     return any_status();
 }
 
-modbus_exception_t modbus_read(const brace_app_t *app, uint8_t *pdu, uint32_t length, uint32_t now_us, uint32_t *answer)
+brace_status_t request_stage_block(controller_t *controller, uint32_t first_number, uint32_t count,
+                                   const uint32_t *words)
 {
-    (void)app;
-    (void)now_us;
+    (void)controller;
+    PROVE(count >= 1u && first_number < BRACE_PARAMETER_NUMBERS && count <= BRACE_PARAMETER_NUMBERS - first_number,
+          "numbers that parameters have are written");
+    PROVE(__CPROVER_r_ok(words, 4u * count), "each member has its word");
+    return any_status();
+}
+
+brace_status_t request_commit_staged(controller_t *controller, uint32_t *wrong_index)
+{
+    (void)controller;
+    if (wrong_index != NULL) {
+        *wrong_index = any_u32();
+    }
+    return any_status();
+}
+
+void request_store_status(const controller_t *controller, brace_store_status_t *status)
+{
+    (void)controller;
+    brace_store_status_t any;
+    *status = any;
+}
+
+brace_status_t request_k_at_posture(controller_t *controller, float theta1_rad, float theta2_rad,
+                                    brace_stiffness_t *stiffness)
+{
+    (void)controller;
+    (void)theta1_rad;
+    (void)theta2_rad;
+    brace_stiffness_t any;
+    *stiffness = any;
+    return any_status();
+}
+
+brace_status_t request_k_at_tip(controller_t *controller, brace_point_t tip, brace_knee_t knee,
+                                brace_stiffness_t *stiffness)
+{
+    PROVE(knee == BRACE_KNEE_UP || knee == BRACE_KNEE_DOWN, "a knee that there is");
+    return request_k_at_posture(controller, tip.x_mm, tip.z_mm, stiffness);
+}
+
+brace_status_t request_contact_force(const controller_t *controller, brace_displacement_t displacement,
+                                     brace_contact_force_t *contact)
+{
+    (void)controller;
+    (void)displacement;
+    brace_contact_force_t any;
+    *contact = any;
+    return any_status();
+}
+
+brace_status_t request_sag(const controller_t *controller, brace_force_t load, brace_displacement_t *sag)
+{
+    (void)controller;
+    (void)load;
+    brace_displacement_t any;
+    *sag = any;
+    return any_status();
+}
+
+brace_status_t request_grip(const controller_t *controller, float normal_rad, float friction_ratio,
+                            brace_contact_grip_t *grip)
+{
+    (void)controller;
+    (void)normal_rad;
+    (void)friction_ratio;
+    brace_contact_grip_t any;
+    *grip = any;
+    return any_status();
+}
+
+modbus_exception_t modbus_read(const modbus_server_t *server, const wire_tick_t *tick, uint8_t *pdu, uint32_t length,
+                               uint32_t *answer)
+{
+    (void)server;
+    (void)tick;
     PROVE(length >= 1u && __CPROVER_rw_ok(pdu, MODBUS_PDU_BYTES), "a request as promised");
     const uint8_t bytes = any_u8();
     ASSUME(bytes >= 2u && bytes <= 250u && bytes % 2u == 0u);
@@ -62,45 +132,28 @@ modbus_exception_t modbus_read(const brace_app_t *app, uint8_t *pdu, uint32_t le
     return MODBUS_FINE;
 }
 
-/* What modbus_write_block has left for its next piece; nothing at first. */
-static bool sound(const brace_app_modbus_work_t *work, const uint8_t *pdu, uint32_t length)
-{
-    if (!work->begun) {
-        return true;
-    }
-    const uint32_t values = work->area == 2u ? BRACE_PARAMETER_COUNT : BRACE_COMMANDS_COUNT;
-    return pdu[0] == MODBUS_WRITE_BLOCK && work->count >= 1u && length == 6u + 4u * work->count && work->count <= 61u &&
-           (work->area == 2u || work->area == 3u) && work->start + work->count <= values && work->done <= work->count &&
-           (work->done < work->count || !work->checked);
-}
+/* ---------------------------------------------------------------------------------------------- claims -- */
 
 int main(void)
 {
-    brace_app_t app; /* of any content */
-    brace_app_modbus_work_t work;
+    modbus_server_t server; /* of any content, as all of these */
+    modbus_half_t half;
+    wire_tick_t tick;
     uint8_t pdu[MODBUS_PDU_BYTES];
-    const uint32_t length = any_u32(), now_us = any_u32();
+    const uint32_t length = any_u32();
     ASSUME(length >= 1u && length <= MODBUS_PDU_BYTES);
-    ASSUME(sound(&work, pdu, length));
-    open_or_not = any_status();
+    ANY(snapshot);
     const uint8_t function = pdu[0];
-    const uint32_t progress = !work.begun ? 0u : 1u + (work.checked ? 64u : 0u) + work.done;
-    const uint16_t refused = app.modbus.refused;
+    const uint16_t refused = server.refused;
 
-    const uint32_t answer = modbus_pdu_work(&app, &work, pdu, length, now_us);
+    const uint32_t answer = modbus_pdu_answer(&server, &half, &tick, pdu, length);
 
-    PROVE(answer <= MODBUS_PDU_BYTES, "an answer fits");
-    if (answer == 0u) {
-        PROVE(function == MODBUS_WRITE_BLOCK && work.begun, "only a block is written in pieces");
-        PROVE(1u + (work.checked ? 64u : 0u) + work.done > progress, "each piece comes nearer to the answer");
-        PROVE(sound(&work, pdu, length), "what is left for the next piece is as it has to be");
-        return 0;
-    }
+    PROVE(answer >= 2u && answer <= MODBUS_PDU_BYTES, "an answer fits");
     const uint8_t why = pdu[1];
     if ((pdu[0] & MODBUS_REFUSED) != 0u && (function & MODBUS_REFUSED) == 0u) {
         PROVE(answer == 2u && pdu[0] == (function | MODBUS_REFUSED), "an exception is two bytes and says of what");
         PROVE((why >= 1u && why <= 4u) || why == 6u, "an exception is one that the protocol has");
-        PROVE(app.modbus.refused == (uint16_t)(refused + 1u), "an exception is counted");
+        PROVE(server.refused == (uint16_t)(refused + 1u), "an exception is counted");
     }
     const bool known = function == 3u || function == 4u || function == 6u || function == 8u || function == 16u ||
                        function == 17u || function == 43u;

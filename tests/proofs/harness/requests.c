@@ -1,18 +1,22 @@
-/* Any 8 bytes that come as a request, whatever the controller's state. What a request asks of the rest of the
- * controller may answer anything that its header allows, and notes that it was asked. */
-#include "brace/measured.h"
-#include "can/request.h"
-#include "can/requests.h"
-#include "answers.h"
+/* Any 8 bytes that come as a request, whatever the port's state. What a request asks of the controller may answer
+ * anything that requests.h allows, and notes that it was asked. */
+#include "brace/can_requests.h"
 #include "proof.h"
-#include "report/measured.h"
-
-#include "can/requests.c"
+#include "wire/can/requests.h"
+#include "wire/measured.h"
 
 /* What was done, besides answering. */
 enum { MOVES = 1, CONFIGURES = 2, LEAVES = 4, STAGES = 8, STORES = 16, ROLLS_BACK = 32, CLEARS = 64, TESTS = 128,
        FEEDS = 256 };
 static uint32_t done;
+static bool open_for_writing;
+
+static brace_status_t any_status(void)
+{
+    const int32_t status = any_i32();
+    ASSUME(status <= 0 && status >= BRACE_E_MODE);
+    return (brace_status_t)status;
+}
 
 static brace_status_t asked_for(uint32_t what)
 {
@@ -22,67 +26,98 @@ static brace_status_t asked_for(uint32_t what)
 
 /* ------------------------------------------------------------------------- what changes the controller -- */
 
-brace_status_t brace_app_take_up(brace_app_t *app, int32_t joint, int32_t flank)
+brace_status_t request_take_up(controller_t *controller, int32_t joint, int32_t flank)
 {
-    (void)app;
+    (void)controller;
     (void)flank;
     const brace_status_t status = asked_for(MOVES);
-    ASSUME(status != BRACE_OK || joint == BRACE_FEMUR || joint == BRACE_TIBIA);
+    ASSUME(status != BRACE_OK || (joint >= BRACE_COXA && joint <= BRACE_TIBIA));
     return status;
 }
 
-brace_status_t brace_app_let_go(brace_app_t *app) { (void)app; return asked_for(MOVES); }
-brace_status_t brace_app_loading_start(brace_app_t *app, const brace_loading_setup_t *setup)
+brace_status_t request_let_go(controller_t *controller) { (void)controller; return asked_for(MOVES); }
+brace_status_t request_loading_start(controller_t *controller, const brace_loading_setup_t *setup)
 {
-    (void)app;
+    (void)controller;
     (void)setup;
     return asked_for(TESTS);
 }
-brace_status_t brace_app_loading_stop(brace_app_t *app) { (void)app; return asked_for(TESTS); }
-brace_status_t brace_app_configuration_enter(brace_app_t *app) { (void)app; return asked_for(CONFIGURES); }
-brace_status_t brace_app_configuration_leave(brace_app_t *app) { (void)app; return asked_for(LEAVES); }
-brace_status_t brace_app_parameters_rollback(brace_app_t *app) { (void)app; return asked_for(ROLLS_BACK); }
-brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults) { (void)app; (void)faults; return asked_for(CLEARS); }
-brace_status_t staging_commit(brace_app_t *app, uint32_t *wrong_index)
+brace_status_t request_loading_stop(controller_t *controller) { (void)controller; return asked_for(TESTS); }
+brace_status_t request_configuration_enter(controller_t *controller)
 {
-    (void)app;
-    (void)wrong_index;
+    (void)controller;
+    return asked_for(CONFIGURES);
+}
+brace_status_t request_configuration_leave(controller_t *controller) { (void)controller; return asked_for(LEAVES); }
+void request_configuration_keep(controller_t *controller) { (void)controller; done |= FEEDS; }
+brace_status_t request_rollback(controller_t *controller) { (void)controller; return asked_for(ROLLS_BACK); }
+brace_status_t request_clear(controller_t *controller, uint32_t faults)
+{
+    (void)controller;
+    (void)faults;
+    return asked_for(CLEARS);
+}
+
+brace_status_t request_commit_staged(controller_t *controller, uint32_t *wrong_index)
+{
+    (void)controller;
+    *wrong_index = any_u32();
     return asked_for(STORES);
 }
-brace_status_t storing_commit(brace_app_t *app, const brace_parameters_t *set)
+
+brace_status_t request_commit(controller_t *controller, const brace_parameters_t *parameters)
 {
-    (void)app;
-    (void)set;
+    (void)controller;
+    (void)parameters;
     return asked_for(STORES);
 }
-void staging_keep(brace_app_t *app) { (void)app; done |= FEEDS; }
 
-static bool open_for_writing;
-
-brace_status_t staging_open(brace_app_t *app)
+brace_status_t request_may_write(controller_t *controller)
 {
-    (void)app;
+    (void)controller;
     done |= FEEDS;
     return open_for_writing ? BRACE_OK : any_bool() ? BRACE_E_MODE : BRACE_E_UNSUPPORTED;
 }
 
-brace_status_t staging_write(brace_app_t *app, uint32_t index, uint32_t word)
+brace_status_t request_stage(controller_t *controller, uint32_t number, uint32_t word)
 {
-    (void)app;
+    (void)controller;
+    (void)number;
     (void)word;
     const brace_status_t status = asked_for(STAGES);
-    ASSUME(status != BRACE_OK || (index < BRACE_PARAMETER_COUNT && open_for_writing));
+    ASSUME(status != BRACE_OK || open_for_writing);
     return status;
 }
 
-/* ----------------------------------------------------------------------- what only tells (else: answers.h) -- */
+/* ------------------------------------------------------------------------------------- what only tells -- */
 
-static brace_loading_result_t result;
-const brace_loading_result_t *brace_app_loading_result(const brace_app_t *app) { (void)app; return &result; }
-uint32_t brace_app_row_count(const brace_app_t *app) { (void)app; return any_u32(); }
-brace_status_t brace_app_row(const brace_app_t *app, uint32_t index, brace_row_t *row)
+static brace_snapshot_t snapshot;
+const brace_snapshot_t *request_snapshot(const controller_t *controller) { (void)controller; return &snapshot; }
+static brace_parameters_t parameters;
+const brace_parameters_t *request_parameters(const controller_t *controller) { (void)controller; return &parameters; }
+const brace_parameters_t *request_staged(const controller_t *controller) { (void)controller; return &parameters; }
+brace_mode_t request_mode(const controller_t *controller) { (void)controller; return (brace_mode_t)any_u32(); }
+uint32_t request_faults(const controller_t *controller) { (void)controller; return any_u32(); }
+uint32_t request_parameter_crc(const controller_t *controller) { (void)controller; return any_u32(); }
+brace_parameter_origin_t request_parameter_origin(const controller_t *controller)
 {
-    (void)app;
+    (void)controller;
+    return (brace_parameter_origin_t)(any_u8() % 3u);
+}
+uint32_t request_parameter_sequence(const controller_t *controller) { (void)controller; return any_u32(); }
+bool request_is_storing(const controller_t *controller) { (void)controller; return any_bool(); }
+bool request_loading_is_returning(const controller_t *controller) { (void)controller; return any_bool(); }
+static brace_loading_result_t result;
+const brace_loading_result_t *request_loading_result(const controller_t *controller)
+{
+    (void)controller;
+    return &result;
+}
+uint32_t request_row_count(const controller_t *controller) { (void)controller; return any_u32(); }
+
+brace_status_t request_row(const controller_t *controller, uint32_t index, brace_row_t *row)
+{
+    (void)controller;
     (void)index;
     brace_row_t any;
     *row = any;
@@ -97,12 +132,71 @@ brace_status_t brace_row_value(const brace_row_t *row, uint32_t column, float *v
     return any_status();
 }
 
-void brace_measured_take(const brace_app_t *app, uint32_t now_us, brace_measured_t *measured)
+void request_store_status(const controller_t *controller, brace_store_status_t *status)
 {
-    (void)app;
-    (void)now_us;
-    brace_measured_t any;
-    *measured = any;
+    (void)controller;
+    brace_store_status_t any;
+    *status = any;
+}
+
+brace_status_t request_k_at_posture(controller_t *controller, float theta1_rad, float theta2_rad,
+                                    brace_stiffness_t *stiffness)
+{
+    (void)controller;
+    (void)theta1_rad;
+    (void)theta2_rad;
+    brace_stiffness_t any;
+    *stiffness = any;
+    return any_status();
+}
+
+brace_status_t request_k_at_tip(controller_t *controller, brace_point_t tip, brace_knee_t knee,
+                                brace_stiffness_t *stiffness)
+{
+    PROVE(knee == BRACE_KNEE_UP || knee == BRACE_KNEE_DOWN, "a knee that there is");
+    return request_k_at_posture(controller, tip.x_mm, tip.z_mm, stiffness);
+}
+
+brace_status_t request_k_in_space(controller_t *controller, float theta0_rad, float theta1_rad, float theta2_rad,
+                                  brace_stiffness_spatial_t *stiffness)
+{
+    (void)controller;
+    (void)theta0_rad;
+    (void)theta1_rad;
+    (void)theta2_rad;
+    brace_stiffness_spatial_t any;
+    *stiffness = any;
+    return any_status();
+}
+
+brace_status_t request_contact_force(const controller_t *controller, brace_displacement_t displacement,
+                                     brace_contact_force_t *contact)
+{
+    (void)controller;
+    (void)displacement;
+    brace_contact_force_t any;
+    *contact = any;
+    return any_status();
+}
+
+brace_status_t request_sag(const controller_t *controller, brace_force_t load, brace_displacement_t *sag)
+{
+    (void)controller;
+    (void)load;
+    brace_displacement_t any;
+    *sag = any;
+    return any_status();
+}
+
+brace_status_t request_grip(const controller_t *controller, float normal_rad, float friction_ratio,
+                            brace_contact_grip_t *grip)
+{
+    (void)controller;
+    (void)normal_rad;
+    (void)friction_ratio;
+    brace_contact_grip_t any;
+    *grip = any;
+    return any_status();
 }
 
 brace_status_t measured_entry(const brace_measured_t *measured, uint32_t entry, uint32_t *value)
@@ -113,6 +207,27 @@ brace_status_t measured_entry(const brace_measured_t *measured, uint32_t entry, 
     }
     *value = any_u32();
     return BRACE_OK;
+}
+
+brace_status_t parameter_entry(const brace_parameters_t *of, uint32_t number, uint32_t *value)
+{
+    (void)of;
+    (void)number;
+    *value = any_u32();
+    return any_bool() ? BRACE_OK : BRACE_E_RANGE;
+}
+
+uint32_t parameter_member(const brace_parameters_t *of, uint32_t index)
+{
+    (void)of;
+    PROVE(index < BRACE_PARAMETER_COUNT, "a member that there is");
+    return any_u32();
+}
+
+uint32_t brace_parameter_number(uint32_t index)
+{
+    (void)index;
+    return any_u32();
 }
 
 uint32_t brace_crc32(uint32_t crc, const uint8_t *bytes, uint32_t count)
@@ -130,69 +245,33 @@ brace_status_t brace_block_header(const uint8_t *block, uint32_t length, brace_b
     return any_status();
 }
 
-void brace_block_members(const uint8_t *block, brace_parameters_t *parameters)
+void brace_block_members(const uint8_t *block, brace_parameters_t *set)
 {
     PROVE(__CPROVER_r_ok(block, BRACE_BLOCK_BYTES), "a whole block");
     brace_parameters_t any;
-    *parameters = any;
+    *set = any;
 }
 
-/* A frame begins with code and part, then the token (the dictionary's tests);
- * the rest is any (codec_numbers, codec_whole). */
-#define PACKS(frame, head)                                                                                             \
-    uint32_t brace_can_pack_##frame(const brace_can_##frame##_t *message, uint8_t data[8])                             \
-    {                                                                                                                  \
-        uint8_t any[8];                                                                                                \
-        memcpy(data, any, 8);                                                                                          \
-        data[0] = (uint8_t)(head);                                                                                     \
-        data[1] = (uint8_t)message->token;                                                                             \
-        return any_u8();                                                                                               \
+/* A frame begins with code and part, then the token (the dictionary's tests); the rest is any (codec_numbers,
+ * codec_whole). */
+static void packs(uint32_t code, uint32_t token, uint8_t (*parts)[8])
+{
+    for (uint32_t i = 0; i < brace_can_answer_parts[code]; i++) { /* at most BRACE_CAN_ANSWER_PARTS_MOST */
+        uint8_t any[8];
+        memcpy(parts[i], any, 8);
+        parts[i][0] = (uint8_t)(code + i * BRACE_ANSWER_PART);
+        parts[i][1] = (uint8_t)token;
     }
-PACKS(read_entry_answer_0, BRACE_REQUEST_READ_ENTRY)
-PACKS(write_entry_answer_0, BRACE_REQUEST_WRITE_ENTRY)
-PACKS(k_at_posture_answer_0, BRACE_REQUEST_K_AT_POSTURE)
-PACKS(k_at_posture_answer_1, BRACE_REQUEST_K_AT_POSTURE + BRACE_ANSWER_PART)
-PACKS(k_at_posture_answer_2, BRACE_REQUEST_K_AT_POSTURE + 2 * BRACE_ANSWER_PART)
-PACKS(contact_force_answer_0, BRACE_REQUEST_CONTACT_FORCE)
-PACKS(contact_force_answer_1, BRACE_REQUEST_CONTACT_FORCE + BRACE_ANSWER_PART)
-PACKS(sag_for_load_answer_0, BRACE_REQUEST_SAG_FOR_LOAD)
-PACKS(friction_margin_answer_0, BRACE_REQUEST_FRICTION_MARGIN)
-PACKS(set_mode_answer_0, BRACE_REQUEST_SET_MODE)
-PACKS(upload_begin_answer_0, BRACE_REQUEST_UPLOAD_BEGIN)
-PACKS(upload_word_answer_0, BRACE_REQUEST_UPLOAD_WORD)
-PACKS(commit_answer_0, BRACE_REQUEST_COMMIT)
-PACKS(commit_answer_1, BRACE_REQUEST_COMMIT + BRACE_ANSWER_PART)
-PACKS(download_word_answer_0, BRACE_REQUEST_DOWNLOAD_WORD)
-PACKS(take_up_answer_0, BRACE_REQUEST_TAKE_UP)
-PACKS(let_go_answer_0, BRACE_REQUEST_LET_GO)
-PACKS(loading_test_start_answer_0, BRACE_REQUEST_LOADING_TEST_START)
-PACKS(loading_test_stop_answer_0, BRACE_REQUEST_LOADING_TEST_STOP)
-PACKS(fetch_row_answer_0, BRACE_REQUEST_FETCH_ROW)
-PACKS(identify_answer_0, BRACE_REQUEST_IDENTIFY)
-PACKS(identify_answer_1, BRACE_REQUEST_IDENTIFY + BRACE_ANSWER_PART)
-PACKS(identify_answer_2, BRACE_REQUEST_IDENTIFY + 2 * BRACE_ANSWER_PART)
-PACKS(identify_answer_3, BRACE_REQUEST_IDENTIFY + 3 * BRACE_ANSWER_PART)
-PACKS(loading_test_result_answer_0, BRACE_REQUEST_LOADING_TEST_RESULT)
-PACKS(clear_answer_0, BRACE_REQUEST_CLEAR)
-PACKS(refusal, 7 * BRACE_ANSWER_PART)
-
-/* What of the bus is not under proof here. */
-bool bus_receive(brace_app_t *app, brace_can_frame_t *frame) { (void)app; (void)frame; return false; }
-bool slcan_port_receive(brace_app_t *app, brace_can_frame_t *frame) { (void)app; (void)frame; return false; }
-uint32_t bus_send_some(brace_app_t *app, uint32_t function, const uint8_t (*data)[8], uint32_t count)
-{
-    (void)app;
-    (void)function;
-    (void)data;
-    (void)count;
-    return 0;
 }
 
-static uint32_t any_clock(void *context)
-{
-    (void)context;
-    return any_u32();
-}
+#define PACKS(CODE, name)                                                                                              \
+    void brace_can_pack_##name##_answer(const brace_can_##name##_answer_t *answer, uint32_t token,                     \
+                                        uint8_t (*parts)[8])                                                           \
+    {                                                                                                                  \
+        (void)answer;                                                                                                  \
+        packs(CODE, token, parts);                                                                                     \
+    }
+BRACE_CAN_REQUESTS(PACKS)
 
 /* -------------------------------------------------------------------------------------------- the claims -- */
 
@@ -220,60 +299,67 @@ static uint32_t allowed(const uint8_t *request)
     }
 }
 
-static void answers_are_of(const brace_app_requests_t *requests, const uint8_t *request, uint32_t before, bool later)
+static void answers_are_of(const can_answers_t *answers, const uint8_t *request, uint32_t before, bool later)
 {
-    const uint32_t count = requests->answer_count - before, which = any_u32();
-    PROVE(requests->answer_count >= before && count <= PARTS_MOST && requests->answer_count <= BRACE_APP_ANSWERS,
+    const uint32_t count = answers->count - before, which = any_u32();
+    PROVE(answers->count >= before && count <= BRACE_CAN_ANSWER_PARTS_MOST && answers->count <= CAN_ANSWERS_ROOM,
           "as many parts as there is room for");
     PROVE(later ? count == 0u : count >= 1u, "an answer or a refusal, at once; or later, when it is stored");
     ASSUME(which < count); /* any part, so all */
-    const uint8_t *part = requests->answer[(requests->answer_first + before + which) % BRACE_APP_ANSWERS];
+    const uint8_t *part = answers->frame[(answers->first + before + which) % CAN_ANSWERS_ROOM];
     PROVE((part[0] & 31u) == request[0] && part[1] == request[1], "with the request's code and token");
     PROVE(part[0] >> 5 == which || (part[0] >> 5 == 7u && count == 1u), "its parts in order, or one refusal");
 }
 
 int main(void)
 {
-    brace_app_t app; /* of any content */
-    const brace_hal_t door = {.now_us = any_clock};
-    app.hal = &door;
-    brace_app_requests_t *requests = &app.requests;
+    can_session_t session; /* of any content, as all of these */
+    can_answers_t answers;
+    brace_measured_t measured;
+    uint8_t data[8], as_sent[8];
+    wire_tick_t tick;
+    tick.measured = &measured;
+    can_request_t request = {
+        .data = data, .node_id = any_u8(), .tick = &tick, .session = &session, .answers = &answers};
     const uint32_t at = any_u32();
-    ASSUME(*(const uint8_t *)&requests->upload_open <= 1u && *(const uint8_t *)&requests->refuses <= 1u);
-    ASSUME(requests->request[0] < BRACE_ANSWER_PART); /* else it is not taken for one */
-    ASSUME(requests->answer_first < BRACE_APP_ANSWERS && requests->answer_count + PARTS_MOST <= BRACE_APP_ANSWERS);
-    ASSUME(requests->upload_next <= BRACE_BLOCK_BYTES / 4 && requests->download_next <= BRACE_BLOCK_BYTES / 4);
-    ASSUME(requests->storing == 0u); /* what was stored before is answered before: services_run */
-    ASSUME(at < BRACE_BLOCK_BYTES);
+    ASSUME(*(const uint8_t *)&session.upload_is_open <= 1u);
+    ASSUME(data[0] < BRACE_ANSWER_PART); /* else it is not taken for one */
+    ASSUME(answers.first < CAN_ANSWERS_ROOM && answers.count + BRACE_CAN_ANSWER_PARTS_MOST <= CAN_ANSWERS_ROOM);
+    ASSUME(session.upload_next <= BRACE_BLOCK_BYTES / 4 && session.download_next <= BRACE_BLOCK_BYTES / 4);
     open_for_writing = any_bool();
-    const uint32_t count = requests->answer_count;
-    uint8_t request[8];
-    memcpy(request, requests->request, 8);
-    const brace_app_requests_t before = *requests;
-    const brace_mode_t mode = app.mode;
-    const uint32_t faults = app.faults, crc = app.parameter_crc;
+    ASSUME(session.storing == 0u || !open_for_writing); /* while a set is being stored, parameters cannot be written */
+    ASSUME(at < BRACE_BLOCK_BYTES);
+    ANY(snapshot);
+    ANY(parameters);
+    ANY(result);
+    const uint32_t count = answers.count;
+    memcpy(as_sent, data, 8);
+    const can_session_t before = session;
 
-    requests_serve(&app);
+    const bool is_known = can_requests_answer(&request);
 
-    const uint32_t code = request[0];
-    const bool stores = requests->storing != 0u;
-    answers_are_of(requests, request, count, stores);
-    PROVE((done & ~allowed(request)) == 0u, "nothing is done but what the request names");
-    PROVE(app.mode == mode && app.faults == faults && app.parameter_crc == crc,
-          "nor is anything changed behind its back");
-    PROVE(!stores || (requests->storing == code && requests->storing_token == request[1]),
+    const uint32_t code = data[0];
+    const bool stores = before.storing == 0u && session.storing != 0u;
+    PROVE(same(data, as_sent, 8), "a request is not changed");
+    PROVE(is_known || (done == 0u && answers.count == count + 1u), "an unknown request does nothing but be refused");
+    PROVE((done & ~allowed(data)) == 0u, "nothing is done but what the request names");
+    PROVE(!stores || (session.storing == code && session.storing_token == data[1]),
           "what is stored is answered to who asked");
-    PROVE(requests->upload_next <= BRACE_BLOCK_BYTES / 4 && requests->download_next <= BRACE_BLOCK_BYTES / 4,
+    PROVE(before.storing == 0u ||
+              (session.storing == before.storing && session.storing_token == before.storing_token),
+          "nobody else is given the answer to what is being stored");
+    PROVE(session.upload_next <= BRACE_BLOCK_BYTES / 4 && session.download_next <= BRACE_BLOCK_BYTES / 4,
           "words within the block");
     const bool uploads =
         code == BRACE_REQUEST_UPLOAD_BEGIN || code == BRACE_REQUEST_UPLOAD_WORD || code == BRACE_REQUEST_COMMIT;
-    PROVE(uploads || (requests->upload_open == before.upload_open && requests->upload_next == before.upload_next &&
-                      requests->upload_sum == before.upload_sum && requests->upload_crc == before.upload_crc),
+    PROVE(uploads || (session.upload_is_open == before.upload_is_open && session.upload_next == before.upload_next &&
+                      session.upload_sum == before.upload_sum && session.upload_crc == before.upload_crc),
           "an upload is left alone");
-    PROVE(code == BRACE_REQUEST_UPLOAD_WORD || requests->upload[at] == before.upload[at], "and so are its words");
+    PROVE(code == BRACE_REQUEST_UPLOAD_WORD || session.upload[at] == before.upload[at], "and so are its words");
     PROVE(code == BRACE_REQUEST_DOWNLOAD_WORD ||
-              (requests->download_next == before.download_next && requests->download_crc == before.download_crc &&
-               requests->download_set == before.download_set),
+              (session.download_next == before.download_next && session.download_sum == before.download_sum &&
+               session.download_set == before.download_set),
           "a download is left alone");
+    answers_are_of(&answers, data, count, stores); /* the last, since it assumes that there is a part */
     return 0;
 }

@@ -3,7 +3,7 @@
 #include "brace/store.h"
 
 #include "memory.h"
-#include "store/store.c"
+#include "jobs/store/store.c"
 
 uint32_t brace_crc32(uint32_t crc, const uint8_t *bytes, uint32_t count)
 {
@@ -22,9 +22,9 @@ void brace_block_members(const uint8_t *block, brace_parameters_t *parameters)
 brace_status_t brace_parameters_check_piece(const brace_parameters_t *parameters, uint32_t piece, uint32_t *wrong_index)
 {
     (void)parameters;
-    (void)wrong_index;
     PROVE(piece < (uint32_t)BRACE_CHECK_PIECES, "a piece that there is");
-    return any_bool() ? BRACE_OK : BRACE_E_PARAMETER;
+    *wrong_index = any_u32();
+    return any_bool() ? BRACE_OK : any_bool() ? BRACE_E_PARAMETER : BRACE_E_NOT_FINITE;
 }
 
 /* How far a stage has come. */

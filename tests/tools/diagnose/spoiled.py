@@ -11,11 +11,11 @@ import numpy as np
 from brace.dataset.write import csv_text, meta_text
 from brace.model import LimbModel, load_limb
 from brace.rig import load_rig
-from brace.simulate import simulate
+from brace.simulate import MetaTables, simulate
 
 Rng = np.random.Generator
 Columns = dict[str, np.ndarray]
-Meta = dict[str, Any]
+Meta = MetaTables
 Spoiler = Callable[[Columns, Meta, Rng], set[str]]
 
 LIMBS: dict[str, dict[str, float]] = {  # what differs from the paper's limb

@@ -15,7 +15,6 @@ from scipy.optimize import least_squares
 from brace.dataset import load_dataset
 from brace.dataset.write import write_dataset
 from brace.diagnose.diagnosis import NextExperiment
-from brace.diagnose.effects.variant import Freedom, Variant
 from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.next_experiment.confusability import confusability, in_words
 from brace.diagnose.loading.next_experiment.experiment import next_experiment
@@ -34,6 +33,7 @@ from brace.diagnose.loading.next_experiment.separation import (
 )
 from brace.diagnose.loading.space import space_of, trust_of
 from brace.diagnose.options import Options
+from brace.effects import Freedom, Variant
 from brace.model import LimbModel, load_limb
 from brace.native.plant import LoadingPlayer
 from brace.rig import load_rig

@@ -16,6 +16,7 @@ from brace.diagnose.diagnosis import Diagnosis, Interval, NamedEffect
 from brace.diagnose.export import Exported, export
 from brace.model import LimbModel, load_limb
 from brace.model.limb import limb_from_document
+from brace.toml import Value
 
 HEADER = ["by a test", "of something"]
 COMMENTED = """# my limb, bought in May
@@ -42,7 +43,7 @@ def _believed(tmp_path: Path, text: str) -> LimbModel:
     return load_limb(path)
 
 
-def _exported(tmp_path: Path, text: str, changes: Mapping[str, object]) -> tuple[LimbModel, Exported]:
+def _exported(tmp_path: Path, text: str, changes: Mapping[str, Value]) -> tuple[LimbModel, Exported]:
     believed = _believed(tmp_path, text)
     found = Diagnosis("effect", "x", believed.with_values(changes))
     return believed, export(found, believed, text, HEADER)
@@ -53,7 +54,7 @@ def _reread(text: str) -> LimbModel:
 
 
 def test_comments_and_order_are_kept(tmp_path: Path) -> None:
-    changes = {
+    changes: dict[str, Value] = {
         "joint.tibia.gap_rad": 0.0061,
         "geometry.femur_mm": 185.5,
         "link.tibia.axial_mm_per_n": 0.0021,

@@ -17,9 +17,10 @@ from brace.diagnose.joint_test.fit import Fitter
 from brace.diagnose.joint_test.hold_out import held_out, ramps
 from brace.diagnose.joint_test.intake import spring_alone
 from brace.diagnose.joint_test.record import JointRecord
-from brace.diagnose.joint_test.terms import catalogue
+from brace.diagnose.joint_test.terms import effects_of
 from brace.diagnose.options import Options
 from brace.diagnose.run import diagnose
+from brace.effects import JointTestBench
 from brace.errors import BadFileError
 from brace.model import load_limb
 
@@ -187,7 +188,8 @@ def test_a_gap_that_carries_torque_is_no_play(tmp_path: Path) -> None:
     folder = case.write(tmp_path)
     record = JointRecord(load_dataset(folder))
     fitter = Fitter(record, spring_alone(load_dataset(folder)), np.inf)
-    gap = catalogue(fitter.base, "femur", record.extent, given=False, rests=False)[0]
+    bench = JointTestBench(record.size, given=False, rests=False)
+    gap = next(term for term in effects_of(fitter.base, "femur", bench) if term.name == "backlash")
     fitted = fitter.fit((gap,), fitter.fit(()), gap)
     assert fitted.rss < 0.8 * fitter.fit(()).rss
     assert "carries torque" in refusal(record, fitted)

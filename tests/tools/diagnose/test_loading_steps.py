@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from brace.dataset import load_dataset
 from brace.dataset.intake import Dataset
-from brace.diagnose.effects import PLUG_INS, all_variants
 from brace.diagnose.loading.choose import posterior_of
 from brace.diagnose.loading.confidence import of_label
 from brace.diagnose.loading.evidence import SPREAD, score
@@ -26,6 +25,7 @@ from brace.diagnose.loading.search import Search
 from brace.diagnose.loading.space import compatible, space_of, trust_of
 from brace.diagnose.loading.structure import structure_of
 from brace.diagnose.loading.verdict import HINT, NOTHING_STANDS
+from brace.effects import EFFECTS, all_variants
 from brace.model import LimbModel, load_limb
 from brace.native.plant import play_rig
 
@@ -337,7 +337,7 @@ def test_the_catalogue_is_whole_and_its_keys_exist(tmp_path: Path, believed: Lim
     """Twenty names as the format lists them; each variant makes a space of its own."""
     record = load_record(recorded(tmp_path, believed, 1, repeats=1))
     variants = all_variants(setting_of(record, believed))
-    assert len(PLUG_INS) == 20
+    assert len(EFFECTS) == len({effect.name for effect in EFFECTS}) == 20
     trust = trust_of(believed)
     for variant in variants:
         space = space_of(trust, (variant,))

@@ -7,11 +7,13 @@ import time
 from typing import TYPE_CHECKING
 
 from brace.bus.controller import Advance, Identity, StiffnessAnswer, Stored, check_dictionary
+from brace.bus.drift import TAKE_UPS, Drift, drift_of, take_up_of
 from brace.bus.entries import index_of
 from brace.bus.session import Session
-from brace.bus.snapshot import Snapshot, names_of_bits
+from brace.bus.snapshot import Snapshot
+from brace.bus.space import SpaceStiffness, space_answer
 from brace.errors import DeviceFaultError, NoDeviceError, NotVerifiedError, VersionMismatchError
-from brace.wire.frames import ANSWERS, MESSAGES, REQUESTS
+from brace.wire.codes import FLAG, MODE, PARAMETER_ORIGIN
 from brace.wire.layout import Value
 
 if TYPE_CHECKING:
@@ -22,13 +24,7 @@ COMMIT_S = 2.5  # the store erases, writes and reads back
 MODE_S = 0.5
 LIVE_S = 0.6  # twelve periods of the slower frames
 _SIZE_WORD = 0xFFFF
-_MODES = {
-    name.lower(): code
-    for code, name in next(f.names for f in REQUESTS["set_mode"].fields if f.name == "mode").items()
-}
-_ORIGINS = next(f.names for f in ANSWERS["identify"][3].fields if f.name == "origin")
-_FLAGS = next(f.bit_names for f in MESSAGES["stiffness_a"].fields if f.name == "flags")
-_STATES = next(f.names for f in MESSAGES["posture"].fields if f.name == "mode")
+_MODES = {code.name.lower(): code.number for code in MODE.codes}
 
 
 class CanController:
@@ -45,7 +41,7 @@ class CanController:
         version = f"{answer['major']}.{answer['minor']}.{answer['patch']}"
         check_dictionary(answer["dictionary_hash"], self.session.where, version)
         self._schema_hash = answer["schema_hash"]
-        origin = _ORIGINS.get(answer["origin"], str(answer["origin"])).lower()
+        origin = PARAMETER_ORIGIN.name_of(int(answer["origin"] or 0)).lower()
         return Identity(self.node, version, answer["dictionary_hash"], answer["parameter_crc"], origin)
 
     def identify(self) -> Identity:
@@ -54,7 +50,8 @@ class CanController:
         return self._identity
 
     def live(self) -> Snapshot:
-        """The next snapshot that comes with its eigenvalues and posture; K alone where those are not sent."""
+        """The next snapshot that comes with all that this node sends of it; K alone where eigenvalues and posture are
+        not sent."""
         until = time.monotonic() + LIVE_S
         alone: Snapshot | None = None
         while (left := until - time.monotonic()) > 0:
@@ -62,7 +59,7 @@ class CanController:
             newest = self.session.newest.get(self.node)
             if frame is None or frame.node != self.node or newest is None:
                 continue
-            if newest.has_posture:
+            if self.session.joiner.is_complete(newest):
                 del self.session.newest[self.node]
                 return newest
             alone = newest
@@ -78,6 +75,19 @@ class CanController:
     def k_at_posture(self, theta1_rad: float, theta2_rad: float) -> StiffnessAnswer:
         """True angles."""
         return _stiffness(self.session.ask("k_at_posture", {"theta1": theta1_rad, "theta2": theta2_rad}))
+
+    def k_in_space_at_posture(self, theta0_rad: float, theta1_rad: float, theta2_rad: float) -> SpaceStiffness:
+        """True angles; refused where the limb has no coxa joint."""
+        asked = {"theta0": theta0_rad, "theta1": theta1_rad, "theta2": theta2_rad}
+        return space_answer(self.session.ask("k_in_space_at_posture", asked))
+
+    def drift(self) -> Drift:
+        """What the check of model against measurement knows."""
+        return drift_of(self.session.ask("drift"))
+
+    def take_ups(self) -> dict[str, str]:
+        """How each joint's last take-up went."""
+        return {joint: take_up_of(self.read_entry(f"take_up_{joint}")) for joint in TAKE_UPS}
 
     def k_at_tip(self, x_mm: float, z_mm: float, knee_up: bool) -> StiffnessAnswer:
         """From the femur axis."""
@@ -120,7 +130,7 @@ class CanController:
 
     def _set_mode(self, mode: str) -> None:
         answer = self.session.ask("set_mode", {"mode": _MODES[mode], "key": KEY})
-        now = _STATES.get(int(answer["mode"] or 0), str(answer["mode"])).lower()
+        now = MODE.name_of(int(answer["mode"] or 0)).lower()
         if (now == "configuration") != (mode == "configuration"):
             raise DeviceFaultError(
                 f"the controller is in {now}, not in {mode}",
@@ -193,7 +203,7 @@ class CanController:
 def _stiffness(answer: dict[str, Value]) -> StiffnessAnswer:
     names = ("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max", "stiff_axis")
     values = {name: answer[name] for name in names}
-    return StiffnessAnswer(**values, flags=names_of_bits(_FLAGS, int(answer["flags"] or 0)))
+    return StiffnessAnswer(**values, flags=FLAG.names_of_bits(int(answer["flags"] or 0)))
 
 
 def _stored(answer: dict[str, Value]) -> Stored:

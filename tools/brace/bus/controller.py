@@ -6,7 +6,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+from brace.bus.drift import Drift
 from brace.bus.snapshot import Snapshot
+from brace.bus.space import SpaceStiffness
 from brace.errors import VersionMismatchError
 from brace.wire.frames import DICTIONARY_HASH
 from brace.wire.layout import Value
@@ -58,9 +60,16 @@ class Controller(Protocol):
     def identify(self) -> Identity: ...
 
     def live(self) -> Snapshot:
-        """The newest snapshot, with eigenvalues and posture."""
+        """The newest snapshot, with eigenvalues and posture, and with K in space where there is one."""
 
     def k_at_posture(self, theta1_rad: float, theta2_rad: float) -> StiffnessAnswer: ...
+
+    def k_in_space_at_posture(self, theta0_rad: float, theta1_rad: float, theta2_rad: float) -> SpaceStiffness: ...
+
+    def drift(self) -> Drift: ...
+
+    def take_ups(self) -> dict[str, str]:
+        """How the last take-up of each joint went, by the joint's name."""
 
     def k_at_tip(self, x_mm: float, z_mm: float, knee_up: bool) -> StiffnessAnswer: ...
 

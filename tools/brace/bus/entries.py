@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import struct
-from typing import Any
 
 from brace.errors import UsageError, did_you_mean
 from brace.wire.measured import MEASURED
@@ -19,7 +18,7 @@ def index_of(name: str) -> int:
     if name in _MEASURED:
         return _MEASURED[name].index
     if name in _PARAMETERS:
-        return _PARAMETERS[name].index
+        return _PARAMETERS[name].number
     leaves = [key for key in _PARAMETERS if key.endswith(f".{name}")]
     near = " or ".join(leaves) or did_you_mean(name, [*_MEASURED, *_PARAMETERS])
     raise UsageError(
@@ -35,7 +34,7 @@ def unit_of(name: str) -> str:
     return _MEASURED[name].unit if name in _MEASURED else _PARAMETERS[name].unit
 
 
-def value_of(name: str, bits: int) -> Any:
+def value_of(name: str, bits: int) -> float | int | str | list[str] | None:
     """Number, name, list of names; None: not known."""
     kind = _MEASURED[name].type if name in _MEASURED else _PARAMETERS[name].type
     if kind == "f32":
@@ -45,6 +44,28 @@ def value_of(name: str, bits: int) -> Any:
         texts = _PARAMETERS[name].texts
         return texts[bits] if bits < len(texts) else bits
     entry = _MEASURED[name]
-    if entry.bit_names:
-        return [text for bit, text in enumerate(entry.bit_names) if bits >> bit & 1]
-    return entry.names[bits].lower() if bits < len(entry.names) else bits
+    table = entry.codes
+    if table is None or entry.numeric:
+        return bits
+    if table.is_bits:
+        return list(table.names_of_bits(bits))
+    code = table.find(bits)
+    return bits if code is None else code.name.lower()
+
+
+def number_of(name: str, bits: int) -> float:
+    """The value of an entry that is a number; NaN: not known."""
+    value = value_of(name, bits)
+    if isinstance(value, (int, float)):
+        return value
+    if value is None:
+        return math.nan
+    raise TypeError(f"{name} is {value!r}, not a number")
+
+
+def names_of(name: str, bits: int) -> list[str]:
+    """The value of an entry that is a set of names."""
+    value = value_of(name, bits)
+    if isinstance(value, list):
+        return value
+    raise TypeError(f"{name} is {value!r}, not a set of names")

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from brace.bus.entries import value_of
+from brace.bus.entries import number_of
 from brace.bus.session import Session
 from brace.dataset.columns import LOADING
 from brace.errors import DeviceFaultError, NoDeviceError
@@ -87,7 +87,7 @@ def _outcome(session: Session) -> int:
 
 def fetch(session: Session, runs: int, advance: Callable[[int], None]) -> dict[str, np.ndarray]:
     """The rows of the newest `runs` tests, as columns of data.csv; a column that is nowhere known is left out."""
-    count = int(value_of("loading_rows", _entry(session, "loading_rows")))
+    count = int(number_of("loading_rows", _entry(session, "loading_rows")))
     if count == 0:
         raise DeviceFaultError(
             "the controller holds no rows",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from pathlib import Path
+from types import ModuleType
 from typing import Any, BinaryIO
 
 from brace.bus.frame import Frame
@@ -23,7 +24,7 @@ _FRAME_SCHEMA = {
 }
 
 
-def _library() -> Any:
+def _library() -> ModuleType:
     try:
         import mcap
     except ImportError as error:
@@ -77,7 +78,7 @@ class McapWriter:
             self._channels[node] = self._writer.register_channel(f"/limb_{node}/stiffness", "json", schema)
         return self._channels[node]
 
-    def _message(self, channel: int, time_s: float, entry: Any) -> None:
+    def _message(self, channel: int, time_s: float, entry: object) -> None:
         stamp = round(time_s * 1e9)
         self._sequence += 1
         self._writer.add_message(

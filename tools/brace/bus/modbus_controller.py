@@ -11,10 +11,13 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from brace.bus.controller import Advance, Identity, StiffnessAnswer, Stored, check_dictionary
+from brace.bus.drift import TAKE_UPS, Drift, drift_of, take_up_of
 from brace.bus.refusal import STORE, error_of
-from brace.bus.snapshot import Snapshot, names_of_bits
+from brace.bus.snapshot import Snapshot
+from brace.bus.space import SpaceSnapshot, SpaceStiffness, space_snapshot
 from brace.bus.url import BusUrl
-from brace.errors import BraceError, DeviceFaultError, MissingLibraryError, NoDeviceError
+from brace.errors import BraceError, DeviceFaultError, MissingLibraryError, NoDeviceError, UsageError
+from brace.wire.codes import FLAG
 from brace.wire.layout import Value
 from brace.wire.measured import MEASURED
 from brace.wire.register import Register
@@ -29,11 +32,23 @@ COMMIT_S = 2.5
 BUSY_S = 2.5  # as long as a commit may take
 APART_S = 0.03  # between two questions that another client's came between
 _BLOCK = 120  # registers in a request; 125 may be read, 123 written
+_ONE_READ = 125  # registers that one request reads: values of one snapshot
 _KEY = 0xC0DE0000
-_INPUT = [r for r in REGISTERS if r.table == "input" and r.address < 4096]
+_INPUT = [r for r in REGISTERS if r.table == "input" and r.address + 2 <= _ONE_READ]
 _ASKED = [r for r in REGISTERS if r.table == "input" and r.address >= 4096]
 _PARAMETERS = [r for r in REGISTERS if r.table == "holding" and r.access == "rw"]
 _BY_NAME = {r.name: r for r in REGISTERS}
+
+
+def _between(first: str, last: str) -> list[Register]:
+    """Input registers that lie together."""
+    low, high = _BY_NAME[first].address, _BY_NAME[last].address
+    return [r for r in REGISTERS if r.table == "input" and low <= r.address <= high]
+
+
+_SPACE = _between("k_is_in_space", "play_coxa")
+_DRIFT = _between("drift_state", "drift_next_step")
+_TAKE_UPS = _between("take_up_coxa", "take_up_tibia")
 _FORCES = (("fx_n", "x"), ("fz_n", "z"), ("low_n", "low"), ("high_n", "high"))
 _ENTRIES = {entry.name: entry for entry in MEASURED}
 _EXCEPTIONS = {
@@ -92,10 +107,13 @@ class ModbusController:
         )
 
     def live(self) -> Snapshot:
-        """One read is one snapshot."""
+        """One read is one snapshot. A read does not hold K in space too: that is read next, and is of one snapshot, its
+        own."""
         v = self._input()
         valid = bool(v["k_is_valid"])
         age = v["age_us"]
+        faults = tuple(name.lower() for name in _bits("faults", v))
+        has_coxa_joint = bool(v["k_is_in_space"]) or v["theta0"] is not None or "sensor_coxa" in faults
         return Snapshot(
             node=self.node,
             time_s=time.time(),
@@ -114,8 +132,34 @@ class ModbusController:
             theta1=v["theta1"],
             theta2=v["theta2"],
             mode=_name("mode", v),
-            faults=tuple(name.lower() for name in _bits("faults", v)),
+            faults=faults,
+            space=self._space() if has_coxa_joint else None,
+            adds="posture",
         )
+
+    def _space(self) -> SpaceSnapshot:
+        v = self._values_of(_SPACE)
+        if not v["k_is_in_space"]:
+            v |= {name: None for name in v if name.startswith("space_k_")}
+        return space_snapshot(v, "space_")
+
+    def k_in_space_at_posture(self, theta0_rad: float, theta1_rad: float, theta2_rad: float) -> SpaceStiffness:
+        """The register map has no such question."""
+        raise UsageError(
+            "K in space at a posture over Modbus",
+            where=self.url,
+            why="the registers hold K in space of now only",
+            next_step="ask over CAN (--bus can0, slcan:DEVICE or tcp://HOST:PORT), or compute it: brace k --theta0",
+        )
+
+    def drift(self) -> Drift:
+        """What the check of model against measurement knows."""
+        return drift_of(self._values_of(_DRIFT), "drift_", "_ratio")
+
+    def take_ups(self) -> dict[str, str]:
+        """How each joint's last take-up went."""
+        v = self._values_of(_TAKE_UPS)
+        return {joint: take_up_of(int(v[f"take_up_{joint}"] or 0)) for joint in TAKE_UPS}
 
     def k_at_posture(self, theta1_rad: float, theta2_rad: float) -> StiffnessAnswer:
         """Written, then read."""
@@ -125,12 +169,12 @@ class ModbusController:
         """From the femur axis."""
         return self._stiffness(self._ask("asked_tip_x", ">ffI", x_mm, z_mm, int(not knee_up)))
 
-    def sag_for_load(self, fx_n: float, fz_n: float) -> dict[str, Any]:
+    def sag_for_load(self, fx_n: float, fz_n: float) -> dict[str, Value]:
         """Displacement of the tip [mm] under a force on it, with the K of now."""
         v = self._ask("asked_load_x", ">ff", fx_n, fz_n)
         return {"dx_mm": v["asked_sag_x"], "dz_mm": v["asked_sag_z"]}
 
-    def contact_force(self, dx_mm: float, dz_mm: float) -> dict[str, Any]:
+    def contact_force(self, dx_mm: float, dz_mm: float) -> dict[str, Value]:
         """Force [N] that holds the tip at a displacement, and what any displacement of its size meets."""
         v = self._ask("asked_dx", ">ff", dx_mm, dz_mm)
         return {name: v[f"asked_force_{of}"] for name, of in _FORCES}
@@ -157,7 +201,7 @@ class ModbusController:
     @staticmethod
     def _stiffness(v: dict[str, Value]) -> StiffnessAnswer:
         names = ("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max", "stiff_axis")
-        flags = names_of_bits(_ENTRIES["flags"].bit_names, int(v["asked_flags"] or 0))
+        flags = FLAG.names_of_bits(int(v["asked_flags"] or 0))
         return StiffnessAnswer(**{name: v[f"asked_{name}"] for name in names}, flags=flags)
 
     def read_entry(self, name: str) -> int:
@@ -203,7 +247,7 @@ class ModbusController:
         self._command("rollback", _KEY | 1)
         return self._stored("rollback", before["parameter_sequence"], None)
 
-    def _stored(self, command: str, sequence_before: Any, crc: int | None) -> Stored:
+    def _stored(self, command: str, sequence_before: Value, crc: int | None) -> Stored:
         """Waits until another set is in force; a store that refused says so in the command's own register."""
         until = time.monotonic() + COMMIT_S
         while time.monotonic() < until:
@@ -244,8 +288,12 @@ class ModbusController:
 
     # ---------------------------------------------------------------------------------------- registers
 
-    def _input(self) -> dict[str, Any]:
+    def _input(self) -> dict[str, Value]:
         return _decoded(_INPUT, self._read("input", 0, 2 * len(_INPUT)))
+
+    def _values_of(self, registers: Sequence[Register]) -> dict[str, Value]:
+        """Of one read."""
+        return _decoded(registers, self._read("input", registers[0].address, 2 * len(registers)))
 
     def _read(self, table: str, address: int, count: int) -> tuple[int, ...]:
         function = (
@@ -304,9 +352,9 @@ class ModbusController:
         )
 
 
-def _decoded(registers: Sequence[Register], words: Sequence[int]) -> dict[str, Any]:
+def _decoded(registers: Sequence[Register], words: Sequence[int]) -> dict[str, Value]:
     first = registers[0].address
-    values: dict[str, Any] = {}
+    values: dict[str, Value] = {}
     for register in registers:
         at = register.address - first
         raw = struct.pack(">2H", *words[at : at + 2])
@@ -320,14 +368,15 @@ def _decoded(registers: Sequence[Register], words: Sequence[int]) -> dict[str, A
     return values
 
 
-def _name(name: str, values: Mapping[str, Any]) -> str:
+def _name(name: str, values: Mapping[str, Value]) -> str:
     code = int(values[name] or 0)
-    names = _ENTRIES[name].names
-    return names[code].lower() if code < len(names) else str(code)
+    table = _ENTRIES[name].codes
+    return str(code) if table is None else table.name_of(code).lower()
 
 
-def _bits(name: str, values: Mapping[str, Any]) -> tuple[str, ...]:
-    return names_of_bits(_ENTRIES[name].bit_names, int(values[name] or 0))
+def _bits(name: str, values: Mapping[str, Value]) -> tuple[str, ...]:
+    table = _ENTRIES[name].codes
+    return () if table is None else table.names_of_bits(int(values[name] or 0))
 
 
 def _connected(url: BusUrl) -> Any:

@@ -32,6 +32,8 @@ _STATUS = {  # brace_status_t: what, and whether the question was at fault
     -86: ("the memory is too small for a set", False),
     -87: ("a value is out of range, or values contradict each other", True),
 }
+_IN_SPACE = "k_in_space_at_posture"
+_UNSUPPORTED = -8
 _OF_NOW = ("contact_force", "sag_for_load")  # asked of the K of now; the detail is its flags
 _GAP_OPEN = 8
 BUSY = -66
@@ -54,6 +56,13 @@ def error_of(what: str, status: int, detail: int, where: str) -> BraceError:
             where=where,
             why=f"status {status}, detail {detail}: K of now is flagged GAP_OPEN",
             next_step="take the play up first (request take_up), or ask for K with the play closed: --theta1 --theta2",
+        )
+    if what == _IN_SPACE and status == _UNSUPPORTED:
+        return UsageError(
+            "the controller refuses k_in_space_at_posture: the limb has no coxa joint",
+            where=where,
+            why="its coxa joint gives no samples, so K is that of the limb's plane",
+            next_step="ask without --theta0",
         )
     reason, asked_wrong = _STATUS.get(status, (f"status {status}", False))
     kind = UsageError if asked_wrong else DeviceFaultError

@@ -10,7 +10,17 @@ from brace.bus.frame import NODE_MASK, Bus, EndOfLog, Frame
 from brace.bus.refusal import BUSY, error_of
 from brace.bus.snapshot import Heartbeat, Joiner, Snapshot, heartbeat_of
 from brace.errors import NoDeviceError, UsageError
-from brace.wire.frames import ANSWER_ID, ANSWERS, FD_MESSAGES, MESSAGES, REFUSAL, REFUSED_PART, REQUEST_ID, REQUESTS
+from brace.wire.frames import (
+    ANSWER_ID,
+    ANSWERS,
+    FD_MESSAGES,
+    MESSAGES,
+    MULTIPLEXED,
+    REFUSAL,
+    REFUSED_PART,
+    REQUEST_ID,
+    REQUESTS,
+)
 from brace.wire.layout import Value
 
 ANSWER_S = 0.25
@@ -19,7 +29,11 @@ HEARTBEAT_S = 1.15  # a heartbeat comes each second
 BUSY_S = 4.0  # a set that is being stored, a limb that goes back from a loading test: waited for
 BUSY_POLL_S = 0.02
 GATHER_S = 0.25  # for the other nodes of a bus, once one is heard
-_SENT_BY_NODES = {layout.identifier for layout in (*MESSAGES.values(), *FD_MESSAGES.values())} | {ANSWER_ID}
+_SENT_BY_NODES = {
+    ANSWER_ID,
+    *(layout.identifier for layout in (*MESSAGES.values(), *FD_MESSAGES.values())),
+    *(parts[0].identifier for parts in MULTIPLEXED.values()),
+}
 _NOT_REPEATED = frozenset(
     {"commit", "rollback", "loading_test_start", "take_up"}
 )  # whose second time is not the first

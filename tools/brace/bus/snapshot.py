@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass, field, replace
 
 from brace.bus.frame import NODE_MASK, Frame
-from brace.wire.frames import FD_MESSAGES, MESSAGES
+from brace.bus.space import SpaceSnapshot, space_snapshot
+from brace.wire.frames import FD_MESSAGES, MESSAGES, MULTIPLEXED
 from brace.wire.layout import Layout, Value
 
 # Halves with one number that lie further apart are of two rounds of the 8-bit counter: the shortest round is 256 ticks
@@ -15,6 +15,8 @@ from brace.wire.layout import Layout, Value
 PAIR_S = 0.040
 _LAYOUT_OF = {layout.identifier: layout for layout in MESSAGES.values()}
 _WHOLE = FD_MESSAGES["snapshot_fd"]
+_SPACE_FD = FD_MESSAGES["space_fd"]
+_SPACE = MULTIPLEXED["space"]  # its parts
 _PARTS = ("stiffness_a", "stiffness_b", "eigenvalues", "posture")
 
 
@@ -40,15 +42,17 @@ class Snapshot:
     theta2: Value = None
     mode: str = ""
     faults: tuple[str, ...] = ()
+    space: SpaceSnapshot | None = None  # of this snapshot; None: the limb has no coxa joint, or it has not come (yet)
+    adds: str = "stiffness"  # what has come last of it: stiffness, space, posture
 
     @property
     def is_valid(self) -> bool:
         """K may be used, with its flags."""
         return None not in (self.k_xx, self.k_xz, self.k_zz)
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, object]:
         """Names with units, as brace k and brace sim use them."""
-        entry: dict[str, Any] = {
+        entry: dict[str, object] = {
             "node": self.node,
             "time_s": round(self.time_s, 6),
             "sequence": self.sequence,
@@ -72,6 +76,8 @@ class Snapshot:
                 "mode": self.mode,
                 "faults": list(self.faults),
             }
+        if self.space is not None:
+            entry["space"] = self.space.as_json()
         return entry
 
 
@@ -96,6 +102,17 @@ class Emergency:
     error_code: int
     mode: str
     faults: tuple[str, ...]
+    drift_cause: str  # none while there is no fault model_drift
+
+
+@dataclass
+class _SpaceParts:
+    """Frames of K in space with one number."""
+
+    time_s: float  # of the first
+    sequence: Value
+    values: dict[str, Value] = field(default_factory=dict)
+    parts: set[int] = field(default_factory=set)
 
 
 @dataclass
@@ -110,17 +127,34 @@ class Joiner:
     def __init__(self) -> None:
         self._stiffness_a: dict[int, _Half] = {}
         self._eigenvalues: dict[int, _Half] = {}
-        self._whole: dict[int, Snapshot] = {}
+        self._space: dict[int, _SpaceParts] = {}
+        self._newest: dict[int, Snapshot] = {}
         self._seen: set[int] = set()
-        self.unmatched = 0  # halves whose other half never came
+        self._sends_space: set[int] = set()
+        self._whole_alone: dict[int, int] = {}  # of CAN FD: how many have come since K in space did
+        self.unmatched = 0  # snapshots some of whose frames never came
 
     def add(self, frame: Frame) -> Snapshot | None:
-        """The snapshot that this frame completes: first with K alone, then, where they are sent, with eigenvalues and
-        posture too (has_posture). Over CAN FD one frame has all of it."""
-        if frame.identifier & ~NODE_MASK == _WHOLE.identifier and len(frame.data) == _WHOLE.size and frame.node != 0:
-            return _whole(frame)
-        layout = _LAYOUT_OF.get(frame.identifier & ~NODE_MASK)
-        if layout is None or layout.name not in _PARTS or len(frame.data) != 8 or frame.node == 0:
+        """The snapshot that this frame completes or adds to: first with K alone, then, where they are sent, with K in
+        space, and with eigenvalues and posture. Over CAN FD one frame has all of it but K in space."""
+        identifier = frame.identifier & ~NODE_MASK
+        if frame.node == 0:
+            return None
+        if identifier == _WHOLE.identifier and len(frame.data) == _WHOLE.size:
+            self._whole_alone[frame.node] = self._whole_alone.get(frame.node, 0) + 1
+            self._newest[frame.node] = _whole(frame)
+            return self._newest[frame.node]
+        if identifier == _SPACE_FD.identifier and len(frame.data) == _SPACE_FD.size:
+            values = _SPACE_FD.decode(frame.data)
+            self._sends_space.add(frame.node)
+            self._whole_alone[frame.node] = 0
+            return self._add_space(frame.node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values)
+        if len(frame.data) != 8:
+            return None
+        if identifier == _SPACE[0].identifier:
+            return self._take_space_part(frame)
+        layout = _LAYOUT_OF.get(identifier)
+        if layout is None or layout.name not in _PARTS:
             return None
         values = layout.decode(frame.data)
         if layout.name == "stiffness_a":
@@ -136,12 +170,19 @@ class Joiner:
             return self._join_posture(frame, layout, values)
         return None
 
+    def is_complete(self, snapshot: Snapshot) -> bool:
+        """Has all of it come that this node sends? Over CAN FD, K in space comes behind the rest."""
+        if not snapshot.has_posture or snapshot.space is not None:
+            return snapshot.has_posture
+        may_follow = self._whole_alone.get(snapshot.node, 0) == 1
+        return snapshot.node not in self._sends_space and not may_follow
+
     def _join_stiffness(self, frame: Frame, layout: Layout, b: Mapping[str, Value]) -> Snapshot | None:
         a = self._stiffness_a.pop(frame.node, None)
         if not _fit(a, frame, b) or a is None:
             self.unmatched += frame.node in self._seen  # we may have come between the two
             return None
-        snapshot = Snapshot(
+        self._newest[frame.node] = Snapshot(
             node=frame.node,
             time_s=frame.time_s,
             sequence=int(b["sequence"] or 0),
@@ -153,19 +194,20 @@ class Joiner:
             play=(name_of(layout, "play_femur", b), name_of(layout, "play_tibia", b)),
             parameter_tag=b["parameter_tag"],
         )
-        self._whole[frame.node] = snapshot
+        snapshot = self._newest[frame.node]
+        space = self._space.get(frame.node)
+        if space is not None and len(space.parts) == len(_SPACE):  # it came before: its identifier is the lower one
+            return self._add_space(frame.node, space.time_s, space.sequence, space.values) or snapshot
         return snapshot
 
     def _join_posture(self, frame: Frame, layout: Layout, posture: Mapping[str, Value]) -> Snapshot | None:
         eigenvalues = self._eigenvalues.pop(frame.node, None)
-        whole = self._whole.get(frame.node)
-        if whole is None or eigenvalues is None or not _fit(eigenvalues, frame, posture):
+        newest = self._of_newest(frame.node, frame.time_s, posture["sequence"])
+        if newest is None or newest.has_posture or eigenvalues is None or not _fit(eigenvalues, frame, posture):
             return None
-        if whole.sequence != posture["sequence"] or abs(frame.time_s - whole.time_s) > PAIR_S:
-            return None
-        del self._whole[frame.node]
-        return replace(
-            whole,
+        self._newest[frame.node] = replace(
+            newest,
+            adds="posture",
             has_posture=True,
             lambda_min=eigenvalues.values["lambda_min"],
             lambda_max=eigenvalues.values["lambda_max"],
@@ -175,6 +217,43 @@ class Joiner:
             mode=name_of(layout, "mode", posture),
             faults=bit_names(layout, "faults", posture),
         )
+        return self._newest[frame.node]
+
+    def _take_space_part(self, frame: Frame) -> Snapshot | None:
+        """One of the frames that carry K in space together."""
+        part = frame.data[_SPACE[0].part_at // 8]
+        if part >= len(_SPACE):
+            return None
+        values = _SPACE[part].decode(frame.data)
+        self._sends_space.add(frame.node)
+        begun = self._space.get(frame.node)
+        fits = (
+            begun is not None
+            and begun.sequence == values["sequence"]
+            and abs(frame.time_s - begun.time_s) <= PAIR_S
+        )
+        if begun is None or not fits:
+            if begun is not None and 0 in begun.parts and len(begun.parts) < len(_SPACE):
+                self.unmatched += 1
+            begun = self._space[frame.node] = _SpaceParts(frame.time_s, values["sequence"])
+        begun.parts.add(part)
+        begun.values |= values
+        if len(begun.parts) < len(_SPACE):
+            return None
+        return self._add_space(frame.node, begun.time_s, begun.sequence, begun.values)
+
+    def _add_space(self, node: int, time_s: float, sequence: Value, values: Mapping[str, Value]) -> Snapshot | None:
+        newest = self._of_newest(node, time_s, sequence)
+        if newest is None or newest.space is not None:
+            return None
+        self._newest[node] = replace(newest, adds="space", space=space_snapshot(values))
+        return self._newest[node]
+
+    def _of_newest(self, node: int, time_s: float, sequence: Value) -> Snapshot | None:
+        """The newest snapshot of a node, if a frame is of it."""
+        newest = self._newest.get(node)
+        is_of_it = newest is not None and newest.sequence == sequence and abs(time_s - newest.time_s) <= PAIR_S
+        return newest if is_of_it else None
 
 
 def _whole(frame: Frame) -> Snapshot:
@@ -190,6 +269,7 @@ def _whole(frame: Frame) -> Snapshot:
         age_ms=values["age"],
         play=(name_of(_WHOLE, "play_femur", values), name_of(_WHOLE, "play_tibia", values)),
         parameter_tag=int(values["parameter_crc"] or 0) & 0xFFFF,
+        adds="posture",
         has_posture=True,
         lambda_min=values["lambda_min"],
         lambda_max=values["lambda_max"],
@@ -237,26 +317,16 @@ def emergency_of(frame: Frame) -> Emergency | None:
         int(values["error_code"] or 0),
         name_of(layout, "mode", values),
         bit_names(layout, "faults", values),
+        name_of(layout, "drift_cause", values),
     )
 
 
 def name_of(layout: Layout, field: str, values: Mapping[str, Value]) -> str:
     """A number's meaning."""
-    code = int(values[field] or 0)
-    return next(item.names for item in layout.fields if item.name == field).get(code, str(code)).lower()
+    return layout.codes_of(field).name_of(int(values[field] or 0)).lower()
 
 
 def bit_names(layout: Layout, field: str, values: Mapping[str, Value]) -> tuple[str, ...]:
     """The set bits' meanings; those of faults in small letters, as brace sim prints them."""
-    names = next(item.bit_names for item in layout.fields if item.name == field)
-    found = names_of_bits(names, int(values[field] or 0))
+    found = layout.codes_of(field).names_of_bits(int(values[field] or 0))
     return tuple(name.lower() for name in found) if field == "faults" else found
-
-
-def names_of_bits(names: tuple[str, ...], bits: int) -> tuple[str, ...]:
-    """Bits without a name by their number."""
-    return tuple(
-        names[bit] if bit < len(names) else f"BIT_{bit}"
-        for bit in range(bits.bit_length())
-        if bits >> bit & 1
-    )

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import deque
 from dataclasses import dataclass, field
-from typing import Any
 
 from brace.bus.controller import check_dictionary
 from brace.bus.frame import Frame
@@ -21,9 +20,12 @@ class NodeState:
 
     snapshot: Snapshot | None = None  # K
     posture: Snapshot | None = None  # the newest with eigenvalues and posture
+    space: Snapshot | None = None  # the newest with K in space
     heartbeat: Heartbeat | None = None
+    drift_cause: str = ""  # as the last emergency told it; empty: none has come
     snapshots: int = 0
     valid: int = 0
+    in_space: int = 0  # snapshots with K in space
     frames: int = 0
     last_s: float = 0.0
     times_s: deque[float] = field(default_factory=deque)
@@ -63,15 +65,23 @@ class Watch:
                 check_dictionary(event.dictionary_hash, f"{self._where}, node {frame.node}")
             state.heartbeat = event
         elif isinstance(event, Snapshot):
-            if event.has_posture:
-                state.posture = state.snapshot = event
-            else:
-                self.count(state, event)
+            self.take(state, event)
+        elif isinstance(event, Emergency):
+            state.drift_cause = event.drift_cause
         return event
 
-    def count(self, state: NodeState, snapshot: Snapshot) -> None:
-        """One more K of a node."""
+    def take(self, state: NodeState, snapshot: Snapshot) -> None:
+        """A snapshot, or more of the newest one; each counts once."""
+        newest = state.snapshot
+        is_more = newest is not None and (newest.sequence, newest.time_s) == (snapshot.sequence, snapshot.time_s)
         state.snapshot = snapshot
+        if snapshot.has_posture:
+            state.posture = snapshot
+        if snapshot.space is not None:
+            state.in_space += snapshot.adds == "space" or not is_more
+            state.space = snapshot
+        if is_more:
+            return
         state.snapshots += 1
         state.valid += snapshot.is_valid
         state.times_s.append(snapshot.time_s)
@@ -79,10 +89,10 @@ class Watch:
             state.times_s.popleft()
 
 
-def as_json(event: Event) -> dict[str, Any]:
+def as_json(event: Event) -> dict[str, object]:
     """One object for a line of --json."""
     if isinstance(event, Snapshot):
-        return {"event": "posture" if event.has_posture else "stiffness"} | event.as_json()
+        return {"event": event.adds} | event.as_json()
     if isinstance(event, Heartbeat):
         return {
             "event": "heartbeat",
@@ -100,4 +110,5 @@ def as_json(event: Event) -> dict[str, Any]:
         "error_code": f"{event.error_code:04x}",
         "mode": event.mode,
         "faults": list(event.faults),
+        "drift_cause": event.drift_cause,
     }

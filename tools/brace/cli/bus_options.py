@@ -7,7 +7,7 @@ import contextlib
 import signal
 import threading
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from brace.cli import common
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from brace.bus.url import BusUrl
 
 
-def add_bus(parser: Any, required: bool = True) -> None:
+def add_bus(parser: argparse.ArgumentParser, required: bool = True) -> None:
     """--bus URL and what belongs to it."""
     parser.add_argument(
         "--bus",

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
 
 from brace.cli import common
 from brace.cli.bus_options import add_bus, controller
-from brace.cli.options import refused
+from brace.cli.options import Subcommands, refused
 
 STAYING = {"drift": "model_drift", "crash": "crashed"}  # said on the command line: the fault's name in the dictionary
 
 
-def add(commands: Any) -> None:
+def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "clear",
@@ -44,11 +43,13 @@ def _staying(text: str) -> str:
 
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
+    from brace.bus.drift import cause_text
     from brace.errors import DeviceFaultError
 
     with controller(arguments) as device:
         before = _names(device.read_entry("faults"))
         asked = [name for name in dict.fromkeys(arguments.faults) if name in before]
+        cause = device.drift().cause if STAYING["drift"] in asked else "none"  # before it is cleared
         faults = _names(device.clear(_bits(asked))) if asked else before
         where = f"{device.url}, node {device.node}"
     back = [name for name in asked if name in faults]
@@ -60,22 +61,24 @@ def run(arguments: argparse.Namespace) -> int:
             next_step="docs/errors.md says what each fault wants; brace monitor shows when it comes",
         )
     if arguments.json:
-        common.print_json({"node": device.node, "cleared": asked, "faults": faults})
+        told = {"drift_cause": cause} if STAYING["drift"] in asked else {}
+        common.print_json({"node": device.node, "cleared": asked, "faults": faults, **told})
         return 0
     for name in dict.fromkeys(arguments.faults):
         common.say(f"{where}: {f'cleared {name}' if name in asked else f'{name} is not there, nothing to clear'}")
+    if cause != "none":
+        common.say(f"the drift's likeliest cause was {cause_text(cause)}")
     common.say(f"faults now: {' '.join(faults) or 'none'}")
     return 0
 
 
 def _names(bits: int) -> list[str]:
-    from brace.bus.entries import value_of
+    from brace.bus.entries import names_of
 
-    return [name.lower() for name in value_of("faults", bits)]
+    return [name.lower() for name in names_of("faults", bits)]
 
 
 def _bits(names: list[str]) -> int:
-    from brace.wire.measured import MEASURED
+    from brace.wire.codes import FAULT
 
-    known = next(entry.bit_names for entry in MEASURED if entry.name == "faults")
-    return sum(1 << bit for bit, name in enumerate(known) if name.lower() in names)
+    return sum(1 << fault.number for fault in FAULT.codes if fault.name.lower() in names)

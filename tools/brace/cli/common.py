@@ -10,11 +10,14 @@ import sys
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from brace.cli.options import angle, count, flexion, number, path, positive
 from brace.cli.streams import emit
 from brace.cli.streams import say as _say
+
+if TYPE_CHECKING:
+    from rich.progress import Progress, TaskID
 
 __all__ = [
     "add_json",
@@ -53,12 +56,12 @@ def add_json(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def print_json(data: dict[str, Any]) -> None:
+def print_json(data: dict[str, object]) -> None:
     """One JSON object on stdout; what is not finite becomes null, since JSON has no word for it."""
     emit(json.dumps(json_ready(data), indent=1))
 
 
-def json_ready(value: Any) -> Any:
+def json_ready(value: object) -> object:
     """numpy scalars and arrays to plain values, non-finite numbers to null."""
     if isinstance(value, dict):
         return {str(key): json_ready(item) for key, item in value.items()}
@@ -83,7 +86,7 @@ def progress(label: str, total: int | None = None) -> Iterator[Advance]:
     """Yields a function to call with the work done so far, and what is being done if that changes. Draws a bar on a
     terminal once two seconds are up."""
     started = time.monotonic()
-    bar: list[Any] = []
+    bar: list[tuple[Progress, TaskID]] = []
 
     def advance(done: int, doing: str = "") -> None:
         if sys.stderr is None or not sys.stderr.isatty() or time.monotonic() - started < PROGRESS_AFTER_S:
@@ -94,11 +97,12 @@ def progress(label: str, total: int | None = None) -> Iterator[Advance]:
 
             shown = Progress(console=Console(stderr=True), transient=True)
             shown.start()
-            bar.extend([shown, shown.add_task(label, total=total)])
-        bar[0].update(bar[1], completed=done, description=f"{label}: {doing}" if doing else label)
+            bar.append((shown, shown.add_task(label, total=total)))
+        shown, task = bar[0]
+        shown.update(task, completed=done, description=f"{label}: {doing}" if doing else label)
 
     try:
         yield advance
     finally:
         if bar:
-            bar[0].stop()
+            bar[0][0].stop()

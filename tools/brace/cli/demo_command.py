@@ -5,14 +5,14 @@ from __future__ import annotations
 import argparse
 import json
 from pathlib import Path
-from typing import Any
 
 from brace.cli import common
+from brace.cli.options import Subcommands
 
 STEPS = 20
 
 
-def add(commands: Any) -> None:
+def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "demo", help="the paper's table and a simulated limb, end to end",

@@ -4,14 +4,14 @@ and after."""
 from __future__ import annotations
 
 import argparse
-from typing import Any
 
 from brace.cli import common
+from brace.cli.options import Subcommands
 
 _PERCENT = 100
 
 
-def add(commands: Any) -> None:
+def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "diagnose",

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
+from typing import TYPE_CHECKING
 
 from brace.cli import common
+from brace.cli.options import Subcommands
 from brace.errors import EXIT_CHECK_FAILED, EXIT_OK
 
+if TYPE_CHECKING:
+    from brace.doctor.finding import Finding
 
-def add(commands: Any) -> None:
+
+def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     from brace.doctor.finding import ALWAYS_NEEDED, PURPOSES
 
@@ -31,7 +35,7 @@ def add(commands: Any) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from brace.doctor.builds import builds
-    from brace.doctor.finding import ALWAYS_NEEDED, Finding, Machine
+    from brace.doctor.finding import ALWAYS_NEEDED, Machine
     from brace.doctor.hardware import hardware
     from brace.doctor.programs import programs, python_packages
 
@@ -53,7 +57,7 @@ def run(arguments: argparse.Namespace) -> int:
     return EXIT_CHECK_FAILED if lacking else EXIT_OK
 
 
-def _text(findings: list[Any], needed: set[str], lacking: int) -> str:
+def _text(findings: list[Finding], needed: set[str], lacking: int) -> str:
     from brace.doctor.finding import PURPOSES
 
     lines = []

@@ -5,16 +5,20 @@ from __future__ import annotations
 import argparse
 import re
 import shlex
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from brace.cli import common
-from brace.cli.options import refused
+from brace.cli.options import Subcommands, refused
 from brace.errors import UsageError
 from brace.flash.usb import DFU
 
+if TYPE_CHECKING:
+    from brace.flash.usb import Probe
 
-def add(commands: Any) -> None:
+
+def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "flash",
@@ -61,6 +65,8 @@ def run(arguments: argparse.Namespace) -> int:
     from brace.flash.image import read_image
     from brace.flash.usb import Probe, probes
 
+    probe: Probe | None
+
     path, wanted = _which(arguments.image, arguments.board)
     image = read_image(path)
     board = checks.board_of(image, wanted)
@@ -77,7 +83,7 @@ def run(arguments: argparse.Namespace) -> int:
         tool = programmers.choose_tool(arguments.tool, probe)
     plan = programmers.make_plan(tool, image, board, probe, arguments.probe)
     assert image.info is not None
-    told: dict[str, Any] = {
+    told: dict[str, object] = {
         "image": str(plan.file),
         "sha256": read_image(plan.file).sha256,
         "version": image.info.version,
@@ -107,7 +113,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         common.print_json(told)
     else:
-        common.emit(_text(told))
+        common.emit(_text(told, plan.command))
     return 0
 
 
@@ -168,7 +174,7 @@ def _emulated(path: Path, machine: str) -> UsageError:
     )
 
 
-def _chosen(found: list[Any], serial: str | None) -> Any:
+def _chosen(found: list[Probe], serial: str | None) -> Probe | None:
     """The probe to use; None when there is none. Several need a serial number."""
     if serial:
         matching = [probe for probe in found if probe.serial == serial]
@@ -190,13 +196,13 @@ def _chosen(found: list[Any], serial: str | None) -> Any:
     return found[0] if found else None
 
 
-def _text(told: dict[str, Any]) -> str:
+def _text(told: dict[str, object], command: Sequence[str]) -> str:
     lines = [
         f"image    {told['image']}",
         f"sha256   {told['sha256']}",
         f"version  {told['version']} ({told['hash']}, {told['build']})",
         f"target   {told['board']}: {told['target']}, {told['size_bytes']} bytes at {told['address']}",
-        f"command  {shlex.join(told['command'])}",
+        f"command  {shlex.join(command)}",
     ]
     if told["written"]:
         lines.append(f"written and checked in {told['duration_s']:g} s by {told['tool']}")

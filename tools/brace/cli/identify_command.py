@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
 
 from brace.cli import common
+from brace.cli.options import Subcommands
 from brace.errors import UsageError
 
 STEPS = 20
 
 
-def add(commands: Any) -> None:
+def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "identify",

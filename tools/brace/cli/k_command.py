@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
+from typing import TYPE_CHECKING
 
 from brace.cli import common
+from brace.cli.options import Subcommands
 from brace.errors import UsageError
 
-ARITHMETICS = ("f32", "fixed", "general", "table")
+if TYPE_CHECKING:
+    from brace.model import LimbModel
+    from brace.stiffness import PostureError
+
+ARITHMETICS = ("f32", "fixed", "general")
 
 
-def add(commands: Any) -> None:
+def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "k",
@@ -32,7 +37,7 @@ def add(commands: Any) -> None:
         "--arith",
         choices=ARITHMETICS,
         default="f32",
-        help="the controller's float path (default), its fixed-point path, the general chain, the table",
+        help="the controller's float path (default), its fixed-point path, or the general chain",
     )
     parser.add_argument(
         "--csv", type=common.path, metavar="IN", help="many postures: columns theta1_rad,theta2_rad[,theta0_rad]"
@@ -117,7 +122,7 @@ def _check_one_posture(arguments: argparse.Namespace) -> None:
     )
 
 
-def _run_single(arguments: argparse.Namespace, model: Any) -> int:
+def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
     import numpy as np
 
     from brace import stiffness
@@ -172,7 +177,7 @@ def _run_single(arguments: argparse.Namespace, model: Any) -> int:
     return 0
 
 
-def _refused(error: Any, arguments: argparse.Namespace, model: Any) -> UsageError:
+def _refused(error: PostureError, arguments: argparse.Namespace, model: LimbModel) -> UsageError:
     from brace.stiffness import E_SINGULAR, E_UNREACHABLE
 
     if error.status == E_UNREACHABLE:
@@ -202,9 +207,9 @@ def _refused(error: Any, arguments: argparse.Namespace, model: Any) -> UsageErro
 
 def _text(
     name: str,
-    values: dict[str, Any],
+    values: dict[str, float],
     sigma: dict[str, float],
-    posture: dict[str, Any],
+    posture: dict[str, float | str],
     path: str,
     flags: list[str],
 ) -> str:

@@ -5,13 +5,20 @@ from __future__ import annotations
 import argparse
 import math
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, TypedDict
 
 from brace.cli import common
+from brace.cli.options import Subcommands
 from brace.errors import UsageError
 
+if TYPE_CHECKING:
+    import numpy as np
 
-def add(commands: Any) -> None:
+    from brace.model import LimbModel
+    from brace.workspace import Workspace
+
+
+def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "map",
@@ -86,7 +93,21 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _summary(name: str, grid: Any) -> dict[str, Any]:
+class Summary(TypedDict):
+    """What --json prints of a map."""
+
+    model: str
+    postures: int
+    path: str
+    r_mm: list[float]
+    lambda_min_n_per_mm: list[float]
+    lambda_max_n_per_mm: list[float]
+    turning_points_r_mm: dict[str, list[float]]
+    quasi_convex_lambda_max: bool
+    quasi_concave_lambda_min: bool
+
+
+def _summary(name: str, grid: Workspace) -> Summary:
     from brace.workspace import turning_points
 
     low, high = grid.band("lambda_min_n_per_mm"), grid.band("lambda_max_n_per_mm")
@@ -107,7 +128,7 @@ def _summary(name: str, grid: Any) -> dict[str, Any]:
     }
 
 
-def _files(model: Any, grid: Any, every_posture: bool) -> list[tuple[str, bytes]]:
+def _files(model: LimbModel, grid: Workspace, every_posture: bool) -> list[tuple[str, bytes]]:
     import numpy as np
 
     from brace.dataset.write import csv_text
@@ -135,7 +156,7 @@ def _files(model: Any, grid: Any, every_posture: bool) -> list[tuple[str, bytes]
     return files
 
 
-def _ellipses(model: Any, grid: Any) -> tuple[dict[str, Any], Any]:
+def _ellipses(model: LimbModel, grid: Workspace) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Columns of the drawn ellipses, and the limb's outline at some postures: postures x 3 x 2 [mm]."""
     import numpy as np
 
@@ -152,7 +173,7 @@ def _ellipses(model: Any, grid: Any) -> tuple[dict[str, Any], Any]:
     return result, np.stack([np.zeros_like(tip), knee, tip], axis=1)[middle]
 
 
-def _npy(grid: Any) -> bytes:
+def _npy(grid: Workspace) -> bytes:
     import io
 
     import numpy as np
@@ -168,7 +189,7 @@ def _npy(grid: Any) -> bytes:
     return buffer.getvalue()
 
 
-def _text(summary: dict[str, Any], out: Path) -> str:
+def _text(summary: Summary, out: Path) -> str:
     def turns(which: str) -> str:
         found = summary["turning_points_r_mm"][which]
         return ("turns at r = " + ", ".join(f"{r:.1f}" for r in found) + " mm") if found else "does not turn"

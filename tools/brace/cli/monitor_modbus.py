@@ -5,15 +5,16 @@ from __future__ import annotations
 import argparse
 import json
 import time
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from brace.cli import common
 from brace.cli.bus_options import ended_by_signal
-from brace.cli.monitor_command import Display, end
+from brace.cli.monitor_display import Display, end
 
 if TYPE_CHECKING:
+    from brace.bus.modbus_controller import ModbusController
     from brace.bus.url import BusUrl
+    from brace.bus.watch import NodeState
 
 _PERIOD_S = 0.05
 
@@ -32,14 +33,34 @@ def monitor_modbus(arguments: argparse.Namespace, url: BusUrl) -> int:
         with ended_by_signal() as ended:
             while not ended.is_set() and time.monotonic() < until:
                 snapshot = device.live()
-                state.posture = snapshot
                 state.last_s = snapshot.time_s
-                watch.count(state, replace(snapshot, has_posture=False))
+                watch.take(state, snapshot)
                 if arguments.json:
                     common.emit(json.dumps(common.json_ready(as_json(snapshot))))
+                _tell_drift(arguments, device, state, display)
                 display.show(watch)
                 ended.wait(_PERIOD_S)
     finally:
         display.close()
         device.close()
     return end(arguments, watch)
+
+
+def _tell_drift(arguments: argparse.Namespace, device: ModbusController, state: NodeState, display: Display) -> None:
+    """The cause of a drift, when it comes, changes or goes."""
+    from brace.bus.drift import cause_text
+
+    has_drifted = state.posture is not None and "model_drift" in state.posture.faults
+    drift = device.drift() if has_drifted else None
+    cause = drift.cause if drift is not None else "none"
+    before = state.drift_cause or "none"
+    state.drift_cause = cause
+    if cause == before:
+        return
+    if arguments.json:
+        told = drift.as_json() if drift is not None else {"cause": cause}
+        common.emit(json.dumps(common.json_ready({"event": "drift", "node": device.node, **told})))
+    elif drift is None:
+        display.tell(f"node {device.node}: the drift has been cleared")
+    else:
+        display.tell(f"node {device.node}: model_drift; its likeliest cause is {cause_text(cause)}")

@@ -8,23 +8,48 @@ import re
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
 
 from brace.cli.streams import emit, say
 from brace.errors import UsageError, did_you_mean
 from brace.slips import slip
 
-_PART = "\x1f"  # between what, why and try of a refused value, through argparse and back
 _FULL_TURN_RAD = 2 * math.pi
 _DEGREES = re.compile(r"\s*([-+]?[\d.]+(?:e[-+]?\d+)?)\s*(?:deg|degrees?|\u00b0)\s*", re.IGNORECASE)
-_REFUSED_VALUE = re.compile(r"argument ([^:]+): (.*)", re.DOTALL)
-_CHOICE = re.compile(r"invalid choice: '(.*)' \(choose from (.*)\)", re.DOTALL)
+
+
+if TYPE_CHECKING:
+    Subcommands: TypeAlias = "argparse._SubParsersAction[OptionParser]"
+else:
+    Subcommands = object  # argparse has no public name for what add_subparsers returns
+
+
+class RefusedValue(argparse.ArgumentTypeError):
+    """A value that an option does not take; OPTION in `way` becomes the option's name."""
+
+    def __init__(self, what: str, why: str, way: str) -> None:
+        super().__init__(what)
+        self.what = what
+        self.why = why
+        self.way = way
+
+
+def refused(what: str, why: str, way: str) -> RefusedValue:
+    """For `raise` in a type function of argparse."""
+    return RefusedValue(what, why, way)
 
 
 class OptionParser(argparse.ArgumentParser):
-    """argparse with messages in the form of all others: what, why, and the next thing to try."""
+    """argparse with messages in the form of all others: what, why, and the next thing to try.
+
+    argparse words its own errors differently from version to version, so nothing here reads their text: a refused
+    value is known by its exception, a wrong choice and a missing value by the method that finds them.
+    """
 
     _given: Sequence[str] = ()
+
+    def __init__(self, *arguments: Any, **settings: Any) -> None:
+        super().__init__(*arguments, **{**settings, "exit_on_error": False})  # then parsing raises ArgumentError
 
     @property
     def _command(self) -> str:
@@ -34,19 +59,41 @@ class OptionParser(argparse.ArgumentParser):
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:  # the entry of subcommands too
         if args is not None:
             self._given = list(args)
-        values, rest = super().parse_known_args(args, namespace)
+        try:
+            values, rest = super().parse_known_args(args, namespace)
+        except argparse.ArgumentError as error:
+            raise self._explained(error) from None
         if rest:
             raise self._unknown(rest)
         return values, rest
 
     def error(self, message: str) -> NoReturn:
-        """Every refusal of argparse arrives here."""
+        """What argparse refuses without naming an argument: one is missing, or an abbreviation is not clear."""
         unknown = [text for text in self._given if self._is_unknown_option(text)]
-        if message.startswith("the following arguments are required") and unknown:
-            raise self._unknown(unknown)
-        raise self._explained(message)
+        raise self._unknown(unknown) if unknown else self._refusal("", message)
 
-    def _print_message(self, message: str, file: Any = None) -> None:  # --help, --version; a lost one is an error
+    def _check_value(self, action: argparse.Action, value: object) -> None:
+        """argparse calls this for each value of an option with choices."""
+        if action.choices is None or value in action.choices:
+            return
+        known = [str(choice) for choice in action.choices]
+        near = did_you_mean(str(value), known)
+        raise self._refusal(
+            _name_of(action),
+            f"{str(value)!r} is no choice",
+            f"known: {', '.join(known)}",
+            f"did you mean {near}?" if near else f"{self.prog} --help",
+        )
+
+    def _match_argument(self, action: argparse.Action, arg_strings_pattern: str) -> int:
+        """argparse calls this to count the values that follow an option; it raises when they are too few."""
+        try:
+            return super()._match_argument(action, arg_strings_pattern)
+        except argparse.ArgumentError as error:
+            what = f"a value is missing, or there are too many ({error.message})"
+            raise self._refusal(_name_of(action), what, "the option takes a value") from None
+
+    def _print_message(self, message: str, file: object = None) -> None:  # --help, --version; a lost one is an error
         if message and (file is None or file is sys.stdout):
             emit(message.rstrip("\n"))
         elif message:
@@ -76,31 +123,28 @@ class OptionParser(argparse.ArgumentParser):
             next_step=f"did you mean {near}?" if near else f"{self.prog} --help lists the options",
         )
 
-    def _explained(self, message: str) -> UsageError:
-        found = _REFUSED_VALUE.fullmatch(message)
-        option, text = found.groups() if found else ("", message)
-        what, _, rest = text.partition(_PART)
-        why, _, way = rest.partition(_PART)
-        choice = _CHOICE.fullmatch(what)
-        if choice:
-            known = re.findall(r"'([^']*)'", choice.group(2))
-            near = did_you_mean(choice.group(1), known)
-            what = f"{choice.group(1)!r} is no choice"
-            why = f"known: {', '.join(known)}"
-            way = f"did you mean {near}?" if near else f"{self.prog} --help"
-        elif what.startswith("expected"):
-            what, why = f"a value is missing, or there are too many ({what})", "the option takes a value"
+    def _explained(self, error: argparse.ArgumentError) -> UsageError:
+        """argparse raises its ArgumentError while it handles the type function's, which `__context__` therefore is."""
+        option = error.argument_name or ""
+        value = error.__context__
+        if isinstance(value, RefusedValue):
+            return self._refusal(option, value.what, value.why, value.way.replace("OPTION", option))
+        if not option:
+            self.error(error.message)
+        return self._refusal(option, error.message)
+
+    def _refusal(self, option: str, what: str, why: str = "", way: str = "") -> UsageError:
         return UsageError(
             f"{option}: {what}" if option else what,
             where=self._command,
             why=why or "the command line is not complete or not clear",
-            next_step=way.replace("OPTION", option) or f"{self.prog} --help",
+            next_step=way or f"{self.prog} --help",
         )
 
 
-def refused(what: str, why: str, way: str) -> argparse.ArgumentTypeError:
-    """A value that an option does not take; OPTION in `way` becomes its name."""
-    return argparse.ArgumentTypeError(_PART.join((what, why, way)))
+def _name_of(action: argparse.Action) -> str:
+    """The option's name as argparse writes it."""
+    return argparse.ArgumentError(action, "").argument_name or ""
 
 
 def number(text: str) -> float:

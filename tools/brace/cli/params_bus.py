@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from brace.cli import common
 from brace.cli.bus_options import add_bus, controller, undone_by_signal
+from brace.cli.options import Subcommands
+
+if TYPE_CHECKING:
+    from brace.bus.controller import Controller
+    from brace.params import Block
 
 
-def add(actions: Any) -> None:
+def add(actions: Subcommands) -> None:
     """Declares the actions."""
     parser = actions.add_parser(
         "push",
@@ -48,20 +53,20 @@ def add(actions: Any) -> None:
     parser.set_defaults(run=_rollback)
 
 
-def block_of(arguments: argparse.Namespace) -> Any:
+def block_of(arguments: argparse.Namespace) -> Block:
     """The set in force of the controller on --bus."""
     with controller(arguments) as device:
         return _download(device)
 
 
-def with_node(block: Any, node: int) -> Any:
+def with_node(block: Block, node: int) -> Block:
     """The same set for another node."""
     from brace.params.block import pack
 
     return pack(block.model.with_values({"controller.node_id": node}), block.sequence)
 
 
-def _download(device: Any) -> Any:
+def _download(device: Controller) -> Block:
     with common.progress("reading back") as advance:
         return device.download(advance)
 
@@ -98,7 +103,7 @@ def _push(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _own_node(device: Any, block: Any) -> int | None:
+def _own_node(device: Controller, block: Block) -> int | None:
     """The controller's number, where the set would take it away."""
     if int(block.model.number("controller.node_id")) != 0:
         return None

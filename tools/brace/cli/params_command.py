@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import argparse
 import math
-from typing import Any
 
 from brace.cli import common, params_bus
 from brace.cli.bus_options import add_bus
+from brace.cli.options import Subcommands
 
 _SEQUENCE_MAX = (1 << 32) - 1
 
 
-def add(commands: Any) -> None:
+def add(commands: Subcommands) -> None:
     """Declares the subcommand and its actions."""
     parser = commands.add_parser(
         "params",
@@ -28,7 +28,7 @@ def add(commands: Any) -> None:
     parser.set_defaults(run=lambda _arguments: _help(parser))
 
 
-def _help(parser: Any) -> int:
+def _help(parser: argparse.ArgumentParser) -> int:
     import sys
 
     from brace.errors import EXIT_USAGE
@@ -37,7 +37,7 @@ def _help(parser: Any) -> int:
     return EXIT_USAGE
 
 
-def _add_pack(actions: Any) -> None:
+def _add_pack(actions: Subcommands) -> None:
     parser = actions.add_parser("pack", help="limb.toml to block", description="Writes the block of a limb model.")
     common.add_model(parser)
     parser.add_argument("--out", type=common.path, required=True, metavar="BLOCK.bin", help="file of the block")
@@ -52,7 +52,7 @@ def _add_pack(actions: Any) -> None:
     parser.set_defaults(run=_pack)
 
 
-def _add_unpack(actions: Any) -> None:
+def _add_unpack(actions: Subcommands) -> None:
     parser = actions.add_parser(
         "unpack",
         help="block to limb.toml",
@@ -66,7 +66,7 @@ def _add_unpack(actions: Any) -> None:
     parser.set_defaults(run=_unpack)
 
 
-def _add_diff(actions: Any) -> None:
+def _add_diff(actions: Subcommands) -> None:
     parser = actions.add_parser(
         "diff",
         help="where two sets differ",
@@ -180,6 +180,6 @@ def _diff(arguments: argparse.Namespace) -> int:
     return EXIT_CHECK_FAILED if found and arguments.check else 0
 
 
-def _shown(value: Any) -> Any:
+def _shown(value: object) -> object:
     """JSON has no word for what is not finite; the format's own is a text."""
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import functools
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 from brace.cli import common
+from brace.cli.options import Subcommands
 from brace.errors import BraceError, UsageError
 
 if TYPE_CHECKING:
@@ -16,7 +19,7 @@ APART_RATIO = 0.05  # of the reach, between the tips of postures that are printe
 _NEEDS = {"steady": ("payload", "a payload"), "light": ("friction", "the surface's friction"), "k": ("k", "a K")}
 
 
-def add(commands: Any) -> None:
+def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "plan",
@@ -28,9 +31,9 @@ def add(commands: Any) -> None:
     )
     common.add_model(parser)
     where = parser.add_argument_group("where the tip may stand [mm], x outwards, z up, from the femur axis")
-    span: dict[str, Any] = {"type": common.number, "nargs": 2, "metavar": ("LOW", "HIGH")}
-    where.add_argument("--x", **span, help="default: from 0 as far as it reaches")
-    where.add_argument("--z", **span, help="default: as far as it reaches")
+    span = functools.partial(where.add_argument, type=common.number, nargs=2, metavar=("LOW", "HIGH"))
+    span("--x", help="default: from 0 as far as it reaches")
+    span("--z", help="default: as far as it reaches")
     where.add_argument("--knee", choices=("up", "down", "either"), default="either", help="default either")
     contact = parser.add_argument_group("contact and payload")
     contact.add_argument("--payload", type=common.number, metavar="N", help="weight that the foot carries")
@@ -175,7 +178,7 @@ def _nothing(found: Plan, model: str) -> BraceError:
     )
 
 
-def _lines(number: int, p: dict[str, Any], wish: Wish) -> list[str]:
+def _lines(number: int, p: Mapping[str, float | str], wish: Wish) -> list[str]:
     lines = [
         f"{number}. tip at x {p['x_mm']:.1f}, z {p['z_mm']:.1f} mm, knee {p['knee']}: "
         f"theta1 {p['theta1_rad']:.4f}, theta2 {p['theta2_rad']:.4f} rad",

@@ -3,25 +3,35 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 from brace.cli import common
 from brace.cli.bus_options import add_bus, controller
+from brace.cli.options import Subcommands
+
+if TYPE_CHECKING:
+    from brace.bus.controller import Controller
 
 
-def add(commands: Any) -> None:
+def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "query",
         help="K and state of a controller, once",
-        description="Asks a controller: the K of now, K at a posture or tip position that the limb need "
-        "not be in, or any "
-        "entry of the "
-        "dictionary.",
+        description="Asks a controller: the K of now, with what its drift check knows and how take-ups went; K at a "
+        "posture or tip position that the limb need not be in; or any entry of the dictionary. A limb whose coxa joint "
+        "is fitted tells K in space too.",
         epilog="Exit codes: 0 a valid K (or the entry), 4 no answer, 5 K is not valid or the device refuses, "
         "6 another dictionary.",
     )
     add_bus(parser)
+    parser.add_argument(
+        "--theta0",
+        type=common.angle,
+        metavar="RAD",
+        help="true coxa angle: K in space; with --theta1 --theta2, of a limb whose coxa joint is fitted, over CAN",
+    )
     parser.add_argument("--theta1", type=common.angle, metavar="RAD", help="true femur angle; with --theta2")
     parser.add_argument("--theta2", type=common.flexion, metavar="RAD", help="true knee angle")
     parser.add_argument(
@@ -60,6 +70,8 @@ def run(arguments: argparse.Namespace) -> int:
     with controller(arguments) as device:
         if arguments.entry:
             return _entries(arguments, device)
+        if arguments.theta0 is not None:
+            return _asked_in_space(arguments, device)
         if arguments.theta1 is not None or arguments.x is not None:
             return _asked(arguments, device)
         if arguments.load is not None or arguments.sag is not None:
@@ -77,8 +89,15 @@ def _check(arguments: argparse.Namespace) -> None:
                 f"--{one} and --{other} belong together",
                 where="query",
                 why="one of them alone is no place",
-                next_step=f"give both, or none for the K of now",
+                next_step="give both, or none for the K of now",
             )
+    if arguments.theta0 is not None and arguments.theta1 is None:
+        raise UsageError(
+            "--theta0 without --theta1 --theta2",
+            where="query",
+            why="the coxa joint alone is no posture",
+            next_step="give all three, or --theta1 --theta2 for K in the limb's plane",
+        )
     places = [getattr(arguments, name) is not None for name in ("theta1", "x", "load", "sag")]
     places.append(bool(arguments.entry))
     if sum(places) > 1:
@@ -96,7 +115,7 @@ def _check(arguments: argparse.Namespace) -> None:
         index_of(name)
 
 
-def _entries(arguments: argparse.Namespace, device: Any) -> int:
+def _entries(arguments: argparse.Namespace, device: Controller) -> int:
     from brace.bus.entries import unit_of, value_of
 
     values = {name: value_of(name, device.read_entry(name)) for name in arguments.entry}
@@ -113,13 +132,13 @@ def _entries(arguments: argparse.Namespace, device: Any) -> int:
     return 0
 
 
-def _text(value: Any) -> str:
+def _text(value: object) -> str:
     if isinstance(value, list):
         return " ".join(value) or "none"
     return f"{value:.7g}" if isinstance(value, float) else str(value)
 
 
-def _asked(arguments: argparse.Namespace, device: Any) -> int:
+def _asked(arguments: argparse.Namespace, device: Controller) -> int:
     from brace.errors import EXIT_DEVICE_FAULT, EXIT_OK
 
     if arguments.x is not None:
@@ -154,7 +173,26 @@ def _asked(arguments: argparse.Namespace, device: Any) -> int:
     return EXIT_OK if valid else EXIT_DEVICE_FAULT
 
 
-def _yielding(arguments: argparse.Namespace, device: Any) -> int:
+def _asked_in_space(arguments: argparse.Namespace, device: Controller) -> int:
+    from brace.cli.space_text import space_lines
+    from brace.errors import EXIT_DEVICE_FAULT, EXIT_OK
+
+    angles = {name: getattr(arguments, name) for name in ("theta0", "theta1", "theta2")}
+    answer = device.k_in_space_at_posture(**{f"{name}_rad": value for name, value in angles.items()})
+    if arguments.json:
+        place = {f"{name}_rad": value for name, value in angles.items()}
+        common.print_json({"node": device.node, **place, **answer.as_json()})
+    else:
+        common.emit(f"node {device.node} at {', '.join(f'{name} {value:g} rad' for name, value in angles.items())}")
+        for line in space_lines(answer):
+            common.emit(line)
+    if not answer.is_valid:
+        why = ", ".join(answer.flags) or "the controller does not say why"
+        _say_invalid(device, "K in space there is not known", why)
+    return EXIT_OK if answer.is_valid else EXIT_DEVICE_FAULT
+
+
+def _yielding(arguments: argparse.Namespace, device: Controller) -> int:
     from brace.errors import EXIT_DEVICE_FAULT, EXIT_OK
 
     if arguments.load is not None:
@@ -179,7 +217,9 @@ def _yielding(arguments: argparse.Namespace, device: Any) -> int:
     return EXIT_OK if known else EXIT_DEVICE_FAULT
 
 
-def _live(arguments: argparse.Namespace, device: Any) -> int:
+def _live(arguments: argparse.Namespace, device: Controller) -> int:
+    from brace.bus.drift import take_up_lines
+    from brace.cli.space_text import coxa_lines, space_lines
     from brace.errors import EXIT_DEVICE_FAULT, EXIT_OK
 
     identity = device.identify()
@@ -190,8 +230,9 @@ def _live(arguments: argparse.Namespace, device: Any) -> int:
         "parameters": identity.origin,
         "parameter_crc": f"{identity.parameter_crc:08x}",
     }
+    drift, take_ups = device.drift(), device.take_ups()
     if arguments.json:
-        common.print_json(entry)
+        common.print_json(entry | {"drift": drift.as_json(), "take_up": take_ups})
     else:
         common.emit(
             f"node {snapshot.node}, firmware {identity.version}: {entry.get('mode', 'mode not sent')}"
@@ -205,20 +246,23 @@ def _live(arguments: argparse.Namespace, device: Any) -> int:
             f"faults {' '.join(snapshot.faults) or 'none'}; "
             f"parameters {identity.origin}, CRC {identity.parameter_crc:08x}"
         )
+        if snapshot.space is not None:
+            for line in [*space_lines(snapshot.space), *coxa_lines(snapshot.space)]:
+                common.emit(line)
+        for line in [*take_up_lines(take_ups), *drift.lines()]:
+            common.emit(line)
     if not snapshot.is_valid:
         reasons = [f"mode {snapshot.mode}"] if snapshot.has_posture else []
         _say_invalid(device, "K is not valid", ", ".join([*reasons, *snapshot.faults, *snapshot.flags]))
     return EXIT_OK if snapshot.is_valid else EXIT_DEVICE_FAULT
 
 
-def _emit_k(entry: dict[str, Any], valid: bool) -> None:
+def _emit_k(entry: Mapping[str, object], valid: bool) -> None:
     if not valid:
         common.emit("K not valid")
         return
     common.emit(
-        "K = [{k_xx_n_per_mm:.4f} {k_xz_n_per_mm:.4f}; {k_xz_n_per_mm:.4f} {k_zz_n_per_mm:.4f}] N/mm".format(
-            **entry
-        )
+        "K = [{k_xx_n_per_mm:.4f} {k_xz_n_per_mm:.4f}; {k_xz_n_per_mm:.4f} {k_zz_n_per_mm:.4f}] N/mm".format_map(entry)
     )
     if None not in (
         entry.get("lambda_min_n_per_mm"),
@@ -227,13 +271,14 @@ def _emit_k(entry: dict[str, Any], valid: bool) -> None:
     ):
         common.emit(
             "eigenvalues {lambda_min_n_per_mm:.4f} and {lambda_max_n_per_mm:.4f} N/mm, "
-            "stiff axis {stiff_axis_rad:.4f} rad".format(**entry)
+            "stiff axis {stiff_axis_rad:.4f} rad".format_map(entry)
         )
-    if entry["flag_names"]:
-        common.emit(f"flags {' '.join(entry['flag_names'])}")
+    flags = entry["flag_names"]
+    if isinstance(flags, list) and flags:
+        common.emit(f"flags {' '.join(flags)}")
 
 
-def _say_invalid(device: Any, what: str, why: str) -> None:
+def _say_invalid(device: Controller, what: str, why: str) -> None:
     from brace.errors import DeviceFaultError
 
     common.say(

@@ -4,16 +4,22 @@ from __future__ import annotations
 
 import argparse
 import time
-from typing import Any
+from typing import TYPE_CHECKING
 
 from brace.cli import common
 from brace.cli.bus_options import add_bus, bus_url, ended_by_signal
+from brace.cli.options import Subcommands
+
+if TYPE_CHECKING:
+    from brace.bus.recording import Recording
+    from brace.bus.watch import Watch
+
 
 _POLL_S = 0.1
 _SILENCE_S = 1.5
 
 
-def add(commands: Any) -> None:
+def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "record",
@@ -111,15 +117,18 @@ def _record(arguments: argparse.Namespace) -> int:
     return code
 
 
-def _say_end(arguments: argparse.Namespace, recording: Any, watch: Any) -> None:
+def _say_end(arguments: argparse.Namespace, recording: Recording, watch: Watch) -> None:
     snapshots = {node: state.snapshots for node, state in sorted(watch.nodes.items())}
+    in_space = {node: state.in_space for node, state in sorted(watch.nodes.items()) if state.in_space}
     seconds = watch.last_s - watch.first_s
     if arguments.json:
-        common.print_json(
-            {"out": recording.path, "frames": recording.frames, "seconds": seconds, "snapshots": snapshots}
-        )
+        told = {"out": recording.path, "frames": recording.frames, "seconds": seconds, "snapshots": snapshots}
+        common.print_json(told | ({"snapshots_in_space": in_space} if in_space else {}))
         return
-    nodes = ", ".join(f"node {node}: {count} K" for node, count in snapshots.items())
+    nodes = ", ".join(
+        f"node {node}: {count} K" + (f", {in_space[node]} in space too" if node in in_space else "")
+        for node, count in snapshots.items()
+    )
     common.say(
         f"{recording.path}: {recording.frames} frames in {seconds:.1f} s; {nodes or 'no K among them'}"
     )

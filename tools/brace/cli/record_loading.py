@@ -5,11 +5,16 @@ from __future__ import annotations
 import argparse
 import math
 import time
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from brace.cli import common
 from brace.cli.bus_options import bus_url, session, undone_by_signal
+
+if TYPE_CHECKING:
+    from brace.bus.controller import Controller
+    from brace.dataset import Dataset
 
 _FILES = ("meta.toml", "data.csv")
 
@@ -80,12 +85,12 @@ def record_loading(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _length_mm(device: Any, link: str) -> float:
+def _length_mm(device: Controller, link: str) -> float:
     """As the controller has it, which computed the displacements with it."""
-    from brace.bus.entries import value_of
+    from brace.bus.entries import number_of
 
     key = f"geometry.{link}_mm"
-    return float(value_of(key, device.read_entry(key)))
+    return number_of(key, device.read_entry(key))
 
 
 def _refuse_record(folder: Path) -> None:
@@ -102,7 +107,7 @@ def _refuse_record(folder: Path) -> None:
             )
 
 
-def _record_before(folder: Path) -> Any:
+def _record_before(folder: Path) -> Dataset:
     """The record to which a posture is added."""
     from brace.dataset import load_dataset
     from brace.errors import UsageError
@@ -118,7 +123,7 @@ def _record_before(folder: Path) -> Any:
     return dataset
 
 
-def _refuse_other_limb(folder: Path, before: Any, now: dict[str, Any]) -> None:
+def _refuse_other_limb(folder: Path, before: Mapping[str, object], now: Mapping[str, object]) -> None:
     """One record is of one limb with one set of parameters."""
     from brace.errors import UsageError
 
@@ -133,14 +138,14 @@ def _refuse_other_limb(folder: Path, before: Any, now: dict[str, Any]) -> None:
             )
 
 
-def _meta(arguments: argparse.Namespace, device: Any) -> dict[str, Any]:
-    from brace.bus.entries import value_of
+def _meta(arguments: argparse.Namespace, device: Controller) -> dict[str, object]:
+    from brace.bus.entries import number_of
 
     sensed = bool(device.read_entry("force_is_sensed"))
-    limit = value_of("sensor.saturation_n", device.read_entry("sensor.saturation_n"))
-    sensor: dict[str, Any] = {"resolution_n": 0.0, "source": "tip sensor" if sensed else "joint loads"}
-    if limit is not None and math.isfinite(limit):
-        sensor["range_n"] = float(limit)
+    limit = number_of("sensor.saturation_n", device.read_entry("sensor.saturation_n"))
+    sensor: dict[str, object] = {"resolution_n": 0.0, "source": "tip sensor" if sensed else "joint loads"}
+    if math.isfinite(limit):
+        sensor["range_n"] = limit
     identity = device.identify()
     return {
         "format": 1,

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import argparse
 import time
-from typing import Any
 
 from brace.cli import common
 from brace.cli.bus_options import ended_by_signal
+from brace.cli.options import Subcommands
 
 _SLICE_S = 0.1
 
 
-def add(commands: Any) -> None:
+def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "replay",
@@ -39,7 +39,8 @@ def run(arguments: argparse.Namespace) -> int:
         return _send(arguments)
     from brace.bus.log import LogBus
     from brace.bus.watch import Watch
-    from brace.cli.monitor_command import end, follow
+    from brace.cli.monitor_command import follow
+    from brace.cli.monitor_display import end
 
     bus = LogBus(f"log:{arguments.file}", arguments.file)
     watch = Watch(str(arguments.file), arguments.node)

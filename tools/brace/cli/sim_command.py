@@ -11,11 +11,16 @@ import signal
 import sys
 import threading
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING
 
-from brace.cli import common
+from brace.cli import common, sim_values
+from brace.cli.options import Subcommands
 from brace.errors import EXIT_INTERRUPTED, EXIT_OK, UsageError
 from brace.sim import spec
+
+if TYPE_CHECKING:
+    from brace.model import LimbModel
+    from brace.sim.node import LimbSetup, Node
 
 CAN_PORT = 29536
 MODBUS_PORT = 1502
@@ -23,14 +28,15 @@ _POLL_S = 0.2
 _FAST_SLICE_S = 0.5
 
 
-def add(commands: Any) -> None:
+def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "sim",
         help="the controller's own code over simulated limbs, on loopback ports",
         description="Starts controllers over simulated limbs and says where to connect, one line a limb; with --json "
         "one JSON object a line: 'ready' with the places, 'end' with the last tick. Ctrl-C or --seconds ends it. The "
-        "controller believes --model, its parameter block; what is true is --plant.",
+        "controller believes --model, its parameter block; what is true is --plant. A limb in which something yields "
+        "across its plane (joint.coxa, a link's lateral compliance or torsion) has a coxa joint, and tells K in space.",
         epilog=f"Faults: {', '.join(spec.FAULTS)}; values: current_offset in N mm, force_offset in N, tick_late in ms.",
     )
     common.add_model(parser, "what the controllers believe; and what is true, without --plant")
@@ -64,7 +70,7 @@ def add(commands: Any) -> None:
     pace.add_argument("--fast", action="store_true", help="as fast as possible; needs --seconds")
     parser.add_argument(
         "--fault",
-        type=spec.fault,
+        type=sim_values.fault,
         action="append",
         default=[],
         metavar="SPEC",
@@ -72,21 +78,39 @@ def add(commands: Any) -> None:
     )
     parser.add_argument(
         "--posture",
-        type=spec.posture,
+        type=sim_values.posture,
         action="append",
         default=[],
         metavar="T1,T2[@S]",
         help="set-points [rad]; the first is where the limbs stand, further ones move them; default 1.0,1.4",
     )
     parser.add_argument(
-        "--contact", type=spec.contact, default=math.inf, metavar="KIND", help="planted (default), free, wall:K [N/mm]"
+        "--contact",
+        type=sim_values.contact,
+        default=math.inf,
+        metavar="KIND",
+        help="planted (default), free, wall:K [N/mm]",
     )
     parser.add_argument(
         "--press",
-        type=spec.pair_mm,
+        type=sim_values.pair_mm,
         default=(0.0, 0.0),
         metavar="X,Z",
         help="where the contact holds the tip, from where the unloaded limb has it [mm]",
+    )
+    parser.add_argument(
+        "--press-across",
+        type=common.number,
+        default=0.0,
+        metavar="Y",
+        help="the same across the limb's plane [mm], of a limb with a coxa joint",
+    )
+    parser.add_argument(
+        "--theta0",
+        type=common.angle,
+        default=0.0,
+        metavar="RAD",
+        help="where the coxa joint stands, of a limb that has one; default 0",
     )
     parser.add_argument("--node", type=common.count(1, 127), metavar="ID", help="CAN node of the first limb")
     parser.add_argument(
@@ -107,6 +131,13 @@ def run(arguments: argparse.Namespace) -> int:
     model = load_limb(arguments.model)
     plant = load_limb(arguments.plant) if arguments.plant else model
     with _make_node(arguments, model, plant) as node:
+        if (arguments.press_across or arguments.theta0) and not node.has_coxa_joint():
+            raise UsageError(
+                "--press-across and --theta0 are of a limb with a coxa joint",
+                where=str(arguments.plant or arguments.model),
+                why="nothing in this limb yields across its plane",
+                next_step="give joint.coxa.compliance_rad_per_n_mm or a link's lateral_mm_per_n, or drop the option",
+            )
         for fault in arguments.fault:
             node.add_fault(fault)
         for posture in arguments.posture[1:]:
@@ -126,7 +157,7 @@ def run(arguments: argparse.Namespace) -> int:
 # ------------------------------------------------------------------------------------------------ making
 
 
-def _make_node(arguments: argparse.Namespace, model: Any, plant: Any) -> Any:
+def _make_node(arguments: argparse.Namespace, model: LimbModel, plant: LimbModel) -> Node:
     """The node; a default port that is taken is left for any free one."""
     from brace.sim.node import Node, PortBusy
 
@@ -151,7 +182,7 @@ def _say_taken(url: str) -> None:
     common.say(f"note: {url} is taken, by another brace sim perhaps; a free port is used instead")
 
 
-def _setups(arguments: argparse.Namespace, model: Any, plant: Any, modbus: str) -> list[Any]:
+def _setups(arguments: argparse.Namespace, model: LimbModel, plant: LimbModel, modbus: str) -> list[LimbSetup]:
     from brace.sim.node import LimbSetup
 
     first = arguments.posture[0] if arguments.posture else spec.Posture(1.0, 1.4, 0.0)
@@ -170,9 +201,10 @@ def _setups(arguments: argparse.Namespace, model: Any, plant: Any, modbus: str) 
             model,
             plant,
             changes,
-            theta_rad=(0.0, first.theta1_rad, first.theta2_rad),
+            theta_rad=(arguments.theta0, first.theta1_rad, first.theta2_rad),
             hold_n_per_mm=arguments.contact,
             press_mm=arguments.press,
+            press_y_mm=arguments.press_across,
             has_force_sensor=not arguments.no_force_sensor,
             has_link_encoder=arguments.link_encoders,
             nvm_path=_numbered(arguments.nvm, limb, arguments.limbs),
@@ -212,7 +244,7 @@ def _next_port(url: str, limb: int) -> str:
     return f"{found[1]}{int(found[2]) + limb}{found[3] or ''}"
 
 
-def _give_modbus(setup: Any, url: str, limb: int) -> None:
+def _give_modbus(setup: LimbSetup, url: str, limb: int) -> None:
     """Modbus URL to the limb's line or listener, and what it says of rate and address to its parameters."""
     if url == "none":
         return
@@ -252,7 +284,7 @@ def _ended_by_signal() -> Iterator[threading.Event]:
         signal.signal(signal.SIGTERM, before)
 
 
-def _run_fast(arguments: argparse.Namespace, node: Any, ended: threading.Event) -> None:
+def _run_fast(arguments: argparse.Namespace, node: Node, ended: threading.Event) -> None:
     with common.progress("simulating", int(arguments.seconds)) as advance:
         done = 0.0
         while done < arguments.seconds and not ended.is_set():
@@ -262,7 +294,7 @@ def _run_fast(arguments: argparse.Namespace, node: Any, ended: threading.Event) 
             advance(int(done))
 
 
-def _run_in_real_time(arguments: argparse.Namespace, node: Any, ended: threading.Event) -> None:
+def _run_in_real_time(arguments: argparse.Namespace, node: Node, ended: threading.Event) -> None:
     from brace.sim.status import LiveLine
 
     line = LiveLine()
@@ -279,7 +311,7 @@ def _run_in_real_time(arguments: argparse.Namespace, node: Any, ended: threading
 # ------------------------------------------------------------------------------------------------ saying
 
 
-def _places(node: Any, limb: int) -> dict[str, str]:
+def _places(node: Node, limb: int) -> dict[str, str]:
     """Where clients connect, as the URLs that other commands take."""
     can = node.can_place
     if can.startswith("/"):
@@ -299,11 +331,11 @@ def _emit_now(text: str) -> None:
         sys.stdout.flush()
 
 
-def _emit_event(event: str, data: dict[str, Any]) -> None:
+def _emit_event(event: str, data: dict[str, object]) -> None:
     _emit_now(json.dumps(common.json_ready({"event": event, **data})))
 
 
-def _say_ready(arguments: argparse.Namespace, node: Any) -> None:
+def _say_ready(arguments: argparse.Namespace, node: Node) -> None:
     limbs = [
         {"limb": limb + 1, "node": node.state(limb)["node"], **_places(node, limb)}
         for limb in range(arguments.limbs)
@@ -316,7 +348,7 @@ def _say_ready(arguments: argparse.Namespace, node: Any) -> None:
         _emit_now(f"limb {entry['limb']}: node {entry['node']}, {places or 'no ports'}")
 
 
-def _say_end(arguments: argparse.Namespace, node: Any) -> None:
+def _say_end(arguments: argparse.Namespace, node: Node) -> None:
     from brace.sim.status import line_of
 
     states = [node.state(limb) for limb in range(arguments.limbs)]

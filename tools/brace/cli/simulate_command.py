@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import argparse
 from pathlib import Path
-from typing import Any
 
 from brace.cli import common
+from brace.cli.options import Subcommands
 from brace.errors import BraceError, UsageError
 
 
-def add(commands: Any) -> None:
+def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "simulate",

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from brace.errors import BadFileError
 
@@ -24,7 +23,7 @@ class DataFault:
     blocking: bool = True
     doubtful: bool = False
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> dict[str, object]:
         """The entry of `data_faults` in every --json report."""
         return {"row": self.row, "field": self.field, "why": self.why, "suggestion": self.suggestion}
 

@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from brace import toml
 from brace.dataset.columns import KINDS
@@ -44,7 +43,7 @@ _KNOWN = (
 class Meta:
     """The known keys, typed, and the whole document."""
 
-    values: Mapping[str, Any]
+    values: Mapping[str, toml.Value]
     document: toml.Document
 
     @property
@@ -77,7 +76,7 @@ class Meta:
 
     def number(self, key: str) -> float:
         """`sensor.range_n` and the like."""
-        return float(self.values[key])
+        return float(toml.number(self.values, key))
 
 
 def read_meta(folder: Path) -> Meta:
@@ -114,6 +113,8 @@ def read_meta(folder: Path) -> Meta:
 def _check_zeroed_once(document: toml.Document) -> None:
     """`zeroed` may stand at the top or under [rig]; the two places must not disagree."""
     rig = document.content.get("rig", {})
+    if not isinstance(rig, dict):
+        return
     if "zeroed" in document.content and "zeroed" in rig and document.content["zeroed"] != rig["zeroed"]:
         raise BadFileError(
             f"zeroed is {document.content['zeroed']!r} at the top and {rig['zeroed']!r} under [rig]",
@@ -123,11 +124,11 @@ def _check_zeroed_once(document: toml.Document) -> None:
         )
 
 
-def _known_part(content: Mapping[str, Any]) -> dict[str, Any]:
+def _known_part(content: Mapping[str, object]) -> dict[str, object]:
     """The document without keys and tables that are merely kept."""
     names = {key.name for key in _KNOWN}
     tables = {name.partition(".")[0] for name in names if "." in name}
-    kept: dict[str, Any] = {}
+    kept: dict[str, object] = {}
     for name, value in content.items():
         if name in tables and isinstance(value, Mapping):
             kept[name] = {leaf: item for leaf, item in value.items() if f"{name}.{leaf}" in names}

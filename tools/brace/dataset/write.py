@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -31,7 +30,7 @@ def csv_text(columns: Mapping[str, np.ndarray], decimals: Mapping[str, int] | No
     return "\n".join(lines) + "\n"
 
 
-def meta_text(tables: Mapping[str, Any]) -> str:
+def meta_text(tables: Mapping[str, object]) -> str:
     """meta.toml from plain values and one level of tables."""
     plain = [f"{key} = {_value(value)}" for key, value in tables.items() if not isinstance(value, Mapping)]
     for name, table in tables.items():
@@ -42,7 +41,7 @@ def meta_text(tables: Mapping[str, Any]) -> str:
 
 def write_dataset(
     folder: Path,
-    meta: Mapping[str, Any],
+    meta: Mapping[str, object],
     columns: Mapping[str, np.ndarray],
     decimals: Mapping[str, int] | None = None,
     extra: Sequence[tuple[str, str]] = (),
@@ -56,7 +55,7 @@ def write_dataset(
         outputs.commit()
 
 
-def _value(value: Any) -> str:
+def _value(value: object) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):

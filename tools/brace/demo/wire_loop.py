@@ -16,7 +16,6 @@ import threading
 from collections.abc import Generator, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from brace.errors import BraceError
 from brace.model import LimbModel, load_limb
@@ -43,7 +42,7 @@ class Turn:
     before: tuple[float, float, float]
     after: tuple[float, float, float]
     truth: tuple[float, float, float]
-    diagnosis: dict[str, Any]
+    diagnosis: dict[str, object]
 
     def off(self, k: tuple[float, float, float]) -> float:
         """How far a K is from the plant's: Frobenius norm of the difference over the plant's own."""

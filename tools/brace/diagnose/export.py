@@ -13,7 +13,7 @@ from brace.diagnose.diagnosis import Diagnosis
 from brace.errors import BadFileError
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
-from brace.model.limb import WHAT, limb_from_document
+from brace.model.limb import WHAT, limb_from_document, toml_value
 from brace.params import pack
 
 _DIGITS = 9  # more than a controller's 32-bit floats hold
@@ -137,7 +137,4 @@ def _replaced(line: str, shown: str) -> str:
 
 def _shown(name: str, value: Any) -> str:
     """One value as the format writes it."""
-    only = LimbModel(
-        {key: entry.default for key, entry in KEY_BY_NAME.items()} | {name: value}, frozenset({name})
-    )
-    return next(line for line in only.to_toml().splitlines() if " = " in line).partition(" = ")[2]
+    return toml_value(KEY_BY_NAME[name], value)

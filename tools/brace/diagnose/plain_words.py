@@ -5,43 +5,9 @@ from __future__ import annotations
 import math
 
 from brace.diagnose.diagnosis import Diagnosis, GapPair, Interval, NamedEffect
+from brace.effects import BY_NAME
 from brace.model.keys import KEY_BY_NAME
 
-_EFFECTS = {
-    "joint_compliance": ("a softer joint", "the joint's drive yields more to torque than the model says"),
-    "moment_transfer": (
-        "bending passed on through the knee",
-        "the femur's end also turns under load, and the turn is carried on by the tibia's length",
-    ),
-    "base_compliance": ("a yielding base", "what the limb is mounted on gives way or turns under load"),
-    "link_compliance_error": (
-        "a link of another stiffness",
-        "the link yields more or less than its calibration says, by more than that is trusted to",
-    ),
-    "link_change": ("a link that changed", "the link became softer or stiffer in the middle of the record"),
-    "backlash": ("backlash", "the joint moves freely through its play before it carries torque"),
-    "coulomb_friction": (
-        "dry friction",
-        "the joint's deflection sticks until the torque out of balance exceeds a bound: force depends on "
-        "direction",
-    ),
-    "joint_hardening": ("a joint that hardens", "the joint gets stiffer the more it is loaded"),
-    "creep": ("creep", "the joints go on yielding after the load is on, so the force relaxes"),
-    "thermal_softening": ("softening with warmth", "the joints' compliance changes with temperature"),
-    "gravity": ("weight of the links", "the links' own weight loads the joints, by posture"),
-    "joint_zero_offset": (
-        "a shifted joint zero",
-        "the joint stands at another angle than it is commanded to",
-    ),
-    "link_length_error": ("a link of another length", "a link is longer or shorter than the model says"),
-    "sensor_bias": ("a sensor bias", "the force sensor reads something when there is no force"),
-    "sensor_drift": ("sensor drift", "the force sensor's zero moves with time"),
-    "sensor_gain": ("a sensor gain", "every force reads too large or too small by one ratio"),
-    "sensor_rotation": ("a turned sensor", "the force sensor's axes are turned against the limb's"),
-    "sensor_crosstalk": ("sensor cross-talk", "force along one axis shows in the other's reading"),
-    "sensor_saturation": ("a saturated sensor", "the force sensor's reading ends at a limit"),
-    "contact_play": ("play in the contact", "the tip moves in its ball joint before it meets force"),
-}
 _PLACES = {
     "joint.coxa": "yaw joint",
     "joint.femur": "femur joint",
@@ -81,12 +47,12 @@ def unit(gap_unit: str) -> str:
 
 def effect(name: str) -> str:
     """`backlash`, `a shifted joint zero`."""
-    return _EFFECTS[name][0] if name in _EFFECTS else name.replace("_", " ")
+    return BY_NAME[name].words if name in BY_NAME else name.replace("_", " ")
 
 
 def meaning(name: str) -> str:
-    """What the effect does, in half a sentence; empty for one that is not known here."""
-    return _EFFECTS[name][1] if name in _EFFECTS else ""
+    """What the effect does, in half a sentence; empty for a name that the catalogue does not have."""
+    return BY_NAME[name].meaning if name in BY_NAME else ""
 
 
 def place(where: str) -> str:

@@ -14,9 +14,9 @@ import numpy as np
 from brace.dataset import Dataset
 from brace.errors import BadFileError
 from brace.identify.fit import fit
+from brace.effects.catalogue import FRICTION_TURN
 from brace.identify.parameters import (
     ANGLE_ZERO,
-    FRICTION_TURN,
     TORQUE_OFFSET,
     Parameter,
     ParameterSet,
@@ -101,13 +101,12 @@ class JointProblem:
             return Parameter(key.name, start, scale, key.low, key.high)
 
         lowest = free("compliance_rad_per_n_mm", compliance, angle_span / torque_span)
+        gap = free("gap_rad", model.number(at + "gap_rad"), 0.1 * angle_span)
         return ParameterSet(
             model.with_values({at + "compliance_rad_per_n_mm": compliance}),
             (
                 Parameter(lowest.key, lowest.start, lowest.scale, 1e-3 * lowest.scale, lowest.high),
-                Parameter(
-                    at + "gap_rad", model.number(at + "gap_rad"), 0.1 * angle_span, 0.0, min(0.5, angle_span)
-                ),
+                Parameter(gap.key, gap.start, gap.scale, gap.low, min(gap.high, angle_span)),
                 free("coulomb_n_mm", model.number(at + "coulomb_n_mm"), 0.05 * torque_span),
                 free("coulomb_per_load_ratio", model.number(at + "coulomb_per_load_ratio"), 0.1),
                 free(

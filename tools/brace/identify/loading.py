@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from brace.dataset import Dataset
+from brace.dataset.zeroing import zeroed
 from brace.errors import BadFileError
 from brace.identify.noise import NoiseFloor, noise_floor
 from brace.model import LimbModel
 from brace.native.plant import LoadingPlayer
-from brace.predict import zeroed
 
 OFFSET_KEYS = ("joint.femur.zero_offset_rad", "joint.tibia.zero_offset_rad")
 _SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")

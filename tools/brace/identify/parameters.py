@@ -8,13 +8,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from brace.effects.catalogue import FRICTION_TURN, NUMBER_BY_KEY
 from brace.errors import UsageError, did_you_mean
 from brace.model import LimbModel
 from brace.model.keys import CONTROLLER_KEYS, KEY_BY_NAME
 
 TIP_HEIGHT = "tip_height_mm"  # of a stiffness table that gives r alone; not a key of limb.toml
 TORQUE_OFFSET = "torque_offset_n_mm"  # of a joint test's torque reading; not a key of limb.toml
-FRICTION_TURN = "friction_turn_rad"  # over which a joint's friction changes sign; not a key of limb.toml
 ANGLE_ZERO = "angle_zero_rad"  # of a joint test's encoder: deflection = angle + it; not a key of limb.toml
 _NUISANCE_UNIT = {
     TIP_HEIGHT: "mm",
@@ -31,39 +31,10 @@ JOINT_COMPLIANCES = tuple(f"joint.{joint}.compliance_rad_per_n_mm" for joint in 
 COMPLIANCES = LINK_COMPLIANCES + JOINT_COMPLIANCES
 BASE_COMPLIANCES = ("base.x_mm_per_n", "base.z_mm_per_n", "base.rotation_rad_per_n_mm")
 
-# What a change of one is worth looking at, for keys whose value may be zero; by the end of the key.
-_NATURAL_SCALE = {
-    "axial_mm_per_n": 0.01,
-    "bending_mm_per_n": 0.1,
+# Sizes of change that matter, for numbers that no effect of the catalogue turns; by the end of the key.
+_OTHER_SCALE = {
     "lateral_mm_per_n": 0.1,
-    "base.x_mm_per_n": 0.05,
-    "base.z_mm_per_n": 0.05,
-    "rad_per_n_mm": 1e-5,
-    "tilt_rad": 0.1,
-    "moment_transfer": 1.0,
-    "femur_mm": 1.0,
-    "tibia_mm": 1.0,
-    "coxa_mm": 1.0,
-    "zero_offset_rad": 0.01,
-    "gap_rad": 0.002,
-    "coulomb_n_mm": 100.0,
-    "coulomb_per_load_ratio": 0.1,
-    "hardening_n_mm_per_rad3": 1e7,
-    "gain": 0.01,
-    "rotation_rad": 0.02,
-    "crosstalk_xz": 0.02,
-    "crosstalk_zx": 0.02,
-    "bias_x_n": 0.1,
-    "bias_z_n": 0.1,
-    "drift_x_n_per_s": 1e-4,
-    "drift_z_n_per_s": 1e-4,
-    "play_mm": 0.05,
-    "_n": 1.0,
-    "ratio": 0.05,
-    "time_constant_s": 30.0,
-    "joint_compliance_per_degc": 0.01,
-    "bending_factor": 0.1,
-    "at_s": 100.0,
+    "torsion_rad_per_n_mm": 1e-5,
     TIP_HEIGHT: 10.0,
     TORQUE_OFFSET: 100.0,
 }
@@ -117,10 +88,10 @@ class ParameterSet:
 
 def natural_scale(key: str) -> float:
     """A size of change that matters, for a key whose value may be zero."""
-    for ending in sorted(_NATURAL_SCALE, key=len, reverse=True):
-        if key.endswith(ending):
-            return _NATURAL_SCALE[ending]
-    return 1.0
+    number = NUMBER_BY_KEY.get(key.replace("coxa", "femur"))  # the coxa's numbers are sized like the femur's
+    if number is not None:
+        return number.scale
+    return next((scale for ending, scale in _OTHER_SCALE.items() if key.endswith(ending)), 1.0)
 
 
 def free_parameter(model: LimbModel, key: str) -> Parameter:
@@ -129,32 +100,30 @@ def free_parameter(model: LimbModel, key: str) -> Parameter:
     return Parameter(key, start, natural_scale(key), entry.low, entry.high)
 
 
+# What a calibration is trusted to, the numbers it measures first before those that it fits.
+_TRUST = ("length_mm", "angle_rad", "compliance_rel", "gain_rel")
+
+
+def _trusted_keys() -> tuple[str, ...]:
+    """Keys of which [uncertainty] says how well the calibration knows them: by what it says, then as limb.toml has
+    them."""
+    trusts = [f"uncertainty.{leaf}" for leaf in _TRUST]
+    listed = list(KEY_BY_NAME)
+    keys = [key for key, number in NUMBER_BY_KEY.items() if number.trust]
+    return tuple(sorted(keys, key=lambda key: (trusts.index(NUMBER_BY_KEY[key].trust), listed.index(key))))
+
+
+PRIOR_KEYS = _trusted_keys()
+
+
 def prior_parameter(model: LimbModel, key: str) -> Parameter | None:
     """A key under the trust that [uncertainty] puts in it, or None when it is trusted exactly or is absent."""
-    start = model.number(key)
-    if key.startswith("geometry."):
-        sigma = model.number("uncertainty.length_mm")
-    elif key.endswith("zero_offset_rad"):
-        sigma = model.number("uncertainty.angle_rad")
-    elif key == "sensor.gain":
-        sigma = model.number("uncertainty.gain_rel") * start
-    else:
-        sigma = model.number("uncertainty.compliance_rel") * start
+    start, trust = model.number(key), NUMBER_BY_KEY[key].trust
+    sigma = model.number(trust) * (start if trust.endswith("_rel") else 1.0)
     if sigma <= 0.0:
         return None
     entry = KEY_BY_NAME[key]
     return Parameter(key, start, sigma, entry.low, entry.high, sigma)
-
-
-PRIOR_KEYS = (
-    "geometry.femur_mm",
-    "geometry.tibia_mm",
-    "joint.femur.zero_offset_rad",
-    "joint.tibia.zero_offset_rad",
-    *COMPLIANCES,
-    *BASE_COMPLIANCES,
-    "sensor.gain",
-)
 
 
 def with_priors(model: LimbModel, extra: Sequence[str] = ()) -> ParameterSet:

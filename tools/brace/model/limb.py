@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
 
 from brace import toml
 from brace.errors import BadFileError
@@ -18,7 +17,7 @@ WHAT = "limb model"
 class LimbModel:
     """Values of every key of limb.toml (defaults filled in); numbers are floats, moment_transfer is a ratio."""
 
-    values: Mapping[str, Any]
+    values: Mapping[str, toml.Value]
     given: frozenset[str] = field(default_factory=frozenset)  # keys that the file wrote
     document: toml.Document | None = None
 
@@ -29,13 +28,13 @@ class LimbModel:
 
     def number(self, key: str) -> float:
         """A numeric value by its dotted key."""
-        return float(self.values[key])
+        return float(toml.number(self.values, key))
 
     def where(self, key: str = "") -> str:
         """`file:line` of a key, for messages."""
         return self.document.where(key) if self.document else "the model"
 
-    def with_values(self, changes: Mapping[str, Any]) -> LimbModel:
+    def with_values(self, changes: Mapping[str, toml.Value]) -> LimbModel:
         """The same limb with some values replaced. Unknown keys are a programming error."""
         unknown = [key for key in changes if key not in KEY_BY_NAME]
         if unknown:
@@ -55,7 +54,7 @@ class LimbModel:
             if group != table:
                 lines += ["", f"[{group}]"] if lines else [f"[{group}]"]
                 table = group
-            lines.append(f"{leaf} = {_toml_value(key, value)}")
+            lines.append(f"{leaf} = {toml_value(key, value)}")
         return "\n".join(lines) + "\n"
 
 
@@ -79,7 +78,7 @@ def limb_from_document(document: toml.Document) -> LimbModel:
     return model
 
 
-def _given(content: Mapping[str, Any], prefix: str = "") -> Iterable[str]:
+def _given(content: Mapping[str, object], prefix: str = "") -> Iterable[str]:
     for name, value in content.items():
         if isinstance(value, Mapping):
             yield from _given(value, f"{prefix}{name}.")
@@ -87,15 +86,16 @@ def _given(content: Mapping[str, Any], prefix: str = "") -> Iterable[str]:
             yield f"{prefix}{name}"
 
 
-def _toml_value(key: toml.Key, value: Any) -> str:
+def toml_value(key: toml.Key, value: toml.Value) -> str:
+    """A value as limb.toml writes it."""
     if key.kind == "ratio" and value in (0.0, 1.0):
         return "true" if value else "false"
     if isinstance(value, str):
         escaped = "".join(_escape(character) for character in value)
         return f'"{escaped}"'
-    if key.kind == "integer":
-        return str(int(value))
-    return repr(float(value))
+    if isinstance(value, list):
+        raise TypeError(f"{key.name} is a list, and limb.toml has none")
+    return str(int(value)) if key.kind == "integer" else repr(float(value))
 
 
 def _escape(character: str) -> str:

@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import Any
 
 import numpy as np
 
 from brace.errors import BadFileError
 from brace.model import LIMB_KEYS, LimbModel
 from brace.model.keys import LINKS
+from brace.native.c_data import CData
 from brace.native.loader import Library
+from brace.wire.names import PARAMETERS
 
-_LINK_FIELDS = {
-    "axial_mm_per_n": "axial_mm_per_n",
-    "bending_mm_per_n": "bending_mm_per_n",
-    "tilt_rad": "tilt_rad",
-    "lateral_mm_per_n": "lateral_mm_per_n",
-    "torsion_rad_per_n_mm": "torsion_rad_per_n_mm",
-    "moment_transfer": "moment_transfer_ratio",
-}
+# The members of brace_limb_t, which begins the controller's parameters, in its order.
+_LIMB_KEYS = tuple(parameter.key for parameter in PARAMETERS if parameter.member.startswith("limb."))
 STATUS_SINGULAR = -6
 
 
@@ -28,20 +23,12 @@ def status_text(native: Library, status: int) -> str:
     return str(native.ffi.string(native.lib.brace_status_text(status)).decode())
 
 
-def firmware_limb(native: Library, model: LimbModel) -> Any:
+def firmware_limb(native: Library, model: LimbModel) -> CData:
     """`brace_limb_t *` with the model's values in float; refused when the firmware would refuse it."""
     limb = native.ffi.new("brace_limb_t *")
-    for length in ("coxa_mm", "femur_mm", "tibia_mm"):
-        setattr(limb, length, model.number(f"geometry.{length}"))
-    for index, name in enumerate(LINKS):
-        for key, field in _LINK_FIELDS.items():
-            setattr(limb.link[index], field, model.number(f"link.{name}.{key}"))
-        for field in ("compliance_rad_per_n_mm", "gap_rad", "zero_offset_rad"):
-            setattr(limb.joint[index], field, model.number(f"joint.{name}.{field}"))
-    for field in ("x_mm_per_n", "z_mm_per_n", "rotation_rad_per_n_mm"):
-        setattr(limb.base, field, model.number(f"base.{field}"))
-    for field in ("length_mm", "angle_rad", "compliance_rel", "gain_rel"):
-        setattr(limb.uncertainty, field, model.number(f"uncertainty.{field}"))
+    members = np.frombuffer(native.ffi.buffer(limb), dtype=np.float32)
+    with np.errstate(over="ignore", under="ignore"):
+        members[:] = [model.number(key) for key in _LIMB_KEYS]
     status = native.lib.brace_limb_check(limb)
     if status != 0:
         raise refused_limb(native, model, status)
@@ -100,7 +87,7 @@ def refused_limb(native: Library, model: LimbModel, status: int) -> BadFileError
     )
 
 
-def plant_model(native: Library, model: LimbModel) -> Any:
+def plant_model(native: Library, model: LimbModel) -> CData:
     """`brace_plant_model_t *` with every key of limb.toml."""
     plant = native.ffi.new("brace_plant_model_t *")
     native.lib.brace_plant_model_default(plant)
@@ -108,7 +95,7 @@ def plant_model(native: Library, model: LimbModel) -> Any:
     return plant
 
 
-def fill_plant(native: Library, plant: Any, model: LimbModel) -> None:
+def fill_plant(native: Library, plant: CData, model: LimbModel) -> None:
     """Writes a model into a plant struct (one of an array, say), every key of limb.toml at its own place."""
     positions, keys = plant_layout(native)
     numbers = [LINKS.index(model.values[key]) if key == "change.link" else model.values[key] for key in keys]

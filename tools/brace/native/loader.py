@@ -6,9 +6,9 @@ import os
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 from brace.errors import MissingLibraryError
+from brace.native.c_data import CData
 from brace.native.cdef import declarations
 
 _PACKAGE = Path(__file__).resolve().parents[1]  # tools/brace
@@ -20,7 +20,6 @@ FIRMWARE_HEADERS = (
     "kinematics.h",
     "chain.h",
     "planar.h",
-    "planar_table.h",
     "planar_fixed.h",
     "planar_batch.h",
     "chain_batch.h",
@@ -47,8 +46,8 @@ _HEADER_FOLDERS = (
 class Library:
     """`ffi` makes and reads C data, `lib` has the functions."""
 
-    ffi: Any
-    lib: Any
+    ffi: CData
+    lib: CData
     path: Path
 
 

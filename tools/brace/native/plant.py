@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 
 from brace.model import LimbModel
+from brace.native.c_data import CData
 from brace.native.library_types import Columns
-from brace.native.limb import fill_plant, plant_error, plant_model
+from brace.native.limb import plant_error, plant_model
 from brace.native.loader import Library, library
 
 READINGS = ("fx_n", "fz_n", "enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
@@ -17,9 +17,11 @@ _JOINT_INDEX = {"coxa": 0, "femur": 1, "tibia": 2}
 NO_CONVERGENCE = -9
 
 
-def _point_at(native: Library, struct: Any, field: str, values: np.ndarray, kind: Any = np.float64) -> Any:
+def _point_at(
+    native: Library, struct: CData, field: str, values: np.ndarray, kind: type = np.float64
+) -> tuple[np.ndarray, CData]:
     """Points a struct's field at a column. The column lives as long as what is returned."""
-    array = np.ascontiguousarray(values, dtype=kind)
+    array: np.ndarray = np.ascontiguousarray(values, dtype=kind)
     pointer = native.ffi.from_buffer("int32_t[]" if kind is np.int32 else "double[]", array)
     setattr(struct, field, pointer)
     return array, pointer
@@ -120,7 +122,7 @@ def reference_planar(model: LimbModel, theta1_rad: np.ndarray, theta2_rad: np.nd
     return out
 
 
-def play_rig(model: LimbModel | None, design: Mapping[str, Any]) -> dict[str, np.ndarray]:
+def play_rig(model: LimbModel | None, design: Mapping[str, object]) -> dict[str, np.ndarray]:
     """Plays a rig design (fields of brace_rig_design_t by name, theta1_rad and theta2_rad as arrays) on a limb;
     None plays the sequence alone. Returns the dataset's columns."""
     native = library()
@@ -133,7 +135,7 @@ def play_rig(model: LimbModel | None, design: Mapping[str, Any]) -> dict[str, np
             value = ffi.from_buffer("double[]", np.ascontiguousarray(value, dtype=float))
             keep.append(value)
         setattr(c_design, name, value)
-    c_design.config_count = len(design["theta1_rad"])
+    c_design.config_count = np.size(np.asarray(design["theta1_rad"]))
     rows = lib.brace_rig_row_count(c_design)
     columns: dict[str, np.ndarray] = {}
     record = ffi.new("brace_rig_record_t *")

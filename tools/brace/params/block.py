@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -13,6 +12,7 @@ from brace.errors import BadFileError, VersionMismatchError
 from brace.files import read_bytes
 from brace.model import LimbModel, load_limb
 from brace.native import Library, library
+from brace.native.c_data import CData
 from brace.native.limb import refused_limb, status_text
 from brace.params.values import Rounded, model_of, words_of
 from brace.wire.names import PARAMETERS, SCHEMA_HASH
@@ -128,7 +128,7 @@ def _ranges(native: Library, key: str, model: LimbModel) -> str:
 
 
 def _refused_block(native: Library, content: bytes, where: str, status: int, wrong: int) -> Exception:
-    header: Any = native.ffi.new("brace_block_header_t *")
+    header: CData = native.ffi.new("brace_block_header_t *")
     if status == _E_SCHEMA and native.lib.brace_block_header(content, len(content), header) == 0:
         return VersionMismatchError(
             f"a block of schema {header.schema_hash:08x}, where {SCHEMA_HASH:08x} is understood",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 from brace.params.block import Block
 from brace.params.values import value_of
@@ -16,8 +15,8 @@ class Difference:
 
     key: str
     unit: str
-    first: Any
-    second: Any
+    first: float | int | str
+    second: float | int | str
 
 
 def differences(first: Block, second: Block) -> list[Difference]:

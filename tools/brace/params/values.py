@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from brace.errors import BadFileError
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
+from brace.toml import Value
 from brace.wire.names import PARAMETERS
 from brace.wire.parameter import Parameter
 
@@ -31,9 +31,12 @@ def words_of(model: LimbModel) -> tuple[np.ndarray, list[Rounded]]:
     words = np.zeros(len(PARAMETERS), dtype=np.uint32)
     rounded: list[Rounded] = []
     for parameter in PARAMETERS:
-        value = model.values[parameter.key]
+        if parameter.texts:
+            words[parameter.index] = parameter.texts.index(str(model.values[parameter.key]))
+            continue
+        value = model.number(parameter.key)
         if parameter.type == "u32":
-            words[parameter.index] = parameter.texts.index(value) if parameter.texts else int(value)
+            words[parameter.index] = int(value)
             continue
         with np.errstate(over="ignore", under="ignore"):
             single = np.float32(value) + np.float32(0.0)  # -0 is 0
@@ -50,7 +53,7 @@ def words_of(model: LimbModel) -> tuple[np.ndarray, list[Rounded]]:
     return words, rounded
 
 
-def value_of(parameter: Parameter, word: int) -> Any:
+def value_of(parameter: Parameter, word: int) -> float | int | str:
     """A word as limb.toml would write it: the shortest decimals that the controller reads as this very float."""
     if parameter.texts:
         return parameter.texts[word]
@@ -64,7 +67,7 @@ def value_of(parameter: Parameter, word: int) -> Any:
 
 def model_of(words: np.ndarray) -> LimbModel:
     """The limb model of a block's words; what equals the format's default is not marked as given."""
-    values: dict[str, Any] = {"format": 1, "name": ""}
+    values: dict[str, Value] = {"format": 1, "name": ""}
     given = {"format"}
     for parameter in PARAMETERS:
         values[parameter.key] = value_of(parameter, int(words[parameter.index]))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import matplotlib
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 INK, STIFF, SOFT, MODEL, FAINT = "#22303c", "#c8553d", "#2d6a8e", "#588b5b", "#b8c0c8"
 
-_STYLE: dict[str, Any] = {
+_STYLE: dict[str, object] = {
     "font.size": 9.0,
     "axes.spines.top": False,
     "axes.spines.right": False,

@@ -8,30 +8,22 @@ import threading
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import NotRequired, TypedDict
 
 from brace.errors import BadFileError, BraceError, NoDeviceError, UsageError
 from brace.model import LimbModel
 from brace.native import node_library
+from brace.native.c_data import CData
 from brace.native.limb import fill_plant, plant_error, status_text
 from brace.params import pack
 from brace.sim.spec import JOINTS, Fault, Posture
-from brace.stiffness import flag_names
+from brace.stiffness import SPATIAL_K, flag_names
+from brace.wire import codes
 
-MODES = ("start", "monitor", "configuration", "taking_up", "loading_test", "fault")
-FAULT_BITS = (
-    "sensor_femur",
-    "sensor_tibia",
-    "encoder_stuck",
-    "tick_late",
-    "parameters",
-    "store",
-    "can_bus_off",
-    "model_drift",
-    "crashed",
-)
-ORIGINS = ("default", "slot_a", "slot_b")
-PLAY_STATES = ("unknown", "taking_up", "engaged_positive", "engaged_negative", "crossing", "fault")
+MODES = tuple(name.lower() for name in codes.MODE.names)
+FAULT_BITS = tuple(name.lower() for name in codes.FAULT.names)
+ORIGINS = tuple(name.lower() for name in codes.PARAMETER_ORIGIN.names)
+PLAY_STATES = tuple(name.lower() for name in codes.PLAY.names)
 SERIAL_PORTS = {"console": 0, "modbus": 1, "slcan": 2, "modbus_tcp": 3}
 _SLICE_S = 0.001  # of the wall clock, where the limbs run at a speed of their own
 E_URL, E_IN_USE, E_NO_DEVICE, E_NO_CAN, E_DENIED, E_SYSTEM, E_SIZE = range(-1, -8, -1)
@@ -53,7 +45,8 @@ class LimbSetup:
     changes: dict[str, float] = field(default_factory=dict)  # of the parameters, by key
     theta_rad: tuple[float, float, float] = (0.0, 1.0, 1.4)
     hold_n_per_mm: float = math.inf
-    press_mm: tuple[float, float] = (0.0, 0.0)
+    press_mm: tuple[float, float] = (0.0, 0.0)  # x, z
+    press_y_mm: float = 0.0  # across the plane; of a limb with a coxa joint
     force_noise_n: float | None = None  # None: the plant's sensor.noise_n
     has_force_sensor: bool = True
     has_link_encoder: bool = False
@@ -68,6 +61,32 @@ class LimbSetup:
     slcan_line: str = "none"
     modbus_tcp: str = "none"
     drive: dict[str, float] = field(default_factory=dict)  # members of brace_node_drive_t, of all joints
+
+
+class LimbState(TypedDict):
+    """A tick as the controller tells it; None: K is not valid."""
+
+    space: NotRequired[dict[str, object]]  # K in space, of a limb with a coxa joint
+    limb: int  # from 1
+    node: int
+    sequence: int
+    mode: str
+    faults: list[str]
+    k_is_valid: bool
+    k_xx_n_per_mm: float | None
+    k_xz_n_per_mm: float | None
+    k_zz_n_per_mm: float | None
+    lambda_min_n_per_mm: float | None
+    lambda_max_n_per_mm: float | None
+    stiff_axis_rad: float | None
+    flag_names: list[str]
+    theta1_rad: float
+    theta2_rad: float
+    play: list[str]
+    force_x_n: float
+    force_z_n: float
+    parameters: str
+    parameter_crc: str
 
 
 class PortBusy(NoDeviceError):
@@ -86,7 +105,7 @@ class Node:
         self._over: threading.Event | None = None
         self._ended = threading.Event()
         ffi, lib = self.native.ffi, self.native.lib
-        keep: list[Any] = []
+        keep: list[CData] = []
         structs = ffi.new("brace_node_limb_t[]", len(limbs))
         for struct, setup in zip(structs, limbs, strict=True):
             self._fill(struct, setup, keep)
@@ -98,7 +117,7 @@ class Node:
 
     # ------------------------------------------------------------------------------------------- making
 
-    def _fill(self, struct: Any, setup: LimbSetup, keep: list[Any]) -> None:
+    def _fill(self, struct: CData, setup: LimbSetup, keep: list[CData]) -> None:
         ffi, lib = self.native.ffi, self.native.lib
         lib.brace_node_limb_default(ffi.addressof(struct))
         fill_plant(self.native, struct.plant, setup.plant)
@@ -109,7 +128,8 @@ class Node:
                 setattr(struct.drive[index], name, value)
         struct.theta_rad = setup.theta_rad
         struct.hold_n_per_mm = setup.hold_n_per_mm
-        struct.press_x_mm, struct.press_z_mm = setup.press_mm
+        struct.press.x_mm, struct.press.z_mm = setup.press_mm
+        struct.press.y_mm = setup.press_y_mm
         noise_n = setup.force_noise_n
         struct.force_noise_n = setup.plant.number("sensor.noise_n") if noise_n is None else noise_n
         struct.has_force_sensor = setup.has_force_sensor
@@ -129,7 +149,7 @@ class Node:
                 keep.append(ffi.new("char[]", os.fsencode(text)))
                 setattr(struct, name, keep[-1])
 
-    def _refusal(self, failure: Any, can: str | None) -> BraceError:
+    def _refusal(self, failure: CData, can: str | None) -> BraceError:
         setup = self._setups[failure.limb]
         part, detail = int(failure.part), int(failure.detail)
         if part == 1:
@@ -226,8 +246,9 @@ class Node:
             if status != 0:
                 raise UsageError(
                     f"--fault for limb {limb + 1}",
-                    why=f"there are {len(self._setups)} limbs, or its value is out of range",
-                    next_step="--limbs N, or another limb",
+                    why=f"there are {len(self._setups)} limbs; or its value is out of range; or it is the coxa joint's,"
+                    " and the limb has none: nothing yields across its plane",
+                    next_step="--limbs N, another limb, or joint.coxa.compliance_rad_per_n_mm in the limb's file",
                 )
 
     def add_posture(self, posture: Posture) -> None:
@@ -237,9 +258,12 @@ class Node:
                 self._node, limb, posture.at_s, posture.theta1_rad, posture.theta2_rad
             )
 
-    def press(self, x_mm: float, z_mm: float, limb: int = 0, hold_n_per_mm: float = math.inf) -> None:
+    def press(
+        self, x_mm: float, z_mm: float, limb: int = 0, hold_n_per_mm: float = math.inf, y_mm: float = 0.0
+    ) -> None:
         """The contact anew: it holds the tip so far from where the unloaded limb now has it."""
-        self.native.lib.brace_node_contact(self._node, limb, hold_n_per_mm, x_mm, z_mm)
+        press = self.native.ffi.new("brace_node_press_t *", {"x_mm": x_mm, "y_mm": y_mm, "z_mm": z_mm})
+        self.native.lib.brace_node_contact(self._node, limb, hold_n_per_mm, press)
 
     def restart(self, limb: int = 0) -> None:
         """Power off and on; the memory stays."""
@@ -256,39 +280,46 @@ class Node:
         """What the client of a serial port, or of modbus_tcp, connects to."""
         return self._text(self.native.lib.brace_node_serial_place(self._node, limb, SERIAL_PORTS[port]))
 
-    def _text(self, pointer: Any) -> str:
+    def _text(self, pointer: CData) -> str:
         return str(self.native.ffi.string(pointer).decode())
 
-    def app(self, limb: int = 0) -> Any:
+    def app(self, limb: int = 0) -> CData:
         """brace_app_t *, for requests while nothing runs."""
         return self.native.lib.brace_node_app(self._node, limb)
 
-    def raw_snapshot(self, limb: int = 0) -> Any:
+    def raw_snapshot(self, limb: int = 0) -> CData:
         """brace_snapshot_t *, a copy."""
         snapshot = self.native.ffi.new("brace_snapshot_t *")
         self.native.lib.brace_node_snapshot(self._node, limb, snapshot)
         return snapshot
 
-    def raw_truth(self, limb: int = 0) -> Any:
+    def raw_truth(self, limb: int = 0) -> CData:
         """brace_node_truth_t *, a copy."""
         truth = self.native.ffi.new("brace_node_truth_t *")
         self.native.lib.brace_node_truth(self._node, limb, truth)
         return truth
 
-    def state(self, limb: int = 0) -> dict[str, Any]:
+    def has_coxa_joint(self, limb: int = 0) -> bool:
+        """Something yields across the limb's plane."""
+        return bool(self.raw_truth(limb).has_coxa_joint)
+
+    def state(self, limb: int = 0) -> LimbState:
         """The newest tick as the controller tells it; K is None unless it is valid."""
         s = self.raw_snapshot(limb)
         k = s.stiffness.now
         valid = bool(s.k_is_valid)
-        names = ("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max")
-        return {
+        state: LimbState = {
             "limb": limb + 1,
             "node": int(self.native.lib.brace_app_parameters(self.app(limb)).controller.node_id),
             "sequence": s.sequence,
             "mode": MODES[s.mode],
             "faults": [name for bit, name in enumerate(FAULT_BITS) if s.faults >> bit & 1],
             "k_is_valid": valid,
-            **{f"{name}_n_per_mm": getattr(k, f"{name}_n_per_mm") if valid else None for name in names},
+            "k_xx_n_per_mm": k.k_xx_n_per_mm if valid else None,
+            "k_xz_n_per_mm": k.k_xz_n_per_mm if valid else None,
+            "k_zz_n_per_mm": k.k_zz_n_per_mm if valid else None,
+            "lambda_min_n_per_mm": k.lambda_min_n_per_mm if valid else None,
+            "lambda_max_n_per_mm": k.lambda_max_n_per_mm if valid else None,
             "stiff_axis_rad": k.stiff_axis_rad if valid else None,
             "flag_names": flag_names(k.flags),
             "theta1_rad": s.theta_rad[1],
@@ -299,8 +330,11 @@ class Node:
             "parameters": ORIGINS[s.parameter_origin],
             "parameter_crc": f"{s.parameter_crc:08x}",
         }
+        if s.space.is_fitted:
+            state["space"] = _space_of(s)
+        return state
 
-    def truth(self, limb: int = 0) -> dict[str, Any]:
+    def truth(self, limb: int = 0) -> dict[str, object]:
         """What no controller sees."""
         t = self.raw_truth(limb)
         return {
@@ -312,13 +346,42 @@ class Node:
             "force_x_n": t.force_x_n,
             "force_z_n": t.force_z_n,
             "temp_degc": t.temp_degc,
+            **(_truth_across(t) if t.has_coxa_joint else {}),
         }
 
-    def stats(self) -> dict[str, Any]:
+    def stats(self) -> dict[str, int]:
         """Ticks, lateness, frames since the start."""
         stats = self.native.ffi.new("brace_node_stats_t *")
         self.native.lib.brace_node_stats(self._node, stats)
         return {name: int(getattr(stats, name)) for name, _ in self.native.ffi.typeof(stats[0]).fields}
+
+
+def _space_of(s: CData) -> dict[str, object]:
+    """K in space, named as brace k names it; K is None unless it is valid."""
+    space, k = s.space, s.space.now
+    valid = bool(space.is_valid)
+    entries: dict[str, object] = {"k_is_valid": valid}
+    entries |= {name: getattr(k, name) if valid else None for name in SPATIAL_K}
+    for place, name in enumerate(("min", "mid", "max")):
+        entries[f"lambda_{name}_n_per_mm"] = k.lambda_n_per_mm[place] if valid else None
+    for place, axis in enumerate("xyz"):
+        entries[f"stiff_axis_{axis}"] = k.stiff_axis[place] if valid else None
+    return entries | {
+        "flag_names": flag_names(k.flags),
+        "k_across_n_per_mm": space.across_n_per_mm if valid else None,
+        "theta0_rad": s.theta_rad[0],
+        "play_coxa": PLAY_STATES[s.play[0].state],
+    }
+
+
+def _truth_across(t: CData) -> dict[str, float]:
+    """What is true across the limb's plane."""
+    return {
+        "theta0_rad": t.link_rad[0],
+        "load_coxa_n_mm": t.load_n_mm[0],
+        "flank_coxa": t.flank[0],
+        "force_y_n": t.force_y_n,
+    }
 
 
 _PARTS = {

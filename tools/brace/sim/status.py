@@ -4,17 +4,33 @@ from __future__ import annotations
 
 import shutil
 import sys
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from brace.sim.node import LimbState
+
+from brace.stiffness import SPATIAL_K
 
 
-def line_of(state: dict[str, Any]) -> str:
+def line_of(state: LimbState) -> str:
     """A limb in a line."""
     if state["k_is_valid"]:
-        k = "K {k_xx_n_per_mm:.3f} {k_xz_n_per_mm:.3f} {k_zz_n_per_mm:.3f} N/mm".format(**state)
+        k = "K {k_xx_n_per_mm:.3f} {k_xz_n_per_mm:.3f} {k_zz_n_per_mm:.3f} N/mm".format_map(state)
     else:
         k = "K not valid"
+    space = state.get("space")
+    if space is not None:
+        k += f", {_in_space(space)}"
     notes = [*state["flag_names"], *(f"fault {name}" for name in state["faults"])]
     return f"limb {state['limb']}: {state['mode']}, {k}" + (f" ({', '.join(notes)})" if notes else "")
+
+
+def _in_space(space: Mapping[str, object]) -> str:
+    if not space["k_is_valid"]:
+        return "K in space not valid"
+    entries = " ".join(f"{{{name}:.3f}}" for name in SPATIAL_K)
+    return f"K in space {entries} N/mm".format_map(space)
 
 
 class LiveLine:
@@ -24,7 +40,7 @@ class LiveLine:
         self._shown = False
         self.wanted = sys.stderr is not None and sys.stderr.isatty()
 
-    def show(self, time_s: float, states: list[dict[str, Any]], stats: dict[str, Any]) -> None:
+    def show(self, time_s: float, states: Sequence[LimbState], stats: dict[str, int]) -> None:
         """Anew."""
         if not self.wanted:
             return

@@ -6,7 +6,6 @@ import re
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from brace.errors import BadFileError, place
 from brace.files import TOML_LIMIT_BYTES, read_text
@@ -27,7 +26,7 @@ class Document:
     to 1-based line numbers."""
 
     path: Path
-    content: dict[str, Any]
+    content: dict[str, object]
     lines: dict[str, int] = field(default_factory=dict)
 
     def where(self, key: str = "") -> str:
@@ -74,14 +73,14 @@ def parse(text: str, path: Path, what: str) -> Document:
     return Document(path, content, lines)
 
 
-def _refuse_depth(content: dict[str, Any], lines: dict[str, int], path: Path, what: str, text: str) -> None:
+def _refuse_depth(content: dict[str, object], lines: dict[str, int], path: Path, what: str, text: str) -> None:
     """Walks the document level by level (never recursively) and refuses what is deeper than any format here."""
-    level: list[Any] = [content]
+    level: list[object] = [content]
     for _ in range(MAX_DEPTH):
         level = [
             item
             for value in level
-            for item in (value.values() if isinstance(value, dict) else value)
+            for item in (value.values() if isinstance(value, dict) else value if isinstance(value, list) else ())
             if isinstance(item, (dict, list))
         ]
         if not level:

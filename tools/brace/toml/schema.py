@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from brace.errors import BadFileError, did_you_mean
 from brace.toml.document import Document
 
-Value = float | str | bool | int
+Value = float | str | bool | int | list[str]
 
 
 @dataclass(frozen=True)
@@ -18,7 +17,7 @@ class Key:
     """A key that a file may have. Numbers are `low <= value <= high` (`low < value` when `open_low`)."""
 
     name: str  # dotted: "link.femur.bending_mm_per_n"
-    default: Any  # None: must be given
+    default: Value | list[str] | None  # None: must be given
     meaning: str
     unit: str = ""
     low: float = -math.inf
@@ -65,8 +64,8 @@ def check(
     what: str,
     *,
     prefix: str = "",
-    content: Mapping[str, Any] | None = None,
-) -> dict[str, Any]:
+    content: Mapping[str, object] | None = None,
+) -> dict[str, Value]:
     """Values of all `keys` (defaults filled in) from a document, or from one table of it under `prefix`.
 
     Refuses unknown keys and tables, wrong types, values out of range, missing keys; with file:line."""
@@ -79,7 +78,7 @@ def check(
         if name in tables and value == {}:
             continue  # an empty table says nothing
         raise _another_kind(document, what) or _unknown(document, prefix, name, value, known, tables, what)
-    values: dict[str, Any] = {}
+    values: dict[str, Value] = {}
     for key in keys:
         if key.name in given:
             values[key.name] = _checked(document, prefix + key.name, key, given[key.name])
@@ -96,7 +95,7 @@ def check(
     return values
 
 
-def _flatten(content: Mapping[str, Any], prefix: str = "") -> Iterable[tuple[str, Any]]:
+def _flatten(content: Mapping[str, object], prefix: str = "") -> Iterable[tuple[str, object]]:
     for name, value in content.items():
         dotted = f"{prefix}{name}"
         if isinstance(value, Mapping) and value:
@@ -126,7 +125,7 @@ def _unknown(
     document: Document,
     prefix: str,
     name: str,
-    value: Any,
+    value: object,
     known: Mapping[str, Key],
     tables: set[str],
     what: str,
@@ -188,7 +187,7 @@ def _near_table(table: str, tables: set[str]) -> str:
     return siblings[near] if near else ""
 
 
-def _checked(document: Document, name: str, key: Key, value: Any) -> Any:
+def _checked(document: Document, name: str, key: Key, value: object) -> Value:
     def refuse(why: str) -> BadFileError:
         return BadFileError(
             f"{name} = {_shown(value)} cannot be",
@@ -234,7 +233,7 @@ def _checked(document: Document, name: str, key: Key, value: Any) -> Any:
     return value if key.kind == "integer" else number
 
 
-def _shown(value: Any) -> str:
+def _shown(value: object) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, (int, float, str)):
@@ -246,10 +245,23 @@ def _shown(value: Any) -> str:
     return _type_name(value)
 
 
-def _type_name(value: Any) -> str:
+def _type_name(value: object) -> str:
     if isinstance(value, bool):
         return "true/false"
     for kind, name in ((str, "text"), (list, "a list"), (dict, "a table")):
         if isinstance(value, kind):
             return name
     return "a date or time" if not isinstance(value, (int, float)) else "a number"
+
+
+def number(values: Mapping[str, Value], key: str) -> float:
+    """A checked value that is a number or a flag."""
+    value = values[key]
+    if isinstance(value, (int, float)):
+        return value
+    raise TypeError(f"{key} = {value!r} is not a number")
+
+
+def whole(values: Mapping[str, Value], key: str) -> int:
+    """A checked value that is a whole number or a flag."""
+    return int(number(values, key))

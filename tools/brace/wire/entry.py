@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from brace.wire.code import CodeTable
+
 
 @dataclass(frozen=True)
 class MeasuredEntry:
@@ -13,5 +15,5 @@ class MeasuredEntry:
     name: str
     type: str  # f32, u32
     unit: str
-    names: tuple[str, ...]
-    bit_names: tuple[str, ...]
+    codes: CodeTable | None = None  # what the number or its bits mean
+    numeric: bool = False  # tools give the number, not its name

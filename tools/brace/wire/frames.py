@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from brace.wire import codes
 from brace.wire.layout import Field, Layout
 
-DICTIONARY_HASH = 0x588D26D8
+DICTIONARY_HASH = 0x72CD93F2
 PROTOCOL = 1
 REQUEST_ID = 0x600
 ANSWER_ID = 0x580
@@ -13,13 +14,14 @@ REFUSED_PART = 7
 MESSAGES: dict[str, Layout] = {
     "emergency": Layout("emergency", 0x080, None, (
         Field("error_code", 0, 16),
-        Field("error_register", 16, 8),
-        Field("mode", 24, 8, names={0: "START", 1: "MONITOR", 2: "CONFIGURATION", 3: "TAKING_UP", 4: "LOADING_TEST", 5: "FAULT"}),
-        Field("faults", 32, 32, bit_names=("SENSOR_FEMUR", "SENSOR_TIBIA", "ENCODER_STUCK", "TICK_LATE", "PARAMETERS", "STORE", "CAN_BUS_OFF", "MODEL_DRIFT", "CRASHED",)),
+        Field("error_register", 16, 4),
+        Field("drift_cause", 20, 4, codes=codes.DRIFT_CAUSE),
+        Field("mode", 24, 8, codes=codes.MODE),
+        Field("faults", 32, 32, codes=codes.FAULT),
     )),
     "stiffness_a": Layout("stiffness_a", 0x180, None, (
         Field("sequence", 0, 8),
-        Field("flags", 8, 8, bit_names=("UNCALIBRATED", "NEAR_SINGULAR", "SATURATED", "GAP_OPEN", "STALE", "OUT_OF_RANGE",)),
+        Field("flags", 8, 8, codes=codes.FLAG),
         Field("k_xx", 16, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
         Field("k_xz", 40, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
     )),
@@ -27,8 +29,8 @@ MESSAGES: dict[str, Layout] = {
         Field("sequence", 0, 8),
         Field("k_zz", 8, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
         Field("age", 32, 8, kind="value", step=0.5, unit="ms"),
-        Field("play_femur", 40, 4, names={0: "UNKNOWN", 1: "TAKING_UP", 2: "ENGAGED_POSITIVE", 3: "ENGAGED_NEGATIVE", 4: "CROSSING", 5: "FAULT"}),
-        Field("play_tibia", 44, 4, names={0: "UNKNOWN", 1: "TAKING_UP", 2: "ENGAGED_POSITIVE", 3: "ENGAGED_NEGATIVE", 4: "CROSSING", 5: "FAULT"}),
+        Field("play_femur", 40, 4, codes=codes.PLAY),
+        Field("play_tibia", 44, 4, codes=codes.PLAY),
         Field("parameter_tag", 48, 16),
     )),
     "eigenvalues": Layout("eigenvalues", 0x380, None, (
@@ -41,15 +43,59 @@ MESSAGES: dict[str, Layout] = {
         Field("sequence", 0, 8),
         Field("theta1", 8, 20, kind="value", signed=True, step=2e-05, unit="rad"),
         Field("theta2", 28, 20, kind="value", signed=True, step=2e-05, unit="rad"),
-        Field("mode", 48, 4, names={0: "START", 1: "MONITOR", 2: "CONFIGURATION", 3: "TAKING_UP", 4: "LOADING_TEST", 5: "FAULT"}),
-        Field("faults", 52, 12, bit_names=("SENSOR_FEMUR", "SENSOR_TIBIA", "ENCODER_STUCK", "TICK_LATE", "PARAMETERS", "STORE", "CAN_BUS_OFF", "MODEL_DRIFT", "CRASHED",)),
+        Field("mode", 48, 4, codes=codes.MODE),
+        Field("faults", 52, 12, codes=codes.FAULT),
     )),
     "heartbeat": Layout("heartbeat", 0x700, None, (
-        Field("state", 0, 8, names={0: "BOOT", 4: "STOPPED", 5: "OPERATIONAL", 127: "PRE_OPERATIONAL"}),
-        Field("mode", 8, 8, names={0: "START", 1: "MONITOR", 2: "CONFIGURATION", 3: "TAKING_UP", 4: "LOADING_TEST", 5: "FAULT"}),
-        Field("faults", 16, 16, bit_names=("SENSOR_FEMUR", "SENSOR_TIBIA", "ENCODER_STUCK", "TICK_LATE", "PARAMETERS", "STORE", "CAN_BUS_OFF", "MODEL_DRIFT", "CRASHED",)),
+        Field("state", 0, 8, codes=codes.HEARTBEAT_STATE),
+        Field("mode", 8, 8, codes=codes.MODE),
+        Field("faults", 16, 16, codes=codes.FAULT),
         Field("dictionary_hash", 32, 32),
     )),
+}
+
+# Messages that carry a snapshot in parts: each part by its number.
+MULTIPLEXED: dict[str, tuple[Layout, ...]] = {
+    "space": (
+        Layout("space_0", 0x200, None, (
+            Field("sequence", 0, 8),
+            Field("k_xx", 16, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+            Field("k_xy", 40, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+        ), part=0, part_at=8),
+        Layout("space_1", 0x200, None, (
+            Field("sequence", 0, 8),
+            Field("k_xz", 16, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+            Field("k_yy", 40, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+        ), part=1, part_at=8),
+        Layout("space_2", 0x200, None, (
+            Field("sequence", 0, 8),
+            Field("k_yz", 16, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+            Field("k_zz", 40, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+        ), part=2, part_at=8),
+        Layout("space_3", 0x200, None, (
+            Field("sequence", 0, 8),
+            Field("lambda_1", 16, 24, kind="value", step=0.0005, unit="N/mm"),
+            Field("lambda_2", 40, 24, kind="value", step=0.0005, unit="N/mm"),
+        ), part=3, part_at=8),
+        Layout("space_4", 0x200, None, (
+            Field("sequence", 0, 8),
+            Field("lambda_3", 16, 24, kind="value", step=0.0005, unit="N/mm"),
+            Field("flags", 40, 8, codes=codes.FLAG),
+            Field("age", 48, 8, kind="value", step=0.5, unit="ms"),
+            Field("play_coxa", 56, 4, codes=codes.PLAY),
+        ), part=4, part_at=8),
+        Layout("space_5", 0x200, None, (
+            Field("sequence", 0, 8),
+            Field("stiff_axis_x", 16, 16, kind="value", signed=True, step=5e-05),
+            Field("stiff_axis_y", 32, 16, kind="value", signed=True, step=5e-05),
+            Field("stiff_axis_z", 48, 16, kind="value", signed=True, step=5e-05),
+        ), part=5, part_at=8),
+        Layout("space_6", 0x200, None, (
+            Field("sequence", 0, 8),
+            Field("theta0", 16, 24, kind="value", signed=True, step=1e-06, unit="rad"),
+            Field("k_across", 40, 24, kind="value", step=0.0005, unit="N/mm"),
+        ), part=6, part_at=8),
+    ),
 }
 
 FD_MESSAGES: dict[str, Layout] = {
@@ -57,11 +103,11 @@ FD_MESSAGES: dict[str, Layout] = {
         Field("sequence", 0, 32),
         Field("parameter_crc", 32, 32),
         Field("age", 64, 16, kind="value", step=0.5, unit="ms"),
-        Field("flags", 80, 16, bit_names=("UNCALIBRATED", "NEAR_SINGULAR", "SATURATED", "GAP_OPEN", "STALE", "OUT_OF_RANGE",)),
-        Field("mode", 96, 8, names={0: "START", 1: "MONITOR", 2: "CONFIGURATION", 3: "TAKING_UP", 4: "LOADING_TEST", 5: "FAULT"}),
-        Field("play_femur", 104, 4, names={0: "UNKNOWN", 1: "TAKING_UP", 2: "ENGAGED_POSITIVE", 3: "ENGAGED_NEGATIVE", 4: "CROSSING", 5: "FAULT"}),
-        Field("play_tibia", 108, 4, names={0: "UNKNOWN", 1: "TAKING_UP", 2: "ENGAGED_POSITIVE", 3: "ENGAGED_NEGATIVE", 4: "CROSSING", 5: "FAULT"}),
-        Field("faults", 112, 16, bit_names=("SENSOR_FEMUR", "SENSOR_TIBIA", "ENCODER_STUCK", "TICK_LATE", "PARAMETERS", "STORE", "CAN_BUS_OFF", "MODEL_DRIFT", "CRASHED",)),
+        Field("flags", 80, 16, codes=codes.FLAG),
+        Field("mode", 96, 8, codes=codes.MODE),
+        Field("play_femur", 104, 4, codes=codes.PLAY),
+        Field("play_tibia", 108, 4, codes=codes.PLAY),
+        Field("faults", 112, 16, codes=codes.FAULT),
         Field("k_xx", 128, 32, kind="f32", unit="N/mm"),
         Field("k_xz", 160, 32, kind="f32", unit="N/mm"),
         Field("k_zz", 192, 32, kind="f32", unit="N/mm"),
@@ -74,6 +120,28 @@ FD_MESSAGES: dict[str, Layout] = {
         Field("tip_z", 416, 32, kind="f32", unit="mm"),
         Field("force_x", 448, 32, kind="f32", unit="N"),
         Field("force_z", 480, 32, kind="f32", unit="N"),
+    ), 64),
+    "space_fd": Layout("space_fd", 0x300, None, (
+        Field("sequence", 0, 32),
+        Field("age", 32, 16, kind="value", step=0.5, unit="ms"),
+        Field("parameter_tag", 48, 16),
+        Field("flags", 64, 16, codes=codes.FLAG),
+        Field("mode", 80, 8, codes=codes.MODE),
+        Field("play_coxa", 88, 8, codes=codes.PLAY),
+        Field("k_across", 96, 32, kind="f32", unit="N/mm"),
+        Field("k_xx", 128, 32, kind="f32", unit="N/mm"),
+        Field("k_xy", 160, 32, kind="f32", unit="N/mm"),
+        Field("k_xz", 192, 32, kind="f32", unit="N/mm"),
+        Field("k_yy", 224, 32, kind="f32", unit="N/mm"),
+        Field("k_yz", 256, 32, kind="f32", unit="N/mm"),
+        Field("k_zz", 288, 32, kind="f32", unit="N/mm"),
+        Field("lambda_1", 320, 32, kind="f32", unit="N/mm"),
+        Field("lambda_2", 352, 32, kind="f32", unit="N/mm"),
+        Field("lambda_3", 384, 32, kind="f32", unit="N/mm"),
+        Field("theta0", 416, 32, kind="f32", unit="rad"),
+        Field("stiff_axis_x", 448, 16, kind="value", signed=True, step=5e-05),
+        Field("stiff_axis_y", 464, 16, kind="value", signed=True, step=5e-05),
+        Field("stiff_axis_z", 480, 16, kind="value", signed=True, step=5e-05),
     ), 64),
 }
 
@@ -110,7 +178,7 @@ REQUESTS: dict[str, Layout] = {
         Field("friction", 32, 16, kind="value", step=0.001, unit="1"),
     )),
     "set_mode": Layout("set_mode_request", 0x600, 9, (
-        Field("mode", 16, 8, names={0: "START", 1: "MONITOR", 2: "CONFIGURATION"}),
+        Field("mode", 16, 8, codes=codes.MODE),
         Field("key", 24, 16),
     )),
     "upload_begin": Layout("upload_begin_request", 0x600, 10, (
@@ -155,6 +223,16 @@ REQUESTS: dict[str, Layout] = {
     "clear": Layout("clear_request", 0x600, 22, (
         Field("faults", 16, 32),
     )),
+    "k_in_space_at_posture": Layout("k_in_space_at_posture_request", 0x600, 23, (
+        Field("theta0", 16, 16, kind="value", signed=True, step=0.0001, unit="rad"),
+        Field("theta1", 32, 16, kind="value", signed=True, step=0.0001, unit="rad"),
+        Field("theta2", 48, 16, kind="value", signed=True, step=0.0001, unit="rad"),
+    )),
+    "drift": Layout("drift_request", 0x600, 24, (
+    )),
+    "take_up_result": Layout("take_up_result_request", 0x600, 25, (
+        Field("joint", 16, 8),
+    )),
 }
 
 ANSWERS: dict[str, tuple[Layout, ...]] = {
@@ -182,7 +260,7 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
         Layout("k_at_posture_answer_2", 0x580, 67, (
             Field("lambda_max", 16, 24, kind="value", step=0.0005, unit="N/mm"),
             Field("stiff_axis", 40, 16, kind="value", signed=True, step=0.0001, unit="rad"),
-            Field("flags", 56, 8),
+            Field("flags", 56, 8, codes=codes.FLAG),
         )),
     ),
     "k_at_tip_knee_up": (
@@ -197,7 +275,7 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
         Layout("k_at_tip_knee_up_answer_2", 0x580, 68, (
             Field("lambda_max", 16, 24, kind="value", step=0.0005, unit="N/mm"),
             Field("stiff_axis", 40, 16, kind="value", signed=True, step=0.0001, unit="rad"),
-            Field("flags", 56, 8),
+            Field("flags", 56, 8, codes=codes.FLAG),
         )),
     ),
     "k_at_tip_knee_down": (
@@ -212,7 +290,7 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
         Layout("k_at_tip_knee_down_answer_2", 0x580, 69, (
             Field("lambda_max", 16, 24, kind="value", step=0.0005, unit="N/mm"),
             Field("stiff_axis", 40, 16, kind="value", signed=True, step=0.0001, unit="rad"),
-            Field("flags", 56, 8),
+            Field("flags", 56, 8, codes=codes.FLAG),
         )),
     ),
     "contact_force": (
@@ -235,7 +313,7 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
         Layout("friction_margin_answer_0", 0x580, 8, (
             Field("margin", 16, 24, kind="value", signed=True, step=0.001, unit="N"),
             Field("angle_left", 40, 16, kind="value", signed=True, step=0.0001, unit="rad"),
-            Field("contact", 56, 8, names={0: "HOLDS", 1: "SLIDES", 2: "LIFTS"}),
+            Field("contact", 56, 8, codes=codes.CONTACT),
         )),
     ),
     "set_mode": (
@@ -278,7 +356,7 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
     ),
     "take_up": (
         Layout("take_up_answer_0", 0x580, 15, (
-            Field("phase", 16, 8, names={0: "IDLE", 1: "APPROACH", 2: "VERIFY", 3: "HOLD", 4: "LET_GO"}),
+            Field("phase", 16, 8, codes=codes.TAKE_UP_PHASE),
         )),
     ),
     "let_go": (
@@ -319,19 +397,66 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
         )),
         Layout("identify_answer_3", 0x580, 116, (
             Field("parameter_crc", 16, 32),
-            Field("origin", 48, 8, names={0: "DEFAULT", 1: "SLOT_A", 2: "SLOT_B"}),
+            Field("origin", 48, 8, codes=codes.PARAMETER_ORIGIN),
         )),
     ),
     "loading_test_result": (
         Layout("loading_test_result_answer_0", 0x580, 21, (
             Field("item", 16, 8),
-            Field("outcome", 24, 8, signed=True),
+            Field("outcome", 24, 8, signed=True, codes=codes.LOADING_OUTCOME),
             Field("value", 32, 32, kind="f32"),
         )),
     ),
     "clear": (
         Layout("clear_answer_0", 0x580, 22, (
             Field("faults", 16, 32),
+        )),
+    ),
+    "k_in_space_at_posture": (
+        Layout("k_in_space_at_posture_answer_0", 0x580, 23, (
+            Field("k_xx", 16, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+            Field("k_xy", 40, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+        )),
+        Layout("k_in_space_at_posture_answer_1", 0x580, 55, (
+            Field("k_xz", 16, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+            Field("k_yy", 40, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+        )),
+        Layout("k_in_space_at_posture_answer_2", 0x580, 87, (
+            Field("k_yz", 16, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+            Field("k_zz", 40, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+        )),
+        Layout("k_in_space_at_posture_answer_3", 0x580, 119, (
+            Field("lambda_1", 16, 24, kind="value", step=0.0005, unit="N/mm"),
+            Field("lambda_2", 40, 24, kind="value", step=0.0005, unit="N/mm"),
+        )),
+        Layout("k_in_space_at_posture_answer_4", 0x580, 151, (
+            Field("lambda_3", 16, 24, kind="value", step=0.0005, unit="N/mm"),
+            Field("flags", 40, 8, codes=codes.FLAG),
+        )),
+    ),
+    "drift": (
+        Layout("drift_answer_0", 0x580, 24, (
+            Field("state", 16, 4, codes=codes.DRIFT_STATE),
+            Field("cause", 20, 4, codes=codes.DRIFT_CAUSE),
+            Field("could_be", 24, 8, codes=codes.DRIFT_COULD_BE),
+            Field("next_step", 32, 8, codes=codes.DRIFT_NEXT_STEP),
+            Field("evidence", 40, 24, kind="value", step=0.001),
+        )),
+        Layout("drift_answer_1", 0x580, 56, (
+            Field("loss", 16, 24, kind="value", signed=True, step=1e-05, unit="1"),
+            Field("loss_sigma", 40, 24, kind="value", step=1e-05, unit="1"),
+        )),
+        Layout("drift_answer_2", 0x580, 88, (
+            Field("since_readings", 16, 16),
+            Field("readings", 32, 32),
+        )),
+    ),
+    "take_up_result": (
+        Layout("take_up_result_answer_0", 0x580, 25, (
+            Field("joint", 16, 8),
+            Field("outcome", 24, 8, signed=True, codes=codes.TAKE_UP_OUTCOME),
+            Field("phase", 32, 8, codes=codes.TAKE_UP_PHASE),
+            Field("torque", 40, 24, kind="value", signed=True, step=0.1, unit="N mm"),
         )),
     ),
 }

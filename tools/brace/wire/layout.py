@@ -5,7 +5,9 @@ from __future__ import annotations
 import math
 import struct
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+
+from brace.wire.code import CodeTable
 
 Value = float | int | None
 
@@ -21,8 +23,19 @@ class Field:
     signed: bool = False
     step: float = 1.0
     unit: str = ""
-    names: Mapping[int, str] = field(default_factory=dict)
-    bit_names: tuple[str, ...] = ()
+    codes: CodeTable | None = None  # what the number or its bits mean
+
+    @property
+    def names(self) -> Mapping[int, str]:
+        """The number's meanings; empty: it has none, or they are its bits'."""
+        if self.codes is None or self.codes.is_bits:
+            return {}
+        return {code.number if self.signed else code.number % 256: code.name for code in self.codes.codes}
+
+    @property
+    def bit_names(self) -> tuple[str, ...]:
+        """The names of the bits, from bit 0 on; empty: they have none."""
+        return tuple(code.name for code in self.codes.codes) if self.codes is not None and self.codes.is_bits else ()
 
     def decode(self, frame_bits: int) -> Value:
         """Value in its unit; None: not known."""
@@ -69,6 +82,15 @@ class Layout:
     command: int | None  # first byte of requests and answers
     fields: tuple[Field, ...]
     size: int = 8  # bytes; more: CAN FD
+    part: int | None = None  # of a multiplexed message
+    part_at: int = 0  # the first bit of the part's number
+
+    def codes_of(self, name: str) -> CodeTable:
+        """What a field's number or bits mean. KeyError for a field without a meaning."""
+        for item in self.fields:
+            if item.name == name and item.codes is not None:
+                return item.codes
+        raise KeyError(f"{self.name}.{name}")
 
     def decode(self, data: bytes) -> dict[str, Value]:
         """Name -> value."""
@@ -78,6 +100,7 @@ class Layout:
     def encode(self, values: Mapping[str, Value], token: int = 0) -> bytes:
         """`size` bytes. KeyError for a field that is missing, ValueError for one that does not fit."""
         bits = 0 if self.command is None else self.command | (token & 0xFF) << 8
+        bits |= (self.part or 0) << self.part_at
         for item in self.fields:
             bits |= item.encode(values[item.name])
         return bits.to_bytes(self.size, "little")

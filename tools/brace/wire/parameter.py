@@ -10,7 +10,9 @@ class Parameter:
     """A key of limb.toml and its place in the block."""
 
     index: int  # in the block
+    number: int  # what CAN calls it by; half its Modbus register
     key: str  # "link.femur.bending_mm_per_n"
+    member: str  # of brace_parameters_t in C: "limb.link[1].bending_mm_per_n"
     unit: str
     low: float  # low <= value <= high; low < value when open_low
     high: float

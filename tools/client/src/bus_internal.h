@@ -1,4 +1,4 @@
-/* What the two kinds of bus have in common: a file descriptor, and text that comes in pieces. */
+/* Shared by the two kinds of bus: a file descriptor, and text that comes in pieces. */
 #ifndef BRACE_BUS_INTERNAL_H
 #define BRACE_BUS_INTERNAL_H
 
@@ -33,11 +33,11 @@ brace_bus_status_t brace_socketcan_receive(brace_bus_t *bus, brace_bus_frame_t *
 brace_bus_status_t brace_slcan_open_tty(brace_bus_t *bus, const char *where, char rate, char *why, unsigned why_room);
 brace_bus_status_t brace_slcan_open_tcp(brace_bus_t *bus, const char *where, char rate, int timeout_ms, char *why,
                                         unsigned why_room);
-bool brace_slcan_rate(uint32_t bit_rate, char *rate); /* the digit behind 'S'; false: none */
+bool brace_slcan_rate(uint32_t bit_rate, char *rate); /* the digit behind 'S'; false: there is no such rate */
 brace_bus_status_t brace_slcan_send(brace_bus_t *bus, const brace_bus_frame_t *frame, int timeout_ms);
 brace_bus_status_t brace_slcan_receive(brace_bus_t *bus, brace_bus_frame_t *frame, int timeout_ms);
 void brace_slcan_ask_status(brace_bus_t *bus, int timeout_ms);
-/* Opens the channel once more: for an adapter that was still starting, and lost the first words. */
+/* Opens the channel once more, for an adapter that was still starting and lost the first commands. */
 void brace_slcan_enter_again(brace_bus_t *bus);
 void brace_slcan_leave(brace_bus_t *bus);
 

@@ -18,7 +18,7 @@
 
 enum { ENTER_MS = 1000 };
 
-/* Where the other end of a connection has gone that is a status, and no signal to the robot's process. */
+/* When the other end of a connection has closed, that must be a status and no signal to the robot's process. */
 static ssize_t put(int fd, const char *text, size_t length)
 {
     const ssize_t size = send(fd, text, length, MSG_NOSIGNAL);
@@ -59,7 +59,8 @@ bool brace_slcan_rate(uint32_t bit_rate, char *rate)
     return false;
 }
 
-/* Ends a command that somebody left half-sent, closes, sets the rate (a controller's own port ignores it), opens. */
+/* Ends a command that somebody left half-sent, closes the channel, sets the rate (a controller's own port ignores it),
+ * and opens the channel. */
 static brace_bus_status_t enter(brace_bus_t *bus, char rate, int timeout_ms)
 {
     const char hello[] = {'\r', '\r', 'C', '\r', 'S', rate, '\r', 'O', '\r'};
@@ -121,7 +122,7 @@ brace_bus_status_t brace_slcan_open_tty(brace_bus_t *bus, const char *where, cha
     }
     cfmakeraw(&settings);
     settings.c_cflag |= CLOCAL | CREAD;
-    settings.c_cc[VMIN] = 1; /* no news reads EAGAIN; 0 is the end */
+    settings.c_cc[VMIN] = 1; /* without news a read gives EAGAIN; 0 means the end */
     settings.c_cc[VTIME] = 0;
     cfsetispeed(&settings, speed);
     cfsetospeed(&settings, speed);
@@ -224,7 +225,7 @@ static bool is_data_frame(char kind)
     return kind == 't' || kind == 'd' || kind == 'b'; /* d, b: CAN FD without and with bit-rate switch */
 }
 
-/* A line without its end; true when it is a data frame with an 11-bit identifier. A time stamp may follow. */
+/* Reads a line without its end. True when it is a data frame with an 11-bit identifier. A time stamp may follow. */
 static bool read_frame(const char *line, size_t length, brace_bus_frame_t *frame)
 {
     static const uint8_t bytes[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 12, 16, 20, 24, 32, 48, 64};
@@ -252,7 +253,7 @@ static bool read_frame(const char *line, size_t length, brace_bus_frame_t *frame
     return true;
 }
 
-/* What is no frame: an adapter's answers, frames of other kinds, noise. */
+/* Handles a line that is no frame: an adapter's answer, a frame of another kind, noise. */
 static void note_line(brace_bus_t *bus)
 {
     uint32_t status;
@@ -308,7 +309,7 @@ brace_bus_status_t brace_slcan_receive(brace_bus_t *bus, brace_bus_frame_t *fram
         bus->chunk_at = 0u;
         bus->chunk_end = size > 0 ? (size_t)size : 0u;
         const int left_ms = brace_bus_left_ms(deadline_us);
-        if (left_ms == 0) { /* also where there is always more, and none of it a frame */
+        if (left_ms == 0) { /* ends also when more always comes but none is a frame */
             return next_frame(bus, frame) ? BRACE_BUS_OK : BRACE_BUS_E_TIMEOUT;
         }
         if (size < 0) {

@@ -1,4 +1,4 @@
-/* The kernel's own CAN. */
+/* CAN through the kernel's own sockets. */
 #include "bus_internal.h"
 
 #include <errno.h>
@@ -54,7 +54,7 @@ brace_bus_status_t brace_socketcan_open(brace_bus_t *bus, const char *name, char
     (void)setsockopt(bus->fd, SOL_SOCKET, SO_TIMESTAMP, &on, sizeof on);
     (void)setsockopt(bus->fd, SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
     (void)setsockopt(bus->fd, SOL_SOCKET, SO_RCVBUF, &room, sizeof room);
-    (void)setsockopt(bus->fd, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on); /* an old kernel: classic frames alone */
+    (void)setsockopt(bus->fd, SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on); /* old kernels: classic frames only */
     (void)setsockopt(bus->fd, SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &errors, sizeof errors);
     return BRACE_BUS_OK;
 }
@@ -78,13 +78,13 @@ brace_bus_status_t brace_socketcan_send(brace_bus_t *bus, const brace_bus_frame_
         if (left_ms == 0) {
             return BRACE_BUS_E_FULL;
         }
-        /* ENOBUFS: the interface's queue is full although the socket can be written to; look again in a while */
+        /* ENOBUFS: the interface's queue is full although the socket can be written to, so try again after a while */
         struct pollfd room = {.fd = bus->fd, .events = errno == ENOBUFS ? 0 : POLLOUT};
         poll(&room, 1, left_ms < 2 ? left_ms : 2);
     }
 }
 
-/* What the kernel tells beside a frame: when it came, and how many its queue has dropped so far. */
+/* Reads what the kernel reports beside a frame: its time, and how many frames its queue has dropped so far. */
 static void read_notes(brace_bus_t *bus, struct msghdr *message, brace_bus_frame_t *frame)
 {
     frame->received_us = brace_bus_now_us();

@@ -101,15 +101,16 @@ int brace_client_exit_code(brace_client_status_t status)
 brace_client_status_t brace_client_read(brace_client_t *client, uint32_t wanted, int timeout_ms,
                                         brace_client_snapshot_t *snapshot)
 {
-    if (wanted == 0u || wanted > BRACE_PART_ALL) {
+    if (wanted == 0u || wanted > PARTS_MOST) {
         return brace_client_fail(client, BRACE_CLIENT_E_USAGE,
-                                 "parts 0x%x: want BRACE_PART_K or more of BRACE_PART_ALL", (unsigned)wanted);
+                                 "parts 0x%x: want BRACE_PART_K or more of BRACE_PART_ALL and BRACE_PART_SPACE",
+                                 (unsigned)wanted);
     }
     return client->bus != NULL ? brace_can_read(client, wanted, deadline_after(timeout_ms), snapshot)
-                               : brace_modbus_read(client, deadline_after(timeout_ms), snapshot);
+                               : brace_modbus_read(client, wanted, deadline_after(timeout_ms), snapshot);
 }
 
-/* Questions that only CAN's frames carry. limited: values that the frame could not hold. */
+/* Asks a question that only CAN's frames carry; refuses it over Modbus. limited: how many values did not fit. */
 static brace_client_status_t ask(brace_client_t *client, brace_question_t *question, uint32_t code, uint32_t limited,
                                  int timeout_ms)
 {
@@ -118,7 +119,8 @@ static brace_client_status_t ask(brace_client_t *client, brace_question_t *quest
     }
     if (client->bus == NULL) {
         return brace_client_fail(client, BRACE_CLIENT_E_UNSUPPORTED,
-                                 "%s: not over Modbus; connect over CAN, or ask for K at a posture", client->url);
+                                 "%s: not over Modbus; connect over CAN, or ask for K in the limb's plane at a posture",
+                                 client->url);
     }
     question->code = code;
     return brace_can_ask(client, question, deadline_after(timeout_ms));
@@ -129,7 +131,7 @@ static bool is_number(float value)
     return value - value == 0.0f; /* neither NaN, which would be sent as 'not known', nor infinite */
 }
 
-/* A question of two numbers. */
+/* Asks a question of two numbers. */
 static brace_client_status_t ask_two(brace_client_t *client, brace_question_t *question, uint32_t code,
                                      uint32_t limited, float a, float b, int timeout_ms)
 {
@@ -170,6 +172,88 @@ brace_client_status_t brace_client_k_at_posture(brace_client_t *client, float th
     return status;
 }
 
+static void take_space_k(const brace_question_t *question, brace_client_space_k_t *k)
+{
+    brace_can_k_in_space_at_posture_answer_0_t x;
+    brace_can_k_in_space_at_posture_answer_1_t xz_yy;
+    brace_can_k_in_space_at_posture_answer_2_t z;
+    brace_can_k_in_space_at_posture_answer_3_t lower;
+    brace_can_k_in_space_at_posture_answer_4_t largest;
+    brace_can_unpack_k_in_space_at_posture_answer_0(question->answers[0], &x);
+    brace_can_unpack_k_in_space_at_posture_answer_1(question->answers[1], &xz_yy);
+    brace_can_unpack_k_in_space_at_posture_answer_2(question->answers[2], &z);
+    brace_can_unpack_k_in_space_at_posture_answer_3(question->answers[3], &lower);
+    brace_can_unpack_k_in_space_at_posture_answer_4(question->answers[4], &largest);
+    *k = (brace_client_space_k_t){
+        .k_xx_n_per_mm = x.k_xx_n_per_mm,
+        .k_xy_n_per_mm = x.k_xy_n_per_mm,
+        .k_xz_n_per_mm = xz_yy.k_xz_n_per_mm,
+        .k_yy_n_per_mm = xz_yy.k_yy_n_per_mm,
+        .k_yz_n_per_mm = z.k_yz_n_per_mm,
+        .k_zz_n_per_mm = z.k_zz_n_per_mm,
+        .lambda_n_per_mm = {lower.lambda_1_n_per_mm, lower.lambda_2_n_per_mm, largest.lambda_3_n_per_mm},
+        .flags = largest.flags};
+}
+
+brace_client_status_t brace_client_k_in_space(brace_client_t *client, float theta0_rad, float theta1_rad,
+                                              float theta2_rad, int timeout_ms, brace_client_space_k_t *k)
+{
+    const brace_can_k_in_space_at_posture_request_t request = {
+        .theta0_rad = theta0_rad, .theta1_rad = theta1_rad, .theta2_rad = theta2_rad};
+    brace_question_t question;
+    const uint32_t limited = brace_can_pack_k_in_space_at_posture_request(&request, question.data) +
+                             !is_number(theta0_rad) + !is_number(theta1_rad) + !is_number(theta2_rad);
+    const brace_client_status_t status =
+        ask(client, &question, BRACE_REQUEST_K_IN_SPACE_AT_POSTURE, limited, timeout_ms);
+    if (status == BRACE_CLIENT_OK) {
+        take_space_k(&question, k);
+    }
+    return status;
+}
+
+brace_client_status_t brace_client_drift(brace_client_t *client, int timeout_ms, brace_client_drift_t *drift)
+{
+    const brace_can_drift_request_t request = {0};
+    brace_question_t question;
+    if (client->bus == NULL) {
+        return brace_modbus_drift(client, deadline_after(timeout_ms), drift);
+    }
+    const uint32_t limited = brace_can_pack_drift_request(&request, question.data);
+    const brace_client_status_t status = ask(client, &question, BRACE_REQUEST_DRIFT, limited, timeout_ms);
+    if (status == BRACE_CLIENT_OK) {
+        brace_can_drift_answer_0_t cause;
+        brace_can_drift_answer_1_t loss;
+        brace_can_drift_answer_2_t since;
+        brace_can_unpack_drift_answer_0(question.answers[0], &cause);
+        brace_can_unpack_drift_answer_1(question.answers[1], &loss);
+        brace_can_unpack_drift_answer_2(question.answers[2], &since);
+        *drift = (brace_client_drift_t){.state = cause.state,
+                                        .cause = cause.cause,
+                                        .could_be = cause.could_be,
+                                        .next_step = cause.next_step,
+                                        .evidence = cause.evidence,
+                                        .loss_ratio = loss.loss_ratio,
+                                        .loss_sigma_ratio = loss.loss_sigma_ratio,
+                                        .since_readings = since.since_readings,
+                                        .readings = since.readings};
+    }
+    return status;
+}
+
+brace_client_status_t brace_client_take_up(brace_client_t *client, uint32_t joint, int timeout_ms, int32_t *outcome)
+{
+    uint32_t value;
+    if (joint > 2u) {
+        return brace_client_fail(client, BRACE_CLIENT_E_USAGE, "joint %u: 0 coxa, 1 femur, 2 tibia", (unsigned)joint);
+    }
+    const uint32_t index = BRACE_CLIENT_ENTRY(take_up_coxa) + joint;
+    const brace_client_status_t status = brace_client_entry_u32(client, index, timeout_ms, &value);
+    if (status == BRACE_CLIENT_OK) {
+        *outcome = value < 128u ? (int32_t)value : (int32_t)value - 256; /* a negative outcome is sent as 256 plus it */
+    }
+    return status;
+}
+
 brace_client_status_t brace_client_k_at_tip(brace_client_t *client, float x_mm, float z_mm, bool knee_up,
                                             int timeout_ms, brace_client_k_t *k)
 {
@@ -182,7 +266,7 @@ brace_client_status_t brace_client_k_at_tip(brace_client_t *client, float x_mm, 
     const uint32_t code = knee_up ? BRACE_REQUEST_K_AT_TIP_KNEE_UP : BRACE_REQUEST_K_AT_TIP_KNEE_DOWN;
     const brace_client_status_t status = ask(client, &question, code, limited, timeout_ms);
     if (status == BRACE_CLIENT_OK) {
-        take_k(&question, k); /* the three answers are laid out alike */
+        take_k(&question, k); /* the three answers have the same layout */
     }
     return status;
 }

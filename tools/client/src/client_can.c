@@ -1,4 +1,4 @@
-/* Over CAN: everything that is heard is looked at, whatever is being waited for. */
+/* The client over CAN. It looks at every frame that it receives, whatever it waits for. */
 #include "client_internal.h"
 
 #include <stdio.h>
@@ -11,12 +11,12 @@
 
 enum { STATUS_MS = 250, FIRST_TRY_MS = 250, AGAIN_MS = 1000, OLD_US = 100000 };
 
-/* What one frame means. Own requests are not received; a request like our own is another client's. */
+/* Handles one frame. A client does not receive its own requests, so a request like ours is another client's. */
 typedef struct {
     uint32_t code;
     uint8_t token;
     uint32_t parts_seen;
-    bool is_taken; /* another client asks the same under the same token: whose answer comes can not be told */
+    bool is_taken; /* another client has used our token: an answer may be for either of us */
     bool is_refused;
     brace_can_refusal_t refusal;
     brace_question_t *question;
@@ -31,7 +31,7 @@ static void take_answer(const brace_bus_frame_t *frame, waiting_t *waiting)
     if (part == 7u) {
         brace_can_unpack_refusal(frame->data, &waiting->refusal);
         waiting->is_refused = true;
-    } else if (part < brace_can_answer_parts[waiting->code] && part < 4u) {
+    } else if (part < brace_can_answer_parts[waiting->code]) {
         memcpy(waiting->question->answers[part], frame->data, 8u);
         waiting->parts_seen |= 1u << part;
     }
@@ -41,7 +41,8 @@ static bool is_from_controller(uint32_t base)
 {
     static const uint32_t bases[] = {BRACE_CAN_ID_EMERGENCY,   BRACE_CAN_ID_STIFFNESS_A, BRACE_CAN_ID_STIFFNESS_B,
                                      BRACE_CAN_ID_EIGENVALUES, BRACE_CAN_ID_POSTURE,     BRACE_CAN_ID_HEARTBEAT,
-                                     BRACE_CAN_ID_ANSWER,      BRACE_CAN_ID_SNAPSHOT_FD};
+                                     BRACE_CAN_ID_ANSWER,      BRACE_CAN_ID_SNAPSHOT_FD, BRACE_CAN_ID_SPACE,
+                                     BRACE_CAN_ID_SPACE_FD};
     for (size_t i = 0u; i < sizeof bases / sizeof bases[0]; i++) {
         if (base == bases[i]) {
             return true;
@@ -56,7 +57,8 @@ static void hear(brace_client_t *client, const brace_bus_frame_t *frame, waiting
     if (node != 0u && is_from_controller(base)) {
         client->heard[node >> 5] |= 1u << (node & 31u);
     }
-    if (node != client->node || node == 0u || (frame->length != 8u && base != BRACE_CAN_ID_SNAPSHOT_FD)) {
+    const bool is_long = base == BRACE_CAN_ID_SNAPSHOT_FD || base == BRACE_CAN_ID_SPACE_FD;
+    if (node != client->node || node == 0u || (frame->length != 8u && !is_long)) {
         return;
     }
     client->errors_before = client->bus->errors;
@@ -78,7 +80,7 @@ static void hear(brace_client_t *client, const brace_bus_frame_t *frame, waiting
     }
 }
 
-/* A call begins: what was heard before it does not count. */
+/* Begins a call: frames received before it do not count. */
 static void begin(brace_client_t *client, uint64_t deadline_us)
 {
     const uint64_t answer_us = STATUS_MS * 1000u;
@@ -92,7 +94,7 @@ static bool is_silent(const brace_client_t *client)
     return (client->heard[0] | client->heard[1] | client->heard[2] | client->heard[3]) == 0u;
 }
 
-/* Where it stays silent an SLCAN adapter is asked for its error flags while there is time to hear them. */
+/* If the bus stays silent, asks an SLCAN adapter for its error flags while there is time to receive them. */
 static brace_bus_status_t receive(brace_client_t *client, brace_bus_frame_t *frame, int timeout_ms)
 {
     const int ask_ms = brace_bus_left_ms(client->ask_errors_us);
@@ -108,7 +110,7 @@ static brace_bus_status_t receive(brace_client_t *client, brace_bus_frame_t *fra
     return brace_bus_receive(client->bus, frame, timeout_ms - ask_ms);
 }
 
-/* One frame, or none within timeout_ms. */
+/* Receives one frame, or none within timeout_ms. */
 static brace_client_status_t listen(brace_client_t *client, int timeout_ms, waiting_t *waiting)
 {
     brace_bus_frame_t frame;
@@ -131,7 +133,7 @@ static bool is_heard(const brace_client_t *client, uint32_t node)
     return node != 0u && client->heard[node >> 5] >> (node & 31u) & 1u;
 }
 
-/* Text of the nodes that are heard, e.g. "1, 2"; the first of them, 0 for none. */
+/* Text of the nodes that send, e.g. "1, 2". Returns the first of them, 0 for none. */
 static uint32_t list_heard(const brace_client_t *client, char *text, size_t room)
 {
     uint32_t first = 0u;
@@ -148,7 +150,7 @@ static uint32_t list_heard(const brace_client_t *client, char *text, size_t room
     return first;
 }
 
-/* Time is over, and what was waited for (`what`) has not come: why? */
+/* The time is over, and the frame that the call waits for (`what`) has not come. Finds out why. */
 static brace_client_status_t explain_silence(brace_client_t *client, const char *what)
 {
     char heard[64];
@@ -168,7 +170,7 @@ static brace_client_status_t explain_silence(brace_client_t *client, const char 
             client->url, (unsigned)client->node, heard, (unsigned)other);
     }
     const bool is_slcan = client->bus->is_slcan;
-    const uint32_t errors = brace_bus_errors(client->bus, 0); /* of short calls: the next hears the answer */
+    const uint32_t errors = brace_bus_errors(client->bus, 0); /* after a short call the next one receives the answer */
     if (errors != client->errors_before || brace_bus_lost(client->bus) != client->lost_before) {
         return brace_client_fail(
             client, BRACE_CLIENT_E_BIT_RATE,
@@ -185,16 +187,19 @@ static brace_client_status_t explain_silence(brace_client_t *client, const char 
         client->url);
 }
 
-/* A refusal in words: what a status means depends on what was asked. */
+/* A refusal in words. The meaning of a status depends on the question. */
 static const char *reason(uint32_t code, const brace_can_refusal_t *refusal)
 {
     const bool is_of_now = code == BRACE_REQUEST_CONTACT_FORCE || code == BRACE_REQUEST_SAG_FOR_LOAD;
-    const bool is_open = (refusal->detail & BRACE_CLIENT_FLAG_GAP_OPEN) != 0u; /* of those the detail is K's flags */
+    const bool is_open = (refusal->detail & BRACE_CLIENT_FLAG_GAP_OPEN) != 0u; /* detail: K's flags */
     if (is_of_now && is_open && refusal->status == BRACE_E_RANGE) {
         return "a joint's play is open, so nothing carries the tip in some direction; take it up first";
     }
     if (is_of_now && refusal->status == BRACE_E_MODE) {
         return "K of now is not valid; its mode and faults tell why";
+    }
+    if (code == BRACE_REQUEST_K_IN_SPACE_AT_POSTURE && refusal->status == BRACE_E_UNSUPPORTED) {
+        return "the limb has no coxa joint; ask for K in its plane";
     }
     if (code == BRACE_REQUEST_FRICTION_MARGIN && refusal->status == BRACE_E_NOT_FINITE) {
         return "the force on the tip is not known now";
@@ -212,7 +217,7 @@ static brace_client_status_t ask(brace_client_t *client, brace_question_t *quest
     const uint32_t parts = (1u << brace_can_answer_parts[question->code]) - 1u;
     uint64_t try_us = FIRST_TRY_MS * 1000u;
     while (brace_bus_left_ms(deadline_us) > 0) {
-        /* A token for each try: parts of two answers must not be mixed, they may be of two ticks. */
+        /* Each try gets a new token, because parts of two answers may be of two ticks and must not be mixed. */
         client->token++;
         waiting_t waiting = {.code = question->code, .token = client->token, .question = question};
         brace_bus_frame_t request = {.id = BRACE_CAN_ID_REQUEST + client->node, .length = 8u};
@@ -253,7 +258,7 @@ static brace_client_status_t ask(brace_client_t *client, brace_question_t *quest
         if (client->bus->is_slcan && !is_heard(client, client->node)) {
             brace_slcan_enter_again(client->bus);
         }
-        if (waiting.is_taken) { /* the other client looks for a new token too: not for the same */
+        if (waiting.is_taken) { /* the other client looks for a new token too, but for another one */
             client->token = (uint8_t)(brace_bus_now_us() ^ (uint64_t)getpid());
         }
     }
@@ -319,7 +324,7 @@ brace_client_status_t brace_can_open(brace_client_t *client, uint32_t node, uint
     const brace_bus_status_t opened = brace_bus_open(client->url, bit_rate, brace_bus_left_ms(deadline_us),
                                                      &client->bus, client->why, sizeof client->why);
     if (opened != BRACE_BUS_OK) {
-        return (brace_client_status_t)opened; /* the same numbers */
+        return (brace_client_status_t)opened; /* both enums have the same numbers */
     }
     begin(client, deadline_us);
     client->node = node;
@@ -328,11 +333,11 @@ brace_client_status_t brace_can_open(brace_client_t *client, uint32_t node, uint
     return status == BRACE_CLIENT_OK ? identify(client, deadline_us) : status;
 }
 
-/* The newest snapshot with the wanted parts, when it has not been read under these before. */
+/* The newest snapshot with the wanted parts, unless a call with the same wanted parts has already read it. */
 static bool newest(brace_client_t *client, uint32_t wanted, uint64_t since_us, brace_client_snapshot_t *snapshot)
 {
     const brace_client_snapshot_t *best = NULL;
-    for (uint32_t parts = wanted; parts <= BRACE_PART_ALL; parts++) {
+    for (uint32_t parts = wanted; parts <= PARTS_MOST; parts++) {
         const brace_client_snapshot_t *s = &client->latest[parts];
         if ((parts & wanted) == wanted && s->parts != 0u && (best == NULL || s->received_us >= best->received_us)) {
             best = s;
@@ -352,7 +357,7 @@ brace_client_status_t brace_can_read(brace_client_t *client, uint32_t wanted, ui
                                      brace_client_snapshot_t *snapshot)
 {
     begin(client, deadline_us);
-    int wait_ms = 0; /* first what waits already, the newest of it */
+    int wait_ms = 0; /* first take frames that wait already, and of these the newest */
     for (;;) {
         const brace_client_status_t status = listen(client, wait_ms, NULL);
         if (status != BRACE_CLIENT_OK && status != BRACE_CLIENT_E_TIMEOUT) {
@@ -363,13 +368,15 @@ brace_client_status_t brace_can_read(brace_client_t *client, uint32_t wanted, ui
             wait_ms = 0;
             continue;
         }
-        /* A queue that was full holds old frames only: rather wait for the next. */
+        /* A queue that was full holds only old frames, so wait for the next one. */
         const uint64_t now_us = brace_bus_now_us();
         if (newest(client, wanted, left_ms > 0 && now_us > OLD_US ? now_us - OLD_US : 0u, snapshot)) {
             return BRACE_CLIENT_OK;
         }
         if (left_ms == 0) {
-            return explain_silence(client, "the wanted part of a snapshot (controller.stiffness_hz, posture_hz)");
+            return explain_silence(client, (wanted & BRACE_PART_SPACE) != 0u
+                                               ? "K in space (only a limb with a coxa joint sends it)"
+                                               : "the wanted part of a snapshot (controller.stiffness_hz, posture_hz)");
         }
         wait_ms = left_ms;
     }

@@ -1,10 +1,12 @@
-/* A client's two ways to a controller. can_... and modbus_... answer what client.h says of the call of that name; they
- * write client->why when it is not OK. */
+/* A client's two ways to a controller. can_... and modbus_... return what client.h says of the call with that name, and
+ * write client->why when that is not OK. */
 #ifndef BRACE_CLIENT_INTERNAL_H
 #define BRACE_CLIENT_INTERNAL_H
 
 #include "bus_internal.h"
 #include "joiner.h"
+
+enum { PARTS_MOST = BRACE_PART_ALL | BRACE_PART_SPACE, ANSWER_PARTS_MOST = 7 };
 
 struct brace_client {
     char why[BRACE_CLIENT_WHY_ROOM];
@@ -15,28 +17,28 @@ struct brace_client {
     brace_bus_t *bus; /* CAN; null over Modbus */
     uint32_t node;
     brace_joiner_t joiner;
-    brace_client_snapshot_t latest[BRACE_PART_ALL + 1]; /* by its parts; of none: parts 0 */
-    uint64_t read_us[BRACE_PART_ALL + 1];               /* of the last one read, by what was wanted */
-    uint32_t read_sequence[BRACE_PART_ALL + 1];
-    uint32_t heard[4];                                  /* nodes, in this call, one bit each */
-    uint32_t errors_before, lost_before;                /* of the bus, when our node was last heard: readable since */
-    uint64_t ask_errors_us;                             /* when this call asks an SLCAN adapter for errors; 0: not */
-    bool speaks_another;                                /* heartbeat of our node with another dictionary */
+    brace_client_snapshot_t latest[PARTS_MOST + 1]; /* newest snapshot for each set of parts; parts 0: none */
+    uint64_t read_us[PARTS_MOST + 1];               /* time of the last one read, for each set of wanted parts */
+    uint32_t read_sequence[PARTS_MOST + 1];
+    uint32_t heard[4];                                  /* nodes that have sent in this call, one bit each */
+    uint32_t errors_before, lost_before;                /* the bus' counts when our node last sent a readable frame */
+    uint64_t ask_errors_us;                             /* when this call asks an SLCAN adapter for errors; 0: never */
+    bool speaks_another;                                /* our node's heartbeat has another dictionary */
     uint32_t other_hash;
     uint8_t token;
 
     void *modbus; /* modbus_t; null over CAN */
     uint32_t unit;
-    uint64_t late_until_us; /* until then an answer may come that nobody waits for any more */
+    uint64_t late_until_us; /* until this time an answer may come that nobody waits for any more */
 };
 
 typedef struct {
     uint32_t code;
     uint8_t data[8];
-    uint8_t answers[4][8];
+    uint8_t answers[ANSWER_PARTS_MOST][8];
 } brace_question_t;
 
-/* Writes why and answers status, to end a function with. */
+/* Writes why and returns status, to end a function with. */
 brace_client_status_t brace_client_fail(brace_client_t *client, brace_client_status_t status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 brace_client_status_t brace_client_fail_version(brace_client_t *client, uint32_t node, uint32_t hash);
@@ -44,14 +46,15 @@ brace_client_status_t brace_client_fail_version(brace_client_t *client, uint32_t
 brace_client_status_t brace_can_open(brace_client_t *client, uint32_t node, uint32_t bit_rate, uint64_t deadline_us);
 brace_client_status_t brace_can_read(brace_client_t *client, uint32_t wanted, uint64_t deadline_us,
                                      brace_client_snapshot_t *snapshot);
-/* Sends question->data under fresh tokens until every part of the answer has come. */
+/* Sends question->data, with a new token for each try, until every part of the answer has come. */
 brace_client_status_t brace_can_ask(brace_client_t *client, brace_question_t *question, uint64_t deadline_us);
 
 bool brace_modbus_is_url(const char *url);
 brace_client_status_t brace_modbus_open(brace_client_t *client, uint64_t deadline_us);
 void brace_modbus_close(brace_client_t *client);
-brace_client_status_t brace_modbus_read(brace_client_t *client, uint64_t deadline_us,
+brace_client_status_t brace_modbus_read(brace_client_t *client, uint32_t wanted, uint64_t deadline_us,
                                         brace_client_snapshot_t *snapshot);
+brace_client_status_t brace_modbus_drift(brace_client_t *client, uint64_t deadline_us, brace_client_drift_t *drift);
 brace_client_status_t brace_modbus_k_at_posture(brace_client_t *client, float theta1_rad, float theta2_rad,
                                                 uint64_t deadline_us, brace_client_k_t *k);
 brace_client_status_t brace_modbus_entry(brace_client_t *client, uint32_t index, uint64_t deadline_us, uint32_t *value);

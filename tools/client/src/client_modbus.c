@@ -1,4 +1,4 @@
-/* Over Modbus, through libmodbus. Registers: docs/modbus.md. */
+/* The client over Modbus, through libmodbus. Registers: docs/modbus.md. */
 #include "client_internal.h"
 
 #include <stdio.h>
@@ -20,6 +20,7 @@ bool brace_modbus_is_url(const char *url)
 #include <sys/ioctl.h>
 
 #include "brace/can_messages.h"
+#include "brace/codes.h"
 
 enum { TRY_MS = 800, LATE_US = 250000, REST_US = 10000, BETWEEN_BYTES_US = 200000 };
 enum { REGISTERS_AT_ONCE = 125, APART_MS = 32 };
@@ -38,7 +39,7 @@ static void split(float value, uint16_t words[2])
     words[1] = (uint16_t)bits;
 }
 
-/* Text behind a last '/' that is a number, cut off and returned; fallback when there is none. */
+/* Cuts off and returns a number behind the last '/'; returns fallback when there is none. */
 static long cut_unit(char *text, long fallback)
 {
     char *slash = strrchr(text, '/');
@@ -60,7 +61,7 @@ static brace_client_status_t no_url(brace_client_t *client)
                              client->url);
 }
 
-/* Even, as Modbus RTU and so the controller has it; a pseudo-terminal has none and refuses any. */
+/* Even parity, as Modbus RTU and the controller have it. A pseudo-terminal has no parity and refuses any. */
 static char parity_of(const char *device)
 {
     char path[PATH_MAX];
@@ -154,7 +155,7 @@ static brace_client_status_t fail(brace_client_t *client, int error)
     return brace_client_fail(client, BRACE_CLIENT_E_DOWN, "%s: %s", client->url, modbus_strerror(error));
 }
 
-/* Worth another try: nothing or something broken came, or the unit is busy. */
+/* Is another try worth it? Nothing came, or something broken, or the unit is busy. */
 static bool may_pass(int error)
 {
     return error == ETIMEDOUT || error == EAGAIN || error == EMBBADCRC || error == EMBBADDATA || error == EMBXSBUSY;
@@ -167,8 +168,8 @@ static int write_words(modbus_t *modbus, int address, int count, uint16_t *words
     return modbus_write_registers(modbus, address, count, words);
 }
 
-/* Waits out answers that came too late for their own calls. A request sent before they are through would be answered
- * behind them, too late in its turn, and so every one after it. False when that takes the whole call. */
+/* Waits for answers that came too late for their own calls. A request sent before they have come would get one of them,
+ * and its own answer would come late in turn, and so on. False when the wait takes the whole call. */
 static bool settle(brace_client_t *client, uint64_t deadline_us)
 {
     struct pollfd news = {.fd = modbus_get_socket(client->modbus), .events = POLLIN};
@@ -180,7 +181,7 @@ static bool settle(brace_client_t *client, uint64_t deadline_us)
         }
         if (poll(&news, 1, left_ms < call_ms ? left_ms : call_ms) > 0) {
             if (ioctl(news.fd, FIONREAD, &bytes) != 0 || bytes == 0) {
-                break; /* the connection has gone: the next request tells how */
+                break; /* the connection has closed: the next request reports it */
             }
             (void)modbus_flush(client->modbus);
             client->late_until_us = brace_bus_now_us() + REST_US;
@@ -263,7 +264,28 @@ void brace_modbus_close(brace_client_t *client)
     }
 }
 
-static void take(const brace_measured_t *m, uint64_t received_us, brace_client_snapshot_t *s)
+static void take_space(const brace_measured_t *m, brace_client_space_t *space)
+{
+    *space = (brace_client_space_t){
+        .k_is_valid = m->k_is_in_space == 1u,
+        .k = {.k_xx_n_per_mm = m->space_k_xx_n_per_mm,
+              .k_xy_n_per_mm = m->space_k_xy_n_per_mm,
+              .k_xz_n_per_mm = m->space_k_xz_n_per_mm,
+              .k_yy_n_per_mm = m->space_k_yy_n_per_mm,
+              .k_yz_n_per_mm = m->space_k_yz_n_per_mm,
+              .k_zz_n_per_mm = m->space_k_zz_n_per_mm,
+              .lambda_n_per_mm = {m->space_lambda_1_n_per_mm, m->space_lambda_2_n_per_mm, m->space_lambda_3_n_per_mm},
+              .flags = m->space_flags},
+        .stiff_axis = {m->space_stiff_axis_x, m->space_stiff_axis_y, m->space_stiff_axis_z},
+        .theta0_rad = m->theta0_rad,
+        .k_across_n_per_mm = m->k_across_n_per_mm,
+        .play_coxa = m->play_coxa,
+    };
+}
+
+/* unknown: a table of measured values of which none is known. */
+static void take(const brace_measured_t *m, uint64_t received_us, const brace_measured_t *unknown,
+                 brace_client_snapshot_t *s)
 {
     *s = (brace_client_snapshot_t){
         .parts = BRACE_PART_ALL,
@@ -286,29 +308,95 @@ static void take(const brace_measured_t *m, uint64_t received_us, brace_client_s
         .mode = m->mode,
         .faults = m->faults,
     };
+    take_space(unknown, &s->space);
 }
 
-/* One read, so one snapshot. */
-brace_client_status_t brace_modbus_read(brace_client_t *client, uint64_t deadline_us, brace_client_snapshot_t *snapshot)
+/* Reads some measured values at once, so that they are of one snapshot. The others stay unknown: NaN for a float, all
+ * ones for a whole number. */
+static brace_client_status_t read_measured(brace_client_t *client, uint32_t first, uint32_t count, uint64_t deadline_us,
+                                           brace_measured_t *measured)
 {
-    _Static_assert(2 * BRACE_MEASURED_COUNT <= REGISTERS_AT_ONCE, "one read holds every measured value");
-    uint16_t words[2 * BRACE_MEASURED_COUNT];
+    uint16_t words[REGISTERS_AT_ONCE];
     uint32_t values[BRACE_MEASURED_COUNT];
-    brace_measured_t measured;
     const brace_client_status_t status =
-        transfer(client, modbus_read_input_registers, 0u, 2u * BRACE_MEASURED_COUNT, words, deadline_us);
+        transfer(client, modbus_read_input_registers, 2u * first, 2u * count, words, deadline_us);
+    if (status == BRACE_CLIENT_OK) {
+        memset(values, 0xff, sizeof values);
+        for (uint32_t i = 0u; i < count; i++) {
+            values[first + i] = join(words + 2u * i);
+        }
+        memcpy(measured, values, sizeof *measured);
+    }
+    return status;
+}
+
+#define PLACE_OF(member) ((uint32_t)(offsetof(brace_measured_t, member) / 4u))
+
+/* Reads K in space, after the rest. */
+static brace_client_status_t read_space(brace_client_t *client, const brace_measured_t *rest, uint64_t deadline_us,
+                                        brace_client_snapshot_t *snapshot)
+{
+    enum { FIRST = PLACE_OF(k_is_in_space), COUNT = PLACE_OF(play_coxa) - PLACE_OF(k_is_in_space) + 1 };
+    brace_measured_t measured;
+    const bool has_coxa_joint = rest->k_is_in_space == 1u || isfinite(rest->theta0_rad) ||
+                                (rest->faults & (uint32_t)BRACE_FAULT_SENSOR_COXA) != 0u;
+    if (!has_coxa_joint) {
+        return brace_client_fail(client, BRACE_CLIENT_E_UNSUPPORTED,
+                                 "%s: the limb has no coxa joint, so there is no K in space; want BRACE_PART_ALL",
+                                 client->url);
+    }
+    const brace_client_status_t status = read_measured(client, FIRST, COUNT, deadline_us, &measured);
+    if (status == BRACE_CLIENT_OK) {
+        take_space(&measured, &snapshot->space);
+        snapshot->parts |= BRACE_PART_SPACE;
+    }
+    return status;
+}
+
+brace_client_status_t brace_modbus_drift(brace_client_t *client, uint64_t deadline_us, brace_client_drift_t *drift)
+{
+    enum { FIRST = PLACE_OF(drift_state), COUNT = PLACE_OF(drift_next_step) - PLACE_OF(drift_state) + 1 };
+    brace_measured_t m;
+    const brace_client_status_t status = read_measured(client, FIRST, COUNT, deadline_us, &m);
+    if (status == BRACE_CLIENT_OK) {
+        *drift = (brace_client_drift_t){.state = m.drift_state,
+                                        .cause = m.drift_cause,
+                                        .could_be = m.drift_could_be,
+                                        .next_step = m.drift_next_step,
+                                        .evidence = m.drift_evidence,
+                                        .loss_ratio = m.drift_loss_ratio,
+                                        .loss_sigma_ratio = m.drift_loss_sigma_ratio,
+                                        .since_readings = m.drift_since_readings,
+                                        .readings = m.drift_readings};
+    }
+    return status;
+}
+
+/* One read of as many values as it can hold, so that all are of one snapshot. Values that it does not reach stay
+ * unknown. */
+brace_client_status_t brace_modbus_read(brace_client_t *client, uint32_t wanted, uint64_t deadline_us,
+                                        brace_client_snapshot_t *snapshot)
+{
+    enum { VALUES = REGISTERS_AT_ONCE / 2 };
+    _Static_assert((int)VALUES <= (int)BRACE_MEASURED_COUNT, "no more values are asked for than there are");
+    brace_measured_t measured, unknown;
+    brace_client_snapshot_t taken;
+    brace_client_status_t status = read_measured(client, 0u, VALUES, deadline_us, &measured);
     if (status != BRACE_CLIENT_OK) {
         return status;
     }
-    for (uint32_t i = 0u; i < BRACE_MEASURED_COUNT; i++) {
-        values[i] = join(words + 2u * i);
-    }
-    memcpy(&measured, values, sizeof measured);
-    if (measured.dictionary_hash != BRACE_DICTIONARY_HASH) { /* flashed anew since */
+    if (measured.dictionary_hash != BRACE_DICTIONARY_HASH) { /* the controller was flashed since */
         return brace_client_fail_version(client, client->unit, measured.dictionary_hash);
     }
-    take(&measured, brace_bus_now_us(), snapshot);
-    return BRACE_CLIENT_OK;
+    memset(&unknown, 0xff, sizeof unknown);
+    take(&measured, brace_bus_now_us(), &unknown, &taken);
+    if ((wanted & BRACE_PART_SPACE) != 0u) {
+        status = read_space(client, &measured, deadline_us, &taken);
+    }
+    if (status == BRACE_CLIENT_OK) {
+        *snapshot = taken;
+    }
+    return status;
 }
 
 brace_client_status_t brace_modbus_entry(brace_client_t *client, uint32_t index, uint64_t deadline_us, uint32_t *value)
@@ -326,7 +414,7 @@ brace_client_status_t brace_modbus_entry(brace_client_t *client, uint32_t index,
     return status;
 }
 
-/* One try. *is_mine: no other client has asked for another posture meanwhile. */
+/* One try. *is_mine: no other client has asked for another posture in between. */
 static brace_client_status_t ask_posture(brace_client_t *client, uint16_t posture[4], uint64_t deadline_us,
                                          uint16_t words[2 * BRACE_ANSWERED_COUNT], bool *is_mine)
 {
@@ -366,7 +454,7 @@ brace_client_status_t brace_modbus_k_at_posture(brace_client_t *client, float th
             break;
         }
         const int pause_ms = (int)(brace_bus_now_us() % APART_MS), left_ms = brace_bus_left_ms(deadline_us);
-        poll(NULL, 0, pause_ms < left_ms ? pause_ms : left_ms); /* the other asks again too: not in step with it */
+        poll(NULL, 0, pause_ms < left_ms ? pause_ms : left_ms); /* the other client asks again too, at other times */
     }
     for (uint32_t i = 0u; i < BRACE_ANSWERED_COUNT; i++) {
         values[i] = join(words + 2u * i);
@@ -406,10 +494,19 @@ void brace_modbus_close(brace_client_t *client)
     (void)client;
 }
 
-brace_client_status_t brace_modbus_read(brace_client_t *client, uint64_t deadline_us, brace_client_snapshot_t *snapshot)
+brace_client_status_t brace_modbus_read(brace_client_t *client, uint32_t wanted, uint64_t deadline_us,
+                                        brace_client_snapshot_t *snapshot)
 {
+    (void)wanted;
     (void)deadline_us;
     (void)snapshot;
+    return absent(client);
+}
+
+brace_client_status_t brace_modbus_drift(brace_client_t *client, uint64_t deadline_us, brace_client_drift_t *drift)
+{
+    (void)deadline_us;
+    (void)drift;
     return absent(client);
 }
 

@@ -5,7 +5,8 @@
 
 #include "brace/can_messages.h"
 
-enum { A = 1, B = 2, EIGENVALUES = 4, POSTURE = 8 };
+enum { A = 1, B = 2, EIGENVALUES = 4, POSTURE = 8, SPACE_0 = 16 }; /* further parts of space take the bits after it */
+#define SPACE (((1u << BRACE_CAN_SPACE_PARTS) - 1u) * SPACE_0)
 
 static void begin(brace_joiner_slot_t *slot, uint32_t sequence, uint64_t received_us)
 {
@@ -17,10 +18,19 @@ static void begin(brace_joiner_slot_t *slot, uint32_t sequence, uint64_t receive
     s->age_ms = s->k_xx_n_per_mm = s->k_xz_n_per_mm = s->k_zz_n_per_mm = NAN;
     s->lambda_min_n_per_mm = s->lambda_max_n_per_mm = s->stiff_axis_rad = NAN;
     s->theta1_rad = s->theta2_rad = NAN;
+    brace_client_space_t *space = &s->space;
+    brace_client_space_k_t *k = &space->k;
+    k->k_xx_n_per_mm = k->k_xy_n_per_mm = k->k_xz_n_per_mm = NAN;
+    k->k_yy_n_per_mm = k->k_yz_n_per_mm = k->k_zz_n_per_mm = NAN;
+    for (int i = 0; i < 3; i++) {
+        k->lambda_n_per_mm[i] = space->stiff_axis[i] = NAN;
+    }
+    space->theta0_rad = space->k_across_n_per_mm = NAN;
+    k->flags = space->play_coxa = UINT32_MAX;
     s->flags = s->play_femur = s->play_tibia = s->parameter_tag = s->mode = s->faults = UINT32_MAX;
 }
 
-/* The slot of this number, or the older one begun anew. */
+/* The slot of this number; if there is none, the older slot, begun anew. */
 static brace_joiner_slot_t *slot_of(brace_joiner_t *joiner, uint32_t sequence, uint64_t received_us)
 {
     brace_joiner_slot_t *older = &joiner->slots[0];
@@ -41,7 +51,7 @@ static brace_joiner_slot_t *slot_of(brace_joiner_t *joiner, uint32_t sequence, u
     return older;
 }
 
-/* Members of a frame into those of the snapshot that have the same names. */
+/* Copies a frame's members into those of the snapshot with the same names. */
 #define UNPACKED(kind) \
     brace_can_##kind##_t got; \
     brace_can_unpack_##kind(data, &got)
@@ -81,40 +91,135 @@ static void take_whole(brace_client_snapshot_t *s, const uint8_t *data)
     s->parameter_tag = got.parameter_crc & 0xffffu;
 }
 
-static const struct {
-    uint32_t id, bits, length;
+#define TAKE_K(member) s->space.k.member = got.member
+
+static void take_space_0(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(space_0);
+    TAKE_K(k_xx_n_per_mm), TAKE_K(k_xy_n_per_mm);
+}
+
+static void take_space_1(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(space_1);
+    TAKE_K(k_xz_n_per_mm), TAKE_K(k_yy_n_per_mm);
+}
+
+static void take_space_2(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(space_2);
+    TAKE_K(k_yz_n_per_mm), TAKE_K(k_zz_n_per_mm);
+}
+
+static void take_space_3(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(space_3);
+    s->space.k.lambda_n_per_mm[0] = got.lambda_1_n_per_mm;
+    s->space.k.lambda_n_per_mm[1] = got.lambda_2_n_per_mm;
+}
+
+static void take_space_4(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(space_4);
+    TAKE_K(flags);
+    s->space.k.lambda_n_per_mm[2] = got.lambda_3_n_per_mm;
+    s->space.play_coxa = got.play_coxa;
+}
+
+static void take_space_5(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(space_5);
+    s->space.stiff_axis[0] = got.stiff_axis_x;
+    s->space.stiff_axis[1] = got.stiff_axis_y;
+    s->space.stiff_axis[2] = got.stiff_axis_z;
+}
+
+static void take_space_6(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(space_6);
+    s->space.theta0_rad = got.theta0_rad;
+    s->space.k_across_n_per_mm = got.k_across_n_per_mm;
+}
+
+static void take_whole_space(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(space_fd);
+    TAKE_K(k_xx_n_per_mm), TAKE_K(k_xy_n_per_mm), TAKE_K(k_xz_n_per_mm);
+    TAKE_K(k_yy_n_per_mm), TAKE_K(k_yz_n_per_mm), TAKE_K(k_zz_n_per_mm), TAKE_K(flags);
+    s->space.k.lambda_n_per_mm[0] = got.lambda_1_n_per_mm;
+    s->space.k.lambda_n_per_mm[1] = got.lambda_2_n_per_mm;
+    s->space.k.lambda_n_per_mm[2] = got.lambda_3_n_per_mm;
+    s->space.stiff_axis[0] = got.stiff_axis_x;
+    s->space.stiff_axis[1] = got.stiff_axis_y;
+    s->space.stiff_axis[2] = got.stiff_axis_z;
+    s->space.theta0_rad = got.theta0_rad;
+    s->space.k_across_n_per_mm = got.k_across_n_per_mm;
+    s->space.play_coxa = got.play_coxa;
+}
+
+typedef struct {
+    uint32_t id;   /* of node 0 */
+    uint32_t part; /* for frames with one identifier and several parts */
+    uint32_t bits, length;
     void (*take)(brace_client_snapshot_t *, const uint8_t *);
-} kinds[] = {{BRACE_CAN_ID_STIFFNESS_A, A, 8u, take_a},
-             {BRACE_CAN_ID_STIFFNESS_B, B, 8u, take_b},
-             {BRACE_CAN_ID_EIGENVALUES, EIGENVALUES, 8u, take_eigenvalues},
-             {BRACE_CAN_ID_POSTURE, POSTURE, 8u, take_posture},
-             {BRACE_CAN_ID_SNAPSHOT_FD, A | B | EIGENVALUES | POSTURE, 64u, take_whole}};
+} kind_t;
+
+static const kind_t kinds[] = {{BRACE_CAN_ID_STIFFNESS_A, 0u, A, 8u, take_a},
+                               {BRACE_CAN_ID_STIFFNESS_B, 0u, B, 8u, take_b},
+                               {BRACE_CAN_ID_EIGENVALUES, 0u, EIGENVALUES, 8u, take_eigenvalues},
+                               {BRACE_CAN_ID_POSTURE, 0u, POSTURE, 8u, take_posture},
+                               {BRACE_CAN_ID_SPACE, 0u, SPACE_0, 8u, take_space_0},
+                               {BRACE_CAN_ID_SPACE, 1u, SPACE_0 << 1, 8u, take_space_1},
+                               {BRACE_CAN_ID_SPACE, 2u, SPACE_0 << 2, 8u, take_space_2},
+                               {BRACE_CAN_ID_SPACE, 3u, SPACE_0 << 3, 8u, take_space_3},
+                               {BRACE_CAN_ID_SPACE, 4u, SPACE_0 << 4, 8u, take_space_4},
+                               {BRACE_CAN_ID_SPACE, 5u, SPACE_0 << 5, 8u, take_space_5},
+                               {BRACE_CAN_ID_SPACE, 6u, SPACE_0 << 6, 8u, take_space_6},
+                               {BRACE_CAN_ID_SNAPSHOT_FD, 0u, A | B | EIGENVALUES | POSTURE, 64u, take_whole},
+                               {BRACE_CAN_ID_SPACE_FD, 0u, SPACE, 64u, take_whole_space}};
+
+static const kind_t *kind_of(const brace_bus_frame_t *frame, uint32_t node)
+{
+    for (size_t i = 0u; i < sizeof kinds / sizeof kinds[0]; i++) {
+        const bool is_its_part =
+            kinds[i].id != BRACE_CAN_ID_SPACE || brace_can_space_part(frame->data) == kinds[i].part;
+        if (frame->id == kinds[i].id + node && frame->length == kinds[i].length && is_its_part) {
+            return &kinds[i];
+        }
+    }
+    return NULL;
+}
+
+static bool is_space_k_known(const brace_client_space_k_t *k)
+{
+    return isfinite(k->k_xx_n_per_mm) && isfinite(k->k_xy_n_per_mm) && isfinite(k->k_xz_n_per_mm) &&
+           isfinite(k->k_yy_n_per_mm) && isfinite(k->k_yz_n_per_mm) && isfinite(k->k_zz_n_per_mm);
+}
 
 const brace_client_snapshot_t *brace_joiner_add(brace_joiner_t *joiner, uint32_t node, const brace_bus_frame_t *frame,
                                                 uint32_t lost)
 {
-    size_t kind = 0u;
-    while (kind < sizeof kinds / sizeof kinds[0] && frame->id != kinds[kind].id + node) {
-        kind++;
-    }
-    if (kind == sizeof kinds / sizeof kinds[0] || frame->length != kinds[kind].length) {
+    const kind_t *kind = kind_of(frame, node);
+    if (kind == NULL) {
         return NULL;
     }
-    if (lost != joiner->lost) { /* whatever is begun may have lost its other half */
+    if (lost != joiner->lost) { /* a snapshot that has begun may have lost its other half */
         memset(joiner, 0, sizeof *joiner);
         joiner->lost = lost;
     }
     brace_joiner_slot_t *slot = slot_of(joiner, frame->data[0], frame->received_us);
-    if (slot->frames & kinds[kind].bits) { /* the same frame again: the number has come round, or an adapter repeats */
+    if (slot->frames & kind->bits) { /* the same frame again: the number wrapped, or an adapter repeats */
         begin(slot, frame->data[0], frame->received_us);
     }
     brace_client_snapshot_t *s = &slot->snapshot;
-    kinds[kind].take(s, frame->data);
-    slot->frames |= kinds[kind].bits;
+    kind->take(s, frame->data);
+    slot->frames |= kind->bits;
     s->parts = ((slot->frames & (A | B)) == (A | B) ? BRACE_PART_K : 0u) |
                (slot->frames & EIGENVALUES ? BRACE_PART_EIGENVALUES : 0u) |
-               (slot->frames & POSTURE ? BRACE_PART_POSTURE : 0u);
+               (slot->frames & POSTURE ? BRACE_PART_POSTURE : 0u) |
+               ((slot->frames & SPACE) == SPACE ? BRACE_PART_SPACE : 0u);
     s->k_is_valid = s->parts & BRACE_PART_K && isfinite(s->k_xx_n_per_mm) && isfinite(s->k_xz_n_per_mm) &&
                     isfinite(s->k_zz_n_per_mm);
+    s->space.k_is_valid = s->parts & BRACE_PART_SPACE && is_space_k_known(&s->space.k);
     return s->parts != 0u ? s : NULL;
 }

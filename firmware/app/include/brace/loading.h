@@ -17,10 +17,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "brace/kinematics.h"
 #include "brace/slope.h"
 #include "brace/stiffness.h"
 #include "brace/uncertainty.h"
 
+#define BRACE_LOADING_LEAST_STEP_MM 0.001f
 #define BRACE_LOADING_LEAST_WAY 1.2e-7f /* two of a float's last places: what is less would not move it */
 
 typedef enum { BRACE_AXIS_X = 0, BRACE_AXIS_Z = 1 } brace_axis_t;
@@ -69,28 +71,35 @@ typedef struct {
     float z_x, z_z;                /* (least squares - model) / sigma of both */
 } brace_loading_result_t;
 
-/* A test under way. Private. */
+/* What a reading is averaged from, over the second half of a dwell: sums, or their means. */
+typedef struct {
+    float motor_rad[2];  /* from where the test began */
+    float link_rad[2];   /* link's angle less the motor's; NaN without an encoder at the link */
+    float force_x_n, force_z_n, temp_degc;
+    uint32_t count;
+} brace_loading_sums_t;
+
+/* A test under way. Private. Arrays of two are of femur and tibia joint. */
 typedef struct {
     uint8_t phase;
     uint16_t step;                 /* being gone to or read */
     uint32_t phase_us, test_us, limit_us;
-    uint32_t resting_us;           /* how long the motors have been where they should */
+    uint32_t resting_us;           /* how long the motors have stood where the step wants them */
     float along_mm;                /* where the free shape is commanded to */
     float per_mm[2];               /* joint offsets for 1 mm of it */
     float give_rad_per_mm[2];      /* what the servos give way by, for 1 mm of it */
-    float trim_rad[2];             /* and what friction keeps them from going back by, where it is none */
-    float there_rad[2];            /* how near the motors have to be */
-    bool rests[2];                 /* has come there at this step, and is left alone while it stays near */
+    float trim_rad[2];             /* correction of what friction holds back where the free shape is at its rest */
+    float there_rad[2];            /* how near a motor has to come */
+    bool rests[2];                 /* the motor has come there at this step, and is left alone while it stays near */
     float torque_max_n_mm[2];
-    float lever[4];                /* the tip's movement for the joints', theta2's sense counted */
+    brace_point_t lever_femur, lever_knee; /* shift of the tip for a unit of theta1, and of theta2 */
     float start_motor_rad[2], start_link_rad[2];
-    float sum[7];                  /* over the dwell: motor angles, link less motor, force, temperature */
-    uint32_t summed;
+    brace_loading_sums_t sums;
     float dx_mm, dz_mm, fx_n, fz_n; /* the last reading */
     uint16_t run_count, config_count;
     uint16_t rep_count[2];
     float config_theta_rad[2];
-    bool held[2];                  /* joints whose play was taken up when it began */
+    bool held[2];                  /* the joint's backlash was taken up when the test began */
     brace_slope_t slope;
     brace_stiffness_t model, at_reference;
     brace_loading_result_t result;

@@ -31,14 +31,12 @@ typedef struct {
 /* The columns in the order of data.csv, with enc1_rad and enc2_rad. */
 enum { BRACE_ROW_COLUMNS = 15 };
 
+/* All zero when it is empty. */
 typedef struct {
     brace_row_t row[BRACE_RECORDER_ROWS];
     uint32_t next, count; /* next: where the next row goes */
     uint32_t lost;        /* rows that gave way to newer ones; saturates */
 } brace_recorder_t;
-
-/* Empties it. */
-void brace_recorder_clear(brace_recorder_t *recorder);
 
 /* Adds a row; the oldest gives way. About 40 instructions. */
 void brace_recorder_add(brace_recorder_t *recorder, const brace_row_t *row);
@@ -50,8 +48,5 @@ brace_status_t brace_recorder_row(const brace_recorder_t *recorder, uint32_t ind
 /* A cell as a number, for wires. column: 0 run ... 14 enc2_rad
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_RANGE */
 brace_status_t brace_row_value(const brace_row_t *row, uint32_t column, float *value);
-
-/* A column's name in data.csv; null for none. */
-const char *brace_row_column_name(uint32_t column);
 
 #endif

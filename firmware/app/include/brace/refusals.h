@@ -6,9 +6,7 @@
 enum {
     BRACE_REFUSED_UNKNOWN = -64, /* no such request; detail: the highest one there is */
     BRACE_REFUSED_KEY = -65,     /* set_mode without its key */
-    /* A set is being stored or put in force, a loading test is being judged while the tip is asked for, or the limb is
-     * on its way back from one: ask again. */
-    BRACE_REFUSED_BUSY = -66,
+    BRACE_REFUSED_BUSY = -66,    /* a set is being stored, or the limb goes back from a loading test: ask again */
     BRACE_REFUSED_ORDER = -67,   /* words in order only; detail: the one that is expected */
     BRACE_REFUSED_CHANGED = -68, /* the set in force has changed meanwhile: begin again with word 0 */
     BRACE_REFUSED_READ_ONLY = -69,

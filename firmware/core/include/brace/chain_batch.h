@@ -1,5 +1,5 @@
-/* K and C in the limb's plane at many postures at once, for any limb, on a host: columns in, columns out. The same
- * results as brace/chain.h gives one by one, bit for bit; brace/planar_batch.h is faster for the limbs it serves.
+/* K and C in the limb's plane at many postures at once, for any limb, on a host: columns in, columns out. The results
+ * are those of brace/chain.h, bit for bit. brace/planar_batch.h is faster for the limbs that it serves.
  */
 #ifndef BRACE_CHAIN_BATCH_H
 #define BRACE_CHAIN_BATCH_H
@@ -16,11 +16,11 @@ typedef struct {
     float *c_zz_mm_per_n;
 } brace_compliance_soa_t;
 
-/* brace_chain_stiffness, and brace_chain_compliance where wanted, at n postures.
+/* Calls brace_chain_stiffness, and brace_chain_compliance where compliance is wanted, at n postures.
  * chain: from brace_chain_build. No argument but the last two is checked for null.
  * theta1_rad, theta2_rad: n true angles each, in the range of brace_chain_stiffness.
- * stiffness:  six columns. A posture that brace_chain_stiffness refuses gives NaN in all six and no flags; asked
- *             alone it says why.
+ * stiffness:  six columns. A posture that brace_chain_stiffness refuses gives NaN in all six and no flags; call that
+ *             function for the one posture to learn why.
  * compliance: three columns, or null when C is not wanted. NaN where brace_chain_compliance refuses: C may exist
  *             where K does not.
  * flags:      n words of BRACE_FLAG_..., or null.

@@ -1,31 +1,49 @@
-/* K of any planar limb at the tick, its joints' springs as they are at the moment.
+/* K of any limb in its plane, with the present compliances of its joints' springs: the general path.
  *
- * When parameters change the limb becomes five elements (brace/chain.h), halved, and what the base yields. Each
- * tick starts from the base and adds the elements one by one, both joints' springs among them, as C + v v' each,
- * whose determinant is a sum of positive terms.
+ * When parameters change, the links become three elements (brace/element.h), and a base that yields unequally becomes
+ * one vector. The compliance that is equal in every direction becomes the number iso. The tick adds these and the
+ * joints' springs one by one: C = iso I + sum v v'. This path serves every limb. brace/planar.h is shorter for limbs
+ * whose springs and base allow it (docs/kernel.md says when).
  */
 #ifndef BRACE_GENERAL_H
 #define BRACE_GENERAL_H
 
-#include "brace/chain.h"
+#include "brace/element.h"
+#include "brace/limb.h"
+#include "brace/status.h"
+#include "brace/stiffness.h"
 
-/* Written by brace_general_collapse; nothing in it is for others. */
+/* brace_general_collapse writes it; other code must not read its members. */
 typedef struct {
-    float mean_mm_per_n, dev_mm_per_n, det; /* of the base and of what yields equally in every direction */
-    brace_swing_t element[BRACE_CHAIN_FIRM]; /* halved; both joints as springs of 1 rad/(N mm) */
+    float iso_mm_per_n; /* the compliance that is equal in every direction */
+    brace_vec_t base;   /* in the robot's frame [sqrt(mm/N)] */
+    brace_element_t element[BRACE_LINK_ELEMENT_COUNT];
+    float femur_mm, tibia_mm;
 } brace_general_t;
 
-/* Collapses all of a limb but its joints' springs and its base's rotation; to be called when parameters change.
+/* Collapses a limb, except its joints' springs and its base's rotation. Call it when parameters change.
  * limb: one that brace_limb_check accepts. general, limb: not null.
  * Cost on a Cortex-M4F: at most 420 instructions; 80 bytes of stack. */
 void brace_general_collapse(const brace_limb_t *limb, brace_general_t *general);
 
-/* K at a posture, with the flags and statuses of brace_chain_stiffness.
- * Accuracy: as there while det C is above 1e-3 of the squared half trace, ten times less down to where it is flagged.
- *   hip_rad_per_n_mm: the femur joint's compliance and the base's rotation; knee_rad_per_n_mm: the tibia joint's; >= 0
- *   general, stiffness: not null (not checked: this is the tick)
+/* K at a posture.
+ * general, stiffness: not null (not checked: this runs in the tick).
+ * theta1_rad, theta2_rad: true angles, theta1^2 + theta2^2 <= BRACE_REACH_RAD2.
+ * hip_rad_per_n_mm: the femur joint's compliance and the base's rotation; knee_rad_per_n_mm: the tibia joint's; >= 0.
+ * stiffness: written on success only. flags: BRACE_FLAG_NEAR_SINGULAR when C is so slender (det C below 2e-5 of the
+ * squared half trace) that the accuracy is not promised.
+ * returns BRACE_OK, BRACE_E_RANGE, BRACE_E_NOT_FINITE (NaN, infinity, and angles whose square overflows),
+ *         BRACE_E_SINGULAR: nothing yields in some direction.
+ * Accuracy: each entry of K within 2e-6 of lambda_max, eigenvalues within 2e-6 of themselves, stiff axis within 1e-6
+ * rad times lambda_max / (lambda_max - lambda_min), unless flagged.
  * Cost on a Cortex-M4F: at most 380 instructions; 72 bytes of stack. */
 brace_status_t brace_general_stiffness(const brace_general_t *general, float theta1_rad, float theta2_rad,
                                        float hip_rad_per_n_mm, float knee_rad_per_n_mm, brace_stiffness_t *stiffness);
+
+/* C at the same posture and its determinant [(mm/N)^2], in which nothing cancels. Returns the same statuses except
+ * BRACE_E_SINGULAR, because C exists where K does not. */
+brace_status_t brace_general_compliance(const brace_general_t *general, float theta1_rad, float theta2_rad,
+                                        float hip_rad_per_n_mm, float knee_rad_per_n_mm,
+                                        brace_compliance_t *compliance, float *det);
 
 #endif

@@ -1,21 +1,18 @@
 /* Joint angles <-> tip, levers of the joints, polar form; in the limb's plane and in space.
  *
- * Frames and signs as in docs/physics.md: origin on the femur joint's axis, x outwards, z up; theta1 is the
- * femur's angle from +x; theta2 the knee's flexion, the tibia points along theta1 - theta2. In space the
- * limb's plane stands on the coxa and is carried round z by theta0; there the origin lies on the yaw axis.
+ * docs/physics.md defines frames and signs: the origin is on the femur joint's axis, x points outwards, z up; theta1 is
+ * the femur's angle from +x; theta2 is the knee's flexion, and the tibia points along theta1 - theta2. In space theta0
+ * turns the limb's plane, coxa included, about z; there the origin lies on the yaw axis.
  *
  * Angles are true joint angles; add zero offsets first (brace_limb_true_angle).
  *
- * Every function: pure, re-entrant, callable from any thread or interrupt; no loop over data; stack at most 170 bytes.
+ * Every function is pure and re-entrant, from any thread or interrupt; no loop over data; stack at most 170 bytes.
  * A refused call leaves its outputs untouched.
  */
 #ifndef BRACE_KINEMATICS_H
 #define BRACE_KINEMATICS_H
 
 #include "brace/limb.h"
-
-/* Joint angles are taken in [-BRACE_ANGLE_LIMIT_RAD, +BRACE_ANGLE_LIMIT_RAD]: a turn and a bit. */
-#define BRACE_ANGLE_LIMIT_RAD 7.9f
 
 typedef struct {
     float x_mm;
@@ -37,19 +34,19 @@ typedef struct {
 typedef struct {
     brace_point_t knee;
     brace_point_t tip;
-    /* The tip's shift for a unit turn (1 rad, counter-clockwise) of what hangs on the joint: the vector from
+    /* The tip's shift for a unit turn (1 rad, counter-clockwise) of everything beyond the joint: the vector from
      * the joint to the tip, turned by +90 degrees. A force f at the tip loads the joint with lever . f. */
     brace_point_t lever_femur;
     brace_point_t lever_tibia;
 } brace_pose_t;
 
-/* Which of the two postures that reach a point: the knee's side of the line from the origin to the tip. */
+/* Which of the two postures that reach a point. The knee lies on one side of the line from the origin to the tip. */
 typedef enum {
     BRACE_KNEE_UP = 0,  /* theta2 in [0, pi]: knee to the left of the line, above it for a tip in front */
     BRACE_KNEE_DOWN = 1 /* theta2 in [-pi, 0] */
 } brace_knee_t;
 
-/* Which of the two yaw angles whose plane holds a point. */
+/* Which of the two yaw angles whose plane contains a point. */
 typedef enum {
     BRACE_YAW_TOWARDS = 0, /* the limb's +x side faces the tip */
     BRACE_YAW_AWAY = 1     /* theta0 is half a turn further: the limb reaches back over the yaw axis */
@@ -63,8 +60,8 @@ typedef enum {
 brace_status_t brace_kinematics_forward(const brace_limb_t *limb, float theta1_rad, float theta2_rad,
                                         brace_pose_t *pose);
 
-/* The same for the tick: limb has passed brace_limb_check, and angles are within +-7.9 rad; nothing is checked. At most
- * 130 instructions. */
+/* The same for the tick. It checks nothing: limb must have passed brace_limb_check, and angles must be within +-7.9
+ * rad. At most 130 instructions. */
 void brace_kinematics_pose(const brace_limb_t *limb, float theta1_rad, float theta2_rad, brace_pose_t *pose);
 
 /* Distance and direction of a point; phi 0 for the origin itself.
@@ -78,13 +75,13 @@ brace_status_t brace_kinematics_polar(brace_point_t point, brace_polar_t *polar)
  *   theta1_rad (out) [-pi, pi]; theta2_rad (out) [0, pi] knee up, [-pi, 0] knee down
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_PARAMETER, BRACE_E_NOT_FINITE, BRACE_E_RANGE (also for a knee that
  *   is neither), BRACE_E_UNREACHABLE: |tip| outside [|femur - tibia|, femur + tibia] by more than 5e-7
- *   of femur + tibia; a tip outside by less, such as the rounded tip of a straight limb, is taken as straight
+ *   of femur + tibia. A tip that is outside by less, such as the rounded tip of a straight limb, counts as straight
  *   or folded.
  * A tip at the origin is reached when both links are equally long, with theta2 = +-pi and theta1 = 0.
- * accuracy: the returned angles put the tip within 1e-6 of femur + tibia of where it was asked for, straight
- *   and folded included. The angles themselves are as sharp as the question: for a tip known to e,
- *   theta2 is known to e r / (femur tibia |sin theta2|), and at sin theta2 = 0 to the root of twice that
- *   without the sine.
+ * accuracy: the returned angles put the tip within 1e-6 of femur + tibia of the tip that was asked for, straight
+ *   and folded included. The angles are as exact as the given tip allows: if the tip is known to e, theta2 is known to
+ *   e r / (femur tibia |sin theta2|). At sin theta2 = 0 it is known to the root of twice that expression without the
+ *   sine.
  * cost: at most 360 instructions.
  * source: half-angle form of the law of cosines; every factor is a difference of two given lengths. */
 brace_status_t brace_kinematics_inverse(const brace_limb_t *limb, brace_point_t tip, brace_knee_t knee,
@@ -104,7 +101,7 @@ brace_status_t brace_kinematics_forward_spatial(const brace_limb_t *limb, float 
 
 /* The three angles that put the tip at a point in space.
  *   tip [+-1e6 mm]; yaw, knee: which of the four postures
- *   theta0_rad (out) [-pi, pi], 0 for a tip on the yaw axis, where any would do
+ *   theta0_rad (out) [-pi, pi]; 0 for a tip on the yaw axis, where any yaw angle reaches the tip
  *   theta1_rad, theta2_rad (out) as for brace_kinematics_inverse
  * returns as brace_kinematics_inverse; accuracy 1e-6 of coxa + femur + tibia at the tip; at most 490
  * instructions. */

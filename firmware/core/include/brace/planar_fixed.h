@@ -1,8 +1,8 @@
-/* K in the limb's plane on a controller without a floating-point unit: 32-bit integers all the way, IEEE
- * floats built by shifts at the end, so that the result is the same type that the float path gives.
+/* K in the limb's plane on a controller without a floating-point unit. The tick uses 32-bit integers only. At the end
+ * it builds IEEE floats by shifts, so that the result has the same type as that of the float path.
  *
- * Two steps, as everywhere: collapse the limb once when its parameters change (floating point, in software
- * if need be), then evaluate at every tick (no floating point, no call, no branch that depends on the data).
+ * There are two steps, as on every path. When parameters change, collapse the limb; this uses floating point, in
+ * software if there is no FPU. In every tick, evaluate: no floating point, no call, no branch that depends on the data.
  */
 #ifndef BRACE_PLANAR_FIXED_H
 #define BRACE_PLANAR_FIXED_H
@@ -14,19 +14,19 @@
 
 /* A function of the knee angle, constant + per_cos cos theta2 + per_sin sin theta2, scaled to integers. */
 typedef struct {
-    int64_t constant;  /* q32 of the result's unit, half a unit added to round */
-    uint64_t per_turn; /* per_cos in the low word, per_sin in the high one; doubled: the trigonometry is q31 */
+    int64_t constant_q32;     /* in the result's unit; holds half a unit more, so that truncation rounds */
+    int32_t per_cos, per_sin; /* in twice the result's unit: their products with a q31 number are q32 */
 } brace_fixed_harmonic_t;
 
-/* One limb, ready for the tick. Opaque; written by brace_planar_fixed_collapse. */
+/* One limb, ready for the tick. brace_planar_fixed_collapse writes it; other code must not read its members. */
 typedef struct {
     brace_fixed_harmonic_t mean;        /* trace of C */
-    brace_fixed_harmonic_t minus_dev_x; /* deviator of C along the bisector, negated, */
-    brace_fixed_harmonic_t dev_y;       /* and across it */
+    brace_fixed_harmonic_t minus_dev_x; /* deviator of C along the bisector, negated */
+    brace_fixed_harmonic_t dev_z;       /* deviator of C across the bisector */
     brace_fixed_harmonic_t cross;       /* det C = cross^2 + rest rest_weight */
     brace_fixed_harmonic_t rest;
     int32_t rest_weight;
-    uint32_t exponent_k; /* exponent fields of IEEE floats, before normalisation is taken off */
+    uint32_t exponent_k; /* exponent fields of IEEE floats, before the shift that normalises a number is subtracted */
     uint32_t exponent_min;
     uint32_t flags;
 } brace_planar_fixed_t;
@@ -35,21 +35,22 @@ typedef struct {
  * limb: any that brace_limb_check accepts. fixed: written on success only.
  * returns BRACE_OK, what brace_limb_check says, or
  *         BRACE_E_UNSUPPORTED: the base yields unequally in x and z; or C is so slender at some posture (det C
- *         below 2.5e-7 of the largest mean^2) that 32 bits do not hold it; or so far from 1 mm/N (mean compliance
- *         beyond 1e-7 to 1e7). brace_chain_stiffness serves such a limb.
+ *         below 2.5e-7 of the largest mean^2) that 32 bits do not hold it; or C is too far from 1 mm/N (mean compliance
+ *         outside 1e-7 to 1e7). brace_chain_stiffness serves such a limb.
  * Cost: once per parameter change; float and double, in software where there is no FPU: at most 134,000
  *       instructions on a Cortex-M3, stack 632 bytes. RAM: 96 bytes a limb. */
 brace_status_t brace_planar_fixed_collapse(const brace_limb_t *limb, brace_planar_fixed_t *fixed);
 
 /* K, its eigenvalues and the stiff axis.
- * theta1_rad_q28, theta2_rad_q28: true angles [rad * 2^28; every int32, that is -8 rad to 8 rad, is one].
- * stiffness: written on success only. stiff_axis_rad: [-pi/2, pi/2); where the eigenvalues are equal to within
- *            1e-5 it is the less determined the closer they are.
+ * theta1_rad_q28, theta2_rad_q28: true angles [rad * 2^28]; every int32 is valid, from -8 rad to 8 rad.
+ * stiffness: written on success only. stiff_axis_rad: [-pi/2, pi/2). Where the eigenvalues are equal to within 1e-5,
+ * the
+ *            axis is less exact the closer they are.
  *            flags: BRACE_FLAG_NEAR_SINGULAR when the limb is so slender or so uneven that the accuracy below is
  *            not promised.
  * returns BRACE_OK, BRACE_E_NULL.
- * Cost on a Cortex-M3: 238 instructions at every posture (GCC 12, -O2), one division (udiv) and no call among
- *       them; stack 48 bytes; flash 1,896 bytes with its tables.
+ * Cost on a Cortex-M3: 256 instructions at every posture (GCC 12, -O2), one division (udiv) and no call among
+ *       them; stack 80 bytes; flash 1,916 bytes with its tables.
  * Thread rule: a pure function of its arguments; safe from any context once they are not written.
  * Accuracy: K within 5e-7 of lambda_max, the eigenvalues within 5e-7 of themselves (2e-6 and 5e-6 promised), the
  *       axis within 3e-7 rad / (1 - lambda_min/lambda_max). Floats are rounded towards zero.

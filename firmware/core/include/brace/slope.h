@@ -1,17 +1,17 @@
 /* Stiffness from a loading test: slopes of force over displacement, one step at a time.
  *
- * A test displaces the tip along one axis and reads both components of the force on it, so it gives one
- * column of K. Displacement and force count from the preload point, the reading taken once the joints' play
- * is taken up. State is of fixed size, nothing is stored per step, and every sum is updated by what the new
- * step adds, so neither a large preload nor a long test costs accuracy.
+ * A test displaces the tip along one axis and reads both components of the force on the tip, so it gives one column of
+ * K. Displacement and force count from the preload point, which is the reading taken once the backlash is taken up. The
+ * state has a fixed size and stores no steps. Each step updates every sum by its own contribution, so neither a large
+ * preload nor a long test costs accuracy.
  *
- * Three estimates, from the same steps:
- *   mean of ratios - the paper's: mean of force/displacement. Small steps weigh as much as large ones: for
- *     eight equal steps its variance is 4.9 times that of least squares, and play left in the joints biases
- *     it by -17 / -34 / -55 % for half a step, one step and two;
+ * There are three estimates from the same steps:
+ *   mean of ratios - the paper's: mean of force/displacement. Small steps weigh as much as large ones. For eight equal
+ *     steps its variance is 4.9 times that of least squares, and backlash left in the joints biases it by
+ *     -17 / -34 / -55 % for half a step, one step and two;
  *   least squares through the preload point - the best for a straight line and even noise; the default;
- *   least squares with a free intercept - for a preload reading that is not trusted. Play or a wrong preload
- *     goes into the intercept as long as it is over before the first step.
+ *   least squares with a free intercept - for a preload reading that is not trusted. Backlash or a wrong preload
+ *     changes only the intercept, if the tip has crossed the backlash before the first step.
  *
  * Thread rule: one caller per brace_slope_t; different ones are independent. No loop depends on data.
  */
@@ -27,24 +27,34 @@ typedef enum {
     BRACE_SLOPE_METHOD_COUNT = 3
 } brace_slope_method_t;
 
-/* A line fitted to both force components; index 0 is x, 1 is z. */
+/* A reading, or a difference of two. */
 typedef struct {
-    float spread;      /* weighted sum of squares of what the slope multiplies */
-    float slope[2];    /* [N/mm] */
-    float residual[2]; /* the same of what the line leaves */
+    float displacement_mm, force_x_n, force_z_n;
+} brace_slope_reading_t;
+
+/* A least-squares line through the origin, of one force component over the displacement. */
+typedef struct {
+    float slope;    /* [N/mm] */
+    float residual; /* sum of squares of the deviations from the line [N^2, or (N/mm)^2 for the mean of ratios] */
 } brace_slope_line_t;
 
-/* A test under way. Set up by brace_slope_start; read it through the functions below. */
+/* The lines of both components for one method, and their common sum of squares of displacement. */
 typedef struct {
-    float preload[3]; /* displacement [mm], force along x and along z [N] */
-    float mean[3];    /* the same of the steps so far, from the preload point */
-    brace_slope_line_t line[BRACE_SLOPE_METHOD_COUNT];
+    float spread;
+    brace_slope_line_t x, z;
+} brace_slope_fit_t;
+
+/* A test under way. brace_slope_start sets it up; read it through the functions below. */
+typedef struct {
+    brace_slope_reading_t preload;
+    brace_slope_reading_t mean; /* mean of the steps so far, from the preload point */
+    brace_slope_fit_t fit[BRACE_SLOPE_METHOD_COUNT];
     uint32_t used;
     uint32_t skipped;
 } brace_slope_t;
 
-/* A column of K with its one-sigma standard errors, from the steps' own scatter. What the steps share - noise
- * of the preload reading, the sensor's gain - does not scatter and is not in them. */
+/* A column of K with its one-sigma standard errors, from the steps' own scatter. Errors that all steps share (noise of
+ * the preload reading, the sensor's gain) do not scatter, so the standard errors do not contain them. */
 typedef struct {
     float k_x_n_per_mm; /* force along x per displacement along the test's axis */
     float k_z_n_per_mm;
@@ -62,8 +72,8 @@ typedef struct {
     float asymmetry_n_per_mm;
     float sigma_asymmetry_n_per_mm;
     float sigma_lambda_min_n_per_mm;
-    /* Symmetrised K. Unlike a computed K it can come out with lambda_min <= 0. BRACE_FLAG_NEAR_SINGULAR:
-     * lambda_min is not above its own sigma, so these tests do not determine it. */
+    /* Symmetrised K. Unlike a computed K it can have lambda_min <= 0. BRACE_FLAG_NEAR_SINGULAR: lambda_min is not
+     * above its own sigma, so these tests do not determine it. */
     brace_stiffness_t symmetric;
 } brace_slope_stiffness_t;
 
@@ -74,7 +84,7 @@ typedef struct {
 brace_status_t brace_slope_start(brace_slope_t *slope, float displacement_mm, float force_x_n,
                                  float force_z_n);
 
-/* Takes one reading, same arguments. A step within 1e-6 mm of the preload point says nothing about a slope:
+/* Takes one reading, with the same arguments. A step within 1e-6 mm of the preload point says nothing about a slope:
  * it is counted as skipped, and the call returns BRACE_OK.
  * returns also BRACE_E_RANGE after 2^24 steps; slope untouched unless BRACE_OK.
  * cost: at most 240 instructions; stack at most 80 bytes. */

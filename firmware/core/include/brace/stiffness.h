@@ -1,8 +1,8 @@
 /* K at the tip from the joint angles: the result types and the tick functions.
  *
- * Two steps. When parameters change, collapse the limb's compliance chain into a few constants
- * (brace_planar_collapse: some thousand instructions). Each tick, evaluate them at the posture
- * (brace_planar_stiffness: a fixed number of instructions, the same for every posture).
+ * K takes two steps. When parameters change, brace_planar_collapse turns the limb's compliance chain into a few
+ * constants (some thousand instructions). Each tick, brace_planar_stiffness evaluates them at the posture, with a fixed
+ * number of instructions that is the same for every posture.
  */
 #ifndef BRACE_STIFFNESS_H
 #define BRACE_STIFFNESS_H
@@ -12,7 +12,7 @@
 
 #include "brace/limb.h"
 
-/* K in the limb's plane, f = K d; x outwards, z up. The same type from every arithmetic. */
+/* K in the limb's plane, f = K d; x outwards, z up. Float and fixed point give the same type. */
 typedef struct {
     float k_xx_n_per_mm;
     float k_xz_n_per_mm;
@@ -30,7 +30,7 @@ typedef struct {
     float c_zz_mm_per_n;
 } brace_compliance_t;
 
-/* K in space, y completing the right-handed frame x, y, z of the robot's base (theta0 = 0: the plane). */
+/* K in the frame of the robot's base: right-handed, z up. At theta0 = 0 the limb's plane is x, z. */
 typedef struct {
     float k_xx_n_per_mm, k_xy_n_per_mm, k_xz_n_per_mm;
     float k_yy_n_per_mm, k_yz_n_per_mm, k_zz_n_per_mm;

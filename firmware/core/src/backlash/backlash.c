@@ -1,34 +1,35 @@
 #include "brace/backlash.h"
 
+#include <math.h>
 #include <stddef.h>
 
 #include "backlash/backlash_load.h"
 #include "backlash/backlash_table.h"
 #include "backlash/backlash_takeup.h"
 #include "base/check.h"
-#include "base/trig.h"
+#include "brace/ranges.h"
 
 #define FAST_US 10000.0f
 #define SLOW_US 80000.0f
 #define SPEED_US 4000.0f
 
-/* A flank that the load has not told for this long is no longer told by memory either: a load may change within the
- * friction of a standing motor unseen. */
+/* When the load has not shown the flank for this long, memory no longer names it either: the load may have changed
+ * unseen, within the friction of a standing motor. */
 #define STALE_US 250000u
 #define ANGLE_LIMIT_RAD 1e3f
 #define EXPECTED_LIMIT_N_MM 1e7f
 
-/* Share of the gap that the motor may creep off a flank before that counts as crossing. */
+/* When the motor has crept off a flank by more than this share of the gap, the gap counts as being crossed. */
 #define LEFT_FLANK 0.2f
 
-/* Of the slow interval's full width, the sum of bounds that are hardly ever reached together: enough to tell a flank;
- * and, while the motor moves and friction is known, enough to move the offset there. A standing motor's torque lies
- * anywhere within its friction: there the offset stays. */
+/* Shares of the slow interval's full width. The full width is a sum of bounds that hardly ever occur together. The
+ * larger share suffices to name a flank. The smaller one suffices to move the offset while the motor moves and its
+ * friction is known. The torque of a standing motor may lie anywhere within its friction, so there the offset stays. */
 #define TOLD_SHARE 0.7f
 #define LEANING_SHARE 0.2f
 
-/* Fast sigmas of a preload: the command stops at the first sample that has them, by noise up to five early, and the
- * load has to stay clear of the six that prove it by another six. */
+/* Size of a preload in fast sigmas. Six sigmas prove a flank. The command stops at the first sample that shows the
+ * preload, which noise may bring up to five sigmas early, and six more keep the load clear of the six that prove it. */
 #define PRELOAD_SIGMAS 18.0f
 
 static bool flank_positive(const brace_backlash_t *joint)
@@ -51,14 +52,16 @@ static brace_status_t check_params(const brace_backlash_params_t *p)
 {
     const float range = p->torque_range_n_mm;
     const range_t ranges[] = {
-        {p->gap_rad, 1e-5f, 0.5f},
-        {p->friction_n_mm, 0.0f, 1e6f},
-        {p->friction_tolerance_ratio, 0.0f, 1.0f},
-        {p->inertia_n_mm_s2_per_rad, 0.0f, 1e6f},
-        {range, 1e-3f, 1e6f},
+        {p->gap_rad, 1e-5f, BRACE_RANGE_JOINT_GAP_RAD_MAX},
+        {p->friction_n_mm, BRACE_RANGE_DRIVE_MOTOR_FRICTION_N_MM_MIN, BRACE_RANGE_DRIVE_MOTOR_FRICTION_N_MM_MAX},
+        {p->friction_tolerance_ratio, BRACE_RANGE_DRIVE_MOTOR_FRICTION_TOLERANCE_RATIO_MIN,
+         BRACE_RANGE_DRIVE_MOTOR_FRICTION_TOLERANCE_RATIO_MAX},
+        {p->inertia_n_mm_s2_per_rad, BRACE_RANGE_DRIVE_MOTOR_INERTIA_N_MM_S2_PER_RAD_MIN,
+         BRACE_RANGE_DRIVE_MOTOR_INERTIA_N_MM_S2_PER_RAD_MAX},
+        {range, 1e-3f, BRACE_RANGE_DRIVE_TORQUE_RANGE_N_MM_MAX},
         {p->torque_noise_n_mm, 0.0f, range},
         {p->torque_bias_n_mm, 0.0f, range},
-        {p->angle_step_rad, 1e-7f, 0.01f},
+        {p->angle_step_rad, BRACE_RANGE_DRIVE_ANGLE_STEP_RAD_MIN, BRACE_RANGE_DRIVE_ANGLE_STEP_RAD_MAX},
         {p->takeup.torque_max_n_mm, 1e-3f, range},
         {p->takeup.preload_n_mm, 0.0f, p->takeup.torque_max_n_mm},
         {p->takeup.travel_max_rad, 1e-6f, 1.0f},
@@ -85,10 +88,10 @@ static brace_status_t check_params(const brace_backlash_params_t *p)
 /* Sigma of an exponential mean of white noise with gain a: sqrt(a / (2 - a)) of a sample's. */
 static float mean_sigma(float sigma, float gain)
 {
-    return sigma * brace_sqrt(gain / (2.0f - gain));
+    return sigma * sqrtf(gain / (2.0f - gain));
 }
 
-/* From the full range down to one fast sigma, and the lag of the direction of motion. */
+/* The time in which the filter falls from the full range to one fast sigma, and the lag of the direction of motion. */
 static uint32_t detection(const brace_backlash_t *joint)
 {
     const float quiet_n_mm = joint->fast_sigma_n_mm + 0.001f * joint->params.torque_range_n_mm;
@@ -157,7 +160,7 @@ static brace_status_t check_sample(const brace_backlash_t *joint, const brace_ba
     return status;
 }
 
-/* What the load and the motor's travel say of the flank, as facts; moves the play along with it. */
+/* What the load and the motor's travel show about the flank, as facts. Also moves the play operator. */
 static uint32_t flank_facts(brace_backlash_t *joint, int told, int leaning)
 {
     const float half_gap_rad = 0.5f * joint->params.gap_rad;
@@ -221,7 +224,7 @@ brace_status_t brace_backlash_tick(brace_backlash_t *joint, const brace_backlash
             backlash_load_observe(joint, sample);
         }
     }
-    /* after a bad sample the next good one begins anew */
+    /* after a bad sample the filters begin anew with the next good one */
     joint->started = status == BRACE_OK;
     joint->last_us = sample->now_us;
 
@@ -234,6 +237,35 @@ brace_status_t brace_backlash_tick(brace_backlash_t *joint, const brace_backlash
     advance_state(joint, facts);
     tell(joint, proven, out);
     return status;
+}
+
+/* ---------------------------------------------------------------------------------------------- take-up -- */
+
+brace_status_t brace_takeup_request(brace_backlash_t *joint, int flank)
+{
+    if (joint == NULL) {
+        return BRACE_E_NULL;
+    }
+    if ((flank != 1 && flank != -1) || joint->phase != BRACE_TAKEUP_IDLE || joint->requested ||
+        joint->state == BRACE_BACKLASH_FAULT) {
+        return BRACE_E_RANGE;
+    }
+    joint->chosen_flank = flank;
+    joint->requested = true;
+    return BRACE_OK;
+}
+
+brace_status_t brace_takeup_let_go(brace_backlash_t *joint)
+{
+    if (joint == NULL) {
+        return BRACE_E_NULL;
+    }
+    if (joint->phase == BRACE_TAKEUP_IDLE) {
+        joint->requested = false;
+    } else {
+        joint->let_go = true;
+    }
+    return BRACE_OK;
 }
 
 brace_status_t brace_backlash_tip_shift(const brace_pose_t *pose, float offset1_rad, float offset2_rad,

@@ -1,11 +1,13 @@
 #include "backlash/backlash_load.h"
 
+#include <math.h>
+
 #define INERTIA_TOLERANCE 0.25f
 
-/* Friction has the sign of the motion only after that has lasted: acceleration through a reversal is unsure. */
+/* Friction has the sign of the motion only after the motion has lasted this long: in a reversal the sign is unsure. */
 #define SAME_WAY_US 6000u
 
-/* Hysteresis of the direction of motion, in steps of the angle. */
+/* The motor has to move by this many steps of the angle before its direction counts. */
 #define DIRECTION_STEPS 2.0f
 
 /* The slow filter starts anew from the fast one when they are this many fast sigmas apart. */
@@ -41,12 +43,12 @@ void backlash_load_start(brace_backlash_t *joint, const brace_backlash_sample_t 
     joint->positive_us = joint->negative_us = 0;
 }
 
-/* Which way the motor goes, by travel against an anchor it drags along; 0 when that is not sure. */
+/* Direction of the motor, from its travel against an anchor that it drags along; 0 when the direction is not sure. */
 static int sure_direction(brace_backlash_t *joint)
 {
     const float slack_rad = DIRECTION_STEPS * joint->params.angle_step_rad;
     const float ahead_rad = joint->motor_rad - joint->anchor_rad;
-    /* half a step more, so that rounding of the anchor is no motion */
+    /* half a step more, so that the rounding of the anchor does not count as motion */
     const float passed_rad = slack_rad + 0.5f * joint->params.angle_step_rad;
     const int way = ahead_rad > passed_rad ? 1 : ahead_rad < -passed_rad ? -1 : 0;
     joint->same_way_us = added(joint->same_way_us, joint->params.tick_us);
@@ -69,7 +71,7 @@ static void follow_load(brace_backlash_t *joint, float torque_n_mm, float accel_
     const float friction_off_n_mm =
         p->friction_n_mm * (direction != 0 ? p->friction_tolerance_ratio : 1.0f + p->friction_tolerance_ratio);
     const float load_n_mm = torque_n_mm - inertial_n_mm - (float)direction * p->friction_n_mm;
-    const float width_n_mm = friction_off_n_mm + INERTIA_TOLERANCE * __builtin_fabsf(inertial_n_mm);
+    const float width_n_mm = friction_off_n_mm + INERTIA_TOLERANCE * fabsf(inertial_n_mm);
 
     joint->torque_n_mm += joint->fast_gain * (torque_n_mm - joint->torque_n_mm);
     joint->fast_n_mm += joint->fast_gain * (load_n_mm - joint->fast_n_mm);
@@ -77,7 +79,7 @@ static void follow_load(brace_backlash_t *joint, float torque_n_mm, float accel_
     joint->slow_n_mm += joint->slow_gain * (load_n_mm - joint->slow_n_mm);
     joint->slow_width_n_mm += joint->slow_gain * (width_n_mm - joint->slow_width_n_mm);
     joint->slow_spread_n_mm += joint->slow_gain * (joint->slow_sigma_n_mm - joint->slow_spread_n_mm);
-    const float apart_n_mm = __builtin_fabsf(joint->slow_n_mm - joint->fast_n_mm);
+    const float apart_n_mm = fabsf(joint->slow_n_mm - joint->fast_n_mm);
     if (apart_n_mm > RESTART_SIGMAS * joint->fast_sigma_n_mm || joint->slow_spread_n_mm > joint->fast_sigma_n_mm) {
         joint->slow_n_mm = joint->fast_n_mm;
         joint->slow_width_n_mm = joint->fast_width_n_mm;
@@ -123,7 +125,7 @@ int backlash_load_told(const brace_backlash_t *joint, const brace_backlash_sampl
     if (sample->load_is_expected) {
         const float least_n_mm = larger(low_n_mm, sample->expected_n_mm - sample->expected_off_n_mm);
         const float most_n_mm = -larger(-high_n_mm, -(sample->expected_n_mm + sample->expected_off_n_mm));
-        if (least_n_mm <= most_n_mm) { /* else the expectation is wrong: the motor knows better */
+        if (least_n_mm <= most_n_mm) { /* else the expectation is wrong, and the motor's torque decides */
             low_n_mm = least_n_mm;
             high_n_mm = most_n_mm;
         }

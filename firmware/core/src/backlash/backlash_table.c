@@ -2,7 +2,7 @@
 
 #include <stddef.h>
 
-#include "brace/backlash.h"
+#include "brace/backlash_types.h"
 
 #define ROWS(array) {array, sizeof array / sizeof *array}
 
@@ -46,7 +46,7 @@ static const transition_t from_crossing[] = {
     {FACT_ALWAYS, 2000000, UNKNOWN, 0},
 };
 static const transition_t from_fault[] = {
-    {FACT_BAD_SAMPLE, 0, FAULT, 0}, /* from the beginning */
+    {FACT_BAD_SAMPLE, 0, FAULT, 0}, /* the time in FAULT begins anew */
     {FACT_ALWAYS, 20000, UNKNOWN, 0},
 };
 

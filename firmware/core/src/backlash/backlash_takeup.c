@@ -1,10 +1,11 @@
 #include "backlash/backlash_takeup.h"
 
+#include <math.h>
 #include <stddef.h>
 
 #include "backlash/backlash_table.h"
 
-/* Of the gap: what a motor that is verified may move. */
+/* Share of the gap that a motor may move while its take-up is verified. */
 #define MOVED_SHARE 0.25f
 
 static bool running(const brace_backlash_t *joint)
@@ -26,11 +27,11 @@ static uint32_t gathered(const brace_backlash_t *joint, int proven)
     return fact(joint->requested, FACT_REQUESTED) | fact(joint->let_go, FACT_LET_GO) |
            fact(proven == joint->chosen_flank && flank * joint->fast_n_mm >= wanted_n_mm, FACT_PRELOADED) |
            fact(proven != joint->chosen_flank, FACT_UNLOADED) |
-           fact(__builtin_fabsf(joint->torque_n_mm) > bounds->torque_max_n_mm, FACT_TORQUE) |
-           fact(__builtin_fabsf(joint->motor_rad - joint->start_rad) > bounds->travel_max_rad, FACT_TRAVEL) |
-           fact(__builtin_fabsf(joint->command_rad) >= bounds->reach_max_rad, FACT_REACH) |
+           fact(fabsf(joint->torque_n_mm) > bounds->torque_max_n_mm, FACT_TORQUE) |
+           fact(fabsf(joint->motor_rad - joint->start_rad) > bounds->travel_max_rad, FACT_TRAVEL) |
+           fact(fabsf(joint->command_rad) >= bounds->reach_max_rad, FACT_REACH) |
            fact(joint->takeup_us >= bounds->time_max_us, FACT_TIME) |
-           fact(__builtin_fabsf(joint->motor_rad - joint->verify_rad) > MOVED_SHARE * joint->params.gap_rad,
+           fact(fabsf(joint->motor_rad - joint->verify_rad) > MOVED_SHARE * joint->params.gap_rad,
                 FACT_MOVED) |
            fact(joint->command_rad == 0.0f, FACT_BACK) |
            fact(joint->phase_us >= bounds->verify_us, FACT_VERIFIED);
@@ -91,31 +92,4 @@ void backlash_takeup_tell(const brace_backlash_t *joint, brace_backlash_out_t *o
     out->command_rad = joint->command_rad;
     out->limit_torque = joint->phase != BRACE_TAKEUP_IDLE;
     out->preload_n_mm = joint->preload_n_mm;
-}
-
-brace_status_t brace_takeup_request(brace_backlash_t *joint, int flank)
-{
-    if (joint == NULL) {
-        return BRACE_E_NULL;
-    }
-    if ((flank != 1 && flank != -1) || joint->phase != BRACE_TAKEUP_IDLE || joint->requested ||
-        joint->state == BRACE_BACKLASH_FAULT) {
-        return BRACE_E_RANGE;
-    }
-    joint->chosen_flank = flank;
-    joint->requested = true;
-    return BRACE_OK;
-}
-
-brace_status_t brace_takeup_let_go(brace_backlash_t *joint)
-{
-    if (joint == NULL) {
-        return BRACE_E_NULL;
-    }
-    if (joint->phase == BRACE_TAKEUP_IDLE) {
-        joint->requested = false;
-    } else {
-        joint->let_go = true;
-    }
-    return BRACE_OK;
 }

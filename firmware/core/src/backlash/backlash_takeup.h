@@ -2,9 +2,9 @@
 #ifndef BRACE_BACKLASH_TAKEUP_H
 #define BRACE_BACKLASH_TAKEUP_H
 
-#include "brace/backlash.h"
+#include "brace/backlash_types.h"
 
-/* Moves command and phase on by a tick; proven: the flank the load proves.
+/* Moves command and phase on by a tick; proven: the flank that the load proves.
  * returns FACT_TAKING_UP while the flank is not yet verified, else FACT_NOT_TAKING_UP */
 uint32_t backlash_takeup_advance(brace_backlash_t *joint, uint32_t facts, int proven);
 

@@ -1,17 +1,19 @@
 #include "brace/gap_stiffness.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "base/check.h"
 #include "base/trig.h"
 #include "base/vec.h"
 
+/* A tip closer than this to a free joint's axis has no direction that the joint still carries. */
 #define LEAST_LEVER_MM 1e-3f
-#define LENGTH_LIMIT_MM 1e5f
+
+/* Two arms count as one line when the sine of their angle is below this. */
 #define ALIGNED 1e-3f
 
-/* From the joint to the tip: the lever turned back by a quarter. */
+/* The arm from the joint to the tip: the lever turned back by a quarter turn. */
 static brace_vec_t arm(brace_point_t lever)
 {
     return (brace_vec_t){lever.z_mm, -lever.x_mm};
@@ -21,13 +23,13 @@ static brace_vec_t arm(brace_point_t lever)
 static void carried_along(const brace_stiffness_t *engaged, brace_vec_t along, float length, brace_stiffness_t *free)
 {
     const brace_vec_t u = vec_scaled(along, 1.0f / length);
-    const brace_vec_t stiff = brace_direction(brace_turn(engaged->stiff_axis_rad));
+    const brace_vec_t stiff = brace_direction(engaged->stiff_axis_rad);
     const float cosine = vec_dot(stiff, u);
     const float sine = vec_cross(stiff, u);
     const float yields_mm_per_n = cosine * cosine / engaged->lambda_max_n_per_mm +
                                   sine * sine / engaged->lambda_min_n_per_mm;
     const float k_n_per_mm = 1.0f / yields_mm_per_n;
-    /* an axis, not an arrow: its half with x >= 0 */
+    /* an axis has no direction: take the half with x >= 0 */
     const float side = u.x < 0.0f || (u.x == 0.0f && u.z < 0.0f) ? -1.0f : 1.0f;
     free->k_xx_n_per_mm = k_n_per_mm * u.x * u.x;
     free->k_xz_n_per_mm = k_n_per_mm * u.x * u.z;
@@ -38,7 +40,7 @@ static void carried_along(const brace_stiffness_t *engaged, brace_vec_t along, f
 
 static void both_free(brace_vec_t femur, brace_vec_t tibia, float femur_mm, float tibia_mm, brace_stiffness_t *now)
 {
-    const bool aligned = __builtin_fabsf(vec_cross(femur, tibia)) < ALIGNED * femur_mm * tibia_mm;
+    const bool aligned = fabsf(vec_cross(femur, tibia)) < ALIGNED * femur_mm * tibia_mm;
     *now = (brace_stiffness_t){.flags = now->flags | (aligned ? BRACE_FLAG_NEAR_SINGULAR : 0u)};
 }
 
@@ -47,9 +49,8 @@ brace_status_t brace_gap_stiffness_known(const brace_stiffness_t *engaged, const
 {
     const brace_vec_t femur = arm(pose->lever_femur), tibia = arm(pose->lever_tibia);
     const bool femur_free = (open & BRACE_GAP_FEMUR) != 0u, tibia_free = (open & BRACE_GAP_TIBIA) != 0u;
-    const float femur_mm = femur_free ? brace_length(femur.x, femur.z) : LENGTH_LIMIT_MM;
-    const float tibia_mm = tibia_free ? brace_length(tibia.x, tibia.z) : LENGTH_LIMIT_MM;
-    if (femur_mm < LEAST_LEVER_MM || tibia_mm < LEAST_LEVER_MM) {
+    const float femur_mm = vec_length(femur), tibia_mm = vec_length(tibia);
+    if ((femur_free && femur_mm < LEAST_LEVER_MM) || (tibia_free && tibia_mm < LEAST_LEVER_MM)) {
         return BRACE_E_SINGULAR;
     }
     result->now = result->engaged = *engaged;
@@ -66,23 +67,4 @@ brace_status_t brace_gap_stiffness_known(const brace_stiffness_t *engaged, const
     result->now.lambda_min_n_per_mm = 0.0f;
     result->now.flags |= BRACE_FLAG_GAP_OPEN;
     return BRACE_OK;
-}
-
-brace_status_t brace_gap_stiffness(const brace_stiffness_t *engaged, const brace_pose_t *pose, uint32_t open,
-                                   brace_gap_stiffness_t *result)
-{
-    if (pose == NULL || result == NULL) {
-        return BRACE_E_NULL;
-    }
-    brace_status_t status = brace_check(pose, &pose->lever_femur.x_mm, BRACE_INPUT_POINT);
-    if (status == BRACE_OK) {
-        status = brace_check_stiffness(engaged, pose, &pose->lever_tibia.x_mm, BRACE_INPUT_POINT);
-    }
-    if (status == BRACE_OK && (open & ~(uint32_t)(BRACE_GAP_FEMUR | BRACE_GAP_TIBIA)) != 0u) {
-        status = BRACE_E_RANGE;
-    }
-    if (status != BRACE_OK) {
-        return status;
-    }
-    return brace_gap_stiffness_known(engaged, pose, open, result);
 }

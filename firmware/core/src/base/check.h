@@ -1,71 +1,40 @@
-/* The one way inputs are tested for being usable numbers. */
+/* Every input of the core is checked here. Each limit is inclusive, and must be finite.
+ * returns BRACE_OK; BRACE_E_RANGE for a number beyond its limit; BRACE_E_NOT_FINITE for NaN and infinity. Where two
+ * numbers are wrong and one is NaN or infinite, the answer is BRACE_E_NOT_FINITE. */
 #ifndef BRACE_CORE_CHECK_H
 #define BRACE_CORE_CHECK_H
 
-#include <stdbool.h>
-#include <stdint.h>
-#include <string.h>
+#include <math.h>
 
-#include "brace/limb.h"
 #include "brace/status.h"
-#include "brace/stiffness.h"
 
-/* What a public function is given: a run of numbers, each within plus and minus a limit of its own (check.c). A digit for
- * each, the first one last: 1 an angle of a joint, 2 a part of a normal or a friction, 3 a displacement, 4 a force or a
- * coordinate, 5 a distance, 6 a stiffness. */
-typedef enum {
-    BRACE_INPUT_STIFFNESS = 0x166666, /* what a brace_stiffness_t begins with: entries, eigenvalues, axis */
-    BRACE_INPUT_ANGLES = 0x11,        /* of two joints [rad] */
-    BRACE_INPUT_POLAR = 0x15,         /* distance [mm], direction [rad] */
-    BRACE_INPUT_DISPLACEMENT = 0x33,  /* two components [mm] */
-    BRACE_INPUT_READING = 0x443,      /* displacement [mm], two components of the force [N] */
-    BRACE_INPUT_FORCE = 0x44,         /* two components [N] */
-    BRACE_INPUT_POINT = 0x44,         /* two components [mm] */
-    BRACE_INPUT_GRIP = 0x22244        /* two components of the force [N], two of the surface's normal, friction */
-} brace_input_t;
+/* Why two numbers were refused. */
+brace_status_t brace_refusal_of(float a, float b);
 
-/* Are those numbers what they may be? given: whatever the caller must have been given a pointer to.
- * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE: of the first number that is not */
-brace_status_t brace_check(const void *given, const float *value, brace_input_t what);
+/* A comparison with NaN is false. So each check accepts a number that is inside its limits, and thereby refuses NaN. */
 
-/* BRACE_OK for a value in [-limit, limit], BRACE_E_RANGE for a finite one outside, BRACE_E_NOT_FINITE. */
-brace_status_t brace_check_magnitude(float value, float limit);
-
-brace_status_t brace_check_two(float a, float b, float limit);
-
-/* A limb with lengths that a limb can have.
- * returns BRACE_OK, BRACE_E_NULL, BRACE_E_PARAMETER */
-brace_status_t brace_check_lengths(const brace_limb_t *limb);
-
-/* brace_check, and then brace_check_lengths; null before all else. */
-brace_status_t brace_check_limb(const void *given, const float *value, brace_input_t what, const brace_limb_t *limb);
-
-/* brace_check, and then whether a stiffness can be divided by: numbers within their limits, eigenvalues positive and in
- * order. */
-brace_status_t brace_check_stiffness(const brace_stiffness_t *stiffness, const void *given, const float *value,
-                                     brace_input_t what);
-
-/* A float's bits. As integers they are in the floats' own order while these are not negative, NaN and infinity above
- * all: comparing them needs no FPU, and takes half the code where there is one. */
-static inline int32_t brace_bits(float value)
+/* Two values in [-limit, limit]. */
+static inline brace_status_t brace_check_two(float a, float b, float limit)
 {
-    int32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    return bits;
+    return fabsf(a) <= limit && fabsf(b) <= limit ? BRACE_OK : brace_refusal_of(a, b);
 }
 
-/* The same of the magnitude, twice over: the sign is gone, and nothing else. */
-static inline uint32_t brace_magnitude_bits(float value)
+/* A value in [-limit, limit]. */
+static inline brace_status_t brace_check_magnitude(float value, float limit)
 {
-    return (uint32_t)brace_bits(value) << 1;
+    return fabsf(value) <= limit ? BRACE_OK : brace_refusal_of(value, 0.0f);
 }
 
-/* Below zero; minus zero is not. */
-static inline bool brace_is_negative(float value)
+/* A value in [least, most]. */
+static inline brace_status_t brace_check_range(float value, float least, float most)
 {
-    return (uint32_t)brace_bits(value) > 0x80000000u;
+    return value >= least && value <= most ? BRACE_OK : brace_refusal_of(value, 0.0f);
 }
 
-#define BRACE_INFINITE_BITS 0xff000000u /* of infinity; of NaN more */
+/* The first of the statuses that is not BRACE_OK; BRACE_OK if all are. */
+static inline brace_status_t brace_first_refusal(brace_status_t first, brace_status_t second)
+{
+    return first != BRACE_OK ? first : second;
+}
 
 #endif

@@ -1,10 +1,12 @@
-/* Vectors in the limb's plane. */
-#ifndef BRACE_VEC_H
-#define BRACE_VEC_H
+/* Arithmetic of vectors in the limb's plane. */
+#ifndef BRACE_CORE_VEC_H
+#define BRACE_CORE_VEC_H
 
-#include "brace/chain.h"
+#include <math.h>
 
-/* Turned a quarter counter-clockwise: a link's bending direction from its axis, a lever from an arm. */
+#include "brace/vec.h"
+
+/* v turned a quarter counter-clockwise: makes a link's bending direction from its axis, and a lever from an arm. */
 static inline brace_vec_t vec_quarter(brace_vec_t v)
 {
     return (brace_vec_t){-v.z, v.x};
@@ -15,19 +17,54 @@ static inline brace_vec_t vec_scaled(brace_vec_t v, float by)
     return (brace_vec_t){v.x * by, v.z * by};
 }
 
+static inline brace_vec_t vec_plus(brace_vec_t a, brace_vec_t b)
+{
+    return (brace_vec_t){a.x + b.x, a.z + b.z};
+}
+
 static inline brace_vec_t vec_minus(brace_vec_t a, brace_vec_t b)
 {
     return (brace_vec_t){a.x - b.x, a.z - b.z};
 }
 
+/* a + by b */
+static inline brace_vec_t vec_plus_scaled(brace_vec_t a, brace_vec_t b, float by)
+{
+    return (brace_vec_t){fmaf(by, b.x, a.x), fmaf(by, b.z, a.z)};
+}
+
 static inline float vec_dot(brace_vec_t a, brace_vec_t b)
 {
-    return __builtin_fmaf(a.x, b.x, a.z * b.z);
+    return fmaf(a.x, b.x, a.z * b.z);
 }
 
 static inline float vec_cross(brace_vec_t a, brace_vec_t b)
 {
-    return __builtin_fmaf(a.x, b.z, -(a.z * b.x));
+    return fmaf(a.x, b.z, -(a.z * b.x));
+}
+
+static inline float vec_length(brace_vec_t v)
+{
+    return sqrtf(vec_dot(v, v));
+}
+
+/* v turned by a direction's angle: from the frame whose x axis is that direction into the frame that holds it. */
+static inline brace_vec_t vec_turned(brace_vec_t v, brace_vec_t by)
+{
+    return (brace_vec_t){fmaf(v.x, by.x, -(v.z * by.z)), fmaf(v.x, by.z, v.z * by.x)};
+}
+
+/* v turned back by a direction's angle: v as seen in the frame whose x axis is that direction. */
+static inline brace_vec_t vec_turned_back(brace_vec_t v, brace_vec_t by)
+{
+    return (brace_vec_t){fmaf(v.x, by.x, v.z * by.z), fmaf(v.z, by.x, -(v.x * by.z))};
+}
+
+/* The direction of twice a direction's angle. */
+static inline brace_vec_t vec_doubled(brace_vec_t direction)
+{
+    const float x = direction.x, z = direction.z;
+    return (brace_vec_t){(x - z) * (x + z), 2.0f * x * z};
 }
 
 #endif

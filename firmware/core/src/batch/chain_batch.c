@@ -23,7 +23,7 @@ size_t brace_chain_batch(const brace_chain_t *chain, size_t n, const float *thet
         stiffness->lambda_max_n_per_mm[i] = k.lambda_max_n_per_mm;
         stiffness->stiff_axis_rad[i] = k.stiff_axis_rad;
         if (compliance != NULL) {
-            (void)brace_chain_compliance(chain, theta1_rad[i], theta2_rad[i], &c, NULL); /* refused: c stays */
+            (void)brace_chain_compliance(chain, theta1_rad[i], theta2_rad[i], &c, NULL); /* refused: c stays NaN */
             compliance->c_xx_mm_per_n[i] = c.c_xx_mm_per_n;
             compliance->c_xz_mm_per_n[i] = c.c_xz_mm_per_n;
             compliance->c_zz_mm_per_n[i] = c.c_zz_mm_per_n;

@@ -1,110 +1,110 @@
-/* C in the limb's plane at a posture, and from it K. What every float path but the planar tick (planar/planar.c) is made
- * of.
- */
-#ifndef BRACE_CHAIN_TENSOR_H
-#define BRACE_CHAIN_TENSOR_H
+/* C at a posture, added up vector by vector, and K from it. Every float path uses this, except planar/planar.c. */
+#ifndef BRACE_CORE_TENSOR_H
+#define BRACE_CORE_TENSOR_H
 
 #include <float.h>
+#include <math.h>
+#include <stdint.h>
 
-#include "brace/chain.h"
-#include "brace/planar.h"
-#include "base/check.h"
 #include "base/trig.h"
 #include "base/vec.h"
+#include "brace/element.h"
+#include "brace/status.h"
+#include "brace/stiffness.h"
 
-/* det C over mean^2 below which C counts as singular, and below which its accuracy is not promised. */
+/* Limits of det C over the squared half trace: below the first C counts as singular, below the second its accuracy is
+ * not promised. */
 #define BRACE_SINGULAR 1e-12f
 #define BRACE_SLENDER 2e-5f
 
-/* C and its determinant. */
+/* C is stored as its entries xx and xz and a third number, second: det C = xx second, zz = second + xz^2/xx. So the
+ * determinant is a product, and nothing cancels in it however slender C is. */
 typedef struct {
-    float xx, xz, zz, det;
+    float xx, xz, second;
 } brace_tensor_t;
 
-/* Mohr's circle of a tensor: half its trace, and its deviator [[dev.x, dev.z], [dev.z, -dev.x]]. */
+/* iso I + v v'. xx is never quite zero, because brace_tensor_add divides by it. */
+static inline brace_tensor_t brace_tensor_of(float iso_mm_per_n, brace_vec_t v)
+{
+    const float nearly_nothing = 1e-18f;
+    const float iso = iso_mm_per_n + nearly_nothing, xx = fmaf(v.x, v.x, iso);
+    return (brace_tensor_t){xx, v.x * v.z, fmaf(v.z * v.z, iso / xx, iso)};
+}
+
+/* c += v v': the rank-one update of a Cholesky factor (Gill, Golub, Murray and Saunders, 1974). xx and second grow by
+ * squares only. */
+static inline void brace_tensor_add(brace_tensor_t *c, brace_vec_t v)
+{
+    const float xx = fmaf(v.x, v.x, c->xx);
+    const float beyond = fmaf(c->xx, v.z, -(c->xz * v.x)); /* xx times v's part beyond c's first column */
+    const float per_both = 1.0f / (c->xx * xx);
+    c->second = fmaf(beyond * per_both, beyond, c->second);
+    c->xz = fmaf(v.x, v.z, c->xz);
+    c->xx = xx;
+}
+
+static inline float brace_tensor_det(const brace_tensor_t *c)
+{
+    return c->xx * c->second;
+}
+
+/* Half the trace of C, and its deviator: C = mean I + [[dev.x, dev.z], [dev.z, -dev.x]]. */
 typedef struct {
     float mean;
     brace_vec_t dev;
 } brace_circle_t;
 
-/* Directions of half the knee angle, and of the bisector of femur and tibia in the world; together they may be the
- * opposite ones, which leaves where the tip is and changes only the signs of what is squared. */
+static inline brace_circle_t brace_tensor_circle(const brace_tensor_t *c)
+{
+    const float zz = fmaf(c->xz / c->xx, c->xz, c->second);
+    return (brace_circle_t){0.5f * (c->xx + zz), {0.5f * (c->xx - zz), c->xz}};
+}
+
+/* Half the knee angle and the bisector of femur and tibia in the world, as directions. Both together may have the
+ * opposite sign. That leaves the tip where it is, and changes the sign of every v, so C stays the same. */
 typedef struct {
     brace_vec_t half, bisector;
 } brace_posture_t;
 
-/* Angles in [-7.9, 7.9]; small numbers at the straight and at the folded knee stay exact. */
-void brace_posture(float theta1_rad, float theta2_rad, brace_posture_t *at);
-
-/* BRACE_OK, BRACE_E_RANGE beyond BRACE_PLANAR_REACH_RAD2, BRACE_E_NOT_FINITE. */
-static inline brace_status_t brace_check_reach(float theta1_rad, float theta2_rad)
+/* theta1_rad, theta2_rad: [-7.9, 7.9]. */
+static inline brace_posture_t brace_posture(float theta1_rad, float theta2_rad)
 {
-    const uint32_t reach = brace_magnitude_bits(theta1_rad * theta1_rad + theta2_rad * theta2_rad);
-    if (reach <= brace_magnitude_bits(BRACE_PLANAR_REACH_RAD2)) {
-        return BRACE_OK;
-    }
-    return reach < BRACE_INFINITE_BITS ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
+    const float half_rad = 0.5f * theta2_rad;
+    const float knee_half_turns = brace_half_turns(half_rad);
+    const float bisector_half_turns = brace_half_turns(theta1_rad - half_rad);
+    const float h_high = fmaf(knee_half_turns, -BRACE_PI, half_rad), h_low = knee_half_turns * -BRACE_PI_LOW;
+    const float b = brace_less_half_turns(theta1_rad, bisector_half_turns) - half_rad;
+    const float sign = ((int32_t)(knee_half_turns + bisector_half_turns) & 1) != 0 ? -1.0f : 1.0f;
+    return (brace_posture_t){.half = {sign * brace_cosine_of_parts(h_high, h_low), sign * brace_sine(h_high + h_low)},
+                             .bisector = {brace_cosine_coarse(b), brace_sine(b)}};
 }
 
-static inline brace_vec_t brace_turned(brace_vec_t v, brace_vec_t by)
+/* An element's vector at half a knee angle, seen from the bisector. */
+static inline brace_vec_t brace_element_at(const brace_element_t *element, brace_vec_t half)
 {
-    return (brace_vec_t){__builtin_fmaf(v.x, by.x, -(v.z * by.z)), __builtin_fmaf(v.x, by.z, v.z * by.x)};
+    return vec_plus_scaled(vec_scaled(element->folded, half.z), element->straight, half.x);
 }
 
-/* Turned back: a vector of the world, seen from a direction. */
-static inline brace_vec_t brace_seen_from(brace_vec_t v, brace_vec_t from)
+/* K in the world's frame, from C seen from the bisector. bisector_twice: the direction of twice the bisector's angle.
+ * returns BRACE_OK or BRACE_E_SINGULAR; stiffness is written on success only, flags as brace_general_stiffness says. */
+static inline brace_status_t brace_tensor_inverse(const brace_tensor_t *c, brace_vec_t bisector_twice,
+                                                  brace_stiffness_t *stiffness)
 {
-    return (brace_vec_t){__builtin_fmaf(v.x, from.x, v.z * from.z),
-                         __builtin_fmaf(v.z, from.x, -(v.x * from.z))};
-}
-
-/* The direction of twice the angle. */
-static inline brace_vec_t brace_doubled(brace_vec_t direction)
-{
-    const float twice = 2.0f * direction.z;
-    return (brace_vec_t){__builtin_fmaf(-twice, direction.z, 1.0f), twice * direction.x};
-}
-
-/* What halved elements come to at half a knee angle, in the bisector's frame. */
-static inline brace_vec_t brace_swing_at(const brace_swing_t *halved, brace_vec_t half)
-{
-    return (brace_vec_t){__builtin_fmaf(halved->straight.x, half.x, halved->folded.x * half.z),
-                         __builtin_fmaf(halved->straight.z, half.x, halved->folded.z * half.z)};
-}
-
-/* c + v v'; c's trace is not zero (FLT_MIN does). Its determinant is det + v' adj(c) v, and v' adj(c) v times the trace is
- * |adj(c) v|^2 + det |v|^2: positive terms only, so nothing cancels however slender c is. */
-static inline brace_tensor_t brace_tensor_plus(brace_tensor_t c, brace_vec_t v)
-{
-    const brace_vec_t adj_v = {__builtin_fmaf(c.zz, v.x, -(c.xz * v.z)),
-                               __builtin_fmaf(c.xx, v.z, -(c.xz * v.x))};
-    const float forms = __builtin_fmaf(c.det, vec_dot(v, v), vec_dot(adj_v, adj_v));
-    return (brace_tensor_t){__builtin_fmaf(v.x, v.x, c.xx), __builtin_fmaf(v.x, v.z, c.xz),
-                            __builtin_fmaf(v.z, v.z, c.zz), c.det + forms / (c.xx + c.zz)};
-}
-
-/* The circle of a tensor seen from the bisector, in the world's frame. */
-static inline brace_circle_t brace_circle_in_world(brace_tensor_t c, brace_vec_t to_world)
-{
-    return (brace_circle_t){0.5f * (c.xx + c.zz), brace_turned((brace_vec_t){0.5f * (c.xx - c.zz), c.xz}, to_world)};
-}
-
-/* All of a K but its flags, from its circle (brace_circle_t, the deviator first: it comes to where its angle is asked for). */
-void brace_stiffness_of_circle(float dev_z, float dev_x, float mean, brace_stiffness_t *stiffness);
-
-/* K in the world's frame of C seen from the bisector, as brace_chain_stiffness says. to_world: direction of twice the
- * bisector's angle. BRACE_OK or BRACE_E_SINGULAR: then stiffness is untouched. */
-static inline brace_status_t brace_tensor_inverse(brace_tensor_t c, brace_vec_t to_world, brace_stiffness_t *stiffness)
-{
-    const brace_tensor_t adjugate = {c.zz, -c.xz, c.xx, c.det}; /* K times det C */
-    const brace_circle_t circle = brace_circle_in_world(adjugate, to_world);
-    const float mean = circle.mean, slenderness = c.det / (mean * mean);
+    const brace_circle_t circle = brace_tensor_circle(c);
+    const float mean = circle.mean, det = brace_tensor_det(c), slenderness = det / (mean * mean);
     if (!(slenderness > BRACE_SINGULAR)) {
         return BRACE_E_SINGULAR;
     }
-    stiffness->flags = brace_bits(slenderness) < brace_bits(BRACE_SLENDER) ? BRACE_FLAG_NEAR_SINGULAR : 0u;
-    brace_stiffness_of_circle(circle.dev.z / c.det, circle.dev.x / c.det, mean / c.det, stiffness);
-    stiffness->lambda_min_n_per_mm = 1.0f / (c.det * stiffness->lambda_max_n_per_mm); /* no difference: nothing cancels */
+    const brace_vec_t dev = vec_turned(circle.dev, bisector_twice);
+    const float radius = sqrtf(fmaf(dev.x, dev.x, fmaf(dev.z, dev.z, FLT_MIN)));
+    const float per_det = 1.0f / det;
+    stiffness->k_xx_n_per_mm = (mean - dev.x) * per_det;
+    stiffness->k_xz_n_per_mm = -dev.z * per_det;
+    stiffness->k_zz_n_per_mm = (mean + dev.x) * per_det;
+    stiffness->lambda_min_n_per_mm = 1.0f / (mean + radius); /* not (mean - radius)/det, which would cancel */
+    stiffness->lambda_max_n_per_mm = (mean + radius) * per_det;
+    stiffness->stiff_axis_rad = brace_half_angle_of_opposite(dev.x, dev.z, radius);
+    stiffness->flags = slenderness < BRACE_SLENDER ? BRACE_FLAG_NEAR_SINGULAR : 0u;
     return BRACE_OK;
 }
 

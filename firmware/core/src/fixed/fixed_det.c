@@ -1,11 +1,11 @@
 #include "fixed/fixed_det.h"
 
-/* Least det over mean^2. */
+/* Least det C over mean^2: below each limit a promise ends. */
 #define SLENDER_TILTED 6e-5
 #define SLENDER 2e-6
 #define TOO_SLENDER 2.5e-7
 
-/* From the float's root by one step of Newton's: no double-precision root is linked in for this. */
+/* The square root, from the float's root by one step of Newton's method. So no double-precision root is linked in. */
 static double root(double value)
 {
     const double guess = (double)__builtin_sqrtf((float)value);
@@ -29,8 +29,8 @@ static void add(brace_det_harmonic_t *sum, double factor, brace_det_harmonic_t h
     sum->per_sin += factor * h.per_sin;
 }
 
-/* Unit vector along which the quadratic form [[cc, cs], [cs, ss]] is largest, and by how much it is larger
- * there. */
+/* The unit vector along which the quadratic form [[cc, cs], [cs, ss]] is largest, and how much larger the form is along
+ * it than across it. */
 typedef struct {
     double cos, sin, more;
 } crest_t;
@@ -43,17 +43,17 @@ static crest_t crest_of(double cc, double cs, double ss)
     return length > 0.0 ? (crest_t){x / length, z / length, 2.0 * radius} : (crest_t){0.0, 1.0, 0.0};
 }
 
-/* With u = (cos, sin) of the knee angle each pair's v x v is k + p.u, and the sum of their squares is
- * sum k^2 + 2 (sum k p).u + u' P u, P = sum p p' = more s s' + least I with its crest s. Of it
- * more (c + s.u)^2 is the cross, c = sum k p.s / sum (p.s)^2, and what remains is linear in u. */
-brace_det_t brace_det_of(float iso, const brace_swing_t *element, uint32_t count)
+/* With u = (cos, sin) of the knee angle each pair's v x v is k + p.u. The sum of their squares is
+ * sum k^2 + 2 (sum k p).u + u' P u, with P = sum p p' = more s s' + least I and s the direction of its crest. The part
+ * more (c + s.u)^2 is the cross, with c = sum k p.s / sum (p.s)^2. The rest is linear in u. */
+brace_det_t brace_det_of(float iso, const brace_element_t element[BRACE_ELEMENT_COUNT])
 {
     brace_det_harmonic_t trace = {iso, 0.0, 0.0}, rest = {0.0, 0.0, 0.0};
     double cc = 0.0, cs = 0.0, ss = 0.0;
-    for (uint32_t i = 0; i < count; i++) {
+    for (int i = 0; i < BRACE_ELEMENT_COUNT; i++) {
         const brace_vec_t p = element[i].straight, q = element[i].folded;
         add(&trace, 0.5, (brace_det_harmonic_t){dot(p, p) + dot(q, q), dot(p, p) - dot(q, q), 2.0 * dot(p, q)});
-        for (uint32_t j = 0; j < i; j++) {
+        for (int j = 0; j < i; j++) {
             const brace_vec_t pj = element[j].straight, qj = element[j].folded;
             const double straight = 0.5 * cross(pj, p), folded = 0.5 * cross(qj, q);
             const brace_det_harmonic_t pair = {straight + folded, straight - folded,

@@ -20,8 +20,8 @@ const brace_sincos_t brace_fixed_sincos[64] = {
     {-821805630, 1984014297}, {-623381003, 2055011763}, {-418952877, 2106218343}, {-210490005, 2137140889},
 };
 
-/* Least worst relative error of at/2^13 - slope/2^13 u, u in [0, 1] across the cell, to 1/sqrt; the first cell, which
- * only a vanishing sum of squares meets, is flat. */
+/* 1/sqrt is guessed as at/2^13 - slope/2^13 u, with u in [0, 1] across the cell. The entries make the worst relative
+ * error least. The first cell is flat, because only a vanishing sum of squares meets it. */
 const brace_fixed_seed_t brace_fixed_seed[64] = {
     {65535, 0}, {64396, 19192}, {46032, 8501}, {37703, 5066}, {32695, 3456}, {29263, 2550},
     {26725, 1982}, {24750, 1599}, {23156, 1325}, {21834, 1120}, {20716, 965}, {19753, 841},

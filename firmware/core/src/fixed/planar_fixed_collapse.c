@@ -3,12 +3,12 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "chain/chain_list.h"
+#include "chain/elements.h"
+#include "chain/harmonics.h"
 #include "fixed/fixed_det.h"
 #include "fixed/fixed_table.h"
 
-/* The least mean over the largest below which the words that hold it grow too short for the stated accuracy.
- */
+/* Where the least mean over the largest is below this, the words that hold the mean are too short for the accuracy. */
 #define UNEVEN 3e-4
 #define SMALLEST_MM_PER_N 1e-7
 #define LARGEST_MM_PER_N 1e7
@@ -29,22 +29,23 @@ static float two_to(int32_t exponent)
     return value;
 }
 
-/* Anchored at the folded knee, where the levers nearly cancel: they do so exactly in the integers too. */
+/* Anchored at the folded knee, where the levers nearly cancel, so that they cancel exactly in the integers too. */
 static brace_fixed_harmonic_t quantised(const brace_det_harmonic_t *h, int32_t scale)
 {
     const double unit = (double)two_to(scale), per_turn = unit * (0x1p32 / BRACE_FIXED_ONE);
     const int32_t per_cos = (int32_t)(h->per_cos * per_turn), per_sin = (int32_t)(h->per_sin * per_turn);
     const int64_t at_fold = (int64_t)((h->constant - h->per_cos) * unit * 0x1p32);
     return (brace_fixed_harmonic_t){
-        .constant = at_fold + (int64_t)per_cos * BRACE_FIXED_ONE + (int64_t)0x80000000,
-        .per_turn = (uint32_t)per_cos | (uint64_t)(uint32_t)per_sin << 32,
+        .constant_q32 = at_fold + (int64_t)per_cos * BRACE_FIXED_ONE + (int64_t)0x80000000,
+        .per_cos = per_cos,
+        .per_sin = per_sin,
     };
 }
 
 static brace_det_harmonic_t fine(const brace_harmonic_t *h, double factor)
 {
-    return (brace_det_harmonic_t){factor * ((double)h->at_fold + (double)h->per_cos),
-                                  factor * (double)h->per_cos, factor * (double)h->per_sin};
+    const double per_cos = 0.5 * (double)h->per_cos2, per_sin = 0.5 * (double)h->per_sincos;
+    return (brace_det_harmonic_t){factor * ((double)h->at_fold + per_cos), factor * per_cos, factor * per_sin};
 }
 
 static brace_fixed_harmonic_t quantised_float(const brace_harmonic_t *h, double factor, int32_t scale)
@@ -64,7 +65,7 @@ static int32_t least_of(int32_t a, int32_t b)
     return a < b ? a : b;
 }
 
-/* A little more, so that rounding carries nothing over a power of two. */
+/* A little more than the value, so that rounding carries nothing over a power of two. */
 static float padded(double value)
 {
     return (float)value * 1.0005f;
@@ -80,10 +81,10 @@ static brace_status_t quantise(const brace_harmonics_t *plane, const brace_det_t
         brace_det_judge(det, mean.most, &flags) != BRACE_OK) {
         return BRACE_E_UNSUPPORTED;
     }
-    const int32_t mean_scale = headroom(padded(mean.most), 30); /* trace of C below 2^31 */
+    const int32_t mean_scale = headroom(padded(mean.most), 30); /* so that the trace of C stays below 2^31 */
     const int32_t rest_scale = headroom(padded(rest.most), 31);
     const double cross_most = cross.most > -cross.least ? cross.most : -cross.least;
-    int32_t cross_scale = (rest_scale + 30) >> 1; /* its square, by rest_weight, below 2^61 */
+    int32_t cross_scale = (rest_scale + 30) >> 1; /* so that cross^2 in rest's unit stays below 2^61 */
     if (cross_most > 0.0) {
         cross_scale = least_of(cross_scale, headroom(padded(cross_most), 31));
         cross_scale = least_of(cross_scale, headroom(padded(cross.swing), 30));
@@ -94,7 +95,7 @@ static brace_status_t quantise(const brace_harmonics_t *plane, const brace_det_t
     }
     fixed->mean = quantised_float(&plane->mean, 1.0, mean_scale + 1);
     fixed->minus_dev_x = quantised_float(&plane->dev_x, -1.0, mean_scale);
-    fixed->dev_y = quantised_float(&plane->dev_y, 1.0, mean_scale);
+    fixed->dev_z = quantised_float(&plane->dev_z, 1.0, mean_scale);
     fixed->cross = quantised(&det->cross, cross_scale);
     fixed->rest = quantised(&det->rest, rest_scale);
     fixed->rest_weight = (int32_t)1 << weight;
@@ -116,10 +117,10 @@ brace_status_t brace_planar_fixed_collapse(const brace_limb_t *limb, brace_plana
     brace_harmonics_t plane;
     brace_det_t det;
     {
-        brace_swing_t element[BRACE_CHAIN_FIRM];
-        const float iso = brace_chain_at_rest(limb, element) + limb->base.x_mm_per_n;
-        det = brace_det_of(iso, element, BRACE_CHAIN_FIRM);
-        brace_harmonics_sum(element, &plane);
+        brace_element_t element[BRACE_ELEMENT_COUNT];
+                const float iso = brace_elements_of_limb(limb, element) + limb->base.x_mm_per_n;
+        det = brace_det_of(iso, element);
+        brace_harmonics_of(element, &plane);
         plane.mean.at_fold += iso;
     }
     return quantise(&plane, &det, fixed);

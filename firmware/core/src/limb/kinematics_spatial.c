@@ -1,13 +1,11 @@
-/* The limb's plane carried round by theta0, standing on the coxa. */
+/* Kinematics in space: the limb's plane stands on the coxa and is turned by theta0. */
 #include "brace/kinematics.h"
 
 #include <stddef.h>
 
 #include "base/check.h"
-#include "base/off_tick.h"
 #include "base/trig.h"
 
-BRACE_OFF_TICK
 brace_status_t brace_kinematics_forward_spatial(const brace_limb_t *limb, float theta0_rad, float theta1_rad,
                                                 float theta2_rad, brace_point_spatial_t *tip)
 {
@@ -22,7 +20,7 @@ brace_status_t brace_kinematics_forward_spatial(const brace_limb_t *limb, float 
     if (status != BRACE_OK) {
         return status;
     }
-    const brace_vec_t yaw = brace_direction(brace_turn(theta0_rad));
+    const brace_vec_t yaw = brace_direction(theta0_rad);
     const float outwards_mm = limb->coxa_mm + pose.tip.x_mm;
     tip->x_mm = outwards_mm * yaw.x;
     tip->y_mm = outwards_mm * yaw.z;
@@ -30,7 +28,6 @@ brace_status_t brace_kinematics_forward_spatial(const brace_limb_t *limb, float 
     return BRACE_OK;
 }
 
-BRACE_OFF_TICK
 brace_status_t brace_kinematics_inverse_spatial(const brace_limb_t *limb, brace_point_spatial_t tip,
                                                 brace_yaw_t yaw, brace_knee_t knee, float *theta0_rad,
                                                 float *theta1_rad, float *theta2_rad)

@@ -3,96 +3,93 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
 
-#include "base/check.h"
-#include "base/off_tick.h"
+#include "brace/ranges.h"
 
-#define HALF_TURN_RAD_MAX 1.5707965f
+/* Moment transfer divides by the link's length. The other links have a least length already. */
+#define COXA_LEAST_MM 1.0f
 
-/* What a field may be: at most so much, and not negative but for the first two. Lengths have a least one, too. */
-enum { TILT, OFFSET, ANGLE, LENGTH_MM, LENGTH_SIGMA, LINEAR, ANGULAR, RATIO = ANGULAR };
+typedef struct {
+    uint32_t offset;
+    float least, most;
+} range_t;
 
-static const float most[] = {[TILT] = HALF_TURN_RAD_MAX, [OFFSET] = 0.5f,  [ANGLE] = 0.5f,  [LENGTH_MM] = 1e4f,
-                             [LENGTH_SIGMA] = 100.0f,    [LINEAR] = 1e3f, [ANGULAR] = 1.0f};
+#define RANGE_OF(member, least, most) {offsetof(brace_limb_t, member), least, most},
+static const range_t ranges[] = {BRACE_LIMB_RANGES(RANGE_OF)};
+#undef RANGE_OF
 
-/* What of a limb decides whether its tip can yield: the lines in the plane along which it does. Tibia bending and knee joint
- * share theirs unless the tibia's ellipsoid is tilted; a bending femur that passes moments on has a second. */
-enum { FEMUR_AXIAL = 1, FEMUR_BENDING, TIBIA_AXIAL, TIBIA_BENDING, KNEE, HIP, BASE_X, BASE_Z, TILTED, FEMUR_MOMENT, COXA_MOMENT };
+enum { FIELDS = sizeof ranges / sizeof *ranges };
+_Static_assert(FIELDS * sizeof(float) == sizeof(brace_limb_t), "every field of the limb has a range");
 
-#define BIT(what) (1 << (what))
-#define LINES (BIT(BASE_Z + 1) - BIT(FEMUR_AXIAL))
-
-/* A field's range, and what it says when it is not zero: one of those, or nothing. */
-#define SAYS(what, range) ((range) | (what) << 3)
-#define RANGE(kind) ((kind) & 7u)
-#define SAID(kind) ((kind) >> 3)
-
-#define LINK(axial, bending, tilt, moment)                                                                            \
-    SAYS(axial, LINEAR), SAYS(bending, LINEAR), SAYS(tilt, TILT), LINEAR, ANGULAR, SAYS(moment, RATIO)
-#define JOINT(compliance) SAYS(compliance, ANGULAR), ANGLE, OFFSET
-
-/* The fields in the order of brace_limb_t. */
-static const uint8_t kind[] = {
-    LENGTH_MM, LENGTH_MM, LENGTH_MM,
-    LINK(0, 0, 0, COXA_MOMENT),
-    LINK(FEMUR_AXIAL, FEMUR_BENDING, 0, FEMUR_MOMENT),
-    LINK(TIBIA_AXIAL, TIBIA_BENDING, TILTED, 0),
-    JOINT(0), JOINT(HIP), JOINT(KNEE),
-    SAYS(BASE_X, LINEAR), SAYS(BASE_Z, LINEAR), SAYS(HIP, ANGULAR),
-    LENGTH_SIGMA, ANGLE, RATIO, RATIO};
-
-_Static_assert(sizeof kind * sizeof(float) == sizeof(brace_limb_t), "one kind for each field of the limb");
-
-/* Does C have an inverse at some posture: does the tip yield along two lines? */
-static bool yields_in_two_directions(int32_t said)
+/* BRACE_E_NOT_FINITE comes before BRACE_E_PARAMETER, whichever field is first. A limb that was never filled in is full
+ * of NaN, and then BRACE_E_NOT_FINITE is the more useful answer. */
+static brace_status_t check_ranges(const brace_limb_t *limb)
 {
-    const int32_t lines = said & LINES;
-    int32_t second = lines & (lines - 1);
-    if (lines == BIT(FEMUR_BENDING)) {
-        second = said & BIT(FEMUR_MOMENT);
-    }
-    if (lines == (BIT(TIBIA_BENDING) | BIT(KNEE))) {
-        second = said & BIT(TILTED);
-    }
-    return second != 0;
-}
-
-/* Moment transfer divides by the link's length; the other links have a least length anyway. */
-static bool coxa_is_long_enough(const brace_limb_t *limb, int32_t said)
-{
-    return (said & BIT(COXA_MOMENT)) == 0 || brace_bits(limb->coxa_mm) >= brace_bits(1.0f);
-}
-
-BRACE_OFF_TICK
-brace_status_t brace_limb_check(const brace_limb_t *limb)
-{
-    brace_status_t status = brace_check_lengths(limb);
-    if (status == BRACE_E_NULL) {
-        return status;
-    }
-    const float *field = &limb->coxa_mm;
-    int32_t said = 0;
-    for (size_t i = 0; i < sizeof kind; i++) {
-        uint32_t bits = (uint32_t)brace_bits(field[i]);
-        const uint32_t magnitude = brace_magnitude_bits(field[i]);
-        if (magnitude >= BRACE_INFINITE_BITS) {
+    brace_status_t status = BRACE_OK;
+    for (size_t i = 0; i < FIELDS; i++) {
+        float value;
+        memcpy(&value, (const char *)limb + ranges[i].offset, sizeof value);
+        if (!(value - value == 0.0f)) { /* NaN and infinity */
             return BRACE_E_NOT_FINITE;
         }
-        if (magnitude == 0u) {
-            continue;
-        }
-        said |= BIT(SAID(kind[i]));
-        if (RANGE(kind[i]) <= OFFSET) {
-            bits = magnitude / 2u;
-        }
-        if (bits > (uint32_t)brace_bits(most[RANGE(kind[i])])) { /* as is all that is negative */
+        if (value < ranges[i].least || value > ranges[i].most) {
             status = BRACE_E_PARAMETER;
         }
     }
-    if (!yields_in_two_directions(said) || !coxa_is_long_enough(limb, said)) {
-        status = BRACE_E_PARAMETER;
-    }
     return status;
+}
+
+/* Does C have an inverse at some posture? It does where the tip can move along two different lines of the plane. Each
+ * yielding part moves the tip along one line. */
+static bool yields_in_two_directions(const brace_limb_t *limb)
+{
+    const brace_link_t *femur = &limb->link[BRACE_FEMUR], *tibia = &limb->link[BRACE_TIBIA];
+    const bool knee = limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm > 0.0f;
+    const bool hip = limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm > 0.0f || limb->base.rotation_rad_per_n_mm > 0.0f;
+    const bool femur_bends = femur->bending_mm_per_n > 0.0f, tibia_bends = tibia->bending_mm_per_n > 0.0f;
+    const int32_t lines = femur_bends + (femur->axial_mm_per_n > 0.0f) + tibia_bends + (tibia->axial_mm_per_n > 0.0f) +
+                          knee + hip + (limb->base.x_mm_per_n > 0.0f) + (limb->base.z_mm_per_n > 0.0f);
+    if (lines == 1 && femur_bends) { /* a femur that passes moments on turns the tibia too: a second line */
+        return femur->moment_transfer_ratio > 0.0f;
+    }
+    if (lines == 2 && tibia_bends && knee) { /* both move the tip across the tibia, unless its ellipsoid is tilted */
+        return tibia->tilt_rad < 0.0f || tibia->tilt_rad > 0.0f;
+    }
+    return lines >= 2;
+}
+
+static bool coxa_is_long_enough(const brace_limb_t *limb)
+{
+    return !(limb->link[BRACE_COXA].moment_transfer_ratio > 0.0f) || limb->coxa_mm >= COXA_LEAST_MM;
+}
+
+brace_status_t brace_limb_check(const brace_limb_t *limb)
+{
+    if (limb == NULL) {
+        return BRACE_E_NULL;
+    }
+    const brace_status_t status = check_ranges(limb);
+    if (status != BRACE_OK) {
+        return status;
+    }
+    return yields_in_two_directions(limb) && coxa_is_long_enough(limb) ? BRACE_OK : BRACE_E_PARAMETER;
+}
+
+static bool is_within(float value, float least, float most)
+{
+    return value >= least && value <= most;
+}
+
+brace_status_t brace_limb_check_lengths(const brace_limb_t *limb)
+{
+    if (limb == NULL) {
+        return BRACE_E_NULL;
+    }
+    const bool possible = is_within(limb->coxa_mm, BRACE_RANGE_LIMB_COXA_MM_MIN, BRACE_RANGE_LIMB_COXA_MM_MAX) &&
+                          is_within(limb->femur_mm, BRACE_RANGE_LIMB_FEMUR_MM_MIN, BRACE_RANGE_LIMB_FEMUR_MM_MAX) &&
+                          is_within(limb->tibia_mm, BRACE_RANGE_LIMB_TIBIA_MM_MIN, BRACE_RANGE_LIMB_TIBIA_MM_MAX);
+    return possible ? BRACE_OK : BRACE_E_PARAMETER;
 }
 
 float brace_limb_true_angle(const brace_limb_t *limb, int index, float commanded_rad)

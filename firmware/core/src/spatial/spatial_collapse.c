@@ -1,45 +1,52 @@
-#include "brace/spatial.h"
-
 #include <float.h>
+#include <math.h>
 #include <stddef.h>
 
-#include "chain/chain_list.h"
-#include "base/off_tick.h"
+#include "base/trig.h"
+#include "base/vec.h"
+#include "brace/spatial.h"
+#include "chain/elements.h"
 
-BRACE_OFF_TICK static void collapse_aside(const brace_link_t *link, float length_mm, brace_aside_t *aside)
+static brace_aside_t aside_of(const brace_link_t *link, float length_mm)
 {
-    const float length = length_mm + FLT_MIN; /* a coxa of no length passes nothing on */
-    aside->per_mm = 3.0f * link->moment_transfer_ratio * link->lateral_mm_per_n / length;
-    aside->per_mm2 = aside->per_mm / length;
-    aside->torsion = link->torsion_rad_per_n_mm;
+    const float length = length_mm + FLT_MIN; /* a coxa of no length passes no moment on */
+    const float per_mm = 3.0f * link->moment_transfer_ratio * link->lateral_mm_per_n / length;
+    return (brace_aside_t){per_mm, per_mm / length, link->torsion_rad_per_n_mm};
 }
 
-static void collapse_across(const brace_limb_t *limb, brace_spatial_t *spatial)
+/* Splits a a' + b b' into the compliance that is equal in every direction, which it returns, and one vector along the
+ * longer axis. */
+static float merged(brace_vec_t a, brace_vec_t b, brace_vec_t *longer)
 {
-    const brace_link_t *link = limb->link;
-    spatial->coxa_mm = limb->coxa_mm;
-    spatial->femur_mm = limb->femur_mm;
-    spatial->tibia_mm = limb->tibia_mm;
-    spatial->yaw_rad_per_n_mm = limb->joint[BRACE_COXA].compliance_rad_per_n_mm;
-    spatial->across_mm_per_n = link[BRACE_COXA].lateral_mm_per_n + link[BRACE_FEMUR].lateral_mm_per_n +
-                               link[BRACE_TIBIA].lateral_mm_per_n;
-    collapse_aside(&link[BRACE_COXA], limb->coxa_mm, &spatial->aside[0]);
-    collapse_aside(&link[BRACE_FEMUR], limb->femur_mm, &spatial->aside[1]);
+    const float cross = vec_cross(a, b);
+    const float mean = 0.5f * (vec_dot(a, a) + vec_dot(b, b));
+    const float dev_x = 0.5f * ((a.x - a.z) * (a.x + a.z) + (b.x - b.z) * (b.x + b.z));
+    const float dev_z = a.x * a.z + b.x * b.z;
+    const float radius = vec_length((brace_vec_t){dev_x, dev_z});
+    *longer = vec_scaled(brace_direction(0.5f * brace_atan2(dev_z, dev_x)), sqrtf(2.0f * radius));
+    return cross * cross / (mean + radius + FLT_MIN);
 }
 
-BRACE_OFF_TICK brace_status_t brace_spatial_collapse(const brace_limb_t *limb, brace_spatial_t *spatial)
+brace_status_t brace_spatial_collapse(const brace_limb_t *limb, brace_spatial_t *spatial)
 {
     const brace_status_t status = spatial == NULL ? BRACE_E_NULL : brace_limb_check(limb);
     if (status != BRACE_OK) {
         return status;
     }
-    collapse_across(limb, spatial);
-    brace_swing_t element[BRACE_CHAIN_FIRM];
-    float iso = FLT_MIN; /* never quite nothing: brace_tensor_plus divides by the trace */
-    iso += brace_chain_coxa(limb, &spatial->coxa);
-    iso += brace_chain_base(limb, &spatial->base);
-    iso += brace_chain_at_rest(limb, element);
-    brace_harmonics_sum(element, &spatial->plane);
-    spatial->plane.iso_mm_per_n = iso;
+    const brace_link_t *link = limb->link;
+    brace_general_collapse(limb, &spatial->plane);
+    brace_coxa_elements_t coxa;
+    spatial->plane.iso_mm_per_n += brace_elements_of_coxa(limb, &coxa);
+    spatial->plane.iso_mm_per_n += merged(spatial->plane.base, coxa.ellipsoid, &spatial->plane.base);
+    spatial->coxa_moment = coxa.moment;
+    spatial->coxa_moment_per_lever_mm = coxa.moment_per_lever_mm;
+
+    spatial->coxa_mm = limb->coxa_mm;
+    spatial->across_mm_per_n = link[BRACE_COXA].lateral_mm_per_n + link[BRACE_FEMUR].lateral_mm_per_n +
+                               link[BRACE_TIBIA].lateral_mm_per_n;
+    spatial->coxa_aside = aside_of(&link[BRACE_COXA], limb->coxa_mm);
+    spatial->femur_aside = aside_of(&link[BRACE_FEMUR], limb->femur_mm);
+    brace_spatial_set_springs(spatial, limb->joint[BRACE_COXA].compliance_rad_per_n_mm, brace_hip_rad_per_n_mm(limb),
+                              brace_knee_rad_per_n_mm(limb));
     return BRACE_OK;
 }

@@ -1,34 +1,52 @@
 #include "brace/drift.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 
 #include "base/check.h"
-#include "base/off_tick.h"
 #include "base/trig.h"
 #include "brace/kinematics.h"
 #include "use/drift_model.h"
-#include "use/unroll.h"
 
+/* A new run begins when the posture changes by this much, and after so many readings, because sensors drift slowly. */
 #define SAME_POSTURE_RAD 1e-3f
-#define RUN_MOST 64          /* a longer run begins anew: a slowly drifting sensor */
-#define OUTLIER_SIGMAS 6.0f  /* a reading further off teaches nothing */
-#define EVIDENCE_MOST 8.0f   /* of one force component: no single reading is an alarm */
-#define SCATTER_GAIN 0.375f  /* scatter fourfold in variance against none: LLR = 3/8 nu^2/S - ln(4)/2 */
+#define RUN_MOST 64
+
+/* The check learns nothing from a reading that is further off than this. */
+#define OUTLIER_SIGMAS 6.0f
+
+/* The most evidence that one force component may add, so that no single reading raises an alarm. */
+#define EVIDENCE_MOST 8.0f
+
+/* Evidence that readings scatter more than their noise. It is the log likelihood ratio of a fourfold variance against
+ * the noise's own, 3/8 nu^2/S - ln(4)/2 for a surprise nu of variance S. nu^2/S is limited. */
+#define SCATTER_GAIN 0.375f
 #define SCATTER_COST 0.69314718f
 #define SCATTER_MOST 8.0f
-/* log likelihood, and a share of it: a large loss is not quite what its slopes say */
+
+/* A cause counts as nearly as likely as the likeliest if its log likelihood is lower by at most this, and a share of
+ * the likeliest's. The share allows for large losses, which shift the force not quite as the slopes say. */
 #define NEARLY_AS_LIKELY 3.0f
 #define NEARLY_RATIO 0.1f
-#define WANDER_RATIO 0.10f   /* a baseline that has moved by this and six sigma is a change too */
+
+/* A baseline that has moved by this share of its compliance, and by six sigma, is an alarm too. */
+#define WANDER_RATIO 0.10f
 #define WANDER_SIGMAS 6.0f
-#define CHANGE_RATIO 0.08f   /* of a link's compliance, what the evidence is for */
-#define LOSS_LOOKED_FOR 0.111111f /* a tenth of the stiffness lost, in compliance: what an outlook is for */
+
+/* The change of a link's compliance for which evidence is gathered and an outlook is computed: a tenth of the stiffness
+ * lost. */
+#define CHANGE_RATIO 0.08f
+#define LOSS_LOOKED_FOR 0.111111f
 #define INFINITY_RATIO 1e9f
-#define WALK_RATIO 1e-4f     /* of that per reading: what the estimates may wander by; a memory of some 10,000 readings */
+
+/* How far each estimate may wander per reading; for a compliance this is a share of CHANGE_RATIO. The estimates thus
+ * have a memory of some 10,000 readings. */
+#define WALK_RATIO 1e-4f
 #define ANGLE_WALK_RAD 3e-7f
 #define THERMAL_WALK_RATIO 1e-5f
 
+/* The covariance P of the estimates is symmetric, so only its upper triangle is stored, row by row. */
 enum { ENTRIES = 28 };
 static const uint8_t diagonal[DRIFT_OFFSETS] = {0, 7, 13, 18, 22, 25, 27};
 
@@ -37,10 +55,11 @@ static inline float square(float x)
     return x * x;
 }
 
+/* The sum of h[i] times the i-th number that follows. */
 static inline float weigh(const float h[DRIFT_OFFSETS], float a, float b, float c, float d, float e, float f, float g)
 {
-    const float first = __builtin_fmaf(d, h[3], __builtin_fmaf(c, h[2], __builtin_fmaf(b, h[1], a * h[0])));
-    return __builtin_fmaf(g, h[6], __builtin_fmaf(f, h[5], __builtin_fmaf(e, h[4], first)));
+    const float first = fmaf(d, h[3], fmaf(c, h[2], fmaf(b, h[1], a * h[0])));
+    return fmaf(g, h[6], fmaf(f, h[5], fmaf(e, h[4], first)));
 }
 
 static inline float dot(const float a[DRIFT_OFFSETS], const float b[DRIFT_OFFSETS])
@@ -48,15 +67,16 @@ static inline float dot(const float a[DRIFT_OFFSETS], const float b[DRIFT_OFFSET
     return weigh(a, b[0], b[1], b[2], b[3], b[4], b[5], b[6]);
 }
 
+/* a += by b for the first `count` numbers. Unrolled: at seven numbers the loop itself would cost more than they do. */
 static inline void add(float *a, const float *b, float by, int count)
 {
-    UNROLLED
+#pragma GCC unroll 8
     for (int i = 0; i < count; i++) {
-        a[i] = __builtin_fmaf(by, b[i], a[i]);
+        a[i] = fmaf(by, b[i], a[i]);
     }
 }
 
-/* g = P h for the upper triangle of P, row by row. */
+/* g = P h */
 static inline void spread(const float p[ENTRIES], const float h[DRIFT_OFFSETS], float g[DRIFT_OFFSETS])
 {
     g[0] = weigh(h, p[0], p[1], p[2], p[3], p[4], p[5], p[6]);
@@ -80,7 +100,7 @@ static inline void narrow(float p[ENTRIES], const float g[DRIFT_OFFSETS], float 
     add(p + 27, g + 6, -g[6] * per_s, 1);
 }
 
-/* A loss of CHANGE_RATIO of each cause, as a share of the compliance it sits in. */
+/* The change of each cause for which evidence is gathered, as a share of the compliance that the cause belongs to. */
 static void change_of(const drift_compliances_t *c, float change[BRACE_DRIFT_CAUSE_COUNT])
 {
     change[BRACE_DRIFT_FEMUR] = CHANGE_RATIO;
@@ -108,8 +128,9 @@ static void forget_all(brace_drift_t *drift)
     drift->cause = BRACE_DRIFT_UNEXPLAINED;
 }
 
-/* One sigma of each estimate from what the calibration is trusted to. A length that is off shows as compliances: the
- * part that falls between the levers of femur joint and knee is taken up by the femur's bending. */
+/* One sigma of each estimate before anything is learned, from the calibration's own trust. A wrong length looks like
+ * wrong compliances. The part of its effect that lies between the levers of the femur joint and of the knee goes to the
+ * femur's bending. */
 static void prior(const brace_limb_t *limb, const drift_compliances_t *c, float trust, float sigma[DRIFT_OFFSETS])
 {
     const brace_uncertainty_t *u = &limb->uncertainty;
@@ -129,10 +150,11 @@ static void prior(const brace_limb_t *limb, const drift_compliances_t *c, float 
         known,
     };
     for (int i = 0; i < DRIFT_OFFSETS; i++) {
-        sigma[i] = brace_sqrt(variance[i] + 1e-10f);
+        sigma[i] = sqrtf(variance[i] + 1e-10f);
     }
 }
 
+/* Sets the covariance back to its first values, so that the estimates can be learned anew. */
 static void doubt(brace_drift_t *drift, const brace_limb_t *limb)
 {
     const drift_compliances_t c = drift_compliances(limb);
@@ -146,7 +168,6 @@ static void doubt(brace_drift_t *drift, const brace_limb_t *limb)
     }
 }
 
-BRACE_OFF_TICK
 brace_status_t brace_drift_learn(brace_drift_t *drift, const brace_limb_t *limb, const brace_drift_setup_t *setup)
 {
     if (drift == NULL || setup == NULL) {
@@ -175,7 +196,6 @@ brace_status_t brace_drift_learn(brace_drift_t *drift, const brace_limb_t *limb,
     return BRACE_OK;
 }
 
-BRACE_OFF_TICK
 brace_status_t brace_drift_reset(brace_drift_t *drift)
 {
     if (drift == NULL) {
@@ -188,7 +208,6 @@ brace_status_t brace_drift_reset(brace_drift_t *drift)
     return brace_drift_run(drift);
 }
 
-BRACE_OFF_TICK
 brace_status_t brace_drift_run(brace_drift_t *drift)
 {
     if (drift == NULL) {
@@ -200,7 +219,7 @@ brace_status_t brace_drift_run(brace_drift_t *drift)
 
 static inline bool within(float value, float limit)
 {
-    return __builtin_fabsf(value) <= limit;
+    return fabsf(value) <= limit;
 }
 
 static brace_status_t check(const brace_limb_t *limb, const brace_stiffness_t *stiffness,
@@ -209,13 +228,10 @@ static brace_status_t check(const brace_limb_t *limb, const brace_stiffness_t *s
     if (limb == NULL || stiffness == NULL || reading == NULL) {
         return BRACE_E_NULL;
     }
-    const float *value = (const float *)reading;
-    float sum = 0.0f; /* finite if every value in its range is */
-    UNROLLED
-    for (int i = 0; i < (int)(sizeof *reading / sizeof *value); i++) {
-        sum += value[i];
-    }
-    if (!within(sum - sum, 0.0f) || !within(stiffness->k_xz_n_per_mm - stiffness->k_xz_n_per_mm, 0.0f)) {
+    /* A sum is finite only if all its terms are. Values in range are far from the end of the float format. */
+    const float sum = reading->theta1_rad + reading->theta2_rad + reading->dx_mm + reading->dz_mm + reading->fx_n +
+                      reading->fz_n + reading->warmer_degc + stiffness->k_xz_n_per_mm;
+    if (!isfinite(sum)) {
         return BRACE_E_NOT_FINITE;
     }
     const bool sound = within(reading->theta1_rad, BRACE_ANGLE_LIMIT_RAD) &&
@@ -226,82 +242,106 @@ static brace_status_t check(const brace_limb_t *limb, const brace_stiffness_t *s
     return sound ? BRACE_OK : BRACE_E_RANGE;
 }
 
-/* The reading becomes what differs from the mean of its run; false for a run's first. Readings that each count
- * from the mean of those before are independent, with a variance of 1 + 1/count. */
-static bool from_mean(brace_drift_t *drift, brace_drift_reading_t *reading)
+/* Takes a value into the mean of its run. Returns the difference between the value and the mean before. */
+static float from_mean(float *mean, float value, float gain)
 {
-    if (__builtin_fabsf(reading->theta1_rad - drift->run_theta_rad[0]) > SAME_POSTURE_RAD ||
-        __builtin_fabsf(reading->theta2_rad - drift->run_theta_rad[1]) > SAME_POSTURE_RAD ||
-        drift->run_count >= RUN_MOST) {
+    const float differs = value - *mean;
+    *mean = fmaf(gain, differs, *mean);
+    return differs;
+}
+
+/* Replaces displacement and force of a reading by their differences from the mean of their run. Returns false for the
+ * first reading of a run, which has no mean before it. Differences from the mean of all earlier readings are
+ * independent of one another, with a variance of 1 + 1/count. */
+static bool take_into_run(brace_drift_t *drift, brace_drift_reading_t *reading)
+{
+    if (fabsf(reading->theta1_rad - drift->run_theta_rad[0]) > SAME_POSTURE_RAD ||
+        fabsf(reading->theta2_rad - drift->run_theta_rad[1]) > SAME_POSTURE_RAD || drift->run_count >= RUN_MOST) {
         drift->run_count = 0;
     }
     if (drift->run_count == 0) {
         drift->run_theta_rad[0] = reading->theta1_rad;
         drift->run_theta_rad[1] = reading->theta2_rad;
+        for (int i = 0; i < 4; i++) {
+            drift->run_mean[i] = 0.0f;
+        }
     }
     drift->run_count++;
     const float gain = 1.0f / (float)drift->run_count;
-    float *value = &reading->dx_mm; /* displacement and force, in this order */
-    for (int i = 0; i < 4; i++) {
-        value[i] -= drift->run_count == 1 ? 0.0f : drift->run_mean[i];
-    }
-    for (int i = 0; i < 4; i++) {
-        drift->run_mean[i] = drift->run_count == 1 ? value[i] : __builtin_fmaf(gain, value[i], drift->run_mean[i]);
-    }
+    reading->dx_mm = from_mean(&drift->run_mean[0], reading->dx_mm, gain);
+    reading->dz_mm = from_mean(&drift->run_mean[1], reading->dz_mm, gain);
+    reading->fx_n = from_mean(&drift->run_mean[2], reading->fx_n, gain);
+    reading->fz_n = from_mean(&drift->run_mean[3], reading->fz_n, gain);
     return drift->run_count > 1;
 }
 
-_Static_assert(offsetof(brace_drift_reading_t, fz_n) == offsetof(brace_drift_reading_t, dx_mm) + 3 * sizeof(float),
-               "displacement and force are four floats in a row");
-
+/* The error of the model that the check always allows for [N]. */
 static float bias_of(const brace_drift_t *drift, const drift_expected_t *expected)
 {
     return drift->setup.model_error_ratio *
-           (__builtin_fabsf(expected->force_n[0]) + __builtin_fabsf(expected->force_n[1]));
+           (fabsf(expected->force_n[0]) + fabsf(expected->force_n[1]));
 }
 
-/* Takes in one force component: `off` is measured less expected, `bias` the bound of what it may always be off by.
- * learned: grows by what the estimates are to move by. */
-static void take(brace_drift_t *drift, const float h[DRIFT_OFFSETS], float off, float noise, float bias,
+/* One force component of a reading, with the values that follow from it. */
+typedef struct {
+    const float *slopes; /* how the expected force shifts with each estimate */
+    float off_n;         /* measured less expected */
+    float bias_n;        /* bound of the error that is always allowed for */
+    float gain[DRIFT_OFFSETS]; /* P times the slopes */
+    float per_variance;        /* one over the variance of off_n, its noise and the estimates' together */
+} component_t;
+
+/* Gathers evidence for each cause: how much likelier off_n is if that cause has changed by `change`. The part of such a
+ * change that the estimates have already absorbed does not show any more (drift->left). */
+static void gather_evidence(brace_drift_t *drift, const component_t *component, bool teaches,
+                            const float change[BRACE_DRIFT_CAUSE_COUNT])
+{
+    const float off = component->off_n, bias = component->bias_n, per_variance = component->per_variance;
+    for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) {
+        const float shows = dot(component->slopes, drift->left[cause]);
+        const float step = shows * change[cause];
+        const float more = (step * off - 0.5f * step * step - fabsf(step) * bias) * per_variance;
+        drift->evidence[cause] += more < EVIDENCE_MOST ? more : EVIDENCE_MOST;
+        drift->score[cause] += shows * off * per_variance;
+        drift->information[cause] += shows * shows * per_variance;
+        if (teaches) {
+            add(drift->left[cause], component->gain, -shows * per_variance, DRIFT_OFFSETS);
+        }
+    }
+    const float beyond = fabsf(off) > bias ? fabsf(off) - bias : 0.0f;
+    const float scatter = beyond * beyond * per_variance;
+    drift->evidence[BRACE_DRIFT_UNEXPLAINED] +=
+        SCATTER_GAIN * (scatter < SCATTER_MOST ? scatter : SCATTER_MOST) - SCATTER_COST;
+}
+
+/* Takes in one force component: the update of a Kalman filter, and evidence once the baseline is held.
+ * noise: the component's variance; learned: grows by the step that the estimates are to take. */
+static void take(brace_drift_t *drift, const float slopes[DRIFT_OFFSETS], float off_n, float noise, float bias_n,
                  const float change[BRACE_DRIFT_CAUSE_COUNT], float learned[DRIFT_OFFSETS])
 {
-    float g[DRIFT_OFFSETS];
-    spread(drift->covariance, h, g);
-    const float variance = dot(h, g) + noise;
-    const float per_variance = 1.0f / variance;
-    const float sigma = brace_sqrt(variance);
-    const bool outlier = __builtin_fabsf(off) > OUTLIER_SIGMAS * sigma;
-
-    if (drift->state != BRACE_DRIFT_LEARNING) {
-        for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) {
-            const float shows = dot(h, drift->left[cause]);
-            const float step = shows * change[cause];
-            const float more = (step * off - 0.5f * step * step - __builtin_fabsf(step) * bias) * per_variance;
-            drift->evidence[cause] += more < EVIDENCE_MOST ? more : EVIDENCE_MOST;
-            drift->score[cause] += shows * off * per_variance;
-            drift->information[cause] += shows * shows * per_variance;
-            if (!outlier) {
-                add(drift->left[cause], g, -shows * per_variance, DRIFT_OFFSETS);
-            }
-        }
-        float beyond = __builtin_fabsf(off) - bias;
-        beyond = beyond > 0.0f ? beyond * beyond * per_variance : 0.0f;
-        beyond = beyond < SCATTER_MOST ? beyond : SCATTER_MOST;
-        drift->evidence[BRACE_DRIFT_UNEXPLAINED] += SCATTER_GAIN * beyond - SCATTER_COST;
+    component_t component = {.slopes = slopes, .off_n = off_n, .bias_n = bias_n};
+    spread(drift->covariance, slopes, component.gain);
+    const float variance = dot(slopes, component.gain) + noise;
+    component.per_variance = 1.0f / variance;
+    const bool is_held = drift->state != BRACE_DRIFT_LEARNING;
+    const bool is_outlier = is_held && fabsf(off_n) > OUTLIER_SIGMAS * sqrtf(variance);
+    if (is_held) {
+        gather_evidence(drift, &component, !is_outlier, change);
     }
-    if (outlier && drift->state != BRACE_DRIFT_LEARNING) {
+    if (is_outlier) {
         drift->outliers = (uint8_t)(drift->outliers + (drift->outliers < UINT8_MAX));
         return;
     }
-    add(learned, g, off * per_variance, DRIFT_OFFSETS);
-    narrow(drift->covariance, g, per_variance);
+    add(learned, component.gain, off_n * component.per_variance, DRIFT_OFFSETS);
+    narrow(drift->covariance, component.gain, component.per_variance);
 }
 
 static float sigma_of(const brace_drift_t *drift, int offset)
 {
-    return brace_sqrt(drift->covariance[diagonal[offset]]);
+    return sqrtf(drift->covariance[diagonal[offset]]);
 }
 
+/* Ends learning: the present estimates become the baseline. */
 static void hold(brace_drift_t *drift)
 {
     for (int i = 0; i < BRACE_DRIFT_CAUSE_COUNT; i++) {
@@ -312,6 +352,7 @@ static void hold(brace_drift_t *drift)
     forget_all(drift);
 }
 
+/* Is it an alarm? Evidence that falls to zero starts again, because a change may begin at any reading. */
 static void judge(brace_drift_t *drift, const float change[BRACE_DRIFT_CAUSE_COUNT])
 {
     for (int cause = 0; cause <= BRACE_DRIFT_CAUSE_COUNT; cause++) {
@@ -326,7 +367,7 @@ static void judge(brace_drift_t *drift, const float change[BRACE_DRIFT_CAUSE_COU
         drift->since[cause] = (uint16_t)(drift->since[cause] + (drift->since[cause] < UINT16_MAX));
     }
     for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) {
-        const float away = __builtin_fabsf(drift->offset[cause] - drift->held[cause]) -
+        const float away = fabsf(drift->offset[cause] - drift->held[cause]) -
                            change[cause] * (WANDER_RATIO / CHANGE_RATIO);
         const float variance = drift->covariance[diagonal[cause]] + square(drift->held_sigma[cause]);
         if (away > 0.0f && away * away > square(WANDER_SIGMAS) * variance && drift->state == BRACE_DRIFT_WATCHING) {
@@ -348,11 +389,11 @@ brace_status_t brace_drift_step(brace_drift_t *drift, const brace_limb_t *limb, 
     }
     drift->steps += drift->steps < UINT32_MAX;
     if (drift->steps == BRACE_DRIFT_LEARN_LEAST && drift->state == BRACE_DRIFT_LEARNING) {
-        /* so far with slopes taken far from the limb it is: keep what was found, not how sure of it */
+        /* The slopes so far were those of the model, not of this limb: keep the estimates, but not their covariance. */
         doubt(drift, limb);
     }
     brace_drift_reading_t differs = *reading;
-    if (!from_mean(drift, &differs)) {
+    if (!take_into_run(drift, &differs)) {
         return BRACE_OK;
     }
     drift_expected_t expected;
@@ -366,13 +407,14 @@ brace_status_t brace_drift_step(brace_drift_t *drift, const brace_limb_t *limb, 
     float learned[DRIFT_OFFSETS] = {0};
     const float off = differs.fx_n - expected.force_n[0];
     take(drift, expected.per_offset[0], off, noise, bias + expected.doubt_n[0], change, learned);
+    /* The second component is compared with the estimates that the first has just changed. */
     const float still = differs.fz_n - expected.force_n[1] - dot(expected.per_offset[1], learned);
     take(drift, expected.per_offset[1], still, noise, bias + expected.doubt_n[1], change, learned);
     add(drift->offset, learned, 1.0f, DRIFT_OFFSETS);
     for (int i = 0; i < DRIFT_OFFSETS; i++) {
         const float walk = i < BRACE_DRIFT_CAUSE_COUNT ? WALK_RATIO * change[i]
                            : i < DRIFT_THERMAL         ? ANGLE_WALK_RAD
-                                                       : THERMAL_WALK_RATIO; /* the axial one's too */
+                                                       : THERMAL_WALK_RATIO; /* and the axial compliance */
         drift->covariance[diagonal[i]] += walk * walk;
     }
     if (drift->state != BRACE_DRIFT_LEARNING) {
@@ -385,7 +427,7 @@ brace_status_t brace_drift_step(brace_drift_t *drift, const brace_limb_t *limb, 
     return BRACE_OK;
 }
 
-/* How well a cause explains what was seen since its evidence left zero, its size free; 0 for one without evidence. */
+/* How well a cause of any size explains the readings since its evidence left zero; 0 for a cause without evidence. */
 static float support(const brace_drift_t *drift, int cause)
 {
     const float score = drift->score[cause];
@@ -393,7 +435,6 @@ static float support(const brace_drift_t *drift, int cause)
     return seen ? 0.5f * score * score / drift->information[cause] : 0.0f;
 }
 
-BRACE_OFF_TICK
 brace_status_t brace_drift_report(const brace_drift_t *drift, const brace_limb_t *limb, brace_drift_report_t *report)
 {
     if (drift == NULL || limb == NULL || report == NULL) {
@@ -413,7 +454,7 @@ brace_status_t brace_drift_report(const brace_drift_t *drift, const brace_limb_t
             most = support(drift, i);
             report->cause = (brace_drift_cause_t)i;
         }
-        const float off = __builtin_fabsf(drift->offset[i]) / sigma[i];
+        const float off = fabsf(drift->offset[i]) / sigma[i];
         report->baseline_sigmas = off > report->baseline_sigmas ? off : report->baseline_sigmas;
         report->evidence = drift->evidence[i] > report->evidence ? drift->evidence[i] : report->evidence;
     }
@@ -432,14 +473,13 @@ brace_status_t brace_drift_report(const brace_drift_t *drift, const brace_limb_t
         const bool sudden = most > 0.0f;
         const float walked = drift->offset[cause] - drift->held[cause];
         const float size = sudden ? drift->score[cause] / drift->information[cause] : walked;
-        const float sigma_size = sudden ? 1.0f / brace_sqrt(drift->information[cause]) : sigma_of(drift, cause);
+        const float sigma_size = sudden ? 1.0f / sqrtf(drift->information[cause]) : sigma_of(drift, cause);
         report->loss_ratio = size / (share[cause] + size);
         report->loss_sigma_ratio = sigma_size / share[cause];
     }
     return BRACE_OK;
 }
 
-BRACE_OFF_TICK
 brace_status_t brace_drift_outlook(const brace_drift_t *drift, const brace_limb_t *limb,
                                    const brace_stiffness_t *stiffness, const brace_drift_reading_t *reading,
                                    brace_drift_outlook_t *outlook)
@@ -464,7 +504,7 @@ brace_status_t brace_drift_outlook(const brace_drift_t *drift, const brace_limb_
         spread(drift->covariance, h, g);
         const float per_variance = 1.0f / (dot(h, g) + square(drift->setup.noise_n));
         for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) {
-            const float step = __builtin_fabsf(h[cause]) * change[cause];
+            const float step = fabsf(h[cause]) * change[cause];
             const float shown = step * (LOSS_LOOKED_FOR / CHANGE_RATIO);
             information[cause] += h[cause] * h[cause] * per_variance;
             gain[cause] += step * (shown - 0.5f * step - bias - expected.doubt_n[axis]) * per_variance;
@@ -472,7 +512,7 @@ brace_status_t brace_drift_outlook(const brace_drift_t *drift, const brace_limb_
     }
     for (int cause = 0; cause < BRACE_DRIFT_CAUSE_COUNT; cause++) {
         const bool shows = gain[cause] * (float)UINT16_MAX > BRACE_DRIFT_ALARM;
-        const float root = change[cause] * brace_sqrt(information[cause]);
+        const float root = change[cause] * sqrtf(information[cause]);
         outlook->sigma_of_loss_ratio[cause] = root > 0.0f ? CHANGE_RATIO / root : INFINITY_RATIO;
         outlook->steps_needed[cause] = shows ? (uint32_t)(BRACE_DRIFT_ALARM / gain[cause]) + 1u : BRACE_DRIFT_NEVER;
     }

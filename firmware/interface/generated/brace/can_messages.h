@@ -5,7 +5,8 @@
 /* The frames of the wire, for the controller and for whoever speaks to it. Formats: docs/protocol.md.
  *
  * A value that is not known is NaN here and a code of its own on the wire, never zero. brace_can_pack_... limits what
- * does not fit and answers how many values it limited; the frame's bytes are always written. brace_can_unpack_...
+ * does not fit and answers how many values it limited; the frame's bytes are always written. The greatest value that a
+ * message's signal can carry is BRACE_CAN_<MESSAGE>_<MEMBER>_MOST; a signed one goes as far down. brace_can_unpack_...
  * always writes the struct: every bit pattern means something. Pure functions, no libm; any thread.
  * accuracy: half a step, and a float's rounding.
  * cost on a Cortex-M4F: below 120 instructions each; of the CAN FD frame 250.
@@ -13,7 +14,7 @@
 #include <stdint.h>
 
 /* Of every frame, entry and parameter, with types, steps and units: what two ends must agree on. */
-#define BRACE_DICTIONARY_HASH 0x588d26d8u
+#define BRACE_DICTIONARY_HASH 0x72cd93f2u
 #define BRACE_PROTOCOL 1u
 
 /* Identifiers of node 0; a controller adds its node number, 1-127. */
@@ -24,7 +25,9 @@ enum {
     BRACE_CAN_ID_EIGENVALUES = 0x380,
     BRACE_CAN_ID_POSTURE = 0x480,
     BRACE_CAN_ID_HEARTBEAT = 0x700,
+    BRACE_CAN_ID_SPACE = 0x200,
     BRACE_CAN_ID_SNAPSHOT_FD = 0x500,
+    BRACE_CAN_ID_SPACE_FD = 0x300,
     BRACE_CAN_ID_REQUEST = 0x600,
     BRACE_CAN_ID_ANSWER = 0x580
 };
@@ -53,6 +56,9 @@ enum {
     BRACE_REQUEST_IDENTIFY = 20,
     BRACE_REQUEST_LOADING_TEST_RESULT = 21,
     BRACE_REQUEST_CLEAR = 22,
+    BRACE_REQUEST_K_IN_SPACE_AT_POSTURE = 23,
+    BRACE_REQUEST_DRIFT = 24,
+    BRACE_REQUEST_TAKE_UP_RESULT = 25,
     BRACE_ANSWER_PART = 32,
     BRACE_ANSWER_REFUSED = 224
 };
@@ -60,345 +66,647 @@ enum {
 /* Frames of the answer, by the request's code; 0: no such request. */
 extern const uint8_t brace_can_answer_parts[32];
 
-/* a fault has come or gone */
+/* The frames of one space, and which of them a frame is. */
+enum { BRACE_CAN_SPACE_PARTS = 7 };
+uint32_t brace_can_space_part(const uint8_t data[8]);
+
+/* a fault has come or gone, or the likeliest cause of a drift is another one */
 typedef struct {
-    uint32_t error_code; /* of the fault that came, as CANopen orders them: 0x7300 sensor, 0x7305 encoder stuck, 0x6100 tick late, 0x6320 parameters, 0x5530 memory, 0x8140 bus off, 0xff01 model drift, 0x6010 crashed; 0x1000 one is gone, others are there; 0x0000 all is well again */
-    uint32_t error_register; /* 1 while any fault is there */
-    uint32_t mode; /* what the controller is doing */
-    uint32_t faults; /* all faults that are there now */
+    /* the CANopen code of the fault that came: 0x7300 sensor, 0x7305 encoder stuck, 0x6100 tick late, 0x6320
+     * parameters, 0x5530 memory, 0x8140 bus off, 0xff01 model drift, 0x6010 crashed; 0xff01 also where a drift has
+     * another cause now; 0x1000 where one has gone and others are there; 0x0000 where the last one has gone */
+    uint32_t error_code;
+    /* 1 while any fault is there */
+    uint32_t error_register;
+    /* the likeliest cause of the drift while MODEL_DRIFT is there, else NONE */
+    uint32_t drift_cause;
+    /* what the controller is doing */
+    uint32_t mode;
+    /* the faults that are there now */
+    uint32_t faults;
 } brace_can_emergency_t;
 uint32_t brace_can_pack_emergency(const brace_can_emergency_t *message, uint8_t data[8]);
 void brace_can_unpack_emergency(const uint8_t data[8], brace_can_emergency_t *message);
 
 /* K at the tip, first half; the second is stiffness_b of the same sequence */
 typedef struct {
-    uint32_t sequence; /* of the snapshot; equal in all frames of one */
-    uint32_t flags; /* quality of K */
-    float k_xx_n_per_mm; /* force along x per displacement along x [N/mm, -4194.3 to 4194.3] */
-    float k_xz_n_per_mm; /* force along x per displacement along z, and the reverse [N/mm, -4194.3 to 4194.3] */
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the quality of K */
+    uint32_t flags;
+    /* the force along x per displacement along x [N/mm, -4194.3 to 4194.3] */
+    float k_xx_n_per_mm;
+    /* the force along x per displacement along z, and the reverse [N/mm, -4194.3 to 4194.3] */
+    float k_xz_n_per_mm;
 } brace_can_stiffness_a_t;
+#define BRACE_CAN_STIFFNESS_A_K_XX_N_PER_MM_MOST 4194.3035f
+#define BRACE_CAN_STIFFNESS_A_K_XZ_N_PER_MM_MOST 4194.3035f
 uint32_t brace_can_pack_stiffness_a(const brace_can_stiffness_a_t *message, uint8_t data[8]);
 void brace_can_unpack_stiffness_a(const uint8_t data[8], brace_can_stiffness_a_t *message);
 
 /* K at the tip, second half, and what it stands for */
 typedef struct {
-    uint32_t sequence; /* of the snapshot; equal in all frames of one */
-    float k_zz_n_per_mm; /* force along z per displacement along z [N/mm, -4194.3 to 4194.3] */
-    float age_ms; /* of the samples when the frame was made; more than 127 ms are sent as 127 [ms, 0 to 127] */
-    uint32_t play_femur; /* which flank of the femur joint's play carries */
-    uint32_t play_tibia; /* which flank of the tibia joint's play carries */
-    uint32_t parameter_tag; /* low half of the CRC of the parameters in force */
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the force along z per displacement along z [N/mm, -4194.3 to 4194.3] */
+    float k_zz_n_per_mm;
+    /* the age of the joints' samples when the frame was made; 127 stands for 127 ms and more [ms, 0 to 127] */
+    float age_ms;
+    /* which flank of the femur joint's play carries */
+    uint32_t play_femur;
+    /* which flank of the tibia joint's play carries */
+    uint32_t play_tibia;
+    /* the low half of the CRC of the parameters in force */
+    uint32_t parameter_tag;
 } brace_can_stiffness_b_t;
+#define BRACE_CAN_STIFFNESS_B_K_ZZ_N_PER_MM_MOST 4194.3035f
+#define BRACE_CAN_STIFFNESS_B_AGE_MS_MOST 127.0f
 uint32_t brace_can_pack_stiffness_b(const brace_can_stiffness_b_t *message, uint8_t data[8]);
 void brace_can_unpack_stiffness_b(const uint8_t data[8], brace_can_stiffness_b_t *message);
 
 /* eigenvalues of K and the direction of the stiffer */
 typedef struct {
-    uint32_t sequence; /* of the snapshot; equal in all frames of one */
-    float lambda_min_n_per_mm; /* smaller eigenvalue of K [N/mm, 0 to 524.287] */
-    float lambda_max_n_per_mm; /* larger eigenvalue of K [N/mm, 0 to 5242.87] */
-    float stiff_axis_rad; /* direction of lambda_max from +x [rad, -3.2767 to 3.2767] */
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the smaller eigenvalue of K [N/mm, 0 to 524.287] */
+    float lambda_min_n_per_mm;
+    /* the larger eigenvalue of K [N/mm, 0 to 5242.87] */
+    float lambda_max_n_per_mm;
+    /* the direction of lambda_max, measured from +x [rad, -3.2767 to 3.2767] */
+    float stiff_axis_rad;
 } brace_can_eigenvalues_t;
+#define BRACE_CAN_EIGENVALUES_LAMBDA_MIN_N_PER_MM_MOST 524.287f
+#define BRACE_CAN_EIGENVALUES_LAMBDA_MAX_N_PER_MM_MOST 5242.87f
+#define BRACE_CAN_EIGENVALUES_STIFF_AXIS_RAD_MOST 3.2767f
 uint32_t brace_can_pack_eigenvalues(const brace_can_eigenvalues_t *message, uint8_t data[8]);
 void brace_can_unpack_eigenvalues(const uint8_t data[8], brace_can_eigenvalues_t *message);
 
 /* true joint angles of the snapshot, and what the controller is doing */
 typedef struct {
-    uint32_t sequence; /* of the snapshot; equal in all frames of one */
-    float theta1_rad; /* angle of the femur from +x [rad, -10.4857 to 10.4857] */
-    float theta2_rad; /* flexion of the knee [rad, -10.4857 to 10.4857] */
-    uint32_t mode; /* what the controller is doing */
-    uint32_t faults; /* faults that are there now */
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the true angle of the femur, measured from +x [rad, -10.4857 to 10.4857] */
+    float theta1_rad;
+    /* the true flexion of the knee [rad, -10.4857 to 10.4857] */
+    float theta2_rad;
+    /* what the controller is doing */
+    uint32_t mode;
+    /* the faults that are there now */
+    uint32_t faults;
 } brace_can_posture_t;
+#define BRACE_CAN_POSTURE_THETA1_RAD_MOST 10.48574f
+#define BRACE_CAN_POSTURE_THETA2_RAD_MOST 10.48574f
 uint32_t brace_can_pack_posture(const brace_can_posture_t *message, uint8_t data[8]);
 void brace_can_unpack_posture(const uint8_t data[8], brace_can_posture_t *message);
 
 /* the controller lives, and speaks this dictionary */
 typedef struct {
-    uint32_t state; /* as CANopen numbers them: STOPPED in FAULT, PRE_OPERATIONAL in CONFIGURATION */
-    uint32_t mode; /* what the controller is doing */
-    uint32_t faults; /* faults that are there now */
-    uint32_t dictionary_hash; /* of everything that matters on the wire; another one is another language */
+    /* the state as CANopen numbers it */
+    uint32_t state;
+    /* what the controller is doing */
+    uint32_t mode;
+    /* the faults that are there now */
+    uint32_t faults;
+    /* a checksum over everything on the wire; two ends whose hashes differ cannot understand each other */
+    uint32_t dictionary_hash;
 } brace_can_heartbeat_t;
 uint32_t brace_can_pack_heartbeat(const brace_can_heartbeat_t *message, uint8_t data[8]);
 void brace_can_unpack_heartbeat(const uint8_t data[8], brace_can_heartbeat_t *message);
 
-/* a whole snapshot, in place of stiffness_a, stiffness_b, eigenvalues and posture, where controller.can_fd_bit_rate is set and the bus can do it */
+/* K in space, in the robot's base frame; only a limb whose coxa joint is fitted sends it, each snapshot in all its
+ * parts: part 0 */
 typedef struct {
-    uint32_t sequence; /* of the snapshot */
-    uint32_t parameter_crc; /* CRC of the parameters in force */
-    float age_ms; /* of the samples when the frame was made; more than 32767 ms are sent as 32767 [ms, 0 to 32767] */
-    uint32_t flags; /* quality of K */
-    uint32_t mode; /* what the controller is doing */
-    uint32_t play_femur; /* which flank of the femur joint's play carries */
-    uint32_t play_tibia; /* which flank of the tibia joint's play carries */
-    uint32_t faults; /* all faults that are there now */
-    float k_xx_n_per_mm; /* force along x per displacement along x */
-    float k_xz_n_per_mm; /* force along x per displacement along z, and the reverse */
-    float k_zz_n_per_mm; /* force along z per displacement along z */
-    float lambda_min_n_per_mm; /* smaller eigenvalue of K */
-    float lambda_max_n_per_mm; /* larger eigenvalue of K */
-    float stiff_axis_rad; /* direction of lambda_max from +x */
-    float theta1_rad; /* true angle of the femur joint */
-    float theta2_rad; /* true angle of the tibia joint */
-    float tip_x_mm; /* where the tip is, outwards from the hip */
-    float tip_z_mm; /* where the tip is, upwards from the hip */
-    float force_x_n; /* force of the ground on the tip, outwards */
-    float force_z_n; /* force of the ground on the tip, upwards */
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the force along x per displacement along x [N/mm, -4194.3 to 4194.3] */
+    float k_xx_n_per_mm;
+    /* the force along x per displacement along y, and the reverse [N/mm, -4194.3 to 4194.3] */
+    float k_xy_n_per_mm;
+} brace_can_space_0_t;
+#define BRACE_CAN_SPACE_0_K_XX_N_PER_MM_MOST 4194.3035f
+#define BRACE_CAN_SPACE_0_K_XY_N_PER_MM_MOST 4194.3035f
+uint32_t brace_can_pack_space_0(const brace_can_space_0_t *message, uint8_t data[8]);
+void brace_can_unpack_space_0(const uint8_t data[8], brace_can_space_0_t *message);
+
+/* K in space, in the robot's base frame; only a limb whose coxa joint is fitted sends it, each snapshot in all its
+ * parts: part 1 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the force along x per displacement along z, and the reverse [N/mm, -4194.3 to 4194.3] */
+    float k_xz_n_per_mm;
+    /* the force along y per displacement along y [N/mm, -4194.3 to 4194.3] */
+    float k_yy_n_per_mm;
+} brace_can_space_1_t;
+#define BRACE_CAN_SPACE_1_K_XZ_N_PER_MM_MOST 4194.3035f
+#define BRACE_CAN_SPACE_1_K_YY_N_PER_MM_MOST 4194.3035f
+uint32_t brace_can_pack_space_1(const brace_can_space_1_t *message, uint8_t data[8]);
+void brace_can_unpack_space_1(const uint8_t data[8], brace_can_space_1_t *message);
+
+/* K in space, in the robot's base frame; only a limb whose coxa joint is fitted sends it, each snapshot in all its
+ * parts: part 2 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the force along y per displacement along z, and the reverse [N/mm, -4194.3 to 4194.3] */
+    float k_yz_n_per_mm;
+    /* the force along z per displacement along z [N/mm, -4194.3 to 4194.3] */
+    float k_zz_n_per_mm;
+} brace_can_space_2_t;
+#define BRACE_CAN_SPACE_2_K_YZ_N_PER_MM_MOST 4194.3035f
+#define BRACE_CAN_SPACE_2_K_ZZ_N_PER_MM_MOST 4194.3035f
+uint32_t brace_can_pack_space_2(const brace_can_space_2_t *message, uint8_t data[8]);
+void brace_can_unpack_space_2(const uint8_t data[8], brace_can_space_2_t *message);
+
+/* K in space, in the robot's base frame; only a limb whose coxa joint is fitted sends it, each snapshot in all its
+ * parts: part 3 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the smallest eigenvalue of K in space [N/mm, 0 to 8388.61] */
+    float lambda_1_n_per_mm;
+    /* the middle eigenvalue of K in space [N/mm, 0 to 8388.61] */
+    float lambda_2_n_per_mm;
+} brace_can_space_3_t;
+#define BRACE_CAN_SPACE_3_LAMBDA_1_N_PER_MM_MOST 8388.607f
+#define BRACE_CAN_SPACE_3_LAMBDA_2_N_PER_MM_MOST 8388.607f
+uint32_t brace_can_pack_space_3(const brace_can_space_3_t *message, uint8_t data[8]);
+void brace_can_unpack_space_3(const uint8_t data[8], brace_can_space_3_t *message);
+
+/* K in space, in the robot's base frame; only a limb whose coxa joint is fitted sends it, each snapshot in all its
+ * parts: part 4 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the largest eigenvalue of K in space [N/mm, 0 to 8388.61] */
+    float lambda_3_n_per_mm;
+    /* the quality of K in space */
+    uint32_t flags;
+    /* the age of the joints' samples when the frame was made; 127 stands for 127 ms and more [ms, 0 to 127] */
+    float age_ms;
+    /* which flank of the coxa joint's play carries */
+    uint32_t play_coxa;
+} brace_can_space_4_t;
+#define BRACE_CAN_SPACE_4_LAMBDA_3_N_PER_MM_MOST 8388.607f
+#define BRACE_CAN_SPACE_4_AGE_MS_MOST 127.0f
+uint32_t brace_can_pack_space_4(const brace_can_space_4_t *message, uint8_t data[8]);
+void brace_can_unpack_space_4(const uint8_t data[8], brace_can_space_4_t *message);
+
+/* K in space, in the robot's base frame; only a limb whose coxa joint is fitted sends it, each snapshot in all its
+ * parts: part 5 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the x component of the unit vector along which K in space is largest [, -1.63835 to 1.63835] */
+    float stiff_axis_x;
+    /* the y component of the unit vector along which K in space is largest [, -1.63835 to 1.63835] */
+    float stiff_axis_y;
+    /* the z component of the unit vector along which K in space is largest [, -1.63835 to 1.63835] */
+    float stiff_axis_z;
+} brace_can_space_5_t;
+#define BRACE_CAN_SPACE_5_STIFF_AXIS_X_MOST 1.63835f
+#define BRACE_CAN_SPACE_5_STIFF_AXIS_Y_MOST 1.63835f
+#define BRACE_CAN_SPACE_5_STIFF_AXIS_Z_MOST 1.63835f
+uint32_t brace_can_pack_space_5(const brace_can_space_5_t *message, uint8_t data[8]);
+void brace_can_unpack_space_5(const uint8_t data[8], brace_can_space_5_t *message);
+
+/* K in space, in the robot's base frame; only a limb whose coxa joint is fitted sends it, each snapshot in all its
+ * parts: part 6 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the true angle of the coxa joint [rad, -8.38861 to 8.38861] */
+    float theta0_rad;
+    /* the force across the limb's plane per displacement across it [N/mm, 0 to 8388.61] */
+    float k_across_n_per_mm;
+} brace_can_space_6_t;
+#define BRACE_CAN_SPACE_6_THETA0_RAD_MOST 8.388607f
+#define BRACE_CAN_SPACE_6_K_ACROSS_N_PER_MM_MOST 8388.607f
+uint32_t brace_can_pack_space_6(const brace_can_space_6_t *message, uint8_t data[8]);
+void brace_can_unpack_space_6(const uint8_t data[8], brace_can_space_6_t *message);
+
+/* a whole snapshot, in place of stiffness_a, stiffness_b, eigenvalues and posture, where
+ * controller.can_fd_bit_rate is set and the bus can do it */
+typedef struct {
+    /* the number of the snapshot */
+    uint32_t sequence;
+    /* the CRC of the parameters in force */
+    uint32_t parameter_crc;
+    /* the age of the joints' samples when the frame was made; 32767 stands for 32767 ms and more [ms, 0 to 32767] */
+    float age_ms;
+    /* the quality of K */
+    uint32_t flags;
+    /* what the controller is doing */
+    uint32_t mode;
+    /* which flank of the femur joint's play carries */
+    uint32_t play_femur;
+    /* which flank of the tibia joint's play carries */
+    uint32_t play_tibia;
+    /* the faults that are there now */
+    uint32_t faults;
+    /* the force along x per displacement along x */
+    float k_xx_n_per_mm;
+    /* the force along x per displacement along z, and the reverse */
+    float k_xz_n_per_mm;
+    /* the force along z per displacement along z */
+    float k_zz_n_per_mm;
+    /* the smaller eigenvalue of K */
+    float lambda_min_n_per_mm;
+    /* the larger eigenvalue of K */
+    float lambda_max_n_per_mm;
+    /* the direction of lambda_max, measured from +x */
+    float stiff_axis_rad;
+    /* the true angle of the femur, measured from +x */
+    float theta1_rad;
+    /* the true flexion of the knee */
+    float theta2_rad;
+    /* how far the tip lies outwards from the femur axis */
+    float tip_x_mm;
+    /* how far the tip lies above the femur axis */
+    float tip_z_mm;
+    /* the force of the ground on the tip along x */
+    float force_x_n;
+    /* the force of the ground on the tip along z */
+    float force_z_n;
 } brace_can_snapshot_fd_t;
+#define BRACE_CAN_SNAPSHOT_FD_AGE_MS_MOST 32767.0f
 uint32_t brace_can_pack_snapshot_fd(const brace_can_snapshot_fd_t *message, uint8_t data[64]);
 void brace_can_unpack_snapshot_fd(const uint8_t data[64], brace_can_snapshot_fd_t *message);
 
+/* K in space of the same snapshot as snapshot_fd, in the robot's base frame; in place of space, sent only by a
+ * limb whose coxa joint is fitted */
+typedef struct {
+    /* the number of the snapshot */
+    uint32_t sequence;
+    /* the age of the joints' samples when the frame was made; 32767 stands for 32767 ms and more [ms, 0 to 32767] */
+    float age_ms;
+    /* the low half of the CRC of the parameters in force */
+    uint32_t parameter_tag;
+    /* the quality of K in space */
+    uint32_t flags;
+    /* what the controller is doing */
+    uint32_t mode;
+    /* which flank of the coxa joint's play carries */
+    uint32_t play_coxa;
+    /* the force across the limb's plane per displacement across it */
+    float k_across_n_per_mm;
+    /* the force along x per displacement along x */
+    float k_xx_n_per_mm;
+    /* the force along x per displacement along y, and the reverse */
+    float k_xy_n_per_mm;
+    /* the force along x per displacement along z, and the reverse */
+    float k_xz_n_per_mm;
+    /* the force along y per displacement along y */
+    float k_yy_n_per_mm;
+    /* the force along y per displacement along z, and the reverse */
+    float k_yz_n_per_mm;
+    /* the force along z per displacement along z */
+    float k_zz_n_per_mm;
+    /* the smallest eigenvalue of K in space */
+    float lambda_1_n_per_mm;
+    /* the middle eigenvalue of K in space */
+    float lambda_2_n_per_mm;
+    /* the largest eigenvalue of K in space */
+    float lambda_3_n_per_mm;
+    /* the true angle of the coxa joint */
+    float theta0_rad;
+    /* the x component of the unit vector along which K in space is largest [, -1.63835 to 1.63835] */
+    float stiff_axis_x;
+    /* the y component of the unit vector along which K in space is largest [, -1.63835 to 1.63835] */
+    float stiff_axis_y;
+    /* the z component of the unit vector along which K in space is largest [, -1.63835 to 1.63835] */
+    float stiff_axis_z;
+} brace_can_space_fd_t;
+#define BRACE_CAN_SPACE_FD_AGE_MS_MOST 32767.0f
+#define BRACE_CAN_SPACE_FD_STIFF_AXIS_X_MOST 1.63835f
+#define BRACE_CAN_SPACE_FD_STIFF_AXIS_Y_MOST 1.63835f
+#define BRACE_CAN_SPACE_FD_STIFF_AXIS_Z_MOST 1.63835f
+uint32_t brace_can_pack_space_fd(const brace_can_space_fd_t *message, uint8_t data[64]);
+void brace_can_unpack_space_fd(const uint8_t data[64], brace_can_space_fd_t *message);
+
 typedef struct {
     uint32_t token;
-    uint32_t index; /* number of the entry, as the dictionary counts them */
+    /* the number of the entry */
+    uint32_t index;
 } brace_can_read_entry_request_t;
 uint32_t brace_can_pack_read_entry_request(const brace_can_read_entry_request_t *message, uint8_t data[8]);
 void brace_can_unpack_read_entry_request(const uint8_t data[8], brace_can_read_entry_request_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t index; /* number of the entry, as the dictionary counts them */
-    uint32_t value; /* a float's or a whole number's 32 bits, as the entry's type says */
+    /* the number of the entry, as asked */
+    uint32_t index;
+    /* the 32 bits of a float or a whole number, as the entry's type says */
+    uint32_t value;
 } brace_can_read_entry_answer_0_t;
 uint32_t brace_can_pack_read_entry_answer_0(const brace_can_read_entry_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_read_entry_answer_0(const uint8_t data[8], brace_can_read_entry_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t index; /* number of the entry, as the dictionary counts them */
-    uint32_t value; /* a float's or a whole number's 32 bits, as the entry's type says */
+    /* the number of the entry */
+    uint32_t index;
+    /* the 32 bits of a float or a whole number, as the entry's type says */
+    uint32_t value;
 } brace_can_write_entry_request_t;
 uint32_t brace_can_pack_write_entry_request(const brace_can_write_entry_request_t *message, uint8_t data[8]);
 void brace_can_unpack_write_entry_request(const uint8_t data[8], brace_can_write_entry_request_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t index; /* number of the entry, as the dictionary counts them */
-    uint32_t value; /* the same, read back from where it was staged */
+    /* the number of the entry, as asked */
+    uint32_t index;
+    /* the value that is staged now */
+    uint32_t value;
 } brace_can_write_entry_answer_0_t;
 uint32_t brace_can_pack_write_entry_answer_0(const brace_can_write_entry_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_write_entry_answer_0(const uint8_t data[8], brace_can_write_entry_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
-    float theta1_rad; /* true angle of the femur from +x [rad, -8.38861 to 8.38861] */
-    float theta2_rad; /* true flexion of the knee [rad, -8.38861 to 8.38861] */
+    /* the true angle of the femur, measured from +x [rad, -8.38861 to 8.38861] */
+    float theta1_rad;
+    /* the true flexion of the knee [rad, -8.38861 to 8.38861] */
+    float theta2_rad;
 } brace_can_k_at_posture_request_t;
 uint32_t brace_can_pack_k_at_posture_request(const brace_can_k_at_posture_request_t *message, uint8_t data[8]);
 void brace_can_unpack_k_at_posture_request(const uint8_t data[8], brace_can_k_at_posture_request_t *message);
 
 typedef struct {
     uint32_t token;
-    float k_xx_n_per_mm; /* force along x per displacement along x [N/mm, -4194.3 to 4194.3] */
-    float k_xz_n_per_mm; /* force along x per displacement along z, and the reverse [N/mm, -4194.3 to 4194.3] */
+    /* the force along x per displacement along x [N/mm, -4194.3 to 4194.3] */
+    float k_xx_n_per_mm;
+    /* the force along x per displacement along z, and the reverse [N/mm, -4194.3 to 4194.3] */
+    float k_xz_n_per_mm;
 } brace_can_k_at_posture_answer_0_t;
 uint32_t brace_can_pack_k_at_posture_answer_0(const brace_can_k_at_posture_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_k_at_posture_answer_0(const uint8_t data[8], brace_can_k_at_posture_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
-    float k_zz_n_per_mm; /* force along z per displacement along z [N/mm, -4194.3 to 4194.3] */
-    float lambda_min_n_per_mm; /* smaller eigenvalue of K [N/mm, 0 to 8388.61] */
+    /* the force along z per displacement along z [N/mm, -4194.3 to 4194.3] */
+    float k_zz_n_per_mm;
+    /* the smaller eigenvalue of K [N/mm, 0 to 8388.61] */
+    float lambda_min_n_per_mm;
 } brace_can_k_at_posture_answer_1_t;
 uint32_t brace_can_pack_k_at_posture_answer_1(const brace_can_k_at_posture_answer_1_t *message, uint8_t data[8]);
 void brace_can_unpack_k_at_posture_answer_1(const uint8_t data[8], brace_can_k_at_posture_answer_1_t *message);
 
 typedef struct {
     uint32_t token;
-    float lambda_max_n_per_mm; /* larger eigenvalue of K [N/mm, 0 to 8388.61] */
-    float stiff_axis_rad; /* direction of lambda_max from +x [rad, -3.2767 to 3.2767] */
-    uint32_t flags; /* quality of K */
+    /* the larger eigenvalue of K [N/mm, 0 to 8388.61] */
+    float lambda_max_n_per_mm;
+    /* the direction of lambda_max, measured from +x [rad, -3.2767 to 3.2767] */
+    float stiff_axis_rad;
+    /* the quality of K */
+    uint32_t flags;
 } brace_can_k_at_posture_answer_2_t;
 uint32_t brace_can_pack_k_at_posture_answer_2(const brace_can_k_at_posture_answer_2_t *message, uint8_t data[8]);
 void brace_can_unpack_k_at_posture_answer_2(const uint8_t data[8], brace_can_k_at_posture_answer_2_t *message);
 
 typedef struct {
     uint32_t token;
-    float x_mm; /* tip outwards from the femur axis [mm, -8388.61 to 8388.61] */
-    float z_mm; /* tip above the femur axis [mm, -8388.61 to 8388.61] */
+    /* how far the tip lies outwards from the femur axis [mm, -8388.61 to 8388.61] */
+    float x_mm;
+    /* how far the tip lies above the femur axis [mm, -8388.61 to 8388.61] */
+    float z_mm;
 } brace_can_k_at_tip_knee_up_request_t;
 uint32_t brace_can_pack_k_at_tip_knee_up_request(const brace_can_k_at_tip_knee_up_request_t *message, uint8_t data[8]);
 void brace_can_unpack_k_at_tip_knee_up_request(const uint8_t data[8], brace_can_k_at_tip_knee_up_request_t *message);
 
 typedef struct {
     uint32_t token;
-    float k_xx_n_per_mm; /* force along x per displacement along x [N/mm, -4194.3 to 4194.3] */
-    float k_xz_n_per_mm; /* force along x per displacement along z, and the reverse [N/mm, -4194.3 to 4194.3] */
+    /* the force along x per displacement along x [N/mm, -4194.3 to 4194.3] */
+    float k_xx_n_per_mm;
+    /* the force along x per displacement along z, and the reverse [N/mm, -4194.3 to 4194.3] */
+    float k_xz_n_per_mm;
 } brace_can_k_at_tip_knee_up_answer_0_t;
-uint32_t brace_can_pack_k_at_tip_knee_up_answer_0(const brace_can_k_at_tip_knee_up_answer_0_t *message, uint8_t data[8]);
+uint32_t brace_can_pack_k_at_tip_knee_up_answer_0(const brace_can_k_at_tip_knee_up_answer_0_t *message,
+    uint8_t data[8]);
 void brace_can_unpack_k_at_tip_knee_up_answer_0(const uint8_t data[8], brace_can_k_at_tip_knee_up_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
-    float k_zz_n_per_mm; /* force along z per displacement along z [N/mm, -4194.3 to 4194.3] */
-    float lambda_min_n_per_mm; /* smaller eigenvalue of K [N/mm, 0 to 8388.61] */
+    /* the force along z per displacement along z [N/mm, -4194.3 to 4194.3] */
+    float k_zz_n_per_mm;
+    /* the smaller eigenvalue of K [N/mm, 0 to 8388.61] */
+    float lambda_min_n_per_mm;
 } brace_can_k_at_tip_knee_up_answer_1_t;
-uint32_t brace_can_pack_k_at_tip_knee_up_answer_1(const brace_can_k_at_tip_knee_up_answer_1_t *message, uint8_t data[8]);
+uint32_t brace_can_pack_k_at_tip_knee_up_answer_1(const brace_can_k_at_tip_knee_up_answer_1_t *message,
+    uint8_t data[8]);
 void brace_can_unpack_k_at_tip_knee_up_answer_1(const uint8_t data[8], brace_can_k_at_tip_knee_up_answer_1_t *message);
 
 typedef struct {
     uint32_t token;
-    float lambda_max_n_per_mm; /* larger eigenvalue of K [N/mm, 0 to 8388.61] */
-    float stiff_axis_rad; /* direction of lambda_max from +x [rad, -3.2767 to 3.2767] */
-    uint32_t flags; /* quality of K */
+    /* the larger eigenvalue of K [N/mm, 0 to 8388.61] */
+    float lambda_max_n_per_mm;
+    /* the direction of lambda_max, measured from +x [rad, -3.2767 to 3.2767] */
+    float stiff_axis_rad;
+    /* the quality of K */
+    uint32_t flags;
 } brace_can_k_at_tip_knee_up_answer_2_t;
-uint32_t brace_can_pack_k_at_tip_knee_up_answer_2(const brace_can_k_at_tip_knee_up_answer_2_t *message, uint8_t data[8]);
+uint32_t brace_can_pack_k_at_tip_knee_up_answer_2(const brace_can_k_at_tip_knee_up_answer_2_t *message,
+    uint8_t data[8]);
 void brace_can_unpack_k_at_tip_knee_up_answer_2(const uint8_t data[8], brace_can_k_at_tip_knee_up_answer_2_t *message);
 
 typedef struct {
     uint32_t token;
-    float x_mm; /* tip outwards from the femur axis [mm, -8388.61 to 8388.61] */
-    float z_mm; /* tip above the femur axis [mm, -8388.61 to 8388.61] */
+    /* how far the tip lies outwards from the femur axis [mm, -8388.61 to 8388.61] */
+    float x_mm;
+    /* how far the tip lies above the femur axis [mm, -8388.61 to 8388.61] */
+    float z_mm;
 } brace_can_k_at_tip_knee_down_request_t;
-uint32_t brace_can_pack_k_at_tip_knee_down_request(const brace_can_k_at_tip_knee_down_request_t *message, uint8_t data[8]);
-void brace_can_unpack_k_at_tip_knee_down_request(const uint8_t data[8], brace_can_k_at_tip_knee_down_request_t *message);
+uint32_t brace_can_pack_k_at_tip_knee_down_request(const brace_can_k_at_tip_knee_down_request_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_at_tip_knee_down_request(const uint8_t data[8],
+    brace_can_k_at_tip_knee_down_request_t *message);
 
 typedef struct {
     uint32_t token;
-    float k_xx_n_per_mm; /* force along x per displacement along x [N/mm, -4194.3 to 4194.3] */
-    float k_xz_n_per_mm; /* force along x per displacement along z, and the reverse [N/mm, -4194.3 to 4194.3] */
+    /* the force along x per displacement along x [N/mm, -4194.3 to 4194.3] */
+    float k_xx_n_per_mm;
+    /* the force along x per displacement along z, and the reverse [N/mm, -4194.3 to 4194.3] */
+    float k_xz_n_per_mm;
 } brace_can_k_at_tip_knee_down_answer_0_t;
-uint32_t brace_can_pack_k_at_tip_knee_down_answer_0(const brace_can_k_at_tip_knee_down_answer_0_t *message, uint8_t data[8]);
-void brace_can_unpack_k_at_tip_knee_down_answer_0(const uint8_t data[8], brace_can_k_at_tip_knee_down_answer_0_t *message);
+uint32_t brace_can_pack_k_at_tip_knee_down_answer_0(const brace_can_k_at_tip_knee_down_answer_0_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_at_tip_knee_down_answer_0(const uint8_t data[8],
+    brace_can_k_at_tip_knee_down_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
-    float k_zz_n_per_mm; /* force along z per displacement along z [N/mm, -4194.3 to 4194.3] */
-    float lambda_min_n_per_mm; /* smaller eigenvalue of K [N/mm, 0 to 8388.61] */
+    /* the force along z per displacement along z [N/mm, -4194.3 to 4194.3] */
+    float k_zz_n_per_mm;
+    /* the smaller eigenvalue of K [N/mm, 0 to 8388.61] */
+    float lambda_min_n_per_mm;
 } brace_can_k_at_tip_knee_down_answer_1_t;
-uint32_t brace_can_pack_k_at_tip_knee_down_answer_1(const brace_can_k_at_tip_knee_down_answer_1_t *message, uint8_t data[8]);
-void brace_can_unpack_k_at_tip_knee_down_answer_1(const uint8_t data[8], brace_can_k_at_tip_knee_down_answer_1_t *message);
+uint32_t brace_can_pack_k_at_tip_knee_down_answer_1(const brace_can_k_at_tip_knee_down_answer_1_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_at_tip_knee_down_answer_1(const uint8_t data[8],
+    brace_can_k_at_tip_knee_down_answer_1_t *message);
 
 typedef struct {
     uint32_t token;
-    float lambda_max_n_per_mm; /* larger eigenvalue of K [N/mm, 0 to 8388.61] */
-    float stiff_axis_rad; /* direction of lambda_max from +x [rad, -3.2767 to 3.2767] */
-    uint32_t flags; /* quality of K */
+    /* the larger eigenvalue of K [N/mm, 0 to 8388.61] */
+    float lambda_max_n_per_mm;
+    /* the direction of lambda_max, measured from +x [rad, -3.2767 to 3.2767] */
+    float stiff_axis_rad;
+    /* the quality of K */
+    uint32_t flags;
 } brace_can_k_at_tip_knee_down_answer_2_t;
-uint32_t brace_can_pack_k_at_tip_knee_down_answer_2(const brace_can_k_at_tip_knee_down_answer_2_t *message, uint8_t data[8]);
-void brace_can_unpack_k_at_tip_knee_down_answer_2(const uint8_t data[8], brace_can_k_at_tip_knee_down_answer_2_t *message);
+uint32_t brace_can_pack_k_at_tip_knee_down_answer_2(const brace_can_k_at_tip_knee_down_answer_2_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_at_tip_knee_down_answer_2(const uint8_t data[8],
+    brace_can_k_at_tip_knee_down_answer_2_t *message);
 
 typedef struct {
     uint32_t token;
-    float dx_mm; /* displacement of the tip along x [mm, -838.861 to 838.861] */
-    float dz_mm; /* along z [mm, -838.861 to 838.861] */
+    /* the displacement of the tip along x [mm, -838.861 to 838.861] */
+    float dx_mm;
+    /* the displacement of the tip along z [mm, -838.861 to 838.861] */
+    float dz_mm;
 } brace_can_contact_force_request_t;
 uint32_t brace_can_pack_contact_force_request(const brace_can_contact_force_request_t *message, uint8_t data[8]);
 void brace_can_unpack_contact_force_request(const uint8_t data[8], brace_can_contact_force_request_t *message);
 
 typedef struct {
     uint32_t token;
-    float fx_n; /* force along x [N, -8388.61 to 8388.61] */
-    float fz_n; /* force along z [N, -8388.61 to 8388.61] */
+    /* the force along x [N, -8388.61 to 8388.61] */
+    float fx_n;
+    /* the force along z [N, -8388.61 to 8388.61] */
+    float fz_n;
 } brace_can_contact_force_answer_0_t;
 uint32_t brace_can_pack_contact_force_answer_0(const brace_can_contact_force_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_contact_force_answer_0(const uint8_t data[8], brace_can_contact_force_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
-    float low_n; /* what any displacement of this size gives at least [N, 0 to 16777.2] */
-    float high_n; /* and at most [N, 0 to 16777.2] */
+    /* the least force that any displacement of this size gives [N, 0 to 16777.2] */
+    float low_n;
+    /* the greatest force that any displacement of this size gives [N, 0 to 16777.2] */
+    float high_n;
 } brace_can_contact_force_answer_1_t;
 uint32_t brace_can_pack_contact_force_answer_1(const brace_can_contact_force_answer_1_t *message, uint8_t data[8]);
 void brace_can_unpack_contact_force_answer_1(const uint8_t data[8], brace_can_contact_force_answer_1_t *message);
 
 typedef struct {
     uint32_t token;
-    float fx_n; /* force along x [N, -8388.61 to 8388.61] */
-    float fz_n; /* force along z [N, -8388.61 to 8388.61] */
+    /* the force along x [N, -8388.61 to 8388.61] */
+    float fx_n;
+    /* the force along z [N, -8388.61 to 8388.61] */
+    float fz_n;
 } brace_can_sag_for_load_request_t;
 uint32_t brace_can_pack_sag_for_load_request(const brace_can_sag_for_load_request_t *message, uint8_t data[8]);
 void brace_can_unpack_sag_for_load_request(const uint8_t data[8], brace_can_sag_for_load_request_t *message);
 
 typedef struct {
     uint32_t token;
-    float dx_mm; /* displacement along x [mm, -838.861 to 838.861] */
-    float dz_mm; /* along z [mm, -838.861 to 838.861] */
+    /* the displacement along x [mm, -838.861 to 838.861] */
+    float dx_mm;
+    /* the displacement along z [mm, -838.861 to 838.861] */
+    float dz_mm;
 } brace_can_sag_for_load_answer_0_t;
 uint32_t brace_can_pack_sag_for_load_answer_0(const brace_can_sag_for_load_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_sag_for_load_answer_0(const uint8_t data[8], brace_can_sag_for_load_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
-    float normal_rad; /* direction of the surface's normal, towards the limb, from +x [rad, -3.2767 to 3.2767] */
-    float friction_ratio; /* friction coefficient mu, at most 10 [1, 0 to 65.534] */
+    /* the direction of the surface's normal towards the limb, measured from +x [rad, -3.2767 to 3.2767] */
+    float normal_rad;
+    /* the friction coefficient, at most 10 [1, 0 to 65.534] */
+    float friction_ratio;
 } brace_can_friction_margin_request_t;
 uint32_t brace_can_pack_friction_margin_request(const brace_can_friction_margin_request_t *message, uint8_t data[8]);
 void brace_can_unpack_friction_margin_request(const uint8_t data[8], brace_can_friction_margin_request_t *message);
 
 typedef struct {
     uint32_t token;
-    float margin_n; /* what may be added along the surface before it slides [N, -8388.61 to 8388.61] */
-    float angle_left_rad; /* from the force to the edge of the cone [rad, -3.2767 to 3.2767] */
-    uint32_t contact; /* how the foot stands */
+    /* the force that may be added along the surface before the foot slides [N, -8388.61 to 8388.61] */
+    float margin_n;
+    /* the angle from the force to the edge of the friction cone [rad, -3.2767 to 3.2767] */
+    float angle_left_rad;
+    /* what the foot does on that surface */
+    uint32_t contact;
 } brace_can_friction_margin_answer_0_t;
 uint32_t brace_can_pack_friction_margin_answer_0(const brace_can_friction_margin_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_friction_margin_answer_0(const uint8_t data[8], brace_can_friction_margin_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t mode; /* wanted */
-    uint32_t key; /* 0xc0de, so that no stray frame does it */
+    /* the mode that is wanted: CONFIGURATION or MONITOR */
+    uint32_t mode;
+    /* 0xc0de, so that no stray frame changes the mode */
+    uint32_t key;
 } brace_can_set_mode_request_t;
 uint32_t brace_can_pack_set_mode_request(const brace_can_set_mode_request_t *message, uint8_t data[8]);
 void brace_can_unpack_set_mode_request(const uint8_t data[8], brace_can_set_mode_request_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t mode; /* the controller's mode now; on the way back to MONITOR that is START, until there are samples */
+    /* the controller's mode now; on the way back to MONITOR it is START until there are samples */
+    uint32_t mode;
 } brace_can_set_mode_answer_0_t;
 uint32_t brace_can_pack_set_mode_answer_0(const brace_can_set_mode_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_set_mode_answer_0(const uint8_t data[8], brace_can_set_mode_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t bytes; /* of the block */
-    uint32_t crc; /* the CRC-32 that ends it */
+    /* how many bytes the block has */
+    uint32_t bytes;
+    /* the CRC-32 that ends the block */
+    uint32_t crc;
 } brace_can_upload_begin_request_t;
 uint32_t brace_can_pack_upload_begin_request(const brace_can_upload_begin_request_t *message, uint8_t data[8]);
 void brace_can_unpack_upload_begin_request(const uint8_t data[8], brace_can_upload_begin_request_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t words; /* expected */
+    /* how many words the controller expects */
+    uint32_t words;
 } brace_can_upload_begin_answer_0_t;
 uint32_t brace_can_pack_upload_begin_answer_0(const brace_can_upload_begin_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_upload_begin_answer_0(const uint8_t data[8], brace_can_upload_begin_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t word; /* number of the 4-byte word of the block, from 0 */
-    uint32_t data; /* its bytes, first byte lowest */
+    /* the number of the 4-byte word of the block, from 0 */
+    uint32_t word;
+    /* the word's bytes, the first byte lowest */
+    uint32_t data;
 } brace_can_upload_word_request_t;
 uint32_t brace_can_pack_upload_word_request(const brace_can_upload_word_request_t *message, uint8_t data[8]);
 void brace_can_unpack_upload_word_request(const uint8_t data[8], brace_can_upload_word_request_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t word; /* number of the 4-byte word of the block, from 0 */
-    uint32_t data; /* its bytes, first byte lowest */
+    /* the number of the 4-byte word of the block, from 0 */
+    uint32_t word;
+    /* the word's bytes, the first byte lowest */
+    uint32_t data;
 } brace_can_upload_word_answer_0_t;
 uint32_t brace_can_pack_upload_word_answer_0(const brace_can_upload_word_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_upload_word_answer_0(const uint8_t data[8], brace_can_upload_word_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t crc; /* of the block uploaded; 0: of the set with the staged entries, not checked */
+    /* the CRC of the block uploaded; 0 where the staged entries are to be stored */
+    uint32_t crc;
 } brace_can_commit_request_t;
 uint32_t brace_can_pack_commit_request(const brace_can_commit_request_t *message, uint8_t data[8]);
 void brace_can_unpack_commit_request(const uint8_t data[8], brace_can_commit_request_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t sequence; /* of the set now in force */
+    /* the sequence number of the set now in force */
+    uint32_t sequence;
 } brace_can_commit_answer_0_t;
 uint32_t brace_can_pack_commit_answer_0(const brace_can_commit_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_commit_answer_0(const uint8_t data[8], brace_can_commit_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t crc; /* of the set now in force */
+    /* the CRC of the set now in force */
+    uint32_t crc;
 } brace_can_commit_answer_1_t;
 uint32_t brace_can_pack_commit_answer_1(const brace_can_commit_answer_1_t *message, uint8_t data[8]);
 void brace_can_unpack_commit_answer_1(const uint8_t data[8], brace_can_commit_answer_1_t *message);
@@ -411,44 +719,53 @@ void brace_can_unpack_rollback_request(const uint8_t data[8], brace_can_rollback
 
 typedef struct {
     uint32_t token;
-    uint32_t sequence; /* of the set now in force */
+    /* the sequence number of the set now in force */
+    uint32_t sequence;
 } brace_can_rollback_answer_0_t;
 uint32_t brace_can_pack_rollback_answer_0(const brace_can_rollback_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_rollback_answer_0(const uint8_t data[8], brace_can_rollback_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t crc; /* of the set now in force */
+    /* the CRC of the set now in force */
+    uint32_t crc;
 } brace_can_rollback_answer_1_t;
 uint32_t brace_can_pack_rollback_answer_1(const brace_can_rollback_answer_1_t *message, uint8_t data[8]);
 void brace_can_unpack_rollback_answer_1(const uint8_t data[8], brace_can_rollback_answer_1_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t word; /* number of the 4-byte word of the block, from 0 */
+    /* the number of the 4-byte word of the block, from 0 */
+    uint32_t word;
 } brace_can_download_word_request_t;
 uint32_t brace_can_pack_download_word_request(const brace_can_download_word_request_t *message, uint8_t data[8]);
 void brace_can_unpack_download_word_request(const uint8_t data[8], brace_can_download_word_request_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t word; /* number of the 4-byte word of the block, from 0 */
-    uint32_t data; /* its bytes, first byte lowest; of word 65535 the block's bytes in the low half, in the high one where the set comes from: 0 DEFAULT, 1 SLOT_A, 2 SLOT_B */
+    /* the number of the 4-byte word of the block, from 0 */
+    uint32_t word;
+    /* the word's bytes, the first byte lowest; of word 65535 the low half counts the block's bytes, and the high
+     * half says where the set comes from (0 DEFAULT, 1 SLOT_A, 2 SLOT_B) */
+    uint32_t data;
 } brace_can_download_word_answer_0_t;
 uint32_t brace_can_pack_download_word_answer_0(const brace_can_download_word_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_download_word_answer_0(const uint8_t data[8], brace_can_download_word_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t joint; /* 1 femur, 2 tibia */
-    int32_t flank; /* +1 or -1 */
+    /* the joint: 0 coxa, 1 femur, 2 tibia */
+    uint32_t joint;
+    /* the flank: +1 or -1 */
+    int32_t flank;
 } brace_can_take_up_request_t;
 uint32_t brace_can_pack_take_up_request(const brace_can_take_up_request_t *message, uint8_t data[8]);
 void brace_can_unpack_take_up_request(const uint8_t data[8], brace_can_take_up_request_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t phase; /* of the joint's take-up, as it was when this was asked */
+    /* where the joint's take-up stood when this was asked */
+    uint32_t phase;
 } brace_can_take_up_answer_0_t;
 uint32_t brace_can_pack_take_up_answer_0(const brace_can_take_up_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_take_up_answer_0(const uint8_t data[8], brace_can_take_up_answer_0_t *message);
@@ -461,54 +778,75 @@ void brace_can_unpack_let_go_request(const uint8_t data[8], brace_can_let_go_req
 
 typedef struct {
     uint32_t token;
-    uint32_t mode; /* the controller's mode now */
+    /* the controller's mode now */
+    uint32_t mode;
 } brace_can_let_go_answer_0_t;
 uint32_t brace_can_pack_let_go_answer_0(const brace_can_let_go_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_let_go_answer_0(const uint8_t data[8], brace_can_let_go_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t axis; /* 0 x, 1 z */
-    uint32_t steps_per_side; /* to each side, 2 to 60 */
-    float step_mm; /* of the tip, 0.001 to 50 mm [mm, 0 to 65.534] */
-    uint32_t dwell_ms; /* at each step, 20 to 10000 */
+    /* the axis: 0 x, 1 z */
+    uint32_t axis;
+    /* how many steps the test takes to each side, 2 to 60 */
+    uint32_t steps_per_side;
+    /* how far the tip moves in one step, 0.001 to 50 mm [mm, 0 to 65.534] */
+    float step_mm;
+    /* how long the test stands at each step, 20 to 10000 ms */
+    uint32_t dwell_ms;
 } brace_can_loading_test_start_request_t;
-uint32_t brace_can_pack_loading_test_start_request(const brace_can_loading_test_start_request_t *message, uint8_t data[8]);
-void brace_can_unpack_loading_test_start_request(const uint8_t data[8], brace_can_loading_test_start_request_t *message);
+uint32_t brace_can_pack_loading_test_start_request(const brace_can_loading_test_start_request_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_loading_test_start_request(const uint8_t data[8],
+    brace_can_loading_test_start_request_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t rows; /* that it will take */
+    /* how many rows the test will record */
+    uint32_t rows;
 } brace_can_loading_test_start_answer_0_t;
-uint32_t brace_can_pack_loading_test_start_answer_0(const brace_can_loading_test_start_answer_0_t *message, uint8_t data[8]);
-void brace_can_unpack_loading_test_start_answer_0(const uint8_t data[8], brace_can_loading_test_start_answer_0_t *message);
+uint32_t brace_can_pack_loading_test_start_answer_0(const brace_can_loading_test_start_answer_0_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_loading_test_start_answer_0(const uint8_t data[8],
+    brace_can_loading_test_start_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
 } brace_can_loading_test_stop_request_t;
-uint32_t brace_can_pack_loading_test_stop_request(const brace_can_loading_test_stop_request_t *message, uint8_t data[8]);
+uint32_t brace_can_pack_loading_test_stop_request(const brace_can_loading_test_stop_request_t *message,
+    uint8_t data[8]);
 void brace_can_unpack_loading_test_stop_request(const uint8_t data[8], brace_can_loading_test_stop_request_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t rows; /* there now */
+    /* how many rows there are now */
+    uint32_t rows;
 } brace_can_loading_test_stop_answer_0_t;
-uint32_t brace_can_pack_loading_test_stop_answer_0(const brace_can_loading_test_stop_answer_0_t *message, uint8_t data[8]);
-void brace_can_unpack_loading_test_stop_answer_0(const uint8_t data[8], brace_can_loading_test_stop_answer_0_t *message);
+uint32_t brace_can_pack_loading_test_stop_answer_0(const brace_can_loading_test_stop_answer_0_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_loading_test_stop_answer_0(const uint8_t data[8],
+    brace_can_loading_test_stop_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t row; /* 0 is the oldest */
-    uint32_t column; /* 0 run, 1 config, 2 theta1_rad, 3 theta2_rad, 4 axis (0 x, 1 z), 5 rep, 6 step, 7 t_s, 8 temp_degc, 9 dx_mm, 10 dz_mm, 11 fx_n, 12 fz_n, 13 enc1_rad, 14 enc2_rad: docs/datasets.md has what they are */
+    /* the row; 0 is the oldest */
+    uint32_t row;
+    /* the column: 0 run, 1 config, 2 theta1_rad, 3 theta2_rad, 4 axis (0 x, 1 z), 5 rep, 6 step, 7 t_s, 8
+     * temp_degc, 9 dx_mm, 10 dz_mm, 11 fx_n, 12 fz_n, 13 enc1_rad, 14 enc2_rad; docs/datasets.md says what they
+     * are */
+    uint32_t column;
 } brace_can_fetch_row_request_t;
 uint32_t brace_can_pack_fetch_row_request(const brace_can_fetch_row_request_t *message, uint8_t data[8]);
 void brace_can_unpack_fetch_row_request(const uint8_t data[8], brace_can_fetch_row_request_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t row; /* as asked */
-    uint32_t column; /* as asked */
-    float value; /* the number */
+    /* the row, as asked */
+    uint32_t row;
+    /* the column, as asked */
+    uint32_t column;
+    /* the number asked for */
+    float value;
 } brace_can_fetch_row_answer_0_t;
 uint32_t brace_can_pack_fetch_row_answer_0(const brace_can_fetch_row_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_fetch_row_answer_0(const uint8_t data[8], brace_can_fetch_row_answer_0_t *message);
@@ -521,71 +859,232 @@ void brace_can_unpack_identify_request(const uint8_t data[8], brace_can_identify
 
 typedef struct {
     uint32_t token;
-    uint32_t major; /* firmware version */
-    uint32_t minor; /* firmware version */
-    uint32_t patch; /* firmware version */
-    uint32_t protocol; /* of these frames */
-    uint32_t node; /* number on the bus */
+    /* the first number of the firmware's version */
+    uint32_t major;
+    /* the second number of the firmware's version */
+    uint32_t minor;
+    /* the third number of the firmware's version */
+    uint32_t patch;
+    /* the version of these frames */
+    uint32_t protocol;
+    /* the node's number on the bus */
+    uint32_t node;
 } brace_can_identify_answer_0_t;
 uint32_t brace_can_pack_identify_answer_0(const brace_can_identify_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_identify_answer_0(const uint8_t data[8], brace_can_identify_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t dictionary_hash; /* of everything that matters on the wire */
+    /* a checksum over names, places, types and units of everything on the wire; two ends whose hashes differ
+     * cannot understand each other */
+    uint32_t dictionary_hash;
 } brace_can_identify_answer_1_t;
 uint32_t brace_can_pack_identify_answer_1(const brace_can_identify_answer_1_t *message, uint8_t data[8]);
 void brace_can_unpack_identify_answer_1(const uint8_t data[8], brace_can_identify_answer_1_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t schema_hash; /* of the parameter block's list */
+    /* a checksum over the parameter block's list of members */
+    uint32_t schema_hash;
 } brace_can_identify_answer_2_t;
 uint32_t brace_can_pack_identify_answer_2(const brace_can_identify_answer_2_t *message, uint8_t data[8]);
 void brace_can_unpack_identify_answer_2(const uint8_t data[8], brace_can_identify_answer_2_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t parameter_crc; /* of the set in force */
-    uint32_t origin; /* where it comes from */
+    /* the CRC of the parameter set in force */
+    uint32_t parameter_crc;
+    /* where that set comes from */
+    uint32_t origin;
 } brace_can_identify_answer_3_t;
 uint32_t brace_can_pack_identify_answer_3(const brace_can_identify_answer_3_t *message, uint8_t data[8]);
 void brace_can_unpack_identify_answer_3(const uint8_t data[8], brace_can_identify_answer_3_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t item; /* 0 loading_outcome, 1 loading_rows and so on, as the entries below go on */
+    /* the number: 0 loading_outcome, 1 loading_rows, and so on in the order of the entries below */
+    uint32_t item;
 } brace_can_loading_test_result_request_t;
-uint32_t brace_can_pack_loading_test_result_request(const brace_can_loading_test_result_request_t *message, uint8_t data[8]);
-void brace_can_unpack_loading_test_result_request(const uint8_t data[8], brace_can_loading_test_result_request_t *message);
+uint32_t brace_can_pack_loading_test_result_request(const brace_can_loading_test_result_request_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_loading_test_result_request(const uint8_t data[8],
+    brace_can_loading_test_result_request_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t item; /* as asked */
-    int32_t outcome; /* of the test: 0 none, 1 running, 2 done, 3 stopped; -1 force, -2 torque, -3 travel beyond its bound, -4 not done in time, -5 no force known, -6 a fault or a flank let go, -7 the motors do not follow */
-    float value; /* the number */
+    /* the number's place, as asked */
+    uint32_t item;
+    /* how the test went */
+    int32_t outcome;
+    /* the number asked for */
+    float value;
 } brace_can_loading_test_result_answer_0_t;
-uint32_t brace_can_pack_loading_test_result_answer_0(const brace_can_loading_test_result_answer_0_t *message, uint8_t data[8]);
-void brace_can_unpack_loading_test_result_answer_0(const uint8_t data[8], brace_can_loading_test_result_answer_0_t *message);
+uint32_t brace_can_pack_loading_test_result_answer_0(const brace_can_loading_test_result_answer_0_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_loading_test_result_answer_0(const uint8_t data[8],
+    brace_can_loading_test_result_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t faults; /* bits */
+    /* the bits of the faults to clear */
+    uint32_t faults;
 } brace_can_clear_request_t;
 uint32_t brace_can_pack_clear_request(const brace_can_clear_request_t *message, uint8_t data[8]);
 void brace_can_unpack_clear_request(const uint8_t data[8], brace_can_clear_request_t *message);
 
 typedef struct {
     uint32_t token;
-    uint32_t faults; /* that are there now */
+    /* the faults that are there now */
+    uint32_t faults;
 } brace_can_clear_answer_0_t;
 uint32_t brace_can_pack_clear_answer_0(const brace_can_clear_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_clear_answer_0(const uint8_t data[8], brace_can_clear_answer_0_t *message);
 
 typedef struct {
     uint32_t token;
-    int32_t status; /* why: docs/errors.md, statuses and refusals */
-    uint32_t detail; /* what more there is to say: an index, a mode, a hash */
+    /* the true angle of the coxa joint [rad, -3.2767 to 3.2767] */
+    float theta0_rad;
+    /* the true angle of the femur, measured from +x [rad, -3.2767 to 3.2767] */
+    float theta1_rad;
+    /* the true flexion of the knee [rad, -3.2767 to 3.2767] */
+    float theta2_rad;
+} brace_can_k_in_space_at_posture_request_t;
+uint32_t brace_can_pack_k_in_space_at_posture_request(const brace_can_k_in_space_at_posture_request_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_in_space_at_posture_request(const uint8_t data[8],
+    brace_can_k_in_space_at_posture_request_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the force along x per displacement along x [N/mm, -4194.3 to 4194.3] */
+    float k_xx_n_per_mm;
+    /* the force along x per displacement along y, and the reverse [N/mm, -4194.3 to 4194.3] */
+    float k_xy_n_per_mm;
+} brace_can_k_in_space_at_posture_answer_0_t;
+uint32_t brace_can_pack_k_in_space_at_posture_answer_0(const brace_can_k_in_space_at_posture_answer_0_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_in_space_at_posture_answer_0(const uint8_t data[8],
+    brace_can_k_in_space_at_posture_answer_0_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the force along x per displacement along z, and the reverse [N/mm, -4194.3 to 4194.3] */
+    float k_xz_n_per_mm;
+    /* the force along y per displacement along y [N/mm, -4194.3 to 4194.3] */
+    float k_yy_n_per_mm;
+} brace_can_k_in_space_at_posture_answer_1_t;
+uint32_t brace_can_pack_k_in_space_at_posture_answer_1(const brace_can_k_in_space_at_posture_answer_1_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_in_space_at_posture_answer_1(const uint8_t data[8],
+    brace_can_k_in_space_at_posture_answer_1_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the force along y per displacement along z, and the reverse [N/mm, -4194.3 to 4194.3] */
+    float k_yz_n_per_mm;
+    /* the force along z per displacement along z [N/mm, -4194.3 to 4194.3] */
+    float k_zz_n_per_mm;
+} brace_can_k_in_space_at_posture_answer_2_t;
+uint32_t brace_can_pack_k_in_space_at_posture_answer_2(const brace_can_k_in_space_at_posture_answer_2_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_in_space_at_posture_answer_2(const uint8_t data[8],
+    brace_can_k_in_space_at_posture_answer_2_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the smallest eigenvalue of K in space [N/mm, 0 to 8388.61] */
+    float lambda_1_n_per_mm;
+    /* the middle eigenvalue of K in space [N/mm, 0 to 8388.61] */
+    float lambda_2_n_per_mm;
+} brace_can_k_in_space_at_posture_answer_3_t;
+uint32_t brace_can_pack_k_in_space_at_posture_answer_3(const brace_can_k_in_space_at_posture_answer_3_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_in_space_at_posture_answer_3(const uint8_t data[8],
+    brace_can_k_in_space_at_posture_answer_3_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the largest eigenvalue of K in space [N/mm, 0 to 8388.61] */
+    float lambda_3_n_per_mm;
+    /* the quality of that K */
+    uint32_t flags;
+} brace_can_k_in_space_at_posture_answer_4_t;
+uint32_t brace_can_pack_k_in_space_at_posture_answer_4(const brace_can_k_in_space_at_posture_answer_4_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_in_space_at_posture_answer_4(const uint8_t data[8],
+    brace_can_k_in_space_at_posture_answer_4_t *message);
+
+typedef struct {
+    uint32_t token;
+} brace_can_drift_request_t;
+uint32_t brace_can_pack_drift_request(const brace_can_drift_request_t *message, uint8_t data[8]);
+void brace_can_unpack_drift_request(const uint8_t data[8], brace_can_drift_request_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* what the check is doing */
+    uint32_t state;
+    /* the likeliest cause of a change */
+    uint32_t cause;
+    /* every cause that is nearly as likely */
+    uint32_t could_be;
+    /* what to do next about a drift */
+    uint32_t next_step;
+    /* the log likelihood ratio of the likeliest cause against no change; the alarm is at 20 [, 0 to 16777.2] */
+    float evidence;
+} brace_can_drift_answer_0_t;
+uint32_t brace_can_pack_drift_answer_0(const brace_can_drift_answer_0_t *message, uint8_t data[8]);
+void brace_can_unpack_drift_answer_0(const uint8_t data[8], brace_can_drift_answer_0_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the share of its stiffness that the likeliest cause has lost; it is negative where that part has become
+     * stiffer [1, -83.8861 to 83.8861] */
+    float loss_ratio;
+    /* one sigma of that loss [1, 0 to 167.772] */
+    float loss_sigma_ratio;
+} brace_can_drift_answer_1_t;
+uint32_t brace_can_pack_drift_answer_1(const brace_can_drift_answer_1_t *message, uint8_t data[8]);
+void brace_can_unpack_drift_answer_1(const uint8_t data[8], brace_can_drift_answer_1_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* how many readings of loading tests came since the likeliest change began; 65535 means as many or more */
+    uint32_t since_readings;
+    /* how many readings of loading tests the check has taken in since it began to learn */
+    uint32_t readings;
+} brace_can_drift_answer_2_t;
+uint32_t brace_can_pack_drift_answer_2(const brace_can_drift_answer_2_t *message, uint8_t data[8]);
+void brace_can_unpack_drift_answer_2(const uint8_t data[8], brace_can_drift_answer_2_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the joint: 0 coxa, 1 femur, 2 tibia */
+    uint32_t joint;
+} brace_can_take_up_result_request_t;
+uint32_t brace_can_pack_take_up_result_request(const brace_can_take_up_result_request_t *message, uint8_t data[8]);
+void brace_can_unpack_take_up_result_request(const uint8_t data[8], brace_can_take_up_result_request_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the joint, as asked */
+    uint32_t joint;
+    /* how the last take-up went */
+    int32_t outcome;
+    /* where the take-up stands now */
+    uint32_t phase;
+    /* the motor's torque at the joint, as of now [N mm, -838861 to 838861] */
+    float torque_n_mm;
+} brace_can_take_up_result_answer_0_t;
+uint32_t brace_can_pack_take_up_result_answer_0(const brace_can_take_up_result_answer_0_t *message, uint8_t data[8]);
+void brace_can_unpack_take_up_result_answer_0(const uint8_t data[8], brace_can_take_up_result_answer_0_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* why: docs/errors.md, statuses and refusals */
+    int32_t status;
+    /* what more there is to say: an index, a mode, a hash */
+    uint32_t detail;
 } brace_can_refusal_t;
 uint32_t brace_can_pack_refusal(const brace_can_refusal_t *message, uint8_t data[8]);
 void brace_can_unpack_refusal(const uint8_t data[8], brace_can_refusal_t *message);

@@ -4,101 +4,265 @@
 
 #include <stdint.h>
 
-/* Entries of the dictionary by number: parameters from 0 on, these from here on. As Modbus input registers: two
- * each, high word first, from 0 on and from 0x1000 on. */
+/* Entries of the dictionary by number: parameters from 0 on, these from here on. */
 enum {
     BRACE_ENTRY_MEASURED = 0x1000,
     BRACE_ENTRY_ANSWERED = 0x1800
 };
 
-/* First Modbus register of the commands, two each. */
-enum { BRACE_REGISTER_COMMANDS = 0x4000 };
+/* The first Modbus register of each struct below: input registers of what is measured and answered,
+ * holding registers of the commands. Every value takes two, high word first, in the struct's order. */
+enum {
+    BRACE_REGISTER_MEASURED = 0x0000,
+    BRACE_REGISTER_ANSWERED = 0x1000,
+    BRACE_REGISTER_COMMANDS = 0x4000
+};
 
 /* All of one tick. A float that is not known is NaN, a u32 all ones. */
 typedef struct {
-    float probe_f32; /* 12345.5 always: does the reader take the words in the right order? */
-    uint32_t probe_u32; /* 16909060 (0x01020304) always */
-    uint32_t dictionary_hash; /* of everything that matters on the wire */
-    uint32_t firmware_version; /* major * 65536 + minor * 256 + patch */
-    uint32_t sequence; /* of the snapshot; wraps */
-    uint32_t age_us; /* of the samples when this was read */
-    uint32_t mode; /* what the controller is doing */
-    uint32_t faults; /* faults that are there now */
-    uint32_t k_is_valid; /* 1: K may be used, with its flags */
-    uint32_t flags; /* quality of K */
-    float k_xx_n_per_mm; /* force along x per displacement along x */
-    float k_xz_n_per_mm; /* force along x per displacement along z, and the reverse */
-    float k_zz_n_per_mm; /* force along z per displacement along z */
-    float lambda_min_n_per_mm; /* smaller eigenvalue of K */
-    float lambda_max_n_per_mm; /* larger eigenvalue of K */
-    float stiff_axis_rad; /* direction of lambda_max from +x */
-    float engaged_k_xx_n_per_mm; /* k_xx once every gap has closed */
-    float engaged_k_xz_n_per_mm; /* k_xz once every gap has closed */
-    float engaged_k_zz_n_per_mm; /* k_zz once every gap has closed */
-    float engaged_lambda_min_n_per_mm; /* lambda_min once every gap has closed */
-    float engaged_lambda_max_n_per_mm; /* lambda_max once every gap has closed */
-    float theta1_rad; /* true angle of the femur from +x */
-    float theta2_rad; /* true flexion of the knee */
-    float tip_x_mm; /* tip outwards from the femur axis */
-    float tip_z_mm; /* tip above the femur axis */
-    float force_x_n; /* of the ground on the tip, along x */
-    float force_z_n; /* of the ground on the tip, along z */
-    uint32_t force_is_sensed; /* 1: by the tip's sensor; 0: from the joints' loads */
-    float play_shift_x_mm; /* of the tip by the joints' play, along x */
-    float play_shift_z_mm; /* of the tip by the joints' play, along z */
-    uint32_t play_femur; /* which flank of the femur joint's play carries */
-    float play_femur_offset_rad; /* true angle less motor angle at the femur joint, by its play */
-    float load_femur_n_mm; /* that the femur joint's gap transmits */
-    float motor_femur_rad; /* motor angle of theta1 */
-    float torque_femur_n_mm; /* motor torque of theta1 */
-    uint32_t play_tibia; /* which flank of the tibia joint's play carries */
-    float play_tibia_offset_rad; /* true angle less motor angle at the tibia joint, by its play */
-    float load_tibia_n_mm; /* that the tibia joint's gap transmits */
-    float motor_tibia_rad; /* motor angle of theta2 */
-    float torque_tibia_n_mm; /* motor torque of theta2 */
-    float temperature_degc; /* of the joints, the warmer one */
-    uint32_t parameter_crc; /* of the parameters in force */
-    uint32_t parameter_origin; /* where they come from */
-    uint32_t parameter_sequence; /* of the parameter set in force */
-    uint32_t loading_outcome; /* of the last loading test: 0 none, 1 running, 2 done, 3 stopped; else why it ended, 256 less 1 force, 2 torque, 3 travel beyond its bound, 4 not done in time, 5 no force known, 6 a fault or a flank let go, 7 the motors do not follow */
-    uint32_t loading_rows; /* recorded and not fetched away */
-    float loading_k_x_n_per_mm; /* force along x per displacement along the test's axis, least squares */
-    float loading_k_z_n_per_mm; /* force along z per displacement along the test's axis, least squares */
-    float loading_ratio_k_x_n_per_mm; /* the same by the paper's mean of ratios, along x */
-    float loading_ratio_k_z_n_per_mm; /* the same by the paper's mean of ratios, along z */
-    float loading_score_x; /* measured less the model's, in sigmas of both, along x */
-    float loading_score_z; /* measured less the model's, in sigmas of both, along z */
-    uint32_t ticks_late; /* counted since start */
-    uint32_t samples_bad; /* counted since start */
-    uint32_t frames_refused; /* CAN: counted since start */
-    uint32_t frames_unknown; /* CAN: counted since start */
-    uint32_t modbus_broken; /* frames with a wrong CRC or length: counted since start */
-    uint32_t modbus_refused; /* answered with an exception: counted since start */
+    /* always 12345.5: a reader that gets another number swaps words or bytes */
+    float probe_f32;
+    /* always 16909060 (0x01020304): a reader that gets another number swaps words or bytes */
+    uint32_t probe_u32;
+    /* a checksum over names, places, types and units of everything on the wire; two ends whose hashes differ
+     * cannot understand each other */
+    uint32_t dictionary_hash;
+    /* the version of the firmware: major * 65536 + minor * 256 + patch */
+    uint32_t firmware_version;
+    /* the number of the snapshot; it counts up in every tick and wraps at 2^32 */
+    uint32_t sequence;
+    /* the age of the joints' samples when this was read */
+    uint32_t age_us;
+    /* what the controller is doing */
+    uint32_t mode;
+    /* the faults that are there now */
+    uint32_t faults;
+    /* 1 where K may be used with its flags, else 0 */
+    uint32_t k_is_valid;
+    /* the quality of K */
+    uint32_t flags;
+    /* the force along x per displacement along x */
+    float k_xx_n_per_mm;
+    /* the force along x per displacement along z, and the reverse */
+    float k_xz_n_per_mm;
+    /* the force along z per displacement along z */
+    float k_zz_n_per_mm;
+    /* the smaller eigenvalue of K */
+    float lambda_min_n_per_mm;
+    /* the larger eigenvalue of K */
+    float lambda_max_n_per_mm;
+    /* the direction of lambda_max, measured from +x */
+    float stiff_axis_rad;
+    /* k_xx once every gap has closed */
+    float engaged_k_xx_n_per_mm;
+    /* k_xz once every gap has closed */
+    float engaged_k_xz_n_per_mm;
+    /* k_zz once every gap has closed */
+    float engaged_k_zz_n_per_mm;
+    /* lambda_min once every gap has closed */
+    float engaged_lambda_min_n_per_mm;
+    /* lambda_max once every gap has closed */
+    float engaged_lambda_max_n_per_mm;
+    /* the true angle of the femur, measured from +x */
+    float theta1_rad;
+    /* the true flexion of the knee */
+    float theta2_rad;
+    /* how far the tip lies outwards from the femur axis */
+    float tip_x_mm;
+    /* how far the tip lies above the femur axis */
+    float tip_z_mm;
+    /* the force of the ground on the tip along x */
+    float force_x_n;
+    /* the force of the ground on the tip along z */
+    float force_z_n;
+    /* 1 where the tip's sensor measures the force, 0 where the controller works it out from the joints' loads */
+    uint32_t force_is_sensed;
+    /* how far the joints' play shifts the tip along x */
+    float play_shift_x_mm;
+    /* how far the joints' play shifts the tip along z */
+    float play_shift_z_mm;
+    /* which flank of the femur joint's play carries */
+    uint32_t play_femur;
+    /* the true angle less the motor angle at the femur joint, as far as its play makes it */
+    float play_femur_offset_rad;
+    /* the load that the femur joint's gap transmits */
+    float load_femur_n_mm;
+    /* the motor angle of theta1 */
+    float motor_femur_rad;
+    /* the motor torque of theta1 */
+    float torque_femur_n_mm;
+    /* which flank of the tibia joint's play carries */
+    uint32_t play_tibia;
+    /* the true angle less the motor angle at the tibia joint, as far as its play makes it */
+    float play_tibia_offset_rad;
+    /* the load that the tibia joint's gap transmits */
+    float load_tibia_n_mm;
+    /* the motor angle of theta2 */
+    float motor_tibia_rad;
+    /* the motor torque of theta2 */
+    float torque_tibia_n_mm;
+    /* the temperature of the warmer joint */
+    float temperature_degc;
+    /* the CRC of the parameters in force */
+    uint32_t parameter_crc;
+    /* where the parameters in force come from */
+    uint32_t parameter_origin;
+    /* the sequence number of the parameter set in force */
+    uint32_t parameter_sequence;
+    /* how the last loading test went; a negative number is told as 256 plus it */
+    uint32_t loading_outcome;
+    /* how many rows of the last loading test the recorder holds */
+    uint32_t loading_rows;
+    /* the force along x per displacement along the test's axis, by least squares */
+    float loading_k_x_n_per_mm;
+    /* the force along z per displacement along the test's axis, by least squares */
+    float loading_k_z_n_per_mm;
+    /* the force along x per displacement along the test's axis, by the paper's mean of ratios */
+    float loading_ratio_k_x_n_per_mm;
+    /* the force along z per displacement along the test's axis, by the paper's mean of ratios */
+    float loading_ratio_k_z_n_per_mm;
+    /* loading_k_x less the model's, in sigmas of both together */
+    float loading_score_x;
+    /* loading_k_z less the model's, in sigmas of both together */
+    float loading_score_z;
+    /* how many ticks that came more than two periods late, counted since start */
+    uint32_t ticks_late;
+    /* how many samples that were refused, not finite or out of range, counted since start */
+    uint32_t samples_bad;
+    /* how many CAN frames that the bus did not take, counted since start */
+    uint32_t frames_refused;
+    /* how many CAN frames that came and are of no known kind or form, counted since start */
+    uint32_t frames_unknown;
+    /* how many Modbus frames that came with a wrong CRC or length, counted since start */
+    uint32_t modbus_broken;
+    /* how many Modbus requests that were answered with an exception, counted since start */
+    uint32_t modbus_refused;
+    /* 1 where the coxa joint is fitted and the values that begin with space_ may be used with space_flags, else 0 */
+    uint32_t k_is_in_space;
+    /* the true angle of the coxa joint; it is 0 where the limb's plane is the x-z plane of the robot's base */
+    float theta0_rad;
+    /* K in space: the force along x per displacement along x, in the robot's base frame */
+    float space_k_xx_n_per_mm;
+    /* K in space: the force along x per displacement along y, and the reverse, in the robot's base frame */
+    float space_k_xy_n_per_mm;
+    /* K in space: the force along x per displacement along z, and the reverse, in the robot's base frame */
+    float space_k_xz_n_per_mm;
+    /* K in space: the force along y per displacement along y, in the robot's base frame */
+    float space_k_yy_n_per_mm;
+    /* K in space: the force along y per displacement along z, and the reverse, in the robot's base frame */
+    float space_k_yz_n_per_mm;
+    /* K in space: the force along z per displacement along z, in the robot's base frame */
+    float space_k_zz_n_per_mm;
+    /* the smallest eigenvalue of K in space */
+    float space_lambda_1_n_per_mm;
+    /* the middle eigenvalue of K in space */
+    float space_lambda_2_n_per_mm;
+    /* the largest eigenvalue of K in space */
+    float space_lambda_3_n_per_mm;
+    /* the x component of the unit vector along which K in space is largest */
+    float space_stiff_axis_x;
+    /* the y component of the unit vector along which K in space is largest */
+    float space_stiff_axis_y;
+    /* the z component of the unit vector along which K in space is largest */
+    float space_stiff_axis_z;
+    /* the quality of K in space */
+    uint32_t space_flags;
+    /* the force across the limb's plane per displacement across it */
+    float k_across_n_per_mm;
+    /* which flank of the coxa joint's play carries */
+    uint32_t play_coxa;
+    /* the true angle less the motor angle at the coxa joint, as far as its play makes it */
+    float play_coxa_offset_rad;
+    /* the load that the coxa joint's gap transmits */
+    float load_coxa_n_mm;
+    /* the motor angle of theta0 */
+    float motor_coxa_rad;
+    /* the motor torque of theta0 */
+    float torque_coxa_n_mm;
+    /* space_k_xx once every gap has closed */
+    float engaged_space_k_xx_n_per_mm;
+    /* space_k_xy once every gap has closed */
+    float engaged_space_k_xy_n_per_mm;
+    /* space_k_xz once every gap has closed */
+    float engaged_space_k_xz_n_per_mm;
+    /* space_k_yy once every gap has closed */
+    float engaged_space_k_yy_n_per_mm;
+    /* space_k_yz once every gap has closed */
+    float engaged_space_k_yz_n_per_mm;
+    /* space_k_zz once every gap has closed */
+    float engaged_space_k_zz_n_per_mm;
+    /* space_lambda_1 once every gap has closed */
+    float engaged_space_lambda_1_n_per_mm;
+    /* space_lambda_2 once every gap has closed */
+    float engaged_space_lambda_2_n_per_mm;
+    /* space_lambda_3 once every gap has closed */
+    float engaged_space_lambda_3_n_per_mm;
+    /* what the check of model against measurement is doing */
+    uint32_t drift_state;
+    /* the likeliest cause of a change of the limb */
+    uint32_t drift_cause;
+    /* every cause that is nearly as likely as the likeliest */
+    uint32_t drift_could_be;
+    /* the log likelihood ratio of the likeliest cause against no change; the alarm is at 20 */
+    float drift_evidence;
+    /* the share of its stiffness that the likeliest cause has lost; it is negative where that part has become
+     * stiffer */
+    float drift_loss_ratio;
+    /* one sigma of drift_loss_ratio */
+    float drift_loss_sigma_ratio;
+    /* how many readings of loading tests came since the likeliest change began; 65535 means as many or more */
+    uint32_t drift_since_readings;
+    /* how many readings of loading tests the check has taken in since it began to learn */
+    uint32_t drift_readings;
+    /* what to do next about a drift */
+    uint32_t drift_next_step;
+    /* how the last take-up of the coxa joint went; a negative number is told as 256 plus it */
+    uint32_t take_up_coxa;
+    /* how the last take-up of the femur joint went; a negative number is told as 256 plus it */
+    uint32_t take_up_femur;
+    /* how the last take-up of the tibia joint went; a negative number is told as 256 plus it */
+    uint32_t take_up_tibia;
 } brace_measured_t;
 
-enum { BRACE_MEASURED_COUNT = 58 };
+enum { BRACE_MEASURED_COUNT = 100 };
 #ifndef __cplusplus
 _Static_assert(sizeof(brace_measured_t) == 4 * BRACE_MEASURED_COUNT, "32 bits each");
 #endif
 
 /* K at the posture asked for over Modbus. */
 typedef struct {
-    float asked_k_xx_n_per_mm; /* k_xx at the posture or tip asked for */
-    float asked_k_xz_n_per_mm; /* k_xz at the posture or tip asked for */
-    float asked_k_zz_n_per_mm; /* k_zz at the posture or tip asked for */
-    float asked_lambda_min_n_per_mm; /* lambda_min at the posture or tip asked for */
-    float asked_lambda_max_n_per_mm; /* lambda_max at the posture or tip asked for */
-    float asked_stiff_axis_rad; /* stiff axis at the posture or tip asked for */
-    uint32_t asked_flags; /* quality of that K */
-    float asked_force_x_n; /* force of the ground on the tip for the displacement asked for, outwards */
-    float asked_force_z_n; /* the same, upwards */
-    float asked_force_low_n; /* what any displacement of that size gives at least */
-    float asked_force_high_n; /* what any displacement of that size gives at most */
-    float asked_sag_x_mm; /* how far the tip yields to the load asked for, outwards */
-    float asked_sag_z_mm; /* the same, upwards */
-    float asked_margin_n; /* what may be added along the surface asked for before the foot slides */
-    float asked_angle_left_rad; /* from the force of now to the edge of the friction cone */
-    uint32_t asked_contact; /* what the foot does there */
+    /* the k_xx at the posture or tip asked for */
+    float asked_k_xx_n_per_mm;
+    /* the k_xz at the posture or tip asked for */
+    float asked_k_xz_n_per_mm;
+    /* the k_zz at the posture or tip asked for */
+    float asked_k_zz_n_per_mm;
+    /* the lambda_min at the posture or tip asked for */
+    float asked_lambda_min_n_per_mm;
+    /* the lambda_max at the posture or tip asked for */
+    float asked_lambda_max_n_per_mm;
+    /* the stiff axis at the posture or tip asked for */
+    float asked_stiff_axis_rad;
+    /* the quality of that K */
+    uint32_t asked_flags;
+    /* the force of the ground on the tip along x for the displacement asked for */
+    float asked_force_x_n;
+    /* the force of the ground on the tip along z for the displacement asked for */
+    float asked_force_z_n;
+    /* the least force that any displacement of that size gives */
+    float asked_force_low_n;
+    /* the greatest force that any displacement of that size gives */
+    float asked_force_high_n;
+    /* how far the tip yields along x to the load asked for */
+    float asked_sag_x_mm;
+    /* how far the tip yields along z to the load asked for */
+    float asked_sag_z_mm;
+    /* the force that may be added along the surface asked for before the foot slides */
+    float asked_margin_n;
+    /* the angle from the force of now to the edge of the friction cone */
+    float asked_angle_left_rad;
+    /* what the foot does on that surface */
+    uint32_t asked_contact;
 } brace_answered_t;
 
 enum { BRACE_ANSWERED_COUNT = 16 };
@@ -108,23 +272,43 @@ _Static_assert(sizeof(brace_answered_t) == 4 * BRACE_ANSWERED_COUNT, "32 bits ea
 
 /* What was last written to the command registers. */
 typedef struct {
-    uint32_t set_mode; /* 0xc0de0002: CONFIGURATION; 0xc0de0001: back to MONITOR, as by itself after 10 s in which nothing was written or stored */
-    uint32_t commit; /* 0xc0de0001: stores the holding registers' parameters, reads back, puts them in force; CONFIGURATION only */
-    uint32_t rollback; /* 0xc0de0001: puts the set before back in force; CONFIGURATION only */
-    uint32_t clear_faults; /* bits of faults to clear */
-    uint32_t take_up; /* joint (1 femur, 2 tibia) + 256 for the positive flank, + 512 for the negative */
-    uint32_t let_go; /* any value: lets every joint go, ends a loading test */
-    float asked_theta1_rad; /* a posture to know K at; write both in one request */
-    float asked_theta2_rad; /* a posture to know K at; write both in one request */
-    float asked_tip_x_mm; /* a place of the tip to know K at, outwards from the hip; write tip_x, tip_z and knee in one request */
-    float asked_tip_z_mm; /* the same, upwards */
-    uint32_t asked_knee; /* 0: knee up, 1: knee down */
-    float asked_dx_mm; /* a displacement of the tip to know the contact force of; write both in one request */
-    float asked_dz_mm; /* the same, upwards */
-    float asked_load_x_n; /* a load on the tip to know the sag of; write both in one request */
-    float asked_load_z_n; /* the same, upwards */
-    float asked_normal_rad; /* direction of the surface's normal, to know how far the foot is from sliding; write both in one request */
-    float asked_friction; /* friction coefficient of that surface */
+    /* the mode that is asked for: 0xc0de0002 asks for CONFIGURATION, 0xc0de0001 for MONITOR; CONFIGURATION ends by
+     * itself after 10 s in which nothing was written or stored */
+    uint32_t set_mode;
+    /* the order to store the holding registers' parameters, read them back and put them in force: write
+     * 0xc0de0001, in CONFIGURATION only */
+    uint32_t commit;
+    /* the order to put the parameter set before this one back in force: write 0xc0de0001, in CONFIGURATION only */
+    uint32_t rollback;
+    /* the bits of the faults to clear */
+    uint32_t clear_faults;
+    /* the joint whose play is to be taken up (0 coxa, 1 femur, 2 tibia), plus 256 for the positive flank or 512
+     * for the negative one */
+    uint32_t take_up;
+    /* the order to let every joint go and to end a loading test: write any value */
+    uint32_t let_go;
+    /* an angle of the posture to know K at; write both in one request */
+    float asked_theta1_rad;
+    /* an angle of the posture to know K at; write both in one request */
+    float asked_theta2_rad;
+    /* how far outwards from the hip the tip is to know K at; write tip_x, tip_z and knee in one request */
+    float asked_tip_x_mm;
+    /* how far above the hip that place of the tip is */
+    float asked_tip_z_mm;
+    /* how the knee stands at that place of the tip: 0 up, 1 down */
+    uint32_t asked_knee;
+    /* the displacement of the tip along x to know the contact force of; write both in one request */
+    float asked_dx_mm;
+    /* the displacement of the tip along z to know the contact force of */
+    float asked_dz_mm;
+    /* the load on the tip along x to know the sag of; write both in one request */
+    float asked_load_x_n;
+    /* the load on the tip along z to know the sag of */
+    float asked_load_z_n;
+    /* the direction of the surface's normal, to know how far the foot is from sliding; write both in one request */
+    float asked_normal_rad;
+    /* the friction coefficient of that surface */
+    float asked_friction;
 } brace_commands_t;
 
 enum { BRACE_COMMANDS_COUNT = 17 };
@@ -132,21 +316,14 @@ enum { BRACE_COMMANDS_COUNT = 17 };
 _Static_assert(sizeof(brace_commands_t) == 4 * BRACE_COMMANDS_COUNT, "32 bits each");
 #endif
 
-/* What numbers are called, and bits, from 0: to initialise arrays of const char * with. */
-#define BRACE_MODE_NAMES \
-    { "START", "MONITOR", "CONFIGURATION", "TAKING_UP", "LOADING_TEST", "FAULT" }
-#define BRACE_FAULTS_NAMES \
-    { "SENSOR_FEMUR", "SENSOR_TIBIA", "ENCODER_STUCK", "TICK_LATE", "PARAMETERS", "STORE", "CAN_BUS_OFF", \
-      "MODEL_DRIFT", "CRASHED" }
-#define BRACE_FLAGS_NAMES \
-    { "UNCALIBRATED", "NEAR_SINGULAR", "SATURATED", "GAP_OPEN", "STALE", "OUT_OF_RANGE" }
-#define BRACE_PLAY_FEMUR_NAMES \
-    { "UNKNOWN", "TAKING_UP", "ENGAGED_POSITIVE", "ENGAGED_NEGATIVE", "CROSSING", "FAULT" }
-#define BRACE_PLAY_TIBIA_NAMES \
-    { "UNKNOWN", "TAKING_UP", "ENGAGED_POSITIVE", "ENGAGED_NEGATIVE", "CROSSING", "FAULT" }
-#define BRACE_PARAMETER_ORIGIN_NAMES \
-    { "DEFAULT", "SLOT_A", "SLOT_B" }
-#define BRACE_ASKED_CONTACT_NAMES \
-    { "HOLDS", "SLIDES", "LIFTS" }
+/* X(member): every command that does something when it is written alone, for a controller's table. The
+ * others (asked_...) are values of questions. */
+#define BRACE_COMMANDS(X) \
+    X(set_mode) \
+    X(commit) \
+    X(rollback) \
+    X(clear_faults) \
+    X(take_up) \
+    X(let_go)
 
 #endif

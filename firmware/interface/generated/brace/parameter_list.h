@@ -118,4 +118,8 @@ enum {
     BRACE_PARAMETER_COUNT = 108
 };
 
+/* Numbers that parameters have on the wire, from 0 on: half a Modbus register, and what CAN calls them by.
+ * brace_parameter_index (brace/parameters.h) finds a number's member. */
+enum { BRACE_PARAMETER_NUMBERS = 108 };
+
 #endif

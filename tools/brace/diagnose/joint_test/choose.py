@@ -1,7 +1,8 @@
-"""Which terms the record asks for. All sets of effects are grown from the best of the next smaller ones, so
-that two effects that only make sense together are found together; then shapes that no effect has may join;
-then every term must stand up to three judges: independent readings, stretches drawn anew, and what was held
-out."""
+"""This step decides which terms a joint test asks for.
+
+It grows sets of effects, each from the best sets that are one smaller, so it finds two effects that make sense only
+together. Then shapes that no effect has may join. At last every term must stand up to three judges: independent
+readings, stretches drawn anew, and the readings that were held out."""
 
 from __future__ import annotations
 
@@ -18,13 +19,11 @@ from brace.diagnose.joint_test.terms import Term
 BEAM = 4  # sets of one size that are grown on
 LEAST_GAIN = 4.0  # twice the log of the odds, ln(n) for every parameter paid
 LEAST_AGREEMENT = 0.9
-LEAST_SHRINK = 0.002  # of the rms: less is of no use to anybody
+LEAST_SHRINK = 0.002  # of the rms; nobody can use less
 MOST_SHAPES = 2
-SECOND_SHRINK = 0.03  # of the rms: what joins on a second look must do more than mend another term's shape
-SHAPES_SHRINK = 0.02  # what is only described may leave more unsaid
+SECOND_SHRINK = 0.03  # of the rms; a term that joins on a second look must do more than mend another's shape
+SHAPES_SHRINK = 0.02  # a shape is only described, so it must explain more
 MOST_STIFFENING = 5.0  # of a spring within one record; gears and belts stiffen by two or three
-
-_NEVER_AT_ITS_BOUND = ("creep.ratio", "time_constant_s", "coulomb_per_load_ratio", "gap_rad")
 
 Trying = Callable[[str], None]
 Shapes = Callable[[Fitted], list[Term]]
@@ -61,7 +60,7 @@ def choose(
             if shape.name not in have:
                 trying(shape.label)
                 joined.append(fitter.fit((*best.terms, shape), best, shape))
-                for term in best.terms:  # or in an effect's stead
+                for term in best.terms:  # the shape may also take an effect's place
                     rest = tuple(other for other in best.terms if other is not term)
                     joined.append(fitter.fit((*rest, shape), best if rest else base, shape))
         sound = [one for one in joined if not strained(fitter, one) and _needed(fitter, best, one, random)]
@@ -83,9 +82,9 @@ def _joined_by_rows(
     random: np.random.Generator,
     trying: Trying,
 ) -> Fitted:
-    """Readings by the way they stand for tell best where the joint slips; counted alike, they tell best what
-    it does under high load, where it stays longest. An effect that all judges ask for there joins too, beside
-    what was found."""
+    """Weighted readings tell best what the joint does where it slips. Readings that count alike tell best what it does
+    under high load, where it stays longest. An effect that all judges ask for among readings that count alike joins
+    too."""
     by_rows = fitter.by_rows()
     while best.terms:
         current = by_rows.fit(best.terms, best)
@@ -130,14 +129,15 @@ def _grown(fitter: Fitter, base: Fitted, effects: Sequence[Term], trying: Trying
 
 
 def strained(fitter: Fitter, fitted: Fitted) -> bool:
-    """An effect that only helps with a value that it cannot have stands for something else: creep as slow as
-    the whole record, friction that grows as fast as the load, a spring so soft in the middle that it is a
-    dead zone in disguise."""
+    """Whether an effect helps only with a value that no joint has, and so stands for something else: creep as slow as
+    the whole record, friction that grows as fast as the load, a spring so soft in the middle that it is a dead zone in
+    disguise."""
     values = fitted.values
-    for parameter in (parameter for term in fitted.terms for parameter in term.parameters):
-        inside = parameter.low + 0.98 * (parameter.high - parameter.low)
-        if parameter.key.endswith(_NEVER_AT_ITS_BOUND) and values[parameter.key] >= inside:
-            return True
+    for term in fitted.terms:
+        for parameter in term.parameters:
+            inside = parameter.low + 0.98 * (parameter.high - parameter.low)
+            if term.ends_strained(parameter) and values[parameter.key] >= inside:
+                return True
     return _stiffening(fitter, fitted) > MOST_STIFFENING
 
 
@@ -145,7 +145,7 @@ def _stiffening(fitter: Fitter, fitted: Fitted) -> float:
     """How many times stiffer the spring is at the ends of the record than in its middle."""
     at = f"joint.{fitter.record.joint}."
     number = fitted.model.number
-    reach_rad = 0.5 * (fitter.record.extent.angle_rad - number(at + "gap_rad"))
+    reach_rad = 0.5 * (fitter.record.size.angle_rad - number(at + "gap_rad"))
     spring, cubic = number(at + "compliance_rad_per_n_mm"), number(at + "hardening_n_mm_per_rad3")
     return 1.0 + 3.0 * cubic * spring * reach_rad**2 if cubic > 0.0 else 1.0
 
@@ -155,20 +155,20 @@ def _paid(fitted: Fitted, count: float) -> float:
 
 
 def without(fitter: Fitter, fitted: Fitted, term: Term) -> Fitted:
-    """The best fit of the other terms."""
+    """The best fit of the other terms that has sound values."""
     rest = tuple(other for other in fitted.terms if other is not term)
     names, larger = frozenset(term.name for term in rest), frozenset(term.name for term in fitted.terms)
-    if names not in fitter.known:  # from below: what the missing term held up may settle elsewhere
+    if names not in fitter.known:  # grow it term by term: without the missing one the others may settle elsewhere
         grown = fitter.fit(())
         for other in rest:
             grown = fitter.fit((*grown.terms, other), grown, other)
-    if (names, larger) not in fitter.left:  # and from above
+    if (names, larger) not in fitter.left:  # and shrink it from the larger set
         fitter.left.add((names, larger))
         fitter.fit(rest, fitted)
     poorer = fitter.known[names]
     if not strained(fitter, poorer):
         return poorer
-    # what only fits by a value that it cannot have is no rival: the sound ones of what else is left
+    # a fit that needs a value that no joint has is no rival; sound fits of fewer terms are
     rivals = [without(fitter, poorer, other) for other in poorer.terms]
     return min(rivals, key=lambda one: one.rss)
 
@@ -186,7 +186,7 @@ def _needed(fitter: Fitter, poorer: Fitted, richer: Fitted, random: np.random.Ge
 
 
 def _kept(fitter: Fitter, best: Fitted, random: np.random.Generator) -> Fitted:
-    """Terms that are not needed beside the others are taken out, the least needed first."""
+    """Takes out the terms that the others make needless, the least needed first."""
     while best.terms:
         poorer = sorted((without(fitter, best, term) for term in best.terms), key=lambda one: one.rss)
         for one in poorer:

@@ -1,8 +1,6 @@
-"""Is a fitted gap a gap? Only where the record shows both flanks and, between them, hardly any rise of
-torque.
+"""Is a fitted gap a gap? It is one only where the record shows both flanks and hardly any rise of torque between them.
 
-A soft spring with a large gap and hardening fits many loops well. Such a gap is a shape, not a play.
-"""
+A soft spring with a large gap and hardening fits many loops well. Such a gap is a shape, not a play."""
 
 from __future__ import annotations
 
@@ -24,7 +22,7 @@ def refusal(record: JointRecord, fitted: Fitted) -> str:
     gap_rad = fitted.model.number(at + "gap_rad")
     deflection = record.columns["angle_rad"] + fitted.nuisances[ANGLE_ZERO]
     used = record.fitted
-    if gap_rad > LARGEST * record.extent.angle_rad * (1.0 - 1e-3):
+    if gap_rad > LARGEST * record.size.angle_rad * (1.0 - 1e-3):
         return "it would take half of the angles that were visited or more"
     inside = used & (np.abs(deflection) < 0.5 * gap_rad)
     above, below = deflection[used].max() - 0.5 * gap_rad, -deflection[used].min() - 0.5 * gap_rad

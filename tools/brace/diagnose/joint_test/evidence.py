@@ -1,8 +1,7 @@
 """How much a record says: independent readings, gains that agree between its parts, intervals of parameters.
 
-Residuals of a real joint hang together for many readings. Counting each as independent would make any shape
-significant; so gains use the number of independent readings, and what is drawn anew are whole stretches.
-"""
+Residuals of a real joint hang together for many readings. If each counted as independent, any shape would be
+significant. So a gain counts independent readings only, and a record drawn anew is made of whole stretches."""
 
 from __future__ import annotations
 
@@ -36,7 +35,7 @@ def independent(record: JointRecord, off_n_mm: np.ndarray) -> float:
 def gain(record: JointRecord, poorer: Fitted, richer: Fitted, count: float) -> float:
     """Twice the log-likelihood that the richer fit gains over `count` independent readings."""
     floor = record.noise_n_mm**2 * np.count_nonzero(record.fitted)
-    small = max(richer.rss, 1e-6 * floor, 1e-12 * record.extent.torque_n_mm**2)
+    small = max(richer.rss, 1e-6 * floor, 1e-12 * record.size.torque_n_mm**2)
     return count * float(np.log(max(poorer.rss, small) / small))
 
 

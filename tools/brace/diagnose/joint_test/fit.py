@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -56,26 +57,26 @@ class Fitter:
         )  # sets that were reached from larger ones
 
     def by_rows(self) -> Fitter:
-        """The same, every reading counted alike: least squares of what is read."""
+        """The same fitter, in which every reading counts alike."""
         other = Fitter(self.record, self.base, self.trust)
         other.root_weight = np.ones_like(self.root_weight)
         return other
 
     def own(self) -> tuple[Parameter, ...]:
         """The spring and the record's zeros, free in every fit."""
-        extent, centre = self.record.extent, -self.record._centre_rad
+        size, centre = self.record.size, -self.record._centre_rad
         key = f"joint.{self.record.joint}.compliance_rad_per_n_mm"
-        start = self.base.number(key) or extent.angle_rad / extent.torque_n_mm
-        scale = extent.angle_rad / extent.torque_n_mm if np.isinf(self.trust) else self.trust * start
-        least, most = 1e-3 * extent.angle_rad / extent.torque_n_mm, 1.0
+        start = self.base.number(key) or size.angle_rad / size.torque_n_mm
+        scale = size.angle_rad / size.torque_n_mm if np.isinf(self.trust) else self.trust * start
+        least, most = 1e-3 * size.angle_rad / size.torque_n_mm, 1.0
         if np.isfinite(self.trust):  # inside the calibration's trust a deviation is no missing effect
             least, most = (1.0 - 2.0 * self.trust) * start, (1.0 + 2.0 * self.trust) * start
         spring = Parameter(key, float(np.clip(start, least, most)), scale, least, most)
-        half = 0.5 * extent.angle_rad
+        half = 0.5 * size.angle_rad
         return (
             *([spring] if self.trust > 0.0 else []),
-            Parameter(ANGLE_ZERO, centre, 0.1 * extent.angle_rad, centre - half, centre + half),
-            Parameter(TORQUE_OFFSET, 0.0, 0.02 * extent.torque_n_mm, -extent.torque_n_mm, extent.torque_n_mm),
+            Parameter(ANGLE_ZERO, centre, 0.1 * size.angle_rad, centre - half, centre + half),
+            Parameter(TORQUE_OFFSET, 0.0, 0.02 * size.torque_n_mm, -size.torque_n_mm, size.torque_n_mm),
         )
 
     def parameter_set(self, terms: tuple[Term, ...]) -> ParameterSet:
@@ -91,8 +92,8 @@ class Fitter:
         for start in added.starts if added is not None else ({},):
             values = {parameter.key: parameter.start for parameter in chosen.parameters} | known | dict(start)
             points.append(np.array([values[key] for key in chosen.keys]))
-            if added is not None and added.name in ("backlash", "joint_hardening"):
-                points.append(self._reshaped(chosen, points[-1], added))
+            if added is not None:
+                points += self._reshaped(chosen, values, points[-1], added)
         best = min((self._from(chosen, point) for point in points), key=lambda pair: pair[1])
         off = self._off(chosen, best[0])
         record = self.record
@@ -103,29 +104,28 @@ class Fitter:
             self.known[names] = found
         return found
 
-    def _reshaped(self, chosen: ParameterSet, point: np.ndarray, added: Term) -> np.ndarray:
-        """A gap leaves less way to the spring, hardening takes torque from it: the same torque at the
-        ends."""
+    def _reshaped(
+        self, chosen: ParameterSet, values: Mapping[str, float], point: np.ndarray, added: Term
+    ) -> list[np.ndarray]:
+        """Gives the start once more with another spring, where the added effect takes way or torque from the spring."""
+        if added.shows is None or added.shows.spring_factor is None:
+            return []
         spring = f"joint.{self.record.joint}.compliance_rad_per_n_mm"
         point = point.copy()
         if spring in chosen.keys:
-            place = chosen.keys.index(spring)
-            if added.name == "backlash":
-                gap = point[chosen.keys.index(f"joint.{self.record.joint}.gap_rad")]
-                point[place] *= max(1.0 - gap / self.record.extent.angle_rad, 0.1)
-            else:
-                point[place] *= 3.0
-        return point
+            factor = added.shows.spring_factor(added.by_leaf(values), self.record.size)
+            point[chosen.keys.index(spring)] *= factor
+        return [point]
 
     def _off(self, chosen: ParameterSet, x: np.ndarray) -> np.ndarray:
         try:
             return np.asarray(self.record.off(chosen.model(x), chosen.nuisances(x)) * self.root_weight)
         except BadFileError:
-            return np.full(self.record.fitted.size, REFUSED * self.record.extent.torque_n_mm)
+            return np.full(self.record.fitted.size, REFUSED * self.record.size.torque_n_mm)
 
     def _from(self, chosen: ParameterSet, point: np.ndarray) -> tuple[np.ndarray, float]:
         scale, low, high = (chosen.array(name) for name in ("scale", "low", "high"))
-        unit = max(self.record.noise_n_mm, 1e-3 * self.record.extent.torque_n_mm)
+        unit = max(self.record.noise_n_mm, 1e-3 * self.record.size.torque_n_mm)
 
         def whole(u: np.ndarray) -> np.ndarray:
             return np.asarray(self._off(chosen, u * scale)[self.record.fitted] / unit)

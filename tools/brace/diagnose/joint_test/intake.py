@@ -8,11 +8,10 @@ import numpy as np
 
 from brace.dataset import DataFault, Dataset
 from brace.errors import BadFileError
-from brace.model import LimbModel, load_limb
+from brace.model import LIMB_KEYS, LimbModel, load_limb
 
 MIN_ROWS = 20
 _EXAMPLE = Path(__file__).resolve().parents[2] / "data" / "paper-limb.toml"
-_DRIVE = ("gap_rad", "coulomb_n_mm", "coulomb_per_load_ratio", "hardening_n_mm_per_rad3", "zero_offset_rad")
 
 
 def require_enough(dataset: Dataset) -> None:
@@ -40,6 +39,10 @@ def spring_alone(dataset: Dataset) -> LimbModel:
     a straight line through the record says."""
     joint = dataset.meta.joint
     compliance = float(np.ptp(dataset["angle_rad"]) / max(float(np.ptp(dataset["torque_n_mm"])), 1e-9))
-    values = {f"joint.{joint}.{leaf}": 0.0 for leaf in _DRIVE}
+    values = {
+        key.name: key.default
+        for key in LIMB_KEYS
+        if key.name.startswith(f"joint.{joint}.") and key.default is not None
+    }
     values[f"joint.{joint}.compliance_rad_per_n_mm"] = float(np.clip(compliance, 1e-12, 1.0))
     return load_limb(_EXAMPLE).with_values(values)

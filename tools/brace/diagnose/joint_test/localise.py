@@ -1,8 +1,7 @@
 """Where a model disagrees with a joint test: fixed contrasts of the residuals, with one family-wise level.
 
-Under no disagreement each stretch's residuals could as well have the other sign; signs are drawn anew, and
-the largest of all contrasts sets the level.
-"""
+If nothing disagreed, each stretch's residuals could as well have the other sign. So this step draws signs anew, and the
+largest of all contrasts sets the level."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
-"""The readings that a joint test is judged by: averaged, weighted by the way they stand for, some held out,
-those at the drive's limit left out."""
+"""The readings that judge a joint test: averaged, and weighted by the way they stand for. Some are held out, and those
+at the drive's limit are left out."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from brace.diagnose.joint_test.terms import (
     COG_SIN,
     TORQUE_DRIFT,
     VISCOUS,
-    Extent,
 )
+from brace.effects import JointTestSize
 from brace.identify.joint_test import JointProblem, noise, saturated
 from brace.identify.parameters import ANGLE_ZERO
 from brace.model import LimbModel
@@ -46,7 +46,7 @@ class JointRecord(JointProblem):
         turn = np.where(self._start, 0.0, np.diff(columns["angle_rad"], prepend=columns["angle_rad"][0]))
         self._speed = np.divide(turn, step_s, out=np.zeros_like(turn), where=step_s > 0.0)
         temp = columns.get("temp_degc")
-        self.extent = Extent(
+        self.size = JointTestSize(
             float(np.ptp(columns["angle_rad"])),
             float(np.ptp(columns["torque_n_mm"])),
             float(self._since_s.max()),
@@ -60,11 +60,11 @@ class JointRecord(JointProblem):
         self.rests = self._dwells()
 
     def _path(self) -> np.ndarray:
-        """The way that each reading stands for, in the plane of angle and torque, as a weight of mean 1. A
-        joint that friction holds is read again and again and says nothing new; what it passes in a slip is
-        read but once."""
+        """How much each reading counts: the way that it stands for in the plane of angle and torque, with a mean of 1.
+        A joint that friction holds is read again and again and says nothing new; a joint that slips is read only once
+        on its way."""
         away = np.zeros(self.fitted.size)
-        for name, span in (("angle_rad", self.extent.angle_rad), ("torque_n_mm", self.extent.torque_n_mm)):
+        for name, span in (("angle_rad", self.size.angle_rad), ("torque_n_mm", self.size.torque_n_mm)):
             smooth = uniform_filter1d(self.columns[name], 3) / span
             away += np.where(self._start, 0.0, np.abs(np.diff(smooth, prepend=smooth[0])))
         away = uniform_filter1d(away, 3)
@@ -74,7 +74,7 @@ class JointRecord(JointProblem):
     def _dwells(self) -> bool:
         """Whether time can show: the joint rests under load now and then, or large ramps differ in speed
         threefold."""
-        if self.extent.length_s <= 0.0:
+        if self.size.length_s <= 0.0:
             return False
         torque, angle, time = (self.columns[name] for name in ("torque_n_mm", "angle_rad", "t_s"))
         resting, rates = 0, []
@@ -93,7 +93,7 @@ class JointRecord(JointProblem):
         for number in np.unique(self.ramp[self.fitted]):
             rows = np.flatnonzero((self.ramp == number) & self.fitted)
             way, took = abs(torque[rows[-1]] - torque[rows[0]]), time[rows[-1]] - time[rows[0]]
-            if took > 0.0 and way > 0.5 * self.extent.torque_n_mm:
+            if took > 0.0 and way > 0.5 * self.size.torque_n_mm:
                 rates.append(way / took)
         return len(rates) >= 4 and max(rates) > 3.0 * min(rates)
 
@@ -131,7 +131,7 @@ class JointRecord(JointProblem):
         the range."""
         x = self.columns["angle_rad"][self.fitted] - self._centre_rad
         y = off_n_mm[self.fitted] - off_n_mm[self.fitted].mean()
-        longest = self.extent.angle_rad / 3.0
+        longest = self.size.angle_rad / 3.0
         periods = longest / np.linspace(1.0, 16.0, 91)
         best, most = longest, -1.0
         for period in periods:

@@ -7,20 +7,11 @@ from collections.abc import Mapping, Sequence
 
 from brace.diagnose.diagnosis import NamedEffect, NextExperiment
 from brace.diagnose.joint_test.terms import ASYMMETRY, COG_COS, COG_PERIOD, COG_SIN, TORQUE_DRIFT, VISCOUS
-
-_EFFECTS = {
-    "backlash": "backlash",
-    "coulomb_friction": "dry friction",
-    "joint_hardening": "a spring that hardens",
-    "joint_compliance": "another spring than believed",
-    "creep": "creep",
-    "thermal_softening": "softening with temperature",
-}
-
+from brace.diagnose.plain_words import effect
 
 def listed(names: Sequence[str]) -> str:
     """`a, b and c`."""
-    names = [_EFFECTS.get(name, name.replace("_", " ")) for name in names]
+    names = [effect(name) for name in names]
     return names[0] if len(names) == 1 else ", ".join(names[:-1]) + " and " + names[-1]
 
 

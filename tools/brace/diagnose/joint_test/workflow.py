@@ -28,8 +28,9 @@ from brace.diagnose.joint_test.fit import Fitted, Fitter
 from brace.diagnose.joint_test.intake import blocking_faults, require_enough, spring_alone
 from brace.diagnose.joint_test.localise import localise
 from brace.diagnose.joint_test.record import JointRecord
-from brace.diagnose.joint_test.terms import Term, catalogue, shapes
+from brace.diagnose.joint_test.terms import Term, effects_of, shapes
 from brace.diagnose.options import Advance, Options
+from brace.effects import JointTestBench
 from brace.identify.parameters import ANGLE_ZERO, TORQUE_OFFSET
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
@@ -37,8 +38,8 @@ from brace.model.keys import KEY_BY_NAME
 DRAWN_ROWS = 20000  # residuals that a report lays beside the record
 STRUCTURED = 1.3  # rms over noise, above which what is left is more than noise
 EXPECTED_FITS = 60.0
-LIKELIER_THAN_NOT = 0.5  # an effect that is rather not there is not named
-SUREST = 0.99  # no test of one joint makes surer of a name
+LIKELIER_THAN_NOT = 0.5  # an effect that is less likely there than not gets no name
+SUREST = 0.99  # one joint's test never makes a name surer than this
 
 
 def diagnose_joint_test(
@@ -55,8 +56,8 @@ def diagnose_joint_test(
     record = JointRecord(dataset)
     fitter = Fitter(record, base, _trust(believed))
     random = np.random.default_rng(options.seed)
-    given = believed is not None
-    effects = catalogue(base, record.joint, record.extent, given=given, rests=record.rests)
+    bench = JointTestBench(record.size, given=believed is not None, rests=record.rests)
+    effects = effects_of(base, record.joint, bench)
     tried = 0
 
     def trying(label: str) -> None:
@@ -65,7 +66,7 @@ def diagnose_joint_test(
         advance(0.05 + 0.75 * min(tried / EXPECTED_FITS, 1.0), f"trying {label}")
 
     def competing(fitted: Fitted) -> list[Term]:
-        return shapes(record.extent, record.strongest_period_rad(fitted.off_n_mm))
+        return shapes(record.size, record.strongest_period_rad(fitted.off_n_mm))
 
     choice = choose(fitter, effects, competing, random, trying)
     refused = _refused_gap(record, choice.best)
@@ -112,11 +113,11 @@ def _told(
     record, best = fitter.record, choice.best
     by_rows = fitter.by_rows()
     base = by_rows.fit((), choice.base)
-    found = [term for term in best.terms if term.catalogued]
-    left = [term for term in best.terms if not term.catalogued]
-    exported = by_rows.fit(tuple(found), best)  # shapes are no physics: never exported
+    found = [term for term in best.terms if term.effect is not None]
+    left = [term for term in best.terms if term.effect is None]
+    exported = by_rows.fit(tuple(found), best)  # a shape is no physics, so no limb.toml gets it
     effects = _named(fitter, by_rows, best, exported, found, choice.count, random)
-    while effects and effects[-1].confidence < LIKELIER_THAN_NOT:  # beside a shape it explains next to nothing
+    while effects and effects[-1].confidence < LIKELIER_THAN_NOT:  # it explains next to nothing
         found = [term for term in found if term.name != effects[-1].name]
         best = fitter.fit((*found, *left), best)
         exported = by_rows.fit(tuple(found), best)
@@ -197,28 +198,22 @@ def _named(
         parameters = {}
         for key in (parameter.key for parameter in term.parameters if parameter.key in KEY_BY_NAME):
             value, low, high = limits[key]
-            other = weighted.values[key]  # two sound ways of weighting: the interval holds what both say
+            other = weighted.values[key]  # both ways of weighting are sound, so the interval holds what both say
             parameters[key] = Interval(value, min(low, other), max(high, other))
         named.append((NamedEffect(term.name, term.where, confidence, parameters, 0.0), poorer.rss - best.rss))
     total = sum(max(rss, 0.0) for _, rss in named) or 1.0
     shared = [replace(effect, gap_share=max(rss, 0.0) / total) for effect, rss in named]
-    return tuple(
-        sorted(shared, key=lambda one: (-one.confidence, -_lost_rad(one.name, exported.values, record)))
-    )
+    lost = {term.name: _lost_rad(term, exported.values, record) for term in found}
+    return tuple(sorted(shared, key=lambda one: (-one.confidence, -lost[one.name])))
 
 
-def _lost_rad(name: str, values: Mapping[str, float], record: JointRecord) -> float:
-    """How far an effect moves the joint [rad]: what it takes from knowing the angle."""
-    at = f"joint.{record.joint}."
-    spring = values.get(at + "compliance_rad_per_n_mm", record.extent.angle_rad / record.extent.torque_n_mm)
-    if name == "backlash":
-        return values[at + "gap_rad"]
-    if name == "coulomb_friction":
-        return 2.0 * spring * values[at + "coulomb_n_mm"]
-    if name == "joint_hardening":
-        reach = 0.5 * record.extent.angle_rad
-        return spring * values[at + "hardening_n_mm_per_rad3"] * reach**3 * 0.1
-    return 0.0
+def _lost_rad(term: Term, values: Mapping[str, float], record: JointRecord) -> float:
+    """How far an effect moves the joint [rad], so how much of the angle nobody knows because of it."""
+    if term.shows is None:
+        return 0.0
+    compliance = f"joint.{record.joint}.compliance_rad_per_n_mm"
+    spring = values.get(compliance, record.size.angle_rad / record.size.torque_n_mm)
+    return term.shows.lost_rad(term.by_leaf(values), record.size, spring)
 
 
 def _gaps(

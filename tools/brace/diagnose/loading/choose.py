@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from brace.diagnose.effects import Variant
 from brace.diagnose.loading.search import Hypothesis
+from brace.effects import Variant
 
 WORTH_SAYING = 0.05  # posterior share from which a rival is listed
 
@@ -27,8 +27,8 @@ class LabelSet:
 
 
 def way_prior(variants: Sequence[Variant]) -> dict[tuple[str, tuple[str, ...]], float]:
-    """Log prior of each way of an effect, by (label, keys): its principal way, listed first, has half of it, the others
-    share the rest."""
+    """Log prior of each way of an effect, by (label, keys). The principal way is listed first and has half of it; the
+    others share the rest."""
     ways: dict[str, list[Variant]] = {}
     for variant in variants:
         ways.setdefault(variant.label, []).append(variant)
@@ -41,7 +41,7 @@ def way_prior(variants: Sequence[Variant]) -> dict[tuple[str, tuple[str, ...]], 
 
 
 def _way(variant: Variant) -> tuple[str, ...]:
-    """Freedoms and settings apart, so that a key that is set and one that is fitted are two ways."""
+    """Keeps freedoms and settings apart, so that a key that is set and a key that is fitted make two ways."""
     return (*(freedom.key for freedom in variant.freedoms), "set", *variant.settings)
 
 

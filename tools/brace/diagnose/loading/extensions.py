@@ -1,10 +1,10 @@
-"""Is there something that the catalogue does not have, and that explains the record better than what it has?
+"""Does something that the catalogue lacks explain the record better than what it has?
 
 A number of the limb may change while the record is taken: with time, with temperature, from posture to posture, with
-the sign or the size of the load, between the way out and the way back. Each number that the catalogue or the
-calibration speaks of, changed in each of these ways, is a hypothesis with one freedom more, beside nothing else or
-beside a part of the best set of effects. They compete with that set by the same evidence. A change that looks like an
-effect of the catalogue in this record is no rival of it."""
+the sign or the size of the load, between the way out and the way back. Each number of the catalogue or the calibration,
+changed in each of these ways, is a hypothesis with one more freedom. It stands alone or beside a part of the best set
+of effects, and the same evidence judges both. A change that looks like an effect of the catalogue in this record is no
+rival of that effect."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from brace.dataset.check_runs import run_starts
-from brace.diagnose.effects import Variant
 from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.evidence import evidence, freedoms, score
 from brace.diagnose.loading.fit import Fit
@@ -22,6 +21,8 @@ from brace.diagnose.loading.noise import FORCES
 from brace.diagnose.loading.record import Record, levers
 from brace.diagnose.loading.rounding import rounds_to_record
 from brace.diagnose.loading.screen import Remover
+from brace.effects import Variant
+from brace.effects.catalogue import STILL_KEYS, TIME_KEYS
 from brace.identify.parameters import natural_scale
 from brace.model.keys import KEY_BY_NAME
 from brace.native.plant_batch import number_index
@@ -32,8 +33,8 @@ MUST_LEAD = 6.0  # nats, 400 to 1, to take back what is named; below that, the o
 PROBE_SIGMAS = 3.0  # of the whole record: how far a number is turned to see what it does
 HIDDEN = 0.02  # share of a change that must stay when all that the hypothesis turns is taken out
 LEAST_RANGE_DEGC = 0.1
-UNCHANGING = ("change.", "thermal.", "sensor.drift", "sensor.saturation", "creep.")  # are changes, or levels
-OWN_LOAD = ("joint.femur", "joint.tibia", "sensor")  # whose numbers know what they carry; others go by the tip
+UNCHANGING = TIME_KEYS | STILL_KEYS  # numbers that are a change themselves, or a moment or a limit
+OWN_LOAD = ("joint.femur", "joint.tibia", "sensor")  # parts that know their own load; others go by the load at the tip
 
 
 @dataclass(frozen=True)
@@ -88,7 +89,7 @@ def changes(record: Record, fitted: Fit, variants: Sequence[Variant]) -> list[tu
     names, raw = [], []
     for owner, ways in _ways(record, fitted).items():
         for key, column in plain.items():
-            if owner != next((name for name in OWN_LOAD if key.startswith(name)), "") or key.startswith(UNCHANGING):
+            if owner != next((name for name in OWN_LOAD if key.startswith(name)), "") or key in UNCHANGING:
                 continue
             for words, way in ways.items():
                 names.append(f"{key} {words}")
@@ -123,8 +124,7 @@ def _columns(record: Record, fitted: Fit, variants: Sequence[Variant]) -> dict[s
     """By key, the change of the whitened readings (channels x rows) as it is turned a little from the fit on."""
     index, numbers = number_index(), fitted.model
     tries = {freedom.key: freedom for variant in variants for freedom in variant.freedoms if not freedom.stepwise}
-    still = ("change.", "sensor.saturation", "creep.time_constant_s")  # move nothing, a little turned from nothing
-    keys = [key for key in dict.fromkeys((*fitted.space.keys, *tries)) if not key.startswith(still)]
+    keys = [key for key in dict.fromkeys((*fitted.space.keys, *tries)) if key not in STILL_KEYS]
     turned = np.array([1e-2 * natural_scale(key) for key in keys])
     for place, key in enumerate(keys):
         value = numbers[index[key]]
@@ -138,7 +138,7 @@ def _columns(record: Record, fitted: Fit, variants: Sequence[Variant]) -> dict[s
     for last in (False, True):
         models[places] = numbers[places[1]] + np.where(numbers[places[1]] + turned > highest, -turned, turned)
         moved = fitted.residual - record.residuals(models)
-        moved[~np.isfinite(moved).all(axis=1)] = 0.0  # no limb can be so
+        moved[~np.isfinite(moved).all(axis=1)] = 0.0  # no limb can have such numbers
         lengths = np.linalg.norm(moved, axis=1)
         if not last:
             turned *= np.clip(PROBE_SIGMAS / np.clip(lengths, 1e-6, None), 1e-3, 1e3)
@@ -163,7 +163,7 @@ def _ways(record: Record, fitted: Fit) -> dict[str, dict[str, np.ndarray]]:
         off = data[name] - data[name].mean()
         common[f"from posture to posture, along {name}"] = off / max(float(np.abs(off).max()), 1e-9)
     played = record.measured - fitted.residual.reshape(record.measured.shape) * record.sigma
-    played[len(FORCES) :] = 0.0  # a force sensor's numbers know its own readings only
+    played[len(FORCES) :] = 0.0  # the force sensor's numbers act on its own readings only
     index = number_index()
     femur_mm, tibia_mm = (fitted.model[index[f"geometry.{link}_mm"]] for link in ("femur", "tibia"))
     arms = levers(femur_mm, tibia_mm, data["theta1_rad"], data["theta2_rad"])

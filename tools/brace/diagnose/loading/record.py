@@ -9,8 +9,8 @@ import numpy as np
 
 from brace.dataset import Dataset
 from brace.dataset.check_runs import run_starts
-from brace.diagnose.effects import Setting
 from brace.diagnose.loading.noise import FORCES, ChannelNoise, noise_of
+from brace.effects import LoadingSize
 from brace.model import LimbModel
 from brace.native.plant_batch import LoadingBatchPlayer, model_numbers, number_index
 
@@ -110,7 +110,7 @@ def sigma_of(noise: ChannelNoise, values: np.ndarray) -> np.ndarray:
     return np.where(np.isnan(values), NOT_MEASURED, noise.sigma(np.nan_to_num(values)))
 
 
-def setting_of(record: Record, believed: LimbModel) -> Setting:
+def setting_of(record: Record, believed: LimbModel) -> LoadingSize:
     """The sizes that this record reaches, for the catalogue's first tries."""
     data = record.dataset
     numbers = model_numbers(believed)
@@ -124,7 +124,7 @@ def setting_of(record: Record, believed: LimbModel) -> Setting:
     compliance = {joint: believed.number(f"joint.{joint}.compliance_rad_per_n_mm") for joint in lever}
     starts = run_starts(data["run"])[:-1]
     steps = np.diff(data["t_s"])
-    return Setting(
+    return LoadingSize(
         believed={key: float(numbers[place]) for key, place in index.items()},
         joint_torque_n_mm=torque,
         joint_deflection_rad={joint: max(compliance[joint] * torque[joint], 1e-5) for joint in torque},

@@ -9,7 +9,6 @@ import numpy as np
 
 from brace.dataset import Dataset
 from brace.diagnose.diagnosis import Diagnosis
-from brace.diagnose.effects import Variant, all_variants
 from brace.diagnose.loading import outcome
 from brace.diagnose.loading.choose import LabelSet, posterior_of
 from brace.diagnose.loading.evidence import log_likelihood, score
@@ -25,6 +24,7 @@ from brace.diagnose.loading.space import Trust, trust_of
 from brace.diagnose.loading.structure import Structure, structure_of
 from brace.diagnose.loading.verdict import Decision, decide
 from brace.diagnose.options import Advance, Options
+from brace.effects import Variant, all_variants
 from brace.errors import UsageError
 from brace.model import LimbModel
 

@@ -1,5 +1,5 @@
-"""What each way of each effect would gain if it were added to a fitted hypothesis: a fast estimate, and where to start
-its fit. Tries are played on the plant; everything that the hypothesis already turns is refitted linearly."""
+"""Estimates what each way of each effect would gain if it joined a fitted hypothesis, and where its fit should start.
+The plant plays the tries; all that the hypothesis turns already is refitted linearly."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from brace.diagnose.effects import Variant
 from brace.diagnose.loading.fit import PROBE, Fit, residuals
 from brace.diagnose.loading.record import Record
 from brace.diagnose.loading.space import Space, Trust, compatible, space_of
+from brace.effects import Variant
 
 MOST_TRIES = 120
 MOST_SCALED = 4
@@ -51,8 +51,8 @@ class Remover:
 
 
 def screen(record: Record, trust: Trust, fitted: Fit, variants: Sequence[Variant]) -> list[Promise]:
-    """All compatible variants, most promising first. Beside effects that are already there, every third try will do:
-    their sizes are scaled anyway."""
+    """All compatible variants, the most promising first. Beside effects that are already there every third try is
+    enough, because this step scales the sizes anyway."""
     held = fitted.space.variants
     remover = Remover(fitted)
     left = remover.augmented(fitted.residual[None])[0]

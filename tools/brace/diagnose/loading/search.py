@@ -1,18 +1,18 @@
-"""Hypotheses over the catalogue: every single effect, then pairs and triples from the best,
-each fitted on the plant."""
+"""Searches the catalogue for hypotheses: every single effect, then pairs and triples from the best. Each is fitted on
+the plant."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from brace.diagnose.effects import Variant
 from brace.diagnose.loading.evidence import score
 from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading.record import Record
 from brace.diagnose.loading.screen import Promise, screen
 from brace.diagnose.loading.space import Trust, space_of
 from brace.diagnose.options import Advance, silent
+from brace.effects import Variant
 
 MOST_EFFECTS = 3
 PARENTS = {1: 5, 2: 3}  # hypotheses of so many effects that the next are grown from

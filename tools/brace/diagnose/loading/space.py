@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from brace.diagnose.effects import Variant
+from brace.effects import Variant
 from brace.identify.parameters import PRIOR_KEYS, prior_parameter
 from brace.model import LimbModel
 from brace.native.plant_batch import model_numbers, number_index

@@ -1,9 +1,8 @@
-"""A table of stiffness matrices: what is wrong with it, which kinds of limb fit, and that it names almost
-nothing.
+"""A diagnosis of a table of stiffness matrices: what is wrong with it and which kinds of limb fit it. A table names
+almost nothing.
 
-The steps, a file each: alternatives (kinds of limb beside the believed one, judged on rows left out),
-localise, workflow (all in order).
-"""
+Each step has a file: alternatives (kinds of limb beside the believed one, judged on rows left out), localise, workflow
+(all in order)."""
 
 from brace.diagnose.stiffness_table.workflow import diagnose_table
 

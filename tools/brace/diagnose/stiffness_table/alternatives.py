@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from brace.effects import BY_NAME, EFFECTS
 from brace.errors import BadFileError
 from brace.identify.families import scattered_starts
 from brace.identify.fit import Fit, Problem, fit
@@ -26,16 +27,16 @@ _TILTS = ("link.femur.tilt_rad", "link.tibia.tilt_rad")
 _TRANSFER = "link.femur.moment_transfer"
 _BASE = ("base.x_mm_per_n", "base.z_mm_per_n")
 
-SPRINGS = ("joint_compliance@joint.femur", "joint_compliance@joint.tibia")
-LINKS = ("link_compliance_error@link.femur", "link_compliance_error@link.tibia")
-TRANSFER = ("moment_transfer@link.femur",)
-BASE = ("base_compliance@base",)
+SPRINGS = BY_NAME["joint_compliance"].labels
+LINKS = BY_NAME["link_compliance_error"].labels
+TRANSFER = BY_NAME["moment_transfer"].labels
+BASE = BY_NAME["base_compliance"].labels
 
 
 @dataclass(frozen=True)
 class Alternative:
-    """What is free beside the believed limb, what is set, and the effects that this amounts to. Links are
-    free in all but the first: a table cannot hold them to a calibration and tell anything."""
+    """A kind of limb: what is free beside the believed limb, what is set, and which effects this amounts to. Links are
+    free in all but the first, because a table that holds them to their calibration can tell nothing else."""
 
     name: str
     labels: tuple[str, ...]
@@ -44,7 +45,7 @@ class Alternative:
 
 
 BELIEVED = Alternative("the believed limb", (), ())
-ALTERNATIVES = (
+_COMBINED = (
     Alternative("other links", LINKS, LINK_COMPLIANCES),
     Alternative("tilted links", LINKS, LINK_COMPLIANCES + _TILTS),
     Alternative("joint springs", SPRINGS, LINK_COMPLIANCES + JOINT_COMPLIANCES),
@@ -53,6 +54,12 @@ ALTERNATIVES = (
         "joint springs and moment transfer", SPRINGS + TRANSFER, LINK_COMPLIANCES + JOINT_COMPLIANCES, 1.0
     ),
     Alternative("a yielding base", BASE, LINK_COMPLIANCES + _BASE),
+)
+# Any further effect of the catalogue that a table can show is an alternative by itself.
+ALTERNATIVES = _COMBINED + tuple(
+    Alternative(effect.words, effect.labels, LINK_COMPLIANCES + effect.keys)
+    for effect in EFFECTS
+    if effect.in_tables and not any(label in one.labels for one in _COMBINED for label in effect.labels)
 )
 
 
@@ -95,7 +102,7 @@ class _Part:
 
 
 def missing_from(believed: LimbModel) -> tuple[Alternative, ...]:
-    """Alternatives that are none yet in the believed limb."""
+    """The alternatives that the believed limb is not already."""
     found = []
     for one in ALTERNATIVES:
         if one.transfer is not None and believed.number(_TRANSFER) > 0.0:
@@ -132,15 +139,15 @@ def judge(
 
 
 def _fit(problem: Problem, chosen: ParameterSet, starts: Sequence[np.ndarray]) -> Fit:
-    """As `fit`, where nothing is free too."""
+    """Does the same as `fit`, also where nothing is free."""
     if len(chosen):
         return fit(problem, chosen, starts)
     return Fit(chosen, np.empty(0), problem.residual(chosen.base, {}), np.empty((problem.count, 0)))
 
 
 def _parameters(problem: TableProblem, believed: LimbModel, alternative: Alternative) -> ParameterSet:
-    """The believed limb is held as it is: inside its trust it would only bend towards the table. What is free
-    starts from the believed value, or where that is nothing from its natural size."""
+    """Holds the believed limb as it is, since within its trust it would only bend towards the table. A free number
+    starts from its believed value, or from its natural size where that value is zero."""
     start = believed
     if alternative.transfer is not None:
         start = start.with_values({_TRANSFER: alternative.transfer})

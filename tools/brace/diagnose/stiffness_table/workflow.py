@@ -34,6 +34,7 @@ from brace.diagnose.stiffness_table.alternatives import (
     missing_from,
 )
 from brace.diagnose.stiffness_table.localise import localise
+from brace.effects import BY_NAME
 from brace.errors import BadFileError, UsageError
 from brace.identify.faults import settle
 from brace.identify.parameters import LINK_COMPLIANCES, TIP_HEIGHT
@@ -47,12 +48,6 @@ SURPRISING_RATIO = 10.0  # one sigma of what a link's bending may be off
 SURPRISING_TILT_RAD = 0.2
 SUREST = 0.8  # no member of a class is surer than this
 _RIG = Path(__file__).resolve().parents[2] / "data" / "paper-rig.toml"
-_OF_EFFECT = {
-    "joint_compliance": ("compliance_rad_per_n_mm",),
-    "link_compliance_error": ("axial_mm_per_n", "bending_mm_per_n", "tilt_rad"),
-    "moment_transfer": ("moment_transfer",),
-    "base_compliance": ("x_mm_per_n", "z_mm_per_n", "rotation_rad_per_n_mm"),
-}
 
 
 def diagnose_table(
@@ -173,9 +168,9 @@ def _worth(base: Judged, one: Judged, spread: float, entries: int) -> float:
 
 
 def _shares(judged: Sequence[Judged], believed: LimbModel) -> list[float]:
-    """How likely each is, by the rows it had not seen, their scale unknown and each row one piece of evidence:
-    the weight of an entry is assumed, so its squares may not be counted as if it were measured. A kind of limb
-    that needs links far from the believed ones is the less likely for it."""
+    """How likely each kind of limb is, by the rows that its fit had not seen. Each row is one piece of evidence of
+    unknown scale, because the weight of an entry is assumed and not measured. A kind of limb that needs links far from
+    the believed ones is less likely."""
     if not judged:
         return []
     misses = np.log([max(one.left_out_misfit, 1e-6) for one in judged])
@@ -234,10 +229,10 @@ def _split(label: str) -> tuple[str, str]:
 
 
 def _intervals(label: str, judged: Judged) -> dict[str, Interval]:
-    """90 % from the fits without each part of the rows (jackknife); a parameter of the sign of a choice has
-    none."""
+    """90 % intervals from the fits without each part of the rows (jackknife). A parameter that is a choice, and not a
+    size, has none."""
     name, where = _split(label)
-    keys = [f"{where}.{leaf}" for leaf in _OF_EFFECT[name]]
+    keys = [number.key(where) for number in BY_NAME[name].numbers]
     found = {}
     for key in keys:
         if key in judged.fit.parameters.keys:

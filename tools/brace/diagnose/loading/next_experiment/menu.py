@@ -14,6 +14,7 @@ from brace.diagnose.loading.fit import Fit
 from brace.diagnose.loading.noise import ChannelNoise
 from brace.diagnose.loading.noise import FORCES
 from brace.diagnose.loading.record import Record
+from brace.effects.catalogue import TIME_KEYS
 from brace.native.plant import play_rig
 from brace.native.plant_batch import LoadingBatchPlayer
 
@@ -37,12 +38,6 @@ WARMER_DEGC = 10.0
 ENCODERS, GAUGE = ("enc1_rad", "enc2_rad"), ("base_x_mm", "base_z_mm")
 CHANNELS = (*FORCES, *ENCODERS, *GAUGE)
 GROUPS = ((0, 1), (2, 3), (4, 5))
-TIME_KEYS = (
-    "creep.",
-    "thermal.",
-    "sensor.drift",
-    "change.",
-)  # of effects that follow sequence, time or temperature
 
 
 @dataclass(frozen=True)
@@ -117,7 +112,7 @@ def conditions(record: Record, fits: list[Fit]) -> Iterator[Condition]:
         PRELOAD_MIN,
     )
     if any(
-        key.startswith(TIME_KEYS)
+        key in TIME_KEYS
         for fitted in fits
         for variant in fitted.space.variants
         for key in variant.keys

@@ -1,4 +1,4 @@
-"""From CAN frames to what a LimbStiffness message holds. Knows nothing of ROS."""
+"""From CAN frames to what the bridge's messages hold. Knows nothing of ROS."""
 
 from __future__ import annotations
 
@@ -6,8 +6,11 @@ import math
 from dataclasses import dataclass
 
 from brace.bus.frame import Frame
-from brace.bus.snapshot import Joiner, Snapshot, heartbeat_of
+from brace.bus.drift import cause_text
+from brace.bus.snapshot import Joiner, Snapshot, emergency_of, heartbeat_of
+from brace.bus.space import SpaceSnapshot
 from brace.errors import VersionMismatchError
+from brace.wire.codes import FAULT, PLAY
 from brace.wire.frames import DICTIONARY_HASH, MESSAGES
 
 N_PER_M = 1000.0  # in a N/mm
@@ -38,25 +41,96 @@ class LimbStiffness:
     faults: int
 
 
+@dataclass(frozen=True)
+class LimbStiffnessInSpace:
+    """The fields of msg/LimbStiffnessInSpace.msg, in SI units; stamp_s takes the header's place."""
+
+    stamp_s: float
+    node: int
+    sequence: int
+    k_is_valid: bool
+    flags: int
+    k_xx: float
+    k_xy: float
+    k_xz: float
+    k_yy: float
+    k_yz: float
+    k_zz: float
+    lambda_1: float
+    lambda_2: float
+    lambda_3: float
+    stiff_axis_x: float
+    stiff_axis_y: float
+    stiff_axis_z: float
+    theta0: float
+    k_across: float
+    play_coxa: int
+
+
+@dataclass(frozen=True)
+class LimbHealth:
+    """What a diagnostic says of a limb."""
+
+    stamp_s: float
+    node: int
+    level: int  # as diagnostic_msgs numbers them: 0 OK, 1 WARN, 2 ERROR
+    text: str
+    faults: tuple[str, ...]
+    drift_cause: str  # none: no drift; empty: a drift whose cause was told before this bridge listened
+
+
+Message = LimbStiffness | LimbStiffnessInSpace | LimbHealth
+OK, WARN, ERROR = range(3)
+_NO_K = {"sensor_femur", "sensor_tibia", "encoder_stuck"}
+_DRIFT = "model_drift"
+
+
 class Decoder:
     """Frames of any number of controllers, in the order they came."""
 
     def __init__(self) -> None:
         self._joiner = Joiner()
+        self._told: dict[int, tuple[int, float]] = {}  # by node: the snapshot whose K in the plane has been given
+        self._cause: dict[int, str] = {}
 
-    def add(self, frame: Frame) -> LimbStiffness | None:
-        """What this frame completes: K alone, and where they are sent, K with eigenvalues and posture once more.
-        VersionMismatchError when a heartbeat tells of another dictionary."""
+    def add(self, frame: Frame) -> list[Message]:
+        """What this frame completes: K alone; K in space; K with eigenvalues and posture once more; with a heartbeat or
+        an emergency the limb's health. VersionMismatchError when a heartbeat tells of another dictionary."""
         heartbeat = heartbeat_of(frame)
-        if heartbeat is not None and heartbeat.dictionary_hash != DICTIONARY_HASH:
-            raise VersionMismatchError(
-                f"controller {heartbeat.node} speaks another dictionary",
-                where=f"heartbeat of node {heartbeat.node}",
-                why=f"its hash is 0x{heartbeat.dictionary_hash:08x}, this bridge's 0x{DICTIONARY_HASH:08x}",
-                next_step="use the brace package of the firmware's version, or brace flash",
-            )
+        if heartbeat is not None:
+            if heartbeat.dictionary_hash != DICTIONARY_HASH:
+                raise VersionMismatchError(
+                    f"controller {heartbeat.node} speaks another dictionary",
+                    where=f"heartbeat of node {heartbeat.node}",
+                    why=f"its hash is 0x{heartbeat.dictionary_hash:08x}, this bridge's 0x{DICTIONARY_HASH:08x}",
+                    next_step="use the brace package of the firmware's version, or brace flash",
+                )
+            return [self._health(heartbeat.time_s, heartbeat.node, heartbeat.faults)]
+        emergency = emergency_of(frame)
+        if emergency is not None:
+            self._cause[emergency.node] = emergency.drift_cause
+            return [self._health(emergency.time_s, emergency.node, emergency.faults)]
         snapshot = self._joiner.add(frame)
-        return None if snapshot is None else message_of(snapshot)
+        return [] if snapshot is None else self._messages_of(snapshot)
+
+    def _messages_of(self, snapshot: Snapshot) -> list[Message]:
+        messages: list[Message] = []
+        this = (snapshot.sequence, snapshot.time_s)
+        if snapshot.adds != "space" or self._told.get(snapshot.node) != this:
+            messages.append(message_of(snapshot))
+        self._told[snapshot.node] = this
+        if snapshot.adds == "space" and snapshot.space is not None:
+            messages.append(space_message_of(snapshot, snapshot.space))
+        return messages
+
+    def _health(self, time_s: float, node: int, faults: tuple[str, ...]) -> LimbHealth:
+        cause = self._cause.get(node, "") if _DRIFT in faults else "none"
+        texts = {code.name.lower(): code.text for code in FAULT.codes}
+        told = [texts.get(name, name) for name in faults]
+        if cause not in ("", "none"):
+            told.append(f"The drift's likeliest cause is {cause_text(cause)}")
+        level = ERROR if _NO_K & set(faults) else WARN if faults else OK
+        return LimbHealth(time_s, node, level, " ".join(told) or "No fault is there.", faults, cause)
 
 
 def message_of(snapshot: Snapshot) -> LimbStiffness:
@@ -64,7 +138,7 @@ def message_of(snapshot: Snapshot) -> LimbStiffness:
     femur, tibia = snapshot.play or ("unknown", "unknown")
     has_posture = snapshot.has_posture
     return LimbStiffness(
-        stamp_s=snapshot.time_s - (snapshot.age_ms or 0.0) * 1e-3,
+        stamp_s=_sampled_s(snapshot),
         node=snapshot.node,
         sequence=snapshot.sequence,
         k_is_valid=snapshot.is_valid,
@@ -83,6 +157,28 @@ def message_of(snapshot: Snapshot) -> LimbStiffness:
         mode=_code("posture", "mode", snapshot.mode) if has_posture else 0,
         faults=_bits("posture", "faults", snapshot.faults),
     )
+
+
+def space_message_of(snapshot: Snapshot, space: SpaceSnapshot) -> LimbStiffnessInSpace:
+    """K in space in SI units."""
+    names = [code.name.lower() for code in PLAY.codes]
+    return LimbStiffnessInSpace(
+        _sampled_s(snapshot),
+        snapshot.node,
+        snapshot.sequence,
+        space.is_valid,
+        _bits("stiffness_a", "flags", space.flags),
+        *map(_per_m, space.k),
+        *map(_per_m, space.eigenvalues),
+        *map(_or_nan, space.stiff_axis),
+        theta0=_or_nan(space.theta0),
+        k_across=_per_m(space.k_across),
+        play_coxa=names.index(space.play_coxa) if space.play_coxa in names else int(space.play_coxa),
+    )
+
+
+def _sampled_s(snapshot: Snapshot) -> float:
+    return snapshot.time_s - (snapshot.age_ms or 0.0) * 1e-3
 
 
 def _or_nan(value: float | None) -> float:

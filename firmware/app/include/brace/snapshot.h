@@ -1,0 +1,62 @@
+/* What the controller says of one tick: the snapshot in which K travels, with the mode and the faults
+ * (brace/codes.h). */
+#ifndef BRACE_SNAPSHOT_H
+#define BRACE_SNAPSHOT_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "brace/backlash.h"
+#include "brace/codes.h"
+#include "brace/gap_stiffness.h"
+#include "brace/kinematics.h"
+#include "brace/parameters.h"
+#include "brace/stiffness.h"
+
+/* Faults that make every K invalid and the mode FAULT. */
+#define BRACE_FAULTS_NO_K (BRACE_FAULT_SENSOR_FEMUR | BRACE_FAULT_SENSOR_TIBIA | BRACE_FAULT_ENCODER_STUCK)
+
+/* K in the robot's frame, of a limb whose coxa joint is fitted. */
+typedef struct {
+    bool is_fitted; /* the limb has a coxa joint */
+    bool is_valid;  /* now and engaged may be used, with their flags; else they are NaN */
+    float across_n_per_mm;             /* K across the limb's plane; 0 while the coxa joint's gap is open */
+    float engaged_across_n_per_mm;     /* the same once that gap has closed */
+    brace_stiffness_spatial_t now;     /* open gaps counted; flagged BRACE_FLAG_GAP_OPEN while one is open */
+    brace_stiffness_spatial_t engaged; /* once every gap has closed */
+} brace_space_stiffness_t;
+
+/* What one tick says. Everything in it comes from the same samples. */
+typedef struct {
+    uint32_t sequence;    /* counts snapshots; wraps */
+    uint32_t taken_us;    /* when the joints were sampled; of several samples the oldest */
+    brace_mode_t mode;
+    uint32_t faults;      /* BRACE_FAULT_... */
+    bool k_is_valid;      /* stiffness may be used, with its flags; else it is NaN and its flags say why */
+    brace_gap_stiffness_t stiffness; /* K in the limb's plane: now (open gaps counted) and engaged (all gaps closed) */
+    brace_space_stiffness_t space;
+    float theta_rad[BRACE_LINK_COUNT];       /* true joint angles, backlash and zero offset counted; NaN: not known */
+    float motor_rad[BRACE_LINK_COUNT];
+    float torque_n_mm[BRACE_LINK_COUNT];
+    brace_backlash_out_t play[BRACE_LINK_COUNT];
+    brace_point_t tip_mm;
+    brace_point_t play_shift_mm; /* shift of the tip at zero force by the joints' backlash */
+    float force_x_n, force_z_n;  /* of the ground on the tip, in the limb's plane; NaN: not known */
+    bool force_is_sensed;        /* by the tip's sensor, corrected; else worked out from the joints' loads */
+    float temp_degc;             /* of femur and tibia joint the warmer one; NaN: not measured */
+    uint32_t parameter_crc;
+    brace_parameter_origin_t parameter_origin;
+} brace_snapshot_t;
+
+/* Troubles that are only counted. Every counter stays at its largest value. */
+typedef struct {
+    uint32_t ticks_late;
+    uint32_t samples_bad;     /* refused by the drive, not finite or out of range */
+    uint32_t frames_refused;  /* CAN frames that the bus refused: bus off, or a device that does not answer */
+    uint32_t frames_unknown;  /* CAN frames received that are of no known kind, or requests of a wrong length */
+    uint32_t commands_failed; /* joint_command was refused */
+    uint32_t modbus_broken;   /* Modbus frames with a wrong CRC or length */
+    uint32_t modbus_refused;  /* Modbus requests answered with an exception */
+} brace_app_counters_t;
+
+#endif

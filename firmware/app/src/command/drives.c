@@ -1,0 +1,35 @@
+#include "command/drives.h"
+
+#include <stddef.h>
+
+static brace_hal_joint_command_t command_of(const flank_joint_t *flank, const drives_test_t *test, int index)
+{
+    brace_hal_joint_command_t command = {flank->out.command_rad, __builtin_inff()};
+    if (test->runs) {
+        command.offset_rad += test->offset_rad[index];
+        command.torque_limit_n_mm = test->torque_limit_n_mm[index];
+    }
+    if (flank->out.limit_torque && flank->watched) {
+        const float most_n_mm = flank->machine.params.takeup.torque_max_n_mm;
+        command.torque_limit_n_mm = most_n_mm < command.torque_limit_n_mm ? most_n_mm : command.torque_limit_n_mm;
+    }
+    return command;
+}
+
+void drives_command(drives_t *drives, const brace_hal_t *hal, const joints_t *joints, const flank_t *flank,
+                    bool takes_up, const drives_test_t *test)
+{
+    const bool moves = takes_up || test->runs;
+    if (hal->joint_command == NULL || !(moves || drives->are_commanded)) {
+        return;
+    }
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        if (joints->joint[i].fitted) {
+            const brace_hal_joint_command_t command = command_of(&flank->joint[i], test, i);
+            if (hal->joint_command(hal->context, i, &command) != BRACE_HAL_OK) {
+                drives->commands_failed += drives->commands_failed < UINT32_MAX;
+            }
+        }
+    }
+    drives->are_commanded = moves;
+}

@@ -1,0 +1,29 @@
+/* What the drives are told: the take-up's command and the loading test's offset, added up. */
+#ifndef BRACE_COMMAND_DRIVES_H
+#define BRACE_COMMAND_DRIVES_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "brace_hal.h"
+#include "flank/flank.h"
+
+typedef struct {
+    bool are_commanded;       /* the drives hold a command of ours */
+    uint32_t commands_failed; /* saturates */
+} drives_t;
+
+/* What a loading test adds to each joint's set-point, and within which torque. */
+typedef struct {
+    bool runs;
+    float offset_rad[BRACE_LINK_COUNT];
+    float torque_limit_n_mm[BRACE_LINK_COUNT];
+} drives_test_t;
+
+/* Commands the drives in every tick in which something moves the limb, and once more afterwards, to take the command
+ * back.
+ *   takes_up: backlash is taken up, held or let go */
+void drives_command(drives_t *drives, const brace_hal_t *hal, const joints_t *joints, const flank_t *flank,
+                    bool takes_up, const drives_test_t *test);
+
+#endif

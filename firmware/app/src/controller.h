@@ -1,0 +1,51 @@
+/* The controller's memory: every part of it but the wires. app.c and requests.c know it; no part knows it. */
+#ifndef BRACE_CONTROLLER_H
+#define BRACE_CONTROLLER_H
+
+#include "brace/recorder.h"
+#include "brace/snapshot.h"
+#include "brace_hal.h"
+#include "command/drives.h"
+#include "flank/flank.h"
+#include "flank/takeup.h"
+#include "jobs/configure/parameter_job.h"
+#include "jobs/drift/drift_job.h"
+#include "jobs/loading/loading.h"
+#include "mode/faults.h"
+#include "mode/mode.h"
+#include "posture/posture.h"
+#include "sense/joints.h"
+#include "sense/tip_force.h"
+#include "stiffness/model.h"
+
+typedef struct controller controller_t;
+
+struct controller {
+    const brace_hal_t *hal;
+    uint32_t now_us;       /* of this tick */
+    uint32_t since_us;     /* how long the tick before is ago; 0 in the first tick */
+    bool has_ticked;
+    uint32_t ticks_late;   /* saturates */
+    bool has_crashed;      /* the processor started after a crash that nobody has cleared: BRACE_FAULT_CRASHED */
+
+    joints_t joints;
+    tip_force_t tip_force;
+    flank_t flank;
+    takeup_t takeup;
+    posture_t posture;
+    model_t model;
+    brace_loading_t loading;
+    brace_recorder_t recorder;
+    drift_job_t drift;
+    parameter_job_t parameters;
+    uint8_t configure_part;  /* of putting parameters in force, the next one */
+    faults_t faults;
+    mode_state_t mode;
+    drives_t drives;
+
+    uint32_t sequence;             /* of the newest snapshot */
+    brace_snapshot_t snapshot[2];  /* the newest, and the one that the next tick writes */
+    uint8_t newest;
+};
+
+#endif

@@ -1,0 +1,44 @@
+/* Which flank of each joint's backlash carries: one preload state machine per joint that has play. */
+#ifndef BRACE_FLANK_FLANK_H
+#define BRACE_FLANK_FLANK_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "brace/backlash.h"
+#include "brace/parameters.h"
+#include "posture/posture.h"
+#include "sense/joints.h"
+#include "sense/tip_force.h"
+
+typedef struct {
+    bool has_play;             /* the joint is fitted and its gap_rad is 1e-5 or more */
+    bool watched;              /* the state machine is set up */
+    brace_backlash_t machine;  /* while watched */
+    brace_backlash_out_t out;  /* of this tick; a joint without play is engaged */
+} flank_joint_t;
+
+typedef struct {
+    flank_joint_t joint[BRACE_LINK_COUNT];
+} flank_t;
+
+/* Sets up the state machine of one joint when parameters are put in force. A joint whose take-up torque is too small
+ * to be told from noise and friction has play and is not watched: its gap counts as open. At most 1,300 instructions.
+ * */
+void flank_configure(flank_t *flank, int joint_index, const joints_t *joints, const brace_parameters_t *parameters);
+
+/* One tick of each joint's state machine.
+ *   posture: of the tick before; with the tip's force it tells what a joint should carry
+ * At most 620 instructions for a joint that is watched. */
+void flank_tick(flank_t *flank, const joints_t *joints, const tip_force_t *force, const posture_t *posture,
+                const brace_parameters_t *parameters, uint32_t now_us);
+
+/* Adds to a joint's sample what the joint should carry: its share of the sensed tip force, and the weight; and how
+ * far that may be off. index: BRACE_FEMUR or BRACE_TIBIA; the force is known and the posture has levers. */
+void flank_expect_load(brace_backlash_sample_t *sample, int index, const tip_force_t *force, const posture_t *posture,
+                       const brace_parameters_t *parameters);
+
+/* Joints whose gap is open or may be, as bits 1 << joint. */
+uint32_t flank_open_gaps(const flank_t *flank);
+
+#endif

@@ -1,0 +1,113 @@
+#include "jobs/configure/parameter_job.h"
+
+#include <string.h>
+
+#include "brace/snapshot.h"
+
+/* Where the set in force comes from, and the faults that last as long as it does. */
+static void judge(parameter_job_t *job)
+{
+    brace_store_status_t status;
+    brace_store_status(&job->store, &status);
+    job->origin = status.in_force;
+    job->faults = (status.in_force == BRACE_PARAMETERS_DEFAULT ? (uint32_t)BRACE_FAULT_PARAMETERS : 0u) |
+                  (status.memory_fault ? (uint32_t)BRACE_FAULT_STORE : 0u);
+}
+
+void parameter_job_start(parameter_job_t *job, const brace_hal_t *hal)
+{
+    job->storing = job->comes_in_force = job->has_staged = false;
+    job->idle_us = 0;
+    (void)brace_store_start(&job->store, hal, &job->in_force);
+    job->crc = brace_parameters_crc(&job->in_force);
+    judge(job);
+}
+
+bool parameter_job_step(parameter_job_t *job)
+{
+    const brace_store_state_t state = job->storing ? brace_store_step(&job->store) : BRACE_STORE_BUSY;
+    if (state == BRACE_STORE_BUSY) {
+        return false;
+    }
+    const bool is_in_force = state == BRACE_STORE_DONE;
+    if (is_in_force) {
+        (void)brace_store_take(&job->store, &job->in_force, &job->crc);
+        job->has_staged = false;
+        job->comes_in_force = true;
+    }
+    job->storing = false;
+    judge(job);
+    return is_in_force;
+}
+
+bool parameter_job_is_fresh(const parameter_job_t *job)
+{
+    return !job->store.rolling_back;
+}
+
+void parameter_job_open(parameter_job_t *job)
+{
+    job->has_staged = false;
+    job->idle_us = 0;
+}
+
+void parameter_job_keep_open(parameter_job_t *job)
+{
+    job->idle_us = 0;
+}
+
+bool parameter_job_has_lost_patience(parameter_job_t *job, uint32_t since_us)
+{
+    job->idle_us = parameter_job_is_busy(job) ? 0u : job->idle_us + since_us;
+    return job->idle_us >= (uint32_t)PARAMETER_JOB_PATIENCE_US;
+}
+
+const brace_parameters_t *parameter_job_staged(const parameter_job_t *job)
+{
+    return job->has_staged ? &job->staged : &job->in_force;
+}
+
+brace_status_t parameter_job_write(parameter_job_t *job, uint32_t first_number, uint32_t count, const uint32_t *words)
+{
+    if (parameter_job_is_busy(job)) {
+        return BRACE_E_UNSUPPORTED;
+    }
+    for (uint32_t i = 0; i < count; i++) { /* at most BRACE_PARAMETER_COUNT: no more are in range */
+        const brace_status_t status = brace_parameter_in_range(brace_parameter_index(first_number + i), words[i]);
+        if (status != BRACE_OK) {
+            return status;
+        }
+    }
+    if (!job->has_staged) {
+        job->staged = job->in_force;
+        job->has_staged = true;
+    }
+    /* A set is a run of 32-bit members: brace/parameters.h. */
+    for (uint32_t i = 0; i < count; i++) { /* at most BRACE_PARAMETER_COUNT */
+        memcpy((uint8_t *)&job->staged + 4u * brace_parameter_index(first_number + i), &words[i], sizeof words[i]);
+    }
+    return BRACE_OK;
+}
+
+brace_status_t parameter_job_commit_staged(parameter_job_t *job, uint32_t *wrong_index)
+{
+    const brace_parameters_t *set = parameter_job_staged(job);
+    /* Every member is in its range: those in force were judged at the start, those that were written when they came. */
+    const brace_status_t together = brace_parameters_check_piece(set, BRACE_CHECK_TOGETHER, wrong_index);
+    return together == BRACE_OK ? parameter_job_commit(job, set) : together;
+}
+
+brace_status_t parameter_job_commit(parameter_job_t *job, const brace_parameters_t *parameters)
+{
+    const brace_status_t status =
+        parameter_job_is_busy(job) ? BRACE_E_UNSUPPORTED : brace_store_offer(&job->store, parameters);
+    job->storing = job->storing || status == BRACE_OK;
+    return status;
+}
+
+brace_status_t parameter_job_rollback(parameter_job_t *job)
+{
+    const brace_status_t status = parameter_job_is_busy(job) ? BRACE_E_UNSUPPORTED : brace_store_rollback(&job->store);
+    job->storing = job->storing || status == BRACE_OK;
+    return status;
+}

@@ -1,0 +1,47 @@
+/* The loading test as a job: a state (brace/loading.h), and one bounded step in each tick. */
+#ifndef BRACE_JOBS_LOADING_LOADING_H
+#define BRACE_JOBS_LOADING_LOADING_H
+
+#include <stdbool.h>
+
+#include "brace/loading.h"
+#include "brace/recorder.h"
+#include "jobs/loading/inputs.h"
+
+/* Phases of a test, in their order; each reading goes MOVE, DWELL, READ. */
+enum {
+    LOADING_IDLE = 0,
+    LOADING_MOVE = 1,
+    LOADING_DWELL = 2,
+    LOADING_READ = 3,    /* works the reading out: row, slope, and what the drift check gets */
+    LOADING_JUDGE = 4,   /* all readings are there: slopes */
+    LOADING_COMPARE = 5, /* the model's slopes and how sure it is of them */
+    LOADING_RETURN = 6   /* back to where the test began */
+};
+
+/* Begins a test.
+ * returns BRACE_OK, BRACE_E_RANGE (setup), BRACE_E_SINGULAR (no valid K, or the joints cannot move the tip along the
+ *   axis at this posture) */
+brace_status_t loading_start(brace_loading_t *test, const loading_inputs_t *inputs, const brace_loading_setup_t *setup);
+
+/* Ends a test that runs: the limb goes back to where it began. */
+void loading_end(brace_loading_t *test, brace_loading_outcome_t outcome);
+
+static inline bool loading_runs(const brace_loading_t *test)
+{
+    return test->phase != LOADING_IDLE;
+}
+
+/* One step, with this tick's samples. Nothing is to do in IDLE.
+ *   reading (out): written always
+ * At most 2,500 instructions (COMPARE); in MOVE and DWELL 200. */
+void loading_step(brace_loading_t *test, const loading_inputs_t *inputs, brace_recorder_t *recorder,
+                  loading_reading_t *reading);
+
+/* What the test adds to a joint's set-point [rad]. joint_index: BRACE_COXA (0), BRACE_FEMUR, BRACE_TIBIA */
+float loading_offset_rad(const brace_loading_t *test, int joint_index);
+
+/* Bound of a joint's torque during the test [N mm]; INFINITY: none. */
+float loading_torque_limit_n_mm(const brace_loading_t *test, int joint_index);
+
+#endif

@@ -1,0 +1,175 @@
+#include "sense/joints.h"
+
+#define ANGLE_ABSURD_RAD 100.0f
+#define TORQUE_ABSURD 2.0f /* of the motor's greatest; bias and noise never add as much again */
+
+/* An encoder is stuck when it stands while its motor's torque swings by a quarter of its range and by four times what
+ * friction can hide: any position servo gives way by more than an encoder step under that torque. */
+#define STUCK_US 250000u
+#define STUCK_SWING_OF_RANGE 0.25f
+#define STUCK_SWING_OF_FRICTION 4.0f
+#define STUCK_LINK_RAD 0.005f
+
+/* The torque's mean begins as the median of the first three samples. Afterwards it follows only what two samples in a
+ * row agree on, so that a single wild sample does not move it. */
+#define TORQUE_MEAN_US 20000.0f
+#define SAMPLES_FIRST 3u
+
+/* The backlash machine's filters bear a stretch of four ticks without a sample. */
+#define PROVING_TICKS 4u
+
+#define STANDSTILL_MOST_US 0x40000000u
+
+static bool is_sound(const brace_hal_joint_t *sample, const brace_drive_t *drive)
+{
+    return __builtin_fabsf(sample->motor_rad) <= ANGLE_ABSURD_RAD &&
+           __builtin_fabsf(sample->torque_n_mm) <= TORQUE_ABSURD * drive->torque_range_n_mm;
+}
+
+static float lower(float a, float b)
+{
+    return b < a ? b : a;
+}
+
+static float higher(float a, float b)
+{
+    return b > a ? b : a;
+}
+
+/* The angle has moved: a new standstill begins here. */
+static void begin_standstill(joint_t *joint)
+{
+    joint->standstill = (joint_standstill_t){.motor_rad = joint->sample.motor_rad,
+                                             .torque_low_n_mm = joint->torque_n_mm,
+                                             .torque_high_n_mm = joint->torque_n_mm,
+                                             .link_low_rad = joint->sample.link_rad,
+                                             .link_high_rad = joint->sample.link_rad};
+    joint->stuck = false;
+}
+
+static void watch_encoder(joint_t *joint, const brace_drive_t *drive, const brace_joint_t *spring, uint32_t tick_us)
+{
+    joint_standstill_t *stands = &joint->standstill;
+    if (__builtin_fabsf(joint->sample.motor_rad - stands->motor_rad) > 0.5f * drive->angle_step_rad) {
+        begin_standstill(joint);
+        return;
+    }
+    stands->since_us += stands->since_us < STANDSTILL_MOST_US ? tick_us : 0u;
+    stands->torque_low_n_mm = lower(stands->torque_low_n_mm, joint->torque_n_mm);
+    stands->torque_high_n_mm = higher(stands->torque_high_n_mm, joint->torque_n_mm);
+    const float link_rad = joint->sample.link_rad;
+    if (__builtin_fabsf(link_rad) <= ANGLE_ABSURD_RAD) { /* NaN: there is no encoder behind the gearbox */
+        stands->link_low_rad = lower(stands->link_low_rad, link_rad);
+        stands->link_high_rad = higher(stands->link_high_rad, link_rad);
+    }
+    if (stands->since_us < STUCK_US || joint->stuck) {
+        return;
+    }
+    const float torque_swing_n_mm = stands->torque_high_n_mm - stands->torque_low_n_mm;
+    /* NaN, and so never moving, unless the link's encoder answered from the standstill's beginning. */
+    const float link_swing_rad = stands->link_high_rad - stands->link_low_rad;
+    const bool torque_works = torque_swing_n_mm > STUCK_SWING_OF_RANGE * drive->torque_range_n_mm &&
+                              torque_swing_n_mm > STUCK_SWING_OF_FRICTION * drive->motor_friction_n_mm;
+    const bool link_moves = link_swing_rad > STUCK_LINK_RAD + spring->gap_rad +
+                                                 torque_swing_n_mm * spring->compliance_rad_per_n_mm;
+    joint->stuck = torque_works || link_moves;
+}
+
+/* What two changes agree on: nothing when their signs differ, else the smaller. */
+static float agreed(float a, float b)
+{
+    const float smaller = __builtin_fabsf(a) < __builtin_fabsf(b) ? a : b;
+    return a * b > 0.0f ? smaller : 0.0f;
+}
+
+static void take_sample(joint_t *joint, const brace_hal_joint_t *fresh, uint32_t tick_us)
+{
+    const float mean_n_mm = joint->torque_n_mm;
+    const float moves_n_mm = agreed(joint->sample.torque_n_mm - mean_n_mm, fresh->torque_n_mm - mean_n_mm);
+    joint->sample = *fresh;
+    if (joint->samples_seen < SAMPLES_FIRST) {
+        joint->torque_n_mm = joint->samples_seen == 0u ? fresh->torque_n_mm : mean_n_mm + moves_n_mm;
+        joint->samples_seen++;
+        begin_standstill(joint);
+    } else {
+        const float share = (float)tick_us / (TORQUE_MEAN_US + (float)tick_us);
+        joint->torque_n_mm = mean_n_mm + share * moves_n_mm;
+    }
+}
+
+static void read_one(joints_t *joints, int index, const brace_hal_t *hal, const brace_parameters_t *parameters,
+                     uint32_t now_us)
+{
+    const uint32_t tick_us = parameters->controller.tick_us;
+    joint_t *joint = &joints->joint[index];
+    const brace_drive_t *drive = &parameters->drive[index];
+    brace_hal_joint_t fresh;
+    const int32_t answer = hal->joint_read(hal->context, index, &fresh);
+    const bool none_yet = joint->sample.motor_rad != joint->sample.motor_rad;
+    const bool newer = answer == BRACE_HAL_OK && (none_yet || fresh.taken_us != joint->sample.taken_us);
+    if (newer && is_sound(&fresh, drive)) {
+        take_sample(joint, &fresh, tick_us);
+    } else if (newer || (answer != BRACE_HAL_OK && answer != BRACE_HAL_AGAIN)) {
+        joints->samples_bad += joints->samples_bad < UINT32_MAX;
+    }
+    if (joint->samples_seen != 0u) {
+        watch_encoder(joint, drive, &parameters->limb.joint[index], tick_us);
+    }
+    /* A sample that was once too old stays unseen, or the clock's wrap would make it young again. A sample from the
+     * future is not young either. */
+    const int32_t age_us = (int32_t)(now_us - joint->sample.taken_us);
+    const int32_t limit_us = (int32_t)parameters->controller.age_limit_us;
+    joint->sound = joint->samples_seen != 0u && age_us <= limit_us && age_us >= -limit_us;
+    joint->samples_seen = joint->sound ? joint->samples_seen : 0u;
+    joint->is_new_enough_to_prove_a_flank = joint->sound && age_us <= (int32_t)(PROVING_TICKS * tick_us);
+}
+
+void joints_start(joints_t *joints, const brace_hal_t *hal)
+{
+    const float unknown = __builtin_nanf("");
+    brace_hal_joint_t ignored;
+    *joints = (joints_t){0};
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        joints->joint[i] = (joint_t){.fitted = true, .sample = {unknown, unknown, unknown, unknown, 0}};
+    }
+    joints->joint[BRACE_COXA].fitted =
+        hal->joint_read(hal->context, BRACE_COXA, &ignored) != BRACE_HAL_E_UNSUPPORTED;
+}
+
+void joints_read(joints_t *joints, const brace_hal_t *hal, const brace_parameters_t *parameters,
+                 uint32_t now_us)
+{
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        if (joints->joint[i].fitted) {
+            read_one(joints, i, hal, parameters, now_us);
+        }
+    }
+}
+
+uint32_t joints_taken_us(const joints_t *joints)
+{
+    uint32_t oldest_us = joints->joint[BRACE_FEMUR].sample.taken_us;
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        const joint_t *joint = &joints->joint[i];
+        if (joint->sound && (int32_t)(joint->sample.taken_us - oldest_us) < 0) {
+            oldest_us = joint->sample.taken_us;
+        }
+    }
+    return oldest_us;
+}
+
+void joints_temperatures(const joints_t *joints, float temp_degc[BRACE_LINK_COUNT])
+{
+    const float femur = joints->joint[BRACE_FEMUR].sample.temp_degc;
+    const float tibia = joints->joint[BRACE_TIBIA].sample.temp_degc;
+    temp_degc[BRACE_COXA] = joints->joint[BRACE_COXA].sample.temp_degc;
+    temp_degc[BRACE_FEMUR] = femur == femur ? femur : tibia;
+    temp_degc[BRACE_TIBIA] = tibia == tibia ? tibia : femur;
+}
+
+float joints_warmest_degc(const joints_t *joints)
+{
+    float temp_degc[BRACE_LINK_COUNT];
+    joints_temperatures(joints, temp_degc);
+    return temp_degc[BRACE_FEMUR] > temp_degc[BRACE_TIBIA] ? temp_degc[BRACE_FEMUR] : temp_degc[BRACE_TIBIA];
+}

@@ -1,0 +1,61 @@
+/* Samples of the joints: which are sound, how old they are, whether the encoder moves. */
+#ifndef BRACE_SENSE_JOINTS_H
+#define BRACE_SENSE_JOINTS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "brace/parameters.h"
+#include "brace_hal.h"
+
+/* How long an angle has stood still, and what torque and link did meanwhile. */
+typedef struct {
+    float motor_rad;
+    uint32_t since_us;
+    float torque_low_n_mm, torque_high_n_mm;
+    float link_low_rad, link_high_rad;
+} joint_standstill_t;
+
+typedef struct {
+    bool fitted;              /* the limb has this joint */
+    brace_hal_joint_t sample; /* the newest sound one; NaN before the first */
+    float torque_n_mm;        /* mean over 20 ms; a single wild sample does not move it */
+    bool sound;               /* the sample is no older than controller.age_limit_us */
+    bool is_new_enough_to_prove_a_flank; /* no older than four ticks, which the backlash machine's filters bear */
+    bool stuck;               /* the torque changes and the angle does not follow */
+    uint8_t samples_seen;     /* in a row; counts to 3 */
+    joint_standstill_t standstill;
+} joint_t;
+
+typedef struct {
+    joint_t joint[BRACE_LINK_COUNT]; /* by BRACE_COXA, BRACE_FEMUR, BRACE_TIBIA */
+    uint32_t samples_bad;            /* saturates */
+} joints_t;
+
+/* Forgets every sample, and asks the door which joints are fitted: femur and tibia always, the coxa joint unless
+ * joint_read answers E_UNSUPPORTED. */
+void joints_start(joints_t *joints, const brace_hal_t *hal);
+
+/* Reads the fitted joints. A sample that is refused, not finite or absurd (a torque of more than twice the motor's
+ * greatest) is counted, and the sound one before stays until it is older than controller.age_limit_us.
+ * At most 150 instructions a joint. */
+void joints_read(joints_t *joints, const brace_hal_t *hal, const brace_parameters_t *parameters,
+                 uint32_t now_us);
+
+/* Are femur and tibia joint sound, so that there may be a K in the limb's plane? */
+static inline bool joints_plane_is_sound(const joints_t *joints)
+{
+    return joints->joint[BRACE_FEMUR].sound && joints->joint[BRACE_TIBIA].sound;
+}
+
+/* When the samples were taken: the oldest of those that are sound. */
+uint32_t joints_taken_us(const joints_t *joints);
+
+/* Each joint's temperature [degC]. Femur and tibia joint take the other's where they have no sensor; NaN: not
+ * measured. */
+void joints_temperatures(const joints_t *joints, float temp_degc[BRACE_LINK_COUNT]);
+
+/* Temperature of femur and tibia joint, the warmer one [degC]; NaN: not measured. */
+float joints_warmest_degc(const joints_t *joints);
+
+#endif

@@ -1,0 +1,41 @@
+#include "wire/can/answers.h"
+
+#include <stddef.h>
+#include <string.h>
+
+#include "brace/can_messages.h"
+
+#define CODE_MASK 31u /* of an answer's first byte; the bits above tell its part */
+
+bool can_answers_have_room(const can_answers_t *answers, uint32_t frames)
+{
+    return answers->count + frames <= (uint32_t)CAN_ANSWERS_ROOM;
+}
+
+void can_answers_add(can_answers_t *answers, uint8_t (*parts)[8], uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) { /* at most BRACE_CAN_ANSWER_PARTS_MOST */
+        answers->count = (uint8_t)(answers->count + can_answers_have_room(answers, 1));
+        const uint32_t newest = (answers->first + answers->count - 1u) % (uint32_t)CAN_ANSWERS_ROOM;
+        memcpy(answers->frame[newest], parts[i], sizeof answers->frame[newest]);
+    }
+}
+
+void can_answers_refuse(can_answers_t *answers, uint32_t code, uint32_t token, int32_t status, uint32_t detail)
+{
+    uint8_t part[1][8];
+    (void)brace_can_pack_refusal(&(brace_can_refusal_t){token, status, detail}, part[0]);
+    part[0][0] = (uint8_t)(part[0][0] | (code & CODE_MASK));
+    can_answers_add(answers, part, 1);
+}
+
+const uint8_t *can_answers_next(const can_answers_t *answers)
+{
+    return answers->count > 0u ? answers->frame[answers->first] : NULL;
+}
+
+void can_answers_sent(can_answers_t *answers)
+{
+    answers->first = (uint8_t)((answers->first + 1u) % (uint32_t)CAN_ANSWERS_ROOM);
+    answers->count = (uint8_t)(answers->count - (answers->count > 0u));
+}

@@ -1,0 +1,37 @@
+/* The board's CAN controller: frames in and out, its health, and the way back after bus off.
+ *
+ * One caller, the tick; no pointer may be null. Costs are instructions on a Cortex-M4F, the hardware layer excluded. */
+#ifndef BRACE_WIRE_CAN_BUS_H
+#define BRACE_WIRE_CAN_BUS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "brace/parameters.h"
+#include "brace_hal.h"
+
+typedef struct {
+    bool is_there;            /* the board has CAN, and it is set up */
+    bool is_off;              /* the CAN controller has left the bus after too many errors */
+    uint32_t fd_bit_rate;     /* [bit/s]; 0: classic frames only */
+    uint32_t health_us;       /* since its health was last asked for */
+    uint32_t recover_us;      /* since it left the bus, or since recovery was last tried */
+    uint32_t recover_wait_us; /* before it is tried again */
+    uint32_t frames_refused;  /* saturates */
+} can_bus_t;
+
+/* Sets the CAN controller up: listen only while the node's number is unset, and with classic frames where it has no CAN
+ * FD. Before the first tick; may block can_setup's 20 ms twice. */
+void can_bus_start(can_bus_t *bus, const brace_hal_t *hal, const brace_controller_t *parameters);
+
+/* Looks after health and recovery, each tick: recovery is tried after 125 ms, then after twice as long each time, at
+ * most 2 s. About 30 instructions. */
+void can_bus_watch(can_bus_t *bus, const brace_hal_t *hal, uint32_t tick_us);
+
+/* returns whether the frame has been taken; if not, it may be tried again at the next tick. About 30 instructions. */
+bool can_bus_send(can_bus_t *bus, const brace_hal_t *hal, const brace_can_frame_t *frame);
+
+/* returns whether a frame has come, whoever it is for. About 20 instructions. */
+bool can_bus_receive(const can_bus_t *bus, const brace_hal_t *hal, brace_can_frame_t *frame);
+
+#endif

@@ -1,0 +1,227 @@
+#include "wire/can/can.h"
+
+#include <string.h>
+
+#include "wire/can/requests.h"
+#include "wire/can/transfer.h"
+
+#define FRAMES_PER_MS 4u
+#define FRAMES_MOST 20u
+#define NODE_MOST 127u
+#define STORING_PARTS 2u /* of the answer to a commit, which comes by itself */
+#define ANSWERS_PER_TICK ((uint32_t)BRACE_CAN_ANSWER_PARTS_MOST + STORING_PARTS) /* frames that a tick can add */
+
+typedef enum { ON_BUS, AS_TEXT } way_t;
+
+void can_start(can_t *can, const brace_hal_t *hal, const brace_parameters_t *parameters)
+{
+    *can = (can_t){.node_id = (uint8_t)parameters->controller.node_id,
+                   .bit_rate = parameters->controller.can_bit_rate};
+    can_bus_start(&can->bus, hal, &parameters->controller);
+    slcan_start(&can->text, hal);
+}
+
+bool can_is_bus_off(const can_t *can)
+{
+    return can->bus.is_off;
+}
+
+void can_counters(const can_t *can, brace_app_counters_t *counters)
+{
+    counters->frames_refused = can->bus.frames_refused;
+    counters->frames_unknown = can->frames_unknown;
+}
+
+/* ------------------------------------------------------------------------------------------------ in -- */
+
+/* Identifiers that the other nodes of a bus use among themselves. Their frames are for others, and nothing strange. */
+static bool is_known_function(uint32_t id)
+{
+#define FUNCTION_OF_RATE(ID, name, rate) | 1u << (ID >> 7)
+#define FUNCTION_BY_HAND(ID, name) | 1u << (ID >> 7)
+    const uint32_t known = 1u << (BRACE_CAN_ID_REQUEST >> 7) | 1u << (BRACE_CAN_ID_ANSWER >> 7)
+        BRACE_CAN_PROCESS(FUNCTION_OF_RATE) BRACE_CAN_PROCESS_FD(FUNCTION_OF_RATE) BRACE_CAN_BY_HAND(FUNCTION_BY_HAND);
+#undef FUNCTION_OF_RATE
+#undef FUNCTION_BY_HAND
+    return (known >> (id >> 7 & 15u) & 1u) != 0u;
+}
+
+static void count_unknown(can_t *can)
+{
+    can->frames_unknown += can->frames_unknown < UINT32_MAX;
+}
+
+/* Is the frame a request to this node? A frame of no known kind is counted. */
+static bool is_request(can_t *can, const brace_can_frame_t *frame)
+{
+    if (frame->id != (uint32_t)BRACE_CAN_ID_REQUEST + can->node_id) {
+        if (!is_known_function(frame->id)) {
+            count_unknown(can);
+        }
+        return false;
+    }
+    if (frame->length != 8u || frame->fd || frame->data[0] >= BRACE_ANSWER_PART) {
+        count_unknown(can);
+        return false;
+    }
+    return true;
+}
+
+static bool has_room_for_an_answer(const can_port_t *port)
+{
+    return can_answers_have_room(&port->answers, ANSWERS_PER_TICK);
+}
+
+static void answer(can_t *can, can_port_t *port, const wire_tick_t *tick, const brace_can_frame_t *frame)
+{
+    can_request_t request = {.data = frame->data,
+                             .node_id = can->node_id,
+                             .tick = tick,
+                             .session = &port->session,
+                             .answers = &port->answers};
+    if (!can_requests_answer(&request)) {
+        count_unknown(can);
+    }
+}
+
+static bool has_number(const can_t *can)
+{
+    return can->node_id >= 1u && can->node_id <= NODE_MOST;
+}
+
+static uint32_t frames_per_tick(const wire_tick_t *tick)
+{
+    const uint32_t frames = request_parameters(tick->controller)->controller.tick_us * FRAMES_PER_MS / 1000u;
+    return frames < FRAMES_PER_MS ? FRAMES_PER_MS : frames > FRAMES_MOST ? FRAMES_MOST : frames;
+}
+
+/* Looks through what has come over CAN until a frame is a request to this node, and answers that one. The frames behind
+ * it wait in the hardware layer. */
+static void listen_to_bus(can_t *can, const wire_tick_t *tick)
+{
+    const uint32_t most = frames_per_tick(tick);
+    brace_can_frame_t frame;
+    if (!has_room_for_an_answer(&can->bus_port)) {
+        return;
+    }
+    for (uint32_t i = 0; i < most && can_bus_receive(&can->bus, tick->hal, &frame); i++) {
+        if (is_request(can, &frame) && has_number(can)) {
+            answer(can, &can->bus_port, tick, &frame);
+            return;
+        }
+    }
+}
+
+static void listen_to_text(can_t *can, const wire_tick_t *tick)
+{
+    brace_can_frame_t frame;
+    if (has_room_for_an_answer(&can->text_port) && slcan_receive(&can->text, tick->hal, &frame) &&
+        is_request(can, &frame)) {
+        answer(can, &can->text_port, tick, &frame);
+    }
+}
+
+/* ----------------------------------------------------------------------------------------------- out -- */
+
+static can_port_t *port_of(can_t *can, way_t way)
+{
+    return way == ON_BUS ? &can->bus_port : &can->text_port;
+}
+
+/* Can frames leave this way now? */
+static bool is_open(const can_t *can, way_t way)
+{
+    return way == ON_BUS ? can->bus.is_there && !can->bus.is_off : can->text.is_open;
+}
+
+/* Gives a frame this node's number and sends it. returns whether it has left */
+static bool send(can_t *can, way_t way, const wire_tick_t *tick, brace_can_frame_t *frame)
+{
+    frame->id += can->node_id;
+    return way == ON_BUS ? can_bus_send(&can->bus, tick->hal, frame) : slcan_send(&can->text, frame);
+}
+
+static void send_answers(can_t *can, way_t way, const wire_tick_t *tick)
+{
+    can_answers_t *answers = &port_of(can, way)->answers;
+    brace_can_frame_t frame;
+    for (uint32_t i = 0; i < ANSWERS_PER_TICK; i++) {
+        const uint8_t *data = can_answers_next(answers);
+        if (data == NULL) {
+            return;
+        }
+        frame.id = BRACE_CAN_ID_ANSWER;
+        frame.length = 8;
+        frame.fd = false;
+        memcpy(frame.data, data, 8);
+        if (!send(can, way, tick, &frame)) {
+            return;
+        }
+        can_answers_sent(answers);
+    }
+}
+
+static void send_announcement(can_t *can, way_t way, const wire_tick_t *tick)
+{
+    announce_t *announce = &port_of(can, way)->announce;
+    brace_can_frame_t frame;
+    if (announce_next(announce, tick, &frame)) {
+        const uint32_t function = frame.id;
+        if (send(can, way, tick, &frame)) {
+            announce_sent(announce, tick, function);
+        }
+    }
+}
+
+static void send_process_data(can_t *can, way_t way, const wire_tick_t *tick)
+{
+    const process_bus_t bus = {.node_id = can->node_id,
+                               .bit_rate = can->bit_rate,
+                               .fd_bit_rate = way == ON_BUS ? can->bus.fd_bit_rate : 0u};
+    process_t *process = &port_of(can, way)->process;
+    brace_can_frame_t frame;
+    process_tick(process, &bus, tick);
+    for (uint32_t i = 0; i < (uint32_t)PROCESS_FRAMES_PER_TICK && process_next(process, tick, &frame); i++) {
+        if (!send(can, way, tick, &frame)) {
+            return;
+        }
+        process_sent(process);
+    }
+}
+
+/* Answers wait for a bus that is off. A channel that has been closed is another's when it opens again, so nothing waits
+ * for it. */
+static void keep_silent(can_t *can, way_t way, const wire_tick_t *tick)
+{
+    can_port_t *port = port_of(can, way);
+    process_skip(&port->process);
+    if (way == AS_TEXT) {
+        port->answers.count = 0;
+        announce_skip(&port->announce, tick);
+    }
+}
+
+static void speak(can_t *can, way_t way, const wire_tick_t *tick)
+{
+    if (!is_open(can, way)) {
+        keep_silent(can, way, tick);
+        return;
+    }
+    send_answers(can, way, tick);
+    if (has_number(can)) {
+        send_announcement(can, way, tick);
+        send_process_data(can, way, tick);
+    }
+}
+
+void can_tick(can_t *can, const wire_tick_t *tick)
+{
+    can_bus_watch(&can->bus, tick->hal, request_parameters(tick->controller)->controller.tick_us);
+    transfer_tick(&can->bus_port.session, &can->bus_port.answers, tick);
+    transfer_tick(&can->text_port.session, &can->text_port.answers, tick);
+    listen_to_bus(can, tick);
+    listen_to_text(can, tick);
+    speak(can, ON_BUS, tick);
+    speak(can, AS_TEXT, tick);
+    slcan_flush(&can->text, tick->hal);
+}

@@ -1,0 +1,58 @@
+/* The node on CAN: over the board's CAN controller, and as text over a serial port (SLCAN).
+ *
+ * These are two ports that carry the same frames, and neither waits for the other: each takes at most one request in a
+ * tick and answers it in that tick, and each has its own process data, heartbeats and emergencies. A port without room
+ * for an answer leaves what comes where it is until there is room again.
+ *
+ * A node whose number is not set (0) only listens on CAN and says nothing by itself. It answers requests to node 0 that
+ * come as text, since the serial port has one other end; so a board is given its number.
+ *
+ * One caller, the tick; no pointer may be null. Costs are instructions on a Cortex-M4F, the hardware layer excluded. */
+#ifndef BRACE_WIRE_CAN_CAN_H
+#define BRACE_WIRE_CAN_CAN_H
+
+#include "brace/parameters.h"
+#include "brace/snapshot.h"
+#include "brace_hal.h"
+#include "wire/can/announce.h"
+#include "wire/can/answers.h"
+#include "wire/can/bus.h"
+#include "wire/can/process.h"
+#include "wire/can/session.h"
+#include "wire/slcan/slcan.h"
+#include "wire/wire.h"
+
+/* What belongs to one port. */
+typedef struct {
+    can_answers_t answers;
+    can_session_t session;
+    announce_t announce;
+    process_t process;
+} can_port_t;
+
+typedef struct {
+    uint8_t node_id;         /* [0, 127]; 0: not set */
+    uint32_t bit_rate;       /* [bit/s] */
+    can_bus_t bus;
+    slcan_t text;
+    can_port_t bus_port;
+    can_port_t text_port;
+    uint32_t frames_unknown; /* saturates */
+} can_t;
+
+/* Sets both ports up. Node number and bit rates stay those of the start. Before the first tick; may block as
+ * can_bus_start. */
+void can_start(can_t *can, const brace_hal_t *hal, const brace_parameters_t *parameters);
+
+/* One tick of both ports: takes and answers requests, sends what is due.
+ * About 300 instructions when nothing happens. A request adds what its answer costs, each frame sent 160, as text
+ * 380. */
+void can_tick(can_t *can, const wire_tick_t *tick);
+
+/* Has the CAN controller left the bus? */
+bool can_is_bus_off(const can_t *can);
+
+/* Writes frames_refused and frames_unknown. */
+void can_counters(const can_t *can, brace_app_counters_t *counters);
+
+#endif

@@ -1,0 +1,182 @@
+/* Requests that move the limb, what a loading test has left, what the drift check knows, who this node is, faults. */
+#include <stddef.h>
+#include <string.h>
+
+#include "wire/can/request.h"
+#include "wire/measured.h"
+#include "wire/version.h"
+
+/* A loading test over the bus goes at this pace and within these bounds; the drives' own bounds stay. */
+#define RATE_MM_PER_S 10.0f
+#define FORCE_MOST_N 200.0f
+
+int32_t can_answer_take_up(can_request_t *request, const brace_can_take_up_request_t *asked,
+                           brace_can_take_up_answer_t *answer)
+{
+    controller_t *controller = request->tick->controller;
+    request->detail = request_mode(controller);
+    const brace_status_t status = request_take_up(controller, (int32_t)asked->joint, asked->flank);
+    if (status == BRACE_OK) {
+        answer->phase = request_snapshot(controller)->play[asked->joint].phase;
+    }
+    return status;
+}
+
+int32_t can_answer_take_up_result(can_request_t *request, const brace_can_take_up_result_request_t *asked,
+                                  brace_can_take_up_result_answer_t *answer)
+{
+    const brace_snapshot_t *snapshot = request_snapshot(request->tick->controller);
+    request->detail = asked->joint;
+    if (asked->joint >= (uint32_t)BRACE_LINK_COUNT) {
+        return BRACE_E_RANGE;
+    }
+    const brace_backlash_out_t *play = &snapshot->play[asked->joint];
+    *answer = (brace_can_take_up_result_answer_t){.joint = asked->joint,
+                                                  .outcome = play->takeup,
+                                                  .phase = play->phase,
+                                                  .torque_n_mm = snapshot->torque_n_mm[asked->joint]};
+    return BRACE_OK;
+}
+
+int32_t can_answer_let_go(can_request_t *request, const brace_can_let_go_request_t *asked,
+                          brace_can_let_go_answer_t *answer)
+{
+    controller_t *controller = request->tick->controller;
+    (void)asked;
+    request->detail = request_mode(controller);
+    const brace_status_t status = request_let_go(controller);
+    if (status == BRACE_OK) {
+        answer->mode = request_mode(controller);
+    }
+    return status;
+}
+
+int32_t can_answer_loading_test_start(can_request_t *request, const brace_can_loading_test_start_request_t *asked,
+                                      brace_can_loading_test_start_answer_t *answer)
+{
+    controller_t *controller = request->tick->controller;
+    const brace_drive_t *drive = request_parameters(controller)->drive;
+    const float femur_n_mm = drive[BRACE_FEMUR].torque_range_n_mm;
+    const float tibia_n_mm = drive[BRACE_TIBIA].torque_range_n_mm;
+    const brace_loading_setup_t setup = {
+        .axis = asked->axis == 0u ? BRACE_AXIS_X : BRACE_AXIS_Z,
+        .steps_per_side = asked->steps_per_side,
+        .step_mm = asked->step_mm,
+        .dwell_us = 1000u * asked->dwell_ms,
+        .rate_mm_per_s = RATE_MM_PER_S,
+        .force_max_n = FORCE_MOST_N,
+        .torque_max_n_mm = femur_n_mm > tibia_n_mm ? femur_n_mm : tibia_n_mm,
+        .source = BRACE_LOADING_ENCODED};
+    request->detail = request_mode(controller);
+    if (request_loading_is_returning(controller)) {
+        return BRACE_REFUSED_BUSY; /* the last test is over by itself in a moment */
+    }
+    const brace_status_t status = asked->axis > 1u ? BRACE_E_RANGE : request_loading_start(controller, &setup);
+    if (status == BRACE_OK) {
+        answer->rows = 4u * asked->steps_per_side + 1u;
+    }
+    return status;
+}
+
+int32_t can_answer_loading_test_stop(can_request_t *request, const brace_can_loading_test_stop_request_t *asked,
+                                     brace_can_loading_test_stop_answer_t *answer)
+{
+    controller_t *controller = request->tick->controller;
+    (void)asked;
+    request->detail = request_mode(controller);
+    const brace_status_t status = request_loading_stop(controller);
+    if (status == BRACE_OK) {
+        answer->rows = request_row_count(controller);
+    }
+    return status;
+}
+
+int32_t can_answer_fetch_row(can_request_t *request, const brace_can_fetch_row_request_t *asked,
+                             brace_can_fetch_row_answer_t *answer)
+{
+    const controller_t *controller = request->tick->controller;
+    brace_row_t row;
+    float value = 0.0f;
+    request->detail = request_row_count(controller);
+    brace_status_t status = request_row(controller, asked->row, &row);
+    if (status == BRACE_OK) {
+        status = brace_row_value(&row, asked->column, &value);
+    }
+    if (status == BRACE_OK) {
+        *answer = (brace_can_fetch_row_answer_t){asked->row, asked->column, value};
+    }
+    return status;
+}
+
+/* Items are the dictionary's entries from loading_outcome to loading_score_z. Outcome and rows, which are whole
+ * numbers, come as floats too. */
+int32_t can_answer_loading_test_result(can_request_t *request, const brace_can_loading_test_result_request_t *asked,
+                                       brace_can_loading_test_result_answer_t *answer)
+{
+    enum {
+        FIRST = offsetof(brace_measured_t, loading_outcome) / 4, /* an entry's number is its place: brace/measured.h */
+        ITEMS = offsetof(brace_measured_t, loading_score_z) / 4 - FIRST + 1
+    };
+    const brace_loading_result_t *result = request_loading_result(request->tick->controller);
+    uint32_t word = 0;
+    request->detail = ITEMS;
+    if (asked->item >= ITEMS) {
+        return BRACE_E_RANGE;
+    }
+    answer->item = asked->item;
+    answer->outcome = result->outcome;
+    switch (asked->item) {
+    case 0: answer->value = (float)result->outcome; break;
+    case 1: answer->value = (float)request->tick->measured->loading_rows; break;
+    default:
+        (void)measured_entry(request->tick->measured, BRACE_ENTRY_MEASURED + FIRST + asked->item, &word);
+        memcpy(&answer->value, &word, sizeof word); /* a float's bits */
+    }
+    return BRACE_OK;
+}
+
+int32_t can_answer_identify(can_request_t *request, const brace_can_identify_request_t *asked,
+                            brace_can_identify_answer_t *answer)
+{
+    const controller_t *controller = request->tick->controller;
+    (void)asked;
+    *answer = (brace_can_identify_answer_t){.major = BRACE_FIRMWARE_MAJOR,
+                                            .minor = BRACE_FIRMWARE_MINOR,
+                                            .patch = BRACE_FIRMWARE_PATCH,
+                                            .protocol = BRACE_PROTOCOL,
+                                            .node = request->node_id,
+                                            .dictionary_hash = BRACE_DICTIONARY_HASH,
+                                            .schema_hash = BRACE_SCHEMA_HASH,
+                                            .parameter_crc = request_parameter_crc(controller),
+                                            .origin = request_parameter_origin(controller)};
+    return BRACE_OK;
+}
+
+int32_t can_answer_drift(can_request_t *request, const brace_can_drift_request_t *asked,
+                         brace_can_drift_answer_t *answer)
+{
+    const brace_measured_t *measured = request->tick->measured;
+    (void)asked;
+    *answer = (brace_can_drift_answer_t){.state = measured->drift_state,
+                                         .cause = measured->drift_cause,
+                                         .could_be = measured->drift_could_be,
+                                         .next_step = measured->drift_next_step,
+                                         .evidence = measured->drift_evidence,
+                                         .loss_ratio = measured->drift_loss_ratio,
+                                         .loss_sigma_ratio = measured->drift_loss_sigma_ratio,
+                                         .since_readings = measured->drift_since_readings,
+                                         .readings = measured->drift_readings};
+    return BRACE_OK;
+}
+
+int32_t can_answer_clear(can_request_t *request, const brace_can_clear_request_t *asked,
+                         brace_can_clear_answer_t *answer)
+{
+    controller_t *controller = request->tick->controller;
+    request->detail = request_faults(controller);
+    const brace_status_t status = request_clear(controller, asked->faults);
+    if (status == BRACE_OK) {
+        answer->faults = request_faults(controller);
+    }
+    return status;
+}

@@ -1,0 +1,125 @@
+#include "wire/modbus/line.h"
+
+#include "wire/modbus/crc.h"
+#include "wire/modbus/pdu.h"
+
+enum { ADDRESS_BYTES = 1, CRC_BYTES = 2, FRAME_LEAST = ADDRESS_BYTES + 1 + CRC_BYTES, FRAME_MOST = 256, EVERYBODY = 0 };
+
+/* A whole frame may come at once, from an adapter. Its check is worked out in a tick or two, before silence ends it. */
+#define CHECKED_PER_TICK 128u
+
+#define CHARACTER_BITS 11u
+#define LEAST_SILENCE_US 1750u /* above 19200 bit/s the standard has it whatever the rate */
+
+/* The rest of a frame for us may be so long on its way: adapters hold bytes back, the commonest ones for 16 ms. */
+#define PATIENCE_US 20000u
+
+void modbus_line_start(modbus_line_t *line, const brace_hal_t *hal, uint32_t baud)
+{
+    line->silence_us = baud > 19200u ? LEAST_SILENCE_US : 3500000u * CHARACTER_BITS / baud;
+    line->link.is_fitted =
+        hal->serial_setup(hal->context, BRACE_SERIAL_MODBUS, baud, BRACE_PARITY_EVEN) == BRACE_HAL_OK;
+}
+
+/* returns whether bytes have come */
+static bool gather(modbus_line_t *line, const wire_tick_t *tick)
+{
+    modbus_link_t *link = &line->link;
+    const uint32_t before = link->count;
+    const uint32_t came = modbus_link_receive(link, tick, BRACE_SERIAL_MODBUS, MODBUS_LINK_BYTES - before);
+    if (link->is_skipping || link->count > FRAME_MOST) {
+        /* What is longer than any frame is thrown away until the line is silent. */
+        link->is_skipping = true;
+        link->count = 0;
+    }
+    if (before == 0u) {
+        line->crc = MODBUS_CRC_START;
+        line->checked = 0;
+    }
+    return came > 0u;
+}
+
+/* Goes on with the check, over at most so many of the bytes that have come. */
+static void check_on(modbus_line_t *line, uint32_t most)
+{
+    const uint32_t left = line->link.count > line->checked ? (uint32_t)line->link.count - line->checked : 0u;
+    const uint32_t count = left < most ? left : most;
+    line->crc = modbus_crc(line->crc, line->link.bytes + line->checked, count);
+    line->checked = (uint16_t)(line->checked + count);
+}
+
+/* Can what has come be the beginning of a request for us? */
+static bool may_go_on(const modbus_link_t *link, const modbus_server_t *server)
+{
+    if (link->is_skipping || (link->bytes[0] != server->address && link->bytes[0] != EVERYBODY)) {
+        return false;
+    }
+    const uint32_t length = (uint32_t)link->count - ADDRESS_BYTES;
+    return length == 0u || length < modbus_pdu_least_length(link->bytes + ADDRESS_BYTES, length) + CRC_BYTES;
+}
+
+/* A sound frame: is it a request for us? Counts it. */
+static bool is_for_us(const modbus_link_t *link, modbus_server_t *server)
+{
+    const uint8_t address = link->bytes[0], function = link->bytes[ADDRESS_BYTES];
+    const bool writes = function == MODBUS_WRITE_ONE || function == MODBUS_WRITE_BLOCK;
+    server->messages++;
+    if ((address != server->address && address != EVERYBODY) || (function & MODBUS_REFUSED) != 0u) {
+        return false; /* another's; or an exception, perhaps our own come back over a line of two wires */
+    }
+    server->served++;
+    if (address == EVERYBODY) { /* nobody answers such a request, so only a write has a sense */
+        server->unanswered++;
+        return writes;
+    }
+    return true;
+}
+
+static void answer(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
+{
+    modbus_link_t *link = &line->link;
+    const uint32_t request = (uint32_t)link->count - ADDRESS_BYTES - CRC_BYTES;
+    const uint32_t length =
+        ADDRESS_BYTES + modbus_pdu_answer(server, &link->half, tick, link->bytes + ADDRESS_BYTES, request);
+    if (link->bytes[0] == EVERYBODY) {
+        modbus_link_rest(link);
+        return;
+    }
+    const uint16_t crc = modbus_crc(MODBUS_CRC_START, link->bytes, length);
+    link->bytes[length] = (uint8_t)crc;
+    link->bytes[length + 1u] = (uint8_t)(crc >> 8);
+    modbus_link_answer(link, tick, length + CRC_BYTES);
+}
+
+/* The line is silent: what has come is a frame, or broken, or a part whose rest is held back. */
+static void end_frame(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick, uint32_t silent_us)
+{
+    modbus_link_t *link = &line->link;
+    check_on(line, MODBUS_LINK_BYTES);
+    if (link->is_skipping || link->count < FRAME_LEAST || line->crc != 0u) {
+        if (silent_us >= PATIENCE_US || !may_go_on(link, server)) {
+            modbus_link_break(link, server);
+        }
+    } else if (is_for_us(link, server)) {
+        answer(line, server, tick);
+    } else {
+        modbus_link_rest(link);
+    }
+}
+
+void modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
+{
+    modbus_link_t *link = &line->link;
+    if (!link->is_sending) {
+        const bool bytes_came = gather(line, tick);
+        const uint32_t silent_us = tick->now_us - link->active_us;
+        if (bytes_came || silent_us < line->silence_us) {
+            check_on(line, CHECKED_PER_TICK);
+        } else if (link->count > 0u || link->is_skipping) {
+            end_frame(line, server, tick, silent_us);
+        }
+    }
+    if (link->is_sending) {
+        modbus_link_send(link, tick, BRACE_SERIAL_MODBUS);
+    }
+}

@@ -1,0 +1,23 @@
+/* Modbus RTU: address, PDU and CRC on a serial line (8E1). 3.5 characters of silence end a frame (Modbus over serial
+ * line 1.02, 2.5.1). */
+#ifndef BRACE_WIRE_MODBUS_LINE_H
+#define BRACE_WIRE_MODBUS_LINE_H
+
+#include "brace_hal.h"
+#include "wire/modbus/link.h"
+
+typedef struct {
+    modbus_link_t link;
+    uint16_t crc;         /* of the first bytes that have come */
+    uint16_t checked;     /* so many */
+    uint32_t silence_us;  /* that ends a frame */
+} modbus_line_t;
+
+/* Opens the port, if the board has it. Before the first tick. */
+void modbus_line_start(modbus_line_t *line, const brace_hal_t *hal, uint32_t baud);
+
+/* One tick: takes what has come; or, when silence has ended a request, answers it, and the answer begins to leave in
+ * the same tick. At most 1,100 instructions while bytes come, and 3,000 for an answer. */
+void modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick);
+
+#endif

@@ -1,0 +1,38 @@
+#include "wire/modbus/modbus.h"
+
+#include <stddef.h>
+
+#include "wire/modbus/ask.h"
+#include "wire/modbus/tcp.h"
+
+void modbus_start(modbus_t *modbus, const brace_hal_t *hal, const brace_parameters_t *parameters)
+{
+    *modbus = (modbus_t){.server = {.address = (uint8_t)parameters->controller.modbus_address}};
+    modbus_ask_nothing(&modbus->server);
+    if (hal->serial_setup == NULL || hal->serial_read == NULL || hal->serial_write == NULL) {
+        return;
+    }
+    modbus_line_start(&modbus->line, hal, parameters->controller.modbus_baud);
+    modbus_tcp_start(&modbus->tcp, hal, parameters->controller.modbus_baud);
+}
+
+void modbus_tick(modbus_t *modbus, const wire_tick_t *tick)
+{
+    if (modbus->line.link.is_fitted) {
+        modbus_line_tick(&modbus->line, &modbus->server, tick);
+    }
+    if (modbus->tcp.is_fitted) {
+        modbus_tcp_tick(&modbus->tcp, &modbus->server, tick);
+    }
+}
+
+static uint32_t sum_of(uint32_t counted, uint32_t more)
+{
+    return more < UINT32_MAX - counted ? counted + more : UINT32_MAX;
+}
+
+void modbus_counters(const modbus_t *modbus, brace_app_counters_t *counters)
+{
+    counters->modbus_broken = sum_of(counters->modbus_broken, modbus->server.broken_since_start);
+    counters->modbus_refused = sum_of(counters->modbus_refused, modbus->server.refused_since_start);
+}

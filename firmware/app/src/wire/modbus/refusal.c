@@ -1,0 +1,20 @@
+#include "wire/modbus/refusal.h"
+
+modbus_exception_t modbus_refusal_of(brace_status_t status)
+{
+    switch (status) {
+    case BRACE_OK: return MODBUS_FINE;
+    case BRACE_E_MODE: return MODBUS_E_FUNCTION;
+    case BRACE_E_RANGE:
+    case BRACE_E_PARAMETER:
+    case BRACE_E_NOT_FINITE:
+    case BRACE_E_UNREACHABLE: return MODBUS_E_VALUE;
+    default: return MODBUS_E_DEVICE;
+    }
+}
+
+modbus_exception_t modbus_refusal_to_write(controller_t *controller)
+{
+    const brace_status_t status = request_may_write(controller);
+    return status == BRACE_E_UNSUPPORTED ? MODBUS_E_BUSY : modbus_refusal_of(status);
+}

@@ -1,0 +1,27 @@
+/* What the Modbus server remembers, whichever port a request comes by. */
+#ifndef BRACE_WIRE_MODBUS_SERVER_H
+#define BRACE_WIRE_MODBUS_SERVER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "brace/measured.h"
+
+/* Shared by all ports: what one master asks, another may read. */
+typedef struct {
+    uint8_t address; /* of the controller on the line, and its unit behind a TCP connection */
+    uint16_t messages, broken, refused, served, unanswered, busy; /* function 08's counters; they wrap */
+    uint32_t broken_since_start, refused_since_start;             /* brace_app_counters_t; they saturate */
+    brace_commands_t written;   /* the take-up that began last, and the questions that were answered last */
+    brace_answered_t answered;  /* their answers */
+} modbus_server_t;
+
+/* Function 06 writes a value in two requests, the high register first. Each port keeps its own first half, so that what
+ * a master does on another port is no part of it. */
+typedef struct {
+    bool is_known;
+    uint16_t register_address;
+    uint16_t value;
+} modbus_half_t;
+
+#endif

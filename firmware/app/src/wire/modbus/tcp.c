@@ -1,0 +1,95 @@
+#include "wire/modbus/tcp.h"
+
+#include "wire/modbus/bytes.h"
+#include "wire/modbus/pdu.h"
+
+enum { PROTOCOL_AT = 2, LENGTH_AT = 4, UNIT_AT = 6, PDU_AT = 7, LEAST_BYTES = PDU_AT + 1 };
+enum { LEAST_LENGTH = 2, MOST_LENGTH = MODBUS_PDU_BYTES + 1 }; /* as the header tells it */
+enum { ANY_UNIT = 0, DEVICE_ITSELF = 255 };
+
+#define PATIENCE_US 1000000u /* the rest of a request may be so long on its way */
+
+void modbus_tcp_start(modbus_link_t *link, const brace_hal_t *hal, uint32_t baud)
+{
+    link->is_fitted =
+        hal->serial_setup(hal->context, BRACE_SERIAL_MODBUS_TCP, baud, BRACE_PARITY_NONE) == BRACE_HAL_OK;
+}
+
+static uint32_t whole_bytes(const modbus_link_t *link)
+{
+    return UNIT_AT + get_16(link->bytes + LENGTH_AT);
+}
+
+static bool is_modbus(const modbus_link_t *link)
+{
+    const uint32_t length = get_16(link->bytes + LENGTH_AT);
+    return get_16(link->bytes + PROTOCOL_AT) == 0u && length >= LEAST_LENGTH && length <= MOST_LENGTH;
+}
+
+/* What is no Modbus tells no length: it is thrown away until nothing more comes. */
+static void skip(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
+{
+    link->count = 0;
+    if (modbus_link_receive(link, tick, BRACE_SERIAL_MODBUS_TCP, MODBUS_LINK_BYTES) == 0u) {
+        modbus_link_break(link, server);
+    }
+    link->count = 0;
+}
+
+/* returns whether a request is whole. Nothing of the next one is read. */
+static bool gather(modbus_link_t *link, const wire_tick_t *tick)
+{
+    if (link->count < LEAST_BYTES) {
+        (void)modbus_link_receive(link, tick, BRACE_SERIAL_MODBUS_TCP, LEAST_BYTES - (uint32_t)link->count);
+    }
+    if (link->count < LEAST_BYTES) {
+        return false;
+    }
+    link->is_skipping = !is_modbus(link);
+    if (link->is_skipping) {
+        return false;
+    }
+    const uint32_t whole = whole_bytes(link);
+    if (link->count < whole) {
+        (void)modbus_link_receive(link, tick, BRACE_SERIAL_MODBUS_TCP, whole - link->count);
+    }
+    return link->count == whole;
+}
+
+/* The unit is the controller's address; 0 and 255 mean the device behind the connection. There are no others. */
+static void answer(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
+{
+    const uint8_t unit = link->bytes[UNIT_AT];
+    uint8_t *pdu = link->bytes + PDU_AT;
+    uint32_t length;
+    server->messages++;
+    if (unit == server->address || unit == ANY_UNIT || unit == DEVICE_ITSELF) {
+        server->served++;
+        length = modbus_pdu_answer(server, &link->half, tick, pdu, (uint32_t)link->count - PDU_AT);
+    } else {
+        length = modbus_pdu_refuse(server, pdu, MODBUS_E_TARGET);
+    }
+    put_16(link->bytes + LENGTH_AT, length + 1u);
+    modbus_link_answer(link, tick, PDU_AT + length);
+}
+
+static void take_request(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
+{
+    if (link->is_skipping) {
+        skip(link, server, tick);
+    } else if (gather(link, tick)) {
+        answer(link, server, tick);
+    } else if (link->count > 0u && tick->now_us - link->active_us > PATIENCE_US) {
+        modbus_link_break(link, server);
+    }
+}
+
+void modbus_tcp_tick(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
+{
+    if (!link->is_sending) {
+        take_request(link, server, tick);
+    }
+    if (link->is_sending) {
+        modbus_link_send(link, tick, BRACE_SERIAL_MODBUS_TCP);
+    }
+}

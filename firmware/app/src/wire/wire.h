@@ -1,0 +1,18 @@
+/* What every wire is given in a tick. */
+#ifndef BRACE_WIRE_WIRE_H
+#define BRACE_WIRE_WIRE_H
+
+#include <stdint.h>
+
+#include "brace/measured.h"
+#include "brace_hal.h"
+#include "requests.h"
+
+typedef struct {
+    const brace_hal_t *hal;
+    controller_t *controller;          /* only to be handed to requests.h */
+    const brace_measured_t *measured;  /* all values of the newest snapshot that may be read; one for all wires */
+    uint32_t now_us;
+} wire_tick_t;
+
+#endif

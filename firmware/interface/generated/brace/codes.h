@@ -1,0 +1,95 @@
+/* Written by tools/interface from dictionary.toml; do not edit. */
+#ifndef BRACE_CODES_H
+#define BRACE_CODES_H
+
+/* What numbers mean: modes, faults, causes, next steps. Names and sentences for people: brace/code_names.h. The
+ * constants of the other tables stand in hand-written headers; codes.c asserts that they agree with the dictionary. */
+
+/* What the controller is doing. */
+typedef enum {
+    /* The controller has started and waits for sound samples of its joints. */
+    BRACE_MODE_START = 0,
+    /* The controller computes K in every tick; others move the limb. */
+    BRACE_MODE_MONITOR = 1,
+    /* Parameters may be written; nothing moves the limb, and K is not told. */
+    BRACE_MODE_CONFIGURATION = 2,
+    /* The controller takes up the play of joints, holds it, or lets it go. */
+    BRACE_MODE_TAKING_UP = 3,
+    /* The controller runs a loading test. */
+    BRACE_MODE_LOADING_TEST = 4,
+    /* A fault makes every K invalid; the mode ends by itself when the fault is over. */
+    BRACE_MODE_FAULT = 5
+} brace_mode_t;
+
+/* The likeliest cause of a drift. The core's number of the same cause is one less. */
+typedef enum {
+    /* No change has shown. */
+    BRACE_DRIFT_CAUSE_NONE = 0,
+    /* The femur's bending has changed. */
+    BRACE_DRIFT_CAUSE_FEMUR_LINK = 1,
+    /* The tibia's bending or the knee joint's spring has changed; forces at the tip cannot tell these two apart. */
+    BRACE_DRIFT_CAUSE_TIBIA_LINK_OR_KNEE_JOINT = 2,
+    /* The femur joint's spring or the base's rotation has changed; forces at the tip cannot tell these two apart. */
+    BRACE_DRIFT_CAUSE_FEMUR_JOINT_OR_BASE = 3,
+    /* The readings scatter more than their noise, and no change of a part explains it. */
+    BRACE_DRIFT_CAUSE_UNEXPLAINED = 4
+} brace_drift_cause_code_t;
+
+/* What to do next about a drift. */
+typedef enum {
+    /* There is nothing to do. */
+    BRACE_DRIFT_NEXT_NOTHING = 0,
+    /* Go on learning: run loading tests at other postures. */
+    BRACE_DRIFT_NEXT_LEARN = 1,
+    /* Repeat the loading test at this posture. */
+    BRACE_DRIFT_NEXT_REPEAT_TEST = 2,
+    /* Run a loading test at another posture: it tells apart the causes that are left. */
+    BRACE_DRIFT_NEXT_TEST_ANOTHER_POSTURE = 3,
+    /* Inspect the femur link. */
+    BRACE_DRIFT_NEXT_INSPECT_FEMUR_LINK = 4,
+    /* Inspect the tibia link and the knee joint. */
+    BRACE_DRIFT_NEXT_INSPECT_TIBIA_LINK_AND_KNEE_JOINT = 5,
+    /* Inspect the femur joint and the base. */
+    BRACE_DRIFT_NEXT_INSPECT_FEMUR_JOINT_AND_BASE = 6,
+    /* Check the force sensor and how the limb is mounted. */
+    BRACE_DRIFT_NEXT_CHECK_SENSOR_AND_MOUNTING = 7
+} brace_drift_next_t;
+
+/* What is wrong with the controller or the limb; a bit stays set while its cause does. */
+enum {
+    /* The femur joint's drive gives no sound sample. */
+    BRACE_FAULT_SENSOR_FEMUR = 1u << 0,
+    /* The tibia joint's drive gives no sound sample. */
+    BRACE_FAULT_SENSOR_TIBIA = 1u << 1,
+    /* A motor's torque works and its angle does not follow. */
+    BRACE_FAULT_ENCODER_STUCK = 1u << 2,
+    /* A tick came more than two periods late. */
+    BRACE_FAULT_TICK_LATE = 1u << 3,
+    /* Neither slot holds a valid parameter set: the controller uses safe defaults, and K is UNCALIBRATED. */
+    BRACE_FAULT_PARAMETERS = 1u << 4,
+    /* The non-volatile memory does not keep what is written to it. */
+    BRACE_FAULT_STORE = 1u << 5,
+    /* The CAN controller has left the bus after too many errors. */
+    BRACE_FAULT_CAN_BUS_OFF = 1u << 6,
+    /* Measurement and model have drifted apart; drift_cause tells the likeliest cause. */
+    BRACE_FAULT_MODEL_DRIFT = 1u << 7,
+    /* The last start came after a crash; the record tells more. */
+    BRACE_FAULT_CRASHED = 1u << 8,
+    /* The coxa joint's drive gives no sound sample. */
+    BRACE_FAULT_SENSOR_COXA = 1u << 9
+};
+enum { BRACE_FAULT_COUNT = 10 };
+/* X(fault, code) for every fault in the order of the bits: its CANopen emergency code. */
+#define BRACE_FAULTS(X) \
+    X(BRACE_FAULT_SENSOR_FEMUR, 0x7300) \
+    X(BRACE_FAULT_SENSOR_TIBIA, 0x7300) \
+    X(BRACE_FAULT_ENCODER_STUCK, 0x7305) \
+    X(BRACE_FAULT_TICK_LATE, 0x6100) \
+    X(BRACE_FAULT_PARAMETERS, 0x6320) \
+    X(BRACE_FAULT_STORE, 0x5530) \
+    X(BRACE_FAULT_CAN_BUS_OFF, 0x8140) \
+    X(BRACE_FAULT_MODEL_DRIFT, 0xff01) \
+    X(BRACE_FAULT_CRASHED, 0x6010) \
+    X(BRACE_FAULT_SENSOR_COXA, 0x7300)
+
+#endif

@@ -1,0 +1,221 @@
+/* Written by tools/interface from messages.toml; do not edit. */
+#include "brace/can_snapshot.h"
+
+#include <stdbool.h>
+
+#include "brace/can_messages.h"
+#include "brace/status.h"
+
+/* NaN is beyond nothing. */
+static bool is_beyond(float value, float most)
+{
+    return __builtin_fabsf(value) > most;
+}
+
+static uint32_t stiffness_a_flags(const brace_measured_t *measured)
+{
+    const bool is_limited =
+        is_beyond(measured->k_xx_n_per_mm, BRACE_CAN_STIFFNESS_A_K_XX_N_PER_MM_MOST) ||
+        is_beyond(measured->k_xz_n_per_mm, BRACE_CAN_STIFFNESS_A_K_XZ_N_PER_MM_MOST) ||
+        is_beyond(measured->k_zz_n_per_mm, BRACE_CAN_STIFFNESS_B_K_ZZ_N_PER_MM_MOST) ||
+        is_beyond(measured->lambda_min_n_per_mm, BRACE_CAN_EIGENVALUES_LAMBDA_MIN_N_PER_MM_MOST) ||
+        is_beyond(measured->lambda_max_n_per_mm, BRACE_CAN_EIGENVALUES_LAMBDA_MAX_N_PER_MM_MOST) ||
+        is_beyond(measured->stiff_axis_rad, BRACE_CAN_EIGENVALUES_STIFF_AXIS_RAD_MOST);
+    return measured->flags | (is_limited ? (uint32_t)BRACE_FLAG_SATURATED : 0u);
+}
+
+void brace_can_make_stiffness_a(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_stiffness_a_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .flags = stiffness_a_flags(measured),
+        .k_xx_n_per_mm = measured->k_xx_n_per_mm,
+        .k_xz_n_per_mm = measured->k_xz_n_per_mm,
+    };
+    (void)brace_can_pack_stiffness_a(&message, data);
+}
+
+void brace_can_make_stiffness_b(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    const brace_can_stiffness_b_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .k_zz_n_per_mm = measured->k_zz_n_per_mm,
+        .age_ms = age_ms,
+        .play_femur = measured->play_femur,
+        .play_tibia = measured->play_tibia,
+        .parameter_tag = measured->parameter_crc & 0xffffu,
+    };
+    (void)brace_can_pack_stiffness_b(&message, data);
+}
+
+void brace_can_make_eigenvalues(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_eigenvalues_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .lambda_min_n_per_mm = measured->lambda_min_n_per_mm,
+        .lambda_max_n_per_mm = measured->lambda_max_n_per_mm,
+        .stiff_axis_rad = measured->stiff_axis_rad,
+    };
+    (void)brace_can_pack_eigenvalues(&message, data);
+}
+
+void brace_can_make_posture(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_posture_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .theta1_rad = measured->theta1_rad,
+        .theta2_rad = measured->theta2_rad,
+        .mode = measured->mode,
+        .faults = measured->faults,
+    };
+    (void)brace_can_pack_posture(&message, data);
+}
+
+void brace_can_make_space_0(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_space_0_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .k_xx_n_per_mm = measured->space_k_xx_n_per_mm,
+        .k_xy_n_per_mm = measured->space_k_xy_n_per_mm,
+    };
+    (void)brace_can_pack_space_0(&message, data);
+}
+
+void brace_can_make_space_1(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_space_1_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .k_xz_n_per_mm = measured->space_k_xz_n_per_mm,
+        .k_yy_n_per_mm = measured->space_k_yy_n_per_mm,
+    };
+    (void)brace_can_pack_space_1(&message, data);
+}
+
+void brace_can_make_space_2(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_space_2_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .k_yz_n_per_mm = measured->space_k_yz_n_per_mm,
+        .k_zz_n_per_mm = measured->space_k_zz_n_per_mm,
+    };
+    (void)brace_can_pack_space_2(&message, data);
+}
+
+void brace_can_make_space_3(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_space_3_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .lambda_1_n_per_mm = measured->space_lambda_1_n_per_mm,
+        .lambda_2_n_per_mm = measured->space_lambda_2_n_per_mm,
+    };
+    (void)brace_can_pack_space_3(&message, data);
+}
+
+static uint32_t space_4_flags(const brace_measured_t *measured)
+{
+    const bool is_limited =
+        is_beyond(measured->space_k_xx_n_per_mm, BRACE_CAN_SPACE_0_K_XX_N_PER_MM_MOST) ||
+        is_beyond(measured->space_k_xy_n_per_mm, BRACE_CAN_SPACE_0_K_XY_N_PER_MM_MOST) ||
+        is_beyond(measured->space_k_xz_n_per_mm, BRACE_CAN_SPACE_1_K_XZ_N_PER_MM_MOST) ||
+        is_beyond(measured->space_k_yy_n_per_mm, BRACE_CAN_SPACE_1_K_YY_N_PER_MM_MOST) ||
+        is_beyond(measured->space_k_yz_n_per_mm, BRACE_CAN_SPACE_2_K_YZ_N_PER_MM_MOST) ||
+        is_beyond(measured->space_k_zz_n_per_mm, BRACE_CAN_SPACE_2_K_ZZ_N_PER_MM_MOST) ||
+        is_beyond(measured->space_lambda_3_n_per_mm, BRACE_CAN_SPACE_4_LAMBDA_3_N_PER_MM_MOST);
+    return measured->space_flags | (is_limited ? (uint32_t)BRACE_FLAG_SATURATED : 0u);
+}
+
+void brace_can_make_space_4(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    const brace_can_space_4_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .lambda_3_n_per_mm = measured->space_lambda_3_n_per_mm,
+        .flags = space_4_flags(measured),
+        .age_ms = age_ms,
+        .play_coxa = measured->play_coxa,
+    };
+    (void)brace_can_pack_space_4(&message, data);
+}
+
+void brace_can_make_space_5(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_space_5_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .stiff_axis_x = measured->space_stiff_axis_x,
+        .stiff_axis_y = measured->space_stiff_axis_y,
+        .stiff_axis_z = measured->space_stiff_axis_z,
+    };
+    (void)brace_can_pack_space_5(&message, data);
+}
+
+void brace_can_make_space_6(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_space_6_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .theta0_rad = measured->theta0_rad,
+        .k_across_n_per_mm = measured->k_across_n_per_mm,
+    };
+    (void)brace_can_pack_space_6(&message, data);
+}
+
+void brace_can_make_snapshot_fd(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    const brace_can_snapshot_fd_t message = {
+        .sequence = measured->sequence,
+        .parameter_crc = measured->parameter_crc,
+        .age_ms = age_ms,
+        .flags = measured->flags,
+        .mode = measured->mode,
+        .play_femur = measured->play_femur,
+        .play_tibia = measured->play_tibia,
+        .faults = measured->faults,
+        .k_xx_n_per_mm = measured->k_xx_n_per_mm,
+        .k_xz_n_per_mm = measured->k_xz_n_per_mm,
+        .k_zz_n_per_mm = measured->k_zz_n_per_mm,
+        .lambda_min_n_per_mm = measured->lambda_min_n_per_mm,
+        .lambda_max_n_per_mm = measured->lambda_max_n_per_mm,
+        .stiff_axis_rad = measured->stiff_axis_rad,
+        .theta1_rad = measured->theta1_rad,
+        .theta2_rad = measured->theta2_rad,
+        .tip_x_mm = measured->tip_x_mm,
+        .tip_z_mm = measured->tip_z_mm,
+        .force_x_n = measured->force_x_n,
+        .force_z_n = measured->force_z_n,
+    };
+    (void)brace_can_pack_snapshot_fd(&message, data);
+}
+
+void brace_can_make_space_fd(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    const brace_can_space_fd_t message = {
+        .sequence = measured->sequence,
+        .age_ms = age_ms,
+        .parameter_tag = measured->parameter_crc & 0xffffu,
+        .flags = measured->space_flags,
+        .mode = measured->mode,
+        .play_coxa = measured->play_coxa,
+        .k_across_n_per_mm = measured->k_across_n_per_mm,
+        .k_xx_n_per_mm = measured->space_k_xx_n_per_mm,
+        .k_xy_n_per_mm = measured->space_k_xy_n_per_mm,
+        .k_xz_n_per_mm = measured->space_k_xz_n_per_mm,
+        .k_yy_n_per_mm = measured->space_k_yy_n_per_mm,
+        .k_yz_n_per_mm = measured->space_k_yz_n_per_mm,
+        .k_zz_n_per_mm = measured->space_k_zz_n_per_mm,
+        .lambda_1_n_per_mm = measured->space_lambda_1_n_per_mm,
+        .lambda_2_n_per_mm = measured->space_lambda_2_n_per_mm,
+        .lambda_3_n_per_mm = measured->space_lambda_3_n_per_mm,
+        .theta0_rad = measured->theta0_rad,
+        .stiff_axis_x = measured->space_stiff_axis_x,
+        .stiff_axis_y = measured->space_stiff_axis_y,
+        .stiff_axis_z = measured->space_stiff_axis_z,
+    };
+    (void)brace_can_pack_space_fd(&message, data);
+}

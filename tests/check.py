@@ -1,0 +1,212 @@
+"""The edit loop: format, types and layers of the whole, and the unit tests of what differs from main.
+
+    ./dev check     sets up what this needs and runs it
+
+Compared with the commit at which this branch left main; files that git does not know yet count as changed. Every step
+prints what it ran. Exit codes: 0 all is well, 1 a step found something.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.path.insert(0, str(ROOT / "tests" / "discipline"))
+
+from typed_folders import TYPED, mypy_command, mypy_environment  # noqa: E402
+
+MOST_COLUMNS = 120
+PYTHON_TESTS_S = 40.0  # no further test file begins after so long, so that the whole takes about a minute
+BUILD = ROOT / "build" / "host"
+WRITTEN_BY_HAND = (".c", ".h", ".cpp", ".py", ".cmake")
+C_PARTS = {  # changed folder: folder of its tests
+    "firmware/core": "tests/unit/core",
+    "firmware/interface": "tests/unit/interface",
+    "firmware/app": "tests/unit/app",
+    "hal": "tests/unit/hal",
+    "host_sim": "tests/host_sim",
+}
+
+
+def run(*command: str, environment: dict[str, str] | None = None) -> bool:
+    """Runs a command in the project's folder. Prints its output only when it fails."""
+    done = subprocess.run(
+        command, cwd=ROOT, env={**os.environ, **(environment or {})}, capture_output=True, text=True, check=False
+    )
+    if done.returncode:
+        print(done.stdout + done.stderr, end="")
+    return done.returncode == 0
+
+
+def git(*arguments: str) -> str:
+    """What git prints; nothing where it refuses."""
+    return subprocess.run(["git", *arguments], cwd=ROOT, capture_output=True, text=True, check=False).stdout
+
+
+def base() -> str:
+    """The commit to compare with: where this branch left main, or the last commit."""
+    return git("merge-base", "HEAD", "main").strip() or "HEAD"
+
+
+def changed_files(since: str) -> list[Path]:
+    """Files that differ from the commit, and new ones; paths relative to the project's folder."""
+    names = git("diff", "--name-only", since).splitlines() + git("ls-files", "-o", "--exclude-standard").splitlines()
+    return sorted({Path(name) for name in names})
+
+
+# --- format, types, layers ------------------------------------------------------------------------------------
+
+
+def long_lines(since: str) -> list[str]:
+    """Lines that are new since the commit and too long, as FILE:LINE. Generated files and tables may have them."""
+    found, name, line = [], "", 0
+    for text in git("diff", "-U0", "--no-color", since).splitlines():
+        if text.startswith("+++ "):
+            name = text[6:]
+        elif head := re.match(r"@@ -\S+ \+(\d+)", text):
+            line = int(head[1])
+        elif text.startswith("+"):
+            if len(text) - 1 > MOST_COLUMNS and name.endswith(WRITTEN_BY_HAND) and "generated" not in name \
+                    and not name.startswith("tools/brace/wire/"):  # fmt: skip
+                found.append(f"{name}:{line}: {len(text) - 1} columns")
+            line += 1
+    return found
+
+
+def check_format(since: str) -> bool:
+    """ruff on all Python; lengths and trailing blanks of the lines that changed."""
+    wide = long_lines(since)
+    print("\n".join(wide) + "\n" * bool(wide), end="")
+    ruff = run(sys.executable, "-m", "ruff", "check", "--quiet", "--config", "tools/pyproject.toml", "tools", "tests")
+    return run("git", "diff", "--check", since) and ruff and not wide
+
+
+def check_types(changed: Iterable[Path]) -> bool:
+    """mypy on the folders with changed files, and on the command's tests when the command changed."""
+    touched = {path for path in changed if path.suffix == ".py"}
+    folders = {folder for folder in TYPED if any(path.is_relative_to(folder) for path in touched)}
+    if "tools/brace" in folders:
+        folders.add("tests/tools")
+    print(f"types of {', '.join(sorted(folders)) or 'nothing'}")
+    return all([run(*mypy_command(folder), environment=mypy_environment(folder)) for folder in sorted(folders)])
+
+
+def check_layers() -> bool:
+    """Includes by docs/layers.toml, imports by tools/pyproject.toml."""
+    tests = ("tests/discipline/test_c_layers.py", "tests/discipline/test_python_layers.py")
+    return run(sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *tests)
+
+
+# --- tests of what changed ------------------------------------------------------------------------------------
+
+
+def c_tests(changed: Iterable[Path]) -> list[str]:
+    """Names of the C and C++ tests in the folders that mirror the changed ones; and changed tests themselves."""
+    names: set[str] = set()
+    for path in changed:
+        if path.suffix not in (".c", ".h", ".cpp"):
+            continue
+        if path.name.startswith("test_") and path.parts[:2] in (("tests", "unit"), ("tests", "host_sim")):
+            names.add(path.stem)
+        for part, folder in C_PARTS.items():
+            if path.is_relative_to(part):
+                names |= {test.stem for test in (ROOT / folder).glob("test_*.c*")}
+    return sorted(name for name in names if list((ROOT / "tests").rglob(f"{name}.c*")))
+
+
+def python_tests(changed: Iterable[Path]) -> list[str]:
+    """Files of tests/tools that mirror changed modules, the closest first: changed themselves, named after a module,
+    importing one or running its command."""
+    tests = {path: path.read_text() for path in sorted((ROOT / "tests" / "tools").rglob("test_*.py"))}
+    closest: dict[Path, int] = {}
+    for path in changed:
+        if path.suffix != ".py":
+            continue
+        if ROOT / path in tests:
+            closest[ROOT / path] = 0
+        elif path.is_relative_to("tools/brace"):
+            distance = _distances(path.relative_to("tools").with_suffix("").parts)
+            for test, text in tests.items():
+                if (far := distance(test, text)) is not None:
+                    closest[test] = min(far, closest.get(test, far))
+    return [str(path.relative_to(ROOT)) for path in sorted(closest, key=lambda path: (closest[path], path))]
+
+
+def _distances(module: tuple[str, ...]) -> Callable[[Path, str], int | None]:
+    """How close a test file is to a module, given as ("brace", "bus", "slcan"); None: it is none of its tests."""
+    own = module[-1].removesuffix("_command")
+    name, package = re.escape(".".join(module)), re.escape(".".join(module[:-1]))
+    imported = re.compile(rf"\b{name}\b|from {package} import .*\b{own}\b")
+    command = re.compile(rf'\bbrace\(\s*"{own}"') if module[-1].endswith("_command") else None
+
+    def distance(test: Path, text: str) -> int | None:
+        words = [*test.parent.relative_to(ROOT / "tests" / "tools").parts, *test.stem.split("_")[1:]]
+        if own in words or "_".join(module[1:]) in test.stem:
+            return 1
+        return 2 if imported.search(text) or (command and command.search(text)) else None
+
+    return distance
+
+
+def test_c(names: list[str]) -> bool:
+    """Builds these tests alone, and the library that Python loads; and runs them."""
+    build = run("cmake", "--build", "--preset", "host", "--target", "brace_host", *names)
+    pattern = f"/({'|'.join(names)})$"
+    return build and (not names or run("ctest", "--test-dir", str(BUILD), "-j2", "--output-on-failure", "-R", pattern))
+
+
+def test_python(files: list[str]) -> bool:
+    """Runs two files at a time; says which ones it had no time for."""
+    until = time.monotonic() + PYTHON_TESTS_S
+
+    def one(file: str) -> bool | None:
+        if time.monotonic() > until:
+            return None
+        return run(sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", file)
+
+    with ThreadPoolExecutor(2) as pool:
+        results = dict(zip(files, pool.map(one, files)))
+    print(f"ran {' '.join(file for file, result in results.items() if result is not None)}")
+    left = [file for file, result in results.items() if result is None]
+    if left:
+        print(f"no time for {' '.join(left)}: ./dev test runs them")
+    return False not in results.values()
+
+
+def main() -> int:
+    """Runs every step; the exit code."""
+    begun = time.monotonic()
+    since = base()
+    changed = changed_files(since)
+    print(f"{len(changed)} files differ from {since[:12]}")
+    in_c = any(path.suffix in (".c", ".h", ".cpp", ".txt", ".cmake") for path in changed)
+    units, files = c_tests(changed), python_tests(changed)
+    steps: list[tuple[str, Callable[[], bool]]] = [
+        ("format: ruff; lengths and trailing blanks of changed lines", lambda: check_format(since)),
+        ("types: mypy", lambda: check_types(changed)),
+        ("layers: docs/layers.toml, tools/pyproject.toml", check_layers),
+    ]
+    if in_c:
+        steps.append((f"build and C tests: {' '.join(units) or 'none mirrors what changed'}", lambda: test_c(units)))
+    if files:
+        steps.append(("Python tests of what changed", lambda: test_python(files)))
+    failed = []
+    for name, step in steps:
+        started = time.monotonic()
+        ok = step()
+        print(f"{'ok    ' if ok else 'FAILED'} {time.monotonic() - started:5.1f} s  {name}", flush=True)
+        if not ok:
+            failed.append(name.partition(":")[0])
+    print(f"{time.monotonic() - begun:.0f} s; " + (f"failed: {', '.join(failed)}" if failed else "all is well"))
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

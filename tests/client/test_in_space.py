@@ -1,0 +1,114 @@
+"""The C client against a limb in space: K in space, the drift check, take-ups, over CAN and Modbus."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import BUILD, LIMB, Answer, Sim, free_port
+
+STEP = 0.0005  # N/mm
+Probe = Callable[..., Answer]
+ACROSS = """
+[link.coxa]
+lateral_mm_per_n = 0.004
+[joint.coxa]
+compliance_rad_per_n_mm = 0.8e-5
+"""
+ENTRIES = ("k_xx", "k_xy", "k_xz", "k_yy", "k_yz", "k_zz")
+
+
+@pytest.fixture(scope="module")
+def model(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("space") / "spatial.toml"
+    path.write_text(LIMB.read_text() + ACROSS)
+    return path
+
+
+@pytest.fixture(scope="module")
+def spatial(model: Path) -> Iterator[Sim]:
+    can, modbus = f"tcp://127.0.0.1:{free_port()}", f"modbus-tcp://127.0.0.1:{free_port()}"
+    process = subprocess.Popen(
+        [sys.executable, "-m", "brace", "sim", "--model", model, "--can", can, "--modbus", modbus, "--theta0", "0.6",
+         "--seconds", "600", "--json"],
+        stdout=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    assert process.stdout is not None
+    assert json.loads(process.stdout.readline())["event"] == "ready"
+    yield Sim(can, modbus)
+    process.terminate()
+    process.wait(timeout=60)
+    process.stdout.close()
+
+
+@pytest.fixture(params=["can", "modbus"])
+def url(request: pytest.FixtureRequest, spatial: Sim) -> str:
+    return str(getattr(spatial, request.param))
+
+
+def k_of_the_model(model: Path, *theta_rad: float) -> np.ndarray:
+    angles = [text for i, value in enumerate(theta_rad) for text in (f"--theta{i}", str(value))]
+    command = [sys.executable, "-m", "brace", "k", "--model", model, *angles, "--json"]
+    told = json.loads(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+    return np.array([told[f"{name}_n_per_mm"] for name in ENTRIES])
+
+
+def test_k_in_space_is_read(probe: Probe, url: str, model: Path) -> None:
+    answer = probe(url, "space", 3)
+    assert answer.code == 0, answer.err
+    assert len(answer.snapshots) == 3
+    last = answer.snapshots[-1]
+    assert last["parts"] == 15 and last["valid"] == 1 and last["flags"] == 0 and last["theta0"] == pytest.approx(
+        0.6, abs=2e-3
+    )
+    wanted = k_of_the_model(model, last["theta0"], last["theta1"], last["theta2"])
+    assert np.abs(np.array([last[name] for name in ENTRIES]) - wanted).max() < STEP + 20 * 2e-5
+    assert last["lambda_1"] <= last["lambda_2"] <= last["lambda_3"] and last["across"] > 0
+    assert np.hypot(np.hypot(last["axis_x"], last["axis_y"]), last["axis_z"]) == pytest.approx(1.0, abs=1e-3)
+
+
+def test_k_in_space_is_asked_for(probe: Probe, spatial: Sim, sim: Sim, model: Path) -> None:
+    answer = probe(spatial.can, "space_posture", 0.9, 0.5, 1.7)
+    assert answer.code == 0, answer.err
+    wanted = k_of_the_model(model, 0.9, 0.5, 1.7)
+    assert np.abs(np.array([answer.values[name] for name in ENTRIES]) - wanted).max() < STEP + 20 * 1e-4
+    refused = probe(sim.can, "space_posture", 0.9, 0.5, 1.7)
+    assert refused.code == 11 and "no coxa joint" in refused.err
+    assert probe(spatial.can, "space_posture", 4.0, 0.5, 1.7).code == 1  # beyond its frame
+    assert probe(spatial.modbus, "space_posture", 0.9, 0.5, 1.7).code == 12
+
+
+def test_a_limb_without_a_coxa_joint_has_no_k_in_space(probe: Probe, sim: Sim) -> None:
+    over_can = probe(sim.can, "space", 1, timeout_ms=600)
+    assert over_can.code == 5 and "only a limb with a coxa joint" in over_can.err
+    over_modbus = probe(sim.modbus, "space", 1)
+    assert over_modbus.code == 12 and "no coxa joint" in over_modbus.err
+
+
+def test_the_drift_check_is_told(probe: Probe, url: str) -> None:
+    answer = probe(url, "drift")
+    assert answer.code == 0, answer.err
+    told = answer.values
+    assert (told["state"], told["cause"], told["could_be"], told["next_step"], told["readings"]) == (0, 0, 0, 1, 0)
+    assert "learns the limb's own baseline" in answer.err and "Go on learning" in answer.err
+
+
+def test_how_a_take_up_went_is_told(probe: Probe, url: str) -> None:
+    for joint in range(3):
+        answer = probe(url, "take_up", joint)
+        assert answer.code == 0 and answer.values == {"outcome": 0}
+        assert "Nobody has asked for a take-up" in answer.err
+    assert probe(url, "take_up", 3).code == 1
+
+
+def test_the_example(url: str) -> None:
+    example = BUILD / "tools" / "client" / "print_space"
+    done = subprocess.run([example, url], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    k, drift = done.stdout.splitlines()
+    assert k.startswith("[") and k.endswith("N/mm, flags 0x00") and "learns the limb's own baseline" in drift

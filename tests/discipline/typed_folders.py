@@ -1,0 +1,34 @@
+"""Python folders that mypy checks, and how it is called; tests/discipline/test_types.py and ./dev check share them."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+from sources import ROOT
+
+TYPED = {  # folder: where its imports are looked for
+    "tools/brace": "tools",
+    "tools/interface": "tools",
+    "tests/bench": "tools:tests/bench:tests/property",
+    "tests/blind": "tools:tests/blind",
+    "tests/emulated": "tools:tests/emulated",
+    "tests/modbus": "tools:tests/modbus:tests/socketcan",
+    "tests/proofs": "tools:tests/proofs",
+    "tests/property": "tools:tests/property",
+    "tests/socketcan": "tools:tests/socketcan",
+    "tests/tools": "tools:tests/tools:tests/tools/diagnose:tests/bench",
+}
+
+
+def mypy_command(folder: str) -> list[str]:
+    """Each folder has a cache of its own: modules of the same name mean different files from folder to folder."""
+    files = sorted(str(path) for path in (ROOT / folder).rglob("*.py"))
+    cache = ROOT / ".cache" / "mypy" / folder.replace("/", "-")
+    return [sys.executable, "-m", "mypy", "--config-file", "tools/pyproject.toml", "--explicit-package-bases",
+            "--follow-imports", "silent", "--cache-dir", str(cache), *files]  # fmt: skip
+
+
+def mypy_environment(folder: str) -> dict[str, str]:
+    """For subprocess.run."""
+    return {**os.environ, "MYPYPATH": TYPED[folder]}

@@ -1,0 +1,161 @@
+"""A simulated limb with a coxa joint: K in space from the controller's own tick, against host_sim's reference."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from conftest import DATA
+
+from brace.cli.sim_values import fault
+from brace.errors import UsageError
+from brace.model import LimbModel, load_limb
+from brace.native.limb import fill_plant
+from brace.sim.node import LimbSetup, Node
+from brace.sim.status import line_of
+from brace.stiffness import SPATIAL_K
+
+SPATIAL = {
+    "link.coxa.bending_mm_per_n": 0.002,
+    "link.coxa.lateral_mm_per_n": 0.004,
+    "link.coxa.torsion_rad_per_n_mm": 1e-6,
+    "link.femur.lateral_mm_per_n": 0.05,
+    "link.femur.torsion_rad_per_n_mm": 2e-6,
+    "link.tibia.lateral_mm_per_n": 0.2,
+    "joint.coxa.compliance_rad_per_n_mm": 8e-6,
+}
+GAP_RAD = 0.006
+
+
+@pytest.fixture(scope="module")
+def spatial() -> LimbModel:
+    return load_limb(DATA / "paper-limb.toml").with_values(SPATIAL)
+
+
+def node(model: LimbModel, plant: LimbModel | None = None, **options: object) -> Node:
+    return Node([LimbSetup(model, plant or model, **options)], "none", 3)  # type: ignore[arg-type]
+
+
+def reference(one: Node, model: LimbModel, theta_rad: tuple[float, float, float]) -> np.ndarray:
+    """18 values: six of K, six of C, eigenvalues, stiff axis; from host_sim/reference, which is no firmware."""
+    ffi, lib = one.native.ffi, one.native.lib
+    plant = ffi.new("brace_plant_model_t *")
+    lib.brace_plant_model_default(plant)
+    fill_plant(one.native, plant[0], model)
+    angles = [ffi.new("double *", angle) for angle in theta_rad]
+    row = ffi.new("double[18]")
+    assert lib.brace_reference_spatial(plant, 1, *angles, row) == 0
+    return np.array(list(row))
+
+
+def space_of(one: Node) -> dict[str, object]:
+    space = one.state()["space"]
+    assert isinstance(space, dict)
+    return space
+
+
+def assert_k_of_the_reference(one: Node, model: LimbModel) -> None:
+    state, space = one.state(), space_of(one)
+    theta = (space["theta0_rad"], state["theta1_rad"], state["theta2_rad"])
+    wanted = reference(one, model, theta)  # type: ignore[arg-type]
+    got = np.array([space[name] for name in SPATIAL_K])
+    assert np.abs(got - wanted[:6]).max() < 1e-5 * wanted[14]
+    lambdas = np.array([space[f"lambda_{name}_n_per_mm"] for name in ("min", "mid", "max")])
+    assert lambdas == pytest.approx(wanted[12:15], rel=1e-4)
+    axis = np.array([space[f"stiff_axis_{name}"] for name in "xyz"])
+    assert abs(float(axis @ wanted[15:])) == pytest.approx(1.0, abs=1e-4)
+
+
+@pytest.mark.parametrize("theta_rad", [(0.0, 1.0, 1.4), (0.7, 0.6, 1.9), (-1.2, 1.2, 0.8)])
+def test_k_in_space_is_that_of_the_reference(spatial: LimbModel, theta_rad: tuple[float, float, float]) -> None:
+    with node(spatial, theta_rad=theta_rad) as one:
+        one.step(0.5)
+        space = space_of(one)
+        assert space["k_is_valid"] and space["flag_names"] == []
+        assert space["theta0_rad"] == pytest.approx(theta_rad[0], abs=2e-3)
+        assert_k_of_the_reference(one, spatial)
+
+
+def test_a_planar_limb_tells_nothing_of_space() -> None:
+    paper = load_limb(DATA / "paper-limb.toml")
+    with node(paper) as one:
+        one.step(0.2)
+        state, truth = one.state(), one.truth()
+        assert "space" not in state and "space" not in line_of(state)
+        assert not {"theta0_rad", "load_coxa_n_mm", "flank_coxa", "force_y_n"} & truth.keys()
+        assert math.isnan(one.raw_snapshot().theta_rad[0]) and not one.has_coxa_joint()
+        with pytest.raises(UsageError, match="limb 1") as refusal:
+            one.add_fault(fault("sensor_dead:coxa@1"))
+        assert "coxa" in refusal.value.why
+
+
+def test_a_load_across_the_plane_comes_from_the_contact(spatial: LimbModel) -> None:
+    with node(spatial, press_y_mm=4.0) as one:
+        one.step(1.0)
+        state, truth = one.state(), one.truth()
+        theta = (truth["theta0_rad"], state["theta1_rad"], state["theta2_rad"])
+        k_across = space_of(one)["k_across_n_per_mm"]
+        alone = reference(one, spatial, (0.0, *theta[1:]))[3]
+        assert k_across == pytest.approx(alone, rel=1e-4)
+        force_y_n, load_n_mm = truth["force_y_n"], truth["load_coxa_n_mm"]
+        assert isinstance(force_y_n, float) and isinstance(load_n_mm, float)
+        lever_mm = 57.0 + 185.0 * math.cos(1.0) + 313.5 * math.cos(-0.4)
+        # The motor gives way too: its servo is in series with the limb, held within its friction.
+        droop_rad = one.raw_truth().motor_rad[0]
+        assert force_y_n == pytest.approx(alone * (4.0 - lever_mm * droop_rad), rel=1e-3)
+        assert load_n_mm == pytest.approx(-lever_mm * force_y_n, rel=1e-3)
+
+
+def test_taking_up_the_coxa_gives_k_across_its_plane_back(spatial: LimbModel) -> None:
+    play = spatial.with_values({"joint.coxa.gap_rad": GAP_RAD})
+    with node(play, theta_rad=(0.3, 1.0, 1.4)) as one:
+        one.step(0.5)
+        before = space_of(one)
+        assert one.raw_truth().flank[0] == 0 and before["k_is_valid"]
+        assert before["flag_names"] == ["GAP_OPEN"] and before["k_across_n_per_mm"] == 0.0
+        assert one.state()["flag_names"] == []  # the plane has no play
+        lib, app = one.native.lib, one.app()
+        for flank in (1, -1):
+            assert lib.brace_app_take_up(app, 0, flank) == 0
+            one.step(3.0)
+            snapshot, truth = one.raw_snapshot(), one.raw_truth()
+            assert snapshot.play[0].takeup == 2 and snapshot.play[0].flank == flank == truth.flank[0]
+            assert space_of(one)["flag_names"] == []
+            # The controller counts the play; what the joint's spring gives way by is part of K, not of the posture.
+            assert abs(snapshot.theta_rad[0] - (truth.motor_rad[0] - 0.5 * flank * GAP_RAD)) < 1e-4
+            assert_k_of_the_reference(one, spatial)
+            assert lib.brace_app_let_go(app) == 0
+            one.step(3.0)
+            assert one.state()["mode"] == "monitor"
+
+
+def test_a_take_up_with_nothing_to_press_against_says_why(spatial: LimbModel) -> None:
+    play = spatial.with_values({"joint.coxa.gap_rad": GAP_RAD})
+    with node(play, hold_n_per_mm=0.0) as one:
+        one.step(0.5)
+        assert one.native.lib.brace_app_take_up(one.app(), 0, 1) == 0
+        one.step(9.0)
+        assert one.raw_snapshot().play[0].takeup == -2  # travel: nothing holds the link
+
+
+def test_a_coxa_joint_without_samples_leaves_k_in_the_plane(spatial: LimbModel) -> None:
+    with node(spatial) as one:
+        one.add_fault(fault("sensor_dead:coxa@0.5+0.5"))
+        one.step(0.9)
+        state, space = one.state(), space_of(one)
+        assert state["faults"] == ["sensor_coxa"] and state["mode"] == "monitor" and state["k_is_valid"]
+        assert not space["k_is_valid"] and space["k_xx_n_per_mm"] is None
+        assert "K in space not valid" in line_of(state)
+        one.step(1.0)
+        assert space_of(one)["k_is_valid"] and one.state()["faults"] == []
+        assert "K in space " in line_of(one.state())
+
+
+def test_friction_and_creep_across_the_plane_are_the_plants(spatial: LimbModel) -> None:
+    soft = spatial.with_values({"creep.ratio": 0.5, "creep.time_constant_s": 0.5})
+    with node(spatial, soft, press_y_mm=8.0) as one:
+        one.step(0.1)
+        early_n = one.raw_truth().force_y_n
+        one.step(5.0)
+        assert one.raw_truth().force_y_n < 0.97 * early_n

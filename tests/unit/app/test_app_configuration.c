@@ -1,0 +1,226 @@
+/* CONFIGURATION: entering and leaving it, sets of parameters stored, put in force and taken back. */
+#include <string.h>
+
+#include "app_bench.h"
+
+void setUp(void)
+{
+    const brace_parameters_t p = bench_parameters();
+    bench_start(&p);
+}
+
+void tearDown(void) {}
+
+static void test_configuration_is_entered_from_rest_and_left_to_start(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_E_MODE, brace_app_configuration_enter(&app)); /* still in START */
+    ticks(5);
+    TEST_ASSERT_EQUAL(BRACE_E_MODE, brace_app_configuration_leave(&app));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    ticks(5);
+    TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, now()->mode);
+    TEST_ASSERT_FALSE(now()->k_is_valid);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_leave(&app));
+    ticks(1);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+}
+
+static void test_parameters_are_stored_in_configuration_only(void)
+{
+    brace_parameters_t p = bench_parameters();
+    ticks(5);
+    TEST_ASSERT_EQUAL(BRACE_E_MODE, brace_app_parameters_commit(&app, &p));
+    TEST_ASSERT_EQUAL(BRACE_E_MODE, brace_app_parameters_rollback(&app));
+}
+
+static void settle(void)
+{
+    for (int i = 0; i < 2000 && brace_app_configuration_leave(&app) != BRACE_OK; i++) {
+        ticks(1);
+    }
+    TEST_ASSERT_EQUAL(BRACE_MODE_START, app.controller.mode.now);
+    ticks(2);
+}
+
+static void test_a_committed_set_is_in_force_and_survives_a_restart_and_can_be_taken_back(void)
+{
+    brace_parameters_t p = bench_parameters();
+    ticks(5);
+    const uint32_t crc_before = now()->parameter_crc;
+    const float k_before = now()->stiffness.now.k_xx_n_per_mm;
+    p.limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm *= 2.0f;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p));
+    TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_app_parameters_commit(&app, &p));
+    TEST_ASSERT_EQUAL(BRACE_E_MODE, brace_app_configuration_leave(&app));
+    settle();
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    TEST_ASSERT_EQUAL(BRACE_PARAMETERS_SLOT_B, now()->parameter_origin);
+    TEST_ASSERT_EQUAL_HEX32(brace_parameters_crc(&p), now()->parameter_crc);
+    const float k_after = now()->stiffness.now.k_xx_n_per_mm;
+    TEST_ASSERT_TRUE(k_after < 0.95f * k_before);
+
+    brace_fake_reset(&fake, BRACE_RESET_POWER);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    ticks(2);
+    ASSERT_CLOSE(k_after, now()->stiffness.now.k_xx_n_per_mm, 0.0);
+
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_rollback(&app));
+    settle();
+    TEST_ASSERT_EQUAL_HEX32(crc_before, now()->parameter_crc);
+    ASSERT_CLOSE(k_before, now()->stiffness.now.k_xx_n_per_mm, 0.0);
+}
+
+static void test_a_set_that_cannot_be_is_refused(void)
+{
+    brace_parameters_t p = bench_parameters();
+    ticks(5);
+    p.limb.femur_mm = -1.0f;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_app_parameters_commit(&app, &p));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_leave(&app));
+}
+
+static void test_a_memory_that_does_not_keep_is_a_fault_and_the_old_set_stays(void)
+{
+    brace_parameters_t p = bench_parameters();
+    ticks(5);
+    const uint32_t crc = now()->parameter_crc;
+    p.limb.femur_mm = 190.0f;
+    fake.nvm_stuck = 0x04;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p));
+    settle();
+    TEST_ASSERT_EQUAL(BRACE_FAULT_STORE, now()->faults);
+    TEST_ASSERT_EQUAL_HEX32(crc, now()->parameter_crc);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    fake.nvm_stuck = 0;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p));
+    settle();
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    TEST_ASSERT_EQUAL_HEX32(brace_parameters_crc(&p), now()->parameter_crc);
+}
+
+static void test_a_faulty_controller_can_still_be_configured(void)
+{
+    fake.joint[BRACE_FEMUR].absent = true;
+    ticks(150);
+    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, now()->mode);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    ticks(2);
+    TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, now()->mode);
+}
+
+static void test_an_erase_in_configuration_is_no_late_tick(void)
+{
+    ticks(5);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    ticks(1);
+    fake.now_us += 2000000u;
+    ticks(1);
+    TEST_ASSERT_BITS(BRACE_FAULT_TICK_LATE, 0, now()->faults);
+}
+
+/* A member of the set that is being written. */
+static uint32_t staged_word(uint32_t index)
+{
+    uint32_t word;
+    memcpy(&word, (const uint8_t *)parameter_job_staged(&app.controller.parameters) + 4u * index, sizeof word);
+    return word;
+}
+
+/* Somebody asks for a member to be written. */
+static brace_status_t stage(uint32_t index, uint32_t word)
+{
+    return request_stage(&app.controller, index, word);
+}
+
+/* So much later; a tick at the end of it. In CONFIGURATION none is late. */
+static void later(uint32_t us)
+{
+    fake.now_us += us - TICK_US;
+    ticks(1);
+}
+
+/* Whoever asked for it may be gone. */
+static void test_configuration_that_nobody_feeds_is_left_and_nothing_has_changed(void)
+{
+    const uint32_t patience_us = BRACE_CONFIGURATION_PATIENCE_US, near_us = 100 * TICK_US;
+    brace_parameters_t p = bench_parameters();
+    ticks(5);
+    const uint32_t crc = now()->parameter_crc;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    later(patience_us - near_us);
+    TEST_ASSERT_EQUAL(BRACE_OK, stage(BRACE_PARAMETER_CONTROLLER_NODE_ID, 9)); /* half of a push */
+    later(patience_us - near_us);
+    TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, now()->mode);
+    TEST_ASSERT_EQUAL(9, staged_word(BRACE_PARAMETER_CONTROLLER_NODE_ID));
+    ticks(200);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    TEST_ASSERT_EQUAL_HEX32(crc, now()->parameter_crc);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    TEST_ASSERT_EQUAL(p.controller.node_id, staged_word(BRACE_PARAMETER_CONTROLLER_NODE_ID)); /* forgotten */
+    p.limb.femur_mm = 190.0f;
+    later(patience_us - near_us);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p));
+    for (int i = 0; i < 1000 && parameter_job_is_busy(&app.controller.parameters); i++) { /* as long as it takes */
+        fake.now_us += BRACE_CONFIGURATION_PATIENCE_US / 4;
+        ticks(1);
+        TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, now()->mode);
+    }
+    TEST_ASSERT_EQUAL_HEX32(brace_parameters_crc(&p), app.controller.parameters.crc);
+    later(patience_us / 2);
+    TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, now()->mode);
+    later(patience_us / 2);
+    ticks(5);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+    fake.joint[BRACE_FEMUR].absent = true; /* from FAULT back to FAULT */
+    ticks(150);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    later(patience_us);
+    ticks(150);
+    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, now()->mode);
+}
+
+/* A joint that is away as CONFIGURATION is left, and comes back at any moment of START or after it. */
+static void test_a_fault_from_before_configuration_has_no_K_after_it(void)
+{
+    for (int back = 0; back <= 150; back += 5) {
+        setUp();
+        fake.joint[BRACE_FEMUR].not_newer = true;
+        ticks(150);
+        TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, now()->mode);
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+        ticks(2);
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_leave(&app));
+        bool was_valid = false;
+        for (int i = 0; i < 400; i++) {
+            fake.joint[BRACE_FEMUR].not_newer = i < back;
+            ticks(1);
+            TEST_ASSERT_FALSE(now()->k_is_valid && (now()->faults & BRACE_FAULTS_NO_K) != 0u);
+            TEST_ASSERT_FALSE(was_valid && !now()->k_is_valid); /* nor is there one that goes again */
+            was_valid = now()->k_is_valid;
+        }
+        TEST_ASSERT_TRUE(was_valid);
+        TEST_ASSERT_EQUAL(0, now()->faults);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_configuration_is_entered_from_rest_and_left_to_start);
+    RUN_TEST(test_parameters_are_stored_in_configuration_only);
+    RUN_TEST(test_a_committed_set_is_in_force_and_survives_a_restart_and_can_be_taken_back);
+    RUN_TEST(test_a_set_that_cannot_be_is_refused);
+    RUN_TEST(test_a_memory_that_does_not_keep_is_a_fault_and_the_old_set_stays);
+    RUN_TEST(test_a_faulty_controller_can_still_be_configured);
+    RUN_TEST(test_an_erase_in_configuration_is_no_late_tick);
+    RUN_TEST(test_configuration_that_nobody_feeds_is_left_and_nothing_has_changed);
+    RUN_TEST(test_a_fault_from_before_configuration_has_no_K_after_it);
+    return UNITY_END();
+}

@@ -1,0 +1,112 @@
+/* What is told while there is no K to use, and for how long what can no longer be known is still told. */
+#include "app_bench.h"
+
+void setUp(void)
+{
+    const brace_parameters_t p = bench_parameters();
+    bench_start(&p);
+}
+
+void tearDown(void) {}
+
+/* Numbers nobody can mistake for a stiffness of zero, and a flag that says why. */
+static void expect_no_k(uint32_t flag)
+{
+    const brace_stiffness_t *both[] = {&now()->stiffness.now, &now()->stiffness.engaged};
+    TEST_ASSERT_FALSE(now()->k_is_valid);
+    for (int i = 0; i < 2; i++) {
+        TEST_ASSERT_TRUE(isnan(both[i]->k_xx_n_per_mm) && isnan(both[i]->k_xz_n_per_mm) &&
+                         isnan(both[i]->k_zz_n_per_mm));
+        TEST_ASSERT_TRUE(isnan(both[i]->lambda_min_n_per_mm) && isnan(both[i]->lambda_max_n_per_mm));
+        TEST_ASSERT_TRUE(isnan(both[i]->stiff_axis_rad));
+        TEST_ASSERT_BITS(flag, flag, both[i]->flags);
+    }
+}
+
+static void test_before_the_first_tick_and_without_samples_there_is_no_number(void)
+{
+    expect_no_k(BRACE_FLAG_STALE);
+    fake.joint[BRACE_FEMUR].absent = true;
+    ticks(150);
+    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, now()->mode);
+    expect_no_k(BRACE_FLAG_STALE);
+}
+
+static void test_configuration_tells_no_k_and_why(void)
+{
+    ticks(5);
+    TEST_ASSERT_EQUAL(0, now()->stiffness.now.flags);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
+    ticks(1);
+    expect_no_k(BRACE_FLAG_STALE);
+}
+
+static void test_a_fault_with_sound_samples_is_flagged_too(void)
+{
+    ticks(5);
+    for (int i = 0; i < 600; i++) { /* torque works and the encoder stands */
+        fake.joint[BRACE_FEMUR].sample.torque_n_mm = i % 200 < 100 ? 4000.0f : -4000.0f;
+        ticks(1);
+    }
+    TEST_ASSERT_EQUAL(BRACE_FAULT_ENCODER_STUCK, now()->faults);
+    TEST_ASSERT_FALSE(now()->k_is_valid);
+    TEST_ASSERT_BITS(BRACE_FLAG_STALE, BRACE_FLAG_STALE, now()->stiffness.now.flags);
+    TEST_ASSERT_BITS(BRACE_FLAG_STALE, BRACE_FLAG_STALE, now()->stiffness.engaged.flags);
+}
+
+static void test_a_posture_where_there_is_no_k_is_flagged(void)
+{
+    ticks(5);
+    app.controller.parameters.in_force.limb.femur_mm = -1.0f; /* no posture */
+    ticks(1);
+    expect_no_k(BRACE_FLAG_NEAR_SINGULAR);
+}
+
+/* A drive that has nothing newer: its joint is sound until its sample is too old, but nothing proves its flank. */
+static void test_no_flank_is_proven_by_old_samples(void)
+{
+    brace_parameters_t p = bench_parameters();
+    p.limb.joint[BRACE_TIBIA].gap_rad = 0.01f;
+    p.controller.age_limit_us = 500000;
+    bench_start(&p);
+    brace_fake_without_force(&fake);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    fake.joint[BRACE_TIBIA].sample.torque_n_mm = 2000.0f;
+    ticks(200);
+    TEST_ASSERT_TRUE(now()->play[BRACE_TIBIA].valid);
+    TEST_ASSERT_EQUAL(0, now()->stiffness.now.flags);
+    fake.joint[BRACE_TIBIA].not_newer = true;
+    ticks(4);
+    TEST_ASSERT_TRUE(now()->play[BRACE_TIBIA].valid); /* as with drives that are sampled every few ticks */
+    for (int i = 0; i < 300; i++) {
+        ticks(1);
+        TEST_ASSERT_FALSE(now()->play[BRACE_TIBIA].valid);
+        TEST_ASSERT_TRUE(now()->k_is_valid);
+        TEST_ASSERT_BITS(BRACE_FLAG_GAP_OPEN, BRACE_FLAG_GAP_OPEN, now()->stiffness.now.flags);
+    }
+    fake.joint[BRACE_TIBIA].not_newer = false;
+    fake.joint[BRACE_TIBIA].sample.torque_n_mm = 0.0f; /* the gap has opened meanwhile */
+    for (int i = 0; i < 100; i++) {
+        ticks(1);
+        TEST_ASSERT_FALSE(now()->play[BRACE_TIBIA].valid);
+    }
+    fake.joint[BRACE_TIBIA].sample.torque_n_mm = 2000.0f;
+    ticks(200);
+    TEST_ASSERT_TRUE(now()->play[BRACE_TIBIA].valid);
+    for (int i = 0; i < 300; i++) { /* every third tick only */
+        fake.joint[BRACE_TIBIA].not_newer = i % 3 != 0;
+        ticks(1);
+        TEST_ASSERT_TRUE(now()->play[BRACE_TIBIA].valid);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_before_the_first_tick_and_without_samples_there_is_no_number);
+    RUN_TEST(test_configuration_tells_no_k_and_why);
+    RUN_TEST(test_a_fault_with_sound_samples_is_flagged_too);
+    RUN_TEST(test_a_posture_where_there_is_no_k_is_flagged);
+    RUN_TEST(test_no_flank_is_proven_by_old_samples);
+    return UNITY_END();
+}

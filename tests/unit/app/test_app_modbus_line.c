@@ -1,0 +1,214 @@
+/* The controller as a Modbus server: frames that are broken, halved, too long, for others; floods;
+ * TCP beside the line. */
+#include "modbus_master.h"
+
+void setUp(void)
+{
+    start_unit();
+}
+
+void tearDown(void) {}
+
+static uint32_t broken(void)
+{
+    return counters().modbus_broken;
+}
+
+static const uint8_t good[] = {UNIT, 4, 0, 0, 0, 2, 0x73, 0x5b};
+
+static bool answers(void)
+{
+    const reply_t reply = read_asks(4, 0, 2);
+    return reply.count == 6u && value_at(&reply, 0) == 0x4640e600u;
+}
+
+static void test_the_sample_frame_is_good(void)
+{
+    TEST_ASSERT_EQUAL_HEX16(0, crc_by_bits(good, sizeof good));
+}
+
+static void test_any_bit_wrong_is_no_request(void)
+{
+    for (uint32_t bit = 8; bit < 64u; bit++) { /* but the address': then it is for somebody else, and broken too */
+        uint8_t frame[8];
+        memcpy(frame, good, sizeof frame);
+        frame[bit / 8u] ^= (uint8_t)(1u << bit % 8u);
+        const uint32_t before = broken();
+        line_says(frame, sizeof frame);
+        TEST_ASSERT_EQUAL(0, heard(BRACE_SERIAL_MODBUS).count);
+        TEST_ASSERT_EQUAL(before + 1u, broken());
+    }
+    TEST_ASSERT_TRUE(answers());
+}
+
+static void test_part_of_a_frame_is_dropped_and_counted(void)
+{
+    for (uint32_t count = 1; count < sizeof good; count++) {
+        const uint32_t before = broken();
+        line_says(good, count);
+        ticks(60);
+        TEST_ASSERT_EQUAL(before + 1u, broken());
+        TEST_ASSERT_TRUE(answers());
+    }
+}
+
+static void test_a_frame_may_come_in_parts_that_an_adapter_holds_back(void)
+{
+    for (uint32_t count = 1; count < sizeof good; count++) {
+        line_says(good, count);
+        ticks(15);
+        line_says(good + count, (uint32_t)sizeof good - count);
+        TEST_ASSERT_EQUAL(9, heard(BRACE_SERIAL_MODBUS).count);
+    }
+    TEST_ASSERT_EQUAL(0, broken());
+}
+
+static void test_frames_too_long_are_dropped_whole(void)
+{
+    uint8_t bytes[400];
+    memset(bytes, UNIT, sizeof bytes);
+    line_says(bytes, 257);
+    ticks(200);
+    TEST_ASSERT_EQUAL(1, broken());
+    line_says(bytes, 400);
+    ticks(200);
+    TEST_ASSERT_EQUAL(2, broken());
+    TEST_ASSERT_TRUE(answers());
+}
+
+static void test_two_frames_without_silence_are_none(void)
+{
+    line_says(good, sizeof good);
+    line_says(good, sizeof good);
+    TEST_ASSERT_EQUAL(0, heard(BRACE_SERIAL_MODBUS).count);
+    TEST_ASSERT_EQUAL(1, broken());
+    TEST_ASSERT_TRUE(answers());
+}
+
+static void test_others_requests_and_their_answers_pass(void)
+{
+    const uint8_t ask[] = {4, 0, 0, 0, 2}, answer[] = {4, 4, 0x46, 0x40, 0xe6, 0};
+    TEST_ASSERT_EQUAL(0, line_asks(UNIT - 1, ask, sizeof ask).count);
+    TEST_ASSERT_EQUAL(0, line_asks(UNIT - 1, answer, sizeof answer).count);
+    TEST_ASSERT_EQUAL(0, broken());
+    TEST_ASSERT_TRUE(answers());
+}
+
+static void test_everybody_obeys_and_nobody_answers(void)
+{
+    uint8_t pdu[] = {16, 0x40, 0, 0, 2, 4, 0xc0, 0xde, 0, 2};
+    TEST_ASSERT_EQUAL(0, line_asks(0, pdu, sizeof pdu).count);
+    TEST_ASSERT_EQUAL(BRACE_MODE_CONFIGURATION, app.controller.mode.now);
+}
+
+static void test_a_line_that_takes_nothing_does_not_hold_it(void)
+{
+    brace_fake_fail_next(&fake, BRACE_FAKE_SERIAL_WRITE, 10000, BRACE_HAL_E_DEVICE);
+    line_says(good, sizeof good);
+    ticks(2500);
+    fake.failure_count = 0;
+    TEST_ASSERT_TRUE(answers());
+    brace_fake_fail_next(&fake, BRACE_FAKE_SERIAL_READ, 100, BRACE_HAL_E_DEVICE);
+    ticks(50);
+    fake.failure_count = 0;
+    TEST_ASSERT_TRUE(answers());
+}
+
+static void test_a_flood_stops_nothing(void)
+{
+    uint8_t noise[64];
+    uint32_t state = 1;
+    const uint32_t before = now()->sequence;
+    for (int i = 0; i < 5000; i++) {
+        for (uint32_t k = 0; k < sizeof noise; k++) {
+            state = state * 1664525u + 1013904223u;
+            noise[k] = (uint8_t)(state >> 24);
+        }
+        (void)brace_fake_bytes_arrive(&fake, BRACE_SERIAL_MODBUS, noise, sizeof noise);
+        ticks(1);
+    }
+    TEST_ASSERT_GREATER_OR_EQUAL(before + 4990u, now()->sequence);
+    ticks(200);
+    TEST_ASSERT_GREATER_THAN(0, broken());
+    TEST_ASSERT_TRUE(answers());
+}
+
+static void test_tcp_answers_the_same(void)
+{
+    const uint8_t read[] = {4, 0, 0, 0, 116}, who[] = {17}, bad[] = {4, 0, 0, 0, 126};
+    const reply_t reply = tcp_asks(UNIT, read, sizeof read);
+    TEST_ASSERT_EQUAL(234, reply.count);
+    TEST_ASSERT_EQUAL_HEX32(0x4640e600u, value_at(&reply, 0));
+    TEST_ASSERT_EQUAL(234, tcp_asks(0, read, sizeof read).count);
+    TEST_ASSERT_EQUAL(234, tcp_asks(255, read, sizeof read).count);
+    TEST_ASSERT_EQUAL(35, tcp_asks(UNIT, who, 1).count);
+    refused(tcp_asks(UNIT, bad, sizeof bad), 4, 3);
+    refused(tcp_asks(UNIT + 1, read, sizeof read), 4, 11); /* no such unit behind this door */
+}
+
+static void test_tcp_and_line_at_once_do_not_mix(void)
+{
+    for (int i = 0; i < 40; i++) {
+        uint8_t adu[12] = {0, 1, 0, 0, 0, 6, UNIT, 4, 0, 0, 0, 116};
+        ticks(i % 5);
+        line_says(good, sizeof good);
+        ticks(i % 7);
+        (void)brace_fake_bytes_arrive(&fake, BRACE_SERIAL_MODBUS_TCP, adu, sizeof adu);
+        reply_t line = {.count = 0}, tcp = {.count = 0};
+        for (int tick = 0; tick < 100; tick++) {
+            ticks(1);
+            line.count += brace_fake_bytes_take(&fake, BRACE_SERIAL_MODBUS, line.byte + line.count, 260u - line.count);
+            tcp.count += brace_fake_bytes_take(&fake, BRACE_SERIAL_MODBUS_TCP, tcp.byte + tcp.count, 260u - tcp.count);
+        }
+        TEST_ASSERT_EQUAL(9, line.count);
+        TEST_ASSERT_EQUAL_HEX16(0, crc_by_bits(line.byte, line.count));
+        TEST_ASSERT_EQUAL(7 + 234, tcp.count);
+    }
+}
+
+static void test_what_is_no_modbus_on_tcp_is_dropped(void)
+{
+    const uint8_t other_protocol[] = {0, 1, 0, 9, 0, 6, UNIT, 4, 0, 0, 0, 2};
+    const uint8_t half[] = {0, 1, 0, 0, 0, 6, UNIT, 4, 0};
+    const uint8_t read[] = {4, 0, 0, 0, 2};
+    (void)brace_fake_bytes_arrive(&fake, BRACE_SERIAL_MODBUS_TCP, other_protocol, sizeof other_protocol);
+    TEST_ASSERT_EQUAL(0, heard(BRACE_SERIAL_MODBUS_TCP).count);
+    TEST_ASSERT_EQUAL(1, broken());
+    (void)brace_fake_bytes_arrive(&fake, BRACE_SERIAL_MODBUS_TCP, half, sizeof half);
+    ticks(1200);
+    TEST_ASSERT_EQUAL(2, broken());
+    TEST_ASSERT_EQUAL(6, tcp_asks(UNIT, read, sizeof read).count);
+}
+
+static void test_a_slow_line_waits_its_silence(void)
+{
+    brace_parameters_t p = bench_parameters();
+    p.controller.modbus_address = UNIT;
+    p.controller.modbus_baud = 1200;
+    bench_start(&p);
+    ticks(20);
+    line_says(good, 4);
+    ticks(25); /* 3.5 characters are 32 ms */
+    line_says(good + 4, 4);
+    TEST_ASSERT_EQUAL(9, heard(BRACE_SERIAL_MODBUS).count);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_the_sample_frame_is_good);
+    RUN_TEST(test_any_bit_wrong_is_no_request);
+    RUN_TEST(test_part_of_a_frame_is_dropped_and_counted);
+    RUN_TEST(test_a_frame_may_come_in_parts_that_an_adapter_holds_back);
+    RUN_TEST(test_frames_too_long_are_dropped_whole);
+    RUN_TEST(test_two_frames_without_silence_are_none);
+    RUN_TEST(test_others_requests_and_their_answers_pass);
+    RUN_TEST(test_everybody_obeys_and_nobody_answers);
+    RUN_TEST(test_a_line_that_takes_nothing_does_not_hold_it);
+    RUN_TEST(test_a_flood_stops_nothing);
+    RUN_TEST(test_tcp_answers_the_same);
+    RUN_TEST(test_tcp_and_line_at_once_do_not_mix);
+    RUN_TEST(test_what_is_no_modbus_on_tcp_is_dropped);
+    RUN_TEST(test_a_slow_line_waits_its_silence);
+    return UNITY_END();
+}

@@ -1,0 +1,169 @@
+/* The supervisor: starting, faults and their ends, time, what the snapshot promises. */
+#include "app_bench.h"
+
+void setUp(void)
+{
+    const brace_parameters_t p = bench_parameters();
+    bench_start(&p);
+}
+
+void tearDown(void) {}
+
+/* ------------------------------------------------------------------------------------------- starting -- */
+
+static void test_start_needs_a_whole_door(void)
+{
+    brace_hal_t hal = fake.hal;
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_start(NULL, &hal));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_start(&app, NULL));
+    hal.joint_read = NULL;
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_app_start(&app, &hal));
+    hal = fake.hal;
+    hal.nvm_erase = NULL;
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_app_start(&app, &hal));
+}
+
+static void test_before_the_first_tick_nothing_is_known(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_MODE_START, now()->mode);
+    TEST_ASSERT_FALSE(now()->k_is_valid);
+    TEST_ASSERT_TRUE(now()->theta_rad[BRACE_FEMUR] != now()->theta_rad[BRACE_FEMUR]);
+}
+
+static void test_sound_samples_lead_to_monitor(void)
+{
+    ticks(1);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    TEST_ASSERT_EQUAL(BRACE_PARAMETERS_SLOT_A, now()->parameter_origin);
+    /* docs/physics.md, check values */
+    ASSERT_CLOSE(3.96389818, now()->stiffness.now.k_xx_n_per_mm, 2e-5);
+    ASSERT_CLOSE(-0.63872477, now()->stiffness.now.k_xz_n_per_mm, 2e-5);
+    ASSERT_CLOSE(0.42806022, now()->stiffness.now.k_zz_n_per_mm, 2e-5);
+    TEST_ASSERT_EQUAL(0, engaged_flags());
+}
+
+static void test_no_samples_at_start_is_a_fault_that_names_the_joints(void)
+{
+    fake.joint[BRACE_TIBIA].not_newer = true;
+    ticks(99);
+    TEST_ASSERT_EQUAL(BRACE_MODE_START, now()->mode);
+    ticks(2);
+    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, now()->mode);
+    TEST_ASSERT_EQUAL(BRACE_FAULT_SENSOR_TIBIA, now()->faults);
+    TEST_ASSERT_FALSE(now()->k_is_valid);
+}
+
+static void test_without_stored_parameters_K_is_uncalibrated_and_says_so(void)
+{
+    bench_board();
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    ticks(2);
+    TEST_ASSERT_EQUAL(BRACE_FAULT_PARAMETERS, now()->faults);
+    TEST_ASSERT_EQUAL(BRACE_PARAMETERS_DEFAULT, now()->parameter_origin);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    TEST_ASSERT_BITS(BRACE_FLAG_UNCALIBRATED, BRACE_FLAG_UNCALIBRATED, engaged_flags());
+    TEST_ASSERT_BITS(BRACE_FLAG_UNCALIBRATED, BRACE_FLAG_UNCALIBRATED, now()->stiffness.now.flags);
+}
+
+static void test_a_start_after_a_crash_is_remembered_until_cleared(void)
+{
+    fake.reset_cause = BRACE_RESET_FAULT;
+    fake.crashed = true;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    ticks(200);
+    TEST_ASSERT_EQUAL(BRACE_FAULT_CRASHED, now()->faults);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_app_clear(&app, BRACE_FAULT_CRASHED | BRACE_FAULT_STORE));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_clear(&app, BRACE_FAULT_CRASHED));
+    ticks(1);
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    TEST_ASSERT_FALSE(fake.crashed);
+}
+
+/* ----------------------------------------------------------------------------------------------- time -- */
+
+static void test_a_late_tick_is_a_fault_for_a_second_and_K_stays_valid(void)
+{
+    ticks(5);
+    fake.now_us += 2 * TICK_US;
+    ticks(1);
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    fake.now_us += 2 * TICK_US + 1;
+    ticks(1);
+    TEST_ASSERT_EQUAL(BRACE_FAULT_TICK_LATE, now()->faults);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+    ticks(999);
+    TEST_ASSERT_EQUAL(BRACE_FAULT_TICK_LATE, now()->faults);
+    ticks(1);
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    TEST_ASSERT_EQUAL(1, counters().ticks_late);
+}
+
+static void test_the_clock_may_wrap(void)
+{
+    fake.now_us = 0xffffffffu - 20u * TICK_US;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    for (int i = 0; i < 60; i++) {
+        ticks(1);
+        TEST_ASSERT_EQUAL(0, now()->faults);
+        TEST_ASSERT_TRUE(now()->k_is_valid);
+    }
+}
+
+static void test_every_tick_feeds_the_watchdog(void)
+{
+    const uint32_t before = fake.calls[BRACE_FAKE_WATCHDOG_FEED];
+    ticks(50);
+    TEST_ASSERT_EQUAL(50, fake.calls[BRACE_FAKE_WATCHDOG_FEED] - before);
+}
+
+static void test_a_snapshot_stays_as_it_was_while_the_next_is_made(void)
+{
+    ticks(5);
+    const brace_snapshot_t *const held = now();
+    const brace_snapshot_t copy = *held;
+    fake.joint[BRACE_FEMUR].sample.motor_rad = 0.7f;
+    ticks(1);
+    TEST_ASSERT_EQUAL_MEMORY(&copy, held, sizeof copy);
+    TEST_ASSERT_TRUE(now() != held);
+    TEST_ASSERT_EQUAL(copy.sequence + 1u, now()->sequence);
+}
+
+static void test_null_is_refused_everywhere(void)
+{
+    const brace_parameters_t p = bench_parameters();
+    brace_row_t row;
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_take_up(NULL, 1, 1));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_let_go(NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_loading_start(&app, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_loading_stop(NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_configuration_enter(NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_configuration_leave(NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_parameters_commit(&app, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_parameters_commit(NULL, &p));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_parameters_rollback(NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_clear(NULL, 0));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_row(NULL, 0, &row));
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_app_row(&app, 0, &row));
+    TEST_ASSERT_EQUAL(0, brace_app_row_count(NULL));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_start_needs_a_whole_door);
+    RUN_TEST(test_before_the_first_tick_nothing_is_known);
+    RUN_TEST(test_sound_samples_lead_to_monitor);
+    RUN_TEST(test_no_samples_at_start_is_a_fault_that_names_the_joints);
+    RUN_TEST(test_without_stored_parameters_K_is_uncalibrated_and_says_so);
+    RUN_TEST(test_a_start_after_a_crash_is_remembered_until_cleared);
+    RUN_TEST(test_a_late_tick_is_a_fault_for_a_second_and_K_stays_valid);
+    RUN_TEST(test_the_clock_may_wrap);
+    RUN_TEST(test_every_tick_feeds_the_watchdog);
+    RUN_TEST(test_a_snapshot_stays_as_it_was_while_the_next_is_made);
+    RUN_TEST(test_null_is_refused_everywhere);
+    return UNITY_END();
+}

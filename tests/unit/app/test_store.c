@@ -1,0 +1,440 @@
+#include <string.h>
+
+#include "brace/store.h"
+#include "unity.h"
+
+/* A memory of the simplest kind, with the ways in which it may not do what it is told. */
+static struct {
+    uint8_t bytes[2][4096];
+    bool write_refused, read_refused, erase_refused, write_lost, erase_lost;
+    int32_t stuck_slot;
+    uint32_t stuck_at, writes_until_refused;
+    uint32_t calls, bytes_moved;
+} memory;
+
+static brace_hal_t hal;
+static brace_store_t store;
+static brace_parameters_t parameters;
+
+static int32_t memory_read(void *context, uint32_t slot, uint32_t offset, uint8_t *bytes, uint32_t count)
+{
+    (void)context;
+    memory.calls++;
+    memory.bytes_moved += count;
+    if (memory.read_refused) {
+        return BRACE_HAL_E_DEVICE;
+    }
+    memcpy(bytes, memory.bytes[slot] + offset, count);
+    return BRACE_HAL_OK;
+}
+
+static int32_t memory_write(void *context, uint32_t slot, uint32_t offset, const uint8_t *bytes, uint32_t count)
+{
+    (void)context;
+    memory.calls++;
+    memory.bytes_moved += count;
+    if (memory.write_refused || (memory.writes_until_refused != 0 && --memory.writes_until_refused == 0)) {
+        return BRACE_HAL_E_DEVICE;
+    }
+    for (uint32_t i = 0; i < count && !memory.write_lost; i++) {
+        memory.bytes[slot][offset + i] &= bytes[i];
+    }
+    if ((int32_t)slot == memory.stuck_slot) {
+        memory.bytes[slot][memory.stuck_at] |= 1u;
+    }
+    return BRACE_HAL_OK;
+}
+
+static int32_t memory_erase(void *context, uint32_t slot)
+{
+    (void)context;
+    memory.calls++;
+    if (memory.erase_refused) {
+        return BRACE_HAL_E_DEVICE;
+    }
+    if (!memory.erase_lost) {
+        memset(memory.bytes[slot], 0xff, sizeof memory.bytes[slot]);
+    }
+    return BRACE_HAL_OK;
+}
+
+void setUp(void)
+{
+    memset(&memory, 0, sizeof memory);
+    memset(memory.bytes, 0xff, sizeof memory.bytes);
+    memory.stuck_slot = -1;
+    hal = (brace_hal_t){.nvm_shape = {.slot_bytes = 4096, .write_bytes = 4},
+                        .nvm_read = memory_read,
+                        .nvm_write = memory_write,
+                        .nvm_erase = memory_erase};
+    (void)brace_store_start(&store, &hal, &parameters);
+}
+
+void tearDown(void)
+{
+}
+
+static brace_parameters_t set_of(uint32_t node_id)
+{
+    brace_parameters_t set;
+    brace_parameters_default(&set);
+    set.controller.node_id = node_id;
+    return set;
+}
+
+/* Steps to the end; each a bounded piece: one call to the memory, at most 32 bytes. */
+static brace_store_state_t finish(void)
+{
+    brace_store_state_t state = BRACE_STORE_BUSY;
+    for (int i = 0; i < 200 && state == BRACE_STORE_BUSY; i++) {
+        memory.calls = memory.bytes_moved = 0;
+        state = brace_store_step(&store);
+        TEST_ASSERT_LESS_OR_EQUAL(1, memory.calls);
+        TEST_ASSERT_LESS_OR_EQUAL(BRACE_STORE_PIECE_BYTES, memory.bytes_moved);
+    }
+    return state;
+}
+
+static brace_store_state_t update(uint32_t node_id)
+{
+    const brace_parameters_t set = set_of(node_id);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_store_begin(&store, &set, NULL));
+    return finish();
+}
+
+static brace_store_state_t roll_back(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_store_rollback(&store));
+    return finish();
+}
+
+static void expect_after_start(brace_parameter_origin_t origin, uint32_t node_id)
+{
+    TEST_ASSERT_EQUAL(origin, brace_store_start(&store, &hal, &parameters));
+    TEST_ASSERT_EQUAL(node_id, parameters.controller.node_id);
+}
+
+static brace_store_status_t status_now(void)
+{
+    brace_store_status_t status;
+    brace_store_status(&store, &status);
+    return status;
+}
+
+static void test_an_empty_memory_gives_the_defaults(void)
+{
+    expect_after_start(BRACE_PARAMETERS_DEFAULT, 0);
+    TEST_ASSERT_EQUAL(BRACE_SLOT_EMPTY, status_now().slot[0].condition);
+    TEST_ASSERT_EQUAL(BRACE_SLOT_EMPTY, status_now().slot[1].condition);
+    TEST_ASSERT_FALSE(status_now().memory_fault);
+    TEST_ASSERT_EQUAL(BRACE_STORE_IDLE, brace_store_step(&store));
+    TEST_ASSERT_EQUAL(BRACE_STORE_FAILED, roll_back());
+    TEST_ASSERT_EQUAL(BRACE_STORE_E_NOTHING, status_now().failure);
+    TEST_ASSERT_FALSE(status_now().memory_fault);
+}
+
+static void test_updates_take_turns_and_say_so(void)
+{
+    for (uint32_t i = 1; i <= 5; i++) {
+        TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(i));
+        uint32_t crc = 0;
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_store_take(&store, &parameters, &crc));
+        TEST_ASSERT_EQUAL(i, parameters.controller.node_id);
+        TEST_ASSERT_EQUAL_HEX32(brace_parameters_crc(&parameters), crc);
+        TEST_ASSERT_EQUAL(i, status_now().sequence);
+        TEST_ASSERT_EQUAL(i > 1, status_now().can_roll_back);
+        TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_store_take(&store, &parameters, NULL));
+        if (i % 2 == 0) { /* in the same session, or in the next */
+            expect_after_start(BRACE_PARAMETERS_SLOT_B, i);
+        }
+    }
+    expect_after_start(BRACE_PARAMETERS_SLOT_A, 5);
+}
+
+static void test_roll_back_and_no_further(void)
+{
+    update(1);
+    update(2);
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, roll_back());
+    uint32_t crc = 0;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_store_take(&store, &parameters, &crc));
+    TEST_ASSERT_EQUAL(1, parameters.controller.node_id);
+    TEST_ASSERT_EQUAL_HEX32(brace_parameters_crc(&parameters), crc);
+    expect_after_start(BRACE_PARAMETERS_SLOT_A, 1);
+    TEST_ASSERT_EQUAL(BRACE_SLOT_VOID, status_now().slot[1].condition);
+    TEST_ASSERT_EQUAL(BRACE_STORE_FAILED, roll_back());
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(3));
+    TEST_ASSERT_EQUAL(3, status_now().sequence); /* never the number of the set that was left */
+    expect_after_start(BRACE_PARAMETERS_SLOT_B, 3);
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, roll_back());
+    expect_after_start(BRACE_PARAMETERS_SLOT_A, 1);
+}
+
+static void put_block(uint32_t slot, uint32_t node_id, uint32_t sequence, bool keep)
+{
+    const brace_parameters_t set = set_of(node_id);
+    uint8_t *block = memory.bytes[slot];
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_parameters_pack(&set, sequence, block, BRACE_BLOCK_BYTES));
+    if (keep) {
+        memcpy(block + BRACE_STORE_MARKS_AT, "KEEP", 4);
+        memcpy(block + BRACE_STORE_MARKS_AT + 4, block + BRACE_BLOCK_BYTES - 4, 4);
+    }
+}
+
+static void test_sequences_wrap_around(void)
+{
+    put_block(0, 1, 0xffffffffu, true);
+    put_block(1, 2, 0xfffffffeu, true);
+    expect_after_start(BRACE_PARAMETERS_SLOT_A, 1);
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(3));
+    TEST_ASSERT_EQUAL(0, status_now().sequence);
+    expect_after_start(BRACE_PARAMETERS_SLOT_B, 3);
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(4));
+    expect_after_start(BRACE_PARAMETERS_SLOT_A, 4);
+}
+
+static void test_a_block_without_its_mark_does_not_count(void)
+{
+    put_block(0, 1, 7, true);
+    put_block(1, 2, 8, false);
+    expect_after_start(BRACE_PARAMETERS_SLOT_A, 1);
+    TEST_ASSERT_EQUAL(BRACE_SLOT_NOT_COMMITTED, status_now().slot[1].condition);
+    /* another block's mark */
+    memcpy(memory.bytes[1] + BRACE_STORE_MARKS_AT, memory.bytes[0] + BRACE_STORE_MARKS_AT, 8);
+    expect_after_start(BRACE_PARAMETERS_SLOT_A, 1);
+    TEST_ASSERT_EQUAL(BRACE_SLOT_NOT_COMMITTED, status_now().slot[1].condition);
+}
+
+/* Another firmware's block, of another length too: refused as such and left alone until a set is kept elsewhere. */
+static void test_a_block_of_another_dictionary(void)
+{
+    for (uint32_t slot = 0; slot < 2; slot++) {
+        setUp();
+        uint8_t *block = memory.bytes[slot];
+        put_block(slot, 1, 7, true);
+        block[8] ^= 1u;
+        block[12] = (uint8_t)(4 * BRACE_PARAMETER_COUNT + 40);
+        const uint32_t covered = BRACE_BLOCK_BYTES - 4 + 40;
+        const uint32_t crc = brace_crc32(0, block, covered);
+        memcpy(block + covered, &crc, 4);
+        memcpy(block + BRACE_STORE_MARKS_AT + 4, &crc, 4);
+        uint8_t kept[4096];
+        memcpy(kept, block, sizeof kept);
+        expect_after_start(BRACE_PARAMETERS_DEFAULT, 0);
+        TEST_ASSERT_EQUAL(BRACE_SLOT_OTHER_SCHEMA, status_now().slot[slot].condition);
+        TEST_ASSERT_EQUAL_HEX32(BRACE_SCHEMA_HASH ^ 1u, status_now().slot[slot].schema_hash);
+        TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(3));
+        TEST_ASSERT_EQUAL_MEMORY(kept, block, sizeof kept);
+        expect_after_start(slot == 0 ? BRACE_PARAMETERS_SLOT_B : BRACE_PARAMETERS_SLOT_A, 3);
+        block[30] ^= 1u;
+        expect_after_start(slot == 0 ? BRACE_PARAMETERS_SLOT_B : BRACE_PARAMETERS_SLOT_A, 3);
+        TEST_ASSERT_EQUAL(BRACE_SLOT_DAMAGED, status_now().slot[slot].condition);
+    }
+}
+
+static void test_a_value_out_of_range_is_named(void)
+{
+    put_block(0, 1, 7, true);
+    uint8_t *block = memory.bytes[0];
+    block[20 + 4 * BRACE_PARAMETER_CONTROLLER_NODE_ID] = 200;
+    const uint32_t crc = brace_crc32(0, block, BRACE_BLOCK_BYTES - 4);
+    memcpy(block + BRACE_BLOCK_BYTES - 4, &crc, 4);
+    memcpy(block + BRACE_STORE_MARKS_AT + 4, &crc, 4);
+    expect_after_start(BRACE_PARAMETERS_DEFAULT, 0);
+    TEST_ASSERT_EQUAL(BRACE_SLOT_REFUSED, status_now().slot[0].condition);
+    TEST_ASSERT_EQUAL(BRACE_PARAMETER_CONTROLLER_NODE_ID, status_now().slot[0].wrong_index);
+}
+
+/* Sixty sessions in a row are broken off after their first mark: there is always room for what matters. */
+static void test_marks_never_run_out(void)
+{
+    update(1);
+    update(2);
+    for (uint32_t i = 0; i < 60; i++) {
+        expect_after_start(BRACE_PARAMETERS_SLOT_B, 2);
+        const brace_parameters_t set = set_of(3);
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_store_begin(&store, &set, NULL));
+        for (int step = 0; step < 3; step++) {
+            brace_store_step(&store);
+        }
+    }
+    expect_after_start(BRACE_PARAMETERS_SLOT_B, 2);
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(3));
+    expect_after_start(BRACE_PARAMETERS_SLOT_A, 3);
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, roll_back()); /* to a slot full of marks */
+    expect_after_start(BRACE_PARAMETERS_SLOT_B, 2);
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(4));
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(5));
+    expect_after_start(BRACE_PARAMETERS_SLOT_B, 5);
+}
+
+static void expect_failure(brace_store_state_t state, brace_store_failure_t failure)
+{
+    TEST_ASSERT_EQUAL(BRACE_STORE_FAILED, state);
+    TEST_ASSERT_EQUAL(failure, status_now().failure);
+    TEST_ASSERT_TRUE(status_now().memory_fault);
+    TEST_ASSERT_EQUAL(BRACE_PARAMETERS_SLOT_B, status_now().in_force);
+    TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_store_take(&store, &parameters, NULL));
+}
+
+static void test_a_memory_that_does_not_keep(void)
+{
+    update(1);
+    update(2);
+    memory.write_refused = true;
+    expect_failure(update(3), BRACE_STORE_E_DEVICE);
+    expect_failure(roll_back(), BRACE_STORE_E_DEVICE);
+    memory.write_refused = false;
+    memory.write_lost = true;
+    expect_failure(update(3), BRACE_STORE_E_READ_BACK);
+    memory.write_lost = false;
+    memory.erase_refused = true;
+    expect_failure(update(3), BRACE_STORE_E_DEVICE);
+    memory.erase_refused = false;
+    memory.erase_lost = true;
+    memory.bytes[0][100] = 0x5a;
+    expect_failure(update(3), BRACE_STORE_E_ERASE);
+    memory.erase_lost = false;
+    expect_after_start(BRACE_PARAMETERS_SLOT_B, 2);
+    for (uint32_t at = 0; at < BRACE_BLOCK_BYTES; at += 53) { /* a bit that stays 1, wherever the block has a 0 */
+        const brace_parameters_t set = set_of(3);
+        uint8_t block[BRACE_BLOCK_BYTES];
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_parameters_pack(&set, status_now().sequence + 1, block, sizeof block));
+        memory.stuck_slot = 0;
+        memory.stuck_at = at;
+        if ((block[at] & 1u) == 0) {
+            expect_failure(update(3), BRACE_STORE_E_READ_BACK);
+            expect_after_start(BRACE_PARAMETERS_SLOT_B, 2);
+        }
+    }
+    memory.stuck_at = BRACE_STORE_MARKS_AT + 3; /* 'P' */
+    expect_failure(update(3), BRACE_STORE_E_READ_BACK);
+    expect_after_start(BRACE_PARAMETERS_SLOT_B, 2);
+    memory.stuck_slot = -1;
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(3));
+    TEST_ASSERT_FALSE(status_now().memory_fault);
+    expect_after_start(BRACE_PARAMETERS_SLOT_A, 3);
+}
+
+/* Wherever a write is refused, power staying on, the old set stays in force and the next start has it too. */
+static void test_each_write_refused_in_turn(void)
+{
+    for (int rolling_back = 0; rolling_back < 2; rolling_back++) {
+        for (uint32_t refused = 1;; refused++) {
+            setUp();
+            update(1);
+            update(2);
+            expect_after_start(BRACE_PARAMETERS_SLOT_B, 2);
+            memory.writes_until_refused = refused;
+            const brace_store_state_t state = rolling_back != 0 ? roll_back() : update(3);
+            if (memory.writes_until_refused != 0) {
+                TEST_ASSERT_EQUAL(BRACE_STORE_DONE, state);
+                TEST_ASSERT_GREATER_THAN(rolling_back != 0 ? 3 : 17, refused);
+                break;
+            }
+            expect_failure(state, BRACE_STORE_E_DEVICE);
+            expect_after_start(BRACE_PARAMETERS_SLOT_B, 2);
+        }
+    }
+}
+
+static void test_a_memory_that_does_not_answer(void)
+{
+    update(1);
+    memory.read_refused = true;
+    expect_after_start(BRACE_PARAMETERS_DEFAULT, 0);
+    TEST_ASSERT_EQUAL(BRACE_SLOT_UNREADABLE, status_now().slot[0].condition);
+    TEST_ASSERT_TRUE(status_now().memory_fault);
+    memory.read_refused = false;
+    hal.nvm_shape.slot_bytes = 2048;
+    expect_after_start(BRACE_PARAMETERS_DEFAULT, 0);
+    TEST_ASSERT_EQUAL(BRACE_STORE_FAILED, update(2));
+    TEST_ASSERT_EQUAL(BRACE_STORE_E_SHAPE, status_now().failure);
+    hal.nvm_shape.slot_bytes = 4096;
+    hal.nvm_shape.write_bytes = 16;
+    expect_after_start(BRACE_PARAMETERS_DEFAULT, 0);
+    hal.nvm_shape.write_bytes = 1;
+    expect_after_start(BRACE_PARAMETERS_SLOT_A, 1);
+}
+
+static void test_what_is_refused_at_once(void)
+{
+    brace_parameters_t wrong = set_of(1);
+    uint32_t index = 0;
+    wrong.sensor.gain = 0.0f;
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_store_begin(&store, &wrong, &index));
+    TEST_ASSERT_EQUAL(BRACE_PARAMETER_SENSOR_GAIN, index);
+    TEST_ASSERT_EQUAL(BRACE_STORE_IDLE, status_now().state);
+    wrong = set_of(1);
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_store_begin(NULL, &wrong, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_store_begin(&store, NULL, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_store_rollback(NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_store_take(&store, NULL, NULL));
+    TEST_ASSERT_EQUAL(BRACE_STORE_IDLE, brace_store_step(NULL));
+    brace_store_status(NULL, NULL);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_store_begin(&store, &wrong, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_store_begin(&store, &wrong, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_store_rollback(&store));
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, finish());
+}
+
+/* The first steps of an update that is offered check it, and touch nothing. */
+static void test_a_set_that_is_offered_is_judged_on_the_way(void)
+{
+    update(1);
+    for (int fault = 0; fault < 3; fault++) {
+        brace_parameters_t wrong = set_of(2);
+        uint32_t index = 0;
+        if (fault == 0) {
+            wrong.limb.coxa_mm = -1.0f;
+        } else if (fault == 1) {
+            wrong.sensor.gain = __builtin_nanf("");
+        } else { /* what members say together */
+            wrong.drive[BRACE_TIBIA].angle_max_rad = wrong.drive[BRACE_TIBIA].angle_min_rad;
+        }
+        const brace_status_t status = brace_parameters_check(&wrong, &index);
+        const uint8_t first = memory.bytes[1][0];
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_store_offer(&store, &wrong));
+        uint32_t calls = 0;
+        while (brace_store_step(&store) == BRACE_STORE_BUSY) {
+            calls++;
+            TEST_ASSERT_LESS_THAN(BRACE_CHECK_PIECES, calls);
+        }
+        TEST_ASSERT_EQUAL(BRACE_STORE_FAILED, status_now().state);
+        TEST_ASSERT_EQUAL(BRACE_STORE_E_REFUSED, status_now().failure);
+        TEST_ASSERT_EQUAL(status, status_now().refusal);
+        TEST_ASSERT_EQUAL(index, status_now().wrong_index);
+        TEST_ASSERT_FALSE(status_now().memory_fault);
+        TEST_ASSERT_EQUAL(first, memory.bytes[1][0]);
+        expect_after_start(BRACE_PARAMETERS_SLOT_A, 1);
+    }
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_store_offer(NULL, &parameters));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_store_offer(&store, NULL));
+    const brace_parameters_t right = set_of(2);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_store_offer(&store, &right));
+    TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_store_offer(&store, &right));
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, finish());
+    TEST_ASSERT_EQUAL(BRACE_OK, status_now().refusal);
+    uint8_t block[BRACE_BLOCK_BYTES];
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_parameters_pack(&right, 2, block, sizeof block));
+    TEST_ASSERT_EQUAL_MEMORY(block, memory.bytes[1], sizeof block);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_an_empty_memory_gives_the_defaults);
+    RUN_TEST(test_updates_take_turns_and_say_so);
+    RUN_TEST(test_roll_back_and_no_further);
+    RUN_TEST(test_sequences_wrap_around);
+    RUN_TEST(test_a_block_without_its_mark_does_not_count);
+    RUN_TEST(test_a_block_of_another_dictionary);
+    RUN_TEST(test_a_value_out_of_range_is_named);
+    RUN_TEST(test_marks_never_run_out);
+    RUN_TEST(test_a_memory_that_does_not_keep);
+    RUN_TEST(test_each_write_refused_in_turn);
+    RUN_TEST(test_a_memory_that_does_not_answer);
+    RUN_TEST(test_what_is_refused_at_once);
+    RUN_TEST(test_a_set_that_is_offered_is_judged_on_the_way);
+    return UNITY_END();
+}

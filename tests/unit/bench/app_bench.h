@@ -1,0 +1,90 @@
+/* A controller on the fake board, with parameters in its store, for the tests of the application. */
+#ifndef APP_BENCH_H
+#define APP_BENCH_H
+
+#include "brace/app.h"
+#include "brace/app_memory.h"
+#include "brace_hal_fake.h"
+#include "close.h"
+#include "sample_limbs.h"
+#include "unity.h"
+
+enum { TICK_US = 1000 };
+
+static brace_fake_t fake;
+static brace_app_t app;
+
+/* A limb as sold: the paper's, no play, quiet drives. */
+static inline brace_parameters_t bench_parameters(void)
+{
+    brace_parameters_t p;
+    brace_parameters_default(&p);
+    p.limb = sample_limb[SAMPLE_PAPER];
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        p.drive[i] = (brace_drive_t){.torque_range_n_mm = 10000.0f, .torque_noise_n_mm = 10.0f,
+                                     .torque_bias_n_mm = 10.0f, .motor_friction_n_mm = 20.0f,
+                                     .motor_friction_tolerance_ratio = 0.2f, .angle_step_rad = 1e-5f,
+                                     .angle_min_rad = -2.0f, .angle_max_rad = 3.0f, .takeup_torque_n_mm = 4000.0f};
+    }
+    p.sensor.noise_n = 0.05f;
+    p.controller.node_id = 5;
+    p.controller.tick_us = TICK_US;
+    p.controller.age_limit_us = 20000;
+    return p;
+}
+
+/* Puts a set into the fake's memory, as a controller that was configured long ago would have it. */
+static inline void bench_store(const brace_parameters_t *p)
+{
+    static brace_store_t store;
+    brace_parameters_t before;
+    (void)brace_store_start(&store, &fake.hal, &before);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_store_begin(&store, p, NULL));
+    brace_store_state_t state = BRACE_STORE_BUSY;
+    for (int i = 0; i < 1000 && state == BRACE_STORE_BUSY; i++) {
+        state = brace_store_step(&store);
+    }
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, state);
+}
+
+static inline void bench_board(void)
+{
+    brace_fake_start(&fake);
+    fake.joint[BRACE_COXA].absent = true; /* a limb that moves in its plane only */
+    fake.joint[BRACE_FEMUR].sample.motor_rad = 1.0f;
+    fake.joint[BRACE_TIBIA].sample.motor_rad = 1.4f;
+}
+
+static inline void bench_start(const brace_parameters_t *p)
+{
+    bench_board();
+    bench_store(p);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+}
+
+static inline void ticks(int count)
+{
+    for (int i = 0; i < count; i++) {
+        fake.now_us += TICK_US;
+        brace_app_tick(&app, fake.now_us);
+    }
+}
+
+static inline const brace_snapshot_t *now(void)
+{
+    return brace_app_snapshot(&app);
+}
+
+static inline brace_app_counters_t counters(void)
+{
+    brace_app_counters_t all;
+    brace_app_counters(&app, &all);
+    return all;
+}
+
+static inline uint32_t engaged_flags(void)
+{
+    return now()->stiffness.engaged.flags;
+}
+
+#endif

@@ -1,0 +1,232 @@
+#include <math.h>
+#include <string.h>
+
+#include "brace/chain.h"
+#include "brace/planar.h"
+#include "reference_planar.h"
+#include "sample_limbs.h"
+#include "unity.h"
+
+#define PI 3.14159265358979324
+
+/* What the header promises. */
+#define ERROR_LIMIT 2e-6
+#define AXIS_LIMIT_RAD 1e-6
+
+static brace_planar_t planar;
+
+void setUp(void)
+{
+    memset(&planar, 0, sizeof planar);
+}
+
+void tearDown(void)
+{
+}
+
+static brace_stiffness_t stiffness_at(float theta1_rad, float theta2_rad)
+{
+    brace_stiffness_t k;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_planar_stiffness(&planar, theta1_rad, theta2_rad, &k));
+    TEST_ASSERT_EQUAL(0, k.flags);
+    return k;
+}
+
+static void expect_reference(const brace_limb_t *limb, float theta1_rad, float theta2_rad)
+{
+    const reference_planar_t r = reference_planar(limb, (double)theta1_rad, (double)theta2_rad);
+    const brace_stiffness_t k = stiffness_at(theta1_rad, theta2_rad);
+    TEST_ASSERT_DOUBLE_WITHIN(ERROR_LIMIT, 0.0, reference_error(&r, &k));
+    TEST_ASSERT_DOUBLE_WITHIN(AXIS_LIMIT_RAD, 0.0, reference_axis_error(&r, &k));
+    TEST_ASSERT_TRUE(fabsf(k.stiff_axis_rad) <= 1.5707964f);
+}
+
+static void test_check_value_of_the_physics_page(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_planar_collapse(&sample_limb[SAMPLE_PAPER], &planar));
+    const brace_stiffness_t k = stiffness_at(1.0f, 1.4f);
+    TEST_ASSERT_FLOAT_WITHIN(4e-6f, 3.96389818f, k.k_xx_n_per_mm);
+    TEST_ASSERT_FLOAT_WITHIN(4e-6f, -0.63872477f, k.k_xz_n_per_mm);
+    TEST_ASSERT_FLOAT_WITHIN(4e-6f, 0.42806022f, k.k_zz_n_per_mm);
+}
+
+static void test_every_sample_over_the_workspace(void)
+{
+    for (int sample = 0; sample < SAMPLE_COUNT; sample++) {
+        const brace_limb_t *limb = &sample_limb[sample];
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_planar_collapse(limb, &planar));
+        for (int i = -9; i <= 9; i++) {
+            for (int j = -31; j <= 31; j++) {
+                expect_reference(limb, (float)(i * PI / 9.0), (float)(j * PI / 31.0));
+            }
+        }
+    }
+}
+
+static void test_close_to_straight_and_folded(void)
+{
+    for (int sample = 0; sample < SAMPLE_COUNT; sample++) {
+        const brace_limb_t *limb = &sample_limb[sample];
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_planar_collapse(limb, &planar));
+        for (float off = 1e-7f; off < 0.3f; off *= 2.3f) {
+            expect_reference(limb, -2.0f, off);
+            expect_reference(limb, 0.7f, -off);
+            expect_reference(limb, 1.9f, (float)PI - off);
+            expect_reference(limb, -0.2f, off - (float)PI);
+        }
+    }
+}
+
+/* Springs so soft that the links are needles beside them. */
+static void test_soft_springs(void)
+{
+    for (int tilted = 0; tilted < 2; tilted++) {
+        brace_limb_t limb = sample_limb[tilted ? SAMPLE_TILTED : SAMPLE_PAPER];
+        limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = 3e-3f;
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_planar_collapse(&limb, &planar));
+        for (int j = -31; j <= 31; j++) {
+            expect_reference(&limb, 0.3f, (float)(j * PI / 31.0));
+        }
+        for (float off = 1e-7f; off < 0.3f; off *= 2.3f) {
+            expect_reference(&limb, -2.0f, off);
+            expect_reference(&limb, 1.9f, (float)PI - off);
+        }
+    }
+}
+
+static void test_a_base_that_yields_equally_is_in_it(void)
+{
+    brace_limb_t limb = sample_limb[SAMPLE_TILTED];
+    limb.base = (brace_base_t){0.02f, 0.02f, 4e-6f};
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_planar_collapse(&limb, &planar));
+    for (int j = -6; j <= 6; j++) {
+        expect_reference(&limb, 0.3f, (float)j * 0.5f);
+    }
+}
+
+static void test_a_round_compliance_has_some_axis_and_finite_numbers(void)
+{
+    brace_limb_t limb = sample_limb[SAMPLE_ROUND];
+    limb.link[BRACE_TIBIA].tilt_rad = 0.0f;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_planar_collapse(&limb, &planar));
+    for (int j = -10; j <= 10; j++) {
+        const brace_stiffness_t k = stiffness_at(0.3f * (float)j, 0.29f * (float)j);
+        TEST_ASSERT_TRUE(fabsf(k.stiff_axis_rad) <= 1.5707964f);
+        TEST_ASSERT_FLOAT_WITHIN(1.4e-5f, 1.0f / 0.15f, k.lambda_min_n_per_mm);
+        TEST_ASSERT_FLOAT_WITHIN(1.4e-5f, 1.0f / 0.15f, k.lambda_max_n_per_mm);
+        TEST_ASSERT_FLOAT_WITHIN(1.4e-5f, 0.0f, k.k_xz_n_per_mm);
+    }
+}
+
+/* The limb turned as a whole turns K: eigenvalues stay, the axis goes along. To two roundings of the angle. */
+static void test_turning_the_limb_turns_k(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_planar_collapse(&sample_limb[SAMPLE_TILTED], &planar));
+    const brace_stiffness_t at_zero = stiffness_at(0.0f, 1.2f);
+    for (int i = -12; i <= 12; i++) {
+        const float turn = 0.25f * (float)i;
+        const brace_stiffness_t k = stiffness_at(turn, 1.2f);
+        const double off = (double)k.stiff_axis_rad - (double)at_zero.stiff_axis_rad - (double)turn;
+        TEST_ASSERT_DOUBLE_WITHIN(2.0 * AXIS_LIMIT_RAD, 0.0, off - PI * floor(off / PI + 0.5));
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f * at_zero.lambda_max_n_per_mm, at_zero.lambda_max_n_per_mm,
+                                 k.lambda_max_n_per_mm);
+        TEST_ASSERT_FLOAT_WITHIN(1e-6f * at_zero.lambda_min_n_per_mm, at_zero.lambda_min_n_per_mm,
+                                 k.lambda_min_n_per_mm);
+    }
+}
+
+static void test_whole_turns_of_the_femur_change_nothing(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_planar_collapse(&sample_limb[SAMPLE_BEAM], &planar));
+    const brace_stiffness_t near = stiffness_at(-1.0f, 0.8f), far = stiffness_at(-1.0f + 6.2831853f, 0.8f);
+    TEST_ASSERT_FLOAT_WITHIN(3e-6f * near.lambda_max_n_per_mm, near.k_xz_n_per_mm, far.k_xz_n_per_mm);
+    TEST_ASSERT_FLOAT_WITHIN(3e-6f * near.lambda_max_n_per_mm, near.k_xx_n_per_mm, far.k_xx_n_per_mm);
+}
+
+static void test_reach_is_sharp_and_refusal_leaves_the_output_alone(void)
+{
+    brace_stiffness_t k, before;
+    memset(&k, 0x5a, sizeof k);
+    before = k;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_planar_collapse(&sample_limb[SAMPLE_PAPER], &planar));
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_planar_stiffness(&planar, 0.0f, 5.568f, &k));
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_planar_stiffness(&planar, -4.0f, 4.0f, &k));
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_planar_stiffness(&planar, 1e9f, 0.0f, &k));
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, brace_planar_stiffness(&planar, NAN, 1.0f, &k));
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, brace_planar_stiffness(&planar, 1.0f, NAN, &k));
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, brace_planar_stiffness(&planar, INFINITY, 1.0f, &k));
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, brace_planar_stiffness(&planar, 1.0f, -INFINITY, &k));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &k, sizeof k);
+    expect_reference(&sample_limb[SAMPLE_PAPER], 0.0f, 5.567f);
+    expect_reference(&sample_limb[SAMPLE_PAPER], -5.567f, 0.0f);
+    expect_reference(&sample_limb[SAMPLE_PAPER], 3.9f, -3.9f);
+}
+
+static void refused(const brace_limb_t *limb, brace_status_t status)
+{
+    memset(&planar, 0x5a, sizeof planar);
+    const brace_planar_t before = planar;
+    TEST_ASSERT_EQUAL(status, brace_planar_collapse(limb, &planar));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &planar, sizeof planar);
+}
+
+static void test_what_only_the_general_path_can_serve_is_refused(void)
+{
+    brace_limb_t limb = sample_limb[SAMPLE_PAPER];
+    limb.base.x_mm_per_n = 0.01f;
+    refused(&limb, BRACE_E_UNSUPPORTED);
+    limb = sample_limb[SAMPLE_PAPER];
+    memset(limb.link, 0, sizeof limb.link); /* springs only: singular when straight */
+    refused(&limb, BRACE_E_UNSUPPORTED);
+    limb.tibia_mm = limb.femur_mm; /* the hip's alone: nothing yields when folded */
+    limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = 0.0f;
+    refused(&limb, BRACE_E_UNSUPPORTED);
+    limb = sample_limb[SAMPLE_EQUAL]; /* nearly nothing yields when folded: the mean loses its digits there */
+    limb.link[BRACE_FEMUR] = (brace_link_t){0.0212f, 0.045f, 0.0f, 0, 0, 1.0f};
+    limb.link[BRACE_TIBIA] = (brace_link_t){1.0e-4f, 0.00135f, 0.0f, 0, 0, 0};
+    limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = 2e-5f;
+    refused(&limb, BRACE_E_UNSUPPORTED);
+    limb = sample_limb[SAMPLE_SLENDER]; /* tilted needles: C is nearly singular where their directions meet */
+    limb.link[BRACE_FEMUR].axial_mm_per_n = limb.link[BRACE_TIBIA].axial_mm_per_n = 1e-6f;
+    refused(&limb, BRACE_E_UNSUPPORTED);
+    limb = sample_limb[SAMPLE_PAPER]; /* no springs: the mean hardly swings, what is left of det swings more */
+    limb.link[BRACE_FEMUR] = (brace_link_t){3.6e-4f, 4.2e-6f, 0.0f, 0, 0, 4.5e-4f};
+    limb.link[BRACE_TIBIA] = (brace_link_t){0.66f, 0.0f, 0.0f, 0, 0, 0};
+    limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = 0.0f;
+    refused(&limb, BRACE_E_UNSUPPORTED);
+}
+
+static void test_what_is_no_limb_is_refused(void)
+{
+    brace_limb_t limb = sample_limb[SAMPLE_PAPER];
+    refused(NULL, BRACE_E_NULL);
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_planar_collapse(&limb, NULL));
+    limb.link[BRACE_FEMUR].bending_mm_per_n = NAN;
+    refused(&limb, BRACE_E_PARAMETER);
+    limb = sample_limb[SAMPLE_PAPER];
+    limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = -1e-5f;
+    refused(&limb, BRACE_E_PARAMETER);
+    limb = sample_limb[SAMPLE_PAPER];
+    limb.link[BRACE_TIBIA].bending_mm_per_n = -2.6f; /* pushes back, folded more than all else yields */
+    refused(&limb, BRACE_E_PARAMETER);
+    limb = sample_limb[SAMPLE_PAPER];
+    limb.femur_mm = INFINITY;
+    refused(&limb, BRACE_E_PARAMETER);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_check_value_of_the_physics_page);
+    RUN_TEST(test_every_sample_over_the_workspace);
+    RUN_TEST(test_close_to_straight_and_folded);
+    RUN_TEST(test_soft_springs);
+    RUN_TEST(test_a_base_that_yields_equally_is_in_it);
+    RUN_TEST(test_a_round_compliance_has_some_axis_and_finite_numbers);
+    RUN_TEST(test_turning_the_limb_turns_k);
+    RUN_TEST(test_whole_turns_of_the_femur_change_nothing);
+    RUN_TEST(test_reach_is_sharp_and_refusal_leaves_the_output_alone);
+    RUN_TEST(test_what_only_the_general_path_can_serve_is_refused);
+    RUN_TEST(test_what_is_no_limb_is_refused);
+    return UNITY_END();
+}

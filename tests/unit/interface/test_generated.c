@@ -1,0 +1,244 @@
+/* What the dictionary generates for C, as a controller uses it: lists of requests and messages, limits, codes. */
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "brace/backlash.h"
+#include "brace/can_answering.h"
+#include "brace/can_requests.h"
+#include "brace/can_snapshot.h"
+#include "brace/code_names.h"
+#include "brace/codes.h"
+#include "brace/drift.h"
+#include "brace/parameters.h"
+#include "brace/ranges.h"
+#include "unity.h"
+
+void setUp(void) {}
+
+void tearDown(void) {}
+
+static void test_every_request_has_a_code_and_an_answer(void)
+{
+#define ROW(CODE, name) {CODE, #name},
+    static const struct {
+        uint32_t code;
+        const char *name;
+    } request[] = {BRACE_CAN_REQUESTS(ROW)};
+#undef ROW
+    uint32_t seen = 0;
+    for (size_t i = 0; i < sizeof request / sizeof *request; i++) {
+        TEST_ASSERT_TRUE_MESSAGE(request[i].code >= 1u && request[i].code <= 31u, request[i].name);
+        TEST_ASSERT_TRUE_MESSAGE(brace_can_answer_parts[request[i].code] >= 1u, request[i].name);
+        TEST_ASSERT_FALSE_MESSAGE(seen >> request[i].code & 1u, request[i].name);
+        seen |= 1u << request[i].code;
+    }
+    for (uint32_t code = 0; code < 32u; code++) {
+        TEST_ASSERT_EQUAL(seen >> code & 1u, brace_can_answer_parts[code] != 0u);
+    }
+}
+
+static void test_every_message_has_a_rate_of_the_controller(void)
+{
+#define ROW(ID, name, rate) {ID, offsetof(brace_controller_t, rate)},
+    static const struct {
+        uint32_t id;
+        size_t rate;
+    } message[] = {BRACE_CAN_PROCESS(ROW)}, whole[] = {BRACE_CAN_PROCESS_FD(ROW)};
+#undef ROW
+    uint32_t parts_of_space = 0;
+    for (size_t i = 0; i < sizeof message / sizeof *message; i++) {
+        TEST_ASSERT_EQUAL_HEX32(0, message[i].id & 0x7fu);
+        parts_of_space += message[i].id == (uint32_t)BRACE_CAN_ID_SPACE;
+    }
+    TEST_ASSERT_EQUAL(BRACE_CAN_SPACE_PARTS, parts_of_space);
+    TEST_ASSERT_EQUAL_HEX32(BRACE_CAN_ID_SPACE_FD, whole[1].id);
+    TEST_ASSERT_EQUAL(offsetof(brace_controller_t, stiffness_hz), whole[1].rate);
+}
+
+static void test_limits_are_what_a_frame_can_carry(void)
+{
+    uint8_t data[8];
+    brace_can_stiffness_a_t a = {.k_xx_n_per_mm = BRACE_CAN_STIFFNESS_A_K_XX_N_PER_MM_MOST,
+                                 .k_xz_n_per_mm = -BRACE_CAN_STIFFNESS_A_K_XZ_N_PER_MM_MOST};
+    TEST_ASSERT_EQUAL(0, brace_can_pack_stiffness_a(&a, data));
+    a.k_xx_n_per_mm += 0.001f;
+    a.k_xz_n_per_mm -= 0.001f;
+    TEST_ASSERT_EQUAL(2, brace_can_pack_stiffness_a(&a, data));
+    brace_can_eigenvalues_t e = {.lambda_min_n_per_mm = BRACE_CAN_EIGENVALUES_LAMBDA_MIN_N_PER_MM_MOST};
+    TEST_ASSERT_EQUAL(0, brace_can_pack_eigenvalues(&e, data));
+    e.lambda_min_n_per_mm += 0.001f;
+    TEST_ASSERT_EQUAL(1, brace_can_pack_eigenvalues(&e, data));
+    brace_can_stiffness_b_t b = {.age_ms = BRACE_CAN_STIFFNESS_B_AGE_MS_MOST};
+    TEST_ASSERT_EQUAL(0, brace_can_pack_stiffness_b(&b, data));
+}
+
+/* Flags as a frame made from measured values carries them. */
+static uint32_t flags_in_plane(const brace_measured_t *measured)
+{
+    uint8_t data[8];
+    brace_can_stiffness_a_t frame;
+    brace_can_make_stiffness_a(measured, 0.0f, data);
+    brace_can_unpack_stiffness_a(data, &frame);
+    return frame.flags;
+}
+
+static uint32_t flags_in_space(const brace_measured_t *measured)
+{
+    uint8_t data[8];
+    brace_can_space_4_t frame;
+    brace_can_make_space_4(measured, 0.0f, data);
+    brace_can_unpack_space_4(data, &frame);
+    return frame.flags;
+}
+
+static void test_a_value_that_any_frame_of_the_snapshot_limits_is_flagged(void)
+{
+    brace_measured_t measured = {.flags = BRACE_FLAG_STALE, .space_flags = BRACE_FLAG_GAP_OPEN};
+    const struct {
+        float *value;
+        float most;
+        bool is_in_space;
+    } told[] = {
+        {&measured.k_xx_n_per_mm, BRACE_CAN_STIFFNESS_A_K_XX_N_PER_MM_MOST, false},
+        {&measured.k_xz_n_per_mm, BRACE_CAN_STIFFNESS_A_K_XZ_N_PER_MM_MOST, false},
+        {&measured.k_zz_n_per_mm, BRACE_CAN_STIFFNESS_B_K_ZZ_N_PER_MM_MOST, false},
+        {&measured.lambda_min_n_per_mm, BRACE_CAN_EIGENVALUES_LAMBDA_MIN_N_PER_MM_MOST, false},
+        {&measured.lambda_max_n_per_mm, BRACE_CAN_EIGENVALUES_LAMBDA_MAX_N_PER_MM_MOST, false},
+        {&measured.space_k_xx_n_per_mm, BRACE_CAN_SPACE_0_K_XX_N_PER_MM_MOST, true},
+        {&measured.space_k_xy_n_per_mm, BRACE_CAN_SPACE_0_K_XY_N_PER_MM_MOST, true},
+        {&measured.space_k_xz_n_per_mm, BRACE_CAN_SPACE_1_K_XZ_N_PER_MM_MOST, true},
+        {&measured.space_k_yy_n_per_mm, BRACE_CAN_SPACE_1_K_YY_N_PER_MM_MOST, true},
+        {&measured.space_k_yz_n_per_mm, BRACE_CAN_SPACE_2_K_YZ_N_PER_MM_MOST, true},
+        {&measured.space_k_zz_n_per_mm, BRACE_CAN_SPACE_2_K_ZZ_N_PER_MM_MOST, true},
+        {&measured.space_lambda_3_n_per_mm, BRACE_CAN_SPACE_4_LAMBDA_3_N_PER_MM_MOST, true},
+    };
+    const uint32_t in_plane = BRACE_FLAG_STALE, in_space = BRACE_FLAG_GAP_OPEN, saturated = BRACE_FLAG_SATURATED;
+    for (size_t i = 0; i < sizeof told / sizeof *told; i++) {
+        *told[i].value = told[i].most;
+        TEST_ASSERT_EQUAL_HEX32(in_plane, flags_in_plane(&measured));
+        TEST_ASSERT_EQUAL_HEX32(in_space, flags_in_space(&measured));
+        *told[i].value = -1.001f * told[i].most;
+        TEST_ASSERT_EQUAL_HEX32(in_plane | (told[i].is_in_space ? 0u : saturated), flags_in_plane(&measured));
+        TEST_ASSERT_EQUAL_HEX32(in_space | (told[i].is_in_space ? saturated : 0u), flags_in_space(&measured));
+        *told[i].value = NAN;
+        TEST_ASSERT_EQUAL_HEX32(in_plane, flags_in_plane(&measured));
+        TEST_ASSERT_EQUAL_HEX32(in_space, flags_in_space(&measured));
+    }
+}
+
+static void test_a_frame_carries_the_measured_values(void)
+{
+    uint8_t data[8];
+    brace_can_stiffness_b_t frame;
+    const brace_measured_t measured = {.sequence = 0x1234u, .play_tibia = UINT32_MAX, .parameter_crc = 0xabcdef01u};
+    brace_can_make_stiffness_b(&measured, 2.5f, data);
+    brace_can_unpack_stiffness_b(data, &frame);
+    TEST_ASSERT_EQUAL_HEX32(0x34, frame.sequence);
+    TEST_ASSERT_EQUAL_HEX32(0xef01, frame.parameter_tag);
+    TEST_ASSERT_EQUAL_HEX32(0xf, frame.play_tibia);
+    TEST_ASSERT_EQUAL_FLOAT(2.5f, frame.age_ms);
+}
+
+static void test_an_answer_s_frames_carry_its_fields(void)
+{
+    uint8_t parts[BRACE_CAN_ANSWER_PARTS_MOST][8];
+    brace_can_k_at_tip_knee_up_answer_t k = {.k_xx_n_per_mm = 12.5f, .lambda_min_n_per_mm = NAN,
+                                             .stiff_axis_rad = -0.25f, .flags = BRACE_FLAG_STALE};
+    brace_can_k_at_tip_knee_up_answer_0_t first;
+    brace_can_k_at_tip_knee_up_answer_1_t second;
+    brace_can_k_at_tip_knee_up_answer_2_t last;
+    brace_can_pack_k_at_tip_knee_up_answer(&k, 0x1a5u, parts);
+    for (uint32_t part = 0; part < 3u; part++) {
+        TEST_ASSERT_EQUAL_HEX8(BRACE_REQUEST_K_AT_TIP_KNEE_UP + BRACE_ANSWER_PART * part, parts[part][0]);
+        TEST_ASSERT_EQUAL_HEX8(0xa5, parts[part][1]);
+    }
+    brace_can_unpack_k_at_tip_knee_up_answer_0(parts[0], &first);
+    brace_can_unpack_k_at_tip_knee_up_answer_1(parts[1], &second);
+    brace_can_unpack_k_at_tip_knee_up_answer_2(parts[2], &last);
+    TEST_ASSERT_EQUAL_FLOAT(12.5f, first.k_xx_n_per_mm);
+    TEST_ASSERT_TRUE(isnan(second.lambda_min_n_per_mm));
+    TEST_ASSERT_EQUAL_FLOAT(-0.25f, last.stiff_axis_rad);
+    TEST_ASSERT_EQUAL_HEX32(BRACE_FLAG_STALE, last.flags);
+    k.k_xz_n_per_mm = -1e6f; /* more than part 0 can carry */
+    brace_can_pack_k_at_tip_knee_up_answer(&k, 0, parts);
+    brace_can_unpack_k_at_tip_knee_up_answer_2(parts[2], &last);
+    TEST_ASSERT_EQUAL_HEX32(BRACE_FLAG_STALE | BRACE_FLAG_SATURATED, last.flags);
+}
+
+/* An old reader takes the byte for one number, which is not 0 while any fault is there. */
+static void test_an_emergency_tells_the_cause_of_a_drift(void)
+{
+    uint8_t data[8];
+    const brace_can_emergency_t sent = {.error_code = 0xff01,
+                                        .error_register = 1,
+                                        .drift_cause = BRACE_DRIFT_CAUSE_FEMUR_JOINT_OR_BASE,
+                                        .mode = BRACE_MODE_MONITOR,
+                                        .faults = BRACE_FAULT_MODEL_DRIFT};
+    TEST_ASSERT_EQUAL(0, brace_can_pack_emergency(&sent, data));
+    TEST_ASSERT_EQUAL_HEX8(0x31, data[2]);
+    brace_can_emergency_t read;
+    brace_can_unpack_emergency(data, &read);
+    TEST_ASSERT_EQUAL_MEMORY(&sent, &read, sizeof sent);
+}
+
+static void test_names_and_sentences(void)
+{
+    TEST_ASSERT_EQUAL_STRING("LOADING_TEST", brace_mode_name(BRACE_MODE_LOADING_TEST));
+    TEST_ASSERT_EQUAL_STRING("SENSOR_COXA", brace_fault_name(9));
+    TEST_ASSERT_EQUAL_STRING("TRAVEL", brace_take_up_outcome_name(BRACE_TAKEUP_E_TRAVEL));
+    TEST_ASSERT_EQUAL_STRING("Inspect the femur link.",
+                             brace_drift_next_step_text(BRACE_DRIFT_NEXT_INSPECT_FEMUR_LINK));
+    TEST_ASSERT_EQUAL_STRING("?", brace_mode_name(-1));
+    TEST_ASSERT_EQUAL_STRING("?", brace_flag_text(31));
+}
+
+/* The wire's cause is the core's plus one; its bits are the core's own. */
+static void test_causes_of_a_drift_are_those_of_the_core(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_CAUSE_FEMUR_LINK, BRACE_DRIFT_FEMUR + 1);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_CAUSE_TIBIA_LINK_OR_KNEE_JOINT, BRACE_DRIFT_TIBIA_OR_KNEE + 1);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_CAUSE_FEMUR_JOINT_OR_BASE, BRACE_DRIFT_FEMUR_JOINT_OR_BASE + 1);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_CAUSE_UNEXPLAINED, BRACE_DRIFT_UNEXPLAINED + 1);
+    for (int32_t cause = BRACE_DRIFT_FEMUR; cause <= BRACE_DRIFT_UNEXPLAINED; cause++) {
+        TEST_ASSERT_EQUAL_STRING(brace_drift_cause_name(cause + 1), brace_drift_could_be_name(cause));
+    }
+}
+
+static void test_ranges_of_the_limb_are_in_its_order(void)
+{
+#define ROW(member, least, most) {offsetof(brace_limb_t, member), least, most},
+    static const struct {
+        size_t offset;
+        float least, most;
+    } range[] = {BRACE_LIMB_RANGES(ROW)};
+#undef ROW
+    TEST_ASSERT_EQUAL(sizeof(brace_limb_t), 4u * (sizeof range / sizeof *range));
+    for (size_t i = 0; i < sizeof range / sizeof *range; i++) {
+        TEST_ASSERT_EQUAL(4u * i, range[i].offset);
+        TEST_ASSERT_TRUE(range[i].least < range[i].most);
+        uint32_t word;
+        const float beyond = nextafterf(range[i].most, INFINITY);
+        memcpy(&word, &range[i].most, 4);
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_parameter_in_range((uint32_t)i, word));
+        memcpy(&word, &beyond, 4);
+        TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_parameter_in_range((uint32_t)i, word));
+    }
+    TEST_ASSERT_TRUE(BRACE_RANGE_JOINT_GAP_RAD_MIN >= 0.0f && BRACE_RANGE_JOINT_GAP_RAD_MAX <= 0.5f);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_every_request_has_a_code_and_an_answer);
+    RUN_TEST(test_every_message_has_a_rate_of_the_controller);
+    RUN_TEST(test_limits_are_what_a_frame_can_carry);
+    RUN_TEST(test_a_value_that_any_frame_of_the_snapshot_limits_is_flagged);
+    RUN_TEST(test_a_frame_carries_the_measured_values);
+    RUN_TEST(test_an_answer_s_frames_carry_its_fields);
+    RUN_TEST(test_an_emergency_tells_the_cause_of_a_drift);
+    RUN_TEST(test_names_and_sentences);
+    RUN_TEST(test_causes_of_a_drift_are_those_of_the_core);
+    RUN_TEST(test_ranges_of_the_limb_are_in_its_order);
+    return UNITY_END();
+}

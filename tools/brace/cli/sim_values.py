@@ -1,0 +1,102 @@
+"""Values that `brace sim` takes: faults, postures, the contact. Each refusal says what would do."""
+
+from __future__ import annotations
+
+import math
+import re
+
+from brace.cli.options import angle, flexion, number, refused
+from brace.errors import did_you_mean
+from brace.sim.spec import FAULTS, JOINTS, Fault, Posture
+
+_FAULT = re.compile(
+    r"(?P<name>[a-z_]+)(?::(?P<where>[^=@]*))?(?:=(?P<value>[^@]*))?(?:@(?P<at>[^+]*)(?:\+(?P<time>.*))?)?"
+)
+_FAULT_FORM = "NAME[:[LIMB.]JOINT][=VALUE][@SECONDS[+DURATION]]"
+
+
+def fault(text: str) -> Fault:
+    """encoder_stuck:femur@2.0+1.5, current_offset:2.tibia=500@3, bus_off:1@4+0.5, nvm_fails"""
+    found = _FAULT.fullmatch(text)
+    if found is None:
+        raise refused(f"{text!r} is no fault", f"the form is {_FAULT_FORM}", "OPTION encoder_stuck:femur@2.0+1.5")
+    name = found["name"]
+    if name not in FAULTS:
+        near = did_you_mean(name, FAULTS)
+        raise refused(
+            f"{name!r} is no fault that can be made",
+            f"known: {', '.join(FAULTS)}",
+            f"OPTION {text.replace(name, near, 1)}" if near else "brace sim --help",
+        )
+    of_joint, unit, value = FAULTS[name]
+    limb, joint = _where(name, found["where"], of_joint)
+    if found["value"] is not None:
+        if not unit:
+            raise refused(f"{text!r} has a value", f"{name} takes none", f"OPTION {name}")
+        value = number(found["value"])
+    if value is None:
+        raise refused(f"{text!r} has no value", f"{name} needs one, in {unit}", f"OPTION {name}:femur=500@2+1")
+    at_s = _seconds(found["at"]) if found["at"] is not None else 0.0
+    for_s = _seconds(found["time"]) if found["time"] is not None else math.inf
+    return Fault(tuple(FAULTS).index(name), limb, joint, value, at_s, for_s)
+
+
+def _where(name: str, text: str | None, of_joint: bool) -> tuple[int | None, int]:
+    """Limb (from 0) and joint of 'femur', '2.femur', '2'."""
+    limb_text, dot, rest = (text or "").rpartition(".")
+    joint_text = rest
+    if not dot and rest.isdigit():
+        limb_text, joint_text = rest, ""
+    if of_joint and joint_text not in JOINTS:
+        raise refused(
+            f"{name} without a joint" if not joint_text else f"{joint_text!r} is no joint",
+            f"joints: {', '.join(JOINTS)}",
+            f"OPTION {name}:femur@2.0+1.5",
+        )
+    if not of_joint and joint_text:
+        raise refused(f"{joint_text!r} after {name}", "this fault is the whole limb's", f"OPTION {name}:1@2.0+1.5")
+    if limb_text and not (limb_text.isdigit() and 1 <= int(limb_text) <= 16):
+        raise refused(f"{limb_text!r} is no limb's number", "limbs count from 1", f"OPTION {name}:1.femur")
+    return (int(limb_text) - 1 if limb_text else None), (JOINTS.index(joint_text) if of_joint else 0)
+
+
+def _seconds(text: str) -> float:
+    value = number(text)
+    if value < 0:
+        raise refused(f"{text} s is before the start", "times count from the start", "OPTION ...@2.0+1.5")
+    return value
+
+
+def posture(text: str) -> Posture:
+    """1.0,1.4 or 1.0,1.4@2.5"""
+    angles, _, at = text.partition("@")
+    parts = angles.split(",")
+    if len(parts) != 2:
+        raise refused(f"{text!r} is no posture", "the form is THETA1,THETA2[@SECONDS], in rad", "OPTION 1.0,1.4@2.5")
+    return Posture(angle(parts[0]), flexion(parts[1]), _seconds(at) if at else 0.0)
+
+
+def contact(text: str) -> float:
+    """Stiffness of the contact [N/mm]: planted is inf, free is 0, wall:K is K."""
+    if text == "planted":
+        return math.inf
+    if text == "free":
+        return 0.0
+    kind, _, stiffness = text.partition(":")
+    if kind == "wall":
+        value = number(stiffness)
+        if value > 0:
+            return value
+    raise refused(
+        f"{text!r} is no contact",
+        "planted: the tip is held where it is; free: in the air; wall:K: held by a spring of K N/mm",
+        "OPTION wall:20",
+    )
+
+
+def pair_mm(text: str) -> tuple[float, float]:
+    """1.5,-2 [mm]"""
+    parts = text.split(",")
+    if len(parts) != 2:
+        raise refused(f"{text!r} is no pair", "the form is X,Z in mm", "OPTION 1.0,2.0")
+    return number(parts[0]), number(parts[1])
