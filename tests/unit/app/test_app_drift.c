@@ -39,17 +39,41 @@ static brace_loading_setup_t quick_setup(void)
     return quick;
 }
 
-/* Learns the limb of the parameters. returns the next turn */
+/* Learns the limb of the parameters, once: whoever asks again goes on where that ended. returns the next turn */
 static int learn(void)
 {
+    static struct {
+        brace_app_t app;
+        brace_fake_t fake;
+        double theta1, theta2;
+        symmetric_t truth;
+        uint32_t noise_state;
+        int turn;
+    } learned;
     const brace_loading_setup_t quick = quick_setup();
     servo_n_mm_per_rad = 1e9;
     noise_n = 0.02f;
+    if (learned.turn > 0) {
+        app = learned.app;
+        fake = learned.fake;
+        theta1 = learned.theta1;
+        theta2 = learned.theta2;
+        truth = learned.truth;
+        noise_state = learned.noise_state;
+        return learned.turn;
+    }
     int turn = 0;
     for (; turn < BRACE_DRIFT_LEARN_MOST / 16 + 4 && app.controller.drift.drift.state == BRACE_DRIFT_LEARNING; turn++) {
         test_at(turn, &app.controller.parameters.in_force.limb, &quick);
     }
     TEST_ASSERT_EQUAL(BRACE_DRIFT_WATCHING, app.controller.drift.drift.state);
+    learned.app = app;
+    learned.fake = fake;
+    learned.theta1 = theta1;
+    learned.theta2 = theta2;
+    learned.truth = truth;
+    learned.noise_state = noise_state;
+    learned.turn = turn;
     return turn;
 }
 

@@ -29,50 +29,87 @@ static inline float noise(void) /* uniform, one sigma noise_n */
     return noise_n * 3.4641016f * ((float)(noise_state >> 8) / 16777216.0f - 0.5f);
 }
 
-static inline void play(void *user, brace_fake_t *board, int32_t joint)
+/* What the world is told, and what follows from it. An emulated processor without a floating point unit takes long to
+ * work it out in double, so that is done only when something has changed. */
+typedef struct {
+    double theta1, theta2, servo_n_mm_per_rad, preload_x_n, preload_z_n, weight_n, drive_rad_per_n_mm;
+    symmetric_t truth;
+    float command_rad[2];
+    bool tip_is_free;
+} world_t;
+
+typedef struct {
+    float motor_rad[2], torque_n_mm[2], link_rad[2], force_x_n, force_z_n;
+} response_t;
+
+static inline response_t response_of(const world_t *w)
 {
-    (void)user;
-    (void)joint;
-    static double at1 = NAN, at2 = NAN, tip_x, tip_z, knee_x, knee_z; /* an emulated board is slow at these */
-    if (at1 != theta1 || at2 != theta2) {
-        at1 = theta1;
-        at2 = theta2;
-        tip_x = femur_mm * cos(theta1) + tibia_mm * cos(theta1 - theta2);
-        tip_z = femur_mm * sin(theta1) + tibia_mm * sin(theta1 - theta2);
-        knee_x = femur_mm * cos(theta1);
-        knee_z = femur_mm * sin(theta1);
-    }
+    const double knee_x = femur_mm * cos(w->theta1), knee_z = femur_mm * sin(w->theta1);
+    const double tip_x = knee_x + tibia_mm * cos(w->theta1 - w->theta2);
+    const double tip_z = knee_z + tibia_mm * sin(w->theta1 - w->theta2);
     /* tip's movement for theta1 and for theta2, which is flexion */
     const double l[2][2] = {{-tip_z, tip_z - knee_z}, {tip_x, -(tip_x - knee_x)}};
-    const double k[2][2] = {{truth.xx, truth.xz}, {truth.xz, truth.zz}};
+    const double k[2][2] = {{w->truth.xx, w->truth.xz}, {w->truth.xz, w->truth.zz}};
     double a[2][2] = {{1.0, 0.0}, {0.0, 1.0}};
     for (int i = 0; i < 2; i++) {
-        for (int j = 0; j < 2 && !tip_is_free; j++) {
+        for (int j = 0; j < 2 && !w->tip_is_free; j++) {
             for (int p = 0; p < 2; p++) {
                 for (int q = 0; q < 2; q++) {
-                    a[i][j] += l[p][i] * k[p][q] * l[q][j] / servo_n_mm_per_rad;
+                    a[i][j] += l[p][i] * k[p][q] * l[q][j] / w->servo_n_mm_per_rad;
                 }
             }
         }
     }
-    const double c[2] = {(double)board->joint[1].command.offset_rad, (double)board->joint[2].command.offset_rad};
+    const double c[2] = {(double)w->command_rad[0], (double)w->command_rad[1]};
     const double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
     const double m[2] = {(a[1][1] * c[0] - a[0][1] * c[1]) / det, (a[0][0] * c[1] - a[1][0] * c[0]) / det};
     const double dx = l[0][0] * m[0] + l[0][1] * m[1], dz = l[1][0] * m[0] + l[1][1] * m[1];
-    const double fx = tip_is_free ? 0.0 : preload_x_n - truth.xx * dx - truth.xz * dz;
-    const double fz = tip_is_free ? 0.0 : preload_z_n - truth.xz * dx - truth.zz * dz;
-    board->joint[1].sample.motor_rad = (float)(theta1 + m[0]);
-    board->joint[2].sample.motor_rad = (float)(theta2 + m[1]);
+    const double fx = w->tip_is_free ? 0.0 : w->preload_x_n - k[0][0] * dx - k[0][1] * dz;
+    const double fz = w->tip_is_free ? 0.0 : w->preload_z_n - k[1][0] * dx - k[1][1] * dz;
     /* the tibia weighs at its middle */
-    const double w1 = weight_n * 0.5 * (knee_x + tip_x), w2 = -weight_n * 0.5 * (tip_x - knee_x);
-    board->joint[1].sample.torque_n_mm = (float)(w1 - (l[0][0] * fx + l[1][0] * fz));
-    board->joint[2].sample.torque_n_mm = (float)(w2 - (l[0][1] * fx + l[1][1] * fz));
-    for (int i = 1; i <= 2 && drive_rad_per_n_mm > 0.0; i++) { /* the link stays behind what its motor brings */
-        brace_hal_joint_t *sample = &board->joint[i].sample;
-        sample->link_rad = (float)((double)sample->motor_rad - drive_rad_per_n_mm * (double)sample->torque_n_mm);
+    const double weight_n_mm[2] = {w->weight_n * 0.5 * (knee_x + tip_x), -w->weight_n * 0.5 * (tip_x - knee_x)};
+    const double theta[2] = {w->theta1, w->theta2};
+    response_t r = {.force_x_n = (float)fx, .force_z_n = (float)fz};
+    for (int i = 0; i < 2; i++) {
+        r.motor_rad[i] = (float)(theta[i] + m[i]);
+        r.torque_n_mm[i] = (float)(weight_n_mm[i] - (l[0][i] * fx + l[1][i] * fz));
+        /* the link stays behind what its motor brings */
+        r.link_rad[i] = (float)((double)r.motor_rad[i] - w->drive_rad_per_n_mm * (double)r.torque_n_mm[i]);
     }
-    board->force_x_n = (float)fx + noise();
-    board->force_z_n = (float)fz + noise();
+    return r;
+}
+
+static inline bool same_world(const world_t *a, const world_t *b)
+{
+    return a->theta1 == b->theta1 && a->theta2 == b->theta2 && a->servo_n_mm_per_rad == b->servo_n_mm_per_rad &&
+           a->preload_x_n == b->preload_x_n && a->preload_z_n == b->preload_z_n && a->weight_n == b->weight_n &&
+           a->drive_rad_per_n_mm == b->drive_rad_per_n_mm && a->truth.xx == b->truth.xx &&
+           a->truth.xz == b->truth.xz && a->truth.zz == b->truth.zz && a->command_rad[0] == b->command_rad[0] &&
+           a->command_rad[1] == b->command_rad[1] && a->tip_is_free == b->tip_is_free;
+}
+
+static inline void play(void *user, brace_fake_t *board, int32_t joint)
+{
+    (void)user;
+    (void)joint;
+    static world_t last; /* zero: no limb stands so */
+    static response_t r;
+    const world_t w = {theta1, theta2, servo_n_mm_per_rad, preload_x_n, preload_z_n, weight_n, drive_rad_per_n_mm, truth,
+                       {board->joint[1].command.offset_rad, board->joint[2].command.offset_rad}, tip_is_free};
+    if (!same_world(&w, &last)) {
+        last = w;
+        r = response_of(&w);
+    }
+    for (int i = 0; i < 2; i++) {
+        brace_hal_joint_t *sample = &board->joint[i + 1].sample;
+        sample->motor_rad = r.motor_rad[i];
+        sample->torque_n_mm = r.torque_n_mm[i];
+        if (drive_rad_per_n_mm > 0.0) {
+            sample->link_rad = r.link_rad[i];
+        }
+    }
+    board->force_x_n = r.force_x_n + noise();
+    board->force_z_n = r.force_z_n + noise();
 }
 
 static const brace_loading_setup_t along_x = {.axis = BRACE_AXIS_X, .steps_per_side = 4, .step_mm = 0.635f,
