@@ -1,0 +1,90 @@
+/* K in the limb's plane under a load: the limb's equilibrium under the force of the ground and its own weight, and K
+ * there.
+ *
+ * Force times lever turns with the deflection, so a load changes K: K is the slope of the force at the equilibrium,
+ * J^-T (K_theta - K_G) J^-1, where K_G comes from the load (the conservative congruence transformation of Chen and Kao,
+ * 2000; stiffness of loaded manipulators: Klimchik, Pashkevich, Chablat, 2014). docs/loaded.md has the formulas.
+ *
+ * The limb at finite deflections: joints' springs and the base's rotation turn by any angle. Of a link's bending
+ * compliance the share moment_transfer_ratio is a uniform, geometrically exact beam with its axial spring at the root.
+ * The rest is a spring at the link's end, which moves the end and turns nothing. A tilt turns the link's elastic axes
+ * about its end. Base springs act in the robot's frame.
+ *
+ * A beam's curvature is linear along it, given by its values at the two Gauss points, which is exact at no load. Its
+ * shape is summed at three points.
+ *
+ * Thread rule: pure functions of their arguments; any thread or interrupt that may use the FPU.
+ */
+#ifndef BRACE_LOADED_H
+#define BRACE_LOADED_H
+
+#include <stdbool.h>
+
+#include "brace/contact.h"
+#include "brace/limb.h"
+#include "brace/status.h"
+#include "brace/stiffness.h"
+#include "brace/vec.h"
+
+/* Weights of the limb's parts: of a link spread along it, of the knee at the knee [N, >= 0]. */
+typedef struct {
+    float femur_n, knee_n, tibia_n;
+} brace_weights_t;
+
+/* One link in its own frame, x along it at no load. */
+typedef struct {
+    brace_vec_t to_beam_mm;          /* from the joint to the root of the elastic line; zero where nothing is tilted */
+    brace_vec_t beam_mm;             /* from there to the link's end */
+    float bend_rad_per_n_mm;         /* each of the beam's two curvatures yields so; zero: the link stays straight */
+    brace_vec_t root_root;           /* axial spring at the root: this vector v adds v v' [sqrt(mm/N)] */
+    brace_vec_t end_root;            /* spring at the end: end_mm_per_n in every direction, and this vector */
+    float end_mm_per_n;
+    float weight_n;
+} brace_loaded_link_t;
+
+/* A collapsed limb. brace_loaded_collapse writes it; other code must not read its members. */
+typedef struct {
+    brace_loaded_link_t femur, tibia;
+    float knee_weight_n;
+    float base_mm_per_n; /* in every direction */
+    brace_vec_t base_root;
+    float base_rotation_rad_per_n_mm;
+} brace_loaded_t;
+
+/* How a joint yields: how far its angle has left the commanded one for each N mm, and its slope there. They are equal
+ * where the spring is linear. yields_by is 0 where the angle is measured behind the spring, so that it is known. */
+typedef struct {
+    float yields_by_rad_per_n_mm, slope_rad_per_n_mm;
+} brace_loaded_joint_t;
+
+typedef struct {
+    brace_force_t tip;       /* force of the ground on the tip [N, -1e4 to 1e4] */
+    brace_vec_t down;        /* direction of the weight in the limb's plane; shorter than 1 where the plane leans */
+    brace_loaded_joint_t hip, knee; /* the joints; the base's rotation is added to the hip */
+} brace_load_t;
+
+typedef struct {
+    brace_stiffness_t stiffness;        /* K at the equilibrium; flags: BRACE_FLAG_NEAR_SINGULAR as on other paths */
+    brace_displacement_t displacement;  /* of the tip, from where it is at these angles without load */
+    float hip_turn_rad, knee_turn_rad;  /* how far the load has turned the joints, counter-clockwise, base included */
+    float buckling_factor;              /* see below; infinity: none below 8192 */
+} brace_loaded_stiffness_t;
+
+/* Collapses a limb. Call it when parameters change.
+ * limb: one that brace_limb_check accepts. loaded: not null. Cost on a Cortex-M4F: at most 500 instructions. */
+void brace_loaded_collapse(const brace_limb_t *limb, const brace_weights_t *weights, brace_loaded_t *loaded);
+
+/* Equilibrium and K at commanded (or measured) true angles under a load.
+ * theta1_rad, theta2_rad: theta1^2 + theta2^2 <= BRACE_REACH_RAD2.
+ * result: written on success only. Its buckling factor is the smallest positive s for which diag(k) - s G is singular,
+ * k the springs' stiffnesses, G the load's part, at this equilibrium with the posture held (linear buckling analysis).
+ * It tells how far the load softens the limb, not at which load it collapses.
+ * returns BRACE_OK, BRACE_E_RANGE, BRACE_E_NOT_FINITE, or BRACE_E_SINGULAR: there is no stable equilibrium near the
+ *         commanded posture, or nothing yields in some direction.
+ * Accuracy: where the buckling factor is at least 2 and the tip moves by at most a fifth of the reach, K within 0.3 %
+ *         (Frobenius norm), median 1e-6; the buckling factor within 2 % below 10. At no load as brace/general.h.
+ * Cost on a Cortex-M4F: at most 2,500 instructions for every posture. */
+brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
+                                      const brace_load_t *load, brace_loaded_stiffness_t *result);
+
+#endif
