@@ -1,4 +1,4 @@
-/* Sine, cosine and arctangent in single precision: the same bits on every target, no table, no call of libm.
+/* Sine, cosine and arctangent in single precision: the same bits on every target with an FPU, no table.
  *
  * Each polynomial states its largest error beside it. The rounding of its evaluation comes on top (about 6e-8).
  */
@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdint.h>
 
+#include "base/fma.h"
 #include "base/vec.h"
 
 /* pi and pi/2, each as a float and the rest that the float leaves out. */
@@ -26,7 +27,8 @@ static inline float brace_half_turns(float angle_rad)
     return fmaf(angle_rad, BRACE_PER_PI, to_integer) - to_integer;
 }
 
-/* angle - count pi. The first step is exact, because the difference of two floats of one size is a float. */
+/* angle - count pi. The first step is exact, because fmaf() rounds once and the
+ * difference of two floats of one size is a float. */
 static inline float brace_less_half_turns(float angle_rad, float count)
 {
     return fmaf(count, -BRACE_PI_LOW, fmaf(count, -BRACE_PI, angle_rad));
@@ -37,10 +39,10 @@ static inline float brace_sine(float x)
 {
     const float u = x * x;
     float sum = 2.60578056e-6f;
-    sum = fmaf(sum, u, -1.98096029e-4f);
-    sum = fmaf(sum, u, 8.33306625e-3f);
-    sum = fmaf(sum, u, -1.66666596e-1f);
-    return fmaf(x * u, sum, x);
+    sum = brace_fma(sum, u, -1.98096029e-4f);
+    sum = brace_fma(sum, u, 8.33306625e-3f);
+    sum = brace_fma(sum, u, -1.66666596e-1f);
+    return brace_fma(x * u, sum, x);
 }
 
 /* cos x for |x| <= pi/2; error 6e-9 of the result, near pi/2 too, so that levers that vanish at the folded knee keep
@@ -63,22 +65,22 @@ static inline float brace_cosine_coarse(float x)
 {
     const float u = x * x;
     float sum = 2.31943856e-5f;
-    sum = fmaf(sum, u, -1.38559271e-3f);
-    sum = fmaf(sum, u, 4.16639895e-2f);
-    sum = fmaf(sum, u, -0.499999323f);
-    return fmaf(sum, u, 1.0f);
+    sum = brace_fma(sum, u, -1.38559271e-3f);
+    sum = brace_fma(sum, u, 4.16639895e-2f);
+    sum = brace_fma(sum, u, -0.499999323f);
+    return brace_fma(sum, u, 1.0f);
 }
 
 /* atan(t)/t for u = t^2, |t| <= 1; error 2.6e-7. */
 static inline float brace_arctangent_per_tangent(float u)
 {
     float sum = 0.00681179f;
-    sum = fmaf(sum, u, -0.03360421f);
-    sum = fmaf(sum, u, 0.07962366f);
-    sum = fmaf(sum, u, -0.13233341f);
-    sum = fmaf(sum, u, 0.19807815f);
-    sum = fmaf(sum, u, -0.33317368f);
-    return fmaf(sum, u, 0.99999611f);
+    sum = brace_fma(sum, u, -0.03360421f);
+    sum = brace_fma(sum, u, 0.07962366f);
+    sum = brace_fma(sum, u, -0.13233341f);
+    sum = brace_fma(sum, u, 0.19807815f);
+    sum = brace_fma(sum, u, -0.33317368f);
+    return brace_fma(sum, u, 0.99999611f);
 }
 
 /* Half the angle of -(x, z), in [-pi/2, pi/2]: the axis of the least eigenvalue of a tensor with that deviator. length:
@@ -87,7 +89,7 @@ static inline float brace_arctangent_per_tangent(float u)
 static inline float brace_half_angle_of_opposite(float x, float z, float length)
 {
     const float tangent = x / (length + fabsf(z));
-    const float angle_rad = fmaf(tangent, brace_arctangent_per_tangent(tangent * tangent), BRACE_QUARTER_PI);
+    const float angle_rad = brace_fma(tangent, brace_arctangent_per_tangent(tangent * tangent), BRACE_QUARTER_PI);
     return z > 0.0f ? -angle_rad : angle_rad;
 }
 

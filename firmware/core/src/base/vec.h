@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "base/fma.h"
 #include "brace/vec.h"
 
 /* v turned a quarter counter-clockwise: makes a link's bending direction from its axis, and a lever from an arm. */
@@ -30,17 +31,17 @@ static inline brace_vec_t vec_minus(brace_vec_t a, brace_vec_t b)
 /* a + by b */
 static inline brace_vec_t vec_plus_scaled(brace_vec_t a, brace_vec_t b, float by)
 {
-    return (brace_vec_t){fmaf(by, b.x, a.x), fmaf(by, b.z, a.z)};
+    return (brace_vec_t){brace_fma(by, b.x, a.x), brace_fma(by, b.z, a.z)};
 }
 
 static inline float vec_dot(brace_vec_t a, brace_vec_t b)
 {
-    return fmaf(a.x, b.x, a.z * b.z);
+    return brace_fma(a.x, b.x, a.z * b.z);
 }
 
 static inline float vec_cross(brace_vec_t a, brace_vec_t b)
 {
-    return fmaf(a.x, b.z, -(a.z * b.x));
+    return brace_fma(a.x, b.z, -(a.z * b.x));
 }
 
 static inline float vec_length(brace_vec_t v)
@@ -51,13 +52,13 @@ static inline float vec_length(brace_vec_t v)
 /* v turned by a direction's angle: from the frame whose x axis is that direction into the frame that holds it. */
 static inline brace_vec_t vec_turned(brace_vec_t v, brace_vec_t by)
 {
-    return (brace_vec_t){fmaf(v.x, by.x, -(v.z * by.z)), fmaf(v.x, by.z, v.z * by.x)};
+    return (brace_vec_t){brace_fma(v.x, by.x, -(v.z * by.z)), brace_fma(v.x, by.z, v.z * by.x)};
 }
 
 /* v turned back by a direction's angle: v as seen in the frame whose x axis is that direction. */
 static inline brace_vec_t vec_turned_back(brace_vec_t v, brace_vec_t by)
 {
-    return (brace_vec_t){fmaf(v.x, by.x, v.z * by.z), fmaf(v.z, by.x, -(v.x * by.z))};
+    return (brace_vec_t){brace_fma(v.x, by.x, v.z * by.z), brace_fma(v.z, by.x, -(v.x * by.z))};
 }
 
 /* The direction of twice a direction's angle. */

@@ -26,7 +26,7 @@ static float moment_root(const brace_link_t *link)
  * in every direction. returns the latter [mm/N]. along: the ellipsoid's axial direction. */
 static float split(const brace_link_t *link, float root, brace_vec_t along, brace_vec_t *longer)
 {
-    const float axial = link->axial_mm_per_n, bending = fmaf(-root, root, link->bending_mm_per_n);
+    const float axial = link->axial_mm_per_n, bending = brace_fma(-root, root, link->bending_mm_per_n);
     const float more = bending - axial;
     *longer = vec_scaled(more > 0.0f ? vec_quarter(along) : along, sqrtf(fabsf(more)));
     return more > 0.0f ? axial : bending;

@@ -9,10 +9,10 @@ typedef struct {
 
 static inline void add_product(products_t *sum, brace_vec_t a, brace_vec_t b)
 {
-    sum->xx = fmaf(a.x, b.x, sum->xx);
-    sum->zz = fmaf(a.z, b.z, sum->zz);
-    sum->xz = fmaf(0.5f * a.x, b.z, sum->xz);
-    sum->xz = fmaf(0.5f * a.z, b.x, sum->xz);
+    sum->xx = brace_fma(a.x, b.x, sum->xx);
+    sum->zz = brace_fma(a.z, b.z, sum->zz);
+    sum->xz = brace_fma(0.5f * a.x, b.z, sum->xz);
+    sum->xz = brace_fma(0.5f * a.z, b.x, sum->xz);
 }
 
 /* v v' is straight straight' cos^2 h + folded folded' sin^2 h + (straight folded' + folded straight') sin h cos h, and
@@ -58,13 +58,13 @@ static void add_cross(cross_sums_t *sum, const brace_element_t *i, const brace_e
     const brace_vec_t slope = {vec_cross(i->straight, j->straight) + minus_fold,
                                vec_cross(i->straight, j->folded) - vec_cross(j->straight, i->folded)};
     const float a = vec_cross(slope, s), b = vec_dot(slope, s);
-    const float r = fmaf(c, b, minus_fold);
-    sum->aa = fmaf(a, a, sum->aa);
-    sum->ab = fmaf(a, b, sum->ab);
-    sum->bb = fmaf(b, b, sum->bb);
-    sum->rb = fmaf(r, b, sum->rb);
-    sum->rr = fmaf(r, r, sum->rr);
-    sum->ra = fmaf(r, a, sum->ra);
+    const float r = brace_fma(c, b, minus_fold);
+    sum->aa = brace_fma(a, a, sum->aa);
+    sum->ab = brace_fma(a, b, sum->ab);
+    sum->bb = brace_fma(b, b, sum->bb);
+    sum->rb = brace_fma(r, b, sum->rb);
+    sum->rr = brace_fma(r, r, sum->rr);
+    sum->ra = brace_fma(r, a, sum->ra);
 }
 
 static cross_sums_t sum_crosses(const brace_element_t element[BRACE_ELEMENT_COUNT], brace_vec_t s, float c)
@@ -88,14 +88,14 @@ static void gather_crosses(const brace_element_t element[BRACE_ELEMENT_COUNT], b
         if (half < 0.0f) { /* the sum varies more along n, so begin with n */
             s = (brace_vec_t){s.z, -s.x};
         } else {
-            const float tangent = sum.ab / (half + sqrtf(fmaf(half, half, sum.ab * sum.ab)));
-            s = (brace_vec_t){fmaf(tangent, s.z, s.x), fmaf(-tangent, s.x, s.z)};
-            c -= fmaf(tangent, sum.ra, sum.rb) / sum.bb;
+            const float tangent = sum.ab / (half + sqrtf(brace_fma(half, half, sum.ab * sum.ab)));
+            s = (brace_vec_t){brace_fma(tangent, s.z, s.x), brace_fma(-tangent, s.x, s.z)};
+            c -= brace_fma(tangent, sum.ra, sum.rb) / sum.bb;
         }
         sum = sum_crosses(element, s, c);
     }
     const float half = 0.5f * (sum.bb - sum.aa);
-    const float amplitude = sqrtf(fabsf(half) + sqrtf(fmaf(half, half, sum.ab * sum.ab))); /* B */
+    const float amplitude = sqrtf(fabsf(half) + sqrtf(brace_fma(half, half, sum.ab * sum.ab))); /* B */
     const float square = vec_dot(s, s);
     const brace_vec_t per_u = vec_scaled(s, amplitude / square);
     const float c_aa = c * sum.aa;

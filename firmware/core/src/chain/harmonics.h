@@ -2,8 +2,7 @@
 #ifndef BRACE_CORE_HARMONICS_H
 #define BRACE_CORE_HARMONICS_H
 
-#include <math.h>
-
+#include "base/fma.h"
 #include "brace/element.h"
 #include "brace/harmonics.h"
 
@@ -24,12 +23,12 @@ void brace_harmonics_of(const brace_element_t element[BRACE_ELEMENT_COUNT], brac
 /* A harmonic is middle + swing cos(theta2 - some angle). */
 static inline float brace_harmonic_middle(const brace_harmonic_t *h)
 {
-    return fmaf(0.5f, h->per_cos2, h->at_fold);
+    return brace_fma(0.5f, h->per_cos2, h->at_fold);
 }
 
 static inline float brace_harmonic_swing(const brace_harmonic_t *h)
 {
-    return 0.5f * sqrtf(fmaf(h->per_cos2, h->per_cos2, h->per_sincos * h->per_sincos));
+    return 0.5f * sqrtf(brace_fma(h->per_cos2, h->per_cos2, h->per_sincos * h->per_sincos));
 }
 
 #endif

@@ -27,19 +27,19 @@ typedef struct {
 static inline brace_tensor_t brace_tensor_of(float iso_mm_per_n, brace_vec_t v)
 {
     const float nearly_nothing = 1e-18f;
-    const float iso = iso_mm_per_n + nearly_nothing, xx = fmaf(v.x, v.x, iso);
-    return (brace_tensor_t){xx, v.x * v.z, fmaf(v.z * v.z, iso / xx, iso)};
+    const float iso = iso_mm_per_n + nearly_nothing, xx = brace_fma(v.x, v.x, iso);
+    return (brace_tensor_t){xx, v.x * v.z, brace_fma(v.z * v.z, iso / xx, iso)};
 }
 
 /* c += v v': the rank-one update of a Cholesky factor (Gill, Golub, Murray and Saunders, 1974). xx and second grow by
  * squares only. */
 static inline void brace_tensor_add(brace_tensor_t *c, brace_vec_t v)
 {
-    const float xx = fmaf(v.x, v.x, c->xx);
-    const float beyond = fmaf(c->xx, v.z, -(c->xz * v.x)); /* xx times v's part beyond c's first column */
+    const float xx = brace_fma(v.x, v.x, c->xx);
+    const float beyond = brace_fma(c->xx, v.z, -(c->xz * v.x)); /* xx times v's part beyond c's first column */
     const float per_both = 1.0f / (c->xx * xx);
-    c->second = fmaf(beyond * per_both, beyond, c->second);
-    c->xz = fmaf(v.x, v.z, c->xz);
+    c->second = brace_fma(beyond * per_both, beyond, c->second);
+    c->xz = brace_fma(v.x, v.z, c->xz);
     c->xx = xx;
 }
 
@@ -56,7 +56,7 @@ typedef struct {
 
 static inline brace_circle_t brace_tensor_circle(const brace_tensor_t *c)
 {
-    const float zz = fmaf(c->xz / c->xx, c->xz, c->second);
+    const float zz = brace_fma(c->xz / c->xx, c->xz, c->second);
     return (brace_circle_t){0.5f * (c->xx + zz), {0.5f * (c->xx - zz), c->xz}};
 }
 
@@ -72,7 +72,7 @@ static inline brace_posture_t brace_posture(float theta1_rad, float theta2_rad)
     const float half_rad = 0.5f * theta2_rad;
     const float knee_half_turns = brace_half_turns(half_rad);
     const float bisector_half_turns = brace_half_turns(theta1_rad - half_rad);
-    const float h_high = fmaf(knee_half_turns, -BRACE_PI, half_rad), h_low = knee_half_turns * -BRACE_PI_LOW;
+    const float h_high = brace_fma(knee_half_turns, -BRACE_PI, half_rad), h_low = knee_half_turns * -BRACE_PI_LOW;
     const float b = brace_less_half_turns(theta1_rad, bisector_half_turns) - half_rad;
     const float sign = ((int32_t)(knee_half_turns + bisector_half_turns) & 1) != 0 ? -1.0f : 1.0f;
     return (brace_posture_t){.half = {sign * brace_cosine_of_parts(h_high, h_low), sign * brace_sine(h_high + h_low)},
@@ -96,7 +96,7 @@ static inline brace_status_t brace_tensor_inverse(const brace_tensor_t *c, brace
         return BRACE_E_SINGULAR;
     }
     const brace_vec_t dev = vec_turned(circle.dev, bisector_twice);
-    const float radius = sqrtf(fmaf(dev.x, dev.x, fmaf(dev.z, dev.z, FLT_MIN)));
+    const float radius = sqrtf(brace_fma(dev.x, dev.x, brace_fma(dev.z, dev.z, FLT_MIN)));
     const float per_det = 1.0f / det;
     stiffness->k_xx_n_per_mm = (mean - dev.x) * per_det;
     stiffness->k_xz_n_per_mm = -dev.z * per_det;

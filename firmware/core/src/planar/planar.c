@@ -7,13 +7,13 @@
 
 static inline float harmonic(const brace_harmonic_t *h, float cos2, float sincos)
 {
-    return fmaf(h->per_cos2, cos2, fmaf(h->per_sincos, sincos, h->at_fold));
+    return brace_fma(h->per_cos2, cos2, brace_fma(h->per_sincos, sincos, h->at_fold));
 }
 
 brace_status_t brace_planar_stiffness(const brace_planar_t *planar, float theta1_rad, float theta2_rad,
                                       brace_stiffness_t *stiffness)
 {
-    const float reach = fmaf(theta1_rad, theta1_rad, theta2_rad * theta2_rad);
+    const float reach = brace_fma(theta1_rad, theta1_rad, theta2_rad * theta2_rad);
     if (!(reach <= BRACE_REACH_RAD2)) {
         return reach - reach == 0.0f ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
     }
@@ -34,14 +34,14 @@ brace_status_t brace_planar_stiffness(const brace_planar_t *planar, float theta1
     const float mean = harmonic(&planar->mean, cos2, sincos);
     const float x = harmonic(&planar->dev_x, cos2, sincos);
     const float z = harmonic(&planar->dev_z, cos2, sincos);
-    const float zeros = fmaf(-planar->zero_tan, cos_h, sin_h) * fmaf(-planar->zero_cot, sin_h, cos_h);
-    const float cross = fmaf(planar->cross_factor, zeros, planar->cross_least);
-    const float det = fmaf(cross, cross, fmaf(planar->rest_per_mean, mean, planar->rest_constant));
+    const float zeros = brace_fma(-planar->zero_tan, cos_h, sin_h) * brace_fma(-planar->zero_cot, sin_h, cos_h);
+    const float cross = brace_fma(planar->cross_factor, zeros, planar->cross_least);
+    const float det = brace_fma(cross, cross, brace_fma(planar->rest_per_mean, mean, planar->rest_constant));
 
     /* Its deviator in the world's frame. */
-    const float dev_x = fmaf(x, cos_2b, -(z * sin_2b));
-    const float dev_z = fmaf(x, sin_2b, z * cos_2b);
-    const float radius = sqrtf(fmaf(x, x, fmaf(z, z, FLT_MIN)));
+    const float dev_x = brace_fma(x, cos_2b, -(z * sin_2b));
+    const float dev_z = brace_fma(x, sin_2b, z * cos_2b);
+    const float radius = sqrtf(brace_fma(x, x, brace_fma(z, z, FLT_MIN)));
 
     const float longest = mean + radius;
     const float inverse = 1.0f / (det * longest);

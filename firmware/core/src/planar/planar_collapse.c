@@ -35,7 +35,7 @@ static rest_t rest_of(brace_harmonics_t *harmonics, float iso_mm_per_n, float me
     const brace_vec_t rest = {harmonics->rest.per_cos2, harmonics->rest.per_sincos};
     const float square = vec_dot(cross, cross), length = sqrtf(square); /* never zero (harmonics.c) */
     const float apart = vec_cross(cross, mean) / length, noise = 4.0f * mean_off * mean_off;
-    const float across = vec_cross(cross, rest) / length / fmaf(apart, apart, noise);
+    const float across = vec_cross(cross, rest) / length / brace_fma(apart, apart, noise);
     const float more = across * apart;
     const float shift = 0.5f * (vec_dot(cross, rest) - more * vec_dot(cross, mean)) / square;
     const float constant = harmonics->rest.at_fold - iso_mm_per_n * iso_mm_per_n - more * harmonics->mean.at_fold -
@@ -58,7 +58,7 @@ static void factor_cross(const brace_harmonic_t *cross, brace_planar_t *planar)
     const float least = above > 0.0f ? copysignf(above, middle) : 0.0f;
     const float b = cross->per_sincos;
     float a = straight - least, d = folded - least;
-    const float discriminant = fmaf(b, b, -4.0f * a * d);
+    const float discriminant = brace_fma(b, b, -4.0f * a * d);
     const float root = sqrtf(discriminant > 0.0f ? discriminant : 0.0f);
     const float q = -0.5f * (b + copysignf(root, b));
     const float larger = fmaxf(fabsf(a), fabsf(d));

@@ -17,7 +17,7 @@ void brace_spatial_set_springs(brace_spatial_t *spatial, float yaw_rad_per_n_mm,
 
 static inline float aside(const brace_aside_t *link, float along_mm, float beside_mm)
 {
-    return fmaf(along_mm, fmaf(along_mm, link->per_mm2, link->per_mm),
+    return brace_fma(along_mm, brace_fma(along_mm, link->per_mm2, link->per_mm),
                 link->torsion_rad_per_n_mm * beside_mm * beside_mm);
 }
 
@@ -26,7 +26,7 @@ static inline float across(const brace_spatial_t *spatial, brace_vec_t tip_mm, b
 {
     const brace_vec_t knee = vec_doubled(half); /* direction of the tibia seen from the femur, mirrored */
     const float from_yaw_mm = spatial->coxa_mm + tip_mm.x;
-    return fmaf(spatial->yaw_rad_per_n_mm * from_yaw_mm, from_yaw_mm, spatial->across_mm_per_n) +
+    return brace_fma(spatial->yaw_rad_per_n_mm * from_yaw_mm, from_yaw_mm, spatial->across_mm_per_n) +
            aside(&spatial->coxa_aside, tip_mm.x, tip_mm.z) +
            aside(&spatial->femur_aside, spatial->plane.tibia_mm * knee.x, spatial->plane.tibia_mm * knee.z);
 }
@@ -77,10 +77,10 @@ brace_status_t brace_spatial_turn(float theta0_rad, const brace_stiffness_t *pla
     }
     const brace_vec_t yaw = brace_direction(theta0_rad); /* seen from above, so z stands for y here */
     const float more_outwards = plane->k_xx_n_per_mm - across_n_per_mm;
-    stiffness->k_xx_n_per_mm = fmaf(more_outwards * yaw.x, yaw.x, across_n_per_mm);
+    stiffness->k_xx_n_per_mm = brace_fma(more_outwards * yaw.x, yaw.x, across_n_per_mm);
     stiffness->k_xy_n_per_mm = more_outwards * yaw.x * yaw.z;
     stiffness->k_xz_n_per_mm = plane->k_xz_n_per_mm * yaw.x;
-    stiffness->k_yy_n_per_mm = fmaf(more_outwards * yaw.z, yaw.z, across_n_per_mm);
+    stiffness->k_yy_n_per_mm = brace_fma(more_outwards * yaw.z, yaw.z, across_n_per_mm);
     stiffness->k_yz_n_per_mm = plane->k_xz_n_per_mm * yaw.z;
     stiffness->k_zz_n_per_mm = plane->k_zz_n_per_mm;
     sort(plane->lambda_min_n_per_mm, plane->lambda_max_n_per_mm, across_n_per_mm, stiffness->lambda_n_per_mm);

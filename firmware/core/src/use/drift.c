@@ -58,8 +58,8 @@ static inline float square(float x)
 /* The sum of h[i] times the i-th number that follows. */
 static inline float weigh(const float h[DRIFT_OFFSETS], float a, float b, float c, float d, float e, float f, float g)
 {
-    const float first = fmaf(d, h[3], fmaf(c, h[2], fmaf(b, h[1], a * h[0])));
-    return fmaf(g, h[6], fmaf(f, h[5], fmaf(e, h[4], first)));
+    const float first = brace_fma(d, h[3], brace_fma(c, h[2], brace_fma(b, h[1], a * h[0])));
+    return brace_fma(g, h[6], brace_fma(f, h[5], brace_fma(e, h[4], first)));
 }
 
 static inline float dot(const float a[DRIFT_OFFSETS], const float b[DRIFT_OFFSETS])
@@ -72,7 +72,7 @@ static inline void add(float *a, const float *b, float by, int count)
 {
 #pragma GCC unroll 8
     for (int i = 0; i < count; i++) {
-        a[i] = fmaf(by, b[i], a[i]);
+        a[i] = brace_fma(by, b[i], a[i]);
     }
 }
 
@@ -246,7 +246,7 @@ static brace_status_t check(const brace_limb_t *limb, const brace_stiffness_t *s
 static float from_mean(float *mean, float value, float gain)
 {
     const float differs = value - *mean;
-    *mean = fmaf(gain, differs, *mean);
+    *mean = brace_fma(gain, differs, *mean);
     return differs;
 }
 

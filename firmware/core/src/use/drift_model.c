@@ -30,9 +30,9 @@ drift_compliances_t drift_compliances(const brace_limb_t *limb)
 static inline void soften(matrix_t *c, brace_vec_t v, float by)
 {
     const brace_vec_t scaled = vec_scaled(v, by);
-    c->xx = fmaf(scaled.x, v.x, c->xx);
-    c->xz = fmaf(scaled.x, v.z, c->xz);
-    c->zz = fmaf(scaled.z, v.z, c->zz);
+    c->xx = brace_fma(scaled.x, v.x, c->xx);
+    c->xz = brace_fma(scaled.x, v.z, c->xz);
+    c->zz = brace_fma(scaled.z, v.z, c->zz);
 }
 
 /* Inverting the result again restores the digits that a slender matrix loses in its determinant. */

@@ -73,9 +73,9 @@ typedef struct {
 static inline void add(change_t *change, float weight, brace_vec_t u, brace_vec_t v)
 {
     const brace_vec_t weighted = vec_scaled(u, weight);
-    change->half_stiff = fmaf(weighted.x, v.x, change->half_stiff);
-    change->corner = fmaf(weighted.x, v.z, fmaf(weighted.z, v.x, change->corner));
-    change->half_soft = fmaf(weighted.z, v.z, change->half_soft);
+    change->half_stiff = brace_fma(weighted.x, v.x, change->half_stiff);
+    change->corner = brace_fma(weighted.x, v.z, brace_fma(weighted.z, v.x, change->corner));
+    change->half_soft = brace_fma(weighted.z, v.z, change->half_soft);
 }
 
 static inline float square(float value)
