@@ -67,7 +67,7 @@ typedef struct {
     brace_stiffness_t stiffness;        /* K at the equilibrium; flags: BRACE_FLAG_NEAR_SINGULAR as on other paths */
     brace_displacement_t displacement;  /* of the tip, from where it is at these angles without load */
     float hip_turn_rad, knee_turn_rad;  /* how far the load has turned the joints, counter-clockwise, base included */
-    float buckling_factor;              /* see below; infinity: none below 8192 */
+    float buckling_factor;              /* see below; infinity: none below 1024 */
 } brace_loaded_stiffness_t;
 
 /* Collapses a limb. Call it when parameters change.
