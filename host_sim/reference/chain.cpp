@@ -19,7 +19,9 @@ constexpr int kMostSteps = 200;         // of Newton's method, from the undeflec
 constexpr double kMostTurned_rad = 0.5; // by one of these steps, so that the nearest rest state is found
 constexpr int kMostHeldSteps = 12;      // of Newton's method, from the last point of the path
 constexpr double kShortestPart = 1e-4;  // of a path to a displacement
-constexpr double kFactorRounding = 1e-11; // relative, of the buckling factor
+constexpr double kFactorRounding = 1e-10; // relative, of the buckling factor
+constexpr double kEnclosed = 1.02;        // ratio of the bounds of the buckling factor that inverse iteration begins with
+constexpr int kInverseSteps = 4;
 
 Index count(const Chain &chain)
 {
@@ -93,8 +95,8 @@ private:
     VectorXd delta_;
 };
 
-// The smallest positive s for which diag(k) - s G is singular, by counting the negative eigenvalues of mu diag(k) - G
-// for mu = 1/s: there are some exactly for the mu below the one wanted.
+// The smallest positive s for which diag(k) - s G is singular: 1/s is the largest eigenvalue mu of G x = mu diag(k) x.
+// mu diag(k) - G has negative eigenvalues exactly for mu below it; that encloses it, and inverse iteration finds it.
 double buckling_factor(const VectorXd &k, const Loaded &loaded)
 {
     const auto buckles = [&](double mu) { return Factor(k, mu, loaded).negatives() > 0; };
@@ -107,13 +109,31 @@ double buckling_factor(const VectorXd &k, const Loaded &loaded)
         below = above;
         above *= 2.0;
     }
-    while (above > below * (1.0 + kFactorRounding)) {
-        const double between = above > 2.0 * below ? std::sqrt(above * below) : 0.5 * (above + below);
-        if (!(between > below && between < above)) {
-            break;
+    const auto halve_until = [&](double ratio) {
+        while (above > below * ratio) {
+            const double between = above > 2.0 * below ? std::sqrt(above * below) : 0.5 * (above + below);
+            if (!(between > below && between < above)) {
+                break;
+            }
+            (buckles(between) ? below : above) = between;
         }
-        (buckles(between) ? below : above) = between;
+    };
+    halve_until(kEnclosed);
+    VectorXd x = VectorXd::LinSpaced(k.size(), 1.0, 2.0);
+    double mu = above;
+    for (int step = 0; step < kInverseSteps; ++step) {
+        const VectorXd weighed = k.cwiseProduct(x);
+        const VectorXd next = Factor(k, mu, loaded).solve(weighed);
+        mu -= next.dot(weighed) / next.dot(k.cwiseProduct(next)); // Rayleigh's quotient
+        x = next / next.lpNorm<Eigen::Infinity>();
+        if (!(mu > below && mu < above)) {
+            mu = step == 0 ? above : std::numeric_limits<double>::quiet_NaN();
+        }
     }
+    if (mu > below && mu < above && buckles(mu * (1.0 - kFactorRounding)) && !buckles(mu * (1.0 + kFactorRounding))) {
+        return 1.0 / mu;
+    }
+    halve_until(1.0 + kFactorRounding);
     return 2.0 / (above + below);
 }
 
@@ -126,6 +146,55 @@ void finish(const Directions &directions, const VectorXd &k, RestState &rest)
 int negatives(const Small &matrix)
 {
     return static_cast<int>((eigenvalues(matrix, 1.0).array() < 0.0).count());
+}
+
+// A descent from the undeflected chain to the next minimum of the energy.
+bool descend(const Chain &chain, const VectorXd &k, const Vector3d &force_n, RestState &rest)
+{
+    rest.q = VectorXd::Zero(k.size());
+    rest.force_n = force_n;
+    rest.placed = place(chain, rest.q);
+    rest.loaded = load(chain, rest.placed, force_n);
+    double energy = 0.0;
+    for (int step = 0; step < kMostSteps; ++step) {
+        double scale = 1.0;
+        Factor factor(k, scale, rest.loaded);
+        const bool convex = factor.sound() && factor.negatives() == 0;
+        while (!factor.sound() || factor.negatives() > 0) {
+            scale *= 2.0;
+            factor = Factor(k, scale, rest.loaded);
+        }
+        const VectorXd uphill = k.cwiseProduct(rest.q) - rest.loaded.load;
+        const VectorXd change = factor.solve(-uphill);
+        const double slope = uphill.dot(change);
+        const double size =
+            std::max(change.lpNorm<Eigen::Infinity>(), (rest.loaded.tip_by_q * change).norm());
+        const double work = k.dot(rest.q.cwiseAbs2()) + std::fabs(rest.loaded.load.dot(change));
+        double turned = 0.0; // by all hinges together
+        for (Index i = 0; i < k.size(); ++i) {
+            turned += chain.springs[static_cast<std::size_t>(i)].hinge ? std::fabs(change[i]) : 0.0;
+        }
+        double part = turned > kMostTurned_rad ? kMostTurned_rad / turned : 1.0;
+        for (;; part *= 0.5) {
+            const VectorXd q = rest.q + part * change;
+            Placed placed = place(chain, q);
+            const double tried = energy_n_mm(chain, placed, q, force_n);
+            if (tried <= energy + 1e-4 * part * slope + kRounding * work) {
+                rest.q = q;
+                rest.placed = std::move(placed);
+                energy = tried;
+                break;
+            }
+            if (part < 1e-12) {
+                return false;
+            }
+        }
+        rest.loaded = load(chain, rest.placed, force_n);
+        if (convex && part == 1.0 && size <= kAtRest) {
+            return true;
+        }
+    }
+    return false;
 }
 
 // Newton's method for k q = load(q, force), tip(q) = wanted, from a state nearby. False: it does not converge there, or
@@ -205,6 +274,14 @@ Placed place(const Chain &chain, const VectorXd &q)
     return placed;
 }
 
+Small unloaded_compliance(const Chain &chain, const Directions &directions)
+{
+    const Placed placed = place(chain, VectorXd::Zero(count(chain)));
+    const Eigen::Matrix3Xd tip_by_q = load(chain, placed, Vector3d::Zero()).tip_by_q;
+    const Eigen::Matrix3d c = tip_by_q * stiffnesses(chain).cwiseInverse().asDiagonal() * tip_by_q.transpose();
+    return directions.transpose() * c * directions;
+}
+
 double energy_n_mm(const Chain &chain, const Placed &placed, const VectorXd &q, const Vector3d &force_n)
 {
     double energy = 0.5 * stiffnesses(chain).dot(q.cwiseAbs2()) - force_n.dot(placed.tip - chain.tip);
@@ -252,60 +329,19 @@ Loaded load(const Chain &chain, const Placed &placed, const Vector3d &force_n)
 bool rest_under_force(const Chain &chain, const Directions &directions, const Vector3d &force_n, RestState &rest)
 {
     const VectorXd k = stiffnesses(chain);
-    rest.q = VectorXd::Zero(k.size());
-    rest.force_n = force_n;
-    rest.placed = place(chain, rest.q);
-    rest.loaded = load(chain, rest.placed, force_n);
-    double energy = 0.0;
-    for (int step = 0; step < kMostSteps; ++step) {
-        double scale = 1.0;
-        Factor factor(k, scale, rest.loaded);
-        const bool convex = factor.sound() && factor.negatives() == 0;
-        while (!factor.sound() || factor.negatives() > 0) {
-            scale *= 2.0;
-            factor = Factor(k, scale, rest.loaded);
-        }
-        const VectorXd uphill = k.cwiseProduct(rest.q) - rest.loaded.load;
-        const VectorXd change = factor.solve(-uphill);
-        const double slope = uphill.dot(change);
-        const double size =
-            std::max(change.lpNorm<Eigen::Infinity>(), (rest.loaded.tip_by_q * change).norm());
-        const double work = k.dot(rest.q.cwiseAbs2()) + std::fabs(rest.loaded.load.dot(change));
-        double turned = 0.0; // by all hinges together
-        for (Index i = 0; i < k.size(); ++i) {
-            turned += chain.springs[static_cast<std::size_t>(i)].hinge ? std::fabs(change[i]) : 0.0;
-        }
-        double part = turned > kMostTurned_rad ? kMostTurned_rad / turned : 1.0;
-        for (;; part *= 0.5) {
-            const VectorXd q = rest.q + part * change;
-            Placed placed = place(chain, q);
-            const double tried = energy_n_mm(chain, placed, q, force_n);
-            if (tried <= energy + 1e-4 * part * slope + kRounding * work) {
-                rest.q = q;
-                rest.placed = std::move(placed);
-                energy = tried;
-                break;
-            }
-            if (part < 1e-12) {
-                return false;
-            }
-        }
-        rest.loaded = load(chain, rest.placed, force_n);
-        if (convex && part == 1.0 && size <= kAtRest) {
-            finish(directions, k, rest);
-            return true;
-        }
+    if (!descend(chain, k, force_n, rest)) {
+        return false;
     }
-    return false;
+    finish(directions, k, rest);
+    return true;
 }
-
 bool rest_under_displacement(const Chain &chain, const Directions &directions, const Vector3d &displacement_mm,
                              RestState &rest)
 {
-    if (!rest_under_force(chain, directions, Vector3d::Zero(), rest)) {
+    const VectorXd k = stiffnesses(chain);
+    if (!descend(chain, k, Vector3d::Zero(), rest)) {
         return false;
     }
-    const VectorXd k = stiffnesses(chain);
     const Vector3d start = rest.placed.tip;
     const Vector3d end = chain.tip + displacement_mm;
     double reached = 0.0, part = 1.0;

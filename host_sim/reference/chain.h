@@ -55,6 +55,9 @@ struct Placed {
 
 Placed place(const Chain &chain, const Eigen::VectorXd &q);
 
+// C without any load.
+Small unloaded_compliance(const Chain &chain, const Directions &directions);
+
 double energy_n_mm(const Chain &chain, const Placed &placed, const Eigen::VectorXd &q, const Vector3d &force_n);
 
 // What spring forces, tip force and weights do at every spring, and the two factors of G.

@@ -48,7 +48,8 @@ enum class Outcome { found, no_rest, rigid };
 constexpr int kParts = 8;
 
 // parts 0: the default and extrapolated; above 0: so many parts, and no extrapolation; below 0: -parts parts with one
-// hinge in the middle of each, as physics engines have beams (the bending of n such parts is 1/(4 n^2) too small).
+// hinge in the middle of each, as physics engines have beams: their bending is exact at no load, their turn 1/(4 n^2)
+// too large.
 // with_coxa: in space.
 Outcome under_force(const Limb &limb, const Posture &posture, const Weights &weights, const Vector3d &force_n,
                     bool with_coxa, int parts, Result &result);
