@@ -20,7 +20,7 @@ constexpr double kMostTurned_rad = 0.5; // by one of these steps, so that the ne
 constexpr int kMostHeldSteps = 12;      // of Newton's method, from the last point of the path
 constexpr double kShortestPart = 1e-4;  // of a path to a displacement
 constexpr double kFactorRounding = 1e-10; // relative, of the buckling factor
-constexpr double kEnclosed = 1.02;        // ratio of the bounds of the buckling factor that inverse iteration begins with
+constexpr double kEnclosed = 1.02;        // ratio of the bounds between which inverse iteration seeks the factor
 constexpr int kInverseSteps = 4;
 
 Index count(const Chain &chain)

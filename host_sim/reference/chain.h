@@ -7,8 +7,10 @@
 //   d2x/dq_i dq_j     = z_i x (dx/dq_j)         for i before or equal to j
 //   G_ij              = z_i . c_j               c_j = sum_m (z_j x r) x f_m (hinge), u_j x F_j (slide)
 //   H                 = diag(k) - G,  C = J H^-1 J',  K = C^-1
-// which is the conservative congruence transformation K = J^-T (K_theta - K_G) J^-1 (Chen and Kao, 2000), at the rest
-// state of the loaded chain (Klimchik, Pashkevich, Chablat: stiffness of loaded manipulators, 2009-2014).
+// which is the conservative congruence transformation K = J^-T (K_theta - K_G) J^-1 at the rest state of the loaded chain.
+// Sources: S.-F. Chen, I. Kao, Conservative congruence transformation for joint and Cartesian stiffness matrices of robotic
+// hands and fingers, Int. J. Robotics Research 19 (2000); A. Pashkevich, A. Klimchik, D. Chablat, Enhanced stiffness
+// modeling of manipulators with passive joints, Mechanism and Machine Theory 46 (2011).
 // G is semiseparable of rank 3, so H = L D L' costs a number of operations proportional to the number of springs.
 #pragma once
 
@@ -81,13 +83,14 @@ struct RestState {
 // Buckling factors above this are reported as none: rounding of G could make them.
 constexpr double kNoBuckling = 1e9;
 
-// The rest state that a descent from the undeflected chain finds under the tip force: Newton's method on the energy, each
-// step shortened until the energy falls (Armijo); where H is not positive definite, diag(k) is added to it until it is.
+// The rest state that a descent from the undeflected chain finds under the tip force: Newton's method on the energy. Each
+// step is shortened until the energy falls (Armijo), and turns the hinges together by at most half a radian. Where H is
+// not positive definite, diag(k) is added to it until it is.
 // False: none was found (the load collapses the chain).
 bool rest_under_force(const Chain &chain, const Directions &directions, const Vector3d &force_n, RestState &rest);
 
-// The rest state with the tip held at a displacement from its undeflected place: the one that is reached from the rest at
-// no tip force when the tip is led there on a straight line. The force is in the span of the directions.
+// The rest state with the tip held at a displacement from its undeflected place: the one that is reached from the rest
+// at no tip force when the tip is led there on a straight line. The force is in the span of the directions.
 // False: the path ends before (no rest state, or one that is not a minimum among those with the tip held).
 bool rest_under_displacement(const Chain &chain, const Directions &directions, const Vector3d &displacement_mm,
                              RestState &rest);

@@ -84,18 +84,37 @@ public:
             const double per_hinge = share * m * 3.0 / (length_mm * length_mm * count);
             for (int part = 0; part < count; ++part) {
                 const auto to_end_mm = [&](double of_part) { return length_mm * (1.0 - (part + of_part) / count); };
-                const auto bend_at = [&](double of_part) {
-                    const double left_mm = to_end_mm(of_part);
-                    hinge(kCounterClockwise, end - left_mm * elastic_line, per_hinge * bending);
-                    hinge(line.cross(kSideways), end - left_mm * line, per_hinge * lateral);
+                const auto in_plane = [&](double of_part) {
+                    hinge(kCounterClockwise, end - to_end_mm(of_part) * elastic_line, per_hinge * bending);
                 };
-                const double from_middle = gauss ? 0.5 / std::sqrt(3.0) : 0.0;
-                bend_at(0.5 - from_middle);
-                hinge(line, end, m * torsion / count);
-                weight(end - to_end_mm(0.5) * line, m * weight_n / count);
-                mid_length(2 * part + 1 == count);
+                const auto sideways = [&](double of_part) {
+                    hinge(line.cross(kSideways), end - to_end_mm(of_part) * line, per_hinge * lateral);
+                };
+                const auto twist = [&] { hinge(line, end, m * torsion / count); };
+                const auto lump = [&] {
+                    weight(end - to_end_mm(0.5) * line, m * weight_n / count);
+                    mid_length(2 * part + 1 == count);
+                };
+                // Turns in space do not commute. The order is the same from both ends of a part (of two parts, where
+                // each has one hinge), else the error would fall with the first power of a part's length.
                 if (gauss) {
-                    bend_at(0.5 + from_middle);
+                    const double from_middle = 0.5 / std::sqrt(3.0);
+                    in_plane(0.5 - from_middle);
+                    sideways(0.5 - from_middle);
+                    twist();
+                    lump();
+                    sideways(0.5 + from_middle);
+                    in_plane(0.5 + from_middle);
+                } else if (part % 2 == 0) {
+                    in_plane(0.5);
+                    sideways(0.5);
+                    twist();
+                    lump();
+                } else {
+                    twist();
+                    sideways(0.5);
+                    in_plane(0.5);
+                    lump();
                 }
                 mid_length(2 * part + 2 == count);
             }

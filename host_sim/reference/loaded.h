@@ -1,5 +1,5 @@
-// The limb under load, at finite displacements: rest state, K there, buckling factor. The meaning of the limb is fixed by
-// the section 'Under load' of docs/physics.md; the mechanics stand in chain.h. In double precision.
+// The limb under load, at finite displacements: rest state, K there, buckling factor. The meaning of the limb is fixed
+// by the section 'Under load' of docs/physics.md; the mechanics stand in chain.h. In double precision.
 //
 // The limb's springs, in the order from base to tip (all of them at once linear, none of them aware of another):
 //   base       slides along x and z of the commanded limb's plane, then a hinge about the femur axis
@@ -8,11 +8,11 @@
 //   femur joint, femur, knee joint, tibia
 // and every link, with strength m of its moment transfer:
 //   axial slide of m * axial, at the beam's root
-//   beam       `parts` equal parts; each has hinges at its two Gauss points, which give it the three end compliances of a
-//              uniform beam exactly. In the plane m * 3 bending/L^2 are shared out among them, across it m * 3 lateral/L^2,
-//              about the link m * torsion
-//   end        slides of (1-m) * axial along, (1-m) * bending across, (1-m) * lateral across the plane, in the link's own
-//              frame; then a hinge of (1-m) * torsion
+//   beam       `parts` equal parts; each has hinges at its two Gauss points, which give it the three end compliances of
+//              a uniform beam exactly. In the plane m * 3 bending/L^2 are shared out among them, across it
+//              m * 3 lateral/L^2, about the link m * torsion
+//   end        slides of (1-m) * axial along, (1-m) * bending across, (1-m) * lateral across the plane, in the link's
+//              own frame; then a hinge of (1-m) * torsion
 // The link's tilt turns axial and bending: their slides' directions, and the line through the link's end on which the
 // plane's hinges lie. Lateral bending and torsion stay with the line of the link. A link without length has no beam.
 // At no load the sum of these springs is exactly the C of stiffness.h.

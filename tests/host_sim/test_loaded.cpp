@@ -223,8 +223,8 @@ void test_load_is_the_gradient_of_the_energy(void)
         const Bent bent = bent_chain(draw, trial % 2 == 1);
         const VectorXd told = gradient(bent, bent.q);
         for (Eigen::Index i = 0; i < bent.q.size(); ++i) {
-            // The energy's third derivative by a hinge is at most a load's moment, some 1e4 N mm; by a slide it is 0, and
-            // rounding of the energy, some 1e5 N mm, is left.
+            // The energy's third derivative by a hinge is at most a load's moment, some 1e4 N mm. By a slide it is 0,
+            // and rounding of the energy, some 1e5 N mm, is left.
             const bool hinge = bent.chain.springs[static_cast<std::size_t>(i)].hinge;
             const double step = hinge ? 1e-4 : 1e-2;
             const double tolerance = hinge ? 1e4 * step * step : 1e-6;

@@ -68,7 +68,9 @@ def _layout(native: Library, struct: str) -> np.dtype[np.void]:
     return np.dtype([(name, np.float64) for name, _ in native.ffi.typeof(struct).fields])
 
 
-def loaded_rows(native: Library, function: str, model: CData, cases: Mapping[str, ArrayLike], parts: int) -> LoadedLimbs:
+def loaded_rows(
+    native: Library, function: str, model: CData, cases: Mapping[str, ArrayLike], parts: int
+) -> LoadedLimbs:
     """Calls brace_reference_<function>; `cases` has numbers or arrays of one shape for fields of its struct, the others
     are 0. ValueError: a call that is wrong as a whole."""
     case_struct, result_struct = _ROWS[function]
@@ -92,13 +94,13 @@ def loaded_rows(native: Library, function: str, model: CData, cases: Mapping[str
     return LoadedLimbs(results, status)
 
 
-def _force(vector: ArrayLike, names: tuple[str, ...]) -> dict[str, np.ndarray]:
+def _columns(vector: ArrayLike, names: tuple[str, ...]) -> dict[str, np.ndarray]:
     """A vector (or count of them) as columns."""
     array = np.asarray(vector, dtype=float)
     return {name: array[..., i] for i, name in enumerate(names)}
 
 
-def under_force(
+def under_columns(
     model: LimbModel,
     theta1_rad: ArrayLike,
     theta2_rad: ArrayLike,
@@ -108,7 +110,8 @@ def under_force(
 ) -> LoadedLimbs:
     """The limb in its plane under forces of the ground on its tip (count x 2: x, z). Angles are those without
     deflection; zero offsets are not added."""
-    return _in_plane("under_force", model, theta1_rad, theta2_rad, _force(force_n, ("fx_n", "fz_n")), gravity_rad, parts)
+    imposed = _columns(force_n, ("fx_n", "fz_n"))
+    return _in_plane("under_force", model, theta1_rad, theta2_rad, imposed, gravity_rad, parts)
 
 
 def under_displacement(
@@ -120,7 +123,7 @@ def under_displacement(
     parts: int = 0,
 ) -> LoadedLimbs:
     """The same with the tip held at displacements from its place without force and weight (count x 2)."""
-    imposed = _force(displacement_mm, ("dx_mm", "dz_mm"))
+    imposed = _columns(displacement_mm, ("dx_mm", "dz_mm"))
     return _in_plane("under_displacement", model, theta1_rad, theta2_rad, imposed, gravity_rad, parts)
 
 
@@ -138,19 +141,19 @@ def _in_plane(
     return loaded_rows(native, function, plant_model(native, model), cases, parts)
 
 
-def space_under_force(
+def space_under_columns(
     model: LimbModel, theta_rad: ArrayLike, force_n: ArrayLike, gravity: ArrayLike = DOWN, parts: int = 0
 ) -> LoadedLimbs:
     """The limb in space: angles theta0, theta1, theta2 and forces in the robot's base frame, count x 3 each; `gravity`
     is the unit vector in which the weights pull."""
-    return _in_space("space_under_force", model, theta_rad, _force(force_n, ("fx_n", "fy_n", "fz_n")), gravity, parts)
+    return _in_space("space_under_force", model, theta_rad, _columns(force_n, ("fx_n", "fy_n", "fz_n")), gravity, parts)
 
 
 def space_under_displacement(
     model: LimbModel, theta_rad: ArrayLike, displacement_mm: ArrayLike, gravity: ArrayLike = DOWN, parts: int = 0
 ) -> LoadedLimbs:
     """The same with the tip held at displacements from its place without force and weight."""
-    imposed = _force(displacement_mm, ("dx_mm", "dy_mm", "dz_mm"))
+    imposed = _columns(displacement_mm, ("dx_mm", "dy_mm", "dz_mm"))
     return _in_space("space_under_displacement", model, theta_rad, imposed, gravity, parts)
 
 
@@ -164,8 +167,8 @@ def _in_space(
 ) -> LoadedLimbs:
     native = library()
     cases = {
-        **_force(theta_rad, ("theta0_rad", "theta1_rad", "theta2_rad")),
-        **_force(gravity, ("gravity_x", "gravity_y", "gravity_z")),
+        **_columns(theta_rad, ("theta0_rad", "theta1_rad", "theta2_rad")),
+        **_columns(gravity, ("gravity_x", "gravity_y", "gravity_z")),
         **imposed,
     }
     return loaded_rows(native, function, plant_model(native, model), cases, parts)

@@ -1,0 +1,14 @@
+"""How many random limbs the engine is asked about."""
+
+import pytest
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """More than ./dev test takes the time for."""
+    parser.addoption("--limbs", type=int, default=None, help="random limbs in the plane; in space a quarter of them")
+
+
+@pytest.fixture
+def limbs(request: pytest.FixtureRequest) -> int:
+    """Random limbs in the plane."""
+    return int(request.config.getoption("--limbs", default=None) or 60)
