@@ -82,9 +82,9 @@ int32_t brace_reference_posture(const brace_plant_model_t *model, double r_mm, d
  *
  * parts: 0, the default, takes every beam (a link's share of moment transfer) as 8 and as 16 parts of two hinges each
  * and extrapolates; the error that is left is below 1e-6 of K and of the reach, where the buckling factor is at least 2
- * and the tip moves by at most a fifth of the reach. [1, 1000]: so many parts, and no extrapolation. [-1000, -1]: -parts
- * parts with one hinge in the middle of each, as physics engines have beams: bending is exact at no load, the turn of n
- * parts 1/(4 n^2) too large. The rest state is found to 1e-9 mm.
+ * and the tip moves by at most a fifth of the reach. [1, 1000]: so many parts, and no extrapolation. [-1000, -1]:
+ * -parts parts with one hinge in the middle of each, as physics engines have beams: bending is exact at no load, the
+ * turn of n parts 1/(4 n^2) too large. The rest state is found to 1e-9 mm.
  * status (optional): one entry a case. A case without an answer leaves NaN in its result.
  * returns the first status of a case that is not OK: E_NOT_FINITE, E_RANGE (gravity is no unit vector),
  * E_NO_CONVERGENCE (no rest state: the load collapses the limb, or the displacement is out of reach), E_SINGULAR

@@ -7,10 +7,10 @@
 //   d2x/dq_i dq_j     = z_i x (dx/dq_j)         for i before or equal to j
 //   G_ij              = z_i . c_j               c_j = sum_m (z_j x r) x f_m (hinge), u_j x F_j (slide)
 //   H                 = diag(k) - G,  C = J H^-1 J',  K = C^-1
-// which is the conservative congruence transformation K = J^-T (K_theta - K_G) J^-1 at the rest state of the loaded chain.
-// Sources: S.-F. Chen, I. Kao, Conservative congruence transformation for joint and Cartesian stiffness matrices of robotic
-// hands and fingers, Int. J. Robotics Research 19 (2000); A. Pashkevich, A. Klimchik, D. Chablat, Enhanced stiffness
-// modeling of manipulators with passive joints, Mechanism and Machine Theory 46 (2011).
+// which is the conservative congruence transformation K = J^-T (K_theta - K_G) J^-1 at the loaded chain's rest state.
+// Sources: S.-F. Chen, I. Kao, Conservative congruence transformation for joint and Cartesian stiffness matrices of
+// robotic hands and fingers, Int. J. Robotics Research 19 (2000); A. Pashkevich, A. Klimchik, D. Chablat, Enhanced
+// stiffness modeling of manipulators with passive joints, Mechanism and Machine Theory 46 (2011).
 // G is semiseparable of rank 3, so H = L D L' costs a number of operations proportional to the number of springs.
 #pragma once
 

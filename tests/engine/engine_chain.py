@@ -1,4 +1,4 @@
-"""A chain of springs and weights as bodies of the engine, one joint a body, told by where things are at no deflection."""
+"""A chain of springs and weights as bodies of the engine, one joint a body; places are those at no deflection."""
 
 from __future__ import annotations
 

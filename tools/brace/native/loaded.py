@@ -100,7 +100,7 @@ def _columns(vector: ArrayLike, names: tuple[str, ...]) -> dict[str, np.ndarray]
     return {name: array[..., i] for i, name in enumerate(names)}
 
 
-def under_columns(
+def under_force(
     model: LimbModel,
     theta1_rad: ArrayLike,
     theta2_rad: ArrayLike,
@@ -141,7 +141,7 @@ def _in_plane(
     return loaded_rows(native, function, plant_model(native, model), cases, parts)
 
 
-def space_under_columns(
+def space_under_force(
     model: LimbModel, theta_rad: ArrayLike, force_n: ArrayLike, gravity: ArrayLike = DOWN, parts: int = 0
 ) -> LoadedLimbs:
     """The limb in space: angles theta0, theta1, theta2 and forces in the robot's base frame, count x 3 each; `gravity`
