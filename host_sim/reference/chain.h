@@ -83,9 +83,9 @@ struct RestState {
 // Buckling factors above this are reported as none: rounding of G could make them.
 constexpr double kNoBuckling = 1e9;
 
-// The rest state that a descent from the undeflected chain finds under the tip force: Newton's method on the energy. Each
-// step is shortened until the energy falls (Armijo), and turns the hinges together by at most half a radian. Where H is
-// not positive definite, diag(k) is added to it until it is.
+// The rest state that a descent from the undeflected chain finds under the tip force: Newton's method on the energy.
+// Each step is shortened until the energy falls (Armijo), and turns the hinges together by at most half a radian. Where
+// H is not positive definite, diag(k) is added to it until it is.
 // False: none was found (the load collapses the chain).
 bool rest_under_force(const Chain &chain, const Directions &directions, const Vector3d &force_n, RestState &rest);
 

@@ -1,6 +1,10 @@
 """How many random limbs the engine is asked about."""
 
+import os
+
 import pytest
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy is there: its threads would wait for one another
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
