@@ -81,7 +81,7 @@ class Engine:
         size = 0.0
         for _ in range(_STEPS):
             if inverse is None or size > _SMALL:
-                inverse = np.linalg.inv(self._derivative(q))
+                inverse = np.asarray(np.linalg.inv(self._derivative(q)), dtype=np.float64)
             change = inverse @ self._forces(q)
             q = q - change
             size = float(np.abs(change).max())

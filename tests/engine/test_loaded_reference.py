@@ -10,7 +10,10 @@ from collections.abc import Iterable
 import numpy as np
 import pytest
 
-pytest.importorskip("mujoco", reason="the package mujoco is missing: .venv/bin/python -m pip install mujoco")
+try:
+    import mujoco  # noqa: F401
+except ImportError as missing:
+    pytest.skip(f"no physics engine ({missing}): .venv/bin/python -m pip install mujoco", allow_module_level=True)
 
 from brace.native.loaded import under_displacement  # noqa: E402
 from cases import Case, limb_model, random_cases, reference  # noqa: E402
