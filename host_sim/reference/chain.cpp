@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double kAtRest = 1e-10;       // largest last Newton step [mm at the tip, rad or mm at a spring]
-constexpr double kRounding = 1e-12;     // of the loads' work: what an energy can not tell
+constexpr double kRounding = 1e-13;     // of all terms of an energy: what it can not tell
 constexpr int kMostSteps = 200;         // of Newton's method, from the undeflected chain
 constexpr double kMostTurned_rad = 0.5; // by one of these steps, so that the nearest rest state is found
 constexpr int kMostHeldSteps = 12;      // of Newton's method, from the last point of the path
@@ -156,6 +156,10 @@ bool descend(const Chain &chain, const VectorXd &k, const Vector3d &force_n, Res
     rest.placed = place(chain, rest.q);
     rest.loaded = load(chain, rest.placed, force_n);
     double energy = 0.0;
+    double forces_n_mm = force_n.norm() * rest.placed.tip.norm();
+    for (std::size_t m = 0; m < chain.weights.size(); ++m) {
+        forces_n_mm += chain.weights[m].force_n.norm() * rest.placed.weight[m].norm();
+    }
     for (int step = 0; step < kMostSteps; ++step) {
         double scale = 1.0;
         Factor factor(k, scale, rest.loaded);
@@ -169,7 +173,8 @@ bool descend(const Chain &chain, const VectorXd &k, const Vector3d &force_n, Res
         const double slope = uphill.dot(change);
         const double size =
             std::max(change.lpNorm<Eigen::Infinity>(), (rest.loaded.tip_by_q * change).norm());
-        const double work = k.dot(rest.q.cwiseAbs2()) + std::fabs(rest.loaded.load.dot(change));
+        // Places are known to their last bit only, however little they move.
+        const double rounding_n_mm = kRounding * (forces_n_mm + k.dot(rest.q.cwiseAbs2()));
         double turned = 0.0; // by all hinges together
         for (Index i = 0; i < k.size(); ++i) {
             turned += chain.springs[static_cast<std::size_t>(i)].hinge ? std::fabs(change[i]) : 0.0;
@@ -179,7 +184,7 @@ bool descend(const Chain &chain, const VectorXd &k, const Vector3d &force_n, Res
             const VectorXd q = rest.q + part * change;
             Placed placed = place(chain, q);
             const double tried = energy_n_mm(chain, placed, q, force_n);
-            if (tried <= energy + 1e-4 * part * slope + kRounding * work) {
+            if (tried <= energy + 1e-4 * part * slope + rounding_n_mm) {
                 rest.q = q;
                 rest.placed = std::move(placed);
                 energy = tried;

@@ -531,6 +531,26 @@ void test_default_in_space_has_it_too(void)
     TEST_ASSERT_TRUE(compared >= 5);
 }
 
+void test_rounding_of_places_hides_no_rest(void)
+{
+    // A stiff limb under its weight moves so little that the last bits of its places outweigh the energy left to gain.
+    brace_plant_model_t limb;
+    brace_plant_model_default(&limb);
+    limb.geometry = {0.0, 89.89509468753252, 199.92700896648523};
+    limb.link[kFemur] = {0.0008275275590240303, 0.004306439980192774, -0.3928652261625374, 0.0, 0.0, 0.9870959704339233};
+    limb.link[kTibia] = {0.00017037902934835368, 0.004138006825090625, 0.0, 0.0, 0.0, 0.33742003605324444};
+    limb.joint[kFemur].compliance_rad_per_n_mm = 2.441358371009306e-06;
+    limb.joint[kTibia].compliance_rad_per_n_mm = 2.9572822616473623e-06;
+    limb.base = {0.0038752497200238534, 0.0001662239324827258, 8.04209923968022e-07};
+    limb.gravity = {2.0, 3.0, 1.0};
+    Draw draw(10);
+    for (int trial = 0; trial < 3000; ++trial) {
+        const brace_loaded_case_t given = {draw.between(-3.0, 3.0), draw.between(-3.0, 3.0), draw.between(-4.0, 4.0),
+                                           draw.between(-4.0, 4.0), 0.0, 0.0, draw.between(-3.0, 3.0)};
+        under_force(limb, given, 4);
+    }
+}
+
 void test_refusals(void)
 {
     const brace_plant_model_t sound = paper_limb(1.0);
@@ -578,6 +598,7 @@ int main(void)
     RUN_TEST(test_cantilever_under_its_weight);
     RUN_TEST(test_default_has_the_accuracy_it_states);
     RUN_TEST(test_default_in_space_has_it_too);
+    RUN_TEST(test_rounding_of_places_hides_no_rest);
     RUN_TEST(test_refusals);
     return UNITY_END();
 }
