@@ -89,7 +89,7 @@ int32_t brace_reference_posture(const brace_plant_model_t *model, double r_mm, d
  * returns the first status of a case that is not OK: E_NOT_FINITE, E_RANGE (gravity is no unit vector),
  * E_NO_CONVERGENCE (no rest state: the load collapses the limb, or the displacement is out of reach), E_SINGULAR
  * (nothing yields in some direction); or E_NULL, E_RANGE (parts), E_PARAMETER, and then writes nothing
- * cost of a case: 0.05-0.1 ms with ellipsoids only, 0.3-0.4 ms with beams; in space 0.1 and 1 ms. */
+ * cost of a case: 0.02-0.1 ms with ellipsoids only, 0.1-0.4 ms with beams; in space 0.02-0.1 and 0.3-1.2 ms. */
 
 /* In the limb's plane. */
 typedef struct {

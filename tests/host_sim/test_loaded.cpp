@@ -537,8 +537,8 @@ void test_rounding_of_places_hides_no_rest(void)
     brace_plant_model_t limb;
     brace_plant_model_default(&limb);
     limb.geometry = {0.0, 89.89509468753252, 199.92700896648523};
-    limb.link[kFemur] = {0.0008275275590240303, 0.004306439980192774, -0.3928652261625374, 0.0, 0.0, 0.9870959704339233};
-    limb.link[kTibia] = {0.00017037902934835368, 0.004138006825090625, 0.0, 0.0, 0.0, 0.33742003605324444};
+    limb.link[kFemur] = {0.00082753, 0.0043064400, -0.3928652262, 0.0, 0.0, 0.9870959704};
+    limb.link[kTibia] = {0.00017038, 0.0041380068, 0.0, 0.0, 0.0, 0.3374200361};
     limb.joint[kFemur].compliance_rad_per_n_mm = 2.441358371009306e-06;
     limb.joint[kTibia].compliance_rad_per_n_mm = 2.9572822616473623e-06;
     limb.base = {0.0038752497200238534, 0.0001662239324827258, 8.04209923968022e-07};
