@@ -74,6 +74,112 @@ int32_t brace_reference_tip(const brace_plant_model_t *model, size_t count, cons
 int32_t brace_reference_posture(const brace_plant_model_t *model, double r_mm, double phi_rad,
                                 int32_t knee_up, double *theta_rad);
 
+/* -------------------------------------------------------------------------------- reference, loaded -- */
+/* The limb under load, at finite displacements: the rest state (a minimum of spring energy minus work of force and
+ * weights), and K there. Compliances, lengths and weights of the model; no gaps, friction, hardening, creep, contact or
+ * sensor. Zero offsets of the model are not added. Meaning of the limb, formulas and sources: docs/physics.md,
+ * reference/loaded.h, reference/chain.h.
+ *
+ * parts: 0, the default, takes every beam (a link's share of moment transfer) as 8 and as 16 parts of two hinges each
+ * and extrapolates; the error that is left is below 1e-6 of K and of the reach, where the buckling factor is at least 2
+ * and the tip moves by at most a fifth of the reach. [1, 1000]: so many parts, and no extrapolation. [-1000, -1]:
+ * -parts parts with one hinge in the middle of each, as physics engines have beams: bending is exact at no load, the
+ * turn of n parts 1/(4 n^2) too large. The rest state is found to 1e-9 mm.
+ * status (optional): one entry a case. A case without an answer leaves NaN in its result.
+ * returns the first status of a case that is not OK: E_NOT_FINITE, E_RANGE (gravity is no unit vector),
+ * E_NO_CONVERGENCE (no rest state: the load collapses the limb, or the displacement is out of reach), E_SINGULAR
+ * (nothing yields in some direction); or E_NULL, E_RANGE (parts), E_PARAMETER, and then writes nothing
+ * cost of a case: 0.02-0.1 ms with ellipsoids only, 0.1-0.4 ms with beams; in space 0.02-0.1 and 0.3-1.2 ms. */
+
+/* In the limb's plane. */
+typedef struct {
+    double theta1_rad; /* joint angles without deflection */
+    double theta2_rad;
+    double fx_n; /* force of the ground on the tip; only _under_force reads it */
+    double fz_n;
+    double dx_mm; /* of the tip, from its place without force and weight; only _under_displacement reads it */
+    double dz_mm;
+    double gravity_rad; /* direction in which the weights pull: -pi/2 is down */
+} brace_loaded_case_t;
+
+typedef struct {
+    double dx_mm; /* displacement of the tip, from its place on the limb without force and weight */
+    double dz_mm;
+    double fx_n; /* force of the ground on the tip */
+    double fz_n;
+    double k_xx; /* [N/mm] gradient of the force by the displacement, at rest */
+    double k_xz;
+    double k_zz;
+    double lambda_min;      /* [N/mm] */
+    double lambda_max;      /* [N/mm] */
+    double axis_rad;        /* of lambda_max, (-pi/2, pi/2] */
+    double buckling_factor; /* smallest factor on the springs' geometric stiffness that makes H singular; inf: none */
+    double femur_rad;       /* deflection of the joints, counter-clockwise: a positive tibia_rad opens the knee */
+    double tibia_rad;
+    double femur_n_mm; /* moment of force and weights about the joints, counter-clockwise; at rigid ones, too */
+    double tibia_n_mm;
+    double base_x_mm; /* deflection of the base, its rotation counter-clockwise */
+    double base_z_mm;
+    double base_rad;
+} brace_loaded_result_t;
+
+int32_t brace_reference_under_force(const brace_plant_model_t *model, size_t count, const brace_loaded_case_t *cases,
+                                    int32_t parts, brace_loaded_result_t *results, int32_t *status);
+
+/* The rest state that is reached when the tip, from the rest at no force, is led to the displacement on a straight
+ * line. K of a held tip may be indefinite: the tip would not stay there if it were let go. */
+int32_t brace_reference_under_displacement(const brace_plant_model_t *model, size_t count,
+                                           const brace_loaded_case_t *cases, int32_t parts,
+                                           brace_loaded_result_t *results, int32_t *status);
+
+/* In space: as brace_reference_spatial, in the robot's base frame (theta0 = 0: the plane's x). */
+typedef struct {
+    double theta0_rad;
+    double theta1_rad;
+    double theta2_rad;
+    double fx_n;
+    double fy_n;
+    double fz_n;
+    double dx_mm;
+    double dy_mm;
+    double dz_mm;
+    double gravity_x; /* unit vector in which the weights pull */
+    double gravity_y;
+    double gravity_z;
+} brace_loaded_space_case_t;
+
+typedef struct {
+    double dx_mm;
+    double dy_mm;
+    double dz_mm;
+    double fx_n;
+    double fy_n;
+    double fz_n;
+    double k_xx;
+    double k_xy;
+    double k_xz;
+    double k_yy;
+    double k_yz;
+    double k_zz;
+    double buckling_factor;
+    double coxa_rad; /* counter-clockwise seen from above */
+    double femur_rad;
+    double tibia_rad;
+    double coxa_n_mm;
+    double femur_n_mm;
+    double tibia_n_mm;
+    double base_x_mm; /* along the commanded limb's plane */
+    double base_z_mm;
+    double base_rad;
+} brace_loaded_space_result_t;
+
+int32_t brace_reference_space_under_force(const brace_plant_model_t *model, size_t count,
+                                          const brace_loaded_space_case_t *cases, int32_t parts,
+                                          brace_loaded_space_result_t *results, int32_t *status);
+int32_t brace_reference_space_under_displacement(const brace_plant_model_t *model, size_t count,
+                                                 const brace_loaded_space_case_t *cases, int32_t parts,
+                                                 brace_loaded_space_result_t *results, int32_t *status);
+
 /* ------------------------------------------------------------------------------------ loading, plant -- */
 
 /* A loading record's inputs, one entry per row, in the order of the record. A run starts wherever run[] changes: then

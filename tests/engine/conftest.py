@@ -1,0 +1,18 @@
+"""How many random limbs the engine is asked about."""
+
+import os
+
+import pytest
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy is there: its threads would wait for one another
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """More than ./dev test takes the time for."""
+    parser.addoption("--limbs", type=int, default=None, help="random limbs in the plane; in space a quarter of them")
+
+
+@pytest.fixture
+def limbs(request: pytest.FixtureRequest) -> int:
+    """Random limbs in the plane."""
+    return int(request.config.getoption("--limbs", default=None) or 60)

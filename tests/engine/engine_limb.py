@@ -1,0 +1,108 @@
+"""A limb of limb.toml as the engine's chain, from docs/physics.md: joints and base are springs, a beam is equal rigid
+segments with a hinge in the middle of each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+
+from engine_chain import Array, Chain
+
+_Y = np.array([0.0, 1.0, 0.0])
+_TURN_UP = np.array([0.0, -1.0, 0.0])  # from x towards z
+
+
+@dataclass(frozen=True)
+class EngineLimb:
+    """A compiled limb: in the plane frame of its commanded posture, origin on the femur axis."""
+
+    model: mujoco.MjModel
+    weights: tuple[tuple[int, float], ...]  # body, N
+    tip_body: int
+
+
+def engine_limb(
+    keys: Mapping[str, float], theta1_rad: float, theta2_rad: float, segments: int, *, in_space: bool = False
+) -> EngineLimb:
+    """Keys of limb.toml; those that are missing have no effect. In space the limb has its coxa, and yields across."""
+    limb = _Builder(keys, segments, in_space)
+    tip = limb.build(theta1_rad, theta2_rad)
+    model = limb.chain.compiled(tip)
+    weights = tuple((int(model.body(name).id), weight) for name, weight in limb.chain.weights)
+    return EngineLimb(model, weights, int(model.body("tip").id))
+
+
+def _towards(angle_rad: float) -> Array:
+    return np.array([np.cos(angle_rad), 0.0, np.sin(angle_rad)])
+
+
+class _Builder:
+    def __init__(self, keys: Mapping[str, float], segments: int, in_space: bool) -> None:
+        self.chain = Chain()
+        self._keys = keys
+        self._segments = segments
+        self._in_space = in_space
+
+    def _value(self, key: str) -> float:
+        return float(self._keys.get(key, 0.0))
+
+    def build(self, theta1_rad: float, theta2_rad: float) -> Array:
+        """Fills the chain; the tip's place at no deflection."""
+        chain, value, origin = self.chain, self._value, np.zeros(3)
+        chain.slide(np.array([1.0, 0.0, 0.0]), value("base.x_mm_per_n"))
+        chain.slide(np.array([0.0, 0.0, 1.0]), value("base.z_mm_per_n"))
+        chain.hinge(origin, _TURN_UP, value("base.rotation_rad_per_n_mm"))
+        if self._in_space:
+            yaw_axis = np.array([-value("geometry.coxa_mm"), 0.0, 0.0])
+            chain.hinge(yaw_axis, np.array([0.0, 0.0, 1.0]), value("joint.coxa.compliance_rad_per_n_mm"), "coxa")
+            self._link("coxa", yaw_axis, 0.0)
+        chain.hinge(origin, _TURN_UP, value("joint.femur.compliance_rad_per_n_mm"), "femur")
+        knee = self._link("femur", origin, theta1_rad)
+        chain.weight(knee, value("gravity.knee_n"))
+        chain.hinge(knee, _TURN_UP, value("joint.tibia.compliance_rad_per_n_mm"), "tibia")
+        return self._link("tibia", knee, theta1_rad - theta2_rad)
+
+    def _link(self, name: str, start: Array, angle_rad: float) -> Array:
+        """Adds a link; the place of its end."""
+        chain = self.chain
+        length_mm = self._value(f"geometry.{name}_mm")
+        axial, bending, tilt_rad, lateral, torsion, strength = (
+            self._value(f"link.{name}.{key}")
+            for key in (
+                "axial_mm_per_n", "bending_mm_per_n", "tilt_rad", "lateral_mm_per_n", "torsion_rad_per_n_mm",
+                "moment_transfer",
+            )
+        )  # fmt: skip
+        if not self._in_space:
+            lateral = torsion = 0.0
+        line, elastic = _towards(angle_rad), _towards(angle_rad + tilt_rad)
+        sideways = np.cross(line, _Y)
+        end = start + length_mm * line
+        weight_n = self._value(f"gravity.{name}_n")
+        middle = start + 0.5 * length_mm * line
+
+        chain.slide(elastic, strength * axial)
+        # Hinges of equal segments bend as the beam does when each is a little softer: sum of (1 - x)^2 is 1/3.
+        share = strength / self._segments / (1.0 - 0.25 / self._segments**2)
+        for segment in range(self._segments if strength > 0.0 else 0):
+            to_end = length_mm * (1.0 - (segment + 0.5) / self._segments)
+            turns = [
+                (end - to_end * elastic, _TURN_UP, 3.0 * share * bending / length_mm**2),
+                (end - to_end * line, sideways, 3.0 * share * lateral / length_mm**2),
+                (end, line, strength * torsion / self._segments),
+            ]
+            for turn in turns if segment % 2 == 0 else reversed(turns):  # they do not commute: no order leads
+                chain.hinge(*turn)
+            chain.weight(end - to_end * line, strength * weight_n / self._segments)
+            if 2 * (segment + 1) in (self._segments, self._segments + 1):
+                chain.weight(middle, (1.0 - strength) * weight_n)
+        if strength == 0.0:
+            chain.weight(middle, weight_n)
+        chain.slide(elastic, (1.0 - strength) * axial)
+        chain.slide(np.cross(elastic, _Y), (1.0 - strength) * bending)
+        chain.slide(_Y, (1.0 - strength) * lateral)
+        chain.hinge(end, line, (1.0 - strength) * torsion)
+        return end
