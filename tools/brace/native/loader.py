@@ -24,6 +24,7 @@ FIRMWARE_HEADERS = (
     "planar_batch.h",
     "chain_batch.h",
     "spatial.h",
+    "loaded.h",
     "uncertainty.h",
     "slope.h",
     "contact.h",

@@ -104,8 +104,8 @@ INLINE void look_at_point(const link_t *link, const shape_t *shape, const point_
     }
 }
 
-/* The weight lies along the straight link, so that of a tilted link acts half along its rigid part. columns: null on the
- * way to the equilibrium */
+/* The weight lies along the straight link, so that of a tilted link acts half along its rigid part.
+ * columns: null on the way to the equilibrium */
 INLINE void look(const link_t *link, const shape_t *shape, state_t *state, columns_t *columns)
 {
     const brace_vec_t whole_n = vec_plus(link->beyond_n, link->own_n), none = {0.0f, 0.0f};
@@ -159,12 +159,15 @@ INLINE float summed(const straight_sum_t *sum, float of_end, float of_own)
 INLINE void look_straight(const link_t *link, state_t *state)
 {
     const brace_vec_t rigid_n = vec_plus_scaled(link->beyond_n, link->own_n, 0.5f);
-    const float end_resists = vec_dot(link->beam_mm, link->beyond_n), own_resists = vec_dot(link->beam_mm, link->own_n);
+    const float end_resists = vec_dot(link->beam_mm, link->beyond_n);
+    const float own_resists = vec_dot(link->beam_mm, link->own_n);
     const float end_drives = vec_cross(link->beam_mm, link->beyond_n);
     const float own_drives = vec_cross(link->beam_mm, link->own_n);
     *state = (state_t){.resists = {vec_dot(link->to_beam_mm, rigid_n) + summed(&sum_r, end_resists, own_resists),
-                                   summed(&sum_a, end_resists, own_resists), summed(&sum_b, end_resists, own_resists),
-                                   summed(&sum_aa, end_resists, own_resists), summed(&sum_ab, end_resists, own_resists),
+                                   summed(&sum_a, end_resists, own_resists),
+                                   summed(&sum_b, end_resists, own_resists),
+                                   summed(&sum_aa, end_resists, own_resists),
+                                   summed(&sum_ab, end_resists, own_resists),
                                    summed(&sum_bb, end_resists, own_resists)},
                        .drive = {vec_cross(link->to_beam_mm, rigid_n) + summed(&sum_r, end_drives, own_drives),
                                  summed(&sum_a, end_drives, own_drives), summed(&sum_b, end_drives, own_drives)}};
