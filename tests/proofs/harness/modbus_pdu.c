@@ -1,5 +1,5 @@
 /* A request of any bytes, whatever the controller's state. What it asks of the controller may answer anything that
- * requests.h allows. */
+ * brace/requests.h allows. */
 #include "copies.h"
 #include "proof.h"
 #include "wire/modbus/pdu.h"
@@ -16,62 +16,62 @@ static brace_status_t any_status(void)
 /* ------------------------------------------------------------------------------------- the controller -- */
 
 static brace_snapshot_t snapshot;
-const brace_snapshot_t *request_snapshot(const controller_t *controller) { (void)controller; return &snapshot; }
-brace_mode_t request_mode(const controller_t *controller) { (void)controller; return (brace_mode_t)any_u32(); }
-uint32_t request_faults(const controller_t *controller) { (void)controller; return any_u32(); }
-bool request_is_storing(const controller_t *controller) { (void)controller; return any_bool(); }
-void request_configuration_keep(controller_t *controller) { (void)controller; }
-brace_status_t request_configuration_enter(controller_t *controller) { (void)controller; return any_status(); }
-brace_status_t request_configuration_leave(controller_t *controller) { (void)controller; return any_status(); }
-brace_status_t request_may_write(controller_t *controller) { (void)controller; return any_status(); }
-brace_status_t request_rollback(controller_t *controller) { (void)controller; return any_status(); }
-brace_status_t request_let_go(controller_t *controller) { (void)controller; return any_status(); }
+const brace_snapshot_t *brace_app_snapshot(const brace_app_t *app) { (void)app; return &snapshot; }
+brace_mode_t brace_app_mode(const brace_app_t *app) { (void)app; return (brace_mode_t)any_u32(); }
+uint32_t brace_app_faults(const brace_app_t *app) { (void)app; return any_u32(); }
+bool brace_app_is_storing(const brace_app_t *app) { (void)app; return any_bool(); }
+brace_status_t brace_app_configuration_enter(brace_app_t *app) { (void)app; return any_status(); }
+brace_status_t brace_app_configuration_leave(brace_app_t *app) { (void)app; return any_status(); }
+brace_status_t brace_app_may_write(brace_app_t *app) { (void)app; return any_status(); }
+brace_status_t brace_app_parameters_rollback(brace_app_t *app) { (void)app; return any_status(); }
+brace_status_t brace_app_let_go(brace_app_t *app) { (void)app; return any_status(); }
 
-brace_status_t request_clear(controller_t *controller, uint32_t faults)
+brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults)
 {
-    (void)controller;
+    (void)app;
     (void)faults;
     return any_status();
 }
 
-brace_status_t request_take_up(controller_t *controller, int32_t joint, int32_t flank)
+brace_status_t brace_app_take_up(brace_app_t *app, int32_t joint, int32_t flank)
 {
-    (void)controller;
+    (void)app;
     (void)joint;
     PROVE(flank == 1 || flank == -1, "a flank that there is");
     return any_status();
 }
 
-brace_status_t request_stage_block(controller_t *controller, uint32_t first_number, uint32_t count,
+brace_status_t brace_app_parameters_stage(brace_app_t *app, uint32_t first_number, uint32_t count,
                                    const uint32_t *words)
 {
-    (void)controller;
+    (void)app;
     PROVE(count >= 1u && first_number < BRACE_PARAMETER_NUMBERS && count <= BRACE_PARAMETER_NUMBERS - first_number,
           "numbers that parameters have are written");
     PROVE(__CPROVER_r_ok(words, 4u * count), "each member has its word");
     return any_status();
 }
 
-brace_status_t request_commit_staged(controller_t *controller, uint32_t *wrong_index)
+brace_status_t brace_app_parameters_commit_staged(brace_app_t *app, uint32_t *wrong_index)
 {
-    (void)controller;
+    (void)app;
     if (wrong_index != NULL) {
         *wrong_index = any_u32();
     }
     return any_status();
 }
 
-void request_store_status(const controller_t *controller, brace_store_status_t *status)
+brace_status_t brace_app_store_status(const brace_app_t *app, brace_store_status_t *status)
 {
-    (void)controller;
+    (void)app;
     brace_store_status_t any;
     *status = any;
+    return BRACE_OK;
 }
 
-brace_status_t request_k_at_posture(controller_t *controller, float theta1_rad, float theta2_rad,
+brace_status_t brace_app_k_at_posture(brace_app_t *app, float theta1_rad, float theta2_rad,
                                     brace_stiffness_t *stiffness)
 {
-    (void)controller;
+    (void)app;
     (void)theta1_rad;
     (void)theta2_rad;
     brace_stiffness_t any;
@@ -79,36 +79,36 @@ brace_status_t request_k_at_posture(controller_t *controller, float theta1_rad, 
     return any_status();
 }
 
-brace_status_t request_k_at_tip(controller_t *controller, brace_point_t tip, brace_knee_t knee,
+brace_status_t brace_app_k_at_tip(brace_app_t *app, brace_point_t tip, brace_knee_t knee,
                                 brace_stiffness_t *stiffness)
 {
     PROVE(knee == BRACE_KNEE_UP || knee == BRACE_KNEE_DOWN, "a knee that there is");
-    return request_k_at_posture(controller, tip.x_mm, tip.z_mm, stiffness);
+    return brace_app_k_at_posture(app, tip.x_mm, tip.z_mm, stiffness);
 }
 
-brace_status_t request_contact_force(const controller_t *controller, brace_displacement_t displacement,
+brace_status_t brace_app_contact_force(const brace_app_t *app, brace_displacement_t displacement,
                                      brace_contact_force_t *contact)
 {
-    (void)controller;
+    (void)app;
     (void)displacement;
     brace_contact_force_t any;
     *contact = any;
     return any_status();
 }
 
-brace_status_t request_sag(const controller_t *controller, brace_force_t load, brace_displacement_t *sag)
+brace_status_t brace_app_sag(const brace_app_t *app, brace_force_t load, brace_displacement_t *sag)
 {
-    (void)controller;
+    (void)app;
     (void)load;
     brace_displacement_t any;
     *sag = any;
     return any_status();
 }
 
-brace_status_t request_grip(const controller_t *controller, float normal_rad, float friction_ratio,
+brace_status_t brace_app_grip(const brace_app_t *app, float normal_rad, float friction_ratio,
                             brace_contact_grip_t *grip)
 {
-    (void)controller;
+    (void)app;
     (void)normal_rad;
     (void)friction_ratio;
     brace_contact_grip_t any;
@@ -139,9 +139,11 @@ int main(void)
     modbus_server_t server; /* of any content, as all of these */
     modbus_half_t half;
     wire_tick_t tick;
+    brace_app_counters_t counters;
     uint8_t pdu[MODBUS_PDU_BYTES];
     const uint32_t length = any_u32();
     ASSUME(length >= 1u && length <= MODBUS_PDU_BYTES);
+    tick.counters = &counters;
     ANY(snapshot);
     const uint8_t function = pdu[0];
     const uint16_t refused = server.refused;

@@ -56,10 +56,10 @@ void parameter_job_keep_open(parameter_job_t *job)
     job->idle_us = 0;
 }
 
-bool parameter_job_has_lost_patience(parameter_job_t *job, uint32_t since_us)
+uint32_t parameter_job_idle_us(parameter_job_t *job, uint32_t since_us)
 {
     job->idle_us = parameter_job_is_busy(job) ? 0u : job->idle_us + since_us;
-    return job->idle_us >= (uint32_t)PARAMETER_JOB_PATIENCE_US;
+    return job->idle_us;
 }
 
 const brace_parameters_t *parameter_job_staged(const parameter_job_t *job)

@@ -12,9 +12,6 @@
 #include "brace/store.h"
 #include "brace_hal.h"
 
-/* CONFIGURATION ends by itself after so long in which nobody asked for anything. */
-enum { PARAMETER_JOB_PATIENCE_US = 10000000 };
-
 typedef struct {
     brace_parameters_t in_force;
     uint32_t crc;                    /* brace_parameters_crc of in_force */
@@ -47,12 +44,12 @@ static inline bool parameter_job_is_busy(const parameter_job_t *job)
 /* CONFIGURATION has been entered: what was staged is forgotten. */
 void parameter_job_open(parameter_job_t *job);
 
-/* Somebody asked for something: CONFIGURATION lasts PARAMETER_JOB_PATIENCE_US from here. */
+/* Somebody asked for something: CONFIGURATION lasts its patience from here. */
 void parameter_job_keep_open(parameter_job_t *job);
 
-/* Has nobody asked for anything for so long that CONFIGURATION should end? Each tick of it.
+/* For how long nobody has asked for anything [us]. Each tick of CONFIGURATION.
  *   since_us: since the tick before, which an erase may have delayed */
-bool parameter_job_has_lost_patience(parameter_job_t *job, uint32_t since_us);
+uint32_t parameter_job_idle_us(parameter_job_t *job, uint32_t since_us);
 
 /* The set that is being written: what is staged, or what is in force while nothing is. */
 const brace_parameters_t *parameter_job_staged(const parameter_job_t *job);

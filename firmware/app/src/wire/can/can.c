@@ -26,12 +26,6 @@ bool can_is_bus_off(const can_t *can)
     return can->bus.is_off;
 }
 
-void can_counters(const can_t *can, brace_app_counters_t *counters)
-{
-    counters->frames_refused = can->bus.frames_refused;
-    counters->frames_unknown = can->frames_unknown;
-}
-
 /* ------------------------------------------------------------------------------------------------ in -- */
 
 /* Identifiers that the other nodes of a bus use among themselves. Their frames are for others, and nothing strange. */
@@ -46,22 +40,17 @@ static bool is_known_function(uint32_t id)
     return (known >> (id >> 7 & 15u) & 1u) != 0u;
 }
 
-static void count_unknown(can_t *can)
-{
-    can->frames_unknown += can->frames_unknown < UINT32_MAX;
-}
-
 /* Is the frame a request to this node? A frame of no known kind is counted. */
-static bool is_request(can_t *can, const brace_can_frame_t *frame)
+static bool is_request(const can_t *can, const wire_tick_t *tick, const brace_can_frame_t *frame)
 {
     if (frame->id != (uint32_t)BRACE_CAN_ID_REQUEST + can->node_id) {
         if (!is_known_function(frame->id)) {
-            count_unknown(can);
+            brace_count(&tick->counters->frames_unknown);
         }
         return false;
     }
     if (frame->length != 8u || frame->fd || frame->data[0] >= BRACE_ANSWER_PART) {
-        count_unknown(can);
+        brace_count(&tick->counters->frames_unknown);
         return false;
     }
     return true;
@@ -80,7 +69,7 @@ static void answer(can_t *can, can_port_t *port, const wire_tick_t *tick, const 
                              .session = &port->session,
                              .answers = &port->answers};
     if (!can_requests_answer(&request)) {
-        count_unknown(can);
+        brace_count(&tick->counters->frames_unknown);
     }
 }
 
@@ -91,7 +80,7 @@ static bool has_number(const can_t *can)
 
 static uint32_t frames_per_tick(const wire_tick_t *tick)
 {
-    const uint32_t frames = request_parameters(tick->controller)->controller.tick_us * FRAMES_PER_MS / 1000u;
+    const uint32_t frames = brace_app_parameters(tick->app)->controller.tick_us * FRAMES_PER_MS / 1000u;
     return frames < FRAMES_PER_MS ? FRAMES_PER_MS : frames > FRAMES_MOST ? FRAMES_MOST : frames;
 }
 
@@ -105,7 +94,7 @@ static void listen_to_bus(can_t *can, const wire_tick_t *tick)
         return;
     }
     for (uint32_t i = 0; i < most && can_bus_receive(&can->bus, tick->hal, &frame); i++) {
-        if (is_request(can, &frame) && has_number(can)) {
+        if (is_request(can, tick, &frame) && has_number(can)) {
             answer(can, &can->bus_port, tick, &frame);
             return;
         }
@@ -116,7 +105,7 @@ static void listen_to_text(can_t *can, const wire_tick_t *tick)
 {
     brace_can_frame_t frame;
     if (has_room_for_an_answer(&can->text_port) && slcan_receive(&can->text, tick->hal, &frame) &&
-        is_request(can, &frame)) {
+        is_request(can, tick, &frame)) {
         answer(can, &can->text_port, tick, &frame);
     }
 }
@@ -138,7 +127,7 @@ static bool is_open(const can_t *can, way_t way)
 static bool send(can_t *can, way_t way, const wire_tick_t *tick, brace_can_frame_t *frame)
 {
     frame->id += can->node_id;
-    return way == ON_BUS ? can_bus_send(&can->bus, tick->hal, frame) : slcan_send(&can->text, frame);
+    return way == ON_BUS ? can_bus_send(&can->bus, tick, frame) : slcan_send(&can->text, frame);
 }
 
 static void send_answers(can_t *can, way_t way, const wire_tick_t *tick)
@@ -216,7 +205,7 @@ static void speak(can_t *can, way_t way, const wire_tick_t *tick)
 
 void can_tick(can_t *can, const wire_tick_t *tick)
 {
-    can_bus_watch(&can->bus, tick->hal, request_parameters(tick->controller)->controller.tick_us);
+    can_bus_watch(&can->bus, tick->hal, brace_app_parameters(tick->app)->controller.tick_us);
     transfer_tick(&can->bus_port.session, &can->bus_port.answers, tick);
     transfer_tick(&can->text_port.session, &can->text_port.answers, tick);
     listen_to_bus(can, tick);

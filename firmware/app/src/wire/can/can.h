@@ -37,7 +37,6 @@ typedef struct {
     slcan_t text;
     can_port_t bus_port;
     can_port_t text_port;
-    uint32_t frames_unknown; /* saturates */
 } can_t;
 
 /* Sets both ports up. Node number and bit rates stay those of the start. Before the first tick; may block as
@@ -51,8 +50,5 @@ void can_tick(can_t *can, const wire_tick_t *tick);
 
 /* Has the CAN controller left the bus? */
 bool can_is_bus_off(const can_t *can);
-
-/* Writes frames_refused and frames_unknown. */
-void can_counters(const can_t *can, brace_app_counters_t *counters);
 
 #endif

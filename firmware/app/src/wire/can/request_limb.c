@@ -13,11 +13,11 @@
 int32_t can_answer_take_up(can_request_t *request, const brace_can_take_up_request_t *asked,
                            brace_can_take_up_answer_t *answer)
 {
-    controller_t *controller = request->tick->controller;
-    request->detail = request_mode(controller);
-    const brace_status_t status = request_take_up(controller, (int32_t)asked->joint, asked->flank);
+    brace_app_t *app = request->tick->app;
+    request->detail = brace_app_mode(app);
+    const brace_status_t status = brace_app_take_up(app, (int32_t)asked->joint, asked->flank);
     if (status == BRACE_OK) {
-        answer->phase = request_snapshot(controller)->play[asked->joint].phase;
+        answer->phase = brace_app_snapshot(app)->play[asked->joint].phase;
     }
     return status;
 }
@@ -25,7 +25,7 @@ int32_t can_answer_take_up(can_request_t *request, const brace_can_take_up_reque
 int32_t can_answer_take_up_result(can_request_t *request, const brace_can_take_up_result_request_t *asked,
                                   brace_can_take_up_result_answer_t *answer)
 {
-    const brace_snapshot_t *snapshot = request_snapshot(request->tick->controller);
+    const brace_snapshot_t *snapshot = brace_app_snapshot(request->tick->app);
     request->detail = asked->joint;
     if (asked->joint >= (uint32_t)BRACE_LINK_COUNT) {
         return BRACE_E_RANGE;
@@ -41,12 +41,12 @@ int32_t can_answer_take_up_result(can_request_t *request, const brace_can_take_u
 int32_t can_answer_let_go(can_request_t *request, const brace_can_let_go_request_t *asked,
                           brace_can_let_go_answer_t *answer)
 {
-    controller_t *controller = request->tick->controller;
+    brace_app_t *app = request->tick->app;
     (void)asked;
-    request->detail = request_mode(controller);
-    const brace_status_t status = request_let_go(controller);
+    request->detail = brace_app_mode(app);
+    const brace_status_t status = brace_app_let_go(app);
     if (status == BRACE_OK) {
-        answer->mode = request_mode(controller);
+        answer->mode = brace_app_mode(app);
     }
     return status;
 }
@@ -54,8 +54,8 @@ int32_t can_answer_let_go(can_request_t *request, const brace_can_let_go_request
 int32_t can_answer_loading_test_start(can_request_t *request, const brace_can_loading_test_start_request_t *asked,
                                       brace_can_loading_test_start_answer_t *answer)
 {
-    controller_t *controller = request->tick->controller;
-    const brace_drive_t *drive = request_parameters(controller)->drive;
+    brace_app_t *app = request->tick->app;
+    const brace_drive_t *drive = brace_app_parameters(app)->drive;
     const float femur_n_mm = drive[BRACE_FEMUR].torque_range_n_mm;
     const float tibia_n_mm = drive[BRACE_TIBIA].torque_range_n_mm;
     const brace_loading_setup_t setup = {
@@ -67,11 +67,11 @@ int32_t can_answer_loading_test_start(can_request_t *request, const brace_can_lo
         .force_max_n = FORCE_MOST_N,
         .torque_max_n_mm = femur_n_mm > tibia_n_mm ? femur_n_mm : tibia_n_mm,
         .source = BRACE_LOADING_ENCODED};
-    request->detail = request_mode(controller);
-    if (request_loading_is_returning(controller)) {
+    request->detail = brace_app_mode(app);
+    if (brace_app_loading_is_returning(app)) {
         return BRACE_REFUSED_BUSY; /* the last test is over by itself in a moment */
     }
-    const brace_status_t status = asked->axis > 1u ? BRACE_E_RANGE : request_loading_start(controller, &setup);
+    const brace_status_t status = asked->axis > 1u ? BRACE_E_RANGE : brace_app_loading_start(app, &setup);
     if (status == BRACE_OK) {
         answer->rows = 4u * asked->steps_per_side + 1u;
     }
@@ -81,12 +81,12 @@ int32_t can_answer_loading_test_start(can_request_t *request, const brace_can_lo
 int32_t can_answer_loading_test_stop(can_request_t *request, const brace_can_loading_test_stop_request_t *asked,
                                      brace_can_loading_test_stop_answer_t *answer)
 {
-    controller_t *controller = request->tick->controller;
+    brace_app_t *app = request->tick->app;
     (void)asked;
-    request->detail = request_mode(controller);
-    const brace_status_t status = request_loading_stop(controller);
+    request->detail = brace_app_mode(app);
+    const brace_status_t status = brace_app_loading_stop(app);
     if (status == BRACE_OK) {
-        answer->rows = request_row_count(controller);
+        answer->rows = brace_app_row_count(app);
     }
     return status;
 }
@@ -94,11 +94,11 @@ int32_t can_answer_loading_test_stop(can_request_t *request, const brace_can_loa
 int32_t can_answer_fetch_row(can_request_t *request, const brace_can_fetch_row_request_t *asked,
                              brace_can_fetch_row_answer_t *answer)
 {
-    const controller_t *controller = request->tick->controller;
+    const brace_app_t *app = request->tick->app;
     brace_row_t row;
     float value = 0.0f;
-    request->detail = request_row_count(controller);
-    brace_status_t status = request_row(controller, asked->row, &row);
+    request->detail = brace_app_row_count(app);
+    brace_status_t status = brace_app_row(app, asked->row, &row);
     if (status == BRACE_OK) {
         status = brace_row_value(&row, asked->column, &value);
     }
@@ -117,7 +117,7 @@ int32_t can_answer_loading_test_result(can_request_t *request, const brace_can_l
         FIRST = offsetof(brace_measured_t, loading_outcome) / 4, /* an entry's number is its place: brace/measured.h */
         ITEMS = offsetof(brace_measured_t, loading_score_z) / 4 - FIRST + 1
     };
-    const brace_loading_result_t *result = request_loading_result(request->tick->controller);
+    const brace_loading_result_t *result = brace_app_loading_result(request->tick->app);
     uint32_t word = 0;
     request->detail = ITEMS;
     if (asked->item >= ITEMS) {
@@ -138,7 +138,7 @@ int32_t can_answer_loading_test_result(can_request_t *request, const brace_can_l
 int32_t can_answer_identify(can_request_t *request, const brace_can_identify_request_t *asked,
                             brace_can_identify_answer_t *answer)
 {
-    const controller_t *controller = request->tick->controller;
+    const brace_snapshot_t *snapshot = brace_app_snapshot(request->tick->app);
     (void)asked;
     *answer = (brace_can_identify_answer_t){.major = BRACE_FIRMWARE_MAJOR,
                                             .minor = BRACE_FIRMWARE_MINOR,
@@ -147,8 +147,8 @@ int32_t can_answer_identify(can_request_t *request, const brace_can_identify_req
                                             .node = request->node_id,
                                             .dictionary_hash = BRACE_DICTIONARY_HASH,
                                             .schema_hash = BRACE_SCHEMA_HASH,
-                                            .parameter_crc = request_parameter_crc(controller),
-                                            .origin = request_parameter_origin(controller)};
+                                            .parameter_crc = snapshot->parameter_crc,
+                                            .origin = snapshot->parameter_origin};
     return BRACE_OK;
 }
 
@@ -172,11 +172,11 @@ int32_t can_answer_drift(can_request_t *request, const brace_can_drift_request_t
 int32_t can_answer_clear(can_request_t *request, const brace_can_clear_request_t *asked,
                          brace_can_clear_answer_t *answer)
 {
-    controller_t *controller = request->tick->controller;
-    request->detail = request_faults(controller);
-    const brace_status_t status = request_clear(controller, asked->faults);
+    brace_app_t *app = request->tick->app;
+    request->detail = brace_app_faults(app);
+    const brace_status_t status = brace_app_clear(app, asked->faults);
     if (status == BRACE_OK) {
-        answer->faults = request_faults(controller);
+        answer->faults = brace_app_faults(app);
     }
     return status;
 }

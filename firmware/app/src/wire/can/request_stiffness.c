@@ -18,7 +18,7 @@ int32_t can_answer_k_at_posture(can_request_t *request, const brace_can_k_at_pos
 {
     brace_stiffness_t k;
     const brace_status_t status =
-        request_k_at_posture(request->tick->controller, asked->theta1_rad, asked->theta2_rad, &k);
+        brace_app_k_at_posture(request->tick->app, asked->theta1_rad, asked->theta2_rad, &k);
     if (status == BRACE_OK) {
         tell_k(&k, answer);
     }
@@ -29,7 +29,7 @@ static int32_t answer_k_at_tip(can_request_t *request, brace_point_t tip, brace_
                                brace_can_k_at_posture_answer_t *answer)
 {
     brace_stiffness_t k;
-    const brace_status_t status = request_k_at_tip(request->tick->controller, tip, knee, &k);
+    const brace_status_t status = brace_app_k_at_tip(request->tick->app, tip, knee, &k);
     if (status == BRACE_OK) {
         tell_k(&k, answer);
     }
@@ -52,7 +52,7 @@ int32_t can_answer_k_in_space_at_posture(can_request_t *request, const brace_can
                                          brace_can_k_in_space_at_posture_answer_t *answer)
 {
     brace_stiffness_spatial_t k;
-    const brace_status_t status = request_k_in_space(request->tick->controller, asked->theta0_rad, asked->theta1_rad,
+    const brace_status_t status = brace_app_k_in_space(request->tick->app, asked->theta0_rad, asked->theta1_rad,
                                                      asked->theta2_rad, &k);
     if (status == BRACE_OK) {
         *answer = (brace_can_k_in_space_at_posture_answer_t){.k_xx_n_per_mm = k.k_xx_n_per_mm,
@@ -72,7 +72,7 @@ int32_t can_answer_k_in_space_at_posture(can_request_t *request, const brace_can
 /* A refusal tells what the K of now is worth. */
 static uint32_t flags_of_now(const can_request_t *request)
 {
-    return request_snapshot(request->tick->controller)->stiffness.now.flags;
+    return brace_app_snapshot(request->tick->app)->stiffness.now.flags;
 }
 
 int32_t can_answer_contact_force(can_request_t *request, const brace_can_contact_force_request_t *asked,
@@ -80,8 +80,8 @@ int32_t can_answer_contact_force(can_request_t *request, const brace_can_contact
 {
     brace_contact_force_t contact;
     request->detail = flags_of_now(request);
-    const brace_status_t status = request_contact_force(
-        request->tick->controller, (brace_displacement_t){asked->dx_mm, asked->dz_mm}, &contact);
+    const brace_status_t status = brace_app_contact_force(
+        request->tick->app, (brace_displacement_t){asked->dx_mm, asked->dz_mm}, &contact);
     if (status == BRACE_OK) {
         *answer = (brace_can_contact_force_answer_t){
             .fx_n = contact.force.x_n, .fz_n = contact.force.z_n, .low_n = contact.low_n, .high_n = contact.high_n};
@@ -95,7 +95,7 @@ int32_t can_answer_sag_for_load(can_request_t *request, const brace_can_sag_for_
     brace_displacement_t sag;
     request->detail = flags_of_now(request);
     const brace_status_t status =
-        request_sag(request->tick->controller, (brace_force_t){asked->fx_n, asked->fz_n}, &sag);
+        brace_app_sag(request->tick->app, (brace_force_t){asked->fx_n, asked->fz_n}, &sag);
     if (status == BRACE_OK) {
         *answer = (brace_can_sag_for_load_answer_t){.dx_mm = sag.x_mm, .dz_mm = sag.z_mm};
     }
@@ -107,7 +107,7 @@ int32_t can_answer_friction_margin(can_request_t *request, const brace_can_frict
 {
     brace_contact_grip_t grip;
     const brace_status_t status =
-        request_grip(request->tick->controller, asked->normal_rad, asked->friction_ratio, &grip);
+        brace_app_grip(request->tick->app, asked->normal_rad, asked->friction_ratio, &grip);
     if (status == BRACE_OK) {
         *answer = (brace_can_friction_margin_answer_t){
             .margin_n = grip.margin_n, .angle_left_rad = grip.angle_left_rad, .contact = grip.state};

@@ -28,8 +28,8 @@ static void put_word(uint8_t *bytes, uint32_t word)
 /* May parameters be written now? */
 static int32_t may_write(can_request_t *request)
 {
-    const brace_status_t status = request_may_write(request->tick->controller);
-    request->detail = request_mode(request->tick->controller);
+    const brace_status_t status = brace_app_may_write(request->tick->app);
+    request->detail = brace_app_mode(request->tick->app);
     return status == BRACE_E_UNSUPPORTED ? (int32_t)BRACE_REFUSED_BUSY : (int32_t)status;
 }
 
@@ -114,14 +114,14 @@ static int32_t store_upload(can_request_t *request, uint32_t crc)
         return BRACE_E_SCHEMA;
     }
     brace_block_members(session->upload, &set);
-    return request_commit(request->tick->controller, &set);
+    return brace_app_parameters_commit(request->tick->app, &set);
 }
 
 /* Begins to store the entries that were written one by one. A refusal tells the number of the one at fault. */
 static int32_t store_staged(can_request_t *request)
 {
     uint32_t wrong_index = 0;
-    const brace_status_t status = request_commit_staged(request->tick->controller, &wrong_index);
+    const brace_status_t status = brace_app_parameters_commit_staged(request->tick->app, &wrong_index);
     if (status == BRACE_E_PARAMETER || status == BRACE_E_NOT_FINITE) {
         request->detail = brace_parameter_number(wrong_index);
     }
@@ -156,14 +156,14 @@ int32_t can_answer_rollback(can_request_t *request, const brace_can_rollback_req
     (void)asked;
     (void)answer;
     const int32_t status = may_write(request);
-    return status != BRACE_OK ? status : answer_later(request, request_rollback(request->tick->controller));
+    return status != BRACE_OK ? status : answer_later(request, brace_app_parameters_rollback(request->tick->app));
 }
 
-static void answer_end_of_storing(can_session_t *session, can_answers_t *answers, const controller_t *controller)
+static void answer_end_of_storing(can_session_t *session, can_answers_t *answers, const brace_app_t *app)
 {
     const uint32_t code = session->storing, token = session->storing_token;
     brace_store_status_t store;
-    request_store_status(controller, &store);
+    (void)brace_app_store_status(app, &store);
     session->storing = 0;
     if (store.state == BRACE_STORE_FAILED) {
         const bool is_refused = store.failure == BRACE_STORE_E_REFUSED;
@@ -173,7 +173,7 @@ static void answer_end_of_storing(can_session_t *session, can_answers_t *answers
         return;
     }
     uint8_t parts[BRACE_CAN_ANSWER_PARTS_MOST][8];
-    const brace_can_commit_answer_t answer = {store.sequence, request_parameter_crc(controller)};
+    const brace_can_commit_answer_t answer = {store.sequence, brace_app_snapshot(app)->parameter_crc};
     if (code == BRACE_REQUEST_COMMIT) {
         brace_can_pack_commit_answer(&answer, token, parts);
     } else {
@@ -184,11 +184,11 @@ static void answer_end_of_storing(can_session_t *session, can_answers_t *answers
 
 void transfer_tick(can_session_t *session, can_answers_t *answers, const wire_tick_t *tick)
 {
-    if (request_mode(tick->controller) != BRACE_MODE_CONFIGURATION) {
+    if (brace_app_mode(tick->app) != BRACE_MODE_CONFIGURATION) {
         session->upload_is_open = false;
     }
-    if (session->storing != 0u && !request_is_storing(tick->controller)) {
-        answer_end_of_storing(session, answers, tick->controller);
+    if (session->storing != 0u && !brace_app_is_storing(tick->app)) {
+        answer_end_of_storing(session, answers, tick->app);
     }
 }
 
@@ -197,16 +197,16 @@ void transfer_tick(can_session_t *session, can_answers_t *answers, const wire_ti
 /* A word of the block as brace_parameters_pack would write it. */
 static uint32_t block_word(const can_request_t *request, uint32_t word)
 {
-    const controller_t *controller = request->tick->controller;
+    const brace_app_t *app = request->tick->app;
     brace_store_status_t store;
     switch (word) {
     case 0: return get_word((const uint8_t *)"BRCE");
     case 1: return BRACE_BLOCK_FORMAT | (uint32_t)BRACE_BLOCK_HEADER_BYTES << 16;
     case 2: return BRACE_SCHEMA_HASH;
     case 3: return WORD_BYTES * BRACE_PARAMETER_COUNT;
-    case 4: request_store_status(controller, &store); return store.sequence;
+    case 4: (void)brace_app_store_status(app, &store); return store.sequence;
     case BLOCK_WORDS - 1: return request->session->download_sum;
-    default: return parameter_member(request_parameters(controller), word - HEADER_WORDS);
+    default: return parameter_member(brace_app_parameters(app), word - HEADER_WORDS);
     }
 }
 
@@ -214,7 +214,7 @@ static uint32_t block_word(const can_request_t *request, uint32_t word)
 static int32_t download_next(can_request_t *request, uint32_t word, uint32_t *data)
 {
     can_session_t *session = request->session;
-    const uint32_t set = request_parameter_crc(request->tick->controller);
+    const uint32_t set = brace_app_snapshot(request->tick->app)->parameter_crc;
     if (word == 0u) {
         session->download_next = 0;
         session->download_sum = 0;
@@ -241,9 +241,9 @@ static int32_t download_next(can_request_t *request, uint32_t word, uint32_t *da
 int32_t can_answer_download_word(can_request_t *request, const brace_can_download_word_request_t *asked,
                                  brace_can_download_word_answer_t *answer)
 {
-    const controller_t *controller = request->tick->controller;
-    uint32_t data = BRACE_BLOCK_BYTES | (uint32_t)request_parameter_origin(controller) << 16;
-    if (request_is_storing(controller)) {
+    const brace_app_t *app = request->tick->app;
+    uint32_t data = BRACE_BLOCK_BYTES | (uint32_t)brace_app_snapshot(app)->parameter_origin << 16;
+    if (brace_app_is_storing(app)) {
         return BRACE_REFUSED_BUSY;
     }
     const int32_t status =

@@ -76,15 +76,15 @@ static modbus_exception_t answer_k(modbus_server_t *server, brace_status_t statu
     return MODBUS_FINE;
 }
 
-static modbus_exception_t ask_posture(modbus_server_t *server, controller_t *controller, const brace_commands_t *asked)
+static modbus_exception_t ask_posture(modbus_server_t *server, brace_app_t *app, const brace_commands_t *asked)
 {
     brace_stiffness_t k;
     const brace_status_t status =
-        request_k_at_posture(controller, asked->asked_theta1_rad, asked->asked_theta2_rad, &k);
+        brace_app_k_at_posture(app, asked->asked_theta1_rad, asked->asked_theta2_rad, &k);
     return answer_k(server, status, &k);
 }
 
-static modbus_exception_t ask_tip(modbus_server_t *server, controller_t *controller, const brace_commands_t *asked)
+static modbus_exception_t ask_tip(modbus_server_t *server, brace_app_t *app, const brace_commands_t *asked)
 {
     brace_stiffness_t k;
     if (asked->asked_knee > 1u) {
@@ -92,7 +92,7 @@ static modbus_exception_t ask_tip(modbus_server_t *server, controller_t *control
     }
     const brace_point_t tip = {asked->asked_tip_x_mm, asked->asked_tip_z_mm};
     const brace_status_t status =
-        request_k_at_tip(controller, tip, asked->asked_knee == 0u ? BRACE_KNEE_UP : BRACE_KNEE_DOWN, &k);
+        brace_app_k_at_tip(app, tip, asked->asked_knee == 0u ? BRACE_KNEE_UP : BRACE_KNEE_DOWN, &k);
     return answer_k(server, status, &k);
 }
 
@@ -103,12 +103,12 @@ static modbus_exception_t refusal_of_now(brace_status_t status)
     return status == BRACE_E_MODE ? MODBUS_E_DEVICE : modbus_refusal_of(status);
 }
 
-static modbus_exception_t ask_force(modbus_server_t *server, controller_t *controller, const brace_commands_t *asked)
+static modbus_exception_t ask_force(modbus_server_t *server, brace_app_t *app, const brace_commands_t *asked)
 {
     brace_answered_t *answered = &server->answered;
     brace_contact_force_t contact;
     const brace_displacement_t displacement = {asked->asked_dx_mm, asked->asked_dz_mm};
-    const brace_status_t status = request_contact_force(controller, displacement, &contact);
+    const brace_status_t status = brace_app_contact_force(app, displacement, &contact);
     force_is_unknown(answered);
     if (status == BRACE_OK) {
         answered->asked_force_x_n = contact.force.x_n;
@@ -119,12 +119,12 @@ static modbus_exception_t ask_force(modbus_server_t *server, controller_t *contr
     return refusal_of_now(status);
 }
 
-static modbus_exception_t ask_sag(modbus_server_t *server, controller_t *controller, const brace_commands_t *asked)
+static modbus_exception_t ask_sag(modbus_server_t *server, brace_app_t *app, const brace_commands_t *asked)
 {
     brace_answered_t *answered = &server->answered;
     brace_displacement_t sag;
     const brace_status_t status =
-        request_sag(controller, (brace_force_t){asked->asked_load_x_n, asked->asked_load_z_n}, &sag);
+        brace_app_sag(app, (brace_force_t){asked->asked_load_x_n, asked->asked_load_z_n}, &sag);
     sag_is_unknown(answered);
     if (status == BRACE_OK) {
         answered->asked_sag_x_mm = sag.x_mm;
@@ -133,14 +133,14 @@ static modbus_exception_t ask_sag(modbus_server_t *server, controller_t *control
     return refusal_of_now(status);
 }
 
-static modbus_exception_t ask_grip(modbus_server_t *server, controller_t *controller, const brace_commands_t *asked)
+static modbus_exception_t ask_grip(modbus_server_t *server, brace_app_t *app, const brace_commands_t *asked)
 {
-    const brace_snapshot_t *now = request_snapshot(controller);
+    const brace_snapshot_t *now = brace_app_snapshot(app);
     brace_answered_t *answered = &server->answered;
     brace_contact_grip_t grip;
     const bool force_is_known = now->force_x_n == now->force_x_n && now->force_z_n == now->force_z_n;
     const brace_status_t status =
-        force_is_known ? request_grip(controller, asked->asked_normal_rad, asked->asked_friction, &grip) : BRACE_E_MODE;
+        force_is_known ? brace_app_grip(app, asked->asked_normal_rad, asked->asked_friction, &grip) : BRACE_E_MODE;
     grip_is_unknown(answered);
     if (status == BRACE_OK) {
         answered->asked_margin_n = grip.margin_n;
@@ -163,20 +163,20 @@ static uint32_t question_values(uint32_t first)
     }
 }
 
-static modbus_exception_t answer(modbus_server_t *server, controller_t *controller, uint32_t first,
+static modbus_exception_t answer(modbus_server_t *server, brace_app_t *app, uint32_t first,
                                  const brace_commands_t *asked)
 {
     switch (first) {
-    case MODBUS_COMMAND(asked_theta1_rad): return ask_posture(server, controller, asked);
-    case MODBUS_COMMAND(asked_tip_x_mm): return ask_tip(server, controller, asked);
-    case MODBUS_COMMAND(asked_dx_mm): return ask_force(server, controller, asked);
-    case MODBUS_COMMAND(asked_load_x_n): return ask_sag(server, controller, asked);
-    case MODBUS_COMMAND(asked_normal_rad): return ask_grip(server, controller, asked);
+    case MODBUS_COMMAND(asked_theta1_rad): return ask_posture(server, app, asked);
+    case MODBUS_COMMAND(asked_tip_x_mm): return ask_tip(server, app, asked);
+    case MODBUS_COMMAND(asked_dx_mm): return ask_force(server, app, asked);
+    case MODBUS_COMMAND(asked_load_x_n): return ask_sag(server, app, asked);
+    case MODBUS_COMMAND(asked_normal_rad): return ask_grip(server, app, asked);
     default: return MODBUS_E_VALUE;
     }
 }
 
-modbus_exception_t modbus_ask(modbus_server_t *server, controller_t *controller, uint32_t first, uint32_t count,
+modbus_exception_t modbus_ask(modbus_server_t *server, brace_app_t *app, uint32_t first, uint32_t count,
                               const uint32_t *words)
 {
     brace_commands_t asked = server->written;
@@ -184,7 +184,7 @@ modbus_exception_t modbus_ask(modbus_server_t *server, controller_t *controller,
         return MODBUS_E_VALUE;
     }
     memcpy((uint8_t *)&asked + 4u * first, words, 4u * count);
-    const modbus_exception_t why = answer(server, controller, first, &asked);
+    const modbus_exception_t why = answer(server, app, first, &asked);
     if (why == MODBUS_FINE) {
         memcpy((uint8_t *)&server->written + 4u * first, words, 4u * count);
     }

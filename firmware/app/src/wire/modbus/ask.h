@@ -3,7 +3,7 @@
 #ifndef BRACE_WIRE_MODBUS_ASK_H
 #define BRACE_WIRE_MODBUS_ASK_H
 
-#include "requests.h"
+#include "brace/requests.h"
 #include "wire/modbus/protocol.h"
 #include "wire/modbus/server.h"
 
@@ -14,8 +14,8 @@ void modbus_ask_nothing(modbus_server_t *server);
  *   first: command number (MODBUS_COMMAND) of its first value
  *   words: its values as their 32 bits, `count` of them
  * returns MODBUS_E_VALUE also when no question of so many values begins there
- * At most what request_k_at_tip costs, and 150 instructions. */
-modbus_exception_t modbus_ask(modbus_server_t *server, controller_t *controller, uint32_t first, uint32_t count,
+ * At most what brace_app_k_at_tip costs, and 150 instructions. */
+modbus_exception_t modbus_ask(modbus_server_t *server, brace_app_t *app, uint32_t first, uint32_t count,
                               const uint32_t *words);
 
 #endif

@@ -16,8 +16,8 @@ static const uint8_t *values_of(const modbus_server_t *server, const wire_tick_t
     switch (area) {
     case REGISTERS_MEASURED: return (const uint8_t *)tick->measured;
     case REGISTERS_ANSWERED: return (const uint8_t *)&server->answered;
-    case REGISTERS_PARAMETERS: return (const uint8_t *)request_staged(tick->controller);
-    default: modbus_command_tell(server, tick->controller, told); return (const uint8_t *)told;
+    case REGISTERS_PARAMETERS: return (const uint8_t *)brace_app_parameters_staged(tick->app);
+    default: modbus_command_tell(server, tick->app, told); return (const uint8_t *)told;
     }
 }
 

@@ -13,8 +13,8 @@ modbus_exception_t modbus_refusal_of(brace_status_t status)
     }
 }
 
-modbus_exception_t modbus_refusal_to_write(controller_t *controller)
+modbus_exception_t modbus_refusal_to_write(brace_app_t *app)
 {
-    const brace_status_t status = request_may_write(controller);
+    const brace_status_t status = brace_app_may_write(app);
     return status == BRACE_E_UNSUPPORTED ? MODBUS_E_BUSY : modbus_refusal_of(status);
 }
