@@ -2,6 +2,7 @@
  * brace/requests.h allows. */
 #include "copies.h"
 #include "proof.h"
+#include "wire/answers/answer.h"
 #include "wire/modbus/pdu.h"
 #include "wire/modbus/read.h"
 #include "wire/modbus/write.h"
@@ -15,31 +16,10 @@ static brace_status_t any_status(void)
 
 /* ------------------------------------------------------------------------------------- the controller -- */
 
-static brace_snapshot_t snapshot;
-const brace_snapshot_t *brace_app_snapshot(const brace_app_t *app) { (void)app; return &snapshot; }
 brace_mode_t brace_app_mode(const brace_app_t *app) { (void)app; return (brace_mode_t)any_u32(); }
 uint32_t brace_app_faults(const brace_app_t *app) { (void)app; return any_u32(); }
 bool brace_app_is_storing(const brace_app_t *app) { (void)app; return any_bool(); }
-brace_status_t brace_app_configuration_enter(brace_app_t *app) { (void)app; return any_status(); }
-brace_status_t brace_app_configuration_leave(brace_app_t *app) { (void)app; return any_status(); }
 brace_status_t brace_app_may_write(brace_app_t *app) { (void)app; return any_status(); }
-brace_status_t brace_app_parameters_rollback(brace_app_t *app) { (void)app; return any_status(); }
-brace_status_t brace_app_let_go(brace_app_t *app) { (void)app; return any_status(); }
-
-brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults)
-{
-    (void)app;
-    (void)faults;
-    return any_status();
-}
-
-brace_status_t brace_app_take_up(brace_app_t *app, int32_t joint, int32_t flank)
-{
-    (void)app;
-    (void)joint;
-    PROVE(flank == 1 || flank == -1, "a flank that there is");
-    return any_status();
-}
 
 brace_status_t brace_app_parameters_stage(brace_app_t *app, uint32_t first_number, uint32_t count,
                                    const uint32_t *words)
@@ -51,15 +31,6 @@ brace_status_t brace_app_parameters_stage(brace_app_t *app, uint32_t first_numbe
     return any_status();
 }
 
-brace_status_t brace_app_parameters_commit_staged(brace_app_t *app, uint32_t *wrong_index)
-{
-    (void)app;
-    if (wrong_index != NULL) {
-        *wrong_index = any_u32();
-    }
-    return any_status();
-}
-
 brace_status_t brace_app_store_status(const brace_app_t *app, brace_store_status_t *status)
 {
     (void)app;
@@ -68,52 +39,22 @@ brace_status_t brace_app_store_status(const brace_app_t *app, brace_store_status
     return BRACE_OK;
 }
 
-brace_status_t brace_app_k_at_posture(brace_app_t *app, float theta1_rad, float theta2_rad,
-                                    brace_stiffness_t *stiffness)
+/* Any answer, of a request that Modbus knows. */
+int32_t answer_request(request_t *request, uint32_t code, const brace_request_t *asked, brace_answer_t *answer)
 {
-    (void)app;
-    (void)theta1_rad;
-    (void)theta2_rad;
-    brace_stiffness_t any;
-    *stiffness = any;
-    return any_status();
-}
-
-brace_status_t brace_app_k_at_tip(brace_app_t *app, brace_point_t tip, brace_knee_t knee,
-                                brace_stiffness_t *stiffness)
-{
-    PROVE(knee == BRACE_KNEE_UP || knee == BRACE_KNEE_DOWN, "a knee that there is");
-    return brace_app_k_at_posture(app, tip.x_mm, tip.z_mm, stiffness);
-}
-
-brace_status_t brace_app_contact_force(const brace_app_t *app, brace_displacement_t displacement,
-                                     brace_contact_force_t *contact)
-{
-    (void)app;
-    (void)displacement;
-    brace_contact_force_t any;
-    *contact = any;
-    return any_status();
-}
-
-brace_status_t brace_app_sag(const brace_app_t *app, brace_force_t load, brace_displacement_t *sag)
-{
-    (void)app;
-    (void)load;
-    brace_displacement_t any;
-    *sag = any;
-    return any_status();
-}
-
-brace_status_t brace_app_grip(const brace_app_t *app, float normal_rad, float friction_ratio,
-                            brace_contact_grip_t *grip)
-{
-    (void)app;
-    (void)normal_rad;
-    (void)friction_ratio;
-    brace_contact_grip_t any;
-    *grip = any;
-    return any_status();
+    brace_answer_t any;
+    const int32_t status = any_i32();
+    ASSUME(status <= ANSWER_LATER && status >= BRACE_REFUSED_STORE - 7);
+    PROVE((code >= BRACE_REQUEST_K_AT_POSTURE && code <= BRACE_REQUEST_SET_MODE) || code == BRACE_REQUEST_COMMIT ||
+              code == BRACE_REQUEST_ROLLBACK || code == BRACE_REQUEST_TAKE_UP || code == BRACE_REQUEST_LET_GO ||
+              code == BRACE_REQUEST_CLEAR,
+          "a request that Modbus knows");
+    PROVE(code != BRACE_REQUEST_TAKE_UP || asked->take_up.flank == 1 || asked->take_up.flank == -1,
+          "a flank that there is");
+    PROVE(code != BRACE_REQUEST_COMMIT || asked->commit.crc == 0u, "no block is committed that nobody has uploaded");
+    *answer = any;
+    request->is_of_now = any_bool();
+    return status;
 }
 
 modbus_exception_t modbus_read(const modbus_server_t *server, const wire_tick_t *tick, uint8_t *pdu, uint32_t length,
@@ -144,7 +85,6 @@ int main(void)
     const uint32_t length = any_u32();
     ASSUME(length >= 1u && length <= MODBUS_PDU_BYTES);
     tick.counters = &counters;
-    ANY(snapshot);
     const uint8_t function = pdu[0];
     const uint16_t refused = server.refused;
 

@@ -1,6 +1,5 @@
 /* Any 8 bytes that come as a request, whatever the port's state. What a request asks of the controller may answer
  * anything that brace/requests.h allows, and notes that it was asked. */
-#include "brace/can_requests.h"
 #include "proof.h"
 #include "wire/can/requests.h"
 #include "wire/measured.h"
@@ -248,8 +247,9 @@ void brace_block_members(const uint8_t *block, brace_parameters_t *set)
 
 /* A frame begins with code and part, then the token (the dictionary's tests); the rest is any (codec_numbers,
  * codec_whole). */
-static void packs(uint32_t code, uint32_t token, uint8_t (*parts)[8])
+void brace_can_pack_answer(uint32_t code, const brace_answer_t *answer, uint32_t token, uint8_t (*parts)[8])
 {
+    (void)answer;
     for (uint32_t i = 0; i < brace_can_answer_parts[code]; i++) { /* at most BRACE_CAN_ANSWER_PARTS_MOST */
         uint8_t any[8];
         memcpy(parts[i], any, 8);
@@ -257,15 +257,6 @@ static void packs(uint32_t code, uint32_t token, uint8_t (*parts)[8])
         parts[i][1] = (uint8_t)token;
     }
 }
-
-#define PACKS(CODE, name)                                                                                              \
-    void brace_can_pack_##name##_answer(const brace_can_##name##_answer_t *answer, uint32_t token,                     \
-                                        uint8_t (*parts)[8])                                                           \
-    {                                                                                                                  \
-        (void)answer;                                                                                                  \
-        packs(CODE, token, parts);                                                                                     \
-    }
-BRACE_CAN_REQUESTS(PACKS)
 
 /* -------------------------------------------------------------------------------------------- the claims -- */
 
@@ -307,53 +298,53 @@ static void answers_are_of(const can_answers_t *answers, const uint8_t *request,
 
 int main(void)
 {
-    can_session_t session; /* of any content, as all of these */
-    can_answers_t answers;
+    can_requests_t port; /* of any content, as all of these */
     brace_measured_t measured;
     uint8_t data[8], as_sent[8];
     wire_tick_t tick;
     tick.measured = &measured;
-    can_request_t request = {
-        .data = data, .node_id = any_u8(), .tick = &tick, .session = &session, .answers = &answers};
+    const transfer_t *transfer = &port.transfer;
+    const can_answers_t *answers = &port.answers;
     const uint32_t at = any_u32();
-    ASSUME(*(const uint8_t *)&session.upload_is_open <= 1u);
+    ASSUME(*(const uint8_t *)&transfer->upload_is_open <= 1u);
     ASSUME(data[0] < BRACE_ANSWER_PART); /* else it is not taken for one */
-    ASSUME(answers.first < CAN_ANSWERS_ROOM && answers.count + BRACE_CAN_ANSWER_PARTS_MOST <= CAN_ANSWERS_ROOM);
-    ASSUME(session.upload_next <= BRACE_BLOCK_BYTES / 4 && session.download_next <= BRACE_BLOCK_BYTES / 4);
+    ASSUME(answers->first < CAN_ANSWERS_ROOM && answers->count + BRACE_CAN_ANSWER_PARTS_MOST <= CAN_ANSWERS_ROOM);
+    ASSUME(transfer->upload_next <= BRACE_BLOCK_BYTES / 4 && transfer->download_next <= BRACE_BLOCK_BYTES / 4);
     open_for_writing = any_bool();
-    ASSUME(session.storing == 0u || !open_for_writing); /* while a set is being stored, parameters cannot be written */
+    ASSUME(port.storing == 0u || !open_for_writing); /* while a set is being stored, parameters cannot be written */
     ASSUME(at < BRACE_BLOCK_BYTES);
     ANY(snapshot);
     ANY(parameters);
     ANY(result);
-    const uint32_t count = answers.count;
+    const uint32_t count = answers->count;
     memcpy(as_sent, data, 8);
-    const can_session_t before = session;
+    const can_requests_t port_before = port;
+    const transfer_t *before = &port_before.transfer;
 
-    const bool is_known = can_requests_answer(&request);
+    const bool is_known = can_requests_answer(&port, &tick, any_u8(), data);
 
     const uint32_t code = data[0];
-    const bool stores = before.storing == 0u && session.storing != 0u;
+    const bool stores = port_before.storing == 0u && port.storing != 0u;
     PROVE(same(data, as_sent, 8), "a request is not changed");
-    PROVE(is_known || (done == 0u && answers.count == count + 1u), "an unknown request does nothing but be refused");
+    PROVE(is_known || (done == 0u && answers->count == count + 1u), "an unknown request does nothing but be refused");
     PROVE((done & ~allowed(data)) == 0u, "nothing is done but what the request names");
-    PROVE(!stores || (session.storing == code && session.storing_token == data[1]),
+    PROVE(!stores || (port.storing == code && port.storing_token == data[1]),
           "what is stored is answered to who asked");
-    PROVE(before.storing == 0u ||
-              (session.storing == before.storing && session.storing_token == before.storing_token),
+    PROVE(port_before.storing == 0u ||
+              (port.storing == port_before.storing && port.storing_token == port_before.storing_token),
           "nobody else is given the answer to what is being stored");
-    PROVE(session.upload_next <= BRACE_BLOCK_BYTES / 4 && session.download_next <= BRACE_BLOCK_BYTES / 4,
+    PROVE(transfer->upload_next <= BRACE_BLOCK_BYTES / 4 && transfer->download_next <= BRACE_BLOCK_BYTES / 4,
           "words within the block");
     const bool uploads =
         code == BRACE_REQUEST_UPLOAD_BEGIN || code == BRACE_REQUEST_UPLOAD_WORD || code == BRACE_REQUEST_COMMIT;
-    PROVE(uploads || (session.upload_is_open == before.upload_is_open && session.upload_next == before.upload_next &&
-                      session.upload_sum == before.upload_sum && session.upload_crc == before.upload_crc),
+    PROVE(uploads || (transfer->upload_is_open == before->upload_is_open && transfer->upload_next == before->upload_next &&
+                      transfer->upload_sum == before->upload_sum && transfer->upload_crc == before->upload_crc),
           "an upload is left alone");
-    PROVE(code == BRACE_REQUEST_UPLOAD_WORD || session.upload[at] == before.upload[at], "and so are its words");
+    PROVE(code == BRACE_REQUEST_UPLOAD_WORD || transfer->upload[at] == before->upload[at], "and so are its words");
     PROVE(code == BRACE_REQUEST_DOWNLOAD_WORD ||
-              (session.download_next == before.download_next && session.download_sum == before.download_sum &&
-               session.download_set == before.download_set),
+              (transfer->download_next == before->download_next && transfer->download_sum == before->download_sum &&
+               transfer->download_set == before->download_set),
           "a download is left alone");
-    answers_are_of(&answers, data, count, stores); /* the last, since it assumes that there is a part */
+    answers_are_of(answers, data, count, stores); /* the last, since it assumes that there is a part */
     return 0;
 }

@@ -2,8 +2,7 @@
 
 #include <string.h>
 
-#include "wire/can/requests.h"
-#include "wire/can/transfer.h"
+#include "brace/can_frames.h"
 
 #define FRAMES_PER_MS 4u
 #define FRAMES_MOST 20u
@@ -58,17 +57,12 @@ static bool is_request(const can_t *can, const wire_tick_t *tick, const brace_ca
 
 static bool has_room_for_an_answer(const can_port_t *port)
 {
-    return can_answers_have_room(&port->answers, ANSWERS_PER_TICK);
+    return can_answers_have_room(&port->requests.answers, ANSWERS_PER_TICK);
 }
 
-static void answer(can_t *can, can_port_t *port, const wire_tick_t *tick, const brace_can_frame_t *frame)
+static void answer(const can_t *can, can_port_t *port, const wire_tick_t *tick, const brace_can_frame_t *frame)
 {
-    can_request_t request = {.data = frame->data,
-                             .node_id = can->node_id,
-                             .tick = tick,
-                             .session = &port->session,
-                             .answers = &port->answers};
-    if (!can_requests_answer(&request)) {
+    if (!can_requests_answer(&port->requests, tick, can->node_id, frame->data)) {
         brace_count(&tick->counters->frames_unknown);
     }
 }
@@ -132,7 +126,7 @@ static bool send(can_t *can, way_t way, const wire_tick_t *tick, brace_can_frame
 
 static void send_answers(can_t *can, way_t way, const wire_tick_t *tick)
 {
-    can_answers_t *answers = &port_of(can, way)->answers;
+    can_answers_t *answers = &port_of(can, way)->requests.answers;
     brace_can_frame_t frame;
     for (uint32_t i = 0; i < ANSWERS_PER_TICK; i++) {
         const uint8_t *data = can_answers_next(answers);
@@ -185,7 +179,7 @@ static void keep_silent(can_t *can, way_t way, const wire_tick_t *tick)
     can_port_t *port = port_of(can, way);
     process_skip(&port->process);
     if (way == AS_TEXT) {
-        port->answers.count = 0;
+        port->requests.answers.count = 0;
         announce_skip(&port->announce, tick);
     }
 }
@@ -206,8 +200,8 @@ static void speak(can_t *can, way_t way, const wire_tick_t *tick)
 void can_tick(can_t *can, const wire_tick_t *tick)
 {
     can_bus_watch(&can->bus, tick->hal, brace_app_parameters(tick->app)->controller.tick_us);
-    transfer_tick(&can->bus_port.session, &can->bus_port.answers, tick);
-    transfer_tick(&can->text_port.session, &can->text_port.answers, tick);
+    can_requests_tick(&can->bus_port.requests, tick);
+    can_requests_tick(&can->text_port.requests, tick);
     listen_to_bus(can, tick);
     listen_to_text(can, tick);
     speak(can, ON_BUS, tick);

@@ -15,17 +15,15 @@
 #include "brace/snapshot.h"
 #include "brace_hal.h"
 #include "wire/can/announce.h"
-#include "wire/can/answers.h"
 #include "wire/can/bus.h"
 #include "wire/can/process.h"
-#include "wire/can/session.h"
+#include "wire/can/requests.h"
 #include "wire/slcan/slcan.h"
 #include "wire/wire.h"
 
 /* What belongs to one port. */
 typedef struct {
-    can_answers_t answers;
-    can_session_t session;
+    can_requests_t requests;
     announce_t announce;
     process_t process;
 } can_port_t;

@@ -1,6 +1,6 @@
 #include "wire/can/process.h"
 
-#include "brace/can_requests.h"
+#include "brace/can_frames.h"
 #include "brace/can_snapshot.h"
 
 #define CLASSIC_BYTES 8u

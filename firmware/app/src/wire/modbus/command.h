@@ -2,19 +2,16 @@
 #ifndef BRACE_WIRE_MODBUS_COMMAND_H
 #define BRACE_WIRE_MODBUS_COMMAND_H
 
-#include <stddef.h>
-
-#include "brace/requests.h"
+#include "wire/answers/answer.h"
 #include "wire/modbus/protocol.h"
 #include "wire/modbus/server.h"
+#include "wire/wire.h"
 
-/* A command's number: its place among the values of brace_commands_t. */
-#define MODBUS_COMMAND(member) ((uint32_t)(offsetof(brace_commands_t, member) / 4u))
-
-/* Does what a command says. command.c has a function command_<member> for each of BRACE_COMMANDS. Questions are asked
- * by modbus_ask: their values are refused here (MODBUS_E_VALUE).
+/* Does what a command says.
+ *   command: its place among the values of brace_commands_t; questions are asked by modbus_ask, their values are refused
+ *     here (MODBUS_E_VALUE)
  * At most what brace_app_parameters_commit_staged costs, 2,000 instructions; all others 300. */
-modbus_exception_t modbus_command_run(modbus_server_t *server, brace_app_t *app, uint32_t command,
+modbus_exception_t modbus_command_run(modbus_server_t *server, const wire_tick_t *tick, uint32_t command,
                                       uint32_t value);
 
 /* What every command has come to. set_mode: the mode; commit and rollback: 1 while a set is being stored, 0 once it is

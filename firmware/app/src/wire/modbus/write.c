@@ -43,11 +43,11 @@ modbus_exception_t modbus_write_one(modbus_server_t *server, modbus_half_t *half
     }
     const uint32_t whole = (uint32_t)high.value << 16 | value, index = block.first / 2u;
     return is_parameter ? write_parameters(tick->app, index, 1, &whole)
-                        : modbus_command_run(server, tick->app, index, whole);
+                        : modbus_command_run(server, tick, index, whole);
 }
 
-static modbus_exception_t write_values(modbus_server_t *server, brace_app_t *app,
-                                       const registers_block_t *block, uint32_t count, const uint8_t *data)
+static modbus_exception_t write_values(modbus_server_t *server, const wire_tick_t *tick, const registers_block_t *block,
+                                       uint32_t count, const uint8_t *data)
 {
     uint32_t words[WRITE_MOST / 2];
     for (uint32_t i = 0; i < count; i++) { /* at most WRITE_MOST / 2 */
@@ -55,10 +55,10 @@ static modbus_exception_t write_values(modbus_server_t *server, brace_app_t *app
     }
     const uint32_t first = block->first / 2u;
     if (block->area == REGISTERS_PARAMETERS) {
-        return write_parameters(app, first, count, words);
+        return write_parameters(tick->app, first, count, words);
     }
-    return count == 1u ? modbus_command_run(server, app, first, words[0])
-                       : modbus_ask(server, app, first, count, words);
+    return count == 1u ? modbus_command_run(server, tick, first, words[0])
+                       : modbus_ask(server, tick, first, count, words);
 }
 
 modbus_exception_t modbus_write_block(modbus_server_t *server, const wire_tick_t *tick, uint8_t *pdu, uint32_t length,
@@ -78,7 +78,7 @@ modbus_exception_t modbus_write_block(modbus_server_t *server, const wire_tick_t
     if (count % 2u != 0u) {
         return MODBUS_E_VALUE;
     }
-    const modbus_exception_t why = write_values(server, tick->app, &block, count / 2u, pdu + DATA_AT);
+    const modbus_exception_t why = write_values(server, tick, &block, count / 2u, pdu + DATA_AT);
     if (why == MODBUS_FINE) {
         *answer = ANSWER_BYTES;
     }

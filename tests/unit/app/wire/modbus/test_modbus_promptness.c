@@ -6,6 +6,7 @@
 #include "brace_hal_fake.h"
 #include "modbus_crc.h"
 #include "unity.h"
+#include "wire/answers/answer.h"
 #include "wire/modbus/modbus.h"
 
 enum { UNIT = 17, TICK_US = 1000, SILENT_TICKS = 2 /* 1.75 ms */, BLOCK = 61, ADU_BYTES = 260 };
@@ -30,20 +31,6 @@ brace_mode_t brace_app_mode(const brace_app_t *asked) { return asked->mode; }
 uint32_t brace_app_faults(const brace_app_t *asked) { return (void)asked, 0; }
 const brace_parameters_t *brace_app_parameters_staged(const brace_app_t *asked) { return &asked->staged; }
 bool brace_app_is_storing(const brace_app_t *asked) { return (void)asked, false; }
-brace_status_t brace_app_take_up(brace_app_t *asked, int32_t joint, int32_t flank)
-{
-    return (void)asked, (void)joint, (void)flank, BRACE_E_UNSUPPORTED;
-}
-brace_status_t brace_app_let_go(brace_app_t *asked) { return (void)asked, BRACE_E_MODE; }
-brace_status_t brace_app_clear(brace_app_t *asked, uint32_t faults) { return (void)asked, (void)faults, BRACE_OK; }
-brace_status_t brace_app_configuration_leave(brace_app_t *asked) { return (void)asked, BRACE_E_MODE; }
-brace_status_t brace_app_parameters_rollback(brace_app_t *asked) { return (void)asked, BRACE_E_UNSUPPORTED; }
-
-brace_status_t brace_app_configuration_enter(brace_app_t *asked)
-{
-    asked->mode = BRACE_MODE_CONFIGURATION;
-    return BRACE_OK;
-}
 
 brace_status_t brace_app_store_status(const brace_app_t *asked, brace_store_status_t *status)
 {
@@ -65,38 +52,21 @@ brace_status_t brace_app_parameters_stage(brace_app_t *asked, uint32_t first, ui
     return BRACE_OK;
 }
 
-brace_status_t brace_app_parameters_commit_staged(brace_app_t *asked, uint32_t *wrong_index)
+int32_t answer_request(request_t *request, uint32_t code, const brace_request_t *asked, brace_answer_t *answer)
 {
-    return (void)asked, (void)wrong_index, BRACE_E_PARAMETER;
-}
-
-brace_status_t brace_app_k_at_posture(brace_app_t *asked, float theta1_rad, float theta2_rad, brace_stiffness_t *k)
-{
-    (void)asked;
-    *k = (brace_stiffness_t){.k_xx_n_per_mm = theta1_rad, .k_zz_n_per_mm = theta2_rad};
-    return BRACE_OK;
-}
-
-brace_status_t brace_app_k_at_tip(brace_app_t *asked, brace_point_t tip, brace_knee_t knee, brace_stiffness_t *k)
-{
-    return (void)asked, (void)tip, (void)knee, (void)k, BRACE_E_UNREACHABLE;
-}
-
-brace_status_t brace_app_contact_force(const brace_app_t *asked, brace_displacement_t displacement,
-                                     brace_contact_force_t *contact)
-{
-    return (void)asked, (void)displacement, (void)contact, BRACE_E_MODE;
-}
-
-brace_status_t brace_app_sag(const brace_app_t *asked, brace_force_t load, brace_displacement_t *sag)
-{
-    return (void)asked, (void)load, (void)sag, BRACE_E_MODE;
-}
-
-brace_status_t brace_app_grip(const brace_app_t *asked, float normal_rad, float friction_ratio,
-                            brace_contact_grip_t *grip)
-{
-    return (void)asked, (void)normal_rad, (void)friction_ratio, (void)grip, BRACE_E_NOT_FINITE;
+    switch (code) {
+    case BRACE_REQUEST_SET_MODE: request->app->mode = BRACE_MODE_CONFIGURATION; return BRACE_OK;
+    case BRACE_REQUEST_CLEAR: return BRACE_OK;
+    case BRACE_REQUEST_K_AT_POSTURE:
+        answer->k_at_posture = (brace_k_at_posture_answer_t){.k_xx_n_per_mm = asked->k_at_posture.theta1_rad,
+                                                             .k_zz_n_per_mm = asked->k_at_posture.theta2_rad};
+        return BRACE_OK;
+    case BRACE_REQUEST_K_AT_TIP_KNEE_UP:
+    case BRACE_REQUEST_K_AT_TIP_KNEE_DOWN: return BRACE_E_UNREACHABLE;
+    case BRACE_REQUEST_COMMIT: return BRACE_E_PARAMETER;
+    case BRACE_REQUEST_LET_GO: return BRACE_E_MODE;
+    default: return BRACE_E_UNSUPPORTED;
+    }
 }
 
 /* --------------------------------------------------------------------------------------------- ports -- */

@@ -1,28 +1,28 @@
 /* Entries of the dictionary one by one, and the mode in which parameters may be written. */
-#include "wire/can/request.h"
+#include "wire/answers/answer.h"
 #include "wire/measured.h"
 
 #define KEY 0xc0deu /* of set_mode, so that no disturbed frame stops K */
 
-int32_t can_answer_read_entry(can_request_t *request, const brace_can_read_entry_request_t *asked,
-                              brace_can_read_entry_answer_t *answer)
+int32_t answer_read_entry(request_t *request, const brace_read_entry_request_t *asked,
+                          brace_read_entry_answer_t *answer)
 {
     uint32_t value = 0;
     request->detail = asked->index;
     const brace_status_t status =
         asked->index < BRACE_ENTRY_MEASURED
-            ? parameter_entry(brace_app_parameters(request->tick->app), asked->index, &value)
-            : measured_entry(request->tick->measured, asked->index, &value);
+            ? parameter_entry(brace_app_parameters(request->app), asked->index, &value)
+            : measured_entry(request->measured, asked->index, &value);
     if (status == BRACE_OK) {
-        *answer = (brace_can_read_entry_answer_t){asked->index, value};
+        *answer = (brace_read_entry_answer_t){asked->index, value};
     }
     return status;
 }
 
-int32_t can_answer_write_entry(can_request_t *request, const brace_can_write_entry_request_t *asked,
-                               brace_can_write_entry_answer_t *answer)
+int32_t answer_write_entry(request_t *request, const brace_write_entry_request_t *asked,
+                           brace_write_entry_answer_t *answer)
 {
-    brace_app_t *app = request->tick->app;
+    brace_app_t *app = request->app;
     request->detail = asked->index;
     if (asked->index - BRACE_ENTRY_MEASURED < BRACE_MEASURED_COUNT) {
         return BRACE_REFUSED_READ_ONLY;
@@ -52,10 +52,9 @@ static int32_t go_to(brace_app_t *app, uint32_t wanted)
     return wanted == BRACE_MODE_MONITOR ? BRACE_E_MODE : BRACE_E_RANGE;
 }
 
-int32_t can_answer_set_mode(can_request_t *request, const brace_can_set_mode_request_t *asked,
-                            brace_can_set_mode_answer_t *answer)
+int32_t answer_set_mode(request_t *request, const brace_set_mode_request_t *asked, brace_set_mode_answer_t *answer)
 {
-    brace_app_t *app = request->tick->app;
+    brace_app_t *app = request->app;
     request->detail = brace_app_mode(app);
     if (asked->key != KEY) {
         return BRACE_REFUSED_KEY;

@@ -2,7 +2,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "wire/can/request.h"
+#include "wire/answers/answer.h"
 #include "wire/measured.h"
 #include "wire/version.h"
 
@@ -10,10 +10,9 @@
 #define RATE_MM_PER_S 10.0f
 #define FORCE_MOST_N 200.0f
 
-int32_t can_answer_take_up(can_request_t *request, const brace_can_take_up_request_t *asked,
-                           brace_can_take_up_answer_t *answer)
+int32_t answer_take_up(request_t *request, const brace_take_up_request_t *asked, brace_take_up_answer_t *answer)
 {
-    brace_app_t *app = request->tick->app;
+    brace_app_t *app = request->app;
     request->detail = brace_app_mode(app);
     const brace_status_t status = brace_app_take_up(app, (int32_t)asked->joint, asked->flank);
     if (status == BRACE_OK) {
@@ -22,26 +21,25 @@ int32_t can_answer_take_up(can_request_t *request, const brace_can_take_up_reque
     return status;
 }
 
-int32_t can_answer_take_up_result(can_request_t *request, const brace_can_take_up_result_request_t *asked,
-                                  brace_can_take_up_result_answer_t *answer)
+int32_t answer_take_up_result(request_t *request, const brace_take_up_result_request_t *asked,
+                              brace_take_up_result_answer_t *answer)
 {
-    const brace_snapshot_t *snapshot = brace_app_snapshot(request->tick->app);
+    const brace_snapshot_t *snapshot = brace_app_snapshot(request->app);
     request->detail = asked->joint;
     if (asked->joint >= (uint32_t)BRACE_LINK_COUNT) {
         return BRACE_E_RANGE;
     }
     const brace_backlash_out_t *play = &snapshot->play[asked->joint];
-    *answer = (brace_can_take_up_result_answer_t){.joint = asked->joint,
+    *answer = (brace_take_up_result_answer_t){.joint = asked->joint,
                                                   .outcome = play->takeup,
                                                   .phase = play->phase,
                                                   .torque_n_mm = snapshot->torque_n_mm[asked->joint]};
     return BRACE_OK;
 }
 
-int32_t can_answer_let_go(can_request_t *request, const brace_can_let_go_request_t *asked,
-                          brace_can_let_go_answer_t *answer)
+int32_t answer_let_go(request_t *request, const brace_let_go_request_t *asked, brace_let_go_answer_t *answer)
 {
-    brace_app_t *app = request->tick->app;
+    brace_app_t *app = request->app;
     (void)asked;
     request->detail = brace_app_mode(app);
     const brace_status_t status = brace_app_let_go(app);
@@ -51,10 +49,10 @@ int32_t can_answer_let_go(can_request_t *request, const brace_can_let_go_request
     return status;
 }
 
-int32_t can_answer_loading_test_start(can_request_t *request, const brace_can_loading_test_start_request_t *asked,
-                                      brace_can_loading_test_start_answer_t *answer)
+int32_t answer_loading_test_start(request_t *request, const brace_loading_test_start_request_t *asked,
+                                  brace_loading_test_start_answer_t *answer)
 {
-    brace_app_t *app = request->tick->app;
+    brace_app_t *app = request->app;
     const brace_drive_t *drive = brace_app_parameters(app)->drive;
     const float femur_n_mm = drive[BRACE_FEMUR].torque_range_n_mm;
     const float tibia_n_mm = drive[BRACE_TIBIA].torque_range_n_mm;
@@ -78,10 +76,10 @@ int32_t can_answer_loading_test_start(can_request_t *request, const brace_can_lo
     return status;
 }
 
-int32_t can_answer_loading_test_stop(can_request_t *request, const brace_can_loading_test_stop_request_t *asked,
-                                     brace_can_loading_test_stop_answer_t *answer)
+int32_t answer_loading_test_stop(request_t *request, const brace_loading_test_stop_request_t *asked,
+                                 brace_loading_test_stop_answer_t *answer)
 {
-    brace_app_t *app = request->tick->app;
+    brace_app_t *app = request->app;
     (void)asked;
     request->detail = brace_app_mode(app);
     const brace_status_t status = brace_app_loading_stop(app);
@@ -91,10 +89,9 @@ int32_t can_answer_loading_test_stop(can_request_t *request, const brace_can_loa
     return status;
 }
 
-int32_t can_answer_fetch_row(can_request_t *request, const brace_can_fetch_row_request_t *asked,
-                             brace_can_fetch_row_answer_t *answer)
+int32_t answer_fetch_row(request_t *request, const brace_fetch_row_request_t *asked, brace_fetch_row_answer_t *answer)
 {
-    const brace_app_t *app = request->tick->app;
+    const brace_app_t *app = request->app;
     brace_row_t row;
     float value = 0.0f;
     request->detail = brace_app_row_count(app);
@@ -103,21 +100,21 @@ int32_t can_answer_fetch_row(can_request_t *request, const brace_can_fetch_row_r
         status = brace_row_value(&row, asked->column, &value);
     }
     if (status == BRACE_OK) {
-        *answer = (brace_can_fetch_row_answer_t){asked->row, asked->column, value};
+        *answer = (brace_fetch_row_answer_t){asked->row, asked->column, value};
     }
     return status;
 }
 
 /* Items are the dictionary's entries from loading_outcome to loading_score_z. Outcome and rows, which are whole
  * numbers, come as floats too. */
-int32_t can_answer_loading_test_result(can_request_t *request, const brace_can_loading_test_result_request_t *asked,
-                                       brace_can_loading_test_result_answer_t *answer)
+int32_t answer_loading_test_result(request_t *request, const brace_loading_test_result_request_t *asked,
+                                   brace_loading_test_result_answer_t *answer)
 {
     enum {
         FIRST = offsetof(brace_measured_t, loading_outcome) / 4, /* an entry's number is its place: brace/measured.h */
         ITEMS = offsetof(brace_measured_t, loading_score_z) / 4 - FIRST + 1
     };
-    const brace_loading_result_t *result = brace_app_loading_result(request->tick->app);
+    const brace_loading_result_t *result = brace_app_loading_result(request->app);
     uint32_t word = 0;
     request->detail = ITEMS;
     if (asked->item >= ITEMS) {
@@ -127,20 +124,19 @@ int32_t can_answer_loading_test_result(can_request_t *request, const brace_can_l
     answer->outcome = result->outcome;
     switch (asked->item) {
     case 0: answer->value = (float)result->outcome; break;
-    case 1: answer->value = (float)request->tick->measured->loading_rows; break;
+    case 1: answer->value = (float)request->measured->loading_rows; break;
     default:
-        (void)measured_entry(request->tick->measured, BRACE_ENTRY_MEASURED + FIRST + asked->item, &word);
+        (void)measured_entry(request->measured, BRACE_ENTRY_MEASURED + FIRST + asked->item, &word);
         memcpy(&answer->value, &word, sizeof word); /* a float's bits */
     }
     return BRACE_OK;
 }
 
-int32_t can_answer_identify(can_request_t *request, const brace_can_identify_request_t *asked,
-                            brace_can_identify_answer_t *answer)
+int32_t answer_identify(request_t *request, const brace_identify_request_t *asked, brace_identify_answer_t *answer)
 {
-    const brace_snapshot_t *snapshot = brace_app_snapshot(request->tick->app);
+    const brace_snapshot_t *snapshot = brace_app_snapshot(request->app);
     (void)asked;
-    *answer = (brace_can_identify_answer_t){.major = BRACE_FIRMWARE_MAJOR,
+    *answer = (brace_identify_answer_t){.major = BRACE_FIRMWARE_MAJOR,
                                             .minor = BRACE_FIRMWARE_MINOR,
                                             .patch = BRACE_FIRMWARE_PATCH,
                                             .protocol = BRACE_PROTOCOL,
@@ -152,12 +148,11 @@ int32_t can_answer_identify(can_request_t *request, const brace_can_identify_req
     return BRACE_OK;
 }
 
-int32_t can_answer_drift(can_request_t *request, const brace_can_drift_request_t *asked,
-                         brace_can_drift_answer_t *answer)
+int32_t answer_drift(request_t *request, const brace_drift_request_t *asked, brace_drift_answer_t *answer)
 {
-    const brace_measured_t *measured = request->tick->measured;
+    const brace_measured_t *measured = request->measured;
     (void)asked;
-    *answer = (brace_can_drift_answer_t){.state = measured->drift_state,
+    *answer = (brace_drift_answer_t){.state = measured->drift_state,
                                          .cause = measured->drift_cause,
                                          .could_be = measured->drift_could_be,
                                          .next_step = measured->drift_next_step,
@@ -169,10 +164,9 @@ int32_t can_answer_drift(can_request_t *request, const brace_can_drift_request_t
     return BRACE_OK;
 }
 
-int32_t can_answer_clear(can_request_t *request, const brace_can_clear_request_t *asked,
-                         brace_can_clear_answer_t *answer)
+int32_t answer_clear(request_t *request, const brace_clear_request_t *asked, brace_clear_answer_t *answer)
 {
-    brace_app_t *app = request->tick->app;
+    brace_app_t *app = request->app;
     request->detail = brace_app_faults(app);
     const brace_status_t status = brace_app_clear(app, asked->faults);
     if (status == BRACE_OK) {
