@@ -1,4 +1,4 @@
-/* Parameters block by block, over any wire that has a port for them: up, stored, down. */
+/* A parameter block word by word: uploaded, stored, downloaded. */
 #include "wire/answers/answer.h"
 #include "wire/measured.h"
 
