@@ -1,9 +1,8 @@
 #include "wire/measured.h"
 
-#include <string.h>
-
 #include "brace/can_messages.h"
 #include "brace/codes.h"
+#include "brace/words.h"
 #include "wire/version.h"
 
 /* A K that is not valid is NaN in the snapshot, and so it is here. */
@@ -173,21 +172,12 @@ void measured_take(const brace_app_t *app, const brace_app_counters_t *counters,
     take_counters(counters, m);
 }
 
-/* The structs are generated: each has its members in the order of the dictionary's entries, 32 bits each, so that an
- * entry stands at four times its place (asserted in brace/measured.h and in the interface's parameter_table.c). */
-static uint32_t word_at(const void *members, uint32_t place)
-{
-    uint32_t word;
-    memcpy(&word, (const uint8_t *)members + 4u * place, sizeof word);
-    return word;
-}
-
 brace_status_t measured_entry(const brace_measured_t *measured, uint32_t entry, uint32_t *value)
 {
     if (entry - BRACE_ENTRY_MEASURED >= BRACE_MEASURED_COUNT) {
         return BRACE_E_RANGE;
     }
-    *value = word_at(measured, entry - BRACE_ENTRY_MEASURED);
+    *value = brace_word_at(measured, entry - BRACE_ENTRY_MEASURED);
     return BRACE_OK;
 }
 
@@ -203,5 +193,5 @@ brace_status_t parameter_entry(const brace_parameters_t *parameters, uint32_t nu
 
 uint32_t parameter_member(const brace_parameters_t *parameters, uint32_t index)
 {
-    return word_at(parameters, index);
+    return brace_word_at(parameters, index);
 }

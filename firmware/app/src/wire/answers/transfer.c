@@ -1,4 +1,5 @@
 /* A parameter block word by word: uploaded, stored, downloaded. */
+#include "brace/words.h"
 #include "wire/answers/answer.h"
 #include "wire/measured.h"
 
@@ -10,19 +11,6 @@ enum {
     HEADER_WORDS = BRACE_BLOCK_HEADER_BYTES / WORD_BYTES
 };
 _Static_assert(BRACE_BLOCK_BYTES % WORD_BYTES == 0, "a block is whole words");
-
-/* A block is little-endian on every processor. */
-static uint32_t get_word(const uint8_t *bytes)
-{
-    return (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 | (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
-}
-
-static void put_word(uint8_t *bytes, uint32_t word)
-{
-    for (uint32_t i = 0; i < (uint32_t)WORD_BYTES; i++) {
-        bytes[i] = (uint8_t)(word >> (8u * i));
-    }
-}
 
 /* May parameters be written now? */
 static int32_t may_write(request_t *request)
@@ -74,7 +62,7 @@ int32_t answer_upload_word(request_t *request, const brace_upload_word_request_t
         transfer->upload_sum =
             asked->word == 0u ? 0u : brace_crc32(transfer->upload_sum, place - WORD_BYTES, WORD_BYTES);
     }
-    put_word(place, asked->data);
+    brace_put_u32(place, asked->data);
     transfer->upload_next = asked->word + 1u;
     *answer = (brace_upload_word_answer_t){asked->word, asked->data};
     return BRACE_OK;
@@ -94,7 +82,7 @@ static int32_t store_upload(request_t *request, uint32_t crc)
         return BRACE_REFUSED_ORDER;
     }
     transfer->upload_is_open = false; /* it was committed, whatever comes of it */
-    request->detail = get_word(&transfer->upload[BRACE_BLOCK_BYTES - WORD_BYTES]);
+    request->detail = brace_get_u32(&transfer->upload[BRACE_BLOCK_BYTES - WORD_BYTES]);
     if (crc != transfer->upload_crc || crc != request->detail) {
         return BRACE_E_CHECKSUM;
     }
@@ -180,7 +168,7 @@ static uint32_t block_word(const request_t *request, uint32_t word)
 {
     const brace_app_t *app = request->app;
     switch (word) {
-    case 0: return get_word((const uint8_t *)"BRCE");
+    case 0: return brace_get_u32((const uint8_t *)"BRCE");
     case 1: return BRACE_BLOCK_FORMAT | (uint32_t)BRACE_BLOCK_HEADER_BYTES << 16;
     case 2: return BRACE_SCHEMA_HASH;
     case 3: return WORD_BYTES * BRACE_PARAMETER_COUNT;
@@ -211,7 +199,7 @@ static int32_t download_next(request_t *request, uint32_t word, uint32_t *data)
     *data = block_word(request, word);
     if (word == transfer->download_next && word < BLOCK_WORDS - 1u) {
         uint8_t bytes[WORD_BYTES];
-        put_word(bytes, *data);
+        brace_put_u32(bytes, *data);
         transfer->download_sum = brace_crc32(transfer->download_sum, bytes, WORD_BYTES);
     }
     transfer->download_next = word + 1u;
