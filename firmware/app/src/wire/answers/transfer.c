@@ -156,9 +156,7 @@ int32_t answer_of_storing(request_t *request, brace_commit_answer_t *answer)
 
 void transfer_tick(transfer_t *transfer, const brace_app_t *app)
 {
-    if (brace_app_mode(app) != BRACE_MODE_CONFIGURATION) {
-        transfer->upload_is_open = false;
-    }
+    transfer->upload_is_open = transfer->upload_is_open && brace_app_mode(app) == BRACE_MODE_CONFIGURATION;
 }
 
 /* ---------------------------------------------------------------------------------------- download -- */

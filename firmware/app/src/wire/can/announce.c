@@ -42,9 +42,9 @@ static bool heart_beats(const announce_t *announce, const wire_tick_t *tick)
 }
 
 /* The likeliest cause of the drift while the fault is there. */
-static uint32_t drift_cause(const wire_tick_t *tick)
+static uint32_t drift_cause(const wire_tick_t *tick, uint32_t faults)
 {
-    const bool has_drifted = (brace_app_faults(tick->app) & (uint32_t)BRACE_FAULT_MODEL_DRIFT) != 0u;
+    const bool has_drifted = (faults & (uint32_t)BRACE_FAULT_MODEL_DRIFT) != 0u;
     return has_drifted ? tick->measured->drift_cause : (uint32_t)BRACE_DRIFT_CAUSE_NONE;
 }
 
@@ -54,7 +54,7 @@ bool announce_next(const announce_t *announce, const wire_tick_t *tick, brace_ca
     const uint32_t faults = brace_app_faults(tick->app);
     frame->length = 8;
     frame->fd = false;
-    const uint32_t cause = drift_cause(tick);
+    const uint32_t cause = drift_cause(tick, faults);
     if (faults != announce->faults_told || cause != announce->cause_told) {
         const uint32_t drift = faults & (cause != announce->cause_told ? (uint32_t)BRACE_FAULT_MODEL_DRIFT : 0u);
         const uint32_t code = emergency_code((faults & ~announce->faults_told) | drift, faults);
@@ -82,7 +82,7 @@ void announce_sent(announce_t *announce, const wire_tick_t *tick, uint32_t funct
 {
     if (function == (uint32_t)BRACE_CAN_ID_EMERGENCY) {
         announce->faults_told = brace_app_faults(tick->app);
-        announce->cause_told = drift_cause(tick);
+        announce->cause_told = drift_cause(tick, announce->faults_told);
     } else {
         announce->mode_told = brace_app_mode(tick->app);
         announce->beat_us = tick->now_us;
@@ -92,6 +92,6 @@ void announce_sent(announce_t *announce, const wire_tick_t *tick, uint32_t funct
 void announce_skip(announce_t *announce, const wire_tick_t *tick)
 {
     announce->faults_told = brace_app_faults(tick->app);
-    announce->cause_told = drift_cause(tick);
+    announce->cause_told = drift_cause(tick, announce->faults_told);
     announce->mode_told = brace_app_mode(tick->app);
 }
