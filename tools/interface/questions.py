@@ -1,5 +1,5 @@
-"""Requests that Modbus asks by writing commands: reads them from dictionary.toml, and writes the table that a controller
-answers from: brace/questions.h and questions.c."""
+"""Requests that Modbus asks by writing commands: read from dictionary.toml, and the table that a controller answers
+from: brace/questions.h and questions.c."""
 
 from __future__ import annotations
 

@@ -337,7 +337,8 @@ int main(void)
           "words within the block");
     const bool uploads =
         code == BRACE_REQUEST_UPLOAD_BEGIN || code == BRACE_REQUEST_UPLOAD_WORD || code == BRACE_REQUEST_COMMIT;
-    PROVE(uploads || (transfer->upload_is_open == before->upload_is_open && transfer->upload_next == before->upload_next &&
+    PROVE(uploads || (transfer->upload_is_open == before->upload_is_open &&
+                      transfer->upload_next == before->upload_next &&
                       transfer->upload_sum == before->upload_sum && transfer->upload_crc == before->upload_crc),
           "an upload is left alone");
     PROVE(code == BRACE_REQUEST_UPLOAD_WORD || transfer->upload[at] == before->upload[at], "and so are its words");

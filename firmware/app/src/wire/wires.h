@@ -1,5 +1,5 @@
-/* All wires of the controller. A wire asks the controller through brace/requests.h and knows nothing else of it. Every wire
- * is independent of the others: what one is flooded with does not delay another. */
+/* All wires of the controller. A wire asks the controller through brace/requests.h and knows nothing else of it. Every
+ * wire is independent of the others: what one is flooded with does not delay another. */
 #ifndef BRACE_WIRE_WIRES_H
 #define BRACE_WIRE_WIRES_H
 

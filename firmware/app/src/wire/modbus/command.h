@@ -8,8 +8,8 @@
 #include "wire/wire.h"
 
 /* Does what a command says.
- *   command: its place among the values of brace_commands_t; questions are asked by modbus_ask, their values are refused
- *     here (MODBUS_E_VALUE)
+ *   command: its place among the values of brace_commands_t; the values of questions are refused here (MODBUS_E_VALUE),
+ *     modbus_ask asks them
  * At most what brace_app_parameters_commit_staged costs, 2,000 instructions; all others 300. */
 modbus_exception_t modbus_command_run(modbus_server_t *server, const wire_tick_t *tick, uint32_t command,
                                       uint32_t value);
