@@ -3,7 +3,7 @@
 
 #include "brace/parameters.h"
 #include "parameter_table.h"
-#include "words.h"
+#include "brace/words.h"
 
 static brace_status_t float_in_range(uint32_t word, const float range[2])
 {

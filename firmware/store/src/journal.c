@@ -8,7 +8,6 @@ enum { PIECE = BRACE_JOURNAL_PIECE_BYTES, ZEROED = 2 * PIECE };
 
 static const uint8_t zeros[ZEROED];
 
-_Static_assert(BRACE_JOURNAL_STATE_BYTES == sizeof(brace_drift_t), "the state is the check's");
 _Static_assert(BRACE_JOURNAL_COVERED_BYTES / PIECE == (BRACE_JOURNAL_COVERED_BYTES + 3) / PIECE,
                "the CRC is in one piece");
 
