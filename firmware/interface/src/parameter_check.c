@@ -115,7 +115,7 @@ brace_status_t brace_parameters_check_piece(const brace_parameters_t *parameters
     if (wrong != BRACE_PARAMETER_COUNT) {
         return refuse(BRACE_E_PARAMETER, wrong, wrong_index);
     }
-    const brace_status_t limb = brace_limb_check(&parameters->limb);
+    const brace_status_t limb = brace_limb_check_together(&parameters->limb); /* its members were judged one by one */
     return limb == BRACE_OK ? BRACE_OK : refuse(limb, BRACE_PARAMETER_COUNT, wrong_index);
 }
 

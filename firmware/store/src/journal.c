@@ -23,11 +23,12 @@ static void compose_header(const brace_journal_t *journal, uint8_t header[BRACE_
 
 static bool is_blank(const uint8_t *bytes)
 {
-    uint8_t all = 0xff;
-    for (uint32_t i = 0; i < PIECE; i++) {
-        all &= bytes[i];
+    uint32_t all = UINT32_MAX, word;
+    for (uint32_t i = 0; i < PIECE; i += sizeof word) {
+        memcpy(&word, bytes + i, sizeof word);
+        all &= word;
     }
-    return all == 0xffu;
+    return all == UINT32_MAX;
 }
 
 void brace_journal_open(brace_journal_t *journal, const brace_hal_t *hal, uint32_t slot, uint32_t identity)
