@@ -30,6 +30,7 @@ C_PARTS = {  # changed folder: folder of its tests
     "firmware/core": "tests/unit/core",
     "firmware/interface": "tests/unit/interface",
     "firmware/app": "tests/unit/app",
+    "firmware/store": "tests/unit/store",
     "hal": "tests/unit/hal",
     "host_sim": "tests/host_sim",
 }

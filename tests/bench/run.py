@@ -17,6 +17,7 @@ import backlash_report  # noqa: E402
 import drift  # noqa: E402
 import fetch  # noqa: E402
 import flash_groups  # noqa: E402
+import flood  # noqa: E402
 import footprint  # noqa: E402
 import postures  # noqa: E402
 import tick_cost  # noqa: E402
@@ -75,7 +76,7 @@ def bench(out: Path) -> Bench:
     say("backlash: histories, oracle, take-ups")
     plays = backlash_report.extra(out)
     say("the controller's tick: a million random ones")
-    extras = (flash_groups.extra(), footprint.extra(), plays, drift.extra(plugin), tick_cost.extra())
+    extras = (flash_groups.extra(), footprint.extra(), plays, drift.extra(plugin), flood.extra(), tick_cost.extra())
     return Bench(measured, rates, weights, map_s, weigh_modules(), checks, tools(), extras)
 
 

@@ -58,7 +58,7 @@ class TickCost:
 def _sources() -> Iterator[tuple[Path, bool]]:
     """Sources of the image, and whether they are firmware."""
     firmware = CORE.parent
-    for folder in ("core/src", "interface/src", "interface/generated", "app/src"):
+    for folder in ("core/src", "interface/src", "interface/generated", "store/src", "app/src"):
         yield from ((path, True) for path in sorted((firmware / folder).rglob("*.c")) if "batch" not in path.parts)
     yield from ((path, False) for path in sorted((BENCH / "tick").glob("*.c")) if path.name != "count_ticks.c")
     yield BOARDS / "common" / "startup.c", False
@@ -68,7 +68,8 @@ def build_image(ticks: int) -> Path:
     """The image, with the firmware's own flags."""
     firmware = CORE.parent
     includes = tuple(f"-I{folder}" for folder in (
-        firmware / "app" / "include", firmware / "app" / "src", firmware / "interface" / "include",
+        firmware / "app" / "include", firmware / "app" / "src", firmware / "store" / "include",
+        firmware / "interface" / "include",
         firmware / "interface" / "generated", firmware / "interface" / "src", BENCH.parents[1] / "hal" / "include"))
     objects = []
     for source, is_firmware in _sources():

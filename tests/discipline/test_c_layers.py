@@ -8,7 +8,7 @@ import layers
 import pytest
 from sources import ROOT, Finding
 
-PARTS = ("firmware/app", "firmware/core", "firmware/interface", "firmware/boards", "hal", "host_sim")
+PARTS = ("firmware/app", "firmware/core", "firmware/interface", "firmware/store", "firmware/boards", "hal", "host_sim")
 
 
 @pytest.fixture(scope="module")

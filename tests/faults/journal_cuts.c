@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "brace/drift.h"
 #include "brace/journal.h"
 #include "nvm_model.h"
 

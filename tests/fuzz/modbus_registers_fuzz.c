@@ -227,7 +227,7 @@ static void judge_read(const bytes_t *sent, const uint8_t *pdu, const bytes_t *g
         }
     }
     const brace_parameters_t *old = before->begun ? &before->staged : &in_force;
-    const brace_parameters_t *new = request_staged(&app.controller);
+    const brace_parameters_t *new = brace_app_parameters_staged(&app);
     if (pdu[0] == 3u && !tells(answer, start, count, old) && !tells(answer, start, count, new)) {
         wrong("a parameter told wrong", sent, got);
     }

@@ -21,6 +21,8 @@ INCLUDES = (
     "firmware/interface/include",
     "firmware/interface/generated",
     "firmware/interface/src",
+    "firmware/store",
+    "firmware/store/include",
     "firmware/app/include",
     "firmware/app/src",
     "hal/include",

@@ -29,7 +29,7 @@ SOURCES = ("tests/faults/crc32_fast.c", "tests/faults/nvm_model.c", "tests/fault
 @pytest.mark.parametrize("name", BROKEN)
 def test_a_broken_journal_is_found_out(name: str, tmp_path: Path) -> None:
     before, after = BROKEN[name]
-    text = (PROJECT / "firmware/app/src/jobs/store/journal.c").read_text()
+    text = (PROJECT / "firmware/store/src/journal.c").read_text()
     assert text.count(before) == 1, f"journal.c no longer has what this test breaks: {before}"
     (tmp_path / "journal.c").write_text(text.replace(before, after))
     program = tmp_path / "journal_cuts"

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 PROJECT = Path(__file__).resolve().parents[2]
-STORE = PROJECT / "firmware" / "app" / "src" / "jobs" / "store"
-INCLUDES = ("firmware/app/include", "firmware/app/src", "firmware/core/include", "firmware/core/src", "hal/include",
+STORE = PROJECT / "firmware" / "store" / "src"
+INCLUDES = ("firmware/store/include", "firmware/store/src", "firmware/core/include", "firmware/core/src", "hal/include",
             "tests/faults")
 INTERFACE = ("firmware/interface/include", "firmware/interface/generated", "firmware/interface/src")
 SOURCES = (

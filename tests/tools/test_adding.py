@@ -23,34 +23,29 @@ COPIED = ("firmware/core", "firmware/interface", "host_sim", "tools/interface", 
 DICTIONARY, MESSAGES = "firmware/interface/dictionary.toml", "firmware/interface/messages.toml"
 WARNINGS = ("-std=c11", "-O0", "-Wall", "-Wextra", "-Werror", "-Wno-unused-function")
 
-# Stands in for the controller: as firmware/app/src/wire/can does, it makes its tables from the generated lists, and has
-# one function for each request of the dictionary as it is.
+# Stands in for the controller: as firmware/app/src/wire does, it makes its tables from the generated lists, and has one
+# function for each request of the dictionary as it is.
 CONTROLLER = """
-#include "brace/can_answering.h"
-#include "brace/can_requests.h"
+#include "brace/answering.h"
+#include "brace/can_frames.h"
 #include "brace/can_snapshot.h"
 #include "brace/parameters.h"
 #include <stdio.h>
 #include <string.h>
 
-#define ANSWER(CODE, name) \\
-    int32_t can_answer_##name(void *request, const brace_can_##name##_request_t *asked, \\
-                              brace_can_##name##_answer_t *answer); \\
-    static int32_t answer_##name(const uint8_t *data, uint8_t (*parts)[8]) \\
-    { \\
-        brace_can_##name##_request_t asked; \\
-        brace_can_##name##_answer_t answer; \\
-        brace_can_unpack_##name##_request(data, &asked); \\
-        const int32_t status = can_answer_##name(NULL, &asked, &answer); \\
-        if (status == 0) { \\
-            brace_can_pack_##name##_answer(&answer, asked.token, parts); \\
-        } \\
-        return status; \\
-    }
-BRACE_CAN_REQUESTS(ANSWER)
+#define ANSWER_OF(CODE, name) \\
+    int32_t answer_##name(void *request, const brace_##name##_request_t *asked, brace_##name##_answer_t *answer);
+BRACE_REQUESTS(ANSWER_OF)
 
-#define ANSWER_OF(CODE, name) [CODE] = answer_##name,
-static int32_t (*const answers[32])(const uint8_t *, uint8_t (*)[8]) = {BRACE_CAN_REQUESTS(ANSWER_OF)};
+static int32_t answer_request(uint32_t code, const brace_request_t *asked, brace_answer_t *answer)
+{
+#define ANSWER(CODE, name) case CODE: return answer_##name(NULL, &asked->name, &answer->name);
+    switch (code) {
+        BRACE_REQUESTS(ANSWER)
+    default: return -1;
+    }
+}
+
 #define ROW_OF(ID, name, rate) {ID, brace_can_make_##name, offsetof(brace_controller_t, rate)},
 static const struct {
     uint32_t id;
@@ -84,7 +79,11 @@ int main(void)
     for (uint32_t code = 1; code < 32u; code++) {
         const uint8_t request[8] = {(uint8_t)code, 9, 7};
         uint8_t parts[BRACE_CAN_ANSWER_PARTS_MOST][8];
-        if (answers[code] != NULL && answers[code](request, parts) == 0) {
+        brace_request_t asked;
+        brace_answer_t answer;
+        brace_can_unpack_request(request, &asked);
+        if (answer_request(code, &asked, &answer) == 0) {
+            brace_can_pack_answer(code, &answer, request[1], parts);
             print_frame(0x581, parts[0]);
         }
     }
@@ -126,12 +125,12 @@ class Copy:
         self.app = project / "firmware" / "app"
         self.app.mkdir(parents=True)
         (self.app / "controller.c").write_text(CONTROLLER)
-        lists = (project / "firmware/interface/generated/brace/can_requests.h").read_text()
+        lists = (project / "firmware/interface/generated/brace/answering.h").read_text()
         answers = re.findall(r"X\(BRACE_REQUEST_\w+, (\w+)\)", lists)
         (self.app / "there_already.c").write_text(
-            '#include "brace/can_answering.h"\n'
-            + "".join(f"int32_t can_answer_{name}(void *request, const brace_can_{name}_request_t *asked,\n"
-                      f"    brace_can_{name}_answer_t *answer)\n"
+            '#include "brace/answering.h"\n'
+            + "".join(f"int32_t answer_{name}(void *request, const brace_{name}_request_t *asked,\n"
+                      f"    brace_{name}_answer_t *answer)\n"
                       "{\n    (void)request;\n    (void)asked;\n    (void)answer;\n    return -1;\n}\n"
                       for name in answers)
         )
@@ -215,10 +214,9 @@ bits = 16
 description = "twice that number"
 ''')
     answer = "firmware/app/answer_throw_away.c"
-    copy.append(answer, '''#include "brace/can_answering.h"
+    copy.append(answer, '''#include "brace/answering.h"
 
-int32_t can_answer_throw_away(void *request, const brace_can_throw_away_request_t *asked,
-                              brace_can_throw_away_answer_t *answer)
+int32_t answer_throw_away(void *request, const brace_throw_away_request_t *asked, brace_throw_away_answer_t *answer)
 {
     (void)request;
     answer->doubled = 2u * asked->number;

@@ -15,7 +15,7 @@ FIRMWARE = PROJECT / "firmware"
 PAGE = (PROJECT / "docs" / "errors.md").read_text()
 STATUS = (FIRMWARE / "core/include/brace/status.h").read_text()
 REFUSALS = (FIRMWARE / "app/include/brace/refusals.h").read_text()
-STORE = (FIRMWARE / "app/include/brace/store_types.h").read_text()
+STORE = (FIRMWARE / "store/include/brace/store_types.h").read_text()
 CODES = (FIRMWARE / "interface/generated/brace/codes.h").read_text()
 
 

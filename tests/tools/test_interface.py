@@ -21,6 +21,7 @@ from interface.dictionary import DictionaryError, load  # noqa: E402
 from interface.measured import load_values  # noqa: E402
 from interface.messages import load_wire  # noqa: E402
 from interface.outputs import DICTIONARY, MESSAGES, drifted, outputs  # noqa: E402
+from interface.questions import load_questions  # noqa: E402
 
 
 def test_what_is_checked_in_is_what_the_generator_writes() -> None:
@@ -34,7 +35,8 @@ def test_a_changed_dictionary_changes_what_is_generated(tmp_path: Path) -> None:
     before, after = load(DICTIONARY), load(changed)
     assert before.schema_hash == SCHEMA_HASH != after.schema_hash
     codes = load_codes(DICTIONARY)
-    beside = codes, load_wire(MESSAGES, codes), load_values(DICTIONARY, codes)
+    wire, values = load_wire(MESSAGES, codes), load_values(DICTIONARY, codes)
+    beside = codes, wire, values, load_questions(DICTIONARY, values, wire)
     texts = outputs(before, *beside), outputs(after, *beside)
     for ending in ("parameter_list.h", "parameter_table.c", "wire/names.py", "limb-keys.md"):
         (name,) = (name for name in texts[0] if name.endswith(ending))

@@ -22,7 +22,9 @@ sys.path.insert(0, str(PROJECT / "tools"))
 from interface.codes import load_codes  # noqa: E402
 from interface.dictionary import DictionaryError, load  # noqa: E402
 from interface.measured import load_values  # noqa: E402
-from interface.outputs import DICTIONARY  # noqa: E402
+from interface.messages import load_wire  # noqa: E402
+from interface.outputs import DICTIONARY, MESSAGES  # noqa: E402
+from interface.questions import load_questions  # noqa: E402
 
 DATA = Path(__file__).with_name("data")
 REGISTERS = PROJECT / "firmware" / "interface" / "modbus.csv"
@@ -113,6 +115,35 @@ def test_bad_parameter_registers_are_refused(before: str, after: str, why: str, 
 def test_bad_registers_are_refused(before: str, after: str, why: str, tmp_path: Path) -> None:
     with pytest.raises(DictionaryError, match=why):
         load_values(altered(tmp_path, before, after), load_codes(DICTIONARY))
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "why"),
+    [
+        ('asks = ["asked_dx", "asked_dz"]', 'asks = ["asked_dz", "asked_dx"]', "follow one another"),
+        ('requests = ["sag_for_load"]', 'requests = ["contact_force"]', "types and units"),
+        ('requests = ["sag_for_load"]', 'requests = ["sag"]', "there is no sag"),
+        ('asks = ["asked_load_x", "asked_load_z"]', 'asks = ["asked_load_x", "asked_load"]', "there is no asked_load"),
+        ('requests = ["k_at_tip_knee_up", "k_at_tip_knee_down"]', 'requests = ["k_at_tip_knee_up"]', "types and units"),
+        ('requests = ["k_at_posture"]', 'requests = ["k_at_posture"]\nquestion = 1', "unknown question"),
+        ('"asked_angle_left", "asked_contact"]', '"asked_angle_left"]', "types and units"),
+    ],
+)
+def test_bad_questions_are_refused(before: str, after: str, why: str, tmp_path: Path) -> None:
+    codes = load_codes(DICTIONARY)
+    wire, values = load_wire(MESSAGES, codes), load_values(DICTIONARY, codes)
+    with pytest.raises(DictionaryError, match=why):
+        load_questions(altered(tmp_path, before, after), values, wire)
+
+
+def test_every_value_of_a_question_belongs_to_one(tmp_path: Path) -> None:
+    codes = load_codes(DICTIONARY)
+    wire, values = load_wire(MESSAGES, codes), load_values(DICTIONARY, codes)
+    path = tmp_path / "dictionary.toml"
+    margin = r'\[\[question\]\]\nrequests = \["friction_margin"\].*?\n\n'
+    path.write_text(re.sub(margin, "", DICTIONARY.read_text(), flags=re.S))
+    with pytest.raises(DictionaryError, match="belongs to one question"):
+        load_questions(path, values, wire)
 
 
 def test_a_gap_may_be_declared(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""brace/can_requests.h: lists of all requests and process messages, from which a controller builds its tables."""
+"""brace/can_frames.h: lists of all messages, from which a controller builds its tables."""
 
 from __future__ import annotations
 
@@ -8,13 +8,9 @@ from interface.messages import Frame, Wire
 
 _MADE = "/* Written by tools/interface from messages.toml; do not edit. */\n"
 _HEAD = """
-/* Every request and every message of messages.toml, as lists for the preprocessor. A controller makes its tables from
- * them, so a new request needs no hand-written line besides the function that answers it, and a new message none:
+/* Every message of messages.toml, as lists for the preprocessor. A controller makes its tables from them, so a new
+ * message needs no hand-written line.
  *
- *     #define HANDLER(CODE, name) [CODE] = request_##name,
- *     static const handler_t handlers[32] = {BRACE_CAN_REQUESTS(HANDLER)};
- *
- * BRACE_CAN_REQUESTS(X)    X(code, name): the request's code, and its name, as in brace_can_unpack_<name>_request
  * BRACE_CAN_PROCESS(X)     X(identifier, name, rate): classic frames of measured values, name as in
  *                          brace_can_make_<name>; rate is the member of brace_controller_t that says how often.
  *                          Each part of a multiplexed message stands by itself, in order.
@@ -26,18 +22,16 @@ _HEAD = """
 
 
 def dispatch_header(wire: Wire) -> str:
-    """generated/brace/can_requests.h"""
+    """generated/brace/can_frames.h"""
     classic = [frame for frame in wire.process_frames if not frame.is_fd]
     identifiers = {part.name: message.name for message in wire.multiplexed for part in message.parts}
-    requests = [f"X(BRACE_REQUEST_{request.name.upper()}, {request.name})" for request in wire.requests]
     lists = [
-        ("BRACE_CAN_REQUESTS", requests),
         ("BRACE_CAN_PROCESS", _rated(classic, identifiers)),
         ("BRACE_CAN_PROCESS_FD", _rated(wire.fd_messages, {})),
         ("BRACE_CAN_BY_HAND",
          [f"X({_identifier(frame, {})}, {frame.name})" for frame in classic if not frame.is_measured]),
     ]
-    parts = [_MADE, "#ifndef BRACE_CAN_REQUESTS_H\n#define BRACE_CAN_REQUESTS_H\n", _HEAD]
+    parts = [_MADE, "#ifndef BRACE_CAN_FRAMES_H\n#define BRACE_CAN_FRAMES_H\n", _HEAD]
     parts += [f"\n#define {name}(X) \\\n    " + " \\\n    ".join(items) + "\n" for name, items in lists]
     return "".join(parts) + "\n#endif\n"
 

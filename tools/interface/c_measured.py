@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from interface.c_comment import c_comment
-from interface.measured import ANSWERED_REGISTER, COMMAND_REGISTER, MEASURED_REGISTER, QUESTION, Measured, Values
+from interface.measured import ANSWERED_REGISTER, COMMAND_REGISTER, MEASURED_REGISTER, Measured, Values
 from interface.registers import ANSWERED_ENTRY, MEASURED_ENTRY
 
 _MADE = "/* Written by tools/interface from dictionary.toml; do not edit. */\n"
@@ -25,22 +25,9 @@ def measured_header(values: Values) -> str:
           f"    BRACE_REGISTER_ANSWERED = {ANSWERED_REGISTER:#06x},\n"
           f"    BRACE_REGISTER_COMMANDS = {COMMAND_REGISTER:#06x}\n}};\n\n"
         + _struct("measured", values.measured, "All of one tick. A float that is not known is NaN, a u32 all ones.")
-        + _struct("answered", values.answered, "K at the posture asked for over Modbus.")
+        + _struct("answered", values.answered, "The answers to what was last asked over Modbus.")
         + _struct("commands", values.commands, "What was last written to the command registers.")
-        + _list(values.commands)
         + "#endif\n"
-    )
-
-
-def _list(commands: Sequence[Measured]) -> str:
-    """The commands that do something by themselves, for the preprocessor."""
-    doing = [value.member for value in commands if not value.name.startswith(QUESTION)]
-    return (
-        "/* X(member): every command that does something when it is written alone, for a controller's table. The\n"
-        f" * others ({QUESTION}...) are values of questions. */\n"
-        + "#define BRACE_COMMANDS(X) \\\n    "
-        + " \\\n    ".join(f"X({member})" for member in doing)
-        + "\n\n"
     )
 
 

@@ -192,11 +192,12 @@ def _unpack(frame: Frame) -> str:
     for number, (place, signals) in enumerate(_words(frame)):
         if number:
             lines.append(f"    bits = brace_bits_load({place});\n")
-        lines += [f"    message->{signal.member} = {_unpacked(signal)};\n" for signal in signals]
+        lines += [f"    message->{signal.member} = {unpacked(signal)};\n" for signal in signals]
     return "".join(lines) + "}\n"
 
 
-def _unpacked(signal: Signal) -> str:
+def unpacked(signal: Signal) -> str:
+    """The signal's value, from the bits of its frame."""
     if signal.kind == "value":
         whole = "signed" if signal.signed else "unsigned"
         return f"brace_value_{whole}(bits, {_reach(signal)}, {signal.step!r}f)"

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
-from interface.c_answering import answering_header, answering_source
+from interface.c_answering import answering_header, answering_source, asking_source
 from interface.c_codes import code_names_header, codes_header, codes_source
 from interface.c_dispatch import dispatch_header
 from interface.c_measured import measured_header
@@ -23,6 +24,7 @@ from interface.protocol_page import protocol_page
 from interface.python_codes import codes_module
 from interface.python_messages import frames_module
 from interface.python_names import names_module
+from interface.questions import Question, load_questions, questions_header, questions_source
 from interface.registers import measured_module, registers, registers_csv, registers_module, registers_page
 
 PROJECT = Path(__file__).resolve().parents[2]
@@ -30,7 +32,9 @@ DICTIONARY = PROJECT / "firmware" / "interface" / "dictionary.toml"
 MESSAGES = PROJECT / "firmware" / "interface" / "messages.toml"
 
 
-def outputs(dictionary: Dictionary, codes: Codes, wire: Wire, values: Values) -> dict[str, str]:
+def outputs(
+    dictionary: Dictionary, codes: Codes, wire: Wire, values: Values, questions: Sequence[Question]
+) -> dict[str, str]:
     """Path below the project -> text."""
     language = dictionary_hash(wire, dictionary.schema + dictionary.numbers + codes.schema + values.schema)
     rows = registers(dictionary, values)
@@ -39,8 +43,9 @@ def outputs(dictionary: Dictionary, codes: Codes, wire: Wire, values: Values) ->
         "firmware/interface/brace_fd.dbc": dbc_fd(wire, language),
         "firmware/interface/generated/brace/can_messages.h": messages_header(wire, language),
         **{f"firmware/interface/generated/{name}.c": text for name, text in messages_sources(wire).items()},
-        "firmware/interface/generated/brace/can_requests.h": dispatch_header(wire),
-        "firmware/interface/generated/brace/can_answering.h": answering_header(wire),
+        "firmware/interface/generated/brace/can_frames.h": dispatch_header(wire),
+        "firmware/interface/generated/brace/answering.h": answering_header(wire),
+        "firmware/interface/generated/can_asking.c": asking_source(wire),
         "firmware/interface/generated/can_answering.c": answering_source(wire),
         "firmware/interface/generated/brace/can_snapshot.h": snapshot_header(wire),
         "firmware/interface/generated/can_snapshot.c": snapshot_source(wire, values),
@@ -48,6 +53,8 @@ def outputs(dictionary: Dictionary, codes: Codes, wire: Wire, values: Values) ->
         "firmware/interface/generated/brace/code_names.h": code_names_header(codes),
         "firmware/interface/generated/codes.c": codes_source(codes),
         "firmware/interface/generated/brace/measured.h": measured_header(values),
+        "firmware/interface/generated/brace/questions.h": questions_header(questions),
+        "firmware/interface/generated/questions.c": questions_source(questions, values),
         "firmware/interface/modbus.csv": registers_csv(rows),
         "docs/modbus.md": registers_page(rows),
         "docs/protocol.md": protocol_page(wire, values, language),
@@ -71,7 +78,8 @@ def outputs(dictionary: Dictionary, codes: Codes, wire: Wire, values: Values) ->
 def wanted_outputs() -> dict[str, str]:
     """What the two files of the dictionary say: path below the project -> text."""
     codes = load_codes(DICTIONARY)
-    return outputs(load(DICTIONARY), codes, load_wire(MESSAGES, codes), load_values(DICTIONARY, codes))
+    wire, values = load_wire(MESSAGES, codes), load_values(DICTIONARY, codes)
+    return outputs(load(DICTIONARY), codes, wire, values, load_questions(DICTIONARY, values, wire))
 
 
 def drifted(project: Path = PROJECT) -> list[str]:

@@ -66,6 +66,8 @@ static void blank_snapshot(const controller_t *controller, brace_snapshot_t *sna
     }
 }
 
+_Static_assert(offsetof(brace_app_t, controller) == 0, "requests find their controller there");
+
 brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal)
 {
     if (app == NULL || hal == NULL) {
@@ -93,7 +95,7 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal)
     }
     controller->faults.now = controller->parameters.faults;
     blank_snapshot(controller, &controller->snapshot[0]);
-    wires_start(&app->wires, hal, controller);
+    wires_start(&app->wires, hal, &controller->parameters.in_force);
     return BRACE_OK;
 }
 
@@ -106,7 +108,9 @@ static bool tick_is_late(controller_t *controller, uint32_t now_us)
     const uint32_t tick_us = controller->parameters.in_force.controller.tick_us;
     controller->since_us = controller->has_ticked ? now_us - controller->now_us : 0u;
     const bool late = controller->since_us > LATE_PERIODS * tick_us;
-    controller->ticks_late += late && controller->ticks_late < UINT32_MAX;
+    if (late) {
+        brace_count(&controller->counters.ticks_late);
+    }
     controller->now_us = now_us;
     controller->has_ticked = true;
     return late && controller->mode.now != BRACE_MODE_CONFIGURATION;
@@ -166,12 +170,7 @@ static void take_stiffness(controller_t *controller, brace_snapshot_t *snapshot)
 /* One step of the loading test; its reading goes to the drift check. */
 static void step_loading(controller_t *controller, const brace_snapshot_t *now)
 {
-    const loading_inputs_t inputs = {.now = now,
-                                     .joints = &controller->joints,
-                                     .flank = &controller->flank,
-                                     .posture = &controller->posture,
-                                     .model = &controller->model,
-                                     .parameters = &controller->parameters.in_force};
+    const loading_inputs_t inputs = controller_loading_inputs(controller, now);
     loading_reading_t reading;
     loading_step(&controller->loading, &inputs, &controller->recorder, &reading);
     if (reading.is_there && reading.is_fit) {
@@ -182,16 +181,17 @@ static void step_loading(controller_t *controller, const brace_snapshot_t *now)
 }
 
 /* One step of the job that stores parameters, or of putting a stored set in force. */
-static void step_parameters(controller_t *controller)
+static void step_parameters(brace_app_t *app)
 {
+    controller_t *controller = &app->controller;
     if (controller->parameters.comes_in_force) {
         (void)configure_step(controller);
     } else if (parameter_job_step(&controller->parameters)) {
         controller->configure_part = 0;
     }
     if (controller->mode.now == BRACE_MODE_CONFIGURATION &&
-        parameter_job_has_lost_patience(&controller->parameters, controller->since_us)) {
-        (void)request_configuration_leave(controller);
+        parameter_job_idle_us(&controller->parameters, controller->since_us) >= BRACE_CONFIGURATION_PATIENCE_US) {
+        (void)brace_app_configuration_leave(app);
     }
 }
 
@@ -238,7 +238,7 @@ static void command_drives(controller_t *controller)
         test.torque_limit_n_mm[i] = loading_torque_limit_n_mm(&controller->loading, i);
     }
     drives_command(&controller->drives, controller->hal, &controller->joints, &controller->flank,
-                   takeup_runs(&controller->takeup), &test);
+                   takeup_runs(&controller->takeup), &test, &controller->counters.commands_failed);
 }
 
 /* The snapshot is complete: it is the newest from here on. */
@@ -248,6 +248,7 @@ static void publish(controller_t *controller, brace_snapshot_t *snapshot)
     snapshot->faults = controller->faults.now;
     snapshot->parameter_crc = controller->parameters.crc;
     snapshot->parameter_origin = controller->parameters.origin;
+    snapshot->parameter_sequence = brace_store_sequence(&controller->parameters.store);
     if (!mode_tells_k(snapshot->mode)) {
         stiffness_unknown(snapshot, snapshot->stiffness.now.flags | BRACE_FLAG_STALE);
     }
@@ -264,7 +265,7 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     const bool late = tick_is_late(controller, now_us);
 
     /* Sense. */
-    joints_read(&controller->joints, hal, parameters, now_us);
+    joints_read(&controller->joints, hal, parameters, now_us, &controller->counters.samples_bad);
     tip_force_read(&controller->tip_force, hal, parameters);
     snapshot->taken_us = joints_taken_us(&controller->joints);
     snapshot->temp_degc = joints_warmest_degc(&controller->joints);
@@ -281,7 +282,7 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     step_loading(controller, snapshot);
     const drift_inputs_t inputs = drift_inputs(controller);
     drift_job_step(&controller->drift, &inputs);
-    step_parameters(controller);
+    step_parameters(app);
 
     /* Faults and mode, and what follows from them. */
     update_faults(controller, late, wires_are_bus_off(&app->wires));
@@ -290,6 +291,6 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
 
     /* Tell. */
     publish(controller, snapshot);
-    wires_tick(&app->wires, hal, controller, now_us);
+    wires_tick(&app->wires, hal, app, &controller->counters, now_us);
     hal->watchdog_feed(hal->context);
 }

@@ -1,4 +1,7 @@
-/* The controller's memory: every part of it but the wires. app.c and requests.c know it; no part knows it. */
+/* The controller's memory: every part of it but the wires. app.c, requests.c and questions.c know it; no part knows it.
+ *
+ * A brace_app_t begins with it (brace/app_memory.h; app.c asserts that), and whoever asks has a pointer to the whole.
+ * So what answers finds its memory without knowing the wires, which ask. */
 #ifndef BRACE_CONTROLLER_H
 #define BRACE_CONTROLLER_H
 
@@ -18,14 +21,12 @@
 #include "sense/tip_force.h"
 #include "stiffness/model.h"
 
-typedef struct controller controller_t;
-
-struct controller {
+typedef struct {
     const brace_hal_t *hal;
     uint32_t now_us;       /* of this tick */
     uint32_t since_us;     /* how long the tick before is ago; 0 in the first tick */
     bool has_ticked;
-    uint32_t ticks_late;   /* saturates */
+    brace_app_counters_t counters;
     bool has_crashed;      /* the processor started after a crash that nobody has cleared: BRACE_FAULT_CRASHED */
 
     joints_t joints;
@@ -46,6 +47,30 @@ struct controller {
     uint32_t sequence;             /* of the newest snapshot */
     brace_snapshot_t snapshot[2];  /* the newest, and the one that the next tick writes */
     uint8_t newest;
-};
+} controller_t;
+
+struct brace_app;
+
+static inline controller_t *controller_of(struct brace_app *app)
+{
+    return (controller_t *)app;
+}
+
+static inline const controller_t *controller_in(const struct brace_app *app)
+{
+    return (const controller_t *)app;
+}
+
+/* What the loading test is given.
+ *   now: the snapshot that it works from */
+static inline loading_inputs_t controller_loading_inputs(controller_t *controller, const brace_snapshot_t *now)
+{
+    return (loading_inputs_t){.now = now,
+                              .joints = &controller->joints,
+                              .flank = &controller->flank,
+                              .posture = &controller->posture,
+                              .model = &controller->model,
+                              .parameters = &controller->parameters.in_force};
+}
 
 #endif

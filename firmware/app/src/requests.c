@@ -1,68 +1,55 @@
-#include "requests.h"
+#include "brace/requests.h"
 
 #include <stddef.h>
 
 #include "controller.h"
-#include "stiffness/questions.h"
 
 /* ------------------------------------------------------------------------------------ what is known -- */
 
-const brace_snapshot_t *request_snapshot(const controller_t *controller)
+const brace_snapshot_t *brace_app_snapshot(const brace_app_t *app)
 {
+    const controller_t *controller = controller_in(app);
     return &controller->snapshot[controller->newest];
 }
 
-brace_mode_t request_mode(const controller_t *controller)
+brace_mode_t brace_app_mode(const brace_app_t *app)
 {
-    return controller->mode.now;
+    return controller_in(app)->mode.now;
 }
 
-uint32_t request_faults(const controller_t *controller)
+uint32_t brace_app_faults(const brace_app_t *app)
 {
-    return controller->faults.now;
+    return controller_in(app)->faults.now;
 }
 
-const brace_parameters_t *request_parameters(const controller_t *controller)
+const brace_parameters_t *brace_app_parameters(const brace_app_t *app)
 {
-    return &controller->parameters.in_force;
+    return &controller_in(app)->parameters.in_force;
 }
 
-uint32_t request_parameter_crc(const controller_t *controller)
+void brace_app_counters(const brace_app_t *app, brace_app_counters_t *counters)
 {
-    return controller->parameters.crc;
+    *counters = controller_in(app)->counters;
 }
 
-uint32_t request_parameter_sequence(const controller_t *controller)
+const brace_drift_report_t *brace_app_drift_report(const brace_app_t *app)
 {
-    return brace_store_sequence(&controller->parameters.store);
+    return &controller_in(app)->drift.report;
 }
 
-brace_parameter_origin_t request_parameter_origin(const controller_t *controller)
+brace_drift_next_t brace_app_drift_next_step(const brace_app_t *app)
 {
-    return controller->parameters.origin;
-}
-
-void request_counters(const controller_t *controller, brace_app_counters_t *counters)
-{
-    *counters = (brace_app_counters_t){.ticks_late = controller->ticks_late,
-                                       .samples_bad = controller->joints.samples_bad,
-                                       .commands_failed = controller->drives.commands_failed};
-}
-
-const brace_drift_report_t *request_drift_report(const controller_t *controller)
-{
-    return &controller->drift.report;
-}
-
-brace_drift_next_t request_drift_next_step(const controller_t *controller)
-{
-    return drift_job_next_step(&controller->drift);
+    return drift_job_next_step(&controller_in(app)->drift);
 }
 
 /* ------------------------------------------------------------------------------- what moves the limb -- */
 
-brace_status_t request_take_up(controller_t *controller, int32_t joint_index, int32_t flank)
+brace_status_t brace_app_take_up(brace_app_t *app, int32_t joint_index, int32_t flank)
 {
+    if (app == NULL) {
+        return BRACE_E_NULL;
+    }
+    controller_t *controller = controller_of(app);
     const brace_mode_t mode = controller->mode.now;
     if (mode != BRACE_MODE_MONITOR && mode != BRACE_MODE_TAKING_UP) {
         return BRACE_E_MODE;
@@ -75,8 +62,12 @@ brace_status_t request_take_up(controller_t *controller, int32_t joint_index, in
     return status;
 }
 
-brace_status_t request_let_go(controller_t *controller)
+brace_status_t brace_app_let_go(brace_app_t *app)
 {
+    if (app == NULL) {
+        return BRACE_E_NULL;
+    }
+    controller_t *controller = controller_of(app);
     const brace_mode_t mode = controller->mode.now;
     if (mode != BRACE_MODE_TAKING_UP && mode != BRACE_MODE_LOADING_TEST) {
         return BRACE_E_MODE;
@@ -86,8 +77,12 @@ brace_status_t request_let_go(controller_t *controller)
     return BRACE_OK;
 }
 
-brace_status_t request_loading_start(controller_t *controller, const brace_loading_setup_t *setup)
+brace_status_t brace_app_loading_start(brace_app_t *app, const brace_loading_setup_t *setup)
 {
+    if (app == NULL || setup == NULL) {
+        return BRACE_E_NULL;
+    }
+    controller_t *controller = controller_of(app);
     const brace_mode_t mode = controller->mode.now;
     const bool holds = mode == BRACE_MODE_TAKING_UP && takeup_holds(&controller->takeup, &controller->flank);
     if (loading_runs(&controller->loading) || !(mode == BRACE_MODE_MONITOR || holds)) {
@@ -96,12 +91,7 @@ brace_status_t request_loading_start(controller_t *controller, const brace_loadi
     if (controller->hal->joint_command == NULL) {
         return BRACE_E_UNSUPPORTED;
     }
-    const loading_inputs_t inputs = {.now = request_snapshot(controller),
-                                     .joints = &controller->joints,
-                                     .flank = &controller->flank,
-                                     .posture = &controller->posture,
-                                     .model = &controller->model,
-                                     .parameters = &controller->parameters.in_force};
+    const loading_inputs_t inputs = controller_loading_inputs(controller, brace_app_snapshot(app));
     const brace_status_t status = loading_start(&controller->loading, &inputs, setup);
     if (status == BRACE_OK) {
         drift_job_end_run(&controller->drift);
@@ -110,37 +100,45 @@ brace_status_t request_loading_start(controller_t *controller, const brace_loadi
     return status;
 }
 
-brace_status_t request_loading_stop(controller_t *controller)
+brace_status_t brace_app_loading_stop(brace_app_t *app)
 {
-    if (!loading_runs(&controller->loading)) {
+    if (app == NULL) {
+        return BRACE_E_NULL;
+    }
+    brace_loading_t *loading = &controller_of(app)->loading;
+    if (!loading_runs(loading)) {
         return BRACE_E_MODE;
     }
-    loading_end(&controller->loading, BRACE_LOADING_STOPPED);
+    loading_end(loading, BRACE_LOADING_STOPPED);
     return BRACE_OK;
 }
 
-const brace_loading_result_t *request_loading_result(const controller_t *controller)
+bool brace_app_loading_is_returning(const brace_app_t *app)
 {
-    return &controller->loading.result;
+    return controller_in(app)->loading.phase == LOADING_RETURN;
 }
 
-bool request_loading_is_returning(const controller_t *controller)
+const brace_loading_result_t *brace_app_loading_result(const brace_app_t *app)
 {
-    return controller->loading.phase == LOADING_RETURN;
+    return &controller_in(app)->loading.result;
 }
 
-uint32_t request_row_count(const controller_t *controller)
+uint32_t brace_app_row_count(const brace_app_t *app)
 {
-    return controller->recorder.count;
+    return app == NULL ? 0u : controller_in(app)->recorder.count;
 }
 
-brace_status_t request_row(const controller_t *controller, uint32_t index, brace_row_t *row)
+brace_status_t brace_app_row(const brace_app_t *app, uint32_t index, brace_row_t *row)
 {
-    return brace_recorder_row(&controller->recorder, index, row);
+    return app == NULL ? BRACE_E_NULL : brace_recorder_row(&controller_in(app)->recorder, index, row);
 }
 
-brace_status_t request_clear(controller_t *controller, uint32_t faults)
+brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults)
 {
+    if (app == NULL) {
+        return BRACE_E_NULL;
+    }
+    controller_t *controller = controller_of(app);
     if ((faults & ~(uint32_t)(BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_CRASHED)) != 0u) {
         return BRACE_E_RANGE;
     }
@@ -158,9 +156,17 @@ brace_status_t request_clear(controller_t *controller, uint32_t faults)
 
 /* --------------------------------------------------------------------------------------- parameters -- */
 
-brace_status_t request_configuration_enter(controller_t *controller)
+brace_status_t brace_app_configuration_enter(brace_app_t *app)
 {
+    if (app == NULL) {
+        return BRACE_E_NULL;
+    }
+    controller_t *controller = controller_of(app);
     const brace_mode_t mode = controller->mode.now;
+    if (mode == BRACE_MODE_CONFIGURATION) {
+        parameter_job_keep_open(&controller->parameters);
+        return BRACE_OK;
+    }
     const bool moves = takeup_runs(&controller->takeup) || loading_runs(&controller->loading);
     if (moves || (mode != BRACE_MODE_MONITOR && mode != BRACE_MODE_FAULT)) {
         return BRACE_E_MODE;
@@ -170,8 +176,12 @@ brace_status_t request_configuration_enter(controller_t *controller)
     return BRACE_OK;
 }
 
-brace_status_t request_configuration_leave(controller_t *controller)
+brace_status_t brace_app_configuration_leave(brace_app_t *app)
 {
+    if (app == NULL) {
+        return BRACE_E_NULL;
+    }
+    controller_t *controller = controller_of(app);
     if (controller->mode.now != BRACE_MODE_CONFIGURATION || parameter_job_is_busy(&controller->parameters)) {
         return BRACE_E_MODE;
     }
@@ -179,23 +189,12 @@ brace_status_t request_configuration_leave(controller_t *controller)
     return BRACE_OK;
 }
 
-void request_configuration_keep(controller_t *controller)
+brace_status_t brace_app_may_write(brace_app_t *app)
 {
-    parameter_job_keep_open(&controller->parameters);
-}
-
-bool request_is_storing(const controller_t *controller)
-{
-    return parameter_job_is_busy(&controller->parameters);
-}
-
-void request_store_status(const controller_t *controller, brace_store_status_t *status)
-{
-    brace_store_status(&controller->parameters.store, status);
-}
-
-brace_status_t request_may_write(controller_t *controller)
-{
+    if (app == NULL) {
+        return BRACE_E_NULL;
+    }
+    controller_t *controller = controller_of(app);
     if (controller->mode.now != BRACE_MODE_CONFIGURATION) {
         return BRACE_E_MODE;
     }
@@ -203,85 +202,47 @@ brace_status_t request_may_write(controller_t *controller)
     return parameter_job_is_busy(&controller->parameters) ? BRACE_E_UNSUPPORTED : BRACE_OK;
 }
 
-const brace_parameters_t *request_staged(const controller_t *controller)
+const brace_parameters_t *brace_app_parameters_staged(const brace_app_t *app)
 {
-    return parameter_job_staged(&controller->parameters);
+    return parameter_job_staged(&controller_in(app)->parameters);
 }
 
-brace_status_t request_stage(controller_t *controller, uint32_t number, uint32_t word)
+brace_status_t brace_app_parameters_stage(brace_app_t *app, uint32_t first_number, uint32_t count,
+                                          const uint32_t *words)
 {
-    return request_stage_block(controller, number, 1, &word);
+    const brace_status_t status = words == NULL ? BRACE_E_NULL : brace_app_may_write(app);
+    return status == BRACE_OK ? parameter_job_write(&controller_of(app)->parameters, first_number, count, words)
+                              : status;
 }
 
-brace_status_t request_stage_block(controller_t *controller, uint32_t first_number, uint32_t count,
-                                   const uint32_t *words)
+brace_status_t brace_app_parameters_commit_staged(brace_app_t *app, uint32_t *wrong_index)
 {
-    const brace_status_t status = request_may_write(controller);
-    return status == BRACE_OK ? parameter_job_write(&controller->parameters, first_number, count, words) : status;
+    const brace_status_t status = brace_app_may_write(app);
+    return status == BRACE_OK ? parameter_job_commit_staged(&controller_of(app)->parameters, wrong_index) : status;
 }
 
-brace_status_t request_commit_staged(controller_t *controller, uint32_t *wrong_index)
+brace_status_t brace_app_parameters_commit(brace_app_t *app, const brace_parameters_t *parameters)
 {
-    const brace_status_t status = request_may_write(controller);
-    return status == BRACE_OK ? parameter_job_commit_staged(&controller->parameters, wrong_index) : status;
+    const brace_status_t status = parameters == NULL ? BRACE_E_NULL : brace_app_may_write(app);
+    return status == BRACE_OK ? parameter_job_commit(&controller_of(app)->parameters, parameters) : status;
 }
 
-brace_status_t request_commit(controller_t *controller, const brace_parameters_t *parameters)
+brace_status_t brace_app_parameters_rollback(brace_app_t *app)
 {
-    const brace_status_t status = request_may_write(controller);
-    return status == BRACE_OK ? parameter_job_commit(&controller->parameters, parameters) : status;
+    const brace_status_t status = brace_app_may_write(app);
+    return status == BRACE_OK ? parameter_job_rollback(&controller_of(app)->parameters) : status;
 }
 
-brace_status_t request_rollback(controller_t *controller)
+bool brace_app_is_storing(const brace_app_t *app)
 {
-    const brace_status_t status = request_may_write(controller);
-    return status == BRACE_OK ? parameter_job_rollback(&controller->parameters) : status;
+    return parameter_job_is_busy(&controller_in(app)->parameters);
 }
 
-/* ------------------------------------------------------------------------------------------ questions -- */
-
-static question_limb_t limb_of(controller_t *controller)
+brace_status_t brace_app_store_status(const brace_app_t *app, brace_store_status_t *status)
 {
-    return (question_limb_t){.model = &controller->model,
-                             .parameters = &controller->parameters.in_force,
-                             .origin = controller->parameters.origin,
-                             .joints = &controller->joints};
-}
-
-brace_status_t request_k_at_posture(controller_t *controller, float theta1_rad, float theta2_rad,
-                                    brace_stiffness_t *stiffness)
-{
-    const question_limb_t limb = limb_of(controller);
-    return question_k_at_posture(&limb, theta1_rad, theta2_rad, stiffness);
-}
-
-brace_status_t request_k_at_tip(controller_t *controller, brace_point_t tip, brace_knee_t knee,
-                                brace_stiffness_t *stiffness)
-{
-    const question_limb_t limb = limb_of(controller);
-    return question_k_at_tip(&limb, tip, knee, stiffness);
-}
-
-brace_status_t request_k_in_space(controller_t *controller, float theta0_rad, float theta1_rad, float theta2_rad,
-                                  brace_stiffness_spatial_t *stiffness)
-{
-    const question_limb_t limb = limb_of(controller);
-    return question_k_in_space(&limb, theta0_rad, theta1_rad, theta2_rad, stiffness);
-}
-
-brace_status_t request_contact_force(const controller_t *controller, brace_displacement_t displacement,
-                                     brace_contact_force_t *contact)
-{
-    return question_contact_force(request_snapshot(controller), displacement, contact);
-}
-
-brace_status_t request_sag(const controller_t *controller, brace_force_t load, brace_displacement_t *sag)
-{
-    return question_sag(request_snapshot(controller), load, sag);
-}
-
-brace_status_t request_grip(const controller_t *controller, float normal_rad, float friction_ratio,
-                            brace_contact_grip_t *grip)
-{
-    return question_grip(request_snapshot(controller), normal_rad, friction_ratio, grip);
+    if (app == NULL || status == NULL) {
+        return BRACE_E_NULL;
+    }
+    brace_store_status(&controller_in(app)->parameters.store, status);
+    return BRACE_OK;
 }

@@ -1,7 +1,7 @@
 #include <stddef.h>
 
 #include "brace/parameters.h"
-#include "words.h"
+#include "brace/words.h"
 
 static const uint8_t magic[4] = {'B', 'R', 'C', 'E'};
 

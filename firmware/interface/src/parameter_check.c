@@ -3,7 +3,7 @@
 
 #include "brace/parameters.h"
 #include "parameter_table.h"
-#include "words.h"
+#include "brace/words.h"
 
 static brace_status_t float_in_range(uint32_t word, const float range[2])
 {
@@ -115,7 +115,7 @@ brace_status_t brace_parameters_check_piece(const brace_parameters_t *parameters
     if (wrong != BRACE_PARAMETER_COUNT) {
         return refuse(BRACE_E_PARAMETER, wrong, wrong_index);
     }
-    const brace_status_t limb = brace_limb_check(&parameters->limb);
+    const brace_status_t limb = brace_limb_check_together(&parameters->limb); /* its members were judged one by one */
     return limb == BRACE_OK ? BRACE_OK : refuse(limb, BRACE_PARAMETER_COUNT, wrong_index);
 }
 

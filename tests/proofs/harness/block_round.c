@@ -1,6 +1,6 @@
 #include "brace/parameters.h"
 #include "proof.h"
-#include "words.h"
+#include "brace/words.h"
 
 static uint32_t sum;
 static brace_status_t judgement;

@@ -1,6 +1,6 @@
 #include "brace/parameters.h"
 #include "proof.h"
-#include "words.h"
+#include "brace/words.h"
 
 #include <stdlib.h>
 

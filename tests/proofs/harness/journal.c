@@ -1,9 +1,10 @@
 /* A piece of a journal's scan, the beginning of a record or a piece of its writing, from any state that a journal can
  * be in, over a memory of any content that refuses what it likes. */
+#include "brace/drift.h"
 #include "brace/journal.h"
 
 #include "memory.h"
-#include "jobs/store/journal.c"
+#include "src/journal.c"
 
 uint32_t brace_crc32(uint32_t crc, const uint8_t *bytes, uint32_t count)
 {

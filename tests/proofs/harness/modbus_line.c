@@ -48,7 +48,9 @@ int main(void)
     modbus_server_t server;
     wire_tick_t tick;
     modbus_link_t *link = &line.link;
+    brace_app_counters_t counters;
     tick.hal = &any_hal;
+    tick.counters = &counters;
     in_from = out_from = link->bytes;
     in_end = out_end = link->bytes + sizeof link->bytes;
     ASSUME(sound(&line));

@@ -1,7 +1,8 @@
 /* A request of any bytes, whatever the controller's state. What it asks of the controller may answer anything that
- * requests.h allows. */
+ * brace/requests.h allows. */
 #include "copies.h"
 #include "proof.h"
+#include "wire/answers/answer.h"
 #include "wire/modbus/pdu.h"
 #include "wire/modbus/read.h"
 #include "wire/modbus/write.h"
@@ -15,105 +16,45 @@ static brace_status_t any_status(void)
 
 /* ------------------------------------------------------------------------------------- the controller -- */
 
-static brace_snapshot_t snapshot;
-const brace_snapshot_t *request_snapshot(const controller_t *controller) { (void)controller; return &snapshot; }
-brace_mode_t request_mode(const controller_t *controller) { (void)controller; return (brace_mode_t)any_u32(); }
-uint32_t request_faults(const controller_t *controller) { (void)controller; return any_u32(); }
-bool request_is_storing(const controller_t *controller) { (void)controller; return any_bool(); }
-void request_configuration_keep(controller_t *controller) { (void)controller; }
-brace_status_t request_configuration_enter(controller_t *controller) { (void)controller; return any_status(); }
-brace_status_t request_configuration_leave(controller_t *controller) { (void)controller; return any_status(); }
-brace_status_t request_may_write(controller_t *controller) { (void)controller; return any_status(); }
-brace_status_t request_rollback(controller_t *controller) { (void)controller; return any_status(); }
-brace_status_t request_let_go(controller_t *controller) { (void)controller; return any_status(); }
+brace_mode_t brace_app_mode(const brace_app_t *app) { (void)app; return (brace_mode_t)any_u32(); }
+uint32_t brace_app_faults(const brace_app_t *app) { (void)app; return any_u32(); }
+bool brace_app_is_storing(const brace_app_t *app) { (void)app; return any_bool(); }
+brace_status_t brace_app_may_write(brace_app_t *app) { (void)app; return any_status(); }
 
-brace_status_t request_clear(controller_t *controller, uint32_t faults)
-{
-    (void)controller;
-    (void)faults;
-    return any_status();
-}
-
-brace_status_t request_take_up(controller_t *controller, int32_t joint, int32_t flank)
-{
-    (void)controller;
-    (void)joint;
-    PROVE(flank == 1 || flank == -1, "a flank that there is");
-    return any_status();
-}
-
-brace_status_t request_stage_block(controller_t *controller, uint32_t first_number, uint32_t count,
+brace_status_t brace_app_parameters_stage(brace_app_t *app, uint32_t first_number, uint32_t count,
                                    const uint32_t *words)
 {
-    (void)controller;
+    (void)app;
     PROVE(count >= 1u && first_number < BRACE_PARAMETER_NUMBERS && count <= BRACE_PARAMETER_NUMBERS - first_number,
           "numbers that parameters have are written");
     PROVE(__CPROVER_r_ok(words, 4u * count), "each member has its word");
     return any_status();
 }
 
-brace_status_t request_commit_staged(controller_t *controller, uint32_t *wrong_index)
+brace_status_t brace_app_store_status(const brace_app_t *app, brace_store_status_t *status)
 {
-    (void)controller;
-    if (wrong_index != NULL) {
-        *wrong_index = any_u32();
-    }
-    return any_status();
-}
-
-void request_store_status(const controller_t *controller, brace_store_status_t *status)
-{
-    (void)controller;
+    (void)app;
     brace_store_status_t any;
     *status = any;
+    return BRACE_OK;
 }
 
-brace_status_t request_k_at_posture(controller_t *controller, float theta1_rad, float theta2_rad,
-                                    brace_stiffness_t *stiffness)
+/* Any answer, of a request that Modbus knows. */
+int32_t answer_request(request_t *request, uint32_t code, const brace_request_t *asked, brace_answer_t *answer)
 {
-    (void)controller;
-    (void)theta1_rad;
-    (void)theta2_rad;
-    brace_stiffness_t any;
-    *stiffness = any;
-    return any_status();
-}
-
-brace_status_t request_k_at_tip(controller_t *controller, brace_point_t tip, brace_knee_t knee,
-                                brace_stiffness_t *stiffness)
-{
-    PROVE(knee == BRACE_KNEE_UP || knee == BRACE_KNEE_DOWN, "a knee that there is");
-    return request_k_at_posture(controller, tip.x_mm, tip.z_mm, stiffness);
-}
-
-brace_status_t request_contact_force(const controller_t *controller, brace_displacement_t displacement,
-                                     brace_contact_force_t *contact)
-{
-    (void)controller;
-    (void)displacement;
-    brace_contact_force_t any;
-    *contact = any;
-    return any_status();
-}
-
-brace_status_t request_sag(const controller_t *controller, brace_force_t load, brace_displacement_t *sag)
-{
-    (void)controller;
-    (void)load;
-    brace_displacement_t any;
-    *sag = any;
-    return any_status();
-}
-
-brace_status_t request_grip(const controller_t *controller, float normal_rad, float friction_ratio,
-                            brace_contact_grip_t *grip)
-{
-    (void)controller;
-    (void)normal_rad;
-    (void)friction_ratio;
-    brace_contact_grip_t any;
-    *grip = any;
-    return any_status();
+    brace_answer_t any;
+    const int32_t status = any_i32();
+    ASSUME(status <= ANSWER_LATER && status >= BRACE_REFUSED_STORE - 7);
+    PROVE((code >= BRACE_REQUEST_K_AT_POSTURE && code <= BRACE_REQUEST_SET_MODE) || code == BRACE_REQUEST_COMMIT ||
+              code == BRACE_REQUEST_ROLLBACK || code == BRACE_REQUEST_TAKE_UP || code == BRACE_REQUEST_LET_GO ||
+              code == BRACE_REQUEST_CLEAR,
+          "a request that Modbus knows");
+    PROVE(code != BRACE_REQUEST_TAKE_UP || asked->take_up.flank == 1 || asked->take_up.flank == -1,
+          "a flank that there is");
+    PROVE(code != BRACE_REQUEST_COMMIT || asked->commit.crc == 0u, "no block is committed that nobody has uploaded");
+    *answer = any;
+    request->is_of_now = any_bool();
+    return status;
 }
 
 modbus_exception_t modbus_read(const modbus_server_t *server, const wire_tick_t *tick, uint8_t *pdu, uint32_t length,
@@ -139,10 +80,11 @@ int main(void)
     modbus_server_t server; /* of any content, as all of these */
     modbus_half_t half;
     wire_tick_t tick;
+    brace_app_counters_t counters;
     uint8_t pdu[MODBUS_PDU_BYTES];
     const uint32_t length = any_u32();
     ASSUME(length >= 1u && length <= MODBUS_PDU_BYTES);
-    ANY(snapshot);
+    tick.counters = &counters;
     const uint8_t function = pdu[0];
     const uint16_t refused = server.refused;
 

@@ -17,7 +17,7 @@ void *memcpy(void *restrict to, const void *restrict from, size_t count)
 }
 
 static brace_parameters_t staged;
-const brace_parameters_t *request_staged(const controller_t *controller) { (void)controller; return &staged; }
+const brace_parameters_t *brace_app_parameters_staged(const brace_app_t *app) { (void)app; return &staged; }
 
 /* Any parameter, or none. */
 uint32_t brace_parameter_index(uint32_t number)
@@ -28,10 +28,10 @@ uint32_t brace_parameter_index(uint32_t number)
     return index;
 }
 
-void modbus_command_tell(const modbus_server_t *server, const controller_t *controller, brace_commands_t *told)
+void modbus_command_tell(const modbus_server_t *server, const brace_app_t *app, brace_commands_t *told)
 {
     (void)server;
-    (void)controller;
+    (void)app;
     PROVE(__CPROVER_w_ok(told, sizeof *told), "there is room for every command");
 }
 

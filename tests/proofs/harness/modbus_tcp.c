@@ -17,9 +17,10 @@ uint32_t modbus_pdu_answer(modbus_server_t *server, modbus_half_t *half, const w
     return answer;
 }
 
-uint32_t modbus_pdu_refuse(modbus_server_t *server, uint8_t *pdu, modbus_exception_t why)
+uint32_t modbus_pdu_refuse(modbus_server_t *server, const wire_tick_t *tick, uint8_t *pdu, modbus_exception_t why)
 {
     (void)server;
+    (void)tick;
     PROVE(__CPROVER_w_ok(pdu, 2) && why == MODBUS_E_TARGET, "another unit's request is refused as such");
     return 2;
 }
@@ -46,7 +47,9 @@ int main(void)
     modbus_link_t tcp; /* of any content, as all of these */
     modbus_server_t server;
     wire_tick_t tick;
+    brace_app_counters_t counters;
     tick.hal = &any_hal;
+    tick.counters = &counters;
     in_from = out_from = tcp.bytes;
     in_end = out_end = tcp.bytes + sizeof tcp.bytes;
     ASSUME(sound(&tcp));

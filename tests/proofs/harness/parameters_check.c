@@ -1,7 +1,7 @@
 #include "brace/parameters.h"
 #include "parameter_table.h"
 #include "proof.h"
-#include "words.h"
+#include "brace/words.h"
 
 static brace_status_t judgement;
 

@@ -1,6 +1,5 @@
 /* Any 8 bytes that come as a request, whatever the port's state. What a request asks of the controller may answer
- * anything that requests.h allows, and notes that it was asked. */
-#include "brace/can_requests.h"
+ * anything that brace/requests.h allows, and notes that it was asked. */
 #include "proof.h"
 #include "wire/can/requests.h"
 #include "wire/measured.h"
@@ -26,64 +25,64 @@ static brace_status_t asked_for(uint32_t what)
 
 /* ------------------------------------------------------------------------- what changes the controller -- */
 
-brace_status_t request_take_up(controller_t *controller, int32_t joint, int32_t flank)
+brace_status_t brace_app_take_up(brace_app_t *app, int32_t joint, int32_t flank)
 {
-    (void)controller;
+    (void)app;
     (void)flank;
     const brace_status_t status = asked_for(MOVES);
     ASSUME(status != BRACE_OK || (joint >= BRACE_COXA && joint <= BRACE_TIBIA));
     return status;
 }
 
-brace_status_t request_let_go(controller_t *controller) { (void)controller; return asked_for(MOVES); }
-brace_status_t request_loading_start(controller_t *controller, const brace_loading_setup_t *setup)
+brace_status_t brace_app_let_go(brace_app_t *app) { (void)app; return asked_for(MOVES); }
+brace_status_t brace_app_loading_start(brace_app_t *app, const brace_loading_setup_t *setup)
 {
-    (void)controller;
+    (void)app;
     (void)setup;
     return asked_for(TESTS);
 }
-brace_status_t request_loading_stop(controller_t *controller) { (void)controller; return asked_for(TESTS); }
-brace_status_t request_configuration_enter(controller_t *controller)
+brace_status_t brace_app_loading_stop(brace_app_t *app) { (void)app; return asked_for(TESTS); }
+brace_status_t brace_app_configuration_enter(brace_app_t *app)
 {
-    (void)controller;
+    (void)app;
     return asked_for(CONFIGURES);
 }
-brace_status_t request_configuration_leave(controller_t *controller) { (void)controller; return asked_for(LEAVES); }
-void request_configuration_keep(controller_t *controller) { (void)controller; done |= FEEDS; }
-brace_status_t request_rollback(controller_t *controller) { (void)controller; return asked_for(ROLLS_BACK); }
-brace_status_t request_clear(controller_t *controller, uint32_t faults)
+brace_status_t brace_app_configuration_leave(brace_app_t *app) { (void)app; return asked_for(LEAVES); }
+brace_status_t brace_app_parameters_rollback(brace_app_t *app) { (void)app; return asked_for(ROLLS_BACK); }
+brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults)
 {
-    (void)controller;
+    (void)app;
     (void)faults;
     return asked_for(CLEARS);
 }
 
-brace_status_t request_commit_staged(controller_t *controller, uint32_t *wrong_index)
+brace_status_t brace_app_parameters_commit_staged(brace_app_t *app, uint32_t *wrong_index)
 {
-    (void)controller;
+    (void)app;
     *wrong_index = any_u32();
     return asked_for(STORES);
 }
 
-brace_status_t request_commit(controller_t *controller, const brace_parameters_t *parameters)
+brace_status_t brace_app_parameters_commit(brace_app_t *app, const brace_parameters_t *parameters)
 {
-    (void)controller;
+    (void)app;
     (void)parameters;
     return asked_for(STORES);
 }
 
-brace_status_t request_may_write(controller_t *controller)
+brace_status_t brace_app_may_write(brace_app_t *app)
 {
-    (void)controller;
+    (void)app;
     done |= FEEDS;
     return open_for_writing ? BRACE_OK : any_bool() ? BRACE_E_MODE : BRACE_E_UNSUPPORTED;
 }
 
-brace_status_t request_stage(controller_t *controller, uint32_t number, uint32_t word)
+brace_status_t brace_app_parameters_stage(brace_app_t *app, uint32_t first_number, uint32_t count,
+                                          const uint32_t *words)
 {
-    (void)controller;
-    (void)number;
-    (void)word;
+    (void)app;
+    (void)first_number;
+    PROVE(count == 1u && __CPROVER_r_ok(words, 4), "one member, and its word");
     const brace_status_t status = asked_for(STAGES);
     ASSUME(status != BRACE_OK || open_for_writing);
     return status;
@@ -92,32 +91,25 @@ brace_status_t request_stage(controller_t *controller, uint32_t number, uint32_t
 /* ------------------------------------------------------------------------------------- what only tells -- */
 
 static brace_snapshot_t snapshot;
-const brace_snapshot_t *request_snapshot(const controller_t *controller) { (void)controller; return &snapshot; }
+const brace_snapshot_t *brace_app_snapshot(const brace_app_t *app) { (void)app; return &snapshot; }
 static brace_parameters_t parameters;
-const brace_parameters_t *request_parameters(const controller_t *controller) { (void)controller; return &parameters; }
-const brace_parameters_t *request_staged(const controller_t *controller) { (void)controller; return &parameters; }
-brace_mode_t request_mode(const controller_t *controller) { (void)controller; return (brace_mode_t)any_u32(); }
-uint32_t request_faults(const controller_t *controller) { (void)controller; return any_u32(); }
-uint32_t request_parameter_crc(const controller_t *controller) { (void)controller; return any_u32(); }
-brace_parameter_origin_t request_parameter_origin(const controller_t *controller)
-{
-    (void)controller;
-    return (brace_parameter_origin_t)(any_u8() % 3u);
-}
-uint32_t request_parameter_sequence(const controller_t *controller) { (void)controller; return any_u32(); }
-bool request_is_storing(const controller_t *controller) { (void)controller; return any_bool(); }
-bool request_loading_is_returning(const controller_t *controller) { (void)controller; return any_bool(); }
+const brace_parameters_t *brace_app_parameters(const brace_app_t *app) { (void)app; return &parameters; }
+const brace_parameters_t *brace_app_parameters_staged(const brace_app_t *app) { (void)app; return &parameters; }
+brace_mode_t brace_app_mode(const brace_app_t *app) { (void)app; return (brace_mode_t)any_u32(); }
+uint32_t brace_app_faults(const brace_app_t *app) { (void)app; return any_u32(); }
+bool brace_app_is_storing(const brace_app_t *app) { (void)app; return any_bool(); }
+bool brace_app_loading_is_returning(const brace_app_t *app) { (void)app; return any_bool(); }
 static brace_loading_result_t result;
-const brace_loading_result_t *request_loading_result(const controller_t *controller)
+const brace_loading_result_t *brace_app_loading_result(const brace_app_t *app)
 {
-    (void)controller;
+    (void)app;
     return &result;
 }
-uint32_t request_row_count(const controller_t *controller) { (void)controller; return any_u32(); }
+uint32_t brace_app_row_count(const brace_app_t *app) { (void)app; return any_u32(); }
 
-brace_status_t request_row(const controller_t *controller, uint32_t index, brace_row_t *row)
+brace_status_t brace_app_row(const brace_app_t *app, uint32_t index, brace_row_t *row)
 {
-    (void)controller;
+    (void)app;
     (void)index;
     brace_row_t any;
     *row = any;
@@ -132,17 +124,18 @@ brace_status_t brace_row_value(const brace_row_t *row, uint32_t column, float *v
     return any_status();
 }
 
-void request_store_status(const controller_t *controller, brace_store_status_t *status)
+brace_status_t brace_app_store_status(const brace_app_t *app, brace_store_status_t *status)
 {
-    (void)controller;
+    (void)app;
     brace_store_status_t any;
     *status = any;
+    return BRACE_OK;
 }
 
-brace_status_t request_k_at_posture(controller_t *controller, float theta1_rad, float theta2_rad,
+brace_status_t brace_app_k_at_posture(brace_app_t *app, float theta1_rad, float theta2_rad,
                                     brace_stiffness_t *stiffness)
 {
-    (void)controller;
+    (void)app;
     (void)theta1_rad;
     (void)theta2_rad;
     brace_stiffness_t any;
@@ -150,17 +143,17 @@ brace_status_t request_k_at_posture(controller_t *controller, float theta1_rad, 
     return any_status();
 }
 
-brace_status_t request_k_at_tip(controller_t *controller, brace_point_t tip, brace_knee_t knee,
+brace_status_t brace_app_k_at_tip(brace_app_t *app, brace_point_t tip, brace_knee_t knee,
                                 brace_stiffness_t *stiffness)
 {
     PROVE(knee == BRACE_KNEE_UP || knee == BRACE_KNEE_DOWN, "a knee that there is");
-    return request_k_at_posture(controller, tip.x_mm, tip.z_mm, stiffness);
+    return brace_app_k_at_posture(app, tip.x_mm, tip.z_mm, stiffness);
 }
 
-brace_status_t request_k_in_space(controller_t *controller, float theta0_rad, float theta1_rad, float theta2_rad,
+brace_status_t brace_app_k_in_space(brace_app_t *app, float theta0_rad, float theta1_rad, float theta2_rad,
                                   brace_stiffness_spatial_t *stiffness)
 {
-    (void)controller;
+    (void)app;
     (void)theta0_rad;
     (void)theta1_rad;
     (void)theta2_rad;
@@ -169,29 +162,29 @@ brace_status_t request_k_in_space(controller_t *controller, float theta0_rad, fl
     return any_status();
 }
 
-brace_status_t request_contact_force(const controller_t *controller, brace_displacement_t displacement,
+brace_status_t brace_app_contact_force(const brace_app_t *app, brace_displacement_t displacement,
                                      brace_contact_force_t *contact)
 {
-    (void)controller;
+    (void)app;
     (void)displacement;
     brace_contact_force_t any;
     *contact = any;
     return any_status();
 }
 
-brace_status_t request_sag(const controller_t *controller, brace_force_t load, brace_displacement_t *sag)
+brace_status_t brace_app_sag(const brace_app_t *app, brace_force_t load, brace_displacement_t *sag)
 {
-    (void)controller;
+    (void)app;
     (void)load;
     brace_displacement_t any;
     *sag = any;
     return any_status();
 }
 
-brace_status_t request_grip(const controller_t *controller, float normal_rad, float friction_ratio,
+brace_status_t brace_app_grip(const brace_app_t *app, float normal_rad, float friction_ratio,
                             brace_contact_grip_t *grip)
 {
-    (void)controller;
+    (void)app;
     (void)normal_rad;
     (void)friction_ratio;
     brace_contact_grip_t any;
@@ -254,8 +247,9 @@ void brace_block_members(const uint8_t *block, brace_parameters_t *set)
 
 /* A frame begins with code and part, then the token (the dictionary's tests); the rest is any (codec_numbers,
  * codec_whole). */
-static void packs(uint32_t code, uint32_t token, uint8_t (*parts)[8])
+void brace_can_pack_answer(uint32_t code, const brace_answer_t *answer, uint32_t token, uint8_t (*parts)[8])
 {
+    (void)answer;
     for (uint32_t i = 0; i < brace_can_answer_parts[code]; i++) { /* at most BRACE_CAN_ANSWER_PARTS_MOST */
         uint8_t any[8];
         memcpy(parts[i], any, 8);
@@ -263,15 +257,6 @@ static void packs(uint32_t code, uint32_t token, uint8_t (*parts)[8])
         parts[i][1] = (uint8_t)token;
     }
 }
-
-#define PACKS(CODE, name)                                                                                              \
-    void brace_can_pack_##name##_answer(const brace_can_##name##_answer_t *answer, uint32_t token,                     \
-                                        uint8_t (*parts)[8])                                                           \
-    {                                                                                                                  \
-        (void)answer;                                                                                                  \
-        packs(CODE, token, parts);                                                                                     \
-    }
-BRACE_CAN_REQUESTS(PACKS)
 
 /* -------------------------------------------------------------------------------------------- the claims -- */
 
@@ -313,53 +298,54 @@ static void answers_are_of(const can_answers_t *answers, const uint8_t *request,
 
 int main(void)
 {
-    can_session_t session; /* of any content, as all of these */
-    can_answers_t answers;
+    can_requests_t port; /* of any content, as all of these */
     brace_measured_t measured;
     uint8_t data[8], as_sent[8];
     wire_tick_t tick;
     tick.measured = &measured;
-    can_request_t request = {
-        .data = data, .node_id = any_u8(), .tick = &tick, .session = &session, .answers = &answers};
+    const transfer_t *transfer = &port.transfer;
+    const can_answers_t *answers = &port.answers;
     const uint32_t at = any_u32();
-    ASSUME(*(const uint8_t *)&session.upload_is_open <= 1u);
+    ASSUME(*(const uint8_t *)&transfer->upload_is_open <= 1u);
     ASSUME(data[0] < BRACE_ANSWER_PART); /* else it is not taken for one */
-    ASSUME(answers.first < CAN_ANSWERS_ROOM && answers.count + BRACE_CAN_ANSWER_PARTS_MOST <= CAN_ANSWERS_ROOM);
-    ASSUME(session.upload_next <= BRACE_BLOCK_BYTES / 4 && session.download_next <= BRACE_BLOCK_BYTES / 4);
+    ASSUME(answers->first < CAN_ANSWERS_ROOM && answers->count + BRACE_CAN_ANSWER_PARTS_MOST <= CAN_ANSWERS_ROOM);
+    ASSUME(transfer->upload_next <= BRACE_BLOCK_BYTES / 4 && transfer->download_next <= BRACE_BLOCK_BYTES / 4);
     open_for_writing = any_bool();
-    ASSUME(session.storing == 0u || !open_for_writing); /* while a set is being stored, parameters cannot be written */
+    ASSUME(port.storing == 0u || !open_for_writing); /* while a set is being stored, parameters cannot be written */
     ASSUME(at < BRACE_BLOCK_BYTES);
     ANY(snapshot);
     ANY(parameters);
     ANY(result);
-    const uint32_t count = answers.count;
+    const uint32_t count = answers->count;
     memcpy(as_sent, data, 8);
-    const can_session_t before = session;
+    const can_requests_t port_before = port;
+    const transfer_t *before = &port_before.transfer;
 
-    const bool is_known = can_requests_answer(&request);
+    const bool is_known = can_requests_answer(&port, &tick, any_u8(), data);
 
     const uint32_t code = data[0];
-    const bool stores = before.storing == 0u && session.storing != 0u;
+    const bool stores = port_before.storing == 0u && port.storing != 0u;
     PROVE(same(data, as_sent, 8), "a request is not changed");
-    PROVE(is_known || (done == 0u && answers.count == count + 1u), "an unknown request does nothing but be refused");
+    PROVE(is_known || (done == 0u && answers->count == count + 1u), "an unknown request does nothing but be refused");
     PROVE((done & ~allowed(data)) == 0u, "nothing is done but what the request names");
-    PROVE(!stores || (session.storing == code && session.storing_token == data[1]),
+    PROVE(!stores || (port.storing == code && port.storing_token == data[1]),
           "what is stored is answered to who asked");
-    PROVE(before.storing == 0u ||
-              (session.storing == before.storing && session.storing_token == before.storing_token),
+    PROVE(port_before.storing == 0u ||
+              (port.storing == port_before.storing && port.storing_token == port_before.storing_token),
           "nobody else is given the answer to what is being stored");
-    PROVE(session.upload_next <= BRACE_BLOCK_BYTES / 4 && session.download_next <= BRACE_BLOCK_BYTES / 4,
+    PROVE(transfer->upload_next <= BRACE_BLOCK_BYTES / 4 && transfer->download_next <= BRACE_BLOCK_BYTES / 4,
           "words within the block");
     const bool uploads =
         code == BRACE_REQUEST_UPLOAD_BEGIN || code == BRACE_REQUEST_UPLOAD_WORD || code == BRACE_REQUEST_COMMIT;
-    PROVE(uploads || (session.upload_is_open == before.upload_is_open && session.upload_next == before.upload_next &&
-                      session.upload_sum == before.upload_sum && session.upload_crc == before.upload_crc),
+    PROVE(uploads || (transfer->upload_is_open == before->upload_is_open &&
+                      transfer->upload_next == before->upload_next &&
+                      transfer->upload_sum == before->upload_sum && transfer->upload_crc == before->upload_crc),
           "an upload is left alone");
-    PROVE(code == BRACE_REQUEST_UPLOAD_WORD || session.upload[at] == before.upload[at], "and so are its words");
+    PROVE(code == BRACE_REQUEST_UPLOAD_WORD || transfer->upload[at] == before->upload[at], "and so are its words");
     PROVE(code == BRACE_REQUEST_DOWNLOAD_WORD ||
-              (session.download_next == before.download_next && session.download_sum == before.download_sum &&
-               session.download_set == before.download_set),
+              (transfer->download_next == before->download_next && transfer->download_sum == before->download_sum &&
+               transfer->download_set == before->download_set),
           "a download is left alone");
-    answers_are_of(&answers, data, count, stores); /* the last, since it assumes that there is a part */
+    answers_are_of(answers, data, count, stores); /* the last, since it assumes that there is a part */
     return 0;
 }

@@ -3,7 +3,7 @@
 #include "brace/store.h"
 
 #include "memory.h"
-#include "jobs/store/store.c"
+#include "src/store.c"
 
 uint32_t brace_crc32(uint32_t crc, const uint8_t *bytes, uint32_t count)
 {

@@ -78,8 +78,17 @@ static void test_a_set_that_cannot_be_is_refused(void)
     brace_parameters_t p = bench_parameters();
     ticks(5);
     p.limb.femur_mm = -1.0f;
+    const uint32_t crc = now()->parameter_crc;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));
-    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, brace_app_parameters_commit(&app, &p));
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_parameters_commit(&app, &p));
+    ticks(5); /* more than the store needs to check it */
+    brace_store_status_t store;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_store_status(&app, &store));
+    TEST_ASSERT_EQUAL(BRACE_STORE_FAILED, store.state);
+    TEST_ASSERT_EQUAL(BRACE_STORE_E_REFUSED, store.failure);
+    TEST_ASSERT_EQUAL(BRACE_E_PARAMETER, store.refusal);
+    TEST_ASSERT_EQUAL_STRING("geometry.femur_mm", brace_parameter_key(store.wrong_index));
+    TEST_ASSERT_EQUAL_HEX32(crc, now()->parameter_crc);
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_leave(&app));
 }
 
@@ -135,7 +144,7 @@ static uint32_t staged_word(uint32_t index)
 /* Somebody asks for a member to be written. */
 static brace_status_t stage(uint32_t index, uint32_t word)
 {
-    return request_stage(&app.controller, index, word);
+    return brace_app_parameters_stage(&app, index, 1, &word);
 }
 
 /* So much later; a tick at the end of it. In CONFIGURATION none is late. */

@@ -220,9 +220,9 @@ static void test_an_age_is_never_negative(void)
     brace_measured_t measured;
     ticks(3);
     const brace_app_counters_t counted = counters();
-    measured_take(&app.controller, &counted, now()->taken_us - 3u, &measured);
+    measured_take(&app, &counted, now()->taken_us - 3u, &measured);
     TEST_ASSERT_EQUAL_UINT32(0, measured.age_us);
-    measured_take(&app.controller, &counted, now()->taken_us + 3u, &measured);
+    measured_take(&app, &counted, now()->taken_us + 3u, &measured);
     TEST_ASSERT_EQUAL_UINT32(3, measured.age_us);
 }
 

@@ -135,7 +135,9 @@ static void test_a_snapshot_stays_as_it_was_while_the_next_is_made(void)
 static void test_null_is_refused_everywhere(void)
 {
     const brace_parameters_t p = bench_parameters();
+    const uint32_t word = 0;
     brace_row_t row;
+    brace_stiffness_t k;
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_take_up(NULL, 1, 1));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_let_go(NULL));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_loading_start(&app, NULL));
@@ -145,6 +147,17 @@ static void test_null_is_refused_everywhere(void)
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_parameters_commit(&app, NULL));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_parameters_commit(NULL, &p));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_parameters_rollback(NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_parameters_commit_staged(NULL, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_parameters_stage(NULL, 0, 1, &word));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_parameters_stage(&app, 0, 1, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_store_status(&app, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_k_at_posture(NULL, 0.1f, 0.2f, &k));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_k_at_posture(&app, 0.1f, 0.2f, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_k_at_tip(NULL, (brace_point_t){100.0f, 0.0f}, BRACE_KNEE_UP, &k));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_k_in_space(NULL, 0.0f, 0.1f, 0.2f, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_contact_force(NULL, (brace_displacement_t){1.0f, 0.0f}, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_sag(NULL, (brace_force_t){1.0f, 0.0f}, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_grip(NULL, 0.0f, 0.5f, NULL));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_clear(NULL, 0));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_row(NULL, 0, &row));
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_app_row(&app, 0, &row));

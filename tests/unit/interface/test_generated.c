@@ -4,13 +4,14 @@
 #include <string.h>
 
 #include "brace/backlash.h"
-#include "brace/can_answering.h"
-#include "brace/can_requests.h"
+#include "brace/answering.h"
+#include "brace/can_frames.h"
 #include "brace/can_snapshot.h"
 #include "brace/code_names.h"
 #include "brace/codes.h"
 #include "brace/drift.h"
 #include "brace/parameters.h"
+#include "brace/questions.h"
 #include "brace/ranges.h"
 #include "unity.h"
 
@@ -24,7 +25,7 @@ static void test_every_request_has_a_code_and_an_answer(void)
     static const struct {
         uint32_t code;
         const char *name;
-    } request[] = {BRACE_CAN_REQUESTS(ROW)};
+    } request[] = {BRACE_REQUESTS(ROW)};
 #undef ROW
     uint32_t seen = 0;
     for (size_t i = 0; i < sizeof request / sizeof *request; i++) {
@@ -143,12 +144,12 @@ static void test_a_frame_carries_the_measured_values(void)
 static void test_an_answer_s_frames_carry_its_fields(void)
 {
     uint8_t parts[BRACE_CAN_ANSWER_PARTS_MOST][8];
-    brace_can_k_at_tip_knee_up_answer_t k = {.k_xx_n_per_mm = 12.5f, .lambda_min_n_per_mm = NAN,
-                                             .stiff_axis_rad = -0.25f, .flags = BRACE_FLAG_STALE};
+    brace_answer_t k = {.k_at_tip_knee_up = {.k_xx_n_per_mm = 12.5f, .lambda_min_n_per_mm = NAN,
+                                             .stiff_axis_rad = -0.25f, .flags = BRACE_FLAG_STALE}};
     brace_can_k_at_tip_knee_up_answer_0_t first;
     brace_can_k_at_tip_knee_up_answer_1_t second;
     brace_can_k_at_tip_knee_up_answer_2_t last;
-    brace_can_pack_k_at_tip_knee_up_answer(&k, 0x1a5u, parts);
+    brace_can_pack_answer(BRACE_REQUEST_K_AT_TIP_KNEE_UP, &k, 0x1a5u, parts);
     for (uint32_t part = 0; part < 3u; part++) {
         TEST_ASSERT_EQUAL_HEX8(BRACE_REQUEST_K_AT_TIP_KNEE_UP + BRACE_ANSWER_PART * part, parts[part][0]);
         TEST_ASSERT_EQUAL_HEX8(0xa5, parts[part][1]);
@@ -160,10 +161,46 @@ static void test_an_answer_s_frames_carry_its_fields(void)
     TEST_ASSERT_TRUE(isnan(second.lambda_min_n_per_mm));
     TEST_ASSERT_EQUAL_FLOAT(-0.25f, last.stiff_axis_rad);
     TEST_ASSERT_EQUAL_HEX32(BRACE_FLAG_STALE, last.flags);
-    k.k_xz_n_per_mm = -1e6f; /* more than part 0 can carry */
-    brace_can_pack_k_at_tip_knee_up_answer(&k, 0, parts);
+    k.k_at_tip_knee_up.k_xz_n_per_mm = -1e6f; /* more than part 0 can carry */
+    brace_can_pack_answer(BRACE_REQUEST_K_AT_TIP_KNEE_UP, &k, 0, parts);
     brace_can_unpack_k_at_tip_knee_up_answer_2(parts[2], &last);
     TEST_ASSERT_EQUAL_HEX32(BRACE_FLAG_STALE | BRACE_FLAG_SATURATED, last.flags);
+}
+
+static void test_a_request_s_frame_carries_its_fields(void)
+{
+    const brace_can_take_up_request_t sent = {.token = 7, .joint = 2, .flank = -1};
+    uint8_t data[8];
+    brace_request_t asked;
+    (void)brace_can_pack_take_up_request(&sent, data);
+    brace_can_unpack_request(data, &asked);
+    TEST_ASSERT_EQUAL(2, asked.take_up.joint);
+    TEST_ASSERT_EQUAL(-1, asked.take_up.flank);
+    data[0] = 31; /* there is none of this code */
+    brace_can_unpack_request(data, &asked);
+    TEST_ASSERT_EQUAL(0, asked.word[0]);
+    TEST_ASSERT_EQUAL(0, asked.word[1]);
+}
+
+static uint32_t word_at(const void *values, uint32_t place)
+{
+    uint32_t word;
+    memcpy(&word, (const uint8_t *)values + 4u * place, sizeof word);
+    return word;
+}
+
+/* Which register reads as what: docs/modbus.md, and IEEE 754's quiet NaN. */
+static void test_what_nobody_has_asked_is_not_known(void)
+{
+    enum { NOT_A_NUMBER = 0x7fc00000, FLAGS = (4108 - 4096) / 2, CONTACT = (4126 - 4096) / 2, KNEE = (16404 - 16384) / 2 };
+    for (uint32_t i = 0; i < (uint32_t)BRACE_ANSWERED_COUNT; i++) {
+        TEST_ASSERT_EQUAL_HEX32(i == FLAGS || i == CONTACT ? UINT32_MAX : NOT_A_NUMBER,
+                                word_at(&brace_answered_unknown, i));
+    }
+    for (uint32_t i = 0; i < (uint32_t)BRACE_COMMANDS_COUNT; i++) {
+        TEST_ASSERT_EQUAL_HEX32(i < 6u ? 0u : i == KNEE ? UINT32_MAX : NOT_A_NUMBER,
+                                word_at(&brace_commands_unknown, i));
+    }
 }
 
 /* An old reader takes the byte for one number, which is not 0 while any fault is there. */
@@ -236,6 +273,8 @@ int main(void)
     RUN_TEST(test_a_value_that_any_frame_of_the_snapshot_limits_is_flagged);
     RUN_TEST(test_a_frame_carries_the_measured_values);
     RUN_TEST(test_an_answer_s_frames_carry_its_fields);
+    RUN_TEST(test_a_request_s_frame_carries_its_fields);
+    RUN_TEST(test_what_nobody_has_asked_is_not_known);
     RUN_TEST(test_an_emergency_tells_the_cause_of_a_drift);
     RUN_TEST(test_names_and_sentences);
     RUN_TEST(test_causes_of_a_drift_are_those_of_the_core);

@@ -37,6 +37,7 @@ _HEADER_FOLDERS = (
     "firmware/core/include",
     "firmware/interface/include",
     "firmware/interface/generated",
+    "firmware/store/include",
     "firmware/app/include",
     "hal/include",
     "host_sim/api",

@@ -6,7 +6,7 @@
 #include "wire/wires.h"
 
 struct brace_app {
-    controller_t controller;
+    controller_t controller; /* the first: src/controller.h */
     wires_t wires;
 };
 

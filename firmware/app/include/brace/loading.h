@@ -79,7 +79,7 @@ typedef struct {
     uint32_t count;
 } brace_loading_sums_t;
 
-/* A test under way. Private. Arrays of two are of femur and tibia joint. */
+/* A test under way. Private. Arrays of two are of femur and tibia joint: BRACE_FEMUR + i. */
 typedef struct {
     uint8_t phase;
     uint16_t step;                 /* being gone to or read */

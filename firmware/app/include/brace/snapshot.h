@@ -46,6 +46,7 @@ typedef struct {
     float temp_degc;             /* of femur and tibia joint the warmer one; NaN: not measured */
     uint32_t parameter_crc;
     brace_parameter_origin_t parameter_origin;
+    uint32_t parameter_sequence; /* counts the sets stored; 0 for the defaults */
 } brace_snapshot_t;
 
 /* Troubles that are only counted. Every counter stays at its largest value. */
@@ -58,5 +59,10 @@ typedef struct {
     uint32_t modbus_broken;   /* Modbus frames with a wrong CRC or length */
     uint32_t modbus_refused;  /* Modbus requests answered with an exception */
 } brace_app_counters_t;
+
+static inline void brace_count(uint32_t *counter)
+{
+    *counter += *counter < UINT32_MAX;
+}
 
 #endif

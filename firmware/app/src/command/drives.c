@@ -17,7 +17,7 @@ static brace_hal_joint_command_t command_of(const flank_joint_t *flank, const dr
 }
 
 void drives_command(drives_t *drives, const brace_hal_t *hal, const joints_t *joints, const flank_t *flank,
-                    bool takes_up, const drives_test_t *test)
+                    bool takes_up, const drives_test_t *test, uint32_t *commands_failed)
 {
     const bool moves = takes_up || test->runs;
     if (hal->joint_command == NULL || !(moves || drives->are_commanded)) {
@@ -27,7 +27,7 @@ void drives_command(drives_t *drives, const brace_hal_t *hal, const joints_t *jo
         if (joints->joint[i].fitted) {
             const brace_hal_joint_command_t command = command_of(&flank->joint[i], test, i);
             if (hal->joint_command(hal->context, i, &command) != BRACE_HAL_OK) {
-                drives->commands_failed += drives->commands_failed < UINT32_MAX;
+                brace_count(commands_failed);
             }
         }
     }

@@ -9,8 +9,7 @@
 #include "flank/flank.h"
 
 typedef struct {
-    bool are_commanded;       /* the drives hold a command of ours */
-    uint32_t commands_failed; /* saturates */
+    bool are_commanded; /* the drives hold a command of ours */
 } drives_t;
 
 /* What a loading test adds to each joint's set-point, and within which torque. */
@@ -22,8 +21,9 @@ typedef struct {
 
 /* Commands the drives in every tick in which something moves the limb, and once more afterwards, to take the command
  * back.
- *   takes_up: backlash is taken up, held or let go */
+ *   takes_up: backlash is taken up, held or let go
+ *   commands_failed: of brace_app_counters_t */
 void drives_command(drives_t *drives, const brace_hal_t *hal, const joints_t *joints, const flank_t *flank,
-                    bool takes_up, const drives_test_t *test);
+                    bool takes_up, const drives_test_t *test, uint32_t *commands_failed);
 
 #endif

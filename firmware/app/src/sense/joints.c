@@ -98,7 +98,7 @@ static void take_sample(joint_t *joint, const brace_hal_joint_t *fresh, uint32_t
 }
 
 static void read_one(joints_t *joints, int index, const brace_hal_t *hal, const brace_parameters_t *parameters,
-                     uint32_t now_us)
+                     uint32_t now_us, uint32_t *samples_bad)
 {
     const uint32_t tick_us = parameters->controller.tick_us;
     joint_t *joint = &joints->joint[index];
@@ -110,7 +110,7 @@ static void read_one(joints_t *joints, int index, const brace_hal_t *hal, const 
     if (newer && is_sound(&fresh, drive)) {
         take_sample(joint, &fresh, tick_us);
     } else if (newer || (answer != BRACE_HAL_OK && answer != BRACE_HAL_AGAIN)) {
-        joints->samples_bad += joints->samples_bad < UINT32_MAX;
+        brace_count(samples_bad);
     }
     if (joint->samples_seen != 0u) {
         watch_encoder(joint, drive, &parameters->limb.joint[index], tick_us);
@@ -137,11 +137,11 @@ void joints_start(joints_t *joints, const brace_hal_t *hal)
 }
 
 void joints_read(joints_t *joints, const brace_hal_t *hal, const brace_parameters_t *parameters,
-                 uint32_t now_us)
+                 uint32_t now_us, uint32_t *samples_bad)
 {
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         if (joints->joint[i].fitted) {
-            read_one(joints, i, hal, parameters, now_us);
+            read_one(joints, i, hal, parameters, now_us, samples_bad);
         }
     }
 }

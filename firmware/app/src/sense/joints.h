@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "brace/parameters.h"
+#include "brace/snapshot.h"
 #include "brace_hal.h"
 
 /* How long an angle has stood still, and what torque and link did meanwhile. */
@@ -29,7 +30,6 @@ typedef struct {
 
 typedef struct {
     joint_t joint[BRACE_LINK_COUNT]; /* by BRACE_COXA, BRACE_FEMUR, BRACE_TIBIA */
-    uint32_t samples_bad;            /* saturates */
 } joints_t;
 
 /* Forgets every sample, and asks the door which joints are fitted: femur and tibia always, the coxa joint unless
@@ -38,9 +38,10 @@ void joints_start(joints_t *joints, const brace_hal_t *hal);
 
 /* Reads the fitted joints. A sample that is refused, not finite or absurd (a torque of more than twice the motor's
  * greatest) is counted, and the sound one before stays until it is older than controller.age_limit_us.
+ *   samples_bad: of brace_app_counters_t
  * At most 150 instructions a joint. */
 void joints_read(joints_t *joints, const brace_hal_t *hal, const brace_parameters_t *parameters,
-                 uint32_t now_us);
+                 uint32_t now_us, uint32_t *samples_bad);
 
 /* Are femur and tibia joint sound, so that there may be a K in the limb's plane? */
 static inline bool joints_plane_is_sound(const joints_t *joints)

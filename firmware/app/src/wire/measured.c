@@ -1,9 +1,8 @@
 #include "wire/measured.h"
 
-#include <string.h>
-
 #include "brace/can_messages.h"
 #include "brace/codes.h"
+#include "brace/words.h"
 #include "wire/version.h"
 
 /* A K that is not valid is NaN in the snapshot, and so it is here. */
@@ -101,9 +100,9 @@ static void take_take_ups(const brace_snapshot_t *snapshot, brace_measured_t *m)
 
 /* The core always names a cause; it means something while there is evidence, or once the limb has drifted. A baseline
  * that walks away raises the alarm without evidence. */
-static void take_drift(const controller_t *controller, brace_measured_t *m)
+static void take_drift(const brace_app_t *app, brace_measured_t *m)
 {
-    const brace_drift_report_t *report = request_drift_report(controller);
+    const brace_drift_report_t *report = brace_app_drift_report(app);
     const bool has_cause = report->evidence > 0.0f || report->state == BRACE_DRIFT_DRIFTED;
     const float unknown = __builtin_nanf("");
     m->drift_state = report->state;
@@ -114,16 +113,16 @@ static void take_drift(const controller_t *controller, brace_measured_t *m)
     m->drift_loss_sigma_ratio = has_cause ? report->loss_sigma_ratio : unknown;
     m->drift_since_readings = has_cause ? report->since_steps : UINT32_MAX;
     m->drift_readings = report->steps;
-    m->drift_next_step = request_drift_next_step(controller);
+    m->drift_next_step = brace_app_drift_next_step(app);
 }
 
-static void take_loading(const controller_t *controller, brace_measured_t *m)
+static void take_loading(const brace_app_t *app, brace_measured_t *m)
 {
-    const brace_loading_result_t *result = request_loading_result(controller);
+    const brace_loading_result_t *result = brace_app_loading_result(app);
     const bool done = result->outcome == BRACE_LOADING_DONE;
     const float unknown = __builtin_nanf("");
     m->loading_outcome = (uint32_t)result->outcome & 0xffu;
-    m->loading_rows = request_row_count(controller);
+    m->loading_rows = brace_app_row_count(app);
     m->loading_k_x_n_per_mm = done ? result->least_squares.k_x_n_per_mm : unknown;
     m->loading_k_z_n_per_mm = done ? result->least_squares.k_z_n_per_mm : unknown;
     m->loading_ratio_k_x_n_per_mm = done ? result->mean_of_ratios.k_x_n_per_mm : unknown;
@@ -132,11 +131,11 @@ static void take_loading(const controller_t *controller, brace_measured_t *m)
     m->loading_score_z = done ? result->z_z : unknown;
 }
 
-static void take_parameters(const controller_t *controller, const brace_snapshot_t *snapshot, brace_measured_t *m)
+static void take_parameters(const brace_snapshot_t *snapshot, brace_measured_t *m)
 {
     m->parameter_crc = snapshot->parameter_crc;
     m->parameter_origin = snapshot->parameter_origin;
-    m->parameter_sequence = request_parameter_sequence(controller);
+    m->parameter_sequence = snapshot->parameter_sequence;
 }
 
 static void take_counters(const brace_app_counters_t *counters, brace_measured_t *m)
@@ -149,10 +148,10 @@ static void take_counters(const brace_app_counters_t *counters, brace_measured_t
     m->modbus_refused = counters->modbus_refused;
 }
 
-void measured_take(const controller_t *controller, const brace_app_counters_t *counters, uint32_t now_us,
+void measured_take(const brace_app_t *app, const brace_app_counters_t *counters, uint32_t now_us,
                    brace_measured_t *m)
 {
-    const brace_snapshot_t *snapshot = request_snapshot(controller);
+    const brace_snapshot_t *snapshot = brace_app_snapshot(app);
     const int32_t age_us = (int32_t)(now_us - snapshot->taken_us); /* samples may come after the tick's own time */
     m->probe_f32 = 12345.5f;
     m->probe_u32 = 0x01020304u;
@@ -167,19 +166,10 @@ void measured_take(const controller_t *controller, const brace_app_counters_t *c
     take_posture(snapshot, m);
     take_coxa_joint(snapshot, m);
     take_take_ups(snapshot, m);
-    take_parameters(controller, snapshot, m);
-    take_loading(controller, m);
-    take_drift(controller, m);
+    take_parameters(snapshot, m);
+    take_loading(app, m);
+    take_drift(app, m);
     take_counters(counters, m);
-}
-
-/* The structs are generated: each has its members in the order of the dictionary's entries, 32 bits each, so that an
- * entry stands at four times its place (asserted in brace/measured.h and in the interface's parameter_table.c). */
-static uint32_t word_at(const void *members, uint32_t place)
-{
-    uint32_t word;
-    memcpy(&word, (const uint8_t *)members + 4u * place, sizeof word);
-    return word;
 }
 
 brace_status_t measured_entry(const brace_measured_t *measured, uint32_t entry, uint32_t *value)
@@ -187,7 +177,7 @@ brace_status_t measured_entry(const brace_measured_t *measured, uint32_t entry, 
     if (entry - BRACE_ENTRY_MEASURED >= BRACE_MEASURED_COUNT) {
         return BRACE_E_RANGE;
     }
-    *value = word_at(measured, entry - BRACE_ENTRY_MEASURED);
+    *value = brace_word_at(measured, entry - BRACE_ENTRY_MEASURED);
     return BRACE_OK;
 }
 
@@ -203,5 +193,5 @@ brace_status_t parameter_entry(const brace_parameters_t *parameters, uint32_t nu
 
 uint32_t parameter_member(const brace_parameters_t *parameters, uint32_t index)
 {
-    return word_at(parameters, index);
+    return brace_word_at(parameters, index);
 }

@@ -4,14 +4,14 @@
 #define BRACE_WIRE_MEASURED_H
 
 #include "brace/measured.h"
-#include "requests.h"
+#include "brace/requests.h"
 
 /* Fills every value from the newest snapshot, so that nothing is mixed from two ticks. K is NaN while it is not
  * valid, as in the snapshot. What the drift check says of a cause is NaN or all ones while there is no cause.
  *   counters: of the controller and of its wires
  *   now_us: the HAL's clock, for the age
  * At most 300 instructions, once a tick. */
-void measured_take(const controller_t *controller, const brace_app_counters_t *counters, uint32_t now_us,
+void measured_take(const brace_app_t *app, const brace_app_counters_t *counters, uint32_t now_us,
                    brace_measured_t *measured);
 
 /* A value by its number in the dictionary (from BRACE_ENTRY_MEASURED on), as its 32 bits.

@@ -6,12 +6,13 @@
 
 #include "brace/measured.h"
 #include "brace_hal.h"
-#include "requests.h"
+#include "brace/requests.h"
 
 typedef struct {
     const brace_hal_t *hal;
-    controller_t *controller;          /* only to be handed to requests.h */
-    const brace_measured_t *measured;  /* all values of the newest snapshot that may be read; one for all wires */
+    brace_app_t *app;                 /* whom to ask: brace/requests.h */
+    brace_app_counters_t *counters;   /* where troubles of the wires are counted */
+    const brace_measured_t *measured; /* all values of the newest snapshot that may be read; one for all wires */
     uint32_t now_us;
 } wire_tick_t;
 

@@ -1,10 +1,10 @@
-/* All wires of the controller. A wire asks the controller through requests.h and knows nothing else of it. Every wire
- * is independent of the others: what one is flooded with does not delay another. */
+/* All wires of the controller. A wire asks the controller through brace/requests.h and knows nothing else of it. Every
+ * wire is independent of the others: what one is flooded with does not delay another. */
 #ifndef BRACE_WIRE_WIRES_H
 #define BRACE_WIRE_WIRES_H
 
 #include "brace_hal.h"
-#include "requests.h"
+#include "brace/requests.h"
 #include "wire/can/can.h"
 #include "wire/measured.h"
 #include "wire/modbus/modbus.h"
@@ -16,16 +16,14 @@ typedef struct {
 } wires_t;
 
 /* Sets the ports up. Before the first tick; may block can_setup's 20 ms. */
-void wires_start(wires_t *wires, const brace_hal_t *hal, const controller_t *controller);
+void wires_start(wires_t *wires, const brace_hal_t *hal, const brace_parameters_t *parameters);
 
 /* One tick, after the snapshot has been published: every port takes what has come, answers it, and sends what is due.
- * */
-void wires_tick(wires_t *wires, const brace_hal_t *hal, controller_t *controller, uint32_t now_us);
+ *   counters: where troubles are counted */
+void wires_tick(wires_t *wires, const brace_hal_t *hal, brace_app_t *app, brace_app_counters_t *counters,
+                uint32_t now_us);
 
 /* Is the CAN controller off its bus? BRACE_FAULT_CAN_BUS_OFF */
 bool wires_are_bus_off(const wires_t *wires);
-
-/* Adds the wires' counters to those of the controller. */
-void wires_counters(const wires_t *wires, brace_app_counters_t *counters);
 
 #endif

@@ -23,6 +23,10 @@
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_PARAMETER */
 brace_status_t brace_limb_check(const brace_limb_t *limb);
 
+/* The same for a limb whose every field is known to be finite and in its range. At most 100 instructions.
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_PARAMETER */
+brace_status_t brace_limb_check_together(const brace_limb_t *limb);
+
 /* Checks only the lengths: coxa [0, 1e4 mm], femur and tibia [1, 1e4 mm].
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_PARAMETER (NaN and infinity too) */
 brace_status_t brace_limb_check_lengths(const brace_limb_t *limb);

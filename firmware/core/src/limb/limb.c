@@ -70,8 +70,13 @@ brace_status_t brace_limb_check(const brace_limb_t *limb)
         return BRACE_E_NULL;
     }
     const brace_status_t status = check_ranges(limb);
-    if (status != BRACE_OK) {
-        return status;
+    return status == BRACE_OK ? brace_limb_check_together(limb) : status;
+}
+
+brace_status_t brace_limb_check_together(const brace_limb_t *limb)
+{
+    if (limb == NULL) {
+        return BRACE_E_NULL;
     }
     return yields_in_two_directions(limb) && coxa_is_long_enough(limb) ? BRACE_OK : BRACE_E_PARAMETER;
 }

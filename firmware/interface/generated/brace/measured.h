@@ -229,7 +229,7 @@ enum { BRACE_MEASURED_COUNT = 100 };
 _Static_assert(sizeof(brace_measured_t) == 4 * BRACE_MEASURED_COUNT, "32 bits each");
 #endif
 
-/* K at the posture asked for over Modbus. */
+/* The answers to what was last asked over Modbus. */
 typedef struct {
     /* the k_xx at the posture or tip asked for */
     float asked_k_xx_n_per_mm;
@@ -315,15 +315,5 @@ enum { BRACE_COMMANDS_COUNT = 17 };
 #ifndef __cplusplus
 _Static_assert(sizeof(brace_commands_t) == 4 * BRACE_COMMANDS_COUNT, "32 bits each");
 #endif
-
-/* X(member): every command that does something when it is written alone, for a controller's table. The
- * others (asked_...) are values of questions. */
-#define BRACE_COMMANDS(X) \
-    X(set_mode) \
-    X(commit) \
-    X(rollback) \
-    X(clear_faults) \
-    X(take_up) \
-    X(let_go)
 
 #endif

@@ -56,10 +56,10 @@ void parameter_job_keep_open(parameter_job_t *job)
     job->idle_us = 0;
 }
 
-bool parameter_job_has_lost_patience(parameter_job_t *job, uint32_t since_us)
+uint32_t parameter_job_idle_us(parameter_job_t *job, uint32_t since_us)
 {
     job->idle_us = parameter_job_is_busy(job) ? 0u : job->idle_us + since_us;
-    return job->idle_us >= (uint32_t)PARAMETER_JOB_PATIENCE_US;
+    return job->idle_us;
 }
 
 const brace_parameters_t *parameter_job_staged(const parameter_job_t *job)
@@ -69,9 +69,6 @@ const brace_parameters_t *parameter_job_staged(const parameter_job_t *job)
 
 brace_status_t parameter_job_write(parameter_job_t *job, uint32_t first_number, uint32_t count, const uint32_t *words)
 {
-    if (parameter_job_is_busy(job)) {
-        return BRACE_E_UNSUPPORTED;
-    }
     for (uint32_t i = 0; i < count; i++) { /* at most BRACE_PARAMETER_COUNT: no more are in range */
         const brace_status_t status = brace_parameter_in_range(brace_parameter_index(first_number + i), words[i]);
         if (status != BRACE_OK) {
@@ -99,15 +96,14 @@ brace_status_t parameter_job_commit_staged(parameter_job_t *job, uint32_t *wrong
 
 brace_status_t parameter_job_commit(parameter_job_t *job, const brace_parameters_t *parameters)
 {
-    const brace_status_t status =
-        parameter_job_is_busy(job) ? BRACE_E_UNSUPPORTED : brace_store_offer(&job->store, parameters);
+    const brace_status_t status = brace_store_offer(&job->store, parameters);
     job->storing = job->storing || status == BRACE_OK;
     return status;
 }
 
 brace_status_t parameter_job_rollback(parameter_job_t *job)
 {
-    const brace_status_t status = parameter_job_is_busy(job) ? BRACE_E_UNSUPPORTED : brace_store_rollback(&job->store);
+    const brace_status_t status = brace_store_rollback(&job->store);
     job->storing = job->storing || status == BRACE_OK;
     return status;
 }

@@ -12,9 +12,6 @@
 #include "brace/store.h"
 #include "brace_hal.h"
 
-/* CONFIGURATION ends by itself after so long in which nobody asked for anything. */
-enum { PARAMETER_JOB_PATIENCE_US = 10000000 };
-
 typedef struct {
     brace_parameters_t in_force;
     uint32_t crc;                    /* brace_parameters_crc of in_force */
@@ -47,35 +44,21 @@ static inline bool parameter_job_is_busy(const parameter_job_t *job)
 /* CONFIGURATION has been entered: what was staged is forgotten. */
 void parameter_job_open(parameter_job_t *job);
 
-/* Somebody asked for something: CONFIGURATION lasts PARAMETER_JOB_PATIENCE_US from here. */
+/* Somebody asked for something: CONFIGURATION lasts its patience from here. */
 void parameter_job_keep_open(parameter_job_t *job);
 
-/* Has nobody asked for anything for so long that CONFIGURATION should end? Each tick of it.
+/* For how long nobody has asked for anything [us]. Each tick of CONFIGURATION.
  *   since_us: since the tick before, which an erase may have delayed */
-bool parameter_job_has_lost_patience(parameter_job_t *job, uint32_t since_us);
+uint32_t parameter_job_idle_us(parameter_job_t *job, uint32_t since_us);
 
 /* The set that is being written: what is staged, or what is in force while nothing is. */
 const brace_parameters_t *parameter_job_staged(const parameter_job_t *job);
 
-/* Stages `count` parameters whose numbers on the wire (brace_parameter_index) follow one another: all of them, or none
- * where one is refused.
- *   words: each as its 32 bits
- * returns BRACE_OK, BRACE_E_UNSUPPORTED (a set is being stored), BRACE_E_RANGE (no such parameter), BRACE_E_PARAMETER,
- *   BRACE_E_NOT_FINITE (not in its own range; what members say together is judged by the commit)
- * At most 450 instructions the first time, and 65 a parameter. */
+/* These four do what brace_app_parameters_stage, _commit_staged, _commit and _rollback promise (brace/requests.h). Only
+ * while the job is not busy. */
 brace_status_t parameter_job_write(parameter_job_t *job, uint32_t first_number, uint32_t count, const uint32_t *words);
-
-/* Begins to store what is staged. What members say together is judged at once.
- *   wrong_index (out, may be null): as brace_parameters_check
- * returns BRACE_OK, BRACE_E_UNSUPPORTED (a set is being stored), BRACE_E_PARAMETER, BRACE_E_NOT_FINITE.
- * At most 2,000 instructions. */
 brace_status_t parameter_job_commit_staged(parameter_job_t *job, uint32_t *wrong_index);
-
-/* Begins to store a whole set; the store checks it in its first steps.
- * returns BRACE_OK, BRACE_E_UNSUPPORTED (a set is being stored) */
 brace_status_t parameter_job_commit(parameter_job_t *job, const brace_parameters_t *parameters);
-
-/* Begins to put the set before the one in force back; returns also what brace_store_rollback returns. */
 brace_status_t parameter_job_rollback(parameter_job_t *job);
 
 #endif

@@ -1,5 +1,7 @@
 #include "jobs/drift/drift_job.h"
 
+_Static_assert(BRACE_JOURNAL_STATE_BYTES == sizeof(brace_drift_t), "what is kept is what the check knows");
+
 #define EVIDENCE_WORTH_KEEPING 4.0f /* of the 20 that raise the alarm */
 #define LEARNING_READINGS 512u
 #define WATCHING_READINGS 4096u

@@ -18,9 +18,6 @@
 #define TIME_SPARE_US 2000000u
 #define TIME_MOST_US 3.0e9f
 
-/* The joints that a test moves, by their place in the test's arrays. */
-static const int joint_of[2] = {BRACE_FEMUR, BRACE_TIBIA};
-
 /* -------------------------------------------------------------------------------------------- start -- */
 
 static bool is_inside(float value, float low, float high)
@@ -91,8 +88,8 @@ static float smaller_of(float a, float b)
 /* Bounds and start of one joint. furthest_rad: a step of the joint that goes further */
 static void prepare_joint(brace_loading_t *test, const loading_inputs_t *inputs, int i, float furthest_rad)
 {
-    const flank_joint_t *flank = &inputs->flank->joint[joint_of[i]];
-    const brace_drive_t *drive = &inputs->parameters->drive[joint_of[i]];
+    const flank_joint_t *flank = &inputs->flank->joint[BRACE_FEMUR + i];
+    const brace_drive_t *drive = &inputs->parameters->drive[BRACE_FEMUR + i];
     const bool held = flank->out.phase == BRACE_TAKEUP_HOLD;
     float most_n_mm = smaller_of(test->result.setup.torque_max_n_mm, drive->torque_range_n_mm);
     if (held) {
@@ -103,7 +100,7 @@ static void prepare_joint(brace_loading_t *test, const loading_inputs_t *inputs,
     test->give_rad_per_mm[i] = test->trim_rad[i] = 0.0f;
     /* Within this nothing is corrected: an encoder knows no finer, and a servo that sticks would go to and fro. */
     test->there_rad[i] = THERE_SHARE * furthest_rad + drive->angle_step_rad;
-    test->start_motor_rad[i] = inputs->joints->joint[joint_of[i]].sample.motor_rad;
+    test->start_motor_rad[i] = inputs->joints->joint[BRACE_FEMUR + i].sample.motor_rad;
 }
 
 brace_status_t loading_start(brace_loading_t *test, const loading_inputs_t *inputs, const brace_loading_setup_t *setup)
@@ -192,9 +189,9 @@ static brace_loading_outcome_t broken_bound(const brace_loading_t *test, const l
         return BRACE_LOADING_E_FORCE;
     }
     for (int i = 0; i < 2; i++) {
-        const joint_t *joint = &inputs->joints->joint[joint_of[i]];
+        const joint_t *joint = &inputs->joints->joint[BRACE_FEMUR + i];
         const float moved_rad = joint->sample.motor_rad - test->start_motor_rad[i];
-        if (test->held[i] && inputs->flank->joint[joint_of[i]].out.phase != BRACE_TAKEUP_HOLD) {
+        if (test->held[i] && inputs->flank->joint[BRACE_FEMUR + i].out.phase != BRACE_TAKEUP_HOLD) {
             return BRACE_LOADING_E_LOST;
         }
         if (__builtin_fabsf(joint->torque_n_mm) > TORQUE_SHARE * test->torque_max_n_mm[i]) {
@@ -224,7 +221,7 @@ static bool correct(brace_loading_t *test, const loading_inputs_t *inputs)
         return true;
     }
     for (int i = 0; i < 2; i++) {
-        const float moved_rad = inputs->joints->joint[joint_of[i]].sample.motor_rad - test->start_motor_rad[i];
+        const float moved_rad = inputs->joints->joint[BRACE_FEMUR + i].sample.motor_rad - test->start_motor_rad[i];
         const float off_rad = test->per_mm[i] * along_mm - moved_rad;
         const float near_rad = test->rests[i] ? NEAR_THERE * test->there_rad[i] : test->there_rad[i];
         test->rests[i] = __builtin_fabsf(off_rad) <= near_rad;

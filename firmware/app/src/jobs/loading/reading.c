@@ -1,8 +1,5 @@
 #include "jobs/loading/reading.h"
 
-/* The joints that a test moves, by their place in the test's arrays. */
-static const int joint_of[2] = {BRACE_FEMUR, BRACE_TIBIA};
-
 void reading_begin(brace_loading_t *test)
 {
     test->sums = (brace_loading_sums_t){.count = 0};
@@ -13,7 +10,7 @@ void reading_add(brace_loading_t *test, const loading_inputs_t *inputs)
     brace_loading_sums_t *sums = &test->sums;
     const brace_snapshot_t *now = inputs->now;
     for (int i = 0; i < 2; i++) {
-        const brace_hal_joint_t *sample = &inputs->joints->joint[joint_of[i]].sample;
+        const brace_hal_joint_t *sample = &inputs->joints->joint[BRACE_FEMUR + i].sample;
         /* Differences from where the test began are small, so that their sums lose no digits. */
         sums->motor_rad[i] += sample->motor_rad - test->start_motor_rad[i];
         sums->link_rad[i] += sample->link_rad - sample->motor_rad;

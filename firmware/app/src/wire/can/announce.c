@@ -37,24 +37,24 @@ static uint32_t state_of(brace_mode_t mode)
 static bool heart_beats(const announce_t *announce, const wire_tick_t *tick)
 {
     const uint32_t since_us = tick->now_us - announce->beat_us;
-    const uint32_t rate_hz = request_parameters(tick->controller)->controller.heartbeat_hz;
+    const uint32_t rate_hz = brace_app_parameters(tick->app)->controller.heartbeat_hz;
     return since_us >= SILENCE_MOST_US || since_us * rate_hz >= SECOND_US;
 }
 
 /* The likeliest cause of the drift while the fault is there. */
-static uint32_t drift_cause(const wire_tick_t *tick)
+static uint32_t drift_cause(const wire_tick_t *tick, uint32_t faults)
 {
-    const bool has_drifted = (request_faults(tick->controller) & (uint32_t)BRACE_FAULT_MODEL_DRIFT) != 0u;
+    const bool has_drifted = (faults & (uint32_t)BRACE_FAULT_MODEL_DRIFT) != 0u;
     return has_drifted ? tick->measured->drift_cause : (uint32_t)BRACE_DRIFT_CAUSE_NONE;
 }
 
 bool announce_next(const announce_t *announce, const wire_tick_t *tick, brace_can_frame_t *frame)
 {
-    const brace_mode_t mode = request_mode(tick->controller);
-    const uint32_t faults = request_faults(tick->controller);
+    const brace_mode_t mode = brace_app_mode(tick->app);
+    const uint32_t faults = brace_app_faults(tick->app);
     frame->length = 8;
     frame->fd = false;
-    const uint32_t cause = drift_cause(tick);
+    const uint32_t cause = drift_cause(tick, faults);
     if (faults != announce->faults_told || cause != announce->cause_told) {
         const uint32_t drift = faults & (cause != announce->cause_told ? (uint32_t)BRACE_FAULT_MODEL_DRIFT : 0u);
         const uint32_t code = emergency_code((faults & ~announce->faults_told) | drift, faults);
@@ -81,17 +81,17 @@ bool announce_next(const announce_t *announce, const wire_tick_t *tick, brace_ca
 void announce_sent(announce_t *announce, const wire_tick_t *tick, uint32_t function)
 {
     if (function == (uint32_t)BRACE_CAN_ID_EMERGENCY) {
-        announce->faults_told = request_faults(tick->controller);
-        announce->cause_told = drift_cause(tick);
+        announce->faults_told = brace_app_faults(tick->app);
+        announce->cause_told = drift_cause(tick, announce->faults_told);
     } else {
-        announce->mode_told = request_mode(tick->controller);
+        announce->mode_told = brace_app_mode(tick->app);
         announce->beat_us = tick->now_us;
     }
 }
 
 void announce_skip(announce_t *announce, const wire_tick_t *tick)
 {
-    announce->faults_told = request_faults(tick->controller);
-    announce->cause_told = drift_cause(tick);
-    announce->mode_told = request_mode(tick->controller);
+    announce->faults_told = brace_app_faults(tick->app);
+    announce->cause_told = drift_cause(tick, announce->faults_told);
+    announce->mode_told = brace_app_mode(tick->app);
 }

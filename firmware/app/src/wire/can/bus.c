@@ -54,11 +54,11 @@ void can_bus_watch(can_bus_t *bus, const brace_hal_t *hal, uint32_t tick_us)
     }
 }
 
-bool can_bus_send(can_bus_t *bus, const brace_hal_t *hal, const brace_can_frame_t *frame)
+bool can_bus_send(can_bus_t *bus, const wire_tick_t *tick, const brace_can_frame_t *frame)
 {
-    const int32_t status = hal->can_send(hal->context, frame);
+    const int32_t status = tick->hal->can_send(tick->hal->context, frame);
     if (status != BRACE_HAL_OK && status != BRACE_HAL_AGAIN) {
-        bus->frames_refused += bus->frames_refused < UINT32_MAX;
+        brace_count(&tick->counters->frames_refused);
         bus->is_off = bus->is_off || status == BRACE_HAL_E_BUS_OFF;
     }
     return status == BRACE_HAL_OK;

@@ -9,6 +9,7 @@
 
 #include "brace/parameters.h"
 #include "brace_hal.h"
+#include "wire/wire.h"
 
 typedef struct {
     bool is_there;            /* the board has CAN, and it is set up */
@@ -17,7 +18,6 @@ typedef struct {
     uint32_t health_us;       /* since its health was last asked for */
     uint32_t recover_us;      /* since it left the bus, or since recovery was last tried */
     uint32_t recover_wait_us; /* before it is tried again */
-    uint32_t frames_refused;  /* saturates */
 } can_bus_t;
 
 /* Sets the CAN controller up: listen only while the node's number is unset, and with classic frames where it has no CAN
@@ -29,7 +29,7 @@ void can_bus_start(can_bus_t *bus, const brace_hal_t *hal, const brace_controlle
 void can_bus_watch(can_bus_t *bus, const brace_hal_t *hal, uint32_t tick_us);
 
 /* returns whether the frame has been taken; if not, it may be tried again at the next tick. About 30 instructions. */
-bool can_bus_send(can_bus_t *bus, const brace_hal_t *hal, const brace_can_frame_t *frame);
+bool can_bus_send(can_bus_t *bus, const wire_tick_t *tick, const brace_can_frame_t *frame);
 
 /* returns whether a frame has come, whoever it is for. About 20 instructions. */
 bool can_bus_receive(const can_bus_t *bus, const brace_hal_t *hal, brace_can_frame_t *frame);

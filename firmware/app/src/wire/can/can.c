@@ -2,8 +2,7 @@
 
 #include <string.h>
 
-#include "wire/can/requests.h"
-#include "wire/can/transfer.h"
+#include "brace/can_frames.h"
 
 #define FRAMES_PER_MS 4u
 #define FRAMES_MOST 20u
@@ -26,12 +25,6 @@ bool can_is_bus_off(const can_t *can)
     return can->bus.is_off;
 }
 
-void can_counters(const can_t *can, brace_app_counters_t *counters)
-{
-    counters->frames_refused = can->bus.frames_refused;
-    counters->frames_unknown = can->frames_unknown;
-}
-
 /* ------------------------------------------------------------------------------------------------ in -- */
 
 /* Identifiers that the other nodes of a bus use among themselves. Their frames are for others, and nothing strange. */
@@ -46,22 +39,17 @@ static bool is_known_function(uint32_t id)
     return (known >> (id >> 7 & 15u) & 1u) != 0u;
 }
 
-static void count_unknown(can_t *can)
-{
-    can->frames_unknown += can->frames_unknown < UINT32_MAX;
-}
-
 /* Is the frame a request to this node? A frame of no known kind is counted. */
-static bool is_request(can_t *can, const brace_can_frame_t *frame)
+static bool is_request(const can_t *can, const wire_tick_t *tick, const brace_can_frame_t *frame)
 {
     if (frame->id != (uint32_t)BRACE_CAN_ID_REQUEST + can->node_id) {
         if (!is_known_function(frame->id)) {
-            count_unknown(can);
+            brace_count(&tick->counters->frames_unknown);
         }
         return false;
     }
     if (frame->length != 8u || frame->fd || frame->data[0] >= BRACE_ANSWER_PART) {
-        count_unknown(can);
+        brace_count(&tick->counters->frames_unknown);
         return false;
     }
     return true;
@@ -69,18 +57,13 @@ static bool is_request(can_t *can, const brace_can_frame_t *frame)
 
 static bool has_room_for_an_answer(const can_port_t *port)
 {
-    return can_answers_have_room(&port->answers, ANSWERS_PER_TICK);
+    return can_answers_have_room(&port->requests.answers, ANSWERS_PER_TICK);
 }
 
-static void answer(can_t *can, can_port_t *port, const wire_tick_t *tick, const brace_can_frame_t *frame)
+static void answer(const can_t *can, can_port_t *port, const wire_tick_t *tick, const brace_can_frame_t *frame)
 {
-    can_request_t request = {.data = frame->data,
-                             .node_id = can->node_id,
-                             .tick = tick,
-                             .session = &port->session,
-                             .answers = &port->answers};
-    if (!can_requests_answer(&request)) {
-        count_unknown(can);
+    if (!can_requests_answer(&port->requests, tick, can->node_id, frame->data)) {
+        brace_count(&tick->counters->frames_unknown);
     }
 }
 
@@ -91,7 +74,7 @@ static bool has_number(const can_t *can)
 
 static uint32_t frames_per_tick(const wire_tick_t *tick)
 {
-    const uint32_t frames = request_parameters(tick->controller)->controller.tick_us * FRAMES_PER_MS / 1000u;
+    const uint32_t frames = brace_app_parameters(tick->app)->controller.tick_us * FRAMES_PER_MS / 1000u;
     return frames < FRAMES_PER_MS ? FRAMES_PER_MS : frames > FRAMES_MOST ? FRAMES_MOST : frames;
 }
 
@@ -105,7 +88,7 @@ static void listen_to_bus(can_t *can, const wire_tick_t *tick)
         return;
     }
     for (uint32_t i = 0; i < most && can_bus_receive(&can->bus, tick->hal, &frame); i++) {
-        if (is_request(can, &frame) && has_number(can)) {
+        if (is_request(can, tick, &frame) && has_number(can)) {
             answer(can, &can->bus_port, tick, &frame);
             return;
         }
@@ -116,7 +99,7 @@ static void listen_to_text(can_t *can, const wire_tick_t *tick)
 {
     brace_can_frame_t frame;
     if (has_room_for_an_answer(&can->text_port) && slcan_receive(&can->text, tick->hal, &frame) &&
-        is_request(can, &frame)) {
+        is_request(can, tick, &frame)) {
         answer(can, &can->text_port, tick, &frame);
     }
 }
@@ -138,12 +121,12 @@ static bool is_open(const can_t *can, way_t way)
 static bool send(can_t *can, way_t way, const wire_tick_t *tick, brace_can_frame_t *frame)
 {
     frame->id += can->node_id;
-    return way == ON_BUS ? can_bus_send(&can->bus, tick->hal, frame) : slcan_send(&can->text, frame);
+    return way == ON_BUS ? can_bus_send(&can->bus, tick, frame) : slcan_send(&can->text, frame);
 }
 
 static void send_answers(can_t *can, way_t way, const wire_tick_t *tick)
 {
-    can_answers_t *answers = &port_of(can, way)->answers;
+    can_answers_t *answers = &port_of(can, way)->requests.answers;
     brace_can_frame_t frame;
     for (uint32_t i = 0; i < ANSWERS_PER_TICK; i++) {
         const uint8_t *data = can_answers_next(answers);
@@ -196,7 +179,7 @@ static void keep_silent(can_t *can, way_t way, const wire_tick_t *tick)
     can_port_t *port = port_of(can, way);
     process_skip(&port->process);
     if (way == AS_TEXT) {
-        port->answers.count = 0;
+        port->requests.answers.count = 0;
         announce_skip(&port->announce, tick);
     }
 }
@@ -216,9 +199,9 @@ static void speak(can_t *can, way_t way, const wire_tick_t *tick)
 
 void can_tick(can_t *can, const wire_tick_t *tick)
 {
-    can_bus_watch(&can->bus, tick->hal, request_parameters(tick->controller)->controller.tick_us);
-    transfer_tick(&can->bus_port.session, &can->bus_port.answers, tick);
-    transfer_tick(&can->text_port.session, &can->text_port.answers, tick);
+    can_bus_watch(&can->bus, tick->hal, brace_app_parameters(tick->app)->controller.tick_us);
+    can_requests_tick(&can->bus_port.requests, tick);
+    can_requests_tick(&can->text_port.requests, tick);
     listen_to_bus(can, tick);
     listen_to_text(can, tick);
     speak(can, ON_BUS, tick);

@@ -15,17 +15,15 @@
 #include "brace/snapshot.h"
 #include "brace_hal.h"
 #include "wire/can/announce.h"
-#include "wire/can/answers.h"
 #include "wire/can/bus.h"
 #include "wire/can/process.h"
-#include "wire/can/session.h"
+#include "wire/can/requests.h"
 #include "wire/slcan/slcan.h"
 #include "wire/wire.h"
 
 /* What belongs to one port. */
 typedef struct {
-    can_answers_t answers;
-    can_session_t session;
+    can_requests_t requests;
     announce_t announce;
     process_t process;
 } can_port_t;
@@ -37,7 +35,6 @@ typedef struct {
     slcan_t text;
     can_port_t bus_port;
     can_port_t text_port;
-    uint32_t frames_unknown; /* saturates */
 } can_t;
 
 /* Sets both ports up. Node number and bit rates stay those of the start. Before the first tick; may block as
@@ -51,8 +48,5 @@ void can_tick(can_t *can, const wire_tick_t *tick);
 
 /* Has the CAN controller left the bus? */
 bool can_is_bus_off(const can_t *can);
-
-/* Writes frames_refused and frames_unknown. */
-void can_counters(const can_t *can, brace_app_counters_t *counters);
 
 #endif

@@ -1,6 +1,6 @@
 #include "wire/can/process.h"
 
-#include "brace/can_requests.h"
+#include "brace/can_frames.h"
 #include "brace/can_snapshot.h"
 
 #define CLASSIC_BYTES 8u
@@ -42,7 +42,7 @@ static bool is_sent(const process_frame_t *frame, const process_bus_t *bus, cons
     const bool is_of_space =
         frame->id == (uint32_t)BRACE_CAN_ID_SPACE || frame->id == (uint32_t)BRACE_CAN_ID_SPACE_FD;
     return frame->is_fd == (bus->fd_bit_rate != 0u) &&
-           (!is_of_space || request_snapshot(tick->controller)->space.is_fitted);
+           (!is_of_space || brace_app_snapshot(tick->app)->space.is_fitted);
 }
 
 /* The frames that follow one of the two rates. */
@@ -80,9 +80,9 @@ static float frames_per_s(const process_share_t *share, const process_bus_t *bus
 /* Works the periods out. */
 static void configure(process_t *process, const process_bus_t *bus, const wire_tick_t *tick)
 {
-    const brace_controller_t *wanted = &request_parameters(tick->controller)->controller;
+    const brace_controller_t *wanted = &brace_app_parameters(tick->app)->controller;
     process->is_configured = true;
-    process->parameter_crc = request_parameter_crc(tick->controller);
+    process->parameter_crc = brace_app_snapshot(tick->app)->parameter_crc;
     process->period_us = 0;
     process->due = 0;
     process->stiffness = frames_of(false, bus, tick);
@@ -139,7 +139,7 @@ static void take(process_t *process, const wire_tick_t *tick)
 
 void process_tick(process_t *process, const process_bus_t *bus, const wire_tick_t *tick)
 {
-    if (!process->is_configured || process->parameter_crc != request_parameter_crc(tick->controller)) {
+    if (!process->is_configured || process->parameter_crc != brace_app_snapshot(tick->app)->parameter_crc) {
         configure(process, bus, tick);
     }
     if (process->period_us != 0u && process->due == 0u && is_time(process, tick->now_us)) {

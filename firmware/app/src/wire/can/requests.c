@@ -1,58 +1,43 @@
 #include "wire/can/requests.h"
 
-#include <stddef.h>
-
-/* From a request's bytes to the frames of its answer, by the function that answers it. */
-#define ANSWER(CODE, name) \
-    static int32_t answer_##name(can_request_t *request, uint8_t (*parts)[8]) \
-    { \
-        brace_can_##name##_request_t asked; \
-        brace_can_##name##_answer_t answer; \
-        brace_can_unpack_##name##_request(request->data, &asked); \
-        const int32_t status = can_answer_##name(request, &asked, &answer); \
-        if (status == BRACE_OK) { \
-            brace_can_pack_##name##_answer(&answer, request->token, parts); \
-        } \
-        return status; \
-    }
-BRACE_CAN_REQUESTS(ANSWER)
-#undef ANSWER
-
-/* Who answers a request; null: the dictionary has none of this code. */
-typedef struct {
-    int32_t (*answer)(can_request_t *request, uint8_t (*parts)[8]);
-} request_entry_t;
-
-#define ENTRY(CODE, name) [CODE] = {answer_##name},
-static const request_entry_t entries[BRACE_ANSWER_PART] = {BRACE_CAN_REQUESTS(ENTRY)};
-#undef ENTRY
-
-/* The highest code that the dictionary has: a refusal of an unknown one tells it. */
-static uint32_t highest_code(void)
+static void tell(can_answers_t *answers, uint32_t code, uint32_t token, int32_t status, const brace_answer_t *answer,
+                 uint32_t detail)
 {
-    uint32_t highest = (uint32_t)BRACE_ANSWER_PART - 1u;
-    while (highest > 0u && entries[highest].answer == NULL) {
-        highest--;
+    uint8_t parts[BRACE_CAN_ANSWER_PARTS_MOST][8];
+    if (status == BRACE_OK) {
+        brace_can_pack_answer(code, answer, token, parts);
+        can_answers_add(answers, parts, brace_can_answer_parts[code]);
+    } else {
+        can_answers_refuse(answers, code, token, status, detail);
     }
-    return highest;
 }
 
-bool can_requests_answer(can_request_t *request)
+bool can_requests_answer(can_requests_t *requests, const wire_tick_t *tick, uint32_t node_id, const uint8_t *data)
 {
-    request->code = request->data[0];
-    request->token = request->data[1];
-    const bool is_known = request->code < (uint32_t)BRACE_ANSWER_PART && entries[request->code].answer != NULL;
-    uint8_t parts[BRACE_CAN_ANSWER_PARTS_MOST][8];
-    int32_t status = BRACE_REFUSED_UNKNOWN;
-    if (is_known) {
-        status = entries[request->code].answer(request, parts);
+    request_t request = {
+        .app = tick->app, .measured = tick->measured, .transfer = &requests->transfer, .node_id = node_id};
+    const uint8_t code = data[0], token = data[1];
+    brace_request_t asked;
+    brace_answer_t answer;
+    brace_can_unpack_request(data, &asked);
+    const int32_t status = answer_request(&request, code, &asked, &answer);
+    if (status == ANSWER_LATER) {
+        requests->storing = code;
+        requests->storing_token = token;
     } else {
-        request->detail = highest_code();
+        tell(&requests->answers, code, token, status, &answer, request.detail);
     }
-    if (status == BRACE_OK) {
-        can_answers_add(request->answers, parts, brace_can_answer_parts[request->code]);
-    } else if (status != CAN_ANSWER_LATER) {
-        can_answers_refuse(request->answers, request->code, request->token, status, request->detail);
+    return status != BRACE_REFUSED_UNKNOWN;
+}
+
+void can_requests_tick(can_requests_t *requests, const wire_tick_t *tick)
+{
+    transfer_tick(&requests->transfer, tick->app);
+    if (requests->storing != 0u && !brace_app_is_storing(tick->app)) {
+        request_t request = {.app = tick->app};
+        brace_answer_t answer; /* a commit and a roll-back have the same */
+        const int32_t status = answer_of_storing(&request, &answer.commit);
+        tell(&requests->answers, requests->storing, requests->storing_token, status, &answer, request.detail);
+        requests->storing = 0;
     }
-    return is_known;
 }

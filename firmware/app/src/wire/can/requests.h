@@ -1,13 +1,28 @@
-/* Requests over CAN: each is answered or refused at once. Costs are instructions on a Cortex-M4F. */
+/* Requests of one port over CAN: each is answered or refused at once, or when what it began has ended. Costs are
+ * instructions on a Cortex-M4F. */
 #ifndef BRACE_WIRE_CAN_REQUESTS_H
 #define BRACE_WIRE_CAN_REQUESTS_H
 
-#include "wire/can/request.h"
+#include "wire/answers/answer.h"
+#include "wire/can/answers.h"
+#include "wire/wire.h"
+
+typedef struct {
+    can_answers_t answers;  /* on their way out */
+    transfer_t transfer;
+    uint8_t storing;        /* code of the commit or roll-back that is answered once the store has ended; 0: none */
+    uint8_t storing_token;
+} can_requests_t;
 
 /* Answers or refuses a request. There must be room for BRACE_CAN_ANSWER_PARTS_MOST frames.
- *   request: code and token are filled in here
+ *   node_id: of this node
+ *   data: its eight bytes
  * returns whether the dictionary has such a request; if not, it is refused too
- * At most 150 instructions and what requests.h says of the request; 2,400 where a set is to be stored. */
-bool can_requests_answer(can_request_t *request);
+ * At most 150 instructions beside answer_request, and 120 for each frame of the answer. */
+bool can_requests_answer(can_requests_t *requests, const wire_tick_t *tick, uint32_t node_id, const uint8_t *data);
+
+/* Each tick, before requests are answered: answers the commit or roll-back that this port has asked for, once the store
+ * has ended. Takes two frames of room. At most 250 instructions. */
+void can_requests_tick(can_requests_t *requests, const wire_tick_t *tick);
 
 #endif

@@ -1,21 +1,22 @@
-/* Questions about the limb, asked by writing the command registers whose names begin with asked_. The answer can be
- * read from the registers of brace_answered_t as soon as the write is answered. */
+/* Questions about the limb, asked by writing command registers whose names begin with asked_: brace/questions.h lists
+ * them. The answer can be read from the registers of brace_answered_t as soon as the write is answered. */
 #ifndef BRACE_WIRE_MODBUS_ASK_H
 #define BRACE_WIRE_MODBUS_ASK_H
 
-#include "requests.h"
+#include "wire/answers/answer.h"
 #include "wire/modbus/protocol.h"
 #include "wire/modbus/server.h"
+#include "wire/wire.h"
 
 /* Nothing has been asked: questions and answers are unknown, which is NaN or all ones. */
 void modbus_ask_nothing(modbus_server_t *server);
 
 /* Answers a question.
- *   first: command number (MODBUS_COMMAND) of its first value
+ *   first: command number of its first value
  *   words: its values as their 32 bits, `count` of them
  * returns MODBUS_E_VALUE also when no question of so many values begins there
- * At most what request_k_at_tip costs, and 150 instructions. */
-modbus_exception_t modbus_ask(modbus_server_t *server, controller_t *controller, uint32_t first, uint32_t count,
+ * At most what brace_app_k_at_tip costs, and 300 instructions. */
+modbus_exception_t modbus_ask(modbus_server_t *server, const wire_tick_t *tick, uint32_t first, uint32_t count,
                               const uint32_t *words);
 
 #endif

@@ -1,107 +1,72 @@
 #include "wire/modbus/command.h"
 
+#include <stddef.h>
+
 #include "wire/modbus/refusal.h"
 
-#define KEY 0xc0de0000u /* in the high half of what nobody must write by mistake */
+#define KEY 0xc0deu /* in the high half of what nobody must write by mistake */
+#define COMMAND(member) (offsetof(brace_commands_t, member) / 4u) /* its place: every value has 32 bits */
 
-enum { FLANK_POSITIVE = 256, FLANK_NEGATIVE = 512 };
+enum { STORES_NOW = 1, FLANK_POSITIVE = 1, FLANK_NEGATIVE = 2 };
 
-static modbus_exception_t command_set_mode(modbus_server_t *server, controller_t *controller, uint32_t value)
+/* The request that a command's value stands for. returns its code; 0: it stands for none */
+static uint32_t request_of(uint32_t command, uint32_t value, brace_request_t *asked)
 {
-    (void)server;
-    const bool configures = request_mode(controller) == BRACE_MODE_CONFIGURATION;
-    if (value == (KEY | BRACE_MODE_CONFIGURATION)) {
-        request_configuration_keep(controller);
-        return configures ? MODBUS_FINE : modbus_refusal_of(request_configuration_enter(controller));
+    const uint32_t low = value & 0xffffu, high = value >> 16, flank = value >> 8;
+    switch (command) {
+    case COMMAND(set_mode):
+        asked->set_mode = (brace_set_mode_request_t){.mode = low, .key = high};
+        return high == KEY && (low == BRACE_MODE_CONFIGURATION || low == BRACE_MODE_MONITOR) ? BRACE_REQUEST_SET_MODE
+                                                                                             : 0u;
+    case COMMAND(commit):
+        asked->commit = (brace_commit_request_t){.crc = 0}; /* what has been written value by value */
+        return high == KEY && low == STORES_NOW ? BRACE_REQUEST_COMMIT : 0u;
+    case COMMAND(rollback): return high == KEY && low == STORES_NOW ? BRACE_REQUEST_ROLLBACK : 0u;
+    case COMMAND(clear_faults):
+        asked->clear = (brace_clear_request_t){.faults = value};
+        return BRACE_REQUEST_CLEAR;
+    case COMMAND(take_up):
+        asked->take_up = (brace_take_up_request_t){.joint = value & 0xffu, .flank = flank == FLANK_POSITIVE ? 1 : -1};
+        return flank == FLANK_POSITIVE || flank == FLANK_NEGATIVE ? BRACE_REQUEST_TAKE_UP : 0u;
+    case COMMAND(let_go): return BRACE_REQUEST_LET_GO;
+    default: return 0; /* a value of a question */
     }
-    if (value != (KEY | BRACE_MODE_MONITOR)) {
-        return MODBUS_E_VALUE;
-    }
-    if (request_is_storing(controller)) {
-        return MODBUS_E_BUSY;
-    }
-    return configures ? modbus_refusal_of(request_configuration_leave(controller)) : MODBUS_FINE;
 }
 
-static modbus_exception_t store(controller_t *controller, uint32_t value, bool is_commit)
-{
-    if (value != (KEY | 1u)) {
-        return MODBUS_E_VALUE;
-    }
-    const modbus_exception_t why = modbus_refusal_to_write(controller);
-    if (why != MODBUS_FINE) {
-        return why;
-    }
-    return modbus_refusal_of(is_commit ? request_commit_staged(controller, NULL) : request_rollback(controller));
-}
-
-static modbus_exception_t command_commit(modbus_server_t *server, controller_t *controller, uint32_t value)
-{
-    (void)server;
-    return store(controller, value, true);
-}
-
-static modbus_exception_t command_rollback(modbus_server_t *server, controller_t *controller, uint32_t value)
-{
-    (void)server;
-    return store(controller, value, false);
-}
-
-static modbus_exception_t command_clear_faults(modbus_server_t *server, controller_t *controller, uint32_t value)
-{
-    (void)server;
-    return modbus_refusal_of(request_clear(controller, value));
-}
-
-static modbus_exception_t command_take_up(modbus_server_t *server, controller_t *controller, uint32_t value)
-{
-    const uint32_t joint = value & 0xffu, flank = value - joint;
-    if (flank != FLANK_POSITIVE && flank != FLANK_NEGATIVE) {
-        return MODBUS_E_VALUE;
-    }
-    const brace_status_t status = request_take_up(controller, (int32_t)joint, flank == FLANK_POSITIVE ? 1 : -1);
-    if (status == BRACE_OK) {
-        server->written.take_up = value;
-    }
-    return modbus_refusal_of(status);
-}
-
-static modbus_exception_t command_let_go(modbus_server_t *server, controller_t *controller, uint32_t value)
-{
-    (void)server;
-    (void)value;
-    return modbus_refusal_of(request_let_go(controller));
-}
-
-/* Who does a command; null: it is a value of a question. */
-typedef struct {
-    modbus_exception_t (*run)(modbus_server_t *server, controller_t *controller, uint32_t value);
-} command_entry_t;
-
-#define ENTRY(member) [MODBUS_COMMAND(member)] = {command_##member},
-static const command_entry_t entries[BRACE_COMMANDS_COUNT] = {BRACE_COMMANDS(ENTRY)};
-#undef ENTRY
-
-modbus_exception_t modbus_command_run(modbus_server_t *server, controller_t *controller, uint32_t command,
+modbus_exception_t modbus_command_run(modbus_server_t *server, const wire_tick_t *tick, uint32_t command,
                                       uint32_t value)
 {
-    const bool is_known = command < (uint32_t)BRACE_COMMANDS_COUNT && entries[command].run != NULL;
-    return is_known ? entries[command].run(server, controller, value) : MODBUS_E_VALUE;
+    request_t request = {.app = tick->app, .measured = tick->measured};
+    brace_request_t asked;
+    brace_answer_t answer;
+    const uint32_t code = request_of(command, value, &asked);
+    if (code == 0u) {
+        return MODBUS_E_VALUE;
+    }
+    const bool leaves = code == BRACE_REQUEST_SET_MODE && asked.set_mode.mode == BRACE_MODE_MONITOR;
+    if (leaves && brace_app_mode(tick->app) != BRACE_MODE_CONFIGURATION) {
+        return MODBUS_FINE; /* there is nothing to leave */
+    }
+    const modbus_exception_t why = modbus_refusal_of(answer_request(&request, code, &asked, &answer));
+    if (why == MODBUS_FINE && code == BRACE_REQUEST_TAKE_UP) {
+        server->written.take_up = value;
+    }
+    return why;
 }
 
-static uint32_t storing(const controller_t *controller)
+static uint32_t storing(const brace_app_t *app)
 {
     brace_store_status_t status;
-    request_store_status(controller, &status);
+    (void)brace_app_store_status(app, &status);
     const uint32_t outcome = status.state == BRACE_STORE_FAILED ? (uint32_t)(256 + (int)status.failure) : 0u;
-    return request_is_storing(controller) ? 1u : outcome;
+    return brace_app_is_storing(app) ? 1u : outcome;
 }
 
-void modbus_command_tell(const modbus_server_t *server, const controller_t *controller, brace_commands_t *told)
+void modbus_command_tell(const modbus_server_t *server, const brace_app_t *app, brace_commands_t *told)
 {
     *told = server->written;
-    told->set_mode = request_mode(controller);
-    told->commit = told->rollback = storing(controller);
-    told->clear_faults = request_faults(controller);
+    told->set_mode = brace_app_mode(app);
+    told->commit = told->rollback = storing(app);
+    told->clear_faults = brace_app_faults(app);
     told->let_go = 0;
 }

@@ -27,11 +27,20 @@ static const uint16_t step[256] = {
     0x4100, 0x81c1, 0x8081, 0x4040,
 };
 
+static inline uint32_t after(uint32_t sum, uint8_t byte)
+{
+    return sum >> 8 ^ step[(sum ^ byte) & 0xffu];
+}
+
+/* Four bytes at a time: the longest answer's check is a tenth of the dearest tick. */
 uint16_t modbus_crc(uint16_t crc, const uint8_t *bytes, uint32_t count)
 {
-    uint32_t sum = crc;
-    for (uint32_t i = 0; i < count; i++) { /* at most 260: what a port is given at a time */
-        sum = sum >> 8 ^ step[(sum ^ bytes[i]) & 0xffu];
+    uint32_t sum = crc, i = 0;
+    for (; i + 4u <= count; i += 4u) { /* at most 65 times: what a port is given at a time */
+        sum = after(after(after(after(sum, bytes[i]), bytes[i + 1u]), bytes[i + 2u]), bytes[i + 3u]);
+    }
+    for (; i < count; i++) { /* at most 3 times */
+        sum = after(sum, bytes[i]);
     }
     return (uint16_t)sum;
 }

@@ -98,7 +98,7 @@ static void end_frame(modbus_line_t *line, modbus_server_t *server, const wire_t
     check_on(line, MODBUS_LINK_BYTES);
     if (link->is_skipping || link->count < FRAME_LEAST || line->crc != 0u) {
         if (silent_us >= PATIENCE_US || !may_go_on(link, server)) {
-            modbus_link_break(link, server);
+            modbus_link_break(link, server, tick);
         }
     } else if (is_for_us(link, server)) {
         answer(line, server, tick);

@@ -19,10 +19,10 @@ uint32_t modbus_link_receive(modbus_link_t *link, const wire_tick_t *tick, brace
     return (uint32_t)count;
 }
 
-void modbus_link_break(modbus_link_t *link, modbus_server_t *server)
+void modbus_link_break(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
 {
     server->broken++;
-    server->broken_since_start += server->broken_since_start < UINT32_MAX;
+    brace_count(&tick->counters->modbus_broken);
     modbus_link_rest(link);
 }
 

@@ -26,7 +26,7 @@ void modbus_link_rest(modbus_link_t *link);
 uint32_t modbus_link_receive(modbus_link_t *link, const wire_tick_t *tick, brace_serial_port_t port, uint32_t room);
 
 /* Forgets what is in the buffer and counts it as a broken frame. */
-void modbus_link_break(modbus_link_t *link, modbus_server_t *server);
+void modbus_link_break(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick);
 
 /* The buffer holds an answer of so many bytes from here on. */
 void modbus_link_answer(modbus_link_t *link, const wire_tick_t *tick, uint32_t count);

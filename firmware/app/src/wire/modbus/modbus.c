@@ -25,14 +25,3 @@ void modbus_tick(modbus_t *modbus, const wire_tick_t *tick)
         modbus_tcp_tick(&modbus->tcp, &modbus->server, tick);
     }
 }
-
-static uint32_t sum_of(uint32_t counted, uint32_t more)
-{
-    return more < UINT32_MAX - counted ? counted + more : UINT32_MAX;
-}
-
-void modbus_counters(const modbus_t *modbus, brace_app_counters_t *counters)
-{
-    counters->modbus_broken = sum_of(counters->modbus_broken, modbus->server.broken_since_start);
-    counters->modbus_refused = sum_of(counters->modbus_refused, modbus->server.refused_since_start);
-}

@@ -23,10 +23,7 @@ typedef struct {
 void modbus_start(modbus_t *modbus, const brace_hal_t *hal, const brace_parameters_t *parameters);
 
 /* One tick. At most 5,600 instructions, HAL excluded: 61 parameters by each port, of which one finds some staged
- * already. A question about K may cost more on a limb in space: request_k_at_tip. */
+ * already. A question about K may cost more on a limb in space: brace_app_k_at_tip. */
 void modbus_tick(modbus_t *modbus, const wire_tick_t *tick);
-
-/* Adds modbus_broken and modbus_refused; both stay at their largest value. */
-void modbus_counters(const modbus_t *modbus, brace_app_counters_t *counters);
 
 #endif

@@ -18,9 +18,9 @@ enum {
     DIAGNOSE_LAST = 0x12
 };
 
-uint32_t modbus_pdu_refuse(modbus_server_t *server, uint8_t *pdu, modbus_exception_t why)
+uint32_t modbus_pdu_refuse(modbus_server_t *server, const wire_tick_t *tick, uint8_t *pdu, modbus_exception_t why)
 {
-    server->refused_since_start += server->refused_since_start < UINT32_MAX;
+    brace_count(&tick->counters->modbus_refused);
     server->refused++;
     server->busy = (uint16_t)(server->busy + (why == MODBUS_E_BUSY));
     pdu[0] |= (uint8_t)MODBUS_REFUSED;
@@ -83,7 +83,7 @@ uint32_t modbus_pdu_answer(modbus_server_t *server, modbus_half_t *half, const w
     case MODBUS_DEVICE_ID: why = modbus_device_id(pdu, length, &answer); break;
     default: break;
     }
-    return why == MODBUS_FINE ? answer : modbus_pdu_refuse(server, pdu, why);
+    return why == MODBUS_FINE ? answer : modbus_pdu_refuse(server, tick, pdu, why);
 }
 
 uint32_t modbus_pdu_least_length(const uint8_t *pdu, uint32_t length)

@@ -16,7 +16,7 @@ uint32_t modbus_pdu_answer(modbus_server_t *server, modbus_half_t *half, const w
                            uint32_t length);
 
 /* Makes an exception of the request, and counts it. returns the answer's length */
-uint32_t modbus_pdu_refuse(modbus_server_t *server, uint8_t *pdu, modbus_exception_t why);
+uint32_t modbus_pdu_refuse(modbus_server_t *server, const wire_tick_t *tick, uint8_t *pdu, modbus_exception_t why);
 
 /* How many bytes a request must have before it can be whole, judged by the first `length` of them (at least 1); 1 when
  * that is not known. */

@@ -1,7 +1,6 @@
 #include "wire/modbus/read.h"
 
-#include <string.h>
-
+#include "brace/words.h"
 #include "wire/modbus/bytes.h"
 #include "wire/modbus/command.h"
 #include "wire/modbus/registers.h"
@@ -16,28 +15,21 @@ static const uint8_t *values_of(const modbus_server_t *server, const wire_tick_t
     switch (area) {
     case REGISTERS_MEASURED: return (const uint8_t *)tick->measured;
     case REGISTERS_ANSWERED: return (const uint8_t *)&server->answered;
-    case REGISTERS_PARAMETERS: return (const uint8_t *)request_staged(tick->controller);
-    default: modbus_command_tell(server, tick->controller, told); return (const uint8_t *)told;
+    case REGISTERS_PARAMETERS: return (const uint8_t *)brace_app_parameters_staged(tick->app);
+    default: modbus_command_tell(server, tick->app, told); return (const uint8_t *)told;
     }
-}
-
-static uint32_t word_at(const uint8_t *values, uint32_t index)
-{
-    uint32_t word;
-    memcpy(&word, values + 4u * index, sizeof word);
-    return word;
 }
 
 /* A parameter by the place of its registers. The place of a parameter that is gone reads all ones: not known. */
 static uint32_t parameter_at(const uint8_t *parameters, uint32_t place)
 {
     const uint32_t index = brace_parameter_index(place);
-    return index < (uint32_t)BRACE_PARAMETER_COUNT ? word_at(parameters, index) : UINT32_MAX;
+    return index < (uint32_t)BRACE_PARAMETER_COUNT ? brace_word_at(parameters, index) : UINT32_MAX;
 }
 
 static uint32_t value_at(const uint8_t *values, registers_area_t area, uint32_t place)
 {
-    return area == REGISTERS_PARAMETERS ? parameter_at(values, place) : word_at(values, place);
+    return area == REGISTERS_PARAMETERS ? parameter_at(values, place) : brace_word_at(values, place);
 }
 
 /* Whole values, from one place on. Only parameters are looked up one by one, which costs twice as much.
@@ -50,7 +42,7 @@ static void tell_values(const uint8_t *values, registers_area_t area, uint32_t p
         }
     } else {
         for (uint32_t i = 0; i < count; i++) {
-            put_32(bytes + 4u * i, word_at(values, place + i));
+            put_32(bytes + 4u * i, brace_word_at(values, place + i));
         }
     }
 }

@@ -1,20 +1,22 @@
 #include "wire/modbus/refusal.h"
 
-modbus_exception_t modbus_refusal_of(brace_status_t status)
+modbus_exception_t modbus_refusal_of(int32_t status)
 {
     switch (status) {
-    case BRACE_OK: return MODBUS_FINE;
+    case BRACE_OK:
+    case ANSWER_LATER: return MODBUS_FINE; /* what has begun is told by its register */
     case BRACE_E_MODE: return MODBUS_E_FUNCTION;
     case BRACE_E_RANGE:
     case BRACE_E_PARAMETER:
     case BRACE_E_NOT_FINITE:
     case BRACE_E_UNREACHABLE: return MODBUS_E_VALUE;
+    case BRACE_REFUSED_BUSY: return MODBUS_E_BUSY;
     default: return MODBUS_E_DEVICE;
     }
 }
 
-modbus_exception_t modbus_refusal_to_write(controller_t *controller)
+modbus_exception_t modbus_refusal_to_write(brace_app_t *app)
 {
-    const brace_status_t status = request_may_write(controller);
+    const brace_status_t status = brace_app_may_write(app);
     return status == BRACE_E_UNSUPPORTED ? MODBUS_E_BUSY : modbus_refusal_of(status);
 }

@@ -11,7 +11,6 @@
 typedef struct {
     uint8_t address; /* of the controller on the line, and its unit behind a TCP connection */
     uint16_t messages, broken, refused, served, unanswered, busy; /* function 08's counters; they wrap */
-    uint32_t broken_since_start, refused_since_start;             /* brace_app_counters_t; they saturate */
     brace_commands_t written;   /* the take-up that began last, and the questions that were answered last */
     brace_answered_t answered;  /* their answers */
 } modbus_server_t;

@@ -31,7 +31,7 @@ static void skip(modbus_link_t *link, modbus_server_t *server, const wire_tick_t
 {
     link->count = 0;
     if (modbus_link_receive(link, tick, BRACE_SERIAL_MODBUS_TCP, MODBUS_LINK_BYTES) == 0u) {
-        modbus_link_break(link, server);
+        modbus_link_break(link, server, tick);
     }
     link->count = 0;
 }
@@ -67,7 +67,7 @@ static void answer(modbus_link_t *link, modbus_server_t *server, const wire_tick
         server->served++;
         length = modbus_pdu_answer(server, &link->half, tick, pdu, (uint32_t)link->count - PDU_AT);
     } else {
-        length = modbus_pdu_refuse(server, pdu, MODBUS_E_TARGET);
+        length = modbus_pdu_refuse(server, tick, pdu, MODBUS_E_TARGET);
     }
     put_16(link->bytes + LENGTH_AT, length + 1u);
     modbus_link_answer(link, tick, PDU_AT + length);
@@ -80,7 +80,7 @@ static void take_request(modbus_link_t *link, modbus_server_t *server, const wir
     } else if (gather(link, tick)) {
         answer(link, server, tick);
     } else if (link->count > 0u && tick->now_us - link->active_us > PATIENCE_US) {
-        modbus_link_break(link, server);
+        modbus_link_break(link, server, tick);
     }
 }
 

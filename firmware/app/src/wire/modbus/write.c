@@ -8,11 +8,11 @@
 
 enum { WRITE_MOST = 123 /* registers */, DATA_AT = 6, ANSWER_BYTES = 5 };
 
-static modbus_exception_t write_parameters(controller_t *controller, uint32_t first, uint32_t count,
+static modbus_exception_t write_parameters(brace_app_t *app, uint32_t first, uint32_t count,
                                            const uint32_t *words)
 {
-    const modbus_exception_t why = modbus_refusal_to_write(controller);
-    return why == MODBUS_FINE ? modbus_refusal_of(request_stage_block(controller, first, count, words)) : why;
+    const modbus_exception_t why = modbus_refusal_to_write(app);
+    return why == MODBUS_FINE ? modbus_refusal_of(brace_app_parameters_stage(app, first, count, words)) : why;
 }
 
 modbus_exception_t modbus_write_one(modbus_server_t *server, modbus_half_t *half, const wire_tick_t *tick, uint8_t *pdu,
@@ -29,7 +29,7 @@ modbus_exception_t modbus_write_one(modbus_server_t *server, modbus_half_t *half
         return MODBUS_E_ADDRESS;
     }
     const bool is_parameter = block.area == REGISTERS_PARAMETERS;
-    const modbus_exception_t why = is_parameter ? modbus_refusal_to_write(tick->controller) : MODBUS_FINE;
+    const modbus_exception_t why = is_parameter ? modbus_refusal_to_write(tick->app) : MODBUS_FINE;
     if (why != MODBUS_FINE) {
         return why;
     }
@@ -42,12 +42,12 @@ modbus_exception_t modbus_write_one(modbus_server_t *server, modbus_half_t *half
         return MODBUS_E_VALUE;
     }
     const uint32_t whole = (uint32_t)high.value << 16 | value, index = block.first / 2u;
-    return is_parameter ? write_parameters(tick->controller, index, 1, &whole)
-                        : modbus_command_run(server, tick->controller, index, whole);
+    return is_parameter ? write_parameters(tick->app, index, 1, &whole)
+                        : modbus_command_run(server, tick, index, whole);
 }
 
-static modbus_exception_t write_values(modbus_server_t *server, controller_t *controller,
-                                       const registers_block_t *block, uint32_t count, const uint8_t *data)
+static modbus_exception_t write_values(modbus_server_t *server, const wire_tick_t *tick, const registers_block_t *block,
+                                       uint32_t count, const uint8_t *data)
 {
     uint32_t words[WRITE_MOST / 2];
     for (uint32_t i = 0; i < count; i++) { /* at most WRITE_MOST / 2 */
@@ -55,10 +55,10 @@ static modbus_exception_t write_values(modbus_server_t *server, controller_t *co
     }
     const uint32_t first = block->first / 2u;
     if (block->area == REGISTERS_PARAMETERS) {
-        return write_parameters(controller, first, count, words);
+        return write_parameters(tick->app, first, count, words);
     }
-    return count == 1u ? modbus_command_run(server, controller, first, words[0])
-                       : modbus_ask(server, controller, first, count, words);
+    return count == 1u ? modbus_command_run(server, tick, first, words[0])
+                       : modbus_ask(server, tick, first, count, words);
 }
 
 modbus_exception_t modbus_write_block(modbus_server_t *server, const wire_tick_t *tick, uint8_t *pdu, uint32_t length,
@@ -78,7 +78,7 @@ modbus_exception_t modbus_write_block(modbus_server_t *server, const wire_tick_t
     if (count % 2u != 0u) {
         return MODBUS_E_VALUE;
     }
-    const modbus_exception_t why = write_values(server, tick->controller, &block, count / 2u, pdu + DATA_AT);
+    const modbus_exception_t why = write_values(server, tick, &block, count / 2u, pdu + DATA_AT);
     if (why == MODBUS_FINE) {
         *answer = ANSWER_BYTES;
     }

@@ -6,11 +6,12 @@
 #include "brace_hal_fake.h"
 #include "modbus_crc.h"
 #include "unity.h"
+#include "wire/answers/answer.h"
 #include "wire/modbus/modbus.h"
 
 enum { UNIT = 17, TICK_US = 1000, SILENT_TICKS = 2 /* 1.75 ms */, BLOCK = 61, ADU_BYTES = 260 };
 
-struct controller {
+struct brace_app {
     brace_parameters_t staged;
     brace_snapshot_t snapshot;
     brace_mode_t mode;
@@ -18,45 +19,32 @@ struct controller {
 };
 
 static brace_fake_t fake;
-static controller_t controller;
+static brace_app_t controller;
+static brace_app_counters_t counters;
 static brace_measured_t measured;
 static modbus_t modbus;
 
 /* ------------------------------------------------------------------------------------- the controller -- */
 
-const brace_snapshot_t *request_snapshot(const controller_t *asked) { return &asked->snapshot; }
-brace_mode_t request_mode(const controller_t *asked) { return asked->mode; }
-uint32_t request_faults(const controller_t *asked) { return (void)asked, 0; }
-const brace_parameters_t *request_staged(const controller_t *asked) { return &asked->staged; }
-bool request_is_storing(const controller_t *asked) { return (void)asked, false; }
-void request_configuration_keep(controller_t *asked) { (void)asked; }
-brace_status_t request_take_up(controller_t *asked, int32_t joint, int32_t flank)
-{
-    return (void)asked, (void)joint, (void)flank, BRACE_E_UNSUPPORTED;
-}
-brace_status_t request_let_go(controller_t *asked) { return (void)asked, BRACE_E_MODE; }
-brace_status_t request_clear(controller_t *asked, uint32_t faults) { return (void)asked, (void)faults, BRACE_OK; }
-brace_status_t request_configuration_leave(controller_t *asked) { return (void)asked, BRACE_E_MODE; }
-brace_status_t request_rollback(controller_t *asked) { return (void)asked, BRACE_E_UNSUPPORTED; }
+const brace_snapshot_t *brace_app_snapshot(const brace_app_t *asked) { return &asked->snapshot; }
+brace_mode_t brace_app_mode(const brace_app_t *asked) { return asked->mode; }
+uint32_t brace_app_faults(const brace_app_t *asked) { return (void)asked, 0; }
+const brace_parameters_t *brace_app_parameters_staged(const brace_app_t *asked) { return &asked->staged; }
+bool brace_app_is_storing(const brace_app_t *asked) { return (void)asked, false; }
 
-brace_status_t request_configuration_enter(controller_t *asked)
-{
-    asked->mode = BRACE_MODE_CONFIGURATION;
-    return BRACE_OK;
-}
-
-void request_store_status(const controller_t *asked, brace_store_status_t *status)
+brace_status_t brace_app_store_status(const brace_app_t *asked, brace_store_status_t *status)
 {
     (void)asked;
     *status = (brace_store_status_t){.state = BRACE_STORE_IDLE};
+    return BRACE_OK;
 }
 
-brace_status_t request_may_write(controller_t *asked)
+brace_status_t brace_app_may_write(brace_app_t *asked)
 {
     return asked->mode == BRACE_MODE_CONFIGURATION ? BRACE_OK : BRACE_E_MODE;
 }
 
-brace_status_t request_stage_block(controller_t *asked, uint32_t first, uint32_t count, const uint32_t *words)
+brace_status_t brace_app_parameters_stage(brace_app_t *asked, uint32_t first, uint32_t count, const uint32_t *words)
 {
     TEST_ASSERT_LESS_OR_EQUAL(BRACE_PARAMETER_COUNT, first + count);
     memcpy((uint8_t *)&asked->staged + 4u * first, words, 4u * count);
@@ -64,38 +52,21 @@ brace_status_t request_stage_block(controller_t *asked, uint32_t first, uint32_t
     return BRACE_OK;
 }
 
-brace_status_t request_commit_staged(controller_t *asked, uint32_t *wrong_index)
+int32_t answer_request(request_t *request, uint32_t code, const brace_request_t *asked, brace_answer_t *answer)
 {
-    return (void)asked, (void)wrong_index, BRACE_E_PARAMETER;
-}
-
-brace_status_t request_k_at_posture(controller_t *asked, float theta1_rad, float theta2_rad, brace_stiffness_t *k)
-{
-    (void)asked;
-    *k = (brace_stiffness_t){.k_xx_n_per_mm = theta1_rad, .k_zz_n_per_mm = theta2_rad};
-    return BRACE_OK;
-}
-
-brace_status_t request_k_at_tip(controller_t *asked, brace_point_t tip, brace_knee_t knee, brace_stiffness_t *k)
-{
-    return (void)asked, (void)tip, (void)knee, (void)k, BRACE_E_UNREACHABLE;
-}
-
-brace_status_t request_contact_force(const controller_t *asked, brace_displacement_t displacement,
-                                     brace_contact_force_t *contact)
-{
-    return (void)asked, (void)displacement, (void)contact, BRACE_E_MODE;
-}
-
-brace_status_t request_sag(const controller_t *asked, brace_force_t load, brace_displacement_t *sag)
-{
-    return (void)asked, (void)load, (void)sag, BRACE_E_MODE;
-}
-
-brace_status_t request_grip(const controller_t *asked, float normal_rad, float friction_ratio,
-                            brace_contact_grip_t *grip)
-{
-    return (void)asked, (void)normal_rad, (void)friction_ratio, (void)grip, BRACE_E_NOT_FINITE;
+    switch (code) {
+    case BRACE_REQUEST_SET_MODE: request->app->mode = BRACE_MODE_CONFIGURATION; return BRACE_OK;
+    case BRACE_REQUEST_CLEAR: return BRACE_OK;
+    case BRACE_REQUEST_K_AT_POSTURE:
+        answer->k_at_posture = (brace_k_at_posture_answer_t){.k_xx_n_per_mm = asked->k_at_posture.theta1_rad,
+                                                             .k_zz_n_per_mm = asked->k_at_posture.theta2_rad};
+        return BRACE_OK;
+    case BRACE_REQUEST_K_AT_TIP_KNEE_UP:
+    case BRACE_REQUEST_K_AT_TIP_KNEE_DOWN: return BRACE_E_UNREACHABLE;
+    case BRACE_REQUEST_COMMIT: return BRACE_E_PARAMETER;
+    case BRACE_REQUEST_LET_GO: return BRACE_E_MODE;
+    default: return BRACE_E_UNSUPPORTED;
+    }
 }
 
 /* --------------------------------------------------------------------------------------------- ports -- */
@@ -112,7 +83,8 @@ void setUp(void)
     parameters.controller.modbus_address = UNIT;
     parameters.controller.modbus_baud = 115200;
     brace_fake_start(&fake);
-    controller = (controller_t){.mode = BRACE_MODE_MONITOR, .staged = parameters};
+    controller = (brace_app_t){.mode = BRACE_MODE_MONITOR, .staged = parameters};
+    counters = (brace_app_counters_t){0};
     measured = (brace_measured_t){.probe_u32 = 0x01020304u};
     modbus_start(&modbus, &fake.hal, &parameters);
 }
@@ -122,7 +94,7 @@ void tearDown(void) {}
 static void tick(void)
 {
     fake.now_us += TICK_US;
-    const wire_tick_t now = {&fake.hal, &controller, &measured, fake.now_us};
+    const wire_tick_t now = {&fake.hal, &controller, &counters, &measured, fake.now_us};
     modbus_tick(&modbus, &now);
 }
 
@@ -235,8 +207,6 @@ static void test_a_flood_by_tcp_does_not_delay_the_line_nor_the_reverse(void)
         }
         TEST_ASSERT_EQUAL(blocks, controller.blocks);
     }
-    brace_app_counters_t counters = {.modbus_refused = 0};
-    modbus_counters(&modbus, &counters);
     TEST_ASSERT_EQUAL(0, counters.modbus_refused + counters.modbus_broken);
 }
 

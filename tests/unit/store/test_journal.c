@@ -1,5 +1,6 @@
 #include <string.h>
 
+#include "brace/drift.h"
 #include "brace/journal.h"
 #include "unity.h"
 

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "jobs/store/store_slot.h"
+#include "store_slot.h"
 
 /* What is done, in this order. An update goes through the first ten, a roll-back through AFFIRM, REREAD,
  * WITHDRAW; UNDO is where a failed last mark goes. */

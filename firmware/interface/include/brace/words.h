@@ -1,4 +1,4 @@
-/* Little-endian words, and the members of the parameter struct as words. */
+/* Little-endian words in bytes, and the members of the dictionary's structs as words. */
 #ifndef BRACE_WORDS_H
 #define BRACE_WORDS_H
 
@@ -25,12 +25,18 @@ static inline void brace_put_u32(uint8_t *bytes, uint32_t value)
     bytes[3] = (uint8_t)(value >> 24);
 }
 
-/* Every member is 32 bits wide and lies at four times its index (parameter_table.c asserts this). */
-static inline uint32_t brace_member_get(const brace_parameters_t *parameters, uint32_t index)
+/* A value of a generated struct by its place: every member is 32 bits wide and lies at four times its place
+ * (brace/measured.h and parameter_table.c assert this). */
+static inline uint32_t brace_word_at(const void *values, uint32_t place)
 {
     uint32_t word;
-    memcpy(&word, (const uint8_t *)parameters + 4u * index, sizeof word);
+    memcpy(&word, (const uint8_t *)values + 4u * place, sizeof word);
     return word;
+}
+
+static inline uint32_t brace_member_get(const brace_parameters_t *parameters, uint32_t index)
+{
+    return brace_word_at(parameters, index);
 }
 
 static inline void brace_member_put(brace_parameters_t *parameters, uint32_t index, uint32_t word)

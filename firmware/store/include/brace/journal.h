@@ -21,7 +21,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "brace/drift.h"
 #include "brace_hal.h"
 
 enum {
@@ -29,7 +28,7 @@ enum {
     BRACE_JOURNAL_MOST_BYTES = 28672, /* of it; what a slot has beyond is not used */
     BRACE_JOURNAL_PIECE_BYTES = 32,
     BRACE_JOURNAL_HEADER_BYTES = 12,
-    BRACE_JOURNAL_STATE_BYTES = 344, /* of a brace_drift_t */
+    BRACE_JOURNAL_STATE_BYTES = 344, /* of what the drift check knows: a brace_drift_t */
     BRACE_JOURNAL_COVERED_BYTES = BRACE_JOURNAL_HEADER_BYTES + BRACE_JOURNAL_STATE_BYTES, /* by the CRC */
     BRACE_JOURNAL_PIECES =
         (BRACE_JOURNAL_COVERED_BYTES + 4 + BRACE_JOURNAL_PIECE_BYTES - 1) / BRACE_JOURNAL_PIECE_BYTES,

@@ -1,4 +1,4 @@
-#include "jobs/store/store_slot.h"
+#include "store_slot.h"
 
 #include <string.h>
 

@@ -8,7 +8,6 @@ enum { PIECE = BRACE_JOURNAL_PIECE_BYTES, ZEROED = 2 * PIECE };
 
 static const uint8_t zeros[ZEROED];
 
-_Static_assert(BRACE_JOURNAL_STATE_BYTES == sizeof(brace_drift_t), "the state is the check's");
 _Static_assert(BRACE_JOURNAL_COVERED_BYTES / PIECE == (BRACE_JOURNAL_COVERED_BYTES + 3) / PIECE,
                "the CRC is in one piece");
 
@@ -24,11 +23,12 @@ static void compose_header(const brace_journal_t *journal, uint8_t header[BRACE_
 
 static bool is_blank(const uint8_t *bytes)
 {
-    uint8_t all = 0xff;
-    for (uint32_t i = 0; i < PIECE; i++) {
-        all &= bytes[i];
+    uint32_t all = UINT32_MAX, word;
+    for (uint32_t i = 0; i < PIECE; i += sizeof word) {
+        memcpy(&word, bytes + i, sizeof word);
+        all &= word;
     }
-    return all == 0xffu;
+    return all == UINT32_MAX;
 }
 
 void brace_journal_open(brace_journal_t *journal, const brace_hal_t *hal, uint32_t slot, uint32_t identity)

@@ -1,0 +1,146 @@
+/* What may be asked of a controller, whoever asks: the program around it, or one of its wires.
+ *
+ * This is the one door to the controller's parts; nobody outside knows what is behind it. Call it between ticks; the
+ * wires, which are part of the tick, call it in their turn. Every function answers at once; what a request begins goes
+ * on in the ticks. Functions that return a status take null pointers (BRACE_E_NULL); for all others there must be a
+ * started controller. Costs on a Cortex-M4F stand where they matter. */
+#ifndef BRACE_REQUESTS_H
+#define BRACE_REQUESTS_H
+
+#include "brace/contact.h"
+#include "brace/drift.h"
+#include "brace/loading.h"
+#include "brace/recorder.h"
+#include "brace/snapshot.h"
+#include "brace/store.h"
+
+typedef struct brace_app brace_app_t;
+
+/* ------------------------------------------------------------------------------------ what is known -- */
+
+/* The newest snapshot: K and everything measured, from the samples of one tick. Never null. Its content stays until the
+ * tick after next. */
+const brace_snapshot_t *brace_app_snapshot(const brace_app_t *app);
+
+/* Mode and faults of this moment; a request may have changed them since the snapshot. */
+brace_mode_t brace_app_mode(const brace_app_t *app);
+uint32_t brace_app_faults(const brace_app_t *app);
+
+/* The parameters in force. */
+const brace_parameters_t *brace_app_parameters(const brace_app_t *app);
+
+void brace_app_counters(const brace_app_t *app, brace_app_counters_t *counters);
+
+/* What the drift check knows: how far measurement and model have drifted apart, and the likeliest cause; and what a
+ * person should do next. */
+const brace_drift_report_t *brace_app_drift_report(const brace_app_t *app);
+brace_drift_next_t brace_app_drift_next_step(const brace_app_t *app);
+
+/* ------------------------------------------------------------------------------- what moves the limb --
+ * All return BRACE_OK, BRACE_E_NULL, BRACE_E_MODE (not possible in this mode), and what is named. */
+
+/* Takes up the backlash of one joint against a flank. When its take-up holds, another joint may follow. From MONITOR,
+ * or in TAKING_UP with every joint asked before holding. snapshot.play[].takeup tells how it went. If one joint
+ * fails, every joint is let go in the reverse order.
+ *   joint_index: BRACE_COXA, BRACE_FEMUR or BRACE_TIBIA; flank: +1 or -1
+ * returns also BRACE_E_RANGE (joint, flank), BRACE_E_UNSUPPORTED (no play, or no joint_command) */
+brace_status_t brace_app_take_up(brace_app_t *app, int32_t joint_index, int32_t flank);
+
+/* Lets every joint go, the last taken up first; the mode is MONITOR when the last is back. Ends a loading test too. */
+brace_status_t brace_app_let_go(brace_app_t *app);
+
+/* Begins a loading test, from MONITOR or with the backlash taken up: brace/loading.h.
+ * returns also BRACE_E_RANGE (setup), BRACE_E_UNSUPPORTED (no joint_command), BRACE_E_SINGULAR (no valid K, or the
+ * joints cannot move the tip along the axis at this posture) */
+brace_status_t brace_app_loading_start(brace_app_t *app, const brace_loading_setup_t *setup);
+
+/* Ends it; the limb goes back to where the test began. The rows so far stay. */
+brace_status_t brace_app_loading_stop(brace_app_t *app);
+
+/* Is the limb on its way back from a loading test that has ended? */
+bool brace_app_loading_is_returning(const brace_app_t *app);
+
+/* The last loading test, or the one under way. Never null. */
+const brace_loading_result_t *brace_app_loading_result(const brace_app_t *app);
+
+/* Rows of the recorder, oldest first; BRACE_E_RANGE past the end. */
+uint32_t brace_app_row_count(const brace_app_t *app);
+brace_status_t brace_app_row(const brace_app_t *app, uint32_t index, brace_row_t *row);
+
+/* Clears MODEL_DRIFT (the drift check watches on from the baseline it holds) and CRASHED. faults: BRACE_FAULT_... bits
+ * returns also BRACE_E_RANGE: a fault that no request clears */
+brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults);
+
+/* --------------------------------------------------------------------------------------- parameters --
+ * All return BRACE_OK, BRACE_E_NULL, BRACE_E_MODE (not possible in this mode), and what is named. */
+
+/* Configuration: only here may parameters be stored. Nothing moves the limb and no K is valid. Entered from MONITOR or
+ * FAULT, left to START. It ends by itself after BRACE_CONFIGURATION_PATIENCE_US in which nothing was written,
+ * uploaded or stored and the mode was not asked for again; what was staged is forgotten then, and the set in force
+ * stays. */
+enum { BRACE_CONFIGURATION_PATIENCE_US = 10000000 };
+brace_status_t brace_app_configuration_enter(brace_app_t *app);
+brace_status_t brace_app_configuration_leave(brace_app_t *app);
+
+/* May parameters be written now? That somebody asks keeps CONFIGURATION going.
+ * returns also BRACE_E_UNSUPPORTED (a set is being stored) */
+brace_status_t brace_app_may_write(brace_app_t *app);
+
+/* The set that is being written, begun as a copy of the set in force. */
+const brace_parameters_t *brace_app_parameters_staged(const brace_app_t *app);
+
+/* Stages parameters whose numbers on the wire (brace_parameter_index) follow one another: all of them, or none where
+ * one is refused. words: each as its 32 bits.
+ * returns also what brace_app_may_write returns, BRACE_E_RANGE (no such parameter), BRACE_E_PARAMETER and
+ * BRACE_E_NOT_FINITE (not in its own range). At most 450 instructions the first time, and 65 a parameter. */
+brace_status_t brace_app_parameters_stage(brace_app_t *app, uint32_t first_number, uint32_t count,
+                                          const uint32_t *words);
+
+/* Begins to store what is staged. What members say together is judged at once.
+ *   wrong_index (out, may be null): as brace_parameters_check
+ * returns also what brace_app_may_write returns, BRACE_E_PARAMETER, BRACE_E_NOT_FINITE. At most 2,000 instructions. */
+brace_status_t brace_app_parameters_commit_staged(brace_app_t *app, uint32_t *wrong_index);
+
+/* Begins to store a set, which is in force once it has been checked, stored and read back; brace_app_store_status tells
+ * how it goes. A set that brace_parameters_check refuses fails there, and the one in force stays. What concerns buses
+ * (node, bit rates) takes effect at the next start.
+ * returns also what brace_app_may_write returns. At most 800 instructions. */
+brace_status_t brace_app_parameters_commit(brace_app_t *app, const brace_parameters_t *parameters);
+
+/* Begins to put the set before the one in force back.
+ * returns also what brace_app_may_write and brace_store_rollback return */
+brace_status_t brace_app_parameters_rollback(brace_app_t *app);
+
+/* Is a set being stored or put in force? */
+bool brace_app_is_storing(const brace_app_t *app);
+brace_status_t brace_app_store_status(const brace_app_t *app, brace_store_status_t *status);
+
+/* ------------------------------------------------------------------------------------------ questions --
+ * What they answer is untouched unless BRACE_OK is returned. */
+
+/* K in the limb's plane with every gap closed at true joint angles, with the joints' temperatures of now and no load on
+ * their springs. Flags: UNCALIBRATED, OUT_OF_RANGE (outside the drives' travel), and the model's own.
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE, BRACE_E_SINGULAR. At most 600 instructions. */
+brace_status_t brace_app_k_at_posture(brace_app_t *app, float theta1_rad, float theta2_rad,
+                                      brace_stiffness_t *stiffness);
+
+/* The same with the tip at a place in the limb's plane; returns also what brace_kinematics_inverse returns. */
+brace_status_t brace_app_k_at_tip(brace_app_t *app, brace_point_t tip, brace_knee_t knee,
+                                  brace_stiffness_t *stiffness);
+
+/* K in space at true joint angles; returns also BRACE_E_UNSUPPORTED: the limb has no coxa joint. */
+brace_status_t brace_app_k_in_space(brace_app_t *app, float theta0_rad, float theta1_rad, float theta2_rad,
+                                    brace_stiffness_spatial_t *stiffness);
+
+/* What the K of now makes of a displacement, and of a load.
+ * returns as brace_contact_force and brace_contact_sag; BRACE_E_MODE: there is no valid K */
+brace_status_t brace_app_contact_force(const brace_app_t *app, brace_displacement_t displacement,
+                                       brace_contact_force_t *contact);
+brace_status_t brace_app_sag(const brace_app_t *app, brace_force_t load, brace_displacement_t *sag);
+
+/* How far the force of now is from sliding on a surface.
+ * returns as brace_contact_grip; BRACE_E_NOT_FINITE also where the force is not known */
+brace_status_t brace_app_grip(const brace_app_t *app, float normal_rad, float friction_ratio,
+                              brace_contact_grip_t *grip);
+
+#endif

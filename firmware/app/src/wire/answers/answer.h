@@ -1,0 +1,60 @@
+/* One request on its way to its answer, whichever wire it came by.
+ *
+ * For each request of the dictionary there is a hand-written function answer_<name>. It does what the request asks for
+ * and fills the whole answer. How fields travel is the wire's: CAN's frames and Modbus' registers are generated.
+ *   asked: the request's fields
+ *   answer (out): the fields of all the answer's parts; untouched unless BRACE_OK is returned
+ * returns BRACE_OK; ANSWER_LATER: something was begun, and answer_of_storing tells how it ended; or why not, as
+ * brace/refusals.h has it: then nothing has changed. */
+#ifndef BRACE_WIRE_ANSWERS_ANSWER_H
+#define BRACE_WIRE_ANSWERS_ANSWER_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "brace/answering.h"
+#include "brace/measured.h"
+#include "brace/parameters.h"
+#include "brace/refusals.h"
+#include "brace/requests.h"
+
+enum { ANSWER_LATER = 1 };
+
+/* A parameter block word by word, as one port has begun it and not ended: an upload, a download. */
+typedef struct {
+    bool upload_is_open;
+    uint32_t upload_next;    /* word that is expected; words before it have come [0, BRACE_BLOCK_BYTES / 4] */
+    uint32_t upload_crc;     /* the CRC that the block will end with, as it was announced */
+    uint32_t upload_sum;     /* CRC of all words but the last one that has come */
+    uint8_t upload[BRACE_BLOCK_BYTES];
+
+    uint32_t download_next;  /* word that is expected to be asked for [0, BRACE_BLOCK_BYTES / 4] */
+    uint32_t download_sum;   /* CRC of the words before it */
+    uint32_t download_set;   /* brace_parameters_crc of the set that they are of */
+} transfer_t;
+
+typedef struct {
+    brace_app_t *app;
+    const brace_measured_t *measured; /* of the newest snapshot */
+    transfer_t *transfer;   /* of the port that it came through; null: of a wire that transfers no blocks */
+    uint32_t node_id;       /* of this node on CAN */
+    uint32_t detail;        /* (out) what a refusal has to add; 0: nothing */
+    bool is_of_now;         /* (out) the refusal is about the limb of now, whatever was asked */
+} request_t;
+
+#define ANSWER_FUNCTION(CODE, name) \
+    int32_t answer_##name(request_t *request, const brace_##name##_request_t *asked, brace_##name##_answer_t *answer);
+BRACE_REQUESTS(ANSWER_FUNCTION)
+#undef ANSWER_FUNCTION
+
+/* Answers the request of a code. BRACE_REFUSED_UNKNOWN: the dictionary has none; detail is the highest code there is.
+ * At most 50 instructions and what brace/requests.h says of the request; 2,400 where a set is to be stored. */
+int32_t answer_request(request_t *request, uint32_t code, const brace_request_t *asked, brace_answer_t *answer);
+
+/* How the storing has ended that was to be answered later. */
+int32_t answer_of_storing(request_t *request, brace_commit_answer_t *answer);
+
+/* Each tick, before requests are answered: closes an upload that CONFIGURATION has ended. */
+void transfer_tick(transfer_t *transfer, const brace_app_t *app);
+
+#endif

@@ -1,0 +1,109 @@
+/* Questions about K: where the limb is not, and what K and force of now mean at the contact. */
+#include "wire/answers/answer.h"
+
+/* Questions for K at a posture and at a tip have answers of one shape. */
+static int32_t tell_k(brace_status_t status, const brace_stiffness_t *k, brace_k_at_posture_answer_t *answer)
+{
+    if (status == BRACE_OK) {
+        *answer = (brace_k_at_posture_answer_t){.k_xx_n_per_mm = k->k_xx_n_per_mm,
+                                                .k_xz_n_per_mm = k->k_xz_n_per_mm,
+                                                .k_zz_n_per_mm = k->k_zz_n_per_mm,
+                                                .lambda_min_n_per_mm = k->lambda_min_n_per_mm,
+                                                .lambda_max_n_per_mm = k->lambda_max_n_per_mm,
+                                                .stiff_axis_rad = k->stiff_axis_rad,
+                                                .flags = k->flags};
+    }
+    return status;
+}
+
+int32_t answer_k_at_posture(request_t *request, const brace_k_at_posture_request_t *asked,
+                            brace_k_at_posture_answer_t *answer)
+{
+    brace_stiffness_t k;
+    return tell_k(brace_app_k_at_posture(request->app, asked->theta1_rad, asked->theta2_rad, &k), &k, answer);
+}
+
+int32_t answer_k_at_tip_knee_up(request_t *request, const brace_k_at_tip_knee_up_request_t *asked,
+                                brace_k_at_tip_knee_up_answer_t *answer)
+{
+    const brace_point_t tip = {asked->x_mm, asked->z_mm};
+    brace_stiffness_t k;
+    return tell_k(brace_app_k_at_tip(request->app, tip, BRACE_KNEE_UP, &k), &k, answer);
+}
+
+int32_t answer_k_at_tip_knee_down(request_t *request, const brace_k_at_tip_knee_down_request_t *asked,
+                                  brace_k_at_tip_knee_down_answer_t *answer)
+{
+    const brace_point_t tip = {asked->x_mm, asked->z_mm};
+    brace_stiffness_t k;
+    return tell_k(brace_app_k_at_tip(request->app, tip, BRACE_KNEE_DOWN, &k), &k, answer);
+}
+
+int32_t answer_k_in_space_at_posture(request_t *request, const brace_k_in_space_at_posture_request_t *asked,
+                                     brace_k_in_space_at_posture_answer_t *answer)
+{
+    brace_stiffness_spatial_t k;
+    const brace_status_t status =
+        brace_app_k_in_space(request->app, asked->theta0_rad, asked->theta1_rad, asked->theta2_rad, &k);
+    if (status == BRACE_OK) {
+        *answer = (brace_k_in_space_at_posture_answer_t){.k_xx_n_per_mm = k.k_xx_n_per_mm,
+                                                         .k_xy_n_per_mm = k.k_xy_n_per_mm,
+                                                         .k_xz_n_per_mm = k.k_xz_n_per_mm,
+                                                         .k_yy_n_per_mm = k.k_yy_n_per_mm,
+                                                         .k_yz_n_per_mm = k.k_yz_n_per_mm,
+                                                         .k_zz_n_per_mm = k.k_zz_n_per_mm,
+                                                         .lambda_1_n_per_mm = k.lambda_n_per_mm[0],
+                                                         .lambda_2_n_per_mm = k.lambda_n_per_mm[1],
+                                                         .lambda_3_n_per_mm = k.lambda_n_per_mm[2],
+                                                         .flags = k.flags};
+    }
+    return status;
+}
+
+/* A refusal tells what the K of now is worth, and whether there is none. */
+static void refuse_without_k(request_t *request, brace_status_t status)
+{
+    request->detail = brace_app_snapshot(request->app)->stiffness.now.flags;
+    request->is_of_now = status == BRACE_E_MODE;
+}
+
+int32_t answer_contact_force(request_t *request, const brace_contact_force_request_t *asked,
+                             brace_contact_force_answer_t *answer)
+{
+    const brace_displacement_t displacement = {asked->dx_mm, asked->dz_mm};
+    brace_contact_force_t contact;
+    const brace_status_t status = brace_app_contact_force(request->app, displacement, &contact);
+    if (status == BRACE_OK) {
+        *answer = (brace_contact_force_answer_t){
+            .fx_n = contact.force.x_n, .fz_n = contact.force.z_n, .low_n = contact.low_n, .high_n = contact.high_n};
+    }
+    refuse_without_k(request, status);
+    return status;
+}
+
+int32_t answer_sag_for_load(request_t *request, const brace_sag_for_load_request_t *asked,
+                            brace_sag_for_load_answer_t *answer)
+{
+    const brace_force_t load = {asked->fx_n, asked->fz_n};
+    brace_displacement_t sag;
+    const brace_status_t status = brace_app_sag(request->app, load, &sag);
+    if (status == BRACE_OK) {
+        *answer = (brace_sag_for_load_answer_t){.dx_mm = sag.x_mm, .dz_mm = sag.z_mm};
+    }
+    refuse_without_k(request, status);
+    return status;
+}
+
+int32_t answer_friction_margin(request_t *request, const brace_friction_margin_request_t *asked,
+                               brace_friction_margin_answer_t *answer)
+{
+    const brace_snapshot_t *now = brace_app_snapshot(request->app);
+    brace_contact_grip_t grip;
+    const brace_status_t status = brace_app_grip(request->app, asked->normal_rad, asked->friction_ratio, &grip);
+    if (status == BRACE_OK) {
+        *answer = (brace_friction_margin_answer_t){
+            .margin_n = grip.margin_n, .angle_left_rad = grip.angle_left_rad, .contact = grip.state};
+    }
+    request->is_of_now = now->force_x_n != now->force_x_n || now->force_z_n != now->force_z_n;
+    return status;
+}
