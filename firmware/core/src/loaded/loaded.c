@@ -147,8 +147,10 @@ INLINE void look(const link_t *link, const shape_t *shape, state_t *state, colum
 typedef struct {
     float of_end, of_own;
 } straight_sum_t;
-static const straight_sum_t sum_r = {1.0f, 0.5f}, sum_a = {0.788675135f, 0.311004234f}, sum_b = {0.211324865f, 0.0223290994f};
-static const straight_sum_t sum_aa = {0.722008468f, 0.248803387f}, sum_ab = {0.233333333f, 0.0333333333f}, sum_bb = {0.144658199f, 0.0178632795f};
+static const straight_sum_t sum_r = {1.0f, 0.5f}, sum_a = {0.788675135f, 0.311004234f},
+                            sum_b = {0.211324865f, 0.0223290994f};
+static const straight_sum_t sum_aa = {0.722008468f, 0.248803387f}, sum_ab = {0.233333333f, 0.0333333333f},
+                            sum_bb = {0.144658199f, 0.0178632795f};
 
 INLINE float summed(const straight_sum_t *sum, float of_end, float of_own)
 {
