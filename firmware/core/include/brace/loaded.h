@@ -3,7 +3,7 @@
  *
  * Force times lever turns with the deflection, so a load changes K: K is the slope of the force at the equilibrium,
  * J^-T (K_theta - K_G) J^-1, where K_G comes from the load (the conservative congruence transformation of Chen and Kao,
- * 2000; stiffness of loaded manipulators: Klimchik, Pashkevich, Chablat, 2014). docs/loaded.md has the formulas.
+ * 2000; stiffness of loaded manipulators: Klimchik, Pashkevich, Chablat, 2014). docs/kernel.md has the formulas.
  *
  * The limb at finite deflections: joints' springs and the base's rotation turn by any angle. Of a link's bending
  * compliance the share moment_transfer_ratio is a uniform, geometrically exact beam with its axial spring at the root.
