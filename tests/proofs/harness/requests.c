@@ -245,6 +245,17 @@ void brace_block_members(const uint8_t *block, brace_parameters_t *set)
     *set = any;
 }
 
+/* The fields of a request: any, but for those by which set_mode is judged. */
+void brace_can_unpack_request(const uint8_t data[8], brace_request_t *asked)
+{
+    brace_request_t any;
+    *asked = any;
+    if (data[0] == BRACE_REQUEST_SET_MODE) {
+        asked->set_mode.mode = data[2];
+        asked->set_mode.key = (uint32_t)data[3] | (uint32_t)data[4] << 8;
+    }
+}
+
 /* A frame begins with code and part, then the token (the dictionary's tests); the rest is any (codec_numbers,
  * codec_whole). */
 void brace_can_pack_answer(uint32_t code, const brace_answer_t *answer, uint32_t token, uint8_t (*parts)[8])
@@ -318,20 +329,20 @@ int main(void)
     ANY(result);
     const uint32_t count = answers->count;
     memcpy(as_sent, data, 8);
-    const can_requests_t port_before = port;
-    const transfer_t *before = &port_before.transfer;
+    const uint8_t storing_before = port.storing, token_before = port.storing_token;
+    const transfer_t kept = port.transfer, *before = &kept;
 
     const bool is_known = can_requests_answer(&port, &tick, any_u8(), data);
 
     const uint32_t code = data[0];
-    const bool stores = port_before.storing == 0u && port.storing != 0u;
+    const bool stores = storing_before == 0u && port.storing != 0u;
     PROVE(same(data, as_sent, 8), "a request is not changed");
     PROVE(is_known || (done == 0u && answers->count == count + 1u), "an unknown request does nothing but be refused");
     PROVE((done & ~allowed(data)) == 0u, "nothing is done but what the request names");
     PROVE(!stores || (port.storing == code && port.storing_token == data[1]),
           "what is stored is answered to who asked");
-    PROVE(port_before.storing == 0u ||
-              (port.storing == port_before.storing && port.storing_token == port_before.storing_token),
+    PROVE(storing_before == 0u ||
+              (port.storing == storing_before && port.storing_token == token_before),
           "nobody else is given the answer to what is being stored");
     PROVE(transfer->upload_next <= BRACE_BLOCK_BYTES / 4 && transfer->download_next <= BRACE_BLOCK_BYTES / 4,
           "words within the block");
