@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +12,7 @@ import pytest
 from conftest import LIMB, Outcome
 from test_sim_command import FREE, running
 
-from brace.bus.drift import Drift, drift_of, take_up_lines
+from brace.bus.drift import drift_of, take_up_lines
 from brace.bus.frame import Frame
 from brace.bus.snapshot import emergency_of
 from brace.cli.monitor_display import emergency_line
