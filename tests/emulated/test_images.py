@@ -96,7 +96,7 @@ def test_files_beside_the_image(name: str) -> None:
     size = json.loads(elf.with_suffix(".size.json").read_text())
     text, data, bss = map(int, output_of("arm-none-eabi-size", elf).splitlines()[1].split()[:3])
     assert size["flash_bytes"] == text + data
-    assert 0 <= len(images[0].flat()) - size["flash_bytes"] < 16  # data begins at a multiple of 8 after the code
+    assert 0 <= len(images[0].flat()) - size["flash_bytes"] < 16  # code begins at a multiple of 16 after the vectors
     assert size["ram_bytes"] == data + bss and size["stack_bytes"] == 8192
     assert size["flash_of_bytes"] == board.flash_bytes and size["ram_of_bytes"] == board.ram_bytes
 

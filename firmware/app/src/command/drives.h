@@ -1,4 +1,4 @@
-/* What the drives are told: the take-up's command and the loading test's offset, added up. */
+/* Sends each drive its command: the sum of the take-up's command and the loading test's offset. */
 #ifndef BRACE_COMMAND_DRIVES_H
 #define BRACE_COMMAND_DRIVES_H
 

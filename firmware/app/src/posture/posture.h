@@ -28,7 +28,7 @@ void posture_take(posture_t *posture, const brace_parameters_t *parameters, cons
 bool posture_is_inside_travel(const brace_drive_t *drive, float theta_rad);
 
 /* Torque that a motor needs to hold the links' weight at this posture [N mm], in the motor's sense.
- *   joint_index: BRACE_FEMUR or BRACE_TIBIA; the coxa joint's axis is vertical, so weight asks nothing of it */
+ *   joint_index: BRACE_FEMUR or BRACE_TIBIA; the coxa joint's axis is vertical, so that joint carries no weight */
 float posture_gravity_n_mm(const posture_t *posture, const brace_gravity_t *weight, int joint_index);
 
 /* Torque with which a tip force loads a joint [N mm], in the motor's sense. joint_index: BRACE_FEMUR or BRACE_TIBIA */

@@ -19,7 +19,7 @@ typedef struct {
     brace_store_t store;
     bool storing;                    /* the store is at work */
     bool comes_in_force;             /* in_force is another set, and what follows from it is still being made anew */
-    bool has_staged;                 /* staged holds what was written; it began as a copy of what is in force */
+    bool has_staged;                 /* staged is in use: a copy of the set in force, changed by writes */
     brace_parameters_t staged;
     uint32_t idle_us;                /* since somebody last asked for anything of CONFIGURATION */
     uint32_t faults;                 /* BRACE_FAULT_PARAMETERS, BRACE_FAULT_STORE: they last until a set is stored */

@@ -66,7 +66,8 @@ void drift_job_take(drift_job_t *job, const brace_drift_reading_t *reading, cons
 /* The next reading begins a new run. */
 void drift_job_end_run(drift_job_t *job);
 
-/* One piece of what is due: at most 2,500 instructions, or 1,000 and two calls to the memory. */
+/* Does the next piece of the job's work. Cost: at most 2,500 instructions, or 1,000 and two calls of the HAL's
+ * memory. */
 void drift_job_step(drift_job_t *job, const drift_inputs_t *inputs);
 
 /* Is anything due before the check can be trusted: learning anew, opening the journal, searching it? */
@@ -75,8 +76,8 @@ static inline bool drift_job_is_starting(const drift_job_t *job)
     return job->learns_anew || job->opens || job->scans;
 }
 
-/* Has the limb drifted away from its model? BRACE_FAULT_MODEL_DRIFT. The alarm waits for the report, a tick later, so
- * that whoever is told of it is told the cause as well. */
+/* Has the limb drifted away from its model? BRACE_FAULT_MODEL_DRIFT. The alarm comes one tick later, with the report,
+ * so that a reader gets the cause together with the alarm. */
 static inline bool drift_job_alarms(const drift_job_t *job)
 {
     return job->drift.state == BRACE_DRIFT_DRIFTED && job->report.state == BRACE_DRIFT_DRIFTED;

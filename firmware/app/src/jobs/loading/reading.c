@@ -34,7 +34,8 @@ static brace_loading_sums_t mean_of(const brace_loading_sums_t *sums)
                                   .count = sums->count};
 }
 
-/* The tip stays where it is, so it is displaced against the limb by minus what the joints moved, through the levers. */
+/* The ground holds the tip still while the joints move. Seen from the limb, the tip is displaced by the opposite of the
+ * movement that the joints would give it. */
 static void displacement_of(brace_loading_t *test, const float moved_rad[2])
 {
     test->dx_mm = -(test->lever_femur.x_mm * moved_rad[0] + test->lever_knee.x_mm * moved_rad[1]);
