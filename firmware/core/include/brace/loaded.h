@@ -71,11 +71,12 @@ typedef struct {
 } brace_loaded_stiffness_t;
 
 /* Collapses a limb. Call it when parameters change.
- * limb: one that brace_limb_check accepts. loaded: not null. Cost on a Cortex-M4F: at most 500 instructions. */
+ * limb: one that brace_limb_check accepts. weights: each 0 to 1e6 N, not checked. Cost on a Cortex-M4F: at most 500 instructions. */
 void brace_loaded_collapse(const brace_limb_t *limb, const brace_weights_t *weights, brace_loaded_t *loaded);
 
 /* Equilibrium and K at commanded (or measured) true angles under a load.
- * theta1_rad, theta2_rad: theta1^2 + theta2^2 <= BRACE_REACH_RAD2.
+ * No pointer may be null. theta1_rad, theta2_rad: theta1^2 + theta2^2 <= BRACE_REACH_RAD2.
+ * load: the force is checked; direction and compliances are not.
  * result: written on success only. Its buckling factor is the smallest positive s for which diag(k) - s G is singular,
  * k the springs' stiffnesses, G the load's part, at this equilibrium with the posture held (linear buckling analysis).
  * It tells how far the load softens the limb, not at which load it collapses.
@@ -84,7 +85,7 @@ void brace_loaded_collapse(const brace_limb_t *limb, const brace_weights_t *weig
  * Accuracy: where the buckling factor is at least 2 and the tip moves by at most a fifth of the reach, K within 0.6 %
  *         (Frobenius norm; median 1e-6), the buckling factor within 2 % below 10, the displacement within 0.5 mm. At no
  *         load as brace/general.h. tests/engine/test_core_under_load.py judges random limbs.
- * Cost on a Cortex-M4F: at most 3,300 instructions for every posture. */
+ * Cost on a Cortex-M4F: at most 3,300 instructions for every posture; stack at most 900 bytes. */
 brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
                                       const brace_load_t *load, brace_loaded_stiffness_t *result);
 

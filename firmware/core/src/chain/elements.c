@@ -22,14 +22,17 @@ static float moment_root(const brace_link_t *link)
     return sqrtf(0.75f * link->moment_transfer_ratio * link->bending_mm_per_n);
 }
 
-/* Splits a link's ellipsoid, without that bending, into a vector along its longer axis and the compliance that is equal
- * in every direction. returns the latter [mm/N]. along: the ellipsoid's axial direction. */
+float brace_elements_split(float axial_mm_per_n, float bending_mm_per_n, brace_vec_t along, brace_vec_t *longer)
+{
+    const float more = bending_mm_per_n - axial_mm_per_n;
+    *longer = vec_scaled(more > 0.0f ? vec_quarter(along) : along, sqrtf(fabsf(more)));
+    return more > 0.0f ? axial_mm_per_n : bending_mm_per_n;
+}
+
+/* Splits a link's ellipsoid without the bending that comes with the moment. */
 static float split(const brace_link_t *link, float root, brace_vec_t along, brace_vec_t *longer)
 {
-    const float axial = link->axial_mm_per_n, bending = brace_fma(-root, root, link->bending_mm_per_n);
-    const float more = bending - axial;
-    *longer = vec_scaled(more > 0.0f ? vec_quarter(along) : along, sqrtf(fabsf(more)));
-    return more > 0.0f ? axial : bending;
+    return brace_elements_split(link->axial_mm_per_n, brace_fma(-root, root, link->bending_mm_per_n), along, longer);
 }
 
 float brace_elements_of_links(const brace_limb_t *limb, brace_element_t element[BRACE_LINK_ELEMENT_COUNT])
@@ -73,7 +76,5 @@ float brace_elements_of_coxa(const brace_limb_t *limb, brace_coxa_elements_t *co
 
 float brace_elements_of_base(const brace_limb_t *limb, brace_vec_t *more)
 {
-    const float x = limb->base.x_mm_per_n, z = limb->base.z_mm_per_n, root = sqrtf(fabsf(x - z));
-    *more = x > z ? (brace_vec_t){root, 0.0f} : (brace_vec_t){0.0f, root};
-    return x > z ? z : x;
+    return brace_elements_split(limb->base.x_mm_per_n, limb->base.z_mm_per_n, (brace_vec_t){1.0f, 0.0f}, more);
 }

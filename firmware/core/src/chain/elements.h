@@ -38,4 +38,8 @@ static inline float brace_knee_rad_per_n_mm(const brace_limb_t *limb)
     return limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm;
 }
 
+/* Splits an ellipsoid of two principal compliances into a vector along its longer axis and the compliance that is equal
+ * in every direction. along: the axial direction, a unit vector. returns that compliance [mm/N] */
+float brace_elements_split(float axial_mm_per_n, float bending_mm_per_n, brace_vec_t along, brace_vec_t *longer);
+
 #endif

@@ -3,14 +3,7 @@
 #include "base/trig.h"
 #include "base/vec.h"
 #include "brace/loaded.h"
-
-/* A spring of two principal compliances: the lesser one in every direction, and a vector for what is more. */
-static float split(float axial_mm_per_n, float bending_mm_per_n, brace_vec_t along, brace_vec_t *root)
-{
-    const float more = bending_mm_per_n - axial_mm_per_n;
-    *root = vec_scaled(more > 0.0f ? vec_quarter(along) : along, sqrtf(fabsf(more)));
-    return more > 0.0f ? axial_mm_per_n : bending_mm_per_n;
-}
+#include "chain/elements.h"
 
 /* A uniform beam of bending b and length L has the curvature compliance 3 b/L^2 in all; each of the two Gauss points
  * has half of it. */
@@ -23,16 +16,16 @@ static brace_loaded_link_t link_of(const brace_link_t *link, float length_mm, fl
                                   .root_root = vec_scaled(along, sqrtf(beam * link->axial_mm_per_n)),
                                   .weight_n = weight_n};
     loaded.to_beam_mm = (brace_vec_t){length_mm - loaded.beam_mm.x, -loaded.beam_mm.z};
-    loaded.end_mm_per_n = split(rest * link->axial_mm_per_n, rest * link->bending_mm_per_n, along, &loaded.end_root);
+    loaded.end_mm_per_n =
+        brace_elements_split(rest * link->axial_mm_per_n, rest * link->bending_mm_per_n, along, &loaded.end_root);
     return loaded;
 }
 
 void brace_loaded_collapse(const brace_limb_t *limb, const brace_weights_t *weights, brace_loaded_t *loaded)
 {
-    const brace_vec_t outwards = {1.0f, 0.0f};
     loaded->femur = link_of(&limb->link[BRACE_FEMUR], limb->femur_mm, weights->femur_n);
     loaded->tibia = link_of(&limb->link[BRACE_TIBIA], limb->tibia_mm, weights->tibia_n);
     loaded->knee_weight_n = weights->knee_n;
-    loaded->base_mm_per_n = split(limb->base.x_mm_per_n, limb->base.z_mm_per_n, outwards, &loaded->base_root);
+    loaded->base_mm_per_n = brace_elements_of_base(limb, &loaded->base_root);
     loaded->base_rotation_rad_per_n_mm = limb->base.rotation_rad_per_n_mm;
 }
