@@ -71,7 +71,8 @@ typedef struct {
 } brace_loaded_stiffness_t;
 
 /* Collapses a limb. Call it when parameters change.
- * limb: one that brace_limb_check accepts. weights: each 0 to 1e6 N, not checked. Cost on a Cortex-M4F: at most 500 instructions. */
+ * limb: one that brace_limb_check accepts. weights: each 0 to 1e6 N, not checked. No pointer may be null.
+ * Cost on a Cortex-M4F: at most 500 instructions. */
 void brace_loaded_collapse(const brace_limb_t *limb, const brace_weights_t *weights, brace_loaded_t *loaded);
 
 /* Equilibrium and K at commanded (or measured) true angles under a load.
