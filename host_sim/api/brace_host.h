@@ -58,6 +58,12 @@ const char *brace_plant_model_fault(const brace_plant_model_t *model);
 int32_t brace_reference_planar(const brace_plant_model_t *model, size_t count, const double *theta1_rad,
                                const double *theta2_rad, double *out);
 
+/* The same for many models (array of model_count), each at its own angles: theta1_rad, theta2_rad model_count x count,
+ * out model_count x count x 9, row-major. status (optional) has one entry per model; a refused model leaves NaN.
+ * returns the first status that is not OK. cost: about 2 us a posture. */
+int32_t brace_reference_planar_many(const brace_plant_model_t *models, size_t model_count, size_t count,
+                                    const double *theta1_rad, const double *theta2_rad, double *out, int32_t *status);
+
 /* out: count x 18 row-major: k_xx k_xy k_xz k_yy k_yz k_zz, the same six of C, three eigenvalues of K ascending, unit
  * vector of the largest; in the robot's base frame (theta0 = 0: the plane's x). The limb then has its coxa link, coxa
  * joint, lateral and torsional compliances too. */
@@ -248,6 +254,15 @@ typedef struct {
  * zero_offset_rad. A joint of compliance 0 refuses an imposed angle with E_SINGULAR.
  * returns OK, E_NULL, E_NOT_FINITE, E_RANGE, E_PARAMETER, E_SINGULAR */
 int32_t brace_plant_joint(const brace_plant_model_t *model, const brace_joint_rows_t *rows, double *out);
+
+/* The same for many models (array of model_count) on one record. reversal_rad has one entry per model, in place of the
+ * rows' own. torque_offset_n_mm has one entry per model: what the torque's sensor reads at no torque; it is added to
+ * every torque in out and taken off the start torques. With an imposed torque neither acts. out: model_count x count,
+ * row-major. status (optional) has one entry per model; a refused model leaves NaN. returns the first status that is
+ * not OK. cost: about 0.02 us a row. */
+int32_t brace_plant_joint_many(const brace_plant_model_t *models, size_t model_count, const brace_joint_rows_t *rows,
+                               const double *reversal_rad, const double *torque_offset_n_mm, double *out,
+                               int32_t *status);
 
 /* ----------------------------------------------------------------------------------------------- rig -- */
 

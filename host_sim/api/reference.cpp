@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "api/checks.h"
@@ -57,6 +58,29 @@ extern "C" int32_t brace_reference_planar(const brace_plant_model_t *model, size
     return all_rows<9>(count, out, [&](size_t i, std::array<double, 9> &row) {
         return brace::reference::planar(limb, Posture{theta1_rad[i], theta2_rad[i]}, row);
     });
+}
+
+extern "C" int32_t brace_reference_planar_many(const brace_plant_model_t *models, size_t model_count, size_t count,
+                                               const double *theta1_rad, const double *theta2_rad, double *out,
+                                               int32_t *status)
+{
+    if (models == nullptr || theta1_rad == nullptr || theta2_rad == nullptr || out == nullptr) {
+        return BRACE_HOST_E_NULL;
+    }
+    int32_t worst = BRACE_HOST_OK;
+    for (size_t m = 0; m < model_count; ++m) {
+        double *const part = out + 9 * m * count;
+        const int32_t one =
+            brace_reference_planar(&models[m], count, theta1_rad + m * count, theta2_rad + m * count, part);
+        if (one != BRACE_HOST_OK) {
+            std::fill_n(part, 9 * count, std::numeric_limits<double>::quiet_NaN());
+        }
+        if (status != nullptr) {
+            status[m] = one;
+        }
+        worst = worst == BRACE_HOST_OK ? one : worst;
+    }
+    return worst;
 }
 
 extern "C" int32_t brace_reference_spatial(const brace_plant_model_t *model, size_t count,

@@ -23,8 +23,10 @@ double torque_at(const JointLaw &law, double deflection_rad, double reversal_rad
     state.instant_rad = deflection_rad - state.delayed_rad;
     state.friction_share =
         effects::coulomb_friction::turned_share(state.friction_share, state.instant_rad - before, reversal_rad);
-    return spring_torque_n_mm(law, state.instant_rad)
-           + state.friction_share * friction_n_mm(law, state.instant_rad);
+    const double spring = spring_torque_n_mm(law, state.instant_rad);
+    return spring
+           + state.friction_share
+                 * effects::coulomb_friction::most_n_mm(law.coulomb_n_mm, law.coulomb_per_load_ratio, spring);
 }
 
 // How far friction is strained where a test starts at this torque: friction carries what the spring does not carry.
@@ -63,23 +65,26 @@ double deflection_under(const JointLaw &law, double torque_n_mm, JointState &sta
 
 } // namespace
 
-void play_joint(const Model &model, const brace_joint_rows_t &rows, double *out)
+void play_joint(const Model &model, const brace_joint_rows_t &rows, const JointReading &reading, double *out)
 {
     const double offset = model.joint[rows.joint_index].zero_offset_rad;
+    const bool creeps = model.creep.ratio != 0.0; // or the delayed part stays 0
+    const bool tempered = rows.temp_degc != nullptr;
     JointState state;
-    JointLaw law;
+    JointLaw law = joint_law(model, rows.joint_index, model.thermal.reference_degc);
     for (std::size_t i = 0; i < rows.count; ++i) {
         const bool starts = i == 0 || (rows.test != nullptr && rows.test[i] != rows.test[i - 1]);
         if (starts) {
             state = {};
-        } else {
+        } else if (creeps) {
             const double approach =
                 effects::creep::approach(model.creep.time_constant_s, rows.t_s[i] - rows.t_s[i - 1]);
             state.delayed_rad = effects::creep::delayed_rad(state.delayed_rad, model.creep.ratio,
                                                             elastic_rad(law, state.instant_rad), approach);
         }
-        law = joint_law(model, rows.joint_index,
-                        rows.temp_degc != nullptr ? rows.temp_degc[i] : model.thermal.reference_degc);
+        if (tempered) {
+            law = joint_law(model, rows.joint_index, rows.temp_degc[i]);
+        }
         if (rows.torque_imposed != 0) {
             out[i] = deflection_under(law, rows.input[i], state) - offset;
         } else {
@@ -87,9 +92,10 @@ void play_joint(const Model &model, const brace_joint_rows_t &rows, double *out)
                 state.instant_rad = rows.input[i] + offset;
                 state.friction_share = rows.start_torque_n_mm == nullptr
                                            ? 0.0 // relaxed
-                                           : start_share(law, state.instant_rad, rows.start_torque_n_mm[i]);
+                                           : start_share(law, state.instant_rad,
+                                                         rows.start_torque_n_mm[i] - reading.torque_offset_n_mm);
             }
-            out[i] = torque_at(law, rows.input[i] + offset, rows.reversal_rad, state);
+            out[i] = torque_at(law, rows.input[i] + offset, reading.reversal_rad, state) + reading.torque_offset_n_mm;
         }
     }
 }

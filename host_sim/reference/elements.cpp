@@ -39,11 +39,10 @@ Vector3 axis_turning(const Vector3 &from, const Vector3 &towards)
     return from.cross(towards);
 }
 
-// A link whose far end lies at `arm` before the tip.
-Element link_element(const LinkCompliance &link, Real angle, Real length_mm, const Vector3 &arm)
+// A link along `axis`, which is frame_at(angle), whose far end lies at `arm` before the tip.
+Element link_element(const LinkCompliance &link, const Frame &axis, Real angle, Real length_mm, const Vector3 &arm)
 {
-    const Frame axis = frame_at(angle);
-    const Frame ellipsoid = frame_at(angle + link.tilt_rad);
+    const Frame ellipsoid = link.tilt_rad == 0.0L ? axis : frame_at(angle + link.tilt_rad);
     Element element;
     element.t.row(kAlong) = force_row(ellipsoid.along);
     element.t.row(kAcross) = force_row(ellipsoid.across);
@@ -97,21 +96,23 @@ Element base_translation(Real x, Real z)
 std::vector<Element> elements_of(const Limb &limb, const Posture &posture, bool with_coxa)
 {
     const Real tibia_angle = posture.theta1_rad - posture.theta2_rad;
-    const Vector3 from_knee = limb.lengths.tibia_mm * frame_at(tibia_angle).along;
-    const Vector3 from_femur_axis = limb.lengths.femur_mm * frame_at(posture.theta1_rad).along + from_knee;
+    const Frame femur = frame_at(posture.theta1_rad);
+    const Frame tibia = frame_at(tibia_angle);
+    const Vector3 from_knee = limb.lengths.tibia_mm * tibia.along;
+    const Vector3 from_femur_axis = limb.lengths.femur_mm * femur.along + from_knee;
     const Vector3 nothing = Vector3::Zero();
     std::vector<Element> elements{
         base_translation(limb.base_x_mm_per_n, limb.base_z_mm_per_n),
         hinge_element(limb.base_rotation_rad_per_n_mm, kY, from_femur_axis),
         hinge_element(limb.femur_joint_rad_per_n_mm, kY, from_femur_axis),
         hinge_element(limb.tibia_joint_rad_per_n_mm, kY, from_knee),
-        link_element(limb.femur, posture.theta1_rad, limb.lengths.femur_mm, from_knee),
-        link_element(limb.tibia, tibia_angle, limb.lengths.tibia_mm, nothing),
+        link_element(limb.femur, femur, posture.theta1_rad, limb.lengths.femur_mm, from_knee),
+        link_element(limb.tibia, tibia, tibia_angle, limb.lengths.tibia_mm, nothing),
     };
     if (with_coxa) {
         const Vector3 from_yaw_axis = from_femur_axis + Vector3(limb.lengths.coxa_mm, 0.0L, 0.0L);
         elements.push_back(hinge_element(limb.coxa_joint_rad_per_n_mm, {0.0L, 0.0L, 1.0L}, from_yaw_axis));
-        elements.push_back(link_element(limb.coxa, 0.0L, limb.lengths.coxa_mm, from_femur_axis));
+        elements.push_back(link_element(limb.coxa, frame_at(0.0L), 0.0L, limb.lengths.coxa_mm, from_femur_axis));
     }
     return elements;
 }
@@ -120,7 +121,19 @@ Matrix3 compliance(const std::vector<Element> &elements)
 {
     Matrix3 sum = Matrix3::Zero();
     for (const Element &element : elements) {
-        sum += element.t.transpose() * element.s * element.t;
+        Matrix3 part = Matrix3::Zero();
+        for (int j = 0; j < 6; ++j) {
+            Vector3 column = Vector3::Zero(); // of T' S, which is mostly empty
+            for (int i = 0; i < 6; ++i) {
+                if (element.s(i, j) != 0.0L) {
+                    column += element.t.row(i).transpose() * element.s(i, j);
+                }
+            }
+            if (!column.isZero(0.0L)) {
+                part += column * element.t.row(j);
+            }
+        }
+        sum += part;
     }
     return sum;
 }

@@ -69,6 +69,12 @@ def tilted_limb() -> Limb:
     )
 
 
+def beam_limb() -> Limb:
+    """The paper's limb with beams for links: what K under a load is counted and judged on."""
+    limb = paper_limb()
+    return replace(limb, tibia=replace(limb.tibia, moment_transfer_ratio=1.0))
+
+
 def random_limbs(count: int = 64) -> list[Limb]:
     """Limbs of every kind for the parameter change: slender to round, tilted or not, with and without springs and
     moment transfer, legs of equal length among them."""
@@ -154,6 +160,7 @@ def header() -> str:
         _list("BENCH_ALL_Q28", integers(q28(both))),
         f"#define BENCH_PAPER_LIMB {_limb_initialiser(paper_limb())}\n",
         f"#define BENCH_TILTED_LIMB {_limb_initialiser(tilted_limb())}\n",
+        f"#define BENCH_BEAM_LIMB {_limb_initialiser(beam_limb())}\n",
         f"#define BENCH_COXA_LIMB {_limb_initialiser(coxa_limb())}\n",
         f"#define BENCH_LIMB_COUNT {len(limbs)}\n",
         _list("BENCH_LIMBS", [_limb_initialiser(limb) for limb in limbs]),

@@ -1,6 +1,6 @@
 """`./dev bench`: what a K costs, side by side with its peers, on the same postures; PASS or MISS per limit.
 
-Writes docs/bench.json, docs/bench.md and docs/backlash.svg. Exit codes: 0 every limit kept, 1 one missed,
+Writes docs/bench.json, docs/bench.md, docs/backlash.svg and docs/loaded.svg. Exit codes: 0 every limit kept, 1 one missed,
 4 something is missing here.
 """
 
@@ -19,6 +19,8 @@ import fetch  # noqa: E402
 import flash_groups  # noqa: E402
 import flood  # noqa: E402
 import footprint  # noqa: E402
+import loaded  # noqa: E402
+import loaded_picture  # noqa: E402
 import postures  # noqa: E402
 import tick_cost  # noqa: E402
 import versions  # noqa: E402
@@ -68,6 +70,9 @@ def bench(out: Path) -> Bench:
     for version in [*versions.ours(), *versions.peers(generated)]:
         say(f"counting: {version.group}: {version.name}")
         measured.append(measure(version, plugin))
+    say("K under a load, beside its peers")
+    under_load = loaded.extra(generated, plugin)
+    loaded_picture.draw(out / "loaded.svg")
     say("host throughput")
     rates = measure_rates()
     say("weighing the core")
@@ -76,7 +81,7 @@ def bench(out: Path) -> Bench:
     say("backlash: histories, oracle, take-ups")
     plays = backlash_report.extra(out)
     say("the controller's tick: a million random ones")
-    extras = (flash_groups.extra(), footprint.extra(), plays, drift.extra(plugin), flood.extra(), tick_cost.extra())
+    extras = (under_load, flash_groups.extra(), footprint.extra(), plays, drift.extra(plugin), flood.extra(), tick_cost.extra())
     return Bench(measured, rates, weights, map_s, weigh_modules(), checks, tools(), extras)
 
 

@@ -33,6 +33,7 @@ class Version:
 PEERS = BENCH / "peers"
 OURS = BENCH / "ours"
 EIGEN_FLAGS = ("-DNDEBUG", "-I/usr/include/eigen3")
+FLOAT_FUNCTIONS = ("-include", str(PEERS / "float_functions.h"), "-fsingle-precision-constant")
 SPATIAL_LIMB = "-DBENCH_PEER_LIMB=BENCH_COXA_LIMB"
 
 PLANAR = "planar K, Cortex-M4F"
@@ -81,7 +82,6 @@ def _peer(name: str, group: str, function: str, sources: tuple[Path, ...], job: 
 
 def peers(casadi_code: Path) -> list[Version]:
     """The others, each as its users would write it; casadi_code: folder of the generated C."""
-    float_functions = ("-include", str(PEERS / "float_functions.h"), "-fsingle-precision-constant")
     casadi = PEERS / "casadi_job.c"
     plain = PEERS / "plain_job.c"
     eigen = PEERS / "eigen_job.cpp"
@@ -99,7 +99,7 @@ def peers(casadi_code: Path) -> list[Version]:
     eigen_planar = "_Z15eigen_stiffnessRK12plain_limb_tffR17plain_stiffness_t"
     eigen_spatial = "_Z23eigen_spatial_stiffnessRK12plain_limb_tfffR15plain_spatial_t"
     return [
-        _peer("CasADi C, float functions", PLANAR, "casadi_planar", (planar_text,), casadi, ("-O2", *float_functions)),
+        _peer("CasADi C, float functions", PLANAR, "casadi_planar", (planar_text,), casadi, ("-O2", *FLOAT_FUNCTIONS)),
         _peer("CasADi C, as generated", PLANAR, "casadi_planar", (planar_text,), casadi, ("-O2",)),
         _peer("Eigen fixed size, -O2", PLANAR, eigen_planar, (PEERS / "eigen.cpp",), eigen, ("-O2", *EIGEN_FLAGS)),
         _peer("Eigen fixed size, -O3", PLANAR, eigen_planar, (PEERS / "eigen.cpp",), eigen, ("-O3", *EIGEN_FLAGS)),
@@ -107,10 +107,10 @@ def peers(casadi_code: Path) -> list[Version]:
         _peer("plain C, newlib, -O2", PLANAR, "plain_stiffness", (PEERS / "plain.c",), plain, ("-O2",)),
         _peer("plain C, newlib, -O3", PLANAR, "plain_stiffness", (PEERS / "plain.c",), plain, ("-O3",)),
         _peer("plain C, soft float", PLANAR_NO_FPU, "plain_stiffness", (PEERS / "plain.c",), plain, ("-O2",), M3),
-        _peer("CasADi C, soft float", PLANAR_NO_FPU, "casadi_planar", (planar_text,), casadi, ("-O2", *float_functions),
+        _peer("CasADi C, soft float", PLANAR_NO_FPU, "casadi_planar", (planar_text,), casadi, ("-O2", *FLOAT_FUNCTIONS),
               M3),
         _peer("CasADi C, float functions", SPATIAL, "casadi_spatial", (spatial_text,), casadi,
-              ("-O2", *float_functions)),
+              ("-O2", *FLOAT_FUNCTIONS)),
         _peer("Eigen fixed size, -O2", SPATIAL, eigen_spatial, (PEERS / "eigen.cpp",), eigen, ("-O2", *EIGEN_FLAGS)),
         _peer("plain C, newlib, -O2", SPATIAL, "plain_spatial_stiffness", (PEERS / "plain_spatial.c",), plain,
               ("-O2",)),

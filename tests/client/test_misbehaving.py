@@ -252,14 +252,18 @@ def test_a_port_that_accepts_and_says_nothing(probe: Probe, kind: str) -> None:
         assert answer.code == SILENT and answer.told_in_time, answer.err
 
 
-def test_modbus_noise(probe: Probe) -> None:
+@pytest.mark.parametrize("times", [1, 1000])
+def test_modbus_noise(probe: Probe, times: int) -> None:
+    """Whether every try is answered so, or only the first."""
     ours, theirs = pty.openpty()
     subprocess.run(["stty", "-F", os.ttyname(theirs), "raw", "-echo"], check=True)
 
     def answer_with_noise() -> None:
         with contextlib.suppress(OSError):  # the device has been closed
-            while os.read(ours, 64):
-                os.write(ours, b"\x01\x04\x10" + b"\x55" * 18)  # the right length, a wrong CRC
+            for answered in range(1000):
+                os.read(ours, 64)
+                if answered < times:
+                    os.write(ours, b"\x01\x04\x10" + b"\x55" * 18)  # the right length, a wrong CRC
 
     threading.Thread(target=answer_with_noise, daemon=True).start()
     answer = probe(f"modbus:{os.ttyname(theirs)}", "identity")

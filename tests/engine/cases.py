@@ -18,7 +18,7 @@ MOST_OF_REACH = 0.2  # displacement of the tip
 
 @dataclass(frozen=True)
 class Case:
-    """A limb, what it is told, and what pulls at it."""
+    """A limb, its commanded angles, and the loads on it."""
 
     keys: dict[str, float]
     theta_rad: tuple[float, float, float]  # coxa, femur, tibia; in the plane the first is not used

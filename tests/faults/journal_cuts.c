@@ -3,6 +3,7 @@
  * slot has to be as it was, and the next record has to be kept as if nothing had been.
  *
  *   journal_cuts            single failures with units of 1, 2, 4, 8 bytes; pairs of failures with units of 8
+ *   journal_cuts --in-turn  the same; each step fails in one manner, the next step in the next manner
  *   journal_cuts --broken   for a journal broken on purpose: 0 when the enumeration finds it out
  */
 #include <stdio.h>
@@ -16,6 +17,7 @@
 enum { SLOT = 1, IDENTITY = 77, STARTS_UNSTABLE = 4, NONE = 0, RECORDS = 2, LAST = 100, BETWEEN = 50 };
 
 static bool expect_broken;
+static bool in_turn; /* a step fails in one manner only */
 static nvm_t before; /* as the store left it: a block and marks below the journal, a whole other slot */
 static unsigned long cases, starts;
 
@@ -93,6 +95,12 @@ static int starts_after(cut_manner_t manner)
     return manner >= CUT_UNSTABLE ? STARTS_UNSTABLE : 1;
 }
 
+/* Is this manner to be tried at this step? In turn: every `manners`-th step. */
+static bool has_turn(int32_t step, int manner, int manners)
+{
+    return !in_turn || step % manners == manner;
+}
+
 /* From here on everything works: two records in this session, one in the next; or but the first. */
 static void go_on(const nvm_t *left, uint32_t lot, int records)
 {
@@ -121,6 +129,10 @@ static void fail_again(const nvm_t *left, int old, int new, const cut_manner_t *
     for (int m = 0; m < manner_count; m++) {
         now.second_manner = manners[m];
         for (now.second_step = 1;; now.second_step++) {
+            /* Every first manner meets every second one. */
+            if (!has_turn(now.first_step / manner_count + now.second_step, m, manner_count)) {
+                continue;
+            }
             nvm = *left;
             nvm.random += (uint32_t)now.second_step;
             nvm_power(&nvm, now.second_step, manners[m]);
@@ -154,6 +166,9 @@ static int32_t fail_everywhere(const nvm_t *left, int n, bool in_session, bool p
     for (int m = 0; m < manner_count; m++) {
         now.first_manner = pairs ? pair_manners[m] : (cut_manner_t)m;
         for (now.first_step = 1;; now.first_step++) {
+            if (!has_turn(now.first_step, m, manner_count)) {
+                continue;
+            }
             nvm = *left;
             nvm.random += (uint32_t)now.first_step;
             nvm_power(&nvm, NVM_FOREVER, CUT_AFTER);
@@ -166,9 +181,9 @@ static int32_t fail_everywhere(const nvm_t *left, int n, bool in_session, bool p
             nvm_power(&nvm, now.first_step, now.first_manner);
             keep(&limb, &nvm, n);
             if (!nvm.dead) {
-                steps = now.first_step - 1;
                 break;
             }
+            steps = now.first_step > steps ? now.first_step : steps;
             nvm_power(&nvm, NVM_FOREVER, CUT_AFTER);
             for (int i = 0; i < (pairs ? (starts_after(now.first_manner) + 1) / 2 : starts_after(now.first_manner));
                  i++) {
@@ -212,10 +227,15 @@ static int32_t enumerate(uint32_t unit, bool pairs)
 int main(int argc, char **argv)
 {
     expect_broken = argc == 2 && strcmp(argv[1], "--broken") == 0;
+    in_turn = argc == 2 && strcmp(argv[1], "--in-turn") == 0;
+    if (argc > 2 || (argc == 2 && !expect_broken && !in_turn)) {
+        fprintf(stderr, "usage: journal_cuts [--in-turn | --broken]\n");
+        return 2;
+    }
     for (uint32_t unit = 1; unit <= 8; unit *= 2) {
         const int32_t steps = enumerate(unit, false);
-        printf("units of %u bytes: power fails at %d steps of three records in %d manners\n", (unsigned)unit,
-               (int)steps, CUT_MANNER_COUNT);
+        printf("units of %u bytes: power fails at %d steps of three records in %d manners%s\n", (unsigned)unit,
+               (int)steps, CUT_MANNER_COUNT, in_turn ? " in turn" : "");
     }
     printf("single failures: %lu cases, %lu starts: the old record or the new one, whole, each time\n", cases, starts);
     const unsigned long single = cases;

@@ -4,7 +4,9 @@
  *
  *   power_cuts              single failures with units of 1, 2, 4, 8 bytes; pairs of failures with units of 8
  *   power_cuts --single     the single ones only
- *   power_cuts --broken     for a store broken on purpose: 0 when the enumeration finds it out
+ *   power_cuts --in-turn    the single ones only; each step fails in one manner, the next step in the next manner
+ *   power_cuts --broken     for a store broken on purpose; exit code 0 when the enumeration finds the mistake. It tries
+ *                           each step in one manner first, because most mistakes show there, and then in every manner.
  */
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,13 +19,16 @@ enum {
     SETS = 12,            /* set 0: the safe defaults; the others differ in their femur, and in every drive */
     NO_SET = -1,
     STARTS_UNSTABLE = 4,  /* starts after a failure that leaves unstable units; else one */
-    STEPS_MAX = 2000      /* of an operation, a store step each */
+    STEPS_MAX = 2000,     /* of an operation, a store step each */
+    TURNS = 4             /* rounds of pairs in turn: as many as their manners */
 };
 
 typedef enum { UPDATE = 'U', ROLL_BACK = 'R' } operation_t;
 
 static brace_parameters_t set[SETS];
 static bool expect_broken;
+static bool in_turn; /* a step fails in one manner only */
+static int32_t turn; /* how many manners the first step is ahead */
 static unsigned long cases, starts;
 
 static struct {
@@ -156,6 +161,12 @@ static int starts_after(cut_manner_t manner)
     return manner >= CUT_UNSTABLE ? STARTS_UNSTABLE : 1;
 }
 
+/* Is this manner to be tried at this step? In turn: every `manners`-th step. */
+static bool has_turn(int32_t step, int manner, int manners)
+{
+    return !in_turn || (step + turn) % manners == manner;
+}
+
 /* From here on everything works: an update, a roll-back to what was in force, two more updates. */
 static void go_on(const nvm_t *left, uint32_t lot)
 {
@@ -228,6 +239,10 @@ static void fail_again(const nvm_t *left, uint32_t first_lot, const allowed_t *o
         for (int m = 0; m < manner_count; m++) {
             now.second_manner = manners[m];
             for (now.second_step = 1;; now.second_step++) {
+                /* Every first manner meets every second one. */
+                if (!has_turn(now.first_step / manner_count + now.second_step, m, manner_count)) {
+                    continue;
+                }
                 nvm = *left;
                 nvm.random += lot; /* so that the start finds the same at each second step */
                 nvm_power(&nvm, now.second_step, manners[m]);
@@ -279,6 +294,9 @@ static int32_t fail_everywhere(const nvm_t *left, operation_t operation, int new
     for (int m = 0; m < manner_count; m++) {
         now.first_manner = pairs ? pair_manners[m] : (cut_manner_t)m;
         for (now.first_step = 1;; now.first_step++) {
+            if (!has_turn(now.first_step, m, manner_count)) {
+                continue;
+            }
             nvm = *left;
             nvm.random += (uint32_t)now.first_step;
             nvm_power(&nvm, now.first_step, now.first_manner);
@@ -288,9 +306,9 @@ static int32_t fail_everywhere(const nvm_t *left, operation_t operation, int new
             allow(&allowed, operation == UPDATE ? new_set : set_to_go_back_to(&limb));
             operate(&limb, operation, new_set);
             if (!nvm.dead) {
-                steps = now.first_step - 1;
                 break;
             }
+            steps = now.first_step > steps ? now.first_step : steps;
             nvm_power(&nvm, NVM_FOREVER, CUT_AFTER);
             if (pairs) {
                 for (int i = 0; i < starts_after(now.first_manner); i++) {
@@ -372,8 +390,8 @@ static void enumerate_single(void)
         for (size_t i = 0; i < sizeof programs / sizeof *programs; i++) {
             steps += run_program(programs[i], unit, false, i == 0 ? 0 : (int)strlen(programs[i]) - 1);
         }
-        printf("units of %u bytes: power fails at %d steps of 8 operations in %d manners\n", (unsigned)unit, (int)steps,
-               CUT_MANNER_COUNT);
+        printf("units of %u bytes: power fails at %d steps of 8 operations in %d manners%s\n", (unsigned)unit,
+               (int)steps, CUT_MANNER_COUNT, in_turn ? " in turn" : "");
     }
     printf("single failures: %lu cases, %lu starts: the old set or the new one, whole, each time\n", cases, starts);
 }
@@ -390,12 +408,24 @@ static void enumerate_pairs(void)
 int main(int argc, char **argv)
 {
     const bool single = argc == 2 && strcmp(argv[1], "--single") == 0;
+    const bool single_in_turn = argc == 2 && strcmp(argv[1], "--in-turn") == 0;
     expect_broken = argc == 2 && strcmp(argv[1], "--broken") == 0;
-    if (argc > 2 || (argc == 2 && !single && !expect_broken)) {
-        fprintf(stderr, "usage: power_cuts [--single | --broken]\n");
+    if (argc > 2 || (argc == 2 && !single && !single_in_turn && !expect_broken)) {
+        fprintf(stderr, "usage: power_cuts [--single | --in-turn | --broken]\n");
         return 2;
     }
     make_sets();
+    if (single_in_turn || expect_broken) {
+        in_turn = true;
+        enumerate_single();
+        if (single_in_turn) {
+            return 0;
+        }
+        for (turn = 0; turn < TURNS; turn++) {
+            enumerate_pairs();
+        }
+        in_turn = false;
+    }
     enumerate_single();
     if (!single) {
         enumerate_pairs();

@@ -184,6 +184,57 @@ static void test_many_models(void)
     }
 }
 
+static void test_many_models_of_the_reference(void)
+{
+    brace_plant_model_t models[3] = {paper_limb(), paper_limb(), paper_limb()};
+    models[1].geometry.femur_mm = kNan;
+    models[2].link[2].bending_mm_per_n *= 2.0;
+    const double theta1_rad[3][2] = {{1.0, 0.3}, {1.0, 0.3}, {0.9, -0.2}};
+    const double theta2_rad[3][2] = {{1.4, 0.6}, {1.4, 0.6}, {1.5, 0.7}};
+    double all[3][2][9], alone[2][9];
+    int32_t status[3];
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_E_PARAMETER, brace_reference_planar_many(models, 3, 2, theta1_rad[0],
+                                                                                theta2_rad[0], &all[0][0][0], status));
+    for (int m = 0; m < 3; ++m) {
+        TEST_ASSERT_EQUAL_INT32(status[m],
+                                brace_reference_planar(&models[m], 2, theta1_rad[m], theta2_rad[m], &alone[0][0]));
+        if (m == 1) {
+            TEST_ASSERT_DOUBLE_IS_NAN(all[m][0][0]);
+            TEST_ASSERT_DOUBLE_IS_NAN(all[m][1][8]);
+        } else {
+            TEST_ASSERT_EQUAL_MEMORY(alone, all[m], sizeof alone);
+        }
+    }
+}
+
+static void test_many_models_of_a_joint(void)
+{
+    brace_plant_model_t models[3] = {paper_limb(), paper_limb(), paper_limb()};
+    models[1].joint[2].gap_rad = kNan;
+    models[2].joint[2].gap_rad = 0.001;
+    const double t_s[3] = {0.0, 0.1, 0.2}, angle_rad[3] = {0.0, 0.004, -0.002}, offset_n_mm[3] = {0.0, 0.0, 5.0};
+    const double reversal_rad[3] = {0.0, 0.0, 0.0};
+    brace_joint_rows_t rows{};
+    rows.count = 3;
+    rows.t_s = t_s;
+    rows.input = angle_rad;
+    rows.joint_index = 2;
+    double all[3][3], alone[3];
+    int32_t status[3];
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_E_PARAMETER,
+                            brace_plant_joint_many(models, 3, &rows, reversal_rad, offset_n_mm, &all[0][0], status));
+    for (int m = 0; m < 3; ++m) {
+        TEST_ASSERT_EQUAL_INT32(status[m], brace_plant_joint(&models[m], &rows, alone));
+        for (int i = 0; i < 3; ++i) {
+            if (m == 1) {
+                TEST_ASSERT_DOUBLE_IS_NAN(all[m][i]);
+            } else {
+                TEST_ASSERT_DOUBLE_WITHIN(1e-9, alone[i] + offset_n_mm[m], all[m][i]);
+            }
+        }
+    }
+}
+
 static void test_every_status_has_words(void)
 {
     const char *const unknown = brace_host_status_text(-99);
@@ -200,6 +251,8 @@ int main(void)
     RUN_TEST(test_loading_refuses);
     RUN_TEST(test_empty_record_is_played);
     RUN_TEST(test_many_models);
+    RUN_TEST(test_many_models_of_the_reference);
+    RUN_TEST(test_many_models_of_a_joint);
     RUN_TEST(test_every_status_has_words);
     return UNITY_END();
 }

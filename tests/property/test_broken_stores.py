@@ -13,6 +13,7 @@ STORE = PROJECT / "firmware" / "store" / "src"
 INCLUDES = ("firmware/store/include", "firmware/store/src", "firmware/core/include", "firmware/core/src", "hal/include",
             "tests/faults")
 INTERFACE = ("firmware/interface/include", "firmware/interface/generated", "firmware/interface/src")
+FOLDERS = [PROJECT / folder for folder in (*INCLUDES, *INTERFACE)]
 SOURCES = (
     "firmware/interface/src/[!c]*.c",  # all but crc32.c, in whose place stands
     "tests/faults/crc32_fast.c",
@@ -78,9 +79,25 @@ BROKEN: dict[str, list[Edit]] = {
 }
 
 
+def compile_objects(sources: list[Path], folders: list[Path], into: Path) -> list[Path]:
+    """Their objects, with the includes looked for in these folders."""
+    into.mkdir(exist_ok=True)
+    subprocess.run(["gcc", "-std=c11", "-O2", "-w", *(f"-I{folder}" for folder in folders), "-c", *sources],
+                   cwd=into, check=True)  # fmt: skip
+    return [into / f"{source.stem}.o" for source in sources]
+
+
+@pytest.fixture(scope="module")
+def unbroken_objects(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+    """All of the program but the store, which each test breaks in its own way."""
+    sources = [path for pattern in SOURCES for path in sorted(PROJECT.glob(pattern))]
+    assert len({source.stem for source in sources}) == len(sources)
+    return compile_objects(sources, FOLDERS, tmp_path_factory.mktemp("unbroken"))
+
+
 @pytest.mark.skipif(shutil.which("gcc") is None, reason="no gcc")
 @pytest.mark.parametrize("name", BROKEN)
-def test_a_broken_store_is_found_out(name: str, tmp_path: Path) -> None:
+def test_a_broken_store_is_found_out(name: str, unbroken_objects: list[Path], tmp_path: Path) -> None:
     folder = tmp_path / "store"
     shutil.copytree(STORE, folder)
     for file, before, after in BROKEN[name]:
@@ -88,12 +105,8 @@ def test_a_broken_store_is_found_out(name: str, tmp_path: Path) -> None:
         assert text.count(before) == 1, f"{file} no longer has what this test breaks: {before}"
         (folder / file).write_text(text.replace(before, after))
     program = tmp_path / "power_cuts"
-    sources = [path for pattern in SOURCES for path in sorted(PROJECT.glob(pattern))] + sorted(folder.glob("*.c"))
-    folders = [tmp_path, *(PROJECT / include for include in (*INCLUDES, *INTERFACE))]
-    subprocess.run(
-        ["gcc", "-std=c11", "-O2", "-w", *(f"-I{folder}" for folder in folders), "-o", program, *sources, "-lm"],
-        check=True
-    )
+    broken = compile_objects(sorted(folder.glob("*.c")), [folder, *FOLDERS], tmp_path / "objects")
+    subprocess.run(["gcc", "-o", program, *unbroken_objects, *broken, "-lm"], check=True)
     outcome = subprocess.run([program, "--broken"], capture_output=True, text=True, timeout=300)
     assert outcome.returncode == 0, outcome.stdout
     print(f"{name}: {outcome.stdout.strip().splitlines()[-1]}")

@@ -55,6 +55,32 @@ def test_map_of_a_yielding_base_shows_a_band(tmp_path: Path, brace: Callable[...
     assert float(row["lambda_max_high_n_per_mm"]) > 1.1 * float(row["lambda_max_low_n_per_mm"])
 
 
+def test_map_under_a_load(tmp_path: Path, brace: Callable[..., Outcome], paper_limb: Path) -> None:
+    """Its ellipses are those of `brace k`, drawn where the loaded tip is; folded postures are counted and left out."""
+    asked = ("map", "--model", paper_limb, "--postures", 2500, "--out")
+    outcome = brace(*asked, tmp_path / "m", "--fx", -20, "--npy", "--json")
+    summary = json.loads(outcome.out)
+    assert (summary["path"], summary["fx_n"], summary["fz_n"], summary["folded_postures"]) == ("loaded", -20, 0, 0)
+    with (tmp_path / "m" / "ellipses.csv").open() as file:
+        row = list(csv.DictReader(file))[17]
+    angles = ("--theta1", row["theta1_rad"], "--theta2", row["theta2_rad"])
+    k = json.loads(brace("k", "--model", paper_limb, *angles, "--fx", -20, "--json").out)
+    for name in ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm", "tip_dx_mm", "tip_dz_mm"):
+        assert float(row[name]) == pytest.approx(k[name], rel=1e-5, abs=1e-5)
+    x_mm = k["r_mm"] * np.cos(k["phi_rad"]) + k["tip_dx_mm"]
+    assert float(row["x_mm"]) == pytest.approx(x_mm, abs=0.01)
+    table = np.load(tmp_path / "m" / "postures.npy")
+    moved_mm = np.hypot(table["tip_dx_mm"], table["tip_dz_mm"])
+    assert summary["displacement_most_mm"] == pytest.approx(float(moved_mm.max()))
+    assert summary["buckling_factor_least"] == pytest.approx(float(table["buckling_factor"].min()))
+    folds = json.loads(brace(*asked, tmp_path / "f", "--fz", -300, "--json").out)
+    assert folds["folded_postures"] > 0
+    for force_n in (9000, 10_000):
+        none = brace(*asked, tmp_path / "n", "--fz", force_n)
+        assert none.code == 2 and "of 2500 postures have no K under this load" in none.err
+        assert not (tmp_path / "n").exists()
+
+
 def test_map_is_the_same_every_time(tmp_path: Path, brace: Callable[..., Outcome], paper_limb: Path) -> None:
     for name in ("a", "b"):
         assert brace("map", "--model", paper_limb, "--out", tmp_path / name, "--postures", 400).code == 0

@@ -9,10 +9,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from conftest import LIMB, Outcome
 
-from brace.native import library
+from brace.model import load_limb
+from brace.native import library, loaded
 
 Brace = Callable[..., Outcome]
 K = ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm")
@@ -86,18 +88,28 @@ def test_the_foothold_bears_the_error_of_position_and_no_more(
         assert least_margin(1.05 * posture["bears_mm"] + 0.02) < 0.0
 
 
-def test_sag_and_set_point_are_the_firmware_s(brace: Brace, limb: Path) -> None:
-    ffi, lib = library().ffi, library().lib
-    for posture in planned(brace, limb, "--payload", 7, "--friction", 0.5, "--normal", 2.6)["best"]:
-        for force, expected in (
-            ((0.0, 7.0), posture["sag_mm"]),
-            ((posture["force_x_n"], posture["force_z_n"]),
-             math.hypot(posture["x_mm"] - posture["set_x_mm"], posture["z_mm"] - posture["set_z_mm"])),
-        ):  # fmt: skip
-            sag = ffi.new("brace_displacement_t *")
-            assert lib.brace_contact_sag(stiffness(posture), ffi.new("brace_force_t *", force)[0], sag) == 0
-            stated_mm = 5e-6 * math.hypot(*force) / posture["lambda_min_n_per_mm"]  # contact.h
-            assert math.hypot(sag.x_mm, sag.z_mm) == pytest.approx(expected, rel=1e-6, abs=stated_mm)
+def test_the_tip_stands_at_its_place_under_the_load(brace: Brace, limb: Path) -> None:
+    """By the reference, which was written apart from the firmware's C: K, place, sag, on a limb with weight."""
+    limb.write_text(limb.read_text() + "[gravity]\nfemur_n = 2.0\nknee_n = 1.0\ntibia_n = 1.5\n")
+    model = load_limb(limb)
+    options = ("--payload", 7, "--friction", 0.5, "--normal", 2.6, "--x", 200, 400, "--z", -150, 0, "--count", 5)
+    found = planned(brace, limb, *options)["best"]
+    assert len(found) == 5
+    for posture in found:
+        angles = posture["theta1_true_rad"], posture["theta2_true_rad"]
+        forces = [[posture["force_x_n"], posture["force_z_n"]], [0.0, 7.0], [0.0, 0.0]]
+        true = loaded.under_force(model, *angles, forces)
+        k = [posture[name] for name in K]
+        exact = true.k_n_per_mm[0][[0, 0, 1], [0, 1, 1]]
+        assert k == pytest.approx(exact.tolist(), abs=6e-3 * float(np.linalg.norm(exact)))  # brace/loaded.h
+        moved_mm = true.displacement_mm
+        stands = posture["set_x_mm"] + moved_mm[0][0], posture["set_z_mm"] + moved_mm[0][1]
+        assert stands == pytest.approx((posture["x_mm"], posture["z_mm"]), abs=0.5)  # brace/loaded.h, and a round
+        assert posture["sag_mm"] == pytest.approx(float(np.hypot(*(moved_mm[1] - moved_mm[2]))), abs=0.5)
+        asked = ("--theta1", posture["theta1_rad"], "--theta2", posture["theta2_rad"])
+        set_point = json.loads(brace("k", "--model", limb, *asked, "--json").out)
+        x_mm, z_mm = (set_point["r_mm"] * turn(set_point["phi_rad"]) for turn in (math.cos, math.sin))
+        assert (x_mm, z_mm) == pytest.approx((posture["set_x_mm"], posture["set_z_mm"]), abs=0.01)
         # the foot is pushed back onto its place from there: the set-point lies on the other side of the surface
         push = (posture["x_mm"] - posture["set_x_mm"]) * posture["force_x_n"]
         push += (posture["z_mm"] - posture["set_z_mm"]) * posture["force_z_n"]

@@ -1,8 +1,9 @@
 """Where a foot should stand and how hard it should press: postures by what is asked of K, contact and payload.
 
-K is the firmware's own, every gap closed. A position-controlled foot gets its force f by a set-point that lies off it
-by the limb's yield, d = C f; an error e of position there (of foothold, set-point, a gap that opens) changes f by K e.
-So a foot that is to bear such errors without sliding has to press against its surface, the harder the stiffer it is."""
+K is the firmware's own under the foot's force and the limb's weight, every gap closed. A position-controlled foot gets
+its force f by a set-point that lies off it by the limb's yield under f; an error e of position there (of foothold,
+set-point, a gap that opens) changes f by K e. So a foot that is to bear such errors without sliding has to press against
+its surface, the harder the stiffer it is."""
 
 from __future__ import annotations
 
@@ -13,7 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from brace.model import LimbModel
-from brace.stiffness import PLANAR_C, PLANAR_K, PLANAR_REST, PlanarLimb, PostureError, planar_limb
+from brace.stiffness import PLANAR_C, PLANAR_K, PLANAR_REST, PlanarLimb, planar_limb
+from brace.stiffness_under_load import LoadedLimb
 
 KNEES = ("up", "down")
 PREFERENCES = {  # what is best, and the column that says so; -1: more is better
@@ -92,20 +94,75 @@ class Plan:
         return chosen
 
 
+ROUNDS = 8  # at most; each leaves about a fifth of the error, the tip's yield over the reach
+SETTLED_MM = 1e-3
+
+
 def plan(model: LimbModel, wish: Wish, places: int) -> Plan:
     """About `places` places of the tip, with each knee that is asked for."""
     limb = planar_limb(model)
     reach = model.number("geometry.femur_mm") + model.number("geometry.tibia_mm")
-    columns, knee = _postures(limb, model, _places(wish, reach, places), wish.knees)
+    spots = _places(wish, reach, places)
+    spots, knee = np.repeat(spots, len(wish.knees), 0), np.tile(np.array(wish.knees, dtype=str), len(spots))
+    true = limb.postures(spots, knee)
+    kept = np.isfinite(true[:, 0])
+    columns, stands = _standing(limb, LoadedLimb(model), wish, spots[kept], knee[kept], true[kept])
+    knee = knee[kept][stands]
+    offsets = [model.number(f"joint.{joint}.zero_offset_rad") for joint in ("femur", "tibia")]
+    for name, offset in zip(("theta1", "theta2"), offsets):
+        columns[f"{name}_rad"] = columns[f"{name}_true_rad"] - offset
+    travelled = _within_travel(model, columns)
+    columns, knee = {name: column[travelled] for name, column in columns.items()}, knee[travelled]
     if not len(knee):
         return Plan(columns, knee)
-    k = limb.stiffness(columns["theta1_true_rad"], columns["theta2_true_rad"])
-    columns |= {name: k[name].astype(float) for name in (*PLANAR_K, *PLANAR_C, *PLANAR_REST)}
-    columns |= _contact(columns, wish)
     if wish.k_n_per_mm is not None:
         off = [columns[name] - wanted for name, wanted in zip(PLANAR_K, wish.k_n_per_mm)]
         columns["off_n_per_mm"] = np.sqrt(off[0] ** 2 + 2 * off[1] ** 2 + off[2] ** 2)
     return Plan(columns, knee, _demands(columns, wish))
+
+
+def _standing(
+    limb: PlanarLimb, loaded: LoadedLimb, wish: Wish, place: np.ndarray, knee: np.ndarray, true: np.ndarray
+) -> tuple[dict[str, np.ndarray], np.ndarray]:
+    """The limb as it stands: its tip at the place under the foot's force and its weight. The set-point and the force
+    depend on K and on the yield there, and these on them, so they are found in rounds. Second: of which rows it stands.
+
+    true: the angles that put the unloaded tip there, one row each."""
+    stands = np.ones(len(place), bool)
+    set_point, angles = place.copy(), true.copy()
+    columns = _contact(_of_no_k(len(place)), wish)
+    for _ in range(ROUNDS):
+        force = columns["force_x_n"], columns["force_z_n"]
+        found = loaded.stiffness(angles[:, 0], angles[:, 1], *force)
+        moved = np.stack([found["tip_dx_mm"], found["tip_dz_mm"]], 1)
+        stands &= np.isfinite(found["k_xx_n_per_mm"])
+        columns = {name: found[name].astype(float) for name in (*PLANAR_K, *PLANAR_C, *PLANAR_REST)}
+        columns["buckling_factor"] = found["buckling_factor"].astype(float)
+        columns |= {"theta1_true_rad": angles[:, 0], "theta2_true_rad": angles[:, 1]}
+        columns |= {"set_x_mm": set_point[:, 0], "set_z_mm": set_point[:, 1]} | _contact(columns, wish)
+        before, set_point = set_point, place - np.where(stands[:, None], moved, 0.0)
+        if not np.any(np.abs(set_point - before)[stands] > SETTLED_MM):
+            break
+        reached = limb.postures(set_point, knee)
+        stands &= np.isfinite(reached[:, 0])
+        angles = np.where(stands[:, None], reached, angles)
+    columns |= {"x_mm": place[:, 0], "z_mm": place[:, 1]}
+    columns["sag_mm"] = _sag_mm(loaded, wish, columns)
+    return {name: column[stands] for name, column in columns.items()}, stands
+
+
+def _of_no_k(count: int) -> dict[str, np.ndarray]:
+    """Before the first round: the payload alone presses."""
+    return {name: np.zeros(count) for name in (*PLANAR_K, *PLANAR_C)}
+
+
+def _sag_mm(loaded: LoadedLimb, wish: Wish, columns: Mapping[str, np.ndarray]) -> np.ndarray:
+    """How far the payload moves the tip of the limb as it is commanded, without the force against the surface."""
+    angles = columns["theta1_true_rad"], columns["theta2_true_rad"]
+    none = np.zeros(len(angles[0]))
+    with_it, without = (loaded.stiffness(*angles, none, none + load) for load in (wish.payload_n, 0.0))
+    dx_mm, dz_mm = (with_it[name].astype(float) - without[name] for name in ("tip_dx_mm", "tip_dz_mm"))
+    return np.asarray(np.hypot(dx_mm, dz_mm))
 
 
 def _places(wish: Wish, reach_mm: float, places: int) -> np.ndarray:
@@ -121,36 +178,20 @@ def _places(wish: Wish, reach_mm: float, places: int) -> np.ndarray:
     return np.stack([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")], 1)
 
 
-def _postures(
-    limb: PlanarLimb, model: LimbModel, places: np.ndarray, knees: tuple[str, ...]
-) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """Postures that reach the places and lie within the joints' travel."""
-    offsets = [model.number(f"joint.{joint}.zero_offset_rad") for joint in ("femur", "tibia")]
-    travel = [
-        tuple(model.number(f"motor.{joint}.angle_{end}_rad") for end in ("min", "max"))
-        for joint in ("femur", "tibia")
-    ]
-    rows, knee = [], []
-    for x, z in places.tolist():
-        for bend in knees:
-            try:
-                true = limb.posture(math.hypot(x, z), math.atan2(z, x), bend)
-            except PostureError:
-                continue
-            commanded = [angle - offset for angle, offset in zip(true, offsets)]
-            if all(low <= angle <= high for angle, (low, high) in zip(commanded, travel)):
-                rows.append((x, z, *commanded, *true))
-                knee.append(bend)
-    names = ("x_mm", "z_mm", "theta1_rad", "theta2_rad", "theta1_true_rad", "theta2_true_rad")
-    table = np.array(rows, float).reshape(-1, len(names))
-    return {name: table[:, index] for index, name in enumerate(names)}, np.array(knee, dtype=str)
+def _within_travel(model: LimbModel, columns: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Of which postures both joints can be commanded there."""
+    within = np.ones(len(columns["theta1_rad"]), bool)
+    for joint, name in (("femur", "theta1_rad"), ("tibia", "theta2_rad")):
+        low, high = (model.number(f"motor.{joint}.angle_{end}_rad") for end in ("min", "max"))
+        within &= (columns[name] >= low) & (columns[name] <= high)
+    return within
 
 
 def _contact(columns: Mapping[str, np.ndarray], wish: Wish) -> dict[str, np.ndarray]:
-    """Sag under the payload; the force against the surface that the foothold needs beside it; where to set the tip.
+    """The force against the surface that the foothold needs beside the payload, and what it bears.
 
     The friction cone's edges are g . f = 0, g = mu n + t and mu n - t. An error e changes g . f at most by |K g||e|."""
-    count = len(columns["x_mm"])
+    count = len(columns["k_xx_n_per_mm"])
     load = np.array([0.0, wish.payload_n])
     normal = np.round([math.cos(wish.normal_rad), math.sin(wish.normal_rad)], 12)  # a floor's has no x at all
     tangent = np.array([-normal[1], normal[0]])
@@ -161,18 +202,10 @@ def _contact(columns: Mapping[str, np.ndarray], wish: Wish) -> dict[str, np.ndar
         for edge, change in zip(edges, per_mm):
             press = np.maximum(press, (wish.bears_mm * change - edge @ load) / wish.friction_ratio)
         spare = [edge @ load + wish.friction_ratio * press for edge in edges]
-        bears = np.maximum(np.minimum(spare[0] / per_mm[0], spare[1] / per_mm[1]), 0.0)
+        with np.errstate(divide="ignore", invalid="ignore"):  # no K before the first round
+            bears = np.maximum(np.minimum(spare[0] / per_mm[0], spare[1] / per_mm[1]), 0.0)
     force = load[:, None] + normal[:, None] * press
-    yields = _times(columns, PLANAR_C, force)
-    return {
-        "sag_mm": np.hypot(*_times(columns, PLANAR_C, load)),
-        "press_n": press,
-        "bears_mm": bears,
-        "force_x_n": force[0],
-        "force_z_n": force[1],
-        "set_x_mm": columns["x_mm"] - yields[0],
-        "set_z_mm": columns["z_mm"] - yields[1],
-    }
+    return {"press_n": press, "bears_mm": bears, "force_x_n": force[0], "force_z_n": force[1]}
 
 
 def _times(columns: Mapping[str, np.ndarray], entries: tuple[str, ...], vector: np.ndarray) -> np.ndarray:

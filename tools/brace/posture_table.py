@@ -20,12 +20,15 @@ _SLACK_RAD = 1e-5
 LIMITS_RAD = {"theta1_rad": 2 * math.pi, "theta2_rad": math.pi, "theta0_rad": 2 * math.pi}
 _MEANING = {"theta1_rad": "femur angle", "theta2_rad": "knee angle", "theta0_rad": "coxa yaw"}
 _REQUIRED = ("theta1_rad", "theta2_rad")
+FORCES = ("fx_n", "fz_n")
+FORCE_MOST_N = 1e4
 
 
 @dataclass(frozen=True)
 class PostureTable:
-    """`angles` maps theta1_rad, theta2_rad and, if present, theta0_rad to one entry per row. `rows` are the file's
-    bytes row by row without line ends; `lines` the line on which each begins."""
+    """`angles` maps theta1_rad, theta2_rad and, if present, theta0_rad to one entry per row; `forces` likewise fx_n and
+    fz_n, the force of the ground on the tip, and is empty where the file has neither. `rows` are the file's bytes row by
+    row without line ends; `lines` the line on which each begins."""
 
     path: Path
     names: Sequence[str]
@@ -34,6 +37,7 @@ class PostureTable:
     lines: Sequence[int]
     line_end: bytes
     angles: dict[str, np.ndarray]
+    forces: dict[str, np.ndarray]
 
     def place(self, row: int) -> str:
         """Where a row stands (0 is the first below the header), for messages."""
@@ -64,7 +68,7 @@ def read_postures(path: Path) -> PostureTable:
     _check_names(names, path)
     rows, lines = records[1:], lines[1:]
     line_end = next((end for end in (b"\r\n", b"\n", b"\r") if end in data), b"\n")
-    table = PostureTable(path, names, header, rows, lines, line_end, {})
+    table = PostureTable(path, names, header, rows, lines, line_end, {}, {})
     _fill(table, [_fields(row, quoted) for row in rows])
     return table
 
@@ -164,6 +168,34 @@ def _fill(table: PostureTable, fields: list[list[str]]) -> None:
         if name in table.names:
             position = table.names.index(name)
             table.angles[name] = _angles(table, [entries[position] for entries in fields], name, limit)
+    present = [name for name in FORCES if name in table.names]
+    if len(present) == 1:
+        other = next(name for name in FORCES if name not in present)
+        raise BadFileError(
+            f"column {present[0]} without {other}",
+            where=f"{table.path}:1",
+            why="a force on the tip has two components in the limb's plane",
+            next_step=f"add {other} (0 where there is none), or rename {present[0]}",
+        )
+    for name in present:
+        position = table.names.index(name)
+        table.forces[name] = _forces(table, [entries[position] for entries in fields], name)
+
+
+def _forces(table: PostureTable, texts: list[str], name: str) -> np.ndarray:
+    values = np.array([_number(text) for text in texts])
+    bad = ~(np.abs(values) <= FORCE_MOST_N)
+    if bad.any():
+        row = int(np.argmax(bad))
+        shown = _readable(texts[row]).strip()
+        why, meant = slip(shown)
+        raise BadFileError(
+            f"{name} = {shown[:40]!r} cannot be" if shown else "an entry is empty",
+            where=f"{table.place(row)}, {name}",
+            why=why or f"{name} is the force of the ground on the tip in N, within +-{FORCE_MOST_N:g}",
+            next_step=f"write {meant}; so throughout" if meant else "write a number of N, 0 where there is no force",
+        )
+    return values
 
 
 def _angles(table: PostureTable, texts: list[str], name: str, limit_rad: float) -> np.ndarray:

@@ -165,6 +165,22 @@ class PlanarLimb:
             raise PostureError(0, status, status_text(self.native, status))
         return float(theta[0]), float(theta[1])
 
+    def postures(self, places_mm: np.ndarray, knee: np.ndarray) -> np.ndarray:
+        """True angles [rad] that put the tip at places x, z, one row each, each with a knee "up" or "down"; NaN where
+        it does not reach."""
+        ffi, lib = self.native.ffi, self.native.lib
+        bends = np.where(knee == "up", lib.BRACE_KNEE_UP, lib.BRACE_KNEE_DOWN).astype(np.uint8)
+        columns = [np.ascontiguousarray(column, np.float32) for column in places_mm.T]
+        found = np.empty((2, len(places_mm)), np.float32)
+        lib.brace_kinematics_inverse_batch(
+            self.limb,
+            len(places_mm),
+            *(ffi.from_buffer("float[]", column) for column in columns),
+            ffi.from_buffer("uint8_t[]", bends),
+            *(ffi.from_buffer("float[]", column) for column in found),
+        )
+        return found.T.astype(float)
+
     def polar(self, theta1_rad: float, theta2_rad: float) -> tuple[float, float]:
         """(r [mm], phi [rad]) of the tip at true angles."""
         ffi, lib = self.native.ffi, self.native.lib

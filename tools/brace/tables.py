@@ -15,6 +15,15 @@ REACH_FLOOR_MM = 1.0  # a tip is not better known than this
 REACH_SIGMAS = 4.0
 
 
+# What of a model a posture depends on.
+POSTURE_KEYS = (
+    "geometry.femur_mm",
+    "geometry.tibia_mm",
+    "joint.femur.zero_offset_rad",
+    "joint.tibia.zero_offset_rad",
+)
+
+
 @dataclass(frozen=True)
 class TablePoses:
     """How the rows' postures follow from the table. `fixed` holds true or commanded angles (rows x 2) when the
@@ -38,20 +47,22 @@ class TablePoses:
 
     def true_angles(self, model: LimbModel, tip_height_mm: float = 0.0) -> np.ndarray:
         """rows x (theta1, theta2) [rad], true angles on this model's lengths."""
+        numbers = np.array([[model.number(key)] for key in POSTURE_KEYS])
+        return np.asarray(self.true_angles_many(numbers, np.array([tip_height_mm]))[0])
+
+    def true_angles_many(self, numbers: np.ndarray, tip_height_mm: np.ndarray) -> np.ndarray:
+        """The same for many models: models x rows x (theta1, theta2) [rad]. `numbers` has a row for each of
+        POSTURE_KEYS, one entry per model, as `tip_height_mm` has."""
+        femur, tibia, offset1, offset2 = numbers[:, :, np.newaxis]
         if self.angles_rad is not None:
-            offsets = [
-                model.number("joint.femur.zero_offset_rad"),
-                model.number("joint.tibia.zero_offset_rad"),
-            ]
-            return self.angles_rad + offsets
-        femur, tibia = model.number("geometry.femur_mm"), model.number("geometry.tibia_mm")
-        height = self.z_mm if self.z_mm is not None else np.full_like(self.r_mm, tip_height_mm)
+            return np.stack([self.angles_rad[:, 0] + offset1, self.angles_rad[:, 1] + offset2], axis=2)
+        height = self.z_mm if self.z_mm is not None else tip_height_mm[:, np.newaxis]
         phi = np.arcsin(np.clip(height / self.r_mm, -1.0, 1.0))
-        outer = np.clip((femur + tibia) ** 2 - self.r_mm**2, 0.0, None)
-        inner = np.clip(self.r_mm**2 - (femur - tibia) ** 2, 0.0, None)
+        outer = np.maximum((femur + tibia) ** 2 - self.r_mm**2, 0.0)
+        inner = np.maximum(self.r_mm**2 - (femur - tibia) ** 2, 0.0)
         theta2 = self.knee_sign * 2 * np.arctan2(np.sqrt(outer), np.sqrt(inner))
         theta1 = phi + np.arctan2(tibia * np.sin(theta2), femur + tibia * np.cos(theta2))
-        return np.column_stack([theta1, theta2])
+        return np.stack([theta1, theta2], axis=2)
 
 
 def _tip_mm(model: LimbModel, angles_rad: np.ndarray) -> np.ndarray:

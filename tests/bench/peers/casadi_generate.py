@@ -6,6 +6,7 @@ the bench compiles the text as it is, and once more with float_functions.h ahead
 """
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import casadi as ca  # type: ignore[import-not-found]
@@ -107,10 +108,123 @@ def eigenvector(k: ca.SX, value: ca.SX) -> ca.SX:
     return best / ca.sqrt(ca.sumsqr(best))
 
 
+GAUSS = ((0.5 - 0.15**0.5, 5 / 18), (0.5, 4 / 9), (0.5 + 0.15**0.5, 5 / 18))  # places along a beam, and their shares
+GAUSS_TWO = (0.5 - 1 / 12**0.5, 0.5 + 1 / 12**0.5)
+
+
+def loaded() -> ca.Function:
+    """(theta1, theta2, force[2], parameters[18]) -> K (3), eigenvalues, stiff axis, tip displacement (2), buckling
+    factor: K at the rest of the limb of docs/physics.md under a force and its weight, after two steps of Newton's method
+    on the energy from the straight limb. Coordinates of a link: turn of its root, its curvature at two Gauss points,
+    linear between. Springs that turn nothing are eliminated by hand, which saves ten unknowns: they take -1/2 F' C F.
+    The buckling factor by three halvings of 1 to 16 and a parabola, as ours."""
+    theta1, theta2 = ca.SX.sym("theta1"), ca.SX.sym("theta2")
+    force, p, q, times = ca.SX.sym("force", 2), ca.SX.sym("p", 18), ca.SX.sym("q", 6), ca.SX.sym("times")
+    links, joints, base, weights = (ca.vertsplit(p[i:j]) for i, j in ((0, 10), (10, 12), (12, 15), (15, 18)))
+    down = times * ca.vertcat(0, -1)
+    at_tip = times * force
+    at_knee = at_tip + (weights[1] + weights[2]) * down
+    angle = (theta1, theta1 - theta2)
+    end1, given1, springs1 = bent_link(angle[0], q[:3], links[:5], at_knee, weights[0] * down)
+    end2, given2, springs2 = bent_link(angle[1], q[3:], links[5:], at_tip, weights[2] * down)
+    bend = [1.5 * link[3] * link[2] / link[0] ** 2 for link in (links[:5], links[5:])]
+    energy = (q[0] ** 2 / (joints[0] + base[2]) + (q[3] - q[0] - q[1] - q[2]) ** 2 / joints[1]
+              + (q[1] ** 2 + q[2] ** 2) / bend[0] + (q[4] ** 2 + q[5] ** 2) / bend[1]) / 2 - given1 - given2
+    curvature, slope = ca.hessian(energy, q)
+    at = [theta1, theta2, force, p, times]
+    newton = ca.Function("newton", [q, *at], [curvature, slope])
+    tip = ca.Function("tip", [q, *at], [end1 + end2, ca.jacobian(end1 + end2, q), springs1 + springs2])
+    given = [theta1, theta2, force, p]
+    rest = ca.SX.zeros(6)
+    for _ in range(2):
+        h, g = newton(rest, *given, 1)
+        rest = rest - solved(h, g)
+    h, _ = newton(rest, *given, 1)
+    place, levers, springs = tip(rest, *given, 1)
+    c = levers @ solved(h, levers.T) + springs + ca.diag(ca.vertcat(base[0], base[1]))
+    k = ca.inv(c)
+    mean, half = (k[0, 0] + k[1, 1]) / 2, (k[0, 0] - k[1, 1]) / 2
+    radius = ca.sqrt(half**2 + k[0, 1] ** 2)
+    axis = ca.atan2(k[0, 1], half) / 2
+    on_base = force + (weights[0] + weights[1] + weights[2]) * ca.vertcat(0, -1)
+    moved = (place - links[0] * along(angle[0]) - links[5] * along(angle[1])
+             + ca.vertcat(base[0] * on_base[0], base[1] * on_base[1]))
+
+    def pivots(factor: ca.SX) -> ca.SX:
+        """Of the matrix under a multiple of the load, each over the spring's own stiffness."""
+        stiff, _ = newton(rest, *given, factor)
+        unloaded, _ = newton(rest, *given, 0)
+        return ca.ldl(stiff)[0] / ca.ldl(unloaded)[0]
+
+    result = ca.vertcat(k[0, 0], k[0, 1], k[1, 1], mean - radius, mean + radius, axis, moved, buckling(pivots))
+    return ca.Function("casadi_loaded", given, ca.cse([result]))
+
+
+def bent_link(angle: ca.SX, q: ca.SX, link: list[ca.SX], beyond: ca.SX, own: ca.SX) -> tuple[ca.SX, ca.SX, ca.SX]:
+    """Where its end is, the energy that its loads have given off, and what its springs add to C. link: length, axial,
+    bending, strength of the moment transfer, tilt; beyond: force that its end carries; own: its weight."""
+    length, axial, bending, strength, tilt = link
+
+    def turn_at(place: float) -> ca.SX:
+        """Turn since the root: the integral of the curvature at the two points, each times half the length."""
+        low, high = GAUSS_TWO
+        a, b = ((place**2 / 2 - other * place) / (this - other) for this, other in ((low, high), (high, low)))
+        return 2 * (a * q[1] + b * q[2])
+
+    whole = beyond + own
+    end = length * (along(angle + q[0]) - along(angle + tilt + q[0]))
+    given = ca.dot(end, beyond + own / 2)
+    for place, share in GAUSS:
+        part = share * length * along(angle + tilt + q[0] + turn_at(place))
+        end += part
+        given += ca.dot(part, beyond + own * (1 - place))
+    springs = ca.SX.zeros(2, 2)
+    axis_end = along(angle + tilt + q[0] + q[1] + q[2])
+    for yields, axis, carried in ((strength * axial, along(angle + tilt + q[0]), whole),
+                                  ((1 - strength) * axial, axis_end, beyond),
+                                  ((1 - strength) * bending, turned(axis_end), beyond)):
+        end += yields * ca.dot(axis, carried) * axis
+        given += yields * ca.dot(axis, carried) ** 2 / 2
+        springs += yields * outer(axis)
+    return end, given, springs
+
+
+def buckling(pivots: Callable[[ca.SX], ca.SX]) -> ca.SX:
+    """Where the first pivot is zero; infinity above 11."""
+    low, high, before = ca.SX(1), ca.SX(16), ca.SX(0)
+    at_low, at_high, at_before = product(pivots(low)), ca.SX(0), ca.SX(1)
+    for ratio in (4.0, 2.0, 2.0**0.5):
+        middle = low * ratio
+        now = pivots(middle)
+        stable, value = ca.mmin(now) > 0, product(now)
+        before, at_before = ca.if_else(stable, low, before), ca.if_else(stable, at_low, at_before)
+        low, at_low = ca.if_else(stable, middle, low), ca.if_else(stable, value, at_low)
+        high, at_high = ca.if_else(stable, high, middle), ca.if_else(stable, at_high, value)
+    chord = (at_high - at_low) / (high - low)
+    root = low - at_low / chord
+    bend = ((at_before - at_low) / (before - low) - chord) / (before - high)
+    slope = chord + bend * ((root - low) + (root - high))
+    return ca.if_else(at_high < 0, root - bend * (root - low) * (root - high) / slope, ca.inf)
+
+
+def product(values: ca.SX) -> ca.SX:
+    """Of all entries."""
+    whole = ca.SX(1)
+    for value in ca.vertsplit(values):
+        whole = whole * value
+    return whole
+
+
+def solved(h: ca.SX, right: ca.SX) -> ca.SX:
+    """h^-1 right for a symmetric matrix, by CasADi's L D L'."""
+    d, l_transposed, order = ca.ldl(h)
+    return ca.ldl_solve(right, d, l_transposed, order)
+
+
 def main() -> None:
-    """Write casadi_planar.c and casadi_spatial.c."""
+    """Write casadi_planar.c, casadi_spatial.c and casadi_loaded.c."""
     directory = Path(sys.argv[1])
-    for function in (planar(), spatial()):
+    for function in (planar(), spatial(), loaded()):
         name = function.name()
         generator = ca.CodeGenerator(name + ".c", {"casadi_real": "float", "with_header": False})
         generator.add(function)

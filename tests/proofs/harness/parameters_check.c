@@ -5,7 +5,7 @@
 
 static brace_status_t judgement;
 
-brace_status_t brace_limb_check(const brace_limb_t *limb)
+brace_status_t brace_limb_check_together(const brace_limb_t *limb)
 {
     PROVE(__CPROVER_r_ok(limb, sizeof *limb), "a whole limb is judged");
     return judgement;

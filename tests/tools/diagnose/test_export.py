@@ -149,7 +149,8 @@ def test_every_command_takes_it(brace: Callable[..., Outcome], tmp_path: Path, p
 
 
 def test_the_header_names_effect_place_and_data() -> None:
-    from brace.diagnose.write import Provenance, _header
+    from brace.diagnose.provenance import Provenance
+    from brace.diagnose.write import _header
 
     limb = LimbModel({})
     effect = NamedEffect(

@@ -18,7 +18,8 @@ from handmade import FAULT, by_hand, loading_record
 from brace.dataset import Dataset
 from brace.diagnose.diagnosis import Diagnosis, Gap, GapPair, Residuals
 from brace.diagnose.report.page import page
-from brace.diagnose.write import Provenance, contents, provenance
+from brace.diagnose.provenance import Provenance, provenance
+from brace.diagnose.write import contents
 from brace.model import LimbModel
 
 VOID = {"meta", "br", "link", "img", "hr", "path", "use", "rect", "input", "wbr"}

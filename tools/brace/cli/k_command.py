@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from brace.cli import common
+from brace.cli import common, k_load
 from brace.cli.options import Subcommands
 from brace.errors import UsageError
 
@@ -22,7 +22,8 @@ def add(commands: Subcommands) -> None:
         "k",
         help="K, C, eigenvalues and stiff axis at a posture",
         description="K [N/mm], C [mm/N], eigenvalues [N/mm], stiff axis [rad] at a posture, computed by the firmware's "
-        "own C. With --theta0 (or a theta0_rad column) in space, otherwise in the limb's plane. Angles are "
+        "own C. With --theta0 (or a theta0_rad column) in space, otherwise in the limb's plane. With --fx and --fz (or "
+        "columns fx_n, fz_n) K under this load and the weights of [gravity], at the limb's equilibrium. Angles are "
         "commanded ones: the model's zero offsets are added; theta0, theta1 and phi lie within a full turn, theta2 in "
         "[-pi, pi].",
     )
@@ -33,6 +34,7 @@ def add(commands: Subcommands) -> None:
     parser.add_argument("--r", type=common.positive, metavar="MM", help="tip distance, instead of the angles")
     parser.add_argument("--phi", type=common.angle, metavar="RAD", help="tip direction from +x, with --r")
     parser.add_argument("--knee", choices=("up", "down"), help="which posture reaches (r, phi); default up")
+    k_load.add_load(parser)
     parser.add_argument(
         "--arith",
         choices=ARITHMETICS,
@@ -40,7 +42,10 @@ def add(commands: Subcommands) -> None:
         help="the controller's float path (default), its fixed-point path, or the general chain",
     )
     parser.add_argument(
-        "--csv", type=common.path, metavar="IN", help="many postures: columns theta1_rad,theta2_rad[,theta0_rad]"
+        "--csv",
+        type=common.path,
+        metavar="IN",
+        help="many postures: columns theta1_rad,theta2_rad[,theta0_rad][,fx_n,fz_n]",
     )
     parser.add_argument(
         "--out", type=common.path, metavar="OUT", help="with --csv: the same rows with K's columns added"
@@ -53,6 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from brace.model import load_limb
 
+    k_load.fill_in(arguments)
     _check_usage(arguments)
     model = load_limb(arguments.model)
     if arguments.csv is not None:
@@ -85,6 +91,8 @@ def _check_usage(arguments: argparse.Namespace) -> None:
     by_angles = arguments.theta1 is not None
     if by_angles and arguments.knee:
         raise UsageError("--knee with --theta2", why="the angles say it already", next_step="drop --knee")
+    if arguments.fx is not None:
+        k_load.refuse_load_with(arguments.arith, arguments.theta0 is not None)
     if arguments.theta0 is not None and arguments.arith != "f32":
         raise UsageError(
             f"--arith {arguments.arith} with --theta0",
@@ -95,9 +103,7 @@ def _check_usage(arguments: argparse.Namespace) -> None:
 
 def _check_one_posture(arguments: argparse.Namespace) -> None:
     given = {
-        name: value
-        for name in ("theta1", "theta2", "r", "phi")
-        if (value := getattr(arguments, name)) is not None
+        name: value for name in ("theta1", "theta2", "r", "phi") if (value := getattr(arguments, name)) is not None
     }
     options = " and ".join(f"--{name}" for name in given)
     if set(given) in ({"theta1", "theta2"}, {"r", "phi"}):
@@ -126,6 +132,7 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
     import numpy as np
 
     from brace import stiffness
+    from brace.stiffness_under_load import stiffness_under_load
 
     limb = stiffness.planar_limb(model, arguments.arith)
     try:
@@ -139,10 +146,12 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
             true1 = stiffness.within_half_turn(true1)
         r_mm, phi_rad = limb.polar(true1, true2)
         if arguments.theta0 is not None:
-            result = stiffness.spatial_stiffness(
-                model, *(np.array([a]) for a in (arguments.theta0, theta1, theta2))
-            )
+            result = stiffness.spatial_stiffness(model, *(np.array([a]) for a in (arguments.theta0, theta1, theta2)))
             sigma: dict[str, float] = {}
+        elif arguments.fx is not None:
+            given = (true1, true2, arguments.fx, arguments.fz)
+            result = stiffness_under_load(model, *(np.array([value]) for value in given))
+            sigma = {}
         else:
             result = limb.stiffness(np.array([true1]), np.array([true2]))
             sigma = limb.sigma(true1, true2)
@@ -160,7 +169,9 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
     }
     if arguments.theta0 is not None:
         posture["theta0_rad"] = arguments.theta0
-    path = "spatial" if arguments.theta0 is not None else limb.path
+    if arguments.fx is not None:
+        posture |= {"fx_n": arguments.fx, "fz_n": arguments.fz}
+    path = "spatial" if arguments.theta0 is not None else "loaded" if arguments.fx is not None else limb.path
     if arguments.json:
         common.print_json(
             {
@@ -191,6 +202,13 @@ def _refused(error: PostureError, arguments: argparse.Namespace, model: LimbMode
     options = " ".join(
         f"--{name} {getattr(arguments, name):g}" for name in given if getattr(arguments, name) is not None
     )
+    if error.status == E_SINGULAR and arguments.fx is not None:
+        return UsageError(
+            f"{options}: no K under {arguments.fx:g} N along x and {arguments.fz:g} N along z",
+            where=model.where("link"),
+            why=error.text,
+            next_step="a smaller force or another posture; leave --fx and --fz out for K without load",
+        )
     if error.status == E_SINGULAR:
         return UsageError(
             f"{options}: C is singular at this posture",
@@ -223,13 +241,16 @@ def _text(
         return ["  " + "  ".join(f"{values[n]:13.6g}" for n in row) for row in names]
 
     angles = ", ".join(
-        f"{key} = {posture[key + '_rad']:.6g} rad"
-        for key in ("theta0", "theta1", "theta2")
-        if key + "_rad" in posture
+        f"{key} = {posture[key + '_rad']:.6g} rad" for key in ("theta0", "theta1", "theta2") if key + "_rad" in posture
     )
-    lines = [
-        f"{name}: {angles}; tip at r = {posture['r_mm']:.5g} mm, phi = {posture['phi_rad']:.5g} rad ({path})"
-    ]
+    lines = [f"{name}: {angles}; tip at r = {posture['r_mm']:.5g} mm, phi = {posture['phi_rad']:.5g} rad ({path})"]
+    if "buckling_factor" in values:
+        factor = values["buckling_factor"]
+        lines.append(
+            f"under the ground's force on the tip ({posture['fx_n']:g}, {posture['fz_n']:g}) N and the limb's weight: "
+            f"tip moves ({values['tip_dx_mm']:.4g}, {values['tip_dz_mm']:.4g}) mm, buckling factor "
+            + (f"{factor:.3g}" if math.isfinite(factor) else "above 11")
+        )
     lines += ["K [N/mm]", *matrix("k", "n_per_mm"), "C [mm/N]", *matrix("c", "mm_per_n")]
     eigen = [
         f"lambda_{which} {values[f'lambda_{which}_n_per_mm']:.6g}"
@@ -238,9 +259,7 @@ def _text(
     ]
     lines.append("eigenvalues [N/mm]  " + "   ".join(eigen))
     if spatial:
-        lines.append(
-            "stiff axis  ({stiff_axis_x:.5f}, {stiff_axis_y:.5f}, {stiff_axis_z:.5f})".format(**values)
-        )
+        lines.append("stiff axis  ({stiff_axis_x:.5f}, {stiff_axis_y:.5f}, {stiff_axis_z:.5f})".format(**values))
     else:
         axis = values["stiff_axis_rad"]
         lines.append(

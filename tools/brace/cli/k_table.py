@@ -8,6 +8,8 @@ import numpy as np
 
 from brace import stiffness
 from brace.cli import common
+from brace.cli.k_load import refuse_load_with
+from brace.stiffness_under_load import LOADED_REST, stiffness_under_load
 from brace.errors import BadFileError, UsageError
 from brace.files import check_file, write_file
 from brace.model import LimbModel
@@ -20,14 +22,15 @@ def run_table(arguments: argparse.Namespace, model: LimbModel) -> int:
     check_file(arguments.out, inputs)
     table = read_postures(arguments.csv)
     spatial = "theta0_rad" in table.angles
-    rest = stiffness.SPATIAL_REST if spatial else stiffness.PLANAR_REST
-    k, c = (
-        (stiffness.SPATIAL_K, stiffness.SPATIAL_C) if spatial else (stiffness.PLANAR_K, stiffness.PLANAR_C)
-    )
+    loaded = bool(table.forces) or arguments.fx is not None
+    _check_load(table, arguments)
+    rest = stiffness.SPATIAL_REST if spatial else LOADED_REST if loaded else stiffness.PLANAR_REST
+    k, c = (stiffness.SPATIAL_K, stiffness.SPATIAL_C) if spatial else (stiffness.PLANAR_K, stiffness.PLANAR_C)
     names = (*k, *c, *rest, "flags")
     _refuse_taken(table, names)
     try:
-        result, path = _in_space(table, model, arguments) if spatial else _in_plane(table, model, arguments)
+        choose = _in_space if spatial else _under_load if loaded else _in_plane
+        result, path = choose(table, model, arguments)
     except stiffness.PostureError as error:
         angles = ", ".join(f"{name} = {values[error.index]:g}" for name, values in table.angles.items())
         raise BadFileError(
@@ -51,17 +54,33 @@ def run_table(arguments: argparse.Namespace, model: LimbModel) -> int:
     return 0
 
 
-def _in_plane(
-    table: PostureTable, model: LimbModel, arguments: argparse.Namespace
-) -> tuple[np.ndarray, str]:
+def _in_plane(table: PostureTable, model: LimbModel, arguments: argparse.Namespace) -> tuple[np.ndarray, str]:
     limb = stiffness.planar_limb(model, arguments.arith)
     true1, true2 = limb.true_angles(table.angles["theta1_rad"], table.angles["theta2_rad"])
     return limb.stiffness(stiffness.within_half_turn(true1), true2), limb.path
 
 
-def _in_space(
-    table: PostureTable, model: LimbModel, arguments: argparse.Namespace
-) -> tuple[np.ndarray, str]:
+def _under_load(table: PostureTable, model: LimbModel, arguments: argparse.Namespace) -> tuple[np.ndarray, str]:
+    limb = stiffness.planar_limb(model)
+    true1, true2 = limb.true_angles(table.angles["theta1_rad"], table.angles["theta2_rad"])
+    given = {"fx_n": arguments.fx, "fz_n": arguments.fz}
+    force_n = [table.forces.get(name, np.full(len(table.rows), value)) for name, value in given.items()]
+    return stiffness_under_load(model, stiffness.within_half_turn(true1), true2, *force_n), "loaded"
+
+
+def _check_load(table: PostureTable, arguments: argparse.Namespace) -> None:
+    if table.forces and arguments.fx is not None:
+        raise UsageError(
+            "--fx and --fz with columns fx_n and fz_n",
+            where=f"{table.path}:1",
+            why="each row's force stands in the file",
+            next_step="drop --fx and --fz, or rename the columns",
+        )
+    if table.forces or arguments.fx is not None:
+        refuse_load_with(arguments.arith, "theta0_rad" in table.angles)
+
+
+def _in_space(table: PostureTable, model: LimbModel, arguments: argparse.Namespace) -> tuple[np.ndarray, str]:
     if arguments.arith != "f32":
         raise UsageError(
             f"--arith {arguments.arith} with a theta0_rad column",

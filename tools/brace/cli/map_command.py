@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, TypedDict
 
-from brace.cli import common
+from brace.cli import common, k_load
 from brace.cli.options import Subcommands
 from brace.errors import UsageError
 
@@ -25,7 +25,8 @@ def add(commands: Subcommands) -> None:
         help="the workspace: eigenvalues over r, ellipses of K, as pictures and CSV",
         description="Computes K over a grid of postures and writes into --out: map.png and map.svg (eigenvalues over "
         "r, ellipses), eigenvalues.csv (a row per theta2), ellipses.csv (the drawn ones). Says where "
-        "quasi-convexity holds.",
+        "quasi-convexity holds. With --fx and --fz K under this load and the limb's weight at the rest; theta1 and "
+        "theta2 are then the commanded angles, and the tip's displacement and the buckling factor come with it.",
     )
     common.add_model(parser)
     parser.add_argument(
@@ -54,6 +55,7 @@ def add(commands: Subcommands) -> None:
         metavar=("LOW", "HIGH"),
         help="range of the true knee angle [rad], default 0 pi",
     )
+    k_load.add_load(parser)
     parser.add_argument(
         "--npy", action="store_true", help="also every posture, as postures.npy (float32, named columns)"
     )
@@ -75,21 +77,27 @@ def run(arguments: argparse.Namespace) -> int:
                 why="low comes before high, both in rad within [-pi, pi], not in degrees",
                 next_step=f"--{name} -1.5 1.5",
             )
+    k_load.fill_in(arguments)
+    force_n = None if arguments.fx is None else (arguments.fx, arguments.fz)
     model = load_limb(arguments.model)
     check_folder(arguments.out, ["map.png"], [arguments.model])
     with common.progress("K over the workspace", arguments.postures) as advance:
         grid = workspace.compute(
-            model, arguments.postures, tuple(arguments.theta1), tuple(arguments.theta2), advance
+            model, arguments.postures, tuple(arguments.theta1), tuple(arguments.theta2), advance, force_n
         )
     summary = _summary(model.name, grid)
+    load = {} if force_n is None else {"fx_n": force_n[0], "fz_n": force_n[1], **_under_load(grid)}
     with OutputSet([arguments.model]) as outputs:
-        for name, content in _files(model, grid, arguments.npy):
+        title = model.name if force_n is None else f"{model.name} under ({force_n[0]:g}, {force_n[1]:g}) N"
+        for name, content in _files(model, grid, arguments.npy, title):
             outputs.add(arguments.out / name, content)
         outputs.commit()
     if arguments.json:
-        common.print_json({**summary, "out": arguments.out})
+        common.print_json({**summary, **load, "out": arguments.out})
     else:
         common.emit(_text(summary, arguments.out))
+        if load:
+            common.emit(_load_text(load))
     return 0
 
 
@@ -108,6 +116,8 @@ class Summary(TypedDict):
 
 
 def _summary(name: str, grid: Workspace) -> Summary:
+    import numpy as np
+
     from brace.workspace import turning_points
 
     low, high = grid.band("lambda_min_n_per_mm"), grid.band("lambda_max_n_per_mm")
@@ -120,15 +130,15 @@ def _summary(name: str, grid: Workspace) -> Summary:
         "postures": grid.count,
         "path": grid.path,
         "r_mm": [grid.r_mm.min(), grid.r_mm.max()],
-        "lambda_min_n_per_mm": [low[:, 0].min(), low[:, 2].max()],
-        "lambda_max_n_per_mm": [high[:, 0].min(), high[:, 2].max()],
+        "lambda_min_n_per_mm": [np.nanmin(low[:, 0]), np.nanmax(low[:, 2])],
+        "lambda_max_n_per_mm": [np.nanmin(high[:, 0]), np.nanmax(high[:, 2])],
         "turning_points_r_mm": turns,
         "quasi_convex_lambda_max": len(turns["lambda_max"]) <= 1,
         "quasi_concave_lambda_min": len(turns["lambda_min"]) <= 1,
     }
 
 
-def _files(model: LimbModel, grid: Workspace, every_posture: bool) -> list[tuple[str, bytes]]:
+def _files(model: LimbModel, grid: Workspace, every_posture: bool, title: str) -> list[tuple[str, bytes]]:
     import numpy as np
 
     from brace.dataset.write import csv_text
@@ -142,8 +152,9 @@ def _files(model: LimbModel, grid: Workspace, every_posture: bool) -> list[tuple
             curve[f"lambda_{which}{end}_n_per_mm"] = band[:, column].astype(float)
     ellipses, links = _ellipses(model, grid)
     order = np.argsort(grid.r_mm)
+    order = order[np.isfinite(low[order]).all(axis=1)]
     keep = order[:: max(1, order.size // 1500)]
-    figure = workspace_figure(model.name, grid.r_mm[keep], low[keep], high[keep], ellipses, links)
+    figure = workspace_figure(title, grid.r_mm[keep], low[keep], high[keep], ellipses, links)
     decimals = dict.fromkeys((*curve, *ellipses), 9)
     files = [
         ("map.png", png_bytes(figure)),
@@ -169,8 +180,34 @@ def _ellipses(model: LimbModel, grid: Workspace) -> tuple[dict[str, np.ndarray],
     tip = knee + tibia * np.column_stack([np.cos(theta1 - theta2), np.sin(theta1 - theta2)])
     result = {"theta1_rad": theta1, "theta2_rad": theta2, "x_mm": tip[:, 0], "z_mm": tip[:, 1]}
     result.update({name: values[row, column].astype(float) for name, values in grid.values.items()})
+    if grid.path == "loaded":  # where the tip is under the load
+        result["x_mm"], result["z_mm"] = tip[:, 0] + result["tip_dx_mm"], tip[:, 1] + result["tip_dz_mm"]
     middle = np.flatnonzero(column == columns[columns.size // 2])[::3]
+    stands = np.isfinite(result["k_xx_n_per_mm"])
+    result = {name: values[stands] for name, values in result.items()}
     return result, np.stack([np.zeros_like(tip), knee, tip], axis=1)[middle]
+
+
+def _under_load(grid: Workspace) -> dict[str, float]:
+    """How far the load moves the tip at most, the least buckling factor, and at how many postures it folds the limb."""
+    import numpy as np
+
+    moved_mm = np.hypot(grid.values["tip_dx_mm"], grid.values["tip_dz_mm"])
+    return {
+        "displacement_most_mm": float(np.nanmax(moved_mm)),
+        "buckling_factor_least": float(np.nanmin(grid.values["buckling_factor"])),
+        "folded_postures": grid.folded,
+    }
+
+
+def _load_text(load: dict[str, float]) -> str:
+    factor = load["buckling_factor_least"]
+    return (
+        f"under ({load['fx_n']:g}, {load['fz_n']:g}) N and the limb's weight: the tip moves by up to "
+        f"{load['displacement_most_mm']:.3g} mm, least buckling factor "
+        + (f"{factor:.3g}" if math.isfinite(factor) else "above 11")
+        + (f"; {load['folded_postures']:.0f} postures have no K: the load folds the limb" * bool(load["folded_postures"]))
+    )
 
 
 def _npy(grid: Workspace) -> bytes:

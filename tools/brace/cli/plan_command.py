@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from brace.plan import Plan, Wish
 
 APART_RATIO = 0.05  # of the reach, between the tips of postures that are printed
+SOFTENED = 3.0  # below this buckling factor the command says that the load softens the limb
 _NEEDS = {"steady": ("payload", "a payload"), "light": ("friction", "the surface's friction"), "k": ("k", "a K")}
 
 
@@ -26,7 +27,8 @@ def add(commands: Subcommands) -> None:
         help="a posture and a pressing force for a wanted stiffness, contact and payload",
         description="Looks over the places that the tip can reach within the joints' travel, keeps the postures that "
         "satisfy every demand, and prints the best: angles to command, K, the sag under the payload, the force with "
-        "which to press against the surface, where to set the tip for it. K is the firmware's own, every gap closed.",
+        "which to press against the surface, where to set the tip for it. K is the firmware's own under that force and "
+        "the limb's weight, every gap closed; the tip stands at its place under them.",
         epilog="Exit code 1 when no posture satisfies all demands; the message says how far each can be met.",
     )
     common.add_model(parser)
@@ -101,8 +103,8 @@ def run(arguments: argparse.Namespace) -> int:
         raise BraceError(
             "no posture reaches there",
             where=str(arguments.model),
-            why="the tip's places lie beyond the links, or the joints' travel ([motor.*] angle_min_rad, angle_max_rad) "
-            "keeps it away",
+            why="the tip's places lie beyond the links, the joints' travel ([motor.*] angle_min_rad, angle_max_rad) "
+            "keeps it away, or the load folds the limb there",
             next_step="a wider --x or --z; brace map draws what the limb reaches",
         )
     reach = model.number("geometry.femur_mm") + model.number("geometry.tibia_mm")
@@ -187,6 +189,9 @@ def _lines(number: int, p: Mapping[str, float | str], wish: Wish) -> list[str]:
     ]
     if "off_n_per_mm" in p:
         lines.append(f"   off the wanted K by {p['off_n_per_mm']:.3g} N/mm")
+    factor = float(p["buckling_factor"])
+    if factor < SOFTENED:
+        lines.append(f"   the load softens it: buckling factor {factor:.2g}")
     if wish.payload_n:
         lines.append(f"   {wish.payload_n:g} N let it sag by {p['sag_mm']:.3g} mm")
     if wish.friction_ratio is not None:

@@ -3,7 +3,6 @@ input."""
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
 from collections.abc import Mapping
@@ -11,34 +10,17 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from brace import __version__
 from brace.dataset import Dataset
 from brace.diagnose import plain_words
 from brace.diagnose.diagnosis import Diagnosis, GapPair, NamedEffect
 from brace.diagnose.export import export
-from brace import files
-from brace.files import DATA_LIMIT_BYTES, TOML_LIMIT_BYTES, OutputSet, read_bytes
+from brace.diagnose.provenance import Provenance, provenance
+from brace import __version__, files
+from brace.files import OutputSet
 from brace.model import LimbModel
 
 JSON, MODEL, REPORT = "diagnosis.json", "limb.toml", "report.html"
 _DIGITS = 9
-
-
-@dataclass(frozen=True)
-class Provenance:
-    """Where a diagnosis comes from, told without paths or clocks."""
-
-    title: str
-    kind: str
-    rows: int
-    data_sha256: str  # over meta.toml, then data.csv
-    model_sha256: str  # over the believed limb.toml; "" where there was none
-    versions: Mapping[str, str]
-
-    @property
-    def name(self) -> str:
-        """The record's title, or its hash's beginning."""
-        return self.title or f"record {self.data_sha256[:12]}"
 
 
 @dataclass(frozen=True)
@@ -48,33 +30,6 @@ class Written:
     json_ready: Mapping[str, Any]
     files: Mapping[str, bytes]
     diagnosis: Diagnosis  # with the notes of the export
-
-
-def provenance(dataset: Dataset, believed_text: str) -> Provenance:
-    """Hashes and versions."""
-    digest = hashlib.sha256(read_bytes(dataset.folder / "meta.toml", TOML_LIMIT_BYTES, "dataset's meta.toml"))
-    digest.update(read_bytes(dataset.csv_path, DATA_LIMIT_BYTES, "dataset's data.csv"))
-    model = hashlib.sha256(believed_text.encode()).hexdigest() if believed_text else ""
-    return Provenance(dataset.meta.title, dataset.kind, dataset.rows, digest.hexdigest(), model, versions())
-
-
-def versions() -> dict[str, str]:
-    """What computed it."""
-    import numpy
-    import scipy
-
-    from brace.native import library
-    from brace.wire.names import SCHEMA_HASH
-
-    native = library()
-    core = native.ffi.string(native.lib.brace_host_version()).decode()
-    return {
-        "brace": __version__,
-        "core": core,
-        "schema": f"{SCHEMA_HASH:08x}",
-        "numpy": numpy.__version__,
-        "scipy": scipy.__version__,
-    }
 
 
 def contents(

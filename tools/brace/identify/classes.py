@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from brace.identify.fit import STEP, Problem
+from brace.identify.fit import STEP, Problem, residual_of
 from brace.identify.parameters import BASE_COMPLIANCES, COMPLIANCES, natural_scale
 from brace.errors import BadFileError
 from brace.model import LimbModel
@@ -117,8 +117,8 @@ def _signature(
     value = model.number(key)
     up, down = min(value + step, entry.high), max(value - step, entry.low)
     try:
-        change = problem.residual(model.with_values({key: up}), nuisances) - problem.residual(
-            model.with_values({key: down}), nuisances
+        change = residual_of(problem, model.with_values({key: up}), nuisances) - residual_of(
+            problem, model.with_values({key: down}), nuisances
         )
     except BadFileError:
         return None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -11,6 +11,7 @@ import numpy as np
 from brace.errors import BadFileError
 from brace.identify.parameters import ParameterSet
 from brace.model import LimbModel
+from brace.native.plant_batch import model_numbers
 
 RIDGE = 1e-3  # pull towards the start, per scale: decides only where neither data nor prior do
 REFUSED = 1e4  # whitened residual of a model that cannot be played
@@ -18,20 +19,23 @@ TOLERANCE = 1e-10
 STEP = 1e-4  # of a parameter's scale, for central differences
 
 
+Nuisances = Mapping[str, np.ndarray]  # of many models: one entry per model
+
+
 class Problem(Protocol):
-    """A record that models are judged by."""
+    """A record that models are judged by: many at once, as rows of numbers (brace.native.plant_batch)."""
 
     @property
     def count(self) -> int:
         """Number of readings."""
         ...
 
-    def residual(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
-        """(model - measured) / sigma, one entry per reading."""
+    def residuals(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
+        """(model - measured) / sigma, models x readings; NaN for a model that cannot be played."""
         ...
 
-    def angles(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
-        """configurations x (theta1, theta2) [rad], true angles; empty for a joint test."""
+    def angles(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
+        """models x configurations x (theta1, theta2) [rad], true angles; no configuration for a joint test."""
         ...
 
 
@@ -76,7 +80,7 @@ def fit(
     problem: Problem,
     parameters: ParameterSet,
     starts: Iterable[np.ndarray] = (),
-    constraint: Callable[[LimbModel, dict[str, float]], float] | None = None,
+    constraint: Callable[[np.ndarray, Nuisances], np.ndarray] | None = None,
     advance: Callable[[int], None] = lambda _done: None,
 ) -> Fit:
     """The best fit over the parameters' start and further `starts` (vectors). `constraint`, if given, is driven
@@ -87,14 +91,16 @@ def fit(
     low, high = parameters.array("low") / scale, parameters.array("high") / scale
     pull = np.where(np.isinf(prior), RIDGE, scale / np.where(np.isinf(prior), 1.0, prior))
 
-    def whole(u: np.ndarray) -> np.ndarray:
-        data = _data(problem, parameters, u * scale)
-        rows = [data, pull * (u - start / scale)]
+    def whole(points: np.ndarray) -> np.ndarray:
+        x = points * scale
+        parts = [_data(problem, parameters, x), pull * (points - start / scale)]
         if constraint is not None:
-            rows.append(
-                np.atleast_1d(1e3 * constraint(parameters.model(u * scale), parameters.nuisances(u * scale)))
-            )
-        return np.concatenate(rows)
+            off = constraint(parameters.models(x), parameters.nuisance_columns(x))
+            parts.append(1e3 * off[:, np.newaxis])
+        return np.concatenate(parts, axis=1)
+
+    def at(u: np.ndarray) -> np.ndarray:
+        return np.asarray(whole(u[np.newaxis])[0])
 
     def slope(u: np.ndarray) -> np.ndarray:
         return _central(whole, u, low, high)
@@ -103,7 +109,7 @@ def fit(
     for number, point in enumerate([start, *starts]):
         inside = np.clip(point / scale, low + 1e-9, high - 1e-9)
         found = least_squares(
-            whole,
+            at,
             inside,
             jac=slope,
             bounds=(low, high),
@@ -119,7 +125,7 @@ def fit(
     assert best is not None
     near = 1e-7  # of a scale from a bound is at it
     solved = np.where(best.x - low < near, low, np.where(high - best.x < near, high, best.x))
-    residual = _data(problem, parameters, solved * scale)
+    residual = _data(problem, parameters, solved[np.newaxis] * scale)[0]
     if np.abs(residual).max(initial=0.0) >= REFUSED:
         raise BadFileError(
             "no fit was found",
@@ -127,26 +133,42 @@ def fit(
             why="the simulated limb cannot be played near the start model",
             next_step="start from a model nearer to the limb",
         )
-    jacobian = _central(lambda u: _data(problem, parameters, u * scale), solved, low, high)
+    jacobian = _central(lambda points: _data(problem, parameters, points * scale), solved, low, high)
     return Fit(parameters, solved * scale, residual, jacobian)
 
 
+def columns_of(nuisances: Mapping[str, float]) -> Nuisances:
+    """One model's nuisances as those of many."""
+    return {key: np.array([value]) for key, value in nuisances.items()}
+
+
+def residual_of(
+    problem: Problem, model: LimbModel, nuisances: Mapping[str, float] | None = None
+) -> np.ndarray:
+    """(model - measured) / sigma of one model, one entry per reading; refuses one that cannot be played."""
+    residual = problem.residuals(model_numbers(model)[np.newaxis], columns_of(nuisances or {}))[0]
+    if np.isnan(residual).any():
+        raise BadFileError(
+            "the simulated limb cannot be played",
+            where=model.where(),
+            why="nothing yields in some direction, or no rest state was found",
+            next_step="give link or joint compliances, or check the model's values",
+        )
+    return np.asarray(residual)
+
+
 def _data(problem: Problem, parameters: ParameterSet, x: np.ndarray) -> np.ndarray:
-    try:
-        residual = problem.residual(parameters.model(x), parameters.nuisances(x))
-        return np.asarray(np.clip(residual, -REFUSED, REFUSED))
-    except BadFileError:
-        return np.full(problem.count, REFUSED)
+    residuals = problem.residuals(parameters.models(x), parameters.nuisance_columns(x))
+    return np.asarray(np.where(np.isnan(residuals), REFUSED, np.clip(residuals, -REFUSED, REFUSED)))
 
 
 def _central(
     function: Callable[[np.ndarray], np.ndarray], u: np.ndarray, low: np.ndarray, high: np.ndarray
 ) -> np.ndarray:
-    """Central differences, one-sided at a bound."""
-    columns = []
-    for index in range(u.size):
-        up, down = u.copy(), u.copy()
-        up[index] = min(u[index] + STEP, high[index])
-        down[index] = max(u[index] - STEP, low[index])
-        columns.append((function(up) - function(down)) / (up[index] - down[index]))
-    return np.column_stack(columns)
+    """Central differences, one-sided at a bound. `function` takes many points at once."""
+    up, down = np.minimum(u + STEP, high), np.maximum(u - STEP, low)
+    moved = np.tile(u, (2, u.size, 1))
+    own = np.arange(u.size)
+    moved[0, own, own], moved[1, own, own] = up, down
+    rows = function(moved.reshape(-1, u.size)).reshape(2, u.size, -1)
+    return np.ascontiguousarray(((rows[0] - rows[1]) / (up - down)[:, np.newaxis]).T)

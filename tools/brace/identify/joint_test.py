@@ -13,7 +13,7 @@ import numpy as np
 
 from brace.dataset import Dataset
 from brace.errors import BadFileError
-from brace.identify.fit import fit
+from brace.identify.fit import Nuisances, columns_of, fit
 from brace.effects.catalogue import FRICTION_TURN
 from brace.identify.parameters import (
     ANGLE_ZERO,
@@ -23,7 +23,7 @@ from brace.identify.parameters import (
 )
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
-from brace.native.plant import JointPlayer
+from brace.native.plant_batch import JointBatchPlayer, model_numbers, number_index
 
 MIN_ROWS = 20
 BLOCK_ROWS = 3000  # rows that a record is averaged down to: the angle's last digit must not look like motion
@@ -51,38 +51,42 @@ class JointProblem:
         angle = self.columns["angle_rad"]
         self._centre_rad = float(0.5 * (angle.max() + angle.min()))
         self._start_n_mm = _start_torque(self.columns)
-        self._player = JointPlayer({**self.columns, "angle_rad": angle - self._centre_rad}, self.joint)
+        self._player = JointBatchPlayer(
+            {**self.columns, "angle_rad": angle - self._centre_rad}, self.joint, self._start_n_mm
+        )
 
     @property
     def count(self) -> int:
         """Number of averaged readings."""
         return int(np.count_nonzero(self._used))
 
-    def residual(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
-        """(played - measured) / noise."""
-        played = self._played(self._player, self._start_n_mm, model, nuisances)
-        return np.asarray(((played - self.columns["torque_n_mm"]) / self.noise_n_mm)[self._used])
+    def residuals(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
+        """models x (played - measured) / noise."""
+        played = self._played(self._player, models, nuisances)
+        return np.asarray(((played - self.columns["torque_n_mm"]) / self.noise_n_mm)[:, self._used])
 
     def torque_n_mm(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """The model's torque at every row of the record, not averaged."""
         # an encoder's jitter is no motion: the deflection is what is left of it over a block
         angle = smoothed(self.dataset["angle_rad"], self.columns["test"], self._counts) - self._centre_rad
-        whole = JointPlayer({**self.dataset.columns, "angle_rad": angle}, self.joint)
         start_n_mm = np.repeat(self._start_n_mm, self._counts)
-        return self._played(whole, start_n_mm, model, nuisances)
+        whole = JointBatchPlayer({**self.dataset.columns, "angle_rad": angle}, self.joint, start_n_mm)
+        return np.asarray(self._played(whole, model_numbers(model)[np.newaxis], columns_of(nuisances))[0])
 
-    def _played(
-        self, player: JointPlayer, start_n_mm: np.ndarray, model: LimbModel, nuisances: dict[str, float]
-    ) -> np.ndarray:
-        zero = nuisances.get(ANGLE_ZERO, -self._centre_rad) + self._centre_rad
-        limb = model.with_values({f"joint.{self.joint}.zero_offset_rad": zero})
-        offset_n_mm = nuisances.get(TORQUE_OFFSET, 0.0)
-        torque = player.play(limb, nuisances.get(FRICTION_TURN, 0.0), start_n_mm - offset_n_mm)
-        return np.asarray(torque + offset_n_mm)
+    def _played(self, player: JointBatchPlayer, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
+        """models x rows [N mm]; NaN for a joint that cannot be."""
+        none = np.zeros(len(models))
+        models = models.copy()
+        models[:, number_index()[f"joint.{self.joint}.zero_offset_rad"]] = (
+            nuisances.get(ANGLE_ZERO, none - self._centre_rad) + self._centre_rad
+        )
+        return player.play_numbers(
+            models, nuisances.get(FRICTION_TURN, none), nuisances.get(TORQUE_OFFSET, none)
+        )
 
-    def angles(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
+    def angles(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
         """None: one joint has no tip."""
-        return np.empty((0, 2))
+        return np.empty((len(models), 0, 2))
 
     def signal_n_mm(self) -> float:
         """Standard deviation of the torque that is fitted."""

@@ -7,9 +7,10 @@ import numpy as np
 from brace.dataset import Dataset
 from brace.dataset.zeroing import zeroed
 from brace.errors import BadFileError
+from brace.identify.fit import Nuisances, residual_of
 from brace.identify.noise import NoiseFloor, noise_floor
 from brace.model import LimbModel
-from brace.native.plant import LoadingPlayer
+from brace.native.plant_batch import LoadingBatchPlayer, number_index
 
 OFFSET_KEYS = ("joint.femur.zero_offset_rad", "joint.tibia.zero_offset_rad")
 _SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
@@ -29,8 +30,8 @@ class LoadingProblem:
             )
         self.dataset = dataset
         self.noise: NoiseFloor = noise_floor(dataset)
-        self._player = LoadingPlayer(dataset)
         self._names = ["fx_n", "fz_n", *(name for name in _SIDE_READINGS if name in dataset)]
+        self._player = LoadingBatchPlayer(dataset, self._names)
         self._sigma = {
             name: self.noise.sigma_n if name in ("fx_n", "fz_n") else _side_sigma(dataset, name)
             for name in self._names
@@ -48,20 +49,22 @@ class LoadingProblem:
         """Names of the readings that are fitted."""
         return list(self._names)
 
-    def residual(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
-        """(played - measured) / sigma, reading after reading."""
-        played = zeroed(self._player.play(model, self._names), self.dataset)
+    def residuals(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
+        """models x (played - measured) / sigma, reading after reading."""
+        readings = self._player.play_numbers(models, settled=True)
+        played = zeroed(dict(zip(self._names, np.moveaxis(readings, 1, 0))), self.dataset)
         return np.concatenate(
-            [(played[name] - self.dataset[name]) / self._sigma[name] for name in self._names]
+            [(played[name] - self.dataset[name]) / self._sigma[name] for name in self._names], axis=1
         )
 
-    def angles(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
-        """configurations x (theta1, theta2), true [rad]."""
-        return self._commanded + [model.number(key) for key in OFFSET_KEYS]
+    def angles(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
+        """models x configurations x (theta1, theta2), true [rad]."""
+        offsets = models[:, [number_index()[key] for key in OFFSET_KEYS]]
+        return np.asarray(self._commanded + offsets[:, np.newaxis])
 
     def force_gap_n(self, model: LimbModel) -> float:
         """rms of what the model leaves of the forces [N]."""
-        residual = self.residual(model, {})[: 2 * self.dataset.rows] * self.noise.sigma_n
+        residual = residual_of(self, model)[: 2 * self.dataset.rows] * self.noise.sigma_n
         return float(np.sqrt(np.mean(residual**2)))
 
 

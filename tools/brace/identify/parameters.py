@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from brace.effects.catalogue import FRICTION_TURN, NUMBER_BY_KEY
 from brace.errors import UsageError, did_you_mean
 from brace.model import LimbModel
 from brace.model.keys import CONTROLLER_KEYS, KEY_BY_NAME
+from brace.native.plant_batch import model_numbers, number_index
 
 TIP_HEIGHT = "tip_height_mm"  # of a stiffness table that gives r alone; not a key of limb.toml
 TORQUE_OFFSET = "torque_offset_n_mm"  # of a joint test's torque reading; not a key of limb.toml
@@ -84,6 +86,24 @@ class ParameterSet:
     def nuisances(self, x: Sequence[float] | np.ndarray) -> dict[str, float]:
         """The parts of x that are not keys of limb.toml."""
         return {key: float(value) for key, value in zip(self.keys, x) if key not in KEY_BY_NAME}
+
+    def models(self, points: np.ndarray) -> np.ndarray:
+        """The limbs that many x (points x parameters) describe, as brace.native.plant_batch has them."""
+        numbers, columns, places = self._layout
+        models = np.tile(numbers, (len(points), 1))
+        models[:, places] = points[:, columns]
+        return models
+
+    def nuisance_columns(self, points: np.ndarray) -> dict[str, np.ndarray]:
+        """The same as `nuisances` for many x: one entry per point."""
+        return {key: points[:, column] for column, key in enumerate(self.keys) if key not in KEY_BY_NAME}
+
+    @cached_property
+    def _layout(self) -> tuple[np.ndarray, list[int], list[int]]:
+        """The base's numbers, and which columns of x go where in them."""
+        index = number_index()
+        columns = [column for column, key in enumerate(self.keys) if key in index]
+        return model_numbers(self.base), columns, [index[self.keys[column]] for column in columns]
 
 
 def natural_scale(key: str) -> float:

@@ -10,15 +10,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from brace.errors import BadFileError
-from brace.identify.fit import Fit, Problem, fit
+from brace.identify.fit import Fit, Nuisances, Problem, columns_of, fit
 from brace.identify.information import Z90
-from brace.identify.parameters import COMPLIANCES, NUISANCES, ParameterSet, free_parameter
+from brace.identify.parameters import COMPLIANCES, JOINT_COMPLIANCES, NUISANCES, ParameterSet, free_parameter
 from brace.model import LimbModel
-from brace.native.plant import reference_planar
+from brace.native.plant_batch import model_numbers, number_index, reference_planar_many
 
 TARGETS = (0.0, 0.25, 0.5, 0.75, 1.0)
 REFINEMENTS = 6
 FLAT = 0.3
+_SHARE_KEYS = ("geometry.femur_mm", "geometry.tibia_mm", *JOINT_COMPLIANCES)
 
 
 @dataclass(frozen=True)
@@ -31,17 +32,21 @@ class Split:
     profile: tuple[tuple[float, float], ...]
 
 
-def structure_share(model: LimbModel, angles_rad: np.ndarray) -> float:
-    """1 - (trace of the joints' part of C) / (trace of C), mean over configurations x (theta1, theta2)."""
-    theta1, theta2 = angles_rad[:, 0], angles_rad[:, 1]
-    whole = reference_planar(model, theta1, theta2)
-    femur, tibia = model.number("geometry.femur_mm"), model.number("geometry.tibia_mm")
-    r_squared = femur**2 + tibia**2 + 2 * femur * tibia * np.cos(theta2)
-    joints = (
-        model.number("joint.femur.compliance_rad_per_n_mm") * r_squared
-        + model.number("joint.tibia.compliance_rad_per_n_mm") * tibia**2
-    )
-    return float(np.mean(1.0 - joints / (whole[:, 3] + whole[:, 5])))
+def structure_shares(models: np.ndarray, angles_rad: np.ndarray) -> np.ndarray:
+    """1 - (trace of the joints' part of C) / (trace of C), mean over the configurations, of many models, each at its
+    own angles (models x configurations x 2). Refuses a model that does not yield."""
+    whole = reference_planar_many(models, angles_rad)
+    if np.isnan(whole).any():
+        raise BadFileError(
+            "the share of the structure cannot be told",
+            why="nothing yields in some direction",
+            next_step="give link or joint compliances",
+        )
+    index = number_index()
+    femur, tibia, femur_joint, tibia_joint = models[:, [index[key] for key in _SHARE_KEYS]].T[:, :, np.newaxis]
+    r_squared = femur**2 + tibia**2 + 2 * femur * tibia * np.cos(angles_rad[:, :, 1])
+    joints = femur_joint * r_squared + tibia_joint * tibia**2
+    return np.asarray(np.mean(1.0 - joints / (whole[:, :, 3] + whole[:, :, 5]), axis=1))
 
 
 def split(problem: Problem, best: Fit, advance: Callable[[int], None] = lambda _done: None) -> Split:
@@ -58,8 +63,8 @@ def split(problem: Problem, best: Fit, advance: Callable[[int], None] = lambda _
     def held_at(target: float | None) -> tuple[float, float]:
         """(share reached, chi2) of the best fit held near a share; one point of the profile wherever it ends up."""
 
-        def off(model: LimbModel, nuisances: dict[str, float]) -> float:
-            return structure_share(model, problem.angles(model, nuisances)) - (target or 0.0)
+        def off(models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
+            return structure_shares(models, problem.angles(models, nuisances)) - (target or 0.0)
 
         found = fit(
             problem,
@@ -67,7 +72,7 @@ def split(problem: Problem, best: Fit, advance: Callable[[int], None] = lambda _
             starts=() if target is None else [_towards(loose, target)],
             constraint=None if target is None else off,
         )
-        return structure_share(found.model, problem.angles(found.model, found.nuisances)), found.chi2
+        return _share_of(problem, found.model, found.nuisances), found.chi2
 
     profile = [held_at(None)]
     for number, target in enumerate(TARGETS):
@@ -82,9 +87,14 @@ def split(problem: Problem, best: Fit, advance: Callable[[int], None] = lambda _
                 with contextlib.suppress(BadFileError):
                     profile.append(held_at(edge))
         advance(len(TARGETS) + round_number + 1)
-    share = structure_share(base, problem.angles(base, best.nuisances))
+    share = _share_of(problem, base, best.nuisances)
     allowed = (_edge(profile, -1, dof)[0], _edge(profile, 1, dof)[0])
     return Split(share, allowed, tuple(sorted(profile)))
+
+
+def _share_of(problem: Problem, model: LimbModel, nuisances: dict[str, float]) -> float:
+    models = model_numbers(model)[np.newaxis]
+    return float(structure_shares(models, problem.angles(models, columns_of(nuisances)))[0])
 
 
 def _towards(parameters: ParameterSet, share: float) -> np.ndarray:

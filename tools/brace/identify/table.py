@@ -9,10 +9,12 @@ import numpy as np
 from brace.dataset import Dataset
 from brace.dataset.check_table import stiffness
 from brace.errors import BadFileError
+from brace.identify.fit import Nuisances
 from brace.identify.parameters import TIP_HEIGHT, Parameter, natural_scale
 from brace.model import LimbModel
 from brace.native.plant import reference_planar
-from brace.tables import TablePoses, table_poses
+from brace.native.plant_batch import model_numbers, number_index, reference_planar_many
+from brace.tables import POSTURE_KEYS, TablePoses, table_poses
 
 MIN_ROWS = 2
 
@@ -47,18 +49,21 @@ class TableProblem:
         """Number of entries of K."""
         return int(self.k.size)
 
-    def residual(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
-        """(model - measured) / sigma, row by row."""
-        return np.asarray((self.predicted(model, nuisances) - self.k) / self.sigma).ravel()
+    def residuals(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
+        """models x (model - measured) / sigma, row by row."""
+        k = reference_planar_many(models, self.angles(models, nuisances))[:, :, :3]
+        return np.asarray((k - self.k) / self.sigma).reshape(len(models), -1)
+
+    def angles(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
+        """models x rows x (theta1, theta2), true [rad]."""
+        index = number_index()
+        numbers = models[:, [index[key] for key in POSTURE_KEYS]].T
+        return self.poses.true_angles_many(numbers, nuisances.get(TIP_HEIGHT, np.zeros(len(models))))
 
     def predicted(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """rows x (k_xx, k_xz, k_zz) [N/mm]."""
-        angles = self.angles(model, nuisances)
+        angles = self.poses.true_angles(model, nuisances.get(TIP_HEIGHT, 0.0))
         return reference_planar(model, angles[:, 0], angles[:, 1])[:, :3]
-
-    def angles(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
-        """rows x (theta1, theta2), true [rad]."""
-        return self.poses.true_angles(model, nuisances.get(TIP_HEIGHT, 0.0))
 
     def height_parameter(self, start_mm: float | None = None) -> Parameter:
         """The common height of the tip, for a table that gives r alone."""
@@ -73,13 +78,10 @@ def best_tip_height_mm(dataset: Dataset, model: LimbModel, poses: TablePoses) ->
     problem = TableProblem(dataset, model, Weight())
     low, high = poses.height_limits_mm()
 
-    def misfit(height_mm: float) -> float:
-        residual = problem.residual(model, {TIP_HEIGHT: height_mm})
-        return float(residual @ residual)
-
+    models = np.tile(model_numbers(model), (41, 1))
     for _ in range(6):
         heights = np.linspace(low, high, 41)
-        values = [misfit(height) for height in heights]
+        values = [residual @ residual for residual in problem.residuals(models, {TIP_HEIGHT: heights})]
         best = int(np.argmin(values))
         low, high = heights[max(best - 1, 0)], heights[min(best + 1, 40)]
     return float(0.5 * (low + high))

@@ -25,6 +25,8 @@ FIRMWARE_HEADERS = (
     "chain_batch.h",
     "spatial.h",
     "loaded.h",
+    "loaded_batch.h",
+    "kinematics_batch.h",
     "uncertainty.h",
     "slope.h",
     "contact.h",

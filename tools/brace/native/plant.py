@@ -90,9 +90,7 @@ class JointPlayer:
         strained where each test starts; without it it starts relaxed."""
         ffi = self._native.ffi
         self._rows.reversal_rad = reversal_rad
-        self._rows.start_torque_n_mm = ffi.NULL
-        if start_torque_n_mm is not None:
-            begun = _point_at(self._native, self._rows, "start_torque_n_mm", start_torque_n_mm)  # noqa: F841
+        self._start_from(start_torque_n_mm)
         out = np.empty(self.count)
         status = self._native.lib.brace_plant_joint(
             plant_model(self._native, model), self._rows, ffi.from_buffer("double[]", out)
@@ -100,6 +98,11 @@ class JointPlayer:
         if status:
             raise plant_error(self._native, status, model, "be played")
         return out
+
+    def _start_from(self, torque_n_mm: np.ndarray | None) -> None:
+        self._rows.start_torque_n_mm = self._native.ffi.NULL
+        if torque_n_mm is not None:
+            self._begun = _point_at(self._native, self._rows, "start_torque_n_mm", torque_n_mm)
 
 
 def reference_planar(model: LimbModel, theta1_rad: np.ndarray, theta2_rad: np.ndarray) -> np.ndarray:

@@ -48,6 +48,8 @@ def draw_ellipses(axes: Axes, ellipses: dict[str, np.ndarray], links: np.ndarray
 
     axes.add_collection(LineCollection(list(links), colors=FAINT, linewidths=2.0, capstyle="round"))
     long_axis, short_axis = (np.sqrt(ellipses[f"lambda_{which}_n_per_mm"]) for which in ("max", "min"))
+    if not long_axis.size:
+        return
     span = max(np.ptp(ellipses["x_mm"]), np.ptp(ellipses["z_mm"]), 1.0)
     scale = 0.14 * span / float(np.median(long_axis)) if long_axis.size else 1.0
     longest = 0.3 * span

@@ -194,7 +194,7 @@ static bool settle(brace_client_t *client, uint64_t deadline_us)
 static brace_client_status_t transfer(brace_client_t *client, transfer_t how, uint32_t address, uint32_t count,
                                       uint16_t *words, uint64_t deadline_us)
 {
-    int error = ETIMEDOUT;
+    int error = ETIMEDOUT, broken = 0; /* broken: how an answer was that came so */
     do {
         if (!settle(client, deadline_us)) {
             break;
@@ -205,12 +205,14 @@ static brace_client_status_t transfer(brace_client_t *client, transfer_t how, ui
             return BRACE_CLIENT_OK;
         }
         error = errno;
+        broken = error == EMBBADCRC || error == EMBBADDATA ? error : broken;
         (void)modbus_flush(client->modbus); /* a late answer must not be taken for the next one */
         client->late_until_us = error == ETIMEDOUT || error == EAGAIN ? sent_us + LATE_US
                                 : error == EMBBADDATA                 ? brace_bus_now_us() + REST_US
                                                                       : 0u;
     } while (may_pass(error) && brace_bus_left_ms(deadline_us) > 0);
-    return fail(client, error);
+    /* The last try may be too short for an answer. What came before tells more than that nothing came then. */
+    return fail(client, broken != 0 && (error == ETIMEDOUT || error == EAGAIN) ? broken : error);
 }
 
 brace_client_status_t brace_modbus_open(brace_client_t *client, uint64_t deadline_us)

@@ -31,16 +31,21 @@ static inline brace_tensor_t brace_tensor_of(float iso_mm_per_n, brace_vec_t v)
     return (brace_tensor_t){xx, v.x * v.z, brace_fma(v.z * v.z, iso / xx, iso)};
 }
 
-/* c += v v': the rank-one update of a Cholesky factor (Gill, Golub, Murray and Saunders, 1974). xx and second grow by
- * squares only. */
+/* c += by v v', by >= 0: the rank-one update of a Cholesky factor (Gill, Golub, Murray and Saunders, 1974). xx and
+ * second grow by squares only. */
+static inline void brace_tensor_add_scaled(brace_tensor_t *c, brace_vec_t v, float by)
+{
+    const float x = by * v.x, xx = brace_fma(x, v.x, c->xx);
+    const float beyond = brace_fma(c->xx, v.z, -(c->xz * v.x)); /* xx times v's part beyond c's first column */
+    const float per_both = by / (c->xx * xx);
+    c->second = brace_fma(beyond * per_both, beyond, c->second);
+    c->xz = brace_fma(x, v.z, c->xz);
+    c->xx = xx;
+}
+
 static inline void brace_tensor_add(brace_tensor_t *c, brace_vec_t v)
 {
-    const float xx = brace_fma(v.x, v.x, c->xx);
-    const float beyond = brace_fma(c->xx, v.z, -(c->xz * v.x)); /* xx times v's part beyond c's first column */
-    const float per_both = 1.0f / (c->xx * xx);
-    c->second = brace_fma(beyond * per_both, beyond, c->second);
-    c->xz = brace_fma(v.x, v.z, c->xz);
-    c->xx = xx;
+    brace_tensor_add_scaled(c, v, 1.0f);
 }
 
 static inline float brace_tensor_det(const brace_tensor_t *c)

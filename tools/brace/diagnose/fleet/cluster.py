@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from brace.diagnose.fleet.job import Job, Outcome, lost, run_job, unreadable
-from brace.diagnose.write import versions
+from brace.diagnose.provenance import versions
 from brace.errors import BraceError, NoDeviceError, UsageError, VersionMismatchError
 
 CONNECT_S = 10.0

@@ -10,9 +10,8 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 
+from brace import one_thread
 from brace.diagnose.fleet.job import Job, Outcome, lost, run_job
-
-_ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 def cores() -> int:
@@ -77,8 +76,8 @@ def _leave_ctrl_c_to_parent() -> None:
 @contextlib.contextmanager
 def _one_thread_each() -> Iterator[None]:
     """Processes side by side, one thread each; they inherit it."""
-    before = {name: os.environ.get(name) for name in _ONE_THREAD}
-    os.environ.update(dict.fromkeys(_ONE_THREAD, "1"))
+    before = {name: os.environ.get(name) for name in one_thread.NAMES}
+    os.environ.update(dict.fromkeys(one_thread.NAMES, "1"))
     try:
         yield
     finally:

@@ -10,7 +10,6 @@ from scipy.optimize import least_squares
 
 from brace.diagnose.joint_test.record import JointRecord
 from brace.diagnose.joint_test.terms import Term
-from brace.errors import BadFileError
 from brace.identify.parameters import ANGLE_ZERO, TORQUE_OFFSET, Parameter, ParameterSet
 from brace.model import LimbModel
 
@@ -95,7 +94,7 @@ class Fitter:
             if added is not None:
                 points += self._reshaped(chosen, values, points[-1], added)
         best = min((self._from(chosen, point) for point in points), key=lambda pair: pair[1])
-        off = self._off(chosen, best[0])
+        off = self._offs(chosen, best[0][np.newaxis])[0]
         record = self.record
         fitted, kept = off[record.fitted], off[record.kept]
         found = Fitted(terms, chosen, best[0], off, float(fitted @ fitted), float(kept @ kept))
@@ -117,32 +116,29 @@ class Fitter:
             point[chosen.keys.index(spring)] *= factor
         return [point]
 
-    def _off(self, chosen: ParameterSet, x: np.ndarray) -> np.ndarray:
-        try:
-            return np.asarray(self.record.off(chosen.model(x), chosen.nuisances(x)) * self.root_weight)
-        except BadFileError:
-            return np.full(self.record.fitted.size, REFUSED * self.record.size.torque_n_mm)
+    def _offs(self, chosen: ParameterSet, points: np.ndarray) -> np.ndarray:
+        """Points x averaged readings."""
+        off = self.record.offs(chosen.models(points), chosen.nuisance_columns(points)) * self.root_weight
+        return np.where(np.isnan(off), REFUSED * self.record.size.torque_n_mm, off)
 
     def _from(self, chosen: ParameterSet, point: np.ndarray) -> tuple[np.ndarray, float]:
         scale, low, high = (chosen.array(name) for name in ("scale", "low", "high"))
         unit = max(self.record.noise_n_mm, 1e-3 * self.record.size.torque_n_mm)
 
-        def whole(u: np.ndarray) -> np.ndarray:
-            return np.asarray(self._off(chosen, u * scale)[self.record.fitted] / unit)
+        def whole(points: np.ndarray) -> np.ndarray:
+            return np.asarray(self._offs(chosen, points * scale)[:, self.record.fitted] / unit)
+
+        def at(u: np.ndarray) -> np.ndarray:
+            return np.asarray(whole(u[np.newaxis])[0])
 
         def slope(u: np.ndarray) -> np.ndarray:
-            here = whole(u)
-            columns = []
-            for index in range(u.size):
-                step = STEP if u[index] + STEP <= high[index] / scale[index] else -STEP
-                moved = u.copy()
-                moved[index] += step
-                columns.append((whole(moved) - here) / step)
-            return np.column_stack(columns)
+            step = np.where(u + STEP <= high / scale, STEP, -STEP)
+            rows = whole(np.vstack([u, u + np.diag(step)]))
+            return np.ascontiguousarray(((rows[1:] - rows[0]) / step[:, np.newaxis]).T)
 
         inside = np.clip(point / scale, low / scale + 1e-9, high / scale - 1e-9)
         found = least_squares(
-            whole,
+            at,
             inside,
             jac=slope,
             bounds=(low / scale, high / scale),
@@ -156,11 +152,8 @@ class Fitter:
     def slope_n_mm(self, fitted: Fitted) -> np.ndarray:
         """Readings x parameters: how the weighted torque moves per scale of each parameter."""
         scale, low, high = (fitted.parameters.array(name) for name in ("scale", "low", "high"))
-        columns = []
-        for index in range(fitted.x.size):
-            up, down = fitted.x.copy(), fitted.x.copy()
-            up[index] = min(up[index] + 1e-3 * scale[index], high[index])
-            down[index] = max(down[index] - 1e-3 * scale[index], low[index])
-            step = (up[index] - down[index]) / scale[index]
-            columns.append((self._off(fitted.parameters, up) - self._off(fitted.parameters, down)) / step)
-        return np.asarray(np.column_stack(columns)[self.record.fitted])
+        up, down = np.minimum(fitted.x + 1e-3 * scale, high), np.maximum(fitted.x - 1e-3 * scale, low)
+        own = np.eye(fitted.x.size, dtype=bool)
+        moved = np.vstack([np.where(own, up, fitted.x), np.where(own, down, fitted.x)])
+        above, below = np.split(self._offs(fitted.parameters, moved)[:, self.record.fitted], 2)
+        return np.ascontiguousarray(((above - below) / ((up - down) / scale)[:, np.newaxis]).T)

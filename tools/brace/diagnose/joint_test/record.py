@@ -17,9 +17,11 @@ from brace.diagnose.joint_test.terms import (
     VISCOUS,
 )
 from brace.effects import JointTestSize
+from brace.identify.fit import Nuisances, columns_of
 from brace.identify.joint_test import JointProblem, noise, saturated
 from brace.identify.parameters import ANGLE_ZERO
 from brace.model import LimbModel
+from brace.native.plant_batch import model_numbers
 
 BLOCK_ROWS = 1200  # averaged readings: enough for every ramp's shape, few enough to try some hundred models
 
@@ -99,23 +101,28 @@ class JointRecord(JointProblem):
 
     def torque(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """The model's torque at every averaged reading [N mm]."""
-        played = self._played(self._player, self._start_n_mm, model, nuisances)
+        return np.asarray(self.torques(model_numbers(model)[np.newaxis], columns_of(nuisances))[0])
+
+    def torques(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
+        """The same for many models (brace.native.plant_batch): models x readings; NaN for a joint that cannot be."""
+        played = self._played(self._player, models, nuisances)
+        shape = {name: values[:, np.newaxis] for name, values in nuisances.items()}
         angle = self.columns["angle_rad"]
-        if ASYMMETRY in nuisances:
-            zeroed = angle + nuisances.get(ANGLE_ZERO, -self._centre_rad)
-            played = played * np.where(zeroed > 0.0, 1.0 + nuisances[ASYMMETRY], 1.0)
-        if COG_PERIOD in nuisances:
-            phase = 2.0 * np.pi * (angle - self._centre_rad) / nuisances[COG_PERIOD]
-            played = played + nuisances[COG_SIN] * np.sin(phase) + nuisances[COG_COS] * np.cos(phase)
-        if VISCOUS in nuisances:
-            played = played + nuisances[VISCOUS] * self._speed
-        if TORQUE_DRIFT in nuisances:
-            played = played + nuisances[TORQUE_DRIFT] * self._since_s
+        if ASYMMETRY in shape:
+            zeroed = angle + shape.get(ANGLE_ZERO, np.array(-self._centre_rad))
+            played = played * np.where(zeroed > 0.0, 1.0 + shape[ASYMMETRY], 1.0)
+        if COG_PERIOD in shape:
+            phase = 2.0 * np.pi * (angle - self._centre_rad) / shape[COG_PERIOD]
+            played = played + shape[COG_SIN] * np.sin(phase) + shape[COG_COS] * np.cos(phase)
+        if VISCOUS in shape:
+            played = played + shape[VISCOUS] * self._speed
+        if TORQUE_DRIFT in shape:
+            played = played + shape[TORQUE_DRIFT] * self._since_s
         return np.asarray(played)
 
-    def off(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
-        """Played less measured [N mm], at every averaged reading."""
-        return np.asarray(self.torque(model, nuisances) - self.columns["torque_n_mm"])
+    def offs(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
+        """Played less measured [N mm], models x averaged readings."""
+        return np.asarray(self.torques(models, nuisances) - self.columns["torque_n_mm"])
 
     def raw_off(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """Measured less played [N mm], at every row of the record; the model alone, no shapes."""

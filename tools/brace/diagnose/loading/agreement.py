@@ -11,7 +11,7 @@ from brace.dataset.check_runs import run_starts
 from brace.diagnose.loading.record import Record
 
 if TYPE_CHECKING:
-    from brace.diagnose.loading.run import Pass
+    from brace.diagnose.loading.search_pass import Pass
 
 RESAMPLES = 400
 RIVALS = 12

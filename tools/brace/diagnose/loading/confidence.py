@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from brace.diagnose.loading.choose import label_probability
 
 if TYPE_CHECKING:
-    from brace.diagnose.loading.run import Pass
+    from brace.diagnose.loading.search_pass import Pass
 
 # Share of the sets of one, two, three effects with all of the posterior behind them that were right.
 RIGHT_BY_EFFECTS = {1: 0.985, 2: 0.985, 3: 0.93}

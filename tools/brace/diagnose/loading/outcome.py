@@ -39,7 +39,7 @@ from brace.model.keys import KEY_BY_NAME
 from brace.native.plant_batch import model_numbers
 
 if TYPE_CHECKING:
-    from brace.diagnose.loading.run import Pass
+    from brace.diagnose.loading.search_pass import Pass
 
 MOST_CANDIDATES = 20
 FAR_OUT = 3.0  # sigmas of the calibration from which a refitted number is a finding

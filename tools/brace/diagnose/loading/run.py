@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -19,10 +18,11 @@ from brace.diagnose.loading.noise_after_base import with_growth, with_known_nois
 from brace.diagnose.loading.parts import enough_rows, locked_rows
 from brace.diagnose.loading.record import Record, load_record, setting_of
 from brace.diagnose.loading.rounding import asked_for
+from brace.diagnose.loading.search_pass import Pass
 from brace.diagnose.loading.search import Hypothesis, Search
 from brace.diagnose.loading.space import Trust, trust_of
-from brace.diagnose.loading.structure import Structure, structure_of
-from brace.diagnose.loading.verdict import Decision, decide
+from brace.diagnose.loading.structure import structure_of
+from brace.diagnose.loading.verdict import decide
 from brace.diagnose.options import Advance, Options
 from brace.effects import Variant, all_variants
 from brace.errors import UsageError
@@ -30,18 +30,6 @@ from brace.model import LimbModel
 
 
 GROWTH_MUST_GAIN = 6.0  # nats that a noise growing with the load must be ahead of a constant one
-
-
-@dataclass(frozen=True)
-class Pass:
-    """One search over some rows of the record, from nothing to a decision."""
-
-    record: Record
-    trust: Trust
-    base: Hypothesis
-    sets: list[LabelSet]
-    structure: Structure
-    decision: Decision
 
 
 def diagnose_loading(

@@ -14,7 +14,7 @@ from brace.diagnose.report.views import View, view
 from brace.model import LimbModel
 
 if TYPE_CHECKING:
-    from brace.diagnose.write import Provenance
+    from brace.diagnose.provenance import Provenance
 
 MOST_FAULTS, MOST_CANDIDATES = 60, 14
 

@@ -11,7 +11,7 @@ import numpy as np
 from brace.effects import BY_NAME, EFFECTS
 from brace.errors import BadFileError
 from brace.identify.families import scattered_starts
-from brace.identify.fit import Fit, Problem, fit
+from brace.identify.fit import Fit, Nuisances, Problem, fit, residual_of
 from brace.identify.parameters import (
     JOINT_COMPLIANCES,
     LINK_COMPLIANCES,
@@ -94,11 +94,11 @@ class _Part:
     def count(self) -> int:
         return int(np.count_nonzero(self._keep))
 
-    def residual(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
-        return np.asarray(self.whole.residual(model, nuisances)[self._keep])
+    def residuals(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
+        return np.asarray(self.whole.residuals(models, nuisances)[:, self._keep])
 
-    def angles(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
-        return self.whole.angles(model, nuisances)
+    def angles(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
+        return self.whole.angles(models, nuisances)
 
 
 def missing_from(believed: LimbModel) -> tuple[Alternative, ...]:
@@ -142,7 +142,7 @@ def _fit(problem: Problem, chosen: ParameterSet, starts: Sequence[np.ndarray]) -
     """Does the same as `fit`, also where nothing is free."""
     if len(chosen):
         return fit(problem, chosen, starts)
-    return Fit(chosen, np.empty(0), problem.residual(chosen.base, {}), np.empty((problem.count, 0)))
+    return Fit(chosen, np.empty(0), residual_of(problem, chosen.base), np.empty((problem.count, 0)))
 
 
 def _parameters(problem: TableProblem, believed: LimbModel, alternative: Alternative) -> ParameterSet:

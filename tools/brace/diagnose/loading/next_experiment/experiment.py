@@ -39,7 +39,7 @@ from brace.diagnose.options import Options
 from brace.model import LimbModel
 
 if TYPE_CHECKING:
-    from brace.diagnose.loading.run import Pass
+    from brace.diagnose.loading.search_pass import Pass
 
 POSTURES_AND_REPEATS = ((3, 1), (5, 1), (8, 1), (8, 2), (8, 4))
 GOOD_ENOUGH = 0.99  # a test that is as sure as this need not be surer

@@ -1,0 +1,144 @@
+"""`brace k --fx --fz`: K under a load, against the reference, which was written apart from the firmware's C."""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from brace.model import load_limb
+from brace.native import loaded
+from conftest import Outcome
+
+ADDED = {"tip_dx_mm", "tip_dz_mm", "buckling_factor"}
+WORST_K, WORST_MM, WORST_FACTOR = 6e-3, 0.5, 0.02  # what brace/loaded.h promises
+
+
+@pytest.fixture
+def heavy_limb(paper_limb: Path, tmp_path: Path) -> Path:
+    """The paper's limb with beams for links, weights, and a zero offset."""
+    path = tmp_path / "heavy.toml"
+    values = {
+        "link.femur.moment_transfer": True,
+        "link.tibia.moment_transfer": True,
+        "gravity.femur_n": 2.0,
+        "gravity.knee_n": 1.0,
+        "gravity.tibia_n": 1.5,
+        "joint.femur.zero_offset_rad": 0.1,
+    }
+    path.write_text(load_limb(paper_limb).with_values(values).to_toml())
+    return path
+
+
+def rows_of(path: Path) -> list[dict[str, str]]:
+    with path.open() as file:
+        return list(csv.DictReader(file))
+
+
+def test_against_the_reference(brace: Callable[..., Outcome], heavy_limb: Path, tmp_path: Path) -> None:
+    random = np.random.default_rng(8)
+    postures = np.column_stack([random.uniform(-0.5, 1.2, 60), random.uniform(0.5, 2.5, 60)])
+    forces = random.uniform(-12.0, 12.0, (60, 2))
+    table, out = tmp_path / "in.csv", tmp_path / "out.csv"
+    lines = [",".join(f"{value:.9g}" for value in row) for row in np.hstack([postures, forces]).tolist()]
+    table.write_text("\n".join(["theta1_rad,theta2_rad,fx_n,fz_n", *lines]) + "\n")
+    assert brace("k", "--model", heavy_limb, "--csv", table, "--out", out).code == 0
+    true = loaded.under_force(load_limb(heavy_limb), postures[:, 0] + 0.1, postures[:, 1], forces)
+    judged = 0
+    for index, row in enumerate(rows_of(out)):
+        factor = float(true["buckling_factor"][index])
+        moved_mm = true.displacement_mm[index]
+        if factor < 2.0 or np.hypot(*moved_mm) > 0.2 * (185.0 + 313.5):
+            continue
+        judged += 1
+        xx, xz, zz = (float(row[f"k_{axes}_n_per_mm"]) for axes in ("xx", "xz", "zz"))
+        k = np.array([[xx, xz], [xz, zz]])
+        assert np.linalg.norm(k - true.k_n_per_mm[index]) <= WORST_K * np.linalg.norm(k)
+        assert (
+            np.hypot(
+                float(row["tip_dx_mm"]) - moved_mm[0],
+                float(row["tip_dz_mm"]) - moved_mm[1],
+            )
+            <= WORST_MM
+        )
+        if factor < 10.0:
+            assert float(row["buckling_factor"]) == pytest.approx(factor, rel=WORST_FACTOR)
+        c = [float(row[f"c_{axes}_mm_per_n"]) for axes in ("xx", "xz", "zz")]
+        assert k @ np.array([[c[0], c[1]], [c[1], c[2]]]) == pytest.approx(np.eye(2), abs=1e-4)
+    assert judged >= 40
+
+
+def test_a_single_posture(brace: Callable[..., Outcome], paper_limb: Path) -> None:
+    given = ("k", "--model", paper_limb, "--theta1", 1.0, "--theta2", 1.4)
+    plain = json.loads(brace(*given, "--json").out)
+    loaded_k = json.loads(brace(*given, "--fz", 10, "--json").out)
+    assert loaded_k.keys() >= ADDED and not plain.keys() & ADDED
+    assert (loaded_k["fx_n"], loaded_k["fz_n"], loaded_k["arith"]) == (
+        0.0,
+        10.0,
+        "loaded",
+    )
+    true = loaded.under_force(load_limb(paper_limb), 1.0, 1.4, [[0.0, 10.0]])
+    assert loaded_k["k_xx_n_per_mm"] == pytest.approx(float(true["k_xx"][0]), rel=WORST_K)
+    assert abs(loaded_k["k_xx_n_per_mm"] / plain["k_xx_n_per_mm"] - 1.0) > 0.02  # load matters
+    told = brace(*given, "--fz", 10).out
+    assert "(0, 10) N" in told and "buckling factor" in told
+
+
+def test_no_force_and_no_weight_is_the_plain_k(brace: Callable[..., Outcome], paper_limb: Path) -> None:
+    given = ("k", "--model", paper_limb, "--theta1", 1.0, "--theta2", 1.4)
+    plain = json.loads(brace(*given, "--json").out)
+    at_rest = json.loads(brace(*given, "--fx", 0, "--json").out)
+    for name, value in plain.items():
+        if name.startswith(("k_", "lambda_", "stiff_axis")) and "sigma" not in name:
+            assert at_rest[name] == pytest.approx(value, rel=2e-6, abs=2e-6), name
+    assert at_rest["buckling_factor"] is None and at_rest["tip_dx_mm"] == pytest.approx(0.0, abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    "options, said",
+    [
+        (("--fz", 10, "--theta0", 0.1), "in the limb's plane only"),
+        (("--fz", 10, "--arith", "fixed"), "in float only"),
+        (("--fz", 2000), "no stable equilibrium is near"),
+        (("--fz", 20000), "within +-10000 N"),
+    ],
+)
+def test_what_is_refused(
+    options: tuple[object, ...],
+    said: str,
+    brace: Callable[..., Outcome],
+    paper_limb: Path,
+) -> None:
+    outcome = brace("k", "--model", paper_limb, "--theta1", 0.3, "--theta2", 0.6, *options)
+    assert outcome.code == 2 and said in outcome.err
+
+
+@pytest.mark.parametrize(
+    "table, options, said",
+    [
+        ("theta1_rad,theta2_rad,fx_n\n1,1,2\n", (), "column fx_n without fz_n"),
+        ("theta1_rad,theta2_rad,fx_n,fz_n\n1,1,2,x\n", (), "(row 1), fz_n"),
+        (
+            "theta1_rad,theta2_rad,fx_n,fz_n\n1,1,2,3\n",
+            ("--fz", 1),
+            "drop --fx and --fz",
+        ),
+    ],
+)
+def test_tables_that_are_refused(
+    table: str,
+    options: tuple[object, ...],
+    said: str,
+    brace: Callable[..., Outcome],
+    paper_limb: Path,
+    tmp_path: Path,
+) -> None:
+    path, out = tmp_path / "in.csv", tmp_path / "out.csv"
+    path.write_text(table)
+    outcome = brace("k", "--model", paper_limb, "--csv", path, "--out", out, *options)
+    assert outcome.code in (2, 3) and said in outcome.err and not out.exists()

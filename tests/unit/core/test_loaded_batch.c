@@ -1,0 +1,48 @@
+/* K under a load in batches: each row as the single function gives it, NaN where that refuses. */
+#include <math.h>
+#include <string.h>
+
+#include "brace/loaded_batch.h"
+#include "sample_limbs.h"
+#include "unity.h"
+
+enum { ROWS = 5 };
+
+static const float theta1_rad[ROWS] = {1.0f, 0.3f, -0.4f, 0.3f, NAN};
+static const float theta2_rad[ROWS] = {1.4f, 0.6f, 2.0f, 0.6f, 1.0f};
+static const float x_n[ROWS] = {0.0f, -20.0f, 3.0f, 0.0f, 0.0f};
+static const float z_n[ROWS] = {10.0f, 0.0f, -5.0f, 2000.0f, 0.0f}; /* the fourth folds the limb */
+
+void setUp(void) {}
+
+void tearDown(void) {}
+
+static void test_rows_are_the_single_function_s(void)
+{
+    const brace_weights_t weights = {2.0f, 1.0f, 1.5f};
+    const brace_limb_t *limb = &sample_limb[SAMPLE_BEAM];
+    brace_loaded_t loaded;
+    brace_loaded_collapse(limb, &weights, &loaded);
+    const float hip = limb->joint[BRACE_FEMUR].compliance_rad_per_n_mm;
+    const float knee = limb->joint[BRACE_TIBIA].compliance_rad_per_n_mm;
+    brace_load_t load = {.tip = {1e3f, 1e3f}, .down = {0.0f, -1.0f}, .hip = {hip, hip}, .knee = {knee, knee}};
+    brace_loaded_stiffness_t rows[ROWS], single;
+    TEST_ASSERT_EQUAL(2, brace_loaded_batch(&loaded, &load, ROWS, theta1_rad, theta2_rad, x_n, z_n, rows));
+    for (int i = 0; i < 3; i++) {
+        load.tip = (brace_force_t){x_n[i], z_n[i]};
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_loaded_stiffness(&loaded, theta1_rad[i], theta2_rad[i], &load, &single));
+        TEST_ASSERT_EQUAL_MEMORY(&single, &rows[i], sizeof single);
+    }
+    for (int i = 3; i < ROWS; i++) {
+        TEST_ASSERT_TRUE(isnan(rows[i].stiffness.k_xx_n_per_mm) && isnan(rows[i].stiffness.stiff_axis_rad));
+        TEST_ASSERT_TRUE(isnan(rows[i].displacement.z_mm) && isnan(rows[i].buckling_factor));
+        TEST_ASSERT_EQUAL_UINT32(0u, rows[i].stiffness.flags);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_rows_are_the_single_function_s);
+    return UNITY_END();
+}

@@ -1,0 +1,95 @@
+"""K under a load at the limb's equilibrium, by the firmware's own C (brace/loaded.h)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from brace.model import LimbModel
+from brace.native import library
+from brace.native.limb import firmware_limb, status_text
+from brace.stiffness import E_SINGULAR, PLANAR_C, PLANAR_K, PLANAR_REST, PostureError
+
+DISPLACEMENT = ("tip_dx_mm", "tip_dz_mm")
+LOADED_REST = (*PLANAR_REST, *DISPLACEMENT, "buckling_factor")
+DOWN = (0.0, -1.0)
+_RESULT = np.dtype(
+    [(name, "f4") for name in (*PLANAR_K, *PLANAR_REST)]
+    + [("flags", "u4")]
+    + [(name, "f4") for name in (*DISPLACEMENT, "hip_turn_rad", "knee_turn_rad", "buckling_factor")]
+)  # brace_loaded_stiffness_t
+_ALL = np.dtype(
+    [(name, "f4") for name in (*PLANAR_K, *PLANAR_REST, *DISPLACEMENT, "buckling_factor")]
+    + [(name, "f8") for name in PLANAR_C]
+    + [("flags", np.dtype("u4"))]
+)
+
+
+class LoadedLimb:
+    """A limb ready to give K under forces on its tip, in its plane; the weights of [gravity] count too."""
+
+    def __init__(self, model: LimbModel) -> None:
+        native = library()
+        ffi, lib = native.ffi, native.lib
+        limb, weights = firmware_limb(native, model), ffi.new("brace_weights_t *")
+        for part in ("femur_n", "knee_n", "tibia_n"):
+            setattr(weights, part, model.number(f"gravity.{part}"))
+        self._native = native
+        self._loaded, self._joints = ffi.new("brace_loaded_t *"), ffi.new("brace_load_t *")
+        lib.brace_loaded_collapse(limb, weights, self._loaded)
+        self._joints.down.x, self._joints.down.z = DOWN
+        for index, joint in ((lib.BRACE_FEMUR, self._joints.hip), (lib.BRACE_TIBIA, self._joints.knee)):
+            joint.yields_by_rad_per_n_mm = limb.joint[index].compliance_rad_per_n_mm
+            joint.slope_rad_per_n_mm = limb.joint[index].compliance_rad_per_n_mm
+
+    def stiffness(
+        self, theta1_rad: np.ndarray, theta2_rad: np.ndarray, fx_n: np.ndarray, fz_n: np.ndarray
+    ) -> np.ndarray:
+        """Structured array, one entry per commanded posture (true angles [rad], the joints not yet turned by the load)
+        and force of the ground on the tip [N]. tip_dx_mm, tip_dz_mm: how far force and weight move the tip.
+        buckling_factor: infinite where it is above 16, and where it may be above 11. NaN: refused, see `refusal`."""
+        ffi = self._native.ffi
+        columns = [np.ascontiguousarray(column, np.float32) for column in (theta1_rad, theta2_rad, fx_n, fz_n)]
+        found = np.empty(len(columns[0]), _RESULT)
+        self._native.lib.brace_loaded_batch(
+            self._loaded,
+            self._joints,
+            len(found),
+            *(ffi.from_buffer("float[]", column) for column in columns),
+            ffi.cast("brace_loaded_stiffness_t *", ffi.from_buffer(found)),
+        )
+        return _with_compliance(found)
+
+    def refusal(self, index: int, theta1_rad: float, theta2_rad: float, fx_n: float, fz_n: float) -> PostureError:
+        """Why a posture has no K; `index` is its place among others."""
+        single = self._native.ffi.new("brace_loaded_stiffness_t *")
+        self._joints.tip.x_n, self._joints.tip.z_n = fx_n, fz_n
+        status = self._native.lib.brace_loaded_stiffness(self._loaded, theta1_rad, theta2_rad, self._joints, single)
+        if status == E_SINGULAR:
+            why = "no stable equilibrium is near: the load folds the limb, or nothing yields in some direction"
+            return PostureError(index, status, why)
+        return PostureError(index, status, status_text(self._native, status))
+
+
+def stiffness_under_load(
+    model: LimbModel, theta1_rad: np.ndarray, theta2_rad: np.ndarray, fx_n: np.ndarray, fz_n: np.ndarray
+) -> np.ndarray:
+    """LoadedLimb.stiffness; raises PostureError for the first posture that is refused."""
+    limb = LoadedLimb(model)
+    found = limb.stiffness(theta1_rad, theta2_rad, fx_n, fz_n)
+    lost = np.isnan(found["k_xx_n_per_mm"])
+    if lost.any():
+        first = int(np.argmax(lost))
+        raise limb.refusal(first, *(float(column[first]) for column in (theta1_rad, theta2_rad, fx_n, fz_n)))
+    return found
+
+
+def _with_compliance(found: np.ndarray) -> np.ndarray:
+    """C is K's inverse."""
+    result = np.empty(len(found), _ALL)
+    for name in (*PLANAR_K, *LOADED_REST, "flags"):
+        result[name] = found[name]
+    xx, xz, zz = (found[name].astype(float) for name in PLANAR_K)
+    det = xx * zz - xz * xz
+    for name, entry in zip(PLANAR_C, (zz, -xz, xx)):
+        result[name] = entry / det
+    return result
