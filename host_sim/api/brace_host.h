@@ -195,6 +195,10 @@ typedef struct {
     size_t count;
     int32_t creep_runs_on;  /* 0: each run starts with creep gone; 1: creep runs on from run to run */
     int32_t zeroed_per_run; /* 1: each run's first reading is subtracted from its readings */
+    int32_t small_displacements; /* 0: the limb turns by any angle, and bends under its weight; 1: the linear limb about
+                                  * the commanded posture, whose weights load the joints only */
+    int32_t held_at_rest; /* displacements count 0: from the weightless limb's place; 1: from where the limb hangs under
+                           * its weight at the start of each run, with backlash and friction as they are left there */
     const int32_t *run;
     const double *theta1_rad; /* commanded; the model's zero offsets are added */
     const double *theta2_rad;
@@ -211,7 +215,7 @@ typedef struct {
     double *fz_n;
     double *enc1_rad;  /* joint deflection on the output side (elastic, backlash and creep), positive */
     double *enc2_rad;  /* counter-clockwise, so that a positive enc2 opens the knee (theta2 falls) */
-    double *base_x_mm; /* deflection of the base, without its rotation */
+    double *base_x_mm; /* how far the base moved, without its rotation */
     double *base_z_mm;
 } brace_loading_reading_t;
 
@@ -219,7 +223,8 @@ typedef struct {
  * E_NO_CONVERGENCE the outputs are written nevertheless, and unsolved_rows (optional) counts the rows whose unbalance
  * is above tolerance (1e-9 N, or rounding where that is more).
  * returns OK, E_NULL, E_NOT_FINITE, E_RANGE, E_PARAMETER, E_SINGULAR, E_NO_CONVERGENCE
- * cost: about 0.05 us a row for a linear limb, 0.2-0.5 us with play, friction or hardening. */
+ * cost of a row: 0.4-0.5 us where all is springs, 1 us with play, friction or hardening, 1.5 us more with beams for both
+ * links; at small displacements 0.1 us, 0.4 us and nothing. */
 int32_t brace_plant_loading(const brace_plant_model_t *model, const brace_loading_rows_t *rows,
                             const brace_loading_reading_t *reading, size_t *unsolved_rows);
 
@@ -279,6 +284,8 @@ typedef struct {
     int32_t transverse_free; /* 1: the tip is free across the run's axis; 0: held, as in the paper */
     int32_t zeroed;          /* 0 never, 1 per run: the run's first reading is subtracted from all of its readings */
     int32_t shuffled;        /* 1: runs come in random order (from the seed); 0: one configuration after another */
+    int32_t small_displacements; /* as in brace_loading_rows_t */
+    int32_t held_at_rest;
     double step_mm;          /* (0, 100] */
     double preload_x_mm;     /* displacement from which every step of a run counts */
     double preload_z_mm;

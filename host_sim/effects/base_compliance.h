@@ -1,5 +1,5 @@
-// The base moves and turns: displacement = compliance * force, rotation = compliance * moment
-// about the femur axis.
+// The base moves and turns: displacement = compliance * force, along the robot's x and z whatever its turn; rotation =
+// compliance * moment about the femur axis.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,19 +8,14 @@
 
 namespace brace::effects::base_compliance {
 
-// Tip displacement per tip force; `femur_lever_mm` is the tip's displacement per turn about the femur axis.
-inline Eigen::Matrix2d compliance_mm_per_n(const Model &model, const Eigen::Vector2d &femur_lever_mm)
+inline Eigen::Vector2d along_mm_per_n(const Model &model)
 {
-    Eigen::Matrix2d compliance = Eigen::Matrix2d::Zero();
-    compliance.diagonal() << model.base.x_mm_per_n, model.base.z_mm_per_n;
-    compliance += model.base.rotation_rad_per_n_mm * femur_lever_mm * femur_lever_mm.transpose();
-    return compliance;
+    return {model.base.x_mm_per_n, model.base.z_mm_per_n};
 }
 
-// The reading of a dial gauge against the base.
-inline Eigen::Vector2d shift_mm(const Model &model, const Eigen::Vector2d &force_n)
+inline double turning_rad_per_n_mm(const Model &model)
 {
-    return {model.base.x_mm_per_n * force_n.x(), model.base.z_mm_per_n * force_n.y()};
+    return model.base.rotation_rad_per_n_mm;
 }
 
 } // namespace brace::effects::base_compliance

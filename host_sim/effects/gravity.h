@@ -1,5 +1,5 @@
-// The weights of femur, tibia (both at mid-length) and knee load the joints by posture. They do not load links and
-// base.
+// The weights of femur, tibia and knee as torques on the joints, by posture: both links' at mid-length. This is all
+// that they do while displacements count as small; else they pull at the bodies of plant/structure.h.
 #pragma once
 
 #include <Eigen/Core>

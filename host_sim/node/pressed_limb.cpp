@@ -1,37 +1,35 @@
 #include "node/pressed_limb.h"
 
-#include <Eigen/LU>
 #include <cmath>
 
 #include "effects/joint_zero_offset.h"
 #include "node/contact.h"
 #include "node/coxa_chain.h"
 #include "plant/joint_law.h"
-#include "plant/structure.h"
 
 namespace brace::node
 {
 namespace
 {
 
-using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
 constexpr double kSense[] = {1.0, -1.0}; // of theta1 and theta2, counter-clockwise being positive
-constexpr double kSmallestShare = 1e-12; // share of compliance that gives a rigid direction a stiffness
 
 // A coxa link yields in the plane as a part of the base does, and points along x.
-Vector2d coxa_link_mm_per_n(const plant::Model &model)
+plant::Model with_coxa_link_in_base(plant::Model model)
 {
-    const auto &link = model.link[effects::kCoxa];
-    return has_coxa_joint(model) ? Vector2d(link.axial_mm_per_n, link.bending_mm_per_n) : Vector2d(0.0, 0.0);
+    if (has_coxa_joint(model)) {
+        model.base.x_mm_per_n += model.link[effects::kCoxa].axial_mm_per_n;
+        model.base.z_mm_per_n += model.link[effects::kCoxa].bending_mm_per_n;
+    }
+    return model;
 }
 
 } // namespace
 
 PressedLimb::PressedLimb(const plant::Model &model)
-    : model_(model), base_x_mm_per_n_(model.base.x_mm_per_n + coxa_link_mm_per_n(model).x()),
-      base_z_mm_per_n_(model.base.z_mm_per_n + coxa_link_mm_per_n(model).y()), state_(model_)
+    : model_(with_coxa_link_in_base(model)), state_(model_, plant::Displacements::small)
 {
 }
 
@@ -52,39 +50,30 @@ Vector2d PressedLimb::tip_mm(const Vector2d &motor_rad) const
 void PressedLimb::take_hold(const Vector2d &motor_rad, double hold_n_per_mm, const Vector2d &press_mm,
                             double t_s, double temp_degc)
 {
-    const double yields_mm_per_n = contact_yields_mm_per_n(hold_n_per_mm);
-    model_.base.x_mm_per_n = base_x_mm_per_n_ + yields_mm_per_n;
-    model_.base.z_mm_per_n = base_z_mm_per_n_ + yields_mm_per_n;
+    (void)state_.move_to(motor_rad[0], motor_rad[1], t_s, temp_degc); // creep goes on until now
+    state_.start_run(false, contact_yields_mm_per_n(hold_n_per_mm));
     anchor_mm_ = tip_mm(motor_rad) + press_mm;
-    (void)state_.move_to(motor_rad[0] + 1.0, motor_rad[1], t_s,
-                         temp_degc); // its stored posture is old
-    sound_ = state_.move_to(motor_rad[0], motor_rad[1], t_s, temp_degc);
-    state_.start_run(false);
 }
 
 bool PressedLimb::settle(const Vector2d &motor_rad, double t_s, double temp_degc, Pressed &pressed)
 {
-    if (!sound_ || !state_.move_to(motor_rad[0], motor_rad[1], t_s, temp_degc)) {
+    if (!state_.move_to(motor_rad[0], motor_rad[1], t_s, temp_degc)) {
         return false;
     }
     const plant::LimbRest rest = state_.hold_tip(anchor_mm_ - tip_mm(motor_rad));
-    const plant::Structure &structure = state_.structure();
     const Vector2d unbent = unbent_rad(motor_rad);
-    Matrix2d compliance = structure.compliance_mm_per_n;
-    Matrix2d lever;
+    const Vector2d sense(kSense[0], kSense[1]);
     pressed.force_n = rest.force_n;
     pressed.solved = rest.solved;
     for (const int i : {0, 1}) {
+        const auto k = static_cast<std::size_t>(i);
         const plant::JointLaw law = plant::joint_law(model_, effects::kFemur + i, temp_degc);
-        const double torque = structure.lever_mm[i].dot(rest.force_n) + structure.gravity_n_mm[i];
-        pressed.load_n_mm[i] = -kSense[i] * torque;
-        pressed.link_rad[i] = unbent[i] + kSense[i] * rest.joint_deflection_rad[i];
-        pressed.flank[i] = flank_that_carries(law, pressed.load_n_mm[i]);
-        lever.col(i) = kSense[i] * structure.lever_mm[i];
-        compliance += law.compliance_rad_per_n_mm * structure.lever_mm[i] * structure.lever_mm[i].transpose();
+        pressed.load_n_mm[i] = -kSense[i] * rest.joint_torque_n_mm[k];
+        pressed.link_rad[i] = unbent[i] + kSense[i] * rest.joint_deflection_rad[k];
+        pressed.flank[k] = flank_that_carries(law, pressed.load_n_mm[i]);
     }
-    compliance += kSmallestShare * compliance.trace() * Matrix2d::Identity();
-    pressed.stiffness_n_mm_per_rad = lever.transpose() * compliance.inverse() * lever;
+    pressed.stiffness_n_mm_per_rad =
+        -(sense.asDiagonal() * state_.torque_per_motor_turn() * sense.asDiagonal());
     return true;
 }
 

@@ -15,7 +15,7 @@ struct Pressed {
     Eigen::Vector2d load_n_mm = Eigen::Vector2d::Zero(); // torque of each motor on its link
     Eigen::Vector2d link_rad = Eigen::Vector2d::Zero();  // true joint angles
     std::array<int, 2> flank{};                          // flank that carries; 0: the gap is open
-    Eigen::Matrix2d stiffness_n_mm_per_rad;              // change of load with motor angles, every gap closed
+    Eigen::Matrix2d stiffness_n_mm_per_rad = Eigen::Matrix2d::Zero(); // load per motor angle, every gap closed
     bool solved = true;
 };
 
@@ -39,11 +39,9 @@ public:
 private:
     Eigen::Vector2d tip_mm(const Eigen::Vector2d &motor_rad) const;
 
-    plant::Model model_; // its base has the contact's compliance too, because both are in series
-    double base_x_mm_per_n_, base_z_mm_per_n_;
+    const plant::Model model_; // its base has the coxa link's compliance too
     plant::LimbState state_;
     Eigen::Vector2d anchor_mm_ = Eigen::Vector2d::Zero();
-    bool sound_ = false; // something yields in each direction
 };
 
 } // namespace brace::node

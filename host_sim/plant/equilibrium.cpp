@@ -41,7 +41,8 @@ Slope slope_at(const RestProblem &problem, const Pair &deflection)
                                - joint.lever_mm.dot(slope.force_n);
         const Vector2d pushed = problem.stiffness_n_per_mm * joint.lever_mm;
         for (int j = 0; j < problem.joint_count; ++j) {
-            slope.curvature(i, j) = problem.joint[j].lever_mm.dot(pushed);
+            slope.torque_n_mm[i] += problem.by_loads_n_mm_per_rad(i, j) * deflection[j];
+            slope.curvature(i, j) = problem.joint[j].lever_mm.dot(pushed) + problem.by_loads_n_mm_per_rad(i, j);
         }
         slope.curvature(i, i) += spring_stiffness_n_mm_per_rad(joint.law, deflection[i])
                                  + kDamping / joint.law.compliance_rad_per_n_mm;

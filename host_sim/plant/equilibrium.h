@@ -1,9 +1,11 @@
 // Where the limb comes to rest under an imposed tip displacement: the joint deflections of least energy.
 //
-// Energy of deflections e: 1/2 x'Kx + sum spring_i(e_i) - load_i e_i + rubbed_i(before_i, e_i) with x = d - sum lever_i
-// e_i. The first term is the structure's. rubbed is the friction, coulomb + ratio * |spring torque|, summed over the
-// way from before to e. The energy is convex while the ratio is below 1 (the springs' slopes remain positive when
-// friction's share is subtracted), so its minimum is the one rest state.
+// Energy of deflections e: 1/2 x'Kx + 1/2 e'Me + sum spring_i(e_i) - load_i e_i + rubbed_i(before_i, e_i) with
+// x = d - sum lever_i e_i. The first term is the structure's. M is what the loads add as they turn with the joints:
+// nothing while displacements are small. rubbed is the friction, coulomb + ratio * |spring torque|, summed over the way
+// from before to e. Without M the energy is convex while the ratio is below 1 (the springs' slopes remain positive when
+// friction's share is subtracted), so its minimum is the one rest state. M bends it little as long as the loads are far
+// from those that make the held limb give way.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,6 +24,7 @@ struct JointUnknown {
 
 struct RestProblem {
     Eigen::Matrix2d stiffness_n_per_mm; // stiffness of the structure
+    Eigen::Matrix2d by_loads_n_mm_per_rad = Eigen::Matrix2d::Zero(); // M
     Eigen::Vector2d displacement_mm;
     int joint_count;
     std::array<JointUnknown, 2> joint;

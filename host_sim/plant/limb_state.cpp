@@ -2,6 +2,8 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "effects/contact_play.h"
 #include "effects/creep.h"
@@ -15,9 +17,18 @@ using Eigen::Vector2d;
 
 // A rigid joint with backlash gets this share of the limb's compliance, so that its stop is a spring.
 constexpr double kStopCompliance = 1e-8;
-
 // When a structure is rigid in one direction while its joints stick, it gets this share of the limb's compliance.
 constexpr double kRigidCompliance = 1e-9;
+constexpr double kSmallestShare = 1e-12; // the same for a tangent that is only read
+
+constexpr int kBothFree = 3;
+constexpr int kMostSteps = 12;
+constexpr double kGoodMove_n = 1e-10;     // a step that moves less is the last
+constexpr double kPromisedMove_n = 1e-9;  // what a step may move where rounding keeps it from becoming less
+constexpr double kRounding = 1e-14; // relative, of places
+constexpr double kLost_n = std::numeric_limits<double>::infinity();
+constexpr double kMostTurn_rad = 1.0; // in one step; a larger one has lost its way
+constexpr double kShortestPart = 1.0 / 64.0; // of the way to a displacement
 
 bool has_changed(const Model &model, double t_s)
 {
@@ -30,16 +41,42 @@ double determinant_ratio(const Matrix2d &compliance)
     return trace > 0.0 ? compliance.determinant() / (trace * trace) : 0.0;
 }
 
-// K where the tip is held along both axes, or along one with no force along the other.
+// K where the tip is held along both axes, or along one with no force along the other, or is free.
 Matrix2d stiffness_held(const Matrix2d &compliance, int free_axis)
 {
     if (free_axis == 0) {
         return compliance.inverse();
     }
-    const int held = 2 - free_axis;
     Matrix2d stiffness = Matrix2d::Zero();
-    stiffness(held, held) = 1.0 / compliance(held, held);
+    if (free_axis != kBothFree) {
+        const int held = 2 - free_axis;
+        stiffness(held, held) = 1.0 / compliance(held, held);
+    }
     return stiffness;
+}
+
+// How many of a compliance's directions, among those held, push the wrong way.
+int negatives(const Matrix2d &compliance, int free_axis)
+{
+    if (free_axis == kBothFree) {
+        return 0;
+    }
+    if (free_axis != 0) {
+        return compliance(2 - free_axis, 2 - free_axis) < 0.0 ? 1 : 0;
+    }
+    if (compliance.determinant() < 0.0) {
+        return 1;
+    }
+    return compliance.trace() < 0.0 ? 2 : 0;
+}
+
+Structure without_loads(Structure structure)
+{
+    structure.joint_load_n_mm.setZero();
+    for (Body &body : structure.body) {
+        body.weight_n = body.end_weight_n = 0.0;
+    }
+    return structure;
 }
 
 } // namespace
@@ -59,63 +96,64 @@ bool LimbState::move_to(double theta1_rad, double theta2_rad, double t_s, double
     temp_degc_ = temp_degc;
     placed_ = true;
     if (!same_structure) {
-        structure_ = structure_at(model_, theta1_rad, theta2_rad, t_s);
+        find_structure(model_, displacements_, theta1_rad, theta2_rad, t_s, structure_);
     }
-    if (!same_joints) {
-        for (const int i : {0, 1}) {
-            law_[i] = joint_law(model_, effects::kFemur + i, temp_degc);
-            is_spring_[i] = is_linear(law_[i]);
-        }
+    if (!(prepared_ && same_structure && same_joints)) {
+        prepared_ = prepare();
     }
-    return (same_structure && same_joints) || prepare();
+    return prepared_;
 }
 
-// Springs go into the structure. A joint that is more than a spring becomes an unknown, unless it is rigid and without
-// backlash.
+// A joint that is more than a spring is an unknown, unless it is rigid and without backlash.
 bool LimbState::prepare()
 {
-    Matrix2d compliance = structure_.compliance_mm_per_n;
-    Matrix2d whole = compliance;
-    for (const int i : {0, 1}) {
-        const Vector2d &lever = structure_.lever_mm[i];
-        const Matrix2d turned = law_[i].compliance_rad_per_n_mm * lever * lever.transpose();
-        whole += turned;
-        if (is_spring_[i]) {
-            compliance += turned;
-        }
+    is_condensed_ = false;
+    std::array<JointHinge, 2> joint{};
+    for (const std::size_t k : {0, 1}) {
+        law_[k] = joint_law(model_, effects::kFemur + static_cast<int>(k), temp_degc_);
+        joint[k].compliance_rad_per_n_mm = law_[k].compliance_rad_per_n_mm;
     }
+    const Structure unloaded = without_loads(structure_);
+    const Shape straight;
+    const Matrix2d contact = contact_mm_per_n_ * Matrix2d::Identity();
+    Condensed condensed;
+    condensed.about(unloaded, joint, straight);
+    const Matrix2d whole = condensed.compliance_mm_per_n() + contact;
+    const double whole_mm_per_n = whole.trace();
     if (!(determinant_ratio(whole) > 1e-15)) {
         return false;
     }
-    problem_.joint_count = 0;
-    for (const int i : {0, 1}) {
-        const Vector2d &lever = structure_.lever_mm[i];
-        const bool rigid = law_[i].compliance_rad_per_n_mm == 0.0;
-        if (is_spring_[i] || (rigid && law_[i].gap_rad == 0.0)) {
-            continue;
-        }
-        JointUnknown &unknown = problem_.joint[problem_.joint_count];
-        unknown_joint_[problem_.joint_count++] = i;
-        unknown.lever_mm = lever;
-        unknown.law = law_[i];
-        unknown.load_n_mm = structure_.gravity_n_mm[i];
-        if (rigid) {
-            unknown.law.compliance_rad_per_n_mm =
-                kStopCompliance * whole.trace() / std::max(lever.squaredNorm(), 1.0);
+    for (const std::size_t k : {0, 1}) {
+        const bool rigid = law_[k].compliance_rad_per_n_mm == 0.0;
+        is_unknown_[k] = !is_linear(law_[k]) && !(rigid && law_[k].gap_rad == 0.0);
+        if (is_unknown_[k]) {
+            joint[k].compliance_rad_per_n_mm = 0.0;
+            if (rigid) {
+                law_[k].compliance_rad_per_n_mm =
+                    kStopCompliance * whole_mm_per_n
+                    / std::max(condensed.lever_mm(static_cast<int>(k)).squaredNorm(), 1.0);
+            }
         }
     }
-    if (problem_.joint_count > 0 && !(determinant_ratio(compliance) > 1e-12)) {
-        compliance += kRigidCompliance * whole.trace() * Matrix2d::Identity();
+    const double own_mm_per_n = condensed.compliance_mm_per_n().trace();
+    softest_mm_per_n_ = own_mm_per_n > 0.0 ? own_mm_per_n : whole_mm_per_n;
+    stops_mm_per_n_ = 0.0;
+    if (is_unknown_[0] || is_unknown_[1]) {
+        condensed.about(unloaded, joint, straight);
+        if (!(determinant_ratio(condensed.compliance_mm_per_n() + contact) > 1e-12)) {
+            stops_mm_per_n_ = kRigidCompliance * whole_mm_per_n;
+        }
     }
-    compliance_mm_per_n_ = compliance;
-    held_free_axis_ = kNotHeld;
     return true;
 }
 
-void LimbState::start_run(bool creep_gone)
+void LimbState::start_run(bool creep_gone, double contact_mm_per_n)
 {
-    tip_mm_ = Vector2d::Zero();
-    instant_rad_ = {};
+    prepared_ = prepared_ && contact_mm_per_n == contact_mm_per_n_;
+    contact_mm_per_n_ = contact_mm_per_n;
+    rest_ = {};
+    before_rad_ = {};
+    origin_mm_ = reached_mm_ = tip_mm_ = Vector2d::Zero();
     if (creep_gone) {
         delayed_rad_ = {};
     }
@@ -131,51 +169,191 @@ void LimbState::let_creep(double t_s)
         creep_dt_s_ = dt;
         creep_approach_ = effects::creep::approach(model_.creep.time_constant_s, dt);
     }
-    for (const int i : {0, 1}) {
-        const double elastic = elastic_rad(law_[i], instant_rad_[i]);
-        delayed_rad_[i] =
-            effects::creep::delayed_rad(delayed_rad_[i], model_.creep.ratio, elastic, creep_approach_);
+    for (const std::size_t k : {0, 1}) {
+        const double elastic = elastic_rad(law_[k], before_rad_[k]);
+        delayed_rad_[k] =
+            effects::creep::delayed_rad(delayed_rad_[k], model_.creep.ratio, elastic, creep_approach_);
     }
+    is_condensed_ = false;
+}
+
+LimbState::Step LimbState::take_step(const Vector2d &target_mm, int free_axis)
+{
+    Shape &shape = rest_.shape;
+    std::array<JointHinge, 2> joint;
+    std::array<double, 2> turn_rad;
+    for (const std::size_t k : {0, 1}) {
+        turn_rad[k] = shape.turn_rad[static_cast<std::size_t>(structure_.joint_body[k])];
+        joint[k] = is_unknown_[k] ? JointHinge{0.0, turn_rad[k]}
+                                  : JointHinge{law_[k].compliance_rad_per_n_mm, delayed_rad_[k]};
+    }
+    if (!is_condensed_) {
+        condensed_.about(structure_, joint, shape);
+        is_condensed_ = displacements_ == Displacements::small;
+    }
+    const double series_mm_per_n = contact_mm_per_n_ + stops_mm_per_n_;
+    Matrix2d compliance = condensed_.compliance_mm_per_n();
+    compliance.diagonal().array() += series_mm_per_n;
+    const Matrix2d stiffness = stiffness_held(compliance, free_axis);
+    const Vector2d lacks_mm = target_mm - condensed_.tip_mm() - series_mm_per_n * shape.force_n;
+    Change change;
+    bool solved = true;
+    if (!is_unknown_[0] && !is_unknown_[1]) {
+        change.force_n = stiffness * lacks_mm;
+    } else {
+        // All unknowns are counted from nothing here, so that a joint that sticks keeps its bits.
+        RestProblem problem;
+        RestState state;
+        std::array<std::size_t, 2> joint_of{};
+        problem.stiffness_n_per_mm = stiffness;
+        problem.displacement_mm = lacks_mm + compliance * shape.force_n;
+        problem.joint_count = 0;
+        for (const std::size_t k : {0, 1}) {
+            if (!is_unknown_[k]) {
+                continue;
+            }
+            const auto i = static_cast<std::size_t>(problem.joint_count++);
+            joint_of[i] = k;
+            JointUnknown &unknown = problem.joint[i];
+            unknown.lever_mm = condensed_.lever_mm(static_cast<int>(k));
+            unknown.law = law_[k];
+            unknown.before_rad = before_rad_[k];
+            unknown.load_n_mm =
+                condensed_.torque_n_mm(static_cast<int>(k)) - unknown.lever_mm.dot(shape.force_n);
+            state.deflection_rad[i] = rest_.instant_rad[k];
+            problem.displacement_mm += (turn_rad[k] - delayed_rad_[k]) * unknown.lever_mm;
+        }
+        for (int i = 0; i < problem.joint_count; ++i) {
+            for (int j = 0; j < problem.joint_count; ++j) {
+                const std::size_t a = joint_of[static_cast<std::size_t>(i)];
+                const std::size_t b = joint_of[static_cast<std::size_t>(j)];
+                const double by_turn =
+                    condensed_.torque_n_mm_per_rad()(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b));
+                problem.by_loads_n_mm_per_rad(i, j) = -by_turn;
+                problem.joint[static_cast<std::size_t>(i)].load_n_mm -= by_turn * (turn_rad[b] - delayed_rad_[b]);
+            }
+        }
+        find_rest(problem, state);
+        solved = state.solved;
+        change.force_n = state.force_n - shape.force_n;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(problem.joint_count); ++i) {
+            const std::size_t k = joint_of[i];
+            rest_.instant_rad[k] = state.deflection_rad[i];
+            change.turn_rad[k] = state.deflection_rad[i] + delayed_rad_[k] - turn_rad[k];
+        }
+    }
+    const double turned_rad = condensed_.follow(change, shape, rest_.torque_n_mm);
+    for (const std::size_t k : {0, 1}) {
+        if (!is_unknown_[k]) {
+            rest_.instant_rad[k] =
+                shape.turn_rad[static_cast<std::size_t>(structure_.joint_body[k])] - delayed_rad_[k];
+        }
+    }
+    rest_.tip_mm = condensed_.tip_mm() + condensed_.compliance_mm_per_n() * change.force_n
+                   + change.turn_rad[0] * condensed_.lever_mm(0) + change.turn_rad[1] * condensed_.lever_mm(1);
+    return {solved && condensed_.negative_pivots() == negatives(compliance, free_axis),
+            turned_rad <= kMostTurn_rad
+                ? std::max(change.force_n.norm(), turned_rad * structure_.reach_mm / softest_mm_per_n_)
+                : kLost_n,
+            kRounding * stiffness.norm() * (target_mm.norm() + rest_.tip_mm.norm())};
+}
+
+// Steps until the next one would move nothing.
+bool LimbState::settle(const Vector2d &target_mm, int free_axis)
+{
+    if (displacements_ == Displacements::small) {
+        rest_.shape = {};
+        return take_step(target_mm, free_axis).stable;
+    }
+    double last_n = kLost_n;
+    for (int i = 0; i < kMostSteps; ++i) {
+        const Step step = take_step(target_mm, free_axis);
+        if (!(step.moved_n < kLost_n)) {
+            return false;
+        }
+        // Each step squares what is left, so the next one moves less than in proportion.
+        if (step.moved_n <= kGoodMove_n || (i > 0 && step.moved_n * step.moved_n <= kGoodMove_n * last_n)) {
+            return step.stable;
+        }
+        if (i > 2 && step.moved_n > 0.5 * last_n) {
+            return step.stable && step.moved_n <= std::max(kPromisedMove_n, step.rounding_n);
+        }
+        last_n = step.moved_n;
+    }
+    return false;
+}
+
+// Finds rest with the tip at the target; where that fails, it leads the tip there in shorter steps. false: rest_ is
+// where the way ended.
+bool LimbState::lead_to(const Vector2d &target_mm, int free_axis)
+{
+    for (const int axis : {0, 1}) {
+        if ((free_axis >> axis & 1) != 0) {
+            rest_.shape.force_n[axis] = 0.0;
+        }
+    }
+    Rest last = rest_;
+    const Vector2d start_mm = reached_mm_;
+    double reached = 0.0;
+    for (double part = 1.0; part >= kShortestPart;) {
+        const double to = std::min(1.0, reached + part);
+        reached_mm_ = to == 1.0 ? target_mm : Vector2d(start_mm + to * (target_mm - start_mm));
+        if (settle(reached_mm_, free_axis)) {
+            if (to == 1.0) {
+                return true;
+            }
+            last = rest_;
+            reached = to;
+        } else if (displacements_ == Displacements::small) {
+            return false;
+        } else {
+            rest_ = last;
+            part *= 0.5;
+        }
+    }
+    reached_mm_ = start_mm + reached * (target_mm - start_mm);
+    return false;
+}
+
+bool LimbState::hang()
+{
+    const bool solved = lead_to(reached_mm_, kBothFree);
+    before_rad_ = rest_.instant_rad;
+    origin_mm_ = rest_.tip_mm;
+    return solved;
 }
 
 LimbRest LimbState::hold_tip(const Vector2d &displacement_mm, int free_axis)
 {
     tip_mm_ = effects::contact_play::dragged_mm(model_, tip_mm_, displacement_mm);
-    if (free_axis != held_free_axis_) { // inverts once a pose, not once a row
-        held_free_axis_ = free_axis;
-        problem_.stiffness_n_per_mm = stiffness_held(compliance_mm_per_n_, free_axis);
+    const bool solved = lead_to(origin_mm_ + tip_mm_, free_axis);
+    before_rad_ = rest_.instant_rad;
+    Vector2d carried_n = rest_.shape.force_n;
+    for (int i = 0; i < structure_.body_count; ++i) {
+        const Body &body = structure_.body[static_cast<std::size_t>(i)];
+        carried_n.y() -= body.weight_n + body.end_weight_n;
     }
-    Vector2d rest_mm = tip_mm_; // the part that the force has to make
-    for (const int i : {0, 1}) {
-        double without_force = delayed_rad_[i];
-        if (is_spring_[i]) {
-            without_force += law_[i].compliance_rad_per_n_mm * structure_.gravity_n_mm[i];
-        }
-        rest_mm -= without_force * structure_.lever_mm[i];
+    return {rest_.shape.force_n,
+            {rest_.instant_rad[0] + delayed_rad_[0], rest_.instant_rad[1] + delayed_rad_[1]},
+            rest_.torque_n_mm,
+            structure_.base_mm_per_n.cwiseProduct(carried_n),
+            solved};
+}
+
+Matrix2d LimbState::torque_per_motor_turn() const
+{
+    std::array<JointHinge, 2> joint{};
+    for (const std::size_t k : {0, 1}) {
+        joint[k].compliance_rad_per_n_mm = law_[k].compliance_rad_per_n_mm;
     }
-    RestState state{};
-    if (problem_.joint_count == 0) {
-        state.force_n = problem_.stiffness_n_per_mm * rest_mm;
-        state.solved = true;
-    } else {
-        problem_.displacement_mm = rest_mm;
-        for (int k = 0; k < problem_.joint_count; ++k) {
-            problem_.joint[k].before_rad = instant_rad_[unknown_joint_[k]];
-            state.deflection_rad[k] = instant_rad_[unknown_joint_[k]];
-        }
-        find_rest(problem_, state);
-    }
-    for (const int i : {0, 1}) {
-        if (is_spring_[i]) {
-            const double torque = structure_.lever_mm[i].dot(state.force_n) + structure_.gravity_n_mm[i];
-            instant_rad_[i] = law_[i].compliance_rad_per_n_mm * torque;
-        }
-    }
-    for (int k = 0; k < problem_.joint_count; ++k) {
-        instant_rad_[unknown_joint_[k]] = state.deflection_rad[k];
-    }
-    return {
-        state.force_n, {instant_rad_[0] + delayed_rad_[0], instant_rad_[1] + delayed_rad_[1]}, state.solved};
+    const bool small = displacements_ == Displacements::small;
+    Condensed springs;
+    springs.about(structure_, joint, small ? Shape{} : rest_.shape);
+    Matrix2d compliance = springs.compliance_mm_per_n();
+    compliance.diagonal().array() += contact_mm_per_n_ + kSmallestShare * compliance.trace();
+    Matrix2d lever;
+    lever << springs.lever_mm(0), springs.lever_mm(1);
+    return springs.torque_n_mm_per_rad() - lever.transpose() * compliance.inverse() * lever;
 }
 
 } // namespace brace::plant

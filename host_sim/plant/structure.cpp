@@ -17,53 +17,104 @@ using effects::kTibia;
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
+const double kFromMiddle = 0.5 / std::sqrt(3.0); // of a part's Gauss points, in lengths of the part
+
 Vector2d direction(double angle_rad)
 {
     return {std::cos(angle_rad), std::sin(angle_rad)};
 }
 
-// A quarter turn counter-clockwise: the lever of a rotation about the origin.
-Vector2d quarter_turn(const Vector2d &v)
+Body &add(Structure &structure, int joint, double hinge_rad_per_n_mm)
 {
-    return {-v.y(), v.x()};
+    Body &body = structure.body[static_cast<std::size_t>(structure.body_count++)];
+    body.joint = joint;
+    body.hinge_rad_per_n_mm = hinge_rad_per_n_mm;
+    body.extent_mm = body.weight_arm_mm = body.deviation_mm_per_n = Vector2d::Zero();
+    body.weight_n = body.end_weight_n = body.mean_mm_per_n = 0.0;
+    body.yields = Yields::nowhere;
+    return body;
+}
+
+void let_yield(Body &body, Yields where, const Matrix2d &compliance)
+{
+    body.mean_mm_per_n = 0.5 * compliance.trace();
+    body.deviation_mm_per_n = {0.5 * (compliance(0, 0) - compliance(1, 1)), compliance(0, 1)};
+    body.yields = body.mean_mm_per_n > 0.0 ? where : Yields::nowhere;
+}
+
+// A joint and the link behind it. Weights lie on the line of the link; a tilt turns the beam's elastic line about the
+// link's end.
+void add_link(const Model &model, int index, const Vector2d &axis, double length_mm, double weight_n, double t_s,
+              int parts, Structure &structure)
+{
+    const auto &link = model.link[index];
+    const double bending = effects::link_change::bending_mm_per_n(model, index, t_s);
+    const Matrix2d axes = effects::link_compliance_error::axes(axis, link.tilt_rad);
+    const double beam = link.moment_transfer_ratio;
+    const int hinges = beam > 0.0 ? 2 * parts : 0;
+    const double part_mm = length_mm / parts;
+    const double per_hinge =
+        hinges > 0 ? effects::moment_transfer::hinge_rad_per_n_mm(bending, length_mm, beam, hinges) : 0.0;
+    // From the joint: its own hinge, those of the beam, the link's end.
+    const auto along_mm = [&](int hinge) {
+        if (hinge == 0 || hinge > hinges) {
+            return hinge == 0 ? 0.0 : length_mm;
+        }
+        const double side = hinge % 2 == 1 ? -1.0 : 1.0;
+        return ((hinge - 1) / 2 + 0.5 + side * kFromMiddle) * part_mm;
+    };
+    const auto place_mm = [&](int hinge) -> Vector2d {
+        return hinge == 0 ? Vector2d(0.0, 0.0)
+                          : Vector2d(length_mm * axis - (length_mm - along_mm(hinge)) * axes.col(0));
+    };
+
+    structure.joint_body[static_cast<std::size_t>(index - kFemur)] = structure.body_count;
+    for (int i = 0; i <= hinges; ++i) {
+        Body &body = add(structure, i == 0 ? index - kFemur : kElastic, i == 0 ? 0.0 : per_hinge);
+        body.extent_mm = place_mm(i + 1) - place_mm(i);
+        // The middle of the link, where an ellipsoid has its weight, is the middle of this body too.
+        const double share = (along_mm(i + 1) - along_mm(i)) / length_mm;
+        body.weight_n = weight_n * (beam * share + (i == hinges / 2 ? 1.0 - beam : 0.0));
+        body.weight_arm_mm = 0.5 * (along_mm(i) + along_mm(i + 1)) * axis - place_mm(i);
+        if (i == 0 && hinges > 0) {
+            let_yield(body, Yields::at_root,
+                      effects::link_compliance_error::compliance(axes, beam * link.axial_mm_per_n, 0.0));
+        }
+        if (i == hinges && beam < 1.0) {
+            let_yield(body, Yields::at_end,
+                      effects::link_compliance_error::compliance(axes, (1.0 - beam) * link.axial_mm_per_n,
+                                                                 (1.0 - beam) * bending));
+        }
+    }
 }
 
 } // namespace
 
-Structure structure_at(const Model &model, double theta1_rad, double theta2_rad, double t_s)
+void find_structure(const Model &model, Displacements displacements, double theta1_rad, double theta2_rad, double t_s,
+                    Structure &structure)
 {
+    const bool small = displacements == Displacements::small;
     const double theta1 = effects::joint_zero_offset::true_angle_rad(model, kFemur, theta1_rad);
     const double theta2 = effects::joint_zero_offset::true_angle_rad(model, kTibia, theta2_rad);
     const Vector2d femur_axis = direction(theta1);
     const Vector2d tibia_axis = direction(theta1 - theta2);
-    const Vector2d femur = model.geometry.femur_mm * femur_axis;
-    const Vector2d tibia = model.geometry.tibia_mm * tibia_axis;
+    const auto &length = model.geometry;
+    const auto &weight = model.gravity;
+    const int parts = small ? 1 : kBeamParts; // one is exact there
 
-    Structure structure;
-    structure.lever_mm = {quarter_turn(femur + tibia), quarter_turn(tibia)};
-    structure.gravity_n_mm = effects::gravity::torques_n_mm(model, femur, tibia);
-
-    Matrix2d compliance = effects::base_compliance::compliance_mm_per_n(model, structure.lever_mm[0]);
-    const Vector2d link_axis[] = {{}, femur_axis, tibia_axis};
-    for (const int index : {kFemur, kTibia}) {
-        const auto &link = model.link[index];
-        const double bending = effects::link_change::bending_mm_per_n(model, index, t_s);
-        const Matrix2d axes = effects::link_compliance_error::axes(link_axis[index], link.tilt_rad);
-        compliance += effects::link_compliance_error::compliance(axes, link.axial_mm_per_n, bending);
-        if (index == kFemur && link.moment_transfer_ratio != 0.0) {
-            // Only the femur has a part beyond its end, which turns the tip force into a moment at that end.
-            using namespace effects::moment_transfer;
-            const double length = model.geometry.femur_mm;
-            const Vector2d &arm = structure.lever_mm[1];
-            const Matrix2d coupled = axes.col(1) * arm.transpose();
-            compliance +=
-                coupling_per_n(bending, length, link.moment_transfer_ratio) * (coupled + coupled.transpose());
-            compliance +=
-                rotation_rad_per_n_mm(bending, length, link.moment_transfer_ratio) * arm * arm.transpose();
-        }
+    structure.body_count = 0;
+    structure.base_mm_per_n = effects::base_compliance::along_mm_per_n(model);
+    structure.reach_mm = length.femur_mm + length.tibia_mm;
+    structure.joint_load_n_mm = small ? effects::gravity::torques_n_mm(model, length.femur_mm * femur_axis,
+                                                                       length.tibia_mm * tibia_axis)
+                                      : Vector2d::Zero();
+    const double base_turning = effects::base_compliance::turning_rad_per_n_mm(model);
+    if (base_turning > 0.0) {
+        add(structure, kElastic, base_turning);
     }
-    structure.compliance_mm_per_n = compliance;
-    return structure;
+    add_link(model, kFemur, femur_axis, length.femur_mm, small ? 0.0 : weight.femur_n, t_s, parts, structure);
+    structure.body[static_cast<std::size_t>(structure.body_count - 1)].end_weight_n = small ? 0.0 : weight.knee_n;
+    add_link(model, kTibia, tibia_axis, length.tibia_mm, small ? 0.0 : weight.tibia_n, t_s, parts, structure);
 }
 
 } // namespace brace::plant

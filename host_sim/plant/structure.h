@@ -1,6 +1,13 @@
-// The limb at one posture, as the plant sees it: its compliance, proportional to the tip force, and the levers.
-// A joint's deflection, like its torque, is positive counter-clockwise: at the knee, against the sense of
-// theta2.
+// The limb at one posture without any load, as the plant sees it: rigid bodies, each behind a hinge, from the base to
+// the tip. A body may yield, at its end (a link's ellipsoid) or at its root (a beam's axial spring). The base's
+// translations come before the first hinge. Turns and torques are positive counter-clockwise: at the knee, against the
+// sense of theta2.
+//
+// A link whose moment transfer has the strength m is m of a uniform beam and 1 - m of an ellipsoid (docs/physics.md,
+// 'Under load'). The beam is kBeamParts equal parts, each with hinges at its two Gauss points; what lies between two
+// hinges has its weight in its middle. There a force, a moment and the beam's own weight bend it just as they bend the
+// uniform beam, so that small displacements have no error; that of larger ones falls with the square of a part's
+// length.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,13 +19,43 @@ namespace brace::plant {
 
 using effects::Model;
 
+// finite: the springs turn the limb by any angle, and weights load all of them.
+// small: levers stay those of the commanded posture, and weights load the joints only.
+enum class Displacements { finite, small };
+
+// Four parts leave at most 0.006 N (median 3e-5 N) at the paper's stroke of 2.54 mm, a tenth of its sensor's
+// resolution: limbs like the paper's with beams for links, forces within the sensor's 145 N. Two parts would leave four
+// times that.
+constexpr int kBeamParts = 4;
+constexpr int kMostBodies = 1 + 2 * (1 + 2 * kBeamParts);
+
+constexpr int kElastic = -1; // a hinge that is no joint: of the base or of a beam
+
+enum class Yields { nowhere, at_root, at_end };
+
+struct Body {
+    int joint;                 // that its hinge is: 0 femur joint, 1 knee, or kElastic
+    double hinge_rad_per_n_mm; // of an elastic hinge. A joint's spring depends on the temperature: it is not in here
+    Eigen::Vector2d extent_mm; // from its hinge to its end, in the robot's frame
+    double weight_n;           // pulls down at `weight_arm_mm` from its hinge
+    Eigen::Vector2d weight_arm_mm;
+    double end_weight_n; // pulls down at its end, behind what yields there
+    Yields yields;       // by this compliance in the body's own frame:
+    double mean_mm_per_n;               // half of its trace
+    Eigen::Vector2d deviation_mm_per_n; // (xx - zz) / 2 and xz
+};
+
 struct Structure {
-    Eigen::Matrix2d compliance_mm_per_n;     // links and base, joints locked
-    std::array<Eigen::Vector2d, 2> lever_mm; // tip displacement per deflection of femur joint and knee
-    Eigen::Vector2d gravity_n_mm;            // torques of the weights about femur joint and knee
+    int body_count;
+    std::array<Body, kMostBodies> body;
+    std::array<int, 2> joint_body; // the bodies behind femur joint and knee
+    Eigen::Vector2d base_mm_per_n;    // along x and z
+    Eigen::Vector2d joint_load_n_mm;  // torque on the joints besides that of the bodies' weights and the tip force
+    double reach_mm;                  // of the straight limb
 };
 
 // At commanded angles; zero offsets are added. t_s decides whether a link has changed.
-Structure structure_at(const Model &model, double theta1_rad, double theta2_rad, double t_s);
+void find_structure(const Model &model, Displacements displacements, double theta1_rad, double theta2_rad, double t_s,
+                    Structure &structure);
 
 } // namespace brace::plant

@@ -27,7 +27,7 @@ struct Columns {
         }
     }
 
-    brace_loading_rows_t rows(bool transverse_free) const
+    brace_loading_rows_t rows(const brace_rig_design_t &design) const
     {
         brace_loading_rows_t result{};
         result.count = run.size();
@@ -38,7 +38,9 @@ struct Columns {
         result.temp_degc = temp.data();
         result.dx_mm = dx.data();
         result.dz_mm = dz.data();
-        result.free_axis = transverse_free ? free_axis.data() : nullptr;
+        result.free_axis = design.transverse_free != 0 ? free_axis.data() : nullptr;
+        result.small_displacements = design.small_displacements;
+        result.held_at_rest = design.held_at_rest;
         return result;
     }
 
@@ -76,7 +78,7 @@ brace_host_status_t play(const brace_rig_design_t &design, const effects::Model 
     std::vector<double> fx(count), fz(count), enc1(count), enc2(count), base_x(count), base_z(count);
     brace_host_status_t status = BRACE_HOST_OK;
     if (model != nullptr) {
-        const brace_loading_rows_t rows = columns.rows(design.transverse_free != 0);
+        const brace_loading_rows_t rows = columns.rows(design);
         const brace_loading_reading_t reading{fx.data(),   fz.data(),     enc1.data(),
                                               enc2.data(), base_x.data(), base_z.data()};
         std::size_t unsolved = 0;

@@ -1,4 +1,5 @@
 // The C interface: every refusal leaves outputs alone; columns that nobody wants are not written.
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <vector>
@@ -33,6 +34,7 @@ struct Rows {
     brace_loading_rows_t c() const
     {
         brace_loading_rows_t rows{};
+        rows.small_displacements = 1;
         rows.count = run.size();
         rows.run = run.data();
         rows.theta1_rad = theta1.data();
@@ -144,6 +146,45 @@ static void test_loading_refuses(void)
     TEST_ASSERT_EQUAL_INT32(BRACE_HOST_E_NULL, brace_plant_loading(&model, &c, nullptr, nullptr));
 }
 
+// docs/physics.md, check values under load: the displacement that 10 N upwards make at (0.3, 0.6). At small
+// displacements the same one takes another force.
+static void test_finite_displacements(void)
+{
+    brace_plant_model_t model = paper_limb();
+    Rows rows;
+    rows.theta1 = {0.3, 0.3, 0.3};
+    rows.theta2 = {0.6, 0.6, 0.6};
+    rows.dx = {0.0, 5.05100, 5.05100};
+    rows.dz = {0.0, 40.91618, 40.91618};
+    brace_loading_rows_t c = rows.c();
+    double fx[3], fz[3];
+    brace_loading_reading_t reading{};
+    reading.fx_n = fx;
+    reading.fz_n = fz;
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_OK, brace_plant_loading(&model, &c, &reading, nullptr));
+    TEST_ASSERT_TRUE(std::fabs(fz[1] - 10.0) > 0.1);
+    c.small_displacements = 0;
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_OK, brace_plant_loading(&model, &c, &reading, nullptr));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, std::hypot(fx[0], fz[0]));
+    for (const int row : {1, 2}) {
+        TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.0, fx[row]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-4, 10.0, fz[row]);
+    }
+
+    // Out of reach of rigid links: the row is counted, and the others stand.
+    for (brace_plant_link_t &link : model.link) {
+        link.axial_mm_per_n = link.bending_mm_per_n = 0.0;
+    }
+    rows.dx = {0.0, 3000.0, 1.0};
+    rows.dz = {0.0, 0.0, 1.0};
+    c = rows.c();
+    c.small_displacements = 0;
+    size_t unsolved = 0;
+    TEST_ASSERT_EQUAL_INT32(BRACE_HOST_E_NO_CONVERGENCE, brace_plant_loading(&model, &c, &reading, &unsolved));
+    TEST_ASSERT_EQUAL_size_t(1, unsolved);
+    TEST_ASSERT_TRUE(std::isfinite(fx[1]) && std::isfinite(fz[1]));
+}
+
 static void test_empty_record_is_played(void)
 {
     const brace_plant_model_t model = paper_limb();
@@ -250,6 +291,7 @@ int main(void)
     RUN_TEST(test_keys_find_their_doubles);
     RUN_TEST(test_loading_refuses);
     RUN_TEST(test_empty_record_is_played);
+    RUN_TEST(test_finite_displacements);
     RUN_TEST(test_many_models);
     RUN_TEST(test_many_models_of_the_reference);
     RUN_TEST(test_many_models_of_a_joint);

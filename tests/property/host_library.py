@@ -96,7 +96,7 @@ def spatial_reference(model: Model, theta0_rad: Any, theta1_rad: Any, theta2_rad
 
 def play(model: Model, theta1_rad: Any, theta2_rad: Any, dx_mm: Any, dz_mm: Any, *, t_s: Any = None,
          temp_degc: Any = None, run: Any = 1, free_axis: Any = 0, creep_runs_on: bool = False,
-         zeroed: bool = False) -> dict[str, Array]:
+         zeroed: bool = False, small: bool = True, held_at_rest: bool = False) -> dict[str, Array]:
     """A loading record on the plant: forces, encoders and base deflections, one entry a row."""
     count = max(map(np.size, (theta1_rad, dx_mm, dz_mm)))
     columns = {name: column(values, count) for name, values in {
@@ -110,11 +110,29 @@ def play(model: Model, theta1_rad: Any, theta2_rad: Any, dx_mm: Any, dz_mm: Any,
     rows.run = ffi.cast("int32_t *", runs.ctypes.data)
     rows.free_axis = ffi.cast("int32_t *", free.ctypes.data)
     rows.creep_runs_on, rows.zeroed_per_run = int(creep_runs_on), int(zeroed)
+    rows.small_displacements, rows.held_at_rest = int(small), int(held_at_rest)
     out = {name: np.full(count, np.nan) for name in
            ("fx_n", "fz_n", "enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")}
     reading = ffi.new("brace_loading_reading_t *", {name: doubles(values) for name, values in out.items()})
     check(lib.brace_plant_loading(model.c, rows, reading, ffi.NULL))
     return out
+
+
+def loaded_reference(model: Model, theta1_rad: float, theta2_rad: float, *, displacement_mm: Any = None,
+                     force_n: Any = None, parts: int = 0) -> dict[str, Array]:
+    """The reference's rest states under displacements or forces (n, 2), at true angles and under its weight: the fields
+    of brace_loaded_result_t."""
+    by_force = displacement_mm is None
+    given = np.atleast_2d(np.asarray(force_n if by_force else displacement_mm, dtype=np.float64))
+    names = ("fx_n", "fz_n") if by_force else ("dx_mm", "dz_mm")
+    cases = ffi.new("brace_loaded_case_t[]", [
+        {"theta1_rad": theta1_rad, "theta2_rad": theta2_rad, "gravity_rad": -np.pi / 2, names[0]: x, names[1]: z}
+        for x, z in given])
+    results = ffi.new("brace_loaded_result_t[]", len(given))
+    solve = lib.brace_reference_under_force if by_force else lib.brace_reference_under_displacement
+    check(solve(model.c, len(given), cases, parts, results, ffi.NULL))
+    return {name: np.array([getattr(each, name) for each in results])
+            for name, _ in ffi.typeof("brace_loaded_result_t").fields}
 
 
 def play_joint(model: Model, angle_or_torque: Any, *, torque_imposed: bool = False, t_s: Any = None,

@@ -36,6 +36,7 @@ class LoadingPlayer:
         self.count = len(columns["t_s"])
         self._rows = ffi.new("brace_loading_rows_t *")
         self._rows.count = self.count
+        self._rows.small_displacements = 1
         inputs = ("theta1_rad", "theta2_rad", "t_s", "temp_degc", "dx_mm", "dz_mm")
         self._keep = [_point_at(self._native, self._rows, "run", columns["run"], np.int32)]
         self._keep += [
