@@ -100,8 +100,8 @@ def run(arguments: argparse.Namespace) -> int:
     )
     if not knee_has_travel(model):
         common.say(
-            f"{arguments.model} gives the knee no travel ([motor.tibia] angle_min_rad, angle_max_rad): postures with the "
-            f"knee beyond {KNEE_MOST_RAD:g} rad are left out"
+            f"{arguments.model} gives the knee no travel ([motor.tibia] angle_min_rad, angle_max_rad): postures with "
+            f"the knee beyond {KNEE_MOST_RAD:g} rad are left out"
         )
     found = plan(model, wish, arguments.places)
     if not found.count:
