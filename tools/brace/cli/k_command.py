@@ -216,8 +216,9 @@ def _gap_text(joint: str, gap_rad: float, k: dict[str, float] | None) -> str:
     head = f"backlash  joint.{joint} {size}: the K above holds once it is taken up"
     if k is None:
         return head
+    entries = ", ".join(f"{k[f'k_{entry}_n_per_mm']:.6g}" for entry in ("xx", "xz", "zz"))
     return head + (
-        f"\n           while it is open K = {k['k_xx_n_per_mm']:.6g}, {k['k_xz_n_per_mm']:.6g}, {k['k_zz_n_per_mm']:.6g} N/mm "
+        f"\n           while it is open K = {entries} N/mm "
         f"(xx, xz, zz), eigenvalues {k['lambda_min_n_per_mm']:.6g} and {k['lambda_max_n_per_mm']:.6g}"
     )
 
