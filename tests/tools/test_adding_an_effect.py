@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -140,7 +141,20 @@ def files_of(folder: Path) -> dict[str, bytes]:
     }
 
 
-LIBRARIES = ("host_sim/libbrace_host_sim.a", "firmware/core/libbrace_core.a", "firmware/interface/libbrace_interface.a")
+OF_LIBRARY = re.compile(r"(host_sim/CMakeFiles/brace_host_sim|firmware/(core|interface)/CMakeFiles/\w+)\.dir/.*\.o$")
+
+
+def objects(folder: Path, changed: set[str]) -> list[Path]:
+    """What the copy's library is linked of. An object that knows no changed file is the project's own; the others are
+    compiled in the copy."""
+    ours, build = PROJECT / "build" / "host", folder / "build" / "host"
+    targets = run(["ninja", "-C", str(build), "-t", "targets", "all"], folder).stdout.splitlines()
+    wanted = [name for name in (line.split(":")[0] for line in targets) if OF_LIBRARY.match(name)]
+    told = run(["ninja", "-C", str(ours), "-t", "deps"], PROJECT).stdout
+    includes = dict(part.split(":", 1) for part in told.split("\n\n") if ":" in part)
+    stale = [name for name in wanted if any(f"/{file}\n" in includes[name] + "\n" for file in changed)]
+    run(["cmake", "--build", str(build), "--target", *stale], folder)
+    return [(build if name in stale else ours) / name for name in wanted]
 
 
 @dataclass(frozen=True)
@@ -164,10 +178,10 @@ def extended(tmp_path_factory: pytest.TempPathFactory) -> Extended:
     told = run([sys.executable, "-m", "interface"], folder / "tools").stderr
     build = folder / "build" / "host"
     run(["cmake", "-S", ".", "-B", str(build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release"], folder)
-    run(["cmake", "--build", str(build), "--target", *(Path(name).stem[3:] for name in LIBRARIES)], folder)
-    linked = ["-Wl,--whole-archive", *(str(build / name) for name in LIBRARIES), "-Wl,--no-whole-archive"]
-    run(["c++", "-shared", "-o", str(build / "libbrace_host.so"), *linked], folder)
-    return Extended(folder, {line.removeprefix("wrote ") for line in told.splitlines()})
+    generated = {line.removeprefix("wrote ") for line in told.splitlines()}
+    parts = objects(folder, {*WRITTEN, *generated})
+    run(["c++", "-shared", "-o", str(build / "libbrace_host.so"), *map(str, parts)], folder)
+    return Extended(folder, generated)
 
 
 def test_four_files_are_written_and_the_rest_is_generated(extended: Extended) -> None:

@@ -1,4 +1,4 @@
-"""`brace clear`: a fault that stays until somebody has seen to it, over every wire; others are left alone."""
+"""`brace clear`: a latched fault, over every wire; others are left alone."""
 
 from __future__ import annotations
 

@@ -41,8 +41,8 @@ def column(name: str) -> int:
 REFUSED = {  # what is done to row 30 (1-based) -> words in the message
     "text": (("fx_n", "abc"), "'abc' is not a number"),
     "empty": (("fx_n", ""), "empty"),
-    "nan": (("fx_n", "nan"), "cannot be"),
-    "infinite": (("fz_n", "-inf"), "cannot be"),
+    "nan": (("fx_n", "nan"), "not a number"),
+    "infinite": (("fz_n", "-inf"), "not allowed"),
     "decimal comma": (("fz_n", "1,5"), "14 fields"),
     "typographic minus": (("fz_n", "\u22121.5"), "write -1.5"),
     "underscore": (("fz_n", "1_000"), "not a number"),

@@ -169,3 +169,19 @@ def test_for_people(brace: Brace, limb: Path) -> None:
     outcome = brace("plan", "--model", limb, "--z", -120, -100, "--payload", 5, "--friction", 0.5, "--bears", 0.8)
     assert outcome.code == 0 and "least force against the surface" in outcome.out
     assert "5 N let it sag by" in outcome.out and "bears" in outcome.out and "set the tip to" in outcome.out
+
+
+def test_a_knee_without_travel_is_not_folded_through_its_femur(brace: Brace, limb: Path) -> None:
+    for prefer in ("firm", "soft"):
+        outcome = brace("plan", "--model", limb, "--prefer", prefer, "--count", 5, "--json")
+        knees = [posture["theta2_rad"] for posture in json.loads(outcome.out)["best"]]
+        assert knees and max(map(abs, knees)) <= 2.6
+        assert "travel" in outcome.err and "[motor.tibia]" in outcome.err
+
+
+def test_a_given_travel_is_used_as_it_is(brace: Brace, tmp_path: Path) -> None:
+    limb = tmp_path / "limb.toml"
+    limb.write_text(LIMB + "\n[motor.tibia]\nangle_min_rad = -3.1\nangle_max_rad = 3.1\n")
+    outcome = brace("plan", "--model", limb, "--count", 1, "--json")
+    assert abs(json.loads(outcome.out)["best"][0]["theta2_rad"]) > 2.6  # the firmest posture is the folded one
+    assert "travel" not in outcome.err

@@ -190,7 +190,7 @@ def _forces(table: PostureTable, texts: list[str], name: str) -> np.ndarray:
         shown = _readable(texts[row]).strip()
         why, meant = slip(shown)
         raise BadFileError(
-            f"{name} = {shown[:40]!r} cannot be" if shown else "an entry is empty",
+            f"{name} = {shown[:40]!r} is not allowed" if shown else "an entry is empty",
             where=f"{table.place(row)}, {name}",
             why=why or f"{name} is the force of the ground on the tip in N, within +-{FORCE_MOST_N:g}",
             next_step=f"write {meant}; so throughout" if meant else "write a number of N, 0 where there is no force",
@@ -212,7 +212,7 @@ def _angles(table: PostureTable, texts: list[str], name: str, limit_rad: float) 
         why, meant = slip(shown)
         way = f"write {meant}; so throughout" if meant else "write a number with a decimal point, or delete the row"
         raise BadFileError(
-            (f"{name} = {shown[:40]!r} cannot be" if finite else f"{shown[:40]!r} is no number")
+            (f"{name} = {shown[:40]!r} is not allowed" if finite else f"{shown[:40]!r} is not a number")
             if shown
             else "an entry is empty",
             where=f"{table.place(row)}, {name}",

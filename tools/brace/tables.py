@@ -110,7 +110,7 @@ def _refuse_other_reach(dataset: Dataset, model: LimbModel, poses: TablePoses) -
             why=f"this limb's tip is at {name} = {found[row]:.4g} with theta1 = {poses.angles_rad[row, 0]:g} and "
             f"theta2 = {poses.angles_rad[row, 1]:g} rad",
             next_step=(
-                "the angles fit in degrees: multiply both columns by pi/180"
+                "the angles fit in degrees: convert both columns to radians (times pi/180)"
                 if degrees
                 else "check the row, the model's lengths and zero offsets, or drop the angle columns"
             ),

@@ -265,7 +265,7 @@ def test_what_changes_during_the_record_is_not_in_the_catalogue(tmp_path: Path, 
     grown = data.with_columns({name: data[name] * gain for name in ("fx_n", "fz_n")})
     found, _ = against_the_catalogue(grown, believed)
     assert found.likely and found.probability > 0.99
-    assert found.words == "sensor.gain growing with time"
+    assert found.words == "sensor.gain grew with time"
     soft = recorded(tmp_path / "soft", believed.with_values({"joint.tibia.compliance_rad_per_n_mm": 1.8e-5}), 22)
     stiff = recorded(tmp_path / "stiff", believed, 22)
     side = np.where(soft["axis"] == 1, soft["dz_mm"], soft["dx_mm"]) > 0.0

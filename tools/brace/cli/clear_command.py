@@ -15,7 +15,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "clear",
-        help="a fault of a controller that stays until somebody has seen to it",
+        help="clears a latched fault of a controller",
         description="drift (model_drift): the limb is again what it was commissioned as; the check watches on from the "
         "baseline it holds. A limb that is another one now wants its parameters instead: brace identify, brace params "
         "push. crash (crashed): the crash has been looked into; its record is gone afterwards, so read the console's "

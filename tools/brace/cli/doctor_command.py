@@ -67,5 +67,6 @@ def _text(findings: list[Finding], needed: set[str], lacking: int) -> str:
             lines.append(f"  {finding.state:<8} {finding.name:<22} {finding.found}")
             if finding.next_step:
                 lines.append(f"  {'':<8} {'':<22} try: {finding.next_step}")
-    lines += ["", "everything needed is there" if not lacking else f"{lacking} needed and not there, or old"]
+    missing = f"{lacking} of the things that are needed: missing or too old, see 'try' above"
+    lines += ["", missing if lacking else "everything needed is there"]
     return "\n".join(lines[1:])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 from typing import TYPE_CHECKING
 
 from brace.cli import common, k_load
@@ -133,6 +134,7 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
 
     from brace import stiffness
     from brace.stiffness_under_load import stiffness_under_load
+    from brace.stiffness_with_gap import gaps_rad
 
     limb = stiffness.planar_limb(model, arguments.arith)
     try:
@@ -172,10 +174,13 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
     if arguments.fx is not None:
         posture |= {"fx_n": arguments.fx, "fz_n": arguments.fz}
     path = "spatial" if arguments.theta0 is not None else "loaded" if arguments.fx is not None else limb.path
+    unloaded = arguments.theta0 is None and arguments.fx is None
+    while_open = _while_open(model, true1, true2, values) if unloaded else {}
     if arguments.json:
         common.print_json(
             {
                 **values,
+                "while_open": while_open,
                 "flag_names": stiffness.flag_names(values["flags"]),
                 **sigma,
                 **posture,
@@ -185,7 +190,37 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
         )
     else:
         common.emit(_text(model.name, values, sigma, posture, path, stiffness.flag_names(values["flags"])))
+        for joint, gap_rad in gaps_rad(model).items():
+            common.emit(_gap_text(joint, gap_rad, while_open.get(joint)))
     return 0
+
+
+def _while_open(
+    model: LimbModel, theta1_rad: float, theta2_rad: float, engaged: dict[str, float]
+) -> dict[str, dict[str, float]]:
+    """K for each joint's open gap. A joint is missing where the tip lies on its axis."""
+    from brace.stiffness import PostureError
+    from brace.stiffness_with_gap import gaps_rad, stiffness_while_open
+
+    found = {}
+    for joint in gaps_rad(model):
+        with contextlib.suppress(PostureError):
+            found[joint] = stiffness_while_open(model, theta1_rad, theta2_rad, engaged, joint)
+    return found
+
+
+def _gap_text(joint: str, gap_rad: float, k: dict[str, float] | None) -> str:
+    import math
+
+    size = f"{gap_rad:g} rad ({math.degrees(gap_rad):.3g} deg)"
+    head = f"backlash  joint.{joint} {size}: the K above holds once it is taken up"
+    if k is None:
+        return head
+    entries = ", ".join(f"{k[f'k_{entry}_n_per_mm']:.6g}" for entry in ("xx", "xz", "zz"))
+    return head + (
+        f"\n           while it is open K = {entries} N/mm "
+        f"(xx, xz, zz), eigenvalues {k['lambda_min_n_per_mm']:.6g} and {k['lambda_max_n_per_mm']:.6g}"
+    )
 
 
 def _refused(error: PostureError, arguments: argparse.Namespace, model: LimbModel) -> UsageError:

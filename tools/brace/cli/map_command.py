@@ -202,11 +202,12 @@ def _under_load(grid: Workspace) -> dict[str, float]:
 
 def _load_text(load: dict[str, float]) -> str:
     factor = load["buckling_factor_least"]
+    folded = f"; {load['folded_postures']:.0f} postures have no K: the load folds the limb"
     return (
         f"under ({load['fx_n']:g}, {load['fz_n']:g}) N and the limb's weight: the tip moves by up to "
         f"{load['displacement_most_mm']:.3g} mm, least buckling factor "
         + (f"{factor:.3g}" if math.isfinite(factor) else "above 11")
-        + (f"; {load['folded_postures']:.0f} postures have no K: the load folds the limb" * bool(load["folded_postures"]))
+        + (folded if load["folded_postures"] else "")
     )
 
 
@@ -229,16 +230,14 @@ def _npy(grid: Workspace) -> bytes:
 def _text(summary: Summary, out: Path) -> str:
     def turns(which: str) -> str:
         found = summary["turning_points_r_mm"][which]
-        return ("turns at r = " + ", ".join(f"{r:.1f}" for r in found) + " mm") if found else "does not turn"
+        return "turns at r = " + ", ".join(f"{r:.1f}" for r in found) + " mm" if found else "steadily with reach"
 
-    convex = "holds" if summary["quasi_convex_lambda_max"] else "does not hold"
-    concave = "holds" if summary["quasi_concave_lambda_min"] else "does not hold"
     return (
         f"{summary['model']}: {summary['postures']} postures, r = {summary['r_mm'][0]:.1f} to "
         f"{summary['r_mm'][1]:.1f} mm ({summary['path']})\n"
         f"lambda_min {summary['lambda_min_n_per_mm'][0]:.4g} to {summary['lambda_min_n_per_mm'][1]:.4g} N/mm; "
-        f"{turns('lambda_min')}; quasi-concave over r: {concave}\n"
+        f"{turns('lambda_min')}\n"
         f"lambda_max {summary['lambda_max_n_per_mm'][0]:.4g} to {summary['lambda_max_n_per_mm'][1]:.4g} N/mm; "
-        f"{turns('lambda_max')}; quasi-convex over r: {convex}\n"
+        f"{turns('lambda_max')}\n"
         f"-> {out}/map.png, map.svg, eigenvalues.csv, ellipses.csv"
     )

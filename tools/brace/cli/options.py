@@ -160,9 +160,9 @@ def number(text: str) -> float:
         why, meant = slip(text)
         if meant:
             raise refused(f"{text!r} is not a number", why, f"OPTION {meant}") from None
-        raise refused(f"{text!r} is not a number", "a plain number is wanted", "OPTION 1.25, say") from None
+        raise refused(f"{text!r} is not a number", "a plain number is wanted", "e.g. OPTION 1.25") from None
     if not math.isfinite(value):
-        raise refused(f"{text!r} is not a finite number", "nothing follows from it", "OPTION 1.25, say")
+        raise refused(f"{text!r} is not a finite number", "nothing follows from it", "e.g. OPTION 1.25")
     return value + 0.0
 
 
@@ -194,7 +194,7 @@ def positive(text: str) -> float:
     """A finite number above zero."""
     value = number(text)
     if value <= 0:
-        raise refused(f"{text!r} is not positive", "it must be above zero", "OPTION 1.25, say")
+        raise refused(f"{text!r} is not positive", "it must be above zero", "e.g. OPTION 1.25")
     return value
 
 
@@ -207,7 +207,8 @@ def count(low: int, high: int) -> Callable[[str], int]:
         except ValueError:
             raise refused(f"{text[:40]!r} is not a whole number", "it counts something", f"OPTION {low}") from None
         if not low <= value <= high:
-            raise refused(f"{text} is out of range", f"it lies in [{low}, {high}]", f"OPTION {low}, say")
+            nearest = min(max(value, low), high)
+            raise refused(f"{text} is out of range", f"it lies in [{low}, {high}]", f"OPTION {nearest}")
         return value
 
     return parse

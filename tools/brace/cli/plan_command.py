@@ -79,7 +79,7 @@ def add(commands: Subcommands) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from brace.model import load_limb
-    from brace.plan import KNEES, PREFERENCES, Wish, plan
+    from brace.plan import KNEE_MOST_RAD, KNEES, PREFERENCES, Wish, knee_has_travel, plan
 
     _check(arguments)
     model = load_limb(arguments.model)
@@ -98,6 +98,11 @@ def run(arguments: argparse.Namespace) -> int:
         press_most_n=arguments.press_most,
         k_n_per_mm=tuple(arguments.k) if arguments.k else None,
     )
+    if not knee_has_travel(model):
+        common.say(
+            f"{arguments.model} gives the knee no travel ([motor.tibia] angle_min_rad, angle_max_rad): postures with "
+            f"the knee beyond {KNEE_MOST_RAD:g} rad are left out"
+        )
     found = plan(model, wish, arguments.places)
     if not found.count:
         raise BraceError(

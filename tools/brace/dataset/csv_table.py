@@ -283,8 +283,9 @@ def _check_entries(values: np.ndarray, column: Column, rows: list[bytes], positi
             why, way = f"{column.name}, the {column.meaning}, is a whole number", "correct the entry"
     if bad.any():
         row = int(np.argmax(bad))
+        is_nan = values.dtype.kind == "f" and bool(np.isnan(values[row]))
         raise BadFileError(
-            f"{column.name} = {field_text(rows[row], position)[:40]!r} cannot be",
+            f"{column.name} = {field_text(rows[row], position)[:40]!r} is not {'a number' if is_nan else 'allowed'}",
             where=f"{path}:{row + 2} (row {row + 1}), {column.name}",
             why=why,
             next_step=way,

@@ -8,7 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
-from brace.errors import BadFileError
+from brace.errors import BadFileError, UsageError
 from brace.identify.parameters import ParameterSet
 from brace.model import LimbModel
 from brace.native.plant_batch import model_numbers
@@ -105,6 +105,13 @@ def fit(
     def slope(u: np.ndarray) -> np.ndarray:
         return _central(whole, u, low, high)
 
+    if not len(parameters):
+        raise UsageError(
+            "nothing to fit",
+            where=parameters.base.where(),
+            why="[uncertainty] is missing or 0 there: every number of the limb is trusted exactly",
+            next_step="add [uncertainty], as docs/limb-keys.md has it, or give --free",
+        )
     best = None
     for number, point in enumerate([start, *starts]):
         inside = np.clip(point / scale, low + 1e-9, high - 1e-9)
@@ -170,5 +177,6 @@ def _central(
     moved = np.tile(u, (2, u.size, 1))
     own = np.arange(u.size)
     moved[0, own, own], moved[1, own, own] = up, down
-    rows = function(moved.reshape(-1, u.size)).reshape(2, u.size, -1)
+    rows = function(moved.reshape(2 * u.size, u.size))
+    rows = rows.reshape(2, u.size, rows.shape[1])
     return np.ascontiguousarray(((rows[0] - rows[1]) / (up - down)[:, np.newaxis]).T)

@@ -152,7 +152,11 @@ def _lines(result: Identification) -> Iterator[str]:
         for name, estimate in result.combinations.items():
             yield f"  {name:18} {_value(estimate):46} {MEANING[name]}"
     for key, sigmas in outside_trust(result):
-        yield f"  {key} lies {sigmas:+.1f} sigma outside the trust put in it: a finding, look for a missing effect"
+        side = "above" if sigmas > 0.0 else "below"
+        yield (
+            f"  {key} is {abs(sigmas):.1f} sigma {side} what limb.toml trusts it to ([uncertainty]): the limb may have "
+            "an effect that the model lacks; try brace diagnose"
+        )
     for one, other, value in result.information.correlations():
         yield f"  errors go together ({value:+.3f}): {one}, {other}"
     if result.classes:

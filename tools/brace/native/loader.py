@@ -24,6 +24,7 @@ FIRMWARE_HEADERS = (
     "planar_batch.h",
     "chain_batch.h",
     "spatial.h",
+    "gap_stiffness.h",
     "loaded.h",
     "loaded_batch.h",
     "kinematics_batch.h",

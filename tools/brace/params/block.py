@@ -105,7 +105,7 @@ def _refused_value(native: Library, model: LimbModel, status: int, wrong: int) -
         return refused_limb(native, model, status)
     parameter = PARAMETERS[wrong]
     return BadFileError(
-        f"{parameter.key} = {model.values[parameter.key]} cannot be",
+        f"{parameter.key} = {model.values[parameter.key]} is not allowed",
         where=model.where(parameter.key),
         why=f"the firmware refuses it; {parameter.key.rpartition('.')[2]} is {parameter.description}",
         next_step=_ranges(native, parameter.key, model),
@@ -146,7 +146,7 @@ def _refused_block(native: Library, content: bytes, where: str, status: int, wro
     if status in _OUT_OF_RANGE:
         name = PARAMETERS[wrong].key if wrong < len(PARAMETERS) else "the limb as a whole"
         return BadFileError(
-            f"the block's {name} cannot be",
+            f"the block's {name} is not allowed",
             where=where,
             why=status_text(native, status) + "; its CRC is right, so it was packed so",
             next_step="pack it anew from its limb.toml",

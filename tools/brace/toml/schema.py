@@ -190,7 +190,7 @@ def _near_table(table: str, tables: set[str]) -> str:
 def _checked(document: Document, name: str, key: Key, value: object) -> Value:
     def refuse(why: str) -> BadFileError:
         return BadFileError(
-            f"{name} = {_shown(value)} cannot be",
+            f"{name} = {_shown(value)} is not allowed",
             where=document.where(name),
             why=f"{why}; {name.rpartition('.')[2]} is {key.meaning}",
             next_step=f"write {key.range_text}",

@@ -152,16 +152,16 @@ def _ways(record: Record, fitted: Fit) -> dict[str, dict[str, np.ndarray]]:
     along = np.where(data["axis"] == 1, data["dz_mm"], data["dx_mm"])
     time = (data["t_s"] - data["t_s"][0]) / max(float(np.ptp(data["t_s"])), 1e-9)
     common = {
-        "growing with time": time,
-        "fading with time": 1.0 - time,
-        "between the way out and back": _way(record, along),
+        "grew with time": time,
+        "faded with time": 1.0 - time,
+        "differed between the way out and the way back": _way(record, along),
     }
     warmth = data["temp_degc"] - data["temp_degc"][0]
     if float(np.ptp(warmth)) > LEAST_RANGE_DEGC:
-        common["following the temperature"] = warmth / np.abs(warmth).max()
-    for name in ("theta1_rad", "theta2_rad"):
+        common["followed the temperature"] = warmth / np.abs(warmth).max()
+    for name, words in (("theta1_rad", "femur angle"), ("theta2_rad", "knee angle")):
         off = data[name] - data[name].mean()
-        common[f"from posture to posture, along {name}"] = off / max(float(np.abs(off).max()), 1e-9)
+        common[f"changed with the {words}"] = off / max(float(np.abs(off).max()), 1e-9)
     played = record.measured - fitted.residual.reshape(record.measured.shape) * record.sigma
     played[len(FORCES) :] = 0.0  # the force sensor's numbers act on its own readings only
     index = number_index()
@@ -174,10 +174,10 @@ def _ways(record: Record, fitted: Fit) -> dict[str, dict[str, np.ndarray]]:
 def _by_load(load: np.ndarray) -> dict[str, np.ndarray]:
     size = np.abs(load) / max(float(np.quantile(np.abs(load), 0.99)), 1e-12)
     return {
-        "under positive load only": np.where(load > 0.0, 1.0, 0.0),
-        "under negative load only": np.where(load < 0.0, 1.0, 0.0),
-        "growing with the load": size,
-        "growing with the load's square": size**2,
+        "acted under positive load only": np.where(load > 0.0, 1.0, 0.0),
+        "acted under negative load only": np.where(load < 0.0, 1.0, 0.0),
+        "grew with the load": size,
+        "grew with the square of the load": size**2,
     }
 
 

@@ -245,7 +245,7 @@ def _unexplained(final: Pass, after: Fit) -> Unexplained:
 def _changing(final: Pass) -> str:
     """Words for what is not in the catalogue and does better than what is, or nothing."""
     outside = final.decision.outside
-    return f"what {outside.words} would make" if outside.likely else ""
+    return f"the error looks as if {outside.words}" if outside.likely else ""
 
 
 def _sentence(final: Pass, effects: Sequence[NamedEffect]) -> str:
@@ -316,7 +316,10 @@ def _notes(
     if final.decision.chosen.labels and agreed.held_out_nats is not None and agreed.held_out_nats < LOST_NATS:
         notes.append("the configurations that were held out do not gain from what was chosen without them")
     if final.decision.verdict == "effect" and agreed.bootstrap_share < STAYS_AHEAD:
-        notes.append(f"with the runs drawn anew, the choice stays ahead in {agreed.bootstrap_share:.0%} of draws only")
+        notes.append(
+            "the choice rests on few runs: when the runs are drawn at random again, it wins in "
+            f"{agreed.bootstrap_share:.0%} of the draws"
+        )
     if (odds := final.decision.hint_odds) is not None:
         notes.append(
             f"a hint of {final.sets[0].label}: {odds:.0f} to 1 against nothing missing, where {1 / NOTHING_STANDS:.0f} "

@@ -46,7 +46,7 @@ class Record:
         played /= -self.sigma
         for channel in self.zeroed:
             _whiten_zeroing(played[:, channel], starts)
-        return played.reshape(len(models), -1)
+        return played.reshape(len(models), self.measured.size)
 
     def select(self, keep: np.ndarray) -> Record:
         """The rows where `keep` is true, with the same noise."""
