@@ -108,6 +108,7 @@ bool LimbState::move_to(double theta1_rad, double theta2_rad, double t_s, double
 bool LimbState::prepare()
 {
     is_condensed_ = false;
+    known_count_ = 0;
     std::array<JointHinge, 2> joint{};
     for (const std::size_t k : {0, 1}) {
         law_[k] = joint_law(model_, effects::kFemur + static_cast<int>(k), temp_degc_);
@@ -323,10 +324,35 @@ bool LimbState::hang()
     return solved;
 }
 
+bool LimbState::forgets() const
+{
+    return !law_[0].rubs() && !law_[1].rubs() && model_.creep.ratio == 0.0;
+}
+
+const LimbState::Known *LimbState::known_at(const Vector2d &target_mm, int free_axis) const
+{
+    const auto end = known_.begin() + known_count_;
+    const auto found = std::find_if(known_.begin(), end, [&](const Known &known) {
+        return known.target_mm == target_mm && known.free_axis == free_axis;
+    });
+    return found != end ? &*found : nullptr;
+}
+
 LimbRest LimbState::hold_tip(const Vector2d &displacement_mm, int free_axis)
 {
     tip_mm_ = effects::contact_play::dragged_mm(model_, tip_mm_, displacement_mm);
-    const bool solved = lead_to(origin_mm_ + tip_mm_, free_axis);
+    const Vector2d target_mm = origin_mm_ + tip_mm_;
+    const Known *known = forgets() ? known_at(target_mm, free_axis) : nullptr;
+    bool solved = true;
+    if (known != nullptr) {
+        rest_ = known->rest;
+        reached_mm_ = target_mm;
+    } else {
+        solved = lead_to(target_mm, free_axis);
+        if (solved && forgets() && known_count_ < kMostKnown) {
+            known_[static_cast<std::size_t>(known_count_++)] = {target_mm, free_axis, rest_};
+        }
+    }
     before_rad_ = rest_.instant_rad;
     Vector2d carried_n = rest_.shape.force_n;
     for (int i = 0; i < structure_.body_count; ++i) {

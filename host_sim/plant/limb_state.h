@@ -74,6 +74,18 @@ private:
         Eigen::Vector2d tip_mm = Eigen::Vector2d::Zero(); // from its weightless place
     };
     Rest rest_;
+    // Without friction and creep a rest state depends on where the tip is held and on nothing before. A record leads the
+    // tip to few places at a posture, and to each of them often.
+    struct Known {
+        Eigen::Vector2d target_mm;
+        int free_axis;
+        Rest rest;
+    };
+    bool forgets() const;
+    const Known *known_at(const Eigen::Vector2d &target_mm, int free_axis) const;
+    static constexpr int kMostKnown = 40; // places of 9 steps to each side along two axes
+    std::array<Known, kMostKnown> known_;
+    int known_count_ = 0;
     Condensed condensed_;
     bool is_condensed_ = false;                            // condensed_ is that of the unloaded limb
     Eigen::Vector2d origin_mm_ = Eigen::Vector2d::Zero();  // from where displacements count

@@ -61,7 +61,6 @@ brace_rig_design_t paper_design()
     design.axes = 3;
     design.repeats = 2;
     design.steps_per_side = 4;
-    design.small_displacements = 1;
     design.step_mm = 0.635;
     design.dwell_s = 4.0;
     design.pause_s = 20.0;

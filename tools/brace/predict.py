@@ -64,10 +64,10 @@ def predict(
 
 def predict_loading(dataset: Dataset, model: LimbModel) -> dict[str, np.ndarray]:
     """Forces [N], and encoder and gauge readings where the dataset has them."""
-    from brace.native.plant import LoadingPlayer
+    from brace.identify.playing import player_of, settled
 
     names = ["fx_n", "fz_n", *(name for name in _OPTIONAL_READINGS if name in dataset)]
-    return zeroed(LoadingPlayer(dataset).play(model, names), dataset)
+    return zeroed(player_of(settled(dataset, model), names).play(model, names), dataset)
 
 
 def _predict_joint_test(dataset: Dataset, model: LimbModel) -> Prediction:

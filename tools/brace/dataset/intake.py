@@ -18,13 +18,15 @@ from brace.dataset.meta import Meta, read_meta
 @dataclass(frozen=True)
 class Dataset:
     """`columns` maps a column's name to an array with one entry per row; `faults` is what was found wrong.
-    `decimals` (tables only) counts the printed decimals per column."""
+    `decimals` (tables only) counts the printed decimals per column. `small_displacements` (loading only): the limb did
+    not turn as it was displaced, as in some simulations; brace.identify.playing finds it out."""
 
     folder: Path
     meta: Meta
     columns: Mapping[str, np.ndarray]
     faults: Sequence[DataFault] = ()
     decimals: Mapping[str, int] = field(default_factory=dict)
+    small_displacements: bool = False
 
     @property
     def kind(self) -> str:

@@ -15,12 +15,16 @@ from brace.toml import Key
 WHAT = "dataset's meta.toml"
 ZEROED = ("never", "per_run")
 MOVED_BY = ("rig", "motors")
+HELD = ("weightless", "at rest")
+DISPLACEMENTS = ("finite", "small")
 
 _KNOWN = (
     Key("format", None, "the version of the format, 1", "", 1, 1, kind="integer"),
     Key("kind", None, "the kind of record", kind="text", choices=tuple(KINDS)),
     Key("title", "", "a title", kind="text"),
     Key("zeroed", "never", "when the sensor was zeroed", kind="text", choices=ZEROED),
+    Key("held", "weightless", "where the tip was when the rig took hold of it", kind="text", choices=HELD),
+    Key("displacements", "", "whether the limb turned as it was displaced", kind="text", choices=DISPLACEMENTS),
     Key("joint", "femur", "the joint under test", kind="text", choices=("coxa", "femur", "tibia")),
     Key("sensor.resolution_n", 0.0, "the smallest step of the sensor", "N", 0.0, 1e6),
     Key(
@@ -57,6 +61,16 @@ class Meta:
     @property
     def zeroed_per_run(self) -> bool:
         return "per_run" in (self.values["zeroed"], self.values["rig.zeroed"])
+
+    @property
+    def held_at_rest(self) -> bool:
+        """Displacements count from where the limb hung under its weight, not from its weightless place."""
+        return bool(self.values["held"] == "at rest")
+
+    @property
+    def displacements(self) -> str:
+        """finite: of a limb that turned; small: of a simulation in which it does not; empty: the record does not say."""
+        return str(self.values["displacements"])
 
     @property
     def moved_by_motors(self) -> bool:

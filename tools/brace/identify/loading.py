@@ -10,7 +10,8 @@ from brace.errors import BadFileError
 from brace.identify.fit import Nuisances, residual_of
 from brace.identify.noise import NoiseFloor, noise_floor
 from brace.model import LimbModel
-from brace.native.plant_batch import LoadingBatchPlayer, number_index
+from brace.identify.playing import player_of
+from brace.native.plant_batch import number_index
 
 OFFSET_KEYS = ("joint.femur.zero_offset_rad", "joint.tibia.zero_offset_rad")
 _SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
@@ -31,7 +32,7 @@ class LoadingProblem:
         self.dataset = dataset
         self.noise: NoiseFloor = noise_floor(dataset)
         self._names = ["fx_n", "fz_n", *(name for name in _SIDE_READINGS if name in dataset)]
-        self._player = LoadingBatchPlayer(dataset, self._names)
+        self._player = player_of(dataset, self._names)
         self._sigma = {
             name: self.noise.sigma_n if name in ("fx_n", "fz_n") else _side_sigma(dataset, name)
             for name in self._names

@@ -9,6 +9,7 @@ from typing import Any
 
 from brace.dataset import Dataset
 from brace.identify import parameters as choose
+from brace.identify import playing
 from brace.identify.classes import CANDIDATES, TABLE_CANDIDATES, Confusion, confusions
 from brace.identify.combinations import combination_estimates
 from brace.identify.families import FamilyFit, compare_families, scattered_starts
@@ -72,7 +73,7 @@ def identify(
     if settled.kind == "joint_test":
         return _joint_test(dataset, settled, start, done, options)
     if settled.kind == "loading":
-        return _loading(dataset, settled, start, done, options, advance)
+        return _loading(dataset, playing.settled(settled, start), start, done, options, advance)
     return _table(dataset, settled, start, done, options, advance)
 
 

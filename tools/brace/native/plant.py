@@ -28,15 +28,19 @@ def _point_at(
 
 
 class LoadingPlayer:
-    """One record's load sequence, ready to be played on many models."""
+    """One record's load sequence, ready to be played on many models.
 
-    def __init__(self, columns: Columns) -> None:
+    small_displacements: the limb does not turn as it is displaced, and weights load its joints only.
+    held_at_rest: displacements count from where the limb hangs under its weight."""
+
+    def __init__(self, columns: Columns, *, small_displacements: bool = False, held_at_rest: bool = False) -> None:
         self._native = library()
         ffi = self._native.ffi
         self.count = len(columns["t_s"])
         self._rows = ffi.new("brace_loading_rows_t *")
         self._rows.count = self.count
-        self._rows.small_displacements = 1
+        self._rows.small_displacements = int(small_displacements)
+        self._rows.held_at_rest = int(held_at_rest)
         inputs = ("theta1_rad", "theta2_rad", "t_s", "temp_degc", "dx_mm", "dz_mm")
         self._keep = [_point_at(self._native, self._rows, "run", columns["run"], np.int32)]
         self._keep += [

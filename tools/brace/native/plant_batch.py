@@ -32,8 +32,16 @@ def number_index() -> Mapping[str, int]:
 class LoadingBatchPlayer(LoadingPlayer):
     """One record's load sequence, played on many models at once. `zeroed` takes each run's first reading off."""
 
-    def __init__(self, columns: Columns, readings: Sequence[str], *, zeroed: bool = False) -> None:
-        super().__init__(columns)
+    def __init__(
+        self,
+        columns: Columns,
+        readings: Sequence[str],
+        *,
+        zeroed: bool = False,
+        small_displacements: bool = False,
+        held_at_rest: bool = False,
+    ) -> None:
+        super().__init__(columns, small_displacements=small_displacements, held_at_rest=held_at_rest)
         self.readings = tuple(readings)
         self._rows.zeroed_per_run = int(zeroed)
 

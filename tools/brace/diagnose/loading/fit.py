@@ -16,6 +16,8 @@ FINAL_DECREASE = 1e-4
 PROBE = 0.2  # sigmas of the whole record that a finite difference moves by, about
 STEPWISE_ROUNDS = 3
 MOST_TIMES = 120
+# Keys of which a limb that does not turn shows nothing, or only a part.
+SEEN_IN_TURNING = ("link.tibia.moment_transfer", "gravity.")
 BIG = 1e6  # whitened residual that stands for a model which no limb can have
 
 
@@ -75,13 +77,20 @@ def _inward(space: Space, x: np.ndarray, step: np.ndarray) -> np.ndarray:
 
 
 def jacobian(
-    record: Record, space: Space, x: np.ndarray, residual: np.ndarray, scale: np.ndarray, which: np.ndarray
+    record: Record, space: Space, x: np.ndarray, residual: np.ndarray, scale: np.ndarray, final: bool
 ) -> np.ndarray:
-    """Columns of the model's whitened readings by x / scale, for the keys in `which`."""
+    """Columns of the model's whitened readings by x / scale. While a fit only screens, a limb that does not turn tells
+    most of them: nearly the same, and ten times as fast."""
+    which = np.arange(space.size)
     step = _inward(space, x, PROBE * scale)[which]
     points = np.tile(x, (which.size, 1))
     points[np.arange(which.size), which] += step
-    moved = residual - residuals(record, space, points)
+    moved = np.empty((which.size, residual.size))
+    played = np.array([final or key.startswith(SEEN_IN_TURNING) for key in space.keys], dtype=bool)
+    moved[played] = residual - residuals(record, space, points[played])
+    if not played.all():
+        flat = record.unturned
+        moved[~played] = residuals(flat, space, x[None])[0] - residuals(flat, space, points[~played])
     safe = np.where((step == 0.0) | np.isin(which, space.stepwise), np.inf, step)
     return np.asarray(moved * (scale[which] / safe)[:, None]).T
 
@@ -91,22 +100,22 @@ def fit(record: Record, space: Space, start: np.ndarray, *, final: bool = True) 
     x = np.clip(start, space.low, space.high)
     residual = residuals(record, space, x[None])[0]
     scale = scales(record, space, x, residual)
-    found = _descend(record, space, x, residual, scale, FINAL_DECREASE if final else SCREENING_DECREASE)
+    found = _descend(record, space, x, residual, scale, final)
     for _ in range(STEPWISE_ROUNDS if space.stepwise else 0):
         moved, left, cost = _step_times(record, space, found.x, found.residual, found.cost)
         if cost > found.cost - SCREENING_DECREASE:
             break
-        found = _descend(record, space, moved, left, scale, SCREENING_DECREASE)
+        found = _descend(record, space, moved, left, scale, False)
     return found
 
 
 def _descend(
-    record: Record, space: Space, x: np.ndarray, residual: np.ndarray, scale: np.ndarray, stop: float
+    record: Record, space: Space, x: np.ndarray, residual: np.ndarray, scale: np.ndarray, final: bool
 ) -> Fit:
-    """Steps until one gains less than `stop` of the cost."""
-    everything = np.arange(space.size)
+    """Steps until one gains too little."""
+    stop = FINAL_DECREASE if final else SCREENING_DECREASE
     cost = cost_of(space, x, residual)
-    columns = jacobian(record, space, x, residual, scale, everything)
+    columns = jacobian(record, space, x, residual, scale, final)
     for _ in range(MAX_STEPS):
         step = _newton_step(space, x, residual, columns, scale)
         points = np.clip(x + STEP_LENGTHS[:, None] * step, space.low, space.high)
@@ -119,7 +128,7 @@ def _descend(
         x, residual, cost = points[best], tried[best], float(costs[best])
         if gained < stop:
             break
-        columns = jacobian(record, space, x, residual, scale, everything)
+        columns = jacobian(record, space, x, residual, scale, final)
     return Fit(space, x, residual, columns, scale, cost)
 
 

@@ -306,6 +306,11 @@ def _notes(
         notes.append(
             f"chosen and fitted on {record.rows} of {whole.rows} rows, whole runs spread over all configurations"
         )
+    if record.dataset.small_displacements:
+        notes.append(
+            "the record is played at small displacements: its forces are proportional to the displacement, as in a "
+            "simulation whose limb does not turn (meta.toml may say so: displacements = \"small\")"
+        )
     if twin is None:
         notes.append("too few configurations to lock one away: no held-out gap")
     elif twin.decision.chosen.labels != final.decision.chosen.labels:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from brace.dataset import Dataset
 from brace.dataset.check_runs import run_starts
 from brace.diagnose.loading.noise import FORCES, ChannelNoise, noise_of
 from brace.effects import LoadingSize
+from brace.identify.playing import player_of
 from brace.model import LimbModel
 from brace.native.plant_batch import LoadingBatchPlayer, model_numbers, number_index
 
@@ -48,6 +50,15 @@ class Record:
             _whiten_zeroing(played[:, channel], starts)
         return played.reshape(len(models), self.measured.size)
 
+    @cached_property
+    def unturned(self) -> Record:
+        """The same readings, played on a limb that does not turn: ten times as fast."""
+        if self.dataset.small_displacements:
+            return self
+        dataset = replace(self.dataset, small_displacements=True)
+        player = player_of(dataset, self.channels, zeroed=dataset.meta.zeroed_per_run)
+        return replace(self, dataset=dataset, player=player)
+
     def select(self, keep: np.ndarray) -> Record:
         """The rows where `keep` is true, with the same noise."""
         part = self.dataset.select(keep)
@@ -57,7 +68,7 @@ class Record:
             self.noise,
             self.measured[:, keep],
             self.sigma[:, keep],
-            LoadingBatchPlayer(part.columns, self.channels, zeroed=part.meta.zeroed_per_run),
+            player_of(part, self.channels, zeroed=part.meta.zeroed_per_run),
             self.zeroed,
         )
 
@@ -79,7 +90,7 @@ def load_record(dataset: Dataset) -> Record:
     measured = np.stack([np.asarray(dataset[name], float) for name in channels])
     sigma = np.stack([sigma_of(noise[name], values) for name, values in zip(channels, measured)])
     measured = np.nan_to_num(measured, nan=0.0)
-    player = LoadingBatchPlayer(dataset.columns, channels, zeroed=dataset.meta.zeroed_per_run)
+    player = player_of(dataset, channels, zeroed=dataset.meta.zeroed_per_run)
     return Record(dataset, channels, noise, measured, sigma, player, _zeroed(dataset, channels))
 
 

@@ -26,6 +26,7 @@ from brace.diagnose.loading.verdict import decide
 from brace.diagnose.options import Advance, Options
 from brace.effects import Variant, all_variants
 from brace.errors import UsageError
+from brace.identify.playing import settled
 from brace.model import LimbModel
 
 
@@ -43,11 +44,12 @@ def diagnose_loading(
             why="nothing can be missing from no model",
             next_step="--model limb.toml",
         )
+    dataset = settled(dataset, believed)
     stopped = gate(dataset, believed, options)
     if stopped is not None:
         return stopped
     advance(0.02, "reading the noise off the repeats")
-    trust = trust_of(believed)
+    trust = trust_of(believed, turns=not dataset.small_displacements)
     whole = with_known_noise(load_record(dataset), trust)
     enough = enough_rows(dataset)
     record = whole if enough.all() else whole.select(enough)

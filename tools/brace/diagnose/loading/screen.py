@@ -27,6 +27,19 @@ class Promise:
     cost: float
 
 
+class Nearby:
+    """Residuals of limbs not far from a fitted one. They are played on limbs that do not turn; what turning changes is
+    taken from the fitted limb."""
+
+    def __init__(self, record: Record, fitted: Fit) -> None:
+        self._record = record.unturned
+        self._turning = fitted.residual - residuals(self._record, fitted.space, fitted.x[None])[0]
+
+    def residuals(self, space: Space, points: np.ndarray) -> np.ndarray:
+        """points x readings"""
+        return np.asarray(residuals(self._record, space, points) + self._turning)
+
+
 class Remover:
     """Takes out of whitened residuals what the hypothesis' own parameters could still make up, under their priors."""
 
@@ -56,27 +69,28 @@ def screen(record: Record, trust: Trust, fitted: Fit, variants: Sequence[Variant
     held = fitted.space.variants
     remover = Remover(fitted)
     left = remover.augmented(fitted.residual[None])[0]
+    nearby = Nearby(record, fitted)
     promises = []
     for variant in variants:
         if any(variant.label == other.label for other in held) or not compatible((*held, variant)):
             continue
-        promises.append(_promise(record, fitted, space_of(trust, (*held, variant)), variant, remover, left))
+        promises.append(_promise(nearby, fitted, space_of(trust, (*held, variant)), variant, remover, left))
     return sorted(promises, key=lambda promise: promise.cost)
 
 
 def _promise(
-    record: Record, fitted: Fit, space: Space, variant: Variant, remover: Remover, left: np.ndarray
+    nearby: Nearby, fitted: Fit, space: Space, variant: Variant, remover: Remover, left: np.ndarray
 ) -> Promise:
     start = space.mean.copy()
     known = dict(zip(fitted.space.keys, fitted.x))
     for i, key in enumerate(space.keys):
         start[i] = min(max(known.get(key, start[i]), space.low[i]), space.high[i])
     tries = _tries(space, start, variant, THINNED if fitted.space.variants else 1)
-    left_over = remover.augmented(residuals(record, space, tries))
+    left_over = remover.augmented(nearby.residuals(space, tries))
     costs = np.einsum("ij,ij->i", left_over, left_over)
     if len(tries) > 1:
         scaled = _scaled_tries(space, variant, tries, left_over, left)
-        left_scaled = remover.augmented(residuals(record, space, scaled))
+        left_scaled = remover.augmented(nearby.residuals(space, scaled))
         tries = np.vstack([tries, scaled])
         costs = np.concatenate([costs, np.einsum("ij,ij->i", left_scaled, left_scaled)])
     best = int(np.argmin(costs))
@@ -84,8 +98,8 @@ def _promise(
     freed = [freedom.key for freedom in variant.freedoms]
     if freed:
         own = remover if not set(freed) & set(fitted.space.keys) else Remover(fitted, freed)
-        here = own.augmented(residuals(record, space, tries[best][None]))[0]
-        columns = own.columns(_signatures(record, space, tries[best], freed, fitted))
+        here = own.augmented(nearby.residuals(space, tries[best][None]))[0]
+        columns = own.columns(_signatures(nearby, space, tries[best], freed))
         lengths = np.linalg.norm(columns, axis=0)
         basis, _ = np.linalg.qr(columns[:, lengths > 1e-9] / lengths[lengths > 1e-9]) if np.any(lengths > 1e-9) else (
             np.empty((columns.shape[0], 0)),
@@ -132,9 +146,7 @@ def _scaled_tries(
     return scaled
 
 
-def _signatures(
-    record: Record, space: Space, point: np.ndarray, freed: Sequence[str], fitted: Fit
-) -> np.ndarray:
+def _signatures(nearby: Nearby, space: Space, point: np.ndarray, freed: Sequence[str]) -> np.ndarray:
     """Change of the whitened model readings along each freed key, scaled to about one sigma; readings x keys."""
     which = np.array([space.keys.index(key) for key in freed])
     step = np.maximum(np.abs(point[which]) * 1e-3, _small_steps(freed))
@@ -142,8 +154,8 @@ def _signatures(
     for row, (place, size) in enumerate(zip(which, step)):
         size = -size if points[row, place] + size > space.high[place] else size
         points[row, place] += size
-    base = residuals(record, space, point[None])[0]
-    moved = base - residuals(record, space, points)
+    base = nearby.residuals(space, point[None])[0]
+    moved = base - nearby.residuals(space, points)
     lengths = np.linalg.norm(moved, axis=1)
     return np.asarray((moved * (PROBE / np.where(lengths > 0.0, lengths, np.inf))[:, None]).T)
 

@@ -16,6 +16,7 @@ from brace.diagnose.loading.noise import FORCES, ChannelNoise
 from brace.diagnose.loading.parts import enough_rows
 from brace.diagnose.loading.record import Record, load_record
 from brace.diagnose.loading.space import Space, Trust, space_of, trust_of
+from brace.identify.playing import player_of, settled
 from brace.model import LimbModel
 from brace.native.plant_batch import LoadingBatchPlayer
 
@@ -49,7 +50,7 @@ class Judge:
         # both forces, 2 x rows [N], and their noise
         self.measured = np.stack([np.asarray(dataset[name], float) for name in FORCES])
         self.sigma = np.stack([self.noise[name].sigma(dataset[name]) for name in FORCES])
-        self.trust: Trust = trust_of(believed)
+        self.trust: Trust = trust_of(believed, turns=not dataset.small_displacements)
         self.space: Space = space_of(self.trust, ())
         self.few = np.flatnonzero(enough_rows(dataset, FIT_ROWS))
         self.starts = run_starts(dataset["run"])
@@ -70,11 +71,12 @@ class Judge:
 
     def player(self, dataset: Dataset) -> LoadingBatchPlayer:
         """For many limbs on one dataset."""
-        return LoadingBatchPlayer(dataset.columns, FORCES, zeroed=dataset.meta.zeroed_per_run)
+        return player_of(dataset, FORCES, zeroed=dataset.meta.zeroed_per_run)
 
     def agreement(self, dataset: Dataset, rows: np.ndarray, scale: np.ndarray | None = None) -> Agreement:
         """Of some rows (indices) of a dataset with this one's noise; `scale` (two factors) is what the repair
         multiplied both forces by, and their noise with them."""
+        dataset = settled(dataset, self.believed)  # a repaired record may tell it where a faulty one did not
         mask = np.zeros(dataset.rows, dtype=bool)
         mask[rows] = True
         part = dataset.select(mask)

@@ -9,7 +9,7 @@ import numpy as np
 from brace.dataset import DataFault
 from brace.diagnose.loading.noise import FORCES
 from brace.diagnose.loading.data_faults.judge import Judge, misfit
-from brace.native.plant_batch import LoadingBatchPlayer
+from brace.identify.playing import player_of
 
 SUSPECT = 0.35  # misfit of an encoder beyond what effects of joints make
 MENDED = 0.3  # of that misfit, what a repair may leave
@@ -31,7 +31,7 @@ def _side_readings(judge: Judge) -> Iterator[DataFault]:
     if not channels:
         return
     data = judge.dataset
-    player = LoadingBatchPlayer(data.columns, channels, zeroed=False)
+    player = player_of(data, channels)
     played = dict(zip(channels, player.play_numbers(judge.as_it_is.numbers[None])[0]))
     for pair in SAME_KIND:
         here = [name for name in pair if name in played]

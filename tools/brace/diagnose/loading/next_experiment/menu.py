@@ -15,8 +15,8 @@ from brace.diagnose.loading.noise import ChannelNoise
 from brace.diagnose.loading.noise import FORCES
 from brace.diagnose.loading.record import Record
 from brace.effects.catalogue import TIME_KEYS
+from brace.identify.playing import player_of
 from brace.native.plant import play_rig
-from brace.native.plant_batch import LoadingBatchPlayer
 
 # What it takes, in minutes, besides the readings themselves.
 SET_UP_MIN = 3.0  # any further test
@@ -183,10 +183,10 @@ def as_record(record: Record, condition: Condition, angles: np.ndarray, readings
     columns["t_s"] = columns["t_s"] + float(record.dataset["t_s"][-1]) + BEFORE_S
     noise = {name: record.noise.get(name, _stated(name)) for name in CHANNELS}
     zeroed = record.dataset.meta.zeroed_per_run
-    player = LoadingBatchPlayer(columns, CHANNELS, zeroed=zeroed)
+    dataset = replace(record.dataset, columns=columns, faults=())
+    player = player_of(dataset, CHANNELS, zeroed=zeroed)
     expected = np.nan_to_num(player.play_numbers(readings_of[None])[0])
     sigma = np.stack([noise[name].sigma(values) for name, values in zip(CHANNELS, expected)])
-    dataset = replace(record.dataset, columns=columns, faults=())
     return Record(dataset, CHANNELS, noise, np.zeros_like(expected), sigma, player)
 
 
