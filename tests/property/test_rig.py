@@ -74,7 +74,8 @@ def test_instruments() -> None:
     """Without noise the readings are the plant's, rounded; with it they scatter by sigma, seed by seed."""
     keys = PAPER | {"base.x_mm_per_n": 1e-3}
     exact = record(limb(keys), resolution_n=0.0)
-    played = play(limb(keys), *POSE, exact["dx_mm"], exact["dz_mm"], run=exact["run"], t_s=exact["t_s"])
+    played = play(limb(keys), *POSE, exact["dx_mm"], exact["dz_mm"], run=exact["run"], t_s=exact["t_s"],
+                  small=False)
     for name, values in played.items():
         np.testing.assert_array_equal(exact[name], values)
     rounded = record(limb(keys))
@@ -116,12 +117,13 @@ def slopes(model: Model, least_squares: bool, steps: int = 4, step_mm: float = 0
 
 
 def test_slopes_of_a_linear_limb_are_its_k() -> None:
-    """Both rules, all four entries; k_xz is the force along x from a step along z."""
+    """Both rules, all four entries; k_xz is the force along x from a step along z. Steps of 0.01 mm turn the limb by
+    1e-4 rad at most; what that adds to one side's slope it takes from the other's, but for its square."""
     k = planar_reference(limb(PAPER), *POSE)[0, [0, 1, 1, 2]]
     for rule in (False, True):
-        np.testing.assert_allclose(slopes(limb(PAPER), rule), k, rtol=1e-12)
-    mixed = slopes(limb(PAPER | {"sensor.crosstalk_xz": 0.1}), True)
-    np.testing.assert_allclose(mixed, [k[0] + 0.1 * k[2], k[1] + 0.1 * k[3], k[2], k[3]], rtol=1e-12)
+        np.testing.assert_allclose(slopes(limb(PAPER), rule, step_mm=0.01), k, rtol=1e-7)
+    mixed = slopes(limb(PAPER | {"sensor.crosstalk_xz": 0.1}), True, step_mm=0.01)
+    np.testing.assert_allclose(mixed, [k[0] + 0.1 * k[2], k[1] + 0.1 * k[3], k[2], k[3]], rtol=1e-7)
 
 
 def test_mean_of_ratios_weighs_the_small_steps() -> None:
@@ -129,7 +131,7 @@ def test_mean_of_ratios_weighs_the_small_steps() -> None:
     keys = {"joint.femur.compliance_rad_per_n_mm": 1e-4, "joint.femur.hardening_n_mm_per_rad3": 1e8,
             "link.femur.axial_mm_per_n": 0.5, "link.femur.bending_mm_per_n": 0.5}
     steps = np.array([0, 1, 2, 3, 4, 3, 2, 1, 0, -1, -2, -3, -4, -3, -2, -1, 0])
-    f = play(limb(keys), *POSE, 0.0, 0.635 * steps)["fz_n"][steps != 0]
+    f = play(limb(keys), *POSE, 0.0, 0.635 * steps, small=False)["fz_n"][steps != 0]
     d = 0.635 * steps[steps != 0]
     assert slopes(limb(keys), False)[3] == pytest.approx(np.mean(f / d), rel=1e-9)
     assert slopes(limb(keys), True)[3] == pytest.approx(np.sum(f * d) / np.sum(d * d), rel=1e-9)
@@ -143,24 +145,25 @@ def shift(model: Model, axis: int, steps: int = 400, step_mm: float = 0.02) -> f
 
 
 def test_zero_force_shift() -> None:
-    """Play: gap times lever. Friction: 2 compliance torque lever. Neither: nothing."""
+    """Play: gap times lever. Friction: 2 compliance torque lever. Neither: nothing. The test moves the tip by up to 10 mm
+    of a lever of some 300 mm, and the square of that turn changes the lever: by 1e-3 of itself."""
     g = geometry(limb(PAPER), *POSE)
     gap, tau = np.radians(20 / 60), 50.0
     for joint, lever in (("femur", "p1"), ("tibia", "p2")):
         for axis in (0, 1):
             arm = abs(g[lever][axis])
             assert shift(limb(PAPER | {f"joint.{joint}.gap_rad": gap}),
-                         axis) == pytest.approx(gap * arm, rel=1e-9)
+                         axis) == pytest.approx(gap * arm, rel=1e-3)
             s = PAPER[f"joint.{joint}.compliance_rad_per_n_mm"]
             rubbed = shift(limb(PAPER | {f"joint.{joint}.coulomb_n_mm": tau}), axis)
-            assert rubbed == pytest.approx(2 * s * tau * arm, rel=1e-9)
-    assert shift(limb(PAPER), 1) == pytest.approx(0, abs=1e-12)
+            assert rubbed == pytest.approx(2 * s * tau * arm, rel=1e-3)
+    assert shift(limb(PAPER), 1) == pytest.approx(0, abs=1e-8)  # rest to 1e-9 N, and 0.4 N/mm
     paper = np.zeros(1)
     model = limb(PAPER | {"joint.femur.gap_rad": gap})
     pose = np.radians([70, 50])
     check(lib.brace_rig_zero_force_shift(model.c, *pose, 1, 0.05, 200, doubles(paper)))
     wanted = gap * (185 * np.cos(np.radians(70)) + 313.5 * np.cos(np.radians(20)))
-    assert paper[0] == pytest.approx(wanted, rel=1e-9)
+    assert paper[0] == pytest.approx(wanted, rel=1e-3)
     with pytest.raises(Refused):
         shift(limb(PAPER | {"joint.femur.gap_rad": 0.4}), 1, steps=4)
 
