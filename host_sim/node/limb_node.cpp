@@ -210,12 +210,6 @@ double LimbNode::set_rad(std::size_t joint) const
     return setpoints.now_rad()[joint] + command_[joint].offset_rad;
 }
 
-PlanePosture LimbNode::plane_posture() const
-{
-    const Vector2d unbent = limb_.unbent_rad(plane_motors_rad());
-    return {unbent[0], unbent[1]};
-}
-
 // A command that is not repeated fades out, as brace_hal.h says.
 void LimbNode::follow_command(std::size_t joint, double dt_s)
 {

@@ -68,7 +68,7 @@ private:
     std::array<double, 3> true_angles_rad() const;
     bool is_fitted(std::int32_t joint_index) const;
     Eigen::Vector2d plane_motors_rad() const { return {motor_[1].angle_rad, motor_[2].angle_rad}; }
-    PlanePosture plane_posture() const;
+    PlanePosture plane_posture() const { return {pressed_.link_rad[0], pressed_.link_rad[1]}; } // at rest
     double set_rad(std::size_t joint) const;
     double now_s() const { return 1e-6 * static_cast<double>(now_us_); }
     double temp_degc(double t_s) const;

@@ -29,7 +29,7 @@ plant::Model with_coxa_link_in_base(plant::Model model)
 } // namespace
 
 PressedLimb::PressedLimb(const plant::Model &model)
-    : model_(with_coxa_link_in_base(model)), state_(model_, plant::Displacements::small)
+    : model_(with_coxa_link_in_base(model)), state_(model_, plant::Displacements::finite)
 {
 }
 

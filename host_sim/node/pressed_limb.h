@@ -33,10 +33,8 @@ public:
     // Finds the rest state. False: nothing yields in some direction.
     bool settle(const Eigen::Vector2d &motor_rad, double t_s, double temp_degc, Pressed &pressed);
 
-    // The true joint angles of motor angles, with nothing bent.
-    Eigen::Vector2d unbent_rad(const Eigen::Vector2d &motor_rad) const;
-
 private:
+    Eigen::Vector2d unbent_rad(const Eigen::Vector2d &motor_rad) const; // true joint angles, with nothing bent
     Eigen::Vector2d tip_mm(const Eigen::Vector2d &motor_rad) const;
 
     const plant::Model model_; // its base has the coxa link's compliance too

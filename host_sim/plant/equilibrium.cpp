@@ -1,5 +1,6 @@
 #include "plant/equilibrium.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,7 +21,7 @@ constexpr double kLeastCurvature = 1e-12;
 constexpr double kDamping =
     1e-9; // of each spring: keeps a joint within its play, where nothing pushes back, solvable
 
-// Slope of the energy without friction, and its curvature.
+// Slope of the energy without friction, and its curvature but for M.
 struct Slope {
     Pair torque_n_mm{};
     Matrix2d curvature = Matrix2d::Zero();
@@ -42,7 +43,7 @@ Slope slope_at(const RestProblem &problem, const Pair &deflection)
         const Vector2d pushed = problem.stiffness_n_per_mm * joint.lever_mm;
         for (int j = 0; j < problem.joint_count; ++j) {
             slope.torque_n_mm[i] += problem.by_loads_n_mm_per_rad(i, j) * deflection[j];
-            slope.curvature(i, j) = problem.joint[j].lever_mm.dot(pushed) + problem.by_loads_n_mm_per_rad(i, j);
+            slope.curvature(i, j) = problem.joint[j].lever_mm.dot(pushed);
         }
         slope.curvature(i, i) += spring_stiffness_n_mm_per_rad(joint.law, deflection[i])
                                  + kDamping / joint.law.compliance_rad_per_n_mm;
@@ -67,10 +68,18 @@ Pair moving_sign(const RestProblem &problem, const Pair &deflection, const Pair 
 }
 
 // Newton's direction among the joints that move. Two joints that move the tip almost alike leave a valley with almost
-// no curvature along it; the curvature there is raised to the least that rounding allows to divide by.
-Pair newton_direction(const Matrix2d &curvature, const Pair &torque, const Pair &sign)
+// no curvature along it; the curvature there is raised to the least that rounding allows to divide by. Where M takes
+// all curvature away, as when a weight stands above a joint within its play, the direction is the one without M: it
+// leads down, too.
+Pair newton_direction(const Matrix2d &without_m, const Matrix2d &m, const Pair &torque, const Pair &sign)
 {
-    if (sign[0] != 0.0 && sign[1] != 0.0) {
+    const bool both = sign[0] != 0.0 && sign[1] != 0.0;
+    Matrix2d curvature = without_m + m;
+    if (!(sign[0] == 0.0 || curvature(0, 0) > 0.0) || !(sign[1] == 0.0 || curvature(1, 1) > 0.0)
+        || (both && !(curvature.determinant() > 0.0))) {
+        curvature = without_m;
+    }
+    if (both) {
         const double product = curvature(0, 0) * curvature(1, 1);
         const double determinant =
             std::max(product - curvature(0, 1) * curvature(1, 0), kLeastCurvature * product);
@@ -89,14 +98,15 @@ Pair newton_direction(const Matrix2d &curvature, const Pair &torque, const Pair 
 Pair direction_of(const RestProblem &problem, const Pair &deflection, const Slope &slope, const Pair &torque,
                   const Pair &sign)
 {
-    const Pair direction = newton_direction(slope.curvature, torque, sign);
+    const Matrix2d &m = problem.by_loads_n_mm_per_rad;
+    const Pair direction = newton_direction(slope.curvature, m, torque, sign);
     for (int i = 0; i < problem.joint_count; ++i) {
         const bool held =
             problem.joint[i].law.rubs() && deflection[i] == problem.joint[i].before_rad;
         if (held && direction[i] * sign[i] < 0.0) {
             Pair others = sign;
             others[i] = 0.0;
-            return newton_direction(slope.curvature, torque, others);
+            return newton_direction(slope.curvature, m, torque, others);
         }
     }
     return direction;

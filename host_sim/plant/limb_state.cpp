@@ -27,7 +27,7 @@ constexpr double kGoodMove_n = 1e-10;     // a step that moves less is the last
 constexpr double kPromisedMove_n = 1e-9;  // what a step may move where rounding keeps it from becoming less
 constexpr double kRounding = 1e-14; // relative, of places
 constexpr double kLost_n = std::numeric_limits<double>::infinity();
-constexpr double kMostTurn_rad = 1.0; // in one step; a larger one has lost its way
+constexpr double kMostTurn_rad = 0.25; // in one step; a larger one may end at another rest state than the nearest
 constexpr double kShortestPart = 1.0 / 64.0; // of the way to a displacement
 
 bool has_changed(const Model &model, double t_s)

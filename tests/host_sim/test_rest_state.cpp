@@ -27,7 +27,8 @@ double decades(brace::rig::Noise &draw, double least, double most)
     return std::pow(10.0, between(draw, least, most));
 }
 
-RestProblem random_problem(brace::rig::Noise &draw, int joint_count)
+// loads: how much of a spring's stiffness they take away or add.
+RestProblem random_problem(brace::rig::Noise &draw, int joint_count, double loads)
 {
     RestProblem problem{};
     const double angle = between(draw, -3.0, 3.0);
@@ -48,6 +49,12 @@ RestProblem random_problem(brace::rig::Noise &draw, int joint_count)
         joint.load_n_mm = between(draw, -500.0, 500.0);
         joint.before_rad = between(draw, -0.01, 0.01);
     }
+    const double softest =
+        1.0 / std::fmax(problem.joint[0].law.compliance_rad_per_n_mm, problem.joint[1].law.compliance_rad_per_n_mm);
+    for (double &each : problem.by_loads_n_mm_per_rad.reshaped()) {
+        each = loads * softest * between(draw, -1.0, 1.0);
+    }
+    problem.by_loads_n_mm_per_rad(1, 0) = problem.by_loads_n_mm_per_rad(0, 1);
     return problem;
 }
 
@@ -72,7 +79,10 @@ void check_balance(const RestProblem &problem, const RestState &state)
     for (int i = 0; i < problem.joint_count; ++i) {
         const JointUnknown &joint = problem.joint[i];
         const double spring = spring_n_mm(joint, state.deflection_rad[i]);
-        const double pushing = joint.lever_mm.dot(force) + joint.load_n_mm - spring;
+        double pushing = joint.lever_mm.dot(force) + joint.load_n_mm - spring;
+        for (int j = 0; j < problem.joint_count; ++j) {
+            pushing -= problem.by_loads_n_mm_per_rad(i, j) * state.deflection_rad[j];
+        }
         const double most = joint.law.coulomb_n_mm + joint.law.coulomb_per_load_ratio * std::fabs(spring);
         const double moved = state.deflection_rad[i] - joint.before_rad;
         const double tolerance = 1e-6; // N mm: the promised 1e-9 N over levers of some hundred mm
@@ -90,7 +100,24 @@ static void test_balance(void)
 {
     brace::rig::Noise draw(20);
     for (int i = 0; i < 20000; ++i) {
-        const RestProblem problem = random_problem(draw, 1 + i % 2);
+        const RestProblem problem = random_problem(draw, 1 + i % 2, 0.0);
+        RestState state{};
+        state.deflection_rad = {problem.joint[0].before_rad, problem.joint[1].before_rad};
+        brace::plant::find_rest(problem, state);
+        check_balance(problem, state);
+    }
+}
+
+// Loads that turn with the joints, up to a third of a spring's stiffness. Within its play a joint may have no other
+// stiffness, and stand as under a weight above it.
+static void test_balance_under_loads(void)
+{
+    brace::rig::Noise draw(22);
+    for (int i = 0; i < 20000; ++i) {
+        RestProblem problem = random_problem(draw, 1 + i % 2, 0.3);
+        if (i % 4 > 1) {
+            problem.stiffness_n_per_mm.setZero(); // the tip is free
+        }
         RestState state{};
         state.deflection_rad = {problem.joint[0].before_rad, problem.joint[1].before_rad};
         brace::plant::find_rest(problem, state);
@@ -103,7 +130,7 @@ static void test_start_does_not_matter(void)
 {
     brace::rig::Noise draw(21);
     for (int i = 0; i < 5000; ++i) {
-        const RestProblem problem = random_problem(draw, 2);
+        const RestProblem problem = random_problem(draw, 2, 0.0);
         RestState near_by{};
         near_by.deflection_rad = {problem.joint[0].before_rad, problem.joint[1].before_rad};
         RestState far_off{};
@@ -119,6 +146,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_balance);
+    RUN_TEST(test_balance_under_loads);
     RUN_TEST(test_start_does_not_matter);
     return UNITY_END();
 }

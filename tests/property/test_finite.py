@@ -97,6 +97,16 @@ def test_beams_are_the_references(seed: int, weights: dict[str, float]) -> None:
             assert np.all((left_n <= most_n)[size_n <= RANGE_N]), (stroke_mm, left_n, size_n)
 
 
+@pytest.mark.parametrize("seed", range(40))
+def test_a_far_place_in_one_row(seed: int) -> None:
+    """A tip that is put a fifth of the reach away at once is led there, to where the reference leads it."""
+    draw = np.random.default_rng(seed)
+    model, pose = limb(paper_like(draw) | NO_BEAMS), (float(draw.uniform(-1.5, 1.5)), float(draw.uniform(0.5, 2.6)))
+    d = line(draw, 0.2 * reach_mm(model, pose))[-1:]
+    wanted = read(loaded_reference(model, *pose, displacement_mm=d), "fx_n", "fz_n")
+    np.testing.assert_allclose(read(finite(model, pose, d), "fx_n", "fz_n"), wanted, rtol=1e-9, atol=1e-8)
+
+
 CHECK_VALUES = [  # docs/physics.md: commanded angles, force [N], tip displacement [mm]
     (NO_BEAMS, (1.0, 1.4), (0.0, 10.0), (3.80735, 31.80811)),
     (NO_BEAMS, (1.0, 1.4), (0.0, -20.0), (-13.30591, -56.27056)),
@@ -302,6 +312,18 @@ def test_a_hanging_limb_lies_on_the_flank_of_its_play(small: bool) -> None:
     assert np.all(played["enc1_rad"] < -0.5 * gap)
     assert np.ptp(played["enc1_rad"]) == 0.0
     assert np.abs(read(played, "fx_n", "fz_n")).max() <= 1e-8
+
+
+@pytest.mark.parametrize("small", [False, True], ids=["finite", "small"])
+def test_a_hanging_limb_is_held_by_its_friction(small: bool) -> None:
+    """What the joints sagged against friction, friction holds: where the rig first lifts the tip a bit, they stay."""
+    model = limb(PAPER | NO_BEAMS | WEIGHTS | {"joint.femur.coulomb_n_mm": 150.0, "joint.tibia.coulomb_n_mm": 150.0})
+
+    def encoders(dz_mm: float) -> Any:
+        return read(play(model, 0.4, 1.1, [0.0], [dz_mm], small=small, held_at_rest=True), "enc1_rad", "enc2_rad")[0]
+
+    assert np.all(encoders(0.0) < -1e-3)
+    np.testing.assert_array_equal(encoders(0.02), encoders(0.0))
 
 
 # ------------------------------------------------------------------------------------------ out of reach --

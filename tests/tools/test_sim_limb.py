@@ -13,6 +13,7 @@ from conftest import DATA, physics_k
 from brace.cli.sim_values import fault
 from brace.errors import BadFileError
 from brace.model import LimbModel, load_limb
+from brace.native.loaded import under_force
 from brace.sim.node import MODES, LimbSetup, Node
 from brace.sim.spec import Posture
 
@@ -40,6 +41,17 @@ def levers(theta1: float, theta2: float) -> np.ndarray:
     tibia = 313.5 * np.array([math.cos(theta1 - theta2), math.sin(theta1 - theta2)])
     tip = 185.0 * np.array([math.cos(theta1), math.sin(theta1)]) + tibia
     return np.array([[-tip[1], tibia[1]], [tip[0], -tibia[0]]])
+
+
+def tip_mm(theta1: float, theta2: float) -> np.ndarray:
+    """The tip of the unbent limb, from the femur axis."""
+    shin = theta1 - theta2
+    return np.array(
+        [
+            185.0 * math.cos(theta1) + 313.5 * math.cos(shin),
+            185.0 * math.sin(theta1) + 313.5 * math.sin(shin),
+        ]
+    )
 
 
 FRICTIONLESS = {"friction_n_mm": 0.0}
@@ -104,6 +116,28 @@ def test_a_wall_yields_in_series(paper: LimbModel) -> None:
     assert force_n == pytest.approx(np.linalg.solve(compliance, [0.0, 0.1])[1], rel=3e-3)
 
 
+@pytest.mark.parametrize(("hold_n_per_mm", "press_mm"), [(math.inf, (-3.0, 12.0)), (0.5, (-10.0, 45.0))])
+def test_a_limb_pressed_far_rests_as_the_reference_does(
+    paper: LimbModel, hold_n_per_mm: float, press_mm: tuple[float, float]
+) -> None:
+    """At the motors' angles and under the contact's force the reference's tip stands where the contact holds it, less
+    what the contact yields. Where its anchor is: from the tip at the angles without droop."""
+    heavy = paper.with_values({"gravity.femur_n": 3.0, "gravity.tibia_n": 4.0, "gravity.knee_n": 2.0})
+    with node(heavy, press_mm=press_mm, hold_n_per_mm=hold_n_per_mm, drive=FRICTIONLESS) as one:
+        one.step(0.5)
+        truth = one.raw_truth()
+    force = np.array([truth.force_x_n, truth.force_z_n])
+    rest = under_force(heavy, truth.motor_rad[1], truth.motor_rad[2], force)
+    assert np.linalg.norm(rest.displacement_mm[0]) > 4.0
+    moved = tip_mm(truth.motor_rad[1], truth.motor_rad[2]) - tip_mm(1.0, 1.4) + rest.displacement_mm[0]
+    np.testing.assert_allclose(moved, np.array(press_mm) - force / hold_n_per_mm, rtol=0.0, atol=1e-6)
+    opens = [-1.0, 1.0]  # against the senses of theta1 and theta2
+    moment = np.array([rest["femur_n_mm"][0], rest["tibia_n_mm"][0]])
+    np.testing.assert_allclose([truth.load_n_mm[1], truth.load_n_mm[2]], moment * opens, rtol=1e-6)
+    turned = np.array([truth.link_rad[i] - truth.motor_rad[i] for i in (1, 2)])
+    np.testing.assert_allclose(-turned * opens, [rest["femur_rad"][0], rest["tibia_rad"][0]], rtol=1e-6)
+
+
 def test_a_free_tip_carries_nothing_and_gravity_chooses_the_flank(paper: LimbModel) -> None:
     heavy = paper.with_values(
         {"gravity.tibia_n": 8.0, "joint.femur.gap_rad": 0.004, "joint.tibia.gap_rad": 0.004}
@@ -112,11 +146,12 @@ def test_a_free_tip_carries_nothing_and_gravity_chooses_the_flank(paper: LimbMod
         one.step(1.0)
         truth, snapshot = one.raw_truth(), one.raw_snapshot()
     assert math.hypot(truth.force_x_n, truth.force_z_n) < 1e-4
-    # The tibia's weight at its middle, by levers: theta1 is held up; flexion lowers the tibia: theta2 is held back.
-    theta1, shin = truth.motor_rad[1], truth.motor_rad[1] - truth.motor_rad[2]
-    knee_n_mm = 8.0 * 156.75 * math.cos(shin)
-    assert truth.load_n_mm[1] == pytest.approx(knee_n_mm + 8.0 * 185.0 * math.cos(theta1), rel=1e-4)
-    assert truth.load_n_mm[2] == pytest.approx(-knee_n_mm, rel=1e-4)
+    # theta1 is held up; flexion lowers the tibia: theta2 is held back. Both joints stand at the end of their play.
+    force = [truth.force_x_n, truth.force_z_n]
+    hung = under_force(heavy, truth.motor_rad[1] - 0.002, truth.motor_rad[2] + 0.002, force)
+    assert truth.load_n_mm[1] == pytest.approx(-hung["femur_n_mm"][0], rel=1e-6)
+    assert truth.load_n_mm[2] == pytest.approx(hung["tibia_n_mm"][0], rel=1e-6)
+    assert hung["tibia_n_mm"][0] == pytest.approx(-8.0 * 156.75 * math.cos(-0.4), rel=0.1)  # before it turns
     assert [truth.flank[1], truth.flank[2]] == [1, -1]
     told = [snapshot.play[i].flank for i in (1, 2)]
     assert told == [1, -1]
