@@ -167,6 +167,7 @@ LOADING_META = """format = 1
 kind = "loading"
 title = "made by the tests"
 zeroed = "never"
+displacements = "small"
 [sensor]
 resolution_n = 0.0625
 range_n = 145.0

@@ -173,9 +173,9 @@ def test_zeroed_counts_at_the_top_and_under_rig(tmp_path: Path) -> None:
         meta += f'zeroed = "{rig}"\n' if rig else ""
         assert load_dataset(write_loading(tmp_path, rows, meta=meta)).meta.zeroed_per_run is expected
     for meta, line in (
-        (LOADING_META + 'zeroed = "per_run"\n', 11),
-        (bare + 'zeroed = "sometimes"\n', 10),
-        (bare + "zeroed = true\n", 10),
+        (LOADING_META + 'zeroed = "per_run"\n', 12),
+        (bare + 'zeroed = "sometimes"\n', 11),
+        (bare + "zeroed = true\n", 11),
     ):
         with pytest.raises(BadFileError) as caught:
             load_dataset(write_loading(tmp_path, rows, meta=meta))

@@ -91,9 +91,9 @@ def test_sensor_columns_appear_when_asked_for(files: dict[str, Path], brace: Cal
     lever = np.array([-313.5 * np.sin(-0.4), 313.5 * np.cos(-0.4)])  # of joint 2 at theta1 - theta2 = -0.4
     torque = lever[0] * dataset["fx_n"] + lever[1] * dataset["fz_n"]
     first = dataset["config"] == 1
-    assert np.allclose(dataset["enc2_rad"][first], -1.6e-5 * torque[first], atol=2e-6) or np.allclose(
-        dataset["enc2_rad"][first], 1.6e-5 * torque[first], atol=2e-6
-    )
+    # The lever turns with the limb, by up to 0.02 rad; beside a lever across the force that is a few per cent.
+    assert np.allclose(dataset["enc2_rad"][first], 1.6e-5 * torque[first], atol=6e-4)
+    assert np.abs(dataset["enc2_rad"][first]).max() > 1e-2
 
 
 def test_prediction_has_the_datasets_rows(

@@ -69,7 +69,7 @@ def load_dataset(folder: Path, *, keep_unreadable: bool = False) -> Dataset:
     meta = read_meta(folder)
     unreadable: list[DataFault] | None = [] if keep_unreadable else None
     columns, raw_rows = read_columns(folder / "data.csv", KINDS[meta.kind], unreadable)
-    dataset = Dataset(folder, meta, columns)
+    dataset = Dataset(folder, meta, columns, small_displacements=meta.displacements == "small")
     if unreadable:
         return replace(dataset, faults=unreadable)
     if meta.kind == "loading":

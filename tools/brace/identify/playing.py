@@ -35,9 +35,8 @@ def player_of(dataset: Dataset, readings: Sequence[str], *, zeroed: bool = False
 
 def settled(dataset: Dataset, believed: LimbModel) -> Dataset:
     """The record, with `small_displacements` as its meta.toml says or its readings tell. In doubt the limb turned."""
-    said = dataset.meta.displacements
-    if said:
-        return replace(dataset, small_displacements=said == "small")
+    if dataset.meta.displacements:
+        return dataset
     return replace(dataset, small_displacements=_never_turned(dataset, believed))
 
 
