@@ -146,13 +146,26 @@ def prior_parameter(model: LimbModel, key: str) -> Parameter | None:
     return Parameter(key, start, sigma, entry.low, entry.high, sigma)
 
 
-def with_priors(model: LimbModel, extra: Sequence[str] = ()) -> ParameterSet:
-    """Everything that [uncertainty] speaks of, within its trust; `extra` keys free."""
+# Which share of the tibia's bending is a beam's. Without load it changes nothing, so no calibration at small loads tells
+# it: where limb.toml is silent it is anything from 0 to 1.
+TIBIA_BEAM = "link.tibia.moment_transfer"
+
+
+def tibia_beam(model: LimbModel) -> Parameter | None:
+    """What a record of a limb that turns may tell of the tibia, unless limb.toml says it."""
+    return None if TIBIA_BEAM in model.given else Parameter(TIBIA_BEAM, 0.5, 1.0, 0.0, 1.0, prior_sigma=0.5)
+
+
+def with_priors(model: LimbModel, extra: Sequence[str] = (), *, turns: bool = False) -> ParameterSet:
+    """Everything that [uncertainty] speaks of, within its trust; `extra` keys free. `turns`: the record's limb turned
+    as it was displaced."""
     chosen = [
         parameter
         for key in PRIOR_KEYS
         if key not in extra and (parameter := prior_parameter(model, key)) is not None
     ]
+    if turns and TIBIA_BEAM not in extra and (beam := tibia_beam(model)) is not None:
+        chosen.append(beam)
     return ParameterSet(model, (*chosen, *(free_parameter(model, key) for key in extra)))
 
 

@@ -77,11 +77,11 @@ def identify(
     return _table(dataset, settled, start, done, options, advance)
 
 
-def _chosen(start: LimbModel, mode: str, options: Options) -> choose.ParameterSet:
+def _chosen(start: LimbModel, mode: str, options: Options, *, turns: bool = False) -> choose.ParameterSet:
     if options.only_keys:
         return choose.free(start, options.only_keys)
     if mode == "prior":
-        return choose.with_priors(start, options.extra_keys)
+        return choose.with_priors(start, options.extra_keys, turns=turns)
     return choose.free_compliances(start, options.extra_keys)
 
 
@@ -90,7 +90,7 @@ def _loading(
 ) -> Identification:
     mode = options.mode or "prior"
     problem = LoadingProblem(settled)
-    best = fit(problem, _chosen(start, mode, options))
+    best = fit(problem, _chosen(start, mode, options, turns=not settled.small_displacements))
     advance(2)
     known = information(best)
     classes = confusions(problem, best.model, {}, _candidates(CANDIDATES, options))

@@ -8,6 +8,7 @@ import numpy as np
 
 from brace.diagnose.loading.record import Record
 from brace.diagnose.loading.space import Space
+from brace.identify.parameters import TIBIA_BEAM
 
 MAX_STEPS = 14
 STEP_LENGTHS = np.array([1.0, 0.4, 0.1, 0.02])
@@ -17,7 +18,7 @@ PROBE = 0.2  # sigmas of the whole record that a finite difference moves by, abo
 STEPWISE_ROUNDS = 3
 MOST_TIMES = 120
 # Keys of which a limb that does not turn shows nothing, or only a part.
-SEEN_IN_TURNING = ("link.tibia.moment_transfer", "gravity.")
+SEEN_IN_TURNING = (TIBIA_BEAM, "gravity.")
 BIG = 1e6  # whitened residual that stands for a model which no limb can have
 
 

@@ -9,14 +9,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from brace.effects import Variant
-from brace.identify.parameters import PRIOR_KEYS, Parameter, prior_parameter
+from brace.identify.parameters import PRIOR_KEYS, prior_parameter, tibia_beam
 from brace.model import LimbModel
 from brace.native.plant_batch import model_numbers, number_index
-
-
-# Which share of the tibia's bending is a beam's. Without load it changes nothing, so no calibration at small loads
-# tells it; where limb.toml is silent it is anything from 0 to 1.
-TIBIA_BEAM = "link.tibia.moment_transfer"
 
 
 @dataclass(frozen=True)
@@ -34,8 +29,8 @@ class Trust:
 def trust_of(believed: LimbModel, *, turns: bool) -> Trust:
     """Everything that the calibration knows within a sigma. `turns`: of a limb that turns as it is displaced."""
     parameters = [item for key in PRIOR_KEYS if (item := prior_parameter(believed, key)) is not None]
-    if turns and TIBIA_BEAM not in believed.given:
-        parameters.append(Parameter(TIBIA_BEAM, 0.5, 1.0, 0.0, 1.0, prior_sigma=0.5))
+    if turns and (beam := tibia_beam(believed)) is not None:
+        parameters.append(beam)
     return Trust(
         model_numbers(believed),
         tuple(item.key for item in parameters),
