@@ -32,10 +32,12 @@ def limb_text(p: Array, given: Trust, name: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def meta_text(design: Design, title: str) -> str:
-    """meta.toml of a loading test."""
+def meta_text(design: Design, title: str, *, says_displacements: bool = False) -> str:
+    """meta.toml of a loading test. The simulator's limb does not turn as it is displaced. A record does not say so, and
+    the tool has to find it out; a hold-out, which is only predicted, does."""
+    said = 'displacements = "small"\n' if says_displacements else ""
     return (
-        f'format = 1\nkind = "loading"\ntitle = "{title}"\n[sensor]\nresolution_n = {design.resolution_n!r}\n'
+        f'format = 1\nkind = "loading"\ntitle = "{title}"\n{said}[sensor]\nresolution_n = {design.resolution_n!r}\n'
         f"range_n = 145.0\n[rig]\nstep_mm = {design.step_mm!r}\ndwell_s = {design.dwell_s!r}\n"
         'zeroed = "never"\n'
     )

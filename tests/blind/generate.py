@@ -328,7 +328,8 @@ def write_case(seed: int, index: int, cases: Cases, out: Path) -> list[str]:
     answer.mkdir(parents=True, exist_ok=True)
     if truth["kind"] != "data_fault":
         readings = clean_readings(case, held.rows)[:, held.columns]
-        write_dataset(answer / "holdout", meta_text(held, f"holdout {name}"), table_of(held, readings))
+        meta = meta_text(held, f"holdout {name}", says_displacements=True)
+        write_dataset(answer / "holdout", meta, table_of(held, readings))
     truth = {
         "id": name,
         **truth,

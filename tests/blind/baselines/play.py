@@ -18,11 +18,11 @@ class Unseen:
 
     def __init__(self, folder: Path) -> None:
         from brace.dataset import load_dataset
-        from brace.native.plant_batch import LoadingBatchPlayer
+        from brace.identify.playing import player_of
 
         self.data = load_dataset(folder)
         self.forces = np.stack([np.asarray(self.data[name], float) for name in FORCES])
-        self._player = LoadingBatchPlayer(self.data.columns, FORCES, zeroed=self.data.meta.zeroed_per_run)
+        self._player = player_of(self.data, FORCES, zeroed=self.data.meta.zeroed_per_run)
 
     def played(self, numbers: Array) -> Array:
         """Forces of a limb's numbers, 2 x rows [N]."""

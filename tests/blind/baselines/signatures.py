@@ -89,13 +89,15 @@ def prepared(case: Path) -> Any:
     from brace.diagnose.loading.space import space_of, trust_of
     from brace.diagnose.one import load
     from brace.diagnose.options import Options
+    from brace.identify.playing import settled
 
     given = load(case, case / "limb.toml")
     assert given.believed is not None
-    if gate(given.dataset, given.believed, Options()) is not None:
+    dataset = settled(given.dataset, given.believed)
+    if gate(dataset, given.believed, Options()) is not None:
         return None
-    trust = trust_of(given.believed)
-    record = with_known_noise(load_record(given.dataset), trust)
+    trust = trust_of(given.believed, turns=not dataset.small_displacements)
+    record = with_known_noise(load_record(dataset), trust)
     space = space_of(trust, ())
     return given, record, trust, fit(record, space, space.mean)
 

@@ -83,7 +83,7 @@ def recorded(folder: Path, limb: LimbModel, rig: str) -> Record:
 
 def searched(record: Record, believed: LimbModel, variants: Sequence[Variant]) -> Any:
     """What a search over these effects alone would hand over: sets by their likelihood."""
-    trust = trust_of(believed)
+    trust = trust_of(believed, turns=True)
     base = space_of(trust, ())
     bare = Hypothesis(fit(record, base, base.mean), 0.0)
     found = []
@@ -238,7 +238,7 @@ def test_same_record_same_proposal(believed: LimbModel, soft_knee: tuple[Record,
 
 def test_a_larger_set_is_no_rival_of_its_part(believed: LimbModel, soft_knee: tuple[Record, Any]) -> None:
     record, _ = soft_knee
-    trust = trust_of(believed)
+    trust = trust_of(believed, turns=True)
     spaces = [space_of(trust, [JOINT]), space_of(trust, [JOINT, GAP])]
     sets = []
     for space in spaces:

@@ -133,7 +133,7 @@ def test_a_reading_under_load_is_no_glitch(tmp_path: Path, believed: LimbModel) 
     """Where the noise grows to five times with the load, which was not told, no reading under load is a fault of its
     own; the same deviation of one under little load is."""
     record = load_record(recorded(tmp_path, believed, 6))
-    space = space_of(trust_of(believed), ())
+    space = space_of(trust_of(believed, turns=True), ())
     found = fit(record, space, space.mean)
     rng = np.random.default_rng(2)
     left = rng.standard_normal(record.measured.shape)
@@ -154,7 +154,7 @@ def test_a_reading_under_load_is_no_glitch(tmp_path: Path, believed: LimbModel) 
 def test_a_hint_is_told_and_not_named(tmp_path: Path, believed: LimbModel) -> None:
     """Between the odds that are asked of a name and those that are worth a second record."""
     record = load_record(recorded(tmp_path, believed, 9))
-    found = search_pass(record, trust_of(believed), all_variants(setting_of(record, believed)), lambda _a, _b: None)
+    found = search_pass(record, trust_of(believed, turns=True), all_variants(setting_of(record, believed)), lambda _a, _b: None)
     nothing = next(item for item in found.sets if not item.labels)
     for share, told in ((0.9, None), (0.5 * (HINT + NOTHING_STANDS), 0.1)):
         chosen = replace(nothing, posterior=share)
@@ -166,7 +166,7 @@ def test_a_hint_is_told_and_not_named(tmp_path: Path, believed: LimbModel) -> No
 def test_base_fit_finds_the_least_of_a_linear_problem(tmp_path: Path, believed: LimbModel) -> None:
     """At the least, the slope of the cost is nothing beside its curvature: no key could gain a hundredth."""
     record = load_record(recorded(tmp_path, believed, 3))
-    space = space_of(trust_of(believed), ())
+    space = space_of(trust_of(believed, turns=True), ())
     found = fit(record, space, space.mean)
     slope = found.jacobian.T @ found.residual - found.scale / space.sigma * space.pull(found.x)
     curvature = np.sum(found.jacobian**2, axis=0) + (found.scale / space.sigma) ** 2
@@ -176,7 +176,7 @@ def test_base_fit_finds_the_least_of_a_linear_problem(tmp_path: Path, believed: 
 
 def test_structure_of_pure_noise_is_none_and_of_a_shape_is_found(tmp_path: Path, believed: LimbModel) -> None:
     """p is about uniform for noise (20 records: none under 0.001); a wave of 1 sigma amplitude is 25 sigma in all."""
-    space = space_of(trust_of(believed), ())
+    space = space_of(trust_of(believed, turns=True), ())
     for seed in range(20):
         record = load_record(recorded(tmp_path / str(seed), believed, 100 + seed))
         assert structure_of(record, fit(record, space, space.mean)).p > 1e-3, seed
@@ -190,7 +190,7 @@ def test_what_the_base_can_make_up_is_taken_out_and_nothing_else(tmp_path: Path,
     """A signature that is one of the base's own leaves only what its prior holds back: 1 / (1 + power of the data over
     the prior's) of its square. One that the base cannot make stays whole."""
     record = load_record(recorded(tmp_path, believed, 4))
-    space = space_of(trust_of(believed), ())
+    space = space_of(trust_of(believed, turns=True), ())
     found = fit(record, space, space.mean)
     remover = Remover(found)
     place = space.keys.index("sensor.gain")
@@ -209,7 +209,7 @@ def test_what_the_base_can_make_up_is_taken_out_and_nothing_else(tmp_path: Path,
 def test_a_freedom_that_gains_nothing_costs_its_share(tmp_path: Path, believed: LimbModel) -> None:
     """Two fits of the same cost, one with a freedom more: log SPREAD apart; a second effect costs its prior besides."""
     record = load_record(recorded(tmp_path, believed, 5))
-    trust = trust_of(believed)
+    trust = trust_of(believed, turns=True)
     variants = [v for v in all_variants(setting_of(record, believed)) if v.label == "sensor_bias@sensor"]
     base = fit(record, space_of(trust, ()), space_of(trust, ()).mean)
     one, _, both = (fit(record, space_of(trust, (way,)), space_of(trust, (way,)).mean) for way in variants)
@@ -221,7 +221,7 @@ def test_a_freedom_that_gains_nothing_costs_its_share(tmp_path: Path, believed: 
 
 def test_nothing_hidden_nothing_found(tmp_path: Path, believed: LimbModel) -> None:
     record = load_record(recorded(tmp_path, believed, 11))
-    search = Search(record, trust_of(believed), all_variants(setting_of(record, believed)))
+    search = Search(record, trust_of(believed, turns=True), all_variants(setting_of(record, believed)))
     assert search.run()[0].label == "none"
 
 
@@ -238,7 +238,7 @@ def test_a_hidden_effect_is_found_with_its_size(
     tmp_path: Path, believed: LimbModel, key: str, value: float, label: str
 ) -> None:
     record = load_record(recorded(tmp_path, believed.with_values({key: value}), 12))
-    search = Search(record, trust_of(believed), all_variants(setting_of(record, believed)))
+    search = Search(record, trust_of(believed, turns=True), all_variants(setting_of(record, believed)))
     best = search.run()[0]
     assert best.label == label
     assert best.fit.value(key) == pytest.approx(value, rel=0.25)
@@ -248,7 +248,7 @@ def against_the_catalogue(data: Dataset, believed: LimbModel) -> tuple[Outside, 
     """What speaks for something outside the catalogue, and what the best in it is called."""
     record = load_record(data)
     variants = all_variants(setting_of(record, believed))
-    sets = posterior_of(Search(record, trust_of(believed), variants).run(), variants)
+    sets = posterior_of(Search(record, trust_of(believed, turns=True), variants).run(), variants)
     return outside(record, sets, variants), sets[0].label
 
 
@@ -305,7 +305,7 @@ def test_the_odds_of_an_outsider_lower_the_confidence(tmp_path: Path, believed: 
     assert not Outside(0.0, "").likely
     record = load_record(recorded(tmp_path, believed.with_values({"joint.tibia.gap_rad": 2e-3}), 24))
     variants = all_variants(setting_of(record, believed))
-    found = search_pass(record, trust_of(believed), variants, lambda share, doing: None)
+    found = search_pass(record, trust_of(believed, turns=True), variants, lambda share, doing: None)
     sure, torn = (
         of_label(replace(found, decision=replace(found.decision, outside=Outside(lead, ""))), "backlash@joint.tibia")
         for lead in (-50.0, 0.0)
@@ -338,7 +338,7 @@ def test_the_catalogue_is_whole_and_its_keys_exist(tmp_path: Path, believed: Lim
     record = load_record(recorded(tmp_path, believed, 1, repeats=1))
     variants = all_variants(setting_of(record, believed))
     assert len(EFFECTS) == len({effect.name for effect in EFFECTS}) == 20
-    trust = trust_of(believed)
+    trust = trust_of(believed, turns=True)
     for variant in variants:
         space = space_of(trust, (variant,))
         assert len(space.keys) == len(set(space.keys)) == len(space.mean)

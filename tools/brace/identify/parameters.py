@@ -146,8 +146,8 @@ def prior_parameter(model: LimbModel, key: str) -> Parameter | None:
     return Parameter(key, start, sigma, entry.low, entry.high, sigma)
 
 
-# Which share of the tibia's bending is a beam's. Without load it changes nothing, so no calibration at small loads tells
-# it: where limb.toml is silent it is anything from 0 to 1.
+# Which share of the tibia's bending is a beam's. Without load it changes nothing, so no calibration at small loads
+# tells it: where limb.toml is silent it is anything from 0 to 1.
 TIBIA_BEAM = "link.tibia.moment_transfer"
 
 
