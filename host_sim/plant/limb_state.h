@@ -74,8 +74,8 @@ private:
         Eigen::Vector2d tip_mm = Eigen::Vector2d::Zero(); // from its weightless place
     };
     Rest rest_;
-    // Without friction and creep a rest state depends on where the tip is held and on nothing before. A record leads the
-    // tip to few places at a posture, and to each of them often.
+    // Without friction and creep a rest state depends on where the tip is held and on nothing before. A record leads
+    // the tip to few places at a posture, and to each of them often.
     struct Known {
         Eigen::Vector2d target_mm;
         int free_axis;

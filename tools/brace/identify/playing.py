@@ -1,7 +1,7 @@
 """Loading records on the plant: whether a record's limb turned as it was displaced, and the player for it.
 
-A real limb turns, so force is not proportional to displacement even where every spring is linear. Some simulations leave
-that out. A record may say so in its meta.toml (`displacements`). Where it does not, the readings tell: the part of
+A real limb turns, so force is not proportional to displacement even where every spring is linear. Some simulations
+leave that out. A record may say so in its meta.toml (`displacements`). Where it does not, the readings tell: the part of
 the forces that is curved over the displacement is compared with the one that the believed limb shows as it turns. Their
 ratio is 1 for a limb that turns and 0 for one that does not. How stiff the limb is, and most effects that it may lack,
 hardly change it."""
