@@ -251,7 +251,7 @@ def test_files_without_a_record(content: bytes, words: str, tmp_path: Path) -> N
 def test_wrong_meta(tmp_path: Path) -> None:
     for meta, words in (
         (LOADING_META.replace('"loading"', '"lodaing"'), "meta.toml:2"),
-        (LOADING_META.replace("145.0", "-1.0"), "meta.toml:7"),
+        (LOADING_META.replace("145.0", "-1.0"), "meta.toml:8"),
         (LOADING_META.replace('"never"', "3"), "meta.toml:4"),
         ("kind = 1\n", "format is missing"),
         ("kind", "not valid TOML"),

@@ -16,7 +16,8 @@ Brace = Callable[..., Outcome]
 @pytest.fixture
 def exact(paper_limb: Path, tmp_path: Path) -> Path:
     limb = tmp_path / "exact.toml"
-    limb.write_text(re.sub(r"\[uncertainty\][^\[]*", "", paper_limb.read_text()))
+    said = paper_limb.read_text().replace("[link.tibia]", "[link.tibia]\nmoment_transfer = false")
+    limb.write_text(re.sub(r"\[uncertainty\][^\[]*", "", said))
     return limb
 
 

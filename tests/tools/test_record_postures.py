@@ -14,6 +14,8 @@ from conftest import LIMB, Outcome, physics_k
 
 from brace.bus.loading_rows import added, on_one_clock, with_motor_angles
 from brace.dataset import load_dataset
+from brace.model import load_limb
+from brace.native import loaded
 
 FEMUR_MM, TIBIA_MM = 185.0, 313.5
 ENCODER_STEP_RAD = 2e-5  # the dictionary's default
@@ -124,7 +126,7 @@ def test_postures_over_a_bus_become_one_record(brace: Callable[..., Outcome], tm
 def test_a_long_stroke_over_a_bus_is_the_limbs_to_the_encoders_step(
     brace: Callable[..., Outcome], tmp_path: Path
 ) -> None:
-    """Every row's force is K at its own angles times its displacement: the stroke's square leaves nothing."""
+    """Every row's force is the one that the reference has for its own angles and displacement: nothing is left."""
     limb, out = tmp_path / "limb.toml", tmp_path / "long"
     limb.write_text(LIMB + "[sensor]\nnoise_n = 0.0\n")
     long = ("--loading-test", "--axis", "x", "--steps", 3, "--step-mm", 2.5)
@@ -133,8 +135,7 @@ def test_a_long_stroke_over_a_bus_is_the_limbs_to_the_encoders_step(
     assert outcome.code == 0, outcome.err
     dataset = load_dataset(out)
     d = np.column_stack([dataset["dx_mm"], dataset["dz_mm"]])
-    angles = zip(dataset["theta1_rad"].tolist(), dataset["theta2_rad"].tolist())
-    force = np.array([physics_k(*angle) @ each for angle, each in zip(angles, d)])
+    force = loaded.under_displacement(load_limb(limb), dataset["theta1_rad"], dataset["theta2_rad"], d).force_n
     left = np.column_stack([dataset["fx_n"], dataset["fz_n"]]) - force
     # half an encoder's step of the first row and half of this one, of either joint, by what its turn presses
     per_rad = np.abs(physics_k(1.0, 1.4) @ _by_levers((1.0, 1.4), np.eye(2))).sum(axis=1)
