@@ -438,8 +438,8 @@ EFFECTS: tuple[Effect, ...] = (
         "gravity",
         ("gravity",),
         words="weight of the links",
-        meaning="the links' own weight loads the joints, by posture",
-        law="weights at mid-femur, mid-tibia and knee act along -z on the joints",
+        meaning="the weight of links and knee loads joints, links and base, by posture",
+        law="weights along the links, and at the knee, act downwards on all that bends",
         told_by="an offset that is the same at every load and changes with the posture as the levers of weights do",
         numbers=(
             Number("knee_n", 1.0, between(0.0, 1e4)),
