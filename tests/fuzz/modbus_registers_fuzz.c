@@ -12,7 +12,7 @@
 #include "brace/measured.h"
 #include "modbus_crc.h"
 
-enum { UNIT = 17, WORDS = (int)(sizeof(brace_parameters_t) / 4), MOST_TICKS = 120, HEADER = 7,
+enum { UNIT = 17, WORDS = BRACE_PARAMETER_NUMBERS, MOST_TICKS = 120, HEADER = 7,
        ANSWERED = 16, COMMANDS = 17 /* values from 4096 and from 16384 on, by docs/modbus.md */ };
 
 static const uint32_t key = 0xc0de0000u;
@@ -61,6 +61,12 @@ static uint32_t word(const void *values, uint32_t index)
     return value;
 }
 
+/* A parameter by the place of its registers. */
+static uint32_t parameter_at(const brace_parameters_t *set, uint32_t place)
+{
+    return word(set, brace_parameter_index(place));
+}
+
 static uint32_t bits(float value)
 {
     return word(&value, 0);
@@ -96,7 +102,7 @@ static uint32_t some_start(void)
 static uint32_t some_value(uint32_t start)
 {
     if (start < 2u * WORDS && dice(4) != 0u) {
-        return word(&app.controller.parameters.in_force, start / 2u) + (dice(3) == 0u ? dice(64) : 0u);
+        return parameter_at(&app.controller.parameters.in_force, start / 2u) + (dice(3) == 0u ? dice(64) : 0u);
     }
     switch (start) {
     case 16384: return key | (1u + dice(2));
@@ -205,7 +211,7 @@ static bool tells(const uint8_t *answer, uint32_t start, uint32_t count, const b
 {
     bool same = true;
     for (uint32_t i = 0; i < count && start + i < 2u * WORDS; i++) {
-        const uint32_t value = word(set, (start + i) / 2u);
+        const uint32_t value = parameter_at(set, (start + i) / 2u);
         same = same && at16(answer + 2u + 2u * i) == (((start + i) & 1u) == 0u ? value >> 16 : value & 0xffffu);
     }
     return same;
@@ -262,7 +268,7 @@ static void judge_write(const bytes_t *sent, const uint8_t *pdu, uint32_t length
     questions[(start - 16396u) / 2u % COMMANDS] += start >= 16396u;
     if (start < 2u * WORDS) {
         for (uint32_t i = 0; i < pdu[5] / 4u; i++) {
-            if (word(&app.controller.parameters.staged, start / 2u + i) != at32(pdu + 6u + 4u * i)) {
+            if (parameter_at(&app.controller.parameters.staged, start / 2u + i) != at32(pdu + 6u + 4u * i)) {
                 wrong("what was written is not what is staged", sent, got);
             }
         }

@@ -23,7 +23,7 @@ TRUE_RATIO = -0.3
 
 DICTIONARY_ENTRY = """[[group.entry]]
 name = "one_sided_ratio"
-register = [216, 218, 220]
+register = [220, 222, 224]
 table = "joint.*"
 unit = ""
 range = [-0.9, 5.0]

@@ -16,6 +16,7 @@
 #include "jobs/loading/loading.h"
 #include "mode/faults.h"
 #include "mode/mode.h"
+#include "posture/gravity.h"
 #include "posture/posture.h"
 #include "sense/joints.h"
 #include "sense/tip_force.h"
@@ -34,6 +35,7 @@ typedef struct {
     flank_t flank;
     takeup_t takeup;
     posture_t posture;
+    gravity_t gravity;
     model_t model;
     brace_loading_t loading;
     brace_recorder_t recorder;

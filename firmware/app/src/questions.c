@@ -8,11 +8,12 @@ static brace_status_t k_elsewhere(controller_t *controller, float theta1_rad, fl
                                   brace_stiffness_t *stiffness, float *across_n_per_mm)
 {
     const brace_parameters_t *parameters = &controller->parameters.in_force;
-    float temp_degc[BRACE_LINK_COUNT], springs_rad_per_n_mm[BRACE_LINK_COUNT];
+    float temp_degc[BRACE_LINK_COUNT];
+    brace_loaded_joint_t springs[BRACE_LINK_COUNT];
     joints_temperatures(&controller->joints, temp_degc);
-    model_springs_at_rest(parameters, temp_degc, springs_rad_per_n_mm);
+    model_springs_at_rest(parameters, temp_degc, springs);
     const brace_status_t status = model_stiffness(&controller->model, parameters, theta1_rad, theta2_rad,
-                                                  springs_rad_per_n_mm, stiffness, across_n_per_mm);
+                                                  springs, stiffness, across_n_per_mm);
     if (status == BRACE_OK) {
         const bool inside = posture_is_inside_travel(&parameters->drive[BRACE_FEMUR], theta1_rad) &&
                             posture_is_inside_travel(&parameters->drive[BRACE_TIBIA], theta2_rad);
@@ -82,9 +83,7 @@ brace_status_t brace_app_sag(const brace_app_t *app, brace_force_t load, brace_d
 brace_status_t brace_app_grip(const brace_app_t *app, float normal_rad, float friction_ratio,
                               brace_contact_grip_t *grip)
 {
-    /* The knee of a limb with links of 1 mm stands at (cos, sin) of theta1. This gives cosine and sine without libm. */
-    static const brace_limb_t unit_limb = {.femur_mm = 1.0f, .tibia_mm = 1.0f};
-    brace_pose_t pose;
+    brace_vec_t normal;
     if (app == NULL) {
         return BRACE_E_NULL;
     }
@@ -93,7 +92,6 @@ brace_status_t brace_app_grip(const brace_app_t *app, float normal_rad, float fr
     if (force.x_n != force.x_n || force.z_n != force.z_n) {
         return BRACE_E_NOT_FINITE;
     }
-    const brace_status_t status = brace_kinematics_forward(&unit_limb, normal_rad, 0.0f, &pose);
-    return status == BRACE_OK ? brace_contact_grip(force, pose.knee.x_mm, pose.knee.z_mm, friction_ratio, grip)
-                              : status;
+    const brace_status_t status = brace_kinematics_direction(normal_rad, &normal);
+    return status == BRACE_OK ? brace_contact_grip(force, normal.x, normal.z, friction_ratio, grip) : status;
 }

@@ -272,13 +272,13 @@ static bool is_same_k(const brace_stiffness_t *a, const brace_stiffness_t *b)
 }
 
 /* Is K that of an earlier snapshot, though the limb stands elsewhere? Where an open gap takes the motor's movement up,
- * the limb stands where it stood, and K stays. */
+ * the limb stands where it stood, and K stays. A load that changes by noise turns the joints by less than a step. */
 static bool is_old(const brace_snapshot_t *snapshot)
 {
     bool old = false;
     for (int i = 0; i < 2; i++) {
-        const bool has_moved = snapshot->theta_rad[BRACE_FEMUR] != before[i].theta1_rad ||
-                               snapshot->theta_rad[BRACE_TIBIA] != before[i].theta2_rad;
+        const bool has_moved = fabsf(snapshot->theta_rad[BRACE_FEMUR] - before[i].theta1_rad) > 0.5f * STEP_RAD ||
+                               fabsf(snapshot->theta_rad[BRACE_TIBIA] - before[i].theta2_rad) > 0.5f * STEP_RAD;
         old = old || (has_moved && is_same_k(&snapshot->stiffness.engaged, &before[i].k));
     }
     return old;

@@ -150,11 +150,11 @@ static void test_entries_are_read_and_those_that_are_none_refused(void)
     TEST_ASSERT_EQUAL_HEX32(0x4640e600, word);
     TEST_ASSERT_EQUAL_HEX32(0x01020304, read_entry(BRACE_ENTRY_MEASURED + 1));
     TEST_ASSERT_EQUAL_HEX32(BRACE_DICTIONARY_HASH, read_entry(BRACE_ENTRY_MEASURED + 2));
-    TEST_ASSERT_EQUAL(NODE, read_entry(BRACE_PARAMETER_CONTROLLER_NODE_ID));
-    word = read_entry(BRACE_PARAMETER_GEOMETRY_FEMUR_MM);
+    TEST_ASSERT_EQUAL(NODE, read_entry(brace_parameter_number(BRACE_PARAMETER_CONTROLLER_NODE_ID)));
+    word = read_entry(brace_parameter_number(BRACE_PARAMETER_GEOMETRY_FEMUR_MM));
     memcpy(&value, &word, 4);
     TEST_ASSERT_EQUAL_FLOAT(bench_parameters().limb.femur_mm, value);
-    static const uint32_t none[] = {BRACE_PARAMETER_COUNT, 0xfff, BRACE_ENTRY_MEASURED + BRACE_MEASURED_COUNT, 0xffff};
+    static const uint32_t none[] = {BRACE_PARAMETER_NUMBERS, 0xfff, BRACE_ENTRY_MEASURED + BRACE_MEASURED_COUNT, 0xffff};
     for (int i = 0; i < 4; i++) {
         brace_can_pack_read_entry_request(&(brace_can_read_entry_request_t){1, none[i]}, data);
         const answer_t answer = ask(data);
@@ -292,14 +292,14 @@ static void test_a_written_entry_is_in_force_only_after_its_commit(void)
     const float longer = 190.0f;
     uint32_t word;
     memcpy(&word, &longer, 4);
-    answer_t answer = write_entry(BRACE_PARAMETER_GEOMETRY_FEMUR_MM, word);
+    answer_t answer = write_entry(brace_parameter_number(BRACE_PARAMETER_GEOMETRY_FEMUR_MM), word);
     TEST_ASSERT_EQUAL(BRACE_E_MODE, refusal_of(&answer, BRACE_REQUEST_WRITE_ENTRY).status);
     (void)set_mode(BRACE_MODE_CONFIGURATION);
-    answer = write_entry(BRACE_PARAMETER_GEOMETRY_FEMUR_MM, word);
+    answer = write_entry(brace_parameter_number(BRACE_PARAMETER_GEOMETRY_FEMUR_MM), word);
     TEST_ASSERT_EQUAL_HEX8(BRACE_REQUEST_WRITE_ENTRY, answer.part[0][0]);
     TEST_ASSERT_EQUAL_MEMORY(&word, &answer.part[0][4], 4);
-    TEST_ASSERT_NOT_EQUAL(word, read_entry(BRACE_PARAMETER_GEOMETRY_FEMUR_MM));
-    answer = write_entry(BRACE_PARAMETER_GEOMETRY_FEMUR_MM, 0x7fc00000);
+    TEST_ASSERT_NOT_EQUAL(word, read_entry(brace_parameter_number(BRACE_PARAMETER_GEOMETRY_FEMUR_MM)));
+    answer = write_entry(brace_parameter_number(BRACE_PARAMETER_GEOMETRY_FEMUR_MM), 0x7fc00000);
     TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, refusal_of(&answer, BRACE_REQUEST_WRITE_ENTRY).status);
     answer = write_entry(BRACE_ENTRY_MEASURED + 4, 1);
     TEST_ASSERT_EQUAL(BRACE_REFUSED_READ_ONLY, refusal_of(&answer, BRACE_REQUEST_WRITE_ENTRY).status);
@@ -310,11 +310,11 @@ static void test_a_written_entry_is_in_force_only_after_its_commit(void)
     brace_can_commit_answer_1_t done;
     brace_can_unpack_commit_answer_1(answer.part[1], &done);
     TEST_ASSERT_EQUAL_HEX32(brace_parameters_crc(brace_app_parameters(&app)), done.crc);
-    TEST_ASSERT_EQUAL_HEX32(word, read_entry(BRACE_PARAMETER_GEOMETRY_FEMUR_MM));
+    TEST_ASSERT_EQUAL_HEX32(word, read_entry(brace_parameter_number(BRACE_PARAMETER_GEOMETRY_FEMUR_MM)));
     const uint8_t rollback[8] = {BRACE_REQUEST_ROLLBACK, 1};
     answer = ask_within(rollback, 500);
     TEST_ASSERT_EQUAL(2, answer.count);
-    TEST_ASSERT_NOT_EQUAL(word, read_entry(BRACE_PARAMETER_GEOMETRY_FEMUR_MM));
+    TEST_ASSERT_NOT_EQUAL(word, read_entry(brace_parameter_number(BRACE_PARAMETER_GEOMETRY_FEMUR_MM)));
     answer = ask_within(rollback, 500); /* nothing is left to go back to */
     TEST_ASSERT_EQUAL(BRACE_REFUSED_STORE + BRACE_STORE_E_NOTHING, refusal_of(&answer, BRACE_REQUEST_ROLLBACK).status);
 }
@@ -323,13 +323,13 @@ static void test_a_memory_that_fails_keeps_the_old_set_and_says_so(void)
 {
     const uint32_t before = now()->parameter_crc;
     (void)set_mode(BRACE_MODE_CONFIGURATION);
-    (void)write_entry(BRACE_PARAMETER_CONTROLLER_MODBUS_ADDRESS, 17);
+    (void)write_entry(brace_parameter_number(BRACE_PARAMETER_CONTROLLER_MODBUS_ADDRESS), 17);
     fake.nvm_forgets = true;
     const answer_t answer = commit(0);
     const int32_t status = refusal_of(&answer, BRACE_REQUEST_COMMIT).status;
     TEST_ASSERT_TRUE(status < BRACE_REFUSED_STORE && status >= BRACE_REFUSED_STORE + BRACE_STORE_E_SHAPE);
     TEST_ASSERT_EQUAL_HEX32(before, now()->parameter_crc);
-    TEST_ASSERT_NOT_EQUAL(17, read_entry(BRACE_PARAMETER_CONTROLLER_MODBUS_ADDRESS));
+    TEST_ASSERT_NOT_EQUAL(17, read_entry(brace_parameter_number(BRACE_PARAMETER_CONTROLLER_MODBUS_ADDRESS)));
 }
 
 static void other_block(uint8_t block[BRACE_BLOCK_BYTES])

@@ -229,6 +229,8 @@ REGISTERS: tuple[Register, ...] = (
     Register("controller.can_fd_bit_rate", "holding", 210, "u32", "bit/s", "rw"),
     Register("controller.modbus_address", "holding", 212, "u32", "", "rw"),
     Register("controller.modbus_baud", "holding", 214, "u32", "bit/s", "rw"),
+    Register("gravity.direction_rad", "holding", 216, "f32", "rad", "rw"),
+    Register("gravity.lean_rad", "holding", 218, "f32", "rad", "rw"),
     Register("set_mode", "holding", 16384, "u32", "", "wo"),
     Register("commit", "holding", 16386, "u32", "", "wo"),
     Register("rollback", "holding", 16388, "u32", "", "wo"),

@@ -38,16 +38,6 @@ typedef struct {
     float takeup_torque_n_mm;
 } brace_drive_t;
 
-/* Weights of the limb's parts. */
-typedef struct {
-    /* the femur's weight, at mid-length [N, 0 to 1e+06] */
-    float femur_n;
-    /* the tibia's weight, at mid-length [N, 0 to 1e+06] */
-    float tibia_n;
-    /* the weight at the knee joint [N, 0 to 1e+06] */
-    float knee_n;
-} brace_gravity_t;
-
 /* The force sensor at the tip. */
 typedef struct {
     /* a constant added to every reading along x [N, -1e+06 to 1e+06] */
