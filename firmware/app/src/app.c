@@ -29,7 +29,10 @@ static bool configure_step(controller_t *controller)
     case BRACE_LINK_COUNT:
         tip_force_configure(&controller->tip_force, controller->hal, &parameters->sensor);
         return false;
-    case BRACE_LINK_COUNT + 1: model_configure(&controller->model, parameters, is_spatial); return false;
+    case BRACE_LINK_COUNT + 1:
+        question_job_forget(&controller->question);
+        model_configure(&controller->model, parameters, is_spatial);
+        return false;
     case BRACE_LINK_COUNT + 2: gravity_configure(&controller->gravity, &parameters->gravity); return false;
     default:
         drift_job_configure(&controller->drift, parameter_job_is_fresh(&controller->parameters));
@@ -47,6 +50,17 @@ static drift_inputs_t drift_inputs(const controller_t *controller)
                             .origin = controller->parameters.origin,
                             .may_write = (mode == BRACE_MODE_MONITOR || mode == BRACE_MODE_FAULT) &&
                                          !parameter_job_is_busy(&controller->parameters)};
+}
+
+static question_inputs_t question_inputs(controller_t *controller, const drift_inputs_t *drift)
+{
+    return (question_inputs_t){.model = &controller->model,
+                               .parameters = &controller->parameters.in_force,
+                               .origin = controller->parameters.origin,
+                               .joints = &controller->joints,
+                               .down = controller->gravity.down,
+                               .may_work = !loading_is_dear(&controller->loading) &&
+                                           !drift_job_is_dear(&controller->drift, drift)};
 }
 
 static void blank_snapshot(const controller_t *controller, brace_snapshot_t *snapshot)
@@ -291,10 +305,12 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     take_place(controller, snapshot);
 
     /* One step of each job. */
+    const drift_inputs_t drift = drift_inputs(controller);
+    const question_inputs_t question = question_inputs(controller, &drift);
+    question_job_step(&controller->question, &question);
     takeup_step(&controller->takeup, &controller->flank);
     step_loading(controller, snapshot);
-    const drift_inputs_t inputs = drift_inputs(controller);
-    drift_job_step(&controller->drift, &inputs);
+    drift_job_step(&controller->drift, &drift);
     step_parameters(app);
 
     /* Faults and mode, and what follows from them. */
@@ -304,6 +320,6 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
 
     /* Tell. */
     publish(controller, snapshot);
-    wires_tick(&app->wires, hal, app, &controller->counters, now_us);
+    wires_tick(&app->wires, hal, app, &controller->counters, controller->question.has_worked, now_us);
     hal->watchdog_feed(hal->context);
 }

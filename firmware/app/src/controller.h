@@ -14,6 +14,7 @@
 #include "jobs/configure/parameter_job.h"
 #include "jobs/drift/drift_job.h"
 #include "jobs/loading/loading.h"
+#include "jobs/question/question_job.h"
 #include "mode/faults.h"
 #include "mode/mode.h"
 #include "posture/gravity.h"
@@ -40,6 +41,7 @@ typedef struct {
     brace_loading_t loading;
     brace_recorder_t recorder;
     drift_job_t drift;
+    question_job_t question;
     parameter_job_t parameters;
     uint8_t configure_part;  /* of putting parameters in force, the next one */
     faults_t faults;

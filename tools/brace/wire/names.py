@@ -6,7 +6,7 @@ from math import inf
 
 from brace.wire.parameter import Parameter
 
-SCHEMA_HASH = 0xA46CD869
+SCHEMA_HASH = 0x305EA071
 
 PARAMETERS: tuple[Parameter, ...] = (
     Parameter(
@@ -535,27 +535,32 @@ PARAMETERS: tuple[Parameter, ...] = (
         description="how often eigenvalues and posture go out on CAN, together with a K; 0 means never",
     ),
     Parameter(
-        105, 103, "controller.heartbeat_hz", "controller.heartbeat_hz",
+        105, 110, "controller.load_hz", "controller.load_hz",
+        unit="Hz", low=0, high=1000, default=0, safe=0, type="u32",
+        description="how often the load that K counts and K without it go out on CAN, together with a K; 0 means never",
+    ),
+    Parameter(
+        106, 103, "controller.heartbeat_hz", "controller.heartbeat_hz",
         unit="Hz", low=1, high=10, default=1, safe=1, type="u32",
         description="how often the heartbeat goes out",
     ),
     Parameter(
-        106, 104, "controller.bus_load_ratio", "controller.bus_load_ratio",
+        107, 104, "controller.bus_load_ratio", "controller.bus_load_ratio",
         unit="", low=0.0, high=1.0, default=0.06, safe=0.06, open_low=True,
-        description="the share of the bus that K, eigenvalues and posture of this controller may take; the controller sends them less often where they would take more",
+        description="the share of the bus that K, eigenvalues, posture and load of this controller may take; the controller sends them less often where they would take more",
     ),
     Parameter(
-        107, 105, "controller.can_fd_bit_rate", "controller.can_fd_bit_rate",
+        108, 105, "controller.can_fd_bit_rate", "controller.can_fd_bit_rate",
         unit="bit/s", low=0, high=8000000, default=0, safe=0, type="u32",
         description="the bit rate of a CAN FD snapshot's data; 0 means that classic frames are sent",
     ),
     Parameter(
-        108, 106, "controller.modbus_address", "controller.modbus_address",
+        109, 106, "controller.modbus_address", "controller.modbus_address",
         unit="", low=1, high=247, default=1, safe=1, type="u32",
         description="the controller's address on Modbus",
     ),
     Parameter(
-        109, 107, "controller.modbus_baud", "controller.modbus_baud",
+        110, 107, "controller.modbus_baud", "controller.modbus_baud",
         unit="bit/s", low=1200, high=230400, default=115200, safe=115200, type="u32", numbers=(1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400,),
         description="the baud rate of Modbus RTU",
     ),

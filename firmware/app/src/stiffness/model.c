@@ -110,14 +110,6 @@ brace_status_t model_stiffness(model_t *model, const brace_parameters_t *paramet
     return status;
 }
 
-brace_status_t model_settle(const model_t *model, const float unbent_rad[BRACE_LINK_COUNT],
-                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_force_t tip, brace_vec_t down,
-                            brace_loaded_rest_t *rest)
-{
-    const brace_load_t load = {.tip = tip, .down = down, .hip = springs[BRACE_FEMUR], .knee = springs[BRACE_TIBIA]};
-    return brace_loaded_settle(&model->loaded, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], &load, rest);
-}
-
 /* Joint and base's rotation turn together, each by its share of what yields. theta2 is flexion: it turns clockwise. */
 static void turn_joints(const brace_limb_t *limb, const brace_load_t *load, const brace_loaded_stiffness_t *result,
                         float joint_turn_rad[BRACE_LINK_COUNT])
@@ -128,10 +120,13 @@ static void turn_joints(const brace_limb_t *limb, const brace_load_t *load, cons
     joint_turn_rad[BRACE_TIBIA] = -result->knee_turn_rad;
 }
 
-brace_status_t model_stiffness_at(const model_t *model, const brace_limb_t *limb, const brace_loaded_rest_t *rest,
-                                  brace_loaded_stiffness_t *result, float joint_turn_rad[BRACE_LINK_COUNT])
+brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
+                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_force_t tip, brace_vec_t down,
+                            brace_loaded_stiffness_t *result, float joint_turn_rad[BRACE_LINK_COUNT])
 {
-    const brace_status_t status = brace_loaded_stiffness_at(&model->loaded, rest, result);
+    const brace_load_t load = {.tip = tip, .down = down, .hip = springs[BRACE_FEMUR], .knee = springs[BRACE_TIBIA]};
+    const brace_status_t status =
+        brace_loaded_stiffness(&model->loaded, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], &load, result);
     if (status != BRACE_OK) {
         return status;
     }
@@ -141,6 +136,6 @@ brace_status_t model_stiffness_at(const model_t *model, const brace_limb_t *limb
         factor >= PROMISED_FACTOR && moved.x_mm * moved.x_mm + moved.z_mm * moved.z_mm <= most_mm * most_mm;
     result->stiffness.flags |= (is_promised ? 0u : (uint32_t)BRACE_FLAG_NEAR_SINGULAR) |
                                (factor < SOFTENED_FACTOR ? (uint32_t)BRACE_FLAG_SOFTENED : 0u);
-    turn_joints(limb, &rest->load, result, joint_turn_rad);
+    turn_joints(limb, &load, result, joint_turn_rad);
     return BRACE_OK;
 }

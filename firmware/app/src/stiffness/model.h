@@ -50,27 +50,24 @@ brace_status_t model_stiffness(model_t *model, const brace_parameters_t *paramet
                                const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_stiffness_t *stiffness,
                                float *across_n_per_mm);
 
-/* Can this limb's K be told under a load? One in space cannot yet: its estimator would stand beside `loaded`, and be
- * called where brace_loaded_settle is. */
+/* Can this limb's K be told under a load? One in space cannot yet: its estimator would stand beside `loaded`, and be called
+ * by model_loaded. */
 static inline bool model_counts_loads(const model_t *model)
 {
     return !model->is_spatial;
 }
 
-/* K under a load, in two steps as brace/loaded.h has them; model_counts_loads.
+/* K at the equilibrium under a load, every gap closed, of a limb that model_counts_loads.
  *   unbent: angles without what the load turns
  *   tip: force of the ground; down: where the weight pulls, in the limb's plane
- * returns as brace_loaded_settle; 980 instructions */
-brace_status_t model_settle(const model_t *model, const float unbent_rad[BRACE_LINK_COUNT],
-                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_force_t tip, brace_vec_t down,
-                            brace_loaded_rest_t *rest);
-
-/* Its second step: K at that equilibrium, with flags: NEAR_SINGULAR, also where the load is beyond what its accuracy is
- * promised for (a buckling factor below 2, a tip that moves by more than a fifth of the reach), and SOFTENED (below 3).
+ *   result (out): flags as brace_loaded_stiffness, and NEAR_SINGULAR also where the load is beyond what the estimator's
+ *     accuracy is promised for (a buckling factor below 2, a tip that moves by more than a fifth of the reach), and
+ *     SOFTENED (a factor below 3)
  *   joint_turn_rad (out): how far the load has turned the joints themselves, by BRACE_FEMUR and BRACE_TIBIA, in the
  *     sense of their angles
- * returns as brace_loaded_stiffness_at; 1,700 instructions */
-brace_status_t model_stiffness_at(const model_t *model, const brace_limb_t *limb, const brace_loaded_rest_t *rest,
-                                  brace_loaded_stiffness_t *result, float joint_turn_rad[BRACE_LINK_COUNT]);
+ * returns as brace_loaded_stiffness. At most 2,600 instructions. */
+brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
+                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_force_t tip, brace_vec_t down,
+                            brace_loaded_stiffness_t *result, float joint_turn_rad[BRACE_LINK_COUNT]);
 
 #endif

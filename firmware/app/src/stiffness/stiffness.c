@@ -83,20 +83,17 @@ static void springs_of_now(model_t *model, const brace_parameters_t *parameters,
 
 /* K at the equilibrium under the tip's force and the weight; the posture goes there.
  * flags: SOFTENED where there is no such equilibrium
- * returns as model_settle and model_stiffness_at */
+ * returns as model_loaded */
 static brace_status_t take_loaded(const model_t *model, const brace_limb_t *limb, const brace_loaded_joint_t *springs,
                                   brace_vec_t down, posture_t *posture, brace_snapshot_t *snapshot,
                                   brace_stiffness_t *engaged, uint32_t *flags)
 {
     brace_snapshot_load_t *load = &snapshot->load;
-    brace_loaded_rest_t rest;
     brace_loaded_stiffness_t loaded;
     float joint_turn_rad[BRACE_LINK_COUNT];
     const brace_force_t tip = {snapshot->force_x_n, snapshot->force_z_n};
-    brace_status_t status = model_settle(model, posture->unbent_rad, springs, tip, down, &rest);
-    if (status == BRACE_OK) {
-        status = model_stiffness_at(model, limb, &rest, &loaded, joint_turn_rad);
-    }
+    const brace_status_t status =
+        model_loaded(model, limb, posture->unbent_rad, springs, tip, down, &loaded, joint_turn_rad);
     if (status != BRACE_OK) {
         *flags |= status == BRACE_E_SINGULAR ? (uint32_t)BRACE_FLAG_SOFTENED : 0u;
         return status;

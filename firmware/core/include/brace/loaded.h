@@ -22,7 +22,6 @@
 
 #include "brace/contact.h"
 #include "brace/limb.h"
-#include "brace/loaded_limb.h"
 #include "brace/status.h"
 #include "brace/stiffness.h"
 #include "brace/vec.h"
@@ -68,14 +67,6 @@ typedef struct {
     float buckling_factor;              /* see below; infinity where it is above 16, and where it may be above 11 */
 } brace_loaded_stiffness_t;
 
-/* A limb at its equilibrium. brace_loaded_settle writes it; other code must not read its members. */
-typedef struct {
-    brace_load_t load;
-    brace_loaded_directions_t seen;
-    brace_loaded_limb_now_t limb;
-    float unsettled_rad; /* how far the tip turned in the last step towards the equilibrium */
-} brace_loaded_rest_t;
-
 /* Collapses a limb. Call it when parameters change.
  * limb: one that brace_limb_check accepts. weights: each 0 to 1e6 N, not checked; the direction in which they pull is
  * the load's. No pointer may be null.
@@ -95,17 +86,8 @@ void brace_loaded_collapse(const brace_limb_t *limb, const brace_gravity_t *weig
  *         load as brace/general.h. tests/engine/test_core_under_load.py judges random limbs. Of 6,000 limbs, one was off
  *         by more: by 4 %, near the straight knee, where its tip moved by 41 mm of 217 mm. Under any load at all, up to
  *         those that fold the limb, no K that was given was off by more than 6 % (76,000 random limbs and loads).
- * Cost on a Cortex-M4F: at most 2,500 instructions (2,495 measured) for every posture; stack at most 800 bytes. */
+ * Cost on a Cortex-M4F: at most 2,500 instructions (2,448 measured) for every posture; stack at most 800 bytes. */
 brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
                                       const brace_load_t *load, brace_loaded_stiffness_t *result);
-
-/* The same in two steps, for a caller that may not spend both at once: first the equilibrium, then K there.
- * rest: as brace_loaded_settle has written it, for this limb; nothing is checked.
- * returns: both together as brace_loaded_stiffness; the second needs a `rest` that the first gave with BRACE_OK.
- * Cost on a Cortex-M4F: at most 950 and 1,650 instructions; stack at most 800 bytes. */
-brace_status_t brace_loaded_settle(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
-                                   const brace_load_t *load, brace_loaded_rest_t *rest);
-brace_status_t brace_loaded_stiffness_at(const brace_loaded_t *loaded, const brace_loaded_rest_t *rest,
-                                         brace_loaded_stiffness_t *result);
 
 #endif

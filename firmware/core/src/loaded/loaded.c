@@ -92,56 +92,48 @@ static bool is_bent_within(const shape_t *shape)
     return fabsf(shape->root) <= TURN_MOST_RAD && fabsf(shape->a) <= BEND_MOST_RAD && fabsf(shape->b) <= BEND_MOST_RAD;
 }
 
-/* Everything that brace_loaded_settle and brace_loaded_stiffness_at do. Both are small enough for a tick; both in one
- * keep what they share in registers. */
-INLINE brace_status_t settle(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad, const brace_load_t *load,
-                             limb_t *limb, directions_t *seen, float *unsettled_rad)
-{
-    const float reach = brace_fma(theta1_rad, theta1_rad, theta2_rad * theta2_rad);
-    const float force = fabsf(load->tip.x_n) + fabsf(load->tip.z_n);
-    if (!(reach <= BRACE_REACH_RAD2 && force <= FORCE_MOST_N)) {
-        return reach - reach == 0.0f && force - force == 0.0f ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
-    }
-    const brace_vec_t forwards = {1.0f, 0.0f}, femur = brace_direction(theta1_rad);
-    const brace_vec_t tibia = brace_direction(-theta2_rad); /* seen from the femur */
-    const brace_vec_t tip_n = vec_turned_back((brace_vec_t){load->tip.x_n, load->tip.z_n}, femur);
-    const brace_vec_t down = vec_turned_back(load->down, femur);
-    const brace_vec_t knee_n = vec_plus_scaled(tip_n, down, loaded->knee_n);
-    const float base = loaded->base_rotation_rad_per_n_mm;
-    const float hip_yields = load->hip.yields_by_rad_per_n_mm + base, knee_yields = load->knee.yields_by_rad_per_n_mm;
-    *seen = (directions_t){femur, tibia};
-    *limb = (limb_t){.femur = link_seen(&loaded->femur, forwards, knee_n, down),
-                     .tibia = link_seen(&loaded->tibia, tibia, tip_n, down),
-                     .femur_shape = {0.0f, 0.0f, 0.0f},
-                     .tibia_shape = {0.0f, 0.0f, 0.0f}};
-    step(limb, true, hip_yields, knee_yields);
-    *unsettled_rad = end_turn(&limb->tibia_shape);
-    step(limb, false, hip_yields, knee_yields);
-    *unsettled_rad -= end_turn(&limb->tibia_shape);
-    return fabsf(*unsettled_rad) <= SETTLED_RAD ? BRACE_OK : BRACE_E_SINGULAR;
-}
-
 /* A step of Newton's method leaves about the square of what it has moved, and more of it the less stable the limb is. */
 INLINE bool is_settled(float unsettled_rad, float det)
 {
     return unsettled_rad * unsettled_rad <= SETTLED_RAD * SETTLED_RAD * det;
 }
 
-INLINE brace_status_t stiffness_at(const brace_loaded_t *loaded, const limb_t *limb, const directions_t *seen,
-                                   const brace_load_t *load, float unsettled_rad, brace_loaded_stiffness_t *result)
+brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
+                                      const brace_load_t *load, brace_loaded_stiffness_t *result)
 {
-    const brace_vec_t femur = seen->femur, none = {0.0f, 0.0f};
+    const float reach = brace_fma(theta1_rad, theta1_rad, theta2_rad * theta2_rad);
+    const float force = fabsf(load->tip.x_n) + fabsf(load->tip.z_n);
+    if (!(reach <= BRACE_REACH_RAD2 && force <= FORCE_MOST_N)) {
+        return reach - reach == 0.0f && force - force == 0.0f ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
+    }
+    const brace_vec_t forwards = {1.0f, 0.0f}, none = {0.0f, 0.0f}, femur = brace_direction(theta1_rad);
+    const brace_vec_t tibia = brace_direction(-theta2_rad); /* seen from the femur */
+    const brace_vec_t tip_n = vec_turned_back((brace_vec_t){load->tip.x_n, load->tip.z_n}, femur);
+    const brace_vec_t down = vec_turned_back(load->down, femur);
+    const brace_vec_t knee_n = vec_plus_scaled(tip_n, down, loaded->knee_n);
+    limb_t limb = {.femur = link_seen(&loaded->femur, forwards, knee_n, down),
+                   .tibia = link_seen(&loaded->tibia, tibia, tip_n, down),
+                   .femur_shape = {0.0f, 0.0f, 0.0f},
+                   .tibia_shape = {0.0f, 0.0f, 0.0f}};
+    const float base = loaded->base_rotation_rad_per_n_mm;
+    const float hip_yields = load->hip.yields_by_rad_per_n_mm + base, knee_yields = load->knee.yields_by_rad_per_n_mm;
+    step(&limb, true, hip_yields, knee_yields);
+    const float turned_rad = end_turn(&limb.tibia_shape);
+    step(&limb, false, hip_yields, knee_yields);
+    const float unsettled_rad = end_turn(&limb.tibia_shape) - turned_rad;
+    if (!(fabsf(unsettled_rad) <= SETTLED_RAD)) {
+        return BRACE_E_SINGULAR;
+    }
     rest_t femur_rest, tibia_rest;
-    rest_of(&limb->femur, &limb->femur_shape, &femur_rest);
-    rest_of(&limb->tibia, &limb->tibia_shape, &tibia_rest);
+    rest_of(&limb.femur, &limb.femur_shape, &femur_rest);
+    rest_of(&limb.tibia, &limb.tibia_shape, &tibia_rest);
 
-    const float hip = load->hip.slope_rad_per_n_mm + loaded->base_rotation_rad_per_n_mm;
-    const float knee = load->knee.slope_rad_per_n_mm;
-    const stance_t stance = {&femur_rest, &tibia_rest, limb->femur.bend_rad_per_n_mm, limb->tibia.bend_rad_per_n_mm,
-                             hip, knee};
+    const float hip = load->hip.slope_rad_per_n_mm + base, knee = load->knee.slope_rad_per_n_mm;
+    const stance_t stance = {&femur_rest, &tibia_rest, limb.femur.bend_rad_per_n_mm, limb.tibia.bend_rad_per_n_mm, hip,
+                             knee};
     const pivots_t p = pivots_at(&stance, 1.0f);
     const float det = product(&p);
-    if (!is_stable(&p, SINGULAR_PIVOT) || !is_bent_within(&limb->femur_shape) || !is_bent_within(&limb->tibia_shape) ||
+    if (!is_stable(&p, SINGULAR_PIVOT) || !is_bent_within(&limb.femur_shape) || !is_bent_within(&limb.tibia_shape) ||
         !is_settled(unsettled_rad, det)) {
         return BRACE_E_SINGULAR;
     }
@@ -156,33 +148,10 @@ INLINE brace_status_t stiffness_at(const brace_loaded_t *loaded, const limb_t *l
         return status;
     }
     const brace_vec_t bent = vec_plus(femur_rest.tip_mm, tibia_rest.tip_mm);
-    result->displacement = displacement_of(loaded, load, bent, femur, seen->tibia);
+    result->displacement = displacement_of(loaded, load, bent, femur, tibia);
     result->tibia_mm = vec_turned(tibia_rest.tip_mm, femur);
-    result->hip_turn_rad = limb->femur_shape.root;
-    result->knee_turn_rad = limb->tibia_shape.root - end_turn(&limb->femur_shape);
+    result->hip_turn_rad = limb.femur_shape.root;
+    result->knee_turn_rad = limb.tibia_shape.root - end_turn(&limb.femur_shape);
     result->buckling_factor = buckling_factor(&stance, det);
     return BRACE_OK;
-}
-
-brace_status_t brace_loaded_settle(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
-                                   const brace_load_t *load, brace_loaded_rest_t *rest)
-{
-    rest->load = *load;
-    return settle(loaded, theta1_rad, theta2_rad, load, &rest->limb, &rest->seen, &rest->unsettled_rad);
-}
-
-brace_status_t brace_loaded_stiffness_at(const brace_loaded_t *loaded, const brace_loaded_rest_t *rest,
-                                         brace_loaded_stiffness_t *result)
-{
-    return stiffness_at(loaded, &rest->limb, &rest->seen, &rest->load, rest->unsettled_rad, result);
-}
-
-brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
-                                      const brace_load_t *load, brace_loaded_stiffness_t *result)
-{
-    limb_t limb;
-    directions_t seen;
-    float unsettled_rad;
-    const brace_status_t status = settle(loaded, theta1_rad, theta2_rad, load, &limb, &seen, &unsettled_rad);
-    return status == BRACE_OK ? stiffness_at(loaded, &limb, &seen, load, unsettled_rad, result) : status;
 }

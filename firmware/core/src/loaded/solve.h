@@ -64,8 +64,10 @@ INLINE shape_t solve_out(const solved_t *s, float root)
     return shape;
 }
 
-typedef brace_loaded_limb_now_t limb_t;
-typedef brace_loaded_directions_t directions_t;
+typedef struct {
+    link_t femur, tibia;
+    shape_t femur_shape, tibia_shape;
+} limb_t;
 
 /* A step of Newton's method. is_first: nothing is bent yet. */
 INLINE void step(limb_t *limb, bool is_first, float hip_rad_per_n_mm, float knee_rad_per_n_mm)
