@@ -30,7 +30,7 @@ enum {
 typedef struct {
     float motor_rad;    /* encoder before the gearbox, divided by the ratio */
     float torque_n_mm;  /* motor torque from its current */
-    float link_rad;     /* encoder behind the gearbox; NaN: there is none */
+    float link_rad;     /* true joint angle, by an encoder behind the gearbox; NaN: there is none */
     float temp_degc;    /* temperature of gearbox or motor; NaN: nothing measures it */
     uint32_t taken_us;  /* time of the sample, on the clock of now_us */
 } brace_hal_joint_t;

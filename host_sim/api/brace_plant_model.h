@@ -37,6 +37,8 @@ typedef struct {
     double femur_n; /* [0, 1e+06] */
     double tibia_n; /* [0, 1e+06] */
     double knee_n; /* [0, 1e+06] */
+    double direction_rad; /* [-3.14159, 3.14159] */
+    double lean_rad; /* [-1.5708, 1.5708] */
 } brace_plant_gravity_t;
 
 typedef struct {

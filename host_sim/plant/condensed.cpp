@@ -92,7 +92,7 @@ void Condensed::about(const Structure &structure, const std::array<JointHinge, 2
             torque_n_mm += quarter_turn(stretch).dot(force_n);
             tip_mm_ += stretch;
         };
-        force_n.y() -= body.end_weight_n;
+        force_n += body.end_weight_n * structure.down;
         if (body.yields == Yields::at_end) {
             let_yield();
         }
@@ -104,9 +104,9 @@ void Condensed::about(const Structure &structure, const std::array<JointHinge, 2
         torque_n_mm += quarter_turn(extent).dot(force_n);
         if (body.weight_n != 0.0) {
             const Vector2d arm = body.weight_arm_mm + turn.moved(body.weight_arm_mm);
-            curvature += body.weight_n * arm.y();
-            torque_n_mm -= body.weight_n * arm.x();
-            force_n.y() -= body.weight_n;
+            curvature -= body.weight_n * arm.dot(structure.down);
+            torque_n_mm += body.weight_n * (arm.x() * structure.down.y() - arm.y() * structure.down.x());
+            force_n += body.weight_n * structure.down;
         }
         if (body.yields == Yields::at_root) {
             let_yield();

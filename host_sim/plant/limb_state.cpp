@@ -357,7 +357,7 @@ LimbRest LimbState::hold_tip(const Vector2d &displacement_mm, int free_axis)
     Vector2d carried_n = rest_.shape.force_n;
     for (int i = 0; i < structure_.body_count; ++i) {
         const Body &body = structure_.body[static_cast<std::size_t>(i)];
-        carried_n.y() -= body.weight_n + body.end_weight_n;
+        carried_n += (body.weight_n + body.end_weight_n) * structure_.down;
     }
     return {rest_.shape.force_n,
             {rest_.instant_rad[0] + delayed_rad_[0], rest_.instant_rad[1] + delayed_rad_[1]},

@@ -100,6 +100,7 @@ void find_structure(const Model &model, Displacements displacements, double thet
     const Vector2d tibia_axis = direction(theta1 - theta2);
     const auto &length = model.geometry;
     const auto &weight = model.gravity;
+    structure.down = effects::gravity::down(model);
     const int parts = small ? 1 : kBeamParts; // one is exact there
 
     structure.body_count = 0;

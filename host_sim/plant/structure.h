@@ -37,9 +37,9 @@ struct Body {
     int joint;                 // that its hinge is: 0 femur joint, 1 knee, or kElastic
     double hinge_rad_per_n_mm; // of an elastic hinge. A joint's spring depends on the temperature: it is not in here
     Eigen::Vector2d extent_mm; // from its hinge to its end, in the robot's frame
-    double weight_n;           // pulls down at `weight_arm_mm` from its hinge
+    double weight_n;           // pulls along `down` at `weight_arm_mm` from its hinge
     Eigen::Vector2d weight_arm_mm;
-    double end_weight_n; // pulls down at its end, behind what yields there
+    double end_weight_n; // pulls along `down` at its end, behind what yields there
     Yields yields;       // by this compliance in the body's own frame:
     double mean_mm_per_n;               // half of its trace
     Eigen::Vector2d deviation_mm_per_n; // (xx - zz) / 2 and xz
@@ -50,6 +50,7 @@ struct Structure {
     std::array<Body, kMostBodies> body;
     std::array<int, 2> joint_body; // the bodies behind femur joint and knee
     Eigen::Vector2d base_mm_per_n;    // along x and z
+    Eigen::Vector2d down;             // where weights pull to; shorter than 1 where the limb's plane leans
     Eigen::Vector2d joint_load_n_mm;  // torque on the joints besides that of the bodies' weights and the tip force
     double reach_mm;                  // of the straight limb
 };

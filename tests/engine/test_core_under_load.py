@@ -17,7 +17,7 @@ SEED = 31
 def core_limb(case: Case) -> tuple[CData, CData, CData]:
     """brace_loaded_t of the limb, and the load: ffi objects that have to be kept."""
     ffi, lib = library().ffi, library().lib
-    limb, weights = ffi.new("brace_limb_t *"), ffi.new("brace_weights_t *")
+    limb, weights = ffi.new("brace_limb_t *"), ffi.new("brace_gravity_t *")
     limb.femur_mm, limb.tibia_mm = case.keys["geometry.femur_mm"], case.keys["geometry.tibia_mm"]
     for name in ("x_mm_per_n", "z_mm_per_n", "rotation_rad_per_n_mm"):
         setattr(limb.base, name, case.keys[f"base.{name}"])

@@ -172,8 +172,8 @@ static void check_answer(const uint8_t *request, bool is_the_benchs)
     } else if (command == 1u) {
         const uint32_t index = field(request, 2, 2), value = field(answer[0], 4, 4);
         uint32_t held;
-        if (index < sizeof app.controller.parameters.in_force / 4u) {
-            memcpy(&held, (const uint8_t *)&app.controller.parameters.in_force + 4u * index, 4);
+        if (index < (uint32_t)BRACE_PARAMETER_NUMBERS) {
+            memcpy(&held, (const uint8_t *)&app.controller.parameters.in_force + 4u * brace_parameter_index(index), 4);
         } else {
             held = index == 0x1001u ? 0x01020304u : value;
         }

@@ -12,8 +12,8 @@
 #include "brace/measured.h"
 #include "modbus_crc.h"
 
-enum { UNIT = 17, WORDS = (int)(sizeof(brace_parameters_t) / 4), MOST_TICKS = 120, HEADER = 7,
-       ANSWERED = 16, COMMANDS = 17 /* values from 4096 and from 16384 on, by docs/modbus.md */ };
+enum { UNIT = 17, WORDS = BRACE_PARAMETER_NUMBERS, MOST_TICKS = 120, HEADER = 7,
+       ANSWERED = 28, COMMANDS = 28 /* values from 4096 and from 16384 on, by docs/modbus.md */ };
 
 static const uint32_t key = 0xc0de0000u;
 
@@ -61,6 +61,12 @@ static uint32_t word(const void *values, uint32_t index)
     return value;
 }
 
+/* A parameter by the place of its registers. */
+static uint32_t parameter_at(const brace_parameters_t *set, uint32_t place)
+{
+    return word(set, brace_parameter_index(place));
+}
+
 static uint32_t bits(float value)
 {
     return word(&value, 0);
@@ -88,7 +94,8 @@ static uint32_t some_start(void)
 {
     static const uint16_t edge[] = {0,     2,     114,   116,   208,   210,   4096,  4108,  4110,  16384,
                                     16386, 16388, 16390, 16392, 16394, 16396, 16398, 16400, 16406, 16410,
-                                    16414, 16416, 16418, 4122,  4126,  4128,  65535, 65534, 32768};
+                                    16414, 16416, 16418, 16422, 16430, 16440, 4122,  4126,  4152,  65535,
+                                    65534, 32768};
     return dice(4) == 0u ? dice(65536) : edge[dice(sizeof edge / sizeof *edge)];
 }
 
@@ -96,7 +103,7 @@ static uint32_t some_start(void)
 static uint32_t some_value(uint32_t start)
 {
     if (start < 2u * WORDS && dice(4) != 0u) {
-        return word(&app.controller.parameters.in_force, start / 2u) + (dice(3) == 0u ? dice(64) : 0u);
+        return parameter_at(&app.controller.parameters.in_force, start / 2u) + (dice(3) == 0u ? dice(64) : 0u);
     }
     switch (start) {
     case 16384: return key | (1u + dice(2));
@@ -104,16 +111,27 @@ static uint32_t some_value(uint32_t start)
     case 16388: return dice(8) == 0u ? key | 1u : dice(4);
     case 16392: return 256u << dice(2) | (1u + dice(2));
     case 16396:
-    case 16398: return bits(0.3f + 1e-3f * (float)dice(1000));
+    case 16398:
+    case 16426:
+    case 16428: return bits(0.3f + 1e-3f * (float)dice(1000));
     case 16400:
-    case 16402: return bits((float)dice(600) - 300.0f);
-    case 16404: return dice(8) == 0u ? dice(4) : dice(2);
+    case 16402:
+    case 16434:
+    case 16436: return bits((float)dice(600) - 300.0f);
+    case 16404:
+    case 16438: return dice(8) == 0u ? dice(4) : dice(2);
     case 16406:
     case 16408:
     case 16410:
     case 16412:
     case 16414:
-    case 16416: return bits(1e-2f * (float)dice(200) - 0.5f);
+    case 16416:
+    case 16418:
+    case 16420:
+    case 16422:
+    case 16424:
+    case 16430:
+    case 16432: return bits(1e-2f * (float)dice(200) - 0.5f);
     default: return dice(2) == 0u ? dice(1024) : dice(0x10000) << 16 | dice(0x10000);
     }
 }
@@ -121,7 +139,17 @@ static uint32_t some_value(uint32_t start)
 /* Values of the question that begins there. */
 static uint32_t question_of(uint32_t start)
 {
-    return start == 16400u ? 3u : start == 16396u || start == 16406u || start == 16410u || start == 16414u ? 2u : 0u;
+    switch (start) {
+    case 16396u:
+    case 16406u:
+    case 16410u:
+    case 16414u:
+    case 16418u: return 2;
+    case 16400u: return 3;
+    case 16422u: return 4;
+    case 16430u: return 5;
+    default: return 0;
+    }
 }
 
 static void some_pdu(bytes_t *b)
@@ -205,7 +233,7 @@ static bool tells(const uint8_t *answer, uint32_t start, uint32_t count, const b
 {
     bool same = true;
     for (uint32_t i = 0; i < count && start + i < 2u * WORDS; i++) {
-        const uint32_t value = word(set, (start + i) / 2u);
+        const uint32_t value = parameter_at(set, (start + i) / 2u);
         same = same && at16(answer + 2u + 2u * i) == (((start + i) & 1u) == 0u ? value >> 16 : value & 0xffffu);
     }
     return same;
@@ -262,7 +290,7 @@ static void judge_write(const bytes_t *sent, const uint8_t *pdu, uint32_t length
     questions[(start - 16396u) / 2u % COMMANDS] += start >= 16396u;
     if (start < 2u * WORDS) {
         for (uint32_t i = 0; i < pdu[5] / 4u; i++) {
-            if (word(&app.controller.parameters.staged, start / 2u + i) != at32(pdu + 6u + 4u * i)) {
+            if (parameter_at(&app.controller.parameters.staged, start / 2u + i) != at32(pdu + 6u + 4u * i)) {
                 wrong("what was written is not what is staged", sent, got);
             }
         }
@@ -311,14 +339,15 @@ static bool hear(brace_serial_port_t port, bytes_t *got, int most)
 {
     got->count = 0;
     for (int i = 0; i < most; i++) {
+        const uint32_t before = got->count;
         ticks(1);
         got->count +=
             brace_fake_bytes_take(&fake, port, got->byte + got->count, (uint32_t)sizeof got->byte - got->count);
-        if (got->count > 0u) {
-            return true; /* the fake port takes an answer whole */
+        if (got->count > 0u && got->count == before) {
+            return true; /* a long answer leaves the line's port in parts, tick after tick */
         }
     }
-    return false;
+    return got->count > 0u;
 }
 
 static void over_tcp(const before_t *before)

@@ -69,7 +69,7 @@ public:
             limb.joint[i].compliance_rad_per_n_mm = decade(-6.0, -4.7);
         }
         limb.base = {decade(-4.0, -2.0), decade(-4.0, -2.0), decade(-7.0, -5.5)};
-        limb.gravity = {between(0.0, 3.0), between(0.0, 3.0), between(0.0, 5.0)};
+        limb.gravity = {between(0.0, 3.0), between(0.0, 3.0), between(0.0, 5.0), kDown_rad, 0.0};
         return limb;
     }
 
@@ -322,7 +322,7 @@ void test_no_load_is_the_linear_limb(void)
     Draw draw(5);
     for (int trial = 0; trial < 100; ++trial) {
         brace_plant_model_t limb = draw.limb();
-        limb.gravity = {0.0, 0.0, 0.0};
+        limb.gravity = {};
         const double theta0 = draw.between(-3.0, 3.0), theta1 = draw.between(-3.0, 3.0);
         const double theta2 = draw.between(-3.0, 3.0);
         double row[18];
@@ -470,7 +470,7 @@ void test_cantilever_under_its_weight(void)
     beam.limb.link[kTibia].moment_transfer_ratio = 0.0;
     TEST_ASSERT_DOUBLE_WITHIN(1e-15, 0.0, under_force(beam.limb, {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, kDown_rad}).dz_mm);
     // Joints and base bear it at mid-length; the knee's weight at the knee.
-    beam.limb.gravity = {2e-3, weight_n, 3e-3};
+    beam.limb.gravity = {2e-3, weight_n, 3e-3, kDown_rad, 0.0};
     beam.limb.joint[kFemur].compliance_rad_per_n_mm = 1e-6;
     beam.limb.base.z_mm_per_n = 1e-3;
     const auto found = under_force(beam.limb, {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, kDown_rad});
@@ -542,7 +542,7 @@ void test_rounding_of_places_hides_no_rest(void)
     limb.joint[kFemur].compliance_rad_per_n_mm = 2.441358371009306e-06;
     limb.joint[kTibia].compliance_rad_per_n_mm = 2.9572822616473623e-06;
     limb.base = {0.0038752497200238534, 0.0001662239324827258, 8.04209923968022e-07};
-    limb.gravity = {2.0, 3.0, 1.0};
+    limb.gravity = {2.0, 3.0, 1.0, kDown_rad, 0.0};
     Draw draw(10);
     for (int trial = 0; trial < 3000; ++trial) {
         const brace_loaded_case_t given = {draw.between(-3.0, 3.0), draw.between(-3.0, 3.0), draw.between(-4.0, 4.0),

@@ -37,7 +37,7 @@ brace_node_limb_t hostile_limb()
         limb.plant.joint[i].hardening_n_mm_per_rad3 = 1e9;
         limb.plant.joint[i].zero_offset_rad = 0.01;
     }
-    limb.plant.gravity = {2.0, 3.0, 1.0};
+    limb.plant.gravity = {2.0, 3.0, 1.0, -M_PI_2, 0.0};
     limb.plant.sensor.bias_x_n = 0.3;
     limb.plant.creep = {0.2, 0.5};
     limb.plant.thermal.joint_compliance_per_degc = 0.01;

@@ -22,17 +22,33 @@ from test_sim_command import FREE, running
 from brace.bus.modbus_controller import ModbusController
 from brace.bus.url import parse
 from brace.errors import NoDeviceError, UsageError
+from brace.model import load_limb
+from brace.native.loaded import under_force
 from brace.wire.frames import ANSWERS, DICTIONARY_HASH, MESSAGES
 
 STEP_N_PER_MM = 0.0005
 MATRIX = ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm")
 
 
-def assert_k(entry: dict[str, float], theta1: float, theta2: float, angle_step_rad: float = 0.0) -> None:
-    """Within the wire's half step, single precision (1e-5 of K), and what the angle's own step makes."""
+FORCE_NOISE_N = 0.5  # five sigma of the simulated sensor, on each axis: the limb counts it as a load
+
+
+def force_noise(tmp_path: Path, theta1: float, theta2: float) -> float:
+    """How far a force of the sensor's noise turns K, by the reference [N/mm]."""
+    model = tmp_path / "without-load.toml"
+    model.write_text(LIMB)
+    angle = np.linspace(0.0, 2.0 * np.pi, 8, endpoint=False)
+    force = FORCE_NOISE_N * np.sqrt(2.0) * np.stack([np.cos(angle), np.sin(angle)], 1)
+    return float(np.abs(under_force(load_limb(model), theta1, theta2, force).k_n_per_mm - physics_k(theta1, theta2)).max())
+
+
+def assert_k(
+    entry: dict[str, float], theta1: float, theta2: float, angle_step_rad: float = 0.0, load_n_per_mm: float = 0.0
+) -> None:
+    """Within the wire's half step, single precision (1e-5 of K), what the angle's own step makes, and the load's part."""
     k = physics_k(theta1, theta2)
     turned = physics_k(theta1 + angle_step_rad, theta2 + angle_step_rad)
-    bound = STEP_N_PER_MM / 2 + 1e-5 * np.abs(k).max() + np.abs(turned - k).max()
+    bound = STEP_N_PER_MM / 2 + 1e-5 * np.abs(k).max() + np.abs(turned - k).max() + load_n_per_mm
     got = np.array([entry[name] for name in MATRIX])
     assert np.abs(got - np.array([k[0, 0], k[0, 1], k[1, 1]])).max() < bound
 
@@ -44,12 +60,12 @@ def limb(tmp_path: Path) -> Path:
     return path
 
 
-def test_values_are_those_of_physics(brace: Callable[..., Outcome], limb: Path) -> None:
+def test_values_are_those_of_physics(brace: Callable[..., Outcome], limb: Path, tmp_path: Path) -> None:
     with limb_on_tcp(limb, "--posture", "0.9,1.5") as url:
         live = json.loads(brace("query", "--bus", url, "--json").out)
         assert live["k_is_valid"] and live["mode"] == "monitor" and live["faults"] == []
         assert abs(live["theta1_rad"] - 0.9) < 2e-3 and abs(live["theta2_rad"] - 1.5) < 2e-3
-        assert_k(live, live["theta1_rad"], live["theta2_rad"], 2e-5)
+        assert_k(live, live["theta1_rad"], live["theta2_rad"], 2e-3, force_noise(tmp_path, 0.9, 1.5))
         assert live["dictionary_hash"] == f"{DICTIONARY_HASH:08x}"
         for theta1, theta2 in ((0.2, 0.8), (1.3, 2.1), (-0.4, -1.0)):
             asked = brace("query", "--bus", url, "--theta1", theta1, "--theta2", theta2, "--json")
@@ -82,18 +98,18 @@ def test_sag_and_force_are_k_s(brace: Callable[..., Outcome], limb: Path) -> Non
     """With the K of now: what a load moves, that displacement meets again."""
     with limb_on_tcp(limb) as url:
         live = json.loads(brace("query", "--bus", url, "--json").out)
-        k = physics_k(live["theta1_rad"], live["theta2_rad"])
+        k = np.array([[live[MATRIX[0]], live[MATRIX[1]]], [live[MATRIX[1]], live[MATRIX[2]]]])
         sag = json.loads(brace("query", "--bus", url, "--load", 1.0, -2.0, "--json").out)
         expected = np.linalg.solve(k, [1.0, -2.0])
-        # the posture's step turns K by a few 1e-5, its smaller eigenvalue makes 12 times of it
+        # two snapshots: the sensor's noise on the load that K counts turns K, its smaller eigenvalue makes 12 times of it
         assert (
             np.abs(np.array([sag["dx_mm"], sag["dz_mm"]]) - expected).max()
-            < 1e-4 + 1e-3 * np.abs(expected).max()
+            < 1e-4 + 3e-2 * np.abs(expected).max()
         )
         force = json.loads(brace("query", "--bus", url, "--sag", sag["dx_mm"], sag["dz_mm"], "--json").out)
-        assert abs(force["fx_n"] - 1.0) < 0.003 and abs(force["fz_n"] + 2.0) < 0.003
+        assert abs(force["fx_n"] - 1.0) < 0.06 and abs(force["fz_n"] + 2.0) < 0.06
         values = np.linalg.eigvalsh(k) * np.hypot(*expected)
-        assert abs(force["low_n"] - values[0]) < 0.01 and abs(force["high_n"] - values[1]) < 0.05
+        assert abs(force["low_n"] - values[0]) < 0.06 and abs(force["high_n"] - values[1]) < 0.6
         outcome = brace("query", "--bus", url, "--load", 1, 2, "--theta1", 1, "--theta2", 1)
         assert outcome.code == 2 and "one question" in outcome.err
 

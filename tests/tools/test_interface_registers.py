@@ -1,4 +1,4 @@
-"""Places on the wires: Modbus registers and parameter blocks of version 0.1 still mean what they meant."""
+"""Places on the wires: Modbus registers and limbs of version 0.1 still mean what they meant."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from brace.bus.entries import index_of
+from brace.errors import VersionMismatchError
 from brace.model import load_limb
 from brace.params import pack
 from brace.params.block import unpack
@@ -66,18 +67,17 @@ def test_k_in_space_and_its_posture_are_one_read() -> None:
     assert max(places) + 2 - min(places) <= 125
 
 
-def test_a_block_of_version_0_1_is_read() -> None:
+def test_a_block_of_version_0_1_is_refused_and_its_limb_means_what_it_meant() -> None:
+    """Its layout is another one, which the schema tells; its limb.toml makes a block of now with the same values."""
     content = bytes.fromhex((DATA / "parameters-0.1.hex").read_text())
-    block = unpack(content, "version 0.1")
-    model = load_limb(DATA / "parameters-0.1.toml")
-    assert block.sequence == 7
-    assert pack(model, sequence=7).content == content
-    for parameter in PARAMETERS:
-        wanted = model.values[parameter.key]
-        if parameter.texts:
-            wanted = parameter.texts.index(wanted)
-        form = "<f" if parameter.type == "f32" else "<I"
-        assert int(block.words[parameter.index]) == struct.unpack("<I", struct.pack(form, wanted))[0], parameter.key
+    with pytest.raises(VersionMismatchError, match="71660dc3"):
+        unpack(content, "version 0.1")
+    block = pack(load_limb(DATA / "parameters-0.1.toml"))
+    now = {parameter.key: int(block.words[parameter.index]) for parameter in PARAMETERS}
+    places = {name: int(row["address"]) // 2 for name, row in rows(DATA / "modbus-0.1.csv").items() if name in now}
+    assert sorted(places.values()) == list(range(108))
+    for key, place in places.items():
+        assert now[key] == struct.unpack_from("<I", content, 20 + 4 * place)[0], key
 
 
 def altered(tmp_path: Path, before: str, after: str) -> Path:

@@ -11,11 +11,11 @@ from brace.stiffness import E_SINGULAR, PLANAR_C, PLANAR_K, PLANAR_REST, Posture
 
 DISPLACEMENT = ("tip_dx_mm", "tip_dz_mm")
 LOADED_REST = (*PLANAR_REST, *DISPLACEMENT, "buckling_factor")
-DOWN = (0.0, -1.0)
+_TIBIA = ("tibia_x_mm", "tibia_z_mm")
 _RESULT = np.dtype(
     [(name, "f4") for name in (*PLANAR_K, *PLANAR_REST)]
     + [("flags", "u4")]
-    + [(name, "f4") for name in (*DISPLACEMENT, "hip_turn_rad", "knee_turn_rad", "buckling_factor")]
+    + [(name, "f4") for name in (*DISPLACEMENT, *_TIBIA, "hip_turn_rad", "knee_turn_rad", "buckling_factor")]
 )  # brace_loaded_stiffness_t
 _ALL = np.dtype(
     [(name, "f4") for name in (*PLANAR_K, *PLANAR_REST, *DISPLACEMENT, "buckling_factor")]
@@ -30,13 +30,14 @@ class LoadedLimb:
     def __init__(self, model: LimbModel) -> None:
         native = library()
         ffi, lib = native.ffi, native.lib
-        limb, weights = firmware_limb(native, model), ffi.new("brace_weights_t *")
+        limb, weights = firmware_limb(native, model), ffi.new("brace_gravity_t *")
         for part in ("femur_n", "knee_n", "tibia_n"):
             setattr(weights, part, model.number(f"gravity.{part}"))
         self._native = native
         self._loaded, self._joints = ffi.new("brace_loaded_t *"), ffi.new("brace_load_t *")
         lib.brace_loaded_collapse(limb, weights, self._loaded)
-        self._joints.down.x, self._joints.down.z = DOWN
+        direction_rad, in_plane = model.number("gravity.direction_rad"), np.cos(model.number("gravity.lean_rad"))
+        self._joints.down.x, self._joints.down.z = in_plane * np.cos(direction_rad), in_plane * np.sin(direction_rad)
         for index, joint in ((lib.BRACE_FEMUR, self._joints.hip), (lib.BRACE_TIBIA, self._joints.knee)):
             joint.yields_by_rad_per_n_mm = limb.joint[index].compliance_rad_per_n_mm
             joint.slope_rad_per_n_mm = limb.joint[index].compliance_rad_per_n_mm

@@ -10,12 +10,14 @@ from interface.dictionary import ANGLES, LINKS, Dictionary, Entry, Struct
 
 _MADE = "/* Written by tools/interface from dictionary.toml; do not edit. */\n"
 _LIMB = "limb"
+_CORE = (_LIMB, "gravity")  # structs that the core knows too
 _ROOT = "brace_parameters_t"
 
 
 def limb_fields_header(dictionary: Dictionary) -> str:
-    """firmware/core/include/brace/limb_fields.h: the limb's structs, inner ones first."""
+    """firmware/core/include/brace/limb_fields.h: the limb's structs, inner ones first, and its weights."""
     limb = _limb(dictionary)
+    others = [struct for struct in dictionary.structs if struct.member in _CORE and struct is not limb]
     inner = [struct for struct in dictionary.structs if struct.member.startswith(_LIMB + ".")]
     links = ", ".join(f"BRACE_{link.upper()} = {index}" for index, link in enumerate(LINKS))
     return (
@@ -24,6 +26,7 @@ def limb_fields_header(dictionary: Dictionary) -> str:
         + f"enum {{ {links}, BRACE_LINK_COUNT = {len(LINKS)} }};\n\n"
         + "".join(_struct(struct, []) for struct in inner)
         + _struct(limb, inner)
+        + "".join(_struct(struct, []) for struct in others)
         + "#endif\n"
     )
 
@@ -35,7 +38,7 @@ def parameter_fields_header(dictionary: Dictionary) -> str:
     return (
         _guarded("PARAMETER_FIELDS")
         + '#include <stdint.h>\n\n#include "brace/limb_fields.h"\n\n'
-        + "".join(_struct(struct, []) for struct in outer if struct.member != _LIMB)
+        + "".join(_struct(struct, []) for struct in outer if struct.member not in _CORE)
         + _struct(whole, outer)
         + "#endif\n"
     )

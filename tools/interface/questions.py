@@ -29,6 +29,7 @@ typedef struct {
     uint8_t code[2];       /* BRACE_REQUEST_...: all with the same fields and the same answer */
     uint8_t answer_first, answer_count; /* the values that take the answer: place in brace_answered_t, how many */
     bool none_is_an_answer; /* that the limb has no such value is told by values that are not known */
+    uint8_t begin_code, begin_fields; /* a request that is asked before, with the first of the commands; 0: none */
 } brace_question_t;
 
 """
@@ -49,6 +50,7 @@ class _Raw(TypedDict, total=False):
     asks: list[str]
     answers: list[str]
     none_is_an_answer: bool
+    begins_with: str
 
 
 class _Named(Protocol):
@@ -67,6 +69,7 @@ class Question:
     asks: tuple[Measured, ...]
     answers: tuple[Measured, ...]
     none_is_an_answer: bool
+    begins_with: Request | None
 
 
 def load_questions(path: Path, values: Values, wire: Wire) -> tuple[Question, ...]:
@@ -88,14 +91,17 @@ def _question(raw: _Raw, values: Values, wire: Wire) -> Question:
     requests = tuple(_picked(wire.requests, raw["requests"], where))
     asks = tuple(_picked(values.commands, raw["asks"], where))
     answers = tuple(_picked(values.answered, raw["answers"], where))
+    first = _picked(wire.requests, [raw["begins_with"]], where)[0] if "begins_with" in raw else None
+    first_signals = first.question.signals if first else ()
     for request in requests:
-        _match(f"{where}, fields", asks[: len(asks) - (len(requests) > 1)], request.question.signals)
+        fields = (*first_signals, *request.question.signals)
+        _match(f"{where}, fields", asks[: len(asks) - (len(requests) > 1)], fields)
         _match(f"{where}, answer", answers, answer_signals(request))
     if len(requests) > 2 or (len(requests) == 2 and asks[-1].type != "u32"):
         raise DictionaryError(f"{where}: a whole number picks one of two requests")
     if len(asks) < 2:
         raise DictionaryError(f"{where}: a single value is a command, not a question")
-    return Question(requests, asks, answers, raw.get("none_is_an_answer", False))
+    return Question(requests, asks, answers, raw.get("none_is_an_answer", False), first)
 
 
 def _picked(listed: Sequence[_One], names: Sequence[str], where: str) -> list[_One]:
@@ -134,10 +140,14 @@ def questions_source(questions: Sequence[Question], values: Values) -> str:
 
 def _row(question: Question) -> str:
     codes = ", ".join(f"BRACE_REQUEST_{request.name.upper()}" for request in question.requests)
-    fields = len(question.asks) - (len(question.requests) > 1)
+    first = question.begins_with
+    first_fields = len(first.question.signals) if first else 0
+    first_code = f"BRACE_REQUEST_{first.name.upper()}" if first else "0"
+    fields = len(question.asks) - (len(question.requests) > 1) - first_fields
     none = "true" if question.none_is_an_answer else "false"
     return (f"{{{question.asks[0].index}, {len(question.asks)}, {fields}, {len(question.requests)}, {{{codes}}}, "
-            f"{question.answers[0].index}, {len(question.answers)}, {none}}}")
+            f"{question.answers[0].index}, {len(question.answers)}, {none}, "
+            f"{first_code}, {first_fields}}}")
 
 
 def _unknown(name: str, values: Sequence[Measured]) -> str:

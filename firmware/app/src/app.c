@@ -29,7 +29,11 @@ static bool configure_step(controller_t *controller)
     case BRACE_LINK_COUNT:
         tip_force_configure(&controller->tip_force, controller->hal, &parameters->sensor);
         return false;
-    case BRACE_LINK_COUNT + 1: model_configure(&controller->model, parameters, is_spatial); return false;
+    case BRACE_LINK_COUNT + 1:
+        question_job_forget(&controller->question);
+        model_configure(&controller->model, parameters, is_spatial);
+        return false;
+    case BRACE_LINK_COUNT + 2: gravity_configure(&controller->gravity, &parameters->gravity); return false;
     default:
         drift_job_configure(&controller->drift, parameter_job_is_fresh(&controller->parameters));
         controller->parameters.comes_in_force = false;
@@ -48,6 +52,17 @@ static drift_inputs_t drift_inputs(const controller_t *controller)
                                          !parameter_job_is_busy(&controller->parameters)};
 }
 
+static question_inputs_t question_inputs(controller_t *controller, const drift_inputs_t *drift)
+{
+    return (question_inputs_t){.model = &controller->model,
+                               .parameters = &controller->parameters.in_force,
+                               .origin = controller->parameters.origin,
+                               .joints = &controller->joints,
+                               .down = controller->gravity.down,
+                               .may_work = !loading_is_dear(&controller->loading) &&
+                                           !drift_job_is_dear(&controller->drift, drift)};
+}
+
 static void blank_snapshot(const controller_t *controller, brace_snapshot_t *snapshot)
 {
     const float unknown = __builtin_nanf("");
@@ -59,6 +74,8 @@ static void blank_snapshot(const controller_t *controller, brace_snapshot_t *sna
                                    .play_shift_mm = {unknown, unknown},
                                    .force_x_n = unknown,
                                    .force_z_n = unknown,
+                                   .gravity_direction_rad = controller->gravity.direction_rad,
+                                   .gravity_lean_rad = controller->gravity.lean_rad,
                                    .temp_degc = unknown};
     stiffness_unknown(snapshot, BRACE_FLAG_STALE);
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
@@ -116,12 +133,10 @@ static bool tick_is_late(controller_t *controller, uint32_t now_us)
     return late && controller->mode.now != BRACE_MODE_CONFIGURATION;
 }
 
-/* True angles, levers and force: what a snapshot says beside K. */
+/* Angles as the joints tell them, and levers as far as the load is known from the tick before. */
 static void take_posture(controller_t *controller, brace_snapshot_t *snapshot)
 {
-    const float unknown = __builtin_nanf("");
-    posture_t *posture = &controller->posture;
-    float offset_rad[BRACE_LINK_COUNT];
+    float offset_rad[BRACE_LINK_COUNT], link_rad[BRACE_LINK_COUNT];
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         const joint_t *joint = &controller->joints.joint[i];
         snapshot->play[i] = controller->flank.joint[i].out;
@@ -129,16 +144,8 @@ static void take_posture(controller_t *controller, brace_snapshot_t *snapshot)
         snapshot->torque_n_mm[i] = joint->sample.torque_n_mm;
         offset_rad[i] = snapshot->play[i].offset_rad;
     }
-    posture_take(posture, &controller->parameters.in_force, snapshot->motor_rad, offset_rad);
-    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-        snapshot->theta_rad[i] = posture->theta_rad[i];
-    }
-    snapshot->tip_mm = snapshot->play_shift_mm = (brace_point_t){unknown, unknown};
-    if (posture->has_levers) {
-        snapshot->tip_mm = posture->pose.tip;
-        (void)brace_backlash_tip_shift(&posture->pose, offset_rad[BRACE_FEMUR], offset_rad[BRACE_TIBIA],
-                                       &snapshot->play_shift_mm);
-    }
+    joints_link_angles(&controller->joints, link_rad);
+    posture_take(&controller->posture, &controller->parameters.in_force, snapshot->motor_rad, offset_rad, link_rad);
 }
 
 /* The tip's force: by its sensor, else from what the joints carry. Without a posture nobody could use it. */
@@ -150,7 +157,7 @@ static void take_force(const controller_t *controller, brace_snapshot_t *snapsho
         snapshot->force_x_n = force->x_n;
         snapshot->force_z_n = force->z_n;
     } else {
-        posture_force_of_loads(&controller->posture, &controller->parameters.in_force,
+        posture_force_of_loads(&controller->posture, &controller->parameters.in_force, controller->gravity.down,
                                snapshot->play[BRACE_FEMUR].load_n_mm, snapshot->play[BRACE_TIBIA].load_n_mm,
                                &snapshot->force_x_n, &snapshot->force_z_n);
     }
@@ -160,11 +167,30 @@ static void take_force(const controller_t *controller, brace_snapshot_t *snapsho
 static void take_stiffness(controller_t *controller, brace_snapshot_t *snapshot)
 {
     if (controller->mode.now == BRACE_MODE_CONFIGURATION) {
+        posture_settle(&controller->posture, NULL, NULL);
         stiffness_unknown(snapshot, BRACE_FLAG_STALE);
     } else {
         stiffness_take(&controller->model, &controller->parameters.in_force, controller->parameters.origin,
-                       &controller->joints, &controller->flank, &controller->posture, snapshot);
+                       &controller->joints, &controller->flank, &controller->gravity, &controller->posture, snapshot);
     }
+}
+
+/* Where the limb stands, once K has found the equilibrium. */
+static void take_place(const controller_t *controller, brace_snapshot_t *snapshot)
+{
+    const float unknown = __builtin_nanf("");
+    const posture_t *posture = &controller->posture;
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        snapshot->theta_rad[i] = posture->theta_rad[i];
+    }
+    snapshot->tip_mm = snapshot->play_shift_mm = (brace_point_t){unknown, unknown};
+    if (posture->has_levers) {
+        snapshot->tip_mm = posture->pose.tip;
+        (void)brace_backlash_tip_shift(&posture->pose, snapshot->play[BRACE_FEMUR].offset_rad,
+                                       snapshot->play[BRACE_TIBIA].offset_rad, &snapshot->play_shift_mm);
+    }
+    snapshot->gravity_direction_rad = controller->gravity.direction_rad;
+    snapshot->gravity_lean_rad = controller->gravity.lean_rad;
 }
 
 /* One step of the loading test; its reading goes to the drift check. */
@@ -271,17 +297,20 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     snapshot->temp_degc = joints_warmest_degc(&controller->joints);
 
     /* Which flank carries, where the limb stands, how stiff it is. */
-    flank_tick(&controller->flank, &controller->joints, &controller->tip_force, &controller->posture, parameters,
-               now_us);
+    flank_tick(&controller->flank, &controller->joints, &controller->tip_force, &controller->posture,
+               controller->gravity.down, parameters, now_us);
     take_posture(controller, snapshot);
     take_force(controller, snapshot);
     take_stiffness(controller, snapshot);
+    take_place(controller, snapshot);
 
     /* One step of each job. */
+    const drift_inputs_t drift = drift_inputs(controller);
+    const question_inputs_t question = question_inputs(controller, &drift);
+    question_job_step(&controller->question, &question);
     takeup_step(&controller->takeup, &controller->flank);
     step_loading(controller, snapshot);
-    const drift_inputs_t inputs = drift_inputs(controller);
-    drift_job_step(&controller->drift, &inputs);
+    drift_job_step(&controller->drift, &drift);
     step_parameters(app);
 
     /* Faults and mode, and what follows from them. */
@@ -291,6 +320,6 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
 
     /* Tell. */
     publish(controller, snapshot);
-    wires_tick(&app->wires, hal, app, &controller->counters, now_us);
+    wires_tick(&app->wires, hal, app, &controller->counters, controller->question.has_worked, now_us);
     hal->watchdog_feed(hal->context);
 }

@@ -14,8 +14,10 @@
 #include "jobs/configure/parameter_job.h"
 #include "jobs/drift/drift_job.h"
 #include "jobs/loading/loading.h"
+#include "jobs/question/question_job.h"
 #include "mode/faults.h"
 #include "mode/mode.h"
+#include "posture/gravity.h"
 #include "posture/posture.h"
 #include "sense/joints.h"
 #include "sense/tip_force.h"
@@ -34,10 +36,12 @@ typedef struct {
     flank_t flank;
     takeup_t takeup;
     posture_t posture;
+    gravity_t gravity;
     model_t model;
     brace_loading_t loading;
     brace_recorder_t recorder;
     drift_job_t drift;
+    question_job_t question;
     parameter_job_t parameters;
     uint8_t configure_part;  /* of putting parameters in force, the next one */
     faults_t faults;

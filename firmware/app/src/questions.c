@@ -4,60 +4,12 @@
 #include "brace/requests.h"
 #include "controller.h"
 
-static brace_status_t k_elsewhere(controller_t *controller, float theta1_rad, float theta2_rad,
-                                  brace_stiffness_t *stiffness, float *across_n_per_mm)
+int32_t brace_app_ask_k(brace_app_t *app, brace_asker_t asker, const brace_k_question_t *question,
+                        brace_k_answer_t *answer)
 {
-    const brace_parameters_t *parameters = &controller->parameters.in_force;
-    float temp_degc[BRACE_LINK_COUNT], springs_rad_per_n_mm[BRACE_LINK_COUNT];
-    joints_temperatures(&controller->joints, temp_degc);
-    model_springs_at_rest(parameters, temp_degc, springs_rad_per_n_mm);
-    const brace_status_t status = model_stiffness(&controller->model, parameters, theta1_rad, theta2_rad,
-                                                  springs_rad_per_n_mm, stiffness, across_n_per_mm);
-    if (status == BRACE_OK) {
-        const bool inside = posture_is_inside_travel(&parameters->drive[BRACE_FEMUR], theta1_rad) &&
-                            posture_is_inside_travel(&parameters->drive[BRACE_TIBIA], theta2_rad);
-        const bool is_default = controller->parameters.origin == BRACE_PARAMETERS_DEFAULT;
-        stiffness->flags |= (inside ? 0u : (uint32_t)BRACE_FLAG_OUT_OF_RANGE) |
-                            (is_default ? (uint32_t)BRACE_FLAG_UNCALIBRATED : 0u);
-    }
-    return status;
-}
-
-brace_status_t brace_app_k_at_posture(brace_app_t *app, float theta1_rad, float theta2_rad,
-                                      brace_stiffness_t *stiffness)
-{
-    float across_n_per_mm;
-    return app == NULL || stiffness == NULL
-               ? BRACE_E_NULL
-               : k_elsewhere(controller_of(app), theta1_rad, theta2_rad, stiffness, &across_n_per_mm);
-}
-
-brace_status_t brace_app_k_at_tip(brace_app_t *app, brace_point_t tip, brace_knee_t knee,
-                                  brace_stiffness_t *stiffness)
-{
-    float theta1_rad, theta2_rad;
-    if (app == NULL) {
-        return BRACE_E_NULL;
-    }
-    const brace_status_t status =
-        brace_kinematics_inverse(&brace_app_parameters(app)->limb, tip, knee, &theta1_rad, &theta2_rad);
-    return status == BRACE_OK ? brace_app_k_at_posture(app, theta1_rad, theta2_rad, stiffness) : status;
-}
-
-brace_status_t brace_app_k_in_space(brace_app_t *app, float theta0_rad, float theta1_rad, float theta2_rad,
-                                    brace_stiffness_spatial_t *stiffness)
-{
-    brace_stiffness_t plane;
-    float across_n_per_mm;
-    if (app == NULL) {
-        return BRACE_E_NULL;
-    }
-    controller_t *controller = controller_of(app);
-    if (!controller->model.is_spatial) {
-        return BRACE_E_UNSUPPORTED;
-    }
-    const brace_status_t status = k_elsewhere(controller, theta1_rad, theta2_rad, &plane, &across_n_per_mm);
-    return status == BRACE_OK ? brace_spatial_turn(theta0_rad, &plane, across_n_per_mm, stiffness) : status;
+    return app == NULL || question == NULL || answer == NULL
+               ? (int32_t)BRACE_E_NULL
+               : question_job_ask(&controller_of(app)->question, asker, question, answer);
 }
 
 brace_status_t brace_app_contact_force(const brace_app_t *app, brace_displacement_t displacement,
@@ -82,9 +34,7 @@ brace_status_t brace_app_sag(const brace_app_t *app, brace_force_t load, brace_d
 brace_status_t brace_app_grip(const brace_app_t *app, float normal_rad, float friction_ratio,
                               brace_contact_grip_t *grip)
 {
-    /* The knee of a limb with links of 1 mm stands at (cos, sin) of theta1. This gives cosine and sine without libm. */
-    static const brace_limb_t unit_limb = {.femur_mm = 1.0f, .tibia_mm = 1.0f};
-    brace_pose_t pose;
+    brace_vec_t normal;
     if (app == NULL) {
         return BRACE_E_NULL;
     }
@@ -93,7 +43,6 @@ brace_status_t brace_app_grip(const brace_app_t *app, float normal_rad, float fr
     if (force.x_n != force.x_n || force.z_n != force.z_n) {
         return BRACE_E_NOT_FINITE;
     }
-    const brace_status_t status = brace_kinematics_forward(&unit_limb, normal_rad, 0.0f, &pose);
-    return status == BRACE_OK ? brace_contact_grip(force, pose.knee.x_mm, pose.knee.z_mm, friction_ratio, grip)
-                              : status;
+    const brace_status_t status = brace_kinematics_direction(normal_rad, &normal);
+    return status == BRACE_OK ? brace_contact_grip(force, normal.x, normal.z, friction_ratio, grip) : status;
 }

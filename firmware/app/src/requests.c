@@ -246,3 +246,21 @@ brace_status_t brace_app_store_status(const brace_app_t *app, brace_store_status
     brace_store_status(&controller_in(app)->parameters.store, status);
     return BRACE_OK;
 }
+
+/* ------------------------------------------------------------------------------------ where down is -- */
+
+brace_status_t brace_app_set_gravity(brace_app_t *app, float direction_rad, float lean_rad)
+{
+    if (app == NULL) {
+        return BRACE_E_NULL;
+    }
+    controller_t *controller = controller_of(app);
+    return gravity_tell(&controller->gravity, &controller->parameters.in_force.gravity, direction_rad, lean_rad);
+}
+
+void brace_app_gravity(const brace_app_t *app, float *direction_rad, float *lean_rad)
+{
+    const gravity_t *gravity = &controller_in(app)->gravity;
+    *direction_rad = gravity->direction_rad;
+    *lean_rad = gravity->lean_rad;
+}

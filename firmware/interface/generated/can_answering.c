@@ -299,6 +299,55 @@ static void pack_take_up_result(const brace_take_up_result_answer_t *answer, uin
     brace_bits_store(bits, parts[0]);
 }
 
+static void pack_set_gravity(const brace_set_gravity_answer_t *answer, uint64_t head,
+    uint8_t (*parts)[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits;
+    bits = head | 0u;
+    bits |= brace_bits_signed(answer->direction_rad, 1000000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(answer->lean_rad, 1000000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, parts[0]);
+}
+
+static void pack_tip_force(const brace_tip_force_answer_t *answer, uint64_t head,
+    uint8_t (*parts)[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits;
+    bits = head | 0u;
+    bits |= brace_bits_signed(answer->fx_n, 1000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(answer->fz_n, 1000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, parts[0]);
+}
+
+static void pack_k_under_load_at_posture(const brace_k_under_load_at_posture_answer_t *answer, uint64_t head,
+    uint8_t (*parts)[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits;
+    bits = head | 0u;
+    bits |= brace_bits_signed(answer->k_xx_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(answer->k_xz_n_per_mm, 2000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, parts[0]);
+    bits = head | 32u;
+    bits |= brace_bits_signed(answer->k_zz_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_unsigned(answer->lambda_min_n_per_mm, 2000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, parts[1]);
+    bits = head | 64u;
+    bits |= brace_bits_unsigned(answer->lambda_max_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(answer->stiff_axis_rad, 10000.0f, 40u, 16u, &limited);
+    brace_bits_store(bits, parts[2]);
+    bits = head | 96u;
+    bits |= brace_bits_signed(answer->dx_mm, 1000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(answer->dz_mm, 1000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, parts[3]);
+    bits = head | 128u;
+    bits |= brace_bits_float(answer->buckling_factor, 16u);
+    bits |= brace_bits_number(answer->flags | (limited > 0u ? (uint32_t)BRACE_FLAG_SATURATED : 0u), 48u, 8u, &limited);
+    brace_bits_store(bits, parts[4]);
+}
+
 void brace_can_pack_answer(uint32_t code, const brace_answer_t *answer, uint32_t token, uint8_t (*parts)[8])
 {
     const uint64_t head = code | (token & 0xffu) << 8;
@@ -328,6 +377,11 @@ void brace_can_pack_answer(uint32_t code, const brace_answer_t *answer, uint32_t
     case BRACE_REQUEST_K_IN_SPACE_AT_POSTURE: pack_k_in_space_at_posture(&answer->k_in_space_at_posture, head, parts); break;
     case BRACE_REQUEST_DRIFT: pack_drift(&answer->drift, head, parts); break;
     case BRACE_REQUEST_TAKE_UP_RESULT: pack_take_up_result(&answer->take_up_result, head, parts); break;
+    case BRACE_REQUEST_SET_GRAVITY: pack_set_gravity(&answer->set_gravity, head, parts); break;
+    case BRACE_REQUEST_TIP_FORCE: pack_tip_force(&answer->tip_force, head, parts); break;
+    case BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE: pack_k_under_load_at_posture(&answer->k_under_load_at_posture, head, parts); break;
+    case BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP: pack_k_under_load_at_posture(&answer->k_under_load_at_tip_knee_up, head, parts); break;
+    case BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN: pack_k_under_load_at_posture(&answer->k_under_load_at_tip_knee_down, head, parts); break;
     default: break;
     }
 }

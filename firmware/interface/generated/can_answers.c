@@ -3,7 +3,7 @@
 
 #include "can_bits.h"
 
-const uint8_t brace_can_answer_parts[32] = {0, 1, 1, 3, 3, 3, 2, 1, 1, 1, 1, 1, 2, 2, 1, 1, 1, 1, 1, 1, 4, 1, 1, 5, 3, 1, 0, 0, 0, 0, 0, 0};
+const uint8_t brace_can_answer_parts[32] = {0, 1, 1, 3, 3, 3, 2, 1, 1, 1, 1, 1, 2, 2, 1, 1, 1, 1, 1, 1, 4, 1, 1, 5, 3, 1, 1, 1, 5, 5, 5, 0};
 
 uint32_t brace_can_pack_read_entry_answer_0(const brace_can_read_entry_answer_0_t *message, uint8_t data[8])
 {
@@ -847,6 +847,359 @@ void brace_can_unpack_take_up_result_answer_0(const uint8_t data[8], brace_can_t
     message->outcome = brace_value_whole(bits, 24u, 8u);
     message->phase = brace_value_number(bits, 32u, 8u);
     message->torque_n_mm = brace_value_signed(bits, 40u, 24u, 0.1f);
+}
+
+uint32_t brace_can_pack_set_gravity_answer_0(const brace_can_set_gravity_answer_0_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 26u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->direction_rad, 1000000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->lean_rad, 1000000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_set_gravity_answer_0(const uint8_t data[8], brace_can_set_gravity_answer_0_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->direction_rad = brace_value_signed(bits, 16u, 24u, 1e-06f);
+    message->lean_rad = brace_value_signed(bits, 40u, 24u, 1e-06f);
+}
+
+uint32_t brace_can_pack_tip_force_answer_0(const brace_can_tip_force_answer_0_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 27u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->fx_n, 1000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->fz_n, 1000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_tip_force_answer_0(const uint8_t data[8], brace_can_tip_force_answer_0_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->fx_n = brace_value_signed(bits, 16u, 24u, 0.001f);
+    message->fz_n = brace_value_signed(bits, 40u, 24u, 0.001f);
+}
+
+uint32_t brace_can_pack_k_under_load_at_posture_answer_0(const brace_can_k_under_load_at_posture_answer_0_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 28u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->k_xx_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->k_xz_n_per_mm, 2000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_under_load_at_posture_answer_0(const uint8_t data[8],
+    brace_can_k_under_load_at_posture_answer_0_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->k_xx_n_per_mm = brace_value_signed(bits, 16u, 24u, 0.0005f);
+    message->k_xz_n_per_mm = brace_value_signed(bits, 40u, 24u, 0.0005f);
+}
+
+uint32_t brace_can_pack_k_under_load_at_posture_answer_1(const brace_can_k_under_load_at_posture_answer_1_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 60u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->k_zz_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_unsigned(message->lambda_min_n_per_mm, 2000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_under_load_at_posture_answer_1(const uint8_t data[8],
+    brace_can_k_under_load_at_posture_answer_1_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->k_zz_n_per_mm = brace_value_signed(bits, 16u, 24u, 0.0005f);
+    message->lambda_min_n_per_mm = brace_value_unsigned(bits, 40u, 24u, 0.0005f);
+}
+
+uint32_t brace_can_pack_k_under_load_at_posture_answer_2(const brace_can_k_under_load_at_posture_answer_2_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 92u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_unsigned(message->lambda_max_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->stiff_axis_rad, 10000.0f, 40u, 16u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_under_load_at_posture_answer_2(const uint8_t data[8],
+    brace_can_k_under_load_at_posture_answer_2_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->lambda_max_n_per_mm = brace_value_unsigned(bits, 16u, 24u, 0.0005f);
+    message->stiff_axis_rad = brace_value_signed(bits, 40u, 16u, 0.0001f);
+}
+
+uint32_t brace_can_pack_k_under_load_at_posture_answer_3(const brace_can_k_under_load_at_posture_answer_3_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 124u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->dx_mm, 1000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->dz_mm, 1000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_under_load_at_posture_answer_3(const uint8_t data[8],
+    brace_can_k_under_load_at_posture_answer_3_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->dx_mm = brace_value_signed(bits, 16u, 24u, 0.001f);
+    message->dz_mm = brace_value_signed(bits, 40u, 24u, 0.001f);
+}
+
+uint32_t brace_can_pack_k_under_load_at_posture_answer_4(const brace_can_k_under_load_at_posture_answer_4_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 156u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_float(message->buckling_factor, 16u);
+    bits |= brace_bits_number(message->flags, 48u, 8u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_under_load_at_posture_answer_4(const uint8_t data[8],
+    brace_can_k_under_load_at_posture_answer_4_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->buckling_factor = brace_value_float(bits, 16u);
+    message->flags = brace_value_number(bits, 48u, 8u);
+}
+
+uint32_t brace_can_pack_k_under_load_at_tip_knee_up_answer_0(const brace_can_k_under_load_at_tip_knee_up_answer_0_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 29u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->k_xx_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->k_xz_n_per_mm, 2000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_under_load_at_tip_knee_up_answer_0(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_up_answer_0_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->k_xx_n_per_mm = brace_value_signed(bits, 16u, 24u, 0.0005f);
+    message->k_xz_n_per_mm = brace_value_signed(bits, 40u, 24u, 0.0005f);
+}
+
+uint32_t brace_can_pack_k_under_load_at_tip_knee_up_answer_1(const brace_can_k_under_load_at_tip_knee_up_answer_1_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 61u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->k_zz_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_unsigned(message->lambda_min_n_per_mm, 2000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_under_load_at_tip_knee_up_answer_1(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_up_answer_1_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->k_zz_n_per_mm = brace_value_signed(bits, 16u, 24u, 0.0005f);
+    message->lambda_min_n_per_mm = brace_value_unsigned(bits, 40u, 24u, 0.0005f);
+}
+
+uint32_t brace_can_pack_k_under_load_at_tip_knee_up_answer_2(const brace_can_k_under_load_at_tip_knee_up_answer_2_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 93u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_unsigned(message->lambda_max_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->stiff_axis_rad, 10000.0f, 40u, 16u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_under_load_at_tip_knee_up_answer_2(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_up_answer_2_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->lambda_max_n_per_mm = brace_value_unsigned(bits, 16u, 24u, 0.0005f);
+    message->stiff_axis_rad = brace_value_signed(bits, 40u, 16u, 0.0001f);
+}
+
+uint32_t brace_can_pack_k_under_load_at_tip_knee_up_answer_3(const brace_can_k_under_load_at_tip_knee_up_answer_3_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 125u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->dx_mm, 1000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->dz_mm, 1000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_under_load_at_tip_knee_up_answer_3(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_up_answer_3_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->dx_mm = brace_value_signed(bits, 16u, 24u, 0.001f);
+    message->dz_mm = brace_value_signed(bits, 40u, 24u, 0.001f);
+}
+
+uint32_t brace_can_pack_k_under_load_at_tip_knee_up_answer_4(const brace_can_k_under_load_at_tip_knee_up_answer_4_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 157u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_float(message->buckling_factor, 16u);
+    bits |= brace_bits_number(message->flags, 48u, 8u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_under_load_at_tip_knee_up_answer_4(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_up_answer_4_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->buckling_factor = brace_value_float(bits, 16u);
+    message->flags = brace_value_number(bits, 48u, 8u);
+}
+
+uint32_t brace_can_pack_k_under_load_at_tip_knee_down_answer_0(const brace_can_k_under_load_at_tip_knee_down_answer_0_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 30u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->k_xx_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->k_xz_n_per_mm, 2000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_under_load_at_tip_knee_down_answer_0(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_down_answer_0_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->k_xx_n_per_mm = brace_value_signed(bits, 16u, 24u, 0.0005f);
+    message->k_xz_n_per_mm = brace_value_signed(bits, 40u, 24u, 0.0005f);
+}
+
+uint32_t brace_can_pack_k_under_load_at_tip_knee_down_answer_1(const brace_can_k_under_load_at_tip_knee_down_answer_1_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 62u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->k_zz_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_unsigned(message->lambda_min_n_per_mm, 2000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_under_load_at_tip_knee_down_answer_1(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_down_answer_1_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->k_zz_n_per_mm = brace_value_signed(bits, 16u, 24u, 0.0005f);
+    message->lambda_min_n_per_mm = brace_value_unsigned(bits, 40u, 24u, 0.0005f);
+}
+
+uint32_t brace_can_pack_k_under_load_at_tip_knee_down_answer_2(const brace_can_k_under_load_at_tip_knee_down_answer_2_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 94u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_unsigned(message->lambda_max_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->stiff_axis_rad, 10000.0f, 40u, 16u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_under_load_at_tip_knee_down_answer_2(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_down_answer_2_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->lambda_max_n_per_mm = brace_value_unsigned(bits, 16u, 24u, 0.0005f);
+    message->stiff_axis_rad = brace_value_signed(bits, 40u, 16u, 0.0001f);
+}
+
+uint32_t brace_can_pack_k_under_load_at_tip_knee_down_answer_3(const brace_can_k_under_load_at_tip_knee_down_answer_3_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 126u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->dx_mm, 1000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->dz_mm, 1000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_under_load_at_tip_knee_down_answer_3(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_down_answer_3_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->dx_mm = brace_value_signed(bits, 16u, 24u, 0.001f);
+    message->dz_mm = brace_value_signed(bits, 40u, 24u, 0.001f);
+}
+
+uint32_t brace_can_pack_k_under_load_at_tip_knee_down_answer_4(const brace_can_k_under_load_at_tip_knee_down_answer_4_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 158u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_float(message->buckling_factor, 16u);
+    bits |= brace_bits_number(message->flags, 48u, 8u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_under_load_at_tip_knee_down_answer_4(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_down_answer_4_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->buckling_factor = brace_value_float(bits, 16u);
+    message->flags = brace_value_number(bits, 48u, 8u);
 }
 
 uint32_t brace_can_pack_refusal(const brace_can_refusal_t *message, uint8_t data[8])

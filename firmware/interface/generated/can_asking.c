@@ -85,6 +85,26 @@ void brace_can_unpack_request(const uint8_t data[8], brace_request_t *asked)
     case BRACE_REQUEST_TAKE_UP_RESULT:
         asked->take_up_result.joint = brace_value_number(bits, 16u, 8u);
         break;
+    case BRACE_REQUEST_SET_GRAVITY:
+        asked->set_gravity.direction_rad = brace_value_signed(bits, 16u, 24u, 1e-06f);
+        asked->set_gravity.lean_rad = brace_value_signed(bits, 40u, 24u, 1e-06f);
+        break;
+    case BRACE_REQUEST_TIP_FORCE:
+        asked->tip_force.fx_n = brace_value_signed(bits, 16u, 24u, 0.001f);
+        asked->tip_force.fz_n = brace_value_signed(bits, 40u, 24u, 0.001f);
+        break;
+    case BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE:
+        asked->k_under_load_at_posture.theta1_rad = brace_value_signed(bits, 16u, 24u, 1e-06f);
+        asked->k_under_load_at_posture.theta2_rad = brace_value_signed(bits, 40u, 24u, 1e-06f);
+        break;
+    case BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP:
+        asked->k_under_load_at_tip_knee_up.x_mm = brace_value_signed(bits, 16u, 24u, 0.001f);
+        asked->k_under_load_at_tip_knee_up.z_mm = brace_value_signed(bits, 40u, 24u, 0.001f);
+        break;
+    case BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN:
+        asked->k_under_load_at_tip_knee_down.x_mm = brace_value_signed(bits, 16u, 24u, 0.001f);
+        asked->k_under_load_at_tip_knee_down.z_mm = brace_value_signed(bits, 40u, 24u, 0.001f);
+        break;
     default: break;
     }
 }

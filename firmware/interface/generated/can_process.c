@@ -282,6 +282,107 @@ void brace_can_unpack_space_6(const uint8_t data[8], brace_can_space_6_t *messag
     message->k_across_n_per_mm = brace_value_unsigned(bits, 40u, 24u, 0.0005f);
 }
 
+uint32_t brace_can_pack_load_0(const brace_can_load_0_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_signed(message->unloaded_k_xx_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->unloaded_k_xz_n_per_mm, 2000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_load_0(const uint8_t data[8], brace_can_load_0_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->unloaded_k_xx_n_per_mm = brace_value_signed(bits, 16u, 24u, 0.0005f);
+    message->unloaded_k_xz_n_per_mm = brace_value_signed(bits, 40u, 24u, 0.0005f);
+}
+
+uint32_t brace_can_pack_load_1(const brace_can_load_1_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 256u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_signed(message->unloaded_k_zz_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->gravity_lean_rad, 10000.0f, 40u, 16u, &limited);
+    bits |= brace_bits_number(message->flags, 56u, 8u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_load_1(const uint8_t data[8], brace_can_load_1_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->unloaded_k_zz_n_per_mm = brace_value_signed(bits, 16u, 24u, 0.0005f);
+    message->gravity_lean_rad = brace_value_signed(bits, 40u, 16u, 0.0001f);
+    message->flags = brace_value_number(bits, 56u, 8u);
+}
+
+uint32_t brace_can_pack_load_2(const brace_can_load_2_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 512u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_signed(message->counted_force_x_n, 1000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->counted_force_z_n, 1000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_load_2(const uint8_t data[8], brace_can_load_2_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->counted_force_x_n = brace_value_signed(bits, 16u, 24u, 0.001f);
+    message->counted_force_z_n = brace_value_signed(bits, 40u, 24u, 0.001f);
+}
+
+uint32_t brace_can_pack_load_3(const brace_can_load_3_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 768u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_signed(message->moved_x_mm, 1000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->moved_z_mm, 1000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_load_3(const uint8_t data[8], brace_can_load_3_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->moved_x_mm = brace_value_signed(bits, 16u, 24u, 0.001f);
+    message->moved_z_mm = brace_value_signed(bits, 40u, 24u, 0.001f);
+}
+
+uint32_t brace_can_pack_load_4(const brace_can_load_4_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 1024u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_float(message->buckling_factor, 16u);
+    bits |= brace_bits_signed(message->gravity_direction_rad, 10000.0f, 48u, 16u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_load_4(const uint8_t data[8], brace_can_load_4_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->buckling_factor = brace_value_float(bits, 16u);
+    message->gravity_direction_rad = brace_value_signed(bits, 48u, 16u, 0.0001f);
+}
+
 uint32_t brace_can_pack_snapshot_fd(const brace_can_snapshot_fd_t *message, uint8_t data[64])
 {
     uint32_t limited = 0u;
@@ -430,7 +531,72 @@ void brace_can_unpack_space_fd(const uint8_t data[64], brace_can_space_fd_t *mes
     message->stiff_axis_z = brace_value_signed(bits, 32u, 16u, 5e-05f);
 }
 
+uint32_t brace_can_pack_load_fd(const brace_can_load_fd_t *message, uint8_t data[64])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits |= brace_bits_number(message->sequence, 0u, 32u, &limited);
+    bits |= brace_bits_unsigned(message->age_ms, 2.0f, 32u, 16u, &limited);
+    bits |= brace_bits_number(message->flags, 48u, 16u, &limited);
+    brace_bits_store(bits, data);
+    bits = 0u;
+    bits |= brace_bits_float(message->unloaded_k_xx_n_per_mm, 0u);
+    bits |= brace_bits_float(message->unloaded_k_xz_n_per_mm, 32u);
+    brace_bits_store(bits, data + 8);
+    bits = 0u;
+    bits |= brace_bits_float(message->unloaded_k_zz_n_per_mm, 0u);
+    bits |= brace_bits_float(message->counted_force_x_n, 32u);
+    brace_bits_store(bits, data + 16);
+    bits = 0u;
+    bits |= brace_bits_float(message->counted_force_z_n, 0u);
+    bits |= brace_bits_float(message->moved_x_mm, 32u);
+    brace_bits_store(bits, data + 24);
+    bits = 0u;
+    bits |= brace_bits_float(message->moved_z_mm, 0u);
+    bits |= brace_bits_float(message->buckling_factor, 32u);
+    brace_bits_store(bits, data + 32);
+    bits = 0u;
+    bits |= brace_bits_float(message->gravity_direction_rad, 0u);
+    bits |= brace_bits_float(message->gravity_lean_rad, 32u);
+    brace_bits_store(bits, data + 40);
+    bits = 0u;
+    brace_bits_store(bits, data + 48);
+    bits = 0u;
+    brace_bits_store(bits, data + 56);
+    return limited;
+}
+
+void brace_can_unpack_load_fd(const uint8_t data[64], brace_can_load_fd_t *message)
+{
+    uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 32u);
+    message->age_ms = brace_value_unsigned(bits, 32u, 16u, 0.5f);
+    message->flags = brace_value_number(bits, 48u, 16u);
+    bits = brace_bits_load(data + 8);
+    message->unloaded_k_xx_n_per_mm = brace_value_float(bits, 0u);
+    message->unloaded_k_xz_n_per_mm = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 16);
+    message->unloaded_k_zz_n_per_mm = brace_value_float(bits, 0u);
+    message->counted_force_x_n = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 24);
+    message->counted_force_z_n = brace_value_float(bits, 0u);
+    message->moved_x_mm = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 32);
+    message->moved_z_mm = brace_value_float(bits, 0u);
+    message->buckling_factor = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 40);
+    message->gravity_direction_rad = brace_value_float(bits, 0u);
+    message->gravity_lean_rad = brace_value_float(bits, 32u);
+    bits = brace_bits_load(data + 48);
+    bits = brace_bits_load(data + 56);
+}
+
 uint32_t brace_can_space_part(const uint8_t data[8])
+{
+    return brace_value_number(brace_bits_load(data), 8u, 8u);
+}
+
+uint32_t brace_can_load_part(const uint8_t data[8])
 {
     return brace_value_number(brace_bits_load(data), 8u, 8u);
 }

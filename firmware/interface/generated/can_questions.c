@@ -460,3 +460,104 @@ void brace_can_unpack_take_up_result_request(const uint8_t data[8], brace_can_ta
     message->token = (uint32_t)(bits >> 8) & 0xffu;
     message->joint = brace_value_number(bits, 16u, 8u);
 }
+
+uint32_t brace_can_pack_set_gravity_request(const brace_can_set_gravity_request_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 26u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->direction_rad, 1000000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->lean_rad, 1000000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_set_gravity_request(const uint8_t data[8], brace_can_set_gravity_request_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->direction_rad = brace_value_signed(bits, 16u, 24u, 1e-06f);
+    message->lean_rad = brace_value_signed(bits, 40u, 24u, 1e-06f);
+}
+
+uint32_t brace_can_pack_tip_force_request(const brace_can_tip_force_request_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 27u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->fx_n, 1000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->fz_n, 1000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_tip_force_request(const uint8_t data[8], brace_can_tip_force_request_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->fx_n = brace_value_signed(bits, 16u, 24u, 0.001f);
+    message->fz_n = brace_value_signed(bits, 40u, 24u, 0.001f);
+}
+
+uint32_t brace_can_pack_k_under_load_at_posture_request(const brace_can_k_under_load_at_posture_request_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 28u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->theta1_rad, 1000000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->theta2_rad, 1000000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_under_load_at_posture_request(const uint8_t data[8],
+    brace_can_k_under_load_at_posture_request_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->theta1_rad = brace_value_signed(bits, 16u, 24u, 1e-06f);
+    message->theta2_rad = brace_value_signed(bits, 40u, 24u, 1e-06f);
+}
+
+uint32_t brace_can_pack_k_under_load_at_tip_knee_up_request(const brace_can_k_under_load_at_tip_knee_up_request_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 29u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->x_mm, 1000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->z_mm, 1000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_under_load_at_tip_knee_up_request(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_up_request_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->x_mm = brace_value_signed(bits, 16u, 24u, 0.001f);
+    message->z_mm = brace_value_signed(bits, 40u, 24u, 0.001f);
+}
+
+uint32_t brace_can_pack_k_under_load_at_tip_knee_down_request(const brace_can_k_under_load_at_tip_knee_down_request_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 30u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->x_mm, 1000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->z_mm, 1000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_under_load_at_tip_knee_down_request(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_down_request_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->x_mm = brace_value_signed(bits, 16u, 24u, 0.001f);
+    message->z_mm = brace_value_signed(bits, 40u, 24u, 0.001f);
+}

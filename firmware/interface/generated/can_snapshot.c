@@ -166,6 +166,76 @@ void brace_can_make_space_6(const brace_measured_t *measured, float age_ms, uint
     (void)brace_can_pack_space_6(&message, data);
 }
 
+void brace_can_make_load_0(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_load_0_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .unloaded_k_xx_n_per_mm = measured->unloaded_k_xx_n_per_mm,
+        .unloaded_k_xz_n_per_mm = measured->unloaded_k_xz_n_per_mm,
+    };
+    (void)brace_can_pack_load_0(&message, data);
+}
+
+static uint32_t load_1_flags(const brace_measured_t *measured)
+{
+    const bool is_limited =
+        is_beyond(measured->unloaded_k_xx_n_per_mm, BRACE_CAN_LOAD_0_UNLOADED_K_XX_N_PER_MM_MOST) ||
+        is_beyond(measured->unloaded_k_xz_n_per_mm, BRACE_CAN_LOAD_0_UNLOADED_K_XZ_N_PER_MM_MOST) ||
+        is_beyond(measured->unloaded_k_zz_n_per_mm, BRACE_CAN_LOAD_1_UNLOADED_K_ZZ_N_PER_MM_MOST) ||
+        is_beyond(measured->gravity_lean_rad, BRACE_CAN_LOAD_1_GRAVITY_LEAN_RAD_MOST) ||
+        is_beyond(measured->counted_force_x_n, BRACE_CAN_LOAD_2_COUNTED_FORCE_X_N_MOST) ||
+        is_beyond(measured->counted_force_z_n, BRACE_CAN_LOAD_2_COUNTED_FORCE_Z_N_MOST) ||
+        is_beyond(measured->moved_x_mm, BRACE_CAN_LOAD_3_MOVED_X_MM_MOST) ||
+        is_beyond(measured->moved_z_mm, BRACE_CAN_LOAD_3_MOVED_Z_MM_MOST);
+    return measured->flags | (is_limited ? (uint32_t)BRACE_FLAG_SATURATED : 0u);
+}
+
+void brace_can_make_load_1(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_load_1_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .unloaded_k_zz_n_per_mm = measured->unloaded_k_zz_n_per_mm,
+        .gravity_lean_rad = measured->gravity_lean_rad,
+        .flags = load_1_flags(measured),
+    };
+    (void)brace_can_pack_load_1(&message, data);
+}
+
+void brace_can_make_load_2(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_load_2_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .counted_force_x_n = measured->counted_force_x_n,
+        .counted_force_z_n = measured->counted_force_z_n,
+    };
+    (void)brace_can_pack_load_2(&message, data);
+}
+
+void brace_can_make_load_3(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_load_3_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .moved_x_mm = measured->moved_x_mm,
+        .moved_z_mm = measured->moved_z_mm,
+    };
+    (void)brace_can_pack_load_3(&message, data);
+}
+
+void brace_can_make_load_4(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_load_4_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .buckling_factor = measured->buckling_factor,
+        .gravity_direction_rad = measured->gravity_direction_rad,
+    };
+    (void)brace_can_pack_load_4(&message, data);
+}
+
 void brace_can_make_snapshot_fd(const brace_measured_t *measured, float age_ms, uint8_t *data)
 {
     const brace_can_snapshot_fd_t message = {
@@ -218,4 +288,24 @@ void brace_can_make_space_fd(const brace_measured_t *measured, float age_ms, uin
         .stiff_axis_z = measured->space_stiff_axis_z,
     };
     (void)brace_can_pack_space_fd(&message, data);
+}
+
+void brace_can_make_load_fd(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    const brace_can_load_fd_t message = {
+        .sequence = measured->sequence,
+        .age_ms = age_ms,
+        .flags = measured->flags,
+        .unloaded_k_xx_n_per_mm = measured->unloaded_k_xx_n_per_mm,
+        .unloaded_k_xz_n_per_mm = measured->unloaded_k_xz_n_per_mm,
+        .unloaded_k_zz_n_per_mm = measured->unloaded_k_zz_n_per_mm,
+        .counted_force_x_n = measured->counted_force_x_n,
+        .counted_force_z_n = measured->counted_force_z_n,
+        .moved_x_mm = measured->moved_x_mm,
+        .moved_z_mm = measured->moved_z_mm,
+        .buckling_factor = measured->buckling_factor,
+        .gravity_direction_rad = measured->gravity_direction_rad,
+        .gravity_lean_rad = measured->gravity_lean_rad,
+    };
+    (void)brace_can_pack_load_fd(&message, data);
 }

@@ -389,6 +389,8 @@ _Static_assert((uint32_t)BRACE_FLAG_SATURATED == (uint32_t)(1u << 2), "flag");
 _Static_assert((uint32_t)BRACE_FLAG_GAP_OPEN == (uint32_t)(1u << 3), "flag");
 _Static_assert((uint32_t)BRACE_FLAG_STALE == (uint32_t)(1u << 4), "flag");
 _Static_assert((uint32_t)BRACE_FLAG_OUT_OF_RANGE == (uint32_t)(1u << 5), "flag");
+_Static_assert((uint32_t)BRACE_FLAG_LOAD_UNKNOWN == (uint32_t)(1u << 6), "flag");
+_Static_assert((uint32_t)BRACE_FLAG_SOFTENED == (uint32_t)(1u << 7), "flag");
 static const meaning_t flag_meanings[] = {
     {0, "UNCALIBRATED",
      "The parameters are defaults, not this limb's."},
@@ -402,6 +404,10 @@ static const meaning_t flag_meanings[] = {
      "K is older than its age limit, or the mode is one that tells no K."},
     {5, "OUT_OF_RANGE",
      "The posture lies outside the range in which the model was identified."},
+    {6, "LOAD_UNKNOWN",
+     "The load is not counted, because it is not known or the limb moves in space: K is the one without load."},
+    {7, "SOFTENED",
+     "The load has softened the limb: the buckling factor is below 3, or no stable equilibrium is near."},
 };
 
 const char *brace_flag_name(int32_t number)

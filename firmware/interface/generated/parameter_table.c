@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stddef.h>
 
-_Static_assert(sizeof(brace_parameters_t) == 4 * 108, "the dictionary lists every member");
+_Static_assert(sizeof(brace_parameters_t) == 4 * 111, "the dictionary lists every member");
 _Static_assert(offsetof(brace_parameters_t, limb.coxa_mm) == 0, "order");
 _Static_assert(offsetof(brace_parameters_t, limb.femur_mm) == 4, "order");
 _Static_assert(offsetof(brace_parameters_t, limb.tibia_mm) == 8, "order");
@@ -85,35 +85,38 @@ _Static_assert(offsetof(brace_parameters_t, drive[2].takeup_torque_n_mm) == 300,
 _Static_assert(offsetof(brace_parameters_t, gravity.femur_n) == 304, "order");
 _Static_assert(offsetof(brace_parameters_t, gravity.tibia_n) == 308, "order");
 _Static_assert(offsetof(brace_parameters_t, gravity.knee_n) == 312, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.bias_x_n) == 316, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.bias_z_n) == 320, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.gain) == 324, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.rotation_rad) == 328, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.crosstalk_xz) == 332, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.crosstalk_zx) == 336, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.drift_x_n_per_s) == 340, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.drift_z_n_per_s) == 344, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.saturation_n) == 348, "order");
-_Static_assert(offsetof(brace_parameters_t, sensor.noise_n) == 352, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.creep_ratio) == 356, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.creep_time_constant_s) == 360, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.joint_compliance_per_degc) == 364, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.reference_degc) == 368, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.contact_play_mm) == 372, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.change_at_s) == 376, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.change_link) == 380, "order");
-_Static_assert(offsetof(brace_parameters_t, slow.change_bending_factor) == 384, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.node_id) == 388, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.can_bit_rate) == 392, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.tick_us) == 396, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.age_limit_us) == 400, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.stiffness_hz) == 404, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.posture_hz) == 408, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.heartbeat_hz) == 412, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.bus_load_ratio) == 416, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.can_fd_bit_rate) == 420, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.modbus_address) == 424, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.modbus_baud) == 428, "order");
+_Static_assert(offsetof(brace_parameters_t, gravity.direction_rad) == 316, "order");
+_Static_assert(offsetof(brace_parameters_t, gravity.lean_rad) == 320, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.bias_x_n) == 324, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.bias_z_n) == 328, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.gain) == 332, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.rotation_rad) == 336, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.crosstalk_xz) == 340, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.crosstalk_zx) == 344, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.drift_x_n_per_s) == 348, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.drift_z_n_per_s) == 352, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.saturation_n) == 356, "order");
+_Static_assert(offsetof(brace_parameters_t, sensor.noise_n) == 360, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.creep_ratio) == 364, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.creep_time_constant_s) == 368, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.joint_compliance_per_degc) == 372, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.reference_degc) == 376, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.contact_play_mm) == 380, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.change_at_s) == 384, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.change_link) == 388, "order");
+_Static_assert(offsetof(brace_parameters_t, slow.change_bending_factor) == 392, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.node_id) == 396, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.can_bit_rate) == 400, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.tick_us) == 404, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.age_limit_us) == 408, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.stiffness_hz) == 412, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.posture_hz) == 416, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.load_hz) == 420, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.heartbeat_hz) == 424, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.bus_load_ratio) == 428, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.can_fd_bit_rate) == 432, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.modbus_address) == 436, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.modbus_baud) == 440, "order");
 
 const float brace_f32_range[25][2] = {
     {0.0f, 10000.0f},
@@ -131,9 +134,9 @@ const float brace_f32_range[25][2] = {
     {0x1p-149f, 1000000.0f},
     {1e-07f, 0.01f},
     {-7.9f, 7.9f},
+    {-3.141592653589793f, 3.141592653589793f},
     {-1000000.0f, 1000000.0f},
     {0x1p-149f, 1000.0f},
-    {-3.141592653589793f, 3.141592653589793f},
     {-1.0f, 1.0f},
     {-1000.0f, 1000.0f},
     {0x1p-149f, INFINITY},
@@ -160,11 +163,11 @@ const uint32_t brace_u32_choices[2][9] = {
 };
 
 /* For each member: its range of floats, or of whole numbers after these, or its choices after those. */
-const uint8_t brace_parameter_rule[108] = {
+const uint8_t brace_parameter_rule[111] = {
     0, 1, 1, 2, 2, 3, 2, 4, 4, 2, 2, 3, 2, 4, 4, 2, 2, 3, 2, 4, 4, 4, 5, 6, 4, 5, 6, 4, 5, 6, 2, 2, 4, 7, 5,
     4, 4, 8, 9, 10, 11, 4, 11, 12, 11, 11, 13, 14, 14, 12, 8, 9, 10, 11, 4, 11, 12, 11, 11, 13, 14, 14, 12, 8,
-    9, 10, 11, 4, 11, 12, 11, 11, 13, 14, 14, 12, 11, 11, 11, 15, 15, 16, 17, 18, 18, 19, 19, 20, 11, 2, 21,
-    18, 22, 2, 23, 25, 16, 26, 33, 27, 28, 29, 29, 30, 24, 31, 32, 34,
+    9, 10, 11, 4, 11, 12, 11, 11, 13, 14, 14, 12, 11, 11, 11, 15, 3, 16, 16, 17, 15, 18, 18, 19, 19, 20, 11,
+    2, 21, 18, 22, 2, 23, 25, 17, 26, 33, 27, 28, 29, 29, 29, 30, 24, 31, 32, 34,
 };
 
 const brace_parameters_t brace_parameters_safe = {
@@ -207,6 +210,7 @@ const brace_parameters_t brace_parameters_safe = {
     .drive[2].angle_min_rad = -3.2f,
     .drive[2].angle_max_rad = 3.2f,
     .drive[2].takeup_torque_n_mm = 4000.0f,
+    .gravity.direction_rad = -1.5707963267948966f,
     .sensor.gain = 1.0f,
     .sensor.saturation_n = INFINITY,
     .sensor.noise_n = 0.1f,
@@ -306,6 +310,8 @@ static const char *const keys[] = {
     "gravity.femur_n",
     "gravity.tibia_n",
     "gravity.knee_n",
+    "gravity.direction_rad",
+    "gravity.lean_rad",
     "sensor.bias_x_n",
     "sensor.bias_z_n",
     "sensor.gain",
@@ -330,6 +336,7 @@ static const char *const keys[] = {
     "controller.age_limit_us",
     "controller.stiffness_hz",
     "controller.posture_hz",
+    "controller.load_hz",
     "controller.heartbeat_hz",
     "controller.bus_load_ratio",
     "controller.can_fd_bit_rate",
@@ -344,8 +351,8 @@ static const char *const units[] = {
     "N mm", "", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm", "N mm", "N mm", "rad", "rad", "rad", "N mm",
     "N mm", "", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm", "N mm", "N mm", "rad", "rad", "rad", "N mm",
     "N mm", "", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm", "N mm", "N mm", "rad", "rad", "rad", "N mm",
-    "N", "N", "N", "N", "N", "", "rad", "", "", "N/s", "N/s", "N", "N", "", "s", "1/degC", "degC", "mm", "s",
-    "", "", "", "bit/s", "us", "us", "Hz", "Hz", "Hz", "", "bit/s", "", "bit/s",
+    "N", "N", "N", "rad", "rad", "N", "N", "", "rad", "", "", "N/s", "N/s", "N", "N", "", "s", "1/degC",
+    "degC", "mm", "s", "", "", "", "bit/s", "us", "us", "Hz", "Hz", "Hz", "Hz", "", "bit/s", "", "bit/s",
 };
 
 const char *brace_parameter_key(uint32_t index)
@@ -363,9 +370,9 @@ uint32_t brace_parameter_index(uint32_t number)
     static const uint16_t index[BRACE_PARAMETER_NUMBERS] = {
         0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28,
         29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54,
-        55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 67, 68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 79, 80,
-        81, 82, 83, 84, 85, 86, 87, 88, 89, 90, 91, 92, 93, 94, 95, 96, 97, 98, 99, 100, 101, 102, 103, 104, 105,
-        106, 107,
+        55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 67, 68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 81, 82,
+        83, 84, 85, 86, 87, 88, 89, 90, 91, 92, 93, 94, 95, 96, 97, 98, 99, 100, 101, 102, 103, 104, 106, 107,
+        108, 109, 110, 79, 80, 105,
     };
     return number < BRACE_PARAMETER_NUMBERS ? index[number] : (uint32_t)BRACE_PARAMETER_COUNT;
 }
@@ -375,9 +382,9 @@ uint32_t brace_parameter_number(uint32_t index)
     static const uint16_t number[BRACE_PARAMETER_COUNT] = {
         0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28,
         29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54,
-        55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 67, 68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 79, 80,
-        81, 82, 83, 84, 85, 86, 87, 88, 89, 90, 91, 92, 93, 94, 95, 96, 97, 98, 99, 100, 101, 102, 103, 104, 105,
-        106, 107,
+        55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 67, 68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 108, 109,
+        79, 80, 81, 82, 83, 84, 85, 86, 87, 88, 89, 90, 91, 92, 93, 94, 95, 96, 97, 98, 99, 100, 101, 102, 110,
+        103, 104, 105, 106, 107,
     };
     return index < BRACE_PARAMETER_COUNT ? number[index] : (uint32_t)BRACE_PARAMETER_NUMBERS;
 }

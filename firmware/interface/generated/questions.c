@@ -4,11 +4,14 @@
 #include "brace/can_messages.h"
 
 const brace_question_t brace_questions[BRACE_QUESTION_COUNT] = {
-    {6, 2, 2, 1, {BRACE_REQUEST_K_AT_POSTURE}, 0, 7, true},
-    {8, 3, 2, 2, {BRACE_REQUEST_K_AT_TIP_KNEE_UP, BRACE_REQUEST_K_AT_TIP_KNEE_DOWN}, 0, 7, true},
-    {11, 2, 2, 1, {BRACE_REQUEST_CONTACT_FORCE}, 7, 4, false},
-    {13, 2, 2, 1, {BRACE_REQUEST_SAG_FOR_LOAD}, 11, 2, false},
-    {15, 2, 2, 1, {BRACE_REQUEST_FRICTION_MARGIN}, 13, 3, false},
+    {6, 2, 2, 1, {BRACE_REQUEST_K_AT_POSTURE}, 0, 7, true, 0, 0},
+    {8, 3, 2, 2, {BRACE_REQUEST_K_AT_TIP_KNEE_UP, BRACE_REQUEST_K_AT_TIP_KNEE_DOWN}, 0, 7, true, 0, 0},
+    {11, 2, 2, 1, {BRACE_REQUEST_CONTACT_FORCE}, 7, 4, false, 0, 0},
+    {13, 2, 2, 1, {BRACE_REQUEST_SAG_FOR_LOAD}, 11, 2, false, 0, 0},
+    {15, 2, 2, 1, {BRACE_REQUEST_FRICTION_MARGIN}, 13, 3, false, 0, 0},
+    {19, 4, 2, 1, {BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE}, 16, 10, true, BRACE_REQUEST_TIP_FORCE, 2},
+    {23, 5, 2, 2, {BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP, BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN}, 16, 10, true, BRACE_REQUEST_TIP_FORCE, 2},
+    {17, 2, 2, 1, {BRACE_REQUEST_SET_GRAVITY}, 26, 2, false, 0, 0},
 };
 
 const brace_commands_t brace_commands_unknown = {
@@ -23,6 +26,17 @@ const brace_commands_t brace_commands_unknown = {
     .asked_load_z_n = __builtin_nanf(""),
     .asked_normal_rad = __builtin_nanf(""),
     .asked_friction = __builtin_nanf(""),
+    .asked_gravity_direction_rad = __builtin_nanf(""),
+    .asked_gravity_lean_rad = __builtin_nanf(""),
+    .asked_posture_force_x_n = __builtin_nanf(""),
+    .asked_posture_force_z_n = __builtin_nanf(""),
+    .asked_loaded_theta1_rad = __builtin_nanf(""),
+    .asked_loaded_theta2_rad = __builtin_nanf(""),
+    .asked_tip_force_x_n = __builtin_nanf(""),
+    .asked_tip_force_z_n = __builtin_nanf(""),
+    .asked_loaded_tip_x_mm = __builtin_nanf(""),
+    .asked_loaded_tip_z_mm = __builtin_nanf(""),
+    .asked_loaded_knee = UINT32_MAX,
 };
 
 const brace_answered_t brace_answered_unknown = {
@@ -42,4 +56,16 @@ const brace_answered_t brace_answered_unknown = {
     .asked_margin_n = __builtin_nanf(""),
     .asked_angle_left_rad = __builtin_nanf(""),
     .asked_contact = UINT32_MAX,
+    .asked_loaded_k_xx_n_per_mm = __builtin_nanf(""),
+    .asked_loaded_k_xz_n_per_mm = __builtin_nanf(""),
+    .asked_loaded_k_zz_n_per_mm = __builtin_nanf(""),
+    .asked_loaded_lambda_min_n_per_mm = __builtin_nanf(""),
+    .asked_loaded_lambda_max_n_per_mm = __builtin_nanf(""),
+    .asked_loaded_stiff_axis_rad = __builtin_nanf(""),
+    .asked_moved_x_mm = __builtin_nanf(""),
+    .asked_moved_z_mm = __builtin_nanf(""),
+    .asked_buckling_factor = __builtin_nanf(""),
+    .asked_loaded_flags = UINT32_MAX,
+    .taken_gravity_direction_rad = __builtin_nanf(""),
+    .taken_gravity_lean_rad = __builtin_nanf(""),
 };

@@ -194,22 +194,36 @@ static void upload_on(void)
 /* A request over CAN: of every code, mostly with sense in it. */
 static void random_question(bool harmless)
 {
+    static const uint8_t questions[] = {BRACE_REQUEST_K_AT_POSTURE,
+                                        BRACE_REQUEST_K_AT_TIP_KNEE_UP,
+                                        BRACE_REQUEST_K_AT_TIP_KNEE_DOWN,
+                                        BRACE_REQUEST_TIP_FORCE,
+                                        BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE,
+                                        BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP,
+                                        BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN};
     uint8_t data[8];
     for (int i = 0; i < 8; i++) {
         data[i] = (uint8_t)dice_below(&dice, 256);
     }
     const uint32_t code = harmless            ? 1u + dice_below(&dice, 8)
                           : dice_in(&dice, 20)  ? dice_below(&dice, 256)
-                          : dice_in(&dice, 2) ? 3u + dice_below(&dice, 3)
-                                              : 1u + dice_below(&dice, BRACE_REQUEST_TAKE_UP_RESULT);
+                          : dice_in(&dice, 2) ? questions[dice_below(&dice, 7)]
+                                              : 1u + dice_below(&dice, BRACE_REQUEST_CODE_MOST);
     const uint32_t token = data[1];
     data[0] = (uint8_t)code;
-    if (code == BRACE_REQUEST_K_AT_POSTURE) {
+    if (code == BRACE_REQUEST_K_AT_POSTURE || code == BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE) {
         (void)brace_can_pack_k_at_posture_request(&(brace_can_k_at_posture_request_t){token,
                                                                                       dice_between(&dice, -3.0f, 3.0f),
                                                                                       dice_between(&dice, -3.0f, 3.0f)},
                                                   data);
-    } else if (code == BRACE_REQUEST_K_AT_TIP_KNEE_UP || code == BRACE_REQUEST_K_AT_TIP_KNEE_DOWN) {
+        data[0] = (uint8_t)code;
+    } else if (code == BRACE_REQUEST_TIP_FORCE) {
+        data[4] = data[7] = (uint8_t)(dice_in(&dice, 2) ? 0 : 255); /* some ten newtons */
+        data[3] &= 0x3fu;
+        data[6] &= 0x3fu;
+    } else if (code == BRACE_REQUEST_K_AT_TIP_KNEE_UP || code == BRACE_REQUEST_K_AT_TIP_KNEE_DOWN ||
+               code == BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP ||
+               code == BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN) {
         (void)brace_can_pack_k_at_tip_knee_up_request(
             &(brace_can_k_at_tip_knee_up_request_t){token, dice_between(&dice, -300.0f, 300.0f),
                                                     dice_between(&dice, -300.0f, 300.0f)}, data);

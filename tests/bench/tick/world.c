@@ -345,9 +345,16 @@ static uint32_t random_pdu(dice_t *dice, uint8_t *pdu)
 {
     static const uint8_t functions[] = {3, 4, 4, 4, 6, 8, 16, 16, 17, 43, 99};
     static const uint16_t starts[] = {0, 0, 2, 100, 4096, 16384, 16386, 16390, 16392, 16394,
-                                      16396, 16400, 16406, 16410, 16414};
-    const uint32_t start = starts[dice_below(dice, 15)], function = functions[dice_below(dice, 11)];
-    const uint32_t count = dice_in(dice, 2) ? 1u + dice_below(dice, 120) : start == 16400 ? 6 : start >= 16396 ? 4 : 2;
+                                      16396, 16400, 16406, 16410, 16414, 16418, 16422, 16430};
+    const uint32_t start = starts[dice_below(dice, 18)], function = functions[dice_below(dice, 11)];
+    const uint32_t count = dice_in(dice, 2)  ? 1u + dice_below(dice, 120)
+                           : start == 16400 ? 6
+                           : start == 16422 ? 8
+                           : start == 16430 ? 10
+                           : start >= 16396 ? 4
+                                            : 2;
+    const uint32_t tip = start == 16400 ? 0u : 8u; /* place of the tip's x; its knee stands behind z */
+    const bool is_tip = start == 16400 || start == 16430;
     pdu[0] = (uint8_t)function;
     pdu[1] = (uint8_t)(start >> 8);
     pdu[2] = (uint8_t)start;
@@ -355,8 +362,9 @@ static uint32_t random_pdu(dice_t *dice, uint8_t *pdu)
     pdu[4] = (uint8_t)count;
     pdu[5] = (uint8_t)(2u * count);
     for (uint32_t i = 0; i < 2u * count; i++) {
-        const float angle = start == 16400 ? dice_between(dice, 100.0f, 300.0f) : dice_between(dice, 0.2f, 1.5f);
-        pdu[6u + i] = start == 16400 && i >= 8u ? (uint8_t)(i == 11u) /* the knee */
+        const float angle =
+            is_tip && i >= tip ? dice_between(dice, 100.0f, 300.0f) : dice_between(dice, 0.2f, 1.5f);
+        pdu[6u + i] = is_tip && i >= tip + 8u ? (uint8_t)(i == tip + 11u) /* the knee */
                       : start >= 16396          ? ((const uint8_t *)&angle)[3u - i % 4u]
                                                 : (uint8_t)dice_below(dice, 256);
     }

@@ -146,7 +146,7 @@ static void test_bus_off_is_a_fault_recovery_is_tried_and_K_stays_valid(void)
 
 static void test_frames_for_nobody_are_counted_and_a_flood_is_borne(void)
 {
-    const brace_can_frame_t stranger = {.id = 0x123, .length = 8};
+    const brace_can_frame_t stranger = {.id = 0x7a3, .length = 8};
     ticks(10);
     uint32_t arrived = 0;
     for (int i = 0; i < 1000; i++) {

@@ -144,7 +144,7 @@ static uint32_t staged_word(uint32_t index)
 /* Somebody asks for a member to be written. */
 static brace_status_t stage(uint32_t index, uint32_t word)
 {
-    return brace_app_parameters_stage(&app, index, 1, &word);
+    return brace_app_parameters_stage(&app, brace_parameter_number(index), 1, &word);
 }
 
 /* So much later; a tick at the end of it. In CONFIGURATION none is late. */

@@ -6,7 +6,7 @@ static void expect(int index, brace_backlash_sample_t *sample)
 {
     const controller_t *c = &app.controller;
     if (c->tip_force.known && c->posture.has_levers) {
-        flank_expect_load(sample, index, &c->tip_force, &c->posture, &c->parameters.in_force);
+        flank_expect_load(sample, index, &c->tip_force, &c->posture, c->gravity.down, &c->parameters.in_force);
     }
 }
 
@@ -18,11 +18,25 @@ void setUp(void)
 
 void tearDown(void) {}
 
-#define SLOPE_ERROR 1e-2 /* levers are those of motors 8 mrad away */
+/* Levers are those of motors 8 mrad away: 1e-2. The bench's world knows no bent levers; the controller's count that 9 N
+ * bend the limb by up to 20 mm of 450 mm. */
+#define SLOPE_ERROR 5e-2
+
+/* A limb that hardly yields: the bench's world knows no bent levers. */
+static brace_parameters_t rigid_parameters(void)
+{
+    brace_parameters_t p = bench_parameters();
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        p.limb.link[i].axial_mm_per_n *= 1e-3f;
+        p.limb.link[i].bending_mm_per_n *= 1e-3f;
+        p.limb.joint[i].compliance_rad_per_n_mm *= 1e-3f;
+    }
+    return p;
+}
 
 static void test_without_a_sensor_the_joints_tell_the_force_less_gravity(void)
 {
-    brace_parameters_t p = bench_parameters();
+    brace_parameters_t p = rigid_parameters();
     p.gravity.tibia_n = 2.0f;
     stand(&p);
     weight_n = 2.0;
@@ -32,6 +46,11 @@ static void test_without_a_sensor_the_joints_tell_the_force_less_gravity(void)
     TEST_ASSERT_FALSE(now()->force_is_sensed);
     ASSERT_CLOSE(1.0, now()->force_x_n, 0.01);
     ASSERT_CLOSE(6.0, now()->force_z_n, 0.01);
+    p = bench_parameters();
+    stand(&p);
+    brace_fake_without_force(&fake);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    ticks(200);
     run(&along_x);
     TEST_ASSERT_EQUAL(BRACE_LOADING_DONE, result()->outcome);
     TEST_ASSERT_FALSE(result()->force_is_sensed);
@@ -40,7 +59,7 @@ static void test_without_a_sensor_the_joints_tell_the_force_less_gravity(void)
 
 static void test_the_sensed_force_says_what_the_joints_should_carry(void)
 {
-    brace_parameters_t p = bench_parameters();
+    brace_parameters_t p = rigid_parameters();
     p.gravity.tibia_n = 2.0f;
     stand(&p);
     weight_n = 2.0;
@@ -67,7 +86,7 @@ static void test_the_sensor_s_noise_is_in_what_the_expected_load_may_be_off_by(v
     const double from_x[2] = {tip_x, tip_x - femur_mm * cos(1.0)}, from_z[2] = {tip_z, tip_z - femur_mm * sin(1.0)};
     float off_n_mm[2][2];
     for (int quiet = 0; quiet < 2; quiet++) {
-        brace_parameters_t p = bench_parameters();
+        brace_parameters_t p = rigid_parameters();
         p.sensor.noise_n = quiet ? 0.0f : 0.5f;
         stand(&p);
         for (int i = 0; i < 2; i++) {

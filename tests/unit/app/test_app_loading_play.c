@@ -28,13 +28,13 @@ static void ask_for_the_dearest(void)
     arrives(0x600u + NODE, data, 8);
 }
 
-/* To the end of a test, with or without somebody who asks in every tick. Every tick senses, commands the drives, and
+/* To the end of a test, with or without somebody who asks whenever the answer before has come. Every tick senses, commands the drives, and
  * tells K of its own samples. */
 static void run_and_watch_every_tick(bool asked)
 {
     for (int i = 0; i < 60000 && app.controller.mode.now == BRACE_MODE_LOADING_TEST; i++) {
         const uint32_t reads = fake.calls[BRACE_FAKE_JOINT_READ], commands = fake.calls[BRACE_FAKE_JOINT_COMMAND];
-        if (asked) {
+        if (asked && i % K_TICKS == 0) {
             ask_for_the_dearest();
         }
         ticks(1);

@@ -97,7 +97,7 @@ static void test_every_part_of_a_block_is_the_same_block(void)
         }
     }
     TEST_ASSERT_EQUAL_HEX32(bits(app.controller.parameters.in_force.limb.coxa_mm), value_at(&whole, 0));
-    const reply_t last = read_asks(3, 2 * (BRACE_PARAMETER_COUNT - 2), 4);
+    const reply_t last = read_asks(3, 2 * brace_parameter_number(BRACE_PARAMETER_CONTROLLER_MODBUS_ADDRESS), 4);
     TEST_ASSERT_EQUAL(UNIT, value_at(&last, 0));
     TEST_ASSERT_EQUAL(115200, value_at(&last, 1));
 }
@@ -115,13 +115,13 @@ static void test_reads_have_their_limits(void)
     refused(read_asks(4, 0, 0xffff), 4, 3);
     refused(read_asks(4, 0xffff, 2), 4, 2);
     refused(read_asks(4, 4095, 2), 4, 2);
-    TEST_ASSERT_EQUAL(66, read_asks(4, 4096, 32).count);
-    refused(read_asks(4, 4096, 33), 4, 2);
-    TEST_ASSERT_EQUAL(70, read_asks(3, 16384, 34).count);
-    refused(read_asks(3, 16384, 35), 3, 2);
+    TEST_ASSERT_EQUAL(114, read_asks(4, 4096, 56).count);
+    refused(read_asks(4, 4096, 57), 4, 2);
+    TEST_ASSERT_EQUAL(114, read_asks(3, 16384, 56).count);
+    refused(read_asks(3, 16384, 57), 3, 2);
     refused(read_asks(3, 16383, 2), 3, 2);
-    TEST_ASSERT_EQUAL(4, read_asks(3, 2 * BRACE_PARAMETER_COUNT - 1, 1).count);
-    refused(read_asks(3, 2 * BRACE_PARAMETER_COUNT - 1, 2), 3, 2);
+    TEST_ASSERT_EQUAL(4, read_asks(3, 2 * BRACE_PARAMETER_NUMBERS - 1, 1).count);
+    refused(read_asks(3, 2 * BRACE_PARAMETER_NUMBERS - 1, 2), 3, 2);
     const uint8_t too_long[] = {4, 0, 0, 0, 2, 0}, too_short[] = {4, 0, 0, 0};
     refused(line_asks(UNIT, too_long, sizeof too_long), 4, 3);
     refused(line_asks(UNIT, too_short, sizeof too_short), 4, 3);

@@ -113,11 +113,11 @@ static void test_values_out_of_their_range_are_refused(void)
     configure();
     refused(write_value(2, bits(-1.0f)), 16, 3);
     refused(write_value(2, bits(INFINITY)), 16, 3);
-    refused(write_value(2 * BRACE_PARAMETER_CONTROLLER_MODBUS_ADDRESS, 248), 16, 3);
-    refused(write_value(2 * BRACE_PARAMETER_CONTROLLER_CAN_BIT_RATE, 300000), 16, 3);
+    refused(write_value(2 * brace_parameter_number(BRACE_PARAMETER_CONTROLLER_MODBUS_ADDRESS), 248), 16, 3);
+    refused(write_value(2 * brace_parameter_number(BRACE_PARAMETER_CONTROLLER_CAN_BIT_RATE), 300000), 16, 3);
     /* what members say together is the commit's */
-    accepted(write_value(2 * BRACE_PARAMETER_CONTROLLER_AGE_LIMIT_US, 1000), 16);
-    accepted(write_value(2 * BRACE_PARAMETER_CONTROLLER_TICK_US, 5000), 16);
+    accepted(write_value(2 * brace_parameter_number(BRACE_PARAMETER_CONTROLLER_AGE_LIMIT_US), 1000), 16);
+    accepted(write_value(2 * brace_parameter_number(BRACE_PARAMETER_CONTROLLER_TICK_US), 5000), 16);
     refused(write_value(COMMIT, go), 16, 3);
     const reply_t reply = read_asks(3, COMMIT, 2);
     TEST_ASSERT_EQUAL(0, value_at(&reply, 0));
@@ -135,9 +135,9 @@ static void test_writes_have_their_limits(void)
     accepted(write_values(0, values, 61), 16); /* 122 registers; 123 is odd */
     refused(line_asks(UNIT, too_many, sizeof too_many), 16, 3);
     refused(write_values(1, values, 1), 16, 2);
-    refused(write_values(2 * BRACE_PARAMETER_COUNT - 2, values, 2), 16, 2);
-    refused(write_values(2 * BRACE_PARAMETER_COUNT, values, 1), 16, 2);
-    refused(write_value(16418, 0), 16, 2);
+    refused(write_values(2 * BRACE_PARAMETER_NUMBERS - 2, values, 2), 16, 2);
+    refused(write_values(2 * BRACE_PARAMETER_NUMBERS, values, 1), 16, 2);
+    refused(write_value(16440, 0), 16, 2);
     const uint8_t none[] = {16, 0, 0, 0, 0, 0}, one[] = {16, 0, 0, 0, 1, 2, 0, 0},
                   miscounted[] = {16, 0, 0, 0, 2, 2, 0, 0};
     const uint8_t missing[] = {16, 0, 0, 0, 2, 4, 0, 0, 0}, more[] = {16, 0, 0, 0, 2, 4, 0, 0, 0, 0, 0};
@@ -146,7 +146,7 @@ static void test_writes_have_their_limits(void)
     refused(line_asks(UNIT, miscounted, sizeof miscounted), 16, 3);
     refused(line_asks(UNIT, missing, sizeof missing), 16, 3);
     refused(line_asks(UNIT, more, sizeof more), 16, 3);
-    refused(write_one(2 * BRACE_PARAMETER_COUNT, 0), 6, 2);
+    refused(write_one(2 * BRACE_PARAMETER_NUMBERS, 0), 6, 2);
     const parameter_job_t *job = &app.controller.parameters;
     TEST_ASSERT_EQUAL_MEMORY(&job->in_force, &job->staged, sizeof job->in_force);
 }

@@ -137,7 +137,8 @@ static void test_null_is_refused_everywhere(void)
     const brace_parameters_t p = bench_parameters();
     const uint32_t word = 0;
     brace_row_t row;
-    brace_stiffness_t k;
+    const brace_k_question_t question = {.where = BRACE_K_AT_POSTURE};
+    brace_k_answer_t k;
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_take_up(NULL, 1, 1));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_let_go(NULL));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_loading_start(&app, NULL));
@@ -151,10 +152,10 @@ static void test_null_is_refused_everywhere(void)
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_parameters_stage(NULL, 0, 1, &word));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_parameters_stage(&app, 0, 1, NULL));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_store_status(&app, NULL));
-    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_k_at_posture(NULL, 0.1f, 0.2f, &k));
-    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_k_at_posture(&app, 0.1f, 0.2f, NULL));
-    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_k_at_tip(NULL, (brace_point_t){100.0f, 0.0f}, BRACE_KNEE_UP, &k));
-    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_k_in_space(NULL, 0.0f, 0.1f, 0.2f, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_ask_k(NULL, BRACE_ASKER_PROGRAM, &question, &k));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_ask_k(&app, BRACE_ASKER_PROGRAM, NULL, &k));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_ask_k(&app, BRACE_ASKER_PROGRAM, &question, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_set_gravity(NULL, 0.0f, 0.0f));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_contact_force(NULL, (brace_displacement_t){1.0f, 0.0f}, NULL));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_sag(NULL, (brace_force_t){1.0f, 0.0f}, NULL));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_grip(NULL, 0.0f, 0.5f, NULL));

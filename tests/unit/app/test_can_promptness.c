@@ -1,8 +1,11 @@
-/* A request is answered in the tick that finds it, and every tick tells K of its own samples, whatever else goes on. */
+/* A question for K is answered in turn, any other request in the tick that takes it, and every tick tells K of its own
+ * samples, whatever else goes on. */
 #include "can_bench.h"
 #include "modbus_master.h"
 
-enum { QUESTIONS = 4000 };
+/* A K takes three ticks: taken, worked out, answered; up to three requests of the same port stand before it, and each that
+ * is a K moves it on by two. Dear steps of jobs go first: of a loading test's reading, and of what becomes of it. */
+enum { QUESTIONS = 4000, K_MOST_TICKS = K_TICKS + 3 * 2, JOBS_TICKS = 3 };
 
 static uint64_t dice;
 
@@ -206,10 +209,10 @@ static void start(const brace_parameters_t *p)
     drain();
 }
 
-/* Under all this traffic a question is answered in its tick, and every tick has its K. */
-static void answers_and_computes(const traffic_t *traffic)
+/* Under all this traffic a question is answered in time, and every tick has its K. */
+static void answers_and_computes(const traffic_t *traffic, uint32_t most_ticks)
 {
-    TEST_ASSERT_EQUAL(1, worst_wait(traffic));
+    TEST_ASSERT_LESS_OR_EQUAL(most_ticks, worst_wait(traffic));
     printf("K of the tick's own samples in %u of %u ticks\n", (unsigned)ticks_with_k, (unsigned)ticks_watched);
     TEST_ASSERT_TRUE(ticks_watched > QUESTIONS);
     TEST_ASSERT_EQUAL(ticks_watched, ticks_with_k);
@@ -219,23 +222,23 @@ static void test_on_a_limb_that_collapses(void)
 {
     const brace_parameters_t p = plain_limb(), q = with_play(p);
     start(&p);
-    answers_and_computes(&some);
+    answers_and_computes(&some, K_MOST_TICKS);
     start(&q);
-    answers_and_computes(&some);
+    answers_and_computes(&some, K_MOST_TICKS);
 }
 
 static void test_on_the_general_path(void)
 {
     const brace_parameters_t p = general_limb();
     start(&p);
-    answers_and_computes(&some);
+    answers_and_computes(&some, K_MOST_TICKS);
 }
 
 static void test_with_play_in_both_joints(void)
 {
     const brace_parameters_t p = with_play(general_limb());
     start(&p);
-    answers_and_computes(&some);
+    answers_and_computes(&some, K_MOST_TICKS);
 }
 
 /* Nothing but the dearest question, in every tick. */
@@ -244,16 +247,20 @@ static void test_behind_questions_for_the_tip(void)
     const traffic_t tips = {nothing, the_tip_is_asked};
     const brace_parameters_t p = with_play(general_limb());
     start(&p);
-    answers_and_computes(&tips);
+    answers_and_computes(&tips, K_MOST_TICKS);
     last_sequence = now()->sequence;
     ticks_watched = ticks_with_k = 0;
     for (uint32_t i = 0; i < 3000u; i++) {
         modbus_traffic();
         the_tip_is_asked();
-        TEST_ASSERT_EQUAL(3, answers_of_tick(0).others);
-        watch_k();
+        uint32_t parts = 0;
+        for (uint32_t waited = 0; waited < (uint32_t)K_TICKS && parts == 0u; waited++) {
+            parts = answers_of_tick(0).others;
+            watch_k();
+        }
+        TEST_ASSERT_EQUAL(3, parts);
     }
-    TEST_ASSERT_EQUAL(3000, ticks_with_k);
+    TEST_ASSERT_EQUAL(ticks_watched, ticks_with_k);
 }
 
 static void test_beside_a_loading_test(void)
@@ -264,7 +271,7 @@ static void test_beside_a_loading_test(void)
     for (uint32_t i = 0; i < 4u; i++) {
         start(&limbs[i]);
         tests_run = 0;
-        answers_and_computes(&tests);
+        answers_and_computes(&tests, K_MOST_TICKS + JOBS_TICKS);
         TEST_ASSERT_TRUE(tests_run >= 3u);
     }
 }
@@ -290,7 +297,7 @@ static void test_while_parameters_are_stored_and_put_in_force(void)
     sets[1] = plain_limb();
     start(&sets[1]);
     sets_stored = 0;
-    TEST_ASSERT_EQUAL(1, worst_wait(&storing));
+    TEST_ASSERT_LESS_OR_EQUAL(K_MOST_TICKS + JOBS_TICKS, worst_wait(&storing));
     TEST_ASSERT_TRUE(sets_stored >= 10u);
 }
 
@@ -330,7 +337,7 @@ static void k_is_asked_as_text(uint8_t token)
     say(line);
 }
 
-/* Text is answered in the tick that reads its line, with the bus and both Modbus ports as busy as they can be. */
+/* Text is answered in turn with the bus, and both Modbus ports as busy as they can be: each K moves the other by two. */
 static void test_over_slcan(void)
 {
     const brace_parameters_t p = with_play(general_limb());
@@ -345,12 +352,16 @@ static void test_over_slcan(void)
         modbus_traffic();
         the_tip_is_asked();
         k_is_asked_as_text(token);
-        TEST_ASSERT_EQUAL(3, answers_of_tick(0).others);
-        TEST_ASSERT_EQUAL(3, parts_as_text(token));
-        watch_k();
+        uint32_t on_bus = 0, as_text = 0;
+        for (uint32_t waited = 0; waited < (uint32_t)K_TICKS + 2u; waited++) {
+            on_bus += answers_of_tick(0).others;
+            as_text += parts_as_text(token);
+            watch_k();
+        }
+        TEST_ASSERT_EQUAL(3, on_bus);
+        TEST_ASSERT_EQUAL(3, as_text);
     }
-    TEST_ASSERT_EQUAL(1000, ticks_watched);
-    TEST_ASSERT_EQUAL(1000, ticks_with_k);
+    TEST_ASSERT_EQUAL(ticks_watched, ticks_with_k);
 }
 
 int main(void)

@@ -82,6 +82,21 @@ static inline brace_app_counters_t counters(void)
     return all;
 }
 
+/* A limb's equilibrium under a force on its tip, by the core's estimator: tests/engine judges it. Every joint is a linear
+ * spring. */
+static inline brace_loaded_stiffness_t equilibrium(const brace_parameters_t *p, float theta1_rad, float theta2_rad,
+                                                   brace_force_t tip, brace_vec_t down)
+{
+    const float hip = p->limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm;
+    const float knee = p->limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm;
+    const brace_load_t load = {.tip = tip, .down = down, .hip = {hip, hip}, .knee = {knee, knee}};
+    brace_loaded_t loaded;
+    brace_loaded_stiffness_t result;
+    brace_loaded_collapse(&p->limb, &p->gravity, &loaded);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_loaded_stiffness(&loaded, theta1_rad, theta2_rad, &load, &result));
+    return result;
+}
+
 static inline uint32_t engaged_flags(void)
 {
     return now()->stiffness.engaged.flags;

@@ -9,7 +9,8 @@
 #include "brace/measured.h"
 #include "brace/refusals.h"
 
-enum { NODE = 5, PATIENCE_TICKS = 10 };
+/* A K that is asked for: taken in one tick, worked out in the next, answered in the third. */
+enum { NODE = 5, PATIENCE_TICKS = 10, K_TICKS = 3 };
 
 /* The frames of one answer. */
 typedef struct {

@@ -19,7 +19,7 @@ void tearDown(void) {}
 
 static void test_rows_are_the_single_function_s(void)
 {
-    const brace_weights_t weights = {2.0f, 1.0f, 1.5f};
+    const brace_gravity_t weights = {.femur_n = 2.0f, .knee_n = 1.0f, .tibia_n = 1.5f};
     const brace_limb_t *limb = &sample_limb[SAMPLE_BEAM];
     brace_loaded_t loaded;
     brace_loaded_collapse(limb, &weights, &loaded);

@@ -9,7 +9,7 @@
 #include "unity.h"
 
 static brace_limb_t limb;
-static brace_weights_t weights;
+static brace_gravity_t weights;
 static brace_load_t load;
 
 void setUp(void)

@@ -52,7 +52,7 @@ static void test_rates_are_the_parameters(void)
 static void test_rates_of_zero_are_silence_but_for_the_heartbeat(void)
 {
     brace_parameters_t p = bench_parameters();
-    p.controller.stiffness_hz = p.controller.posture_hz = 0;
+    p.controller.stiffness_hz = p.controller.posture_hz = p.controller.load_hz = 0;
     p.controller.heartbeat_hz = 5;
     bench_start(&p);
     ticks(50);
@@ -81,6 +81,7 @@ static void test_process_data_are_thinned_to_the_share_of_the_bus(void)
     brace_parameters_t p = bench_parameters();
     p.controller.stiffness_hz = 1000;
     p.controller.posture_hz = 1000;
+    p.controller.load_hz = 1000;
     p.controller.can_bit_rate = 250000;
     p.controller.bus_load_ratio = 0.10f;
     bench_start(&p);
@@ -408,7 +409,7 @@ static int32_t slow_write(void *context, brace_serial_port_t port, const uint8_t
 static void test_text_leaves_as_fast_as_the_line_takes_it(void)
 {
     brace_parameters_t p = bench_parameters();
-    p.controller.stiffness_hz = p.controller.posture_hz = 0;
+    p.controller.stiffness_hz = p.controller.posture_hz = p.controller.load_hz = 0;
     bench_start(&p);
     ticks(20);
     says("O\r");
@@ -433,6 +434,7 @@ static void start_fd(bool board_can)
     p.controller.can_fd_bit_rate = 2000000;
     p.controller.stiffness_hz = 100;
     p.controller.posture_hz = 20;
+    p.controller.load_hz = 0;
     p.controller.bus_load_ratio = 1.0f;
     bench_board();
     fake.can_takes_fd = board_can;

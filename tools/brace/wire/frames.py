@@ -5,7 +5,7 @@ from __future__ import annotations
 from brace.wire import codes
 from brace.wire.layout import Field, Layout
 
-DICTIONARY_HASH = 0x72CD93F2
+DICTIONARY_HASH = 0x7F3BBED6
 PROTOCOL = 1
 REQUEST_ID = 0x600
 ANSWER_ID = 0x580
@@ -96,6 +96,34 @@ MULTIPLEXED: dict[str, tuple[Layout, ...]] = {
             Field("k_across", 40, 24, kind="value", step=0.0005, unit="N/mm"),
         ), part=6, part_at=8),
     ),
+    "load": (
+        Layout("load_0", 0x100, None, (
+            Field("sequence", 0, 8),
+            Field("unloaded_k_xx", 16, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+            Field("unloaded_k_xz", 40, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+        ), part=0, part_at=8),
+        Layout("load_1", 0x100, None, (
+            Field("sequence", 0, 8),
+            Field("unloaded_k_zz", 16, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+            Field("gravity_lean", 40, 16, kind="value", signed=True, step=0.0001, unit="rad"),
+            Field("flags", 56, 8, codes=codes.FLAG),
+        ), part=1, part_at=8),
+        Layout("load_2", 0x100, None, (
+            Field("sequence", 0, 8),
+            Field("counted_force_x", 16, 24, kind="value", signed=True, step=0.001, unit="N"),
+            Field("counted_force_z", 40, 24, kind="value", signed=True, step=0.001, unit="N"),
+        ), part=2, part_at=8),
+        Layout("load_3", 0x100, None, (
+            Field("sequence", 0, 8),
+            Field("moved_x", 16, 24, kind="value", signed=True, step=0.001, unit="mm"),
+            Field("moved_z", 40, 24, kind="value", signed=True, step=0.001, unit="mm"),
+        ), part=3, part_at=8),
+        Layout("load_4", 0x100, None, (
+            Field("sequence", 0, 8),
+            Field("buckling_factor", 16, 32, kind="f32"),
+            Field("gravity_direction", 48, 16, kind="value", signed=True, step=0.0001, unit="rad"),
+        ), part=4, part_at=8),
+    ),
 }
 
 FD_MESSAGES: dict[str, Layout] = {
@@ -142,6 +170,21 @@ FD_MESSAGES: dict[str, Layout] = {
         Field("stiff_axis_x", 448, 16, kind="value", signed=True, step=5e-05),
         Field("stiff_axis_y", 464, 16, kind="value", signed=True, step=5e-05),
         Field("stiff_axis_z", 480, 16, kind="value", signed=True, step=5e-05),
+    ), 64),
+    "load_fd": Layout("load_fd", 0x680, None, (
+        Field("sequence", 0, 32),
+        Field("age", 32, 16, kind="value", step=0.5, unit="ms"),
+        Field("flags", 48, 16, codes=codes.FLAG),
+        Field("unloaded_k_xx", 64, 32, kind="f32", unit="N/mm"),
+        Field("unloaded_k_xz", 96, 32, kind="f32", unit="N/mm"),
+        Field("unloaded_k_zz", 128, 32, kind="f32", unit="N/mm"),
+        Field("counted_force_x", 160, 32, kind="f32", unit="N"),
+        Field("counted_force_z", 192, 32, kind="f32", unit="N"),
+        Field("moved_x", 224, 32, kind="f32", unit="mm"),
+        Field("moved_z", 256, 32, kind="f32", unit="mm"),
+        Field("buckling_factor", 288, 32, kind="f32"),
+        Field("gravity_direction", 320, 32, kind="f32", unit="rad"),
+        Field("gravity_lean", 352, 32, kind="f32", unit="rad"),
     ), 64),
 }
 
@@ -232,6 +275,26 @@ REQUESTS: dict[str, Layout] = {
     )),
     "take_up_result": Layout("take_up_result_request", 0x600, 25, (
         Field("joint", 16, 8),
+    )),
+    "set_gravity": Layout("set_gravity_request", 0x600, 26, (
+        Field("direction", 16, 24, kind="value", signed=True, step=1e-06, unit="rad"),
+        Field("lean", 40, 24, kind="value", signed=True, step=1e-06, unit="rad"),
+    )),
+    "tip_force": Layout("tip_force_request", 0x600, 27, (
+        Field("fx", 16, 24, kind="value", signed=True, step=0.001, unit="N"),
+        Field("fz", 40, 24, kind="value", signed=True, step=0.001, unit="N"),
+    )),
+    "k_under_load_at_posture": Layout("k_under_load_at_posture_request", 0x600, 28, (
+        Field("theta1", 16, 24, kind="value", signed=True, step=1e-06, unit="rad"),
+        Field("theta2", 40, 24, kind="value", signed=True, step=1e-06, unit="rad"),
+    )),
+    "k_under_load_at_tip_knee_up": Layout("k_under_load_at_tip_knee_up_request", 0x600, 29, (
+        Field("x", 16, 24, kind="value", signed=True, step=0.001, unit="mm"),
+        Field("z", 40, 24, kind="value", signed=True, step=0.001, unit="mm"),
+    )),
+    "k_under_load_at_tip_knee_down": Layout("k_under_load_at_tip_knee_down_request", 0x600, 30, (
+        Field("x", 16, 24, kind="value", signed=True, step=0.001, unit="mm"),
+        Field("z", 40, 24, kind="value", signed=True, step=0.001, unit="mm"),
     )),
 }
 
@@ -457,6 +520,84 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
             Field("outcome", 24, 8, signed=True, codes=codes.TAKE_UP_OUTCOME),
             Field("phase", 32, 8, codes=codes.TAKE_UP_PHASE),
             Field("torque", 40, 24, kind="value", signed=True, step=0.1, unit="N mm"),
+        )),
+    ),
+    "set_gravity": (
+        Layout("set_gravity_answer_0", 0x580, 26, (
+            Field("direction", 16, 24, kind="value", signed=True, step=1e-06, unit="rad"),
+            Field("lean", 40, 24, kind="value", signed=True, step=1e-06, unit="rad"),
+        )),
+    ),
+    "tip_force": (
+        Layout("tip_force_answer_0", 0x580, 27, (
+            Field("fx", 16, 24, kind="value", signed=True, step=0.001, unit="N"),
+            Field("fz", 40, 24, kind="value", signed=True, step=0.001, unit="N"),
+        )),
+    ),
+    "k_under_load_at_posture": (
+        Layout("k_under_load_at_posture_answer_0", 0x580, 28, (
+            Field("k_xx", 16, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+            Field("k_xz", 40, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+        )),
+        Layout("k_under_load_at_posture_answer_1", 0x580, 60, (
+            Field("k_zz", 16, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+            Field("lambda_min", 40, 24, kind="value", step=0.0005, unit="N/mm"),
+        )),
+        Layout("k_under_load_at_posture_answer_2", 0x580, 92, (
+            Field("lambda_max", 16, 24, kind="value", step=0.0005, unit="N/mm"),
+            Field("stiff_axis", 40, 16, kind="value", signed=True, step=0.0001, unit="rad"),
+        )),
+        Layout("k_under_load_at_posture_answer_3", 0x580, 124, (
+            Field("dx", 16, 24, kind="value", signed=True, step=0.001, unit="mm"),
+            Field("dz", 40, 24, kind="value", signed=True, step=0.001, unit="mm"),
+        )),
+        Layout("k_under_load_at_posture_answer_4", 0x580, 156, (
+            Field("buckling_factor", 16, 32, kind="f32"),
+            Field("flags", 48, 8, codes=codes.FLAG),
+        )),
+    ),
+    "k_under_load_at_tip_knee_up": (
+        Layout("k_under_load_at_tip_knee_up_answer_0", 0x580, 29, (
+            Field("k_xx", 16, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+            Field("k_xz", 40, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+        )),
+        Layout("k_under_load_at_tip_knee_up_answer_1", 0x580, 61, (
+            Field("k_zz", 16, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+            Field("lambda_min", 40, 24, kind="value", step=0.0005, unit="N/mm"),
+        )),
+        Layout("k_under_load_at_tip_knee_up_answer_2", 0x580, 93, (
+            Field("lambda_max", 16, 24, kind="value", step=0.0005, unit="N/mm"),
+            Field("stiff_axis", 40, 16, kind="value", signed=True, step=0.0001, unit="rad"),
+        )),
+        Layout("k_under_load_at_tip_knee_up_answer_3", 0x580, 125, (
+            Field("dx", 16, 24, kind="value", signed=True, step=0.001, unit="mm"),
+            Field("dz", 40, 24, kind="value", signed=True, step=0.001, unit="mm"),
+        )),
+        Layout("k_under_load_at_tip_knee_up_answer_4", 0x580, 157, (
+            Field("buckling_factor", 16, 32, kind="f32"),
+            Field("flags", 48, 8, codes=codes.FLAG),
+        )),
+    ),
+    "k_under_load_at_tip_knee_down": (
+        Layout("k_under_load_at_tip_knee_down_answer_0", 0x580, 30, (
+            Field("k_xx", 16, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+            Field("k_xz", 40, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+        )),
+        Layout("k_under_load_at_tip_knee_down_answer_1", 0x580, 62, (
+            Field("k_zz", 16, 24, kind="value", signed=True, step=0.0005, unit="N/mm"),
+            Field("lambda_min", 40, 24, kind="value", step=0.0005, unit="N/mm"),
+        )),
+        Layout("k_under_load_at_tip_knee_down_answer_2", 0x580, 94, (
+            Field("lambda_max", 16, 24, kind="value", step=0.0005, unit="N/mm"),
+            Field("stiff_axis", 40, 16, kind="value", signed=True, step=0.0001, unit="rad"),
+        )),
+        Layout("k_under_load_at_tip_knee_down_answer_3", 0x580, 126, (
+            Field("dx", 16, 24, kind="value", signed=True, step=0.001, unit="mm"),
+            Field("dz", 40, 24, kind="value", signed=True, step=0.001, unit="mm"),
+        )),
+        Layout("k_under_load_at_tip_knee_down_answer_4", 0x580, 158, (
+            Field("buckling_factor", 16, 32, kind="f32"),
+            Field("flags", 48, 8, codes=codes.FLAG),
         )),
     ),
 }

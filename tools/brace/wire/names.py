@@ -6,7 +6,7 @@ from math import inf
 
 from brace.wire.parameter import Parameter
 
-SCHEMA_HASH = 0x71660DC3
+SCHEMA_HASH = 0x305EA071
 
 PARAMETERS: tuple[Parameter, ...] = (
     Parameter(
@@ -405,147 +405,162 @@ PARAMETERS: tuple[Parameter, ...] = (
         description="the weight at the knee joint",
     ),
     Parameter(
-        79, 79, "sensor.bias_x_n", "sensor.bias_x_n",
+        79, 108, "gravity.direction_rad", "gravity.direction_rad",
+        unit="rad", low=-3.141592653589793, high=3.141592653589793, default=-1.5707963267948966, safe=-1.5707963267948966,
+        description="the direction of down in the limb's plane, from +x, until the main computer says another one",
+    ),
+    Parameter(
+        80, 109, "gravity.lean_rad", "gravity.lean_rad",
+        unit="rad", low=-1.5707963267948966, high=1.5707963267948966, default=0.0, safe=0.0,
+        description="how far down leans out of the limb's plane: its part in the plane is shortened by the cosine",
+    ),
+    Parameter(
+        81, 79, "sensor.bias_x_n", "sensor.bias_x_n",
         unit="N", low=-1000000.0, high=1000000.0, default=0.0, safe=0.0,
         description="a constant added to every reading along x",
     ),
     Parameter(
-        80, 80, "sensor.bias_z_n", "sensor.bias_z_n",
+        82, 80, "sensor.bias_z_n", "sensor.bias_z_n",
         unit="N", low=-1000000.0, high=1000000.0, default=0.0, safe=0.0,
         description="a constant added to every reading along z",
     ),
     Parameter(
-        81, 81, "sensor.gain", "sensor.gain",
+        83, 81, "sensor.gain", "sensor.gain",
         unit="", low=0.0, high=1000.0, default=1.0, safe=1.0, open_low=True,
         description="the factor on every force",
     ),
     Parameter(
-        82, 82, "sensor.rotation_rad", "sensor.rotation_rad",
+        84, 82, "sensor.rotation_rad", "sensor.rotation_rad",
         unit="rad", low=-3.141592653589793, high=3.141592653589793, default=0.0, safe=0.0,
         description="how far the sensor is turned in the limb's plane",
     ),
     Parameter(
-        83, 83, "sensor.crosstalk_xz", "sensor.crosstalk_xz",
+        85, 83, "sensor.crosstalk_xz", "sensor.crosstalk_xz",
         unit="", low=-1.0, high=1.0, default=0.0, safe=0.0,
         description="the share of the force along z that the sensor reads on x",
     ),
     Parameter(
-        84, 84, "sensor.crosstalk_zx", "sensor.crosstalk_zx",
+        86, 84, "sensor.crosstalk_zx", "sensor.crosstalk_zx",
         unit="", low=-1.0, high=1.0, default=0.0, safe=0.0,
         description="the share of the force along x that the sensor reads on z",
     ),
     Parameter(
-        85, 85, "sensor.drift_x_n_per_s", "sensor.drift_x_n_per_s",
+        87, 85, "sensor.drift_x_n_per_s", "sensor.drift_x_n_per_s",
         unit="N/s", low=-1000.0, high=1000.0, default=0.0, safe=0.0,
         description="the drift of the reading along x",
     ),
     Parameter(
-        86, 86, "sensor.drift_z_n_per_s", "sensor.drift_z_n_per_s",
+        88, 86, "sensor.drift_z_n_per_s", "sensor.drift_z_n_per_s",
         unit="N/s", low=-1000.0, high=1000.0, default=0.0, safe=0.0,
         description="the drift of the reading along z",
     ),
     Parameter(
-        87, 87, "sensor.saturation_n", "sensor.saturation_n",
+        89, 87, "sensor.saturation_n", "sensor.saturation_n",
         unit="N", low=0.0, high=inf, default=inf, safe=inf, open_low=True, infinite=True,
         description="the magnitude at which the sensor clips each reading",
     ),
     Parameter(
-        88, 88, "sensor.noise_n", "sensor.noise_n",
+        90, 88, "sensor.noise_n", "sensor.noise_n",
         unit="N", low=0.0, high=1000000.0, default=0.1, safe=0.1,
         description="one sigma of a reading, its resolution included",
     ),
     Parameter(
-        89, 89, "creep.ratio", "slow.creep_ratio",
+        91, 89, "creep.ratio", "slow.creep_ratio",
         unit="", low=0.0, high=1000.0, default=0.0, safe=0.0,
         description="the delayed deflection of each joint relative to its elastic one",
     ),
     Parameter(
-        90, 90, "creep.time_constant_s", "slow.creep_time_constant_s",
+        92, 90, "creep.time_constant_s", "slow.creep_time_constant_s",
         unit="s", low=0.0, high=inf, default=1.0, safe=1.0, open_low=True,
         description="the time constant of the delayed deflection",
     ),
     Parameter(
-        91, 91, "thermal.joint_compliance_per_degc", "slow.joint_compliance_per_degc",
+        93, 91, "thermal.joint_compliance_per_degc", "slow.joint_compliance_per_degc",
         unit="1/degC", low=-1.0, high=1.0, default=0.0, safe=0.0,
         description="the relative change of the joints' compliance",
     ),
     Parameter(
-        92, 92, "thermal.reference_degc", "slow.reference_degc",
+        94, 92, "thermal.reference_degc", "slow.reference_degc",
         unit="degC", low=-273.15, high=1000.0, default=22.0, safe=22.0,
         description="the temperature that the compliances are given for",
     ),
     Parameter(
-        93, 93, "contact.play_mm", "slow.contact_play_mm",
+        95, 93, "contact.play_mm", "slow.contact_play_mm",
         unit="mm", low=0.0, high=1000.0, default=0.0, safe=0.0,
         description="the full clearance of the tip's ball joint, per axis",
     ),
     Parameter(
-        94, 94, "change.at_s", "slow.change_at_s",
+        96, 94, "change.at_s", "slow.change_at_s",
         unit="s", low=-inf, high=inf, default=inf, safe=inf, infinite=True,
         description="the time at which a link's bending changes",
     ),
     Parameter(
-        95, 95, "change.link", "slow.change_link",
+        97, 95, "change.link", "slow.change_link",
         unit="", low=0, high=2, default="tibia", safe=2, type="u32", texts=("coxa", "femur", "tibia",),
         description="the link that changes",
     ),
     Parameter(
-        96, 96, "change.bending_factor", "slow.change_bending_factor",
+        98, 96, "change.bending_factor", "slow.change_bending_factor",
         unit="", low=0.0, high=1000.0, default=1.0, safe=1.0, open_low=True,
         description="the factor on that link's bending compliance from then on",
     ),
     Parameter(
-        97, 97, "controller.node_id", "controller.node_id",
+        99, 97, "controller.node_id", "controller.node_id",
         unit="", low=0, high=127, default=0, safe=0, type="u32",
         description="the limb's number on the CAN bus; 0 means unset: the controller listens and sends nothing",
     ),
     Parameter(
-        98, 98, "controller.can_bit_rate", "controller.can_bit_rate",
+        100, 98, "controller.can_bit_rate", "controller.can_bit_rate",
         unit="bit/s", low=125000, high=1000000, default=1000000, safe=1000000, type="u32", numbers=(125000, 250000, 500000, 1000000,),
         description="the CAN bus's bit rate",
     ),
     Parameter(
-        99, 99, "controller.tick_us", "controller.tick_us",
+        101, 99, "controller.tick_us", "controller.tick_us",
         unit="us", low=500, high=5000, default=1000, safe=1000, type="u32",
         description="the period of the controller's tick",
     ),
     Parameter(
-        100, 100, "controller.age_limit_us", "controller.age_limit_us",
+        102, 100, "controller.age_limit_us", "controller.age_limit_us",
         unit="us", low=1000, high=10000000, default=20000, safe=20000, type="u32",
         description="the age above which K is called stale; at least the tick",
     ),
     Parameter(
-        101, 101, "controller.stiffness_hz", "controller.stiffness_hz",
+        103, 101, "controller.stiffness_hz", "controller.stiffness_hz",
         unit="Hz", low=0, high=1000, default=200, safe=200, type="u32",
         description="how often K goes out on CAN; 0 means never",
     ),
     Parameter(
-        102, 102, "controller.posture_hz", "controller.posture_hz",
+        104, 102, "controller.posture_hz", "controller.posture_hz",
         unit="Hz", low=0, high=1000, default=20, safe=20, type="u32",
         description="how often eigenvalues and posture go out on CAN, together with a K; 0 means never",
     ),
     Parameter(
-        103, 103, "controller.heartbeat_hz", "controller.heartbeat_hz",
+        105, 110, "controller.load_hz", "controller.load_hz",
+        unit="Hz", low=0, high=1000, default=0, safe=0, type="u32",
+        description="how often the load that K counts and K without it go out on CAN, together with a K; 0 means never",
+    ),
+    Parameter(
+        106, 103, "controller.heartbeat_hz", "controller.heartbeat_hz",
         unit="Hz", low=1, high=10, default=1, safe=1, type="u32",
         description="how often the heartbeat goes out",
     ),
     Parameter(
-        104, 104, "controller.bus_load_ratio", "controller.bus_load_ratio",
+        107, 104, "controller.bus_load_ratio", "controller.bus_load_ratio",
         unit="", low=0.0, high=1.0, default=0.06, safe=0.06, open_low=True,
-        description="the share of the bus that K, eigenvalues and posture of this controller may take; the controller sends them less often where they would take more",
+        description="the share of the bus that K, eigenvalues, posture and load of this controller may take; the controller sends them less often where they would take more",
     ),
     Parameter(
-        105, 105, "controller.can_fd_bit_rate", "controller.can_fd_bit_rate",
+        108, 105, "controller.can_fd_bit_rate", "controller.can_fd_bit_rate",
         unit="bit/s", low=0, high=8000000, default=0, safe=0, type="u32",
         description="the bit rate of a CAN FD snapshot's data; 0 means that classic frames are sent",
     ),
     Parameter(
-        106, 106, "controller.modbus_address", "controller.modbus_address",
+        109, 106, "controller.modbus_address", "controller.modbus_address",
         unit="", low=1, high=247, default=1, safe=1, type="u32",
         description="the controller's address on Modbus",
     ),
     Parameter(
-        107, 107, "controller.modbus_baud", "controller.modbus_baud",
+        110, 107, "controller.modbus_baud", "controller.modbus_baud",
         unit="bit/s", low=1200, high=230400, default=115200, safe=115200, type="u32", numbers=(1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400,),
         description="the baud rate of Modbus RTU",
     ),

@@ -118,19 +118,54 @@ brace_status_t brace_app_store_status(const brace_app_t *app, brace_store_status
 /* ------------------------------------------------------------------------------------------ questions --
  * What they answer is untouched unless BRACE_OK is returned. */
 
-/* K in the limb's plane with every gap closed at true joint angles, with the joints' temperatures of now and no load on
- * their springs. Flags: UNCALIBRATED, OUT_OF_RANGE (outside the drives' travel), and the model's own.
- * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE, BRACE_E_RANGE, BRACE_E_SINGULAR. At most 600 instructions. */
-brace_status_t brace_app_k_at_posture(brace_app_t *app, float theta1_rad, float theta2_rad,
-                                      brace_stiffness_t *stiffness);
+/* Who asks for a K: each has one question at a time. */
+typedef enum {
+    BRACE_ASKER_PROGRAM = 0, /* the program around the controller */
+    BRACE_ASKER_CAN,
+    BRACE_ASKER_SLCAN,
+    BRACE_ASKER_MODBUS_LINE,
+    BRACE_ASKER_MODBUS_TCP,
+    BRACE_ASKER_COUNT
+} brace_asker_t;
 
-/* The same with the tip at a place in the limb's plane; returns also what brace_kinematics_inverse returns. */
-brace_status_t brace_app_k_at_tip(brace_app_t *app, brace_point_t tip, brace_knee_t knee,
-                                  brace_stiffness_t *stiffness);
+typedef enum { BRACE_K_AT_POSTURE = 0, BRACE_K_AT_TIP, BRACE_K_IN_SPACE } brace_k_where_t;
 
-/* K in space at true joint angles; returns also BRACE_E_UNSUPPORTED: the limb has no coxa joint. */
-brace_status_t brace_app_k_in_space(brace_app_t *app, float theta0_rad, float theta1_rad, float theta2_rad,
-                                    brace_stiffness_spatial_t *stiffness);
+/* K with every gap closed, where the limb need not be, with the joints' temperatures of now. Set what is not used to
+ * zero: a question that is asked again is told by all of it. */
+typedef struct {
+    brace_k_where_t where;
+    float theta_rad[BRACE_LINK_COUNT]; /* of a posture: true angles before the load turns the joints; that of the coxa
+                                          joint in space only */
+    brace_point_t tip;                 /* of a tip: where it is before the load moves it */
+    brace_knee_t knee;
+    brace_force_t tip_force;           /* of the ground, counted together with the weight; not in space */
+} brace_k_question_t;
+
+typedef struct {
+    brace_stiffness_t k;               /* in the limb's plane; flags: UNCALIBRATED, OUT_OF_RANGE (outside the drives'
+                                          travel), LOAD_UNKNOWN (a limb in space), and the model's own */
+    brace_stiffness_spatial_t in_space;
+    brace_displacement_t moved_mm;     /* by force and weight; NaN: not counted */
+    float buckling_factor;             /* infinity: none; NaN: not counted */
+} brace_k_answer_t;
+
+enum { BRACE_APP_LATER = 1 };
+
+/* Asks for such a K. It is worked out in the ticks to come, one question in every other tick: ask the same again in
+ * every tick until the answer comes. Four ports that ask at once have theirs within eight ticks; dear steps of other jobs
+ * (a reading of a loading test, a record) go first. Whoever does not ask for three ticks loses its place.
+ * returns BRACE_APP_LATER, BRACE_OK, BRACE_E_NULL, what brace_kinematics_inverse and brace_loaded_stiffness return, in
+ *   space also BRACE_E_UNSUPPORTED: the limb has no coxa joint. At most 80 instructions. */
+int32_t brace_app_ask_k(brace_app_t *app, brace_asker_t asker, const brace_k_question_t *question,
+                        brace_k_answer_t *answer);
+
+/* Where down is, from now until the next start: directions as the parameters of [gravity] have them. NaN for both: the
+ * parameters' own again.
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_NOT_FINITE (one NaN alone), BRACE_E_RANGE. At most 200 instructions. */
+brace_status_t brace_app_set_gravity(brace_app_t *app, float direction_rad, float lean_rad);
+
+/* The direction of down that holds now. */
+void brace_app_gravity(const brace_app_t *app, float *direction_rad, float *lean_rad);
 
 /* What the K of now makes of a displacement, and of a load.
  * returns as brace_contact_force and brace_contact_sag; BRACE_E_MODE: there is no valid K */

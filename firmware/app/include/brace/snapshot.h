@@ -26,6 +26,16 @@ typedef struct {
     brace_stiffness_spatial_t engaged; /* once every gap has closed */
 } brace_space_stiffness_t;
 
+/* The load that K counts, and what it does to the limb. The weight of the limb's parts counts with the force. */
+typedef struct {
+    bool is_counted;            /* K, tip and theta1, theta2 are those at the equilibrium under this load; else the
+                                   next five are NaN */
+    float force_x_n, force_z_n; /* of the ground on the tip, as counted */
+    float moved_x_mm, moved_z_mm; /* how far the load has moved the tip */
+    float buckling_factor;     /* brace/loaded.h; infinity: none */
+    brace_stiffness_t unloaded; /* K with neither force nor weight counted, every gap closed; NaN: not known */
+} brace_snapshot_load_t;
+
 /* What one tick says. Everything in it comes from the same samples. */
 typedef struct {
     uint32_t sequence;    /* counts snapshots; wraps */
@@ -35,13 +45,16 @@ typedef struct {
     bool k_is_valid;      /* stiffness may be used, with its flags; else it is NaN and its flags say why */
     brace_gap_stiffness_t stiffness; /* K in the limb's plane: now (open gaps counted) and engaged (all gaps closed) */
     brace_space_stiffness_t space;
-    float theta_rad[BRACE_LINK_COUNT];       /* true joint angles, backlash and zero offset counted; NaN: not known */
+    brace_snapshot_load_t load;
+    float theta_rad[BRACE_LINK_COUNT];       /* true joint angles, backlash, zero offset and, while it is counted, what
+                                                the load turns counted; NaN: not known */
     float motor_rad[BRACE_LINK_COUNT];
     float torque_n_mm[BRACE_LINK_COUNT];
     brace_backlash_out_t play[BRACE_LINK_COUNT];
-    brace_point_t tip_mm;
+    brace_point_t tip_mm;        /* where it stands, as far as the load is counted */
     brace_point_t play_shift_mm; /* shift of the tip at zero force by the joints' backlash */
     float force_x_n, force_z_n;  /* of the ground on the tip, in the limb's plane; NaN: not known */
+    float gravity_direction_rad, gravity_lean_rad; /* where the weight pulls, as the parameters of these names */
     bool force_is_sensed;        /* by the tip's sensor, corrected; else worked out from the joints' loads */
     float temp_degc;             /* of femur and tibia joint the warmer one; NaN: not measured */
     uint32_t parameter_crc;

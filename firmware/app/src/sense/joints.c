@@ -146,6 +146,14 @@ void joints_read(joints_t *joints, const brace_hal_t *hal, const brace_parameter
     }
 }
 
+void joints_link_angles(const joints_t *joints, float link_rad[BRACE_LINK_COUNT])
+{
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        const float read_rad = joints->joint[i].sample.link_rad;
+        link_rad[i] = __builtin_fabsf(read_rad) <= ANGLE_ABSURD_RAD ? read_rad : __builtin_nanf("");
+    }
+}
+
 uint32_t joints_taken_us(const joints_t *joints)
 {
     uint32_t oldest_us = joints->joint[BRACE_FEMUR].sample.taken_us;

@@ -49,6 +49,9 @@ static inline bool joints_plane_is_sound(const joints_t *joints)
     return joints->joint[BRACE_FEMUR].sound && joints->joint[BRACE_TIBIA].sound;
 }
 
+/* True angles by the encoders behind the gears; NaN: there is none, or what it reads is absurd. */
+void joints_link_angles(const joints_t *joints, float link_rad[BRACE_LINK_COUNT]);
+
 /* When the samples were taken: the oldest of those that are sound. */
 uint32_t joints_taken_us(const joints_t *joints);
 

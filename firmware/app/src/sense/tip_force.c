@@ -8,14 +8,12 @@
 
 void tip_force_configure(tip_force_t *force, const brace_hal_t *hal, const brace_sensor_t *sensor)
 {
-    /* The knee of a limb with links of 1 mm stands at (cos, sin) of theta1. This gives cosine and sine without libm. */
-    const brace_limb_t unit_limb = {.femur_mm = 1.0f, .tibia_mm = 1.0f};
-    brace_pose_t pose;
+    brace_vec_t turned;
     *force = (tip_force_t){.age_us = AGE_MOST_US};
-    if (brace_kinematics_forward(&unit_limb, sensor->rotation_rad, 0.0f, &pose) != BRACE_OK) {
+    if (brace_kinematics_direction(sensor->rotation_rad, &turned) != BRACE_OK) {
         return;
     }
-    const float cosine = pose.knee.x_mm, sine = pose.knee.z_mm;
+    const float cosine = turned.x, sine = turned.z;
     /* reading = bias + gain R [[1, crosstalk_xz], [crosstalk_zx, 1]] force; docs/physics.md */
     const float xx = sensor->gain * (cosine - sine * sensor->crosstalk_zx);
     const float xz = sensor->gain * (cosine * sensor->crosstalk_xz - sine);

@@ -6,6 +6,10 @@
 #define DEFLECTION_MOST_RAD 8.0f  /* no spring is wound further than a joint turns */
 #define LOAD_MOST_N_MM 1e9f
 
+#define SOFTENED_FACTOR 3.0f      /* of buckling: below it a limb is much softer than without load */
+#define PROMISED_FACTOR 2.0f      /* what brace/loaded.h promises its accuracy for */
+#define PROMISED_MOVE 0.2f        /* of the reach */
+
 void model_configure(model_t *model, const brace_parameters_t *parameters, bool is_spatial)
 {
     const brace_limb_t *limb = &parameters->limb;
@@ -19,6 +23,7 @@ void model_configure(model_t *model, const brace_parameters_t *parameters, bool 
     } else {
         model->is_collapsed = !model->springs_change && brace_planar_collapse(limb, &model->planar) == BRACE_OK;
         brace_general_collapse(limb, &model->general);
+        brace_loaded_collapse(limb, &parameters->gravity, &model->loaded);
     }
 }
 
@@ -30,15 +35,20 @@ static float spring_at_rest(const brace_parameters_t *parameters, int index, flo
     return parameters->limb.joint[index].compliance_rad_per_n_mm * (factor > LEAST_FACTOR ? factor : LEAST_FACTOR);
 }
 
-/* 1 / (d torque / d deflection) of torque = deflection / compliance + hardening * deflection^3 at a load. A load
- * changes little in a tick, so the deflection is followed with two of Newton's steps from the last one. After a jump
- * of the load the deflection is right within a few ticks. */
-static float hardened_spring(float *deflection_rad, float hardening_n_mm_per_rad3, float load_n_mm,
-                             float compliance_rad_per_n_mm)
+static brace_loaded_joint_t linear(float compliance_rad_per_n_mm)
+{
+    return (brace_loaded_joint_t){compliance_rad_per_n_mm, compliance_rad_per_n_mm};
+}
+
+/* A spring of torque = deflection / compliance + hardening * deflection^3 at a load. A load changes little in a tick, so
+ * the deflection is followed with two of Newton's steps from the last one. After a jump of the load the deflection is
+ * right within a few ticks. */
+static brace_loaded_joint_t hardened_spring(float *deflection_rad, float hardening_n_mm_per_rad3, float load_n_mm,
+                                            float compliance_rad_per_n_mm)
 {
     const bool hardens = hardening_n_mm_per_rad3 > 0.0f && compliance_rad_per_n_mm > 0.0f;
     if (!hardens || !(__builtin_fabsf(load_n_mm) <= LOAD_MOST_N_MM)) {
-        return compliance_rad_per_n_mm;
+        return linear(compliance_rad_per_n_mm);
     }
     const float linear_n_mm_per_rad = 1.0f / compliance_rad_per_n_mm;
     float deflection = *deflection_rad;
@@ -52,24 +62,26 @@ static float hardened_spring(float *deflection_rad, float hardening_n_mm_per_rad
         deflection = load_n_mm < 0.0f ? -DEFLECTION_MOST_RAD : DEFLECTION_MOST_RAD;
     }
     *deflection_rad = deflection;
-    return 1.0f / (linear_n_mm_per_rad + 3.0f * hardening_n_mm_per_rad3 * deflection * deflection);
+    const float cubic_n_mm_per_rad = hardening_n_mm_per_rad3 * deflection * deflection;
+    return (brace_loaded_joint_t){1.0f / (linear_n_mm_per_rad + cubic_n_mm_per_rad),
+                                  1.0f / (linear_n_mm_per_rad + 3.0f * cubic_n_mm_per_rad)};
 }
 
 void model_springs_at_rest(const brace_parameters_t *parameters, const float temp_degc[BRACE_LINK_COUNT],
-                           float springs_rad_per_n_mm[BRACE_LINK_COUNT])
+                           brace_loaded_joint_t springs[BRACE_LINK_COUNT])
 {
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-        springs_rad_per_n_mm[i] = spring_at_rest(parameters, i, temp_degc[i]);
+        springs[i] = linear(spring_at_rest(parameters, i, temp_degc[i]));
     }
 }
 
 void model_springs(model_t *model, const brace_parameters_t *parameters, const float load_n_mm[BRACE_LINK_COUNT],
-                   const float temp_degc[BRACE_LINK_COUNT], float springs_rad_per_n_mm[BRACE_LINK_COUNT])
+                   const float temp_degc[BRACE_LINK_COUNT], brace_loaded_joint_t springs[BRACE_LINK_COUNT])
 {
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-        springs_rad_per_n_mm[i] = parameters->limb.joint[i].compliance_rad_per_n_mm;
+        springs[i] = linear(parameters->limb.joint[i].compliance_rad_per_n_mm);
         if (model->springs_change) {
-            springs_rad_per_n_mm[i] =
+            springs[i] =
                 hardened_spring(&model->deflection_rad[i], parameters->drive[i].hardening_n_mm_per_rad3, load_n_mm[i],
                                 spring_at_rest(parameters, i, temp_degc[i]));
         }
@@ -77,22 +89,53 @@ void model_springs(model_t *model, const brace_parameters_t *parameters, const f
 }
 
 brace_status_t model_stiffness(model_t *model, const brace_parameters_t *parameters, float theta1_rad, float theta2_rad,
-                               const float springs_rad_per_n_mm[BRACE_LINK_COUNT], brace_stiffness_t *stiffness,
+                               const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_stiffness_t *stiffness,
                                float *across_n_per_mm)
 {
     const float hip_rad_per_n_mm =
-        springs_rad_per_n_mm[BRACE_FEMUR] + parameters->limb.base.rotation_rad_per_n_mm;
+        springs[BRACE_FEMUR].slope_rad_per_n_mm + parameters->limb.base.rotation_rad_per_n_mm;
+    const float knee_rad_per_n_mm = springs[BRACE_TIBIA].slope_rad_per_n_mm;
     if (model->is_spatial) {
-        brace_spatial_set_springs(&model->spatial, springs_rad_per_n_mm[BRACE_COXA], hip_rad_per_n_mm,
-                                  springs_rad_per_n_mm[BRACE_TIBIA]);
+        brace_spatial_set_springs(&model->spatial, springs[BRACE_COXA].slope_rad_per_n_mm, hip_rad_per_n_mm,
+                                  knee_rad_per_n_mm);
         return brace_spatial_in_plane(&model->spatial, theta1_rad, theta2_rad, stiffness, across_n_per_mm);
     }
     const brace_status_t status =
         model->is_collapsed ? brace_planar_stiffness(&model->planar, theta1_rad, theta2_rad, stiffness)
                             : brace_general_stiffness(&model->general, theta1_rad, theta2_rad, hip_rad_per_n_mm,
-                                                      springs_rad_per_n_mm[BRACE_TIBIA], stiffness);
+                                                      knee_rad_per_n_mm, stiffness);
     if (status == BRACE_OK) {
         *across_n_per_mm = __builtin_nanf("");
     }
     return status;
+}
+
+/* Joint and base's rotation turn together, each by its share of what yields. theta2 is flexion: it turns clockwise. */
+static void turn_joints(const brace_limb_t *limb, const brace_load_t *load, const brace_loaded_stiffness_t *result,
+                        float joint_turn_rad[BRACE_LINK_COUNT])
+{
+    const float joint = load->hip.yields_by_rad_per_n_mm, both = joint + limb->base.rotation_rad_per_n_mm;
+    joint_turn_rad[BRACE_COXA] = 0.0f;
+    joint_turn_rad[BRACE_FEMUR] = both > 0.0f ? joint / both * result->hip_turn_rad : 0.0f;
+    joint_turn_rad[BRACE_TIBIA] = -result->knee_turn_rad;
+}
+
+brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
+                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_force_t tip, brace_vec_t down,
+                            brace_loaded_stiffness_t *result, float joint_turn_rad[BRACE_LINK_COUNT])
+{
+    const brace_load_t load = {.tip = tip, .down = down, .hip = springs[BRACE_FEMUR], .knee = springs[BRACE_TIBIA]};
+    const brace_status_t status =
+        brace_loaded_stiffness(&model->loaded, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], &load, result);
+    if (status != BRACE_OK) {
+        return status;
+    }
+    const float factor = result->buckling_factor, most_mm = PROMISED_MOVE * (limb->femur_mm + limb->tibia_mm);
+    const brace_displacement_t moved = result->displacement;
+    const bool is_promised =
+        factor >= PROMISED_FACTOR && moved.x_mm * moved.x_mm + moved.z_mm * moved.z_mm <= most_mm * most_mm;
+    result->stiffness.flags |= (is_promised ? 0u : (uint32_t)BRACE_FLAG_NEAR_SINGULAR) |
+                               (factor < SOFTENED_FACTOR ? (uint32_t)BRACE_FLAG_SOFTENED : 0u);
+    turn_joints(limb, &load, result, joint_turn_rad);
+    return BRACE_OK;
 }

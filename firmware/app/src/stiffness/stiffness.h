@@ -4,6 +4,7 @@
 
 #include "brace/snapshot.h"
 #include "flank/flank.h"
+#include "posture/gravity.h"
 #include "posture/posture.h"
 #include "sense/joints.h"
 #include "stiffness/model.h"
@@ -11,13 +12,15 @@
 /* K that nobody may use: NaN, with these flags. */
 void stiffness_unknown(brace_snapshot_t *snapshot, uint32_t flags);
 
-/* K of this tick, in the limb's plane and, with a coxa joint, in space.
- *   snapshot (out): stiffness, k_is_valid, space
- * Flags: UNCALIBRATED (safe defaults), STALE (no sound samples), OUT_OF_RANGE (outside a drive's travel),
- * NEAR_SINGULAR (the posture has no finite K), GAP_OPEN, and the model's own. At most 900 instructions; 1,200 for a
- * limb in space. */
+/* K of this tick, in the limb's plane and, with a coxa joint, in space. In the plane it is K at the equilibrium under
+ * the tip's force and the limb's weight, where the force is known; the posture goes to that equilibrium.
+ *   snapshot: its force_x_n, force_z_n are read; (out): stiffness, k_is_valid, space, load
+ * Flags: UNCALIBRATED (safe defaults), STALE (no sound samples), OUT_OF_RANGE (outside a drive's travel), LOAD_UNKNOWN
+ * (no load is counted), GAP_OPEN, and the model's own. Where there is no K: NEAR_SINGULAR (nothing yields in some
+ * direction, or the force is beyond what the estimator takes), with SOFTENED where no stable equilibrium is near. At
+ * most 3,600 instructions; 1,200 for a limb in space. */
 void stiffness_take(model_t *model, const brace_parameters_t *parameters, brace_parameter_origin_t origin,
-                    const joints_t *joints, const flank_t *flank, const posture_t *posture,
+                    const joints_t *joints, const flank_t *flank, const gravity_t *gravity, posture_t *posture,
                     brace_snapshot_t *snapshot);
 
 #endif

@@ -24,6 +24,21 @@ static void take_stiffness(const brace_snapshot_t *snapshot, brace_measured_t *m
     m->engaged_lambda_max_n_per_mm = engaged->lambda_max_n_per_mm;
 }
 
+static void take_load(const brace_snapshot_t *snapshot, brace_measured_t *m)
+{
+    const brace_snapshot_load_t *load = &snapshot->load;
+    m->unloaded_k_xx_n_per_mm = load->unloaded.k_xx_n_per_mm;
+    m->unloaded_k_xz_n_per_mm = load->unloaded.k_xz_n_per_mm;
+    m->unloaded_k_zz_n_per_mm = load->unloaded.k_zz_n_per_mm;
+    m->counted_force_x_n = load->force_x_n;
+    m->counted_force_z_n = load->force_z_n;
+    m->moved_x_mm = load->moved_x_mm;
+    m->moved_z_mm = load->moved_z_mm;
+    m->buckling_factor = load->buckling_factor;
+    m->gravity_direction_rad = snapshot->gravity_direction_rad;
+    m->gravity_lean_rad = snapshot->gravity_lean_rad;
+}
+
 static void take_posture(const brace_snapshot_t *snapshot, brace_measured_t *m)
 {
     const brace_backlash_out_t *femur = &snapshot->play[BRACE_FEMUR], *tibia = &snapshot->play[BRACE_TIBIA];
@@ -162,6 +177,7 @@ void measured_take(const brace_app_t *app, const brace_app_counters_t *counters,
     m->mode = snapshot->mode;
     m->faults = snapshot->faults;
     take_stiffness(snapshot, m);
+    take_load(snapshot, m);
     take_space(snapshot, m);
     take_posture(snapshot, m);
     take_coxa_joint(snapshot, m);

@@ -2,6 +2,7 @@
 #ifndef BRACE_WIRE_WIRE_H
 #define BRACE_WIRE_WIRE_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "brace/measured.h"
@@ -13,6 +14,8 @@ typedef struct {
     brace_app_t *app;                 /* whom to ask: brace/requests.h */
     brace_app_counters_t *counters;   /* where troubles of the wires are counted */
     const brace_measured_t *measured; /* all values of the newest snapshot that may be read; one for all wires */
+    bool has_worked;                  /* the tick has worked out a K that was asked for: requests and process data
+                                         wait for the next one */
     uint32_t now_us;
 } wire_tick_t;
 

@@ -19,9 +19,10 @@ typedef struct {
 void wires_start(wires_t *wires, const brace_hal_t *hal, const brace_parameters_t *parameters);
 
 /* One tick, after the snapshot has been published: every port takes what has come, answers it, and sends what is due.
- *   counters: where troubles are counted */
+ *   counters: where troubles are counted
+ *   has_worked: the tick has worked out a K that was asked for: requests and process data wait for the next one */
 void wires_tick(wires_t *wires, const brace_hal_t *hal, brace_app_t *app, brace_app_counters_t *counters,
-                uint32_t now_us);
+                bool has_worked, uint32_t now_us);
 
 /* Is the CAN controller off its bus? BRACE_FAULT_CAN_BUS_OFF */
 bool wires_are_bus_off(const wires_t *wires);

@@ -13,6 +13,7 @@
 #define BRACE_KINEMATICS_H
 
 #include "brace/limb.h"
+#include "brace/vec.h"
 
 typedef struct {
     float x_mm;
@@ -51,6 +52,11 @@ typedef enum {
     BRACE_YAW_TOWARDS = 0, /* the limb's +x side faces the tip */
     BRACE_YAW_AWAY = 1     /* theta0 is half a turn further: the limb reaches back over the yaw axis */
 } brace_yaw_t;
+
+/* Cosine and sine of an angle, as the direction in which it points.
+ *   angle_rad [+-7.9 rad]; direction (out): each component within 1e-7
+ * returns BRACE_OK, BRACE_E_NOT_FINITE, BRACE_E_RANGE; cost: at most 80 instructions. */
+brace_status_t brace_kinematics_direction(float angle_rad, brace_vec_t *direction);
 
 /* Where knee and tip are, and the levers of both joints.
  *   theta1_rad, theta2_rad [+-7.9 rad]

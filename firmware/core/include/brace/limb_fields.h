@@ -68,4 +68,20 @@ typedef struct {
     brace_uncertainty_t uncertainty;
 } brace_limb_t;
 
+/* Weights of the limb's parts, and where they pull. */
+typedef struct {
+    /* the femur's weight, at mid-length [N, 0 to 1e+06] */
+    float femur_n;
+    /* the tibia's weight, at mid-length [N, 0 to 1e+06] */
+    float tibia_n;
+    /* the weight at the knee joint [N, 0 to 1e+06] */
+    float knee_n;
+    /* the direction of down in the limb's plane, from +x, until the main computer says another one [rad, -3.14159
+     * to 3.14159] */
+    float direction_rad;
+    /* how far down leans out of the limb's plane: its part in the plane is shortened by the cosine [rad, -1.5708
+     * to 1.5708] */
+    float lean_rad;
+} brace_gravity_t;
+
 #endif

@@ -13,6 +13,15 @@
 #define POINT_LIMIT_MM 1e6f
 #define RADIUS_LIMIT_MM 2e6f
 
+brace_status_t brace_kinematics_direction(float angle_rad, brace_vec_t *direction)
+{
+    const brace_status_t status = brace_check_magnitude(angle_rad, BRACE_ANGLE_LIMIT_RAD);
+    if (status == BRACE_OK) {
+        *direction = brace_direction(angle_rad);
+    }
+    return status;
+}
+
 void brace_kinematics_pose(const brace_limb_t *limb, float theta1_rad, float theta2_rad, brace_pose_t *pose)
 {
     const brace_vec_t femur = brace_direction(theta1_rad);

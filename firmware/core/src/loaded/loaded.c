@@ -9,6 +9,7 @@
 #define TURN_MOST_RAD 1.5f /* sine and cosine of base/trig.h hold up to pi/2 */
 #define BEND_MOST_RAD 0.8f /* each curvature: turns between points stay within what brace_small_turn() takes */
 #define FORCE_MOST_N 1e4f
+#define SETTLED_RAD 0.14f /* how far the tip may turn in the last step */
 #define HIGHEST_FACTOR 16.0f
 
 /* The load at which the first pivot reaches zero, as a multiple of the present one. Below it all pivots are positive.
@@ -91,6 +92,12 @@ static bool is_bent_within(const shape_t *shape)
     return fabsf(shape->root) <= TURN_MOST_RAD && fabsf(shape->a) <= BEND_MOST_RAD && fabsf(shape->b) <= BEND_MOST_RAD;
 }
 
+/* A step of Newton's method leaves about the square of what it has moved, and more of it the less stable the limb is. */
+INLINE bool is_settled(float unsettled_rad, float det)
+{
+    return unsettled_rad * unsettled_rad <= SETTLED_RAD * SETTLED_RAD * det;
+}
+
 brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
                                       const brace_load_t *load, brace_loaded_stiffness_t *result)
 {
@@ -111,7 +118,12 @@ brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1
     const float base = loaded->base_rotation_rad_per_n_mm;
     const float hip_yields = load->hip.yields_by_rad_per_n_mm + base, knee_yields = load->knee.yields_by_rad_per_n_mm;
     step(&limb, true, hip_yields, knee_yields);
+    const float turned_rad = end_turn(&limb.tibia_shape);
     step(&limb, false, hip_yields, knee_yields);
+    const float unsettled_rad = end_turn(&limb.tibia_shape) - turned_rad;
+    if (!(fabsf(unsettled_rad) <= SETTLED_RAD)) {
+        return BRACE_E_SINGULAR;
+    }
     rest_t femur_rest, tibia_rest;
     rest_of(&limb.femur, &limb.femur_shape, &femur_rest);
     rest_of(&limb.tibia, &limb.tibia_shape, &tibia_rest);
@@ -120,7 +132,9 @@ brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1
     const stance_t stance = {&femur_rest, &tibia_rest, limb.femur.bend_rad_per_n_mm, limb.tibia.bend_rad_per_n_mm, hip,
                              knee};
     const pivots_t p = pivots_at(&stance, 1.0f);
-    if (!is_stable(&p, SINGULAR_PIVOT) || !is_bent_within(&limb.femur_shape) || !is_bent_within(&limb.tibia_shape)) {
+    const float det = product(&p);
+    if (!is_stable(&p, SINGULAR_PIVOT) || !is_bent_within(&limb.femur_shape) || !is_bent_within(&limb.tibia_shape) ||
+        !is_settled(unsettled_rad, det)) {
         return BRACE_E_SINGULAR;
     }
     brace_tensor_t c = brace_tensor_of(loaded->base_mm_per_n + loaded->femur.end_mm_per_n + loaded->tibia.end_mm_per_n,
@@ -129,16 +143,15 @@ brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1
     brace_tensor_add_scaled(&c, by_knee, knee / p.knee);
     const brace_vec_t by_hip = add_link(&c, &femur_rest, &p.femur, vec_scaled(by_knee, 1.0f / p.knee));
     brace_tensor_add_scaled(&c, by_hip, hip / p.hip);
-    brace_stiffness_t stiffness;
-    const brace_status_t status = brace_tensor_inverse(&c, vec_doubled(femur), &stiffness);
+    const brace_status_t status = brace_tensor_inverse(&c, vec_doubled(femur), &result->stiffness);
     if (status != BRACE_OK) {
         return status;
     }
     const brace_vec_t bent = vec_plus(femur_rest.tip_mm, tibia_rest.tip_mm);
-    result->stiffness = stiffness;
     result->displacement = displacement_of(loaded, load, bent, femur, tibia);
+    result->tibia_mm = vec_turned(tibia_rest.tip_mm, femur);
     result->hip_turn_rad = limb.femur_shape.root;
     result->knee_turn_rad = limb.tibia_shape.root - end_turn(&limb.femur_shape);
-    result->buckling_factor = buckling_factor(&stance, product(&p));
+    result->buckling_factor = buckling_factor(&stance, det);
     return BRACE_OK;
 }

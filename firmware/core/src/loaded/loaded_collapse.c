@@ -22,7 +22,7 @@ static brace_loaded_link_t link_of(const brace_link_t *link, float length_mm, fl
     return loaded;
 }
 
-void brace_loaded_collapse(const brace_limb_t *limb, const brace_weights_t *weights, brace_loaded_t *loaded)
+void brace_loaded_collapse(const brace_limb_t *limb, const brace_gravity_t *weights, brace_loaded_t *loaded)
 {
     loaded->femur = link_of(&limb->link[BRACE_FEMUR], limb->femur_mm, weights->femur_n);
     loaded->tibia = link_of(&limb->link[BRACE_TIBIA], limb->tibia_mm, weights->tibia_n);

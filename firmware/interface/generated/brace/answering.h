@@ -38,10 +38,15 @@
     X(BRACE_REQUEST_CLEAR, clear) \
     X(BRACE_REQUEST_K_IN_SPACE_AT_POSTURE, k_in_space_at_posture) \
     X(BRACE_REQUEST_DRIFT, drift) \
-    X(BRACE_REQUEST_TAKE_UP_RESULT, take_up_result)
+    X(BRACE_REQUEST_TAKE_UP_RESULT, take_up_result) \
+    X(BRACE_REQUEST_SET_GRAVITY, set_gravity) \
+    X(BRACE_REQUEST_TIP_FORCE, tip_force) \
+    X(BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE, k_under_load_at_posture) \
+    X(BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP, k_under_load_at_tip_knee_up) \
+    X(BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN, k_under_load_at_tip_knee_down)
 
 enum {
-    BRACE_REQUEST_CODE_MOST = 25,
+    BRACE_REQUEST_CODE_MOST = 30,
     BRACE_CAN_ANSWER_PARTS_MOST = 5 /* frames of one answer */
 };
 
@@ -280,6 +285,53 @@ typedef struct {
     float torque_n_mm;
 } brace_take_up_result_answer_t;
 
+typedef struct {
+    float direction_rad;
+    float lean_rad;
+} brace_set_gravity_request_t;
+typedef struct {
+    float direction_rad;
+    float lean_rad;
+} brace_set_gravity_answer_t;
+
+typedef struct {
+    float fx_n;
+    float fz_n;
+} brace_tip_force_request_t;
+typedef struct {
+    float fx_n;
+    float fz_n;
+} brace_tip_force_answer_t;
+
+typedef struct {
+    float theta1_rad;
+    float theta2_rad;
+} brace_k_under_load_at_posture_request_t;
+typedef struct {
+    float k_xx_n_per_mm;
+    float k_xz_n_per_mm;
+    float k_zz_n_per_mm;
+    float lambda_min_n_per_mm;
+    float lambda_max_n_per_mm;
+    float stiff_axis_rad;
+    float dx_mm;
+    float dz_mm;
+    float buckling_factor;
+    uint32_t flags;
+} brace_k_under_load_at_posture_answer_t;
+
+typedef struct {
+    float x_mm;
+    float z_mm;
+} brace_k_under_load_at_tip_knee_up_request_t;
+typedef brace_k_under_load_at_posture_answer_t brace_k_under_load_at_tip_knee_up_answer_t;
+
+typedef struct {
+    float x_mm;
+    float z_mm;
+} brace_k_under_load_at_tip_knee_down_request_t;
+typedef brace_k_under_load_at_posture_answer_t brace_k_under_load_at_tip_knee_down_answer_t;
+
 /* What is asked, by the request's name, or word by word. */
 typedef union {
     brace_read_entry_request_t read_entry;
@@ -307,6 +359,11 @@ typedef union {
     brace_k_in_space_at_posture_request_t k_in_space_at_posture;
     brace_drift_request_t drift;
     brace_take_up_result_request_t take_up_result;
+    brace_set_gravity_request_t set_gravity;
+    brace_tip_force_request_t tip_force;
+    brace_k_under_load_at_posture_request_t k_under_load_at_posture;
+    brace_k_under_load_at_tip_knee_up_request_t k_under_load_at_tip_knee_up;
+    brace_k_under_load_at_tip_knee_down_request_t k_under_load_at_tip_knee_down;
     uint32_t word[4];
 } brace_request_t;
 
@@ -337,6 +394,11 @@ typedef union {
     brace_k_in_space_at_posture_answer_t k_in_space_at_posture;
     brace_drift_answer_t drift;
     brace_take_up_result_answer_t take_up_result;
+    brace_set_gravity_answer_t set_gravity;
+    brace_tip_force_answer_t tip_force;
+    brace_k_under_load_at_posture_answer_t k_under_load_at_posture;
+    brace_k_under_load_at_tip_knee_up_answer_t k_under_load_at_tip_knee_up;
+    brace_k_under_load_at_tip_knee_down_answer_t k_under_load_at_tip_knee_down;
     uint32_t word[10];
 } brace_answer_t;
 

@@ -24,11 +24,17 @@
     X(BRACE_CAN_ID_SPACE, space_3, stiffness_hz) \
     X(BRACE_CAN_ID_SPACE, space_4, stiffness_hz) \
     X(BRACE_CAN_ID_SPACE, space_5, stiffness_hz) \
-    X(BRACE_CAN_ID_SPACE, space_6, stiffness_hz)
+    X(BRACE_CAN_ID_SPACE, space_6, stiffness_hz) \
+    X(BRACE_CAN_ID_LOAD, load_0, load_hz) \
+    X(BRACE_CAN_ID_LOAD, load_1, load_hz) \
+    X(BRACE_CAN_ID_LOAD, load_2, load_hz) \
+    X(BRACE_CAN_ID_LOAD, load_3, load_hz) \
+    X(BRACE_CAN_ID_LOAD, load_4, load_hz)
 
 #define BRACE_CAN_PROCESS_FD(X) \
     X(BRACE_CAN_ID_SNAPSHOT_FD, snapshot_fd, stiffness_hz) \
-    X(BRACE_CAN_ID_SPACE_FD, space_fd, stiffness_hz)
+    X(BRACE_CAN_ID_SPACE_FD, space_fd, stiffness_hz) \
+    X(BRACE_CAN_ID_LOAD_FD, load_fd, load_hz)
 
 #define BRACE_CAN_BY_HAND(X) \
     X(BRACE_CAN_ID_EMERGENCY, emergency) \

@@ -14,7 +14,7 @@
 #include <stdint.h>
 
 /* Of every frame, entry and parameter, with types, steps and units: what two ends must agree on. */
-#define BRACE_DICTIONARY_HASH 0x72cd93f2u
+#define BRACE_DICTIONARY_HASH 0x7f3bbed6u
 #define BRACE_PROTOCOL 1u
 
 /* Identifiers of node 0; a controller adds its node number, 1-127. */
@@ -26,8 +26,10 @@ enum {
     BRACE_CAN_ID_POSTURE = 0x480,
     BRACE_CAN_ID_HEARTBEAT = 0x700,
     BRACE_CAN_ID_SPACE = 0x200,
+    BRACE_CAN_ID_LOAD = 0x100,
     BRACE_CAN_ID_SNAPSHOT_FD = 0x500,
     BRACE_CAN_ID_SPACE_FD = 0x300,
+    BRACE_CAN_ID_LOAD_FD = 0x680,
     BRACE_CAN_ID_REQUEST = 0x600,
     BRACE_CAN_ID_ANSWER = 0x580
 };
@@ -59,6 +61,11 @@ enum {
     BRACE_REQUEST_K_IN_SPACE_AT_POSTURE = 23,
     BRACE_REQUEST_DRIFT = 24,
     BRACE_REQUEST_TAKE_UP_RESULT = 25,
+    BRACE_REQUEST_SET_GRAVITY = 26,
+    BRACE_REQUEST_TIP_FORCE = 27,
+    BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE = 28,
+    BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP = 29,
+    BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN = 30,
     BRACE_ANSWER_PART = 32,
     BRACE_ANSWER_REFUSED = 224
 };
@@ -69,6 +76,10 @@ extern const uint8_t brace_can_answer_parts[32];
 /* The frames of one space, and which of them a frame is. */
 enum { BRACE_CAN_SPACE_PARTS = 7 };
 uint32_t brace_can_space_part(const uint8_t data[8]);
+
+/* The frames of one load, and which of them a frame is. */
+enum { BRACE_CAN_LOAD_PARTS = 5 };
+uint32_t brace_can_load_part(const uint8_t data[8]);
 
 /* a fault has come or gone, or the likeliest cause of a drift is another one */
 typedef struct {
@@ -285,6 +296,78 @@ typedef struct {
 uint32_t brace_can_pack_space_6(const brace_can_space_6_t *message, uint8_t data[8]);
 void brace_can_unpack_space_6(const uint8_t data[8], brace_can_space_6_t *message);
 
+/* the load that K counts and what it does to the limb, and K without it; each snapshot in all its parts: part 0 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* k_xx with neither the force on the tip nor the weight counted [N/mm, -4194.3 to 4194.3] */
+    float unloaded_k_xx_n_per_mm;
+    /* k_xz with neither the force on the tip nor the weight counted [N/mm, -4194.3 to 4194.3] */
+    float unloaded_k_xz_n_per_mm;
+} brace_can_load_0_t;
+#define BRACE_CAN_LOAD_0_UNLOADED_K_XX_N_PER_MM_MOST 4194.3035f
+#define BRACE_CAN_LOAD_0_UNLOADED_K_XZ_N_PER_MM_MOST 4194.3035f
+uint32_t brace_can_pack_load_0(const brace_can_load_0_t *message, uint8_t data[8]);
+void brace_can_unpack_load_0(const uint8_t data[8], brace_can_load_0_t *message);
+
+/* the load that K counts and what it does to the limb, and K without it; each snapshot in all its parts: part 1 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* k_zz with neither the force on the tip nor the weight counted [N/mm, -4194.3 to 4194.3] */
+    float unloaded_k_zz_n_per_mm;
+    /* how far the weight's direction leans out of the limb's plane [rad, -3.2767 to 3.2767] */
+    float gravity_lean_rad;
+    /* the quality of K */
+    uint32_t flags;
+} brace_can_load_1_t;
+#define BRACE_CAN_LOAD_1_UNLOADED_K_ZZ_N_PER_MM_MOST 4194.3035f
+#define BRACE_CAN_LOAD_1_GRAVITY_LEAN_RAD_MOST 3.2767f
+uint32_t brace_can_pack_load_1(const brace_can_load_1_t *message, uint8_t data[8]);
+void brace_can_unpack_load_1(const uint8_t data[8], brace_can_load_1_t *message);
+
+/* the load that K counts and what it does to the limb, and K without it; each snapshot in all its parts: part 2 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the force of the ground on the tip along x that K counts [N, -8388.61 to 8388.61] */
+    float counted_force_x_n;
+    /* the force of the ground on the tip along z that K counts [N, -8388.61 to 8388.61] */
+    float counted_force_z_n;
+} brace_can_load_2_t;
+#define BRACE_CAN_LOAD_2_COUNTED_FORCE_X_N_MOST 8388.607f
+#define BRACE_CAN_LOAD_2_COUNTED_FORCE_Z_N_MOST 8388.607f
+uint32_t brace_can_pack_load_2(const brace_can_load_2_t *message, uint8_t data[8]);
+void brace_can_unpack_load_2(const uint8_t data[8], brace_can_load_2_t *message);
+
+/* the load that K counts and what it does to the limb, and K without it; each snapshot in all its parts: part 3 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* how far force and weight have moved the tip along x [mm, -8388.61 to 8388.61] */
+    float moved_x_mm;
+    /* how far force and weight have moved the tip along z [mm, -8388.61 to 8388.61] */
+    float moved_z_mm;
+} brace_can_load_3_t;
+#define BRACE_CAN_LOAD_3_MOVED_X_MM_MOST 8388.607f
+#define BRACE_CAN_LOAD_3_MOVED_Z_MM_MOST 8388.607f
+uint32_t brace_can_pack_load_3(const brace_can_load_3_t *message, uint8_t data[8]);
+void brace_can_unpack_load_3(const uint8_t data[8], brace_can_load_3_t *message);
+
+/* the load that K counts and what it does to the limb, and K without it; each snapshot in all its parts: part 4 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the multiple of the load at which the limb, held as it stands, would have no stiffness left; infinity where
+     * there is none */
+    float buckling_factor;
+    /* the direction in which the weight pulls, in the limb's plane, from +x [rad, -3.2767 to 3.2767] */
+    float gravity_direction_rad;
+} brace_can_load_4_t;
+#define BRACE_CAN_LOAD_4_GRAVITY_DIRECTION_RAD_MOST 3.2767f
+uint32_t brace_can_pack_load_4(const brace_can_load_4_t *message, uint8_t data[8]);
+void brace_can_unpack_load_4(const uint8_t data[8], brace_can_load_4_t *message);
+
 /* a whole snapshot, in place of stiffness_a, stiffness_b, eigenvalues and posture, where
  * controller.can_fd_bit_rate is set and the bus can do it */
 typedef struct {
@@ -383,6 +466,40 @@ typedef struct {
 #define BRACE_CAN_SPACE_FD_STIFF_AXIS_Z_MOST 1.63835f
 uint32_t brace_can_pack_space_fd(const brace_can_space_fd_t *message, uint8_t data[64]);
 void brace_can_unpack_space_fd(const uint8_t data[64], brace_can_space_fd_t *message);
+
+/* the load that K counts and what it does to the limb, and K without it, of one snapshot; in place of load */
+typedef struct {
+    /* the number of the snapshot */
+    uint32_t sequence;
+    /* the age of the joints' samples when the frame was made; 32767 stands for 32767 ms and more [ms, 0 to 32767] */
+    float age_ms;
+    /* the quality of K */
+    uint32_t flags;
+    /* k_xx with neither the force on the tip nor the weight counted, every gap closed */
+    float unloaded_k_xx_n_per_mm;
+    /* k_xz with neither the force on the tip nor the weight counted, every gap closed */
+    float unloaded_k_xz_n_per_mm;
+    /* k_zz with neither the force on the tip nor the weight counted, every gap closed */
+    float unloaded_k_zz_n_per_mm;
+    /* the force of the ground on the tip along x that K counts; not known where no load is counted */
+    float counted_force_x_n;
+    /* the force of the ground on the tip along z that K counts; not known where no load is counted */
+    float counted_force_z_n;
+    /* how far force and weight have moved the tip along x */
+    float moved_x_mm;
+    /* how far force and weight have moved the tip along z */
+    float moved_z_mm;
+    /* the multiple of the load at which the limb, held as it stands, would have no stiffness left; infinity where
+     * there is none */
+    float buckling_factor;
+    /* the direction in which the weight pulls, in the limb's plane, from +x */
+    float gravity_direction_rad;
+    /* how far that direction leans out of the limb's plane */
+    float gravity_lean_rad;
+} brace_can_load_fd_t;
+#define BRACE_CAN_LOAD_FD_AGE_MS_MOST 32767.0f
+uint32_t brace_can_pack_load_fd(const brace_can_load_fd_t *message, uint8_t data[64]);
+void brace_can_unpack_load_fd(const uint8_t data[64], brace_can_load_fd_t *message);
 
 typedef struct {
     uint32_t token;
@@ -1078,6 +1195,265 @@ typedef struct {
 } brace_can_take_up_result_answer_0_t;
 uint32_t brace_can_pack_take_up_result_answer_0(const brace_can_take_up_result_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_take_up_result_answer_0(const uint8_t data[8], brace_can_take_up_result_answer_0_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the direction of down in the limb's plane, from +x [rad, -8.38861 to 8.38861] */
+    float direction_rad;
+    /* how far down leans out of the limb's plane [rad, -8.38861 to 8.38861] */
+    float lean_rad;
+} brace_can_set_gravity_request_t;
+uint32_t brace_can_pack_set_gravity_request(const brace_can_set_gravity_request_t *message, uint8_t data[8]);
+void brace_can_unpack_set_gravity_request(const uint8_t data[8], brace_can_set_gravity_request_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the direction that holds now [rad, -8.38861 to 8.38861] */
+    float direction_rad;
+    /* the lean that holds now [rad, -8.38861 to 8.38861] */
+    float lean_rad;
+} brace_can_set_gravity_answer_0_t;
+uint32_t brace_can_pack_set_gravity_answer_0(const brace_can_set_gravity_answer_0_t *message, uint8_t data[8]);
+void brace_can_unpack_set_gravity_answer_0(const uint8_t data[8], brace_can_set_gravity_answer_0_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the force along x [N, -8388.61 to 8388.61] */
+    float fx_n;
+    /* the force along z [N, -8388.61 to 8388.61] */
+    float fz_n;
+} brace_can_tip_force_request_t;
+uint32_t brace_can_pack_tip_force_request(const brace_can_tip_force_request_t *message, uint8_t data[8]);
+void brace_can_unpack_tip_force_request(const uint8_t data[8], brace_can_tip_force_request_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the force along x, as asked [N, -8388.61 to 8388.61] */
+    float fx_n;
+    /* the force along z, as asked [N, -8388.61 to 8388.61] */
+    float fz_n;
+} brace_can_tip_force_answer_0_t;
+uint32_t brace_can_pack_tip_force_answer_0(const brace_can_tip_force_answer_0_t *message, uint8_t data[8]);
+void brace_can_unpack_tip_force_answer_0(const uint8_t data[8], brace_can_tip_force_answer_0_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the true angle of the femur, measured from +x, before the load turns the joint [rad, -8.38861 to 8.38861] */
+    float theta1_rad;
+    /* the true flexion of the knee, before the load turns the joint [rad, -8.38861 to 8.38861] */
+    float theta2_rad;
+} brace_can_k_under_load_at_posture_request_t;
+uint32_t brace_can_pack_k_under_load_at_posture_request(const brace_can_k_under_load_at_posture_request_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_under_load_at_posture_request(const uint8_t data[8],
+    brace_can_k_under_load_at_posture_request_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the force along x per displacement along x [N/mm, -4194.3 to 4194.3] */
+    float k_xx_n_per_mm;
+    /* the force along x per displacement along z, and the reverse [N/mm, -4194.3 to 4194.3] */
+    float k_xz_n_per_mm;
+} brace_can_k_under_load_at_posture_answer_0_t;
+uint32_t brace_can_pack_k_under_load_at_posture_answer_0(const brace_can_k_under_load_at_posture_answer_0_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_under_load_at_posture_answer_0(const uint8_t data[8],
+    brace_can_k_under_load_at_posture_answer_0_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the force along z per displacement along z [N/mm, -4194.3 to 4194.3] */
+    float k_zz_n_per_mm;
+    /* the smaller eigenvalue of K [N/mm, 0 to 8388.61] */
+    float lambda_min_n_per_mm;
+} brace_can_k_under_load_at_posture_answer_1_t;
+uint32_t brace_can_pack_k_under_load_at_posture_answer_1(const brace_can_k_under_load_at_posture_answer_1_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_under_load_at_posture_answer_1(const uint8_t data[8],
+    brace_can_k_under_load_at_posture_answer_1_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the larger eigenvalue of K [N/mm, 0 to 8388.61] */
+    float lambda_max_n_per_mm;
+    /* the direction of lambda_max, measured from +x [rad, -3.2767 to 3.2767] */
+    float stiff_axis_rad;
+} brace_can_k_under_load_at_posture_answer_2_t;
+uint32_t brace_can_pack_k_under_load_at_posture_answer_2(const brace_can_k_under_load_at_posture_answer_2_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_under_load_at_posture_answer_2(const uint8_t data[8],
+    brace_can_k_under_load_at_posture_answer_2_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* how far force and weight move the tip along x [mm, -8388.61 to 8388.61] */
+    float dx_mm;
+    /* how far force and weight move the tip along z [mm, -8388.61 to 8388.61] */
+    float dz_mm;
+} brace_can_k_under_load_at_posture_answer_3_t;
+uint32_t brace_can_pack_k_under_load_at_posture_answer_3(const brace_can_k_under_load_at_posture_answer_3_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_under_load_at_posture_answer_3(const uint8_t data[8],
+    brace_can_k_under_load_at_posture_answer_3_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the multiple of the load at which the limb, held as it stands, would have no stiffness left; infinity where
+     * there is none */
+    float buckling_factor;
+    /* the quality of K */
+    uint32_t flags;
+} brace_can_k_under_load_at_posture_answer_4_t;
+uint32_t brace_can_pack_k_under_load_at_posture_answer_4(const brace_can_k_under_load_at_posture_answer_4_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_under_load_at_posture_answer_4(const uint8_t data[8],
+    brace_can_k_under_load_at_posture_answer_4_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* how far the tip lies outwards from the femur axis [mm, -8388.61 to 8388.61] */
+    float x_mm;
+    /* how far the tip lies above the femur axis [mm, -8388.61 to 8388.61] */
+    float z_mm;
+} brace_can_k_under_load_at_tip_knee_up_request_t;
+uint32_t brace_can_pack_k_under_load_at_tip_knee_up_request(const brace_can_k_under_load_at_tip_knee_up_request_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_under_load_at_tip_knee_up_request(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_up_request_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the force along x per displacement along x [N/mm, -4194.3 to 4194.3] */
+    float k_xx_n_per_mm;
+    /* the force along x per displacement along z, and the reverse [N/mm, -4194.3 to 4194.3] */
+    float k_xz_n_per_mm;
+} brace_can_k_under_load_at_tip_knee_up_answer_0_t;
+uint32_t brace_can_pack_k_under_load_at_tip_knee_up_answer_0(const brace_can_k_under_load_at_tip_knee_up_answer_0_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_under_load_at_tip_knee_up_answer_0(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_up_answer_0_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the force along z per displacement along z [N/mm, -4194.3 to 4194.3] */
+    float k_zz_n_per_mm;
+    /* the smaller eigenvalue of K [N/mm, 0 to 8388.61] */
+    float lambda_min_n_per_mm;
+} brace_can_k_under_load_at_tip_knee_up_answer_1_t;
+uint32_t brace_can_pack_k_under_load_at_tip_knee_up_answer_1(const brace_can_k_under_load_at_tip_knee_up_answer_1_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_under_load_at_tip_knee_up_answer_1(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_up_answer_1_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the larger eigenvalue of K [N/mm, 0 to 8388.61] */
+    float lambda_max_n_per_mm;
+    /* the direction of lambda_max, measured from +x [rad, -3.2767 to 3.2767] */
+    float stiff_axis_rad;
+} brace_can_k_under_load_at_tip_knee_up_answer_2_t;
+uint32_t brace_can_pack_k_under_load_at_tip_knee_up_answer_2(const brace_can_k_under_load_at_tip_knee_up_answer_2_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_under_load_at_tip_knee_up_answer_2(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_up_answer_2_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* how far force and weight move the tip along x [mm, -8388.61 to 8388.61] */
+    float dx_mm;
+    /* how far force and weight move the tip along z [mm, -8388.61 to 8388.61] */
+    float dz_mm;
+} brace_can_k_under_load_at_tip_knee_up_answer_3_t;
+uint32_t brace_can_pack_k_under_load_at_tip_knee_up_answer_3(const brace_can_k_under_load_at_tip_knee_up_answer_3_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_under_load_at_tip_knee_up_answer_3(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_up_answer_3_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the multiple of the load at which the limb, held as it stands, would have no stiffness left; infinity where
+     * there is none */
+    float buckling_factor;
+    /* the quality of K */
+    uint32_t flags;
+} brace_can_k_under_load_at_tip_knee_up_answer_4_t;
+uint32_t brace_can_pack_k_under_load_at_tip_knee_up_answer_4(const brace_can_k_under_load_at_tip_knee_up_answer_4_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_under_load_at_tip_knee_up_answer_4(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_up_answer_4_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* how far the tip lies outwards from the femur axis [mm, -8388.61 to 8388.61] */
+    float x_mm;
+    /* how far the tip lies above the femur axis [mm, -8388.61 to 8388.61] */
+    float z_mm;
+} brace_can_k_under_load_at_tip_knee_down_request_t;
+uint32_t brace_can_pack_k_under_load_at_tip_knee_down_request(const brace_can_k_under_load_at_tip_knee_down_request_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_under_load_at_tip_knee_down_request(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_down_request_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the force along x per displacement along x [N/mm, -4194.3 to 4194.3] */
+    float k_xx_n_per_mm;
+    /* the force along x per displacement along z, and the reverse [N/mm, -4194.3 to 4194.3] */
+    float k_xz_n_per_mm;
+} brace_can_k_under_load_at_tip_knee_down_answer_0_t;
+uint32_t brace_can_pack_k_under_load_at_tip_knee_down_answer_0(const brace_can_k_under_load_at_tip_knee_down_answer_0_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_under_load_at_tip_knee_down_answer_0(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_down_answer_0_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the force along z per displacement along z [N/mm, -4194.3 to 4194.3] */
+    float k_zz_n_per_mm;
+    /* the smaller eigenvalue of K [N/mm, 0 to 8388.61] */
+    float lambda_min_n_per_mm;
+} brace_can_k_under_load_at_tip_knee_down_answer_1_t;
+uint32_t brace_can_pack_k_under_load_at_tip_knee_down_answer_1(const brace_can_k_under_load_at_tip_knee_down_answer_1_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_under_load_at_tip_knee_down_answer_1(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_down_answer_1_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the larger eigenvalue of K [N/mm, 0 to 8388.61] */
+    float lambda_max_n_per_mm;
+    /* the direction of lambda_max, measured from +x [rad, -3.2767 to 3.2767] */
+    float stiff_axis_rad;
+} brace_can_k_under_load_at_tip_knee_down_answer_2_t;
+uint32_t brace_can_pack_k_under_load_at_tip_knee_down_answer_2(const brace_can_k_under_load_at_tip_knee_down_answer_2_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_under_load_at_tip_knee_down_answer_2(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_down_answer_2_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* how far force and weight move the tip along x [mm, -8388.61 to 8388.61] */
+    float dx_mm;
+    /* how far force and weight move the tip along z [mm, -8388.61 to 8388.61] */
+    float dz_mm;
+} brace_can_k_under_load_at_tip_knee_down_answer_3_t;
+uint32_t brace_can_pack_k_under_load_at_tip_knee_down_answer_3(const brace_can_k_under_load_at_tip_knee_down_answer_3_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_under_load_at_tip_knee_down_answer_3(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_down_answer_3_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the multiple of the load at which the limb, held as it stands, would have no stiffness left; infinity where
+     * there is none */
+    float buckling_factor;
+    /* the quality of K */
+    uint32_t flags;
+} brace_can_k_under_load_at_tip_knee_down_answer_4_t;
+uint32_t brace_can_pack_k_under_load_at_tip_knee_down_answer_4(const brace_can_k_under_load_at_tip_knee_down_answer_4_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_under_load_at_tip_knee_down_answer_4(const uint8_t data[8],
+    brace_can_k_under_load_at_tip_knee_down_answer_4_t *message);
 
 typedef struct {
     uint32_t token;

@@ -222,9 +222,30 @@ typedef struct {
     uint32_t take_up_femur;
     /* how the last take-up of the tibia joint went; a negative number is told as 256 plus it */
     uint32_t take_up_tibia;
+    /* k_xx with neither the force on the tip nor the weight counted, every gap closed */
+    float unloaded_k_xx_n_per_mm;
+    /* k_xz with neither the force on the tip nor the weight counted, every gap closed */
+    float unloaded_k_xz_n_per_mm;
+    /* k_zz with neither the force on the tip nor the weight counted, every gap closed */
+    float unloaded_k_zz_n_per_mm;
+    /* the force of the ground on the tip along x that K counts; not known where no load is counted */
+    float counted_force_x_n;
+    /* the force of the ground on the tip along z that K counts; not known where no load is counted */
+    float counted_force_z_n;
+    /* how far force and weight have moved the tip along x */
+    float moved_x_mm;
+    /* how far force and weight have moved the tip along z */
+    float moved_z_mm;
+    /* the multiple of the load at which the limb, held as it stands, would have no stiffness left; infinity where
+     * there is none */
+    float buckling_factor;
+    /* the direction in which the weight pulls, in the limb's plane, from +x */
+    float gravity_direction_rad;
+    /* how far that direction leans out of the limb's plane */
+    float gravity_lean_rad;
 } brace_measured_t;
 
-enum { BRACE_MEASURED_COUNT = 100 };
+enum { BRACE_MEASURED_COUNT = 110 };
 #ifndef __cplusplus
 _Static_assert(sizeof(brace_measured_t) == 4 * BRACE_MEASURED_COUNT, "32 bits each");
 #endif
@@ -263,9 +284,33 @@ typedef struct {
     float asked_angle_left_rad;
     /* what the foot does on that surface */
     uint32_t asked_contact;
+    /* the k_xx at the posture or tip asked for, under the force asked for */
+    float asked_loaded_k_xx_n_per_mm;
+    /* the k_xz there */
+    float asked_loaded_k_xz_n_per_mm;
+    /* the k_zz there */
+    float asked_loaded_k_zz_n_per_mm;
+    /* the lambda_min there */
+    float asked_loaded_lambda_min_n_per_mm;
+    /* the lambda_max there */
+    float asked_loaded_lambda_max_n_per_mm;
+    /* the stiff axis there */
+    float asked_loaded_stiff_axis_rad;
+    /* how far force and weight move the tip along x there */
+    float asked_moved_x_mm;
+    /* how far force and weight move the tip along z there */
+    float asked_moved_z_mm;
+    /* the buckling factor there; infinity where there is none */
+    float asked_buckling_factor;
+    /* the quality of that K */
+    uint32_t asked_loaded_flags;
+    /* the direction of down that was taken when another one was asked for */
+    float taken_gravity_direction_rad;
+    /* its lean out of the limb's plane */
+    float taken_gravity_lean_rad;
 } brace_answered_t;
 
-enum { BRACE_ANSWERED_COUNT = 16 };
+enum { BRACE_ANSWERED_COUNT = 28 };
 #ifndef __cplusplus
 _Static_assert(sizeof(brace_answered_t) == 4 * BRACE_ANSWERED_COUNT, "32 bits each");
 #endif
@@ -309,9 +354,34 @@ typedef struct {
     float asked_normal_rad;
     /* the friction coefficient of that surface */
     float asked_friction;
+    /* the direction of down in the limb's plane that is to hold until the next start; write both in one request;
+     * NaN for both: that of the parameters again */
+    float asked_gravity_direction_rad;
+    /* how far down leans out of the limb's plane */
+    float asked_gravity_lean_rad;
+    /* the force of the ground on the tip along x to know K under; write the two forces and the two angles in one
+     * request */
+    float asked_posture_force_x_n;
+    /* the force of the ground on the tip along z to know K under */
+    float asked_posture_force_z_n;
+    /* an angle of the posture to know K at under that force; angles are those before the load turns the joints */
+    float asked_loaded_theta1_rad;
+    /* an angle of the posture to know K at under that force */
+    float asked_loaded_theta2_rad;
+    /* the force of the ground on the tip along x to know K under; write the two forces, tip_x, tip_z and knee in
+     * one request */
+    float asked_tip_force_x_n;
+    /* the force of the ground on the tip along z to know K under */
+    float asked_tip_force_z_n;
+    /* how far outwards from the hip the tip is to know K at under that force; where it is before the load moves it */
+    float asked_loaded_tip_x_mm;
+    /* how far above the hip that place of the tip is */
+    float asked_loaded_tip_z_mm;
+    /* how the knee stands at that place of the tip: 0 up, 1 down */
+    uint32_t asked_loaded_knee;
 } brace_commands_t;
 
-enum { BRACE_COMMANDS_COUNT = 17 };
+enum { BRACE_COMMANDS_COUNT = 28 };
 #ifndef __cplusplus
 _Static_assert(sizeof(brace_commands_t) == 4 * BRACE_COMMANDS_COUNT, "32 bits each");
 #endif

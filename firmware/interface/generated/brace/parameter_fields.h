@@ -38,16 +38,6 @@ typedef struct {
     float takeup_torque_n_mm;
 } brace_drive_t;
 
-/* Weights of the limb's parts. */
-typedef struct {
-    /* the femur's weight, at mid-length [N, 0 to 1e+06] */
-    float femur_n;
-    /* the tibia's weight, at mid-length [N, 0 to 1e+06] */
-    float tibia_n;
-    /* the weight at the knee joint [N, 0 to 1e+06] */
-    float knee_n;
-} brace_gravity_t;
-
 /* The force sensor at the tip. */
 typedef struct {
     /* a constant added to every reading along x [N, -1e+06 to 1e+06] */
@@ -107,10 +97,13 @@ typedef struct {
     uint32_t stiffness_hz;
     /* how often eigenvalues and posture go out on CAN, together with a K; 0 means never [Hz, 0 to 1000] */
     uint32_t posture_hz;
+    /* how often the load that K counts and K without it go out on CAN, together with a K; 0 means never [Hz, 0 to
+     * 1000] */
+    uint32_t load_hz;
     /* how often the heartbeat goes out [Hz, 1 to 10] */
     uint32_t heartbeat_hz;
-    /* the share of the bus that K, eigenvalues and posture of this controller may take; the controller sends them
-     * less often where they would take more [above 0 to 1] */
+    /* the share of the bus that K, eigenvalues, posture and load of this controller may take; the controller sends
+     * them less often where they would take more [above 0 to 1] */
     float bus_load_ratio;
     /* the bit rate of a CAN FD snapshot's data; 0 means that classic frames are sent [bit/s, 0 to 8e+06] */
     uint32_t can_fd_bit_rate;

@@ -76,6 +76,14 @@ static inline bool drift_job_is_starting(const drift_job_t *job)
     return job->learns_anew || job->opens || job->scans;
 }
 
+/* Is the next step one of the dear ones: learning anew, a reading, what further readings can show, or a piece of a
+ * record? */
+static inline bool drift_job_is_dear(const drift_job_t *job, const drift_inputs_t *inputs)
+{
+    return job->learns_anew || job->has_reading || job->foresees ||
+           (job->looks && inputs->may_write && job->ticks_to_write <= 1u);
+}
+
 /* Has the limb drifted away from its model? BRACE_FAULT_MODEL_DRIFT. The alarm comes one tick later, with the report,
  * so that a reader gets the cause together with the alarm. */
 static inline bool drift_job_alarms(const drift_job_t *job)

@@ -46,7 +46,7 @@ static bool setup_is_sound(const brace_loading_setup_t *setup)
 static bool offsets_per_mm(const loading_inputs_t *inputs, brace_axis_t axis, float per_mm[2])
 {
     const brace_limb_t *limb = &inputs->parameters->limb;
-    const brace_point_t femur = inputs->posture->pose.lever_femur, tibia = inputs->posture->pose.lever_tibia;
+    const brace_point_t femur = inputs->posture->unbent.lever_femur, tibia = inputs->posture->unbent.lever_tibia;
     const float determinant_mm2 = femur.z_mm * tibia.x_mm - femur.x_mm * tibia.z_mm;
     if (__builtin_fabsf(determinant_mm2) < LEAST_KNEE_SINE * limb->femur_mm * limb->tibia_mm) {
         return false;
@@ -347,7 +347,7 @@ void loading_step(brace_loading_t *test, const loading_inputs_t *inputs, brace_r
 {
     const uint32_t tick_us = inputs->parameters->controller.tick_us;
     const float step_mm = test->result.setup.rate_mm_per_s * 1e-6f * (float)tick_us;
-    *reading = (loading_reading_t){.is_there = false};
+    reading->is_there = false;
     if (!loading_runs(test)) {
         return;
     }

@@ -32,8 +32,14 @@ static inline bool loading_runs(const brace_loading_t *test)
     return test->phase != LOADING_IDLE;
 }
 
+/* Is the next step one of the dear ones? */
+static inline bool loading_is_dear(const brace_loading_t *test)
+{
+    return test->phase == LOADING_READ || test->phase == LOADING_JUDGE || test->phase == LOADING_COMPARE;
+}
+
 /* One step, with this tick's samples. Nothing is to do in IDLE.
- *   reading (out): written always
+ *   reading (out): is_there is written always, all else only with it
  * At most 2,500 instructions (COMPARE); in MOVE and DWELL 200. */
 void loading_step(brace_loading_t *test, const loading_inputs_t *inputs, brace_recorder_t *recorder,
                   loading_reading_t *reading);

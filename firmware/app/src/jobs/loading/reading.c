@@ -46,7 +46,7 @@ static void displacement_of(brace_loading_t *test, const float moved_rad[2])
 static bool begin_at_preload(brace_loading_t *test, const loading_inputs_t *inputs, const brace_loading_sums_t *mean)
 {
     const brace_snapshot_t *now = inputs->now;
-    const brace_pose_t *pose = &inputs->posture->pose;
+    const brace_pose_t *pose = &inputs->posture->unbent;
     test->lever_femur = pose->lever_femur;
     /* theta2 is flexion: a positive turn of the knee turns the tibia clockwise. */
     test->lever_knee = (brace_point_t){-pose->lever_tibia.x_mm, -pose->lever_tibia.z_mm};
@@ -126,12 +126,13 @@ bool reading_take(brace_loading_t *test, const loading_inputs_t *inputs, brace_r
 static void model_at_reference(brace_loading_t *test, const loading_inputs_t *inputs)
 {
     const float unknown = __builtin_nanf(""), temp_degc[BRACE_LINK_COUNT] = {unknown, unknown, unknown};
-    float springs_rad_per_n_mm[BRACE_LINK_COUNT], across_n_per_mm;
+    brace_loaded_joint_t springs[BRACE_LINK_COUNT];
+    float across_n_per_mm;
     test->at_reference = test->model;
     if (inputs->model->springs_change) {
-        model_springs_at_rest(inputs->parameters, temp_degc, springs_rad_per_n_mm);
+        model_springs_at_rest(inputs->parameters, temp_degc, springs);
         (void)model_stiffness(inputs->model, inputs->parameters, test->result.theta1_rad, test->result.theta2_rad,
-                              springs_rad_per_n_mm, &test->at_reference, &across_n_per_mm);
+                              springs, &test->at_reference, &across_n_per_mm);
     }
 }
 

@@ -4,8 +4,9 @@
  * and fills the whole answer. How fields travel is the wire's: CAN's frames and Modbus' registers are generated.
  *   asked: the request's fields
  *   answer (out): the fields of all the answer's parts; untouched unless BRACE_OK is returned
- * returns BRACE_OK; ANSWER_LATER: something was begun, and answer_of_storing tells how it ended; or why not, as
- * brace/refusals.h has it: then nothing has changed. */
+ * returns BRACE_OK; ANSWER_LATER: something was begun, and answer_of_storing tells how it ended; ANSWER_AGAIN: it is
+ * being worked out, and the port puts the same request again in the next tick; or why not, as brace/refusals.h has it:
+ * then nothing has changed. */
 #ifndef BRACE_WIRE_ANSWERS_ANSWER_H
 #define BRACE_WIRE_ANSWERS_ANSWER_H
 
@@ -18,7 +19,7 @@
 #include "brace/refusals.h"
 #include "brace/requests.h"
 
-enum { ANSWER_LATER = 1 };
+enum { ANSWER_LATER = 1, ANSWER_AGAIN = 2 };
 
 /* A parameter block word by word, as one port has begun it and not ended: an upload, a download. */
 typedef struct {
@@ -33,9 +34,17 @@ typedef struct {
     uint32_t download_set;   /* brace_parameters_crc of the set that they are of */
 } transfer_t;
 
+/* The force that the next question of K under a load counts. */
+typedef struct {
+    bool is_there;
+    brace_force_t force;
+} asked_force_t;
+
 typedef struct {
     brace_app_t *app;
     const brace_measured_t *measured; /* of the newest snapshot */
+    brace_asker_t asker;    /* the port that it came through */
+    asked_force_t *asked_force; /* of that port */
     transfer_t *transfer;   /* of the port that it came through; null: of a wire that transfers no blocks */
     uint32_t node_id;       /* of this node on CAN */
     uint32_t detail;        /* (out) what a refusal has to add; 0: nothing */

@@ -10,6 +10,16 @@
 #define RATE_MM_PER_S 10.0f
 #define FORCE_MOST_N 200.0f
 
+int32_t answer_set_gravity(request_t *request, const brace_set_gravity_request_t *asked,
+                           brace_set_gravity_answer_t *answer)
+{
+    const brace_status_t status = brace_app_set_gravity(request->app, asked->direction_rad, asked->lean_rad);
+    if (status == BRACE_OK) {
+        brace_app_gravity(request->app, &answer->direction_rad, &answer->lean_rad);
+    }
+    return status;
+}
+
 int32_t answer_take_up(request_t *request, const brace_take_up_request_t *asked, brace_take_up_answer_t *answer)
 {
     brace_app_t *app = request->app;

@@ -1,9 +1,19 @@
 /* Questions about K: where the limb is not, and what K and force of now mean at the contact. */
 #include "wire/answers/answer.h"
 
-/* Questions for K at a posture and at a tip have answers of one shape. */
-static int32_t tell_k(brace_status_t status, const brace_stiffness_t *k, brace_k_at_posture_answer_t *answer)
+/* Asks for K; what is asked again later says so. */
+static int32_t ask(const request_t *request, const brace_k_question_t *question, brace_k_answer_t *found)
 {
+    const int32_t status = brace_app_ask_k(request->app, request->asker, question, found);
+    return status == BRACE_APP_LATER ? (int32_t)ANSWER_AGAIN : status;
+}
+
+/* Questions for K at a posture and at a tip have answers of one shape. */
+static int32_t tell_k(const request_t *request, const brace_k_question_t *question, brace_k_at_posture_answer_t *answer)
+{
+    brace_k_answer_t found;
+    const int32_t status = ask(request, question, &found);
+    const brace_stiffness_t *k = &found.k;
     if (status == BRACE_OK) {
         *answer = (brace_k_at_posture_answer_t){.k_xx_n_per_mm = k->k_xx_n_per_mm,
                                                 .k_xz_n_per_mm = k->k_xz_n_per_mm,
@@ -19,43 +29,106 @@ static int32_t tell_k(brace_status_t status, const brace_stiffness_t *k, brace_k
 int32_t answer_k_at_posture(request_t *request, const brace_k_at_posture_request_t *asked,
                             brace_k_at_posture_answer_t *answer)
 {
-    brace_stiffness_t k;
-    return tell_k(brace_app_k_at_posture(request->app, asked->theta1_rad, asked->theta2_rad, &k), &k, answer);
+    const brace_k_question_t question = {.where = BRACE_K_AT_POSTURE,
+                                         .theta_rad = {0.0f, asked->theta1_rad, asked->theta2_rad}};
+    return tell_k(request, &question, answer);
 }
 
 int32_t answer_k_at_tip_knee_up(request_t *request, const brace_k_at_tip_knee_up_request_t *asked,
                                 brace_k_at_tip_knee_up_answer_t *answer)
 {
-    const brace_point_t tip = {asked->x_mm, asked->z_mm};
-    brace_stiffness_t k;
-    return tell_k(brace_app_k_at_tip(request->app, tip, BRACE_KNEE_UP, &k), &k, answer);
+    const brace_k_question_t question = {
+        .where = BRACE_K_AT_TIP, .tip = {asked->x_mm, asked->z_mm}, .knee = BRACE_KNEE_UP};
+    return tell_k(request, &question, answer);
 }
 
 int32_t answer_k_at_tip_knee_down(request_t *request, const brace_k_at_tip_knee_down_request_t *asked,
                                   brace_k_at_tip_knee_down_answer_t *answer)
 {
-    const brace_point_t tip = {asked->x_mm, asked->z_mm};
-    brace_stiffness_t k;
-    return tell_k(brace_app_k_at_tip(request->app, tip, BRACE_KNEE_DOWN, &k), &k, answer);
+    const brace_k_question_t question = {
+        .where = BRACE_K_AT_TIP, .tip = {asked->x_mm, asked->z_mm}, .knee = BRACE_KNEE_DOWN};
+    return tell_k(request, &question, answer);
+}
+
+int32_t answer_tip_force(request_t *request, const brace_tip_force_request_t *asked, brace_tip_force_answer_t *answer)
+{
+    *request->asked_force = (asked_force_t){true, {asked->fx_n, asked->fz_n}};
+    *answer = (brace_tip_force_answer_t){asked->fx_n, asked->fz_n};
+    return BRACE_OK;
+}
+
+/* Under the force that was asked before; the answer uses it up. */
+static int32_t tell_k_under_load(request_t *request, brace_k_question_t *question,
+                                 brace_k_under_load_at_posture_answer_t *answer)
+{
+    brace_k_answer_t found;
+    if (!request->asked_force->is_there) {
+        return BRACE_REFUSED_ORDER;
+    }
+    question->tip_force = request->asked_force->force;
+    const int32_t status = ask(request, question, &found);
+    const brace_stiffness_t *k = &found.k;
+    request->asked_force->is_there = status == ANSWER_AGAIN;
+    if (status == BRACE_OK) {
+        *answer = (brace_k_under_load_at_posture_answer_t){.k_xx_n_per_mm = k->k_xx_n_per_mm,
+                                                           .k_xz_n_per_mm = k->k_xz_n_per_mm,
+                                                           .k_zz_n_per_mm = k->k_zz_n_per_mm,
+                                                           .lambda_min_n_per_mm = k->lambda_min_n_per_mm,
+                                                           .lambda_max_n_per_mm = k->lambda_max_n_per_mm,
+                                                           .stiff_axis_rad = k->stiff_axis_rad,
+                                                           .dx_mm = found.moved_mm.x_mm,
+                                                           .dz_mm = found.moved_mm.z_mm,
+                                                           .buckling_factor = found.buckling_factor,
+                                                           .flags = k->flags};
+    }
+    return status;
+}
+
+int32_t answer_k_under_load_at_posture(request_t *request, const brace_k_under_load_at_posture_request_t *asked,
+                                       brace_k_under_load_at_posture_answer_t *answer)
+{
+    brace_k_question_t question = {.where = BRACE_K_AT_POSTURE,
+                                   .theta_rad = {0.0f, asked->theta1_rad, asked->theta2_rad}};
+    return tell_k_under_load(request, &question, answer);
+}
+
+int32_t answer_k_under_load_at_tip_knee_up(request_t *request,
+                                           const brace_k_under_load_at_tip_knee_up_request_t *asked,
+                                           brace_k_under_load_at_tip_knee_up_answer_t *answer)
+{
+    brace_k_question_t question = {
+        .where = BRACE_K_AT_TIP, .tip = {asked->x_mm, asked->z_mm}, .knee = BRACE_KNEE_UP};
+    return tell_k_under_load(request, &question, answer);
+}
+
+int32_t answer_k_under_load_at_tip_knee_down(request_t *request,
+                                             const brace_k_under_load_at_tip_knee_down_request_t *asked,
+                                             brace_k_under_load_at_tip_knee_down_answer_t *answer)
+{
+    brace_k_question_t question = {
+        .where = BRACE_K_AT_TIP, .tip = {asked->x_mm, asked->z_mm}, .knee = BRACE_KNEE_DOWN};
+    return tell_k_under_load(request, &question, answer);
 }
 
 int32_t answer_k_in_space_at_posture(request_t *request, const brace_k_in_space_at_posture_request_t *asked,
                                      brace_k_in_space_at_posture_answer_t *answer)
 {
-    brace_stiffness_spatial_t k;
-    const brace_status_t status =
-        brace_app_k_in_space(request->app, asked->theta0_rad, asked->theta1_rad, asked->theta2_rad, &k);
+    const brace_k_question_t question = {.where = BRACE_K_IN_SPACE,
+                                         .theta_rad = {asked->theta0_rad, asked->theta1_rad, asked->theta2_rad}};
+    brace_k_answer_t found;
+    const int32_t status = ask(request, &question, &found);
+    const brace_stiffness_spatial_t *k = &found.in_space;
     if (status == BRACE_OK) {
-        *answer = (brace_k_in_space_at_posture_answer_t){.k_xx_n_per_mm = k.k_xx_n_per_mm,
-                                                         .k_xy_n_per_mm = k.k_xy_n_per_mm,
-                                                         .k_xz_n_per_mm = k.k_xz_n_per_mm,
-                                                         .k_yy_n_per_mm = k.k_yy_n_per_mm,
-                                                         .k_yz_n_per_mm = k.k_yz_n_per_mm,
-                                                         .k_zz_n_per_mm = k.k_zz_n_per_mm,
-                                                         .lambda_1_n_per_mm = k.lambda_n_per_mm[0],
-                                                         .lambda_2_n_per_mm = k.lambda_n_per_mm[1],
-                                                         .lambda_3_n_per_mm = k.lambda_n_per_mm[2],
-                                                         .flags = k.flags};
+        *answer = (brace_k_in_space_at_posture_answer_t){.k_xx_n_per_mm = k->k_xx_n_per_mm,
+                                                         .k_xy_n_per_mm = k->k_xy_n_per_mm,
+                                                         .k_xz_n_per_mm = k->k_xz_n_per_mm,
+                                                         .k_yy_n_per_mm = k->k_yy_n_per_mm,
+                                                         .k_yz_n_per_mm = k->k_yz_n_per_mm,
+                                                         .k_zz_n_per_mm = k->k_zz_n_per_mm,
+                                                         .lambda_1_n_per_mm = k->lambda_n_per_mm[0],
+                                                         .lambda_2_n_per_mm = k->lambda_n_per_mm[1],
+                                                         .lambda_3_n_per_mm = k->lambda_n_per_mm[2],
+                                                         .flags = k->flags};
     }
     return status;
 }

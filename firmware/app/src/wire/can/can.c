@@ -60,11 +60,39 @@ static bool has_room_for_an_answer(const can_port_t *port)
     return can_answers_have_room(&port->requests.answers, ANSWERS_PER_TICK);
 }
 
-static void answer(const can_t *can, can_port_t *port, const wire_tick_t *tick, const brace_can_frame_t *frame)
+static can_port_t *port_of(can_t *can, way_t way)
 {
-    if (!can_requests_answer(&port->requests, tick, can->node_id, frame->data)) {
+    return way == ON_BUS ? &can->bus_port : &can->text_port;
+}
+
+static void answer(can_t *can, way_t way, const wire_tick_t *tick, const uint8_t *data)
+{
+    const brace_asker_t asker = way == ON_BUS ? BRACE_ASKER_CAN : BRACE_ASKER_SLCAN;
+    if (!can_requests_answer(&port_of(can, way)->requests, tick, asker, can->node_id, data)) {
         brace_count(&tick->counters->frames_unknown);
     }
+}
+
+/* A request that has come. */
+static void take(can_t *can, way_t way, const wire_tick_t *tick, const uint8_t *data)
+{
+    if (tick->has_worked) {
+        can_requests_keep(&port_of(can, way)->requests, data);
+    } else {
+        answer(can, way, tick, data);
+    }
+}
+
+/* A request that is being worked out is put again, and is this tick's: the next one waits in the hardware layer.
+ * returns whether there was one */
+static bool ask_again(can_t *can, way_t way, const wire_tick_t *tick)
+{
+    const can_requests_t *requests = &port_of(can, way)->requests;
+    const bool waited = requests->waits;
+    if (waited && !tick->has_worked) {
+        answer(can, way, tick, requests->waiting);
+    }
+    return waited;
 }
 
 static bool has_number(const can_t *can)
@@ -84,12 +112,12 @@ static void listen_to_bus(can_t *can, const wire_tick_t *tick)
 {
     const uint32_t most = frames_per_tick(tick);
     brace_can_frame_t frame;
-    if (!has_room_for_an_answer(&can->bus_port)) {
+    if (!has_room_for_an_answer(&can->bus_port) || ask_again(can, ON_BUS, tick)) {
         return;
     }
     for (uint32_t i = 0; i < most && can_bus_receive(&can->bus, tick->hal, &frame); i++) {
         if (is_request(can, tick, &frame) && has_number(can)) {
-            answer(can, &can->bus_port, tick, &frame);
+            take(can, ON_BUS, tick, frame.data);
             return;
         }
     }
@@ -98,18 +126,13 @@ static void listen_to_bus(can_t *can, const wire_tick_t *tick)
 static void listen_to_text(can_t *can, const wire_tick_t *tick)
 {
     brace_can_frame_t frame;
-    if (has_room_for_an_answer(&can->text_port) && slcan_receive(&can->text, tick->hal, &frame) &&
-        is_request(can, tick, &frame)) {
-        answer(can, &can->text_port, tick, &frame);
+    if (has_room_for_an_answer(&can->text_port) && !ask_again(can, AS_TEXT, tick) &&
+        slcan_receive(&can->text, tick->hal, &frame) && is_request(can, tick, &frame)) {
+        take(can, AS_TEXT, tick, frame.data);
     }
 }
 
 /* ----------------------------------------------------------------------------------------------- out -- */
-
-static can_port_t *port_of(can_t *can, way_t way)
-{
-    return way == ON_BUS ? &can->bus_port : &can->text_port;
-}
 
 /* Can frames leave this way now? */
 static bool is_open(const can_t *can, way_t way)
@@ -163,7 +186,8 @@ static void send_process_data(can_t *can, way_t way, const wire_tick_t *tick)
                                .fd_bit_rate = way == ON_BUS ? can->bus.fd_bit_rate : 0u};
     process_t *process = &port_of(can, way)->process;
     brace_can_frame_t frame;
-    process_tick(process, &bus, tick);
+    /* A snapshot is long: the two ports do not both copy one in the same tick. */
+    process_tick(process, &bus, tick, way == ON_BUS || can->bus_port.process.taken_us != tick->now_us);
     for (uint32_t i = 0; i < (uint32_t)PROCESS_FRAMES_PER_TICK && process_next(process, tick, &frame); i++) {
         if (!send(can, way, tick, &frame)) {
             return;
@@ -180,6 +204,7 @@ static void keep_silent(can_t *can, way_t way, const wire_tick_t *tick)
     process_skip(&port->process);
     if (way == AS_TEXT) {
         port->requests.answers.count = 0;
+        port->requests.waits = port->requests.asked_force.is_there = false;
         announce_skip(&port->announce, tick);
     }
 }
@@ -193,7 +218,9 @@ static void speak(can_t *can, way_t way, const wire_tick_t *tick)
     send_answers(can, way, tick);
     if (has_number(can)) {
         send_announcement(can, way, tick);
-        send_process_data(can, way, tick);
+        if (!tick->has_worked) {
+            send_process_data(can, way, tick);
+        }
     }
 }
 

@@ -20,17 +20,19 @@
 typedef struct {
     uint32_t id; /* of node 0 */
     bool is_fd;
-    bool follows_posture; /* controller.posture_hz; else controller.stiffness_hz */
+    uint8_t rate; /* process_rate_t */
     void (*make)(const brace_measured_t *of, float age_ms, uint8_t *data);
 } process_frame_t;
 
 /* Every message of measured values, in the order in which they are sent. A frame's place is its bit in process_t.due. */
 #define CLASSIC(ID, name, rate) CLASSIC_AT_##rate(ID, name)
-#define CLASSIC_AT_stiffness_hz(ID, name) {ID, false, false, brace_can_make_##name},
-#define CLASSIC_AT_posture_hz(ID, name) {ID, false, true, brace_can_make_##name},
+#define CLASSIC_AT_stiffness_hz(ID, name) {ID, false, PROCESS_STIFFNESS, brace_can_make_##name},
+#define CLASSIC_AT_posture_hz(ID, name) {ID, false, PROCESS_POSTURE, brace_can_make_##name},
+#define CLASSIC_AT_load_hz(ID, name) {ID, false, PROCESS_LOAD, brace_can_make_##name},
 #define FD(ID, name, rate) FD_AT_##rate(ID, name)
-#define FD_AT_stiffness_hz(ID, name) {ID, true, false, brace_can_make_##name},
-#define FD_AT_posture_hz(ID, name) {ID, true, true, brace_can_make_##name},
+#define FD_AT_stiffness_hz(ID, name) {ID, true, PROCESS_STIFFNESS, brace_can_make_##name},
+#define FD_AT_posture_hz(ID, name) {ID, true, PROCESS_POSTURE, brace_can_make_##name},
+#define FD_AT_load_hz(ID, name) {ID, true, PROCESS_LOAD, brace_can_make_##name},
 static const process_frame_t frames[] = {BRACE_CAN_PROCESS(CLASSIC) BRACE_CAN_PROCESS_FD(FD)};
 enum { FRAME_COUNT = sizeof frames / sizeof *frames };
 _Static_assert(FRAME_COUNT <= 32, "a bit for each frame");
@@ -45,12 +47,12 @@ static bool is_sent(const process_frame_t *frame, const process_bus_t *bus, cons
            (!is_of_space || brace_app_snapshot(tick->app)->space.is_fitted);
 }
 
-/* The frames that follow one of the two rates. */
-static process_share_t frames_of(bool posture, const process_bus_t *bus, const wire_tick_t *tick)
+/* The frames that follow one of the rates. */
+static process_share_t frames_of(uint32_t rate, const process_bus_t *bus, const wire_tick_t *tick)
 {
     process_share_t share = {.frames = 0};
     for (uint32_t i = 0; i < (uint32_t)FRAME_COUNT; i++) {
-        if (frames[i].follows_posture == posture && is_sent(&frames[i], bus, tick)) {
+        if (frames[i].rate == rate && is_sent(&frames[i], bus, tick)) {
             share.frames |= 1u << i;
             share.count++;
         }
@@ -85,18 +87,21 @@ static void configure(process_t *process, const process_bus_t *bus, const wire_t
     process->parameter_crc = brace_app_snapshot(tick->app)->parameter_crc;
     process->period_us = 0;
     process->due = 0;
-    process->stiffness = frames_of(false, bus, tick);
-    process->posture = frames_of(true, bus, tick);
-    const uint32_t posture_hz = process->posture.count > 0u ? wanted->posture_hz : 0u;
-    const uint32_t base_hz = wanted->stiffness_hz > posture_hz ? wanted->stiffness_hz : posture_hz;
+    uint32_t rate_hz[PROCESS_RATES] = {wanted->stiffness_hz, wanted->posture_hz, wanted->load_hz}, base_hz = 0;
+    for (uint32_t i = 0; i < (uint32_t)PROCESS_RATES; i++) {
+        process->share[i] = frames_of(i, bus, tick);
+        rate_hz[i] = process->share[i].count > 0u ? rate_hz[i] : 0u;
+        base_hz = rate_hz[i] > base_hz ? rate_hz[i] : base_hz;
+    }
     if (base_hz == 0u) {
         return;
     }
-    process->stiffness.every = every_of(base_hz, wanted->stiffness_hz);
-    process->posture.every = every_of(base_hz, posture_hz);
     const float base = (float)base_hz;
-    const float wanted_per_s =
-        frames_per_s(&process->stiffness, bus, base) + frames_per_s(&process->posture, bus, base);
+    float wanted_per_s = 0.0f;
+    for (uint32_t i = 0; i < (uint32_t)PROCESS_RATES; i++) {
+        process->share[i].every = every_of(base_hz, rate_hz[i]);
+        wanted_per_s += frames_per_s(&process->share[i], bus, base);
+    }
     /* Heartbeats are never thinned, so their part of the bus is taken off first. */
     const float share_per_s = wanted->bus_load_ratio * (float)bus->bit_rate / (float)PROCESS_FRAME_BITS -
                               (float)wanted->heartbeat_hz;
@@ -132,17 +137,20 @@ static void take(process_t *process, const wire_tick_t *tick)
 {
     const uint32_t over_us = tick->now_us - process->next_us;
     process->next_us = (over_us < process->period_us ? process->next_us : tick->now_us) + process->period_us;
-    process->due = come_round(&process->stiffness) | come_round(&process->posture);
+    process->due = 0;
+    for (uint32_t i = 0; i < (uint32_t)PROCESS_RATES; i++) {
+        process->due |= come_round(&process->share[i]);
+    }
     process->taken_us = tick->now_us;
     process->snapshot = *tick->measured;
 }
 
-void process_tick(process_t *process, const process_bus_t *bus, const wire_tick_t *tick)
+void process_tick(process_t *process, const process_bus_t *bus, const wire_tick_t *tick, bool may_take)
 {
     if (!process->is_configured || process->parameter_crc != brace_app_snapshot(tick->app)->parameter_crc) {
         configure(process, bus, tick);
     }
-    if (process->period_us != 0u && process->due == 0u && is_time(process, tick->now_us)) {
+    if (may_take && process->period_us != 0u && process->due == 0u && is_time(process, tick->now_us)) {
         take(process, tick);
     }
 }

@@ -1,5 +1,5 @@
-/* Process data: K, its eigenvalues and the posture of one snapshot, at the parameters' rates; K in space too where the
- * limb's coxa joint is fitted; over CAN FD in one frame or two. One for each port.
+/* Process data: K, its eigenvalues, the posture and the load of one snapshot, at the parameters' rates; K in space too
+ * where the limb's coxa joint is fitted; over CAN FD in one frame to three. One for each port.
  *
  * All frames of a snapshot are made from one copy of it, so nothing is ever mixed from two. The next snapshot is taken
  * when the last frame of this one has left, so a busy bus thins the data and never splits them. Rates are lowered in
@@ -29,6 +29,9 @@ typedef struct {
     uint32_t fd_bit_rate; /* [bit/s]; 0: snapshots leave in classic frames */
 } process_bus_t;
 
+/* Rates that frames follow: controller.stiffness_hz, posture_hz, load_hz. */
+typedef enum { PROCESS_STIFFNESS = 0, PROCESS_POSTURE, PROCESS_LOAD, PROCESS_RATES } process_rate_t;
+
 /* The frames that follow one rate: every so many snapshots. */
 typedef struct {
     uint32_t frames; /* as bits */
@@ -42,7 +45,7 @@ typedef struct {
     uint32_t parameter_crc;    /* of the set that the periods were worked out from */
     uint32_t period_us;        /* from snapshot to snapshot; 0: none is ever sent */
     uint32_t next_us;          /* when the next snapshot is due */
-    process_share_t stiffness, posture;
+    process_share_t share[PROCESS_RATES];
     uint32_t due;              /* frames of the snapshot that have still to be sent, as bits */
     uint32_t taken_us;         /* when the snapshot was taken */
     brace_measured_t snapshot; /* the one whose frames are due */
@@ -50,8 +53,9 @@ typedef struct {
 
 /* Each tick, before process_next: works the periods out where the parameters have changed, and takes the newest
  * snapshot where one is due and the frames of the one before have left.
+ *   may_take: else a snapshot that is due waits for the next tick
  * At most 900 instructions where the parameters have changed, else 250. */
-void process_tick(process_t *process, const process_bus_t *bus, const wire_tick_t *tick);
+void process_tick(process_t *process, const process_bus_t *bus, const wire_tick_t *tick, bool may_take);
 
 /* Gives the next frame that is due, if there is one, but for the node's number in its identifier. The frame is made
  * when it is sent, so that the age in it is that of this moment. At most 130 instructions; with CAN FD 260. */

@@ -1,5 +1,7 @@
 #include "wire/can/requests.h"
 
+#include <string.h>
+
 static void tell(can_answers_t *answers, uint32_t code, uint32_t token, int32_t status, const brace_answer_t *answer,
                  uint32_t detail)
 {
@@ -12,22 +14,36 @@ static void tell(can_answers_t *answers, uint32_t code, uint32_t token, int32_t 
     }
 }
 
-bool can_requests_answer(can_requests_t *requests, const wire_tick_t *tick, uint32_t node_id, const uint8_t *data)
+bool can_requests_answer(can_requests_t *requests, const wire_tick_t *tick, brace_asker_t asker, uint32_t node_id,
+                         const uint8_t *data)
 {
-    request_t request = {
-        .app = tick->app, .measured = tick->measured, .transfer = &requests->transfer, .node_id = node_id};
+    request_t request = {.app = tick->app,
+                         .measured = tick->measured,
+                         .asker = asker,
+                         .asked_force = &requests->asked_force,
+                         .transfer = &requests->transfer,
+                         .node_id = node_id};
     const uint8_t code = data[0], token = data[1];
     brace_request_t asked;
     brace_answer_t answer;
     brace_can_unpack_request(data, &asked);
     const int32_t status = answer_request(&request, code, &asked, &answer);
-    if (status == ANSWER_LATER) {
+    requests->waits = false;
+    if (status == ANSWER_AGAIN) {
+        can_requests_keep(requests, data);
+    } else if (status == ANSWER_LATER) {
         requests->storing = code;
         requests->storing_token = token;
     } else {
         tell(&requests->answers, code, token, status, &answer, request.detail);
     }
     return status != BRACE_REFUSED_UNKNOWN;
+}
+
+void can_requests_keep(can_requests_t *requests, const uint8_t *data)
+{
+    memmove(requests->waiting, data, sizeof requests->waiting);
+    requests->waits = true;
 }
 
 void can_requests_tick(can_requests_t *requests, const wire_tick_t *tick)

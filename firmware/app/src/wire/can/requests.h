@@ -12,14 +12,22 @@ typedef struct {
     transfer_t transfer;
     uint8_t storing;        /* code of the commit or roll-back that is answered once the store has ended; 0: none */
     uint8_t storing_token;
+    asked_force_t asked_force;
+    bool waits;             /* a request is being worked out, or kept: it is asked again in each tick */
+    uint8_t waiting[8];
 } can_requests_t;
 
-/* Answers or refuses a request. There must be room for BRACE_CAN_ANSWER_PARTS_MOST frames.
+/* Answers or refuses a request, or lets it wait. There must be room for BRACE_CAN_ANSWER_PARTS_MOST frames.
+ *   asker: this port
  *   node_id: of this node
  *   data: its eight bytes
  * returns whether the dictionary has such a request; if not, it is refused too
  * At most 150 instructions beside answer_request, and 120 for each frame of the answer. */
-bool can_requests_answer(can_requests_t *requests, const wire_tick_t *tick, uint32_t node_id, const uint8_t *data);
+bool can_requests_answer(can_requests_t *requests, const wire_tick_t *tick, brace_asker_t asker, uint32_t node_id,
+                         const uint8_t *data);
+
+/* Keeps a request for the next tick: this one has no time for it. */
+void can_requests_keep(can_requests_t *requests, const uint8_t *data);
 
 /* Each tick, before requests are answered: answers the commit or roll-back that this port has asked for, once the store
  * has ended. Takes two frames of room. At most 250 instructions. */

@@ -44,15 +44,25 @@ modbus_exception_t modbus_ask(modbus_server_t *server, const wire_tick_t *tick, 
                               const uint32_t *words)
 {
     const brace_question_t *question = find(first, count);
-    request_t request = {.app = tick->app, .measured = tick->measured};
+    asked_force_t asked_force = {.is_there = false};
+    request_t request = {
+        .app = tick->app, .measured = tick->measured, .asker = server->asker, .asked_force = &asked_force};
     brace_request_t asked;
     brace_answer_t answer;
-    if (question == NULL || (question->codes > 1u && words[question->fields] >= question->codes)) {
+    const uint32_t picks = question == NULL ? 0u : (uint32_t)question->begin_fields + question->fields;
+    if (question == NULL || (question->codes > 1u && words[picks] >= question->codes)) {
         return MODBUS_E_VALUE;
     }
-    copy_values(&asked, 0, words, 0, question->fields);
-    const uint8_t code = question->code[question->codes > 1u ? words[question->fields] : 0u];
+    if (question->begin_code != 0u) {
+        copy_values(&asked, 0, words, 0, question->begin_fields);
+        (void)answer_request(&request, question->begin_code, &asked, &answer);
+    }
+    copy_values(&asked, 0, words, question->begin_fields, question->fields);
+    const uint8_t code = question->code[question->codes > 1u ? words[picks] : 0u];
     const int32_t status = answer_request(&request, code, &asked, &answer);
+    if (status == ANSWER_AGAIN) {
+        return MODBUS_AGAIN;
+    }
     modbus_exception_t why = request.is_of_now ? MODBUS_E_DEVICE : modbus_refusal_of(status);
     if (question->none_is_an_answer) {
         if (why == MODBUS_E_VALUE) {

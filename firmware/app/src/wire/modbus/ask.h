@@ -14,8 +14,9 @@ void modbus_ask_nothing(modbus_server_t *server);
 /* Answers a question.
  *   first: command number of its first value
  *   words: its values as their 32 bits, `count` of them
- * returns MODBUS_E_VALUE also when no question of so many values begins there
- * At most what brace_app_k_at_tip costs, and 300 instructions. */
+ * returns MODBUS_E_VALUE also when no question of so many values begins there; MODBUS_AGAIN: the answer is being worked
+ *   out, so the same is to be asked in the next tick
+ * At most 400 instructions. */
 modbus_exception_t modbus_ask(modbus_server_t *server, const wire_tick_t *tick, uint32_t first, uint32_t count,
                               const uint32_t *words);
 

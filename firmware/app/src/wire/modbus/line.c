@@ -5,8 +5,11 @@
 
 enum { ADDRESS_BYTES = 1, CRC_BYTES = 2, FRAME_LEAST = ADDRESS_BYTES + 1 + CRC_BYTES, FRAME_MOST = 256, EVERYBODY = 0 };
 
-/* A whole frame may come at once, from an adapter. Its check is worked out in a tick or two, before silence ends it. */
-#define CHECKED_PER_TICK 128u
+/* A whole frame may come at once, from an adapter. Its check is worked out in three ticks, before silence ends it. */
+#define CHECKED_PER_TICK 96u
+
+/* The check of an answer is worked out so many bytes ahead of what the line carries in a tick: no gap tears it. */
+#define BYTES_AHEAD 48u
 
 #define CHARACTER_BITS 11u
 #define LEAST_SILENCE_US 1750u /* above 19200 bit/s the standard has it whatever the rate */
@@ -16,6 +19,7 @@ enum { ADDRESS_BYTES = 1, CRC_BYTES = 2, FRAME_LEAST = ADDRESS_BYTES + 1 + CRC_B
 
 void modbus_line_start(modbus_line_t *line, const brace_hal_t *hal, uint32_t baud)
 {
+    line->bytes_per_ms = baud / (1000u * CHARACTER_BITS) + 1u;
     line->silence_us = baud > 19200u ? LEAST_SILENCE_US : 3500000u * CHARACTER_BITS / baud;
     line->link.is_fitted =
         hal->serial_setup(hal->context, BRACE_SERIAL_MODBUS, baud, BRACE_PARITY_EVEN) == BRACE_HAL_OK;
@@ -39,10 +43,10 @@ static bool gather(modbus_line_t *line, const wire_tick_t *tick)
     return came > 0u;
 }
 
-/* Goes on with the check, over at most so many of the bytes that have come. */
-static void check_on(modbus_line_t *line, uint32_t most)
+/* Goes on with the check of the first `length` bytes, over at most so many of them. */
+static void check_on(modbus_line_t *line, uint32_t length, uint32_t most)
 {
-    const uint32_t left = line->link.count > line->checked ? (uint32_t)line->link.count - line->checked : 0u;
+    const uint32_t left = length > line->checked ? length - line->checked : 0u;
     const uint32_t count = left < most ? left : most;
     line->crc = modbus_crc(line->crc, line->link.bytes + line->checked, count);
     line->checked = (uint16_t)(line->checked + count);
@@ -79,23 +83,46 @@ static void answer(modbus_line_t *line, modbus_server_t *server, const wire_tick
 {
     modbus_link_t *link = &line->link;
     const uint32_t request = (uint32_t)link->count - ADDRESS_BYTES - CRC_BYTES;
-    const uint32_t length =
-        ADDRESS_BYTES + modbus_pdu_answer(server, &link->half, tick, link->bytes + ADDRESS_BYTES, request);
+    server->asker = BRACE_ASKER_MODBUS_LINE;
+    const uint32_t answered = modbus_pdu_answer(server, &link->half, tick, link->bytes + ADDRESS_BYTES, request);
+    const uint32_t length = ADDRESS_BYTES + answered;
+    link->is_waiting = answered == 0u;
+    if (link->is_waiting) {
+        return;
+    }
     if (link->bytes[0] == EVERYBODY) {
         modbus_link_rest(link);
         return;
     }
-    const uint16_t crc = modbus_crc(MODBUS_CRC_START, link->bytes, length);
-    link->bytes[length] = (uint8_t)crc;
-    link->bytes[length + 1u] = (uint8_t)(crc >> 8);
+    line->crc = MODBUS_CRC_START;
+    line->checked = 0;
     modbus_link_answer(link, tick, length + CRC_BYTES);
+    link->ready = 0;
+}
+
+/* Makes the next part of an answer ready, and its check at the end. */
+static void seal(modbus_line_t *line, const wire_tick_t *tick)
+{
+    modbus_link_t *link = &line->link;
+    const uint32_t tick_us = brace_app_parameters(tick->app)->controller.tick_us;
+    const uint32_t length = (uint32_t)link->count - CRC_BYTES;
+    if (link->ready == link->count) {
+        return;
+    }
+    check_on(line, length, BYTES_AHEAD + line->bytes_per_ms * tick_us / 1000u);
+    link->ready = line->checked;
+    if (line->checked == length) {
+        link->bytes[length] = (uint8_t)line->crc;
+        link->bytes[length + 1u] = (uint8_t)(line->crc >> 8);
+        link->ready = link->count;
+    }
 }
 
 /* The line is silent: what has come is a frame, or broken, or a part whose rest is held back. */
 static void end_frame(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick, uint32_t silent_us)
 {
     modbus_link_t *link = &line->link;
-    check_on(line, MODBUS_LINK_BYTES);
+    check_on(line, link->count, MODBUS_LINK_BYTES);
     if (link->is_skipping || link->count < FRAME_LEAST || line->crc != 0u) {
         if (silent_us >= PATIENCE_US || !may_go_on(link, server)) {
             modbus_link_break(link, server, tick);
@@ -110,16 +137,21 @@ static void end_frame(modbus_line_t *line, modbus_server_t *server, const wire_t
 void modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
 {
     modbus_link_t *link = &line->link;
-    if (!link->is_sending) {
+    if (tick->has_worked) {
+        /* What comes waits in the port. */
+    } else if (link->is_waiting) {
+        answer(line, server, tick);
+    } else if (!link->is_sending) {
         const bool bytes_came = gather(line, tick);
         const uint32_t silent_us = tick->now_us - link->active_us;
         if (bytes_came || silent_us < line->silence_us) {
-            check_on(line, CHECKED_PER_TICK);
+            check_on(line, link->count, CHECKED_PER_TICK);
         } else if (link->count > 0u || link->is_skipping) {
             end_frame(line, server, tick, silent_us);
         }
     }
     if (link->is_sending) {
+        seal(line, tick);
         modbus_link_send(link, tick, BRACE_SERIAL_MODBUS);
     }
 }

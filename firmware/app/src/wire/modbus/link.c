@@ -4,8 +4,8 @@
 
 void modbus_link_rest(modbus_link_t *link)
 {
-    link->is_sending = link->is_skipping = false;
-    link->count = link->sent = 0;
+    link->is_sending = link->is_skipping = link->is_waiting = false;
+    link->count = link->ready = link->sent = 0;
 }
 
 uint32_t modbus_link_receive(modbus_link_t *link, const wire_tick_t *tick, brace_serial_port_t port, uint32_t room)
@@ -28,16 +28,17 @@ void modbus_link_break(modbus_link_t *link, modbus_server_t *server, const wire_
 
 void modbus_link_answer(modbus_link_t *link, const wire_tick_t *tick, uint32_t count)
 {
-    link->count = (uint16_t)count;
+    link->count = link->ready = (uint16_t)count;
     link->sent = 0;
     link->active_us = tick->now_us;
     link->is_sending = true;
+    link->is_waiting = false;
 }
 
 void modbus_link_send(modbus_link_t *link, const wire_tick_t *tick, brace_serial_port_t port)
 {
     const int32_t taken = tick->hal->serial_write(tick->hal->context, port, link->bytes + link->sent,
-                                                  (uint32_t)link->count - link->sent);
+                                                  (uint32_t)link->ready - link->sent);
     if (taken > 0) {
         link->sent = (uint16_t)(link->sent + taken);
         link->active_us = tick->now_us;

@@ -12,7 +12,9 @@ typedef struct {
     bool is_fitted;    /* the board has this port */
     bool is_sending;   /* bytes hold an answer; else a request that is coming */
     bool is_skipping;  /* what is coming is none: all of it is thrown away */
+    bool is_waiting;   /* bytes hold a whole request that is being worked out */
     uint16_t count;    /* bytes of it */
+    uint16_t ready;    /* of an answer, so many of its bytes may leave */
     uint16_t sent;     /* of an answer, by the port */
     uint32_t active_us; /* when bytes last came or left */
     modbus_half_t half;
@@ -28,10 +30,10 @@ uint32_t modbus_link_receive(modbus_link_t *link, const wire_tick_t *tick, brace
 /* Forgets what is in the buffer and counts it as a broken frame. */
 void modbus_link_break(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick);
 
-/* The buffer holds an answer of so many bytes from here on. */
+/* The buffer holds an answer of so many bytes from here on; all of them are ready. */
 void modbus_link_answer(modbus_link_t *link, const wire_tick_t *tick, uint32_t count);
 
-/* Hands the port what it takes of the answer. At its end the link rests. So it does when the port has taken nothing for
+/* Hands the port what it takes of what is ready. At its end the link rests. So it does when the port has taken nothing for
  * a second: whoever asked has gone. */
 void modbus_link_send(modbus_link_t *link, const wire_tick_t *tick, brace_serial_port_t port);
 

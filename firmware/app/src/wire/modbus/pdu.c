@@ -83,6 +83,9 @@ uint32_t modbus_pdu_answer(modbus_server_t *server, modbus_half_t *half, const w
     case MODBUS_DEVICE_ID: why = modbus_device_id(pdu, length, &answer); break;
     default: break;
     }
+    if (why == MODBUS_AGAIN) {
+        return 0;
+    }
     return why == MODBUS_FINE ? answer : modbus_pdu_refuse(server, tick, pdu, why);
 }
 

@@ -16,6 +16,7 @@ enum {
 };
 
 typedef enum {
+    MODBUS_AGAIN = -1,     /* no exception: it is being worked out, and is asked again in the next tick */
     MODBUS_FINE = 0,
     MODBUS_E_FUNCTION = 1, /* no such function; or not in this mode, which the protocol calls the wrong state */
     MODBUS_E_ADDRESS = 2,  /* no such registers */

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "brace/measured.h"
+#include "brace/requests.h"
 
 /* Shared by all ports: what one master asks, another may read. */
 typedef struct {
@@ -13,6 +14,7 @@ typedef struct {
     uint16_t messages, broken, refused, served, unanswered, busy; /* function 08's counters; they wrap */
     brace_commands_t written;   /* the take-up that began last, and the questions that were answered last */
     brace_answered_t answered;  /* their answers */
+    brace_asker_t asker;        /* the port whose request is being answered */
 } modbus_server_t;
 
 /* Function 06 writes a value in two requests, the high register first. Each port keeps its own first half, so that what

@@ -62,12 +62,17 @@ static void answer(modbus_link_t *link, modbus_server_t *server, const wire_tick
     const uint8_t unit = link->bytes[UNIT_AT];
     uint8_t *pdu = link->bytes + PDU_AT;
     uint32_t length;
-    server->messages++;
+    server->messages = (uint16_t)(server->messages + !link->is_waiting);
     if (unit == server->address || unit == ANY_UNIT || unit == DEVICE_ITSELF) {
-        server->served++;
+        server->served = (uint16_t)(server->served + !link->is_waiting);
+        server->asker = BRACE_ASKER_MODBUS_TCP;
         length = modbus_pdu_answer(server, &link->half, tick, pdu, (uint32_t)link->count - PDU_AT);
     } else {
         length = modbus_pdu_refuse(server, tick, pdu, MODBUS_E_TARGET);
+    }
+    link->is_waiting = length == 0u;
+    if (link->is_waiting) {
+        return;
     }
     put_16(link->bytes + LENGTH_AT, length + 1u);
     modbus_link_answer(link, tick, PDU_AT + length);
@@ -75,7 +80,9 @@ static void answer(modbus_link_t *link, modbus_server_t *server, const wire_tick
 
 static void take_request(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
 {
-    if (link->is_skipping) {
+    if (link->is_waiting) {
+        answer(link, server, tick);
+    } else if (link->is_skipping) {
         skip(link, server, tick);
     } else if (gather(link, tick)) {
         answer(link, server, tick);
@@ -86,7 +93,7 @@ static void take_request(modbus_link_t *link, modbus_server_t *server, const wir
 
 void modbus_tcp_tick(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
 {
-    if (!link->is_sending) {
+    if (!link->is_sending && !tick->has_worked) {
         take_request(link, server, tick);
     }
     if (link->is_sending) {

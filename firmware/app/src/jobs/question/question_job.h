@@ -1,0 +1,55 @@
+/* Questions for K where the limb is not: one at a time, in every other tick, each asker in its turn.
+ *
+ * K under a load costs a fifth of what a tick may. So it is not worked out when it is asked, but as a job of the next
+ * tick: whoever asks is told to ask again, and asks the same in the ticks to come until it has its answer. Who stops
+ * asking loses its place. A tick that has worked one out
+ * leaves all requests and process data to the next one (wire/wire.h), and the tick after it works none out. */
+#ifndef BRACE_JOBS_QUESTION_QUESTION_JOB_H
+#define BRACE_JOBS_QUESTION_QUESTION_JOB_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "brace/parameters.h"
+#include "brace/requests.h"
+#include "posture/posture.h"
+#include "sense/joints.h"
+#include "stiffness/model.h"
+
+/* The question of one asker. */
+typedef struct {
+    uint8_t phase;
+    uint8_t ticks_unasked; /* since it was asked again */
+    brace_k_question_t question;
+} question_slot_t;
+
+typedef struct {
+    question_slot_t slot[BRACE_ASKER_COUNT];
+    uint8_t answered;       /* the asker whose question was worked out last */
+    bool has_worked;        /* in this tick */
+    brace_status_t status;  /* how that ended */
+    brace_k_answer_t answer;
+} question_job_t;
+
+/* What a step is given. */
+typedef struct {
+    model_t *model;
+    const brace_parameters_t *parameters;
+    brace_parameter_origin_t origin;
+    const joints_t *joints;    /* for their temperatures */
+    brace_vec_t down;
+    bool may_work;             /* no other job of this tick costs as much */
+} question_inputs_t;
+
+/* Asks, or asks again.
+ * returns BRACE_APP_LATER, or how it ended: BRACE_OK with the answer, else why not */
+int32_t question_job_ask(question_job_t *job, brace_asker_t asker, const brace_k_question_t *question,
+                         brace_k_answer_t *answer);
+
+/* Works out what has been asked, if it may and the tick before has not worked one out. At most 3,200 instructions. */
+void question_job_step(question_job_t *job, const question_inputs_t *inputs);
+
+/* What was asked is forgotten, because it belongs to parameters that are in force no longer; who asks again begins anew. */
+void question_job_forget(question_job_t *job);
+
+#endif

@@ -1,0 +1,340 @@
+/* Questions for K where the limb is not, on every port: under a force or under the weight alone, in turn and in time; and
+ * the direction of down, which the main computer sets. */
+#include "can_bench.h"
+#include "modbus_master.h"
+
+#define DOWN_RAD (-1.57079633f)
+
+enum {
+    ALL_PORTS_TICKS = 8, /* four ports ask at once */
+    LINE_TICKS = 3,      /* a request on the line: bytes and silence */
+    ASKED_THETA1 = 0x400c, ASKED_GRAVITY = 16418, ASKED_POSTURE_FORCE = 16422, ASKED_TIP_FORCE = 16430,
+    LOADED = 4128, TAKEN_GRAVITY = 4148 /* docs/modbus.md */
+};
+
+static brace_parameters_t parameters;
+
+static void start(void)
+{
+    bench_start(&parameters);
+    ticks(50);
+    drain();
+}
+
+void setUp(void)
+{
+    parameters = bench_parameters();
+    parameters.controller.modbus_address = UNIT;
+    parameters.gravity.femur_n = 2.0f;
+    parameters.gravity.tibia_n = 3.0f;
+    start();
+}
+
+void tearDown(void) {}
+
+static brace_loaded_stiffness_t expected(float theta1_rad, float theta2_rad, float x_n, float z_n)
+{
+    return equilibrium(&parameters, theta1_rad, theta2_rad, (brace_force_t){x_n, z_n}, (brace_vec_t){0.0f, -1.0f});
+}
+
+/* ----------------------------------------------------------------------------------------------- CAN -- */
+
+static void assert_told(const answer_t *answer, const brace_loaded_stiffness_t *k)
+{
+    brace_can_k_under_load_at_posture_answer_0_t a;
+    brace_can_k_under_load_at_posture_answer_3_t d;
+    brace_can_k_under_load_at_posture_answer_4_t e;
+    TEST_ASSERT_EQUAL(5, answer->count);
+    brace_can_unpack_k_under_load_at_posture_answer_0(answer->part[0], &a);
+    brace_can_unpack_k_under_load_at_posture_answer_3(answer->part[3], &d);
+    brace_can_unpack_k_under_load_at_posture_answer_4(answer->part[4], &e);
+    ASSERT_CLOSE(k->stiffness.k_xx_n_per_mm, a.k_xx_n_per_mm, 4e-4);
+    ASSERT_CLOSE(k->stiffness.k_xz_n_per_mm, a.k_xz_n_per_mm, 4e-4);
+    ASSERT_CLOSE(k->displacement.x_mm, d.dx_mm, 2e-3);
+    ASSERT_CLOSE(k->displacement.z_mm, d.dz_mm, 2e-3);
+    TEST_ASSERT_TRUE(isinf(k->buckling_factor) ? isinf(e.buckling_factor)
+                                               : fabsf(k->buckling_factor - e.buckling_factor) < 1e-2f);
+    TEST_ASSERT_EQUAL_HEX32(k->buckling_factor < 3.0f ? BRACE_FLAG_SOFTENED : 0u, e.flags);
+}
+
+static answer_t ask_for_force(float x_n, float z_n)
+{
+    uint8_t data[8];
+    brace_can_pack_tip_force_request(&(brace_can_tip_force_request_t){3, x_n, z_n}, data);
+    const answer_t answer = ask(data);
+    TEST_ASSERT_EQUAL(1, answer.count);
+    return answer;
+}
+
+static answer_t ask_under_load(float theta1_rad, float theta2_rad)
+{
+    uint8_t data[8];
+    brace_can_pack_k_under_load_at_posture_request(
+        &(brace_can_k_under_load_at_posture_request_t){4, theta1_rad, theta2_rad}, data);
+    return ask_within(data, K_TICKS);
+}
+
+static void test_K_under_a_force_over_CAN_and_the_force_is_used_up(void)
+{
+    static const float force_n[][2] = {{0.0f, 10.0f}, {-40.0f, 0.0f}, {5.0f, -3.0f}};
+    for (int i = 0; i < 3; i++) {
+        (void)ask_for_force(force_n[i][0], force_n[i][1]);
+        const brace_loaded_stiffness_t k = expected(0.8f, 1.2f, force_n[i][0], force_n[i][1]);
+        answer_t answer = ask_under_load(0.8f, 1.2f);
+        assert_told(&answer, &k);
+        answer = ask_under_load(0.8f, 1.2f); /* the force belonged to that question */
+        TEST_ASSERT_EQUAL(BRACE_REFUSED_ORDER, refusal_of(&answer, BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE).status);
+    }
+}
+
+static void test_at_a_tip_the_posture_is_the_one_before_the_load_moves_it(void)
+{
+    const double x = 185.0 * cos(0.7) + 313.5 * cos(0.7 - 1.2), z = 185.0 * sin(0.7) + 313.5 * sin(0.7 - 1.2);
+    uint8_t data[8];
+    (void)ask_for_force(0.0f, 8.0f);
+    brace_can_pack_k_under_load_at_tip_knee_up_request(
+        &(brace_can_k_under_load_at_tip_knee_up_request_t){4, (float)x, (float)z}, data);
+    const answer_t answer = ask_within(data, K_TICKS);
+    const brace_loaded_stiffness_t k = expected(0.7f, 1.2f, 0.0f, 8.0f);
+    assert_told(&answer, &k);
+}
+
+/* The old questions mean no force on the tip; the limb weighs all the same. */
+static void test_without_a_force_the_weight_counts(void)
+{
+    uint8_t data[8];
+    brace_can_k_at_posture_answer_0_t a;
+    brace_can_pack_k_at_posture_request(&(brace_can_k_at_posture_request_t){4, 0.8f, 1.2f}, data);
+    const answer_t answer = ask_within(data, K_TICKS);
+    TEST_ASSERT_EQUAL(3, answer.count);
+    brace_can_unpack_k_at_posture_answer_0(answer.part[0], &a);
+    const brace_loaded_stiffness_t k = expected(0.8f, 1.2f, 0.0f, 0.0f);
+    ASSERT_CLOSE(k.stiffness.k_xx_n_per_mm, a.k_xx_n_per_mm, 4e-4);
+    parameters.gravity.femur_n = parameters.gravity.tibia_n = 0.0f;
+    const brace_loaded_stiffness_t weightless = expected(0.8f, 1.2f, 0.0f, 0.0f);
+    TEST_ASSERT_TRUE(fabsf(weightless.stiffness.k_xx_n_per_mm - a.k_xx_n_per_mm) > 2e-3f);
+}
+
+static void test_a_force_that_folds_the_limb_or_is_none_is_refused(void)
+{
+    (void)ask_for_force(-300.0f, 0.0f);
+    answer_t answer = ask_under_load(1.0f, 1.4f);
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, refusal_of(&answer, BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE).status);
+    (void)ask_for_force(__builtin_nanf(""), 0.0f);
+    answer = ask_under_load(1.0f, 1.4f);
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, refusal_of(&answer, BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE).status);
+}
+
+/* -------------------------------------------------------------------------------------------- Modbus -- */
+
+static uint32_t write_of(uint32_t first, const float *values, uint32_t count, int32_t last, uint8_t *pdu)
+{
+    const uint32_t all = count + (last >= 0);
+    const uint8_t head[] = {16, (uint8_t)(first >> 8), (uint8_t)first, 0, (uint8_t)(2u * all), (uint8_t)(4u * all)};
+    memcpy(pdu, head, sizeof head);
+    for (uint32_t i = 0; i < all; i++) {
+        const uint32_t word = i < count ? bits(values[i]) : (uint32_t)last;
+        for (uint32_t j = 0; j < 4u; j++) {
+            pdu[sizeof head + 4u * i + j] = (uint8_t)(word >> (24u - 8u * j));
+        }
+    }
+    return (uint32_t)sizeof head + 4u * all;
+}
+
+typedef reply_t (*asks_t)(uint8_t unit, const uint8_t *pdu, uint32_t count);
+
+static void asked_over_modbus(asks_t asks)
+{
+    const double x = 185.0 * cos(0.7) + 313.5 * cos(0.7 - 1.2), z = 185.0 * sin(0.7) + 313.5 * sin(0.7 - 1.2);
+    const float at_posture[] = {0.0f, 10.0f, 0.8f, 1.2f}, at_tip[] = {-6.0f, 3.0f, (float)x, (float)z};
+    const uint8_t read[] = {4, LOADED >> 8, LOADED & 0xff, 0, 20};
+    for (int tip = 0; tip < 2; tip++) {
+        uint8_t pdu[64];
+        const uint32_t count = tip ? write_of(ASKED_TIP_FORCE, at_tip, 4, 0, pdu)
+                                   : write_of(ASKED_POSTURE_FORCE, at_posture, 4, -1, pdu);
+        TEST_ASSERT_EQUAL(5, asks(UNIT, pdu, count).count);
+        const reply_t told = asks(UNIT, read, sizeof read);
+        const brace_loaded_stiffness_t k =
+            tip ? expected(0.7f, 1.2f, -6.0f, 3.0f) : expected(0.8f, 1.2f, 0.0f, 10.0f);
+        ASSERT_CLOSE(k.stiffness.k_xx_n_per_mm, float_at(&told, 0), 1e-4);
+        ASSERT_CLOSE(k.stiffness.k_zz_n_per_mm, float_at(&told, 2), 1e-4);
+        ASSERT_CLOSE(k.displacement.x_mm, float_at(&told, 6), 1e-3);
+        ASSERT_CLOSE(k.displacement.z_mm, float_at(&told, 7), 1e-3);
+        TEST_ASSERT_EQUAL_FLOAT(k.buckling_factor, float_at(&told, 8));
+    }
+}
+
+static void test_K_under_a_force_over_the_line_and_over_TCP(void)
+{
+    asked_over_modbus(line_asks);
+    asked_over_modbus(tcp_asks);
+}
+
+/* --------------------------------------------------------------------------------- all ports at once -- */
+
+static void as_text(const uint8_t data[8])
+{
+    char line[40];
+    uint32_t at = (uint32_t)snprintf(line, sizeof line, "t%03X8", 0x600u + NODE);
+    for (uint32_t i = 0; i < 8u; i++) {
+        at += (uint32_t)snprintf(line + at, sizeof line - at, "%02X", data[i]);
+    }
+    line[at++] = '\r';
+    TEST_ASSERT_EQUAL(at, brace_fake_bytes_arrive(&fake, BRACE_SERIAL_SLCAN, (const uint8_t *)line, at));
+}
+
+static uint32_t heard_on(brace_serial_port_t port)
+{
+    uint8_t bytes[600];
+    return brace_fake_bytes_take(&fake, port, bytes, sizeof bytes);
+}
+
+static void test_four_ports_that_ask_at_once_are_answered_within_eight_ticks(void)
+{
+    TEST_ASSERT_EQUAL(2, brace_fake_bytes_arrive(&fake, BRACE_SERIAL_SLCAN, (const uint8_t *)"O\r", 2));
+    ticks(3);
+    for (int turn = 0; turn < 200; turn++) {
+        const float theta_rad[] = {0.3f + 0.004f * (float)turn, 1.2f};
+        uint8_t data[8], pdu[32], adu[40] = {0, 1, 0, 0, 0, 0, UNIT}, frame[40] = {UNIT};
+        brace_can_pack_k_at_posture_request(&(brace_can_k_at_posture_request_t){1, theta_rad[0], theta_rad[1]}, data);
+        const uint32_t count = write_of(ASKED_THETA1, theta_rad, 2, -1, pdu);
+        memcpy(frame + 1, pdu, count);
+        const uint32_t crc = crc_by_bits(frame, count + 1u);
+        frame[count + 1u] = (uint8_t)crc;
+        frame[count + 2u] = (uint8_t)(crc >> 8);
+        line_says(frame, count + 3u);
+        ticks(LINE_TICKS - 1 + turn % 2); /* the line's request ends with silence: all are whole about now */
+        memcpy(adu + 7, pdu, count);
+        adu[5] = (uint8_t)(count + 1u);
+        TEST_ASSERT_EQUAL(count + 7u, brace_fake_bytes_arrive(&fake, BRACE_SERIAL_MODBUS_TCP, adu, count + 7u));
+        arrives(0x600u + NODE, data, 8);
+        as_text(data);
+        (void)heard_on(BRACE_SERIAL_SLCAN);
+        bool answered[4] = {false};
+        for (int i = 0; i <= ALL_PORTS_TICKS; i++) { /* the first tick takes them */
+            answer_t answer = {0};
+            ticks(1);
+            collect(&answer);
+            answered[0] = answered[0] || answer.count == 3;
+            answered[1] = answered[1] || heard_on(BRACE_SERIAL_SLCAN) > 3u * 20u;
+            answered[2] = answered[2] || heard_on(BRACE_SERIAL_MODBUS) == 8u;
+            answered[3] = answered[3] || heard_on(BRACE_SERIAL_MODBUS_TCP) == 12u;
+        }
+        TEST_ASSERT_TRUE(answered[0] && answered[1] && answered[2] && answered[3]);
+    }
+}
+
+/* A tick that works a K out leaves requests to the next one, and no two such ticks follow one another. */
+static void test_other_requests_wait_for_one_tick_at_most(void)
+{
+    TEST_ASSERT_EQUAL(2, brace_fake_bytes_arrive(&fake, BRACE_SERIAL_SLCAN, (const uint8_t *)"O\r", 2));
+    ticks(3);
+    for (int turn = 0; turn < 200; turn++) {
+        uint8_t k[8], entry[8];
+        brace_can_pack_k_at_posture_request(&(brace_can_k_at_posture_request_t){1, 0.8f, 1.2f}, k);
+        brace_can_pack_read_entry_request(&(brace_can_read_entry_request_t){9, BRACE_ENTRY_MEASURED}, entry);
+        as_text(k);
+        ticks(turn % 3);
+        drain();
+        TEST_ASSERT_EQUAL(1, ask_within(entry, 2).count);
+        ticks(4);
+        (void)heard_on(BRACE_SERIAL_SLCAN);
+    }
+}
+
+/* Who does not come back for its answer blocks nobody. */
+static void test_a_port_that_is_closed_loses_its_question(void)
+{
+    uint8_t data[8];
+    TEST_ASSERT_EQUAL(2, brace_fake_bytes_arrive(&fake, BRACE_SERIAL_SLCAN, (const uint8_t *)"O\r", 2));
+    ticks(3);
+    brace_can_pack_k_at_posture_request(&(brace_can_k_at_posture_request_t){1, 0.8f, 1.2f}, data);
+    as_text(data);
+    ticks(1);
+    const brace_k_question_t question = {.where = BRACE_K_AT_POSTURE, .theta_rad = {0.0f, 0.5f, 1.0f}};
+    brace_k_answer_t answer;
+    TEST_ASSERT_EQUAL(BRACE_APP_LATER, brace_app_ask_k(&app, BRACE_ASKER_PROGRAM, &question, &answer));
+    ticks(10); /* the program has gone: its question is dropped, and the port has its answer */
+    TEST_ASSERT_TRUE(heard_on(BRACE_SERIAL_SLCAN) > 60u);
+    TEST_ASSERT_EQUAL(BRACE_APP_LATER, brace_app_ask_k(&app, BRACE_ASKER_PROGRAM, &question, &answer));
+    ticks(2);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_ask_k(&app, BRACE_ASKER_PROGRAM, &question, &answer));
+    const brace_loaded_stiffness_t k = expected(0.5f, 1.0f, 0.0f, 0.0f);
+    ASSERT_CLOSE(k.stiffness.k_xx_n_per_mm, answer.k.k_xx_n_per_mm, 1e-4);
+}
+
+/* ---------------------------------------------------------------------------------- where down is -- */
+
+static void assert_down(float direction_rad, float lean_rad)
+{
+    fake.force_x_n = 1.0f;
+    fake.force_z_n = 6.0f;
+    ticks(2);
+    drain();
+    const brace_vec_t down = {(float)(cos((double)lean_rad) * cos((double)direction_rad)),
+                              (float)(cos((double)lean_rad) * sin((double)direction_rad))};
+    const brace_loaded_stiffness_t k = equilibrium(&parameters, 1.0f, 1.4f, (brace_force_t){1.0f, 6.0f}, down);
+    ASSERT_CLOSE(k.stiffness.k_zz_n_per_mm, now()->stiffness.now.k_zz_n_per_mm, 1e-5);
+    ASSERT_CLOSE(k.displacement.x_mm, now()->load.moved_x_mm, 1e-3);
+    ASSERT_CLOSE(direction_rad, now()->gravity_direction_rad, 1e-6);
+    ASSERT_CLOSE(lean_rad, now()->gravity_lean_rad, 1e-6);
+}
+
+static answer_t set_gravity(float direction_rad, float lean_rad)
+{
+    uint8_t data[8];
+    brace_can_pack_set_gravity_request(&(brace_can_set_gravity_request_t){5, direction_rad, lean_rad}, data);
+    return ask(data);
+}
+
+static void test_the_main_computer_sets_where_down_is_until_the_next_start(void)
+{
+    const float unknown = __builtin_nanf("");
+    brace_can_set_gravity_answer_0_t told;
+    assert_down(DOWN_RAD, 0.0f);
+    answer_t answer = set_gravity(0.4f, -0.3f);
+    brace_can_unpack_set_gravity_answer_0(answer.part[0], &told);
+    ASSERT_CLOSE(0.4, told.direction_rad, 1e-6);
+    ASSERT_CLOSE(-0.3, told.lean_rad, 1e-6);
+    assert_down(0.4f, -0.3f);
+    answer = set_gravity(4.0f, 0.0f);
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, refusal_of(&answer, BRACE_REQUEST_SET_GRAVITY).status);
+    answer = set_gravity(unknown, 0.0f);
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, refusal_of(&answer, BRACE_REQUEST_SET_GRAVITY).status);
+    assert_down(0.4f, -0.3f);
+    (void)set_gravity(unknown, unknown); /* the parameters' own again */
+    assert_down(DOWN_RAD, 0.0f);
+    (void)set_gravity(0.4f, -0.3f);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    ticks(50);
+    assert_down(DOWN_RAD, 0.0f);
+}
+
+static void test_down_is_set_over_Modbus_too(void)
+{
+    const float values[] = {2.0f, 0.5f};
+    const uint8_t read[] = {4, TAKEN_GRAVITY >> 8, TAKEN_GRAVITY & 0xff, 0, 4};
+    uint8_t pdu[32];
+    const uint32_t count = write_of(ASKED_GRAVITY, values, 2, -1, pdu);
+    TEST_ASSERT_EQUAL(5, line_asks(UNIT, pdu, count).count);
+    const reply_t told = line_asks(UNIT, read, sizeof read);
+    ASSERT_CLOSE(2.0, float_at(&told, 0), 1e-6);
+    ASSERT_CLOSE(0.5, float_at(&told, 1), 1e-6);
+    assert_down(2.0f, 0.5f);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_K_under_a_force_over_CAN_and_the_force_is_used_up);
+    RUN_TEST(test_at_a_tip_the_posture_is_the_one_before_the_load_moves_it);
+    RUN_TEST(test_without_a_force_the_weight_counts);
+    RUN_TEST(test_a_force_that_folds_the_limb_or_is_none_is_refused);
+    RUN_TEST(test_K_under_a_force_over_the_line_and_over_TCP);
+    RUN_TEST(test_four_ports_that_ask_at_once_are_answered_within_eight_ticks);
+    RUN_TEST(test_other_requests_wait_for_one_tick_at_most);
+    RUN_TEST(test_a_port_that_is_closed_loses_its_question);
+    RUN_TEST(test_the_main_computer_sets_where_down_is_until_the_next_start);
+    RUN_TEST(test_down_is_set_over_Modbus_too);
+    return UNITY_END();
+}
