@@ -126,7 +126,8 @@ def loaded_reference(model: Model, theta1_rad: float, theta2_rad: float, *, disp
     given = np.atleast_2d(np.asarray(force_n if by_force else displacement_mm, dtype=np.float64))
     names = ("fx_n", "fz_n") if by_force else ("dx_mm", "dz_mm")
     cases = ffi.new("brace_loaded_case_t[]", [
-        {"theta1_rad": theta1_rad, "theta2_rad": theta2_rad, "gravity_rad": -np.pi / 2, names[0]: x, names[1]: z}
+        {"theta1_rad": theta1_rad, "theta2_rad": theta2_rad, "gravity_rad": model["gravity.direction_rad"],
+         names[0]: x, names[1]: z}
         for x, z in given])
     results = ffi.new("brace_loaded_result_t[]", len(given))
     solve = lib.brace_reference_under_force if by_force else lib.brace_reference_under_displacement

@@ -14,6 +14,7 @@ STROKES_MM = (0.1, 2.54, 20.0)
 BEAMS = {"link.femur.moment_transfer": 1.0, "link.tibia.moment_transfer": 1.0}
 NO_BEAMS = {"link.femur.moment_transfer": 0.0, "link.tibia.moment_transfer": 0.0}
 WEIGHTS = {"gravity.femur_n": 3.0, "gravity.tibia_n": 4.0, "gravity.knee_n": 2.0}
+ON_A_WALL = WEIGHTS | {"gravity.direction_rad": 2.7}
 RESOLUTION_N, RANGE_N = 0.0625, 145.0  # of the paper's force sensor
 
 
@@ -51,7 +52,7 @@ def finite(model: Model, pose: tuple[float, float], d: Any, **how: Any) -> dict[
 # ----------------------------------------------------------------------------------------- the reference --
 
 
-@pytest.mark.parametrize("weights", [{}, WEIGHTS], ids=["weightless", "weights"])
+@pytest.mark.parametrize("weights", [{}, WEIGHTS, ON_A_WALL], ids=["weightless", "weights", "on a wall"])
 @pytest.mark.parametrize("seed", range(12))
 def test_ellipsoids_are_the_references(seed: int, weights: dict[str, float]) -> None:
     """Without beams both have the same springs: rest states agree to what both promise, 1e-9 N and 1e-9 mm."""
@@ -72,12 +73,25 @@ def test_ellipsoids_are_the_references(seed: int, weights: dict[str, float]) -> 
                                    rtol=0.0, atol=1e-9)
 
 
+def test_a_leaning_plane_bears_a_part_of_the_weights() -> None:
+    """Leaning by 1 rad it feels cos(1) of them."""
+    share = float(np.cos(1.0))
+    leaning = limb(PAPER | ON_A_WALL | {"gravity.lean_rad": 1.0})
+    lighter = limb(PAPER | ON_A_WALL | {key: share * value for key, value in WEIGHTS.items()})
+    d = np.array([[0.0, 0.0], [1.0, -0.5]])
+    for small in (False, True):
+        forces = [read(play(model, 1.0, 1.4, d[:, 0], d[:, 1], small=small), "fx_n", "fz_n")
+                  for model in (leaning, lighter)]
+        np.testing.assert_allclose(forces[0], forces[1], atol=1e-9)
+        assert np.abs(forces[0][0]).max() > 0.5
+
+
 def paper_like(draw: np.random.Generator) -> dict[str, float]:
     """The paper's limb, each compliance up to 2.5 times more or less."""
     return {key: value * 10.0 ** draw.uniform(-0.4, 0.4) for key, value in PAPER.items()}
 
 
-@pytest.mark.parametrize("weights", [{}, WEIGHTS], ids=["weightless", "weights"])
+@pytest.mark.parametrize("weights", [{}, WEIGHTS, ON_A_WALL], ids=["weightless", "weights", "on a wall"])
 @pytest.mark.parametrize("seed", range(10))
 def test_beams_are_the_references(seed: int, weights: dict[str, float]) -> None:
     """As far as the rig can measure: a beam of parts leaves a fifth of the sensor's resolution at the paper's stroke,
