@@ -37,6 +37,15 @@ def test_faults_of_the_table(demo: tuple[Path, str]) -> None:
     assert facts["not_strictly_convex_r_mm"] == [222, 236, 276, 320]
 
 
+def test_a_weight_changes_k_and_the_controller_tells_it(demo: tuple[Path, str]) -> None:
+    """The reference judges what the controller tells; without the load K would be a quarter off under 20 N."""
+    facts = json.loads((demo[0] / "facts.json").read_text())
+    for hung in facts["weights"]:
+        assert hung["told_off"] < 0.006  # what brace/loaded.h promises
+    assert facts["weights"][-1]["weight_n"] == 20.0 and facts["weights"][-1]["unloaded_off"] > 0.2
+    assert "A weight hangs on the limb" in demo[1]
+
+
 def test_zero_force_shift_is_gap_times_lever(demo: tuple[Path, str]) -> None:
     """20 arcmin at both joints, 70 and 50 degrees: the levers along z are the x parts of tip and tibia."""
     facts = json.loads((demo[0] / "facts.json").read_text())

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from brace.dataset.write import csv_text
-from brace.demo import contact, cyclic, paper_table, postures, wire_loop
+from brace.demo import contact, cyclic, paper_table, postures, weight, wire_loop
 from brace.demo.band import band
 from brace.identify import report
 from brace.model import LimbModel, load_limb
@@ -55,7 +55,9 @@ def tell(story: Story, advance: Advance) -> Iterator[str]:
     yield from _cyclic(story, load_limb(paper_table.DATA / "paper-limb.toml"))
     yield "6. Choice of stiffness for a foot on a ledge (Fig. 2) -> contact.png"
     yield from _contact(story, table.limb, table.tip_height_mm)
-    yield "7. The loop over the wire: a controller whose model lacks something, tested, diagnosed, mended -> wire/"
+    yield "7. A weight hangs on the limb: K that the controller tells, the limb's own, and K without the load [N/mm]"
+    yield from _weight(story, load_limb(paper_table.DATA / "paper-limb.toml"))
+    yield "8. The loop over the wire: a controller whose model lacks something, tested, diagnosed, mended -> wire/"
     yield from _wire(story)
 
 
@@ -127,6 +129,24 @@ def _contact(story: Story, model: LimbModel, height_mm: float) -> Iterator[str]:
     for stand in (firm, loose):
         yield (f"   foot at r = {stand.r_mm:.0f} mm: the ledge pushes with ({stand.force_n[0]:+.2f}, "
                f"{stand.force_n[1]:+.2f}) N; {'holds' if stand.holds else 'slides'}, margin {stand.margin_n:+.2f} N")
+
+
+def _weight(story: Story, model: LimbModel) -> Iterator[str]:
+    hung = [weight.hang(model, weight_n) for weight_n in weight.WEIGHTS_N]
+    story.facts["weights"] = [
+        {"weight_n": each.weight_n, "sag_mm": each.sag_mm, "told_n_per_mm": each.told, "truth_n_per_mm": each.truth,
+         "unloaded_n_per_mm": each.unloaded, "told_off": each.off(each.told), "unloaded_off": each.off(each.unloaded)}
+        for each in hung
+    ]
+    theta1, theta2 = weight.POSTURE_RAD
+    posture = f"(theta1 = {theta1:g}, theta2 = {theta2:g} rad)"
+    yield f"   weight    sags by                    k_xx     k_xz     k_zz    off by   {posture}"
+    for each in hung:
+        head = f"   {each.weight_n:4.0f} N  {each.sag_mm:6.1f} mm"
+        for words, k in (("told", each.told), ("the limb's own", each.truth), ("without load", each.unloaded)):
+            off = "" if k is each.truth else f"   {each.off(k):7.3%}"
+            yield f"{head:20}  {words:15}" + "".join(f" {entry:8.3f}" for entry in k) + off
+            head = ""
 
 
 def _wire(story: Story) -> Iterator[str]:
