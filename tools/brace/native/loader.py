@@ -26,6 +26,7 @@ FIRMWARE_HEADERS = (
     "spatial.h",
     "loaded.h",
     "loaded_batch.h",
+    "loaded_space.h",
     "kinematics_batch.h",
     "uncertainty.h",
     "slope.h",

@@ -10,44 +10,36 @@
 #include "base/fma.h"
 #include "base/inline.h"
 
-#define BUCKLING_STEPS 3
 #define HIGHEST_FACTOR 16.0f
 
-/* Three multiples of the load and the determinants there: the highest one known to be unstable, 0 where none is. */
+/* The limb with its load taken some times: the product of its pivots, and whether all are positive. */
 typedef struct {
-    float before, low, high, at_before, at_low, at_high;
-} buckling_t;
+    float determinant;
+    bool is_stable;
+} softened_t;
 
-/* determinant: under the present load. Without a load every pivot is 1. */
-INLINE buckling_t buckling_from(float determinant)
+/* softened: what it tells of the limb at a multiple of the load. determinant_now: at the present load. */
+INLINE float buckling_factor_of(softened_t (*softened)(const void *limb, float times), const void *limb,
+                                float determinant_now)
 {
-    return (buckling_t){.low = 1.0f, .high = HIGHEST_FACTOR, .at_before = 1.0f, .at_low = determinant};
-}
-
-INLINE float buckling_middle(const buckling_t *search, int step)
-{
-    static const float ratio[BUCKLING_STEPS] = {4.0f, 2.0f, 1.41421356f};
-    return search->low * ratio[step];
-}
-
-INLINE void buckling_narrow(buckling_t *search, float middle, float determinant, bool is_stable)
-{
-    if (is_stable) {
-        search->before = search->low, search->at_before = search->at_low;
-        search->low = middle, search->at_low = determinant;
-    } else {
-        search->high = middle, search->at_high = determinant;
+    static const float ratio[] = {4.0f, 2.0f, 1.41421356f};
+    float before = 0.0f, low = 1.0f, high = HIGHEST_FACTOR;
+    float at_before = 1.0f, at_low = determinant_now, at_high = 0.0f; /* no load: every pivot is 1 */
+    for (int i = 0; i < 3; i++) {
+        const float middle = low * ratio[i];
+        const softened_t now = softened(limb, middle);
+        if (now.is_stable) {
+            before = low, at_before = at_low;
+            low = middle, at_low = now.determinant;
+        } else {
+            high = middle, at_high = now.determinant;
+        }
     }
-}
-
-INLINE float buckling_root(const buckling_t *search)
-{
-    const float before = search->before, low = search->low, high = search->high;
-    if (!(search->at_high < 0.0f)) {
+    if (!(at_high < 0.0f)) {
         return high < HIGHEST_FACTOR ? 0.5f * (low + high) : INFINITY;
     }
-    const float chord = (search->at_high - search->at_low) / (high - low), root = low - search->at_low / chord;
-    const float bend = ((search->at_before - search->at_low) / (before - low) - chord) / (before - high);
+    const float chord = (at_high - at_low) / (high - low), root = low - at_low / chord;
+    const float bend = ((at_before - at_low) / (before - low) - chord) / (before - high);
     const float off = bend * (root - low) * (root - high), slope = brace_fma(bend, (root - low) + (root - high), chord);
     return root - off / slope;
 }

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/check.h"
+#include "base/eigen.h"
 #include "loaded/buckling.h"
 #include "loaded/space_sum.h"
 
@@ -12,6 +13,7 @@
 #define LINKS_RAD2 1.44f      /* and of links, which turn half way on either side */
 #define JOINT_TURN_RAD 1.5f /* sine and cosine of base/trig.h hold up to pi/2 */
 #define FORCE_MOST_N 1e4f
+#define SLENDER 1e-4f /* least over largest eigenvalue; below it the accuracy is not promised */
 
 /* The limb's plane's frame, x outwards, y to the left, z up, as the coxa's frame at rest: x outwards, y up, z to the
  * right; and back. */
@@ -98,17 +100,6 @@ static bool is_within(const brace_space_pose_t *pose)
            fabsf(brace_fma(0.5f, pose->femur.z + pose->tibia.z, pose->knee)) <= JOINT_TURN_RAD;
 }
 
-/* The rest's load taken so many times, its shape held. */
-static void take_load(brace_space_rest_t *rest, float times)
-{
-    brace_space_bent_t *const bent[] = {&rest->coxa, &rest->femur, &rest->tibia};
-    for (int i = 0; i < 3; i++) {
-        bent[i]->beyond_n = vec3_scaled(bent[i]->beyond_n, times);
-        bent[i]->own_n = vec3_scaled(bent[i]->own_n, times);
-    }
-    rest->whole_n = vec3_scaled(rest->whole_n, times);
-}
-
 /* --- K -------------------------------------------------------------------------------------------------------- */
 
 /* C^-1 by its cofactors. returns det C */
@@ -142,7 +133,7 @@ brace_status_t brace_loaded_space_in_plane(const brace_loaded_space_t *loaded, f
     rest->knee_rad_per_n_mm = load->knee.slope_rad_per_n_mm;
     find_rest(loaded, &commanded, load, tip_n, down, rest);
     freedoms_t free;
-    const pivots_t pivots = eliminate_limb(loaded, rest, &free);
+    const pivots_t pivots = eliminate_limb(loaded, rest, false, &free);
     if (!(is_stable(&pivots) && pivots.product > SINGULAR) || !is_within(&rest->pose)) {
         return BRACE_E_SINGULAR;
     }
@@ -168,16 +159,74 @@ brace_status_t brace_loaded_space_in_plane(const brace_loaded_space_t *loaded, f
     return BRACE_OK;
 }
 
+/* The axis points outwards in the limb's plane, or to the left where it is across it. */
+static brace_vec3_t outwards_axis(brace_vec3_t axis)
+{
+    const float across = 1e-4f * axis.y; /* decides only where rounding would */
+    const float sign = axis.x + across < 0.0f ? -1.0f : 1.0f;
+    return (brace_vec3_t){sign * axis.x, sign * axis.y, sign * axis.z};
+}
+
+brace_status_t brace_loaded_space_turn(float theta0_rad, const brace_k3_t *k, brace_stiffness_spatial_t *stiffness)
+{
+    const brace_status_t status = brace_check_magnitude(theta0_rad, BRACE_ANGLE_LIMIT_RAD);
+    if (status != BRACE_OK) {
+        return status;
+    }
+    brace_jacobi_t m = {.xx = k->xx_n_per_mm, .xy = k->xy_n_per_mm, .xz = k->xz_n_per_mm,
+                        .yy = k->yy_n_per_mm, .yz = k->yz_n_per_mm, .zz = k->zz_n_per_mm};
+    brace_jacobi(&m);
+    const bool x_is_less = m.xx < m.yy;
+    const float low = x_is_less ? m.xx : m.yy, high = x_is_less ? m.yy : m.xx;
+    if (!(low > 0.0f && m.zz > 0.0f && high <= FLT_MAX && m.zz <= FLT_MAX)) {
+        return BRACE_E_SINGULAR;
+    }
+    const float least = m.zz < low ? m.zz : low, most = m.zz > high ? m.zz : high;
+    const brace_vec3_t axis = outwards_axis(m.zz > high ? m.z : x_is_less ? m.y : m.x);
+    const brace_vec_t yaw = brace_direction(theta0_rad);
+    sym3_t turned = {k->xx_n_per_mm, k->xy_n_per_mm, k->xz_n_per_mm,
+                     k->yy_n_per_mm, k->yz_n_per_mm, k->zz_n_per_mm};
+    sym3_about_z(&turned, yaw);
+    const vec3_t turned_axis = about_z(axis, yaw);
+    *stiffness = (brace_stiffness_spatial_t){
+        .k_xx_n_per_mm = turned.xx, .k_xy_n_per_mm = turned.xy, .k_xz_n_per_mm = turned.xz,
+        .k_yy_n_per_mm = turned.yy, .k_yz_n_per_mm = turned.yz, .k_zz_n_per_mm = turned.zz,
+        .lambda_n_per_mm = {least, m.zz < low ? low : m.zz > high ? high : m.zz, most},
+        .stiff_axis = {turned_axis.x, turned_axis.y, turned_axis.z},
+        .flags = least < SLENDER * most ? BRACE_FLAG_NEAR_SINGULAR : 0u};
+    return BRACE_OK;
+}
+
+/* --- buckling ------------------------------------------------------------------------------------------------- */
+
+/* With the load taken so many times, the shape held. */
+static pivots_t pivots_at(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest, float times)
+{
+    brace_space_rest_t more = *rest;
+    brace_space_bent_t *const bent[] = {&more.coxa, &more.femur, &more.tibia};
+    for (int i = 0; i < 3; i++) {
+        bent[i]->beyond_n = vec3_scaled(bent[i]->beyond_n, times);
+        bent[i]->own_n = vec3_scaled(bent[i]->own_n, times);
+    }
+    more.whole_n = vec3_scaled(rest->whole_n, times);
+    freedoms_t free;
+    return eliminate_limb(loaded, &more, true, &free);
+}
+
+typedef struct {
+    const brace_loaded_space_t *loaded;
+    const brace_space_rest_t *rest;
+} stance_t;
+
+static softened_t softened(const void *limb, float times)
+{
+    const stance_t *stance = limb;
+    const pivots_t p = pivots_at(stance->loaded, stance->rest, times);
+    return (softened_t){p.product, is_stable(&p)};
+}
+
 float brace_loaded_space_buckling_factor(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest)
 {
-    freedoms_t free;
-    buckling_t search = buckling_from(eliminate_limb(loaded, rest, &free).product);
-    for (int i = 0; i < BUCKLING_STEPS; i++) {
-        const float middle = buckling_middle(&search, i);
-        brace_space_rest_t more = *rest;
-        take_load(&more, middle);
-        const pivots_t p = eliminate_limb(loaded, &more, &free);
-        buckling_narrow(&search, middle, p.product, is_stable(&p));
-    }
-    return buckling_root(&search);
+    const stance_t stance = {loaded, rest};
+    return buckling_factor_of(softened, &stance, pivots_at(loaded, rest, 1.0f).product);
 }

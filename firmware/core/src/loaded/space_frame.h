@@ -50,7 +50,8 @@ INLINE float vec3_dot(vec3_t a, vec3_t b)
 
 INLINE vec3_t vec3_cross(vec3_t a, vec3_t b)
 {
-    return vec3(brace_fma(a.y, b.z, -(a.z * b.y)), brace_fma(a.z, b.x, -(a.x * b.z)), brace_fma(a.x, b.y, -(a.y * b.x)));
+    return vec3(brace_fma(a.y, b.z, -(a.z * b.y)), brace_fma(a.z, b.x, -(a.x * b.z)),
+                brace_fma(a.x, b.y, -(a.y * b.x)));
 }
 
 /* sum of the axes, each times the vector's part along it */

@@ -1,7 +1,7 @@
 /* At the equilibrium in space: the limb's matrix, eliminated from the tip to the base, and C.
  *
- * C is a sum of one vector for each eliminated coordinate and each spring. The springs at a link's end take no part in
- * the elimination: what the load softens there is below a thousandth.
+ * C is a sum of one vector for each eliminated coordinate and each spring. What the load softens at a link's end
+ * springs grows with its square: K does without it, the buckling factor does not.
  */
 #ifndef BRACE_CORE_SPACE_SUM_H
 #define BRACE_CORE_SPACE_SUM_H
@@ -76,9 +76,9 @@ INLINE freedom_t eliminate_joint(held_t *held, float rad_per_n_mm, pivots_t *piv
     return eliminate(held, row, r.zz, rad_per_n_mm, pivots);
 }
 
-/* is_last: nothing lies beyond the link. */
+/* is_last: nothing lies beyond the link. springs_soften: what the load softens at its end's springs counts. */
 INLINE void eliminate_link(const brace_space_link_t *link, vec3_t turn, const brace_space_bent_t *bent, bool is_last,
-                           held_t *held, link_freedoms_t *free, pivots_t *pivots)
+                           bool springs_soften, held_t *held, link_freedoms_t *free, pivots_t *pivots)
 {
     const vec3_t f = bent->beyond_n, chord_f = vec3_plus_scaled(f, bent->own_n, 0.5f);
     const vec3_t m = held->moment_n_mm, chord_n_mm = vec3_cross(bent->chord_mm, chord_f);
@@ -102,7 +102,7 @@ INLINE void eliminate_link(const brace_space_link_t *link, vec3_t turn, const br
     own.zz = brace_fma(brace_fma(-2.0f, link->bow_mm.z, -by_bend.x), f.y, own.zz);
     const sym3_t q = sym3_plus_scaled(r, chord, 0.5f);
     const vec3_t half_m = vec3_scaled(vec3_plus_scaled(m, chord_n_mm, 0.5f), 0.5f);
-    const vec3_t x = vec3(q.xx, q.xy + half_m.z, q.xz - half_m.y);
+    vec3_t x = vec3(q.xx, q.xy + half_m.z, q.xz - half_m.y);
     vec3_t y = vec3(q.xy - half_m.z, brace_fma(by_sideways, f.z, q.yy), brace_fma(-by_sideways, f.y, q.yz + half_m.x));
     vec3_t z = vec3(brace_fma(-by_bend.z, f.z, q.xz + half_m.y), brace_fma(by_bend.x, f.z, q.yz - half_m.x),
                     brace_fma(-by_bend.x, f.y, brace_fma(by_bend.z, f.x, q.zz)));
@@ -113,20 +113,33 @@ INLINE void eliminate_link(const brace_space_link_t *link, vec3_t turn, const br
     held->resists = sym3_plus_scaled(r, chord, 1.0f);
     held->moment_n_mm = vec3_plus(m, chord_n_mm);
 
-    const float half_share = link->end_share + 0.5f, curled_n = link->curl_per_mm * m.x;
-    free->across.yields = link->across_mm_per_n;
-    free->across.follows = vec3_scaled(vec3_cross(f, bent->across), -link->across_mm_per_n);
-    free->by_across = vec3_scaled(free->across.follows, half_share);
-    free->sideways.yields = link->sideways_mm_per_n;
-    free->sideways.follows = vec3_scaled(
-        vec3(f.y, brace_fma(f.z, bent->sideways.x, -f.x), -(f.y * bent->sideways.x)), -link->sideways_mm_per_n);
-    free->by_sideways = vec3_scaled(free->sideways.follows, half_share);
+    const float share = link->end_share + 0.5f, curled_n = link->curl_per_mm * m.x;
+    const vec3_t across = vec3_cross(f, bent->across);
+    const vec3_t sideways = vec3(f.y, brace_fma(f.z, bent->sideways.x, -f.x), -(f.y * bent->sideways.x));
+    free->across = (freedom_t){vec3_scaled(across, -link->across_mm_per_n), link->across_mm_per_n};
+    free->sideways = (freedom_t){vec3_scaled(sideways, -link->sideways_mm_per_n), link->sideways_mm_per_n};
+    free->by_across = vec3_scaled(free->across.follows, share);
     free->by_across.y = brace_fma(-link->across_mm_per_n, curled_n, free->by_across.y);
+    free->by_sideways = vec3_scaled(free->sideways.follows, share);
     free->by_sideways.z = brace_fma(-link->sideways_mm_per_n, curled_n, free->by_sideways.z);
+    if (springs_soften) {
+        const vec3_t own_across = vec3(share * across.x, brace_fma(share, across.y, curled_n), share * across.z);
+        const vec3_t own_sideways = vec3(share * sideways.x, share * sideways.y,
+                                         brace_fma(share, sideways.z, curled_n));
+        own.yy = brace_fma(-link->across_spread_per_n_mm * m.x, m.x, own.yy);
+        own.zz = brace_fma(-link->sideways_spread_per_n_mm * m.x, m.x, own.zz);
+        sym3_add(&own, own_across, free->by_across);
+        sym3_add(&own, own_sideways, free->by_sideways);
+        sym3_add(&held->resists, across, free->across.follows);
+        sym3_add(&held->resists, sideways, free->sideways.follows);
+        x = vec3_plus_scaled(vec3_plus_scaled(x, across, free->by_across.x), sideways, free->by_sideways.x);
+        y = vec3_plus_scaled(vec3_plus_scaled(y, across, free->by_across.y), sideways, free->by_sideways.y);
+        z = vec3_plus_scaled(vec3_plus_scaled(z, across, free->by_across.z), sideways, free->by_sideways.z);
+    }
 
     if (!is_last) {
-        const float twist = brace_fma(link->across_spread_per_n * turn.y, turn.y,
-                                      brace_fma(link->sideways_spread_per_n * turn.z, turn.z, link->twist_rad_per_n_mm));
+        float twist = brace_fma(link->sideways_spread_per_n_mm * turn.z, turn.z, link->twist_rad_per_n_mm);
+        twist = brace_fma(link->across_spread_per_n_mm * turn.y, turn.y, twist);
         free->x = eliminate(held, x, own.xx, twist, pivots);
         free->y_by_x = -(free->x.yields * own.xy);
         free->z_by_x = -(free->x.yields * own.xz);
@@ -154,25 +167,26 @@ INLINE void held_about_y(held_t *held, brace_vec_t turn)
     held->moment_n_mm = about_y(held->moment_n_mm, turn);
 }
 
-static pivots_t eliminate_limb(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest, freedoms_t *free)
+INLINE pivots_t eliminate_limb(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest, bool springs_soften,
+                               freedoms_t *free)
 {
     const brace_space_turns_t *turns = &rest->turns;
     const brace_space_pose_t *pose = &rest->pose;
     held_t held = {{0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
     pivots_t pivots = {0u, 1.0f};
-    eliminate_link(&loaded->tibia, pose->tibia, &rest->tibia, true, &held, &free->tibia, &pivots);
+    eliminate_link(&loaded->tibia, pose->tibia, &rest->tibia, true, springs_soften, &held, &free->tibia, &pivots);
     held_about_y(&held, turns->tibia_y);
     free->knee = eliminate_joint(&held, rest->knee_rad_per_n_mm, &pivots);
     held_about_z(&held, turns->knee);
     held_about_y(&held, turns->femur_y);
     held_about_x(&held, turns->femur_x);
-    eliminate_link(&loaded->femur, pose->femur, &rest->femur, false, &held, &free->femur, &pivots);
+    eliminate_link(&loaded->femur, pose->femur, &rest->femur, false, springs_soften, &held, &free->femur, &pivots);
     held_about_y(&held, turns->femur_y);
     free->hip = eliminate_joint(&held, rest->hip_rad_per_n_mm, &pivots);
     held_about_z(&held, turns->hip);
     held_about_y(&held, turns->coxa_y);
     held_about_x(&held, turns->coxa_x);
-    eliminate_link(&loaded->coxa, pose->coxa, &rest->coxa, false, &held, &free->coxa, &pivots);
+    eliminate_link(&loaded->coxa, pose->coxa, &rest->coxa, false, springs_soften, &held, &free->coxa, &pivots);
     held_about_y(&held, turns->coxa_y);
     held_about_z(&held, turns->coxa_z);
     const sym3_t r = held.resists;
@@ -253,8 +267,9 @@ INLINE void add_link(sum_t *sum, const brace_space_link_t *link, vec3_t turn, co
 
     const float share_y = link->stretch_end_share * turn.y, share_z = link->stretch_end_share * turn.z;
     const brace_vec_t root = link->stretch_root;
-    const vec3_t stretch = axes_times(axes, vec3(brace_fma(-share_z, root.z, root.x), brace_fma(share_z, root.x, root.z),
-                                                 -(share_y * root.x)));
+    const vec3_t own_stretch = vec3(brace_fma(-share_z, root.z, root.x), brace_fma(share_z, root.x, root.z),
+                                    -(share_y * root.x));
+    const vec3_t stretch = axes_times(axes, own_stretch);
     sym3_add(&sum->c, stretch, stretch);
     sum->tip_mm = vec3_plus(sum->tip_mm, axes_times(axes, chord));
 }
