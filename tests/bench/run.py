@@ -83,7 +83,8 @@ def bench(out: Path) -> Bench:
     say("backlash: histories, oracle, take-ups")
     plays = backlash_report.extra(out)
     say("the controller's tick: a million random ones")
-    extras = (under_load, in_space_under_load, flash_groups.extra(), footprint.extra(), plays, drift.extra(plugin), flood.extra(), tick_cost.extra())
+    extras = (under_load, in_space_under_load, flash_groups.extra(), footprint.extra(), plays, drift.extra(plugin),
+              flood.extra(), tick_cost.extra())
     return Bench(measured, rates, weights, map_s, weigh_modules(), checks, tools(), extras)
 
 

@@ -7,7 +7,7 @@
 #ifndef BRACE_CORE_SPACE_STRAIGHT_H
 #define BRACE_CORE_SPACE_STRAIGHT_H
 
-#include "brace/loaded_space.h"
+#include "brace/loaded_space_types.h"
 #include "loaded/space_frame.h"
 
 /* The joints' commanded directions, each seen from the link before. */
