@@ -21,6 +21,7 @@ import flood  # noqa: E402
 import footprint  # noqa: E402
 import loaded  # noqa: E402
 import loaded_picture  # noqa: E402
+import loaded_space  # noqa: E402
 import postures  # noqa: E402
 import tick_cost  # noqa: E402
 import versions  # noqa: E402
@@ -73,6 +74,7 @@ def bench(out: Path) -> Bench:
     say("K under a load, beside its peers")
     under_load = loaded.extra(generated, plugin)
     loaded_picture.draw(out / "loaded.svg")
+    in_space_under_load = loaded_space.extra(plugin)
     say("host throughput")
     rates = measure_rates()
     say("weighing the core")
@@ -81,7 +83,8 @@ def bench(out: Path) -> Bench:
     say("backlash: histories, oracle, take-ups")
     plays = backlash_report.extra(out)
     say("the controller's tick: a million random ones")
-    extras = (under_load, flash_groups.extra(), footprint.extra(), plays, drift.extra(plugin), flood.extra(), tick_cost.extra())
+    extras = (under_load, in_space_under_load, flash_groups.extra(), footprint.extra(), plays, drift.extra(plugin),
+              flood.extra(), tick_cost.extra())
     return Bench(measured, rates, weights, map_s, weigh_modules(), checks, tools(), extras)
 
 

@@ -27,6 +27,7 @@ FIRMWARE_HEADERS = (
     "gap_stiffness.h",
     "loaded.h",
     "loaded_batch.h",
+    "loaded_space.h",
     "kinematics_batch.h",
     "uncertainty.h",
     "slope.h",

@@ -1,9 +1,15 @@
-/* A vector in the limb's plane, x outwards, z up. Its user names the frame and the unit. */
+/* Vectors. Their user names frame and unit. */
 #ifndef BRACE_VEC_H
 #define BRACE_VEC_H
 
+/* In the limb's plane: x outwards, z up. */
 typedef struct {
     float x, z;
 } brace_vec_t;
+
+/* In space. */
+typedef struct {
+    float x, y, z;
+} brace_vec3_t;
 
 #endif

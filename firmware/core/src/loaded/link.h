@@ -9,12 +9,10 @@
 #define BRACE_CORE_LOADED_LINK_H
 
 #include "base/fma.h"
+#include "base/inline.h"
 #include "base/trig.h"
 #include "base/vec.h"
 #include "brace/vec.h"
-
-/* Each part runs two or six times a tick with other constants: the compiler fits each in. */
-#define INLINE static inline __attribute__((always_inline))
 
 /* The coordinates of a link: how far its root has turned from the commanded direction, and its two curvatures, each as
  * the turn at one of the Gauss points 1/2 -+ 1/(2 sqrt 3). The curvature is linear between and beyond them. */

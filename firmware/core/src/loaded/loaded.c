@@ -3,6 +3,7 @@
 #include <float.h>
 
 #include "chain/tensor.h"
+#include "loaded/buckling.h"
 #include "loaded/solve.h"
 
 #define SINGULAR_PIVOT 1e-3f
@@ -10,34 +11,11 @@
 #define BEND_MOST_RAD 0.8f /* each curvature: turns between points stay within what brace_small_turn() takes */
 #define FORCE_MOST_N 1e4f
 #define SETTLED_RAD 0.14f /* how far the tip may turn in the last step */
-#define HIGHEST_FACTOR 16.0f
 
-/* The load at which the first pivot reaches zero, as a multiple of the present one. Below it all pivots are positive.
- * The search halves the logarithm of the range 1 to 16. It ends at the root of the parabola through the last two
- * determinants and the one below: one step of Newton's method from the chord's root. */
-static float buckling_factor(const stance_t *limb, float product_now)
+INLINE softened_t softened(const void *limb, float times)
 {
-    static const float ratio[] = {4.0f, 2.0f, 1.41421356f};
-    float before = 0.0f, low = 1.0f, high = HIGHEST_FACTOR;
-    float at_before = 1.0f, at_low = product_now, at_high = 0.0f; /* no load: every pivot is 1 */
-    for (int i = 0; i < 3; i++) {
-        const float middle = low * ratio[i];
-        const pivots_t p = pivots_at(limb, middle);
-        const float now = product(&p);
-        if (is_stable(&p, 0.0f)) {
-            before = low, at_before = at_low;
-            low = middle, at_low = now;
-        } else {
-            high = middle, at_high = now;
-        }
-    }
-    if (!(at_high < 0.0f)) {
-        return high < HIGHEST_FACTOR ? 0.5f * (low + high) : INFINITY;
-    }
-    const float chord = (at_high - at_low) / (high - low), root = low - at_low / chord;
-    const float bend = ((at_before - at_low) / (before - low) - chord) / (before - high);
-    const float off = bend * (root - low) * (root - high), slope = brace_fma(bend, (root - low) + (root - high), chord);
-    return root - off / slope;
+    const pivots_t p = pivots_at((const stance_t *)limb, times);
+    return (softened_t){product(&p), is_stable(&p, 0.0f)};
 }
 
 /* Adds to C what a link's curvatures and springs yield. beyond: how all that comes after the link moves the tip when
@@ -152,6 +130,6 @@ brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1
     result->tibia_mm = vec_turned(tibia_rest.tip_mm, femur);
     result->hip_turn_rad = limb.femur_shape.root;
     result->knee_turn_rad = limb.tibia_shape.root - end_turn(&limb.femur_shape);
-    result->buckling_factor = buckling_factor(&stance, det);
+    result->buckling_factor = buckling_factor_of(softened, &stance, det);
     return BRACE_OK;
 }

@@ -1,0 +1,60 @@
+/* K in space under a load: the equilibrium of a limb with its coxa joint under the force of the ground and its own
+ * weight, and K there.
+ *
+ * As brace/loaded.h, for a force from any side. What yields is what docs/physics.md lists under "Under load": base
+ * slides and base rotation, coxa joint, coxa link, femur joint, femur, knee, tibia. Links bend in the plane and across
+ * it, twist and stretch. docs/kernel.md ("In space under a load") has the formulas.
+ *
+ * Frames: all is in the frame of the commanded limb's plane: x outwards, y to the left, z up. brace_loaded_space_turn
+ * carries K into the robot's frame.
+ *
+ * Thread rule: pure functions of their arguments; any thread or interrupt that may use the FPU.
+ */
+#ifndef BRACE_LOADED_SPACE_H
+#define BRACE_LOADED_SPACE_H
+
+#include "brace/limb.h"
+#include "brace/loaded_space_types.h"
+#include "brace/status.h"
+
+/* Collapses a limb. Call it when parameters change.
+ * limb: one that brace_limb_check accepts. weights: each 0 to 1e6 N, not checked. No pointer may be null.
+ * Cost on a Cortex-M4F: at most 700 instructions. */
+void brace_loaded_space_collapse(const brace_limb_t *limb, const brace_weights_t *weights,
+                                 brace_loaded_space_t *loaded);
+
+/* Equilibrium and K at commanded (or measured) true angles under a load.
+ * No pointer may be null. theta1_rad, theta2_rad: theta1^2 + theta2^2 <= BRACE_REACH_RAD2.
+ * load: the force is checked; direction and compliances are not.
+ * rest: room to work in, and the equilibrium after BRACE_OK. result: written on success only.
+ * returns BRACE_OK, BRACE_E_RANGE, BRACE_E_NOT_FINITE, or BRACE_E_SINGULAR: there is no stable equilibrium near the
+ *         commanded posture, or nothing yields in some direction.
+ * Accuracy: where the buckling factor is at least 2 and the tip moves by at most a fifth of the reach, K within 1 %
+ *         (Frobenius norm; median 0.03 %), the displacement within 2 mm (median 0.004 mm). At a tenth of such a load
+ *         K within 0.07 %, at no load within 2e-7 of itself for each unit of C's condition number (3e-5 for random
+ *         limbs). tests/engine/test_core_in_space_under_load.py judges 600 random limbs. Of 6,500 others, 32 were
+ *         off by more than 1 %, nearly all because of a short, soft coxa link, most of which turn by 0.2 rad and more
+ *         within themselves. One of them, off by 61 %, did not reach its equilibrium.
+ * Cost on a Cortex-M4F: at most 6,000 instructions, the same for every posture; stack at most 1,800 bytes. */
+brace_status_t brace_loaded_space_in_plane(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
+                                           const brace_space_load_t *load, brace_space_rest_t *rest,
+                                           brace_space_result_t *result);
+
+/* K in the robot's frame, its eigenvalues and its stiff axis, from any K in the limb's plane's frame.
+ * No pointer may be null. theta0_rad: true angle [-7.9, 7.9].
+ * stiffness: written on success only. lambda_n_per_mm ascends, each within 3e-7 of the largest one's size. stiff_axis
+ *            is a unit vector that points outwards in the limb's plane or, if the limb is stiffest across it, to the
+ *            left. flags: BRACE_FLAG_NEAR_SINGULAR where the least eigenvalue is below 1e-4 of the largest.
+ * returns BRACE_OK, BRACE_E_NOT_FINITE or BRACE_E_RANGE (theta0), or BRACE_E_SINGULAR: an eigenvalue is not positive.
+ * Cost on a Cortex-M4F: at most 550 instructions. */
+brace_status_t brace_loaded_space_turn(float theta0_rad, const brace_k3_t *k, brace_stiffness_spatial_t *stiffness);
+
+/* The smallest positive s for which diag(k) - s G is singular at this equilibrium with the posture held, as
+ * brace/loaded.h says; infinity where it is above 16, and where it may be above 11.
+ * loaded, rest: what brace_loaded_space_in_plane was given and left; neither may be null.
+ * Accuracy: where it is below 10, median 0.3 %, nine of ten within 4 %. It overlooks a beam that buckles within
+ *         itself, between its ends: where a short, soft coxa link does, it may tell a multiple of the true factor.
+ * Cost on a Cortex-M4F: at most 7,200 instructions; stack at most 700 bytes. */
+float brace_loaded_space_buckling_factor(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest);
+
+#endif

@@ -1,0 +1,84 @@
+/* Types of K in space under a load; brace/loaded_space.h says what they are for. */
+#ifndef BRACE_LOADED_SPACE_TYPES_H
+#define BRACE_LOADED_SPACE_TYPES_H
+
+#include "brace/loaded.h"
+#include "brace/stiffness.h"
+#include "brace/vec.h"
+
+/* One link. Its own frame: x along it, y across it in the limb's plane, counter-clockwise, z = x cross y. */
+typedef struct {
+    float length_mm;
+    brace_vec_t stretch_root;  /* axial spring: this vector v adds v v' [sqrt(mm/N)] */
+    brace_vec_t across;        /* direction of the bending in the plane, turned by the tilt */
+    float twist_rad_per_n_mm, sideways_rad_per_n_mm, bend_rad_per_n_mm; /* the link's own turns about x, y and z */
+    float across_mm_per_n, sideways_mm_per_n; /* what moves its end and turns nothing */
+    float end_share, stretch_end_share; /* the part of the link's turn that these springs, and the axial one, follow,
+                                           less one half */
+    float curl_per_mm;         /* twist for each mm of these springs and each radian of bending */
+    float across_spread_per_n_mm, sideways_spread_per_n_mm; /* twist's compliance for each squared radian of bending */
+    float shortens_per_mm;     /* by those springs */
+    brace_vec_t tilt_mm;       /* how the end moves with the turn in the plane, */
+    brace_vec_t bow_mm;        /* and with its square */
+    float twelfth_mm;          /* of the length */
+    float own_share;           /* of the link's weight, on those springs */
+    float weight_n;
+} brace_space_link_t;
+
+/* A collapsed limb. brace_loaded_space_collapse writes it; other code must not read its members. */
+typedef struct {
+    brace_space_link_t coxa, femur, tibia;
+    float beyond_coxa_n, beyond_femur_n; /* weight that these links' ends carry */
+    float base_x_mm_per_n, base_z_mm_per_n, base_rotation_rad_per_n_mm;
+} brace_loaded_space_t;
+
+/* In the limb's plane's frame: x outwards, y to the left, z up. */
+typedef struct {
+    float xx_n_per_mm, xy_n_per_mm, xz_n_per_mm, yy_n_per_mm, yz_n_per_mm, zz_n_per_mm;
+} brace_k3_t;
+
+typedef struct {
+    brace_vec3_t tip_n;  /* force of the ground on the tip [-1e4 to 1e4] */
+    brace_vec3_t down;   /* direction of the weight, a unit vector */
+    brace_loaded_joint_t yaw, hip, knee; /* without the base's rotation */
+} brace_space_load_t;
+
+/* Turns of a limb's links and joints from their commanded angles [rad]; a link's about its own axes. */
+typedef struct {
+    brace_vec3_t coxa, femur, tibia;
+    float base, yaw, hip, knee;
+} brace_space_pose_t;
+
+/* Cosine and sine (x, z) of the turns from the base to the tip. A link turns half way, then its own half about y, which
+ * leads to its frame, its twist about x, and the other half about y. */
+typedef struct {
+    brace_vec_t base, yaw, coxa_z, coxa_y, coxa_x, hip, femur_y, femur_x, knee, tibia_y;
+} brace_space_turns_t;
+
+/* A bent link in its frame. */
+typedef struct {
+    brace_vec3_t chord_mm;             /* from its root to its end */
+    brace_vec3_t across, sideways;     /* how the end's springs move it */
+    brace_vec_t by_bend_mm;            /* how the chord changes with the turn about z, */
+    float by_sideways_mm;              /* and about y */
+    float across_curl, sideways_curl;  /* how far the axes of the turns about y and z lean to -x */
+    brace_vec3_t beyond_n, own_n;      /* the force that the end carries, and the link's own weight */
+} brace_space_bent_t;
+
+/* An equilibrium, for brace_loaded_space_buckling_factor. Other code must not read its members. */
+typedef struct {
+    brace_space_pose_t pose;
+    brace_space_turns_t turns;
+    brace_space_bent_t coxa, femur, tibia;
+    brace_vec3_t whole_n; /* force on the base, in the limb's plane's frame */
+    float base_rad_per_n_mm, yaw_rad_per_n_mm, hip_rad_per_n_mm, knee_rad_per_n_mm;
+} brace_space_rest_t;
+
+/* K at the equilibrium and how the limb stands there, in the limb's plane's frame. */
+typedef struct {
+    brace_k3_t k;
+    brace_vec3_t displacement_mm; /* of the tip, from where it is at these angles without load */
+    float yaw_turn_rad, hip_turn_rad, knee_turn_rad; /* how far the load has turned the joints, without the base */
+} brace_space_result_t;
+
+#endif

@@ -1,0 +1,232 @@
+#include "brace/loaded_space.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "base/check.h"
+#include "base/eigen.h"
+#include "loaded/buckling.h"
+#include "loaded/space_sum.h"
+
+#define SINGULAR 1e-3f
+#define SMALL_TURN_RAD2 0.36f /* squares: what brace_small_turn() takes, */
+#define LINKS_RAD2 1.44f      /* and of links, which turn half way on either side */
+#define JOINT_TURN_RAD 1.5f /* sine and cosine of base/trig.h hold up to pi/2 */
+#define FORCE_MOST_N 1e4f
+#define SLENDER 1e-4f /* least over largest eigenvalue; below it the accuracy is not promised */
+
+/* The limb's plane's frame, x outwards, y to the left, z up, as the coxa's frame at rest: x outwards, y up, z to the
+ * right; and back. */
+static vec3_t seen_from_coxa(brace_vec3_t v)
+{
+    return vec3(v.x, v.z, -v.y);
+}
+
+static brace_vec3_t seen_from_plane(vec3_t v)
+{
+    return vec3(v.x, -v.z, v.y);
+}
+
+/* --- the equilibrium ------------------------------------------------------------------------------------------ */
+
+INLINE float dot_of_poses(const brace_space_pose_t *a, const brace_space_pose_t *b)
+{
+    const float links = vec3_dot(a->coxa, b->coxa) + vec3_dot(a->femur, b->femur) + vec3_dot(a->tibia, b->tibia);
+    return links + brace_fma(a->base, b->base, a->yaw * b->yaw) + brace_fma(a->hip, b->hip, a->knee * b->knee);
+}
+
+INLINE void add_to_pose(brace_space_pose_t *pose, const brace_space_pose_t *more, float by)
+{
+    pose->coxa = vec3_plus_scaled(pose->coxa, more->coxa, by);
+    pose->femur = vec3_plus_scaled(pose->femur, more->femur, by);
+    pose->tibia = vec3_plus_scaled(pose->tibia, more->tibia, by);
+    pose->base = brace_fma(by, more->base, pose->base);
+    pose->yaw = brace_fma(by, more->yaw, pose->yaw);
+    pose->hip = brace_fma(by, more->hip, pose->hip);
+    pose->knee = brace_fma(by, more->knee, pose->knee);
+}
+
+/* The whole of a series of steps, each the same multiple of the one before, over its second step. */
+INLINE float over_second_step(const brace_space_pose_t *first, const brace_space_pose_t *second)
+{
+    const float ratio = dot_of_poses(second, first) / (dot_of_poses(first, first) + FLT_MIN);
+    return 1.0f / (1.0f - (ratio > 0.5f ? 0.5f : ratio < -0.9f ? -0.9f : ratio));
+}
+
+static void see_straight(const brace_loaded_space_t *loaded, vec3_t tip_n, vec3_t down, vec3_t whole_n,
+                         const commanded_t *commanded, forces_t at[3])
+{
+    const vec3_t femur_n = about_z(tip_n, back(commanded->hip)), femur_down = about_z(down, back(commanded->hip));
+    const vec3_t tibia_n = about_z(femur_n, back(commanded->knee));
+    const vec3_t tibia_down = about_z(femur_down, back(commanded->knee));
+    at[0] = (forces_t){whole_n, {0.0f, 0.0f, 0.0f}};
+    at[1] = (forces_t){vec3_plus_scaled(femur_n, femur_down, loaded->beyond_femur_n),
+                       vec3_scaled(femur_down, loaded->femur.weight_n)};
+    at[2] = (forces_t){tibia_n, vec3_scaled(tibia_down, loaded->tibia.weight_n)};
+}
+
+INLINE void bend_to(const brace_loaded_space_t *loaded, const commanded_t *commanded, vec3_t tip_n, vec3_t down,
+                    brace_space_rest_t *rest, curls_t *curls, bool is_driven, brace_space_pose_t *drives)
+{
+    turns_of(&rest->pose, *curls, commanded, &rest->turns);
+    see_forces(loaded, tip_n, down, rest);
+    bend_limb(loaded, rest, curls, is_driven, drives);
+}
+
+/* Two steps with the matrix of the straight limb, the second of them prolonged. Then the bent limb. */
+static void find_rest(const brace_loaded_space_t *loaded, const commanded_t *commanded, const brace_space_load_t *load,
+                      vec3_t tip_n, vec3_t down, brace_space_rest_t *rest)
+{
+    static const brace_space_pose_t straight;
+    forces_t at[3];
+    factors_t factors;
+    brace_space_pose_t drives, step;
+    curls_t curls = {0.0f, 0.0f};
+    see_straight(loaded, tip_n, down, rest->whole_n, commanded, at);
+    straight_limb(loaded, at, commanded, load, rest->whole_n, &factors, &drives);
+    solve_straight(&factors, &drives, &straight, commanded, &rest->pose);
+    bend_to(loaded, commanded, tip_n, down, rest, &curls, true, &drives);
+    solve_straight(&factors, &drives, &rest->pose, commanded, &step);
+    add_to_pose(&rest->pose, &step, over_second_step(&rest->pose, &step));
+    bend_to(loaded, commanded, tip_n, down, rest, &curls, false, &drives);
+}
+
+static bool is_within(const brace_space_pose_t *pose)
+{
+    const float links = vec3_dot(pose->coxa, pose->coxa) + vec3_dot(pose->femur, pose->femur) +
+                        vec3_dot(pose->tibia, pose->tibia);
+    return links <= LINKS_RAD2 && brace_fma(pose->base, pose->base, pose->yaw * pose->yaw) <= SMALL_TURN_RAD2 &&
+           fabsf(brace_fma(0.5f, pose->coxa.z + pose->femur.z, pose->hip)) <= JOINT_TURN_RAD &&
+           fabsf(brace_fma(0.5f, pose->femur.z + pose->tibia.z, pose->knee)) <= JOINT_TURN_RAD;
+}
+
+/* --- K -------------------------------------------------------------------------------------------------------- */
+
+/* C^-1 by its cofactors. returns det C */
+static float inverse(const sym3_t *c, sym3_t *k)
+{
+    const sym3_t cofactor = {brace_fma(c->yy, c->zz, -(c->yz * c->yz)), brace_fma(c->xz, c->yz, -(c->xy * c->zz)),
+                             brace_fma(c->xy, c->yz, -(c->xz * c->yy)), brace_fma(c->xx, c->zz, -(c->xz * c->xz)),
+                             brace_fma(c->xy, c->xz, -(c->xx * c->yz)), brace_fma(c->xx, c->yy, -(c->xy * c->xy))};
+    const float det = brace_fma(c->xx, cofactor.xx, brace_fma(c->xy, cofactor.xy, c->xz * cofactor.xz));
+    const float per_det = 1.0f / det;
+    *k = (sym3_t){cofactor.xx * per_det, cofactor.xy * per_det, cofactor.xz * per_det,
+                  cofactor.yy * per_det, cofactor.yz * per_det, cofactor.zz * per_det};
+    return det;
+}
+
+brace_status_t brace_loaded_space_in_plane(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
+                                           const brace_space_load_t *load, brace_space_rest_t *rest,
+                                           brace_space_result_t *result)
+{
+    const float reach = brace_fma(theta1_rad, theta1_rad, theta2_rad * theta2_rad);
+    const float force = fabsf(load->tip_n.x) + fabsf(load->tip_n.y) + fabsf(load->tip_n.z);
+    if (!(reach <= BRACE_REACH_RAD2 && force <= FORCE_MOST_N)) {
+        return brace_refusal_of(reach, force);
+    }
+    const commanded_t commanded = {brace_direction(theta1_rad), brace_direction(-theta2_rad)};
+    const vec3_t tip_n = seen_from_coxa(load->tip_n), down = seen_from_coxa(load->down);
+    rest->whole_n = vec3_plus_scaled(tip_n, down, loaded->beyond_coxa_n);
+    rest->base_rad_per_n_mm = loaded->base_rotation_rad_per_n_mm;
+    rest->yaw_rad_per_n_mm = load->yaw.slope_rad_per_n_mm;
+    rest->hip_rad_per_n_mm = load->hip.slope_rad_per_n_mm;
+    rest->knee_rad_per_n_mm = load->knee.slope_rad_per_n_mm;
+    find_rest(loaded, &commanded, load, tip_n, down, rest);
+    freedoms_t free;
+    const pivots_t pivots = eliminate_limb(loaded, rest, false, &free);
+    if (!(is_stable(&pivots) && pivots.product > SINGULAR) || !is_within(&rest->pose)) {
+        return BRACE_E_SINGULAR;
+    }
+    frames_t frames;
+    sum_t sum;
+    sym3_t k;
+    frames_of(&rest->turns, &frames);
+    sum_limb(loaded, rest, &free, &frames, &sum);
+    if (!(inverse(&sum.c, &k) > 0.0f)) {
+        return BRACE_E_SINGULAR;
+    }
+    const brace_vec_t tibia = vec_turned(commanded.knee, commanded.hip);
+    vec3_t moved = sum.tip_mm;
+    moved.x -= brace_fma(loaded->femur.length_mm, commanded.hip.x, loaded->tibia.length_mm * tibia.x);
+    moved.y -= brace_fma(loaded->femur.length_mm, commanded.hip.z, loaded->tibia.length_mm * tibia.z);
+    moved.x = brace_fma(loaded->base_x_mm_per_n, rest->whole_n.x, moved.x);
+    moved.y = brace_fma(loaded->base_z_mm_per_n, rest->whole_n.y, moved.y);
+    result->k = (brace_k3_t){k.xx, -k.xz, k.xy, k.zz, -k.yz, k.yy};
+    result->displacement_mm = seen_from_plane(moved);
+    result->yaw_turn_rad = rest->pose.yaw;
+    result->hip_turn_rad = rest->pose.hip;
+    result->knee_turn_rad = rest->pose.knee;
+    return BRACE_OK;
+}
+
+/* The axis points outwards in the limb's plane, or to the left where it is across it. */
+static brace_vec3_t outwards_axis(brace_vec3_t axis)
+{
+    const float across = 1e-4f * axis.y; /* decides only where rounding would */
+    const float sign = axis.x + across < 0.0f ? -1.0f : 1.0f;
+    return (brace_vec3_t){sign * axis.x, sign * axis.y, sign * axis.z};
+}
+
+brace_status_t brace_loaded_space_turn(float theta0_rad, const brace_k3_t *k, brace_stiffness_spatial_t *stiffness)
+{
+    const brace_status_t status = brace_check_magnitude(theta0_rad, BRACE_ANGLE_LIMIT_RAD);
+    if (status != BRACE_OK) {
+        return status;
+    }
+    brace_jacobi_t m = {.xx = k->xx_n_per_mm, .xy = k->xy_n_per_mm, .xz = k->xz_n_per_mm,
+                        .yy = k->yy_n_per_mm, .yz = k->yz_n_per_mm, .zz = k->zz_n_per_mm};
+    brace_jacobi(&m);
+    const bool x_is_less = m.xx < m.yy;
+    const float low = x_is_less ? m.xx : m.yy, high = x_is_less ? m.yy : m.xx;
+    if (!(low > 0.0f && m.zz > 0.0f && high <= FLT_MAX && m.zz <= FLT_MAX)) {
+        return BRACE_E_SINGULAR;
+    }
+    const float least = m.zz < low ? m.zz : low, most = m.zz > high ? m.zz : high;
+    const brace_vec3_t axis = outwards_axis(m.zz > high ? m.z : x_is_less ? m.y : m.x);
+    const brace_vec_t yaw = brace_direction(theta0_rad);
+    sym3_t turned = {k->xx_n_per_mm, k->xy_n_per_mm, k->xz_n_per_mm,
+                     k->yy_n_per_mm, k->yz_n_per_mm, k->zz_n_per_mm};
+    sym3_about_z(&turned, yaw);
+    const vec3_t turned_axis = about_z(axis, yaw);
+    *stiffness = (brace_stiffness_spatial_t){
+        .k_xx_n_per_mm = turned.xx, .k_xy_n_per_mm = turned.xy, .k_xz_n_per_mm = turned.xz,
+        .k_yy_n_per_mm = turned.yy, .k_yz_n_per_mm = turned.yz, .k_zz_n_per_mm = turned.zz,
+        .lambda_n_per_mm = {least, m.zz < low ? low : m.zz > high ? high : m.zz, most},
+        .stiff_axis = {turned_axis.x, turned_axis.y, turned_axis.z},
+        .flags = least < SLENDER * most ? BRACE_FLAG_NEAR_SINGULAR : 0u};
+    return BRACE_OK;
+}
+
+/* --- buckling ------------------------------------------------------------------------------------------------- */
+
+/* With the load taken so many times, the shape held. */
+static pivots_t pivots_at(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest, float times)
+{
+    brace_space_rest_t more = *rest;
+    brace_space_bent_t *const bent[] = {&more.coxa, &more.femur, &more.tibia};
+    for (int i = 0; i < 3; i++) {
+        bent[i]->beyond_n = vec3_scaled(bent[i]->beyond_n, times);
+        bent[i]->own_n = vec3_scaled(bent[i]->own_n, times);
+    }
+    more.whole_n = vec3_scaled(rest->whole_n, times);
+    freedoms_t free;
+    return eliminate_limb(loaded, &more, true, &free);
+}
+
+typedef struct {
+    const brace_loaded_space_t *loaded;
+    const brace_space_rest_t *rest;
+} stance_t;
+
+static softened_t softened(const void *limb, float times)
+{
+    const stance_t *stance = limb;
+    const pivots_t p = pivots_at(stance->loaded, stance->rest, times);
+    return (softened_t){p.product, is_stable(&p)};
+}
+
+float brace_loaded_space_buckling_factor(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest)
+{
+    const stance_t stance = {loaded, rest};
+    return buckling_factor_of(softened, &stance, pivots_at(loaded, rest, 1.0f).product);
+}

@@ -1,0 +1,309 @@
+/* At the equilibrium in space: the limb's matrix, eliminated from the tip to the base, and C.
+ *
+ * C is a sum of one vector for each eliminated coordinate and each spring. What the load softens at a link's end
+ * springs grows with its square: K does without it, the buckling factor does not.
+ */
+#ifndef BRACE_CORE_SPACE_SUM_H
+#define BRACE_CORE_SPACE_SUM_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "loaded/space_bent.h"
+
+/* A coordinate's compliance, load included, and how all beyond follows when the places before it turn: its row times
+ * that compliance, less. */
+typedef struct {
+    vec3_t follows;
+    float yields;
+} freedom_t;
+
+/* A link's springs first, then its turns about x, y and z: each adds to those after it. */
+typedef struct {
+    freedom_t across, sideways, x, y, z;
+    vec3_t by_across, by_sideways; /* to x, y and z */
+    float y_by_x, z_by_x, z_by_y;
+} link_freedoms_t;
+
+typedef struct {
+    link_freedoms_t coxa, femur, tibia;
+    freedom_t yaw, hip, knee;
+    float base_yields;
+} freedoms_t;
+
+/* Of all coordinates: 1 without a load, 0 where the load has softened the limb to nothing. sign_bits: their IEEE bits,
+ * or-ed. */
+typedef struct {
+    uint32_t sign_bits;
+    float product;
+} pivots_t;
+
+INLINE bool is_stable(const pivots_t *pivots)
+{
+    return pivots->sign_bits >> 31 == 0u;
+}
+
+/* --- elimination ---------------------------------------------------------------------------------------------- */
+
+INLINE sym3_t chord_resists(vec3_t chord_mm, vec3_t f)
+{
+    const float xx = chord_mm.x * f.x, yy = chord_mm.y * f.y, zz = chord_mm.z * f.z;
+    return (sym3_t){yy + zz,
+                    -0.5f * brace_fma(chord_mm.x, f.y, chord_mm.y * f.x),
+                    -0.5f * brace_fma(chord_mm.x, f.z, chord_mm.z * f.x),
+                    xx + zz,
+                    -0.5f * brace_fma(chord_mm.y, f.z, chord_mm.z * f.y),
+                    xx + yy};
+}
+
+INLINE freedom_t eliminate(held_t *held, vec3_t row, float entry, float rad_per_n_mm, pivots_t *pivots)
+{
+    const float pivot = brace_fma(rad_per_n_mm, entry, 1.0f), yields = rad_per_n_mm / pivot;
+    const vec3_t follows = vec3_scaled(row, -yields);
+    sym3_add(&held->resists, row, follows);
+    uint32_t bits;
+    memcpy(&bits, &pivot, sizeof bits);
+    pivots->sign_bits |= bits;
+    pivots->product *= pivot;
+    return (freedom_t){follows, yields};
+}
+
+INLINE freedom_t eliminate_joint(held_t *held, float rad_per_n_mm, pivots_t *pivots)
+{
+    const sym3_t r = held->resists;
+    const vec3_t m = held->moment_n_mm, row = vec3(brace_fma(0.5f, m.y, r.xz), brace_fma(-0.5f, m.x, r.yz), r.zz);
+    return eliminate(held, row, r.zz, rad_per_n_mm, pivots);
+}
+
+/* is_last: nothing lies beyond the link. springs_soften: what the load softens at its end's springs counts. */
+INLINE void eliminate_link(const brace_space_link_t *link, vec3_t turn, const brace_space_bent_t *bent, bool is_last,
+                           bool springs_soften, held_t *held, link_freedoms_t *free, pivots_t *pivots)
+{
+    const vec3_t f = bent->beyond_n, chord_f = vec3_plus_scaled(f, bent->own_n, 0.5f);
+    const vec3_t m = held->moment_n_mm, chord_n_mm = vec3_cross(bent->chord_mm, chord_f);
+    const sym3_t r = held->resists, chord = chord_resists(bent->chord_mm, chord_f);
+    const float curl_y = bent->across_curl, curl_z = bent->sideways_curl;
+    const brace_vec_t by_bend = bent->by_bend_mm;
+    const float by_sideways = bent->by_sideways_mm;
+
+    /* Among the link's own turns, and between them and all before. */
+    sym3_t own = r;
+    if (!is_last) {
+        own.xy = brace_fma(-curl_y, r.xx, r.xy);
+        own.xz = brace_fma(-curl_z, r.xx, r.xz);
+        own.yy = brace_fma(-curl_y, r.xy + own.xy, r.yy);
+        own.yz = brace_fma(-curl_z, own.xy, brace_fma(-curl_y, r.xz, r.yz));
+        own.zz = brace_fma(-curl_z, r.xz + own.xz, r.zz);
+    }
+    own = sym3_plus_scaled(own, chord, 0.25f);
+    own.yy = brace_fma(link->twelfth_mm, f.x, own.yy);
+    own.zz = brace_fma(brace_fma(-2.0f, link->bow_mm.x, by_bend.z), f.x, own.zz);
+    own.zz = brace_fma(brace_fma(-2.0f, link->bow_mm.z, -by_bend.x), f.y, own.zz);
+    const sym3_t q = sym3_plus_scaled(r, chord, 0.5f);
+    const vec3_t half_m = vec3_scaled(vec3_plus_scaled(m, chord_n_mm, 0.5f), 0.5f);
+    vec3_t x = vec3(q.xx, q.xy + half_m.z, q.xz - half_m.y);
+    vec3_t y = vec3(q.xy - half_m.z, brace_fma(by_sideways, f.z, q.yy), brace_fma(-by_sideways, f.y, q.yz + half_m.x));
+    vec3_t z = vec3(brace_fma(-by_bend.z, f.z, q.xz + half_m.y), brace_fma(by_bend.x, f.z, q.yz - half_m.x),
+                    brace_fma(-by_bend.x, f.y, brace_fma(by_bend.z, f.x, q.zz)));
+    if (!is_last) {
+        y = vec3_plus_scaled(y, x, -curl_y);
+        z = vec3_plus_scaled(z, x, -curl_z);
+    }
+    held->resists = sym3_plus_scaled(r, chord, 1.0f);
+    held->moment_n_mm = vec3_plus(m, chord_n_mm);
+
+    const float share = link->end_share + 0.5f, curled_n = link->curl_per_mm * m.x;
+    const vec3_t across = vec3_cross(f, bent->across);
+    const vec3_t sideways = vec3(f.y, brace_fma(f.z, bent->sideways.x, -f.x), -(f.y * bent->sideways.x));
+    free->across = (freedom_t){vec3_scaled(across, -link->across_mm_per_n), link->across_mm_per_n};
+    free->sideways = (freedom_t){vec3_scaled(sideways, -link->sideways_mm_per_n), link->sideways_mm_per_n};
+    free->by_across = vec3_scaled(free->across.follows, share);
+    free->by_across.y = brace_fma(-link->across_mm_per_n, curled_n, free->by_across.y);
+    free->by_sideways = vec3_scaled(free->sideways.follows, share);
+    free->by_sideways.z = brace_fma(-link->sideways_mm_per_n, curled_n, free->by_sideways.z);
+    if (springs_soften) {
+        const vec3_t own_across = vec3(share * across.x, brace_fma(share, across.y, curled_n), share * across.z);
+        const vec3_t own_sideways = vec3(share * sideways.x, share * sideways.y,
+                                         brace_fma(share, sideways.z, curled_n));
+        own.yy = brace_fma(-link->across_spread_per_n_mm * m.x, m.x, own.yy);
+        own.zz = brace_fma(-link->sideways_spread_per_n_mm * m.x, m.x, own.zz);
+        sym3_add(&own, own_across, free->by_across);
+        sym3_add(&own, own_sideways, free->by_sideways);
+        sym3_add(&held->resists, across, free->across.follows);
+        sym3_add(&held->resists, sideways, free->sideways.follows);
+        x = vec3_plus_scaled(vec3_plus_scaled(x, across, free->by_across.x), sideways, free->by_sideways.x);
+        y = vec3_plus_scaled(vec3_plus_scaled(y, across, free->by_across.y), sideways, free->by_sideways.y);
+        z = vec3_plus_scaled(vec3_plus_scaled(z, across, free->by_across.z), sideways, free->by_sideways.z);
+    }
+
+    if (!is_last) {
+        float twist = brace_fma(link->sideways_spread_per_n_mm * turn.z, turn.z, link->twist_rad_per_n_mm);
+        twist = brace_fma(link->across_spread_per_n_mm * turn.y, turn.y, twist);
+        free->x = eliminate(held, x, own.xx, twist, pivots);
+        free->y_by_x = -(free->x.yields * own.xy);
+        free->z_by_x = -(free->x.yields * own.xz);
+        own.yy = brace_fma(free->y_by_x, own.xy, own.yy);
+        own.yz = brace_fma(free->y_by_x, own.xz, own.yz);
+        own.zz = brace_fma(free->z_by_x, own.xz, own.zz);
+        y = vec3_plus_scaled(y, x, free->y_by_x);
+        z = vec3_plus_scaled(z, x, free->z_by_x);
+    }
+    free->y = eliminate(held, y, own.yy, link->sideways_rad_per_n_mm, pivots);
+    free->z_by_y = -(free->y.yields * own.yz);
+    free->z = eliminate(held, vec3_plus_scaled(z, y, free->z_by_y), brace_fma(free->z_by_y, own.yz, own.zz),
+                        link->bend_rad_per_n_mm, pivots);
+}
+
+INLINE void held_about_x(held_t *held, brace_vec_t turn)
+{
+    sym3_about_x(&held->resists, turn);
+    held->moment_n_mm = about_x(held->moment_n_mm, turn);
+}
+
+INLINE void held_about_y(held_t *held, brace_vec_t turn)
+{
+    sym3_about_y(&held->resists, turn);
+    held->moment_n_mm = about_y(held->moment_n_mm, turn);
+}
+
+INLINE pivots_t eliminate_limb(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest, bool springs_soften,
+                               freedoms_t *free)
+{
+    const brace_space_turns_t *turns = &rest->turns;
+    const brace_space_pose_t *pose = &rest->pose;
+    held_t held = {{0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
+    pivots_t pivots = {0u, 1.0f};
+    eliminate_link(&loaded->tibia, pose->tibia, &rest->tibia, true, springs_soften, &held, &free->tibia, &pivots);
+    held_about_y(&held, turns->tibia_y);
+    free->knee = eliminate_joint(&held, rest->knee_rad_per_n_mm, &pivots);
+    held_about_z(&held, turns->knee);
+    held_about_y(&held, turns->femur_y);
+    held_about_x(&held, turns->femur_x);
+    eliminate_link(&loaded->femur, pose->femur, &rest->femur, false, springs_soften, &held, &free->femur, &pivots);
+    held_about_y(&held, turns->femur_y);
+    free->hip = eliminate_joint(&held, rest->hip_rad_per_n_mm, &pivots);
+    held_about_z(&held, turns->hip);
+    held_about_y(&held, turns->coxa_y);
+    held_about_x(&held, turns->coxa_x);
+    eliminate_link(&loaded->coxa, pose->coxa, &rest->coxa, false, springs_soften, &held, &free->coxa, &pivots);
+    held_about_y(&held, turns->coxa_y);
+    held_about_z(&held, turns->coxa_z);
+    const sym3_t r = held.resists;
+    const vec3_t m = held.moment_n_mm, row = vec3(brace_fma(-0.5f, m.z, r.xy), r.yy, brace_fma(0.5f, m.x, r.yz));
+    free->yaw = eliminate(&held, row, r.yy, rest->yaw_rad_per_n_mm, &pivots);
+    held_about_y(&held, turns->yaw);
+    const float base_x_n = about_z(rest->whole_n, back(turns->base)).x;
+    const float entry = brace_fma(-loaded->coxa.length_mm, base_x_n, held.resists.zz);
+    free->base_yields = eliminate(&held, held.moment_n_mm, entry, rest->base_rad_per_n_mm, &pivots).yields;
+    return pivots;
+}
+
+/* --- C -------------------------------------------------------------------------------------------------------- */
+
+/* C so far, and how the tip moves when all beyond a place turns about the axes there; the tip from the base. All in
+ * the limb's plane's frame. */
+typedef struct {
+    axes_t by_turn;
+    sym3_t c;
+    vec3_t tip_mm;
+} sum_t;
+
+INLINE void add_move(sum_t *sum, vec3_t move, float yields)
+{
+    sym3_add(&sum->c, move, vec3_scaled(move, yields));
+}
+
+INLINE void add_freedom(sum_t *sum, const freedom_t *freedom, vec3_t move)
+{
+    sum->by_turn.x = vec3_plus_scaled(sum->by_turn.x, move, freedom->follows.x);
+    sum->by_turn.y = vec3_plus_scaled(sum->by_turn.y, move, freedom->follows.y);
+    sum->by_turn.z = vec3_plus_scaled(sum->by_turn.z, move, freedom->follows.z);
+    add_move(sum, move, freedom->yields);
+}
+
+INLINE void add_joint(sum_t *sum, const freedom_t *joint)
+{
+    add_freedom(sum, joint, sum->by_turn.z);
+}
+
+INLINE void add_link(sum_t *sum, const brace_space_link_t *link, vec3_t turn, const brace_space_bent_t *bent,
+                     const link_freedoms_t *free, const axes_t *axes, bool is_last)
+{
+    const vec3_t chord = bent->chord_mm;
+    const axes_t beyond = sum->by_turn;
+    const axes_t by_chord = {
+        vec3_plus_scaled(vec3_scaled(axes->z, chord.y), axes->y, -chord.z),
+        vec3_plus_scaled(vec3_scaled(axes->x, chord.z), axes->z, -chord.x),
+        vec3_plus_scaled(vec3_scaled(axes->y, chord.x), axes->x, -chord.y),
+    };
+    vec3_t across = axes_times(axes, bent->across);
+    vec3_t sideways = vec3_plus_scaled(axes->z, axes->x, bent->sideways.x);
+    vec3_t y = vec3_plus_scaled(vec3_plus_scaled(beyond.y, by_chord.y, 0.5f), axes->x, bent->by_sideways_mm);
+    vec3_t z = vec3_plus_scaled(vec3_plus_scaled(beyond.z, by_chord.z, 0.5f), axes->x, bent->by_bend_mm.x);
+    z = vec3_plus_scaled(z, axes->y, bent->by_bend_mm.z);
+    if (!is_last) {
+        across = vec3_plus_scaled(across, beyond.x, -(link->curl_per_mm * turn.y));
+        sideways = vec3_plus_scaled(sideways, beyond.x, -(link->curl_per_mm * turn.z));
+        y = vec3_plus_scaled(y, beyond.x, -bent->across_curl);
+        z = vec3_plus_scaled(z, beyond.x, -bent->sideways_curl);
+    }
+    y = vec3_plus_scaled(vec3_plus_scaled(y, across, free->by_across.y), sideways, free->by_sideways.y);
+    z = vec3_plus_scaled(vec3_plus_scaled(z, across, free->by_across.z), sideways, free->by_sideways.z);
+    sum->by_turn.x = vec3_plus(beyond.x, by_chord.x);
+    sum->by_turn.y = vec3_plus(beyond.y, by_chord.y);
+    sum->by_turn.z = vec3_plus(beyond.z, by_chord.z);
+    if (!is_last) {
+        vec3_t x = vec3_plus_scaled(beyond.x, by_chord.x, 0.5f);
+        x = vec3_plus_scaled(vec3_plus_scaled(x, across, free->by_across.x), sideways, free->by_sideways.x);
+        y = vec3_plus_scaled(y, x, free->y_by_x);
+        z = vec3_plus_scaled(z, x, free->z_by_x);
+        add_freedom(sum, &free->x, x);
+    }
+    add_freedom(sum, &free->across, across);
+    add_freedom(sum, &free->sideways, sideways);
+    add_freedom(sum, &free->y, y);
+    add_freedom(sum, &free->z, vec3_plus_scaled(z, y, free->z_by_y));
+
+    const float share_y = link->stretch_end_share * turn.y, share_z = link->stretch_end_share * turn.z;
+    const brace_vec_t root = link->stretch_root;
+    const vec3_t own_stretch = vec3(brace_fma(-share_z, root.z, root.x), brace_fma(share_z, root.x, root.z),
+                                    -(share_y * root.x));
+    const vec3_t stretch = axes_times(axes, own_stretch);
+    sym3_add(&sum->c, stretch, stretch);
+    sum->tip_mm = vec3_plus(sum->tip_mm, axes_times(axes, chord));
+}
+
+static void sum_limb(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest, const freedoms_t *free,
+                     const frames_t *frames, sum_t *sum)
+{
+    const brace_space_turns_t *turns = &rest->turns;
+    const brace_space_pose_t *pose = &rest->pose;
+    const float coxa_mm = loaded->coxa.length_mm;
+    const vec3_t none = {0.0f, 0.0f, 0.0f};
+    sum_t s = {.by_turn = {none, none, none},
+               .c = {loaded->base_x_mm_per_n, 0.0f, 0.0f, loaded->base_z_mm_per_n, 0.0f, 0.0f},
+               .tip_mm = vec3(-coxa_mm * turns->base.x, -coxa_mm * turns->base.z, 0.0f)};
+    add_link(&s, &loaded->tibia, pose->tibia, &rest->tibia, &free->tibia, &frames->tibia, true);
+    axes_about_y(&s.by_turn, turns->tibia_y);
+    add_joint(&s, &free->knee);
+    axes_about_z(&s.by_turn, turns->knee);
+    axes_about_y(&s.by_turn, turns->femur_y);
+    axes_about_x(&s.by_turn, turns->femur_x);
+    add_link(&s, &loaded->femur, pose->femur, &rest->femur, &free->femur, &frames->femur, false);
+    axes_about_y(&s.by_turn, turns->femur_y);
+    add_joint(&s, &free->hip);
+    axes_about_z(&s.by_turn, turns->hip);
+    axes_about_y(&s.by_turn, turns->coxa_y);
+    axes_about_x(&s.by_turn, turns->coxa_x);
+    add_link(&s, &loaded->coxa, pose->coxa, &rest->coxa, &free->coxa, &frames->coxa, false);
+    axes_about_y(&s.by_turn, turns->coxa_y);
+    axes_about_z(&s.by_turn, turns->coxa_z);
+    add_freedom(&s, &free->yaw, s.by_turn.y);
+    axes_about_y(&s.by_turn, turns->yaw);
+    const vec3_t up = {-turns->base.z, turns->base.x, 0.0f};
+    add_move(&s, vec3_plus_scaled(s.by_turn.z, up, -coxa_mm), free->base_yields);
+    *sum = s;
+}
+
+#endif
