@@ -33,7 +33,7 @@ class CoreLimb:
     def __init__(self, case: Case) -> None:
         ffi, lib = library().ffi, library().lib
         self.case, self._yaw = case, yaw(case)
-        limb, weights = ffi.new("brace_limb_t *"), ffi.new("brace_weights_t *")
+        limb, weights = ffi.new("brace_limb_t *"), ffi.new("brace_gravity_t *")
         self._loaded, self._load = ffi.new("brace_loaded_space_t *"), ffi.new("brace_space_load_t *")
         self.rest, self.result = ffi.new("brace_space_rest_t *"), ffi.new("brace_space_result_t *")
         keys = case.keys

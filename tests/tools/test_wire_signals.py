@@ -151,7 +151,7 @@ def test_the_frame_of_can_fd_is_one_in_its_database() -> None:
     """As the attributes of the format have it, with the rate switched; and the other database has none."""
     fd: Any = cantools.database.load_file(DBC_FD, strict=True)
     assert [message.name for message in fd.messages if message.is_fd] == list(frames.FD_MESSAGES)
-    assert [(message.frame_id, message.length) for message in fd.messages] == [(0x501, 64), (0x301, 64)]
+    assert [(message.frame_id, message.length) for message in fd.messages] == [(0x501, 64), (0x301, 64), (0x681, 64)]
     for message in fd.messages:
         assert str(message.dbc.attributes["VFrameFormat"].value) in ("StandardCAN_FD", "14")
         assert str(message.dbc.attributes["CANFD_BRS"].value) == "1"

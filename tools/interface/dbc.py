@@ -45,6 +45,8 @@ def dbc(wire: Wire, dictionary_hash: int, nodes: Sequence[int] = (1,)) -> str:
             for signal, _ in signals:
                 comments.append(f'CM_ SG_ {identifier} {signal.name} "{_words(signal)}";')
                 values += _value_table(identifier, signal, signal.name)
+                if signal.kind == "f32":
+                    floats.append(f"SIG_VALTYPE_ {identifier} {signal.name} : 1;")
         questions = [request.question for request in wire.requests]
         answers = [frame for request in wire.requests for frame in request.answers]
         refusals = [(wire.refusal, request.code + 32 * wire.refused_part) for request in wire.requests]

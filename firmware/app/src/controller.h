@@ -74,7 +74,8 @@ static inline loading_inputs_t controller_loading_inputs(controller_t *controlle
                               .flank = &controller->flank,
                               .posture = &controller->posture,
                               .model = &controller->model,
-                              .parameters = &controller->parameters.in_force};
+                              .parameters = &controller->parameters.in_force,
+                              .down = controller->gravity.down};
 }
 
 #endif

@@ -15,7 +15,7 @@ const int job_out_count = 10;
 
 void job_setup(void)
 {
-    static const brace_weights_t weights = {BENCH_FEMUR_N, BENCH_KNEE_N, BENCH_TIBIA_N};
+    static const brace_gravity_t weights = {.femur_n = BENCH_FEMUR_N, .knee_n = BENCH_KNEE_N, .tibia_n = BENCH_TIBIA_N};
     brace_loaded_space_collapse(&limb, &weights, &loaded);
 }
 

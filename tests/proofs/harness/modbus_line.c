@@ -22,7 +22,7 @@ uint32_t modbus_pdu_answer(modbus_server_t *server, modbus_half_t *half, const w
     PROVE(length >= 1u && length <= MODBUS_PDU_BYTES && pdu > in_from && pdu + MODBUS_PDU_BYTES <= in_end,
           "a request as promised");
     const uint32_t answer = any_u32();
-    ASSUME(answer >= 2u && answer <= MODBUS_PDU_BYTES);
+    ASSUME(answer != 1u && answer <= MODBUS_PDU_BYTES); /* 0: it is being worked out */
     return answer;
 }
 
@@ -32,11 +32,22 @@ uint32_t modbus_pdu_least_length(const uint8_t *pdu, uint32_t length)
     return any_u32();
 }
 
+static brace_parameters_t parameters;
+
+const brace_parameters_t *brace_app_parameters(const brace_app_t *app)
+{
+    (void)app;
+    return &parameters;
+}
+
 static bool sound(const modbus_line_t *line)
 {
     const modbus_link_t *link = &line->link;
     const bool is_request = link->count > 0u && !link->is_sending;
-    return link->count <= 256u && link->sent <= link->count && (link->sent == 0u || link->is_sending) &&
+    return link->count <= 256u && link->ready <= link->count && link->sent <= link->ready &&
+           ((link->ready == 0u && link->sent == 0u) || link->is_sending) &&
+           (!link->is_waiting || (!link->is_sending && !link->is_skipping && link->count >= 4u)) &&
+           (!link->is_sending || link->ready == link->count || line->checked + 2u <= link->count) &&
            !(link->is_sending && link->is_skipping) && (!link->is_skipping || link->count == 0u) &&
            (!link->is_sending || link->count >= 5u) && line->checked <= MODBUS_LINK_BYTES &&
            (!is_request || line->checked <= link->count);
@@ -53,6 +64,7 @@ int main(void)
     tick.counters = &counters;
     in_from = out_from = link->bytes;
     in_end = out_end = link->bytes + sizeof link->bytes;
+    parameters.controller.tick_us = any_u32();
     ASSUME(sound(&line));
     const bool was_sending = link->is_sending;
     modbus_line_tick(&line, &server, &tick);

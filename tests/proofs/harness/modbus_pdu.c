@@ -44,10 +44,10 @@ int32_t answer_request(request_t *request, uint32_t code, const brace_request_t 
 {
     brace_answer_t any;
     const int32_t status = any_i32();
-    ASSUME(status <= ANSWER_LATER && status >= BRACE_REFUSED_STORE - 7);
+    ASSUME(status <= ANSWER_AGAIN && status >= BRACE_REFUSED_STORE - 7);
     PROVE((code >= BRACE_REQUEST_K_AT_POSTURE && code <= BRACE_REQUEST_SET_MODE) || code == BRACE_REQUEST_COMMIT ||
               code == BRACE_REQUEST_ROLLBACK || code == BRACE_REQUEST_TAKE_UP || code == BRACE_REQUEST_LET_GO ||
-              code == BRACE_REQUEST_CLEAR,
+              code == BRACE_REQUEST_CLEAR || (code >= BRACE_REQUEST_SET_GRAVITY && code <= BRACE_REQUEST_CODE_MOST),
           "a request that Modbus knows");
     PROVE(code != BRACE_REQUEST_TAKE_UP || asked->take_up.flank == 1 || asked->take_up.flank == -1,
           "a flank that there is");
@@ -81,7 +81,8 @@ int main(void)
     modbus_half_t half;
     wire_tick_t tick;
     brace_app_counters_t counters;
-    uint8_t pdu[MODBUS_PDU_BYTES];
+    uint8_t pdu[MODBUS_PDU_BYTES], as_sent[MODBUS_PDU_BYTES];
+    memcpy(as_sent, pdu, sizeof pdu);
     const uint32_t length = any_u32();
     ASSUME(length >= 1u && length <= MODBUS_PDU_BYTES);
     tick.counters = &counters;
@@ -90,6 +91,11 @@ int main(void)
 
     const uint32_t answer = modbus_pdu_answer(&server, &half, &tick, pdu, length);
 
+    if (answer == 0u) { /* it is being worked out */
+        PROVE(function == 16u && pdu[0] == function && same(pdu, as_sent, MODBUS_PDU_BYTES),
+              "only a question is put again, and it stays as it is");
+        return 0;
+    }
     PROVE(answer >= 2u && answer <= MODBUS_PDU_BYTES, "an answer fits");
     const uint8_t why = pdu[1];
     if ((pdu[0] & MODBUS_REFUSED) != 0u && (function & MODBUS_REFUSED) == 0u) {

@@ -13,7 +13,7 @@ uint32_t modbus_pdu_answer(modbus_server_t *server, modbus_half_t *half, const w
     PROVE(length >= 1u && length <= MODBUS_PDU_BYTES && pdu > in_from && pdu + MODBUS_PDU_BYTES <= in_end,
           "a request as promised");
     const uint32_t answer = any_u32();
-    ASSUME(answer >= 2u && answer <= MODBUS_PDU_BYTES);
+    ASSUME(answer != 1u && answer <= MODBUS_PDU_BYTES); /* 0: it is being worked out */
     return answer;
 }
 
@@ -36,9 +36,11 @@ static bool sound(const modbus_link_t *link)
 {
     const bool has_head = link->count >= HEADER_BYTES + 1u; /* so much of it has been judged */
     const bool is_request = !link->is_sending && !link->is_skipping;
-    return link->count <= HEADER_BYTES + MODBUS_PDU_BYTES && link->sent <= link->count &&
-           (link->sent == 0u || link->is_sending) && !(link->is_sending && link->is_skipping) &&
-           (!(is_request && has_head) || (link->count < told(link) && told(link) <= HEADER_BYTES + MODBUS_PDU_BYTES)) &&
+    const bool is_whole = link->is_waiting ? link->count == told(link) : link->count < told(link);
+    return link->count <= HEADER_BYTES + MODBUS_PDU_BYTES && link->ready <= link->count && link->sent <= link->ready &&
+           (link->is_sending ? link->ready == link->count : link->ready == 0u && link->sent == 0u) &&
+           !(link->is_sending && link->is_skipping) && (!link->is_waiting || (is_request && has_head)) &&
+           (!(is_request && has_head) || (is_whole && told(link) <= HEADER_BYTES + MODBUS_PDU_BYTES)) &&
            (!link->is_sending || has_head);
 }
 

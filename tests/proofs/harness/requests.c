@@ -132,34 +132,31 @@ brace_status_t brace_app_store_status(const brace_app_t *app, brace_store_status
     return BRACE_OK;
 }
 
-brace_status_t brace_app_k_at_posture(brace_app_t *app, float theta1_rad, float theta2_rad,
-                                    brace_stiffness_t *stiffness)
+int32_t brace_app_ask_k(brace_app_t *app, brace_asker_t asker, const brace_k_question_t *question,
+                        brace_k_answer_t *answer)
 {
     (void)app;
-    (void)theta1_rad;
-    (void)theta2_rad;
-    brace_stiffness_t any;
-    *stiffness = any;
+    PROVE((uint32_t)asker < (uint32_t)BRACE_ASKER_COUNT, "an asker that there is");
+    PROVE(question->where != BRACE_K_AT_TIP || question->knee == BRACE_KNEE_UP || question->knee == BRACE_KNEE_DOWN,
+          "a knee that there is");
+    brace_k_answer_t any;
+    *answer = any;
+    return any_bool() ? (int32_t)BRACE_APP_LATER : (int32_t)any_status();
+}
+
+brace_status_t brace_app_set_gravity(brace_app_t *app, float direction_rad, float lean_rad)
+{
+    (void)app;
+    (void)direction_rad;
+    (void)lean_rad;
     return any_status();
 }
 
-brace_status_t brace_app_k_at_tip(brace_app_t *app, brace_point_t tip, brace_knee_t knee,
-                                brace_stiffness_t *stiffness)
-{
-    PROVE(knee == BRACE_KNEE_UP || knee == BRACE_KNEE_DOWN, "a knee that there is");
-    return brace_app_k_at_posture(app, tip.x_mm, tip.z_mm, stiffness);
-}
-
-brace_status_t brace_app_k_in_space(brace_app_t *app, float theta0_rad, float theta1_rad, float theta2_rad,
-                                  brace_stiffness_spatial_t *stiffness)
+void brace_app_gravity(const brace_app_t *app, float *direction_rad, float *lean_rad)
 {
     (void)app;
-    (void)theta0_rad;
-    (void)theta1_rad;
-    (void)theta2_rad;
-    brace_stiffness_spatial_t any;
-    *stiffness = any;
-    return any_status();
+    *direction_rad = any_float();
+    *lean_rad = any_float();
 }
 
 brace_status_t brace_app_contact_force(const brace_app_t *app, brace_displacement_t displacement,
@@ -327,12 +324,13 @@ int main(void)
     ANY(snapshot);
     ANY(parameters);
     ANY(result);
+    const brace_asker_t asker = any_bool() ? BRACE_ASKER_CAN : BRACE_ASKER_SLCAN;
     const uint32_t count = answers->count;
     memcpy(as_sent, data, 8);
     const uint8_t storing_before = port.storing, token_before = port.storing_token;
     const transfer_t kept = port.transfer, *before = &kept;
 
-    const bool is_known = can_requests_answer(&port, &tick, any_u8(), data);
+    const bool is_known = can_requests_answer(&port, &tick, asker, any_u8(), data);
 
     const uint32_t code = data[0];
     const bool stores = storing_before == 0u && port.storing != 0u;
@@ -357,6 +355,7 @@ int main(void)
               (transfer->download_next == before->download_next && transfer->download_sum == before->download_sum &&
                transfer->download_set == before->download_set),
           "a download is left alone");
-    answers_are_of(answers, data, count, stores); /* the last, since it assumes that there is a part */
+    PROVE(!port.waits || same(port.waiting, data, 8), "what waits is the request");
+    answers_are_of(answers, data, count, stores || port.waits); /* the last, since it assumes that there is a part */
     return 0;
 }

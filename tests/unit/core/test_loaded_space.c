@@ -9,7 +9,7 @@
 #include "unity.h"
 
 static brace_limb_t limb;
-static brace_weights_t weights;
+static brace_gravity_t weights;
 static brace_space_load_t load;
 static brace_space_rest_t rest;
 
@@ -157,7 +157,7 @@ static void test_in_the_plane_as_the_planes_own_path(void)
     limb.link[BRACE_COXA] = (brace_link_t){0};
     limb.link[BRACE_FEMUR].moment_transfer_ratio = 0.6f;
     limb.link[BRACE_TIBIA].moment_transfer_ratio = 1.0f;
-    weights = (brace_weights_t){2.0f, 1.0f, 1.5f};
+    weights = (brace_gravity_t){.femur_n = 2.0f, .knee_n = 1.0f, .tibia_n = 1.5f};
     brace_loaded_t plane;
     brace_loaded_collapse(&limb, &weights, &plane);
     for (uint32_t i = 0; i < sizeof postures / sizeof *postures; i++) {
@@ -181,7 +181,7 @@ static void test_in_the_plane_as_the_planes_own_path(void)
 /* Seen in a mirror, the limb's plane, everything across changes its sign and nothing else. */
 static void test_a_mirrored_load(void)
 {
-    weights = (brace_weights_t){2.0f, 1.0f, 1.5f};
+    weights = (brace_gravity_t){.femur_n = 2.0f, .knee_n = 1.0f, .tibia_n = 1.5f};
     load.tip_n = (brace_vec3_t){3.0f, 5.0f, 7.0f};
     load.down = (brace_vec3_t){0.0f, 0.6f, -0.8f};
     const brace_space_result_t left = at(0.6f, 1.2f);

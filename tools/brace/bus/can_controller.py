@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 import struct
 import time
 from typing import TYPE_CHECKING
 
-from brace.bus.controller import Advance, Identity, StiffnessAnswer, Stored, check_dictionary
+from brace.bus.controller import Advance, Force, Identity, StiffnessAnswer, Stored, check_dictionary
 from brace.bus.drift import TAKE_UPS, Drift, drift_of, take_up_of
 from brace.bus.entries import index_of
+from brace.bus.load import LOAD_ENTRIES, Load
 from brace.bus.session import Session
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceStiffness, space_answer
@@ -72,9 +74,25 @@ class CanController:
             next_step="set controller.stiffness_hz and posture_hz (brace params push), or ask: --theta1 --theta2",
         )
 
-    def k_at_posture(self, theta1_rad: float, theta2_rad: float) -> StiffnessAnswer:
+    def k_at_posture(self, theta1_rad: float, theta2_rad: float, force_n: Force | None = None) -> StiffnessAnswer:
         """True angles."""
-        return _stiffness(self.session.ask("k_at_posture", {"theta1": theta1_rad, "theta2": theta2_rad}))
+        return self._ask_k("at_posture", {"theta1": theta1_rad, "theta2": theta2_rad}, force_n)
+
+    def _ask_k(self, where: str, place: dict[str, Value], force_n: Force | None) -> StiffnessAnswer:
+        if force_n is None:
+            return _stiffness(self.session.ask(f"k_{where}", place))
+        self.session.ask("tip_force", {"fx": force_n[0], "fz": force_n[1]})
+        return _stiffness(self.session.ask(f"k_under_load_{where}", place))
+
+    def load(self) -> Load:
+        """Entry by entry, so of several snapshots."""
+        words = {name: struct.pack("<I", self.read_entry(name)) for name in LOAD_ENTRIES}
+        values = {name: float(struct.unpack("<f", word)[0]) for name, word in words.items()}
+        return Load({name: None if math.isnan(value) else value for name, value in values.items()})
+
+    def set_gravity(self, direction_rad: float, lean_rad: float) -> None:
+        """Volatile."""
+        self.session.ask("set_gravity", {"direction": direction_rad, "lean": lean_rad})
 
     def k_in_space_at_posture(self, theta0_rad: float, theta1_rad: float, theta2_rad: float) -> SpaceStiffness:
         """True angles; refused where the limb has no coxa joint."""
@@ -89,10 +107,9 @@ class CanController:
         """How each joint's last take-up went."""
         return {joint: take_up_of(self.read_entry(f"take_up_{joint}")) for joint in TAKE_UPS}
 
-    def k_at_tip(self, x_mm: float, z_mm: float, knee_up: bool) -> StiffnessAnswer:
+    def k_at_tip(self, x_mm: float, z_mm: float, knee_up: bool, force_n: Force | None = None) -> StiffnessAnswer:
         """From the femur axis."""
-        name = "k_at_tip_knee_up" if knee_up else "k_at_tip_knee_down"
-        return _stiffness(self.session.ask(name, {"x": x_mm, "z": z_mm}))
+        return self._ask_k(f"at_tip_knee_{'up' if knee_up else 'down'}", {"x": x_mm, "z": z_mm}, force_n)
 
     def sag_for_load(self, fx_n: float, fz_n: float) -> dict[str, Value]:
         """Displacement of the tip [mm] under a force on it, with the K of now."""
@@ -203,7 +220,8 @@ class CanController:
 def _stiffness(answer: dict[str, Value]) -> StiffnessAnswer:
     names = ("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max", "stiff_axis")
     values = {name: answer[name] for name in names}
-    return StiffnessAnswer(**values, flags=FLAG.names_of_bits(int(answer["flags"] or 0)))
+    moved = {"moved_x": answer.get("dx"), "moved_z": answer.get("dz"), "buckling_factor": answer.get("buckling_factor")}
+    return StiffnessAnswer(**values, **moved, flags=FLAG.names_of_bits(int(answer["flags"] or 0)))
 
 
 def _stored(answer: dict[str, Value]) -> Stored:

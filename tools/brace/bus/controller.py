@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 from brace.bus.drift import Drift
+from brace.bus.load import Load
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceStiffness
 from brace.errors import VersionMismatchError
@@ -41,6 +42,12 @@ class StiffnessAnswer:
     lambda_max: Value
     stiff_axis: Value  # rad
     flags: tuple[str, ...]
+    moved_x: Value = None  # mm, by the force that was asked for and the weight
+    moved_z: Value = None
+    buckling_factor: Value = None  # infinite: none
+
+
+Force = tuple[float, float]  # of the ground on the tip, x and z [N]
 
 
 @dataclass(frozen=True)
@@ -62,7 +69,8 @@ class Controller(Protocol):
     def live(self) -> Snapshot:
         """The newest snapshot, with eigenvalues and posture, and with K in space where there is one."""
 
-    def k_at_posture(self, theta1_rad: float, theta2_rad: float) -> StiffnessAnswer: ...
+    def k_at_posture(self, theta1_rad: float, theta2_rad: float, force_n: Force | None = None) -> StiffnessAnswer:
+        """Under the weight, and under a force where one is given. Angles are those before the load turns the joints."""
 
     def k_in_space_at_posture(self, theta0_rad: float, theta1_rad: float, theta2_rad: float) -> SpaceStiffness: ...
 
@@ -71,7 +79,14 @@ class Controller(Protocol):
     def take_ups(self) -> dict[str, str]:
         """How the last take-up of each joint went, by the joint's name."""
 
-    def k_at_tip(self, x_mm: float, z_mm: float, knee_up: bool) -> StiffnessAnswer: ...
+    def k_at_tip(self, x_mm: float, z_mm: float, knee_up: bool, force_n: Force | None = None) -> StiffnessAnswer:
+        """The same with the tip at a place before the load moves it."""
+
+    def load(self) -> Load:
+        """What the K of now counts."""
+
+    def set_gravity(self, direction_rad: float, lean_rad: float) -> None:
+        """Where down is, until the controller's next start."""
 
     def sag_for_load(self, fx_n: float, fz_n: float) -> dict[str, Value]: ...
 

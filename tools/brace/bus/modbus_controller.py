@@ -8,10 +8,12 @@ import random
 import struct
 import time
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from brace.bus.controller import Advance, Identity, StiffnessAnswer, Stored, check_dictionary
+from brace.bus.controller import Advance, Force, Identity, StiffnessAnswer, Stored, check_dictionary
 from brace.bus.drift import TAKE_UPS, Drift, drift_of, take_up_of
+from brace.bus.load import Load
 from brace.bus.refusal import STORE, error_of
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceSnapshot, SpaceStiffness, space_snapshot
@@ -20,6 +22,7 @@ from brace.errors import BraceError, DeviceFaultError, MissingLibraryError, NoDe
 from brace.wire.codes import FLAG
 from brace.wire.layout import Value
 from brace.wire.measured import MEASURED
+from brace.wire.names import PARAMETERS
 from brace.wire.register import Register
 from brace.wire.registers import REGISTERS
 
@@ -36,7 +39,9 @@ _ONE_READ = 125  # registers that one request reads: values of one snapshot
 _KEY = 0xC0DE0000
 _INPUT = [r for r in REGISTERS if r.table == "input" and r.address + 2 <= _ONE_READ]
 _ASKED = [r for r in REGISTERS if r.table == "input" and r.address >= 4096]
-_PARAMETERS = [r for r in REGISTERS if r.table == "holding" and r.access == "rw"]
+_INDEX = {parameter.key: parameter.index for parameter in PARAMETERS}
+_PARAMETERS = sorted((r for r in REGISTERS if r.table == "holding" and r.access == "rw"), key=lambda r: r.address)
+_PLACES = [_INDEX[r.name] for r in _PARAMETERS]  # by register: a parameter's place in the block
 _BY_NAME = {r.name: r for r in REGISTERS}
 
 
@@ -49,6 +54,7 @@ def _between(first: str, last: str) -> list[Register]:
 _SPACE = _between("k_is_in_space", "play_coxa")
 _DRIFT = _between("drift_state", "drift_next_step")
 _TAKE_UPS = _between("take_up_coxa", "take_up_tibia")
+_LOAD = _between("unloaded_k_xx", "gravity_lean")
 _FORCES = (("fx_n", "x"), ("fz_n", "z"), ("low_n", "low"), ("high_n", "high"))
 _ENTRIES = {entry.name: entry for entry in MEASURED}
 _EXCEPTIONS = {
@@ -161,13 +167,25 @@ class ModbusController:
         v = self._values_of(_TAKE_UPS)
         return {joint: take_up_of(int(v[f"take_up_{joint}"] or 0)) for joint in TAKE_UPS}
 
-    def k_at_posture(self, theta1_rad: float, theta2_rad: float) -> StiffnessAnswer:
+    def k_at_posture(self, theta1_rad: float, theta2_rad: float, force_n: Force | None = None) -> StiffnessAnswer:
         """Written, then read."""
-        return self._stiffness(self._ask("asked_theta1", ">ff", theta1_rad, theta2_rad))
+        if force_n is None:
+            return self._stiffness(self._ask("asked_theta1", ">ff", theta1_rad, theta2_rad))
+        return self._under_load(self._ask("asked_posture_force_x", ">ffff", *force_n, theta1_rad, theta2_rad))
 
-    def k_at_tip(self, x_mm: float, z_mm: float, knee_up: bool) -> StiffnessAnswer:
+    def k_at_tip(self, x_mm: float, z_mm: float, knee_up: bool, force_n: Force | None = None) -> StiffnessAnswer:
         """From the femur axis."""
-        return self._stiffness(self._ask("asked_tip_x", ">ffI", x_mm, z_mm, int(not knee_up)))
+        if force_n is None:
+            return self._stiffness(self._ask("asked_tip_x", ">ffI", x_mm, z_mm, int(not knee_up)))
+        return self._under_load(self._ask("asked_tip_force_x", ">ffffI", *force_n, x_mm, z_mm, int(not knee_up)))
+
+    def load(self) -> Load:
+        """Of one read."""
+        return Load(self._values_of(_LOAD))
+
+    def set_gravity(self, direction_rad: float, lean_rad: float) -> None:
+        """Volatile."""
+        self._ask("asked_gravity_direction", ">ff", direction_rad, lean_rad)
 
     def sag_for_load(self, fx_n: float, fz_n: float) -> dict[str, Value]:
         """Displacement of the tip [mm] under a force on it, with the K of now."""
@@ -199,10 +217,14 @@ class ModbusController:
             time.sleep(random.uniform(0.0, APART_S))  # the other asks again too: not in step with it
 
     @staticmethod
-    def _stiffness(v: dict[str, Value]) -> StiffnessAnswer:
+    def _stiffness(v: dict[str, Value], of: str = "asked_") -> StiffnessAnswer:
         names = ("k_xx", "k_xz", "k_zz", "lambda_min", "lambda_max", "stiff_axis")
-        flags = FLAG.names_of_bits(int(v["asked_flags"] or 0))
-        return StiffnessAnswer(**{name: v[f"asked_{name}"] for name in names}, flags=flags)
+        flags = FLAG.names_of_bits(int(v[f"{of}flags"] or 0))
+        return StiffnessAnswer(**{name: v[f"{of}{name}"] for name in names}, flags=flags)
+
+    def _under_load(self, v: dict[str, Value]) -> StiffnessAnswer:
+        moved_x, moved_z, factor = (v[f"asked_{name}"] for name in ("moved_x", "moved_z", "buckling_factor"))
+        return replace(self._stiffness(v, "asked_loaded_"), moved_x=moved_x, moved_z=moved_z, buckling_factor=factor)
 
     def read_entry(self, name: str) -> int:
         """32 bits."""
@@ -230,7 +252,7 @@ class ModbusController:
 
     def upload(self, block: Block, advance: Advance) -> None:
         """Into the holding registers, where it is staged."""
-        words = struct.unpack(f">{2 * len(block.words)}H", block.words.astype(">u4").tobytes())
+        words = struct.unpack(f">{2 * len(_PLACES)}H", block.words[_PLACES].astype(">u4").tobytes())
         for start in range(0, len(words), _BLOCK):
             self._write(start, words[start : start + _BLOCK])
             advance(min(start + _BLOCK, len(words)) // 2)
@@ -278,7 +300,8 @@ class ModbusController:
         for start in range(0, total, _BLOCK):
             halves += self._read("holding", start, min(_BLOCK, total - start))
             advance(len(halves) // 2)
-        words = np.frombuffer(struct.pack(f">{total}H", *halves), dtype=">u4").astype(np.uint32)
+        words = np.empty(len(_PLACES), np.uint32)
+        words[_PLACES] = np.frombuffer(struct.pack(f">{total}H", *halves), dtype=">u4")
         sequence = int(self._input()["parameter_sequence"] or 0)
         return pack(model_of(words), sequence)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
@@ -19,8 +20,9 @@ def add(commands: Subcommands) -> None:
     parser = commands.add_parser(
         "query",
         help="K and state of a controller, once",
-        description="Asks a controller: the K of now, with what its drift check knows and how take-ups went; K at a "
-        "posture or tip position that the limb need not be in; or any entry of the dictionary. A limb whose coxa joint "
+        description="Asks a controller: the K of now with the load that it counts, what its drift check knows and how "
+        "take-ups went; K at a posture or tip position that the limb need not be in, under its weight and, with --fx "
+        "--fz, a force; or any entry of the dictionary. A limb whose coxa joint "
         "is fitted tells K in space too.",
         epilog="Exit codes: 0 a valid K (or the entry), 4 no answer, 5 K is not valid or the device refuses, "
         "6 another dictionary.",
@@ -39,6 +41,10 @@ def add(commands: Subcommands) -> None:
     )
     parser.add_argument("--z", type=common.number, metavar="MM", help="tip above the femur axis")
     parser.add_argument("--knee", choices=("up", "down"), help="for --x --z; default up")
+    parser.add_argument(
+        "--fx", type=common.number, metavar="N", help="force of the ground on the tip there, outwards; with --fz"
+    )
+    parser.add_argument("--fz", type=common.number, metavar="N", help="the same upwards")
     parser.add_argument(
         "--load",
         nargs=2,
@@ -83,7 +89,7 @@ def _check(arguments: argparse.Namespace) -> None:
     from brace.bus.entries import index_of
     from brace.errors import UsageError
 
-    for one, other in (("theta1", "theta2"), ("x", "z")):
+    for one, other in (("theta1", "theta2"), ("x", "z"), ("fx", "fz")):
         if (getattr(arguments, one) is None) != (getattr(arguments, other) is None):
             raise UsageError(
                 f"--{one} and --{other} belong together",
@@ -106,6 +112,13 @@ def _check(arguments: argparse.Namespace) -> None:
             where="query",
             why="posture, tip, load, sag and entries exclude each other",
             next_step="two commands",
+        )
+    if arguments.fx is not None and (arguments.theta0 is not None or (arguments.theta1 is None and arguments.x is None)):
+        raise UsageError(
+            "--fx --fz without a place in the limb's plane",
+            where="query",
+            why="the K of now counts the force of now",
+            next_step="give --theta1 --theta2 or --x --z too",
         )
     if arguments.knee and arguments.x is None:
         raise UsageError(
@@ -141,12 +154,15 @@ def _text(value: object) -> str:
 def _asked(arguments: argparse.Namespace, device: Controller) -> int:
     from brace.errors import EXIT_DEVICE_FAULT, EXIT_OK
 
+    force = None if arguments.fx is None else (arguments.fx, arguments.fz)
     if arguments.x is not None:
-        answer = device.k_at_tip(arguments.x, arguments.z, arguments.knee != "down")
+        answer = device.k_at_tip(arguments.x, arguments.z, arguments.knee != "down", force)
         place = {"x_mm": arguments.x, "z_mm": arguments.z, "knee": arguments.knee or "up"}
     else:
-        answer = device.k_at_posture(arguments.theta1, arguments.theta2)
+        answer = device.k_at_posture(arguments.theta1, arguments.theta2, force)
         place = {"theta1_rad": arguments.theta1, "theta2_rad": arguments.theta2}
+    if force is not None:
+        place |= {"fx_n": force[0], "fz_n": force[1]}
     valid = None not in (answer.k_xx, answer.k_xz, answer.k_zz)
     k = {
         "k_xx_n_per_mm": answer.k_xx,
@@ -157,6 +173,12 @@ def _asked(arguments: argparse.Namespace, device: Controller) -> int:
         "stiff_axis_rad": answer.stiff_axis,
         "flag_names": list(answer.flags),
     }
+    if force is not None:
+        k |= {
+            "tip_dx_mm": answer.moved_x,
+            "tip_dz_mm": answer.moved_z,
+            "buckling_factor": None if answer.buckling_factor == math.inf else answer.buckling_factor,
+        }
     if arguments.json:
         common.print_json({"node": device.node, **place, "k_is_valid": valid, **k})
     else:
@@ -166,6 +188,9 @@ def _asked(arguments: argparse.Namespace, device: Controller) -> int:
         )
         common.emit(f"node {device.node} at {told}")
         _emit_k(k, valid)
+        if force is not None and None not in (answer.moved_x, answer.moved_z):
+            factor = "none" if k["buckling_factor"] is None else format(k["buckling_factor"], ".2f")
+            common.emit(f"the tip moves {answer.moved_x:.3f} {answer.moved_z:.3f} mm, buckling factor {factor}")
     if not valid:
         _say_invalid(
             device, "K there is not known", ", ".join(answer.flags) or "the controller does not say why"
@@ -230,9 +255,9 @@ def _live(arguments: argparse.Namespace, device: Controller) -> int:
         "parameters": identity.origin,
         "parameter_crc": f"{identity.parameter_crc:08x}",
     }
-    drift, take_ups = device.drift(), device.take_ups()
+    load, drift, take_ups = device.load(), device.drift(), device.take_ups()
     if arguments.json:
-        common.print_json(entry | {"drift": drift.as_json(), "take_up": take_ups})
+        common.print_json(entry | {"load": load.as_json(), "drift": drift.as_json(), "take_up": take_ups})
     else:
         common.emit(
             f"node {snapshot.node}, firmware {identity.version}: {entry.get('mode', 'mode not sent')}"
@@ -240,6 +265,8 @@ def _live(arguments: argparse.Namespace, device: Controller) -> int:
         _emit_k(entry, snapshot.is_valid)
         if snapshot.has_posture and None not in (snapshot.theta1, snapshot.theta2):
             common.emit(f"theta1 {snapshot.theta1:.5f} rad, theta2 {snapshot.theta2:.5f} rad")
+        for line in load.lines():
+            common.emit(line)
         age = "over 127 ms" if snapshot.age_ms is None else f"{snapshot.age_ms:g} ms"
         common.emit(f"age {age}; play femur {snapshot.play[0]}, tibia " f"{snapshot.play[1]}")
         common.emit(

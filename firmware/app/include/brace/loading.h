@@ -61,7 +61,8 @@ typedef struct {
     brace_loading_setup_t setup;
     uint16_t run, config, rep;
     uint32_t rows;                 /* read so far */
-    float theta1_rad, theta2_rad, temp_degc; /* at the preload point */
+    float theta1_rad, theta2_rad, temp_degc; /* at the preload point; angles as the motors stand, without what the load
+                                                turns */
     float preload_x_n, preload_z_n;
     bool force_is_sensed;
     /* A column of K: force along x and z per displacement along the axis; with DONE only. */
@@ -94,6 +95,7 @@ typedef struct {
     float torque_max_n_mm[2];
     brace_point_t lever_femur, lever_knee; /* shift of the tip for a unit of theta1, and of theta2 */
     float start_motor_rad[2], start_link_rad[2];
+    float standing_rad[2];         /* true angles at the preload point, what the load turns counted */
     brace_loading_sums_t sums;
     float dx_mm, dz_mm, fx_n, fz_n; /* the last reading */
     uint16_t run_count, config_count;

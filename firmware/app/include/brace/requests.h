@@ -9,6 +9,7 @@
 
 #include "brace/contact.h"
 #include "brace/drift.h"
+#include "brace/k_question.h"
 #include "brace/loading.h"
 #include "brace/recorder.h"
 #include "brace/snapshot.h"
@@ -117,39 +118,6 @@ brace_status_t brace_app_store_status(const brace_app_t *app, brace_store_status
 
 /* ------------------------------------------------------------------------------------------ questions --
  * What they answer is untouched unless BRACE_OK is returned. */
-
-/* Who asks for a K: each has one question at a time. */
-typedef enum {
-    BRACE_ASKER_PROGRAM = 0, /* the program around the controller */
-    BRACE_ASKER_CAN,
-    BRACE_ASKER_SLCAN,
-    BRACE_ASKER_MODBUS_LINE,
-    BRACE_ASKER_MODBUS_TCP,
-    BRACE_ASKER_COUNT
-} brace_asker_t;
-
-typedef enum { BRACE_K_AT_POSTURE = 0, BRACE_K_AT_TIP, BRACE_K_IN_SPACE } brace_k_where_t;
-
-/* K with every gap closed, where the limb need not be, with the joints' temperatures of now. Set what is not used to
- * zero: a question that is asked again is told by all of it. */
-typedef struct {
-    brace_k_where_t where;
-    float theta_rad[BRACE_LINK_COUNT]; /* of a posture: true angles before the load turns the joints; that of the coxa
-                                          joint in space only */
-    brace_point_t tip;                 /* of a tip: where it is before the load moves it */
-    brace_knee_t knee;
-    brace_force_t tip_force;           /* of the ground, counted together with the weight; not in space */
-} brace_k_question_t;
-
-typedef struct {
-    brace_stiffness_t k;               /* in the limb's plane; flags: UNCALIBRATED, OUT_OF_RANGE (outside the drives'
-                                          travel), LOAD_UNKNOWN (a limb in space), and the model's own */
-    brace_stiffness_spatial_t in_space;
-    brace_displacement_t moved_mm;     /* by force and weight; NaN: not counted */
-    float buckling_factor;             /* infinity: none; NaN: not counted */
-} brace_k_answer_t;
-
-enum { BRACE_APP_LATER = 1 };
 
 /* Asks for such a K. It is worked out in the ticks to come, one question in every other tick: ask the same again in
  * every tick until the answer comes. Four ports that ask at once have theirs within eight ticks; dear steps of other jobs

@@ -20,7 +20,7 @@
 /* Collapses a limb. Call it when parameters change.
  * limb: one that brace_limb_check accepts. weights: each 0 to 1e6 N, not checked. No pointer may be null.
  * Cost on a Cortex-M4F: at most 700 instructions. */
-void brace_loaded_space_collapse(const brace_limb_t *limb, const brace_weights_t *weights,
+void brace_loaded_space_collapse(const brace_limb_t *limb, const brace_gravity_t *weights,
                                  brace_loaded_space_t *loaded);
 
 /* Equilibrium and K at commanded (or measured) true angles under a load.

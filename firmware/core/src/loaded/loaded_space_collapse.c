@@ -38,7 +38,7 @@ static brace_space_link_t link_of(const brace_link_t *link, float length_mm, flo
         .weight_n = weight_n};
 }
 
-void brace_loaded_space_collapse(const brace_limb_t *limb, const brace_weights_t *weights,
+void brace_loaded_space_collapse(const brace_limb_t *limb, const brace_gravity_t *weights,
                                  brace_loaded_space_t *loaded)
 {
     loaded->coxa = link_of(&limb->link[BRACE_COXA], limb->coxa_mm, 0.0f);

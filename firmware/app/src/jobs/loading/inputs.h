@@ -19,6 +19,7 @@ typedef struct {
     const posture_t *posture;
     model_t *model;
     const brace_parameters_t *parameters;
+    brace_vec_t down;            /* where the weight pulls */
 } loading_inputs_t;
 
 /* What a step hands to the drift check. */

@@ -114,7 +114,7 @@ brace_status_t loading_start(brace_loading_t *test, const loading_inputs_t *inpu
         return BRACE_E_SINGULAR;
     }
     test->result = (brace_loading_result_t){.outcome = BRACE_LOADING_RUNNING, .setup = *setup};
-    count_run(test, setup->axis, now->theta_rad);
+    count_run(test, setup->axis, inputs->posture->unbent_rad);
     test->model = now->stiffness.engaged;
     const float femur_rad = __builtin_fabsf(per_mm[0]), tibia_rad = __builtin_fabsf(per_mm[1]);
     for (int i = 0; i < 2; i++) {

@@ -53,9 +53,10 @@ static bool begin_at_preload(brace_loading_t *test, const loading_inputs_t *inpu
     for (int i = 0; i < 2; i++) {
         test->start_motor_rad[i] += mean->motor_rad[i];
         test->start_link_rad[i] = mean->link_rad[i];
+        test->standing_rad[i] = now->theta_rad[BRACE_FEMUR + i];
     }
-    test->result.theta1_rad = now->theta_rad[BRACE_FEMUR];
-    test->result.theta2_rad = now->theta_rad[BRACE_TIBIA];
+    test->result.theta1_rad = inputs->posture->unbent_rad[BRACE_FEMUR];
+    test->result.theta2_rad = inputs->posture->unbent_rad[BRACE_TIBIA];
     test->result.temp_degc = mean->temp_degc;
     test->result.preload_x_n = mean->force_x_n;
     test->result.preload_z_n = mean->force_z_n;
@@ -122,7 +123,8 @@ bool reading_take(brace_loading_t *test, const loading_inputs_t *inputs, brace_r
     return is_usable;
 }
 
-/* K as the drift check wants it: at the reference temperature, whatever the joints' springs are now. */
+/* K as the drift check wants it: at the reference temperature, whatever the joints' springs are now, and under the
+ * preload where the K of now counts it. */
 static void model_at_reference(brace_loading_t *test, const loading_inputs_t *inputs)
 {
     const float unknown = __builtin_nanf(""), temp_degc[BRACE_LINK_COUNT] = {unknown, unknown, unknown};
@@ -131,8 +133,17 @@ static void model_at_reference(brace_loading_t *test, const loading_inputs_t *in
     test->at_reference = test->model;
     if (inputs->model->springs_change) {
         model_springs_at_rest(inputs->parameters, temp_degc, springs);
-        (void)model_stiffness(inputs->model, inputs->parameters, test->result.theta1_rad, test->result.theta2_rad,
-                              springs, &test->at_reference, &across_n_per_mm);
+        if (inputs->now->load.is_counted) {
+            const brace_force_t preload = {test->result.preload_x_n, test->result.preload_z_n};
+            brace_loaded_stiffness_t loaded = {.stiffness = test->model}; /* stays where the preload folds the limb */
+            float joint_turn_rad[BRACE_LINK_COUNT];
+            (void)model_loaded(inputs->model, &inputs->parameters->limb, inputs->posture->unbent_rad, springs, preload,
+                               inputs->down, &loaded, joint_turn_rad);
+            test->at_reference = loaded.stiffness;
+        } else {
+            (void)model_stiffness(inputs->model, inputs->parameters, test->result.theta1_rad, test->result.theta2_rad,
+                                  springs, &test->at_reference, &across_n_per_mm);
+        }
     }
 }
 
@@ -152,8 +163,8 @@ void reading_for_drift(brace_loading_t *test, const loading_inputs_t *inputs, lo
     reading->run_ends = test->step == side || test->step == 3u * side;
     reading->is_fit = result->force_is_sensed && (inputs->now->stiffness.now.flags & unfit) == 0u;
     reading->model = test->at_reference;
-    reading->reading = (brace_drift_reading_t){.theta1_rad = result->theta1_rad,
-                                               .theta2_rad = result->theta2_rad,
+    reading->reading = (brace_drift_reading_t){.theta1_rad = test->standing_rad[0],
+                                               .theta2_rad = test->standing_rad[1],
                                                .dx_mm = test->dx_mm,
                                                .dz_mm = test->dz_mm,
                                                .fx_n = test->fx_n,

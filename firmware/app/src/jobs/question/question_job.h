@@ -10,8 +10,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "brace/k_question.h"
 #include "brace/parameters.h"
-#include "brace/requests.h"
 #include "posture/posture.h"
 #include "sense/joints.h"
 #include "stiffness/model.h"

@@ -5,8 +5,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "brace/k_question.h"
 #include "brace/measured.h"
-#include "brace/requests.h"
 
 /* Shared by all ports: what one master asks, another may read. */
 typedef struct {

@@ -1,0 +1,42 @@
+/* A question for K where the limb need not be, and its answer (brace_app_ask_k). */
+#ifndef BRACE_K_QUESTION_H
+#define BRACE_K_QUESTION_H
+
+#include "brace/contact.h"
+#include "brace/kinematics.h"
+#include "brace/stiffness.h"
+
+enum { BRACE_APP_LATER = 1 }; /* the answer is being worked out: ask again */
+
+/* Who asks for a K: each has one question at a time. */
+typedef enum {
+    BRACE_ASKER_PROGRAM = 0, /* the program around the controller */
+    BRACE_ASKER_CAN,
+    BRACE_ASKER_SLCAN,
+    BRACE_ASKER_MODBUS_LINE,
+    BRACE_ASKER_MODBUS_TCP,
+    BRACE_ASKER_COUNT
+} brace_asker_t;
+
+typedef enum { BRACE_K_AT_POSTURE = 0, BRACE_K_AT_TIP, BRACE_K_IN_SPACE } brace_k_where_t;
+
+/* K with every gap closed, where the limb need not be, with the joints' temperatures of now. Set what is not used to
+ * zero: a question that is asked again is told by all of it. */
+typedef struct {
+    brace_k_where_t where;
+    float theta_rad[BRACE_LINK_COUNT]; /* of a posture: true angles before the load turns the joints; that of the coxa
+                                          joint in space only */
+    brace_point_t tip;                 /* of a tip: where it is before the load moves it */
+    brace_knee_t knee;
+    brace_force_t tip_force;           /* of the ground, counted together with the weight; not in space */
+} brace_k_question_t;
+
+typedef struct {
+    brace_stiffness_t k;               /* in the limb's plane; flags: UNCALIBRATED, OUT_OF_RANGE (outside the drives'
+                                          travel), LOAD_UNKNOWN (a limb in space), and the model's own */
+    brace_stiffness_spatial_t in_space;
+    brace_displacement_t moved_mm;     /* by force and weight; NaN: not counted */
+    float buckling_factor;             /* infinity: none; NaN: not counted */
+} brace_k_answer_t;
+
+#endif
