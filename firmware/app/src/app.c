@@ -59,7 +59,7 @@ static question_inputs_t question_inputs(controller_t *controller, const drift_i
                                .origin = controller->parameters.origin,
                                .joints = &controller->joints,
                                .down = controller->gravity.down,
-                               .may_work = !loading_is_dear(&controller->loading) &&
+                               .may_work = !controller->has_worked && !loading_is_dear(&controller->loading) &&
                                            !drift_job_is_dear(&controller->drift, drift)};
 }
 
@@ -193,8 +193,8 @@ static void take_place(const controller_t *controller, brace_snapshot_t *snapsho
     snapshot->gravity_lean_rad = controller->gravity.lean_rad;
 }
 
-/* One step of the loading test; its reading goes to the drift check. */
-static void step_loading(controller_t *controller, const brace_snapshot_t *now)
+/* One step of the loading test; its reading goes to the drift check. returns whether it has worked out a K */
+static bool step_loading(controller_t *controller, const brace_snapshot_t *now)
 {
     const loading_inputs_t inputs = controller_loading_inputs(controller, now);
     loading_reading_t reading;
@@ -204,6 +204,7 @@ static void step_loading(controller_t *controller, const brace_snapshot_t *now)
     } else if (reading.is_there) {
         drift_job_end_run(&controller->drift);
     }
+    return reading.has_worked;
 }
 
 /* One step of the job that stores parameters, or of putting a stored set in force. */
@@ -309,9 +310,11 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     const question_inputs_t question = question_inputs(controller, &drift);
     question_job_step(&controller->question, &question);
     takeup_step(&controller->takeup, &controller->flank);
-    step_loading(controller, snapshot);
+    const bool loading_has_worked = step_loading(controller, snapshot);
+    const bool drift_works = drift_job_is_dear(&controller->drift, &drift);
     drift_job_step(&controller->drift, &drift);
     step_parameters(app);
+    controller->has_worked = controller->question.has_worked || loading_has_worked || drift_works;
 
     /* Faults and mode, and what follows from them. */
     update_faults(controller, late, wires_are_bus_off(&app->wires));
@@ -320,6 +323,6 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
 
     /* Tell. */
     publish(controller, snapshot);
-    wires_tick(&app->wires, hal, app, &controller->counters, controller->question.has_worked, now_us);
+    wires_tick(&app->wires, hal, app, &controller->counters, controller->has_worked, now_us);
     hal->watchdog_feed(hal->context);
 }

@@ -43,6 +43,7 @@ typedef struct {
     drift_job_t drift;
     question_job_t question;
     parameter_job_t parameters;
+    bool has_worked;         /* a job had a dear step: a K beside the tick's own, a reading of the drift check */
     uint8_t configure_part;  /* of putting parameters in force, the next one */
     faults_t faults;
     mode_state_t mode;

@@ -47,7 +47,8 @@ static bool sound(const modbus_line_t *line)
     return link->count <= 256u && link->ready <= link->count && link->sent <= link->ready &&
            ((link->ready == 0u && link->sent == 0u) || link->is_sending) &&
            (!link->is_waiting || (!link->is_sending && !link->is_skipping && link->count >= 4u)) &&
-           (!link->is_sending || link->ready == link->count || line->checked + 2u <= link->count) &&
+           (!link->is_sending || link->ready == link->count ||
+            (link->ready == line->checked && line->checked + 2u <= link->count)) &&
            !(link->is_sending && link->is_skipping) && (!link->is_skipping || link->count == 0u) &&
            (!link->is_sending || link->count >= 5u) && line->checked <= MODBUS_LINK_BYTES &&
            (!is_request || line->checked <= link->count);

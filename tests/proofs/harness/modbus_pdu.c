@@ -92,8 +92,9 @@ int main(void)
     const uint32_t answer = modbus_pdu_answer(&server, &half, &tick, pdu, length);
 
     if (answer == 0u) { /* it is being worked out */
-        PROVE(function == 16u && pdu[0] == function && same(pdu, as_sent, MODBUS_PDU_BYTES),
-              "only a question is put again, and it stays as it is");
+        const uint32_t at = any_u32();
+        ASSUME(at < MODBUS_PDU_BYTES); /* any byte, so all */
+        PROVE(function == 16u && pdu[at] == as_sent[at], "only a question is put again, and it stays as it is");
         return 0;
     }
     PROVE(answer >= 2u && answer <= MODBUS_PDU_BYTES, "an answer fits");

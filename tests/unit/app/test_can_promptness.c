@@ -4,8 +4,9 @@
 #include "modbus_master.h"
 
 /* A K takes three ticks: taken, worked out, answered; up to three requests of the same port stand before it, and each that
- * is a K moves it on by two. Dear steps of jobs go first: of a loading test's reading, and of what becomes of it. */
-enum { QUESTIONS = 4000, K_MOST_TICKS = K_TICKS + 3 * 2, JOBS_TICKS = 3 };
+ * is a K moves it on by two. Dear steps of jobs go first, and no K is worked out in the tick after one: of a loading test
+ * a reading, what further readings can show, and a piece of a record. */
+enum { QUESTIONS = 4000, K_MOST_TICKS = K_TICKS + 3 * 2, JOBS_TICKS = 3 * 2 };
 
 static uint64_t dice;
 

@@ -24,6 +24,7 @@ typedef struct {
 
 /* What a step hands to the drift check. */
 typedef struct {
+    bool has_worked;         /* this step has worked out a K under a load; written always, as is_there */
     bool is_there;           /* a reading has been worked out in this step */
     bool run_ends;           /* later readings belong to a new run: friction has turned round with the motion */
     bool is_fit;             /* the force was sensed, no gap was open, the limb is calibrated: reading counts */

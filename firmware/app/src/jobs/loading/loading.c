@@ -347,7 +347,7 @@ void loading_step(brace_loading_t *test, const loading_inputs_t *inputs, brace_r
 {
     const uint32_t tick_us = inputs->parameters->controller.tick_us;
     const float step_mm = test->result.setup.rate_mm_per_s * 1e-6f * (float)tick_us;
-    reading->is_there = false;
+    reading->is_there = reading->has_worked = false;
     if (!loading_runs(test)) {
         return;
     }

@@ -39,7 +39,7 @@ static inline bool loading_is_dear(const brace_loading_t *test)
 }
 
 /* One step, with this tick's samples. Nothing is to do in IDLE.
- *   reading (out): is_there is written always, all else only with it
+ *   reading (out): has_worked and is_there are written always, all else only with is_there
  * At most 2,500 instructions (COMPARE); in MOVE and DWELL 200. */
 void loading_step(brace_loading_t *test, const loading_inputs_t *inputs, brace_recorder_t *recorder,
                   loading_reading_t *reading);

@@ -125,7 +125,7 @@ bool reading_take(brace_loading_t *test, const loading_inputs_t *inputs, brace_r
 
 /* K as the drift check wants it: at the reference temperature, whatever the joints' springs are now, and under the
  * preload where the K of now counts it. */
-static void model_at_reference(brace_loading_t *test, const loading_inputs_t *inputs)
+static void model_at_reference(brace_loading_t *test, const loading_inputs_t *inputs, loading_reading_t *reading)
 {
     const float unknown = __builtin_nanf(""), temp_degc[BRACE_LINK_COUNT] = {unknown, unknown, unknown};
     brace_loaded_joint_t springs[BRACE_LINK_COUNT];
@@ -140,6 +140,7 @@ static void model_at_reference(brace_loading_t *test, const loading_inputs_t *in
             (void)model_loaded(inputs->model, &inputs->parameters->limb, inputs->posture->unbent_rad, springs, preload,
                                inputs->down, &loaded, joint_turn_rad);
             test->at_reference = loaded.stiffness;
+            reading->has_worked = true;
         } else {
             (void)model_stiffness(inputs->model, inputs->parameters, test->result.theta1_rad, test->result.theta2_rad,
                                   springs, &test->at_reference, &across_n_per_mm);
@@ -154,7 +155,7 @@ void reading_for_drift(brace_loading_t *test, const loading_inputs_t *inputs, lo
     const uint32_t side = result->setup.steps_per_side;
     if (test->step == 0u) {
         /* The first reading shows no displacement: the check loses nothing when it begins with the second. */
-        model_at_reference(test, inputs);
+        model_at_reference(test, inputs, reading);
         return;
     }
     const float warmer_degc = result->temp_degc - inputs->parameters->slow.reference_degc;

@@ -3,7 +3,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#define PATIENCE_TICKS 2u /* nobody asks in a tick that works */
+#define PATIENCE_TICKS 6u /* nobody asks in a tick of a dear step, and two of them may follow one another */
 
 enum { NONE = 0, TAKEN, DONE };
 
@@ -120,14 +120,13 @@ static question_slot_t *next_slot(question_job_t *job)
 
 void question_job_step(question_job_t *job, const question_inputs_t *inputs)
 {
-    const bool may_work = inputs->may_work && !job->has_worked;
     question_slot_t *before = &job->slot[job->answered];
     for (uint32_t i = 0; i < (uint32_t)BRACE_ASKER_COUNT; i++) {
         question_slot_t *slot = &job->slot[i];
         slot->ticks_unasked++;
         slot->phase = slot->ticks_unasked > PATIENCE_TICKS ? (uint8_t)NONE : slot->phase;
     }
-    question_slot_t *slot = may_work ? next_slot(job) : NULL;
+    question_slot_t *slot = inputs->may_work ? next_slot(job) : NULL;
     job->has_worked = slot != NULL;
     if (slot != NULL) {
         before->phase = before->phase == DONE ? (uint8_t)NONE : before->phase; /* its answer goes */

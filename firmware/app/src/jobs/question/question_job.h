@@ -38,7 +38,7 @@ typedef struct {
     brace_parameter_origin_t origin;
     const joints_t *joints;    /* for their temperatures */
     brace_vec_t down;
-    bool may_work;             /* no other job of this tick costs as much */
+    bool may_work;             /* no other job of this tick or of the one before costs as much */
 } question_inputs_t;
 
 /* Asks, or asks again.
@@ -46,7 +46,7 @@ typedef struct {
 int32_t question_job_ask(question_job_t *job, brace_asker_t asker, const brace_k_question_t *question,
                          brace_k_answer_t *answer);
 
-/* Works out what has been asked, if it may and the tick before has not worked one out. At most 3,200 instructions. */
+/* Works out what has been asked, if it may. At most 3,200 instructions. */
 void question_job_step(question_job_t *job, const question_inputs_t *inputs);
 
 /* What was asked is forgotten, because it belongs to parameters that are in force no longer; who asks again begins anew. */

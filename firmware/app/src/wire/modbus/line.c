@@ -5,7 +5,7 @@
 
 enum { ADDRESS_BYTES = 1, CRC_BYTES = 2, FRAME_LEAST = ADDRESS_BYTES + 1 + CRC_BYTES, FRAME_MOST = 256, EVERYBODY = 0 };
 
-/* A whole frame may come at once, from an adapter. Its check is worked out in three ticks, before silence ends it. */
+/* A whole frame may come at once, from an adapter. Its check is worked out in three ticks, mostly before silence ends it. */
 #define CHECKED_PER_TICK 96u
 
 /* The check of an answer is worked out so many bytes ahead of what the line carries in a tick: no gap tears it. */
@@ -144,7 +144,8 @@ void modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wire_t
     } else if (!link->is_sending) {
         const bool bytes_came = gather(line, tick);
         const uint32_t silent_us = tick->now_us - link->active_us;
-        if (bytes_came || silent_us < line->silence_us) {
+        const bool is_behind = link->count > line->checked + CHECKED_PER_TICK; /* with the check */
+        if (bytes_came || silent_us < line->silence_us || is_behind) {
             check_on(line, link->count, CHECKED_PER_TICK);
         } else if (link->count > 0u || link->is_skipping) {
             end_frame(line, server, tick, silent_us);
