@@ -1,4 +1,4 @@
-"""How many random limbs the engine is asked about."""
+"""How many random limbs are asked about, and which."""
 
 import os
 
@@ -10,9 +10,16 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy is there: its
 def pytest_addoption(parser: pytest.Parser) -> None:
     """More than ./dev test takes the time for."""
     parser.addoption("--limbs", type=int, default=None, help="random limbs in the plane; in space a quarter of them")
+    parser.addoption("--seed", type=int, default=31, help="of the limbs by which the core is judged")
 
 
 @pytest.fixture
 def limbs(request: pytest.FixtureRequest) -> int:
     """Random limbs in the plane."""
     return int(request.config.getoption("--limbs", default=None) or 60)
+
+
+@pytest.fixture
+def seed(request: pytest.FixtureRequest) -> int:
+    """Of the limbs by which the core is judged."""
+    return int(request.config.getoption("--seed", default=31))

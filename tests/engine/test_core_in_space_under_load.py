@@ -13,7 +13,6 @@ from cases import Case, random_cases, reference
 from engine_chain import Array
 
 LINKS = ("coxa", "femur", "tibia")
-SEED = 31
 
 
 def yaw(case: Case) -> Array:
@@ -54,7 +53,8 @@ class CoreLimb:
         for struct, given in ((self._load.tip_n, case.force_n), (self._load.down, case.gravity)):
             struct.x, struct.y, struct.z = (float(part) for part in self._yaw.T @ given)
         status = lib.brace_loaded_space_in_plane(self._loaded, *case.theta_rad[1:], self._load, self.rest, self.result)
-        assert status == 0, (status, case)
+        assert status in (lib.BRACE_OK, lib.BRACE_E_SINGULAR), (status, case)
+        self.is_told = status == lib.BRACE_OK
 
     @property
     def k_n_per_mm(self) -> Array:
@@ -81,8 +81,10 @@ class CoreLimb:
 
 def errors(case: Case) -> tuple[float, float, float]:
     """Of K (Frobenius norm, relative), the displacement [mm], and the buckling factor (relative; NaN where the
-    reference says 10 and more)."""
+    reference says 10 and more). All NaN where the core refuses."""
     core, found = CoreLimb(case), reference(case)
+    if not core.is_told:
+        return np.nan, np.nan, np.nan
     true_k, factor = found.k_n_per_mm[0], float(found["buckling_factor"][0])
     return (
         float(np.linalg.norm(core.k_n_per_mm - true_k) / np.linalg.norm(true_k)),
@@ -91,31 +93,40 @@ def errors(case: Case) -> tuple[float, float, float]:
     )
 
 
-def test_k_displacement_and_buckling(limbs: int) -> None:
+def test_k_displacement_and_buckling(limbs: int, seed: int) -> None:
     """What brace/loaded_space.h promises."""
-    k, moved_mm, buckling = np.array([errors(case) for case in random_cases(SEED, 10 * limbs, in_space=True)]).T
+    found = np.array([errors(case) for case in random_cases(seed, 10 * limbs, in_space=True)])
+    told = ~np.isnan(found[:, 0])
+    refused = 1.0 - np.mean(told)
+    k, moved_mm, buckling = found[told].T
     low = np.sort(buckling[~np.isnan(buckling)])
     beyond = np.mean(k > 0.01)
     most = low[int(0.9 * len(low))]  # of nine in ten
     print(
-        f"{len(k)} limbs: K median {np.median(k):.1e}, worst {k.max():.1e}, beyond 1 % {beyond:.2%}; displacement "
-        f"median {np.median(moved_mm):.3f} mm, worst {moved_mm.max():.2f} mm; buckling factor median "
-        f"{np.median(low):.1e}, nine of ten {most:.1e}"
+        f"{len(found)} limbs, {refused:.2%} refused: K median {np.median(k):.1e}, worst {k.max():.1e}, beyond 1 % "
+        f"{beyond:.2%}; displacement median {np.median(moved_mm):.3f} mm, worst {moved_mm.max():.2f} mm; "
+        f"buckling factor median {np.median(low):.1e}, nine of ten {most:.1e}"
     )
     assert np.median(k) <= 1e-3
-    assert k.max() <= 0.01 if len(k) <= 600 else beyond <= 0.01  # a larger set may hold an extreme coxa link
+    assert refused <= 0.005
+    if len(found) <= 600:
+        assert k.max() <= 0.01
+    else:  # may hold extreme coxa links, and equilibria that two steps just reach: up to 5 % for each of the two
+        assert beyond <= 0.01 and k.max() <= 0.1
     assert np.median(moved_mm) <= 0.05
     assert np.median(low) <= 0.01
     assert most <= 0.1
 
 
 @pytest.mark.parametrize(("part", "most"), [(0.1, 1e-3), (0.0, 1e-4)])
-def test_less_load(limbs: int, part: float, most: float) -> None:
+def test_less_load(limbs: int, seed: int, part: float, most: float) -> None:
     """Force and weight both: K's error falls with the load. Without it there is only rounding of C's entries, 6e-8 of
     the largest, which counts in K as often as C is slender: up to a thousand times here."""
     worst = 0.0
-    for case in random_cases(SEED, 10 * limbs, in_space=True):
+    for case in random_cases(seed, 10 * limbs, in_space=True):
         lighter = {key: value * part if key.startswith("gravity.") else value for key, value in case.keys.items()}
-        worst = max(worst, errors(replace(case, keys=lighter, force_n=case.force_n * part))[0])
+        error = errors(replace(case, keys=lighter, force_n=case.force_n * part))[0]
+        assert not np.isnan(error)
+        worst = max(worst, error)
     print(f"{part} of the load: K worst {worst:.1e}")
     assert worst <= most

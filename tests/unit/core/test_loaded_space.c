@@ -1,5 +1,5 @@
-/* K in space under a load: no load; closed forms of one hinge, pulled, pushed and turned; the plane's own path; turning
- * and eigenvalues; what is refused. tests/engine judges random limbs. */
+/* K in space under a load: no load; closed forms of one hinge, pulled, pushed and turned; where its equilibrium is not
+ * reached; the plane's own path; turning and eigenvalues; what is refused. tests/engine judges random limbs. */
 #include <math.h>
 #include <string.h>
 
@@ -132,6 +132,55 @@ static void test_a_force_across_turns_the_yaw(void)
     }
 }
 
+/* A limb whose hip joint alone yields, by c: straight out, its tip is a lever R from there. */
+static float only_the_hip_yields(float c)
+{
+    only_the_yaw_yields(0.0f);
+    limb.base.rotation_rad_per_n_mm = 0.0f;
+    limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = c;
+    return limb.femur_mm + limb.tibia_mm;
+}
+
+/* A force F across a straight limb whose hip joint alone yields turns it by q = c R F cos q. Wherever a result is told,
+ * q is within the 0.025 rad that two steps may leave; without the refusal it would be off by 0.5 rad. */
+static void test_told_where_the_steps_do_not_settle(void)
+{
+    const float c = 1e-5f, lever = only_the_hip_yields(c);
+    for (int i = 1; i <= 40; i++) {
+        const double whole = 0.05 * i;
+        load.tip_n.z = (float)whole / (c * lever);
+        brace_space_result_t result;
+        memset(&result, 0x5a, sizeof result);
+        const brace_space_result_t untouched = result;
+        const brace_status_t status = status_at(0.0f, 0.0f, &result);
+        if (i <= 12 || status == BRACE_OK) {
+            TEST_ASSERT_EQUAL(BRACE_OK, status);
+            double less = 0.0, more = 1.6; /* whole cos q - q falls */
+            for (int halving = 0; halving < 40; halving++) {
+                const double q = 0.5 * (less + more);
+                *(whole * cos(q) > q ? &less : &more) = q;
+            }
+            TEST_ASSERT_FLOAT_WITHIN(0.025f, (float)less, result.hip_turn_rad);
+        } else {
+            TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, status);
+            TEST_ASSERT_EQUAL_MEMORY(&untouched, &result, sizeof result);
+        }
+    }
+}
+
+/* A pull through the hip joint turns nothing at first. Then a tilted femur's end spring moves the tip across by d, and
+ * the joint turns by -c F d/(1 + c F R): far more than in the first step, and right after the second. */
+static void test_a_pull_through_a_joint_is_settled(void)
+{
+    const float c = 1e-5f, lever = only_the_hip_yields(c), pull_n = 20.0f, tilt = 0.3f, bending = 0.3f;
+    limb.link[BRACE_FEMUR].bending_mm_per_n = bending;
+    limb.link[BRACE_FEMUR].tilt_rad = tilt;
+    load.tip_n.x = pull_n;
+    const float across_mm = pull_n * bending * sinf(tilt) * cosf(tilt);
+    const float wanted = c * pull_n * across_mm / (1.0f + c * pull_n * lever);
+    TEST_ASSERT_FLOAT_WITHIN(0.05f * wanted, wanted, fabsf(at(0.0f, 0.0f).hip_turn_rad));
+}
+
 /* Pushed inwards by F it buckles at F = 1/(c R). */
 static void test_buckling_of_the_yaw(void)
 {
@@ -261,6 +310,8 @@ int main(void)
     RUN_TEST(test_no_load_is_the_limb_in_space);
     RUN_TEST(test_a_pull_stiffens_the_yaw);
     RUN_TEST(test_a_force_across_turns_the_yaw);
+    RUN_TEST(test_told_where_the_steps_do_not_settle);
+    RUN_TEST(test_a_pull_through_a_joint_is_settled);
     RUN_TEST(test_buckling_of_the_yaw);
     RUN_TEST(test_in_the_plane_as_the_planes_own_path);
     RUN_TEST(test_a_mirrored_load);

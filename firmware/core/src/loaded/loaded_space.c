@@ -9,6 +9,7 @@
 #include "loaded/space_sum.h"
 
 #define SINGULAR 1e-3f
+#define LEFT_MOST_RAD2 6.25e-4f /* square of 0.025 rad: levers that turn by so much change K by up to twice that, 5 % */
 #define SMALL_TURN_RAD2 0.36f /* squares: what brace_small_turn() takes, */
 #define LINKS_RAD2 1.44f      /* and of links, which turn half way on either side */
 #define JOINT_TURN_RAD 1.5f /* sine and cosine of base/trig.h hold up to pi/2 */
@@ -46,10 +47,10 @@ INLINE void add_to_pose(brace_space_pose_t *pose, const brace_space_pose_t *more
     pose->knee = brace_fma(by, more->knee, pose->knee);
 }
 
-/* The whole of a series of steps, each the same multiple of the one before, over its second step. */
-INLINE float over_second_step(const brace_space_pose_t *first, const brace_space_pose_t *second)
+/* The whole of a series of steps, each the same multiple of the one before, without its first step, over its second. */
+INLINE float over_second_step(float second_by_first, float first2)
 {
-    const float ratio = dot_of_poses(second, first) / (dot_of_poses(first, first) + FLT_MIN);
+    const float ratio = second_by_first / (first2 + FLT_MIN);
     return 1.0f / (1.0f - (ratio > 0.5f ? 0.5f : ratio < -0.9f ? -0.9f : ratio));
 }
 
@@ -73,8 +74,16 @@ INLINE void bend_to(const brace_loaded_space_t *loaded, const commanded_t *comma
     bend_limb(loaded, rest, curls, is_driven, drives);
 }
 
-/* Two steps with the matrix of the straight limb, the second of them prolonged. Then the bent limb. */
-static void find_rest(const brace_loaded_space_t *loaded, const commanded_t *commanded, const brace_space_load_t *load,
+/* What two steps leave is about the third of such a series, second^2/first, or the second itself where that is less:
+ * where a force goes through a joint, the first step is small and says nothing about those that follow. */
+INLINE bool is_settled(float first2, float second2)
+{
+    return second2 * second2 <= LEFT_MOST_RAD2 * (first2 + second2);
+}
+
+/* Two steps with the matrix of the straight limb, the second of them prolonged. Then the bent limb.
+ * returns whether they have settled */
+static bool find_rest(const brace_loaded_space_t *loaded, const commanded_t *commanded, const brace_space_load_t *load,
                       vec3_t tip_n, vec3_t down, brace_space_rest_t *rest)
 {
     static const brace_space_pose_t straight;
@@ -87,8 +96,10 @@ static void find_rest(const brace_loaded_space_t *loaded, const commanded_t *com
     solve_straight(&factors, &drives, &straight, commanded, &rest->pose);
     bend_to(loaded, commanded, tip_n, down, rest, &curls, true, &drives);
     solve_straight(&factors, &drives, &rest->pose, commanded, &step);
-    add_to_pose(&rest->pose, &step, over_second_step(&rest->pose, &step));
+    const float first2 = dot_of_poses(&rest->pose, &rest->pose), second2 = dot_of_poses(&step, &step);
+    add_to_pose(&rest->pose, &step, over_second_step(dot_of_poses(&step, &rest->pose), first2));
     bend_to(loaded, commanded, tip_n, down, rest, &curls, false, &drives);
+    return is_settled(first2, second2);
 }
 
 static bool is_within(const brace_space_pose_t *pose)
@@ -131,10 +142,10 @@ brace_status_t brace_loaded_space_in_plane(const brace_loaded_space_t *loaded, f
     rest->yaw_rad_per_n_mm = load->yaw.slope_rad_per_n_mm;
     rest->hip_rad_per_n_mm = load->hip.slope_rad_per_n_mm;
     rest->knee_rad_per_n_mm = load->knee.slope_rad_per_n_mm;
-    find_rest(loaded, &commanded, load, tip_n, down, rest);
+    const bool settled = find_rest(loaded, &commanded, load, tip_n, down, rest);
     freedoms_t free;
     const pivots_t pivots = eliminate_limb(loaded, rest, false, &free);
-    if (!(is_stable(&pivots) && pivots.product > SINGULAR) || !is_within(&rest->pose)) {
+    if (!(settled && is_stable(&pivots) && pivots.product > SINGULAR) || !is_within(&rest->pose)) {
         return BRACE_E_SINGULAR;
     }
     frames_t frames;
