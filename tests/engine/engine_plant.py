@@ -111,7 +111,8 @@ class _LoadingTest:
 
     def zero_mm(self, which: Array) -> Array:
         """Where the tip is when the record says zero."""
-        if self.value("outside.held_at_rest") == 0.0:
+        weight = any(self.value(f"gravity.{part}_n") for part in ("femur", "tibia", "knee"))
+        if self.value("outside.held_at_rest") == 0.0 or not (weight or self.value("outside.cable_n_per_mm")):
             return self.limb.tip_mm(self.theta[which])
         first = self.first_of_pose(which)
         unique, back = np.unique(first, return_inverse=True)

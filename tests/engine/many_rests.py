@@ -73,7 +73,8 @@ class Friction:
 
 @dataclass
 class Rests:
-    """Deflections of all springs (count x springs) and forces of the rig on the tip (count x 2)."""
+    """Deflections of all springs (count x springs) and forces of the rig on the tip (count x 2). C only of a tip that is
+    free to follow a force; there a joint in its play counts as if its spring carried."""
 
     q: Array
     force_n: Array
@@ -240,7 +241,10 @@ class ManyRests:
             pushed, g, lever = self._pushes(shape, force[asked])
             k = self.stiffness / softer[asked]
             torque = k * q[asked]
+            springs = k[:, joints]
             torque[:, joints], k[:, joints] = law.rows(asked).torque(q[asked][:, joints])
+            if held.free:  # nothing holds a limb in its play but its weight: as if the spring went on there
+                k[:, joints] = np.where(k[:, joints] > 0.0, k[:, joints], springs)
             torque[:, joints] += drag[asked]
             left = torque - pushed
             h = -g
