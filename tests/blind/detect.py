@@ -22,6 +22,8 @@ SAME_CLASS = 0.95
 class Bench:
     """One design and one believed limb: records, fits, traces."""
 
+    hasty = False  # whether a fit ends where the next step promises little, or where it has gained little
+
     def __init__(self, design: Design, believed: Array, given: Trust, by: Play = play) -> None:
         self.design, self.believed, self.play = design, believed, by
         self.base = base_parameters(believed, given)
@@ -85,6 +87,8 @@ class Bench:
             for _ in range(8):
                 weight = np.diag(normal) + 1e-12 * float(np.max(np.diag(normal))) + 1e-300
                 move = np.linalg.solve(normal + np.diag(damping * weight), gradient)
+                if self.hasty and float(move @ gradient) < until * (1.0 + chi2):
+                    break
                 tried = p.copy()
                 for loose, sigmas in zip(steps, move, strict=True):
                     loose.moved(tried, float(np.clip(sigmas, -100.0, 100.0)) if loose.relative else float(sigmas))

@@ -16,6 +16,8 @@ FEMUR_BEAM, TIBIA_BEAM = "link.femur.moment_transfer", "link.tibia.moment_transf
 class EngineBench(Bench):
     """One design and one believed limb of the engine."""
 
+    hasty = True
+
     def __init__(self, design: Design, believed: Array, given: Trust) -> None:
         super().__init__(design, believed, given, play)
         for key in (FEMUR_BEAM, TIBIA_BEAM):

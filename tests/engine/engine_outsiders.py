@@ -14,7 +14,7 @@ from plant import INDEX, Array  # isort: skip
 _SHARED = ("encoder_ripple", "slip", "asymmetric_joint", "growing_backlash", "off_centre_play", "sensor_curve", "warm_gain")
 KINDS = ("asymmetric_joint", "cable", "cogging", "end_stop", "bowed_tibia", "knee_offset", "tapered_link", *_SHARED[:2],
          *_SHARED[3:])  # fmt: skip
-# A rig that is turned is a turned sensor and a femur offset; one that yields along both axes is a base that does.
+# A rig that moves along turned axes is a turned sensor and a femur offset; one that yields along both axes is a base that does.
 DISGUISED = (
     ("rig_turned", ("sensor_rotation@sensor", "joint_zero_offset@joint.femur")),
     ("rig_yields", ("base_compliance@base",)),

@@ -73,7 +73,9 @@ class _LoadingTest:
             from_mm = np.array([keys["outside.cable_from_x_mm"], keys["outside.cable_from_z_mm"]])
             cable = Cable(from_mm, keys["outside.cable_mm"], keys["outside.cable_n_per_mm"])
         self.limb = ManyRests(engine_limb(keys, 0.0, 0.0, beam), cable)
-        self.link_springs = {link: self._bends(keys, link, beam) for link in ("femur", "tibia")}
+        self.changed = np.zeros(self.limb.springs, dtype=bool)
+        if self.value("change.bending_factor") != 1.0:
+            self.changed = self._bends(keys, "tibia" if self.value("change.link") > 0.5 else "femur", beam)
         offsets = [self.value(f"{joint}.zero_offset_rad") for joint in _JOINTS]
         self.theta = rows[:, [_COLUMN["theta1_rad"], _COLUMN["theta2_rad"]]] + offsets
         self.t_s = rows[:, _COLUMN["t_s"]]
@@ -85,10 +87,9 @@ class _LoadingTest:
 
     def _bends(self, keys: dict[str, float], link: str, beam: Hinges) -> Array:
         """Which springs are a link's bending: those that a change of it makes softer. The axial springs are not."""
-        model = engine_limb(keys, 0.0, 0.0, beam).model
-        softer = engine_limb({**keys, f"link.{link}.bending_mm_per_n": 2.0 * keys[f"link.{link}.bending_mm_per_n"]},
-                             0.0, 0.0, beam).model  # fmt: skip
-        return np.asarray(softer.jnt_stiffness < 0.75 * np.asarray(model.jnt_stiffness))
+        key = f"link.{link}.bending_mm_per_n"
+        softer = engine_limb({**keys, key: 2.0 * keys[key]}, 0.0, 0.0, beam).model
+        return np.asarray(np.array(softer.jnt_stiffness) < 0.75 * self.limb.stiffness)
 
     # --- what the rows ask for -------------------------------------------------------------------------------
 
@@ -96,8 +97,7 @@ class _LoadingTest:
         """What each spring's compliance is multiplied with in some rows."""
         out = np.ones((len(which), self.limb.springs))
         late = self.t_s[which] >= self.value("change.at_s")
-        changed = self.link_springs["tibia" if self.value("change.link") > 0.5 else "femur"]
-        out[np.ix_(late, changed)] = self.value("change.bending_factor")
+        out[np.ix_(late, self.changed)] = self.value("change.bending_factor")
         return out
 
     def drives(self, which: Array, crept_rad: Array) -> Drives:
@@ -127,7 +127,7 @@ class _LoadingTest:
         return np.asarray(first[back.ravel()][which])
 
     def displaced_mm(self) -> Array:
-        """What the rig moves the tip by: what the record says, less the contact's play, along the rig's own axes."""
+        """What the rig moves the tip by: what the record says, less the contact's play, along axes that may be turned."""
         asked = self.rows[:, [_COLUMN["dx_mm"], _COLUMN["dz_mm"]]]
         half = 0.5 * self.value("contact.play_mm")
         moved = asked.copy()
@@ -220,9 +220,8 @@ class _LoadingTest:
     def readings(self, q: Array, force: Array) -> Array:
         """What is read of it."""
         out = np.zeros((len(q), len(READINGS)))
-        seen = force @ _turn(self.value("outside.rig_turn_rad"))  # along the rig's axes
         talk = np.array([[1.0, self.value("sensor.crosstalk_xz")], [self.value("sensor.crosstalk_zx"), 1.0]])
-        read = self.value("sensor.gain") * (seen @ talk.T) @ _turn(self.value("sensor.rotation_rad")).T
+        read = self.value("sensor.gain") * (force @ talk.T) @ _turn(self.value("sensor.rotation_rad")).T
         for i, axis in enumerate("xz"):
             zero = self.value(f"sensor.bias_{axis}_n") + self.value(f"sensor.drift_{axis}_n_per_s") * self.t_s
             limit = self.value("sensor.saturation_n")
