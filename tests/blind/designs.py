@@ -62,9 +62,10 @@ class Design:
         if not self.zeroed:
             return readings
         _, first, back = np.unique(self.rows[:, 0], return_index=True, return_inverse=True)
-        forces = [i for i, name in enumerate(self.readings) if name in ("fx_n", "fz_n")]
         out = readings.copy()
-        out[:, forces] -= readings[np.ix_(first[back.ravel()], forces)]
+        for i, name in enumerate(self.readings):
+            if name in ("fx_n", "fz_n"):
+                out[:, i] -= readings[first[back.ravel()], i]
         return out
 
     def sigma(self, clean: Array) -> Array:

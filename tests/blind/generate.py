@@ -76,8 +76,8 @@ def _parameters(p: Array) -> dict[str, Any]:
     return {key: value for key, value in out.items() if not (isinstance(value, float) and math.isinf(value))}
 
 
-def _classes(bench: Bench, target: Array, own: str) -> tuple[list[str], dict[str, float]]:
-    cosines = bench.cosines(target)
+def _classes(world: World, bench: Bench, target: Array, own: str) -> tuple[list[str], dict[str, float]]:
+    cosines = bench.cosines(target) if world.classes else {}
     near = {label for label, value in cosines.items() if value > SAME_CLASS} | {own}
     top = dict(sorted(cosines.items(), key=lambda item: -item[1])[:5])
     return sorted(near), {label: round(value, 4) for label, value in top.items()}
@@ -110,7 +110,7 @@ def make_single(world: World, rng: Rng, number: int, wanted: float | None = None
         size, s = bench.sized(hidden, wanted)
     if not 0.6 * wanted <= s <= 1.1 * wanted or size > hidden.largest:
         raise Retry(f"{hidden.label} reaches {s:.1f} of {wanted}")
-    cls, top = _classes(bench, bench.record(hidden.applied(bench.believed, size)), hidden.label)
+    cls, top = _classes(world, bench, bench.record(hidden.applied(bench.believed, size)), hidden.label)
     truth = hidden.applied(of_truth.believed if of_truth else true_limb(rng, believed, given), size)
     truth, besides = world.besides(rng, truth, [name])
     return {
@@ -196,7 +196,7 @@ def make_many(world: World, rng: Rng, count: int) -> dict[str, Any]:
         raise Retry("the sizes do not settle")
     alike = []
     for i, one in enumerate(found):  # what each could be taken for, by itself
-        alike.append(_classes(bench, bench.record(one.applied(bench.believed, sizes[i])), one.label)[0])
+        alike.append(_classes(world, bench, bench.record(one.applied(bench.believed, sizes[i])), one.label)[0])
     truth = of_truth.believed if of_truth else true_limb(rng, believed, given)
     for one, size in zip(found, sizes, strict=True):
         truth = one.applied(truth, size)

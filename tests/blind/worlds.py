@@ -53,6 +53,7 @@ class World:
     test_cases: int | str
     page: str  # of docs/
     prefix: str = ""  # of its folders' names
+    classes: bool = True  # whether look-alikes of an effect are sought
     lacking: Callable[[Array, Sequence[str]], Array] = _as_it_is  # a believed limb that has not what will be hidden
     besides: Callable[[Rng, Array, Sequence[str]], tuple[Array, dict[str, Any]]] = _nothing_besides
     """A true limb, perhaps with something more that goes with its hidden effects; what the answer says of that."""

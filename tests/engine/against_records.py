@@ -14,11 +14,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from engine_chain import Array
-from engine_limb import equal_segments
-from engine_plant import INDEX, ROW, play
 
-from plant import NEUTRAL  # isort: skip
+sys.path.append(str(Path(__file__).resolve().parents[1] / "blind"))
+
+from engine_chain import Array  # noqa: E402
+from engine_limb import equal_segments  # noqa: E402
+from engine_plant import play  # noqa: E402
+from plant import INDEX, NEUTRAL, ROW  # noqa: E402
 
 SEGMENTS = 10
 GRAVITY_M_PER_S2 = 9.81

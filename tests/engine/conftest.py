@@ -1,6 +1,8 @@
 """How many random limbs the engine is asked about."""
 
 import os
+import sys
+from pathlib import Path
 
 import pytest
 
@@ -10,6 +12,9 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy is there: its
 def pytest_addoption(parser: pytest.Parser) -> None:
     """More than ./dev test takes the time for."""
     parser.addoption("--limbs", type=int, default=None, help="random limbs in the plane; in space a quarter of them")
+
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "blind"))  # the benchmark whose second world is here
 
 
 @pytest.fixture

@@ -3,12 +3,11 @@ all fits. They change little over what calibration leaves open, and fits go on u
 
 from __future__ import annotations
 
-from engine_plant import INDEX, play
+from designs import Design, Loose, Trust
+from detect import Bench
+from engine_plant import play
 from many_rests import NoRest
-
-from designs import Design, Loose, Trust  # isort: skip
-from detect import Bench  # isort: skip
-from plant import Array  # isort: skip
+from plant import INDEX, Array
 
 FEMUR_BEAM, TIBIA_BEAM = "link.femur.moment_transfer", "link.tibia.moment_transfer"
 

@@ -6,12 +6,11 @@ import json
 from pathlib import Path
 from typing import Any
 
+import diagnoser
 import numpy as np
 from engine_plant import k_under_load
 from many_rests import NoRest
-
-import diagnoser  # isort: skip
-from plant import INDEX, LINKS, NEUTRAL, Array  # isort: skip
+from plant import INDEX, LINKS, NEUTRAL, Array
 
 POSTURES = 15
 THETA_RAD = (-0.3, 0.5), (1.7, 2.6)  # least, most of both angles

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import math
 
-import engine_plant  # noqa: F401  knows where tests/blind is
-
-import outsiders  # isort: skip
-from designs import Rng  # isort: skip
-from outsiders import Outsider  # isort: skip
-from plant import INDEX, Array  # isort: skip
+import outsiders
+from designs import Rng
+from outsiders import Outsider
+from plant import INDEX, Array
 
 _SHARED = ("encoder_ripple", "slip", "asymmetric_joint", "growing_backlash", "off_centre_play", "sensor_curve", "warm_gain")
 KINDS = ("asymmetric_joint", "cable", "cogging", "end_stop", "bowed_tibia", "knee_offset", "tapered_link", *_SHARED[:2],

@@ -6,20 +6,15 @@ no key of limb.toml describes."""
 from __future__ import annotations
 
 import math
-import sys
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
+from engine_chain import Array
+from engine_limb import Hinges, engine_limb, gauss_points
+from many_rests import Cable, Friction, Held, ManyRests, Rests, Rows
+from plant import INDEX, KEYS, READINGS, ROW
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "blind"))
-
-from engine_chain import Array  # noqa: E402
-from engine_limb import Hinges, engine_limb, gauss_points  # noqa: E402
-from many_rests import Cable, Friction, Held, ManyRests, Rests  # noqa: E402
-from plant import INDEX, KEYS, READINGS, ROW  # noqa: E402
-
-BEAM = gauss_points(4)  # tip compliances exact; the elastica's force at 2.54 mm within 1e-3 N: test_engine_plant.py
+BEAM = gauss_points(4)  # tip compliances exact, and within 4e-3 N of an elastica at 2.54 mm: test_engine_plant.py
 _JOINTS = ("joint.femur", "joint.tibia")
 _COLUMN = {name: i for i, name in enumerate(ROW)}
 
@@ -33,7 +28,7 @@ class Drives:
     gap_rad: Array
     p: Array
 
-    def rows(self, which: Array) -> Drives:
+    def rows(self, which: Rows) -> Drives:
         """The same for some of the rows."""
         return Drives(self.n_mm_per_rad[which], self.crept_rad[which], self.gap_rad[which], self.p)
 
@@ -93,14 +88,14 @@ class _LoadingTest:
 
     # --- what the rows ask for -------------------------------------------------------------------------------
 
-    def softer(self, which: Array) -> Array:
+    def softer(self, which: Rows) -> Array:
         """What each spring's compliance is multiplied with in some rows."""
         out = np.ones((len(which), self.limb.springs))
         late = self.t_s[which] >= self.value("change.at_s")
         out[np.ix_(late, self.changed)] = self.value("change.bending_factor")
         return out
 
-    def drives(self, which: Array, crept_rad: Array) -> Drives:
+    def drives(self, which: Rows, crept_rad: Array) -> Drives:
         """The joints in some rows."""
         warm = self.rows[which, _COLUMN["temp_degc"]] - self.value("thermal.reference_degc")
         soft = 1.0 + self.value("thermal.joint_compliance_per_degc") * warm
@@ -109,7 +104,7 @@ class _LoadingTest:
         gaps = [np.maximum(0.0, self.value(f"{joint}.gap_rad") + grown) for joint in _JOINTS]
         return Drives(k / soft[:, None], crept_rad, np.column_stack(gaps), self.p)
 
-    def zero_mm(self, which: Array) -> Array:
+    def zero_mm(self, which: Rows) -> Array:
         """Where the tip is when the record says zero."""
         weight = any(self.value(f"gravity.{part}_n") for part in ("femur", "tibia", "knee"))
         if self.value("outside.held_at_rest") == 0.0 or not (weight or self.value("outside.cable_n_per_mm")):
@@ -121,10 +116,10 @@ class _LoadingTest:
                               Held(none, none, free=True))  # fmt: skip
         return self.limb.tip_mm(self.theta[unique], hung.q)[back]
 
-    def first_of_pose(self, which: Array) -> Array:
+    def first_of_pose(self, which: Rows) -> Rows:
         """For some rows, the first of all at the same pose: there the rig took hold."""
         _, first, back = np.unique(self.theta, axis=0, return_index=True, return_inverse=True)
-        return np.asarray(first[back.ravel()][which])
+        return np.asarray(first[back.ravel()][which], dtype=np.intp)
 
     def displaced_mm(self) -> Array:
         """What the rig moves the tip by: what the record says, less the contact's play, along axes that may be turned."""
@@ -185,7 +180,7 @@ class _LoadingTest:
                 ends = np.clip(ends, -self.coulomb / k, self.coulomb / k)
         return q, force
 
-    def _run_starts(self, group: list[Array], place: Array, ends: Array | None) -> Array:
+    def _run_starts(self, group: list[Rows], place: Array, ends: Array | None) -> Array:
         """Deflections that friction holds when runs begin: those of a rest without friction, or what was left."""
         if ends is not None:
             return ends
@@ -194,7 +189,7 @@ class _LoadingTest:
         rest = self.limb.rest(self.theta[first], self.drives(first, none), self.softer(first), self.held(place[first]))
         return rest.q[:, self.limb.joints]
 
-    def _runs(self, group: list[Array], place: Array, before: Array, q: Array, force: Array) -> Array:
+    def _runs(self, group: list[Rows], place: Array, before: Array, q: Array, force: Array) -> Array:
         """Plays runs side by side; the joints' deflections at their ends."""
         limb, count = self.limb, len(group)
         crept, elastic, t_before = np.zeros((count, 2)), np.zeros((count, 2)), np.zeros(count)

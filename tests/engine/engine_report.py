@@ -7,10 +7,8 @@ from collections.abc import Sequence
 from statistics import median
 from typing import Any
 
-import engine_plant  # noqa: F401  knows where tests/blind is
-
-import report  # isort: skip
-from scoring import Judged, Share, closed, share, strong  # isort: skip
+import report
+from scoring import Judged, Share, closed, share, strong
 
 HOW = """Limbs of a physics engine that nobody here wrote ([tests/engine](../tests/engine/README.md)), diagnosed from loading
 records alone; the answers lie apart and are sealed before the run. Each link is a beam of hinged segments; the tip is

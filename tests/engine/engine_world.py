@@ -14,12 +14,11 @@ import engine_k
 import engine_outsiders
 import engine_report
 import numpy as np
+from designs import Design, Rng, Trust, believed_limb, poses, stiffest_n_per_mm, tests_at, trust
 from engine_bench import FEMUR_BEAM, TIBIA_BEAM, EngineBench
 from engine_plant import play
-
-from designs import Design, Rng, Trust, believed_limb, poses, stiffest_n_per_mm, tests_at, trust  # isort: skip
-from plant import INDEX, Array  # isort: skip
-from worlds import Setting, World  # isort: skip
+from plant import INDEX, Array
+from worlds import Setting, World
 
 HERE = Path(__file__).resolve().parent
 BENT_RAD, ALL_RAD = (0.9, 2.4), (0.45, 2.75)  # of the knee
@@ -48,8 +47,8 @@ def lacking(p: Array, names: Sequence[str]) -> Array:
     return out
 
 
-def setting(rng: Rng, names: Sequence[str]) -> Setting:
-    """A limb, and tests as one would plan them for it."""
+def setting(rng: Rng, names: Sequence[str], small: bool = False) -> Setting:
+    """A limb, and tests as one would plan them for it; small: with fewer poses and no repeats."""
     believed = lacking(believed_beams(rng), names)
     left_out = (TIBIA_BEAM,) if rng.random() < 0.5 else ()
     at_rest = rng.random() < 0.2
@@ -57,6 +56,8 @@ def setting(rng: Rng, names: Sequence[str]) -> Setting:
     given = trust(rng)
     configs, repeats = int(rng.integers(8, 12)), int(rng.choice([1, 2], p=[0.25, 0.75]))
     steps = int(rng.choice([3, 4, 5], p=[0.2, 0.7, 0.1]))
+    if small:
+        configs, repeats = 7, 1
     at = poses(rng, configs + 5, ALL_RAD if rng.random() < 0.5 else BENT_RAD)
     step_mm = float(rng.choice(STEPS_MM)) if rng.random() < 0.7 else round(rng.uniform(0.1, 0.635), 3)
     most_mm = MOST_N / stiffest_n_per_mm(believed, at, play) / steps

@@ -12,11 +12,11 @@ from typing import Protocol
 import mujoco
 import numpy as np
 import numpy.typing as npt
-
 from engine_chain import Array
 from engine_limb import EngineLimb
 
 Flags = npt.NDArray[np.bool_]
+Rows = npt.NDArray[np.intp]
 
 _AT_REST = 1e-10  # last Newton step: rad or mm
 _STEPS = 80
@@ -36,7 +36,7 @@ class JointLaw(Protocol):
     def torque(self, deflection_rad: Array) -> tuple[Array, Array]:
         """Torque [N mm] of one deflection a row (one column a joint: femur, tibia), and its slope."""
 
-    def rows(self, which: Array) -> JointLaw:
+    def rows(self, which: Rows) -> JointLaw:
         """The same for some of the rows."""
 
 
@@ -58,7 +58,7 @@ class Held:
     free: bool = False
     rig_mm_per_n: float = 0.0
 
-    def rows(self, which: Array) -> Held:
+    def rows(self, which: Rows) -> Held:
         """The same for some of the rows."""
         return Held(self.place_mm[which], self.force_n[which], self.free, self.rig_mm_per_n)
 

@@ -13,14 +13,13 @@ try:
 except ImportError as missing:
     pytest.skip(f"no physics engine ({missing}): .venv/bin/python -m pip install mujoco", allow_module_level=True)
 
-from brace.native.loaded import under_displacement, under_force  # noqa: E402
-from cases import limb_model  # noqa: E402
-from engine_chain import Array  # noqa: E402
-from engine_limb import engine_limb, equal_segments, gauss_points  # noqa: E402
-from engine_plant import BEAM, INDEX, k_under_load, play  # noqa: E402
-from rest import Engine  # noqa: E402
-
-from plant import NEUTRAL  # noqa: E402  isort: skip
+from brace.native.loaded import under_displacement, under_force
+from cases import limb_model
+from engine_chain import Array
+from engine_limb import engine_limb, equal_segments, gauss_points
+from engine_plant import BEAM, k_under_load, play
+from plant import INDEX, NEUTRAL
+from rest import Engine
 
 SEED = 77
 STEPS = (0, 1, 2, 3, 4, 3, 2, 1, 0, -1, -2, -3, -4, -3, -2, -1, 0)
@@ -51,7 +50,7 @@ def limb(*parts: dict[str, float]) -> Array:
 
 def rows(poses: Array, step_mm: float = 0.635) -> Array:
     """A loading test at some poses, along both axes."""
-    out = []
+    out: list[list[float]] = []
     for pose in poses:
         for axis in (0, 1):
             for step in STEPS:
