@@ -12,9 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from detect import Bench
 from generate import clean_readings, drawn
-from plant import play
+from worlds import world_called
 
 
 def gaps(root: Path, name: str) -> dict[str, float]:
@@ -24,15 +23,16 @@ def gaps(root: Path, name: str) -> dict[str, float]:
         found: dict[str, float] = json.loads(kept.read_text())
         return found
     truth: dict[str, Any] = json.loads((root / "answers" / name / "truth.json").read_text())
-    case, _, _ = drawn(truth["seed"], truth["index"], truth["of"])
+    world = world_called(truth["world"])
+    case, _, _ = drawn(truth["seed"], truth["index"], truth["of"], world)
     shown, held, believed = case["shown"], case["held"], case["believed"]
-    bench = Bench(shown, believed, case["trust"])
+    bench = world.bench(shown, believed, case["trust"])
     with (root / "cases" / name / "data.csv").open(newline="") as file:
         record = np.array([[float(row[c]) for c in shown.readings] for row in csv.DictReader(file)])
     fitted = bench.fit((record / bench.sigma).ravel(), case["limb"], truth["keys"], rounds=20)[1]
-    real = clean_readings(case, held.rows)[:, :2]
+    real = held.seen(clean_readings(case, held.rows, world)[:, held.columns])[:, :2]
     found = {
-        which: math.sqrt(float(np.mean((play(limb, held.rows)[:, :2] - real) ** 2)))
+        which: math.sqrt(float(np.mean((held.seen(world.play(limb, held.rows)[:, held.columns])[:, :2] - real) ** 2)))
         for which, limb in (("believed", believed), ("best", fitted))
     }
     kept.parent.mkdir(exist_ok=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -10,6 +11,8 @@ import numpy as np
 from plant import INDEX, NEUTRAL, READINGS, Array, play
 
 Rng = np.random.Generator
+Play = Callable[[Array, Array], Array]  # parameters, rows -> readings, as plant.play
+THETA1_RAD, THETA2_RAD = (-0.3, 1.7), (0.45, 2.75)  # what a rig can hold, not too near the straight or the folded knee
 
 
 @dataclass(frozen=True)
@@ -47,10 +50,23 @@ class Design:
     step_mm: float
     dwell_s: float
     resolution_n: float
+    zeroed: bool = False  # each run's first force is taken off
+    held_at_rest: bool = False  # displacements count from where the limb hung under its weight
     columns: list[int] = field(init=False)
 
     def __post_init__(self) -> None:
         self.columns = [READINGS.index(name) for name in self.readings]
+
+    def seen(self, readings: Array) -> Array:
+        """What the record has of readings (columns as `readings`): zeroed where the sensor is."""
+        if not self.zeroed:
+            return readings
+        _, first, back = np.unique(self.rows[:, 0], return_index=True, return_inverse=True)
+        out = readings.copy()
+        for i, name in enumerate(self.readings):
+            if name in ("fx_n", "fz_n"):
+                out[:, i] -= readings[first[back.ravel()], i]
+        return out
 
     def sigma(self, clean: Array) -> Array:
         """Standard deviation of each reading (as `clean`'s columns of `readings`), rounding included."""
@@ -210,11 +226,11 @@ def temperatures_degc(course: tuple[str, tuple[float, ...]], t_s: Array, whole_s
     return start + rise / (1.0 + np.exp(-(x - part) / 0.03))
 
 
-def poses(rng: Rng, count: int) -> Array:
-    """Postures a rig can hold: theta1, theta2 [rad], not too near the straight or the folded knee."""
+def poses(rng: Rng, count: int, knee_rad: tuple[float, float] = THETA2_RAD) -> Array:
+    """Postures a rig can hold: theta1, theta2 [rad]."""
     found: list[tuple[float, float]] = []
     while len(found) < count:
-        th1, th2 = rng.uniform(-0.3, 1.7), rng.uniform(0.45, 2.75)
+        th1, th2 = rng.uniform(*THETA1_RAD), rng.uniform(*knee_rad)
         if all(math.hypot(th1 - a, th2 - b) > 0.12 for a, b in found):
             found.append((round(th1, 6), round(th2, 6)))
     return np.array(found)
@@ -286,17 +302,28 @@ def loading_test(rng: Rng, believed: Array) -> tuple[Design, Design]:
         else:
             configs, steps = max(6, configs - 1), max(3, steps - 1)
     at = poses(rng, configs + 5)
-    stiffest = max(
-        float(np.max(np.abs(play(believed, np.array([[1, a, b, 0, 22, 0, 0], [1, a, b, 1, 22, dx, dz]]))[1, :2])))
+    step_mm = float(np.clip(rng.uniform(15.0, 60.0) / (stiffest_n_per_mm(believed, at, play) * steps), 0.05, 1.2))
+    return tests_at(rng, at, configs, repeats, steps, round(step_mm, 4))
+
+
+def stiffest_n_per_mm(limb: Array, at: Array, by: Play) -> float:
+    """The largest force along an axis that 1 mm along x or z makes at some poses."""
+    return max(
+        float(np.max(np.abs(by(limb, np.array([[1, a, b, 0, 22, 0, 0], [1, a, b, 1, 22, dx, dz]]))[1, :2])))
         for a, b in at
         for dx, dz in ((1.0, 0.0), (0.0, 1.0))
     )
-    step_mm = float(np.clip(rng.uniform(15.0, 60.0) / (stiffest * steps), 0.05, 1.2))
+
+
+def tests_at(
+    rng: Rng, at: Array, configs: int, repeats: int, steps: int, step_mm: float
+) -> tuple[Design, Design]:
+    """A test at the first so many poses, and one at the others; time, temperature, noise and columns at random."""
     dwell_s = float(rng.choice([2.0, 3.0, 4.0, 6.0, 10.0]))
     pause_s = float(rng.choice([0.0, 10.0, 20.0, 40.0])) + dwell_s
     whole_s = configs * 2 * repeats * ((4 * steps + 1) * dwell_s + pause_s)
     order = str(rng.choice(["ordered", "shuffled", "repeats_apart"], p=[0.5, 0.3, 0.2]))
-    plan = Plan(repeats, steps, round(step_mm, 4), dwell_s, pause_s, order, temperature(rng), whole_s)
+    plan = Plan(repeats, steps, step_mm, dwell_s, pause_s, order, temperature(rng), whole_s)
     resolution = float(rng.choice([1 / 16, 1 / 32, 1 / 64]))
     white = round(math.exp(rng.uniform(math.log(0.02), math.log(0.15))), 4)
     rounded = rng.random() < 0.5 and white > 0.5 * resolution  # else the rig gives averages of many readings
@@ -313,7 +340,7 @@ def loading_test(rng: Rng, believed: Array) -> tuple[Design, Design]:
     if rng.random() < 0.2:
         readings += ("base_x_mm", "base_z_mm")
     shown = lay_out(rng, at[:configs], plan, readings, noise, resolution)
-    runs = 5 * 2
+    runs = 2 * (len(at) - configs)
     spread = max(0.0, whole_s / runs - (4 * steps + 1) * dwell_s)
     hidden = lay_out(
         rng,

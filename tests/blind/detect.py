@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from designs import Design, Loose, Trust, base_parameters
+from designs import Design, Loose, Play, Trust, base_parameters
 from effects import Candidate, Hidden, candidates, scales
 from plant import INDEX, Array, play
 
@@ -22,10 +22,12 @@ SAME_CLASS = 0.95
 class Bench:
     """One design and one believed limb: records, fits, traces."""
 
-    def __init__(self, design: Design, believed: Array, given: Trust) -> None:
-        self.design, self.believed = design, believed
+    hasty = False  # whether a fit ends where the next step promises little, or where it has gained little
+
+    def __init__(self, design: Design, believed: Array, given: Trust, by: Play = play) -> None:
+        self.design, self.believed, self.play = design, believed, by
         self.base = base_parameters(believed, given)
-        self.clean = play(believed, design.rows)
+        self.clean = by(believed, design.rows)
         self.sigma = design.sigma(self.clean)
         self.peak_n = float(np.max(np.abs(self.clean[:, :2])))
         self.whole_s = float(design.rows[-1, 3])
@@ -43,7 +45,18 @@ class Bench:
 
     def record(self, p: Array) -> Array:
         """Readings of a limb, in standard deviations, as one vector."""
-        out: Array = (play(p, self.design.rows)[:, self.design.columns] / self.sigma).ravel()
+        return self.in_sigmas(self.play(p, self.design.rows))
+
+    def in_sigmas(self, readings: Array) -> Array:
+        """Readings (all columns of the plant) as such a vector."""
+        out: Array = (self.design.seen(readings[:, self.design.columns]) / self.sigma).ravel()
+        return out
+
+    def column(self, loose: Loose, p: Array, here: Array) -> Array:
+        """How a limb's record moves with a parameter, a sigma of it."""
+        moved = p.copy()
+        loose.moved(moved, 0.05)
+        out: Array = (self.record(moved) - here) / 0.05
         return out
 
     def fit(
@@ -63,16 +76,19 @@ class Bench:
         r = residual(p)
         chi2, damping = float(r @ r), 1e-6
         for _ in range(rounds):
-            jacobian = np.empty((len(r), len(steps)))
+            jacobian = np.zeros((len(r), len(steps)))
+            here = target - r[: len(target)]
             for k, loose in enumerate(steps):
-                moved = p.copy()
-                loose.moved(moved, 0.05)
-                jacobian[:, k] = (residual(moved) - r) / -0.05
+                jacobian[: len(target), k] = self.column(loose, p, here)
+                if k < bound:
+                    jacobian[len(target) + k, k] = 1.0
             normal, gradient = jacobian.T @ jacobian, jacobian.T @ r
             better = False
             for _ in range(8):
                 weight = np.diag(normal) + 1e-12 * float(np.max(np.diag(normal))) + 1e-300
                 move = np.linalg.solve(normal + np.diag(damping * weight), gradient)
+                if self.hasty and float(move @ gradient) < until * (1.0 + chi2):
+                    break
                 tried = p.copy()
                 for loose, sigmas in zip(steps, move, strict=True):
                     loose.moved(tried, float(np.clip(sigmas, -100.0, 100.0)) if loose.relative else float(sigmas))
@@ -193,9 +209,7 @@ class Bench:
         here = self.record(at)
         block = np.zeros((length, len(self.base)))
         for k, loose in enumerate(self.base):
-            moved = at.copy()
-            loose.moved(moved, 0.05)
-            block[: len(here), k] = (self.record(moved) - here) / 0.05
+            block[: len(here), k] = self.column(loose, at, here)
             block[len(here) + k, k] = 1.0
         return np.linalg.qr(block)[0]
 

@@ -11,7 +11,8 @@ from pathlib import Path
 from types import FrameType
 from typing import Any
 
-from plant import BUILD
+import numpy as np
+from plant import BUILD, Array
 
 PATIENCE_S = 180
 PROJECT = BUILD.parents[1]
@@ -71,6 +72,18 @@ def diagnose(case: Path, out: Path, seed: int = 0, report: bool = True) -> dict[
     note["cpu_seconds"] = time.process_time() - busy
     (out / "run.json").write_text(json.dumps(note))
     return note
+
+
+def k_under_load(limb: Path, theta: Array, force_n: Array) -> Array:
+    """`brace k --fx --fz`: K (count x 2 x 2) at commanded angles under forces on the tip; NaN where it is refused."""
+    from brace.model import load_limb
+    from brace.stiffness_under_load import LoadedLimb
+
+    model = load_limb(limb)
+    offsets = [model.number(f"joint.{joint}.zero_offset_rad") for joint in ("femur", "tibia")]
+    k = LoadedLimb(model).stiffness(*(theta + offsets).T, *force_n.T)
+    names = ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm")
+    return np.stack([k[name].astype(float) for name in names], axis=-1).reshape(-1, 2, 2)
 
 
 def predict(dataset: Path, limb: Path, out: Path) -> None:

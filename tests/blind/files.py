@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,12 +17,12 @@ INTEGERS = ("run", "config", "rep", "step")
 _ALWAYS = ("axial_mm_per_n", "bending_mm_per_n", "tilt_rad", "compliance_rad_per_n_mm")
 
 
-def limb_text(p: Array, given: Trust, name: str) -> str:
-    """limb.toml of what is believed."""
+def limb_text(p: Array, given: Trust, name: str, left_out: Sequence[str] = ()) -> str:
+    """limb.toml of what is believed, but for keys that it leaves out."""
     tables: dict[str, list[str]] = {"geometry": ["coxa_mm = 57.0"]}
     for key in IN_LIMB_TOML:
         value, (table, leaf) = float(p[INDEX[key]]), key.rsplit(".", 1)
-        if value == NEUTRAL[INDEX[key]] and leaf not in _ALWAYS:
+        if key in left_out or (value == NEUTRAL[INDEX[key]] and leaf not in _ALWAYS):
             continue
         text = f'"{LINKS[int(value)]}"' if key == "change.link" else repr(value)
         tables.setdefault(table, []).append(f"{leaf} = {text}")
@@ -32,14 +33,16 @@ def limb_text(p: Array, given: Trust, name: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def meta_text(design: Design, title: str, *, says_displacements: bool = False) -> str:
-    """meta.toml of a loading test. The simulator's limb does not turn as it is displaced. A record does not say so, and
-    the tool has to find it out; a hold-out, which is only predicted, does."""
-    said = 'displacements = "small"\n' if says_displacements else ""
+def meta_text(design: Design, title: str, *, displacements: str = "") -> str:
+    """meta.toml of a loading test. `displacements`: what it says of them; a record that is to be diagnosed says nothing,
+    and the tool has to find it out."""
+    said = f'displacements = "{displacements}"\n' if displacements else ""
+    held = 'held = "at rest"\n' if design.held_at_rest else ""
     return (
-        f'format = 1\nkind = "loading"\ntitle = "{title}"\n{said}[sensor]\nresolution_n = {design.resolution_n!r}\n'
+        f'format = 1\nkind = "loading"\ntitle = "{title}"\n{said}{held}[sensor]\n'
+        f"resolution_n = {design.resolution_n!r}\n"
         f"range_n = 145.0\n[rig]\nstep_mm = {design.step_mm!r}\ndwell_s = {design.dwell_s!r}\n"
-        'zeroed = "never"\n'
+        f'zeroed = "{"per_run" if design.zeroed else "never"}"\n'
     )
 
 
@@ -55,7 +58,7 @@ def noisy(rng: Rng, design: Design, clean: Array) -> Array:
                 out[:, i] = np.round(out[:, i] / design.noise.rounding_n) * design.noise.rounding_n
         else:
             out[:, i] += sigma[:, i] * rng.standard_normal(len(out))
-    return out
+    return design.seen(out)
 
 
 def table_of(design: Design, readings: Array) -> Table:

@@ -15,6 +15,7 @@ from designs import Design, Rng, cycle
 from files import meta_text, noisy, table_of, write_dataset
 from generate import clean_readings, drawn
 from plant import INDEX, Array
+from worlds import world_called
 
 
 SET_UP_S = 60.0  # from the record's last row to the experiment's first
@@ -78,7 +79,8 @@ def _pose(pose: dict[str, Any], limb: Array) -> tuple[float, float]:
 def play(truth: dict[str, Any], rig_toml: str, record: Path, together: Path, alone: Path) -> None:
     """Writes the experiment twice: its rows after the record's, empty where one of the two reads a column that the
     other does not (an encoder was fitted, a gauge put up), and by itself."""
-    case, _, _ = drawn(truth["seed"], truth["index"], truth["of"])
+    world = world_called(truth["world"])
+    case, _, _ = drawn(truth["seed"], truth["index"], truth["of"], world)
     shown: Design = case["shown"]
     with (record / "data.csv").open(newline="") as file:
         reader = csv.DictReader(file)
@@ -87,7 +89,7 @@ def play(truth: dict[str, Any], rig_toml: str, record: Path, together: Path, alo
     start_s = float(before[-1]["t_s"]) + SET_UP_S
     runs, configs = int(before[-1]["run"]), max(int(row["config"]) for row in before)
     design = design_of(rng, rig_toml, shown, case["limb"], start_s, runs, configs)
-    fresh = table_of(design, noisy(rng, design, clean_readings(case, design.rows)))
+    fresh = table_of(design, noisy(rng, design, clean_readings(case, design.rows, world)))
     write_dataset(alone, meta_text(design, "next experiment"), fresh)
     shutil.copyfile(record / "limb.toml", alone / "limb.toml")
     with (alone / "data.csv").open(newline="") as file:

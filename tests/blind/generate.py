@@ -1,6 +1,6 @@
 """Makes blind cases: cases/ID/{data.csv,meta.toml,limb.toml}, and apart from them answers/ID/{truth.json,holdout/}.
 
-usage: generate.py [--development] [--cases N] [--seed S] [--out FOLDER]
+usage: generate.py [--engine] [--development] [--cases N] [--seed S] [--out FOLDER]
 N is a number, shared out among the kinds as SHARES has it, or a plan: `none=1000,pair=400,single@12=216`.
 Every case follows from the seed and its number alone; sealed.sha256 seals them before any diagnosis."""
 
@@ -24,13 +24,12 @@ from typing import Any
 import numpy as np
 
 import effects
-import outsiders
 import spoil
-from designs import Design, Rng, Trust, believed_limb, loading_test, true_limb, trust
+from designs import Design, Rng, Trust, true_limb
 from detect import SAME_CLASS, Bench
 from files import limb_text, meta_text, noisy, table_of, write_dataset
-from plant import BUILD, IN_LIMB_TOML, INDEX, LINKS, Array, play
-from seeds import DEVELOPMENT_CASES, DEVELOPMENT_SEED, TEST_CASES, TEST_SEED
+from plant import BUILD, IN_LIMB_TOML, INDEX, LINKS, Array
+from worlds import SIMULATOR, World, world_called
 
 Cases = int | str  # a number, or a plan
 DETECTABILITIES = (3.0, 5.0, 8.0, 12.0, 25.0)
@@ -71,52 +70,52 @@ class Retry(Exception):
     """This draw cannot be made as wanted: draw again."""
 
 
-def _setting(rng: Rng) -> tuple[Array, Any, Any, Any, Bench]:
-    believed = believed_limb(rng)
-    given = trust(rng)
-    shown, hidden = loading_test(rng, believed)
-    return believed, given, shown, hidden, Bench(shown, believed, given)
-
-
 def _parameters(p: Array) -> dict[str, Any]:
     out: dict[str, Any] = {key: float(p[INDEX[key]]) for key in IN_LIMB_TOML}
     out["change.link"] = LINKS[int(out["change.link"])]
     return {key: value for key, value in out.items() if not (isinstance(value, float) and math.isinf(value))}
 
 
-def _classes(bench: Bench, target: Array, own: str) -> tuple[list[str], dict[str, float]]:
-    cosines = bench.cosines(target)
+def _classes(world: World, bench: Bench, target: Array, own: str) -> tuple[list[str], dict[str, float]]:
+    cosines = bench.cosines(target) if world.classes else {}
     near = {label for label, value in cosines.items() if value > SAME_CLASS} | {own}
     top = dict(sorted(cosines.items(), key=lambda item: -item[1])[:5])
     return sorted(near), {label: round(value, 4) for label, value in top.items()}
 
 
-def _true_limb_first(rng: Rng, names: Iterable[str], believed: Array, given: Trust, shown: Design) -> Bench | None:
+def _true_limb_first(
+    world: World, rng: Rng, names: Iterable[str], believed: Array, given: Trust, shown: Design
+) -> Bench | None:
     """Whether a reading ever reaches a saturation's level hangs on the largest force of the very limb that is played:
     with one among the effects, s is worked out on the true limb. None without."""
-    return Bench(shown, true_limb(rng, believed, given), given) if "sensor_saturation" in names else None
+    return world.bench(shown, true_limb(rng, believed, given), given) if "sensor_saturation" in names else None
 
 
-def make_single(rng: Rng, number: int, wanted: float | None = None) -> dict[str, Any]:
+def make_single(world: World, rng: Rng, number: int, wanted: float | None = None) -> dict[str, Any]:
     """One hidden effect: the catalogue in turn, as detectable as wanted, or at each detectability in turn."""
     name, where = effects.CATALOGUE[number % len(effects.CATALOGUE)]
     turn = number // len(effects.CATALOGUE)
     wanted = wanted or DETECTABILITIES[(number + turn) % len(DETECTABILITIES)]
-    believed, given, shown, held, bench = _setting(rng)
-    of_truth = _true_limb_first(rng, [name], believed, given, shown)
+    believed, given, shown, held, left_out = world.setting(rng, [name])
+    bench = world.bench(shown, believed, given)
+    of_truth = _true_limb_first(world, rng, [name], believed, given, shown)
     bench = of_truth or bench
     hidden = effects.draw(rng, name, where, believed, bench.whole_s, bench.peak_n)
-    if name == "moment_transfer" and wanted >= 12.0 and rng.random() < 0.5:
+    if name == "moment_transfer" and wanted >= 12.0 and rng.random() < world.whole_beams:
         size, s = 1.0, bench.s_of(hidden.applied(believed, 1.0))  # as it is, whatever that makes it
+        if s < world.least_whole_beam_s:
+            raise Retry(f"a whole beam reaches {s:.1f}")
         wanted = s
     else:
         size, s = bench.sized(hidden, wanted)
     if not 0.6 * wanted <= s <= 1.1 * wanted or size > hidden.largest:
         raise Retry(f"{hidden.label} reaches {s:.1f} of {wanted}")
-    cls, top = _classes(bench, bench.record(hidden.applied(bench.believed, size)), hidden.label)
+    cls, top = _classes(world, bench, bench.record(hidden.applied(bench.believed, size)), hidden.label)
     truth = hidden.applied(of_truth.believed if of_truth else true_limb(rng, believed, given), size)
+    truth, besides = world.besides(rng, truth, [name])
     return {
         "believed": believed,
+        "left_out": left_out,
         "trust": given,
         "shown": shown,
         "held": held,
@@ -130,15 +129,17 @@ def make_single(rng: Rng, number: int, wanted: float | None = None) -> dict[str,
             "cls": cls,
             "cosines": top,
             "keys": hidden.free(),
+            **besides,
         },
     }
 
 
-def make_none(rng: Rng, _number: int) -> dict[str, Any]:
+def make_none(world: World, rng: Rng) -> dict[str, Any]:
     """Nothing hidden."""
-    believed, given, shown, held, _ = _setting(rng)
+    believed, given, shown, held, left_out = world.setting(rng, [])
     return {
         "believed": believed,
+        "left_out": left_out,
         "trust": given,
         "shown": shown,
         "held": held,
@@ -148,14 +149,17 @@ def make_none(rng: Rng, _number: int) -> dict[str, Any]:
     }
 
 
-def make_many(rng: Rng, count: int) -> dict[str, Any]:
+def make_many(world: World, rng: Rng, count: int) -> dict[str, Any]:
     """Several effects, each at 12 sigma after refitting the base and the others."""
     wanted = 12.0
-    believed, given, shown, held, bench = _setting(rng)
+    believed, given, shown, held, left_out = world.setting(rng, [])
     chosen = [effects.CATALOGUE[i] for i in rng.choice(len(effects.CATALOGUE), count, replace=False)]
-    if len({name for name, _ in chosen}) < count:
+    names = [name for name, _ in chosen]
+    if len(set(names)) < count:
         raise Retry("the same name twice")
-    of_truth = _true_limb_first(rng, [name for name, _ in chosen], believed, given, shown)
+    believed = world.lacking(believed, names)
+    bench = world.bench(shown, believed, given)
+    of_truth = _true_limb_first(world, rng, names, believed, given, shown)
     bench = of_truth or bench
     found = [effects.draw(rng, name, where, believed, bench.whole_s, bench.peak_n) for name, where in chosen]
     # one that overwrites another's parameter is no pair
@@ -192,12 +196,14 @@ def make_many(rng: Rng, count: int) -> dict[str, Any]:
         raise Retry("the sizes do not settle")
     alike = []
     for i, one in enumerate(found):  # what each could be taken for, by itself
-        alike.append(_classes(bench, bench.record(one.applied(bench.believed, sizes[i])), one.label)[0])
+        alike.append(_classes(world, bench, bench.record(one.applied(bench.believed, sizes[i])), one.label)[0])
     truth = of_truth.believed if of_truth else true_limb(rng, believed, given)
     for one, size in zip(found, sizes, strict=True):
         truth = one.applied(truth, size)
+    truth, besides = world.besides(rng, truth, names)
     return {
         "believed": believed,
+        "left_out": left_out,
         "trust": given,
         "shown": shown,
         "held": held,
@@ -211,20 +217,21 @@ def make_many(rng: Rng, count: int) -> dict[str, Any]:
             "cls": [],
             "cls_each": alike,
             "keys": keys,
+            **besides,
         },
     }
 
 
-def make_outside(rng: Rng, number: int) -> dict[str, Any]:
+def make_outside(world: World, rng: Rng, number: int) -> dict[str, Any]:
     """What the catalogue does not know, and what no single entry of it explains away."""
-    name = outsiders.KINDS[number % len(outsiders.KINDS)]
-    wanted = OUTSIDE_S[(number // len(outsiders.KINDS)) % len(OUTSIDE_S)]
-    believed, given, shown, held, bench = _setting(rng)
-    one = outsiders.draw(rng, name, believed, bench.whole_s, bench.peak_n, bench.deepest, shown.step_mm)
+    name = world.outsiders[number % len(world.outsiders)]
+    wanted = OUTSIDE_S[(number // len(world.outsiders)) % len(OUTSIDE_S)]
+    believed, given, shown, held, left_out = world.setting(rng, [])
+    bench = world.bench(shown, believed, given)
+    one = world.draw_outsider(rng, name, believed, bench.whole_s, bench.peak_n, bench.deepest, shown.step_mm)
 
     def target(size: float) -> Array:
-        out: Array = (one.play(believed, shown.rows, size)[:, shown.columns] / bench.sigma).ravel()
-        return out
+        return bench.in_sigmas(one.play(believed, shown.rows, size, world.play))
 
     class Sized:
         largest, smallest = one.largest, 1e-7 * one.largest
@@ -246,6 +253,7 @@ def make_outside(rng: Rng, number: int) -> dict[str, Any]:
     top = dict(sorted(cosines.items(), key=lambda item: -item[1])[:4])
     return {
         "believed": believed,
+        "left_out": left_out,
         "trust": given,
         "shown": shown,
         "held": held,
@@ -262,9 +270,35 @@ def make_outside(rng: Rng, number: int) -> dict[str, Any]:
     }
 
 
-def make_fault(rng: Rng, number: int) -> dict[str, Any]:
+def make_disguised(world: World, rng: Rng, number: int) -> dict[str, Any]:
+    """What is outside the catalogue, but leaves exactly the trace of entries of it: named so, or unknown."""
+    name, alike = world.disguised[number % len(world.disguised)]
+    believed, given, shown, held, left_out = world.setting(rng, [])
+    bench = world.bench(shown, believed, given)
+    one = world.draw_outsider(rng, name, believed, bench.whole_s, bench.peak_n, bench.deepest, shown.step_mm)
+    size = one.largest * rng.uniform(0.3, 1.0)
+    return {
+        "believed": believed,
+        "left_out": left_out,
+        "trust": given,
+        "shown": shown,
+        "held": held,
+        "limb": true_limb(rng, believed, given),
+        "outsider": (one, size),
+        "truth": {
+            "kind": "disguised",
+            "effects": [{"name": name, "where": "outside"}],
+            "detectability": round(bench.s_of_record(
+                bench.in_sigmas(one.play(believed, shown.rows, size, world.play))), 2),
+            "cls": [],
+            "alike": list(alike),
+        },
+    }
+
+
+def make_fault(world: World, rng: Rng, number: int) -> dict[str, Any]:
     """A healthy record, spoiled."""
-    case = make_none(rng, number)
+    case = make_none(world, rng)
     kinds = list(spoil.KINDS)
     case["spoil"] = kinds[number % len(kinds)]
     case["truth"] = {
@@ -277,14 +311,16 @@ def make_fault(rng: Rng, number: int) -> dict[str, Any]:
     return case
 
 
-def build(kind: str, number: int, rng: Rng) -> dict[str, Any]:
+def build(kind: str, number: int, rng: Rng, world: World = SIMULATOR) -> dict[str, Any]:
     """One case of a kind."""
     kind, _, level = kind.partition("@")
     if kind == "single":
-        return make_single(rng, number, float(level) if level else None)
+        return make_single(world, rng, number, float(level) if level else None)
     if kind in ("pair", "triple"):
-        return make_many(rng, 2 if kind == "pair" else 3)
-    return {"none": make_none, "outside": make_outside, "data_fault": make_fault}[kind](rng, number)
+        return make_many(world, rng, 2 if kind == "pair" else 3)
+    if kind == "none":
+        return make_none(world, rng)
+    return {"outside": make_outside, "disguised": make_disguised, "data_fault": make_fault}[kind](world, rng, number)
 
 
 def identity(seed: int, index: int) -> str:
@@ -292,43 +328,45 @@ def identity(seed: int, index: int) -> str:
     return f"b{hashlib.sha256(f'{seed}/{index}'.encode()).hexdigest()[:6]}"
 
 
-def drawn(seed: int, index: int, cases: Cases) -> tuple[dict[str, Any], Rng, list[str]]:
+def drawn(
+    seed: int, index: int, cases: Cases, world: World = SIMULATOR
+) -> tuple[dict[str, Any], Rng, list[str]]:
     """A case's ingredients and the generator to go on with; also why earlier draws were given up."""
     kind, number = schedule(seed, cases)[index]
     given_up: list[str] = []
     for attempt in range(60):
         rng = np.random.default_rng([seed, 2, index, attempt])
         try:
-            return build(kind, number, rng), rng, given_up
-        except (Retry, np.linalg.LinAlgError) as why:
+            return build(kind, number, rng, world), rng, given_up
+        except (Retry, np.linalg.LinAlgError, ArithmeticError) as why:
             given_up.append(str(why))
     raise RuntimeError(f"case {index} ({kind} {number}) cannot be made: {given_up[-3:]}")
 
 
-def clean_readings(case: dict[str, Any], rows: Array) -> Array:
+def clean_readings(case: dict[str, Any], rows: Array, world: World = SIMULATOR) -> Array:
     """Noise-free readings of the case's true limb."""
     if case["outsider"] is not None:
         one, size = case["outsider"]
-        result: Array = one.play(case["limb"], rows, size)
+        result: Array = one.play(case["limb"], rows, size, world.play)
         return result
-    return play(case["limb"], rows)
+    return world.play(case["limb"], rows)
 
 
-def write_case(seed: int, index: int, cases: Cases, out: Path) -> list[str]:
+def write_case(seed: int, index: int, cases: Cases, out: Path, world: World = SIMULATOR) -> list[str]:
     """Writes one case and its answer; returns why draws were given up."""
-    case, rng, given_up = drawn(seed, index, cases)
+    case, rng, given_up = drawn(seed, index, cases, world)
     name = identity(seed, index)
     shown, held, truth = case["shown"], case["held"], case["truth"]
-    table = table_of(shown, noisy(rng, shown, clean_readings(case, shown.rows)))
+    table = table_of(shown, noisy(rng, shown, clean_readings(case, shown.rows, world)))
     if "spoil" in case:
         truth["fields"] = spoil.KINDS[case["spoil"]](rng, table)
     folder, answer = out / "cases" / name, out / "answers" / name
     write_dataset(folder, meta_text(shown, f"case {name}"), table)
-    (folder / "limb.toml").write_text(limb_text(case["believed"], case["trust"], f"case {name}"))
+    (folder / "limb.toml").write_text(limb_text(case["believed"], case["trust"], f"case {name}", case["left_out"]))
     answer.mkdir(parents=True, exist_ok=True)
     if truth["kind"] != "data_fault":
-        readings = clean_readings(case, held.rows)[:, held.columns]
-        meta = meta_text(held, f"holdout {name}", says_displacements=True)
+        readings = held.seen(clean_readings(case, held.rows, world)[:, held.columns])
+        meta = meta_text(held, f"holdout {name}", displacements=world.displacements)
         write_dataset(answer / "holdout", meta, table_of(held, readings))
     truth = {
         "id": name,
@@ -336,6 +374,7 @@ def write_case(seed: int, index: int, cases: Cases, out: Path) -> list[str]:
         "seed": seed,
         "index": index,
         "of": cases,
+        "world": world.name,
         "rows": len(table["run"]),
         "readings": list(shown.readings),
         "noise": vars(shown.noise),
@@ -346,9 +385,9 @@ def write_case(seed: int, index: int, cases: Cases, out: Path) -> list[str]:
     return given_up
 
 
-def _job(job: tuple[int, int, Cases, str]) -> tuple[int, list[str]]:
-    seed, index, cases, out = job
-    return index, write_case(seed, index, cases, Path(out))
+def _job(job: tuple[int, int, Cases, str, str]) -> tuple[int, list[str]]:
+    seed, index, cases, out, world = job
+    return index, write_case(seed, index, cases, Path(out), world_called(world))
 
 
 SEAL = "sealed.sha256"
@@ -370,10 +409,12 @@ def seal_of(out: Path) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def generate(seed: int, cases: Cases, out: Path, processes: int = 2, quiet: bool = False) -> str:
+def generate(
+    seed: int, cases: Cases, out: Path, processes: int = 2, quiet: bool = False, world: World = SIMULATOR
+) -> str:
     """Makes a set, unless this generator made it before, and seals it; returns the seal. A set that comes out as it was
     stays in place."""
-    wanted = {"seed": seed, "cases": cases, "generator": generator_hash()}
+    wanted = {"seed": seed, "cases": cases, "generator": generator_hash(world)}
     stamp = out / "set.json"
     if stamp.exists() and json.loads(stamp.read_text()) == wanted and (out / SEAL).exists():
         return seal_of(out)
@@ -381,7 +422,7 @@ def generate(seed: int, cases: Cases, out: Path, processes: int = 2, quiet: bool
     fresh = out / "being-made"
     shutil.rmtree(fresh, ignore_errors=True)
     count = total(cases)
-    jobs = [(seed, index, cases, str(fresh)) for index in range(count)]
+    jobs = [(seed, index, cases, str(fresh), world.name) for index in range(count)]
     begun, given_up = time.monotonic(), 0
     with multiprocessing.get_context("spawn").Pool(processes) as pool:
         for done, (_, why) in enumerate(pool.imap_unordered(_job, jobs, chunksize=4), start=1):
@@ -401,11 +442,10 @@ def generate(seed: int, cases: Cases, out: Path, processes: int = 2, quiet: bool
     return seal_of(out)
 
 
-def generator_hash() -> str:
+def generator_hash(world: World = SIMULATOR) -> str:
     """What made the cases."""
     here = Path(__file__).resolve().parent
     names = (
-        "simulator.c",
         "plant.py",
         "designs.py",
         "effects.py",
@@ -415,28 +455,30 @@ def generator_hash() -> str:
         "files.py",
         "generate.py",
     )
-    return hashlib.sha256(b"".join((here / name).read_bytes() for name in names)).hexdigest()
+    paths = [*(here / name for name in names), *world.sources]
+    return hashlib.sha256(b"".join(path.read_bytes() for path in paths)).hexdigest()
 
 
-def default_folder(seed: int, cases: Cases) -> Path:
+def default_folder(seed: int, cases: Cases, world: World = SIMULATOR) -> Path:
     """Where a set is kept."""
-    label = {DEVELOPMENT_SEED: "dev", TEST_SEED: "test"}.get(seed, "seed")
+    label = world.prefix + {world.development_seed: "dev", world.test_seed: "test"}.get(seed, "seed")
     plan = "" if isinstance(cases, int) else "-" + hashlib.sha256(cases.encode()).hexdigest()[:6]
     return BUILD / f"{label}-{seed}-{total(cases)}{plan}"
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--engine", action="store_true", help="limbs of the physics engine in tests/engine")
     parser.add_argument("--development", action="store_true", help="the development seed")
     parser.add_argument("--cases", type=cases_of, help="how many, or a plan")
     parser.add_argument("--seed", type=int, help="another seed")
     parser.add_argument("--out", type=Path, help="folder")
     parser.add_argument("--processes", type=int, default=min(2, os.cpu_count() or 1))
     options = parser.parse_args()
-    seed = options.seed if options.seed is not None else DEVELOPMENT_SEED if options.development else TEST_SEED
-    cases = options.cases or (DEVELOPMENT_CASES if options.development else TEST_CASES)
-    out = options.out or default_folder(seed, cases)
-    print(f"{out}: answers sealed {generate(seed, cases, out, options.processes)}")
+    world = world_called("engine" if options.engine else "simulator")
+    seed, cases = world.seed_and_cases(options.seed, options.cases, options.development)
+    out = options.out or default_folder(seed, cases, world)
+    print(f"{out}: answers sealed {generate(seed, cases, out, options.processes, world=world)}")
     return 0
 
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from designs import Rng
-from plant import INDEX, ROW, Array, play
+from designs import Play, Rng
+from plant import INDEX, ROW, Array
 
 T1, T2, TIME, TEMP, DX, DZ = (ROW.index(n) for n in ("theta1_rad", "theta2_rad", "t_s", "temp_degc", "dx_mm", "dz_mm"))
 
@@ -38,15 +38,15 @@ class Outsider:
     keys: tuple[tuple[str, float], ...] = ()  # parameters of the plant that follow the size
     fixed: tuple[tuple[str, float], ...] = ()
 
-    def play(self, p: Array, rows: Array, size: float) -> Array:
-        """Readings before noise, with this effect at a size."""
+    def play(self, p: Array, rows: Array, size: float, by: Play) -> Array:
+        """Readings before noise, with this effect at a size, of a limb that a world plays."""
         limb = p.copy()
         for key, value in self.fixed:
             limb[INDEX[key]] = value
         for key, scale in self.keys:
             limb[INDEX[key]] += scale * size
         bent = self.bend(rows.copy(), size)
-        return self.read(rows, play(limb, bent).copy(), size)
+        return self.read(rows, by(limb, bent).copy(), size)
 
 
 def draw(

@@ -68,6 +68,26 @@ KEYS = (
     "outside.gap_growth_rad_per_s",
     "outside.cogging_n_mm",
     "outside.cogging_period_rad",
+    # from here on what simulator.c does not know: a tibia that is a beam is none without load
+    "link.tibia.moment_transfer",
+    "outside.femur_stop_n_mm_per_rad",
+    "outside.femur_stop_rad",
+    "outside.tibia_stop_n_mm_per_rad",
+    "outside.tibia_stop_rad",
+    "outside.femur_bow_mm",
+    "outside.tibia_bow_mm",
+    "outside.femur_taper",
+    "outside.tibia_taper",
+    "outside.knee_offset_mm",
+    "outside.tibia_cable_at",
+    "outside.cable_from_x_mm",
+    "outside.cable_from_z_mm",
+    "outside.cable_mm",
+    "outside.cable_n_per_mm",
+    "outside.rig_turn_rad",
+    "outside.rig_mm_per_n",
+    "outside.friction_carried",
+    "outside.held_at_rest",
 )
 INDEX = {key: i for i, key in enumerate(KEYS)}
 IN_LIMB_TOML = tuple(key for key in KEYS if not key.startswith("outside."))

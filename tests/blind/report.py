@@ -32,24 +32,24 @@ EARLIER = Path(__file__).with_name("earlier_runs.json")
 __all__ = ["VISIBLE_GAP_N", "as_json", "cases_as_json", "figures", "page", "table"]
 
 
-def _line(name: str, target: str, ok: bool | None, value: str, interval: str = "", of: int = 0) -> dict[str, Any]:
+def line(name: str, target: str, ok: bool | None, value: str, interval: str = "", of: int = 0) -> dict[str, Any]:
     met = "no data" if ok is None else "met" if ok else "MISSED"
     return {"figure": name, "target": target, "measured": value, "interval": interval, "of": of, "met": met}
 
 
-def _at_least(name: str, s: Share, target: float) -> dict[str, Any]:
-    return _share_line(name, f"at least {100 * target:g} %", s, s.value is not None and s.value >= target)
+def at_least(name: str, s: Share, target: float) -> dict[str, Any]:
+    return share_line(name, f"at least {100 * target:g} %", s, s.value is not None and s.value >= target)
 
 
-def _at_most(name: str, s: Share, target: float) -> dict[str, Any]:
-    return _share_line(name, f"at most {100 * target:g} %", s, s.value is not None and s.value <= target)
+def at_most(name: str, s: Share, target: float) -> dict[str, Any]:
+    return share_line(name, f"at most {100 * target:g} %", s, s.value is not None and s.value <= target)
 
 
-def _share_line(name: str, target: str, s: Share, ok: bool) -> dict[str, Any]:
+def share_line(name: str, target: str, s: Share, ok: bool) -> dict[str, Any]:
     if s.value is None:
-        return _line(name, target, None, "-")
+        return line(name, target, None, "-")
     low, high = s.wilson()
-    return _line(name, target, ok, f"{100 * s.value:.1f} %", f"{100 * low:.1f}-{100 * high:.1f} %", s.of)
+    return line(name, target, ok, f"{100 * s.value:.1f} %", f"{100 * low:.1f}-{100 * high:.1f} %", s.of)
 
 
 def figures(
@@ -57,18 +57,18 @@ def figures(
 ) -> dict[str, Any]:
     """All figures of one run."""
     lines = [
-        _at_least("right effect or its class first, s >= 12", share(judged, "class", strong), 0.97),
-        _at_least("right effect or its class first, s = 8", share(judged, "class", weak), 0.90),
-        _at_least("exactly the right effect first, s >= 12", share(judged, "exact", strong), 0.88),
-        _at_least(
+        at_least("right effect or its class first, s >= 12", share(judged, "class", strong), 0.97),
+        at_least("right effect or its class first, s = 8", share(judged, "class", weak), 0.90),
+        at_least("exactly the right effect first, s >= 12", share(judged, "exact", strong), 0.88),
+        at_least(
             "right joint or link, where the class allows it (right effect first, s >= 12)",
             share(judged, "where", lambda j: strong(j) and j.flags["place_determined"] and j.flags["exact"]),
             0.95,
         ),
-        _at_most("false alarm when nothing is hidden", share(judged, "false_alarm"), 0.01),
-        _at_least("both of two hidden effects and nothing else, 12 each", share(_of(judged, "pair"), "set"), 0.85),
-        _at_least("outside the catalogue called unknown", share(judged, "unknown"), 0.90),
-        _at_most("outside the catalogue confidently misnamed", share(judged, "misnamed"), 0.02),
+        at_most("false alarm when nothing is hidden", share(judged, "false_alarm"), 0.01),
+        at_least("both of two hidden effects and nothing else, 12 each", share(of_kind(judged, "pair"), "set"), 0.85),
+        at_least("outside the catalogue called unknown", share(judged, "unknown"), 0.90),
+        at_most("outside the catalogue confidently misnamed", share(judged, "misnamed"), 0.02),
     ]
     for what, value in (
         ("removable gap closed on configurations never seen", of_removable),
@@ -76,20 +76,20 @@ def figures(
     ):
         middle, low, count = closed(judged, value=value)
         lines += [
-            _line(f"{what}, median", "at least 95 %", _ok(middle >= 0.95, count), _percent(middle), "", count),
-            _line(f"{what}, 5th percentile", "at least 80 %", _ok(low >= 0.80, count), _percent(low), "", count),
+            line(f"{what}, median", "at least 95 %", if_any(middle >= 0.95, count), percent(middle), "", count),
+            line(f"{what}, 5th percentile", "at least 80 %", if_any(low >= 0.80, count), percent(low), "", count),
         ]
     held = coverage(judged)
-    lines.append(_share_line("90 % intervals that hold the true parameter", "86-94 %", held,
+    lines.append(share_line("90 % intervals that hold the true parameter", "86-94 %", held,
                              held.value is not None and 0.86 <= held.value <= 0.94))  # fmt: skip
     error, claims, bins = calibration(judged)
-    lines.append(_line("expected calibration error of the confidence", "at most 0.04", _ok(error <= 0.04, claims),
+    lines.append(line("expected calibration error of the confidence", "at most 0.04", if_any(error <= 0.04, claims),
                        f"{error:.3f}", "", claims))  # fmt: skip
     rows = after["cases"]
     then = Share(sum(r["exact_after"] for r in rows), len(rows)) if any(r["played"] for r in rows) else Share(0, 0)
-    lines.append(_at_least("after the tool's own next experiment: exactly right, s >= 12", then, 0.95))
-    lines.append(_at_least("same data and seed, same bytes", Share(*steady["same_bytes"]), 1.0))
-    lines.append(_at_least("five seeds, same verdict and effects", Share(*steady["same_verdict"]), 0.99))
+    lines.append(at_least("after the tool's own next experiment: exactly right, s >= 12", then, 0.95))
+    lines.append(at_least("same data and seed, same bytes", Share(*steady["same_bytes"]), 1.0))
+    lines.append(at_least("five seeds, same verdict and effects", Share(*steady["same_verdict"]), 0.99))
 
     played = [r for r in rows if r["played"]]
     strict = [j for j in judged if strong(j)]
@@ -107,9 +107,9 @@ def figures(
         ("right effect or its class first, s = 5", share(judged, "class", lambda j: 4 <= j.s < 6.5)),
         ("right effect or its class first, s = 3", share(judged, "class", lambda j: j.s < 4)),
         ("single effect: more than one named as sure", share(judged, "extra")),
-        ("pairs: names or members of their classes", share(_of(judged, "pair"), "set_or_class")),
-        ("triples: all three and nothing else", share(_of(judged, "triple"), "set")),
-        ("triples: names or members of their classes", share(_of(judged, "triple"), "set_or_class")),
+        ("pairs: names or members of their classes", share(of_kind(judged, "pair"), "set_or_class")),
+        ("triples: all three and nothing else", share(of_kind(judged, "triple"), "set")),
+        ("triples: names or members of their classes", share(of_kind(judged, "triple"), "set_or_class")),
         ("data fault found, in one of the right fields", share(judged, "fault")),
         ("data fault found, in any field", share(judged, "fault_any_field")),
         ("next experiment played: right first before", Share(sum(r["exact_before"] for r in played), len(played))),
@@ -140,7 +140,7 @@ def figures(
     }  # fmt: skip
 
 
-def _of(judged: Sequence[Judged], kind: str) -> list[Judged]:
+def of_kind(judged: Sequence[Judged], kind: str) -> list[Judged]:
     return [j for j in judged if j.kind == kind]
 
 
@@ -152,7 +152,7 @@ def _whole(j: Judged) -> float | None:
     return j.closed
 
 
-def _ok(met: bool, count: int) -> bool | None:
+def if_any(met: bool, count: int) -> bool | None:
     return met if count else None
 
 
@@ -176,7 +176,7 @@ def _first(j: Judged) -> str:
     return j.verdict
 
 
-def _confusion(judged: Sequence[Judged]) -> str:
+def confusion(judged: Sequence[Judged]) -> str:
     """Truth by row, what was said first by column; a dot is none."""
     counts: dict[str, Counter[str]] = defaultdict(Counter)
     for j in judged:
@@ -188,10 +188,10 @@ def _confusion(judged: Sequence[Judged]) -> str:
     return "\n".join(rows)
 
 
-def _by_effect(judged: Sequence[Judged]) -> str:
+def by_effect(judged: Sequence[Judged]) -> str:
     """Per effect: exact and class at each detectability."""
     groups: dict[str, dict[str, list[Judged]]] = defaultdict(lambda: defaultdict(list))
-    for j in _of(judged, "single"):
+    for j in of_kind(judged, "single"):
         level = "12 and more" if j.s >= 11.5 else "8" if j.s >= 6.5 else "5" if j.s >= 4 else "3"
         groups[j.truth[0]][level].append(j)
     heads = ("3", "5", "8", "12 and more")
@@ -206,7 +206,7 @@ def _by_effect(judged: Sequence[Judged]) -> str:
     return "\n".join(rows)
 
 
-def _said_by_truth(judged: Sequence[Judged]) -> str:
+def said_by_truth(judged: Sequence[Judged]) -> str:
     """For outsiders and faults: how often what was said."""
     counts: dict[str, Counter[str]] = defaultdict(Counter)
     for j in judged:
@@ -217,17 +217,17 @@ def _said_by_truth(judged: Sequence[Judged]) -> str:
     return "\n".join(rows)
 
 
-def _percent(value: float | None) -> str:
+def percent(value: float | None) -> str:
     return "-" if value is None or math.isnan(value) else f"{100 * value:.1f} %"
 
 
-def _closable(found: dict[str, Any]) -> str:
+def closable(found: dict[str, Any]) -> str:
     """What was closed beside what could be."""
     known, of_that = found["closed_by_knowing"], found["closed_of_that"]
     return (
         "To be told what is hidden and to fit just that to the same noisy record would close "
-        f"{_percent(known['median'])} (median), {_percent(known['p5'])} (5th percentile) of the same gaps; of what "
-        f"that would close, the tool closes {_percent(of_that['median'])} (median), {_percent(of_that['p5'])} (5th "
+        f"{percent(known['median'])} (median), {percent(known['p5'])} (5th percentile) of the same gaps; of what "
+        f"that would close, the tool closes {percent(of_that['median'])} (median), {percent(of_that['p5'])} (5th "
         f"percentile) of {of_that['cases']} cases."
     )
 
@@ -260,7 +260,7 @@ def page(found: dict[str, Any], judged: Sequence[Judged], command: str) -> str:
     kinds = ", ".join(f"{n} {kind}" for kind, n in sorted(found["kinds"].items()))
     besides = ["| figure | measured | 95 % interval | of |", "|---|---|---|---|"]
     besides += [
-        f"| {name} | {_percent(value)} | {100 * low:.1f}-{100 * high:.1f} % | {of} |"
+        f"| {name} | {percent(value)} | {100 * low:.1f}-{100 * high:.1f} % | {of} |"
         for name, _, of, value, (low, high) in found["besides"]
     ]
     strong12 = found["closed_s12"]
@@ -277,9 +277,9 @@ def page(found: dict[str, Any], judged: Sequence[Judged], command: str) -> str:
             f"This run: {made['cases']} cases ({kinds}), {made['set']} seed {made['seed']}, answers' seal "
             f"`{made['seal_sha256'][:16]}`, generator `{made['generator_sha256'][:12]}`, tool `{made['tool']}`.",
             table(found),
-            f"{READING} With s >= 12 alone the gap closed is {_percent(strong12['median'])} (median), "
-            f"{_percent(strong12['p5'])} (5th percentile) of {strong12['cases']}.",
-            _closable(found),
+            f"{READING} With s >= 12 alone the gap closed is {percent(strong12['median'])} (median), "
+            f"{percent(strong12['p5'])} (5th percentile) of {strong12['cases']}.",
+            closable(found),
             f"A diagnosis of 150 to 1000 rows with its report, one core each, took ({REPORTED_CASES} cases; median, "
             "95th percentile, longest): "
             + "; ".join(
@@ -291,17 +291,17 @@ def page(found: dict[str, Any], judged: Sequence[Judged], command: str) -> str:
             "## Besides",
             "\n".join(besides),
             "## Single effects, by effect and detectability",
-            _by_effect(judged),
+            by_effect(judged),
             "## What is said first, single effects with s of 12 and more, and none",
-            _confusion([j for j in judged if (j.kind == "single" and strong(j)) or j.kind == "none"]),
+            confusion([j for j in judged if (j.kind == "single" and strong(j)) or j.kind == "none"]),
             "## What is said first, single effects with s = 8",
-            _confusion([j for j in judged if j.kind == "single" and weak(j)]),
+            confusion([j for j in judged if j.kind == "single" and weak(j)]),
             "## Pairs and triples that were missed",
-            _said_by_truth_many([j for j in judged if j.kind in ("pair", "triple")]),
+            missed_sets([j for j in judged if j.kind in ("pair", "triple")]),
             "## Outside the catalogue",
-            _said_by_truth(_of(judged, "outside")),
+            said_by_truth(of_kind(judged, "outside")),
             "## Data faults",
-            _said_by_truth(_of(judged, "data_fault")),
+            said_by_truth(of_kind(judged, "data_fault")),
             "## Confidence against share right",
             "\n".join(bins),
             "## Intervals",
@@ -311,7 +311,7 @@ def page(found: dict[str, Any], judged: Sequence[Judged], command: str) -> str:
     ) + "\n"  # fmt: skip
 
 
-def _said_by_truth_many(judged: Sequence[Judged]) -> str:
+def missed_sets(judged: Sequence[Judged]) -> str:
     """Those that were not named as they are."""
     missed = [j for j in judged if not j.flags["set"]]
     rows = ["| hidden | said | verdict |", "|---|---|---|"]

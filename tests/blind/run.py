@@ -1,6 +1,6 @@
 """Runs the blind benchmark: makes the cases, seals the answers, diagnoses every case, judges, writes the tables.
 
-usage: run.py [--development] [--cases N] [--seed S] [--processes P] [--out FOLDER]
+usage: run.py [--engine] [--development] [--cases N] [--seed S] [--processes P] [--out FOLDER]
 N is a number or a plan, as generate.py says.
 An interrupted run goes on where it was; a changed tool starts anew."""
 
@@ -26,7 +26,8 @@ import report
 from generate import cases_of, default_folder, generate, generator_hash, seal_of
 from plant import BUILD
 from scoring import STRONG, Judged, gap_n, judge
-from seeds import DEVELOPMENT_CASES, DEVELOPMENT_SEED, REPORTED_CASES, TEST_CASES, TEST_SEED
+from seeds import REPORTED_CASES
+from worlds import world_called
 
 SAME_BYTES_CASES = 16
 SEEDS_CASES = 25
@@ -62,6 +63,7 @@ def _main_job(job: tuple[str, str, str, bool]) -> str:
         except Exception as error:  # an exported model that cannot be played is the tool's fault
             (out / "holdout_after.csv").unlink(missing_ok=True)
             (out / "unplayable").write_text(str(error))
+    world_called(read(root / "answers" / name / "truth.json").get("world", "simulator")).judge_besides(root, name, out)
     (out / "done").touch()
     return name
 
@@ -122,6 +124,8 @@ def judge_all(root: Path, results: Path, names: Iterable[str]) -> list[Judged]:
         run = read(folder / "run.json")
         if run.get("report"):
             j.seconds, j.cpu_seconds = float(run.get("seconds", 0.0)), float(run.get("cpu_seconds", 0.0))
+        stiff = read(folder / "k_under_load.json")
+        j.stiffer = (stiff["believed"], stiff["exported"]) if stiff else None
         j.note = str(run.get("crashed", run.get("refused", "")))
         unseen = root / "answers" / name / "holdout" / "data.csv"
         if j.kind in ("single", "pair") and (folder / "holdout_before.csv").exists():
@@ -205,38 +209,40 @@ def beside_baselines(
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--engine", action="store_true", help="limbs of the physics engine in tests/engine")
     parser.add_argument("--development", action="store_true", help="the development seed; nothing is written to docs/")
-    parser.add_argument("--cases", type=cases_of, help=f"how many, or a plan (default {TEST_CASES})")
+    parser.add_argument("--cases", type=cases_of, help="how many, or a plan")
     parser.add_argument("--only", type=int, help="of the set, diagnose only the first so many: for a quick look")
     parser.add_argument("--seed", type=int, help="another seed; nothing is written to docs/")
     parser.add_argument("--processes", type=int, default=min(2, os.cpu_count() or 1))
     parser.add_argument("--out", type=Path, help="folder of the tables; default docs/ for the test set")
     parser.add_argument("--quick", action="store_true", help="no next experiments, no repeats, no other seeds")
     options = parser.parse_args()
-    seed = options.seed if options.seed is not None else DEVELOPMENT_SEED if options.development else TEST_SEED
-    cases = options.cases or (DEVELOPMENT_CASES if options.development else TEST_CASES)
+    world = world_called("engine" if options.engine else "simulator")
+    seed, cases = world.seed_and_cases(options.seed, options.cases, options.development)
     try:
         diagnoser.require()
     except Exception as error:
         print(f"blind: the tool cannot run: {error}; try: ./dev setup", file=sys.stderr)
         return 4
-    root, version = default_folder(seed, cases), diagnoser.version()
-    if seed == TEST_SEED:
+    root, version = default_folder(seed, cases, world), diagnoser.version()
+    if seed == world.test_seed:
         print("the test set: its figures are for reporting, not for tuning", file=sys.stderr)
-    seal = generate(seed, cases, root, options.processes)
+    seal = generate(seed, cases, root, options.processes, world=world)
     print(f"answers sealed before the run: sha256 {seal}", file=sys.stderr)
-    results = root / f"results-{version}-{generator_hash()[:6]}"
+    results = root / f"results-{version}-{generator_hash(world)[:6]}"
     results.mkdir(exist_ok=True)
     names = sorted(path.name for path in (root / "cases").iterdir())[: options.only]
 
     begun = time.monotonic()
     jobs = [(str(root), str(results), n, k < REPORTED_CASES) for k, n in enumerate(names)]
     in_turn("diagnosing", _main_job, jobs, options.processes)
-    missing = [(str(root), n) for n in names if _gap_counts(root, n) and not (root / "best" / f"{n}.json").exists()]
+    told = names if world.follows_up else []
+    missing = [(str(root), n) for n in told if _gap_counts(root, n) and not (root / "best" / f"{n}.json").exists()]
     in_turn("what could be closed", _best_job, missing, options.processes)
     judged = judge_all(root, results, names)
     again, seeds_names = [], []
-    if not options.quick:
+    if world.follows_up and not options.quick:
         again, seeds_names = names[:SAME_BYTES_CASES], names[SAME_BYTES_CASES : SAME_BYTES_CASES + SEEDS_CASES]
         proposed = [
             j.id for j in judged
@@ -247,32 +253,36 @@ def main() -> int:
         repeats = [(str(root), str(results), n, 0) for n in again]
         repeats += [(str(root), str(results), n, s) for n in seeds_names for s in SEEDS]
         in_turn("again, other seeds", _seed_job, repeats, options.processes)
-    beside = beside_baselines(root, results, names, judged, options.processes)
+    beside = beside_baselines(root, results, names, judged, options.processes) if world.follows_up else {}
     if seal_of(root) != seal:
         raise RuntimeError("the seal changed during the run")
     made = {
         "seed": seed,
         "cases": len(names),
-        "set": {DEVELOPMENT_SEED: "development", TEST_SEED: "test"}.get(seed, "other"),
+        "set": {world.development_seed: "development", world.test_seed: "test"}.get(seed, "other"),
         "seal_sha256": seal,
-        "generator_sha256": generator_hash(),
+        "generator_sha256": generator_hash(world),
         "tool": version,
     }
-    figures = report.figures(judged, after_next(root, results, judged), steadiness(results, again, seeds_names), made)
-    figures["lines"] += beside.get("lines", [])
-    figures |= {key: value for key, value in beside.items() if key != "lines"}
-    command = "./dev blind" + (" --development" if options.development else "")
+    command = "./dev blind" + (" --engine" if options.engine else "") + (" --development" if options.development else "")
     command += f" --cases {options.cases}" if options.cases else ""
     command += f" --seed {options.seed}" if options.seed is not None else ""
-    text = report.page(figures, judged, command)
-    whole = seed == TEST_SEED and options.only is None and not options.quick and cases == TEST_CASES
+    if world.report:
+        found = world.report(judged, made, command)
+    else:
+        figures = report.figures(judged, after_next(root, results, judged), steadiness(results, again, seeds_names), made)
+        figures["lines"] += beside.get("lines", [])
+        figures |= {key: value for key, value in beside.items() if key != "lines"}
+        found = report.table(figures), report.page(figures, judged, command), report.as_json(figures)
+    table, text, content = found
+    whole = seed == world.test_seed and options.only is None and not options.quick and cases == world.test_cases
     out = options.out or (BUILD.parents[1] / "docs" if whole else results)
     out.mkdir(parents=True, exist_ok=True)
-    (out / "blind.md").write_text(text)
-    (out / "blind.json").write_text(json.dumps(report.as_json(figures), indent=1) + "\n")
+    (out / f"{world.page}.md").write_text(text)
+    (out / f"{world.page}.json").write_text(json.dumps(content, indent=1) + "\n")
     (results / "judged.json").write_text(json.dumps(report.cases_as_json(judged), indent=1) + "\n")
-    print(report.table(figures))
-    print(f"\n{time.monotonic() - begun:.0f} s; tables in {out / 'blind.md'}, every case in {results / 'judged.json'}",
+    print(table)
+    print(f"\n{time.monotonic() - begun:.0f} s; tables in {out / world.page}.md, every case in {results / 'judged.json'}",
           file=sys.stderr)  # fmt: skip
     return 0
 

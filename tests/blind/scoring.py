@@ -33,6 +33,8 @@ class Judged:
     gap_before_n: float = 0.0
     claims: list[tuple[float, bool]] = field(default_factory=list)
     intervals: list[tuple[str, bool]] = field(default_factory=list)
+    rows: int = 0
+    stiffer: tuple[float, float] | None = None  # error of K under load: as believed, as exported
     seconds: float = 0.0
     cpu_seconds: float = 0.0
     note: str = ""
@@ -51,8 +53,9 @@ def judge(truth: dict[str, Any], found: dict[str, Any]) -> Judged:
     real = [label(e) for e in truth["effects"]] if kind in ("single", "pair", "triple") else []
     group = {member for members in found.get("indistinguishable", []) for member in members}
     j = Judged(
-        truth["id"], kind, float(truth["detectability"]), real or [_other(truth)], set(truth["cls"]), verdict, said
-    )
+        truth["id"], kind, float(truth["detectability"]), real or [_other(truth)], set(truth["cls"]), verdict, said,
+        rows=int(truth.get("rows", 0)),
+    )  # fmt: skip
     first = said[0] if said else None
     if kind == "none":
         j.flags["false_alarm"] = verdict in ALARMS or verdict == "nothing"
@@ -60,6 +63,8 @@ def judge(truth: dict[str, Any], found: dict[str, Any]) -> Judged:
         fields = {fault.get("field") for fault in found.get("data_faults", [])}
         j.flags["fault"] = verdict == "data_fault" and bool(fields & set(truth["fields"]))
         j.flags["fault_any_field"] = verdict == "data_fault"
+    elif kind == "disguised":
+        j.flags["seen_through"] = verdict == "unknown" or bool(group & set(truth["alike"])) or set(said) == set(truth["alike"])
     elif kind == "outside":
         j.flags["unknown"] = verdict == "unknown"
         j.flags["misnamed"] = verdict == "effect" and bool(effects) and effects[0].get("confidence", 1.0) > CONFIDENT
@@ -85,7 +90,7 @@ def judge(truth: dict[str, Any], found: dict[str, Any]) -> Judged:
 
 
 def _other(truth: dict[str, Any]) -> str:
-    if truth["kind"] == "outside":
+    if truth["kind"] in ("outside", "disguised"):
         return str(truth["effects"][0]["name"])
     return str(truth.get("fault", "none"))
 

@@ -111,4 +111,5 @@ def test_the_example(url: str) -> None:
     done = subprocess.run([example, url], capture_output=True, text=True, timeout=60)
     assert done.returncode == 0, done.stderr
     k, drift = done.stdout.splitlines()
-    assert k.startswith("[") and k.endswith(f"N/mm, flags 0x{LOAD_UNKNOWN:02x}") and "learns the limb's own baseline" in drift
+    assert k.startswith("[") and k.endswith(f"N/mm, flags 0x{LOAD_UNKNOWN:02x}")
+    assert "learns the limb's own baseline" in drift

@@ -14,7 +14,7 @@ TYPED = {  # folder: where its imports are looked for
     "tests/bench": "tools:tests/bench:tests/property",
     "tests/blind": "tools:tests/blind",
     "tests/emulated": "tools:tests/emulated",
-    "tests/engine": "tools:tests/engine",
+    "tests/engine": "tools:tests/engine:tests/blind",
     "tests/modbus": "tools:tests/modbus:tests/socketcan",
     "tests/proofs": "tools:tests/proofs",
     "tests/property": "tools:tests/property",

@@ -1,6 +1,8 @@
 """How many random limbs are asked about, and which."""
 
 import os
+import sys
+from pathlib import Path
 
 import pytest
 
@@ -11,6 +13,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     """More than ./dev test takes the time for."""
     parser.addoption("--limbs", type=int, default=None, help="random limbs in the plane; in space a quarter of them")
     parser.addoption("--seed", type=int, default=31, help="of the limbs by which the core is judged")
+
+
+sys.path.append(str(Path(__file__).resolve().parents[1] / "blind"))  # the benchmark whose second world is here
 
 
 @pytest.fixture

@@ -41,7 +41,7 @@ class Chain:
         if compliance > 0.0:
             name = name or f"q{self.joints}"
             ElementTree.SubElement(
-                self._body(place), "joint", name=name, type=kind, axis=_words(axis), stiffness=repr(1.0 / compliance)
+                self._body(place), "joint", name=name, type=kind, axis=_words(axis), stiffness=repr(1.0 / float(compliance))
             )
             self.joints += 1
 
@@ -56,10 +56,16 @@ class Chain:
     def weight(self, place: Array, weight_n: float) -> None:
         """A weight at a place, carried by the springs so far."""
         if weight_n:
-            outer = self._last, self._at
-            self._body(place)
-            self.weights.append((f"b{self._bodies - 1}", weight_n))
-            self._last, self._at = outer
+            self.weights.append((self.point(place), weight_n))
+
+    def point(self, place: Array, name: str = "") -> str:
+        """A body at a place that springs so far carry, for a force to act on; its name."""
+        outer = self._last, self._at
+        self._body(place)
+        name = name or f"b{self._bodies - 1}"
+        self._last.set("name", name)
+        self._last, self._at = outer
+        return name
 
     def compiled(self, tip: Array) -> mujoco.MjModel:
         """The engine's model; its last body, `tip`, has its mass at the tip."""

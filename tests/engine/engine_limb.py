@@ -1,5 +1,8 @@
-"""A limb of limb.toml as the engine's chain, from docs/physics.md: joints and base are springs, a beam is equal rigid
-segments with a hinge in the middle of each."""
+"""A limb of limb.toml as the engine's chain, from docs/physics.md: joints and base are springs, a beam is rigid segments
+with hinges between them.
+
+Keys that begin with `outside.` are of limbs that limb.toml does not describe: a bowed tibia, a knee axis beside the
+femur's line, links that taper, a point for a cable."""
 
 from __future__ import annotations
 
@@ -24,11 +27,34 @@ class EngineLimb:
     tip_body: int
 
 
+@dataclass(frozen=True)
+class Hinges:
+    """Where along a beam (0 to 1) its hinges are, and which share of the beam's turn under a moment each takes."""
+
+    at: Array
+    share: Array
+
+
+def equal_segments(count: int) -> Hinges:
+    """Hinges in the middle of equal segments. They bend as the beam does when each is a little softer: the sum of
+    (1 - x)^2 is 1/3."""
+    share = 1.0 / count / (1.0 - 0.25 / count**2)
+    return Hinges((np.arange(count) + 0.5) / count, np.full(count, share))
+
+
+def gauss_points(cells: int) -> Hinges:
+    """Two hinges in each of some equal cells, at its Gauss points: all three tip compliances of the beam are exact."""
+    middles = (np.arange(cells) + 0.5) / cells
+    away = 0.5 / np.sqrt(3.0) / cells
+    return Hinges(np.ravel(np.column_stack([middles - away, middles + away])), np.full(2 * cells, 0.5 / cells))
+
+
 def engine_limb(
-    keys: Mapping[str, float], theta1_rad: float, theta2_rad: float, segments: int, *, in_space: bool = False
+    keys: Mapping[str, float], theta1_rad: float, theta2_rad: float, segments: int | Hinges, *, in_space: bool = False
 ) -> EngineLimb:
-    """Keys of limb.toml; those that are missing have no effect. In space the limb has its coxa, and yields across."""
-    limb = _Builder(keys, segments, in_space)
+    """Keys of limb.toml; those that are missing have no effect. In space the limb has its coxa, and yields across.
+    segments: hinges along each beam, or how many equal segments it has."""
+    limb = _Builder(keys, equal_segments(segments) if isinstance(segments, int) else segments, in_space)
     tip = limb.build(theta1_rad, theta2_rad)
     model = limb.chain.compiled(tip)
     weights = tuple((int(model.body(name).id), weight) for name, weight in limb.chain.weights)
@@ -40,10 +66,10 @@ def _towards(angle_rad: float) -> Array:
 
 
 class _Builder:
-    def __init__(self, keys: Mapping[str, float], segments: int, in_space: bool) -> None:
+    def __init__(self, keys: Mapping[str, float], hinges: Hinges, in_space: bool) -> None:
         self.chain = Chain()
         self._keys = keys
-        self._segments = segments
+        self._hinges = hinges
         self._in_space = in_space
 
     def _value(self, key: str) -> float:
@@ -61,6 +87,7 @@ class _Builder:
             self._link("coxa", yaw_axis, 0.0)
         chain.hinge(origin, _TURN_UP, value("joint.femur.compliance_rad_per_n_mm"), "femur")
         knee = self._link("femur", origin, theta1_rad)
+        knee = knee + value("outside.knee_offset_mm") * np.cross(_towards(theta1_rad), _Y)
         chain.weight(knee, value("gravity.knee_n"))
         chain.hinge(knee, _TURN_UP, value("joint.tibia.compliance_rad_per_n_mm"), "tibia")
         return self._link("tibia", knee, theta1_rad - theta2_rad)
@@ -85,24 +112,32 @@ class _Builder:
         middle = start + 0.5 * length_mm * line
 
         chain.slide(elastic, strength * axial)
-        # Hinges of equal segments bend as the beam does when each is a little softer: sum of (1 - x)^2 is 1/3.
-        share = strength / self._segments / (1.0 - 0.25 / self._segments**2)
-        for segment in range(self._segments if strength > 0.0 else 0):
-            to_end = length_mm * (1.0 - (segment + 0.5) / self._segments)
+        shares = strength * self._shares(name)
+        bow_mm = self._value(f"outside.{name}_bow_mm")
+        for number, (at, share) in enumerate(zip(self._hinges.at, shares, strict=True) if strength > 0.0 else ()):
+            to_end, side = length_mm * (1.0 - at), 4.0 * bow_mm * at * (1.0 - at) * sideways
             turns = [
-                (end - to_end * elastic, _TURN_UP, 3.0 * share * bending / length_mm**2),
+                (end - to_end * elastic + side, _TURN_UP, 3.0 * share * bending / length_mm**2),
                 (end - to_end * line, sideways, 3.0 * share * lateral / length_mm**2),
-                (end, line, strength * torsion / self._segments),
+                (end, line, strength * torsion / len(shares)),
             ]
-            for turn in turns if segment % 2 == 0 else reversed(turns):  # they do not commute: no order leads
+            for turn in turns if number % 2 == 0 else reversed(turns):  # they do not commute: no order leads
                 chain.hinge(*turn)
-            chain.weight(end - to_end * line, strength * weight_n / self._segments)
-            if 2 * (segment + 1) in (self._segments, self._segments + 1):
+            chain.weight(end - to_end * line, strength * weight_n / len(shares))
+            if 2 * (number + 1) in (len(shares), len(shares) + 1):
                 chain.weight(middle, (1.0 - strength) * weight_n)
         if strength == 0.0:
             chain.weight(middle, weight_n)
+        if self._value(f"outside.{name}_cable_at") > 0.0:
+            chain.point(start + self._value(f"outside.{name}_cable_at") * length_mm * line, "cable")
         chain.slide(elastic, (1.0 - strength) * axial)
         chain.slide(np.cross(elastic, _Y), (1.0 - strength) * bending)
         chain.slide(_Y, (1.0 - strength) * lateral)
         chain.hinge(end, line, (1.0 - strength) * torsion)
         return end
+
+    def _shares(self, name: str) -> Array:
+        """Of a beam's turn, for each hinge. A link that tapers is softer towards one end, its tip as soft as before."""
+        at, share = self._hinges.at, self._hinges.share
+        tapered = share * np.exp(self._value(f"outside.{name}_taper") * (at - 0.5))
+        return np.asarray(tapered * (share @ (1.0 - at) ** 2) / (tapered @ (1.0 - at) ** 2))

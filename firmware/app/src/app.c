@@ -242,8 +242,8 @@ static void update_faults(controller_t *controller, bool late, bool bus_off)
                   controller->parameters.in_force.controller.tick_us);
 }
 
-/* A fault that makes K invalid ends a loading test and lets the backlash go. Both still move the limb back to where they
- * began, at their own pace. */
+/* A fault that makes K invalid ends a loading test and lets the backlash go. Both still move the limb back to where
+ * they began, at their own pace. */
 static void update_mode(controller_t *controller)
 {
     const mode_inputs_t inputs = {.joints_are_sound = joints_plane_is_sound(&controller->joints),

@@ -1,5 +1,5 @@
-/* The loads of the bench's K under a load: weights of the limb's parts, and a force on the tip that differs from posture
- * to posture, up to 12 N. tests/bench/loaded.py and loaded_space.py have the same numbers. */
+/* The loads of the bench's K under a load: weights of the limb's parts, and a force on the tip that differs from
+ * posture to posture, up to 12 N. tests/bench/loaded.py and loaded_space.py have the same numbers. */
 #ifndef BENCH_LOADED_CASE_H
 #define BENCH_LOADED_CASE_H
 

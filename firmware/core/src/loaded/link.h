@@ -1,9 +1,9 @@
 /* One link of a loaded limb: what it tells of itself at a shape.
  *
  * Everything here is seen from the commanded direction of the femur. Each part of a link that turns has a lever r and a
- * force F. It drives its turn by r x F, and resists it by r . F. A spring of compliance v v' moves its end by v (v . F).
- * Its turn changes that movement: it drives by -p q and resists by p^2 - q^2, where p = v . F, q = v . F', and F' is F
- * turned by a quarter.
+ * force F. It drives its turn by r x F, and resists it by r . F. A spring of compliance v v' moves its end by
+ * v (v . F). Its turn changes that movement: it drives by -p q and resists by p^2 - q^2, where p = v . F, q = v . F',
+ * and F' is F turned by a quarter.
  */
 #ifndef BRACE_CORE_LOADED_LINK_H
 #define BRACE_CORE_LOADED_LINK_H

@@ -24,7 +24,8 @@ typedef struct {
     void (*make)(const brace_measured_t *of, float age_ms, uint8_t *data);
 } process_frame_t;
 
-/* Every message of measured values, in the order in which they are sent. A frame's place is its bit in process_t.due. */
+/* Every message of measured values, in the order in which they are sent. A frame's place is its bit in
+ * process_t.due. */
 #define CLASSIC(ID, name, rate) CLASSIC_AT_##rate(ID, name)
 #define CLASSIC_AT_stiffness_hz(ID, name) {ID, false, PROCESS_STIFFNESS, brace_can_make_##name},
 #define CLASSIC_AT_posture_hz(ID, name) {ID, false, PROCESS_POSTURE, brace_can_make_##name},
