@@ -152,7 +152,7 @@ def test_a_gap_may_be_declared(tmp_path: Path) -> None:
     path = altered(tmp_path, 'name = "take_up_tibia"\nregister = 198', 'name = "take_up_tibia"\nregister = 220')
     path.write_text(path.read_text() + reserved)
     values = load_values(path, load_codes(DICTIONARY))
-    assert (values.measured[-1].name, values.measured[-1].index) == ("take_up_tibia", 100)
+    assert (values.measured[-1].name, values.measured[-1].index) == ("take_up_tibia", 110)
 
 
 def test_the_order_in_the_file_does_not_matter(tmp_path: Path) -> None:
