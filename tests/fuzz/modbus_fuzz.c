@@ -177,8 +177,8 @@ static void check(const uint8_t *told, uint32_t count, bool was_configuring)
             } else if (pdu[0] == 4u && at == 2u) {
                 held = 0x01020304u;
             } else if (pdu[0] == 3u && at / 2u < (uint32_t)BRACE_PARAMETER_NUMBERS && !was_configuring) {
-                memcpy(&held, (const uint8_t *)&app.controller.parameters.in_force + 4u * brace_parameter_index(at / 2u),
-                       4);
+                const uint32_t index = brace_parameter_index(at / 2u);
+                memcpy(&held, (const uint8_t *)&app.controller.parameters.in_force + 4u * index, 4);
             }
             if (got != held) {
                 fail("another value", pdu, pdu_count);

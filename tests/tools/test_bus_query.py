@@ -39,13 +39,15 @@ def force_noise(tmp_path: Path, theta1: float, theta2: float) -> float:
     model.write_text(LIMB)
     angle = np.linspace(0.0, 2.0 * np.pi, 8, endpoint=False)
     force = FORCE_NOISE_N * np.sqrt(2.0) * np.stack([np.cos(angle), np.sin(angle)], 1)
-    return float(np.abs(under_force(load_limb(model), theta1, theta2, force).k_n_per_mm - physics_k(theta1, theta2)).max())
+    k = under_force(load_limb(model), theta1, theta2, force).k_n_per_mm
+    return float(np.abs(k - physics_k(theta1, theta2)).max())
 
 
 def assert_k(
     entry: dict[str, float], theta1: float, theta2: float, angle_step_rad: float = 0.0, load_n_per_mm: float = 0.0
 ) -> None:
-    """Within the wire's half step, single precision (1e-5 of K), what the angle's own step makes, and the load's part."""
+    """Within the wire's half step, single precision (1e-5 of K), what the angle's own step makes, and what the load
+    does."""
     k = physics_k(theta1, theta2)
     turned = physics_k(theta1 + angle_step_rad, theta2 + angle_step_rad)
     bound = STEP_N_PER_MM / 2 + 1e-5 * np.abs(k).max() + np.abs(turned - k).max() + load_n_per_mm
@@ -101,7 +103,8 @@ def test_sag_and_force_are_k_s(brace: Callable[..., Outcome], limb: Path) -> Non
         k = np.array([[live[MATRIX[0]], live[MATRIX[1]]], [live[MATRIX[1]], live[MATRIX[2]]]])
         sag = json.loads(brace("query", "--bus", url, "--load", 1.0, -2.0, "--json").out)
         expected = np.linalg.solve(k, [1.0, -2.0])
-        # two snapshots: the sensor's noise on the load that K counts turns K, its smaller eigenvalue makes 12 times of it
+        # two snapshots: the sensor's noise on the load that K counts turns K; its smaller eigenvalue makes 12 times of
+        # that
         assert (
             np.abs(np.array([sag["dx_mm"], sag["dz_mm"]]) - expected).max()
             < 1e-4 + 3e-2 * np.abs(expected).max()

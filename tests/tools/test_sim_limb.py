@@ -139,8 +139,8 @@ def test_a_free_tip_carries_nothing_and_gravity_chooses_the_flank(paper: LimbMod
 
 @pytest.mark.parametrize("posture", [(1.0, 1.4), (0.3, 0.8), (1.2, 2.3), (0.7, -1.1)])
 def test_k_is_that_of_the_posture_behind_the_encoders(paper: LimbModel, posture: tuple[float, float]) -> None:
-    """K under the force that was counted, by the reference. Tolerance: half an encoder step in each joint times K's slope
-    over it, and 1e-5: the float path's 3e-6, and two of Newton's steps under a load of at most some newtons."""
+    """K under the force that was counted, by the reference. Tolerance: half an encoder step in each joint times K's
+    slope over it, and 1e-5: the float path's 3e-6, and two of Newton's steps under a load of at most some newtons."""
     with node(paper, theta_rad=(0.0, *posture), press_mm=(0.3, 0.2)) as one:
         one.step(0.3)
         snapshot, truth = one.raw_snapshot(), one.raw_truth()
@@ -156,9 +156,9 @@ def test_k_is_that_of_the_posture_behind_the_encoders(paper: LimbModel, posture:
 
 @pytest.mark.parametrize("press_mm", [(0.0, 40.0), (-4.0, -40.0), (4.0, 0.0)])
 def test_k_under_a_pressed_force_is_the_reference_s(paper: LimbModel, press_mm: tuple[float, float]) -> None:
-    """Beams for links, weights that pull aside, a foot pressed by several newtons: K, displacement and buckling factor of
-    the reference at the motors' angles under the force that was counted. Tolerance: what brace/loaded.h promises of K is
-    0.6 %; two of Newton's steps leave 1e-4 where the tip moves by 30 mm, an encoder's step some 1e-5."""
+    """Beams for links, weights that pull aside, a foot pressed by several newtons: K and displacement of the reference
+    at the motors' angles under the force that was counted. Tolerance: brace/loaded.h promises K
+    within 0.6 %; two of Newton's steps leave 1e-4 where the tip moves by 30 mm, an encoder's step some 1e-5."""
     heavy = paper.with_values({
         "link.femur.moment_transfer": 1.0, "link.tibia.moment_transfer": 1.0, "gravity.femur_n": 1.0,
         "gravity.tibia_n": 1.5, "gravity.knee_n": 0.5, "gravity.direction_rad": -1.1,

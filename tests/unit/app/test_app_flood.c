@@ -1,6 +1,6 @@
 /* Whatever is asked on whatever port, every tick in MONITOR, TAKING_UP and LOADING_TEST tells K of its own samples, and
- * every request is answered: K in its turn, all else in the tick that takes it. Prints one line for each limb and flood; `./dev bench` makes a
- * table of them.
+ * every request is answered: K in its turn, all else in the tick that takes it. Prints one line for each limb and
+ * flood; `./dev bench` makes a table of them.
  *
  * The limb is that of test_app_takeup.c: links held by the ground, each motor behind its gap pulled by a servo. One
  * joint's motor moves a little in every tick, so that a K of older samples shows: it is that of a snapshot before. */
@@ -22,7 +22,8 @@ enum {
     COLLAPSED = 0, GENERAL, HARDENING, IN_SPACE, LIMB_COUNT,
     FLOOD_CAN = 1, FLOOD_SLCAN = 2, FLOOD_LINE = 4, FLOOD_TCP = 8, FLOOD_PORTS = 4,
     K_MOST_TICKS = 8,        /* four ports, two ticks each */
-    JOBS_TICKS = 4 + 2,      /* dear steps go first: a loading test's last reading, its slopes, their judgement, the outlook;
+    JOBS_TICKS = 4 + 2,      /* dear steps go first: a loading test's last reading, its slopes, their judgement, what
+                                further readings can show;
                                 and of a record a piece in every eighth tick */
     LINE_TICKS = 4 + 5,      /* on the line: bytes and the silence that ends them, read in every other tick; and a long
                                 answer, which leaves in five */

@@ -28,8 +28,8 @@ static void ask_for_the_dearest(void)
     arrives(0x600u + NODE, data, 8);
 }
 
-/* To the end of a test, with or without somebody who asks whenever the answer before has come. Every tick senses, commands the drives, and
- * tells K of its own samples. */
+/* To the end of a test, with or without somebody who asks whenever the answer before has come. Every tick senses,
+ * commands the drives, and tells K of its own samples. */
 static void run_and_watch_every_tick(bool asked)
 {
     for (int i = 0; i < 60000 && app.controller.mode.now == BRACE_MODE_LOADING_TEST; i++) {

@@ -1,5 +1,5 @@
-/* Questions for K where the limb is not, on every port: under a force or under the weight alone, in turn and in time; and
- * the direction of down, which the main computer sets. */
+/* Questions for K where the limb is not, on every port: under a force or under the weight alone, in turn and in time;
+ * and the direction of down, which the main computer sets. */
 #include "can_bench.h"
 #include "modbus_master.h"
 

@@ -117,9 +117,9 @@ static void test_one_joint_is_taken_up_held_and_let_go(void)
     TEST_ASSERT_EQUAL(commands, fake.calls[BRACE_FAKE_JOINT_COMMAND]); /* nothing left to tell */
 }
 
-/* Where a link stands whose motor carries its load through the joint's spring: it stays behind. The controller works the
- * load out as a force on the tip and the force's moment as a turn of the joint: two of Newton's steps, which leave a
- * thousandth of a turn of some hundredths. */
+/* Where a link stands whose motor carries its load through the joint's spring: it stays behind. The controller works
+ * the load out as a force on the tip and the force's moment as a turn of the joint: two of Newton's steps, which leave
+ * a thousandth of a turn of some hundredths. */
 static double behind_the_spring(int joint)
 {
     const double yields_rad_per_n_mm = (double)bench_parameters().limb.joint[joint].compliance_rad_per_n_mm;

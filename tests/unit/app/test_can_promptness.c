@@ -3,9 +3,9 @@
 #include "can_bench.h"
 #include "modbus_master.h"
 
-/* A K takes three ticks: taken, worked out, answered; up to three requests of the same port stand before it, and each that
- * is a K moves it on by two. Dear steps of jobs go first, and no K is worked out in the tick after one: of a loading test
- * a reading, what further readings can show, and a piece of a record. */
+/* A K takes three ticks: taken, worked out, answered; up to three requests of the same port stand before it, and each
+ * that is a K moves it on by two. Dear steps of jobs go first, and no K is worked out in the tick after one: of a
+ * loading test a reading, what further readings can show, and a piece of a record. */
 enum { QUESTIONS = 4000, K_MOST_TICKS = K_TICKS + 3 * 2, JOBS_TICKS = 3 * 2 };
 
 static uint64_t dice;
@@ -338,7 +338,8 @@ static void k_is_asked_as_text(uint8_t token)
     say(line);
 }
 
-/* Text is answered in turn with the bus, and both Modbus ports as busy as they can be: each K moves the other by two. */
+/* Text is answered in turn with the bus, and both Modbus ports as busy as they can be: each K moves the other by two.
+ * */
 static void test_over_slcan(void)
 {
     const brace_parameters_t p = with_play(general_limb());

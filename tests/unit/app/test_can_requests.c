@@ -154,7 +154,8 @@ static void test_entries_are_read_and_those_that_are_none_refused(void)
     word = read_entry(brace_parameter_number(BRACE_PARAMETER_GEOMETRY_FEMUR_MM));
     memcpy(&value, &word, 4);
     TEST_ASSERT_EQUAL_FLOAT(bench_parameters().limb.femur_mm, value);
-    static const uint32_t none[] = {BRACE_PARAMETER_NUMBERS, 0xfff, BRACE_ENTRY_MEASURED + BRACE_MEASURED_COUNT, 0xffff};
+    static const uint32_t none[] = {BRACE_PARAMETER_NUMBERS, 0xfff,
+                                    BRACE_ENTRY_MEASURED + BRACE_MEASURED_COUNT, 0xffff};
     for (int i = 0; i < 4; i++) {
         brace_can_pack_read_entry_request(&(brace_can_read_entry_request_t){1, none[i]}, data);
         const answer_t answer = ask(data);

@@ -113,7 +113,8 @@ def _check(arguments: argparse.Namespace) -> None:
             why="posture, tip, load, sag and entries exclude each other",
             next_step="two commands",
         )
-    if arguments.fx is not None and (arguments.theta0 is not None or (arguments.theta1 is None and arguments.x is None)):
+    in_plane = arguments.theta0 is None and (arguments.theta1 is not None or arguments.x is not None)
+    if arguments.fx is not None and not in_plane:
         raise UsageError(
             "--fx --fz without a place in the limb's plane",
             where="query",

@@ -1,5 +1,5 @@
-/* Where down is. The parameters say it until the main computer says something else: a robot that climbs turns its limbs'
- * planes. What it says holds until the next start. */
+/* Where down is. The parameters say it until the main computer says something else: a robot that climbs turns its
+ * limbs' planes. What it says holds until the next start. */
 #ifndef BRACE_POSTURE_GRAVITY_H
 #define BRACE_POSTURE_GRAVITY_H
 
@@ -19,7 +19,7 @@ typedef struct {
 void gravity_configure(gravity_t *gravity, const brace_gravity_t *parameters);
 
 /* Another direction, from now on. NaN for both: the parameters' own again.
- * returns BRACE_OK, BRACE_E_NOT_FINITE (one NaN alone), BRACE_E_RANGE (outside the range of the parameter of its name) */
+ * returns BRACE_OK, BRACE_E_NOT_FINITE (one NaN alone), BRACE_E_RANGE (outside the range of its parameter) */
 brace_status_t gravity_tell(gravity_t *gravity, const brace_gravity_t *parameters, float direction_rad, float lean_rad);
 
 #endif

@@ -31,8 +31,8 @@ void posture_start(posture_t *posture);
 
 /* The posture of motor angles and backlash offsets.
  *   motor_rad, offset_rad: of each joint; a joint that is not known has NaN
- *   link_rad: of the encoders behind the gears; NaN: there is none. It tells the true angle, so that neither zero offset
- *     nor backlash is added
+ *   link_rad: of the encoders behind the gears; NaN: there is none. It tells the true angle, so that neither zero
+ *     offset nor backlash is added
  * About 270 instructions. */
 void posture_take(posture_t *posture, const brace_parameters_t *parameters, const float motor_rad[BRACE_LINK_COUNT],
                   const float offset_rad[BRACE_LINK_COUNT], const float link_rad[BRACE_LINK_COUNT]);

@@ -40,9 +40,9 @@ static brace_loaded_joint_t linear(float compliance_rad_per_n_mm)
     return (brace_loaded_joint_t){compliance_rad_per_n_mm, compliance_rad_per_n_mm};
 }
 
-/* A spring of torque = deflection / compliance + hardening * deflection^3 at a load. A load changes little in a tick, so
- * the deflection is followed with two of Newton's steps from the last one. After a jump of the load the deflection is
- * right within a few ticks. */
+/* A spring of torque = deflection / compliance + hardening * deflection^3 at a load. A load changes little in a tick,
+ * so the deflection is followed with two of Newton's steps from the last one. After a jump of the load the deflection
+ * is right within a few ticks. */
 static brace_loaded_joint_t hardened_spring(float *deflection_rad, float hardening_n_mm_per_rad3, float load_n_mm,
                                             float compliance_rad_per_n_mm)
 {

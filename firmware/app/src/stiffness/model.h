@@ -1,9 +1,9 @@
 /* K of the limb in force, with its joints' springs of the moment: without load, and at the equilibrium under it.
  *
  * Three paths of the core lead to K without load in the limb's plane. A limb in space takes the spatial path, because
- * its coxa link yields in the plane too. A planar limb whose springs never change is collapsed into a few constants, the
- * cheapest path. Every other planar limb (hardening, temperature, a base that yields unequally) takes the general path.
- * One path leads to K under a load, brace/loaded.h; it is for limbs in their plane. docs/kernel.md says more. */
+ * its coxa link yields in the plane too. A planar limb whose springs never change is collapsed into a few constants,
+ * the cheapest path. Every other planar limb (hardening, temperature, a base that yields unequally) takes the general
+ * path. One path leads to K under a load, brace/loaded.h; it is for limbs in their plane. docs/kernel.md says more. */
 #ifndef BRACE_STIFFNESS_MODEL_H
 #define BRACE_STIFFNESS_MODEL_H
 
@@ -50,8 +50,8 @@ brace_status_t model_stiffness(model_t *model, const brace_parameters_t *paramet
                                const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_stiffness_t *stiffness,
                                float *across_n_per_mm);
 
-/* Can this limb's K be told under a load? One in space cannot yet: its estimator would stand beside `loaded`, and be called
- * by model_loaded. */
+/* Can this limb's K be told under a load? One in space cannot yet: its estimator would stand beside `loaded`, and be
+ * called by model_loaded. */
 static inline bool model_counts_loads(const model_t *model)
 {
     return !model->is_spatial;

@@ -92,7 +92,8 @@ static bool is_bent_within(const shape_t *shape)
     return fabsf(shape->root) <= TURN_MOST_RAD && fabsf(shape->a) <= BEND_MOST_RAD && fabsf(shape->b) <= BEND_MOST_RAD;
 }
 
-/* A step of Newton's method leaves about the square of what it has moved, and more of it the less stable the limb is. */
+/* A step of Newton's method leaves about the square of what it has moved, and more of it the less stable the limb is.
+ * */
 INLINE bool is_settled(float unsettled_rad, float det)
 {
     return unsettled_rad * unsettled_rad <= SETTLED_RAD * SETTLED_RAD * det;

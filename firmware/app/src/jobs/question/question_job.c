@@ -70,7 +70,8 @@ static brace_status_t under_load(const brace_k_question_t *asked, const question
 }
 
 static brace_status_t without_load(const brace_k_question_t *asked, const question_inputs_t *inputs,
-                                   const float *unbent_rad, const brace_loaded_joint_t *springs, brace_k_answer_t *answer)
+                                   const float *unbent_rad, const brace_loaded_joint_t *springs,
+                                   brace_k_answer_t *answer)
 {
     const float unknown = __builtin_nanf("");
     float across_n_per_mm;

@@ -49,7 +49,8 @@ int32_t question_job_ask(question_job_t *job, brace_asker_t asker, const brace_k
 /* Works out what has been asked, if it may. At most 3,200 instructions. */
 void question_job_step(question_job_t *job, const question_inputs_t *inputs);
 
-/* What was asked is forgotten, because it belongs to parameters that are in force no longer; who asks again begins anew. */
+/* What was asked is forgotten, because it belongs to parameters that are in force no longer; who asks again begins
+ * anew. */
 void question_job_forget(question_job_t *job);
 
 #endif

@@ -11,8 +11,8 @@
  *   half: of the port by which the request came
  *   pdu: room for MODBUS_PDU_BYTES
  *   length: of the request [1, MODBUS_PDU_BYTES]
- * returns the answer's length [2, MODBUS_PDU_BYTES]; 0: it is being worked out, and the request, which is untouched, is to
- *   be put again in the next tick. At most what modbus_write_block costs. */
+ * returns the answer's length [2, MODBUS_PDU_BYTES]; 0: it is being worked out, and the request, which is untouched,
+ *   is to be put again in the next tick. At most what modbus_write_block costs. */
 uint32_t modbus_pdu_answer(modbus_server_t *server, modbus_half_t *half, const wire_tick_t *tick, uint8_t *pdu,
                            uint32_t length);
 
