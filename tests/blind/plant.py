@@ -76,8 +76,6 @@ KEYS = (
     "outside.tibia_stop_rad",
     "outside.femur_bow_mm",
     "outside.tibia_bow_mm",
-    "outside.femur_taper",
-    "outside.tibia_taper",
     "outside.knee_offset_mm",
     "outside.tibia_cable_at",
     "outside.cable_from_x_mm",

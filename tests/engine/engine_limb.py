@@ -2,7 +2,7 @@
 with hinges between them.
 
 Keys that begin with `outside.` are of limbs that limb.toml does not describe: a bowed tibia, a knee axis beside the
-femur's line, links that taper, a point for a cable."""
+femur's line, a point for a cable."""
 
 from __future__ import annotations
 
@@ -40,13 +40,6 @@ def equal_segments(count: int) -> Hinges:
     (1 - x)^2 is 1/3."""
     share = 1.0 / count / (1.0 - 0.25 / count**2)
     return Hinges((np.arange(count) + 0.5) / count, np.full(count, share))
-
-
-def gauss_points(cells: int) -> Hinges:
-    """Two hinges in each of some equal cells, at its Gauss points: all three tip compliances of the beam are exact."""
-    middles = (np.arange(cells) + 0.5) / cells
-    away = 0.5 / np.sqrt(3.0) / cells
-    return Hinges(np.ravel(np.column_stack([middles - away, middles + away])), np.full(2 * cells, 0.5 / cells))
 
 
 def engine_limb(
@@ -112,7 +105,7 @@ class _Builder:
         middle = start + 0.5 * length_mm * line
 
         chain.slide(elastic, strength * axial)
-        shares = strength * self._shares(name)
+        shares = strength * self._hinges.share
         bow_mm = self._value(f"outside.{name}_bow_mm")
         for number, (at, share) in enumerate(zip(self._hinges.at, shares, strict=True) if strength > 0.0 else ()):
             to_end, side = length_mm * (1.0 - at), 4.0 * bow_mm * at * (1.0 - at) * sideways
@@ -135,9 +128,3 @@ class _Builder:
         chain.slide(_Y, (1.0 - strength) * lateral)
         chain.hinge(end, line, (1.0 - strength) * torsion)
         return end
-
-    def _shares(self, name: str) -> Array:
-        """Of a beam's turn, for each hinge. A link that tapers is softer towards one end, its tip as soft as before."""
-        at, share = self._hinges.at, self._hinges.share
-        tapered = share * np.exp(self._value(f"outside.{name}_taper") * (at - 0.5))
-        return np.asarray(tapered * (share @ (1.0 - at) ** 2) / (tapered @ (1.0 - at) ** 2))

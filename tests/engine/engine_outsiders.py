@@ -10,12 +10,13 @@ from outsiders import Outsider
 from plant import INDEX, Array
 
 _SHARED = ("encoder_ripple", "slip", "asymmetric_joint", "growing_backlash", "off_centre_play", "sensor_curve", "warm_gain")
-KINDS = ("asymmetric_joint", "cable", "cogging", "end_stop", "bowed_tibia", "knee_offset", "tapered_link", *_SHARED[:2],
-         *_SHARED[3:])  # fmt: skip
-# A rig that moves along turned axes is a turned sensor and a femur offset; one that yields along both axes is a base that does.
+KINDS = (*_SHARED, "cable", "cogging", "end_stop", "bowed_tibia")
+# A knee's axis beside the femur's line is a femur a little longer and turned, and a tibia turned back. A rig that moves
+# along turned axes is a turned sensor and a femur offset; one that yields along both axes is a base that does.
 DISGUISED = (
     ("rig_turned", ("sensor_rotation@sensor", "joint_zero_offset@joint.femur")),
     ("rig_yields", ("base_compliance@base",)),
+    ("knee_offset", ("joint_zero_offset@joint.femur", "joint_zero_offset@joint.tibia")),
 )
 
 
@@ -54,8 +55,6 @@ def draw(
         return Outsider(name, 80.0, keys=(("outside.tibia_bow_mm", sign),))
     if name == "knee_offset":  # the knee's axis beside the femur's line
         return Outsider(name, 40.0, keys=(("outside.knee_offset_mm", sign),))
-    if name == "tapered_link":  # softer towards one end, its own tip compliance as believed
-        return Outsider(name, 6.0, keys=((f"outside.{link}_taper", sign),))
     if name == "rig_turned":
         return Outsider(name, 0.05, keys=(("outside.rig_turn_rad", sign),))
     if name == "rig_yields":
