@@ -84,8 +84,8 @@ void brace_loaded_collapse(const brace_limb_t *limb, const brace_gravity_t *weig
  * Accuracy: where the buckling factor is at least 2 and the tip moves by at most a fifth of the reach, K within 0.6 %
  *         (Frobenius norm; median 1e-6), the buckling factor within 2 % below 10, the displacement within 0.5 mm. At no
  *         load as brace/general.h. tests/engine/test_core_under_load.py judges random limbs. Of 6,000 limbs, one was
- *         off by more: by 4 %, near the straight knee, where its tip moved by 41 mm of 217 mm. Under any load at all,
- *         up to those that fold the limb, no K that was given was off by more than 6 % (76,000 random limbs and loads).
+ *         off by more: by 4 %, near the straight knee, where its tip moved by 41 mm of 217 mm. Where two of
+ *         Newton's steps do not settle, as under a load that folds the limb, there is no K.
  * Cost on a Cortex-M4F: at most 2,500 instructions (2,448 measured) for every posture; stack at most 800 bytes. */
 brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
                                       const brace_load_t *load, brace_loaded_stiffness_t *result);
