@@ -103,13 +103,6 @@ def test_k_under_load(poses: Array) -> None:
     np.testing.assert_allclose(k_under_load(limb(HEAVY), poses, force, equal_segments(10)), told, rtol=1e-6)
 
 
-def knee_moment(table: Array, forces: Array) -> Array:
-    """Of the tip force about the undeflected knee [N mm]."""
-    angle = table[:, 1] - table[:, 2]
-    lever = LIMB["geometry.tibia_mm"] * np.column_stack([np.cos(angle), np.sin(angle)]) + table[:, 5:7]
-    return np.asarray(lever[:, 0] * forces[:, 1] - lever[:, 1] * forces[:, 0])
-
-
 def test_friction_sticks_or_slides(poses: Array) -> None:
     """Rigid links: the knee's deflection is its encoder's. Torque less spring is within the friction; where the joint
     moved it is all of the friction, towards the motion."""
@@ -127,6 +120,22 @@ def test_friction_sticks_or_slides(poses: Array) -> None:
     slid = np.abs(moved) > 1e-6
     assert slid.sum() > len(table) // 2
     np.testing.assert_allclose(rubbing[slid], np.sign(moved[slid]) * coulomb, rtol=0, atol=slack)
+
+
+def test_friction_sticks_until_it_slides(poses: Array) -> None:
+    """Elastic links let the knee stand while the tip moves: there it may carry up to its friction more than its spring, and
+    no more. The knee's own way of a few mm, times the force, is all that the undeflected lever leaves out."""
+    coulomb, compliance = 2000.0, LIMB["joint.tibia.compliance_rad_per_n_mm"]
+    table = rows(poses)
+    out = play(limb({"joint.tibia.coulomb_n_mm": coulomb}), table)
+    angle = table[:, 1] - table[:, 2]
+    lever = LIMB["geometry.tibia_mm"] * np.column_stack([np.cos(angle), np.sin(angle)]) + table[:, 5:7]
+    rubbing = lever[:, 0] * out[:, 1] - lever[:, 1] * out[:, 0] - out[:, 3] / compliance
+    slack = 3.0 * np.linalg.norm(out[:, :2], axis=1)
+    assert np.all(np.abs(rubbing) <= coulomb + slack)
+    stands = (np.abs(np.diff(out[:, 3], prepend=0.0)) < 1e-12) & (table[:, 0] == np.roll(table[:, 0], 1))
+    assert stands.sum() > len(table) // 4
+    assert np.abs(rubbing[stands]).max() > 0.7 * coulomb
 
 
 def test_friction_carried_from_run_to_run(poses: Array) -> None:
