@@ -12,7 +12,7 @@ from scoring import Judged, Share, closed, share, strong
 
 HOW = """Limbs of a physics engine that nobody here wrote ([tests/engine](../tests/engine/README.md)), diagnosed from
 loading records alone; the answers lie apart and are sealed before the run. Each link is a beam of ten segments; the tip
-is held up to 2.54 mm off, and the engine's geometry is exact, so force is no straight line over displacement for a sound
+is held up to 2.54 mm off, and the engine's geometry is exact: force over displacement is no straight line for a sound
 limb either. Limbs, poses, strokes, noise, sizes and directions are random; each true limb also differs from what is
 believed within the calibration's trust. Half of the limb.toml do not say that the tibia is a beam. Detectability s =
 sqrt(2 x log-likelihood gain of the truth after refitting the base), by the engine. An effect's class: those whose trace
