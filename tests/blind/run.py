@@ -264,13 +264,15 @@ def main() -> int:
         "generator_sha256": generator_hash(world),
         "tool": version,
     }
-    command = "./dev blind" + (" --engine" if options.engine else "") + (" --development" if options.development else "")
+    command = "./dev blind" + (" --engine" if options.engine else "")
+    command += " --development" if options.development else ""
     command += f" --cases {options.cases}" if options.cases else ""
     command += f" --seed {options.seed}" if options.seed is not None else ""
     if world.report:
         found = world.report(judged, made, command)
     else:
-        figures = report.figures(judged, after_next(root, results, judged), steadiness(results, again, seeds_names), made)
+        after, steady = after_next(root, results, judged), steadiness(results, again, seeds_names)
+        figures = report.figures(judged, after, steady, made)
         figures["lines"] += beside.get("lines", [])
         figures |= {key: value for key, value in beside.items() if key != "lines"}
         found = report.table(figures), report.page(figures, judged, command), report.as_json(figures)
@@ -282,8 +284,8 @@ def main() -> int:
     (out / f"{world.page}.json").write_text(json.dumps(content, indent=1) + "\n")
     (results / "judged.json").write_text(json.dumps(report.cases_as_json(judged), indent=1) + "\n")
     print(table)
-    print(f"\n{time.monotonic() - begun:.0f} s; tables in {out / world.page}.md, every case in {results / 'judged.json'}",
-          file=sys.stderr)  # fmt: skip
+    told = f"tables in {out / world.page}.md, every case in {results / 'judged.json'}"
+    print(f"\n{time.monotonic() - begun:.0f} s; {told}", file=sys.stderr)
     return 0
 
 

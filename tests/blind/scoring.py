@@ -64,7 +64,8 @@ def judge(truth: dict[str, Any], found: dict[str, Any]) -> Judged:
         j.flags["fault"] = verdict == "data_fault" and bool(fields & set(truth["fields"]))
         j.flags["fault_any_field"] = verdict == "data_fault"
     elif kind == "disguised":
-        j.flags["seen_through"] = verdict == "unknown" or bool(group & set(truth["alike"])) or set(said) == set(truth["alike"])
+        alike = set(truth["alike"])
+        j.flags["seen_through"] = verdict == "unknown" or (alike <= set(said) | group and set(said) <= alike | group)
     elif kind == "outside":
         j.flags["unknown"] = verdict == "unknown"
         j.flags["misnamed"] = verdict == "effect" and bool(effects) and effects[0].get("confidence", 1.0) > CONFIDENT

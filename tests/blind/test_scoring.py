@@ -84,3 +84,13 @@ def test_figures() -> None:
     cases = [judge(truth("single", n), said("effect", "creep@creep")) for n in ("creep@creep", "gravity@gravity")]
     error, claims, _ = calibration(cases)
     assert claims == 2 and error == pytest.approx(0.4)
+
+
+def test_disguised() -> None:
+    """Outside the catalogue, but exactly like entries of it: their names or unknown, nothing else."""
+    alike = ["sensor_rotation@sensor", "joint_zero_offset@joint.femur"]
+    real = {**truth("disguised", "rig_turned@outside"), "alike": alike}
+    assert judge(real, said("unknown")).flags["seen_through"]
+    assert judge(real, said("effect", *reversed(alike))).flags["seen_through"]
+    assert not judge(real, said("effect", alike[0])).flags["seen_through"]
+    assert not judge(real, said("none")).flags["seen_through"]

@@ -1,9 +1,9 @@
-"""The engine's loading tests against records that somebody else made with the same engine, of limbs whose truth is told.
+"""The engine's loading tests against records that somebody else made with the same engine, of limbs that are told.
 
-usage: against_records.py FOLDER...     each with data.csv and truth.json: `true` has the limb, `spec` what was done to it
+usage: against_records.py FOLDER...     each with data.csv and truth.json: `true` has the limb, `spec` what was done
 
-Their links are ten equal segments. The sensor's gain within its trust is not told: it is fitted. What is left must be the
-record's own noise, as repeats of the same run tell it."""
+Their links are ten equal segments. The sensor's gain within its trust is not told: it is fitted. What is left must be
+the record's own noise, as repeats of the same run tell it."""
 
 from __future__ import annotations
 

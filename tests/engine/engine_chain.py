@@ -39,9 +39,9 @@ class Chain:
 
     def _joint(self, name: str, kind: str, place: Array, axis: Array, compliance: float) -> None:
         if compliance > 0.0:
-            name = name or f"q{self.joints}"
+            name, stiffness = name or f"q{self.joints}", repr(1.0 / float(compliance))
             ElementTree.SubElement(
-                self._body(place), "joint", name=name, type=kind, axis=_words(axis), stiffness=repr(1.0 / float(compliance))
+                self._body(place), "joint", name=name, type=kind, axis=_words(axis), stiffness=stiffness
             )
             self.joints += 1
 

@@ -1,5 +1,5 @@
-"""A limb of limb.toml as the engine's chain, from docs/physics.md: joints and base are springs, a beam is rigid segments
-with hinges between them.
+"""A limb of limb.toml as the engine's chain, from docs/physics.md: joints and base are springs, a beam is rigid
+segments with hinges between them.
 
 Keys that begin with `outside.` are of limbs that limb.toml does not describe: a bowed tibia, a knee axis beside the
 femur's line, a point for a cable."""

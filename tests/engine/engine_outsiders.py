@@ -9,8 +9,8 @@ from designs import Rng
 from outsiders import Outsider
 from plant import INDEX, Array
 
-_SHARED = ("encoder_ripple", "slip", "asymmetric_joint", "growing_backlash", "off_centre_play", "sensor_curve", "warm_gain")
-KINDS = (*_SHARED, "cable", "cogging", "end_stop", "bowed_tibia")
+KINDS = ("encoder_ripple", "slip", "asymmetric_joint", "growing_backlash", "off_centre_play", "sensor_curve",
+         "warm_gain", "cable", "cogging", "end_stop", "bowed_tibia")  # fmt: skip
 # A knee's axis beside the femur's line is a femur a little longer and turned, and a tibia turned back. A rig that moves
 # along turned axes is a turned sensor and a femur offset; one that yields along both axes is a base that does.
 DISGUISED = (

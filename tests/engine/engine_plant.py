@@ -1,4 +1,4 @@
-"""A loading test on a limb of the engine: the same parameters and rows in, the same readings out, as tests/blind/plant.py.
+"""A loading test on a limb of the engine: parameters and rows in, readings out, as tests/blind/plant.py has them.
 
 Nothing here knows small displacements, and nothing is the product's. `outside.` parameters are of limbs and rigs that
 no key of limb.toml describes."""
@@ -14,8 +14,8 @@ from engine_limb import Hinges, engine_limb, equal_segments
 from many_rests import Cable, Friction, Held, ManyRests, Rests, Rows
 from plant import INDEX, KEYS, READINGS, ROW
 
-# As physics engines have beams. Hinges at Gauss points would be nearer to an elastica, but they are what the product's own
-# plant has, and would hide what that leaves out.
+# As physics engines have beams. Hinges at Gauss points would be nearer to an elastica, but they are what the product's
+# own plant has, and would hide what that leaves out.
 BEAM = equal_segments(10)
 _JOINTS = ("joint.femur", "joint.tibia")
 _COLUMN = {name: i for i, name in enumerate(ROW)}
@@ -124,7 +124,7 @@ class _LoadingTest:
         return np.asarray(first[back.ravel()][which], dtype=np.intp)
 
     def displaced_mm(self) -> Array:
-        """What the rig moves the tip by: what the record says, less the contact's play, along axes that may be turned."""
+        """By how much the rig moves the tip: as recorded, less the contact's play, along axes that may be turned."""
         asked = self.rows[:, [_COLUMN["dx_mm"], _COLUMN["dz_mm"]]]
         half = 0.5 * self.value("contact.play_mm")
         moved = asked.copy()

@@ -10,16 +10,17 @@ from typing import Any
 import report
 from scoring import Judged, Share, closed, share, strong
 
-HOW = """Limbs of a physics engine that nobody here wrote ([tests/engine](../tests/engine/README.md)), diagnosed from loading
-records alone; the answers lie apart and are sealed before the run. Each link is a beam of hinged segments; the tip is
-moved to rest by up to 2.54 mm, and the engine's geometry is exact, so force is no straight line over displacement for a
-sound limb either. Limbs, poses, strokes, noise, sizes and directions are random; each true limb also differs from what is
+HOW = """Limbs of a physics engine that nobody here wrote ([tests/engine](../tests/engine/README.md)), diagnosed from
+loading records alone; the answers lie apart and are sealed before the run. Each link is a beam of ten segments; the tip
+is held up to 2.54 mm off, and the engine's geometry is exact: force over displacement is no straight line for a sound
+limb either. Limbs, poses, strokes, noise, sizes and directions are random; each true limb also differs from what is
 believed within the calibration's trust. Half of the limb.toml do not say that the tibia is a beam. Detectability s =
-sqrt(2 x log-likelihood gain of the truth after refitting the base), by the engine. An effect's class: those whose trace in
-this design has a cosine above 0.95 with the truth's."""
+sqrt(2 x log-likelihood gain of the truth after refitting the base), by the engine. An effect's class: those whose trace
+in this design has a cosine above 0.95 with the truth's."""
 
-READING = """Intervals are Wilson's, 95 %. Gap closed: 1 - rms after / rms before on other poses, without noise, over single
-effects whose gap there is above 0.05 N. K: at 15 random postures under 4 to 20 N, the median distance from the engine's K."""
+READING = """Intervals are Wilson's, 95 %. Gap closed: 1 - rms after / rms before on other poses, without noise, over
+single effects whose gap there is above 0.05 N. K: at 15 random postures under 4 to 20 N, the median distance from the
+engine's K."""
 
 ROWS = (600, 800)  # of the records whose time is told
 
@@ -85,8 +86,8 @@ def made(judged: Sequence[Judged], by: dict[str, Any], command: str) -> tuple[st
         "# Blind benchmark on limbs of a physics engine",
         f"    {command}",
         HOW,
-        f"This run: {by['cases']} cases ({kinds}), {by['set']} seed {by['seed']}, answers' seal `{by['seal_sha256'][:16]}`, "
-        f"generator `{by['generator_sha256'][:12]}`, tool `{by['tool']}`.",
+        f"This run: {by['cases']} cases ({kinds}), {by['set']} seed {by['seed']}, "
+        f"answers' seal `{by['seal_sha256'][:16]}`, generator `{by['generator_sha256'][:12]}`, tool `{by['tool']}`.",
         table, READING, timing,
         "## Besides", "\n".join(rows),
         "## Nothing hidden, but something said", _listed(alarms),
@@ -110,7 +111,8 @@ def _listed(judged: Sequence[Judged]) -> str:
     if not judged:
         return "None."
     rows = ["| case | hidden | s | said | verdict |", "|---|---|---|---|---|"]
-    rows += [f"| {j.id} | {', '.join(j.truth)} | {j.s:.0f} | {', '.join(j.said) or '-'} | {j.verdict} |" for j in judged]
+    for j in judged:
+        rows.append(f"| {j.id} | {', '.join(j.truth)} | {j.s:.0f} | {', '.join(j.said) or '-'} | {j.verdict} |")
     return "\n".join(rows)
 
 
@@ -120,5 +122,6 @@ def _stiffness(judged: Sequence[Judged]) -> str:
     rows = ["| case | hidden | said | K off as believed | as exported |", "|---|---|---|---|---|"]
     for j in judged:
         before, after = j.stiffer or (0.0, 0.0)
-        rows.append(f"| {j.id} | {', '.join(j.truth)} | {', '.join(j.said)} | {100 * before:.2f} % | {100 * after:.2f} % |")
+        off = f"{100 * before:.2f} % | {100 * after:.2f} %"
+        rows.append(f"| {j.id} | {', '.join(j.truth)} | {', '.join(j.said)} | {off} |")
     return "\n".join(rows)

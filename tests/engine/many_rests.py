@@ -1,7 +1,7 @@
 """Rests of one limb at many postures at once, its tip held by a rig or pushed by a force.
 
-The engine says where every spring's axis, the tip and the weights are (mj_kinematics); the springs' torques, the friction
-and the rig are written here. A rest is where both sum up to zero; Newton's method finds it for all rows together.
+The engine says where every spring's axis, the tip and the weights are (mj_kinematics); the springs' torques, the
+friction and the rig are written here. A rest is where both sum up to zero; Newton's method finds it for all rows.
 Angles are counted counter-clockwise, from x towards z; only the plane's axes x and z are kept."""
 
 from __future__ import annotations
@@ -73,8 +73,8 @@ class Friction:
 
 @dataclass
 class Rests:
-    """Deflections of all springs (count x springs) and forces of the rig on the tip (count x 2). C only of a tip that is
-    free to follow a force; there a joint in its play counts as if its spring carried."""
+    """Deflections of all springs (count x springs) and forces of the rig on the tip (count x 2). C only of a tip that
+    is free to follow a force; there a joint in its play counts as if its spring carried."""
 
     q: Array
     force_n: Array

@@ -1,5 +1,5 @@
-"""The loading tests on the engine's limb against what must hold: the reference at finite displacements, the engine's own
-sum of forces, and closed forms of friction, play and rig."""
+"""The loading tests on the engine's limb against what must hold: the reference at finite displacements, the engine's
+own sum of forces, and closed forms of friction, play and rig."""
 
 from __future__ import annotations
 
@@ -66,7 +66,10 @@ def poses() -> Array:
     return np.random.default_rng(SEED).uniform((-0.3, 0.45), (1.7, 2.75), (6, 2))
 
 
-@pytest.mark.parametrize("part", [{}, HEAVY, ON_A_BASE | HEAVY, {"link.femur.moment_transfer": 0.4, "link.tibia.tilt_rad": 0.2}],
+HALF_A_BEAM = {"link.femur.moment_transfer": 0.4, "link.tibia.tilt_rad": 0.2}
+
+
+@pytest.mark.parametrize("part", [{}, HEAVY, ON_A_BASE | HEAVY, HALF_A_BEAM],
                          ids=["light", "heavy", "on a base", "half a beam"])  # fmt: skip
 def test_force_at_a_held_tip(part: dict[str, float], poses: Array) -> None:
     """As the reference with the same segments: only rounding is between them."""
@@ -81,13 +84,14 @@ def test_the_beam_is_an_elastica(poses: Array) -> None:
     table = rows(poses)
     told = under_displacement(limb_model(LIMB | HEAVY), table[:, 1], table[:, 2], table[:, 5:7]).force_n
     count = len(BEAM.at)
-    off, finer = (np.abs(play(limb(HEAVY), table, beam)[:, :2] - told).max() for beam in (BEAM, equal_segments(2 * count)))
+    beams = BEAM, equal_segments(2 * count)
+    off, finer = (np.abs(play(limb(HEAVY), table, beam)[:, :2] - told).max() for beam in beams)
     assert off < 0.25 / count**2 * np.abs(told).max()
     assert finer == pytest.approx(off / 4.0, rel=0.15)
 
 
 def test_the_engine_agrees_that_this_is_rest(poses: Array) -> None:
-    """The engine's own sum of spring forces, weights and tip force brings the tip to where the record says it was held."""
+    """The engine's own sum of spring forces, weights and tip force brings the tip to where the record has it held."""
     table = rows(poses[:2])
     forces = play(limb(HEAVY), table)[:, :2]
     for row in range(0, len(table), 5):
@@ -101,13 +105,6 @@ def test_k_under_load(poses: Array) -> None:
     force = np.random.default_rng(SEED).normal(size=(len(poses), 2)) * 10.0
     told = under_force(limb_model(LIMB | HEAVY), poses[:, 0], poses[:, 1], force, parts=-10).k_n_per_mm
     np.testing.assert_allclose(k_under_load(limb(HEAVY), poses, force, equal_segments(10)), told, rtol=1e-6)
-
-
-def knee_moment(table: Array, forces: Array) -> Array:
-    """Of the tip force about the undeflected knee [N mm]."""
-    angle = table[:, 1] - table[:, 2]
-    lever = LIMB["geometry.tibia_mm"] * np.column_stack([np.cos(angle), np.sin(angle)]) + table[:, 5:7]
-    return np.asarray(lever[:, 0] * forces[:, 1] - lever[:, 1] * forces[:, 0])
 
 
 def test_friction_sticks_or_slides(poses: Array) -> None:
@@ -127,6 +124,22 @@ def test_friction_sticks_or_slides(poses: Array) -> None:
     slid = np.abs(moved) > 1e-6
     assert slid.sum() > len(table) // 2
     np.testing.assert_allclose(rubbing[slid], np.sign(moved[slid]) * coulomb, rtol=0, atol=slack)
+
+
+def test_friction_sticks_until_it_slides(poses: Array) -> None:
+    """Elastic links let the knee stand while the tip moves: there it may carry up to its friction more than its spring,
+    and no more. The knee's own way of a few mm, times the force, is all that the undeflected lever leaves out."""
+    coulomb, compliance = 2000.0, LIMB["joint.tibia.compliance_rad_per_n_mm"]
+    table = rows(poses)
+    out = play(limb({"joint.tibia.coulomb_n_mm": coulomb}), table)
+    angle = table[:, 1] - table[:, 2]
+    lever = LIMB["geometry.tibia_mm"] * np.column_stack([np.cos(angle), np.sin(angle)]) + table[:, 5:7]
+    rubbing = lever[:, 0] * out[:, 1] - lever[:, 1] * out[:, 0] - out[:, 3] / compliance
+    slack = 3.0 * np.linalg.norm(out[:, :2], axis=1)
+    assert np.all(np.abs(rubbing) <= coulomb + slack)
+    stands = (np.abs(np.diff(out[:, 3], prepend=0.0)) < 1e-12) & (table[:, 0] == np.roll(table[:, 0], 1))
+    assert stands.sum() > len(table) // 4
+    assert np.abs(rubbing[stands]).max() > 0.7 * coulomb
 
 
 def test_friction_carried_from_run_to_run(poses: Array) -> None:

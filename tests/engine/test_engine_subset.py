@@ -1,7 +1,7 @@
 """A small fixed set of the engine's world through the tool, judged as ./dev blind --engine judges its hundreds.
 
-Each bound allows one miss: a tool that just reaches what it must (1 % false alarms, 95 % of classes right) has two of so
-few less than once in seventy sets; one that takes a turning limb for a faulty one has them all."""
+Each bound allows one miss: a tool that just reaches what it must (1 % false alarms, 95 % of classes right) has two of
+so few less than once in seventy sets; one that takes a turning limb for a faulty one has them all."""
 
 from __future__ import annotations
 
