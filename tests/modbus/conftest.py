@@ -17,20 +17,22 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "socketcan")]
 
 from clients import CLIENTS, Client, Place  # noqa: E402
-from processes import PATIENCE_S, SLOWLY, emulated, simulated  # noqa: E402
+from processes import LIMB, PATIENCE_S, SLOWLY, emulated, simulated  # noqa: E402
 
 SIM = ("--can", "none", "--modbus")
 
 
 @contextlib.contextmanager
 def server(name: str, folder: Path) -> Iterator[Place]:
-    """A server by its name."""
+    """A server by its name. The simulated limb's sensor is free of noise: K counts the force that it reads."""
+    quiet = folder / "quiet.toml"
+    quiet.write_text(LIMB.read_text() + "\n[sensor]\nnoise_n = 0.0\n")
     if name == "sim-tcp":
-        with simulated(*SIM, "modbus-tcp://127.0.0.1:0") as ready:
+        with simulated("--plant", quiet, *SIM, "modbus-tcp://127.0.0.1:0") as ready:
             host, _, port = ready["limbs"][0]["modbus_tcp"].removeprefix("modbus-tcp://").rpartition(":")
             yield Place(name, host=host, port=int(port))
     elif name == "sim-line":
-        with simulated(*SIM, "modbus:pty") as ready:
+        with simulated("--plant", quiet, *SIM, "modbus:pty") as ready:
             yield Place(name, device=ready["limbs"][0]["modbus"].removeprefix("modbus:"))
     else:
         with emulated(folder, name, clock=SLOWLY) as places:  # a frame ends with a silence on the board's clock

@@ -71,7 +71,8 @@ def eight_byte_frames(text: bytes) -> tuple[np.ndarray, np.ndarray]:
 
 @contextlib.contextmanager
 def limbs(count: int, **changes: float) -> Iterator[Any]:
-    """Limbs on one bus; time passes when the test says so."""
+    """Limbs on one bus; time passes when the test says so. Nothing presses their tips and their sensors are free of
+    noise, so that K is the one without load."""
     from brace.model import load_limb
     from brace.sim.node import LimbSetup, Node
 
@@ -80,6 +81,6 @@ def limbs(count: int, **changes: float) -> Iterator[Any]:
     setups = []
     for limb in range(count):
         own = {"controller.node_id": NODE + limb, **changes}
-        setups.append(LimbSetup(model, model, own, theta_rad=posture, hold_n_per_mm=0.0))
+        setups.append(LimbSetup(model, model, own, theta_rad=posture, hold_n_per_mm=0.0, force_noise_n=0.0))
     with Node(setups, "tcp://127.0.0.1:0") as node:
         yield node

