@@ -90,12 +90,15 @@ class Sim:
 
 @pytest.fixture(scope="session")
 def sim(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Sim]:
-    """The paper's limb standing at (1.0, 1.4) rad, pressed so that the tip has a force."""
+    """The paper's limb standing at (1.0, 1.4) rad, pressed so that the tip has a force. Its sensor is free of noise: K
+    counts the force that it reads."""
     can = os.environ.get("BRACE_TEST_CAN") or f"tcp://127.0.0.1:{free_port()}"
     modbus = f"modbus-tcp://127.0.0.1:{free_port()}"
-    errors = (tmp_path_factory.mktemp("sim") / "errors").open("w+")
+    folder = tmp_path_factory.mktemp("sim")
+    errors, quiet = (folder / "errors").open("w+"), folder / "quiet.toml"
+    quiet.write_text(LIMB.read_text() + "\n[sensor]\nnoise_n = 0.0\n")
     process = subprocess.Popen(
-        [sys.executable, "-m", "brace", "sim", "--model", LIMB, "--can", can, "--modbus", modbus, "--limbs", "2",
+        [sys.executable, "-m", "brace", "sim", "--model", LIMB, "--plant", quiet, "--can", can, "--modbus", modbus, "--limbs", "2",
          "--press", "1.5,-3", "--seconds", "1200", "--json"],
         stdout=subprocess.PIPE, stderr=errors, text=True,
     )  # fmt: skip

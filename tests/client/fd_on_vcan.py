@@ -37,9 +37,11 @@ def limb(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def sim(limb: Path) -> Iterator[dict[str, Any]]:
-    """`brace sim` on vcan0."""
-    command = [sys.executable, "-m", "brace", "sim", "--model", str(limb), "--json", "--can", "vcan0", "--modbus",
-               "none"]
+    """`brace sim` on vcan0. The limb's sensor is free of noise: K counts the force that it reads."""
+    quiet = limb.with_name("quiet.toml")
+    quiet.write_text(limb.read_text() + "\n[sensor]\nnoise_n = 0.0\n")
+    command = [sys.executable, "-m", "brace", "sim", "--model", str(limb), "--plant", str(quiet), "--json", "--can",
+               "vcan0", "--modbus", "none"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None
     yield json.loads(process.stdout.readline())
