@@ -284,8 +284,8 @@ def main() -> int:
     (out / f"{world.page}.json").write_text(json.dumps(content, indent=1) + "\n")
     (results / "judged.json").write_text(json.dumps(report.cases_as_json(judged), indent=1) + "\n")
     print(table)
-    told = f"tables in {out / world.page}.md, every case in {results / 'judged.json'}"
-    print(f"\n{time.monotonic() - begun:.0f} s; {told}", file=sys.stderr)
+    places = f"tables in {out / world.page}.md, every case in {results / 'judged.json'}"
+    print(f"\n{time.monotonic() - begun:.0f} s; {places}", file=sys.stderr)
     return 0
 
 

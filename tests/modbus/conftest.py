@@ -17,7 +17,8 @@ HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent / "socketcan")]
 
 from clients import CLIENTS, Client, Place  # noqa: E402
-from processes import LIMB, PATIENCE_S, SLOWLY, emulated, simulated  # noqa: E402
+from processes import PATIENCE_S, SLOWLY, emulated, simulated  # noqa: E402
+from wire_by_hand import LIMB  # noqa: E402
 
 SIM = ("--can", "none", "--modbus")
 
