@@ -18,6 +18,7 @@ import shutil
 import sys
 import time
 from collections.abc import Iterable
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any
 
@@ -424,9 +425,9 @@ def generate(
     count = total(cases)
     jobs = [(seed, index, cases, str(fresh), world.name) for index in range(count)]
     begun, given_up = time.monotonic(), 0
-    with multiprocessing.get_context("spawn").Pool(processes) as pool:
-        for done, (_, why) in enumerate(pool.imap_unordered(_job, jobs, chunksize=4), start=1):
-            given_up += len(why)
+    with ProcessPoolExecutor(processes, multiprocessing.get_context("spawn")) as pool:
+        for done, job in enumerate(as_completed([pool.submit(_job, job) for job in jobs]), start=1):
+            given_up += len(job.result()[1])
             if not quiet and (done % 20 == 0 or done == count):
                 spent = time.monotonic() - begun
                 text = f"made {done}/{count} cases, {spent:.0f} s, {given_up} draws given up "

@@ -16,6 +16,7 @@ import os
 import sys
 import time
 from collections.abc import Callable, Iterable
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any
 
@@ -102,12 +103,13 @@ def _best_job(job: tuple[str, str]) -> str:
 
 
 def in_turn(what: str, work: Callable[[Any], str], jobs: list[Any], processes: int) -> None:
-    """Runs jobs on some processes and says how far it is."""
+    """Runs jobs on some processes and says how far it is; an error when one of the processes is lost."""
     if not jobs:
         return
     begun = time.monotonic()
-    with multiprocessing.get_context("spawn").Pool(processes) as pool:
-        for done, _ in enumerate(pool.imap_unordered(work, jobs), start=1):
+    with ProcessPoolExecutor(processes, multiprocessing.get_context("spawn")) as pool:
+        for done, job in enumerate(as_completed([pool.submit(work, job) for job in jobs]), start=1):
+            job.result()
             spent = time.monotonic() - begun
             print(
                 f"\r{what}: {done}/{len(jobs)}, {spent:.0f} s, about {spent / done * (len(jobs) - done):.0f} s left   ",

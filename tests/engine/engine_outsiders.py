@@ -10,13 +10,15 @@ from outsiders import Outsider
 from plant import INDEX, Array
 
 KINDS = ("encoder_ripple", "slip", "asymmetric_joint", "growing_backlash", "off_centre_play", "sensor_curve",
-         "warm_gain", "cable", "cogging", "end_stop", "bowed_tibia")  # fmt: skip
-# A knee's axis beside the femur's line is a femur a little longer and turned, and a tibia turned back. A rig that moves
+         "warm_gain", "cable", "cogging", "end_stop")  # fmt: skip
+# A knee's axis beside the femur's line is a femur a little longer and turned, and a tibia turned back; a bow tilts the
+# directions in which a link yields. A rig that moves
 # along turned axes is a turned sensor and a femur offset; one that yields along both axes is a base that does.
 DISGUISED = (
     ("rig_turned", ("sensor_rotation@sensor", "joint_zero_offset@joint.femur")),
     ("rig_yields", ("base_compliance@base",)),
     ("knee_offset", ("joint_zero_offset@joint.femur", "joint_zero_offset@joint.tibia")),
+    ("bowed_tibia", ("link_compliance_error@link.tibia",)),
 )
 
 

@@ -95,7 +95,7 @@ WORLD = World(
     development_seed=220_003,
     test_seed=771_907,
     development_cases="none=26,single@25=27,single@12=14,single@100=6,pair=12,outside=11,disguised=3",
-    test_cases="none=220,single@12=108,single@25=81,single@60=81,single@150=54,pair=66,outside=66,disguised=12",
+    test_cases="none=220,single@12=108,single@25=81,single@60=81,single@150=54,pair=66,outside=70,disguised=12",
     page="engine",
     prefix="engine-",
     lacking=lacking,
