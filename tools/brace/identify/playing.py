@@ -3,8 +3,8 @@
 A real limb turns, so force is not proportional to displacement even where every spring is linear. Some simulations
 leave that out. A record may say so in its meta.toml (`displacements`). Where it does not, the readings tell: the part of
 the forces that is curved over the displacement is compared with the one that the believed limb shows as it turns. Their
-ratio is 1 for a limb that turns and 0 for one that does not. How stiff the limb is, and most effects that it may lack,
-hardly change it."""
+ratio is near 1 for most limbs that turn and 0 for one that does not. A tibia that is a beam, or a joint much softer than
+believed, may bring it near 0 for a limb that turns: then the record is taken for one that does not."""
 
 from __future__ import annotations
 
