@@ -18,7 +18,7 @@ _ALWAYS = ("axial_mm_per_n", "bending_mm_per_n", "tilt_rad", "compliance_rad_per
 
 
 def limb_text(p: Array, given: Trust, name: str, left_out: Sequence[str] = ()) -> str:
-    """limb.toml of what is believed, but for keys that it leaves out."""
+    """The believed limb as limb.toml. Keys of `left_out` are not written."""
     tables: dict[str, list[str]] = {"geometry": ["coxa_mm = 57.0"]}
     for key in IN_LIMB_TOML:
         value, (table, leaf) = float(p[INDEX[key]]), key.rsplit(".", 1)

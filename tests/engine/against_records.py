@@ -1,4 +1,4 @@
-"""The engine's loading tests against records that somebody else made with the same engine, of limbs that are told.
+"""The engine's loading tests against records that somebody else made with the same engine, of known limbs.
 
 usage: against_records.py FOLDER...     each with data.csv and truth.json: `true` has the limb, `spec` what was done
 

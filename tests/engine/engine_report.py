@@ -22,7 +22,7 @@ READING = """Intervals are Wilson's, 95 %. Gap closed: 1 - rms after / rms befor
 single effects whose gap there is above 0.05 N. K: at 15 random postures under 4 to 20 N, the median distance from the
 engine's K."""
 
-ROWS = (600, 800)  # of the records whose time is told
+ROWS = (600, 800)  # of the records whose diagnosis is timed
 
 
 def figures(judged: Sequence[Judged]) -> list[dict[str, Any]]:
@@ -46,7 +46,7 @@ def figures(judged: Sequence[Judged]) -> list[dict[str, Any]]:
 
 
 def besides(judged: Sequence[Judged]) -> list[tuple[str, Share]]:
-    """What is told beside that."""
+    """Shares without a limit, for the lines below the table of limits."""
     single, pairs = [j for j in judged if j.kind == "single" and strong(j)], report.of_kind(judged, "pair")
     return [
         ("single, s >= 12: exactly the right effect first", share(single, "exact")),

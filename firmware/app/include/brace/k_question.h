@@ -21,7 +21,7 @@ typedef enum {
 typedef enum { BRACE_K_AT_POSTURE = 0, BRACE_K_AT_TIP, BRACE_K_IN_SPACE } brace_k_where_t;
 
 /* K with every gap closed, where the limb need not be, with the joints' temperatures of now. Set what is not used to
- * zero: a question that is asked again is told by all of it. */
+ * zero: the controller compares every member to see that the same question is asked again. */
 typedef struct {
     brace_k_where_t where;
     float theta_rad[BRACE_LINK_COUNT]; /* of a posture: true angles before the load turns the joints; that of the coxa

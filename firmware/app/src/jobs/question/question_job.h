@@ -1,9 +1,9 @@
 /* Questions for K where the limb is not: one at a time, in every other tick, each asker in its turn.
  *
- * K under a load costs a fifth of what a tick may. So it is not worked out when it is asked, but as a job of the next
- * tick: whoever asks is told to ask again, and asks the same in the ticks to come until it has its answer. Who stops
- * asking loses its place. A tick that has worked one out
- * leaves all requests and process data to the next one (wire/wire.h), and the tick after it works none out. */
+ * K under a load costs a fifth of the instructions that a tick may take. So the tick that takes a question does not
+ * compute K; the job computes it in the next tick. The port that asks repeats its question in every tick until it gets
+ * the answer. A port that stops asking loses its place. A tick in which the job computes K leaves all requests and
+ * process data to the next tick (wire/wire.h), and in that next tick the job computes no K. */
 #ifndef BRACE_JOBS_QUESTION_QUESTION_JOB_H
 #define BRACE_JOBS_QUESTION_QUESTION_JOB_H
 

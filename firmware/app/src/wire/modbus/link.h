@@ -33,8 +33,8 @@ void modbus_link_break(modbus_link_t *link, modbus_server_t *server, const wire_
 /* The buffer holds an answer of so many bytes from here on; all of them are ready. */
 void modbus_link_answer(modbus_link_t *link, const wire_tick_t *tick, uint32_t count);
 
-/* Hands the port what it takes of what is ready. At its end the link rests. So it does when the port has taken nothing
- * for a second: whoever asked has gone. */
+/* Gives the port as many bytes of the answer as it takes. The link becomes idle when the whole answer is sent, and also
+ * when the port has taken no byte for a second: then the master that asked has gone. */
 void modbus_link_send(modbus_link_t *link, const wire_tick_t *tick, brace_serial_port_t port);
 
 #endif
