@@ -368,8 +368,11 @@ def test_the_loading_test_waits_for_no_finer_than_encoders_and_comes_back(
     paper: LimbModel, axis: int, friction_n_mm: float, longest_s: float
 ) -> None:
     """Seventeen steps with a dwell of 0.2 s: their way and dwell take 4.2 s. An encoder step at a lever of 450 mm is
-    0.009 mm; with friction the motors are left alone within three times a hundredth of a step and an encoder step,
-    0.05 mm at the tip."""
+    0.009 mm; with friction each motor is left alone within three times an encoder step and a hundredth of the step of
+    the joint that goes further. A tenth more, because the load changes the levers."""
+    arms = levers(1.0, 1.4)
+    alone_rad = 3.0 * (0.01 * 0.4 * np.abs(np.linalg.inv(arms)[:, axis]).max() + ENCODER_STEP_RAD)
+    along_most_mm, across_most_mm = 1.1 * alone_rad * np.abs(arms).sum(1)[[axis, 1 - axis]]
     with node(paper, press_mm=(0.5, 1.0), drive={"friction_n_mm": friction_n_mm}) as one:
         one.step(0.5)
         assert loading_test(one, axis).outcome == 2
@@ -383,7 +386,7 @@ def test_the_loading_test_waits_for_no_finer_than_encoders_and_comes_back(
     )
     assert t_s[-1] < longest_s
     places = 0.4 * np.array([0, 1, 2, 3, 4, 3, 2, 1, 0, -1, -2, -3, -4, -3, -2, -1, 0])
-    assert np.abs(along_mm - places).max() < 0.06 and np.abs(across_mm).max() < 0.06
+    assert np.abs(along_mm - places).max() < along_most_mm and np.abs(across_mm).max() < across_most_mm
 
 
 def test_the_loading_test_tells_a_soft_limb_from_the_believed_one(paper: LimbModel) -> None:

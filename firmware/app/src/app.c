@@ -48,19 +48,19 @@ static drift_inputs_t drift_inputs(const controller_t *controller)
                             .parameters = &controller->parameters.in_force,
                             .parameter_crc = controller->parameters.crc,
                             .origin = controller->parameters.origin,
+                            .may_work = !controller->question.has_worked,
                             .may_write = (mode == BRACE_MODE_MONITOR || mode == BRACE_MODE_FAULT) &&
                                          !parameter_job_is_busy(&controller->parameters)};
 }
 
-static question_inputs_t question_inputs(controller_t *controller, const drift_inputs_t *drift)
+static question_inputs_t question_inputs(controller_t *controller)
 {
     return (question_inputs_t){.model = &controller->model,
                                .parameters = &controller->parameters.in_force,
                                .origin = controller->parameters.origin,
                                .joints = &controller->joints,
                                .down = controller->gravity.down,
-                               .may_work = !controller->has_worked && !loading_is_dear(&controller->loading) &&
-                                           !drift_job_is_dear(&controller->drift, drift)};
+                               .may_work = !controller->has_worked};
 }
 
 static void blank_snapshot(const controller_t *controller, brace_snapshot_t *snapshot)
@@ -306,15 +306,14 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     take_place(controller, snapshot);
 
     /* One step of each job. */
-    const drift_inputs_t drift = drift_inputs(controller);
-    const question_inputs_t question = question_inputs(controller, &drift);
+    const question_inputs_t question = question_inputs(controller);
     question_job_step(&controller->question, &question);
+    const drift_inputs_t drift = drift_inputs(controller);
+    drift_job_step(&controller->drift, &drift); /* takes a reading in in the tick after the loading test's */
     takeup_step(&controller->takeup, &controller->flank);
     const bool loading_has_worked = step_loading(controller, snapshot);
-    const bool drift_works = drift_job_is_dear(&controller->drift, &drift);
-    drift_job_step(&controller->drift, &drift);
     step_parameters(app);
-    controller->has_worked = controller->question.has_worked || loading_has_worked || drift_works;
+    controller->has_worked = controller->question.has_worked || loading_has_worked;
 
     /* Faults and mode, and what follows from them. */
     update_faults(controller, late, wires_are_bus_off(&app->wires));

@@ -43,7 +43,7 @@ typedef struct {
     drift_job_t drift;
     question_job_t question;
     parameter_job_t parameters;
-    bool has_worked;         /* a job had a dear step: a K beside the tick's own, a reading of the drift check */
+    bool has_worked;         /* a job has worked out a K beside the tick's own */
     uint8_t configure_part;  /* of putting parameters in force, the next one */
     faults_t faults;
     mode_state_t mode;
@@ -76,7 +76,8 @@ static inline loading_inputs_t controller_loading_inputs(controller_t *controlle
                               .posture = &controller->posture,
                               .model = &controller->model,
                               .parameters = &controller->parameters.in_force,
-                              .down = controller->gravity.down};
+                              .down = controller->gravity.down,
+                              .may_work = !controller->question.has_worked};
 }
 
 #endif

@@ -285,6 +285,7 @@ static void test_every_wire_names_the_cause_of_a_drift(void)
 static void test_an_alarm_without_evidence_has_a_cause(void)
 {
     learn();
+    memset(app.controller.drift.drift.evidence, 0, sizeof app.controller.drift.drift.evidence);
     app.controller.drift.drift.cause = BRACE_DRIFT_FEMUR_JOINT_OR_BASE;
     app.controller.drift.reports = true;
     as_if(BRACE_DRIFT_DRIFTED, app.controller.drift.drift.steps);
@@ -371,7 +372,8 @@ static void test_a_memory_that_does_not_keep_is_a_fault(void)
     TEST_ASSERT_TRUE(now()->k_is_valid);
 }
 
-/* Runs a test tick by tick; run_at: how many readings the check's run has after each step.
+/* Runs a test tick by tick; run_at: how many readings the check's run has after each step. The check takes a reading in
+ * in the tick after it.
  * returns the steps it took in */
 static uint32_t watched_run(const brace_loading_setup_t *setup, uint8_t run_at[32])
 {
@@ -382,6 +384,7 @@ static uint32_t watched_run(const brace_loading_setup_t *setup, uint8_t run_at[3
         const uint32_t step = app.controller.loading.step;
         ticks(1);
         if (checks) {
+            ticks(1);
             run_at[step] = app.controller.drift.drift.run_count;
         }
     }

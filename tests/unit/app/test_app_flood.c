@@ -22,8 +22,7 @@ enum {
     COLLAPSED = 0, GENERAL, HARDENING, IN_SPACE, LIMB_COUNT,
     FLOOD_CAN = 1, FLOOD_SLCAN = 2, FLOOD_LINE = 4, FLOOD_TCP = 8, FLOOD_PORTS = 4,
     K_MOST_TICKS = 8,        /* four ports, two ticks each */
-    JOBS_TICKS = 4 + 2,      /* dear steps go first: a loading test's last reading, its slopes, their judgement, the
-                                outlook; and of a record a piece in every eighth tick */
+    JOBS_TICKS = 1,          /* a K that the loading test works out itself, for the drift check */
     LINE_TICKS = 4 + 5,      /* on the line: bytes and the silence that ends them, read in every other tick; and a long
                                 answer, which leaves in five */
 };

@@ -1,9 +1,9 @@
 /* A controller whose limb stands with its tip on the ground, a linear limb of known stiffness: for the tests of what a
  * loading test measures.
  *
- * With the joints' movement m from rest, the levers' matrix L and the true stiffness K, the ground pushes with
- * f = f0 - K L m and the motors carry -L'f; servos of stiffness P give way, so commanded offsets c lead to
- * m = (I + L'K L / P)^-1 c. Worked out in double, apart from the firmware. */
+ * With the joints' movement m from rest, the levers' matrix L under the preload and the true stiffness K, the ground
+ * pushes with f = f0 - K L m and the motors carry -A'f, A the levers of straight links; servos of stiffness P give way,
+ * so commanded offsets c lead to m = (I + A'K L / P)^-1 c. Worked out in double, apart from the firmware. */
 #ifndef LOADING_BENCH_H
 #define LOADING_BENCH_H
 
@@ -42,20 +42,41 @@ typedef struct {
     float motor_rad[2], torque_n_mm[2], link_rad[2], force_x_n, force_z_n;
 } response_t;
 
+/* How the tip moves with theta1 and theta2, which is flexion, while its load stays: straight links' levers, and how
+ * what the load moves changes with the posture. The step is not the firmware's. */
+static inline void levers_under_preload(const world_t *w, double l[2][2])
+{
+    const double step_rad = 0.02;
+    const brace_force_t tip = {(float)w->preload_x_n, (float)w->preload_z_n};
+    const brace_vec_t down = {0.0f, -1.0f};
+    for (int j = 0; j < 2 && !w->tip_is_free; j++) {
+        brace_displacement_t moved[2];
+        for (int side = 0; side < 2; side++) {
+            const double step = side == 0 ? step_rad : -step_rad;
+            moved[side] = equilibrium(&app.controller.parameters.in_force, (float)(w->theta1 + (j == 0 ? step : 0.0)),
+                                      (float)(w->theta2 + (j == 1 ? step : 0.0)), tip, down)
+                              .displacement;
+        }
+        l[0][j] += (double)(moved[0].x_mm - moved[1].x_mm) / (2.0 * step_rad);
+        l[1][j] += (double)(moved[0].z_mm - moved[1].z_mm) / (2.0 * step_rad);
+    }
+}
+
 static inline response_t response_of(const world_t *w)
 {
     const double knee_x = femur_mm * cos(w->theta1), knee_z = femur_mm * sin(w->theta1);
     const double tip_x = knee_x + tibia_mm * cos(w->theta1 - w->theta2);
     const double tip_z = knee_z + tibia_mm * sin(w->theta1 - w->theta2);
-    /* tip's movement for theta1 and for theta2, which is flexion */
-    const double l[2][2] = {{-tip_z, tip_z - knee_z}, {tip_x, -(tip_x - knee_x)}};
+    const double arm[2][2] = {{-tip_z, tip_z - knee_z}, {tip_x, -(tip_x - knee_x)}}; /* of the motors' torques */
+    double l[2][2] = {{arm[0][0], arm[0][1]}, {arm[1][0], arm[1][1]}};
+    levers_under_preload(w, l);
     const double k[2][2] = {{w->truth.xx, w->truth.xz}, {w->truth.xz, w->truth.zz}};
     double a[2][2] = {{1.0, 0.0}, {0.0, 1.0}};
     for (int i = 0; i < 2; i++) {
         for (int j = 0; j < 2 && !w->tip_is_free; j++) {
             for (int p = 0; p < 2; p++) {
                 for (int q = 0; q < 2; q++) {
-                    a[i][j] += l[p][i] * k[p][q] * l[q][j] / w->servo_n_mm_per_rad;
+                    a[i][j] += arm[p][i] * k[p][q] * l[q][j] / w->servo_n_mm_per_rad;
                 }
             }
         }
@@ -72,7 +93,7 @@ static inline response_t response_of(const world_t *w)
     response_t r = {.force_x_n = (float)fx, .force_z_n = (float)fz};
     for (int i = 0; i < 2; i++) {
         r.motor_rad[i] = (float)(theta[i] + m[i]);
-        r.torque_n_mm[i] = (float)(weight_n_mm[i] - (l[0][i] * fx + l[1][i] * fz));
+        r.torque_n_mm[i] = (float)(weight_n_mm[i] - (arm[0][i] * fx + arm[1][i] * fz));
         /* the link stays behind what its motor brings */
         r.link_rad[i] = (float)((double)r.motor_rad[i] - w->drive_rad_per_n_mm * (double)r.torque_n_mm[i]);
     }

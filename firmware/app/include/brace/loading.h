@@ -17,6 +17,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "brace/contact.h"
 #include "brace/kinematics.h"
 #include "brace/slope.h"
 #include "brace/stiffness.h"
@@ -93,7 +94,11 @@ typedef struct {
     float there_rad[2];            /* how near a motor has to come */
     bool rests[2];                 /* the motor has come there at this step, and is left alone while it stays near */
     float torque_max_n_mm[2];
-    brace_point_t lever_femur, lever_knee; /* shift of the tip for a unit of theta1, and of theta2 */
+    brace_point_t lever_femur, lever_knee; /* shift of the tip's free shape for a unit of theta1, and of theta2 */
+    brace_force_t lever_force;     /* that the tip bears while they are worked out */
+    float lever_rad[BRACE_LINK_COUNT];      /* the posture then, by the motors */
+    brace_displacement_t lever_moved_mm[4]; /* what the load moves the tip by, to both sides of it */
+    uint8_t lever_step;
     float start_motor_rad[2], start_link_rad[2];
     float standing_rad[2];         /* true angles at the preload point, what the load turns counted */
     brace_loading_sums_t sums;

@@ -65,10 +65,8 @@ static void take_space(const brace_gap_stiffness_t *plane, float across_n_per_mm
     space->now.flags |= coxa_is_open ? (uint32_t)BRACE_FLAG_GAP_OPEN : 0u;
 }
 
-/* How each joint yields now. One whose true angle is measured behind its spring has nowhere to be turned to. */
-static void springs_of_now(model_t *model, const brace_parameters_t *parameters, const joints_t *joints,
-                           const flank_t *flank, const posture_t *posture,
-                           brace_loaded_joint_t springs[BRACE_LINK_COUNT])
+void stiffness_springs_of_now(model_t *model, const brace_parameters_t *parameters, const joints_t *joints,
+                              const flank_t *flank, brace_loaded_joint_t springs[BRACE_LINK_COUNT])
 {
     float load_n_mm[BRACE_LINK_COUNT], temp_degc[BRACE_LINK_COUNT];
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
@@ -76,6 +74,11 @@ static void springs_of_now(model_t *model, const brace_parameters_t *parameters,
     }
     joints_temperatures(joints, temp_degc);
     model_springs(model, parameters, load_n_mm, temp_degc, springs);
+}
+
+/* A joint whose true angle is measured behind its spring has nowhere to be turned to. */
+static void hold_measured_joints(const posture_t *posture, brace_loaded_joint_t springs[BRACE_LINK_COUNT])
+{
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         springs[i].yields_by_rad_per_n_mm = posture->is_measured[i] ? 0.0f : springs[i].yields_by_rad_per_n_mm;
     }
@@ -146,7 +149,8 @@ void stiffness_take(model_t *model, const brace_parameters_t *parameters, brace_
     float across_n_per_mm;
     brace_stiffness_t engaged;
 
-    springs_of_now(model, parameters, joints, flank, posture, springs);
+    stiffness_springs_of_now(model, parameters, joints, flank, springs);
+    hold_measured_joints(posture, springs);
     posture_settle(posture, NULL, NULL);
     no_load(&snapshot->load);
     const bool computed =

@@ -12,6 +12,10 @@
 /* K that nobody may use: NaN, with these flags. */
 void stiffness_unknown(brace_snapshot_t *snapshot, uint32_t flags);
 
+/* How each joint's spring yields now, at its load and temperature. At most 260 instructions. */
+void stiffness_springs_of_now(model_t *model, const brace_parameters_t *parameters, const joints_t *joints,
+                              const flank_t *flank, brace_loaded_joint_t springs[BRACE_LINK_COUNT]);
+
 /* K of this tick, in the limb's plane and, with a coxa joint, in space. In the plane it is K at the equilibrium under
  * the tip's force and the limb's weight, where the force is known; the posture goes to that equilibrium.
  *   snapshot: its force_x_n, force_z_n are read; (out): stiffness, k_is_valid, space, load

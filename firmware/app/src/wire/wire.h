@@ -14,8 +14,8 @@ typedef struct {
     brace_app_t *app;                 /* whom to ask: brace/requests.h */
     brace_app_counters_t *counters;   /* where troubles of the wires are counted */
     const brace_measured_t *measured; /* all values of the newest snapshot that may be read; one for all wires */
-    bool has_worked;                  /* a job had a dear step in this tick: requests and process data
-                                         wait for the next one */
+    bool has_worked;                  /* a job has worked out a K in this tick: requests and process data wait for the
+                                         next one */
     uint32_t now_us;
 } wire_tick_t;
 

@@ -165,6 +165,9 @@ void drift_job_clear(drift_job_t *job)
 void drift_job_step(drift_job_t *job, const drift_inputs_t *inputs)
 {
     const brace_limb_t *limb = &inputs->parameters->limb;
+    if (!inputs->may_work) {
+        return;
+    }
     if (job->learns_anew) {
         learn_anew(job, inputs);
     } else if (job->opens) {

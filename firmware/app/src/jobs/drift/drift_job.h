@@ -49,6 +49,7 @@ typedef struct {
     const brace_parameters_t *parameters;
     uint32_t parameter_crc;
     brace_parameter_origin_t origin;
+    bool may_work;  /* no question's K has been worked out in this tick */
     bool may_write; /* to the memory: MONITOR or FAULT, and no set is being stored */
 } drift_inputs_t;
 
@@ -66,22 +67,14 @@ void drift_job_take(drift_job_t *job, const brace_drift_reading_t *reading, cons
 /* The next reading begins a new run. */
 void drift_job_end_run(drift_job_t *job);
 
-/* Does the next piece of the job's work. Cost: at most 2,500 instructions, or 1,000 and two calls of the HAL's
- * memory. */
+/* Does the next piece of the job's work, if it may. Cost: at most 2,500 instructions, or 1,000 and two calls of the
+ * HAL's memory. */
 void drift_job_step(drift_job_t *job, const drift_inputs_t *inputs);
 
 /* Is anything due before the check can be trusted: learning anew, opening the journal, searching it? */
 static inline bool drift_job_is_starting(const drift_job_t *job)
 {
     return job->learns_anew || job->opens || job->scans;
-}
-
-/* Is the next step one of the dear ones: learning anew, a reading, what further readings can show, or a piece of a
- * record? */
-static inline bool drift_job_is_dear(const drift_job_t *job, const drift_inputs_t *inputs)
-{
-    return job->learns_anew || job->has_reading || job->foresees ||
-           (job->looks && inputs->may_write && job->ticks_to_write <= 1u);
 }
 
 /* Has the limb drifted away from its model? BRACE_FAULT_MODEL_DRIFT. The alarm comes one tick later, with the report,

@@ -20,6 +20,7 @@ typedef struct {
     model_t *model;
     const brace_parameters_t *parameters;
     brace_vec_t down;            /* where the weight pulls */
+    bool may_work;               /* no question's K has been worked out in this tick */
 } loading_inputs_t;
 
 /* What a step hands to the drift check. */

@@ -1,8 +1,8 @@
 #include "jobs/loading/loading.h"
 
+#include "jobs/loading/levers.h"
 #include "jobs/loading/reading.h"
 
-#define LEAST_KNEE_SINE 0.05f
 #define TRAVEL_SPARE_RAD 0.01f
 #define TORQUE_SHARE 0.95f       /* of the bound: a drive that limits its torque never passes it */
 #define FORCE_ABSURD_N 1e7f
@@ -40,20 +40,6 @@ static bool setup_is_sound(const brace_loading_setup_t *setup)
            is_inside(setup->rate_mm_per_s, 1e-3f, 1000.0f) && is_inside(setup->force_max_n, 1e-6f, 1e6f) &&
            is_inside(setup->torque_max_n_mm, 1e-6f, 1e6f) &&
            (setup->source == BRACE_LOADING_ENCODED || setup->source == BRACE_LOADING_COMMANDED);
-}
-
-/* Joint offsets that move the tip's free shape by 1 mm along the axis; false where the levers do not allow it. */
-static bool offsets_per_mm(const loading_inputs_t *inputs, brace_axis_t axis, float per_mm[2])
-{
-    const brace_limb_t *limb = &inputs->parameters->limb;
-    const brace_point_t femur = inputs->posture->unbent.lever_femur, tibia = inputs->posture->unbent.lever_tibia;
-    const float determinant_mm2 = femur.z_mm * tibia.x_mm - femur.x_mm * tibia.z_mm;
-    if (__builtin_fabsf(determinant_mm2) < LEAST_KNEE_SINE * limb->femur_mm * limb->tibia_mm) {
-        return false;
-    }
-    per_mm[0] = (axis == BRACE_AXIS_X ? -tibia.z_mm : tibia.x_mm) / determinant_mm2;
-    per_mm[1] = (axis == BRACE_AXIS_X ? -femur.z_mm : femur.x_mm) / determinant_mm2;
-    return true;
 }
 
 /* Numbers the run, the posture and the repeat, as a dataset's rows carry them. */
@@ -103,24 +89,35 @@ static void prepare_joint(brace_loading_t *test, const loading_inputs_t *inputs,
     test->start_motor_rad[i] = inputs->joints->joint[BRACE_FEMUR + i].sample.motor_rad;
 }
 
+/* The way of a step, by the levers of now. returns false where they do not allow it */
+static bool set_out(brace_loading_t *test, const loading_inputs_t *inputs)
+{
+    const brace_loading_setup_t *setup = &test->result.setup;
+    if (!levers_offsets_per_mm(test, &inputs->parameters->limb, setup->axis, test->per_mm)) {
+        return false;
+    }
+    const float femur_rad = __builtin_fabsf(test->per_mm[0]), tibia_rad = __builtin_fabsf(test->per_mm[1]);
+    for (int i = 0; i < 2; i++) {
+        prepare_joint(test, inputs, i, setup->step_mm * (femur_rad > tibia_rad ? femur_rad : tibia_rad));
+    }
+    return true;
+}
+
 brace_status_t loading_start(brace_loading_t *test, const loading_inputs_t *inputs, const brace_loading_setup_t *setup)
 {
     const brace_snapshot_t *now = inputs->now;
-    float per_mm[2];
     if (!setup_is_sound(setup) || !moves_everywhere(setup, inputs->parameters->controller.tick_us)) {
         return BRACE_E_RANGE;
     }
-    if (!now->k_is_valid || !offsets_per_mm(inputs, setup->axis, per_mm)) {
+    brace_loading_t next = *test;
+    next.result = (brace_loading_result_t){.outcome = BRACE_LOADING_RUNNING, .setup = *setup};
+    levers_begin(&next, inputs);
+    if (!now->k_is_valid || !set_out(&next, inputs)) {
         return BRACE_E_SINGULAR;
     }
-    test->result = (brace_loading_result_t){.outcome = BRACE_LOADING_RUNNING, .setup = *setup};
+    *test = next;
     count_run(test, setup->axis, inputs->posture->unbent_rad);
     test->model = now->stiffness.engaged;
-    const float femur_rad = __builtin_fabsf(per_mm[0]), tibia_rad = __builtin_fabsf(per_mm[1]);
-    for (int i = 0; i < 2; i++) {
-        test->per_mm[i] = per_mm[i];
-        prepare_joint(test, inputs, i, setup->step_mm * (femur_rad > tibia_rad ? femur_rad : tibia_rad));
-    }
     test->along_mm = 0.0f;
     test->step = 0;
     test->test_us = test->phase_us = test->resting_us = 0;
@@ -128,7 +125,7 @@ brace_status_t loading_start(brace_loading_t *test, const loading_inputs_t *inpu
     const float step_us = 2.0f * ((float)setup->dwell_us + 1e6f * setup->step_mm / setup->rate_mm_per_s);
     const float all_us = (float)step_count(test) * (step_us + (float)SETTLE_US);
     test->limit_us = (uint32_t)smaller_of(all_us, TIME_MOST_US) + TIME_SPARE_US;
-    test->phase = LOADING_MOVE;
+    test->phase = LOADING_LEVERS;
     return BRACE_OK;
 }
 
@@ -287,6 +284,17 @@ static void go_back(brace_loading_t *test, const loading_inputs_t *inputs, float
     }
 }
 
+static void find_levers(brace_loading_t *test, const loading_inputs_t *inputs, bool *has_worked)
+{
+    if (!levers_step(test, inputs, has_worked)) {
+        return;
+    }
+    test->phase = LOADING_MOVE;
+    if (!set_out(test, inputs)) {
+        loading_end(test, BRACE_LOADING_E_FLAT);
+    }
+}
+
 /* ---------------------------------------------------------------------------------------- judgement -- */
 
 static void read(brace_loading_t *test, const loading_inputs_t *inputs, brace_recorder_t *recorder,
@@ -342,6 +350,13 @@ static void compare(brace_loading_t *test, const brace_limb_t *limb)
                             result->sigma_model_k_z_n_per_mm);
 }
 
+/* Is the next step one of the dear ones? */
+static bool is_dear(const brace_loading_t *test)
+{
+    return test->phase == LOADING_LEVERS || test->phase == LOADING_READ || test->phase == LOADING_JUDGE ||
+           test->phase == LOADING_COMPARE;
+}
+
 void loading_step(brace_loading_t *test, const loading_inputs_t *inputs, brace_recorder_t *recorder,
                   loading_reading_t *reading)
 {
@@ -359,7 +374,11 @@ void loading_step(brace_loading_t *test, const loading_inputs_t *inputs, brace_r
             return;
         }
     }
+    if (is_dear(test) && !inputs->may_work) {
+        return;
+    }
     switch (test->phase) {
+    case LOADING_LEVERS: find_levers(test, inputs, &reading->has_worked); break;
     case LOADING_MOVE: move(test, inputs, step_mm); break;
     case LOADING_DWELL: dwell(test, inputs); break;
     case LOADING_READ: read(test, inputs, recorder, reading); break;

@@ -11,12 +11,13 @@
 /* Phases of a test, in their order; each reading goes MOVE, DWELL, READ. */
 enum {
     LOADING_IDLE = 0,
-    LOADING_MOVE = 1,
-    LOADING_DWELL = 2,
-    LOADING_READ = 3,    /* works the reading out: row, slope, and what the drift check gets */
-    LOADING_JUDGE = 4,   /* all readings are there: slopes */
-    LOADING_COMPARE = 5, /* the model's slopes and how sure it is of them */
-    LOADING_RETURN = 6   /* back to where the test began */
+    LOADING_LEVERS = 1,  /* works out how the motors move the tip under the load of now */
+    LOADING_MOVE = 2,
+    LOADING_DWELL = 3,
+    LOADING_READ = 4,    /* works the reading out: row, slope, and what the drift check gets */
+    LOADING_JUDGE = 5,   /* all readings are there: slopes */
+    LOADING_COMPARE = 6, /* the model's slopes and how sure it is of them */
+    LOADING_RETURN = 7   /* back to where the test began */
 };
 
 /* Begins a test.
@@ -32,15 +33,9 @@ static inline bool loading_runs(const brace_loading_t *test)
     return test->phase != LOADING_IDLE;
 }
 
-/* Is the next step one of the dear ones? */
-static inline bool loading_is_dear(const brace_loading_t *test)
-{
-    return test->phase == LOADING_READ || test->phase == LOADING_JUDGE || test->phase == LOADING_COMPARE;
-}
-
-/* One step, with this tick's samples. Nothing is to do in IDLE.
+/* One step, with this tick's samples. Nothing is to do in IDLE. A dear step waits for a tick in which it may work.
  *   reading (out): has_worked and is_there are written always, all else only with is_there
- * At most 2,500 instructions (COMPARE); in MOVE and DWELL 200. */
+ * At most 2,900 instructions (LEVERS); in MOVE and DWELL 200. */
 void loading_step(brace_loading_t *test, const loading_inputs_t *inputs, brace_recorder_t *recorder,
                   loading_reading_t *reading);
 

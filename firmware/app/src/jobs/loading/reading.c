@@ -46,10 +46,6 @@ static void displacement_of(brace_loading_t *test, const float moved_rad[2])
 static bool begin_at_preload(brace_loading_t *test, const loading_inputs_t *inputs, const brace_loading_sums_t *mean)
 {
     const brace_snapshot_t *now = inputs->now;
-    const brace_pose_t *pose = &inputs->posture->unbent;
-    test->lever_femur = pose->lever_femur;
-    /* theta2 is flexion: a positive turn of the knee turns the tibia clockwise. */
-    test->lever_knee = (brace_point_t){-pose->lever_tibia.x_mm, -pose->lever_tibia.z_mm};
     for (int i = 0; i < 2; i++) {
         test->start_motor_rad[i] += mean->motor_rad[i];
         test->start_link_rad[i] = mean->link_rad[i];

@@ -3,7 +3,8 @@
  * K under a load costs a fifth of the instructions that a tick may take. So the tick that takes a question does not
  * compute K; the job computes it in the next tick. The port that asks repeats its question in every tick until it gets
  * the answer. A port that stops asking loses its place. A tick in which the job computes K leaves all requests and
- * process data to the next tick (wire/wire.h), and in that next tick the job computes no K. */
+ * process data to the next tick (wire/wire.h), and in that next tick the job computes no K. Other jobs' dear steps give
+ * way, so four ports that ask at once all have their answers within eight ticks. */
 #ifndef BRACE_JOBS_QUESTION_QUESTION_JOB_H
 #define BRACE_JOBS_QUESTION_QUESTION_JOB_H
 
@@ -38,7 +39,7 @@ typedef struct {
     brace_parameter_origin_t origin;
     const joints_t *joints;    /* for their temperatures */
     brace_vec_t down;
-    bool may_work;             /* no other job of this tick or of the one before costs as much */
+    bool may_work;             /* no job has worked out a K in the tick before */
 } question_inputs_t;
 
 /* Asks, or asks again.

@@ -106,19 +106,29 @@ static uint32_t frames_per_tick(const wire_tick_t *tick)
     return frames < FRAMES_PER_MS ? FRAMES_PER_MS : frames > FRAMES_MOST ? FRAMES_MOST : frames;
 }
 
-/* Looks through what has come over CAN until a frame is a request to this node, and answers that one. The frames behind
- * it wait in the hardware layer. */
+/* Looks through what has come over CAN. One request is answered in a tick; one more waits here, and those behind it in
+ * the hardware layer. Frames of other nodes are taken in every tick, so that none of them stands before a request. */
 static void listen_to_bus(can_t *can, const wire_tick_t *tick)
 {
     const uint32_t most = frames_per_tick(tick);
+    can_requests_t *requests = &can->bus_port.requests;
     brace_can_frame_t frame;
-    if (!has_room_for_an_answer(&can->bus_port) || ask_again(can, ON_BUS, tick)) {
-        return;
+    bool is_busy = !has_room_for_an_answer(&can->bus_port) || ask_again(can, ON_BUS, tick);
+    if (!is_busy && requests->has_next) {
+        requests->has_next = false;
+        take(can, ON_BUS, tick, requests->next);
+        is_busy = true;
     }
-    for (uint32_t i = 0; i < most && can_bus_receive(&can->bus, tick->hal, &frame); i++) {
-        if (is_request(can, tick, &frame) && has_number(can)) {
+    for (uint32_t i = 0; i < most && !requests->has_next && can_bus_receive(&can->bus, tick->hal, &frame); i++) {
+        if (!is_request(can, tick, &frame) || !has_number(can)) {
+            continue;
+        }
+        if (is_busy) {
+            memcpy(requests->next, frame.data, sizeof requests->next);
+            requests->has_next = true;
+        } else {
             take(can, ON_BUS, tick, frame.data);
-            return;
+            is_busy = true;
         }
     }
 }

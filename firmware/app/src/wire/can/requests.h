@@ -15,6 +15,8 @@ typedef struct {
     asked_force_t asked_force;
     bool waits;             /* a request is being worked out, or kept: it is asked again in each tick */
     uint8_t waiting[8];
+    bool has_next;          /* one more has come meanwhile */
+    uint8_t next[8];
 } can_requests_t;
 
 /* Answers or refuses a request, or lets it wait. There must be room for BRACE_CAN_ANSWER_PARTS_MOST frames.

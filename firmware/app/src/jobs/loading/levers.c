@@ -1,0 +1,92 @@
+#include "jobs/loading/levers.h"
+
+#include "stiffness/stiffness.h"
+
+#define LEAST_KNEE_SINE 0.05f
+#define ASIDE_RAD 0.01f /* the error of a central difference, a sixth of the square, is below 2e-5 of it */
+
+enum { AT_POSTURE = 0, PLACES = 5, EVERY = 10 }; /* the test begins 50 ticks later, and delays a question by one */
+
+void levers_begin(brace_loading_t *test, const loading_inputs_t *inputs)
+{
+    const posture_t *posture = inputs->posture;
+    const brace_point_t tibia = posture->unbent.lever_tibia;
+    test->lever_femur = posture->unbent.lever_femur;
+    /* theta2 is flexion: a positive turn of the knee turns the tibia clockwise. */
+    test->lever_knee = (brace_point_t){-tibia.x_mm, -tibia.z_mm};
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        test->lever_rad[i] = posture->unbent_rad[i];
+    }
+    test->lever_force = (brace_force_t){inputs->now->load.force_x_n, inputs->now->load.force_z_n};
+    test->lever_step = 0;
+}
+
+static bool displacement_at(const brace_loading_t *test, const loading_inputs_t *inputs, uint32_t place,
+                            brace_loaded_stiffness_t *loaded, float joint_turn_rad[BRACE_LINK_COUNT])
+{
+    brace_loaded_joint_t springs[BRACE_LINK_COUNT];
+    float theta_rad[BRACE_LINK_COUNT] = {test->lever_rad[0], test->lever_rad[1], test->lever_rad[2]};
+    if (place != AT_POSTURE) {
+        theta_rad[place <= 2u ? BRACE_FEMUR : BRACE_TIBIA] += place % 2u == 1u ? ASIDE_RAD : -ASIDE_RAD;
+    }
+    stiffness_springs_of_now(inputs->model, inputs->parameters, inputs->joints, inputs->flank, springs);
+    return model_loaded(inputs->model, &inputs->parameters->limb, theta_rad, springs, test->lever_force, inputs->down,
+                        loaded, joint_turn_rad) == BRACE_OK;
+}
+
+/* Where an encoder behind the gear measures the angle, the motor stands where the load has not turned the joint. */
+static void go_to_motors(brace_loading_t *test, const posture_t *posture, const float joint_turn_rad[BRACE_LINK_COUNT])
+{
+    for (int i = BRACE_FEMUR; i <= BRACE_TIBIA; i++) {
+        test->lever_rad[i] -= posture->is_measured[i] ? joint_turn_rad[i] : 0.0f;
+    }
+}
+
+static void add_difference(brace_point_t *lever, brace_displacement_t ahead, brace_displacement_t behind)
+{
+    lever->x_mm += (ahead.x_mm - behind.x_mm) / (2.0f * ASIDE_RAD);
+    lever->z_mm += (ahead.z_mm - behind.z_mm) / (2.0f * ASIDE_RAD);
+}
+
+bool levers_step(brace_loading_t *test, const loading_inputs_t *inputs, bool *has_worked)
+{
+    brace_loaded_stiffness_t loaded;
+    float joint_turn_rad[BRACE_LINK_COUNT];
+    const uint32_t step = test->lever_step;
+    if (!inputs->now->load.is_counted || step >= PLACES * EVERY) {
+        return true;
+    }
+    test->lever_step++;
+    if (step % EVERY != 0u) {
+        return false;
+    }
+    const uint32_t place = step / EVERY;
+    *has_worked = true;
+    if (!displacement_at(test, inputs, place, &loaded, joint_turn_rad)) {
+        test->lever_step = PLACES * EVERY;
+        return true;
+    }
+    if (place == AT_POSTURE) {
+        go_to_motors(test, inputs->posture, joint_turn_rad);
+        return false;
+    }
+    test->lever_moved_mm[place - 1u] = loaded.displacement;
+    if (place + 1u < PLACES) {
+        return false;
+    }
+    add_difference(&test->lever_femur, test->lever_moved_mm[0], test->lever_moved_mm[1]);
+    add_difference(&test->lever_knee, test->lever_moved_mm[2], test->lever_moved_mm[3]);
+    return true;
+}
+
+bool levers_offsets_per_mm(const brace_loading_t *test, const brace_limb_t *limb, brace_axis_t axis, float per_mm[2])
+{
+    const brace_point_t femur = test->lever_femur, knee = test->lever_knee;
+    const float determinant_mm2 = femur.x_mm * knee.z_mm - femur.z_mm * knee.x_mm;
+    if (__builtin_fabsf(determinant_mm2) < LEAST_KNEE_SINE * limb->femur_mm * limb->tibia_mm) {
+        return false;
+    }
+    per_mm[0] = (axis == BRACE_AXIS_X ? knee.z_mm : -knee.x_mm) / determinant_mm2;
+    per_mm[1] = (axis == BRACE_AXIS_X ? -femur.z_mm : femur.x_mm) / determinant_mm2;
+    return true;
+}
