@@ -39,7 +39,7 @@ def monitor_modbus(arguments: argparse.Namespace, url: BusUrl) -> int:
                     common.emit(json.dumps(common.json_ready(as_json(snapshot))))
                 _tell_drift(arguments, device, state, display)
                 display.show(watch)
-                ended.wait(_PERIOD_S)
+                time.sleep(_PERIOD_S)
     finally:
         display.close()
         device.close()
