@@ -81,8 +81,8 @@ def probe() -> Callable[..., Answer]:
 def motors_of(
     limb: LimbModel, stands: tuple[float, float], force_n: Sequence[float]
 ) -> tuple[float, float]:
-    """Angles of the motors of a limb that stands at joint angles under a force, by the double-precision reference, which
-    wants the motors'."""
+    """Angles of the motors of a limb that stands at joint angles under a force, by the double-precision reference,
+    which wants the motors'."""
     motors = np.array(stands)
     for _ in range(4):  # each leaves a tenth of what it misses
         rest = under_force(limb, motors[0], motors[1], force_n)

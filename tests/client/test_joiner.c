@@ -370,7 +370,7 @@ static void load_is_of_tick(const brace_client_load_t *load, uint32_t tick)
     TEST_ASSERT_EQUAL_FLOAT(-1.5f, load->gravity_direction_rad);
 }
 
-/* The load's identifier is the lowest, so its frames come before K. Some frames are lost, and the number comes round. */
+/* The load's identifier is the lowest, so its frames come before K. Some are lost, and the number comes round. */
 static void test_a_load_is_of_its_k_s_tick(void)
 {
     brace_joiner_t joiner = {0};

@@ -159,7 +159,7 @@ def test_the_load_comes_with_its_k(probe: Probe, url: str) -> None:
     asked = probe(url, "load").values
     last = answer.snapshots[-1]
     for name in ("force_x", "force_z", "moved_x", "moved_z", "unloaded_k_xx", "gravity_direction"):
-        # the limb stands still and its sensor is free of noise; its motors' control lets it move by a part in a thousand
+        # the limb stands still and its sensor is free of noise; its motors' control leaves a thousandth
         assert last[name] == pytest.approx(asked[name], rel=2e-3, abs=STEP_N), name
 
 

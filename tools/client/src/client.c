@@ -104,7 +104,7 @@ brace_client_status_t brace_client_read(brace_client_t *client, uint32_t wanted,
 {
     if (wanted == 0u || wanted > PARTS_MOST) {
         return brace_client_fail(client, BRACE_CLIENT_E_USAGE,
-                                 "parts 0x%x: want BRACE_PART_K or more of BRACE_PART_ALL, BRACE_PART_SPACE and BRACE_PART_LOAD",
+                                 "parts 0x%x: want BRACE_PART_K or more of BRACE_PART_ALL, _SPACE and _LOAD",
                                  (unsigned)wanted);
     }
     return client->bus != NULL ? brace_can_read(client, wanted, deadline_after(timeout_ms), snapshot)
@@ -325,8 +325,8 @@ static void take_loaded_k(const brace_question_t *question, brace_client_loaded_
     k->buckling_factor = last.buckling_factor;
 }
 
-/* Asks for K at a place under a force. The question and the Modbus values hold the place; the values' first two are left
- * for the force. */
+/* Asks for K at a place under a force. The question and the Modbus values hold the place; the first two values
+ * are left for the force. */
 static brace_client_status_t ask_under_force(brace_client_t *client, brace_question_t *question, uint32_t limited,
                                              uint32_t first, uint32_t *values, uint32_t count, float fx_n, float fz_n,
                                              int timeout_ms, brace_client_loaded_k_t *k)

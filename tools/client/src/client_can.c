@@ -64,7 +64,8 @@ static void hear(brace_client_t *client, const brace_bus_frame_t *frame, waiting
     if (node != 0u && is_from_controller(base)) {
         client->heard[node >> 5] |= 1u << (node & 31u);
     }
-    const bool is_long = base == BRACE_CAN_ID_SNAPSHOT_FD || base == BRACE_CAN_ID_SPACE_FD || base == BRACE_CAN_ID_LOAD_FD;
+    const bool is_long =
+        base == BRACE_CAN_ID_SNAPSHOT_FD || base == BRACE_CAN_ID_SPACE_FD || base == BRACE_CAN_ID_LOAD_FD;
     if (node != client->node || node == 0u || (frame->length != 8u && !is_long)) {
         return;
     }

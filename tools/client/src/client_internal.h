@@ -53,8 +53,8 @@ brace_client_status_t brace_can_read(brace_client_t *client, uint32_t wanted, ui
                                      brace_client_snapshot_t *snapshot);
 /* Sends question->data, with a new token for each try, until every part of the answer has come. */
 brace_client_status_t brace_can_ask(brace_client_t *client, brace_question_t *question, uint64_t deadline_us);
-/* The same for a question about K under a force: sends the force first, and both again when another client comes between
- * them. */
+/* The same for a question about K under a force: sends the force first, and both again when another client comes
+ * between them. */
 brace_client_status_t brace_can_ask_under_force(brace_client_t *client, brace_question_t *force,
                                                 brace_question_t *question, uint64_t deadline_us);
 

@@ -13,7 +13,7 @@ enum { BRACE_JOINER_SPAN_US = 40000, BRACE_JOINER_SLOTS = 2 };
 typedef struct {
     bool used;
     brace_client_snapshot_t snapshot;
-    uint32_t frames; /* seen; bits 0 stiffness_a, 1 stiffness_b, 2 eigenvalues, 3 posture, 4 to 10 space, 11 to 15 load */
+    uint32_t frames; /* bits 0 stiffness_a, 1 stiffness_b, 2 eigenvalues, 3 posture, 4 to 10 space, 11 to 15 load */
 } brace_joiner_slot_t;
 
 typedef struct {

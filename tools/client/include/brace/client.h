@@ -53,7 +53,7 @@ enum {
     BRACE_PART_POSTURE = 4,     /* joint angles, mode, faults: 20 Hz */
     BRACE_PART_ALL = 7,         /* the three parts above, which every limb has */
     BRACE_PART_SPACE = 8,       /* K in space of a limb whose coxa joint is fitted: in every snapshot */
-    BRACE_PART_LOAD = 16        /* the load that K counts, and K without it: at controller.load_hz, which is 0 at first */
+    BRACE_PART_LOAD = 16        /* the load that K counts: at controller.load_hz, which is 0 at first */
 };
 
 /* K in the robot's base frame. */
@@ -80,7 +80,7 @@ typedef struct {
     float moved_x_mm, moved_z_mm;     /* how far force and weight have moved the tip */
     float buckling_factor;            /* multiple of the load at which the limb, held as it stands, would have no
                                          stiffness left in some direction; infinite: none. Below 3: flag SOFTENED */
-    float gravity_direction_rad, gravity_lean_rad; /* where down is: in the limb's plane from +x, and out of the plane */
+    float gravity_direction_rad, gravity_lean_rad; /* where down is: in the plane from +x, and out of the plane */
 } brace_client_load_t;
 
 typedef struct {
@@ -171,9 +171,10 @@ void brace_client_identity(const brace_client_t *client, brace_client_identity_t
 /* The newest snapshot that has all wanted parts (BRACE_PART_..., added) and was not read before. If there is none, the
  * call waits for the next one. Its frames are of one tick: they carry one number, came together, and nothing was lost
  * between them. Over Modbus the parts of BRACE_PART_ALL are always there, and each call reads anew. BRACE_PART_SPACE
- * and BRACE_PART_LOAD are a second and a third read, each of one tick, which may be later than that of the other parts. For K in space of a
- * limb without a coxa joint the call returns E_TIMEOUT over CAN, where no such frame comes, and E_UNSUPPORTED over
- * Modbus. BRACE_PART_LOAD over CAN returns E_TIMEOUT while controller.load_hz is 0; brace_client_load then asks.
+ * and BRACE_PART_LOAD are a second and a third read, each of one tick, which may be later than that of the other parts.
+ * For K in space of a limb without a coxa joint the call returns E_TIMEOUT over CAN, where no such frame comes, and
+ * E_UNSUPPORTED over Modbus. BRACE_PART_LOAD over CAN returns E_TIMEOUT while controller.load_hz is 0;
+ * brace_client_load then asks.
  * returns OK, E_TIMEOUT, E_SILENT, E_BIT_RATE, E_NODE, E_DOWN, E_VERSION, E_UNSUPPORTED */
 brace_client_status_t brace_client_read(brace_client_t *client, uint32_t wanted, int timeout_ms,
                                         brace_client_snapshot_t *snapshot);
@@ -202,8 +203,8 @@ brace_client_status_t brace_client_k_under_load_at_tip(brace_client_t *client, f
 brace_client_status_t brace_client_load(brace_client_t *client, int timeout_ms, brace_client_load_t *load);
 
 /* Tells the controller where down is: its direction in the limb's plane, from +x, and how far it leans out of the plane
- * [rad; the ranges of gravity.direction_rad and gravity.lean_rad]. It holds until the controller's next start, for every
- * client; the parameters stay as they are. NaN for both: what the parameters say holds again. */
+ * [rad; the ranges of gravity.direction_rad and gravity.lean_rad]. It holds until the controller's next start, for
+ * every client; the parameters stay as they are. NaN for both: what the parameters say holds again. */
 brace_client_status_t brace_client_set_gravity(brace_client_t *client, float direction_rad, float lean_rad,
                                                int timeout_ms);
 
