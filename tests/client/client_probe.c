@@ -1,6 +1,7 @@
 /* client_probe BUS NODE TIMEOUT_MS CALL [NUMBER...]: one call of the C client; numbers it gives on stdout as "name
  * value" lines, its reason on stderr, its status as exit code (positive).
  *   identity | read PARTS COUNT | posture T1 T2 [COUNT] (the last one's) | tip X Z UP | force DX DZ | sag FX FZ
+ *   load | under_load T1 T2 FX FZ [COUNT] (the last one's) | under_load_at_tip X Z UP FX FZ | gravity DIRECTION LEAN
  *   margin NORMAL MU | space COUNT (reads K in space) | space_posture T0 T1 T2 | drift | take_up JOINT
  *   loop WAIT_MS FOR_MS: reads K in a control loop, each time with that time-out
  *   entry_u32 INDEX | entry_f32 INDEX | dump SILENT_MS [FRAMES] (bus only:
@@ -56,6 +57,35 @@ static void print_k(const brace_client_k_t *k)
            k->stiff_axis_rad, (unsigned)k->flags);
 }
 
+static void print_load(const brace_client_load_t *load)
+{
+    printf("is_counted %d\nforce_x %.9g\nforce_z %.9g\n", load->is_counted, load->force_x_n, load->force_z_n);
+    printf("unloaded_k_xx %.9g\nunloaded_k_xz %.9g\nunloaded_k_zz %.9g\n", load->unloaded_k_xx_n_per_mm,
+           load->unloaded_k_xz_n_per_mm, load->unloaded_k_zz_n_per_mm);
+    printf("moved_x %.9g\nmoved_z %.9g\nbuckling_factor %.9g\n", load->moved_x_mm, load->moved_z_mm,
+           load->buckling_factor);
+    printf("gravity_direction %.9g\ngravity_lean %.9g\n", load->gravity_direction_rad, load->gravity_lean_rad);
+}
+
+static brace_client_status_t ask_under_load(brace_client_t *client, bool at_tip)
+{
+    const float *n = numbers;
+    brace_client_loaded_k_t loaded;
+    brace_client_status_t status;
+    int left = at_tip ? 1 : (int)n[4];
+    do {
+        status = at_tip ? brace_client_k_under_load_at_tip(client, n[0], n[1], n[2] > 0.5f, n[3], n[4], timeout_ms,
+                                                           &loaded)
+                        : brace_client_k_under_load_at_posture(client, n[0], n[1], n[2], n[3], timeout_ms, &loaded);
+    } while (status == BRACE_CLIENT_OK && --left > 0);
+    if (status == BRACE_CLIENT_OK) {
+        print_k(&loaded.k);
+        printf("moved_x %.9g\nmoved_z %.9g\nbuckling_factor %.9g\n", loaded.moved_x_mm, loaded.moved_z_mm,
+               loaded.buckling_factor);
+    }
+    return status;
+}
+
 static brace_client_status_t read_some(brace_client_t *client)
 {
     for (int i = 0; i < (int)numbers[1]; i++) {
@@ -70,6 +100,9 @@ static brace_client_status_t read_some(brace_client_t *client)
                (unsigned)s.sequence, (unsigned)s.parts, s.k_is_valid, s.age_ms, s.theta1_rad, s.theta2_rad,
                (unsigned)s.mode, (unsigned)s.faults);
         print_k(&k);
+        if ((s.parts & BRACE_PART_LOAD) != 0u) {
+            print_load(&s.load);
+        }
     }
     return BRACE_CLIENT_OK;
 }
@@ -177,6 +210,16 @@ static brace_client_status_t client_call(brace_client_t *client, const char *cal
         if (status == BRACE_CLIENT_OK) {
             print_k(&k);
         }
+    } else if (strcmp(call, "load") == 0) {
+        brace_client_load_t load;
+        status = brace_client_load(client, timeout_ms, &load);
+        if (status == BRACE_CLIENT_OK) {
+            print_load(&load);
+        }
+    } else if (strcmp(call, "under_load") == 0 || strcmp(call, "under_load_at_tip") == 0) {
+        status = ask_under_load(client, strcmp(call, "under_load_at_tip") == 0);
+    } else if (strcmp(call, "gravity") == 0) {
+        status = brace_client_set_gravity(client, n[0], n[1], timeout_ms);
     } else if (strcmp(call, "space") == 0) {
         status = read_space(client);
     } else if (strcmp(call, "space_posture") == 0) {

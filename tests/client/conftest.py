@@ -9,11 +9,15 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 import pytest
+
+from brace.model import LimbModel
+from brace.native.loaded import under_force
 
 PROJECT = Path(__file__).resolve().parents[2]
 BUILD = Path(os.environ.get("BRACE_HOST_BUILD", PROJECT / "build" / "host"))
@@ -72,6 +76,18 @@ def probe() -> Callable[..., Answer]:
         return Answer(done.returncode, done.stdout, done.stderr, time.monotonic() - begin)
 
     return call
+
+
+def motors_of(
+    limb: LimbModel, stands: tuple[float, float], force_n: Sequence[float]
+) -> tuple[float, float]:
+    """Angles of the motors of a limb that stands at joint angles under a force, by the double-precision reference,
+    which wants the motors'."""
+    motors = np.array(stands)
+    for _ in range(4):  # each leaves a tenth of what it misses
+        rest = under_force(limb, motors[0], motors[1], force_n)
+        motors = np.array(stands) - [rest["femur_rad"][0], -rest["tibia_rad"][0]]
+    return float(motors[0]), float(motors[1])
 
 
 def free_port() -> int:

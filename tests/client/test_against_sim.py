@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
-from conftest import LIMB, PROBE, PRINT_K, Answer, Sim
+from conftest import LIMB, PROBE, PRINT_K, Answer, Sim, motors_of
 
 from brace.model import load_limb
 from brace.native.loaded import under_force
@@ -52,13 +52,9 @@ def model_k(theta1: float, theta2: float) -> dict[str, float]:
 
 
 def loaded_k(stands: tuple[float, float], force_n: list[float]) -> dict[str, float]:
-    """K of the paper's limb that stands at joint angles under a force, by the double-precision reference, which wants
-    the angles that its motors have."""
-    limb, motors = load_limb(LIMB), np.array(stands)
-    for _ in range(4):  # each leaves a tenth of what it misses
-        rest = under_force(limb, motors[0], motors[1], force_n)
-        motors = np.array(stands) - [rest["femur_rad"][0], -rest["tibia_rad"][0]]
-    k = rest.k_n_per_mm[0]
+    """K of the paper's limb that stands at joint angles under a force, by the double-precision reference."""
+    limb = load_limb(LIMB)
+    k = under_force(limb, *motors_of(limb, stands, force_n), force_n).k_n_per_mm[0]
     return {"k_xx": k[0, 0], "k_xz": k[0, 1], "k_zz": k[1, 1]}
 
 

@@ -334,6 +334,116 @@ static void test_over_can_fd_k_in_space_is_a_second_frame(void)
     TEST_ASSERT_EQUAL_UINT32(3u, s->space.play_coxa);
 }
 
+/* ---------------------------------------------------------------------------------------------- the load -- */
+
+/* Parts 0 to 4 of the load; every value tells the tick. */
+static brace_bus_frame_t load_frame_of(uint32_t part, uint32_t tick, uint64_t now_us)
+{
+    const uint32_t sequence = tick & 0xffu;
+    const float m = mark(tick);
+    brace_bus_frame_t frame = {.id = BRACE_CAN_ID_LOAD + NODE, .length = 8u, .received_us = now_us};
+    const brace_can_load_0_t first = {.sequence = sequence, .unloaded_k_xx_n_per_mm = m, .unloaded_k_xz_n_per_mm = m};
+    const brace_can_load_1_t second = {.sequence = sequence, .unloaded_k_zz_n_per_mm = m, .gravity_lean_rad = 0.25f};
+    const brace_can_load_2_t force = {.sequence = sequence, .counted_force_x_n = m, .counted_force_z_n = m};
+    const brace_can_load_3_t moved = {.sequence = sequence, .moved_x_mm = m, .moved_z_mm = m};
+    const brace_can_load_4_t last = {.sequence = sequence, .buckling_factor = m, .gravity_direction_rad = -1.5f};
+    switch (part) {
+    case 0u: (void)brace_can_pack_load_0(&first, frame.data); break;
+    case 1u: (void)brace_can_pack_load_1(&second, frame.data); break;
+    case 2u: (void)brace_can_pack_load_2(&force, frame.data); break;
+    case 3u: (void)brace_can_pack_load_3(&moved, frame.data); break;
+    default: (void)brace_can_pack_load_4(&last, frame.data); break;
+    }
+    return frame;
+}
+
+static void load_is_of_tick(const brace_client_load_t *load, uint32_t tick)
+{
+    const float values[] = {load->unloaded_k_xx_n_per_mm, load->unloaded_k_xz_n_per_mm, load->unloaded_k_zz_n_per_mm,
+                            load->force_x_n, load->force_z_n, load->moved_x_mm, load->moved_z_mm,
+                            load->buckling_factor};
+    for (uint32_t i = 0u; i < sizeof values / sizeof values[0]; i++) {
+        TEST_ASSERT_EQUAL_UINT32(tick & 0x7ffffu, tick_of(values[i]));
+    }
+    TEST_ASSERT_TRUE(load->is_counted);
+    TEST_ASSERT_EQUAL_FLOAT(0.25f, load->gravity_lean_rad);
+    TEST_ASSERT_EQUAL_FLOAT(-1.5f, load->gravity_direction_rad);
+}
+
+/* The load's identifier is the lowest, so its frames come before K. Some are lost, and the number comes round. */
+static void test_a_load_is_of_its_k_s_tick(void)
+{
+    brace_joiner_t joiner = {0};
+    uint32_t tick = 0u, whole = 0u;
+    for (uint32_t i = 0u; i < 200000u; i++) {
+        tick += 1u + random_below(300u);
+        for (uint32_t part = 0u; part < 7u; part++) {
+            if (random_below(20u) == 0u) {
+                continue;
+            }
+            const uint64_t now_us = 1000u + (uint64_t)tick * TICK_US + part * 130u;
+            const brace_bus_frame_t frame =
+                part < 5u ? load_frame_of(part, tick, now_us) : frame_of(part - 5u, tick, now_us);
+            const brace_client_snapshot_t *s = brace_joiner_add(&joiner, NODE, &frame, 0u);
+            if (s != NULL && (s->parts & BRACE_PART_LOAD) != 0u) {
+                load_is_of_tick(&s->load, tick);
+            }
+            if (s != NULL && s->parts == (BRACE_PART_K | BRACE_PART_LOAD)) {
+                is_of_one_tick(s);
+                whole++;
+            }
+        }
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(130000u, whole); /* (19/20)^7 of all */
+}
+
+static void test_a_load_that_is_not_counted(void)
+{
+    brace_joiner_t joiner = {0};
+    const brace_client_snapshot_t *s = NULL;
+    for (uint32_t part = 0u; part < 5u; part++) {
+        brace_bus_frame_t frame = load_frame_of(part, 5u, 1000u + part);
+        const brace_can_load_2_t unknown = {.sequence = 5u, .counted_force_x_n = NAN, .counted_force_z_n = NAN};
+        if (part == 2u) {
+            (void)brace_can_pack_load_2(&unknown, frame.data);
+        }
+        s = brace_joiner_add(&joiner, NODE, &frame, 0u);
+    }
+    TEST_ASSERT_NOT_NULL(s);
+    TEST_ASSERT_EQUAL_UINT32(BRACE_PART_LOAD, s->parts);
+    TEST_ASSERT_FALSE(s->load.is_counted);
+    TEST_ASSERT_TRUE(isnan(s->load.force_x_n));
+    TEST_ASSERT_TRUE(isnan(s->k_xx_n_per_mm));
+}
+
+static void test_over_can_fd_a_load_is_a_frame_of_its_own(void)
+{
+    brace_joiner_t joiner = {0};
+    brace_bus_frame_t whole = {.id = BRACE_CAN_ID_SNAPSHOT_FD + NODE, .length = 64u, .fd = true, .received_us = 1000u};
+    brace_bus_frame_t load = {.id = BRACE_CAN_ID_LOAD_FD + NODE, .length = 64u, .fd = true, .received_us = 1100u};
+    const brace_can_snapshot_fd_t plane = {.sequence = 0x12345607u, .k_xx_n_per_mm = 4.0f};
+    const brace_can_load_fd_t sent = {.sequence = 0x12345607u, .unloaded_k_xx_n_per_mm = 1.0f,
+                                      .unloaded_k_xz_n_per_mm = 2.0f, .unloaded_k_zz_n_per_mm = 3.0f,
+                                      .counted_force_x_n = 4.0f, .counted_force_z_n = 5.0f, .moved_x_mm = 6.0f,
+                                      .moved_z_mm = 7.0f, .buckling_factor = INFINITY,
+                                      .gravity_direction_rad = -1.5f, .gravity_lean_rad = 0.5f};
+    (void)brace_can_pack_snapshot_fd(&plane, whole.data);
+    (void)brace_can_pack_load_fd(&sent, load.data);
+    (void)brace_joiner_add(&joiner, NODE, &whole, 0u);
+    const brace_client_snapshot_t *s = brace_joiner_add(&joiner, NODE, &load, 0u);
+    TEST_ASSERT_NOT_NULL(s);
+    TEST_ASSERT_EQUAL_UINT32(BRACE_PART_ALL | BRACE_PART_LOAD, s->parts);
+    const float found[] = {s->load.unloaded_k_xx_n_per_mm, s->load.unloaded_k_xz_n_per_mm,
+                           s->load.unloaded_k_zz_n_per_mm, s->load.force_x_n, s->load.force_z_n, s->load.moved_x_mm,
+                           s->load.moved_z_mm};
+    for (int i = 0; i < 7; i++) {
+        TEST_ASSERT_EQUAL_FLOAT((float)(i + 1), found[i]);
+    }
+    TEST_ASSERT_TRUE(s->load.is_counted && isinf(s->load.buckling_factor));
+    TEST_ASSERT_EQUAL_FLOAT(-1.5f, s->load.gravity_direction_rad);
+    TEST_ASSERT_EQUAL_FLOAT(0.5f, s->load.gravity_lean_rad);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -348,5 +458,8 @@ int main(void)
     RUN_TEST(test_k_in_space_is_never_of_two_ticks);
     RUN_TEST(test_an_unknown_k_in_space_is_not_valid);
     RUN_TEST(test_over_can_fd_k_in_space_is_a_second_frame);
+    RUN_TEST(test_a_load_is_of_its_k_s_tick);
+    RUN_TEST(test_a_load_that_is_not_counted);
+    RUN_TEST(test_over_can_fd_a_load_is_a_frame_of_its_own);
     return UNITY_END();
 }

@@ -14,7 +14,8 @@ from conftest import PROJECT
 ROS = PROJECT / "tools" / "client" / "ros2"
 sys.path.insert(0, str(ROS / "brace_bridge"))
 
-from brace_bridge.decode import ERROR, OK, WARN, Decoder, LimbHealth, LimbStiffness, LimbStiffnessInSpace  # noqa: E402
+from brace_bridge.decode import ERROR, OK, WARN, Decoder, LimbHealth, LimbLoad  # noqa: E402
+from brace_bridge.decode import LimbStiffness, LimbStiffnessInSpace  # noqa: E402
 
 from brace.bus.frame import Frame  # noqa: E402
 from brace.errors import VersionMismatchError  # noqa: E402
@@ -48,7 +49,14 @@ def space_frames(sequence: int = 7, node: int = 3, time_s: float = 100.0, **chan
     return [Frame(time_s, layout.identifier + node, layout.encode(values)) for layout in MULTIPLEXED["space"]]
 
 
-@pytest.mark.parametrize("kind", [LimbStiffness, LimbStiffnessInSpace])
+def load_frames(sequence: int = 7, node: int = 3, time_s: float = 100.0, **changes: float | None) -> list[Frame]:
+    values = {"sequence": sequence, "unloaded_k_xx": 4.5, "unloaded_k_xz": -0.25, "unloaded_k_zz": 0.5}
+    values |= {"counted_force_x": 2.0, "counted_force_z": -3.0, "moved_x": 1.5, "moved_z": -12.0}
+    values |= {"buckling_factor": 4.0, "gravity_direction": -1.5, "gravity_lean": 0.25, "flags": 0, **changes}
+    return [Frame(time_s, layout.identifier + node, layout.encode(values)) for layout in MULTIPLEXED["load"]]
+
+
+@pytest.mark.parametrize("kind", [LimbStiffness, LimbStiffnessInSpace, LimbLoad])
 def test_fields_are_the_messages(kind: type) -> None:
     text = (ROS / "brace_msgs" / "msg" / f"{kind.__name__}.msg").read_text()
     named = re.findall(r"^(?!std_msgs)\w+ +([a-z]\w*) *(?:#|$)", text, re.MULTILINE)
@@ -122,6 +130,39 @@ def test_k_in_space_that_comes_first_is_given_with_its_k_in_the_plane() -> None:
     assert not messages[1].k_is_valid and math.isnan(messages[1].k_yz)
 
 
+@pytest.mark.parametrize("comes_first", [True, False])
+def test_a_load_in_si_units(comes_first: bool) -> None:
+    """Before its K, as its identifier is the lower one, or behind it: given once, and its K once."""
+    decoder = Decoder()
+    k = [frame("stiffness_a", sequence=7, k_xx=4.0), frame("stiffness_b", sequence=7, age=2.0)]
+    frames = [*load_frames(), *k] if comes_first else [*k, *load_frames()]
+    messages = [m for one in frames for m in decoder.add(one)]
+    assert [type(m) for m in messages] == [LimbStiffness, LimbLoad]
+    load = messages[1]
+    assert isinstance(load, LimbLoad) and load.is_counted and (load.node, load.sequence) == (3, 7)
+    assert (load.force_x, load.force_z, load.moved_x, load.moved_z) == pytest.approx((2.0, -3.0, 0.0015, -0.012))
+    unloaded = (load.unloaded_k_xx, load.unloaded_k_xz, load.unloaded_k_zz)
+    assert (load.buckling_factor, *unloaded) == pytest.approx((4.0, 4500.0, -250.0, 500.0))
+    assert (load.gravity_direction, load.gravity_lean) == pytest.approx((-1.5, 0.25))
+    assert load.stamp_s == pytest.approx(100.0 - 0.002)
+
+
+def test_a_load_that_is_not_counted_is_nan() -> None:
+    decoder = Decoder()
+    k = [frame("stiffness_a", sequence=7, k_xx=4.0, flags=64), frame("stiffness_b", sequence=7)]
+    frames = [*load_frames(counted_force_x=None, counted_force_z=None, buckling_factor=math.nan), *k]
+    load = [m for one in frames for m in decoder.add(one)][1]
+    assert isinstance(load, LimbLoad) and not load.is_counted
+    assert math.isnan(load.force_x) and math.isnan(load.buckling_factor)
+
+
+def test_space_and_load_of_one_snapshot() -> None:
+    decoder = Decoder()
+    k = [frame("stiffness_a", sequence=7, k_xx=4.0), frame("stiffness_b", sequence=7)]
+    messages = [m for one in (*load_frames(), *space_frames(), *k) for m in decoder.add(one)]
+    assert [type(m) for m in messages] == [LimbStiffness, LimbStiffnessInSpace, LimbLoad]
+
+
 def test_health_names_the_cause_of_a_drift() -> None:
     decoder = Decoder()
     drifted = 1 << 7
@@ -155,7 +196,8 @@ def test_the_node_publishes_what_is_decoded(monkeypatch: pytest.MonkeyPatch) -> 
         monkeypatch.setitem(sys.modules, name, made)
 
     frames = [frame("stiffness_a", sequence=1, k_xx=4.0), frame("stiffness_b", sequence=1, k_zz=0.25)]
-    frames += [*space_frames(sequence=1), frame("emergency", error_code=0xFF01, drift_cause=1, faults=1 << 7)]
+    frames += [*space_frames(sequence=1), *load_frames(sequence=1)]
+    frames.append(frame("emergency", error_code=0xFF01, drift_cause=1, faults=1 << 7))
     running = iter([True] * (len(frames) + 1) + [False])
     module("rclpy", ok=lambda: next(running), try_shutdown=lambda: None)
     module("rclpy.node", Node=StandInNode)
@@ -167,7 +209,7 @@ def test_the_node_publishes_what_is_decoded(monkeypatch: pytest.MonkeyPatch) -> 
         return SimpleNamespace(header=SimpleNamespace(stamp=stamp, frame_id=""), **content)
 
     module("brace_msgs")
-    module("brace_msgs.msg", LimbStiffness=message, LimbStiffnessInSpace=message)
+    module("brace_msgs.msg", LimbLoad=message, LimbStiffness=message, LimbStiffnessInSpace=message)
     module("diagnostic_msgs")
     module("diagnostic_msgs.msg", DiagnosticArray=message, DiagnosticStatus=message, KeyValue=SimpleNamespace)
     sys.modules.pop("brace_bridge.node", None)
@@ -178,10 +220,12 @@ def test_the_node_publishes_what_is_decoded(monkeypatch: pytest.MonkeyPatch) -> 
     node = bridge.Bridge()
     node._listener.join(timeout=5)
     assert node.failure is None
-    assert [topic for topic, _ in published] == ["limb_3/stiffness", "limb_3/stiffness_in_space", "/diagnostics"]
-    plane, space, diagnostic = (content for _, content in published)
+    topics = [topic for topic, _ in published]
+    assert topics == ["limb_3/stiffness", "limb_3/stiffness_in_space", "limb_3/load", "/diagnostics"]
+    plane, space, load, diagnostic = (content for _, content in published)
     assert (plane.header.frame_id, space.header.frame_id) == ("limb_3", "base_link") and plane.header.stamp.sec == 100
     assert (plane.k_xx, plane.k_zz) == pytest.approx((4000.0, 250.0)) and space.k_xy == pytest.approx(-1500.0)
+    assert load.header.frame_id == "limb_3" and load.force_z == pytest.approx(-3.0)
     [status] = diagnostic.status
     assert (status.level, status.hardware_id) == (bytes([WARN]), "limb_3") and "femur_link" in status.message
     assert {pair.key: pair.value for pair in status.values} == {"faults": "model_drift", "drift_cause": "femur_link"}

@@ -259,3 +259,70 @@ def test_a_planar_node_over_can_fd_is_complete_with_its_second_frame() -> None:
     joiner = Joiner()
     complete = [s is not None and joiner.is_complete(s) for tick in (7, 8) for s in [joiner.add(whole_of(tick))]]
     assert complete == [False, True]
+
+
+def load_of(tick: int, node: int = 1) -> list[Frame]:
+    """The five frames of a snapshot's load; every value but the factor tells its tick."""
+    mark = (tick % 4_000_000) * STEP
+    values: dict[str, float | int | None] = {
+        field.name: mark for layout in MULTIPLEXED["load"] for field in layout.fields if field.name != "sequence"
+    }
+    values |= {"sequence": tick * TICKS_A_PERIOD & 0xFF, "flags": 0, "gravity_direction": -1.5, "gravity_lean": 0.25}
+    time_s = 1000.0 + tick * PERIOD_S
+    return [
+        Frame(time_s + 1e-5 * part, layout.identifier + node, layout.encode(values))
+        for part, layout in enumerate(MULTIPLEXED["load"])
+    ]
+
+
+def assert_load_of_its_tick(snapshot: Snapshot) -> None:
+    assert_of_one_tick(snapshot)
+    if snapshot.load is not None:
+        v = snapshot.load.values
+        names = ("unloaded_k_xx", "unloaded_k_xz", "unloaded_k_zz")
+        told = [float(v[name] or 0) for name in (*names, "counted_force_x", "counted_force_z", "moved_x", "moved_z")]
+        mark = float(snapshot.k_xx or 0)
+        # forces and lengths have steps of 0.001, K of half that
+        assert max(abs(value - mark) for value in told) <= 0.0006, snapshot
+        assert (v["gravity_direction"], v["gravity_lean"]) == (-1.5, 0.25)
+
+
+def test_a_load_joins_its_k_before_it_or_behind_it() -> None:
+    k, load = frames_of(77)[:2], load_of(77)
+    for frames, adds in (([*load, *k], ["stiffness"]), ([*k, *load], ["stiffness", "load"])):
+        joiner = Joiner()
+        joined = [s for frame in frames if (s := joiner.add(frame))]
+        assert [s.adds for s in joined] == adds and joined[-1].load is not None
+        assert_load_of_its_tick(joined[-1])
+        entry = joined[-1].as_json()["load"]
+        assert isinstance(entry, dict) and entry["is_counted"] and entry["force_x_n"] == entry["moved_z_mm"]
+
+
+def test_frames_of_two_ticks_never_make_one_load() -> None:
+    chance = random.Random(12)
+    joiner = Joiner()
+    loads = 0
+    for tick in range(10_000):
+        frames = [*frames_of(tick)[:2], *load_of(tick)]
+        if chance.random() < 0.5:
+            frames = sorted(frames, key=lambda frame: frame.identifier)
+        for frame in frames:
+            if chance.random() < 0.1:
+                continue
+            snapshot = joiner.add(frame)
+            if snapshot is not None:
+                loads += snapshot.load is not None
+                assert_load_of_its_tick(snapshot)
+    assert 3_000 < loads < 10_000  # 0.9^7 of all
+
+
+def test_over_can_fd_a_load_is_a_frame_of_its_own() -> None:
+    joiner = Joiner()
+    whole = joiner.add(whole_of(7))
+    assert whole is not None
+    layout = FD_MESSAGES["load_fd"]
+    values: dict[str, float | int | None] = {item.name: 0 for item in layout.fields}
+    values |= {"sequence": 0x12345607, "counted_force_x": None, "counted_force_z": None, "unloaded_k_zz": 0.5}
+    snapshot = joiner.add(Frame(1.001, layout.identifier + 5, layout.encode(values)))
+    assert snapshot is not None and snapshot.load is not None and snapshot.adds == "load" and snapshot.has_posture
+    assert not snapshot.load.is_counted and snapshot.load.as_json()["unloaded_k_zz_n_per_mm"] == 0.5

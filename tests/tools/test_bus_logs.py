@@ -146,6 +146,34 @@ def test_sigterm_ends_a_recording_well_and_ctrl_c_with_130(limb: Path, tmp_path:
             assert os.listdir(tmp_path).count(path.name + ".part") == 0
 
 
+@pytest.mark.parametrize("moment", ["in a frame", "at the end"])
+@pytest.mark.parametrize(("sent", "code"), [(signal.SIGTERM, 0), (signal.SIGINT, 130)])
+def test_a_signal_cuts_nothing_whenever_it_comes(
+    brace: Callable[..., Outcome], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, moment: str, sent: int, code: int
+) -> None:
+    """A signal in the middle of a record of MCAP, and one while the file is being closed, twice each."""
+    from mcap.data_stream import RecordBuilder
+
+    folder, name = (RecordBuilder, "write8") if moment == "in a frame" else (os, "fsync")
+    real, calls = getattr(folder, name), [0]
+
+    def interrupted(*given: Any) -> Any:
+        calls[0] += 1
+        if moment == "at the end" or calls[0] == 1001:
+            signal.raise_signal(sent)
+            signal.raise_signal(sent)
+        return real(*given)
+
+    (tmp_path / "a.log").write_text("".join(f"({1 + i * 1e-3:.6f}) can0 181#{i % 256:02X}00\n" for i in range(3000)))
+    monkeypatch.setattr(folder, name, interrupted)
+    outcome = brace("record", "--bus", f"log:{tmp_path / 'a.log'}", "--out", tmp_path / "a.mcap", "--json")
+    assert calls[0] > 0 and outcome.code == code, outcome.err
+    assert sorted(os.listdir(tmp_path)) == ["a.log", "a.mcap"]
+    frames = len(list(read(tmp_path / "a.mcap")))
+    assert frames == json.loads(outcome.out)["frames"] > 100
+    assert (frames == 3000) == (moment == "at the end")
+
+
 @pytest.mark.parametrize("ending", [".log", ".mcap"])
 def test_what_was_recorded_outlives_a_kill(limb: Path, tmp_path: Path, ending: str) -> None:
     path = tmp_path / f"a{ending}"

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from brace.bus.controller import Advance, Force, Identity, StiffnessAnswer, Stored, check_dictionary
 from brace.bus.drift import TAKE_UPS, Drift, drift_of, take_up_of
 from brace.bus.entries import index_of
-from brace.bus.load import LOAD_ENTRIES, Load
+from brace.bus.load import LOAD_ENTRIES, Load, load_of
 from brace.bus.session import Session
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceStiffness, space_answer
@@ -81,18 +81,20 @@ class CanController:
     def _ask_k(self, where: str, place: dict[str, Value], force_n: Force | None) -> StiffnessAnswer:
         if force_n is None:
             return _stiffness(self.session.ask(f"k_{where}", place))
-        self.session.ask("tip_force", {"fx": force_n[0], "fz": force_n[1]})
-        return _stiffness(self.session.ask(f"k_under_load_{where}", place))
+        return _stiffness(self.session.ask_under_force(force_n, f"k_under_load_{where}", place))
 
     def load(self) -> Load:
         """Entry by entry, so of several snapshots."""
         words = {name: struct.pack("<I", self.read_entry(name)) for name in LOAD_ENTRIES}
         values = {name: float(struct.unpack("<f", word)[0]) for name, word in words.items()}
-        return Load({name: None if math.isnan(value) else value for name, value in values.items()})
+        return load_of(values)
 
-    def set_gravity(self, direction_rad: float, lean_rad: float) -> None:
+    def set_gravity(self, direction_rad: float, lean_rad: float) -> tuple[Value, Value]:
         """Volatile."""
-        self.session.ask("set_gravity", {"direction": direction_rad, "lean": lean_rad})
+        asked = {"direction": direction_rad, "lean": lean_rad}
+        given = {name: None if math.isnan(value) else value for name, value in asked.items()}
+        answer = self.session.ask("set_gravity", given)
+        return answer["direction"], answer["lean"]
 
     def k_in_space_at_posture(self, theta0_rad: float, theta1_rad: float, theta2_rad: float) -> SpaceStiffness:
         """True angles; refused where the limb has no coxa joint."""

@@ -85,8 +85,8 @@ class Controller(Protocol):
     def load(self) -> Load:
         """What the K of now counts."""
 
-    def set_gravity(self, direction_rad: float, lean_rad: float) -> None:
-        """Where down is, until the controller's next start."""
+    def set_gravity(self, direction_rad: float, lean_rad: float) -> tuple[Value, Value]:
+        """Where down is, until the controller's next start; NaN for both: as the parameters say. returns what holds."""
 
     def sag_for_load(self, fx_n: float, fz_n: float) -> dict[str, Value]: ...
 

@@ -14,6 +14,9 @@ LOAD_ENTRIES = (
 )  # fmt: skip
 
 
+Matrix = tuple[float, float, float]  # xx, xz, zz [N/mm]
+
+
 @dataclass(frozen=True)
 class Load:
     """None: not known, or no load is counted."""
@@ -43,15 +46,75 @@ class Load:
             "unloaded_k_zz_n_per_mm": v["unloaded_k_zz"],
         }
 
-    def lines(self) -> list[str]:
-        """For people."""
+    @property
+    def _unloaded(self) -> Matrix | None:
+        xx, xz, zz = (self.values[name] for name in LOAD_ENTRIES[:3])
+        return None if xx is None or xz is None or zz is None else (float(xx), float(xz), float(zz))
+
+    def lines(self, k: tuple[Value, Value, Value] = (None, None, None)) -> list[str]:
+        """For people. k: K under this load, in the order xx, xz, zz."""
+        v, unloaded = self.values, self._unloaded
         if not self.is_counted:
-            return ["no load is counted"]
-        v = {name: math.nan if value is None else value for name, value in self.values.items()}
-        told = "none" if math.isinf(v["buckling_factor"]) else f"{v['buckling_factor']:.2f}"
-        without = [v[name] for name in LOAD_ENTRIES[:3]]
-        return [
-            f"load {v['counted_force_x']:.3f} {v['counted_force_z']:.3f} N and the weight: the tip moved "
-            f"{v['moved_x']:.3f} {v['moved_z']:.3f} mm, buckling factor {told}",
-            "without load K = [{0:.4f} {1:.4f}; {1:.4f} {2:.4f}] N/mm".format(*without),
+            return ["no load is counted: this K is the one without load"]
+        force, moved = (_pair(v, name) for name in ("counted_force", "moved"))
+        lines = [
+            f"load counted: force of the ground on the tip {force} N, and the limb's weight; they move the tip by "
+            f"{moved} mm",
+            f"buckling factor {factor_words(v['buckling_factor'])}",
         ]
+        if unloaded is not None:
+            changes = "" if None in k else f"; the load changes K by {_change(k, unloaded):.1%}"
+            lines.append("K without load = [{0:.4f} {1:.4f}; {1:.4f} {2:.4f}] N/mm".format(*unloaded) + changes)
+        return lines
+
+    def words(self) -> list[str]:
+        """The same in few words, for a line that has more to tell."""
+        v, unloaded = self.values, self._unloaded
+        if not self.is_counted:
+            return ["no load counted"]
+        words = [
+            f"load {_pair(v, 'counted_force')} N",
+            f"moved {_pair(v, 'moved')} mm",
+            f"buckling factor {factor_text(v['buckling_factor'])}",
+        ]
+        if unloaded is not None:
+            words.append(f"K without load {' '.join(f'{value:.4f}' for value in unloaded)} N/mm")
+        return words
+
+
+def load_of(values: Mapping[str, Value]) -> Load:
+    """From values that may be more; a number that is not one is not known."""
+    found = {name: values[name] for name in LOAD_ENTRIES}
+    return Load({name: None if isinstance(v, float) and math.isnan(v) else v for name, v in found.items()})
+
+
+def factor_text(factor: Value) -> str:
+    """A buckling factor as a number; none where there is none."""
+    return "not known" if factor is None else "none" if math.isinf(factor) else f"{factor:.2f}"
+
+
+def factor_words(factor: Value) -> str:
+    """A buckling factor and what it means."""
+    if factor is None:
+        return "not known"
+    if math.isinf(factor):
+        return "none: this load is far from taking the limb's stiffness"
+    softened = "; below 3 a limb is much softer than without load" if factor < 3.0 else ""
+    return (
+        f"{factor:.2f}: held as it stands, the limb would have no stiffness left in some direction under "
+        f"{factor:.2f} times this load{softened}"
+    )
+
+
+def _pair(values: Mapping[str, Value], name: str) -> str:
+    return " ".join("not known" if v is None else f"{v:.3f}" for v in (values[f"{name}_x"], values[f"{name}_z"]))
+
+
+def _change(k: tuple[Value, Value, Value], unloaded: Matrix) -> float:
+    """Frobenius norm of the difference, as a fraction of that without load."""
+    xx, xz, zz = (float(one or 0.0) - other for one, other in zip(k, unloaded, strict=True))
+    return _size((xx, xz, zz)) / _size(unloaded)
+
+
+def _size(k: Matrix) -> float:
+    return math.sqrt(k[0] ** 2 + 2 * k[1] ** 2 + k[2] ** 2)

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 from brace.bus.controller import Advance, Force, Identity, StiffnessAnswer, Stored, check_dictionary
 from brace.bus.drift import TAKE_UPS, Drift, drift_of, take_up_of
-from brace.bus.load import Load
-from brace.bus.refusal import STORE, error_of
+from brace.bus.load import Load, load_of
+from brace.bus.refusal import STORE, error_of, no_equilibrium
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceSnapshot, SpaceStiffness, space_snapshot
 from brace.bus.url import BusUrl
@@ -181,11 +181,12 @@ class ModbusController:
 
     def load(self) -> Load:
         """Of one read."""
-        return Load(self._values_of(_LOAD))
+        return load_of(self._values_of(_LOAD))
 
-    def set_gravity(self, direction_rad: float, lean_rad: float) -> None:
+    def set_gravity(self, direction_rad: float, lean_rad: float) -> tuple[Value, Value]:
         """Volatile."""
-        self._ask("asked_gravity_direction", ">ff", direction_rad, lean_rad)
+        v = self._ask("asked_gravity_direction", ">ff", direction_rad, lean_rad)
+        return v["taken_gravity_direction"], v["taken_gravity_lean"]
 
     def sag_for_load(self, fx_n: float, fz_n: float) -> dict[str, Value]:
         """Displacement of the tip [mm] under a force on it, with the K of now."""
@@ -223,6 +224,8 @@ class ModbusController:
         return StiffnessAnswer(**{name: v[f"{of}{name}"] for name in names}, flags=flags)
 
     def _under_load(self, v: dict[str, Value]) -> StiffnessAnswer:
+        if v["asked_loaded_k_xx"] is None:
+            raise no_equilibrium(self.url, "the answer's registers hold no K")
         moved_x, moved_z, factor = (v[f"asked_{name}"] for name in ("moved_x", "moved_z", "buckling_factor"))
         return replace(self._stiffness(v, "asked_loaded_"), moved_x=moved_x, moved_z=moved_z, buckling_factor=factor)
 

@@ -37,6 +37,8 @@ _UNSUPPORTED = -8
 _OF_NOW = ("contact_force", "sag_for_load")  # asked of the K of now; the detail is its flags
 _GAP_OPEN = 8
 BUSY = -66
+ORDER = -67
+_SINGULAR = -6
 STORE = -80  # plus what the store says, -1 to -7
 _WAYS = {
     -3: "values inside the range that the firmware's dictionary names",
@@ -46,6 +48,16 @@ _WAYS = {
     -84: "brace params push FILE stores one",
     -15: "brace query shows its mode; a loading test, play being taken up or a fault stands in the way",
 }
+
+
+def no_equilibrium(where: str, why: str) -> UsageError:
+    """There is no K under that force."""
+    return UsageError(
+        "there is no K under this force: it folds the limb there",
+        where=where,
+        why=f"no stable equilibrium is near ({why})",
+        next_step="a smaller force or another place; brace plan finds places that carry a load",
+    )
 
 
 def error_of(what: str, status: int, detail: int, where: str) -> BraceError:
@@ -65,6 +77,8 @@ def error_of(what: str, status: int, detail: int, where: str) -> BraceError:
             why="its coxa joint gives no samples, so K is that of the limb's plane",
             next_step="ask without --theta0",
         )
+    if what.startswith("k_under_load_") and status == _SINGULAR:
+        return no_equilibrium(where, f"status {status}")
     reason, asked_wrong = _STATUS.get(status, (f"status {status}", False))
     kind = UsageError if asked_wrong else DeviceFaultError
     return kind(

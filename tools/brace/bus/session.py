@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import random
 import secrets
 import time
 from collections.abc import Mapping
 
 from brace.bus.frame import NODE_MASK, Bus, EndOfLog, Frame
-from brace.bus.refusal import BUSY, error_of
+from brace.bus.refusal import BUSY, ORDER, error_of
 from brace.bus.snapshot import Heartbeat, Joiner, Snapshot, heartbeat_of
-from brace.errors import NoDeviceError, UsageError
+from brace.errors import DeviceFaultError, NoDeviceError, UsageError
 from brace.wire.frames import (
     ANSWER_ID,
     ANSWERS,
@@ -28,6 +29,8 @@ TRIES = 3
 HEARTBEAT_S = 1.15  # a heartbeat comes each second
 BUSY_S = 4.0  # a set that is being stored, a limb that goes back from a loading test: waited for
 BUSY_POLL_S = 0.02
+CONTESTED_S = 2.5  # other clients' forces come between ours and its question for so long at most
+APART_S = 0.03  # between two questions that another client's came between
 GATHER_S = 0.25  # for the other nodes of a bus, once one is heard
 _SENT_BY_NODES = {
     ANSWER_ID,
@@ -37,6 +40,10 @@ _SENT_BY_NODES = {
 _NOT_REPEATED = frozenset(
     {"commit", "rollback", "loading_test_start", "take_up"}
 )  # whose second time is not the first
+_FORCE = "tip_force"
+_ABOUT_FORCE = frozenset(  # a controller counts the force that was told last, whoever told it, and once
+    layout.command for name, layout in REQUESTS.items() if name == _FORCE or name.startswith("k_under_load_")
+)
 
 
 class _Refused(Exception):
@@ -57,6 +64,7 @@ class Session:
         self.heartbeats: dict[int, Heartbeat] = {}
         self.newest: dict[int, Snapshot] = {}
         self._token = secrets.randbelow(256)
+        self._force_is_taken = False  # another client has asked about K under a force
         self.node = node if node is not None else self._find()
 
     @property
@@ -73,6 +81,8 @@ class Session:
             return None
         if frame.node and frame.identifier & ~NODE_MASK in _SENT_BY_NODES:
             self.heard[frame.node] = frame.time_s
+        if frame.identifier & ~NODE_MASK == REQUEST_ID and frame.data[:1]:  # another's: our own do not come back
+            self._force_is_taken |= frame.data[0] & 0x1F in _ABOUT_FORCE
         snapshot = self.joiner.add(frame)
         if snapshot is not None:
             self.newest[frame.node] = snapshot
@@ -118,6 +128,36 @@ class Session:
         self, name: str, values: Mapping[str, Value] | None = None, timeout_s: float = ANSWER_S
     ) -> dict[str, Value]:
         """The answer's fields, all parts together; repeated when nothing comes, where that does no harm."""
+        try:
+            return self._ask(name, values, timeout_s)
+        except _Refused as refused:
+            raise error_of(name, refused.status, refused.detail, self.where) from None
+
+    def ask_under_force(
+        self, force_n: tuple[float, float], name: str, values: Mapping[str, Value]
+    ) -> dict[str, Value]:
+        """The answer to a question about K under a force, which is told before it. Both again when another client came
+        between them, or when the force is used up because an answer was lost."""
+        until = time.monotonic() + CONTESTED_S
+        while time.monotonic() < until:
+            self._force_is_taken = False
+            self.ask(_FORCE, {"fx": force_n[0], "fz": force_n[1]})
+            try:
+                answer = self._ask(name, values, ANSWER_S)
+                if not self._force_is_taken:
+                    return answer
+            except _Refused as refused:
+                if refused.status != ORDER and not self._force_is_taken:
+                    raise error_of(name, refused.status, refused.detail, self.where) from None
+            self.listen(random.uniform(0.0, APART_S))  # the other asks again too: not in step with it
+        raise DeviceFaultError(
+            "other clients asked for K under other forces all the time",
+            where=self.where,
+            why="a controller counts the force that was told last, whoever told it",
+            next_step="once more",
+        )
+
+    def _ask(self, name: str, values: Mapping[str, Value] | None, timeout_s: float) -> dict[str, Value]:
         busy_until = time.monotonic() + BUSY_S
         tries = 1 if name in _NOT_REPEATED else TRIES
         while tries > 0:
@@ -125,7 +165,7 @@ class Session:
                 answer = self._ask_once(name, values or {}, timeout_s)
             except _Refused as refused:
                 if refused.status != BUSY or time.monotonic() > busy_until:
-                    raise error_of(name, refused.status, refused.detail, self.where) from None
+                    raise
                 self.listen(BUSY_POLL_S)
                 continue
             if answer is not None:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from brace.bus.frame import NODE_MASK, Frame
+from brace.bus.load import Load, load_of
 from brace.bus.space import SpaceSnapshot, space_snapshot
 from brace.wire.frames import FD_MESSAGES, MESSAGES, MULTIPLEXED
 from brace.wire.layout import Layout, Value
@@ -17,6 +18,8 @@ _LAYOUT_OF = {layout.identifier: layout for layout in MESSAGES.values()}
 _WHOLE = FD_MESSAGES["snapshot_fd"]
 _SPACE_FD = FD_MESSAGES["space_fd"]
 _SPACE = MULTIPLEXED["space"]  # its parts
+_LOAD_FD = FD_MESSAGES["load_fd"]
+_LOAD = MULTIPLEXED["load"]
 _PARTS = ("stiffness_a", "stiffness_b", "eigenvalues", "posture")
 
 
@@ -43,7 +46,8 @@ class Snapshot:
     mode: str = ""
     faults: tuple[str, ...] = ()
     space: SpaceSnapshot | None = None  # of this snapshot; None: the limb has no coxa joint, or it has not come (yet)
-    adds: str = "stiffness"  # what has come last of it: stiffness, space, posture
+    load: Load | None = None  # of this snapshot; None: it is not sent, or it has not come (yet)
+    adds: str = "stiffness"  # what has come last of it: stiffness, space, posture, load
 
     @property
     def is_valid(self) -> bool:
@@ -78,6 +82,8 @@ class Snapshot:
             }
         if self.space is not None:
             entry["space"] = self.space.as_json()
+        if self.load is not None:
+            entry["load"] = self.load.as_json()
         return entry
 
 
@@ -106,8 +112,8 @@ class Emergency:
 
 
 @dataclass
-class _SpaceParts:
-    """Frames of K in space with one number."""
+class _Parts:
+    """Frames of one message that carry one number."""
 
     time_s: float  # of the first
     sequence: Value
@@ -127,7 +133,7 @@ class Joiner:
     def __init__(self) -> None:
         self._stiffness_a: dict[int, _Half] = {}
         self._eigenvalues: dict[int, _Half] = {}
-        self._space: dict[int, _SpaceParts] = {}
+        self._parts: dict[tuple[str, int], _Parts] = {}  # by message and node
         self._newest: dict[int, Snapshot] = {}
         self._seen: set[int] = set()
         self._sends_space: set[int] = set()
@@ -136,7 +142,8 @@ class Joiner:
 
     def add(self, frame: Frame) -> Snapshot | None:
         """The snapshot that this frame completes or adds to: first with K alone, then, where they are sent, with K in
-        space, and with eigenvalues and posture. Over CAN FD one frame has all of it but K in space."""
+        space, with its load, and with eigenvalues and posture. Over CAN FD one frame has all of it but K in space and
+        the load."""
         identifier = frame.identifier & ~NODE_MASK
         if frame.node == 0:
             return None
@@ -149,10 +156,15 @@ class Joiner:
             self._sends_space.add(frame.node)
             self._whole_alone[frame.node] = 0
             return self._add_space(frame.node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values)
+        if identifier == _LOAD_FD.identifier and len(frame.data) == _LOAD_FD.size:
+            values = _LOAD_FD.decode(frame.data)
+            return self._add_load(frame.node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values)
         if len(frame.data) != 8:
             return None
         if identifier == _SPACE[0].identifier:
-            return self._take_space_part(frame)
+            return self._take_part(frame, "space")
+        if identifier == _LOAD[0].identifier:
+            return self._take_part(frame, "load")
         layout = _LAYOUT_OF.get(identifier)
         if layout is None or layout.name not in _PARTS:
             return None
@@ -194,11 +206,13 @@ class Joiner:
             play=(name_of(layout, "play_femur", b), name_of(layout, "play_tibia", b)),
             parameter_tag=b["parameter_tag"],
         )
-        snapshot = self._newest[frame.node]
-        space = self._space.get(frame.node)
-        if space is not None and len(space.parts) == len(_SPACE):  # it came before: its identifier is the lower one
-            return self._add_space(frame.node, space.time_s, space.sequence, space.values) or snapshot
-        return snapshot
+        load, space = (self._parts.get((message, frame.node)) for message in ("load", "space"))
+        # they came before: their identifiers are the lower ones
+        if load is not None and len(load.parts) == len(_LOAD):
+            self._add_load(frame.node, load.time_s, load.sequence, load.values, adds="stiffness")
+        if space is not None and len(space.parts) == len(_SPACE):
+            self._add_space(frame.node, space.time_s, space.sequence, space.values)
+        return self._newest[frame.node]
 
     def _join_posture(self, frame: Frame, layout: Layout, posture: Mapping[str, Value]) -> Snapshot | None:
         eigenvalues = self._eigenvalues.pop(frame.node, None)
@@ -219,28 +233,40 @@ class Joiner:
         )
         return self._newest[frame.node]
 
-    def _take_space_part(self, frame: Frame) -> Snapshot | None:
-        """One of the frames that carry K in space together."""
-        part = frame.data[_SPACE[0].part_at // 8]
-        if part >= len(_SPACE):
+    def _take_part(self, frame: Frame, message: str) -> Snapshot | None:
+        """One of the frames that carry K in space, or the load, together."""
+        layouts = MULTIPLEXED[message]
+        part = frame.data[layouts[0].part_at // 8]
+        if part >= len(layouts):
             return None
-        values = _SPACE[part].decode(frame.data)
-        self._sends_space.add(frame.node)
-        begun = self._space.get(frame.node)
+        values = layouts[part].decode(frame.data)
+        if message == "space":
+            self._sends_space.add(frame.node)
+        begun = self._parts.get((message, frame.node))
         fits = (
             begun is not None
             and begun.sequence == values["sequence"]
             and abs(frame.time_s - begun.time_s) <= PAIR_S
         )
         if begun is None or not fits:
-            if begun is not None and 0 in begun.parts and len(begun.parts) < len(_SPACE):
+            if begun is not None and 0 in begun.parts and len(begun.parts) < len(layouts):
                 self.unmatched += 1
-            begun = self._space[frame.node] = _SpaceParts(frame.time_s, values["sequence"])
+            begun = self._parts[message, frame.node] = _Parts(frame.time_s, values["sequence"])
         begun.parts.add(part)
         begun.values |= values
-        if len(begun.parts) < len(_SPACE):
+        if len(begun.parts) < len(layouts):
             return None
-        return self._add_space(frame.node, begun.time_s, begun.sequence, begun.values)
+        add = self._add_space if message == "space" else self._add_load
+        return add(frame.node, begun.time_s, begun.sequence, begun.values)
+
+    def _add_load(
+        self, node: int, time_s: float, sequence: Value, values: Mapping[str, Value], adds: str = "load"
+    ) -> Snapshot | None:
+        newest = self._of_newest(node, time_s, sequence)
+        if newest is None or newest.load is not None:
+            return None
+        self._newest[node] = replace(newest, adds=adds, load=load_of(values))
+        return self._newest[node]
 
     def _add_space(self, node: int, time_s: float, sequence: Value, values: Mapping[str, Value]) -> Snapshot | None:
         newest = self._of_newest(node, time_s, sequence)

@@ -21,6 +21,7 @@ class NodeState:
     snapshot: Snapshot | None = None  # K
     posture: Snapshot | None = None  # the newest with eigenvalues and posture
     space: Snapshot | None = None  # the newest with K in space
+    load: Snapshot | None = None  # the newest with its load
     heartbeat: Heartbeat | None = None
     drift_cause: str = ""  # as the last emergency told it; empty: none has come
     snapshots: int = 0
@@ -77,6 +78,8 @@ class Watch:
         state.snapshot = snapshot
         if snapshot.has_posture:
             state.posture = snapshot
+        if snapshot.load is not None:
+            state.load = snapshot
         if snapshot.space is not None:
             state.in_space += snapshot.adds == "space" or not is_more
             state.space = snapshot

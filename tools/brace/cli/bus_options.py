@@ -93,18 +93,35 @@ def controller(arguments: argparse.Namespace) -> Iterator[Controller]:
         yield CanController(opened)
 
 
+class Ended:
+    """Which signal has asked for the end. It has no lock: a handler may come in the middle of another one."""
+
+    def __init__(self) -> None:
+        self.by: int | None = None
+
+    def is_set(self) -> bool:
+        """The end is asked for."""
+        return self.by is not None
+
+    def take(self, number: int, _frame: object) -> None:
+        """The signals' handler; the first one counts."""
+        if self.by is None:
+            self.by = number
+
+
 @contextlib.contextmanager
-def ended_by_signal() -> Iterator[threading.Event]:
-    """An event that SIGTERM sets: an orderly end."""
-    ended = threading.Event()
+def ended_by_signal(*signals: signal.Signals) -> Iterator[Ended]:
+    """What SIGTERM sets, or the signals given: an orderly end. No exception comes, so nothing is cut in its middle."""
+    ended = Ended()
     if threading.current_thread() is not threading.main_thread():
         yield ended
         return
-    before = signal.signal(signal.SIGTERM, lambda _number, _frame: ended.set())
+    before = {number: signal.signal(number, ended.take) for number in signals or (signal.SIGTERM,)}
     try:
         yield ended
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 @contextlib.contextmanager

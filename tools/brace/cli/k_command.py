@@ -278,13 +278,15 @@ def _text(
     angles = ", ".join(
         f"{key} = {posture[key + '_rad']:.6g} rad" for key in ("theta0", "theta1", "theta2") if key + "_rad" in posture
     )
-    lines = [f"{name}: {angles}; tip at r = {posture['r_mm']:.5g} mm, phi = {posture['phi_rad']:.5g} rad ({path})"]
+    how = "before the load moves it" if "buckling_factor" in values else path
+    lines = [f"{name}: {angles}; tip at r = {posture['r_mm']:.5g} mm, phi = {posture['phi_rad']:.5g} rad ({how})"]
     if "buckling_factor" in values:
         factor = values["buckling_factor"]
         lines.append(
             f"under the ground's force on the tip ({posture['fx_n']:g}, {posture['fz_n']:g}) N and the limb's weight: "
             f"tip moves ({values['tip_dx_mm']:.4g}, {values['tip_dz_mm']:.4g}) mm, buckling factor "
             + (f"{factor:.3g}" if math.isfinite(factor) else "above 11")
+            + (": the load makes the limb much softer" if factor < k_load.SOFTENED else "")
         )
     lines += ["K [N/mm]", *matrix("k", "n_per_mm"), "C [mm/N]", *matrix("c", "mm_per_n")]
     eigen = [

@@ -8,6 +8,8 @@ from brace.cli.options import OptionParser, number, refused
 from brace.errors import UsageError
 from brace.posture_table import FORCE_MOST_N
 
+SOFTENED = 3.0  # of the buckling factor: below it a limb is much softer than without load, and a controller flags its K
+
 
 def add_load(parser: OptionParser) -> None:
     """Declares --fx and --fz."""

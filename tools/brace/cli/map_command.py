@@ -204,9 +204,11 @@ def _load_text(load: dict[str, float]) -> str:
     factor = load["buckling_factor_least"]
     folded = f"; {load['folded_postures']:.0f} postures have no K: the load folds the limb"
     return (
-        f"under ({load['fx_n']:g}, {load['fz_n']:g}) N and the limb's weight: the tip moves by up to "
+        f"under the ground's force on the tip ({load['fx_n']:g}, {load['fz_n']:g}) N and the limb's weight: the tip "
+        "moves by up to "
         f"{load['displacement_most_mm']:.3g} mm, least buckling factor "
         + (f"{factor:.3g}" if math.isfinite(factor) else "above 11")
+        + (", where the load makes the limb much softer" if factor < k_load.SOFTENED else "")
         + (folded if load["folded_postures"] else "")
     )
 
@@ -232,9 +234,10 @@ def _text(summary: Summary, out: Path) -> str:
         found = summary["turning_points_r_mm"][which]
         return "turns at r = " + ", ".join(f"{r:.1f}" for r in found) + " mm" if found else "steadily with reach"
 
+    where = "where the tip stands under the load" if summary["path"] == "loaded" else summary["path"]
     return (
         f"{summary['model']}: {summary['postures']} postures, r = {summary['r_mm'][0]:.1f} to "
-        f"{summary['r_mm'][1]:.1f} mm ({summary['path']})\n"
+        f"{summary['r_mm'][1]:.1f} mm ({where})\n"
         f"lambda_min {summary['lambda_min_n_per_mm'][0]:.4g} to {summary['lambda_min_n_per_mm'][1]:.4g} N/mm; "
         f"{turns('lambda_min')}\n"
         f"lambda_max {summary['lambda_max_n_per_mm'][0]:.4g} to {summary['lambda_max_n_per_mm'][1]:.4g} N/mm; "

@@ -9,13 +9,11 @@ import time
 from typing import TYPE_CHECKING
 
 from brace.cli import common
-from brace.cli.bus_options import add_bus, bus_url, ended_by_signal
+from brace.cli.bus_options import Ended, add_bus, bus_url, ended_by_signal
 from brace.cli.monitor_display import Display, emergency_line, end
 from brace.cli.options import Subcommands
 
 if TYPE_CHECKING:
-    import threading
-
     from brace.bus.frame import Bus
     from brace.bus.watch import Watch
 
@@ -61,7 +59,7 @@ def run(arguments: argparse.Namespace) -> int:
     return end(arguments, watch)
 
 
-def follow(arguments: argparse.Namespace, bus: Bus, watch: Watch, ended: threading.Event) -> None:
+def follow(arguments: argparse.Namespace, bus: Bus, watch: Watch, ended: Ended) -> None:
     """Frames from the bus to the display; until the time, SIGTERM, or the end of a log."""
     from brace.bus.frame import EndOfLog
     from brace.bus.snapshot import Emergency

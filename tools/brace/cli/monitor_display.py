@@ -13,12 +13,26 @@ if TYPE_CHECKING:
     from rich.columns import Columns
     from rich.live import Live
 
+    from brace.bus.load import Load
     from brace.bus.snapshot import Emergency, Snapshot
     from brace.bus.watch import NodeState, Watch
 
 _REDRAW_S = 0.2
 _LINE_S = 1.0
+_LOAD_LATE_S = 2.0  # it may come more seldom than K
 _SPACE_LATE_S = 1.0  # K in space comes within milliseconds of K in the plane
+
+
+_FLAG_WORDS = {  # shorter than the dictionary's, for a panel
+    "UNCALIBRATED": "not this limb's parameters",
+    "NEAR_SINGULAR": "accuracy not promised here",
+    "SATURATED": "a value did not fit its frame",
+    "GAP_OPEN": "a joint's play may be open",
+    "STALE": "too old, or a mode without K",
+    "OUT_OF_RANGE": "posture outside the model's range",
+    "LOAD_UNKNOWN": "no load counted",
+    "SOFTENED": "the load makes it much softer",
+}
 
 
 def end(arguments: argparse.Namespace, watch: Watch) -> int:
@@ -59,7 +73,9 @@ def line_of(node: int, state: NodeState) -> str:
         parts.append(f"age {'over 127' if k.age_ms is None else format(k.age_ms, 'g')} ms")
         parts.append(f"{state.rate_hz:.0f} Hz")
         parts += k.flags
-    return " ".join([*parts, *(f"fault {name}" for name in fault_words(state))])
+    load = _load(state)
+    line = " ".join([*parts, *(f"fault {name}" for name in fault_words(state))])
+    return line if load is None else f"{line}; {', '.join(load.words())}"
 
 
 def shown(state: NodeState) -> Snapshot | None:
@@ -67,6 +83,14 @@ def shown(state: NodeState) -> Snapshot | None:
     space, newest = state.space, state.snapshot
     has_space = space is not None and newest is not None and newest.time_s - space.time_s < _SPACE_LATE_S
     return space if has_space else newest
+
+
+def _load(state: NodeState) -> Load | None:
+    """The newest load; None: none has come lately."""
+    told, newest = state.load, state.snapshot
+    if told is None or newest is None or newest.time_s - told.time_s > _LOAD_LATE_S:
+        return None
+    return told.load
 
 
 def fault_words(state: NodeState) -> list[str]:
@@ -173,6 +197,9 @@ def _lines(state: NodeState) -> list[str]:
     if posture is not None and None not in (posture.lambda_min, posture.lambda_max, posture.stiff_axis):
         lines.append(f"eigenvalues {posture.lambda_min:.4f}, {posture.lambda_max:.4f} N/mm")
         lines.append(f"stiff axis {posture.stiff_axis:.4f} rad")
+    load = _load(state)
+    if load is not None:
+        lines += load.words()
     if posture is not None and None not in (posture.theta1, posture.theta2):
         lines.append(f"theta1 {posture.theta1:.4f}, theta2 {posture.theta2:.4f} rad")
     if k is not None:
@@ -180,7 +207,7 @@ def _lines(state: NodeState) -> list[str]:
             f"age {'over 127' if k.age_ms is None else format(k.age_ms, 'g')} ms, {state.rate_hz:.0f} Hz"
         )
         lines.append(f"play {k.play[0]}, {k.play[1]}" if len(k.play) == 2 else "play not sent")
-        lines.append(f"flags {' '.join(k.flags) or 'none'}")
+        lines += [f"flag {name}: {_FLAG_WORDS.get(name, 'docs/errors.md')}" for name in k.flags] or ["flags none"]
     if beat is not None:
         lines.append(f"{beat.mode} ({beat.state}), faults {' '.join(fault_words(state)) or 'none'}")
     return lines

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import time
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from brace.cli import common
@@ -32,14 +33,14 @@ def monitor_modbus(arguments: argparse.Namespace, url: BusUrl) -> int:
     try:
         with ended_by_signal() as ended:
             while not ended.is_set() and time.monotonic() < until:
-                snapshot = device.live()
+                snapshot = replace(device.live(), load=device.load())
                 state.last_s = snapshot.time_s
                 watch.take(state, snapshot)
                 if arguments.json:
                     common.emit(json.dumps(common.json_ready(as_json(snapshot))))
                 _tell_drift(arguments, device, state, display)
                 display.show(watch)
-                ended.wait(_PERIOD_S)
+                time.sleep(_PERIOD_S)
     finally:
         display.close()
         device.close()

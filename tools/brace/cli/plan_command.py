@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from brace.cli import common
+from brace.cli.k_load import SOFTENED
 from brace.cli.options import Subcommands
 from brace.errors import BraceError, UsageError
 
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
     from brace.plan import Plan, Wish
 
 APART_RATIO = 0.05  # of the reach, between the tips of postures that are printed
-SOFTENED = 3.0  # below this buckling factor the command says that the load softens the limb
 _NEEDS = {"steady": ("payload", "a payload"), "light": ("friction", "the surface's friction"), "k": ("k", "a K")}
 
 
@@ -196,7 +196,7 @@ def _lines(number: int, p: Mapping[str, float | str], wish: Wish) -> list[str]:
         lines.append(f"   off the wanted K by {p['off_n_per_mm']:.3g} N/mm")
     factor = float(p["buckling_factor"])
     if factor < SOFTENED:
-        lines.append(f"   the load softens it: buckling factor {factor:.2g}")
+        lines.append(f"   the load makes it much softer: buckling factor {factor:.2g}")
     if wish.payload_n:
         lines.append(f"   {wish.payload_n:g} N let it sag by {p['sag_mm']:.3g} mm")
     if wish.friction_ratio is not None:

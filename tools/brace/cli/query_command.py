@@ -153,6 +153,7 @@ def _text(value: object) -> str:
 
 
 def _asked(arguments: argparse.Namespace, device: Controller) -> int:
+    from brace.bus.load import factor_words
     from brace.errors import EXIT_DEVICE_FAULT, EXIT_OK
 
     force = None if arguments.fx is None else (arguments.fx, arguments.fz)
@@ -190,8 +191,8 @@ def _asked(arguments: argparse.Namespace, device: Controller) -> int:
         common.emit(f"node {device.node} at {told}")
         _emit_k(k, valid)
         if force is not None and None not in (answer.moved_x, answer.moved_z):
-            factor = "none" if k["buckling_factor"] is None else format(k["buckling_factor"], ".2f")
-            common.emit(f"the tip moves {answer.moved_x:.3f} {answer.moved_z:.3f} mm, buckling factor {factor}")
+            common.emit(f"force and weight move the tip by {answer.moved_x:.3f} {answer.moved_z:.3f} mm")
+            common.emit(f"buckling factor {factor_words(answer.buckling_factor)}")
     if not valid:
         _say_invalid(
             device, "K there is not known", ", ".join(answer.flags) or "the controller does not say why"
@@ -256,7 +257,8 @@ def _live(arguments: argparse.Namespace, device: Controller) -> int:
         "parameters": identity.origin,
         "parameter_crc": f"{identity.parameter_crc:08x}",
     }
-    load, drift, take_ups = device.load(), device.drift(), device.take_ups()
+    load = snapshot.load if snapshot.load is not None else device.load()
+    drift, take_ups = device.drift(), device.take_ups()
     if arguments.json:
         common.print_json(entry | {"load": load.as_json(), "drift": drift.as_json(), "take_up": take_ups})
     else:
@@ -266,7 +268,7 @@ def _live(arguments: argparse.Namespace, device: Controller) -> int:
         _emit_k(entry, snapshot.is_valid)
         if snapshot.has_posture and None not in (snapshot.theta1, snapshot.theta2):
             common.emit(f"theta1 {snapshot.theta1:.5f} rad, theta2 {snapshot.theta2:.5f} rad")
-        for line in load.lines():
+        for line in load.lines((snapshot.k_xx, snapshot.k_xz, snapshot.k_zz)):
             common.emit(line)
         age = "over 127 ms" if snapshot.age_ms is None else f"{snapshot.age_ms:g} ms"
         common.emit(f"age {age}; play femur {snapshot.play[0]}, tibia " f"{snapshot.play[1]}")
@@ -288,6 +290,7 @@ def _live(arguments: argparse.Namespace, device: Controller) -> int:
 def _emit_k(entry: Mapping[str, object], valid: bool) -> None:
     if not valid:
         common.emit("K not valid")
+        _emit_flags(entry)
         return
     common.emit(
         "K = [{k_xx_n_per_mm:.4f} {k_xz_n_per_mm:.4f}; {k_xz_n_per_mm:.4f} {k_zz_n_per_mm:.4f}] N/mm".format_map(entry)
@@ -301,9 +304,15 @@ def _emit_k(entry: Mapping[str, object], valid: bool) -> None:
             "eigenvalues {lambda_min_n_per_mm:.4f} and {lambda_max_n_per_mm:.4f} N/mm, "
             "stiff axis {stiff_axis_rad:.4f} rad".format_map(entry)
         )
+    _emit_flags(entry)
+
+
+def _emit_flags(entry: Mapping[str, object]) -> None:
+    from brace.wire.codes import FLAG
+
     flags = entry["flag_names"]
-    if isinstance(flags, list) and flags:
-        common.emit(f"flags {' '.join(flags)}")
+    for line in FLAG.texts_of(flags if isinstance(flags, list) else []):
+        common.emit(f"flag {line}")
 
 
 def _say_invalid(device: Controller, what: str, why: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import time
 from typing import TYPE_CHECKING
 
@@ -83,15 +84,18 @@ def _record(arguments: argparse.Namespace) -> int:
     url = bus_url(arguments, "record")
     recording = Recording(arguments.out, url.place if url.kind == "can" else "can0")
     watch = Watch(url.text, any_dictionary=True)  # frames are kept as they are
-    code = EXIT_OK
     bus = open_bus(url, arguments.bit_rate)
     try:
-        with ended_by_signal() as ended, common.progress(f"recording {arguments.out}") as advance:
-            started = time.monotonic()
-            until = started + arguments.seconds if arguments.seconds is not None else float("inf")
-            try:
+        # Until the log is in its place no signal raises anything: it would cut a frame that is being written.
+        with ended_by_signal(signal.SIGTERM, signal.SIGINT) as ended:
+            with common.progress(f"recording {arguments.out}") as advance:
+                started = time.monotonic()
+                until = started + arguments.seconds if arguments.seconds is not None else float("inf")
                 while not ended.is_set() and (now := time.monotonic()) < until:
-                    frame = bus.receive(min(_POLL_S, until - now))
+                    try:
+                        frame = bus.receive(min(_POLL_S, until - now))
+                    except EndOfLog:
+                        break
                     if frame is None:
                         if not recording.frames and now - started > _SILENCE_S:
                             why, way = bus.silence()
@@ -101,11 +105,8 @@ def _record(arguments: argparse.Namespace) -> int:
                         recording.add(frame)
                         watch.add(frame)
                         advance(recording.frames)
-            except EndOfLog:
-                pass
-            except KeyboardInterrupt:
-                code = EXIT_INTERRUPTED
-        recording.finish()
+            recording.finish()
+            _say_end(arguments, recording, watch)
     except BraceError as error:
         recording.leave()
         if recording.frames:
@@ -113,8 +114,7 @@ def _record(arguments: argparse.Namespace) -> int:
         raise
     finally:
         bus.close()
-    _say_end(arguments, recording, watch)
-    return code
+    return EXIT_INTERRUPTED if ended.by == signal.SIGINT else EXIT_OK
 
 
 def _say_end(arguments: argparse.Namespace, recording: Recording, watch: Watch) -> None:

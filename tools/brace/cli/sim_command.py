@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import argparse
-import contextlib
 import json
 import math
 import re
-import signal
 import sys
-import threading
-from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from brace.cli import common, sim_values
+from brace.cli.bus_options import Ended, ended_by_signal
 from brace.cli.options import Subcommands
 from brace.errors import EXIT_INTERRUPTED, EXIT_OK, UsageError
 from brace.sim import spec
@@ -143,7 +140,7 @@ def run(arguments: argparse.Namespace) -> int:
         for posture in arguments.posture[1:]:
             node.add_posture(posture)
         code = EXIT_OK
-        with _ended_by_signal() as ended:  # from before anyone can know that we run
+        with ended_by_signal() as ended:  # from before anyone can know that we run
             try:
                 _say_ready(arguments, node)
                 (_run_fast if arguments.fast else _run_in_real_time)(arguments, node, ended)
@@ -273,18 +270,7 @@ def _give_modbus(setup: LimbSetup, url: str, limb: int) -> None:
 # ----------------------------------------------------------------------------------------------- running
 
 
-@contextlib.contextmanager
-def _ended_by_signal() -> Iterator[threading.Event]:
-    """An event that SIGTERM sets: an orderly end."""
-    ended = threading.Event()
-    before = signal.signal(signal.SIGTERM, lambda _number, _frame: ended.set())
-    try:
-        yield ended
-    finally:
-        signal.signal(signal.SIGTERM, before)
-
-
-def _run_fast(arguments: argparse.Namespace, node: Node, ended: threading.Event) -> None:
+def _run_fast(arguments: argparse.Namespace, node: Node, ended: Ended) -> None:
     with common.progress("simulating", int(arguments.seconds)) as advance:
         done = 0.0
         while done < arguments.seconds and not ended.is_set():
@@ -294,7 +280,7 @@ def _run_fast(arguments: argparse.Namespace, node: Node, ended: threading.Event)
             advance(int(done))
 
 
-def _run_in_real_time(arguments: argparse.Namespace, node: Node, ended: threading.Event) -> None:
+def _run_in_real_time(arguments: argparse.Namespace, node: Node, ended: Ended) -> None:
     from brace.sim.status import LiveLine
 
     line = LiveLine()

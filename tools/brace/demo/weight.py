@@ -21,6 +21,7 @@ class Hung:
     """K [N/mm] is k_xx, k_xz, k_zz. `sag_mm`: how far the weight moves the tip; `told` is the controller's."""
 
     weight_n: float
+    carried_n: float  # what of it the string, which has slackened as the limb gave way, still puts on the tip
     told: np.ndarray
     truth: np.ndarray
     unloaded: np.ndarray
@@ -52,6 +53,7 @@ def hang(model: LimbModel, weight_n: float) -> Hung:
     k = own.k_n_per_mm[0]
     return Hung(
         weight_n,
+        float(np.linalg.norm(force_n)),
         _entries(told.stiffness.engaged),
         np.array([k[0, 0], k[0, 1], k[1, 1]]),
         _entries(told.load.unloaded),

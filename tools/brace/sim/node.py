@@ -80,6 +80,7 @@ class LimbState(TypedDict):
     lambda_max_n_per_mm: float | None
     stiff_axis_rad: float | None
     flag_names: list[str]
+    load: dict[str, object]  # that K counts
     theta1_rad: float
     theta2_rad: float
     play: list[str]
@@ -322,6 +323,7 @@ class Node:
             "lambda_max_n_per_mm": k.lambda_max_n_per_mm if valid else None,
             "stiff_axis_rad": k.stiff_axis_rad if valid else None,
             "flag_names": flag_names(k.flags),
+            "load": _load_of(s),
             "theta1_rad": s.theta_rad[1],
             "theta2_rad": s.theta_rad[2],
             "play": [PLAY_STATES[s.play[joint].state] for joint in (1, 2)],
@@ -354,6 +356,23 @@ class Node:
         stats = self.native.ffi.new("brace_node_stats_t *")
         self.native.lib.brace_node_stats(self._node, stats)
         return {name: int(getattr(stats, name)) for name, _ in self.native.ffi.typeof(stats[0]).fields}
+
+
+def _load_of(s: CData) -> dict[str, object]:
+    """The load that K counts, named as `brace query` names it; None: not known, or no buckling factor."""
+    load, k = s.load, s.load.unloaded
+    told = {
+        "force_x_n": load.force_x_n,
+        "force_z_n": load.force_z_n,
+        "moved_x_mm": load.moved_x_mm,
+        "moved_z_mm": load.moved_z_mm,
+        "buckling_factor": load.buckling_factor,
+        "gravity_direction_rad": s.gravity_direction_rad,
+        "gravity_lean_rad": s.gravity_lean_rad,
+        **{f"unloaded_{name}": getattr(k, name) for name in ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm")},
+    }
+    known = {name: value if math.isfinite(value) else None for name, value in told.items()}
+    return {"is_counted": bool(load.is_counted), **known}
 
 
 def _space_of(s: CData) -> dict[str, object]:

@@ -22,8 +22,20 @@ def line_of(state: LimbState) -> str:
     space = state.get("space")
     if space is not None:
         k += f", {_in_space(space)}"
+    k += f", {_load_words(state['load'])}"
     notes = [*state["flag_names"], *(f"fault {name}" for name in state["faults"])]
     return f"limb {state['limb']}: {state['mode']}, {k}" + (f" ({', '.join(notes)})" if notes else "")
+
+
+def _load_words(load: Mapping[str, object]) -> str:
+    if not load["is_counted"]:
+        return "no load counted"
+    factor = load["buckling_factor"]
+    told = "none" if factor is None else f"{factor:.2f}"
+    return (
+        "load {force_x_n:.2f} {force_z_n:.2f} N, moved {moved_x_mm:.2f} {moved_z_mm:.2f} mm, buckling factor {told}, "
+        "K without load {unloaded_k_xx_n_per_mm:.3f} {unloaded_k_xz_n_per_mm:.3f} {unloaded_k_zz_n_per_mm:.3f} N/mm"
+    ).format_map({**load, "told": told})
 
 
 def _in_space(space: Mapping[str, object]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 
@@ -35,6 +36,11 @@ class CodeTable:
         """The names of the bits that are set; a bit without a name is told by its place."""
         named = {code.number: code.name for code in self.codes}
         return tuple(named.get(place, f"BIT_{place}") for place in range(bits.bit_length()) if bits >> place & 1)
+
+    def texts_of(self, names: Iterable[str]) -> list[str]:
+        """What each name means: "NAME: a sentence"."""
+        said = {code.name: code.text for code in self.codes}
+        return [f"{name}: {said.get(name, 'not in this version of brace')}" for name in names]
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "brace/can_messages.h"
+#include "brace/status.h"
 
 brace_client_status_t brace_client_fail(brace_client_t *client, brace_client_status_t status, const char *format, ...)
 {
@@ -103,11 +104,16 @@ brace_client_status_t brace_client_read(brace_client_t *client, uint32_t wanted,
 {
     if (wanted == 0u || wanted > PARTS_MOST) {
         return brace_client_fail(client, BRACE_CLIENT_E_USAGE,
-                                 "parts 0x%x: want BRACE_PART_K or more of BRACE_PART_ALL and BRACE_PART_SPACE",
+                                 "parts 0x%x: want BRACE_PART_K or more of BRACE_PART_ALL, _SPACE and _LOAD",
                                  (unsigned)wanted);
     }
     return client->bus != NULL ? brace_can_read(client, wanted, deadline_after(timeout_ms), snapshot)
                                : brace_modbus_read(client, wanted, deadline_after(timeout_ms), snapshot);
+}
+
+static brace_client_status_t out_of_range(brace_client_t *client)
+{
+    return brace_client_fail(client, BRACE_CLIENT_E_USAGE, "a value lies outside its range; client.h states them");
 }
 
 /* Asks a question that only CAN's frames carry; refuses it over Modbus. limited: how many values did not fit. */
@@ -115,7 +121,7 @@ static brace_client_status_t ask(brace_client_t *client, brace_question_t *quest
                                  int timeout_ms)
 {
     if (limited != 0u) {
-        return brace_client_fail(client, BRACE_CLIENT_E_USAGE, "a value lies outside its range; client.h states them");
+        return out_of_range(client);
     }
     if (client->bus == NULL) {
         return brace_client_fail(client, BRACE_CLIENT_E_UNSUPPORTED,
@@ -155,6 +161,34 @@ static void take_k(const brace_question_t *question, brace_client_k_t *k)
                             .flags = third.flags};
 }
 
+static uint32_t bits_of(float value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+/* Place of a command, from its member. */
+#define PLACE_OF(member) ((uint32_t)(offsetof(brace_commands_t, member) / 4u))
+
+static brace_client_status_t ask_modbus_for_k(brace_client_t *client, uint32_t first, const uint32_t *values,
+                                              uint32_t count, int timeout_ms, brace_client_k_t *k)
+{
+    brace_answered_t a;
+    const brace_client_status_t status =
+        brace_modbus_ask(client, first, values, count, deadline_after(timeout_ms), &a);
+    if (status == BRACE_CLIENT_OK) {
+        *k = (brace_client_k_t){.k_xx_n_per_mm = a.asked_k_xx_n_per_mm,
+                                .k_xz_n_per_mm = a.asked_k_xz_n_per_mm,
+                                .k_zz_n_per_mm = a.asked_k_zz_n_per_mm,
+                                .lambda_min_n_per_mm = a.asked_lambda_min_n_per_mm,
+                                .lambda_max_n_per_mm = a.asked_lambda_max_n_per_mm,
+                                .stiff_axis_rad = a.asked_stiff_axis_rad,
+                                .flags = a.asked_flags};
+    }
+    return status;
+}
+
 brace_client_status_t brace_client_k_at_posture(brace_client_t *client, float theta1_rad, float theta2_rad,
                                                 int timeout_ms, brace_client_k_t *k)
 {
@@ -163,7 +197,8 @@ brace_client_status_t brace_client_k_at_posture(brace_client_t *client, float th
     const uint32_t limited = brace_can_pack_k_at_posture_request(&request, question.data) + !is_number(theta1_rad) +
                              !is_number(theta2_rad);
     if (client->bus == NULL && limited == 0u) {
-        return brace_modbus_k_at_posture(client, theta1_rad, theta2_rad, deadline_after(timeout_ms), k);
+        const uint32_t values[] = {bits_of(theta1_rad), bits_of(theta2_rad)};
+        return ask_modbus_for_k(client, PLACE_OF(asked_theta1_rad), values, 2u, timeout_ms, k);
     }
     const brace_client_status_t status = ask(client, &question, BRACE_REQUEST_K_AT_POSTURE, limited, timeout_ms);
     if (status == BRACE_CLIENT_OK) {
@@ -264,12 +299,157 @@ brace_client_status_t brace_client_k_at_tip(brace_client_t *client, float x_mm, 
                                       : brace_can_pack_k_at_tip_knee_down_request(&down, question.data)) +
                              !is_number(x_mm) + !is_number(z_mm);
     const uint32_t code = knee_up ? BRACE_REQUEST_K_AT_TIP_KNEE_UP : BRACE_REQUEST_K_AT_TIP_KNEE_DOWN;
+    if (client->bus == NULL && limited == 0u) {
+        const uint32_t values[] = {bits_of(x_mm), bits_of(z_mm), knee_up ? 0u : 1u};
+        return ask_modbus_for_k(client, PLACE_OF(asked_tip_x_mm), values, 3u, timeout_ms, k);
+    }
     const brace_client_status_t status = ask(client, &question, code, limited, timeout_ms);
     if (status == BRACE_CLIENT_OK) {
         take_k(&question, k); /* the three answers have the same layout */
     }
     return status;
 }
+
+/* ------------------------------------------------------------------------------------------ under a load -- */
+
+static void take_loaded_k(const brace_question_t *question, brace_client_loaded_k_t *k)
+{
+    brace_can_k_under_load_at_posture_answer_3_t moved;
+    brace_can_k_under_load_at_posture_answer_4_t last;
+    take_k(question, &k->k); /* parts 0 to 2 are those of K without a force, but for the flags */
+    brace_can_unpack_k_under_load_at_posture_answer_3(question->answers[3], &moved);
+    brace_can_unpack_k_under_load_at_posture_answer_4(question->answers[4], &last);
+    k->k.flags = last.flags;
+    k->moved_x_mm = moved.dx_mm;
+    k->moved_z_mm = moved.dz_mm;
+    k->buckling_factor = last.buckling_factor;
+}
+
+/* Asks for K at a place under a force. The question and the Modbus values hold the place; the first two values
+ * are left for the force. */
+static brace_client_status_t ask_under_force(brace_client_t *client, brace_question_t *question, uint32_t limited,
+                                             uint32_t first, uint32_t *values, uint32_t count, float fx_n, float fz_n,
+                                             int timeout_ms, brace_client_loaded_k_t *k)
+{
+    const brace_can_tip_force_request_t force = {.fx_n = fx_n, .fz_n = fz_n};
+    brace_question_t told = {.code = BRACE_REQUEST_TIP_FORCE};
+    if (limited + brace_can_pack_tip_force_request(&force, told.data) + !is_number(fx_n) + !is_number(fz_n) != 0u) {
+        return out_of_range(client);
+    }
+    if (client->bus != NULL) {
+        const brace_client_status_t status =
+            brace_can_ask_under_force(client, &told, question, deadline_after(timeout_ms));
+        if (status == BRACE_CLIENT_OK) {
+            take_loaded_k(question, k);
+        }
+        return status;
+    }
+    brace_answered_t a;
+    values[0] = bits_of(fx_n);
+    values[1] = bits_of(fz_n);
+    const brace_client_status_t status =
+        brace_modbus_ask(client, first, values, count, deadline_after(timeout_ms), &a);
+    if (status == BRACE_CLIENT_OK && !is_number(a.asked_loaded_k_xx_n_per_mm)) { /* over CAN this is a refusal */
+        client->refusal = BRACE_E_SINGULAR;
+        return brace_client_fail(client, BRACE_CLIENT_E_REFUSED, "%s: unit %u has no K there: " BRACE_CLIENT_FOLDS,
+                                 client->url, (unsigned)client->unit);
+    }
+    if (status == BRACE_CLIENT_OK) {
+        *k = (brace_client_loaded_k_t){.k = {.k_xx_n_per_mm = a.asked_loaded_k_xx_n_per_mm,
+                                             .k_xz_n_per_mm = a.asked_loaded_k_xz_n_per_mm,
+                                             .k_zz_n_per_mm = a.asked_loaded_k_zz_n_per_mm,
+                                             .lambda_min_n_per_mm = a.asked_loaded_lambda_min_n_per_mm,
+                                             .lambda_max_n_per_mm = a.asked_loaded_lambda_max_n_per_mm,
+                                             .stiff_axis_rad = a.asked_loaded_stiff_axis_rad,
+                                             .flags = a.asked_loaded_flags},
+                                       .moved_x_mm = a.asked_moved_x_mm,
+                                       .moved_z_mm = a.asked_moved_z_mm,
+                                       .buckling_factor = a.asked_buckling_factor};
+    }
+    return status;
+}
+
+brace_client_status_t brace_client_k_under_load_at_posture(brace_client_t *client, float theta1_rad, float theta2_rad,
+                                                           float fx_n, float fz_n, int timeout_ms,
+                                                           brace_client_loaded_k_t *k)
+{
+    const brace_can_k_under_load_at_posture_request_t request = {.theta1_rad = theta1_rad, .theta2_rad = theta2_rad};
+    uint32_t values[4] = {0u, 0u, bits_of(theta1_rad), bits_of(theta2_rad)};
+    brace_question_t question = {.code = BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE};
+    const uint32_t limited = brace_can_pack_k_under_load_at_posture_request(&request, question.data) +
+                             !is_number(theta1_rad) + !is_number(theta2_rad);
+    return ask_under_force(client, &question, limited, PLACE_OF(asked_posture_force_x_n), values, 4u, fx_n, fz_n,
+                           timeout_ms, k);
+}
+
+brace_client_status_t brace_client_k_under_load_at_tip(brace_client_t *client, float x_mm, float z_mm, bool knee_up,
+                                                       float fx_n, float fz_n, int timeout_ms,
+                                                       brace_client_loaded_k_t *k)
+{
+    const brace_can_k_under_load_at_tip_knee_up_request_t up = {.x_mm = x_mm, .z_mm = z_mm};
+    const brace_can_k_under_load_at_tip_knee_down_request_t down = {.x_mm = x_mm, .z_mm = z_mm};
+    uint32_t values[5] = {0u, 0u, bits_of(x_mm), bits_of(z_mm), knee_up ? 0u : 1u};
+    brace_question_t question = {.code = knee_up ? BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP
+                                                 : BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN};
+    const uint32_t limited = (knee_up ? brace_can_pack_k_under_load_at_tip_knee_up_request(&up, question.data)
+                                      : brace_can_pack_k_under_load_at_tip_knee_down_request(&down, question.data)) +
+                             !is_number(x_mm) + !is_number(z_mm);
+    return ask_under_force(client, &question, limited, PLACE_OF(asked_tip_force_x_n), values, 5u, fx_n, fz_n,
+                           timeout_ms, k);
+}
+
+brace_client_status_t brace_client_load(brace_client_t *client, int timeout_ms, brace_client_load_t *load)
+{
+    const uint64_t deadline_us = deadline_after(timeout_ms);
+    if (client->bus == NULL) {
+        return brace_modbus_load(client, deadline_us, load);
+    }
+    brace_client_load_t taken = {0};
+    const struct {
+        uint32_t index;
+        float *value;
+    } entries[] = {{BRACE_CLIENT_ENTRY(counted_force_x_n), &taken.force_x_n},
+                   {BRACE_CLIENT_ENTRY(counted_force_z_n), &taken.force_z_n},
+                   {BRACE_CLIENT_ENTRY(unloaded_k_xx_n_per_mm), &taken.unloaded_k_xx_n_per_mm},
+                   {BRACE_CLIENT_ENTRY(unloaded_k_xz_n_per_mm), &taken.unloaded_k_xz_n_per_mm},
+                   {BRACE_CLIENT_ENTRY(unloaded_k_zz_n_per_mm), &taken.unloaded_k_zz_n_per_mm},
+                   {BRACE_CLIENT_ENTRY(moved_x_mm), &taken.moved_x_mm},
+                   {BRACE_CLIENT_ENTRY(moved_z_mm), &taken.moved_z_mm},
+                   {BRACE_CLIENT_ENTRY(buckling_factor), &taken.buckling_factor},
+                   {BRACE_CLIENT_ENTRY(gravity_direction_rad), &taken.gravity_direction_rad},
+                   {BRACE_CLIENT_ENTRY(gravity_lean_rad), &taken.gravity_lean_rad}};
+    for (size_t i = 0u; i < sizeof entries / sizeof entries[0]; i++) {
+        const brace_client_status_t status = brace_client_entry_f32(
+            client, entries[i].index, brace_bus_left_ms(deadline_us), entries[i].value);
+        if (status != BRACE_CLIENT_OK) {
+            return status;
+        }
+    }
+    taken.is_counted = is_number(taken.force_x_n) && is_number(taken.force_z_n);
+    *load = taken;
+    return BRACE_CLIENT_OK;
+}
+
+brace_client_status_t brace_client_set_gravity(brace_client_t *client, float direction_rad, float lean_rad,
+                                               int timeout_ms)
+{
+    const brace_can_set_gravity_request_t request = {.direction_rad = direction_rad, .lean_rad = lean_rad};
+    const bool as_parameters_say = direction_rad != direction_rad && lean_rad != lean_rad;
+    brace_question_t question = {.code = BRACE_REQUEST_SET_GRAVITY};
+    const uint32_t limited = brace_can_pack_set_gravity_request(&request, question.data);
+    if (!as_parameters_say && (limited != 0u || !is_number(direction_rad) || !is_number(lean_rad))) {
+        return out_of_range(client);
+    }
+    if (client->bus == NULL) {
+        const uint32_t values[] = {bits_of(direction_rad), bits_of(lean_rad)};
+        brace_answered_t answered;
+        return brace_modbus_ask(client, PLACE_OF(asked_gravity_direction_rad), values, 2u, deadline_after(timeout_ms),
+                                &answered);
+    }
+    return brace_can_ask(client, &question, deadline_after(timeout_ms));
+}
+
+/* --------------------------------------------------------------------------------- at the contact, as of now -- */
 
 brace_client_status_t brace_client_contact_force(brace_client_t *client, float dx_mm, float dz_mm, int timeout_ms,
                                                  brace_client_force_t *force)

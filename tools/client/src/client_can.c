@@ -9,7 +9,7 @@
 #include "brace/refusals.h"
 #include "brace/status_text.h"
 
-enum { STATUS_MS = 250, FIRST_TRY_MS = 250, AGAIN_MS = 1000, OLD_US = 100000 };
+enum { STATUS_MS = 250, FIRST_TRY_MS = 250, AGAIN_MS = 1000, OLD_US = 100000, APART_US = 32000 };
 
 /* Handles one frame. A client does not receive its own requests, so a request like ours is another client's. */
 typedef struct {
@@ -42,7 +42,7 @@ static bool is_from_controller(uint32_t base)
     static const uint32_t bases[] = {BRACE_CAN_ID_EMERGENCY,   BRACE_CAN_ID_STIFFNESS_A, BRACE_CAN_ID_STIFFNESS_B,
                                      BRACE_CAN_ID_EIGENVALUES, BRACE_CAN_ID_POSTURE,     BRACE_CAN_ID_HEARTBEAT,
                                      BRACE_CAN_ID_ANSWER,      BRACE_CAN_ID_SNAPSHOT_FD, BRACE_CAN_ID_SPACE,
-                                     BRACE_CAN_ID_SPACE_FD};
+                                     BRACE_CAN_ID_SPACE_FD,    BRACE_CAN_ID_LOAD,        BRACE_CAN_ID_LOAD_FD};
     for (size_t i = 0u; i < sizeof bases / sizeof bases[0]; i++) {
         if (base == bases[i]) {
             return true;
@@ -51,13 +51,21 @@ static bool is_from_controller(uint32_t base)
     return false;
 }
 
+/* A controller counts the force that was told last, whoever told it, and once. */
+static bool is_about_force(uint32_t code)
+{
+    return code == BRACE_REQUEST_TIP_FORCE || code == BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE ||
+           code == BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP || code == BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN;
+}
+
 static void hear(brace_client_t *client, const brace_bus_frame_t *frame, waiting_t *waiting)
 {
     const uint32_t node = frame->id & 0x7fu, base = frame->id & ~0x7fu;
     if (node != 0u && is_from_controller(base)) {
         client->heard[node >> 5] |= 1u << (node & 31u);
     }
-    const bool is_long = base == BRACE_CAN_ID_SNAPSHOT_FD || base == BRACE_CAN_ID_SPACE_FD;
+    const bool is_long =
+        base == BRACE_CAN_ID_SNAPSHOT_FD || base == BRACE_CAN_ID_SPACE_FD || base == BRACE_CAN_ID_LOAD_FD;
     if (node != client->node || node == 0u || (frame->length != 8u && !is_long)) {
         return;
     }
@@ -70,8 +78,11 @@ static void hear(brace_client_t *client, const brace_bus_frame_t *frame, waiting
         client->other_hash = heartbeat.dictionary_hash;
     } else if (base == BRACE_CAN_ID_ANSWER && waiting != NULL) {
         take_answer(frame, waiting);
-    } else if (base == BRACE_CAN_ID_REQUEST && waiting != NULL) {
-        waiting->is_taken |= (frame->data[0] & 31u) == waiting->code && frame->data[1] == waiting->token;
+    } else if (base == BRACE_CAN_ID_REQUEST) {
+        client->force_is_taken |= is_about_force(frame->data[0] & 31u);
+        if (waiting != NULL) {
+            waiting->is_taken |= (frame->data[0] & 31u) == waiting->code && frame->data[1] == waiting->token;
+        }
     } else {
         const brace_client_snapshot_t *s = brace_joiner_add(&client->joiner, node, frame, brace_bus_lost(client->bus));
         if (s != NULL) {
@@ -204,6 +215,9 @@ static const char *reason(uint32_t code, const brace_can_refusal_t *refusal)
     if (code == BRACE_REQUEST_FRICTION_MARGIN && refusal->status == BRACE_E_NOT_FINITE) {
         return "the force on the tip is not known now";
     }
+    if (is_about_force(code) && refusal->status == BRACE_E_SINGULAR) {
+        return BRACE_CLIENT_FOLDS;
+    }
     switch (refusal->status) {
     case BRACE_REFUSED_UNKNOWN: return "it knows no such question; flash the firmware of this library's version";
     case BRACE_REFUSED_BUSY: return "it is storing a set or judging a loading test; ask again";
@@ -269,6 +283,48 @@ brace_client_status_t brace_can_ask(brace_client_t *client, brace_question_t *qu
 {
     begin(client, deadline_us);
     return ask(client, question, deadline_us);
+}
+
+/* Listens for some time, which is another one in each client: two that disturb each other must not do so in step. */
+static brace_client_status_t pause_apart(brace_client_t *client, uint64_t deadline_us)
+{
+    const uint64_t now_us = brace_bus_now_us(), end_us = now_us + (now_us ^ (uint64_t)getpid()) % APART_US;
+    const uint64_t until_us = end_us < deadline_us ? end_us : deadline_us;
+    while (brace_bus_left_ms(until_us) > 0) {
+        const brace_client_status_t status = listen(client, brace_bus_left_ms(until_us), NULL);
+        if (status != BRACE_CLIENT_OK && status != BRACE_CLIENT_E_TIMEOUT) {
+            return status;
+        }
+    }
+    return BRACE_CLIENT_OK;
+}
+
+brace_client_status_t brace_can_ask_under_force(brace_client_t *client, brace_question_t *force,
+                                                brace_question_t *question, uint64_t deadline_us)
+{
+    begin(client, deadline_us);
+    for (;;) {
+        client->force_is_taken = false;
+        brace_client_status_t status = ask(client, force, deadline_us);
+        if (status == BRACE_CLIENT_OK) {
+            status = ask(client, question, deadline_us);
+        }
+        /* The force is used up when an answer was lost, too, and the question repeated. */
+        const bool is_told = status == BRACE_CLIENT_OK || status == BRACE_CLIENT_E_REFUSED;
+        const bool is_used_up = status == BRACE_CLIENT_E_REFUSED && client->refusal == BRACE_REFUSED_ORDER;
+        if (!is_told || (!is_used_up && !client->force_is_taken)) {
+            return status;
+        }
+        status = pause_apart(client, deadline_us);
+        if (status != BRACE_CLIENT_OK) {
+            return status;
+        }
+        if (brace_bus_left_ms(deadline_us) == 0) {
+            return brace_client_fail(client, BRACE_CLIENT_E_TIMEOUT,
+                                     "%s: other clients asked for K under other forces all the time; try a longer "
+                                     "time-out", client->url);
+        }
+    }
 }
 
 static brace_client_status_t find_first(brace_client_t *client, uint64_t deadline_us)
@@ -353,6 +409,15 @@ static bool newest(brace_client_t *client, uint32_t wanted, uint64_t since_us, b
     return true;
 }
 
+/* What a controller may not send, and why. */
+static const char *part_in_words(uint32_t wanted)
+{
+    return (wanted & BRACE_PART_LOAD) != 0u ? "the load (it is sent where controller.load_hz is not 0)"
+           : (wanted & BRACE_PART_SPACE) != 0u
+               ? "K in space (only a limb with a coxa joint sends it)"
+               : "the wanted part of a snapshot (controller.stiffness_hz, posture_hz)";
+}
+
 brace_client_status_t brace_can_read(brace_client_t *client, uint32_t wanted, uint64_t deadline_us,
                                      brace_client_snapshot_t *snapshot)
 {
@@ -374,9 +439,7 @@ brace_client_status_t brace_can_read(brace_client_t *client, uint32_t wanted, ui
             return BRACE_CLIENT_OK;
         }
         if (left_ms == 0) {
-            return explain_silence(client, (wanted & BRACE_PART_SPACE) != 0u
-                                               ? "K in space (only a limb with a coxa joint sends it)"
-                                               : "the wanted part of a snapshot (controller.stiffness_hz, posture_hz)");
+            return explain_silence(client, part_in_words(wanted));
         }
         wait_ms = left_ms;
     }

@@ -6,7 +6,7 @@
 #include "bus_internal.h"
 #include "joiner.h"
 
-enum { PARTS_MOST = BRACE_PART_ALL | BRACE_PART_SPACE, ANSWER_PARTS_MOST = 7 };
+enum { PARTS_MOST = BRACE_PART_ALL | BRACE_PART_SPACE | BRACE_PART_LOAD, ANSWER_PARTS_MOST = 7 };
 
 struct brace_client {
     char why[BRACE_CLIENT_WHY_ROOM];
@@ -26,6 +26,7 @@ struct brace_client {
     bool speaks_another;                                /* our node's heartbeat has another dictionary */
     uint32_t other_hash;
     uint8_t token;
+    bool force_is_taken; /* another client has asked for K under a force: the controller may have counted its force */
 
     void *modbus; /* modbus_t; null over CAN */
     uint32_t unit;
@@ -38,6 +39,10 @@ typedef struct {
     uint8_t answers[ANSWER_PARTS_MOST][8];
 } brace_question_t;
 
+/* Why there is no K under a force, in words. */
+#define BRACE_CLIENT_FOLDS \
+    "no stable equilibrium is near: the force folds the limb there; ask for a smaller force or another place"
+
 /* Writes why and returns status, to end a function with. */
 brace_client_status_t brace_client_fail(brace_client_t *client, brace_client_status_t status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
@@ -48,6 +53,10 @@ brace_client_status_t brace_can_read(brace_client_t *client, uint32_t wanted, ui
                                      brace_client_snapshot_t *snapshot);
 /* Sends question->data, with a new token for each try, until every part of the answer has come. */
 brace_client_status_t brace_can_ask(brace_client_t *client, brace_question_t *question, uint64_t deadline_us);
+/* The same for a question about K under a force: sends the force first, and both again when another client comes
+ * between them. */
+brace_client_status_t brace_can_ask_under_force(brace_client_t *client, brace_question_t *force,
+                                                brace_question_t *question, uint64_t deadline_us);
 
 bool brace_modbus_is_url(const char *url);
 brace_client_status_t brace_modbus_open(brace_client_t *client, uint64_t deadline_us);
@@ -55,8 +64,10 @@ void brace_modbus_close(brace_client_t *client);
 brace_client_status_t brace_modbus_read(brace_client_t *client, uint32_t wanted, uint64_t deadline_us,
                                         brace_client_snapshot_t *snapshot);
 brace_client_status_t brace_modbus_drift(brace_client_t *client, uint64_t deadline_us, brace_client_drift_t *drift);
-brace_client_status_t brace_modbus_k_at_posture(brace_client_t *client, float theta1_rad, float theta2_rad,
-                                                uint64_t deadline_us, brace_client_k_t *k);
+/* A question of some commands that follow one another, each a float's or a whole number's bits, and all answers. */
+brace_client_status_t brace_modbus_ask(brace_client_t *client, uint32_t first, const uint32_t *values, uint32_t count,
+                                       uint64_t deadline_us, brace_answered_t *answered);
+brace_client_status_t brace_modbus_load(brace_client_t *client, uint64_t deadline_us, brace_client_load_t *load);
 brace_client_status_t brace_modbus_entry(brace_client_t *client, uint32_t index, uint64_t deadline_us, uint32_t *value);
 
 #endif

@@ -23,7 +23,7 @@ bool brace_modbus_is_url(const char *url)
 #include "brace/codes.h"
 
 enum { TRY_MS = 800, LATE_US = 250000, REST_US = 10000, BETWEEN_BYTES_US = 200000 };
-enum { REGISTERS_AT_ONCE = 125, APART_MS = 32 };
+enum { REGISTERS_AT_ONCE = 125, APART_MS = 32, ASKED_MOST = 5 };
 
 /* High word first. libmodbus 3.1.6 swaps bytes in its own float setters on this kind of host. */
 static uint32_t join(const uint16_t words[2])
@@ -31,12 +31,10 @@ static uint32_t join(const uint16_t words[2])
     return (uint32_t)words[0] << 16 | words[1];
 }
 
-static void split(float value, uint16_t words[2])
+static void split(uint32_t value, uint16_t words[2])
 {
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    words[0] = (uint16_t)(bits >> 16);
-    words[1] = (uint16_t)bits;
+    words[0] = (uint16_t)(value >> 16);
+    words[1] = (uint16_t)value;
 }
 
 /* Cuts off and returns a number behind the last '/'; returns fallback when there is none. */
@@ -285,6 +283,23 @@ static void take_space(const brace_measured_t *m, brace_client_space_t *space)
     };
 }
 
+static void take_load(const brace_measured_t *m, brace_client_load_t *load)
+{
+    *load = (brace_client_load_t){
+        .is_counted = isfinite(m->counted_force_x_n) && isfinite(m->counted_force_z_n),
+        .force_x_n = m->counted_force_x_n,
+        .force_z_n = m->counted_force_z_n,
+        .unloaded_k_xx_n_per_mm = m->unloaded_k_xx_n_per_mm,
+        .unloaded_k_xz_n_per_mm = m->unloaded_k_xz_n_per_mm,
+        .unloaded_k_zz_n_per_mm = m->unloaded_k_zz_n_per_mm,
+        .moved_x_mm = m->moved_x_mm,
+        .moved_z_mm = m->moved_z_mm,
+        .buckling_factor = m->buckling_factor,
+        .gravity_direction_rad = m->gravity_direction_rad,
+        .gravity_lean_rad = m->gravity_lean_rad,
+    };
+}
+
 /* unknown: a table of measured values of which none is known. */
 static void take(const brace_measured_t *m, uint64_t received_us, const brace_measured_t *unknown,
                  brace_client_snapshot_t *s)
@@ -311,6 +326,7 @@ static void take(const brace_measured_t *m, uint64_t received_us, const brace_me
         .faults = m->faults,
     };
     take_space(unknown, &s->space);
+    take_load(unknown, &s->load);
 }
 
 /* Reads some measured values at once, so that they are of one snapshot. The others stay unknown: NaN for a float, all
@@ -355,6 +371,17 @@ static brace_client_status_t read_space(brace_client_t *client, const brace_meas
     return status;
 }
 
+brace_client_status_t brace_modbus_load(brace_client_t *client, uint64_t deadline_us, brace_client_load_t *load)
+{
+    enum { FIRST = PLACE_OF(unloaded_k_xx_n_per_mm), COUNT = PLACE_OF(gravity_lean_rad) - FIRST + 1 };
+    brace_measured_t measured;
+    const brace_client_status_t status = read_measured(client, FIRST, COUNT, deadline_us, &measured);
+    if (status == BRACE_CLIENT_OK) {
+        take_load(&measured, load);
+    }
+    return status;
+}
+
 brace_client_status_t brace_modbus_drift(brace_client_t *client, uint64_t deadline_us, brace_client_drift_t *drift)
 {
     enum { FIRST = PLACE_OF(drift_state), COUNT = PLACE_OF(drift_next_step) - PLACE_OF(drift_state) + 1 };
@@ -395,6 +422,10 @@ brace_client_status_t brace_modbus_read(brace_client_t *client, uint32_t wanted,
     if ((wanted & BRACE_PART_SPACE) != 0u) {
         status = read_space(client, &measured, deadline_us, &taken);
     }
+    if (status == BRACE_CLIENT_OK && (wanted & BRACE_PART_LOAD) != 0u) {
+        status = brace_modbus_load(client, deadline_us, &taken.load);
+        taken.parts |= BRACE_PART_LOAD;
+    }
     if (status == BRACE_CLIENT_OK) {
         *snapshot = taken;
     }
@@ -416,37 +447,40 @@ brace_client_status_t brace_modbus_entry(brace_client_t *client, uint32_t index,
     return status;
 }
 
-/* One try. *is_mine: no other client has asked for another posture in between. */
-static brace_client_status_t ask_posture(brace_client_t *client, uint16_t posture[4], uint64_t deadline_us,
-                                         uint16_t words[2 * BRACE_ANSWERED_COUNT], bool *is_mine)
+/* One try. *is_mine: no other client has asked another question in between. */
+static brace_client_status_t try_question(brace_client_t *client, uint32_t address, uint32_t count,
+                                          uint16_t words[2 * ASKED_MOST], uint64_t deadline_us,
+                                          uint16_t answers[2 * BRACE_ANSWERED_COUNT], bool *is_mine)
 {
-    const uint32_t asked_at = BRACE_REGISTER_COMMANDS + (uint32_t)(offsetof(brace_commands_t, asked_theta1_rad) / 2u);
-    uint16_t readback[4];
-    brace_client_status_t status = transfer(client, write_words, asked_at, 4u, posture, deadline_us);
+    uint16_t readback[2 * ASKED_MOST];
+    brace_client_status_t status = transfer(client, write_words, address, 2u * count, words, deadline_us);
     if (status == BRACE_CLIENT_OK) {
-        status = transfer(client, modbus_read_input_registers, 0x1000u, 2u * BRACE_ANSWERED_COUNT, words, deadline_us);
+        status =
+            transfer(client, modbus_read_input_registers, 0x1000u, 2u * BRACE_ANSWERED_COUNT, answers, deadline_us);
     }
     if (status == BRACE_CLIENT_OK) {
-        status = transfer(client, modbus_read_registers, asked_at, 4u, readback, deadline_us);
+        status = transfer(client, modbus_read_registers, address, 2u * count, readback, deadline_us);
     }
-    *is_mine = status == BRACE_CLIENT_OK && memcmp(posture, readback, sizeof readback) == 0;
+    *is_mine = status == BRACE_CLIENT_OK && memcmp(words, readback, 4u * count) == 0;
     return status;
 }
 
-brace_client_status_t brace_modbus_k_at_posture(brace_client_t *client, float theta1_rad, float theta2_rad,
-                                                uint64_t deadline_us, brace_client_k_t *k)
+brace_client_status_t brace_modbus_ask(brace_client_t *client, uint32_t first, const uint32_t *values, uint32_t count,
+                                       uint64_t deadline_us, brace_answered_t *answered)
 {
-    uint16_t posture[4], words[2 * BRACE_ANSWERED_COUNT];
-    uint32_t values[BRACE_ANSWERED_COUNT];
-    brace_answered_t answered;
+    const uint32_t address = BRACE_REGISTER_COMMANDS + 2u * first;
+    uint16_t words[2 * ASKED_MOST], answers[2 * BRACE_ANSWERED_COUNT];
+    uint32_t told[BRACE_ANSWERED_COUNT];
     bool is_mine, is_contested = false;
-    split(theta1_rad, posture);
-    split(theta2_rad, posture + 2);
+    for (uint32_t i = 0u; i < count; i++) {
+        split(values[i], words + 2u * i);
+    }
     for (;; is_contested = true) {
-        const brace_client_status_t status = ask_posture(client, posture, deadline_us, words, &is_mine);
+        const brace_client_status_t status =
+            try_question(client, address, count, words, deadline_us, answers, &is_mine);
         if (is_contested && !is_mine && (status == BRACE_CLIENT_E_SILENT || brace_bus_left_ms(deadline_us) == 0)) {
             return brace_client_fail(client, BRACE_CLIENT_E_TIMEOUT,
-                                     "%s: other clients asked for other postures all the time; try a longer time-out, "
+                                     "%s: other clients asked other questions all the time; try a longer time-out, "
                                      "or CAN, where each has its own answer", client->url);
         }
         if (status != BRACE_CLIENT_OK) {
@@ -459,18 +493,9 @@ brace_client_status_t brace_modbus_k_at_posture(brace_client_t *client, float th
         poll(NULL, 0, pause_ms < left_ms ? pause_ms : left_ms); /* the other client asks again too, at other times */
     }
     for (uint32_t i = 0u; i < BRACE_ANSWERED_COUNT; i++) {
-        values[i] = join(words + 2u * i);
+        told[i] = join(answers + 2u * i);
     }
-    memcpy(&answered, values, sizeof answered);
-    *k = (brace_client_k_t){
-        .k_xx_n_per_mm = answered.asked_k_xx_n_per_mm,
-        .k_xz_n_per_mm = answered.asked_k_xz_n_per_mm,
-        .k_zz_n_per_mm = answered.asked_k_zz_n_per_mm,
-        .lambda_min_n_per_mm = answered.asked_lambda_min_n_per_mm,
-        .lambda_max_n_per_mm = answered.asked_lambda_max_n_per_mm,
-        .stiff_axis_rad = answered.asked_stiff_axis_rad,
-        .flags = answered.asked_flags,
-    };
+    memcpy(answered, told, sizeof *answered);
     return BRACE_CLIENT_OK;
 }
 
@@ -520,13 +545,21 @@ brace_client_status_t brace_modbus_entry(brace_client_t *client, uint32_t index,
     return absent(client);
 }
 
-brace_client_status_t brace_modbus_k_at_posture(brace_client_t *client, float theta1_rad, float theta2_rad,
-                                                uint64_t deadline_us, brace_client_k_t *k)
+brace_client_status_t brace_modbus_load(brace_client_t *client, uint64_t deadline_us, brace_client_load_t *load)
 {
-    (void)theta1_rad;
-    (void)theta2_rad;
     (void)deadline_us;
-    (void)k;
+    (void)load;
+    return absent(client);
+}
+
+brace_client_status_t brace_modbus_ask(brace_client_t *client, uint32_t first, const uint32_t *values, uint32_t count,
+                                       uint64_t deadline_us, brace_answered_t *answered)
+{
+    (void)first;
+    (void)values;
+    (void)count;
+    (void)deadline_us;
+    (void)answered;
     return absent(client);
 }
 

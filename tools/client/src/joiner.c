@@ -5,8 +5,10 @@
 
 #include "brace/can_messages.h"
 
-enum { A = 1, B = 2, EIGENVALUES = 4, POSTURE = 8, SPACE_0 = 16 }; /* further parts of space take the bits after it */
+enum { A = 1, B = 2, EIGENVALUES = 4, POSTURE = 8, SPACE_0 = 16, LOAD_0 = SPACE_0 << BRACE_CAN_SPACE_PARTS };
+/* further parts of space and of the load take the bits after their first ones */
 #define SPACE (((1u << BRACE_CAN_SPACE_PARTS) - 1u) * SPACE_0)
+#define LOAD (((1u << BRACE_CAN_LOAD_PARTS) - 1u) * LOAD_0)
 
 static void begin(brace_joiner_slot_t *slot, uint32_t sequence, uint64_t received_us)
 {
@@ -27,6 +29,7 @@ static void begin(brace_joiner_slot_t *slot, uint32_t sequence, uint64_t receive
     }
     space->theta0_rad = space->k_across_n_per_mm = NAN;
     k->flags = space->play_coxa = UINT32_MAX;
+    s->load = (brace_client_load_t){false, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     s->flags = s->play_femur = s->play_tibia = s->parameter_tag = s->mode = s->faults = UINT32_MAX;
 }
 
@@ -157,6 +160,54 @@ static void take_whole_space(brace_client_snapshot_t *s, const uint8_t *data)
     s->space.play_coxa = got.play_coxa;
 }
 
+#define TAKE_LOAD(member) s->load.member = got.member
+
+static void take_load_0(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(load_0);
+    TAKE_LOAD(unloaded_k_xx_n_per_mm), TAKE_LOAD(unloaded_k_xz_n_per_mm);
+}
+
+static void take_load_1(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(load_1);
+    TAKE_LOAD(unloaded_k_zz_n_per_mm), TAKE_LOAD(gravity_lean_rad);
+}
+
+static void take_counted_force(brace_client_load_t *load, float force_x_n, float force_z_n)
+{
+    load->force_x_n = force_x_n;
+    load->force_z_n = force_z_n;
+    load->is_counted = isfinite(force_x_n) && isfinite(force_z_n);
+}
+
+static void take_load_2(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(load_2);
+    take_counted_force(&s->load, got.counted_force_x_n, got.counted_force_z_n);
+}
+
+static void take_load_3(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(load_3);
+    TAKE_LOAD(moved_x_mm), TAKE_LOAD(moved_z_mm);
+}
+
+static void take_load_4(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(load_4);
+    TAKE_LOAD(buckling_factor), TAKE_LOAD(gravity_direction_rad);
+}
+
+static void take_whole_load(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(load_fd);
+    TAKE_LOAD(unloaded_k_xx_n_per_mm), TAKE_LOAD(unloaded_k_xz_n_per_mm), TAKE_LOAD(unloaded_k_zz_n_per_mm);
+    take_counted_force(&s->load, got.counted_force_x_n, got.counted_force_z_n);
+    TAKE_LOAD(moved_x_mm), TAKE_LOAD(moved_z_mm), TAKE_LOAD(buckling_factor);
+    TAKE_LOAD(gravity_direction_rad), TAKE_LOAD(gravity_lean_rad);
+}
+
 typedef struct {
     uint32_t id;   /* of node 0 */
     uint32_t part; /* for frames with one identifier and several parts */
@@ -175,15 +226,28 @@ static const kind_t kinds[] = {{BRACE_CAN_ID_STIFFNESS_A, 0u, A, 8u, take_a},
                                {BRACE_CAN_ID_SPACE, 4u, SPACE_0 << 4, 8u, take_space_4},
                                {BRACE_CAN_ID_SPACE, 5u, SPACE_0 << 5, 8u, take_space_5},
                                {BRACE_CAN_ID_SPACE, 6u, SPACE_0 << 6, 8u, take_space_6},
+                               {BRACE_CAN_ID_LOAD, 0u, LOAD_0, 8u, take_load_0},
+                               {BRACE_CAN_ID_LOAD, 1u, LOAD_0 << 1, 8u, take_load_1},
+                               {BRACE_CAN_ID_LOAD, 2u, LOAD_0 << 2, 8u, take_load_2},
+                               {BRACE_CAN_ID_LOAD, 3u, LOAD_0 << 3, 8u, take_load_3},
+                               {BRACE_CAN_ID_LOAD, 4u, LOAD_0 << 4, 8u, take_load_4},
                                {BRACE_CAN_ID_SNAPSHOT_FD, 0u, A | B | EIGENVALUES | POSTURE, 64u, take_whole},
-                               {BRACE_CAN_ID_SPACE_FD, 0u, SPACE, 64u, take_whole_space}};
+                               {BRACE_CAN_ID_SPACE_FD, 0u, SPACE, 64u, take_whole_space},
+                               {BRACE_CAN_ID_LOAD_FD, 0u, LOAD, 64u, take_whole_load}};
+
+/* Which of the frames with this identifier it is. */
+static uint32_t part_of(uint32_t id, const brace_bus_frame_t *frame)
+{
+    return id == BRACE_CAN_ID_SPACE  ? brace_can_space_part(frame->data)
+           : id == BRACE_CAN_ID_LOAD ? brace_can_load_part(frame->data)
+                                     : 0u;
+}
 
 static const kind_t *kind_of(const brace_bus_frame_t *frame, uint32_t node)
 {
     for (size_t i = 0u; i < sizeof kinds / sizeof kinds[0]; i++) {
-        const bool is_its_part =
-            kinds[i].id != BRACE_CAN_ID_SPACE || brace_can_space_part(frame->data) == kinds[i].part;
-        if (frame->id == kinds[i].id + node && frame->length == kinds[i].length && is_its_part) {
+        if (frame->id == kinds[i].id + node && frame->length == kinds[i].length &&
+            part_of(kinds[i].id, frame) == kinds[i].part) {
             return &kinds[i];
         }
     }
@@ -217,7 +281,8 @@ const brace_client_snapshot_t *brace_joiner_add(brace_joiner_t *joiner, uint32_t
     s->parts = ((slot->frames & (A | B)) == (A | B) ? BRACE_PART_K : 0u) |
                (slot->frames & EIGENVALUES ? BRACE_PART_EIGENVALUES : 0u) |
                (slot->frames & POSTURE ? BRACE_PART_POSTURE : 0u) |
-               ((slot->frames & SPACE) == SPACE ? BRACE_PART_SPACE : 0u);
+               ((slot->frames & SPACE) == SPACE ? BRACE_PART_SPACE : 0u) |
+               ((slot->frames & LOAD) == LOAD ? BRACE_PART_LOAD : 0u);
     s->k_is_valid = s->parts & BRACE_PART_K && isfinite(s->k_xx_n_per_mm) && isfinite(s->k_xz_n_per_mm) &&
                     isfinite(s->k_zz_n_per_mm);
     s->space.k_is_valid = s->parts & BRACE_PART_SPACE && is_space_k_known(&s->space.k);

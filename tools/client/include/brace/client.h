@@ -1,4 +1,5 @@
-/* A limb controller as the robot's computer sees it: the present K, K elsewhere, forces and sag, over CAN or Modbus.
+/* A limb controller as the robot's computer sees it: K of now and the load that it counts, K elsewhere and under other
+ * forces, sag, over CAN or Modbus.
  *
  *   can0                              SocketCAN
  *   slcan:/dev/ttyACM0[@baud]         SLCAN over a serial device, 115200
@@ -51,7 +52,8 @@ enum {
     BRACE_PART_EIGENVALUES = 2, /* lambda_min, lambda_max, stiff axis: 20 Hz (controller.posture_hz) */
     BRACE_PART_POSTURE = 4,     /* joint angles, mode, faults: 20 Hz */
     BRACE_PART_ALL = 7,         /* the three parts above, which every limb has */
-    BRACE_PART_SPACE = 8        /* K in space of a limb whose coxa joint is fitted: in every snapshot */
+    BRACE_PART_SPACE = 8,       /* K in space of a limb whose coxa joint is fitted: in every snapshot */
+    BRACE_PART_LOAD = 16        /* the load that K counts: at controller.load_hz, which is 0 at first */
 };
 
 /* K in the robot's base frame. */
@@ -70,6 +72,17 @@ typedef struct {
     uint32_t play_coxa;      /* state of the coxa joint's backlash, numbered as play_femur */
 } brace_client_space_t;
 
+/* The load that K counts, and what it does to the limb. x and z in the limb's plane. */
+typedef struct {
+    bool is_counted; /* K is the one under this load; else K is the one without load, flagged LOAD_UNKNOWN */
+    float force_x_n, force_z_n;       /* force of the ground on the tip */
+    float unloaded_k_xx_n_per_mm, unloaded_k_xz_n_per_mm, unloaded_k_zz_n_per_mm; /* K without force and weight */
+    float moved_x_mm, moved_z_mm;     /* how far force and weight have moved the tip */
+    float buckling_factor;            /* multiple of the load at which the limb, held as it stands, would have no
+                                         stiffness left in some direction; infinite: none. Below 3: flag SOFTENED */
+    float gravity_direction_rad, gravity_lean_rad; /* where down is: in the plane from +x, and out of the plane */
+} brace_client_load_t;
+
 typedef struct {
     uint32_t parts;       /* parts that this snapshot has; members of the other parts are NaN or all ones */
     uint32_t sequence;    /* 8 bits, over CAN FD too */
@@ -85,6 +98,7 @@ typedef struct {
     uint32_t mode;   /* 0 start, 1 monitor, 2 configuration, 3 taking up, 4 loading test, 5 fault */
     uint32_t faults; /* bits as docs/protocol.md lists them */
     brace_client_space_t space;
+    brace_client_load_t load;
 } brace_client_snapshot_t;
 
 /* K at the place that the caller asked for. */
@@ -94,6 +108,13 @@ typedef struct {
     uint32_t flags;
 } brace_client_k_t;
 
+/* K at the equilibrium under a force and the limb's weight. */
+typedef struct {
+    brace_client_k_t k;
+    float moved_x_mm, moved_z_mm; /* how far force and weight move the tip there */
+    float buckling_factor;        /* as in brace_client_load_t */
+} brace_client_loaded_k_t;
+
 enum {
     BRACE_CLIENT_FLAG_UNCALIBRATED = 1,
     BRACE_CLIENT_FLAG_NEAR_SINGULAR = 2,
@@ -101,8 +122,8 @@ enum {
     BRACE_CLIENT_FLAG_GAP_OPEN = 8,
     BRACE_CLIENT_FLAG_STALE = 16,
     BRACE_CLIENT_FLAG_OUT_OF_RANGE = 32,
-    BRACE_CLIENT_FLAG_LOAD_UNKNOWN = 64,
-    BRACE_CLIENT_FLAG_SOFTENED = 128
+    BRACE_CLIENT_FLAG_LOAD_UNKNOWN = 64, /* K counts no load */
+    BRACE_CLIENT_FLAG_SOFTENED = 128     /* the load has made the limb much softer */
 };
 
 typedef struct {
@@ -149,10 +170,11 @@ void brace_client_identity(const brace_client_t *client, brace_client_identity_t
 
 /* The newest snapshot that has all wanted parts (BRACE_PART_..., added) and was not read before. If there is none, the
  * call waits for the next one. Its frames are of one tick: they carry one number, came together, and nothing was lost
- * between them. Over Modbus the parts of BRACE_PART_ALL are always there, and each call reads anew. BRACE_PART_SPACE is
- * a second read, so K in space is of one tick, which may be later than that of the other parts. For K in space of a
- * limb without a coxa joint the call returns E_TIMEOUT over CAN, where no such frame comes, and E_UNSUPPORTED over
- * Modbus.
+ * between them. Over Modbus the parts of BRACE_PART_ALL are always there, and each call reads anew. BRACE_PART_SPACE
+ * and BRACE_PART_LOAD are a second and a third read, each of one tick, which may be later than that of the other parts.
+ * For K in space of a limb without a coxa joint the call returns E_TIMEOUT over CAN, where no such frame comes, and
+ * E_UNSUPPORTED over Modbus. BRACE_PART_LOAD over CAN returns E_TIMEOUT while controller.load_hz is 0;
+ * brace_client_load then asks.
  * returns OK, E_TIMEOUT, E_SILENT, E_BIT_RATE, E_NODE, E_DOWN, E_VERSION, E_UNSUPPORTED */
 brace_client_status_t brace_client_read(brace_client_t *client, uint32_t wanted, int timeout_ms,
                                         brace_client_snapshot_t *snapshot);
@@ -163,12 +185,35 @@ brace_client_status_t brace_client_read(brace_client_t *client, uint32_t wanted,
 brace_client_status_t brace_client_k_at_posture(brace_client_t *client, float theta1_rad, float theta2_rad,
                                                 int timeout_ms, brace_client_k_t *k);
 
+/* K at any joint angles under a force of the ground on the tip [N, each at most 8388, together at most 10000] and the
+ * limb's weight. The angles are those before the load turns the joints; their range is that of
+ * brace_client_k_at_posture. The controller refuses where no stable equilibrium is near: the load folds the limb. When
+ * another client asks for K under a force at the same time, both ask again, until the time-out. */
+brace_client_status_t brace_client_k_under_load_at_posture(brace_client_t *client, float theta1_rad, float theta2_rad,
+                                                           float fx_n, float fz_n, int timeout_ms,
+                                                           brace_client_loaded_k_t *k);
+
+/* The same with the tip at a place, before the load moves it. */
+brace_client_status_t brace_client_k_under_load_at_tip(brace_client_t *client, float x_mm, float z_mm, bool knee_up,
+                                                       float fx_n, float fz_n, int timeout_ms,
+                                                       brace_client_loaded_k_t *k);
+
+/* The load that K counts now. Over CAN it is asked for value by value, so its values are of several ticks;
+ * BRACE_PART_LOAD has them of one. Over Modbus it is one read. */
+brace_client_status_t brace_client_load(brace_client_t *client, int timeout_ms, brace_client_load_t *load);
+
+/* Tells the controller where down is: its direction in the limb's plane, from +x, and how far it leans out of the plane
+ * [rad; the ranges of gravity.direction_rad and gravity.lean_rad]. It holds until the controller's next start, for
+ * every client; the parameters stay as they are. NaN for both: what the parameters say holds again. */
+brace_client_status_t brace_client_set_gravity(brace_client_t *client, float direction_rad, float lean_rad,
+                                               int timeout_ms);
+
 /* K in space at any true joint angles [rad, -3.27 to 3.27]. The controller refuses if the limb has no coxa joint. CAN
  * only. */
 brace_client_status_t brace_client_k_in_space(brace_client_t *client, float theta0_rad, float theta1_rad,
                                               float theta2_rad, int timeout_ms, brace_client_space_k_t *k);
 
-/* K with the tip at a place [mm from the femur axis, -8388 to 8388]. CAN only. */
+/* K with the tip at a place [mm from the femur axis, -8388 to 8388]. */
 brace_client_status_t brace_client_k_at_tip(brace_client_t *client, float x_mm, float z_mm, bool knee_up,
                                             int timeout_ms, brace_client_k_t *k);
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from brace.bus.frame import Frame
 from brace.bus.drift import cause_text
+from brace.bus.load import Load
 from brace.bus.snapshot import Joiner, Snapshot, emergency_of, heartbeat_of
 from brace.bus.space import SpaceSnapshot
 from brace.errors import VersionMismatchError
@@ -14,6 +15,7 @@ from brace.wire.codes import FAULT, PLAY
 from brace.wire.frames import DICTIONARY_HASH, MESSAGES
 
 N_PER_M = 1000.0  # in a N/mm
+MM_PER_M = 1000.0
 _NAN = math.nan
 
 
@@ -68,6 +70,26 @@ class LimbStiffnessInSpace:
 
 
 @dataclass(frozen=True)
+class LimbLoad:
+    """The fields of msg/LimbLoad.msg, in SI units; stamp_s takes the header's place."""
+
+    stamp_s: float
+    node: int
+    sequence: int
+    is_counted: bool
+    force_x: float
+    force_z: float
+    moved_x: float
+    moved_z: float
+    buckling_factor: float
+    unloaded_k_xx: float
+    unloaded_k_xz: float
+    unloaded_k_zz: float
+    gravity_direction: float
+    gravity_lean: float
+
+
+@dataclass(frozen=True)
 class LimbHealth:
     """What a diagnostic says of a limb."""
 
@@ -79,7 +101,7 @@ class LimbHealth:
     drift_cause: str  # none: no drift; empty: a drift whose cause was told before this bridge listened
 
 
-Message = LimbStiffness | LimbStiffnessInSpace | LimbHealth
+Message = LimbStiffness | LimbStiffnessInSpace | LimbLoad | LimbHealth
 OK, WARN, ERROR = range(3)
 _NO_K = {"sensor_femur", "sensor_tibia", "encoder_stuck"}
 _DRIFT = "model_drift"
@@ -91,11 +113,13 @@ class Decoder:
     def __init__(self) -> None:
         self._joiner = Joiner()
         self._told: dict[int, tuple[int, float]] = {}  # by node: the snapshot whose K in the plane has been given
+        self._load_told: dict[int, tuple[int, float]] = {}  # the same of its load
         self._cause: dict[int, str] = {}
 
     def add(self, frame: Frame) -> list[Message]:
-        """What this frame completes: K alone; K in space; K with eigenvalues and posture once more; with a heartbeat or
-        an emergency the limb's health. VersionMismatchError when a heartbeat tells of another dictionary."""
+        """What this frame completes: K alone; K in space; its load; K with eigenvalues and posture once more; with a
+        heartbeat or an emergency the limb's health. VersionMismatchError when a heartbeat tells of another
+        dictionary."""
         heartbeat = heartbeat_of(frame)
         if heartbeat is not None:
             if heartbeat.dictionary_hash != DICTIONARY_HASH:
@@ -116,11 +140,14 @@ class Decoder:
     def _messages_of(self, snapshot: Snapshot) -> list[Message]:
         messages: list[Message] = []
         this = (snapshot.sequence, snapshot.time_s)
-        if snapshot.adds != "space" or self._told.get(snapshot.node) != this:
+        if snapshot.adds not in ("space", "load") or self._told.get(snapshot.node) != this:
             messages.append(message_of(snapshot))
         self._told[snapshot.node] = this
         if snapshot.adds == "space" and snapshot.space is not None:
             messages.append(space_message_of(snapshot, snapshot.space))
+        if snapshot.load is not None and self._load_told.get(snapshot.node) != this:
+            self._load_told[snapshot.node] = this
+            messages.append(load_message_of(snapshot, snapshot.load))
         return messages
 
     def _health(self, time_s: float, node: int, faults: tuple[str, ...]) -> LimbHealth:
@@ -174,6 +201,27 @@ def space_message_of(snapshot: Snapshot, space: SpaceSnapshot) -> LimbStiffnessI
         theta0=_or_nan(space.theta0),
         k_across=_per_m(space.k_across),
         play_coxa=names.index(space.play_coxa) if space.play_coxa in names else int(space.play_coxa),
+    )
+
+
+def load_message_of(snapshot: Snapshot, load: Load) -> LimbLoad:
+    """The load in SI units."""
+    v = load.values
+    return LimbLoad(
+        stamp_s=_sampled_s(snapshot),
+        node=snapshot.node,
+        sequence=snapshot.sequence,
+        is_counted=load.is_counted,
+        force_x=_or_nan(v["counted_force_x"]),
+        force_z=_or_nan(v["counted_force_z"]),
+        moved_x=_or_nan(v["moved_x"]) / MM_PER_M,
+        moved_z=_or_nan(v["moved_z"]) / MM_PER_M,
+        buckling_factor=_or_nan(v["buckling_factor"]),
+        unloaded_k_xx=_per_m(v["unloaded_k_xx"]),
+        unloaded_k_xz=_per_m(v["unloaded_k_xz"]),
+        unloaded_k_zz=_per_m(v["unloaded_k_zz"]),
+        gravity_direction=_or_nan(v["gravity_direction"]),
+        gravity_lean=_or_nan(v["gravity_lean"]),
     )
 
 
