@@ -47,8 +47,8 @@ void brace_loaded_fixed_collapse(const brace_loaded_t *loaded, brace_loaded_fixe
  *     would move by a quarter of the reach, a pivot below 1/16 (its limb's buckling factor is near 1), and det C below
  *     3e-8 of its squared mean.
  * result: written on success only.
- * Accuracy: as brace_loaded_stiffness, and at most 1e-4 of lambda_max more for the rounding. At no load K within 2e-6 of
- *         lambda_max where det C is above 1e-3 of its squared mean, less exact the more slender the limb.
+ * Accuracy: as brace_loaded_stiffness, and at most 1e-4 of lambda_max more for the rounding. At no load K within 2e-6
+ *         of lambda_max where det C is above 1e-3 of its squared mean, less exact the more slender the limb.
  *         tests/engine/test_core_under_load.py judges random limbs.
  * Cost on a Cortex-M3: at most 6,000 instructions, 5,795 to 5,939 measured: the search for the buckling factor differs
  *         from posture to posture. Stack at most 700 bytes. */

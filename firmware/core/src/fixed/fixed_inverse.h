@@ -7,13 +7,13 @@
 #include "fixed/fixed_table.h"
 #include "fixed/fixed_word.h"
 
-/* C in a frame of its own: its trace shifted so that it fills its word, and its deviator in the same unit, C = trace/2 I
- * - [[x, -z], [-z, -x]] with x = minus_dev_x, z = dev_z. */
+/* C in a frame of its own: its trace shifted so that it fills its word, and its deviator in the same unit,
+ * C = trace/2 I - [[x, -z], [-z, -x]] with x = minus_dev_x, z = dev_z. */
 typedef struct {
     uint32_t trace;
     int32_t minus_dev_x, dev_z;
     uint32_t det_leading;              /* the leading 32 bits of det C */
-    uint32_t exponent_k, exponent_min; /* exponent fields of IEEE floats, for entries of K and for its least eigenvalue */
+    uint32_t exponent_k, exponent_min; /* exponent fields of IEEE floats: entries of K, its least eigenvalue */
     uint32_t twice_turn;               /* twice the angle of C's frame */
 } fixed_circle_t;
 

@@ -184,7 +184,8 @@ INLINE int32_t fixed_root_q30(int32_t before, int32_t low, int32_t high, int32_t
     const uint32_t span = (uint32_t)low - (uint32_t)high; /* both below 2^30: no overflow, and not zero */
     const uint32_t zeros = leading_zeros(span), leading = span << zeros;
     const uint32_t guess = (0x80000000u / (leading >> 16)) << 15;
-    const uint32_t inverse = high_unsigned(guess, (0x80000000u - high_unsigned(leading, guess)) << 1); /* 2^61/leading */
+    /* 2^61/leading */
+    const uint32_t inverse = high_unsigned(guess, (0x80000000u - high_unsigned(leading, guess)) << 1);
     const int32_t chord_q30 = (int32_t)(((uint64_t)((uint32_t)low << zeros) * inverse) >> 31);
     const int32_t across = before - low;
     const int32_t most = (span >> 28) != 0u ? 0x7fffffff : (int32_t)(span << 3); /* rho within 8 */

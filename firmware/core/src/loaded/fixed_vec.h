@@ -178,7 +178,8 @@ INLINE fixed_vec_t fixed_small_turn(int32_t angle_q29)
     const int32_t x_q30 = 2 * angle_q29, u_q30 = coarse_times(x_q30, x_q30, 30);
     const int32_t sine = coarse_times(Q31(8.32e-3), u_q30, 30) - Q31(1.66666e-1);
     const int32_t cosine = coarse_times(Q31(4.14288e-2), u_q30, 30) - Q31(0.499991);
-    return (fixed_vec_t){(1 << 30) + coarse_times(cosine, u_q30, 31), x_q30 + coarse_times(coarse_times(sine, u_q30, 31), x_q30, 30)};
+    return (fixed_vec_t){(1 << 30) + coarse_times(cosine, u_q30, 31),
+                         x_q30 + coarse_times(coarse_times(sine, u_q30, 31), x_q30, 30)};
 }
 
 /* --- from and to IEEE floats ---------------------------------------------------------------------------------- */

@@ -119,8 +119,8 @@ INLINE fixed_vec_t root_of(const fixed_vec_t roots_q31[2], const fixed_inputs_t 
     return (fixed_vec_t){root->x >> in->root_shift, root->z >> in->root_shift};
 }
 
-INLINE fixed_link_t link_seen(const brace_loaded_fixed_link_t *link, const fixed_inputs_t *in, const fixed_vec_t *turned,
-                              fixed_vec_t beyond, fixed_vec_t down)
+INLINE fixed_link_t link_seen(const brace_loaded_fixed_link_t *link, const fixed_inputs_t *in,
+                              const fixed_vec_t *turned, fixed_vec_t beyond, fixed_vec_t down)
 {
     fixed_vec_t to_beam = link->to_beam_q28, beam = link->beam_q28;
     fixed_vec_t root_root = root_of(link->root_root_q31, in), end_root = root_of(link->end_root_q31, in);
