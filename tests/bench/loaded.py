@@ -11,10 +11,10 @@ from extra import Extra
 from limits import at_least, at_most
 from measure import object_of
 from postures import COUNT, Limb, beam_limb, postures, tilted_limb, workspace
-from toolchain import BENCH, BOARDS, BUILD, HARNESS_FLAGS, M4F, link_image
+from toolchain import BENCH, BOARDS, BUILD, HARNESS_FLAGS, M3, M4F, Processor, link_image
 from versions import EIGEN_FLAGS, FLOAT_FUNCTIONS, core_sources
 
-MOST_INSTRUCTIONS, LEAST_RATIO = 2500, 3.0
+MOST_INSTRUCTIONS, MOST_FIXED_INSTRUCTIONS, LEAST_RATIO = 2500, 6000, 3.0
 WEIGHTS_N = {"femur_n": 2.0, "knee_n": 1.0, "tibia_n": 1.5}  # image/loaded_case.h has the same
 LEAST_FACTOR, MOST_MOVED = 2.0, 0.2  # where accuracy is promised: buckling factor, displacement over reach
 
@@ -36,6 +36,7 @@ class _Version:
     job_flags: tuple[str, ...]
     limb: Limb
     ours: bool = False
+    processor: Processor = M4F
 
 
 @dataclass(frozen=True)
@@ -67,6 +68,16 @@ def _versions(casadi_code: Path) -> list[_Version]:
     ]
 
 
+def _fixed_versions() -> list[_Version]:
+    """The path of controllers without an FPU."""
+    job, function = BENCH / "ours" / "loaded_fixed_job.c", "brace_loaded_fixed_stiffness"
+    beam, tilted = ("-DBENCH_LIMB=BENCH_BEAM_LIMB",), ("-DBENCH_LIMB=BENCH_TILTED_LIMB",)
+    return [
+        _Version("Brace, fixed point", function, core_sources(), (), job, beam, beam_limb(), True, M3),
+        _Version("Brace, fixed point, tilted limb", function, core_sources(), (), job, tilted, tilted_limb(), True, M3),
+    ]
+
+
 def _forces_n() -> np.ndarray:
     """As load_of() of image/loaded_case.h gives them to the images."""
     index = np.arange(2 * COUNT)
@@ -74,12 +85,13 @@ def _forces_n() -> np.ndarray:
 
 
 def _measure(version: _Version, plugin: Path) -> _Measured:
-    objects = [object_of(source, M4F, version.flags) for source in version.sources]
-    objects += [object_of(version.job, M4F, (*HARNESS_FLAGS, *version.job_flags))]
-    objects += [object_of(path, M4F, HARNESS_FLAGS) for path in
+    objects = [object_of(source, version.processor, version.flags) for source in version.sources]
+    objects += [object_of(version.job, version.processor, (*HARNESS_FLAGS, *version.job_flags))]
+    objects += [object_of(path, version.processor, HARNESS_FLAGS) for path in
                 (BENCH / "image" / "harness.c", BOARDS / "common" / "startup.c")]
     name = "".join(c if c.isalnum() else "_" for c in f"loaded {version.name}".lower())
-    counted = count(link_image(objects, BUILD / "images" / f"{name}.elf", M4F), M4F, plugin, version.function)
+    image = link_image(objects, BUILD / "images" / f"{name}.elf", version.processor)
+    counted = count(image, version.processor, plugin, version.function)
     return _Measured(version, counted.instructions, *_errors(version.limb, counted.results))
 
 
@@ -112,15 +124,21 @@ def _errors(limb: Limb, rows: np.ndarray) -> tuple[float, float, float, float]:
             float(np.abs(rows[judged, 6:8] - moved_mm[judged]).max()))
 
 
+def _row(m: _Measured, least: int) -> list[str]:
+    return [m.version.name, f"{min(m.instructions):,} / {m.median:,} / {max(m.instructions):,}",
+            f"{m.median / least:.2f}", f"{m.k_median:.1e}", f"{m.k_worst:.1e}", f"{m.factor_worst:.1e}",
+            f"{m.moved_worst_mm:.4f}"]
+
+
 def extra(casadi_code: Path, plugin: Path) -> Extra:
     """All versions, counted and judged."""
     measured = [_measure(version, plugin) for version in _versions(casadi_code)]
     ours = [m for m in measured if m.version.ours]
     best = min((m for m in measured if not m.version.ours), key=lambda m: m.median)
     most = max(max(m.instructions) for m in ours)
-    rows = [[m.version.name, f"{min(m.instructions):,} / {m.median:,} / {max(m.instructions):,}",
-             f"{m.median / ours[0].median:.2f}", f"{m.k_median:.1e}", f"{m.k_worst:.1e}", f"{m.factor_worst:.1e}",
-             f"{m.moved_worst_mm:.4f}"] for m in measured]
+    rows = [_row(m, ours[0].median) for m in measured]
+    fixed = [_measure(version, plugin) for version in _fixed_versions()]
+    fixed_rows = [_row(m, fixed[0].median) for m in fixed]
     heads = ["version", "instructions min / median / max", "ratio", "K error, median", "K error, worst",
              "buckling factor, worst", "displacement [mm], worst"]
     error = "K under a load: error of K, as a fraction of its norm"
@@ -130,9 +148,13 @@ def extra(casadi_code: Path, plugin: Path) -> Extra:
                  best.median / most, LEAST_RATIO),
         at_most(f"{error}, median", max(m.k_median for m in ours), 5e-4, text="{:.1e}".format),
         at_most(f"{error}, worst", max(m.k_worst for m in ours), 6e-3, text="{:.1e}".format),
+        at_most("K under a load in fixed point, instructions on a Cortex-M3",
+                max(max(m.instructions) for m in fixed), MOST_FIXED_INSTRUCTIONS),
+        at_most(f"{error}, worst in fixed point", max(m.k_worst for m in fixed), 1e-2, text="{:.1e}".format),
     ]
     data: dict[str, object] = {"versions": [{"name": m.version.name, "ours": m.version.ours, "instructions_median": m.median,
                           "instructions_max": max(m.instructions), "error_k_median": m.k_median,
                           "error_k_worst": m.k_worst, "error_buckling_factor": m.factor_worst,
-                          "error_displacement_mm": m.moved_worst_mm} for m in measured]}
-    return Extra("loaded", NOTE, [("K under a load, Cortex-M4F", heads, rows)], checks, data)
+                          "error_displacement_mm": m.moved_worst_mm} for m in [*measured, *fixed]]}
+    return Extra("loaded", NOTE, [("K under a load, Cortex-M4F", heads, rows),
+                                  ("K under a load, Cortex-M3 without FPU", heads, fixed_rows)], checks, data)

@@ -35,6 +35,14 @@ static brace_vec_t down_at(double direction_rad, double lean_rad)
 /* Two ways through the same arithmetic with another rounding of the direction of down. */
 #define SAME_K 1e-5
 
+/* Without an FPU the application asks the core's integers, and the expected factor is the float path's. The search
+ * keeps ten bits and more of it: 1e-3. Elsewhere both are one path, apart by what the direction's rounding makes. */
+#ifdef __SOFTFP__
+#define SAME_FACTOR 1e-3f
+#else
+#define SAME_FACTOR 1e-5f
+#endif
+
 static void expect_k(const brace_loaded_stiffness_t *expected)
 {
     const brace_stiffness_t *k = &now()->stiffness.now;
@@ -45,7 +53,12 @@ static void expect_k(const brace_loaded_stiffness_t *expected)
     ASSERT_CLOSE(expected->stiffness.k_zz_n_per_mm, k->k_zz_n_per_mm, SAME_K * most);
     ASSERT_CLOSE(expected->displacement.x_mm, now()->load.moved_x_mm, 1e-3);
     ASSERT_CLOSE(expected->displacement.z_mm, now()->load.moved_z_mm, 1e-3);
-    TEST_ASSERT_EQUAL_FLOAT(expected->buckling_factor, now()->load.buckling_factor);
+    if (isinf(expected->buckling_factor)) {
+        TEST_ASSERT_TRUE(isinf(now()->load.buckling_factor));
+    } else {
+        const float factor = expected->buckling_factor;
+        TEST_ASSERT_FLOAT_WITHIN(SAME_FACTOR * factor, factor, now()->load.buckling_factor);
+    }
 }
 
 static void test_K_and_the_equilibrium_are_those_under_the_sensed_force_and_the_weight(void)

@@ -26,6 +26,7 @@ FIRMWARE_HEADERS = (
     "spatial.h",
     "gap_stiffness.h",
     "loaded.h",
+    "loaded_fixed.h",
     "loaded_batch.h",
     "loaded_space.h",
     "kinematics_batch.h",

@@ -10,6 +10,27 @@
 #define PROMISED_FACTOR 2.0f      /* what brace/loaded.h promises its accuracy for */
 #define PROMISED_MOVE 0.2f        /* of the reach */
 
+static void collapse_loaded(const brace_parameters_t *parameters, model_loaded_limb_t *limb)
+{
+#ifdef __SOFTFP__
+    brace_loaded_t loaded;
+    brace_loaded_collapse(&parameters->limb, &parameters->gravity, &loaded);
+    brace_loaded_fixed_collapse(&loaded, limb);
+#else
+    brace_loaded_collapse(&parameters->limb, &parameters->gravity, limb);
+#endif
+}
+
+static brace_status_t loaded_stiffness(const model_loaded_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
+                                       const brace_load_t *load, brace_loaded_stiffness_t *result)
+{
+#ifdef __SOFTFP__
+    return brace_loaded_fixed_stiffness(limb, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], load, result);
+#else
+    return brace_loaded_stiffness(limb, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], load, result);
+#endif
+}
+
 void model_configure(model_t *model, const brace_parameters_t *parameters, bool is_spatial)
 {
     const brace_limb_t *limb = &parameters->limb;
@@ -23,7 +44,7 @@ void model_configure(model_t *model, const brace_parameters_t *parameters, bool 
     } else {
         model->is_collapsed = !model->springs_change && brace_planar_collapse(limb, &model->planar) == BRACE_OK;
         brace_general_collapse(limb, &model->general);
-        brace_loaded_collapse(limb, &parameters->gravity, &model->loaded);
+        collapse_loaded(parameters, &model->loaded);
     }
 }
 
@@ -125,8 +146,7 @@ brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, cons
                             brace_loaded_stiffness_t *result, float joint_turn_rad[BRACE_LINK_COUNT])
 {
     const brace_load_t load = {.tip = tip, .down = down, .hip = springs[BRACE_FEMUR], .knee = springs[BRACE_TIBIA]};
-    const brace_status_t status =
-        brace_loaded_stiffness(&model->loaded, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], &load, result);
+    const brace_status_t status = loaded_stiffness(&model->loaded, unbent_rad, &load, result);
     if (status != BRACE_OK) {
         return status;
     }

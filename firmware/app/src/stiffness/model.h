@@ -3,7 +3,8 @@
  * Three paths of the core lead to K without load in the limb's plane. A limb in space takes the spatial path, because
  * its coxa link yields in the plane too. A planar limb whose springs never change is collapsed into a few constants,
  * the cheapest path. Every other planar limb (hardening, temperature, a base that yields unequally) takes the general
- * path. One path leads to K under a load, brace/loaded.h; it is for limbs in their plane. docs/kernel.md says more. */
+ * path. K under a load is for limbs in their plane: brace/loaded.h, on a controller without an FPU
+ * brace/loaded_fixed.h. docs/kernel.md says more. */
 #ifndef BRACE_STIFFNESS_MODEL_H
 #define BRACE_STIFFNESS_MODEL_H
 
@@ -11,10 +12,18 @@
 
 #include "brace/general.h"
 #include "brace/loaded.h"
+#include "brace/loaded_fixed.h"
 #include "brace/parameters.h"
 #include "brace/planar.h"
 #include "brace/spatial.h"
 #include "brace/stiffness.h"
+
+/* What K under a load takes of a limb: floats, or integers where floats are computed in software. */
+#ifdef __SOFTFP__
+typedef brace_loaded_fixed_t model_loaded_limb_t;
+#else
+typedef brace_loaded_t model_loaded_limb_t;
+#endif
 
 typedef struct {
     bool is_spatial;            /* the coxa joint is fitted */
@@ -23,7 +32,7 @@ typedef struct {
     brace_planar_t planar;
     brace_general_t general;
     brace_spatial_t spatial;
-    brace_loaded_t loaded;      /* of a limb in its plane */
+    model_loaded_limb_t loaded; /* of a limb in its plane */
     float deflection_rad[BRACE_LINK_COUNT]; /* of hardening springs, followed from tick to tick */
 } model_t;
 

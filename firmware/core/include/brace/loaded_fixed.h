@@ -1,0 +1,58 @@
+/* K in the limb's plane under a load, on a controller without a floating-point unit: brace/loaded.h in 32-bit integers.
+ * The same limb, the same equations, the same steps, the same result type.
+ *
+ * Lengths are in units of a power of two above the limb's reach, forces in units of a power of two above the sum of the
+ * loads. docs/kernel.md says why every number then fits into its word, and what is refused because it would not.
+ *
+ * Thread rule: pure functions of their arguments; safe from any context once they are not written.
+ */
+#ifndef BRACE_LOADED_FIXED_H
+#define BRACE_LOADED_FIXED_H
+
+#include <stdint.h>
+
+#include "brace/fixed_vec.h"
+#include "brace/loaded.h"
+
+/* One link in its own frame. A spring's vector is there twice: for an even and for an odd power of two of the units. */
+typedef struct {
+    int32_t length_q28;
+    brace_fixed_vec_t to_beam_q28, beam_q28;
+    brace_fixed_vec_t root_root_q31[2], end_root_q31[2];
+    int32_t bend_q31, end_q31, weight_q31;
+} brace_loaded_fixed_link_t;
+
+/* A collapsed limb. brace_loaded_fixed_collapse writes it; other code must not read its members. Compliances per angle
+ * are in units of 2^bend_exponent / N (their turn times the unit of length), springs in units of 2^spring_exponent / N,
+ * weights in units of 2^weight_exponent N. */
+typedef struct {
+    brace_loaded_fixed_link_t femur, tibia;
+    int32_t knee_q31, weight_q31;
+    int32_t base_q31;
+    brace_fixed_vec_t base_root_q31[2];
+    int32_t base_rotation_q31;
+    uint32_t weight_q8; /* one and a half times all weights [N], for the unit of force */
+    int32_t length_exponent, bend_exponent, spring_exponent, weight_exponent;
+} brace_loaded_fixed_t;
+
+/* The limb's constants as scaled integers.
+ * loaded: from brace_loaded_collapse. No pointer may be null.
+ * Cost: once per parameter change; float and double, in software where there is no FPU. */
+void brace_loaded_fixed_collapse(const brace_loaded_t *loaded, brace_loaded_fixed_t *fixed);
+
+/* As brace_loaded_stiffness, also in what it refuses, except that
+ *   BRACE_E_RANGE: also where a component of `down` is beyond 1 by more than a thousandth, or not a number;
+ *   BRACE_E_SINGULAR: also where a spring or a joint yields so much under this load, or is so softened by it, that a
+ *     word does not hold it: a joint that would turn by 2 rad under the whole force at the whole reach, a spring that
+ *     would move by a quarter of the reach, a pivot below 1/16 (its limb's buckling factor is near 1), and det C below
+ *     3e-8 of its squared mean.
+ * result: written on success only.
+ * Accuracy: as brace_loaded_stiffness, and at most 1e-4 of lambda_max more for the rounding. At no load K within 2e-6
+ *         of lambda_max where det C is above 1e-3 of its squared mean, less exact the more slender the limb.
+ *         tests/engine/test_core_under_load.py judges random limbs.
+ * Cost on a Cortex-M3: at most 6,000 instructions, 5,795 to 5,939 measured: the search for the buckling factor differs
+ *         from posture to posture. Stack at most 700 bytes. */
+brace_status_t brace_loaded_fixed_stiffness(const brace_loaded_fixed_t *fixed, float theta1_rad, float theta2_rad,
+                                            const brace_load_t *load, brace_loaded_stiffness_t *result);
+
+#endif

@@ -1,0 +1,79 @@
+/* K, its eigenvalues and the stiff axis from C, in integers; IEEE floats at the end. */
+#ifndef BRACE_CORE_FIXED_INVERSE_H
+#define BRACE_CORE_FIXED_INVERSE_H
+
+#include "brace/stiffness.h"
+#include "fixed/fixed_sincos.h"
+#include "fixed/fixed_table.h"
+#include "fixed/fixed_word.h"
+
+/* C in a frame of its own: its trace shifted so that it fills its word, and its deviator in the same unit,
+ * C = trace/2 I - [[x, -z], [-z, -x]] with x = minus_dev_x, z = dev_z. */
+typedef struct {
+    uint32_t trace;
+    int32_t minus_dev_x, dev_z;
+    uint32_t det_leading;              /* the leading 32 bits of det C */
+    uint32_t exponent_k, exponent_min; /* exponent fields of IEEE floats: entries of K, its least eigenvalue */
+    uint32_t twice_turn;               /* twice the angle of C's frame */
+} fixed_circle_t;
+
+/* Writes all of a stiffness except its flags. */
+static inline void stiffness_of_circle(const fixed_circle_t *c, brace_stiffness_t *stiffness)
+{
+    const uint32_t trace = c->trace;
+    const int32_t minus_dev_x = c->minus_dev_x, dev_z = c->dev_z;
+
+    /* The deviator's length is the leading bits of its square, shifted by an even number, times the inverse root of
+     * these bits. A table guesses the inverse root, and one step of Newton's method makes it exact. */
+    const uint64_t square = (uint64_t)((int64_t)minus_dev_x * minus_dev_x + (int64_t)dev_z * dev_z);
+    const uint32_t square_high = (uint32_t)(square >> 32), square_low = (uint32_t)square;
+    const uint32_t shift = leading_zeros(square_high | 1u) >> 1;
+    const uint32_t square_from_low = (square_low >> (16u - shift)) >> (16u - shift);
+    const uint32_t square_leading = ((square_high << shift) << shift) | square_from_low;
+    const brace_fixed_seed_t seed = brace_fixed_seed[square_leading >> 26];
+    const uint32_t across_cell = (square_leading >> 10) & 0xffffu;
+    const uint32_t guess_q29 = ((uint32_t)seed.at_q13 << 16) - (uint32_t)seed.slope_q13 * across_cell;
+    const uint32_t excess_q26 = high_unsigned(high_unsigned(guess_q29, guess_q29), square_leading);
+    const uint32_t per_radius_q28 = high_unsigned(guess_q29, (RSQRT_THREE_Q26 - excess_q26) << 4);
+    const uint32_t radius = (high_unsigned(square_leading, per_radius_q28) << 4) >> shift;
+
+    /* One division serves both 1/det and 1/(mean + radius): it inverts their product, by sixteen bits and one step of
+     * Newton's method. */
+    const uint32_t longest = (trace >> 1) + radius;
+    const uint32_t product = high_unsigned(c->det_leading, longest);
+    const uint32_t quotient = (0x80000000u / (product >> 16)) << 13;
+    const uint32_t inverse = high_unsigned(quotient, (0x20000000u - high_unsigned(product, quotient)) << 3);
+    const uint32_t per_det = high_unsigned(longest, inverse);
+    const uint32_t per_longest = high_unsigned(c->det_leading, inverse);
+    stiffness->lambda_max_n_per_mm = float_of(float_bits(high_unsigned(longest, per_det), c->exponent_k - (1u << 23)));
+    stiffness->lambda_min_n_per_mm = float_of(float_bits(per_longest, c->exponent_min));
+
+    /* Half the angle of minus the deviator, in the bisector's frame. The highest bits of its unit vector choose the
+     * nearest entry of the sine table, and an arcsine adds the rest. The angle of the vector is twice that of the axis,
+     * so a turn of 2^32 is read as half a turn below. */
+    const uint32_t half_shift = shift - 1u;
+    const int32_t cosine_q27 = high((int32_t)((uint32_t)minus_dev_x << half_shift), (int32_t)per_radius_q28);
+    const int32_t sine_q27 = high((int32_t)((uint32_t)dev_z << half_shift), (int32_t)per_radius_q28);
+    const uint32_t entry = brace_fixed_cell[((uint32_t)sine_q27 >> 24) & 15u][((uint32_t)cosine_q27 >> 24) & 15u];
+    const brace_sincos_t opposite = brace_fixed_sincos[entry];
+    const int32_t sine_off_q26 = high_sum(sine_q27, opposite.cos_q31, cosine_q27, opposite.sin_q31);
+    const int32_t sine_off_q32 = (int32_t)((uint32_t)sine_off_q26 << 6);
+    const int32_t off_turn = high(sine_off_q32, ASIN_1 + high(high(sine_off_q32, sine_off_q32), ASIN_3));
+    const int32_t axis_twice_turn = (int32_t)(c->twice_turn + (entry << 26) + (uint32_t)off_turn);
+    const uint32_t axis = high_unsigned(magnitude_of(axis_twice_turn), PI_Q30) | 1u;
+    stiffness->stiff_axis_rad = float_of(float_bits(axis, AXIS_EXPONENT) | sign_of(axis_twice_turn));
+
+    /* K = (mean I - dev)/det, the deviator turned into the world's frame. */
+    const brace_sincos_t to_world = direction_of(c->twice_turn);
+    const int32_t minus_world_x = high_sum(minus_dev_x, to_world.cos_q31, dev_z, to_world.sin_q31);
+    const int32_t minus_world_z = high_sum(minus_dev_x, to_world.sin_q31, -dev_z, to_world.cos_q31);
+    const int32_t mean_quarter = (int32_t)(trace >> 2);
+    stiffness->k_xx_n_per_mm =
+        float_of(float_bits(high_unsigned((uint32_t)(mean_quarter + minus_world_x), per_det), c->exponent_k));
+    stiffness->k_zz_n_per_mm =
+        float_of(float_bits(high_unsigned((uint32_t)(mean_quarter - minus_world_x), per_det), c->exponent_k));
+    stiffness->k_xz_n_per_mm = float_of(
+        float_bits(high_unsigned(magnitude_of(minus_world_z), per_det) | 1u, c->exponent_k) | sign_of(minus_world_z));
+}
+
+#endif

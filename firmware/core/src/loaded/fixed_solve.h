@@ -1,0 +1,216 @@
+/* The limb's equations in fixed point, eliminated from the tip to the hip: loaded/solve.h in the formats of
+ * loaded/fixed_vec.h. Each function that can be asked of a limb beyond its range says so, and its caller ends there. */
+#ifndef BRACE_CORE_LOADED_FIXED_SOLVE_H
+#define BRACE_CORE_LOADED_FIXED_SOLVE_H
+
+#include <stdbool.h>
+
+#include "loaded/fixed_link.h"
+
+typedef struct {
+    int32_t pivot_a, pivot_b;
+    int32_t yields_a, yields_b;
+    int32_t b_by_a, root_by_a, root_by_b;
+    int32_t resists;
+} fixed_factors_t;
+
+/* returns false where a pivot is too small or a number leaves its range */
+INLINE bool fixed_factors_of(const fixed_matrix_t *m, int32_t bend, fixed_factors_t *f)
+{
+    lost_t lost = 0u;
+    f->pivot_a = wrapped_plus(ONE_Q27, kept((int64_t)bend * m->aa, 29, ROOM_COMPLIANCE, &lost));
+    if (lost >= LOST || f->pivot_a < LEAST_PIVOT_Q27) {
+        return false;
+    }
+    f->yields_a = kept((int64_t)bend * inverse_q27(f->pivot_a), 27, ROOM_COMPLIANCE, &lost);
+    f->b_by_a = kept((int64_t)m->ab * f->yields_a, 29, ROOM_COMPLIANCE, &lost);
+    f->root_by_a = kept((int64_t)m->ra * f->yields_a, 29, ROOM_COMPLIANCE, &lost);
+    const int32_t bb = wrapped_less(m->bb, kept((int64_t)m->ab * f->b_by_a, 27, ROOM_RATIO, &lost));
+    const int32_t rb = wrapped_less(m->rb, kept((int64_t)m->ab * f->root_by_a, 27, ROOM_RATIO, &lost));
+    const int32_t on_b = kept((int64_t)bend * bb, 29, ROOM_COMPLIANCE, &lost);
+    f->pivot_b = wrapped_plus(ONE_Q27, on_b);
+    if (lost >= LOST || f->pivot_b < LEAST_PIVOT_Q27) {
+        return false;
+    }
+    f->yields_b = kept((int64_t)bend * inverse_q27(f->pivot_b), 27, ROOM_COMPLIANCE, &lost);
+    f->root_by_b = kept((int64_t)rb * f->yields_b, 29, ROOM_COMPLIANCE, &lost);
+    f->resists = wrapped_less(m->rr, kept(sum2(rb, f->root_by_b, m->ra, f->root_by_a), 27, ROOM_RATIO, &lost));
+    return lost < LOST;
+}
+
+/* A joint's pivot, and what is left of a moment beyond it. */
+INLINE bool fixed_joint_of(int32_t yields, int32_t resists, int32_t *pivot)
+{
+    lost_t lost = 0u;
+    *pivot = wrapped_plus(ONE_Q27, kept((int64_t)yields * resists, 29, ROOM_COMPLIANCE, &lost));
+    return lost < LOST && *pivot >= LEAST_PIVOT_Q27;
+}
+
+/* --- a step towards the equilibrium --------------------------------------------------------------------------- */
+
+typedef struct {
+    fixed_factors_t f;
+    int32_t a_driven, b_driven, driven;
+} fixed_solved_t;
+
+INLINE bool fixed_solve_in(const fixed_pull_t *pull, int32_t bend, int32_t resists, int32_t drives, fixed_solved_t *s)
+{
+    lost_t lost = 0u;
+    const fixed_matrix_t *m = &pull->resists;
+    const int32_t end = pull->end_resists + resists, end_drives = pull->end_drives + drives;
+    const fixed_matrix_t whole = {m->rr + end, m->ra + end, m->rb + end, m->aa + end, m->ab + end, m->bb + end};
+    if (!fixed_factors_of(&whole, bend, &s->f)) {
+        return false;
+    }
+    s->a_driven = pull->drives.a + end_drives;
+    s->b_driven = wrapped_less(pull->drives.b + end_drives,
+                               kept((int64_t)s->f.b_by_a * s->a_driven, 27, ROOM_RATIO, &lost));
+    s->driven = wrapped_less(pull->drives.root + end_drives,
+                             kept(sum2(s->f.root_by_a, s->a_driven, s->f.root_by_b, s->b_driven), 27, ROOM_RATIO,
+                                  &lost));
+    return lost < LOST;
+}
+
+INLINE void fixed_solve_out(const fixed_solved_t *s, int32_t root, fixed_shape_t *shape, lost_t *lost)
+{
+    shape->root = root;
+    shape->b = kept(sum2(s->f.yields_b, s->b_driven, -s->f.root_by_b, root), 27, ROOM_ANGLE, lost);
+    shape->a = kept(sum3(s->f.yields_a, s->a_driven, -s->f.root_by_a, root, -s->f.b_by_a, shape->b), 27, ROOM_ANGLE,
+                    lost);
+}
+
+typedef struct {
+    fixed_link_t femur, tibia;
+    fixed_shape_t femur_shape, tibia_shape;
+} fixed_limb_t;
+
+#define ANGLE_Q29(rad) ((int32_t)((rad) * 0x1p29))
+#define FIXED_BEND_MOST ANGLE_Q29(0.9) /* on the way; angles and their sums stay below 4 rad then */
+#define FIXED_ROOT_MOST ANGLE_Q29(2.0)
+
+INLINE bool is_within(int32_t angle, int32_t most)
+{
+    return angle <= most && angle >= -most;
+}
+
+INLINE bool fixed_is_bent_within(const fixed_shape_t *shape, int32_t root, int32_t bend)
+{
+    return is_within(shape->root, root) && is_within(shape->a, bend) && is_within(shape->b, bend);
+}
+
+/* returns false where the limb yields too much for the formats */
+INLINE bool fixed_step(fixed_limb_t *limb, bool is_first, int32_t hip, int32_t knee)
+{
+    fixed_pull_t pull;
+    fixed_solved_t tibia, femur;
+    int32_t pivot;
+    lost_t lost = 0u;
+    if (is_first) {
+        fixed_pull_straight(&limb->tibia, &pull);
+    } else {
+        fixed_pull_bent(&limb->tibia, &limb->tibia_shape, &pull);
+    }
+    if (!fixed_solve_in(&pull, limb->tibia.bend, 0, 0, &tibia) || !fixed_joint_of(knee, tibia.f.resists, &pivot)) {
+        return false;
+    }
+    const int32_t per_knee = inverse_q27(pivot);
+    const int32_t beyond = kept((int64_t)tibia.f.resists * per_knee, 27, ROOM_RATIO, &lost);
+    const int32_t beyond_drives = kept((int64_t)tibia.driven * per_knee, 27, ROOM_RATIO, &lost);
+    if (lost >= LOST) {
+        return false;
+    }
+    if (is_first) {
+        fixed_pull_straight(&limb->femur, &pull);
+    } else {
+        fixed_pull_bent(&limb->femur, &limb->femur_shape, &pull);
+    }
+    if (!fixed_solve_in(&pull, limb->femur.bend, beyond, beyond_drives, &femur) ||
+        !fixed_joint_of(hip, femur.f.resists, &pivot)) {
+        return false;
+    }
+    const int32_t hip_moment = kept((int64_t)femur.driven * inverse_q27(pivot), 27, ROOM_RATIO, &lost);
+    fixed_solve_out(&femur, kept((int64_t)hip * hip_moment, 27, ROOM_ANGLE, &lost), &limb->femur_shape, &lost);
+    if (lost >= LOST || !fixed_is_bent_within(&limb->femur_shape, FIXED_ROOT_MOST, FIXED_BEND_MOST)) {
+        return false;
+    }
+    const int32_t by_end = kept((int64_t)fixed_end_turn(&limb->femur_shape) * per_knee, 27, ROOM_ANGLE, &lost);
+    const int32_t by_knee = kept((int64_t)knee * beyond_drives, 27, ROOM_ANGLE, &lost);
+    if (lost >= LOST) {
+        return false;
+    }
+    /* each is below 2 rad */
+    const int32_t root = (by_end >> 1) + (by_knee >> 1);
+    if (!is_within(root, FIXED_ROOT_MOST >> 1)) {
+        return false;
+    }
+    fixed_solve_out(&tibia, 2 * root, &limb->tibia_shape, &lost);
+    return lost < LOST && fixed_is_bent_within(&limb->tibia_shape, FIXED_ROOT_MOST, FIXED_BEND_MOST);
+}
+
+/* --- at the equilibrium --------------------------------------------------------------------------------------- */
+
+typedef struct {
+    const fixed_rest_t *femur, *tibia;
+    int32_t femur_bend, tibia_bend, hip, knee; /* compliances */
+} fixed_stance_t;
+
+typedef struct {
+    fixed_factors_t femur, tibia;
+    int32_t hip, knee;         /* pivots of the joints */
+    int32_t per_hip, per_knee; /* one over them */
+} fixed_pivots_t;
+
+/* The matrix at the present load; returns false where it is too soft, or leaves its range */
+INLINE bool fixed_pivots_of(const fixed_stance_t *limb, fixed_pivots_t *p)
+{
+    fixed_matrix_t m;
+    lost_t lost = 0u;
+    const fixed_rest_t *rest = limb->tibia;
+    int32_t end = rest->end_resists - rest->end_softens;
+    m = (fixed_matrix_t){rest->resists.rr + end - rest->root_softens, rest->resists.ra + end, rest->resists.rb + end,
+                         rest->resists.aa + end, rest->resists.ab + end, rest->resists.bb + end};
+    if (!fixed_factors_of(&m, limb->tibia_bend, &p->tibia) ||
+        !fixed_joint_of(limb->knee, p->tibia.resists, &p->knee)) {
+        return false;
+    }
+    p->per_knee = inverse_q27(p->knee);
+    rest = limb->femur;
+    end = rest->end_resists - rest->end_softens + kept((int64_t)p->tibia.resists * p->per_knee, 27, ROOM_RATIO, &lost);
+    if (lost >= LOST) {
+        return false;
+    }
+    m = (fixed_matrix_t){rest->resists.rr + end - rest->root_softens, rest->resists.ra + end, rest->resists.rb + end,
+                         rest->resists.aa + end, rest->resists.ab + end, rest->resists.bb + end};
+    if (!fixed_factors_of(&m, limb->femur_bend, &p->femur) || !fixed_joint_of(limb->hip, p->femur.resists, &p->hip)) {
+        return false;
+    }
+    p->per_hip = inverse_q27(p->hip);
+    return true;
+}
+
+/* A number of any size: mantissa 2^exponent. The mantissa is 0 or at least 2^30. */
+typedef struct {
+    int32_t mantissa_q31, exponent;
+} fixed_wide_t;
+
+/* A number that is not negative, times another. */
+INLINE fixed_wide_t wide_times(fixed_wide_t a, int32_t b_q27)
+{
+    const int32_t product = times(a.mantissa_q31, b_q27, 27 + 4); /* b is below 16 */
+    const uint32_t zeros = leading_zeros((uint32_t)product | 1u) - 1u;
+    return (fixed_wide_t){(int32_t)((uint32_t)product << zeros), a.exponent + 4 - (int32_t)zeros};
+}
+
+/* The determinant: the product of the pivots. */
+INLINE fixed_wide_t fixed_product(const fixed_pivots_t *p)
+{
+    fixed_wide_t product = {1 << 30, 1};
+    product = wide_times(product, p->tibia.pivot_a);
+    product = wide_times(product, p->tibia.pivot_b);
+    product = wide_times(product, p->knee);
+    product = wide_times(product, p->femur.pivot_a);
+    product = wide_times(product, p->femur.pivot_b);
+    return wide_times(product, p->hip);
+}
+
+#endif

@@ -1,0 +1,233 @@
+/* K under a load in fixed point beside the float path: the same numbers within the rounding, the same refusals. The
+ * float path's own tests say what is right; tests/engine judges both over random limbs. */
+#include <math.h>
+#include <string.h>
+
+#include "brace/loaded_fixed.h"
+#include "reference_planar.h"
+#include "sample_limbs.h"
+#include "unity.h"
+
+static brace_limb_t limb;
+static brace_gravity_t weights;
+static brace_load_t load;
+
+void setUp(void)
+{
+    limb = sample_limb[SAMPLE_PAPER];
+    memset(&weights, 0, sizeof weights);
+    load = (brace_load_t){.down = {0.0f, -1.0f}};
+}
+
+void tearDown(void) {}
+
+static void take_springs(void)
+{
+    const float hip = limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm;
+    const float knee = limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm;
+    load.hip = (brace_loaded_joint_t){hip, hip};
+    load.knee = (brace_loaded_joint_t){knee, knee};
+}
+
+static brace_status_t status_at(float theta1_rad, float theta2_rad, brace_loaded_stiffness_t *result)
+{
+    brace_loaded_t loaded;
+    brace_loaded_fixed_t fixed;
+    brace_loaded_collapse(&limb, &weights, &loaded);
+    brace_loaded_fixed_collapse(&loaded, &fixed);
+    return brace_loaded_fixed_stiffness(&fixed, theta1_rad, theta2_rad, &load, result);
+}
+
+/* 1e-4: a word keeps 2^-26 of the limb's size and of the largest compliance; slender limbs make up to a thousand times
+ * that of it. */
+static void expect_as_float(float theta1_rad, float theta2_rad)
+{
+    brace_loaded_t loaded;
+    brace_loaded_stiffness_t is, want;
+    brace_loaded_collapse(&limb, &weights, &loaded);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_loaded_stiffness(&loaded, theta1_rad, theta2_rad, &load, &want));
+    TEST_ASSERT_EQUAL(BRACE_OK, status_at(theta1_rad, theta2_rad, &is));
+    const float off = 1e-4f * want.stiffness.lambda_max_n_per_mm;
+    TEST_ASSERT_FLOAT_WITHIN(off, want.stiffness.k_xx_n_per_mm, is.stiffness.k_xx_n_per_mm);
+    TEST_ASSERT_FLOAT_WITHIN(off, want.stiffness.k_xz_n_per_mm, is.stiffness.k_xz_n_per_mm);
+    TEST_ASSERT_FLOAT_WITHIN(off, want.stiffness.k_zz_n_per_mm, is.stiffness.k_zz_n_per_mm);
+    TEST_ASSERT_FLOAT_WITHIN(off, want.stiffness.lambda_max_n_per_mm, is.stiffness.lambda_max_n_per_mm);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f * want.stiffness.lambda_min_n_per_mm, want.stiffness.lambda_min_n_per_mm,
+                             is.stiffness.lambda_min_n_per_mm);
+    if (want.stiffness.lambda_min_n_per_mm < 0.99f * want.stiffness.lambda_max_n_per_mm) { /* else any axis is right */
+        const float apart_rad = want.stiffness.stiff_axis_rad - is.stiffness.stiff_axis_rad;
+        TEST_ASSERT_FLOAT_WITHIN(1e-3f, 0.0f, sinf(apart_rad));
+    }
+    TEST_ASSERT_EQUAL_HEX32(want.stiffness.flags, is.stiffness.flags);
+    TEST_ASSERT_FLOAT_WITHIN(0.01f, want.displacement.x_mm, is.displacement.x_mm);
+    TEST_ASSERT_FLOAT_WITHIN(0.01f, want.displacement.z_mm, is.displacement.z_mm);
+    TEST_ASSERT_FLOAT_WITHIN(0.01f, want.tibia_mm.x, is.tibia_mm.x);
+    TEST_ASSERT_FLOAT_WITHIN(0.01f, want.tibia_mm.z, is.tibia_mm.z);
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, want.hip_turn_rad, is.hip_turn_rad);
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, want.knee_turn_rad, is.knee_turn_rad);
+    if (want.buckling_factor < 10.0f) {
+        TEST_ASSERT_FLOAT_WITHIN(0.02f * want.buckling_factor, want.buckling_factor, is.buckling_factor);
+    }
+}
+
+static void test_samples_under_loads(void)
+{
+    static const int sample[] = {SAMPLE_PAPER, SAMPLE_BEAM, SAMPLE_TILTED, SAMPLE_ROUND};
+    weights = (brace_gravity_t){.femur_n = 1.0f, .knee_n = 0.5f, .tibia_n = 0.7f};
+    for (uint32_t s = 0; s < sizeof sample / sizeof *sample; s++) {
+        limb = sample_limb[sample[s]];
+        take_springs();
+        for (int i = -6; i <= 6; i++) {
+            load.tip = (brace_force_t){2.0f * (float)(i % 3), (float)i};
+            expect_as_float(0.4f * (float)i, 0.7f + 0.3f * (float)(i % 5));
+        }
+    }
+}
+
+/* Without load K is that of the limb's plane, as the other paths tell it. */
+static void test_no_load_is_the_linear_limb(void)
+{
+    for (int sample = 0; sample < SAMPLE_COUNT; sample++) {
+        limb = sample_limb[sample];
+        take_springs();
+        for (int i = -9; i <= 9; i++) {
+            for (int j = 1; j <= 9; j++) {
+                const float theta1 = 0.3f * (float)i, theta2 = 0.3f * (float)j;
+                const reference_planar_t r = reference_planar(&limb, (double)theta1, (double)theta2);
+                brace_loaded_stiffness_t k;
+                TEST_ASSERT_EQUAL(BRACE_OK, status_at(theta1, theta2, &k));
+                /* as brace/loaded_fixed.h promises; of the slender limb a word keeps less */
+                const double limit = sample == SAMPLE_SLENDER ? 1e-3 : 2e-6;
+                TEST_ASSERT_DOUBLE_WITHIN(limit, 0.0, reference_error(&r, &k.stiffness));
+                TEST_ASSERT_FLOAT_WITHIN(1e-3f, 0.0f, k.displacement.x_mm);
+                TEST_ASSERT_FLOAT_WITHIN(1e-3f, 0.0f, k.displacement.z_mm);
+                TEST_ASSERT_TRUE(isinf(k.buckling_factor));
+            }
+        }
+    }
+}
+
+/* As in test_loaded_stiffness.c: rigid links, the knee alone yields, f = k / L. */
+static void test_buckling_factor_of_one_hinge(void)
+{
+    brace_loaded_stiffness_t k;
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        limb.link[i] = (brace_link_t){.axial_mm_per_n = 1e-5f, .bending_mm_per_n = 1e-5f};
+    }
+    limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = 0.0f;
+    limb.joint[BRACE_TIBIA].compliance_rad_per_n_mm = 2e-5f;
+    take_springs();
+    for (int i = 0; i < 6; i++) {
+        const float factor = 1.5f + 1.3f * (float)i;
+        load.tip.x_n = -1.0f / (2e-5f * limb.tibia_mm * factor);
+        TEST_ASSERT_EQUAL(BRACE_OK, status_at(0.0f, 0.0f, &k));
+        TEST_ASSERT_DOUBLE_WITHIN(0.02, 1.0, (double)(k.buckling_factor / factor));
+    }
+    load.tip.x_n = 50.0f; /* pulled: it stiffens */
+    TEST_ASSERT_EQUAL(BRACE_OK, status_at(0.0f, 0.0f, &k));
+    TEST_ASSERT_TRUE(isinf(k.buckling_factor));
+}
+
+static void test_what_is_refused(void)
+{
+    brace_loaded_stiffness_t result;
+    memset(&result, 0x5a, sizeof result);
+    const brace_loaded_stiffness_t untouched = result;
+    take_springs();
+    load.tip.x_n = NAN;
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, status_at(1.0f, 1.4f, &result));
+    load.tip.x_n = 2e4f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, status_at(1.0f, 1.4f, &result));
+    load.tip.x_n = 0.0f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, status_at(9.0f, 0.0f, &result));
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, status_at(5.0f, 5.0f, &result));
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, status_at(NAN, 0.0f, &result));
+    load.tip = (brace_force_t){-2000.0f, 0.0f}; /* far beyond what holds */
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, status_at(0.0f, 0.0f, &result));
+    load.tip.x_n = 0.0f;
+    load.down.x = 1.5f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, status_at(1.0f, 1.4f, &result));
+    load.down.x = NAN;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, status_at(1.0f, 1.4f, &result));
+    load.down.x = 0.0f;
+    load.hip.slope_rad_per_n_mm = NAN;
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, status_at(1.0f, 1.4f, &result));
+    TEST_ASSERT_EQUAL_MEMORY(&untouched, &result, sizeof result);
+}
+
+/* --- any input ------------------------------------------------------------------------------------------------ */
+
+static uint32_t state = 12345u;
+
+static float any(float least, float most)
+{
+    state = state * 1664525u + 1013904223u;
+    return least + (most - least) * ((float)(state >> 8) / 16777216.0f);
+}
+
+static float any_size(float least_log10, float most_log10)
+{
+    return powf(10.0f, any(least_log10, most_log10));
+}
+
+static void any_limb(void)
+{
+    limb.femur_mm = any_size(0.0f, 4.0f), limb.tibia_mm = any_size(0.0f, 4.0f);
+    for (int i = BRACE_FEMUR; i <= BRACE_TIBIA; i++) {
+        limb.link[i] = (brace_link_t){.axial_mm_per_n = any_size(-6.0f, 3.0f),
+                                      .bending_mm_per_n = any_size(-6.0f, 3.0f),
+                                      .tilt_rad = any(-1.57f, 1.57f),
+                                      .moment_transfer_ratio = any(0.0f, 1.0f)};
+        limb.joint[i].compliance_rad_per_n_mm = any_size(-12.0f, 0.0f);
+    }
+    limb.base = (brace_base_t){any_size(-6.0f, 3.0f), any_size(-6.0f, 3.0f), any_size(-12.0f, 0.0f)};
+    weights = (brace_gravity_t){
+        .femur_n = any_size(-3.0f, 6.0f), .knee_n = any_size(-3.0f, 6.0f), .tibia_n = any_size(-3.0f, 6.0f)};
+}
+
+/* The sanitized build sees every overflow. What is told is a number, and no load makes it wrong in silence: where both
+ * paths tell K and the float path promises it, they agree. */
+static void test_any_input(void)
+{
+    int told = 0, compared = 0;
+    for (int i = 0; i < 20000; i++) {
+        any_limb();
+        if (i % 2 != 0) { /* every other limb is one that a robot may have */
+            limb = sample_limb[i / 2 % SAMPLE_COUNT];
+            weights = (brace_gravity_t){.femur_n = any(0.0f, 3.0f), .knee_n = any(0.0f, 3.0f)};
+        }
+        take_springs();
+        const float size = any_size(-6.0f, 4.0f), direction = any(-3.2f, 3.2f), down = any(-3.2f, 3.2f);
+        load.tip = (brace_force_t){size * cosf(direction), size * sinf(direction)};
+        load.down = (brace_vec_t){cosf(down), sinf(down)};
+        const float theta1 = any(-4.0f, 4.0f), theta2 = any(-4.0f, 4.0f);
+        brace_loaded_stiffness_t is, want;
+        brace_loaded_t loaded;
+        if (status_at(theta1, theta2, &is) != BRACE_OK) {
+            continue;
+        }
+        told++;
+        TEST_ASSERT_TRUE(is.stiffness.lambda_min_n_per_mm > 0.0f && isfinite(is.stiffness.lambda_max_n_per_mm));
+        TEST_ASSERT_TRUE(is.buckling_factor > 0.0f);
+        brace_loaded_collapse(&limb, &weights, &loaded);
+        if (brace_loaded_stiffness(&loaded, theta1, theta2, &load, &want) == BRACE_OK &&
+            want.stiffness.flags == 0u && is.stiffness.flags == 0u && want.buckling_factor >= 2.0f) {
+            compared++;
+            const float off = 5e-3f * want.stiffness.lambda_max_n_per_mm;
+            TEST_ASSERT_FLOAT_WITHIN(off, want.stiffness.k_xx_n_per_mm, is.stiffness.k_xx_n_per_mm);
+            TEST_ASSERT_FLOAT_WITHIN(off, want.stiffness.k_zz_n_per_mm, is.stiffness.k_zz_n_per_mm);
+        }
+    }
+    TEST_ASSERT_TRUE(told > 3000 && compared > 2000);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_samples_under_loads);
+    RUN_TEST(test_no_load_is_the_linear_limb);
+    RUN_TEST(test_buckling_factor_of_one_hinge);
+    RUN_TEST(test_what_is_refused);
+    RUN_TEST(test_any_input);
+    return UNITY_END();
+}
