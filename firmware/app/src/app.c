@@ -322,6 +322,7 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
 
     /* Tell. */
     publish(controller, snapshot);
-    wires_tick(&app->wires, hal, app, &controller->counters, controller->has_worked, now_us);
+    wires_tick(&app->wires, hal, app, &controller->counters, controller->has_worked,
+               controller->has_worked || controller->drift.has_worked, now_us);
     hal->watchdog_feed(hal->context);
 }

@@ -10,13 +10,14 @@ void wires_start(wires_t *wires, const brace_hal_t *hal, const brace_parameters_
 }
 
 void wires_tick(wires_t *wires, const brace_hal_t *hal, brace_app_t *app, brace_app_counters_t *counters,
-                bool has_worked, uint32_t now_us)
+                bool requests_wait, bool data_waits, uint32_t now_us)
 {
     const wire_tick_t tick = {.hal = hal,
                               .app = app,
                               .counters = counters,
                               .measured = &wires->measured,
-                              .has_worked = has_worked,
+                              .requests_wait = requests_wait,
+                              .data_waits = data_waits,
                               .now_us = now_us};
     measured_take(app, counters, now_us, &wires->measured);
     can_tick(&wires->can, &tick);

@@ -20,9 +20,9 @@ void wires_start(wires_t *wires, const brace_hal_t *hal, const brace_parameters_
 
 /* One tick, after the snapshot has been published: every port takes what has come, answers it, and sends what is due.
  *   counters: where troubles are counted
- *   has_worked: a job has worked out a K in this tick: requests and process data wait for the next one */
+ *   requests_wait, data_waits: as wire_tick_t has them */
 void wires_tick(wires_t *wires, const brace_hal_t *hal, brace_app_t *app, brace_app_counters_t *counters,
-                bool has_worked, uint32_t now_us);
+                bool requests_wait, bool data_waits, uint32_t now_us);
 
 /* Is the CAN controller off its bus? BRACE_FAULT_CAN_BUS_OFF */
 bool wires_are_bus_off(const wires_t *wires);

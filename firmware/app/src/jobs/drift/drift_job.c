@@ -165,6 +165,7 @@ void drift_job_clear(drift_job_t *job)
 void drift_job_step(drift_job_t *job, const drift_inputs_t *inputs)
 {
     const brace_limb_t *limb = &inputs->parameters->limb;
+    job->has_worked = inputs->may_work && (job->learns_anew || job->has_reading || job->foresees);
     if (!inputs->may_work) {
         return;
     }

@@ -76,7 +76,7 @@ static void answer(can_t *can, way_t way, const wire_tick_t *tick, const uint8_t
 /* A request that has come. */
 static void take(can_t *can, way_t way, const wire_tick_t *tick, const uint8_t *data)
 {
-    if (tick->has_worked) {
+    if (tick->requests_wait) {
         can_requests_keep(&port_of(can, way)->requests, data);
     } else {
         answer(can, way, tick, data);
@@ -89,7 +89,7 @@ static bool ask_again(can_t *can, way_t way, const wire_tick_t *tick)
 {
     const can_requests_t *requests = &port_of(can, way)->requests;
     const bool waited = requests->waits;
-    if (waited && !tick->has_worked) {
+    if (waited && !tick->requests_wait) {
         answer(can, way, tick, requests->waiting);
     }
     return waited;
@@ -228,7 +228,7 @@ static void speak(can_t *can, way_t way, const wire_tick_t *tick)
     send_answers(can, way, tick);
     if (has_number(can)) {
         send_announcement(can, way, tick);
-        if (!tick->has_worked) {
+        if (!tick->data_waits) {
             send_process_data(can, way, tick);
         }
     }

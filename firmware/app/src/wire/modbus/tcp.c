@@ -93,7 +93,7 @@ static void take_request(modbus_link_t *link, modbus_server_t *server, const wir
 
 void modbus_tcp_tick(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
 {
-    if (!link->is_sending && !tick->has_worked) {
+    if (!link->is_sending && !tick->requests_wait) {
         take_request(link, server, tick);
     }
     if (link->is_sending) {
