@@ -272,12 +272,18 @@ def make_outside(world: World, rng: Rng, number: int) -> dict[str, Any]:
 
 
 def make_disguised(world: World, rng: Rng, number: int) -> dict[str, Any]:
-    """What is outside the catalogue, but leaves exactly the trace of entries of it: named so, or unknown."""
+    """What is outside the catalogue, but known to leave nearly the trace of entries of it: how nearly, in sigmas, the
+    answer says (`left_by_catalogue`)."""
     name, alike = world.disguised[number % len(world.disguised)]
     believed, given, shown, held, left_out = world.setting(rng, [])
     bench = world.bench(shown, believed, given)
     one = world.draw_outsider(rng, name, believed, bench.whole_s, bench.peak_n, bench.deepest, shown.step_mm)
     size = one.largest * rng.uniform(0.3, 1.0)
+    target = bench.in_sigmas(one.play(believed, shown.rows, size, world.play))
+    entries = effects.candidates(believed, shown.rows, bench.peak_n, bench.deepest)
+    keys = [key for entry in entries if entry.label in alike for key in entry.keys]
+    chi2, at, _ = bench.fit(target, believed)
+    left = min(chi2, bench.fit(target, at, keys, rounds=25)[0])
     return {
         "believed": believed,
         "left_out": left_out,
@@ -289,8 +295,8 @@ def make_disguised(world: World, rng: Rng, number: int) -> dict[str, Any]:
         "truth": {
             "kind": "disguised",
             "effects": [{"name": name, "where": "outside"}],
-            "detectability": round(bench.s_of_record(
-                bench.in_sigmas(one.play(believed, shown.rows, size, world.play))), 2),
+            "detectability": round(math.sqrt(max(0.0, chi2)), 2),
+            "left_by_catalogue": round(math.sqrt(max(0.0, left)), 2),
             "cls": [],
             "alike": list(alike),
         },
@@ -392,6 +398,7 @@ def _job(job: tuple[int, int, Cases, str, str]) -> tuple[int, list[str]]:
 
 
 SEAL = "sealed.sha256"
+PARTS = {"answers", "cases"}
 
 
 def listing(out: Path) -> str:
@@ -411,29 +418,44 @@ def seal_of(out: Path) -> str:
 
 
 def generate(
-    seed: int, cases: Cases, out: Path, processes: int = 2, quiet: bool = False, world: World = SIMULATOR
-) -> str:
+    seed: int, cases: Cases, out: Path, processes: int = 2, quiet: bool = False, world: World = SIMULATOR,
+    first: int | None = None,
+) -> str:  # fmt: skip
     """Makes a set, unless this generator made it before, and seals it; returns the seal. A set that comes out as it was
-    stays in place."""
-    wanted = {"seed": seed, "cases": cases, "generator": generator_hash(world)}
+    stays in place. `first`: only so many, in the order of their names, which is random. An interrupted one goes on."""
+    of = {"seed": seed, "cases": cases, "generator": generator_hash(world)}
+    count = min(total(cases), first or total(cases))
+    wanted = {**of, "first": count}
     stamp = out / "set.json"
-    if stamp.exists() and json.loads(stamp.read_text()) == wanted and (out / SEAL).exists():
+    made = json.loads(stamp.read_text()) if stamp.exists() and (out / SEAL).exists() else {}
+    if made == wanted:
         return seal_of(out)
-    out.mkdir(parents=True, exist_ok=True)
     fresh = out / "being-made"
-    shutil.rmtree(fresh, ignore_errors=True)
-    count = total(cases)
-    jobs = [(seed, index, cases, str(fresh), world.name) for index in range(count)]
+    if not (fresh / "set.json").exists() or json.loads((fresh / "set.json").read_text()) != of:
+        shutil.rmtree(fresh, ignore_errors=True)
+        if {**made, "first": count} == wanted:  # the same set, but of fewer or more
+            shutil.copytree(out, fresh, ignore=lambda folder, names: set(names) - PARTS if folder == str(out) else ())
+        fresh.mkdir(parents=True, exist_ok=True)
+        (fresh / "set.json").write_text(json.dumps(of))
+    order = sorted(range(total(cases)), key=lambda index: identity(seed, index))
+    jobs = []
+    for place, index in enumerate(order):
+        name = identity(seed, index)
+        if place >= count:
+            for part in PARTS:
+                shutil.rmtree(fresh / part / name, ignore_errors=True)
+        elif not (fresh / "answers" / name / "truth.json").exists():  # the last file of a case
+            jobs.append((seed, index, cases, str(fresh), world.name))
     begun, given_up = time.monotonic(), 0
     with ProcessPoolExecutor(processes, multiprocessing.get_context("spawn")) as pool:
         for done, job in enumerate(as_completed([pool.submit(_job, job) for job in jobs]), start=1):
             given_up += len(job.result()[1])
-            if not quiet and (done % 20 == 0 or done == count):
+            if not quiet and (done % 20 == 0 or done == len(jobs)):
                 spent = time.monotonic() - begun
-                text = f"made {done}/{count} cases, {spent:.0f} s, {given_up} draws given up "
-                print(f"\r{text}", end="" if done < count else "\n", file=sys.stderr, flush=True)
+                text = f"made {done}/{len(jobs)} cases, {spent:.0f} s, {given_up} draws given up "
+                print(f"\r{text}", end="" if done < len(jobs) else "\n", file=sys.stderr, flush=True)
     if listing(fresh) != (listing(out) if (out / "cases").is_dir() else ""):
-        for part in ("answers", "cases"):
+        for part in PARTS:
             shutil.rmtree(out / part, ignore_errors=True)
             (fresh / part).rename(out / part)
         shutil.rmtree(out / "best", ignore_errors=True)

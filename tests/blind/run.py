@@ -1,8 +1,9 @@
 """Runs the blind benchmark: makes the cases, seals the answers, diagnoses every case, judges, writes the tables.
 
-usage: run.py [--engine] [--development] [--cases N] [--seed S] [--processes P] [--out FOLDER]
+usage: run.py [--engine] [--development] [--cases N] [--seed S] [--only N] [--minutes M] [--processes P] [--out FOLDER]
 N is a number or a plan, as generate.py says.
-An interrupted run goes on where it was; a changed tool starts anew."""
+An interrupted run goes on where it was; a changed tool starts anew. --only and --minutes take the cases in the order of
+their names, which is random and the same in every run; the report says how many of the plan they were."""
 
 from __future__ import annotations
 
@@ -11,12 +12,14 @@ import one_thread  # noqa: F401, I001  before numpy is loaded
 import argparse
 import importlib.util
 import json
+import math
 import multiprocessing
 import os
 import sys
 import time
 from collections.abc import Callable, Iterable
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import FIRST_COMPLETED, ProcessPoolExecutor, wait
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -24,10 +27,9 @@ import best
 import diagnoser
 import follow_up
 import report
-from generate import cases_of, default_folder, generate, generator_hash, seal_of
+from generate import cases_of, default_folder, generate, generator_hash, seal_of, total
 from plant import BUILD
 from scoring import STRONG, Judged, gap_n, judge
-from seeds import REPORTED_CASES
 from worlds import world_called
 
 SAME_BYTES_CASES = 16
@@ -102,19 +104,28 @@ def _best_job(job: tuple[str, str]) -> str:
     return job[1]
 
 
-def in_turn(what: str, work: Callable[[Any], str], jobs: list[Any], processes: int) -> None:
-    """Runs jobs on some processes and says how far it is; an error when one of the processes is lost."""
+def in_turn(
+    what: str, work: Callable[[Any], str], jobs: list[Any], processes: int, until_s: float = math.inf
+) -> list[str]:
+    """Runs jobs on some processes and says how far it is; an error when one of the processes is lost. Returns what was
+    done: from `until_s` on, of time.monotonic(), it begins no more."""
     if not jobs:
-        return
-    begun = time.monotonic()
+        return []
+    begun, finished = time.monotonic(), []
     with ProcessPoolExecutor(processes, multiprocessing.get_context("spawn")) as pool:
-        for done, job in enumerate(as_completed([pool.submit(work, job) for job in jobs]), start=1):
-            job.result()
-            spent = time.monotonic() - begun
+        left = iter(jobs)
+        running = {pool.submit(work, job) for job in islice(left, 2 * processes)}
+        while running:
+            done, running = wait(running, return_when=FIRST_COMPLETED)
+            finished += [job.result() for job in done]
+            if time.monotonic() < until_s:
+                running |= {pool.submit(work, job) for job in islice(left, len(done))}
+            spent, count = time.monotonic() - begun, len(finished)
             print(
-                f"\r{what}: {done}/{len(jobs)}, {spent:.0f} s, about {spent / done * (len(jobs) - done):.0f} s left   ",
-                end="" if done < len(jobs) else "\n", file=sys.stderr, flush=True,
+                f"\r{what}: {count}/{len(jobs)}, {spent:.0f} s, about {spent / count * (len(jobs) - count):.0f} s left   ",
+                end="" if running else "\n", file=sys.stderr, flush=True,
             )  # fmt: skip
+    return finished
 
 
 def judge_all(root: Path, results: Path, names: Iterable[str]) -> list[Judged]:
@@ -214,7 +225,8 @@ def main() -> int:
     parser.add_argument("--engine", action="store_true", help="limbs of the physics engine in tests/engine")
     parser.add_argument("--development", action="store_true", help="the development seed; nothing is written to docs/")
     parser.add_argument("--cases", type=cases_of, help="how many, or a plan")
-    parser.add_argument("--only", type=int, help="of the set, diagnose only the first so many: for a quick look")
+    parser.add_argument("--only", type=int, help="of the plan, make and diagnose only the first so many")
+    parser.add_argument("--minutes", type=float, default=math.inf, help="begin no diagnosis after so many")
     parser.add_argument("--seed", type=int, help="another seed; nothing is written to docs/")
     parser.add_argument("--processes", type=int, default=min(2, os.cpu_count() or 1))
     parser.add_argument("--out", type=Path, help="folder of the tables; default docs/ for the test set")
@@ -230,15 +242,15 @@ def main() -> int:
     root, version = default_folder(seed, cases, world), diagnoser.version()
     if seed == world.test_seed:
         print("the test set: its figures are for reporting, not for tuning", file=sys.stderr)
-    seal = generate(seed, cases, root, options.processes, world=world)
+    seal = generate(seed, cases, root, options.processes, world=world, first=options.only)
     print(f"answers sealed before the run: sha256 {seal}", file=sys.stderr)
     results = root / f"results-{version}-{generator_hash(world)[:6]}"
     results.mkdir(exist_ok=True)
-    names = sorted(path.name for path in (root / "cases").iterdir())[: options.only]
+    names = sorted(path.name for path in (root / "cases").iterdir())
 
     begun = time.monotonic()
-    jobs = [(str(root), str(results), n, k < REPORTED_CASES) for k, n in enumerate(names)]
-    in_turn("diagnosing", _main_job, jobs, options.processes)
+    jobs = [(str(root), str(results), n, k < world.reported_cases) for k, n in enumerate(names)]
+    names = sorted(in_turn("diagnosing", _main_job, jobs, options.processes, begun + 60.0 * options.minutes))
     told = names if world.follows_up else []
     missing = [(str(root), n) for n in told if _gap_counts(root, n) and not (root / "best" / f"{n}.json").exists()]
     in_turn("what could be closed", _best_job, missing, options.processes)
@@ -261,6 +273,7 @@ def main() -> int:
     made = {
         "seed": seed,
         "cases": len(names),
+        "planned": total(cases),
         "set": {world.development_seed: "development", world.test_seed: "test"}.get(seed, "other"),
         "seal_sha256": seal,
         "generator_sha256": generator_hash(world),
@@ -279,7 +292,8 @@ def main() -> int:
         figures |= {key: value for key, value in beside.items() if key != "lines"}
         found = report.table(figures), report.page(figures, judged, command), report.as_json(figures)
     table, text, content = found
-    whole = seed == world.test_seed and options.only is None and not options.quick and cases == world.test_cases
+    part = len(names) < total(cases) and world.follows_up  # a world that is slow to play may report a part
+    whole = seed == world.test_seed and not part and not options.quick and cases == world.test_cases
     out = options.out or (BUILD.parents[1] / "docs" if whole else results)
     out.mkdir(parents=True, exist_ok=True)
     (out / f"{world.page}.md").write_text(text)

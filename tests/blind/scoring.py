@@ -34,6 +34,7 @@ class Judged:
     claims: list[tuple[float, bool]] = field(default_factory=list)
     intervals: list[tuple[str, bool]] = field(default_factory=list)
     rows: int = 0
+    left: float = math.inf  # sigmas of an outsider that no entry of the catalogue makes up
     stiffer: tuple[float, float] | None = None  # error of K under load: as believed, as exported
     seconds: float = 0.0
     cpu_seconds: float = 0.0
@@ -63,12 +64,14 @@ def judge(truth: dict[str, Any], found: dict[str, Any]) -> Judged:
         fields = {fault.get("field") for fault in found.get("data_faults", [])}
         j.flags["fault"] = verdict == "data_fault" and bool(fields & set(truth["fields"]))
         j.flags["fault_any_field"] = verdict == "data_fault"
-    elif kind == "disguised":
-        alike = set(truth["alike"])
-        j.flags["seen_through"] = verdict == "unknown" or (alike <= set(said) | group and set(said) <= alike | group)
-    elif kind == "outside":
+    elif kind in ("disguised", "outside"):
+        j.left = float(truth.get("left_by_catalogue", math.inf))
         j.flags["unknown"] = verdict == "unknown"
         j.flags["misnamed"] = verdict == "effect" and bool(effects) and effects[0].get("confidence", 1.0) > CONFIDENT
+        if kind == "disguised":
+            alike = set(truth["alike"])
+            named = set(said) | group
+            j.flags["seen_through"] = verdict == "unknown" or (alike <= named and set(said) <= alike | group)
     elif kind == "single":
         name, whole = truth["effects"][0]["name"], j.cls | set(real)
         j.flags["exact"] = first is not None and names[0] == name

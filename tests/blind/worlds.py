@@ -61,6 +61,7 @@ class World:
     whole_beams: float = 0.5  # share of strong moment transfers that are a beam's
     least_whole_beam_s: float = 0.0
     displacements: str = "finite"  # small: its limb does not turn as it is displaced
+    reported_cases: int = seeds.REPORTED_CASES
     follows_up: bool = True  # next experiments, repeats and baselines are run
     judge_besides: Callable[[Path, str, Path], None] = _nothing_judged  # set, case, and the folder of its diagnosis
     report: Callable[[list[Judged], dict[str, Any], str], tuple[str, str, dict[str, Any]]] | None = None

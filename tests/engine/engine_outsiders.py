@@ -17,7 +17,7 @@ KINDS = ("encoder_ripple", "slip", "asymmetric_joint", "growing_backlash", "off_
 DISGUISED = (
     ("rig_turned", ("sensor_rotation@sensor", "joint_zero_offset@joint.femur")),
     ("rig_yields", ("base_compliance@base",)),
-    ("knee_offset", ("joint_zero_offset@joint.femur", "joint_zero_offset@joint.tibia")),
+    ("knee_offset", ("joint_zero_offset@joint.femur", "joint_zero_offset@joint.tibia", "link_length_error@geometry")),
     ("bowed_tibia", ("link_compliance_error@link.tibia",)),
 )
 

@@ -11,7 +11,7 @@ import pytest
 from conftest import LOADING_META, Outcome, loading_rows, write_loading
 
 from brace.dataset import Dataset, load_dataset
-from brace.identify.playing import settled
+from brace.identify.turning import settled
 from brace.model import LimbModel, load_limb
 
 Brace = Callable[..., Outcome]

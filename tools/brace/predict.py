@@ -64,7 +64,8 @@ def predict(
 
 def predict_loading(dataset: Dataset, model: LimbModel) -> dict[str, np.ndarray]:
     """Forces [N], and encoder and gauge readings where the dataset has them."""
-    from brace.identify.playing import player_of, settled
+    from brace.identify.playing import player_of
+    from brace.identify.turning import settled
 
     names = ["fx_n", "fz_n", *(name for name in _OPTIONAL_READINGS if name in dataset)]
     return zeroed(player_of(settled(dataset, model), names).play(model, names), dataset)

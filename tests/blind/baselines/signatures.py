@@ -89,7 +89,7 @@ def prepared(case: Path) -> Any:
     from brace.diagnose.loading.space import space_of, trust_of
     from brace.diagnose.one import load
     from brace.diagnose.options import Options
-    from brace.identify.playing import settled
+    from brace.identify.turning import settled
 
     given = load(case, case / "limb.toml")
     assert given.believed is not None

@@ -17,7 +17,8 @@ from brace.diagnose.loading.evidence import SPREAD, score
 from brace.diagnose.loading.extensions import Outside, outside
 from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.noise import growth_of, noise_of, robust_sigma
-from brace.diagnose.loading.parts import enough_rows, locked_rows
+from brace.dataset.enough import enough_rows
+from brace.diagnose.loading.parts import locked_rows
 from brace.diagnose.loading.record import load_record, setting_of
 from brace.diagnose.loading.run import search_pass
 from brace.diagnose.loading.screen import Remover

@@ -82,9 +82,10 @@ def fit(
     starts: Iterable[np.ndarray] = (),
     constraint: Callable[[np.ndarray, Nuisances], np.ndarray] | None = None,
     advance: Callable[[int], None] = lambda _done: None,
+    tolerance: float = TOLERANCE,
 ) -> Fit:
     """The best fit over the parameters' start and further `starts` (vectors). `constraint`, if given, is driven
-    to zero hard (a penalty that outweighs the data)."""
+    to zero hard (a penalty that outweighs the data). `tolerance` as least_squares has it."""
     from scipy.optimize import least_squares
 
     scale, prior, start = (parameters.array(name) for name in ("scale", "prior_sigma", "start"))
@@ -121,9 +122,9 @@ def fit(
             jac=slope,
             bounds=(low, high),
             x_scale=1.0,
-            ftol=TOLERANCE,
-            xtol=TOLERANCE,
-            gtol=TOLERANCE,
+            ftol=tolerance,
+            xtol=tolerance,
+            gtol=tolerance,
             max_nfev=200,
         )
         if best is None or found.cost < best.cost:

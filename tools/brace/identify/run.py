@@ -9,7 +9,6 @@ from typing import Any
 
 from brace.dataset import Dataset
 from brace.identify import parameters as choose
-from brace.identify import playing
 from brace.identify.classes import CANDIDATES, TABLE_CANDIDATES, Confusion, confusions
 from brace.identify.combinations import combination_estimates
 from brace.identify.families import FamilyFit, compare_families, scattered_starts
@@ -21,6 +20,7 @@ from brace.identify.loading import LoadingProblem
 from brace.identify.slopes import slope_table
 from brace.identify.split import Split, split
 from brace.identify.table import TableProblem, Weight
+from brace.identify import turning
 from brace.model import LimbModel
 
 _NOT_IN_TABLES = ("sensor.", "geometry.")  # a table's K is as coarse as its print; these stay as calibrated
@@ -73,7 +73,7 @@ def identify(
     if settled.kind == "joint_test":
         return _joint_test(dataset, settled, start, done, options)
     if settled.kind == "loading":
-        return _loading(dataset, playing.settled(settled, start), start, done, options, advance)
+        return _loading(dataset, turning.settled(settled, start), start, done, options, advance)
     return _table(dataset, settled, start, done, options, advance)
 
 

@@ -19,7 +19,7 @@ from brace.diagnose.loading.noise import (
     robust_sigma,
     rounding_of,
 )
-from brace.diagnose.loading.parts import enough_rows
+from brace.dataset.enough import enough_rows
 from brace.diagnose.loading.record import NOT_MEASURED, Record
 from brace.diagnose.loading.space import Trust, space_of
 

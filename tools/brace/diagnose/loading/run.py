@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from brace.dataset import Dataset
+from brace.dataset.enough import enough_rows
 from brace.diagnose.diagnosis import Diagnosis
 from brace.diagnose.loading import outcome
 from brace.diagnose.loading.choose import LabelSet, posterior_of
@@ -15,7 +16,7 @@ from brace.diagnose.loading.extensions import outside
 from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.data_faults.gate import gate
 from brace.diagnose.loading.noise_after_base import with_growth, with_known_noise
-from brace.diagnose.loading.parts import enough_rows, locked_rows
+from brace.diagnose.loading.parts import locked_rows
 from brace.diagnose.loading.record import Record, load_record, setting_of
 from brace.diagnose.loading.rounding import asked_for
 from brace.diagnose.loading.search_pass import Pass
@@ -26,7 +27,7 @@ from brace.diagnose.loading.verdict import decide
 from brace.diagnose.options import Advance, Options
 from brace.effects import Variant, all_variants
 from brace.errors import UsageError
-from brace.identify.playing import settled
+from brace.identify.turning import settled
 from brace.model import LimbModel
 
 

@@ -13,10 +13,11 @@ from brace.dataset import Dataset
 from brace.dataset.check_runs import run_starts
 from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.noise import FORCES, ChannelNoise
-from brace.diagnose.loading.parts import enough_rows
+from brace.dataset.enough import enough_rows
 from brace.diagnose.loading.record import Record, load_record
 from brace.diagnose.loading.space import Space, Trust, space_of, trust_of
-from brace.identify.playing import player_of, settled
+from brace.identify.playing import player_of
+from brace.identify.turning import settled
 from brace.model import LimbModel
 from brace.native.plant_batch import LoadingBatchPlayer
 
