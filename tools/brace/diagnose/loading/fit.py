@@ -11,7 +11,8 @@ from brace.diagnose.loading.space import Space
 from brace.identify.parameters import TIBIA_BEAM
 
 MAX_STEPS = 14
-STEP_LENGTHS = np.array([1.0, 0.4, 0.1, 0.02])
+WHOLE_STEP, SHORTER_STEPS = np.array([1.0]), np.array([0.4, 0.1, 0.02])
+KEPT_PROMISE = 0.5  # of what a step should gain: with less, shorter ones are tried as well
 SCREENING_DECREASE = 0.05  # of chi squared: a step that gains less is the last of a screening fit
 FINAL_DECREASE = 1e-4
 PROBE = 0.2  # sigmas of the whole record that a finite difference moves by, about
@@ -58,13 +59,12 @@ def residuals(record: Record, space: Space, points: np.ndarray) -> np.ndarray:
     return np.asarray(np.nan_to_num(found, nan=BIG, posinf=BIG, neginf=-BIG))
 
 
-def scales(record: Record, space: Space, x: np.ndarray, residual: np.ndarray) -> np.ndarray:
+def scales(record: Record, space: Space, x: np.ndarray, residual: np.ndarray, final: bool) -> np.ndarray:
     """For each key, the change that moves the whole record by about one sigma; found by doubling and halving."""
     scale = np.where(np.isinf(space.sigma), np.maximum(np.abs(x), 1e-3) * 1e-2, 0.1 * space.sigma)
     scale = np.where(scale > 0.0, scale, 1e-6)
     for _ in range(2):
-        step = _inward(space, x, scale)
-        moved = residuals(record, space, x + np.diag(step)) - residual
+        moved = _changes(record, space, x, residual, _inward(space, x, scale), final)
         length = np.linalg.norm(moved, axis=1)
         scale = np.asarray(np.clip(scale / np.clip(length, 1e-4, 1e4), 1e-14, None))
     scale[list(space.stepwise)] = 1.0
@@ -77,30 +77,37 @@ def _inward(space: Space, x: np.ndarray, step: np.ndarray) -> np.ndarray:
     return np.asarray(np.clip(x + step, space.low, space.high) - x)
 
 
-def jacobian(
-    record: Record, space: Space, x: np.ndarray, residual: np.ndarray, scale: np.ndarray, final: bool
+def _changes(
+    record: Record, space: Space, x: np.ndarray, residual: np.ndarray, step: np.ndarray, final: bool
 ) -> np.ndarray:
-    """Columns of the model's whitened readings by x / scale. While a fit only screens, a limb that does not turn tells
-    most of them: nearly the same, and ten times as fast."""
-    which = np.arange(space.size)
-    step = _inward(space, x, PROBE * scale)[which]
-    points = np.tile(x, (which.size, 1))
-    points[np.arange(which.size), which] += step
-    moved = np.empty((which.size, residual.size))
+    """How the model's whitened readings change with each key by its step, keys x readings. While a fit only screens, a
+    limb that does not turn tells most of them: nearly the same, and ten times as fast."""
+    points = x + np.diag(step)
+    moved = np.empty((space.size, residual.size))
     played = np.array([final or key.startswith(SEEN_IN_TURNING) for key in space.keys], dtype=bool)
     moved[played] = residual - residuals(record, space, points[played])
     if not played.all():
         flat = record.unturned
-        moved[~played] = residuals(flat, space, x[None])[0] - residuals(flat, space, points[~played])
-    safe = np.where((step == 0.0) | np.isin(which, space.stepwise), np.inf, step)
-    return np.asarray(moved * (scale[which] / safe)[:, None]).T
+        left = residuals(flat, space, np.vstack([x, points[~played]]))
+        moved[~played] = left[0] - left[1:]
+    return moved
+
+
+def jacobian(
+    record: Record, space: Space, x: np.ndarray, residual: np.ndarray, scale: np.ndarray, final: bool
+) -> np.ndarray:
+    """Columns of the model's whitened readings by x / scale."""
+    step = _inward(space, x, PROBE * scale)
+    moved = _changes(record, space, x, residual, step, final)
+    safe = np.where((step == 0.0) | np.isin(np.arange(space.size), space.stepwise), np.inf, step)
+    return np.asarray(moved * (scale / safe)[:, None]).T
 
 
 def fit(record: Record, space: Space, start: np.ndarray, *, final: bool = True) -> Fit:
     """Gauss-Newton with bounds; times at which readings jump are searched reading by reading in between."""
     x = np.clip(start, space.low, space.high)
     residual = residuals(record, space, x[None])[0]
-    scale = scales(record, space, x, residual)
+    scale = scales(record, space, x, residual, final)
     found = _descend(record, space, x, residual, scale, final)
     for _ in range(STEPWISE_ROUNDS if space.stepwise else 0):
         moved, left, cost = _step_times(record, space, found.x, found.residual, found.cost)
@@ -118,15 +125,23 @@ def _descend(
     cost = cost_of(space, x, residual)
     columns = jacobian(record, space, x, residual, scale, final)
     for _ in range(MAX_STEPS):
-        step = _newton_step(space, x, residual, columns, scale)
-        points = np.clip(x + STEP_LENGTHS[:, None] * step, space.low, space.high)
-        tried = residuals(record, space, points)
-        costs = np.array([cost_of(space, point, left) for point, left in zip(points, tried)])
-        best = int(np.argmin(costs))
-        gained = cost - costs[best]
+        step, promised = _newton_step(space, x, residual, columns, scale)
+        if promised < stop:
+            break
+        there, left, here = x, residual, cost
+        for lengths in (WHOLE_STEP, SHORTER_STEPS):
+            points = np.clip(x + lengths[:, None] * step, space.low, space.high)
+            tried = residuals(record, space, points)
+            costs = np.array([cost_of(space, point, left) for point, left in zip(points, tried)])
+            best = int(np.argmin(costs))
+            if costs[best] < cost:
+                there, left, cost = points[best], tried[best], float(costs[best])
+            if here - cost > KEPT_PROMISE * promised:
+                break
+        gained = here - cost
         if gained <= 0.0:
             break
-        x, residual, cost = points[best], tried[best], float(costs[best])
+        x, residual = there, left
         if gained < stop:
             break
         columns = jacobian(record, space, x, residual, scale, final)
@@ -163,8 +178,8 @@ def _step_times(
 
 def _newton_step(
     space: Space, x: np.ndarray, residual: np.ndarray, columns: np.ndarray, scale: np.ndarray
-) -> np.ndarray:
-    """Gauss-Newton's step with the priors in it; keys that push against a bound stay."""
+) -> tuple[np.ndarray, float]:
+    """Gauss-Newton's step with the priors in it, and what it should gain; keys that push against a bound stay."""
     weight = np.where(np.isinf(space.sigma), 0.0, scale / space.sigma)
     normal = columns.T @ columns + np.diag(weight**2)
     downhill = columns.T @ residual - weight * space.pull(x)
@@ -172,7 +187,7 @@ def _newton_step(
     for _ in range(3):
         free = np.flatnonzero(~held)
         if not free.size:
-            return np.zeros_like(x)
+            return np.zeros_like(x), 0.0
         part = normal[np.ix_(free, free)]
         diagonal = np.diag(part)
         damped = part + np.diag(1e-9 * diagonal + 1e-12)
@@ -180,6 +195,7 @@ def _newton_step(
         step[free] = np.linalg.solve(damped, downhill[free]) * scale[free]
         outward = ((x <= space.low) & (step < 0.0)) | ((x >= space.high) & (step > 0.0))
         if not np.any(outward & ~held):
-            return step
+            break
         held |= outward
-    return step
+    turned = step / scale
+    return step, float(2.0 * turned @ downhill - turned @ normal @ turned)

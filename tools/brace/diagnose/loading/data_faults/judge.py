@@ -77,7 +77,6 @@ class Judge:
     def agreement(self, dataset: Dataset, rows: np.ndarray, scale: np.ndarray | None = None) -> Agreement:
         """Of some rows (indices) of a dataset with this one's noise; `scale` (two factors) is what the repair
         multiplied both forces by, and their noise with them."""
-        dataset = settled(dataset, self.believed)  # a repaired record may tell it where a faulty one did not
         mask = np.zeros(dataset.rows, dtype=bool)
         mask[rows] = True
         part = dataset.select(mask)
@@ -86,6 +85,11 @@ class Judge:
         noise = {name: self.noise[name] for name in FORCES}
         record = Record(part, FORCES, noise, measured, sigma, self.player(part))
         found = fit(record, self.space, self.space.mean, final=False)
+        if not (dataset.meta.displacements or dataset.small_displacements):
+            # a repaired record may tell that its limb does not turn, where a faulty one did not
+            flat = fit(record.unturned, self.space, self.space.mean, final=False)
+            if flat.cost < found.cost and settled(part, self.believed).small_displacements:
+                found = flat
         return Agreement(found.cost, measured.size, found.model)
 
 
