@@ -121,10 +121,11 @@ def _descend(
     record: Record, space: Space, x: np.ndarray, residual: np.ndarray, scale: np.ndarray, final: bool
 ) -> Fit:
     """Steps until one gains too little."""
-    stop = FINAL_DECREASE if final else SCREENING_DECREASE
     cost = cost_of(space, x, residual)
     columns = jacobian(record, space, x, residual, scale, final)
     for _ in range(MAX_STEPS):
+        # far from the record a step must gain more to turn the evidence as much (evidence.py)
+        stop = FINAL_DECREASE if final else SCREENING_DECREASE * max(1.0, cost / max(record.readings, 1))
         step, promised = _newton_step(space, x, residual, columns, scale)
         if promised < stop:
             break
