@@ -283,7 +283,8 @@ def make_disguised(world: World, rng: Rng, number: int) -> dict[str, Any]:
     entries = effects.candidates(believed, shown.rows, bench.peak_n, bench.deepest)
     keys = [key for entry in entries if entry.label in alike for key in entry.keys]
     chi2, at, _ = bench.fit(target, believed)
-    left = min(chi2, bench.fit(target, at, keys, rounds=25)[0])
+    alone = max(bench.cosines(target).values(), default=0.0)  # what the best single entry makes up
+    left = min(chi2 * (1.0 - min(alone, 1.0) ** 2), bench.fit(target, at, keys, rounds=25)[0])
     return {
         "believed": believed,
         "left_out": left_out,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from brace.model import LimbModel
@@ -24,8 +26,12 @@ _ALL = np.dtype(
 )
 
 
+_ROUNDS, _SETTLED = 20, 1e-5  # of hardening springs: at most so many, and by how much one may still move
+
+
 class LoadedLimb:
-    """A limb ready to give K under forces on its tip, in its plane; the weights of [gravity] count too."""
+    """A limb ready to give K under forces on its tip, in its plane; the weights of [gravity] and the springs' hardening
+    count too."""
 
     def __init__(self, model: LimbModel) -> None:
         native = library()
@@ -38,9 +44,12 @@ class LoadedLimb:
         lib.brace_loaded_collapse(limb, weights, self._loaded)
         direction_rad, in_plane = model.number("gravity.direction_rad"), np.cos(model.number("gravity.lean_rad"))
         self._joints.down.x, self._joints.down.z = in_plane * np.cos(direction_rad), in_plane * np.sin(direction_rad)
-        for index, joint in ((lib.BRACE_FEMUR, self._joints.hip), (lib.BRACE_TIBIA, self._joints.knee)):
-            joint.yields_by_rad_per_n_mm = limb.joint[index].compliance_rad_per_n_mm
-            joint.slope_rad_per_n_mm = limb.joint[index].compliance_rad_per_n_mm
+        self._springs = (
+            _Spring("hip_turn_rad", self._joints.hip, model, "femur", model.number("base.rotation_rad_per_n_mm")),
+            _Spring("knee_turn_rad", self._joints.knee, model, "tibia", 0.0),
+        )
+        for spring in self._springs:
+            spring.carries(0.0)
 
     def stiffness(
         self, theta1_rad: np.ndarray, theta2_rad: np.ndarray, fx_n: np.ndarray, fz_n: np.ndarray
@@ -48,8 +57,26 @@ class LoadedLimb:
         """Structured array, one entry per commanded posture (true angles [rad], the joints not yet turned by the load)
         and force of the ground on the tip [N]. tip_dx_mm, tip_dz_mm: how far force and weight move the tip.
         buckling_factor: infinite where it is above 16, and where it may be above 11. NaN: refused, see `refusal`."""
-        ffi = self._native.ffi
         columns = [np.ascontiguousarray(column, np.float32) for column in (theta1_rad, theta2_rad, fx_n, fz_n)]
+        if not any(spring.hardens for spring in self._springs):
+            return _with_compliance(self._batch(columns))
+        rows = ([column[row : row + 1] for column in columns] for row in range(len(columns[0])))
+        return _with_compliance(np.concatenate([np.empty(0, _RESULT), *(self._hardened(row) for row in rows)]))
+
+    def _hardened(self, columns: list[np.ndarray]) -> np.ndarray:
+        """One posture: how far a hardening spring yields depends on its torque, that a little on how far it yields."""
+        for spring in self._springs:
+            spring.carries(0.0)
+        found = self._batch(columns)
+        for _ in range(_ROUNDS):
+            moved = [spring.carries(spring.torque_n_mm(found)) for spring in self._springs]
+            if not max(moved) > _SETTLED:
+                break
+            found = self._batch(columns)
+        return found
+
+    def _batch(self, columns: list[np.ndarray]) -> np.ndarray:
+        ffi = self._native.ffi
         found = np.empty(len(columns[0]), _RESULT)
         self._native.lib.brace_loaded_batch(
             self._loaded,
@@ -58,10 +85,12 @@ class LoadedLimb:
             *(ffi.from_buffer("float[]", column) for column in columns),
             ffi.cast("brace_loaded_stiffness_t *", ffi.from_buffer(found)),
         )
-        return _with_compliance(found)
+        return found
 
     def refusal(self, index: int, theta1_rad: float, theta2_rad: float, fx_n: float, fz_n: float) -> PostureError:
         """Why a posture has no K; `index` is its place among others."""
+        for spring in self._springs:
+            spring.carries(0.0)
         single = self._native.ffi.new("brace_loaded_stiffness_t *")
         self._joints.tip.x_n, self._joints.tip.z_n = fx_n, fz_n
         status = self._native.lib.brace_loaded_stiffness(self._loaded, theta1_rad, theta2_rad, self._joints, single)
@@ -69,6 +98,37 @@ class LoadedLimb:
             why = "no stable equilibrium is near: the load folds the limb, or nothing yields in some direction"
             return PostureError(index, status, why)
         return PostureError(index, status, status_text(self._native, status))
+
+
+class _Spring:
+    """A joint's spring, torque = deflection / compliance + hardening deflection^3, as the firmware's C wants it."""
+
+    def __init__(self, turn: str, joint: Any, model: LimbModel, part: str, base_rad_per_n_mm: float) -> None:
+        self._turn, self._joint, self._base_rad_per_n_mm = turn, joint, base_rad_per_n_mm
+        self._compliance_rad_per_n_mm = model.number(f"joint.{part}.compliance_rad_per_n_mm")
+        self._hardening_n_mm_per_rad3 = model.number(f"joint.{part}.hardening_n_mm_per_rad3")
+
+    @property
+    def hardens(self) -> bool:
+        return self._hardening_n_mm_per_rad3 > 0.0 and self._compliance_rad_per_n_mm > 0.0
+
+    def torque_n_mm(self, found: np.ndarray) -> float:
+        """That turned the joint, and with the hip the base."""
+        yields = self._joint.yields_by_rad_per_n_mm + self._base_rad_per_n_mm
+        return float(found[self._turn][0]) / yields if yields > 0.0 else 0.0
+
+    def carries(self, torque_n_mm: float) -> float:
+        """Sets how the joint yields under a torque; by what share that differs from before."""
+        slope = yields = self._compliance_rad_per_n_mm
+        if self.hardens and torque_n_mm != 0.0 and np.isfinite(torque_n_mm):
+            cubic = [self._hardening_n_mm_per_rad3, 0.0, 1.0 / self._compliance_rad_per_n_mm, -torque_n_mm]
+            roots = np.roots(cubic)
+            deflection_rad = float(roots[np.argmin(np.abs(roots.imag))].real)  # the only real one
+            yields = deflection_rad / torque_n_mm
+            slope = 1.0 / (1.0 / self._compliance_rad_per_n_mm + 3.0 * self._hardening_n_mm_per_rad3 * deflection_rad**2)
+        moved = abs(yields - self._joint.yields_by_rad_per_n_mm) / yields if yields > 0.0 else 0.0
+        self._joint.yields_by_rad_per_n_mm, self._joint.slope_rad_per_n_mm = yields, slope
+        return moved
 
 
 def stiffness_under_load(
