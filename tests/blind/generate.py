@@ -71,6 +71,10 @@ class Retry(Exception):
     """This draw cannot be made as wanted: draw again."""
 
 
+class Unmade(Exception):
+    """No draw of a case came out as wanted."""
+
+
 def _parameters(p: Array) -> dict[str, Any]:
     out: dict[str, Any] = {key: float(p[INDEX[key]]) for key in IN_LIMB_TOML}
     out["change.link"] = LINKS[int(out["change.link"])]
@@ -346,9 +350,9 @@ def drawn(
         rng = np.random.default_rng([seed, 2, index, attempt])
         try:
             return build(kind, number, rng, world), rng, given_up
-        except (Retry, np.linalg.LinAlgError, ArithmeticError) as why:
+        except (Retry, np.linalg.LinAlgError, ArithmeticError, ValueError) as why:
             given_up.append(str(why))
-    raise RuntimeError(f"case {index} ({kind} {number}) cannot be made: {given_up[-3:]}")
+    raise Unmade(f"case {index} ({kind} {number}) cannot be made: {given_up[-3:]}")
 
 
 def clean_readings(case: dict[str, Any], rows: Array, world: World = SIMULATOR) -> Array:
@@ -395,11 +399,17 @@ def write_case(seed: int, index: int, cases: Cases, out: Path, world: World = SI
 
 def _job(job: tuple[int, int, Cases, str, str]) -> tuple[int, list[str]]:
     seed, index, cases, out, world = job
-    return index, write_case(seed, index, cases, Path(out), world_called(world))
+    try:
+        return index, write_case(seed, index, cases, Path(out), world_called(world))
+    except Unmade as why:  # left out, whatever is diagnosed
+        unmade = Path(out) / "unmade"
+        unmade.mkdir(exist_ok=True)
+        (unmade / identity(seed, index)).write_text(f"{why}\n")
+        return index, []
 
 
 SEAL = "sealed.sha256"
-PARTS = {"answers", "cases"}
+PARTS = ("answers", "cases", "unmade")  # the last: why some cannot be made
 
 
 def listing(out: Path) -> str:
@@ -435,7 +445,7 @@ def generate(
     if not (fresh / "set.json").exists() or json.loads((fresh / "set.json").read_text()) != of:
         shutil.rmtree(fresh, ignore_errors=True)
         if {**made, "first": count} == wanted:  # the same set, but of fewer or more
-            shutil.copytree(out, fresh, ignore=lambda folder, names: set(names) - PARTS if folder == str(out) else ())
+            shutil.copytree(out, fresh, ignore=lambda folder, names: set(names) - set(PARTS) if folder == str(out) else ())
         fresh.mkdir(parents=True, exist_ok=True)
         (fresh / "set.json").write_text(json.dumps(of))
     order = sorted(range(total(cases)), key=lambda index: identity(seed, index))
@@ -443,9 +453,10 @@ def generate(
     for place, index in enumerate(order):
         name = identity(seed, index)
         if place >= count:
-            for part in PARTS:
+            for part in PARTS[:2]:
                 shutil.rmtree(fresh / part / name, ignore_errors=True)
-        elif not (fresh / "answers" / name / "truth.json").exists():  # the last file of a case
+        # truth.json is the last file of a case
+        elif not any(made.exists() for made in (fresh / "answers" / name / "truth.json", fresh / "unmade" / name)):
             jobs.append((seed, index, cases, str(fresh), world.name))
     begun, given_up = time.monotonic(), 0
     with ProcessPoolExecutor(processes, multiprocessing.get_context("spawn")) as pool:
@@ -458,7 +469,8 @@ def generate(
     if listing(fresh) != (listing(out) if (out / "cases").is_dir() else ""):
         for part in PARTS:
             shutil.rmtree(out / part, ignore_errors=True)
-            (fresh / part).rename(out / part)
+            if (fresh / part).exists():
+                (fresh / part).rename(out / part)
         shutil.rmtree(out / "best", ignore_errors=True)
     shutil.rmtree(fresh)
     (out / SEAL).write_text(listing(out))

@@ -274,6 +274,7 @@ def main() -> int:
         "seed": seed,
         "cases": len(names),
         "planned": total(cases),
+        "unmade": len(list((root / "unmade").iterdir())) if (root / "unmade").exists() else 0,
         "set": {world.development_seed: "development", world.test_seed: "test"}.get(seed, "other"),
         "seal_sha256": seal,
         "generator_sha256": generator_hash(world),

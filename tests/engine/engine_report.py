@@ -98,7 +98,8 @@ def made(judged: Sequence[Judged], by: dict[str, Any], command: str) -> tuple[st
         "# Blind benchmark on limbs of a physics engine",
         f"    {command}",
         HOW,
-        f"This run: {by['cases']} of {by['planned']} planned cases ({kinds}), {by['set']} seed {by['seed']}, "
+        f"This run: {by['cases']} of {by['planned']} planned cases ({kinds}), the first of a random order fixed by "
+        f"the seed; {by['unmade']} cannot be made, as no draw is as detectable as wanted. {by['set'].capitalize()} seed {by['seed']}, "
         f"answers' seal `{by['seal_sha256'][:16]}`, generator `{by['generator_sha256'][:12]}`, tool `{by['tool']}`.",
         table, READING, timing,
         "## Besides", "\n".join(rows),
