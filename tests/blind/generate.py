@@ -445,7 +445,9 @@ def generate(
     if not (fresh / "set.json").exists() or json.loads((fresh / "set.json").read_text()) != of:
         shutil.rmtree(fresh, ignore_errors=True)
         if {**made, "first": count} == wanted:  # the same set, but of fewer or more
-            shutil.copytree(out, fresh, ignore=lambda folder, names: set(names) - set(PARTS) if folder == str(out) else ())
+            for part in PARTS:
+                if (out / part).exists():
+                    shutil.copytree(out / part, fresh / part)
         fresh.mkdir(parents=True, exist_ok=True)
         (fresh / "set.json").write_text(json.dumps(of))
     order = sorted(range(total(cases)), key=lambda index: identity(seed, index))

@@ -121,8 +121,9 @@ def in_turn(
             if time.monotonic() < until_s:
                 running |= {pool.submit(work, job) for job in islice(left, len(done))}
             spent, count = time.monotonic() - begun, len(finished)
+            still_s = spent / count * (len(jobs) - count)
             print(
-                f"\r{what}: {count}/{len(jobs)}, {spent:.0f} s, about {spent / count * (len(jobs) - count):.0f} s left   ",
+                f"\r{what}: {count}/{len(jobs)}, {spent:.0f} s, about {still_s:.0f} s left   ",
                 end="" if running else "\n", file=sys.stderr, flush=True,
             )  # fmt: skip
     return finished

@@ -50,7 +50,7 @@ def figures(judged: Sequence[Judged]) -> list[dict[str, Any]]:
         report.at_least("both of two hidden effects and nothing else", share(pairs, "set"), 0.80),
         report.at_least("outside the catalogue, all: called unknown", share(judged, "unknown"), 0.90),
         report.at_most("outside the catalogue, all: named with more than 0.8", share(judged, "misnamed"), 0.02),
-        report.at_least("those that differ from it by 8 sigmas: called unknown", share(judged, "unknown", differs), 0.90),
+        report.at_least("those that differ by 8 sigmas: called unknown", share(judged, "unknown", differs), 0.90),
         report.at_most("those that differ: named with more than 0.8", share(judged, "misnamed", differs), 0.02),
         report.at_least("K under load of the exported model nearer to the truth than the believed", k, 0.97),
     ]  # fmt: skip
@@ -99,7 +99,8 @@ def made(judged: Sequence[Judged], by: dict[str, Any], command: str) -> tuple[st
         f"    {command}",
         HOW,
         f"This run: {by['cases']} of {by['planned']} planned cases ({kinds}), the first of a random order fixed by "
-        f"the seed; {by['unmade']} cannot be made, as no draw is as detectable as wanted. {by['set'].capitalize()} seed {by['seed']}, "
+        f"the seed; {by['unmade']} cannot be made, as no draw is as detectable as wanted. "
+        f"{by['set'].capitalize()} seed {by['seed']}, "
         f"answers' seal `{by['seal_sha256'][:16]}`, generator `{by['generator_sha256'][:12]}`, tool `{by['tool']}`.",
         table, READING, timing,
         "## Besides", "\n".join(rows),

@@ -12,6 +12,8 @@ import pytest
 
 from brace.model import load_limb
 from brace.native import loaded
+from brace.native.plant import LoadingPlayer
+from brace.stiffness_under_load import stiffness_under_load
 from conftest import Outcome
 
 ADDED = {"tip_dx_mm", "tip_dz_mm", "buckling_factor"}
@@ -32,6 +34,33 @@ def heavy_limb(paper_limb: Path, tmp_path: Path) -> Path:
     }
     path.write_text(load_limb(paper_limb).with_values(values).to_toml())
     return path
+
+
+@pytest.mark.parametrize("joints", [("femur",), ("tibia",), ("femur", "tibia")])
+def test_springs_that_harden(heavy_limb: Path, joints: tuple[str, ...]) -> None:
+    """The simulated limb, held off by a displacement, tells the force there and, by differences, K."""
+    off_mm, near_mm = (6.0, 15.0), 1e-3
+    model = load_limb(heavy_limb)
+    linear = model
+    for joint in joints:
+        model = model.with_values({f"joint.{joint}.hardening_n_mm_per_rad3": 3e8})
+    moved = near_mm * np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]]) + off_mm
+    rows = np.ones(len(moved))
+    columns = {
+        "run": np.arange(len(moved), dtype=np.int32), "t_s": np.arange(len(moved), dtype=float),
+        "theta1_rad": 0.9 * rows, "theta2_rad": 1.3 * rows, "temp_degc": 22.0 * rows,
+        "dx_mm": moved[:, 0].copy(), "dz_mm": moved[:, 1].copy(),
+    }  # fmt: skip
+    played = LoadingPlayer(columns).play(model, ("fx_n", "fz_n"))
+    force = np.stack([played["fx_n"], played["fz_n"]], axis=1)
+    k = np.stack([force[1] - force[2], force[3] - force[4]], axis=1) / (2.0 * near_mm)
+    at = (np.array([1.0]), np.array([1.3]), force[:1, 0], force[:1, 1])  # commanded, with the zero offset
+    told = stiffness_under_load(model, *at)[0]
+    assert [told["tip_dx_mm"], told["tip_dz_mm"]] == pytest.approx(off_mm, abs=0.02 * np.hypot(*off_mm))
+    k_told = np.array([[told["k_xx_n_per_mm"], told["k_xz_n_per_mm"]], [told["k_xz_n_per_mm"], told["k_zz_n_per_mm"]]])
+    assert np.linalg.norm(k_told - k) <= WORST_K * np.linalg.norm(k)
+    soft = stiffness_under_load(linear, *at)[0]
+    assert soft["k_zz_n_per_mm"] < 0.95 * k[1, 1]  # it matters here
 
 
 def rows_of(path: Path) -> list[dict[str, str]]:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from brace.model import LimbModel
 from brace.native import library
+from brace.native.c_data import CData
 from brace.native.limb import firmware_limb, status_text
 from brace.stiffness import E_SINGULAR, PLANAR_C, PLANAR_K, PLANAR_REST, PostureError
 
@@ -103,7 +102,7 @@ class LoadedLimb:
 class _Spring:
     """A joint's spring, torque = deflection / compliance + hardening deflection^3, as the firmware's C wants it."""
 
-    def __init__(self, turn: str, joint: Any, model: LimbModel, part: str, base_rad_per_n_mm: float) -> None:
+    def __init__(self, turn: str, joint: CData, model: LimbModel, part: str, base_rad_per_n_mm: float) -> None:
         self._turn, self._joint, self._base_rad_per_n_mm = turn, joint, base_rad_per_n_mm
         self._compliance_rad_per_n_mm = model.number(f"joint.{part}.compliance_rad_per_n_mm")
         self._hardening_n_mm_per_rad3 = model.number(f"joint.{part}.hardening_n_mm_per_rad3")
@@ -125,7 +124,8 @@ class _Spring:
             roots = np.roots(cubic)
             deflection_rad = float(roots[np.argmin(np.abs(roots.imag))].real)  # the only real one
             yields = deflection_rad / torque_n_mm
-            slope = 1.0 / (1.0 / self._compliance_rad_per_n_mm + 3.0 * self._hardening_n_mm_per_rad3 * deflection_rad**2)
+            stiffer_n_mm_per_rad = 3.0 * self._hardening_n_mm_per_rad3 * deflection_rad**2
+            slope = 1.0 / (1.0 / self._compliance_rad_per_n_mm + stiffer_n_mm_per_rad)
         moved = abs(yields - self._joint.yields_by_rad_per_n_mm) / yields if yields > 0.0 else 0.0
         self._joint.yields_by_rad_per_n_mm, self._joint.slope_rad_per_n_mm = yields, slope
         return moved

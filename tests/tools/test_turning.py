@@ -47,6 +47,26 @@ def test_the_believed_limb_may_be_wrong(
     assert not settled(simulated(brace, paper_limb, paper_rig, tmp_path / "real"), wrong).small_displacements
 
 
+HIDDEN: dict[str, dict[str, float]] = {
+    "a beam for a tibia": {"link.tibia.moment_transfer": 1.0},
+    "friction": {"joint.tibia.coulomb_n_mm": 300.0},
+    "play": {"joint.femur.gap_rad": 0.004},
+    "hardening": {"joint.tibia.hardening_n_mm_per_rad3": 1e8},
+    "a sensor that ends early": {"sensor.saturation_n": 4.0},
+    "another knee": {"joint.tibia.compliance_rad_per_n_mm": 6e-5},
+    "weight": {"gravity.tibia_n": 8.0},
+}
+
+
+@pytest.mark.parametrize("effect", sorted(HIDDEN))
+def test_whatever_is_hidden_a_limb_that_turns_is_not_taken_for_one_that_does_not(
+    brace: Brace, believed: LimbModel, paper_rig: Path, tmp_path: Path, effect: str
+) -> None:
+    limb = tmp_path / "limb.toml"
+    limb.write_text(believed.with_values(HIDDEN[effect]).to_toml())
+    assert not settled(simulated(brace, limb, paper_rig, tmp_path / "real"), believed).small_displacements
+
+
 def test_too_small_strokes_tell_nothing_and_the_limb_turned(believed: LimbModel, tmp_path: Path) -> None:
     record = load_dataset(write_loading(tmp_path / "linear", loading_rows(), meta=UNSAID))
     short = {name: 1e-3 * record[name] for name in ("dx_mm", "dz_mm")}
