@@ -14,7 +14,7 @@ from brace.identify.playing import player_of
 from brace.native.plant_batch import number_index
 
 OFFSET_KEYS = ("joint.femur.zero_offset_rad", "joint.tibia.zero_offset_rad")
-_SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
+SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
 MIN_ROWS = 12
 
 
@@ -31,7 +31,7 @@ class LoadingProblem:
             )
         self.dataset = dataset
         self.noise: NoiseFloor = noise_floor(dataset)
-        self._names = ["fx_n", "fz_n", *(name for name in _SIDE_READINGS if name in dataset)]
+        self._names = ["fx_n", "fz_n", *(name for name in SIDE_READINGS if name in dataset)]
         self._player = player_of(dataset, self._names)
         self._sigma = {
             name: self.noise.sigma_n if name in ("fx_n", "fz_n") else _side_sigma(dataset, name)
