@@ -8,13 +8,13 @@ from brace.dataset import Dataset
 from brace.dataset.zeroing import zeroed
 from brace.errors import BadFileError
 from brace.identify.fit import Nuisances, residual_of
-from brace.identify.noise import NoiseFloor, noise_floor
+from brace.identify.noise import NoiseFloor, along_runs, noise_floor
 from brace.model import LimbModel
 from brace.identify.playing import player_of
 from brace.native.plant_batch import number_index
 
 OFFSET_KEYS = ("joint.femur.zero_offset_rad", "joint.tibia.zero_offset_rad")
-SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
+_SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
 MIN_ROWS = 12
 
 
@@ -31,7 +31,7 @@ class LoadingProblem:
             )
         self.dataset = dataset
         self.noise: NoiseFloor = noise_floor(dataset)
-        self._names = ["fx_n", "fz_n", *(name for name in SIDE_READINGS if name in dataset)]
+        self._names = ["fx_n", "fz_n", *(name for name in _SIDE_READINGS if name in dataset)]
         self._player = player_of(dataset, self._names)
         self._sigma = {
             name: self.noise.sigma_n if name in ("fx_n", "fz_n") else _side_sigma(dataset, name)
@@ -70,12 +70,15 @@ class LoadingProblem:
 
 
 def _side_sigma(dataset: Dataset, name: str) -> float:
-    """Noise of an encoder or gauge from repeats; never below a thousandth of what it moves by."""
+    """Noise of an encoder or gauge, from repeats or, without any, from its third differences along the runs; never below
+    a thousandth of what it moves by."""
     keys = np.column_stack([dataset["config"], dataset["axis"], dataset["step"]])
     _, group, counts = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
     group = group.ravel()
     means = np.bincount(group, weights=dataset[name]) / counts
-    freedom = int(np.sum(counts - 1))
-    spread = float(np.sqrt(np.sum((dataset[name] - means[group]) ** 2) / freedom)) if freedom else 0.0
+    if freedom := int(np.sum(counts - 1)):
+        spread = float(np.sqrt(np.sum((dataset[name] - means[group]) ** 2) / freedom))
+    else:
+        spread = along_runs(dataset, dataset[name])
     moves = float(np.std(dataset[name]))
     return max(spread, 1e-3 * moves, 1e-12)

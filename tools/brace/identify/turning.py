@@ -25,7 +25,7 @@ from brace.dataset import Dataset
 from brace.dataset.enough import enough_rows
 from brace.errors import BraceError
 from brace.identify.fit import Fit, fit
-from brace.identify.loading import SIDE_READINGS, LoadingProblem
+from brace.identify.loading import LoadingProblem
 from brace.identify.parameters import with_priors
 from brace.identify.playing import player_of
 from brace.model import LimbModel
@@ -47,7 +47,7 @@ def settled(dataset: Dataset, believed: LimbModel) -> Dataset:
 
 
 def _never_turned(dataset: Dataset, believed: LimbModel) -> bool:
-    some = _of_forces(dataset.select(enough_rows(dataset, ROWS)))
+    some = dataset.select(enough_rows(dataset, ROWS))
     some = some.select(np.all([np.isfinite(values) for values in some.columns.values()], axis=0))
     try:
         linear, turning = (_refitted(some, believed, small=small) for small in (True, False))
@@ -55,12 +55,6 @@ def _never_turned(dataset: Dataset, believed: LimbModel) -> bool:
         return False
     likelier = 0.5 * turning.readings * math.log(_cost(turning) / _cost(linear))
     return likelier > MUST_BE_LIKELIER and _shows_no_curve(some, turning.model)
-
-
-def _of_forces(dataset: Dataset) -> Dataset:
-    """Without encoders and gauges: a likelihood is worth what its noise is, and without repeats theirs is not known."""
-    columns = {name: values for name, values in dataset.columns.items() if name not in SIDE_READINGS}
-    return replace(dataset, columns=columns)
 
 
 def _refitted(dataset: Dataset, believed: LimbModel, *, small: bool) -> Fit:
