@@ -70,8 +70,8 @@ class LoadingProblem:
 
 
 def _side_sigma(dataset: Dataset, name: str) -> float:
-    """Noise of an encoder or gauge, from repeats or, without any, from its third differences along the runs; never below
-    a thousandth of what it moves by."""
+    """Noise of an encoder or gauge, from repeats or, without any, from its third differences along the runs; never
+    below a thousandth of what it moves by."""
     keys = np.column_stack([dataset["config"], dataset["axis"], dataset["step"]])
     _, group, counts = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
     group = group.ravel()
