@@ -285,6 +285,8 @@ def main() -> int:
     command += " --development" if options.development else ""
     command += f" --cases {options.cases}" if options.cases else ""
     command += f" --seed {options.seed}" if options.seed is not None else ""
+    command += f" --only {options.only}" if options.only else ""
+    command += f" --minutes {options.minutes:g}" if math.isfinite(options.minutes) else ""
     if world.report:
         found = world.report(judged, made, command)
     else:

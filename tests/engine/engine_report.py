@@ -93,7 +93,8 @@ def made(judged: Sequence[Judged], by: dict[str, Any], command: str) -> tuple[st
     worse = [j for j in judged if j.stiffer and j.stiffer[1] >= j.stiffer[0]]
     table = report.table({"lines": lines})
     timing = (f"A diagnosis of {ROWS[0]} to {ROWS[1]} rows with its report took {time['median']:.1f} s (median), "
-              f"{time['longest']:.1f} s (longest of {time['cases']:.0f}) of one core." if time else "")  # fmt: skip
+              f"{time['longest']:.1f} s (longest of {time['cases']:.0f}) of one core's time; "
+              "other work beside it makes that longer." if time else "")  # fmt: skip
     page = "\n\n".join(part for part in (
         "# Blind benchmark on limbs of a physics engine",
         f"    {command}",
