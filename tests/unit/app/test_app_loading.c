@@ -151,6 +151,26 @@ static void test_link_encoders_tell_deflections_of_a_dataset(void)
     }
 }
 
+/* The drift check's K, at the reference temperature, is K of now where the joints have it. Encoders behind the gears
+ * measure the angles, so that no load turns them further for the one K nor for the other. */
+static void test_the_drift_check_s_K_is_at_the_measured_posture(void)
+{
+    brace_parameters_t p = bench_parameters();
+    p.slow.joint_compliance_per_degc = 0.01f;
+    p.slow.reference_degc = 22.0f;
+    stand(&p);
+    drive_rad_per_n_mm = 1.5e-5;
+    fake.joint[BRACE_FEMUR].sample.temp_degc = fake.joint[BRACE_TIBIA].sample.temp_degc = 22.0f;
+    ticks(50);
+    run(&along_x);
+    const brace_stiffness_t *k = &app.controller.loading.model, *reference = &app.controller.loading.at_reference;
+    TEST_ASSERT_TRUE(now()->load.is_counted);
+    const double rounding = 1e-5 * (double)k->lambda_max_n_per_mm;
+    ASSERT_CLOSE(k->k_xx_n_per_mm, reference->k_xx_n_per_mm, rounding);
+    ASSERT_CLOSE(k->k_xz_n_per_mm, reference->k_xz_n_per_mm, rounding);
+    ASSERT_CLOSE(k->k_zz_n_per_mm, reference->k_zz_n_per_mm, rounding);
+}
+
 static void test_runs_repetitions_and_postures_are_counted(void)
 {
     brace_loading_setup_t quick = along_x;
@@ -207,6 +227,7 @@ int main(void)
     RUN_TEST(test_what_is_off_the_axis_is_taken_off_by_the_model);
     RUN_TEST(test_rows_are_a_pass_in_the_columns_of_a_dataset);
     RUN_TEST(test_link_encoders_tell_deflections_of_a_dataset);
+    RUN_TEST(test_the_drift_check_s_K_is_at_the_measured_posture);
     RUN_TEST(test_runs_repetitions_and_postures_are_counted);
     RUN_TEST(test_the_recorder_keeps_the_newest_rows);
     return UNITY_END();

@@ -6,10 +6,6 @@
 #define DEFLECTION_MOST_RAD 8.0f  /* no spring is wound further than a joint turns */
 #define LOAD_MOST_N_MM 1e9f
 
-#define SOFTENED_FACTOR 3.0f      /* of buckling: below it a limb is much softer than without load */
-#define PROMISED_FACTOR 2.0f      /* what brace/loaded.h promises its accuracy for */
-#define PROMISED_MOVE 0.2f        /* of the reach */
-
 static void collapse_loaded(const brace_parameters_t *parameters, model_loaded_limb_t *limb)
 {
 #ifdef __SOFTFP__
@@ -150,12 +146,7 @@ brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, cons
     if (status != BRACE_OK) {
         return status;
     }
-    const float factor = result->buckling_factor, most_mm = PROMISED_MOVE * (limb->femur_mm + limb->tibia_mm);
-    const brace_displacement_t moved = result->displacement;
-    const bool is_promised =
-        factor >= PROMISED_FACTOR && moved.x_mm * moved.x_mm + moved.z_mm * moved.z_mm <= most_mm * most_mm;
-    result->stiffness.flags |= (is_promised ? 0u : (uint32_t)BRACE_FLAG_NEAR_SINGULAR) |
-                               (factor < SOFTENED_FACTOR ? (uint32_t)BRACE_FLAG_SOFTENED : 0u);
+    result->stiffness.flags |= brace_loaded_flags(result, limb->femur_mm + limb->tibia_mm);
     turn_joints(limb, &load, result, joint_turn_rad);
     return BRACE_OK;
 }

@@ -76,8 +76,7 @@ void stiffness_springs_of_now(model_t *model, const brace_parameters_t *paramete
     model_springs(model, parameters, load_n_mm, temp_degc, springs);
 }
 
-/* A joint whose true angle is measured behind its spring has nowhere to be turned to. */
-static void hold_measured_joints(const posture_t *posture, brace_loaded_joint_t springs[BRACE_LINK_COUNT])
+void stiffness_hold_measured_joints(const posture_t *posture, brace_loaded_joint_t springs[BRACE_LINK_COUNT])
 {
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         springs[i].yields_by_rad_per_n_mm = posture->is_measured[i] ? 0.0f : springs[i].yields_by_rad_per_n_mm;
@@ -150,7 +149,7 @@ void stiffness_take(model_t *model, const brace_parameters_t *parameters, brace_
     brace_stiffness_t engaged;
 
     stiffness_springs_of_now(model, parameters, joints, flank, springs);
-    hold_measured_joints(posture, springs);
+    stiffness_hold_measured_joints(posture, springs);
     posture_settle(posture, NULL, NULL);
     no_load(&snapshot->load);
     const bool computed =

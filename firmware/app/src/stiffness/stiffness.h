@@ -16,6 +16,9 @@ void stiffness_unknown(brace_snapshot_t *snapshot, uint32_t flags);
 void stiffness_springs_of_now(model_t *model, const brace_parameters_t *parameters, const joints_t *joints,
                               const flank_t *flank, brace_loaded_joint_t springs[BRACE_LINK_COUNT]);
 
+/* For K at the present posture: a joint whose true angle is measured behind its spring has nowhere to be turned to. */
+void stiffness_hold_measured_joints(const posture_t *posture, brace_loaded_joint_t springs[BRACE_LINK_COUNT]);
+
 /* K of this tick, in the limb's plane and, with a coxa joint, in space. In the plane it is K at the equilibrium under
  * the tip's force and the limb's weight, where the force is known; the posture goes to that equilibrium.
  *   snapshot: its force_x_n, force_z_n are read; (out): stiffness, k_is_valid, space, load

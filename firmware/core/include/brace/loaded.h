@@ -60,7 +60,8 @@ typedef struct {
 } brace_load_t;
 
 typedef struct {
-    brace_stiffness_t stiffness;        /* K at the equilibrium; flags: BRACE_FLAG_NEAR_SINGULAR as on other paths */
+    brace_stiffness_t stiffness;        /* K at the equilibrium; flags: BRACE_FLAG_NEAR_SINGULAR as on other paths;
+                                           brace_loaded_flags has those that tell how far the load goes */
     brace_displacement_t displacement;  /* of the tip, from where it is at these angles without load */
     brace_vec_t tibia_mm;               /* from the knee to the tip at the equilibrium */
     float hip_turn_rad, knee_turn_rad;  /* how far the load has turned the joints, counter-clockwise, base included */
@@ -86,8 +87,26 @@ void brace_loaded_collapse(const brace_limb_t *limb, const brace_gravity_t *weig
  *         load as brace/general.h. tests/engine/test_core_under_load.py judges random limbs. Of 6,000 limbs, one was
  *         off by more: by 4 %, near the straight knee, where its tip moved by 41 mm of 217 mm. Where two of
  *         Newton's steps do not settle, as under a load that folds the limb, there is no K.
- * Cost on a Cortex-M4F: at most 2,500 instructions (2,448 measured) for every posture; stack at most 800 bytes. */
+ * Cost on a Cortex-M4F: at most 2,500 instructions (2,417 measured) for every posture; stack at most 800 bytes. */
 brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
                                       const brace_load_t *load, brace_loaded_stiffness_t *result);
+
+#define BRACE_SOFTENED_FACTOR 3.0f /* of buckling: below it a limb is much softer than without load */
+#define BRACE_PROMISED_FACTOR 2.0f /* of buckling: below it no accuracy is promised */
+#define BRACE_PROMISED_MOVE 0.2f   /* of the tip, as a share of the reach: beyond it no accuracy is promised */
+
+/* What a user of this K has to know besides its own flags.
+ * reach_mm: lengths of femur and tibia added
+ * returns BRACE_FLAG_SOFTENED, and BRACE_FLAG_NEAR_SINGULAR where no accuracy is promised; 0: neither
+ * Cost on a Cortex-M4F: 20 instructions. */
+static inline uint32_t brace_loaded_flags(const brace_loaded_stiffness_t *result, float reach_mm)
+{
+    const float factor = result->buckling_factor, most_mm = BRACE_PROMISED_MOVE * reach_mm;
+    const brace_displacement_t moved = result->displacement;
+    const bool is_promised = factor >= BRACE_PROMISED_FACTOR &&
+                             moved.x_mm * moved.x_mm + moved.z_mm * moved.z_mm <= most_mm * most_mm;
+    return (is_promised ? 0u : (uint32_t)BRACE_FLAG_NEAR_SINGULAR) |
+           (factor < BRACE_SOFTENED_FACTOR ? (uint32_t)BRACE_FLAG_SOFTENED : 0u);
+}
 
 #endif

@@ -9,7 +9,8 @@
 /* K and rest at n postures, each with a force of its own. No argument is checked for null.
  * loaded: from brace_loaded_collapse. joints: direction of the weight and the joints' springs; its tip force is ignored.
  * theta1_rad, theta2_rad, x_n, z_n: n each, as brace_loaded_stiffness takes them.
- * results: n; where brace_loaded_stiffness refuses, every number is NaN and flags are 0.
+ * results: n, flags with those of brace_loaded_flags; where brace_loaded_stiffness refuses, every number is NaN and
+ * flags are 0.
  * returns how many were refused.
  * Cost: about 3 us a posture (one core of an Intel Xeon at 2.5 GHz, GCC 12; libm has the fused multiply-add).
  * Thread rule: a pure function of its arguments. */

@@ -12,6 +12,7 @@ size_t brace_loaded_batch(const brace_loaded_t *loaded, const brace_load_t *join
         .hip_turn_rad = NOT_A_NUMBER,
         .knee_turn_rad = NOT_A_NUMBER,
         .buckling_factor = NOT_A_NUMBER};
+    const float reach_mm = loaded->femur.length_mm + loaded->tibia.length_mm;
     size_t refused = 0;
     for (size_t i = 0; i < n; i++) { /* at most the host's columns */
         brace_load_t load = *joints;
@@ -19,6 +20,8 @@ size_t brace_loaded_batch(const brace_loaded_t *loaded, const brace_load_t *join
         results[i] = none;
         if (brace_loaded_stiffness(loaded, theta1_rad[i], theta2_rad[i], &load, &results[i]) != BRACE_OK) {
             refused++;
+        } else {
+            results[i].stiffness.flags |= brace_loaded_flags(&results[i], reach_mm);
         }
     }
     return refused;

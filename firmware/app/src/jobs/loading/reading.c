@@ -1,5 +1,7 @@
 #include "jobs/loading/reading.h"
 
+#include "stiffness/stiffness.h"
+
 void reading_begin(brace_loading_t *test)
 {
     test->sums = (brace_loading_sums_t){.count = 0};
@@ -129,6 +131,7 @@ static void model_at_reference(brace_loading_t *test, const loading_inputs_t *in
     test->at_reference = test->model;
     if (inputs->model->springs_change) {
         model_springs_at_rest(inputs->parameters, temp_degc, springs);
+        stiffness_hold_measured_joints(inputs->posture, springs);
         if (inputs->now->load.is_counted) {
             const brace_force_t preload = {test->result.preload_x_n, test->result.preload_z_n};
             brace_loaded_stiffness_t loaded = {.stiffness = test->model}; /* stays where the preload folds the limb */
