@@ -16,6 +16,7 @@ An effect that nobody knows of yet can disturb either, seldom both. In doubt the
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -53,7 +54,7 @@ def _never_turned(dataset: Dataset, believed: LimbModel) -> bool:
         linear, turning = (_refitted(some, believed, small=small) for small in (True, False))
     except BraceError:  # nothing to fit, or nothing that can be fitted
         return False
-    likelier = 0.5 * turning.readings * math.log(_cost(turning) / _cost(linear))
+    likelier = 0.5 * turning.readings * (math.log(_cost(turning)) - math.log(_cost(linear)))
     return likelier > MUST_BE_LIKELIER and _shows_no_curve(some, turning.model)
 
 
@@ -65,7 +66,8 @@ def _refitted(dataset: Dataset, believed: LimbModel, *, small: bool) -> Fit:
 def _cost(fitted: Fit) -> float:
     """Chi squared with the priors' share."""
     start, prior = fitted.parameters.array("start"), fitted.parameters.array("prior_sigma")
-    return fitted.chi2 + float(np.sum(((fitted.x - start) / prior) ** 2))
+    cost = fitted.chi2 + float(np.sum(((fitted.x - start) / prior) ** 2))
+    return max(cost, sys.float_info.min)  # a record without noise may leave nothing
 
 
 def _shows_no_curve(dataset: Dataset, turning: LimbModel) -> bool:
