@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import os
 import signal
 import time
 from collections.abc import Callable
@@ -107,12 +108,21 @@ def test_a_million_postures_in_two_seconds_of_processor(tmp_path: Path, paper_li
     assert_a_million_takes_two_seconds(spent_s, paper_limb, tmp_path / "few")
 
 
+def map_is_under_way(pid: int) -> None:
+    """A start of Python takes less than a second of a processor, this map a minute."""
+    spent_s = 0.0
+    while spent_s < 3.0:
+        time.sleep(0.05)
+        fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+        spent_s = (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
 def test_interruption_leaves_nothing(tmp_path: Path, paper_limb: Path) -> None:
     limb = tmp_path / "limb.toml"
     limb.write_text(LIMB + "[base]\nx_mm_per_n = 0.5\n")  # the general path: some time to interrupt
     out = tmp_path / "m"
     process = spawn("map", "--model", limb, "--postures", 40_000_000, "--out", out)
-    time.sleep(1.5)
+    map_is_under_way(process.pid)
     process.send_signal(signal.SIGINT)
     _, err = process.communicate(timeout=120)
     assert process.returncode == 130 and "interrupted" in err and "Traceback" not in err
