@@ -70,8 +70,8 @@ def _versions(casadi_code: Path) -> list[_Version]:
 
 def _fixed_versions() -> list[_Version]:
     """The path of controllers without an FPU."""
-    job, function = BENCH / "ours" / "loaded_fixed_job.c", "brace_loaded_fixed_stiffness"
-    beam, tilted = ("-DBENCH_LIMB=BENCH_BEAM_LIMB",), ("-DBENCH_LIMB=BENCH_TILTED_LIMB",)
+    job, function = BENCH / "ours" / "loaded_job.c", "brace_loaded_fixed_stiffness"
+    beam, tilted = (("-DBENCH_FIXED", f"-DBENCH_LIMB=BENCH_{limb}_LIMB") for limb in ("BEAM", "TILTED"))
     return [
         _Version("Brace, fixed point", function, core_sources(), (), job, beam, beam_limb(), True, M3),
         _Version("Brace, fixed point, tilted limb", function, core_sources(), (), job, tilted, tilted_limb(), True, M3),

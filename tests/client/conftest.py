@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -104,28 +105,35 @@ class Sim:
     modbus: str
 
 
+@contextmanager
+def simulated(folder: Path, model: Path, *options: object, can: str | None = None) -> Iterator[Sim]:
+    """`brace sim` of this model on free ports, until the end of the block. folder: for what it says when it fails."""
+    can = can or f"tcp://127.0.0.1:{free_port()}"
+    modbus = f"modbus-tcp://127.0.0.1:{free_port()}"
+    command = [sys.executable, "-m", "brace", "sim", "--model", model, "--can", can, "--modbus", modbus, *options]
+    with (folder / "errors").open("w+") as errors:
+        process = subprocess.Popen(
+            [*map(str, command), "--seconds", "1200", "--json"], stdout=subprocess.PIPE, stderr=errors, text=True
+        )
+        assert process.stdout is not None
+        line = process.stdout.readline()
+        if not line:
+            errors.seek(0)
+            pytest.fail("brace sim did not start: " + errors.read())
+        assert json.loads(line)["event"] == "ready"
+        yield Sim(can, modbus)
+        process.terminate()
+        process.wait(timeout=60)
+        process.stdout.close()
+
+
 @pytest.fixture(scope="session")
 def sim(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Sim]:
     """The paper's limb standing at (1.0, 1.4) rad, pressed so that the tip has a force. Its sensor is free of noise: K
     counts the force that it reads."""
-    can = os.environ.get("BRACE_TEST_CAN") or f"tcp://127.0.0.1:{free_port()}"
-    modbus = f"modbus-tcp://127.0.0.1:{free_port()}"
     folder = tmp_path_factory.mktemp("sim")
-    errors, quiet = (folder / "errors").open("w+"), folder / "quiet.toml"
+    quiet = folder / "quiet.toml"
     quiet.write_text(LIMB.read_text() + "\n[sensor]\nnoise_n = 0.0\n")
-    process = subprocess.Popen(
-        [sys.executable, "-m", "brace", "sim", "--model", LIMB, "--plant", quiet, "--can", can, "--modbus", modbus, "--limbs", "2",
-         "--press", "1.5,-3", "--seconds", "1200", "--json"],
-        stdout=subprocess.PIPE, stderr=errors, text=True,
-    )  # fmt: skip
-    assert process.stdout is not None
-    line = process.stdout.readline()
-    if not line:
-        errors.seek(0)
-        pytest.fail("brace sim did not start: " + errors.read())
-    assert json.loads(line)["event"] == "ready"
-    yield Sim(can, modbus)
-    process.terminate()
-    process.wait(timeout=60)
-    process.stdout.close()
-    errors.close()
+    options = ("--plant", quiet, "--limbs", 2, "--press", "1.5,-3")
+    with simulated(folder, LIMB, *options, can=os.environ.get("BRACE_TEST_CAN")) as running:
+        yield running

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import BUILD, LIMB, Answer, Sim, free_port
+from conftest import BUILD, LIMB, Answer, Sim, simulated
 
 LOAD_UNKNOWN = 0x40  # K of a limb in space is the one without load
 STEP = 0.0005  # N/mm
@@ -33,18 +33,8 @@ def model(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def spatial(model: Path) -> Iterator[Sim]:
-    can, modbus = f"tcp://127.0.0.1:{free_port()}", f"modbus-tcp://127.0.0.1:{free_port()}"
-    process = subprocess.Popen(
-        [sys.executable, "-m", "brace", "sim", "--model", model, "--can", can, "--modbus", modbus, "--theta0", "0.6",
-         "--seconds", "600", "--json"],
-        stdout=subprocess.PIPE, text=True,
-    )  # fmt: skip
-    assert process.stdout is not None
-    assert json.loads(process.stdout.readline())["event"] == "ready"
-    yield Sim(can, modbus)
-    process.terminate()
-    process.wait(timeout=60)
-    process.stdout.close()
+    with simulated(model.parent, model, "--theta0", 0.6) as running:
+        yield running
 
 
 @pytest.fixture(params=["can", "modbus"])

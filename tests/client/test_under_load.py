@@ -3,16 +3,14 @@ reference judges."""
 
 from __future__ import annotations
 
-import json
 import math
 import subprocess
-import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import LIMB, PROBE, Answer, Sim, free_port, motors_of
+from conftest import LIMB, PROBE, Answer, Sim, motors_of, simulated
 
 from brace.model import LimbModel, load_limb
 from brace.native.loaded import under_force
@@ -50,18 +48,8 @@ def model(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def heavy(model: Path) -> Iterator[Sim]:
-    can, modbus = f"tcp://127.0.0.1:{free_port()}", f"modbus-tcp://127.0.0.1:{free_port()}"
-    process = subprocess.Popen(
-        [sys.executable, "-m", "brace", "sim", "--model", model, "--can", can, "--modbus", modbus, "--press", "3,-6",
-         "--seconds", "600", "--json"],
-        stdout=subprocess.PIPE, text=True,
-    )  # fmt: skip
-    assert process.stdout is not None
-    assert json.loads(process.stdout.readline())["event"] == "ready"
-    yield Sim(can, modbus)
-    process.terminate()
-    process.wait(timeout=60)
-    process.stdout.close()
+    with simulated(model.parent, model, "--press", "3,-6") as running:
+        yield running
 
 
 @pytest.fixture(params=["can", "modbus"])

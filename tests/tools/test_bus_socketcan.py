@@ -12,7 +12,7 @@ def test_query_record_replay_push_and_failures_on_vcan0() -> None:
     for name in ("live", "asked", "record", "replay", "push"):
         assert results[name]["code"] == 0, results[name]
     live, asked = json.loads(results["live"]["out"]), json.loads(results["asked"]["out"])
-    # The sensor's noise is a load, and K of now counts it: the limb's own K is told beside it.
+    # The controller takes the sensor's noise for a load, and K of now counts it. So K without load is compared.
     unloaded = {name.removeprefix("unloaded_"): value for name, value in live["load"].items()}
     for entry, k in ((unloaded, physics_k(1.0, 1.4)), (asked, physics_k(0.5, 1.2))):
         got = [entry[f"{name}_n_per_mm"] for name in ("k_xx", "k_xz", "k_zz")]

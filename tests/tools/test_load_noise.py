@@ -124,7 +124,7 @@ def test_k_under_the_sensor_s_noise(
     ratio = told.std(0) / np.hypot(sigma, 0.29 * step)
     assert np.all(np.abs(ratio - 1.0) <= SPREAD + curved / sigma), ratio
 
-    # K's uncertainty as it is told comes from the parameters' trust alone. It covers the load's noise all the same.
+    # The tool works the uncertainty of K out from the parameters' trust alone. The load's noise is smaller than it.
     trusted = planar_limb(limb).sigma(*map(float, stands))
     told_sigma = np.array([trusted[f"sigma_{name}_n_per_mm"] for name in ("k_xx", "k_xz", "k_zz")])
     assert np.all(np.hypot(sigma, told_sigma) <= 1.02 * told_sigma), sigma / told_sigma

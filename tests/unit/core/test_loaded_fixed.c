@@ -185,8 +185,8 @@ static void any_limb(void)
         .femur_n = any_size(-3.0f, 6.0f), .knee_n = any_size(-3.0f, 6.0f), .tibia_n = any_size(-3.0f, 6.0f)};
 }
 
-/* The sanitized build sees every overflow. What is told is a number, and no load makes it wrong in silence: where both
- * paths tell K and the float path promises it, they agree. */
+/* The sanitized build reports every overflow. Each K that the path gives is a number. Where both paths give K and the
+ * float path promises its accuracy, the two agree. */
 static void test_any_input(void)
 {
     int told = 0, compared = 0;

@@ -141,7 +141,7 @@ static float only_the_hip_yields(float c)
     return limb.femur_mm + limb.tibia_mm;
 }
 
-/* A force F across a straight limb whose hip joint alone yields turns it by q = c R F cos q. Wherever a result is told,
+/* A force F across a straight limb whose hip joint alone yields turns it by q = c R F cos q. Where there is a result,
  * q is within the 0.025 rad that two steps may leave; without the refusal it would be off by 0.5 rad. */
 static void test_told_where_the_steps_do_not_settle(void)
 {

@@ -136,8 +136,8 @@ class Session:
     def ask_under_force(
         self, force_n: tuple[float, float], name: str, values: Mapping[str, Value]
     ) -> dict[str, Value]:
-        """The answer to a question about K under a force, which is told before it. Both again when another client came
-        between them, or when the force is used up because an answer was lost."""
+        """Tells the controller a force, asks about K under it and returns the answer. Does both again when another client
+        told its own force in between, or when an answer was lost and the controller has forgotten the force."""
         until = time.monotonic() + CONTESTED_S
         while time.monotonic() < until:
             self._force_is_taken = False

@@ -2,7 +2,7 @@
 
 #include "brace/loaded_fixed.h"
 
-#define LEAST_EXPONENT (-100) /* of what is zero; nothing else is as small */
+#define LEAST_EXPONENT (-100) /* stands for zero: no other number's exponent is as small */
 
 /* The least exponent whose power of two is above a magnitude. */
 static int32_t exponent_above(float value)
