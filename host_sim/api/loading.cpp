@@ -75,7 +75,7 @@ extern "C" int32_t brace_plant_loading(const brace_plant_model_t *model, const b
         return BRACE_HOST_E_PARAMETER;
     }
     size_t unsolved = 0;
-    const brace_host_status_t played = brace::plant::play_loading(*model, *rows, *reading, unsolved);
+    const brace_host_status_t played = brace::plant::Loading(*rows).play(*model, *reading, unsolved);
     if (unsolved_rows != nullptr && played != BRACE_HOST_E_SINGULAR) {
         *unsolved_rows = unsolved;
     }
@@ -93,13 +93,14 @@ extern "C" int32_t brace_plant_loading_many(const brace_plant_model_t *models, s
     if (sound != BRACE_HOST_OK) {
         return sound;
     }
+    brace::plant::Loading loading(*rows);
     brace_host_status_t worst = BRACE_HOST_OK;
     for (size_t m = 0; m < model_count; ++m) {
         const brace_loading_reading_t reading = brace::api::part_of(*readings, m * rows->count);
         brace_host_status_t one = BRACE_HOST_E_PARAMETER;
         if (brace::plant::first_fault(models[m]) == nullptr) {
             size_t unsolved = 0;
-            one = brace::plant::play_loading(models[m], *rows, reading, unsolved);
+            one = loading.play(models[m], reading, unsolved);
         }
         if (one == BRACE_HOST_E_PARAMETER || one == BRACE_HOST_E_SINGULAR) {
             brace::api::fill_with_nan(reading, rows->count);

@@ -8,11 +8,12 @@
 
 namespace brace::effects::sensor_rotation {
 
-inline Eigen::Vector2d turned_n(const Model &model, const Eigen::Vector2d &force_n)
+// A reading of a force is this matrix times the force.
+inline Eigen::Matrix2d turn(const Model &model)
 {
     const double c = std::cos(model.sensor.rotation_rad);
     const double s = std::sin(model.sensor.rotation_rad);
-    return {c * force_n.x() - s * force_n.y(), s * force_n.x() + c * force_n.y()};
+    return (Eigen::Matrix2d() << c, -s, s, c).finished();
 }
 
 } // namespace brace::effects::sensor_rotation

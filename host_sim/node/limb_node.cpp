@@ -274,7 +274,7 @@ void LimbNode::sample()
         read.taken_us = static_cast<std::uint32_t>(now_us_);
     }
     const double *offset_n = faults.value(BRACE_NODE_FAULT_FORCE_OFFSET);
-    const Vector2d force = plant::sensor_reading_n(plant_, pressed_.force_n, t_s);
+    const Vector2d force = plant::Sensor(plant_).reading_n(pressed_.force_n, t_s);
     for (const int axis : {0, 1}) {
         const double noise_n = force_noise_n_ * noise_.normal();
         force_sample_n_[static_cast<std::size_t>(axis)] =

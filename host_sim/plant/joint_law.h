@@ -1,7 +1,12 @@
 // One joint's spring with play and hardening: torque, stiffness, and the deflection at a torque.
 #pragma once
 
-#include "effects/effect.h"
+#include <cmath>
+
+#include "effects/backlash.h"
+#include "effects/coulomb_friction.h"
+#include "effects/joint_compliance.h"
+#include "effects/joint_hardening.h"
 
 namespace brace::plant {
 
@@ -16,18 +21,47 @@ struct JointLaw : brace_plant_joint_t {
 JointLaw joint_law(const effects::Model &model, int joint, double temp_degc);
 
 // True for a spring alone: its deflection is compliance * torque whatever came before.
-bool is_linear(const JointLaw &law);
-
-// The spring's torque, without friction. Needs compliance > 0.
-double spring_torque_n_mm(const JointLaw &law, double deflection_rad);
-double spring_stiffness_n_mm_per_rad(const JointLaw &law, double deflection_rad);
-
-// The largest torque that friction holds at this deflection, and how fast it grows with the deflection.
-double friction_n_mm(const JointLaw &law, double deflection_rad);
-double friction_slope_n_mm_per_rad(const JointLaw &law, double deflection_rad);
+inline bool is_linear(const JointLaw &law)
+{
+    return law.gap_rad == 0.0 && !law.rubs() && law.hardening_n_mm_per_rad3 == 0.0;
+}
 
 // The part of the deflection that the spring feels.
-double elastic_rad(const JointLaw &law, double deflection_rad);
+inline double elastic_rad(const JointLaw &law, double deflection_rad)
+{
+    return effects::backlash::beyond_rad(deflection_rad, law.gap_rad);
+}
+
+// The spring's torque, without friction. Needs compliance > 0.
+inline double spring_torque_n_mm(const JointLaw &law, double deflection_rad)
+{
+    const double elastic = elastic_rad(law, deflection_rad);
+    return effects::joint_compliance::torque_n_mm(law.compliance_rad_per_n_mm, elastic)
+           + effects::joint_hardening::torque_n_mm(law.hardening_n_mm_per_rad3, elastic);
+}
+
+inline double spring_stiffness_n_mm_per_rad(const JointLaw &law, double deflection_rad)
+{
+    const double elastic = elastic_rad(law, deflection_rad);
+    if (law.gap_rad > 0.0 && elastic == 0.0) {
+        return 0.0;
+    }
+    return 1.0 / law.compliance_rad_per_n_mm
+           + effects::joint_hardening::stiffness_n_mm_per_rad(law.hardening_n_mm_per_rad3, elastic);
+}
+
+// The largest torque that friction holds at this deflection, and how fast it grows with the deflection.
+inline double friction_n_mm(const JointLaw &law, double deflection_rad)
+{
+    return effects::coulomb_friction::most_n_mm(law.coulomb_n_mm, law.coulomb_per_load_ratio,
+                                                spring_torque_n_mm(law, deflection_rad));
+}
+
+inline double friction_slope_n_mm_per_rad(const JointLaw &law, double deflection_rad)
+{
+    return std::copysign(law.coulomb_per_load_ratio * spring_stiffness_n_mm_per_rad(law, deflection_rad),
+                         deflection_rad);
+}
 
 // Elastic deflection under a torque, without friction.
 double elastic_under_torque_rad(const JointLaw &law, double torque_n_mm);

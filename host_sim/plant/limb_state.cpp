@@ -7,6 +7,7 @@
 
 #include "effects/contact_play.h"
 #include "effects/creep.h"
+#include "effects/link_change.h"
 #include "effects/thermal_softening.h"
 
 namespace brace::plant {
@@ -29,11 +30,6 @@ constexpr double kRounding = 1e-14; // relative, of places
 constexpr double kLost_n = std::numeric_limits<double>::infinity();
 constexpr double kMostTurn_rad = 0.25; // in one step; a larger one may end at another rest state than the nearest
 constexpr double kShortestPart = 1.0 / 64.0; // of the way to a displacement
-
-bool has_changed(const Model &model, double t_s)
-{
-    return t_s >= model.change.at_s;
-}
 
 double determinant_ratio(const Matrix2d &compliance)
 {
@@ -84,7 +80,7 @@ Structure without_loads(Structure structure)
 bool LimbState::move_to(double theta1_rad, double theta2_rad, double t_s, double temp_degc)
 {
     const bool same_structure = placed_ && theta1_rad == theta1_rad_ && theta2_rad == theta2_rad_
-                                && has_changed(model_, t_s) == has_changed(model_, t_s_);
+                                && effects::link_change::has_come(model_, t_s) == effects::link_change::has_come(model_, t_s_);
     const bool same_joints =
         placed_ && (temp_degc == temp_degc_ || model_.thermal.joint_compliance_per_degc == 0.0);
     if (placed_) {

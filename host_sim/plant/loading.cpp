@@ -1,61 +1,123 @@
 #include "plant/loading.h"
 
-#include "plant/limb_state.h"
+#include <algorithm>
+
+#include "effects/link_change.h"
 #include "plant/sensor.h"
 
 namespace brace::plant {
+namespace {
 
 using Eigen::Vector2d;
 
-brace_host_status_t play_loading(const effects::Model &model, const brace_loading_rows_t &rows,
-                                 const brace_loading_reading_t &reading, std::size_t &unsolved_rows)
+constexpr std::size_t kMostLookedBack = 100; // runs: more than a record of ten postures has
+
+} // namespace
+
+Loading::Loading(const brace_loading_rows_t &rows) : rows_(rows), rests_(rows.count)
 {
-    const Displacements displacements =
-        rows.small_displacements != 0 ? Displacements::small : Displacements::finite;
-    // Checks all poses first, so that a refused record leaves nothing half-written.
     for (std::size_t i = 0; i < rows.count; ++i) {
-        if (i > 0 && rows.theta1_rad[i] == rows.theta1_rad[i - 1]
-            && rows.theta2_rad[i] == rows.theta2_rad[i - 1]) {
-            continue;
-        }
-        LimbState probe(model, displacements);
-        if (!probe.move_to(rows.theta1_rad[i], rows.theta2_rad[i], rows.t_s[i],
-                           model.thermal.reference_degc)) {
-            return BRACE_HOST_E_SINGULAR;
+        if (i > 0 && rows.run[i] == rows.run[i - 1]) {
+            ++runs_.back().end;
+        } else {
+            runs_.push_back({i, i + 1, i, false});
         }
     }
-
-    LimbState limb(model, displacements);
-    Vector2d zero_n = Vector2d::Zero();
-    unsolved_rows = 0;
-    for (std::size_t i = 0; i < rows.count; ++i) {
-        const bool starts_run = i == 0 || rows.run[i] != rows.run[i - 1];
-        bool solved = true;
-        const double temp = rows.temp_degc != nullptr ? rows.temp_degc[i] : model.thermal.reference_degc;
-        limb.move_to(rows.theta1_rad[i], rows.theta2_rad[i], rows.t_s[i], temp);
-        if (starts_run) {
-            limb.start_run(rows.creep_runs_on == 0);
-            solved = rows.held_at_rest == 0 || limb.hang();
-        }
-        const LimbRest rest =
-            limb.hold_tip({rows.dx_mm[i], rows.dz_mm[i]}, rows.free_axis != nullptr ? rows.free_axis[i] : 0);
-        unsolved_rows += solved && rest.solved ? 0 : 1;
-        Vector2d read_n = sensor_reading_n(model, rest.force_n, rows.t_s[i]);
-        if (starts_run) {
-            zero_n = rows.zeroed_per_run != 0 ? read_n : Vector2d::Zero();
-        }
-        read_n -= zero_n;
-        const auto write = [i](double *column, double value) {
-            if (column != nullptr) {
-                column[i] = value;
+    for (std::size_t r = 1; r < runs_.size(); ++r) {
+        Run &run = runs_[r];
+        for (std::size_t back = 1; back <= std::min(r, kMostLookedBack); ++back) {
+            const Run &before = runs_[r - back];
+            if (before.end - before.first == run.end - run.first && goes_like(run, before.first)) {
+                run.earlier = before.first;
+                run.same_pace = true;
+                for (std::size_t i = 1; i < run.end - run.first; ++i) {
+                    run.same_pace = run.same_pace
+                                    && rows.t_s[run.first + i] - rows.t_s[run.first + i - 1]
+                                           == rows.t_s[run.earlier + i] - rows.t_s[run.earlier + i - 1];
+                }
+                break;
             }
-        };
-        write(reading.fx_n, read_n.x());
-        write(reading.fz_n, read_n.y());
-        write(reading.enc1_rad, rest.joint_deflection_rad[0]);
-        write(reading.enc2_rad, rest.joint_deflection_rad[1]);
-        write(reading.base_x_mm, rest.base_mm.x());
-        write(reading.base_z_mm, rest.base_mm.y());
+        }
+    }
+}
+
+bool Loading::goes_like(const Run &run, std::size_t earlier) const
+{
+    const auto same = [&](const auto *column) {
+        return column == nullptr || std::equal(column + run.first, column + run.end, column + earlier);
+    };
+    return same(rows_.theta1_rad) && same(rows_.theta2_rad) && same(rows_.dx_mm) && same(rows_.dz_mm)
+           && same(rows_.free_axis);
+}
+
+bool Loading::rests_like_earlier(const Run &run, const effects::Model &model) const
+{
+    return run.earlier != run.first
+           && (rows_.temp_degc == nullptr || model.thermal.joint_compliance_per_degc == 0.0)
+           && (model.creep.ratio == 0.0 || (rows_.creep_runs_on == 0 && run.same_pace))
+           && effects::link_change::has_come(model, rows_.t_s[run.earlier])
+                  == effects::link_change::has_come(model, rows_.t_s[run.end - 1]);
+}
+
+// false: nothing yields in some direction.
+bool Loading::find_rests(const effects::Model &model)
+{
+    LimbState limb(model, rows_.small_displacements != 0 ? Displacements::small : Displacements::finite);
+    for (const Run &run : runs_) {
+        if (rests_like_earlier(run, model)) {
+            for (std::size_t i = run.first; i < run.end; ++i) {
+                rests_[i] = rests_[run.earlier + (i - run.first)];
+            }
+            continue;
+        }
+        for (std::size_t i = run.first; i < run.end; ++i) {
+            const double temp = rows_.temp_degc != nullptr ? rows_.temp_degc[i] : model.thermal.reference_degc;
+            if (!limb.move_to(rows_.theta1_rad[i], rows_.theta2_rad[i], rows_.t_s[i], temp)) {
+                return false;
+            }
+            bool hangs = true;
+            if (i == run.first) {
+                limb.start_run(rows_.creep_runs_on == 0);
+                hangs = rows_.held_at_rest == 0 || limb.hang();
+            }
+            rests_[i] = limb.hold_tip({rows_.dx_mm[i], rows_.dz_mm[i]},
+                                      rows_.free_axis != nullptr ? rows_.free_axis[i] : 0);
+            rests_[i].solved = rests_[i].solved && hangs;
+        }
+    }
+    return true;
+}
+
+brace_host_status_t Loading::play(const effects::Model &model, const brace_loading_reading_t &reading,
+                                  std::size_t &unsolved_rows)
+{
+    if (!find_rests(model)) {
+        return BRACE_HOST_E_SINGULAR;
+    }
+    const Sensor sensor(model);
+    unsolved_rows = 0;
+    for (const Run &run : runs_) {
+        Vector2d zero_n = Vector2d::Zero();
+        for (std::size_t i = run.first; i < run.end; ++i) {
+            const LimbRest &rest = rests_[i];
+            unsolved_rows += rest.solved ? 0 : 1;
+            Vector2d read_n = sensor.reading_n(rest.force_n, rows_.t_s[i]);
+            if (i == run.first && rows_.zeroed_per_run != 0) {
+                zero_n = read_n;
+            }
+            read_n -= zero_n;
+            const auto write = [i](double *column, double value) {
+                if (column != nullptr) {
+                    column[i] = value;
+                }
+            };
+            write(reading.fx_n, read_n.x());
+            write(reading.fz_n, read_n.y());
+            write(reading.enc1_rad, rest.joint_deflection_rad[0]);
+            write(reading.enc2_rad, rest.joint_deflection_rad[1]);
+            write(reading.base_x_mm, rest.base_mm.x());
+            write(reading.base_z_mm, rest.base_mm.y());
+        }
     }
     return unsolved_rows == 0 ? BRACE_HOST_OK : BRACE_HOST_E_NO_CONVERGENCE;
 }

@@ -1,15 +1,39 @@
-// A loading record played on the limb, row by row.
+// A loading record played on limbs, row by row.
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "effects/effect.h"
+#include "plant/limb_state.h"
 
 namespace brace::plant {
 
-// Inputs must be sound (see api/loading.cpp). Writes every row it has room for.
-// returns OK, E_SINGULAR (nothing written), E_NO_CONVERGENCE
-brace_host_status_t play_loading(const effects::Model &model, const brace_loading_rows_t &rows,
-                                 const brace_loading_reading_t &reading, std::size_t &unsolved_rows);
+class Loading {
+public:
+    // Inputs must be sound (see api/loading.cpp), and live as long as this.
+    explicit Loading(const brace_loading_rows_t &rows);
+
+    // Writes every row it has room for.
+    // returns OK, E_SINGULAR (nothing written), E_NO_CONVERGENCE
+    brace_host_status_t play(const effects::Model &model, const brace_loading_reading_t &reading,
+                             std::size_t &unsolved_rows);
+
+private:
+    // A limb that remembers nothing from run to run rests in a run just as in an earlier one that went the same way.
+    struct Run {
+        std::size_t first, end;
+        std::size_t earlier; // first row of the run that went this way before; `first` where none did
+        bool same_pace;      // and took the same time from row to row
+    };
+
+    bool goes_like(const Run &run, std::size_t earlier) const;
+    bool rests_like_earlier(const Run &run, const effects::Model &model) const;
+    bool find_rests(const effects::Model &model);
+
+    const brace_loading_rows_t &rows_;
+    std::vector<Run> runs_;
+    std::vector<LimbRest> rests_; // of the model that is played
+};
 
 } // namespace brace::plant

@@ -10,15 +10,22 @@
 
 namespace brace::plant {
 
-inline Eigen::Vector2d sensor_reading_n(const effects::Model &model, const Eigen::Vector2d &force_n,
-                                        double t_s)
-{
-    using namespace effects;
-    Eigen::Vector2d reading = sensor_crosstalk::mixed_n(model, force_n);
-    reading = sensor_rotation::turned_n(model, reading);
-    reading = sensor_gain::scaled_n(model, reading);
-    reading += sensor_bias::offset_n(model) + sensor_drift::offset_n(model, t_s);
-    return sensor_saturation::clipped_n(model, reading);
-}
+class Sensor {
+public:
+    explicit Sensor(const effects::Model &model) : model_(model), turn_(effects::sensor_rotation::turn(model)) {}
+
+    Eigen::Vector2d reading_n(const Eigen::Vector2d &force_n, double t_s) const
+    {
+        using namespace effects;
+        Eigen::Vector2d reading = turn_ * sensor_crosstalk::mixed_n(model_, force_n);
+        reading = sensor_gain::scaled_n(model_, reading);
+        reading += sensor_bias::offset_n(model_) + sensor_drift::offset_n(model_, t_s);
+        return sensor_saturation::clipped_n(model_, reading);
+    }
+
+private:
+    const effects::Model &model_;
+    const Eigen::Matrix2d turn_;
+};
 
 } // namespace brace::plant

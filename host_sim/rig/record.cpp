@@ -82,7 +82,7 @@ brace_host_status_t play(const brace_rig_design_t &design, const effects::Model 
         const brace_loading_reading_t reading{fx.data(),   fz.data(),     enc1.data(),
                                               enc2.data(), base_x.data(), base_z.data()};
         std::size_t unsolved = 0;
-        status = plant::play_loading(*model, rows, reading, unsolved);
+        status = plant::Loading(rows).play(*model, reading, unsolved);
         if (status == BRACE_HOST_E_SINGULAR) {
             return status;
         }
