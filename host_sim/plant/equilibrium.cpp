@@ -142,10 +142,11 @@ public:
         return point;
     }
 
-    double slope(double length) const
+    // `here` is the slope of the energy without friction at this place.
+    double slope(double length, Slope &here) const
     {
         const Pair point = at(length);
-        const Slope here = slope_at(problem_, point);
+        here = slope_at(problem_, point);
         double sum = 0.0;
         for (int i = 0; i < problem_.joint_count; ++i) {
             sum += direction_[i]
@@ -163,12 +164,12 @@ private:
     int turning_ = 0;
 };
 
-// How far to go along the line: all of Newton's step if that is good, else to the least energy on the line.
-double length_of(const Line &line)
+// How far to go along the line: all of Newton's step if that is good, else to the least energy on the line. `start` is
+// the slope at its beginning; `here` is the slope at the place that is returned.
+double length_of(const Line &line, double start, Slope &here)
 {
-    const double start = line.slope(0.0);
     double high = std::min(1.0, line.end());
-    double high_slope = line.slope(high);
+    double high_slope = line.slope(high, here);
     if (std::fabs(high_slope) <= 0.5 * std::fabs(start) || (high_slope < 0.0 && high == line.end())) {
         return high;
     }
@@ -181,20 +182,22 @@ double length_of(const Line &line)
             return high;
         }
         high = std::min(2.0 * high, line.end());
-        high_slope = line.slope(high);
+        high_slope = line.slope(high, here);
     }
     for (int i = 0; i < kMaxSearch; ++i) {
         // Secant steps while they shorten the bracket; every other step halves it.
         const double secant = low - low_slope * (high - low) / (high_slope - low_slope);
         const double middle = i % 2 == 0 ? secant : 0.5 * (low + high);
-        const double slope = line.slope(middle);
+        const double slope = line.slope(middle, here);
         if (std::fabs(slope) <= 1e-3 * std::fabs(start)) {
             return middle;
         }
         (slope < 0.0 ? low : high) = middle;
         (slope < 0.0 ? low_slope : high_slope) = slope;
     }
-    return low > 0.0 ? low : high;
+    const double length = low > 0.0 ? low : high;
+    line.slope(length, here);
+    return length;
 }
 
 // How far from rest a point is, and how far rounding puts a point that is at rest.
@@ -238,8 +241,8 @@ Balance balance_at(const RestProblem &problem, const Pair &deflection, const Slo
 void find_rest(const RestProblem &problem, RestState &state)
 {
     Pair deflection = state.deflection_rad;
+    Slope slope = slope_at(problem, deflection);
     for (int step = 0;; ++step) {
-        Slope slope = slope_at(problem, deflection);
         const Pair sign = moving_sign(problem, deflection, slope.torque_n_mm);
         const Balance balance = balance_at(problem, deflection, slope, sign);
         if (balance.unbalance_n <= std::max(kGoodBalance_n, balance.rounding_n) || step == kMaxSteps) {
@@ -254,8 +257,12 @@ void find_rest(const RestProblem &problem, RestState &state)
             slope.curvature(i, i) += sign[i] * friction_slope_n_mm_per_rad(problem.joint[i].law, deflection[i]);
         }
         const Pair direction = direction_of(problem, deflection, slope, balance.torque_n_mm, sign);
+        double falls = 0.0;
+        for (int i = 0; i < problem.joint_count; ++i) {
+            falls += direction[i] * balance.torque_n_mm[i];
+        }
         const Line line(problem, deflection, direction, sign);
-        deflection = line.at(length_of(line));
+        deflection = line.at(length_of(line, falls, slope));
     }
 }
 

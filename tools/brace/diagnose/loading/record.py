@@ -17,6 +17,7 @@ from brace.model import LimbModel
 from brace.native.plant_batch import LoadingBatchPlayer, model_numbers, number_index
 
 NOT_MEASURED = 1e30  # sigma of a reading that was not taken
+MOST_KNOWN = 400  # limbs whose residuals are kept: some megabytes
 SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
 
 
@@ -39,9 +40,30 @@ class Record:
         return self.dataset.rows
 
     def residuals(self, models: np.ndarray) -> np.ndarray:
-        """(measured - played) / sigma of models (models x numbers): models x readings, channel after channel."""
+        """(measured - played) / sigma of models (models x numbers): models x readings, channel after channel. A search
+        comes back to the same limbs again and again; those that it saw last are not played anew."""
+        known, names = self._last_seen, [model.tobytes() for model in models]
+        fresh = {name: place for place, name in enumerate(names) if name not in known}
+        found = np.empty((len(models), self.measured.size))
+        played = dict(zip(fresh, self._played(models[list(fresh.values())]))) if fresh else {}
+        for place, name in enumerate(names):
+            known[name] = found[place] = known.pop(name) if name in known else played[name]
+        for name in list(known)[: max(0, len(known) - MOST_KNOWN)]:
+            del known[name]
+        return found
+
+    @cached_property
+    def _last_seen(self) -> dict[bytes, np.ndarray]:
+        """Residuals by the limb's numbers, the last ones seen at the end."""
+        return {}
+
+    @cached_property
+    def _starts(self) -> np.ndarray:
+        return run_starts(self.dataset["run"])
+
+    def _played(self, models: np.ndarray) -> np.ndarray:
         played = self.player.play_numbers(models)
-        starts = run_starts(self.dataset["run"])
+        starts = self._starts
         for channel in self.zeroed[len(FORCES) :]:  # the player takes the forces' own off
             played[:, channel] -= np.repeat(played[:, channel, starts[:-1]], np.diff(starts), axis=1)
         played -= self.measured
