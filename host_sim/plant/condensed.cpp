@@ -1,5 +1,6 @@
 #include "plant/condensed.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace brace::plant {
@@ -65,12 +66,12 @@ void Condensed::about(const Structure &structure, const std::array<JointHinge, 2
         angle_rad += shape.turn_rad[i];
     }
 
-    tip_mm_ = Vector2d::Zero();
-    compliance_mm_per_n_.setZero();
-    torque_n_mm_per_rad_.setZero();
-    lever_mm_ = {Vector2d::Zero(), Vector2d::Zero()};
-    torque_n_mm_ = {};
-    negative_pivots_ = 0;
+    Vector2d tip_mm = Vector2d::Zero();
+    Eigen::Matrix2d compliance_mm_per_n = Eigen::Matrix2d::Zero();
+    Eigen::Matrix2d torque_n_mm_per_rad = Eigen::Matrix2d::Zero();
+    std::array<Vector2d, 2> lever_mm{Vector2d::Zero(), Vector2d::Zero()};
+    std::array<double, 2> torques_n_mm{};
+    int negative_pivots = 0;
     Vector2d force_n = shape.force_n; // that acts beyond where we are
     double curvature = 0.0;           // W_phiphi
     Vector2d lever = Vector2d::Zero();
@@ -79,18 +80,18 @@ void Condensed::about(const Structure &structure, const std::array<JointHinge, 2
     for (std::size_t i = count; i-- > 0;) {
         const Body &body = structure.body[i];
         const Turn turn(angle_rad);
-        const auto let_yield = [&] {
+        const auto let_yield = [&]() __attribute__((always_inline)) {
             const Yielding spring(body, turn);
             const Vector2d turned_force = quarter_turn(force_n);
             const Vector2d stretch = spring.stretch_mm(force_n);
             const Vector2d by_turned = spring.stretch_mm(turned_force);
-            compliance_mm_per_n_(0, 0) += spring.xx;
-            compliance_mm_per_n_(0, 1) += spring.xz;
-            compliance_mm_per_n_(1, 1) += spring.zz;
+            compliance_mm_per_n(0, 0) += spring.xx;
+            compliance_mm_per_n(0, 1) += spring.xz;
+            compliance_mm_per_n(1, 1) += spring.zz;
             curvature += turned_force.dot(by_turned) - stretch.dot(force_n);
             lever += quarter_turn(stretch) - by_turned;
             torque_n_mm += quarter_turn(stretch).dot(force_n);
-            tip_mm_ += stretch;
+            tip_mm += stretch;
         };
         force_n += body.end_weight_n * structure.down;
         if (body.yields == Yields::at_end) {
@@ -98,7 +99,7 @@ void Condensed::about(const Structure &structure, const std::array<JointHinge, 2
         }
         const Vector2d moved = turn.moved(body.extent_mm);
         const Vector2d extent = body.extent_mm + moved;
-        tip_mm_ += moved;
+        tip_mm += moved;
         lever += quarter_turn(extent);
         curvature -= extent.dot(force_n);
         torque_n_mm += quarter_turn(extent).dot(force_n);
@@ -127,31 +128,37 @@ void Condensed::about(const Structure &structure, const std::array<JointHinge, 2
                  torque_n_mm + load_n_mm,
                  compliance * per_pivot,
                  (compliance * (torque_n_mm + load_n_mm) - strained_rad) * per_pivot};
-        negative_pivots_ += pivot < 0.0 ? 1 : 0;
-        add_square(compliance_mm_per_n_, hinge.turn_per_torque, lever.x(), lever.y());
-        add_square(torque_n_mm_per_rad_, hinge.turn_per_torque, by_turn[0], by_turn[1]);
+        negative_pivots += pivot < 0.0 ? 1 : 0;
+        add_square(compliance_mm_per_n, hinge.turn_per_torque, lever.x(), lever.y());
+        add_square(torque_n_mm_per_rad, hinge.turn_per_torque, by_turn[0], by_turn[1]);
         for (const std::size_t j : {0, 1}) {
-            lever_mm_[j] += hinge.turn_per_torque * by_turn[j] * lever;
-            torque_n_mm_[j] += hinge.lacks_rad * by_turn[j];
+            lever_mm[j] += hinge.turn_per_torque * by_turn[j] * lever;
+            torques_n_mm[j] += hinge.lacks_rad * by_turn[j];
             by_turn[j] *= per_pivot;
         }
-        tip_mm_ += hinge.lacks_rad * lever;
+        tip_mm += hinge.lacks_rad * lever;
         torque_n_mm += hinge.lacks_rad * curvature;
         lever *= per_pivot;
         curvature *= per_pivot;
         if (is_joint) {
-            lever_mm_[k] += lever;
-            torque_n_mm_[k] += torque_n_mm + load_n_mm;
-            torque_n_mm_per_rad_(body.joint, body.joint) += curvature;
-            torque_n_mm_per_rad_(0, 1) += by_turn[1 - k];
+            lever_mm[k] += lever;
+            torques_n_mm[k] += torque_n_mm + load_n_mm;
+            torque_n_mm_per_rad(body.joint, body.joint) += curvature;
+            torque_n_mm_per_rad(0, 1) += by_turn[1 - k];
             by_turn[k] += curvature;
         }
         angle_rad -= shape.turn_rad[i];
     }
-    compliance_mm_per_n_.diagonal() += structure.base_mm_per_n;
-    compliance_mm_per_n_(1, 0) = compliance_mm_per_n_(0, 1);
-    torque_n_mm_per_rad_(1, 0) = torque_n_mm_per_rad_(0, 1);
-    tip_mm_ += structure.base_mm_per_n.cwiseProduct(force_n);
+    compliance_mm_per_n.diagonal() += structure.base_mm_per_n;
+    compliance_mm_per_n(1, 0) = compliance_mm_per_n(0, 1);
+    torque_n_mm_per_rad(1, 0) = torque_n_mm_per_rad(0, 1);
+    tip_mm += structure.base_mm_per_n.cwiseProduct(force_n);
+    tip_mm_ = tip_mm;
+    compliance_mm_per_n_ = compliance_mm_per_n;
+    torque_n_mm_per_rad_ = torque_n_mm_per_rad;
+    lever_mm_ = lever_mm;
+    torque_n_mm_ = torques_n_mm;
+    negative_pivots_ = negative_pivots;
 }
 
 double Condensed::follow(const Change &change, Shape &shape, std::array<double, 2> &torque_n_mm) const
@@ -173,7 +180,7 @@ double Condensed::follow(const Change &change, Shape &shape, std::array<double, 
         if (is_joint) {
             torque_n_mm[k] = hinge.torque_n_mm + more_n_mm + hinge.curvature_n_mm_per_rad * turned_rad;
         }
-        most_rad = std::fmax(most_rad, std::fabs(turned_rad));
+        most_rad = std::max(most_rad, std::fabs(turned_rad));
     }
     shape.force_n += change.force_n;
     return most_rad;
