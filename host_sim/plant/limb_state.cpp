@@ -29,6 +29,8 @@ constexpr double kPromisedMove_n = 1e-9;  // what a step may move where rounding
 constexpr double kRounding = 1e-14; // relative, of places
 constexpr double kLost_n = std::numeric_limits<double>::infinity();
 constexpr double kMostTurn_rad = 0.25; // in one step; a larger one may end at another rest state than the nearest
+constexpr double kMostForeseen = 1.0; // of the way since an earlier place
+constexpr double kStraight = 1e-9;
 constexpr double kShortestPart = 1.0 / 64.0; // of the way to a displacement
 
 double determinant_ratio(const Matrix2d &compliance)
@@ -93,6 +95,7 @@ bool LimbState::move_to(double theta1_rad, double theta2_rad, double t_s, double
     placed_ = true;
     if (!same_structure) {
         find_structure(model_, displacements_, theta1_rad, theta2_rad, t_s, structure_);
+        has_earlier_ = false;
     }
     if (!(prepared_ && same_structure && same_joints)) {
         prepared_ = prepare();
@@ -149,6 +152,7 @@ void LimbState::start_run(bool creep_gone, double contact_mm_per_n)
     prepared_ = prepared_ && contact_mm_per_n == contact_mm_per_n_;
     contact_mm_per_n_ = contact_mm_per_n;
     rest_ = {};
+    has_earlier_ = false;
     before_rad_ = {};
     origin_mm_ = reached_mm_ = tip_mm_ = Vector2d::Zero();
     if (creep_gone) {
@@ -280,6 +284,30 @@ bool LimbState::settle(const Vector2d &target_mm, int free_axis)
     return false;
 }
 
+// Goes on to where rest would be if the limb went on as it came. It saves a step of Newton's method. A joint that friction
+// holds stays where it is. false: the tip does not go on along its way, or too far.
+bool LimbState::foresee(const Vector2d &target_mm)
+{
+    if (!has_earlier_) {
+        return false;
+    }
+    const Vector2d way_mm = reached_mm_ - earlier_.target_mm;
+    const Vector2d ahead_mm = target_mm - reached_mm_;
+    const double part = ahead_mm.dot(way_mm) / way_mm.squaredNorm();
+    if (!(std::fabs(part) <= kMostForeseen) || (ahead_mm - part * way_mm).norm() > kStraight * ahead_mm.norm()) {
+        return false;
+    }
+    const Rest &earlier = earlier_.rest;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(structure_.body_count); ++i) {
+        rest_.shape.turn_rad[i] += part * (rest_.shape.turn_rad[i] - earlier.shape.turn_rad[i]);
+    }
+    rest_.shape.force_n += part * (rest_.shape.force_n - earlier.shape.force_n);
+    for (const std::size_t k : {0, 1}) {
+        rest_.instant_rad[k] += law_[k].rubs() ? 0.0 : part * (rest_.instant_rad[k] - earlier.instant_rad[k]);
+    }
+    return true;
+}
+
 // Finds rest with the tip at the target; where that fails, it leads the tip there in shorter steps. false: rest_ is
 // where the way ended.
 bool LimbState::lead_to(const Vector2d &target_mm, int free_axis)
@@ -290,6 +318,13 @@ bool LimbState::lead_to(const Vector2d &target_mm, int free_axis)
         }
     }
     Rest last = rest_;
+    if (free_axis == 0 && foresee(target_mm)) {
+        if (settle(target_mm, free_axis)) {
+            reached_mm_ = target_mm;
+            return true;
+        }
+        rest_ = last;
+    }
     const Vector2d start_mm = reached_mm_;
     double reached = 0.0;
     for (double part = 1.0; part >= kShortestPart;) {
@@ -344,7 +379,13 @@ LimbRest LimbState::hold_tip(const Vector2d &displacement_mm, int free_axis)
         rest_ = known->rest;
         reached_mm_ = target_mm;
     } else {
+        const bool goes_on = displacements_ == Displacements::finite && free_axis == 0 && target_mm != reached_mm_;
+        const Known last = goes_on ? Known{reached_mm_, free_axis, rest_} : Known{};
         solved = lead_to(target_mm, free_axis);
+        if (goes_on) {
+            earlier_ = last;
+            has_earlier_ = solved;
+        }
         if (solved && forgets() && known_count_ < kMostKnown) {
             known_[static_cast<std::size_t>(known_count_++)] = {target_mm, free_axis, rest_};
         }

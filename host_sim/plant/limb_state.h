@@ -45,6 +45,7 @@ public:
 private:
     void let_creep(double t_s);
     bool prepare();
+    bool foresee(const Eigen::Vector2d &target_mm);
     bool lead_to(const Eigen::Vector2d &target_mm, int free_axis);
     bool settle(const Eigen::Vector2d &target_mm, int free_axis);
     // One step of Newton's method. The forces are such as would move the limb along its softest direction so far.
@@ -86,6 +87,8 @@ private:
     static constexpr int kMostKnown = 40; // places of 9 steps to each side along two axes
     std::array<Known, kMostKnown> known_;
     int known_count_ = 0;
+    Known earlier_;            // where the tip was held before it came to where rest_ holds it
+    bool has_earlier_ = false; // at this posture, in this run
     Condensed condensed_;
     bool is_condensed_ = false;                            // condensed_ is that of the unloaded limb
     Eigen::Vector2d origin_mm_ = Eigen::Vector2d::Zero();  // from where displacements count
