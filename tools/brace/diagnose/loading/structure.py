@@ -65,7 +65,7 @@ def structure_of(record: Record, fitted: Fit) -> Structure:
 
 def _test(words: str, shapes: np.ndarray, remover: Remover, left: np.ndarray, freedom: int) -> FamilyTest:
     """By F: what the shapes take off, over what is left beside them, so that the noise need not be known well."""
-    from scipy.stats import f as fisher
+    from scipy.special import fdtrc
 
     columns = remover.columns(shapes)
     whole = np.linalg.norm(shapes, axis=0)
@@ -79,12 +79,12 @@ def _test(words: str, shapes: np.ndarray, remover: Remover, left: np.ndarray, fr
     dimensions = basis.shape[1]
     beside = max(freedom - dimensions, 1)
     ratio = (gain / dimensions) / max((float(left @ left) - gain) / beside, 1e-300)
-    return FamilyTest(words, float(fisher.sf(ratio, dimensions, beside)), gain, dimensions)
+    return FamilyTest(words, float(fdtrc(dimensions, beside, ratio)), gain, dimensions)
 
 
 def _lack_of_fit(record: Record, fitted: Fit) -> FamilyTest:
     """Do repeats agree with each other better than with the model? The means of repeats against their spread."""
-    from scipy.stats import f as fisher
+    from scipy.special import fdtrc
 
     words = "alike in every repeat"
     data = record.dataset
@@ -107,12 +107,12 @@ def _lack_of_fit(record: Record, fitted: Fit) -> FamilyTest:
         beside += int(np.sum(np.maximum(count - 1, 0)))
     freedom = max(freedom, 1)
     ratio = (between / freedom) / max(within / beside, 1e-300)
-    return FamilyTest(words, float(fisher.sf(ratio, freedom, beside)), between, freedom)
+    return FamilyTest(words, float(fdtrc(freedom, beside, ratio)), between, freedom)
 
 
 def _neighbours(record: Record, fitted: Fit) -> FamilyTest:
     """Do readings that follow each other in a run agree in what is left of them?"""
-    from scipy.stats import norm
+    from scipy.special import ndtr
 
     left = fitted.residual.reshape(len(record.channels), -1)
     same = np.diff(record.dataset["run"]) == 0
@@ -120,12 +120,12 @@ def _neighbours(record: Record, fitted: Fit) -> FamilyTest:
     pairs = int(np.count_nonzero(product))
     size = float(np.sum(left**2)) / max(record.readings, 1)
     z = float(product.sum() / np.sqrt(max(pairs, 1)) / max(size, 1e-12))
-    return FamilyTest("from one reading to the next", float(2.0 * norm.sf(abs(z))), z**2, 1)
+    return FamilyTest("from one reading to the next", float(2.0 * ndtr(-abs(z))), z**2, 1)
 
 
 def _outliers(record: Record, fitted: Fit) -> FamilyTest:
     """Single readings that no noise makes, neither the record's nor that of its readings under like load."""
-    from scipy.stats import norm
+    from scipy.special import ndtr
 
     size = max(1.0, float(np.sqrt(fitted.chi2 / max(record.readings, 1))))
     worst = 0.0
@@ -135,7 +135,7 @@ def _outliers(record: Record, fitted: Fit) -> FamilyTest:
         for begin in range(0, alike.size, ALIKE):
             some = left[alike[max(0, min(begin, alike.size - ALIKE)) : begin + ALIKE]]
             worst = max(worst, float(np.abs(some).max(initial=0.0)) / max(size, robust_sigma(some)))
-    p = float(min(1.0, 2.0 * norm.sf(worst) * record.readings))
+    p = float(min(1.0, 2.0 * ndtr(-worst) * record.readings))
     return FamilyTest("in single readings", p, worst**2, 1)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.stats import f as f_distribution
+from scipy.special import fdtrc
 
 from brace.dataset import DataFault, Dataset
 from brace.diagnose.diagnosis import Diagnosis
@@ -92,4 +92,4 @@ def _forces_follow(dataset: Dataset) -> bool:
     free = 2 * (len(force) - len(run_ids)) - slopes
     if slopes == 0 or free <= 0 or left <= 0.0:
         return explained > 0.0
-    return bool(f_distribution.sf((explained / slopes) / (left / free), slopes, free) < FOLLOWS_P)
+    return bool(fdtrc(slopes, free, (explained / slopes) / (left / free)) < FOLLOWS_P)
