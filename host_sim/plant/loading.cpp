@@ -59,7 +59,6 @@ bool Loading::rests_like_earlier(const Run &run, const effects::Model &model) co
                   == effects::link_change::has_come(model, rows_.t_s[run.end - 1]);
 }
 
-// false: nothing yields in some direction.
 bool Loading::find_rests(const effects::Model &model)
 {
     LimbState limb(model, rows_.small_displacements != 0 ? Displacements::small : Displacements::finite);
@@ -88,14 +87,10 @@ bool Loading::find_rests(const effects::Model &model)
     return true;
 }
 
-brace_host_status_t Loading::play(const effects::Model &model, const brace_loading_reading_t &reading,
-                                  std::size_t &unsolved_rows)
+std::size_t Loading::read(const effects::Model &model, const brace_loading_reading_t &reading) const
 {
-    if (!find_rests(model)) {
-        return BRACE_HOST_E_SINGULAR;
-    }
     const Sensor sensor(model);
-    unsolved_rows = 0;
+    std::size_t unsolved_rows = 0;
     for (const Run &run : runs_) {
         Vector2d zero_n = Vector2d::Zero();
         for (std::size_t i = run.first; i < run.end; ++i) {
@@ -119,6 +114,16 @@ brace_host_status_t Loading::play(const effects::Model &model, const brace_loadi
             write(reading.base_z_mm, rest.base_mm.y());
         }
     }
+    return unsolved_rows;
+}
+
+brace_host_status_t Loading::play(const effects::Model &model, const brace_loading_reading_t &reading,
+                                  std::size_t &unsolved_rows)
+{
+    if (!find_rests(model)) {
+        return BRACE_HOST_E_SINGULAR;
+    }
+    unsolved_rows = read(model, reading);
     return unsolved_rows == 0 ? BRACE_HOST_OK : BRACE_HOST_E_NO_CONVERGENCE;
 }
 

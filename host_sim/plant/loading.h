@@ -14,7 +14,14 @@ public:
     // Inputs must be sound (see api/loading.cpp), and live as long as this.
     explicit Loading(const brace_loading_rows_t &rows);
 
-    // Writes every row it has room for.
+    // Brings the limb to rest in every row. false: nothing yields in some direction.
+    bool find_rests(const effects::Model &model);
+
+    // What the model's sensor reads of the rests found last; writes every row it has room for. Counts the rows without
+    // rest.
+    std::size_t read(const effects::Model &model, const brace_loading_reading_t &reading) const;
+
+    // Both.
     // returns OK, E_SINGULAR (nothing written), E_NO_CONVERGENCE
     brace_host_status_t play(const effects::Model &model, const brace_loading_reading_t &reading,
                              std::size_t &unsolved_rows);
@@ -29,11 +36,10 @@ private:
 
     bool goes_like(const Run &run, std::size_t earlier) const;
     bool rests_like_earlier(const Run &run, const effects::Model &model) const;
-    bool find_rests(const effects::Model &model);
 
     const brace_loading_rows_t &rows_;
     std::vector<Run> runs_;
-    std::vector<LimbRest> rests_; // of the model that is played
+    std::vector<LimbRest> rests_;
 };
 
 } // namespace brace::plant
