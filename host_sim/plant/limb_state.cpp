@@ -152,6 +152,7 @@ void LimbState::start_run(bool creep_gone, double contact_mm_per_n)
     prepared_ = prepared_ && contact_mm_per_n == contact_mm_per_n_;
     contact_mm_per_n_ = contact_mm_per_n;
     rest_ = {};
+    known_count_ = 0;
     has_earlier_ = false;
     before_rad_ = {};
     origin_mm_ = reached_mm_ = tip_mm_ = Vector2d::Zero();

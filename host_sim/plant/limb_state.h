@@ -75,8 +75,8 @@ private:
         Eigen::Vector2d tip_mm = Eigen::Vector2d::Zero(); // from its weightless place
     };
     Rest rest_;
-    // Without friction and creep a rest state depends on where the tip is held and on nothing before. A record leads
-    // the tip to few places at a posture, and to each of them often.
+    // Without friction and creep a rest state depends on where the tip is held and on nothing before. A run leads the
+    // tip to few places, and to most of them twice.
     struct Known {
         Eigen::Vector2d target_mm;
         int free_axis;
@@ -84,7 +84,7 @@ private:
     };
     bool forgets() const;
     const Known *known_at(const Eigen::Vector2d &target_mm, int free_axis) const;
-    static constexpr int kMostKnown = 40; // places of 9 steps to each side along two axes
+    static constexpr int kMostKnown = 20; // places of 9 steps to each side
     std::array<Known, kMostKnown> known_;
     int known_count_ = 0;
     Known earlier_;            // where the tip was held before it came to where rest_ holds it

@@ -36,10 +36,13 @@ private:
 
     bool goes_like(const Run &run, std::size_t earlier) const;
     bool rests_like_earlier(const Run &run, const effects::Model &model) const;
+    bool rests_like_last(const Run &run, const effects::Model &model) const;
 
     const brace_loading_rows_t &rows_;
     std::vector<Run> runs_;
     std::vector<LimbRest> rests_;
+    effects::Model last_; // whose rests they are, if known_
+    bool known_ = false;
 };
 
 } // namespace brace::plant
