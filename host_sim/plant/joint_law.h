@@ -53,8 +53,9 @@ inline double spring_stiffness_n_mm_per_rad(const JointLaw &law, double deflecti
 // The largest torque that friction holds at this deflection, and how fast it grows with the deflection.
 inline double friction_n_mm(const JointLaw &law, double deflection_rad)
 {
-    return effects::coulomb_friction::most_n_mm(law.coulomb_n_mm, law.coulomb_per_load_ratio,
-                                                spring_torque_n_mm(law, deflection_rad));
+    return law.rubs() ? effects::coulomb_friction::most_n_mm(law.coulomb_n_mm, law.coulomb_per_load_ratio,
+                                                             spring_torque_n_mm(law, deflection_rad))
+                      : 0.0;
 }
 
 inline double friction_slope_n_mm_per_rad(const JointLaw &law, double deflection_rad)

@@ -380,7 +380,8 @@ LimbRest LimbState::hold_tip(const Vector2d &displacement_mm, int free_axis)
         rest_ = known->rest;
         reached_mm_ = target_mm;
     } else {
-        const bool goes_on = displacements_ == Displacements::finite && free_axis == 0 && target_mm != reached_mm_;
+        const bool searched = displacements_ == Displacements::finite || is_unknown_[0] || is_unknown_[1];
+        const bool goes_on = searched && free_axis == 0 && target_mm != reached_mm_;
         const Known last = goes_on ? Known{reached_mm_, free_axis, rest_} : Known{};
         solved = lead_to(target_mm, free_axis);
         if (goes_on) {
