@@ -44,12 +44,13 @@ class Record:
         comes back to the same limbs again and again; those that it saw last are not played anew."""
         known, names = self._last_seen, [model.tobytes() for model in models]
         fresh = {name: place for place, name in enumerate(names) if name not in known}
+        if fresh:
+            known.update(zip(fresh, self._played(models[list(fresh.values())])))
         found = np.empty((len(models), self.measured.size))
-        played = dict(zip(fresh, self._played(models[list(fresh.values())]))) if fresh else {}
         for place, name in enumerate(names):
-            known[name] = found[place] = known.pop(name) if name in known else played[name]
-        for name in list(known)[: max(0, len(known) - MOST_KNOWN)]:
-            del known[name]
+            known[name] = found[place] = known.pop(name)
+        while len(known) > MOST_KNOWN:
+            del known[next(iter(known))]
         return found
 
     @cached_property

@@ -101,10 +101,9 @@ def _promise(
         here = own.augmented(nearby.residuals(space, tries[best][None]))[0]
         columns = own.columns(_signatures(nearby, space, tries[best], freed))
         lengths = np.linalg.norm(columns, axis=0)
-        basis, _ = np.linalg.qr(columns[:, lengths > 1e-9] / lengths[lengths > 1e-9]) if np.any(lengths > 1e-9) else (
-            np.empty((columns.shape[0], 0)),
-            None,
-        )
+        basis = columns[:, lengths > 1e-9] / lengths[lengths > 1e-9]
+        if basis.shape[1] > 1:
+            basis, _ = np.linalg.qr(basis)
         gain = float(np.sum((basis.T @ here) ** 2))
         estimate = min(estimate, float(here @ here) - gain)
     return Promise(space, tries[best], estimate)
