@@ -7,6 +7,7 @@
 #include "effects/coulomb_friction.h"
 #include "effects/joint_compliance.h"
 #include "effects/joint_hardening.h"
+#include "effects/thermal_softening.h"
 
 namespace brace::plant {
 
@@ -18,7 +19,13 @@ struct JointLaw : brace_plant_joint_t {
     bool rubs() const { return coulomb_n_mm > 0.0 || coulomb_per_load_ratio > 0.0; }
 };
 
-JointLaw joint_law(const effects::Model &model, int joint, double temp_degc);
+inline JointLaw joint_law(const effects::Model &model, int joint, double temp_degc)
+{
+    JointLaw law;
+    static_cast<brace_plant_joint_t &>(law) = model.joint[joint];
+    law.compliance_rad_per_n_mm *= effects::thermal_softening::factor(model, temp_degc);
+    return law;
+}
 
 // True for a spring alone: its deflection is compliance * torque whatever came before.
 inline bool is_linear(const JointLaw &law)
@@ -65,6 +72,23 @@ inline double friction_slope_n_mm_per_rad(const JointLaw &law, double deflection
 }
 
 // Elastic deflection under a torque, without friction.
-double elastic_under_torque_rad(const JointLaw &law, double torque_n_mm);
+inline double elastic_under_torque_rad(const JointLaw &law, double torque_n_mm)
+{
+    const double s = law.compliance_rad_per_n_mm;
+    const double h = law.hardening_n_mm_per_rad3;
+    if (h == 0.0 || s == 0.0) {
+        return s * torque_n_mm;
+    }
+    // q / s + h q^3 = torque has one real root; Newton from the spring's answer falls on it from above.
+    double q = s * std::fabs(torque_n_mm);
+    for (int i = 0; i < 200; ++i) {
+        const double step = (q / s + h * q * q * q - std::fabs(torque_n_mm)) / (1.0 / s + 3.0 * h * q * q);
+        q -= step;
+        if (step <= 1e-16 * q) {
+            break;
+        }
+    }
+    return std::copysign(q, torque_n_mm);
+}
 
 } // namespace brace::plant

@@ -82,24 +82,24 @@ def joint_law(text: str) -> str:
                    "           && law.one_sided_ratio == 0.0;")  # fmt: skip
     text = swapped(
         text,
-        "    return joint_compliance::torque_n_mm(law.compliance_rad_per_n_mm, elastic)\n"
-        "           + joint_hardening::torque_n_mm(law.hardening_n_mm_per_rad3, elastic);\n",
-        "    return one_sided_spring::factor(law.one_sided_ratio, elastic)\n"
-        "           * (joint_compliance::torque_n_mm(law.compliance_rad_per_n_mm, elastic)\n"
-        "              + joint_hardening::torque_n_mm(law.hardening_n_mm_per_rad3, elastic));\n",
+        "    return effects::joint_compliance::torque_n_mm(law.compliance_rad_per_n_mm, elastic)\n"
+        "           + effects::joint_hardening::torque_n_mm(law.hardening_n_mm_per_rad3, elastic);\n",
+        "    return effects::one_sided_spring::factor(law.one_sided_ratio, elastic)\n"
+        "           * (effects::joint_compliance::torque_n_mm(law.compliance_rad_per_n_mm, elastic)\n"
+        "              + effects::joint_hardening::torque_n_mm(law.hardening_n_mm_per_rad3, elastic));\n",
     )
     text = swapped(
         text,
         "    return 1.0 / law.compliance_rad_per_n_mm\n"
-        "           + joint_hardening::stiffness_n_mm_per_rad(law.hardening_n_mm_per_rad3, elastic);\n",
-        "    return one_sided_spring::factor(law.one_sided_ratio, elastic)\n"
+        "           + effects::joint_hardening::stiffness_n_mm_per_rad(law.hardening_n_mm_per_rad3, elastic);\n",
+        "    return effects::one_sided_spring::factor(law.one_sided_ratio, elastic)\n"
         "           * (1.0 / law.compliance_rad_per_n_mm\n"
-        "              + joint_hardening::stiffness_n_mm_per_rad(law.hardening_n_mm_per_rad3, elastic));\n",
+        "              + effects::joint_hardening::stiffness_n_mm_per_rad(law.hardening_n_mm_per_rad3, elastic));\n",
     )
     return swapped(
         text,
         "    const double s = law.compliance_rad_per_n_mm;\n",
-        "    torque_n_mm /= one_sided_spring::factor(law.one_sided_ratio, torque_n_mm);\n"
+        "    torque_n_mm /= effects::one_sided_spring::factor(law.one_sided_ratio, torque_n_mm);\n"
         "    const double s = law.compliance_rad_per_n_mm;\n",
     )
 
@@ -113,7 +113,7 @@ def catalogue(text: str) -> str:
 WRITTEN: dict[str, Callable[[str], str]] = {
     "firmware/interface/dictionary.toml": dictionary,
     "host_sim/effects/one_sided_spring.h": lambda _: LAW,
-    "host_sim/plant/joint_law.cpp": joint_law,
+    "host_sim/plant/joint_law.h": joint_law,
     "tools/brace/effects/catalogue.py": catalogue,
 }
 
