@@ -19,6 +19,7 @@ from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.noise import growth_of, noise_of, robust_sigma
 from brace.dataset.enough import enough_rows
 from brace.diagnose.loading.parts import locked_rows
+from brace.diagnose.loading import record as loading_record
 from brace.diagnose.loading.record import load_record, setting_of
 from brace.diagnose.loading.run import search_pass
 from brace.diagnose.loading.screen import Remover
@@ -205,6 +206,21 @@ def test_what_the_base_can_make_up_is_taken_out_and_nothing_else(tmp_path: Path,
     foreign -= basis @ (basis.T @ foreign)
     left = remover.columns(foreign[:, None])[: own.size, 0]
     assert np.linalg.norm(left - foreign) < 1e-6 * np.linalg.norm(foreign)
+
+
+def test_a_limb_seen_before_has_the_residuals_that_it_had(
+    tmp_path: Path, believed: LimbModel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whatever was asked for in between, and whatever was done to what was given."""
+    monkeypatch.setattr(loading_record, "MOST_KNOWN", 3)
+    record = load_record(recorded(tmp_path, believed, 12))
+    space = space_of(trust_of(believed, turns=True), ())
+    models = space.models(space.mean + np.outer(np.arange(5), space.sigma))
+    alone = np.array([replace(record).residuals(model[None])[0] for model in models])
+    for some in ([0, 1], [1, 0, 1], [], [0, 2, 3, 4, 0], [4, 1]):
+        found = record.residuals(models[some])
+        assert np.array_equal(found, alone[some]), some
+        found += 1.0
 
 
 def test_a_freedom_that_gains_nothing_costs_its_share(tmp_path: Path, believed: LimbModel) -> None:

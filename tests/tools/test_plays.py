@@ -1,0 +1,82 @@
+"""Plays of the simulated limb that are taken from others: a run that repeats an earlier one, and limbs that differ by
+their sensor or by the time of a change. Each must read to the last bit what it reads by itself."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pytest
+from conftest import DATA
+
+from brace.model import load_limb
+from brace.native.plant_batch import LoadingBatchPlayer, model_numbers, number_index
+
+READINGS = ("fx_n", "fz_n", "enc1_rad", "enc2_rad", "base_x_mm")
+STEPS = np.array([0, 1, 2, 3, 2, 1, 0, -1, -2, -3, -2, -1, 0])
+LIMBS: dict[str, dict[str, float | str]] = {
+    "springs": {},
+    "play": {"joint.femur.gap_rad": 0.003, "joint.tibia.gap_rad": 0.002},
+    "friction": {"joint.tibia.coulomb_n_mm": 300.0, "joint.femur.coulomb_per_load_ratio": 0.1},
+    "creep": {"creep.ratio": 0.1, "creep.time_constant_s": 50.0},
+    "warmth": {"thermal.joint_compliance_per_degc": 0.01},
+    "clearance": {"contact.play_mm": 0.2},
+    "weight": {"gravity.tibia_n": 8.0},
+    "a change": {"change.link": "tibia", "change.bending_factor": 1.5, "change.at_s": 333.0},
+}
+
+
+def record() -> dict[str, np.ndarray]:
+    """Two postures, each axis three times. The third time comes at another pace, and it becomes warmer all the time."""
+    columns: dict[str, list[float]] = {name: [] for name in ("run", "theta1_rad", "theta2_rad", "t_s", "dx_mm", "dz_mm")}
+    clock = 0.0
+    for theta1, theta2 in ((0.7, 1.0), (0.2, 1.6)):
+        for axis in range(2):
+            for repeat in range(3):
+                run = columns["run"][-1] + 1 if columns["run"] else 1
+                for step in STEPS:
+                    row = (run, theta1, theta2, clock, 0.8 * step * (1 - axis), 0.8 * step * axis)
+                    for name, value in zip(columns, row, strict=True):
+                        columns[name].append(value)
+                    clock += 4.0 if repeat < 2 else 6.0
+                clock += 20.0
+    whole = {name: np.array(values) for name, values in columns.items()}
+    return whole | {"temp_degc": 22.0 + 0.01 * whole["t_s"]}
+
+
+def limb(changes: Mapping[str, float | str]) -> np.ndarray:
+    return model_numbers(load_limb(DATA / "paper-limb.toml").with_values(dict(changes)))
+
+
+@pytest.mark.parametrize("small", [False, True], ids=["finite", "small"])
+@pytest.mark.parametrize("name", LIMBS)
+def test_a_run_reads_what_it_reads_by_itself(name: str, small: bool) -> None:
+    columns, model = record(), limb(LIMBS[name])[None]
+
+    def played(some: Mapping[str, np.ndarray]) -> np.ndarray:
+        player = LoadingBatchPlayer(some, READINGS, small_displacements=small)
+        return np.asarray(player.play_numbers(model, settled=True)[0])
+
+    whole = played(columns)
+    assert np.isfinite(whole).all()
+    for run in np.unique(columns["run"]):
+        rows = columns["run"] == run
+        assert np.array_equal(whole[:, rows], played({key: values[rows] for key, values in columns.items()})), run
+
+
+@pytest.mark.parametrize("small", [False, True], ids=["finite", "small"])
+def test_a_limb_of_many_reads_what_it_reads_by_itself(small: bool) -> None:
+    index, models = number_index(), []
+    for changes in LIMBS.values():
+        for key, values in (("change.at_s", (100.0, 101.0, 340.0, 900.0, 50.0)), ("sensor.gain", (1.1,)),
+                            ("sensor.rotation_rad", (0.02,)), ("geometry.tibia_mm", (300.0,))):  # fmt: skip
+            for value in values:
+                models.append(limb({"change.link": "femur", "change.bending_factor": 1.3, "change.at_s": 70.0, **changes}))
+                models[-1][index[key]] = value
+    refused = limb({})
+    refused[index["sensor.gain"]] = np.nan
+    player = LoadingBatchPlayer(record(), READINGS, small_displacements=small)
+    together = player.play_numbers(np.array([*models, refused]))
+    assert np.isnan(together[-1]).all()
+    for model, reading in zip(models, together[:-1], strict=True):
+        assert np.array_equal(reading, player.play_numbers(model[None])[0])
