@@ -215,7 +215,7 @@ def test_a_limb_seen_before_has_the_residuals_that_it_had(
     monkeypatch.setattr(loading_record, "MOST_KNOWN", 3)
     record = load_record(recorded(tmp_path, believed, 12))
     space = space_of(trust_of(believed, turns=True), ())
-    models = space.models(space.mean + np.outer(np.arange(5), space.sigma))
+    models = space.models(space.mean + np.outer(np.arange(5), 0.1 * space.sigma))
     alone = np.array([replace(record).residuals(model[None])[0] for model in models])
     for some in ([0, 1], [1, 0, 1], [], [0, 2, 3, 4, 0], [4, 1]):
         found = record.residuals(models[some])

@@ -58,5 +58,5 @@ def svg_bytes(figure: Figure) -> bytes:
         engine.execute(figure)
         figure.set_layout_engine("none")
     buffer = io.BytesIO()
-    canvas.print_svg(buffer, metadata={"Date": None, "Creator": "brace"})
+    canvas.print_svg(buffer, metadata={"Date": None, "Creator": "brace"})  # type: ignore[no-untyped-call]
     return buffer.getvalue()
