@@ -35,6 +35,8 @@ class Number:
     still        turned a little from the zero effect it moves no reading, as a moment or a limit does
     trust        the key of [uncertainty] that says how well a calibration knows the number ("" when none does)
     strained     at the upper end of its range it stands for something else, so a joint test does not name it there
+    plausible_times  so many times the believed value is three sigma of what a limb may have: more needs evidence to
+                 match, where another cause explains the record as well
     """
 
     leaf: str
@@ -46,6 +48,7 @@ class Number:
     still: bool = False
     trust: str = ""
     strained: bool = False
+    plausible_times: float = float("inf")
 
     def key(self, where: str) -> str:
         """`joint.tibia.gap_rad`."""

@@ -35,8 +35,9 @@ def intervals(record: Record, fitted: Fit, keys: tuple[str, ...], inflation: flo
         if fitted.jacobian[:, place] @ fitted.jacobian[:, place] < 1e-6:
             sigma = np.inf
         low, high = value - Z_90 * sigma, value + Z_90 * sigma
-        entry = KEY_BY_NAME[key]
-        found[key] = Interval(value, max(low, entry.low), min(high, entry.high))
+        entry = KEY_BY_NAME.get(key)  # none for a size of the rig
+        least, most = (entry.low, entry.high) if entry else (space.low[place], space.high[place])
+        found[key] = Interval(value, max(low, least), min(high, most))
     return found
 
 

@@ -1,0 +1,270 @@
+"""Causes outside the catalogue that the record cannot tell from what was chosen, or too small a part of them.
+
+Every row of brace.effects.rivals that may stand in for the chosen effects, or for some of them, is fitted in their
+place with everything else, and weighed by the same evidence. What only a size can tell that no limb has is weighed by
+the catalogue's prior on that size."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from brace.diagnose.loading.choose import WORTH_SAYING, LabelSet
+from brace.diagnose.loading.evidence import score
+from brace.diagnose.loading.fit import Fit, fit
+from brace.diagnose.loading.record import NOT_MEASURED, Record
+from brace.diagnose.loading.space import Space, Trust, space_of
+from brace.diagnose.loading.verdict import SURE
+from brace.effects import Freedom, Variant
+from brace.effects.catalogue import NUMBER_BY_KEY
+from brace.effects.rivals import RIVAL_CAUSES, RivalCause, Size
+from brace.native.plant_batch import number_index
+
+if TYPE_CHECKING:
+    from brace.diagnose.loading.search_pass import Pass
+
+GAUGES = ("base_x_mm", "base_z_mm")
+RARE_SIGMAS = 3.0  # of the prior on a size: so far out lies the ratio that the catalogue calls `plausible_times`
+BOWED_ALONG = 0.6  # a bow of c yields along the link by 8/5 (c/L)^2 of its bending, its turned ellipsoid by (c/L)^2
+
+Turn = Callable[[np.ndarray, np.ndarray], None]
+"""Puts a rival's sizes (points x sizes) into the numbers of limbs (points x numbers) that read the same."""
+
+
+@dataclass(frozen=True)
+class RivalSpace(Space):
+    """A space whose last freedoms are the sizes of a rival, which are no keys of limb.toml."""
+
+    turn: Turn = field(kw_only=True)
+
+    def limbs(self, points: np.ndarray) -> np.ndarray:
+        """The limbs without the rival."""
+        models = np.tile(self.numbers, (len(points), 1))
+        models[:, self.places] = points[:, : self.places.size]
+        return models
+
+    def models(self, points: np.ndarray) -> np.ndarray:
+        """The limbs that read as the limbs with the rival do."""
+        models = self.limbs(points)
+        self.turn(models, points[:, self.places.size :])
+        return models
+
+
+@dataclass(frozen=True)
+class Member:
+    """One explanation: `labels` joined make it, `share` is its probability among the members, `model` the limb."""
+
+    labels: tuple[str, ...]
+    share: float
+    fit: Fit
+    model: np.ndarray
+    cause: RivalCause | None = None
+
+    @property
+    def label(self) -> str:
+        """`sensor_rotation@sensor + joint_zero_offset@joint.femur`."""
+        return " + ".join(self.labels)
+
+
+@dataclass(frozen=True)
+class Contest:
+    """`members`, most probable first, could each stand for the `disputed` ones of the chosen labels; `mass` is what
+    the search gave to all of them together; `cause` is the strongest rival."""
+
+    members: tuple[Member, ...]
+    disputed: frozenset[str]
+    mass: float
+    cause: RivalCause
+
+    @property
+    def open(self) -> bool:
+        """Whether the best set's own explanation may not be named alone."""
+        return self.members[0].cause is not None or self.members[0].share < SURE
+
+
+def contest(record: Record, final: Pass) -> Contest | None:
+    """None where nothing was named, or where no rival explains the record about as well."""
+    decision = final.decision
+    if decision.verdict not in ("effect", "ambiguous"):
+        return None
+    found = [one for cause in RIVAL_CAUSES if (one := _against(final.record, final, cause)) is not None]
+    return max(found, key=lambda one: 1.0 - _share_of_chosen(one), default=None)
+
+
+def _share_of_chosen(found: Contest) -> float:
+    return next(member.share for member in found.members if set(member.labels) == found.disputed)
+
+
+def _against(record: Record, final: Pass, cause: RivalCause) -> Contest | None:
+    """The strongest contest that one cause makes for a part of the chosen set."""
+    chosen = final.decision.chosen
+    best: tuple[float, frozenset[str], Fit] | None = None
+    for disputed in cause.looks_like:
+        if not disputed <= chosen.labels:
+            continue
+        for way in cause.ways:
+            fitted = _fitted(record, final.trust, chosen.best.fit, cause, way, disputed)
+            lead = _score(final, fitted) - _score(final, chosen.best.fit) if fitted is not None else -np.inf
+            if fitted is not None and (best is None or lead > best[0]):
+                best = (lead, disputed, fitted)
+    if best is None:
+        return None
+    lead, disputed, fitted = best
+    weights = dict(_stand_ins(final.sets, chosen, disputed))
+    top = max(weight for weight, _ in weights.values())
+    rival = chosen.posterior * float(np.exp(min(lead, 700.0)))
+    if rival < WORTH_SAYING * top:
+        return None
+    if cause.twin in weights:
+        weight, twin_fit = weights[cause.twin]
+        weights[cause.twin] = (max(weight, rival), twin_fit)
+        top = max(top, weights[cause.twin][0])
+    mass = min(1.0, sum(item.posterior for item in final.sets if chosen.labels - disputed <= item.labels))
+    own = " + ".join(sorted(disputed))
+    kept = {name: found for name, found in weights.items() if found[0] >= WORTH_SAYING * top or name == own}
+    whole = rival + sum(weight for weight, _ in kept.values())
+    space = fitted.space
+    assert isinstance(space, RivalSpace)
+    limb = fitted.model if cause.in_limb else space.limbs(fitted.x[None])[0]
+    members = [
+        Member(_ordered(final, name), weight / whole, found, found.model) for name, (weight, found) in kept.items()
+    ]
+    members.append(Member((cause.label,), rival / whole, fitted, limb, cause))
+    members.sort(key=lambda member: (-round(member.share, 9), member.cause is not None, member.label))
+    return Contest(tuple(members), disputed, mass, cause)
+
+
+def _ordered(final: Pass, name: str) -> tuple[str, ...]:
+    """Labels of one explanation in the order in which the search named them."""
+    labels = name.split(" + ")
+    order = list(final.decision.labels)
+    return tuple(sorted(labels, key=lambda label: order.index(label) if label in order else len(order)))
+
+
+def _stand_ins(
+    sets: Sequence[LabelSet], chosen: LabelSet, disputed: frozenset[str]
+) -> Iterator[tuple[str, tuple[float, Fit]]]:
+    """What the search found for the disputed labels: they themselves, and what else could stand in their place."""
+    rest = chosen.labels - disputed
+    for item in sets:
+        if rest <= item.labels and 0 < len(item.labels - rest) <= len(disputed):
+            yield " + ".join(sorted(item.labels - rest)), (_weight(item), item.best.fit)
+
+
+def _weight(item: LabelSet) -> float:
+    return item.posterior * float(np.exp(-_implausible(item.best.fit)))
+
+
+def _score(final: Pass, fitted: Fit) -> float:
+    """Log evidence, the size prior not counted: what the search would have given."""
+    record = final.record
+    return score(fitted, final.base.fit, record.readings, record.noise_freedom)
+
+
+def _implausible(fitted: Fit) -> float:
+    """Nats that the sizes of a fit cost by the catalogue's prior: normal in the logarithm of the ratio to what was
+    believed."""
+    cost = 0.0
+    index = number_index()
+    for key in fitted.space.keys[fitted.space.size - fitted.space.own :]:
+        number = NUMBER_BY_KEY.get(key)
+        if number is None or not np.isfinite(number.plausible_times):
+            continue
+        believed, value = float(fitted.space.numbers[index[key]]), fitted.value(key)
+        if believed > 0.0 and value > believed:
+            cost += 0.5 * (RARE_SIGMAS * np.log(value / believed) / np.log(number.plausible_times)) ** 2
+    return float(cost)
+
+
+def _fitted(
+    record: Record, trust: Trust, chosen: Fit, cause: RivalCause, way: Sequence[Size], disputed: frozenset[str]
+) -> Fit | None:
+    """The cause fitted in the place of the disputed effects. Where the base was gauged, a cause that shows in base
+    numbers is judged on the other readings, and the gauge by a base that stands still."""
+    if cause.name == "bowed_link" and not any("tilt_rad" in key for key in chosen.space.keys[-chosen.space.own :]):
+        return None  # a bow shows as a tilt
+    rest = [variant for variant in chosen.space.variants if variant.label not in disputed]
+    plain = space_of(trust, rest)
+    space = RivalSpace(
+        plain.numbers,
+        (*plain.keys, *(size.key for size in way)),
+        plain.places,
+        np.concatenate([plain.mean, np.zeros(len(way))]),
+        np.concatenate([plain.sigma, np.full(len(way), np.inf)]),
+        np.concatenate([plain.low, [size.low for size in way]]),
+        np.concatenate([plain.high, [size.high for size in way]]),
+        plain.own + len(way),
+        plain.stepwise,
+        (*plain.variants, Variant(cause.name, cause.where, tuple(Freedom(s.key, s.low, s.high) for s in way))),
+        turn=TURNS[cause.name],
+    )
+    known = dict(zip(chosen.space.keys, chosen.x))
+    start = np.array([known.get(key, middle) for key, middle in zip(space.keys, space.mean)])
+    start[plain.size :] = _start(cause, way, chosen)
+    gauged = [place for place, name in enumerate(record.channels) if name in GAUGES]
+    if not gauged or cause.in_limb or cause.name != "rig_compliance":
+        return fit(record, space, start, final=False)
+    sigma = record.sigma.copy()
+    sigma[gauged] = NOT_MEASURED
+    found = fit(replace(record, sigma=sigma), space, start, final=False)
+    still = record.residuals(space.limbs(found.x[None])).reshape(record.measured.shape)
+    residual = found.residual.reshape(record.measured.shape).copy()
+    residual[gauged] = still[gauged]
+    return replace(found, residual=residual.ravel(), cost=found.cost + float(np.sum(still[gauged] ** 2)))
+
+
+def _start(cause: RivalCause, way: Sequence[Size], chosen: Fit) -> list[float]:
+    """Sizes near those that make the chosen fit's readings."""
+    index, model = number_index(), chosen.model
+    if cause.name == "rig_rotation":
+        return [float(model[index["sensor.rotation_rad"]])]
+    if cause.name == "rig_compliance":
+        base = [max(float(model[index[f"base.{axis}_mm_per_n"]]), 1e-3) for axis in "xz"]
+        return [sum(base) / 2.0] if len(way) == 1 else base
+    if cause.name == "knee_offset":
+        return [float(model[index["geometry.femur_mm"]] * np.tan(model[index["joint.femur.zero_offset_rad"]]))]
+    return [float(model[index["geometry.tibia_mm"]] * np.tan(model[index["link.tibia.tilt_rad"]]))]
+
+
+def _rig_yields(models: np.ndarray, sizes: np.ndarray) -> None:
+    index = number_index()
+    models[:, index["base.x_mm_per_n"]] += sizes[:, 0]
+    models[:, index["base.z_mm_per_n"]] += sizes[:, -1]
+
+
+def _rig_turned(models: np.ndarray, sizes: np.ndarray) -> None:
+    """The limb, and what pulls it down, stand turned back in the rig's frame; the sensor stays in the limb's."""
+    index = number_index()
+    for key, way in (("joint.femur.zero_offset_rad", -1.0), ("gravity.direction_rad", -1.0),
+                     ("sensor.rotation_rad", 1.0)):  # fmt: skip
+        models[:, index[key]] += way * sizes[:, 0]
+
+
+def _knee_beside(models: np.ndarray, sizes: np.ndarray) -> None:
+    """The line to the knee turns and grows; the tibia keeps its direction, and the femur the directions it yields in."""
+    index = number_index()
+    femur_mm = models[:, index["geometry.femur_mm"]].copy()
+    turned = np.arctan2(sizes[:, 0], femur_mm)
+    models[:, index["geometry.femur_mm"]] = np.hypot(femur_mm, sizes[:, 0])
+    models[:, index["joint.femur.zero_offset_rad"]] += turned
+    models[:, index["joint.tibia.zero_offset_rad"]] += turned
+    models[:, index["link.femur.tilt_rad"]] -= turned
+
+
+def _tibia_bowed(models: np.ndarray, sizes: np.ndarray) -> None:
+    index = number_index()
+    turned = sizes[:, 0] / models[:, index["geometry.tibia_mm"]]
+    models[:, index["link.tibia.tilt_rad"]] += turned
+    bending = models[:, index["link.tibia.bending_mm_per_n"]]
+    models[:, index["link.tibia.axial_mm_per_n"]] += BOWED_ALONG * turned**2 * bending
+
+
+TURNS: dict[str, Turn] = {
+    "rig_compliance": _rig_yields,
+    "rig_rotation": _rig_turned,
+    "knee_offset": _knee_beside,
+    "bowed_link": _tibia_bowed,
+}

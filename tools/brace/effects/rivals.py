@@ -1,0 +1,127 @@
+"""Causes outside the catalogue that a loading record cannot tell from an effect of it: one row for each.
+
+They are never searched. Where the search has chosen an effect that such a cause would look like, the diagnosis asks
+whether the cause explains the record as well (brace.diagnose.loading.rivals)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+ROTATION, CROSSTALK = "sensor_rotation@sensor", "sensor_crosstalk@sensor"
+FEMUR_ZERO, KNEE_ZERO = "joint_zero_offset@joint.femur", "joint_zero_offset@joint.tibia"
+LENGTHS = "link_length_error@geometry"
+BASE = "base_compliance@base"
+FEMUR_LINK, TIBIA_LINK = "link_compliance_error@link.femur", "link_compliance_error@link.tibia"
+
+
+@dataclass(frozen=True)
+class Size:
+    """A number of a rival: its key in diagnosis.json (not one of limb.toml), its unit, how far a fit may turn it."""
+
+    key: str
+    unit: str
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class RivalCause:
+    """One row.
+
+    words, meaning   as for an effect of the catalogue
+    looks_like       sets of labels that this cause may stand in for, all of a set together
+    ways             the sizes that are fitted, one way after the other
+    in_limb          it is of the limb, so that its numbers are exported; else of the rig, and the limb is left alone
+    same_because     why the record shows no difference, as the rest of a sentence that begins with "because"
+    would_tell       the measurement that shows it, as an order
+    twin             the effect of the catalogue that does the same to every reading ("" where there is none)
+    """
+
+    name: str
+    where: str
+    words: str
+    meaning: str
+    looks_like: tuple[frozenset[str], ...]
+    ways: tuple[tuple[Size, ...], ...]
+    in_limb: bool
+    same_because: str
+    would_tell: str
+    twin: str = ""
+
+    @property
+    def label(self) -> str:
+        """`rig_compliance@rig`."""
+        return f"{self.name}@{self.where}"
+
+
+_YIELDS_X = Size("rig.x_mm_per_n", "mm/N", 0.0, 10.0)
+_YIELDS_Z = Size("rig.z_mm_per_n", "mm/N", 0.0, 10.0)
+_YIELDS = Size("rig.mm_per_n", "mm/N", 0.0, 10.0)
+_TURNED = Size("rig.rotation_rad", "rad", -0.4, 0.4)
+_BESIDE = Size("geometry.knee_beside_femur_mm", "mm", -60.0, 60.0)
+_BOW = Size("geometry.tibia_bow_mm", "mm", -120.0, 120.0)
+
+RIVAL_CAUSES: tuple[RivalCause, ...] = (
+    RivalCause(
+        "rig_compliance",
+        "rig",
+        words="a test rig that yields",
+        meaning="the rig between its displacement reading and the tip gives way under load; the limb is as believed",
+        looks_like=(frozenset({BASE}), frozenset({TIBIA_LINK}), frozenset({FEMUR_LINK})),
+        ways=((_YIELDS,), (_YIELDS_X, _YIELDS_Z)),
+        in_limb=False,
+        same_because="rig, limb and base carry the same force one after the other, and the record reads only how much "
+        "they give way together",
+        would_tell="put a dial gauge on the base (dataset columns base_x_mm, base_z_mm): it moves with a base that "
+        "yields and stands still where the rig does",
+        twin=BASE,
+    ),
+    RivalCause(
+        "rig_rotation",
+        "rig",
+        words="a test rig whose axes are turned",
+        meaning="the rig moves the tip along axes that are turned against the limb's; the limb is as believed",
+        looks_like=(
+            frozenset({ROTATION, FEMUR_ZERO}),
+            frozenset({CROSSTALK, FEMUR_ZERO}),
+            frozenset({ROTATION}),
+            frozenset({CROSSTALK}),
+        ),
+        ways=((_TURNED,),),
+        in_limb=False,
+        same_because="a limb that stands turned by an angle, read by a sensor turned back by it, gives every reading "
+        "of a rig whose axes are turned by it",
+        would_tell="turn the sensor by a quarter and load again, or read the direction in which the rig moves the tip "
+        "against the robot's frame",
+    ),
+    RivalCause(
+        "knee_offset",
+        "joint.tibia",
+        words="a knee beside the femur's line",
+        meaning="the knee's axis stands beside the line that the femur's angle is measured along; K is the same",
+        looks_like=(
+            frozenset({FEMUR_ZERO, KNEE_ZERO}),
+            frozenset({FEMUR_ZERO, KNEE_ZERO, LENGTHS}),
+            frozenset({FEMUR_ZERO, KNEE_ZERO, FEMUR_LINK}),
+        ),
+        ways=((_BESIDE,),),
+        in_limb=True,
+        same_because="both put knee and tip at the same places at every posture",
+        would_tell="measure how far the knee's axis stands beside the line from the femur's axis along the femur",
+    ),
+    RivalCause(
+        "bowed_link",
+        "link.tibia",
+        words="a bowed tibia",
+        meaning="the tibia is bent between knee and tip, so that it yields in turned directions; K is the same",
+        looks_like=(frozenset({TIBIA_LINK}),),
+        ways=((_BOW,),),
+        in_limb=True,
+        same_because="a bow turns the directions in which the tibia yields, and the tip shows nothing else of it",
+        would_tell="lay a straight edge along the tibia",
+    ),
+)
+
+RIVAL_BY_NAME = {cause.name: cause for cause in RIVAL_CAUSES}
+RIVAL_BY_LABEL = {cause.label: cause for cause in RIVAL_CAUSES}
+RIVAL_UNITS = {size.key: size.unit for cause in RIVAL_CAUSES for way in cause.ways for size in way}
