@@ -305,8 +305,15 @@ static void read(brace_loading_t *test, const loading_inputs_t *inputs, brace_re
         return;
     }
     reading_for_drift(test, inputs, reading);
-    test->step++;
-    test->phase = test->step < step_count(test) ? LOADING_MOVE : LOADING_JUDGE;
+    const bool is_first = test->step++ == 0u;
+    test->phase = is_first ? LOADING_REFERENCE : test->step < step_count(test) ? LOADING_MOVE : LOADING_JUDGE;
+}
+
+static void find_reference(brace_loading_t *test, const loading_inputs_t *inputs, loading_reading_t *reading)
+{
+    if (reading_model_at_reference(test, inputs, reading)) {
+        test->phase = LOADING_MOVE;
+    }
 }
 
 static void judge(brace_loading_t *test)
@@ -353,8 +360,8 @@ static void compare(brace_loading_t *test, const brace_limb_t *limb)
 /* Is the next step one of the dear ones? */
 static bool is_dear(const brace_loading_t *test)
 {
-    return test->phase == LOADING_LEVERS || test->phase == LOADING_READ || test->phase == LOADING_JUDGE ||
-           test->phase == LOADING_COMPARE;
+    return test->phase == LOADING_LEVERS || test->phase == LOADING_READ || test->phase == LOADING_REFERENCE ||
+           test->phase == LOADING_JUDGE || test->phase == LOADING_COMPARE;
 }
 
 void loading_step(brace_loading_t *test, const loading_inputs_t *inputs, brace_recorder_t *recorder,
@@ -382,9 +389,11 @@ void loading_step(brace_loading_t *test, const loading_inputs_t *inputs, brace_r
     case LOADING_MOVE: move(test, inputs, step_mm); break;
     case LOADING_DWELL: dwell(test, inputs); break;
     case LOADING_READ: read(test, inputs, recorder, reading); break;
+    case LOADING_REFERENCE: find_reference(test, inputs, reading); break;
     case LOADING_JUDGE: judge(test); break;
     case LOADING_COMPARE:
         compare(test, &inputs->parameters->limb);
+        reading->has_worked = true;
         loading_end(test, BRACE_LOADING_DONE);
         break;
     default: go_back(test, inputs, step_mm); break; /* LOADING_RETURN */
