@@ -15,10 +15,11 @@ enum {
     LOADING_MOVE = 2,
     LOADING_DWELL = 3,
     LOADING_READ = 4,    /* works the reading out: row, slope, and what the drift check gets */
-    LOADING_REFERENCE = 5, /* after the first reading: the K that the drift check gets with all others */
-    LOADING_JUDGE = 6,   /* all readings are there: slopes */
-    LOADING_COMPARE = 7, /* the model's slopes and how sure it is of them */
-    LOADING_RETURN = 8   /* back to where the test began */
+    LOADING_MODEL = 5,   /* after the first reading: the K that the slopes are compared with */
+    LOADING_REFERENCE = 6, /* the K that the drift check gets with all other readings */
+    LOADING_JUDGE = 7,   /* all readings are there: slopes */
+    LOADING_COMPARE = 8, /* the model's slopes and how sure it is of them */
+    LOADING_RETURN = 9   /* back to where the test began */
 };
 
 /* Begins a test.
