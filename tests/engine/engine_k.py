@@ -61,11 +61,12 @@ def errors(truth: dict[str, Any], believed: Path, exported: Path) -> dict[str, f
 
 
 def judge(root: Path, name: str, out: Path) -> None:
-    """Of a single effect or a pair that was named: writes k_under_load.json beside the diagnosis."""
+    """Of a single effect or a pair that was named and exported: writes k_under_load.json beside the diagnosis."""
     truth = json.loads((root / "answers" / name / "truth.json").read_text())
     said = out / "diagnosis.json"
     if truth["kind"] not in ("single", "pair") or not said.exists():
         return
-    if json.loads(said.read_text())["verdict"] in ("effect", "ambiguous"):
+    told = json.loads(said.read_text())
+    if told["verdict"] in ("effect", "ambiguous") and told["exported"]:
         found = errors(truth, root / "cases" / name / "limb.toml", out / "limb.toml")
         (out / "k_under_load.json").write_text(json.dumps(found))
