@@ -51,6 +51,12 @@ def add(commands: Subcommands) -> None:
         help="faulty entries that the record itself corrects: say so and go on (default), or stop at them",
     )
     parser.add_argument(
+        "--take",
+        metavar="NAME",
+        help="where the verdict leaves several explanations that give different K: export this one, as members of "
+        "diagnosis.json name it (rig_compliance@rig, or rig_compliance)",
+    )
+    parser.add_argument(
         "--jobs",
         type=common.count(1, 256),
         metavar="N",
@@ -82,7 +88,7 @@ def _run_one(arguments: argparse.Namespace) -> int:
     inputs = (folder / "meta.toml", folder / "data.csv", *([model] if model else []))
     check_folder(arguments.out, inputs)  # before the work, not after
     given = load(folder, model)
-    options = Options(seed=arguments.seed, faults=arguments.faults)
+    options = Options(seed=arguments.seed, faults=arguments.faults, take=arguments.take)
     with common.progress("diagnosing", _PERCENT) as advance:
         found, written = diagnosed(
             given, options, lambda share, doing: advance(round(_PERCENT * share), doing)

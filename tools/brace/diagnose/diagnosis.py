@@ -110,6 +110,27 @@ class Candidate:
 
 
 @dataclass(frozen=True)
+class StiffnessAt:
+    """K without load at commanded angles [rad], [N/mm]."""
+
+    theta1_rad: float
+    theta2_rad: float
+    k_xx_n_per_mm: float
+    k_xz_n_per_mm: float
+    k_zz_n_per_mm: float
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """One of the explanations that the record leaves open: `label` (joined by ' + ' where it takes several effects) as
+    `--take` asks for it, its probability, and the K that its limb gives where the explanations differ most in it."""
+
+    label: str
+    probability: float
+    k: StiffnessAt
+
+
+@dataclass(frozen=True)
 class Residuals:
     """Measured less model, rows x channels, in the channels' units; `held_out` marks rows that took no part."""
 
@@ -122,7 +143,7 @@ class Residuals:
 @dataclass(frozen=True)
 class Diagnosis:
     """All that a diagnosis found. `model` is the limb with the effects in it (the believed one where nothing may be
-    exported)."""
+    exported). `members` are the explanations that stand where one name does not."""
 
     verdict: Verdict
     sentence: str
@@ -131,6 +152,7 @@ class Diagnosis:
     effects: tuple[NamedEffect, ...] = ()
     indistinguishable: tuple[tuple[str, ...], ...] = ()
     could_be: tuple[str, ...] = ()
+    members: tuple[Alternative, ...] = ()
     localised: tuple[Localised, ...] = ()
     unexplained: Unexplained | None = None
     next_experiment: NextExperiment | None = None

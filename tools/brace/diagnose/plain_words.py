@@ -6,6 +6,7 @@ import math
 
 from brace.diagnose.diagnosis import Diagnosis, GapPair, Interval, NamedEffect
 from brace.effects import BY_NAME
+from brace.effects.rivals import RIVAL_BY_NAME, RIVAL_UNITS
 from brace.model.keys import KEY_BY_NAME
 
 _PLACES = {
@@ -23,6 +24,7 @@ _PLACES = {
     "thermal": "joints",
     "contact": "tip's contact",
     "change": "link",
+    "rig": "test rig",
 }
 _VERDICTS = {
     "effect": "Something is missing in the model, and it has a name",
@@ -47,12 +49,14 @@ def unit(gap_unit: str) -> str:
 
 def effect(name: str) -> str:
     """`backlash`, `a shifted joint zero`."""
-    return BY_NAME[name].words if name in BY_NAME else name.replace("_", " ")
+    row = BY_NAME.get(name) or RIVAL_BY_NAME.get(name)
+    return row.words if row else name.replace("_", " ")
 
 
 def meaning(name: str) -> str:
     """What the effect does, in half a sentence; empty for a name that the catalogue does not have."""
-    return BY_NAME[name].meaning if name in BY_NAME else ""
+    row = BY_NAME.get(name) or RIVAL_BY_NAME.get(name)
+    return row.meaning if row else ""
 
 
 def place(where: str) -> str:
@@ -77,7 +81,7 @@ def named(found: NamedEffect) -> str:
 
 def key_unit(key: str) -> str:
     """The unit of a key of limb.toml."""
-    return KEY_BY_NAME[key].unit if key in KEY_BY_NAME else ""
+    return KEY_BY_NAME[key].unit if key in KEY_BY_NAME else RIVAL_UNITS.get(key, "")
 
 
 def number(value: float) -> str:

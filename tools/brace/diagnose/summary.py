@@ -24,6 +24,13 @@ def lines(found: Diagnosis) -> Iterator[str]:
             yield f"             {key} = {value}, 90 %: {words.interval(held)}"
     for members in found.indistinguishable:
         yield f"  one of     {', '.join(members)}"
+    for one in found.members:
+        k = one.k
+        yield (
+            f"  K          {one.label}, {words.percent(one.probability)}: "
+            f"{words.number(k.k_xx_n_per_mm)}, {words.number(k.k_xz_n_per_mm)}, {words.number(k.k_zz_n_per_mm)} N/mm "
+            f"(xx, xz, zz at {k.theta1_rad:.3f}, {k.theta2_rad:.3f} rad)"
+        )
     if found.could_be:
         yield f"  could be   {', '.join(found.could_be)}"
     for spot in found.localised[:3]:

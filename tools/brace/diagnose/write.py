@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -41,7 +41,8 @@ def contents(
     origin = provenance(dataset, believed_text)
     exported = export(found, believed, believed_text, _header(found, origin))
     found = replace(found, model=exported.model, notes=(*found.notes, *exported.notes))
-    data = as_json(found, origin)
+    held = believed is None or exported.model.values != believed.values
+    data = as_json(found, origin, held)
     files = {
         JSON: (json.dumps(data, indent=1, ensure_ascii=False) + "\n").encode(),
         MODEL: exported.text.encode(),
@@ -64,17 +65,21 @@ def check_folder(out: Path, inputs: tuple[Path, ...]) -> None:
     files.check_folder(out, (JSON, MODEL, REPORT), inputs)
 
 
-def as_json(found: Diagnosis, origin: Provenance) -> dict[str, Any]:
-    """diagnosis.json. Sizes carry the gap's unit in their names."""
+def as_json(found: Diagnosis, origin: Provenance, exported: bool) -> dict[str, Any]:
+    """diagnosis.json; `exported` where limb.toml differs from what was given. Sizes carry the gap's unit in their names."""
     unit = found.gap.unit if found.gap else "n"
     left, after = found.unexplained, found.next_experiment
     data: dict[str, Any] = {
         "format": 1,
         "verdict": found.verdict,
+        "exported": exported,
         "sentence": found.sentence,
         "effects": [_effect(effect) for effect in found.effects],
         "indistinguishable": [list(members) for members in found.indistinguishable],
         "could_be": list(found.could_be),
+        "members": [
+            {"take": one.label, "probability": one.probability, **asdict(one.k)} for one in found.members
+        ],
         "localised": [
             {"where": spot.where, "p": spot.p, f"size_{unit}": spot.size} for spot in found.localised
         ],

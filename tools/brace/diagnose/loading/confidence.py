@@ -17,6 +17,10 @@ RIGHT_BY_EFFECTS = {1: 0.985, 2: 0.985, 3: 0.93}
 
 def of_label(final: Pass, label: str) -> float:
     """Probability [0, 1] that this effect at this place is in the limb."""
-    share = label_probability(final.sets, label) * (1.0 - final.decision.outside.probability)
+    return of_a_name(final) * label_probability(final.sets, label)
+
+
+def of_a_name(final: Pass) -> float:
+    """Probability [0, 1] that a name with all of the posterior behind it is right."""
     effects = max(1, len(final.decision.chosen.labels))
-    return RIGHT_BY_EFFECTS[min(effects, 3)] * share
+    return RIGHT_BY_EFFECTS[min(effects, 3)] * (1.0 - final.decision.outside.probability)

@@ -4,6 +4,7 @@ in numbers and words."""
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,14 +24,15 @@ from brace.diagnose.diagnosis import (
 )
 from brace.diagnose.loading import confidence
 from brace.diagnose.loading.agreement import Agreement, agreement
-from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.next_experiment.confusability import Confusability, confusability, in_words
 from brace.diagnose.loading.next_experiment.experiment import next_experiment
 from brace.diagnose.loading.fit import Fit
 from brace.diagnose.loading.intervals import intervals
 from brace.diagnose.loading.limb_of import limb_of
 from brace.diagnose.loading.localise import localise
+from brace.diagnose.loading.members import Resolved, resolve
 from brace.diagnose.loading.record import NOT_MEASURED, Record
+from brace.diagnose.loading.rivals import Contest, contest
 from brace.diagnose.loading.structure import STRUCTURED_P
 from brace.diagnose.loading.verdict import NOTHING_STANDS
 from brace.diagnose.options import Options
@@ -64,75 +66,91 @@ def diagnosis_of(
     judged = twin or final
     named = decision.verdict in ("effect", "ambiguous")
     after = best if named else final.base.fit
-    exported = believed if decision.verdict == "unknown" else limb_of(believed, after.model)
+    contested = contest(final)
+    resolved = resolve(record, final, contested, believed, options.take)
+    shown = believed if decision.verdict == "unknown" else limb_of(believed, after.model)
     agreed = agreement(record, locked, final, twin, options.seed)
     alike = confusability(final.base.fit, final.sets)
-    effects = _effects(record, final, decision.labels) if named else ()
+    effects = _effects(record, final, resolved, contested) if named else ()
+    following = next_experiment(record, final, believed, options) if named else _more_of_the_same(final)
     return Diagnosis(
-        verdict=decision.verdict,
-        sentence=_sentence(final, effects),
-        model=exported,
+        verdict=resolved.verdict,
+        sentence=_sentence(final, effects, resolved, contested),
+        model=resolved.exported,
         gap=_gap(whole, record, locked, believed, judged),
         effects=effects,
-        indistinguishable=_classes(final, alike),
+        indistinguishable=_classes(final, alike, contested),
         could_be=_could_be(final, effects),
+        members=resolved.alternatives,
         localised=_localised(record, final, options),
         unexplained=_unexplained(final, after),
-        next_experiment=next_experiment(record, final, believed, options) if named else _more_of_the_same(final),
+        next_experiment=_told_by(following, contested),
         data_faults=tuple(record.dataset.faults),
         candidates=tuple(
             Candidate(item.label, final.base.fit.cost - item.best.fit.cost, item.posterior)
             for item in final.sets[:MOST_CANDIDATES]
         ),
         residuals=_residuals(
-            whole, believed, exported, judged, locked if whole is record else np.zeros(whole.rows, bool)
+            whole, believed, shown, judged, locked if whole is record else np.zeros(whole.rows, bool)
         ),
         notes=(
             *(words for effect in effects if (words := in_words(alike, effect.label))),
             *_notes(whole, record, final, twin, agreed, after),
+            *([resolved.note] if resolved.note else []),
         ),
         seed=options.seed,
         details={**_details(record, final, agreed), "refitted": _refitted(whole, believed, final)},
     )
 
 
-def _effects(record: Record, final: Pass, labels: Sequence[str]) -> tuple[NamedEffect, ...]:
+def _effects(
+    record: Record, final: Pass, resolved: Resolved, contested: Contest | None
+) -> tuple[NamedEffect, ...]:
     """For a class, each member with the parameters of its own fit."""
-    ambiguous = final.decision.verdict == "ambiguous"
-    found = []
-    for label in labels:
-        fitted = _set_with(final, label).best.fit if ambiguous else final.decision.chosen.best.fit
-        variant = next(item for item in fitted.space.variants if item.label == label)
-        keys = tuple(freedom.key for freedom in variant.freedoms)
-        parameters: dict[str, Interval] = dict(intervals(record, fitted, keys))
-        for key, (other, ratio) in variant.stands_for.items():
-            both = parameters[key]
-            parameters[key] = Interval(both.value, KEY_BY_NAME[key].low, both.high)
-            parameters[other] = Interval(0.0, KEY_BY_NAME[other].low, ratio * both.high)
-        for key, value in variant.settings.items():
-            if KEY_BY_NAME[key].kind in ("number", "ratio"):
-                parameters[key] = Interval(value, value, value)
-        found.append(
-            NamedEffect(
-                variant.effect,
-                variant.where,
-                confidence.of_label(final, label),
-                parameters,
-                1.0 if ambiguous else _share(final, label),
-            )
+    if resolved.verdict == "ambiguous":
+        return tuple(
+            _effect(record, member.fit, label, sure, 1.0)
+            for member, sure in resolved.members
+            for label in member.labels
         )
-    return tuple(found)
+    sure_of = {label: confidence.of_label(final, label) for label in final.decision.labels}
+    if contested is not None:
+        own = next(sure for member, sure in resolved.members if set(member.labels) == contested.disputed)
+        sure_of |= {label: min(own, sure_of[label]) for label in contested.disputed}
+    chosen = final.decision.chosen.best.fit
+    return tuple(
+        _effect(record, chosen, label, sure_of[label], _share(final, label)) for label in final.decision.labels
+    )
 
 
-def _classes(final: Pass, alike: Confusability) -> tuple[tuple[str, ...], ...]:
-    """For each named effect what the evidence leaves in its place, and what looks the same in this record."""
+def _effect(record: Record, fitted: Fit, label: str, sure: float, share: float) -> NamedEffect:
+    variant = next(item for item in fitted.space.variants if item.label == label)
+    keys = tuple(freedom.key for freedom in variant.freedoms)
+    parameters: dict[str, Interval] = dict(intervals(record, fitted, keys))
+    for key, (other, ratio) in variant.stands_for.items():
+        both = parameters[key]
+        parameters[key] = Interval(both.value, KEY_BY_NAME[key].low, both.high)
+        parameters[other] = Interval(0.0, KEY_BY_NAME[other].low, ratio * both.high)
+    for key, value in variant.settings.items():
+        if KEY_BY_NAME[key].kind in ("number", "ratio"):
+            parameters[key] = Interval(value, value, value)
+    return NamedEffect(variant.effect, variant.where, sure, parameters, share)
+
+
+def _classes(
+    final: Pass, alike: Confusability, contested: Contest | None
+) -> tuple[tuple[str, ...], ...]:
+    """For each named effect what the evidence leaves in its place, and what looks the same in this record. What a rival
+    contests comes first."""
     decision = final.decision
     found: list[tuple[str, ...]] = []
+    if contested is not None:
+        found.append(tuple(member.label for member in contested.members))
     for label in decision.labels if decision.verdict == "effect" else decision.labels[:1]:
         rivals = next((members for members in decision.classes if members[0] == label), (label,))
         look_alikes = [other for other in alike.look_alikes(label) if not _told_apart(alike, label, other)]
         group = tuple(dict.fromkeys((*rivals, *look_alikes)))
-        if len(group) > 1 and set(group) not in [set(other) for other in found]:
+        if len(group) > 1 and not any(set(group) <= set(other) for other in found):
             found.append(group)
     return tuple(found)
 
@@ -154,11 +172,6 @@ def _localised(record: Record, final: Pass, options: Options) -> tuple[Localised
             if family.p < STRUCTURED_P
         ]
     return tuple(found)
-
-
-def _set_with(final: Pass, label: str) -> LabelSet:
-    """The best set that has this label."""
-    return next(item for item in final.sets if label in item.labels and len(item.labels) == 1)
 
 
 def _share(final: Pass, label: str) -> float:
@@ -248,8 +261,41 @@ def _changing(final: Pass) -> str:
     return f"the error looks as if {outside.words}" if outside.likely else ""
 
 
-def _sentence(final: Pass, effects: Sequence[NamedEffect]) -> str:
+def _told_by(following: NextExperiment | None, contested: Contest | None) -> NextExperiment | None:
+    """The measurement that shows a rival, before the loading test that separates what is in the catalogue."""
+    if following is None or contested is None:
+        return following
+    return replace(following, action=f"{contested.cause.would_tell}; as for loading tests, {following.action}")
+
+
+def _contested(resolved: Resolved, contested: Contest, effects: Sequence[NamedEffect]) -> str:
+    """Both are named, with why the record does not tell them apart, what would, and what limb.toml holds."""
+    cause = contested.cause
+    names = [member.label for member in contested.members]
+    either = f"{', '.join(names[:-1])} or {names[-1]}"
+    sure = [effect.label for effect in effects if effect.label not in contested.disputed]
+    lead = (
+        f"Something is missing: {either}."
+        if resolved.verdict == "ambiguous"
+        else f"Missing: {', '.join(sure)}, and one of {either}."
+    )
+    exported = (
+        f"The model has {resolved.taken.label} added."
+        if resolved.taken is not None
+        else f"They give different K, so the model was left as it was given; --take '{names[0]}' exports the first."
+    )
+    return (
+        f"{lead} This record cannot tell them apart, because {cause.same_because}. To tell, {cause.would_tell}. "
+        f"{exported}"
+    )
+
+
+def _sentence(
+    final: Pass, effects: Sequence[NamedEffect], resolved: Resolved, contested: Contest | None
+) -> str:
     verdict, structure = final.decision.verdict, final.structure
+    if contested is not None:
+        return _contested(resolved, contested, effects)
     if verdict == "none":
         return "Model and record agree within the noise and what calibration leaves open; nothing is missing."
     if verdict == "unknown":
@@ -259,10 +305,12 @@ def _sentence(final: Pass, effects: Sequence[NamedEffect]) -> str:
         )
     if verdict == "ambiguous":
         names = [effect.label for effect in effects]
-        return (
-            f"Something is missing that this record cannot tell between {', '.join(names[:-1])} and {names[-1]}; "
-            f"the model has {names[0]} added."
+        held = (
+            f"the model has {resolved.taken.label} added."
+            if resolved.taken is not None
+            else f"they give different K, so the model was left as it was given; --take '{names[0]}' exports the first."
         )
+        return f"Something is missing that this record cannot tell between {', '.join(names[:-1])} and {names[-1]}; {held}"
     names = [f"{effect.name.replace('_', ' ')} at {effect.where}" for effect in effects]
     closes = "they close" if len(names) > 1 else "it closes"
     return f"Missing: {' and '.join(names)}. Added to the model, {closes} the gap."

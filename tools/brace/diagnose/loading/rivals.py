@@ -17,7 +17,6 @@ from brace.diagnose.loading.evidence import score
 from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading.record import NOT_MEASURED, Record
 from brace.diagnose.loading.space import Space, Trust, space_of
-from brace.diagnose.loading.verdict import SURE
 from brace.effects import Freedom, Variant
 from brace.effects.catalogue import NUMBER_BY_KEY
 from brace.effects.rivals import RIVAL_CAUSES, RivalCause, Size
@@ -79,18 +78,13 @@ class Contest:
     mass: float
     cause: RivalCause
 
-    @property
-    def open(self) -> bool:
-        """Whether the best set's own explanation may not be named alone."""
-        return self.members[0].cause is not None or self.members[0].share < SURE
 
-
-def contest(record: Record, final: Pass) -> Contest | None:
+def contest(final: Pass) -> Contest | None:
     """None where nothing was named, or where no rival explains the record about as well."""
     decision = final.decision
     if decision.verdict not in ("effect", "ambiguous"):
         return None
-    found = [one for cause in RIVAL_CAUSES if (one := _against(final.record, final, cause)) is not None]
+    found = [one for cause in RIVAL_CAUSES if (one := _against(final, cause)) is not None]
     return max(found, key=lambda one: 1.0 - _share_of_chosen(one), default=None)
 
 
@@ -98,7 +92,7 @@ def _share_of_chosen(found: Contest) -> float:
     return next(member.share for member in found.members if set(member.labels) == found.disputed)
 
 
-def _against(record: Record, final: Pass, cause: RivalCause) -> Contest | None:
+def _against(final: Pass, cause: RivalCause) -> Contest | None:
     """The strongest contest that one cause makes for a part of the chosen set."""
     chosen = final.decision.chosen
     best: tuple[float, frozenset[str], Fit] | None = None
@@ -106,7 +100,7 @@ def _against(record: Record, final: Pass, cause: RivalCause) -> Contest | None:
         if not disputed <= chosen.labels:
             continue
         for way in cause.ways:
-            fitted = _fitted(record, final.trust, chosen.best.fit, cause, way, disputed)
+            fitted = _fitted(final.record, final.trust, chosen.best.fit, cause, way, disputed)
             lead = _score(final, fitted) - _score(final, chosen.best.fit) if fitted is not None else -np.inf
             if fitted is not None and (best is None or lead > best[0]):
                 best = (lead, disputed, fitted)

@@ -225,12 +225,31 @@ def _apart(found: Diagnosis) -> str:
         parts.insert(
             0, html.paragraph("This record cannot tell these from each other; each explains it as well.")
         )
+    if found.members:
+        parts.append(_members(found))
     rest = [label for label in found.could_be if label not in {m for c in found.indistinguishable for m in c}]
     if rest:
         parts.append(
             html.paragraph("It could also be: " + "; ".join(words.label(label) for label in rest) + ".")
         )
     return html.section("What cannot be told apart", *parts)
+
+
+def _members(found: Diagnosis) -> str:
+    """What each explanation would mean for K."""
+    at = found.members[0].k
+    head = ("explanation", "probability", "K xx", "K xz", "K zz [N/mm]")
+    rows = [
+        [
+            html.code(one.label),
+            text(words.percent(one.probability)),
+            *(text(words.number(k)) for k in (one.k.k_xx_n_per_mm, one.k.k_xz_n_per_mm, one.k.k_zz_n_per_mm)),
+        ]
+        for one in found.members
+    ]
+    return html.paragraph(
+        f"K without load at theta1 {at.theta1_rad:.3f}, theta2 {at.theta2_rad:.3f} rad, where they differ most:"
+    ) + html.table(head, rows, numeric=(1, 2, 3, 4))
 
 
 def _next(found: Diagnosis) -> str:
