@@ -152,7 +152,6 @@ class Diagnosis:
     effects: tuple[NamedEffect, ...] = ()
     indistinguishable: tuple[tuple[str, ...], ...] = ()
     could_be: tuple[str, ...] = ()
-    members: tuple[Alternative, ...] = ()
     localised: tuple[Localised, ...] = ()
     unexplained: Unexplained | None = None
     next_experiment: NextExperiment | None = None
@@ -162,3 +161,4 @@ class Diagnosis:
     notes: tuple[str, ...] = ()
     seed: int = 0
     details: Mapping[str, Any] = field(default_factory=dict)
+    members: tuple[Alternative, ...] = ()

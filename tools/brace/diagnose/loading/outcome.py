@@ -310,7 +310,8 @@ def _sentence(
             if resolved.taken is not None
             else f"they give different K, so the model was left as it was given; --take '{names[0]}' exports the first."
         )
-        return f"Something is missing that this record cannot tell between {', '.join(names[:-1])} and {names[-1]}; {held}"
+        either = f"{', '.join(names[:-1])} and {names[-1]}"
+        return f"Something is missing that this record cannot tell between {either}; {held}"
     names = [f"{effect.name.replace('_', ' ')} at {effect.where}" for effect in effects]
     closes = "they close" if len(names) > 1 else "it closes"
     return f"Missing: {' and '.join(names)}. Added to the model, {closes} the gap."

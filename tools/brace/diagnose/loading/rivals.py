@@ -115,7 +115,7 @@ def _against(final: Pass, cause: RivalCause) -> Contest | None:
     if cause.twin in weights:
         weight, twin_fit = weights[cause.twin]
         weights[cause.twin] = (max(weight, rival), twin_fit)
-        top = max(top, weights[cause.twin][0])
+    top = max(top, rival)
     mass = min(1.0, sum(item.posterior for item in final.sets if chosen.labels - disputed <= item.labels))
     own = " + ".join(sorted(disputed))
     kept = {name: found for name, found in weights.items() if found[0] >= WORTH_SAYING * top or name == own}
@@ -178,7 +178,8 @@ def _fitted(
 ) -> Fit | None:
     """The cause fitted in the place of the disputed effects. Where the base was gauged, a cause that shows in base
     numbers is judged on the other readings, and the gauge by a base that stands still."""
-    if cause.name == "bowed_link" and not any("tilt_rad" in key for key in chosen.space.keys[-chosen.space.own :]):
+    own = chosen.space.keys[chosen.space.size - chosen.space.own :]
+    if cause.name == "bowed_link" and "link.tibia.tilt_rad" not in own:
         return None  # a bow shows as a tilt
     rest = [variant for variant in chosen.space.variants if variant.label not in disputed]
     plain = space_of(trust, rest)
@@ -238,7 +239,7 @@ def _rig_turned(models: np.ndarray, sizes: np.ndarray) -> None:
 
 
 def _knee_beside(models: np.ndarray, sizes: np.ndarray) -> None:
-    """The line to the knee turns and grows; the tibia keeps its direction, and the femur the directions it yields in."""
+    """The line to the knee turns and grows. The tibia keeps its direction, and the femur the directions it yields in."""
     index = number_index()
     femur_mm = models[:, index["geometry.femur_mm"]].copy()
     turned = np.arctan2(sizes[:, 0], femur_mm)
