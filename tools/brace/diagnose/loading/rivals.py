@@ -182,6 +182,8 @@ def _fitted(
     if cause.name == "bowed_link" and "link.tibia.tilt_rad" not in own:
         return None  # a bow shows as a tilt
     rest = [variant for variant in chosen.space.variants if variant.label not in disputed]
+    if TURNED_KEYS[cause.name] & {key for variant in rest for key in variant.keys}:
+        return None  # what is fitted besides would make up for any of its sizes
     plain = space_of(trust, rest)
     space = RivalSpace(
         plain.numbers,
@@ -257,6 +259,14 @@ def _tibia_bowed(models: np.ndarray, sizes: np.ndarray) -> None:
     models[:, index["link.tibia.axial_mm_per_n"]] += BOWED_ALONG * turned**2 * bending
 
 
+TURNED_KEYS: dict[str, frozenset[str]] = {
+    "rig_compliance": frozenset({"base.x_mm_per_n", "base.z_mm_per_n"}),
+    "rig_rotation": frozenset({"joint.femur.zero_offset_rad", "sensor.rotation_rad"}),
+    "knee_offset": frozenset(
+        {"geometry.femur_mm", "joint.femur.zero_offset_rad", "joint.tibia.zero_offset_rad", "link.femur.tilt_rad"}
+    ),
+    "bowed_link": frozenset({"link.tibia.tilt_rad", "link.tibia.axial_mm_per_n"}),
+}
 TURNS: dict[str, Turn] = {
     "rig_compliance": _rig_yields,
     "rig_rotation": _rig_turned,
