@@ -22,7 +22,8 @@ def run_fleet(arguments: argparse.Namespace) -> int:
     from brace.errors import EXIT_INTERRUPTED, EXIT_OK
     from brace.files import OutputSet
 
-    jobs = jobs_of(arguments.datasets, arguments.model, Options(seed=arguments.seed, faults=arguments.faults))
+    options = Options(seed=arguments.seed, faults=arguments.faults, take=arguments.take)
+    jobs = jobs_of(arguments.datasets, arguments.model, options)
     inputs = {
         job.name: (job.folder / "meta.toml", job.folder / "data.csv", job.model or job.folder) for job in jobs
     }

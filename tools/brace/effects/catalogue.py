@@ -260,7 +260,7 @@ EFFECTS: tuple[Effect, ...] = (
                 0.01,
                 lambda at: (0.0, max(50.0 * at.believed, 1.0)),
                 trust="uncertainty.compliance_rel",
-                plausible_times=10.0,  # length over section: a tenth of the section is left
+                plausible_times=10.0,  # compliance is length over section: a tenth of the section would be left
             ),
             Number("bending_mm_per_n", 0.1, times_believed(0.02, 50.0, 1.0), trust="uncertainty.compliance_rel"),
             Number("tilt_rad", 0.1, between(-1.5, 1.5)),

@@ -115,7 +115,7 @@ def _against(final: Pass, cause: RivalCause) -> Contest | None:
     if cause.twin in weights:
         weight, twin_fit = weights[cause.twin]
         weights[cause.twin] = (max(weight, rival), twin_fit)
-        top = max(top, weights[cause.twin][0])
+    top = max(top, rival)
     mass = min(1.0, sum(item.posterior for item in final.sets if chosen.labels - disputed <= item.labels))
     own = " + ".join(sorted(disputed))
     kept = {name: found for name, found in weights.items() if found[0] >= WORTH_SAYING * top or name == own}
@@ -178,9 +178,12 @@ def _fitted(
 ) -> Fit | None:
     """The cause fitted in the place of the disputed effects. Where the base was gauged, a cause that shows in base
     numbers is judged on the other readings, and the gauge by a base that stands still."""
-    if cause.name == "bowed_link" and not any("tilt_rad" in key for key in chosen.space.keys[-chosen.space.own :]):
+    own = chosen.space.keys[chosen.space.size - chosen.space.own :]
+    if cause.name == "bowed_link" and "link.tibia.tilt_rad" not in own:
         return None  # a bow shows as a tilt
     rest = [variant for variant in chosen.space.variants if variant.label not in disputed]
+    if TURNED_KEYS[cause.name] & {key for variant in rest for key in variant.keys}:
+        return None  # what is fitted besides would make up for any of its sizes
     plain = space_of(trust, rest)
     space = RivalSpace(
         plain.numbers,
@@ -238,8 +241,7 @@ def _rig_turned(models: np.ndarray, sizes: np.ndarray) -> None:
 
 
 def _knee_beside(models: np.ndarray, sizes: np.ndarray) -> None:
-    """The line to the knee turns and grows. The tibia keeps its direction; the femur keeps the directions in which it
-    yields."""
+    """The line to the knee turns and grows. The tibia keeps its direction, and the femur the directions it yields in."""
     index = number_index()
     femur_mm = models[:, index["geometry.femur_mm"]].copy()
     turned = np.arctan2(sizes[:, 0], femur_mm)
@@ -257,6 +259,14 @@ def _tibia_bowed(models: np.ndarray, sizes: np.ndarray) -> None:
     models[:, index["link.tibia.axial_mm_per_n"]] += BOWED_ALONG * turned**2 * bending
 
 
+TURNED_KEYS: dict[str, frozenset[str]] = {
+    "rig_compliance": frozenset({"base.x_mm_per_n", "base.z_mm_per_n"}),
+    "rig_rotation": frozenset({"joint.femur.zero_offset_rad", "sensor.rotation_rad"}),
+    "knee_offset": frozenset(
+        {"geometry.femur_mm", "joint.femur.zero_offset_rad", "joint.tibia.zero_offset_rad", "link.femur.tilt_rad"}
+    ),
+    "bowed_link": frozenset({"link.tibia.tilt_rad", "link.tibia.axial_mm_per_n"}),
+}
 TURNS: dict[str, Turn] = {
     "rig_compliance": _rig_yields,
     "rig_rotation": _rig_turned,
