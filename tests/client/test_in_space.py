@@ -15,6 +15,10 @@ from conftest import BUILD, LIMB, Answer, Sim, simulated
 STEP = 0.0005  # N/mm
 Probe = Callable[..., Answer]
 ACROSS = """
+[sensor]
+noise_n = 0.0  # else K counts the load that it feigns, as it counts the drive's
+[motor.coxa]
+torque_noise_n_mm = 0.0
 [link.coxa]
 lateral_mm_per_n = 0.004
 [joint.coxa]
