@@ -41,8 +41,8 @@ def contents(
     origin = provenance(dataset, believed_text)
     exported = export(found, believed, believed_text, _header(found, origin))
     found = replace(found, model=exported.model, notes=(*found.notes, *exported.notes))
-    held = believed is None or exported.model.values != believed.values
-    data = as_json(found, origin, held)
+    is_exported = believed is None or exported.model.values != believed.values
+    data = as_json(found, origin, is_exported)
     files = {
         JSON: (json.dumps(data, indent=1, ensure_ascii=False) + "\n").encode(),
         MODEL: exported.text.encode(),
@@ -66,7 +66,7 @@ def check_folder(out: Path, inputs: tuple[Path, ...]) -> None:
 
 
 def as_json(found: Diagnosis, origin: Provenance, exported: bool) -> dict[str, Any]:
-    """diagnosis.json; `exported` where limb.toml differs from what was given. Sizes carry the gap's unit in their names."""
+    """diagnosis.json. `exported`: limb.toml differs from what was given. Sizes carry the gap's unit in their names."""
     unit = found.gap.unit if found.gap else "n"
     left, after = found.unexplained, found.next_experiment
     data: dict[str, Any] = {
