@@ -21,7 +21,8 @@ from limits import Check  # noqa: E402
 from toolchain import (BOARDS, BUILD, CORE, CORE_FLAGS, M4F, PREFIX, compile_source, link_image, run,  # noqa: E402
                        symbol_address)
 
-TICK_LIMIT = 12_000  # instructions
+TICK_LIMIT = 12_000  # instructions, of a limb in its plane,
+SPACE_LIMIT = 16_000  # and of one in space
 TICK_COUNT = 1_000_000
 FUNCTION = "brace_app_tick"
 
@@ -29,8 +30,7 @@ KINDS = {"M": "monitor", "T": "taking up", "L": "loading test", "R": "loading te
          "J": "loading test: its slopes", "K": "loading test: slopes against the model",
          "C": "configuration", "W": "keeping what the drift check knows",
          "S": "storing parameters, putting them in force",
-         "0": "start", "F": "fault",
-         "Q": "every port flooded, limb in its plane", "X": "every port flooded, limb in space"}
+         "A": "start", "F": "fault", "Q": "every port flooded"}
 
 
 @dataclass(frozen=True)
@@ -45,14 +45,20 @@ class TickKind:
 
 @dataclass(frozen=True)
 class TickCost:
-    """All ticks of a run."""
+    """All ticks of a run; the worst of limbs in their plane, and of those in space."""
 
     count: int
     mean: float
     median: int
     maximum: int
+    space_maximum: int
     quantile_99: int
     kinds: tuple[TickKind, ...]
+
+    @property
+    def is_within(self) -> bool:
+        """Whether both limits are kept."""
+        return self.maximum <= TICK_LIMIT and self.space_maximum <= SPACE_LIMIT
 
 
 def _sources() -> Iterator[tuple[Path, bool]]:
@@ -112,13 +118,16 @@ def measure_ticks(ticks: int = TICK_COUNT) -> TickCost:
 
 
 def _summary(counts: np.ndarray, letters: np.ndarray) -> TickCost:
-    missing = [name for letter, name in KINDS.items() if not np.any(letters == letter)]
+    names = KINDS | {letter.lower(): f"{name}, in space" for letter, name in KINDS.items()}
+    kinds = tuple(TickKind(name, int(mine.size), float(mine.mean()), int(mine.max()))
+                  for letter, name in names.items() if (mine := counts[letters == letter]).size)
+    seen = set(np.char.upper(np.unique(letters)))
+    missing = [name for letter, name in KINDS.items() if letter not in seen]
     if missing and len(counts) >= TICK_COUNT:
         raise RuntimeError(f"the random ticks never came to: {', '.join(missing)}")
-    kinds = tuple(TickKind(name, int(mine.size), float(mine.mean()), int(mine.max()))
-                  for letter, name in KINDS.items() if (mine := counts[letters == letter]).size)
-    return TickCost(int(counts.size), float(counts.mean()), int(np.median(counts)), int(counts.max()),
-                    int(np.quantile(counts, 0.99)), kinds)
+    in_space = np.char.islower(letters)
+    return TickCost(int(counts.size), float(counts.mean()), int(np.median(counts)), int(counts[~in_space].max()),
+                    int(counts[in_space].max()), int(np.quantile(counts, 0.99)), kinds)
 
 
 NOTE = """\
@@ -133,34 +142,36 @@ def extra() -> Extra:
     """Everything of it for the bench."""
     cost = measure_ticks()
     rows = [[kind.name, f"{kind.count:,}", f"{kind.mean:,.0f}", f"{kind.maximum:,}"] for kind in cost.kinds]
-    rows.append(["all", f"{cost.count:,}", f"{cost.mean:,.0f}", f"{cost.maximum:,}"])
     data: dict[str, object] = {
         "ticks": cost.count, "instructions_mean": round(cost.mean, 1), "instructions_median": cost.median,
         "instructions_p99": cost.quantile_99,
         "instructions_max": cost.maximum, "limit": TICK_LIMIT,
+        "space_instructions_max": cost.space_maximum, "space_limit": SPACE_LIMIT,
         "kinds": {kind.name: {"ticks": kind.count, "mean": round(kind.mean, 1), "max": kind.maximum}
                   for kind in cost.kinds}}
-    check = Check(f"controller's tick, instructions, worst of {cost.count:,} random ones "
-                  f"(median {cost.median:,}, mean {cost.mean:,.0f})",
-                  f"{cost.maximum:,}", f"at most {TICK_LIMIT:,}", cost.maximum <= TICK_LIMIT)
+    checks = [Check(f"controller's tick, limb {where}, instructions, worst of {cost.count:,} random ones of both kinds",
+                    f"{worst:,}", f"at most {limit:,}", worst <= limit)
+              for where, worst, limit in (("in its plane", cost.maximum, TICK_LIMIT),
+                                          ("in space", cost.space_maximum, SPACE_LIMIT))]
     table = ("The controller's tick: instructions", ["kind of tick", "ticks", "mean", "worst"], rows)
-    return Extra("tick", NOTE, [table], [check], data)
+    return Extra("tick", NOTE, [table], checks, data)
 
 
 def as_text(cost: TickCost) -> str:
     """For a terminal."""
     lines = [f"{cost.count:,} random ticks: median {cost.median:,}, mean {cost.mean:,.0f}, "
-             f"99th percentile {cost.quantile_99:,}, worst {cost.maximum:,} instructions (limit {TICK_LIMIT:,})"]
-    lines += [f"  {kind.name:42} {kind.count:9,}  mean {kind.mean:8,.0f}  worst {kind.maximum:7,}"
+             f"99th percentile {cost.quantile_99:,}; worst {cost.maximum:,} instructions in the plane (limit "
+             f"{TICK_LIMIT:,}), {cost.space_maximum:,} in space (limit {SPACE_LIMIT:,})"]
+    lines += [f"  {kind.name:52} {kind.count:9,}  mean {kind.mean:8,.0f}  worst {kind.maximum:7,}"
               for kind in cost.kinds]
     return "\n".join(lines)
 
 
 def main() -> int:
-    """python tests/bench/tick_cost.py [TICKS]: print; exit code 1 when the limit is passed."""
+    """python tests/bench/tick_cost.py [TICKS]: print; exit code 1 when a limit is passed."""
     cost = measure_ticks(int(sys.argv[1]) if len(sys.argv) > 1 else TICK_COUNT)
     print(as_text(cost))
-    return int(cost.maximum > TICK_LIMIT)
+    return int(not cost.is_within)
 
 
 if __name__ == "__main__":

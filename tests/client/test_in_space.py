@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 from conftest import BUILD, LIMB, Answer, Sim, simulated
 
-LOAD_UNKNOWN = 0x40  # K of a limb in space is the one without load
 STEP = 0.0005  # N/mm
 Probe = Callable[..., Answer]
 ACROSS = """
@@ -54,7 +53,7 @@ def test_k_in_space_is_read(probe: Probe, url: str, model: Path) -> None:
     assert answer.code == 0, answer.err
     assert len(answer.snapshots) == 3
     last = answer.snapshots[-1]
-    assert last["parts"] == 15 and last["valid"] == 1 and last["flags"] == LOAD_UNKNOWN
+    assert last["parts"] == 15 and last["valid"] == 1 and last["flags"] == 0
     assert last["theta0"] == pytest.approx(0.6, abs=2e-3)
     wanted = k_of_the_model(model, last["theta0"], last["theta1"], last["theta2"])
     assert np.abs(np.array([last[name] for name in ENTRIES]) - wanted).max() < STEP + 20 * 2e-5
@@ -101,5 +100,5 @@ def test_the_example(url: str) -> None:
     done = subprocess.run([example, url], capture_output=True, text=True, timeout=60)
     assert done.returncode == 0, done.stderr
     k, drift = done.stdout.splitlines()
-    assert k.startswith("[") and k.endswith(f"N/mm, flags 0x{LOAD_UNKNOWN:02x}")
+    assert k.startswith("[") and k.endswith("N/mm, flags 0x00")
     assert "learns the limb's own baseline" in drift

@@ -52,7 +52,9 @@ class CoreLimb:
         lib.brace_loaded_space_collapse(limb, weights, self._loaded)
         for struct, given in ((self._load.tip_n, case.force_n), (self._load.down, case.gravity)):
             struct.x, struct.y, struct.z = (float(part) for part in self._yaw.T @ given)
-        status = lib.brace_loaded_space_in_plane(self._loaded, *case.theta_rad[1:], self._load, self.rest, self.result)
+        status = lib.brace_loaded_space_settle(self._loaded, *case.theta_rad[1:], self._load, self.rest)
+        if status == lib.BRACE_OK:
+            status = lib.brace_loaded_space_stiffness(self._loaded, self.rest, self.result)
         assert status in (lib.BRACE_OK, lib.BRACE_E_SINGULAR), (status, case)
         self.is_told = status == lib.BRACE_OK
 

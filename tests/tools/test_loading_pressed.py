@@ -108,6 +108,27 @@ def test_slopes_of_a_pressed_limb_are_its_K(
                 assert abs(result.z_x) < 4.0 and abs(result.z_z) < 4.0, case
 
 
+def test_the_model_s_k_is_that_of_the_mean_force(limb: LimbModel) -> None:
+    """The sensor's noise turns K of each tick. A test's first reading is the mean of a hundred ticks, so a tenth of that
+    is left in the K that the test compares with; a quarter is allowed, since an encoder's step turns K, too."""
+    setup = LimbSetup(limb, limb, theta_rad=(0.0, 1.0, 1.4), changes=STRONG_BELIEVED, drive=STRONG, force_noise_n=0.5)
+    with Node([setup]) as one:
+        one.step(0.3)
+        one.press(-3.0, -8.0)
+        one.step(0.5)
+        of_ticks, of_tests = [], []
+        for _ in range(12):
+            for _ in range(10):
+                one.step(0.01)
+                k = one.raw_snapshot().stiffness.engaged
+                of_ticks.append([k.k_xx_n_per_mm, k.k_xz_n_per_mm])
+            result = loading_test(one, X)
+            assert result.outcome == DONE
+            of_tests.append([result.model_k_x_n_per_mm, result.model_k_z_n_per_mm])
+        assert np.all(np.std(of_tests, axis=0) < 0.25 * np.std(of_ticks, axis=0))
+        assert np.mean(of_tests, axis=0) == pytest.approx(np.mean(of_ticks, axis=0), rel=2e-3)
+
+
 def test_a_pressed_foot_raises_no_alarm(limb: LimbModel) -> None:
     """The drift check learns from tests with 5 N, and goes on watching with other feet, presses and directions."""
     with Node([LimbSetup(limb, limb, changes=STRONG_BELIEVED, drive=STRONG)]) as one:

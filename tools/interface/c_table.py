@@ -20,7 +20,7 @@ def list_header(dictionary: Dictionary) -> str:
     names = [f"    {index_name(entry)} = {entry.index}," for entry in dictionary.parameters]
     return (
         _MADE
-        + "#ifndef BRACE_PARAMETER_LIST_H\n#define BRACE_PARAMETER_LIST_H\n\n"
+        + "#ifndef BRACE_PARAMETER_LIST_H\n#define BRACE_PARAMETER_LIST_H\n\n#include <stdint.h>\n\n"
         + "/* Of the list below with its types and units; a block of another list is refused. */\n"
         + f"#define BRACE_SCHEMA_HASH 0x{dictionary.schema_hash:08x}u\n\n"
         + "/* Members of brace_parameters_t, in its order. */\nenum {\n"
@@ -28,7 +28,8 @@ def list_header(dictionary: Dictionary) -> str:
         + f"\n    BRACE_PARAMETER_COUNT = {len(dictionary.parameters)}\n}};\n\n"
         + c_comment("Numbers that parameters have on the wire, from 0 on: half a Modbus register, and what CAN calls"
                     " them by. brace_parameter_index (brace/parameters.h) finds a number's member.")
-        + f"enum {{ BRACE_PARAMETER_NUMBERS = {_numbers_count(dictionary)} }};\n\n#endif\n"
+        + f"enum {{ BRACE_PARAMETER_NUMBERS = {_numbers_count(dictionary)} }};\n\n"
+        + "extern const uint16_t brace_parameter_indices[BRACE_PARAMETER_NUMBERS];\n\n#endif\n"
     )
 
 
@@ -94,10 +95,9 @@ def table_source(dictionary: Dictionary) -> str:
         '    return index < BRACE_PARAMETER_COUNT ? keys[index] : "the limb as a whole";\n}\n\n',
         "const char *brace_parameter_unit(uint32_t index)\n{\n"
         '    return index < BRACE_PARAMETER_COUNT ? units[index] : "";\n}\n\n',
-        "uint32_t brace_parameter_index(uint32_t number)\n{\n"
-        "    static const uint16_t index[BRACE_PARAMETER_NUMBERS] = {\n",
-        *("    " + line for line in _wrapped(_indices(dictionary))),
-        "    };\n    return number < BRACE_PARAMETER_NUMBERS ? index[number] : (uint32_t)BRACE_PARAMETER_COUNT;\n}\n\n",
+        "const uint16_t brace_parameter_indices[BRACE_PARAMETER_NUMBERS] = {\n",
+        *_wrapped(_indices(dictionary)),
+        "};\n\n",
         "uint32_t brace_parameter_number(uint32_t index)\n{\n"
         "    static const uint16_t number[BRACE_PARAMETER_COUNT] = {\n",
         *("    " + line for line in _wrapped([f"{entry.number}," for entry in entries])),

@@ -31,6 +31,7 @@ static bool configure_step(controller_t *controller)
         return false;
     case BRACE_LINK_COUNT + 1:
         question_job_forget(&controller->question);
+        softening_start(&controller->softening);
         model_configure(&controller->model, parameters, is_spatial);
         return false;
     case BRACE_LINK_COUNT + 2: gravity_configure(&controller->gravity, &parameters->gravity); return false;
@@ -73,6 +74,7 @@ static void blank_snapshot(const controller_t *controller, brace_snapshot_t *sna
                                    .tip_mm = {unknown, unknown},
                                    .play_shift_mm = {unknown, unknown},
                                    .force_x_n = unknown,
+                                   .force_y_n = unknown,
                                    .force_z_n = unknown,
                                    .gravity_direction_rad = controller->gravity.direction_rad,
                                    .gravity_lean_rad = controller->gravity.lean_rad,
@@ -100,6 +102,7 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal)
     mode_start(&controller->mode);
     joints_start(&controller->joints, hal);
     posture_start(&controller->posture);
+    softening_start(&controller->softening);
     parameter_job_start(&controller->parameters, hal);
     for (bool done = false; !done;) { /* at most once for each part */
         done = configure_step(controller);
@@ -112,6 +115,7 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal)
     }
     controller->faults.now = controller->parameters.faults;
     blank_snapshot(controller, &controller->snapshot[0]);
+    blank_snapshot(controller, &controller->snapshot[1]);
     wires_start(&app->wires, hal, &controller->parameters.in_force);
     return BRACE_OK;
 }
@@ -148,7 +152,8 @@ static void take_posture(controller_t *controller, brace_snapshot_t *snapshot)
     posture_take(&controller->posture, &controller->parameters.in_force, snapshot->motor_rad, offset_rad, link_rad);
 }
 
-/* The tip's force: by its sensor, else from what the joints carry. Without a posture nobody could use it. */
+/* The tip's force in the limb's plane: by its sensor, else from what the joints carry. Across it, only the coxa joint
+ * tells it. Without a posture nobody could use it. */
 static void take_force(const controller_t *controller, brace_snapshot_t *snapshot)
 {
     const tip_force_t *force = &controller->tip_force;
@@ -161,17 +166,22 @@ static void take_force(const controller_t *controller, brace_snapshot_t *snapsho
                                snapshot->play[BRACE_FEMUR].load_n_mm, snapshot->play[BRACE_TIBIA].load_n_mm,
                                &snapshot->force_x_n, &snapshot->force_z_n);
     }
+    snapshot->force_y_n = controller->joints.joint[BRACE_COXA].sound
+                              ? posture_force_across_n(&controller->posture, &controller->parameters.in_force,
+                                                       controller->gravity.down, snapshot->play[BRACE_COXA].load_n_mm)
+                              : __builtin_nanf("");
 }
 
 /* K of these samples. In CONFIGURATION there is none, because the model may be in the making. */
 static void take_stiffness(controller_t *controller, brace_snapshot_t *snapshot)
 {
     if (controller->mode.now == BRACE_MODE_CONFIGURATION) {
-        posture_settle(&controller->posture, NULL, NULL);
+        posture_settle(&controller->posture, NULL);
         stiffness_unknown(snapshot, BRACE_FLAG_STALE);
     } else {
         stiffness_take(&controller->model, &controller->parameters.in_force, controller->parameters.origin,
-                       &controller->joints, &controller->flank, &controller->gravity, &controller->posture, snapshot);
+                       &controller->joints, &controller->flank, &controller->gravity, &controller->softening,
+                       &controller->posture, snapshot);
     }
 }
 
@@ -313,7 +323,12 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     takeup_step(&controller->takeup, &controller->flank);
     const bool loading_has_worked = step_loading(controller, snapshot);
     step_parameters(app);
-    controller->has_worked = controller->question.has_worked || loading_has_worked;
+    const bool job_has_worked = controller->question.has_worked || loading_has_worked;
+    const bool is_counted_in_space = controller->model.is_spatial && snapshot->load.is_counted;
+    controller->has_worked =
+        softening_step(&controller->softening, &controller->model, &parameters->limb, controller->posture.unbent_rad,
+                       is_counted_in_space, !job_has_worked) ||
+        job_has_worked;
 
     /* Faults and mode, and what follows from them. */
     update_faults(controller, late, wires_are_bus_off(&app->wires));
@@ -323,6 +338,6 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     /* Tell. */
     publish(controller, snapshot);
     wires_tick(&app->wires, hal, app, &controller->counters, controller->has_worked,
-               controller->has_worked || controller->drift.has_worked, now_us);
+               job_has_worked || controller->drift.has_worked, now_us);
     hal->watchdog_feed(hal->context);
 }

@@ -22,6 +22,7 @@
 #include "sense/joints.h"
 #include "sense/tip_force.h"
 #include "stiffness/model.h"
+#include "stiffness/softening.h"
 
 typedef struct {
     const brace_hal_t *hal;
@@ -38,12 +39,14 @@ typedef struct {
     posture_t posture;
     gravity_t gravity;
     model_t model;
+    softening_t softening;
     brace_loading_t loading;
+    model_work_t loading_work;
     brace_recorder_t recorder;
     drift_job_t drift;
     question_job_t question;
     parameter_job_t parameters;
-    bool has_worked;         /* a job has worked out a K beside the tick's own */
+    bool has_worked;         /* a job has worked out a K beside the tick's own, or a part of one: requests wait */
     uint8_t configure_part;  /* of putting parameters in force, the next one */
     faults_t faults;
     mode_state_t mode;
@@ -75,6 +78,7 @@ static inline loading_inputs_t controller_loading_inputs(controller_t *controlle
                               .flank = &controller->flank,
                               .posture = &controller->posture,
                               .model = &controller->model,
+                              .work = &controller->loading_work,
                               .parameters = &controller->parameters.in_force,
                               .down = controller->gravity.down,
                               .may_work = !controller->question.has_worked};

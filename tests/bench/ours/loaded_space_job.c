@@ -39,7 +39,8 @@ void job_run(int index, float *out)
     brace_space_result_t result;
     brace_stiffness_spatial_t turned;
     const float *angles = postures[index];
-    if (brace_loaded_space_in_plane(&loaded, angles[1], angles[2], &load, &rest, &result) != BRACE_OK ||
+    if (brace_loaded_space_settle(&loaded, angles[1], angles[2], &load, &rest) != BRACE_OK ||
+        brace_loaded_space_stiffness(&loaded, &rest, &result) != BRACE_OK ||
         brace_loaded_space_turn(angles[0], &result.k, &turned) != BRACE_OK) {
         exit(1);
     }

@@ -4,10 +4,10 @@
  *
  *   M monitor  T taking up  L loading test  R a reading of it, which the drift check takes in  J its slopes
  *   K its slopes against the model
- *   C configuration  S storing parameters, the last of these puts them in force  0 start  F fault
+ *   C configuration  S storing parameters, the last of these puts them in force  A start  F fault
  *   W a piece of a record of what the drift check knows
- * and those in which CAN, SLCAN and both Modbus ports are flooded with requests, whatever the tick does beside:
- *   Q a limb in its plane  X a limb in space
+ *   Q CAN, SLCAN and both Modbus ports are flooded with requests, whatever the tick does beside
+ * A small letter: the same of a limb in space.
  */
 #include <stdio.h>
 
@@ -250,16 +250,15 @@ static void random_question(bool harmless)
     world_asks(app.wires.can.node_id, data);
 }
 
-/* What the coming tick is. */
-static char kind(void)
+/* What the coming tick is, in its plane. */
+static char kind_in_plane(const controller_t *c)
 {
-    const controller_t *c = &app.controller;
     if (flooded) {
-        return c->model.is_spatial ? 'X' : 'Q';
+        return 'Q';
     }
     const bool keeps = c->drift.looks && c->drift.ticks_to_write <= 1u && !c->drift.has_reading && !c->drift.reports;
     switch (c->mode.now) {
-    case BRACE_MODE_START: return '0';
+    case BRACE_MODE_START: return 'A';
     case BRACE_MODE_MONITOR: return keeps ? 'W' : 'M';
     case BRACE_MODE_TAKING_UP: return 'T';
     case BRACE_MODE_FAULT: return 'F';
@@ -270,6 +269,13 @@ static char kind(void)
            : c->loading.phase == LOADING_JUDGE   ? 'J'
            : c->loading.phase == LOADING_COMPARE ? 'K'
                                                  : 'L';
+}
+
+static char kind(void)
+{
+    const controller_t *c = &app.controller;
+    const char letter = kind_in_plane(c);
+    return c->model.is_spatial ? (char)(letter + ('a' - 'A')) : letter;
 }
 
 int main(void)

@@ -31,7 +31,8 @@ static brace_status_t status_at(float theta1_rad, float theta2_rad, brace_space_
         const float yields = limb.joint[i].compliance_rad_per_n_mm;
         *joint[i] = (brace_loaded_joint_t){yields, yields};
     }
-    return brace_loaded_space_in_plane(&loaded, theta1_rad, theta2_rad, &load, &rest, result);
+    const brace_status_t status = brace_loaded_space_settle(&loaded, theta1_rad, theta2_rad, &load, &rest);
+    return status == BRACE_OK ? brace_loaded_space_stiffness(&loaded, &rest, result) : status;
 }
 
 static brace_space_result_t at(float theta1_rad, float theta2_rad)

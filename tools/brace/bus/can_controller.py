@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from brace.bus.controller import Advance, Force, Identity, StiffnessAnswer, Stored, check_dictionary
 from brace.bus.drift import TAKE_UPS, Drift, drift_of, take_up_of
 from brace.bus.entries import index_of
-from brace.bus.load import LOAD_ENTRIES, Load, load_of
+from brace.bus.load import ACROSS_ENTRIES, LOAD_ENTRIES, Load, load_of
 from brace.bus.session import Session
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceStiffness, space_answer
@@ -85,7 +85,7 @@ class CanController:
 
     def load(self) -> Load:
         """Entry by entry, so of several snapshots."""
-        words = {name: struct.pack("<I", self.read_entry(name)) for name in LOAD_ENTRIES}
+        words = {name: struct.pack("<I", self.read_entry(name)) for name in (*LOAD_ENTRIES, *ACROSS_ENTRIES)}
         values = {name: float(struct.unpack("<f", word)[0]) for name, word in words.items()}
         return load_of(values)
 

@@ -12,6 +12,7 @@ LOAD_ENTRIES = (
     "unloaded_k_xx", "unloaded_k_xz", "unloaded_k_zz", "counted_force_x", "counted_force_z", "moved_x", "moved_z",
     "buckling_factor", "gravity_direction", "gravity_lean",
 )  # fmt: skip
+ACROSS_ENTRIES = ("counted_force_y", "moved_y", "unloaded_k_across")  # of a limb with a coxa joint
 
 
 Matrix = tuple[float, float, float]  # xx, xz, zz [N/mm]
@@ -21,7 +22,7 @@ Matrix = tuple[float, float, float]  # xx, xz, zz [N/mm]
 class Load:
     """None: not known, or no load is counted."""
 
-    values: Mapping[str, Value]  # by LOAD_ENTRIES; buckling_factor: infinite where there is none
+    values: Mapping[str, Value]  # by LOAD_ENTRIES, and ACROSS_ENTRIES; buckling_factor: infinite where there is none
 
     @property
     def is_counted(self) -> bool:
@@ -29,8 +30,11 @@ class Load:
         return self.values["counted_force_x"] is not None
 
     def as_json(self) -> dict[str, object]:
-        """Names with units. An infinite buckling factor is null beside `is_counted`."""
+        """Names with units, those across the plane only where they are known. An infinite buckling factor is null
+        beside `is_counted`."""
         v = self.values
+        names = zip(("force_y_n", "moved_y_mm", "unloaded_k_across_n_per_mm"), ACROSS_ENTRIES, strict=True)
+        across = {name: v[entry] for name, entry in names if v.get(entry) is not None}
         factor = v["buckling_factor"]
         return {
             "is_counted": self.is_counted,
@@ -44,6 +48,7 @@ class Load:
             "unloaded_k_xx_n_per_mm": v["unloaded_k_xx"],
             "unloaded_k_xz_n_per_mm": v["unloaded_k_xz"],
             "unloaded_k_zz_n_per_mm": v["unloaded_k_zz"],
+            **across,
         }
 
     @property
@@ -65,7 +70,14 @@ class Load:
         if unloaded is not None:
             changes = "" if None in k else f"; the load changes K by {_change(k, unloaded):.1%}"
             lines.append("K without load = [{0:.4f} {1:.4f}; {1:.4f} {2:.4f}] N/mm".format(*unloaded) + changes)
-        return lines
+        return lines + self._lines_across()
+
+    def _lines_across(self) -> list[str]:
+        force, moved, k = (self.values.get(name) for name in ACROSS_ENTRIES)
+        if force is None or moved is None:
+            return []
+        unloaded = "" if k is None else f"; K across it without load {k:.4f} N/mm"
+        return [f"across the limb's plane, to the left: {force:.3f} N counted, tip moved by {moved:.3f} mm{unloaded}"]
 
     def words(self) -> list[str]:
         """The same in few words, for a line that has more to tell."""
@@ -85,6 +97,7 @@ class Load:
 def load_of(values: Mapping[str, Value]) -> Load:
     """From values that may be more; a number that is not one is not known."""
     found = {name: values[name] for name in LOAD_ENTRIES}
+    found |= {name: values[name] for name in ACROSS_ENTRIES if name in values}
     return Load({name: None if isinstance(v, float) and math.isnan(v) else v for name, v in found.items()})
 
 

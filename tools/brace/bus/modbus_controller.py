@@ -54,7 +54,7 @@ def _between(first: str, last: str) -> list[Register]:
 _SPACE = _between("k_is_in_space", "play_coxa")
 _DRIFT = _between("drift_state", "drift_next_step")
 _TAKE_UPS = _between("take_up_coxa", "take_up_tibia")
-_LOAD = _between("unloaded_k_xx", "gravity_lean")
+_LOAD = _between("unloaded_k_xx", "unloaded_k_across")
 _FORCES = (("fx_n", "x"), ("fz_n", "z"), ("low_n", "low"), ("high_n", "high"))
 _ENTRIES = {entry.name: entry for entry in MEASURED}
 _EXCEPTIONS = {

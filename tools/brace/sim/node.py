@@ -371,6 +371,9 @@ def _load_of(s: CData) -> dict[str, object]:
         "gravity_lean_rad": s.gravity_lean_rad,
         **{f"unloaded_{name}": getattr(k, name) for name in ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm")},
     }
+    if s.space.is_fitted:
+        told |= {"force_y_n": load.force_y_n, "moved_y_mm": load.moved_y_mm}
+        told["unloaded_k_across_n_per_mm"] = load.unloaded_across_n_per_mm
     known = {name: value if math.isfinite(value) else None for name, value in told.items()}
     return {"is_counted": bool(load.is_counted), **known}
 

@@ -116,4 +116,7 @@ MEASURED: tuple[MeasuredEntry, ...] = (
     MeasuredEntry(0x106b, "buckling_factor", "f32", ""),
     MeasuredEntry(0x106c, "gravity_direction", "f32", "rad"),
     MeasuredEntry(0x106d, "gravity_lean", "f32", "rad"),
+    MeasuredEntry(0x106e, "counted_force_y", "f32", "N"),
+    MeasuredEntry(0x106f, "moved_y", "f32", "mm"),
+    MeasuredEntry(0x1070, "unloaded_k_across", "f32", "N/mm"),
 )

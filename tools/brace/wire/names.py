@@ -412,7 +412,7 @@ PARAMETERS: tuple[Parameter, ...] = (
     Parameter(
         80, 109, "gravity.lean_rad", "gravity.lean_rad",
         unit="rad", low=-1.5707963267948966, high=1.5707963267948966, default=0.0, safe=0.0,
-        description="how far down leans out of the limb's plane: its part in the plane is shortened by the cosine",
+        description="how far down leans out of the limb's plane, to the left: its part in the plane is shortened by the cosine",
     ),
     Parameter(
         81, 79, "sensor.bias_x_n", "sensor.bias_x_n",

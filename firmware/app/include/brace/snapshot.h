@@ -16,7 +16,8 @@
 /* Faults that make every K invalid and the mode FAULT. */
 #define BRACE_FAULTS_NO_K (BRACE_FAULT_SENSOR_FEMUR | BRACE_FAULT_SENSOR_TIBIA | BRACE_FAULT_ENCODER_STUCK)
 
-/* K in the robot's frame, of a limb whose coxa joint is fitted. */
+/* K in the robot's frame, of a limb whose coxa joint is fitted. A load couples the limb's plane with what is across it.
+ * While a gap is open, that coupling is left out. */
 typedef struct {
     bool is_fitted; /* the limb has a coxa joint */
     bool is_valid;  /* now and engaged may be used, with their flags; else they are NaN */
@@ -28,12 +29,17 @@ typedef struct {
 
 /* The load that K counts, and what it does to the limb. The weight of the limb's parts counts with the force. */
 typedef struct {
-    bool is_counted;            /* K, tip and theta1, theta2 are those at the equilibrium under this load; else the
-                                   next five are NaN */
-    float force_x_n, force_z_n; /* of the ground on the tip, as counted */
-    float moved_x_mm, moved_z_mm; /* how far the load has moved the tip */
-    float buckling_factor;     /* brace/loaded.h; infinity: none */
-    brace_stiffness_t unloaded; /* K with neither force nor weight counted, every gap closed; NaN: not known */
+    bool is_counted;            /* K, tip and the joint angles are those at the equilibrium under this load; else the
+                                   next seven are NaN */
+    float force_x_n, force_y_n, force_z_n; /* of the ground on the tip, as counted; y: to the left of the limb's plane;
+                                              NaN: limb in its plane, as moved_y_mm */
+    float moved_x_mm, moved_y_mm, moved_z_mm; /* how far the load has moved the tip */
+    /* Of a limb in space the rest is worked out beside the tick: it belongs to a tick up to 80 ticks ago, and is NaN
+     * until there is one. */
+    float buckling_factor;      /* brace/loaded.h; infinity: none */
+    brace_stiffness_t unloaded; /* K in the limb's plane with neither force nor weight counted, every gap closed; NaN:
+                                   not known */
+    float unloaded_across_n_per_mm; /* the same across the plane; NaN: not known, or limb in its plane */
 } brace_snapshot_load_t;
 
 /* What one tick says. Everything in it comes from the same samples. */
@@ -54,6 +60,7 @@ typedef struct {
     brace_point_t tip_mm;        /* where it stands, as far as the load is counted */
     brace_point_t play_shift_mm; /* shift of the tip at zero force by the joints' backlash */
     float force_x_n, force_z_n;  /* of the ground on the tip, in the limb's plane; NaN: not known */
+    float force_y_n;             /* across it, to the left, from the coxa joint's load; NaN: not known */
     float gravity_direction_rad, gravity_lean_rad; /* where the weight pulls, as the parameters of these names */
     bool force_is_sensed;        /* by the tip's sensor, corrected; else worked out from the joints' loads */
     float temp_degc;             /* of femur and tibia joint the warmer one; NaN: not measured */

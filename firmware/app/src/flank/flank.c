@@ -46,7 +46,7 @@ void flank_configure(flank_t *flank, int joint_index, const joints_t *joints, co
 }
 
 void flank_expect_load(brace_backlash_sample_t *sample, int index, const tip_force_t *force, const posture_t *posture,
-                       brace_vec_t down, const brace_parameters_t *parameters)
+                       brace_vec3_t down, const brace_parameters_t *parameters)
 {
     const brace_point_t lever = index == BRACE_FEMUR ? posture->pose.lever_femur : posture->pose.lever_tibia;
     const float expected_n_mm = posture_gravity_n_mm(posture, &parameters->gravity, down, index) +
@@ -64,7 +64,7 @@ void flank_expect_load(brace_backlash_sample_t *sample, int index, const tip_for
 }
 
 void flank_tick(flank_t *flank, const joints_t *joints, const tip_force_t *force, const posture_t *posture,
-                brace_vec_t down, const brace_parameters_t *parameters, uint32_t now_us)
+                brace_vec3_t down, const brace_parameters_t *parameters, uint32_t now_us)
 {
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         const joint_t *joint = &joints->joint[i];

@@ -32,12 +32,12 @@ void flank_configure(flank_t *flank, int joint_index, const joints_t *joints, co
  *   down: where the weight pulls, in the limb's plane
  * At most 620 instructions for a joint that is watched. */
 void flank_tick(flank_t *flank, const joints_t *joints, const tip_force_t *force, const posture_t *posture,
-                brace_vec_t down, const brace_parameters_t *parameters, uint32_t now_us);
+                brace_vec3_t down, const brace_parameters_t *parameters, uint32_t now_us);
 
 /* Adds to a joint's sample what the joint should carry: its share of the sensed tip force, and the weight; and how
  * far that may be off. index: BRACE_FEMUR or BRACE_TIBIA; the force is known and the posture has levers. */
 void flank_expect_load(brace_backlash_sample_t *sample, int index, const tip_force_t *force, const posture_t *posture,
-                       brace_vec_t down, const brace_parameters_t *parameters);
+                       brace_vec3_t down, const brace_parameters_t *parameters);
 
 /* Joints whose gap is open or may be, as bits 1 << joint. */
 uint32_t flank_open_gaps(const flank_t *flank);

@@ -10,7 +10,7 @@ static void point(gravity_t *gravity, float direction_rad, float lean_rad)
     (void)brace_kinematics_direction(lean_rad, &lean);
     gravity->direction_rad = direction_rad;
     gravity->lean_rad = lean_rad;
-    gravity->down = (brace_vec_t){lean.x * down.x, lean.x * down.z};
+    gravity->down = (brace_vec3_t){lean.x * down.x, lean.z, lean.x * down.z};
 }
 
 void gravity_configure(gravity_t *gravity, const brace_gravity_t *parameters)

@@ -12,7 +12,7 @@
 typedef struct {
     bool is_told;                   /* by the main computer; else the parameters say it */
     float direction_rad, lean_rad;  /* as the parameters' members of these names */
-    brace_vec_t down;               /* in the limb's plane; shorter than 1 where the plane leans */
+    brace_vec3_t down;              /* in the limb's plane's frame: x outwards, y to the left, z up */
 } gravity_t;
 
 /* The parameters' direction, unless another one has been told. When parameters are put in force; 200 instructions. */

@@ -3,6 +3,7 @@
 #include <stddef.h>
 
 #define LEAST_KNEE_SINE 0.1f
+#define LEAST_REACH_RATIO 0.1f /* of the limb's length: a shorter lever tells no force across the plane */
 
 void posture_start(posture_t *posture)
 {
@@ -18,7 +19,7 @@ bool posture_is_inside_travel(const brace_drive_t *drive, float theta_rad)
 }
 
 /* Levers count from the axes where they stand without load: what the base yields is small beside them. */
-static void bend(posture_t *posture)
+static void go_to_bent(posture_t *posture)
 {
     const brace_pose_t *unbent = &posture->unbent;
     const brace_vec_t tip = posture->tip_moved_mm, knee = posture->knee_moved_mm;
@@ -47,27 +48,27 @@ void posture_take(posture_t *posture, const brace_parameters_t *parameters, cons
                           limb->tibia_mm > 0.0f;
     if (posture->has_levers) {
         brace_kinematics_pose(limb, theta1_rad, theta2_rad, &posture->unbent);
-        bend(posture);
+        go_to_bent(posture);
     }
 }
 
-void posture_settle(posture_t *posture, const brace_loaded_stiffness_t *loaded,
-                    const float joint_turn_rad[BRACE_LINK_COUNT])
+void posture_settle(posture_t *posture, const posture_bend_t *bend)
 {
     posture->tip_moved_mm = posture->knee_moved_mm = (brace_vec_t){0.0f, 0.0f};
-    if (loaded != NULL) {
+    if (bend != NULL) {
         const brace_pose_t *unbent = &posture->unbent;
-        const brace_displacement_t tip = loaded->displacement;
-        posture->tip_moved_mm = (brace_vec_t){tip.x_mm, tip.z_mm};
-        posture->knee_moved_mm = (brace_vec_t){unbent->tip.x_mm + tip.x_mm - loaded->tibia_mm.x - unbent->knee.x_mm,
-                                               unbent->tip.z_mm + tip.z_mm - loaded->tibia_mm.z - unbent->knee.z_mm};
-        posture->theta_rad[BRACE_FEMUR] = posture->unbent_rad[BRACE_FEMUR] + joint_turn_rad[BRACE_FEMUR];
-        posture->theta_rad[BRACE_TIBIA] = posture->unbent_rad[BRACE_TIBIA] + joint_turn_rad[BRACE_TIBIA];
+        posture->tip_moved_mm = bend->tip_mm;
+        posture->knee_moved_mm =
+            (brace_vec_t){unbent->tip.x_mm + bend->tip_mm.x - bend->tibia_mm.x - unbent->knee.x_mm,
+                          unbent->tip.z_mm + bend->tip_mm.z - bend->tibia_mm.z - unbent->knee.z_mm};
+        for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+            posture->theta_rad[i] = posture->unbent_rad[i] + bend->joint_turn_rad[i];
+        }
     }
-    bend(posture);
+    go_to_bent(posture);
 }
 
-float posture_gravity_n_mm(const posture_t *posture, const brace_gravity_t *weight, brace_vec_t down, int joint_index)
+float posture_gravity_n_mm(const posture_t *posture, const brace_gravity_t *weight, brace_vec3_t down, int joint_index)
 {
     const brace_point_t knee = posture->pose.knee, tip = posture->pose.tip;
     /* levers of a pull along down */
@@ -87,7 +88,7 @@ float posture_tip_load_n_mm(const posture_t *posture, float x_n, float z_n, int 
     return joint_index == BRACE_FEMUR ? -counter_clockwise_n_mm : counter_clockwise_n_mm;
 }
 
-void posture_force_of_loads(const posture_t *posture, const brace_parameters_t *parameters, brace_vec_t down,
+void posture_force_of_loads(const posture_t *posture, const brace_parameters_t *parameters, brace_vec3_t down,
                             float femur_n_mm, float tibia_n_mm, float *x_n, float *z_n)
 {
     const brace_gravity_t *weight = &parameters->gravity;
@@ -101,4 +102,20 @@ void posture_force_of_loads(const posture_t *posture, const brace_parameters_t *
         *x_n = (about_femur_n_mm * tibia.z_mm - about_tibia_n_mm * femur.z_mm) / cross_mm2;
         *z_n = (about_tibia_n_mm * femur.x_mm - about_femur_n_mm * tibia.x_mm) / cross_mm2;
     }
+}
+
+float posture_force_across_n(const posture_t *posture, const brace_parameters_t *parameters, brace_vec3_t down,
+                             float coxa_n_mm)
+{
+    const brace_limb_t *limb = &parameters->limb;
+    const brace_gravity_t *weight = &parameters->gravity;
+    const float knee_mm = limb->coxa_mm + posture->pose.knee.x_mm, tip_mm = limb->coxa_mm + posture->pose.tip.x_mm;
+    const float least_mm = LEAST_REACH_RATIO * (limb->coxa_mm + limb->femur_mm + limb->tibia_mm);
+    if (!posture->has_levers || __builtin_fabsf(tip_mm) < least_mm) {
+        return __builtin_nanf("");
+    }
+    const float weighs_n_mm = weight->femur_n * 0.5f * (limb->coxa_mm + knee_mm) + weight->knee_n * knee_mm +
+                              weight->tibia_n * 0.5f * (knee_mm + tip_mm);
+    /* The motor carries the opposite of what ground and weight turn. */
+    return -(coxa_n_mm + down.y * weighs_n_mm) / tip_mm;
 }

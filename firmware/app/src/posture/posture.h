@@ -11,7 +11,6 @@
 #include <stdbool.h>
 
 #include "brace/kinematics.h"
-#include "brace/loaded.h"
 #include "brace/parameters.h"
 
 typedef struct {
@@ -26,6 +25,13 @@ typedef struct {
     brace_vec_t tip_moved_mm, knee_moved_mm; /* from unbent to pose */
 } posture_t;
 
+/* How a load bends the limb, in its plane. */
+typedef struct {
+    brace_vec_t tip_mm;    /* how far the tip moves */
+    brace_vec_t tibia_mm;  /* from the knee to the tip where the load has moved them */
+    float joint_turn_rad[BRACE_LINK_COUNT]; /* how far the joints themselves turn, in the sense of their angles */
+} posture_bend_t;
+
 /* No posture is known. */
 void posture_start(posture_t *posture);
 
@@ -38,19 +44,16 @@ void posture_take(posture_t *posture, const brace_parameters_t *parameters, cons
                   const float offset_rad[BRACE_LINK_COUNT], const float link_rad[BRACE_LINK_COUNT]);
 
 /* Goes to the equilibrium.
- *   loaded: at unbent_rad; null: the load is not known, and nothing is moved
- *   joint_turn_rad: how far it has turned the joints themselves, by BRACE_FEMUR and BRACE_TIBIA, in the sense of
- *     theta_rad; not read without loaded */
-void posture_settle(posture_t *posture, const brace_loaded_stiffness_t *loaded,
-                    const float joint_turn_rad[BRACE_LINK_COUNT]);
+ *   bend: from unbent_rad; null: the load is not known, and nothing is moved */
+void posture_settle(posture_t *posture, const posture_bend_t *bend);
 
 /* Is an angle inside a drive's travel? */
 bool posture_is_inside_travel(const brace_drive_t *drive, float theta_rad);
 
 /* Torque that a motor needs to hold the links' weight at this posture [N mm], in the motor's sense.
  *   down: where the weight pulls, in the limb's plane
- *   joint_index: BRACE_FEMUR or BRACE_TIBIA; the weight's share about the coxa joint's axis is not known here */
-float posture_gravity_n_mm(const posture_t *posture, const brace_gravity_t *weight, brace_vec_t down, int joint_index);
+ *   joint_index: BRACE_FEMUR or BRACE_TIBIA */
+float posture_gravity_n_mm(const posture_t *posture, const brace_gravity_t *weight, brace_vec3_t down, int joint_index);
 
 /* Torque with which a tip force loads a joint [N mm], in the motor's sense. joint_index: BRACE_FEMUR or BRACE_TIBIA */
 float posture_tip_load_n_mm(const posture_t *posture, float x_n, float z_n, int joint_index);
@@ -58,7 +61,13 @@ float posture_tip_load_n_mm(const posture_t *posture, float x_n, float z_n, int 
 /* The tip force that explains the loads of both joints.
  *   femur_n_mm, tibia_n_mm: loads in the motors' sense, weight included
  *   x_n, z_n (out): NaN where the levers do not allow it: near the straight and the folded knee */
-void posture_force_of_loads(const posture_t *posture, const brace_parameters_t *parameters, brace_vec_t down,
+void posture_force_of_loads(const posture_t *posture, const brace_parameters_t *parameters, brace_vec3_t down,
                             float femur_n_mm, float tibia_n_mm, float *x_n, float *z_n);
+
+/* The tip force across the limb's plane, to the left, that explains the load of the coxa joint.
+ *   coxa_n_mm: load in the motor's sense, weight included
+ * returns NaN where the lever does not allow it: the tip near the coxa joint's axis */
+float posture_force_across_n(const posture_t *posture, const brace_parameters_t *parameters, brace_vec3_t down,
+                             float coxa_n_mm);
 
 #endif

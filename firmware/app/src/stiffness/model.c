@@ -37,6 +37,7 @@ void model_configure(model_t *model, const brace_parameters_t *parameters, bool 
     }
     if (is_spatial) {
         (void)brace_spatial_collapse(limb, &model->spatial);
+        brace_loaded_space_collapse(limb, &parameters->gravity, &model->loaded_space);
     } else {
         model->is_collapsed = !model->springs_change && brace_planar_collapse(limb, &model->planar) == BRACE_OK;
         brace_general_collapse(limb, &model->general);
@@ -105,12 +106,11 @@ void model_springs(model_t *model, const brace_parameters_t *parameters, const f
     }
 }
 
-brace_status_t model_stiffness(model_t *model, const brace_parameters_t *parameters, float theta1_rad, float theta2_rad,
+brace_status_t model_stiffness(model_t *model, const brace_limb_t *limb, float theta1_rad, float theta2_rad,
                                const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_stiffness_t *stiffness,
                                float *across_n_per_mm)
 {
-    const float hip_rad_per_n_mm =
-        springs[BRACE_FEMUR].slope_rad_per_n_mm + parameters->limb.base.rotation_rad_per_n_mm;
+    const float hip_rad_per_n_mm = springs[BRACE_FEMUR].slope_rad_per_n_mm + limb->base.rotation_rad_per_n_mm;
     const float knee_rad_per_n_mm = springs[BRACE_TIBIA].slope_rad_per_n_mm;
     if (model->is_spatial) {
         brace_spatial_set_springs(&model->spatial, springs[BRACE_COXA].slope_rad_per_n_mm, hip_rad_per_n_mm,
@@ -127,26 +127,99 @@ brace_status_t model_stiffness(model_t *model, const brace_parameters_t *paramet
     return status;
 }
 
-/* Joint and base's rotation turn together, each by its share of what yields. theta2 is flexion: it turns clockwise. */
-static void turn_joints(const brace_limb_t *limb, const brace_load_t *load, const brace_loaded_stiffness_t *result,
-                        float joint_turn_rad[BRACE_LINK_COUNT])
+static float square(float a)
 {
-    const float joint = load->hip.yields_by_rad_per_n_mm, both = joint + limb->base.rotation_rad_per_n_mm;
-    joint_turn_rad[BRACE_COXA] = 0.0f;
-    joint_turn_rad[BRACE_FEMUR] = both > 0.0f ? joint / both * result->hip_turn_rad : 0.0f;
-    joint_turn_rad[BRACE_TIBIA] = -result->knee_turn_rad;
+    return a * a;
 }
 
-brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
-                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_force_t tip, brace_vec_t down,
-                            brace_loaded_stiffness_t *result, float joint_turn_rad[BRACE_LINK_COUNT])
+/* Joint and base's rotation turn together, each by its share of what yields. theta2 is flexion: it turns clockwise. */
+static int32_t rest_in_plane(const model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
+                             const brace_load_t *load, model_rest_t *rest)
 {
-    const brace_load_t load = {.tip = tip, .down = down, .hip = springs[BRACE_FEMUR], .knee = springs[BRACE_TIBIA]};
-    const brace_status_t status = loaded_stiffness(&model->loaded, unbent_rad, &load, result);
+    brace_loaded_stiffness_t found;
+    const brace_status_t status = loaded_stiffness(&model->loaded, unbent_rad, load, &found);
     if (status != BRACE_OK) {
         return status;
     }
-    result->stiffness.flags |= brace_loaded_flags(result, limb->femur_mm + limb->tibia_mm);
-    turn_joints(limb, &load, result, joint_turn_rad);
+    const float joint = load->hip.yields_by_rad_per_n_mm, both = joint + limb->base.rotation_rad_per_n_mm;
+    const brace_vec_t moved = {found.displacement.x_mm, found.displacement.z_mm};
+    rest->plane = found.stiffness;
+    rest->plane.flags |= brace_loaded_flags(found.buckling_factor, square(moved.x) + square(moved.z),
+                                            limb->femur_mm + limb->tibia_mm);
+    rest->bend = (posture_bend_t){.tip_mm = moved,
+                                  .tibia_mm = found.tibia_mm,
+                                  .joint_turn_rad = {0.0f, both > 0.0f ? joint / both * found.hip_turn_rad : 0.0f,
+                                                     -found.knee_turn_rad}};
+    rest->moved_across_mm = __builtin_nanf("");
+    rest->buckling_factor = found.buckling_factor;
+    return BRACE_OK;
+}
+
+static int32_t without_load(model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
+                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], model_rest_t *rest)
+{
+    const float unknown = __builtin_nanf("");
+    float across_n_per_mm;
+    const brace_status_t status = model_stiffness(model, limb, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA],
+                                                  springs, &rest->plane, &across_n_per_mm);
+    if (status != BRACE_OK) {
+        return status;
+    }
+    const brace_stiffness_t *plane = &rest->plane;
+    rest->space = (brace_k3_t){.xx_n_per_mm = plane->k_xx_n_per_mm,
+                               .xz_n_per_mm = plane->k_xz_n_per_mm,
+                               .yy_n_per_mm = across_n_per_mm,
+                               .zz_n_per_mm = plane->k_zz_n_per_mm};
+    rest->plane.flags |= BRACE_FLAG_LOAD_UNKNOWN;
+    rest->bend = (posture_bend_t){{unknown, unknown}, {unknown, unknown}, {unknown, unknown, unknown}};
+    rest->moved_across_mm = rest->buckling_factor = unknown;
+    return BRACE_OK;
+}
+
+int32_t model_loaded_begin(model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
+                           const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n, brace_vec3_t down,
+                           model_work_t *work, model_rest_t *rest)
+{
+    if (!model->is_spatial) {
+        const brace_load_t load = {.tip = {tip_n.x, tip_n.z},
+                                   .down = {down.x, down.z},
+                                   .hip = springs[BRACE_FEMUR],
+                                   .knee = springs[BRACE_TIBIA]};
+        return rest_in_plane(model, limb, unbent_rad, &load, rest);
+    }
+    if (!model_counts_loads(model)) {
+        return without_load(model, limb, unbent_rad, springs, rest);
+    }
+    const brace_space_load_t load = {.tip_n = tip_n,
+                                     .down = down,
+                                     .yaw = springs[BRACE_COXA],
+                                     .hip = springs[BRACE_FEMUR],
+                                     .knee = springs[BRACE_TIBIA]};
+    const brace_status_t status = brace_loaded_space_settle(&model->loaded_space, unbent_rad[BRACE_FEMUR],
+                                                            unbent_rad[BRACE_TIBIA], &load, &work->at);
+    work->is_half_done = status == BRACE_OK;
+    return work->is_half_done ? (int32_t)MODEL_LATER : status;
+}
+
+int32_t model_loaded_end(const model_t *model, const brace_limb_t *limb, model_work_t *work, model_rest_t *rest)
+{
+    brace_space_result_t found;
+    work->is_half_done = false;
+    brace_status_t status = brace_loaded_space_stiffness(&model->loaded_space, &work->at, &found);
+    if (status == BRACE_OK) {
+        status = brace_loaded_space_in_plane(&found.k, &rest->plane);
+    }
+    if (status != BRACE_OK) {
+        return status;
+    }
+    const brace_vec3_t moved = found.displacement_mm;
+    rest->plane.flags |= brace_loaded_flags(__builtin_inff(), square(moved.x) + square(moved.y) + square(moved.z),
+                                            limb->femur_mm + limb->tibia_mm);
+    rest->space = found.k;
+    rest->bend = (posture_bend_t){.tip_mm = {moved.x, moved.z},
+                                  .tibia_mm = {found.tibia_mm.x, found.tibia_mm.z},
+                                  .joint_turn_rad = {found.yaw_turn_rad, found.hip_turn_rad, -found.knee_turn_rad}};
+    rest->moved_across_mm = moved.y;
+    rest->buckling_factor = __builtin_nanf("");
     return BRACE_OK;
 }

@@ -3,8 +3,8 @@
  * Three paths of the core lead to K without load in the limb's plane. A limb in space takes the spatial path, because
  * its coxa link yields in the plane too. A planar limb whose springs never change is collapsed into a few constants,
  * the cheapest path. Every other planar limb (hardening, temperature, a base that yields unequally) takes the general
- * path. K under a load is for limbs in their plane: brace/loaded.h, on a controller without an FPU
- * brace/loaded_fixed.h. docs/kernel.md says more. */
+ * path. K under a load is brace/loaded.h for a limb in its plane, on a controller without an FPU
+ * brace/loaded_fixed.h, and brace/loaded_space.h for a limb in space. docs/kernel.md says more. */
 #ifndef BRACE_STIFFNESS_MODEL_H
 #define BRACE_STIFFNESS_MODEL_H
 
@@ -13,10 +13,12 @@
 #include "brace/general.h"
 #include "brace/loaded.h"
 #include "brace/loaded_fixed.h"
+#include "brace/loaded_space.h"
 #include "brace/parameters.h"
 #include "brace/planar.h"
 #include "brace/spatial.h"
 #include "brace/stiffness.h"
+#include "posture/posture.h"
 
 /* What K under a load takes of a limb: floats, or integers where floats are computed in software. */
 #ifdef __SOFTFP__
@@ -33,6 +35,7 @@ typedef struct {
     brace_general_t general;
     brace_spatial_t spatial;
     model_loaded_limb_t loaded; /* of a limb in its plane */
+    brace_loaded_space_t loaded_space;
     float deflection_rad[BRACE_LINK_COUNT]; /* of hardening springs, followed from tick to tick */
 } model_t;
 
@@ -55,28 +58,57 @@ void model_springs_at_rest(const brace_parameters_t *parameters, const float tem
  *   across_n_per_mm (out): K across the plane of a limb in space; NaN: planar limb, or nothing yields across
  * returns BRACE_OK and what brace_planar_stiffness, brace_general_stiffness or brace_spatial_in_plane return; outputs
  *   untouched then. At most 450 instructions. */
-brace_status_t model_stiffness(model_t *model, const brace_parameters_t *parameters, float theta1_rad, float theta2_rad,
+brace_status_t model_stiffness(model_t *model, const brace_limb_t *limb, float theta1_rad, float theta2_rad,
                                const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_stiffness_t *stiffness,
                                float *across_n_per_mm);
 
-/* Can this limb's K be told under a load? One in space cannot yet: its estimator would stand beside `loaded`, and be
- * called by model_loaded. */
+/* Can this controller work out K under a load? In space a controller without an FPU cannot: the float estimator would
+ * take more than a tick. */
 static inline bool model_counts_loads(const model_t *model)
 {
+#ifdef __SOFTFP__
     return !model->is_spatial;
+#else
+    (void)model;
+    return true;
+#endif
 }
 
-/* K at the equilibrium under a load, every gap closed, of a limb that model_counts_loads.
- *   unbent: angles without what the load turns
- *   tip: force of the ground; down: where the weight pulls, in the limb's plane
- *   result (out): flags as brace_loaded_stiffness, and NEAR_SINGULAR also where the load is beyond what the estimator's
- *     accuracy is promised for (a buckling factor below 2, a tip that moves by more than a fifth of the reach), and
- *     SOFTENED (a factor below 3)
- *   joint_turn_rad (out): how far the load has turned the joints themselves, by BRACE_FEMUR and BRACE_TIBIA, in the
- *     sense of their angles
- * returns as brace_loaded_stiffness. At most 2,600 instructions. */
-brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
-                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_force_t tip, brace_vec_t down,
-                            brace_loaded_stiffness_t *result, float joint_turn_rad[BRACE_LINK_COUNT]);
+/* Where a limb rests under a load, and K there. */
+typedef struct {
+    brace_stiffness_t plane;  /* K in the limb's plane; of a limb in space the tip is held across it. Flags: the
+                                 estimator's, NEAR_SINGULAR also where the load is beyond what its accuracy is promised
+                                 for (a buckling factor below 2, a tip that moves by more than a fifth of the reach),
+                                 and SOFTENED (a factor below 3) */
+    brace_k3_t space;         /* of a limb in space, in its plane's frame */
+    posture_bend_t bend;
+    float moved_across_mm;    /* the tip, across the plane; NaN: limb in its plane */
+    float buckling_factor;    /* NaN: of a limb in space (stiffness/softening.h) */
+} model_rest_t;
+
+/* What the first of two steps leaves for the second. */
+typedef struct {
+    bool is_half_done;
+    brace_space_rest_t at; /* where a limb in space rests */
+} model_work_t;
+
+enum { MODEL_LATER = 1 }; /* another step finds the answer */
+
+/* K at the equilibrium under a load, every gap closed. A limb in its plane is done with one step; for one in space,
+ * model_loaded_end follows. Where the model does not count loads, K without a load is found, flagged LOAD_UNKNOWN; how
+ * the limb bends is NaN then.
+ *   unbent_rad: angles without what the load turns
+ *   tip_n: force of the ground; down: where the weight pulls. Frame: x outwards, y to the left, z up; a limb in its
+ *     plane does not feel y
+ *   work: of a limb in space, for model_loaded_end; rest (out): after BRACE_OK
+ * returns BRACE_OK, MODEL_LATER, or as brace_loaded_stiffness and brace_loaded_space_settle. At most 2,600 instructions
+ *   in the plane, 3,200 in space. */
+int32_t model_loaded_begin(model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
+                           const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n, brace_vec3_t down,
+                           model_work_t *work, model_rest_t *rest);
+
+/* The second step, after MODEL_LATER.
+ * returns BRACE_OK, or as brace_loaded_space_stiffness. At most 3,300 instructions. */
+int32_t model_loaded_end(const model_t *model, const brace_limb_t *limb, model_work_t *work, model_rest_t *rest);
 
 #endif

@@ -28,11 +28,14 @@ static void no_load(brace_snapshot_load_t *load)
 {
     const float unknown = __builtin_nanf("");
     *load = (brace_snapshot_load_t){.force_x_n = unknown,
+                                    .force_y_n = unknown,
                                     .force_z_n = unknown,
                                     .moved_x_mm = unknown,
+                                    .moved_y_mm = unknown,
                                     .moved_z_mm = unknown,
                                     .buckling_factor = unknown,
-                                    .unloaded = no_k(0)};
+                                    .unloaded = no_k(0),
+                                    .unloaded_across_n_per_mm = unknown};
 }
 
 void stiffness_unknown(brace_snapshot_t *snapshot, uint32_t flags)
@@ -41,28 +44,6 @@ void stiffness_unknown(brace_snapshot_t *snapshot, uint32_t flags)
     no_load(&snapshot->load);
     no_plane_k(&snapshot->stiffness, flags);
     no_space_k(&snapshot->space, flags);
-}
-
-/* K in space, from K in the plane and across it. An open gap of the coxa joint carries nothing across the plane. */
-static void take_space(const brace_gap_stiffness_t *plane, float across_n_per_mm, float theta0_rad, bool coxa_is_sound,
-                       bool coxa_is_open, brace_space_stiffness_t *space)
-{
-    const float across_now_n_per_mm = coxa_is_open ? 0.0f : across_n_per_mm;
-    if (!coxa_is_sound) {
-        no_space_k(space, plane->now.flags | (uint32_t)BRACE_FLAG_STALE);
-        return;
-    }
-    const bool computed =
-        brace_spatial_turn(theta0_rad, &plane->engaged, across_n_per_mm, &space->engaged) == BRACE_OK &&
-        brace_spatial_turn(theta0_rad, &plane->now, across_now_n_per_mm, &space->now) == BRACE_OK;
-    if (!computed) {
-        no_space_k(space, plane->now.flags | (uint32_t)BRACE_FLAG_NEAR_SINGULAR);
-        return;
-    }
-    space->is_valid = true;
-    space->across_n_per_mm = across_now_n_per_mm;
-    space->engaged_across_n_per_mm = across_n_per_mm;
-    space->now.flags |= coxa_is_open ? (uint32_t)BRACE_FLAG_GAP_OPEN : 0u;
 }
 
 void stiffness_springs_of_now(model_t *model, const brace_parameters_t *parameters, const joints_t *joints,
@@ -83,60 +64,131 @@ void stiffness_hold_measured_joints(const posture_t *posture, brace_loaded_joint
     }
 }
 
+/* K with every gap closed: in the plane, across it, and as a whole where a load couples both. */
+typedef struct {
+    brace_stiffness_t plane;
+    float across_n_per_mm;
+    brace_k3_t space;
+    bool is_coupled; /* space is there */
+} engaged_t;
+
 /* K at the equilibrium under the tip's force and the weight; the posture goes there.
  * flags: SOFTENED where there is no such equilibrium
- * returns as model_loaded */
-static brace_status_t take_loaded(const model_t *model, const brace_limb_t *limb, const brace_loaded_joint_t *springs,
-                                  brace_vec_t down, posture_t *posture, brace_snapshot_t *snapshot,
-                                  brace_stiffness_t *engaged, uint32_t *flags)
+ * returns as model_loaded_begin and model_loaded_end */
+static int32_t take_loaded(model_t *model, const brace_limb_t *limb, const brace_loaded_joint_t *springs,
+                           brace_vec3_t down, softening_t *softening, posture_t *posture, brace_snapshot_t *snapshot,
+                           engaged_t *engaged, uint32_t *flags)
 {
     brace_snapshot_load_t *load = &snapshot->load;
-    brace_loaded_stiffness_t loaded;
-    float joint_turn_rad[BRACE_LINK_COUNT];
-    const brace_force_t tip = {snapshot->force_x_n, snapshot->force_z_n};
-    const brace_status_t status =
-        model_loaded(model, limb, posture->unbent_rad, springs, tip, down, &loaded, joint_turn_rad);
+    model_work_t *work = &softening->now;
+    model_rest_t rest;
+    const brace_vec3_t tip_n = {snapshot->force_x_n, snapshot->force_y_n, snapshot->force_z_n};
+    int32_t status = model_loaded_begin(model, limb, posture->unbent_rad, springs, tip_n, down, work, &rest);
+    if (status == MODEL_LATER) {
+        status = model_loaded_end(model, limb, work, &rest);
+    }
     if (status != BRACE_OK) {
         *flags |= status == BRACE_E_SINGULAR ? (uint32_t)BRACE_FLAG_SOFTENED : 0u;
         return status;
     }
-    posture_settle(posture, &loaded, joint_turn_rad);
-    *engaged = loaded.stiffness;
+    posture_settle(posture, &rest.bend);
+    engaged->plane = rest.plane;
     load->is_counted = true;
-    load->force_x_n = tip.x_n;
-    load->force_z_n = tip.z_n;
-    load->moved_x_mm = loaded.displacement.x_mm;
-    load->moved_z_mm = loaded.displacement.z_mm;
-    load->buckling_factor = loaded.buckling_factor;
+    load->force_x_n = tip_n.x;
+    load->force_y_n = tip_n.y;
+    load->force_z_n = tip_n.z;
+    load->moved_x_mm = rest.bend.tip_mm.x;
+    load->moved_y_mm = rest.moved_across_mm;
+    load->moved_z_mm = rest.bend.tip_mm.z;
+    load->buckling_factor = rest.buckling_factor;
+    if (model->is_spatial) {
+        engaged->space = rest.space;
+        engaged->across_n_per_mm = rest.space.yy_n_per_mm;
+        engaged->is_coupled = true;
+        load->buckling_factor = softening->factor;
+        *flags |= softening_flags(softening);
+    }
     return BRACE_OK;
 }
 
-/* K in the limb's plane with every gap closed, under the load where it can be counted.
- * flags: why not, or as take_loaded */
-static brace_status_t take_engaged(model_t *model, const brace_parameters_t *parameters,
-                                   const brace_loaded_joint_t *springs, const gravity_t *gravity, posture_t *posture,
-                                   brace_snapshot_t *snapshot, brace_stiffness_t *engaged, float *across_n_per_mm,
-                                   uint32_t *flags)
+/* Can the load be counted, and is it known on every side? */
+static bool load_is_known(const model_t *model, const brace_snapshot_t *snapshot)
 {
-    const bool force_is_known =
-        snapshot->force_x_n == snapshot->force_x_n && snapshot->force_z_n == snapshot->force_z_n;
-    const brace_status_t status =
-        model_stiffness(model, parameters, posture->unbent_rad[BRACE_FEMUR], posture->unbent_rad[BRACE_TIBIA], springs,
-                        engaged, across_n_per_mm);
+    const bool is_known_across = !model->is_spatial || snapshot->force_y_n == snapshot->force_y_n;
+    return model_counts_loads(model) && snapshot->force_x_n == snapshot->force_x_n &&
+           snapshot->force_z_n == snapshot->force_z_n && is_known_across;
+}
+
+/* K in the limb's plane, and across it, with every gap closed, under the load where it can be counted.
+ * flags: why not, or as take_loaded */
+static int32_t take_engaged(model_t *model, const brace_limb_t *limb, const brace_loaded_joint_t *springs,
+                            const gravity_t *gravity, softening_t *softening, posture_t *posture,
+                            brace_snapshot_t *snapshot, engaged_t *engaged, uint32_t *flags)
+{
+    brace_snapshot_load_t *load = &snapshot->load;
+    const bool is_counted = load_is_known(model, snapshot);
+    engaged->is_coupled = false;
+    if (is_counted && model->is_spatial) {
+        load->unloaded = softening->unloaded;
+        load->unloaded_across_n_per_mm = softening->unloaded_across_n_per_mm;
+        return take_loaded(model, limb, springs, gravity->down, softening, posture, snapshot, engaged, flags);
+    }
+    const brace_status_t status = model_stiffness(model, limb, posture->unbent_rad[BRACE_FEMUR],
+                                                  posture->unbent_rad[BRACE_TIBIA], springs, &engaged->plane,
+                                                  &engaged->across_n_per_mm);
     if (status != BRACE_OK) {
         return status;
     }
-    snapshot->load.unloaded = *engaged;
-    if (!model_counts_loads(model) || !force_is_known) {
+    if (!is_counted) {
+        no_load(load);
         *flags |= BRACE_FLAG_LOAD_UNKNOWN;
-        return BRACE_OK;
     }
-    return take_loaded(model, &parameters->limb, springs, gravity->down, posture, snapshot, engaged, flags);
+    load->unloaded = engaged->plane;
+    load->unloaded_across_n_per_mm = engaged->across_n_per_mm;
+    return is_counted
+               ? take_loaded(model, limb, springs, gravity->down, softening, posture, snapshot, engaged, flags)
+               : BRACE_OK;
+}
+
+/* K in space of now, where a gap may be open: an open gap of the coxa joint carries nothing across the plane.
+ * returns as brace_loaded_space_turn and brace_spatial_turn */
+static brace_status_t turn(float theta0_rad, const engaged_t *engaged, const brace_gap_stiffness_t *plane,
+                           float across_now_n_per_mm, bool is_open, brace_space_stiffness_t *space)
+{
+    brace_status_t status = engaged->is_coupled ? brace_loaded_space_turn(theta0_rad, &engaged->space, &space->engaged)
+                                                : brace_spatial_turn(theta0_rad, &engaged->plane,
+                                                                     engaged->across_n_per_mm, &space->engaged);
+    if (status != BRACE_OK) {
+        return status;
+    }
+    space->engaged.flags |= plane->engaged.flags;
+    space->now = space->engaged;
+    return is_open ? brace_spatial_turn(theta0_rad, &plane->now, across_now_n_per_mm, &space->now) : BRACE_OK;
+}
+
+/* open: gaps, as flank_open_gaps tells them */
+static void take_space(const engaged_t *engaged, const brace_gap_stiffness_t *plane, float theta0_rad,
+                       bool coxa_is_sound, uint32_t open, brace_space_stiffness_t *space)
+{
+    const bool coxa_is_open = (open & 1u << BRACE_COXA) != 0u;
+    const float across_now_n_per_mm = coxa_is_open ? 0.0f : engaged->across_n_per_mm;
+    if (!coxa_is_sound) {
+        no_space_k(space, plane->now.flags | (uint32_t)BRACE_FLAG_STALE);
+        return;
+    }
+    if (turn(theta0_rad, engaged, plane, across_now_n_per_mm, open != 0u, space) != BRACE_OK) {
+        no_space_k(space, plane->now.flags | (uint32_t)BRACE_FLAG_NEAR_SINGULAR);
+        return;
+    }
+    space->is_valid = true;
+    space->across_n_per_mm = across_now_n_per_mm;
+    space->engaged_across_n_per_mm = engaged->across_n_per_mm;
+    space->now.flags |= coxa_is_open ? (uint32_t)BRACE_FLAG_GAP_OPEN : 0u;
 }
 
 void stiffness_take(model_t *model, const brace_parameters_t *parameters, brace_parameter_origin_t origin,
-                    const joints_t *joints, const flank_t *flank, const gravity_t *gravity, posture_t *posture,
-                    brace_snapshot_t *snapshot)
+                    const joints_t *joints, const flank_t *flank, const gravity_t *gravity, softening_t *softening,
+                    posture_t *posture, brace_snapshot_t *snapshot)
 {
     const uint32_t plane_joints = 1u << BRACE_FEMUR | 1u << BRACE_TIBIA;
     const uint32_t open = flank_open_gaps(flank);
@@ -145,18 +197,17 @@ void stiffness_take(model_t *model, const brace_parameters_t *parameters, brace_
                      (sound ? 0u : (uint32_t)BRACE_FLAG_STALE) |
                      (inside ? 0u : (uint32_t)BRACE_FLAG_OUT_OF_RANGE);
     brace_loaded_joint_t springs[BRACE_LINK_COUNT];
-    float across_n_per_mm;
-    brace_stiffness_t engaged;
+    engaged_t engaged;
 
     stiffness_springs_of_now(model, parameters, joints, flank, springs);
     stiffness_hold_measured_joints(posture, springs);
-    posture_settle(posture, NULL, NULL);
-    no_load(&snapshot->load);
+    posture_settle(posture, NULL);
     const bool computed =
         sound && inside && posture->has_levers &&
-        take_engaged(model, parameters, springs, gravity, posture, snapshot, &engaged, &across_n_per_mm, &flags) ==
+        take_engaged(model, &parameters->limb, springs, gravity, softening, posture, snapshot, &engaged, &flags) ==
             BRACE_OK &&
-        brace_gap_stiffness_known(&engaged, &posture->pose, open & plane_joints, &snapshot->stiffness) == BRACE_OK;
+        brace_gap_stiffness_known(&engaged.plane, &posture->pose, open & plane_joints, &snapshot->stiffness) ==
+            BRACE_OK;
     snapshot->space.is_fitted = model->is_spatial;
     if (!computed) { /* with sound samples inside the travel, only a singular posture has no K, or one that folds */
         stiffness_unknown(snapshot, flags | (sound && inside ? (uint32_t)BRACE_FLAG_NEAR_SINGULAR : 0u));
@@ -166,9 +217,9 @@ void stiffness_take(model_t *model, const brace_parameters_t *parameters, brace_
     snapshot->stiffness.engaged.flags |= flags;
     snapshot->k_is_valid = true;
     if (model->is_spatial) {
-        take_space(&snapshot->stiffness, across_n_per_mm, posture->theta_rad[BRACE_COXA],
-                   joints->joint[BRACE_COXA].sound, (open & 1u << BRACE_COXA) != 0u, &snapshot->space);
-    } else {
+        take_space(&engaged, &snapshot->stiffness, posture->unbent_rad[BRACE_COXA], joints->joint[BRACE_COXA].sound,
+                   open, &snapshot->space);
+    } else if (snapshot->space.now.flags != 0u) { /* Else this snapshot has none since it was started. */
         no_space_k(&snapshot->space, 0);
     }
 }

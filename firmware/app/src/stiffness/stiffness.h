@@ -8,6 +8,7 @@
 #include "posture/posture.h"
 #include "sense/joints.h"
 #include "stiffness/model.h"
+#include "stiffness/softening.h"
 
 /* K that nobody may use: NaN, with these flags. */
 void stiffness_unknown(brace_snapshot_t *snapshot, uint32_t flags);
@@ -19,15 +20,16 @@ void stiffness_springs_of_now(model_t *model, const brace_parameters_t *paramete
 /* For K at the present posture: a joint whose true angle is measured behind its spring has nowhere to be turned to. */
 void stiffness_hold_measured_joints(const posture_t *posture, brace_loaded_joint_t springs[BRACE_LINK_COUNT]);
 
-/* K of this tick, in the limb's plane and, with a coxa joint, in space. In the plane it is K at the equilibrium under
- * the tip's force and the limb's weight, where the force is known; the posture goes to that equilibrium.
- *   snapshot: its force_x_n, force_z_n are read; (out): stiffness, k_is_valid, space, load
+/* K of this tick, in the limb's plane and, with a coxa joint, in space. It is K at the equilibrium under the tip's
+ * force and the limb's weight, where the force is known; the posture goes to that equilibrium.
+ *   softening: what it tells of a limb in space is read; (out): where such a limb rests now
+ *   snapshot: its forces are read; (out): stiffness, k_is_valid, space, load
  * Flags: UNCALIBRATED (safe defaults), STALE (no sound samples), OUT_OF_RANGE (outside a drive's travel), LOAD_UNKNOWN
  * (no load is counted), GAP_OPEN, and the model's own. Where there is no K: NEAR_SINGULAR (nothing yields in some
  * direction, or the force is beyond what the estimator takes), with SOFTENED where no stable equilibrium is near. At
- * most 3,600 instructions; 1,200 for a limb in space. */
+ * most 3,600 instructions; 8,000 for a limb in space. */
 void stiffness_take(model_t *model, const brace_parameters_t *parameters, brace_parameter_origin_t origin,
-                    const joints_t *joints, const flank_t *flank, const gravity_t *gravity, posture_t *posture,
-                    brace_snapshot_t *snapshot);
+                    const joints_t *joints, const flank_t *flank, const gravity_t *gravity, softening_t *softening,
+                    posture_t *posture, brace_snapshot_t *snapshot);
 
 #endif

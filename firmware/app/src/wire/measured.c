@@ -35,6 +35,9 @@ static void take_load(const brace_snapshot_t *snapshot, brace_measured_t *m)
     m->moved_x_mm = load->moved_x_mm;
     m->moved_z_mm = load->moved_z_mm;
     m->buckling_factor = load->buckling_factor;
+    m->counted_force_y_n = load->force_y_n;
+    m->moved_y_mm = load->moved_y_mm;
+    m->unloaded_k_across_n_per_mm = load->unloaded_across_n_per_mm;
     m->gravity_direction_rad = snapshot->gravity_direction_rad;
     m->gravity_lean_rad = snapshot->gravity_lean_rad;
 }
@@ -115,18 +118,28 @@ static void take_take_ups(const brace_snapshot_t *snapshot, brace_measured_t *m)
 
 /* The core always names a cause; it means something while there is evidence, or once the limb has drifted. A baseline
  * that walks away raises the alarm without evidence. */
+static bool has_cause(const brace_drift_report_t *report)
+{
+    return report->evidence > 0.0f || report->state == BRACE_DRIFT_DRIFTED;
+}
+
+uint32_t measured_drift_cause(const brace_drift_report_t *report)
+{
+    return has_cause(report) ? (uint32_t)report->cause + 1u : (uint32_t)BRACE_DRIFT_CAUSE_NONE;
+}
+
 static void take_drift(const brace_app_t *app, brace_measured_t *m)
 {
     const brace_drift_report_t *report = brace_app_drift_report(app);
-    const bool has_cause = report->evidence > 0.0f || report->state == BRACE_DRIFT_DRIFTED;
+    const bool is_caused = has_cause(report);
     const float unknown = __builtin_nanf("");
     m->drift_state = report->state;
-    m->drift_cause = has_cause ? (uint32_t)report->cause + 1u : (uint32_t)BRACE_DRIFT_CAUSE_NONE;
-    m->drift_could_be = has_cause ? report->could_be : 0u;
+    m->drift_cause = measured_drift_cause(report);
+    m->drift_could_be = is_caused ? report->could_be : 0u;
     m->drift_evidence = report->evidence;
-    m->drift_loss_ratio = has_cause ? report->loss_ratio : unknown;
-    m->drift_loss_sigma_ratio = has_cause ? report->loss_sigma_ratio : unknown;
-    m->drift_since_readings = has_cause ? report->since_steps : UINT32_MAX;
+    m->drift_loss_ratio = is_caused ? report->loss_ratio : unknown;
+    m->drift_loss_sigma_ratio = is_caused ? report->loss_sigma_ratio : unknown;
+    m->drift_since_readings = is_caused ? report->since_steps : UINT32_MAX;
     m->drift_readings = report->steps;
     m->drift_next_step = brace_app_drift_next_step(app);
 }

@@ -10,9 +10,12 @@
  * valid, as in the snapshot. What the drift check says of a cause is NaN or all ones while there is no cause.
  *   counters: of the controller and of its wires
  *   now_us: the HAL's clock, for the age
- * At most 300 instructions, once a tick. */
+ * At most 300 instructions, once in a tick that tells something. */
 void measured_take(const brace_app_t *app, const brace_app_counters_t *counters, uint32_t now_us,
                    brace_measured_t *measured);
+
+/* The cause of a drift as `drift_cause` tells it. */
+uint32_t measured_drift_cause(const brace_drift_report_t *report);
 
 /* A value by its number in the dictionary (from BRACE_ENTRY_MEASURED on), as its 32 bits.
  * returns BRACE_OK, BRACE_E_RANGE: no such entry, value untouched */

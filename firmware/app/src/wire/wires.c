@@ -19,7 +19,9 @@ void wires_tick(wires_t *wires, const brace_hal_t *hal, brace_app_t *app, brace_
                               .requests_wait = requests_wait,
                               .data_waits = data_waits,
                               .now_us = now_us};
-    measured_take(app, counters, now_us, &wires->measured);
+    if (!requests_wait || !data_waits) { /* Else no wire tells any of it in this tick. */
+        measured_take(app, counters, now_us, &wires->measured);
+    }
     can_tick(&wires->can, &tick);
     modbus_tick(&wires->modbus, &tick);
 }

@@ -79,8 +79,8 @@ typedef struct {
     /* the direction of down in the limb's plane, from +x, until the main computer says another one [rad, -3.14159
      * to 3.14159] */
     float direction_rad;
-    /* how far down leans out of the limb's plane: its part in the plane is shortened by the cosine [rad, -1.5708
-     * to 1.5708] */
+    /* how far down leans out of the limb's plane, to the left: its part in the plane is shortened by the cosine
+     * [rad, -1.5708 to 1.5708] */
     float lean_rad;
 } brace_gravity_t;
 

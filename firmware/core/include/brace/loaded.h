@@ -96,17 +96,15 @@ brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1
 #define BRACE_PROMISED_MOVE 0.2f   /* of the tip, as a share of the reach: beyond it no accuracy is promised */
 
 /* What a user of this K has to know besides its own flags.
- * reach_mm: lengths of femur and tibia added
+ * moved_mm2: square of the tip's displacement. reach_mm: lengths of femur and tibia added
  * returns BRACE_FLAG_SOFTENED, and BRACE_FLAG_NEAR_SINGULAR where no accuracy is promised; 0: neither
  * Cost on a Cortex-M4F: 20 instructions. */
-static inline uint32_t brace_loaded_flags(const brace_loaded_stiffness_t *result, float reach_mm)
+static inline uint32_t brace_loaded_flags(float buckling_factor, float moved_mm2, float reach_mm)
 {
-    const float factor = result->buckling_factor, most_mm = BRACE_PROMISED_MOVE * reach_mm;
-    const brace_displacement_t moved = result->displacement;
-    const bool is_promised = factor >= BRACE_PROMISED_FACTOR &&
-                             moved.x_mm * moved.x_mm + moved.z_mm * moved.z_mm <= most_mm * most_mm;
+    const float most_mm = BRACE_PROMISED_MOVE * reach_mm;
+    const bool is_promised = buckling_factor >= BRACE_PROMISED_FACTOR && moved_mm2 <= most_mm * most_mm;
     return (is_promised ? 0u : (uint32_t)BRACE_FLAG_NEAR_SINGULAR) |
-           (factor < BRACE_SOFTENED_FACTOR ? (uint32_t)BRACE_FLAG_SOFTENED : 0u);
+           (buckling_factor < BRACE_SOFTENED_FACTOR ? (uint32_t)BRACE_FLAG_SOFTENED : 0u);
 }
 
 #endif

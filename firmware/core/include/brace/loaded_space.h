@@ -13,6 +13,9 @@
 #ifndef BRACE_LOADED_SPACE_H
 #define BRACE_LOADED_SPACE_H
 
+#include <stdbool.h>
+
+#include "brace/buckling_search.h"
 #include "brace/limb.h"
 #include "brace/loaded_space_types.h"
 #include "brace/status.h"
@@ -23,23 +26,33 @@
 void brace_loaded_space_collapse(const brace_limb_t *limb, const brace_gravity_t *weights,
                                  brace_loaded_space_t *loaded);
 
-/* Equilibrium and K at commanded (or measured) true angles under a load.
+/* The equilibrium at commanded (or measured) true angles under a load. Then brace_loaded_space_stiffness tells K there.
  * No pointer may be null. theta1_rad, theta2_rad: theta1^2 + theta2^2 <= BRACE_REACH_RAD2.
  * load: the force is checked; direction and compliances are not.
- * rest: room to work in, and the equilibrium after BRACE_OK. result: written on success only.
- * returns BRACE_OK, BRACE_E_RANGE, BRACE_E_NOT_FINITE, or BRACE_E_SINGULAR: there is no stable equilibrium near the
- *         commanded posture, two steps do not come near it (they leave more than some 0.025 rad), or nothing yields in
- *         some direction.
+ * rest: room to work in, and the equilibrium after BRACE_OK.
+ * returns BRACE_OK, BRACE_E_RANGE, BRACE_E_NOT_FINITE, or BRACE_E_SINGULAR: two steps do not come near an equilibrium
+ *         (they leave more than some 0.025 rad), or come to one far from the commanded posture.
+ * Cost on a Cortex-M4F: 2,920 instructions, the same for every posture; stack at most 1,400 bytes. */
+brace_status_t brace_loaded_space_settle(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
+                                         const brace_space_load_t *load, brace_space_rest_t *rest);
+
+/* K at an equilibrium, and how the limb stands there.
+ * loaded, rest: what brace_loaded_space_settle was given and left. result: written on success only.
+ * returns BRACE_OK, or BRACE_E_SINGULAR: the equilibrium is not stable, or nothing yields in some direction.
  * Accuracy: where the buckling factor is at least 2 and the tip moves by at most a fifth of the reach, K within 1 %
  *         (Frobenius norm; median 0.03 %), the displacement within 2 mm (median 0.004 mm). At a tenth of such a load
  *         K within 0.07 %, at no load within 2e-7 of itself for each unit of C's condition number (3e-5 for random
  *         limbs). tests/engine/test_core_in_space_under_load.py judges 600 random limbs. Of 52,000 such limbs, 81 are
  *         refused; of those told, 201 are off by more than 1 %, 43 by more than 2 %, the worst by 7.2 %, most of them
  *         because of a short, soft coxa link that turns by 0.2 rad and more within itself.
- * Cost on a Cortex-M4F: at most 6,000 instructions, the same for every posture; stack at most 1,800 bytes. */
-brace_status_t brace_loaded_space_in_plane(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
-                                           const brace_space_load_t *load, brace_space_rest_t *rest,
-                                           brace_space_result_t *result);
+ * Cost on a Cortex-M4F: 3,034 instructions, the same for every posture; stack at most 1,200 bytes. */
+brace_status_t brace_loaded_space_stiffness(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
+                                            brace_space_result_t *result);
+
+/* K in the limb's plane, the tip held across it.
+ * No pointer may be null; plane: written on success only.
+ * returns BRACE_OK, or BRACE_E_SINGULAR: nothing is stiff in some direction. Cost: 120 instructions. */
+brace_status_t brace_loaded_space_in_plane(const brace_k3_t *k, brace_stiffness_t *plane);
 
 /* K in the robot's frame, its eigenvalues and its stiff axis, from any K in the limb's plane's frame.
  * No pointer may be null. theta0_rad: true angle [-7.9, 7.9].
@@ -52,10 +65,17 @@ brace_status_t brace_loaded_space_turn(float theta0_rad, const brace_k3_t *k, br
 
 /* The smallest positive s for which diag(k) - s G is singular at this equilibrium with the posture held, as
  * brace/loaded.h says; infinity where it is above 16, and where it may be above 11.
- * loaded, rest: what brace_loaded_space_in_plane was given and left; neither may be null.
+ * loaded, rest: what brace_loaded_space_settle was given and left; neither may be null.
  * Accuracy: where it is below 10, median 0.3 %, nine of ten within 4 %. It overlooks a beam that buckles within
  *         itself, between its ends: where a short, soft coxa link does, it may tell a multiple of the true factor.
  * Cost on a Cortex-M4F: at most 7,200 instructions; stack at most 700 bytes. */
 float brace_loaded_space_buckling_factor(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest);
+
+/* The same in four steps, for a controller that cannot spend so much at once. Begin, then step with the same loaded and
+ * rest until a step returns true; factor is written then. No pointer may be null.
+ * Cost on a Cortex-M4F: a step at most 1,900 instructions. */
+void brace_loaded_space_buckling_begin(brace_buckling_search_t *search);
+bool brace_loaded_space_buckling_step(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
+                                      brace_buckling_search_t *search, float *factor);
 
 #endif

@@ -65,8 +65,9 @@ typedef struct {
     brace_vec3_t beyond_n, own_n;      /* the force that the end carries, and the link's own weight */
 } brace_space_bent_t;
 
-/* An equilibrium, for brace_loaded_space_buckling_factor. Other code must not read its members. */
+/* An equilibrium. Other code must not read its members. */
 typedef struct {
+    brace_vec_t hip_commanded, knee_commanded; /* directions of the femur, and of the tibia seen from it */
     brace_space_pose_t pose;
     brace_space_turns_t turns;
     brace_space_bent_t coxa, femur, tibia;
@@ -78,6 +79,7 @@ typedef struct {
 typedef struct {
     brace_k3_t k;
     brace_vec3_t displacement_mm; /* of the tip, from where it is at these angles without load */
+    brace_vec3_t tibia_mm;        /* from the knee to the tip at the equilibrium */
     float yaw_turn_rad, hip_turn_rad, knee_turn_rad; /* how far the load has turned the joints, without the base */
 } brace_space_result_t;
 

@@ -2,6 +2,12 @@
 
 #define NOT_A_NUMBER __builtin_nanf("")
 
+static uint32_t flags_of(const brace_loaded_stiffness_t *result, float reach_mm)
+{
+    const brace_displacement_t moved = result->displacement;
+    return brace_loaded_flags(result->buckling_factor, moved.x_mm * moved.x_mm + moved.z_mm * moved.z_mm, reach_mm);
+}
+
 size_t brace_loaded_batch(const brace_loaded_t *loaded, const brace_load_t *joints, size_t n, const float *theta1_rad,
                           const float *theta2_rad, const float *x_n, const float *z_n,
                           brace_loaded_stiffness_t *results)
@@ -21,7 +27,7 @@ size_t brace_loaded_batch(const brace_loaded_t *loaded, const brace_load_t *join
         if (brace_loaded_stiffness(loaded, theta1_rad[i], theta2_rad[i], &load, &results[i]) != BRACE_OK) {
             refused++;
         } else {
-            results[i].stiffness.flags |= brace_loaded_flags(&results[i], reach_mm);
+            results[i].stiffness.flags |= flags_of(&results[i], reach_mm);
         }
     }
     return refused;

@@ -9,8 +9,10 @@
 
 #include "base/fma.h"
 #include "base/inline.h"
+#include "brace/buckling_search.h"
 
 #define HIGHEST_FACTOR 16.0f
+#define SEARCH_STEPS 3
 
 /* The limb with its load taken some times: the product of its pivots, and whether all are positive. */
 typedef struct {
@@ -18,23 +20,35 @@ typedef struct {
     bool is_stable;
 } softened_t;
 
-/* softened: what it tells of the limb at a multiple of the load. determinant_now: at the present load. */
-INLINE float buckling_factor_of(softened_t (*softened)(const void *limb, float times), const void *limb,
-                                float determinant_now)
+/* determinant_now: at the present load. */
+INLINE brace_buckling_search_t buckling_search_from(float determinant_now)
 {
-    static const float ratio[] = {4.0f, 2.0f, 1.41421356f};
-    float before = 0.0f, low = 1.0f, high = HIGHEST_FACTOR;
-    float at_before = 1.0f, at_low = determinant_now, at_high = 0.0f; /* no load: every pivot is 1 */
-    for (int i = 0; i < 3; i++) {
-        const float middle = low * ratio[i];
-        const softened_t now = softened(limb, middle);
-        if (now.is_stable) {
-            before = low, at_before = at_low;
-            low = middle, at_low = now.determinant;
-        } else {
-            high = middle, at_high = now.determinant;
-        }
+    return (brace_buckling_search_t){.before = 0.0f, .low = 1.0f, .high = HIGHEST_FACTOR,
+                                     .at_before = 1.0f, /* no load: every pivot is 1 */
+                                     .at_low = determinant_now, .at_high = 0.0f};
+}
+
+/* The multiple of the load that step 0, 1 or 2 looks at. */
+INLINE float buckling_search_at(const brace_buckling_search_t *search, int step)
+{
+    static const float ratio[SEARCH_STEPS] = {4.0f, 2.0f, 1.41421356f};
+    return search->low * ratio[step];
+}
+
+INLINE void buckling_search_narrow(brace_buckling_search_t *search, float at, softened_t found)
+{
+    if (found.is_stable) {
+        search->before = search->low, search->at_before = search->at_low;
+        search->low = at, search->at_low = found.determinant;
+    } else {
+        search->high = at, search->at_high = found.determinant;
     }
+}
+
+INLINE float buckling_search_end(const brace_buckling_search_t *search)
+{
+    const float before = search->before, low = search->low, high = search->high;
+    const float at_before = search->at_before, at_low = search->at_low, at_high = search->at_high;
     if (!(at_high < 0.0f)) {
         return high < HIGHEST_FACTOR ? 0.5f * (low + high) : INFINITY;
     }

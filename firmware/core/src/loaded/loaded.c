@@ -12,10 +12,16 @@
 #define FORCE_MOST_N 1e4f
 #define SETTLED_RAD 0.14f /* how far the tip may turn in the last step */
 
-INLINE softened_t softened(const void *limb, float times)
+/* The whole search. determinant_now: at the present load. */
+INLINE float buckling_factor(const stance_t *stance, float determinant_now)
 {
-    const pivots_t p = pivots_at((const stance_t *)limb, times);
-    return (softened_t){product(&p), is_stable(&p, 0.0f)};
+    brace_buckling_search_t search = buckling_search_from(determinant_now);
+    for (int step = 0; step < SEARCH_STEPS; step++) {
+        const float at = buckling_search_at(&search, step);
+        const pivots_t p = pivots_at(stance, at);
+        buckling_search_narrow(&search, at, (softened_t){product(&p), is_stable(&p, 0.0f)});
+    }
+    return buckling_search_end(&search);
 }
 
 /* Adds to C what a link's curvatures and springs yield. beyond: how all that comes after the link moves the tip when
@@ -131,6 +137,6 @@ brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1
     result->tibia_mm = vec_turned(tibia_rest.tip_mm, femur);
     result->hip_turn_rad = limb.femur_shape.root;
     result->knee_turn_rad = limb.tibia_shape.root - end_turn(&limb.femur_shape);
-    result->buckling_factor = buckling_factor_of(softened, &stance, det);
+    result->buckling_factor = buckling_factor(&stance, det);
     return BRACE_OK;
 }

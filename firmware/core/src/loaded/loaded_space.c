@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "base/eigen.h"
+#include "chain/tensor.h"
 #include "loaded/buckling.h"
 #include "loaded/space_sum.h"
 
@@ -83,7 +84,7 @@ INLINE bool is_settled(float first2, float second2)
 
 /* Two steps with the matrix of the straight limb, the second of them prolonged. Then the bent limb.
  * returns whether they have settled */
-static bool find_rest(const brace_loaded_space_t *loaded, const commanded_t *commanded, const brace_space_load_t *load,
+INLINE bool find_rest(const brace_loaded_space_t *loaded, const commanded_t *commanded, const brace_space_load_t *load,
                       vec3_t tip_n, vec3_t down, brace_space_rest_t *rest)
 {
     static const brace_space_pose_t straight;
@@ -126,9 +127,8 @@ static float inverse(const sym3_t *c, sym3_t *k)
     return det;
 }
 
-brace_status_t brace_loaded_space_in_plane(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
-                                           const brace_space_load_t *load, brace_space_rest_t *rest,
-                                           brace_space_result_t *result)
+brace_status_t brace_loaded_space_settle(const brace_loaded_space_t *loaded, float theta1_rad, float theta2_rad,
+                                         const brace_space_load_t *load, brace_space_rest_t *rest)
 {
     const float reach = brace_fma(theta1_rad, theta1_rad, theta2_rad * theta2_rad);
     const float force = fabsf(load->tip_n.x) + fabsf(load->tip_n.y) + fabsf(load->tip_n.z);
@@ -137,15 +137,35 @@ brace_status_t brace_loaded_space_in_plane(const brace_loaded_space_t *loaded, f
     }
     const commanded_t commanded = {brace_direction(theta1_rad), brace_direction(-theta2_rad)};
     const vec3_t tip_n = seen_from_coxa(load->tip_n), down = seen_from_coxa(load->down);
+    rest->hip_commanded = commanded.hip;
+    rest->knee_commanded = commanded.knee;
     rest->whole_n = vec3_plus_scaled(tip_n, down, loaded->beyond_coxa_n);
     rest->base_rad_per_n_mm = loaded->base_rotation_rad_per_n_mm;
     rest->yaw_rad_per_n_mm = load->yaw.slope_rad_per_n_mm;
     rest->hip_rad_per_n_mm = load->hip.slope_rad_per_n_mm;
     rest->knee_rad_per_n_mm = load->knee.slope_rad_per_n_mm;
-    const bool settled = find_rest(loaded, &commanded, load, tip_n, down, rest);
+    return find_rest(loaded, &commanded, load, tip_n, down, rest) && is_within(&rest->pose) ? BRACE_OK
+                                                                                            : BRACE_E_SINGULAR;
+}
+
+/* How far the tip has moved from where the commanded limb has it. */
+static vec3_t moved_mm(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest, vec3_t tip_mm)
+{
+    const brace_vec_t femur = rest->hip_commanded, tibia = vec_turned(rest->knee_commanded, femur);
+    vec3_t moved = tip_mm;
+    moved.x -= brace_fma(loaded->femur.length_mm, femur.x, loaded->tibia.length_mm * tibia.x);
+    moved.y -= brace_fma(loaded->femur.length_mm, femur.z, loaded->tibia.length_mm * tibia.z);
+    moved.x = brace_fma(loaded->base_x_mm_per_n, rest->whole_n.x, moved.x);
+    moved.y = brace_fma(loaded->base_z_mm_per_n, rest->whole_n.y, moved.y);
+    return moved;
+}
+
+brace_status_t brace_loaded_space_stiffness(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
+                                            brace_space_result_t *result)
+{
     freedoms_t free;
     const pivots_t pivots = eliminate_limb(loaded, rest, false, &free);
-    if (!(settled && is_stable(&pivots) && pivots.product > SINGULAR) || !is_within(&rest->pose)) {
+    if (!(is_stable(&pivots) && pivots.product > SINGULAR)) {
         return BRACE_E_SINGULAR;
     }
     frames_t frames;
@@ -156,17 +176,31 @@ brace_status_t brace_loaded_space_in_plane(const brace_loaded_space_t *loaded, f
     if (!(inverse(&sum.c, &k) > 0.0f)) {
         return BRACE_E_SINGULAR;
     }
-    const brace_vec_t tibia = vec_turned(commanded.knee, commanded.hip);
-    vec3_t moved = sum.tip_mm;
-    moved.x -= brace_fma(loaded->femur.length_mm, commanded.hip.x, loaded->tibia.length_mm * tibia.x);
-    moved.y -= brace_fma(loaded->femur.length_mm, commanded.hip.z, loaded->tibia.length_mm * tibia.z);
-    moved.x = brace_fma(loaded->base_x_mm_per_n, rest->whole_n.x, moved.x);
-    moved.y = brace_fma(loaded->base_z_mm_per_n, rest->whole_n.y, moved.y);
     result->k = (brace_k3_t){k.xx, -k.xz, k.xy, k.zz, -k.yz, k.yy};
-    result->displacement_mm = seen_from_plane(moved);
+    result->displacement_mm = seen_from_plane(moved_mm(loaded, rest, sum.tip_mm));
+    result->tibia_mm = seen_from_plane(sum.tibia_mm);
     result->yaw_turn_rad = rest->pose.yaw;
     result->hip_turn_rad = rest->pose.hip;
     result->knee_turn_rad = rest->pose.knee;
+    return BRACE_OK;
+}
+
+brace_status_t brace_loaded_space_in_plane(const brace_k3_t *k, brace_stiffness_t *plane)
+{
+    const float mean = 0.5f * (k->xx_n_per_mm + k->zz_n_per_mm), along = 0.5f * (k->xx_n_per_mm - k->zz_n_per_mm);
+    const float aside = k->xz_n_per_mm, squared = aside * aside;
+    const float radius = sqrtf(brace_fma(along, along, squared + FLT_MIN));
+    const float det = brace_fma(k->xx_n_per_mm, k->zz_n_per_mm, -squared), slenderness = det / (mean * mean);
+    if (!(slenderness > BRACE_SINGULAR && mean > 0.0f)) {
+        return BRACE_E_SINGULAR;
+    }
+    *plane = (brace_stiffness_t){.k_xx_n_per_mm = k->xx_n_per_mm,
+                                 .k_xz_n_per_mm = aside,
+                                 .k_zz_n_per_mm = k->zz_n_per_mm,
+                                 .lambda_min_n_per_mm = det / (mean + radius),
+                                 .lambda_max_n_per_mm = mean + radius,
+                                 .stiff_axis_rad = brace_half_angle_of_opposite(-along, -aside, radius),
+                                 .flags = slenderness < BRACE_SLENDER ? BRACE_FLAG_NEAR_SINGULAR : 0u};
     return BRACE_OK;
 }
 
@@ -210,34 +244,55 @@ brace_status_t brace_loaded_space_turn(float theta0_rad, const brace_k3_t *k, br
 
 /* --- buckling ------------------------------------------------------------------------------------------------- */
 
-/* With the load taken so many times, the shape held. */
+/* With the load taken so many times, once or more, the shape held. */
 static pivots_t pivots_at(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest, float times)
 {
     brace_space_rest_t more = *rest;
     brace_space_bent_t *const bent[] = {&more.coxa, &more.femur, &more.tibia};
-    for (int i = 0; i < 3; i++) {
-        bent[i]->beyond_n = vec3_scaled(bent[i]->beyond_n, times);
-        bent[i]->own_n = vec3_scaled(bent[i]->own_n, times);
+    if (times > 1.0f) {
+        for (int i = 0; i < 3; i++) {
+            bent[i]->beyond_n = vec3_scaled(bent[i]->beyond_n, times);
+            bent[i]->own_n = vec3_scaled(bent[i]->own_n, times);
+        }
+        more.whole_n = vec3_scaled(rest->whole_n, times);
     }
-    more.whole_n = vec3_scaled(rest->whole_n, times);
     freedoms_t free;
     return eliminate_limb(loaded, &more, true, &free);
 }
 
-typedef struct {
-    const brace_loaded_space_t *loaded;
-    const brace_space_rest_t *rest;
-} stance_t;
-
-static softened_t softened(const void *limb, float times)
+void brace_loaded_space_buckling_begin(brace_buckling_search_t *search)
 {
-    const stance_t *stance = limb;
-    const pivots_t p = pivots_at(stance->loaded, stance->rest, times);
-    return (softened_t){p.product, is_stable(&p)};
+    search->step = 0;
+}
+
+bool brace_loaded_space_buckling_step(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
+                                      brace_buckling_search_t *search, float *factor)
+{
+    const bool is_first = search->step == 0;
+    const float at = is_first ? 1.0f : buckling_search_at(search, search->step - 1);
+    const pivots_t p = pivots_at(loaded, rest, at);
+    if (is_first) {
+        *search = buckling_search_from(p.product);
+    } else {
+        buckling_search_narrow(search, at, (softened_t){p.product, is_stable(&p)});
+    }
+    const int step = is_first ? 1 : search->step + 1;
+    search->step = step;
+    if (step <= SEARCH_STEPS) {
+        return false;
+    }
+    search->step = 0;
+    *factor = buckling_search_end(search);
+    return true;
 }
 
 float brace_loaded_space_buckling_factor(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest)
 {
-    const stance_t stance = {loaded, rest};
-    return buckling_factor_of(softened, &stance, pivots_at(loaded, rest, 1.0f).product);
+    brace_buckling_search_t search;
+    float factor = INFINITY;
+    brace_loaded_space_buckling_begin(&search);
+    for (int step = 0; step <= SEARCH_STEPS; step++) {
+        (void)brace_loaded_space_buckling_step(loaded, rest, &search, &factor);
+    }
+    return factor;
 }

@@ -201,12 +201,12 @@ INLINE pivots_t eliminate_limb(const brace_loaded_space_t *loaded, const brace_s
 
 /* --- C -------------------------------------------------------------------------------------------------------- */
 
-/* C so far, and how the tip moves when all beyond a place turns about the axes there; the tip from the base. All in
- * the limb's plane's frame. */
+/* C so far, and how the tip moves when all beyond a place turns about the axes there; the tip from the base and from
+ * the knee. All in the limb's plane's frame. */
 typedef struct {
     axes_t by_turn;
     sym3_t c;
-    vec3_t tip_mm;
+    vec3_t tip_mm, tibia_mm;
 } sum_t;
 
 INLINE void add_move(sum_t *sum, vec3_t move, float yields)
@@ -283,7 +283,8 @@ static void sum_limb(const brace_loaded_space_t *loaded, const brace_space_rest_
     const vec3_t none = {0.0f, 0.0f, 0.0f};
     sum_t s = {.by_turn = {none, none, none},
                .c = {loaded->base_x_mm_per_n, 0.0f, 0.0f, loaded->base_z_mm_per_n, 0.0f, 0.0f},
-               .tip_mm = vec3(-coxa_mm * turns->base.x, -coxa_mm * turns->base.z, 0.0f)};
+               .tip_mm = vec3(-coxa_mm * turns->base.x, -coxa_mm * turns->base.z, 0.0f),
+               .tibia_mm = axes_times(&frames->tibia, rest->tibia.chord_mm)};
     add_link(&s, &loaded->tibia, pose->tibia, &rest->tibia, &free->tibia, &frames->tibia, true);
     axes_about_y(&s.by_turn, turns->tibia_y);
     add_joint(&s, &free->knee);

@@ -243,9 +243,16 @@ typedef struct {
     float gravity_direction_rad;
     /* how far that direction leans out of the limb's plane */
     float gravity_lean_rad;
+    /* the force of the ground on the tip that K counts across the limb's plane, to the left, of a limb with a coxa
+     * joint; not known where no load is counted */
+    float counted_force_y_n;
+    /* how far force and weight have moved the tip across the limb's plane, to the left */
+    float moved_y_mm;
+    /* K across the limb's plane with neither the force on the tip nor the weight counted, every gap closed */
+    float unloaded_k_across_n_per_mm;
 } brace_measured_t;
 
-enum { BRACE_MEASURED_COUNT = 110 };
+enum { BRACE_MEASURED_COUNT = 113 };
 #ifndef __cplusplus
 _Static_assert(sizeof(brace_measured_t) == 4 * BRACE_MEASURED_COUNT, "32 bits each");
 #endif

@@ -2,6 +2,8 @@
 #ifndef BRACE_PARAMETER_LIST_H
 #define BRACE_PARAMETER_LIST_H
 
+#include <stdint.h>
+
 /* Of the list below with its types and units; a block of another list is refused. */
 #define BRACE_SCHEMA_HASH 0x305ea071u
 
@@ -124,5 +126,7 @@ enum {
 /* Numbers that parameters have on the wire, from 0 on: half a Modbus register, and what CAN calls them by.
  * brace_parameter_index (brace/parameters.h) finds a number's member. */
 enum { BRACE_PARAMETER_NUMBERS = 111 };
+
+extern const uint16_t brace_parameter_indices[BRACE_PARAMETER_NUMBERS];
 
 #endif

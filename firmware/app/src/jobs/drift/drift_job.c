@@ -162,10 +162,22 @@ void drift_job_clear(drift_job_t *job)
     job->looks = job->reports = true;
 }
 
+/* returns whether it has kept a piece */
+static bool keep_if_due(drift_job_t *job)
+{
+    job->ticks_to_write = job->ticks_to_write > 0u ? (uint8_t)(job->ticks_to_write - 1u) : 0u;
+    if (job->ticks_to_write > 0u) {
+        return false;
+    }
+    job->ticks_to_write = TICKS_BETWEEN_WRITES;
+    keep(job);
+    return true;
+}
+
 void drift_job_step(drift_job_t *job, const drift_inputs_t *inputs)
 {
     const brace_limb_t *limb = &inputs->parameters->limb;
-    job->has_worked = inputs->may_work && (job->learns_anew || job->has_reading || job->foresees);
+    job->has_worked = inputs->may_work;
     if (!inputs->may_work) {
         return;
     }
@@ -184,12 +196,8 @@ void drift_job_step(drift_job_t *job, const drift_inputs_t *inputs)
         job->has_outlook =
             brace_drift_outlook(&job->drift, limb, &job->model, &job->widest, &job->outlook) == BRACE_OK;
         job->foresees = false;
-    } else if (job->looks && inputs->may_write) {
-        job->ticks_to_write = job->ticks_to_write > 0u ? (uint8_t)(job->ticks_to_write - 1u) : 0u;
-        if (job->ticks_to_write == 0u) {
-            job->ticks_to_write = TICKS_BETWEEN_WRITES;
-            keep(job);
-        }
+    } else {
+        job->has_worked = job->looks && inputs->may_write && keep_if_due(job);
     }
 }
 

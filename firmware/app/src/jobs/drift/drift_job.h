@@ -31,7 +31,7 @@ typedef struct {
     bool reports;                 /* the report is older than the check */
     bool foresees;                /* the outlook is older than the check */
     bool looks;                   /* is a record worth writing? */
-    bool has_worked;              /* the last step was a dear one: learning anew, a reading, what more readings can show */
+    bool has_worked;              /* the last step had something to do */
     brace_drift_reading_t reading;
     brace_stiffness_t model;
     brace_drift_reading_t widest; /* of the readings at this posture, the one of the largest displacement */

@@ -17,21 +17,25 @@ void levers_begin(brace_loading_t *test, const loading_inputs_t *inputs)
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         test->lever_rad[i] = posture->unbent_rad[i];
     }
-    test->lever_force = (brace_force_t){inputs->now->load.force_x_n, inputs->now->load.force_z_n};
+    const brace_snapshot_load_t *load = &inputs->now->load;
+    test->lever_force_n = (brace_vec3_t){load->force_x_n, load->force_y_n, load->force_z_n};
     test->lever_step = 0;
+    inputs->work->is_half_done = false;
 }
 
-static bool displacement_at(const brace_loading_t *test, const loading_inputs_t *inputs, uint32_t place,
-                            brace_loaded_stiffness_t *loaded, float joint_turn_rad[BRACE_LINK_COUNT])
+static int32_t rest_at(const brace_loading_t *test, const loading_inputs_t *inputs, uint32_t place, model_rest_t *rest)
 {
+    if (inputs->work->is_half_done) {
+        return model_loaded_end(inputs->model, &inputs->parameters->limb, inputs->work, rest);
+    }
     brace_loaded_joint_t springs[BRACE_LINK_COUNT];
     float theta_rad[BRACE_LINK_COUNT] = {test->lever_rad[0], test->lever_rad[1], test->lever_rad[2]};
     if (place != AT_POSTURE) {
         theta_rad[place <= 2u ? BRACE_FEMUR : BRACE_TIBIA] += place % 2u == 1u ? ASIDE_RAD : -ASIDE_RAD;
     }
     stiffness_springs_of_now(inputs->model, inputs->parameters, inputs->joints, inputs->flank, springs);
-    return model_loaded(inputs->model, &inputs->parameters->limb, theta_rad, springs, test->lever_force, inputs->down,
-                        loaded, joint_turn_rad) == BRACE_OK;
+    return model_loaded_begin(inputs->model, &inputs->parameters->limb, theta_rad, springs, test->lever_force_n,
+                              inputs->down, inputs->work, rest);
 }
 
 /* Where an encoder behind the gear measures the angle, the motor stands where the load has not turned the joint. */
@@ -50,27 +54,30 @@ static void add_difference(brace_point_t *lever, brace_displacement_t ahead, bra
 
 bool levers_step(brace_loading_t *test, const loading_inputs_t *inputs, bool *has_worked)
 {
-    brace_loaded_stiffness_t loaded;
-    float joint_turn_rad[BRACE_LINK_COUNT];
+    model_rest_t rest;
     const uint32_t step = test->lever_step;
     if (!inputs->now->load.is_counted || step >= PLACES * EVERY) {
         return true;
     }
     test->lever_step++;
-    if (step % EVERY != 0u) {
+    if (step % EVERY != 0u && !inputs->work->is_half_done) {
         return false;
     }
     const uint32_t place = step / EVERY;
     *has_worked = true;
-    if (!displacement_at(test, inputs, place, &loaded, joint_turn_rad)) {
+    const int32_t status = rest_at(test, inputs, place, &rest);
+    if (status == MODEL_LATER) {
+        return false;
+    }
+    if (status != BRACE_OK) {
         test->lever_step = PLACES * EVERY;
         return true;
     }
     if (place == AT_POSTURE) {
-        go_to_motors(test, inputs->posture, joint_turn_rad);
+        go_to_motors(test, inputs->posture, rest.bend.joint_turn_rad);
         return false;
     }
-    test->lever_moved_mm[place - 1u] = loaded.displacement;
+    test->lever_moved_mm[place - 1u] = (brace_displacement_t){rest.bend.tip_mm.x, rest.bend.tip_mm.z};
     if (place + 1u < PLACES) {
         return false;
     }

@@ -15,6 +15,7 @@
 #define RESTING_US 20000u        /* a motor on its way through the target does not rest this long */
 #define TRIM_RATE_RAD_PER_S 0.1f
 #define SAME_POSTURE_RAD 0.01f
+#define APART_TICKS 10u          /* between two steps that work out a K: each delays a question by one */
 #define TIME_SPARE_US 2000000u
 #define TIME_MOST_US 3.0e9f
 
@@ -305,8 +306,25 @@ static void read(brace_loading_t *test, const loading_inputs_t *inputs, brace_re
         return;
     }
     reading_for_drift(test, inputs, reading);
-    test->step++;
-    test->phase = test->step < step_count(test) ? LOADING_MOVE : LOADING_JUDGE;
+    const bool is_first = test->step++ == 0u;
+    test->phase = is_first ? LOADING_MODEL : test->step < step_count(test) ? LOADING_MOVE : LOADING_JUDGE;
+}
+
+static void find_model(brace_loading_t *test, const loading_inputs_t *inputs, loading_reading_t *reading)
+{
+    if (reading_model_now(test, inputs, reading)) {
+        test->phase = LOADING_REFERENCE;
+        test->phase_us = 0;
+    }
+}
+
+static void find_reference(brace_loading_t *test, const loading_inputs_t *inputs, loading_reading_t *reading)
+{
+    test->phase_us += inputs->parameters->controller.tick_us;
+    const bool is_apart = test->phase_us >= APART_TICKS * inputs->parameters->controller.tick_us;
+    if (is_apart && reading_model_at_reference(test, inputs, reading)) {
+        test->phase = LOADING_MOVE;
+    }
 }
 
 static void judge(brace_loading_t *test)
@@ -353,8 +371,8 @@ static void compare(brace_loading_t *test, const brace_limb_t *limb)
 /* Is the next step one of the dear ones? */
 static bool is_dear(const brace_loading_t *test)
 {
-    return test->phase == LOADING_LEVERS || test->phase == LOADING_READ || test->phase == LOADING_JUDGE ||
-           test->phase == LOADING_COMPARE;
+    return test->phase == LOADING_LEVERS || test->phase == LOADING_READ || test->phase == LOADING_MODEL ||
+           test->phase == LOADING_REFERENCE || test->phase == LOADING_JUDGE || test->phase == LOADING_COMPARE;
 }
 
 void loading_step(brace_loading_t *test, const loading_inputs_t *inputs, brace_recorder_t *recorder,
@@ -382,9 +400,12 @@ void loading_step(brace_loading_t *test, const loading_inputs_t *inputs, brace_r
     case LOADING_MOVE: move(test, inputs, step_mm); break;
     case LOADING_DWELL: dwell(test, inputs); break;
     case LOADING_READ: read(test, inputs, recorder, reading); break;
+    case LOADING_MODEL: find_model(test, inputs, reading); break;
+    case LOADING_REFERENCE: find_reference(test, inputs, reading); break;
     case LOADING_JUDGE: judge(test); break;
     case LOADING_COMPARE:
         compare(test, &inputs->parameters->limb);
+        reading->has_worked = true;
         loading_end(test, BRACE_LOADING_DONE);
         break;
     default: go_back(test, inputs, step_mm); break; /* LOADING_RETURN */

@@ -15,9 +15,11 @@ enum {
     LOADING_MOVE = 2,
     LOADING_DWELL = 3,
     LOADING_READ = 4,    /* works the reading out: row, slope, and what the drift check gets */
-    LOADING_JUDGE = 5,   /* all readings are there: slopes */
-    LOADING_COMPARE = 6, /* the model's slopes and how sure it is of them */
-    LOADING_RETURN = 7   /* back to where the test began */
+    LOADING_MODEL = 5,   /* after the first reading: the K that the slopes are compared with */
+    LOADING_REFERENCE = 6, /* the K that the drift check gets with all other readings */
+    LOADING_JUDGE = 7,   /* all readings are there: slopes */
+    LOADING_COMPARE = 8, /* the model's slopes and how sure it is of them */
+    LOADING_RETURN = 9   /* back to where the test began */
 };
 
 /* Begins a test.
@@ -35,7 +37,7 @@ static inline bool loading_runs(const brace_loading_t *test)
 
 /* One step, with this tick's samples. Nothing is to do in IDLE. A dear step waits for a tick in which it may work.
  *   reading (out): has_worked and is_there are written always, all else only with is_there
- * At most 2,900 instructions (LEVERS); in MOVE and DWELL 200. */
+ * At most 2,900 instructions (LEVERS; of a limb in space 4,500); in MOVE and DWELL 200. */
 void loading_step(brace_loading_t *test, const loading_inputs_t *inputs, brace_recorder_t *recorder,
                   loading_reading_t *reading);
 

@@ -121,30 +121,57 @@ bool reading_take(brace_loading_t *test, const loading_inputs_t *inputs, brace_r
     return is_usable;
 }
 
-/* K as the drift check wants it: at the reference temperature, whatever the joints' springs are now, and under the
- * preload where the K of now counts it. */
-static void model_at_reference(brace_loading_t *test, const loading_inputs_t *inputs, loading_reading_t *reading)
+/* A step towards K at the preload point, where the mean of the forces is free of most of the sensor's noise.
+ *   k (out): stays as it is where the preload folds the limb
+ * returns whether it is there */
+static bool k_under_preload(const brace_loading_t *test, const loading_inputs_t *inputs,
+                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_stiffness_t *k)
+{
+    const brace_limb_t *limb = &inputs->parameters->limb;
+    const brace_vec3_t preload_n = {test->result.preload_x_n, inputs->now->load.force_y_n, test->result.preload_z_n};
+    model_rest_t rest;
+    const int32_t status =
+        inputs->work->is_half_done
+            ? model_loaded_end(inputs->model, limb, inputs->work, &rest)
+            : model_loaded_begin(inputs->model, limb, inputs->posture->unbent_rad, springs, preload_n, inputs->down,
+                                 inputs->work, &rest);
+    if (status == BRACE_OK) {
+        *k = rest.plane;
+    }
+    return status != MODEL_LATER;
+}
+
+bool reading_model_now(brace_loading_t *test, const loading_inputs_t *inputs, loading_reading_t *reading)
+{
+    brace_loaded_joint_t springs[BRACE_LINK_COUNT];
+    bool is_there = true;
+    if (inputs->now->load.is_counted) {
+        stiffness_springs_of_now(inputs->model, inputs->parameters, inputs->joints, inputs->flank, springs);
+        stiffness_hold_measured_joints(inputs->posture, springs);
+        is_there = k_under_preload(test, inputs, springs, &test->model);
+        reading->has_worked = true;
+    }
+    test->at_reference = test->model;
+    return is_there;
+}
+
+bool reading_model_at_reference(brace_loading_t *test, const loading_inputs_t *inputs, loading_reading_t *reading)
 {
     const float unknown = __builtin_nanf(""), temp_degc[BRACE_LINK_COUNT] = {unknown, unknown, unknown};
     brace_loaded_joint_t springs[BRACE_LINK_COUNT];
-    float across_n_per_mm;
-    test->at_reference = test->model;
-    if (inputs->model->springs_change) {
-        model_springs_at_rest(inputs->parameters, temp_degc, springs);
-        stiffness_hold_measured_joints(inputs->posture, springs);
-        if (inputs->now->load.is_counted) {
-            const brace_force_t preload = {test->result.preload_x_n, test->result.preload_z_n};
-            brace_loaded_stiffness_t loaded = {.stiffness = test->model}; /* stays where the preload folds the limb */
-            float joint_turn_rad[BRACE_LINK_COUNT];
-            (void)model_loaded(inputs->model, &inputs->parameters->limb, inputs->posture->unbent_rad, springs, preload,
-                               inputs->down, &loaded, joint_turn_rad);
-            test->at_reference = loaded.stiffness;
-            reading->has_worked = true;
-        } else {
-            (void)model_stiffness(inputs->model, inputs->parameters, test->result.theta1_rad, test->result.theta2_rad,
-                                  springs, &test->at_reference, &across_n_per_mm);
-        }
+    if (!inputs->model->springs_change) {
+        return true;
     }
+    model_springs_at_rest(inputs->parameters, temp_degc, springs);
+    stiffness_hold_measured_joints(inputs->posture, springs);
+    if (!inputs->now->load.is_counted) {
+        float across_n_per_mm;
+        (void)model_stiffness(inputs->model, &inputs->parameters->limb, test->result.theta1_rad,
+                              test->result.theta2_rad, springs, &test->at_reference, &across_n_per_mm);
+        return true;
+    }
+    reading->has_worked = true;
+    return k_under_preload(test, inputs, springs, &test->at_reference);
 }
 
 void reading_for_drift(brace_loading_t *test, const loading_inputs_t *inputs, loading_reading_t *reading)
@@ -152,9 +179,7 @@ void reading_for_drift(brace_loading_t *test, const loading_inputs_t *inputs, lo
     const brace_loading_result_t *result = &test->result;
     const uint32_t unfit = BRACE_FLAG_GAP_OPEN | BRACE_FLAG_UNCALIBRATED;
     const uint32_t side = result->setup.steps_per_side;
-    if (test->step == 0u) {
-        /* The first reading shows no displacement: the check loses nothing when it begins with the second. */
-        model_at_reference(test, inputs, reading);
+    if (test->step == 0u) { /* It shows no displacement: the check loses nothing when it begins with the second. */
         return;
     }
     const float warmer_degc = result->temp_degc - inputs->parameters->slow.reference_degc;

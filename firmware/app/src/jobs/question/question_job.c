@@ -13,6 +13,7 @@ int32_t question_job_ask(question_job_t *job, brace_asker_t asker, const brace_k
     question_slot_t *slot = &job->slot[asker];
     slot->ticks_unasked = 0;
     if (slot->phase == NONE || memcmp(&slot->question, question, sizeof *question) != 0) {
+        job->work.is_half_done = job->work.is_half_done && asker != (brace_asker_t)job->answered;
         slot->phase = TAKEN;
         slot->question = *question;
     }
@@ -28,6 +29,7 @@ int32_t question_job_ask(question_job_t *job, brace_asker_t asker, const brace_k
 
 void question_job_forget(question_job_t *job)
 {
+    job->work.is_half_done = false;
     memset(job->slot, 0, sizeof job->slot);
 }
 
@@ -53,43 +55,9 @@ static uint32_t flags_there(const question_inputs_t *inputs, const float unbent_
            (inputs->origin == BRACE_PARAMETERS_DEFAULT ? (uint32_t)BRACE_FLAG_UNCALIBRATED : 0u);
 }
 
-static brace_status_t under_load(const brace_k_question_t *asked, const question_inputs_t *inputs,
-                                 const float *unbent_rad, const brace_loaded_joint_t *springs, brace_k_answer_t *answer)
-{
-    brace_loaded_stiffness_t loaded;
-    float joint_turn_rad[BRACE_LINK_COUNT];
-    const brace_status_t status = model_loaded(inputs->model, &inputs->parameters->limb, unbent_rad, springs,
-                                               asked->tip_force, inputs->down, &loaded, joint_turn_rad);
-    if (status == BRACE_OK) {
-        answer->k = loaded.stiffness;
-        answer->k.flags |= flags_there(inputs, unbent_rad);
-        answer->moved_mm = loaded.displacement;
-        answer->buckling_factor = loaded.buckling_factor;
-    }
-    return status;
-}
-
-static brace_status_t without_load(const brace_k_question_t *asked, const question_inputs_t *inputs,
-                                   const float *unbent_rad, const brace_loaded_joint_t *springs,
-                                   brace_k_answer_t *answer)
-{
-    const float unknown = __builtin_nanf("");
-    float across_n_per_mm;
-    const brace_status_t status = model_stiffness(inputs->model, inputs->parameters, unbent_rad[BRACE_FEMUR],
-                                                  unbent_rad[BRACE_TIBIA], springs, &answer->k, &across_n_per_mm);
-    if (status != BRACE_OK) {
-        return status;
-    }
-    answer->k.flags |= flags_there(inputs, unbent_rad) | BRACE_FLAG_LOAD_UNKNOWN;
-    answer->moved_mm = (brace_displacement_t){unknown, unknown};
-    answer->buckling_factor = unknown;
-    return asked->where == BRACE_K_IN_SPACE
-               ? brace_spatial_turn(unbent_rad[BRACE_COXA], &answer->k, across_n_per_mm, &answer->in_space)
-               : BRACE_OK;
-}
-
-static brace_status_t work_out(const brace_k_question_t *asked, const question_inputs_t *inputs,
-                               brace_k_answer_t *answer)
+/* First step, and for a limb in its plane the only one. What the posture says goes into the answer's flags. */
+static int32_t begin(question_job_t *job, const brace_k_question_t *asked, const question_inputs_t *inputs,
+                     model_rest_t *rest)
 {
     brace_loaded_joint_t springs[BRACE_LINK_COUNT];
     float temp_degc[BRACE_LINK_COUNT], unbent_rad[BRACE_LINK_COUNT];
@@ -102,13 +70,41 @@ static brace_status_t work_out(const brace_k_question_t *asked, const question_i
     }
     joints_temperatures(inputs->joints, temp_degc);
     model_springs_at_rest(inputs->parameters, temp_degc, springs);
-    return model_counts_loads(inputs->model) ? under_load(asked, inputs, unbent_rad, springs, answer)
-                                             : without_load(asked, inputs, unbent_rad, springs, answer);
+    job->flags = flags_there(inputs, unbent_rad);
+    const brace_vec3_t tip_n = {asked->tip_force.x_n, 0.0f, asked->tip_force.z_n};
+    return model_loaded_begin(inputs->model, &inputs->parameters->limb, unbent_rad, springs, tip_n, inputs->down,
+                              &job->work, rest);
 }
 
-/* The slot that is worked out next: the first one behind the last that is taken. returns null: none */
+static int32_t work_out(question_job_t *job, const brace_k_question_t *asked, const question_inputs_t *inputs)
+{
+    model_rest_t rest;
+    const int32_t status = job->work.is_half_done
+                               ? model_loaded_end(inputs->model, &inputs->parameters->limb, &job->work, &rest)
+                               : begin(job, asked, inputs, &rest);
+    if (status == BRACE_OK) {
+        job->answer.k = rest.plane;
+        job->answer.k.flags |= job->flags;
+        job->answer.moved_mm = (brace_displacement_t){rest.bend.tip_mm.x, rest.bend.tip_mm.z};
+        job->answer.buckling_factor = rest.buckling_factor;
+    }
+    if (status == BRACE_OK && asked->where == BRACE_K_IN_SPACE) {
+        const brace_status_t turned =
+            brace_loaded_space_turn(asked->theta_rad[BRACE_COXA], &rest.space, &job->answer.in_space);
+        job->answer.in_space.flags |= job->answer.k.flags;
+        return turned;
+    }
+    return status;
+}
+
+/* The slot that is worked out next: the one that is half done, else the first one behind the last that is taken.
+ * returns null: none */
 static question_slot_t *next_slot(question_job_t *job)
 {
+    if (job->work.is_half_done && job->slot[job->answered].phase == TAKEN) {
+        return &job->slot[job->answered];
+    }
+    job->work.is_half_done = false;
     for (uint32_t i = 1; i <= (uint32_t)BRACE_ASKER_COUNT; i++) {
         const uint32_t asker = (job->answered + i) % (uint32_t)BRACE_ASKER_COUNT;
         if (job->slot[asker].phase == TAKEN) {
@@ -127,11 +123,15 @@ void question_job_step(question_job_t *job, const question_inputs_t *inputs)
         slot->ticks_unasked++;
         slot->phase = slot->ticks_unasked > PATIENCE_TICKS ? (uint8_t)NONE : slot->phase;
     }
-    question_slot_t *slot = inputs->may_work ? next_slot(job) : NULL;
+    question_slot_t *slot = inputs->may_work || job->work.is_half_done ? next_slot(job) : NULL;
     job->has_worked = slot != NULL;
-    if (slot != NULL) {
-        before->phase = before->phase == DONE ? (uint8_t)NONE : before->phase; /* its answer goes */
-        job->status = work_out(&slot->question, inputs, &job->answer);
+    if (slot == NULL) {
+        return;
+    }
+    before->phase = before->phase == DONE ? (uint8_t)NONE : before->phase; /* its answer goes */
+    const int32_t status = work_out(job, &slot->question, inputs);
+    if (status != MODEL_LATER) {
+        job->status = status;
         slot->phase = DONE;
     }
 }

@@ -2,6 +2,7 @@
 
 #include "brace/can_messages.h"
 #include "brace/codes.h"
+#include "wire/measured.h"
 
 #define SECOND_US 1000000u
 #define SILENCE_MOST_US 100000000u /* keeps since_us * heartbeat_hz within 32 bits */
@@ -45,7 +46,7 @@ static bool heart_beats(const announce_t *announce, const wire_tick_t *tick)
 static uint32_t drift_cause(const wire_tick_t *tick, uint32_t faults)
 {
     const bool has_drifted = (faults & (uint32_t)BRACE_FAULT_MODEL_DRIFT) != 0u;
-    return has_drifted ? tick->measured->drift_cause : (uint32_t)BRACE_DRIFT_CAUSE_NONE;
+    return has_drifted ? measured_drift_cause(brace_app_drift_report(tick->app)) : (uint32_t)BRACE_DRIFT_CAUSE_NONE;
 }
 
 bool announce_next(const announce_t *announce, const wire_tick_t *tick, brace_can_frame_t *frame)

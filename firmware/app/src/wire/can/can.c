@@ -133,10 +133,11 @@ static void listen_to_bus(can_t *can, const wire_tick_t *tick)
     }
 }
 
+/* Text waits on its line while requests wait: reading a frame from it costs as much as a short answer. */
 static void listen_to_text(can_t *can, const wire_tick_t *tick)
 {
     brace_can_frame_t frame;
-    if (has_room_for_an_answer(&can->text_port) && !ask_again(can, AS_TEXT, tick) &&
+    if (!tick->requests_wait && has_room_for_an_answer(&can->text_port) && !ask_again(can, AS_TEXT, tick) &&
         slcan_receive(&can->text, tick->hal, &frame) && is_request(can, tick, &frame)) {
         take(can, AS_TEXT, tick, frame.data);
     }
@@ -157,24 +158,26 @@ static bool send(can_t *can, way_t way, const wire_tick_t *tick, brace_can_frame
     return way == ON_BUS ? can_bus_send(&can->bus, tick, frame) : slcan_send(&can->text, frame);
 }
 
-static void send_answers(can_t *can, way_t way, const wire_tick_t *tick)
+/* returns how many frames have left */
+static uint32_t send_answers(can_t *can, way_t way, const wire_tick_t *tick)
 {
     can_answers_t *answers = &port_of(can, way)->requests.answers;
     brace_can_frame_t frame;
     for (uint32_t i = 0; i < ANSWERS_PER_TICK; i++) {
         const uint8_t *data = can_answers_next(answers);
         if (data == NULL) {
-            return;
+            return i;
         }
         frame.id = BRACE_CAN_ID_ANSWER;
         frame.length = 8;
         frame.fd = false;
         memcpy(frame.data, data, 8);
         if (!send(can, way, tick, &frame)) {
-            return;
+            return i;
         }
         can_answers_sent(answers);
     }
+    return ANSWERS_PER_TICK;
 }
 
 static void send_announcement(can_t *can, way_t way, const wire_tick_t *tick)
@@ -189,21 +192,26 @@ static void send_announcement(can_t *can, way_t way, const wire_tick_t *tick)
     }
 }
 
-static void send_process_data(can_t *can, way_t way, const wire_tick_t *tick)
+/* most: frames that may leave, at most PROCESS_FRAMES_PER_TICK. returns how many have left */
+static uint32_t send_process_data(can_t *can, way_t way, const wire_tick_t *tick, uint32_t most)
 {
     const process_bus_t bus = {.node_id = can->node_id,
                                .bit_rate = can->bit_rate,
                                .fd_bit_rate = way == ON_BUS ? can->bus.fd_bit_rate : 0u};
     process_t *process = &port_of(can, way)->process;
+    const process_t *other = &port_of(can, way == ON_BUS ? AS_TEXT : ON_BUS)->process;
     brace_can_frame_t frame;
-    /* A snapshot is long: the two ports do not both copy one in the same tick. */
-    process_tick(process, &bus, tick, way == ON_BUS || can->bus_port.process.taken_us != tick->now_us);
-    for (uint32_t i = 0; i < (uint32_t)PROCESS_FRAMES_PER_TICK && process_next(process, tick, &frame); i++) {
-        if (!send(can, way, tick, &frame)) {
-            return;
+    /* A snapshot is long, and so is a change of the rates: the two ports do not both work in the same tick. */
+    if (other->worked_us != tick->now_us) {
+        process_tick(process, &bus, tick);
+    }
+    for (uint32_t i = 0; i < most; i++) {
+        if (!process_next(process, tick, &frame) || !send(can, way, tick, &frame)) {
+            return i;
         }
         process_sent(process);
     }
+    return most;
 }
 
 /* Answers wait for a bus that is off. A channel that has been closed is another's when it opens again, so nothing waits
@@ -219,19 +227,21 @@ static void keep_silent(can_t *can, way_t way, const wire_tick_t *tick)
     }
 }
 
-static void speak(can_t *can, way_t way, const wire_tick_t *tick)
+/* most: frames of process data that may leave. returns how many have left */
+static uint32_t speak(can_t *can, way_t way, const wire_tick_t *tick, uint32_t most)
 {
     if (!is_open(can, way)) {
         keep_silent(can, way, tick);
-        return;
+        return 0;
     }
-    send_answers(can, way, tick);
-    if (has_number(can)) {
-        send_announcement(can, way, tick);
-        if (!tick->data_waits) {
-            send_process_data(can, way, tick);
-        }
+    const uint32_t answers = send_answers(can, way, tick);
+    if (!has_number(can)) {
+        return 0;
     }
+    send_announcement(can, way, tick);
+    /* The longest answers, of a K elsewhere, come in one tick of two at most; process data waits for the next. */
+    const bool waits = tick->data_waits || answers >= (uint32_t)BRACE_CAN_ANSWER_PARTS_MOST;
+    return waits ? 0u : send_process_data(can, way, tick, most);
 }
 
 void can_tick(can_t *can, const wire_tick_t *tick)
@@ -241,7 +251,8 @@ void can_tick(can_t *can, const wire_tick_t *tick)
     can_requests_tick(&can->text_port.requests, tick);
     listen_to_bus(can, tick);
     listen_to_text(can, tick);
-    speak(can, ON_BUS, tick);
-    speak(can, AS_TEXT, tick);
+    can->text_first = !can->text_first; /* The ports share the tick's frames of process data. */
+    const uint32_t told = speak(can, can->text_first ? AS_TEXT : ON_BUS, tick, PROCESS_FRAMES_PER_TICK);
+    (void)speak(can, can->text_first ? ON_BUS : AS_TEXT, tick, PROCESS_FRAMES_PER_TICK - told);
     slcan_flush(&can->text, tick->hal);
 }

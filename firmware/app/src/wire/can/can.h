@@ -1,8 +1,9 @@
 /* The node on CAN: over the board's CAN controller, and as text over a serial port (SLCAN).
  *
  * These are two ports that carry the same frames, and neither waits for the other: each takes at most one request in a
- * tick and answers it in that tick, and each has its own process data, heartbeats and emergencies. A port without room
- * for an answer leaves what comes where it is until there is room again.
+ * tick and answers it in that tick, and each has its own process data, heartbeats and emergencies. One tick makes two
+ * frames of process data at most, and the ports have the first choice in turns. A port without room for an answer
+ * leaves what comes where it is until there is room again.
  *
  * A node whose number is not set (0) only listens on CAN and says nothing by itself. It answers requests to node 0 that
  * come as text, since the serial port has one other end; so a board is given its number.
@@ -33,6 +34,7 @@ typedef struct {
     uint32_t bit_rate;       /* [bit/s] */
     can_bus_t bus;
     slcan_t text;
+    bool text_first;         /* in the last tick the text port spoke before the bus did */
     can_port_t bus_port;
     can_port_t text_port;
 } can_t;

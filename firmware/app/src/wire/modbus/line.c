@@ -9,7 +9,8 @@ enum { ADDRESS_BYTES = 1, CRC_BYTES = 2, FRAME_LEAST = ADDRESS_BYTES + 1 + CRC_B
  * it. */
 #define CHECKED_PER_TICK 96u
 
-/* The check of an answer is worked out so many bytes ahead of what the line carries in a tick: no gap tears it. */
+/* The check of an answer is worked out so many bytes ahead of what the line carries in a tick: no gap tears it, also
+ * where two ticks go by without it. */
 #define BYTES_AHEAD 48u
 
 #define CHARACTER_BITS 11u
@@ -153,7 +154,10 @@ void modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wire_t
         }
     }
     if (link->is_sending) {
-        seal(line, tick);
+        /* In a dear tick the bytes ahead are enough: two such ticks follow one another at most. */
+        if (!tick->data_waits || !tick->requests_wait) {
+            seal(line, tick);
+        }
         modbus_link_send(link, tick, BRACE_SERIAL_MODBUS);
     }
 }

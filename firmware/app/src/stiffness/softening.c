@@ -1,0 +1,72 @@
+#include "stiffness/softening.h"
+
+#define EVERY_TICKS 8u
+#define TOLD_TICKS_MOST 80u /* two searches, and ticks in which other jobs worked */
+
+static void forget_unloaded(softening_t *softening)
+{
+    const float unknown = __builtin_nanf("");
+    softening->unloaded = (brace_stiffness_t){unknown, unknown, unknown, unknown, unknown, unknown, 0u};
+    softening->unloaded_across_n_per_mm = unknown;
+}
+
+void softening_start(softening_t *softening)
+{
+    *softening = (softening_t){.factor = __builtin_nanf("")};
+    forget_unloaded(softening);
+}
+
+static void grow_old(softening_t *softening, bool is_counted)
+{
+    if (softening->ticks_told < TOLD_TICKS_MOST) {
+        softening->ticks_told++;
+    }
+    if (!is_counted || softening->ticks_told >= TOLD_TICKS_MOST) {
+        softening->factor = __builtin_nanf("");
+    }
+}
+
+static void find_unloaded(softening_t *softening, model_t *model, const brace_limb_t *limb,
+                          const float unbent_rad[BRACE_LINK_COUNT])
+{
+    const brace_space_rest_t *now = &softening->now.at;
+    const brace_loaded_joint_t springs[BRACE_LINK_COUNT] = {{.slope_rad_per_n_mm = now->yaw_rad_per_n_mm},
+                                                            {.slope_rad_per_n_mm = now->hip_rad_per_n_mm},
+                                                            {.slope_rad_per_n_mm = now->knee_rad_per_n_mm}};
+    if (model_stiffness(model, limb, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], springs, &softening->unloaded,
+                        &softening->unloaded_across_n_per_mm) != BRACE_OK) {
+        forget_unloaded(softening);
+    }
+}
+
+bool softening_step(softening_t *softening, model_t *model, const brace_limb_t *limb,
+                    const float unbent_rad[BRACE_LINK_COUNT], bool is_counted, bool may_work)
+{
+    grow_old(softening, is_counted);
+    softening->runs = softening->runs && is_counted;
+    if (softening->ticks_to_step > 0u) {
+        softening->ticks_to_step--;
+    }
+    if (!is_counted || !may_work || softening->ticks_to_step > 0u) {
+        return false;
+    }
+    softening->ticks_to_step = EVERY_TICKS;
+    find_unloaded(softening, model, limb, unbent_rad);
+    if (!softening->runs) {
+        softening->runs = true;
+        softening->at = softening->now.at;
+        brace_loaded_space_buckling_begin(&softening->search);
+    }
+    if (brace_loaded_space_buckling_step(&model->loaded_space, &softening->at, &softening->search,
+                                         &softening->factor)) {
+        softening->runs = false;
+        softening->ticks_told = 0;
+    }
+    return true;
+}
+
+uint32_t softening_flags(const softening_t *softening)
+{
+    const float factor = softening->factor;
+    return factor == factor ? brace_loaded_flags(factor, 0.0f, 1.0f) : 0u;
+}
