@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -160,7 +159,7 @@ def test_a_size_that_no_limb_has_needs_evidence(tmp_path: Path, limb: Path) -> N
         assert _implausible(Fit(space, x, nothing, nothing, nothing, 0.0)) == pytest.approx(nats)
 
 
-def test_what_a_rival_turns_is_undone_by_turning_it_back(limb: Path) -> None:
+def test_every_rival_turns_the_numbers_of_the_limb(limb: Path) -> None:
     """Rows and turns belong together, and a size of nothing changes nothing."""
     numbers = model_numbers(load_limb(limb))
     assert set(TURNS) == {cause.name for cause in RIVAL_CAUSES}
@@ -173,9 +172,9 @@ def test_what_a_rival_turns_is_undone_by_turning_it_back(limb: Path) -> None:
             assert np.nanmax(np.abs(np.where(np.isfinite(numbers), models[0] - numbers, 0.0))) > 1e-3
 
 
-def test_the_summary_and_the_report_have_the_members(yields: Diagnosis) -> None:
+def test_the_summary_has_the_members(yields: Diagnosis) -> None:
     from brace.diagnose.summary import lines
 
     text = "\n".join(lines(yields))
     assert text.count("  K          ") == len(yields.members)
-    assert "mm/N" in text and "a rig" not in replace(yields, effects=()).sentence.split(".")[0]
+    assert "mm/N" in text and "gives way under load" in text
