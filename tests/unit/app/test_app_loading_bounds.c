@@ -203,6 +203,21 @@ static void test_setups_that_cannot_be_are_refused(void)
     TEST_ASSERT_EQUAL(BRACE_E_MODE, brace_app_loading_start(&app, &along_x));
 }
 
+static void test_the_largest_step_is_taken_as_a_frame_carries_it(void)
+{
+    static const float step_mm[] = {50.001f, 50.0f};
+    static const brace_status_t told[] = {BRACE_E_RANGE, BRACE_OK};
+    for (int i = 0; i < 2; i++) {
+        brace_can_loading_test_start_request_t asked = {.steps_per_side = 2, .step_mm = step_mm[i], .dwell_ms = 20};
+        uint8_t data[8];
+        brace_can_pack_loading_test_start_request(&asked, data);
+        brace_can_unpack_loading_test_start_request(data, &asked);
+        brace_loading_setup_t s = along_x;
+        s.step_mm = asked.step_mm;
+        TEST_ASSERT_EQUAL(told[i], brace_app_loading_start(&app, &s));
+    }
+}
+
 /* At 32 mm a float's last place is 3.8e-6 mm: a tick's way of 1e-6 mm would be none, there and back. */
 static void test_a_rate_that_would_stand_far_out_is_refused(void)
 {
@@ -244,6 +259,7 @@ int main(void)
     RUN_TEST(test_a_fault_ends_it);
     RUN_TEST(test_a_force_that_is_lost_ends_it);
     RUN_TEST(test_setups_that_cannot_be_are_refused);
+    RUN_TEST(test_the_largest_step_is_taken_as_a_frame_carries_it);
     RUN_TEST(test_a_rate_that_would_stand_far_out_is_refused);
     return UNITY_END();
 }

@@ -25,6 +25,7 @@
 #include "brace/vec.h"
 
 #define BRACE_LOADING_LEAST_STEP_MM 0.001f
+#define BRACE_LOADING_MOST_STEP_MM 50.00001f /* CAN carries thousandths: 50 mm arrives as 50.000004 */
 #define BRACE_LOADING_LEAST_WAY 1.2e-7f /* two of a float's last places: what is less would not move it */
 
 typedef enum { BRACE_AXIS_X = 0, BRACE_AXIS_Z = 1 } brace_axis_t;

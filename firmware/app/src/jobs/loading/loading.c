@@ -36,7 +36,8 @@ static bool moves_everywhere(const brace_loading_setup_t *setup, uint32_t tick_u
 static bool setup_is_sound(const brace_loading_setup_t *setup)
 {
     return (setup->axis == BRACE_AXIS_X || setup->axis == BRACE_AXIS_Z) && setup->steps_per_side >= 2u &&
-           setup->steps_per_side <= 60u && is_inside(setup->step_mm, BRACE_LOADING_LEAST_STEP_MM, 50.0f) &&
+           setup->steps_per_side <= 60u &&
+           is_inside(setup->step_mm, BRACE_LOADING_LEAST_STEP_MM, BRACE_LOADING_MOST_STEP_MM) &&
            setup->dwell_us >= 20000u && setup->dwell_us <= 10000000u &&
            is_inside(setup->rate_mm_per_s, 1e-3f, 1000.0f) && is_inside(setup->force_max_n, 1e-6f, 1e6f) &&
            is_inside(setup->torque_max_n_mm, 1e-6f, 1e6f) &&
