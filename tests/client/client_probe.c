@@ -65,6 +65,8 @@ static void print_load(const brace_client_load_t *load)
     printf("moved_x %.9g\nmoved_z %.9g\nbuckling_factor %.9g\n", load->moved_x_mm, load->moved_z_mm,
            load->buckling_factor);
     printf("gravity_direction %.9g\ngravity_lean %.9g\n", load->gravity_direction_rad, load->gravity_lean_rad);
+    printf("force_y %.9g\nmoved_y %.9g\nunloaded_k_across %.9g\n", load->force_y_n, load->moved_y_mm,
+           load->unloaded_k_across_n_per_mm);
 }
 
 static brace_client_status_t ask_under_load(brace_client_t *client, bool at_tip)

@@ -65,6 +65,16 @@ def test_k_in_space_is_read(probe: Probe, url: str, model: Path) -> None:
     assert np.hypot(np.hypot(last["axis_x"], last["axis_y"]), last["axis_z"]) == pytest.approx(1.0, abs=1e-3)
 
 
+def test_the_load_across_the_plane_is_told(probe: Probe, url: str, sim: Sim) -> None:
+    """A free foot: the coxa joint's torque says that hardly anything pulls across the plane."""
+    load, k = probe(url, "load").values, probe(url, "space", 1).snapshots[-1]
+    assert load["is_counted"] == 1 and abs(load["force_y"]) < 0.3
+    assert load["unloaded_k_across"] == pytest.approx(k["across"], rel=0.02)
+    assert load["moved_y"] == pytest.approx(load["force_y"] / k["across"], abs=0.02)
+    planar = probe(sim.can, "load").values
+    assert np.isnan([planar[name] for name in ("force_y", "moved_y", "unloaded_k_across")]).all()
+
+
 def test_k_in_space_is_asked_for(probe: Probe, spatial: Sim, sim: Sim, model: Path) -> None:
     answer = probe(spatial.can, "space_posture", 0.9, 0.5, 1.7)
     assert answer.code == 0, answer.err

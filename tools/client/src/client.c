@@ -417,7 +417,10 @@ brace_client_status_t brace_client_load(brace_client_t *client, int timeout_ms, 
                    {BRACE_CLIENT_ENTRY(moved_z_mm), &taken.moved_z_mm},
                    {BRACE_CLIENT_ENTRY(buckling_factor), &taken.buckling_factor},
                    {BRACE_CLIENT_ENTRY(gravity_direction_rad), &taken.gravity_direction_rad},
-                   {BRACE_CLIENT_ENTRY(gravity_lean_rad), &taken.gravity_lean_rad}};
+                   {BRACE_CLIENT_ENTRY(gravity_lean_rad), &taken.gravity_lean_rad},
+                   {BRACE_CLIENT_ENTRY(counted_force_y_n), &taken.force_y_n},
+                   {BRACE_CLIENT_ENTRY(moved_y_mm), &taken.moved_y_mm},
+                   {BRACE_CLIENT_ENTRY(unloaded_k_across_n_per_mm), &taken.unloaded_k_across_n_per_mm}};
     for (size_t i = 0u; i < sizeof entries / sizeof entries[0]; i++) {
         const brace_client_status_t status = brace_client_entry_f32(
             client, entries[i].index, brace_bus_left_ms(deadline_us), entries[i].value);

@@ -297,6 +297,9 @@ static void take_load(const brace_measured_t *m, brace_client_load_t *load)
         .buckling_factor = m->buckling_factor,
         .gravity_direction_rad = m->gravity_direction_rad,
         .gravity_lean_rad = m->gravity_lean_rad,
+        .force_y_n = m->counted_force_y_n,
+        .moved_y_mm = m->moved_y_mm,
+        .unloaded_k_across_n_per_mm = m->unloaded_k_across_n_per_mm,
     };
 }
 
@@ -373,7 +376,7 @@ static brace_client_status_t read_space(brace_client_t *client, const brace_meas
 
 brace_client_status_t brace_modbus_load(brace_client_t *client, uint64_t deadline_us, brace_client_load_t *load)
 {
-    enum { FIRST = PLACE_OF(unloaded_k_xx_n_per_mm), COUNT = PLACE_OF(gravity_lean_rad) - FIRST + 1 };
+    enum { FIRST = PLACE_OF(unloaded_k_xx_n_per_mm), COUNT = PLACE_OF(unloaded_k_across_n_per_mm) - FIRST + 1 };
     brace_measured_t measured;
     const brace_client_status_t status = read_measured(client, FIRST, COUNT, deadline_us, &measured);
     if (status == BRACE_CLIENT_OK) {

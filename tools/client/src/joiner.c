@@ -29,7 +29,7 @@ static void begin(brace_joiner_slot_t *slot, uint32_t sequence, uint64_t receive
     }
     space->theta0_rad = space->k_across_n_per_mm = NAN;
     k->flags = space->play_coxa = UINT32_MAX;
-    s->load = (brace_client_load_t){false, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+    s->load = (brace_client_load_t){false, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     s->flags = s->play_femur = s->play_tibia = s->parameter_tag = s->mode = s->faults = UINT32_MAX;
 }
 

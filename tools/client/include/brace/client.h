@@ -72,12 +72,14 @@ typedef struct {
     uint32_t play_coxa;      /* state of the coxa joint's backlash, numbered as play_femur */
 } brace_client_space_t;
 
-/* The load that K counts, and what it does to the limb. x and z in the limb's plane. */
+/* The load that K counts, and what it does to the limb. x and z in the limb's plane, y across it, to the left: NaN for
+ * a limb in its plane, and in a snapshot over CAN, whose frames do not carry it; brace_client_load asks for it. */
 typedef struct {
     bool is_counted; /* K is the one under this load; else K is the one without load, flagged LOAD_UNKNOWN */
-    float force_x_n, force_z_n;       /* force of the ground on the tip */
+    float force_x_n, force_y_n, force_z_n; /* force of the ground on the tip */
     float unloaded_k_xx_n_per_mm, unloaded_k_xz_n_per_mm, unloaded_k_zz_n_per_mm; /* K without force and weight */
-    float moved_x_mm, moved_z_mm;     /* how far force and weight have moved the tip */
+    float unloaded_k_across_n_per_mm; /* the same across the plane */
+    float moved_x_mm, moved_y_mm, moved_z_mm; /* how far force and weight have moved the tip */
     float buckling_factor;            /* multiple of the load at which the limb, held as it stands, would have no
                                          stiffness left in some direction; infinite: none. Below 3: flag SOFTENED */
     float gravity_direction_rad, gravity_lean_rad; /* where down is: in the plane from +x, and out of the plane */
