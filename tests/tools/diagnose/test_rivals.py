@@ -141,7 +141,7 @@ def test_a_knee_beside_the_line_gives_the_same_k(tmp_path: Path, limb: Path) -> 
 
 
 def test_a_size_that_no_limb_has_needs_evidence(tmp_path: Path, limb: Path) -> None:
-    """By its definition in the catalogue: ten times the believed is three sigma, no more than believed costs nothing."""
+    """By its definition in the catalogue: ten times the believed is three sigma; less costs nothing."""
     believed = load_limb(limb)
     record = load_record(load_dataset(loading_record(tmp_path / "record", limb, values=YIELDS)))
     axial = [

@@ -66,7 +66,8 @@ def check_folder(out: Path, inputs: tuple[Path, ...]) -> None:
 
 
 def as_json(found: Diagnosis, origin: Provenance, exported: bool) -> dict[str, Any]:
-    """diagnosis.json; `exported` where limb.toml differs from what was given. Sizes carry the gap's unit in their names."""
+    """diagnosis.json; `exported` where limb.toml differs from what was given. Sizes carry the gap's unit
+    in their names."""
     unit = found.gap.unit if found.gap else "n"
     left, after = found.unexplained, found.next_experiment
     data: dict[str, Any] = {

@@ -241,7 +241,7 @@ def _rig_turned(models: np.ndarray, sizes: np.ndarray) -> None:
 
 
 def _knee_beside(models: np.ndarray, sizes: np.ndarray) -> None:
-    """The line to the knee turns and grows. The tibia keeps its direction, and the femur the directions it yields in."""
+    """The line to the knee turns and grows. The tibia keeps its direction, the femur the ways in which it yields."""
     index = number_index()
     femur_mm = models[:, index["geometry.femur_mm"]].copy()
     turned = np.arctan2(sizes[:, 0], femur_mm)
