@@ -67,7 +67,7 @@ def judge(truth: dict[str, Any], found: dict[str, Any]) -> Judged:
     elif kind in ("disguised", "outside"):
         j.left = float(truth.get("left_by_catalogue", math.inf))
         j.flags["unknown"] = verdict == "unknown"
-        j.flags["misnamed"] = verdict == "effect" and bool(effects) and effects[0].get("confidence", 1.0) > CONFIDENT
+        j.flags["misnamed"] = verdict == "effect" and any(e.get("confidence", 1.0) > CONFIDENT for e in effects)
         if kind == "disguised":
             alike = set(truth["alike"])
             named = set(said) | group
