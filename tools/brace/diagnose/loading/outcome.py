@@ -106,7 +106,7 @@ def diagnosis_of(
 def _effects(
     record: Record, final: Pass, resolved: Resolved, contested: Contest | None
 ) -> tuple[NamedEffect, ...]:
-    """For a class, each member with the parameters of its own fit."""
+    """The most probable first; for a class, each member with the parameters of its own fit."""
     if resolved.verdict == "ambiguous":
         return tuple(
             _effect(record, member.fit, label, sure, 1.0)
@@ -118,9 +118,8 @@ def _effects(
         own = next(sure for member, sure in resolved.members if set(member.labels) == contested.disputed)
         sure_of |= {label: min(own, sure_of[label]) for label in contested.disputed}
     chosen = final.decision.chosen.best.fit
-    return tuple(
-        _effect(record, chosen, label, sure_of[label], _share(final, label)) for label in final.decision.labels
-    )
+    found = [_effect(record, chosen, label, sure_of[label], _share(final, label)) for label in final.decision.labels]
+    return tuple(sorted(found, key=lambda effect: -effect.confidence))
 
 
 def _effect(record: Record, fitted: Fit, label: str, sure: float, share: float) -> NamedEffect:
