@@ -28,5 +28,6 @@ def test_query_record_replay_push_and_failures_on_vcan0() -> None:
     }.items():
         told = results[name]
         assert told["code"] == 4 and words in told["err"] and "try:" in told["err"], told
-        # the guest is slower than the machine it runs on, by how much a failure that waits for nothing says
-        assert told["s"] < 3.0 + 2.0 * results["no interface"]["s"], told
+        # The guest is slower than the machine it runs on, by how much a failure that waits for nothing says. The machine
+        # itself may be half as fast from one command to the next, when something else begins to run on it.
+        assert told["s"] < 3.0 + 4.0 * results["no interface"]["s"], told
