@@ -81,8 +81,9 @@ Structure without_loads(Structure structure)
 
 bool LimbState::move_to(double theta1_rad, double theta2_rad, double t_s, double temp_degc)
 {
+    using effects::link_change::has_come;
     const bool same_structure = placed_ && theta1_rad == theta1_rad_ && theta2_rad == theta2_rad_
-                                && effects::link_change::has_come(model_, t_s) == effects::link_change::has_come(model_, t_s_);
+                                && has_come(model_, t_s) == has_come(model_, t_s_);
     const bool same_joints =
         placed_ && (temp_degc == temp_degc_ || model_.thermal.joint_compliance_per_degc == 0.0);
     if (placed_) {
@@ -285,8 +286,8 @@ bool LimbState::settle(const Vector2d &target_mm, int free_axis)
     return false;
 }
 
-// Goes on to where rest would be if the limb went on as it came. It saves a step of Newton's method. A joint that friction
-// holds stays where it is. false: the tip does not go on along its way, or too far.
+// Goes on to where rest would be if the limb went on as it came. It saves a step of Newton's method. A joint that
+// friction holds stays where it is. false: the tip does not go on along its way, or too far.
 bool LimbState::foresee(const Vector2d &target_mm)
 {
     if (!has_earlier_) {

@@ -28,7 +28,8 @@ LIMBS: dict[str, dict[str, float | str]] = {
 
 def record() -> dict[str, np.ndarray]:
     """Two postures, each axis three times. The third time comes at another pace, and it becomes warmer all the time."""
-    columns: dict[str, list[float]] = {name: [] for name in ("run", "theta1_rad", "theta2_rad", "t_s", "dx_mm", "dz_mm")}
+    names = ("run", "theta1_rad", "theta2_rad", "t_s", "dx_mm", "dz_mm")
+    columns: dict[str, list[float]] = {name: [] for name in names}
     clock = 0.0
     for theta1, theta2 in ((0.7, 1.0), (0.2, 1.6)):
         for axis in range(2):
@@ -67,11 +68,12 @@ def test_a_run_reads_what_it_reads_by_itself(name: str, small: bool) -> None:
 @pytest.mark.parametrize("small", [False, True], ids=["finite", "small"])
 def test_a_limb_of_many_reads_what_it_reads_by_itself(small: bool) -> None:
     index, models = number_index(), []
+    softens: dict[str, float | str] = {"change.link": "femur", "change.bending_factor": 1.3, "change.at_s": 70.0}
     for changes in LIMBS.values():
         for key, values in (("change.at_s", (100.0, 101.0, 340.0, 900.0, 50.0)), ("sensor.gain", (1.1,)),
                             ("sensor.rotation_rad", (0.02,)), ("geometry.tibia_mm", (300.0,))):  # fmt: skip
             for value in values:
-                models.append(limb({"change.link": "femur", "change.bending_factor": 1.3, "change.at_s": 70.0, **changes}))
+                models.append(limb({**softens, **changes}))
                 models[-1][index[key]] = value
     refused = limb({})
     refused[index["sensor.gain"]] = np.nan

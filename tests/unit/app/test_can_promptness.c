@@ -3,8 +3,8 @@
 #include "can_bench.h"
 #include "modbus_master.h"
 
-#ifdef __arm__
-enum { QUESTIONS = 1000 }; /* An emulated board is slow. Waits are counted in ticks, and hosts play four times as many. */
+#ifdef __arm__ /* An emulated board is slow. Waits are counted in ticks, and hosts play four times as many questions. */
+enum { QUESTIONS = 1000 };
 #else
 enum { QUESTIONS = 4000 };
 #endif
