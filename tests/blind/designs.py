@@ -293,7 +293,7 @@ def lay_out(rng: Rng, at: Array, plan: Plan, readings: tuple[str, ...], noise: N
     )
 
 
-def loading_test(rng: Rng, believed: Array) -> tuple[Design, Design]:
+def loading_test(rng: Rng, believed: Array, by: Play = play) -> tuple[Design, Design]:
     """A test as one would plan it for this limb, and one at other poses that nobody shows to the tool."""
     configs, repeats, steps = int(rng.integers(6, 15)), int(rng.integers(1, 4)), int(rng.integers(3, 7))
     while configs * repeats * 2 * (4 * steps + 1) > 1000:
@@ -302,7 +302,7 @@ def loading_test(rng: Rng, believed: Array) -> tuple[Design, Design]:
         else:
             configs, steps = max(6, configs - 1), max(3, steps - 1)
     at = poses(rng, configs + 5)
-    step_mm = float(np.clip(rng.uniform(15.0, 60.0) / (stiffest_n_per_mm(believed, at, play) * steps), 0.05, 1.2))
+    step_mm = float(np.clip(rng.uniform(15.0, 60.0) / (stiffest_n_per_mm(believed, at, by) * steps), 0.05, 1.2))
     return tests_at(rng, at, configs, repeats, steps, round(step_mm, 4))
 
 

@@ -1,6 +1,6 @@
 """Makes blind cases: cases/ID/{data.csv,meta.toml,limb.toml}, and apart from them answers/ID/{truth.json,holdout/}.
 
-usage: generate.py [--engine] [--development] [--cases N] [--seed S] [--out FOLDER]
+usage: generate.py [--engine | --finite] [--development] [--cases N] [--seed S] [--out FOLDER]
 N is a number, shared out among the kinds as SHARES has it, or a plan: `none=1000,pair=400,single@12=216`.
 Every case follows from the seed and its number alone; sealed.sha256 seals them before any diagnosis."""
 
@@ -30,7 +30,7 @@ from designs import Design, Rng, Trust, true_limb
 from detect import SAME_CLASS, Bench
 from files import limb_text, meta_text, noisy, table_of, write_dataset
 from plant import BUILD, IN_LIMB_TOML, INDEX, LINKS, Array
-from worlds import SIMULATOR, World, world_called
+from worlds import SIMULATOR, World, options_of_world, world_called
 
 Cases = int | str  # a number, or a plan
 DETECTABILITIES = (3.0, 5.0, 8.0, 12.0, 25.0)
@@ -506,14 +506,14 @@ def default_folder(seed: int, cases: Cases, world: World = SIMULATOR) -> Path:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--engine", action="store_true", help="limbs of the physics engine in tests/engine")
+    options_of_world(parser)
     parser.add_argument("--development", action="store_true", help="the development seed")
     parser.add_argument("--cases", type=cases_of, help="how many, or a plan")
     parser.add_argument("--seed", type=int, help="another seed")
     parser.add_argument("--out", type=Path, help="folder")
     parser.add_argument("--processes", type=int, default=min(2, os.cpu_count() or 1))
     options = parser.parse_args()
-    world = world_called("engine" if options.engine else "simulator")
+    world = world_called(options.world)
     seed, cases = world.seed_and_cases(options.seed, options.cases, options.development)
     out = options.out or default_folder(seed, cases, world)
     print(f"{out}: answers sealed {generate(seed, cases, out, options.processes, world=world)}")

@@ -1,6 +1,6 @@
 """Runs the blind benchmark: makes the cases, seals the answers, diagnoses every case, judges, writes the tables.
 
-usage: run.py [--engine] [--development] [--cases N] [--seed S] [--only N] [--minutes M] [--processes P] [--out FOLDER]
+usage: run.py [--engine | --finite] [--development] [--cases N] [--seed S] [--only N] [--minutes M] [--processes P] [--out FOLDER]
 N is a number or a plan, as generate.py says.
 An interrupted run goes on where it was; a changed tool starts anew. --only and --minutes take the cases in the order of
 their names, which is random and the same in every run; the report says how many of the plan they were."""
@@ -30,7 +30,7 @@ import report
 from generate import cases_of, default_folder, generate, generator_hash, seal_of, total
 from plant import BUILD
 from scoring import STRONG, Judged, gap_n, judge
-from worlds import world_called
+from worlds import SIMULATOR, options_of_world, world_called
 
 SAME_BYTES_CASES = 16
 SEEDS_CASES = 25
@@ -223,7 +223,7 @@ def beside_baselines(
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--engine", action="store_true", help="limbs of the physics engine in tests/engine")
+    options_of_world(parser)
     parser.add_argument("--development", action="store_true", help="the development seed; nothing is written to docs/")
     parser.add_argument("--cases", type=cases_of, help="how many, or a plan")
     parser.add_argument("--only", type=int, help="of the plan, make and diagnose only the first so many")
@@ -233,7 +233,7 @@ def main() -> int:
     parser.add_argument("--out", type=Path, help="folder of the tables; default docs/ for the test set")
     parser.add_argument("--quick", action="store_true", help="no next experiments, no repeats, no other seeds")
     options = parser.parse_args()
-    world = world_called("engine" if options.engine else "simulator")
+    world = world_called(options.world)
     seed, cases = world.seed_and_cases(options.seed, options.cases, options.development)
     try:
         diagnoser.require()
@@ -281,7 +281,7 @@ def main() -> int:
         "generator_sha256": generator_hash(world),
         "tool": version,
     }
-    command = "./dev blind" + (" --engine" if options.engine else "")
+    command = "./dev blind" + (f" --{world.name}" if world is not SIMULATOR else "")
     command += " --development" if options.development else ""
     command += f" --cases {options.cases}" if options.cases else ""
     command += f" --seed {options.seed}" if options.seed is not None else ""

@@ -3,6 +3,7 @@ tests; all else is shared."""
 
 from __future__ import annotations
 
+import argparse
 import importlib
 import sys
 from collections.abc import Callable, Sequence
@@ -18,7 +19,8 @@ from outsiders import Outsider
 from plant import Array, play
 from scoring import Judged
 
-HERE = Path(__file__).resolve().parent
+ENGINE = str(Path(__file__).resolve().parents[1] / "engine")
+OF_THE_ENGINE = ("engine", "finite")
 Setting = tuple[Array, Trust, Design, Design, tuple[str, ...]]
 
 
@@ -86,7 +88,7 @@ SIMULATOR = World(
     Bench,
     outsiders.KINDS,
     outsiders.draw,
-    (HERE / "simulator.c",),
+    (Path(__file__).with_name("simulator.c"),),
     seeds.DEVELOPMENT_SEED,
     seeds.TEST_SEED,
     seeds.DEVELOPMENT_CASES,
@@ -100,8 +102,19 @@ def world_called(name: str) -> World:
     """A world by its name."""
     if name == SIMULATOR.name:
         return SIMULATOR
-    folder = str(HERE.parent / name)
-    if folder not in sys.path:
-        sys.path.append(folder)
+    if ENGINE not in sys.path:
+        sys.path.append(ENGINE)
     found: World = importlib.import_module(f"{name}_world").WORLD
     return found
+
+
+def options_of_world(parser: argparse.ArgumentParser) -> None:
+    """What says in which world to be; the simulator where nothing does."""
+    says = {
+        "engine": "limbs of beams in the physics engine of tests/engine, strokes up to 2.54 mm",
+        "finite": "the simulator's limbs and effects played by that engine, which turns them as they are displaced",
+    }
+    for name in OF_THE_ENGINE:
+        parser.add_argument(
+            f"--{name}", dest="world", action="store_const", const=name, default=SIMULATOR.name, help=says[name]
+        )
