@@ -20,12 +20,18 @@ calibration's trust. Detectability s = sqrt(2 x log-likelihood gain of the truth
 effect's class: those whose trace in this design has a cosine above 0.95 with the truth's."""
 
 READING = f"""Intervals are Wilson's, 95 %. Whole gap closed: 1 - rms after / rms before on other
-poses, without noise, over single effects and pairs of every s whose gap there is above {VISIBLE_GAP_N} N. The record's
+poses, without noise, over single effects and pairs of every s whose gap there is above {VISIBLE_GAP_N} N and whose
+verdict exported a model: a class whose members give different K leaves limb.toml as it was. The record's
 noise leaves a part of it even to somebody who is told what is hidden and fits just that to the same record;
 removable is the rest, and its share that the tool closes is the line above. Calibration: the confidence of every
 effect named against whether it is one of the hidden. Coverage: the intervals of effects named right. After the next
 experiment: over all single effects of s >= 12; where the tool proposes none that a rig can play, its first word
 counts."""
+
+TITLES = {"simulator": "# Blind benchmark", "finite": "# Blind benchmark at finite displacements"}
+FINITE = """The simulator of [blind.md](blind.md) assumes that no limb turns as it is displaced. Here its limbs, tests,
+effects and outsiders are played by the physics engine of [tests/engine](../tests/engine/README.md), in which limbs turn;
+detectability and classes are worked out there, too. All else is as on that page."""
 
 EARLIER = Path(__file__).with_name("earlier_runs.json")
 
@@ -221,6 +227,10 @@ def percent(value: float | None) -> str:
     return "-" if value is None or math.isnan(value) else f"{100 * value:.1f} %"
 
 
+def _not_exported(judged: Sequence[Judged]) -> int:
+    return sum(1 for j in judged if j.kind in ("single", "pair") and not j.exported)
+
+
 def closable(found: dict[str, Any]) -> str:
     """What was closed beside what could be."""
     known, of_that = found["closed_by_knowing"], found["closed_of_that"]
@@ -271,14 +281,16 @@ def page(found: dict[str, Any], judged: Sequence[Judged], command: str) -> str:
     troubles = [f"- {j.id} ({j.kind}, {j.truth[0]}): {j.note.strip().splitlines()[-1][:200]}" for j in judged if j.note]
     return "\n\n".join(
         [
-            "# Blind benchmark",
+            TITLES[made["world"]],
             f"    {command}",
             HOW,
+            *([FINITE] if made["world"] == "finite" else []),
             f"This run: {made['cases']} cases ({kinds}), {made['set']} seed {made['seed']}, answers' seal "
             f"`{made['seal_sha256'][:16]}`, generator `{made['generator_sha256'][:12]}`, tool `{made['tool']}`.",
             table(found),
             f"{READING} With s >= 12 alone the gap closed is {percent(strong12['median'])} (median), "
-            f"{percent(strong12['p5'])} (5th percentile) of {strong12['cases']}.",
+            f"{percent(strong12['p5'])} (5th percentile) of {strong12['cases']}. "
+            f"{_not_exported(judged)} single effects and pairs were named as a class that exports nothing.",
             closable(found),
             f"A diagnosis of 150 to 1000 rows with its report, one core each, took ({REPORTED_CASES} cases; median, "
             "95th percentile, longest): "
@@ -286,7 +298,7 @@ def page(found: dict[str, Any], judged: Sequence[Judged], command: str) -> str:
                 f"{v['median']:.1f}, {v['p95']:.1f}, {v['longest']:.1f} s by the {clock} clock"
                 for clock, v in found["seconds"].items()
             ) + ".",
-            *(["## Earlier runs", _earlier(found)] if made["set"] == "test" else []),
+            *(["## Earlier runs", _earlier(found)] if made["set"] == "test" and made["world"] == "simulator" else []),
             *(["## Beside other ways to choose", found["baselines_text"]] if "baselines_text" in found else []),
             "## Besides",
             "\n".join(besides),

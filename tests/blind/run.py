@@ -142,7 +142,7 @@ def judge_all(root: Path, results: Path, names: Iterable[str]) -> list[Judged]:
         j.stiffer = (stiff["believed"], stiff["exported"]) if stiff else None
         j.note = str(run.get("crashed", run.get("refused", "")))
         unseen = root / "answers" / name / "holdout" / "data.csv"
-        if j.kind in ("single", "pair") and (folder / "holdout_before.csv").exists():
+        if j.kind in ("single", "pair") and j.exported and (folder / "holdout_before.csv").exists():
             j.gap_before_n = gap_n(unseen, folder / "holdout_before.csv")
             if j.gap_before_n > report.VISIBLE_GAP_N:
                 after = folder / "holdout_after.csv"
@@ -272,6 +272,7 @@ def main() -> int:
     if seal_of(root) != seal:
         raise RuntimeError("the seal changed during the run")
     made = {
+        "world": world.name,
         "seed": seed,
         "cases": len(names),
         "planned": total(cases),

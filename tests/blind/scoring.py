@@ -13,6 +13,7 @@ from typing import Any
 CONFIDENT = 0.8  # an outsider named with more than this is confidently misnamed
 VISIBLE_GAP_N = 0.05  # a gap on unseen configurations below this is not scored
 STRONG, WEAK = 11.5, 6.5  # s: "12" is from STRONG on, "8" between the two
+OF_THE_RIG = ("rig_rotation", "rig_compliance")  # of a class that the answers, which know no rigs, cannot list
 ALARMS = ("effect", "ambiguous", "unknown", "data_fault")
 
 
@@ -39,6 +40,7 @@ class Judged:
     seconds: float = 0.0
     cpu_seconds: float = 0.0
     note: str = ""
+    exported: bool = True  # False: a class was named whose members give different K, so limb.toml is as believed
 
 
 def label(effect: dict[str, Any]) -> str:
@@ -55,7 +57,7 @@ def judge(truth: dict[str, Any], found: dict[str, Any]) -> Judged:
     group = {member for members in found.get("indistinguishable", []) for member in members}
     j = Judged(
         truth["id"], kind, float(truth["detectability"]), real or [_other(truth)], set(truth["cls"]), verdict, said,
-        rows=int(truth.get("rows", 0)),
+        rows=int(truth.get("rows", 0)), exported=verdict not in ("effect", "ambiguous") or bool(found.get("exported", True)),
     )  # fmt: skip
     first = said[0] if said else None
     if kind == "none":
@@ -79,7 +81,10 @@ def judge(truth: dict[str, Any], found: dict[str, Any]) -> Judged:
         j.flags["class"] = (
             verdict in ("effect", "ambiguous")
             and first is not None
-            and (names[0] == name or (first in whole and (real[0] in group or real[0] in said)))
+            and (
+                names[0] == name
+                or ((first in whole or names[0] in OF_THE_RIG) and (real[0] in group or real[0] in said))
+            )
         )
         j.flags["place_determined"] = not any(m.startswith(f"{name}@") and m != real[0] for m in whole)
         j.flags["extra"] = verdict == "effect" and len(set(names)) > 1

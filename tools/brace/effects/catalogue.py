@@ -448,8 +448,11 @@ EFFECTS: tuple[Effect, ...] = (
             Number("femur_n", 1.0, between(0.0, 1e4)),
         ),
         # Femur and knee load the same joint in the same proportion, so the knee stands for both; the femur's weight
-        # hangs at half its length.
-        ways=(Way(("knee_n", "tibia_n"), stands_for={"knee_n": ("femur_n", 2.0)}),),
+        # hangs at half its length. They bend the femur differently, which a limb shows that turns.
+        ways=(
+            Way(("knee_n", "tibia_n"), stands_for={"knee_n": ("femur_n", 2.0)}),
+            Way(("knee_n", "tibia_n", "femur_n"), seen=lambda size: size.turns),
+        ),
     ),
 )
 

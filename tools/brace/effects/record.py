@@ -25,6 +25,7 @@ class LoadingSize:
     dwell_s: float
     temperature_range_degc: float
     zeroed: bool
+    turns: bool  # played on a limb that turns as it is displaced
 
 
 @dataclass(frozen=True)

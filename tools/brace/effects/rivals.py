@@ -122,6 +122,54 @@ RIVAL_CAUSES: tuple[RivalCause, ...] = (
     ),
 )
 
-RIVAL_BY_NAME = {cause.name: cause for cause in RIVAL_CAUSES}
-RIVAL_BY_LABEL = {cause.label: cause for cause in RIVAL_CAUSES}
-RIVAL_UNITS = {size.key: size.unit for cause in RIVAL_CAUSES for way in cause.ways for size in way}
+_SAME_READINGS = "the readings change by the same amounts at nearly the same rows"
+
+
+def _trouble(name: str, where: str, words: str, meaning: str, would_tell: str, *sizes: Size) -> RivalCause:
+    return RivalCause(name, where, words, meaning, (), (sizes,), False, _SAME_READINGS, would_tell)
+
+
+# Troubles of the instruments (brace.diagnose.loading.instruments fits them as columns beside the readings).
+INSTRUMENT_TROUBLES: tuple[RivalCause, ...] = (
+    _trouble(
+        "lag", "sensor", "a sensor that reads late",
+        "the forces are read a while after the displacements of the same row",
+        "load once more with twice the dwell: a lag shows half as much, play as much as before",
+        Size("sensor.lag_s", "s", -1e3, 1e3),
+    ),
+    _trouble(
+        "gain_step", "sensor", "a sensor whose gain stepped",
+        "the force sensor's gain is another one from some run on",
+        "hang a known weight on the sensor, before the record and after it",
+        Size("sensor.gain_step_ratio", "", -1.0, 10.0),
+    ),
+    _trouble(
+        "zero_step", "sensor", "a sensor whose zero stepped",
+        "the force sensor's zero is another one from some run on",
+        "read the unloaded sensor before each run",
+        Size("sensor.zero_step_n", "N", -1e4, 1e4),
+    ),
+    _trouble(
+        "zero_per_run", "sensor", "a sensor whose zero differs from run to run",
+        "the force sensor's zero is another one in every run",
+        "read the unloaded sensor before each run",
+        Size("sensor.zero_step_n", "N", -1e4, 1e4),
+    ),
+    _trouble(
+        "pose_error", "rig", "postures that differ from the commanded ones",
+        "the drives stand at other angles in every run than the record says",
+        "measure the joints' angles in every run (columns theta1_rad, theta2_rad)",
+        Size("rig.pose_error_rad", "rad", -1.0, 1.0),
+    ),
+    _trouble(
+        "outliers", "sensor", "single readings that slipped",
+        "single readings stand out of their run",
+        "repeat the runs in which they are",
+        Size("sensor.outlier_n", "N", -1e4, 1e4),
+    ),
+)  # fmt: skip
+
+_ALL = (*RIVAL_CAUSES, *INSTRUMENT_TROUBLES)
+RIVAL_BY_NAME = {cause.name: cause for cause in _ALL}
+RIVAL_BY_LABEL = {cause.label: cause for cause in _ALL}
+RIVAL_UNITS = {size.key: size.unit for cause in _ALL for way in cause.ways for size in way}

@@ -54,6 +54,8 @@ def _variants(effect: Effect, size: LoadingSize) -> Iterator[Variant]:
         if not effect.loading_seen(size, where):
             continue
         for way in effect.ways:
+            if not way.seen(size):
+                continue
             yield Variant(
                 effect.name,
                 where,

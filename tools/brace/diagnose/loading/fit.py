@@ -19,7 +19,8 @@ PROBE = 0.2  # sigmas of the whole record that a finite difference moves by, abo
 STEPWISE_ROUNDS = 3
 MOST_TIMES = 120
 # Keys of which a limb that does not turn shows nothing, or only a part.
-SEEN_IN_TURNING = (TIBIA_BEAM, "gravity.")
+SEEN_IN_TURNING = (TIBIA_BEAM, "gravity.", "sensor.saturation_n")
+BEAM_SHARES = np.array([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0])
 BIG = 1e6  # whitened residual that stands for a model which no limb can have
 
 
@@ -114,7 +115,22 @@ def fit(record: Record, space: Space, start: np.ndarray, *, final: bool = True) 
         if cost > found.cost - SCREENING_DECREASE:
             break
         found = _descend(record, space, moved, left, scale, False)
-    return found
+    return _other_beam(record, space, found, scale, final)
+
+
+def _other_beam(record: Record, space: Space, found: Fit, scale: np.ndarray, final: bool) -> Fit:
+    """How much of a tibia is a beam may have two best answers, one near each end: descends again where another share
+    does better with all else held."""
+    if TIBIA_BEAM not in space.keys:
+        return found
+    points = np.tile(found.x, (BEAM_SHARES.size, 1))
+    points[:, space.keys.index(TIBIA_BEAM)] = BEAM_SHARES
+    tried = residuals(record, space, points)
+    costs = np.array([cost_of(space, point, left) for point, left in zip(points, tried)])
+    best = int(np.argmin(costs))
+    if costs[best] > found.cost - SCREENING_DECREASE:
+        return found
+    return _descend(record, space, points[best], tried[best], scale, final)
 
 
 def _descend(

@@ -21,12 +21,14 @@ from brace.diagnose.diagnosis import (
     NextExperiment,
     Residuals,
     Unexplained,
+    Verdict,
 )
 from brace.diagnose.loading import confidence
 from brace.diagnose.loading.agreement import Agreement, agreement
 from brace.diagnose.loading.next_experiment.confusability import Confusability, confusability, in_words
 from brace.diagnose.loading.next_experiment.experiment import next_experiment
 from brace.diagnose.loading.fit import Fit
+from brace.diagnose.loading.instruments import LAG, Trouble
 from brace.diagnose.loading.intervals import intervals
 from brace.diagnose.loading.limb_of import limb_of
 from brace.diagnose.loading.localise import localise
@@ -72,20 +74,21 @@ def diagnosis_of(
     agreed = agreement(record, locked, final, twin, options.seed)
     alike = confusability(final.base.fit, final.sets)
     effects = _effects(record, final, resolved, contested) if named else ()
+    late = tuple(_trouble(one, 1.0 / (1.0 + np.exp(-one.lead))) for one in final.troubles if one.name == LAG)
     following = next_experiment(record, final, believed, options) if named else _more_of_the_same(final)
     return Diagnosis(
-        verdict=resolved.verdict,
-        sentence=_sentence(final, effects, resolved, contested),
+        verdict=_verdict(final, resolved),
+        sentence=_sentence(final, effects, resolved, contested) + _beside(final, resolved),
         model=resolved.exported,
         gap=_gap(whole, record, locked, believed, judged),
-        effects=effects,
+        effects=(*effects, *late),
         indistinguishable=_classes(final, alike, contested),
         could_be=_could_be(final, effects),
         members=resolved.alternatives,
         localised=_localised(record, final, options),
         unexplained=_unexplained(final, after),
         next_experiment=_told_by(following, contested),
-        data_faults=tuple(record.dataset.faults),
+        data_faults=(*record.dataset.faults, *(trouble.fault for trouble in final.troubles)),
         candidates=tuple(
             Candidate(item.label, final.base.fit.cost - item.best.fit.cost, item.posterior)
             for item in final.sets[:MOST_CANDIDATES]
@@ -109,7 +112,7 @@ def _effects(
     """The most probable first; for a class, each member with the parameters of its own fit."""
     if resolved.verdict == "ambiguous":
         return tuple(
-            _effect(record, member.fit, label, sure, 1.0)
+            _trouble(member.trouble, sure) if member.trouble else _effect(record, member.fit, label, sure, 1.0)
             for member, sure in resolved.members
             for label in member.labels
         )
@@ -134,6 +137,11 @@ def _effect(record: Record, fitted: Fit, label: str, sure: float, share: float) 
         if KEY_BY_NAME[key].kind in ("number", "ratio"):
             parameters[key] = Interval(value, value, value)
     return NamedEffect(variant.effect, variant.where, sure, parameters, share)
+
+
+def _trouble(trouble: Trouble, sure: float) -> NamedEffect:
+    """A trouble of the instruments as a name."""
+    return NamedEffect(trouble.cause.name, trouble.cause.where, sure, trouble.sizes, 1.0)
 
 
 def _classes(
@@ -278,9 +286,12 @@ def _contested(resolved: Resolved, contested: Contest, effects: Sequence[NamedEf
         if resolved.verdict == "ambiguous"
         else f"Missing: {', '.join(sure)}, and one of {either}."
     )
+    taken = resolved.taken
     exported = (
-        f"The model has {resolved.taken.label} added."
-        if resolved.taken is not None
+        f"Nothing was added to the model, because {taken.label} is no part of the limb."
+        if taken is not None and taken.cause is not None and not taken.cause.in_limb
+        else f"The model has {taken.label} added."
+        if taken is not None
         else f"They give different K, so the model was left as it was given; --take '{names[0]}' exports the first."
     )
     return (
@@ -289,12 +300,33 @@ def _contested(resolved: Resolved, contested: Contest, effects: Sequence[NamedEf
     )
 
 
+def _verdict(final: Pass, resolved: Resolved) -> Verdict:
+    """A sound limb in a record with troubled instruments: the record is at fault, or, where the trouble has a name among
+    the effects, that is what is missing."""
+    if resolved.verdict != "none" or not final.troubles:
+        return resolved.verdict
+    return "effect" if any(one.name == LAG for one in final.troubles) else "data_fault"
+
+
+def _beside(final: Pass, resolved: Resolved) -> str:
+    """What the instruments did, behind what is said of the limb."""
+    told = "; ".join(one.shown for one in final.troubles)
+    if not told or resolved.verdict == "none":
+        return ""
+    return f" The instruments were in trouble, too, and the limb is judged without what they did: {told}."
+
+
 def _sentence(
     final: Pass, effects: Sequence[NamedEffect], resolved: Resolved, contested: Contest | None
 ) -> str:
     verdict, structure = final.decision.verdict, final.structure
     if contested is not None:
         return _contested(resolved, contested, effects)
+    if verdict == "none" and final.troubles:
+        return (
+            "The limb agrees with its model, but the instruments were in trouble: "
+            f"{'; '.join(one.shown for one in final.troubles)}. Nothing was added to the model."
+        )
     if verdict == "none":
         return "Model and record agree within the noise and what calibration leaves open; nothing is missing."
     if verdict == "unknown":

@@ -25,7 +25,8 @@ SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
 class Record:
     """`measured` and `sigma` are channels x rows, in the channels' units; forces come first. Where a channel was not
     read, `measured` is 0 and sigma is NOT_MEASURED. `zeroed` are the places of the channels of which each run's first
-    reading was taken off."""
+    reading was taken off. `beside_model` (channels x rows x sizes, in the channels' units for one sigma of each size) is
+    what instruments may add to the readings; it is taken out of residuals as far as it may explain them."""
 
     dataset: Dataset
     channels: tuple[str, ...]
@@ -34,6 +35,7 @@ class Record:
     sigma: np.ndarray
     player: LoadingBatchPlayer
     zeroed: tuple[int, ...] = ()
+    beside_model: np.ndarray | None = None
 
     @property
     def rows(self) -> int:
@@ -71,7 +73,25 @@ class Record:
         played /= -self.sigma
         for channel in self.zeroed:
             _whiten_zeroing(played[:, channel], starts)
-        return played.reshape(len(models), self.measured.size)
+        left = played.reshape(len(models), self.measured.size)
+        if self.beside_model is not None:
+            basis, share = self._beside
+            left -= ((left @ basis) * share) @ basis.T
+        return left
+
+    @cached_property
+    def _beside(self) -> tuple[np.ndarray, np.ndarray]:
+        """Directions of the readings that instruments move (readings x directions, orthonormal), and the share of a
+        residual along each that has to go for readings of covariance 1 + columns columns' to be independent again."""
+        assert self.beside_model is not None
+        columns = (self.beside_model / self.sigma[:, :, None]).reshape(self.measured.size, -1)
+        basis, lengths, _ = np.linalg.svd(columns, full_matrices=False)
+        return basis, np.asarray(1.0 - 1.0 / np.sqrt(1.0 + lengths**2))
+
+    def beside(self, columns: np.ndarray) -> Record:
+        """The same record with one more trouble taken out, beside those that are out already."""
+        all_columns = columns if self.beside_model is None else np.concatenate([self.beside_model, columns], axis=2)
+        return replace(self, beside_model=all_columns)
 
     @cached_property
     def unturned(self) -> Record:
@@ -93,6 +113,7 @@ class Record:
             self.sigma[:, keep],
             player_of(part, self.channels, zeroed=part.meta.zeroed_per_run),
             self.zeroed,
+            None if self.beside_model is None else self.beside_model[:, keep],
         )
 
     @property
@@ -170,6 +191,7 @@ def setting_of(record: Record, believed: LimbModel) -> LoadingSize:
         dwell_s=float(np.median(steps[steps > 0.0])) if np.any(steps > 0.0) else 1.0,
         temperature_range_degc=float(np.ptp(data["temp_degc"])),
         zeroed=data.meta.zeroed_per_run,
+        turns=not data.small_displacements,
     )
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from brace.diagnose.loading.choose import WORTH_SAYING, LabelSet
 from brace.diagnose.loading.evidence import score
 from brace.diagnose.loading.fit import Fit, fit
+from brace.diagnose.loading.instruments import Trouble
 from brace.diagnose.loading.record import NOT_MEASURED, Record
 from brace.diagnose.loading.space import Space, Trust, space_of
 from brace.effects import Freedom, Variant
@@ -61,6 +62,7 @@ class Member:
     fit: Fit
     model: np.ndarray
     cause: RivalCause | None = None
+    trouble: Trouble | None = None
 
     @property
     def label(self) -> str:
@@ -85,6 +87,8 @@ def contest(final: Pass) -> Contest | None:
     if decision.verdict not in ("effect", "ambiguous"):
         return None
     found = [one for cause in RIVAL_CAUSES if (one := _against(final, cause)) is not None]
+    if final.rival is not None and (one := _by_instruments(final, final.rival)) is not None:
+        found.append(one)
     return max(found, key=lambda one: 1.0 - _share_of_chosen(one), default=None)
 
 
@@ -107,9 +111,32 @@ def _against(final: Pass, cause: RivalCause) -> Contest | None:
     if best is None:
         return None
     lead, disputed, fitted = best
+    rival = chosen.posterior * float(np.exp(min(lead, 700.0)))
+    space = fitted.space
+    assert isinstance(space, RivalSpace)
+    limb = fitted.model if cause.in_limb else space.limbs(fitted.x[None])[0]
+    return _contest(final, cause, disputed, rival, Member((cause.label,), 0.0, fitted, limb, cause))
+
+
+def _by_instruments(final: Pass, trouble: Trouble) -> Contest | None:
+    """What a trouble of the instruments leaves uncertain; the limb is fitted to the record without the trouble."""
+    chosen = final.decision.chosen
+    disputed = chosen.labels - trouble.rest.labels
+    if not disputed:
+        return None
+    rest = trouble.rest.best.fit
+    fitted = fit(final.record.beside(trouble.columns), rest.space, rest.x)
+    member = Member((trouble.cause.label,), 0.0, fitted, fitted.model, trouble.cause, trouble)
+    return _contest(final, trouble.cause, disputed, float(np.exp(min(trouble.lead, 700.0))), member)
+
+
+def _contest(
+    final: Pass, cause: RivalCause, disputed: frozenset[str], rival: float, member: Member
+) -> Contest | None:
+    """All that may stand for the disputed labels; `rival` is the weight of the cause beside the posterior's shares."""
+    chosen = final.decision.chosen
     weights = dict(_stand_ins(final.sets, chosen, disputed))
     top = max(weight for weight, _ in weights.values())
-    rival = chosen.posterior * float(np.exp(min(lead, 700.0)))
     if rival < WORTH_SAYING * top:
         return None
     if cause.twin in weights:
@@ -120,14 +147,11 @@ def _against(final: Pass, cause: RivalCause) -> Contest | None:
     own = " + ".join(sorted(disputed))
     kept = {name: found for name, found in weights.items() if found[0] >= WORTH_SAYING * top or name == own}
     whole = rival + sum(weight for weight, _ in kept.values())
-    space = fitted.space
-    assert isinstance(space, RivalSpace)
-    limb = fitted.model if cause.in_limb else space.limbs(fitted.x[None])[0]
     members = [
         Member(_ordered(final, name), weight / whole, found, found.model) for name, (weight, found) in kept.items()
     ]
-    members.append(Member((cause.label,), rival / whole, fitted, limb, cause))
-    members.sort(key=lambda member: (-round(member.share, 9), member.cause is not None, member.label))
+    members.append(replace(member, share=rival / whole))
+    members.sort(key=lambda one: (-round(one.share, 9), one.cause is not None, one.label))
     return Contest(tuple(members), disputed, mass, cause)
 
 

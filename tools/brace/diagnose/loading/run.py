@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from brace.diagnose.loading.evidence import log_likelihood, score
 from brace.diagnose.loading.extensions import outside
 from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.data_faults.gate import gate
+from brace.diagnose.loading.instruments import likeliest
 from brace.diagnose.loading.noise_after_base import with_growth, with_known_noise
 from brace.diagnose.loading.parts import locked_rows
 from brace.diagnose.loading.record import Record, load_record, setting_of
@@ -31,6 +33,7 @@ from brace.identify.turning import settled
 from brace.model import LimbModel
 
 
+MOST_TROUBLES = 3
 GROWTH_MUST_GAIN = 6.0  # nats that a noise growing with the load must be ahead of a constant one
 
 
@@ -69,11 +72,28 @@ def diagnose_loading(
 def search_pass(record: Record, trust: Trust, variants: Sequence[Variant], advance: Advance) -> Pass:
     """Search, then the best set fitted to the end, and what it leaves tested for structure."""
     found = _searched(record, trust, variants, advance)
-    growing = with_growth(record, found.sets[0].best.fit)
+    if found.decision.verdict != "none":
+        found = _without_troubles(found, variants, advance)
+    growing = with_growth(found.record, found.sets[0].best.fit)
     if growing is None:
         return found
-    other = _searched(growing, trust, variants, advance)
+    other = replace(_searched(growing, trust, variants, advance), troubles=found.troubles)
     return other if _likelihood(other) > _likelihood(found) + GROWTH_MUST_GAIN else found
+
+
+def _without_troubles(found: Pass, variants: Sequence[Variant], advance: Advance) -> Pass:
+    """The search again without what the instruments did to the record; as it was where even that leaves the record
+    unexplained, because then the trouble is no explanation either."""
+    cleaner = found
+    for _ in range(MOST_TROUBLES):
+        trouble = likeliest(cleaner.record, cleaner.sets)
+        if trouble is None or not trouble.far_ahead:
+            cleaner = replace(cleaner, rival=trouble)
+            break
+        record = cleaner.record.beside(trouble.columns)
+        again = _searched(record, found.trust, variants, advance)
+        cleaner = replace(again, troubles=(*cleaner.troubles, trouble))
+    return found if cleaner.decision.verdict == "unknown" else cleaner
 
 
 def _searched(record: Record, trust: Trust, variants: Sequence[Variant], advance: Advance) -> Pass:

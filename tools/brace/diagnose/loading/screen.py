@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from brace.diagnose.loading.fit import PROBE, Fit, residuals
+from brace.diagnose.loading.fit import PROBE, SEEN_IN_TURNING, Fit, residuals
 from brace.diagnose.loading.record import Record
 from brace.diagnose.loading.space import Space, Trust, compatible, space_of
 from brace.effects import Variant
@@ -40,6 +40,17 @@ class Nearby:
         return np.asarray(residuals(self._record, space, points) + self._turning)
 
 
+class Played:
+    """Residuals of limbs that turn as they are displaced, for what shows only, or otherwise, in limbs that do."""
+
+    def __init__(self, record: Record) -> None:
+        self._record = record
+
+    def residuals(self, space: Space, points: np.ndarray) -> np.ndarray:
+        """points x readings"""
+        return residuals(self._record, space, points)
+
+
 class Remover:
     """Takes out of whitened residuals what the hypothesis' own parameters could still make up, under their priors."""
 
@@ -69,17 +80,18 @@ def screen(record: Record, trust: Trust, fitted: Fit, variants: Sequence[Variant
     held = fitted.space.variants
     remover = Remover(fitted)
     left = remover.augmented(fitted.residual[None])[0]
-    nearby = Nearby(record, fitted)
+    nearby, played = Nearby(record, fitted), Played(record)
     promises = []
     for variant in variants:
         if any(variant.label == other.label for other in held) or not compatible((*held, variant)):
             continue
-        promises.append(_promise(nearby, fitted, space_of(trust, (*held, variant)), variant, remover, left))
+        by = played if any(key.startswith(SEEN_IN_TURNING) for key in variant.keys) else nearby
+        promises.append(_promise(by, fitted, space_of(trust, (*held, variant)), variant, remover, left))
     return sorted(promises, key=lambda promise: promise.cost)
 
 
 def _promise(
-    nearby: Nearby, fitted: Fit, space: Space, variant: Variant, remover: Remover, left: np.ndarray
+    nearby: Nearby | Played, fitted: Fit, space: Space, variant: Variant, remover: Remover, left: np.ndarray
 ) -> Promise:
     start = space.mean.copy()
     known = dict(zip(fitted.space.keys, fitted.x))
@@ -145,7 +157,7 @@ def _scaled_tries(
     return scaled
 
 
-def _signatures(nearby: Nearby, space: Space, point: np.ndarray, freed: Sequence[str]) -> np.ndarray:
+def _signatures(nearby: Nearby | Played, space: Space, point: np.ndarray, freed: Sequence[str]) -> np.ndarray:
     """Change of the whitened model readings along each freed key, scaled to about one sigma; readings x keys."""
     which = np.array([space.keys.index(key) for key in freed])
     step = np.maximum(np.abs(point[which]) * 1e-3, _small_steps(freed))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from brace.diagnose.loading.choose import LabelSet
+from brace.diagnose.loading.instruments import Trouble
 from brace.diagnose.loading.record import Record
 from brace.diagnose.loading.search import Hypothesis
 from brace.diagnose.loading.space import Trust
@@ -14,7 +15,8 @@ from brace.diagnose.loading.verdict import Decision
 
 @dataclass(frozen=True)
 class Pass:
-    """One search over some rows of the record, from nothing to a decision."""
+    """One search over some rows of the record, from nothing to a decision. `troubles` of the instruments are out of
+    the record; `rival` is one that stands nearly as well as what was chosen."""
 
     record: Record
     trust: Trust
@@ -22,3 +24,5 @@ class Pass:
     sets: list[LabelSet]
     structure: Structure
     decision: Decision
+    troubles: tuple[Trouble, ...] = ()
+    rival: Trouble | None = None
