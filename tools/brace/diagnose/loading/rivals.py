@@ -222,7 +222,8 @@ def _fitted(
         (*plain.variants, Variant(cause.name, cause.where, tuple(Freedom(s.key, s.low, s.high) for s in way))),
         turn=TURNS[cause.name],
     )
-    known = dict(zip(chosen.space.keys, chosen.x))
+    of_disputed = {key for variant in chosen.space.variants if variant.label in disputed for key in variant.keys}
+    known = {key: value for key, value in zip(chosen.space.keys, chosen.x) if key not in of_disputed}
     start = np.array([known.get(key, middle) for key, middle in zip(space.keys, space.mean)])
     start[plain.size :] = _start(cause, way, chosen)
     gauged = [place for place, name in enumerate(record.channels) if name in GAUGES]

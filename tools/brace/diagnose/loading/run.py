@@ -93,7 +93,8 @@ def _without_troubles(found: Pass, variants: Sequence[Variant], advance: Advance
         record = cleaner.record.beside(trouble.columns)
         again = _searched(record, found.trust, variants, advance)
         cleaner = replace(again, troubles=(*cleaner.troubles, trouble))
-    return found if cleaner.decision.verdict == "unknown" else cleaner
+    unexplained = cleaner.decision.verdict == "unknown" or (cleaner.troubles and cleaner.decision.outside.lead > 0.0)
+    return found if unexplained else cleaner
 
 
 def _searched(record: Record, trust: Trust, variants: Sequence[Variant], advance: Advance) -> Pass:
