@@ -119,13 +119,12 @@ def _against(final: Pass, cause: RivalCause) -> Contest | None:
 
 
 def _by_instruments(final: Pass, trouble: Trouble) -> Contest | None:
-    """What a trouble of the instruments leaves uncertain; the limb is fitted to the record without the trouble."""
+    """What a trouble of the instruments leaves uncertain."""
     chosen = final.decision.chosen
     disputed = chosen.labels - trouble.rest.labels
     if not disputed:
         return None
-    rest = trouble.rest.best.fit
-    fitted = fit(final.record.beside(trouble.columns), rest.space, rest.x)
+    fitted = trouble.rest.best.fit
     member = Member((trouble.cause.label,), 0.0, fitted, fitted.model, trouble.cause, trouble)
     return _contest(final, trouble.cause, disputed, float(np.exp(min(trouble.lead, 700.0))), member)
 
