@@ -102,7 +102,7 @@ def likeliest(record: Record, sets: Sequence[LabelSet]) -> Trouble | None:
         first.setdefault((option.kind, option.rest.labels), option)
     troubles = [_fitted(record, base, option, against) for option in list(first.values())[:REFITTED]]
     likely = max(troubles, key=lambda one: one.lead, default=None)
-    return likely if likely is not None and likely.lead > MAY_BE else None
+    return likely if likely is not None and likely.lead > MAY_BE and likely.name not in OF_POSTURES else None
 
 
 @dataclass(frozen=True)
@@ -168,6 +168,9 @@ def _whitened(record: Record, columns: np.ndarray) -> np.ndarray:
 
 
 LAG, GAIN_STEP, ZERO_STEP, ZEROS, POSE, OUTLIERS = (cause.name for cause in INSTRUMENT_TROUBLES)
+# What follows the posture may be of the limb or of an encoder. It is no trouble of the instruments here, and stands only
+# against those that would otherwise make up for it.
+OF_POSTURES = ("zero_per_posture", "pose_error_per_posture")
 
 
 def _kinds(record: Record, fitted: Fit, left: np.ndarray) -> Iterator[_Kind]:
@@ -189,9 +192,13 @@ def _kinds(record: Record, fitted: Fit, left: np.ndarray) -> Iterator[_Kind]:
             if runs.shape[2] > 2:
                 both = np.concatenate([runs * _X[:, :, None], runs * _Z[:, :, None]], axis=2)
                 yield _Kind(ZEROS, [_of_forces(record, both)], ZERO_SIGMAS_N)
+                yield _Kind(OF_POSTURES[0], [_of_forces(record, _by_posture(record, both, starts))], ZERO_SIGMAS_N)
     if starts.size > 3:
-        turned = [_turned(record, fitted, joint) for joint in ("femur", "tibia")]
-        yield _Kind(POSE, [np.concatenate([_by_run(record, one, starts) for one in turned], axis=2)], POSE_SIGMAS_RAD)
+        turned = np.concatenate(
+            [_by_run(record, _turned(record, fitted, joint), starts) for joint in ("femur", "tibia")], axis=2
+        )
+        yield _Kind(POSE, [turned], POSE_SIGMAS_RAD)
+        yield _Kind(OF_POSTURES[1], [_by_posture(record, turned, starts)], POSE_SIGMAS_RAD)
     far = np.flatnonzero(left**2 > LEAST_OUT)
     if 0 < far.size <= max(1.0, MOST_OUT * record.readings):
         columns = np.zeros((record.measured.size, far.size))
@@ -229,6 +236,17 @@ def _by_run(record: Record, values: np.ndarray, starts: np.ndarray) -> np.ndarra
     for number, (begin, end) in enumerate(zip(starts[:-1], starts[1:])):
         out[:, begin:end, number] = values[:, begin:end]
     return out
+
+
+def _by_posture(record: Record, by_run: np.ndarray, starts: np.ndarray) -> np.ndarray:
+    """Columns of runs, one after the other for each of two sizes, summed over the runs of each configuration."""
+    of_run = record.dataset["config"][starts[:-1]]
+    runs = of_run.size
+    summed = [
+        by_run[:, :, [size * runs + run for run in np.flatnonzero(of_run == config)]].sum(axis=2)
+        for size in range(by_run.shape[2] // runs) for config in np.unique(of_run)
+    ]  # fmt: skip
+    return np.stack(summed, axis=2)
 
 
 def _turned(record: Record, fitted: Fit, joint: str) -> np.ndarray:
