@@ -62,11 +62,12 @@ def _never_turned(dataset: Dataset, believed: LimbModel) -> bool:
 
 def _cut_off(columns: Mapping[str, np.ndarray]) -> np.ndarray:
     """Rows that a saturated sensor may have cut off, which bends readings more than turning does: those at the largest
-    reading, where several configurations share it."""
+    reading, where several displacements share it."""
     size = np.max(np.abs(np.stack([columns[name] for name in FORCES])), axis=0)
     top = size >= AT_THE_TOP * size.max()
-    shared = np.unique(columns["config"][top]).size > 1
-    return np.asarray(top & shared)
+    places = np.column_stack([columns[name][top] for name in ("config", "dx_mm", "dz_mm")])
+    side = np.unique(np.column_stack([places[:, :1], np.abs(places[:, 1:])]), axis=0)
+    return np.asarray(top & (len(side) > 1))
 
 
 def _refitted(dataset: Dataset, believed: LimbModel, *, small: bool) -> Fit:
