@@ -49,6 +49,7 @@ MOST_CANDIDATES = 20
 FAR_OUT = 3.0  # sigmas of the calibration from which a refitted number is a finding
 STAYS_AHEAD = 0.5
 TOLD_APART = 0.95  # power from which a look-alike is no member of the class
+MOST_LIKELY = 0.9  # share of the members' probability from which the first is said to be it
 LOST_NATS = -2.0  # of the held-out configurations: more than refitting alone makes
 
 
@@ -279,11 +280,18 @@ def _contested(resolved: Resolved, contested: Contest, effects: Sequence[NamedEf
     """Both are named, with why the record does not tell them apart, what would, and what limb.toml holds."""
     cause = contested.cause
     names = [member.label for member in contested.members]
-    either = f"{', '.join(names[:-1])} or {names[-1]}"
     sure = [effect.label for effect in effects if effect.label not in contested.disputed]
+    likely = contested.members[0].share >= MOST_LIKELY
+    either = (
+        f"most likely {names[0]}, perhaps {' or '.join(names[1:])}"
+        if likely
+        else f"{', '.join(names[:-1])} or {names[-1]}"
+    )
     lead = (
         f"Something is missing: {either}."
         if resolved.verdict == "ambiguous"
+        else f"Missing: {', '.join(sure)}, and {either}."
+        if likely
         else f"Missing: {', '.join(sure)}, and one of {either}."
     )
     taken = resolved.taken
@@ -295,7 +303,8 @@ def _contested(resolved: Resolved, contested: Contest, effects: Sequence[NamedEf
         else f"They give different K, so the model was left as it was given; --take '{names[0]}' exports the first."
     )
     return (
-        f"{lead} This record cannot tell them apart, because {cause.same_because}. To tell, {cause.would_tell}. "
+        f"{lead} This record {'hardly tells' if likely else 'cannot tell'} them apart, because {cause.same_because}. "
+        f"To tell, {cause.would_tell}. "
         f"{exported}"
     )
 
