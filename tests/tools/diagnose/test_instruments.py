@@ -23,9 +23,9 @@ FORCES = ("fx_n", "fz_n")
 GAIN_STEP = 0.1
 
 
-def spoiled(folder: Path, limb: Path, spoil: Spoil, **truth: object) -> Diagnosis:
+def spoiled(folder: Path, limb: Path, spoil: Spoil, values: dict[str, float]) -> Diagnosis:
     """The diagnosis of a record after `spoil` has changed its columns."""
-    record = loading_record(folder, limb, **truth)
+    record = loading_record(folder, limb, values=values)
     with (record / "data.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
     names = [name for name in rows[0] if name != "axis"]
