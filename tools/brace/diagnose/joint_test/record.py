@@ -25,7 +25,8 @@ from brace.native.plant_batch import model_numbers
 
 STEPS_A_PERIOD = 4.0  # of the encoder: what repeats faster is its rounding
 MIN_READINGS = 20
-RISES = 1.5  # times its middle value: a torque that is friction's alone has about one size
+LAST_PART = 0.1  # of a test's range of torque, before a reversal
+STANDS = 0.75  # of what a spring alone would move there
 ON_GRID = 0.02  # of a step: how near to whole steps angles stand that an encoder has rounded
 BLOCK_ROWS = 1200  # averaged readings: enough for every ramp's shape, few enough to try some hundred models
 
@@ -173,15 +174,27 @@ def step_of(angle_rad: np.ndarray) -> float:
 
 
 def swing_over_both_flanks_rad(angle_rad: np.ndarray, torque_n_mm: np.ndarray, test: np.ndarray) -> float:
-    """The least that the joint swings by in a test in which its torque still rises at both ends: free travel is no
-    more. inf where no test shows that."""
+    """The least that the joint swings by in a test that leaves it standing on a flank at both ends: free travel is no
+    more. inf where no test shows that: a joint that friction still lets slip at the highest torque may be anywhere in
+    its gap."""
     least = np.inf
     for label in np.unique(test):
         angle, torque = angle_rad[test == label], torque_n_mm[test == label]
-        if angle.size < MIN_READINGS:
+        if angle.size < MIN_READINGS or torque.max() <= 0.0 or torque.min() >= 0.0:
             continue
-        middle = 0.5 * (torque.max() + torque.min())
-        size = np.abs(torque - middle)
-        if size.max() > RISES * float(np.median(size)):
-            least = min(least, float(np.ptp(angle)))
+        swing, span = float(np.ptp(angle)), float(np.ptp(torque))
+        slipped: dict[int, float] = {}  # by the end that a pass leads to, the most of the swing in its last part
+        number = ramps(torque, np.zeros(torque.size))
+        for one in np.unique(number):
+            rows = np.flatnonzero(number == one)
+            way = torque[rows[-1]] - torque[rows[0]]
+            side = 1 if way > 0.0 else -1
+            if side * torque[rows[-1]] < (1.0 - LAST_PART) * (torque.max() if side > 0 else -torque.min()):
+                continue
+            before = rows[side * (torque[rows[-1]] - torque[rows]) > LAST_PART * span]
+            if before.size:
+                last = side * (angle[rows[-1]] - angle[before[-1]]) / max(swing, 1e-30)
+                slipped[side] = max(slipped.get(side, 0.0), last)
+        if len(slipped) == 2 and max(slipped.values()) < STANDS * LAST_PART:
+            least = min(least, swing)
     return least

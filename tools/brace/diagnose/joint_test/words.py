@@ -41,6 +41,12 @@ def withheld(labels: Sequence[str], unexplained: float) -> str:
     return f"{unexplained:.0%} of the torque is left by the nearest model, which has {names}"
 
 
+def as_well(could_be: Sequence[str]) -> str:
+    """What the headline says of rivals."""
+    sets = [listed([label.partition("@")[0] for label in one.split(" + ")]) for one in could_be]
+    return f" The readings held out are predicted about as well by {', or by '.join(sets)} alone."
+
+
 def sentence(
     verdict: str,
     effects: Sequence[NamedEffect],

@@ -28,6 +28,7 @@ from brace.diagnose.joint_test.fit import Fitted, Fitter
 from brace.diagnose.joint_test.intake import blocking_faults, require_enough, spring_alone
 from brace.diagnose.joint_test.localise import localise
 from brace.diagnose.joint_test.record import JointRecord
+from brace.diagnose.joint_test.rivals import Rival, beside, ranges, rivals, surest
 from brace.diagnose.joint_test.terms import Term, effects_of, shapes
 from brace.diagnose.options import Advance, Options
 from brace.effects import JointTestBench
@@ -117,12 +118,14 @@ def _told(
     found = [term for term in best.terms if term.effect is not None]
     left = [term for term in best.terms if term.effect is None]
     exported = by_rows.fit(tuple(found), best)  # a shape is no physics, so no limb.toml gets it
-    effects = _named(fitter, by_rows, best, exported, found, choice.count, random)
+    others = rivals(fitter, by_rows, exported, choice.sets)
+    effects = _named(fitter, by_rows, best, exported, found, others, choice.count, random)
     while weak := [one for one in effects if one.confidence < LIKELIER_THAN_NOT or _may_be_nothing(one)][-1:]:
         found = [term for term in found if term.name != weak[0].name]
         best = fitter.fit((*found, *left), best)
         exported = by_rows.fit(tuple(found), best)
-        effects = _named(fitter, by_rows, best, exported, found, choice.count, random)
+        others = rivals(fitter, by_rows, exported, choice.sets)
+        effects = _named(fitter, by_rows, best, exported, found, others, choice.count, random)
     advance(0.93, "where they disagreed")
     spots = localise(record, base.off_n_mm, random)
     gap, residuals, rows = _gaps(by_rows, base, effects, exported)
@@ -133,7 +136,8 @@ def _told(
     count = independent(record, exported.off_n_mm)
     hangs = bool(count < 0.3 * np.count_nonzero(record.fitted))
     withheld: tuple[str, ...] = ()
-    unexplained = after_averaged / max(float(np.std(record.columns["torque_n_mm"][record.fitted])), 1e-30)
+    beyond_noise = float(np.sqrt(max(after_averaged**2 - record.noise_n_mm**2, 0.0)))
+    unexplained = beyond_noise / max(float(np.std(record.columns["torque_n_mm"][record.fitted])), 1e-30)
     if effects and unexplained > MOST_UNEXPLAINED:
         withheld, effects = tuple(effect.label for effect in effects), ()
     structured = bool(left or withheld) or (hangs and after_averaged > STRUCTURED * remainder_noise)
@@ -147,11 +151,14 @@ def _told(
     model = _exportable(fitter.base, exported if effects else base, believed)
     nearest = [one.label for one in choice.candidates if one.gain > 0.0 and " + " not in one.label]
     could_be = tuple(dict.fromkeys((*withheld, *nearest)))[:4] if verdict == "unknown" else ()
+    if effects:
+        could_be = beside(others, frozenset(effect.name for effect in effects))[:4]
     description = _description(shown, structured, remains, refused, after, record.raw_noise_n_mm)
     minutes = max(1.0, record.minutes)
     return Diagnosis(
         verdict,
-        words.sentence(verdict, effects, gap.before.fitted, after, record.raw_noise_n_mm, shown),
+        words.sentence(verdict, effects, gap.before.fitted, after, record.raw_noise_n_mm, shown)
+        + (words.as_well(could_be) if effects and could_be else ""),
         model,
         gap if effects else replace(gap, after=gap.before, steps=()),
         effects,
@@ -188,6 +195,7 @@ def _named(
     best: Fitted,
     exported: Fitted,
     found: Sequence[Term],
+    others: Sequence[Rival],
     count: float,
     random: np.random.Generator,
 ) -> tuple[NamedEffect, ...]:
@@ -195,7 +203,7 @@ def _named(
     if not found:
         return ()
     record = fitter.record
-    limits = intervals(by_rows, exported, random)
+    limits, elsewhere = intervals(by_rows, exported, random), ranges(by_rows, others, random)
     weighted = best if len(best.terms) == len(found) else fitter.fit(tuple(found), best)
     named = []
     for term in found:
@@ -206,12 +214,13 @@ def _named(
             gain(record, without(by_rows, exported, term), exported, rows_count),
         )
         net = max(both) - len(term.parameters) * float(np.log(max(count, 3.0)))
-        confidence = min(SUREST, 1.0 / (1.0 + float(np.exp(-0.5 * net))))
+        confidence = min(SUREST, surest(others, term.name), 1.0 / (1.0 + float(np.exp(-0.5 * net))))
         parameters = {}
         for key in (parameter.key for parameter in term.parameters if parameter.key in KEY_BY_NAME):
             value, low, high = limits[key]
             other = weighted.values[key]  # both ways of weighting are sound, so the interval holds what both say
-            parameters[key] = Interval(value, min(low, other), max(high, other))
+            least, most = elsewhere.get(key, (value, value))
+            parameters[key] = Interval(value, min(low, other, least), max(high, other, most))
         named.append((NamedEffect(term.name, term.where, confidence, parameters, 0.0), poorer.rss - best.rss))
     total = sum(max(rss, 0.0) for _, rss in named) or 1.0
     shared = [replace(effect, gap_share=max(rss, 0.0) / total) for effect, rss in named]

@@ -1,0 +1,99 @@
+"""Joint tests that tell less than they seem to: written from the physics, nothing of the tool's plant is used."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import joint_cases
+from brace.dataset import load_dataset
+from brace.diagnose.diagnosis import Diagnosis
+from brace.diagnose.joint_test.record import step_of, swing_over_both_flanks_rad
+from brace.diagnose.options import Options
+from brace.diagnose.run import diagnose
+
+LEG = 260  # readings of a test
+
+
+def triangle(count: int = LEG) -> np.ndarray:
+    """0, 1, -1, 0."""
+    return np.asarray(np.interp(np.linspace(0, 4, count), [0, 1, 3, 4], [0, 1, -1, 0]))
+
+
+def found_in(folder: Path, tests: list[tuple[np.ndarray, np.ndarray]]) -> Diagnosis:
+    """The diagnosis of these pairs of angle [rad] and torque [N mm]."""
+    angle, torque = (np.concatenate([pair[place] for pair in tests]) for place in (0, 1))
+    number = np.repeat(np.arange(len(tests)), [pair[0].size for pair in tests])
+    columns = {"t_s": 0.02 * np.arange(angle.size), "angle_rad": angle, "torque_n_mm": torque, "test": number}
+    return diagnose(load_dataset(joint_cases.Case("", {}, columns).write(folder)), None, Options())
+
+
+def under_torque(torque: np.ndarray, gap_rad: float, friction_n_mm: float, compliance: float) -> np.ndarray:
+    """Angles of a joint with play and dry friction whose torque is imposed: it stays until friction lets it slip."""
+
+    def carried(spring: float) -> float:
+        return compliance * spring + 0.5 * gap_rad * np.sign(spring)
+
+    angle, angles = 0.0, []
+    for one in torque:
+        angle = float(np.clip(angle, carried(one - friction_n_mm), carried(one + friction_n_mm)))
+        angles.append(angle)
+    return np.array(angles)
+
+
+def test_the_swing_bounds_play_only_where_both_flanks_were_reached() -> None:
+    torque = 4000.0 * triangle()
+    reached = under_torque(torque, 0.025, 1500.0, 1e-6)
+    swing = swing_over_both_flanks_rad(reached, torque, np.zeros(LEG, dtype=int))
+    assert 0.025 <= swing == pytest.approx(np.ptp(reached))
+    held = under_torque(torque, 0.025, 5000.0, 1e-6)
+    assert swing_over_both_flanks_rad(held + 1e-7 * torque, torque, np.zeros(LEG, dtype=int)) == np.inf
+    late = under_torque(torque, 0.025, 3800.0, 1e-6)  # slips only just before the torque turns
+    assert swing_over_both_flanks_rad(late, torque, np.zeros(LEG, dtype=int)) == np.inf
+
+
+def test_an_encoder_of_12_bits_is_no_cogging(tmp_path: Path) -> None:
+    step, random = 2.0 * np.pi / 4096, np.random.default_rng(1)
+    tests = []
+    for size in (0.6, 1.0, 0.62, 0.98, 0.61):
+        angle = 0.05 * size * triangle(800)
+        tests.append((np.round(angle / step) * step, 4e5 * angle + 5.0 * random.standard_normal(800)))
+    assert step_of(tests[0][0]) == pytest.approx(step)
+    found = found_in(tmp_path, tests)
+    assert found.verdict == "none", found.sentence
+
+
+def test_travel_that_is_no_joint_withholds_names(tmp_path: Path) -> None:
+    """Moves without load between the ramps: most of the torque is left by any model."""
+    random = np.random.default_rng(2)
+    tests = []
+    for _ in range(5):
+        angle = np.concatenate([0.02 * triangle(), 0.15 * triangle(130), 0.02 * triangle()])
+        torque = np.concatenate([8000.0 * triangle(), np.zeros(130), 8000.0 * triangle()])
+        tests.append((angle, torque + 30.0 * random.standard_normal(angle.size)))
+    found = found_in(tmp_path, tests)
+    assert found.verdict == "unknown" and not found.effects, found.sentence
+    assert found.unexplained is not None and found.unexplained.structured
+
+
+def soft_middle(random: np.random.Generator) -> list[tuple[np.ndarray, np.ndarray]]:
+    """A spring whose middle is neither a dead zone nor a cubic, with as much noise as tells them apart badly."""
+    tests = []
+    for size in (0.97, 1.0, 0.98, 0.99, 0.96):
+        angle = 0.02 * size * triangle()
+        soft = angle - 0.004 * np.tanh(angle / 0.006)
+        torque = 4e5 * soft + 600.0 * np.sign(np.gradient(angle)) + 950.0 * random.standard_normal(LEG)
+        tests.append((angle, torque))
+    return tests
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_what_predicts_as_well_is_named_beside(seed: int, tmp_path: Path) -> None:
+    found = found_in(tmp_path, soft_middle(np.random.default_rng(seed)))
+    for effect in found.effects:
+        if effect.name in ("backlash", "joint_hardening"):
+            assert effect.confidence < 0.8
+            assert any(effect.name not in rival for rival in found.could_be)
+            assert "about as well" in found.sentence

@@ -1,0 +1,86 @@
+"""Other sets of effects that predict the held-out readings about as well.
+
+A chosen set is one explanation of several. Its sizes are known no better than these explanations agree on, and an
+effect that one of them does without is no surer than that explanation is wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from brace.diagnose.joint_test.choose import strained
+from brace.diagnose.joint_test.evidence import independent, intervals
+from brace.diagnose.joint_test.fit import Fitted, Fitter
+
+AS_WELL = 0.05  # a rival has at least this share of the odds between it and the chosen set: 90 % intervals hold it
+MOST_RIVALS = 8
+
+Ranges = dict[str, tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Rival:
+    """`share` [0, 1]: its part of the odds between it and the chosen set, by what neither has seen."""
+
+    fitted: Fitted
+    share: float
+
+    @property
+    def names(self) -> frozenset[str]:
+        return frozenset(term.name for term in self.fitted.terms)
+
+    @property
+    def label(self) -> str:
+        return " + ".join(term.label for term in self.fitted.terms) or "nothing"
+
+
+def rivals(fitter: Fitter, by_rows: Fitter, chosen: Fitted, sets: Sequence[Fitted]) -> list[Rival]:
+    """All sound sets that predict the held-out readings about as well as `chosen`, the likeliest first. Both ways of
+    weighting the readings are sound, so the one counts that is kinder to the rival."""
+    record = fitter.record
+    if not record.kept.any():
+        return []
+    names = frozenset(term.name for term in chosen.terms)
+    weighted = fitter.fit(chosen.terms, chosen)
+    found = []
+    others = (one for one in sets if frozenset(term.name for term in one.terms) != names)
+    for one in sorted(others, key=lambda one: one.held_rss)[:MOST_RIVALS]:
+        if strained(fitter, one):
+            continue
+        rows = by_rows.fit(one.terms, one)
+        share = max(_share(fitter, weighted, one), _share(by_rows, chosen, rows))
+        if share >= AS_WELL:
+            found.append(Rival(rows, share))
+    return sorted(found, key=lambda rival: -rival.share)
+
+
+def _share(fitter: Fitter, chosen: Fitted, rival: Fitted) -> float:
+    """The rival's part of the odds by the independent ones of the held-out readings."""
+    record = fitter.record
+    kept = np.count_nonzero(record.kept)
+    count = independent(record, chosen.off_n_mm) * kept / np.count_nonzero(record.fitted)
+    floor = 1e-12 * kept * record.size.torque_n_mm**2
+    odds = 0.5 * count * np.log((rival.held_rss + floor) / (chosen.held_rss + floor))
+    return float(1.0 / (1.0 + np.exp(np.clip(odds, 0.0, 50.0))))  # what predicts better by luck is as good at most
+
+
+def ranges(by_rows: Fitter, found: Sequence[Rival], random: np.random.Generator) -> Ranges:
+    """low, high (90 %) over all rivals, of every parameter that they have."""
+    held: Ranges = {}
+    for rival in found:
+        for key, (_, low, high) in intervals(by_rows, rival.fitted, random).items():
+            least, most = held.get(key, (low, high))
+            held[key] = min(least, low), max(most, high)
+    return held
+
+
+def surest(found: Sequence[Rival], name: str) -> float:
+    """How sure an effect can be at most while these rivals stand."""
+    return 1.0 - max((rival.share for rival in found if name not in rival.names), default=0.0)
+
+
+def beside(found: Sequence[Rival], named: frozenset[str]) -> tuple[str, ...]:
+    """The rivals that do without something that was named."""
+    return tuple(rival.label for rival in found if not named <= rival.names)
