@@ -1,0 +1,152 @@
+"""The foreign benchmark's sets: which cases, their seeds, and how they are written and sealed."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import instruments
+import joints
+import numpy as np
+from actuator import write
+from diagnoser import PROJECT
+from files import limb_text, meta_text, write_dataset
+from generate import SEAL, listing, seal_of
+
+HERE = Path(__file__).resolve().parent
+DEVELOPMENT_SEED, TEST_SEED, SUBSET_SEED = 260_017, 862_411, 470_021
+# Effects that are hidden beside a trouble, by their number in tests/blind/effects.py: both springs, the base, a link,
+# play twice, friction, hardening, gravity, a joint's zero.
+HIDDEN = (0, 1, 3, 5, 8, 9, 11, 13, 16, 18)
+BUILD = PROJECT / "build" / "foreign"
+
+
+@dataclass(frozen=True)
+class Plan:
+    """How many cases of each kind."""
+
+    joint: int = 0
+    evidence: int = 0
+    positions: int = 0
+    sound: int = 0
+    troubled: int = 0
+    beside: int = 0  # a trouble and an effect
+
+
+DEVELOPMENT = Plan(2, 2, 8, 5, 4, 2)
+# Of healthy records with a trouble 300 and of outsiders 150: one wrong name in a hundred can be told from five.
+TEST = Plan(25, 20, 60, 60, 30, 10)
+SUBSET = Plan(positions=1, sound=1)
+
+
+@dataclass(frozen=True)
+class Case:
+    """One case: `group` and `kind` say what it is, `number` the how manieth of its kind."""
+
+    seed: int
+    group: str
+    kind: str
+    number: int
+
+    @property
+    def name(self) -> str:
+        """An identity that says nothing, and stays when a plan grows."""
+        text = f"{self.seed}/{self.group}/{self.kind}/{self.number}"
+        return "f" + hashlib.sha256(text.encode()).hexdigest()[:7]
+
+    @property
+    def seeds(self) -> list[int]:
+        """Of its own random numbers."""
+        return [self.seed, int(hashlib.sha256(f"{self.group}/{self.kind}".encode()).hexdigest()[:8], 16), self.number]
+
+    def write(self, out: Path) -> None:
+        """cases/NAME as a tool may see it, answers/NAME/truth.json."""
+        truth = self._loading(out) if self.group in ("sound", "troubled", "beside") else self._joint(out)
+        truth = {"id": self.name, "group": self.group, "kind": self.kind, "number": self.number, "seed": self.seed, **truth}
+        answer = out / "answers" / self.name
+        answer.mkdir(parents=True, exist_ok=True)
+        (answer / "truth.json").write_text(json.dumps(truth, indent=1, default=float) + "\n")
+
+    def _joint(self, out: Path) -> dict[str, Any]:
+        makers = {"named": joints.NAMED, "misread": joints.TROUBLED, "outside": joints.OUTSIDE,
+                  "evidence": joints.EVIDENCE, "positions": joints.POSITIONS}[self.group]  # fmt: skip
+        made = makers[self.kind](np.random.default_rng(self.seeds))
+        write(out / "cases" / self.name, f"case {self.name}", made.record)
+        angle = made.record.columns["angle_rad"]
+        test = made.record.columns["test"]
+        swing = max(float(np.ptp(angle[test == t])) for t in np.unique(test))
+        return {"part": "joint", "effects": [{"name": n, "where": joints.WHERE} for n in made.effects], "cls": [],
+                "outside": made.outside, "trouble": made.trouble, "evidence": made.evidence, "size": made.size,
+                "left_out": made.left_out, "swing_rad": swing, "about": made.about}  # fmt: skip
+
+    def _loading(self, out: Path) -> dict[str, Any]:
+        trouble = "" if self.kind == "sound" else self.kind
+        turn = list(instruments.TROUBLES).index(trouble) if trouble else 0
+        hidden = HIDDEN[(3 * turn + self.number) % len(HIDDEN)] if self.group == "beside" else None
+        made = instruments.drawn(self.seeds, trouble, hidden)
+        folder = out / "cases" / self.name
+        write_dataset(folder, meta_text(made.design, f"case {self.name}"), made.table)
+        case = made.case
+        text = limb_text(case["believed"], case["trust"], f"case {self.name}", case["left_out"])
+        (folder / "limb.toml").write_text(text)
+        return {"part": "loading", **made.truth, "outside": "", "evidence": "", "rows": len(made.table["run"])} | {
+            "kind": self.kind
+        }
+
+
+def cases(seed: int, plan: Plan) -> list[Case]:
+    """Those of a plan, in the order of their names: random, and always the same."""
+    wanted: list[tuple[str, str, int]] = [
+        *(("named", kind, plan.joint) for kind in joints.NAMED),
+        *(("misread", kind, plan.joint) for kind in joints.TROUBLED),
+        *(("outside", kind, plan.joint) for kind in joints.OUTSIDE),
+        *(("evidence", kind, plan.evidence) for kind in joints.EVIDENCE),
+        *(("positions", kind, plan.positions) for kind in joints.POSITIONS),
+        ("sound", "sound", plan.sound),
+        *(("troubled", kind, plan.troubled) for kind in instruments.TROUBLES),
+        *(("beside", kind, plan.beside) for kind in instruments.TROUBLES),
+    ]
+    found = [Case(seed, group, kind, n) for group, kind, count in wanted for n in range(count)]
+    return sorted(found, key=lambda case: case.name)
+
+
+def sources_hash() -> str:
+    """What made the cases: this folder's makers and what they use of the two others."""
+    names = ["actuator.c", "actuator.py", "joints.py", "instruments.py", "sets.py"]
+    paths = [HERE / name for name in names]
+    for folder, files in (
+        ("blind", ("designs", "effects", "detect", "files", "plant", "generate")),
+        ("engine", ("engine_chain", "engine_limb", "many_rests", "engine_plant", "engine_bench", "engine_world")),
+    ):
+        paths += [HERE.parent / folder / f"{name}.py" for name in files]
+    return hashlib.sha256(b"".join(path.read_bytes() for path in paths)).hexdigest()
+
+
+def make(wanted: list[Case], out: Path) -> str:
+    """Writes the cases that are not there yet and seals all; returns the seal. Cases of other sources are made anew."""
+    stamp = out / "made_by"
+    if not stamp.exists() or stamp.read_text() != sources_hash():
+        for old in sorted(out.glob("answers/*/truth.json")):
+            old.unlink()
+        out.mkdir(parents=True, exist_ok=True)
+        stamp.write_text(sources_hash())
+    begun, count = time.monotonic(), 0
+    for case in wanted:
+        if not (out / "answers" / case.name / "truth.json").exists():
+            case.write(out)
+            count += 1
+            print(f"\rmade {count} cases, {time.monotonic() - begun:.0f} s ", end="", file=sys.stderr, flush=True)
+    if count:
+        print(file=sys.stderr)
+        (out / SEAL).write_text(listing(out))
+    return seal_of(out)
+
+
+if __name__ == "__main__":
+    folder = BUILD / f"dev-{DEVELOPMENT_SEED}"
+    print(folder, make(cases(DEVELOPMENT_SEED, DEVELOPMENT), folder))
