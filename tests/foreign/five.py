@@ -92,7 +92,7 @@ def rms(numbers: Array, points: Points) -> float:
 
 def named(points: Points) -> list[str]:
     """The terms that the Bayesian information criterion keeps: as a baseline for naming. Neighbouring points are not
-    independent; eight count as one.
+    independent; eight count as one."""
     count = points.counts.sum() / 8.0
     best, kept = math.inf, ()
     for terms in ((), ("backlash",), ("coulomb_friction",), ("coulomb_friction", "per_load"),

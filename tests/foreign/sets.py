@@ -60,13 +60,18 @@ class Case:
         return "f" + hashlib.sha256(text.encode()).hexdigest()[:7]
 
     @property
+    def part(self) -> str:
+        """joint or loading."""
+        return "loading" if self.group in ("sound", "troubled", "beside") else "joint"
+
+    @property
     def seeds(self) -> list[int]:
         """Of its own random numbers."""
         return [self.seed, int(hashlib.sha256(f"{self.group}/{self.kind}".encode()).hexdigest()[:8], 16), self.number]
 
     def write(self, out: Path) -> None:
         """cases/NAME as a tool may see it, answers/NAME/truth.json."""
-        truth = self._loading(out) if self.group in ("sound", "troubled", "beside") else self._joint(out)
+        truth = self._loading(out) if self.part == "loading" else self._joint(out)
         truth = {"id": self.name, "group": self.group, "kind": self.kind, "number": self.number, "seed": self.seed, **truth}
         answer = out / "answers" / self.name
         answer.mkdir(parents=True, exist_ok=True)
@@ -80,7 +85,7 @@ class Case:
         angle = made.record.columns["angle_rad"]
         test = made.record.columns["test"]
         swing = max(float(np.ptp(angle[test == t])) for t in np.unique(test))
-        return {"part": "joint", "effects": [{"name": n, "where": joints.WHERE} for n in made.effects], "cls": [],
+        return {"part": self.part, "effects": [{"name": n, "where": joints.WHERE} for n in made.effects], "cls": [],
                 "outside": made.outside, "trouble": made.trouble, "evidence": made.evidence, "size": made.size,
                 "left_out": made.left_out, "swing_rad": swing, "about": made.about}  # fmt: skip
 
@@ -94,7 +99,7 @@ class Case:
         case = made.case
         text = limb_text(case["believed"], case["trust"], f"case {self.name}", case["left_out"])
         (folder / "limb.toml").write_text(text)
-        return {"part": "loading", **made.truth, "outside": "", "evidence": "", "rows": len(made.table["run"])} | {
+        return {"part": self.part, **made.truth, "outside": "", "evidence": "", "rows": len(made.table["run"])} | {
             "kind": self.kind
         }
 
@@ -146,7 +151,3 @@ def make(wanted: list[Case], out: Path) -> str:
         (out / SEAL).write_text(listing(out))
     return seal_of(out)
 
-
-if __name__ == "__main__":
-    folder = BUILD / f"dev-{DEVELOPMENT_SEED}"
-    print(folder, make(cases(DEVELOPMENT_SEED, DEVELOPMENT), folder))
