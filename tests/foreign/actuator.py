@@ -6,8 +6,10 @@ import ctypes
 import math
 from dataclasses import dataclass, field, fields
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from plant import Array, compiled
 
 SOURCE = Path(__file__).with_name("actuator.c")
@@ -97,7 +99,7 @@ class Record:
 
     columns: dict[str, Array] = field(default_factory=dict)
 
-    def add(self, **columns: Array) -> None:
+    def add(self, **columns: npt.NDArray[Any]) -> None:
         """Rows behind the others."""
         for name, values in columns.items():
             self.columns[name] = np.concatenate([self.columns.get(name, np.empty(0)), values])

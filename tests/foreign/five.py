@@ -11,7 +11,15 @@ from plant import Array
 from scipy.optimize import least_squares
 
 TERMS = ("backlash", "coulomb_friction", "per_load")
-POINTS_SMALL, POINTS_LARGE = 60, 160  # of a test's average
+POINTS = 160  # of a test's average
+SETS: tuple[tuple[str, ...], ...] = (
+    (),
+    ("backlash",),
+    ("coulomb_friction",),
+    ("coulomb_friction", "per_load"),
+    ("backlash", "coulomb_friction"),
+    TERMS,
+)
 
 
 @dataclass
@@ -24,7 +32,7 @@ class Points:
     tests: Array
 
 
-def points_of(columns: dict[str, Array], count: int = POINTS_LARGE, centred: bool = False) -> Points:
+def points_of(columns: dict[str, Array], count: int = POINTS, centred: bool = False) -> Points:
     """Blocks of rows, averaged. `centred`: each test's angle counts from the middle of its range, for records of
     several gear positions."""
     test = columns.get("test", np.zeros(len(columns["angle_rad"])))
@@ -94,9 +102,9 @@ def named(points: Points) -> list[str]:
     """The terms that the Bayesian information criterion keeps: as a baseline for naming. Neighbouring points are not
     independent; eight count as one."""
     count = points.counts.sum() / 8.0
-    best, kept = math.inf, ()
-    for terms in ((), ("backlash",), ("coulomb_friction",), ("coulomb_friction", "per_load"),
-                  ("backlash", "coulomb_friction"), TERMS):  # fmt: skip
+    best = math.inf
+    kept: tuple[str, ...] = ()
+    for terms in SETS:
         left = fit(points, terms)[1]
         worth = count * math.log(max(left, 1e-9) ** 2) + (len(terms) + (len(terms) > 0)) * math.log(count)
         if worth < best:

@@ -73,16 +73,17 @@ def main() -> int:
     wanted = [case for case in sets.cases(seed, plan)
               if case.part in parts and options.only in f"{case.group}/{case.kind}"]  # fmt: skip
     seal = sets.make(wanted, root)
-    results = root / f"results-{diagnoser.version()}"
+    results = root / f"results-{diagnoser.version()}-{sets.sources_hash()[:6]}"
     begun = time.monotonic()
     names = [case.name for case in wanted]
     in_turn("diagnosing", job, [(str(root), str(results), name) for name in names], options.processes)
     words = judged(root, results, names)
     beside: list[Word] = []
     if not options.no_baselines:
-        jobs = [(str(root), str(root / f"baselines-{baselines_here.version()}"), name) for name in names]
+        rival = root / f"baselines-{baselines_here.version()}-{sets.sources_hash()[:6]}"
+        jobs = [(str(root), str(rival), name) for name in names]
         in_turn("baselines", baselines_here.job, jobs, options.processes)
-        beside = judged(root, root / f"baselines-{baselines_here.version()}", names)
+        beside = judged(root, rival, names)
     public, where = {}, measured.folder()
     if "measured" in parts and where is None:
         print("no measured sets: BRACE_REAL_DATA does not name a folder", file=sys.stderr)

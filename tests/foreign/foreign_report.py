@@ -82,6 +82,7 @@ def besides(words: Sequence[Word]) -> list[tuple[str, Share]]:
     outside = [w for w in words if w.misnamed is not None]
     wrong = [c for w in words if w.truth["part"] == "joint" for c in w.claims if c.confidence >= SURE]
     other = [c for w in words if w.truth["part"] == "loading" for c in w.claims if c.confidence >= SURE]
+    sizes = [s for w in words for s in w.sizes]
     asked = [h for w in words if w.truth.get("left_out") for h in w.covered.values()]
     return [
         ("joint tests: named with 0.9 or more and right", Share(sum(c.in_class for c in wrong), len(wrong))),
@@ -92,6 +93,7 @@ def besides(words: Sequence[Word]) -> list[tuple[str, Share]]:
         ("the trouble told, beside an effect", Share(sum(bool(w.told) for w in told), len(told))),
         ("outsiders called unknown or by their name", Share(sum(bool(w.told) for w in outside), len(outside))),
         ("gear positions: parameters told with an interval", Share(sum(h is not None for h in asked), len(asked))),
+        ("joint tests: right names whose size is within a factor of two", Share(sum(0.5 <= s <= 2.0 for s in sizes), len(sizes))),
         ("records that end without a diagnosis", Share(sum(w.verdict == "nothing" for w in words), len(words))),
     ]
 

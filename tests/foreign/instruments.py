@@ -7,12 +7,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from designs import Design, Rng
 from files import Table, noisy, table_of
 from generate import Retry, make_none, make_single
 from plant import INDEX, Array
 from worlds import World, world_called
 
+Whole = npt.NDArray[np.intp]
 RUN, TH1, TH2, TIME, DX, DZ = 0, 1, 2, 3, 5, 6
 HIDDEN_S = (25.0, 60.0)  # how detectable the effect is that is hidden beside a trouble
 
@@ -32,10 +34,10 @@ class Trouble:
     about: tuple[tuple[str, float], ...] = ()
 
 
-def _runs(design: Design) -> tuple[Array, Array]:
+def _runs(design: Design) -> tuple[Whole, Whole]:
     """Each row's run, from 0; and the first row of each."""
     _, first, back = np.unique(design.rows[:, RUN], return_index=True, return_inverse=True)
-    return back.ravel(), first
+    return back.ravel().astype(np.intp), first.astype(np.intp)
 
 
 def gain_step(rng: Rng, design: Design) -> Trouble:

@@ -12,6 +12,7 @@ from actuator import Bench, Joint, Record, Test, read
 from designs import Rng
 
 WHERE = "joint.femur"
+PLACE = {"creep": "creep"}  # of what has another place in the catalogue
 ARCMIN = math.pi / 180.0 / 60.0
 
 
@@ -287,7 +288,7 @@ def damper(rng: Rng) -> Made:
                   slip_stiffness=level / (0.05 * travel))  # fmt: skip
     how = Bench(False, 0.008, 1.5e-5, 0.02 * level, 0.0)
     tests = [Test(travel * a, 0.5, 4, "sine") for a in (2.0, 4.0, 6.0)]
-    return Made("damper", read(rng, [joint] * 3, tests, how), (), outside="series_slip",
+    return Made("damper", read(rng, [joint] * 3, tests, how), (), outside="damper",
                 evidence="friction damper with free travel in series")  # fmt: skip
 
 

@@ -15,11 +15,13 @@ from typing import Any
 import diagnoser
 import five
 import numpy as np
+import numpy.typing as npt
 from actuator import Record, write
 from plant import Array
 from scipy.optimize import minimize_scalar
 from verdicts import intervals
 
+Rows = npt.NDArray[np.bool_]
 GEARS = ("cycloidal_base", "cycloidal_base_pos5", "cycloidal_base_pos6")
 OTHERS = ("cycloidal_preloaded", "cycloidal_polymer", "cycloidal_split_reassembled")
 DAMPER = "friction_damper"
@@ -41,12 +43,12 @@ def columns_of(path: Path) -> dict[str, Array]:
     return {name: table[:, i] for i, name in enumerate(names)}
 
 
-def some(columns: dict[str, Array], which: Array) -> dict[str, Array]:
+def some(columns: dict[str, Array], which: Rows) -> dict[str, Array]:
     """Some rows."""
     return {name: values[which] for name, values in columns.items()}
 
 
-def large_tests(columns: dict[str, Array]) -> Array:
+def large_tests(columns: dict[str, Array]) -> Rows:
     """Which rows are of the tests of the largest amplitude: of at least 0.8 of the largest angle's swing."""
     test = columns["test"]
     swing = {t: np.ptp(columns["angle_rad"][test == t]) for t in np.unique(test)}
@@ -90,7 +92,7 @@ def _played(points: five.Points, limb: Path, shift: float, work: Path) -> Array:
     return np.asarray(columns["torque_n_mm"], dtype=float).reshape(points.angle.shape)
 
 
-def leave_out(name: str, columns: dict[str, Array], left: Array, side: str, work: Path) -> LeftOut:
+def leave_out(name: str, columns: dict[str, Array], left: Rows, side: str, work: Path) -> LeftOut:
     """Both models learn from the rest; their zeros of angle (and the tool's of torque) are the rest's, too."""
     rest, unseen = some(columns, ~left), some(columns, left)
     record = Record(dict(rest))

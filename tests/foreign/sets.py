@@ -14,9 +14,10 @@ import instruments
 import joints
 import numpy as np
 from actuator import write
-from diagnoser import PROJECT
+from diagnoser import PROJECT as PROJECT
 from files import limb_text, meta_text, write_dataset
-from generate import SEAL, listing, seal_of
+from generate import SEAL, listing
+from generate import seal_of as seal_of
 
 HERE = Path(__file__).resolve().parent
 DEVELOPMENT_SEED, TEST_SEED, SUBSET_SEED = 260_017, 862_411, 470_021
@@ -85,7 +86,7 @@ class Case:
         angle = made.record.columns["angle_rad"]
         test = made.record.columns["test"]
         swing = max(float(np.ptp(angle[test == t])) for t in np.unique(test))
-        return {"part": self.part, "effects": [{"name": n, "where": joints.WHERE} for n in made.effects], "cls": [],
+        return {"part": self.part, "effects": [{"name": n, "where": joints.PLACE.get(n, joints.WHERE)} for n in made.effects], "cls": [],
                 "outside": made.outside, "trouble": made.trouble, "evidence": made.evidence, "size": made.size,
                 "left_out": made.left_out, "swing_rad": swing, "about": made.about}  # fmt: skip
 

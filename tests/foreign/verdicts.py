@@ -37,6 +37,7 @@ class Word:
     found: bool | None = None  # every hidden effect was named
     misnamed: bool | None = None  # an outsider, confidently
     impossible: list[str] = field(default_factory=list)  # sizes that the record itself excludes
+    sizes: list[float] = field(default_factory=list)  # of names that are right: value / truth
     covered: dict[str, bool | None] = field(default_factory=dict)  # of the gear position left out; None: no interval
     note: str = ""
 
@@ -47,9 +48,8 @@ class Word:
 
     def wrong(self, from_confidence: float) -> list[str]:
         """Wrong names said with so much, and sizes that cannot be."""
-        return [f"{c.label} {c.confidence:.2f}" for c in self.claims if c.confidence >= from_confidence and not c.in_class] + (
-            self.impossible
-        )
+        wrong = [c for c in self.claims if c.confidence >= from_confidence and not c.in_class]
+        return [f"{c.label} {c.confidence:.2f}" for c in wrong] + self.impossible
 
 
 def _may(truth: dict[str, Any]) -> list[May]:
@@ -89,9 +89,9 @@ def judge(truth: dict[str, Any], found: dict[str, Any], run: dict[str, Any]) -> 
     refused = not found and "refused" in run
     verdict = "data_fault" if refused else str(found.get("verdict", "nothing"))
     word = Word(truth, verdict, note=str(run.get("crashed", run.get("refused", ""))))
-    real, may = {label(e) for e in truth["effects"]} , _may(truth)
+    real, may = {label(e) for e in truth["effects"]}, _may(truth)
     kin = real | set(truth["cls"])  # cls: labels that leave the same trace in this design
-    accepted = {name for one in may for name in one.names}
+    accepted = {name for one in may for name in (*one.names, *one.also)}
     classes = [set(members) for members in found.get("indistinguishable", [])]
     nothing_can_be = truth["trouble"] == "other_units"
     for effect in found.get("effects", []):
@@ -102,6 +102,10 @@ def judge(truth: dict[str, Any], found: dict[str, Any], run: dict[str, Any]) -> 
         listed = {part for member in group for part in re.split(r"\s*\+\s*", member)}
         near = bool(listed & real) or said in kin or any(_bare(one) in accepted for one in listed)
         word.claims.append(Claim(said, float(effect["confidence"]), right, (right or near) and not nothing_can_be))
+        if said in real and not nothing_can_be:
+            parameters = effect.get("parameters") or {}
+            word.sizes += [float(parameters[key]["value"]) / true for key, true in truth.get("size", {}).items()
+                           if key in parameters and true]  # fmt: skip
         gap = (effect.get("parameters") or {}).get(f"{effect['where']}.gap_rad")
         if truth["part"] == "joint" and gap and float(gap["value"]) > truth["swing_rad"] and not nothing_can_be:
             word.impossible.append(f"gap {gap['value']:.3g} of a swing of {truth['swing_rad']:.3g} rad")

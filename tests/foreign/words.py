@@ -16,6 +16,7 @@ class May:
     finding: str
     silence: bool
     reason: str
+    also: tuple[str, ...] = ()  # names that are right, but do not tell it
 
 
 TROUBLES: dict[str, May] = {
@@ -56,7 +57,11 @@ OUTSIDERS: dict[str, May] = {
     "end_stop": May(("end_stop",), ("unknown",), r"stop|one.sided|side", False, "a shape"),
     "softening": May(("joint_softening",), ("unknown",), r"soft", False,
                      "no spring of the catalogue becomes softer; negative hardening is refused by limb.toml"),
-    "series_slip": May(("series_slip",), ("unknown",), r"slip", False, "free slip in series, by the contracts' name"),
+    "series_slip": May(("series_slip",), ("unknown",), r"slip", False, "free slip in series, by the contracts' name",
+                       also=("coulomb_friction",)),
+    "damper": May(("series_slip", "backlash"), ("unknown",), r"slip|free travel", False,
+                  "the free travel is what its makers call backlash, and the friction behind it is dry friction; there is "
+                  "no spring that could harden", also=("coulomb_friction",)),
     "viscosity": May(("viscosity", "viscous_friction"), ("unknown",), r"visc|speed", True,
                      "a shape; the spring is the believed one, so that naming nothing is right"),
 }  # fmt: skip
