@@ -53,6 +53,8 @@ class Test:
     """Some cycles of one amplitude: of torque [N mm] where the drive follows torque, else of angle [rad]. `hold_s`: the
     drive stands so long at each reversal; `middle` is where it goes up and down about."""
 
+    __test__ = False  # no test of pytest's
+
     amplitude: float
     rate_hz: float
     cycles: int = 2

@@ -93,9 +93,23 @@ def fit(points: Points, terms: tuple[str, ...] = TERMS) -> tuple[Array, float]:
     return best
 
 
-def rms(numbers: Array, points: Points) -> float:
-    """What is left of points where the drive follows."""
-    return float(np.sqrt(np.mean((predicted(numbers, points) - points.torque)[points.counts] ** 2)))
+def aligned_rms(numbers: Array, points: Points) -> float:
+    """What is left of other points where the drive follows, with the zeros of angle and torque and the sliding distance
+    fitted to them."""
+    reach, full = 0.5 * float(np.ptp(points.angle)), float(np.max(np.abs(points.torque)))
+    middle = 0.5 * float(points.angle.max() + points.angle.min())
+
+    def off(x: Array) -> Array:
+        moved = np.array([*numbers[:4], x[0] * reach, middle + x[1] * reach])
+        return np.asarray((predicted(moved, points) + x[2] * full - points.torque)[points.counts] / full)
+
+    best = math.inf
+    for zero in ((numbers[5] - middle) / reach, -0.2, 0.0, 0.2):
+        start = np.array([numbers[4] / reach, zero, 0.0])
+        low, high = np.array([1e-3, -1.0, -1.0]), np.array([1.0, 1.0, 1.0])
+        found = least_squares(off, np.clip(start, low, high), bounds=(low, high), max_nfev=60)
+        best = min(best, full * math.sqrt(float(np.mean(found.fun**2))))
+    return best
 
 
 def named(points: Points) -> list[str]:

@@ -21,6 +21,7 @@ import baselines_here  # noqa: E402
 import diagnoser  # noqa: E402
 import foreign_report  # noqa: E402
 import measured  # noqa: E402
+import plans  # noqa: E402
 import sets  # noqa: E402
 from run import in_turn, read  # noqa: E402
 from verdicts import Word, judge  # noqa: E402
@@ -62,12 +63,12 @@ def main() -> int:
     except Exception as error:
         print(f"blind: the tool cannot run: {error}; try: ./dev setup", file=sys.stderr)
         return 4
-    seed = options.seed or (sets.DEVELOPMENT_SEED if options.development else sets.TEST_SEED)
-    test = seed == sets.TEST_SEED
-    plan = sets.TEST if test else sets.DEVELOPMENT
+    seed = options.seed or (plans.DEVELOPMENT_SEED if options.development else plans.TEST_SEED)
+    test = seed == plans.TEST_SEED
+    plan = plans.TEST if test else plans.DEVELOPMENT
     if test:
         print("the test set: its figures are for reporting, not for tuning", file=sys.stderr)
-    label = "test" if test else "dev" if seed == sets.DEVELOPMENT_SEED else "seed"
+    label = "test" if test else "dev" if seed == plans.DEVELOPMENT_SEED else "seed"
     parts = options.parts.split(",")
     root = sets.BUILD / f"{label}-{seed}"
     wanted = [case for case in sets.cases(seed, plan)

@@ -18,7 +18,6 @@ import numpy as np
 import numpy.typing as npt
 from actuator import Record, write
 from plant import Array
-from scipy.optimize import minimize_scalar
 from verdicts import intervals
 
 Rows = npt.NDArray[np.bool_]
@@ -48,12 +47,17 @@ def some(columns: dict[str, Array], which: Rows) -> dict[str, Array]:
     return {name: values[which] for name, values in columns.items()}
 
 
-def large_tests(columns: dict[str, Array]) -> Rows:
-    """Which rows are of the tests of the largest amplitude: of at least 0.8 of the largest angle's swing."""
+def amplitudes(columns: dict[str, Array]) -> list[Rows]:
+    """The rows of each amplitude: tests whose angle swings by the same, within a fifth."""
     test = columns["test"]
-    swing = {t: np.ptp(columns["angle_rad"][test == t]) for t in np.unique(test)}
-    most = max(swing.values())
-    return np.isin(test, [t for t, s in swing.items() if s > 0.8 * most])
+    swing = {t: float(np.ptp(columns["angle_rad"][test == t])) for t in np.unique(test)}
+    groups: list[list[float]] = []
+    for t in sorted(swing, key=lambda t: swing[t]):
+        if groups and swing[t] < 1.2 * swing[groups[-1][0]]:
+            groups[-1].append(t)
+        else:
+            groups.append([t])
+    return [np.isin(test, group) for group in groups]
 
 
 @dataclass
@@ -61,66 +65,49 @@ class LeftOut:
     """rms on the amplitude that was left out [N mm]: of the tool's model, of the five-parameter fit."""
 
     name: str
-    side: str
-    tool: float
+    swing_rad: float  # of the amplitude left out
+    tool: float | None  # None: its model cannot be played
     five: float
     deviation: float  # of the torque there
 
     @property
-    def ratio(self) -> float:
+    def ratio(self) -> float | None:
         """At most 1.05 is wanted."""
-        return self.tool / self.five
+        return None if self.tool is None else self.tool / self.five
 
 
-def _averaged(points: five.Points, shift: float, out: Path) -> Path:
-    """Points as a record for `brace predict`, the angle counted from a zero."""
-    record = Record()
-    for i, test in enumerate(points.tests):
-        angle = points.angle[i] - shift
-        record.add(t_s=np.arange(len(angle)) * 0.1 + 1e3 * i, angle_rad=angle, torque_n_mm=points.torque[i],
-                   test=np.full(len(angle), float(test)))  # fmt: skip
-    write(out, "averaged", record)
-    return out
-
-
-def _played(points: five.Points, limb: Path, shift: float, work: Path) -> Array:
+def _predicted(part: dict[str, Array], limb: Path, work: Path) -> Array:
+    """`brace predict` of some rows, averaged as the points are. Nothing where it refuses."""
     from brace.dataset import load_dataset
+    from brace.errors import BraceError
     from brace.model import load_limb
     from brace.predict import predict
 
-    columns = predict(load_dataset(_averaged(points, shift, work)), load_limb(limb)).columns
-    return np.asarray(columns["torque_n_mm"], dtype=float).reshape(points.angle.shape)
+    write(work, "left out", Record(dict(part)))
+    try:
+        torque = predict(load_dataset(work), load_limb(limb)).columns["torque_n_mm"]
+    except BraceError:
+        return np.empty(0)
+    own = {"angle_rad": part["angle_rad"], "torque_n_mm": np.asarray(torque, dtype=float), "test": part["test"]}
+    return five.points_of(own).torque
 
 
-def leave_out(name: str, columns: dict[str, Array], left: Rows, side: str, work: Path) -> LeftOut:
-    """Both models learn from the rest; their zeros of angle (and the tool's of torque) are the rest's, too."""
+def leave_out(name: str, columns: dict[str, Array], left: Rows, work: Path) -> LeftOut:
+    """Both models learn from the rest. What is a record's own, not a joint's, is fitted to the rows that judge, for both:
+    the zeros of angle and torque, and the angle over which friction turns."""
     rest, unseen = some(columns, ~left), some(columns, left)
-    record = Record(dict(rest))
-    write(work / "rest", f"{name} without its {side} amplitude", record)
+    write(work / "rest", f"{name} without one amplitude", Record(dict(rest)))
     diagnoser.diagnose(work / "rest", work / "out", report=False)
-    learnt, judged = five.points_of(rest), five.points_of(unseen)
-    numbers, _ = five.fit(learnt)
-    best = five.rms(numbers, judged)
+    judged = five.points_of(unseen)
+    numbers, _ = five.fit(five.points_of(rest))
+    best = five.aligned_rms(numbers, judged)
     limb = work / "out" / "limb.toml"
-    if not limb.exists():
-        return LeftOut(name, side, float("inf"), best, float(np.std(judged.torque)))
-
-    def off(shift: float) -> Array:
-        return _played(learnt, limb, shift, work / "played") - learnt.torque
-
-    def cost(shift: float) -> float:
-        return float(np.std(off(shift)[learnt.counts]))
-
-    reach = 0.5 * float(np.ptp(learnt.angle))
-    middle = 0.5 * float(learnt.angle.max() + learnt.angle.min())
-    shifts = middle + reach * np.linspace(-0.6, 0.6, 13)
-    start = float(shifts[int(np.argmin([cost(s) for s in shifts]))])
-    zero = float(minimize_scalar(cost, bounds=(start - 0.1 * reach, start + 0.1 * reach), method="bounded",
-                                 options={"maxiter": 14}).x)  # fmt: skip
-    torque_zero = float(np.mean(off(zero)[learnt.counts]))
-    missed = _played(judged, limb, zero, work / "played") - torque_zero - judged.torque
-    tool = float(np.sqrt(np.mean(missed[judged.counts] ** 2)))
-    return LeftOut(name, side, tool, best, float(np.std(judged.torque)))
+    tool: float | None = None
+    if limb.exists():
+        torque = _predicted(unseen, limb, work / "played")
+        if len(torque):
+            tool = float(np.sqrt(np.mean((torque - judged.torque)[judged.counts] ** 2)))
+    return LeftOut(name, float(np.ptp(unseen["angle_rad"])), tool, best, float(np.std(judged.torque)))
 
 
 def _values(found: dict[str, Any], leaf: str) -> list[float]:
@@ -200,6 +187,7 @@ def all_of(where: Path, work: Path, progress: Callable[[str], None]) -> dict[str
     kept = work / "measured.json"
     if kept.exists():
         return dict(json.loads(kept.read_text()))
+    work.mkdir(parents=True, exist_ok=True)
     found, left, swings = {}, [], {}
     for name in SETS:
         progress(name)
@@ -209,11 +197,10 @@ def all_of(where: Path, work: Path, progress: Callable[[str], None]) -> dict[str
         found[name] = read(work / name / "whole")
         columns = columns_of(where / name)
         swings[name] = float(np.ptp(columns["angle_rad"]))
-        large = large_tests(columns)
-        for side, rows in (("largest", large), ("smaller", ~large)):
-            one = leave_out(name, columns, rows, side, work / name / side)
-            left.append({"set": name, "left out": side, "tool": one.tool, "five": one.five, "ratio": one.ratio,
-                         "deviation": one.deviation})  # fmt: skip
+        for number, rows in enumerate(amplitudes(columns)):
+            one = leave_out(name, columns, rows, work / name / str(number))
+            left.append({"set": name, "left_out_mrad": 1e3 * one.swing_rad, "tool": one.tool, "five": one.five,
+                         "ratio": one.ratio, "deviation": one.deviation})  # fmt: skip
     result = {
         "left_out": left,
         "checks": _checks(found, swings) if set(SETS) <= set(found) else [],

@@ -1,9 +1,10 @@
-"""The foreign benchmark's sets: which cases, their seeds, and how they are written and sealed."""
+"""The foreign benchmark's sets: which cases, and how they are written and sealed."""
 
 from __future__ import annotations
 
 import hashlib
 import json
+import shutil
 import sys
 import time
 from dataclasses import dataclass
@@ -16,33 +17,15 @@ import numpy as np
 from actuator import write
 from diagnoser import PROJECT as PROJECT
 from files import limb_text, meta_text, write_dataset
-from generate import SEAL, listing
+from generate import PARTS, SEAL, listing
 from generate import seal_of as seal_of
+from plans import Plan
 
 HERE = Path(__file__).resolve().parent
-DEVELOPMENT_SEED, TEST_SEED, SUBSET_SEED = 260_017, 862_411, 470_021
 # Effects that are hidden beside a trouble, by their number in tests/blind/effects.py: both springs, the base, a link,
 # play twice, friction, hardening, gravity, a joint's zero.
 HIDDEN = (0, 1, 3, 5, 8, 9, 11, 13, 16, 18)
 BUILD = PROJECT / "build" / "foreign"
-
-
-@dataclass(frozen=True)
-class Plan:
-    """How many cases of each kind."""
-
-    joint: int = 0
-    evidence: int = 0
-    positions: int = 0
-    sound: int = 0
-    troubled: int = 0
-    beside: int = 0  # a trouble and an effect
-
-
-DEVELOPMENT = Plan(2, 2, 8, 5, 4, 2)
-# Of healthy records with a trouble 300 and of outsiders 150: one wrong name in a hundred can be told from five.
-TEST = Plan(25, 20, 60, 60, 30, 10)
-SUBSET = Plan(positions=1, sound=1)
 
 
 @dataclass(frozen=True)
@@ -134,21 +117,24 @@ def sources_hash() -> str:
 
 
 def make(wanted: list[Case], out: Path) -> str:
-    """Writes the cases that are not there yet and seals all; returns the seal. Cases of other sources are made anew."""
-    stamp = out / "made_by"
+    """Writes the cases that are not there yet and seals all; returns the seal. Cases of other sources are made anew, and
+    so is a set whose making was interrupted while a case was written."""
+    stamp, seal = out / "made_by", out / SEAL
     if not stamp.exists() or stamp.read_text() != sources_hash():
-        for old in sorted(out.glob("answers/*/truth.json")):
-            old.unlink()
+        for part in PARTS:
+            shutil.rmtree(out / part, ignore_errors=True)
+        seal.unlink(missing_ok=True)
         out.mkdir(parents=True, exist_ok=True)
         stamp.write_text(sources_hash())
-    begun, count = time.monotonic(), 0
-    for case in wanted:
-        if not (out / "answers" / case.name / "truth.json").exists():
-            case.write(out)
-            count += 1
-            print(f"\rmade {count} cases, {time.monotonic() - begun:.0f} s ", end="", file=sys.stderr, flush=True)
-    if count:
-        print(file=sys.stderr)
-        (out / SEAL).write_text(listing(out))
+    # truth.json is the last file of a case
+    lacking = [case for case in wanted if not (out / "answers" / case.name / "truth.json").exists()]
+    begun = time.monotonic()
+    for count, case in enumerate(lacking, start=1):
+        seal.unlink(missing_ok=True)
+        case.write(out)
+        text = f"\rmade {count}/{len(lacking)} cases, {time.monotonic() - begun:.0f} s "
+        print(text, end="" if count < len(lacking) else "\n", file=sys.stderr, flush=True)
+    if not seal.exists():
+        (out / "cases").mkdir(exist_ok=True)
+        seal.write_text(listing(out))
     return seal_of(out)
-
