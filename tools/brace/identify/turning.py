@@ -37,6 +37,7 @@ ROWS = 1000  # are enough
 MUST_BE_LIKELIER = math.log(1e4)  # nats; of ten thousand records that say nothing about it, one may not turn
 NOT_TURNED = 0.5  # of the ratio: nearer to 0 than to 1, on either side
 MUST_DIFFER = 3.0  # sigmas of the ratio that it has to lie below 1
+AT_THE_TOP = 0.98  # of the largest reading
 ENOUGH = 1e-6  # of a fit's cost: what it could still gain
 
 
@@ -50,12 +51,23 @@ def settled(dataset: Dataset, believed: LimbModel) -> Dataset:
 def _never_turned(dataset: Dataset, believed: LimbModel) -> bool:
     some = dataset.select(enough_rows(dataset, ROWS))
     some = some.select(np.all([np.isfinite(values) for values in some.columns.values()], axis=0))
+    some = some.select(~_cut_off(some.columns))
     try:
         linear, turning = (_refitted(some, believed, small=small) for small in (True, False))
     except BraceError:  # nothing to fit, or nothing that can be fitted
         return False
     likelier = 0.5 * turning.readings * (math.log(_cost(turning)) - math.log(_cost(linear)))
     return likelier > MUST_BE_LIKELIER and _shows_no_curve(some, turning.model)
+
+
+def _cut_off(columns: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Rows that a saturated sensor may have cut off, which bends readings more than turning does: those at the largest
+    reading, where several displacements share it."""
+    size = np.max(np.abs(np.stack([columns[name] for name in FORCES])), axis=0)
+    top = size >= AT_THE_TOP * size.max()
+    places = np.column_stack([columns[name][top] for name in ("config", "dx_mm", "dz_mm")])
+    side = np.unique(np.column_stack([places[:, :1], np.abs(places[:, 1:])]), axis=0)
+    return np.asarray(top & (len(side) > 1))
 
 
 def _refitted(dataset: Dataset, believed: LimbModel, *, small: bool) -> Fit:

@@ -56,7 +56,7 @@ def cost_of(space: Space, x: np.ndarray, residual: np.ndarray) -> float:
 
 def residuals(record: Record, space: Space, points: np.ndarray) -> np.ndarray:
     """points x readings; models that cannot be played are far off."""
-    found = record.residuals(space.models(points))
+    found = space.residuals(record, points)
     return found if np.isfinite(found).all() else np.nan_to_num(found, nan=BIG, posinf=BIG, neginf=-BIG)
 
 

@@ -7,7 +7,7 @@ so that the limb is judged by what the trouble leaves of the record."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from brace.dataset.check_runs import run_starts
 from brace.diagnose.diagnosis import Interval
 from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.evidence import evidence, freedoms, score
-from brace.diagnose.loading.fit import Fit
+from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading.intervals import Z_90
 from brace.diagnose.loading.noise import FORCES
 from brace.diagnose.loading.record import Record
@@ -26,6 +26,7 @@ from brace.effects.rivals import INSTRUMENT_TROUBLES, RIVAL_BY_NAME, RivalCause
 from brace.native.plant_batch import number_index
 
 MUST_LEAD = 4.6  # nats: 100 to 1 against the best of the catalogue, as every name must be ahead of nothing missing
+REFITTED = 4  # kinds of trouble beside sets of effects, the most likely ones
 MAY_BE = -3.0  # nats: 1 to 20, from which a trouble is a rival of what was named
 FLAT = 1e3  # whitened: a size of which nothing is known before
 POSE_SIGMAS_RAD = (7e-4, 1.5e-3, 3e-3, 6e-3)  # what a drive repeats its posture by
@@ -39,7 +40,7 @@ AXES = ("x", "z")
 @dataclass(frozen=True)
 class Trouble:
     """`columns` are channels x rows x sizes, in the channels' units, wide enough to take the trouble out of a record;
-    `lead` over the best of the catalogue in nats, beside the effects of `rest`; `value` is the first size, `sigma` its
+    `lead` over the best of the catalogue in nats, beside `rest`, whose fit has the trouble taken out; `value` is the first size, `sigma` its
     own; `shown` the sentence for people."""
 
     name: str
@@ -95,47 +96,71 @@ def likeliest(record: Record, sets: Sequence[LabelSet]) -> Trouble | None:
         return None
     against = score(best.best.fit, base, record.readings, record.noise_freedom) - float(np.log(best.posterior))
     rests = [frozenset[str](), *(best.labels - {label} for label in sorted(best.labels)), best.labels]
-    found = [(*what, known[rest]) for rest in dict.fromkeys(rests) if rest in known
-             for what in _weighed(record, known[rest].best.fit, base)]  # fmt: skip
-    if not found:
-        return None
-    value, kind, columns, spread, beside = max(found, key=lambda one: one[0])
-    if value - against < MAY_BE:
-        return None
-    return _told(record, beside, kind, columns, spread, value - against)
+    options = [option for rest in dict.fromkeys(rests) if rest in known for option in _options(record, known[rest])]
+    first: dict[tuple[str, frozenset[str]], _Option] = {}
+    for option in sorted(options, key=lambda one: -one.score(record, base, one.cost)):
+        first.setdefault((option.kind, option.rest.labels), option)
+    troubles = [_fitted(record, base, option, against) for option in list(first.values())[:REFITTED]]
+    likely = max(troubles, key=lambda one: one.lead, default=None)
+    return likely if likely is not None and likely.lead > MAY_BE and likely.name not in OF_POSTURES else None
 
 
-def _weighed(record: Record, fitted: Fit, base: Fit) -> Iterator[tuple[float, _Kind, np.ndarray, float]]:
-    """(log evidence, kind, columns, spread) of every way of every kind beside a fit."""
+@dataclass(frozen=True)
+class _Option:
+    """One way of one kind of trouble beside the effects of `rest`. `spread`: one sigma of each size, 0 where nothing is
+    known of it; `cost` by the slopes of the fit of `rest`; `price` in nats, for the sizes' spread and for the choice."""
+
+    kind: str
+    columns: np.ndarray
+    spread: float
+    rest: LabelSet
+    cost: float
+    price: float
+    sigma: float
+
+    def score(self, record: Record, base: Fit, cost: float) -> float:
+        """Log evidence over nothing missing, with this cost."""
+        fitted = self.rest.best.fit
+        own = freedoms(fitted) + (0 if self.spread else self.columns.shape[2])
+        effects = len(fitted.space.variants) + 1
+        return evidence(cost, base.cost, own, effects, record.readings, record.noise_freedom) - self.price
+
+
+def _options(record: Record, rest: LabelSet) -> Iterator[_Option]:
+    """Every way of every kind beside a set of effects."""
+    fitted = rest.best.fit
     remover = Remover(fitted)
     left = remover.augmented(fitted.residual[None])[0]
-    own, effects = freedoms(fitted), len(fitted.space.variants) + 1
-    count, freedom = record.readings, record.noise_freedom
     for kind in _kinds(record, fitted, left[: fitted.residual.size]):
         share = float(np.log(len(kind.ways) * max(1, len(kind.spread))))
         for columns in kind.ways:
             bare = remover.columns(_whitened(record, columns))
-            power = bare.T @ bare
-            along = bare.T @ left
+            power, along = bare.T @ bare, bare.T @ left
             if not np.all(np.diag(power) > 1e-6):
                 continue
-            if not kind.spread:
-                gain = float(along @ np.linalg.lstsq(power, along, rcond=None)[0])
-                sizes = own + columns.shape[2]
-                penalty = share + (_choices(columns, count) if kind.name == OUTLIERS else 0.0)
-                yield evidence(fitted.cost - gain, base.cost, sizes, effects, count, freedom) - penalty, kind, columns, 0.0
-                continue
-            for spread in kind.spread:
-                inner = power + np.eye(len(along)) / spread**2
-                gain = float(along @ np.linalg.solve(inner, along))
-                price = 0.5 * float(np.linalg.slogdet(np.eye(len(along)) + spread**2 * power)[1])
-                plain = evidence(fitted.cost - gain, base.cost, own, effects, count, freedom)
-                yield plain - price - share, kind, columns, spread
+            for spread in kind.spread or (0.0,):
+                inner = power + (np.eye(along.size) / spread**2 if spread else 0.0)
+                inverse = np.linalg.pinv(inner, hermitian=True)
+                price = share
+                if spread:
+                    price += 0.5 * float(np.linalg.slogdet(np.eye(along.size) + spread**2 * power)[1])
+                elif kind.name == OUTLIERS:  # which readings
+                    price += float(along.size * np.log(max(record.readings, 2)))
+                sigma = float(np.sqrt(max(inverse[0, 0], 0.0)))
+                yield _Option(kind.name, columns, spread, rest, fitted.cost - float(along @ inverse @ along), price, sigma)
 
 
-def _choices(columns: np.ndarray, readings: int) -> float:
-    """Nats that it costs to say which readings slipped."""
-    return float(columns.shape[2] * np.log(max(readings, 2)))
+def _fitted(record: Record, base: Fit, option: _Option, against: float) -> Trouble:
+    """The trouble with the limb fitted anew beside it, which may gain more than the slopes of the old fit tell."""
+    rest = option.rest.best.fit
+    wide = option.columns * (option.spread or _flat(record, option.columns))
+    fitted = fit(record.beside(wide), rest.space, rest.x)
+    lead = option.score(record, base, min(fitted.cost, option.cost)) - against
+    whitened = _whitened(record, option.columns)
+    inner = whitened.T @ whitened + (np.eye(whitened.shape[1]) / option.spread**2 if option.spread else 0.0)
+    left = record.residuals(fitted.space.models(fitted.x[None]))[0]
+    sizes = np.linalg.pinv(inner, hermitian=True) @ (whitened.T @ left)
+    return _told(record, option, fitted, wide, sizes, lead)
 
 
 def _whitened(record: Record, columns: np.ndarray) -> np.ndarray:
@@ -143,6 +168,9 @@ def _whitened(record: Record, columns: np.ndarray) -> np.ndarray:
 
 
 LAG, GAIN_STEP, ZERO_STEP, ZEROS, POSE, OUTLIERS = (cause.name for cause in INSTRUMENT_TROUBLES)
+# What follows the posture may be of the limb or of an encoder. It is no trouble of the instruments here, and stands only
+# against those that would otherwise make up for it.
+OF_POSTURES = ("zero_per_posture", "pose_error_per_posture")
 
 
 def _kinds(record: Record, fitted: Fit, left: np.ndarray) -> Iterator[_Kind]:
@@ -164,9 +192,13 @@ def _kinds(record: Record, fitted: Fit, left: np.ndarray) -> Iterator[_Kind]:
             if runs.shape[2] > 2:
                 both = np.concatenate([runs * _X[:, :, None], runs * _Z[:, :, None]], axis=2)
                 yield _Kind(ZEROS, [_of_forces(record, both)], ZERO_SIGMAS_N)
+                yield _Kind(OF_POSTURES[0], [_of_forces(record, _by_posture(record, both, starts))], ZERO_SIGMAS_N)
     if starts.size > 3:
-        turned = [_turned(record, fitted, joint) for joint in ("femur", "tibia")]
-        yield _Kind(POSE, [np.concatenate([_by_run(record, one, starts) for one in turned], axis=2)], POSE_SIGMAS_RAD)
+        turned = np.concatenate(
+            [_by_run(record, _turned(record, fitted, joint), starts) for joint in ("femur", "tibia")], axis=2
+        )
+        yield _Kind(POSE, [turned], POSE_SIGMAS_RAD)
+        yield _Kind(OF_POSTURES[1], [_by_posture(record, turned, starts)], POSE_SIGMAS_RAD)
     far = np.flatnonzero(left**2 > LEAST_OUT)
     if 0 < far.size <= max(1.0, MOST_OUT * record.readings):
         columns = np.zeros((record.measured.size, far.size))
@@ -206,6 +238,17 @@ def _by_run(record: Record, values: np.ndarray, starts: np.ndarray) -> np.ndarra
     return out
 
 
+def _by_posture(record: Record, by_run: np.ndarray, starts: np.ndarray) -> np.ndarray:
+    """Columns of runs, one after the other for each of two sizes, summed over the runs of each configuration."""
+    of_run = record.dataset["config"][starts[:-1]]
+    runs = of_run.size
+    summed = [
+        by_run[:, :, [size * runs + run for run in np.flatnonzero(of_run == config)]].sum(axis=2)
+        for size in range(by_run.shape[2] // runs) for config in np.unique(of_run)
+    ]  # fmt: skip
+    return np.stack(summed, axis=2)
+
+
 def _turned(record: Record, fitted: Fit, joint: str) -> np.ndarray:
     """By how much the readings change with the posture of a joint, channels x rows, by rad."""
     place = number_index()[f"joint.{joint}.zero_offset_rad"]
@@ -215,26 +258,18 @@ def _turned(record: Record, fitted: Fit, joint: str) -> np.ndarray:
     return np.asarray((played[1] - played[0]) / POSE_STEP_RAD)
 
 
-def _told(record: Record, rest: LabelSet, kind: _Kind, columns: np.ndarray, spread: float, lead: float) -> Trouble:
-    """The trouble with its size and its sentence."""
-    remover = Remover(rest.best.fit)
-    left = remover.augmented(rest.best.fit.residual[None])[0]
-    bare = remover.columns(_whitened(record, columns))
-    power = bare.T @ bare + (np.eye(columns.shape[2]) / spread**2 if spread else 0.0)
-    inverse = np.linalg.pinv(power, hermitian=True)
-    sizes = inverse @ (bare.T @ left)
-    sigma = float(np.sqrt(max(inverse[0, 0], 0.0)))
-    touched = np.flatnonzero(np.any(columns[: len(FORCES)] != 0.0, axis=(0, 2)))
+def _told(
+    record: Record, option: _Option, fitted: Fit, wide: np.ndarray, sizes: np.ndarray, lead: float
+) -> Trouble:
+    """The trouble in words."""
+    columns = option.columns
+    touched = np.flatnonzero(np.any(columns != 0.0, axis=(0, 2)))
     first = int(touched[0]) if touched.size else 0
     where = [name for place, name in enumerate(record.channels) if np.any(columns[place] != 0.0)]
-    row: int | None = None
-    if kind.name in (GAIN_STEP, ZERO_STEP):
-        row = first + 1
-    elif kind.name == OUTLIERS:
-        row = int(np.flatnonzero(np.any(columns != 0.0, axis=(0, 2)))[0]) + 1
-    wide = columns * (spread or _flat(record, columns))
-    shown = _shown(record, kind.name, where, first, sizes, sigma, columns)
-    return Trouble(kind.name, ", ".join(where), row, wide, rest, lead, float(sizes[0]), sigma, shown)
+    row = first + 1 if option.kind in (GAIN_STEP, ZERO_STEP, OUTLIERS) else None
+    shown = _shown(record, option.kind, where, first, sizes, option.sigma, columns)
+    rest = replace(option.rest, best=replace(option.rest.best, fit=fitted))
+    return Trouble(option.kind, ", ".join(where), row, wide, rest, lead, float(sizes[0]), option.sigma, shown)
 
 
 def _flat(record: Record, columns: np.ndarray) -> np.ndarray:

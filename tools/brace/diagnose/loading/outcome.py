@@ -49,6 +49,8 @@ MOST_CANDIDATES = 20
 FAR_OUT = 3.0  # sigmas of the calibration from which a refitted number is a finding
 STAYS_AHEAD = 0.5
 TOLD_APART = 0.95  # power from which a look-alike is no member of the class
+SURE, LIKELIER_THAN_NOT = 0.8, 0.5  # confidences from which a name is told without a word before it, with "probably"
+MOST_LIKELY = 0.9  # share of the members' probability from which the first is said to be it
 LOST_NATS = -2.0  # of the held-out configurations: more than refitting alone makes
 
 
@@ -279,11 +281,18 @@ def _contested(resolved: Resolved, contested: Contest, effects: Sequence[NamedEf
     """Both are named, with why the record does not tell them apart, what would, and what limb.toml holds."""
     cause = contested.cause
     names = [member.label for member in contested.members]
-    either = f"{', '.join(names[:-1])} or {names[-1]}"
     sure = [effect.label for effect in effects if effect.label not in contested.disputed]
+    likely = contested.members[0].share >= MOST_LIKELY
+    either = (
+        f"most likely {names[0]}, perhaps {' or '.join(names[1:])}"
+        if likely
+        else f"{', '.join(names[:-1])} or {names[-1]}"
+    )
     lead = (
         f"Something is missing: {either}."
         if resolved.verdict == "ambiguous"
+        else f"Missing: {', '.join(sure)}, and {either}."
+        if likely
         else f"Missing: {', '.join(sure)}, and one of {either}."
     )
     taken = resolved.taken
@@ -295,7 +304,8 @@ def _contested(resolved: Resolved, contested: Contest, effects: Sequence[NamedEf
         else f"They give different K, so the model was left as it was given; --take '{names[0]}' exports the first."
     )
     return (
-        f"{lead} This record cannot tell them apart, because {cause.same_because}. To tell, {cause.would_tell}. "
+        f"{lead} This record {'hardly tells' if likely else 'cannot tell'} them apart, because {cause.same_because}. "
+        f"To tell, {cause.would_tell}. "
         f"{exported}"
     )
 
@@ -343,9 +353,22 @@ def _sentence(
         )
         either = f"{', '.join(names[:-1])} and {names[-1]}"
         return f"Something is missing that this record cannot tell between {either}; {held}"
-    names = [f"{effect.name.replace('_', ' ')} at {effect.where}" for effect in effects]
+    names = [f"{_surely(effect)}{effect.name.replace('_', ' ')} at {effect.where}" for effect in effects]
     closes = "they close" if len(names) > 1 else "it closes"
+    if max(effect.confidence for effect in effects) < LIKELIER_THAN_NOT:
+        return (
+            f"The nearest in the catalogue is {' and '.join(effect.label for effect in effects)}, but a cause outside it "
+            f"explains the record better: it looks as if {final.decision.outside.words}. The model has the nearest added; "
+            "do not rely on it before another record says so."
+        )
     return f"Missing: {' and '.join(names)}. Added to the model, {closes} the gap."
+
+
+def _surely(effect: NamedEffect) -> str:
+    """Nothing before a name that is sure, else how sure it is."""
+    if effect.confidence >= SURE:
+        return ""
+    return "probably " if effect.confidence >= LIKELIER_THAN_NOT else "perhaps "
 
 
 def _more_of_the_same(final: Pass) -> NextExperiment | None:

@@ -102,6 +102,13 @@ class Record:
         player = player_of(dataset, self.channels, zeroed=dataset.meta.zeroed_per_run)
         return replace(self, dataset=dataset, player=player)
 
+    def moved_by(self, x_mm: float, z_mm: float) -> Record:
+        """The same readings at displacements that are all larger by so much."""
+        columns = dict(self.dataset.columns)
+        columns |= {"dx_mm": columns["dx_mm"] + x_mm, "dz_mm": columns["dz_mm"] + z_mm}
+        dataset = replace(self.dataset, columns=columns)
+        return replace(self, dataset=dataset, player=player_of(dataset, self.channels, zeroed=dataset.meta.zeroed_per_run))
+
     def select(self, keep: np.ndarray) -> Record:
         """The rows where `keep` is true, with the same noise."""
         part = self.dataset.select(keep)

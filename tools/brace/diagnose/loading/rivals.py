@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -51,6 +52,23 @@ class RivalSpace(Space):
         models = self.limbs(points)
         self.turn(models, points[:, self.places.size :])
         return models
+
+    def sinks_less_than_a_base(self, record: Record) -> bool:
+        """Whether the record tells a rig from a base by the limb's weight."""
+        heavy = bool(np.any(self.numbers[_weights()])) or any(key.startswith("gravity.") for key in self.keys)
+        counts = not (record.dataset.small_displacements or record.dataset.meta.held_at_rest)
+        return self.turn is _rig_yields and heavy and counts
+
+    def residuals(self, record: Record, points: np.ndarray) -> np.ndarray:
+        """A base that yields gives way under the limb's weight as well, a rig that yields does not: what the weight does
+        to the base is added to the displacements."""
+        if not self.sinks_less_than_a_base(record):
+            return super().residuals(record, points)
+        found = np.empty((len(points), record.measured.size))
+        for place, (model, limb) in enumerate(zip(self.models(points), self.limbs(points))):
+            sunk = (model[_base()] - limb[_base()]) * _down_n(limb)
+            found[place] = record.moved_by(*sunk).residuals(model[None])[0]
+        return found
 
 
 @dataclass(frozen=True)
@@ -119,13 +137,12 @@ def _against(final: Pass, cause: RivalCause) -> Contest | None:
 
 
 def _by_instruments(final: Pass, trouble: Trouble) -> Contest | None:
-    """What a trouble of the instruments leaves uncertain; the limb is fitted to the record without the trouble."""
+    """What a trouble of the instruments leaves uncertain."""
     chosen = final.decision.chosen
     disputed = chosen.labels - trouble.rest.labels
     if not disputed:
         return None
-    rest = trouble.rest.best.fit
-    fitted = fit(final.record.beside(trouble.columns), rest.space, rest.x)
+    fitted = trouble.rest.best.fit
     member = Member((trouble.cause.label,), 0.0, fitted, fitted.model, trouble.cause, trouble)
     return _contest(final, trouble.cause, disputed, float(np.exp(min(trouble.lead, 700.0))), member)
 
@@ -139,7 +156,9 @@ def _contest(
     top = max(weight for weight, _ in weights.values())
     if rival < WORTH_SAYING * top:
         return None
-    if cause.twin in weights:
+    space = member.fit.space
+    told_apart = isinstance(space, RivalSpace) and space.sinks_less_than_a_base(final.record)
+    if cause.twin in weights and not told_apart:
         weight, twin_fit = weights[cause.twin]
         weights[cause.twin] = (max(weight, rival), twin_fit)
     top = max(top, rival)
@@ -249,6 +268,22 @@ def _start(cause: RivalCause, way: Sequence[Size], chosen: Fit) -> list[float]:
     if cause.name == "knee_offset":
         return [float(model[index["geometry.femur_mm"]] * np.tan(model[index["joint.femur.zero_offset_rad"]]))]
     return [float(model[index["geometry.tibia_mm"]] * np.tan(model[index["link.tibia.tilt_rad"]]))]
+
+
+@cache
+def _weights() -> list[int]:
+    return [number_index()[f"gravity.{part}_n"] for part in ("femur", "tibia", "knee")]
+
+
+@cache
+def _base() -> list[int]:
+    return [number_index()[f"base.{axis}_mm_per_n"] for axis in "xz"]
+
+
+def _down_n(limb: np.ndarray) -> np.ndarray:
+    """The limb's weight as a force along x and z."""
+    down_rad = float(limb[number_index()["gravity.direction_rad"]])
+    return float(limb[_weights()].sum()) * np.array([np.cos(down_rad), np.sin(down_rad)])
 
 
 def _rig_yields(models: np.ndarray, sizes: np.ndarray) -> None:

@@ -87,7 +87,7 @@ def _without_troubles(found: Pass, variants: Sequence[Variant], advance: Advance
     cleaner = found
     for _ in range(MOST_TROUBLES):
         trouble = likeliest(cleaner.record, cleaner.sets)
-        if trouble is None or not trouble.far_ahead:
+        if trouble is None or not trouble.far_ahead or trouble.lead < cleaner.decision.outside.lead:
             cleaner = replace(cleaner, rival=trouble)
             break
         record = cleaner.record.beside(trouble.columns)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,6 +13,9 @@ from brace.effects import Variant
 from brace.identify.parameters import PRIOR_KEYS, prior_parameter, tibia_beam
 from brace.model import LimbModel
 from brace.native.plant_batch import model_numbers, number_index
+
+if TYPE_CHECKING:
+    from brace.diagnose.loading.record import Record
 
 
 @dataclass(frozen=True)
@@ -71,6 +75,10 @@ class Space:
         models = np.tile(self.numbers, (len(points), 1))
         models[:, self.places] = points
         return models
+
+    def residuals(self, record: Record, points: np.ndarray) -> np.ndarray:
+        """What points leave of a record, points x readings, whitened."""
+        return record.residuals(self.models(points))
 
     def pull(self, x: np.ndarray) -> np.ndarray:
         """Standardised distance from the prior's middle; 0 where there is no prior."""

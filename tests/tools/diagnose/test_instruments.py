@@ -1,0 +1,116 @@
+"""Records of a limb whose instruments are in trouble: the trouble is told with its size, and the limb is judged without
+what the trouble did. Every trouble is put into the readings here, from its own definition."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from handmade import loading_record
+
+from brace.dataset import load_dataset
+from brace.diagnose.diagnosis import Diagnosis
+from brace.diagnose.options import Options
+from brace.diagnose.run import diagnose
+from brace.model import load_limb
+
+Columns = dict[str, np.ndarray]
+Spoil = Callable[[Columns], None]
+FORCES = ("fx_n", "fz_n")
+GAIN_STEP = 0.1
+
+
+def spoiled(folder: Path, limb: Path, spoil: Spoil, values: dict[str, float]) -> Diagnosis:
+    """The diagnosis of a record after `spoil` has changed its columns."""
+    record = loading_record(folder, limb, values=values)
+    with (record / "data.csv").open(newline="") as file:
+        rows = list(csv.DictReader(file))
+    names = [name for name in rows[0] if name != "axis"]
+    columns = {name: np.array([float(row[name]) for row in rows]) for name in names}
+    spoil(columns)
+    for place, row in enumerate(rows):
+        row |= {name: f"{columns[name][place]:.9g}" for name in (*FORCES, "t_s", "theta1_rad", "theta2_rad")}
+    with (record / "data.csv").open("w", newline="") as file:
+        writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+    return diagnose(load_dataset(record), load_limb(limb), Options())
+
+
+def middle_run(columns: Columns) -> np.ndarray:
+    """The rows of the later half of the runs."""
+    return np.asarray(columns["run"] > np.median(columns["run"]))
+
+
+def gain_steps(columns: Columns) -> None:
+    for name in FORCES:
+        columns[name][middle_run(columns)] *= 1.0 + GAIN_STEP
+
+
+def zero_steps(columns: Columns) -> None:
+    columns["fz_n"][middle_run(columns)] += 0.4
+
+
+def reads_late(columns: Columns) -> None:
+    """By a fiftieth of the time between two readings."""
+    late_s = 0.02 * float(np.median(np.diff(columns["t_s"])))
+    for run in np.unique(columns["run"]):
+        rows = columns["run"] == run
+        for name in FORCES:
+            t_s = columns["t_s"][rows]
+            columns[name][rows] = np.interp(t_s - late_s, t_s, columns[name][rows])
+
+
+def slips(columns: Columns) -> None:
+    for row, size_n in ((31, 3.0), (77, -2.0), (140, 2.5)):
+        columns["fx_n"][row] += size_n
+
+
+def clock_starts_late(columns: Columns) -> None:
+    columns["t_s"] += 1e4
+
+
+@pytest.fixture(scope="module")
+def limb() -> Path:
+    return Path(__file__).resolve().parents[3] / "tools" / "brace" / "data" / "paper-limb.toml"
+
+
+@pytest.mark.parametrize(
+    ("spoil", "words"),
+    [(gain_steps, "the sensor reads +"), (zero_steps, "the sensor's zero moved by fz_n +0.4"), (slips, "single readings")],
+)
+def test_a_sound_limb_with_a_troubled_sensor(tmp_path: Path, limb: Path, spoil: Spoil, words: str) -> None:
+    found = spoiled(tmp_path / "record", limb, spoil, values={})
+    assert found.verdict == "data_fault" and found.effects == (), found.sentence
+    assert words in found.sentence and "Nothing was added" in found.sentence
+    assert any(words in fault.why for fault in found.data_faults)
+
+
+def test_the_step_of_a_gain_has_its_size_and_its_run(tmp_path: Path, limb: Path) -> None:
+    found = spoiled(tmp_path / "record", limb, gain_steps, values={})
+    (fault,) = [fault for fault in found.data_faults if "the sensor reads" in fault.why]
+    told_percent = float(fault.why.split("reads ")[1].split(" %")[0])
+    assert told_percent == pytest.approx(100.0 * GAIN_STEP, rel=0.1)
+    assert fault.row is not None and "from run " in fault.why
+
+
+def test_a_late_sensor_is_a_lag_and_no_friction(tmp_path: Path, limb: Path) -> None:
+    """Where equal steps hide the difference to a play at the contact, both are named."""
+    found = spoiled(tmp_path / "record", limb, reads_late, values={})
+    assert "lag@sensor" in [effect.label for effect in found.effects]
+    assert not [effect for effect in found.effects if effect.name != "lag" and effect.confidence >= 0.8]
+    assert found.model.number("joint.tibia.coulomb_n_mm") == 0.0
+
+
+def test_an_effect_is_named_beside_a_trouble(tmp_path: Path, limb: Path) -> None:
+    found = spoiled(tmp_path / "record", limb, slips, values={"joint.tibia.zero_offset_rad": 0.05})
+    assert [effect.label for effect in found.effects] == ["joint_zero_offset@joint.tibia"]
+    assert "instruments were in trouble" in found.sentence
+
+
+def test_the_clock_may_start_anywhere(tmp_path: Path, limb: Path) -> None:
+    found = spoiled(tmp_path / "record", limb, clock_starts_late, values={})
+    assert found.verdict == "none" and found.data_faults == ()
