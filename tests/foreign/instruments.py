@@ -57,6 +57,8 @@ def gain_step(rng: Rng, design: Design) -> Trouble:
 
 def zero_per_part(rng: Rng, design: Design) -> Trouble:
     """Two to four parts of the record, each with zeros of its own: 0.2 to 1 N."""
+    if design.zeroed:
+        raise Retry("a sensor that is zeroed before each run has no such zeros")
     run, first = _runs(design)
     parts = int(rng.integers(2, 5))
     cuts = np.sort(rng.choice(np.arange(1, len(first)), parts - 1, replace=False))
@@ -225,11 +227,11 @@ def make(rng: Rng, trouble: str, hidden: int | None) -> Loaded:
     return Loaded(design, table, case, truth)
 
 
-def _trace(world: World, case: dict[str, Any], design: Design, one: Trouble, played: Callable[[Array], Array]) -> float:
-    """How many sigmas a trouble leaves of the believed limb's record after refitting the base; of what changes only the
-    file or the noise: none."""
+def _trace(world: World, case: dict[str, Any], design: Design, one: Trouble, played: Callable[[Array], Array]) -> float | None:
+    """How many sigmas a trouble leaves of the believed limb's record after refitting the base. None where only the file or
+    the noise changes: that is not told in sigmas."""
     if one.moved is Trouble().moved and one.limb is Trouble().limb and one.readings is Trouble().readings:
-        return 0.0
+        return None
     judge = world.bench(design, case["believed"], case["trust"])
     return round(float(judge.s_of_record(judge.in_sigmas(played(case["believed"])))), 2)
 

@@ -38,8 +38,10 @@ def test_names() -> None:
     assert not word.wrong(0.9)
     assert word.told
     assert not word.claims[0].right
+    assert not word.wrongly_named
     alone = judged(truth(part="loading", effects=[], trouble="rig_compliance", trouble_s=30.0), said("base_compliance@base"))
     assert alone.wrong(0.9)
+    assert alone.wrongly_named
     assert alone.told is False
 
 

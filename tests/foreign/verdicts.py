@@ -114,7 +114,8 @@ def judge(truth: dict[str, Any], found: dict[str, Any], run: dict[str, Any]) -> 
     if truth["outside"]:
         named = [c for c in word.claims if c.confidence > CONFIDENT and not c.in_class]
         word.misnamed = verdict == "effect" and bool(named)
-    if may and not (truth["trouble"] and 0.0 < float(truth.get("trouble_s", 0.0)) < TOLD_S):
+    trace = truth.get("trouble_s")
+    if may and (trace is None or trace >= TOLD_S):
         word.told = any(_tells(one, word, found, refused) for one in may)
     if truth.get("left_out"):
         told = list(intervals(found))
