@@ -1,12 +1,13 @@
 /* One joint on a bench, in time: a motor's inertia, a spring beyond play, and friction of three laws of the literature.
  *
- * LuGre (Canudas de Wit et al. 1995; Dahl's is the case without a Stribeck peak and without damping of the bristles) and
- * generalised Maxwell slip (Al-Bender et al. 2005, its rate-independent part), both with a level that grows with the
- * spring's torque; a slider behind free travel, for dampers. Units: N mm, rad, s. */
+ * LuGre (Canudas de Wit et al. 1995; Dahl's is the case without a Stribeck peak and without damping of the
+ * bristles) and generalised Maxwell slip (Al-Bender et al. 2005, its rate-independent part), both with a level that
+ * grows with the spring's torque; a slider behind free travel, for dampers. Units: N mm, rad, s. */
 #include <math.h>
 
 enum {
-    STIFFNESS, GAP, ZERO, HARDENING, SOFT_AT, ONE_SIDED, STOP_AT, STOP, CREEP, CREEP_S, COGGING, COGGING_PERIOD, COGGING_PHASE,
+    STIFFNESS, GAP, ZERO, HARDENING, SOFT_AT, ONE_SIDED, STOP_AT, STOP, CREEP, CREEP_S,
+    COGGING, COGGING_PERIOD, COGGING_PHASE,
     VISCOUS, INERTIA,
     COULOMB, PER_LOAD, BRISTLE, BRISTLE_DAMPING, PEAK, STRIBECK,
     SLIP, SLIP_TORQUE, SLIP_STIFFNESS,

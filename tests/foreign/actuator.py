@@ -83,7 +83,8 @@ class Test:
 
 @dataclass(frozen=True)
 class Bench:
-    """How the joint is driven and read. `count_rad`: the encoder's step; `late_s`: by how much the torque is read late."""
+    """How the joint is driven and read. `count_rad`: the encoder's step; `late_s`: by how much the
+    torque is read late."""
 
     torque_driven: bool
     interval_s: float

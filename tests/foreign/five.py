@@ -1,5 +1,5 @@
-"""The fit to beat: torque = spring beyond a gap + friction, constant and growing with the spring's torque, that builds up
-over a sliding distance; with an angle zero. Numbers: k, gap, F, mu, distance, zero."""
+"""The fit to beat: torque = spring beyond a gap + friction, constant and growing with the spring's torque, that builds
+up over a sliding distance; with an angle zero. Numbers: k, gap, F, mu, distance, zero."""
 
 from __future__ import annotations
 

@@ -1,6 +1,7 @@
 """Runs the foreign benchmark: makes the cases, seals the answers, diagnoses every case, judges, writes the page.
 
-usage: foreign.py [--development] [--parts joint,loading,measured] [--only TEXT] [--no-baselines] [--seed S] [--out FOLDER]
+usage: foreign.py [--development] [--parts joint,loading,measured] [--only TEXT] [--no-baselines] [--seed S]
+       [--out FOLDER]
 An interrupted run goes on where it was; a changed tool starts anew. --only: cases whose `group/kind` holds the text."""
 
 from __future__ import annotations
@@ -54,7 +55,9 @@ def main() -> int:
     parser.add_argument("--parts", default="joint,loading,measured", help="which of them")
     parser.add_argument("--only", default="", help="cases whose group/kind holds this text")
     parser.add_argument("--seed", type=int, help="another seed; nothing is written to docs/")
-    parser.add_argument("--no-baselines", action="store_true", help="not beside the tool: forward selection, five numbers")
+    parser.add_argument(
+        "--no-baselines", action="store_true", help="not beside the tool: forward selection, five numbers"
+    )
     parser.add_argument("--processes", type=int, default=1)
     parser.add_argument("--out", type=Path, help="folder of the page; default docs/ for the test set")
     options = parser.parse_args()
@@ -107,7 +110,10 @@ def main() -> int:
     (out / "foreign.json").write_text(json.dumps(figures, indent=1) + "\n")
     (results / "judged.json").write_text(json.dumps(foreign_report.by_case(words), indent=1) + "\n")
     print(table)
-    print(f"\n{time.monotonic() - begun:.0f} s; page in {out / 'foreign.md'}, cases in {results / 'judged.json'}", file=sys.stderr)
+    print(
+        f"\n{time.monotonic() - begun:.0f} s; page in {out / 'foreign.md'}, cases in {results / 'judged.json'}",
+        file=sys.stderr,
+    )
     return 0
 
 

@@ -12,17 +12,19 @@ from scoring import CONFIDENT, Judged, Share, calibration
 from verdicts import COVERED, SURE, Word
 from words import OUTSIDERS, TROUBLES
 
-HOW = """Records that neither the tool's plant nor its authors' simulator made ([tests/foreign](../tests/foreign/README.md)):
-joint tests of an actuator simulator with LuGre, Dahl and generalised Maxwell-slip friction; loading records of a physics
-engine's limbs by instruments that misbehave; public measured joint tests. Answers lie apart and are sealed before the
-run. Sizes are those of real joints, rigs and recorders, without regard to how well they can be told."""
+HOW = """Records that neither the tool's plant nor its authors' simulator made
+([tests/foreign](../tests/foreign/README.md)): joint tests of an actuator simulator with LuGre, Dahl and generalised
+Maxwell-slip friction; loading records of a physics engine's limbs by instruments that misbehave; public measured
+joint tests. Answers lie apart and are sealed before the run. Sizes are those of real joints, rigs and recorders,
+without regard to how well they can be told."""
 
-READING = f"""Intervals are Wilson's, 95 %. A name is right if it is hidden, if it names the trouble or the outsider by a word
-of [words.py](../tests/foreign/words.py), or if the class that it was named with has such a member. A gap larger than the
-joint swung is wrong whatever its name. Calibration error: over all names, in ten bins; there a name stands for itself
-alone. A trouble must be told where it leaves 8 sigmas after the base is refitted; noise and files' troubles always.
-Outsiders: named with more than {CONFIDENT} in a verdict `effect`. Coverage: the interval of a parameter, told from all
-gear positions but one, holds the true value of the one left out. A baseline's names count as said with 0.95."""
+READING = f"""Intervals are Wilson's, 95 %. A name is right if it is hidden, if it names the trouble or the outsider
+by a word of [words.py](../tests/foreign/words.py), or if the class that it was named with has such a member. A gap
+larger than the joint swung is wrong whatever its name. Calibration error: over all names, in ten bins; there a name
+stands for itself alone. A trouble must be told where it leaves 8 sigmas after the base is refitted; noise and files'
+troubles always. Outsiders: named with more than {CONFIDENT} in a verdict `effect`. Coverage: the interval of a
+parameter, told from all gear positions but one, holds the true value of the one left out. A baseline's names count
+as said with 0.95."""
 
 
 def nothing_hidden(w: Word) -> bool:
@@ -50,16 +52,24 @@ def figures(words: Sequence[Word], public: dict[str, Any]) -> list[dict[str, Any
     worst = "no model" if None in ratios else f"{max(ratios):.2f}" if ratios else "-"
     low = coverage.value is not None and 0.80 <= coverage.value <= 0.95
     return [
-        report.at_least(f"everything named with {SURE} or more: right", Share(sum(c.in_class for c in sure), len(sure)), 0.95),
+        report.at_least(
+            f"everything named with {SURE} or more: right", Share(sum(c.in_class for c in sure), len(sure)), 0.95
+        ),
         report.line("calibration error over all names", "at most 0.05", report.if_any(error <= 0.05, count),
                     f"{error:.3f}", "", count),
         report.at_most("nothing hidden, a trouble of the instruments: anything named wrongly",
                        Share(sum(w.wrongly_named for w in healthy), len(healthy)), 0.01),
-        report.at_least("nothing hidden: the trouble told instead", Share(sum(bool(w.told) for w in told), len(told)), 0.90),
-        report.at_most(f"outsiders named with more than {CONFIDENT}", Share(sum(bool(w.misnamed) for w in outside), len(outside)),
-                       0.02),
+        report.at_least(
+            "nothing hidden: the trouble told instead", Share(sum(bool(w.told) for w in told), len(told)), 0.90
+        ),
+        report.at_most(
+            f"outsiders named with more than {CONFIDENT}",
+            Share(sum(bool(w.misnamed) for w in outside), len(outside)),
+            0.02,
+        ),
         report.share_line("90 % intervals hold what a gear position left out has", "80 to 95 %", coverage, low),
-        report.line("measured sets, each amplitude predicted from the others: rms against five numbers, worst", "at most 1.05 in each",
+        report.line("measured sets, each amplitude predicted from the others: rms against five numbers, worst",
+                    "at most 1.05 in each",
                     report.if_any(all(met), len(met)), worst,
                     f"{sum(met)} of {len(met)} within", len(met)),
         report.at_most(f"known failures, rebuilt: wrong with {CONFIDENT} or more",
@@ -94,14 +104,18 @@ def besides(words: Sequence[Word]) -> list[tuple[str, Share]]:
         ("the trouble told, beside an effect", Share(sum(bool(w.told) for w in told), len(told))),
         ("outsiders called unknown or by their name", Share(sum(bool(w.told) for w in outside), len(outside))),
         ("gear positions: parameters told with an interval", Share(sum(h is not None for h in asked), len(asked))),
-        ("joint tests: right names whose size is within a factor of two", Share(sum(0.5 <= s <= 2.0 for s in sizes), len(sizes))),
+        (
+            "joint tests: right names whose size is within a factor of two",
+            Share(sum(0.5 <= s <= 2.0 for s in sizes), len(sizes)),
+        ),
         ("records that end without a diagnosis", Share(sum(w.verdict == "nothing" for w in words), len(words))),
     ]
 
 
 def by_kind(words: Sequence[Word]) -> str:
     """Each kind: how many, wrong with 0.9, told, found; what was said first; one case to look at."""
-    rows = ["| kind | cases | wrong with 0.9 or more | all hidden named | trouble or outsider told | said, of a case that fails |",
+    rows = ["| kind | cases | wrong with 0.9 or more | all hidden named | trouble or outsider told | "
+            "said, of a case that fails |",
             "|---|---|---|---|---|---|"]  # fmt: skip
     groups: dict[str, list[Word]] = defaultdict(list)
     for w in words:
@@ -117,7 +131,8 @@ def by_kind(words: Sequence[Word]) -> str:
         failing.sort(key=lambda w: -len(w.wrong(SURE)))
         example = f"`{failing[0].truth['id']}` {_said(failing[0])}" if failing else ""
         rows.append(f"| {name} | {len(those)} | {sum(bool(w.wrong(SURE)) for w in those)} | "
-                    f"{counted(those, lambda w: w.found)} | {counted(those, lambda w: w.told)} | {example} |")  # fmt: skip
+                    f"{counted(those, lambda w: w.found)} | {counted(those, lambda w: w.told)} | "
+                    f"{example} |")  # fmt: skip
     return "\n".join(rows)
 
 
@@ -155,7 +170,8 @@ def measured_text(public: dict[str, Any]) -> str:
     """Of the public sets."""
     if not public:
         return "Not run: BRACE_REAL_DATA names no folder."
-    rows = ["| set | left out: the tests that swing | rms of the tool's model [N mm] | five-parameter fit | ratio | deviation of the torque there |",
+    rows = ["| set | left out: the tests that swing | rms of the tool's model [N mm] | five-parameter fit | ratio | "
+            "deviation of the torque there |",
             "|---|---|---|---|---|---|"]  # fmt: skip
     for one in public["left_out"]:
         tool, ratio = ("none", "-") if one["tool"] is None else (f"{one['tool']:.0f}", f"{one['ratio']:.2f}")
@@ -176,7 +192,11 @@ def table(lines: Sequence[dict[str, Any]], beside: Sequence[dict[str, Any]]) -> 
     other = {one["figure"]: one["measured"] for one in beside}
     rows = ["| figure | must | measured | 95 % | of | | baselines |", "|---|---|---|---|---|---|---|"]
     for one in lines:
-        same = other.get(one["figure"], "") if "measured sets" not in one["figure"] and "intervals" not in one["figure"] else ""
+        same = (
+            other.get(one["figure"], "")
+            if "measured sets" not in one["figure"] and "intervals" not in one["figure"]
+            else ""
+        )
         rows.append(f"| {one['figure']} | {one['target']} | {one['measured']} | {one['interval']} | {one['of']} | "
                     f"{one['met']} | {same} |")  # fmt: skip
     return "\n".join(rows)
@@ -184,7 +204,10 @@ def table(lines: Sequence[dict[str, Any]], beside: Sequence[dict[str, Any]]) -> 
 
 def words_text() -> str:
     """The table of accepted words."""
-    rows = ["| trouble or outsider | named by | verdicts that tell it | silence is right | because |", "|---|---|---|---|---|"]
+    rows = [
+        "| trouble or outsider | named by | verdicts that tell it | silence is right | because |",
+        "|---|---|---|---|---|",
+    ]
     for name, may in {**TROUBLES, **OUTSIDERS}.items():
         rows.append(f"| {name} | {', '.join(may.names) or '-'} | {', '.join(may.verdicts) or '-'} | "
                     f"{'yes' if may.silence else 'no'} | {may.reason} |")  # fmt: skip
@@ -202,8 +225,13 @@ def made(
     calibrated += [f"| {c:.2f} | {r:.2f} | {n} |" for c, r, n in bins]
     more = ["| | share | |", "|---|---|---|"]
     for name, share in besides(words):
-        more.append(f"| {name} | {'-' if share.value is None else f'{100 * share.value:.1f} %'} | {share.hits} of {share.of} |")
-    note = f"`{command}`: {how['cases']} cases of the {how['set']} set (seed {how['seed']}); answers sealed {how['seal_sha256'][:16]}."
+        more.append(
+            f"| {name} | {'-' if share.value is None else f'{100 * share.value:.1f} %'} | {share.hits} of {share.of} |"
+        )
+    note = (
+        f"`{command}`: {how['cases']} cases of the {how['set']} set (seed {how['seed']}); answers sealed "
+        f"{how['seal_sha256'][:16]}."
+    )
     page = "\n\n".join([
         "# Foreign worlds", HOW, note, first, READING, "## Besides", "\n".join(more), "## Kind by kind", by_kind(words),
         "## Known failures, rebuilt", evidence_rows(words), "## Gear positions", coverage_rows(words),

@@ -19,7 +19,6 @@ RUN, TH1, TH2, TIME, DX, DZ = 0, 1, 2, 3, 5, 6
 HIDDEN_S = (25.0, 60.0)  # how detectable the effect is that is hidden beside a trouble
 
 
-
 @dataclass(frozen=True)
 class Trouble:
     """What one trouble does to a record, at each of the places where a rig or a recorder can do it: to the test's
@@ -136,7 +135,8 @@ def outliers(rng: Rng, design: Design) -> Trouble:
 
 
 def coarse_resolution(rng: Rng, _design: Design) -> Trouble:
-    """Forces in whole steps of 0.25 to 1 N, joint encoders of 16 to 18 bits; meta.toml says so of half of the forces."""
+    """Forces in whole steps of 0.25 to 1 N, joint encoders of 16 to 18 bits; meta.toml says so of half
+    of the forces."""
     step_n, count_rad = float(rng.choice([0.25, 0.5, 1.0])), 2.0 * np.pi / 2 ** int(rng.integers(16, 19))
     told = rng.random() < 0.5
 
@@ -227,9 +227,11 @@ def make(rng: Rng, trouble: str, hidden: int | None) -> Loaded:
     return Loaded(design, table, case, truth)
 
 
-def _trace(world: World, case: dict[str, Any], design: Design, one: Trouble, played: Callable[[Array], Array]) -> float | None:
-    """How many sigmas a trouble leaves of the believed limb's record after refitting the base. None where only the file or
-    the noise changes: that is not told in sigmas."""
+def _trace(
+    world: World, case: dict[str, Any], design: Design, one: Trouble, played: Callable[[Array], Array]
+) -> float | None:
+    """How many sigmas a trouble leaves of the believed limb's record after refitting the base. None where only the
+    file or the noise changes: that is not told in sigmas."""
     if one.moved is Trouble().moved and one.limb is Trouble().limb and one.readings is Trouble().readings:
         return None
     judge = world.bench(design, case["believed"], case["trust"])

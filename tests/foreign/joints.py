@@ -222,7 +222,8 @@ def coarse(rng: Rng, effects: tuple[str, ...] = ()) -> Made:
     count = 2 * math.pi / 2 ** int(rng.integers(12, 15))
     scale = max(1.0, count * rng.uniform(8, 25) / at.reach)
     at = Plain(replace(at.joint, stiffness=at.joint.stiffness / scale, inertia=at.joint.inertia / scale,
-                       viscous=at.joint.viscous / scale, bristle=at.joint.bristle / scale), at.full, at.reach * scale)  # fmt: skip
+                       viscous=at.joint.viscous / scale, bristle=at.joint.bristle / scale),
+               at.full, at.reach * scale)  # fmt: skip
     joint = at.joint
     for name in effects:
         joint = PUT_IN[name](rng, at, joint)
@@ -364,8 +365,8 @@ def small_ramps(rng: Rng) -> Made:
 
 
 def gear_positions(rng: Rng) -> Made:
-    """One joint with play and friction at four to six gear positions, at each of which gap, stiffness and friction are a
-    little other; the record has all but the last, and `left_out` has the last one's sizes. Angle zeros differ too."""
+    """One joint with play and friction at four to six gear positions, at each of which gap, stiffness and friction are
+    a little other; the record has all but the last, and `left_out` has the last one's sizes. Angle zeros differ too."""
     at = plain(rng)
     base = with_play(rng, at, with_friction(rng, at, at.joint, "", None))
     spread = rng.uniform(0.03, 0.12)
@@ -385,13 +386,16 @@ def gear_positions(rng: Rng) -> Made:
             tests.append(Test(amplitude(at, joint, how.torque_driven, share), 0.1, 2, "ramp"))
     middle = {key: float(np.mean([sizes(j, effects)[key] for j in places[:-1]])) for key in sizes(base, effects)}
     return Made("gear_positions", read(rng, joints, tests, how), effects, middle,
-                left_out=sizes(places[-1], effects), about={"spread": spread, "positions": len(places) - 1})  # fmt: skip
+                left_out=sizes(places[-1], effects),
+                about={"spread": spread, "positions": len(places) - 1})  # fmt: skip
 
 
 P, F, H, C = "backlash", "coulomb_friction", "joint_hardening", "creep"
 
 
-def _kind(effects: tuple[str, ...], late: bool = False, law: str = "", load: bool | None = None) -> Callable[[Rng], Made]:
+def _kind(
+    effects: tuple[str, ...], late: bool = False, law: str = "", load: bool | None = None
+) -> Callable[[Rng], Made]:
     name = "+".join(effects) or "nothing"
     kind = name + (f"({law})" if law else "") + (", late" if late else "")
     return lambda rng: ordinary(rng, kind, effects, law, load, late)

@@ -93,8 +93,8 @@ def _predicted(part: dict[str, Array], limb: Path, work: Path) -> Array:
 
 
 def leave_out(name: str, columns: dict[str, Array], left: Rows, work: Path) -> LeftOut:
-    """Both models learn from the rest. What is a record's own, not a joint's, is fitted to the rows that judge, for both:
-    the zeros of angle and torque, and the angle over which friction turns."""
+    """Both models learn from the rest. What is a record's own, not a joint's, is fitted to the rows that judge, for
+    both: the zeros of angle and torque, and the angle over which friction turns."""
     rest, unseen = some(columns, ~left), some(columns, left)
     write(work / "rest", f"{name} without one amplitude", Record(dict(rest)))
     diagnoser.diagnose(work / "rest", work / "out", report=False)
@@ -132,25 +132,39 @@ def _checks(found: dict[str, dict[str, Any]], swings: dict[str, float]) -> list[
             here = [low <= value <= high for n, low, high in told if n == leaf]
             out.append((name, f"an interval of {leaf} holds the authors' {value:g}", any(here)))
     names = [sorted(e["name"] for e in found[name].get("effects", []) if e["confidence"] >= 0.9) for name in GEARS]
-    out.append((" ".join(GEARS), "the same names with 0.9 or more at three gear positions", names[0] == names[1] == names[2]))
+    out.append(
+        (" ".join(GEARS), "the same names with 0.9 or more at three gear positions", names[0] == names[1] == names[2])
+    )
     out.append(("cycloidal_base", "the drive's limit is told", bool(found["cycloidal_base"].get("data_faults"))))
     for name in (*GEARS, *OTHERS):
         gaps = _values(found[name], "gap_rad")
-        out.append((name, f"no gap above the swing of its {swings[name] * 1e3:.0f} mrad", all(g < swings[name] for g in gaps)))
+        out.append(
+            (name, f"no gap above the swing of its {swings[name] * 1e3:.0f} mrad", all(g < swings[name] for g in gaps))
+        )
     small = _values(found["cycloidal_split_reassembled"], "gap_rad")
-    out.append(("cycloidal_split_reassembled", "no gap above the 31 mrad of its small ramps", all(g < 0.031 for g in small)))
+    out.append(
+        ("cycloidal_split_reassembled", "no gap above the 31 mrad of its small ramps", all(g < 0.031 for g in small))
+    )
     preloaded = _values(found["cycloidal_preloaded"], "gap_rad")
     base = [g for name in GEARS for g in _values(found[name], "gap_rad")]
     smaller = bool(base) and (not preloaded or max(preloaded) < float(np.median(base)))
     out.append(("cycloidal_preloaded", "less play than without preload", smaller))
     rubs = _values(found["cycloidal_preloaded"], "coulomb_n_mm")
     usual = [f for name in GEARS for f in _values(found[name], "coulomb_n_mm")]
-    out.append(("cycloidal_preloaded", "more friction than without preload", bool(rubs and usual) and max(rubs) > float(np.median(usual))))
+    out.append(
+        (
+            "cycloidal_preloaded",
+            "more friction than without preload",
+            bool(rubs and usual) and max(rubs) > float(np.median(usual)),
+        )
+    )
     polymer = _values(found["cycloidal_polymer"], "gap_rad")
     out.append(("cycloidal_polymer", "no gap of 9 to 20 degrees", all(g < 0.15 for g in polymer)))
     out.append((DAMPER, "no hardening with 0.8 or more", not _sure(found[DAMPER], "joint_hardening")))
     slips = any(e["name"] in ("series_slip", "backlash") for e in found[DAMPER].get("effects", []))
-    out.append((DAMPER, "free travel is named, or the verdict is unknown", slips or found[DAMPER].get("verdict") == "unknown"))
+    out.append(
+        (DAMPER, "free travel is named, or the verdict is unknown", slips or found[DAMPER].get("verdict") == "unknown")
+    )
     return out
 
 
@@ -205,8 +219,10 @@ def all_of(where: Path, work: Path, progress: Callable[[str], None]) -> dict[str
         "left_out": left,
         "checks": _checks(found, swings) if set(SETS) <= set(found) else [],
         "positions": _position_left_out(where, work) if set(GEARS) <= set(found) else [],
-        "said": {name: {"verdict": d.get("verdict"), "effects": [(e["name"], e["confidence"]) for e in d.get("effects", [])]}
-                 for name, d in found.items()},
+        "said": {
+            name: {"verdict": d.get("verdict"), "effects": [(e["name"], e["confidence"]) for e in d.get("effects", [])]}
+            for name, d in found.items()
+        },
     }  # fmt: skip
     kept.write_text(json.dumps(result, indent=1) + "\n")
     return dict(json.loads(kept.read_text()))

@@ -56,7 +56,14 @@ class Case:
     def write(self, out: Path) -> None:
         """cases/NAME as a tool may see it, answers/NAME/truth.json."""
         truth = self._loading(out) if self.part == "loading" else self._joint(out)
-        truth = {"id": self.name, "group": self.group, "kind": self.kind, "number": self.number, "seed": self.seed, **truth}
+        truth = {
+            "id": self.name,
+            "group": self.group,
+            "kind": self.kind,
+            "number": self.number,
+            "seed": self.seed,
+            **truth,
+        }
         answer = out / "answers" / self.name
         answer.mkdir(parents=True, exist_ok=True)
         (answer / "truth.json").write_text(json.dumps(truth, indent=1, default=float) + "\n")
@@ -69,7 +76,8 @@ class Case:
         angle = made.record.columns["angle_rad"]
         test = made.record.columns["test"]
         swing = max(float(np.ptp(angle[test == t])) for t in np.unique(test))
-        return {"part": self.part, "effects": [{"name": n, "where": joints.PLACE.get(n, joints.WHERE)} for n in made.effects], "cls": [],
+        effects = [{"name": n, "where": joints.PLACE.get(n, joints.WHERE)} for n in made.effects]
+        return {"part": self.part, "effects": effects, "cls": [],
                 "outside": made.outside, "trouble": made.trouble, "evidence": made.evidence, "size": made.size,
                 "left_out": made.left_out, "swing_rad": swing, "about": made.about}  # fmt: skip
 
@@ -117,8 +125,8 @@ def sources_hash() -> str:
 
 
 def make(wanted: list[Case], out: Path) -> str:
-    """Writes the cases that are not there yet and seals all; returns the seal. Cases of other sources are made anew, and
-    so is a set whose making was interrupted while a case was written."""
+    """Writes the cases that are not there yet and seals all; returns the seal. Cases of other sources are made
+    anew, and so is a case whose making was interrupted."""
     stamp, seal = out / "made_by", out / SEAL
     if not stamp.exists() or stamp.read_text() != sources_hash():
         for part in PARTS:

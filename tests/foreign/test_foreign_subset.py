@@ -1,5 +1,5 @@
-"""A small fixed set of foreign joint tests through the tool: those that every version so far has told right, and that no
-case ends without a verdict."""
+"""A small fixed set of foreign joint tests through the tool: those that every version so far has told right, and that
+no case ends without a verdict."""
 
 from __future__ import annotations
 

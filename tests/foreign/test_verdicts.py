@@ -12,8 +12,8 @@ from words import OUTSIDERS, TROUBLES
 
 def truth(**more: Any) -> dict[str, Any]:
     """A joint test with play."""
-    usual = {"part": "joint", "effects": [{"name": "backlash", "where": WHERE}], "cls": [], "trouble": "", "outside": "",
-             "swing_rad": 0.03, "size": {}}  # fmt: skip
+    usual = {"part": "joint", "effects": [{"name": "backlash", "where": WHERE}], "cls": [], "trouble": "",
+             "outside": "", "swing_rad": 0.03, "size": {}}  # fmt: skip
     return usual | more
 
 
@@ -39,7 +39,9 @@ def test_names() -> None:
     assert word.told
     assert not word.claims[0].right
     assert not word.wrongly_named
-    alone = judged(truth(part="loading", effects=[], trouble="rig_compliance", trouble_s=30.0), said("base_compliance@base"))
+    alone = judged(
+        truth(part="loading", effects=[], trouble="rig_compliance", trouble_s=30.0), said("base_compliance@base")
+    )
     assert alone.wrong(0.9)
     assert alone.wrongly_named
     assert alone.told is False
@@ -83,7 +85,9 @@ def test_units_and_weak_troubles() -> None:
 
 def test_intervals_of_a_position_left_out() -> None:
     """Held, missed, or not given."""
-    about = truth(left_out={f"{WHERE}.gap_rad": 0.01, f"{WHERE}.coulomb_n_mm": 300.0, f"{WHERE}.compliance_rad_per_n_mm": 1e-6})
+    about = truth(
+        left_out={f"{WHERE}.gap_rad": 0.01, f"{WHERE}.coulomb_n_mm": 300.0, f"{WHERE}.compliance_rad_per_n_mm": 1e-6}
+    )
     found = said(f"backlash@{WHERE}", f"coulomb_friction@{WHERE}")
     found["effects"][0]["parameters"] = {f"{WHERE}.gap_rad": {"value": 0.011, "low": 0.009, "high": None}}
     found["effects"][1]["parameters"] = {f"{WHERE}.coulomb_n_mm": {"value": 200.0, "low": 150.0, "high": 250.0}}

@@ -1,4 +1,5 @@
-"""What a diagnosis of a foreign case is worth: which names were right, whether a trouble was told, what intervals hold."""
+"""What a diagnosis of a foreign case is worth: which names were right, whether a trouble was told, what
+intervals hold."""
 
 from __future__ import annotations
 

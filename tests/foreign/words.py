@@ -9,7 +9,8 @@ from dataclasses import dataclass
 class May:
     """`names`: effects or rival causes that name the trouble, also as members of a class that was named. `verdicts`:
     those that tell it without a name. `finding`: what a data fault, a note or the description of what is unexplained
-    must hold, as a regular expression, to count as naming it. `silence`: saying that nothing is missing is right, too."""
+    must hold, as a regular expression, to count as naming it. `silence`: saying that nothing is missing is right,
+    too."""
 
     names: tuple[str, ...]
     verdicts: tuple[str, ...]
@@ -60,8 +61,8 @@ OUTSIDERS: dict[str, May] = {
     "series_slip": May(("series_slip",), ("unknown",), r"slip", False, "free slip in series, by the contracts' name",
                        also=("coulomb_friction",)),
     "damper": May(("series_slip", "backlash"), ("unknown",), r"slip|free travel", False,
-                  "the free travel is what its makers call backlash, and the friction behind it is dry friction; there is "
-                  "no spring that could harden", also=("coulomb_friction",)),
+                  "the free travel is what its makers call backlash, and the friction behind it is dry friction; there "
+                  "is no spring that could harden", also=("coulomb_friction",)),
     "viscosity": May(("viscosity", "viscous_friction"), ("unknown",), r"visc|speed", True,
                      "a shape; the spring is the believed one, so that naming nothing is right"),
 }  # fmt: skip
