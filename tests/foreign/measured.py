@@ -5,6 +5,7 @@ copied into the repository; without the folder this part is left out, and the pa
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
 from collections.abc import Callable
@@ -20,6 +21,7 @@ from actuator import Record, write
 from plant import Array
 from verdicts import intervals
 
+HERE = Path(__file__).resolve().parent
 Rows = npt.NDArray[np.bool_]
 GEARS = ("cycloidal_base", "cycloidal_base_pos5", "cycloidal_base_pos6")
 OTHERS = ("cycloidal_preloaded", "cycloidal_polymer", "cycloidal_split_reassembled")
@@ -48,9 +50,11 @@ def some(columns: dict[str, Array], which: Rows) -> dict[str, Array]:
 
 
 def amplitudes(columns: dict[str, Array]) -> list[Rows]:
-    """The rows of each amplitude: tests whose angle swings by the same, within a fifth."""
+    """The rows of each amplitude: tests whose command swings by the same, within a fifth; whose angle does, where no
+    command was recorded."""
     test = columns["test"]
-    swing = {t: float(np.ptp(columns["angle_rad"][test == t])) for t in np.unique(test)}
+    asked = columns.get("command_n_mm", columns["angle_rad"])
+    swing = {t: float(np.ptp(asked[test == t])) for t in np.unique(test)}
     groups: list[list[float]] = []
     for t in sorted(swing, key=lambda t: swing[t]):
         if groups and swing[t] < 1.2 * swing[groups[-1][0]]:
@@ -65,7 +69,7 @@ class LeftOut:
     """rms on the amplitude that was left out [N mm]: of the tool's model, of the five-parameter fit."""
 
     name: str
-    swing_rad: float  # of the amplitude left out
+    swing_rad: float  # the angle's, of the amplitude left out
     tool: float | None  # None: its model cannot be played
     five: float
     deviation: float  # of the torque there
@@ -107,7 +111,8 @@ def leave_out(name: str, columns: dict[str, Array], left: Rows, work: Path) -> L
         torque = _predicted(unseen, limb, work / "played")
         if len(torque):
             tool = float(np.sqrt(np.mean((torque - judged.torque)[judged.counts] ** 2)))
-    return LeftOut(name, float(np.ptp(unseen["angle_rad"])), tool, best, float(np.std(judged.torque)))
+    swing = max(float(np.ptp(unseen["angle_rad"][unseen["test"] == t])) for t in np.unique(unseen["test"]))
+    return LeftOut(name, swing, tool, best, float(np.std(judged.torque)))
 
 
 def _values(found: dict[str, Any], leaf: str) -> list[float]:
@@ -198,7 +203,8 @@ def read(out: Path) -> dict[str, Any]:
 
 def all_of(where: Path, work: Path, progress: Callable[[str], None]) -> dict[str, Any]:
     """Everything of this part; kept in `work`."""
-    kept = work / "measured.json"
+    made_by = b"".join((HERE / name).read_bytes() for name in ("measured.py", "five.py"))
+    kept = work / f"measured-{hashlib.sha256(made_by).hexdigest()[:8]}.json"
     if kept.exists():
         return dict(json.loads(kept.read_text()))
     work.mkdir(parents=True, exist_ok=True)
