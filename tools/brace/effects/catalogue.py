@@ -308,8 +308,12 @@ EFFECTS: tuple[Effect, ...] = (
         ),
         ways=(Way(("gap_rad",)),),
         joint_test=InJointTest(
-            turns=lambda size: (Turn("gap_rad", 0.1 * size.angle_rad, high=0.5 * size.angle_rad),),
-            starts=lambda size: tuple({"gap_rad": share * size.angle_rad} for share in (0.1, 0.3)),
+            turns=lambda size: (
+                Turn("gap_rad", 0.1 * size.angle_rad, high=min(0.5 * size.angle_rad, size.swing_rad)),
+            ),
+            starts=lambda size: tuple(
+                {"gap_rad": min(share * size.angle_rad, 0.9 * size.swing_rad)} for share in (0.1, 0.3)
+            ),
             # a gap leaves less way to the spring
             spring_factor=lambda values, size: max(1.0 - values["gap_rad"] / size.angle_rad, 0.1),
             lost_rad=lambda values, size, compliance_rad_per_n_mm: values["gap_rad"],

@@ -70,13 +70,15 @@ class LoadingPlace:
 
 @dataclass(frozen=True)
 class JointTestSize:
-    """A joint test: ranges of angle [rad] and torque [N mm], length [s], range of temperature [degC], speed."""
+    """A joint test: ranges of angle [rad] and torque [N mm], length [s], range of temperature [degC], speed, and the
+    least swing [rad] that reached both flanks of a gap (inf: none is known)."""
 
     angle_rad: float
     torque_n_mm: float
     length_s: float
     temp_degc: float
     speed_rad_per_s: float
+    swing_rad: float
 
     @property
     def stiffness_n_mm_per_rad(self) -> float:

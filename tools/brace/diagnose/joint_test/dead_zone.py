@@ -24,6 +24,8 @@ def refusal(record: JointRecord, fitted: Fitted) -> str:
     used = record.fitted
     if gap_rad > LARGEST * record.size.angle_rad * (1.0 - 1e-3):
         return "it would take half of the angles that were visited or more"
+    if gap_rad > (1.0 - 1e-3) * record.size.swing_rad:
+        return f"the joint reached both of its flanks in a swing of {record.size.swing_rad:.3g} rad"
     inside = used & (np.abs(deflection) < 0.5 * gap_rad)
     above, below = deflection[used].max() - 0.5 * gap_rad, -deflection[used].min() - 0.5 * gap_rad
     if min(above, below) < FLANK * gap_rad:

@@ -23,6 +23,10 @@ from brace.identify.parameters import ANGLE_ZERO
 from brace.model import LimbModel
 from brace.native.plant_batch import model_numbers
 
+STEPS_A_PERIOD = 4.0  # of the encoder: what repeats faster is its rounding
+MIN_READINGS = 20
+RISES = 1.5  # times its middle value: a torque that is friction's alone has about one size
+ON_GRID = 0.02  # of a step: how near to whole steps angles stand that an encoder has rounded
 BLOCK_ROWS = 1200  # averaged readings: enough for every ramp's shape, few enough to try some hundred models
 
 
@@ -54,10 +58,15 @@ class JointRecord(JointProblem):
             float(self._since_s.max()),
             float(np.ptp(temp)) if temp is not None else 0.0,
             float(np.quantile(np.abs(self._speed), 0.98)),
+            swing_over_both_flanks_rad(columns["angle_rad"][usable], columns["torque_n_mm"][usable], test[usable]),
         )
         labels = np.unique(test)
         self.minutes = float(sum(np.ptp(self._since_s[test == label]) for label in labels)) / 60.0
         self.raw_noise_n_mm = noise(dataset["torque_n_mm"])
+        self.angle_step_rad = step_of(dataset["angle_rad"])
+        spring = self.size.torque_n_mm / max(self.size.angle_rad, 1e-30)
+        # an angle that is known to a step only leaves the torque uncertain by the spring's share of the step
+        self.noise_n_mm = float(np.hypot(self.noise_n_mm, spring * self.angle_step_rad / np.sqrt(12.0)))
         self.root_weight = np.sqrt(self._path())
         self.rests = self._dwells()
 
@@ -140,6 +149,7 @@ class JointRecord(JointProblem):
         y = off_n_mm[self.fitted] - off_n_mm[self.fitted].mean()
         longest = self.size.angle_rad / 3.0
         periods = longest / np.linspace(1.0, 16.0, 91)
+        periods = periods[periods > STEPS_A_PERIOD * self.angle_step_rad]
         best, most = longest, -1.0
         for period in periods:
             phase = 2.0 * np.pi * x / period
@@ -147,3 +157,31 @@ class JointRecord(JointProblem):
             if power > most:
                 best, most = float(period), float(power)
         return best
+
+
+def step_of(angle_rad: np.ndarray) -> float:
+    """The step of the encoder that rounded these angles, 0 where they are not on a grid."""
+    values = np.unique(angle_rad)
+    apart = np.diff(values)
+    apart = apart[apart > 1e-6 * max(float(np.ptp(values)), 1e-30)]
+    if apart.size < 3:
+        return 0.0
+    step = float(np.median(apart[apart < 1.5 * apart.min()]))
+    steps = (values - values[0]) / step
+    on_grid = np.abs(steps - np.rint(steps)) < ON_GRID * np.maximum(1.0, np.rint(steps) ** 0.5)
+    return step if values.size < 0.5 * angle_rad.size and on_grid.mean() > 0.95 else 0.0
+
+
+def swing_over_both_flanks_rad(angle_rad: np.ndarray, torque_n_mm: np.ndarray, test: np.ndarray) -> float:
+    """The least that the joint swings by in a test in which its torque still rises at both ends: free travel is no
+    more. inf where no test shows that."""
+    least = np.inf
+    for label in np.unique(test):
+        angle, torque = angle_rad[test == label], torque_n_mm[test == label]
+        if angle.size < MIN_READINGS:
+            continue
+        middle = 0.5 * (torque.max() + torque.min())
+        size = np.abs(torque - middle)
+        if size.max() > RISES * float(np.median(size)):
+            least = min(least, float(np.ptp(angle)))
+    return least

@@ -35,6 +35,12 @@ def shape(name: str, values: Mapping[str, float]) -> str:
     return name.replace("_", " ")
 
 
+def withheld(labels: Sequence[str], unexplained: float) -> str:
+    """Why names are not said that explain a part only."""
+    names = listed([label.partition("@")[0] for label in labels])
+    return f"{unexplained:.0%} of the torque is left by the nearest model, which has {names}"
+
+
 def sentence(
     verdict: str,
     effects: Sequence[NamedEffect],

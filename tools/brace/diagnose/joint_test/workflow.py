@@ -39,6 +39,7 @@ DRAWN_ROWS = 20000  # residuals that a report lays beside the record
 STRUCTURED = 1.3  # rms over noise, above which what is left is more than noise
 EXPECTED_FITS = 60.0
 LIKELIER_THAN_NOT = 0.5  # an effect that is less likely there than not gets no name
+MOST_UNEXPLAINED = 0.2  # of the torque's standard deviation: a model that leaves more has no name for what it leaves
 SUREST = 0.99  # one joint's test never makes a name surer than this
 
 
@@ -117,8 +118,8 @@ def _told(
     left = [term for term in best.terms if term.effect is None]
     exported = by_rows.fit(tuple(found), best)  # a shape is no physics, so no limb.toml gets it
     effects = _named(fitter, by_rows, best, exported, found, choice.count, random)
-    while effects and effects[-1].confidence < LIKELIER_THAN_NOT:  # it explains next to nothing
-        found = [term for term in found if term.name != effects[-1].name]
+    while weak := [one for one in effects if one.confidence < LIKELIER_THAN_NOT or _may_be_nothing(one)][-1:]:
+        found = [term for term in found if term.name != weak[0].name]
         best = fitter.fit((*found, *left), best)
         exported = by_rows.fit(tuple(found), best)
         effects = _named(fitter, by_rows, best, exported, found, choice.count, random)
@@ -131,15 +132,21 @@ def _told(
     remains = localise(record, exported.off_n_mm, random)
     count = independent(record, exported.off_n_mm)
     hangs = bool(count < 0.3 * np.count_nonzero(record.fitted))
-    structured = bool(left) or (hangs and after_averaged > STRUCTURED * remainder_noise)
+    withheld: tuple[str, ...] = ()
+    unexplained = after_averaged / max(float(np.std(record.columns["torque_n_mm"][record.fitted])), 1e-30)
+    if effects and unexplained > MOST_UNEXPLAINED:
+        withheld, effects = tuple(effect.label for effect in effects), ()
+    structured = bool(left or withheld) or (hangs and after_averaged > STRUCTURED * remainder_noise)
     verdict: Verdict = "effect" if effects else ("unknown" if structured else "none")
     shown = [words.shape(term.name, best.values) for term in left]
+    if withheld:
+        shown.append(words.withheld(withheld, unexplained))
     notes = _notes(record, dataset, gap, exported, refused, believed)
     if verdict == "none":
         exported = base
     model = _exportable(fitter.base, exported if effects else base, believed)
     nearest = [one.label for one in choice.candidates if one.gain > 0.0 and " + " not in one.label]
-    could_be = tuple(nearest[:4]) if verdict == "unknown" else ()
+    could_be = tuple(dict.fromkeys((*withheld, *nearest)))[:4] if verdict == "unknown" else ()
     description = _description(shown, structured, remains, refused, after, record.raw_noise_n_mm)
     minutes = max(1.0, record.minutes)
     return Diagnosis(
@@ -168,6 +175,11 @@ def _told(
         options.seed,
         {"rows": rows, "held_out": record.held_words, "independent_readings": float(count)},
     )
+
+
+def _may_be_nothing(effect: NamedEffect) -> bool:
+    """Whether every interval of the effect holds zero."""
+    return bool(effect.parameters) and all(interval.low <= 0.0 for interval in effect.parameters.values())
 
 
 def _named(
