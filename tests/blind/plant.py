@@ -106,33 +106,23 @@ _NEUTRAL = {
 NEUTRAL = np.array([_NEUTRAL.get(key, 0.0) for key in KEYS])
 
 
-def _compiled() -> ctypes.CDLL:
-    source = HERE / "simulator.c"
+def compiled(source: Path) -> ctypes.CDLL:
+    """A C file of the tests as a library, kept by its hash."""
     tag = hashlib.sha256(source.read_bytes()).hexdigest()[:12]
-    library = BUILD / f"simulator-{tag}.so"
+    library = BUILD / f"{source.stem}-{tag}.so"
     if not library.exists():
         BUILD.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=BUILD) as folder:
-            fresh = Path(folder) / "simulator.so"
-            subprocess.run(
-                [
-                    os.environ.get("CC", "cc"),
-                    "-std=c11",
-                    "-D_GNU_SOURCE",
-                    "-O2",
-                    "-ffp-contract=off",
-                    "-shared",
-                    "-fPIC",
-                    "-o",
-                    str(fresh),
-                    str(source),
-                    "-lm",
-                ],
-                check=True,
-                timeout=120,
-            )
+            fresh = Path(folder) / "fresh.so"
+            flags = ("-std=c11", "-D_GNU_SOURCE", "-O2", "-ffp-contract=off", "-shared", "-fPIC")
+            command = [os.environ.get("CC", "cc"), *flags, "-o", str(fresh), str(source), "-lm"]
+            subprocess.run(command, check=True, timeout=120)
             os.replace(fresh, library)
-    loaded = ctypes.CDLL(str(library))
+    return ctypes.CDLL(str(library))
+
+
+def _simulator() -> ctypes.CDLL:
+    loaded = compiled(HERE / "simulator.c")
     doubles = ctypes.POINTER(ctypes.c_double)
     loaded.blind_play.argtypes = [doubles, doubles, ctypes.c_int, doubles]
     loaded.blind_play.restype = None
@@ -145,7 +135,7 @@ _LIBRARY: list[ctypes.CDLL] = []
 def play(parameters: Array, rows: Array) -> Array:
     """Readings (columns of READINGS) of a limb for rows (columns of ROW), before noise and rounding."""
     if not _LIBRARY:
-        _LIBRARY.append(_compiled())
+        _LIBRARY.append(_simulator())
     given = np.ascontiguousarray(parameters, dtype=np.float64)
     loads = np.ascontiguousarray(rows, dtype=np.float64)
     if given.shape != (len(KEYS),) or loads.ndim != 2 or loads.shape[1] != len(ROW):

@@ -15,6 +15,7 @@ TYPED = {  # folder: where its imports are looked for
     "tests/blind": "tools:tests/blind",
     "tests/emulated": "tools:tests/emulated",
     "tests/engine": "tools:tests/engine:tests/blind",
+    "tests/foreign": "tools:tests/foreign:tests/blind:tests/engine",
     "tests/modbus": "tools:tests/modbus:tests/socketcan",
     "tests/proofs": "tools:tests/proofs",
     "tests/property": "tools:tests/property",

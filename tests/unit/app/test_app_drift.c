@@ -50,7 +50,8 @@ static int learn(void)
         uint32_t noise_state;
         int turn;
     } learned;
-    const brace_loading_setup_t quick = quick_setup();
+    brace_loading_setup_t quick = quick_setup();
+    quick.step_mm *= ON_BOARD ? 2.0f : 1.0f; /* so that the noise counts less, and fewer readings will do */
     servo_n_mm_per_rad = 1e9;
     noise_n = 0.02f;
     if (learned.turn > 0) {

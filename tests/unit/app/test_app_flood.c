@@ -14,7 +14,7 @@
 #define SPRING_N_MM_PER_RAD 80000.0f
 
 enum {
-    TICKS = 2000,            /* of one limb under one flood */
+    TICKS = ON_BOARD ? 1000 : 2000, /* of one limb under one flood */
     TICKS_BETWEEN = 100,     /* in MONITOR, from one loading test or take-up to the next */
     TICKS_HELD = 30,         /* with the backlash taken up, before the joints are let go */
     REGISTERS_MOST = 125,

@@ -105,8 +105,9 @@ static void test_the_time_is_bounded(void)
 {
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_loading_start(&app, &along_x));
     ticks(10);
-    /* four steps a side: 17 readings of twice 0.4 s and a step's way, 3 s each for the servos; and 2 s */
-    ASSERT_CLOSE(17.0 * (2.0 * (0.4 + 0.0635) + 3.0) + 2.0, 1e-6 * (double)app.controller.loading.limit_us, 1e-3);
+    const double dwell_s = 1e-6 * along_x.dwell_us;
+    /* four steps a side: 17 readings of twice the dwell and a step's way, 3 s each for the servos; and 2 s */
+    ASSERT_CLOSE(17.0 * (2.0 * (dwell_s + 0.0635) + 3.0) + 2.0, 1e-6 * (double)app.controller.loading.limit_us, 1e-3);
     app.controller.loading.limit_us = app.controller.loading.test_us + 100000u;
     ticks(101);
     TEST_ASSERT_EQUAL(BRACE_LOADING_E_TIME, result()->outcome);

@@ -4,13 +4,7 @@
 #include "can_bench.h"
 #include "loading_bench.h"
 
-#ifdef __arm__
-enum { PLACES = 5 }; /* an emulated board is slow */
-#else
-enum { PLACES = 250 };
-#endif
-
-enum { UNIT = 17, SCENE_TICKS = 5000, FAR_US = 1000000000 };
+enum { PLACES = ON_BOARD ? 5 : 250, UNIT = 17, SCENE_TICKS = 5000, FAR_US = 1000000000 };
 
 static uint32_t told[SCENE_TICKS]; /* of each tick, as a sum of all that it told */
 

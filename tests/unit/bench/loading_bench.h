@@ -134,7 +134,7 @@ static inline void play(void *user, brace_fake_t *board, int32_t joint)
 }
 
 static const brace_loading_setup_t along_x = {.axis = BRACE_AXIS_X, .steps_per_side = 4, .step_mm = 0.635f,
-                                              .dwell_us = 400000, .rate_mm_per_s = 10.0f, .force_max_n = 100.0f,
+                                              .dwell_us = 100000 * TIMES_ON_HOST, .rate_mm_per_s = 10.0f, .force_max_n = 100.0f,
                                               .torque_max_n_mm = 8000.0f, .source = BRACE_LOADING_ENCODED};
 
 static inline void stand(const brace_parameters_t *p)

@@ -14,6 +14,7 @@ import numpy as np
 from brace.diagnose.diagnosis import Candidate
 from brace.diagnose.joint_test.evidence import agreement, gain, independent
 from brace.diagnose.joint_test.fit import Fitted, Fitter
+from brace.diagnose.joint_test.record import JointRecord
 from brace.diagnose.joint_test.terms import Term
 
 BEAM = 4  # sets of one size that are grown on
@@ -54,6 +55,8 @@ def choose(
 
     best = max((one for one in sets if not strained(fitter, one)), key=worth)
     for _ in range(MOST_SHAPES):
+        if _is_noise(record, best):
+            break
         have = {term.name for term in best.terms}
         joined = []
         for shape in shapes(best):
@@ -72,6 +75,11 @@ def choose(
     best = _joined_by_rows(fitter, best, sets, effects, random, trying)
     listed = [one for one in sets if not strained(fitter, one)]
     return Choice(base, tuple(sets), best, count, _candidates(listed, worth))
+
+
+def _is_noise(record: JointRecord, fitted: Fitted) -> bool:
+    """Whether a fit leaves no more than the noise, the encoder's rounding included: a shape in it says nothing."""
+    return bool(fitted.rss <= record.noise_n_mm**2 * np.count_nonzero(record.fitted))
 
 
 def _joined_by_rows(

@@ -1,0 +1,37 @@
+"""A small fixed set of foreign joint tests through the tool: those that every version so far has told right, and that
+no case ends without a verdict."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import foreign
+import plans
+import pytest
+import sets
+from verdicts import Word
+
+PLAIN = ("play", "lugre", "hardening", "play_friction", "play_hardening")
+
+
+@pytest.fixture(scope="module")
+def words(tmp_path_factory: pytest.TempPathFactory) -> list[Word]:
+    """Made and diagnosed."""
+    root: Path = tmp_path_factory.mktemp("foreign")
+    wanted = sets.cases(plans.SUBSET_SEED, plans.SUBSET)
+    sets.make(wanted, root)
+    for case in wanted:
+        foreign.job((str(root), str(root), case.name))
+    return foreign.judged(root, root, [case.name for case in wanted])
+
+
+def test_every_record_ends_in_a_verdict(words: list[Word]) -> None:
+    """Or in a refusal that says why; never in a traceback."""
+    assert not [(w.truth["id"], w.note) for w in words if "Traceback" in w.note or w.verdict == "nothing"]
+
+
+def test_plain_joints_are_told(words: list[Word]) -> None:
+    """Of five joints with one or two effects at most one has a wrong name with 0.9 or more, or lacks one."""
+    plain = [w for w in words if w.truth["kind"] in PLAIN]
+    assert len(plain) == len(PLAIN)
+    assert sum(bool(w.wrong(0.9)) or not w.found for w in plain) <= 1
