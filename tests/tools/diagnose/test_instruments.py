@@ -114,3 +114,15 @@ def test_an_effect_is_named_beside_a_trouble(tmp_path: Path, limb: Path) -> None
 def test_the_clock_may_start_anywhere(tmp_path: Path, limb: Path) -> None:
     found = spoiled(tmp_path / "record", limb, clock_starts_late, values={})
     assert found.verdict == "none" and found.data_faults == ()
+
+
+def reads_in_quarters(columns: Columns) -> None:
+    for name in FORCES:
+        columns[name] = 0.25 * np.rint(columns[name] / 0.25)
+
+
+def test_a_sensor_coarser_than_it_is_said_to_be(tmp_path: Path, limb: Path) -> None:
+    """Steps of 0.25 N where meta.toml says 0.0625: found in the readings, and no reason to name anything."""
+    found = spoiled(tmp_path / "record", limb, reads_in_quarters, values={})
+    assert found.verdict == "none", found.sentence
+    assert load_dataset(tmp_path / "record").meta.number("sensor.resolution_n") == pytest.approx(0.25)

@@ -9,9 +9,10 @@ import pytest
 
 import joint_cases
 from brace.dataset import load_dataset
+from brace.dataset.grid import step_of
 from brace.diagnose.diagnosis import Diagnosis
 from brace.diagnose.joint_test.fit import Fitted
-from brace.diagnose.joint_test.record import step_of, swing_over_both_flanks_rad
+from brace.diagnose.joint_test.record import swing_over_both_flanks_rad
 from brace.diagnose.joint_test.rivals import Rival, beside, surest
 from brace.diagnose.joint_test.terms import Term
 from brace.diagnose.options import Options

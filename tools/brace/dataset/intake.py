@@ -12,7 +12,10 @@ from brace.dataset import check_joint_test, check_loading, check_table
 from brace.dataset.columns import KINDS
 from brace.dataset.csv_table import read_columns
 from brace.dataset.faults import DataFault
+from brace.dataset.grid import step_of
 from brace.dataset.meta import Meta, read_meta
+
+RESOLUTION = "sensor.resolution_n"
 
 
 @dataclass(frozen=True)
@@ -73,8 +76,17 @@ def load_dataset(folder: Path, *, keep_unreadable: bool = False) -> Dataset:
     if unreadable:
         return replace(dataset, faults=unreadable)
     if meta.kind == "loading":
-        return replace(dataset, faults=check_loading.faults(columns, meta))
+        dataset = replace(dataset, meta=_with_found_resolution(meta, columns))
+        return replace(dataset, faults=check_loading.faults(columns, dataset.meta))
     if meta.kind == "joint_test":
         return replace(dataset, faults=check_joint_test.faults(columns))
     decimals = check_table.printed_decimals(folder / "data.csv", raw_rows)
     return replace(dataset, faults=check_table.faults(columns, decimals, meta), decimals=decimals)
+
+
+def _with_found_resolution(meta: Meta, columns: Mapping[str, np.ndarray]) -> Meta:
+    """A sensor rounds to the steps that its readings stand on, where meta.toml says finer ones or none."""
+    found = max(step_of(columns[name]) for name in ("fx_n", "fz_n"))
+    if found <= meta.number(RESOLUTION):
+        return meta
+    return replace(meta, values={**meta.values, RESOLUTION: found})

@@ -7,6 +7,7 @@ import numpy as np
 from scipy.ndimage import uniform_filter1d
 
 from brace.dataset import Dataset
+from brace.dataset.grid import step_of
 from brace.diagnose.joint_test.hold_out import held_out, ramps
 from brace.diagnose.joint_test.terms import (
     ASYMMETRY,
@@ -27,7 +28,6 @@ STEPS_A_PERIOD = 4.0  # of the encoder: what repeats faster is its rounding
 MIN_READINGS = 20
 LAST_PART = 0.1  # of a test's range of torque, before a reversal
 STANDS = 0.75  # of what a spring alone would move there
-ON_GRID = 0.02  # of a step: how near to whole steps angles stand that an encoder has rounded
 BLOCK_ROWS = 1200  # averaged readings: enough for every ramp's shape, few enough to try some hundred models
 
 
@@ -158,19 +158,6 @@ class JointRecord(JointProblem):
             if power > most:
                 best, most = float(period), float(power)
         return best
-
-
-def step_of(angle_rad: np.ndarray) -> float:
-    """The step of the encoder that rounded these angles, 0 where they are not on a grid."""
-    values = np.unique(angle_rad)
-    apart = np.diff(values)
-    apart = apart[apart > 1e-6 * max(float(np.ptp(values)), 1e-30)]
-    if apart.size < 3:
-        return 0.0
-    step = float(np.median(apart[apart < 1.5 * apart.min()]))
-    steps = (values - values[0]) / step
-    on_grid = np.abs(steps - np.rint(steps)) < ON_GRID * np.maximum(1.0, np.rint(steps) ** 0.5)
-    return step if values.size < 0.5 * angle_rad.size and on_grid.mean() > 0.95 else 0.0
 
 
 def swing_over_both_flanks_rad(angle_rad: np.ndarray, torque_n_mm: np.ndarray, test: np.ndarray) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 
 from brace.dataset import Dataset
 from brace.dataset.check_runs import run_starts
+from brace.dataset.grid import step_of
 
 LEAST_FORCE_SIGMA_N = 1e-3  # a simulated record without noise is still not known better
 LEAST_SHARE = 1e-4  # of what a channel moves by
@@ -81,12 +82,12 @@ def noise_of(dataset: Dataset, channels: Sequence[str]) -> dict[str, ChannelNois
 
 
 def rounding_of(dataset: Dataset, channel: str) -> float:
-    """One sigma of a force's rounding, where every reading is a whole number of the sensor's steps from the first;
-    else 0."""
-    step = dataset.meta.number("sensor.resolution_n") if channel in FORCES else 0.0
+    """One sigma of a channel's rounding, where every reading is a whole number of its steps from the first; else 0."""
+    taken = dataset[channel][~np.isnan(dataset[channel])]
+    step = dataset.meta.number("sensor.resolution_n") if channel in FORCES else step_of(taken)
     if step <= 0.0:
         return 0.0
-    steps = (dataset[channel] - dataset[channel][0]) / step
+    steps = (taken - taken[0]) / step
     return float(step / np.sqrt(12.0)) if np.abs(steps - np.rint(steps)).max() < ON_GRID else 0.0
 
 

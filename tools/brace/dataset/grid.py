@@ -1,0 +1,22 @@
+"""The step by which an instrument rounded what it read."""
+
+from __future__ import annotations
+
+import numpy as np
+
+ON_GRID = 0.02  # of a step: how near to whole steps readings stand that an instrument has rounded
+FEW = 0.5  # of the readings: more different values than these are no grid's
+MOST_ON_GRID = 0.95  # of the values
+
+
+def step_of(values: np.ndarray) -> float:
+    """The step of the grid that these readings stand on, in their unit; 0 where they stand on none."""
+    distinct = np.unique(values)
+    apart = np.diff(distinct)
+    apart = apart[apart > 1e-6 * max(float(np.ptp(distinct)), 1e-30)]
+    if apart.size < 3:
+        return 0.0
+    step = float(np.median(apart[apart < 1.5 * apart.min()]))
+    steps = (distinct - distinct[0]) / step
+    on_grid = np.abs(steps - np.rint(steps)) < ON_GRID * np.maximum(1.0, np.rint(steps) ** 0.5)
+    return step if distinct.size < FEW * values.size and on_grid.mean() > MOST_ON_GRID else 0.0
