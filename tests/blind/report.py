@@ -30,8 +30,8 @@ counts."""
 
 TITLES = {"simulator": "# Blind benchmark", "finite": "# Blind benchmark at finite displacements"}
 FINITE = """The simulator of [blind.md](blind.md) assumes that no limb turns as it is displaced. Here its limbs, tests,
-effects and outsiders are played by the physics engine of [tests/engine](../tests/engine/README.md), in which limbs turn;
-detectability and classes are worked out there, too. All else is as on that page."""
+effects and outsiders are played by the physics engine of [tests/engine](../tests/engine/README.md), in which limbs
+turn; detectability and classes are worked out there, too. All else is as on that page."""
 
 EARLIER = Path(__file__).with_name("earlier_runs.json")
 

@@ -1,6 +1,7 @@
 """Runs the blind benchmark: makes the cases, seals the answers, diagnoses every case, judges, writes the tables.
 
-usage: run.py [--engine | --finite] [--development] [--cases N] [--seed S] [--only N] [--minutes M] [--processes P] [--out FOLDER]
+usage: run.py [--engine | --finite] [--development] [--cases N] [--seed S] [--only N] [--minutes M] [--processes P]
+              [--out FOLDER]
 N is a number or a plan, as generate.py says.
 An interrupted run goes on where it was; a changed tool starts anew. --only and --minutes take the cases in the order of
 their names, which is random and the same in every run; the report says how many of the plan they were."""

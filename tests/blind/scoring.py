@@ -57,7 +57,8 @@ def judge(truth: dict[str, Any], found: dict[str, Any]) -> Judged:
     group = {member for members in found.get("indistinguishable", []) for member in members}
     j = Judged(
         truth["id"], kind, float(truth["detectability"]), real or [_other(truth)], set(truth["cls"]), verdict, said,
-        rows=int(truth.get("rows", 0)), exported=verdict not in ("effect", "ambiguous") or bool(found.get("exported", True)),
+        rows=int(truth.get("rows", 0)),
+        exported=verdict not in ("effect", "ambiguous") or bool(found.get("exported", True)),
     )  # fmt: skip
     first = said[0] if said else None
     if kind == "none":

@@ -80,7 +80,11 @@ def limb() -> Path:
 
 @pytest.mark.parametrize(
     ("spoil", "words"),
-    [(gain_steps, "the sensor reads +"), (zero_steps, "the sensor's zero moved by fz_n +0.4"), (slips, "single readings")],
+    [
+        (gain_steps, "the sensor reads +"),
+        (zero_steps, "the sensor's zero moved by fz_n +0.4"),
+        (slips, "single readings"),
+    ],
 )
 def test_a_sound_limb_with_a_troubled_sensor(tmp_path: Path, limb: Path, spoil: Spoil, words: str) -> None:
     found = spoiled(tmp_path / "record", limb, spoil, values={})

@@ -65,3 +65,9 @@ def test_a_gap_is_no_larger_than_a_swing_over_both_flanks() -> None:
     assert swing_over_both_flanks_rad(within, rubs, np.zeros(400)) == np.inf
     both = np.concatenate([angle, within]), np.concatenate([torque, rubs]), np.repeat([0, 1], [torque.size, 400])
     assert swing_over_both_flanks_rad(*both) == pytest.approx(np.ptp(angle))
+
+
+def test_a_planned_ramp_is_no_encoders_grid() -> None:
+    """A ramp that a motor follows in even steps stands on a grid that nobody rounded."""
+    once = np.concatenate([np.arange(0, 60), np.arange(60, -60, -1), np.arange(-60, 0)])
+    assert step_of(1e-4 * np.tile(once, 4)) == 0.0

@@ -6,11 +6,13 @@ import numpy as np
 
 ON_GRID = 0.02  # of a step: how near to whole steps readings stand that an instrument has rounded
 FEW = 0.5  # of the readings: more different values than these are no grid's
+PLANNED = 0.9  # of the steps from reading to reading: when so many are alike, they were planned
 MOST_ON_GRID = 0.95  # of the values
 
 
 def step_of(values: np.ndarray) -> float:
-    """The step of the grid that these readings stand on, in their unit; 0 where they stand on none."""
+    """The step of the grid that these readings, in their order, stand on, in their unit; 0 where they stand on none. A
+    plan that moves by the same way from reading to reading has a grid too, and no instrument rounded it."""
     distinct = np.unique(values)
     apart = np.diff(distinct)
     apart = apart[apart > 1e-6 * max(float(np.ptp(distinct)), 1e-30)]
@@ -19,4 +21,8 @@ def step_of(values: np.ndarray) -> float:
     step = float(np.median(apart[apart < 1.5 * apart.min()]))
     steps = (distinct - distinct[0]) / step
     on_grid = np.abs(steps - np.rint(steps)) < ON_GRID * np.maximum(1.0, np.rint(steps) ** 0.5)
-    return step if distinct.size < FEW * values.size and on_grid.mean() > MOST_ON_GRID else 0.0
+    if distinct.size >= FEW * values.size or on_grid.mean() <= MOST_ON_GRID:
+        return 0.0
+    moved = np.rint(np.abs(np.diff(values)) / step)
+    alike = np.bincount(moved.astype(int), minlength=2)[1:].max()
+    return step if alike < PLANNED * moved.size else 0.0

@@ -186,7 +186,7 @@ def _told(
 
 def _may_be_nothing(effect: NamedEffect) -> bool:
     """Whether every interval of the effect holds zero."""
-    return bool(effect.parameters) and all(interval.low <= 0.0 for interval in effect.parameters.values())
+    return bool(effect.parameters) and all(one.low <= 0.0 <= one.high for one in effect.parameters.values())
 
 
 def _named(

@@ -1,8 +1,8 @@
 """Troubles of the instruments: what changes the readings, and is of no limb.
 
 Each trouble is a set of columns beside a fitted model's readings, one column for each of its sizes. Where one is far
-more likely than every set of effects, the search is done again with its columns taken out of the record (Record.beside),
-so that the limb is judged by what the trouble leaves of the record."""
+more likely than every set of effects, the search is done again with its columns taken out of the record
+(Record.beside), so that the limb is judged by what the trouble leaves of the record."""
 
 from __future__ import annotations
 
@@ -34,14 +34,13 @@ ZERO_SIGMAS_N = (0.03, 0.1, 0.3, 1.0)  # what a force sensor's zero wanders by
 LEAST_OUT = 25.0  # sigma squared: what a single reading must be off by to be taken for a slip
 MOST_OUT = 0.02  # of the readings: more than these are no slips
 POSE_STEP_RAD = 1e-4
-AXES = ("x", "z")
 
 
 @dataclass(frozen=True)
 class Trouble:
     """`columns` are channels x rows x sizes, in the channels' units, wide enough to take the trouble out of a record;
-    `lead` over the best of the catalogue in nats, beside `rest`, whose fit has the trouble taken out; `value` is the first size, `sigma` its
-    own; `shown` the sentence for people."""
+    `lead` over the best of the catalogue in nats, beside `rest`, whose fit has the trouble taken out; `value` is the
+    first size, `sigma` its own; `shown` the sentence for people."""
 
     name: str
     field: str
@@ -108,7 +107,7 @@ def likeliest(record: Record, sets: Sequence[LabelSet]) -> Trouble | None:
 @dataclass(frozen=True)
 class _Option:
     """One way of one kind of trouble beside the effects of `rest`. `spread`: one sigma of each size, 0 where nothing is
-    known of it; `cost` by the slopes of the fit of `rest`; `price` in nats, for the sizes' spread and for the choice."""
+    known of it; `cost` by the slopes of the fit of `rest`; `price` in nats, for the sizes' spread and the choice."""
 
     kind: str
     columns: np.ndarray
@@ -147,7 +146,8 @@ def _options(record: Record, rest: LabelSet) -> Iterator[_Option]:
                 elif kind.name == OUTLIERS:  # which readings
                     price += float(along.size * np.log(max(record.readings, 2)))
                 sigma = float(np.sqrt(max(inverse[0, 0], 0.0)))
-                yield _Option(kind.name, columns, spread, rest, fitted.cost - float(along @ inverse @ along), price, sigma)
+                cost = fitted.cost - float(along @ inverse @ along)
+                yield _Option(kind.name, columns, spread, rest, cost, price, sigma)
 
 
 def _fitted(record: Record, base: Fit, option: _Option, against: float) -> Trouble:
@@ -168,8 +168,8 @@ def _whitened(record: Record, columns: np.ndarray) -> np.ndarray:
 
 
 LAG, GAIN_STEP, ZERO_STEP, ZEROS, POSE, OUTLIERS = (cause.name for cause in INSTRUMENT_TROUBLES)
-# What follows the posture may be of the limb or of an encoder. It is no trouble of the instruments here, and stands only
-# against those that would otherwise make up for it.
+# What follows the posture may be of the limb or of an encoder. It is no trouble of the instruments here, and stands
+# only against those that would otherwise make up for it.
 OF_POSTURES = ("zero_per_posture", "pose_error_per_posture")
 
 

@@ -311,8 +311,8 @@ def _contested(resolved: Resolved, contested: Contest, effects: Sequence[NamedEf
 
 
 def _verdict(final: Pass, resolved: Resolved) -> Verdict:
-    """A sound limb in a record with troubled instruments: the record is at fault, or, where the trouble has a name among
-    the effects, that is what is missing."""
+    """A sound limb in a record with troubled instruments: the record is at fault, or, where the trouble has a name
+    among the effects, that is what is missing."""
     if resolved.verdict != "none" or not final.troubles:
         return resolved.verdict
     return "effect" if any(one.name == LAG for one in final.troubles) else "data_fault"
@@ -357,9 +357,9 @@ def _sentence(
     closes = "they close" if len(names) > 1 else "it closes"
     if max(effect.confidence for effect in effects) < LIKELIER_THAN_NOT:
         return (
-            f"The nearest in the catalogue is {' and '.join(effect.label for effect in effects)}, but a cause outside it "
-            f"explains the record better: it looks as if {final.decision.outside.words}. The model has the nearest added; "
-            "do not rely on it before another record says so."
+            f"The nearest in the catalogue is {' and '.join(one.label for one in effects)}, but a cause outside it "
+            f"explains the record better: it looks as if {final.decision.outside.words}. The model has the nearest "
+            "added; do not rely on it before another record says so."
         )
     return f"Missing: {' and '.join(names)}. Added to the model, {closes} the gap."
 

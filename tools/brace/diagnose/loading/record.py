@@ -107,7 +107,8 @@ class Record:
         columns = dict(self.dataset.columns)
         columns |= {"dx_mm": columns["dx_mm"] + x_mm, "dz_mm": columns["dz_mm"] + z_mm}
         dataset = replace(self.dataset, columns=columns)
-        return replace(self, dataset=dataset, player=player_of(dataset, self.channels, zeroed=dataset.meta.zeroed_per_run))
+        player = player_of(dataset, self.channels, zeroed=dataset.meta.zeroed_per_run)
+        return replace(self, dataset=dataset, player=player)
 
     def select(self, keep: np.ndarray) -> Record:
         """The rows where `keep` is true, with the same noise."""

@@ -60,8 +60,8 @@ class RivalSpace(Space):
         return self.turn is _rig_yields and heavy and counts
 
     def residuals(self, record: Record, points: np.ndarray) -> np.ndarray:
-        """A base that yields gives way under the limb's weight as well, a rig that yields does not: what the weight does
-        to the base is added to the displacements."""
+        """A base that yields gives way under the limb's weight as well, a rig that yields does not: what the weight
+        does to the base is added to the displacements."""
         if not self.sinks_less_than_a_base(record):
             return super().residuals(record, points)
         found = np.empty((len(points), record.measured.size))
