@@ -26,7 +26,9 @@ noise leaves a part of it even to somebody who is told what is hidden and fits j
 removable is the rest, and its share that the tool closes is the line above. Calibration: the confidence of every
 effect named against whether it is one of the hidden. Coverage: the intervals of effects named right. After the next
 experiment: over all single effects of s >= 12; where the tool proposes none that a rig can play, its first word
-counts."""
+counts. Outside the catalogue: bursts of interference told as single readings that stand out, and clamping or a
+zero that wanders told as a force at rest that differs from run to run, count as called unknown; any other trouble
+of the instruments told in place of what is hidden counts as misnamed."""
 
 TITLES = {"simulator": "# Blind benchmark", "finite": "# Blind benchmark at finite displacements"}
 FINITE = """The simulator of [blind.md](blind.md) assumes that no limb turns as it is displaced. Here its limbs, tests,

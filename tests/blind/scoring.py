@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
+import re
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -14,6 +15,13 @@ CONFIDENT = 0.8  # an outsider named with more than this is confidently misnamed
 VISIBLE_GAP_N = 0.05  # a gap on unseen configurations below this is not scored
 STRONG, WEAK = 11.5, 6.5  # s: "12" is from STRONG on, "8" between the two
 OF_THE_RIG = ("rig_rotation", "rig_compliance")  # of a class that the answers, which know no rigs, cannot list
+# What a trouble of the instruments may be told as, in a data fault: words of its sentence. A tip that is clamped
+# elsewhere in each run and a zero that wanders both give forces at rest that differ from run to run.
+TOLD_AS_TROUBLE = {
+    "glitch_bursts": r"single readings stand out|zero moved",
+    "seating": r"force at rest differs|zero moved",
+    "sensor_warmth": r"force at rest differs|zero moved",
+}
 ALARMS = ("effect", "ambiguous", "unknown", "data_fault")
 
 
@@ -69,8 +77,10 @@ def judge(truth: dict[str, Any], found: dict[str, Any]) -> Judged:
         j.flags["fault_any_field"] = verdict == "data_fault"
     elif kind in ("disguised", "outside"):
         j.left = float(truth.get("left_by_catalogue", math.inf))
-        j.flags["unknown"] = verdict == "unknown"
-        j.flags["misnamed"] = verdict == "effect" and any(e.get("confidence", 1.0) > CONFIDENT for e in effects)
+        told = _told_as_trouble(j.truth[0].split("@")[0], found)
+        j.flags["unknown"] = verdict == "unknown" or (verdict == "data_fault" and told)
+        sure = verdict == "effect" and any(e.get("confidence", 1.0) > CONFIDENT for e in effects)
+        j.flags["misnamed"] = sure or (verdict == "data_fault" and not told)
         if kind == "disguised":
             alike = set(truth["alike"])
             named = set(said) | group
@@ -97,6 +107,14 @@ def judge(truth: dict[str, Any], found: dict[str, Any]) -> Judged:
         if one in real:
             j.intervals += _held(effect, truth.get("true_parameters", {}))
     return j
+
+
+def _told_as_trouble(name: str, found: dict[str, Any]) -> bool:
+    """Whether every data fault tells the trouble of the instruments that was hidden; one that tells another is a wrong
+    name."""
+    words = TOLD_AS_TROUBLE.get(name)
+    reasons = [str(fault.get("why", "")) for fault in found.get("data_faults", [])]
+    return words is not None and bool(reasons) and all(re.search(words, reason) for reason in reasons)
 
 
 def _other(truth: dict[str, Any]) -> str:

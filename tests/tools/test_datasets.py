@@ -70,9 +70,19 @@ def test_what_cannot_be_a_record_is_refused_by_row_and_column(case: str, tmp_pat
 ALL_WRONG: dict[str, tuple[str, Callable[[str], str], str]] = {
     "decimal comma": ("theta1_rad", lambda text: '"' + text.replace(".", ",") + '"', "write 0.740000"),
     "upper case": ("axis", str.upper, "write x or z"),
-    "seconds since 1970": ("t_s", lambda text: f"{float(text) + 1.795e9:.3f}", "take the first reading's off all"),
-    "date": ("t_s", lambda text: f"2026-01-01T00:00:{float(text):06.3f}", "time in s"),
+    "milliseconds since 1970": ("t_s", lambda text: f"{1e3 * float(text) + 1.795e12:.0f}", "divide all by 1000"),
+    "date": ("t_s", lambda text: f"2026-01-01T00:00:{float(text):06.3f}", "time from any origin in s"),
 }
+
+
+def test_a_calendar_s_clock_counts_from_the_first_reading(tmp_path: Path) -> None:
+    rows = loading_rows()
+    own = [float(row[column("t_s")]) for row in rows]
+    for row in rows:
+        row[column("t_s")] = f"{float(row[column('t_s')]) + 1.795e9:.3f}"
+    dataset = load_dataset(write_loading(tmp_path, rows))
+    assert not dataset.faults
+    assert np.allclose(dataset["t_s"], np.array(own) - own[0], atol=1e-3)
 
 
 @pytest.mark.parametrize("case", ALL_WRONG)

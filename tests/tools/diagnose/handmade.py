@@ -35,7 +35,7 @@ title = '{title}'
 seed = 3
 [rig]
 steps = 4
-repeats = 2
+repeats = {repeats}
 [sensor]
 noise_n = 0.1
 resolution_n = 0.0625
@@ -46,11 +46,11 @@ HELD_OUT = (3, 5)
 
 def loading_record(folder: Path, limb: Path, title: str = "hidden backlash", **truth: Any) -> Path:
     """A loading test on the limb with `truth` (dotted keys with _ for nothing: a mapping in `values`; `sensor` are
-    further lines of the rig's own table)."""
+    further lines of the rig's own table; `repeats` of each run)."""
     folder.mkdir(parents=True, exist_ok=True)
     rig = folder.parent / f"{folder.name}-rig.toml"
     poses = "".join(f"[[configuration]]\ntheta1_rad = {a}\ntheta2_rad = {b}\n" for a, b in POSES)
-    rig.write_text(RIG.format(title=title) + truth.get("sensor", "") + poses)
+    rig.write_text(RIG.format(title=title, repeats=truth.get("repeats", 2)) + truth.get("sensor", "") + poses)
     values = truth.get("values", {GAP_KEY: GAP_RAD})
     meta, columns = simulate(load_limb(limb).with_values(values), load_rig(rig))
     write_dataset(folder, meta, columns)
@@ -92,7 +92,7 @@ def by_hand(folder: Path, limb: Path, **changes: Any) -> tuple[Dataset, LimbMode
             ("backlash@joint.tibia", "contact_play@contact"),
             0.98,
             6.0,
-            RIG.format(title="preloaded") + "[[configuration]]\ntheta1_rad = 0.2\ntheta2_rad = 1.6\n",
+            RIG.format(title="preloaded", repeats=2) + "[[configuration]]\ntheta1_rad = 0.2\ntheta2_rad = 1.6\n",
         ),
         "candidates": (
             Candidate("backlash@joint.tibia", 412.0, 0.97),

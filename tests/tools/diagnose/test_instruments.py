@@ -21,11 +21,12 @@ Columns = dict[str, np.ndarray]
 Spoil = Callable[[Columns], None]
 FORCES = ("fx_n", "fz_n")
 GAIN_STEP = 0.1
+STEP_ROW = 107  # within a run of 17 readings
 
 
-def spoiled(folder: Path, limb: Path, spoil: Spoil, values: dict[str, float]) -> Diagnosis:
+def spoiled(folder: Path, limb: Path, spoil: Spoil, values: dict[str, float], repeats: int = 2) -> Diagnosis:
     """The diagnosis of a record after `spoil` has changed its columns."""
-    record = loading_record(folder, limb, values=values)
+    record = loading_record(folder, limb, values=values, repeats=repeats)
     with (record / "data.csv").open(newline="") as file:
         rows = list(csv.DictReader(file))
     names = [name for name in rows[0] if name != "axis"]
@@ -98,7 +99,56 @@ def test_the_step_of_a_gain_has_its_size_and_its_run(tmp_path: Path, limb: Path)
     (fault,) = [fault for fault in found.data_faults if "the sensor reads" in fault.why]
     told_percent = float(fault.why.split("reads ")[1].split(" %")[0])
     assert told_percent == pytest.approx(100.0 * GAIN_STEP, rel=0.1)
-    assert fault.row is not None and "from run " in fault.why
+    (begins,) = np.flatnonzero(np.diff(middle_run(dict(load_dataset(tmp_path / "record").columns)).astype(int)))
+    # a run begins and ends without a load, so that the readings there have no gain to tell
+    assert fault.row is not None and abs(fault.row - (begins + 2)) <= 2
+
+
+def gain_steps_within_a_run(columns: Columns) -> None:
+    for name in FORCES:
+        columns[name][STEP_ROW:] *= 1.0 + GAIN_STEP
+
+
+def test_a_gain_may_step_within_a_run(tmp_path: Path, limb: Path) -> None:
+    found = spoiled(tmp_path / "record", limb, gain_steps_within_a_run, values={})
+    assert found.verdict == "data_fault", found.sentence
+    (fault,) = [fault for fault in found.data_faults if "the sensor reads" in fault.why]
+    assert fault.row is not None and abs(fault.row - (STEP_ROW + 1)) <= 2
+
+
+def zero_steps_twice(columns: Columns) -> None:
+    columns["fx_n"][STEP_ROW:] += 0.6
+    columns["fx_n"][2 * STEP_ROW :] -= 1.0
+
+
+def test_a_zero_may_step_twice(tmp_path: Path, limb: Path) -> None:
+    """One after the other, steps look like a drift."""
+    found = spoiled(tmp_path / "record", limb, zero_steps_twice, values={})
+    assert found.verdict == "data_fault", found.sentence
+    (fault,) = found.data_faults
+    assert f"from row {STEP_ROW + 1} on" in fault.why and f"from row {2 * STEP_ROW + 1} on" in fault.why
+
+
+def noise_grows_with_the_load(columns: Columns) -> None:
+    rng = np.random.default_rng(5)
+    for name in FORCES:
+        columns[name] += 0.06 * columns[name] * rng.standard_normal(columns[name].size)
+
+
+def test_noise_under_load_is_no_single_readings(tmp_path: Path, limb: Path) -> None:
+    found = spoiled(tmp_path / "record", limb, noise_grows_with_the_load, values={}, repeats=1)
+    assert found.verdict == "none" and found.data_faults == (), found.sentence
+
+
+def other_gain_at_one_posture(columns: Columns) -> None:
+    here = columns["config"] == 2
+    for name in FORCES:
+        columns[name][here] *= 1.0 + GAIN_STEP
+
+
+def test_what_follows_a_posture_is_no_step_in_time(tmp_path: Path, limb: Path) -> None:
+    found = spoiled(tmp_path / "record", limb, other_gain_at_one_posture, values={})
+    assert not [fault for fault in found.data_faults if "the sensor reads" in fault.why], found.sentence
 
 
 def test_a_late_sensor_is_a_lag_and_no_friction(tmp_path: Path, limb: Path) -> None:
@@ -130,3 +180,14 @@ def test_a_sensor_coarser_than_it_is_said_to_be(tmp_path: Path, limb: Path) -> N
     found = spoiled(tmp_path / "record", limb, reads_in_quarters, values={})
     assert found.verdict == "none", found.sentence
     assert load_dataset(tmp_path / "record").meta.number("sensor.resolution_n") == pytest.approx(0.25)
+
+
+def one_axis_is_noisy(columns: Columns) -> None:
+    columns["fz_n"] = np.rint(columns["fz_n"])
+    columns["fx_n"] += 0.02 * np.random.default_rng(7).standard_normal(columns["fx_n"].size)
+
+
+def test_a_channel_that_rounds_beside_one_that_is_noisy(tmp_path: Path, limb: Path) -> None:
+    """What is left of the channel that rounds has the shape of its rounding, and says nothing."""
+    found = spoiled(tmp_path / "record", limb, one_axis_is_noisy, values={})
+    assert found.verdict == "none", found.sentence

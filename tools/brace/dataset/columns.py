@@ -25,7 +25,9 @@ def _optional(name: str, unit: str, meaning: str, kind: str = "float", **more: f
     return Column(name, unit, meaning, required=False, kind=kind, limit=more.get("limit", 1e9))
 
 
-TIME = Column("t_s", "s", "time", beyond=": of seconds since 1970, take the first reading's off all")
+TIME = Column(
+    "t_s", "s", "time from any origin", limit=1e11, beyond=": of milliseconds since 1970, divide all by 1000"
+)
 
 LOADING = (
     Column("run", "", "number of the pass", kind="int"),

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-ON_GRID = 0.02  # of a step: how near to whole steps readings stand that an instrument has rounded
-FEW = 0.5  # of the readings: more different values than these are no grid's
+ON_GRID = 0.1  # of a step: how near to whole steps two readings stand that an instrument has rounded, and a file again
+NEAR = 20  # steps between two values, up to which whole numbers of them are no chance
+MOST_ON_GRID = 0.95  # of the values that are near to the next one
+OFTEN_NEAR = 0.5  # of the values: fewer are no grid's
 PLANNED = 0.9  # of the steps from reading to reading: when so many are alike, they were planned
-MOST_ON_GRID = 0.95  # of the values
 
 
 def step_of(values: np.ndarray) -> float:
@@ -19,9 +20,12 @@ def step_of(values: np.ndarray) -> float:
     if apart.size < 3:
         return 0.0
     step = float(np.median(apart[apart < 1.5 * apart.min()]))
-    steps = (distinct - distinct[0]) / step
-    on_grid = np.abs(steps - np.rint(steps)) < ON_GRID * np.maximum(1.0, np.rint(steps) ** 0.5)
-    if distinct.size >= FEW * values.size or on_grid.mean() <= MOST_ON_GRID:
+    for _ in range(2):
+        steps = np.rint(apart / step)
+        near = steps <= NEAR
+        step = float(apart[near].sum() / steps[near].sum())
+    on_grid = np.abs(apart[near] / step - steps[near]) < ON_GRID
+    if near.mean() < OFTEN_NEAR or on_grid.mean() < MOST_ON_GRID:
         return 0.0
     moved = np.rint(np.abs(np.diff(values)) / step)
     alike = np.bincount(moved.astype(int), minlength=2)[1:].max()

@@ -16,6 +16,7 @@ from brace.dataset.grid import step_of
 from brace.dataset.meta import Meta, read_meta
 
 RESOLUTION = "sensor.resolution_n"
+LATE_ORIGIN_S = 1e6  # a clock that shows more has not been started for this record
 
 
 @dataclass(frozen=True)
@@ -72,16 +73,24 @@ def load_dataset(folder: Path, *, keep_unreadable: bool = False) -> Dataset:
     meta = read_meta(folder)
     unreadable: list[DataFault] | None = [] if keep_unreadable else None
     columns, raw_rows = read_columns(folder / "data.csv", KINDS[meta.kind], unreadable)
-    dataset = Dataset(folder, meta, columns, small_displacements=meta.displacements == "small")
+    dataset = Dataset(folder, meta, _from_its_first_reading(columns), small_displacements=meta.displacements == "small")
     if unreadable:
         return replace(dataset, faults=unreadable)
     if meta.kind == "loading":
         dataset = replace(dataset, meta=_with_found_resolution(meta, columns))
-        return replace(dataset, faults=check_loading.faults(columns, dataset.meta))
+        return replace(dataset, faults=check_loading.faults(dataset.columns, dataset.meta))
     if meta.kind == "joint_test":
-        return replace(dataset, faults=check_joint_test.faults(columns))
+        return replace(dataset, faults=check_joint_test.faults(dataset.columns))
     decimals = check_table.printed_decimals(folder / "data.csv", raw_rows)
     return replace(dataset, faults=check_table.faults(columns, decimals, meta), decimals=decimals)
+
+
+def _from_its_first_reading(columns: Mapping[str, np.ndarray]) -> Mapping[str, np.ndarray]:
+    """The time of a calendar's clock counts from the first reading, as that of a clock started for the record does: the
+    limb knows nothing of dates, and a number of ten digits leaves no room for the time between readings."""
+    if "t_s" not in columns or not columns["t_s"].size or abs(columns["t_s"][0]) < LATE_ORIGIN_S:
+        return columns
+    return {**columns, "t_s": columns["t_s"] - columns["t_s"][0]}
 
 
 def _with_found_resolution(meta: Meta, columns: Mapping[str, np.ndarray]) -> Meta:

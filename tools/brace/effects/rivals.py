@@ -129,7 +129,7 @@ def _trouble(name: str, where: str, words: str, meaning: str, would_tell: str, *
     return RivalCause(name, where, words, meaning, (), (sizes,), False, _SAME_READINGS, would_tell)
 
 
-# Troubles of the instruments (brace.diagnose.loading.instruments fits them as columns beside the readings).
+# Troubles of the instruments (brace.diagnose.loading.troubles fits them as columns beside the readings).
 INSTRUMENT_TROUBLES: tuple[RivalCause, ...] = (
     _trouble(
         "lag", "sensor", "a sensor that reads late",

@@ -84,11 +84,11 @@ def noise_of(dataset: Dataset, channels: Sequence[str]) -> dict[str, ChannelNois
 def rounding_of(dataset: Dataset, channel: str) -> float:
     """One sigma of a channel's rounding, where every reading is a whole number of its steps from the first; else 0."""
     taken = dataset[channel][~np.isnan(dataset[channel])]
-    step = dataset.meta.number("sensor.resolution_n") if channel in FORCES else step_of(taken)
-    if step <= 0.0:
-        return 0.0
-    steps = (taken - taken[0]) / step
-    return float(step / np.sqrt(12.0)) if np.abs(steps - np.rint(steps)).max() < ON_GRID else 0.0
+    step = dataset.meta.number("sensor.resolution_n") if channel in FORCES else 0.0
+    steps = (taken - taken[0]) / (step or np.inf)
+    if step <= 0.0 or np.abs(steps - np.rint(steps)).max() >= ON_GRID:
+        step = step_of(taken)
+    return float(step / np.sqrt(12.0))
 
 
 def _rounded(dataset: Dataset, found: _Differences, rounding: float) -> ChannelNoise:

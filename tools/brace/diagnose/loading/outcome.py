@@ -28,7 +28,8 @@ from brace.diagnose.loading.agreement import Agreement, agreement
 from brace.diagnose.loading.next_experiment.confusability import Confusability, confusability, in_words
 from brace.diagnose.loading.next_experiment.experiment import next_experiment
 from brace.diagnose.loading.fit import Fit
-from brace.diagnose.loading.instruments import LAG, Trouble
+from brace.diagnose.loading.troubles.likeliest import Trouble
+from brace.diagnose.loading.troubles.kinds import LAG
 from brace.diagnose.loading.intervals import intervals
 from brace.diagnose.loading.limb_of import limb_of
 from brace.diagnose.loading.localise import localise

@@ -84,9 +84,28 @@ class Record:
         """Directions of the readings that instruments move (readings x directions, orthonormal), and the share of a
         residual along each that has to go for readings of covariance 1 + columns columns' to be independent again."""
         assert self.beside_model is not None
-        columns = (self.beside_model / self.sigma[:, :, None]).reshape(self.measured.size, -1)
-        basis, lengths, _ = np.linalg.svd(columns, full_matrices=False)
+        basis, lengths, _ = np.linalg.svd(self._scaled(self.beside_model), full_matrices=False)
         return basis, np.asarray(1.0 - 1.0 / np.sqrt(1.0 + lengths**2))
+
+    def whitened(self, columns: np.ndarray) -> np.ndarray:
+        """Columns in the channels' units (channels x rows x sizes) as residuals are: readings x sizes, in sigmas, with
+        what was taken out of the record taken out of them as well."""
+        scaled = self._scaled(columns)
+        if self.beside_model is not None:
+            basis, share = self._beside
+            scaled -= basis @ (share[:, None] * (basis.T @ scaled))
+        return scaled
+
+    def _scaled(self, columns: np.ndarray) -> np.ndarray:
+        scaled = np.ascontiguousarray(np.moveaxis(columns / self.sigma[:, :, None], 2, 0))
+        for channel in self.zeroed:
+            _whiten_zeroing(scaled[:, channel], self._starts)
+        return scaled.reshape(len(scaled), -1).T
+
+    @property
+    def taken_out(self) -> np.ndarray:
+        """Directions of the readings that instruments move, readings x directions, orthonormal."""
+        return self._beside[0] if self.beside_model is not None else np.empty((self.measured.size, 0))
 
     def beside(self, columns: np.ndarray) -> Record:
         """The same record with one more trouble taken out, beside those that are out already."""

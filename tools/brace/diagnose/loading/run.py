@@ -16,7 +16,7 @@ from brace.diagnose.loading.evidence import log_likelihood, score
 from brace.diagnose.loading.extensions import outside
 from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.data_faults.gate import gate
-from brace.diagnose.loading.instruments import likeliest
+from brace.diagnose.loading.troubles.likeliest import likeliest
 from brace.diagnose.loading.noise_after_base import with_growth, with_known_noise
 from brace.diagnose.loading.parts import locked_rows
 from brace.diagnose.loading.record import Record, load_record, setting_of
@@ -70,20 +70,34 @@ def diagnose_loading(
 
 
 def search_pass(record: Record, trust: Trust, variants: Sequence[Variant], advance: Advance) -> Pass:
-    """Search, then the best set fitted to the end, and what it leaves tested for structure."""
+    """Search, then the best set fitted to the end, and what it leaves tested for structure. Readings that scatter more
+    under load may look like troubles, and the other way round: the likelier of the two goes first."""
     found = _searched(record, trust, variants, advance)
-    if found.decision.verdict != "none":
-        found = _without_troubles(found, variants, advance)
+    noisier = _with_growing_noise(found, variants, advance)
+    if noisier is not found:
+        trouble = likeliest(found.record, found.sets)
+        if trouble is None or trouble.lead < _likelihood(noisier) - _likelihood(found):
+            return _without_troubles(noisier, variants, advance)
+    cleaner = _without_troubles(found, variants, advance)
+    if cleaner is found:
+        return noisier
+    return _with_growing_noise(cleaner, variants, advance)
+
+
+def _with_growing_noise(found: Pass, variants: Sequence[Variant], advance: Advance) -> Pass:
+    """The search again with a noise that grows with the load; as it was where that is not far likelier."""
     growing = with_growth(found.record, found.sets[0].best.fit)
     if growing is None:
         return found
-    other = replace(_searched(growing, trust, variants, advance), troubles=found.troubles)
+    other = replace(_searched(growing, found.trust, variants, advance), troubles=found.troubles)
     return other if _likelihood(other) > _likelihood(found) + GROWTH_MUST_GAIN else found
 
 
 def _without_troubles(found: Pass, variants: Sequence[Variant], advance: Advance) -> Pass:
-    """The search again without what the instruments did to the record; as it was where even that leaves the record
-    unexplained, because then the trouble is no explanation either."""
+    """The search again without what the instruments did to the record. As it was where nothing is missing, and where
+    even that leaves the record unexplained, because then the trouble is no explanation either."""
+    if found.decision.verdict == "none":
+        return found
     cleaner = found
     for _ in range(MOST_TROUBLES):
         trouble = likeliest(cleaner.record, cleaner.sets)

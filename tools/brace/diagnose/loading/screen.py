@@ -60,18 +60,18 @@ class Remover:
         weight = np.where(np.isinf(sigma), 1e-9, scale / sigma)
         self._pull = fitted.space.pull(fitted.x)[keep]
         stacked = np.vstack([fitted.jacobian[:, keep], np.diag(weight)])
-        self._basis, _ = np.linalg.qr(stacked)
-        self._readings = fitted.jacobian.shape[0]
+        self.basis, _ = np.linalg.qr(stacked)
+        """Readings and pulls x parameters, orthonormal: what they can make up."""
 
     def augmented(self, residual: np.ndarray) -> np.ndarray:
         """Residuals with the priors' pulls behind them, the removable part removed; points x (readings + pulls)."""
         whole = np.hstack([residual, np.tile(-self._pull, (len(residual), 1))])
-        return np.asarray(whole - (whole @ self._basis) @ self._basis.T)
+        return np.asarray(whole - (whole @ self.basis) @ self.basis.T)
 
     def columns(self, columns: np.ndarray) -> np.ndarray:
         """The same for signatures, readings x columns."""
         whole = np.vstack([columns, np.zeros((self._pull.size, columns.shape[1]))])
-        return np.asarray(whole - self._basis @ (self._basis.T @ whole))
+        return np.asarray(whole - self.basis @ (self.basis.T @ whole))
 
 
 def screen(record: Record, trust: Trust, fitted: Fit, variants: Sequence[Variant]) -> list[Promise]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from brace.diagnose.loading.choose import LabelSet
-from brace.diagnose.loading.instruments import Trouble
+from brace.diagnose.loading.troubles.likeliest import Trouble
 from brace.diagnose.loading.record import Record
 from brace.diagnose.loading.search import Hypothesis
 from brace.diagnose.loading.space import Trust

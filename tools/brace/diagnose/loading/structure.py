@@ -12,7 +12,7 @@ from brace.dataset.check_runs import run_starts
 from brace.diagnose.loading.fit import Fit
 from brace.diagnose.loading.noise import robust_sigma
 from brace.diagnose.loading.record import NOT_MEASURED, Record
-from brace.diagnose.loading.rounding import rounds_to_record
+from brace.diagnose.loading.rounding import blurred, rounds_to_record
 from brace.diagnose.loading.screen import Remover
 
 STRUCTURED_P = 1e-6  # family-wise; structure that matters is far below, and noise is never quite white
@@ -51,6 +51,7 @@ def structure_of(record: Record, fitted: Fit) -> Structure:
     """Tests the residuals of a fit. What rounding leaves has shape, too, and says nothing."""
     if rounds_to_record(record, fitted):
         return Structure(1.0, ())
+    record, fitted = blurred(record, fitted)
     remover = Remover(fitted)
     left = remover.augmented(fitted.residual[None])[0]
     tests = []
@@ -127,16 +128,23 @@ def _outliers(record: Record, fitted: Fit) -> FamilyTest:
     """Single readings that no noise makes, neither the record's nor that of its readings under like load."""
     from scipy.special import ndtr
 
-    size = max(1.0, float(np.sqrt(fitted.chi2 / max(record.readings, 1))))
-    worst = 0.0
-    for left, reading, sigma in zip(fitted.residual.reshape(record.measured.shape), record.measured, record.sigma):
-        taken = np.flatnonzero(sigma < NOT_MEASURED)
-        alike = taken[np.argsort(np.abs(reading[taken]), kind="stable")]
-        for begin in range(0, alike.size, ALIKE):
-            some = left[alike[max(0, min(begin, alike.size - ALIKE)) : begin + ALIKE]]
-            worst = max(worst, float(np.abs(some).max(initial=0.0)) / max(size, robust_sigma(some)))
+    worst = float(far_among_alike(record, fitted).max(initial=0.0))
     p = float(min(1.0, 2.0 * ndtr(-worst) * record.readings))
     return FamilyTest("in single readings", p, worst**2, 1)
+
+
+def far_among_alike(record: Record, fitted: Fit) -> np.ndarray:
+    """How many sigmas each reading is off: the record's own, or those of the readings of its channel under like load,
+    whichever are larger. 0 where nothing was read."""
+    size = max(1.0, float(np.sqrt(fitted.chi2 / max(record.readings, 1))))
+    far: np.ndarray = np.zeros(record.measured.shape)
+    for place, (left, sigma) in enumerate(zip(fitted.residual.reshape(record.measured.shape), record.sigma)):
+        taken = np.flatnonzero(sigma < NOT_MEASURED)
+        alike = taken[np.argsort(np.abs(record.measured[place, taken]), kind="stable")]
+        for begin in range(0, alike.size, ALIKE):
+            rows = alike[max(0, min(begin, alike.size - ALIKE)) : begin + ALIKE]
+            far[place, rows] = np.abs(left[rows]) / max(size, robust_sigma(left[rows]))
+    return far.ravel()
 
 
 def _families(record: Record, fitted: Fit) -> Iterator[tuple[str, np.ndarray]]:

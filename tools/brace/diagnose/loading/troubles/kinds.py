@@ -1,0 +1,149 @@
+"""What each trouble of the instruments adds to the readings: its columns beside a fitted model's readings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import comb, log
+
+import numpy as np
+
+from brace.dataset.check_runs import run_starts
+from brace.diagnose.loading.fit import Fit
+from brace.diagnose.loading.noise import FORCES
+from brace.diagnose.loading.record import Record
+from brace.diagnose.loading.screen import Remover
+from brace.diagnose.loading.structure import far_among_alike
+from brace.diagnose.loading.troubles.steps import best_rows
+from brace.effects.rivals import INSTRUMENT_TROUBLES
+from brace.native.plant_batch import number_index
+
+LAG, GAIN_STEP, ZERO_STEP, ZEROS, POSE, OUTLIERS = (cause.name for cause in INSTRUMENT_TROUBLES)
+# What follows the posture may be of the limb or of an encoder. It is no trouble of the instruments here, and stands
+# only against those that would otherwise make up for it.
+OF_POSTURES = ("zero_per_posture", "pose_error_per_posture", "gain_per_posture")
+POSE_SIGMAS_RAD = (7e-4, 1.5e-3, 3e-3, 6e-3)  # what a drive repeats its posture by
+ZERO_SIGMAS_N = (0.03, 0.1, 0.3, 1.0)  # what a force sensor's zero wanders by
+GAIN_SIGMAS = (0.03, 0.1)  # what a reading's gain may differ by from posture to posture
+MOST_STEPS = 3  # of a sensor's zero within one record
+FAR_OUT = 5.0  # sigmas: what a single reading must be off by to be taken for a slip
+MOST_OUT = 0.02  # of the readings: more than these are no slips
+POSE_STEP_RAD = 1e-4
+
+
+@dataclass(frozen=True)
+class Way:
+    """`columns` are channels x rows x sizes; `price` in nats, for the ways of its kind among which it was chosen."""
+
+    columns: np.ndarray
+    price: float
+
+
+@dataclass(frozen=True)
+class Kind:
+    """Ways of one trouble. `spread`: one sigma of each size, tried one after the other; empty where nothing is known of
+    it."""
+
+    name: str
+    ways: Sequence[Way]
+    spread: tuple[float, ...] = ()
+
+
+def kinds(record: Record, fitted: Fit, remover: Remover, left: np.ndarray) -> Iterator[Kind]:
+    """Every trouble that this record can have. `left`: readings and pulls that the fit leaves."""
+    played = record.player.play_numbers(fitted.model[None])[0]
+    starts = run_starts(record.dataset["run"])
+    yield Kind(LAG, [Way(_of_forces(record, -_rate(record, played[: len(FORCES)], starts)[:, :, None]), 0.0)])
+    yield Kind(GAIN_STEP, list(_steps(record, remover, left, played[: len(FORCES), :, None] * _X_Z, most=1)))
+    if not record.zeroed:
+        unit = np.broadcast_to(_X_Z, (len(FORCES), record.rows, len(FORCES)))
+        yield Kind(ZERO_STEP, list(_steps(record, remover, left, unit, most=MOST_STEPS)))
+        runs = _by_run(record, np.ones((1, record.rows)), starts)
+        if runs.shape[2] > 2:
+            both = np.concatenate([runs * _X[:, :, None], runs * _Z[:, :, None]], axis=2)
+            yield Kind(ZEROS, [Way(_of_forces(record, both), 0.0)], ZERO_SIGMAS_N)
+            yield Kind(
+                OF_POSTURES[0], [Way(_of_forces(record, _by_posture(record, both, starts)), 0.0)], ZERO_SIGMAS_N
+            )
+    if starts.size > 3:
+        turned = np.concatenate(
+            [_by_run(record, _turned(record, fitted, joint), starts) for joint in ("femur", "tibia")], axis=2
+        )
+        yield Kind(POSE, [Way(turned, 0.0)], POSE_SIGMAS_RAD)
+        yield Kind(OF_POSTURES[1], [Way(_by_posture(record, turned, starts), 0.0)], POSE_SIGMAS_RAD)
+        gains = _by_posture(record, _by_run(record, played[: len(FORCES)], starts), starts)
+        yield Kind(OF_POSTURES[2], [Way(_of_forces(record, gains), 0.0)], GAIN_SIGMAS)
+    far = np.flatnonzero(far_among_alike(record, fitted) > FAR_OUT)
+    if 0 < far.size <= max(1.0, MOST_OUT * record.readings):
+        columns = np.zeros((record.measured.size, far.size))
+        columns[far, np.arange(far.size)] = record.sigma.ravel()[far]
+        which = far.size * log(max(record.readings, 2))
+        yield Kind(OUTLIERS, [Way(columns.reshape(*record.measured.shape, far.size), which)])
+
+
+def _steps(
+    record: Record, remover: Remover, left: np.ndarray, values: np.ndarray, most: int
+) -> Iterator[Way]:
+    """One to `most` steps of `values` (forces x rows x forces) at any readings: of both forces by one size for gains
+    (whose columns are apart), of each alone, of both."""
+    choices = [values.sum(axis=2, keepdims=True)] if most == 1 else [values]
+    choices += [values[:, :, [axis]] for axis in range(len(FORCES))]
+    for chosen in choices:
+        whitened = record.whitened(_of_forces(record, chosen)).reshape(*record.measured.shape, -1)
+        rows = best_rows(record, remover, left, whitened, most)
+        for count in range(1, len(rows) + 1):
+            since = [np.arange(record.rows)[None, :, None] >= row for row in sorted(rows[:count])]
+            columns = np.concatenate([chosen * one for one in since], axis=2)
+            yield Way(_of_forces(record, columns), log(len(choices) * comb(record.rows - 1, count)))
+
+
+_X, _Z = np.array([[1.0], [0.0]]), np.array([[0.0], [1.0]])
+_X_Z = np.eye(2)[:, None, :]  # forces x 1 x forces
+
+
+def _of_forces(record: Record, columns: np.ndarray) -> np.ndarray:
+    """Columns of the forces (2 x rows x sizes) as columns of all channels, as a record shows them that zeroes each
+    run."""
+    out = np.zeros((len(record.channels), *columns.shape[1:]))
+    out[: len(FORCES)] = columns
+    if record.zeroed:
+        starts = run_starts(record.dataset["run"])
+        out[: len(FORCES)] -= np.repeat(columns[:, starts[:-1]], np.diff(starts), axis=1)
+    return out
+
+
+def _rate(record: Record, played: np.ndarray, starts: np.ndarray) -> np.ndarray:
+    """Change of the forces by time since the reading before; none where a run begins."""
+    clock = record.dataset["t_s"]
+    passed = np.diff(clock, prepend=clock[0])
+    rate = np.diff(played, axis=1, prepend=played[:, :1]) / np.where(passed > 0.0, passed, np.inf)
+    rate[:, starts[:-1]] = 0.0
+    return np.asarray(rate)
+
+
+def _by_run(record: Record, values: np.ndarray, starts: np.ndarray) -> np.ndarray:
+    """Values (channels x rows) as one column for each run."""
+    out = np.zeros((*values.shape, starts.size - 1))
+    for number, (begin, end) in enumerate(zip(starts[:-1], starts[1:])):
+        out[:, begin:end, number] = values[:, begin:end]
+    return out
+
+
+def _by_posture(record: Record, by_run: np.ndarray, starts: np.ndarray) -> np.ndarray:
+    """Columns of runs, one after the other for each of two sizes, summed over the runs of each configuration."""
+    of_run = record.dataset["config"][starts[:-1]]
+    runs = of_run.size
+    summed = [
+        by_run[:, :, [size * runs + run for run in np.flatnonzero(of_run == config)]].sum(axis=2)
+        for size in range(by_run.shape[2] // runs) for config in np.unique(of_run)
+    ]  # fmt: skip
+    return np.stack(summed, axis=2)
+
+
+def _turned(record: Record, fitted: Fit, joint: str) -> np.ndarray:
+    """By how much the readings change with the posture of a joint, channels x rows, by rad."""
+    place = number_index()[f"joint.{joint}.zero_offset_rad"]
+    models = np.stack([fitted.model, fitted.model])
+    models[1, place] += POSE_STEP_RAD
+    played = record.player.play_numbers(models)
+    return np.asarray((played[1] - played[0]) / POSE_STEP_RAD)

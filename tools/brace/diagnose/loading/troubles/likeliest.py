@@ -1,0 +1,163 @@
+"""The trouble of the instruments that explains a loading record best, weighed by the same evidence as effects."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from brace.dataset import DataFault
+from brace.diagnose.diagnosis import Interval
+from brace.diagnose.loading.choose import LabelSet
+from brace.diagnose.loading.evidence import evidence, freedoms, score
+from brace.diagnose.loading.fit import Fit, fit
+from brace.diagnose.loading.intervals import Z_90
+from brace.diagnose.loading.record import Record
+from brace.diagnose.loading.rounding import rounds_to_record
+from brace.diagnose.loading.screen import Remover
+from brace.diagnose.loading.troubles.kinds import GAIN_STEP, LAG, OF_POSTURES, OUTLIERS, ZERO_STEP, kinds
+from brace.diagnose.loading.troubles.words import first_row, shown
+from brace.effects.rivals import RIVAL_BY_NAME, RivalCause
+
+MUST_LEAD = 4.6  # nats: 100 to 1 against the best of the catalogue, as every name must be ahead of nothing missing
+REFITTED = 4  # kinds of trouble beside sets of effects, the most likely ones
+BY_SLOPES = 0.01  # nats for each sigma squared that a trouble explains by slopes: what a fit may explain beside
+MAY_BE = -3.0  # nats: 1 to 20, from which a trouble is a rival of what was named
+FLAT = 1e3  # whitened: a size of which nothing is known before
+
+
+@dataclass(frozen=True)
+class Trouble:
+    """`columns` are channels x rows x sizes, in the channels' units, wide enough to take the trouble out of a record;
+    `lead` over the best of the catalogue in nats, beside `rest`, whose fit has the trouble taken out; `value` is the
+    first size, `sigma` its own; `shown` the sentence for people."""
+
+    name: str
+    field: str
+    row: int | None
+    columns: np.ndarray
+    rest: LabelSet
+    lead: float
+    value: float
+    sigma: float
+    shown: str
+
+    @property
+    def far_ahead(self) -> bool:
+        """Whether nothing of the catalogue comes near."""
+        return self.lead > MUST_LEAD
+
+    @property
+    def cause(self) -> RivalCause:
+        """Its words."""
+        return RIVAL_BY_NAME[self.name]
+
+    @property
+    def sizes(self) -> dict[str, Interval]:
+        """Its first size with its 90 % interval; none where the trouble has a size for each run or reading."""
+        if self.name not in (LAG, GAIN_STEP, ZERO_STEP):
+            return {}
+        half = Z_90 * self.sigma
+        return {self.cause.ways[0][0].key: Interval(self.value, self.value - half, self.value + half)}
+
+    @property
+    def fault(self) -> DataFault:
+        """As an entry of data_faults that does not stop the diagnosis."""
+        return DataFault(self.row, self.field, self.shown, blocking=False)
+
+
+def likeliest(record: Record, sets: Sequence[LabelSet]) -> Trouble | None:
+    """The trouble that is ahead of every set of effects, or not far behind, or None. `sets` are sorted; one of them has
+    no labels."""
+    known = {item.labels: item for item in sets}
+    best, base = sets[0], known[frozenset()].best.fit
+    if rounds_to_record(record, best.best.fit):
+        return None
+    against = score(best.best.fit, base, record.readings, record.noise_freedom) - float(np.log(best.posterior))
+    rests = [frozenset[str](), *(best.labels - {label} for label in sorted(best.labels)), best.labels]
+    options = [option for rest in dict.fromkeys(rests) if rest in known for option in _options(record, known[rest])]
+    first: dict[tuple[str, frozenset[str]], _Option] = {}
+    for option in sorted(options, key=lambda one: -one.promise(record, base)):
+        first.setdefault((option.kind, option.rest.labels), option)
+    troubles = [_fitted(record, base, option, against) for option in list(first.values())[:REFITTED]]
+    likely = max(troubles, key=lambda one: one.lead, default=None)
+    return likely if likely is not None and likely.lead > MAY_BE and likely.name not in OF_POSTURES else None
+
+
+@dataclass(frozen=True)
+class _Option:
+    """One way of one kind of trouble beside the effects of `rest`. `spread`: one sigma of each size, 0 where nothing is
+    known of it; `cost` by the slopes of the fit of `rest`; `price` in nats, for the sizes' spread and the choice."""
+
+    kind: str
+    columns: np.ndarray
+    spread: float
+    rest: LabelSet
+    cost: float
+    price: float
+    sigma: float
+
+    def score(self, record: Record, base: Fit, cost: float) -> float:
+        """Log evidence over nothing missing, with this cost."""
+        fitted = self.rest.best.fit
+        own = freedoms(fitted) + (0 if self.spread else self.columns.shape[2])
+        effects = len(fitted.space.variants) + 1
+        return evidence(cost, base.cost, own, effects, record.readings, record.noise_freedom) - self.price
+
+    def promise(self, record: Record, base: Fit) -> float:
+        """The score that a fit may come to. Slopes tell the less, the further the limb has to move."""
+        return self.score(record, base, self.cost) + BY_SLOPES * (self.rest.best.fit.cost - self.cost)
+
+
+def _options(record: Record, rest: LabelSet) -> Iterator[_Option]:
+    """Every way of every kind beside a set of effects."""
+    fitted = rest.best.fit
+    remover = Remover(fitted)
+    left = remover.augmented(fitted.residual[None])[0]
+    for kind in kinds(record, fitted, remover, left):
+        for way in kind.ways:
+            bare = remover.columns(record.whitened(way.columns))
+            power, along = bare.T @ bare, bare.T @ left
+            if not np.all(np.diag(power) > 1e-6):
+                continue
+            for spread in kind.spread or (0.0,):
+                inner = power + (np.eye(along.size) / spread**2 if spread else 0.0)
+                inverse = np.linalg.pinv(inner, hermitian=True)
+                price = way.price + float(np.log(max(1, len(kind.spread))))
+                if spread:
+                    price += 0.5 * float(np.linalg.slogdet(np.eye(along.size) + spread**2 * power)[1])
+                sigma = float(np.sqrt(max(inverse[0, 0], 0.0)))
+                cost = fitted.cost - float(along @ inverse @ along)
+                yield _Option(kind.name, way.columns, spread, rest, cost, price, sigma)
+
+
+def _fitted(record: Record, base: Fit, option: _Option, against: float) -> Trouble:
+    """The trouble with the limb fitted anew beside it, which may gain more than the slopes of the old fit tell."""
+    rest = option.rest.best.fit
+    wide = option.columns * (option.spread or _flat(record, option.columns))
+    fitted = fit(record.beside(wide), rest.space, rest.x)
+    lead = option.score(record, base, min(fitted.cost, option.cost)) - against
+    whitened = record.whitened(option.columns)
+    inner = whitened.T @ whitened + (np.eye(whitened.shape[1]) / option.spread**2 if option.spread else 0.0)
+    left = record.residuals(fitted.space.models(fitted.x[None]))[0]
+    sizes = np.linalg.pinv(inner, hermitian=True) @ (whitened.T @ left)
+    return _told(record, option, fitted, wide, sizes, lead)
+
+
+def _told(
+    record: Record, option: _Option, fitted: Fit, wide: np.ndarray, sizes: np.ndarray, lead: float
+) -> Trouble:
+    """The trouble in words."""
+    columns = option.columns
+    where = [name for place, name in enumerate(record.channels) if np.any(columns[place] != 0.0)]
+    row = first_row(columns) + 1 if option.kind in (GAIN_STEP, ZERO_STEP, OUTLIERS) else None
+    sentence = shown(record, option.kind, columns, sizes, option.sigma)
+    rest = replace(option.rest, best=replace(option.rest.best, fit=fitted))
+    return Trouble(option.kind, ", ".join(where), row, wide, rest, lead, float(sizes[0]), option.sigma, sentence)
+
+
+def _flat(record: Record, columns: np.ndarray) -> np.ndarray:
+    """Factors that make each column as long as a size of which nothing is known."""
+    length = np.linalg.norm(record.whitened(columns), axis=0)
+    return np.asarray(FLAT / np.where(length > 0.0, length, 1.0))
