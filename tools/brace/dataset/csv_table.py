@@ -161,7 +161,7 @@ def _check_header(header: list[str], wanted: Sequence[Column], path: Path, lines
     missing = [column for column in wanted if _needed(column, wanted, header) and column.name not in header]
     if not missing:
         return
-    if len(missing) == sum(column.required for column in wanted):
+    if not {column.name for column in wanted} & set(header):
         _refuse_preamble(lines, missing, path)
     column = missing[0]
     spare = [name for name in header if name not in {item.name for item in wanted}]
