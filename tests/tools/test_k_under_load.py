@@ -73,7 +73,7 @@ def test_warm_joints(
     assert (abs(cold["k_zz_n_per_mm"] - k[1, 1]) > 2 * WORST_K * k[1, 1]) == (temp_degc != 22.0)
 
 
-def test_a_temperature_counts_without_a_load_too(brace: Callable[..., Outcome], paper_limb: Path, tmp_path: Path) -> None:
+def test_a_temperature_counts_without_a_load(brace: Callable[..., Outcome], paper_limb: Path, tmp_path: Path) -> None:
     """Twice the compliance of every joint is what 0.025 / degC gives 40 degC above the reference."""
     model = load_limb(paper_limb).with_values({"link.femur.lateral_mm_per_n": 0.1, "link.tibia.lateral_mm_per_n": 0.1})
     keys = [f"joint.{joint}.compliance_rad_per_n_mm" for joint in ("coxa", "femur", "tibia")]
