@@ -79,7 +79,7 @@ REFUSED: dict[str, Callable[[Rows], tuple[str, Rows]]] = {
     "not_a_number": lambda rows: (LOADING_HEADER, [*rows[:9], [*rows[9][:11], "nan", "0.1"], *rows[10:]]),
     "words": lambda rows: (LOADING_HEADER, [*rows[:9], [*rows[9][:11], "much", "0.1"], *rows[10:]]),
     "other_columns": lambda rows: ("a,b,c", [["1", "2", "3"]] * 20),
-    "a_column_lacks": lambda rows: (LOADING_HEADER.replace(",fz_n", ""), [row[:-1] for row in rows]),
+    "a_column_lacks": lambda rows: (LOADING_HEADER.replace(",dz_mm", ""), [[*row[:-3], *row[-2:]] for row in rows]),
     "ragged": lambda rows: (LOADING_HEADER, [*rows[:9], rows[9][:7], *rows[10:]]),
     "a_few_rows": lambda rows: (LOADING_HEADER, rows[:3]),
 }

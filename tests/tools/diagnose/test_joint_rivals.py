@@ -6,48 +6,18 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from by_torque import LEG, found_in, triangle, under_torque
 
-import joint_cases
-from brace.dataset import load_dataset
 from brace.dataset.grid import step_of
 from brace.diagnose.diagnosis import Diagnosis
 from brace.diagnose.joint_test.fit import Fitted
 from brace.diagnose.joint_test.record import swing_over_both_flanks_rad
 from brace.diagnose.joint_test.rivals import Rival, beside, surest
 from brace.diagnose.joint_test.terms import Term
-from brace.diagnose.options import Options
-from brace.diagnose.run import diagnose
 from brace.identify.parameters import ParameterSet
 from brace.model import load_limb
 
 LIMB = Path(__file__).parents[3] / "tools/brace/data/paper-limb.toml"
-LEG = 260  # readings of a test
-
-
-def triangle(count: int = LEG) -> np.ndarray:
-    """0, 1, -1, 0."""
-    return np.asarray(np.interp(np.linspace(0, 4, count), [0, 1, 3, 4], [0, 1, -1, 0]))
-
-
-def found_in(folder: Path, tests: list[tuple[np.ndarray, np.ndarray]]) -> Diagnosis:
-    """The diagnosis of these pairs of angle [rad] and torque [N mm]."""
-    angle, torque = (np.concatenate([pair[place] for pair in tests]) for place in (0, 1))
-    number = np.repeat(np.arange(len(tests)), [pair[0].size for pair in tests])
-    columns = {"t_s": 0.02 * np.arange(angle.size), "angle_rad": angle, "torque_n_mm": torque, "test": number}
-    return diagnose(load_dataset(joint_cases.Case("", {}, columns).write(folder)), None, Options())
-
-
-def under_torque(torque: np.ndarray, gap_rad: float, friction_n_mm: float, compliance: float) -> np.ndarray:
-    """Angles of a joint with play and dry friction whose torque is imposed: it stays until friction lets it slip."""
-
-    def carried(spring: float) -> float:
-        return float(compliance * spring + 0.5 * gap_rad * np.sign(spring))
-
-    angle, angles = 0.0, []
-    for one in torque:
-        angle = float(np.clip(angle, carried(one - friction_n_mm), carried(one + friction_n_mm)))
-        angles.append(angle)
-    return np.array(angles)
 
 
 def test_the_swing_bounds_play_only_where_both_flanks_were_reached() -> None:

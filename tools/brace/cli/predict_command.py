@@ -58,9 +58,9 @@ def run(arguments: argparse.Namespace) -> int:
     lines = [",".join(columns), *(",".join(row) for row in zip(*texts))]
     write_file(arguments.out, "\n".join(lines) + "\n", inputs)
     gap = {
-        f"rms_gap_{name}": float(np.sqrt(np.mean((values - dataset[name]) ** 2)))
+        f"rms_gap_{name}": float(np.sqrt(np.nanmean((values - dataset[name]) ** 2)))
         for name, values in columns.items()
-        if name in dataset
+        if name in dataset and not np.isnan(dataset[name]).all()
     }
     if arguments.json:
         common.print_json(

@@ -200,7 +200,7 @@ def _slipped_decimals(columns: Columns, meta: Meta) -> Iterator[DataFault]:
         expected = np.where(back, before + beyond * (before - np.roll(force, 2)), expected)
         expected = np.where(inner & turning & ~back, force, expected)
         off = np.abs(force - expected)
-        typical = max(float(np.median(off)), floor_n)
+        typical = max(float(np.median(off[~np.isnan(off)])) if not np.isnan(off).all() else 0.0, floor_n)
         large = np.maximum(np.abs(force), np.abs(expected)) > 12 * typical
         for row in np.flatnonzero((off > 12 * typical) & large)[:200]:
             near = max(4 * typical, 0.02 * abs(expected[row]))

@@ -129,7 +129,7 @@ def _units(runs: _RunSlopes, poses: _PoseSlopes) -> Iterator[DataFault]:
         return
     low, high = PLAUSIBLE_N_PER_MM
     for axis, name in enumerate(("fx_n", "fz_n")):
-        driven = runs.driven[runs.axis == axis]
+        driven = runs.driven[(runs.axis == axis) & np.isfinite(runs.driven)]  # NaN: a force that was not read
         typical = float(np.median(np.abs(driven))) if driven.size else 1.0
         if not low <= typical <= high:
             unit, factor = slip_of(

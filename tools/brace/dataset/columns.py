@@ -9,7 +9,7 @@ from dataclasses import dataclass
 @dataclass(frozen=True)
 class Column:
     """A column of data.csv; entries lie in [-limit, limit], and in [0, limit] when `positive`. `beyond` says what an
-    entry outside may be."""
+    entry outside may be. Of columns with the same `one_of`, every row has an entry in one at least."""
 
     name: str
     unit: str
@@ -19,6 +19,7 @@ class Column:
     limit: float = 1e9
     positive: bool = False
     beyond: str = ""
+    one_of: str = ""
 
 
 def _optional(name: str, unit: str, meaning: str, kind: str = "float", **more: float) -> Column:
@@ -41,8 +42,8 @@ LOADING = (
     Column("temp_degc", "degC", "temperature", limit=1e4),
     Column("dx_mm", "mm", "imposed displacement of the tip", limit=1e6),
     Column("dz_mm", "mm", "imposed displacement of the tip", limit=1e6),
-    Column("fx_n", "N", "force on the limb"),
-    Column("fz_n", "N", "force on the limb"),
+    Column("fx_n", "N", "force on the limb", required=False, one_of="force"),
+    Column("fz_n", "N", "force on the limb", required=False, one_of="force"),
     _optional("enc1_rad", "rad", "output-side deflection of joint 1"),
     _optional("enc2_rad", "rad", "output-side deflection of joint 2"),
     _optional("base_x_mm", "mm", "dial gauge on the base"),

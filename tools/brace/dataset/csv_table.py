@@ -14,7 +14,7 @@ import numpy as np
 from brace.dataset.columns import Column
 from brace.dataset.entries import QUOTED_COMMA, beyond_limit, entry_by_entry, entry_limit, entry_text
 from brace.dataset.faults import DataFault
-from brace.dataset.not_read import without_blanks
+from brace.dataset.not_read import nothing_read, with_absent, without_blanks
 from brace.errors import BadFileError, did_you_mean
 from brace.files import DATA_LIMIT_BYTES, read_bytes
 from brace.slips import slip
@@ -67,7 +67,17 @@ def read_columns(
         unreadable += refused
     for name, blank in not_read.items():
         columns[name] = np.where(blank, np.nan, columns[name])
-    return {column.name: _typed(columns[column.name], column) for column in present}, rows
+    typed = with_absent({column.name: _typed(columns[column.name], column) for column in present}, wanted)
+    names, empty = nothing_read(typed, wanted)
+    if empty.size:
+        row = int(empty[0])
+        raise BadFileError(
+            f"{' and '.join(names)} are both empty",
+            where=f"{path}:{row + 2} (row {row + 1})",
+            why="a row without any force says nothing",
+            next_step="give one of the two, or delete the row",
+        )
+    return typed, rows
 
 
 def field_text(row: bytes, position: int) -> str:
@@ -148,7 +158,7 @@ def _check_header(header: list[str], wanted: Sequence[Column], path: Path, lines
                 why="it is not said which of the two counts",
                 next_step="rename or drop one",
             )
-    missing = [column for column in wanted if column.required and column.name not in header]
+    missing = [column for column in wanted if _needed(column, wanted, header) and column.name not in header]
     if not missing:
         return
     if len(missing) == sum(column.required for column in wanted):
@@ -170,6 +180,23 @@ def _check_header(header: list[str], wanted: Sequence[Column], path: Path, lines
             else f"add {column.name}"
         ),
     )
+
+
+def _needed(column: Column, wanted: Sequence[Column], header: Sequence[str]) -> bool:
+    """Whether a column has to be there: of several of which one is enough, those that seem to be there by another name,
+    and all where none is."""
+    if not column.one_of:
+        return column.required
+    others = [other.name for other in wanted if other.one_of == column.one_of]
+    spare = [name for name in header if name not in {item.name for item in wanted}]
+    stem = column.name.removesuffix(f"_{column.unit.lower()}")
+    return not set(others) & set(header) or any(_alike(stem, name) for name in spare)
+
+
+def _alike(stem: str, name: str) -> bool:
+    """Whether a column's name is another way to say this one: force_x, Fx [N]."""
+    letters = "".join(char for char in name.lower() if char.isalpha() or char == "_")
+    return letters.startswith((stem, f"{stem[0]}_{stem[1:]}", f"force_{stem[1:]}", f"force{stem[1:]}"))
 
 
 def _refuse_preamble(lines: Sequence[bytes], required: Sequence[Column], path: Path) -> None:

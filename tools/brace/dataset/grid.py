@@ -14,6 +14,9 @@ PLANNED = 0.9  # of the steps from reading to reading: when so many are alike, t
 def step_of(values: np.ndarray) -> float:
     """The step of the grid that these readings, in their order, stand on, in their unit; 0 where they stand on none. A
     plan that moves by the same way from reading to reading has a grid too, and no instrument rounded it."""
+    values = values[~np.isnan(values)]
+    if not values.size:
+        return 0.0
     distinct = np.unique(values)
     apart = np.diff(distinct)
     apart = apart[apart > 1e-6 * max(float(np.ptp(distinct)), 1e-30)]

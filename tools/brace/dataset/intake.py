@@ -15,6 +15,7 @@ from brace.dataset.faults import DataFault
 from brace.dataset.grid import step_of
 from brace.dataset.meta import Meta, read_meta
 
+FORCES = ("fx_n", "fz_n")
 RESOLUTION = "sensor.resolution_n"
 LATE_ORIGIN_S = 1e6  # a clock that shows more has not been started for this record
 
@@ -44,6 +45,11 @@ class Dataset:
     def rows(self) -> int:
         """Number of rows."""
         return len(next(iter(self.columns.values())))
+
+    @property
+    def reads_both_forces(self) -> bool:
+        """Whether every row has both forces: not so with a sensor of one axis."""
+        return not any(np.isnan(self.columns[name]).any() for name in FORCES)
 
     def __getitem__(self, column: str) -> np.ndarray:
         return self.columns[column]
@@ -95,7 +101,7 @@ def _from_its_first_reading(columns: Mapping[str, np.ndarray]) -> Mapping[str, n
 
 def _with_found_resolution(meta: Meta, columns: Mapping[str, np.ndarray]) -> Meta:
     """A sensor rounds to the steps that its readings stand on, where meta.toml says finer ones or none."""
-    found = max(step_of(columns[name]) for name in ("fx_n", "fz_n"))
+    found = max(step_of(columns[name]) for name in FORCES)
     if found <= meta.number(RESOLUTION):
         return meta
     return replace(meta, values={**meta.values, RESOLUTION: found})

@@ -1,4 +1,5 @@
-"""Instruments that were not there all the time: an optional column may be left empty for whole runs."""
+"""Instruments that were not there all the time: an optional column may be left empty for whole runs, a force column of
+a sensor with one axis throughout, or be left out."""
 
 from __future__ import annotations
 
@@ -30,8 +31,24 @@ def without_blanks(
         position = place[column.name]
         empty = np.array([not row[position].strip() for row in fields])
         whole = empty & (np.bincount(run, weights=empty) == counts)[run]
-        if whole.any() and not whole.all():
+        if whole.any() and (column.one_of or not whole.all()):
             found[column.name] = whole
             for number in np.flatnonzero(whole):
                 fields[number][position] = b"0"
     return ([b",".join(row) for row in fields] if found else rows), found
+
+
+def with_absent(columns: dict[str, np.ndarray], wanted: Sequence[Column]) -> dict[str, np.ndarray]:
+    """The columns with those of a sensor with one axis that are not in the file, as readings that were not taken."""
+    groups = {column.one_of for column in wanted if column.one_of and column.name in columns}
+    rows = len(next(iter(columns.values())))
+    absent = [column.name for column in wanted if column.one_of in groups and column.name not in columns]
+    return columns | {name: np.full(rows, np.nan) for name in absent}
+
+
+def nothing_read(columns: dict[str, np.ndarray], wanted: Sequence[Column]) -> tuple[list[str], np.ndarray]:
+    """Columns of which every row needs one, and the rows (from 0) that have an entry in none."""
+    names = [column.name for column in wanted if column.one_of]
+    if not names:
+        return [], np.empty(0, int)
+    return names, np.flatnonzero(np.isnan(np.stack([columns[name] for name in names])).all(axis=0))

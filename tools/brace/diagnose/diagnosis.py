@@ -141,6 +141,16 @@ class Residuals:
 
 
 @dataclass(frozen=True)
+class JointSizes:
+    """What a joint test tells of its joint: by key of limb.toml, with 90 % intervals, which hold for the torques up to
+    `torque_n_mm` on each side and include the spread between `gear_positions`."""
+
+    parameters: Mapping[str, Interval]
+    torque_n_mm: float
+    gear_positions: int
+
+
+@dataclass(frozen=True)
 class Diagnosis:
     """All that a diagnosis found. `model` is the limb with the effects in it (the believed one where nothing may be
     exported). `members` are the explanations that stand where one name does not."""
@@ -162,3 +172,4 @@ class Diagnosis:
     seed: int = 0
     details: Mapping[str, Any] = field(default_factory=dict)
     members: tuple[Alternative, ...] = ()
+    joint: JointSizes | None = None

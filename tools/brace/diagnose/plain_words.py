@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from brace.diagnose.diagnosis import Diagnosis, GapPair, Interval, NamedEffect
+from brace.diagnose.diagnosis import Diagnosis, GapPair, Interval, JointSizes, NamedEffect
 from brace.effects import BY_NAME
 from brace.effects.rivals import RIVAL_BY_NAME, RIVAL_UNITS
 from brace.model.keys import KEY_BY_NAME
@@ -34,6 +34,7 @@ _VERDICTS = {
     "data_fault": "The record itself is faulty",
 }
 _UNITS = {"n": "N", "n_mm": "N mm", "n_per_mm": "N/mm"}
+LEAST_SHARE_OF_LOAD = 1e-3  # friction that grows less with the load is not worth a word
 _ARCMIN = 60.0 * 180.0 / math.pi
 
 
@@ -116,6 +117,28 @@ def interval(found: Interval) -> str:
     if not math.isfinite(found.low):
         return f"at most {number(found.high)}"
     return f"{number(found.low)} to {number(found.high)}"
+
+
+def joint_sizes(found: JointSizes) -> list[str]:
+    """Stiffness, play and friction of a joint in the units that makers of gears and drives print."""
+    said = []
+    for key, held in found.parameters.items():
+        leaf = key.rpartition(".")[2]
+        if leaf == "compliance_rad_per_n_mm":  # its inverse, so that the ends change places
+            low, high = (1e-3 / end if end > 0.0 else math.inf for end in (held.high, held.low))
+            said.append(f"stiffness {_between(1e-3 / held.value, low, high)} N m/rad")
+        elif leaf == "gap_rad":
+            said.append(f"play {_between(*(end * _ARCMIN for end in (held.value, held.low, held.high)))} arcmin")
+        elif leaf == "coulomb_n_mm":
+            said.append(f"friction {_between(*(1e-3 * end for end in (held.value, held.low, held.high)))} N m")
+        elif leaf == "coulomb_per_load_ratio" and held.value >= LEAST_SHARE_OF_LOAD:
+            said.append(f"and {_between(*(100.0 * end for end in (held.value, held.low, held.high)))} % of the load")
+    many = f", at any gear position like the {found.gear_positions} of the record" if found.gear_positions > 1 else ""
+    return [*said, f"for torques up to {number(1e-3 * found.torque_n_mm)} N m{many}"]
+
+
+def _between(value: float, low: float, high: float) -> str:
+    return f"{number(value)} ({interval(Interval(value, low, high))})"
 
 
 def gap_pair(pair: GapPair, gap_unit: str) -> str:

@@ -31,6 +31,8 @@ def lines(found: Diagnosis) -> Iterator[str]:
             f"{words.number(k.k_xx_n_per_mm)}, {words.number(k.k_xz_n_per_mm)}, {words.number(k.k_zz_n_per_mm)} N/mm "
             f"(xx, xz, zz at {k.theta1_rad:.3f}, {k.theta2_rad:.3f} rad)"
         )
+    if found.joint is not None:
+        yield f"  joint      {'; '.join(words.joint_sizes(found.joint))}"
     if found.could_be:
         yield f"  could be   {', '.join(found.could_be)}"
     for spot in found.localised[:3]:

@@ -12,7 +12,7 @@ from typing import Any
 
 from brace.dataset import Dataset
 from brace.diagnose import plain_words
-from brace.diagnose.diagnosis import Diagnosis, GapPair, NamedEffect
+from brace.diagnose.diagnosis import Diagnosis, GapPair, Interval, NamedEffect
 from brace.diagnose.export import export
 from brace.diagnose.provenance import Provenance, provenance
 from brace import __version__, files
@@ -101,6 +101,12 @@ def as_json(found: Diagnosis, origin: Provenance, exported: bool) -> dict[str, A
             "minutes": after.minutes,
             "rig_toml": after.rig_toml,
         },
+        "joint": found.joint
+        and {
+            "parameters": _intervals(found.joint.parameters),
+            "torque_n_mm": found.joint.torque_n_mm,
+            "gear_positions": found.joint.gear_positions,
+        },
         "data_faults": [fault.as_json() for fault in found.data_faults],
         "candidates": [
             {"label": tried.label, "gain": tried.gain, "posterior": tried.posterior}
@@ -138,12 +144,13 @@ def _effect(effect: NamedEffect) -> dict[str, Any]:
         "name": effect.name,
         "where": effect.where,
         "confidence": effect.confidence,
-        "parameters": {
-            key: {"value": found.value, "low": found.low, "high": found.high}
-            for key, found in effect.parameters.items()
-        },
+        "parameters": _intervals(effect.parameters),
         "gap_share": effect.gap_share,
     }
+
+
+def _intervals(held: Mapping[str, Interval]) -> dict[str, Any]:
+    return {key: {"value": one.value, "low": one.low, "high": one.high} for key, one in held.items()}
 
 
 def _pair(pair: GapPair) -> dict[str, Any]:

@@ -13,13 +13,15 @@ from brace.model import LimbModel
 from brace.identify.playing import player_of
 from brace.native.plant_batch import number_index
 
+FORCES = ("fx_n", "fz_n")
 OFFSET_KEYS = ("joint.femur.zero_offset_rad", "joint.tibia.zero_offset_rad")
 _SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
 MIN_ROWS = 12
 
 
 class LoadingProblem:
-    """Forces, and encoder and gauge readings where there are any, each over its own noise floor."""
+    """Forces, and encoder and gauge readings where there are any, each over its own noise floor. Readings that were not
+    taken (NaN) weigh nothing."""
 
     def __init__(self, dataset: Dataset) -> None:
         if dataset.rows < MIN_ROWS:
@@ -31,10 +33,11 @@ class LoadingProblem:
             )
         self.dataset = dataset
         self.noise: NoiseFloor = noise_floor(dataset)
-        self._names = ["fx_n", "fz_n", *(name for name in _SIDE_READINGS if name in dataset)]
+        present = (name for name in (*FORCES, *_SIDE_READINGS) if name in dataset)
+        self._names = [name for name in present if not np.isnan(dataset[name]).all()]
         self._player = player_of(dataset, self._names)
         self._sigma = {
-            name: self.noise.sigma_n if name in ("fx_n", "fz_n") else _side_sigma(dataset, name)
+            name: self.noise.sigma_n if name in FORCES else _side_sigma(dataset, name)
             for name in self._names
         }
         _, first = np.unique(dataset["config"], return_index=True)
@@ -43,7 +46,7 @@ class LoadingProblem:
     @property
     def count(self) -> int:
         """Number of readings."""
-        return self.dataset.rows * len(self._names)
+        return int(sum(np.count_nonzero(~np.isnan(self.dataset[name])) for name in self._names))
 
     @property
     def readings(self) -> list[str]:
@@ -54,9 +57,8 @@ class LoadingProblem:
         """models x (played - measured) / sigma, reading after reading."""
         readings = self._player.play_numbers(models, settled=True)
         played = zeroed(dict(zip(self._names, np.moveaxis(readings, 1, 0))), self.dataset)
-        return np.concatenate(
-            [(played[name] - self.dataset[name]) / self._sigma[name] for name in self._names], axis=1
-        )
+        off = [(played[name] - self.dataset[name]) / self._sigma[name] for name in self._names]
+        return np.asarray(np.nan_to_num(np.concatenate(off, axis=1)))
 
     def angles(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
         """models x configurations x (theta1, theta2), true [rad]."""
@@ -65,13 +67,16 @@ class LoadingProblem:
 
     def force_gap_n(self, model: LimbModel) -> float:
         """rms of what the model leaves of the forces [N]."""
-        residual = residual_of(self, model)[: 2 * self.dataset.rows] * self.noise.sigma_n
-        return float(np.sqrt(np.mean(residual**2)))
+        forces = [name for name in self._names if name in FORCES]
+        residual = residual_of(self, model)[: len(forces) * self.dataset.rows] * self.noise.sigma_n
+        read = ~np.isnan(np.concatenate([self.dataset[name] for name in forces]))
+        return float(np.sqrt(np.mean(residual[read] ** 2)))
 
 
 def _side_sigma(dataset: Dataset, name: str) -> float:
     """Noise of an encoder or gauge, from repeats or, without any, from its third differences along the runs; never
     below a thousandth of what it moves by."""
+    dataset = dataset.select(~np.isnan(dataset[name]))
     keys = np.column_stack([dataset["config"], dataset["axis"], dataset["step"]])
     _, group, counts = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
     group = group.ravel()

@@ -21,27 +21,42 @@ class NoiseFloor:
 
 def noise_floor(dataset: Dataset) -> NoiseFloor:
     """From repeats when there are any, else from the third differences along the runs."""
-    force = np.column_stack([dataset["fx_n"], dataset["fz_n"]])
     resolution_n = dataset.meta.number("sensor.resolution_n") / np.sqrt(12.0)
     keys = np.column_stack([dataset["config"], dataset["axis"], dataset["step"]])
-    _, group, counts = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
-    group = group.ravel()
-    repeated = counts > 1
-    if repeated.any() and np.ptp(dataset["rep"]) > 0:
-        sums = np.stack([np.bincount(group, weights=column) for column in force.T], axis=1)
-        off = (force - sums[group] / counts[group, None])[repeated[group]]
-        freedom = np.sum(counts[repeated] - 1)
-        sigma, source = float(np.sqrt(np.sum(off**2) / (2 * freedom))), "repeats"
+    repeated = np.ptp(dataset["rep"]) > 0
+    square, freedom = 0.0, 0
+    bends: list[np.ndarray] = []
+    for name in ("fx_n", "fz_n"):
+        read = ~np.isnan(dataset[name])
+        if not read.any():
+            continue
+        force = dataset[name][read]
+        _, group, counts = np.unique(keys[read], axis=0, return_inverse=True, return_counts=True)
+        group = group.ravel()
+        off = force - (np.bincount(group, weights=force) / counts)[group]
+        square += float(off @ off)
+        freedom += int(np.sum(counts - 1))
+        bends.append(_bends(dataset.select(read), force))
+    if repeated and freedom:
+        sigma, source = float(np.sqrt(square / freedom)), "repeats"
     else:
-        sigma, source = along_runs(dataset, force), "smoothness along the runs"
+        sigma, source = _sigma_of(np.concatenate(bends)), "smoothness along the runs"
     if sigma < max(FLOOR_N, 0.5 * resolution_n):
         return NoiseFloor(max(FLOOR_N, 0.5 * resolution_n), "the sensor's resolution")
     return NoiseFloor(sigma, source)
 
 
 def along_runs(dataset: Dataset, readings: np.ndarray) -> float:
-    """One sigma of readings (rows, or rows x channels) by their third differences along the runs, which hardly see what
-    is smooth."""
+    """One sigma of readings, one for each row, by their third differences along the runs, which hardly see what is
+    smooth."""
+    return _sigma_of(_bends(dataset, readings))
+
+
+def _bends(dataset: Dataset, readings: np.ndarray) -> np.ndarray:
+    """Third differences within the runs."""
     inside = dataset["run"][:-3] == dataset["run"][3:]
-    third = np.diff(readings, n=3, axis=0)[inside]
-    return float(1.4826 * np.median(np.abs(third)) / np.sqrt(20.0)) if third.size else 0.0
+    return np.asarray(np.diff(readings, n=3)[inside])
+
+
+def _sigma_of(bends: np.ndarray) -> float:
+    return float(1.4826 * np.median(np.abs(bends)) / np.sqrt(20.0)) if bends.size else 0.0

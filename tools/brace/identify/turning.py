@@ -42,8 +42,9 @@ ENOUGH = 1e-6  # of a fit's cost: what it could still gain
 
 
 def settled(dataset: Dataset, believed: LimbModel) -> Dataset:
-    """The record, with `small_displacements` as its meta.toml says or its readings tell. In doubt the limb turned."""
-    if dataset.meta.displacements:
+    """The record, with `small_displacements` as its meta.toml says or its readings tell. In doubt the limb turned, as
+    where a force of some rows was not read."""
+    if dataset.meta.displacements or not dataset.reads_both_forces:
         return dataset
     return replace(dataset, small_displacements=_never_turned(dataset, believed))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -15,12 +15,13 @@ from brace.diagnose.diagnosis import (
     GapPair,
     GapStep,
     Interval,
+    JointSizes,
     NamedEffect,
     Residuals,
     Unexplained,
     Verdict,
 )
-from brace.diagnose.joint_test import words
+from brace.diagnose.joint_test import positions, words
 from brace.diagnose.joint_test.choose import Choice, choose, without
 from brace.diagnose.joint_test.dead_zone import refusal
 from brace.diagnose.joint_test.evidence import gain, independent, intervals
@@ -55,9 +56,30 @@ def diagnose_joint_test(
     if blocking or (options.faults == "stop" and faults):
         return _faulty(dataset, base, blocking or list(faults), options)
     advance(0.02, "reading the loops")
+    dataset = positions.apart(dataset)
+    random = np.random.default_rng(options.seed)
+    found = _searched(dataset, base, believed, random, advance)
+    if positions.count(dataset) > 1:
+        dataset = positions.zeroed_by(found.fitter.record, found.choice.best)
+        found = _searched(dataset, base, believed, random, advance)
+    advance(0.85, "weighing what was found")
+    return _told(dataset, believed, found, faults, options, random, advance)
+
+
+@dataclass(frozen=True)
+class _Found:
+    """`refused`: why a gap that lowers the residual is no play."""
+
+    fitter: Fitter
+    choice: Choice
+    refused: str
+
+
+def _searched(
+    dataset: Dataset, base: LimbModel, believed: LimbModel | None, random: np.random.Generator, advance: Advance
+) -> _Found:
     record = JointRecord(dataset)
     fitter = Fitter(record, base, _trust(believed))
-    random = np.random.default_rng(options.seed)
     bench = JointTestBench(record.size, given=believed is not None, rests=record.rests)
     effects = effects_of(base, record.joint, bench)
     tried = 0
@@ -75,8 +97,7 @@ def diagnose_joint_test(
     if refused:
         effects = [term for term in effects if term.name != "backlash"]
         choice = choose(fitter, effects, competing, random, trying)
-    advance(0.85, "weighing what was found")
-    return _told(dataset, believed, fitter, choice, refused, faults, options, random, advance)
+    return _Found(fitter, choice, refused)
 
 
 def _trust(believed: LimbModel | None) -> float:
@@ -104,14 +125,13 @@ def _refused_gap(record: JointRecord, best: Fitted) -> str:
 def _told(
     dataset: Dataset,
     believed: LimbModel | None,
-    fitter: Fitter,
-    choice: Choice,
-    refused: str,
+    search: _Found,
     faults: tuple[DataFault, ...],
     options: Options,
     random: np.random.Generator,
     advance: Advance,
 ) -> Diagnosis:
+    fitter, choice, refused = search.fitter, search.choice, search.refused
     record, best = fitter.record, choice.best
     by_rows = fitter.by_rows()
     base = by_rows.fit((), choice.base)
@@ -181,7 +201,24 @@ def _told(
         notes,
         options.seed,
         {"rows": rows, "held_out": record.held_words, "independent_readings": float(count)},
+        joint=_sizes(by_rows, exported, effects, random) if verdict in ("effect", "none") else None,
     )
+
+
+def _sizes(
+    by_rows: Fitter, exported: Fitted, effects: Sequence[NamedEffect], random: np.random.Generator
+) -> JointSizes:
+    """The spring beside what the effects say, all with the same intervals."""
+    record = by_rows.record
+    key = f"joint.{record.joint}.compliance_rad_per_n_mm"
+    told = dict(item for effect in effects for item in effect.parameters.items())
+    if key in exported.values:
+        value, low, high = intervals(by_rows, exported, random)[key]
+        low, high = positions.spread(by_rows, exported).get(key, (low, high))
+        told = {key: Interval(value, min(value, low), max(value, high))} | told
+    torque = record.columns["torque_n_mm"][record.fitted]
+    reach_n_mm = float(min(torque.max(), -torque.min()) if torque.min() < 0.0 < torque.max() else np.abs(torque).max())
+    return JointSizes(told, reach_n_mm, positions.count(record.dataset))
 
 
 def _may_be_nothing(effect: NamedEffect) -> bool:
@@ -204,6 +241,7 @@ def _named(
         return ()
     record = fitter.record
     limits, elsewhere = intervals(by_rows, exported, random), ranges(by_rows, others, random)
+    further = positions.spread(by_rows, exported)
     weighted = best if len(best.terms) == len(found) else fitter.fit(tuple(found), best)
     named = []
     for term in found:
@@ -220,7 +258,9 @@ def _named(
             value, low, high = limits[key]
             other = weighted.values[key]  # both ways of weighting are sound, so the interval holds what both say
             least, most = elsewhere.get(key, (value, value))
-            parameters[key] = Interval(value, min(low, other, least), max(high, other, most))
+            if key in further:  # what differs from position to position is known no better
+                low, high = further[key]
+            parameters[key] = Interval(value, min(value, low, other, least), max(value, high, other, most))
         named.append((NamedEffect(term.name, term.where, confidence, parameters, 0.0), poorer.rss - best.rss))
     total = sum(max(rss, 0.0) for _, rss in named) or 1.0
     shared = [replace(effect, gap_share=max(rss, 0.0) / total) for effect, rss in named]

@@ -52,7 +52,7 @@ def localise(record: Record, fitted: Fit, seed: int) -> list[Localised]:
             break
         rows = raw[place] != 0.0
         amount = float(seen[place]) * float(np.linalg.norm(basis[: rows.size, place][rows]))
-        in_newton = amount / np.sqrt(max(int(rows.sum()), 1)) * float(np.mean(record.sigma[:2]))
+        in_newton = amount / np.sqrt(max(int(rows.sum()), 1)) * record.force_sigma_n
         found.append(Localised(names[place], p, float(in_newton)))
     return found
 

@@ -62,6 +62,9 @@ def noise_of(dataset: Dataset, channels: Sequence[str]) -> dict[str, ChannelNois
     noise: dict[str, ChannelNoise] = {}
     growing: dict[str, _Differences] = {}
     for name in channels:
+        if np.isnan(dataset[name]).all():
+            noise[name] = ChannelNoise(np.inf, 0.0, "not read")
+            continue
         found = _differences(dataset, name)
         rounding = rounding_of(dataset, name)
         if found.off.size >= 4 and found.spread < rounding:

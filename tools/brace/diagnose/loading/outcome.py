@@ -34,6 +34,7 @@ from brace.diagnose.loading.intervals import intervals
 from brace.diagnose.loading.limb_of import limb_of
 from brace.diagnose.loading.localise import localise
 from brace.diagnose.loading.members import Resolved, resolve
+from brace.diagnose.loading.noise import FORCES
 from brace.diagnose.loading.record import NOT_MEASURED, Record
 from brace.diagnose.loading.rivals import Contest, contest
 from brace.diagnose.loading.structure import STRUCTURED_P
@@ -175,7 +176,7 @@ def _localised(record: Record, final: Pass, options: Options) -> tuple[Localised
     """Contrasts that stand out; where none of them does alone, the families of shapes that do."""
     found = localise(record, final.base.fit, options.seed)
     if not found and final.structure.structured:
-        sigma_n = float(np.mean(record.sigma[:2]))
+        sigma_n = record.force_sigma_n
         found = [
             Localised(family.words, family.p, sigma_n * float(np.sqrt(family.gain / final.base.fit.residual.size)))
             for family in final.structure.families[:3]
@@ -196,10 +197,11 @@ def _share(final: Pass, label: str) -> float:
 
 
 def rms_force_n(record: Record, numbers: np.ndarray, rows: np.ndarray | None = None) -> float:
-    """rms of measured less model over the force channels [N]."""
+    """rms of measured less model over the forces that were read [N]."""
     played = record.player.play_numbers(numbers[None])[0, :2]
-    off = record.measured[:2] - played
-    return float(np.sqrt(np.mean((off if rows is None else off[:, rows]) ** 2)))
+    off = np.where(record.forces_read, record.measured[:2] - played, np.nan)
+    some = off if rows is None else off[:, rows]
+    return float(np.sqrt(np.nanmean(some**2))) if np.isfinite(some).any() else 0.0
 
 
 def _pair(record: Record, numbers: np.ndarray, locked: np.ndarray) -> GapPair:
@@ -222,8 +224,7 @@ def _gap(whole: Record, record: Record, locked: np.ndarray, believed: LimbModel,
             if matching:
                 last = matching[0].best.fit
                 steps.append(GapStep(ordered[count - 1], _pair(record, last.model, locked)))
-    noise = float(np.sqrt(np.mean(record.sigma[:2] ** 2)))
-    return Gap("n", noise, before, _pair(record, last.model, locked), tuple(steps))
+    return Gap("n", record.force_sigma_n, before, _pair(record, last.model, locked), tuple(steps))
 
 
 def _judged_fit(judged: Pass) -> Fit:
@@ -245,7 +246,8 @@ def _could_be(final: Pass, effects: Sequence[NamedEffect]) -> tuple[str, ...]:
 
 def _unexplained(final: Pass, after: Fit) -> Unexplained:
     structure, record = final.structure, final.record
-    rms = float(np.sqrt(np.mean((after.residual.reshape(record.measured.shape) * record.sigma)[:2] ** 2)))
+    left = (after.residual.reshape(record.measured.shape) * record.sigma)[:2]
+    rms = float(np.sqrt(np.mean(left[record.forces_read] ** 2)))
     changing = _changing(final)
     if not structure.structured and not changing:
         return Unexplained(rms, False, "no more than noise")
@@ -415,6 +417,12 @@ def _notes(
             "the record is played at small displacements: its forces are proportional to the displacement, as in a "
             "simulation whose limb does not turn (meta.toml may say so: displacements = \"small\")"
         )
+    for name, read in zip(FORCES, whole.forces_read):
+        if not read.all():
+            notes.append(
+                f"{name} was read in {np.count_nonzero(read)} of {read.size} rows; what only the other readings would "
+                "show is not told by this record"
+            )
     if twin is None:
         notes.append("too few configurations to lock one away: no held-out gap")
     elif twin.decision.chosen.labels != final.decision.chosen.labels:
@@ -449,6 +457,7 @@ def _details(record: Record, final: Pass, agreed: Agreement) -> dict[str, object
         "noise": {
             name: {"sigma": noise.floor, "growth_ratio": noise.growth_ratio, "source": noise.source}
             for name, noise in record.noise.items()
+            if np.isfinite(noise.floor)
         },
         "structure": [
             {"where": family.words, "p": family.p, "gain": family.gain, "dimensions": family.dimensions}

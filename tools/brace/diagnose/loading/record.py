@@ -149,6 +149,16 @@ class Record:
         return int(np.count_nonzero(self.sigma < NOT_MEASURED))
 
     @property
+    def forces_read(self) -> np.ndarray:
+        """Which forces were read, 2 x rows."""
+        return np.asarray(self.sigma[: len(FORCES)] < NOT_MEASURED)
+
+    @property
+    def force_sigma_n(self) -> float:
+        """rms of one sigma over the forces that were read [N]."""
+        return float(np.sqrt(np.mean(self.sigma[: len(FORCES)][self.forces_read] ** 2)))
+
+    @property
     def noise_freedom(self) -> float:
         """On how many independent readings the noise rests, all channels together."""
         return float(sum(noise.freedom for noise in self.noise.values()))
@@ -193,11 +203,11 @@ def sigma_of(noise: ChannelNoise, values: np.ndarray) -> np.ndarray:
 
 
 def setting_of(record: Record, believed: LimbModel) -> LoadingSize:
-    """The sizes that this record reaches, for the catalogue's first tries."""
+    """The sizes that this record reaches, for the catalogue's first tries. A force that was not read counts as none."""
     data = record.dataset
     numbers = model_numbers(believed)
     index = number_index()
-    force = np.stack([data["fx_n"], data["fz_n"]])
+    force = np.nan_to_num(np.stack([data["fx_n"], data["fz_n"]]))
     femur_mm, tibia_mm = (believed.number(f"geometry.{link}_mm") for link in ("femur", "tibia"))
     lever = levers(femur_mm, tibia_mm, data["theta1_rad"], data["theta2_rad"])
     torque = {
@@ -212,7 +222,7 @@ def setting_of(record: Record, believed: LimbModel) -> LoadingSize:
         joint_deflection_rad={joint: max(compliance[joint] * torque[joint], 1e-5) for joint in torque},
         displacement_mm=float(max(np.abs(data["dx_mm"]).max(), np.abs(data["dz_mm"]).max(), 1e-6)),
         force_n=np.sort(np.abs(force).ravel()),
-        force_sigma_n=float(np.mean(record.sigma[:2])),
+        force_sigma_n=float(np.mean(record.sigma[: len(FORCES)][record.forces_read])),
         run_starts_s=tuple(float(data["t_s"][start]) for start in starts),
         duration_s=float(data["t_s"][-1] - data["t_s"][0]),
         dwell_s=float(np.median(steps[steps > 0.0])) if np.any(steps > 0.0) else 1.0,

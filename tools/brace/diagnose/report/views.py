@@ -71,7 +71,8 @@ def _loading(dataset: Dataset, found: Diagnosis, rows: np.ndarray) -> View | Non
         return None
     along = dataset["axis"][rows].astype(int)
     channel = np.array([residuals.channels.index("fx_n"), residuals.channels.index("fz_n")])[along]
-    every = np.arange(len(rows))
+    read = np.isfinite(residuals.before[np.arange(len(rows)), channel])
+    rows, along, channel, every = rows[read], along[read], channel[read], np.flatnonzero(read)
     refitted = found.details.get("refitted")
     imposed = np.where(along == 1, dataset["dz_mm"][rows], dataset["dx_mm"][rows])
     measured = np.where(along == 1, dataset["fz_n"][rows], dataset["fx_n"][rows])
@@ -81,7 +82,7 @@ def _loading(dataset: Dataset, found: Diagnosis, rows: np.ndarray) -> View | Non
         "loading",
         residuals.before[every, channel],
         residuals.after[every, channel],
-        np.asarray(residuals.held_out, dtype=bool),
+        np.asarray(residuals.held_out, dtype=bool)[every],
         imposed,
         measured,
         _branch(np.abs(imposed), run),
@@ -89,7 +90,7 @@ def _loading(dataset: Dataset, found: Diagnosis, rows: np.ndarray) -> View | Non
         run,
         dataset["t_s"][rows].astype(float),
         names,
-        refitted[every, channel] if refitted is not None and len(refitted) == len(rows) else None,
+        refitted[every, channel] if refitted is not None and len(refitted) == len(read) else None,
     )
 
 

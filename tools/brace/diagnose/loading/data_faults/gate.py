@@ -9,6 +9,7 @@ from scipy.special import fdtrc
 
 from brace.dataset import DataFault, Dataset
 from brace.diagnose.diagnosis import Diagnosis
+from brace.diagnose.loading.noise import FORCES
 from brace.diagnose.loading.data_faults import against_limb
 from brace.diagnose.options import Options
 from brace.errors import BadFileError
@@ -32,15 +33,17 @@ def gate(dataset: Dataset, believed: LimbModel, options: Options) -> Diagnosis |
             why=f"at least {MIN_ROWS} readings are needed",
             next_step="record more steps",
         )
-    force = np.stack([dataset["fx_n"], dataset["fz_n"]])
+    force = np.stack([dataset[name] for name in FORCES])
     if np.ptp(dataset["dx_mm"]) == 0.0 and np.ptp(dataset["dz_mm"]) == 0.0:
         return _too_little(believed, options, "the tip was never moved")
-    if np.ptp(force) == 0.0:
-        return _too_little(believed, options, f"every force reads {force.flat[0]:g} N")
+    if np.nanmax(force) == np.nanmin(force):
+        return _too_little(believed, options, f"every force reads {np.nanmax(force):g} N")
     if not _forces_follow(dataset):
         return _too_little(
             believed, options, "the forces do not follow the displacement; is the tip held, is the sensor alive?"
         )
+    if not dataset.reads_both_forces:  # the faults of one axis look like effects: without the other, nothing tells them
+        return None
     found = against_limb.faults(dataset, believed)
     if not found:  # what the record alone looked like: does the limb say so, too?
         found = against_limb.confirmed(dataset, believed, blocking)
@@ -74,22 +77,24 @@ def _too_little(believed: LimbModel, options: Options, why: str) -> Diagnosis:
 
 def _forces_follow(dataset: Dataset) -> bool:
     """Whether slopes over the displacement, free in every configuration, explain the forces better than chance."""
-    run_ids, run = np.unique(dataset["run"], return_inverse=True)
-    force = np.column_stack([dataset["fx_n"], dataset["fz_n"]]).astype(float)
     moved = np.column_stack([dataset["dx_mm"], dataset["dz_mm"]]).astype(float)
-    counts = np.bincount(run)
-    for values in (force, moved):  # each run counts from its own mean
-        for column in range(2):
-            values[:, column] -= (np.bincount(run, weights=values[:, column]) / counts)[run]
-    explained, left, slopes = 0.0, 0.0, 0
-    for config in np.unique(dataset["config"]):
-        rows = dataset["config"] == config
-        slope, _, rank, _ = np.linalg.lstsq(moved[rows], force[rows], rcond=1e-9)
-        fit = moved[rows] @ slope
-        explained += float(np.sum(fit**2))
-        left += float(np.sum((force[rows] - fit) ** 2))
-        slopes += 2 * int(rank)
-    free = 2 * (len(force) - len(run_ids)) - slopes
+    explained, left, slopes, free = 0.0, 0.0, 0, 0
+    for name in FORCES:
+        read = ~np.isnan(dataset[name])
+        run_ids, run = np.unique(dataset["run"][read], return_inverse=True)
+        centred = np.column_stack([moved[read], dataset[name][read]])  # each run counts from its own mean
+        for values in centred.T:
+            values -= (np.bincount(run, weights=values) / np.bincount(run))[run]
+        free += len(centred) - len(run_ids)
+        config = dataset["config"][read]
+        for one in np.unique(config):
+            rows = config == one
+            slope, _, rank, _ = np.linalg.lstsq(centred[rows, :2], centred[rows, 2], rcond=1e-9)
+            fit = centred[rows, :2] @ slope
+            explained += float(fit @ fit)
+            left += float(np.sum((centred[rows, 2] - fit) ** 2))
+            slopes += int(rank)
+    free -= slopes
     if slopes == 0 or free <= 0 or left <= 0.0:
         return explained > 0.0
     return bool(fdtrc(slopes, free, (explained / slopes) / (left / free)) < FOLLOWS_P)

@@ -1,0 +1,71 @@
+"""A joint tested at several gear positions: each has a zero of its own, and sizes that differ a little."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from by_torque import found_in, triangle, under_torque
+
+from brace.diagnose.diagnosis import Diagnosis
+from brace.diagnose.plain_words import joint_sizes
+
+GAP_RAD, FRICTION_N_MM, COMPLIANCE = 0.02, 700.0, 2e-6
+AMPLITUDES_N_MM = (4000.0, 9000.0)
+SPRING, GAP, FRICTION = (
+    f"joint.femur.{leaf}" for leaf in ("compliance_rad_per_n_mm", "gap_rad", "coulomb_n_mm")
+)
+
+
+def bench(folder: Path, zeros_rad: tuple[float, ...], gaps_rad: tuple[float, ...], seed: int = 0) -> Diagnosis:
+    """Two amplitudes at each position."""
+    rng = np.random.default_rng(seed)
+    tests = []
+    for zero, gap in zip(zeros_rad, gaps_rad, strict=True):
+        for size in AMPLITUDES_N_MM:
+            torque = size * np.concatenate([triangle(), triangle()[1:]])
+            angle = zero + under_torque(torque, gap, FRICTION_N_MM, COMPLIANCE)
+            noisy = torque + 20.0 * rng.standard_normal(torque.size)
+            tests.append((angle + 2e-5 * rng.standard_normal(torque.size), noisy))
+    return found_in(folder, tests)
+
+
+def test_zeros_of_positions_are_the_record_s_own(tmp_path: Path) -> None:
+    """Angles that differ by ten times the play say nothing about the joint."""
+    found = bench(tmp_path, (0.1, -0.15, 0.22, 0.0), (GAP_RAD,) * 4)
+    assert {effect.name for effect in found.effects} == {"backlash", "coulomb_friction"}, found.sentence
+    assert found.joint is not None and found.joint.gear_positions == 4
+    for key, size in ((SPRING, COMPLIANCE), (GAP, GAP_RAD), (FRICTION, FRICTION_N_MM)):
+        held = found.joint.parameters[key]
+        assert held.value == pytest.approx(size, rel=0.1), key
+        assert held.high - held.low < 0.2 * size, (key, held)
+
+
+def test_intervals_hold_the_spread_between_positions(tmp_path: Path) -> None:
+    """A gap of 0.018 to 0.022 rad: of a further position the record knows no more than that spread, widened for the
+    few positions that it has (Student's t)."""
+    gaps = (0.018, 0.022, 0.0205, 0.019, 0.0215)
+    found = bench(tmp_path, (0.1, -0.15, 0.22, 0.0, -0.3), gaps)
+    assert found.joint is not None
+    held = found.joint.parameters[GAP]
+    expected = 2.132 * np.std(gaps, ddof=1) * np.sqrt(1.2)  # t of 95 % with 4 degrees of freedom
+    assert 0.5 * (held.high - held.low) == pytest.approx(expected, rel=0.15)
+    alone = bench(tmp_path / "one", (0.1,), gaps[:1]).joint
+    assert alone is not None and alone.gear_positions == 1
+    one = alone.parameters[GAP]
+    assert one.high - one.low < 0.25 * (held.high - held.low)
+
+
+def test_amplitudes_from_zero_to_one_side_are_one_position(tmp_path: Path) -> None:
+    """Middles of loops say nothing where a test loads the joint one way only."""
+    torque = np.concatenate([np.linspace(0.0, 1.0, 200), np.linspace(1.0, 0.0, 200)])
+    found = found_in(tmp_path, [(3e-6 * size * torque, size * torque) for size in (2000.0, 4000.0, 9000.0)])
+    assert found.joint is None or found.joint.gear_positions == 1
+
+
+def test_the_sizes_are_told_in_the_units_of_gears(tmp_path: Path) -> None:
+    found = bench(tmp_path, (0.1, -0.15, 0.22), (GAP_RAD,) * 3)
+    assert found.joint is not None
+    words = "; ".join(joint_sizes(found.joint))
+    assert "N m/rad" in words and "arcmin" in words and "up to 8.9" in words and "the 3 of the record" in words
