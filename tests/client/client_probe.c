@@ -3,6 +3,7 @@
  *   identity | read PARTS COUNT | posture T1 T2 [COUNT] (the last one's) | tip X Z UP | force DX DZ | sag FX FZ
  *   load | under_load T1 T2 FX FZ [COUNT] (the last one's) | under_load_at_tip X Z UP FX FZ | gravity DIRECTION LEAN
  *   margin NORMAL MU | space COUNT (reads K in space) | space_posture T0 T1 T2 | drift | take_up JOINT
+ *   space_under_load T0 T1 T2 FX FY FZ
  *   loop WAIT_MS FOR_MS: reads K in a control loop, each time with that time-out
  *   entry_u32 INDEX | entry_f32 INDEX | dump SILENT_MS [FRAMES] (bus only:
  *   until that silence, or that many) | send ID BYTE... (bus only) */
@@ -229,6 +230,14 @@ static brace_client_status_t client_call(brace_client_t *client, const char *cal
         status = brace_client_k_in_space(client, n[0], n[1], n[2], timeout_ms, &space);
         if (status == BRACE_CLIENT_OK) {
             print_space_k(&space);
+        }
+    } else if (strcmp(call, "space_under_load") == 0) {
+        brace_client_loaded_space_k_t loaded;
+        status = brace_client_k_in_space_under_load(client, n, n + 3, timeout_ms, &loaded);
+        if (status == BRACE_CLIENT_OK) {
+            print_space_k(&loaded.k);
+            printf("moved_x %.9g\nmoved_y %.9g\nmoved_z %.9g\n", loaded.moved_x_mm, loaded.moved_y_mm,
+                   loaded.moved_z_mm);
         }
     } else if (strcmp(call, "drift") == 0) {
         status = tell_drift(client);

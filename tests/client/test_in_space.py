@@ -12,7 +12,11 @@ import numpy as np
 import pytest
 from conftest import BUILD, LIMB, Answer, Sim, simulated
 
+from brace.model import load_limb
+from brace.native.loaded import space_under_force
+
 STEP = 0.0005  # N/mm
+WORST_K = 0.01  # brace/loaded_space.h
 Probe = Callable[..., Answer]
 ACROSS = """
 [sensor]
@@ -75,15 +79,35 @@ def test_the_load_across_the_plane_is_told(probe: Probe, url: str, sim: Sim) -> 
     assert np.isnan([planar[name] for name in ("force_y", "moved_y", "unloaded_k_across")]).all()
 
 
-def test_k_in_space_is_asked_for(probe: Probe, spatial: Sim, sim: Sim, model: Path) -> None:
-    answer = probe(spatial.can, "space_posture", 0.9, 0.5, 1.7)
+@pytest.mark.parametrize("wire", ["can", "modbus"])
+def test_k_in_space_is_asked_for(probe: Probe, spatial: Sim, sim: Sim, model: Path, wire: str) -> None:
+    url = getattr(spatial, wire)
+    answer = probe(url, "space_posture", 0.9, 0.5, 1.7)
     assert answer.code == 0, answer.err
     wanted = k_of_the_model(model, 0.9, 0.5, 1.7)
     assert np.abs(np.array([answer.values[name] for name in ENTRIES]) - wanted).max() < STEP + 20 * 1e-4
-    refused = probe(sim.can, "space_posture", 0.9, 0.5, 1.7)
+    refused = probe(getattr(sim, wire), "space_posture", 0.9, 0.5, 1.7)
     assert refused.code == 11 and "no coxa joint" in refused.err
-    assert probe(spatial.can, "space_posture", 4.0, 0.5, 1.7).code == 1  # beyond its frame
-    assert probe(spatial.modbus, "space_posture", 0.9, 0.5, 1.7).code == 12
+    assert probe(url, "space_posture", 4.0, 0.5, 1.7).code == 1  # beyond its frame
+
+
+def test_k_in_space_under_a_force(probe: Probe, url: str, model: Path) -> None:
+    """Forces and displacements are in the frame of the limb's plane; the reference's are in the robot's."""
+    theta0, force_n = 0.9, (4.0, -6.0, 9.0)
+    turned = np.array([[np.cos(theta0), -np.sin(theta0), 0], [np.sin(theta0), np.cos(theta0), 0], [0, 0, 1]])
+    true = space_under_force(load_limb(model), [[theta0, 0.5, 1.7]], [turned @ force_n])
+    k, moved = true.k_n_per_mm[0], turned.T @ true.displacement_mm[0]
+    answer = probe(url, "space_under_load", theta0, 0.5, 1.7, *force_n)
+    assert answer.code == 0, answer.err
+    wanted = np.array([k[0, 0], k[0, 1], k[0, 2], k[1, 1], k[1, 2], k[2, 2]])
+    told = np.array([answer.values[name] for name in ENTRIES])
+    assert np.linalg.norm(told - wanted) <= WORST_K * np.linalg.norm(wanted)
+    assert np.linalg.norm(told - k_of_the_model(model, theta0, 0.5, 1.7)) > 5 * WORST_K * np.linalg.norm(wanted)
+    moves = [answer.values[f"moved_{axis}"] for axis in "xyz"]
+    assert moves == pytest.approx(moved, abs=0.05 * float(np.linalg.norm(moved)))
+    folds = probe(url, "space_under_load", theta0, 0.5, 1.7, -300.0, 0.0, -300.0)
+    assert folds.code == 11 and "folds" in folds.err
+    assert probe(url, "space_under_load", theta0, 0.5, 1.7, 400.0, 0.0, 0.0).code == 1  # beyond its frame
 
 
 def test_a_limb_without_a_coxa_joint_has_no_k_in_space(probe: Probe, sim: Sim) -> None:

@@ -76,7 +76,7 @@ int main(void)
             print_frame(process[i].id + 1u, data);
         }
     }
-    for (uint32_t code = 1; code < 32u; code++) {
+    for (uint32_t code = 0; code < 32u; code++) {
         const uint8_t request[8] = {(uint8_t)code, 9, 7};
         uint8_t parts[BRACE_CAN_ANSWER_PARTS_MOST][8];
         brace_request_t asked;
@@ -200,7 +200,7 @@ def after_entry(name: str) -> str:
 def test_a_request_is_two_files(copy: Copy) -> None:
     copy.append(MESSAGES, '''
 [[request]]
-code = 31
+code = 0
 name = "throw_away"
 description = "doubles a number"
 [[request.field]]
@@ -225,15 +225,15 @@ int32_t answer_throw_away(void *request, const brace_throw_away_request_t *asked
 ''')
     copy.generate()
     assert copy.by_hand() == {MESSAGES, answer}
-    assert "581 1f090e0000000000" in copy.run()
+    assert "581 00090e0000000000" in copy.run()
     database: Any = cantools.database.load_file(copy.project / "firmware/interface/brace.dbc", strict=True)
-    decoded = database.decode_message("answer", bytes.fromhex("1f090e0000000000"))
+    decoded = database.decode_message("answer", bytes.fromhex("00090e0000000000"))
     assert decoded["throw_away_0_doubled"] == 14 and decoded["token"] == 9
     assert copy.python(
         "import json; from brace.wire.frames import ANSWERS;"
-        "print(json.dumps(ANSWERS['throw_away'][0].decode(bytes.fromhex('1f090e0000000000'))))"
+        "print(json.dumps(ANSWERS['throw_away'][0].decode(bytes.fromhex('00090e0000000000'))))"
     ) == {"doubled": 14}
-    assert "### 31 throw_away" in (copy.project / "docs/protocol.md").read_text()
+    assert "### 0 throw_away" in (copy.project / "docs/protocol.md").read_text()
 
 
 def test_a_message_is_one_file(copy: Copy) -> None:

@@ -16,11 +16,14 @@ from brace.bus.drift import drift_of, take_up_lines
 from brace.bus.frame import Frame
 from brace.bus.snapshot import emergency_of
 from brace.cli.monitor_display import emergency_line
+from brace.model import load_limb
+from brace.native.loaded import space_under_force
 from brace.stiffness import SPATIAL_K
 from brace.wire.frames import MESSAGES
 
 WIRES = ("can", "modbus_tcp")
 STEP_N_PER_MM = 0.0005
+WORST_K = 0.01  # brace/loaded_space.h
 ACROSS = """
 [sensor]
 noise_n = 0.0  # else K counts the load that it feigns, as it counts the drive's
@@ -86,10 +89,13 @@ def test_query_tells_k_in_space(brace: Callable[..., Outcome], spatial: Path, wi
         assert "K across the limb's plane" in text and "play coxa unknown" in text
 
 
-def test_query_asks_for_k_in_space_at_a_posture(brace: Callable[..., Outcome], spatial: Path, planar: Path) -> None:
+@pytest.mark.parametrize("wire", WIRES)
+def test_query_asks_for_k_in_space_at_a_posture(
+    brace: Callable[..., Outcome], spatial: Path, planar: Path, wire: str
+) -> None:
     asked = ("--theta0", 0.9, "--theta1", 0.5, "--theta2", 1.7)
     with running(spatial, *FREE) as (_, ready):
-        can, modbus = (ready["limbs"][0][wire] for wire in WIRES)
+        can = ready["limbs"][0][wire]
         outcome = brace("query", "--bus", can, *asked, "--json")
         assert outcome.code == 0, outcome.err
         told = json.loads(outcome.out)
@@ -100,13 +106,47 @@ def test_query_asks_for_k_in_space_at_a_posture(brace: Callable[..., Outcome], s
         rows = [["xx", "xy", "xz"], ["xy", "yy", "yz"], ["xz", "yz", "zz"]]
         matrix = "; ".join(" ".join(f"{told[f'k_{name}_n_per_mm']:.4f}" for name in row) for row in rows)
         assert f"K in space = [{matrix}] N/mm" in brace("query", "--bus", can, *asked).out
-        refused = brace("query", "--bus", modbus, *asked)
-        assert refused.code == 2 and "over Modbus" in refused.err and "brace k --theta0" in refused.err
     with running(planar, *FREE) as (_, ready):
-        refused = brace("query", "--bus", ready["limbs"][0]["can"], *asked)
+        refused = brace("query", "--bus", ready["limbs"][0][wire], *asked)
         assert refused.code == 2 and "no coxa joint" in refused.err and "without --theta0" in refused.err
     usage = brace("query", "--bus", "can0", "--theta0", 0.9)
     assert usage.code == 2 and "--theta1 --theta2" in usage.err
+
+
+FORCE = ("--fx", 4, "--fy", -6, "--fz", 9)
+
+
+@pytest.mark.parametrize("wire", WIRES)
+def test_query_asks_for_k_in_space_under_a_force(brace: Callable[..., Outcome], spatial: Path, wire: str) -> None:
+    """The reference judges: its forces and displacements are in the robot's frame, which the plane's frame is turned
+    out of by theta0."""
+    theta0 = 0.9
+    asked = ("--theta0", theta0, "--theta1", 0.5, "--theta2", 1.7)
+    turned = np.array([[np.cos(theta0), -np.sin(theta0), 0], [np.sin(theta0), np.cos(theta0), 0], [0, 0, 1]])
+    true = space_under_force(load_limb(spatial), [[theta0, 0.5, 1.7]], [turned @ (4.0, -6.0, 9.0)])
+    k, moved = true.k_n_per_mm[0], turned.T @ true.displacement_mm[0]
+    with running(spatial, *FREE) as (_, ready):
+        url = ready["limbs"][0][wire]
+        outcome = brace("query", "--bus", url, *asked, *FORCE, "--json")
+        assert outcome.code == 0, outcome.err
+        told = json.loads(outcome.out)
+        assert (told["fx_n"], told["fy_n"], told["fz_n"]) == (4.0, -6.0, 9.0)
+        xx, xy, xz, yy, yz, zz = six(told)
+        told_k = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+        assert np.linalg.norm(told_k - k) <= WORST_K * np.linalg.norm(k)
+        moves = [told[f"tip_d{axis}_mm"] for axis in "xyz"]
+        assert moves == pytest.approx(moved, abs=0.05 * float(np.linalg.norm(moved)))
+        alone = six(json.loads(brace("query", "--bus", url, *asked, "--json").out))
+        assert np.linalg.norm(alone - six(told)) > 5 * WORST_K * np.linalg.norm(k)  # the force matters
+        assert "move the tip by" in brace("query", "--bus", url, *asked, *FORCE).out
+        folds = brace("query", "--bus", url, *asked, "--fx", -300, "--fy", 0, "--fz", -300)
+        assert folds.code == 2 and "no stable equilibrium" in folds.err
+
+
+@pytest.mark.parametrize("options", [("--fx", 1, "--fz", 2), ("--fy", 3)])
+def test_a_force_in_space_has_three_parts(brace: Callable[..., Outcome], options: tuple[object, ...]) -> None:
+    usage = brace("query", "--bus", "can0", "--theta0", 0.9, "--theta1", 0.5, "--theta2", 1.7, *options)
+    assert usage.code == 2 and "--fy belongs to" in usage.err
 
 
 @pytest.mark.parametrize("wire", WIRES)

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from brace.model import load_limb
+from brace.model import LimbModel, load_limb
 from brace.native import loaded
 from brace.native.plant import LoadingPlayer
 from brace.stiffness_under_load import stiffness_under_load
@@ -36,25 +36,74 @@ def heavy_limb(paper_limb: Path, tmp_path: Path) -> Path:
     return path
 
 
-@pytest.mark.parametrize("joints", [("femur",), ("tibia",), ("femur", "tibia")])
-def test_springs_that_harden(heavy_limb: Path, joints: tuple[str, ...]) -> None:
+def force_and_k(model: LimbModel, off_mm: tuple[float, float], temp_degc: float) -> tuple[np.ndarray, np.ndarray]:
     """The simulated limb, held off by a displacement, tells the force there and, by differences, K."""
-    off_mm, near_mm = (6.0, 15.0), 1e-3
-    model = load_limb(heavy_limb)
-    linear = model
-    for joint in joints:
-        model = model.with_values({f"joint.{joint}.hardening_n_mm_per_rad3": 3e8})
+    near_mm = 1e-3
     moved = near_mm * np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]]) + off_mm
     rows = np.ones(len(moved))
     columns = {
         "run": np.arange(len(moved), dtype=np.int32), "t_s": np.arange(len(moved), dtype=float),
-        "theta1_rad": 0.9 * rows, "theta2_rad": 1.3 * rows, "temp_degc": 22.0 * rows,
+        "theta1_rad": 0.9 * rows, "theta2_rad": 1.3 * rows, "temp_degc": temp_degc * rows,
         "dx_mm": moved[:, 0].copy(), "dz_mm": moved[:, 1].copy(),
     }  # fmt: skip
     played = LoadingPlayer(columns).play(model, ("fx_n", "fz_n"))
     force = np.stack([played["fx_n"], played["fz_n"]], axis=1)
-    k = np.stack([force[1] - force[2], force[3] - force[4]], axis=1) / (2.0 * near_mm)
-    at = (np.array([1.0]), np.array([1.3]), force[:1, 0], force[:1, 1])  # commanded, with the zero offset
+    return force[0], np.stack([force[1] - force[2], force[3] - force[4]], axis=1) / (2.0 * near_mm)
+
+
+@pytest.mark.parametrize("temp_degc", [22.0, 62.0, 2.0])
+@pytest.mark.parametrize("hardens", [False, True])
+def test_warm_joints(
+    brace: Callable[..., Outcome], heavy_limb: Path, tmp_path: Path, temp_degc: float, hardens: bool
+) -> None:
+    model = load_limb(heavy_limb).with_values({"thermal.joint_compliance_per_degc": 0.008})
+    if hardens:
+        model = model.with_values({"joint.femur.hardening_n_mm_per_rad3": 3e8})
+    limb = tmp_path / "warm.toml"
+    limb.write_text(model.to_toml())
+    off_mm = (6.0, 15.0)
+    force, k = force_and_k(model, off_mm, temp_degc)
+    given = ("k", "--model", limb, "--theta1", 0.9, "--theta2", 1.3, "--fx", force[0], "--fz", force[1], "--json")
+    told = json.loads(brace(*given, "--temp", temp_degc).out)
+    assert told["temp_degc"] == temp_degc
+    assert [told["tip_dx_mm"], told["tip_dz_mm"]] == pytest.approx(off_mm, abs=0.02 * np.hypot(*off_mm))
+    k_told = np.array([[told["k_xx_n_per_mm"], told["k_xz_n_per_mm"]], [told["k_xz_n_per_mm"], told["k_zz_n_per_mm"]]])
+    assert np.linalg.norm(k_told - k) <= WORST_K * np.linalg.norm(k)
+    cold = json.loads(brace(*given).out)  # at the reference, 22 degC
+    assert (abs(cold["k_zz_n_per_mm"] - k[1, 1]) > 2 * WORST_K * k[1, 1]) == (temp_degc != 22.0)
+
+
+def test_a_temperature_counts_without_a_load(brace: Callable[..., Outcome], paper_limb: Path, tmp_path: Path) -> None:
+    """Twice the compliance of every joint is what 0.025 / degC gives 40 degC above the reference."""
+    model = load_limb(paper_limb).with_values({"link.femur.lateral_mm_per_n": 0.1, "link.tibia.lateral_mm_per_n": 0.1})
+    keys = [f"joint.{joint}.compliance_rad_per_n_mm" for joint in ("coxa", "femur", "tibia")]
+    warm, soft = tmp_path / "warm.toml", tmp_path / "soft.toml"
+    warm.write_text(model.with_values({"thermal.joint_compliance_per_degc": 0.025}).to_toml())
+    soft.write_text(model.with_values({key: 2.0 * model.number(key) for key in keys}).to_toml())
+    for posture in ((), ("--theta0", 0.3)):
+        at = (*posture, "--theta1", 1.0, "--theta2", 1.4, "--json")
+        told = json.loads(brace("k", "--model", warm, *at, "--temp", 62).out)
+        wanted = json.loads(brace("k", "--model", soft, *at).out)
+        for name in ("k_xx_n_per_mm", "k_zz_n_per_mm", "lambda_min_n_per_mm"):
+            assert told[name] == pytest.approx(wanted[name], rel=1e-6)
+    table, out = tmp_path / "in.csv", tmp_path / "out.csv"
+    table.write_text("theta1_rad,theta2_rad\n1.0,1.4\n")
+    assert brace("k", "--model", warm, "--csv", table, "--out", out, "--temp", 62).code == 0
+    plane = json.loads(brace("k", "--model", soft, "--theta1", 1.0, "--theta2", 1.4, "--json").out)
+    assert float(rows_of(out)[0]["k_xx_n_per_mm"]) == pytest.approx(plane["k_xx_n_per_mm"], rel=1e-6)
+    refused = brace("k", "--model", warm, "--theta1", 1.0, "--theta2", 1.4, "--temp", 330)
+    assert refused.code == 2 and "no joint's temperature" in refused.err
+
+
+@pytest.mark.parametrize("joints", [("femur",), ("tibia",), ("femur", "tibia")])
+def test_springs_that_harden(heavy_limb: Path, joints: tuple[str, ...]) -> None:
+    off_mm = (6.0, 15.0)
+    model = load_limb(heavy_limb)
+    linear = model
+    for joint in joints:
+        model = model.with_values({f"joint.{joint}.hardening_n_mm_per_rad3": 3e8})
+    force, k = force_and_k(model, off_mm, 22.0)
+    at = (np.array([1.0]), np.array([1.3]), force[:1], force[1:])  # commanded, with the zero offset
     told = stiffness_under_load(model, *at)[0]
     assert [told["tip_dx_mm"], told["tip_dz_mm"]] == pytest.approx(off_mm, abs=0.02 * np.hypot(*off_mm))
     k_told = np.array([[told["k_xx_n_per_mm"], told["k_xz_n_per_mm"]], [told["k_xz_n_per_mm"], told["k_zz_n_per_mm"]]])

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from interface.c_messages import c_type, packed, unpacked
 from interface.dictionary import DictionaryError
-from interface.messages import Frame, Request, Signal, Wire, saturated_constant
+from interface.messages import Request, Signal, Wire, saturated_constant
 
 WHOLE = "answer"  # what saturated_by names here: all values of the answer
 _MADE = "/* Written by tools/interface from messages.toml; do not edit. */\n"
@@ -121,20 +121,23 @@ def _unpack(request: Request) -> str:
 def _pack(request: Request) -> str:
     lines = [f"\nstatic void pack_{request.name}(const brace_{request.name}_answer_t *answer, uint64_t head,\n"
              "    uint8_t (*parts)[8])\n{\n    uint32_t limited = 0u;\n    uint64_t bits;\n"]
-    for number, frame in enumerate(request.answers):
+    told_last = [frame for frame in request.answers if any(signal.saturated_by for signal in frame.signals)]
+    if len(told_last) > 1:
+        raise DictionaryError(f"{request.name}: flags of one part alone have saturated_by = [{WHOLE!r}]")
+    for number, frame in sorted(enumerate(request.answers), key=lambda part: part[1] in told_last):
         lines.append(f"    bits = head | {32 * number}u;\n")
         for signal in sorted(frame.signals, key=lambda signal: bool(signal.saturated_by)):
-            lines.append(f"    bits |= {packed(signal, _value(request, frame, signal))};\n")
+            lines.append(f"    bits |= {packed(signal, _value(request, signal))};\n")
         lines.append(f"    brace_bits_store(bits, parts[{number}]);\n")
     return "".join(lines) + "}\n"
 
 
-def _value(request: Request, frame: Frame, signal: Signal) -> str:
+def _value(request: Request, signal: Signal) -> str:
     """A field of the answer. Flags that tell what was limited are packed when all else has been."""
     where, member = f"{request.name}.{signal.name}", f"answer->{signal.member}"
     if not signal.saturated_by:
         return member
-    if signal.saturated_by != (WHOLE,) or frame is not request.answers[-1]:
-        raise DictionaryError(f"{where}: saturated_by = [{WHOLE!r}] is for flags of the last part")
+    if signal.saturated_by != (WHOLE,):
+        raise DictionaryError(f"{where}: saturated_by of an answer's flags is [{WHOLE!r}]")
     constant = saturated_constant(where, signal)
     return f"{member} | (limited > 0u ? (uint32_t){constant} : 0u)"

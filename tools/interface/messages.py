@@ -216,8 +216,8 @@ def load_wire(path: Path, codes: Codes) -> Wire:
     answers = {raw["name"]: raw["answer"] for raw in content["request"] if "answer" in raw}
     requests = tuple(_request(raw, answers, request_id, answer_id, codes) for raw in content["request"])
     numbers = [request.code for request in requests]
-    if len(set(numbers)) != len(numbers) or not all(1 <= number <= 31 for number in numbers):
-        raise DictionaryError("codes of requests are different numbers of 1-31")
+    if len(set(numbers)) != len(numbers) or not all(0 <= number <= 31 for number in numbers):
+        raise DictionaryError("codes of requests are different numbers of 0-31")
     refusal = Frame(
         "refusal", answer_id, "",
         _signals(

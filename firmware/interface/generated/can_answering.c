@@ -258,8 +258,14 @@ static void pack_k_in_space_at_posture(const brace_k_in_space_at_posture_answer_
     bits |= brace_bits_unsigned(answer->lambda_1_n_per_mm, 2000.0f, 16u, 24u, &limited);
     bits |= brace_bits_unsigned(answer->lambda_2_n_per_mm, 2000.0f, 40u, 24u, &limited);
     brace_bits_store(bits, parts[3]);
+    bits = head | 160u;
+    bits |= brace_bits_signed(answer->dx_mm, 100.0f, 16u, 16u, &limited);
+    bits |= brace_bits_signed(answer->dy_mm, 100.0f, 32u, 16u, &limited);
+    bits |= brace_bits_signed(answer->dz_mm, 100.0f, 48u, 16u, &limited);
+    brace_bits_store(bits, parts[5]);
     bits = head | 128u;
     bits |= brace_bits_unsigned(answer->lambda_3_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_number(answer->force_is_told, 48u, 8u, &limited);
     bits |= brace_bits_number(answer->flags | (limited > 0u ? (uint32_t)BRACE_FLAG_SATURATED : 0u), 40u, 8u, &limited);
     brace_bits_store(bits, parts[4]);
 }
@@ -348,6 +354,18 @@ static void pack_k_under_load_at_posture(const brace_k_under_load_at_posture_ans
     brace_bits_store(bits, parts[4]);
 }
 
+static void pack_tip_force_in_space(const brace_tip_force_in_space_answer_t *answer, uint64_t head,
+    uint8_t (*parts)[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits;
+    bits = head | 0u;
+    bits |= brace_bits_signed(answer->fx_n, 100.0f, 16u, 16u, &limited);
+    bits |= brace_bits_signed(answer->fy_n, 100.0f, 32u, 16u, &limited);
+    bits |= brace_bits_signed(answer->fz_n, 100.0f, 48u, 16u, &limited);
+    brace_bits_store(bits, parts[0]);
+}
+
 void brace_can_pack_answer(uint32_t code, const brace_answer_t *answer, uint32_t token, uint8_t (*parts)[8])
 {
     const uint64_t head = code | (token & 0xffu) << 8;
@@ -382,6 +400,7 @@ void brace_can_pack_answer(uint32_t code, const brace_answer_t *answer, uint32_t
     case BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE: pack_k_under_load_at_posture(&answer->k_under_load_at_posture, head, parts); break;
     case BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP: pack_k_under_load_at_posture(&answer->k_under_load_at_tip_knee_up, head, parts); break;
     case BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN: pack_k_under_load_at_posture(&answer->k_under_load_at_tip_knee_down, head, parts); break;
+    case BRACE_REQUEST_TIP_FORCE_IN_SPACE: pack_tip_force_in_space(&answer->tip_force_in_space, head, parts); break;
     default: break;
     }
 }

@@ -3,7 +3,7 @@
 
 #include "can_bits.h"
 
-const uint8_t brace_can_answer_parts[32] = {0, 1, 1, 3, 3, 3, 2, 1, 1, 1, 1, 1, 2, 2, 1, 1, 1, 1, 1, 1, 4, 1, 1, 5, 3, 1, 1, 1, 5, 5, 5, 0};
+const uint8_t brace_can_answer_parts[32] = {0, 1, 1, 3, 3, 3, 2, 1, 1, 1, 1, 1, 2, 2, 1, 1, 1, 1, 1, 1, 4, 1, 1, 6, 3, 1, 1, 1, 5, 5, 5, 1};
 
 uint32_t brace_can_pack_read_entry_answer_0(const brace_can_read_entry_answer_0_t *message, uint8_t data[8])
 {
@@ -750,6 +750,7 @@ uint32_t brace_can_pack_k_in_space_at_posture_answer_4(const brace_can_k_in_spac
     bits = 151u | (uint64_t)(message->token & 0xffu) << 8;
     bits |= brace_bits_unsigned(message->lambda_3_n_per_mm, 2000.0f, 16u, 24u, &limited);
     bits |= brace_bits_number(message->flags, 40u, 8u, &limited);
+    bits |= brace_bits_number(message->force_is_told, 48u, 8u, &limited);
     brace_bits_store(bits, data);
     return limited;
 }
@@ -761,6 +762,30 @@ void brace_can_unpack_k_in_space_at_posture_answer_4(const uint8_t data[8],
     message->token = (uint32_t)(bits >> 8) & 0xffu;
     message->lambda_3_n_per_mm = brace_value_unsigned(bits, 16u, 24u, 0.0005f);
     message->flags = brace_value_number(bits, 40u, 8u);
+    message->force_is_told = brace_value_number(bits, 48u, 8u);
+}
+
+uint32_t brace_can_pack_k_in_space_at_posture_answer_5(const brace_can_k_in_space_at_posture_answer_5_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 183u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->dx_mm, 100.0f, 16u, 16u, &limited);
+    bits |= brace_bits_signed(message->dy_mm, 100.0f, 32u, 16u, &limited);
+    bits |= brace_bits_signed(message->dz_mm, 100.0f, 48u, 16u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_k_in_space_at_posture_answer_5(const uint8_t data[8],
+    brace_can_k_in_space_at_posture_answer_5_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->dx_mm = brace_value_signed(bits, 16u, 16u, 0.01f);
+    message->dy_mm = brace_value_signed(bits, 32u, 16u, 0.01f);
+    message->dz_mm = brace_value_signed(bits, 48u, 16u, 0.01f);
 }
 
 uint32_t brace_can_pack_drift_answer_0(const brace_can_drift_answer_0_t *message, uint8_t data[8])
@@ -1200,6 +1225,29 @@ void brace_can_unpack_k_under_load_at_tip_knee_down_answer_4(const uint8_t data[
     message->token = (uint32_t)(bits >> 8) & 0xffu;
     message->buckling_factor = brace_value_float(bits, 16u);
     message->flags = brace_value_number(bits, 48u, 8u);
+}
+
+uint32_t brace_can_pack_tip_force_in_space_answer_0(const brace_can_tip_force_in_space_answer_0_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 31u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->fx_n, 100.0f, 16u, 16u, &limited);
+    bits |= brace_bits_signed(message->fy_n, 100.0f, 32u, 16u, &limited);
+    bits |= brace_bits_signed(message->fz_n, 100.0f, 48u, 16u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_tip_force_in_space_answer_0(const uint8_t data[8],
+    brace_can_tip_force_in_space_answer_0_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->fx_n = brace_value_signed(bits, 16u, 16u, 0.01f);
+    message->fy_n = brace_value_signed(bits, 32u, 16u, 0.01f);
+    message->fz_n = brace_value_signed(bits, 48u, 16u, 0.01f);
 }
 
 uint32_t brace_can_pack_refusal(const brace_can_refusal_t *message, uint8_t data[8])

@@ -105,6 +105,11 @@ void brace_can_unpack_request(const uint8_t data[8], brace_request_t *asked)
         asked->k_under_load_at_tip_knee_down.x_mm = brace_value_signed(bits, 16u, 24u, 0.001f);
         asked->k_under_load_at_tip_knee_down.z_mm = brace_value_signed(bits, 40u, 24u, 0.001f);
         break;
+    case BRACE_REQUEST_TIP_FORCE_IN_SPACE:
+        asked->tip_force_in_space.fx_n = brace_value_signed(bits, 16u, 16u, 0.01f);
+        asked->tip_force_in_space.fy_n = brace_value_signed(bits, 32u, 16u, 0.01f);
+        asked->tip_force_in_space.fz_n = brace_value_signed(bits, 48u, 16u, 0.01f);
+        break;
     default: break;
     }
 }

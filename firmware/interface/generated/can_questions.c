@@ -561,3 +561,26 @@ void brace_can_unpack_k_under_load_at_tip_knee_down_request(const uint8_t data[8
     message->x_mm = brace_value_signed(bits, 16u, 24u, 0.001f);
     message->z_mm = brace_value_signed(bits, 40u, 24u, 0.001f);
 }
+
+uint32_t brace_can_pack_tip_force_in_space_request(const brace_can_tip_force_in_space_request_t *message,
+    uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 31u | (uint64_t)(message->token & 0xffu) << 8;
+    bits |= brace_bits_signed(message->fx_n, 100.0f, 16u, 16u, &limited);
+    bits |= brace_bits_signed(message->fy_n, 100.0f, 32u, 16u, &limited);
+    bits |= brace_bits_signed(message->fz_n, 100.0f, 48u, 16u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_tip_force_in_space_request(const uint8_t data[8],
+    brace_can_tip_force_in_space_request_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->token = (uint32_t)(bits >> 8) & 0xffu;
+    message->fx_n = brace_value_signed(bits, 16u, 16u, 0.01f);
+    message->fy_n = brace_value_signed(bits, 32u, 16u, 0.01f);
+    message->fz_n = brace_value_signed(bits, 48u, 16u, 0.01f);
+}

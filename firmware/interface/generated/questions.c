@@ -12,6 +12,7 @@ const brace_question_t brace_questions[BRACE_QUESTION_COUNT] = {
     {19, 4, 2, 1, {BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE}, 16, 10, true, BRACE_REQUEST_TIP_FORCE, 2},
     {23, 5, 2, 2, {BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP, BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN}, 16, 10, true, BRACE_REQUEST_TIP_FORCE, 2},
     {17, 2, 2, 1, {BRACE_REQUEST_SET_GRAVITY}, 26, 2, false, 0, 0},
+    {28, 6, 3, 1, {BRACE_REQUEST_K_IN_SPACE_AT_POSTURE}, 28, 14, true, BRACE_REQUEST_TIP_FORCE_IN_SPACE, 3},
 };
 
 const brace_commands_t brace_commands_unknown = {
@@ -37,6 +38,12 @@ const brace_commands_t brace_commands_unknown = {
     .asked_loaded_tip_x_mm = __builtin_nanf(""),
     .asked_loaded_tip_z_mm = __builtin_nanf(""),
     .asked_loaded_knee = UINT32_MAX,
+    .asked_space_force_x_n = __builtin_nanf(""),
+    .asked_space_force_y_n = __builtin_nanf(""),
+    .asked_space_force_z_n = __builtin_nanf(""),
+    .asked_space_theta0_rad = __builtin_nanf(""),
+    .asked_space_theta1_rad = __builtin_nanf(""),
+    .asked_space_theta2_rad = __builtin_nanf(""),
 };
 
 const brace_answered_t brace_answered_unknown = {
@@ -68,4 +75,18 @@ const brace_answered_t brace_answered_unknown = {
     .asked_loaded_flags = UINT32_MAX,
     .taken_gravity_direction_rad = __builtin_nanf(""),
     .taken_gravity_lean_rad = __builtin_nanf(""),
+    .asked_space_k_xx_n_per_mm = __builtin_nanf(""),
+    .asked_space_k_xy_n_per_mm = __builtin_nanf(""),
+    .asked_space_k_xz_n_per_mm = __builtin_nanf(""),
+    .asked_space_k_yy_n_per_mm = __builtin_nanf(""),
+    .asked_space_k_yz_n_per_mm = __builtin_nanf(""),
+    .asked_space_k_zz_n_per_mm = __builtin_nanf(""),
+    .asked_space_lambda_1_n_per_mm = __builtin_nanf(""),
+    .asked_space_lambda_2_n_per_mm = __builtin_nanf(""),
+    .asked_space_lambda_3_n_per_mm = __builtin_nanf(""),
+    .asked_space_flags = UINT32_MAX,
+    .asked_space_force_is_told = UINT32_MAX,
+    .asked_space_moved_x_mm = __builtin_nanf(""),
+    .asked_space_moved_y_mm = __builtin_nanf(""),
+    .asked_space_moved_z_mm = __builtin_nanf(""),
 };

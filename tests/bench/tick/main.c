@@ -200,14 +200,17 @@ static void random_question(bool harmless)
                                         BRACE_REQUEST_TIP_FORCE,
                                         BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE,
                                         BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP,
-                                        BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN};
+                                        BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN,
+                                        BRACE_REQUEST_TIP_FORCE_IN_SPACE,
+                                        BRACE_REQUEST_K_IN_SPACE_AT_POSTURE};
+    static const uint32_t question_count = sizeof questions / sizeof *questions;
     uint8_t data[8];
     for (int i = 0; i < 8; i++) {
         data[i] = (uint8_t)dice_below(&dice, 256);
     }
     const uint32_t code = harmless            ? 1u + dice_below(&dice, 8)
                           : dice_in(&dice, 20)  ? dice_below(&dice, 256)
-                          : dice_in(&dice, 2) ? questions[dice_below(&dice, 7)]
+                          : dice_in(&dice, 2) ? questions[dice_below(&dice, question_count)]
                                               : 1u + dice_below(&dice, BRACE_REQUEST_CODE_MOST);
     const uint32_t token = data[1];
     data[0] = (uint8_t)code;
@@ -221,6 +224,11 @@ static void random_question(bool harmless)
         data[4] = data[7] = (uint8_t)(dice_in(&dice, 2) ? 0 : 255); /* some ten newtons */
         data[3] &= 0x3fu;
         data[6] &= 0x3fu;
+    } else if (code == BRACE_REQUEST_TIP_FORCE_IN_SPACE) {
+        (void)brace_can_pack_tip_force_in_space_request(
+            &(brace_can_tip_force_in_space_request_t){token, dice_between(&dice, -20.0f, 20.0f),
+                                                      dice_between(&dice, -20.0f, 20.0f),
+                                                      dice_between(&dice, -20.0f, 20.0f)}, data);
     } else if (code == BRACE_REQUEST_K_AT_TIP_KNEE_UP || code == BRACE_REQUEST_K_AT_TIP_KNEE_DOWN ||
                code == BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP ||
                code == BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN) {

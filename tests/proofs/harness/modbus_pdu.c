@@ -47,7 +47,8 @@ int32_t answer_request(request_t *request, uint32_t code, const brace_request_t 
     ASSUME(status <= ANSWER_AGAIN && status >= BRACE_REFUSED_STORE - 7);
     PROVE((code >= BRACE_REQUEST_K_AT_POSTURE && code <= BRACE_REQUEST_SET_MODE) || code == BRACE_REQUEST_COMMIT ||
               code == BRACE_REQUEST_ROLLBACK || code == BRACE_REQUEST_TAKE_UP || code == BRACE_REQUEST_LET_GO ||
-              code == BRACE_REQUEST_CLEAR || (code >= BRACE_REQUEST_SET_GRAVITY && code <= BRACE_REQUEST_CODE_MOST),
+              code == BRACE_REQUEST_CLEAR || code == BRACE_REQUEST_K_IN_SPACE_AT_POSTURE ||
+              (code >= BRACE_REQUEST_SET_GRAVITY && code <= BRACE_REQUEST_CODE_MOST),
           "a request that Modbus knows");
     PROVE(code != BRACE_REQUEST_TAKE_UP || asked->take_up.flank == 1 || asked->take_up.flank == -1,
           "a flank that there is");

@@ -137,7 +137,7 @@ static void test_writes_have_their_limits(void)
     refused(write_values(1, values, 1), 16, 2);
     refused(write_values(2 * BRACE_PARAMETER_NUMBERS - 2, values, 2), 16, 2);
     refused(write_values(2 * BRACE_PARAMETER_NUMBERS, values, 1), 16, 2);
-    refused(write_value(16440, 0), 16, 2);
+    refused(write_value(16452, 0), 16, 2);
     const uint8_t none[] = {16, 0, 0, 0, 0, 0}, one[] = {16, 0, 0, 0, 1, 2, 0, 0},
                   miscounted[] = {16, 0, 0, 0, 2, 2, 0, 0};
     const uint8_t missing[] = {16, 0, 0, 0, 2, 4, 0, 0, 0}, more[] = {16, 0, 0, 0, 2, 4, 0, 0, 0, 0, 0};

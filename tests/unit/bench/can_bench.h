@@ -15,7 +15,7 @@ enum { NODE = 5, PATIENCE_TICKS = 10, K_TICKS = 3 };
 /* The frames of one answer. */
 typedef struct {
     int count;
-    uint8_t part[5][8];
+    uint8_t part[BRACE_CAN_ANSWER_PARTS_MOST][8];
 } answer_t;
 
 static inline void drain(void)
@@ -38,7 +38,7 @@ static inline void collect(answer_t *answer)
     while (brace_fake_frame_take(&fake, &frame)) {
         if (frame.id == 0x580u + NODE) {
             TEST_ASSERT_EQUAL(8, frame.length);
-            TEST_ASSERT_TRUE(answer->count < 5);
+            TEST_ASSERT_TRUE(answer->count < BRACE_CAN_ANSWER_PARTS_MOST);
             memcpy(answer->part[answer->count++], frame.data, 8);
         }
     }

@@ -7,13 +7,22 @@ import struct
 import time
 from typing import TYPE_CHECKING
 
-from brace.bus.controller import Advance, Force, Identity, StiffnessAnswer, Stored, check_dictionary
+from brace.bus.controller import (
+    NO_FORCE,
+    Advance,
+    Force,
+    Identity,
+    SpaceForce,
+    StiffnessAnswer,
+    Stored,
+    check_dictionary,
+)
 from brace.bus.drift import TAKE_UPS, Drift, drift_of, take_up_of
 from brace.bus.entries import index_of
 from brace.bus.load import ACROSS_ENTRIES, LOAD_ENTRIES, Load, load_of
 from brace.bus.session import Session
 from brace.bus.snapshot import Snapshot
-from brace.bus.space import SpaceStiffness, space_answer
+from brace.bus.space import SpaceAnswer, space_answer
 from brace.errors import DeviceFaultError, NoDeviceError, NotVerifiedError, VersionMismatchError
 from brace.wire.codes import FLAG, MODE, PARAMETER_ORIGIN
 from brace.wire.layout import Value
@@ -81,7 +90,8 @@ class CanController:
     def _ask_k(self, where: str, place: dict[str, Value], force_n: Force | None) -> StiffnessAnswer:
         if force_n is None:
             return _stiffness(self.session.ask(f"k_{where}", place))
-        return _stiffness(self.session.ask_under_force(force_n, f"k_under_load_{where}", place))
+        force: dict[str, Value] = {"fx": force_n[0], "fz": force_n[1]}
+        return _stiffness(self.session.ask_under_force(force, f"k_under_load_{where}", place))
 
     def load(self) -> Load:
         """Entry by entry, so of several snapshots."""
@@ -96,10 +106,13 @@ class CanController:
         answer = self.session.ask("set_gravity", given)
         return answer["direction"], answer["lean"]
 
-    def k_in_space_at_posture(self, theta0_rad: float, theta1_rad: float, theta2_rad: float) -> SpaceStiffness:
-        """True angles; refused where the limb has no coxa joint."""
-        asked = {"theta0": theta0_rad, "theta1": theta1_rad, "theta2": theta2_rad}
-        return space_answer(self.session.ask("k_in_space_at_posture", asked))
+    def k_in_space_at_posture(
+        self, theta0_rad: float, theta1_rad: float, theta2_rad: float, force_n: SpaceForce = NO_FORCE
+    ) -> SpaceAnswer:
+        """Refused where the limb has no coxa joint. No force is told too: else another client's might count."""
+        asked: dict[str, Value] = {"theta0": theta0_rad, "theta1": theta1_rad, "theta2": theta2_rad}
+        force: dict[str, Value] = dict(zip(("fx", "fy", "fz"), force_n, strict=True))
+        return space_answer(self.session.ask_under_force(force, "k_in_space_at_posture", asked))
 
     def drift(self) -> Drift:
         """What the check of model against measurement knows."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Protocol
 from brace.bus.drift import Drift
 from brace.bus.load import Load
 from brace.bus.snapshot import Snapshot
-from brace.bus.space import SpaceStiffness
+from brace.bus.space import SpaceAnswer
 from brace.errors import VersionMismatchError
 from brace.wire.frames import DICTIONARY_HASH
 from brace.wire.layout import Value
@@ -48,6 +48,8 @@ class StiffnessAnswer:
 
 
 Force = tuple[float, float]  # of the ground on the tip, x and z [N]
+SpaceForce = tuple[float, float, float]  # the same: outwards in the limb's plane, across it to the left, upwards
+NO_FORCE = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -72,7 +74,10 @@ class Controller(Protocol):
     def k_at_posture(self, theta1_rad: float, theta2_rad: float, force_n: Force | None = None) -> StiffnessAnswer:
         """Under the weight, and under a force where one is given. Angles are those before the load turns the joints."""
 
-    def k_in_space_at_posture(self, theta0_rad: float, theta1_rad: float, theta2_rad: float) -> SpaceStiffness: ...
+    def k_in_space_at_posture(
+        self, theta0_rad: float, theta1_rad: float, theta2_rad: float, force_n: SpaceForce = NO_FORCE
+    ) -> SpaceAnswer:
+        """Under the weight and a force. Angles are those before the load turns the joints."""
 
     def drift(self) -> Drift: ...
 

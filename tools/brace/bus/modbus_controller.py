@@ -11,14 +11,23 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from brace.bus.controller import Advance, Force, Identity, StiffnessAnswer, Stored, check_dictionary
+from brace.bus.controller import (
+    NO_FORCE,
+    Advance,
+    Force,
+    Identity,
+    SpaceForce,
+    StiffnessAnswer,
+    Stored,
+    check_dictionary,
+)
 from brace.bus.drift import TAKE_UPS, Drift, drift_of, take_up_of
 from brace.bus.load import Load, load_of
-from brace.bus.refusal import STORE, error_of, no_equilibrium
+from brace.bus.refusal import STORE, error_of, no_coxa_joint, no_equilibrium
 from brace.bus.snapshot import Snapshot
-from brace.bus.space import SpaceSnapshot, SpaceStiffness, space_snapshot
+from brace.bus.space import SpaceAnswer, SpaceSnapshot, space_answer, space_snapshot
 from brace.bus.url import BusUrl
-from brace.errors import BraceError, DeviceFaultError, MissingLibraryError, NoDeviceError, UsageError
+from brace.errors import BraceError, DeviceFaultError, MissingLibraryError, NoDeviceError
 from brace.wire.codes import FLAG
 from brace.wire.layout import Value
 from brace.wire.measured import MEASURED
@@ -149,14 +158,16 @@ class ModbusController:
             v |= {name: None for name in v if name.startswith("space_k_")}
         return space_snapshot(v, "space_")
 
-    def k_in_space_at_posture(self, theta0_rad: float, theta1_rad: float, theta2_rad: float) -> SpaceStiffness:
-        """The register map has no such question."""
-        raise UsageError(
-            "K in space at a posture over Modbus",
-            where=self.url,
-            why="the registers hold K in space of now only",
-            next_step="ask over CAN (--bus can0, slcan:DEVICE or tcp://HOST:PORT), or compute it: brace k --theta0",
-        )
+    def k_in_space_at_posture(
+        self, theta0_rad: float, theta1_rad: float, theta2_rad: float, force_n: SpaceForce = NO_FORCE
+    ) -> SpaceAnswer:
+        """Written, then read."""
+        v = self._ask("asked_space_force_x", ">ffffff", *force_n, theta0_rad, theta1_rad, theta2_rad)
+        if v["asked_space_k_xx"] is None and v["asked_space_flags"] is None:
+            if self._values_of(_SPACE)["theta0"] is None:
+                raise no_coxa_joint(self.url, "theta0 reads as not known")
+            raise no_equilibrium(self.url, "the answer's registers hold no K")
+        return space_answer(v, "asked_space_", "moved_")
 
     def drift(self) -> Drift:
         """What the check of model against measurement knows."""

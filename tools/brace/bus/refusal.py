@@ -60,6 +60,16 @@ def no_equilibrium(where: str, why: str) -> UsageError:
     )
 
 
+def no_coxa_joint(where: str, why: str) -> UsageError:
+    """There is no K in space."""
+    return UsageError(
+        f"the controller refuses {_IN_SPACE}: the limb has no coxa joint",
+        where=where,
+        why=f"its coxa joint gives no samples, so K is that of the limb's plane ({why})",
+        next_step="ask without --theta0",
+    )
+
+
 def error_of(what: str, status: int, detail: int, where: str) -> BraceError:
     """An error with its exit code: 2 where the question was at fault, 5 where the device is."""
     if what in _OF_NOW and status == -3 and detail & _GAP_OPEN:
@@ -71,13 +81,8 @@ def error_of(what: str, status: int, detail: int, where: str) -> BraceError:
             "closed: --theta1 --theta2",
         )
     if what == _IN_SPACE and status == _UNSUPPORTED:
-        return UsageError(
-            "the controller refuses k_in_space_at_posture: the limb has no coxa joint",
-            where=where,
-            why="its coxa joint gives no samples, so K is that of the limb's plane",
-            next_step="ask without --theta0",
-        )
-    if what.startswith("k_under_load_") and status == _SINGULAR:
+        return no_coxa_joint(where, f"status {status}")
+    if (what == _IN_SPACE or what.startswith("k_under_load_")) and status == _SINGULAR:
         return no_equilibrium(where, f"status {status}")
     reason, asked_wrong = _STATUS.get(status, (f"status {status}", False))
     kind = UsageError if asked_wrong else DeviceFaultError

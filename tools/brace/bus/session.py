@@ -40,9 +40,11 @@ _SENT_BY_NODES = {
 _NOT_REPEATED = frozenset(
     {"commit", "rollback", "loading_test_start", "take_up"}
 )  # whose second time is not the first
-_FORCE = "tip_force"
+_FORCE, _FORCE_IN_SPACE, _IN_SPACE = "tip_force", "tip_force_in_space", "k_in_space_at_posture"
 _ABOUT_FORCE = frozenset(  # a controller counts the force that was told last, whoever told it, and once
-    layout.command for name, layout in REQUESTS.items() if name == _FORCE or name.startswith("k_under_load_")
+    layout.command
+    for name, layout in REQUESTS.items()
+    if name in (_FORCE, _FORCE_IN_SPACE, _IN_SPACE) or name.startswith("k_under_load_")
 )
 
 
@@ -134,17 +136,17 @@ class Session:
             raise error_of(name, refused.status, refused.detail, self.where) from None
 
     def ask_under_force(
-        self, force_n: tuple[float, float], name: str, values: Mapping[str, Value]
+        self, force_n: Mapping[str, Value], name: str, values: Mapping[str, Value]
     ) -> dict[str, Value]:
         """Tells the controller a force, asks about K under it and returns the answer. Does both again when another client
         told its own force in between, or when an answer was lost and the controller has forgotten the force."""
         until = time.monotonic() + CONTESTED_S
         while time.monotonic() < until:
             self._force_is_taken = False
-            self.ask(_FORCE, {"fx": force_n[0], "fz": force_n[1]})
+            self.ask(_FORCE_IN_SPACE if name == _IN_SPACE else _FORCE, force_n)
             try:
                 answer = self._ask(name, values, ANSWER_S)
-                if not self._force_is_taken:
+                if not self._force_is_taken and answer.get("force_is_told") != 0:
                     return answer
             except _Refused as refused:
                 if refused.status != ORDER and not self._force_is_taken:

@@ -39,6 +39,13 @@ class SpaceStiffness:
 
 
 @dataclass(frozen=True)
+class SpaceAnswer(SpaceStiffness):
+    """K in space where the limb need not be."""
+
+    moved_mm: tuple[Value, ...] = ()  # by force and weight: outwards in the limb's plane, to its left, upwards
+
+
+@dataclass(frozen=True)
 class SpaceSnapshot(SpaceStiffness):
     """K in space of one tick."""
 
@@ -55,12 +62,13 @@ class SpaceSnapshot(SpaceStiffness):
         }
 
 
-def space_answer(values: Mapping[str, Value]) -> SpaceStiffness:
-    """From the fields of an answer."""
-    return SpaceStiffness(
-        tuple(values[f"k_{name}"] for name in _ENTRIES),
-        tuple(values[name] for name in _EIGENVALUES),
-        FLAG.names_of_bits(int(values["flags"] or 0)),
+def space_answer(values: Mapping[str, Value], prefix: str = "", moved: str = "d") -> SpaceAnswer:
+    """From the fields of an answer, or from registers, whose names begin with a prefix."""
+    return SpaceAnswer(
+        tuple(values[f"{prefix}k_{name}"] for name in _ENTRIES),
+        tuple(values[f"{prefix}{name}"] for name in _EIGENVALUES),
+        FLAG.names_of_bits(int(values[f"{prefix}flags"] or 0)),
+        moved_mm=tuple(values[f"{prefix}{moved}{name}"] for name in _AXES),
     )
 
 

@@ -26,7 +26,7 @@ def add(commands: Subcommands) -> None:
         "own C. With --theta0 (or a theta0_rad column) in space, otherwise in the limb's plane. With --fx and --fz (or "
         "columns fx_n, fz_n) K under this load and the weights of [gravity], at the limb's equilibrium. Angles are "
         "commanded ones: the model's zero offsets are added; theta0, theta1 and phi lie within a full turn, theta2 in "
-        "[-pi, pi].",
+        "[-pi, pi]. --temp warms the joints as [thermal] says.",
     )
     common.add_model(parser)
     parser.add_argument("--theta0", type=common.angle, metavar="RAD", help="coxa yaw: K in space (3x3)")
@@ -36,6 +36,12 @@ def add(commands: Subcommands) -> None:
     parser.add_argument("--phi", type=common.angle, metavar="RAD", help="tip direction from +x, with --r")
     parser.add_argument("--knee", choices=("up", "down"), help="which posture reaches (r, phi); default up")
     k_load.add_load(parser)
+    parser.add_argument(
+        "--temp",
+        type=common.number,
+        metavar="DEGC",
+        help="the joints' temperature, of every row with --csv; default: the one that the compliances are given for",
+    )
     parser.add_argument(
         "--arith",
         choices=ARITHMETICS,
@@ -58,10 +64,13 @@ def add(commands: Subcommands) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from brace.model import load_limb
+    from brace.model.temperature import at_temperature
 
     k_load.fill_in(arguments)
     _check_usage(arguments)
     model = load_limb(arguments.model)
+    if arguments.temp is not None:
+        model = at_temperature(model, arguments.temp)
     if arguments.csv is not None:
         from brace.cli.k_table import run_table
 
@@ -171,6 +180,8 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
     }
     if arguments.theta0 is not None:
         posture["theta0_rad"] = arguments.theta0
+    if arguments.temp is not None:
+        posture["temp_degc"] = arguments.temp
     if arguments.fx is not None:
         posture |= {"fx_n": arguments.fx, "fz_n": arguments.fz}
     path = "spatial" if arguments.theta0 is not None else "loaded" if arguments.fx is not None else limb.path
@@ -279,6 +290,7 @@ def _text(
         f"{key} = {posture[key + '_rad']:.6g} rad" for key in ("theta0", "theta1", "theta2") if key + "_rad" in posture
     )
     how = "before the load moves it" if "buckling_factor" in values else path
+    how += f"; joints at {posture['temp_degc']:g} degC" if "temp_degc" in posture else ""
     lines = [f"{name}: {angles}; tip at r = {posture['r_mm']:.5g} mm, phi = {posture['phi_rad']:.5g} rad ({how})"]
     if "buckling_factor" in values:
         factor = values["buckling_factor"]

@@ -32,7 +32,7 @@ def add(commands: Subcommands) -> None:
         "--theta0",
         type=common.angle,
         metavar="RAD",
-        help="true coxa angle: K in space; with --theta1 --theta2, of a limb whose coxa joint is fitted, over CAN",
+        help="true coxa angle: K in space; with --theta1 --theta2, of a limb whose coxa joint is fitted",
     )
     parser.add_argument("--theta1", type=common.angle, metavar="RAD", help="true femur angle; with --theta2")
     parser.add_argument("--theta2", type=common.flexion, metavar="RAD", help="true knee angle")
@@ -45,6 +45,9 @@ def add(commands: Subcommands) -> None:
         "--fx", type=common.number, metavar="N", help="force of the ground on the tip there, outwards; with --fz"
     )
     parser.add_argument("--fz", type=common.number, metavar="N", help="the same upwards")
+    parser.add_argument(
+        "--fy", type=common.number, metavar="N", help="the same across the limb's plane, to the left; with --theta0"
+    )
     parser.add_argument(
         "--load",
         nargs=2,
@@ -113,13 +116,20 @@ def _check(arguments: argparse.Namespace) -> None:
             why="posture, tip, load, sag and entries exclude each other",
             next_step="two commands",
         )
-    in_plane = arguments.theta0 is None and (arguments.theta1 is not None or arguments.x is not None)
-    if arguments.fx is not None and not in_plane:
+    if arguments.fx is not None and arguments.theta1 is None and arguments.x is None:
         raise UsageError(
-            "--fx --fz without a place in the limb's plane",
+            "--fx --fz without a place",
             where="query",
             why="the K of now counts the force of now",
             next_step="give --theta1 --theta2 or --x --z too",
+        )
+    in_space = arguments.theta0 is not None and arguments.fx is not None
+    if (arguments.fy is not None) != in_space:
+        raise UsageError(
+            "--fy belongs to --theta0 with --fx --fz",
+            where="query",
+            why="a force on a limb in space has three parts, one on a limb in its plane two",
+            next_step="give --theta0, --fx, --fy and --fz, or drop --fy" if not in_space else "give --fy, 0 for none",
         )
     if arguments.knee and arguments.x is None:
         raise UsageError(
@@ -201,18 +211,26 @@ def _asked(arguments: argparse.Namespace, device: Controller) -> int:
 
 
 def _asked_in_space(arguments: argparse.Namespace, device: Controller) -> int:
+    from brace.bus.controller import NO_FORCE
     from brace.cli.space_text import space_lines
     from brace.errors import EXIT_DEVICE_FAULT, EXIT_OK
 
     angles = {name: getattr(arguments, name) for name in ("theta0", "theta1", "theta2")}
-    answer = device.k_in_space_at_posture(**{f"{name}_rad": value for name, value in angles.items()})
+    force = NO_FORCE if arguments.fx is None else (arguments.fx, arguments.fy, arguments.fz)
+    place = {f"{name}_rad": value for name, value in angles.items()}
+    answer = device.k_in_space_at_posture(**place, force_n=force)
+    if arguments.fx is not None:
+        place |= dict(zip(("fx_n", "fy_n", "fz_n"), force, strict=True))
     if arguments.json:
-        place = {f"{name}_rad": value for name, value in angles.items()}
-        common.print_json({"node": device.node, **place, **answer.as_json()})
+        moved = dict(zip(("tip_dx_mm", "tip_dy_mm", "tip_dz_mm"), answer.moved_mm, strict=True))
+        common.print_json({"node": device.node, **place, **answer.as_json(), **moved})
     else:
-        common.emit(f"node {device.node} at {', '.join(f'{name} {value:g} rad' for name, value in angles.items())}")
+        common.emit(f"node {device.node} at {', '.join(f'{name} {value:g}' for name, value in place.items())}")
         for line in space_lines(answer):
             common.emit(line)
+        if None not in answer.moved_mm:
+            moved_text = " ".join(f"{value:.2f}" for value in answer.moved_mm if value is not None)
+            common.emit(f"force and weight move the tip by {moved_text} mm in the limb's plane's frame")
     if not answer.is_valid:
         why = ", ".join(answer.flags) or "the controller does not say why"
         _say_invalid(device, "K in space there is not known", why)

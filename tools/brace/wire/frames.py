@@ -5,7 +5,7 @@ from __future__ import annotations
 from brace.wire import codes
 from brace.wire.layout import Field, Layout
 
-DICTIONARY_HASH = 0x74D98DE6
+DICTIONARY_HASH = 0xE9E9B78B
 PROTOCOL = 1
 REQUEST_ID = 0x600
 ANSWER_ID = 0x580
@@ -296,6 +296,11 @@ REQUESTS: dict[str, Layout] = {
         Field("x", 16, 24, kind="value", signed=True, step=0.001, unit="mm"),
         Field("z", 40, 24, kind="value", signed=True, step=0.001, unit="mm"),
     )),
+    "tip_force_in_space": Layout("tip_force_in_space_request", 0x600, 31, (
+        Field("fx", 16, 16, kind="value", signed=True, step=0.01, unit="N"),
+        Field("fy", 32, 16, kind="value", signed=True, step=0.01, unit="N"),
+        Field("fz", 48, 16, kind="value", signed=True, step=0.01, unit="N"),
+    )),
 }
 
 ANSWERS: dict[str, tuple[Layout, ...]] = {
@@ -495,6 +500,12 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
         Layout("k_in_space_at_posture_answer_4", 0x580, 151, (
             Field("lambda_3", 16, 24, kind="value", step=0.0005, unit="N/mm"),
             Field("flags", 40, 8, codes=codes.FLAG),
+            Field("force_is_told", 48, 8),
+        )),
+        Layout("k_in_space_at_posture_answer_5", 0x580, 183, (
+            Field("dx", 16, 16, kind="value", signed=True, step=0.01, unit="mm"),
+            Field("dy", 32, 16, kind="value", signed=True, step=0.01, unit="mm"),
+            Field("dz", 48, 16, kind="value", signed=True, step=0.01, unit="mm"),
         )),
     ),
     "drift": (
@@ -598,6 +609,13 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
         Layout("k_under_load_at_tip_knee_down_answer_4", 0x580, 158, (
             Field("buckling_factor", 16, 32, kind="f32"),
             Field("flags", 48, 8, codes=codes.FLAG),
+        )),
+    ),
+    "tip_force_in_space": (
+        Layout("tip_force_in_space_answer_0", 0x580, 31, (
+            Field("fx", 16, 16, kind="value", signed=True, step=0.01, unit="N"),
+            Field("fy", 32, 16, kind="value", signed=True, step=0.01, unit="N"),
+            Field("fz", 48, 16, kind="value", signed=True, step=0.01, unit="N"),
         )),
     ),
 }

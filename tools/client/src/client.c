@@ -207,45 +207,6 @@ brace_client_status_t brace_client_k_at_posture(brace_client_t *client, float th
     return status;
 }
 
-static void take_space_k(const brace_question_t *question, brace_client_space_k_t *k)
-{
-    brace_can_k_in_space_at_posture_answer_0_t x;
-    brace_can_k_in_space_at_posture_answer_1_t xz_yy;
-    brace_can_k_in_space_at_posture_answer_2_t z;
-    brace_can_k_in_space_at_posture_answer_3_t lower;
-    brace_can_k_in_space_at_posture_answer_4_t largest;
-    brace_can_unpack_k_in_space_at_posture_answer_0(question->answers[0], &x);
-    brace_can_unpack_k_in_space_at_posture_answer_1(question->answers[1], &xz_yy);
-    brace_can_unpack_k_in_space_at_posture_answer_2(question->answers[2], &z);
-    brace_can_unpack_k_in_space_at_posture_answer_3(question->answers[3], &lower);
-    brace_can_unpack_k_in_space_at_posture_answer_4(question->answers[4], &largest);
-    *k = (brace_client_space_k_t){
-        .k_xx_n_per_mm = x.k_xx_n_per_mm,
-        .k_xy_n_per_mm = x.k_xy_n_per_mm,
-        .k_xz_n_per_mm = xz_yy.k_xz_n_per_mm,
-        .k_yy_n_per_mm = xz_yy.k_yy_n_per_mm,
-        .k_yz_n_per_mm = z.k_yz_n_per_mm,
-        .k_zz_n_per_mm = z.k_zz_n_per_mm,
-        .lambda_n_per_mm = {lower.lambda_1_n_per_mm, lower.lambda_2_n_per_mm, largest.lambda_3_n_per_mm},
-        .flags = largest.flags};
-}
-
-brace_client_status_t brace_client_k_in_space(brace_client_t *client, float theta0_rad, float theta1_rad,
-                                              float theta2_rad, int timeout_ms, brace_client_space_k_t *k)
-{
-    const brace_can_k_in_space_at_posture_request_t request = {
-        .theta0_rad = theta0_rad, .theta1_rad = theta1_rad, .theta2_rad = theta2_rad};
-    brace_question_t question;
-    const uint32_t limited = brace_can_pack_k_in_space_at_posture_request(&request, question.data) +
-                             !is_number(theta0_rad) + !is_number(theta1_rad) + !is_number(theta2_rad);
-    const brace_client_status_t status =
-        ask(client, &question, BRACE_REQUEST_K_IN_SPACE_AT_POSTURE, limited, timeout_ms);
-    if (status == BRACE_CLIENT_OK) {
-        take_space_k(&question, k);
-    }
-    return status;
-}
-
 brace_client_status_t brace_client_drift(brace_client_t *client, int timeout_ms, brace_client_drift_t *drift)
 {
     const brace_can_drift_request_t request = {0};
@@ -396,6 +357,122 @@ brace_client_status_t brace_client_k_under_load_at_tip(brace_client_t *client, f
                              !is_number(x_mm) + !is_number(z_mm);
     return ask_under_force(client, &question, limited, PLACE_OF(asked_tip_force_x_n), values, 5u, fx_n, fz_n,
                            timeout_ms, k);
+}
+
+static void take_space_k(const brace_question_t *question, brace_client_loaded_space_k_t *k)
+{
+    brace_can_k_in_space_at_posture_answer_0_t x;
+    brace_can_k_in_space_at_posture_answer_1_t xz_yy;
+    brace_can_k_in_space_at_posture_answer_2_t z;
+    brace_can_k_in_space_at_posture_answer_3_t lower;
+    brace_can_k_in_space_at_posture_answer_4_t largest;
+    brace_can_unpack_k_in_space_at_posture_answer_0(question->answers[0], &x);
+    brace_can_unpack_k_in_space_at_posture_answer_1(question->answers[1], &xz_yy);
+    brace_can_unpack_k_in_space_at_posture_answer_2(question->answers[2], &z);
+    brace_can_unpack_k_in_space_at_posture_answer_3(question->answers[3], &lower);
+    brace_can_unpack_k_in_space_at_posture_answer_4(question->answers[4], &largest);
+    brace_can_k_in_space_at_posture_answer_5_t moved;
+    brace_can_unpack_k_in_space_at_posture_answer_5(question->answers[5], &moved);
+    k->moved_x_mm = moved.dx_mm;
+    k->moved_y_mm = moved.dy_mm;
+    k->moved_z_mm = moved.dz_mm;
+    k->k = (brace_client_space_k_t){
+        .k_xx_n_per_mm = x.k_xx_n_per_mm,
+        .k_xy_n_per_mm = x.k_xy_n_per_mm,
+        .k_xz_n_per_mm = xz_yy.k_xz_n_per_mm,
+        .k_yy_n_per_mm = xz_yy.k_yy_n_per_mm,
+        .k_yz_n_per_mm = z.k_yz_n_per_mm,
+        .k_zz_n_per_mm = z.k_zz_n_per_mm,
+        .lambda_n_per_mm = {lower.lambda_1_n_per_mm, lower.lambda_2_n_per_mm, largest.lambda_3_n_per_mm},
+        .flags = largest.flags};
+}
+
+/* A limb without a coxa joint has no theta0. */
+static brace_client_status_t fail_without_space_k(brace_client_t *client, uint64_t deadline_us)
+{
+    float theta0_rad;
+    const brace_client_status_t status = brace_client_entry_f32(client, BRACE_CLIENT_ENTRY(theta0_rad),
+                                                                brace_bus_left_ms(deadline_us), &theta0_rad);
+    if (status != BRACE_CLIENT_OK) {
+        return status;
+    }
+    client->refusal = is_number(theta0_rad) ? BRACE_E_SINGULAR : BRACE_E_UNSUPPORTED;
+    return brace_client_fail(client, BRACE_CLIENT_E_REFUSED, "%s: unit %u has no K there: %s", client->url,
+                             (unsigned)client->unit,
+                             is_number(theta0_rad) ? BRACE_CLIENT_FOLDS : BRACE_CLIENT_NO_COXA);
+}
+
+static brace_client_status_t ask_modbus_for_space_k(brace_client_t *client, const float theta_rad[3],
+                                                    const float force_n[3], uint64_t deadline_us,
+                                                    brace_client_loaded_space_k_t *k)
+{
+    const uint32_t values[] = {bits_of(force_n[0]),   bits_of(force_n[1]),   bits_of(force_n[2]),
+                               bits_of(theta_rad[0]), bits_of(theta_rad[1]), bits_of(theta_rad[2])};
+    brace_answered_t a;
+    const brace_client_status_t status =
+        brace_modbus_ask(client, PLACE_OF(asked_space_force_x_n), values, 6u, deadline_us, &a);
+    if (status != BRACE_CLIENT_OK) {
+        return status;
+    }
+    if (!is_number(a.asked_space_k_xx_n_per_mm) && a.asked_space_flags == UINT32_MAX) {
+        return fail_without_space_k(client, deadline_us);
+    }
+    *k = (brace_client_loaded_space_k_t){
+        .k = {.k_xx_n_per_mm = a.asked_space_k_xx_n_per_mm,
+              .k_xy_n_per_mm = a.asked_space_k_xy_n_per_mm,
+              .k_xz_n_per_mm = a.asked_space_k_xz_n_per_mm,
+              .k_yy_n_per_mm = a.asked_space_k_yy_n_per_mm,
+              .k_yz_n_per_mm = a.asked_space_k_yz_n_per_mm,
+              .k_zz_n_per_mm = a.asked_space_k_zz_n_per_mm,
+              .lambda_n_per_mm = {a.asked_space_lambda_1_n_per_mm, a.asked_space_lambda_2_n_per_mm,
+                                  a.asked_space_lambda_3_n_per_mm},
+              .flags = a.asked_space_flags},
+        .moved_x_mm = a.asked_space_moved_x_mm,
+        .moved_y_mm = a.asked_space_moved_y_mm,
+        .moved_z_mm = a.asked_space_moved_z_mm};
+    return BRACE_CLIENT_OK;
+}
+
+brace_client_status_t brace_client_k_in_space_under_load(brace_client_t *client, const float theta_rad[3],
+                                                         const float force_n[3], int timeout_ms,
+                                                         brace_client_loaded_space_k_t *k)
+{
+    const uint64_t deadline_us = deadline_after(timeout_ms);
+    const brace_can_k_in_space_at_posture_request_t request = {
+        .theta0_rad = theta_rad[0], .theta1_rad = theta_rad[1], .theta2_rad = theta_rad[2]};
+    const brace_can_tip_force_in_space_request_t force = {
+        .fx_n = force_n[0], .fy_n = force_n[1], .fz_n = force_n[2]};
+    brace_question_t told = {.code = BRACE_REQUEST_TIP_FORCE_IN_SPACE};
+    brace_question_t question = {.code = BRACE_REQUEST_K_IN_SPACE_AT_POSTURE};
+    uint32_t limited = brace_can_pack_k_in_space_at_posture_request(&request, question.data) +
+                       brace_can_pack_tip_force_in_space_request(&force, told.data);
+    for (int i = 0; i < 3; i++) {
+        limited += (uint32_t)!is_number(theta_rad[i]) + (uint32_t)!is_number(force_n[i]);
+    }
+    if (limited != 0u) {
+        return out_of_range(client);
+    }
+    if (client->bus == NULL) {
+        return ask_modbus_for_space_k(client, theta_rad, force_n, deadline_us, k);
+    }
+    const brace_client_status_t status = brace_can_ask_under_force(client, &told, &question, deadline_us);
+    if (status == BRACE_CLIENT_OK) {
+        take_space_k(&question, k);
+    }
+    return status;
+}
+
+brace_client_status_t brace_client_k_in_space(brace_client_t *client, float theta0_rad, float theta1_rad,
+                                              float theta2_rad, int timeout_ms, brace_client_space_k_t *k)
+{
+    const float theta_rad[3] = {theta0_rad, theta1_rad, theta2_rad}, none_n[3] = {0.0f, 0.0f, 0.0f};
+    brace_client_loaded_space_k_t found;
+    const brace_client_status_t status =
+        brace_client_k_in_space_under_load(client, theta_rad, none_n, timeout_ms, &found);
+    if (status == BRACE_CLIENT_OK) {
+        *k = found.k;
+    }
+    return status;
 }
 
 brace_client_status_t brace_client_load(brace_client_t *client, int timeout_ms, brace_client_load_t *load)

@@ -54,7 +54,8 @@ static bool is_from_controller(uint32_t base)
 /* A controller counts the force that was told last, whoever told it, and once. */
 static bool is_about_force(uint32_t code)
 {
-    return code == BRACE_REQUEST_TIP_FORCE || code == BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE ||
+    return code == BRACE_REQUEST_TIP_FORCE || code == BRACE_REQUEST_TIP_FORCE_IN_SPACE ||
+           code == BRACE_REQUEST_K_IN_SPACE_AT_POSTURE || code == BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE ||
            code == BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP || code == BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN;
 }
 
@@ -210,7 +211,7 @@ static const char *reason(uint32_t code, const brace_can_refusal_t *refusal)
         return "K of now is not valid; its mode and faults tell why";
     }
     if (code == BRACE_REQUEST_K_IN_SPACE_AT_POSTURE && refusal->status == BRACE_E_UNSUPPORTED) {
-        return "the limb has no coxa joint; ask for K in its plane";
+        return BRACE_CLIENT_NO_COXA;
     }
     if (code == BRACE_REQUEST_FRICTION_MARGIN && refusal->status == BRACE_E_NOT_FINITE) {
         return "the force on the tip is not known now";
@@ -299,6 +300,14 @@ static brace_client_status_t pause_apart(brace_client_t *client, uint64_t deadli
     return BRACE_CLIENT_OK;
 }
 
+/* Has the controller answered without the force? It tells so of K in space; of K in the plane it refuses then. */
+static bool is_without_force(const brace_question_t *question)
+{
+    brace_can_k_in_space_at_posture_answer_4_t last;
+    brace_can_unpack_k_in_space_at_posture_answer_4(question->answers[4], &last);
+    return question->code == BRACE_REQUEST_K_IN_SPACE_AT_POSTURE && last.force_is_told == 0u;
+}
+
 brace_client_status_t brace_can_ask_under_force(brace_client_t *client, brace_question_t *force,
                                                 brace_question_t *question, uint64_t deadline_us)
 {
@@ -311,7 +320,8 @@ brace_client_status_t brace_can_ask_under_force(brace_client_t *client, brace_qu
         }
         /* The force is used up when an answer was lost, too, and the question repeated. */
         const bool is_told = status == BRACE_CLIENT_OK || status == BRACE_CLIENT_E_REFUSED;
-        const bool is_used_up = status == BRACE_CLIENT_E_REFUSED && client->refusal == BRACE_REFUSED_ORDER;
+        const bool is_used_up = status == BRACE_CLIENT_OK ? is_without_force(question)
+                                                          : client->refusal == BRACE_REFUSED_ORDER;
         if (!is_told || (!is_used_up && !client->force_is_taken)) {
             return status;
         }

@@ -40,6 +40,7 @@ typedef struct {
 } brace_question_t;
 
 /* Why there is no K under a force, in words. */
+#define BRACE_CLIENT_NO_COXA "the limb has no coxa joint; ask for K in its plane"
 #define BRACE_CLIENT_FOLDS \
     "no stable equilibrium is near: the force folds the limb there; ask for a smaller force or another place"
 

@@ -23,7 +23,7 @@ bool brace_modbus_is_url(const char *url)
 #include "brace/codes.h"
 
 enum { TRY_MS = 800, LATE_US = 250000, REST_US = 10000, BETWEEN_BYTES_US = 200000 };
-enum { REGISTERS_AT_ONCE = 125, APART_MS = 32, ASKED_MOST = 5 };
+enum { REGISTERS_AT_ONCE = 125, APART_MS = 32, ASKED_MOST = 6 };
 
 /* High word first. libmodbus 3.1.6 swaps bytes in its own float setters on this kind of host. */
 static uint32_t join(const uint16_t words[2])

@@ -28,15 +28,17 @@ typedef struct {
                                           joint in space only */
     brace_point_t tip;                 /* of a tip: where it is before the load moves it */
     brace_knee_t knee;
-    brace_force_t tip_force;           /* of the ground, counted together with the weight; not in space */
+    brace_force_t tip_force;           /* of the ground, in the limb's plane; counted together with the weight */
+    float force_across_n;              /* the same across that plane, to the left; in space only */
 } brace_k_question_t;
 
 typedef struct {
     brace_stiffness_t k;               /* in the limb's plane; flags: UNCALIBRATED, OUT_OF_RANGE (outside the drives'
                                           travel), LOAD_UNKNOWN (a limb in space, without FPU), and the model's own */
     brace_stiffness_spatial_t in_space;
-    brace_displacement_t moved_mm;     /* by force and weight; NaN: not counted */
-    float buckling_factor;             /* infinity: none; NaN: not counted */
+    brace_displacement_t moved_mm;     /* by force and weight, in the limb's plane; NaN: not counted */
+    float moved_across_mm;             /* the same across that plane; NaN: not counted, or limb in its plane */
+    float buckling_factor;             /* infinity: none; NaN: not counted, or limb in space */
 } brace_k_answer_t;
 
 #endif

@@ -43,11 +43,12 @@
     X(BRACE_REQUEST_TIP_FORCE, tip_force) \
     X(BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE, k_under_load_at_posture) \
     X(BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP, k_under_load_at_tip_knee_up) \
-    X(BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN, k_under_load_at_tip_knee_down)
+    X(BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN, k_under_load_at_tip_knee_down) \
+    X(BRACE_REQUEST_TIP_FORCE_IN_SPACE, tip_force_in_space)
 
 enum {
-    BRACE_REQUEST_CODE_MOST = 30,
-    BRACE_CAN_ANSWER_PARTS_MOST = 5 /* frames of one answer */
+    BRACE_REQUEST_CODE_MOST = 31,
+    BRACE_CAN_ANSWER_PARTS_MOST = 6 /* frames of one answer */
 };
 
 typedef struct {
@@ -258,6 +259,10 @@ typedef struct {
     float lambda_2_n_per_mm;
     float lambda_3_n_per_mm;
     uint32_t flags;
+    uint32_t force_is_told;
+    float dx_mm;
+    float dy_mm;
+    float dz_mm;
 } brace_k_in_space_at_posture_answer_t;
 
 typedef struct {
@@ -332,6 +337,17 @@ typedef struct {
 } brace_k_under_load_at_tip_knee_down_request_t;
 typedef brace_k_under_load_at_posture_answer_t brace_k_under_load_at_tip_knee_down_answer_t;
 
+typedef struct {
+    float fx_n;
+    float fy_n;
+    float fz_n;
+} brace_tip_force_in_space_request_t;
+typedef struct {
+    float fx_n;
+    float fy_n;
+    float fz_n;
+} brace_tip_force_in_space_answer_t;
+
 /* What is asked, by the request's name, or word by word. */
 typedef union {
     brace_read_entry_request_t read_entry;
@@ -364,6 +380,7 @@ typedef union {
     brace_k_under_load_at_posture_request_t k_under_load_at_posture;
     brace_k_under_load_at_tip_knee_up_request_t k_under_load_at_tip_knee_up;
     brace_k_under_load_at_tip_knee_down_request_t k_under_load_at_tip_knee_down;
+    brace_tip_force_in_space_request_t tip_force_in_space;
     uint32_t word[4];
 } brace_request_t;
 
@@ -399,7 +416,8 @@ typedef union {
     brace_k_under_load_at_posture_answer_t k_under_load_at_posture;
     brace_k_under_load_at_tip_knee_up_answer_t k_under_load_at_tip_knee_up;
     brace_k_under_load_at_tip_knee_down_answer_t k_under_load_at_tip_knee_down;
-    uint32_t word[10];
+    brace_tip_force_in_space_answer_t tip_force_in_space;
+    uint32_t word[14];
 } brace_answer_t;
 
 /* The fields of a request over CAN; all zero where the dictionary has no request of its code (data[0]). Below 120

@@ -14,7 +14,7 @@
 #include <stdint.h>
 
 /* Of every frame, entry and parameter, with types, steps and units: what two ends must agree on. */
-#define BRACE_DICTIONARY_HASH 0x74d98de6u
+#define BRACE_DICTIONARY_HASH 0xe9e9b78bu
 #define BRACE_PROTOCOL 1u
 
 /* Identifiers of node 0; a controller adds its node number, 1-127. */
@@ -66,6 +66,7 @@ enum {
     BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE = 28,
     BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP = 29,
     BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN = 30,
+    BRACE_REQUEST_TIP_FORCE_IN_SPACE = 31,
     BRACE_ANSWER_PART = 32,
     BRACE_ANSWER_REFUSED = 224
 };
@@ -1059,11 +1060,11 @@ void brace_can_unpack_clear_answer_0(const uint8_t data[8], brace_can_clear_answ
 
 typedef struct {
     uint32_t token;
-    /* the true angle of the coxa joint [rad, -3.2767 to 3.2767] */
+    /* the true angle of the coxa joint, before the load turns the joint [rad, -3.2767 to 3.2767] */
     float theta0_rad;
-    /* the true angle of the femur, measured from +x [rad, -3.2767 to 3.2767] */
+    /* the true angle of the femur, measured from +x, before the load turns the joint [rad, -3.2767 to 3.2767] */
     float theta1_rad;
-    /* the true flexion of the knee [rad, -3.2767 to 3.2767] */
+    /* the true flexion of the knee, before the load turns the joint [rad, -3.2767 to 3.2767] */
     float theta2_rad;
 } brace_can_k_in_space_at_posture_request_t;
 uint32_t brace_can_pack_k_in_space_at_posture_request(const brace_can_k_in_space_at_posture_request_t *message,
@@ -1125,11 +1126,27 @@ typedef struct {
     float lambda_3_n_per_mm;
     /* the quality of that K */
     uint32_t flags;
+    /* 1 where a tip_force_in_space came before, else 0 */
+    uint32_t force_is_told;
 } brace_can_k_in_space_at_posture_answer_4_t;
 uint32_t brace_can_pack_k_in_space_at_posture_answer_4(const brace_can_k_in_space_at_posture_answer_4_t *message,
     uint8_t data[8]);
 void brace_can_unpack_k_in_space_at_posture_answer_4(const uint8_t data[8],
     brace_can_k_in_space_at_posture_answer_4_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* how far force and weight move the tip outwards in the limb's plane [mm, -327.67 to 327.67] */
+    float dx_mm;
+    /* how far force and weight move the tip across that plane, to the left [mm, -327.67 to 327.67] */
+    float dy_mm;
+    /* how far force and weight move the tip upwards in that plane [mm, -327.67 to 327.67] */
+    float dz_mm;
+} brace_can_k_in_space_at_posture_answer_5_t;
+uint32_t brace_can_pack_k_in_space_at_posture_answer_5(const brace_can_k_in_space_at_posture_answer_5_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_k_in_space_at_posture_answer_5(const uint8_t data[8],
+    brace_can_k_in_space_at_posture_answer_5_t *message);
 
 typedef struct {
     uint32_t token;
@@ -1454,6 +1471,34 @@ uint32_t brace_can_pack_k_under_load_at_tip_knee_down_answer_4(const brace_can_k
     uint8_t data[8]);
 void brace_can_unpack_k_under_load_at_tip_knee_down_answer_4(const uint8_t data[8],
     brace_can_k_under_load_at_tip_knee_down_answer_4_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the force outwards in the limb's plane [N, -327.67 to 327.67] */
+    float fx_n;
+    /* the force across that plane, to the left [N, -327.67 to 327.67] */
+    float fy_n;
+    /* the force upwards in that plane [N, -327.67 to 327.67] */
+    float fz_n;
+} brace_can_tip_force_in_space_request_t;
+uint32_t brace_can_pack_tip_force_in_space_request(const brace_can_tip_force_in_space_request_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_tip_force_in_space_request(const uint8_t data[8],
+    brace_can_tip_force_in_space_request_t *message);
+
+typedef struct {
+    uint32_t token;
+    /* the force outwards in the limb's plane, as asked [N, -327.67 to 327.67] */
+    float fx_n;
+    /* the force across that plane, to the left, as asked [N, -327.67 to 327.67] */
+    float fy_n;
+    /* the force upwards in that plane, as asked [N, -327.67 to 327.67] */
+    float fz_n;
+} brace_can_tip_force_in_space_answer_0_t;
+uint32_t brace_can_pack_tip_force_in_space_answer_0(const brace_can_tip_force_in_space_answer_0_t *message,
+    uint8_t data[8]);
+void brace_can_unpack_tip_force_in_space_answer_0(const uint8_t data[8],
+    brace_can_tip_force_in_space_answer_0_t *message);
 
 typedef struct {
     uint32_t token;

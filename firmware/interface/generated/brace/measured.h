@@ -315,9 +315,37 @@ typedef struct {
     float taken_gravity_direction_rad;
     /* its lean out of the limb's plane */
     float taken_gravity_lean_rad;
+    /* K in space at the posture asked for, under the force asked for: k_xx */
+    float asked_space_k_xx_n_per_mm;
+    /* the k_xy of that K in space */
+    float asked_space_k_xy_n_per_mm;
+    /* the k_xz of that K in space */
+    float asked_space_k_xz_n_per_mm;
+    /* the k_yy of that K in space */
+    float asked_space_k_yy_n_per_mm;
+    /* the k_yz of that K in space */
+    float asked_space_k_yz_n_per_mm;
+    /* the k_zz of that K in space */
+    float asked_space_k_zz_n_per_mm;
+    /* the smallest eigenvalue of that K in space */
+    float asked_space_lambda_1_n_per_mm;
+    /* the middle eigenvalue of that K in space */
+    float asked_space_lambda_2_n_per_mm;
+    /* the largest eigenvalue of that K in space */
+    float asked_space_lambda_3_n_per_mm;
+    /* the quality of that K in space */
+    uint32_t asked_space_flags;
+    /* 1, because a question over Modbus has its force */
+    uint32_t asked_space_force_is_told;
+    /* how far force and weight move the tip outwards in the limb's plane there */
+    float asked_space_moved_x_mm;
+    /* how far force and weight move the tip across that plane, to the left */
+    float asked_space_moved_y_mm;
+    /* how far force and weight move the tip upwards in that plane */
+    float asked_space_moved_z_mm;
 } brace_answered_t;
 
-enum { BRACE_ANSWERED_COUNT = 28 };
+enum { BRACE_ANSWERED_COUNT = 42 };
 #ifndef __cplusplus
 _Static_assert(sizeof(brace_answered_t) == 4 * BRACE_ANSWERED_COUNT, "32 bits each");
 #endif
@@ -386,9 +414,23 @@ typedef struct {
     float asked_loaded_tip_z_mm;
     /* how the knee stands at that place of the tip: 0 up, 1 down */
     uint32_t asked_loaded_knee;
+    /* the force of the ground on the tip, outwards in the limb's plane, to know K in space under; write the three
+     * forces and the three angles in one request */
+    float asked_space_force_x_n;
+    /* the same force across that plane, to the left */
+    float asked_space_force_y_n;
+    /* the same force upwards in that plane */
+    float asked_space_force_z_n;
+    /* the coxa joint's angle of the posture to know K in space at; angles are those before the load turns the
+     * joints */
+    float asked_space_theta0_rad;
+    /* the femur's angle of that posture */
+    float asked_space_theta1_rad;
+    /* the knee's angle of that posture */
+    float asked_space_theta2_rad;
 } brace_commands_t;
 
-enum { BRACE_COMMANDS_COUNT = 28 };
+enum { BRACE_COMMANDS_COUNT = 34 };
 #ifndef __cplusplus
 _Static_assert(sizeof(brace_commands_t) == 4 * BRACE_COMMANDS_COUNT, "32 bits each");
 #endif

@@ -18,7 +18,7 @@ typedef struct {
     uint8_t begin_code, begin_fields; /* a request that is asked before, with the first of the commands; 0: none */
 } brace_question_t;
 
-enum { BRACE_QUESTION_COUNT = 8 };
+enum { BRACE_QUESTION_COUNT = 9 };
 extern const brace_question_t brace_questions[BRACE_QUESTION_COUNT];
 
 /* Nothing has been asked: values of questions and answers are not known, all others are zero. */

@@ -117,6 +117,12 @@ typedef struct {
     float buckling_factor;        /* as in brace_client_load_t */
 } brace_client_loaded_k_t;
 
+/* The same in space. */
+typedef struct {
+    brace_client_space_k_t k;
+    float moved_x_mm, moved_y_mm, moved_z_mm; /* as in brace_client_load_t */
+} brace_client_loaded_space_k_t;
+
 enum {
     BRACE_CLIENT_FLAG_UNCALIBRATED = 1,
     BRACE_CLIENT_FLAG_NEAR_SINGULAR = 2,
@@ -210,10 +216,17 @@ brace_client_status_t brace_client_load(brace_client_t *client, int timeout_ms, 
 brace_client_status_t brace_client_set_gravity(brace_client_t *client, float direction_rad, float lean_rad,
                                                int timeout_ms);
 
-/* K in space at any true joint angles [rad, -3.27 to 3.27]. The controller refuses if the limb has no coxa joint. CAN
- * only. */
+/* K in space at any true joint angles [rad, -3.27 to 3.27], under the limb's weight. The controller refuses if the limb
+ * has no coxa joint. */
 brace_client_status_t brace_client_k_in_space(brace_client_t *client, float theta0_rad, float theta1_rad,
                                               float theta2_rad, int timeout_ms, brace_client_space_k_t *k);
+
+/* The same under a force of the ground on the tip, too.
+ *   theta_rad: of coxa, femur, knee, before the load turns the joints
+ *   force_n: outwards in the limb's plane, across it to the left, upwards [N, each at most 327] */
+brace_client_status_t brace_client_k_in_space_under_load(brace_client_t *client, const float theta_rad[3],
+                                                         const float force_n[3], int timeout_ms,
+                                                         brace_client_loaded_space_k_t *k);
 
 /* K with the tip at a place [mm from the femur axis, -8388 to 8388]. */
 brace_client_status_t brace_client_k_at_tip(brace_client_t *client, float x_mm, float z_mm, bool knee_up,

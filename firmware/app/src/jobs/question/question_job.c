@@ -71,7 +71,7 @@ static int32_t begin(question_job_t *job, const brace_k_question_t *asked, const
     joints_temperatures(inputs->joints, temp_degc);
     model_springs_at_rest(inputs->parameters, temp_degc, springs);
     job->flags = flags_there(inputs, unbent_rad);
-    const brace_vec3_t tip_n = {asked->tip_force.x_n, 0.0f, asked->tip_force.z_n};
+    const brace_vec3_t tip_n = {asked->tip_force.x_n, asked->force_across_n, asked->tip_force.z_n};
     return model_loaded_begin(inputs->model, &inputs->parameters->limb, unbent_rad, springs, tip_n, inputs->down,
                               &job->work, rest);
 }
@@ -86,6 +86,7 @@ static int32_t work_out(question_job_t *job, const brace_k_question_t *asked, co
         job->answer.k = rest.plane;
         job->answer.k.flags |= job->flags;
         job->answer.moved_mm = (brace_displacement_t){rest.bend.tip_mm.x, rest.bend.tip_mm.z};
+        job->answer.moved_across_mm = rest.moved_across_mm;
         job->answer.buckling_factor = rest.buckling_factor;
     }
     if (status == BRACE_OK && asked->where == BRACE_K_IN_SPACE) {

@@ -34,10 +34,13 @@ typedef struct {
     uint32_t download_set;   /* brace_parameters_crc of the set that they are of */
 } transfer_t;
 
-/* The force that the next question of K under a load counts. */
+/* The force that the next question of K counts. Each kind of question has its own. */
 typedef struct {
-    bool is_there;
+    bool is_there; /* of K under a load in the limb's plane */
     brace_force_t force;
+    bool is_there_in_space;
+    brace_force_t force_in_space;
+    float across_n;
 } asked_force_t;
 
 typedef struct {

@@ -52,7 +52,8 @@ int32_t answer_k_at_tip_knee_down(request_t *request, const brace_k_at_tip_knee_
 
 int32_t answer_tip_force(request_t *request, const brace_tip_force_request_t *asked, brace_tip_force_answer_t *answer)
 {
-    *request->asked_force = (asked_force_t){true, {asked->fx_n, asked->fz_n}};
+    request->asked_force->is_there = true;
+    request->asked_force->force = (brace_force_t){asked->fx_n, asked->fz_n};
     *answer = (brace_tip_force_answer_t){asked->fx_n, asked->fz_n};
     return BRACE_OK;
 }
@@ -110,13 +111,31 @@ int32_t answer_k_under_load_at_tip_knee_down(request_t *request,
     return tell_k_under_load(request, &question, answer);
 }
 
+int32_t answer_tip_force_in_space(request_t *request, const brace_tip_force_in_space_request_t *asked,
+                                  brace_tip_force_in_space_answer_t *answer)
+{
+    request->asked_force->is_there_in_space = true;
+    request->asked_force->force_in_space = (brace_force_t){asked->fx_n, asked->fz_n};
+    request->asked_force->across_n = asked->fy_n;
+    *answer = (brace_tip_force_in_space_answer_t){asked->fx_n, asked->fy_n, asked->fz_n};
+    return BRACE_OK;
+}
+
+/* Under the force that was asked before, which the answer uses up; without one, under the weight alone. */
 int32_t answer_k_in_space_at_posture(request_t *request, const brace_k_in_space_at_posture_request_t *asked,
                                      brace_k_in_space_at_posture_answer_t *answer)
 {
-    const brace_k_question_t question = {.where = BRACE_K_IN_SPACE,
-                                         .theta_rad = {asked->theta0_rad, asked->theta1_rad, asked->theta2_rad}};
+    asked_force_t *force = request->asked_force;
+    const bool force_is_told = force->is_there_in_space;
+    brace_k_question_t question = {.where = BRACE_K_IN_SPACE,
+                                   .theta_rad = {asked->theta0_rad, asked->theta1_rad, asked->theta2_rad}};
+    if (force_is_told) {
+        question.tip_force = force->force_in_space;
+        question.force_across_n = force->across_n;
+    }
     brace_k_answer_t found;
     const int32_t status = ask(request, &question, &found);
+    force->is_there_in_space = force_is_told && status == ANSWER_AGAIN;
     const brace_stiffness_spatial_t *k = &found.in_space;
     if (status == BRACE_OK) {
         *answer = (brace_k_in_space_at_posture_answer_t){.k_xx_n_per_mm = k->k_xx_n_per_mm,
@@ -128,7 +147,11 @@ int32_t answer_k_in_space_at_posture(request_t *request, const brace_k_in_space_
                                                          .lambda_1_n_per_mm = k->lambda_n_per_mm[0],
                                                          .lambda_2_n_per_mm = k->lambda_n_per_mm[1],
                                                          .lambda_3_n_per_mm = k->lambda_n_per_mm[2],
-                                                         .flags = k->flags};
+                                                         .flags = k->flags,
+                                                         .force_is_told = force_is_told,
+                                                         .dx_mm = found.moved_mm.x_mm,
+                                                         .dy_mm = found.moved_across_mm,
+                                                         .dz_mm = found.moved_mm.z_mm};
     }
     return status;
 }

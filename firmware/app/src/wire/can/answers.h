@@ -5,12 +5,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { CAN_ANSWERS_ROOM = 12 }; /* frames: two answers, and that to a commit, which comes by itself */
+enum { CAN_ANSWERS_ROOM = 14 }; /* frames: two answers, and that to a commit, which comes by itself */
 
 typedef struct {
     uint8_t frame[CAN_ANSWERS_ROOM][8];
-    uint8_t first; /* the oldest [0, 11] */
-    uint8_t count; /* [0, 12] */
+    uint8_t first; /* the oldest [0, 13] */
+    uint8_t count; /* [0, 14] */
 } can_answers_t;
 
 /* Is there room for so many frames more? */

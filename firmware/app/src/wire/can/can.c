@@ -8,6 +8,7 @@
 #define FRAMES_MOST 20u
 #define NODE_MOST 127u
 #define STORING_PARTS 2u /* of the answer to a commit, which comes by itself */
+#define LONG_ANSWER_PARTS 5u /* of an answer beside which no process data leaves */
 #define ANSWERS_PER_TICK ((uint32_t)BRACE_CAN_ANSWER_PARTS_MOST + STORING_PARTS) /* frames that a tick can add */
 
 typedef enum { ON_BUS, AS_TEXT } way_t;
@@ -223,6 +224,7 @@ static void keep_silent(can_t *can, way_t way, const wire_tick_t *tick)
     if (way == AS_TEXT) {
         port->requests.answers.count = 0;
         port->requests.waits = port->requests.asked_force.is_there = false;
+        port->requests.asked_force.is_there_in_space = false;
         announce_skip(&port->announce, tick);
     }
 }
@@ -240,7 +242,7 @@ static uint32_t speak(can_t *can, way_t way, const wire_tick_t *tick, uint32_t m
     }
     send_announcement(can, way, tick);
     /* The longest answers, of a K elsewhere, come in one tick of two at most; process data waits for the next. */
-    const bool waits = tick->data_waits || answers >= (uint32_t)BRACE_CAN_ANSWER_PARTS_MOST;
+    const bool waits = tick->data_waits || answers >= LONG_ANSWER_PARTS;
     return waits ? 0u : send_process_data(can, way, tick, most);
 }
 

@@ -44,7 +44,7 @@ modbus_exception_t modbus_ask(modbus_server_t *server, const wire_tick_t *tick, 
                               const uint32_t *words)
 {
     const brace_question_t *question = find(first, count);
-    asked_force_t asked_force = {.is_there = false};
+    asked_force_t asked_force = {.is_there = false, .is_there_in_space = false};
     request_t request = {
         .app = tick->app, .measured = tick->measured, .asker = server->asker, .asked_force = &asked_force};
     brace_request_t asked;
