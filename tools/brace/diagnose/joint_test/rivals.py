@@ -17,6 +17,7 @@ from brace.diagnose.joint_test.shapes import SOFT
 
 AS_WELL = 0.05  # a rival has at least this share of the odds between it and the chosen set: 90 % intervals hold it
 MOST_RIVALS = 8
+BY_CHOICE = 3.0  # odds that one of several shapes gains on the held-out readings because it is the luckiest of them
 SHAPE = 10.0  # times less likely, before any reading, than an effect of the catalogue: as in loading records
 
 Ranges = dict[str, tuple[float, float]]
@@ -77,7 +78,7 @@ def _share(fitter: Fitter, chosen: Fitted, rival: Fitted) -> float:
     floor = 1e-12 * kept * record.size.torque_n_mm**2
     odds = 0.5 * count * np.log((rival.held_rss + floor) / (chosen.held_rss + floor))
     if _shapes(rival) > _shapes(chosen):
-        odds = np.log(SHAPE) + max(odds, -np.log(SHAPE))  # by its own merit it stands beside the chosen set at most
+        odds = np.log(SHAPE) + max(odds, -np.log(BY_CHOICE))
     return float(1.0 / (1.0 + np.exp(np.clip(odds, 0.0, 50.0))))  # what predicts better by luck is as good at most
 
 

@@ -165,7 +165,12 @@ def _told(
         effects = _named(fitter, by_rows, best, exported, found, others, choice.count, random)
     advance(0.93, "where they disagreed")
     spots = localise(record, base.off_n_mm, random)
-    gap, residuals, rows = _gaps(by_rows, base, effects, exported)
+    predicts = exported
+    if believed is None and effects:
+        # nothing was believed that could stand, so limb.toml has the set of effects that tells the record best
+        nearest = by_rows.fit(choice.nearest.terms, choice.nearest)
+        predicts = nearest if nearest.rss < exported.rss else exported
+    gap, residuals, rows = _gaps(by_rows, base, effects, exported, predicts)
     after = gap.after.fitted
     remainder_noise = max(record.noise_n_mm, 1e-9)
     after_averaged = float(np.sqrt(np.mean(exported.off_n_mm[record.fitted] ** 2)))
@@ -192,13 +197,11 @@ def _told(
             verdict = "data_fault"
     if not effects:
         exported = by_rows.fit(tuple(own), base)
-    predicts = exported
-    if believed is None and verdict in ("effect", "unknown"):
-        # nothing was believed that could stand, so limb.toml has the set of effects that tells the record best
-        predicts = by_rows.fit(choice.nearest.terms, choice.nearest)
-        more = [term.name for term in predicts.terms if term.role == "effect"]
-        if more and set(more) != {effect.name for effect in effects}:
-            notes += (f"limb.toml has {words.listed(more)}: of all sets of effects this one is nearest to the record",)
+    if not effects:
+        predicts = exported
+    more = [term.name for term in predicts.terms if term.role == "effect"]
+    if effects and set(more) != {effect.name for effect in effects}:
+        notes += (f"limb.toml has {words.listed(more)}: of all sets of effects this one is nearest to the record",)
     model = _exportable(record, fitter.base, predicts, believed, bool(effects))
     nearest = [one.label for one in choice.candidates if one.gain > 0.0 and " + " not in one.label]
     could_be = tuple(dict.fromkeys((*withheld, *nearest)))[:4] if verdict == "unknown" else ()
@@ -311,9 +314,9 @@ def _lost_rad(term: Term, values: Mapping[str, float], record: JointRecord) -> f
 
 
 def _gaps(
-    by_rows: Fitter, base: Fitted, effects: Sequence[NamedEffect], exported: Fitted
+    by_rows: Fitter, base: Fitted, effects: Sequence[NamedEffect], exported: Fitted, predicts: Fitted
 ) -> tuple[Gap, Residuals, np.ndarray]:
-    """The gap before, after each effect in the order they are named, and after all."""
+    """The gap before, after each effect in the order they are named, and after all that limb.toml has."""
     record = by_rows.record
     fitted, kept = record.raw_marks()
 
@@ -321,14 +324,14 @@ def _gaps(
         held = float(np.sqrt(np.mean(off[kept] ** 2))) if kept.any() else None
         return GapPair(float(np.sqrt(np.mean(off[fitted] ** 2))), held)
 
-    before, after = (record.raw_off(one.model, one.nuisances) for one in (base, exported))
+    before, named, after = (record.raw_off(one.model, one.nuisances) for one in (base, exported, predicts))
     by_label = {term.label: term for term in exported.terms}
     steps, current = [], base
     for number, effect in enumerate(effects):
         term = by_label[effect.label]
         last = number == len(effects) - 1
         current = exported if last else by_rows.fit((*current.terms, term), current, term)
-        off = after if last else record.raw_off(current.model, current.nuisances)
+        off = named if last else record.raw_off(current.model, current.nuisances)
         steps.append(GapStep(effect.label, pair(off)))
     rows = np.flatnonzero(fitted | kept)
     rows = rows[:: max(1, -(-rows.size // DRAWN_ROWS))]
