@@ -32,8 +32,8 @@ Shapes = Callable[[Fitted], list[Term]]
 
 @dataclass(frozen=True)
 class Choice:
-    """`base` has no terms; `sets` are all sets of effects that were fitted, the `nearest` the best of them; `shaped` are
-    those with a shape; `best` may have shapes in it."""
+    """`base` has no terms; `sets` are all sets of effects that were fitted, the `nearest` the best of them;
+    `shaped` are those with a shape; `best` may have shapes in it."""
 
     base: Fitted
     sets: tuple[Fitted, ...]

@@ -45,8 +45,8 @@ def rivals(
     fitter: Fitter, by_rows: Fitter, chosen: Fitted, effects: frozenset[str], sets: Sequence[Fitted]
 ) -> list[Rival]:
     """All sound sets that predict the held-out readings about as well as `chosen`, the likeliest first; those without
-    one of its `effects` are asked first. Both ways of weighting the readings are sound, so the one counts that is kinder to
-    the rival."""
+    one of its `effects` are asked first. Both ways of weighting the readings are sound, so the one counts that is kinder
+    to the rival."""
     record = fitter.record
     if not record.kept.any():
         return []
