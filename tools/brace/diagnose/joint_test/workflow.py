@@ -168,8 +168,8 @@ def _told(
     predicts = exported
     if believed is None and effects:
         # nothing was believed that could stand, so limb.toml has the set of effects that tells the record best
-        nearest = by_rows.fit(choice.nearest.terms, choice.nearest)
-        predicts = nearest if nearest.rss < exported.rss else exported
+        closest = by_rows.fit(choice.nearest.terms, choice.nearest)
+        predicts = closest if closest.rss < exported.rss else exported
     gap, residuals, rows = _gaps(by_rows, base, effects, exported, predicts)
     after = gap.after.fitted
     remainder_noise = max(record.noise_n_mm, 1e-9)
