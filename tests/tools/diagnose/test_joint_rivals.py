@@ -65,7 +65,6 @@ def soft_middle(random: np.random.Generator) -> list[tuple[np.ndarray, np.ndarra
     return tests
 
 
-@pytest.mark.xfail(strict=True, reason="a smooth soft middle, which no effect has, is still called play")
 def test_a_smooth_soft_middle_is_no_play_for_sure(tmp_path: Path) -> None:
     found = found_in(tmp_path, soft_middle(np.random.default_rng(0)))
     assert all(effect.confidence < 0.8 for effect in found.effects if effect.name == "backlash")

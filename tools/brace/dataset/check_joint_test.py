@@ -13,6 +13,7 @@ from brace.dataset.unit_slips import slip_of
 Columns = Mapping[str, np.ndarray]
 MAX_DEFLECTION_RAD = 1.0  # range of deflections; play and spring of a limb's joint together
 SOFTEST_N_MM_PER_RAD = 1e3  # a limb of half a metre would yield a metre per newton
+LEAST_N_MM = 100.0  # from end to end of a joint test; a limb of 1 N on a lever of 100 mm needs as much
 FALLING = -0.3  # correlation of torque and deflection below which the sign is wrong
 COARSE_CLOCK_SHARE = 0.01  # of rows, that repeat by chance
 # ratio of delivered to commanded torque -> the unit it is written in, the factor that mends it
@@ -88,6 +89,9 @@ def _torque_unit(columns: Columns) -> Iterator[DataFault]:
     if not unit and 0.0 < np.ptp(torque) < SOFTEST_N_MM_PER_RAD * np.ptp(angle):
         unit, factor = TORQUE_SLIPS[1e-3]
         why = f"a range of {np.ptp(torque):.3g} N mm over {np.ptp(angle):.3g} rad holds no limb"
+    if not unit and 0.0 < np.ptp(torque) < LEAST_N_MM:
+        unit, factor = TORQUE_SLIPS[1e-3]
+        why = f"a range of {np.ptp(torque):.3g} N mm turns no joint of a limb"
     if unit:
         yield DataFault(
             None, "torque_n_mm", f"{why}: the column fits only in {unit}", f"{unit}: multiply by {factor:g}"

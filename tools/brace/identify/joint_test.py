@@ -7,6 +7,7 @@ takes the widening loop for a softer spring and a narrower gap.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
@@ -15,11 +16,16 @@ from brace.dataset import Dataset
 from brace.errors import BadFileError
 from brace.identify.fit import Nuisances, columns_of, fit
 from brace.effects.catalogue import FRICTION_TURN
+from brace.identify.gear_positions import POSITION, apart, count
 from brace.identify.parameters import (
-    ANGLE_ZERO,
+    LAG,
+    SPREAD,
     TORQUE_OFFSET,
+    VISCOUS,
     Parameter,
     ParameterSet,
+    angle_zero,
+    spread,
 )
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
@@ -27,9 +33,22 @@ from brace.native.plant_batch import JointBatchPlayer, model_numbers, number_ind
 
 MIN_ROWS = 20
 BLOCK_ROWS = 3000  # rows that a record is averaged down to: the angle's last digit must not look like motion
+MOST_SPREAD = 0.7  # log of a ratio: what is twice as soft at one gear position is another joint
 START_GAPS = (0.0, 0.25, 0.5)  # of the range of angles
 START_FRICTION = (0.02, 0.1)  # of the range of torques
 START_HARDENING = (0.0, 4.0)  # cubic share of the torque at half the range of angles, over the linear one
+
+
+Players = list[tuple[slice | np.ndarray, JointBatchPlayer]]
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Of every reading: its speed, a clock that always runs on, and what it showed when the reading's test began."""
+
+    speed_rad_per_s: np.ndarray
+    clock_s: np.ndarray
+    began_s: np.ndarray
 
 
 class JointProblem:
@@ -43,7 +62,8 @@ class JointProblem:
                 why=f"at least {MIN_ROWS} readings are needed",
                 next_step="record more",
             )
-        self.dataset = dataset
+        self.dataset = dataset = apart(dataset)
+        self.position_count = count(dataset)
         self.joint = dataset.meta.joint
         self.columns, self._counts = averaged(dataset, max(1, dataset.rows // block_rows))
         self.noise_n_mm = noise(self.columns["torque_n_mm"])
@@ -51,9 +71,8 @@ class JointProblem:
         angle = self.columns["angle_rad"]
         self._centre_rad = float(0.5 * (angle.max() + angle.min()))
         self._start_n_mm = _start_torque(self.columns)
-        self._player = JointBatchPlayer(
-            {**self.columns, "angle_rad": angle - self._centre_rad}, self.joint, self._start_n_mm
-        )
+        self._players = self._players_from(self._start_n_mm)
+        self._motion = motion(self.columns)
 
     @property
     def count(self) -> int:
@@ -62,27 +81,60 @@ class JointProblem:
 
     def residuals(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
         """models x (played - measured) / noise."""
-        played = self._played(self._player, models, nuisances)
+        played = self.torques(models, nuisances)
         return np.asarray(((played - self.columns["torque_n_mm"]) / self.noise_n_mm)[:, self._used])
 
     def torque_n_mm(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """The model's torque at every row of the record, not averaged."""
         # an encoder's jitter is no motion: the deflection is what is left of it over a block
         angle = smoothed(self.dataset["angle_rad"], self.columns["test"], self._counts) - self._centre_rad
-        start_n_mm = np.repeat(self._start_n_mm, self._counts)
-        whole = JointBatchPlayer({**self.dataset.columns, "angle_rad": angle}, self.joint, start_n_mm)
-        return np.asarray(self._played(whole, model_numbers(model)[np.newaxis], columns_of(nuisances))[0])
+        columns = {
+            **self.dataset.columns,
+            "angle_rad": angle,
+            "test": np.repeat(self.columns["test"], self._counts),
+        }
+        own = columns_of(nuisances)
+        players = self._players_of(columns, np.repeat(self._start_n_mm, self._counts))
+        played = self._played(players, model_numbers(model)[np.newaxis], own)
+        return np.asarray(as_read(played, own, motion(columns))[0])
 
-    def _played(self, player: JointBatchPlayer, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
+    def torques(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
+        """The torque that is read at every averaged reading [N mm], models x readings; NaN for a joint that cannot
+        be."""
+        return as_read(self._played(self._players, models, nuisances), nuisances, self._motion)
+
+    def _players_from(self, start_n_mm: np.ndarray) -> Players:
+        """Play the averaged readings, each test from this torque on."""
+        angle = self.columns["angle_rad"] - self._centre_rad
+        return self._players_of({**self.columns, "angle_rad": angle}, start_n_mm)
+
+    def _players_of(self, columns: Mapping[str, np.ndarray], start_n_mm: np.ndarray) -> Players:
+        """One for each gear position, with its rows."""
+        if self.position_count == 1:
+            return [(slice(None), JointBatchPlayer(columns, self.joint, start_n_mm))]
+        number = np.rint(columns[POSITION])
+        found: Players = []
+        for position in range(self.position_count):
+            rows = np.flatnonzero(number == position)
+            part = {name: values[rows] for name, values in columns.items()}
+            found.append((rows, JointBatchPlayer(part, self.joint, start_n_mm[rows])))
+        return found
+
+    def _played(self, players: Players, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
         """models x rows [N mm]; NaN for a joint that cannot be."""
         none = np.zeros(len(models))
-        models = models.copy()
-        models[:, number_index()[f"joint.{self.joint}.zero_offset_rad"]] = (
-            nuisances.get(ANGLE_ZERO, none - self._centre_rad) + self._centre_rad
-        )
-        return player.play_numbers(
-            models, nuisances.get(FRICTION_TURN, none), nuisances.get(TORQUE_OFFSET, none)
-        )
+        index, first, models = number_index(), models, models.copy()
+        zero = index[f"joint.{self.joint}.zero_offset_rad"]
+        out = np.empty((len(models), sum(player.count for _, player in players)))
+        for position, (rows, player) in enumerate(players):
+            models[:, zero] = nuisances.get(angle_zero(position), none - self._centre_rad) + self._centre_rad
+            for leaf in SPREAD if position else ():
+                place = index[f"joint.{self.joint}.{leaf}"]
+                models[:, place] = first[:, place] * np.exp(nuisances.get(spread(leaf, position), none))
+            out[:, rows] = player.play_numbers(
+                models, nuisances.get(FRICTION_TURN, none), nuisances.get(TORQUE_OFFSET, none)
+            )
+        return out
 
     def angles(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
         """None: one joint has no tip."""
@@ -117,6 +169,7 @@ class JointProblem:
                     "hardening_n_mm_per_rad3", model.number(at + "hardening_n_mm_per_rad3"), hardening_scale
                 ),
                 *self.record_parameters(model).parameters,
+                *self.spreads(),
             ),
         )
 
@@ -125,13 +178,10 @@ class JointProblem:
         turns. The encoder starts anywhere, so its zero says nothing of the limb's zero_offset_rad."""
         angle, torque = self.columns["angle_rad"], self.columns["torque_n_mm"]
         angle_span, torque_span = float(np.ptp(angle)) or 1e-6, float(np.ptp(torque)) or 1.0
-        zero = -self._centre_rad
         return ParameterSet(
             model,
             (
-                Parameter(
-                    ANGLE_ZERO, zero, 0.1 * angle_span, zero - 0.5 * angle_span, zero + 0.5 * angle_span
-                ),
+                *self.zeros(angle_span),
                 Parameter(TORQUE_OFFSET, 0.0, 0.02 * torque_span, -torque_span, torque_span),
                 Parameter(
                     FRICTION_TURN,
@@ -141,6 +191,22 @@ class JointProblem:
                     min(1.0, 0.25 * angle_span),
                 ),
             ),
+        )
+
+    def zeros(self, angle_span_rad: float) -> tuple[Parameter, ...]:
+        """The encoder's zero at every gear position."""
+        zero, half = -self._centre_rad, 0.5 * angle_span_rad
+        return tuple(
+            Parameter(angle_zero(position), zero, 0.2 * half, zero - half, zero + half)
+            for position in range(self.position_count)
+        )
+
+    def spreads(self) -> tuple[Parameter, ...]:
+        """By how much the joint's numbers differ at the other gear positions."""
+        return tuple(
+            Parameter(spread(leaf, position), 0.0, 0.1, -MOST_SPREAD, MOST_SPREAD)
+            for position in range(1, self.position_count)
+            for leaf in SPREAD
         )
 
     def aligned(self, model: LimbModel) -> dict[str, float]:
@@ -160,6 +226,28 @@ class JointProblem:
             point[4] = cubic / (point[0] * reach_rad**2)
             points.append(point)
         return points
+
+
+def motion(columns: Mapping[str, np.ndarray]) -> Motion:
+    """Speeds and times of readings, never across tests."""
+    test, time = columns["test"], columns["t_s"]
+    starts = np.concatenate([[True], np.diff(test) != 0])
+    step_s = np.where(starts, 0.0, np.diff(time, prepend=time[0]))
+    turn = np.where(starts, 0.0, np.diff(columns["angle_rad"], prepend=columns["angle_rad"][0]))
+    speed = np.divide(turn, step_s, out=np.zeros_like(turn), where=step_s > 0.0)
+    clock = np.cumsum(np.where(starts, 1.0, np.maximum(step_s, 0.0)))
+    return Motion(speed, clock, clock[np.maximum.accumulate(np.where(starts, np.arange(test.size), 0))])
+
+
+def as_read(torque: np.ndarray, nuisances: Nuisances, moved: Motion) -> np.ndarray:
+    """Torques (models x readings) with what grows with speed, and as late as they are read."""
+    if VISCOUS in nuisances:
+        torque = torque + nuisances[VISCOUS][:, np.newaxis] * moved.speed_rad_per_s
+    if LAG in nuisances and np.any(nuisances[LAG]):
+        clock, began = moved.clock_s, moved.began_s
+        late = zip(nuisances[LAG], torque)
+        torque = np.stack([np.interp(np.maximum(clock - lag, began), clock, one) for lag, one in late])
+    return np.asarray(torque)
 
 
 def averaged(dataset: Dataset, block: int) -> tuple[dict[str, np.ndarray], np.ndarray]:

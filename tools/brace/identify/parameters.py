@@ -18,13 +18,29 @@ from brace.native.plant_batch import model_numbers, number_index
 TIP_HEIGHT = "tip_height_mm"  # of a stiffness table that gives r alone; not a key of limb.toml
 TORQUE_OFFSET = "torque_offset_n_mm"  # of a joint test's torque reading; not a key of limb.toml
 ANGLE_ZERO = "angle_zero_rad"  # of a joint test's encoder: deflection = angle + it; not a key of limb.toml
+LAG = "lag_s"  # by which a joint test's torque is read late; not a key of limb.toml
+VISCOUS = "viscous_n_mm_s_per_rad"  # a joint test's torque that grows with speed; not a key of limb.toml
 _NUISANCE_UNIT = {
+    LAG: "s",
+    VISCOUS: "N mm s/rad",
     TIP_HEIGHT: "mm",
     TORQUE_OFFSET: "N mm",
     FRICTION_TURN: "rad",
     ANGLE_ZERO: "rad",
 }
 NUISANCES = tuple(_NUISANCE_UNIT)
+SPREAD = ("compliance_rad_per_n_mm", "gap_rad", "coulomb_n_mm")  # what differs between a joint's gear positions
+
+
+def spread(leaf: str, position: int) -> str:
+    """By how much a number of the joint is another one at a gear position than at the first: log of the ratio."""
+    return f"spread_{leaf}.{position}"
+
+
+def angle_zero(position: int) -> str:
+    """The encoder's zero at one gear position of a joint test, counted from 0."""
+    return f"{ANGLE_ZERO}.{position}" if position else ANGLE_ZERO
+
 
 LINK_COMPLIANCES = tuple(
     f"link.{link}.{which}_mm_per_n" for link in ("femur", "tibia") for which in ("axial", "bending")
@@ -56,7 +72,9 @@ class Parameter:
     @property
     def unit(self) -> str:
         """The unit as printed."""
-        return KEY_BY_NAME[self.key].unit if self.key in KEY_BY_NAME else _NUISANCE_UNIT.get(self.key, "")
+        if self.key in KEY_BY_NAME:
+            return KEY_BY_NAME[self.key].unit
+        return _NUISANCE_UNIT.get(self.key.partition(".")[0], "")
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from brace.diagnose.diagnosis import Candidate
-from brace.diagnose.joint_test.evidence import agreement, gain, independent
+from brace.diagnose.joint_test.evidence import agreement, feigned, gain, independent
 from brace.diagnose.joint_test.fit import Fitted, Fitter
 from brace.diagnose.joint_test.record import JointRecord
 from brace.diagnose.joint_test.terms import Term
@@ -32,21 +32,31 @@ Shapes = Callable[[Fitted], list[Term]]
 
 @dataclass(frozen=True)
 class Choice:
-    """`base` has no terms; `sets` are all sets of effects that were fitted; `best` may have shapes in it."""
+    """`base` has no terms; `sets` are all sets of effects that were fitted, the `nearest` the best of them;
+    `shaped` are those with a shape; `best` may have shapes in it."""
 
     base: Fitted
     sets: tuple[Fitted, ...]
+    shaped: tuple[Fitted, ...]
+    nearest: Fitted
     best: Fitted
     count: float  # independent readings
     candidates: tuple[Candidate, ...]
 
 
 def choose(
-    fitter: Fitter, effects: Sequence[Term], shapes: Shapes, random: np.random.Generator, trying: Trying
+    fitter: Fitter,
+    effects: Sequence[Term],
+    own: Sequence[Term],
+    shapes: Shapes,
+    random: np.random.Generator,
+    trying: Trying,
 ) -> Choice:
-    """`shapes` gives the shapes to compete, for the residuals of a fit."""
+    """`own` are terms of the record itself, which grow along with the effects. `shapes` gives the shapes to compete,
+    for a fit."""
     base = fitter.fit(())
-    sets = _grown(fitter, base, effects, trying)
+    sets = _grown(fitter, base, (*effects, *own), len(effects), trying)
+    shaped: list[Fitted] = []
     record = fitter.record
     count = independent(record, min(sets, key=lambda one: one.rss).off_n_mm)
 
@@ -54,6 +64,7 @@ def choose(
         return gain(record, base, one, count) - _paid(one, count)
 
     best = max((one for one in sets if not strained(fitter, one)), key=worth)
+    nearest = best
     for _ in range(MOST_SHAPES):
         if _is_noise(record, best):
             break
@@ -64,9 +75,13 @@ def choose(
                 trying(shape.label)
                 joined.append(fitter.fit((*best.terms, shape), best, shape))
                 for term in best.terms:  # the shape may also take an effect's place
+                    if term.role == "shape" or (shape.role == "law" and term.name == "coulomb_friction"):
+                        continue
                     rest = tuple(other for other in best.terms if other is not term)
                     joined.append(fitter.fit((*rest, shape), best if rest else base, shape))
-        sound = [one for one in joined if not strained(fitter, one) and _needed(fitter, best, one, random)]
+        joined = [one for one in joined if not strained(fitter, one)]
+        shaped += joined
+        sound = [one for one in joined if _needed(fitter, best, one, random)]
         sound = [one for one in sound if one.rss < (1.0 - SHAPES_SHRINK) ** 2 * best.rss]
         if not sound:
             break
@@ -74,7 +89,7 @@ def choose(
     best = _kept(fitter, best, random)
     best = _joined_by_rows(fitter, best, sets, effects, random, trying)
     listed = [one for one in sets if not strained(fitter, one)]
-    return Choice(base, tuple(sets), best, count, _candidates(listed, worth))
+    return Choice(base, tuple(sets), tuple(shaped), nearest, best, count, _candidates(listed, worth))
 
 
 def _is_noise(record: JointRecord, fitted: Fitted) -> bool:
@@ -115,9 +130,11 @@ def _joined_by_rows(
     return best
 
 
-def _grown(fitter: Fitter, base: Fitted, effects: Sequence[Term], trying: Trying) -> list[Fitted]:
+def _grown(fitter: Fitter, base: Fitted, effects: Sequence[Term], most: int, trying: Trying) -> list[Fitted]:
     sets, level = [base], [base]
-    for _ in effects:
+    for _ in range(most):
+        if _is_noise(fitter.record, level[0]):
+            break
         found: dict[frozenset[str], Fitted] = {}
         for smaller in level:
             have = {term.name for term in smaller.terms}
@@ -143,8 +160,10 @@ def strained(fitter: Fitter, fitted: Fitted) -> bool:
     values = fitted.values
     for term in fitted.terms:
         for parameter in term.parameters:
-            inside = parameter.low + 0.98 * (parameter.high - parameter.low)
-            if term.ends_strained(parameter) and values[parameter.key] >= inside:
+            value, inside = values[parameter.key], parameter.low + 0.98 * (parameter.high - parameter.low)
+            # a time constant as short as the readings' own spacing is no creep
+            too_small = parameter.low > 0.0 and value <= 1.1 * parameter.low
+            if term.ends_strained(parameter) and (value >= inside or too_small):
                 return True
     return _stiffening(fitter, fitted) > MOST_STIFFENING
 
@@ -187,6 +206,8 @@ def _needed(fitter: Fitter, poorer: Fitted, richer: Fitted, random: np.random.Ge
     count = independent(record, richer.off_n_mm)
     net = gain(record, poorer, richer, count) - (_paid(richer, count) - _paid(poorer, count))
     if net < LEAST_GAIN or richer.rss > (1.0 - LEAST_SHRINK) ** 2 * poorer.rss:
+        return False
+    if feigned(record, poorer, richer) > 0.5:
         return False
     if record.kept.any() and richer.held_rss >= poorer.held_rss:
         return False

@@ -8,7 +8,7 @@ import numpy as np
 
 from brace.diagnose.joint_test.fit import Fitted
 from brace.diagnose.joint_test.record import JointRecord
-from brace.identify.parameters import ANGLE_ZERO
+from brace.identify.fit import columns_of
 
 MIN_INSIDE = 6
 FLAT = 0.4  # slope inside over slope outside, at most
@@ -20,7 +20,7 @@ def refusal(record: JointRecord, fitted: Fitted) -> str:
     """Why no play may be claimed; empty when it may."""
     at = f"joint.{record.joint}."
     gap_rad = fitted.model.number(at + "gap_rad")
-    deflection = record.columns["angle_rad"] + fitted.nuisances[ANGLE_ZERO]
+    deflection = record.deflection_rad(columns_of(fitted.nuisances), 1)[0]
     used = record.fitted
     if gap_rad > LARGEST * record.size.angle_rad * (1.0 - 1e-3):
         return "it would take half of the angles that were visited or more"

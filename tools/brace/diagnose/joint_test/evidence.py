@@ -12,6 +12,7 @@ from brace.diagnose.joint_test.record import JointRecord
 
 DRAWS = 400
 MIN_STRETCHES = 10
+FEIGNED = 0.1  # of the misfit that stays: as much as a term of a wrong shape takes of it by chance
 LOW, HIGH = 0.05, 0.95  # of a 90 % interval
 
 
@@ -37,6 +38,14 @@ def gain(record: JointRecord, poorer: Fitted, richer: Fitted, count: float) -> f
     floor = record.noise_n_mm**2 * np.count_nonzero(record.fitted)
     small = max(richer.rss, 1e-6 * floor, 1e-12 * record.size.torque_n_mm**2)
     return count * float(np.log(max(poorer.rss, small) / small))
+
+
+def feigned(record: JointRecord, poorer: Fitted, richer: Fitted) -> float:
+    """The probability that the richer fit only follows what no model here explains: what it gains is set beside the
+    misfit that it leaves. A gain of a tenth of that is as likely feigned as not, one of ten times that hardly ever."""
+    misfit = richer.rss - record.noise_n_mm**2 * float(np.sum(record.root_weight[record.fitted] ** 2))
+    gained = max(poorer.rss - richer.rss, 1e-30)
+    return float(min(1.0, 0.5 * FEIGNED * max(misfit, 0.0) / gained))
 
 
 def stretches(record: JointRecord, off_n_mm: np.ndarray) -> np.ndarray:

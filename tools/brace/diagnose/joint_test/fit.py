@@ -10,7 +10,7 @@ from scipy.optimize import least_squares
 
 from brace.diagnose.joint_test.record import JointRecord
 from brace.diagnose.joint_test.terms import Term
-from brace.identify.parameters import ANGLE_ZERO, TORQUE_OFFSET, Parameter, ParameterSet
+from brace.identify.parameters import TORQUE_OFFSET, Parameter, ParameterSet
 from brace.model import LimbModel
 
 STEP = 1e-4
@@ -63,7 +63,7 @@ class Fitter:
 
     def own(self) -> tuple[Parameter, ...]:
         """The spring and the record's zeros, free in every fit."""
-        size, centre = self.record.size, -self.record._centre_rad
+        size = self.record.size
         key = f"joint.{self.record.joint}.compliance_rad_per_n_mm"
         start = self.base.number(key) or size.angle_rad / size.torque_n_mm
         scale = size.angle_rad / size.torque_n_mm if np.isinf(self.trust) else self.trust * start
@@ -71,10 +71,10 @@ class Fitter:
         if np.isfinite(self.trust):  # inside the calibration's trust a deviation is no missing effect
             least, most = (1.0 - 2.0 * self.trust) * start, (1.0 + 2.0 * self.trust) * start
         spring = Parameter(key, float(np.clip(start, least, most)), scale, least, most)
-        half = 0.5 * size.angle_rad
         return (
             *([spring] if self.trust > 0.0 else []),
-            Parameter(ANGLE_ZERO, centre, 0.1 * size.angle_rad, centre - half, centre + half),
+            *self.record.zeros(size.angle_rad),
+            *self.record.spreads(),
             Parameter(TORQUE_OFFSET, 0.0, 0.02 * size.torque_n_mm, -size.torque_n_mm, size.torque_n_mm),
         )
 

@@ -32,10 +32,13 @@ def ramps(angle_rad: np.ndarray, test: np.ndarray) -> np.ndarray:
     return numbers
 
 
-def held_out(angle_rad: np.ndarray, torque_n_mm: np.ndarray, test: np.ndarray) -> tuple[np.ndarray, str]:
+def held_out(
+    angle_rad: np.ndarray, torque_n_mm: np.ndarray, test: np.ndarray, position: np.ndarray | None = None
+) -> tuple[np.ndarray, str]:
     """Which readings take no part, and what they are in words ("" when nothing can be spared). Of the tests
     that reach about the same torque the last one is held out, so that both small and large loops are
-    predicted."""
+    predicted. Where that would take all tests of a gear position, whose numbers nothing else tells, ramps of every
+    position are held out instead."""
     labels = np.unique(test)
     if labels.size >= 3:
         sizes = {label: float(np.ptp(torque_n_mm[test == label])) for label in labels}
@@ -46,7 +49,8 @@ def held_out(angle_rad: np.ndarray, torque_n_mm: np.ndarray, test: np.ndarray) -
             left = [label for label in left if label not in alike]
             if len(alike) >= 2:
                 chosen.append(max(alike))
-        if chosen:
+        where = np.zeros(test.size) if position is None else position
+        if chosen and np.unique(where[~np.isin(test, chosen)]).size == np.unique(where).size:
             names = ", ".join(str(label) for label in sorted(chosen))
             return np.isin(test, chosen), f"test{'s' if len(chosen) > 1 else ''} {names}"
     number = ramps(angle_rad, test)

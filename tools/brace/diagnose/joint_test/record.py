@@ -9,26 +9,34 @@ from scipy.ndimage import uniform_filter1d
 from brace.dataset import Dataset
 from brace.dataset.grid import step_of
 from brace.diagnose.joint_test.hold_out import held_out, ramps
-from brace.diagnose.joint_test.terms import (
-    ASYMMETRY,
-    COG_COS,
-    COG_PERIOD,
-    COG_SIN,
-    TORQUE_DRIFT,
-    VISCOUS,
-)
+from brace.diagnose.joint_test.shapes import added
 from brace.effects import JointTestSize
+from brace.effects.catalogue import FRICTION_TURN
 from brace.identify.fit import Nuisances, columns_of
-from brace.identify.joint_test import JointProblem, noise, saturated
-from brace.identify.parameters import ANGLE_ZERO
+from brace.identify.joint_test import JointProblem, as_read, noise, saturated
+from brace.identify.gear_positions import POSITION
+from brace.identify.parameters import angle_zero
 from brace.model import LimbModel
-from brace.native.plant_batch import model_numbers
+from brace.native.plant_batch import model_numbers, number_index
 
 STEPS_A_PERIOD = 4.0  # of the encoder: what repeats faster is its rounding
 MIN_READINGS = 20
 LAST_PART = 0.1  # of a test's range of torque, before a reversal
 STANDS = 0.75  # of what a spring alone would move there
+SPEEDS = 1.5  # by which fast motion must exceed slow motion for viscosity to be told from friction
 BLOCK_ROWS = 1200  # averaged readings: enough for every ramp's shape, few enough to try some hundred models
+
+
+# A joint that does nothing but rub: its torque is how far friction is turned.
+_FRICTION_ALONE = {
+    "compliance_rad_per_n_mm": 1.0,
+    "gap_rad": 0.0,
+    "hardening_n_mm_per_rad3": 0.0,
+    "coulomb_n_mm": 1e7,
+    "coulomb_per_load_ratio": 0.0,
+    "creep.ratio": 0.0,
+    "thermal.joint_compliance_per_degc": 0.0,
+}
 
 
 class JointRecord(JointProblem):
@@ -39,7 +47,10 @@ class JointRecord(JointProblem):
         super().__init__(dataset, BLOCK_ROWS)
         columns = self.columns
         usable = ~saturated(columns)
-        kept, self.held_words = held_out(columns["angle_rad"], columns["torque_n_mm"], columns["test"])
+        self.position = np.rint(columns.get(POSITION, np.zeros(usable.size))).astype(int)
+        kept, self.held_words = held_out(
+            columns["angle_rad"], columns["torque_n_mm"], columns["test"], self.position
+        )
         if np.count_nonzero(usable & ~kept) < 12:
             kept, self.held_words = np.zeros_like(kept), ""
         self.fitted, self.kept, self.held_rows = usable & ~kept, usable & kept, kept
@@ -48,17 +59,15 @@ class JointRecord(JointProblem):
         test = columns["test"]
         self._start = np.concatenate([[True], np.diff(test) != 0])
         time = columns["t_s"]
+        self._relaxed = self._players_from(np.zeros(test.size))
         self._since_s = time - time[np.maximum.accumulate(np.where(self._start, np.arange(test.size), 0))]
-        step_s = np.where(self._start, 0.0, np.diff(time, prepend=time[0]))
-        turn = np.where(self._start, 0.0, np.diff(columns["angle_rad"], prepend=columns["angle_rad"][0]))
-        self._speed = np.divide(turn, step_s, out=np.zeros_like(turn), where=step_s > 0.0)
         temp = columns.get("temp_degc")
         self.size = JointTestSize(
             float(np.ptp(columns["angle_rad"])),
             float(np.ptp(columns["torque_n_mm"])),
             float(self._since_s.max()),
             float(np.ptp(temp)) if temp is not None else 0.0,
-            float(np.quantile(np.abs(self._speed), 0.98)),
+            float(np.quantile(np.abs(self._motion.speed_rad_per_s), 0.98)),
             swing_over_both_flanks_rad(columns["angle_rad"][usable], columns["torque_n_mm"][usable], test[usable]),
         )
         labels = np.unique(test)
@@ -70,6 +79,11 @@ class JointRecord(JointProblem):
         self.noise_n_mm = float(np.hypot(self.noise_n_mm, spring * self.angle_step_rad / np.sqrt(12.0)))
         self.root_weight = np.sqrt(self._path())
         self.rests = self._dwells()
+        moving = np.abs(self._motion.speed_rad_per_s)[self.fitted]
+        moving = moving[moving > 0.05 * max(self.size.speed_rad_per_s, 1e-30)]
+        self.speeds_differ = bool(
+            moving.size and np.quantile(moving, 0.9) > SPEEDS * max(np.quantile(moving, 0.25), 1e-30)
+        )
 
     def _path(self) -> np.ndarray:
         """How much each reading counts: the way that it stands for in the plane of angle and torque, with a mean of 1.
@@ -110,25 +124,37 @@ class JointRecord(JointProblem):
         return len(rates) >= 4 and max(rates) > 3.0 * min(rates)
 
     def torque(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
-        """The model's torque at every averaged reading [N mm]."""
+        """The model's torque at every averaged reading [N mm], shapes included."""
         return np.asarray(self.torques(model_numbers(model)[np.newaxis], columns_of(nuisances))[0])
 
     def torques(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
         """The same for many models (brace.native.plant_batch): models x readings; NaN for a joint that cannot be."""
-        played = self._played(self._player, models, nuisances)
-        shape = {name: values[:, np.newaxis] for name, values in nuisances.items()}
+        played = self._played(self._players, models, nuisances)
+        index = number_index()
+        at = f"joint.{self.joint}."
         angle = self.columns["angle_rad"]
-        if ASYMMETRY in shape:
-            zeroed = angle + shape.get(ANGLE_ZERO, np.array(-self._centre_rad))
-            played = played * np.where(zeroed > 0.0, 1.0 + shape[ASYMMETRY], 1.0)
-        if COG_PERIOD in shape:
-            phase = 2.0 * np.pi * (angle - self._centre_rad) / shape[COG_PERIOD]
-            played = played + shape[COG_SIN] * np.sin(phase) + shape[COG_COS] * np.cos(phase)
-        if VISCOUS in shape:
-            played = played + shape[VISCOUS] * self._speed
-        if TORQUE_DRIFT in shape:
-            played = played + shape[TORQUE_DRIFT] * self._since_s
-        return np.asarray(played)
+        half_gap = 0.5 * models[:, index[at + "gap_rad"], np.newaxis]
+        bent = self.deflection_rad(nuisances, len(models))
+        bent = np.sign(bent) * np.maximum(np.abs(bent) - half_gap, 0.0)
+        stiffness = 1.0 / np.maximum(models[:, index[at + "compliance_rad_per_n_mm"]], 1e-30)
+
+        def shares(turn_rad: np.ndarray) -> np.ndarray:
+            alone = models.copy()
+            for key, value in _FRICTION_ALONE.items():
+                alone[:, index[key if "." in key else at + key]] = value
+            return self._played(self._relaxed, alone, {FRICTION_TURN: turn_rad}) / _FRICTION_ALONE["coulomb_n_mm"]
+
+        played = added(played, bent, stiffness, angle - self._centre_rad, self._since_s, shares, nuisances)
+        return as_read(played, nuisances, self._motion)
+
+    def deflection_rad(self, nuisances: Nuisances, count: int) -> np.ndarray:
+        """`count` models x averaged readings: the angle from the zero of its gear position."""
+        bent = np.empty((count, self.fitted.size))
+        for one in range(self.position_count):
+            rows = self.position == one
+            zero = nuisances.get(angle_zero(one), np.full(count, -self._centre_rad))
+            bent[:, rows] = self.columns["angle_rad"][rows] + zero[:, np.newaxis]
+        return bent
 
     def offs(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
         """Played less measured [N mm], models x averaged readings."""

@@ -13,9 +13,12 @@ import numpy as np
 from brace.diagnose.joint_test.choose import strained
 from brace.diagnose.joint_test.evidence import independent, intervals
 from brace.diagnose.joint_test.fit import Fitted, Fitter
+from brace.diagnose.joint_test.shapes import SOFT
 
 AS_WELL = 0.05  # a rival has at least this share of the odds between it and the chosen set: 90 % intervals hold it
 MOST_RIVALS = 8
+BY_CHOICE = 3.0  # odds that one of several shapes gains on the held-out readings because it is the luckiest of them
+SHAPE = 10.0  # times less likely, before any reading, than an effect of the catalogue: as in loading records
 
 Ranges = dict[str, tuple[float, float]]
 
@@ -29,28 +32,39 @@ class Rival:
 
     @property
     def names(self) -> frozenset[str]:
-        return frozenset(term.name for term in self.fitted.terms)
+        """What it says. A spring that is softer in its middle says, as hardening does, that it stiffens under load."""
+        names = frozenset(term.name for term in self.fitted.terms)
+        return names | {"joint_hardening"} if self.fitted.values.get(SOFT, 0.0) > 0.0 else names
 
     @property
     def label(self) -> str:
         return " + ".join(term.label for term in self.fitted.terms) or "nothing"
 
 
-def rivals(fitter: Fitter, by_rows: Fitter, chosen: Fitted, sets: Sequence[Fitted]) -> list[Rival]:
-    """All sound sets that predict the held-out readings about as well as `chosen`, the likeliest first. Both ways of
-    weighting the readings are sound, so the one counts that is kinder to the rival."""
+def rivals(
+    fitter: Fitter, by_rows: Fitter, chosen: Fitted, effects: frozenset[str], sets: Sequence[Fitted]
+) -> list[Rival]:
+    """All sound sets that predict the held-out readings about as well as `chosen`, the likeliest first; those without
+    one of its `effects` are asked first. Both ways of weighting the readings are sound, so the one counts that is kinder
+    to the rival."""
     record = fitter.record
     if not record.kept.any():
         return []
     names = frozenset(term.name for term in chosen.terms)
-    weighted = fitter.fit(chosen.terms, chosen)
+    weighted, alike = fitter.fit(chosen.terms, chosen), by_rows.fit(chosen.terms, chosen)
+    best: dict[frozenset[str], Fitted] = {}
+    for one in sorted(sets, key=lambda one: one.held_rss):
+        best.setdefault(frozenset(term.name for term in one.terms), one)
+    best.pop(names, None)
+    doing_without = [one for having, one in best.items() if not effects <= having]
+    others = [one for having, one in best.items() if effects <= having]
     found = []
-    others = (one for one in sets if frozenset(term.name for term in one.terms) != names)
-    for one in sorted(others, key=lambda one: one.held_rss)[:MOST_RIVALS]:
+    for one in (*doing_without[:MOST_RIVALS], *others[: MOST_RIVALS // 2]):
         if strained(fitter, one):
             continue
+        share = _share(fitter, weighted, one)
         rows = by_rows.fit(one.terms, one)
-        share = max(_share(fitter, weighted, one), _share(by_rows, chosen, rows))
+        share = max(share, _share(by_rows, alike, rows))
         if share >= AS_WELL:
             found.append(Rival(rows, share))
     return sorted(found, key=lambda rival: -rival.share)
@@ -63,13 +77,20 @@ def _share(fitter: Fitter, chosen: Fitted, rival: Fitted) -> float:
     count = independent(record, chosen.off_n_mm) * kept / np.count_nonzero(record.fitted)
     floor = 1e-12 * kept * record.size.torque_n_mm**2
     odds = 0.5 * count * np.log((rival.held_rss + floor) / (chosen.held_rss + floor))
+    if _shapes(rival) > _shapes(chosen):
+        odds = np.log(SHAPE) + max(odds, -np.log(BY_CHOICE))
     return float(1.0 / (1.0 + np.exp(np.clip(odds, 0.0, 50.0))))  # what predicts better by luck is as good at most
 
 
+def _shapes(fitted: Fitted) -> int:
+    return sum(term.role in ("shape", "law") for term in fitted.terms)
+
+
 def ranges(by_rows: Fitter, found: Sequence[Rival], random: np.random.Generator) -> Ranges:
-    """low, high (90 %) over all rivals, of every parameter that they have."""
+    """low, high (90 %) over all rivals of effects alone, of every parameter that they have. A shape that is added to
+    an effect takes from it what it likes."""
     held: Ranges = {}
-    for rival in found:
+    for rival in (one for one in found if all(term.role in ("effect", "record") for term in one.fitted.terms)):
         for key, (_, low, high) in intervals(by_rows, rival.fitted, random).items():
             least, most = held.get(key, (low, high))
             held[key] = min(least, low), max(most, high)

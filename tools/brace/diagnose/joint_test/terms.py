@@ -1,13 +1,10 @@
-"""What may be missing in a joint: effects of the catalogue, and shapes that no effect has.
-
-The shapes compete with the effects so that no effect is named for what only looks a little like it. A diagnosis
-describes a shape and never exports it.
-"""
+"""What may be missing in a joint: effects of the catalogue as terms of a fit."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Literal
 
 from brace.effects import EFFECTS, Effect, JointTestBench, JointTestSize
 from brace.effects.row import InJointTest, Turn
@@ -15,22 +12,22 @@ from brace.identify.parameters import Parameter
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
 
-ASYMMETRY = "asymmetry_ratio"  # the torque on one side is this much larger
-COG_SIN, COG_COS, COG_PERIOD = "cogging_sin_n_mm", "cogging_cos_n_mm", "cogging_period_rad"
-VISCOUS = "viscous_n_mm_s_per_rad"
-TORQUE_DRIFT = "torque_drift_n_mm_per_s"  # of the reading's zero
+# effect: of the catalogue. record: the record's own, which stays in every fit that is exported. law: how an effect goes
+# on in detail, which nothing is named for. shape: of no effect; what is left is then unknown.
+Role = Literal["effect", "record", "law", "shape"]
 
 
 @dataclass(frozen=True)
 class Term:
     """One thing that may be missing: parameters that it frees, and values to start them from. `effect` is its row of
-    the catalogue; a shape has none."""
+    the catalogue; other roles have none."""
 
     name: str
     where: str
     parameters: tuple[Parameter, ...]
     starts: tuple[Mapping[str, float], ...]
     effect: Effect | None = None
+    role: Role = "effect"
 
     @property
     def label(self) -> str:
@@ -80,46 +77,3 @@ def _term(effect: Effect, shows: InJointTest, model: LimbModel, joint: str, size
         tuple({key(leaf): value for leaf, value in start.items()} for start in shows.starts(size)),
         effect,
     )
-
-
-def shapes(size: JointTestSize, period_rad: float) -> list[Term]:
-    """What no effect of the catalogue does: `period_rad` is the period that the residuals show most."""
-    torque = size.torque_n_mm
-    found = [
-        Term(
-            "asymmetric_spring",
-            "joint",
-            (Parameter(ASYMMETRY, 0.0, 0.1, -0.9, 5.0),),
-            ({ASYMMETRY: 0.2}, {ASYMMETRY: -0.2}),
-        ),
-        Term(
-            "cogging",
-            "joint",
-            (
-                Parameter(COG_SIN, 0.0, 0.02 * torque, -torque, torque),
-                Parameter(COG_COS, 0.0, 0.02 * torque, -torque, torque),
-                Parameter(COG_PERIOD, period_rad, 0.02 * period_rad, 0.7 * period_rad, 1.4 * period_rad),
-            ),
-            ({COG_SIN: 0.01 * torque},),
-        ),
-    ]
-    if size.length_s > 0.0 and size.speed_rad_per_s > 0.0:
-        drift = torque / size.length_s
-        found.append(
-            Term(
-                "torque_drift",
-                "sensor",
-                (Parameter(TORQUE_DRIFT, 0.0, 0.01 * drift, -drift, drift),),
-                ({},),
-            )
-        )
-        viscous = torque / size.speed_rad_per_s
-        found.append(
-            Term(
-                "viscous_friction",
-                "joint",
-                (Parameter(VISCOUS, 0.0, 0.01 * viscous, 0.0, viscous),),
-                ({VISCOUS: 0.01 * viscous},),
-            )
-        )
-    return found

@@ -6,8 +6,25 @@ import math
 from collections.abc import Mapping, Sequence
 
 from brace.diagnose.diagnosis import NamedEffect, NextExperiment
-from brace.diagnose.joint_test.terms import ASYMMETRY, COG_COS, COG_PERIOD, COG_SIN, TORQUE_DRIFT, VISCOUS
+from brace.diagnose.joint_test.shapes import (
+    ASYMMETRY,
+    COG_COS,
+    COG_PERIOD,
+    COG_SIN,
+    LATER,
+    LATER_TURN,
+    SLIP,
+    SLIP_FREE,
+    SLIP_TURN,
+    SOFT,
+    SOFT_OVER,
+    STOP,
+    STOP_AT,
+    TORQUE_DRIFT,
+)
 from brace.diagnose.plain_words import effect
+from brace.identify.parameters import LAG, VISCOUS
+
 
 def listed(names: Sequence[str]) -> str:
     """`a, b and c`."""
@@ -29,7 +46,24 @@ def shape(name: str, values: Mapping[str, float]) -> str:
             f" {'stiffer' if values[ASYMMETRY] > 0 else 'softer'} on one side"
         )
     if name == "viscous_friction":
-        return f"a torque that grows with speed, {values[VISCOUS]:.3g} N mm s/rad"
+        return f"viscous friction: a torque that grows with speed, {values[VISCOUS]:.3g} N mm s/rad"
+    if name == "lag":
+        return f"a lag: the torque is read {1e3 * values[LAG]:.3g} ms late"
+    if name == "end_stop":
+        side = "positive" if values[STOP] > 0.0 else "negative"
+        return (
+            f"a stop on the {side} side: beyond {values[STOP_AT]:.3g} rad the torque rises by another"
+            f" {abs(values[STOP]):.3g} N mm/rad"
+        )
+    if name == "soft_middle":
+        if values[SOFT] < 0.0:
+            return f"a spring that softens under load, over {values[SOFT_OVER]:.3g} rad"
+        return f"a spring that is softer in its middle, over {values[SOFT_OVER]:.3g} rad, and is no play"
+    if name == "series_slip":
+        free = 2.0 * values[SLIP_FREE] * values[SLIP_TURN]
+        return f"free travel of {free:.3g} rad in series with a slider that slips at {values[SLIP]:.3g} N mm"
+    if name == "later_friction":
+        return f"friction of which {values[LATER]:.3g} N mm turn over {values[LATER_TURN]:.3g} rad"
     if name == "torque_drift":
         return f"a torque reading whose zero moves by {values[TORQUE_DRIFT]:.3g} N mm/s"
     return name.replace("_", " ")

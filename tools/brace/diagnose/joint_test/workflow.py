@@ -24,13 +24,14 @@ from brace.diagnose.diagnosis import (
 from brace.diagnose.joint_test import positions, words
 from brace.diagnose.joint_test.choose import Choice, choose, without
 from brace.diagnose.joint_test.dead_zone import refusal
-from brace.diagnose.joint_test.evidence import gain, independent, intervals
+from brace.diagnose.joint_test.evidence import feigned, gain, independent, intervals
 from brace.diagnose.joint_test.fit import Fitted, Fitter
 from brace.diagnose.joint_test.intake import blocking_faults, require_enough, spring_alone
 from brace.diagnose.joint_test.localise import localise
 from brace.diagnose.joint_test.record import JointRecord
 from brace.diagnose.joint_test.rivals import Rival, beside, ranges, rivals, surest
-from brace.diagnose.joint_test.terms import Term, effects_of, shapes
+from brace.diagnose.joint_test.shapes import record_terms, shapes
+from brace.diagnose.joint_test.terms import Term, effects_of
 from brace.diagnose.options import Advance, Options
 from brace.effects import JointTestBench
 from brace.identify.parameters import ANGLE_ZERO, TORQUE_OFFSET
@@ -42,6 +43,9 @@ STRUCTURED = 1.3  # rms over noise, above which what is left is more than noise
 EXPECTED_FITS = 60.0
 LIKELIER_THAN_NOT = 0.5  # an effect that is less likely there than not gets no name
 MOST_UNEXPLAINED = 0.2  # of the torque's standard deviation: a model that leaves more has no name for what it leaves
+ROUNDS_A_GAP = ("soft_middle", "end_stop")
+STOPS = ("backlash", "coulomb_friction")  # what holds the joint somewhere inside a range of angles
+LEAST = 1e-3  # of the swing: a smaller range is below the linearity of encoders and torque cells
 SUREST = 0.99  # one joint's test never makes a name surer than this
 
 
@@ -56,12 +60,8 @@ def diagnose_joint_test(
     if blocking or (options.faults == "stop" and faults):
         return _faulty(dataset, base, blocking or list(faults), options)
     advance(0.02, "reading the loops")
-    dataset = positions.apart(dataset)
     random = np.random.default_rng(options.seed)
     found = _searched(dataset, base, believed, random, advance)
-    if positions.count(dataset) > 1:
-        dataset = positions.zeroed_by(found.fitter.record, found.choice.best)
-        found = _searched(dataset, base, believed, random, advance)
     advance(0.85, "weighing what was found")
     return _told(dataset, believed, found, faults, options, random, advance)
 
@@ -90,13 +90,17 @@ def _searched(
         advance(0.05 + 0.75 * min(tried / EXPECTED_FITS, 1.0), f"trying {label}")
 
     def competing(fitted: Fitted) -> list[Term]:
-        return shapes(record.size, record.strongest_period_rad(fitted.off_n_mm))
+        rubs = any(term.name == "coulomb_friction" for term in fitted.terms)
+        found = shapes(record.size, record.strongest_period_rad(fitted.off_n_mm), rubs)
+        # gaps that differ from position to position look like a spring that is smoothly softer in its middle
+        return [one for one in found if record.position_count == 1 or one.name not in ROUNDS_A_GAP]
 
-    choice = choose(fitter, effects, competing, random, trying)
+    own = record_terms(record.size, record.speeds_differ or record.rests)
+    choice = choose(fitter, effects, own, competing, random, trying)
     refused = _refused_gap(record, choice.best)
     if refused:
         effects = [term for term in effects if term.name != "backlash"]
-        choice = choose(fitter, effects, competing, random, trying)
+        choice = choose(fitter, effects, own, competing, random, trying)
     return _Found(fitter, choice, refused)
 
 
@@ -135,20 +139,38 @@ def _told(
     record, best = fitter.record, choice.best
     by_rows = fitter.by_rows()
     base = by_rows.fit((), choice.base)
-    found = [term for term in best.terms if term.effect is not None]
-    left = [term for term in best.terms if term.effect is None]
-    exported = by_rows.fit(tuple(found), best)  # a shape is no physics, so no limb.toml gets it
-    others = rivals(fitter, by_rows, exported, choice.sets)
+    found = [term for term in best.terms if term.role == "effect"]
+    own = [term for term in best.terms if term.role == "record"]
+    left = [term for term in best.terms if term.role == "shape"]
+    laws = [term for term in best.terms if term.role == "law"]
+    exported = by_rows.fit((*found, *own), best)  # a shape is no physics, so no limb.toml gets it
+    tried = [*choice.sets, *choice.shaped]
+    others = rivals(fitter, by_rows, best, frozenset(term.name for term in found), tried)
     effects = _named(fitter, by_rows, best, exported, found, others, choice.count, random)
-    while weak := [one for one in effects if one.confidence < LIKELIER_THAN_NOT or _may_be_nothing(one)][-1:]:
+    small = [
+        term.name
+        for term in found
+        if term.name in STOPS and _lost_rad(term, exported.values, record) < LEAST * record.size.angle_rad
+    ]
+
+    def is_weak(one: NamedEffect) -> bool:
+        return one.confidence <= LIKELIER_THAN_NOT or one.name in small or _may_be_nothing(one)
+
+    while weak := [one for one in effects if is_weak(one)][-1:]:
         found = [term for term in found if term.name != weak[0].name]
-        best = fitter.fit((*found, *left), best)
-        exported = by_rows.fit(tuple(found), best)
-        others = rivals(fitter, by_rows, exported, choice.sets)
+        tried = [one for one in tried if all(term.name != weak[0].name for term in one.terms)]
+        best = fitter.fit((*found, *own, *left, *laws), best)
+        exported = by_rows.fit((*found, *own), best)
+        others = rivals(fitter, by_rows, best, frozenset(term.name for term in found), tried)
         effects = _named(fitter, by_rows, best, exported, found, others, choice.count, random)
     advance(0.93, "where they disagreed")
     spots = localise(record, base.off_n_mm, random)
-    gap, residuals, rows = _gaps(by_rows, base, effects, exported)
+    predicts = exported
+    if believed is None and effects:
+        # nothing was believed that could stand, so limb.toml has the set of effects that tells the record best
+        closest = by_rows.fit(choice.nearest.terms, choice.nearest)
+        predicts = closest if closest.rss < exported.rss else exported
+    gap, residuals, rows = _gaps(by_rows, base, effects, exported, predicts)
     after = gap.after.fitted
     remainder_noise = max(record.noise_n_mm, 1e-9)
     after_averaged = float(np.sqrt(np.mean(exported.off_n_mm[record.fitted] ** 2)))
@@ -166,9 +188,21 @@ def _told(
     if withheld:
         shown.append(words.withheld(withheld, unexplained))
     notes = _notes(record, dataset, gap, exported, refused, believed)
-    if verdict == "none":
-        exported = base
-    model = _exportable(fitter.base, exported if effects else base, believed)
+    notes += tuple(words.shape(term.name, best.values) for term in (*own, *laws))
+    late = [term for term in own if term.name == "lag"]
+    if late:
+        why = f"{words.shape('lag', best.values)}; it was taken off, and limb.toml has nothing of it"
+        faults = (*faults, DataFault(None, "torque_n_mm", why, blocking=False))
+        if verdict == "none":
+            verdict = "data_fault"
+    if not effects:
+        exported = by_rows.fit(tuple(own), base)
+    if not effects:
+        predicts = exported
+    more = [term.name for term in predicts.terms if term.role == "effect"]
+    if effects and set(more) != {effect.name for effect in effects}:
+        notes += (f"limb.toml has {words.listed(more)}: of all sets of effects this one is nearest to the record",)
+    model = _exportable(record, fitter.base, predicts, believed, bool(effects))
     nearest = [one.label for one in choice.candidates if one.gain > 0.0 and " + " not in one.label]
     could_be = tuple(dict.fromkeys((*withheld, *nearest)))[:4] if verdict == "unknown" else ()
     if effects:
@@ -213,12 +247,13 @@ def _sizes(
     key = f"joint.{record.joint}.compliance_rad_per_n_mm"
     told = dict(item for effect in effects for item in effect.parameters.items())
     if key in exported.values:
-        value, low, high = intervals(by_rows, exported, random)[key]
-        low, high = positions.spread(by_rows, exported).get(key, (low, high))
+        _, low, high = intervals(by_rows, exported, random)[key]
+        value = positions.typical(record, exported)[key]
+        low, high = positions.further(record, exported).get(key, (low, high))
         told = {key: Interval(value, min(value, low), max(value, high))} | told
     torque = record.columns["torque_n_mm"][record.fitted]
     reach_n_mm = float(min(torque.max(), -torque.min()) if torque.min() < 0.0 < torque.max() else np.abs(torque).max())
-    return JointSizes(told, reach_n_mm, positions.count(record.dataset))
+    return JointSizes(told, reach_n_mm, record.position_count)
 
 
 def _may_be_nothing(effect: NamedEffect) -> bool:
@@ -241,8 +276,8 @@ def _named(
         return ()
     record = fitter.record
     limits, elsewhere = intervals(by_rows, exported, random), ranges(by_rows, others, random)
-    further = positions.spread(by_rows, exported)
-    weighted = best if len(best.terms) == len(found) else fitter.fit(tuple(found), best)
+    further, values = positions.further(record, exported), positions.typical(record, exported)
+    weighted = best if len(best.terms) == len(exported.terms) else fitter.fit(exported.terms, best)
     named = []
     for term in found:
         poorer = without(fitter, best, term)
@@ -252,10 +287,11 @@ def _named(
             gain(record, without(by_rows, exported, term), exported, rows_count),
         )
         net = max(both) - len(term.parameters) * float(np.log(max(count, 3.0)))
-        confidence = min(SUREST, surest(others, term.name), 1.0 / (1.0 + float(np.exp(-0.5 * net))))
+        real = 1.0 - feigned(record, poorer, best)
+        confidence = min(SUREST, real, surest(others, term.name), 1.0 / (1.0 + float(np.exp(-0.5 * net))))
         parameters = {}
         for key in (parameter.key for parameter in term.parameters if parameter.key in KEY_BY_NAME):
-            value, low, high = limits[key]
+            value, (_, low, high) = values[key], limits[key]
             other = weighted.values[key]  # both ways of weighting are sound, so the interval holds what both say
             least, most = elsewhere.get(key, (value, value))
             if key in further:  # what differs from position to position is known no better
@@ -278,9 +314,9 @@ def _lost_rad(term: Term, values: Mapping[str, float], record: JointRecord) -> f
 
 
 def _gaps(
-    by_rows: Fitter, base: Fitted, effects: Sequence[NamedEffect], exported: Fitted
+    by_rows: Fitter, base: Fitted, effects: Sequence[NamedEffect], exported: Fitted, predicts: Fitted
 ) -> tuple[Gap, Residuals, np.ndarray]:
-    """The gap before, after each effect in the order they are named, and after all."""
+    """The gap before, after each effect in the order they are named, and after all that limb.toml has."""
     record = by_rows.record
     fitted, kept = record.raw_marks()
 
@@ -288,14 +324,14 @@ def _gaps(
         held = float(np.sqrt(np.mean(off[kept] ** 2))) if kept.any() else None
         return GapPair(float(np.sqrt(np.mean(off[fitted] ** 2))), held)
 
-    before, after = (record.raw_off(one.model, one.nuisances) for one in (base, exported))
+    before, named, after = (record.raw_off(one.model, one.nuisances) for one in (base, exported, predicts))
     by_label = {term.label: term for term in exported.terms}
     steps, current = [], base
     for number, effect in enumerate(effects):
         term = by_label[effect.label]
         last = number == len(effects) - 1
         current = exported if last else by_rows.fit((*current.terms, term), current, term)
-        off = after if last else record.raw_off(current.model, current.nuisances)
+        off = named if last else record.raw_off(current.model, current.nuisances)
         steps.append(GapStep(effect.label, pair(off)))
     rows = np.flatnonzero(fitted | kept)
     rows = rows[:: max(1, -(-rows.size // DRAWN_ROWS))]
@@ -305,10 +341,12 @@ def _gaps(
     return Gap("n_mm", record.raw_noise_n_mm, pair(before), pair(after), tuple(steps)), residuals, rows
 
 
-def _exportable(base: LimbModel, fitted: Fitted, believed: LimbModel | None) -> LimbModel:
+def _exportable(
+    record: JointRecord, base: LimbModel, fitted: Fitted, believed: LimbModel | None, named: bool
+) -> LimbModel:
     """The base with what was fitted of limb.toml's keys; the spring only where it was free to be fitted."""
-    values = {key: value for key, value in fitted.values.items() if key in KEY_BY_NAME}
-    if believed is not None and not fitted.terms:
+    values = {key: value for key, value in positions.typical(record, fitted).items() if key in KEY_BY_NAME}
+    if believed is not None and not named:
         return believed
     return base.with_values(values)
 

@@ -1,0 +1,97 @@
+"""What competes with the effects in a joint test: late readings, viscosity, stops, free travel in series with a slider.
+Written from the physics, nothing of the tool's plant is used."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from by_torque import found_in, triangle
+
+from brace.dataset.check_joint_test import faults
+from brace.diagnose.diagnosis import Diagnosis
+
+STEP_S = 0.02  # from reading to reading, as by_torque.found_in writes them
+STIFFNESS = 4e5  # N mm/rad
+REACH_RAD = 0.02
+AMPLITUDES = (0.4, 1.0, 0.42, 0.98, 0.41)
+SPRING = "joint.femur.compliance_rad_per_n_mm"
+
+
+def bench(
+    folder: Path, torque_of: object, hold: int = 0, late_s: float = 0.0, noise_n_mm: float = 20.0
+) -> Diagnosis:
+    """Tests at two amplitudes; `torque_of` plays the angles of one. `hold`: readings at which the joint stands at each
+    reversal."""
+    assert callable(torque_of)
+    rng = np.random.default_rng(5)
+    tests = []
+    for size in AMPLITUDES:
+        once = np.interp(np.arange(260), [0, 65, 195, 259], [0, 1, -1, 0])
+        ends = np.concatenate([once[:66], np.ones(hold), once[66:196], -np.ones(hold), once[196:]])
+        angle = size * REACH_RAD * np.concatenate([ends, ends[1:]])
+        torque = torque_of(angle)
+        times = STEP_S * np.arange(angle.size)
+        read = np.interp(times - late_s, times, torque) + noise_n_mm * rng.standard_normal(angle.size)
+        tests.append((angle, read))
+    return found_in(folder, tests)
+
+
+def names(found: Diagnosis) -> set[str]:
+    return {effect.name for effect in found.effects}
+
+
+def test_a_torque_that_is_read_late_is_a_lag_and_no_effect(tmp_path: Path) -> None:
+    found = bench(tmp_path, lambda angle: STIFFNESS * angle, late_s=0.05)
+    assert not found.effects and found.verdict == "data_fault", found.sentence
+    why = [fault.why for fault in found.data_faults]
+    assert any("lag" in one and "ms late" in one for one in why), why
+    assert found.model.number(SPRING) == pytest.approx(1.0 / STIFFNESS, rel=0.01)
+
+
+def test_viscosity_is_no_creep(tmp_path: Path) -> None:
+    """The joint stands at its reversals, so that creep would show, and moves at two speeds."""
+
+    def torque_of(angle: np.ndarray) -> np.ndarray:
+        speed = np.diff(angle, prepend=angle[0]) / STEP_S
+        return np.asarray(STIFFNESS * angle + 2e4 * speed)
+
+    found = bench(tmp_path, torque_of, hold=100)
+    assert "creep" not in names(found), found.sentence
+    assert any("viscous friction" in note for note in found.notes), found.notes
+
+
+def test_a_stop_on_one_side_is_no_hardening(tmp_path: Path) -> None:
+    at = 0.55 * REACH_RAD
+    found = bench(tmp_path, lambda angle: STIFFNESS * (angle + 2.0 * np.maximum(angle - at, 0.0)))
+    assert not found.effects and found.verdict == "unknown", found.sentence
+    assert found.unexplained is not None and "side" in found.unexplained.description
+
+
+def test_free_travel_in_series_with_a_slider_is_described(tmp_path: Path) -> None:
+    """The slider follows when the free travel is used up and its spring has bent as far as friction holds."""
+    travel, most = 0.4 * REACH_RAD, 1500.0
+    spring = most / (0.02 * REACH_RAD)
+
+    def torque_of(angle: np.ndarray) -> np.ndarray:
+        slider, reach, out = 0.0, 0.5 * travel + most / spring, []
+        for one in angle:
+            slider = float(np.clip(slider, one - reach, one + reach))
+            bent = one - slider
+            out.append(spring * np.sign(bent) * max(abs(bent) - 0.5 * travel, 0.0))
+        return np.asarray(STIFFNESS * angle + np.array(out))
+
+    found = bench(tmp_path, torque_of)
+    assert names(found) <= {"coulomb_friction"}, found.sentence
+    assert found.unexplained is not None and "in series with a slider" in found.unexplained.description
+
+
+def test_a_torque_in_newton_metres_is_told() -> None:
+    """A stiffness that a limb may have, in revolutions and N m, and a torque that no joint of a limb has."""
+    angle = 0.004 * triangle()
+    columns = {"t_s": STEP_S * np.arange(angle.size), "angle_rad": angle, "torque_n_mm": 4.0 * triangle()}
+    sound = columns | {"torque_n_mm": 4e3 * triangle()}
+    assert not any(fault.field == "torque_n_mm" for fault in faults(sound))
+    told = [fault for fault in faults(columns) if fault.field == "torque_n_mm"]
+    assert told and told[0].blocking and "N m" in told[0].why
