@@ -130,7 +130,7 @@ def test_only_a_joint_test_can_do_without_a_model(
 
 
 @pytest.mark.parametrize("verdict", ["none", "unknown", "ambiguous", "data_fault"])
-def test_every_verdict_is_exit_code_0(
+def test_a_data_fault_alone_of_all_verdicts_is_exit_code_3(
     verdict: str, brace: Callable[..., Outcome], said: Any, record: Path, paper_limb: Path, tmp_path: Path
 ) -> None:
     changes: dict[str, Any] = {"verdict": verdict, "data_faults": (FAULT,)}
@@ -143,7 +143,7 @@ def test_every_verdict_is_exit_code_0(
         }
     said(**changes)
     outcome = brace("diagnose", record, "--model", paper_limb, "--out", tmp_path / "out")
-    assert outcome.code == 0, outcome.err
+    assert outcome.code == (3 if verdict == "data_fault" else 0), outcome.err
     data = json.loads((tmp_path / "out" / "diagnosis.json").read_text())
     assert data["verdict"] == verdict and data["data_faults"][0]["row"] == 12
     assert bool(data["effects"]) == (verdict == "ambiguous")

@@ -22,9 +22,9 @@ def add(commands: Subcommands) -> None:
         "Writes "
         "diagnosis.json, limb.toml and report.html into --out. Several datasets: a folder each, and "
         "fleet.html.",
-        epilog="Exit code 0 whatever the verdict (effect, none, ambiguous, unknown, data_fault); 3 when a "
-        "dataset or model "
-        "cannot be read. Of several datasets the readable ones are written all the same.",
+        epilog="Exit code 0 for the verdicts effect, none, ambiguous and unknown. Exit code 3 for the verdict "
+        "data_fault, whose report is written all the same, and when a dataset or model cannot be read. Of several "
+        "datasets the readable ones are written all the same.",
     )
     parser.add_argument(
         "datasets", type=common.path, nargs="+", metavar="DATASET", help="folder with meta.toml and data.csv"
@@ -102,4 +102,4 @@ def _run_one(arguments: argparse.Namespace) -> int:
         for line in lines(found):
             common.emit(line)
         common.say(f"-> {arguments.out / REPORT}, diagnosis.json, limb.toml")
-    return 0
+    return found.exit_code

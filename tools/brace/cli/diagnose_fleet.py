@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def run_fleet(arguments: argparse.Namespace) -> int:
-    """Every record that can be diagnosed is; exit code 3 when one could not be."""
+    """Every record that can be diagnosed is; exit code 3 when one could not be, or is a data fault."""
     from brace.diagnose.fleet import overview
     from brace.diagnose.fleet.job import jobs_of
     from brace.diagnose.options import Options
@@ -57,7 +57,7 @@ def run_fleet(arguments: argparse.Namespace) -> int:
         for line in overview.as_lines(outcomes):
             common.emit(line)
         common.say(f"-> {arguments.out / 'fleet.html'}, fleet.json, and a folder a limb")
-    return max((outcome.code for outcome in outcomes if not outcome.done), default=EXIT_OK)
+    return max((outcome.code for outcome in outcomes), default=EXIT_OK)
 
 
 def _outcomes(arguments: argparse.Namespace, jobs: list[Job]) -> Iterator[Outcome]:

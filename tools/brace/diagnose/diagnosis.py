@@ -9,6 +9,7 @@ from typing import Any, Literal
 import numpy as np
 
 from brace.dataset import DataFault
+from brace.errors import EXIT_BAD_FILE, EXIT_OK
 from brace.model import LimbModel
 
 Verdict = Literal["effect", "none", "ambiguous", "unknown", "data_fault"]
@@ -173,3 +174,8 @@ class Diagnosis:
     details: Mapping[str, Any] = field(default_factory=dict)
     members: tuple[Alternative, ...] = ()
     joint: JointSizes | None = None
+
+    @property
+    def exit_code(self) -> int:
+        """Of the command: a script must not go on with a faulty record."""
+        return EXIT_BAD_FILE if self.verdict == "data_fault" else EXIT_OK

@@ -39,8 +39,8 @@ class Job:
 
 @dataclass(frozen=True)
 class Outcome:
-    """`files` and `data` (diagnosis.json) of a record that was diagnosed; `error` and its exit code of one
-    that was not."""
+    """`files` and `data` (diagnosis.json) of a record that was diagnosed; `error` of one that was not; the exit
+    code of either."""
 
     name: str
     files: Mapping[str, bytes] = field(default_factory=dict)
@@ -75,7 +75,7 @@ def _diagnosed(job: Job) -> Outcome:
     from brace.diagnose.one import diagnosed, load
 
     try:
-        _, written = diagnosed(load(job.folder, job.model), job.options)
+        found, written = diagnosed(load(job.folder, job.model), job.options)
     except BraceError as error:
         return Outcome(job.name, error=error.render(), code=error.exit_code)
     except MemoryError:
@@ -86,7 +86,7 @@ def _diagnosed(job: Job) -> Outcome:
         return Outcome(
             job.name, error=f"brace: internal error: {type(error).__name__}: {error}", code=EXIT_CHECK_FAILED
         )
-    return Outcome(job.name, written.files, written.json_ready)
+    return Outcome(job.name, written.files, written.json_ready, code=found.exit_code)
 
 
 def jobs_of(folders: Sequence[Path], model: Path | None, options: Options) -> list[Job]:
