@@ -64,7 +64,7 @@ typedef struct {
     float goal_rad;         /* set-point that it has been sent; NaN before */
     uint32_t samples;       /* all counters saturate */
     uint32_t lost;          /* answers that did not come */
-    uint32_t doubted;       /* samples that jumped and were held back until the next one agreed */
+    uint32_t doubted;       /* samples that no servo can tell, or that jumped and wait until the next one agrees */
     uint32_t refused;       /* answers with an error number */
     uint32_t restarts;      /* how often it has lost its set-up */
 } brace_servo_report_t;

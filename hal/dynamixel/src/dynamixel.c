@@ -31,9 +31,12 @@ enum {
 #define FADE_RAD_PER_US 0.1e-6f
 #define TURNS_MOST 256
 
-/* A jump that the CRC may have missed changes more than this; a servo that really jumps is believed one sample later. */
+/* The CRC misses some bursts on the line. Each of them makes a sample impossible, or makes it jump by more than this. A
+ * servo that really jumps is believed one sample later. */
 #define POSITION_JUMP 100
 #define CURRENT_JUMP 100
+#define CURRENT_MOST 2047
+#define VELOCITY_MOST 2047 /* twice what any of these servos reaches */
 
 static void count_up(uint32_t *counter)
 {
@@ -90,6 +93,12 @@ static int32_t distance(int32_t a, int32_t b)
     return (int32_t)(apart < 0 ? (apart < -INT32_MAX ? INT32_MAX : -apart) : (apart > INT32_MAX ? INT32_MAX : apart));
 }
 
+static bool is_possible(const brace_servo_raw_t *raw)
+{
+    return distance(raw->current, 0) <= CURRENT_MOST && distance(raw->velocity, 0) <= VELOCITY_MOST &&
+           distance(raw->position, 0) <= TURNS_MOST * COUNTS_PER_TURN;
+}
+
 static bool is_near(const brace_servo_raw_t *a, const brace_servo_raw_t *b)
 {
     return distance(a->position, b->position) <= POSITION_JUMP && distance(a->current, b->current) <= CURRENT_JUMP;
@@ -98,10 +107,10 @@ static bool is_near(const brace_servo_raw_t *a, const brace_servo_raw_t *b)
 static void take_sample(brace_servo_t *servo, const uint8_t *data, uint32_t taken_us)
 {
     const brace_servo_raw_t raw = {signed16(data), signed32(&data[2]), signed32(&data[6]), taken_us};
-    const bool is_believed = (servo->has_sample && is_near(&servo->sample, &raw)) ||
-                             (servo->has_wild && is_near(&servo->wild, &raw));
+    const bool is_believed = is_possible(&raw) && ((servo->has_sample && is_near(&servo->sample, &raw)) ||
+                                                   (servo->has_wild && is_near(&servo->wild, &raw)));
     servo->wild = raw;
-    servo->has_wild = !is_believed;
+    servo->has_wild = !is_believed && is_possible(&raw);
     if (is_believed) {
         servo->sample = raw;
         servo->has_sample = servo->is_new = true;
@@ -335,9 +344,12 @@ static void end_request(brace_dynamixel_t *driver)
             all |= (uint8_t)(1u << driver->listed[i]);
         }
         driver->silences = driver->asked == all ? driver->silences + 1u : 0u;
-        if (driver->silences >= PLAIN_MISSES) { /* one silent servo silences all behind it in a fast sync read */
+        if (driver->silences >= PLAIN_MISSES) { /* one silent servo silences all behind it: who is it? */
             driver->is_plain = !driver->is_plain;
             driver->silences = 0;
+            for (uint32_t i = 0; i < driver->listed_count; i++) {
+                driver->servo[driver->listed[i]].state_is_due = true;
+            }
         }
     }
     for (uint32_t i = 0; i < BRACE_SERVO_JOINTS; i++) {
