@@ -48,8 +48,8 @@ struct Bench {
             TEST_ASSERT_EQUAL(i, brace_servos_add(servos.get(), kIds[i], kModels[i]));
             setup.joint[i] = {kIds[i], i == kTibia, 0.25f * static_cast<float>(i), 1.0f};
         }
-        setup.period_us = 1000;
-        setup.timeout_us = 900;
+        setup.period_us = 500;
+        setup.timeout_us = 700;
         setup.holds = true;
         turn();
     }
@@ -219,6 +219,7 @@ void test_one_percent_of_the_packets_damaged()
         TEST_ASSERT_EQUAL(0, bench.report(i).restarts);
     }
     TEST_ASSERT_EQUAL(0, bench.refused[kFemur]);
+    TEST_ASSERT_LESS_OR_EQUAL(3 * kTick_us, bench.oldest_us);
     // Of a request that is damaged there is no answer; of an answer there is a wrong packet, or bytes of none.
     TEST_ASSERT_GREATER_THAN(0, counts.damaged);
     const std::uint32_t seen = bench.counters().damaged + bench.report(0).lost + bench.report(1).lost + bench.report(2).lost;

@@ -344,6 +344,7 @@ static void end_request(brace_dynamixel_t *driver)
             all |= (uint8_t)(1u << driver->listed[i]);
         }
         driver->silences = driver->asked == all ? driver->silences + 1u : 0u;
+        driver->until_care += driver->asked != 0u && driver->until_care == 0u ? 1u : 0u; /* samples first */
         if (driver->silences >= PLAIN_MISSES) { /* one silent servo silences all behind it: who is it? */
             driver->is_plain = !driver->is_plain;
             driver->silences = 0;
