@@ -38,6 +38,7 @@ FIRMWARE_HEADERS = (
 )
 HOST_HEADER = "brace_host.h"
 NODE_HEADER = "brace_node.h"  # the controller and its limb in one process
+SERVOS_HEADER = "brace_servos.h"
 _HEADER_FOLDERS = (
     "firmware/core/include",
     "firmware/interface/include",
@@ -68,6 +69,13 @@ def library() -> Library:
 def node_library() -> Library:
     """The same library by brace_node.h: the firmware's application over simulated limbs. Its C types are its own."""
     return _load(*_node_headers())
+
+
+@cache
+def servos_library() -> Library:
+    """The same library by brace_servos.h: simulated servos on a serial line."""
+    _, folders = _headers()
+    return _load([root for folder in folders if (root := folder / SERVOS_HEADER).is_file()], folders)
 
 
 def _load(headers: list[Path], folders: list[Path]) -> Library:
