@@ -28,7 +28,7 @@ enum {
 
 /* A joint as its drive sees it: on the joint's side of the reduction, positive as theta0, theta1, theta2 are. */
 typedef struct {
-    float motor_rad;    /* encoder before the gearbox, divided by the ratio */
+    float motor_rad;    /* encoder before the gearbox, divided by the ratio; NaN: there is none, but link_rad */
     float torque_n_mm;  /* motor torque from its current */
     float link_rad;     /* true joint angle, by an encoder behind the gearbox; NaN: there is none */
     float temp_degc;    /* temperature of gearbox or motor; NaN: nothing measures it */

@@ -60,6 +60,13 @@ typedef struct {
     int32_t block_replaces;          /* 0: the block is stored only if the file has none yet; 1: always */
     const char *console, *modbus_line, *slcan_line; /* URLs of serial ports, brace_hal_posix.h; null: no port */
     const char *modbus_tcp;
+    /* Joints by Dynamixel servos, through the driver that boards use: "sim", simulated MX-106 between this limb's joints
+     * and the driver; or a serial device with real servos, /dev/ttyX@BAUD. Null: the joints are read without a line. Real
+     * servos have no simulated limb behind them, and no force sensor; nobody moves them but the controller's own tests,
+     * and only where their torque is on. */
+    const char *servos;
+    uint8_t servo_id[3];             /* of coxa, femur, tibia */
+    int32_t servos_hold;             /* real servos without torque are told to hold where they stand */
 } brace_node_limb_t;
 
 /* The paper's limb, an MX-106 per joint, planted and unloaded at theta 0, 1.0, 1.4; 22 degC. Null is ignored. */
@@ -74,7 +81,8 @@ typedef enum {
     BRACE_NODE_PART_CONSOLE = 5,
     BRACE_NODE_PART_MODBUS_LINE = 6,
     BRACE_NODE_PART_SLCAN_LINE = 7,
-    BRACE_NODE_PART_MODBUS_TCP = 8
+    BRACE_NODE_PART_MODBUS_TCP = 8,
+    BRACE_NODE_PART_SERVOS = 9
 } brace_node_part_t;
 
 /* Why a node could not be made. */
@@ -169,6 +177,16 @@ typedef struct {
     uint64_t can_sent, can_received; /* frames of all limbs */
 } brace_node_stats_t;
 void brace_node_stats(brace_node_t *node, brace_node_stats_t *stats);
+
+/* A servo of a limb whose joints are servos, as its driver knows it, and what the driver has counted. joint: 0-2.
+ * Returns 0, or -3: no such limb, or its joints are no servos. */
+typedef struct {
+    int32_t state;          /* a brace_servo_state_t */
+    uint32_t model, hardware_error;
+    uint32_t samples, lost, doubted, refused, restarts;           /* of this servo */
+    uint32_t requests, answers, damaged, skipped_bytes, foreign;  /* of the line */
+} brace_node_servo_t;
+int32_t brace_node_servo(brace_node_t *node, int32_t limb, int32_t joint, brace_node_servo_t *servo);
 
 /* The controller itself, for its own requests (brace/app.h), and the number of limbs. Null for a limb that does not
  * exist. */

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "plant/sensor.h"
@@ -30,6 +31,13 @@ constexpr int kStoreSteps = 100000;
 
 constexpr const char *kNone = "none";
 
+constexpr std::uint64_t kServe_us = 250; // between two looks at the servos' line
+
+bool has_real_servos(const brace_node_limb_t &limb)
+{
+    return limb.servos != nullptr && std::strcmp(limb.servos, "sim") != 0;
+}
+
 const char *url_or_none(const char *url)
 {
     return url != nullptr ? url : kNone;
@@ -52,7 +60,8 @@ LimbNode::LimbNode(const brace_node_limb_t &limb, std::uint64_t seed)
     }
     brace_posix_init(&posix_);
     posix_.time_is_given = true;
-    posix_.limb = {this, joint_read, joint_command, limb.has_force_sensor != 0 ? tip_force_read : nullptr};
+    posix_.limb = {this, joint_read, joint_command, 
+                   limb.has_force_sensor != 0 && !has_real_servos(limb) ? tip_force_read : nullptr};
 }
 
 LimbNode::~LimbNode()
@@ -79,6 +88,9 @@ brace_node_failure_t LimbNode::open(const brace_node_limb_t &limb, brace_posix_b
                   brace_posix_stream_open(&posix_.stream[BRACE_SERIAL_SLCAN], url_or_none(limb.slcan_line)))
         || refuse(BRACE_NODE_PART_MODBUS_TCP,
                   brace_posix_modbus_open(&posix_.modbus, url_or_none(limb.modbus_tcp)))) {
+        return failure;
+    }
+    if (limb.servos != nullptr && refuse(BRACE_NODE_PART_SERVOS, servos_.open(limb, has_coxa_joint_))) {
         return failure;
     }
     if (bus != nullptr) {
@@ -158,6 +170,7 @@ void LimbNode::tick(std::uint64_t now_us)
         move_limb(t_s, dt_s / steps);
     }
     sample();
+    serve_servos(now_us - static_cast<std::uint64_t>(1e6 * dt_s));
     brace_app_tick(app_.get(), posix_.given_us);
     ++ticks_;
     if (posix_.restart_asked) {
@@ -172,6 +185,32 @@ void LimbNode::tick(std::uint64_t now_us)
               + (late_ms != nullptr
                      ? static_cast<std::uint64_t>(1e3 * (*late_ms > 0.0 ? *late_ms : kDefaultLate_ms))
                      : period_us);
+}
+
+void LimbNode::poll()
+{
+    brace_posix_poll(&posix_);
+    if (servos_.is_open() && !servos_.is_simulated()) {
+        servos_.serve(now_us_);
+    }
+}
+
+// Simulated servos see what the limb does to them, and exchange bytes as often as a board's main loop has time for it.
+void LimbNode::serve_servos(std::uint64_t from_us)
+{
+    if (!servos_.is_simulated()) {
+        return;
+    }
+    const std::array<double, 3> link_rad = true_angles_rad();
+    for (std::size_t i = 0; i < motor_.size(); ++i) {
+        if (is_by_simulated_servo(i)) {
+            servos_.shaft(i, link_rad[i], motor_[i].speed_rad_per_s, sample_[i].torque_n_mm, temp_degc(now_s()));
+            servos_.move(i, setpoints.now_rad()[i]);
+        }
+    }
+    for (std::uint64_t at_us = from_us + kServe_us; at_us <= now_us_; at_us += kServe_us) {
+        servos_.serve(at_us);
+    }
 }
 
 void LimbNode::follow_faults()
@@ -205,8 +244,18 @@ void LimbNode::take_hold(double hold_n_per_mm, const brace_node_press_t &press)
     chain_.take_hold(motor_[0].angle_rad, hold_n_per_mm, press.y_mm, now_s());
 }
 
+bool LimbNode::is_by_simulated_servo(std::size_t joint) const
+{
+    return servos_.is_simulated() && is_fitted(static_cast<std::int32_t>(joint));
+}
+
 double LimbNode::set_rad(std::size_t joint) const
 {
+    if (is_by_simulated_servo(joint)) {
+        double goal_rad = motor_[joint].angle_rad, limit_n_mm = 0.0;
+        servos_.goal(joint, goal_rad, limit_n_mm);
+        return goal_rad;
+    }
     return setpoints.now_rad()[joint] + command_[joint].offset_rad;
 }
 
@@ -215,6 +264,12 @@ void LimbNode::follow_command(std::size_t joint, double dt_s)
 {
     Command &command = command_[joint];
     const double range = drive_[joint].torque_range_n_mm;
+    if (is_by_simulated_servo(joint)) {
+        double goal_rad = 0.0, limit_n_mm = 0.0;
+        servos_.goal(joint, goal_rad, limit_n_mm);
+        motor_[joint].limit_n_mm = std::min(range, limit_n_mm);
+        return;
+    }
     if (command.given && now_us_ - command.since_us > kCommandHolds_us) {
         const double most = dt_s * kCommandFades_rad_per_s;
         command.offset_rad -= std::clamp(command.offset_rad, -most, most);
@@ -290,12 +345,15 @@ bool LimbNode::is_fitted(std::int32_t joint_index) const
 
 std::int32_t LimbNode::joint_read(void *context, std::int32_t joint_index, brace_hal_joint_t *joint)
 {
-    const LimbNode &node = *static_cast<LimbNode *>(context);
+    LimbNode &node = *static_cast<LimbNode *>(context);
     if (!node.is_fitted(joint_index)) {
         return BRACE_HAL_E_UNSUPPORTED;
     }
     if (node.faults.is_on(BRACE_NODE_FAULT_SENSOR_DEAD, joint_index)) {
         return BRACE_HAL_E_DEVICE;
+    }
+    if (node.servos_.is_open()) {
+        return node.servos_.read(joint_index, joint);
     }
     *joint = node.sample_[static_cast<std::size_t>(joint_index)];
     if (node.faults.is_on(BRACE_NODE_FAULT_SENSOR_NAN, joint_index)) {
@@ -310,6 +368,9 @@ std::int32_t LimbNode::joint_command(void *context, std::int32_t joint_index,
     LimbNode &node = *static_cast<LimbNode *>(context);
     if (!node.is_fitted(joint_index)) {
         return BRACE_HAL_E_UNSUPPORTED;
+    }
+    if (node.servos_.is_open()) {
+        return node.servos_.command(joint_index, command);
     }
     if (!std::isfinite(command->offset_rad) || !(command->torque_limit_n_mm >= 0.0f)) {
         return BRACE_HAL_E_RANGE;

@@ -9,6 +9,7 @@
 #include "node/drive.h"
 #include "node/pressed_limb.h"
 #include "node/script.h"
+#include "node/servo_joints.h"
 #include "rig/noise.h"
 
 extern "C" {
@@ -31,7 +32,7 @@ public:
 
     std::uint64_t due_us() const { return due_us_; }
     void tick(std::uint64_t now_us); // advances limb and controller from the last tick to now
-    void poll() { brace_posix_poll(&posix_); }
+    void poll();
     void restart(brace_reset_cause_t cause);
 
     void hold(double hold_n_per_mm, const brace_node_press_t &press);
@@ -40,6 +41,7 @@ public:
     Setpoints setpoints;
     Faults faults;
 
+    const brace_dynamixel_t *servos() const { return servos_.is_open() ? &servos_.driver() : nullptr; }
     brace_app_t &app() { return *app_; }
     const brace_posix_t &posix() const { return posix_; }
     brace_node_truth_t truth() const;
@@ -64,12 +66,14 @@ private:
     void move_limb(double t_s, double dt_s);
     void take_hold(double hold_n_per_mm, const brace_node_press_t &press);
     void sample();
+    void serve_servos(std::uint64_t from_us);
     void follow_command(std::size_t joint, double dt_s);
     std::array<double, 3> true_angles_rad() const;
     bool is_fitted(std::int32_t joint_index) const;
     Eigen::Vector2d plane_motors_rad() const { return {motor_[1].angle_rad, motor_[2].angle_rad}; }
     PlanePosture plane_posture() const { return {pressed_.link_rad[0], pressed_.link_rad[1]}; } // at rest
     double set_rad(std::size_t joint) const;
+    bool is_by_simulated_servo(std::size_t joint) const;
     double now_s() const { return 1e-6 * static_cast<double>(now_us_); }
     double temp_degc(double t_s) const;
 
@@ -83,6 +87,7 @@ private:
     Pressed pressed_;
     CoxaChain chain_; // the chain across the plane and its rest state `across_`, only where there is a coxa joint
     Across across_;
+    ServoJoints servos_;
     std::array<Motor, 3> motor_; // coxa, femur, tibia, as everything per joint here
     std::array<Command, 3> command_;
     std::array<brace_hal_joint_t, 3> sample_{};

@@ -161,6 +161,9 @@ extern "C" void brace_node_limb_default(brace_node_limb_t *limb)
     limb->has_force_sensor = 1;
     limb->temp_start_degc = 22.0;
     limb->temp_time_constant_s = 600.0;
+    for (int i = 0; i < 3; ++i) {
+        limb->servo_id[i] = static_cast<uint8_t>(11 + i);
+    }
 }
 
 extern "C" brace_node_t *brace_node_create(const brace_node_limb_t *limbs, int32_t count, const char *can,
@@ -293,6 +296,22 @@ extern "C" int32_t brace_node_snapshot(brace_node_t *node, int32_t limb, brace_s
     const std::lock_guard<std::mutex> held(node->lock);
     *snapshot = *brace_app_snapshot(&one->app());
     return BRACE_HOST_OK;
+}
+
+extern "C" int32_t brace_node_servo(brace_node_t *node, int32_t limb, int32_t joint, brace_node_servo_t *servo)
+{
+    const std::lock_guard<std::mutex> held(node->lock);
+    const LimbNode *found = node->limb(limb);
+    if (found == nullptr || found->servos() == nullptr || joint < 0 || joint > 2) {
+        return BRACE_HOST_E_RANGE;
+    }
+    brace_servo_report_t told{};
+    brace_servo_counters_t line{};
+    brace_dynamixel_report(found->servos(), joint, &told);
+    brace_dynamixel_counters(found->servos(), &line);
+    *servo = {told.state, told.model, told.hardware_error, told.samples, told.lost, told.doubted, told.refused,
+              told.restarts, line.requests, line.answers, line.damaged, line.skipped_bytes, line.foreign};
+    return 0;
 }
 
 extern "C" int32_t brace_node_truth(brace_node_t *node, int32_t limb, brace_node_truth_t *truth)

@@ -144,7 +144,7 @@ static void take_posture(controller_t *controller, brace_snapshot_t *snapshot)
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         const joint_t *joint = &controller->joints.joint[i];
         snapshot->play[i] = controller->flank.joint[i].out;
-        snapshot->motor_rad[i] = joint->sample.motor_rad;
+        snapshot->motor_rad[i] = joint->is_link_only ? __builtin_nanf("") : joint->sample.motor_rad;
         snapshot->torque_n_mm[i] = joint->sample.torque_n_mm;
         offset_rad[i] = snapshot->play[i].offset_rad;
     }

@@ -138,6 +138,10 @@ typedef struct {
 int32_t brace_posix_stream_open(brace_posix_stream_t *stream, const char *url);
 void brace_posix_stream_close(brace_posix_stream_t *stream);
 
+/* Bytes of a stream that is no serial port of a controller: as serial_write and serial_read of the door. */
+int32_t brace_posix_stream_write(brace_posix_stream_t *stream, const uint8_t *bytes, uint32_t count);
+int32_t brace_posix_stream_read(brace_posix_stream_t *stream, uint8_t *bytes, uint32_t room);
+
 /* ---------------------------------------------------------------------------------------- Modbus TCP -- */
 
 enum { BRACE_POSIX_ADU_BYTES = 260 };

@@ -15,8 +15,6 @@ int32_t door_can_health(void *context, brace_can_health_t *health);
 int32_t door_can_recover(void *context);
 
 int32_t stream_setup(brace_posix_stream_t *stream, uint32_t baud, brace_parity_t parity);
-int32_t stream_write(brace_posix_stream_t *stream, const uint8_t *bytes, uint32_t count);
-int32_t stream_read(brace_posix_stream_t *stream, uint8_t *bytes, uint32_t room);
 void stream_poll(brace_posix_stream_t *stream);
 
 int32_t posix_modbus_write(brace_posix_modbus_t *modbus, const uint8_t *bytes, uint32_t count);

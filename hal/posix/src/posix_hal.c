@@ -57,7 +57,7 @@ static int32_t door_serial_write(void *context, brace_serial_port_t port, const 
     if (port == BRACE_SERIAL_MODBUS_TCP) {
         return posix_modbus_write(&posix->modbus, bytes, count);
     }
-    return port <= BRACE_SERIAL_SLCAN ? stream_write(&posix->stream[port], bytes, count)
+    return port <= BRACE_SERIAL_SLCAN ? brace_posix_stream_write(&posix->stream[port], bytes, count)
                                       : BRACE_HAL_E_UNSUPPORTED;
 }
 
@@ -67,7 +67,7 @@ static int32_t door_serial_read(void *context, brace_serial_port_t port, uint8_t
     if (port == BRACE_SERIAL_MODBUS_TCP) {
         return posix_modbus_read(&posix->modbus, bytes, room);
     }
-    return port <= BRACE_SERIAL_SLCAN ? stream_read(&posix->stream[port], bytes, room)
+    return port <= BRACE_SERIAL_SLCAN ? brace_posix_stream_read(&posix->stream[port], bytes, room)
                                       : BRACE_HAL_E_UNSUPPORTED;
 }
 

@@ -78,7 +78,7 @@ static int32_t lost(brace_posix_stream_t *stream)
     return stream->kind == BRACE_POSIX_STREAM_TTY ? BRACE_HAL_E_DEVICE : 0;
 }
 
-int32_t stream_write(brace_posix_stream_t *stream, const uint8_t *bytes, uint32_t count)
+int32_t brace_posix_stream_write(brace_posix_stream_t *stream, const uint8_t *bytes, uint32_t count)
 {
     if (stream->kind == BRACE_POSIX_STREAM_NONE) {
         return BRACE_HAL_E_UNSUPPORTED;
@@ -90,7 +90,7 @@ int32_t stream_write(brace_posix_stream_t *stream, const uint8_t *bytes, uint32_
     return taken >= 0 ? taken : lost(stream);
 }
 
-int32_t stream_read(brace_posix_stream_t *stream, uint8_t *bytes, uint32_t room)
+int32_t brace_posix_stream_read(brace_posix_stream_t *stream, uint8_t *bytes, uint32_t room)
 {
     if (stream->kind == BRACE_POSIX_STREAM_NONE) {
         return BRACE_HAL_E_UNSUPPORTED;

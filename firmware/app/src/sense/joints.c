@@ -105,6 +105,10 @@ static void read_one(joints_t *joints, int index, const brace_hal_t *hal, const 
     const brace_drive_t *drive = &parameters->drive[index];
     brace_hal_joint_t fresh;
     const int32_t answer = hal->joint_read(hal->context, index, &fresh);
+    if (answer == BRACE_HAL_OK) {
+        joint->is_link_only = fresh.motor_rad != fresh.motor_rad;
+        fresh.motor_rad = joint->is_link_only ? fresh.link_rad : fresh.motor_rad;
+    }
     const bool none_yet = joint->sample.motor_rad != joint->sample.motor_rad;
     const bool newer = answer == BRACE_HAL_OK && (none_yet || fresh.taken_us != joint->sample.taken_us);
     if (newer && is_sound(&fresh, drive)) {

@@ -19,6 +19,7 @@ typedef struct {
 
 typedef struct {
     bool fitted;              /* the limb has this joint */
+    bool is_link_only;        /* its one encoder is behind the gear: sample.motor_rad is the link's angle */
     brace_hal_joint_t sample; /* the newest sound one; NaN before the first */
     float torque_n_mm;        /* mean over 20 ms; a single wild sample does not move it */
     bool sound;               /* the sample is no older than controller.age_limit_us */

@@ -12,10 +12,12 @@ void reading_add(brace_loading_t *test, const loading_inputs_t *inputs)
     brace_loading_sums_t *sums = &test->sums;
     const brace_snapshot_t *now = inputs->now;
     for (int i = 0; i < 2; i++) {
-        const brace_hal_joint_t *sample = &inputs->joints->joint[BRACE_FEMUR + i].sample;
+        const joint_t *joint = &inputs->joints->joint[BRACE_FEMUR + i];
+        const brace_hal_joint_t *sample = &joint->sample;
         /* Differences from where the test began are small, so that their sums lose no digits. */
         sums->motor_rad[i] += sample->motor_rad - test->start_motor_rad[i];
-        sums->link_rad[i] += sample->link_rad - sample->motor_rad;
+        /* One encoder cannot tell what the gear gives way by. */
+        sums->link_rad[i] += joint->is_link_only ? __builtin_nanf("") : sample->link_rad - sample->motor_rad;
     }
     sums->force_x_n += now->force_x_n;
     sums->force_z_n += now->force_z_n;
