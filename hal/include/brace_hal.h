@@ -163,6 +163,10 @@ typedef struct {
     int32_t (*serial_write)(void *context, brace_serial_port_t port, const uint8_t *bytes, uint32_t count);
     int32_t (*serial_read)(void *context, brace_serial_port_t port, uint8_t *bytes, uint32_t room);
 
+    /* Optional: null where every port has one other end. Number of the connection that the bytes read last came from; no
+     * two connections have the same number. Does not block. */
+    uint32_t (*serial_peer)(void *context, brace_serial_port_t port);
+
     /* Shows the watchdog that the firmware runs. The watchdog waits 2.5 to 5 s, longer than an erase of 2 s. */
     void (*watchdog_feed)(void *context);
 

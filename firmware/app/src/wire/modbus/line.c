@@ -107,7 +107,7 @@ static void answer(modbus_line_t *line, modbus_server_t *server, const wire_tick
     modbus_link_t *link = &line->link;
     const uint32_t request = (uint32_t)link->count - ADDRESS_BYTES - CRC_BYTES;
     server->asker = BRACE_ASKER_MODBUS_LINE;
-    const uint32_t answered = modbus_pdu_answer(server, &link->half, tick, link->bytes + ADDRESS_BYTES, request);
+    const uint32_t answered = modbus_pdu_answer(server, link->half, tick, link->bytes + ADDRESS_BYTES, request);
     const uint32_t length = ADDRESS_BYTES + answered;
     link->is_waiting = answered == 0u;
     if (link->is_waiting) {
