@@ -57,11 +57,14 @@ typedef struct {
     bool listen_only;      /* the controller neither sends nor acknowledges */
     bool loopback;         /* for the self-test: the controller receives what it sends, and the bus neither sees nor
                               disturbs it; can_setup returns E_UNSUPPORTED where the controller cannot do that */
+    uint32_t filter_id, filter_mask; /* only frames whose identifier has filter_id's bits under the mask take room in
+                              the ring; mask 0: all frames. By the controller's own filters, else in its interrupt */
 } brace_can_setup_t;
 
 typedef struct {
     uint8_t tx_errors, rx_errors;  /* the controller's own counters */
-    bool error_passive, bus_off;
+    bool error_passive;
+    bool bus_off;                  /* it has left the bus, or has not come onto it since can_setup */
     uint32_t frames_lost;          /* frames that found no room in the ring; saturates */
 } brace_can_health_t;
 
@@ -142,8 +145,9 @@ typedef struct {
     int32_t (*nvm_write)(void *context, uint32_t slot, uint32_t offset, const uint8_t *bytes, uint32_t count);
     int32_t (*nvm_erase)(void *context, uint32_t slot);
 
-    /* Optional: all five, or all null where there is no CAN. can_setup starts the controller anew and may block for 20
-     * ms; the tick never calls it. can_send queues one frame: OK, AGAIN, E_BUS_OFF, E_UNSUPPORTED, E_RANGE. Queued
+    /* Optional: all five, or all null where there is no CAN. can_setup starts the controller anew: OK, E_UNSUPPORTED (no
+     * such controller), E_RANGE, E_DEVICE (not now; the tick tries again every 2 s). It may block for 1 ms, and does not
+     * wait until the bus is quiet; can_health tells bus_off until then. can_send queues one frame: OK, AGAIN, E_BUS_OFF, E_UNSUPPORTED, E_RANGE. Queued
      * frames of one identifier leave in order. can_receive returns 1 and a frame, or 0. can_recover starts the
      * standard's way back to the bus (128 x 11 recessive bits) and does not wait for its end. Only can_setup blocks. */
     int32_t (*can_setup)(void *context, const brace_can_setup_t *setup);
@@ -158,6 +162,10 @@ typedef struct {
     int32_t (*serial_setup)(void *context, brace_serial_port_t port, uint32_t baud, brace_parity_t parity);
     int32_t (*serial_write)(void *context, brace_serial_port_t port, const uint8_t *bytes, uint32_t count);
     int32_t (*serial_read)(void *context, brace_serial_port_t port, uint8_t *bytes, uint32_t room);
+
+    /* Optional: null where every port has one other end. Number of the connection that the bytes read last came from; no
+     * two connections have the same number. Does not block. */
+    uint32_t (*serial_peer)(void *context, brace_serial_port_t port);
 
     /* Shows the watchdog that the firmware runs. The watchdog waits 2.5 to 5 s, longer than an erase of 2 s. */
     void (*watchdog_feed)(void *context);

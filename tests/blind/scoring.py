@@ -21,6 +21,7 @@ TOLD_AS_TROUBLE = {
     "glitch_bursts": r"single readings stand out|zero moved",
     "seating": r"force at rest differs|zero moved",
     "sensor_warmth": r"force at rest differs|zero moved",
+    "slip": r"slipped by",
 }
 ALARMS = ("effect", "ambiguous", "unknown", "data_fault")
 

@@ -171,3 +171,23 @@ def test_who_answers(place: Place, kind: type[Libmodbus] | type[Pymodbus]) -> No
             assert client.device_id() == {0: b"Brace", 1: b"limb controller", 2: version().encode()}
     finally:
         client.close()
+
+
+def test_halves_of_two_masters_do_not_mix(place: Place) -> None:
+    """Function 06 writes a value in two requests; another connection's requests between them are no part of it."""
+    if not place.host:
+        pytest.skip("a serial line has one master")
+    name, wanted = "geometry.tibia_mm", (231.25, 199.9)
+    address = int(MAP[name]["address"])
+    masters = (Libmodbus(place), Libmodbus(place))
+    try:
+        enter(masters[0], "CONFIGURATION")
+        for half in range(2):
+            for master, value in zip(masters, wanted):
+                master.write_one(address + half, registers_of(value, "f32")[half])
+                if half:
+                    assert get(masters[0], name) == pytest.approx(value, rel=1e-6)
+        enter(masters[0], "MONITOR")
+    finally:
+        for master in masters:
+            master.close()

@@ -5,6 +5,7 @@
 #include "brace/app_memory.h"
 #include "stiffness/stiffness.h"
 
+#define GUARDED_WORDS_PER_MS 8u /* all words in less than 100 ms */
 #define LATE_PERIODS 3u /* a tick that comes more than three periods after the one before is more than two late */
 
 /* -------------------------------------------------------------------------------------------- start -- */
@@ -13,6 +14,35 @@ static bool door_is_complete(const brace_hal_t *hal)
 {
     return hal->now_us != NULL && hal->joint_read != NULL && hal->nvm_read != NULL && hal->nvm_write != NULL &&
            hal->nvm_erase != NULL && hal->watchdog_feed != NULL && hal->reset_cause != NULL && hal->crash_clear != NULL;
+}
+
+/* What must not change between one configuration and the next: the parameters, and all that is made from them. */
+static guard_span_t guarded(const controller_t *controller, uint32_t index)
+{
+#define SPAN(from, end) {&(from), (uint32_t)((const uint8_t *)&(end) - (const uint8_t *)&(from)) / 4u}
+#define WHOLE(member) {&(member), sizeof(member) / 4u}
+    const guard_span_t spans[GUARDED_SPANS] = {
+        SPAN(controller->parameters.in_force, controller->parameters.store),
+        SPAN(controller->model, controller->model.spatial.yaw_rad_per_n_mm), /* the springs behind change */
+        SPAN(controller->model.loaded, controller->model.deflection_rad),
+        WHOLE(controller->tip_force.inverse),
+        [GUARDED_GRAVITY] = WHOLE(controller->gravity),
+        WHOLE(controller->flank.joint[BRACE_COXA].machine.params),
+        WHOLE(controller->flank.joint[BRACE_FEMUR].machine.params),
+        WHOLE(controller->flank.joint[BRACE_TIBIA].machine.params),
+    };
+#undef SPAN
+#undef WHOLE
+    return spans[index];
+}
+
+static void take_guard(controller_t *controller)
+{
+    for (uint32_t i = 0; i < (uint32_t)GUARDED_SPANS; i++) {
+        const guard_span_t span = guarded(controller, i);
+        guard_take(&controller->guard, i, &span);
+    }
+    controller->memory_is_wrong = false;
 }
 
 /* One step of putting parameters in force. What is worked out from the parameters is worked out anew, one part in each
@@ -35,6 +65,7 @@ static bool configure_step(controller_t *controller)
         model_configure(&controller->model, parameters, is_spatial);
         return false;
     case BRACE_LINK_COUNT + 2: gravity_configure(&controller->gravity, &parameters->gravity); return false;
+    case BRACE_LINK_COUNT + 3: take_guard(controller); return false;
     default:
         drift_job_configure(&controller->drift, parameter_job_is_fresh(&controller->parameters));
         controller->parameters.comes_in_force = false;
@@ -217,6 +248,25 @@ static bool step_loading(controller_t *controller, const brace_snapshot_t *now)
     return reading.has_worked;
 }
 
+/* Looks over another slice of what must not change. What has changed is made anew from the store; where down is, as
+ * the main computer told it, has to be told again. */
+static void step_guard(controller_t *controller)
+{
+    if (controller->parameters.comes_in_force) {
+        return;
+    }
+    const guard_span_t span = guarded(controller, controller->guard.span);
+    const uint32_t words = controller->parameters.in_force.controller.tick_us * GUARDED_WORDS_PER_MS / 1000u;
+    if (!guard_step(&controller->guard, &span, GUARDED_SPANS, words)) {
+        controller->memory_is_wrong = true;
+    }
+    if (controller->memory_is_wrong) {
+        controller->gravity.is_told = false;
+        controller->configure_part = 0;
+        parameter_job_reload(&controller->parameters);
+    }
+}
+
 /* One step of the job that stores parameters, or of putting a stored set in force. */
 static void step_parameters(brace_app_t *app)
 {
@@ -243,7 +293,9 @@ static void update_faults(controller_t *controller, bool late, bool bus_off)
                             (coxa_is_missing ? (uint32_t)BRACE_FAULT_SENSOR_COXA : 0u) |
                             (stuck ? (uint32_t)BRACE_FAULT_ENCODER_STUCK : 0u) |
                             (late ? (uint32_t)BRACE_FAULT_TICK_LATE : 0u) |
-                            (bus_off ? (uint32_t)BRACE_FAULT_CAN_BUS_OFF : 0u);
+                            (bus_off ? (uint32_t)BRACE_FAULT_CAN_BUS_OFF : 0u) |
+                            (drives_refuse(&controller->drives) ? (uint32_t)BRACE_FAULT_DRIVE_REFUSES : 0u) |
+                            (controller->memory_is_wrong ? (uint32_t)BRACE_FAULT_MEMORY : 0u);
     const uint32_t lasting = controller->parameters.faults |
                              (store_failed ? (uint32_t)BRACE_FAULT_STORE : 0u) |
                              (drift_job_alarms(&controller->drift) ? (uint32_t)BRACE_FAULT_MODEL_DRIFT : 0u) |
@@ -275,7 +327,8 @@ static void command_drives(controller_t *controller)
         test.torque_limit_n_mm[i] = loading_torque_limit_n_mm(&controller->loading, i);
     }
     drives_command(&controller->drives, controller->hal, &controller->joints, &controller->flank,
-                   takeup_runs(&controller->takeup), &test, &controller->counters.commands_failed);
+                   takeup_runs(&controller->takeup), &test, controller->parameters.in_force.controller.tick_us,
+                   &controller->counters.commands_failed);
 }
 
 /* The snapshot is complete: it is the newest from here on. */
@@ -322,6 +375,7 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     drift_job_step(&controller->drift, &drift); /* takes a reading in in the tick after the loading test's */
     takeup_step(&controller->takeup, &controller->flank);
     const bool loading_has_worked = step_loading(controller, snapshot);
+    step_guard(controller);
     step_parameters(app);
     const bool job_has_worked = controller->question.has_worked || loading_has_worked;
     const bool is_counted_in_space = controller->model.is_spatial && snapshot->load.is_counted;

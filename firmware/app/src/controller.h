@@ -11,6 +11,7 @@
 #include "command/drives.h"
 #include "flank/flank.h"
 #include "flank/takeup.h"
+#include "guard/guard.h"
 #include "jobs/configure/parameter_job.h"
 #include "jobs/drift/drift_job.h"
 #include "jobs/loading/loading.h"
@@ -23,6 +24,8 @@
 #include "sense/tip_force.h"
 #include "stiffness/model.h"
 #include "stiffness/softening.h"
+
+enum { GUARDED_GRAVITY = 4, GUARDED_SPANS = 8 }; /* parts of the memory that guard looks over: app.c lists them */
 
 typedef struct {
     const brace_hal_t *hal;
@@ -48,6 +51,8 @@ typedef struct {
     parameter_job_t parameters;
     bool has_worked;         /* a job has worked out a K beside the tick's own, or a part of one: requests wait */
     uint8_t configure_part;  /* of putting parameters in force, the next one */
+    guard_t guard;
+    bool memory_is_wrong;    /* parameters or their constants have changed by themselves, until they are made anew */
     faults_t faults;
     mode_state_t mode;
     drives_t drives;

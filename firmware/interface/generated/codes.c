@@ -362,13 +362,17 @@ static const meaning_t fault_meanings[] = {
     {5, "STORE",
      "The non-volatile memory does not keep what is written to it."},
     {6, "CAN_BUS_OFF",
-     "The CAN controller has left the bus after too many errors."},
+     "The CAN controller has left the bus after too many errors, or does not come onto it."},
     {7, "MODEL_DRIFT",
      "Measurement and model have drifted apart; drift_cause tells the likeliest cause."},
     {8, "CRASHED",
      "The last start came after a crash; the record tells more."},
     {9, "SENSOR_COXA",
      "The coxa joint's drive gives no sound sample."},
+    {10, "DRIVE_REFUSES",
+     "A drive has refused its commands for 50 ms; what moved the limb was ended."},
+    {11, "MEMORY",
+     "Parameters or constants in RAM have changed by themselves; they are taken from the store again."},
 };
 
 const char *brace_fault_name(int32_t number)

@@ -17,7 +17,7 @@ typedef enum {
     STAGE_WRITE,
     STAGE_READ_BACK,
     STAGE_COMMIT,   /* KEEP to what has been written: from here on it counts */
-    STAGE_REREAD,   /* roll-back: is the other slot whole, now? */
+    STAGE_REREAD,   /* roll-back: is the other slot whole, now? The only stage of a reload */
     STAGE_WITHDRAW, /* VOID to the slot in force: from here on the other one counts */
     STAGE_UNDO
 } stage_t;
@@ -85,6 +85,7 @@ static void begin(brace_store_t *store, uint32_t target, stage_t stage)
 {
     store->target = (uint8_t)target;
     store->rolling_back = stage == STAGE_AFFIRM;
+    store->reloading = false;
     store->failure = BRACE_STORE_FINE;
     store->state = BRACE_STORE_BUSY;
     go_to(store, stage);
@@ -94,7 +95,8 @@ static brace_store_state_t fail(brace_store_t *store, brace_store_failure_t fail
 {
     store->failure = (int8_t)failure;
     const bool refused = failure <= BRACE_STORE_E_DEVICE && failure >= BRACE_STORE_E_READ_BACK;
-    store->memory_fault = store->memory_fault || refused || failure == BRACE_STORE_E_SHAPE;
+    const bool does_not_keep = !store->reloading && (refused || failure == BRACE_STORE_E_SHAPE);
+    store->memory_fault = store->memory_fault || does_not_keep;
     return store->state = BRACE_STORE_FAILED;
 }
 
@@ -174,6 +176,23 @@ brace_status_t brace_store_rollback(brace_store_t *store)
     }
     if (can_roll_back(store)) {
         begin(store, other_than(store->in_force - 1u), STAGE_AFFIRM);
+    } else {
+        fail(store, BRACE_STORE_E_NOTHING);
+    }
+    return BRACE_OK;
+}
+
+brace_status_t brace_store_reload(brace_store_t *store)
+{
+    if (store == NULL) {
+        return BRACE_E_NULL;
+    }
+    if (store->state == BRACE_STORE_BUSY) {
+        return BRACE_E_UNSUPPORTED;
+    }
+    if (store->in_force != BRACE_PARAMETERS_DEFAULT) {
+        begin(store, store->in_force - 1u, STAGE_REREAD);
+        store->reloading = true;
     } else {
         fail(store, BRACE_STORE_E_NOTHING);
     }
@@ -499,6 +518,9 @@ static brace_store_state_t reread(brace_store_t *store)
         return fail(store, BRACE_STORE_E_READ_BACK);
     }
     store->sequence = store->slot[store->target].sequence;
+    if (store->reloading) {
+        return store->state = BRACE_STORE_DONE;
+    }
     go_to(store, STAGE_WITHDRAW);
     return BRACE_STORE_BUSY;
 }

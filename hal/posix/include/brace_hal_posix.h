@@ -38,7 +38,7 @@ const char *brace_posix_status_text(int32_t status);
 enum {
     BRACE_POSIX_NODES = 16,        /* controllers on one bus */
     BRACE_POSIX_CLIENTS = 8,       /* SLCAN clients of one bus; Modbus TCP connections of one port */
-    BRACE_POSIX_RING = 512,        /* received frames that wait for a controller */
+    BRACE_POSIX_RING = 64,         /* received frames that wait for a controller; as on the STM32F405 */
     BRACE_POSIX_OUT_BYTES = 32768, /* text that waits for a client */
     BRACE_POSIX_WHERE = 128,
     BRACE_POSIX_SLOT_BYTES = 16384,

@@ -103,6 +103,9 @@ uint32_t bus_bit_rate(const brace_posix_bus_t *bus)
 
 static void node_takes(brace_posix_node_t *node, const brace_can_frame_t *frame)
 {
+    if (((frame->id ^ node->setup.filter_id) & node->setup.filter_mask) != 0u) {
+        return;
+    }
     if (node->count == BRACE_POSIX_RING) {
         node->frames_lost += node->frames_lost != UINT32_MAX;
         return;

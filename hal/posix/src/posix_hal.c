@@ -71,6 +71,12 @@ static int32_t door_serial_read(void *context, brace_serial_port_t port, uint8_t
                                       : BRACE_HAL_E_UNSUPPORTED;
 }
 
+static uint32_t door_serial_peer(void *context, brace_serial_port_t port)
+{
+    const brace_posix_t *posix = context;
+    return port == BRACE_SERIAL_MODBUS_TCP ? posix->modbus.current_serial : 0u;
+}
+
 static void door_watchdog_feed(void *context)
 {
     ((brace_posix_t *)context)->fed_us = door_now_us(context);
@@ -153,6 +159,7 @@ void brace_posix_hal(brace_posix_t *posix, brace_hal_t *hal)
     hal->serial_setup = door_serial_setup;
     hal->serial_write = door_serial_write;
     hal->serial_read = door_serial_read;
+    hal->serial_peer = door_serial_peer;
     hal->watchdog_feed = door_watchdog_feed;
     hal->reset_cause = door_reset_cause;
     hal->crash_read = door_crash_read;

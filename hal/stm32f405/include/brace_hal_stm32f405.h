@@ -99,12 +99,12 @@ uint32_t stm32f405_sector_bytes(uint8_t sector);
  *   serial_*     rings of 512 bytes each way; a byte with a parity or framing error is dropped, so a frame's check
  *                fails; baud [1200, 2e6] that the clock meets to 2 %, else E_RANGE
  *   can_setup    E_UNSUPPORTED: no pins, or CAN FD asked for; E_RANGE: APB1 cannot give the bit rate; E_DEVICE: the
- *                controller does not answer (an emulator), the bus is held dominant, or there is no crystal and
- *                neither listen_only nor loopback is asked for
+ *                controller does not answer (an emulator), or there is no crystal and neither listen_only nor loopback is
+ *                asked for. On a bus that is held dominant, can_health tells bus_off until the bus is free
  *   can_send     three mailboxes, first in first out whatever the identifiers, so the order is kept; AGAIN when all
  *     three
  *                are full; E_UNSUPPORTED when listening only
- *   can_receive  ring of 64 frames; the filter rejects extended and remote frames
+ *   can_receive  ring of 64 frames; the controller's filter rejects extended and remote frames, and other identifiers
  *   can_recover  drops the frames that wait in the mailboxes, because they are stale by then
  *   nvm_write    whole words of 4 bytes: 16 us each, 100 us at most; up to 10 words in one call always end within 1 ms
  *   nvm_erase    16 KiB: 0.25 s, at most 0.5 s; 128 KiB: 1 s, at most 2 s. The processor stands still; the watchdog is

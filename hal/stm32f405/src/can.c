@@ -9,7 +9,7 @@
 
 enum {
     PIN_FUNCTION = 9,
-    ACKNOWLEDGE_US = 9000, /* for entering and for leaving initialisation; a frame at 125 kbit/s takes 1.1 ms */
+    ACKNOWLEDGE_US = 900, /* for entering initialisation after a reset, which waits for no bus */
     RELEASE_POLLS = 16,
     FIFO_FRAMES = 3,
     RING_FRAMES = 64, /* a power of two; 7 ms of a full bus at 1 Mbit/s */
@@ -43,16 +43,17 @@ static volatile uint32_t *can(uint32_t offset)
     return &REGISTER(CAN1_BASE, offset);
 }
 
-/* Accepts all standard data frames, and only these, into FIFO 0: the identifier is free, IDE and RTR must be 0. */
-static void open_filter(void)
+/* Accepts standard data frames with these bits of their identifier, and only these, into FIFO 0. */
+static void open_filter(const brace_can_setup_t *setup)
 {
     *can(CAN_FMR) |= CAN_FMR_FINIT;
     *can(CAN_FA1R) = 0u;
     *can(CAN_FM1R) &= ~CAN_FM1R_FBM0; /* mask */
     *can(CAN_FS1R) |= CAN_FS1R_FSC0;  /* of 32 bits */
     *can(CAN_FFA1R) &= ~CAN_FFA1R_FFA0;
-    *can(CAN_F0R1) = 0u;
-    *can(CAN_F0R2) = CAN_RI0R_IDE | CAN_RI0R_RTR; /* filters have the bits of a receive identifier register */
+    /* Filters have the bits of a receive identifier register. IDE and RTR must be 0. */
+    *can(CAN_F0R1) = FIELD(CAN_RI0R_STID, setup->filter_id & setup->filter_mask);
+    *can(CAN_F0R2) = FIELD(CAN_RI0R_STID, setup->filter_mask) | CAN_RI0R_IDE | CAN_RI0R_RTR;
     *can(CAN_FA1R) = CAN_FA1R_FACT0;
     *can(CAN_FMR) &= ~CAN_FMR_FINIT;
 }
@@ -107,12 +108,9 @@ int32_t can_setup(void *context, const brace_can_setup_t *setup)
         return BRACE_HAL_E_DEVICE;
     }
     *can(CAN_BTR) = timing_bits(&timing) | mode_bits(setup);
-    open_filter();
+    open_filter(setup);
     *can(CAN_IER) = CAN_IER_FMPIE0 | CAN_IER_FOVIE0;
-    *can(CAN_MCR) = manner;
-    if (!clock_poll_until(can(CAN_MSR), CAN_MSR_INAK, 0u, ACKNOWLEDGE_US)) { /* 11 recessive bits */
-        return BRACE_HAL_E_DEVICE;
-    }
+    *can(CAN_MCR) = manner; /* it leaves initialisation by itself after 11 recessive bits */
     listening_only = setup->listen_only && !setup->loopback;
     running = true;
     interrupt_enable(CAN1_RX0_IRQ);
@@ -132,6 +130,12 @@ static void finish_recovery(void)
 static bool is_bus_off(void)
 {
     return recovering || (*can(CAN_ESR) & CAN_ESR_BOFF) != 0u;
+}
+
+/* It has not seen 11 recessive bits since it was set up. */
+static bool waits_for_the_bus(void)
+{
+    return (*can(CAN_MSR) & CAN_MSR_INAK) != 0u;
 }
 
 int32_t can_recover(void *context)
@@ -166,6 +170,9 @@ int32_t can_send(void *context, const brace_can_frame_t *frame)
     finish_recovery();
     if (is_bus_off()) {
         return BRACE_HAL_E_BUS_OFF;
+    }
+    if (waits_for_the_bus()) {
+        return BRACE_HAL_AGAIN;
     }
     const uint32_t status = *can(CAN_TSR);
     for (uint32_t mailbox = 0; mailbox < MAILBOXES; mailbox++) {
@@ -217,7 +224,7 @@ int32_t can_health(void *context, brace_can_health_t *health)
     health->tx_errors = (uint8_t)((errors & CAN_ESR_TEC) / FIELD(CAN_ESR_TEC, 1u));
     health->rx_errors = (uint8_t)((errors & CAN_ESR_REC) / FIELD(CAN_ESR_REC, 1u));
     health->error_passive = (errors & CAN_ESR_EPVF) != 0u;
-    health->bus_off = recovering || (errors & CAN_ESR_BOFF) != 0u;
+    health->bus_off = is_bus_off() || waits_for_the_bus();
     health->frames_lost = frames_lost;
     return BRACE_HAL_OK;
 }

@@ -36,7 +36,14 @@ int32_t has_can(void)
 
 int32_t setup_can(uint32_t bit_rate, uint32_t fd_bit_rate, uint32_t listen_only, uint32_t loopback)
 {
-    const brace_can_setup_t setup = {bit_rate, fd_bit_rate, listen_only != 0u, loopback != 0u};
+    const brace_can_setup_t setup = {
+        .bit_rate = bit_rate, .fd_bit_rate = fd_bit_rate, .listen_only = listen_only != 0u, .loopback = loopback != 0u};
+    return door->can_setup(door->context, &setup);
+}
+
+int32_t setup_can_for(uint32_t bit_rate, uint32_t filter_id, uint32_t filter_mask)
+{
+    const brace_can_setup_t setup = {.bit_rate = bit_rate, .filter_id = filter_id, .filter_mask = filter_mask};
     return door->can_setup(door->context, &setup);
 }
 

@@ -4,6 +4,7 @@ what the trouble did. Every trouble is put into the readings here, from its own 
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -16,12 +17,14 @@ from brace.diagnose.diagnosis import Diagnosis
 from brace.diagnose.options import Options
 from brace.diagnose.run import diagnose
 from brace.model import load_limb
+from brace.native.plant import LoadingPlayer
 
 Columns = dict[str, np.ndarray]
 Spoil = Callable[[Columns], None]
 FORCES = ("fx_n", "fz_n")
 GAIN_STEP = 0.1
 STEP_ROW = 107  # within a run of 17 readings
+SLIP_MM = (0.06, -0.09)
 
 
 def spoiled(folder: Path, limb: Path, spoil: Spoil, values: dict[str, float], repeats: int = 2) -> Diagnosis:
@@ -127,6 +130,26 @@ def test_a_zero_may_step_twice(tmp_path: Path, limb: Path) -> None:
     assert found.verdict == "data_fault", found.sentence
     (fault,) = found.data_faults
     assert f"from row {STEP_ROW + 1} on" in fault.why and f"from row {2 * STEP_ROW + 1} on" in fault.why
+
+
+def test_a_clamp_that_slips_is_told_with_its_way(tmp_path: Path, limb: Path) -> None:
+    """The plant plays the tip where it stands; the record says where the rig believes it to be."""
+
+    def clamp_slips(columns: Columns) -> None:
+        real = {name: values.copy() for name, values in columns.items()}
+        real["dx_mm"][STEP_ROW:] += SLIP_MM[0]
+        real["dz_mm"][STEP_ROW:] += SLIP_MM[1]
+        believed, there = (LoadingPlayer(one).play(load_limb(limb)) for one in (columns, real))
+        for name in FORCES:
+            columns[name] += there[name] - believed[name]
+
+    found = spoiled(tmp_path / "record", limb, clamp_slips, values={})
+    assert found.verdict == "data_fault", found.sentence
+    (fault,) = found.data_faults
+    told = re.search(r"slipped by ([-+.\de]+) mm along x and ([-+.\de]+) mm along z from row (\d+) on", fault.why)
+    assert told is not None, fault.why
+    assert [float(told[1]), float(told[2])] == pytest.approx(SLIP_MM, rel=0.15)
+    assert abs(int(told[3]) - (STEP_ROW + 1)) <= 2
 
 
 def noise_grows_with_the_load(columns: Columns) -> None:

@@ -111,6 +111,38 @@ static void test_a_board_without_can_or_whose_can_does_not_start_works(void)
     TEST_ASSERT_TRUE(now()->k_is_valid);
 }
 
+static void test_a_set_up_that_failed_is_a_fault_and_is_tried_again(void)
+{
+    brace_can_frame_t frame;
+    brace_fake_fail_next(&fake, BRACE_FAKE_CAN_SETUP, 2, BRACE_HAL_E_DEVICE);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    ticks(1900);
+    TEST_ASSERT_EQUAL(BRACE_FAULT_CAN_BUS_OFF, now()->faults);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    ticks(2000); /* tried again in vain */
+    TEST_ASSERT_EQUAL(BRACE_FAULT_CAN_BUS_OFF, now()->faults);
+    ticks(300); /* and once more */
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    TEST_ASSERT_TRUE(frame_with(0x705, 1100, &frame));
+}
+
+static void test_only_requests_to_this_node_are_let_in(void)
+{
+    TEST_ASSERT_EQUAL_HEX32(0x605, fake.can_setup.filter_id);
+    TEST_ASSERT_EQUAL_HEX32(0x7ff, fake.can_setup.filter_mask);
+}
+
+static void test_requests_that_found_no_room_are_counted_and_told(void)
+{
+    const brace_can_frame_t request = {.id = 0x605, .length = 8, .data = {1}};
+    ticks(10);
+    while (brace_fake_frame_arrives(&fake, &request)) {
+    }
+    ticks(20);
+    TEST_ASSERT_EQUAL(1, counters().frames_lost);
+    TEST_ASSERT_EQUAL(1, app.wires.measured.frames_lost);
+}
+
 static void test_a_full_mailbox_delays_a_frame_and_does_not_lose_it(void)
 {
     ticks(10);
@@ -170,6 +202,9 @@ int main(void)
     RUN_TEST(test_a_node_without_a_number_listens_and_is_silent);
     RUN_TEST(test_the_bit_rate_is_the_parameters);
     RUN_TEST(test_a_board_without_can_or_whose_can_does_not_start_works);
+    RUN_TEST(test_a_set_up_that_failed_is_a_fault_and_is_tried_again);
+    RUN_TEST(test_only_requests_to_this_node_are_let_in);
+    RUN_TEST(test_requests_that_found_no_room_are_counted_and_told);
     RUN_TEST(test_a_full_mailbox_delays_a_frame_and_does_not_lose_it);
     RUN_TEST(test_bus_off_is_a_fault_recovery_is_tried_and_K_stays_valid);
     RUN_TEST(test_frames_for_nobody_are_counted_and_a_flood_is_borne);

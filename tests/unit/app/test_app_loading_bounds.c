@@ -155,6 +155,28 @@ static void test_it_can_be_stopped(void)
     TEST_ASSERT_TRUE(brace_app_row_count(&app) > 0);
 }
 
+static void test_a_drive_that_refuses_is_a_fault_and_ends_it(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_loading_start(&app, &along_x));
+    ticks(500);
+    brace_fake_fail_next(&fake, BRACE_FAKE_JOINT_COMMAND, 90, BRACE_HAL_E_DEVICE); /* 45 ticks: a short silence */
+    ticks(45);
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    ticks(10);
+    brace_fake_fail_next(&fake, BRACE_FAKE_JOINT_COMMAND, 110, BRACE_HAL_E_DEVICE);
+    ticks(52);
+    TEST_ASSERT_EQUAL_HEX32(BRACE_FAULT_DRIVE_REFUSES, now()->faults);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    TEST_ASSERT_EQUAL(90 + 104, counters().commands_failed);
+    TEST_ASSERT_EQUAL(94 + 100, app.wires.measured.commands_failed);
+    for (int i = 0; i < 20000 && app.controller.mode.now == BRACE_MODE_LOADING_TEST; i++) {
+        ticks(1);
+    }
+    ticks(110);
+    ends_with(BRACE_LOADING_E_LOST);
+    TEST_ASSERT_EQUAL(0, now()->faults);
+}
+
 static void test_a_fault_ends_it(void)
 {
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_loading_start(&app, &along_x));
@@ -257,6 +279,7 @@ int main(void)
     RUN_TEST(test_the_time_is_bounded);
     RUN_TEST(test_a_test_that_ends_early_goes_back_at_its_rate);
     RUN_TEST(test_it_can_be_stopped);
+    RUN_TEST(test_a_drive_that_refuses_is_a_fault_and_ends_it);
     RUN_TEST(test_a_fault_ends_it);
     RUN_TEST(test_a_force_that_is_lost_ends_it);
     RUN_TEST(test_setups_that_cannot_be_are_refused);

@@ -193,6 +193,56 @@ static void test_a_slow_line_waits_its_silence(void)
     TEST_ASSERT_EQUAL(9, heard(BRACE_SERIAL_MODBUS).count);
 }
 
+/* -------------------------------------------------------------------- a receiver that hears its own controller -- */
+
+static uint32_t with_crc(uint8_t *frame, uint32_t count)
+{
+    const uint32_t crc = crc_by_bits(frame, count);
+    frame[count] = (uint8_t)crc;
+    frame[count + 1u] = (uint8_t)(crc >> 8);
+    return count + 2u;
+}
+
+/* Plays `count` ticks; what the controller sends comes back to it, as on a transceiver whose receiver stays on.
+ * returns how many bytes it has sent */
+static uint32_t sent_on_a_line_with_echo(const uint8_t *frame, uint32_t count, int tick_count)
+{
+    uint32_t sent = 0;
+    line_says(frame, count);
+    for (int i = 0; i < tick_count; i++) {
+        uint8_t bytes[64];
+        ticks(1);
+        const uint32_t got = brace_fake_bytes_take(&fake, BRACE_SERIAL_MODBUS, bytes, sizeof bytes);
+        line_says(bytes, got);
+        sent += got;
+    }
+    return sent;
+}
+
+static void test_an_answer_that_comes_back_is_not_answered(void)
+{
+    uint8_t first_half[8] = {UNIT, 6, 0x40, 0, 0xc0, 0xde}, ping[8] = {UNIT, 8, 0, 0, 0xa5, 0x37};
+    (void)with_crc(first_half, 6);
+    (void)with_crc(ping, 6);
+    for (int round = 0; round < 3; round++) { /* at first the controller does not know the line's echo */
+        TEST_ASSERT_EQUAL(8, sent_on_a_line_with_echo(ping, 8, 300));
+        TEST_ASSERT_EQUAL(8, sent_on_a_line_with_echo(ping, 8, 300));
+        TEST_ASSERT_EQUAL(8, sent_on_a_line_with_echo(first_half, 8, 300));
+        TEST_ASSERT_EQUAL(9, sent_on_a_line_with_echo(good, sizeof good, 300));
+    }
+    TEST_ASSERT_EQUAL(0, broken());
+    TEST_ASSERT_EQUAL(0, counters().modbus_refused);
+}
+
+static void test_a_request_that_is_repeated_is_answered_each_time(void)
+{
+    TEST_ASSERT_TRUE(answers()); /* and nothing came back: this line has no echo */
+    TEST_ASSERT_TRUE(answers());
+    for (int i = 0; i < 5; i++) {
+        TEST_ASSERT_EQUAL(5, write_one(0x4000, 0xc0de).count);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -210,5 +260,7 @@ int main(void)
     RUN_TEST(test_tcp_and_line_at_once_do_not_mix);
     RUN_TEST(test_what_is_no_modbus_on_tcp_is_dropped);
     RUN_TEST(test_a_slow_line_waits_its_silence);
+    RUN_TEST(test_an_answer_that_comes_back_is_not_answered);
+    RUN_TEST(test_a_request_that_is_repeated_is_answered_each_time);
     return UNITY_END();
 }

@@ -106,6 +106,40 @@ static void test_absurd_samples_are_never_used(void)
     }
 }
 
+/* No joint turns by 90 degrees in a millisecond: K stays that of the sample before. A joint that is really there, as
+ * after its drive came back, is believed with the second sample that says so. */
+static void test_one_wild_angle_changes_nothing(void)
+{
+    ticks(5);
+    const float k_n_per_mm = now()->stiffness.now.k_xx_n_per_mm;
+    const float wild_rad[] = {1.0f + 1.57f, 1.0f - 1.57f, 1.0f + 0.08f};
+    for (size_t i = 0; i < sizeof wild_rad / sizeof *wild_rad; i++) {
+        const uint32_t bad = counters().samples_bad;
+        fake.joint[BRACE_FEMUR].sample.motor_rad = wild_rad[i];
+        ticks(1);
+        TEST_ASSERT_EQUAL_FLOAT(k_n_per_mm, now()->stiffness.now.k_xx_n_per_mm);
+        TEST_ASSERT_EQUAL(bad + 1, counters().samples_bad);
+        fake.joint[BRACE_FEMUR].sample.motor_rad = 1.0f;
+        ticks(1);
+        TEST_ASSERT_EQUAL_FLOAT(k_n_per_mm, now()->stiffness.now.k_xx_n_per_mm);
+        TEST_ASSERT_EQUAL(bad + 1, counters().samples_bad);
+    }
+    fake.joint[BRACE_FEMUR].sample.motor_rad = 0.4f;
+    ticks(2);
+    ASSERT_CLOSE(0.4, now()->theta_rad[BRACE_FEMUR], 1e-6);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+}
+
+static void test_the_fastest_joint_is_followed(void)
+{
+    ticks(5);
+    for (int i = 0; i < 12; i++) {
+        fake.joint[BRACE_FEMUR].sample.motor_rad -= 0.045f; /* 45 rad/s */
+        ticks(1);
+        ASSERT_CLOSE(fake.joint[BRACE_FEMUR].sample.motor_rad, now()->theta_rad[BRACE_FEMUR], 1e-6);
+    }
+}
+
 static void test_every_tick_without_sound_joints_is_invalid(void)
 {
     ticks(5);
@@ -137,11 +171,11 @@ static void test_a_posture_beyond_the_travel_is_out_of_range(void)
 {
     ticks(5);
     fake.joint[BRACE_TIBIA].sample.motor_rad = 3.1f;
-    ticks(1);
+    ticks(2); /* a jump is believed when two samples agree */
     TEST_ASSERT_FALSE(now()->k_is_valid);
     TEST_ASSERT_BITS(BRACE_FLAG_OUT_OF_RANGE, BRACE_FLAG_OUT_OF_RANGE, engaged_flags());
     fake.joint[BRACE_TIBIA].sample.motor_rad = 2.9f;
-    ticks(1);
+    ticks(2);
     TEST_ASSERT_TRUE(now()->k_is_valid);
 }
 
@@ -377,6 +411,8 @@ int main(void)
     RUN_TEST(test_a_snapshot_is_as_old_as_its_older_sample_across_the_clock_s_wrap);
     RUN_TEST(test_play_that_no_load_can_tell_is_always_open);
     RUN_TEST(test_absurd_samples_are_never_used);
+    RUN_TEST(test_one_wild_angle_changes_nothing);
+    RUN_TEST(test_the_fastest_joint_is_followed);
     RUN_TEST(test_every_tick_without_sound_joints_is_invalid);
     RUN_TEST(test_coxa_is_told_and_not_needed);
     RUN_TEST(test_a_posture_beyond_the_travel_is_out_of_range);

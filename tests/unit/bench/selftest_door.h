@@ -20,6 +20,7 @@ typedef struct {
     brace_can_frame_t frames[FRAMES_MAX];
     uint32_t queued, taken;
     bool loopback, moves;
+    uint32_t filter_id, filter_mask;
 } world_t;
 
 static world_t world;
@@ -108,7 +109,15 @@ static inline int32_t can_setup(void *context, const brace_can_setup_t *setup)
 {
     (void)context;
     world.loopback = setup->loopback;
+    world.filter_id = setup->filter_id;
+    world.filter_mask = setup->filter_mask;
+    world.queued = world.taken = 0u;
     return BRACE_HAL_OK;
+}
+
+static inline bool passes(const brace_can_frame_t *frame)
+{
+    return ((frame->id ^ world.filter_id) & world.filter_mask) == 0u;
 }
 
 static inline int32_t can_send(void *context, const brace_can_frame_t *frame)
@@ -117,7 +126,7 @@ static inline int32_t can_send(void *context, const brace_can_frame_t *frame)
     if (frame->id > 0x7ffu || frame->length > 8u) {
         return BRACE_HAL_E_RANGE;
     }
-    if (world.loopback && world.queued < FRAMES_MAX) {
+    if (world.loopback && world.queued < FRAMES_MAX && passes(frame)) {
         world.frames[world.queued++] = *frame;
     }
     return BRACE_HAL_OK;

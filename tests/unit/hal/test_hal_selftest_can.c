@@ -2,7 +2,8 @@
 #include "selftest_door.h"
 
 enum {
-    CAN_HALF = 1, CAN_DEAF, CAN_SCRAMBLES, CAN_REORDERS, CAN_BUSY, CAN_REFUSES, CAN_TAKES_ANYTHING, CAN_BUS_OFF, LIES
+    CAN_HALF = 1, CAN_DEAF, CAN_SCRAMBLES, CAN_REORDERS, CAN_BUSY, CAN_REFUSES, CAN_TAKES_ANYTHING, CAN_BUS_OFF,
+    CAN_HEARS_ALL, LIES
 };
 
 static int32_t lying_can_setup(void *context, const brace_can_setup_t *setup)
@@ -20,7 +21,7 @@ static int32_t lying_can_send(void *context, const brace_can_frame_t *frame)
     if (world.lie != CAN_TAKES_ANYTHING && (frame->id > 0x7ffu || frame->length > 8u)) {
         return BRACE_HAL_E_RANGE;
     }
-    if (world.loopback && world.queued < FRAMES_MAX) {
+    if (world.loopback && world.queued < FRAMES_MAX && (world.lie == CAN_HEARS_ALL || passes(frame))) {
         const uint32_t place = world.lie == CAN_REORDERS ? 2u - world.queued % 3u : world.queued;
         world.frames[place] = *frame;
         world.frames[place].data[3] ^= world.lie == CAN_SCRAMBLES ? 1u : 0u;
@@ -61,6 +62,7 @@ static void each_lie_is_named(void)
         {CAN_REFUSES, "can_setup", "is refused"},
         {CAN_TAKES_ANYTHING, "can_send", "12 bits or 9 bytes"},
         {CAN_BUS_OFF, "can_health", "bus off"},
+        {CAN_HEARS_ALL, "can_setup", "lets in another identifier"},
     };
     TEST_ASSERT_EQUAL_UINT32(LIES - 1u, sizeof named / sizeof named[0]);
     expect_each_named(named, sizeof named / sizeof named[0], open_lying);

@@ -170,6 +170,41 @@ static void test_roll_back_and_no_further(void)
     expect_after_start(BRACE_PARAMETERS_SLOT_A, 1);
 }
 
+static void test_a_reload_reads_the_set_in_force_and_writes_nothing(void)
+{
+    update(1);
+    update(2);
+    const uint32_t sequence = status_now().sequence;
+    uint8_t before[2][4096];
+    memcpy(before, memory.bytes, sizeof before);
+    for (int i = 0; i < 2; i++) {
+        uint32_t crc = 0;
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_store_reload(&store));
+        TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_store_reload(&store));
+        TEST_ASSERT_EQUAL(BRACE_STORE_DONE, finish());
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_store_take(&store, &parameters, &crc));
+        TEST_ASSERT_EQUAL(2, parameters.controller.node_id);
+        TEST_ASSERT_EQUAL_HEX32(brace_parameters_crc(&parameters), crc);
+        TEST_ASSERT_EQUAL(sequence, status_now().sequence);
+        TEST_ASSERT_TRUE(status_now().can_roll_back);
+    }
+    TEST_ASSERT_EQUAL_MEMORY(before, memory.bytes, sizeof before);
+    memory.bytes[1][20] ^= 1u;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_store_reload(&store));
+    TEST_ASSERT_EQUAL(BRACE_STORE_FAILED, finish());
+    TEST_ASSERT_EQUAL(BRACE_STORE_E_READ_BACK, status_now().failure);
+    memory.bytes[1][20] ^= 1u;
+    TEST_ASSERT_EQUAL(BRACE_STORE_DONE, roll_back());
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_store_reload(NULL));
+}
+
+static void test_without_a_set_there_is_nothing_to_reload(void)
+{
+    expect_after_start(BRACE_PARAMETERS_DEFAULT, 0);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_store_reload(&store));
+    TEST_ASSERT_EQUAL(BRACE_STORE_E_NOTHING, status_now().failure);
+}
+
 static void put_block(uint32_t slot, uint32_t node_id, uint32_t sequence, bool keep)
 {
     const brace_parameters_t set = set_of(node_id);
@@ -426,6 +461,8 @@ int main(void)
     RUN_TEST(test_an_empty_memory_gives_the_defaults);
     RUN_TEST(test_updates_take_turns_and_say_so);
     RUN_TEST(test_roll_back_and_no_further);
+    RUN_TEST(test_a_reload_reads_the_set_in_force_and_writes_nothing);
+    RUN_TEST(test_without_a_set_there_is_nothing_to_reload);
     RUN_TEST(test_sequences_wrap_around);
     RUN_TEST(test_a_block_without_its_mark_does_not_count);
     RUN_TEST(test_a_block_of_another_dictionary);

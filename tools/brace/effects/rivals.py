@@ -162,6 +162,12 @@ INSTRUMENT_TROUBLES: tuple[RivalCause, ...] = (
         Size("rig.pose_error_rad", "rad", -1.0, 1.0),
     ),
     _trouble(
+        "rig_slip", "rig", "a clamp or a base that slipped",
+        "the tip's clamp or the limb's base stands elsewhere from some reading on",
+        "mark where clamp and base stand before the record, and look whether they moved",
+        Size("rig.slip_mm", "mm", -1e3, 1e3),
+    ),
+    _trouble(
         "outliers", "sensor", "single readings that slipped",
         "single readings stand out of their run",
         "repeat the runs in which they are",

@@ -120,10 +120,12 @@ FAULT = CodeTable("fault", True, (
     Code(3, "TICK_LATE", "A tick came more than two periods late."),
     Code(4, "PARAMETERS", "Neither slot holds a valid parameter set: the controller uses safe defaults, and K is UNCALIBRATED."),
     Code(5, "STORE", "The non-volatile memory does not keep what is written to it."),
-    Code(6, "CAN_BUS_OFF", "The CAN controller has left the bus after too many errors."),
+    Code(6, "CAN_BUS_OFF", "The CAN controller has left the bus after too many errors, or does not come onto it."),
     Code(7, "MODEL_DRIFT", "Measurement and model have drifted apart; drift_cause tells the likeliest cause."),
     Code(8, "CRASHED", "The last start came after a crash; the record tells more."),
     Code(9, "SENSOR_COXA", "The coxa joint's drive gives no sound sample."),
+    Code(10, "DRIVE_REFUSES", "A drive has refused its commands for 50 ms; what moved the limb was ended."),
+    Code(11, "MEMORY", "Parameters or constants in RAM have changed by themselves; they are taken from the store again."),
 ))
 
 # Quality of a K that is told all the same.

@@ -119,4 +119,6 @@ MEASURED: tuple[MeasuredEntry, ...] = (
     MeasuredEntry(0x106e, "counted_force_y", "f32", "N"),
     MeasuredEntry(0x106f, "moved_y", "f32", "mm"),
     MeasuredEntry(0x1070, "unloaded_k_across", "f32", "N/mm"),
+    MeasuredEntry(0x1071, "frames_lost", "u32", ""),
+    MeasuredEntry(0x1072, "commands_failed", "u32", ""),
 )

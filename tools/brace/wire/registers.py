@@ -118,6 +118,8 @@ REGISTERS: tuple[Register, ...] = (
     Register("counted_force_y", "input", 220, "f32", "N", "ro"),
     Register("moved_y", "input", 222, "f32", "mm", "ro"),
     Register("unloaded_k_across", "input", 224, "f32", "N/mm", "ro"),
+    Register("frames_lost", "input", 226, "u32", "", "ro"),
+    Register("commands_failed", "input", 228, "u32", "", "ro"),
     Register("asked_k_xx", "input", 4096, "f32", "N/mm", "ro"),
     Register("asked_k_xz", "input", 4098, "f32", "N/mm", "ro"),
     Register("asked_k_zz", "input", 4100, "f32", "N/mm", "ro"),

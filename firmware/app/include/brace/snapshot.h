@@ -14,7 +14,8 @@
 #include "brace/stiffness.h"
 
 /* Faults that make every K invalid and the mode FAULT. */
-#define BRACE_FAULTS_NO_K (BRACE_FAULT_SENSOR_FEMUR | BRACE_FAULT_SENSOR_TIBIA | BRACE_FAULT_ENCODER_STUCK)
+#define BRACE_FAULTS_NO_K \
+    (BRACE_FAULT_SENSOR_FEMUR | BRACE_FAULT_SENSOR_TIBIA | BRACE_FAULT_ENCODER_STUCK | BRACE_FAULT_MEMORY)
 
 /* K in the robot's frame, of a limb whose coxa joint is fitted. A load couples the limb's plane with what is across it.
  * While a gap is open, that coupling is left out. */
@@ -75,6 +76,7 @@ typedef struct {
     uint32_t samples_bad;     /* refused by the drive, not finite or out of range */
     uint32_t frames_refused;  /* CAN frames that the bus refused: bus off, or a device that does not answer */
     uint32_t frames_unknown;  /* CAN frames received that are of no known kind, or requests of a wrong length */
+    uint32_t frames_lost;     /* CAN frames to this node that found no room in the hardware layer's ring */
     uint32_t commands_failed; /* joint_command was refused */
     uint32_t modbus_broken;   /* Modbus frames with a wrong CRC or length */
     uint32_t modbus_refused;  /* Modbus requests answered with an exception */

@@ -2,6 +2,8 @@
 
 #include <stddef.h>
 
+#define REFUSED_US 50000u /* a drive that starts anew may refuse for a while */
+
 static brace_hal_joint_command_t command_of(const flank_joint_t *flank, const drives_test_t *test, int index)
 {
     brace_hal_joint_command_t command = {flank->out.command_rad, __builtin_inff()};
@@ -17,10 +19,12 @@ static brace_hal_joint_command_t command_of(const flank_joint_t *flank, const dr
 }
 
 void drives_command(drives_t *drives, const brace_hal_t *hal, const joints_t *joints, const flank_t *flank,
-                    bool takes_up, const drives_test_t *test, uint32_t *commands_failed)
+                    bool takes_up, const drives_test_t *test, uint32_t tick_us, uint32_t *commands_failed)
 {
     const bool moves = takes_up || test->runs;
+    bool refuse = false;
     if (hal->joint_command == NULL || !(moves || drives->are_commanded)) {
+        drives->refused_us = 0;
         return;
     }
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
@@ -28,8 +32,15 @@ void drives_command(drives_t *drives, const brace_hal_t *hal, const joints_t *jo
             const brace_hal_joint_command_t command = command_of(&flank->joint[i], test, i);
             if (hal->joint_command(hal->context, i, &command) != BRACE_HAL_OK) {
                 brace_count(commands_failed);
+                refuse = true;
             }
         }
     }
     drives->are_commanded = moves;
+    drives->refused_us = refuse ? drives->refused_us + tick_us : 0u;
+}
+
+bool drives_refuse(const drives_t *drives)
+{
+    return drives->refused_us >= REFUSED_US;
 }

@@ -9,7 +9,8 @@
 #include "flank/flank.h"
 
 typedef struct {
-    bool are_commanded; /* the drives hold a command of ours */
+    bool are_commanded;  /* the drives hold a command of ours */
+    uint32_t refused_us; /* how long a drive has refused every command */
 } drives_t;
 
 /* What a loading test adds to each joint's set-point, and within which torque. */
@@ -24,6 +25,9 @@ typedef struct {
  *   takes_up: backlash is taken up, held or let go
  *   commands_failed: of brace_app_counters_t */
 void drives_command(drives_t *drives, const brace_hal_t *hal, const joints_t *joints, const flank_t *flank,
-                    bool takes_up, const drives_test_t *test, uint32_t *commands_failed);
+                    bool takes_up, const drives_test_t *test, uint32_t tick_us, uint32_t *commands_failed);
+
+/* Has a drive refused its commands for 50 ms? */
+bool drives_refuse(const drives_t *drives);
 
 #endif

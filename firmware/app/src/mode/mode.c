@@ -19,6 +19,7 @@ bool mode_update(mode_state_t *mode, const mode_inputs_t *inputs)
 {
     const bool no_k = (inputs->faults & BRACE_FAULTS_NO_K) != 0u;
     const bool may_work = inputs->joints_are_sound && !no_k;
+    const bool may_move = !no_k && (inputs->faults & (uint32_t)BRACE_FAULT_DRIVE_REFUSES) == 0u;
     switch (mode->now) {
     case BRACE_MODE_START:
         mode->in_start_us += inputs->tick_us;
@@ -35,7 +36,7 @@ bool mode_update(mode_state_t *mode, const mode_inputs_t *inputs)
     case BRACE_MODE_TAKING_UP:
     case BRACE_MODE_LOADING_TEST:
         mode->now = no_k ? BRACE_MODE_FAULT : working_mode(inputs);
-        return no_k;
+        return !may_move;
     case BRACE_MODE_CONFIGURATION:
     default:
         return false;

@@ -25,7 +25,7 @@ typedef struct {
 void mode_start(mode_state_t *mode);
 
 /* The mode after this tick: from START and FAULT to MONITOR, from anywhere to FAULT, back from what has ended.
- * returns whether a fault has just begun, so that whatever moves the limb has to end */
+ * returns whether there is a fault with which whatever moves the limb has to end */
 bool mode_update(mode_state_t *mode, const mode_inputs_t *inputs);
 
 /* Is K told in this mode? */

@@ -1,6 +1,8 @@
 #include "sense/joints.h"
 
 #define ANGLE_ABSURD_RAD 100.0f
+#define SPEED_MOST_RAD_PER_US 50e-6f /* no joint of a limb turns so fast: ten times a servo without load */
+#define REACH_MARGIN_RAD 0.01f       /* of steps and jitter */
 #define TORQUE_ABSURD 2.0f /* of the motor's greatest; bias and noise never add as much again */
 
 /* An encoder is stuck when it stands while its motor's torque swings by a quarter of its range and by four times what
@@ -24,6 +26,39 @@ static bool is_sound(const brace_hal_joint_t *sample, const brace_drive_t *drive
 {
     return __builtin_fabsf(sample->motor_rad) <= ANGLE_ABSURD_RAD &&
            __builtin_fabsf(sample->torque_n_mm) <= TORQUE_ABSURD * drive->torque_range_n_mm;
+}
+
+/* What an encoder behind the gearbox says; NaN: there is none, or it is absurd. */
+static float link_angle_rad(const brace_hal_joint_t *sample)
+{
+    return __builtin_fabsf(sample->link_rad) <= ANGLE_ABSURD_RAD ? sample->link_rad : __builtin_nanf("");
+}
+
+static joint_place_t place_of(const brace_hal_joint_t *sample)
+{
+    return (joint_place_t){sample->motor_rad, link_angle_rad(sample), sample->taken_us};
+}
+
+/* Can a joint have moved from one place to the other? What is NaN says nothing. */
+static bool can_reach(const joint_place_t *from, const joint_place_t *to)
+{
+    const float most_rad = REACH_MARGIN_RAD + SPEED_MOST_RAD_PER_US * (float)(to->taken_us - from->taken_us);
+    return !(__builtin_fabsf(to->motor_rad - from->motor_rad) > most_rad ||
+             __builtin_fabsf(to->link_rad - from->link_rad) > most_rad);
+}
+
+/* Is the sample where the joint can be? One that is not is kept: if the next one agrees with it, the joint is there. */
+static bool is_within_reach(joint_t *joint, const brace_hal_joint_t *fresh)
+{
+    const joint_place_t before = place_of(&joint->sample), now = place_of(fresh);
+    const bool has_wild = joint->wild.motor_rad == joint->wild.motor_rad;
+    const bool is_believed = joint->samples_seen == 0u || can_reach(&before, &now) ||
+                             (has_wild && can_reach(&joint->wild, &now));
+    joint->wild = now;
+    if (is_believed) {
+        joint->wild.motor_rad = __builtin_nanf("");
+    }
+    return is_believed;
 }
 
 static float lower(float a, float b)
@@ -111,7 +146,7 @@ static void read_one(joints_t *joints, int index, const brace_hal_t *hal, const 
     }
     const bool none_yet = joint->sample.motor_rad != joint->sample.motor_rad;
     const bool newer = answer == BRACE_HAL_OK && (none_yet || fresh.taken_us != joint->sample.taken_us);
-    if (newer && is_sound(&fresh, drive)) {
+    if (newer && is_sound(&fresh, drive) && is_within_reach(joint, &fresh)) {
         take_sample(joint, &fresh, tick_us);
     } else if (newer || (answer != BRACE_HAL_OK && answer != BRACE_HAL_AGAIN)) {
         brace_count(samples_bad);
@@ -134,7 +169,8 @@ void joints_start(joints_t *joints, const brace_hal_t *hal)
     brace_hal_joint_t ignored;
     *joints = (joints_t){0};
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-        joints->joint[i] = (joint_t){.fitted = true, .sample = {unknown, unknown, unknown, unknown, 0}};
+        joints->joint[i] = (joint_t){.fitted = true, .sample = {unknown, unknown, unknown, unknown, 0},
+                                         .wild = {unknown, unknown, 0}};
     }
     joints->joint[BRACE_COXA].fitted =
         hal->joint_read(hal->context, BRACE_COXA, &ignored) != BRACE_HAL_E_UNSUPPORTED;
@@ -153,8 +189,7 @@ void joints_read(joints_t *joints, const brace_hal_t *hal, const brace_parameter
 void joints_link_angles(const joints_t *joints, float link_rad[BRACE_LINK_COUNT])
 {
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-        const float read_rad = joints->joint[i].sample.link_rad;
-        link_rad[i] = __builtin_fabsf(read_rad) <= ANGLE_ABSURD_RAD ? read_rad : __builtin_nanf("");
+        link_rad[i] = link_angle_rad(&joints->joint[i].sample);
     }
 }
 

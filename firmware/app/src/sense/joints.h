@@ -17,6 +17,12 @@ typedef struct {
     float link_low_rad, link_high_rad;
 } joint_standstill_t;
 
+/* Where both encoders say that a joint stands. */
+typedef struct {
+    float motor_rad, link_rad;
+    uint32_t taken_us;
+} joint_place_t;
+
 typedef struct {
     bool fitted;              /* the limb has this joint */
     bool is_link_only;        /* its one encoder is behind the gear: sample.motor_rad is the link's angle */
@@ -26,6 +32,7 @@ typedef struct {
     bool is_new_enough_to_prove_a_flank; /* no older than four ticks, which the backlash machine's filters bear */
     bool stuck;               /* the torque changes and the angle does not follow */
     uint8_t samples_seen;     /* in a row; counts to 3 */
+    joint_place_t wild;       /* what the sample before told, if no joint could have moved there; else NaN */
     joint_standstill_t standstill;
 } joint_t;
 
@@ -38,7 +45,8 @@ typedef struct {
 void joints_start(joints_t *joints, const brace_hal_t *hal);
 
 /* Reads the fitted joints. A sample that is refused, not finite or absurd (a torque of more than twice the motor's
- * greatest) is counted, and the sound one before stays until it is older than controller.age_limit_us.
+ * greatest) is counted, and the sound one before stays until it is older than controller.age_limit_us. So is an angle
+ * that no joint could have reached since the sample before: 50 rad/s. Where the next sample agrees, it is believed.
  *   samples_bad: of brace_app_counters_t
  * At most 150 instructions a joint. */
 void joints_read(joints_t *joints, const brace_hal_t *hal, const brace_parameters_t *parameters,

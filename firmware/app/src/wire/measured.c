@@ -174,6 +174,8 @@ static void take_counters(const brace_app_counters_t *counters, brace_measured_t
     m->frames_unknown = counters->frames_unknown;
     m->modbus_broken = counters->modbus_broken;
     m->modbus_refused = counters->modbus_refused;
+    m->frames_lost = counters->frames_lost;
+    m->commands_failed = counters->commands_failed;
 }
 
 void measured_take(const brace_app_t *app, const brace_app_counters_t *counters, uint32_t now_us,

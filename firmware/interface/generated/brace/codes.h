@@ -69,16 +69,20 @@ enum {
     BRACE_FAULT_PARAMETERS = 1u << 4,
     /* The non-volatile memory does not keep what is written to it. */
     BRACE_FAULT_STORE = 1u << 5,
-    /* The CAN controller has left the bus after too many errors. */
+    /* The CAN controller has left the bus after too many errors, or does not come onto it. */
     BRACE_FAULT_CAN_BUS_OFF = 1u << 6,
     /* Measurement and model have drifted apart; drift_cause tells the likeliest cause. */
     BRACE_FAULT_MODEL_DRIFT = 1u << 7,
     /* The last start came after a crash; the record tells more. */
     BRACE_FAULT_CRASHED = 1u << 8,
     /* The coxa joint's drive gives no sound sample. */
-    BRACE_FAULT_SENSOR_COXA = 1u << 9
+    BRACE_FAULT_SENSOR_COXA = 1u << 9,
+    /* A drive has refused its commands for 50 ms; what moved the limb was ended. */
+    BRACE_FAULT_DRIVE_REFUSES = 1u << 10,
+    /* Parameters or constants in RAM have changed by themselves; they are taken from the store again. */
+    BRACE_FAULT_MEMORY = 1u << 11
 };
-enum { BRACE_FAULT_COUNT = 10 };
+enum { BRACE_FAULT_COUNT = 12 };
 /* X(fault, code) for every fault in the order of the bits: its CANopen emergency code. */
 #define BRACE_FAULTS(X) \
     X(BRACE_FAULT_SENSOR_FEMUR, 0x7300) \
@@ -90,6 +94,8 @@ enum { BRACE_FAULT_COUNT = 10 };
     X(BRACE_FAULT_CAN_BUS_OFF, 0x8140) \
     X(BRACE_FAULT_MODEL_DRIFT, 0xff01) \
     X(BRACE_FAULT_CRASHED, 0x6010) \
-    X(BRACE_FAULT_SENSOR_COXA, 0x7300)
+    X(BRACE_FAULT_SENSOR_COXA, 0x7300) \
+    X(BRACE_FAULT_DRIVE_REFUSES, 0x7120) \
+    X(BRACE_FAULT_MEMORY, 0x5510)
 
 #endif

@@ -250,9 +250,13 @@ typedef struct {
     float moved_y_mm;
     /* K across the limb's plane with neither the force on the tip nor the weight counted, every gap closed */
     float unloaded_k_across_n_per_mm;
+    /* how many requests over CAN found no room in the controller's ring, counted since CAN was set up */
+    uint32_t frames_lost;
+    /* how many commands a drive refused, counted since start */
+    uint32_t commands_failed;
 } brace_measured_t;
 
-enum { BRACE_MEASURED_COUNT = 113 };
+enum { BRACE_MEASURED_COUNT = 115 };
 #ifndef __cplusplus
 _Static_assert(sizeof(brace_measured_t) == 4 * BRACE_MEASURED_COUNT, "32 bits each");
 #endif

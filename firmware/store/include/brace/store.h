@@ -51,6 +51,11 @@ brace_status_t brace_store_begin(brace_store_t *store, const brace_parameters_t 
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_UNSUPPORTED (BUSY) */
 brace_status_t brace_store_rollback(brace_store_t *store);
 
+/* Begins to read the set in force again, because the copy in RAM is not to be believed. Ends in DONE, or in FAILED with
+ * E_NOTHING (the defaults are in force), E_DEVICE or E_READ_BACK. Nothing is written.
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_UNSUPPORTED (BUSY) */
+brace_status_t brace_store_reload(brace_store_t *store);
+
 /* One bounded piece of what is under way; call it each tick. In IDLE, DONE and FAILED it does nothing.
  * returns the state after it
  * cost: at most 2,300 instructions and one call to the memory */

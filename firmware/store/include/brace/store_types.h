@@ -66,7 +66,7 @@ typedef struct {
     uint8_t stage;
     uint8_t target;         /* slot that an update writes, or that a roll-back puts in force */
     int8_t failure, refusal;
-    bool rolling_back, memory_fault;
+    bool rolling_back, reloading, memory_fault;
     uint32_t position;      /* within the stage [bytes] */
     uint32_t sequence;      /* of the set on its way */
     uint32_t block_crc;     /* of what is being read */

@@ -42,7 +42,22 @@ bool parameter_job_step(parameter_job_t *job)
 
 bool parameter_job_is_fresh(const parameter_job_t *job)
 {
-    return !job->store.rolling_back;
+    return !job->store.rolling_back && !job->store.reloading;
+}
+
+void parameter_job_reload(parameter_job_t *job)
+{
+    if (parameter_job_is_busy(job)) {
+        return;
+    }
+    if (job->store.in_force == BRACE_PARAMETERS_DEFAULT) {
+        brace_parameters_default(&job->in_force);
+        job->crc = brace_parameters_crc(&job->in_force);
+        judge(job);
+        job->comes_in_force = true;
+    } else {
+        job->storing = brace_store_reload(&job->store) == BRACE_OK;
+    }
 }
 
 void parameter_job_open(parameter_job_t *job)

@@ -32,7 +32,10 @@ void parameter_job_start(parameter_job_t *job, const brace_hal_t *hal);
  * until the controller has made everything anew that follows from it. At most 2,400 instructions. */
 bool parameter_job_step(parameter_job_t *job);
 
-/* Was the set in force just written, so that its slot holds nothing else? False after a roll-back. */
+/* Takes the set in force from the store again; without one, the defaults. Nothing while the job is busy. */
+void parameter_job_reload(parameter_job_t *job);
+
+/* Was the set in force just written, so that its slot holds nothing else? False after a roll-back and a reload. */
 bool parameter_job_is_fresh(const parameter_job_t *job);
 
 /* Is a set being stored or put in force? */

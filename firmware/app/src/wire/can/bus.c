@@ -1,26 +1,37 @@
 #include "wire/can/bus.h"
 
+#include "brace/can_frames.h"
+
 #define HEALTH_US 10000u
 #define RECOVER_FIRST_US 125000u
 #define RECOVER_MOST_US 2000000u
+#define IDENTIFIER_BITS 0x7ffu
+
+static void set_up(can_bus_t *bus, const brace_hal_t *hal)
+{
+    int32_t status = hal->can_setup(hal->context, &bus->setup);
+    if (status != BRACE_HAL_OK && bus->setup.fd_bit_rate != 0u) {
+        brace_can_setup_t classic = bus->setup; /* classic frames rather than silence */
+        classic.fd_bit_rate = 0;
+        status = hal->can_setup(hal->context, &classic);
+        bus->setup.fd_bit_rate = status == BRACE_HAL_OK ? 0u : bus->setup.fd_bit_rate;
+    }
+    bus->is_there = status == BRACE_HAL_OK;
+    bus->is_fitted = status != BRACE_HAL_E_UNSUPPORTED;
+}
 
 void can_bus_start(can_bus_t *bus, const brace_hal_t *hal, const brace_controller_t *parameters)
 {
-    *bus = (can_bus_t){.recover_wait_us = RECOVER_FIRST_US};
-    if (hal->can_setup == NULL || hal->can_send == NULL || hal->can_receive == NULL || hal->can_health == NULL ||
-        hal->can_recover == NULL) {
-        return;
+    *bus = (can_bus_t){.recover_wait_us = RECOVER_FIRST_US,
+                       .setup = {.bit_rate = parameters->can_bit_rate,
+                                 .fd_bit_rate = parameters->can_fd_bit_rate,
+                                 .listen_only = parameters->node_id == 0u,
+                                 .filter_id = (uint32_t)BRACE_CAN_ID_REQUEST + parameters->node_id,
+                                 .filter_mask = IDENTIFIER_BITS}};
+    if (hal->can_setup != NULL && hal->can_send != NULL && hal->can_receive != NULL && hal->can_health != NULL &&
+        hal->can_recover != NULL) {
+        set_up(bus, hal);
     }
-    brace_can_setup_t setup = {.bit_rate = parameters->can_bit_rate,
-                               .fd_bit_rate = parameters->can_fd_bit_rate,
-                               .listen_only = parameters->node_id == 0u};
-    if (setup.fd_bit_rate != 0u && hal->can_setup(hal->context, &setup) == BRACE_HAL_OK) {
-        bus->is_there = true;
-        bus->fd_bit_rate = setup.fd_bit_rate;
-        return;
-    }
-    setup.fd_bit_rate = 0; /* classic frames rather than silence */
-    bus->is_there = hal->can_setup(hal->context, &setup) == BRACE_HAL_OK;
 }
 
 static void ask_health(can_bus_t *bus, const brace_hal_t *hal)
@@ -30,6 +41,7 @@ static void ask_health(can_bus_t *bus, const brace_hal_t *hal)
         return;
     }
     bus->is_off = health.bus_off;
+    bus->frames_lost = health.frames_lost;
     if (!health.bus_off && health.tx_errors == 0u) {
         bus->recover_wait_us = RECOVER_FIRST_US; /* it has sent since, so the last recovery has succeeded */
     }
@@ -38,6 +50,11 @@ static void ask_health(can_bus_t *bus, const brace_hal_t *hal)
 void can_bus_watch(can_bus_t *bus, const brace_hal_t *hal, uint32_t tick_us)
 {
     if (!bus->is_there) {
+        bus->recover_us += bus->is_fitted ? tick_us : 0u;
+        if (bus->recover_us >= RECOVER_MOST_US) {
+            bus->recover_us = 0;
+            set_up(bus, hal);
+        }
         return;
     }
     bus->health_us += tick_us;

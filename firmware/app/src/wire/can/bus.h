@@ -12,20 +12,22 @@
 #include "wire/wire.h"
 
 typedef struct {
-    bool is_there;            /* the board has CAN, and it is set up */
-    bool is_off;              /* the CAN controller has left the bus after too many errors */
-    uint32_t fd_bit_rate;     /* [bit/s]; 0: classic frames only */
+    bool is_fitted;           /* the board has CAN */
+    bool is_there;            /* and it is set up */
+    bool is_off;              /* the CAN controller has left the bus after too many errors, or does not reach it */
+    brace_can_setup_t setup;  /* fd_bit_rate is 0 where the controller has no CAN FD */
     uint32_t health_us;       /* since its health was last asked for */
-    uint32_t recover_us;      /* since it left the bus, or since recovery was last tried */
+    uint32_t recover_us;      /* since it left the bus, or since recovery or set-up was last tried */
     uint32_t recover_wait_us; /* before it is tried again */
+    uint32_t frames_lost;     /* received frames that found no room, as the controller counts them */
 } can_bus_t;
 
-/* Sets the CAN controller up: listen only while the node's number is unset, and with classic frames where it has no CAN
- * FD. Before the first tick; may block can_setup's 20 ms twice. */
+/* Sets the CAN controller up to receive the requests to this node: listen only while the node's number is unset, and
+ * with classic frames where it has no CAN FD. Before the first tick; may block can_setup's 1 ms twice. */
 void can_bus_start(can_bus_t *bus, const brace_hal_t *hal, const brace_controller_t *parameters);
 
 /* Looks after health and recovery, each tick: recovery is tried after 125 ms, then after twice as long each time, at
- * most 2 s. About 30 instructions. */
+ * most 2 s. A set-up that failed is tried again every 2 s, which may block can_setup's 1 ms. About 30 instructions. */
 void can_bus_watch(can_bus_t *bus, const brace_hal_t *hal, uint32_t tick_us);
 
 /* returns whether the frame has been taken; if not, it may be tried again at the next tick. About 30 instructions. */

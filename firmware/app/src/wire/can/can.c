@@ -4,8 +4,7 @@
 
 #include "brace/can_frames.h"
 
-#define FRAMES_PER_MS 4u
-#define FRAMES_MOST 20u
+#define FRAMES_PER_TICK 4u /* looked at; the hardware layer's filter lets in requests to this node only */
 #define NODE_MOST 127u
 #define STORING_PARTS 2u /* of the answer to a commit, which comes by itself */
 #define LONG_ANSWER_PARTS 5u /* of an answer beside which no process data leaves */
@@ -23,7 +22,7 @@ void can_start(can_t *can, const brace_hal_t *hal, const brace_parameters_t *par
 
 bool can_is_bus_off(const can_t *can)
 {
-    return can->bus.is_off;
+    return can->bus.is_fitted && (can->bus.is_off || !can->bus.is_there);
 }
 
 /* ------------------------------------------------------------------------------------------------ in -- */
@@ -101,17 +100,10 @@ static bool has_number(const can_t *can)
     return can->node_id >= 1u && can->node_id <= NODE_MOST;
 }
 
-static uint32_t frames_per_tick(const wire_tick_t *tick)
-{
-    const uint32_t frames = brace_app_parameters(tick->app)->controller.tick_us * FRAMES_PER_MS / 1000u;
-    return frames < FRAMES_PER_MS ? FRAMES_PER_MS : frames > FRAMES_MOST ? FRAMES_MOST : frames;
-}
-
 /* Looks through what has come over CAN. One request is answered in a tick; one more waits here, and those behind it in
  * the hardware layer. Frames of other nodes are taken in every tick, so that none of them stands before a request. */
 static void listen_to_bus(can_t *can, const wire_tick_t *tick)
 {
-    const uint32_t most = frames_per_tick(tick);
     can_requests_t *requests = &can->bus_port.requests;
     brace_can_frame_t frame;
     bool is_busy = !has_room_for_an_answer(&can->bus_port) || ask_again(can, ON_BUS, tick);
@@ -120,7 +112,7 @@ static void listen_to_bus(can_t *can, const wire_tick_t *tick)
         take(can, ON_BUS, tick, requests->next);
         is_busy = true;
     }
-    for (uint32_t i = 0; i < most && !requests->has_next && can_bus_receive(&can->bus, tick->hal, &frame); i++) {
+    for (uint32_t i = 0; i < FRAMES_PER_TICK && !requests->has_next && can_bus_receive(&can->bus, tick->hal, &frame); i++) {
         if (!is_request(can, tick, &frame) || !has_number(can)) {
             continue;
         }
@@ -198,7 +190,7 @@ static uint32_t send_process_data(can_t *can, way_t way, const wire_tick_t *tick
 {
     const process_bus_t bus = {.node_id = can->node_id,
                                .bit_rate = can->bit_rate,
-                               .fd_bit_rate = way == ON_BUS ? can->bus.fd_bit_rate : 0u};
+                               .fd_bit_rate = way == ON_BUS ? can->bus.setup.fd_bit_rate : 0u};
     process_t *process = &port_of(can, way)->process;
     const process_t *other = &port_of(can, way == ON_BUS ? AS_TEXT : ON_BUS)->process;
     brace_can_frame_t frame;
@@ -249,6 +241,7 @@ static uint32_t speak(can_t *can, way_t way, const wire_tick_t *tick, uint32_t m
 void can_tick(can_t *can, const wire_tick_t *tick)
 {
     can_bus_watch(&can->bus, tick->hal, brace_app_parameters(tick->app)->controller.tick_us);
+    tick->counters->frames_lost = can->bus.frames_lost;
     can_requests_tick(&can->bus_port.requests, tick);
     can_requests_tick(&can->text_port.requests, tick);
     listen_to_bus(can, tick);

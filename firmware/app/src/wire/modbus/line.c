@@ -1,5 +1,6 @@
 #include "wire/modbus/line.h"
 
+#include "wire/modbus/bytes.h"
 #include "wire/modbus/crc.h"
 #include "wire/modbus/pdu.h"
 
@@ -81,12 +82,32 @@ static bool is_for_us(const modbus_link_t *link, modbus_server_t *server)
     return true;
 }
 
+static uint32_t last_two_bytes(const modbus_link_t *link)
+{
+    return get_16(link->bytes + link->count - CRC_BYTES);
+}
+
+/* Is a sound frame the answer that left before it, come back? */
+static bool is_own_answer(modbus_line_t *line)
+{
+    const modbus_link_t *link = &line->link;
+    const uint8_t function = link->bytes[ADDRESS_BYTES];
+    const bool may_be_a_request = function == MODBUS_WRITE_ONE || function == MODBUS_DIAGNOSE;
+    const bool is_equal = link->count == line->answer_bytes && last_two_bytes(link) == line->answer_check;
+    const bool shows_echo = line->answer_bytes != 0u && !(is_equal && may_be_a_request);
+    if (shows_echo) {
+        line->echo = is_equal ? MODBUS_ECHO : MODBUS_NO_ECHO;
+    }
+    line->answer_bytes = 0;
+    return is_equal && line->echo != MODBUS_NO_ECHO;
+}
+
 static void answer(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
 {
     modbus_link_t *link = &line->link;
     const uint32_t request = (uint32_t)link->count - ADDRESS_BYTES - CRC_BYTES;
     server->asker = BRACE_ASKER_MODBUS_LINE;
-    const uint32_t answered = modbus_pdu_answer(server, &link->half, tick, link->bytes + ADDRESS_BYTES, request);
+    const uint32_t answered = modbus_pdu_answer(server, link->half, tick, link->bytes + ADDRESS_BYTES, request);
     const uint32_t length = ADDRESS_BYTES + answered;
     link->is_waiting = answered == 0u;
     if (link->is_waiting) {
@@ -117,6 +138,8 @@ static void seal(modbus_line_t *line, const wire_tick_t *tick)
         link->bytes[length] = (uint8_t)line->crc;
         link->bytes[length + 1u] = (uint8_t)(line->crc >> 8);
         link->ready = link->count;
+        line->answer_bytes = link->count;
+        line->answer_check = (uint16_t)last_two_bytes(link);
     }
 }
 
@@ -129,7 +152,7 @@ static void end_frame(modbus_line_t *line, modbus_server_t *server, const wire_t
         if (silent_us >= PATIENCE_US || !may_go_on(link, server)) {
             modbus_link_break(link, server, tick);
         }
-    } else if (is_for_us(link, server)) {
+    } else if (!is_own_answer(line) && is_for_us(link, server)) {
         answer(line, server, tick);
     } else {
         modbus_link_rest(link);

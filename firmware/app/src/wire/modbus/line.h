@@ -6,12 +6,20 @@
 #include "brace_hal.h"
 #include "wire/modbus/link.h"
 
+/* A receiver that hears its own controller gives each answer back once. The answer to function 06 or 08 has the bytes of
+ * its request, so it would be answered again, without end. What comes behind any other answer shows whether the line
+ * has an echo. Until that is known, the first frame equal to the answer before it counts as that answer come back. */
+typedef enum { MODBUS_ECHO_UNKNOWN, MODBUS_ECHO, MODBUS_NO_ECHO } modbus_echo_t;
+
 typedef struct {
     modbus_link_t link;
     uint16_t crc;         /* of the first bytes that have come, or of the answer */
     uint16_t checked;     /* so many */
     uint32_t silence_us;  /* that ends a frame */
     uint32_t bytes_per_ms; /* at most, that the line carries */
+    modbus_echo_t echo;
+    uint16_t answer_bytes; /* of the answer that left last; 0: another frame has come since */
+    uint16_t answer_check; /* its last two bytes */
 } modbus_line_t;
 
 /* Opens the port, if the board has it. Before the first tick. */

@@ -8,7 +8,7 @@
 #include "wire/wire.h"
 
 /* Does what a request asks for; the answer takes the request's place.
- *   half: of the port by which the request came
+ *   half: of the connection by which the request came
  *   pdu: room for MODBUS_PDU_BYTES
  *   length: of the request [1, MODBUS_PDU_BYTES]
  * returns the answer's length [2, MODBUS_PDU_BYTES]; 0: it is being worked out, and the request, which is untouched, is

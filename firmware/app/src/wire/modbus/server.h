@@ -17,10 +17,11 @@ typedef struct {
     brace_asker_t asker;        /* the port whose request is being answered */
 } modbus_server_t;
 
-/* Function 06 writes a value in two requests, the high register first. Each port keeps its own first half, so that what
- * a master does on another port is no part of it. */
+/* Function 06 writes a value in two requests, the high register first. Each connection of each port keeps its own first
+ * half, so that what another master does is no part of it. */
 typedef struct {
     bool is_known;
+    uint32_t peer; /* the connection's number */
     uint16_t register_address;
     uint16_t value;
 } modbus_half_t;

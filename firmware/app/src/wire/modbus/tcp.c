@@ -1,5 +1,7 @@
 #include "wire/modbus/tcp.h"
 
+#include <stddef.h>
+
 #include "wire/modbus/bytes.h"
 #include "wire/modbus/pdu.h"
 
@@ -56,6 +58,17 @@ static bool gather(modbus_link_t *link, const wire_tick_t *tick)
     return link->count == whole;
 }
 
+/* The first half of a value that this connection may have written. */
+static modbus_half_t *own_half(modbus_link_t *link, const brace_hal_t *hal)
+{
+    const uint32_t peer =
+        hal->serial_peer != NULL ? hal->serial_peer(hal->context, BRACE_SERIAL_MODBUS_TCP) : 0u;
+    modbus_half_t *half = &link->half[peer % MODBUS_PEERS];
+    half->is_known = half->is_known && half->peer == peer;
+    half->peer = peer;
+    return half;
+}
+
 /* The unit is the controller's address; 0 and 255 mean the device behind the connection. There are no others. */
 static void answer(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
 {
@@ -66,7 +79,7 @@ static void answer(modbus_link_t *link, modbus_server_t *server, const wire_tick
     if (unit == server->address || unit == ANY_UNIT || unit == DEVICE_ITSELF) {
         server->served = (uint16_t)(server->served + !link->is_waiting);
         server->asker = BRACE_ASKER_MODBUS_TCP;
-        length = modbus_pdu_answer(server, &link->half, tick, pdu, (uint32_t)link->count - PDU_AT);
+        length = modbus_pdu_answer(server, own_half(link, tick->hal), tick, pdu, (uint32_t)link->count - PDU_AT);
     } else {
         length = modbus_pdu_refuse(server, tick, pdu, MODBUS_E_TARGET);
     }

@@ -35,7 +35,10 @@ modbus_exception_t modbus_write_one(modbus_server_t *server, modbus_half_t *half
     }
     *answer = ANSWER_BYTES;
     if (start % 2u == 0u) {
-        *half = (modbus_half_t){true, (uint16_t)start, (uint16_t)value};
+        *half = (modbus_half_t){.is_known = true,
+                                .peer = half->peer,
+                                .register_address = (uint16_t)start,
+                                .value = (uint16_t)value};
         return MODBUS_FINE;
     }
     if (!high.is_known || start != high.register_address + 1u) {

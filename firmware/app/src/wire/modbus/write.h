@@ -6,7 +6,7 @@
 #include "wire/modbus/server.h"
 #include "wire/wire.h"
 
-/* Function 06. The high register is kept in `half`; the low one has to be the next request on the same port, and writes
+/* Function 06. The high register is kept in `half`; the low one has to be its master's next request, and writes
  * the value.
  *   answer (out): its length [bytes]; of no meaning when refused
  * At most what modbus_command_run costs. */

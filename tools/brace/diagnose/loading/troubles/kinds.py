@@ -16,9 +16,9 @@ from brace.diagnose.loading.screen import Remover
 from brace.diagnose.loading.structure import far_among_alike
 from brace.diagnose.loading.troubles.steps import best_rows
 from brace.effects.rivals import INSTRUMENT_TROUBLES
-from brace.native.plant_batch import number_index
+from brace.native.plant_batch import number_index, reference_planar_many
 
-LAG, GAIN_STEP, ZERO_STEP, ZEROS, POSE, OUTLIERS = (cause.name for cause in INSTRUMENT_TROUBLES)
+LAG, GAIN_STEP, ZERO_STEP, ZEROS, POSE, SLIP, OUTLIERS = (cause.name for cause in INSTRUMENT_TROUBLES)
 # What follows the posture may be of the limb or of an encoder. It is no trouble of the instruments here, and stands
 # only against those that would otherwise make up for it.
 OF_POSTURES = ("zero_per_posture", "pose_error_per_posture", "gain_per_posture")
@@ -26,6 +26,7 @@ POSE_SIGMAS_RAD = (7e-4, 1.5e-3, 3e-3, 6e-3)  # what a drive repeats its posture
 ZERO_SIGMAS_N = (0.03, 0.1, 0.3, 1.0)  # what a force sensor's zero wanders by
 GAIN_SIGMAS = (0.03, 0.1)  # what a reading's gain may differ by from posture to posture
 MOST_STEPS = 3  # of a sensor's zero within one record
+MOST_SLIPS = 2
 FAR_OUT = 5.0  # sigmas: what a single reading must be off by to be taken for a slip
 MOST_OUT = 0.02  # of the readings: more than these are no slips
 POSE_STEP_RAD = 1e-4
@@ -54,10 +55,13 @@ def kinds(record: Record, fitted: Fit, remover: Remover, left: np.ndarray) -> It
     played = record.player.play_numbers(fitted.model[None])[0]
     starts = run_starts(record.dataset["run"])
     yield Kind(LAG, [Way(_of_forces(record, -_rate(record, played[: len(FORCES)], starts)[:, :, None]), 0.0)])
-    yield Kind(GAIN_STEP, list(_steps(record, remover, left, played[: len(FORCES), :, None] * _X_Z, most=1)))
+    forces = played[: len(FORCES), :, None] * _X_Z
+    both = forces.sum(axis=2, keepdims=True)  # one size: the columns of both forces are apart
+    yield Kind(GAIN_STEP, list(_steps(record, remover, left, [both, *_alone(forces)], most=1)))
+    yield Kind(SLIP, list(_steps(record, remover, left, [_displaced(record, fitted)], MOST_SLIPS)))
     if not record.zeroed:
         unit = np.broadcast_to(_X_Z, (len(FORCES), record.rows, len(FORCES)))
-        yield Kind(ZERO_STEP, list(_steps(record, remover, left, unit, most=MOST_STEPS)))
+        yield Kind(ZERO_STEP, list(_steps(record, remover, left, [unit, *_alone(unit)], MOST_STEPS)))
         runs = _by_run(record, np.ones((1, record.rows)), starts)
         if runs.shape[2] > 2:
             both = np.concatenate([runs * _X[:, :, None], runs * _Z[:, :, None]], axis=2)
@@ -82,12 +86,9 @@ def kinds(record: Record, fitted: Fit, remover: Remover, left: np.ndarray) -> It
 
 
 def _steps(
-    record: Record, remover: Remover, left: np.ndarray, values: np.ndarray, most: int
+    record: Record, remover: Remover, left: np.ndarray, choices: Sequence[np.ndarray], most: int
 ) -> Iterator[Way]:
-    """One to `most` steps of `values` (forces x rows x forces) at any readings: of both forces by one size for gains
-    (whose columns are apart), of each alone, of both."""
-    choices = [values.sum(axis=2, keepdims=True)] if most == 1 else [values]
-    choices += [values[:, :, [axis]] for axis in range(len(FORCES))]
+    """One to `most` steps of each choice (forces x rows x sizes) at any readings."""
     for chosen in choices:
         whitened = record.whitened(_of_forces(record, chosen)).reshape(*record.measured.shape, -1)
         rows = best_rows(record, remover, left, whitened, most)
@@ -95,6 +96,20 @@ def _steps(
             since = [np.arange(record.rows)[None, :, None] >= row for row in sorted(rows[:count])]
             columns = np.concatenate([chosen * one for one in since], axis=2)
             yield Way(_of_forces(record, columns), log(len(choices) * comb(record.rows - 1, count)))
+
+
+def _alone(values: np.ndarray) -> list[np.ndarray]:
+    """Each size alone."""
+    return [values[:, :, [size]] for size in range(values.shape[2])]
+
+
+def _displaced(record: Record, fitted: Fit) -> np.ndarray:
+    """By how much the forces change where the tip stands elsewhere than the record says, forces x rows x (x, z), N/mm:
+    K at each row's posture."""
+    angles = np.stack([record.dataset["theta1_rad"], record.dataset["theta2_rad"]], axis=1)
+    postures, of_row = np.unique(angles, axis=0, return_inverse=True)
+    xx, xz, zz = reference_planar_many(fitted.model[None], postures[None])[0, of_row.ravel(), :3].T
+    return np.stack([np.stack([xx, xz]), np.stack([xz, zz])], axis=2)
 
 
 _X, _Z = np.array([[1.0], [0.0]]), np.array([[0.0], [1.0]])

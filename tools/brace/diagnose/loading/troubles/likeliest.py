@@ -16,7 +16,7 @@ from brace.diagnose.loading.intervals import Z_90
 from brace.diagnose.loading.record import Record
 from brace.diagnose.loading.rounding import rounds_to_record
 from brace.diagnose.loading.screen import Remover
-from brace.diagnose.loading.troubles.kinds import GAIN_STEP, LAG, OF_POSTURES, OUTLIERS, ZERO_STEP, kinds
+from brace.diagnose.loading.troubles.kinds import GAIN_STEP, LAG, OF_POSTURES, OUTLIERS, SLIP, ZERO_STEP, kinds
 from brace.diagnose.loading.troubles.words import first_row, shown
 from brace.effects.rivals import RIVAL_BY_NAME, RivalCause
 
@@ -56,7 +56,7 @@ class Trouble:
     @property
     def sizes(self) -> dict[str, Interval]:
         """Its first size with its 90 % interval; none where the trouble has a size for each run or reading."""
-        if self.name not in (LAG, GAIN_STEP, ZERO_STEP):
+        if self.name not in (LAG, GAIN_STEP, ZERO_STEP, SLIP):
             return {}
         half = Z_90 * self.sigma
         return {self.cause.ways[0][0].key: Interval(self.value, self.value - half, self.value + half)}
@@ -151,7 +151,7 @@ def _told(
     """The trouble in words."""
     columns = option.columns
     where = [name for place, name in enumerate(record.channels) if np.any(columns[place] != 0.0)]
-    row = first_row(columns) + 1 if option.kind in (GAIN_STEP, ZERO_STEP, OUTLIERS) else None
+    row = first_row(columns) + 1 if option.kind in (GAIN_STEP, ZERO_STEP, SLIP, OUTLIERS) else None
     sentence = shown(record, option.kind, columns, sizes, option.sigma)
     rest = replace(option.rest, best=replace(option.rest.best, fit=fitted))
     return Trouble(option.kind, ", ".join(where), row, wide, rest, lead, float(sizes[0]), option.sigma, sentence)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from brace.diagnose.loading.record import Record
-from brace.diagnose.loading.troubles.kinds import GAIN_STEP, LAG, POSE, ZERO_STEP, ZEROS
+from brace.diagnose.loading.troubles.kinds import GAIN_STEP, LAG, POSE, SLIP, ZERO_STEP, ZEROS
 
 MOST_LISTED = 8  # rows
 
@@ -32,6 +32,11 @@ def shown(record: Record, name: str, columns: np.ndarray, sizes: np.ndarray, sig
             f"the force at rest differs from run to run by about {float(np.std(sizes)):.2g} N: the sensor's zero moved, "
             "or the tip was clamped a little elsewhere; zero the sensor before each run, and say so in meta.toml"
         )
+    if name == SLIP:
+        return (
+            f"the tip's clamp or the limb's base slipped by {_slips(record, columns, sizes)}; clamp it tighter, and "
+            "load again"
+        )
     if name == POSE:
         return (
             f"the posture differs from run to run by about {1e3 * float(np.std(sizes)):.2g} mrad from the commanded "
@@ -55,6 +60,15 @@ def _moves(record: Record, columns: np.ndarray, sizes: np.ndarray) -> str:
         channel = record.channels[int(np.argmax(np.any(own != 0.0, axis=(1, 2))))]
         by_row.setdefault(first_row(own), []).append(f"{channel} {size:+.3g} N")
     return "; by ".join(f"{' and '.join(moved)} {_since(record, row)}" for row, moved in sorted(by_row.items()))
+
+
+def _slips(record: Record, columns: np.ndarray, sizes: np.ndarray) -> str:
+    """Each slip has two sizes, along x and along z."""
+    return "; by ".join(
+        f"{sizes[place]:+.3g} mm along x and {sizes[place + 1]:+.3g} mm along z "
+        f"{_since(record, first_row(columns[:, :, [place]]))}"
+        for place in range(0, sizes.size, 2)
+    )
 
 
 def _since(record: Record, row: int) -> str:
