@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from brace.cli import common, sim_values
 from brace.cli.bus_options import Ended, ended_by_signal
-from brace.cli.options import Subcommands
+from brace.cli.options import Subcommands, refused
 from brace.errors import EXIT_INTERRUPTED, EXIT_OK, UsageError
 from brace.sim import spec
 
@@ -115,8 +115,33 @@ def add(commands: Subcommands) -> None:
     )
     parser.add_argument("--no-force-sensor", action="store_true", help="the tip has none")
     parser.add_argument("--link-encoders", action="store_true", help="encoders behind the gears too")
+    parser.add_argument(
+        "--servos",
+        metavar="WHERE",
+        help="joints by Dynamixel servos (Protocol 2.0): sim, simulated MX-106 behind the boards' own driver; or "
+        "/dev/ttyUSB0[@BAUD], real ones, which nothing moves but the controller's own tests; docs/joints.md",
+    )
+    parser.add_argument(
+        "--servo-ids",
+        type=_servo_ids,
+        default=(11, 12, 13),
+        metavar="COXA,FEMUR,TIBIA",
+        help="default 11,12,13; a limb without a coxa joint does not ask the first",
+    )
+    parser.add_argument(
+        "--servos-hold", action="store_true", help="switches the torque of real servos on, where they stand"
+    )
     common.add_json(parser)
     parser.set_defaults(run=run)
+
+
+def _servo_ids(text: str) -> tuple[int, int, int]:
+    """Three different ids of servos."""
+    found = re.fullmatch(r"(\d+),(\d+),(\d+)", text)
+    ids = [int(part) for part in found.groups()] if found else []
+    if len(set(ids)) != 3 or max(ids) > 252:
+        raise refused(f"{text}: not three ids", why="each is 0 to 252, none twice", way="OPTION 11,12,13")
+    return ids[0], ids[1], ids[2]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -207,10 +232,18 @@ def _setups(arguments: argparse.Namespace, model: LimbModel, plant: LimbModel, m
             nvm_path=_numbered(arguments.nvm, limb, arguments.limbs),
             console=_next_port(ports.get("console", "none"), limb),
             slcan_line=_next_port(ports.get("slcan", "none"), limb),
+            servos=_with_baud(arguments.servos),
+            servo_ids=arguments.servo_ids,
+            servos_hold=arguments.servos_hold,
         )
         _give_modbus(setup, modbus, limb)
         setups.append(setup)
     return setups
+
+
+def _with_baud(servos: str | None) -> str | None:
+    """A device without a baud rate has the one that docs/joints.md sets the servos to."""
+    return f"{servos}@3000000" if servos and servos.startswith("/") and "@" not in servos else servos
 
 
 def _serial_ports(texts: list[str]) -> dict[str, str]:

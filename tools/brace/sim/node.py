@@ -60,6 +60,9 @@ class LimbSetup:
     modbus_line: str = "none"
     slcan_line: str = "none"
     modbus_tcp: str = "none"
+    servos: str | None = None  # "sim", or a device: brace_node.h
+    servo_ids: tuple[int, int, int] = (11, 12, 13)
+    servos_hold: bool = False
     drive: dict[str, float] = field(default_factory=dict)  # members of brace_node_drive_t, of all joints
 
 
@@ -144,7 +147,9 @@ class Node:
             block = pack(setup.model.with_values(setup.changes)).content
             keep.append(ffi.from_buffer("uint8_t[]", block))
             struct.block, struct.block_bytes = keep[-1], len(block)
-        texts = ("console", "modbus_line", "slcan_line", "modbus_tcp", "nvm_path")
+        struct.servo_id = setup.servo_ids
+        struct.servos_hold = setup.servos_hold
+        texts = ("console", "modbus_line", "slcan_line", "modbus_tcp", "nvm_path", "servos")
         for name in texts:
             if (text := getattr(setup, name)) is not None:
                 keep.append(ffi.new("char[]", os.fsencode(text)))
@@ -169,6 +174,7 @@ class Node:
             6: setup.modbus_line,
             7: setup.slcan_line,
             8: setup.modbus_tcp,
+            9: setup.servos,
         }[part]
         text = self.native.ffi.string(self.native.lib.brace_node_posix_text(detail)).decode()
         return port_error(str(url), part, detail, text, int(failure.system))
@@ -351,6 +357,13 @@ class Node:
             **(_truth_across(t) if t.has_coxa_joint else {}),
         }
 
+    def servo(self, limb: int, joint: int) -> dict[str, int]:
+        """A servo as its driver knows it, and what the driver has counted: the members of brace_node_servo_t."""
+        told = self.native.ffi.new("brace_node_servo_t *")
+        if self.native.lib.brace_node_servo(self._node, limb, joint, told) != 0:
+            raise ValueError(f"limb {limb} has no servos")
+        return {name: int(getattr(told, name)) for name, _ in self.native.ffi.typeof(told[0]).fields}
+
     def stats(self) -> dict[str, int]:
         """Ticks, lateness, frames since the start."""
         stats = self.native.ffi.new("brace_node_stats_t *")
@@ -413,6 +426,7 @@ _PARTS = {
     6: ("the Modbus line", "--modbus modbus:pty makes a line of its own"),
     7: ("the SLCAN line", "--serial slcan=pty makes a line of its own"),
     8: ("Modbus TCP", "--modbus modbus-tcp://127.0.0.1:0 takes any free port"),
+    9: ("servos", "--servos sim, or --servos /dev/ttyUSB0@3000000"),
 }
 
 

@@ -140,13 +140,14 @@ static void read_one(joints_t *joints, int index, const brace_hal_t *hal, const 
     const brace_drive_t *drive = &parameters->drive[index];
     brace_hal_joint_t fresh;
     const int32_t answer = hal->joint_read(hal->context, index, &fresh);
-    if (answer == BRACE_HAL_OK) {
-        joint->is_link_only = fresh.motor_rad != fresh.motor_rad;
-        fresh.motor_rad = joint->is_link_only ? fresh.link_rad : fresh.motor_rad;
-    }
     const bool none_yet = joint->sample.motor_rad != joint->sample.motor_rad;
     const bool newer = answer == BRACE_HAL_OK && (none_yet || fresh.taken_us != joint->sample.taken_us);
+    const bool is_link_only = newer && fresh.motor_rad != fresh.motor_rad;
+    if (is_link_only) {
+        fresh.motor_rad = fresh.link_rad;
+    }
     if (newer && is_sound(&fresh, drive) && is_within_reach(joint, &fresh)) {
+        joint->is_link_only = is_link_only;
         take_sample(joint, &fresh, tick_us);
     } else if (newer || (answer != BRACE_HAL_OK && answer != BRACE_HAL_AGAIN)) {
         brace_count(samples_bad);
