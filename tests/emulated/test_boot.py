@@ -249,7 +249,7 @@ def test_the_real_boards_image_names_what_the_emulated_chip_lacks() -> None:
     with Board("netduinoplus2", image("brace-stm32f405")) as board:
         banner = board.banner()
         assert BANNER.match(banner["brace"])[4] == "stm32f405"  # type: ignore[index]
-        assert banner["board"] == "PLL does not start: 16 MHz, no joints wired"
+        assert banner["board"] == "PLL does not start: 16 MHz, too slow for the joints"
         told = stiffness(board)
         assert told.startswith("k: not valid flags") and "k_xx" not in told
         board.ask("t")

@@ -40,6 +40,8 @@ const char *board_remark(void)
 
 /* Set up clocks and pins first, and then the door: put kept_..., stack_unused_bytes and kept_restart of boards/common
  * behind its entries. */
+void board_serve(void) {}
+
 const brace_hal_t *board_start(void)
 {
     return brace_hal_blank();

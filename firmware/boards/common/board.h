@@ -13,6 +13,10 @@ const char *board_remark(void);
 /* The rate of SysTick when it counts the processor's clock [Hz]. */
 uint32_t board_core_hz(void);
 
+/* What a board's own drivers have to do between ticks: bytes of a servo line. Called as often as there is time, and at
+ * least once after each tick; bounded, and does not wait. */
+void board_serve(void);
+
 enum { BOARD_CONSOLE_BAUD = 115200 };
 
 #endif

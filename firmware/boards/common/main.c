@@ -52,6 +52,7 @@ int main(void)
                 due_us = now_us + tick_us;
             }
         }
+        board_serve();
         console_serve(&console, &app);
     }
 }

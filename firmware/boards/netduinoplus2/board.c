@@ -7,6 +7,7 @@
 #include "kept.h"
 #include "kept_nvm.h"
 #include "stack.h"
+#include "servo_joints.h"
 #include "stand_in_joints.h"
 
 static brace_hal_t door;
@@ -26,10 +27,38 @@ const char *board_remark(void)
     return "emulated; joints stand in, non-volatile memory is RAM, no CAN, no watchdog";
 }
 
+#if defined(BRACE_HAS_SERVOS) /* Dynamixel servos at the emulator's sixth serial port */
+static const bool has_servos = true;
+#else
+static const bool has_servos = false;
+#endif
+
 static int32_t joint_read(void *context, int32_t joint_index, brace_hal_joint_t *joint)
 {
-    (void)context;
+    if (has_servos) {
+        return servo_joints_read(context, joint_index, joint);
+    }
     return stand_in_joint(joint_index, board_now_us(), joint);
+}
+
+void board_serve(void)
+{
+    servo_joints_serve(board_now_us());
+}
+
+static void start_servos(void)
+{
+    static const stm32f405_servo_line_t wires = {.baud = 3000000u, .is_polled = true};
+    static const brace_servo_line_t line = {.send = stm32f405_servo_send, .receive = stm32f405_servo_receive};
+    static const brace_servo_setup_t servos = {
+        .joint = {{.id = BRACE_SERVO_NO_ID}, {.id = 12u, .torque_ratio = 1.0f}, {.id = 13u, .torque_ratio = 1.0f}},
+        .period_us = 1000u,
+        .timeout_us = 30000u, /* of the emulator's clock, which does not wait for the host */
+        .holds = true,
+    };
+    if (stm32f405_servo_line(&wires) == BRACE_HAL_OK) {
+        (void)servo_joints_start(&servos, &line);
+    }
 }
 
 const brace_hal_t *board_start(void)
@@ -37,7 +66,8 @@ const brace_hal_t *board_start(void)
     /* The emulator's own rates; it ignores the registers that set them. */
     static const stm32f405_clocks_t clocks = {
         .core_hz = 168000000u, .apb1_hz = 42000000u, .apb2_hz = 84000000u, .timer_hz = 1000000000u};
-    static const stm32f405_joints_t joints = {.read = joint_read};
+    static const stm32f405_joints_t joints = {.read = joint_read,
+                                              .command = has_servos ? servo_joints_command : 0};
     static stm32f405_board_t board = {
         .name = BRACE_BOARD_NAME,
         .clocks_given = &clocks,
@@ -53,6 +83,9 @@ const brace_hal_t *board_start(void)
     };
     board.nvm_ram = kept_nvm_start(BRACE_NVM_SLOT_COUNT * STM32F405_NVM_RAM_SLOT_BYTES);
     door = *brace_hal_stm32f405(&board);
+    if (has_servos) {
+        start_servos();
+    }
     door.reset_cause = kept_reset_cause; /* the emulated chip keeps no reset flags */
     door.restart = kept_restart;
     return &door;

@@ -5,15 +5,27 @@
  *                         SLCAN     USART3  PB10 tx, PB11 rx
  *   parameters: flash sectors 10 and 11, behind the image (memory.ld)
  *
- * Joints are wired differently on every limb, so this board has none. A stm32f405_joints_t in `board` adds them. */
+ *                         servos    USART6  PC6 tx, PC7 rx, PC8 drives the half-duplex line
+ *
+ * Joints are wired differently on every limb; these are three Dynamixel servos. Another stm32f405_joints_t in `board`
+ * stands for other drives. */
 #include "board.h"
 
 #include "brace_hal_stm32f405.h"
 #include "fault.h"
 #include "kept.h"
+#include "servo_joints.h"
 #include "stack.h"
 
 static const brace_hal_t *door;
+
+/* The paper's limb: three MX-106. Ids, senses and zeros are those of its assembly; docs/joints.md sets the servos up. */
+static const brace_servo_setup_t servos = {
+    .joint = {{.id = 11u, .torque_ratio = 1.0f}, {.id = 12u, .torque_ratio = 1.0f}, {.id = 13u, .torque_ratio = 1.0f}},
+    .period_us = 500u,
+    .timeout_us = 700u,
+    .holds = true,
+};
 
 uint32_t board_now_us(void)
 {
@@ -29,14 +41,23 @@ const char *board_remark(void)
 {
     const stm32f405_clock_report_t clock = stm32f405_clock_report();
     if (!clock.pll) {
-        return "PLL does not start: 16 MHz, no joints wired";
+        return "PLL does not start: 16 MHz, too slow for the joints";
     }
-    return clock.crystal ? "168 MHz by crystal, no joints wired"
-                         : "168 MHz without its crystal: CAN listens only, no joints wired";
+    return clock.crystal ? "168 MHz by crystal; servos 11 12 13 on USART6"
+                         : "168 MHz without its crystal: CAN listens only; servos 11 12 13 on USART6";
+}
+
+void board_serve(void)
+{
+    servo_joints_serve(board_now_us());
 }
 
 const brace_hal_t *board_start(void)
 {
+    static const stm32f405_joints_t joints = {.read = servo_joints_read, .command = servo_joints_command};
+    static const stm32f405_servo_line_t wires = {
+        .tx = {'C', 6u}, .rx = {'C', 7u}, .drive_enable = {'C', 8u}, .baud = 3000000u};
+    static const brace_servo_line_t line = {.send = stm32f405_servo_send, .receive = stm32f405_servo_receive};
     static stm32f405_board_t board = {
         .name = BRACE_BOARD_NAME,
         .hse_hz = 8000000u,
@@ -49,11 +70,15 @@ const brace_hal_t *board_start(void)
         .can_tx = {'B', 9u},
         .nvm_sector = {10u, 11u},
         .watchdog = true,
+        .joints = &joints,
         .crash_read = kept_crash_read,
         .crash_clear = kept_crash_clear,
         .stack_unused_bytes = stack_unused_bytes,
     };
     board.reset_by_fault = kept_reset_cause(0) == BRACE_RESET_FAULT;
     door = brace_hal_stm32f405(&board);
+    if (stm32f405_servo_line(&wires) == BRACE_HAL_OK) { /* not at 16 MHz, when the PLL does not start */
+        (void)servo_joints_start(&servos, &line);
+    }
     return door;
 }

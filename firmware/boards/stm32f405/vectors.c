@@ -20,6 +20,8 @@ __attribute__((section(".vectors"), used)) static const vectors_t vectors = {
         [37] = usart1_handler,
         [38] = usart2_handler,
         [39] = usart3_handler,
-        [40 ... INTERRUPTS - 1] = UNEXPECTED,
+        [40 ... 70] = UNEXPECTED,
+        [71] = usart6_handler,
+        [72 ... INTERRUPTS - 1] = UNEXPECTED,
     },
 };

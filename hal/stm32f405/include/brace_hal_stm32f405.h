@@ -10,7 +10,7 @@
  * as brace_hal.h says.
  *
  * The board provides start-up code and a vector table with these handlers in it (exception number = 16 + n):
- *   n = 20 can1_rx0_handler, 37 usart1_handler, 38 usart2_handler, 39 usart3_handler
+ *   n = 20 can1_rx0_handler, 37 usart1_handler, 38 usart2_handler, 39 usart3_handler, 71 usart6_handler
  * One call of a handler: at most 200 instructions with a full receive FIFO, 120 with a byte in and two out.
  * The start-up code switches the FPU on, if it is used. SysTick is free for the board.
  */
@@ -39,6 +39,25 @@ typedef struct {
     uint32_t apb1_hz, apb2_hz; /* rates of the buses: CAN, USART2, USART3 on the first, USART1 on the second */
     uint32_t timer_hz;         /* rate of TIM2: twice APB1 when APB1 is divided */
 } stm32f405_clocks_t;
+
+/* A half-duplex line to servos: USART6, its bytes moved by DMA 2, streams 1 and 6. The direction pin is high from before
+ * the first bit to behind the last. Set it up once, after brace_hal_stm32f405.
+ *   baud [9600, 4500000] that the clock meets to 2 %
+ *   is_polled: for emulators without DMA; bytes then move within the calls
+ * returns OK, or E_RANGE */
+typedef struct {
+    stm32f405_pin_t tx, rx;       /* PC6 PC7 or PG14 PG9, alternate function 8 */
+    stm32f405_pin_t drive_enable;
+    uint32_t baud;
+    bool is_polled;
+} stm32f405_servo_line_t;
+int32_t stm32f405_servo_line(const stm32f405_servo_line_t *wires);
+
+/* send takes at most STM32F405_SERVO_LINE_BYTES and copies them: OK; AGAIN: it is still sending; E_RANGE. receive gives
+ * what has come. Bytes that come faster than they are taken overwrite one another after 256. The context is ignored. */
+enum { STM32F405_SERVO_LINE_BYTES = 128 };
+int32_t stm32f405_servo_send(void *context, const uint8_t *bytes, uint32_t count);
+int32_t stm32f405_servo_receive(void *context, uint8_t *bytes, uint32_t room);
 
 /* The limb's joints and force sensor, which belong to the board. Entries and answers are those of brace_hal.h; the
  * context is this struct's. A null entry: the board has no such thing. With a null read, joint_read answers
@@ -127,5 +146,6 @@ void can1_rx0_handler(void);
 void usart1_handler(void);
 void usart2_handler(void);
 void usart3_handler(void);
+void usart6_handler(void);
 
 #endif

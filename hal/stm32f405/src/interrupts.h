@@ -4,7 +4,7 @@
 
 #include "stm32f405_registers.h"
 
-/* Enables interrupt 0-63. All have one priority, so none interrupts another. */
+/* Enables interrupt 0-95. All have one priority, so none interrupts another. */
 static inline void interrupt_enable(uint32_t number)
 {
     REGISTER(NVIC_BASE, NVIC_ISER0 + (NVIC_ISER1 - NVIC_ISER0) * (number / 32u)) = 1u << (number % 32u);

@@ -38,6 +38,7 @@
 #define RCC_APB1RSTR_CAN1RST (1u << 25)
 #define RCC_AHB1ENR 0x30u
 #define RCC_AHB1ENR_GPIOAEN (1u << 0)
+#define RCC_AHB1ENR_DMA2EN (1u << 22)
 #define RCC_APB1ENR 0x40u
 #define RCC_APB1ENR_TIM2EN (1u << 0)
 #define RCC_APB1ENR_TIM5EN (1u << 3)
@@ -46,6 +47,7 @@
 #define RCC_APB1ENR_CAN1EN (1u << 25)
 #define RCC_APB2ENR 0x44u
 #define RCC_APB2ENR_USART1EN (1u << 4)
+#define RCC_APB2ENR_USART6EN (1u << 5)
 #define RCC_CSR 0x74u
 #define RCC_CSR_LSION (1u << 0)
 #define RCC_CSR_LSIRDY (1u << 1)
@@ -126,6 +128,7 @@
 #define USART1_BASE 0x40011000u
 #define USART2_BASE 0x40004400u
 #define USART3_BASE 0x40004800u
+#define USART6_BASE 0x40011400u
 #define USART_SR 0x00u
 #define USART_SR_PE (1u << 0)
 #define USART_SR_FE (1u << 1)
@@ -147,9 +150,44 @@
 #define USART_CR1_UE (1u << 13)
 #define USART_CR2 0x10u
 #define USART_CR3 0x14u
+#define USART_CR3_DMAR (1u << 6)
+#define USART_CR3_DMAT (1u << 7)
 #define USART1_IRQ 37u
 #define USART2_IRQ 38u
 #define USART3_IRQ 39u
+#define USART6_IRQ 71u
+
+/* DMA 2: stream 1 receives for USART6, stream 6 sends, both on channel 5 */
+#define DMA2_BASE 0x40026400u
+#define DMA2_LIFCR 0x08u
+#define DMA2_LIFCR_CFEIF1 (1u << 6)
+#define DMA2_LIFCR_CDMEIF1 (1u << 8)
+#define DMA2_LIFCR_CTEIF1 (1u << 9)
+#define DMA2_LIFCR_CHTIF1 (1u << 10)
+#define DMA2_LIFCR_CTCIF1 (1u << 11)
+#define DMA2_HIFCR 0x0cu
+#define DMA2_HIFCR_CFEIF6 (1u << 16)
+#define DMA2_HIFCR_CDMEIF6 (1u << 18)
+#define DMA2_HIFCR_CTEIF6 (1u << 19)
+#define DMA2_HIFCR_CHTIF6 (1u << 20)
+#define DMA2_HIFCR_CTCIF6 (1u << 21)
+#define DMA2_S1CR 0x28u
+#define DMA2_S1CR_EN (1u << 0)
+#define DMA2_S1CR_DIR (3u << 6)
+#define DMA2_S1CR_CIRC (1u << 8)
+#define DMA2_S1CR_MINC (1u << 10)
+#define DMA2_S1CR_CHSEL (7u << 25)
+#define DMA2_S1NDTR 0x2cu
+#define DMA2_S1PAR 0x30u
+#define DMA2_S1M0AR 0x34u
+#define DMA2_S6CR 0xa0u
+#define DMA2_S6CR_EN (1u << 0)
+#define DMA2_S6CR_DIR (3u << 6)
+#define DMA2_S6CR_MINC (1u << 10)
+#define DMA2_S6CR_CHSEL (7u << 25)
+#define DMA2_S6NDTR 0xa4u
+#define DMA2_S6PAR 0xa8u
+#define DMA2_S6M0AR 0xacu
 
 /* bxCAN */
 #define CAN1_BASE 0x40006400u
