@@ -12,7 +12,7 @@ add_custom_target(brace_build_info
     BYPRODUCTS ${BRACE_BUILD_INFO_DIR}/build_info.h
     COMMENT "source hash")
 
-set(BRACE_CONTROLLER_SOURCES main.c banner.c console.c crash_words.c fault.c image_info.c kept.c kept_nvm.c servo_joints.c stack.c
+set(BRACE_CONTROLLER_SOURCES main.c banner.c board_servos.c console.c crash_words.c fault.c image_info.c kept.c kept_nvm.c stack.c
     stand_in_joints.c start.c text.c)
 list(TRANSFORM BRACE_CONTROLLER_SOURCES PREPEND ${CMAKE_CURRENT_LIST_DIR}/common/)
 

@@ -2,15 +2,21 @@
  * controller and watchdog. The driver is that of the real chip; other parts stand in for what the emulator lacks. */
 #include "board.h"
 
+#include "board_servos.h"
 #include "brace_hal_stm32f405.h"
 #include "fault.h"
 #include "kept.h"
 #include "kept_nvm.h"
 #include "stack.h"
-#include "servo_joints.h"
 #include "stand_in_joints.h"
 
 static brace_hal_t door;
+
+#if defined(BRACE_HAS_SERVOS) /* Dynamixel servos at the emulator's sixth serial port */
+static const bool has_servos = true;
+#else
+static const bool has_servos = false;
+#endif
 
 uint32_t board_now_us(void)
 {
@@ -24,14 +30,9 @@ uint32_t board_core_hz(void)
 
 const char *board_remark(void)
 {
-    return "emulated; joints stand in, non-volatile memory is RAM, no CAN, no watchdog";
+    return has_servos ? "emulated; servos 12 13 on USART6, non-volatile memory is RAM, no CAN, no watchdog"
+                      : "emulated; joints stand in, non-volatile memory is RAM, no CAN, no watchdog";
 }
-
-#if defined(BRACE_HAS_SERVOS) /* Dynamixel servos at the emulator's sixth serial port */
-static const bool has_servos = true;
-#else
-static const bool has_servos = false;
-#endif
 
 static int32_t joint_read(void *context, int32_t joint_index, brace_hal_joint_t *joint)
 {

@@ -11,10 +11,10 @@
  * stands for other drives. */
 #include "board.h"
 
+#include "board_servos.h"
 #include "brace_hal_stm32f405.h"
 #include "fault.h"
 #include "kept.h"
-#include "servo_joints.h"
 #include "stack.h"
 
 static const brace_hal_t *door;

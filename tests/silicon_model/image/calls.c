@@ -117,3 +117,19 @@ int32_t restart(void)
     door->restart(door->context);
     return 0;
 }
+
+int32_t setup_servos(uint32_t baud)
+{
+    const stm32f405_servo_line_t wires = {{'C', 6}, {'C', 7}, {'C', 8}, baud, false};
+    return stm32f405_servo_line(&wires);
+}
+
+int32_t send_to_servos(uint32_t count)
+{
+    return stm32f405_servo_send(0, buffer, count);
+}
+
+int32_t receive_from_servos(uint32_t room)
+{
+    return stm32f405_servo_receive(0, buffer, room);
+}

@@ -1,6 +1,6 @@
 /* Joints by Dynamixel servos, for boards that have a line to them. */
-#ifndef BRACE_BOARDS_SERVO_JOINTS_H
-#define BRACE_BOARDS_SERVO_JOINTS_H
+#ifndef BRACE_BOARDS_BOARD_SERVOS_H
+#define BRACE_BOARDS_BOARD_SERVOS_H
 
 #include "brace_dynamixel.h"
 

@@ -1,4 +1,4 @@
-#include "servo_joints.h"
+#include "board_servos.h"
 
 static brace_dynamixel_t driver;
 static bool is_started;
