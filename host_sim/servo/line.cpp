@@ -14,6 +14,7 @@ constexpr std::uint8_t kBroadcast = 254, kStatus = 0x55, kSyncRead = 0x82, kSync
                        kPing = 1;
 constexpr std::uint64_t kThinks_ns = 10'000; // from an instruction's last bit to the answer's first, with no delay set
 constexpr std::size_t kPacketMost = 1024;
+constexpr std::int32_t kKnowsFast = 45; // firmware from which a servo knows the fast sync read
 
 // Bit by bit, as the polynomial says: x^16 + x^15 + x^2 + 1.
 std::uint16_t crc_of(const Bytes &bytes, std::size_t count)
@@ -219,7 +220,8 @@ void Line::sync_read(const Bytes &parameters, bool is_fast)
     std::uint64_t after_ns = heard_ns_;
     for (const std::uint8_t id : ids) {
         const Servo *meant = named(id);
-        if (meant == nullptr || !meant->hears(heard_ns_) || meant->get(kReturnLevel, 1) < 1) {
+        const bool hears = meant != nullptr && meant->hears(heard_ns_) && meant->get(kReturnLevel, 1) >= 1;
+        if (!hears || (is_fast && meant->get(kFirmware, 1) < kKnowsFast)) {
             break;
         }
         Answer answer = meant->read(address, count);

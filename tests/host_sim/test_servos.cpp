@@ -40,6 +40,8 @@ struct Bench {
     std::array<std::uint32_t, 3> fresh{}, wrong{}, refused{};
     std::uint64_t oldest_us = 0;
     bool is_deaf = false; // the line takes nothing
+    bool has_echo = false; // the line hears itself
+    std::vector<std::uint8_t> echo;
     std::vector<std::uint8_t> flips; // of the next answer of this length
 
     Bench()
@@ -60,6 +62,9 @@ struct Bench {
         if (bench.is_deaf) {
             return BRACE_HAL_AGAIN;
         }
+        if (bench.has_echo) {
+            bench.echo.assign(bytes, bytes + count);
+        }
         brace_servos_hear(bench.servos.get(), 1000 * bench.now_us, bytes, count);
         return BRACE_HAL_OK;
     }
@@ -67,6 +72,12 @@ struct Bench {
     static std::int32_t receive(void *context, std::uint8_t *bytes, std::uint32_t room)
     {
         Bench &bench = *static_cast<Bench *>(context);
+        if (!bench.echo.empty()) {
+            const auto heard = static_cast<std::ptrdiff_t>(std::min<std::size_t>(room, bench.echo.size()));
+            std::copy_n(bench.echo.begin(), heard, bytes);
+            bench.echo.erase(bench.echo.begin(), bench.echo.begin() + heard);
+            return static_cast<std::int32_t>(heard);
+        }
         const std::uint32_t count = brace_servos_give(bench.servos.get(), 1000 * bench.now_us, bytes, room);
         if (count == bench.flips.size()) {
             for (std::uint32_t i = 0; i < count; ++i) {
@@ -220,10 +231,11 @@ void test_one_percent_of_the_packets_damaged()
     }
     TEST_ASSERT_EQUAL(0, bench.refused[kFemur]);
     TEST_ASSERT_LESS_OR_EQUAL(3 * kTick_us, bench.oldest_us);
-    // Of a request that is damaged there is no answer; of an answer there is a wrong packet, or bytes of none.
-    TEST_ASSERT_GREATER_THAN(0, counts.damaged);
-    const std::uint32_t seen = bench.counters().damaged + bench.report(0).lost + bench.report(1).lost + bench.report(2).lost;
-    TEST_ASSERT_GREATER_OR_EQUAL(counts.damaged / 2, seen);
+    // A request that is damaged, or whose answer is, has no answer. Nobody sees a damaged goal, of which there are 100 a
+    // second at most; and both packets of an exchange may be damaged.
+    const double unanswered = bench.counters().requests - bench.counters().answers, damaged = static_cast<double>(counts.damaged);
+    std::printf("%.0f packets damaged, %.0f requests without an answer\n", damaged, unanswered);
+    TEST_ASSERT_TRUE(unanswered <= damaged && unanswered >= damaged - 0.01 * 100 * 100 - 100);
 }
 
 // The bursts of up to 16 bits that the CRC misses in an answer of this length, as bits to flip. The CRC is linear, so
@@ -356,7 +368,36 @@ void test_a_hardware_error_is_told_and_the_joint_is_still_measured()
     TEST_ASSERT_GREATER_OR_EQUAL(500, bench.fresh[kTibia]);
 }
 
-void test_servos_without_fast_sync_read_and_foreign_servos()
+void test_servos_that_know_no_fast_sync_read_are_asked_otherwise()
+{
+    Bench bench;
+    for (int i = 0; i < 3; ++i) {
+        brace_servos_poke(bench.servos.get(), i, 6, 1, 40); // their firmware
+    }
+    bench.be_ready();
+    bench.run(1.0);
+    TEST_ASSERT_TRUE(bench.driver.is_plain);
+    for (int i = 0; i < 3; ++i) {
+        TEST_ASSERT_GREATER_OR_EQUAL(500, bench.fresh[i]);
+        TEST_ASSERT_EQUAL(0, bench.wrong[i]);
+    }
+}
+
+void test_a_line_that_hears_itself_disturbs_nothing()
+{
+    Bench bench;
+    bench.has_echo = true;
+    bench.be_ready();
+    bench.run(1.0);
+    for (int i = 0; i < 3; ++i) {
+        TEST_ASSERT_GREATER_OR_EQUAL(500, bench.fresh[i]);
+        TEST_ASSERT_EQUAL(0, bench.wrong[i]);
+        TEST_ASSERT_EQUAL(0, bench.report(i).lost);
+    }
+    TEST_ASSERT_EQUAL(0, bench.counters().damaged + bench.counters().foreign + bench.counters().skipped_bytes);
+}
+
+void test_foreign_servos_are_refused()
 {
     Bench bench;
     brace_servos_poke(bench.servos.get(), kCoxa, 0, 2, 350); // an XL-320
@@ -463,7 +504,9 @@ int main()
     RUN_TEST(test_a_silent_servo_is_told_and_the_others_go_on);
     RUN_TEST(test_a_servo_that_starts_anew_stands_where_it_is_and_is_counted);
     RUN_TEST(test_a_hardware_error_is_told_and_the_joint_is_still_measured);
-    RUN_TEST(test_servos_without_fast_sync_read_and_foreign_servos);
+    RUN_TEST(test_servos_that_know_no_fast_sync_read_are_asked_otherwise);
+    RUN_TEST(test_a_line_that_hears_itself_disturbs_nothing);
+    RUN_TEST(test_foreign_servos_are_refused);
     RUN_TEST(test_a_line_that_takes_nothing_is_told);
     RUN_TEST(test_offsets_and_torque_limits_reach_the_servos_and_fade);
     RUN_TEST(test_commands_that_make_no_sense_are_refused);

@@ -402,6 +402,30 @@ static void test_an_absurd_link_angle_is_none(void)
     }
 }
 
+/* A servo whose one encoder is behind its gear: NaN for the motor, and K all the same. */
+static void test_a_joint_without_a_motor_s_encoder_is_measured_behind_its_gear(void)
+{
+    ticks(5);
+    const float k_xx = now()->stiffness.now.k_xx_n_per_mm;
+    for (int joint = BRACE_FEMUR; joint <= BRACE_TIBIA; joint++) {
+        fake.joint[joint].sample.link_rad = fake.joint[joint].sample.motor_rad;
+        fake.joint[joint].sample.motor_rad = __builtin_nanf("");
+    }
+    ticks(5);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+    ASSERT_CLOSE(k_xx, now()->stiffness.now.k_xx_n_per_mm, 1e-6);
+    TEST_ASSERT_TRUE(now()->motor_rad[BRACE_FEMUR] != now()->motor_rad[BRACE_FEMUR]); /* absent, and told so */
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    TEST_ASSERT_EQUAL(0, counters().samples_bad);
+    fake.joint[BRACE_FEMUR].sample.link_rad += 1.0f; /* no joint gets there in a millisecond */
+    ticks(1);
+    TEST_ASSERT_EQUAL(1, counters().samples_bad);
+    fake.joint[BRACE_FEMUR].sample.link_rad = __builtin_nanf(""); /* no encoder at all */
+    ticks(30);
+    TEST_ASSERT_FALSE(now()->k_is_valid);
+    TEST_ASSERT_EQUAL(BRACE_FAULT_SENSOR_FEMUR, now()->faults);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -429,5 +453,6 @@ int main(void)
     RUN_TEST(test_a_force_sensor_that_never_had_a_reading_tells_none);
     RUN_TEST(test_a_sample_from_the_future_does_not_stay_young);
     RUN_TEST(test_an_absurd_link_angle_is_none);
+    RUN_TEST(test_a_joint_without_a_motor_s_encoder_is_measured_behind_its_gear);
     return UNITY_END();
 }
