@@ -12,8 +12,8 @@ add_custom_target(brace_build_info
     BYPRODUCTS ${BRACE_BUILD_INFO_DIR}/build_info.h
     COMMENT "source hash")
 
-set(BRACE_CONTROLLER_SOURCES main.c banner.c board_servos.c console.c crash_words.c fault.c image_info.c kept.c kept_nvm.c stack.c
-    stand_in_joints.c start.c text.c)
+set(BRACE_CONTROLLER_SOURCES main.c banner.c board_servos.c console.c crash_words.c fault.c image_info.c kept.c
+    kept_nvm.c stack.c stand_in_joints.c start.c text.c)
 list(TRANSFORM BRACE_CONTROLLER_SOURCES PREPEND ${CMAKE_CURRENT_LIST_DIR}/common/)
 
 function(brace_controller_image target)
@@ -30,8 +30,8 @@ function(brace_controller_image target)
     target_compile_options(${target} PRIVATE -Os -ffreestanding -fno-tree-loop-distribute-patterns -fstack-usage)
     set_source_files_properties(${boards}/common/fault.c ${boards}/common/kept.c ${boards}/common/start.c
         PROPERTIES COMPILE_OPTIONS -mgeneral-regs-only)
-    target_link_libraries(${target} PRIVATE ${image_HAL} brace_hal_dynamixel brace_hal_selftest brace_app brace_interface brace_core
-        brace_warnings)
+    target_link_libraries(${target} PRIVATE ${image_HAL} brace_hal_dynamixel brace_hal_selftest brace_app brace_interface
+        brace_core brace_warnings)
     target_link_options(${target} PRIVATE -nostartfiles --specs=nano.specs -Wl,-Map=${base}.map
         -L${boards}/common -T${boards}/${image_MEMORY})
     add_custom_command(TARGET ${target} POST_BUILD

@@ -60,8 +60,8 @@ typedef struct {
     int32_t block_replaces;          /* 0: the block is stored only if the file has none yet; 1: always */
     const char *console, *modbus_line, *slcan_line; /* URLs of serial ports, brace_hal_posix.h; null: no port */
     const char *modbus_tcp;
-    /* Joints by Dynamixel servos, through the driver that boards use: "sim", simulated MX-106 between this limb's joints
-     * and the driver; or a serial device with real servos, /dev/ttyX@BAUD. Null: the joints are read without a line. Real
+    /* Joints by Dynamixel servos, through the driver that boards use: "sim", simulated MX-106 between this limb and the
+     * driver; or a serial device with real servos, /dev/ttyX@BAUD. Null: the joints are read without a line. Real
      * servos have no simulated limb behind them, and no force sensor; nobody moves them but the controller's own tests,
      * and only where their torque is on. */
     const char *servos;

@@ -60,7 +60,7 @@ LimbNode::LimbNode(const brace_node_limb_t &limb, std::uint64_t seed)
     }
     brace_posix_init(&posix_);
     posix_.time_is_given = true;
-    posix_.limb = {this, joint_read, joint_command, 
+    posix_.limb = {this, joint_read, joint_command,
                    limb.has_force_sensor != 0 && !has_real_servos(limb) ? tip_force_read : nullptr};
 }
 

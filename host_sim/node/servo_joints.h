@@ -37,8 +37,8 @@ public:
     void move(std::size_t joint, double angle_rad);
     const brace_dynamixel_t &driver() const { return driver_; }
 
-    // Of simulated servos: what the limb does to a shaft, and where the servo's firmware wants it. limit_n_mm is 0 while
-    // the torque is off.
+    // Of simulated servos: what the limb does to a shaft, and where the servo's firmware wants it. limit_n_mm is 0
+    // while the torque is off.
     void shaft(std::size_t joint, double link_rad, double speed_rad_per_s, double torque_n_mm, double temp_degc);
     void goal(std::size_t joint, double &set_rad, double &limit_n_mm) const;
 

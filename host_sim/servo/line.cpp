@@ -105,8 +105,8 @@ Servo *Line::servo(std::int32_t index)
 
 const Servo *Line::servo(std::int32_t index) const
 {
-    return index >= 0 && index < static_cast<std::int32_t>(servos_.size()) ? servos_[static_cast<std::size_t>(index)].get()
-                                                                         : nullptr;
+    const bool is_there = index >= 0 && index < static_cast<std::int32_t>(servos_.size());
+    return is_there ? servos_[static_cast<std::size_t>(index)].get() : nullptr;
 }
 
 Servo *Line::named(std::uint8_t id)
@@ -131,7 +131,8 @@ void Line::hear(std::uint64_t at_ns, Bytes bytes)
     while (true) {
         const auto begin = std::search(heard_.begin(), heard_.end(), kHeader.begin(), kHeader.end());
         if (begin == heard_.end()) {
-            heard_.erase(heard_.begin(), heard_.end() - static_cast<std::ptrdiff_t>(std::min<std::size_t>(3, heard_.size())));
+            const auto kept = static_cast<std::ptrdiff_t>(std::min<std::size_t>(kHeader.size() - 1, heard_.size()));
+            heard_.erase(heard_.begin(), heard_.end() - kept);
             return;
         }
         heard_.erase(heard_.begin(), begin);
@@ -274,7 +275,9 @@ void Line::spoil(Bytes &packet)
         return;
     }
     ++counts.damaged;
-    const auto below = [this](std::size_t most) { return std::uniform_int_distribution<std::size_t>(0, most - 1)(random_); };
+    const auto below = [this](std::size_t most) {
+        return std::uniform_int_distribution<std::size_t>(0, most - 1)(random_);
+    };
     const auto flip = [&packet](std::size_t bit) { packet[bit / 8] ^= static_cast<std::uint8_t>(1u << bit % 8); };
     const std::size_t bits = 8 * packet.size();
     if (below(2) == 0) {

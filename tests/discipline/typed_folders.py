@@ -19,7 +19,7 @@ TYPED = {  # folder: where its imports are looked for
     "tests/modbus": "tools:tests/modbus:tests/socketcan",
     "tests/proofs": "tools:tests/proofs",
     "tests/property": "tools:tests/property",
-    "tests/servo": "tools:tests/servo",
+    "tests/servo": "tools:tests/servo:tests/emulated",
     "tests/socketcan": "tools:tests/socketcan",
     "tests/tools": "tools:tests/tools:tests/tools/diagnose:tests/bench",
 }

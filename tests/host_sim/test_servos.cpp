@@ -31,7 +31,8 @@ constexpr std::uint16_t kModels[3] = {321, 1120, 1020};
 
 // Three servos whose shafts turn, a driver, and a tick that reads the joints.
 struct Bench {
-    std::unique_ptr<brace_servos_t, void (*)(brace_servos_t *)> servos{brace_servos_create(kBaud, 1), brace_servos_destroy};
+    std::unique_ptr<brace_servos_t, void (*)(brace_servos_t *)> servos{brace_servos_create(kBaud, 1),
+                                                                      brace_servos_destroy};
     brace_dynamixel_t driver{};
     brace_servo_setup_t setup{};
     std::uint64_t now_us = 0;
@@ -94,7 +95,10 @@ struct Bench {
         TEST_ASSERT_EQUAL(BRACE_HAL_OK, brace_dynamixel_start(&driver, &setup, &line));
     }
 
-    double turned_rad(int joint, double t_us) const { return M_PI + 0.8 * std::sin(turns_rad_per_s * 1e-6 * t_us + joint); }
+    double turned_rad(int joint, double t_us) const
+    {
+        return M_PI + 0.8 * std::sin(turns_rad_per_s * 1e-6 * t_us + joint);
+    }
     double current_a(int joint, double t_us) const { return 1.2 * std::sin(3e-6 * t_us + 2 * joint); }
 
     void turn()
@@ -186,8 +190,10 @@ struct Bench {
     void say(const char *what, double seconds) const
     {
         const brace_servo_counters_t told = counters();
-        std::printf("%s: %.0f %.0f %.0f samples/s, oldest at use %.2f ms, damaged %u, lost %u %u %u, doubted %u, wrong %u\n",
-                    what, fresh[0] / seconds, fresh[1] / seconds, fresh[2] / seconds, 1e-3 * static_cast<double>(oldest_us),
+        std::printf("%s: %.0f %.0f %.0f samples/s, oldest at use %.2f ms, damaged %u, lost %u %u %u, doubted %u, "
+                    "wrong %u\n",
+                    what, fresh[0] / seconds, fresh[1] / seconds, fresh[2] / seconds,
+                    1e-3 * static_cast<double>(oldest_us),
                     told.damaged, report(0).lost, report(1).lost, report(2).lost,
                     report(0).doubted + report(1).doubted + report(2).doubted, wrong[0] + wrong[1] + wrong[2]);
     }
@@ -231,9 +237,10 @@ void test_one_percent_of_the_packets_damaged()
     }
     TEST_ASSERT_EQUAL(0, bench.refused[kFemur]);
     TEST_ASSERT_LESS_OR_EQUAL(3 * kTick_us, bench.oldest_us);
-    // A request that is damaged, or whose answer is, has no answer. Nobody sees a damaged goal, of which there are 100 a
-    // second at most; and both packets of an exchange may be damaged.
-    const double unanswered = bench.counters().requests - bench.counters().answers, damaged = static_cast<double>(counts.damaged);
+    // A request that is damaged, or whose answer is, has no answer. Nobody sees a damaged goal, of which there are 100
+    // a second at most; and both packets of an exchange may be damaged.
+    const double unanswered = bench.counters().requests - bench.counters().answers;
+    const double damaged = static_cast<double>(counts.damaged);
     std::printf("%.0f packets damaged, %.0f requests without an answer\n", damaged, unanswered);
     TEST_ASSERT_TRUE(unanswered <= damaged && unanswered >= damaged - 0.01 * 100 * 100 - 100);
 }
@@ -285,7 +292,8 @@ void test_no_burst_that_the_crc_misses_makes_a_wrong_sample()
         for (const auto &burst : bursts) {
             for (std::size_t packet = 0; packet < packets; ++packet) {
                 bench.flips.assign(packets * length, 0);
-                std::copy(burst.begin(), burst.end(), bench.flips.begin() + static_cast<std::ptrdiff_t>(packet * length));
+                const auto at = static_cast<std::ptrdiff_t>(packet * length);
+                std::copy(burst.begin(), burst.end(), bench.flips.begin() + at);
                 bench.run(0.02);
                 TEST_ASSERT_TRUE(bench.flips.empty());
                 TEST_ASSERT_EQUAL(0, bench.wrong[0] + bench.wrong[1] + bench.wrong[2]);

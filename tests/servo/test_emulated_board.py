@@ -1,4 +1,4 @@
-"""The driver on an emulated STM32F405, over its USART6: the image measures K from simulated servos on a pseudo-terminal."""
+"""The driver on an emulated STM32F405, over its USART6: its image reads simulated servos on a pseudo-terminal."""
 
 from __future__ import annotations
 

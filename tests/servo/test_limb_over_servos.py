@@ -7,6 +7,7 @@ import math
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 from brace.model import load_limb
@@ -21,12 +22,12 @@ K_NAMES = ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm")
 COUNT_RAD = 2 * math.pi / 4096
 
 
-def end_of(*options: str) -> dict[str, object]:
+def end_of(*options: str) -> dict[str, Any]:
     """What the limb tells at the end of a run."""
     command = (*BRACE, "sim", "--model", str(LIMB), "--can", "none", "--modbus", "none", "--json", *options)
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
     assert done.returncode == 0, done.stderr
-    end: dict[str, object] = json.loads(done.stdout.splitlines()[-1])["limbs"][0]
+    end: dict[str, Any] = json.loads(done.stdout.splitlines()[-1])["limbs"][0]
     return end
 
 
@@ -36,13 +37,13 @@ def test_k_over_simulated_servos_is_that_of_the_limb() -> None:
     assert servos["k_is_valid"] and not servos["faults"] and not servos["flag_names"]
     for name in K_NAMES:
         # an angle is off by half a step of the servo's encoder: K changes by less than its own size times that angle
-        largest = abs(direct["lambda_max_n_per_mm"])  # type: ignore[arg-type]
+        largest = abs(direct["lambda_max_n_per_mm"])
         assert servos[name] == pytest.approx(direct[name], abs=2 * COUNT_RAD * largest + 1e-3 * largest)
 
 
-def node_over_servos(**changes: object) -> Node:
+def node_over_servos() -> Node:
     model = load_limb(LIMB)
-    return Node([LimbSetup(model, model, servos="sim", **changes)])  # type: ignore[arg-type]
+    return Node([LimbSetup(model, model, servos="sim")])
 
 
 def test_every_servo_is_sampled_at_least_500_times_a_second_and_all_is_counted() -> None:

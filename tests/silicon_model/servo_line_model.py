@@ -1,4 +1,4 @@
-"""USART6 and the two streams of DMA 2 that move its bytes (RM0090 chapters 30 and 10), with the line's direction pin."""
+"""USART6 and the two streams of DMA 2 that move its bytes (RM0090 chapters 30, 10), with the line's direction pin."""
 
 from __future__ import annotations
 

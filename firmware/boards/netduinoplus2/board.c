@@ -44,7 +44,9 @@ static int32_t joint_read(void *context, int32_t joint_index, brace_hal_joint_t 
 
 void board_serve(void)
 {
-    servo_joints_serve(board_now_us());
+    if (has_servos) {
+        servo_joints_serve(board_now_us());
+    }
 }
 
 static void start_servos(void)

@@ -19,7 +19,7 @@
 
 static const brace_hal_t *door;
 
-/* The paper's limb: three MX-106. Ids, senses and zeros are those of its assembly; docs/joints.md sets the servos up. */
+/* The paper's limb: three MX-106. Ids, senses and zeros are those of its assembly; docs/joints.md sets them up. */
 static const brace_servo_setup_t servos = {
     .joint = {{.id = 11u, .torque_ratio = 1.0f}, {.id = 12u, .torque_ratio = 1.0f}, {.id = 13u, .torque_ratio = 1.0f}},
     .period_us = 500u,

@@ -6,8 +6,8 @@
  * Wherever FF FF FD stands behind the length, FD is sent once more (stuffing), so that no packet looks like a header.
  * The answer to a fast sync read is not stuffed: its first servo says the length before the others have said anything.
  *
- * What damage is seen: up to three flipped bits, as long as the length is whole; bursts of up to 10 bits on the line. Of
- * the bursts of 11 to 16 bits the CRC misses one at each byte, because the line sends the lowest bit first and the CRC
+ * What damage is seen: up to three flipped bits, as long as the length is whole; bursts of up to 10 bits on the line.
+ * Of the bursts of 11 to 16 bits the CRC misses one at each byte, because the line sends the lowest bit first and the CRC
  * counts from the highest. Where the length is damaged too, the CRC lies elsewhere and misses one packet of 65,536. So
  * whoever asked compares the length with what was asked for, and the values with those before.
  */
@@ -111,7 +111,8 @@ typedef struct {
 } dxl_answer_t;
 
 /* The part of servo `index` in an answer to a fast sync read of `servos` servos with `count` bytes each. Each part has
- * its own CRC, which the last one's covers; so a sound packet's parts are sound. false: the packet is no such answer. */
+ * its own CRC, which the last one's covers; so a sound packet's parts are sound. false: the packet is no such
+ * answer. */
 bool dxl_fast_answer(const dxl_packet_t *packet, uint32_t servos, uint32_t count, uint32_t index,
                      dxl_answer_t *answer);
 

@@ -15,7 +15,7 @@ typedef struct {
 const dxl_model_t *dxl_model(uint16_t model);
 
 enum {
-    DXL_AT_IDENTITY = 0, /* model 2, information 4, firmware 1, id, baud rate, return delay, drive mode, operating mode */
+    DXL_AT_IDENTITY = 0, /* model 2, information 4, firmware, id, baud rate, return delay, drive mode, mode */
     DXL_IDENTITY_BYTES = 12,
     DXL_AT_CURRENT_LIMIT = 38,
     DXL_AT_TORQUE = 64, /* torque, LED, 2 free, status return level, registered, hardware error */

@@ -1,6 +1,6 @@
-/* One request at a time is under way. A sync read asks all servos that are ready for current, velocity and position; the
- * goals leave in front of it, in the same piece. Every eighth request is for one servo alone: who it is, whether it has
- * its torque, how warm it is. */
+/* One request at a time is under way. A sync read asks all servos that are ready for current, velocity and position;
+ * the goals leave in front of it, in the same piece. Every eighth request is for one servo alone: who it is, whether it
+ * has its torque, how warm it is. */
 #include "brace_dynamixel.h"
 
 #include <math.h>

@@ -40,8 +40,8 @@ typedef struct {
     uint32_t timer_hz;         /* rate of TIM2: twice APB1 when APB1 is divided */
 } stm32f405_clocks_t;
 
-/* A half-duplex line to servos: USART6, its bytes moved by DMA 2, streams 1 and 6. The direction pin is high from before
- * the first bit to behind the last. Set it up once, after brace_hal_stm32f405.
+/* A half-duplex line to servos: USART6, its bytes moved by DMA 2, streams 1 and 6. The direction pin is high from
+ * before the first bit to behind the last. Set it up once, after brace_hal_stm32f405.
  *   baud [9600, 4500000] that the clock meets to 2 %
  *   is_polled: for emulators without DMA; bytes then move within the calls
  * returns OK, or E_RANGE */
