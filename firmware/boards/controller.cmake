@@ -30,8 +30,8 @@ function(brace_controller_image target)
     target_compile_options(${target} PRIVATE -Os -ffreestanding -fno-tree-loop-distribute-patterns -fstack-usage)
     set_source_files_properties(${boards}/common/fault.c ${boards}/common/kept.c ${boards}/common/start.c
         PROPERTIES COMPILE_OPTIONS -mgeneral-regs-only)
-    target_link_libraries(${target} PRIVATE ${image_HAL} brace_hal_dynamixel brace_hal_selftest brace_app brace_interface
-        brace_core brace_warnings)
+    target_link_libraries(${target} PRIVATE ${image_HAL} brace_hal_dynamixel brace_hal_selftest brace_app
+        brace_interface brace_core brace_warnings)
     target_link_options(${target} PRIVATE -nostartfiles --specs=nano.specs -Wl,-Map=${base}.map
         -L${boards}/common -T${boards}/${image_MEMORY})
     add_custom_command(TARGET ${target} POST_BUILD

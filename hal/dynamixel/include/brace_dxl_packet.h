@@ -7,9 +7,9 @@
  * The answer to a fast sync read is not stuffed: its first servo says the length before the others have said anything.
  *
  * What damage is seen: up to three flipped bits, as long as the length is whole; bursts of up to 10 bits on the line.
- * Of the bursts of 11 to 16 bits the CRC misses one at each byte, because the line sends the lowest bit first and the CRC
- * counts from the highest. Where the length is damaged too, the CRC lies elsewhere and misses one packet of 65,536. So
- * whoever asked compares the length with what was asked for, and the values with those before.
+ * Of the bursts of 11 to 16 bits the CRC misses one at each byte, because the line sends the lowest bit first and the
+ * CRC counts from the highest. Where the length is damaged too, the CRC lies elsewhere and misses one packet of 65,536.
+ * So whoever asked compares the length with what was asked for, and the values with those before.
  */
 #ifndef BRACE_DXL_PACKET_H
 #define BRACE_DXL_PACKET_H

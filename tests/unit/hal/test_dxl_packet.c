@@ -270,8 +270,8 @@ static void test_three_flipped_bits_that_touch_the_length_are_seen(void)
 }
 
 /* A line sends the lowest bit of each byte first, the CRC counts from the highest. So a burst of the line is none of
- * the CRC's, and the CRC misses some of 11 and more bits: one at each byte, and a few that reach into the CRC itself. Those
- * are for whoever knows what the data can be. */
+ * the CRC's, and the CRC misses some of 11 and more bits: one at each byte, and a few that reach into the CRC itself.
+ * Those are for whoever knows what the data can be. */
 static void test_the_bursts_that_the_crc_misses_are_these(void)
 {
     enum { BYTES = 24, BITS = 8 * BYTES, BURST = 16 };
