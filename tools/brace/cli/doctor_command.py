@@ -26,9 +26,10 @@ def add(commands: Subcommands) -> None:
         "code 1 when something needed is missing or old, or the controller has a fault: of "
         f"{' and '.join(ALWAYS_NEEDED)} always, of the rest when --needed names it. Changes nothing.",
     )
+    of_machine = {name: meaning for name, meaning in PURPOSES.items() if name != CONTROLLER}
     parser.add_argument(
-        "--needed", nargs="+", choices=[name for name in PURPOSES if name != CONTROLLER], default=[], metavar="FOR",
-        help="also needed: " + ", ".join(f"{name} ({meaning})" for name, meaning in PURPOSES.items() if name != CONTROLLER),
+        "--needed", nargs="+", choices=tuple(of_machine), default=[], metavar="FOR",
+        help="also needed: " + ", ".join(f"{name} ({meaning})" for name, meaning in of_machine.items()),
     )  # fmt: skip
     add_bus(parser, required=False)
     common.add_json(parser)
