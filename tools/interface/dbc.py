@@ -47,7 +47,7 @@ def dbc(wire: Wire, dictionary_hash: int) -> str:
     refusals = [(wire.refusal, request.code + 32 * wire.refused_part) for request in wire.requests]
     for identifier, name, from_, to, frames in (
         (wire.request_id + _NODE, "request", _COMPUTER, _CONTROLLER, [(f, f.command or 0) for f in questions]),
-        (wire.answer_id + _NODE, "answer", _CONTROLLER, _COMPUTER, [*((f, f.command or 0) for f in answers), *refusals]),
+        (wire.answer_id + _NODE, "answer", _CONTROLLER, _COMPUTER, [(f, f.command or 0) for f in answers] + refusals),
     ):
         lines = [
             f' SG_ command M : 0|8@1+ (1,0) [0|255] "" {to}',
