@@ -13,6 +13,7 @@ from conftest import Outcome
 
 from brace.doctor import finding
 from brace.doctor.builds import builds
+from brace.doctor.controller import controller
 from brace.doctor.finding import MISSING, NOTE, OK, OLD, Finding, Machine
 from brace.doctor.hardware import hardware
 from brace.doctor.programs import programs, python_packages
@@ -175,3 +176,15 @@ def test_exit_code_and_json(brace: Brace, monkeypatch: pytest.MonkeyPatch) -> No
         assert told["findings"][0] == {"for": "build", "name": "gcc", "state": "ok", "found": "12", "try": ""}
     assert brace("doctor", "--needed", "everything").code == 2
     assert set(finding.PURPOSES) > set(finding.ALWAYS_NEEDED)
+
+
+def test_a_controllers_faults_and_counters_are_told() -> None:
+    values = {"faults": 1 << 6 | 1 << 10, "frames_lost": 7}
+    found = list(controller("can0, node 3", lambda name: values.get(name, 0)))
+    assert [(one.name, one.state) for one in found] == [
+        ("can_bus_off", "fault"), ("drive_refuses", "fault"), ("frames_lost", "note"),
+    ]  # fmt: skip
+    assert "7 requests" in found[2].found and all(one.next_step for one in found)
+    assert not found[0].is_good and found[2].is_good
+    (fine,) = controller("can0, node 3", lambda _: 0)
+    assert fine.is_good and "can0, node 3" in fine.found

@@ -1,4 +1,4 @@
-"""brace.dbc and brace_fd.dbc: the frames as CAN databases, for one node or several."""
+"""brace.dbc and brace_fd.dbc: the frames of node 1 as CAN databases. brace.wire.dbc moves them to other nodes."""
 
 from __future__ import annotations
 
@@ -7,77 +7,71 @@ from collections.abc import Sequence
 from interface.messages import Signal, Wire
 
 _CONTROLLER, _COMPUTER = "LIMB", "ROBOT"
+_NODE = 1
 # The attribute's meanings, by their numbers.
 _FORMATS = ("StandardCAN", "ExtendedCAN", *("reserved",) * 12, "StandardCAN_FD", "ExtendedCAN_FD")
 
 
-def dbc(wire: Wire, dictionary_hash: int, nodes: Sequence[int] = (1,)) -> str:
-    """Text of the database. With several nodes the names of their messages and senders end in _<node>."""
-    several = len(nodes) > 1
+def dbc(wire: Wire, dictionary_hash: int) -> str:
+    """Text of the database."""
     messages: list[str] = []
     comments: list[str] = ['CM_ "Brace: stiffness on the limb. Written from messages.toml. Dictionary '
                            f'0x{dictionary_hash:08x}.";']
     values: list[str] = []
     floats: list[str] = []
-    senders: list[str] = []
-    for node in nodes:
-        suffix = f"_{node}" if several else ""
-        sender = _CONTROLLER + suffix
-        senders.append(sender)
-        for frame in wire.messages:
-            identifier = frame.identifier + node
-            lines = [_signal_line(signal, signal.name, "", _COMPUTER) for signal in frame.signals]
-            messages.append(_message(identifier, frame.name + suffix, sender, lines))
-            comments.append(f'CM_ BO_ {identifier} "{frame.description}";')
+    for frame in wire.messages:
+        identifier = frame.identifier + _NODE
+        lines = [_signal_line(signal, signal.name, "", _COMPUTER) for signal in frame.signals]
+        messages.append(_message(identifier, frame.name, _CONTROLLER, lines))
+        comments.append(f'CM_ BO_ {identifier} "{frame.description}";')
+        for signal in frame.signals:
+            comments.append(f'CM_ SG_ {identifier} {signal.name} "{_words(signal)}";')
+            values += _value_table(identifier, signal, signal.name)
+    for multiplexed in wire.multiplexed:
+        identifier = multiplexed.identifier + _NODE
+        signals = [(signal, "M " if signal is multiplexed.selector else "") for signal in multiplexed.common]
+        signals += [
+            (signal, f"m{part.part} ")
+            for part in multiplexed.parts for signal in part.signals if signal not in multiplexed.common
+        ]
+        lines = [_signal_line(signal, signal.name, how, _COMPUTER) for signal, how in signals]
+        messages.append(_message(identifier, multiplexed.name, _CONTROLLER, lines))
+        comments.append(f'CM_ BO_ {identifier} "{multiplexed.description}";')
+        for signal, _ in signals:
+            comments.append(f'CM_ SG_ {identifier} {signal.name} "{_words(signal)}";')
+            values += _value_table(identifier, signal, signal.name)
+            if signal.kind == "f32":
+                floats.append(f"SIG_VALTYPE_ {identifier} {signal.name} : 1;")
+    questions = [request.question for request in wire.requests]
+    answers = [frame for request in wire.requests for frame in request.answers]
+    refusals = [(wire.refusal, request.code + 32 * wire.refused_part) for request in wire.requests]
+    for identifier, name, from_, to, frames in (
+        (wire.request_id + _NODE, "request", _COMPUTER, _CONTROLLER, [(f, f.command or 0) for f in questions]),
+        (wire.answer_id + _NODE, "answer", _CONTROLLER, _COMPUTER, [(f, f.command or 0) for f in answers] + refusals),
+    ):
+        lines = [
+            f' SG_ command M : 0|8@1+ (1,0) [0|255] "" {to}',
+            f' SG_ token : 8|8@1+ (1,0) [0|255] "" {to}',
+        ]
+        meanings: list[str] = []
+        for frame, command in frames:
+            refused = frame is wire.refusal
+            stem = f"refused_{command % 32}" if refused else frame.name.removesuffix("_request")
+            meanings.append(f'{command} "{stem.upper()}"')
             for signal in frame.signals:
-                comments.append(f'CM_ SG_ {identifier} {signal.name} "{_words(signal)}";')
-                values += _value_table(identifier, signal, signal.name)
-        for multiplexed in wire.multiplexed:
-            identifier = multiplexed.identifier + node
-            signals = [(signal, "M " if signal is multiplexed.selector else "") for signal in multiplexed.common]
-            signals += [
-                (signal, f"m{part.part} ")
-                for part in multiplexed.parts for signal in part.signals if signal not in multiplexed.common
-            ]
-            lines = [_signal_line(signal, signal.name, how, _COMPUTER) for signal, how in signals]
-            messages.append(_message(identifier, multiplexed.name + suffix, sender, lines))
-            comments.append(f'CM_ BO_ {identifier} "{multiplexed.description}";')
-            for signal, _ in signals:
-                comments.append(f'CM_ SG_ {identifier} {signal.name} "{_words(signal)}";')
-                values += _value_table(identifier, signal, signal.name)
+                full = f"{stem.replace('_answer_', '_')}_{signal.name}"
+                lines.append(_signal_line(signal, full, f"m{command} ", to))
+                values += _value_table(identifier, signal, full)
                 if signal.kind == "f32":
-                    floats.append(f"SIG_VALTYPE_ {identifier} {signal.name} : 1;")
-        questions = [request.question for request in wire.requests]
-        answers = [frame for request in wire.requests for frame in request.answers]
-        refusals = [(wire.refusal, request.code + 32 * wire.refused_part) for request in wire.requests]
-        for identifier, name, from_, to, frames in (
-            (wire.request_id + node, "request", _COMPUTER, sender, [(f, f.command or 0) for f in questions]),
-            (wire.answer_id + node, "answer", sender, _COMPUTER, [*((f, f.command or 0) for f in answers), *refusals]),
-        ):
-            lines = [
-                f' SG_ command M : 0|8@1+ (1,0) [0|255] "" {to}',
-                f' SG_ token : 8|8@1+ (1,0) [0|255] "" {to}',
-            ]
-            meanings: list[str] = []
-            for frame, command in frames:
-                refused = frame is wire.refusal
-                stem = f"refused_{command % 32}" if refused else frame.name.removesuffix("_request")
-                meanings.append(f'{command} "{stem.upper()}"')
-                for signal in frame.signals:
-                    full = f"{stem.replace('_answer_', '_')}_{signal.name}"
-                    lines.append(_signal_line(signal, full, f"m{command} ", to))
-                    values += _value_table(identifier, signal, full)
-                    if signal.kind == "f32":
-                        floats.append(f"SIG_VALTYPE_ {identifier} {full} : 1;")
-            messages.append(_message(identifier, name + suffix, from_, lines))
-            values.append(f"VAL_ {identifier} command {' '.join(meanings)} ;")
-    head = 'VERSION ""\n\nNS_ :\n\nBS_:\n\nBU_: ' + " ".join([*senders, _COMPUTER]) + "\n"
+                    floats.append(f"SIG_VALTYPE_ {identifier} {full} : 1;")
+        messages.append(_message(identifier, name, from_, lines))
+        values.append(f"VAL_ {identifier} command {' '.join(meanings)} ;")
+    head = 'VERSION ""\n\nNS_ :\n\nBS_:\n\nBU_: ' + f"{_CONTROLLER} {_COMPUTER}" + "\n"
     return "\n".join([head, *messages, *comments, *values, *floats]) + "\n"
 
 
-def dbc_fd(wire: Wire, dictionary_hash: int, nodes: Sequence[int] = (1,)) -> str:
+def dbc_fd(wire: Wire, dictionary_hash: int) -> str:
     """Text of the database of CAN FD frames alone; read it beside brace.dbc."""
-    several = len(nodes) > 1
     messages: list[str] = []
     comments: list[str] = [
         f'CM_ "Brace: stiffness on the limb, CAN FD. Written from messages.toml. Dictionary 0x{dictionary_hash:08x}.";'
@@ -85,23 +79,19 @@ def dbc_fd(wire: Wire, dictionary_hash: int, nodes: Sequence[int] = (1,)) -> str
     attributes: list[str] = []
     values: list[str] = []
     floats: list[str] = []
-    senders: list[str] = []
-    for node in nodes:
-        suffix = f"_{node}" if several else ""
-        senders.append(_CONTROLLER + suffix)
-        for frame in wire.fd_messages:
-            identifier = frame.identifier + node
-            lines = [_signal_line(signal, signal.name, "", _COMPUTER) for signal in frame.signals]
-            messages.append(_message(identifier, frame.name + suffix, senders[-1], lines, frame.bytes))
-            comments.append(f'CM_ BO_ {identifier} "{frame.description}";')
-            attributes.append(f'BA_ "VFrameFormat" BO_ {identifier} {_FORMATS.index("StandardCAN_FD")};')
-            attributes.append(f'BA_ "CANFD_BRS" BO_ {identifier} 1;')
-            for signal in frame.signals:
-                comments.append(f'CM_ SG_ {identifier} {signal.name} "{_words(signal)}";')
-                values += _value_table(identifier, signal, signal.name)
-                if signal.kind == "f32":
-                    floats.append(f"SIG_VALTYPE_ {identifier} {signal.name} : 1;")
-    head = 'VERSION ""\n\nNS_ :\n\nBS_:\n\nBU_: ' + " ".join([*senders, _COMPUTER]) + "\n"
+    for frame in wire.fd_messages:
+        identifier = frame.identifier + _NODE
+        lines = [_signal_line(signal, signal.name, "", _COMPUTER) for signal in frame.signals]
+        messages.append(_message(identifier, frame.name, _CONTROLLER, lines, frame.bytes))
+        comments.append(f'CM_ BO_ {identifier} "{frame.description}";')
+        attributes.append(f'BA_ "VFrameFormat" BO_ {identifier} {_FORMATS.index("StandardCAN_FD")};')
+        attributes.append(f'BA_ "CANFD_BRS" BO_ {identifier} 1;')
+        for signal in frame.signals:
+            comments.append(f'CM_ SG_ {identifier} {signal.name} "{_words(signal)}";')
+            values += _value_table(identifier, signal, signal.name)
+            if signal.kind == "f32":
+                floats.append(f"SIG_VALTYPE_ {identifier} {signal.name} : 1;")
+    head = 'VERSION ""\n\nNS_ :\n\nBS_:\n\nBU_: ' + f"{_CONTROLLER} {_COMPUTER}" + "\n"
     formats = ",".join(f'"{name}"' for name in _FORMATS)
     definitions = [
         'BA_DEF_ "BusType" STRING ;', f'BA_DEF_ BO_ "VFrameFormat" ENUM {formats};',

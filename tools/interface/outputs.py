@@ -41,6 +41,8 @@ def outputs(
     return {
         "firmware/interface/brace.dbc": dbc(wire, language),
         "firmware/interface/brace_fd.dbc": dbc_fd(wire, language),
+        "tools/brace/data/can/brace.dbc": dbc(wire, language),
+        "tools/brace/data/can/brace_fd.dbc": dbc_fd(wire, language),
         "firmware/interface/generated/brace/can_messages.h": messages_header(wire, language),
         **{f"firmware/interface/generated/{name}.c": text for name, text in messages_sources(wire).items()},
         "firmware/interface/generated/brace/can_frames.h": dispatch_header(wire),

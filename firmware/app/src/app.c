@@ -19,21 +19,19 @@ static bool door_is_complete(const brace_hal_t *hal)
 /* What must not change between one configuration and the next: the parameters, and all that is made from them. */
 static guard_span_t guarded(const controller_t *controller, uint32_t index)
 {
-#define SPAN(from, end) {&(from), (uint32_t)((const uint8_t *)&(end) - (const uint8_t *)&(from)) / 4u}
-#define WHOLE(member) {&(member), sizeof(member) / 4u}
-    const guard_span_t spans[GUARDED_SPANS] = {
-        SPAN(controller->parameters.in_force, controller->parameters.store),
-        SPAN(controller->model, controller->model.spatial.yaw_rad_per_n_mm), /* the springs behind change */
-        SPAN(controller->model.loaded, controller->model.deflection_rad),
-        WHOLE(controller->tip_force.inverse),
-        [GUARDED_GRAVITY] = WHOLE(controller->gravity),
-        WHOLE(controller->flank.joint[BRACE_COXA].machine.params),
-        WHOLE(controller->flank.joint[BRACE_FEMUR].machine.params),
-        WHOLE(controller->flank.joint[BRACE_TIBIA].machine.params),
-    };
+#define SPAN(from, end) (guard_span_t){&(from), (uint32_t)((const uint8_t *)&(end) - (const uint8_t *)&(from)) / 4u}
+#define WHOLE(member) (guard_span_t){&(member), sizeof(member) / 4u}
+    const model_t *model = &controller->model;
+    switch (index) {
+    case 0: return SPAN(controller->parameters.in_force, controller->parameters.store);
+    case 1: return SPAN(*model, model->spatial.yaw_rad_per_n_mm); /* the springs behind change in each tick */
+    case 2: return SPAN(model->loaded, model->deflection_rad);
+    case 3: return WHOLE(controller->tip_force.inverse);
+    case GUARDED_GRAVITY: return WHOLE(controller->gravity);
+    default: return WHOLE(controller->flank.joint[index - GUARDED_JOINTS].machine.params);
+    }
 #undef SPAN
 #undef WHOLE
-    return spans[index];
 }
 
 static void take_guard(controller_t *controller)

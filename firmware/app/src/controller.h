@@ -25,7 +25,8 @@
 #include "stiffness/model.h"
 #include "stiffness/softening.h"
 
-enum { GUARDED_GRAVITY = 4, GUARDED_SPANS = 8 }; /* parts of the memory that guard looks over: app.c lists them */
+/* Parts of the memory that guard looks over: app.c lists them. */
+enum { GUARDED_GRAVITY = 4, GUARDED_JOINTS = 5, GUARDED_SPANS = GUARDED_JOINTS + BRACE_LINK_COUNT };
 
 typedef struct {
     const brace_hal_t *hal;

@@ -15,7 +15,7 @@ from brace.errors import EXIT_CHECK_FAILED, EXIT_OK, EXIT_USAGE, BraceError
 
 SUBCOMMANDS = (
     *("k", "map", "simulate", "predict", "identify", "diagnose", "plan", "params", "demo"),
-    *("sim", "query", "monitor", "record", "replay", "gravity", "clear", "flash", "doctor"),
+    *("sim", "query", "monitor", "record", "replay", "gravity", "clear", "dbc", "flash", "doctor"),
 )
 _NEGATIVE_NUMBER = re.compile(r"^-(\d|\.\d|inf|nan)", re.IGNORECASE)
 

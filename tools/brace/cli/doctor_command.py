@@ -6,6 +6,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from brace.cli import common
+from brace.cli.bus_options import add_bus
 from brace.cli.options import Subcommands
 from brace.errors import EXIT_CHECK_FAILED, EXIT_OK
 
@@ -15,19 +16,22 @@ if TYPE_CHECKING:
 
 def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
-    from brace.doctor.finding import ALWAYS_NEEDED, PURPOSES
+    from brace.doctor.finding import ALWAYS_NEEDED, CONTROLLER, PURPOSES
 
     parser = commands.add_parser(
         "doctor",
         help="what is there for working with Brace, and what is missing",
         description="Looks at compilers, emulator, programmers, probes, serial ports, CAN, Python packages, and "
-        "whether library and images are built and fresh. Exit code 1 when something needed is missing or old: "
-        f"of {' and '.join(ALWAYS_NEEDED)} always, of the rest when --needed names it. Changes nothing.",
+        "whether library and images are built and fresh; with --bus also at a controller's faults and counters. Exit "
+        "code 1 when something needed is missing or old, or the controller has a fault: of "
+        f"{' and '.join(ALWAYS_NEEDED)} always, of the rest when --needed names it. Changes nothing.",
     )
+    of_machine = {name: meaning for name, meaning in PURPOSES.items() if name != CONTROLLER}
     parser.add_argument(
-        "--needed", nargs="+", choices=tuple(PURPOSES), default=[], metavar="FOR",
-        help="also needed: " + ", ".join(f"{name} ({meaning})" for name, meaning in PURPOSES.items()),
+        "--needed", nargs="+", choices=tuple(of_machine), default=[], metavar="FOR",
+        help="also needed: " + ", ".join(f"{name} ({meaning})" for name, meaning in of_machine.items()),
     )  # fmt: skip
+    add_bus(parser, required=False)
     common.add_json(parser)
     parser.set_defaults(run=run)
 
@@ -35,7 +39,7 @@ def add(commands: Subcommands) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from brace.doctor.builds import builds
-    from brace.doctor.finding import ALWAYS_NEEDED, Machine
+    from brace.doctor.finding import ALWAYS_NEEDED, CONTROLLER, Machine
     from brace.doctor.hardware import hardware
     from brace.doctor.programs import programs, python_packages
 
@@ -44,6 +48,9 @@ def run(arguments: argparse.Namespace) -> int:
     for look in (python_packages, programs, hardware, builds):
         findings += look(machine)
     needed = {*ALWAYS_NEEDED, *arguments.needed}
+    if arguments.bus is not None:
+        findings += _of_controller(arguments)
+        needed.add(CONTROLLER)
     lacking = [finding for finding in findings if finding.purpose in needed and not finding.is_good]
     if arguments.json:
         common.print_json({
@@ -57,16 +64,25 @@ def run(arguments: argparse.Namespace) -> int:
     return EXIT_CHECK_FAILED if lacking else EXIT_OK
 
 
+def _of_controller(arguments: argparse.Namespace) -> list[Finding]:
+    from brace.cli.bus_options import controller
+    from brace.doctor.controller import controller as looked_at
+
+    with controller(arguments) as device:
+        return list(looked_at(f"{device.url}, node {device.node}", device.read_entry))
+
+
 def _text(findings: list[Finding], needed: set[str], lacking: int) -> str:
     from brace.doctor.finding import PURPOSES
 
     lines = []
-    for purpose, meaning in PURPOSES.items():
+    there = {finding.purpose for finding in findings}
+    for purpose, meaning in ((name, text) for name, text in PURPOSES.items() if name in there):
         lines += ["", f"{meaning}{'' if purpose in needed else ' (optional)'}"]
         for finding in (finding for finding in findings if finding.purpose == purpose):
             lines.append(f"  {finding.state:<8} {finding.name:<22} {finding.found}")
             if finding.next_step:
                 lines.append(f"  {'':<8} {'':<22} try: {finding.next_step}")
-    missing = f"{lacking} of the things that are needed: missing or too old, see 'try' above"
+    missing = f"{lacking} of the things that are needed: missing, too old or faulty, see 'try' above"
     lines += ["", missing if lacking else "everything needed is there"]
     return "\n".join(lines[1:])

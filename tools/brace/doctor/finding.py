@@ -8,7 +8,8 @@ from pathlib import Path
 
 PROJECT = Path(__file__).resolve().parents[3]
 
-OK, MISSING, OLD, NOTE = "ok", "missing", "old", "note"
+OK, MISSING, OLD, NOTE, FAULTY = "ok", "missing", "old", "note", "fault"
+CONTROLLER = "controller"
 
 #: What things are for; the first two are what everybody needs.
 PURPOSES = {
@@ -17,13 +18,14 @@ PURPOSES = {
     "images": "building and emulating firmware images",
     "flash": "putting images on boards",
     "wire": "talking to controllers",
+    CONTROLLER: "the controller at --bus",
 }
 ALWAYS_NEEDED = ("tools", "build")
 
 
 @dataclass(frozen=True)
 class Finding:
-    """`state`: ok, missing, old (there, but older than what it is made from), note (nothing is wrong)."""
+    """`state`: ok, missing, old (there, but older than what it is made from), note (nothing is wrong), fault."""
 
     purpose: str
     name: str

@@ -34,31 +34,27 @@ static float link_angle_rad(const brace_hal_joint_t *sample)
     return __builtin_fabsf(sample->link_rad) <= ANGLE_ABSURD_RAD ? sample->link_rad : __builtin_nanf("");
 }
 
-static joint_place_t place_of(const brace_hal_joint_t *sample)
-{
-    return (joint_place_t){sample->motor_rad, link_angle_rad(sample), sample->taken_us};
-}
-
-/* Can a joint have moved from one place to the other? What is NaN says nothing. */
-static bool can_reach(const joint_place_t *from, const joint_place_t *to)
+/* Can a joint have moved from one sample's angles to the other's? What is NaN, or a link's angle that is absurd, says
+ * nothing. */
+static bool can_reach(const brace_hal_joint_t *from, const brace_hal_joint_t *to)
 {
     const float most_rad = REACH_MARGIN_RAD + SPEED_MOST_RAD_PER_US * (float)(to->taken_us - from->taken_us);
+    const float link_moved_rad = __builtin_fabsf(to->link_rad - from->link_rad);
     return !(__builtin_fabsf(to->motor_rad - from->motor_rad) > most_rad ||
-             __builtin_fabsf(to->link_rad - from->link_rad) > most_rad);
+             (link_moved_rad > most_rad && link_moved_rad <= ANGLE_ABSURD_RAD));
 }
 
 /* Is the sample where the joint can be? One that is not is kept: if the next one agrees with it, the joint is there. */
 static bool is_within_reach(joint_t *joint, const brace_hal_joint_t *fresh)
 {
-    const joint_place_t before = place_of(&joint->sample), now = place_of(fresh);
-    const bool has_wild = joint->wild.motor_rad == joint->wild.motor_rad;
-    const bool is_believed = joint->samples_seen == 0u || can_reach(&before, &now) ||
-                             (has_wild && can_reach(&joint->wild, &now));
-    joint->wild = now;
-    if (is_believed) {
-        joint->wild.motor_rad = __builtin_nanf("");
+    if (joint->samples_seen == 0u || can_reach(&joint->sample, fresh)) {
+        joint->has_wild = false;
+        return true;
     }
-    return is_believed;
+    const bool is_there = joint->has_wild && can_reach(&joint->wild, fresh);
+    joint->has_wild = !is_there;
+    joint->wild = *fresh;
+    return is_there;
 }
 
 static float lower(float a, float b)
@@ -170,8 +166,7 @@ void joints_start(joints_t *joints, const brace_hal_t *hal)
     brace_hal_joint_t ignored;
     *joints = (joints_t){0};
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-        joints->joint[i] = (joint_t){.fitted = true, .sample = {unknown, unknown, unknown, unknown, 0},
-                                         .wild = {unknown, unknown, 0}};
+        joints->joint[i] = (joint_t){.fitted = true, .sample = {unknown, unknown, unknown, unknown, 0}};
     }
     joints->joint[BRACE_COXA].fitted =
         hal->joint_read(hal->context, BRACE_COXA, &ignored) != BRACE_HAL_E_UNSUPPORTED;

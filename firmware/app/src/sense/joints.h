@@ -17,12 +17,6 @@ typedef struct {
     float link_low_rad, link_high_rad;
 } joint_standstill_t;
 
-/* Where both encoders say that a joint stands. */
-typedef struct {
-    float motor_rad, link_rad;
-    uint32_t taken_us;
-} joint_place_t;
-
 typedef struct {
     bool fitted;              /* the limb has this joint */
     bool is_link_only;        /* its one encoder is behind the gear: sample.motor_rad is the link's angle */
@@ -32,7 +26,8 @@ typedef struct {
     bool is_new_enough_to_prove_a_flank; /* no older than four ticks, which the backlash machine's filters bear */
     bool stuck;               /* the torque changes and the angle does not follow */
     uint8_t samples_seen;     /* in a row; counts to 3 */
-    joint_place_t wild;       /* what the sample before told, if no joint could have moved there; else NaN */
+    bool has_wild;            /* no joint could have moved to where the sample before told, */
+    brace_hal_joint_t wild;   /* which is this one */
     joint_standstill_t standstill;
 } joint_t;
 

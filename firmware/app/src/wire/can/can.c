@@ -112,7 +112,10 @@ static void listen_to_bus(can_t *can, const wire_tick_t *tick)
         take(can, ON_BUS, tick, requests->next);
         is_busy = true;
     }
-    for (uint32_t i = 0; i < FRAMES_PER_TICK && !requests->has_next && can_bus_receive(&can->bus, tick->hal, &frame); i++) {
+    for (uint32_t i = 0; i < FRAMES_PER_TICK && !requests->has_next; i++) {
+        if (!can_bus_receive(&can->bus, tick->hal, &frame)) {
+            break;
+        }
         if (!is_request(can, tick, &frame) || !has_number(can)) {
             continue;
         }

@@ -6,8 +6,8 @@
 #include "brace_hal.h"
 #include "wire/modbus/link.h"
 
-/* A receiver that hears its own controller gives each answer back once. The answer to function 06 or 08 has the bytes of
- * its request, so it would be answered again, without end. What comes behind any other answer shows whether the line
+/* A receiver that hears its own controller gives each answer back once. The answer to function 06 or 08 has the bytes
+ * of its request, so it would be answered again, without end. What comes behind any other answer shows whether the line
  * has an echo. Until that is known, the first frame equal to the answer before it counts as that answer come back. */
 typedef enum { MODBUS_ECHO_UNKNOWN, MODBUS_ECHO, MODBUS_NO_ECHO } modbus_echo_t;
 

@@ -1,0 +1,34 @@
+"""A controller on a wire: its faults, and the troubles that it only counts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from brace.doctor.finding import CONTROLLER, FAULTY, NOTE, OK, Finding
+from brace.wire.codes import FAULT
+
+#: counter -> what it means where it is not 0, and what to do
+_COUNTERS = {
+    "ticks_late": ("ticks came late", "set a longer controller.tick_us"),
+    "samples_bad": ("samples of joints were refused", "look at the drives' wires, and at jumps of their angles"),
+    "frames_refused": ("CAN frames were not taken by the bus", "look at wires, termination and bit rate"),
+    "frames_unknown": ("CAN frames had no known form", "compare the dictionary of whoever sends them: brace query"),
+    "frames_lost": ("requests over CAN found no room", "ask less often: a request each millisecond"),
+    "commands_failed": ("commands were refused by a drive", "look at the drive's own errors"),
+    "modbus_broken": ("Modbus frames had a wrong check", "look at wires, baud rate and parity"),
+    "modbus_refused": ("Modbus requests were answered with an exception", "docs/modbus.md says what each means"),
+}
+
+
+def controller(where: str, read_entry: Callable[[str], int]) -> Iterator[Finding]:
+    """What is wrong with it. `read_entry` reads a measured value by its name."""
+    bits = read_entry("faults")
+    for code in FAULT.codes:
+        if bits >> code.number & 1:
+            yield Finding(CONTROLLER, code.name.lower(), FAULTY, code.text, "docs/errors.md says what to do")
+    if not bits:
+        yield Finding(CONTROLLER, "faults", OK, f"{where}: none")
+    for name, (meaning, next_step) in _COUNTERS.items():
+        count = read_entry(name)
+        if count:
+            yield Finding(CONTROLLER, name, NOTE, f"{count} {meaning} since start", next_step)
