@@ -31,7 +31,8 @@ class Controller:
         listing = subprocess.run(["arm-none-eabi-nm", elf], capture_output=True, text=True, check=True).stdout
         rows = [line.split() for line in listing.splitlines()]
         self.symbols = {row[2]: int(row[0], 16) for row in rows if len(row) == 3}
-        self.cpu: Any = unicorn.Uc(unicorn.UC_ARCH_ARM, unicorn.UC_MODE_THUMB | unicorn.UC_MODE_MCLASS)
+        emulator: Any = unicorn  # it has types for some of its names only
+        self.cpu: Any = emulator.Uc(unicorn.UC_ARCH_ARM, unicorn.UC_MODE_THUMB | unicorn.UC_MODE_MCLASS)
         self.cpu.ctl_set_cpu_model(arm.UC_CPU_ARM_CORTEX_M4)
         self.cpu.mem_map(RAM, RAM_BYTES)
         self.cpu.mem_map(STOP, 0x1000)

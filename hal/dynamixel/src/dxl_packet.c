@@ -4,7 +4,7 @@ uint16_t dxl_crc(uint16_t crc, const uint8_t *bytes, uint32_t count)
 {
     static const uint16_t of_nibble[16] = {0x0000, 0x8005, 0x800f, 0x000a, 0x801b, 0x001e, 0x0014, 0x8011,
                                            0x8033, 0x0036, 0x003c, 0x8039, 0x0028, 0x802d, 0x8027, 0x0022};
-    for (uint32_t i = 0; i < count; i++) { /* the caller's bytes */
+    for (uint32_t i = 0; i < count; i++) { /* at most DXL_IN_BYTES, a packet */
         crc = (uint16_t)(crc << 4) ^ of_nibble[(crc >> 12) ^ (bytes[i] >> 4)];
         crc = (uint16_t)(crc << 4) ^ of_nibble[(crc >> 12) ^ (bytes[i] & 0xfu)];
     }

@@ -43,13 +43,14 @@ static bool may_begin(const uint8_t *bytes, uint32_t count)
 static void drop(dxl_receiver_t *receiver, uint32_t first, bool is_sound)
 {
     uint32_t from = first;
+    /* at most DXL_IN_BYTES */
     while (from < receiver->count && !may_begin(&receiver->bytes[from], receiver->count - from)) {
-        from++; /* at most DXL_IN_BYTES */
+        from++;
     }
-    for (uint32_t i = is_sound ? first : 0u; i < from; i++) {
+    for (uint32_t i = is_sound ? first : 0u; i < from; i++) { /* at most DXL_IN_BYTES */
         count_up(&receiver->skipped);
     }
-    for (uint32_t i = from; i < receiver->count; i++) {
+    for (uint32_t i = from; i < receiver->count; i++) { /* at most DXL_IN_BYTES */
         receiver->bytes[i - from] = receiver->bytes[i];
     }
     receiver->count -= from;

@@ -256,13 +256,13 @@ static void answer_sample(brace_dynamixel_t *driver, uint32_t joint, uint8_t err
 static bool take_fast(brace_dynamixel_t *driver, const dxl_packet_t *packet)
 {
     dxl_answer_t answer[BRACE_SERVO_JOINTS];
-    for (uint32_t i = 0; i < driver->listed_count; i++) {
+    for (uint32_t i = 0; i < driver->listed_count; i++) { /* at most BRACE_SERVO_JOINTS */
         if (!dxl_fast_answer(packet, driver->listed_count, DXL_PRESENT_BYTES, i, &answer[i]) ||
             answer[i].id != driver->setup.joint[driver->listed[i]].id) {
             return false;
         }
     }
-    for (uint32_t i = 0; i < driver->listed_count; i++) {
+    for (uint32_t i = 0; i < driver->listed_count; i++) { /* at most BRACE_SERVO_JOINTS */
         answer_sample(driver, driver->listed[i], answer[i].error, answer[i].data);
     }
     driver->fast_has_worked = true;
@@ -326,7 +326,7 @@ static void take_bytes(brace_dynamixel_t *driver)
             break;
         }
         (void)dxl_receiver_take(&driver->receiver, bytes, (uint32_t)count);
-        while (dxl_receiver_next(&driver->receiver, &packet)) { /* each takes its bytes away */
+        while (dxl_receiver_next(&driver->receiver, &packet)) { /* at most 16: each takes 10 bytes or more away */
             take_packet(driver, &packet);
         }
     }
@@ -340,7 +340,7 @@ static void end_request(brace_dynamixel_t *driver)
 {
     if (driver->pending == SAMPLES) {
         uint8_t all = 0;
-        for (uint32_t i = 0; i < driver->listed_count; i++) {
+        for (uint32_t i = 0; i < driver->listed_count; i++) { /* at most BRACE_SERVO_JOINTS */
             all |= (uint8_t)(1u << driver->listed[i]);
         }
         driver->silences = driver->asked == all ? driver->silences + 1u : 0u;
@@ -348,7 +348,7 @@ static void end_request(brace_dynamixel_t *driver)
         if (driver->silences >= PLAIN_MISSES) { /* one silent servo silences all behind it: who is it? */
             driver->is_plain = !driver->is_plain;
             driver->silences = 0;
-            for (uint32_t i = 0; i < driver->listed_count; i++) {
+            for (uint32_t i = 0; i < driver->listed_count; i++) { /* at most BRACE_SERVO_JOINTS */
                 driver->servo[driver->listed[i]].state_is_due = true;
             }
         }
@@ -457,7 +457,7 @@ static bool ask_samples(brace_dynamixel_t *driver)
     dxl_begin(&driver->out, DXL_ID_ALL, driver->is_plain ? DXL_SYNC_READ : DXL_FAST_SYNC_READ);
     dxl_add(&driver->out, DXL_AT_PRESENT, 2);
     dxl_add(&driver->out, DXL_PRESENT_BYTES, 2);
-    for (uint32_t i = 0; i < driver->listed_count; i++) {
+    for (uint32_t i = 0; i < driver->listed_count; i++) { /* at most BRACE_SERVO_JOINTS */
         dxl_add(&driver->out, driver->setup.joint[driver->listed[i]].id, 1);
     }
     driver->pending = SAMPLES;
