@@ -1,4 +1,4 @@
-"""What the driver costs on a Cortex-M4F: instructions within the tick, and between ticks. It prints them (pytest -s)."""
+"""What the driver costs on a Cortex-M4F: instructions in the tick, and between ticks. It prints them (pytest -s)."""
 
 from __future__ import annotations
 

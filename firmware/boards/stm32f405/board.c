@@ -17,7 +17,7 @@
 #include "kept.h"
 #include "stack.h"
 
-static const brace_hal_t *door;
+static brace_hal_t door;
 
 /* The paper's limb: three MX-106. Ids, senses and zeros are those of its assembly; docs/joints.md sets them up. */
 static const brace_servo_setup_t servos = {
@@ -29,7 +29,7 @@ static const brace_servo_setup_t servos = {
 
 uint32_t board_now_us(void)
 {
-    return door != 0 ? door->now_us(door->context) : 0u; /* a fault may come before the clock */
+    return door.now_us != 0 ? door.now_us(door.context) : 0u; /* a fault may come before the clock */
 }
 
 uint32_t board_core_hz(void)
@@ -76,9 +76,10 @@ const brace_hal_t *board_start(void)
         .stack_unused_bytes = stack_unused_bytes,
     };
     board.reset_by_fault = kept_reset_cause(0) == BRACE_RESET_FAULT;
-    door = brace_hal_stm32f405(&board);
-    if (stm32f405_servo_line(&wires) == BRACE_HAL_OK) { /* not at 16 MHz, when the PLL does not start */
-        (void)servo_joints_start(&servos, &line);
+    door = *brace_hal_stm32f405(&board);
+    const bool has_line = stm32f405_servo_line(&wires) == BRACE_HAL_OK; /* not at 16 MHz, when the PLL does not start */
+    if (!has_line || !servo_joints_start(&servos, &line)) {
+        door.joint_command = 0;
     }
-    return door;
+    return &door;
 }
