@@ -150,6 +150,14 @@ class CanController:
         """The answer has what is there now."""
         return int(self.session.ask("clear", {"faults": faults})["faults"] or 0)
 
+    def take_up(self, joint: str, flank: int) -> None:
+        """It has begun when the answer comes."""
+        self.session.ask("take_up", {"joint": TAKE_UPS.index(joint), "flank": flank})
+
+    def let_go(self) -> None:
+        """It has begun when the answer comes."""
+        self.session.ask("let_go", {})
+
     # --------------------------------------------------------------------------------------- parameters
 
     def enter_configuration(self) -> None:

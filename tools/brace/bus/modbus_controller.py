@@ -46,6 +46,7 @@ APART_S = 0.03  # between two questions that another client's came between
 _BLOCK = 120  # registers in a request; 125 may be read, 123 written
 _ONE_READ = 125  # registers that one request reads: values of one snapshot
 _KEY = 0xC0DE0000
+_POSITIVE, _NEGATIVE = 256, 512  # flanks, in take_up's register
 _INPUT = [r for r in REGISTERS if r.table == "input" and r.address + 2 <= _ONE_READ]
 _ASKED = [r for r in REGISTERS if r.table == "input" and r.address >= 4096]
 _INDEX = {parameter.key: parameter.index for parameter in PARAMETERS}
@@ -253,6 +254,14 @@ class ModbusController:
 
     def _holding(self, name: str) -> int:
         return self.read_entry(name)
+
+    def take_up(self, joint: str, flank: int) -> None:
+        """It has begun when the register is written."""
+        self._command("take_up", TAKE_UPS.index(joint) | (_POSITIVE if flank > 0 else _NEGATIVE))
+
+    def let_go(self) -> None:
+        """It has begun when the register is written."""
+        self._command("let_go", 1)
 
     # --------------------------------------------------------------------------------------- parameters
 

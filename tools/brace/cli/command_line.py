@@ -15,7 +15,7 @@ from brace.errors import EXIT_CHECK_FAILED, EXIT_OK, EXIT_USAGE, BraceError
 
 SUBCOMMANDS = (
     *("k", "map", "simulate", "predict", "identify", "diagnose", "plan", "params", "demo"),
-    *("sim", "query", "monitor", "record", "replay", "gravity", "clear", "dbc", "flash", "doctor"),
+    *("sim", "query", "monitor", "record", "replay", "gravity", "take-up", "let-go", "clear", "dbc", "flash", "doctor"),
 )
 _NEGATIVE_NUMBER = re.compile(r"^-(\d|\.\d|inf|nan)", re.IGNORECASE)
 
@@ -73,7 +73,7 @@ def build_parser() -> OptionParser:
     parser.add_argument("--version", action="version", version=f"brace {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", dest="command")
     for name in SUBCOMMANDS:
-        module = import_module(f"brace.cli.{name}_command")
+        module = import_module(f"brace.cli.{name.replace('-', '_')}_command")
         module.add(commands)
     for command in commands.choices.values():
         command._negative_number_matcher = _NEGATIVE_NUMBER  # -1e-3 is a value, not an option
