@@ -21,8 +21,9 @@ def main() -> None:
     ready = json.loads(sim.stdout.readline())
     seen: dict[str, int] = {}
     with can.Bus(interface="socketcan", channel="vcan0") as bus:
-        for extended in (False, True):  # the second is for no controller
-            bus.send(can.Message(arbitration_id=0x7F0, data=b"\x01\x02", is_extended_id=extended))
+        request = bytes([1, 7, 0x34, 0x10, 0, 0, 0, 0])  # read_entry; the first of these frames alone is for one of ours
+        for identifier, extended in ((0x601, False), (0x601, True), (0x603, False)):
+            bus.send(can.Message(arbitration_id=identifier, data=request, is_extended_id=extended))
         # The controllers beat once a second of their own time; a busy machine may need many of its seconds for that.
         until = time.monotonic() + 120.0
         while time.monotonic() < until and not {"701", "702"} <= seen.keys():
