@@ -1,0 +1,118 @@
+/* Numbers of the loaded limb in space, in fixed point.
+ *
+ * Units: of length, a power of two above the reach; of force, one above the sum of the loads. Each kind of number has
+ * one format, which all files of this path share; _q28 is a number times 2^28 in 32 bits:
+ *
+ *   lengths                                                      q28   (-8 to 8)
+ *   directions, forces, shares                                   q30   (-2 to 2)
+ *   angles, ratios of entries                                    q29   (-4 to 4)
+ *   compliances per angle                                        q28   (0 to 8)
+ *   compliances of axial springs and of the base                 q33   (0 to 1/4)
+ *   moments                                                      q27   (-16 to 16)
+ *   entries of the matrix, what drives a coordinate              q24   (-128 to 128)
+ *   pivots, one over a pivot                                     q27   (0 to 16)
+ *   levers: how the tip moves with a coordinate                  q26   (-32 to 32)
+ *
+ * A sum of products is added up in 64 bits. `coarse` keeps its high word alone, so that a few last bits are zero.
+ *
+ * All sums wrap. Whatever a load may drive beyond its kind's limit is noted where it is made, before it can wrap, and a
+ * limb of which anything was noted is refused. So nothing branches on the way.
+ */
+#ifndef BRACE_CORE_FIXED_SPACE_NUMBER_H
+#define BRACE_CORE_FIXED_SPACE_NUMBER_H
+
+#include "loaded/fixed_vec.h"
+
+/* --- sums ----------------------------------------------------------------------------------------------------- */
+
+INLINE int32_t plus(int32_t a, int32_t b)
+{
+    return wrapped_plus(a, b);
+}
+
+INLINE int32_t less(int32_t a, int32_t b)
+{
+    return wrapped_less(a, b);
+}
+
+INLINE int32_t minus(int32_t a)
+{
+    return wrapped_less(0, a);
+}
+
+INLINE int32_t twice(int32_t a)
+{
+    return wrapped_plus(a, a);
+}
+
+INLINE int32_t high_of(int32_t a, int32_t b)
+{
+    return brace_high_word((int64_t)a * b);
+}
+
+/* a times a direction, a share or a force (q30); in a's format. */
+INLINE int32_t by_q30(int32_t a, int32_t by_q30)
+{
+    return coarse_times(a, by_q30, 30);
+}
+
+/* a times an angle or a ratio (q29); in a's format. */
+INLINE int32_t by_q29(int32_t a, int32_t by_q29)
+{
+    return coarse_times(a, by_q29, 29);
+}
+
+/* --- what is refused ------------------------------------------------------------------------------------------ */
+
+/* Magnitudes, or-ed. */
+typedef uint32_t noted_t;
+#define NOTED_BITS 20
+
+/* Notes a word whose magnitude is 2^bits or more. */
+INLINE void note(noted_t *noted, int32_t word, int bits)
+{
+    *noted |= magnitude_of(word) >> (bits - NOTED_BITS);
+}
+
+INLINE bool is_refused(noted_t noted)
+{
+    return noted >> NOTED_BITS != 0u;
+}
+
+/* --- compliances ---------------------------------------------------------------------------------------------- */
+
+/* An angle from a compliance (q28) and what drives it (q24); at most 2 rad. */
+INLINE int32_t angle_of(int32_t yields_q28, int32_t driven_q24, noted_t *noted)
+{
+    const int64_t product = (int64_t)yields_q28 * driven_q24;
+    note(noted, brace_high_word(product), 21);
+    return shifted(product, 23);
+}
+
+/* A ratio, less, from a compliance (q28) and an entry (q24); at most 2. */
+INLINE int32_t follows_of(int32_t yields_q28, int32_t entry_q24, noted_t *noted)
+{
+    return minus(angle_of(yields_q28, entry_q24, noted));
+}
+
+#define PIVOT_LEAST_Q27 (ONE_Q27 / 16 + 1024)
+
+/* 1 + a compliance times an entry; at most 9, at least a sixteenth. */
+INLINE int32_t pivot_of(int32_t yields_q28, int32_t entry_q24, noted_t *noted)
+{
+    const int64_t product = (int64_t)yields_q28 * entry_q24;
+    note(noted, brace_high_word(product), 23);
+    const int32_t pivot = plus(ONE_Q27, shifted(product, 25));
+    *noted |= (uint32_t)(less(pivot, PIVOT_LEAST_Q27) >> 31);
+    return pivot < PIVOT_LEAST_Q27 ? PIVOT_LEAST_Q27 : pivot;
+}
+
+/* A compliance with its load, at most 8. */
+INLINE int32_t softened_of(int32_t yields_q28, int32_t per_pivot_q27, noted_t *noted)
+{
+    const int64_t product = (int64_t)yields_q28 * per_pivot_q27;
+    note(noted, brace_high_word(product), 26);
+    return shifted(product, 27);
+}
+
+#endif
