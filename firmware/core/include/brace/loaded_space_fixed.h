@@ -72,7 +72,7 @@ typedef struct {
     brace_space_fixed_turns_t turns;
     brace_space_fixed_bent_t coxa, femur, tibia;
     brace_fixed_vec3_t whole_q30;
-    int32_t base_q28, yaw_q28, hip_q28, knee_q28; /* compliances: the slopes of the joints' springs */
+    int32_t base_q26, yaw_q26, hip_q26, knee_q26; /* compliances: the slopes of the joints' springs */
     int32_t force_exponent;
     uint32_t turn_shift, spring_shift;            /* from a collapsed limb's words to this load's */
 } brace_space_fixed_rest_t;

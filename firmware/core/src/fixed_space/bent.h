@@ -101,7 +101,7 @@ static void fixed_see_forces(const fixed_weights_t *weights, fixed3_t tip_q30, f
 
 /* --- a link --------------------------------------------------------------------------------------------------- */
 
-#define SPRING_TURN_MOST_BITS 21 /* a quarter of the arm */
+#define SPRING_TURN_MOST_BITS 19 /* a quarter of the arm */
 #define STRETCH_MOST_BITS 26     /* a quarter of the unit of length */
 
 /* twists_q27: the moment about x of all beyond the end. */
@@ -123,7 +123,7 @@ INLINE void fixed_bend_link(const fixed_link3_t *link, const fixed_rest3_t *rest
     const int64_t sideways_turn = (int64_t)(link->sideways_arm_q31 >> rest->turn_shift) * sideways_n_q27;
     note(noted, brace_high_word(across_turn), SPRING_TURN_MOST_BITS);
     note(noted, brace_high_word(sideways_turn), SPRING_TURN_MOST_BITS);
-    const int32_t across_turn_q29 = shifted(across_turn, 26), sideways_turn_q29 = shifted(sideways_turn, 26);
+    const int32_t across_turn_q29 = shifted(across_turn, 24), sideways_turn_q29 = shifted(sideways_turn, 24);
     const int32_t across_q28 = (across_turn_q29 >> 1) >> arm, sideways_q28 = (sideways_turn_q29 >> 1) >> arm;
     const int32_t stretched_q28 = brace_high_word(sum2(along.x, f.x, along.z, f.y));
     const int32_t stretch_q28 = high_of(link->stretch_q31 >> rest->spring_shift, stretched_q28) >> 1;

@@ -103,31 +103,31 @@ INLINE brace_status_t inputs_of(const brace_loaded_space_fixed_t *limb, float th
     /* Floats that are not negative order as their bits do. */
     const uint32_t softest = more(more(more(yaw_by, yaw), more(hip_by, hip)), more(knee_by, knee));
     const int32_t length = limb->length_exponent, joint_most = exponent_above(softest) + length;
-    const int32_t spring_most = limb->spring_exponent + 2;
+    const int32_t spring_most = limb->spring_exponent + 3;
     int32_t most = joint_most > limb->turn_exponent ? joint_most : limb->turn_exponent;
     most = most > spring_most ? most : spring_most;
     const uint32_t force_q8 = (force_q17 >> 9) + limb->weight_q8 + 2u;
     const int32_t above_force = 24 - (int32_t)leading_zeros(force_q8);
-    const int32_t force = above_force > -most ? above_force : -most;
-    if (((yaw_by | yaw | hip_by | hip | knee_by | knee) >> 31) != 0u || force + most > 3 || force > 60 ||
+    const int32_t force = above_force > 1 - most ? above_force : 1 - most;
+    if (((yaw_by | yaw | hip_by | hip | knee_by | knee) >> 31) != 0u || force + most > 5 || force > 60 ||
         force + limb->spring_exponent > -2) {
         return BRACE_E_SINGULAR;
     }
     rest->force_exponent = force;
-    rest->turn_shift = at_most_31(3 - force - limb->turn_exponent);
+    rest->turn_shift = at_most_31(5 - force - limb->turn_exponent);
     rest->spring_shift = at_most_31(-2 - force - limb->spring_exponent);
     in->tip_q30 = seen_from_coxa(fixed_of(x, 30 - force), fixed_of(y, 30 - force), fixed_of(z, 30 - force));
     in->down_q30 = seen_from_coxa(fixed_of(down_x, 30), fixed_of(down_y, 30), fixed_of(down_z, 30));
     const uint32_t weight_shift = at_most_31(1 + force - limb->weight_exponent);
     in->weights = (fixed_weights_t){limb->beyond_coxa_q31 >> weight_shift, limb->beyond_femur_q31 >> weight_shift,
                                     limb->femur.weight_q31 >> weight_shift, limb->tibia.weight_q31 >> weight_shift};
-    const int32_t format = 28 + force + length;
+    const int32_t format = 26 + force + length;
     in->yields = (fixed_yields_t){limb->base_rotation_q31 >> rest->turn_shift, fixed_of(yaw_by, format),
                                   fixed_of(hip_by, format), fixed_of(knee_by, format), rest->turn_shift};
-    rest->base_q28 = in->yields.base_q28;
-    rest->yaw_q28 = fixed_of(yaw, format);
-    rest->hip_q28 = fixed_of(hip, format);
-    rest->knee_q28 = fixed_of(knee, format);
+    rest->base_q26 = in->yields.base_q26;
+    rest->yaw_q26 = fixed_of(yaw, format);
+    rest->hip_q26 = fixed_of(hip, format);
+    rest->knee_q26 = fixed_of(knee, format);
     return BRACE_OK;
 }
 

@@ -6,7 +6,7 @@
  *   lengths                                                      q28   (-8 to 8)
  *   directions, forces, shares                                   q30   (-2 to 2)
  *   angles, ratios of entries                                    q29   (-4 to 4)
- *   compliances per angle                                        q28   (0 to 8)
+ *   compliances per angle                                        q26   (0 to 32)
  *   compliances of axial springs and of the base                 q33   (0 to 1/4)
  *   moments                                                      q27   (-16 to 16)
  *   entries of the matrix, what drives a coordinate              q24   (-128 to 128)
@@ -66,7 +66,7 @@ INLINE int32_t by_q29(int32_t a, int32_t by_q29)
 
 /* Magnitudes, or-ed. */
 typedef uint32_t noted_t;
-#define NOTED_BITS 20
+#define NOTED_BITS 16
 
 /* Notes a word whose magnitude is 2^bits or more. */
 INLINE void note(noted_t *noted, int32_t word, int bits)
@@ -81,37 +81,37 @@ INLINE bool is_refused(noted_t noted)
 
 /* --- compliances ---------------------------------------------------------------------------------------------- */
 
-/* An angle from a compliance (q28) and what drives it (q24); at most 2 rad. */
-INLINE int32_t angle_of(int32_t yields_q28, int32_t driven_q24, noted_t *noted)
+/* An angle from a compliance (q26) and what drives it (q24); at most 2 rad. */
+INLINE int32_t angle_of(int32_t yields_q26, int32_t driven_q24, noted_t *noted)
 {
-    const int64_t product = (int64_t)yields_q28 * driven_q24;
-    note(noted, brace_high_word(product), 21);
-    return shifted(product, 23);
+    const int64_t product = (int64_t)yields_q26 * driven_q24;
+    note(noted, brace_high_word(product), 19);
+    return shifted(product, 21);
 }
 
-/* A ratio, less, from a compliance (q28) and an entry (q24); at most 2. */
-INLINE int32_t follows_of(int32_t yields_q28, int32_t entry_q24, noted_t *noted)
+/* A ratio, less, from a compliance (q26) and an entry (q24); at most 2. */
+INLINE int32_t follows_of(int32_t yields_q26, int32_t entry_q24, noted_t *noted)
 {
-    return minus(angle_of(yields_q28, entry_q24, noted));
+    return minus(angle_of(yields_q26, entry_q24, noted));
 }
 
 #define PIVOT_LEAST_Q27 (ONE_Q27 / 16 + 1024)
 
 /* 1 + a compliance times an entry; at most 9, at least a sixteenth. */
-INLINE int32_t pivot_of(int32_t yields_q28, int32_t entry_q24, noted_t *noted)
+INLINE int32_t pivot_of(int32_t yields_q26, int32_t entry_q24, noted_t *noted)
 {
-    const int64_t product = (int64_t)yields_q28 * entry_q24;
-    note(noted, brace_high_word(product), 23);
-    const int32_t pivot = plus(ONE_Q27, shifted(product, 25));
+    const int64_t product = (int64_t)yields_q26 * entry_q24;
+    note(noted, brace_high_word(product), 21);
+    const int32_t pivot = plus(ONE_Q27, shifted(product, 23));
     *noted |= (uint32_t)(less(pivot, PIVOT_LEAST_Q27) >> 31);
     return pivot < PIVOT_LEAST_Q27 ? PIVOT_LEAST_Q27 : pivot;
 }
 
-/* A compliance with its load, at most 8. */
-INLINE int32_t softened_of(int32_t yields_q28, int32_t per_pivot_q27, noted_t *noted)
+/* A compliance with its load, at most 16. */
+INLINE int32_t softened_of(int32_t yields_q26, int32_t per_pivot_q27, noted_t *noted)
 {
-    const int64_t product = (int64_t)yields_q28 * per_pivot_q27;
-    note(noted, brace_high_word(product), 26);
+    const int64_t product = (int64_t)yields_q26 * per_pivot_q27;
+    note(noted, brace_high_word(product), 25);
     return shifted(product, 27);
 }
 

@@ -12,7 +12,7 @@ typedef struct {
 
 /* How the joints yield, and how far a collapsed limb's words are shifted. */
 typedef struct {
-    int32_t base_q28, yaw_q28, hip_q28, knee_q28;
+    int32_t base_q26, yaw_q26, hip_q26, knee_q26;
     uint32_t turn_shift;
 } fixed_yields_t;
 
@@ -24,19 +24,19 @@ typedef struct {
 /* An eliminated coordinate: its row, its compliance with the load included, and one over its pivot. */
 typedef struct {
     fixed3_t row_q24;
-    int32_t yields_q28, per_pivot_q27;
+    int32_t yields_q26, per_pivot_q27;
 } fixed_factor_t;
 
 /* The turns of a link about y and z, in this order; between: the matrix's entry for both. */
 typedef struct {
     fixed_factor_t y, z;
-    int32_t between_q24, twist_q28;
+    int32_t between_q24, twist_q26;
 } fixed_link_factor_t;
 
 typedef struct {
     fixed_link_factor_t coxa, femur, tibia;
     fixed_factor_t yaw, hip, knee;
-    int32_t base_yields_q28, base_per_pivot_q27;
+    int32_t base_yields_q26, base_per_pivot_q27;
 } fixed_factors_t;
 
 /* What all beyond a place resists when it is turned about the axes there, and its moment. */
@@ -54,17 +54,17 @@ INLINE void note_row(fixed3_t row_q24, noted_t *noted)
     note(noted, row_q24.z, ROW_MOST_BITS);
 }
 
-INLINE fixed3_t follow(fixed3_t row_q24, int32_t yields_q28, noted_t *noted)
+INLINE fixed3_t follow(fixed3_t row_q24, int32_t yields_q26, noted_t *noted)
 {
-    return fixed3(follows_of(yields_q28, row_q24.x, noted), follows_of(yields_q28, row_q24.y, noted),
-                  follows_of(yields_q28, row_q24.z, noted));
+    return fixed3(follows_of(yields_q26, row_q24.x, noted), follows_of(yields_q26, row_q24.y, noted),
+                  follows_of(yields_q26, row_q24.z, noted));
 }
 
 INLINE fixed_factor_t fixed_eliminated(fixed_sym3_t *resists_q24, fixed3_t row_q24, int32_t entry_q24,
-                                       int32_t yields_q28, noted_t *noted)
+                                       int32_t yields_q26, noted_t *noted)
 {
-    const int32_t per_pivot = inverse_q27(pivot_of(yields_q28, entry_q24, noted));
-    const int32_t yields = softened_of(yields_q28, per_pivot, noted);
+    const int32_t per_pivot = inverse_q27(pivot_of(yields_q26, entry_q24, noted));
+    const int32_t yields = softened_of(yields_q26, per_pivot, noted);
     note_row(row_q24, noted);
     fixed_sym3_add(resists_q24, row_q24, follow(row_q24, yields, noted), noted);
     return (fixed_factor_t){row_q24, yields, per_pivot};
@@ -87,20 +87,20 @@ INLINE void fixed_straight_link(const brace_space_fixed_link_t *link, const fixe
     held->moment_q27 = fixed3(m.x, less(m.y, whole.z), plus(m.z, whole.y));
     held->resists_q24 = (fixed_sym3_t){r.xx, less(r.xy, half_y), less(r.xz, half_z), plus(r.yy, whole_x), r.yz,
                                        plus(r.zz, whole_x)};
-    factor->twist_q28 = link->twist_q31 >> yields->turn_shift;
+    factor->twist_q26 = link->twist_q31 >> yields->turn_shift;
     factor->between_q24 = r.yz;
     factor->y = fixed_eliminated(&held->resists_q24, fixed3(less(r.xy, half_y), plus(r.yy, half_x), r.yz),
                                  plus(r.yy, third), link->sideways_q31 >> yields->turn_shift, noted);
-    const int32_t by = follows_of(factor->y.yields_q28, r.yz, noted);
+    const int32_t by = follows_of(factor->y.yields_q26, r.yz, noted);
     const fixed3_t row = fixed3_plus_q29(fixed3(less(r.xz, half_z), r.yz, plus(r.zz, half_x)), factor->y.row_q24, by);
     factor->z = fixed_eliminated(&held->resists_q24, row, plus(plus(r.zz, third), by_q29(r.yz, by)),
                                  link->bend_q31 >> yields->turn_shift, noted);
 }
 
-INLINE fixed_factor_t fixed_straight_joint(fixed_held_t *held, int32_t yields_q28, noted_t *noted)
+INLINE fixed_factor_t fixed_straight_joint(fixed_held_t *held, int32_t yields_q26, noted_t *noted)
 {
     const fixed_sym3_t r = held->resists_q24;
-    return fixed_eliminated(&held->resists_q24, fixed3(r.xz, r.yz, r.zz), r.zz, yields_q28, noted);
+    return fixed_eliminated(&held->resists_q24, fixed3(r.xz, r.yz, r.zz), r.zz, yields_q26, noted);
 }
 
 INLINE void fixed_held_about_z(fixed_held_t *held, fixed_vec_t turn)
@@ -117,21 +117,21 @@ INLINE void fixed_straight_limb(const brace_loaded_space_fixed_t *limb, const fi
     fixed_held_t held = {{0, 0, 0, 0, 0, 0}, {0, 0, 0}};
     fixed_straight_link(&limb->tibia, yields, at[2], &held, &factors->tibia, &drives->tibia, noted);
     drives->knee = held.moment_q27.z;
-    factors->knee = fixed_straight_joint(&held, yields->knee_q28, noted);
+    factors->knee = fixed_straight_joint(&held, yields->knee_q26, noted);
     fixed_held_about_z(&held, commanded->knee);
     fixed_straight_link(&limb->femur, yields, at[1], &held, &factors->femur, &drives->femur, noted);
     drives->hip = held.moment_q27.z;
-    factors->hip = fixed_straight_joint(&held, yields->hip_q28, noted);
+    factors->hip = fixed_straight_joint(&held, yields->hip_q26, noted);
     fixed_held_about_z(&held, commanded->hip);
     fixed_straight_link(&limb->coxa, yields, at[0], &held, &factors->coxa, &drives->coxa, noted);
     drives->yaw = held.moment_q27.y;
     const fixed_sym3_t r = held.resists_q24;
-    factors->yaw = fixed_eliminated(&held.resists_q24, fixed3(r.xy, r.yy, r.yz), r.yy, yields->yaw_q28, noted);
+    factors->yaw = fixed_eliminated(&held.resists_q24, fixed3(r.xy, r.yy, r.yz), r.yy, yields->yaw_q26, noted);
     const int32_t coxa = limb->coxa.length_q28;
     drives->base = less(held.moment_q27.z, coarse_times(coxa, whole_q30.y, 31));
     const int32_t entry = less(held.resists_q24.zz, high_of(coxa, whole_q30.x) >> 2);
-    factors->base_per_pivot_q27 = inverse_q27(pivot_of(yields->base_q28, entry, noted));
-    factors->base_yields_q28 = softened_of(yields->base_q28, factors->base_per_pivot_q27, noted);
+    factors->base_per_pivot_q27 = inverse_q27(pivot_of(yields->base_q26, entry, noted));
+    factors->base_yields_q26 = softened_of(yields->base_q26, factors->base_per_pivot_q27, noted);
 }
 
 /* --- solving with it ------------------------------------------------------------------------------------------ */
@@ -139,19 +139,19 @@ INLINE void fixed_straight_limb(const brace_loaded_space_fixed_t *limb, const fi
 #define TURN_MOST_BITS 29 /* 1 rad */
 
 /* How far a coordinate goes if all before it stays, from where it is now. driven: q24 */
-INLINE int32_t fixed_alone(int32_t yields_q28, int32_t per_pivot_q27, int32_t driven_q24, int32_t now,
+INLINE int32_t fixed_alone(int32_t yields_q26, int32_t per_pivot_q27, int32_t driven_q24, int32_t now,
                            noted_t *noted)
 {
     const int64_t back = (int64_t)per_pivot_q27 * now;
     note(noted, brace_high_word(back), 25);
-    return less(angle_of(yields_q28, driven_q24, noted), shifted(back, 27));
+    return less(angle_of(yields_q26, driven_q24, noted), shifted(back, 27));
 }
 
 /* drives (q24): also what this leaves for the coordinates before. */
 INLINE int32_t fixed_inwards(const fixed_factor_t *factor, int32_t driven_q24, int32_t now, fixed3_t *drives,
                              noted_t *noted)
 {
-    const int32_t by = fixed_alone(factor->yields_q28, factor->per_pivot_q27, driven_q24, now, noted);
+    const int32_t by = fixed_alone(factor->yields_q26, factor->per_pivot_q27, driven_q24, now, noted);
     note(noted, by, TURN_MOST_BITS);
     *drives = fixed3(less(drives->x, times(factor->row_q24.x, by, 29)), less(drives->y, times(factor->row_q24.y, by, 29)),
                      less(drives->z, times(factor->row_q24.z, by, 29)));
@@ -162,7 +162,7 @@ INLINE fixed3_t fixed_link_inwards(const fixed_link_factor_t *factor, fixed3_t d
                                    fixed3_t *drives, noted_t *noted)
 {
     const fixed3_t beyond = *drives;
-    const int32_t x = less(angle_of(factor->twist_q28, plus(driven_q27.x >> 3, beyond.x), noted), now.x);
+    const int32_t x = less(angle_of(factor->twist_q26, plus(driven_q27.x >> 3, beyond.x), noted), now.x);
     const int32_t y = fixed_inwards(&factor->y, plus(driven_q27.y >> 3, beyond.y), now.y, drives, noted);
     const int32_t left = less(plus(driven_q27.z >> 3, beyond.z), times(factor->between_q24, y, 29));
     const int32_t z = fixed_inwards(&factor->z, left, now.z, drives, noted);
@@ -173,7 +173,7 @@ INLINE fixed3_t fixed_link_inwards(const fixed_link_factor_t *factor, fixed3_t d
 INLINE int32_t fixed_outwards(const fixed_factor_t *factor, int32_t alone, fixed3_t turned, noted_t *noted)
 {
     const int32_t row = shifted(fixed3_dot(factor->row_q24, turned), 29);
-    const int32_t by = less(alone, angle_of(factor->yields_q28, row, noted));
+    const int32_t by = less(alone, angle_of(factor->yields_q26, row, noted));
     note(noted, by, TURN_MOST_BITS);
     return by;
 }
@@ -183,7 +183,7 @@ INLINE fixed3_t fixed_link_outwards(const fixed_link_factor_t *factor, fixed3_t 
     const int32_t z = fixed_outwards(&factor->z, alone.z, turned, noted);
     const int32_t by_z = times(factor->between_q24, z, 29);
     const int32_t y = less(fixed_outwards(&factor->y, alone.y, turned, noted),
-                           angle_of(factor->y.yields_q28, by_z, noted));
+                           angle_of(factor->y.yields_q26, by_z, noted));
     note(noted, alone.x, TURN_MOST_BITS);
     note(noted, y, TURN_MOST_BITS);
     return fixed3(alone.x, y, z);
@@ -211,7 +211,7 @@ static void fixed_solve_straight(const fixed_factors_t *factors, const brace_spa
     const fixed3_t coxa = fixed_link_inwards(&factors->coxa, drives->coxa, now->coxa, &d, noted);
     const int32_t yaw = fixed_inwards(&factors->yaw, plus(drives->yaw >> 3, d.y), now->yaw, &d, noted);
 
-    by->base = fixed_alone(factors->base_yields_q28, factors->base_per_pivot_q27, plus(drives->base >> 3, d.z),
+    by->base = fixed_alone(factors->base_yields_q26, factors->base_per_pivot_q27, plus(drives->base >> 3, d.z),
                            now->base, noted);
     note(noted, by->base, TURN_MOST_BITS);
     fixed3_t turned = {0, 0, by->base};

@@ -7,7 +7,7 @@
 /* A coordinate's compliance, load included, and how all beyond follows when the places before it turn. */
 typedef struct {
     fixed3_t follows;
-    int32_t yields_q28;
+    int32_t yields_q26;
 } fixed_freedom_t;
 
 /* A link's springs first, then its turns about x, y and z: each adds to those after it. */
@@ -20,7 +20,7 @@ typedef struct {
 typedef struct {
     fixed_link_freedoms_t coxa, femur, tibia;
     fixed_freedom_t yaw, hip, knee;
-    int32_t base_yields_q28;
+    int32_t base_yields_q26;
 } fixed_freedoms_t;
 
 /* Of all pivots, 2^exponent times a mantissa that is at least a half. */
@@ -51,11 +51,11 @@ INLINE fixed_sym3_t fixed_chord_resists(fixed3_t chord_q28, fixed3_t f)
                           plus(x, y)};
 }
 
-INLINE fixed_freedom_t fixed_eliminate(fixed_held_t *held, fixed3_t row_q24, int32_t entry_q24, int32_t yields_q28,
+INLINE fixed_freedom_t fixed_eliminate(fixed_held_t *held, fixed3_t row_q24, int32_t entry_q24, int32_t yields_q26,
                                        fixed_product_t *pivots, noted_t *noted)
 {
-    const int32_t pivot = pivot_of(yields_q28, entry_q24, noted);
-    const int32_t yields = softened_of(yields_q28, inverse_q27(pivot), noted);
+    const int32_t pivot = pivot_of(yields_q26, entry_q24, noted);
+    const int32_t yields = softened_of(yields_q26, inverse_q27(pivot), noted);
     multiply_by_pivot(pivots, pivot);
     note_row(row_q24, noted);
     const fixed3_t follows = follow(row_q24, yields, noted);
@@ -63,12 +63,12 @@ INLINE fixed_freedom_t fixed_eliminate(fixed_held_t *held, fixed3_t row_q24, int
     return (fixed_freedom_t){follows, yields};
 }
 
-INLINE fixed_freedom_t fixed_eliminate_joint(fixed_held_t *held, int32_t yields_q28, fixed_product_t *pivots,
+INLINE fixed_freedom_t fixed_eliminate_joint(fixed_held_t *held, int32_t yields_q26, fixed_product_t *pivots,
                                              noted_t *noted)
 {
     const fixed_sym3_t r = held->resists_q24;
     const fixed3_t m = held->moment_q27, row = fixed3(plus(r.xz, m.y >> 4), less(r.yz, m.x >> 4), r.zz);
-    return fixed_eliminate(held, row, r.zz, yields_q28, pivots, noted);
+    return fixed_eliminate(held, row, r.zz, yields_q26, pivots, noted);
 }
 
 /* is_last: nothing lies beyond the link. What the load softens at the link's end springs is left out. */
@@ -131,8 +131,8 @@ INLINE void fixed_eliminate_link(const fixed_link3_t *link, const fixed_rest3_t 
         const int32_t by_y = by_q29(by_q29(link->across_spread_q31 >> turn_shift, turn.y), turn.y);
         const int32_t twist = plus(link->twist_q31 >> turn_shift, plus(by_y, by_z));
         free->x = fixed_eliminate(held, x, own.xx, twist, pivots, noted);
-        free->y_by_x = follows_of(free->x.yields_q28, own.xy, noted);
-        free->z_by_x = follows_of(free->x.yields_q28, own.xz, noted);
+        free->y_by_x = follows_of(free->x.yields_q26, own.xy, noted);
+        free->z_by_x = follows_of(free->x.yields_q26, own.xz, noted);
         own.yy = plus(own.yy, by_q29(own.xy, free->y_by_x));
         own.yz = plus(own.yz, by_q29(own.xz, free->y_by_x));
         own.zz = plus(own.zz, by_q29(own.xz, free->z_by_x));
@@ -140,7 +140,7 @@ INLINE void fixed_eliminate_link(const fixed_link3_t *link, const fixed_rest3_t 
         z = fixed3_plus_q29(z, x, free->z_by_x);
     }
     free->y = fixed_eliminate(held, y, own.yy, link->sideways_q31 >> turn_shift, pivots, noted);
-    free->z_by_y = follows_of(free->y.yields_q28, own.yz, noted);
+    free->z_by_y = follows_of(free->y.yields_q26, own.yz, noted);
     free->z = fixed_eliminate(held, fixed3_plus_q29(z, y, free->z_by_y), plus(own.zz, by_q29(own.yz, free->z_by_y)),
                               link->bend_q31 >> turn_shift, pivots, noted);
 }
@@ -165,13 +165,13 @@ INLINE void fixed_eliminate_limb(const brace_loaded_space_fixed_t *limb, const f
     fixed_held_t held = {{0, 0, 0, 0, 0, 0}, {0, 0, 0}};
     fixed_eliminate_link(&limb->tibia, rest, pose->tibia, &rest->tibia, true, &held, &free->tibia, pivots, noted);
     fixed_held_about_y(&held, turns->tibia_y);
-    free->knee = fixed_eliminate_joint(&held, rest->knee_q28, pivots, noted);
+    free->knee = fixed_eliminate_joint(&held, rest->knee_q26, pivots, noted);
     fixed_held_about_z(&held, turns->knee);
     fixed_held_about_y(&held, turns->femur_y);
     fixed_held_about_x(&held, turns->femur_x);
     fixed_eliminate_link(&limb->femur, rest, pose->femur, &rest->femur, false, &held, &free->femur, pivots, noted);
     fixed_held_about_y(&held, turns->femur_y);
-    free->hip = fixed_eliminate_joint(&held, rest->hip_q28, pivots, noted);
+    free->hip = fixed_eliminate_joint(&held, rest->hip_q26, pivots, noted);
     fixed_held_about_z(&held, turns->hip);
     fixed_held_about_y(&held, turns->coxa_y);
     fixed_held_about_x(&held, turns->coxa_x);
@@ -180,13 +180,13 @@ INLINE void fixed_eliminate_limb(const brace_loaded_space_fixed_t *limb, const f
     fixed_held_about_z(&held, turns->coxa_z);
     const fixed_sym3_t r = held.resists_q24;
     const fixed3_t m = held.moment_q27, row = fixed3(less(r.xy, m.z >> 4), r.yy, plus(r.yz, m.x >> 4));
-    free->yaw = fixed_eliminate(&held, row, r.yy, rest->yaw_q28, pivots, noted);
+    free->yaw = fixed_eliminate(&held, row, r.yy, rest->yaw_q26, pivots, noted);
     fixed_sym3_about_y(&held.resists_q24, turns->yaw);
     const int32_t base_x_q30 = fixed_about_z(rest->whole_q30, fixed_back(turns->base)).x;
     const int32_t entry = less(held.resists_q24.zz, high_of(limb->coxa.length_q28, base_x_q30) >> 2);
-    const int32_t pivot = pivot_of(rest->base_q28, entry, noted);
+    const int32_t pivot = pivot_of(rest->base_q26, entry, noted);
     multiply_by_pivot(pivots, pivot);
-    free->base_yields_q28 = softened_of(rest->base_q28, inverse_q27(pivot), noted);
+    free->base_yields_q26 = softened_of(rest->base_q26, inverse_q27(pivot), noted);
 }
 
 /* --- C -------------------------------------------------------------------------------------------------------- */
@@ -205,13 +205,12 @@ typedef struct {
 } fixed_sum_t;
 
 #define LEVER_MOST_BITS 27  /* 2 */
-#define MOVED_MOST_BITS 26  /* 4, by the unit of force */
 
-INLINE int32_t yielded(int32_t move_q26, int32_t yields_q28, noted_t *noted)
+INLINE int32_t yielded(int32_t move_q26, int32_t yields_q26, noted_t *noted)
 {
-    const int64_t product = (int64_t)move_q26 * yields_q28;
-    note(noted, brace_high_word(product), 24);
-    return shifted(product, 26);
+    const int64_t product = (int64_t)move_q26 * yields_q26;
+    note(noted, brace_high_word(product), 22);
+    return shifted(product, 24);
 }
 
 INLINE void note_lever(fixed3_t lever_q26, noted_t *noted)
@@ -238,11 +237,11 @@ INLINE void add_product(int64_t *sum, int32_t a, int32_t b)
     add_whole(sum, (int64_t)a * b);
 }
 
-INLINE void fixed_add_move(fixed_sum_t *sum, fixed3_t move_q26, int32_t yields_q28, noted_t *noted)
+INLINE void fixed_add_move(fixed_sum_t *sum, fixed3_t move_q26, int32_t yields_q26, noted_t *noted)
 {
     note_lever(move_q26, noted);
-    const fixed3_t by_q28 = fixed3(yielded(move_q26.x, yields_q28, noted), yielded(move_q26.y, yields_q28, noted),
-                                   yielded(move_q26.z, yields_q28, noted));
+    const fixed3_t by_q28 = fixed3(yielded(move_q26.x, yields_q26, noted), yielded(move_q26.y, yields_q26, noted),
+                                   yielded(move_q26.z, yields_q26, noted));
     add_product(&sum->c.xx, by_q28.x, move_q26.x);
     add_product(&sum->c.xy, by_q28.x, move_q26.y);
     add_product(&sum->c.xz, by_q28.x, move_q26.z);
@@ -256,7 +255,7 @@ INLINE void fixed_add_freedom(fixed_sum_t *sum, const fixed_freedom_t *freedom, 
     sum->by_turn.x = fixed3_plus_q29(sum->by_turn.x, move_q26, freedom->follows.x);
     sum->by_turn.y = fixed3_plus_q29(sum->by_turn.y, move_q26, freedom->follows.y);
     sum->by_turn.z = fixed3_plus_q29(sum->by_turn.z, move_q26, freedom->follows.z);
-    fixed_add_move(sum, move_q26, freedom->yields_q28, noted);
+    fixed_add_move(sum, move_q26, freedom->yields_q26, noted);
 }
 
 INLINE void fixed_add_joint(fixed_sum_t *sum, const fixed_freedom_t *joint, noted_t *noted)
@@ -378,7 +377,7 @@ static void fixed_sum_limb(const brace_loaded_space_fixed_t *limb, const fixed_r
     fixed_add_freedom(s, &free->yaw, s->by_turn.y, noted);
     fixed_axes_about_y(&s->by_turn, turns->yaw);
     const fixed3_t up = {minus(turns->base.z), turns->base.x, 0};
-    fixed_add_move(s, fixed3_plus_axis(s->by_turn.z, up, minus(coxa)), free->base_yields_q28, noted);
+    fixed_add_move(s, fixed3_plus_axis(s->by_turn.z, up, minus(coxa)), free->base_yields_q26, noted);
 }
 
 #endif
