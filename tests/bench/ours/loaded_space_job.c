@@ -47,9 +47,11 @@ void job_run(int index, float *out)
     const float *angles = postures[index];
 #ifdef BENCH_FIXED
     brace_space_fixed_rest_t rest;
+    brace_stiffness_t plane;
     if (brace_loaded_space_fixed_settle(&fixed, angles[1], angles[2], &load, &rest) != BRACE_OK ||
         brace_loaded_space_fixed_stiffness(&fixed, &rest, &result) != BRACE_OK ||
-        brace_loaded_space_turn(angles[0], &result.k, &turned) != BRACE_OK) {
+        brace_loaded_space_fixed_in_plane(&result.k, &plane) != BRACE_OK ||
+        brace_loaded_space_fixed_turn(angles[0], &result.k, &turned) != BRACE_OK) {
         exit(1);
     }
     const float factor = 0.0f;

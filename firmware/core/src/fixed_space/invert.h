@@ -13,12 +13,6 @@ INLINE int32_t to_word(int64_t number, uint32_t zeros)
     return brace_high_word((int64_t)((uint64_t)number << zeros));
 }
 
-INLINE uint32_t zeros_of(uint64_t number)
-{
-    const uint32_t high = (uint32_t)(number >> 32);
-    return high != 0u ? leading_zeros(high) : 32u + leading_zeros((uint32_t)number | 1u);
-}
-
 /* a b - c d */
 INLINE int64_t minor_of(int32_t a, int32_t b, int32_t c, int32_t d)
 {
@@ -56,10 +50,7 @@ INLINE bool fixed_inverse3(const fixed_tensor3_t *c, int32_t exponent, brace_k3_
         return false;
     }
     const uint32_t det_up = zeros_of((uint64_t)det);
-    const uint32_t leading = (uint32_t)(((uint64_t)det << det_up) >> 32);
-    /* 2^61 over it: sixteen bits by division, the rest by a step of Newton's method */
-    const uint32_t guess = (0x80000000u / (leading >> 16)) << 15;
-    const uint32_t per_det = high_unsigned(guess, (0x80000000u - high_unsigned(leading, guess)) << 1);
+    const uint32_t per_det = over_q61(leading_of((uint64_t)det, det_up));
     const uint32_t field = (uint32_t)(117 + (int32_t)(det_up + zeros) + exponent) << 23;
     *k = (brace_k3_t){entry_of(k_xx, per_det, field), entry_of(k_xy, per_det, field),
                       entry_of(k_xz, per_det, field), entry_of(k_yy, per_det, field),

@@ -79,6 +79,28 @@ INLINE bool is_refused(noted_t noted)
     return noted >> NOTED_BITS != 0u;
 }
 
+/* --- division ------------------------------------------------------------------------------------------------- */
+
+/* Number of leading zeros of 64 bits that are not all zero, without a branch. */
+INLINE uint32_t zeros_of(uint64_t number)
+{
+    const uint32_t top = (uint32_t)(number >> 32), is_low = (uint32_t)(top == 0u);
+    return 32u * is_low + leading_zeros((is_low != 0u ? (uint32_t)number : top) | is_low);
+}
+
+/* A number shifted up until its leading bit is the highest of 32. */
+INLINE uint32_t leading_of(uint64_t number, uint32_t zeros)
+{
+    return (uint32_t)((number << zeros) >> 32);
+}
+
+/* 2^61 over a number whose highest bit is set: sixteen bits by division, the rest by a step of Newton's method. */
+INLINE uint32_t over_q61(uint32_t leading)
+{
+    const uint32_t guess = (0x80000000u / (leading >> 16)) << 15;
+    return high_unsigned(guess, (0x80000000u - high_unsigned(leading, guess)) << 1);
+}
+
 /* --- compliances ---------------------------------------------------------------------------------------------- */
 
 /* An angle from a compliance (q26) and what drives it (q24); at most 2 rad. */
