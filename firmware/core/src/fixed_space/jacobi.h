@@ -25,12 +25,14 @@ INLINE void fixed_jacobi_turn(int32_t *pp, int32_t *pq, int32_t *qq, int32_t *rp
                               fixed3_t *q)
 {
     const int32_t apart = less(*qq, *pp), sign = apart >> 31;
-    const int32_t along = (int32_t)(magnitude_of(apart) | 1u), aside = (twice(*pq) ^ sign) - sign;
+    const uint32_t zeros = leading_zeros(magnitude_of(apart) | magnitude_of(twice(*pq)) | 1u) - 2u;
+    const int32_t along = (int32_t)((magnitude_of(apart) | 1u) << zeros);
+    const int32_t aside = (int32_t)((uint32_t)((twice(*pq) ^ sign) - sign) << zeros);
     const fixed_length_t length = fixed_length_of(along, aside);
     const int32_t per = (int32_t)length.per_length_q28;
     const int32_t cosine_q27 = high_of((int32_t)((uint32_t)along << (length.shift - 1u)), per);
     const int32_t sine_q27 = high_of((int32_t)((uint32_t)aside << (length.shift - 1u)), per);
-    const uint32_t square_q32 = ((uint32_t)(ONE_Q27 + cosine_q27) << 4) - 1u; /* of the cosine of half of that angle */
+    const uint32_t square_q32 = ((uint32_t)(ONE_Q27 + cosine_q27) << 4) - 1u; /* of the cosine of the turn */
     const uint32_t per_c_q28 = fixed_per_root_q28(square_q32);
     const int32_t c_q30 = (int32_t)(high_unsigned(square_q32, per_c_q28) << 2);
     const int32_t s_q30 = times(sine_q27, (int32_t)per_c_q28, 26);
