@@ -96,6 +96,12 @@ brace_status_t brace_loaded_space_fixed_stiffness(const brace_loaded_space_fixed
                                                   const brace_space_fixed_rest_t *rest,
                                                   brace_space_result_t *result);
 
+/* The buckling factor in four steps, as brace_loaded_space_buckling_step, whose `begin` serves here too.
+ * factor: NaN where a word does not hold what the search meets. */
+bool brace_loaded_space_fixed_buckling_step(const brace_loaded_space_fixed_t *fixed,
+                                            const brace_space_fixed_rest_t *rest, brace_buckling_search_t *search,
+                                            float *factor);
+
 /* As brace_loaded_space_in_plane and brace_loaded_space_turn, in integers. K: normal numbers from 1e-15 to 1e15, beyond
  * them BRACE_E_SINGULAR, as where an eigenvalue is below 2e-9 of the largest entry. */
 brace_status_t brace_loaded_space_fixed_in_plane(const brace_k3_t *k, brace_stiffness_t *plane);

@@ -43,7 +43,7 @@ INLINE fixed3_t fixed3_scaled_q30(fixed3_t a, int32_t by)
     return fixed3(by_q30(a.x, by), by_q30(a.y, by), by_q30(a.z, by));
 }
 
-/* a + b by, by a number of q30; of q29. */
+/* a + b by, by a number of q30; by a ratio. */
 INLINE fixed3_t fixed3_plus_q30(fixed3_t a, fixed3_t b, int32_t by)
 {
     return fixed3(plus(a.x, by_q30(b.x, by)), plus(a.y, by_q30(b.y, by)), plus(a.z, by_q30(b.z, by)));
@@ -52,6 +52,12 @@ INLINE fixed3_t fixed3_plus_q30(fixed3_t a, fixed3_t b, int32_t by)
 INLINE fixed3_t fixed3_plus_q29(fixed3_t a, fixed3_t b, int32_t by)
 {
     return fixed3(plus(a.x, by_q29(b.x, by)), plus(a.y, by_q29(b.y, by)), plus(a.z, by_q29(b.z, by)));
+}
+
+INLINE fixed3_t fixed3_plus_ratio(fixed3_t a, fixed3_t b, int32_t ratio, ranges_t ranges)
+{
+    return fixed3(plus(a.x, by_ratio(b.x, ratio, ranges)), plus(a.y, by_ratio(b.y, ratio, ranges)),
+                  plus(a.z, by_ratio(b.z, ratio, ranges)));
 }
 
 INLINE int64_t fixed3_dot(fixed3_t a, fixed3_t b)
@@ -171,21 +177,21 @@ INLINE void fixed_sym3_about_z(fixed_sym3_t *m, fixed_vec_t by)
 
 #define ENTRY_MOST_BITS 26 /* 4 */
 
-/* m (q24) += a b', b (q29) a multiple of a (q24); each entry at most 4. */
-INLINE void fixed_sym3_add(fixed_sym3_t *m, fixed3_t a, fixed3_t b, noted_t *noted)
+INLINE void fixed_entry_add(int32_t *entry_q24, int32_t a, int32_t b, ranges_t ranges, noted_t *noted)
 {
-    m->xx = plus(m->xx, by_q29(a.x, b.x));
-    m->xy = plus(m->xy, by_q29(a.x, b.y));
-    m->xz = plus(m->xz, by_q29(a.x, b.z));
-    m->yy = plus(m->yy, by_q29(a.y, b.y));
-    m->yz = plus(m->yz, by_q29(a.y, b.z));
-    m->zz = plus(m->zz, by_q29(a.z, b.z));
-    note(noted, m->xx, ENTRY_MOST_BITS);
-    note(noted, m->xy, ENTRY_MOST_BITS);
-    note(noted, m->xz, ENTRY_MOST_BITS);
-    note(noted, m->yy, ENTRY_MOST_BITS);
-    note(noted, m->yz, ENTRY_MOST_BITS);
-    note(noted, m->zz, ENTRY_MOST_BITS);
+    *entry_q24 = plus(*entry_q24, by_ratio(a, b, ranges));
+    note(noted, *entry_q24, ENTRY_MOST_BITS);
+}
+
+/* m (q24) += a b', b a ratio times a; each entry at most 4. */
+INLINE void fixed_sym3_add(fixed_sym3_t *m, fixed3_t a, fixed3_t b, ranges_t ranges, noted_t *noted)
+{
+    fixed_entry_add(&m->xx, a.x, b.x, ranges, noted);
+    fixed_entry_add(&m->xy, a.x, b.y, ranges, noted);
+    fixed_entry_add(&m->xz, a.x, b.z, ranges, noted);
+    fixed_entry_add(&m->yy, a.y, b.y, ranges, noted);
+    fixed_entry_add(&m->yz, a.y, b.z, ranges, noted);
+    fixed_entry_add(&m->zz, a.z, b.z, ranges, noted);
 }
 
 /* a + b / 2^bits */

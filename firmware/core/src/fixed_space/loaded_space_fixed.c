@@ -8,7 +8,6 @@
 #define LINKS_Q26 96636764u  /* 1.44 rad2 */
 #define SMALL_TURN_Q26 24159191u /* 0.36 rad2 */
 #define JOINT_TURN_Q29 805306368 /* 1.5 rad */
-#define SINGULAR_EXPONENT -9 /* the product of the pivots is above 1e-3, 2^-10 */
 #define FORCE_MOST_Q17 (10000u << 17)
 #define REACH_HIGH_Q24 (31 << 24) /* BRACE_REACH_RAD2 */
 #define DOWN_MOST_Q30 ((1 << 30) + (1 << 20))
@@ -296,12 +295,11 @@ brace_status_t brace_loaded_space_fixed_stiffness(const brace_loaded_space_fixed
 {
     noted_t noted = 0u;
     fixed_freedoms_t free;
-    fixed_product_t pivots = {1 << 30, 1};
     fixed_frames_t frames;
     fixed_sum_t sum;
     brace_k3_t k;
-    fixed_eliminate_limb(fixed, rest, &free, &pivots, &noted);
-    if (is_refused(noted) || pivots.exponent < SINGULAR_EXPONENT) {
+    fixed_eliminate_limb(fixed, rest, NULL, &free, &noted);
+    if (is_refused(noted)) {
         return BRACE_E_SINGULAR;
     }
     fixed_frames_of(&rest->turns, &frames);

@@ -66,7 +66,7 @@ INLINE int32_t by_q29(int32_t a, int32_t by_q29)
 
 /* Magnitudes, or-ed. */
 typedef uint32_t noted_t;
-#define NOTED_BITS 16
+#define NOTED_BITS 10
 
 /* Notes a word whose magnitude is 2^bits or more. */
 INLINE void note(noted_t *noted, int32_t word, int bits)
@@ -103,18 +103,33 @@ INLINE uint32_t over_q61(uint32_t leading)
 
 /* --- compliances ---------------------------------------------------------------------------------------------- */
 
-/* An angle from a compliance (q26) and what drives it (q24); at most 2 rad. */
-INLINE int32_t angle_of(int32_t yields_q26, int32_t driven_q24, noted_t *noted)
+/* Formats of compliances and ratios, and the most of a ratio and of a row's entry as powers of two. For the buckling
+ * factor, which takes the load many times, ranges are wider: forces are a 16th, compliances as many times as large. */
+typedef struct {
+    int yields, ratio, ratio_most, row_most_bits;
+} ranges_t;
+
+#define RANGES ((ranges_t){26, 29, 1, 27})
+#define OVERLOAD_RANGES ((ranges_t){14, 25, 5, 25})
+
+/* A ratio or an angle from a compliance and an entry (q24). */
+INLINE int32_t yielded_to(int32_t yields, int32_t entry_q24, ranges_t ranges, noted_t *noted)
 {
-    const int64_t product = (int64_t)yields_q26 * driven_q24;
-    note(noted, brace_high_word(product), 19);
-    return shifted(product, 21);
+    const int64_t product = (int64_t)yields * entry_q24;
+    note(noted, brace_high_word(product), ranges.yields + 24 - 32 + ranges.ratio_most);
+    return shifted(product, ranges.yields + 24 - ranges.ratio);
 }
 
-/* A ratio, less, from a compliance (q26) and an entry (q24); at most 2. */
-INLINE int32_t follows_of(int32_t yields_q26, int32_t entry_q24, noted_t *noted)
+/* a times a ratio; in a's format. */
+INLINE int32_t by_ratio(int32_t a, int32_t ratio, ranges_t ranges)
 {
-    return minus(angle_of(yields_q26, entry_q24, noted));
+    return ranges.ratio == 29 ? by_q29(a, ratio) : times(a, ratio, ranges.ratio);
+}
+
+/* An angle from a compliance and what drives it; at most 2 rad. */
+INLINE int32_t angle_of(int32_t yields_q26, int32_t driven_q24, noted_t *noted)
+{
+    return yielded_to(yields_q26, driven_q24, RANGES, noted);
 }
 
 #define PIVOT_LEAST_Q27 (ONE_Q27 / 16 + 1024)

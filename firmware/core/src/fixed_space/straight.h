@@ -45,19 +45,23 @@ typedef struct {
     fixed3_t moment_q27;
 } fixed_held_t;
 
-#define ROW_MOST_BITS 27 /* 8 */
-
-INLINE void note_row(fixed3_t row_q24, noted_t *noted)
+INLINE void note_row(fixed3_t row_q24, ranges_t ranges, noted_t *noted)
 {
-    note(noted, row_q24.x, ROW_MOST_BITS);
-    note(noted, row_q24.y, ROW_MOST_BITS);
-    note(noted, row_q24.z, ROW_MOST_BITS);
+    note(noted, row_q24.x, ranges.row_most_bits);
+    note(noted, row_q24.y, ranges.row_most_bits);
+    note(noted, row_q24.z, ranges.row_most_bits);
 }
 
-INLINE fixed3_t follow(fixed3_t row_q24, int32_t yields_q26, noted_t *noted)
+/* How all beyond a coordinate follows what it resists: its entries times its compliance, less. */
+INLINE int32_t follow(int32_t entry_q24, int32_t yields, ranges_t ranges, noted_t *noted)
 {
-    return fixed3(follows_of(yields_q26, row_q24.x, noted), follows_of(yields_q26, row_q24.y, noted),
-                  follows_of(yields_q26, row_q24.z, noted));
+    return minus(yielded_to(yields, entry_q24, ranges, noted));
+}
+
+INLINE fixed3_t follow_row(fixed3_t row_q24, int32_t yields, ranges_t ranges, noted_t *noted)
+{
+    return fixed3(follow(row_q24.x, yields, ranges, noted), follow(row_q24.y, yields, ranges, noted),
+                  follow(row_q24.z, yields, ranges, noted));
 }
 
 INLINE fixed_factor_t fixed_eliminated(fixed_sym3_t *resists_q24, fixed3_t row_q24, int32_t entry_q24,
@@ -65,8 +69,8 @@ INLINE fixed_factor_t fixed_eliminated(fixed_sym3_t *resists_q24, fixed3_t row_q
 {
     const int32_t per_pivot = inverse_q27(pivot_of(yields_q26, entry_q24, noted));
     const int32_t yields = softened_of(yields_q26, per_pivot, noted);
-    note_row(row_q24, noted);
-    fixed_sym3_add(resists_q24, row_q24, follow(row_q24, yields, noted), noted);
+    note_row(row_q24, RANGES, noted);
+    fixed_sym3_add(resists_q24, row_q24, follow_row(row_q24, yields, RANGES, noted), RANGES, noted);
     return (fixed_factor_t){row_q24, yields, per_pivot};
 }
 
@@ -91,7 +95,7 @@ INLINE void fixed_straight_link(const brace_space_fixed_link_t *link, const fixe
     factor->between_q24 = r.yz;
     factor->y = fixed_eliminated(&held->resists_q24, fixed3(less(r.xy, half_y), plus(r.yy, half_x), r.yz),
                                  plus(r.yy, third), link->sideways_q31 >> yields->turn_shift, noted);
-    const int32_t by = follows_of(factor->y.yields_q26, r.yz, noted);
+    const int32_t by = follow(r.yz, factor->y.yields_q26, RANGES, noted);
     const fixed3_t row = fixed3_plus_q29(fixed3(less(r.xz, half_z), r.yz, plus(r.zz, half_x)), factor->y.row_q24, by);
     factor->z = fixed_eliminated(&held->resists_q24, row, plus(plus(r.zz, third), by_q29(r.yz, by)),
                                  link->bend_q31 >> yields->turn_shift, noted);
