@@ -22,8 +22,8 @@ INLINE int64_t minor_of(int32_t a, int32_t b, int32_t c, int32_t d)
 /* exponent_field: as of float_bits */
 INLINE float entry_of(int32_t cofactor, uint32_t per_det, uint32_t exponent_field)
 {
-    const uint32_t magnitude = high_unsigned(magnitude_of(cofactor), per_det);
-    return magnitude == 0u ? 0.0f : float_of(float_bits(magnitude, exponent_field) | sign_of(cofactor));
+    const uint32_t magnitude = high_unsigned(magnitude_of(cofactor), per_det), is_none = (uint32_t)(magnitude == 0u);
+    return float_of((float_bits(magnitude | is_none, exponent_field) | sign_of(cofactor)) & (is_none - 1u));
 }
 
 /* C (q54) to K, times 2^exponent. returns whether K is positive definite */

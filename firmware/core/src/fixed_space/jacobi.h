@@ -8,7 +8,7 @@
 /* A matrix on its way to diagonal form, each entry below 2^28, and its axes so far (q30). */
 typedef struct {
     fixed_sym3_t m;
-    fixed3_t x, y, z;
+    fixed3_t axis[3];
 } fixed_jacobi_t;
 
 /* p and q turned: the first to c p - s q, the second to s p + c q. */
@@ -50,13 +50,14 @@ INLINE void fixed_jacobi_turn(int32_t *pp, int32_t *pq, int32_t *qq, int32_t *rp
 static void fixed_jacobi(fixed_jacobi_t *j)
 {
     fixed_sym3_t *m = &j->m;
-    j->x = fixed3(1 << 30, 0, 0);
-    j->y = fixed3(0, 1 << 30, 0);
-    j->z = fixed3(0, 0, 1 << 30);
+    fixed3_t *const x = &j->axis[0], *const y = &j->axis[1], *const z = &j->axis[2];
+    *x = fixed3(1 << 30, 0, 0);
+    *y = fixed3(0, 1 << 30, 0);
+    *z = fixed3(0, 0, 1 << 30);
     for (int i = 0; i < 3; i++) {
-        fixed_jacobi_turn(&m->xx, &m->xz, &m->zz, &m->xy, &m->yz, &j->x, &j->z);
-        fixed_jacobi_turn(&m->xx, &m->xy, &m->yy, &m->xz, &m->yz, &j->x, &j->y);
-        fixed_jacobi_turn(&m->yy, &m->yz, &m->zz, &m->xy, &m->xz, &j->y, &j->z);
+        fixed_jacobi_turn(&m->xx, &m->xz, &m->zz, &m->xy, &m->yz, x, z);
+        fixed_jacobi_turn(&m->xx, &m->xy, &m->yy, &m->xz, &m->yz, x, y);
+        fixed_jacobi_turn(&m->yy, &m->yz, &m->zz, &m->xy, &m->xz, y, z);
     }
 }
 

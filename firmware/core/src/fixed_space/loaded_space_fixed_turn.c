@@ -95,10 +95,11 @@ brace_status_t brace_loaded_space_fixed_turn(float theta0_rad, const brace_k3_t 
     const bool x_is_less = j.m.xx < j.m.yy;
     const int32_t low = x_is_less ? j.m.xx : j.m.yy, high = x_is_less ? j.m.yy : j.m.xx, zz = j.m.zz;
     const int32_t least = zz < low ? zz : low, most = zz > high ? zz : high;
+    const int32_t middle = less(plus(plus(low, high), zz), plus(least, most));
     if (least <= 0) {
         return BRACE_E_SINGULAR;
     }
-    const fixed3_t axis = outwards_axis(zz > high ? j.z : x_is_less ? j.y : j.x);
+    const fixed3_t axis = outwards_axis(j.axis[zz > high ? 2 : (int)x_is_less]);
     const fixed_vec_t yaw = fixed_direction(brace_turn_from_q28(fixed_of(theta0, 28)));
     fixed_sym3_t turned = words.k;
     fixed_sym3_about_z(&turned, yaw);
@@ -108,8 +109,7 @@ brace_status_t brace_loaded_space_fixed_turn(float theta0_rad, const brace_k3_t 
         .k_xx_n_per_mm = float_from(turned.xx, format), .k_xy_n_per_mm = float_from(turned.xy, format),
         .k_xz_n_per_mm = float_from(turned.xz, format), .k_yy_n_per_mm = float_from(turned.yy, format),
         .k_yz_n_per_mm = float_from(turned.yz, format), .k_zz_n_per_mm = k->zz_n_per_mm,
-        .lambda_n_per_mm = {float_from(least, format), float_from(zz < low ? low : zz > high ? high : zz, format),
-                            float_from(most, format)},
+        .lambda_n_per_mm = {float_from(least, format), float_from(middle, format), float_from(most, format)},
         .stiff_axis = {float_from(turned_axis.x, 30), float_from(turned_axis.y, 30), float_from(turned_axis.z, 30)},
         .flags = (int64_t)least * SLENDER_PER_LEAST < most ? BRACE_FLAG_NEAR_SINGULAR : 0u};
     return BRACE_OK;
