@@ -28,11 +28,12 @@ typedef struct {
 
 /* The load taken many times, for the buckling factor: which is as the compliances taken as many times. Then what the
  * load softens at the links' end springs counts. determinant: the product of all pivots, 2^exponent times a mantissa
- * that is at least a half; has_buckled: one of them is negative. */
+ * that is at least a half; has_buckled: one of them is negative. is_refused: a word does not hold what was met; then the
+ * determinant is that of the pivots up to there. */
 typedef struct {
     int32_t times_q27;
     int32_t mantissa_q31, exponent;
-    bool is_negative, has_buckled;
+    bool is_negative, has_buckled, is_refused;
 } fixed_overload_t;
 
 INLINE int32_t overloaded(int32_t yields_q26, const fixed_overload_t *overload, noted_t *noted)
@@ -60,6 +61,9 @@ INLINE fixed3_t overload_of(fixed3_t f, const fixed_overload_t *overload)
 
 INLINE void multiply_determinant(fixed_overload_t *overload, uint32_t pivot_q20, bool is_negative)
 {
+    if (overload->is_refused) {
+        return;
+    }
     const int32_t by = times(overload->mantissa_q31, (int32_t)pivot_q20, 31); /* a pivot is below 2048: q20 */
     const uint32_t zeros = leading_zeros((uint32_t)by | 1u) - 1u;
     overload->mantissa_q31 = (int32_t)((uint32_t)by << zeros);
@@ -113,6 +117,9 @@ INLINE fixed_freedom_t fixed_eliminate(fixed_held_t *held, fixed3_t row_q24, int
     const fixed3_t follows = follow_row(row_q24, softened, ranges, noted);
     note_row(row_q24, ranges, noted);
     fixed_sym3_add(&held->resists_q24, row_q24, follows, ranges, noted);
+    if (overload != NULL) {
+        overload->is_refused = is_refused(*noted);
+    }
     return (fixed_freedom_t){follows, softened};
 }
 

@@ -1,4 +1,5 @@
 #include <math.h>
+#include <stdbool.h>
 
 #include "brace/loaded_space_fixed.h"
 
@@ -33,22 +34,33 @@ static brace_fixed_vec_t vector_of(brace_vec_t v, int32_t exponent)
     return (brace_fixed_vec_t){quantised(v.x, exponent), quantised(v.z, exponent)};
 }
 
+#define ARM_SHIFT_MOST 20
+#define REFUSED_EXPONENT 100 /* of compliances that no word holds, whatever the load */
+
 /* The arm of the springs at a link's end, as a part of the unit of length: so short that they curl the link's own turns
  * by no more than one for each radian. */
-static uint32_t arm_shift_of(const brace_space_link_t *link, int32_t length_exponent)
+static int32_t arm_shift_of(const brace_space_link_t *link, int32_t length_exponent)
 {
     const int32_t curl = exponent_above(link->curl_per_mm) + length_exponent;
-    return (uint32_t)larger(curl, 0);
+    return curl > ARM_SHIFT_MOST ? ARM_SHIFT_MOST : larger(curl, 0);
+}
+
+static bool is_too_short(const brace_space_link_t *link, int32_t length_exponent)
+{
+    return exponent_above(link->curl_per_mm) + length_exponent > ARM_SHIFT_MOST;
 }
 
 /* Exponents of a link's compliances for an angle, in 1/N, their turn times the unit of length. */
 static int32_t turn_exponent_of(const brace_space_link_t *link, int32_t length_exponent)
 {
+    if (is_too_short(link, length_exponent)) {
+        return REFUSED_EXPONENT;
+    }
     const float turns = fmaxf(fmaxf(link->twist_rad_per_n_mm, link->sideways_rad_per_n_mm),
                               fmaxf(link->bend_rad_per_n_mm, fmaxf(link->across_spread_per_n_mm,
                                                                    link->sideways_spread_per_n_mm)));
     const float springs = fmaxf(link->across_mm_per_n, link->sideways_mm_per_n);
-    const int32_t arms = 2 * (int32_t)arm_shift_of(link, length_exponent);
+    const int32_t arms = 2 * arm_shift_of(link, length_exponent);
     return larger(exponent_above(turns) + length_exponent, exponent_above(springs) - length_exponent + arms);
 }
 
@@ -60,9 +72,8 @@ static float stretch_of(const brace_space_link_t *link)
 static brace_space_fixed_link_t link_of(const brace_space_link_t *link, const brace_loaded_space_fixed_t *fixed)
 {
     const int32_t length = fixed->length_exponent, turns = 31 + length - fixed->turn_exponent;
-    const uint32_t arm_shift = arm_shift_of(link, length);
-    const int32_t arms = 31 - length - fixed->turn_exponent + 2 * (int32_t)arm_shift;
-    const int32_t per_arm = 30 + length - (int32_t)arm_shift;
+    const int32_t arm_shift = arm_shift_of(link, length), per_arm = 30 + length - arm_shift;
+    const int32_t arms = 31 - length - fixed->turn_exponent + 2 * arm_shift;
     return (brace_space_fixed_link_t){
         .length_q28 = quantised(link->length_mm, 28 - length),
         .twelfth_q28 = quantised(link->twelfth_mm, 28 - length),
@@ -83,7 +94,7 @@ static brace_space_fixed_link_t link_of(const brace_space_link_t *link, const br
         .curl_q30 = quantised(link->curl_per_mm, per_arm),
         .shortens_q30 = quantised(link->shortens_per_mm, per_arm),
         .weight_q31 = quantised(link->weight_n, 31 - fixed->weight_exponent),
-        .arm_shift = arm_shift};
+        .arm_shift = (uint32_t)arm_shift};
 }
 
 void brace_loaded_space_fixed_collapse(const brace_loaded_space_t *loaded, brace_loaded_space_fixed_t *fixed)
