@@ -13,6 +13,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "coverage"
 ARGUMENTS = {"power_cuts": ("--in-turn",), "journal_cuts": ("--in-turn",)}  # each step and manner, not each pair
+FUZZED = ("100000", "1")  # requests or ticks, and where the random sequence begins
 SECONDS_MOST = 600.0
 
 Line = tuple[str, int]  # file of the firmware, number
@@ -39,8 +40,9 @@ class Counts:
 
 
 def suites() -> list[Path]:
-    """The programs of target c_suites: unit tests, and the enumerated power cuts."""
+    """The programs of target c_suites: unit tests, the enumerated power cuts, and short runs of the fuzzers."""
     programs = [path for path in (BUILD / "tests").glob("test_*") if path.is_file() and os.access(path, os.X_OK)]
+    programs += (BUILD / "tests" / "fuzz").glob("*_fuzz")
     programs += [BUILD / "tests" / "faults" / name for name in ARGUMENTS]
     return sorted(program for program in programs if program.is_file())
 
@@ -48,7 +50,8 @@ def suites() -> list[Path]:
 def run(program: Path, counts: Path) -> None:
     """Runs a suite. What it counts goes to a folder of its own."""
     strip = len(BUILD.parts) - 1
-    command = [str(program), *ARGUMENTS.get(program.name, ())]
+    is_fuzzer = program.parent.name == "fuzz"
+    command = [str(program), *(FUZZED if is_fuzzer else ARGUMENTS.get(program.name, ()))]
     environment = {**os.environ, "GCOV_PREFIX": str(counts), "GCOV_PREFIX_STRIP": str(strip)}
     done = subprocess.run(command, cwd=BUILD, env=environment, capture_output=True, text=True, check=False, timeout=SECONDS_MOST)  # fmt: skip
     if done.returncode:

@@ -9,7 +9,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from universalmutator import mutator
+from universalmutator import mutator  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("firmware/core/src", "firmware/interface/src", "firmware/interface/generated", "firmware/store/src",
