@@ -53,7 +53,9 @@ def run(program: Path, counts: Path) -> None:
     is_fuzzer = program.parent.name == "fuzz"
     command = [str(program), *(FUZZED if is_fuzzer else ARGUMENTS.get(program.name, ()))]
     environment = {**os.environ, "GCOV_PREFIX": str(counts), "GCOV_PREFIX_STRIP": str(strip)}
-    done = subprocess.run(command, cwd=BUILD, env=environment, capture_output=True, text=True, check=False, timeout=SECONDS_MOST)  # fmt: skip
+    done = subprocess.run(
+        command, cwd=BUILD, env=environment, capture_output=True, text=True, check=False, timeout=SECONDS_MOST
+    )
     if done.returncode:
         raise ToolError(f"{program.name} fails: {done.stdout[-800:]}{done.stderr[-800:]}")
 
@@ -65,7 +67,13 @@ def _documents(counts: Path) -> Iterator[dict[str, object]]:
         return  # a suite of hal/ alone
     for name in data:
         shutil.copy(BUILD / Path(name).with_suffix(".gcno"), (counts / name).parent)
-    done = subprocess.run(["gcov", "--json-format", "--stdout", "--branch-probabilities", *data], cwd=counts, capture_output=True, text=True, check=False)  # fmt: skip
+    done = subprocess.run(
+        ["gcov", "--json-format", "--stdout", "--branch-probabilities", *data],
+        cwd=counts,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     if done.returncode:
         raise ToolError(f"gcov: {done.stderr[-800:]}")
     yield from (json.loads(text) for text in done.stdout.splitlines() if text.startswith("{"))

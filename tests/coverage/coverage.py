@@ -60,10 +60,22 @@ def main() -> int:
     asked = parser.parse_args()
     if not asked.known:
         each = counts.of_each_suite(counts.BUILD / "counts")
-        KEPT.write_text(json.dumps({name: {"lines": [[*k, n] for k, n in c.lines.items()], "branches": [[*k, n] for k, n in c.branches.items()]} for name, c in each.items()}))  # fmt: skip
+        KEPT.write_text(
+            json.dumps(
+                {
+                    name: {
+                        "lines": [[*k, n] for k, n in c.lines.items()],
+                        "branches": [[*k, n] for k, n in c.branches.items()],
+                    }
+                    for name, c in each.items()
+                }
+            )
+        )
     total = counts.Counts()
     for one in json.loads(KEPT.read_text()).values():
-        total.add(counts.Counts({(f, n): c for f, n, c in one["lines"]}, {(f, n, i): c for f, n, i, c in one["branches"]}))  # fmt: skip
+        total.add(
+            counts.Counts({(f, n): c for f, n, c in one["lines"]}, {(f, n, i): c for f, n, i, c in one["branches"]})
+        )
     texts: dict[str, list[str]] = {}
     exceptions = read_exceptions()
     missed = sorted(place for place, count in total.lines.items() if count == 0)

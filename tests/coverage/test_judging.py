@@ -24,7 +24,9 @@ def test_an_exception_covers_its_lines_only() -> None:
     assert not entry.covers("firmware/app/src/app.c", "        return BRACE_OK;")
 
 
-@pytest.mark.parametrize("entry", ['files = "*"\nline = "x"\nwhy = "so"', 'files = "*"\nline = ""\nwhy = "a reason of some length"'])
+@pytest.mark.parametrize(
+    "entry", ['files = "*"\nline = "x"\nwhy = "so"', 'files = "*"\nline = ""\nwhy = "a reason of some length"']
+)
 def test_what_may_not_be_an_exception(tmp_path: Path, entry: str) -> None:
     path = tmp_path / "exceptions.toml"
     path.write_text(f"[[exception]]\n{entry}\n")

@@ -104,7 +104,9 @@ def sources() -> list[str]:
 def include_folders() -> list[str]:
     """Every folder with headers in it, and those above it that are called include or src."""
     headers = [path.parent for part in ("firmware", "hal") for path in (ROOT / part).rglob("*.h")]
-    above = [parent for folder in headers for parent in folder.parents if parent.name in ("include", "src", "generated")]
+    above = [
+        parent for folder in headers for parent in folder.parents if parent.name in ("include", "src", "generated")
+    ]
     return sorted({str(folder.relative_to(ROOT)) for folder in [*headers, *above]})
 
 
@@ -164,7 +166,9 @@ def main() -> int:
     for finding in findings if asked.all else wrong:
         print(finding)
     for entry in unused:
-        print(f"deviations.toml: rule {entry.rule}, {' '.join(entry.files)}, {entry.line!r}: excuses nothing any more")
+        print(
+            f"deviations.toml: rule {entry.rule}, {' '.join(entry.files)}, {entry.line!r}: excuses nothing any more"
+        )
     print(
         f"{len(sources())} files, {len(findings)} findings, {len(findings) - len(wrong)} of them covered by "
         f"{len(deviations)} deviations; {len(wrong)} not covered"

@@ -18,7 +18,10 @@ WORK = ROOT / "build" / "mutants"
 FIRMWARE = ("firmware/core/", "firmware/interface/", "firmware/store/", "firmware/app/")
 HALS = ("hal/fake/", "hal/blank/", "hal/selftest/", "hal/dynamixel/")
 LIBRARY = "libunder_test.so"
-CUTS = {"power_cuts": ("power_cuts", "nvm_model", "crc32_fast"), "journal_cuts": ("journal_cuts", "nvm_model", "crc32_fast")}
+CUTS = {
+    "power_cuts": ("power_cuts", "nvm_model", "crc32_fast"),
+    "journal_cuts": ("journal_cuts", "nvm_model", "crc32_fast"),
+}
 ARGUMENTS = {"power_cuts": ("--in-turn",), "journal_cuts": ("--in-turn",)}
 LEVEL = "-O1"  # compiles quickly, and still gives the same object for many mutants that mean the same
 
@@ -105,7 +108,9 @@ class Bench:
         """Name of a suite: its objects."""
         unity = self.object_of("unity.c")
         tests = [name for name in self.commands if name.startswith("tests/")]
-        found = {Path(name).stem: [self.object_of(name), unity] for name in tests if Path(name).stem.startswith("test_")}
+        found = {
+            Path(name).stem: [self.object_of(name), unity] for name in tests if Path(name).stem.startswith("test_")
+        }
         for program, stems in CUTS.items():
             found[program] = [self.object_of(name) for name in tests if Path(name).stem in stems]
         return found
@@ -117,8 +122,12 @@ class Bench:
 
     def users_of(self, header: str) -> list[str]:
         """The files of the library that include a header."""
-        return [name for name in self.linked
-                if str(ROOT / header) in [os.path.normpath(w) for w in self.object_of(name).with_suffix(".d").read_text().split()]]  # fmt: skip
+        return [
+            name
+            for name in self.linked
+            if str(ROOT / header)
+            in [os.path.normpath(w) for w in self.object_of(name).with_suffix(".d").read_text().split()]
+        ]
 
 
 @dataclass(frozen=True)
@@ -138,8 +147,13 @@ def run_suite(suite: Suite, library: Path, cpu_most_s: int) -> Ending:
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = subprocess.run([str(suite.program), *ARGUMENTS.get(suite.name, ())], capture_output=True, check=False,
-                          env={**os.environ, "LD_LIBRARY_PATH": str(library)}, preexec_fn=limit)  # fmt: skip
+    done = subprocess.run(
+        [str(suite.program), *ARGUMENTS.get(suite.name, ())],
+        capture_output=True,
+        check=False,
+        env={**os.environ, "LD_LIBRARY_PATH": str(library)},
+        preexec_fn=limit,
+    )
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     words = done.stdout.decode(errors="replace")
     told = next((line.split("/")[-1] for line in words.splitlines() if ":FAIL" in line), "")

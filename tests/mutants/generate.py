@@ -12,8 +12,13 @@ from pathlib import Path
 from universalmutator import mutator  # type: ignore[import-not-found,import-untyped,unused-ignore]
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = ("firmware/core/src", "firmware/interface/src", "firmware/interface/generated", "firmware/store/src",
-           "firmware/app/src")  # fmt: skip
+FOLDERS = (
+    "firmware/core/src",
+    "firmware/interface/src",
+    "firmware/interface/generated",
+    "firmware/store/src",
+    "firmware/app/src",
+)
 RULES = ["universal.rules", "c_like.rules", "c.rules"]
 LEAST_A_FILE = 3
 
@@ -44,7 +49,11 @@ def mutants_of(file: str, run_lines: set[int]) -> list[Mutant]:
     wanted = code_lines(text) & run_lines
     with contextlib.redirect_stdout(io.StringIO()):
         found = mutator.mutants_regexp(source, ruleFiles=RULES, ignorePatterns=[], ignoreStringOnly=False)
-    return [Mutant(file, line, source[line - 1].rstrip("\n"), new.rstrip("\n")) for line, new, *_ in found if line in wanted]
+    return [
+        Mutant(file, line, source[line - 1].rstrip("\n"), new.rstrip("\n"))
+        for line, new, *_ in found
+        if line in wanted
+    ]
 
 
 def files() -> list[str]:

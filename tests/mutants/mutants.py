@@ -86,7 +86,11 @@ class Judge:
             words = command.to(output)
             if user == mutant.file:
                 words[words.index(str(bench.ROOT / user))] = str(tree)
-                words[1:1] = ["-iquote", str((bench.ROOT / user).parent), f"-ffile-prefix-map={tree}={bench.ROOT / user}"]
+                words[1:1] = [
+                    "-iquote",
+                    str((bench.ROOT / user).parent),
+                    f"-ffile-prefix-map={tree}={bench.ROOT / user}",
+                ]
             else:  # a header: the mutant's folder comes first, and quotes look there before the header's own folder
                 overlay = self._overlay(mutant, tree)
                 words = [word.replace(str(bench.ROOT / "firmware"), str(overlay)) for word in words]
@@ -139,7 +143,9 @@ def read_kept() -> dict[generate.Mutant, Outcome]:
 def read_argued() -> dict[tuple[str, str, str], str]:
     """survivors.toml: file, line without and with the mutant: why no suite needs to find it."""
     items = tomllib.loads((HERE / "survivors.toml").read_text()).get("survivor", [])
-    return {(item["file"], item["old"].strip(), item["new"].strip()): " ".join(item["why"].split()) for item in items}
+    return {
+        (item["file"], item["old"].strip(), item["new"].strip()): " ".join(item["why"].split()) for item in items
+    }
 
 
 def argued(mutant: generate.Mutant, known: dict[tuple[str, str, str], str]) -> str:

@@ -287,8 +287,8 @@ static void step_parameters(brace_app_t *app)
     }
 }
 
-/* The parts of a tick in their order. Each that is done is another digit, so that the watchdog is fed by a tick with all
- * of them. */
+/* The parts of a tick in their order. Each that is done is another digit, so that only a tick with all of them feeds
+ * the watchdog. */
 enum {
     PART_SENSED = 1,
     PART_STIFFNESS = 2,

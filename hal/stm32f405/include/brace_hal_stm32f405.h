@@ -90,8 +90,8 @@ typedef struct {
      * clear, 4-aligned; null: flash. */
     uint8_t *nvm_ram;
 
-    /* Set the brown-out reset to 2.8 V (an option of the flash, written once), and refuse to write flash below 2.9 V. For
-     * a supply of 3.0 V or more. */
+    /* Set the brown-out reset to 2.8 V (an option of the flash, written once), and refuse to write flash below 2.9 V.
+     * For a supply of 3.0 V or more. */
     bool guards_supply;
 
     bool watchdog; /* start the independent watchdog; once started it cannot be stopped */
@@ -131,7 +131,8 @@ uint32_t stm32f405_sector_bytes(uint8_t sector);
  *   can_receive  ring of 64 frames; the controller's filter rejects extended and remote frames, and other identifiers
  *   can_recover  drops the frames that wait in the mailboxes, because they are stale by then; E_DEVICE: the crystal was
  *                lost, and CAN stays off
- *   nvm_write    E_DEVICE while the supply is below 2.9 V; whole words of 4 bytes: 16 us each, 100 us at most; up to 10 words in one call always end within 1 ms
+ *   nvm_write    E_DEVICE while the supply is below 2.9 V; whole words of 4 bytes: 16 us each, 100 us at
+ *                most; up to 10 words in one call always end within 1 ms
  *   nvm_erase    16 KiB: 0.25 s, at most 0.5 s; 128 KiB: 1 s, at most 2 s. The processor stands still; the watchdog is
  *                fed before. E_DEVICE: protected, or not finished in twice that time
  *   watchdog     3.5 s by the LSI as measured at the start, 2.8 s with the fastest LSI; where it cannot be measured, by

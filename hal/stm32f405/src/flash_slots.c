@@ -101,8 +101,8 @@ static void lock(void)
     *flash(FLASH_CR) = FLASH_CR_LOCK;
 }
 
-/* Unlocks the flash. false: the supply is falling, an operation is still running, or the controller stays locked. One wrong key locks it until
- * a reset. */
+/* Unlocks the flash. false: the supply is falling, an operation is still running, or the controller stays locked. One
+ * wrong key locks it until a reset. */
 static bool unlock(void)
 {
     if (supply_is_low() || !finishes_within(ERASE_LARGE_US)) {

@@ -24,7 +24,8 @@ static bool flash_rests(void)
 /* RM0090, 3.7.2. */
 static void set_brown_out(void)
 {
-    if ((*flash(FLASH_OPTCR) & FLASH_OPTCR_BOR_LEV) == FIELD(FLASH_OPTCR_BOR_LEV, BROWN_OUT_LEVEL_3) || !flash_rests()) {
+    const uint32_t level = *flash(FLASH_OPTCR) & FLASH_OPTCR_BOR_LEV;
+    if (level == FIELD(FLASH_OPTCR_BOR_LEV, BROWN_OUT_LEVEL_3) || !flash_rests()) {
         return;
     }
     *flash(FLASH_OPTKEYR) = FLASH_OPTKEYR_KEY1;

@@ -1,6 +1,6 @@
 /* What a start finds in a slot, whatever the memory holds and refuses. */
 #include "memory.h"
-#include "store_slot.h"
+#include "src/store_slot.h"
 
 uint32_t brace_crc32(uint32_t crc, const uint8_t *bytes, uint32_t count)
 {

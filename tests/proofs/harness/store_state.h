@@ -1,5 +1,6 @@
-/* The states that a store can be in: at rest, or with something under way. store.c proves that a step from a sound state
- * ends in one or at rest; store_entry.c, that nothing else than these is ever entered. Include it behind src/store.c. */
+/* The states that a store can be in: at rest, or with something under way. store.c proves that a step from a sound
+ * state ends in one or at rest; store_entry.c, that nothing else than these is ever entered. Include it behind
+ * src/store.c. */
 #ifndef BRACE_PROOF_STORE_STATE_H
 #define BRACE_PROOF_STORE_STATE_H
 
@@ -13,8 +14,8 @@ static bool is_bool(const bool *value)
 /* What holds at any time. */
 static bool members_are_sound(const brace_store_t *s)
 {
-    return s->in_force <= 2u && s->next_mark[0] <= BRACE_STORE_MARK_COUNT && s->next_mark[1] <= BRACE_STORE_MARK_COUNT &&
-           is_bool(&s->rolling_back) && is_bool(&s->reloading) && is_bool(&s->memory_fault) && is_bool(&s->clean[0]) &&
+    return s->in_force <= 2u && s->next_mark[0] <= BRACE_STORE_MARK_COUNT &&
+           s->next_mark[1] <= BRACE_STORE_MARK_COUNT && is_bool(&s->rolling_back) && is_bool(&s->reloading) && is_bool(&s->memory_fault) && is_bool(&s->clean[0]) &&
            is_bool(&s->clean[1]) && is_bool(&s->affirmed[0]) && is_bool(&s->affirmed[1]);
 }
 

@@ -52,8 +52,8 @@ static void test_what_a_frame_says_is_packed_as_it_was(void)
     }
 }
 
-/* The bits of a frame of any content that do not come back: reserved ones, which are 0, and the codes that lead it. Each
- * other bit is some field's, so that no two fields can lie on one another unseen. */
+/* Bits of a frame that do not come back are reserved ones, which are 0, and the codes that lead it. Each other bit is
+ * some field's, so that no two fields can lie on one another unseen. */
 static void test_a_bit_that_changes_changes_one_field_alone(void)
 {
     for (uint32_t f = 0; f < (uint32_t)FRAMES; f++) {

@@ -22,7 +22,8 @@ static frozen_span_t just(float value)
 static frozen_span_t with(frozen_span_t span, float value)
 {
     const bool unknown = value != value;
-    return (frozen_span_t){unknown || value < span.low ? value : span.low, unknown || value > span.high ? value : span.high};
+    return (frozen_span_t){.low = unknown || value < span.low ? value : span.low,
+                           .high = unknown || value > span.high ? value : span.high};
 }
 
 static float width(frozen_span_t span)
@@ -53,10 +54,12 @@ static float hidden_n_mm(const frozen_joint_t *joint, const frozen_inputs_t *inp
 {
     const brace_drive_t *drive = &inputs->parameters->drive[index];
     const float most_n_mm = largest(joint->load_n_mm);
-    const float friction_n_mm = drive->motor_friction_n_mm + drive->coulomb_n_mm + drive->coulomb_per_load_ratio * most_n_mm;
+    const float friction_n_mm =
+        drive->motor_friction_n_mm + drive->coulomb_n_mm + drive->coulomb_per_load_ratio * most_n_mm;
     const brace_point_t lever =
         index == BRACE_FEMUR ? inputs->posture->pose.lever_femur : inputs->posture->pose.lever_tibia;
-    const float sensed_n_mm = inputs->parameters->sensor.noise_n * (__builtin_fabsf(lever.x_mm) + __builtin_fabsf(lever.z_mm));
+    const float sensed_n_mm =
+        inputs->parameters->sensor.noise_n * (__builtin_fabsf(lever.x_mm) + __builtin_fabsf(lever.z_mm));
     return FRICTION_BANDS * friction_n_mm + NOISE_SIGMAS * (drive->torque_noise_n_mm + sensed_n_mm) +
            LOAD_OFF_RATIO * most_n_mm;
 }
@@ -78,7 +81,8 @@ static void watch_one(frozen_joint_t *joint, const frozen_inputs_t *inputs, int 
     joint->told_rad = same && has_torque ? with(joint->told_rad, told_rad) : just(told_rad);
     joint->same_load_n_mm = same ? with(joint->same_load_n_mm, carries_n_mm) : just(carries_n_mm);
     joint->load_n_mm = stands ? with(joint->load_n_mm, carries_n_mm) : just(carries_n_mm);
-    joint->pulls_n_mm = stands && joint->is_settled ? with(joint->pulls_n_mm, seen->torque_n_mm) : just(seen->torque_n_mm);
+    joint->pulls_n_mm =
+        stands && joint->is_settled ? with(joint->pulls_n_mm, seen->torque_n_mm) : just(seen->torque_n_mm);
     joint->is_settled = seen->samples_seen >= SAMPLES_SETTLED;
 
     const float hidden = hidden_n_mm(joint, inputs, index); /* NaN, and no more than it, where the load is not known */

@@ -1,5 +1,5 @@
-/* Does a joint's sensor still measure? One that is frozen tells the same again and again, with a new time stamp. That is
- * told from a joint that rests by what the limb does meanwhile:
+/* Does a joint's sensor still measure? One that is frozen tells the same again and again, with a new time stamp. What
+ * the limb does meanwhile parts it from a joint that rests:
  *
  *   told    the drive is told to move and has torque left, and neither angle nor torque moves by a bit
  *   loaded  the tip's sensor and the weight say that the joint's load has changed by more than friction can hide, and
