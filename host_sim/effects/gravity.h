@@ -14,8 +14,9 @@ namespace brace::effects::gravity {
 inline Eigen::Vector3d down_in_space(const Model &model)
 {
     const auto &weight = model.gravity;
-    const double within = std::cos(weight.lean_rad);
-    return {within * std::cos(weight.direction_rad), std::sin(weight.lean_rad), within * std::sin(weight.direction_rad)};
+    const double in_plane = std::cos(weight.lean_rad);
+    return {in_plane * std::cos(weight.direction_rad), std::sin(weight.lean_rad),
+            in_plane * std::sin(weight.direction_rad)};
 }
 
 // The same in the limb's plane; shorter than 1 where the plane leans.

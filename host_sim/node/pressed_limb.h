@@ -1,5 +1,5 @@
-// The quasi-static limb between its motors and a contact that holds its tip: in its plane, or in space where it has a coxa
-// joint.
+// The quasi-static limb between its motors and a contact that holds its tip: in its plane, or in space where it has a
+// coxa joint.
 #pragma once
 
 #include <Eigen/Core>

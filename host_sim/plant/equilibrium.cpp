@@ -101,8 +101,8 @@ struct Pivots {
     }
 };
 
-// Newton's direction among the joints that move. Where M takes all curvature away, as when a weight stands above a joint
-// within its play, the direction is the one without M: it leads down, too.
+// Newton's direction among the joints that move. Where M takes all curvature away, as when a weight stands above a
+// joint within its play, the direction is the one without M: it leads down, too.
 template <int N>
 Each<N> newton_direction(const Matrix<N> &without_m, const Matrix<N> &m, const Each<N> &torque, const Each<N> &sign)
 {

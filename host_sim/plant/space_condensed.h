@@ -1,11 +1,11 @@
-// The limb in space near a state of its hinges and of the tip force, as condensed.h has it in the plane: what it lacks to
-// rest, and how tip and joint torques follow the force and the turns of joints that are kept.
+// The limb in space near a state of its hinges and of the tip force, as condensed.h has it in the plane: what it lacks
+// to rest, and how tip and joint torques follow the force and the turns of joints that are kept.
 //
 // W(phi, y) is quadratic in the small rotation vector phi of the body that a hinge moves and in the kept unknowns
 // y = (force, turns of the three joints, 1). A body of extent r that carries F adds r x F to the slope W_phi and
-// (r F' + F r') / 2 - (r . F) 1 to W_phiphi. Two turns follow one another as phi + q z + q phi x z / 2, so a hinge about
-// the axis z with the torque tau = z . W_phi sees phi through g = W_phiphi z + z x W_phi / 2. With its compliance c and
-// the pivot p = 1 - c z' W_phiphi z its elimination adds (c / p) times the square of (g, W_yphi z).
+// (r F' + F r') / 2 - (r . F) 1 to W_phiphi. Two turns follow one another as phi + q z + q phi x z / 2, so a hinge
+// about the axis z sees phi through g = W_phiphi z + z x W_phi / 2. With its compliance c and the pivot
+// p = 1 - c z' W_phiphi z its elimination adds (c / p) times the square of (g, W_yphi z).
 #pragma once
 
 #include <Eigen/Core>

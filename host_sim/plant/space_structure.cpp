@@ -97,8 +97,8 @@ struct Line {
     double length_mm;
 };
 
-// The link behind a joint. Weights, sideways bending and twist keep to its line; a tilt turns the line of its bending in
-// the plane about the link's end.
+// The link behind a joint. Weights, sideways bending and twist keep to its line; a tilt turns the line of its bending
+// in the plane about the link's end.
 void add_link(const Model &model, int index, const Line &line, double weight_n, double t_s, Builder &builder)
 {
     const auto &link = model.link[index];

@@ -1,12 +1,12 @@
 // The limb in space at one posture without any load, as structure.h has it in the plane: rigid bodies from the base to
-// the tip, each behind a hinge or a spring that moves it, or both. In the frame of the commanded limb's plane: x outwards,
-// y to the left, z up, origin on the femur joint's axis; the yaw axis stands at x = -coxa.
+// the tip, each behind a hinge or a spring that moves it, or both. In the frame of the commanded limb's plane: x
+// outwards, y to the left, z up, origin on the femur joint's axis; the yaw axis stands at x = -coxa.
 //
-// In the order from base to tip, as docs/physics.md ('Under load') lists them: the base's slides and its hinge about the
-// femur axis, coxa joint, coxa link, femur joint, femur, knee, tibia. A link bends in the plane and across it, and
+// In the order from base to tip, as docs/physics.md ('Under load') lists them: the base's slides and its hinge about
+// the femur axis, coxa joint, coxa link, femur joint, femur, knee, tibia. A link bends in the plane and across it, and
 // twists. Its beam is kBeamParts equal parts: at each of a part's two Gauss points a hinge for the plane and one across
-// it, and one for the twist between. Turns in space do not commute: the hinges stand in the same order from both ends of
-// a part, else the error would fall only with a part's length.
+// it, and one for the twist between. Turns in space do not commute: the hinges stand in the same order from both ends
+// of a part, else the error would fall only with a part's length.
 #pragma once
 
 #include <Eigen/Core>

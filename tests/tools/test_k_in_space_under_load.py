@@ -117,7 +117,9 @@ def test_a_single_posture(brace: Callable[..., Outcome], model: LimbModel, limb:
     assert refused.code == 2 and "no stable equilibrium is near" in refused.err
 
 
-def test_no_force_and_no_weight_is_the_k_in_space(brace: Callable[..., Outcome], model: LimbModel, tmp_path: Path) -> None:
+def test_no_force_and_no_weight_is_the_k_in_space(
+    brace: Callable[..., Outcome], model: LimbModel, tmp_path: Path
+) -> None:
     path = tmp_path / "light.toml"
     path.write_text(model.with_values({f"gravity.{part}_n": 0.0 for part in ("femur", "knee", "tibia")}).to_toml())
     posture = ("k", "--model", path, "--theta0", 0.4, "--theta1", 1.0, "--theta2", 1.4, "--json")

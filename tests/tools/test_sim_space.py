@@ -211,7 +211,7 @@ def test_k_under_a_force_from_any_side_is_the_limbs_own(
 
 
 def test_a_plane_that_leans_to_the_left_has_weight_across_it(spatial: LimbModel) -> None:
-    """Nothing presses, so the coxa joint carries the weight's part across the plane, and the controller tells no force."""
+    """Nothing presses: the coxa joint carries the weight's part across the plane, and the controller tells no force."""
     lean_rad, knee_n = 0.4, 3.0
     model = spatial.with_values({"gravity.lean_rad": lean_rad, "gravity.knee_n": knee_n, "sensor.noise_n": 0.0,
                                  "motor.coxa.torque_noise_n_mm": 0.0, **NO_FRICTION})
@@ -233,7 +233,7 @@ def test_play_and_friction_of_the_coxa_joint_act_in_the_turned_joint(spatial: Li
         one.step(1.0)
         truth, snapshot = one.raw_truth(), one.raw_snapshot()
         assert truth.flank[0] == -1 == snapshot.play[0].flank and space_of(one)["flag_names"] == []
-        turn_rad = truth.link_rad[0] - truth.motor_rad[0] - 0.01  # beyond the play: the spring's, less what friction holds
+        turn_rad = truth.link_rad[0] - truth.motor_rad[0] - 0.01  # the spring's, less what friction holds
         compliance = model.number("joint.coxa.compliance_rad_per_n_mm")
         assert abs(turn_rad + compliance * truth.load_n_mm[0]) <= compliance * 100.0 * 1.001
         motor_rad = [truth.motor_rad[0] + 0.01, truth.motor_rad[1], truth.motor_rad[2]]

@@ -1,4 +1,4 @@
-"""Joints' springs as the firmware's estimators of K under a load want them: how far they yield, and their slope there."""
+"""Joints' springs as the firmware's estimators of K under a load want them: how far they yield, and their slope."""
 
 from __future__ import annotations
 

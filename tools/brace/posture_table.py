@@ -27,8 +27,8 @@ FORCE_MOST_N = 1e4
 
 @dataclass(frozen=True)
 class PostureTable:
-    """`angles` maps theta1_rad, theta2_rad and, if present, theta0_rad to one entry per row; `forces` likewise fx_n, fz_n
-    and, if present, fy_n, the force of the ground on the tip, and is empty where the file has none. `rows` are the
+    """`angles` maps theta1_rad, theta2_rad and, if present, theta0_rad to one entry per row; `forces` likewise fx_n,
+    fz_n and, if present, fy_n, the force of the ground on the tip, and is empty where the file has none. `rows` are the
     file's bytes row by row without line ends; `lines` the line on which each begins."""
 
     path: Path

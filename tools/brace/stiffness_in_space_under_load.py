@@ -56,11 +56,12 @@ class LoadedLimbInSpace:
         self._offset_rad = [lib.brace_limb_true_angle(limb, joint, 0.0) for joint in range(3)]
 
     def stiffness(self, theta_rad: np.ndarray, force_n: np.ndarray) -> np.ndarray:
-        """Structured array, one entry per row of theta_rad (commanded theta0, theta1, theta2; the zero offsets are added)
-        and of force_n (force of the ground on the tip in the limb's plane's frame: outwards, across the plane to the
-        left, up). K, eigenvalues, stiff axis and C in the robot's frame. tip_dx_mm, tip_dy_mm, tip_dz_mm: how far force
-        and weight move the tip, in the plane's frame. buckling_factor: infinite where it is above 16, and where it may
-        be above 11. Raises PostureError for the first posture that is refused."""
+        """Structured array, one entry per row of theta_rad (commanded theta0, theta1, theta2; the zero offsets are
+        added) and of force_n (force of the ground on the tip in the limb's plane: outwards, to the left of it, up).
+
+        K, eigenvalues, stiff axis and C are in the robot's frame; tip_dx_mm, tip_dy_mm, tip_dz_mm, how far force and
+        weight move the tip, in the plane's. buckling_factor: infinite where it is above 16, and where it may be above
+        11. Raises PostureError for the first posture that is refused."""
         true_rad = np.asarray(theta_rad, float) + self._offset_rad
         true_rad[:, 1] = within_half_turn(true_rad[:, 1])
         hardens = any(spring.hardens for spring in self._springs)

@@ -7,7 +7,6 @@ import numpy as np
 from brace.hardening import Spring, settle
 from brace.model import LimbModel
 from brace.native import library
-from brace.native.c_data import CData
 from brace.native.limb import firmware_limb, status_text
 from brace.stiffness import E_SINGULAR, PLANAR_C, PLANAR_K, PLANAR_REST, PostureError
 

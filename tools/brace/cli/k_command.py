@@ -25,9 +25,9 @@ def add(commands: Subcommands) -> None:
         description="K [N/mm], C [mm/N], eigenvalues [N/mm], stiff axis [rad] at a posture, computed by the firmware's "
         "own C. With --theta0 (or a theta0_rad column) in space, otherwise in the limb's plane. With --fx and --fz (or "
         "columns fx_n, fz_n), in space also --fy (fy_n), K under this load and the weights of [gravity], at the limb's "
-        "equilibrium. Angles are commanded ones: the model's zero offsets are added; theta0, theta1 and phi lie within a "
-        "full turn, theta2 in [-pi, pi]. Forces and the tip's displacement are in the limb's plane (x outwards, y across "
-        "to the left, z up), K in space in the robot's frame. --temp warms the joints as [thermal] says.",
+        "equilibrium. Angles are commanded ones: the model's zero offsets are added; theta0, theta1 and phi lie within "
+        "a full turn, theta2 in [-pi, pi]. Forces and the tip's displacement are in the limb's plane (x outwards, y to "
+        "the left of it, z up), K in space in the robot's frame. --temp warms the joints as [thermal] says.",
     )
     common.add_model(parser)
     parser.add_argument("--theta0", type=common.angle, metavar="RAD", help="coxa yaw: K in space (3x3)")
@@ -306,7 +306,8 @@ def _text(
         moved = ", ".join(f"{values[f'tip_d{axis}_mm']:.4g}" for axis in axes)
         factor = values["buckling_factor"]
         lines.append(
-            f"under the ground's force on the tip ({force}) N and the limb's weight: tip moves ({moved}) mm, buckling factor "
+            f"under the ground's force on the tip ({force}) N and the limb's weight: tip moves ({moved}) mm, "
+            + "buckling factor "
             + (f"{factor:.3g}" if math.isfinite(factor) else "above 11")
             + (": the load makes the limb much softer" if factor < k_load.SOFTENED else "")
         )

@@ -61,8 +61,8 @@ float posture_gravity_n_mm(const posture_t *posture, const brace_gravity_t *weig
 /* Torque with which a tip force loads a joint [N mm], in the motor's sense. joint_index: BRACE_FEMUR or BRACE_TIBIA */
 float posture_tip_load_n_mm(const posture_t *posture, float x_n, float z_n, int joint_index);
 
-/* The tip force that explains the loads of both joints. Where a load has turned the coxa joint, these joints have turned
- * with it, and x_n is the force outwards in the turned plane: see posture_force_across_n.
+/* The tip force that explains the loads of both joints. Where a load has turned the coxa joint, these joints have
+ * turned with it, and x_n is the force outwards in the turned plane: see posture_force_across_n.
  *   femur_n_mm, tibia_n_mm: loads in the motors' sense, weight included
  *   x_n, z_n (out): NaN where the levers do not allow it: near the straight and the folded knee */
 void posture_force_of_loads(const posture_t *posture, const brace_parameters_t *parameters, brace_vec3_t down,

@@ -171,7 +171,8 @@ static int32_t without_load(model_t *model, const brace_limb_t *limb, const floa
                                .yy_n_per_mm = across_n_per_mm,
                                .zz_n_per_mm = plane->k_zz_n_per_mm};
     rest->plane.flags |= BRACE_FLAG_LOAD_UNKNOWN;
-    rest->bend = (posture_bend_t){{unknown, unknown}, {unknown, unknown}, unknown, unknown, {unknown, unknown, unknown}};
+    rest->bend = (posture_bend_t){
+        {unknown, unknown}, {unknown, unknown}, unknown, unknown, {unknown, unknown, unknown}};
     rest->moved_across_mm = rest->buckling_factor = unknown;
     return BRACE_OK;
 }
