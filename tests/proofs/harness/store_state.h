@@ -15,7 +15,8 @@ static bool is_bool(const bool *value)
 static bool members_are_sound(const brace_store_t *s)
 {
     return s->in_force <= 2u && s->next_mark[0] <= BRACE_STORE_MARK_COUNT &&
-           s->next_mark[1] <= BRACE_STORE_MARK_COUNT && is_bool(&s->rolling_back) && is_bool(&s->reloading) && is_bool(&s->memory_fault) && is_bool(&s->clean[0]) &&
+           s->next_mark[1] <= BRACE_STORE_MARK_COUNT && is_bool(&s->rolling_back) &&
+           is_bool(&s->reloading) && is_bool(&s->memory_fault) && is_bool(&s->clean[0]) &&
            is_bool(&s->clean[1]) && is_bool(&s->affirmed[0]) && is_bool(&s->affirmed[1]);
 }
 
