@@ -4,7 +4,8 @@ usage: mutants.py [--count N] [--seed S] [--only GLOB] [--afresh]
 
 A mutant is a file of the firmware with one line changed by universalmutator's rules. Only lines that some suite runs
 are mutated (./dev coverage tells of the others). A mutant that the compiler refuses, or of which it makes the same
-object as without, does not count. Every other one is given to the suites that run its line, until one fails: then it is killed.
+object as without, does not count. Every other one is given to the suites that run its line, until one fails: then it
+is killed.
 Outcomes are kept in build/mutants/outcomes.jsonl, so that a run that was stopped goes on.
 
 exit codes: 0 enough are killed and every survivor is argued for in survivors.toml, 1 not so, 4 a tool failed.
@@ -164,8 +165,9 @@ def report(outcomes: list[Outcome], seed: int) -> int:
     unargued = sum(not argued(mutant, known) for mutant in alive)
     print(
         f"seed {seed}: {len(counted)} mutants in {len({o.mutant.file for o in counted})} files, "
-        f"{len(counted) - len(alive)} killed ({100.0 * share:.1f} %), {len(alive)} survive, {unargued} of them not argued for; beside them "
-        f"{states[REFUSED]} that the compiler refuses and {states[SAME]} with the same object"
+        f"{len(counted) - len(alive)} killed ({100.0 * share:.1f} %), {len(alive)} survive, "
+        f"{unargued} of them not argued for; beside them {states[REFUSED]} that the compiler refuses and "
+        f"{states[SAME]} with the same object"
     )
     return 1 if share < KILLED_LEAST or unargued else 0
 
