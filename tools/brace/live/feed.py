@@ -7,6 +7,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 from brace.bus.can_controller import CanController
 from brace.bus.controller import Controller
@@ -95,7 +96,7 @@ class Feed:
         with self._lock:
             self.watch.add(frame)
         for node in self.watch.nodes.keys() - self.cards.keys():
-            self._learn(node, lambda node=node: CanController(Session(bus, node)), isinstance(bus, LogBus))
+            self._learn(node, partial(_controller_on, bus, node), isinstance(bus, LogBus))
 
     def _follow_modbus(self) -> None:
         device = ModbusController(self.url)
@@ -120,3 +121,7 @@ class Feed:
             self.cards[node] = Card(why_not="a log answers no questions: give --model LIMB.toml")
         else:
             self.cards[node] = card_from(lambda: controller().download(lambda words: None).model)
+
+
+def _controller_on(bus: Bus, node: int) -> Controller:
+    return CanController(Session(bus, node))
