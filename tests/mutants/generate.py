@@ -38,7 +38,7 @@ class Mutant:
 
 def code_lines(text: str) -> set[int]:
     """Numbers of the lines with code: not within a comment over several lines, no preprocessor's line, not blank."""
-    bare = re.sub(r"/\*.*?\*/", lambda m: re.sub(r"[^\n]", " ", m[0]), text, flags=re.S)
+    bare = re.sub(r"/\*.*?\*/", lambda m: re.sub(r"[^\n]", " ", m[0]), text, flags=re.DOTALL)
     return {n for n, line in enumerate(bare.splitlines(), 1) if line.strip() and not line.lstrip().startswith("#")}
 
 
