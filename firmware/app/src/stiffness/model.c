@@ -197,6 +197,8 @@ int32_t model_loaded_end(const model_t *model, const brace_limb_t *limb, model_w
     rest->space = found.k;
     rest->bend = (posture_bend_t){.tip_mm = {moved.x, moved.z},
                                   .tibia_mm = {found.tibia_mm.x, found.tibia_mm.z},
+                                  .tip_across_mm = moved.y,
+                                  .tibia_across_mm = found.tibia_mm.y,
                                   .joint_turn_rad = {found.yaw_turn_rad, found.hip_turn_rad, -found.knee_turn_rad}};
     rest->moved_across_mm = moved.y;
     rest->buckling_factor = __builtin_nanf("");
