@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -112,10 +113,16 @@ def errors(case: Case, path: str = "float") -> tuple[float, float, float]:
     )
 
 
+@cache
+def limbs_in_space(seed: int, count: int) -> tuple[Case, ...]:
+    """The same for every test."""
+    return tuple(random_cases(seed, count, in_space=True))
+
+
 @pytest.mark.parametrize("path", PATHS)
 def test_k_displacement_and_buckling(limbs: int, seed: int, path: str) -> None:
     """What brace/loaded_space.h and brace/loaded_space_fixed.h promise."""
-    found = np.array([errors(case, path) for case in random_cases(seed, 10 * limbs, in_space=True)])
+    found = np.array([errors(case, path) for case in limbs_in_space(seed, 10 * limbs)])
     told = ~np.isnan(found[:, 0])
     refused = 1.0 - np.mean(told)
     k, moved_mm, buckling = found[told].T
@@ -144,7 +151,7 @@ def test_less_load(limbs: int, seed: int, path: str, part: float, most: float) -
     """Force and weight both: K's error falls with the load. Without it there is only rounding of C's entries, 6e-8 of
     the largest, which counts in K as often as C is slender: up to a thousand times here."""
     worst = 0.0
-    for case in random_cases(seed, 10 * limbs, in_space=True):
+    for case in limbs_in_space(seed, 10 * limbs):
         lighter = {key: value * part if key.startswith("gravity.") else value for key, value in case.keys.items()}
         error = errors(replace(case, keys=lighter, force_n=case.force_n * part), path)[0]
         assert not np.isnan(error)
