@@ -4,11 +4,6 @@
 
 #include "fixed_space/straight.h"
 
-typedef brace_space_fixed_link_t fixed_link3_t;
-typedef brace_space_fixed_bent_t fixed_bent3_t;
-typedef brace_space_fixed_turns_t fixed_turns3_t;
-typedef brace_space_fixed_rest_t fixed_rest3_t;
-
 /* Twists of coxa and femur that bending and springs together make. */
 typedef struct {
     int32_t coxa, femur;

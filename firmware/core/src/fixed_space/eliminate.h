@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-#include "fixed_space/bent.h"
+#include "fixed_space/held.h"
 
 /* A coordinate's compliance, load included, and how all beyond follows when the places before it turn. */
 typedef struct {
@@ -230,18 +230,6 @@ INLINE void fixed_eliminate_link(const fixed_link3_t *link, const fixed_rest3_t 
     free->z_by_y = follow(own.yz, free->y.yields_q26, ranges, noted);
     free->z = fixed_eliminate(held, fixed3_plus_ratio(z, y, free->z_by_y, ranges), plus(own.zz, by_ratio(own.yz, free->z_by_y, ranges)),
                               bends, overload, noted);
-}
-
-INLINE void fixed_held_about_x(fixed_held_t *held, fixed_vec_t turn)
-{
-    fixed_sym3_about_x(&held->resists_q24, turn);
-    held->moment_q27 = fixed_about_x(held->moment_q27, turn);
-}
-
-INLINE void fixed_held_about_y(fixed_held_t *held, fixed_vec_t turn)
-{
-    fixed_sym3_about_y(&held->resists_q24, turn);
-    held->moment_q27 = fixed_about_y(held->moment_q27, turn);
 }
 
 INLINE void fixed_eliminate_limb(const brace_loaded_space_fixed_t *limb, const fixed_rest3_t *rest,

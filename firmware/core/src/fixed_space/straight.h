@@ -2,8 +2,7 @@
 #ifndef BRACE_CORE_FIXED_SPACE_STRAIGHT_H
 #define BRACE_CORE_FIXED_SPACE_STRAIGHT_H
 
-#include "brace/loaded_space_fixed.h"
-#include "fixed_space/frame.h"
+#include "fixed_space/held.h"
 
 /* The joints' commanded directions, each seen from the link before. */
 typedef struct {
@@ -38,31 +37,6 @@ typedef struct {
     fixed_factor_t yaw, hip, knee;
     int32_t base_yields_q26, base_per_pivot_q27;
 } fixed_factors_t;
-
-/* What all beyond a place resists when it is turned about the axes there, and its moment. */
-typedef struct {
-    fixed_sym3_t resists_q24;
-    fixed3_t moment_q27;
-} fixed_held_t;
-
-INLINE void note_row(fixed3_t row_q24, ranges_t ranges, noted_t *noted)
-{
-    note(noted, row_q24.x, ranges.row_most_bits);
-    note(noted, row_q24.y, ranges.row_most_bits);
-    note(noted, row_q24.z, ranges.row_most_bits);
-}
-
-/* How all beyond a coordinate follows what it resists: its entries times its compliance, less. */
-INLINE int32_t follow(int32_t entry_q24, int32_t yields, ranges_t ranges, noted_t *noted)
-{
-    return minus(yielded_to(yields, entry_q24, ranges, noted));
-}
-
-INLINE fixed3_t follow_row(fixed3_t row_q24, int32_t yields, ranges_t ranges, noted_t *noted)
-{
-    return fixed3(follow(row_q24.x, yields, ranges, noted), follow(row_q24.y, yields, ranges, noted),
-                  follow(row_q24.z, yields, ranges, noted));
-}
 
 INLINE fixed_factor_t fixed_eliminated(fixed_sym3_t *resists_q24, fixed3_t row_q24, int32_t entry_q24,
                                        int32_t yields_q26, noted_t *noted)
@@ -105,12 +79,6 @@ INLINE fixed_factor_t fixed_straight_joint(fixed_held_t *held, int32_t yields_q2
 {
     const fixed_sym3_t r = held->resists_q24;
     return fixed_eliminated(&held->resists_q24, fixed3(r.xz, r.yz, r.zz), r.zz, yields_q26, noted);
-}
-
-INLINE void fixed_held_about_z(fixed_held_t *held, fixed_vec_t turn)
-{
-    fixed_sym3_about_z(&held->resists_q24, turn);
-    held->moment_q27 = fixed_about_z(held->moment_q27, turn);
 }
 
 /* at: coxa, femur, tibia. */

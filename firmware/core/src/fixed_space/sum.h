@@ -2,6 +2,7 @@
 #ifndef BRACE_CORE_FIXED_SPACE_SUM_H
 #define BRACE_CORE_FIXED_SPACE_SUM_H
 
+#include "fixed_space/bent.h"
 #include "fixed_space/eliminate.h"
 
 /* Whole sums of products. */
