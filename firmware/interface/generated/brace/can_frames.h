@@ -29,7 +29,9 @@
     X(BRACE_CAN_ID_LOAD, load_1, load_hz) \
     X(BRACE_CAN_ID_LOAD, load_2, load_hz) \
     X(BRACE_CAN_ID_LOAD, load_3, load_hz) \
-    X(BRACE_CAN_ID_LOAD, load_4, load_hz)
+    X(BRACE_CAN_ID_LOAD, load_4, load_hz) \
+    X(BRACE_CAN_ID_LOAD_ACROSS, load_across_0, load_hz) \
+    X(BRACE_CAN_ID_LOAD_ACROSS, load_across_1, load_hz)
 
 #define BRACE_CAN_PROCESS_FD(X) \
     X(BRACE_CAN_ID_SNAPSHOT_FD, snapshot_fd, stiffness_hz) \
