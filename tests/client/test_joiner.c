@@ -397,7 +397,7 @@ static void test_a_load_is_of_its_k_s_tick(void)
     TEST_ASSERT_GREATER_THAN_UINT32(130000u, whole); /* (19/20)^7 of all */
 }
 
-/* What is across the plane comes in frames of its own, whose identifier is a higher one: before the load or behind it. */
+/* What is across the plane comes in frames of its own with a higher identifier: before the load or behind it. */
 static void test_a_load_across_the_plane(void)
 {
     for (uint32_t behind = 0u; behind < 2u; behind++) {
@@ -407,7 +407,8 @@ static void test_a_load_across_the_plane(void)
             const uint32_t part = behind != 0u ? i : (i + 5u) % 7u;
             brace_bus_frame_t frame = load_frame_of(part % 5u, 5u, 1000u + i);
             if (part >= 5u) {
-                const brace_can_load_across_0_t force = {.sequence = 5u, .counted_force_y_n = -2.5f, .moved_y_mm = -7.0f};
+                const brace_can_load_across_0_t force = {
+                    .sequence = 5u, .counted_force_y_n = -2.5f, .moved_y_mm = -7.0f};
                 const brace_can_load_across_1_t k = {.sequence = 5u, .unloaded_k_across_n_per_mm = 0.5f};
                 frame.id = BRACE_CAN_ID_LOAD_ACROSS + NODE;
                 (void)(part == 5u ? brace_can_pack_load_across_0(&force, frame.data)

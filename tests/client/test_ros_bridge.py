@@ -69,12 +69,6 @@ def test_fields_are_the_messages(kind: type) -> None:
     assert named == [field.name for field in fields(kind) if field.name != "stamp_s"]
 
 
-def across_frames(sequence: int = 7, node: int = 3, time_s: float = 100.0, **changes: float | None) -> list[Frame]:
-    values = {"sequence": sequence, "counted_force_y": -2.5, "moved_y": -7.0, "unloaded_k_across": 0.5, "flags": 0}
-    values |= changes
-    return [Frame(time_s, layout.identifier + node, layout.encode(values)) for layout in MULTIPLEXED["load_across"]]
-
-
 @pytest.mark.parametrize("kind", [LimbStiffness, LimbStiffnessInSpace])
 def test_constants_are_the_dictionarys(kind: type) -> None:
     text = (ROS / "brace_msgs" / "msg" / f"{kind.__name__}.msg").read_text()
