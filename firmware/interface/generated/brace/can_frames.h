@@ -63,6 +63,8 @@
     X(load_2, 8) \
     X(load_3, 8) \
     X(load_4, 8) \
+    X(load_across_0, 8) \
+    X(load_across_1, 8) \
     X(snapshot_fd, 64) \
     X(space_fd, 64) \
     X(load_fd, 64) \
