@@ -13,6 +13,7 @@ import numpy as np
 
 from brace.errors import BadFileError, did_you_mean
 from brace.files import DATA_LIMIT_BYTES, read_bytes
+from brace.limits import FORCE_MOST_N
 from brace.slips import slip
 
 WHAT = "table of postures"
@@ -21,7 +22,6 @@ LIMITS_RAD = {"theta1_rad": 2 * math.pi, "theta2_rad": math.pi, "theta0_rad": 2 
 _MEANING = {"theta1_rad": "femur angle", "theta2_rad": "knee angle", "theta0_rad": "coxa yaw"}
 _REQUIRED = ("theta1_rad", "theta2_rad")
 FORCES = ("fx_n", "fz_n")
-FORCE_MOST_N = 1e4
 
 
 @dataclass(frozen=True)

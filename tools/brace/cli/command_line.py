@@ -54,14 +54,14 @@ def run_command_line(argv: Sequence[str] | None) -> int:
 
 def _run(argv: Sequence[str] | None) -> int:
     try:
-        arguments = build_parser().parse_args(argv)
+        arguments = build_parser(sys.argv[1:] if argv is None else argv).parse_args(argv)
     except SystemExit as stop:  # --help, --version
         return int(stop.code or 0)
     return int(arguments.run(arguments))
 
 
-def build_parser() -> OptionParser:
-    """The parser of all subcommands."""
+def build_parser(argv: Sequence[str] = ()) -> OptionParser:
+    """The parser of all subcommands; where the command line begins with one, of that one alone."""
     parser = OptionParser(
         prog="brace",
         description="Stiffness at the tip of a climbing robot's limb: predict it, measure it, explain it. "
@@ -72,7 +72,7 @@ def build_parser() -> OptionParser:
     )
     parser.add_argument("--version", action="version", version=f"brace {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", dest="command")
-    for name in SUBCOMMANDS:
+    for name in argv[:1] if argv[:1] and argv[0] in SUBCOMMANDS else SUBCOMMANDS:
         module = import_module(f"brace.cli.{name.replace('-', '_')}_command")
         module.add(commands)
     for command in commands.choices.values():

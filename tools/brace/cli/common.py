@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import json
 import math
 import sys
 import time
@@ -58,6 +57,8 @@ def add_json(parser: argparse.ArgumentParser) -> None:
 
 def print_json(data: dict[str, object]) -> None:
     """One JSON object on stdout; what is not finite becomes null, since JSON has no word for it."""
+    import json  # here, so that the command line's help need not load it
+
     emit(json.dumps(json_ready(data), indent=1))
 
 
