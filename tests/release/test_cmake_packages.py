@@ -97,7 +97,7 @@ USER = """#include "brace/app.h"
 #include "brace/status_text.h"
 #include "brace_hal_blank.h"
 static brace_app_t app;
-int main(void) { return brace_app_start(&app, brace_hal_blank()) == BRACE_OK || brace_status_text(0) == 0; }
+int main(void) { return brace_app_start(&app, brace_hal_blank()) != BRACE_OK || brace_status_text(0) == 0; }
 """
 USER_LISTS = """cmake_minimum_required(VERSION 3.24)
 project(user LANGUAGES C)
