@@ -1,4 +1,4 @@
-"""Brace in somebody else's CMake project: by find_package, by add_subdirectory and by FetchContent, on five machines."""
+"""Brace in somebody else's CMake project: by find_package, add_subdirectory and FetchContent, on five machines."""
 
 from __future__ import annotations
 

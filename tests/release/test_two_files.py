@@ -49,7 +49,7 @@ def test_same_bytes_and_nothing_of_others(core: Path, tmp_path: Path) -> None:
         text = (core / name).read_text()
         assert (tmp_path / name).read_text() == text
         assert '#include "' not in text.replace('#include "brace_core.h"', "")
-        assert "SPDX-License-Identifier: Apache-2.0" in text and str(PROJECT) not in text
+        assert "SPDX-License-Identifier" + ": Apache-2.0\n" in text and str(PROJECT) not in text
 
 
 def test_the_header_is_one_for_strict_c_and_for_cpp(core: Path, tmp_path: Path) -> None:
@@ -57,7 +57,8 @@ def test_the_header_is_one_for_strict_c_and_for_cpp(core: Path, tmp_path: Path) 
     output_of("gcc", *strict, core / "brace_core.c")
     (tmp_path / "user.cpp").write_text(
         '#include "brace_core.h"\n'
-        "int main() { brace_pose_t pose; brace_limb_t limb = {}; return brace_kinematics_forward(&limb, 0, 0, &pose) ? 0 : 1; }\n"
+        "int main() { brace_pose_t pose; brace_limb_t limb = {};\n"
+        "             return brace_kinematics_forward(&limb, 0, 0, &pose) ? 0 : 1; }\n"
     )
     output_of("g++", "-std=c++17", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", f"-I{core}", tmp_path / "user.cpp")
 

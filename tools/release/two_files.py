@@ -24,7 +24,7 @@ LEFT_OUT = "batch"
 LICENCE = """ * SPDX-FileCopyrightText: 2026 The Brace authors
  * SPDX-License-Identifier: Apache-2.0
 """
-HEADER_WORDS = """/* Brace {version}: the stiffness K at the tip of a robot's limb. The core's public headers in one file.
+HEADER_WORDS = """/* Brace {version}: the stiffness K at the tip of a robot's limb. The core's public headers.
  *
 {licence} *
  * Written by tools/release/two_files.py; do not edit. brace_core.c has the functions. Both compile alone with any
@@ -32,7 +32,7 @@ HEADER_WORDS = """/* Brace {version}: the stiffness K at the tip of a robot's li
  * brace_planar_collapse and brace_planar_stiffness.
  */
 """
-SOURCE_WORDS = """/* Brace {version}: the stiffness K at the tip of a robot's limb. The core's sources in one file.
+SOURCE_WORDS = """/* Brace {version}: the stiffness K at the tip of a robot's limb. The core's sources.
  *
 {licence} *
  * Written by tools/release/two_files.py; do not edit. brace_core.h is the manual.

@@ -10,7 +10,7 @@ import sys
 from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
+from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias, cast
 
 from brace.cli.streams import emit, say
 from brace.errors import UsageError, did_you_mean
@@ -60,7 +60,8 @@ class OptionParser(argparse.ArgumentParser):
 
     def _get_formatter(self) -> argparse.HelpFormatter:
         """argparse makes one for each option that is added, and each would ask for the terminal's width anew."""
-        return self.formatter_class(prog=self.prog, width=_help_columns())
+        formatter = cast("type[argparse.HelpFormatter]", self.formatter_class)
+        return formatter(prog=self.prog, width=_help_columns())
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:  # the entry of subcommands too
         if args is not None:
