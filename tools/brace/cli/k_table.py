@@ -8,6 +8,7 @@ import numpy as np
 
 from brace import stiffness
 from brace.cli import common
+from brace.cli.k_flags import flags_of_postures
 from brace.cli.k_load import refuse_load_with
 from brace.stiffness_under_load import LOADED_REST, stiffness_under_load
 from brace.errors import BadFileError, UsageError
@@ -39,6 +40,7 @@ def run_table(arguments: argparse.Namespace, model: LimbModel) -> int:
             why=error.text,
             next_step="angles are in rad, theta2_rad within [-pi, pi]; a singular posture needs another limb",
         ) from None
+    result["flags"] |= flags_of_postures(model, table.angles, unloaded=not (spatial or loaded))
     write_file(arguments.out, table.with_columns(names, [_texts(result[name]) for name in names]), inputs)
     summary = {
         "rows": len(table.rows),
