@@ -1,5 +1,5 @@
-/* Every bit of the controller's memory flips, one at a time, by itself. Within 100 ms MEMORY has to be set and K invalid;
- * or K stays within 0.1 % of what it was, or says that it is not to be used (invalid, or flagged).
+/* Every bit of parameters, of constants made from them, and of some of the tick's state flips, one at a time, by itself.
+ * Within 100 ms MEMORY has to be set and K invalid; or K stays within 0.1 % of what it was, or says that it is not to be used (invalid, or flagged).
  *
  *   bit_flips [EVERY]    each EVERY-th bit (default 1: all)
  *
@@ -38,9 +38,12 @@ static const part_t parts[] = {
     PART(model.loaded_space, true),
     {"tip_force, its constants", AT(tip_force.fitted), AT(tip_force) + sizeof(tip_force_t), true},
     PART(gravity, true),
-    {"flank, coxa joint's constants", AT(flank.joint[BRACE_COXA]), AT(flank.joint[BRACE_COXA].machine.started), true},
-    {"flank, femur joint's constants", AT(flank.joint[BRACE_FEMUR]), AT(flank.joint[BRACE_FEMUR].machine.started), true},
-    {"flank, tibia joint's constants", AT(flank.joint[BRACE_TIBIA]), AT(flank.joint[BRACE_TIBIA].machine.started), true},
+    {"flank, coxa joint's constants", AT(flank.joint[BRACE_COXA]), AT(flank.joint[BRACE_COXA].machine.started),
+     true},
+    {"flank, femur joint's constants", AT(flank.joint[BRACE_FEMUR]), AT(flank.joint[BRACE_FEMUR].machine.started),
+     true},
+    {"flank, tibia joint's constants", AT(flank.joint[BRACE_TIBIA]), AT(flank.joint[BRACE_TIBIA].machine.started),
+     true},
     PART(joints, false),
     PART(posture, false),
 };

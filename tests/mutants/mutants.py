@@ -5,7 +5,7 @@ usage: mutants.py [--count N] [--seed S] [--only GLOB] [--afresh]
 A mutant is a file of the firmware with one line changed by universalmutator's rules. Only lines that some suite runs
 are mutated (./dev coverage tells of the others). A mutant that the compiler refuses, or of which it makes the same
 object as without, does not count. Every other one is given to the suites that run its line, until one fails: then it
-is killed.
+is killed. The suites are the unit tests; power cuts and fuzzers take too long for each mutant.
 Outcomes are kept in build/mutants/outcomes.jsonl, so that a run that was stopped goes on.
 
 exit codes: 0 enough are killed and every survivor is argued for in survivors.toml, 1 not so, 4 a tool failed.
