@@ -1,5 +1,6 @@
-/* Every bit of parameters, of constants made from them, and of some of the tick's state flips, one at a time, by itself.
- * Within 100 ms MEMORY has to be set and K invalid; or K stays within 0.1 % of what it was, or says that it is not to be used (invalid, or flagged).
+/* Every bit of parameters, of constants made from them, and of some of the state of a tick flips, one at a time, by
+ * itself. Within 100 ms MEMORY has to be set and K invalid; or K stays within 0.1 % of what it was, or says that it is
+ * not to be used (invalid, or flagged).
  *
  *   bit_flips [EVERY]    each EVERY-th bit (default 1: all)
  *
