@@ -2,7 +2,8 @@
 
 python read_k.py modbus.csv 127.0.0.1 1502
 
-One read is one tick. Floats are two registers, high word first; the probe register, 12345.5, shows that they are read right.
+One read is one tick. Floats are two registers, high word first; the probe register, 12345.5, shows that they are read
+right.
 """
 
 import csv

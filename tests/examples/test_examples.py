@@ -121,9 +121,10 @@ def test_ros2_node(monkeypatch: pytest.MonkeyPatch) -> None:
         def get_logger(self) -> SimpleNamespace:
             return SimpleNamespace(warning=warned.append)
 
-    for name, members in {
+    stand_ins: dict[str, dict[str, object]] = {
         "rclpy": {}, "rclpy.node": {"Node": Node}, "brace_msgs": {}, "brace_msgs.msg": {"LimbStiffness": object},
-    }.items():  # fmt: skip
+    }  # fmt: skip
+    for name, members in stand_ins.items():
         module = ModuleType(name)
         module.__dict__.update(members)
         monkeypatch.setitem(sys.modules, name, module)
