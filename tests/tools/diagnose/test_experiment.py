@@ -20,7 +20,7 @@ from brace.diagnose.loading.next_experiment.confusability import confusability, 
 from brace.diagnose.loading.next_experiment.experiment import next_experiment
 from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.next_experiment.menu import CHANNELS, GROUPS, as_record, conditions
-from brace.diagnose.loading.record import Record, load_record
+from brace.identify.record import Record, load_record
 from brace.diagnose.loading.search import Hypothesis
 from brace.diagnose.loading.next_experiment.separation import (
     Contender,

@@ -21,7 +21,7 @@ from brace.diagnose.options import Options
 from brace.diagnose.run import diagnose
 from brace.effects import BY_NAME, all_variants
 from brace.effects.rivals import RIVAL_CAUSES
-from brace.diagnose.loading.record import load_record, setting_of
+from brace.identify.record import load_record, setting_of
 from brace.model import LimbModel, load_limb
 from brace.native.plant_batch import model_numbers
 

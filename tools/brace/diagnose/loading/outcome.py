@@ -30,12 +30,14 @@ from brace.diagnose.loading.next_experiment.experiment import next_experiment
 from brace.diagnose.loading.fit import Fit
 from brace.diagnose.loading.troubles.likeliest import Trouble
 from brace.diagnose.loading.troubles.kinds import LAG
+from brace.diagnose.loading.few_readings import slopes_in_words
+from brace.diagnose.loading.hold_out import held_out
 from brace.diagnose.loading.intervals import intervals
 from brace.diagnose.loading.limb_of import limb_of
 from brace.diagnose.loading.localise import localise
 from brace.diagnose.loading.members import Resolved, resolve
-from brace.diagnose.loading.noise import FORCES
-from brace.diagnose.loading.record import NOT_MEASURED, Record
+from brace.identify.noise import FORCES
+from brace.identify.record import NOT_MEASURED, Record, rms_force_n
 from brace.diagnose.loading.rivals import Contest, contest
 from brace.diagnose.loading.structure import STRUCTURED_P
 from brace.diagnose.loading.verdict import NOTHING_STANDS
@@ -78,6 +80,7 @@ def diagnosis_of(
     agreed = agreement(record, locked, final, twin, options.seed)
     alike = confusability(final.base.fit, final.sets)
     effects = _effects(record, final, resolved, contested) if named else ()
+    held = held_out(final.record, after, locked) if decision.verdict != "unknown" else ()
     late = tuple(_trouble(one, 1.0 / (1.0 + np.exp(-one.lead))) for one in final.troubles if one.name == LAG)
     following = next_experiment(record, final, believed, options) if named else _more_of_the_same(final)
     return Diagnosis(
@@ -90,6 +93,7 @@ def diagnosis_of(
         could_be=_could_be(final, effects),
         members=resolved.alternatives,
         localised=_localised(record, final, options),
+        held_out=held,
         unexplained=_unexplained(final, after),
         next_experiment=_told_by(following, contested),
         data_faults=(*record.dataset.faults, *(trouble.fault for trouble in final.troubles)),
@@ -102,6 +106,7 @@ def diagnosis_of(
         ),
         notes=(
             *(words for effect in effects if (words := in_words(alike, effect.label))),
+            *slopes_in_words(whole, model_numbers(believed)),
             *_notes(whole, record, final, twin, agreed, after),
             *([resolved.note] if resolved.note else []),
         ),
@@ -194,14 +199,6 @@ def _share(final: Pass, label: str) -> float:
         lost[other] = max(0.0, (min(costs) if costs else final.base.fit.cost) - chosen.best.fit.cost)
     whole = sum(lost.values())
     return lost[label] / whole if whole > 0.0 else 1.0 / len(lost)
-
-
-def rms_force_n(record: Record, numbers: np.ndarray, rows: np.ndarray | None = None) -> float:
-    """rms of measured less model over the forces that were read [N]."""
-    played = record.player.play_numbers(numbers[None])[0, :2]
-    off = np.where(record.forces_read, record.measured[:2] - played, np.nan)
-    some = off if rows is None else off[:, rows]
-    return float(np.sqrt(np.nanmean(some**2))) if np.isfinite(some).any() else 0.0
 
 
 def _pair(record: Record, numbers: np.ndarray, locked: np.ndarray) -> GapPair:

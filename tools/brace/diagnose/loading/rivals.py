@@ -17,7 +17,7 @@ from brace.diagnose.loading.choose import WORTH_SAYING, LabelSet
 from brace.diagnose.loading.evidence import score
 from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading.troubles.likeliest import Trouble
-from brace.diagnose.loading.record import NOT_MEASURED, Record
+from brace.identify.record import NOT_MEASURED, Record
 from brace.diagnose.loading.space import Space, Trust, space_of
 from brace.effects import Freedom, Variant
 from brace.effects.catalogue import NUMBER_BY_KEY

@@ -23,7 +23,7 @@ from brace.diagnose.loading.next_experiment.menu import (
     conditions,
     postures,
 )
-from brace.diagnose.loading.record import Record
+from brace.identify.record import Record
 from brace.diagnose.loading.next_experiment.separation import (
     Contender,
     Played,

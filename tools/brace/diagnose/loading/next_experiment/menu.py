@@ -11,9 +11,9 @@ import numpy as np
 
 from brace.dataset.check_runs import run_starts
 from brace.diagnose.loading.fit import Fit
-from brace.diagnose.loading.noise import ChannelNoise
-from brace.diagnose.loading.noise import FORCES
-from brace.diagnose.loading.record import Record
+from brace.identify.noise import ChannelNoise
+from brace.identify.noise import FORCES
+from brace.identify.record import Record
 from brace.effects.catalogue import TIME_KEYS
 from brace.identify.playing import player_of
 from brace.native.plant import play_rig

@@ -10,14 +10,15 @@ import numpy as np
 
 from brace.dataset import Dataset
 from brace.dataset.check_runs import run_starts
-from brace.diagnose.loading.noise import FORCES, ChannelNoise, noise_of
+from brace.identify.noise import FORCES, ChannelNoise, noise_of
 from brace.effects import LoadingSize
 from brace.identify.playing import player_of
 from brace.model import LimbModel
 from brace.native.plant_batch import LoadingBatchPlayer, model_numbers, number_index
 
 NOT_MEASURED = 1e30  # sigma of a reading that was not taken
-MOST_KNOWN = 400  # limbs whose residuals are kept: some megabytes
+MOST_KNOWN = 400  # limbs whose residuals are kept
+MOST_KEPT_BYTES = 64_000_000  # of them together
 SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
 
 
@@ -51,7 +52,7 @@ class Record:
         found = np.empty((len(models), self.measured.size))
         for place, name in enumerate(names):
             known[name] = found[place] = known.pop(name)
-        while len(known) > MOST_KNOWN:
+        while len(known) > min(MOST_KNOWN, max(1, MOST_KEPT_BYTES // self.measured.nbytes)):
             del known[next(iter(known))]
         return found
 
@@ -162,6 +163,14 @@ class Record:
     def noise_freedom(self) -> float:
         """On how many independent readings the noise rests, all channels together."""
         return float(sum(noise.freedom for noise in self.noise.values()))
+
+
+def rms_force_n(record: Record, numbers: np.ndarray, rows: np.ndarray | None = None) -> float:
+    """rms of measured less model over the forces that were read [N]."""
+    played = record.player.play_numbers(numbers[None])[0, :2]
+    off = np.where(record.forces_read, record.measured[:2] - played, np.nan)
+    some = off if rows is None else off[:, rows]
+    return float(np.sqrt(np.nanmean(some**2))) if np.isfinite(some).any() else 0.0
 
 
 def load_record(dataset: Dataset) -> Record:
