@@ -32,7 +32,7 @@ from brace.diagnose.loading.troubles.likeliest import Trouble
 from brace.diagnose.loading.troubles.kinds import LAG
 from brace.diagnose.loading.few_readings import slopes_in_words
 from brace.diagnose.loading.hold_out import held_out
-from brace.diagnose.loading.intervals import intervals
+from brace.diagnose.loading.intervals import intervals, without_none
 from brace.diagnose.loading.limb_of import limb_of
 from brace.diagnose.loading.localise import localise
 from brace.diagnose.loading.members import Resolved, resolve
@@ -44,7 +44,7 @@ from brace.diagnose.loading.verdict import NOTHING_STANDS
 from brace.diagnose.options import Options
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
-from brace.native.plant_batch import model_numbers
+from brace.native.plant_batch import model_numbers, number_index
 
 if TYPE_CHECKING:
     from brace.diagnose.loading.search_pass import Pass
@@ -55,6 +55,7 @@ STAYS_AHEAD = 0.5
 TOLD_APART = 0.95  # power from which a look-alike is no member of the class
 SURE, LIKELIER_THAN_NOT = 0.8, 0.5  # confidences from which a name is told without a word before it, with "probably"
 MOST_LIKELY = 0.9  # share of the members' probability from which the first is said to be it
+SIZE_FIRST = ("creep",)  # effects whose first number is their size, and whose others mean nothing without it
 LOST_NATS = -2.0  # of the held-out configurations: more than refitting alone makes
 
 
@@ -121,7 +122,9 @@ def _effects(
     """The most probable first; for a class, each member with the parameters of its own fit."""
     if resolved.verdict == "ambiguous":
         return tuple(
-            _trouble(member.trouble, sure) if member.trouble else _effect(record, member.fit, label, sure, 1.0)
+            _trouble(member.trouble, sure)
+            if member.trouble
+            else _effect(record, member.fit, label, sure, 1.0, _lost(final, frozenset(member.labels), label, member.fit))
             for member, sure in resolved.members
             for label in member.labels
         )
@@ -129,15 +132,29 @@ def _effects(
     if contested is not None:
         own = next(sure for member, sure in resolved.members if set(member.labels) == contested.disputed)
         sure_of |= {label: min(own, sure_of[label]) for label in contested.disputed}
-    chosen = final.decision.chosen.best.fit
-    found = [_effect(record, chosen, label, sure_of[label], _share(final, label)) for label in final.decision.labels]
+    decision = final.decision
+    chosen = decision.chosen.best.fit
+    labels = decision.chosen.labels
+    found = [
+        _effect(record, chosen, label, sure_of[label], _share(final, label), _lost(final, labels, label, chosen))
+        for label in decision.labels
+    ]
     return tuple(sorted(found, key=lambda effect: -effect.confidence))
 
 
-def _effect(record: Record, fitted: Fit, label: str, sure: float, share: float) -> NamedEffect:
+def _lost(final: Pass, labels: frozenset[str], label: str, fitted: Fit) -> float:
+    """What chi squared rises by without this effect; 0 where the search did not try that."""
+    costs = [item.best.fit.cost for item in final.sets if item.labels == labels - {label}]
+    return max(0.0, min(costs) - fitted.cost) if costs else 0.0
+
+
+def _effect(record: Record, fitted: Fit, label: str, sure: float, share: float, lost: float) -> NamedEffect:
     variant = next(item for item in fitted.space.variants if item.label == label)
     keys = tuple(freedom.key for freedom in variant.freedoms)
     parameters: dict[str, Interval] = dict(intervals(record, fitted, keys))
+    if keys and (len(keys) == 1 or variant.effect in SIZE_FIRST):
+        none = float(fitted.space.numbers[number_index()[keys[0]]]) if keys[0] in KEY_BY_NAME else 0.0
+        parameters[keys[0]] = without_none(parameters[keys[0]], none, lost)
     for key, (other, ratio) in variant.stands_for.items():
         both = parameters[key]
         parameters[key] = Interval(both.value, KEY_BY_NAME[key].low, both.high)
