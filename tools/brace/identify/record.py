@@ -66,7 +66,10 @@ class Record:
         return run_starts(self.dataset["run"])
 
     def _played(self, models: np.ndarray) -> np.ndarray:
-        played = self.player.play_numbers(models)
+        return self.left_by(self.player.play_numbers(models))
+
+    def left_by(self, played: np.ndarray) -> np.ndarray:
+        """What played readings (models x channels x rows, overwritten) leave of the record, as `residuals` has it."""
         starts = self._starts
         for channel in self.zeroed[len(FORCES) :]:  # the player takes the forces' own off
             played[:, channel] -= np.repeat(played[:, channel, starts[:-1]], np.diff(starts), axis=1)
@@ -74,7 +77,7 @@ class Record:
         played /= -self.sigma
         for channel in self.zeroed:
             _whiten_zeroing(played[:, channel], starts)
-        left = played.reshape(len(models), self.measured.size)
+        left = played.reshape(len(played), self.measured.size)
         if self.beside_model is not None:
             basis, share = self._beside
             left -= ((left @ basis) * share) @ basis.T

@@ -291,7 +291,7 @@ def _told_by(following: NextExperiment | None, contested: Contest | None) -> Nex
     """The measurement that shows a rival, before the loading test that separates what is in the catalogue."""
     if following is None or contested is None:
         return following
-    return replace(following, action=f"{contested.cause.would_tell}; as for loading tests, {following.action}")
+    return replace(following, action=f"{contested.would_tell}; as for loading tests, {following.action}")
 
 
 def _contested(resolved: Resolved, contested: Contest, effects: Sequence[NamedEffect]) -> str:
@@ -322,7 +322,7 @@ def _contested(resolved: Resolved, contested: Contest, effects: Sequence[NamedEf
     )
     return (
         f"{lead} This record {'hardly tells' if likely else 'cannot tell'} them apart, because {cause.same_because}. "
-        f"To tell, {cause.would_tell}. "
+        f"To tell, {contested.would_tell}. "
         f"{exported}"
     )
 
