@@ -11,6 +11,7 @@ from sources import ROOT
 TYPED = {  # folder: where its imports are looked for
     "tools/brace": "tools",
     "tools/interface": "tools",
+    "tools/release": "tools",
     "tests/bench": "tools:tests/bench:tests/property",
     "tests/blind": "tools:tests/blind",
     "tests/coverage": "tools:tests/coverage",
@@ -22,6 +23,7 @@ TYPED = {  # folder: where its imports are looked for
     "tests/proofs": "tools:tests/proofs",
     "tests/mutants": "tools:tests/mutants",
     "tests/property": "tools:tests/property",
+    "tests/release": "tools:tests/release",
     "tests/servo": "tools:tests/servo:tests/emulated",
     "tests/socketcan": "tools:tests/socketcan",
     "tests/tools": "tools:tests/tools:tests/tools/diagnose:tests/tools/importing:tests/bench",
