@@ -90,9 +90,10 @@ def test_a_gauge_that_moves_as_believed_speaks_for_the_rig(tmp_path: Path, limb:
     whole = {key: base[key] + YIELDS[key] for key in base}
     record = load_dataset(loading_record(tmp_path / "record", believed, values=whole, sensor=GAUGE))
     rng = np.random.default_rng(11)
+    noise_mm = 0.002 * rng.standard_normal((2, record.rows))
     gauges = {
-        f"base_{axis}_mm": base[f"base.{axis}_mm_per_n"] * record[f"f{axis}_n"] + 0.002 * rng.standard_normal(record.rows)
-        for axis in "xz"
+        f"base_{axis}_mm": base[f"base.{axis}_mm_per_n"] * record[f"f{axis}_n"] + off
+        for axis, off in zip("xz", noise_mm)
     }
     found = diagnose(replace(record, columns={**record.columns, **gauges}), load_limb(believed), Options())
     assert found.effects[0].label == "rig_compliance@rig" and found.effects[0].confidence > 0.9

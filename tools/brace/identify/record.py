@@ -26,8 +26,8 @@ SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
 class Record:
     """`measured` and `sigma` are channels x rows, in the channels' units; forces come first. Where a channel was not
     read, `measured` is 0 and sigma is NOT_MEASURED. `zeroed` are the places of the channels of which each run's first
-    reading was taken off. `beside_model` (channels x rows x sizes, in the channels' units for one sigma of each size) is
-    what instruments may add to the readings; it is taken out of residuals as far as it may explain them."""
+    reading was taken off. `beside_model` (channels x rows x sizes, in the channels' units for one sigma of each size)
+    is what instruments may add to the readings; it is taken out of residuals as far as it may explain them."""
 
     dataset: Dataset
     channels: tuple[str, ...]

@@ -47,8 +47,8 @@ def intervals(record: Record, fitted: Fit, keys: tuple[str, ...]) -> dict[str, I
 
 def without_none(found: Interval, none: float, lost: float) -> Interval:
     """The interval of an effect's size, where the curvature at the best fit would let it hold `none`, the size of no
-    effect, although no effect costs `lost` of chi squared: more than an interval's end may. The end on that side is then
-    where a parabola through both would put it."""
+    effect, although no effect costs `lost` of chi squared: more than an interval's end may. The end on that side is
+    then where a parabola through both would put it."""
     if not found.low <= none <= found.high or lost <= Z_90**2 or none == found.value:
         return found
     end = found.value + (none - found.value) * float(np.sqrt(Z_90**2 / lost))

@@ -122,11 +122,11 @@ def _effects(
     """The most probable first; for a class, each member with the parameters of its own fit."""
     if resolved.verdict == "ambiguous":
         return tuple(
-            _trouble(member.trouble, sure)
-            if member.trouble
-            else _effect(record, member.fit, label, sure, 1.0, _lost(final, frozenset(member.labels), label, member.fit))
-            for member, sure in resolved.members
-            for label in member.labels
+            _trouble(one.trouble, sure)
+            if one.trouble
+            else _effect(record, one.fit, label, sure, 1.0, _lost(final, frozenset(one.labels), label, one.fit))
+            for one, sure in resolved.members
+            for label in one.labels
         )
     sure_of = {label: confidence.of_label(final, label) for label in final.decision.labels}
     if contested is not None:

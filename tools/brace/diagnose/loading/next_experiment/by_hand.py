@@ -1,5 +1,5 @@
-"""What a person may do where no loading test on the rig tells two explanations apart: each takes a part out of the limb,
-or tests a part by itself."""
+"""What a person may do where no loading test on the rig tells two explanations apart: each takes a part out of the
+limb, or tests a part by itself."""
 
 from __future__ import annotations
 
