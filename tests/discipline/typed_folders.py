@@ -17,6 +17,7 @@ TYPED = {  # folder: where its imports are looked for
     "tests/coverage": "tools:tests/coverage",
     "tests/emulated": "tools:tests/emulated",
     "tests/engine": "tools:tests/engine:tests/blind",
+    "tests/examples": "tools:tests/examples",
     "tests/foreign": "tools:tests/foreign:tests/blind:tests/engine",
     "tests/misra": "tools:tests/misra",
     "tests/modbus": "tools:tests/modbus:tests/socketcan",
