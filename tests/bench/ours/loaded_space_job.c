@@ -54,7 +54,11 @@ void job_run(int index, float *out)
         brace_loaded_space_fixed_turn(angles[0], &result.k, &turned) != BRACE_OK) {
         exit(1);
     }
-    const float factor = 0.0f;
+    brace_buckling_search_t search;
+    float factor = 0.0f;
+    brace_loaded_space_buckling_begin(&search);
+    while (!brace_loaded_space_fixed_buckling_step(&fixed, &rest, &search, &factor)) {
+    }
 #else
     brace_space_rest_t rest;
     if (brace_loaded_space_settle(&loaded, angles[1], angles[2], &load, &rest) != BRACE_OK ||

@@ -47,14 +47,14 @@ brace_status_t brace_loaded_space_fixed_stiffness(const brace_loaded_space_fixed
 
 /* The buckling factor in four steps, as brace_loaded_space_buckling_step, whose `begin` serves here too.
  * factor: NaN where a word does not hold what the search meets. Where it is below 10, nine of ten within 6 %.
- * Cost on a Cortex-M3: a step at most @@BUCK@@ instructions. */
+ * Cost on a Cortex-M3: a step at most 6,700 instructions. */
 bool brace_loaded_space_fixed_buckling_step(const brace_loaded_space_fixed_t *fixed,
                                             const brace_space_fixed_rest_t *rest, brace_buckling_search_t *search,
                                             float *factor);
 
 /* As brace_loaded_space_in_plane and brace_loaded_space_turn, in integers; eigenvalues within 4e-7 of the largest one's
  * size. BRACE_E_SINGULAR also where K's largest entry is not within 1e-15 to 1e15, and where an eigenvalue is below 4e-9 of
- * it. Cost on a Cortex-M3: 202 and 1,615 instructions, the same for every K. */
+ * it. Cost on a Cortex-M3: 202 and 1,623 instructions, the same for every K. */
 brace_status_t brace_loaded_space_fixed_in_plane(const brace_k3_t *k, brace_stiffness_t *plane);
 brace_status_t brace_loaded_space_fixed_turn(float theta0_rad, const brace_k3_t *k,
                                              brace_stiffness_spatial_t *stiffness);

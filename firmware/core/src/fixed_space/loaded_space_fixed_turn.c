@@ -99,7 +99,8 @@ brace_status_t brace_loaded_space_fixed_turn(float theta0_rad, const brace_k3_t 
     if (least <= 0) {
         return BRACE_E_SINGULAR;
     }
-    const fixed3_t axis = outwards_axis(j.axis[zz > high ? 2 : (int)x_is_less]);
+    const uint32_t z_is_most = (uint32_t)(zz > high), y_is_more = (uint32_t)x_is_less & (z_is_most - 1u);
+    const fixed3_t axis = outwards_axis(j.axis[2u * z_is_most + y_is_more]);
     const fixed_vec_t yaw = fixed_direction(brace_turn_from_q28(fixed_of(theta0, 28)));
     fixed_sym3_t turned = words.k;
     fixed_sym3_about_z(&turned, yaw);
