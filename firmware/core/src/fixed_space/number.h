@@ -16,7 +16,8 @@
  * A sum of products is added up in 64 bits. `coarse` keeps its high word alone, so that a few last bits are zero.
  *
  * All sums wrap. Whatever a load may drive beyond its kind's limit is noted where it is made, before it can wrap, and a
- * limb of which anything was noted is refused. So nothing branches on the way.
+ * limb of which anything was noted is refused. So nothing branches on the way. docs/kernel.md ("In space without FPU")
+ * argues that nothing wraps before.
  */
 #ifndef BRACE_CORE_FIXED_SPACE_NUMBER_H
 #define BRACE_CORE_FIXED_SPACE_NUMBER_H
@@ -110,7 +111,7 @@ typedef struct {
 } ranges_t;
 
 #define RANGES ((ranges_t){26, 29, 1, 27})
-#define OVERLOAD_RANGES ((ranges_t){14, 25, 5, 25})
+#define OVERLOAD_RANGES ((ranges_t){14, 25, 5, 24})
 
 /* A ratio or an angle from a compliance and an entry (q24). */
 INLINE int32_t yielded_to(int32_t yields, int32_t entry_q24, ranges_t ranges, noted_t *noted)
