@@ -3,8 +3,8 @@
 usage: foreign.py [--development] [--parts joint,loading,measured] [--only TEXT] [--cases N] [--no-baselines]
        [--seed S] [--out FOLDER]
 An interrupted run goes on where it was; a changed tool starts anew. --only: cases whose `group/kind` holds the text.
---cases: the first N in the order of their names, which the seed draws. Each part keeps its rows in foreign.json, and the
-page is made of all that are there (kept.py): the parts may be run one after the other."""
+--cases: the first N in the order of their names, which the seed draws. Each part keeps its rows in foreign.json, and
+the page is made of all that are there (kept.py): the parts may be run one after the other."""
 
 from __future__ import annotations
 

@@ -223,9 +223,8 @@ def _runs(parts: dict[str, Any]) -> str:
         if "cases" not in how:
             lines.append(f"- {name}: `{how['command']}`, tool {how['tool']}.")
             continue
-        share = (
-            "" if how["cases"] == how["of_plan"] else f" of the plan's {how['of_plan']}, drawn by the seed before the run"
-        )
+        share = f" of the plan's {how['of_plan']}, drawn by the seed before the run"
+        share = "" if how["cases"] == how["of_plan"] else share
         lines.append(
             f"- {name}: `{how['command']}`, {how['cases']} cases{share}; {how['set']} set, seed {how['seed']}, answers "
             f"sealed {how['seal_sha256'][:16]}, tool {how['tool']}."

@@ -15,7 +15,9 @@ from verdicts import Claim, Word
 MOST_BYTES = 200_000
 NOTE_LETTERS = 60  # of what a case that crashed says
 EMPTY: dict[str, Any] = {"misnamed": None, "impossible": [], "sizes": [], "covered": {}, "note": ""}
-COLUMNS = ("id", "group", "kind", "hidden", "outside", "trouble", "evidence", "verdict", "said", "told", "found", "more")
+COLUMNS = (
+    "id", "group", "kind", "hidden", "outside", "trouble", "evidence", "verdict", "said", "told", "found", "more",
+)  # fmt: skip
 READING = "said: name@where, confidence, itself right, itself or its class right; more: what else there is to say"
 
 

@@ -14,7 +14,7 @@ from brace.dataset import load_dataset
 from brace.diagnose.diagnosis import Diagnosis
 from brace.diagnose.joint_test.dead_zone import refusal
 from brace.diagnose.joint_test.fit import Fitter
-from brace.diagnose.joint_test.hold_out import held_out, ramps
+from brace.diagnose.joint_test.hold_out import held_out
 from brace.diagnose.joint_test.intake import spring_alone
 from brace.diagnose.joint_test.record import JointRecord
 from brace.diagnose.joint_test.terms import effects_of
@@ -22,6 +22,7 @@ from brace.diagnose.options import Options
 from brace.diagnose.run import diagnose
 from brace.effects import JointTestBench
 from brace.errors import BadFileError
+from brace.identify.swing import ramps
 from brace.model import load_limb
 
 REAL = Path(os.environ.get("BRACE_REAL_DATA", ""))

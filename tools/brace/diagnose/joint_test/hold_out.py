@@ -4,32 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from brace.identify.swing import ramps
+
 MIN_RAMPS = 6
-RAMP_SHARE = 0.25  # of the range of angles that a turn must be followed by to count as one
-
-
-def ramps(angle_rad: np.ndarray, test: np.ndarray) -> np.ndarray:
-    """The number of the monotone pass that each reading belongs to; tests share none."""
-    least = RAMP_SHARE * float(np.ptp(angle_rad))
-    numbers = np.zeros(angle_rad.size, dtype=int)
-    starts = np.concatenate([[0], np.flatnonzero(np.diff(test)) + 1, [test.size]])
-    number = -1
-    for first, last in zip(starts[:-1], starts[1:]):
-        number += 1
-        turn, sense = first, 0
-        for row in range(first, last):
-            away = angle_rad[row] - angle_rad[turn]
-            if sense == 0:
-                if abs(away) > least:
-                    sense, turn = (1 if away > 0 else -1), row
-            elif sense * away > 0:
-                turn = row
-            elif -sense * away > least:
-                number += 1
-                numbers[turn:row] = number
-                sense, turn = -sense, row
-            numbers[row] = number
-    return numbers
 
 
 def held_out(

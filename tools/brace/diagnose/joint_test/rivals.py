@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from brace.diagnose.joint_test.choose import strained
-from brace.diagnose.joint_test.evidence import independent, intervals
+from brace.diagnose.joint_test.evidence import intervals
 from brace.diagnose.joint_test.fit import Fitted, Fitter
 from brace.diagnose.joint_test.shapes import SOFT
 
@@ -74,7 +74,7 @@ def _share(fitter: Fitter, chosen: Fitted, rival: Fitted) -> float:
     """The rival's part of the odds by the independent ones of the held-out readings."""
     record = fitter.record
     kept = np.count_nonzero(record.kept)
-    count = independent(record, chosen.off_n_mm) * kept / np.count_nonzero(record.fitted)
+    count = record.independent(chosen.off_n_mm) * kept / np.count_nonzero(record.fitted)
     floor = 1e-12 * kept * record.size.torque_n_mm**2
     odds = 0.5 * count * np.log((rival.held_rss + floor) / (chosen.held_rss + floor))
     if _shapes(rival) > _shapes(chosen):

@@ -22,9 +22,9 @@ from brace.diagnose.diagnosis import (
     Verdict,
 )
 from brace.diagnose.joint_test import positions, words
-from brace.diagnose.joint_test.choose import Choice, choose, without
+from brace.diagnose.joint_test.choose import Choice, choose, strained, without
 from brace.diagnose.joint_test.dead_zone import refusal
-from brace.diagnose.joint_test.evidence import feigned, gain, independent, intervals
+from brace.diagnose.joint_test.evidence import feigned, gain, intervals
 from brace.diagnose.joint_test.fit import Fitted, Fitter
 from brace.diagnose.joint_test.intake import blocking_faults, require_enough, spring_alone
 from brace.diagnose.joint_test.localise import localise
@@ -73,6 +73,7 @@ class _Found:
     fitter: Fitter
     choice: Choice
     refused: str
+    effects: tuple[Term, ...]  # that the record can show
 
 
 def _searched(
@@ -101,7 +102,7 @@ def _searched(
     if refused:
         effects = [term for term in effects if term.name != "backlash"]
         choice = choose(fitter, effects, own, competing, random, trying)
-    return _Found(fitter, choice, refused)
+    return _Found(fitter, choice, refused, tuple(effects))
 
 
 def _trust(believed: LimbModel | None) -> float:
@@ -167,15 +168,13 @@ def _told(
     spots = localise(record, base.off_n_mm, random)
     predicts = exported
     if believed is None and effects:
-        # nothing was believed that could stand, so limb.toml has the set of effects that tells the record best
-        closest = by_rows.fit(choice.nearest.terms, choice.nearest)
-        predicts = closest if closest.rss < exported.rss else exported
+        predicts = _as_gears_are(by_rows, search, exported)
     gap, residuals, rows = _gaps(by_rows, base, effects, exported, predicts)
     after = gap.after.fitted
     remainder_noise = max(record.noise_n_mm, 1e-9)
     after_averaged = float(np.sqrt(np.mean(exported.off_n_mm[record.fitted] ** 2)))
     remains = localise(record, exported.off_n_mm, random)
-    count = independent(record, exported.off_n_mm)
+    count = record.independent(exported.off_n_mm)
     hangs = bool(count < 0.3 * np.count_nonzero(record.fitted))
     withheld: tuple[str, ...] = ()
     beyond_noise = float(np.sqrt(max(after_averaged**2 - record.noise_n_mm**2, 0.0)))
@@ -197,12 +196,14 @@ def _told(
             verdict = "data_fault"
     if not effects:
         exported = by_rows.fit(tuple(own), base)
-    if not effects:
-        predicts = exported
-    more = [term.name for term in predicts.terms if term.role == "effect"]
-    if effects and set(more) != {effect.name for effect in effects}:
-        notes += (f"limb.toml has {words.listed(more)}: of all sets of effects this one is nearest to the record",)
-    model = _exportable(record, fitter.base, predicts, believed, bool(effects))
+        predicts = _as_gears_are(by_rows, search, exported) if believed is None and verdict == "unknown" else exported
+    named = {effect.name for effect in effects}
+    if more := [term.name for term in predicts.terms if term.role == "effect" and term.name not in named]:
+        notes += (words.not_named(more),)
+    all_rows = by_rows.over_all()
+    final = all_rows.fit(exported.terms, exported)
+    told = final if predicts is exported else all_rows.fit(predicts.terms, predicts)
+    model = _exportable(record, fitter.base, told, believed, bool(effects))
     nearest = [one.label for one in choice.candidates if one.gain > 0.0 and " + " not in one.label]
     could_be = tuple(dict.fromkeys((*withheld, *nearest)))[:4] if verdict == "unknown" else ()
     if effects:
@@ -235,8 +236,20 @@ def _told(
         notes,
         options.seed,
         {"rows": rows, "held_out": record.held_words, "independent_readings": float(count)},
-        joint=_sizes(by_rows, exported, effects, random) if verdict in ("effect", "none") else None,
+        joint=_sizes(all_rows, final, effects, random) if verdict in ("effect", "none") else None,
     )
+
+
+def _as_gears_are(by_rows: Fitter, search: _Found, exported: Fitted) -> Fitted:
+    """What was found, with play and friction as they fit best: every gear has some of both. A law that was not named
+    for want of evidence (a spring that hardens, creep) would be believed far beyond the loads of the record."""
+    found = exported
+    for term in search.effects:
+        if term.name in STOPS and all(other.name != term.name for other in found.terms):
+            more = by_rows.fit((*found.terms, term), found, term)
+            if not strained(by_rows, more) and not _refused_gap(by_rows.record, more):
+                found = more
+    return found
 
 
 def _sizes(
@@ -247,9 +260,10 @@ def _sizes(
     key = f"joint.{record.joint}.compliance_rad_per_n_mm"
     told = dict(item for effect in effects for item in effect.parameters.items())
     if key in exported.values:
-        _, low, high = intervals(by_rows, exported, random)[key]
-        value = positions.typical(record, exported)[key]
-        low, high = positions.further(record, exported).get(key, (low, high))
+        known = intervals(by_rows, exported, random)[key]
+        value, (_, low, high) = positions.typical(record, exported)[key], known
+        if further := positions.further(record, exported).get(key):
+            low, high = positions.together(value, further, known)
         told = {key: Interval(value, min(value, low), max(value, high))} | told
     torque = record.columns["torque_n_mm"][record.fitted]
     reach_n_mm = float(min(torque.max(), -torque.min()) if torque.min() < 0.0 < torque.max() else np.abs(torque).max())
@@ -275,13 +289,15 @@ def _named(
     if not found:
         return ()
     record = fitter.record
-    limits, elsewhere = intervals(by_rows, exported, random), ranges(by_rows, others, random)
-    further, values = positions.further(record, exported), positions.typical(record, exported)
+    all_rows = by_rows.over_all()  # choices are judged by what was held out, sizes are told by all readings
+    final = all_rows.fit(exported.terms, exported)
+    limits, elsewhere = intervals(all_rows, final, random), ranges(by_rows, others, random)
+    further, values = positions.further(record, final), positions.typical(record, final)
     weighted = best if len(best.terms) == len(exported.terms) else fitter.fit(exported.terms, best)
     named = []
     for term in found:
         poorer = without(fitter, best, term)
-        rows_count = independent(record, exported.off_n_mm)
+        rows_count = record.independent(exported.off_n_mm)
         both = (
             gain(record, poorer, best, count),
             gain(record, without(by_rows, exported, term), exported, rows_count),
@@ -295,7 +311,7 @@ def _named(
             other = weighted.values[key]  # both ways of weighting are sound, so the interval holds what both say
             least, most = elsewhere.get(key, (value, value))
             if key in further:  # what differs from position to position is known no better
-                low, high = further[key]
+                low, high = positions.together(value, further[key], limits[key])
             parameters[key] = Interval(value, min(value, low, other, least), max(value, high, other, most))
         named.append((NamedEffect(term.name, term.where, confidence, parameters, 0.0), poorer.rss - best.rss))
     total = sum(max(rss, 0.0) for _, rss in named) or 1.0
