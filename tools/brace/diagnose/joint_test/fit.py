@@ -16,6 +16,7 @@ from brace.model import LimbModel
 STEP = 1e-4
 REFUSED = 1e6
 PLENTY = 40  # evaluations of the slope
+SEARCHING, TELLING = 1e-5, 1e-8  # relative change of misfit or parameters that ends a fit: sets to choose from, sizes
 
 
 @dataclass(frozen=True)
@@ -50,6 +51,7 @@ class Fitter:
     def __init__(self, record: JointRecord, base: LimbModel, trust: float) -> None:
         self.record, self.base, self.trust = record, base, trust
         self.root_weight = record.root_weight
+        self.tolerance = SEARCHING
         self.known: dict[frozenset[str], Fitted] = {}  # the best fit of every set of terms so far
         self.left: set[tuple[frozenset[str], frozenset[str]]] = (
             set()
@@ -58,13 +60,13 @@ class Fitter:
     def by_rows(self) -> Fitter:
         """The same fitter, in which every reading counts alike."""
         other = Fitter(self.record, self.base, self.trust)
-        other.root_weight = np.ones_like(self.root_weight)
+        other.root_weight, other.tolerance = np.ones_like(self.root_weight), 0.01 * SEARCHING
         return other
 
     def over_all(self) -> Fitter:
         """The same fitter, for the readings that were held out, too."""
         other = Fitter(self.record.whole(), self.base, self.trust)
-        other.root_weight = self.root_weight
+        other.root_weight, other.tolerance = self.root_weight, TELLING
         return other
 
     def own(self) -> tuple[Parameter, ...]:
@@ -168,8 +170,8 @@ class Fitter:
             inside,
             jac=slope,
             bounds=(low / scale, high / scale),
-            ftol=1e-7,
-            xtol=1e-7,
+            ftol=self.tolerance,
+            xtol=self.tolerance,
             gtol=1e-9,
             max_nfev=PLENTY,
         )

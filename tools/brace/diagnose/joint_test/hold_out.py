@@ -9,6 +9,18 @@ from brace.identify.swing import ramps
 MIN_RAMPS = 6
 
 
+def alike(ranges_n_mm: list[float]) -> list[list[int]]:
+    """The tests of each amplitude by their places in the list, smallest first: those whose torque reaches about as
+    far."""
+    groups: list[list[int]] = []
+    for place in sorted(range(len(ranges_n_mm)), key=lambda one: ranges_n_mm[one]):
+        if groups and ranges_n_mm[place] <= 2.0 * max(ranges_n_mm[groups[-1][0]], 1e-9):
+            groups[-1].append(place)
+        else:
+            groups.append([place])
+    return groups
+
+
 def held_out(
     angle_rad: np.ndarray, torque_n_mm: np.ndarray, test: np.ndarray, position: np.ndarray | None = None
 ) -> tuple[np.ndarray, str]:
@@ -19,13 +31,8 @@ def held_out(
     labels = np.unique(test)
     if labels.size >= 3:
         sizes = {label: float(np.ptp(torque_n_mm[test == label])) for label in labels}
-        chosen = []
-        left = sorted(labels, key=lambda label: sizes[label])
-        while left:
-            alike = [label for label in left if sizes[label] <= 2.0 * max(sizes[left[0]], 1e-9)]
-            left = [label for label in left if label not in alike]
-            if len(alike) >= 2:
-                chosen.append(max(alike))
+        groups = alike(list(sizes.values()))
+        chosen = [max(labels[i] for i in group) for group in groups if len(group) >= 2]
         where = np.zeros(test.size) if position is None else position
         if chosen and np.unique(where[~np.isin(test, chosen)]).size == np.unique(where).size:
             names = ", ".join(str(label) for label in sorted(chosen))

@@ -10,7 +10,7 @@ from scipy.ndimage import uniform_filter1d
 
 from brace.dataset import Dataset
 from brace.dataset.grid import step_of
-from brace.diagnose.joint_test.hold_out import held_out
+from brace.diagnose.joint_test.hold_out import alike, held_out
 from brace.diagnose.joint_test.shapes import added
 from brace.effects import JointTestSize
 from brace.effects.catalogue import FRICTION_TURN
@@ -70,6 +70,7 @@ class JointRecord(JointProblem):
             self.swing_rad,
         )
         labels = np.unique(test)
+        self.amplitudes = len(alike([float(np.ptp(columns["torque_n_mm"][test == label])) for label in labels]))
         self.minutes = float(sum(np.ptp(self._since_s[test == label]) for label in labels)) / 60.0
         self.raw_noise_n_mm = noise(dataset["torque_n_mm"])
         self.angle_step_rad = step_of(dataset["angle_rad"])

@@ -22,7 +22,7 @@ from brace.diagnose.diagnosis import (
     Verdict,
 )
 from brace.diagnose.joint_test import positions, words
-from brace.diagnose.joint_test.choose import Choice, choose, strained, without
+from brace.diagnose.joint_test.choose import SHAPES_SHRINK, Choice, choose, strained, without
 from brace.diagnose.joint_test.dead_zone import refusal
 from brace.diagnose.joint_test.evidence import feigned, gain, intervals
 from brace.diagnose.joint_test.fit import Fitted, Fitter
@@ -100,8 +100,8 @@ def _searched(
     choice = choose(fitter, effects, own, competing, random, trying)
     refused = _refused_gap(record, choice.best)
     if refused:
-        effects = [term for term in effects if term.name != "backlash"]
-        choice = choose(fitter, effects, own, competing, random, trying)
+        others = [term for term in effects if term.name != "backlash"]
+        choice = choose(fitter, others, own, competing, random, trying)
     return _Found(fitter, choice, refused, tuple(effects))
 
 
@@ -157,13 +157,15 @@ def _told(
     def is_weak(one: NamedEffect) -> bool:
         return one.confidence <= LIKELIER_THAN_NOT or one.name in small or _may_be_nothing(one)
 
+    first = others  # what explained the record without an effect goes on doing so when another is no longer named
     while weak := [one for one in effects if is_weak(one)][-1:]:
         found = [term for term in found if term.name != weak[0].name]
         tried = [one for one in tried if all(term.name != weak[0].name for term in one.terms)]
         best = fitter.fit((*found, *own, *left, *laws), best)
         exported = by_rows.fit((*found, *own), best)
-        others = rivals(fitter, by_rows, best, frozenset(term.name for term in found), tried)
+        others = [*first, *rivals(fitter, by_rows, best, frozenset(term.name for term in found), tried)]
         effects = _named(fitter, by_rows, best, exported, found, others, choice.count, random)
+    others = list({one.label: one for one in reversed(others)}.values())[::-1]
     advance(0.93, "where they disagreed")
     spots = localise(record, base.off_n_mm, random)
     predicts = exported
@@ -203,6 +205,8 @@ def _told(
     all_rows = by_rows.over_all()
     final = all_rows.fit(exported.terms, exported)
     told = final if predicts is exported else all_rows.fit(predicts.terms, predicts)
+    if told is not final:
+        effects = tuple(_as_told(effect, positions.typical(record, told)) for effect in effects)
     model = _exportable(record, fitter.base, told, believed, bool(effects))
     nearest = [one.label for one in choice.candidates if one.gain > 0.0 and " + " not in one.label]
     could_be = tuple(dict.fromkeys((*withheld, *nearest)))[:4] if verdict == "unknown" else ()
@@ -236,20 +240,38 @@ def _told(
         notes,
         options.seed,
         {"rows": rows, "held_out": record.held_words, "independent_readings": float(count)},
-        joint=_sizes(all_rows, final, effects, random) if verdict in ("effect", "none") else None,
+        joint=_sizes(all_rows, told, effects, random) if verdict in ("effect", "none") else None,
     )
 
 
 def _as_gears_are(by_rows: Fitter, search: _Found, exported: Fitted) -> Fitted:
-    """What was found, with play and friction as they fit best: every gear has some of both. A law that was not named
-    for want of evidence (a spring that hardens, creep) would be believed far beyond the loads of the record."""
-    found = exported
-    for term in search.effects:
-        if term.name in STOPS and all(other.name != term.name for other in found.terms):
-            more = by_rows.fit((*found.terms, term), found, term)
-            if not strained(by_rows, more) and not _refused_gap(by_rows.record, more):
-                found = more
+    """What was found, with play and friction as they fit best where they fit better: every gear has some of both. A
+    spring that hardens joins them only where several amplitudes show it, because the record's one amplitude says nothing
+    of a cube beyond it."""
+    found, record = exported, by_rows.record
+    usual = (*STOPS, "joint_hardening") if record.amplitudes > 1 else STOPS
+    have = {term.name for term in found.terms}
+    lacking = [term for term in search.effects if term.name in usual and term.name not in have]
+    # a gap is found best beside friction, a cube beside both
+    for term in sorted(lacking, key=lambda one: ("coulomb_friction", "backlash", "joint_hardening").index(one.name)):
+        afresh = by_rows.fit(())  # a fit without the gap may stand far off the middle of it
+        for other in found.terms:
+            afresh = by_rows.fit((*afresh.terms, other), afresh, other)
+        more = [by_rows.fit((*near.terms, term), near, term) for near in (found, afresh)]
+        sound = [one for one in more if not strained(by_rows, one) and not _refused_gap(record, one)]
+        better = [one for one in sound if one.rss < (1.0 - SHAPES_SHRINK) ** 2 * found.rss
+                  and one.held_rss <= found.held_rss]  # fmt: skip
+        found = min(better, key=lambda one: one.rss, default=found)
     return found
+
+
+def _as_told(effect: NamedEffect, values: Mapping[str, float]) -> NamedEffect:
+    """The effect with the numbers that limb.toml has, which may hold more than what was named."""
+    held = {
+        key: Interval(values[key], min(one.low, values[key]), max(one.high, values[key]))
+        for key, one in effect.parameters.items()
+    }
+    return replace(effect, parameters=held)
 
 
 def _sizes(
