@@ -170,7 +170,7 @@ def _told(
     spots = localise(record, base.off_n_mm, random)
     predicts = exported
     if believed is None and effects:
-        predicts = _as_gears_are(by_rows, search, exported)
+        predicts = _as_gears_are(by_rows, search, exported, True)
     gap, residuals, rows = _gaps(by_rows, base, effects, exported, predicts)
     after = gap.after.fitted
     remainder_noise = max(record.noise_n_mm, 1e-9)
@@ -198,7 +198,9 @@ def _told(
             verdict = "data_fault"
     if not effects:
         exported = by_rows.fit(tuple(own), base)
-        predicts = _as_gears_are(by_rows, search, exported) if believed is None and verdict == "unknown" else exported
+        predicts = exported
+        if believed is None and verdict == "unknown":
+            predicts = _as_gears_are(by_rows, search, exported, False)
     named = {effect.name for effect in effects}
     if more := [term.name for term in predicts.terms if term.role == "effect" and term.name not in named]:
         notes += (words.not_named(more),)
@@ -244,12 +246,12 @@ def _told(
     )
 
 
-def _as_gears_are(by_rows: Fitter, search: _Found, exported: Fitted) -> Fitted:
+def _as_gears_are(by_rows: Fitter, search: _Found, exported: Fitted, have_names: bool) -> Fitted:
     """What was found, with play and friction as they fit best where they fit better: every gear has some of both. A
-    spring that hardens joins them only where several amplitudes show it, because the record's one amplitude says nothing
-    of a cube beyond it."""
+    spring that hardens joins what was named only where several amplitudes show it: one amplitude says nothing of a
+    cube beyond it."""
     found, record = exported, by_rows.record
-    usual = (*STOPS, "joint_hardening") if record.amplitudes > 1 else STOPS
+    usual = (*STOPS, "joint_hardening") if record.amplitudes > 1 and have_names else STOPS
     have = {term.name for term in found.terms}
     lacking = [term for term in search.effects if term.name in usual and term.name not in have]
     # a gap is found best beside friction, a cube beside both
