@@ -11,17 +11,22 @@ from sources import ROOT
 TYPED = {  # folder: where its imports are looked for
     "tools/brace": "tools",
     "tools/interface": "tools",
+    "tools/release": "tools",
     "tests/bench": "tools:tests/bench:tests/property",
     "tests/blind": "tools:tests/blind",
+    "tests/coverage": "tools:tests/coverage",
     "tests/emulated": "tools:tests/emulated",
     "tests/engine": "tools:tests/engine:tests/blind",
     "tests/foreign": "tools:tests/foreign:tests/blind:tests/engine",
+    "tests/misra": "tools:tests/misra",
     "tests/modbus": "tools:tests/modbus:tests/socketcan",
     "tests/proofs": "tools:tests/proofs",
+    "tests/mutants": "tools:tests/mutants",
     "tests/property": "tools:tests/property",
+    "tests/release": "tools:tests/release",
     "tests/servo": "tools:tests/servo:tests/emulated",
     "tests/socketcan": "tools:tests/socketcan",
-    "tests/tools": "tools:tests/tools:tests/tools/diagnose:tests/bench",
+    "tests/tools": "tools:tests/tools:tests/tools/diagnose:tests/tools/importing:tests/bench",
 }
 
 

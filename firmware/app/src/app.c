@@ -5,7 +5,10 @@
 #include "brace/app_memory.h"
 #include "stiffness/stiffness.h"
 
-#define GUARDED_WORDS_PER_MS 8u /* all words in less than 100 ms */
+/* Of what must not change, so many words are looked over: all of them in less than 100 ms. */
+#define GUARDED_WORDS_PER_MS 8u
+#define GUARDED_WORDS_MOST 24u /* of the 336 */
+#define GUARDED_WORDS_IN_A_DEAR_TICK 2u /* in which a job has worked out a K, at most two of three */
 #define LATE_PERIODS 3u /* a tick that comes more than three periods after the one before is more than two late */
 
 /* -------------------------------------------------------------------------------------------- start -- */
@@ -129,6 +132,7 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal)
     controller->now_us = hal->now_us(hal->context);
     controller->has_crashed = hal->reset_cause(hal->context) == BRACE_RESET_FAULT;
     mode_start(&controller->mode);
+    drives_start(&controller->drives);
     joints_start(&controller->joints, hal);
     posture_start(&controller->posture);
     softening_start(&controller->softening);
@@ -195,10 +199,12 @@ static void take_force(const controller_t *controller, brace_snapshot_t *snapsho
                                snapshot->play[BRACE_FEMUR].load_n_mm, snapshot->play[BRACE_TIBIA].load_n_mm,
                                &snapshot->force_x_n, &snapshot->force_z_n);
     }
-    snapshot->force_y_n = controller->joints.joint[BRACE_COXA].sound
-                              ? posture_force_across_n(&controller->posture, &controller->parameters.in_force,
-                                                       controller->gravity.down, snapshot->play[BRACE_COXA].load_n_mm)
-                              : __builtin_nanf("");
+    snapshot->force_y_n = __builtin_nanf("");
+    if (controller->joints.joint[BRACE_COXA].sound) {
+        snapshot->force_y_n = posture_force_across_n(&controller->posture, &controller->parameters.in_force,
+                                                     controller->gravity.down, snapshot->play[BRACE_COXA].load_n_mm,
+                                                     !snapshot->force_is_sensed, &snapshot->force_x_n);
+    }
 }
 
 /* K of these samples. In CONFIGURATION there is none, because the model may be in the making. */
@@ -254,7 +260,10 @@ static void step_guard(controller_t *controller)
         return;
     }
     const guard_span_t span = guarded(controller, controller->guard.span);
-    const uint32_t words = controller->parameters.in_force.controller.tick_us * GUARDED_WORDS_PER_MS / 1000u;
+    const uint32_t plain = controller->parameters.in_force.controller.tick_us * GUARDED_WORDS_PER_MS / 1000u;
+    const uint32_t words = controller->has_worked        ? GUARDED_WORDS_IN_A_DEAR_TICK
+                           : plain < GUARDED_WORDS_MOST ? plain
+                                                         : GUARDED_WORDS_MOST;
     if (!guard_step(&controller->guard, &span, GUARDED_SPANS, words)) {
         controller->memory_is_wrong = true;
     }
@@ -280,11 +289,42 @@ static void step_parameters(brace_app_t *app)
     }
 }
 
+/* The parts of a tick in their order. Each that is done is another digit, so that only a tick with all of them feeds
+ * the watchdog. */
+enum {
+    PART_SENSED = 1,
+    PART_STIFFNESS = 2,
+    PART_JOBS = 3,
+    PART_GUARDED = 4,
+    PART_COMMANDED = 5,
+    PART_TOLD = 6
+};
+#define ALL_PARTS 0x123456u
+
+static void part_is_done(controller_t *controller, uint32_t part)
+{
+    controller->parts_done = controller->parts_done << 4 | part;
+}
+
+/* Sensors that tell the same whatever the limb does. */
+static void watch_sensors(controller_t *controller)
+{
+    const frozen_inputs_t inputs = {.joints = &controller->joints,
+                                    .posture = &controller->posture,
+                                    .force = &controller->tip_force,
+                                    .parameters = &controller->parameters.in_force,
+                                    .down = controller->gravity.down,
+                                    .told_rad = controller->drives.told_rad,
+                                    .limit_n_mm = controller->drives.limit_n_mm};
+    frozen_watch(&controller->frozen, &inputs);
+}
+
 static void update_faults(controller_t *controller, bool late, bool bus_off)
 {
     const joint_t *joint = controller->joints.joint;
     const bool coxa_is_missing = joint[BRACE_COXA].fitted && !joint[BRACE_COXA].sound;
-    const bool stuck = joint[BRACE_COXA].stuck || joint[BRACE_FEMUR].stuck || joint[BRACE_TIBIA].stuck;
+    const bool stuck = joint[BRACE_COXA].stuck || joint[BRACE_FEMUR].stuck || joint[BRACE_TIBIA].stuck ||
+                       frozen_any(&controller->frozen);
     const bool store_failed = controller->drift.memory_failed;
     const uint32_t causes = (joint[BRACE_FEMUR].sound ? 0u : (uint32_t)BRACE_FAULT_SENSOR_FEMUR) |
                             (joint[BRACE_TIBIA].sound ? 0u : (uint32_t)BRACE_FAULT_SENSOR_TIBIA) |
@@ -351,12 +391,14 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     const brace_parameters_t *parameters = &controller->parameters.in_force;
     brace_snapshot_t *snapshot = &controller->snapshot[1u - controller->newest];
     const bool late = tick_is_late(controller, now_us);
+    controller->parts_done = 0;
 
     /* Sense. */
     joints_read(&controller->joints, hal, parameters, now_us, &controller->counters.samples_bad);
     tip_force_read(&controller->tip_force, hal, parameters);
     snapshot->taken_us = joints_taken_us(&controller->joints);
     snapshot->temp_degc = joints_warmest_degc(&controller->joints);
+    part_is_done(controller, PART_SENSED);
 
     /* Which flank carries, where the limb stands, how stiff it is. */
     flank_tick(&controller->flank, &controller->joints, &controller->tip_force, &controller->posture,
@@ -365,6 +407,8 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     take_force(controller, snapshot);
     take_stiffness(controller, snapshot);
     take_place(controller, snapshot);
+    watch_sensors(controller);
+    part_is_done(controller, PART_STIFFNESS);
 
     /* One step of each job. */
     const question_inputs_t question = question_inputs(controller);
@@ -373,7 +417,6 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     drift_job_step(&controller->drift, &drift); /* takes a reading in in the tick after the loading test's */
     takeup_step(&controller->takeup, &controller->flank);
     const bool loading_has_worked = step_loading(controller, snapshot);
-    step_guard(controller);
     step_parameters(app);
     const bool job_has_worked = controller->question.has_worked || loading_has_worked;
     const bool is_counted_in_space = controller->model.is_spatial && snapshot->load.is_counted;
@@ -381,15 +424,24 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
         softening_step(&controller->softening, &controller->model, &parameters->limb, controller->posture.unbent_rad,
                        is_counted_in_space, !job_has_worked) ||
         job_has_worked;
+    part_is_done(controller, PART_JOBS);
+    step_guard(controller);
+    part_is_done(controller, PART_GUARDED);
 
     /* Faults and mode, and what follows from them. */
     update_faults(controller, late, wires_are_bus_off(&app->wires));
     update_mode(controller);
     command_drives(controller);
+    part_is_done(controller, PART_COMMANDED);
 
     /* Tell. */
     publish(controller, snapshot);
     wires_tick(&app->wires, hal, app, &controller->counters, controller->has_worked,
                job_has_worked || controller->drift.has_worked, now_us);
-    hal->watchdog_feed(hal->context);
+    part_is_done(controller, PART_TOLD);
+
+    /* A tick that left a part out, or did one twice, feeds no watchdog. */
+    if (controller->parts_done == ALL_PARTS) {
+        hal->watchdog_feed(hal->context);
+    }
 }

@@ -18,6 +18,14 @@ static brace_hal_joint_command_t command_of(const flank_joint_t *flank, const dr
     return command;
 }
 
+void drives_start(drives_t *drives)
+{
+    *drives = (drives_t){.are_commanded = false};
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        drives->limit_n_mm[i] = __builtin_inff();
+    }
+}
+
 void drives_command(drives_t *drives, const brace_hal_t *hal, const joints_t *joints, const flank_t *flank,
                     bool takes_up, const drives_test_t *test, uint32_t tick_us, uint32_t *commands_failed)
 {
@@ -30,6 +38,8 @@ void drives_command(drives_t *drives, const brace_hal_t *hal, const joints_t *jo
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         if (joints->joint[i].fitted) {
             const brace_hal_joint_command_t command = command_of(&flank->joint[i], test, i);
+            drives->told_rad[i] = command.offset_rad;
+            drives->limit_n_mm[i] = command.torque_limit_n_mm;
             if (hal->joint_command(hal->context, i, &command) != BRACE_HAL_OK) {
                 brace_count(commands_failed);
                 refuse = true;
