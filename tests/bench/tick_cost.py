@@ -169,8 +169,8 @@ def as_text(cost: TickCost) -> str:
 
 
 def main() -> int:
-    """python tests/bench/tick_cost.py [TICKS] [m3]: print; exit code 1 when a limit is passed. m3: on the Cortex-M3, whose
-    floats are software."""
+    """python tests/bench/tick_cost.py [TICKS] [m3]: print; exit code 1 when a limit is passed. m3: on the Cortex-M3,
+    whose floats are software."""
     ticks = int(sys.argv[1]) if len(sys.argv) > 1 else TICK_COUNT
     cost = measure_ticks(ticks, M3 if sys.argv[2:] == ["m3"] else M4F)
     print(as_text(cost))

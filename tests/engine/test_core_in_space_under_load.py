@@ -29,8 +29,8 @@ def vector(struct: CData) -> Array:
 
 
 class CoreLimb:
-    """A limb, collapsed, and the load on it; theta0 turns the load into the limb's plane and the answers out of it. path:
-    "float", or "fixed" for the integers of controllers without an FPU."""
+    """A limb, collapsed, and the load on it; theta0 turns the load into the limb's plane and the answers out of it.
+    path: "float", or "fixed" for the integers of controllers without an FPU."""
 
     def __init__(self, case: Case, path: str = "float") -> None:
         ffi, lib = library().ffi, library().lib
@@ -130,8 +130,8 @@ def test_k_displacement_and_buckling(limbs: int, seed: int, path: str) -> None:
     beyond = np.mean(k > 0.01)
     most = low[int(0.9 * len(low))]  # of nine in ten
     print(
-        f"{path}, {len(found)} limbs, {refused:.2%} refused: K median {np.median(k):.1e}, worst {k.max():.1e}, beyond 1 % "
-        f"{beyond:.2%}; displacement median {np.median(moved_mm):.3f} mm, worst {moved_mm.max():.2f} mm; "
+        f"{path}, {len(found)} limbs, {refused:.2%} refused: K median {np.median(k):.1e}, worst {k.max():.1e}, "
+        f"beyond 1 % {beyond:.2%}; displacement median {np.median(moved_mm):.3f} mm, worst {moved_mm.max():.2f} mm; "
         f"buckling factor median {np.median(low):.1e}, nine of ten {most:.1e}"
     )
     assert np.median(k) <= 1e-3

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "brace/loaded_space.h"
 #include "brace/loaded_space_fixed.h"
 #include "reference_spatial.h"
 #include "sample_limbs.h"
@@ -149,8 +150,8 @@ static void test_a_pull_stiffens_the_yaw(void)
     }
 }
 
-/* Pushed inwards by F it buckles at F = 1/(c R). Where the search meets that load by chance, a word holds no determinant,
- * and the chord from below ends it. */
+/* Pushed inwards by F it buckles at F = 1/(c R). Where the search meets that load by chance, a word holds no
+ * determinant, and the chord from below ends it. */
 static void test_buckling_of_the_yaw(void)
 {
     const float c = 1e-5f, lever = only_the_yaw_yields(c);

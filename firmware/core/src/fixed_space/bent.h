@@ -217,7 +217,8 @@ INLINE void fixed_bend_limb(const brace_loaded_space_fixed_t *limb, fixed_rest3_
         const int32_t whole_y = fixed_about_z(rest->whole_q30, fixed_back(turns->base)).y;
         drives->base = less(m.z, coarse_times(limb->coxa.length_q28, whole_y, 31));
     }
-    *curls = (fixed_curls_t){fixed_curl_of(&rest->coxa, rest->pose.coxa), fixed_curl_of(&rest->femur, rest->pose.femur)};
+    curls->coxa = fixed_curl_of(&rest->coxa, rest->pose.coxa);
+    curls->femur = fixed_curl_of(&rest->femur, rest->pose.femur);
 }
 
 #endif

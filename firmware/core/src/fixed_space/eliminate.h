@@ -28,8 +28,8 @@ typedef struct {
 
 /* The load taken many times, for the buckling factor: which is as the compliances taken as many times. Then what the
  * load softens at the links' end springs counts. determinant: the product of all pivots, 2^exponent times a mantissa
- * that is at least a half; has_buckled: one of them is negative. is_refused: a word does not hold what was met; then the
- * determinant is that of the pivots up to there. */
+ * that is at least a half; has_buckled: one of them is negative. is_refused: a word does not hold what was met; then
+ * the determinant is that of the pivots up to there. */
 typedef struct {
     int32_t times_q27;
     int32_t mantissa_q31, exponent;
@@ -78,7 +78,8 @@ INLINE int32_t overload_softened(int32_t yields_q14, int32_t entry_q24, fixed_ov
     const int64_t more = (int64_t)yields_q14 * entry_q24;
     note(noted, brace_high_word(more), 16);
     const int32_t pivot = plus(1 << 20, shifted(more, 18));
-    const uint32_t size = magnitude_of(pivot) < OVERLOAD_PIVOT_LEAST_Q20 ? OVERLOAD_PIVOT_LEAST_Q20 : magnitude_of(pivot);
+    const uint32_t magnitude = magnitude_of(pivot);
+    const uint32_t size = magnitude < OVERLOAD_PIVOT_LEAST_Q20 ? OVERLOAD_PIVOT_LEAST_Q20 : magnitude;
     const uint32_t zeros = leading_zeros(size);
     const int64_t softened = ((int64_t)yields_q14 * (int32_t)over_q61(size << zeros)) >> (41u - zeros);
     multiply_determinant(overload, size, pivot < 0);
@@ -193,7 +194,6 @@ INLINE void fixed_eliminate_link(const fixed_link3_t *link, const fixed_rest3_t 
     const int32_t across_spread = overloaded(link->across_spread_q31 >> turn_shift, overload, noted);
     const int32_t sideways_spread = overloaded(link->sideways_spread_q31 >> turn_shift, overload, noted);
     if (overload != NULL) {
-        const fixed3_t by_across = free->across.follows, by_sideways = free->sideways.follows;
         fixed3_t own_across = fixed3_scaled_q30(across, share), own_sideways = fixed3_scaled_q30(sideways, share);
         own_across.y = plus(own_across.y, curled_q24);
         own_sideways.z = plus(own_sideways.z, curled_q24);
@@ -201,8 +201,8 @@ INLINE void fixed_eliminate_link(const fixed_link3_t *link, const fixed_rest3_t 
         own.zz = plus(own.zz, by_ratio(m.x >> 3, follow(m.x >> 3, sideways_spread, ranges, noted), ranges));
         fixed_sym3_add(&own, own_across, free->by_across, ranges, noted);
         fixed_sym3_add(&own, own_sideways, free->by_sideways, ranges, noted);
-        fixed_sym3_add(&held->resists_q24, across, by_across, ranges, noted);
-        fixed_sym3_add(&held->resists_q24, sideways, by_sideways, ranges, noted);
+        fixed_sym3_add(&held->resists_q24, across, free->across.follows, ranges, noted);
+        fixed_sym3_add(&held->resists_q24, sideways, free->sideways.follows, ranges, noted);
         x = fixed3_plus_ratio(fixed3_plus_ratio(x, across, free->by_across.x, ranges), sideways,
                               free->by_sideways.x, ranges);
         y = fixed3_plus_ratio(fixed3_plus_ratio(y, across, free->by_across.y, ranges), sideways,
@@ -228,7 +228,8 @@ INLINE void fixed_eliminate_link(const fixed_link3_t *link, const fixed_rest3_t 
     const int32_t bends = overloaded(link->bend_q31 >> turn_shift, overload, noted);
     free->y = fixed_eliminate(held, y, own.yy, sideways_turns, overload, noted);
     free->z_by_y = follow(own.yz, free->y.yields_q26, ranges, noted);
-    free->z = fixed_eliminate(held, fixed3_plus_ratio(z, y, free->z_by_y, ranges), plus(own.zz, by_ratio(own.yz, free->z_by_y, ranges)),
+    free->z = fixed_eliminate(held, fixed3_plus_ratio(z, y, free->z_by_y, ranges),
+                              plus(own.zz, by_ratio(own.yz, free->z_by_y, ranges)),
                               bends, overload, noted);
 }
 

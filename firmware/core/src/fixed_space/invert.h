@@ -6,7 +6,8 @@
 #include "fixed_space/sum.h"
 
 #define TRACE_LEAST_Q54 (1u << 20)
-#define DETERMINANT_LEAST ((int64_t)1 << 38) /* least over largest eigenvalue about 2e-7: rounding is a hundredth of it */
+/* Least over largest eigenvalue about 2e-7: rounding is a hundredth of it. */
+#define DETERMINANT_LEAST ((int64_t)1 << 38)
 
 INLINE int32_t to_word(int64_t number, uint32_t zeros)
 {

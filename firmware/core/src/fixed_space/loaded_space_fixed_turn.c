@@ -41,7 +41,8 @@ INLINE bool words_of(const brace_k3_t *k, k_words_t *words)
 
 brace_status_t brace_loaded_space_fixed_in_plane(const brace_k3_t *k, brace_stiffness_t *plane)
 {
-    const brace_k3_t alone = {.xx_n_per_mm = k->xx_n_per_mm, .xz_n_per_mm = k->xz_n_per_mm, .zz_n_per_mm = k->zz_n_per_mm};
+    const brace_k3_t alone = {
+        .xx_n_per_mm = k->xx_n_per_mm, .xz_n_per_mm = k->xz_n_per_mm, .zz_n_per_mm = k->zz_n_per_mm};
     k_words_t words;
     if (!words_of(&alone, &words)) {
         return BRACE_E_SINGULAR;

@@ -125,8 +125,9 @@ INLINE int32_t fixed_inwards(const fixed_factor_t *factor, int32_t driven_q24, i
 {
     const int32_t by = fixed_alone(factor->yields_q26, factor->per_pivot_q27, driven_q24, now, noted);
     note(noted, by, TURN_MOST_BITS);
-    *drives = fixed3(less(drives->x, times(factor->row_q24.x, by, 29)), less(drives->y, times(factor->row_q24.y, by, 29)),
-                     less(drives->z, times(factor->row_q24.z, by, 29)));
+    const fixed3_t row = factor->row_q24;
+    *drives = fixed3(less(drives->x, times(row.x, by, 29)), less(drives->y, times(row.y, by, 29)),
+                     less(drives->z, times(row.z, by, 29)));
     return by;
 }
 
