@@ -27,7 +27,7 @@ def loaded(path: Path, gravity: bool = False) -> tuple[Any, Any]:
 
 
 def k_of(model: Any, data: Any, force_n: tuple[float, float] = (0.0, 0.0)) -> tuple[np.ndarray, np.ndarray]:
-    """K [N/mm] at the equilibrium under a force on the tip, and the tip [mm]: the engine's forces, differences of ours."""
+    """K [N/mm] at the equilibrium under a force on the tip, and the tip [mm]: differences of the engine's forces."""
     f = np.array([force_n[0], 0.0, force_n[1]])
 
     def jacobian() -> np.ndarray:
@@ -108,7 +108,8 @@ def test_what_the_formats_cannot_say_is_said(brace: Brace, tmp_path: Path) -> No
 def test_a_urdf_comes_back_as_it_went(brace: Brace, tmp_path: Path) -> None:
     limb, robot = tmp_path / "limb.toml", tmp_path / "limb.urdf"
     travel = "[motor.coxa]\nangle_min_rad = -1.0\nangle_max_rad = 1.0\n"
-    travel += "[motor.femur]\nangle_min_rad = -1.2\nangle_max_rad = 1.5\n[motor.tibia]\nangle_min_rad = 0.2\nangle_max_rad = 2.4\n"
+    travel += "[motor.femur]\nangle_min_rad = -1.2\nangle_max_rad = 1.5\n"
+    travel += "[motor.tibia]\nangle_min_rad = 0.2\nangle_max_rad = 2.4\n"
     limb.write_text(LIMB + travel)
     assert brace("export", "--model", limb, "--urdf", robot).code == 0
     back = tmp_path / "back.toml"

@@ -1,8 +1,9 @@
 """A limb in its plane as a MuJoCo model (MJCF): springs where the limb yields, servos that hold their commanded angles.
 
-A joint is a hinge with a servo of its stiffness: torque = (command + zero offset - angle) / compliance. A link's ellipsoid is
-two slides at its end; a beam is two hinges at the Gauss points L (1/2 -+ 1/(2 sqrt 3)), each of compliance 3 b/(2 L^2), which
-have the uniform beam's three tip compliances exactly, and a slide along it at its root. The base has slides and a hinge.
+A joint is a hinge with a servo of its stiffness: torque = (command + zero offset - angle) / compliance. A link's
+ellipsoid is two slides at its end; a beam is two hinges at the Gauss points L (1/2 -+ 1/(2 sqrt 3)), each of compliance
+3 b/(2 L^2), which have the uniform beam's three tip compliances exactly, and a slide along it at its root. The base has
+slides and a hinge.
 SI units (m, N, N m/rad), x outwards, z up. Backlash, hardening, creep and temperature are not in it."""
 
 from __future__ import annotations
@@ -40,9 +41,14 @@ def model_xml(model: LimbModel, theta1_rad: float, theta2_rad: float) -> str:
         stiffness = min(1e-3 / compliance, RIGID_N_M_PER_RAD) if compliance > 0.0 else RIGID_N_M_PER_RAD
         offset = model.number(f"joint.{joint}.zero_offset_rad")
         ET.SubElement(
-            actuators, "general", name=name, joint=name, biastype="affine", gainprm=f"{stiffness!r}",
+            actuators,
+            "general",
+            name=name,
+            joint=name,
+            biastype="affine",
+            gainprm=f"{stiffness!r}",
             biasprm=f"{stiffness * offset!r} {-stiffness!r} 0",
-        )  # fmt: skip
+        )
     moving = [each.get("name") for each in root.iter("joint")]
     offsets = {
         "theta1": model.number("joint.femur.zero_offset_rad"),
@@ -108,9 +114,16 @@ def _mass(body: ET.Element, weight_n: float, place_m: float = 0.0) -> None:
 def _bar(body: ET.Element, name: str, length_m: float) -> None:
     """To be seen; it weighs nothing and touches nothing."""
     ET.SubElement(
-        body, "geom", name=name, type="capsule", fromto=f"0 0 0 {length_m!r} 0 0", size="0.006", contype="0", conaffinity="0",
+        body,
+        "geom",
+        name=name,
+        type="capsule",
+        fromto=f"0 0 0 {length_m!r} 0 0",
+        size="0.006",
+        contype="0",
+        conaffinity="0",
         mass="0",
-    )  # fmt: skip
+    )
 
 
 def _slide(body: ET.Element, name: str, axis: str, compliance_mm_per_n: float) -> None:

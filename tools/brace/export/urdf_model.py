@@ -1,5 +1,5 @@
-"""A limb's lengths, zero offsets, travel, friction and weights as a URDF; its compliances, which a URDF has no words for, as a
-comment."""
+"""A limb's lengths, zero offsets, travel, friction and weights as a URDF; its compliances, which a URDF has no words
+for, as a comment."""
 
 from __future__ import annotations
 
