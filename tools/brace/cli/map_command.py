@@ -25,7 +25,8 @@ def add(commands: Subcommands) -> None:
         help="the workspace: eigenvalues over r, ellipses of K, as pictures and CSV",
         description="Computes K over a grid of postures and writes into --out: map.png and map.svg (eigenvalues over "
         "r, ellipses), eigenvalues.csv (a row per theta2), ellipses.csv (the drawn ones). Says where "
-        "the eigenvalues rise and fall with reach. With --fx and --fz K under this load and the limb's weight at the rest; theta1 and "
+        "the eigenvalues rise and fall with reach. With --fx and --fz K under this load and the limb's weight at the "
+        "rest; theta1 and "
         "theta2 are then the commanded angles, and the tip's displacement and the buckling factor come with it.",
     )
     common.add_model(parser)
@@ -156,7 +157,9 @@ def _summary(name: str, grid: Workspace) -> Summary:
         "lambda_min_n_per_mm": [np.nanmin(low[:, 0]), np.nanmax(low[:, 2])],
         "lambda_max_n_per_mm": [np.nanmin(high[:, 0]), np.nanmax(high[:, 2])],
         "turning_points_r_mm": turns,
-        "rises_with_reach": {name: _rises(grid.r_mm, band) for name, band in (("lambda_max", high), ("lambda_min", low))},
+        "rises_with_reach": {
+            name: _rises(grid.r_mm, band) for name, band in (("lambda_max", high), ("lambda_min", low))
+        },
         "quasi_convex_lambda_max": len(turns["lambda_max"]) <= 1,
         "quasi_concave_lambda_min": len(turns["lambda_min"]) <= 1,
     }

@@ -59,8 +59,8 @@ _UNIT = re.compile(r"(\w[\w ]*): (?:multiply|subtract|divide)")
 
 
 def what_is_wrong(faults: Sequence[DataFault], path: Path) -> str:
-    """Blocking faults in a sentence without its full stop: columns that are all in one other unit by that unit, else the
-    first fault, and how many more there are."""
+    """Blocking faults in a sentence without its full stop: columns that are all in one other unit by that unit, else
+    the first fault, and how many more there are."""
     units = [_UNIT.match(str(fault.suggestion)) if fault.row is None else None for fault in faults]
     named = {unit.group(1) for unit in units if unit}
     fields = list(dict.fromkeys(fault.field for fault in faults))
