@@ -96,5 +96,6 @@ def _fault(index: int, column: Column, text: bytes, why: str) -> DataFault:
         return DataFault(index + 1, column.name, why, f"{meant}; so throughout the file")
     way = "write x or z" if column.kind == "axis" else "correct the entry, or delete the row"
     if why.startswith("not a finite number"):
-        return DataFault(index + 1, column.name, f"{shown!r} is not a number ({way})")
+        what = why.partition("; ")[2]
+        return DataFault(index + 1, column.name, f"{shown!r} is not a number; {what} ({way})")
     return DataFault(index + 1, column.name, f"{shown!r} is not allowed: {why} ({way})")
