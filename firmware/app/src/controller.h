@@ -22,6 +22,7 @@
 #include "posture/posture.h"
 #include "sense/joints.h"
 #include "sense/tip_force.h"
+#include "session/ownership.h"
 #include "stiffness/model.h"
 #include "stiffness/softening.h"
 
@@ -57,6 +58,7 @@ typedef struct {
     faults_t faults;
     mode_state_t mode;
     drives_t drives;
+    ownership_t ownership;
 
     uint32_t sequence;             /* of the newest snapshot */
     brace_snapshot_t snapshot[2];  /* the newest, and the one that the next tick writes */
@@ -73,6 +75,16 @@ static inline controller_t *controller_of(struct brace_app *app)
 static inline const controller_t *controller_in(const struct brace_app *app)
 {
     return (const controller_t *)app;
+}
+
+/* Is the connection of that master closed? */
+bool controller_has_hung_up(const controller_t *controller, brace_who_t who);
+
+/* Takes back what was asked for and has not begun to move the limb. */
+static inline void controller_forget(controller_t *controller)
+{
+    takeup_forget(&controller->takeup, &controller->flank);
+    loading_forget(&controller->loading);
 }
 
 /* What the loading test is given.

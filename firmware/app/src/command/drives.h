@@ -11,6 +11,7 @@
 typedef struct {
     bool are_commanded;  /* the drives hold a command of ours */
     uint32_t refused_us; /* how long a drive has refused every command */
+    float offset_rad[BRACE_LINK_COUNT]; /* of the last command */
 } drives_t;
 
 /* What a loading test adds to each joint's set-point, and within which torque. */

@@ -53,6 +53,7 @@ void session_end(session_t *session)
 static void open_for(session_t *session, brace_who_t who)
 {
     session->is_open = true;
+    session->has_hung_up = false;
     session->owner = who;
     session->counter = session->silent_us = 0;
 }
@@ -122,9 +123,11 @@ int32_t session_life(session_t *session, brace_who_t who, const brace_seal_t *se
         session->heard_us = 0;
         return BRACE_OK;
     }
-    if (!is_same(who, session->owner)) {
+    if (!session_is_free_for(session, who)) {
         return refuse(session, BRACE_REFUSED_OWNED);
     }
+    session->owner = who;
+    session->has_hung_up = false;
     session->silent_us = 0;
     session->is_alive = true;
     return BRACE_OK;
@@ -139,6 +142,8 @@ int32_t session_command(session_t *session, brace_who_t who, const brace_seal_t 
     if (!session_is_free_for(session, who)) {
         return refuse(session, BRACE_REFUSED_OWNED);
     }
+    session->owner = who;
+    session->has_hung_up = false;
     if (!session->is_open) {
         open_for(session, who);
         session->is_alive = session->has_heard && is_same(who, session->heard);
@@ -149,7 +154,17 @@ int32_t session_command(session_t *session, brace_who_t who, const brace_seal_t 
 
 bool session_is_free_for(const session_t *session, brace_who_t who)
 {
-    return !session->is_open || is_same(who, session->owner);
+    const bool goes_on = session->has_hung_up && session->owner.port == who.port;
+    return !session->is_open || is_same(who, session->owner) || goes_on;
+}
+
+void session_hang_up(session_t *session)
+{
+    if (session->setting == BRACE_SETTING_BENCH) {
+        session->has_hung_up = true;
+    } else {
+        session_end(session);
+    }
 }
 
 bool session_tick(session_t *session, uint32_t since_us, uint32_t limit_us)
@@ -163,6 +178,11 @@ bool session_tick(session_t *session, uint32_t since_us, uint32_t limit_us)
     if (session->silent_us <= limit_us) {
         return false;
     }
+    const uint32_t silent_us = session->silent_us;
+    const bool lives_on = session->is_alive && silent_us <= (uint32_t)SESSION_LIFE_US;
     session_end(session);
+    session->has_heard = lives_on && session->setting == BRACE_SETTING_BENCH; /* it may begin something else */
+    session->heard = session->owner;
+    session->heard_us = silent_us;
     return true;
 }

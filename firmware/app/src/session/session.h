@@ -34,6 +34,7 @@ typedef struct {
     bool is_open;           /* there is an owner */
     bool is_alive;          /* it has given a sign of life since it became the owner */
     brace_who_t owner;
+    bool has_hung_up;       /* on a bench: its connection is closed, and another one may go on */
     uint32_t counter;       /* of the last sealed command or life sign */
     uint32_t silent_us;     /* since then */
     bool has_heard;         /* on a bench: a life sign of somebody who is not the owner */
@@ -78,6 +79,9 @@ bool session_tick(session_t *session, uint32_t since_us, uint32_t limit_us);
 
 /* The owner has gone: its port is closed, or what it began has ended. */
 void session_end(session_t *session);
+
+/* The owner's connection is closed. On a bench the next one of that port may go on for it. */
+void session_hang_up(session_t *session);
 
 /* May what the owner has begun move the limb? On a bench, only once a sign of life has come. */
 static inline bool session_may_move(const session_t *session)

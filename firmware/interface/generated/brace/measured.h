@@ -7,7 +7,8 @@
 /* Entries of the dictionary by number: parameters from 0 on, these from here on. */
 enum {
     BRACE_ENTRY_MEASURED = 0x1000,
-    BRACE_ENTRY_ANSWERED = 0x1800
+    BRACE_ENTRY_ANSWERED = 0x1800,
+    BRACE_ENTRY_COMMANDS = 0x2000
 };
 
 /* The first Modbus register of each struct below: input registers of what is measured and answered,

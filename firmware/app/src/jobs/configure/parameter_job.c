@@ -2,7 +2,10 @@
 
 #include <string.h>
 
+#include "brace/requests.h"
 #include "brace/snapshot.h"
+
+#define APART_US (1000u * (uint32_t)BRACE_COMMITS_APART_MS)
 
 /* Where the set in force comes from, and the faults that last as long as it does. */
 static void judge(parameter_job_t *job)
@@ -18,6 +21,7 @@ void parameter_job_start(parameter_job_t *job, const brace_hal_t *hal)
 {
     job->storing = job->comes_in_force = job->has_staged = false;
     job->idle_us = 0;
+    job->apart_us = APART_US;
     (void)brace_store_start(&job->store, hal, &job->in_force);
     job->crc = brace_parameters_crc(&job->in_force);
     judge(job);
@@ -25,7 +29,9 @@ void parameter_job_start(parameter_job_t *job, const brace_hal_t *hal)
 
 bool parameter_job_step(parameter_job_t *job)
 {
+    const uint32_t erases = job->store.erases;
     const brace_store_state_t state = job->storing ? brace_store_step(&job->store) : BRACE_STORE_BUSY;
+    job->apart_us = erases != job->store.erases ? 0u : job->apart_us;
     if (state == BRACE_STORE_BUSY) {
         return false;
     }
@@ -75,6 +81,17 @@ uint32_t parameter_job_idle_us(parameter_job_t *job, uint32_t since_us)
 {
     job->idle_us = parameter_job_is_busy(job) ? 0u : job->idle_us + since_us;
     return job->idle_us;
+}
+
+void parameter_job_age(parameter_job_t *job, uint32_t since_us)
+{
+    const uint32_t left_us = APART_US - job->apart_us;
+    job->apart_us += since_us < left_us ? since_us : left_us;
+}
+
+uint32_t parameter_job_wait_ms(const parameter_job_t *job)
+{
+    return (APART_US - job->apart_us + 999u) / 1000u;
 }
 
 const brace_parameters_t *parameter_job_staged(const parameter_job_t *job)
