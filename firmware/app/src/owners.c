@@ -20,7 +20,7 @@ void brace_app_session(const brace_app_t *app, brace_session_report_t *report)
         .strangers = session->counts.strangers,
         .replays = session->counts.replays,
         .silences = session->counts.silences,
-        .commits_refused = ownership->commits_refused,
+        .commits_refused = controller->parameters.commits_refused,
         .erases = controller->parameters.store.erases,
         .last_refusal = ownership->last_refusal,
     };

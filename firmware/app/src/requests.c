@@ -2,6 +2,7 @@
 
 #include <stddef.h>
 
+#include "brace/refusals.h"
 #include "controller.h"
 
 /* ------------------------------------------------------------------------------------ what is known -- */
@@ -241,9 +242,16 @@ brace_status_t brace_app_parameters_commit_named(brace_app_t *app, uint32_t crc,
     return status;
 }
 
-uint32_t brace_app_commit_wait_ms(const brace_app_t *app)
+int32_t brace_app_may_commit(brace_app_t *app, uint32_t *wait_ms)
 {
-    return parameter_job_wait_ms(&controller_in(app)->parameters);
+    controller_t *controller = controller_of(app);
+    *wait_ms = parameter_job_wait_ms(&controller->parameters);
+    if (*wait_ms == 0u) {
+        return BRACE_OK;
+    }
+    brace_count(&controller->parameters.commits_refused);
+    controller->ownership.last_refusal = BRACE_REFUSED_EARLY;
+    return BRACE_REFUSED_EARLY;
 }
 
 uint32_t brace_app_beyond_board(const brace_app_t *app, const brace_parameters_t *parameters)

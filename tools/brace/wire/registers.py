@@ -325,4 +325,5 @@ REGISTERS: tuple[Register, ...] = (
     Register("life_mac", "holding", 16458, "u32", "", "wo"),
     Register("seal_counter", "holding", 16460, "u32", "", "wo"),
     Register("seal_mac", "holding", 16462, "u32", "", "wo"),
+    Register("end_test", "holding", 16464, "u32", "", "wo"),
 )

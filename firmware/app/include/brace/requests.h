@@ -157,9 +157,10 @@ brace_status_t brace_app_parameters_commit_staged(brace_app_t *app, uint32_t *wr
  * BRACE_E_CHECKSUM, and nothing is touched. */
 brace_status_t brace_app_parameters_commit_named(brace_app_t *app, uint32_t crc, uint32_t *wrong_index);
 
-/* How long no commit is taken yet, because each wears the memory [ms]; 0: it is. */
-enum { BRACE_COMMITS_APART_MS = 10000 };
-uint32_t brace_app_commit_wait_ms(const brace_app_t *app);
+/* May another commit come over a wire already? Each wears the memory, so they are 10 s apart. A refusal is counted.
+ *   wait_ms (out): how long not yet; 0: it may
+ * returns BRACE_OK, BRACE_REFUSED_EARLY */
+int32_t brace_app_may_commit(brace_app_t *app, uint32_t *wait_ms);
 
 /* Is a set within what the board allows? It may not exceed the board's ceilings, nor take the node's number away.
  * returns the index of the member that is not, or BRACE_PARAMETER_COUNT. At most 100 instructions. */

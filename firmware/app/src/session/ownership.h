@@ -16,7 +16,6 @@ typedef struct {
     bool is_by_wire;        /* what is asked for now comes over a wire */
     bool has_configurer;    /* on a bench: whose CONFIGURATION it is */
     brace_who_t configurer;
-    uint32_t commits_refused;
     int32_t last_refusal;
 } ownership_t;
 

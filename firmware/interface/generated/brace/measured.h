@@ -471,9 +471,12 @@ typedef struct {
     uint32_t seal_counter;
     /* the check of that next write */
     uint32_t seal_mac;
+    /* the order to end a loading test, or one that stands because it was stopped, and to go back to where it
+     * began: write any value */
+    uint32_t end_test;
 } brace_commands_t;
 
-enum { BRACE_COMMANDS_COUNT = 40 };
+enum { BRACE_COMMANDS_COUNT = 41 };
 #ifndef __cplusplus
 _Static_assert(sizeof(brace_commands_t) == 4 * BRACE_COMMANDS_COUNT, "32 bits each");
 #endif

@@ -2,10 +2,9 @@
 
 #include <string.h>
 
-#include "brace/requests.h"
 #include "brace/snapshot.h"
 
-#define APART_US (1000u * (uint32_t)BRACE_COMMITS_APART_MS)
+#define APART_US 10000000u /* between two commits: each erases a slot, and a slot takes some 10,000 of them */
 
 /* Where the set in force comes from, and the faults that last as long as it does. */
 static void judge(parameter_job_t *job)
@@ -40,6 +39,9 @@ bool parameter_job_step(parameter_job_t *job)
         (void)brace_store_take(&job->store, &job->in_force, &job->crc);
         job->has_staged = false;
         job->comes_in_force = true;
+    }
+    if (!is_in_force && job->store.failure == BRACE_STORE_E_REFUSED && job->store.refusal == BRACE_E_CHECKSUM) {
+        brace_count(&job->commits_refused);
     }
     job->storing = false;
     judge(job);

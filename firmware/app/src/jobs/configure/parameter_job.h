@@ -21,7 +21,8 @@ typedef struct {
     bool comes_in_force;             /* in_force is another set, and what follows from it is still being made anew */
     bool has_staged;                 /* staged is in use: a copy of the set in force, changed by writes */
     brace_parameters_t staged;
-    uint32_t apart_us;               /* since the last erase, up to BRACE_COMMITS_APART_MS */
+    uint32_t apart_us;               /* since the last erase, up to 10 s */
+    uint32_t commits_refused;        /* too soon, or another set than was named */
     uint32_t idle_us;                /* since somebody last asked for anything of CONFIGURATION */
     uint32_t faults;                 /* BRACE_FAULT_PARAMETERS, BRACE_FAULT_STORE: they last until a set is stored */
 } parameter_job_t;

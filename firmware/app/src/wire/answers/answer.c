@@ -1,5 +1,17 @@
 #include "wire/answers/answer.h"
 
+#include <stddef.h>
+
+#define END_TEST (BRACE_ENTRY_COMMANDS + offsetof(brace_commands_t, end_test) / 4u)
+
+static brace_command_t writing(uint32_t index)
+{
+    if (index < BRACE_ENTRY_COMMANDS) {
+        return BRACE_COMMAND_WRITES;
+    }
+    return index == END_TEST ? BRACE_COMMAND_MOVES : BRACE_COMMAND_NONE;
+}
+
 /* What a request does beside answering. */
 static brace_command_t command_of(uint32_t code, const brace_request_t *asked)
 {
@@ -7,8 +19,7 @@ static brace_command_t command_of(uint32_t code, const brace_request_t *asked)
     case BRACE_REQUEST_TAKE_UP:
     case BRACE_REQUEST_LET_GO:
     case BRACE_REQUEST_LOADING_TEST_START: return BRACE_COMMAND_MOVES;
-    case BRACE_REQUEST_WRITE_ENTRY:
-        return asked->write_entry.index < BRACE_ENTRY_COMMANDS ? BRACE_COMMAND_WRITES : BRACE_COMMAND_NONE;
+    case BRACE_REQUEST_WRITE_ENTRY: return writing(asked->write_entry.index);
     case BRACE_REQUEST_SET_MODE:
     case BRACE_REQUEST_UPLOAD_BEGIN:
     case BRACE_REQUEST_UPLOAD_WORD:

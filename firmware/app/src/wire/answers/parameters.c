@@ -34,6 +34,7 @@ static int32_t write_command(request_t *request, const brace_write_entry_request
     request->detail = brace_app_mode(request->app);
     switch (asked->index) {
     case COMMAND(stop): status = brace_app_stop(request->app); break;
+    case COMMAND(end_test): status = brace_app_loading_stop(request->app); break;
     case COMMAND(life_mac): status = brace_app_life(request->app, request->who, &seal); break;
     case COMMAND(seal_mac):
         if (request->seal != NULL) {

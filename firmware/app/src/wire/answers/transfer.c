@@ -151,10 +151,11 @@ int32_t answer_commit(request_t *request, const brace_commit_request_t *asked, b
     if (status != BRACE_OK) {
         return status;
     }
-    const uint32_t wait_ms = brace_app_commit_wait_ms(request->app);
-    if (wait_ms != 0u) {
+    uint32_t wait_ms = 0;
+    const int32_t early = brace_app_may_commit(request->app, &wait_ms);
+    if (early != BRACE_OK) {
         request->detail = wait_ms;
-        return BRACE_REFUSED_EARLY;
+        return early;
     }
     const bool is_uploaded = asked->crc != 0u && request->transfer != NULL && request->transfer->upload_is_open;
     const bool is_named = asked->crc != 0u && !is_uploaded && brace_app_has_staged(request->app);

@@ -30,6 +30,9 @@ static uint32_t request_of(uint32_t command, uint32_t value, brace_request_t *as
         return flank == FLANK_POSITIVE || flank == FLANK_NEGATIVE ? BRACE_REQUEST_TAKE_UP : 0u;
     case COMMAND(let_go): return BRACE_REQUEST_LET_GO;
     case COMMAND(stop): return BRACE_REQUEST_LOADING_TEST_STOP;
+    case COMMAND(end_test):
+        asked->write_entry = (brace_write_entry_request_t){BRACE_ENTRY_COMMANDS + command, value};
+        return BRACE_REQUEST_WRITE_ENTRY;
     case COMMAND(commit_crc):
         asked->commit = (brace_commit_request_t){.crc = value};
         return value != 0u ? BRACE_REQUEST_COMMIT : 0u;
@@ -99,6 +102,6 @@ void modbus_command_tell(const modbus_server_t *server, const brace_app_t *app, 
     told->set_mode = brace_app_mode(app);
     told->commit = told->commit_crc = told->rollback = storing(app);
     told->clear_faults = brace_app_faults(app);
-    told->let_go = told->stop = 0;
+    told->let_go = told->stop = told->end_test = 0;
     told->life_counter = told->life_mac = told->seal_counter = told->seal_mac = 0;
 }
