@@ -21,7 +21,7 @@ TYPED = {  # folder: where its imports are looked for
     "tests/property": "tools:tests/property",
     "tests/servo": "tools:tests/servo:tests/emulated",
     "tests/socketcan": "tools:tests/socketcan",
-    "tests/tools": "tools:tests/tools:tests/tools/diagnose:tests/bench",
+    "tests/tools": "tools:tests/tools:tests/tools/diagnose:tests/tools/importing:tests/bench",
 }
 
 

@@ -67,8 +67,8 @@ def test_faults_and_their_emergency_codes() -> None:
     assert {row[1]: (int(row[0]), int(row[2], 16)) for row in rows("Faults")} == {
         name: (bit, codes[bit]) for name, bit in faults.items()
     }
-    described = (FIRMWARE / "interface/messages.toml").read_text()
-    (said,) = re.findall(r'description = "(the CANopen code of the fault that came[^"]*)"', described)
+    described = (FIRMWARE / "interface/brace.dbc").read_text()
+    (said,) = re.findall(r'SG_ 129 error_code "([^"]*)"', described)
     assert {int(code, 16) for code in re.findall(r"0x[0-9a-f]{4}", said)} == {*codes, 0x1000, 0}
 
 

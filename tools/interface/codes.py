@@ -76,6 +76,16 @@ class Codes:
         raise DictionaryError(f"{where}: no {kind} of dictionary.toml is named {name!r}")
 
     @property
+    def emergencies(self) -> str:
+        """Each emergency code in words: "0x7300 SENSOR_FEMUR, SENSOR_TIBIA; 0x6100 TICK_LATE"."""
+        names: dict[int, list[str]] = {}
+        for table in self.tables:
+            for code in table.codes:
+                if code.emergency is not None:
+                    names.setdefault(code.emergency, []).append(code.name)
+        return "; ".join(f"0x{emergency:04x} {', '.join(said)}" for emergency, said in names.items())
+
+    @property
     def schema(self) -> str:
         """What two ends must agree on."""
         return "".join(table.schema for table in self.tables)

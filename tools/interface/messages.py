@@ -303,8 +303,8 @@ def _signals(
         )
         signal = Signal(
             raw["name"], start, raw["bits"], raw.get("signed", False), kind, raw.get("step", 1.0), raw.get("unit", ""),
-            table, raw["description"], raw.get("from", raw["name"]), raw.get("wraps", False),
-            tuple(raw.get("saturated_by", [])),
+            table, raw["description"].replace("{emergencies}", codes.emergencies), raw.get("from", raw["name"]),
+            raw.get("wraps", False), tuple(raw.get("saturated_by", [])),
         )
         if kind not in ("value", "number", "f32") or (kind == "f32" and signal.bits != 32):
             raise DictionaryError(f"{at}: kind {kind} of {signal.bits} bits")

@@ -5,7 +5,10 @@
 #include "brace/app_memory.h"
 #include "stiffness/stiffness.h"
 
-#define GUARDED_WORDS_PER_MS 8u /* all words in less than 100 ms */
+/* Of what must not change, so many words are looked over: all of them in less than 100 ms. */
+#define GUARDED_WORDS_PER_MS 8u
+#define GUARDED_WORDS_MOST 24u /* of the 336 */
+#define GUARDED_WORDS_IN_A_DEAR_TICK 2u /* in which a job has worked out a K, at most two of three */
 #define LATE_PERIODS 3u /* a tick that comes more than three periods after the one before is more than two late */
 
 /* -------------------------------------------------------------------------------------------- start -- */
@@ -296,7 +299,10 @@ static void step_guard(controller_t *controller)
         return;
     }
     const guard_span_t span = guarded(controller, controller->guard.span);
-    const uint32_t words = controller->parameters.in_force.controller.tick_us * GUARDED_WORDS_PER_MS / 1000u;
+    const uint32_t plain = controller->parameters.in_force.controller.tick_us * GUARDED_WORDS_PER_MS / 1000u;
+    const uint32_t words = controller->has_worked        ? GUARDED_WORDS_IN_A_DEAR_TICK
+                           : plain < GUARDED_WORDS_MOST ? plain
+                                                         : GUARDED_WORDS_MOST;
     if (!guard_step(&controller->guard, &span, GUARDED_SPANS, words)) {
         controller->memory_is_wrong = true;
     }
@@ -420,7 +426,6 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
         takeup_step(&controller->takeup, &controller->flank);
     }
     const bool loading_has_worked = !is_held && step_loading(controller, snapshot);
-    step_guard(controller);
     step_parameters(app);
     const bool job_has_worked = controller->question.has_worked || loading_has_worked;
     const bool is_counted_in_space = controller->model.is_spatial && snapshot->load.is_counted;
@@ -428,6 +433,7 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
         softening_step(&controller->softening, &controller->model, &parameters->limb, controller->posture.unbent_rad,
                        is_counted_in_space, !job_has_worked) ||
         job_has_worked;
+    step_guard(controller);
 
     /* Faults and mode, and what follows from them. */
     update_faults(controller, late, wires_are_bus_off(&app->wires));

@@ -14,7 +14,7 @@ from brace.cli.streams import OutputLost, finish, prepare, say
 from brace.errors import EXIT_CHECK_FAILED, EXIT_OK, EXIT_USAGE, BraceError
 
 SUBCOMMANDS = (
-    *("k", "map", "simulate", "predict", "identify", "diagnose", "plan", "params", "demo"),
+    *("k", "map", "import", "simulate", "predict", "identify", "diagnose", "plan", "params", "demo"),
     *("sim", "query", "monitor", "record", "replay", "gravity", "take-up", "let-go", "clear", "dbc", "flash", "doctor"),
 )
 _NEGATIVE_NUMBER = re.compile(r"^-(\d|\.\d|inf|nan)", re.IGNORECASE)

@@ -20,7 +20,8 @@ STEADY_DEGC = 1.0
 
 def faults(columns: Columns) -> list[DataFault]:
     """Every fault found."""
-    return [*_stuck(columns), *_temperature(columns), *_temperature_jumps(columns), *_gauges(columns)]
+    warmth = [*_temperature(columns), *_temperature_jumps(columns)] if "temp_degc" in columns else []
+    return [*_stuck(columns), *warmth, *_gauges(columns)]
 
 
 def _stuck(columns: Columns) -> Iterator[DataFault]:

@@ -39,7 +39,7 @@ LOADING = (
     Column("rep", "", "repeat of the same pass", kind="int"),
     Column("step", "", "step within the pass", kind="int"),
     TIME,
-    Column("temp_degc", "degC", "temperature", limit=1e4),
+    _optional("temp_degc", "degC", "temperature", limit=1e4),
     Column("dx_mm", "mm", "imposed displacement of the tip", limit=1e6),
     Column("dz_mm", "mm", "imposed displacement of the tip", limit=1e6),
     Column("fx_n", "N", "force on the limb", required=False, one_of="force"),

@@ -79,6 +79,7 @@ def load_dataset(folder: Path, *, keep_unreadable: bool = False) -> Dataset:
     meta = read_meta(folder)
     unreadable: list[DataFault] | None = [] if keep_unreadable else None
     columns, raw_rows = read_columns(folder / "data.csv", KINDS[meta.kind], unreadable)
+    columns = _with_whole_temperature(columns)
     dataset = Dataset(folder, meta, _from_its_first_reading(columns), small_displacements=meta.displacements == "small")
     if unreadable:
         return replace(dataset, faults=unreadable)
@@ -97,6 +98,13 @@ def _from_its_first_reading(columns: Mapping[str, np.ndarray]) -> Mapping[str, n
     if "t_s" not in columns or not columns["t_s"].size or abs(columns["t_s"][0]) < LATE_ORIGIN_S:
         return columns
     return {**columns, "t_s": columns["t_s"] - columns["t_s"][0]}
+
+
+def _with_whole_temperature(columns: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Without a temperature that is blank in some runs: softening follows it from the first reading to the last."""
+    if "temp_degc" not in columns or not np.isnan(columns["temp_degc"]).any():
+        return columns
+    return {name: values for name, values in columns.items() if name != "temp_degc"}
 
 
 def _with_found_resolution(meta: Meta, columns: Mapping[str, np.ndarray]) -> Meta:

@@ -14,7 +14,7 @@ from brace.toml import Key
 
 WHAT = "dataset's meta.toml"
 ZEROED = ("never", "per_run")
-MOVED_BY = ("rig", "motors")
+MOVED_BY = ("rig", "motors", "weights")
 HELD = ("weightless", "at rest")
 DISPLACEMENTS = ("finite", "small")
 
@@ -39,7 +39,13 @@ _KNOWN = (
     Key("rig.step_mm", 0.0, "the step of the imposed displacement", "mm", 0.0, 1e3),
     Key("rig.dwell_s", 0.0, "the wait before each reading", "s", 0.0, 1e6),
     Key("rig.zeroed", "never", "when the sensor was zeroed", kind="text", choices=ZEROED),
-    Key("rig.moved_by", "rig", "what moved the tip: a rig, or the limb's own motors", kind="text", choices=MOVED_BY),
+    Key(
+        "rig.moved_by",
+        "rig",
+        "what moved the tip: a rig, the limb's own motors, hung weights",
+        kind="text",
+        choices=MOVED_BY,
+    ),
 )
 
 
@@ -74,8 +80,9 @@ class Meta:
 
     @property
     def moved_by_motors(self) -> bool:
-        """The limb pressed by itself: its angles differ from row to row, its tip moves a little sideways too."""
-        return bool(self.values["rig.moved_by"] == "motors")
+        """Nothing held the tip sideways: the limb pressed by itself, its angles differing from row to row, or
+        weights hung on it."""
+        return bool(self.values["rig.moved_by"] in ("motors", "weights"))
 
     @property
     def joint(self) -> str:

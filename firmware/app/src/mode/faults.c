@@ -10,12 +10,9 @@
 void faults_update(faults_t *faults, uint32_t causes, uint32_t lasting, bool may_begin, uint32_t tick_us)
 {
     uint32_t now = (faults->now | (may_begin ? causes : 0u)) & ~LASTING;
-    for (uint32_t bit = 0; bit < (uint32_t)BRACE_FAULT_COUNT; bit++) {
-        const uint32_t fault = 1u << bit;
+    for (uint32_t left = now; left != 0u; left &= left - 1u) { /* at most BRACE_FAULT_COUNT */
+        const uint32_t bit = (uint32_t)__builtin_ctz(left), fault = 1u << bit;
         const uint32_t over_us = fault == (uint32_t)BRACE_FAULT_TICK_LATE ? LATE_OVER_US : OVER_US;
-        if ((now & fault) == 0u) {
-            continue;
-        }
         faults->away_us[bit] = (causes & fault) != 0u ? 0u : faults->away_us[bit] + tick_us;
         if (faults->away_us[bit] >= over_us) {
             now &= ~fault;

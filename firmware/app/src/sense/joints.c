@@ -38,9 +38,13 @@ static float link_angle_rad(const brace_hal_joint_t *sample)
  * nothing. */
 static bool can_reach(const brace_hal_joint_t *from, const brace_hal_joint_t *to)
 {
-    const float most_rad = REACH_MARGIN_RAD + SPEED_MOST_RAD_PER_US * (float)(to->taken_us - from->taken_us);
+    const float motor_moved_rad = __builtin_fabsf(to->motor_rad - from->motor_rad);
     const float link_moved_rad = __builtin_fabsf(to->link_rad - from->link_rad);
-    return !(__builtin_fabsf(to->motor_rad - from->motor_rad) > most_rad ||
+    if (motor_moved_rad <= REACH_MARGIN_RAD && !(link_moved_rad > REACH_MARGIN_RAD)) {
+        return true;
+    }
+    const float most_rad = REACH_MARGIN_RAD + SPEED_MOST_RAD_PER_US * (float)(to->taken_us - from->taken_us);
+    return !(motor_moved_rad > most_rad ||
              (link_moved_rad > most_rad && link_moved_rad <= ANGLE_ABSURD_RAD));
 }
 

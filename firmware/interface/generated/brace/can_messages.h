@@ -84,9 +84,10 @@ uint32_t brace_can_load_part(const uint8_t data[8]);
 
 /* a fault has come or gone, or the likeliest cause of a drift is another one */
 typedef struct {
-    /* the CANopen code of the fault that came: 0x7300 sensor, 0x7305 encoder stuck, 0x6100 tick late, 0x6320
-     * parameters, 0x5530 memory, 0x8140 bus off, 0xff01 model drift, 0x6010 crashed; 0xff01 also where a drift has
-     * another cause now; 0x1000 where one has gone and others are there; 0x0000 where the last one has gone */
+    /* the CANopen code of the fault that came: 0x7300 SENSOR_FEMUR, SENSOR_TIBIA, SENSOR_COXA; 0x7305
+     * ENCODER_STUCK; 0x6100 TICK_LATE; 0x6320 PARAMETERS; 0x5530 STORE; 0x8140 CAN_BUS_OFF; 0xff01 MODEL_DRIFT;
+     * 0x6010 CRASHED; 0x7120 DRIVE_REFUSES; 0x5510 MEMORY; 0xff01 also where a drift has another cause now; 0x1000
+     * where one has gone and others are there; 0x0000 where the last one has gone */
     uint32_t error_code;
     /* 1 while any fault is there */
     uint32_t error_register;

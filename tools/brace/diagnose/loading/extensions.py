@@ -156,7 +156,7 @@ def _ways(record: Record, fitted: Fit) -> dict[str, dict[str, np.ndarray]]:
         "faded with time": 1.0 - time,
         "differed between the way out and the way back": _way(record, along),
     }
-    warmth = data["temp_degc"] - data["temp_degc"][0]
+    warmth = data["temp_degc"] - data["temp_degc"][0] if "temp_degc" in data else np.zeros(data.rows)
     if float(np.ptp(warmth)) > LEAST_RANGE_DEGC:
         common["followed the temperature"] = warmth / np.abs(warmth).max()
     for name, words in (("theta1_rad", "femur angle"), ("theta2_rad", "knee angle")):

@@ -93,9 +93,10 @@ def _contrasts(record: Record, fitted: Fit) -> Iterator[tuple[str, np.ndarray]]:
         yield f"along {name}, alike for both signs of the load", moved(here * np.abs(s))
         yield f"at the largest loads along {name}", moved(here * np.sign(s) * (np.abs(s) > 0.85))
         yield f"along {name}, in proportion to load and time", moved(here * s * (time - 0.5))
-        yield f"along {name}, in proportion to load and temperature", moved(
-            here * s * (data["temp_degc"] - np.mean(data["temp_degc"]))
-        )
+        if "temp_degc" in data:
+            yield f"along {name}, in proportion to load and temperature", moved(
+                here * s * (data["temp_degc"] - np.mean(data["temp_degc"]))
+            )
     for channel, axis_name in enumerate(AXES):
         yield f"in f{axis_name}, the same at every reading", pushed(channel, np.ones(rows))
         yield f"in f{axis_name}, growing with time", pushed(channel, time - 0.5)

@@ -226,7 +226,7 @@ def setting_of(record: Record, believed: LimbModel) -> LoadingSize:
         run_starts_s=tuple(float(data["t_s"][start]) for start in starts),
         duration_s=float(data["t_s"][-1] - data["t_s"][0]),
         dwell_s=float(np.median(steps[steps > 0.0])) if np.any(steps > 0.0) else 1.0,
-        temperature_range_degc=float(np.ptp(data["temp_degc"])),
+        temperature_range_degc=float(np.ptp(data["temp_degc"])) if "temp_degc" in data else 0.0,
         zeroed=data.meta.zeroed_per_run,
         turns=not data.small_displacements,
     )

@@ -92,6 +92,8 @@ def _level(judge: Judge, values: np.ndarray) -> np.ndarray:
 
 def _fahrenheit(judge: Judge) -> Iterator[DataFault]:
     """Servos of 70 degC at the start of a test at 22 degC: rather 70 degF."""
+    if "temp_degc" not in judge.dataset:
+        return
     degc = judge.dataset["temp_degc"]
     reference = judge.believed.number("thermal.reference_degc")
     above, near = FAHRENHEIT_DEGC

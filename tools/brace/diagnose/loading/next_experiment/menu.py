@@ -78,7 +78,6 @@ def conditions(record: Record, fits: list[Fit]) -> Iterator[Condition]:
     between = steps_s[starts[1:-1] - 1] if starts.size > 2 else np.array([20.0])
     pause = float(np.clip(np.median(between) - dwell, 0.0, 60.0))
     steps = int(np.clip(round((np.median(np.diff(starts)) - 1) / 4), 2, MOST_STEPS))
-    degc = round(float(data["temp_degc"][-1]), 2)
     own: dict[str, Any] = {
         "rig.steps": steps,
         "rig.step_mm": _short(reach / steps),
@@ -87,10 +86,11 @@ def conditions(record: Record, fits: list[Fit]) -> Iterator[Condition]:
         "rig.preload_x_mm": 0.0,
         "rig.preload_z_mm": 0.0,
         "rig.shuffled": False,
-        "temperature.start_degc": degc,
         "temperature.rise_degc": 0.0,
         "temperature.time_constant_s": 600.0,
     }
+    if "temp_degc" in data:
+        own["temperature.start_degc"] = round(float(data["temp_degc"][-1]), 2)
 
     def other(**changes: Any) -> dict[str, Any]:
         return {**own, **{key.replace("__", "."): value for key, value in changes.items()}}
@@ -123,10 +123,15 @@ def conditions(record: Record, fits: list[Fit]) -> Iterator[Condition]:
         runs_s = 8 * 2 * (dwell * (4 * steps + 1) + pause)
         yield Condition(
             "warmer",
-            f"a course of temperature (from {degc:g} degC up by {WARMER_DEGC:g} degC)",
+            f"a course of temperature ({_from(own)}up by {WARMER_DEGC:g} degC)",
             other(temperature__rise_degc=WARMER_DEGC, temperature__time_constant_s=round(0.5 * runs_s, 1)),
             TEMPERATURE_MIN,
         )
+
+
+def _from(own: dict[str, Any]) -> str:
+    start_degc = own.get("temperature.start_degc")
+    return "" if start_degc is None else f"from {start_degc:g} degC "
 
 
 def _short(value: float) -> float:

@@ -1,0 +1,229 @@
+"""`brace import`: other kinds of record, what it refuses, what it asks, what it never does in silence."""
+
+from __future__ import annotations
+
+import io
+import json
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import Outcome, physics_k
+from foreign_files import Record, shown, text
+
+from brace.cli import import_questions
+from brace.dataset import load_dataset
+
+Brace = Callable[..., Outcome]
+
+
+def saved(folder: Path, content: str | bytes, name: str = "file.csv") -> Path:
+    path = folder / name
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    return path
+
+
+LOADING = "t [s],theta1 [deg],theta2 [deg],dx [mm],dz [mm],Fx [N],Fz [N]"
+
+
+def loading(header: str = LOADING, **changed: list[str]) -> str:
+    r = Record()
+    names = ("t", "theta1", "theta2", "dx", "dz", "fx", "fz")
+    written: str = text([header], [changed.get(name, shown(r[name])) for name in names], ",")
+    return written
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"\xd0\xcf\x11\xe0" + b"\0" * 600, "an old Excel workbook (.xls)"),
+        (b"MATLAB 5.0 MAT-file" + b"\0" * 100, "writetable"),
+        (b"PK\x03\x04", "workbook"),
+        (b"\0\1\2" * 50, "zero bytes"),
+        (b"", "an empty file"),
+        (b"no numbers\nin here\n", "no table of readings"),
+        (b"a,b,c\n1,5,2,5,0,1\n2,5,3,5,0,2\n", "commas are both decimal signs and separators"),
+        (b"t;f\n1.5;2\n2,5;3\n", "two decimal signs: 1.5 and 2,5"),
+        (b"t;f\n1,234;5,678\n2,345;6,789\n", "may be a decimal number or one of thousands"),
+        (b"t;f;d\n1;2;3\n2;3;4\n3;4\n4;5;6\n", "this row has 2 cells, the table 3"),
+        (b"time,0,1,2,3,4,5\nforce,1,2,3,4,5,6\nweg,2,3,4,5,6,7\n", "rows and columns are exchanged"),
+    ],
+)
+def test_what_is_no_table_is_refused_in_a_sentence(brace: Brace, tmp_path: Path, content: bytes, words: str) -> None:
+    path = saved(tmp_path, content)
+    outcome = brace("import", path, "--out", tmp_path / "out", "--yes")
+    assert outcome.code in (2, 3) and words in outcome.err and "try:" in outcome.err, outcome.err
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_file_without_names_is_asked_for_all_of_them(brace: Brace, tmp_path: Path) -> None:
+    path = saved(tmp_path, "\n".join(loading().splitlines()[1:]))
+    outcome = brace("import", path, "--out", tmp_path / "out", "--yes")
+    assert outcome.code == 2 and "'#1': what is it? (the file names no columns)" in outcome.err
+
+
+@pytest.mark.parametrize(
+    ("header", "words"),
+    [
+        (LOADING.replace("Fx [N]", "Fx [V]"), "V is what the instrument gives"),
+        (LOADING.replace("Fx [N]", "Fx [dyn]"), "the unit 'dyn' is not known"),
+        (LOADING.replace("Fz [N]", "Fx [N]"), "'Fx [N]': what is it? (it may be fx_n"),
+        (LOADING.replace("dz [mm]", "dy [mm]"), "x outwards and z up"),
+        (LOADING.replace("theta2 [deg]", "angle [deg]"), "which joint's angle?"),
+        (LOADING.replace("theta2 [deg]", "note"), "theta2_rad: at which knee angle"),
+        (LOADING.replace("t [s]", "sample"), "dwell_s: the file has no time"),
+    ],
+)
+def test_what_a_header_leaves_open_is_asked(brace: Brace, tmp_path: Path, header: str, words: str) -> None:
+    outcome = brace("import", saved(tmp_path, loading(header)), "--out", tmp_path / "out", "--yes")
+    assert outcome.code == 2 and words in outcome.err, outcome.err
+
+
+def test_what_no_column_says_is_said_on_the_command_line(brace: Brace, tmp_path: Path) -> None:
+    r = Record(poses=((42.5, 57.25),), axes="z")
+    path = saved(
+        tmp_path, text(["n,way [mm],force [N]"], [[str(n) for n in range(r.rows)], shown(r["dz"]), shown(r["fz"])], ",")
+    )
+    path = path.rename(tmp_path / "way.csv")
+    said = ("--set", "theta1=42.5deg", "--set", "theta2_rad=0.9992", "--set", "axis=z", "--set", "dwell=4s")
+    path.write_text(path.read_text().replace("way [mm]", "Weg [mm]"))
+    assert brace("import", path, "--out", tmp_path / "out", "--yes").code == 2
+    done = brace("import", path, *said, "--out", tmp_path / "out", "--yes")
+    assert done.code == 0, done.err
+    data = load_dataset(tmp_path / "out")
+    assert data["theta1_rad"][0] == pytest.approx(math.radians(42.5)) and data["t_s"][2] == 8.0
+    assert np.all(data["axis"] == 1) and "fx_n" in data and np.isnan(data["fx_n"]).all()
+    bad = brace("import", path, "--set", "theta1=42", "--out", tmp_path / "out2", "--yes")
+    assert bad.code == 2 and "in which unit?" in bad.err
+
+
+def test_displacements_that_begin_elsewhere_are_asked_and_taken_off(brace: Brace, tmp_path: Path) -> None:
+    r = Record()
+    path = saved(tmp_path, loading(dx=shown(r["dx"] + 12.5)))
+    outcome = brace("import", path, "--out", tmp_path / "out", "--yes")
+    assert outcome.code == 2 and "does its zero mean unloaded?" in outcome.err
+    mapping = tmp_path / "m.toml"
+    brace("import", path, "--draft", mapping)
+    mapping.write_text(mapping.read_text().replace('relative = "?"', "relative = true"))
+    assert brace("import", path, "--mapping", mapping, "--out", tmp_path / "out").code == 0
+    assert load_dataset(tmp_path / "out")["dx_mm"] == pytest.approx(r["dx"], abs=1e-3)
+
+
+def test_hung_weights(brace: Brace, tmp_path: Path) -> None:
+    """The force is the weights', downwards; along x nothing was measured. One displacement is not enough."""
+    compliance = np.linalg.inv(physics_k(math.radians(40), math.radians(70)))
+    mass = np.array([0, 0.2, 0.4, 0.6, 0.4, 0.2, 0, 0.2, 0.4, 0.6, 0.4, 0.2, 0])
+    moved = compliance @ np.array([0 * mass, -9.80665 * mass])
+    columns = [shown(10.0 * np.arange(13.0)), shown(mass), shown(moved[0]), shown(moved[1])]
+    path = saved(tmp_path, text(["t [s],Mass [kg],dx [mm],dz [mm]"], columns, ","))
+    posture = ("--set", "theta1=40deg", "--set", "theta2=70deg")
+    done = brace("import", path, *posture, "--out", tmp_path / "out", "--yes")
+    assert done.code == 0 and "hung weights" in done.err and "it was not measured" in done.err
+    data = load_dataset(tmp_path / "out")
+    assert data["fz_n"] == pytest.approx(-9.80665 * mass, abs=1e-6) and np.isnan(data["fx_n"]).all()
+    assert data["dx_mm"] == pytest.approx(moved[0], abs=1e-3) and data.meta.moved_by_motors
+    one = saved(tmp_path, text(["t [s],Mass [kg],dz [mm]"], [columns[0], columns[1], columns[3]], ","), "one.csv")
+    refused = brace("import", one, *posture, "--set", "axis=z", "--out", tmp_path / "out2", "--yes")
+    assert refused.code == 3 and "along one axis only" in refused.err
+    turned = saved(
+        tmp_path, text(["t [s],Mass [kg],dx [mm],dz [mm]"], [*columns[:3], shown(-moved[1])], ","), "down.csv"
+    )
+    asked = brace("import", turned, *posture, "--out", tmp_path / "out3", "--yes")
+    assert asked.code == 2 and "it grows with the weight" in asked.err
+
+
+def test_a_joint_test(brace: Brace, tmp_path: Path) -> None:
+    angle = np.concatenate([np.linspace(0, 2, 40), np.linspace(2, -2, 80), np.linspace(-2, 0, 40)])
+    torque = angle * 1.1
+    columns = [shown(0.01 * np.arange(160.0)), shown(angle, comma=False), shown(torque)]
+    path = saved(tmp_path, text(["Zeit [s];Winkel [\u00b0];Drehmoment [Nm]"], columns, ";"))
+    assert brace("import", path, "--out", tmp_path / "out", "--yes").code == 0
+    data = load_dataset(tmp_path / "out")
+    assert data.kind == "joint_test" and data["torque_n_mm"] == pytest.approx(torque * 1e3, abs=0.1)
+    assert data["angle_rad"] == pytest.approx(np.radians(angle), abs=1e-5)
+    turned = saved(
+        tmp_path, text(["Zeit [s];Winkel [\u00b0];Drehmoment [Nm]"], [*columns[:2], shown(-torque)], ";"), "t.csv"
+    )
+    asked = brace("import", turned, "--out", tmp_path / "out2", "--yes")
+    assert asked.code == 2 and "is its sign turned?" in asked.err
+
+
+def test_a_table_of_k(brace: Brace, tmp_path: Path) -> None:
+    rows = "r [m];Kxx [N/m];Kxz [N/m];Kzx [N/m];Kzz [N/m]\n0,3;4000;-600;-600;900\n0,35;3900;-650;-650;800\n"
+    assert brace("import", saved(tmp_path, rows), "--out", tmp_path / "out", "--yes").code == 0
+    data = load_dataset(tmp_path / "out")
+    assert data["k_xx"] == pytest.approx([4.0, 3.9]) and data["r_mm"] == pytest.approx([300.0, 350.0])
+    without = rows.replace(";Kzx [N/m]", "").replace(";-600;-600", ";-600").replace(";-650;-650", ";-650")
+    refused = brace("import", saved(tmp_path, without), "--out", tmp_path / "out2", "--yes")
+    assert refused.code == 3 and "no column is k_zx" in refused.err and "symmetric" in refused.err
+
+
+def test_force_and_displacement_in_two_files(brace: Brace, tmp_path: Path) -> None:
+    """Joined where their clocks agree, refused where they do not."""
+    r = Record()
+    moved = saved(
+        tmp_path,
+        text(
+            ["t [s],theta1 [deg],theta2 [deg],dx [mm],dz [mm]"],
+            [shown(r[n]) for n in ("t", "theta1", "theta2", "dx", "dz")],
+            ",",
+        ),
+        "rig.csv",
+    )
+    for shift, code in ((0.0, 0), (1.7, 3)):
+        pushed = saved(
+            tmp_path,
+            text(["t [s],Fx [N],Fz [N]"], [shown(r["t"] + shift), shown(r["fx"]), shown(r["fz"])], ","),
+            "cell.csv",
+        )
+        table = tmp_path / "m.toml"
+        brace("import", moved, pushed, "--draft", table)
+        done = brace("import", moved, pushed, "--out", tmp_path / f"out{code}", "--yes")
+        assert done.code == code, done.err
+    assert "join the tables by time" in done.err
+    assert load_dataset(tmp_path / "out0")["fz_n"] == pytest.approx(r["fz"], abs=1e-3)
+
+
+def test_questions_at_a_terminal(brace: Brace, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(import_questions, "has_terminal", lambda: True)
+    path = saved(tmp_path, loading(LOADING.replace("Fx [N]", "Fx").replace("dz [mm]", "dy [mm]")))
+    answers = io.StringIO("down\ndz_mm\nmm\npounds?\nN\ny\n")
+    monkeypatch.setattr("sys.stdin", answers)
+    done = brace("import", path, "--out", tmp_path / "out")
+    assert done.code == 0, done.err
+    assert "'down' is not one of them" in done.err and "'pounds?' is no unit of this" in done.err
+    monkeypatch.setattr("sys.stdin", io.StringIO("dz_mm\nmm\nN\nn\n"))
+    left = brace("import", path, "--out", tmp_path / "other")
+    assert left.code == 2 and "nothing was written" in left.err and not (tmp_path / "other").exists()
+
+
+def test_a_mapping_of_other_files_is_refused(brace: Brace, tmp_path: Path) -> None:
+    path, mapping = saved(tmp_path, loading()), tmp_path / "m.toml"
+    brace("import", path, "--draft", mapping)
+    assert brace("import", path, "--mapping", mapping, "--out", tmp_path / "out").code == 0
+    other = saved(tmp_path, loading(LOADING.replace("Fx [N]", "Fx1 [N]")), "other.csv")
+    refused = brace("import", other, "--mapping", mapping, "--out", tmp_path / "out2")
+    assert refused.code == 3 and "no file has a column 'Fx [N]'" in refused.err and "'Fx1 [N]'" in refused.err
+    for wrong, words in (
+        ('is = "fx_n"', 'is = "fx"|did you mean fx_n'),
+        ('unit = "N"', 'unit = "mm"|is no unit of a force'),
+        ("sign = 1", "sgin = 1|did you mean sign"),
+        ("sign = 1", "sign = 2|1 or -1"),
+    ):
+        new, _, told = words.partition("|")
+        slip = tmp_path / "slip.toml"
+        slip.write_text(mapping.read_text().replace(wrong, new, 1))
+        outcome = brace("import", path, "--mapping", slip, "--out", tmp_path / "out3")
+        assert outcome.code == 3 and told in outcome.err and "slip.toml:" in outcome.err, outcome.err
+
+
+def test_a_measured_dataset_is_never_replaced(brace: Brace, tmp_path: Path) -> None:
+    path, out = saved(tmp_path, loading()), tmp_path / "out"
+    assert brace("import", path, "--out", out, "--yes", "--json").code == 0
+    told = json.loads(brace("import", path, "--out", out, "--yes", "--json").out)  # its own may be
+    assert told["rows"] == 204 and told["runs"] == 12 and told["configurations"] == 3
+    (out / "meta.toml").write_text('format = 1\nkind = "loading"\n')
+    refused = brace("import", path, "--out", out, "--yes")
+    assert refused.code == 2 and "was not imported" in refused.err

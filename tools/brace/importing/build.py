@@ -1,0 +1,251 @@
+"""From tables and a confirmed mapping to a dataset: units, signs, runs; what is left out or not there is said."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from brace.errors import BadFileError
+from brace.importing import numerals
+from brace.importing.loading import assembled as assembled_loading
+from brace.importing.mapping import ColumnUse, MappingTable
+from brace.importing.meaning import TARGETS
+from brace.importing.part import Part, Table
+from brace.importing.units import OWN, UNITS, unit_of
+
+MAY_BE_BLANK = {"fx_n", "fz_n", "f_n", "weight_n", "enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm", "temp_degc"}
+MUST_BE_THERE = {
+    "joint_test": ("angle_rad", "torque_n_mm"),
+    "stiffness_table": ("r_mm", "k_xx", "k_xz", "k_zx", "k_zz"),
+}
+
+
+@dataclass(frozen=True)
+class Built:
+    """A dataset in memory."""
+
+    meta: dict[str, object]
+    columns: dict[str, np.ndarray]
+    notes: tuple[str, ...]
+
+
+def build(parts: Sequence[Part], mapping: MappingTable) -> Built:
+    """Converts and joins the parts. Refuses where something that must be said has not been."""
+    notes: list[str] = []
+    tables = [_converted(part, mapping, notes) for part in parts]
+    conversions = _conversions(mapping)
+    if mapping.kind == "loading":
+        columns, extra = assembled_loading(tables, mapping, notes)
+    else:
+        columns, extra = _stacked(tables, mapping, notes), {}
+    files = list(dict.fromkeys(part.path for part in parts))
+    meta: dict[str, object] = {"format": 1, "kind": mapping.kind, "title": ", ".join(path.name for path in files)[:200]}
+    meta |= {name: dict(content) for name, content in mapping.meta.items()}
+    for name, content in extra.items():
+        if isinstance(content, Mapping):
+            given = meta.get(name, {})
+            meta[name] = {**content, **(given if isinstance(given, Mapping) else {})}
+        else:
+            meta[name] = content
+    meta["source"] = {
+        "what": "imported",
+        "files": [path.name for path in files],
+        "sha256": [hashlib.sha256(path.read_bytes()).hexdigest() for path in files],
+        "notes": notes,
+    }
+    meta["conversion"] = conversions
+    return Built(meta, columns, tuple(notes))
+
+
+def _conversions(mapping: MappingTable) -> dict[str, str]:
+    """Each of our columns: from which of theirs, in which unit, by what it was multiplied."""
+    told: dict[str, str] = {}
+    for use in mapping.columns:
+        if not use.used:
+            continue
+        text = f"column {use.name!r}"
+        unit = unit_of(use.unit) if use.unit else None
+        if unit is not None:
+            text += f" in {unit.text}"
+            factor = unit.factor * (-1 if use.sign == "-1" else 1)
+            text += f", times {factor:.12g}" if factor != 1.0 else ", as it is"
+            offset = use.offset + unit.offset
+            text += f", plus {offset:.12g}" if offset else ""
+        if use.relative == "yes":
+            text += ", less the first entry of each run"
+        for target in use.targets:
+            place = f" of {use.file}" if use.file else ""
+            told[target] = f"{told[target]}; {text}{place}" if target in told else text + place
+    for each in mapping.constants:
+        place = f" in {each.file}" if each.file else ""
+        text = f"{each.value} {each.unit}".strip() + place + (f" ({each.why})" if each.why else "")
+        told[each.target] = f"{told[each.target]}; {text}" if each.target in told else text
+    return told
+
+
+def in_our_unit(value: float, unit_text: str) -> float:
+    """A constant converted."""
+    unit = unit_of(unit_text)
+    return value if unit is None else unit.factor * value + unit.offset
+
+
+def _converted(part: Part, mapping: MappingTable, notes: list[str]) -> Table:
+    columns: dict[str, np.ndarray] = {}
+    texts: dict[str, list[str]] = {}
+    bad = np.zeros(len(part.rows), bool)
+    reasons: Counter[str] = Counter()
+    used: list[ColumnUse] = []
+    for index, name in enumerate(part.names):
+        use = mapping.column(part.path.name, name, index + 1)
+        if use is None:
+            raise BadFileError(
+                f"column {name!r} is not in the mapping",
+                where=part.where,
+                why="a column that nobody has spoken of may be a force",
+                next_step='add a [[column]] for it; is = "ignore" leaves it out',
+            )
+        if not use.used:
+            continue
+        used.append(use)
+        cells = part.cells(index)
+        for target in use.targets:
+            quantity = TARGETS[mapping.kind][target]
+            if not quantity:
+                texts[target] = [use.values.get(cell, cell) for cell in cells]
+                continue
+            values, unread = _numbers(part, use, cells, target)
+            columns[target] = values
+            lost = np.isnan(values) & (unread | (target not in MAY_BE_BLANK))
+            for row in np.flatnonzero(lost & ~bad):
+                reasons[f"{name!r}: {cells[row] or 'an empty cell'}"] += 1
+            bad |= lost
+    blank = [columns[target] for target in ("fx_n", "fz_n", "f_n", "weight_n") if target in columns]
+    if blank:
+        empty = np.isnan(np.stack(blank)).all(axis=0) & ~bad
+        if empty.any():
+            reasons["no force in the row"] += int(np.count_nonzero(empty))
+            bad |= empty
+    if bad.all():
+        raise BadFileError(
+            "no row can be read",
+            where=part.where,
+            why="; ".join(f"{reason} ({count} rows)" for reason, count in reasons.most_common(3)),
+            next_step="is the right column mapped? The mapping may call it ignore",
+        )
+    if bad.any():
+        told = "; ".join(f"{reason} ({count})" for reason, count in reasons.most_common(4))
+        notes.append(f"{part.path.name}: {int(bad.sum())} of {bad.size} rows left out: {told}")
+    if part.skipped:
+        notes.append(
+            f"{part.path.name}: {part.skipped} line{'s' if part.skipped > 1 else ''} below the table left out: no "
+            "readings"
+        )
+    keep = np.flatnonzero(~bad)
+    return Table(
+        part,
+        {target: values[keep] for target, values in columns.items()},
+        {target: [cells[row] for row in keep] for target, cells in texts.items()},
+    )
+
+
+def _numbers(part: Part, use: ColumnUse, cells: Sequence[str], target: str) -> tuple[np.ndarray, np.ndarray]:
+    """A column in our unit, and which entries are there and are no numbers (OVERLOAD)."""
+    values = np.array([numerals.number(cell, part.decimal) for cell in cells])
+    if target == "t_s" and np.isnan(values).all():
+        values = np.array([numerals.clock_s(cell) for cell in cells])
+        values = values + np.cumsum(np.concatenate([[0.0], np.where(np.diff(values) < -43200.0, numerals.DAY_S, 0.0)]))
+    values = _without_marks(values)
+    unread = np.array([math.isnan(value) and not numerals.is_missing(cell) for value, cell in zip(values, cells)])
+    unit = UNITS.get(use.unit) or unit_of(use.unit)
+    if unit is None:
+        raise BadFileError(
+            f"column {use.name!r} has no unit",
+            where=part.where,
+            why=f"it is {target}",
+            next_step=f'unit = "{OWN[TARGETS["loading"].get(target, "force") or "force"]}" in its [[column]], say',
+        )
+    sign = -1.0 if use.sign == "-1" else 1.0
+    return sign * (unit.factor * values + unit.offset) + use.offset, unread
+
+
+_MARKS = (9999.0, 99999.0, 999999.0, 9999999.0, 999.0, 999.9, 9999.9, 99999.9, 32767.0, 65535.0)
+
+
+def _without_marks(values: np.ndarray) -> np.ndarray:
+    """NaN where a program wrote -9999 or 1e38 for 'nothing read': far beyond all other entries."""
+    with np.errstate(invalid="ignore"):
+        marks = np.isin(np.abs(values), _MARKS) | (np.abs(values) > 1e30)
+    others = np.abs(values[~marks & np.isfinite(values)])
+    if not marks.any() or not others.size or others.max() <= 0.0:
+        return values
+    return np.asarray(np.where(marks & (np.abs(values) > 20.0 * others.max()), math.nan, values))
+
+
+def _stacked(tables: Sequence[Table], mapping: MappingTable, notes: list[str]) -> dict[str, np.ndarray]:
+    """Joint tests and stiffness tables: the parts below one another; each file of joint tests is a test of its own."""
+    names = list(dict.fromkeys(name for table in tables for name in table.columns))
+    out: dict[str, np.ndarray] = {}
+    for needed in MUST_BE_THERE[mapping.kind]:
+        for table in tables:
+            if needed not in table.columns:
+                raise BadFileError(
+                    f"no column is {needed}",
+                    where=table.part.where,
+                    why=_needed(mapping.kind, needed),
+                    next_step=f'map a column to it (is = "{needed}")'
+                    + (
+                        '; is = ["k_xz", "k_zx"] where the source prints K symmetric'
+                        if needed in ("k_xz", "k_zx")
+                        else ""
+                    ),
+                )
+    for name in names:
+        if all(name in table.columns for table in tables):
+            out[name] = np.concatenate([table.columns[name] for table in tables])
+        else:
+            notes.append(f"{name} is left out: it is not in every file")
+    rows = [len(next(iter(table.columns.values()))) for table in tables]
+    if mapping.kind == "joint_test":
+        if "t_s" not in out:
+            dwell = [mapping.constant(table.part.path.name, "dwell_s") for table in tables]
+            if any(each is None or each.value == "?" for each in dwell):
+                raise BadFileError(
+                    "no column is t_s", where=tables[0].part.where, why="friction and creep follow the time",
+                    next_step="--set dwell_s=0.01s where readings are evenly apart",
+                )  # fmt: skip
+            out["t_s"] = np.concatenate(
+                [
+                    in_our_unit(float(each.value), each.unit) * np.arange(count)
+                    for each, count in zip(dwell, rows)
+                    if each
+                ]
+            )
+            notes.append("t_s is counted: row number times dwell_s")
+        if "temp_degc" in out and np.isnan(out["temp_degc"]).any():
+            notes.append("temp_degc is left out: it is not there in every row")
+            del out["temp_degc"]
+        tests = [np.full(count, number, np.int32) for number, count in enumerate(rows, start=1)]
+        if all("test" in table.texts for table in tables):
+            labels = [f"{at}/{text}" for at, table in enumerate(tables) for text in table.texts["test"]]
+            order = {label: number for number, label in enumerate(dict.fromkeys(labels), start=1)}
+            out["test"] = np.array([order[label] for label in labels], np.int32)
+        elif len(tables) > 1:
+            out["test"] = np.concatenate(tests)
+    return out
+
+
+def _needed(kind: str, column: str) -> str:
+    if kind == "joint_test":
+        return "a joint test is the joint's angle and the torque in it, whichever of the two was imposed"
+    return f"a stiffness table has {column} in every row"
+
+
+def sources(parts: Sequence[Part]) -> list[Path]:
+    """The files."""
+    return list(dict.fromkeys(part.path for part in parts))

@@ -1,0 +1,356 @@
+"""A loading record out of converted tables: posture, axis, runs, repeats, clock; what was not measured stays unread."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TypeAlias
+
+import numpy as np
+
+from brace.errors import BadFileError
+from brace.importing.mapping import MappingTable
+from brace.importing.part import Table
+from brace.importing.runs import ANGLE_JUMP_RAD, boundaries, driven_axis, numbers_of_poses
+from brace.importing.units import unit_of
+
+Columns: TypeAlias = dict[str, np.ndarray]
+SAME_RAD = 1e-3
+HELD_RAD = 0.06  # a commanded angle that is read back moves by so much at most while the limb is loaded
+OPTIONAL = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
+SIDEWAYS_RATIO = 0.3  # of a step along the axis: what a gauge across it may read of a tip that does not move there
+
+
+def assembled(tables: Sequence[Table], mapping: MappingTable, notes: list[str]) -> tuple[Columns, dict[str, object]]:
+    """Columns of data.csv, and tables of meta.toml."""
+    pieces = [_piece(table, mapping, notes) for table in _joined(tables, notes)]
+    _same_clock(pieces, notes)
+    names = ["t_s", "theta1_rad", "theta2_rad", "axis", "dx_mm", "dz_mm", "fx_n", "fz_n", "begins"]
+    names += [name for name in (*OPTIONAL, "temp_degc") if all(name in piece for piece in pieces)]
+    for name in (*OPTIONAL, "temp_degc"):
+        if name not in names and any(name in piece for piece in pieces):
+            notes.append(f"{name} is left out: it is not in every file")
+    joined = {name: np.concatenate([piece[name] for piece in pieces]) for name in names}
+    begins = joined.pop("begins").astype(bool)
+    run = np.cumsum(begins).astype(np.int32)
+    joined = _held_angles(joined, run, notes)
+    joined, run = _without_single_blanks(joined, run, notes)
+    starts = np.flatnonzero(np.diff(run, prepend=0))
+    _relative(joined, run, mapping, notes)
+    joined["config"] = numbers_of_poses(joined["theta1_rad"], joined["theta2_rad"], SAME_RAD)
+    rep, step = _repeats_and_steps(joined, run, starts)
+    if "temp_degc" in joined:
+        joined["temp_degc"] = _held_temperature(joined["temp_degc"], notes)
+    else:
+        notes.append("no temperature was recorded: nothing will be said of its effect")
+    if rep.max() == 1:
+        notes.append("no run was repeated: noise is judged by smoothness alone")
+    for axis, name in ((0, "fx_n"), (1, "fz_n")):
+        unread = np.isnan(joined[name])
+        if unread.all():
+            notes.append(f"{name} was not measured: its column is empty")
+        elif unread.any():
+            notes.append(f"{name} was not measured in {len(np.unique(run[unread]))} of {len(starts)} runs: empty there")
+    extra: dict[str, object] = {}
+    weights = any("weight_n" in table.columns for table in tables)
+    if weights or _moves_across(joined, run):
+        extra["rig"] = {"moved_by": "weights" if weights else "motors"}
+        if not weights:
+            notes.append("the tip moves across its axis too: the record says so (moved_by in meta.toml)")
+    if _zeroed(joined, starts):
+        extra["zeroed"] = "per_run"
+        notes.append('every run\'s first force is 0: taken as zeroed before each run (zeroed = "per_run")')
+    order = ("run", "config", "theta1_rad", "theta2_rad", "axis", "rep", "step", "t_s", "temp_degc", "dx_mm", "dz_mm",
+             "fx_n", "fz_n", *OPTIONAL)  # fmt: skip
+    joined |= {"run": run, "rep": rep, "step": step, "axis": joined["axis"].astype(np.int32)}
+    both = {name: joined[name] for name in order if name in joined}
+    for name in ("fx_n", "fz_n"):
+        if np.isnan(both[name]).all():
+            del both[name]
+    return both, extra
+
+
+def _moves_across(joined: Columns, run: np.ndarray) -> bool:
+    """Whether the tip moves across the axis by more than a share of a step."""
+    along, across = (np.where((joined["axis"] == 1) == way, joined["dz_mm"], joined["dx_mm"]) for way in (True, False))
+    steps = np.abs(np.diff(along))[np.diff(run) == 0]
+    steps = steps[steps > 1e-9]
+    most = max(
+        (float(np.abs(across[run == n] - np.median(across[run == n])).max()) for n in np.unique(run)), default=0.0
+    )
+    return bool(steps.size) and most > SIDEWAYS_RATIO * float(np.median(steps))
+
+
+def _joined(tables: Sequence[Table], notes: list[str]) -> list[Table]:
+    """Tables side by side where one has what the other lacks and both have the same clock; else as they are."""
+    whole = [table for table in tables if _moves(table) and _pushes(table)]
+    if len(whole) == len(tables):
+        return list(tables)
+    lacking = next(table for table in tables if table not in whole)
+    has, lacks = ("forces", "displacements") if _pushes(lacking) else ("displacements", "forces")
+    if not _pushes(lacking) and not _moves(lacking):
+        has, lacks = "neither", "displacements and forces"
+    partners = [table for table in tables if table is not lacking and len(table.part.rows) == len(lacking.part.rows)]
+    for other in partners:
+        if "t_s" in other.columns and "t_s" in lacking.columns and len(tables) == 2:
+            a, b = other.columns["t_s"], lacking.columns["t_s"]
+            if len(a) == len(b) and np.allclose(a, b, rtol=0, atol=1e-6 + 0.01 * float(np.median(np.abs(np.diff(a))))):
+                notes.append(f"{lacking.part.path.name} and {other.part.path.name} have one clock: joined row by row")
+                first = tables[0]
+                return [type(first)(first.part, {**lacking.columns, **other.columns}, {**lacking.texts, **other.texts})]
+    raise BadFileError(
+        f"{lacks} are missing",
+        where=lacking.part.where,
+        why=f"a loading record has displacement and force side by side, and this table has {has}"
+        + ("; its rows are not those of the other file, by their clocks" if len(tables) > 1 else ""),
+        next_step="join the tables by time into one before importing, or map the column that holds them",
+    )
+
+
+def _moves(table: Table) -> bool:
+    return bool({"dx_mm", "dz_mm", "d_mm"} & set(table.columns))
+
+
+def _pushes(table: Table) -> bool:
+    return bool({"fx_n", "fz_n", "f_n", "weight_n"} & set(table.columns))
+
+
+def _piece(table: Table, mapping: MappingTable, notes: list[str]) -> Columns:
+    """One table: all columns that a loading record has, and `begins`, 1 where a run begins."""
+    columns = table.columns
+    rows = len(next(iter(columns.values())))
+    out: Columns = {name: columns[name] for name in (*OPTIONAL, "temp_degc") if name in columns}
+    for name in ("theta1_rad", "theta2_rad"):
+        out[name] = columns[name] if name in columns else np.full(rows, _constant(table, mapping, name))
+    if "temp_degc" not in out and (degc := mapping.constant(table.part.path.name, "temp_degc")) and degc.value != "?":
+        out["temp_degc"] = np.full(rows, _constant(table, mapping, "temp_degc"))
+    out["t_s"] = columns["t_s"] if "t_s" in columns else _constant(table, mapping, "dwell_s") * np.arange(rows)
+    if "t_s" not in columns:
+        notes.append(f"{table.part.path.name}: t_s is counted, row number times dwell_s")
+    axis = _axis(table, mapping, rows)
+    given = np.zeros(rows, bool)
+    given[0] = True
+    for name in ("run", "rep", "config"):
+        if name in table.texts:
+            texts = table.texts[name]
+            given[1:] |= np.array([a != b for a, b in zip(texts[:-1], texts[1:])], bool)
+    for name in ("theta1_rad", "theta2_rad"):
+        given[1:] |= np.abs(np.diff(out[name])) > ANGLE_JUMP_RAD
+    given[1:] |= np.diff(axis) != 0
+    given[1:] |= np.diff(out["t_s"]) < 0.0
+    out |= _displacements(table, axis, rows, notes)
+    along = np.where(axis == 1, out["dz_mm"], out["dx_mm"])
+    middle = along - along[0] if "yes" in _relatives(mapping) else along
+    numbered = len(set(table.texts.get("run", ()))) > 1
+    out["begins"] = given if numbered else boundaries(middle, given)
+    out["axis"] = axis
+    out |= _forces(table, axis, rows, notes)
+    return out
+
+
+def _relatives(mapping: MappingTable) -> list[str]:
+    return [use.relative for use in mapping.columns if use.used and {"dx_mm", "dz_mm", "d_mm"} & set(use.targets)]
+
+
+def _constant(table: Table, mapping: MappingTable, target: str) -> float:
+    found = mapping.constant(table.part.path.name, target)
+    if found is None or found.value == "?":
+        ask = {
+            "theta1_rad": "--set theta1=42deg", "theta2_rad": "--set theta2=80deg", "dwell_s": "--set dwell=4s",
+        }.get(target, f"--set {target}=VALUE")  # fmt: skip
+        what = {"dwell_s": "time between readings"}.get(target, target)
+        raise BadFileError(
+            f"no column and no constant is the {what}",
+            where=table.part.where,
+            why="K depends on the posture" if "theta" in target else "creep, drift and friction follow the time",
+            next_step=f"{ask}, or a [[constant]] in the mapping file",
+        )
+    unit = unit_of(found.unit)
+    value = float(found.value)
+    return value if unit is None else unit.factor * value + unit.offset
+
+
+def _axis(table: Table, mapping: MappingTable, rows: int) -> np.ndarray:
+    if "axis" in table.texts:
+        wrong = next((text for text in table.texts["axis"] if text not in ("x", "z")), None)
+        if wrong is not None:
+            raise BadFileError(
+                f"axis is {wrong!r} in a row",
+                where=table.part.where,
+                why="it is x (outwards) or z (up)",
+                next_step=f'values = {{ "{wrong}" = "x" }} in its [[column]], say',
+            )
+        return np.array([text == "z" for text in table.texts["axis"]], np.int32)
+    constant = mapping.constant(table.part.path.name, "axis")
+    if constant is not None and constant.value != "?":
+        return np.full(rows, constant.value == "z", np.int32)
+    have = table.columns
+    if "dx_mm" in have and "dz_mm" in have:
+        found = driven_axis(have["dx_mm"] - have["dx_mm"][0], have["dz_mm"] - have["dz_mm"][0])
+        if found is not None:
+            return found.astype(np.int32)
+        if "weight_n" in have:
+            return np.ones(rows, np.int32)
+    elif "dx_mm" in have or "dz_mm" in have:
+        return np.full(rows, "dz_mm" in have, np.int32)
+    raise BadFileError(
+        "the axis along which the tip was moved is not said",
+        where=table.part.where,
+        why="one displacement has no direction" if "d_mm" in have else "the tip moves along x and z at once",
+        next_step="--set axis=x or --set axis=z (for one of several files: --set FILE:axis=x)",
+    )
+
+
+def _displacements(table: Table, axis: np.ndarray, rows: int, notes: list[str]) -> Columns:
+    have, along_z = table.columns, axis == 1
+    out = {name: have.get(name, np.zeros(rows)) for name in ("dx_mm", "dz_mm")}
+    if "d_mm" in have:
+        out["dx_mm"] = np.where(along_z, out["dx_mm"], have["d_mm"])
+        out["dz_mm"] = np.where(along_z, have["d_mm"], out["dz_mm"])
+    lacking = [name for name in ("dx_mm", "dz_mm") if name not in have]
+    if "weight_n" in have and (lacking and not ("d_mm" in have and len(lacking) < 2)):
+        raise BadFileError(
+            "hung weights, and the tip's displacement is known along one axis only",
+            where=table.part.where,
+            why="a weight moves the tip sideways too, and K follows from both displacements",
+            next_step="measure dx_mm and dz_mm under each weight; or hold the tip sideways and read the force there",
+        )
+    if lacking:
+        notes.append(
+            f"{table.part.path.name}: {' and '.join(lacking)} {'is' if len(lacking) == 1 else 'are'} 0 across the "
+            "axis: a "
+            "rig that displaces the tip along one axis holds it on the other"
+        )
+    return out
+
+
+def _forces(table: Table, axis: np.ndarray, rows: int, notes: list[str]) -> Columns:
+    have, along_z = table.columns, axis == 1
+    out = {name: have.get(name, np.full(rows, math.nan)) for name in ("fx_n", "fz_n")}
+    if "f_n" in have:
+        out["fx_n"] = np.where(along_z, out["fx_n"], have["f_n"])
+        out["fz_n"] = np.where(along_z, have["f_n"], out["fz_n"])
+    if "weight_n" in have:
+        if "fz_n" in have or "f_n" in have:
+            raise BadFileError(
+                "a force and a hung weight",
+                where=table.part.where,
+                why="both would be the force on the tip",
+                next_step="ignore one of the two in the mapping",
+            )
+        out["fz_n"] = -np.abs(have["weight_n"])
+        notes.append(
+            f"{table.part.path.name}: the force is that of hung weights, downwards (kg times 9.80665); it was not "
+            "measured, "
+            "and along x nothing was"
+        )
+    return out
+
+
+def _same_clock(pieces: list[Columns], notes: list[str]) -> None:
+    """One clock for all pieces and runs: one that begins anew goes on where the last one ended."""
+    late, again = -math.inf, 0
+    for piece in pieces:
+        t, begins = piece["t_s"].copy(), piece["begins"].astype(bool)
+        steps = np.diff(t)
+        usual = float(np.median(steps[steps > 0])) if np.any(steps > 0) else 1.0
+        shift = 0.0
+        for row in range(len(t)):
+            before = late if row == 0 else t[row - 1]
+            if begins[row] and t[row] + shift < before:
+                shift = before + usual - t[row]
+                again += 1
+            t[row] += shift
+        late = float(t[-1])
+        piece["t_s"] = t
+    if again:
+        notes.append(
+            f"the clock begins anew {'once' if again == 1 else f'{again} times'}: how long the pause was is not "
+            "known; it is "
+            "written as one reading's"
+        )
+
+
+def _held_angles(joined: Columns, run: np.ndarray, notes: list[str]) -> Columns:
+    """The commanded angle is one number a run: where it was read back, its median stands for it."""
+    for name in ("theta1_rad", "theta2_rad"):
+        values = joined[name].copy()
+        most = 0.0
+        for number in np.unique(run):
+            rows = run == number
+            spread = float(np.ptp(values[rows]))
+            if 0.0 < spread <= HELD_RAD:
+                most = max(most, spread)
+                values[rows] = np.median(values[rows])
+        if most > 1e-6:
+            notes.append(
+                f"{name} varies by up to {most:.2g} rad within a run: its median stands for the commanded angle"
+            )
+        joined[name] = values
+    poses = numbers_of_poses(joined["theta1_rad"], joined["theta2_rad"], 5 * SAME_RAD)
+    for name in ("theta1_rad", "theta2_rad"):
+        for pose in np.unique(poses):
+            rows = poses == pose
+            if 0.0 < np.ptp(joined[name][rows]):
+                notes.append(
+                    f"{name} of pose {pose} differs by {np.ptp(joined[name][rows]):.2g} rad between runs: its median"
+                )
+                joined[name][rows] = np.median(joined[name][rows])
+    return joined
+
+
+def _without_single_blanks(joined: Columns, run: np.ndarray, notes: list[str]) -> tuple[Columns, np.ndarray]:
+    """A force, encoder or gauge that is blank through a run was not read there; single blank entries take their row."""
+    drop = np.zeros(len(run), bool)
+    for name in ("fx_n", "fz_n", *OPTIONAL):
+        if name not in joined:
+            continue
+        blank = np.isnan(joined[name])
+        whole = np.isin(run, [number for number in np.unique(run[blank]) if blank[run == number].all()])
+        single = blank & ~whole & ~drop
+        if single.any():
+            notes.append(f"{int(single.sum())} rows left out: {name} is blank in them and not in all of their run")
+        drop |= single
+    if not drop.any():
+        return joined, run
+    kept = run[~drop]
+    return {name: values[~drop] for name, values in joined.items()}, kept
+
+
+def _relative(joined: Columns, run: np.ndarray, mapping: MappingTable, notes: list[str]) -> None:
+    if "yes" not in _relatives(mapping):
+        return
+    for use in mapping.columns:
+        if use.relative != "yes":
+            continue
+        for name in ("dx_mm", "dz_mm") if "d_mm" in use.targets else tuple(set(use.targets) & {"dx_mm", "dz_mm"}):
+            for number in np.unique(run):
+                rows = np.flatnonzero(run == number)
+                joined[name][rows] -= joined[name][rows[0]]
+
+
+def _repeats_and_steps(joined: Columns, run: np.ndarray, starts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    rep, step = np.zeros(len(run), np.int32), np.zeros(len(run), np.int32)
+    seen: dict[tuple[int, int], int] = {}
+    for first, last in zip(starts, [*starts[1:], len(run)]):
+        key = int(joined["config"][first]), int(joined["axis"][first])
+        seen[key] = seen.get(key, 0) + 1
+        rep[first:last] = seen[key]
+        step[first:last] = np.arange(last - first)
+    return rep, step
+
+
+def _held_temperature(degc: np.ndarray, notes: list[str]) -> np.ndarray:
+    blank = np.isnan(degc)
+    if not blank.any():
+        return degc
+    notes.append(f"temp_degc is blank in {int(blank.sum())} of {blank.size} rows: the reading before it stands there")
+    known = np.flatnonzero(~blank)
+    return np.asarray(degc[known[np.clip(np.searchsorted(known, np.arange(degc.size), "right") - 1, 0, None)]])
+
+
+def _zeroed(joined: Columns, starts: np.ndarray) -> bool:
+    """Every run's first force is exactly 0, and others are not."""
+    first = np.concatenate([joined[name][starts] for name in ("fx_n", "fz_n")])
+    first = first[~np.isnan(first)]
+    return len(starts) >= 3 and first.size > 0 and not np.any(first)

@@ -1,0 +1,298 @@
+"""What each column of somebody's files is here: guessed, shown, confirmed, kept in a file, given again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from brace import toml
+from brace.errors import BadFileError, UsageError, did_you_mean
+from brace.importing.meaning import IGNORE, OPEN, TARGETS
+from brace.importing.units import OWN, UNITS, Unit, unit_of
+
+WHAT = "mapping file"
+CONSTANTS = {
+    "loading": ("theta1_rad", "theta2_rad", "axis", "temp_degc", "dwell_s"),
+    "joint_test": ("temp_degc", "dwell_s"),
+    "stiffness_table": (),
+}
+WORDS = {"dwell_s": "time", "theta1_rad": "angle", "theta2_rad": "angle", "temp_degc": "temperature"}
+
+
+@dataclass(frozen=True)
+class ColumnUse:
+    """One column: what it is (several of ours for a symmetric K), its unit, what turns its sign or zero."""
+
+    name: str
+    number: int  # place in the file, from 1; it counts where a name is there twice
+    targets: tuple[str, ...]
+    file: str = ""  # empty: in every file
+    unit: str = ""  # "?" where it must be said
+    sign: str = "1"  # 1, -1, ?
+    offset: float = 0.0  # added after sign and unit, in our unit
+    relative: str = "no"  # yes: less the first reading of each run; ?
+    values: Mapping[str, str] = field(default_factory=dict)  # of an axis column
+    why: str = ""
+    span: str = ""  # least and greatest entry, for the person
+
+    @property
+    def used(self) -> bool:
+        return self.targets != (IGNORE,)
+
+    @property
+    def questions(self) -> list[str]:
+        """What has to be said about it."""
+        told = []
+        if OPEN in self.targets:
+            told.append(f"{self.name!r}: what is it? ({self.why})")
+        elif self.used:
+            if self.unit == OPEN:
+                told.append(f"{self.name!r}: in which unit? Its entries go from {self.span}")
+            if self.sign == OPEN:
+                told.append(
+                    f"{self.name!r}: is its sign turned? {self.why}; a limb pushes back. sign = -1 turns it (many "
+                    "sensors read "
+                    "the force of the limb on them); if it is the other column that is turned, turn that one"
+                )
+            if self.relative == OPEN:
+                told.append(
+                    f"{self.name!r}: does its zero mean unloaded? It begins far from 0; relative = true takes each "
+                    "run's first entry off"
+                )
+        return told
+
+
+@dataclass(frozen=True)
+class Constant:
+    """What holds for a whole file and stands in no column: an angle, an axis, the time between readings."""
+
+    target: str
+    value: str  # a number, or x or z; "?" where it must be said
+    unit: str = ""
+    file: str = ""
+    why: str = ""
+
+    @property
+    def questions(self) -> list[str]:
+        of = f" of {self.file}" if self.file else ""
+        if self.value == OPEN:
+            return [f"{self.target}{of}: {self.why}"]
+        return [f"{self.target}{of} = {self.value}: in which unit?"] if self.unit == OPEN else []
+
+
+@dataclass(frozen=True)
+class MappingTable:
+    """All of it. `meta` goes into meta.toml as it is."""
+
+    kind: str
+    columns: tuple[ColumnUse, ...]
+    constants: tuple[Constant, ...] = ()
+    meta: Mapping[str, Mapping[str, object]] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+    @property
+    def questions(self) -> list[str]:
+        """What must be said before anything is imported."""
+        of_columns = [text for use in self.columns for text in use.questions]
+        return of_columns + [text for each in self.constants for text in each.questions]
+
+    def column(self, file: str, name: str, number: int) -> ColumnUse | None:
+        """The entry of a file's column."""
+        found = [use for use in self.columns if use.name == name and use.file in ("", file)]
+        return next((use for use in found if use.number == number), found[0] if len(found) == 1 else None)
+
+    def constant(self, file: str, target: str) -> Constant | None:
+        """The file's own constant, or the one of all files."""
+        found = [each for each in self.constants if each.target == target and each.file in ("", file)]
+        return next((each for each in found if each.file), found[0] if found else None)
+
+    def with_constants(self, given: Iterable[Constant]) -> MappingTable:
+        """The same with some constants said."""
+        kept = self
+        for new in given:
+            rest = tuple(c for c in kept.constants if c.target != new.target or (new.file and c.file != new.file))
+            kept = replace(kept, constants=(*rest, new))
+        return kept
+
+
+def to_toml(table: MappingTable) -> str:
+    """The mapping file: what may stand where is said in its comments."""
+    quantity = TARGETS[table.kind]
+    lines = [
+        "# How brace import reads these files. Every ? must be answered; all else may be corrected.",
+        f"# is: {', '.join(quantity)}, or ignore",
+        "# unit: as written, e.g. " + ", ".join(f"{unit.text}" for unit in list(UNITS.values())[:60:3]),
+        "# sign: -1 turns it. x is outwards, z up; a force is the one on the limb; theta2 is 0 for the straight knee.",
+        "# offset: added afterwards, in our unit. relative = true: less the first entry of each run.",
+        "format = 1",
+        f'kind = "{table.kind}"',
+    ]
+    for name, content in table.meta.items():
+        lines += ["", f"[meta.{name}]", *(f"{key} = {_value(value)}" for key, value in content.items())]
+    for use in table.columns:
+        is_text = _value(list(use.targets)) if len(use.targets) > 1 else _value(use.targets[0])
+        lines += ["", "[[column]]" + (f"  # {use.span}" if use.span else ""), f"name = {_value(use.name)}"]
+        lines += [f"number = {use.number}"] + ([f"file = {_value(use.file)}"] if use.file else [])
+        lines.append(f"is = {is_text}" + (f"  # {use.why}" if use.why else ""))
+        if use.used and OPEN not in use.targets and any(quantity.get(target) for target in use.targets):
+            lines += [f"unit = {_value(use.unit)}", f"sign = {_value(OPEN) if use.sign == OPEN else use.sign}"]
+        if use.offset:
+            lines.append(f"offset = {use.offset!r}")
+        if use.relative != "no":
+            lines.append(f"relative = {_value(OPEN) if use.relative == OPEN else 'true'}")
+        if use.values:
+            lines.append("values = { " + ", ".join(f"{_value(k)} = {_value(v)}" for k, v in use.values.items()) + " }")
+    for each in table.constants:
+        lines += ["", "[[constant]]", f"is = {_value(each.target)}"] + (
+            [f"file = {_value(each.file)}"] if each.file else []
+        )
+        lines.append(f"value = {_value(each.value)}" + (f"  # {each.why}" if each.why else ""))
+        if each.target != "axis":
+            lines.append(f"unit = {_value(each.unit)}")
+    return "\n".join(lines) + "\n"
+
+
+def _value(value: object) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_value(item) for item in value) + "]"
+    if isinstance(value, str):
+        escaped = value.replace("\\", "\\\\").replace('"', '\\"')
+        return '"' + "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in escaped) + '"'
+    return repr(value)
+
+
+_COLUMN_KEYS = ("name", "number", "file", "is", "unit", "sign", "offset", "relative", "values")
+_CONSTANT_KEYS = ("is", "value", "unit", "file")
+
+
+def read(path: Path) -> MappingTable:
+    """Reads and checks a mapping file; refuses with file:line."""
+    document = toml.read(path, WHAT)
+    content = document.content
+    _known(document, content, ("format", "kind", "meta", "column", "constant"), "")
+    kind = content.get("kind")
+    if kind not in TARGETS:
+        raise _bad(document, "kind", f"kind = {kind!r} is no kind of record", f"one of {', '.join(TARGETS)}")
+    columns = tuple(
+        _column(document, f"column.{number}", entry, str(kind))
+        for number, entry in enumerate(_tables(content, "column"))
+    )
+    constants = tuple(
+        _constant(document, f"constant.{number}", entry, str(kind))
+        for number, entry in enumerate(_tables(content, "constant"))
+    )
+    meta = content.get("meta", {})
+    if not isinstance(meta, dict) or not all(isinstance(item, dict) for item in meta.values()):
+        raise _bad(document, "meta", "meta holds tables of meta.toml", "[meta.sensor] range_n = 145.0, say")
+    return MappingTable(str(kind), columns, constants, meta)
+
+
+def _tables(content: Mapping[str, object], name: str) -> list[dict[str, object]]:
+    found = content.get(name, [])
+    return [item for item in found if isinstance(item, dict)] if isinstance(found, list) else []
+
+
+def _known(document: toml.Document, entry: Mapping[str, object], keys: tuple[str, ...], prefix: str) -> None:
+    for key in entry:
+        if key not in keys:
+            near = did_you_mean(key, keys)
+            raise _bad(
+                document, f"{prefix}{key}", f"unknown key {key}", f"did you mean {near}?" if near else ", ".join(keys)
+            )
+
+
+def _column(document: toml.Document, at: str, entry: dict[str, object], kind: str) -> ColumnUse:
+    _known(document, entry, _COLUMN_KEYS, at + ".")
+    given = entry.get("is", OPEN)
+    targets = tuple(given) if isinstance(given, list) else (given,)
+    for target in targets:
+        _target(document, f"{at}.is", target, (*TARGETS[kind], IGNORE, OPEN))
+    quantity = {TARGETS[kind].get(str(target), "") for target in targets} - {""}
+    unit = str(entry.get("unit", OPEN if quantity else ""))
+    if quantity and unit != OPEN:
+        _unit(document, f"{at}.unit", unit, quantity.pop())
+    sign = str(entry.get("sign", 1))
+    if sign not in ("1", "-1", OPEN):
+        raise _bad(document, f"{at}.sign", f"sign = {sign} is no sign", "1 or -1")
+    offset, relative, values = entry.get("offset", 0.0), entry.get("relative", False), entry.get("values", {})
+    if isinstance(offset, bool) or not isinstance(offset, (int, float)):
+        raise _bad(
+            document, f"{at}.offset", f"offset = {offset!r} is not a number", "a number in our unit (rad, mm, N)"
+        )
+    if relative not in (True, False, OPEN):
+        raise _bad(document, f"{at}.relative", f"relative = {relative!r}", "true or false")
+    if not isinstance(values, dict) or any(value not in ("x", "z") for value in values.values()):
+        raise _bad(document, f"{at}.values", "values says x or z for each entry", '{ "horizontal" = "x" }')
+    return ColumnUse(
+        name=str(entry.get("name", "")),
+        number=int(str(entry.get("number", 0))),
+        targets=tuple(map(str, targets)),
+        file=str(entry.get("file", "")),
+        unit=unit,
+        sign=sign,
+        offset=float(offset),
+        relative="yes" if relative is True else "no" if relative is False else OPEN,
+        values={str(k): str(v) for k, v in values.items()},
+    )
+
+
+def _constant(document: toml.Document, at: str, entry: dict[str, object], kind: str) -> Constant:
+    _known(document, entry, _CONSTANT_KEYS, at + ".")
+    target = entry.get("is")
+    _target(document, f"{at}.is", target, CONSTANTS[kind])
+    try:
+        return checked_constant(
+            str(target), str(entry.get("value", OPEN)), str(entry.get("unit", "")), str(entry.get("file", ""))
+        )
+    except UsageError as error:
+        raise _bad(document, f"{at}.value", error.what, error.next_step) from None
+
+
+def checked_constant(target: str, value: str, unit: str = "", file: str = "") -> Constant:
+    """A constant as it was said; refuses what it cannot be."""
+    if value == OPEN:
+        return Constant(target, value, unit, file)
+    if target == "axis":
+        if value not in ("x", "z"):
+            raise UsageError(f"axis = {value!r} is no axis", why="x is outwards, z up", next_step="x or z")
+        return Constant(target, value, "", file, "said")
+    try:
+        float(value)
+    except ValueError:
+        raise UsageError(f"{target} = {value!r} is not a number", why="", next_step="e.g. 42.5") from None
+    found = unit_of(unit)
+    if unit and unit != OPEN and (found is None or found.quantity != WORDS[target]):
+        raise UsageError(
+            f"{unit!r} is no unit of {target}",
+            why=f"it is {_article(WORDS[target])}",
+            next_step=f"e.g. {OWN[WORDS[target]]}",
+        )
+    return Constant(target, value, unit or OPEN, file, "said")
+
+
+def _article(quantity: str) -> str:
+    return f"an {quantity}" if quantity[0] in "aeiou" else f"a {quantity}"
+
+
+def _target(document: toml.Document, at: str, target: object, allowed: Sequence[str]) -> None:
+    if target in allowed:
+        return
+    near = did_you_mean(str(target), allowed)
+    raise _bad(
+        document, at, f"is = {target!r} is no column of ours", f"did you mean {near}?" if near else ", ".join(allowed)
+    )
+
+
+def _unit(document: toml.Document, at: str, text: str, quantity: str) -> Unit:
+    unit = unit_of(text)
+    if unit is None or unit.quantity != quantity:
+        known = ", ".join(each.text for each in UNITS.values() if each.quantity == quantity)
+        raise _bad(document, at, f"unit = {text!r} is no unit of {_article(quantity)}", known)
+    return unit
+
+
+def _bad(document: toml.Document, key: str, what: str, way: str) -> BadFileError:
+    return BadFileError(what, where=document.where(key), why="a mapping file says what each column is", next_step=way)

@@ -1,0 +1,104 @@
+"""Numbers as people's programs write them: decimal points or commas, thousands, clock times, marks for 'nothing'."""
+
+from __future__ import annotations
+
+import datetime
+import math
+import re
+from collections.abc import Iterable
+
+MISSING = frozenset(
+    ("", "nan", "na", "n/a", "#n/a", "#nv", "null", "none", "nil", "-", "--", "---", "?", "1.#qnan", "1.#ind",
+     "-1.#ind", "-nan", "nan(ind)", "#div/0!", "#value!", "#wert!", "inf", "-inf", "+inf")
+)  # fmt: skip
+_PLAIN = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][-+]?\d+)?")
+_GROUPED = re.compile(
+    r"[-+]?\d{1,3}(?:(?P<mark>[.,'\u2019\u00a0\u202f ])\d{3})(?:(?P=mark)\d{3})*(?:[.,]\d+)?(?:[eE][-+]?\d+)?"
+)
+_MINUS = str.maketrans({"\u2212": "-", "\u2013": "-", "\u2012": "-", "\u00a0": " ", "\u202f": " "})
+_CLOCK = re.compile(
+    r"(?:(?P<date>[\d./-]+)[ T]+)?(?P<h>\d{1,2}):(?P<m>\d{2})(?::(?P<s>\d{2}(?:[.,]\d+)?))?\s*(?P<half>[AaPp][Mm])?Z?"
+)
+_DATE = (("%Y-%m-%d"), ("%d.%m.%Y"), ("%d.%m.%y"), ("%Y/%m/%d"), ("%m/%d/%Y"), ("%d/%m/%Y"), ("%d-%m-%Y"))
+DAY_S = 86400.0
+
+
+def plain(text: str) -> str:
+    """Without blanks around, with an ASCII minus, without a quote mark that forces text in spreadsheets."""
+    return text.translate(_MINUS).strip().lstrip("'")
+
+
+def is_missing(text: str) -> bool:
+    """Whether the cell says that nothing was read."""
+    return plain(text).lower() in MISSING
+
+
+def is_number(text: str) -> bool:
+    """Whether the cell is a number by one of the ways to write them."""
+    text = plain(text)
+    return bool(_PLAIN.fullmatch(text) or _GROUPED.fullmatch(text))
+
+
+def decimal_sign(cells: Iterable[str]) -> tuple[str, str, str]:
+    """The decimal sign of a file's numbers ("." or ","); "" where it cannot be told; "?" where numbers contradict one
+    another. Behind it an example of each: with a point, with a comma."""
+    point = comma = open_text = ""
+    for cell in cells:
+        text = plain(cell)
+        if "," not in text and "." not in text or not is_number(text):
+            continue
+        body = text.lstrip("+-").lower().partition("e")[0]
+        last = max(body.rfind(","), body.rfind("."))
+        sign, before, after = body[last], body[:last], body[last + 1 :]
+        if body.count(",") and body.count("."):
+            decides = True
+        elif body.count(sign) > 1:
+            sign, decides = ("," if sign == "." else "."), True
+        else:
+            decides = len(after) != 3 or before in ("", "0") or len(before) > 3
+        if not decides:
+            open_text = open_text or text
+        elif sign == ".":
+            point = point or text
+        else:
+            comma = comma or text
+    if point and comma:
+        return "?", point, comma
+    if point or comma:
+        return ("." if point else ","), point, comma
+    if not open_text:
+        return ".", "", ""
+    return ("." if "." in open_text else ""), open_text, open_text
+
+
+def number(text: str, decimal: str) -> float:
+    """The number; NaN where the cell is none."""
+    text = plain(text)
+    if _PLAIN.fullmatch(text) or _GROUPED.fullmatch(text):
+        other = "." if decimal == "," else ","
+        text = re.sub(r"['\u2019 ]", "", text).replace(other, "")
+        try:
+            value = float(text.replace(",", "."))
+        except ValueError:
+            return math.nan
+        return value if math.isfinite(value) else math.nan
+    return math.nan
+
+
+def clock_s(text: str) -> float:
+    """Seconds of a clock time or a date with time, since midnight or since the calendar's beginning; NaN otherwise."""
+    found = _CLOCK.fullmatch(text.strip())
+    if not found:
+        return math.nan
+    seconds = 3600.0 * int(found["h"]) + 60.0 * int(found["m"]) + float((found["s"] or "0").replace(",", "."))
+    if found["half"]:
+        seconds += (12 if found["half"].lower() == "pm" else 0) * 3600.0 - (12 * 3600.0 if int(found["h"]) == 12 else 0)
+    if not found["date"]:
+        return seconds
+    for form in _DATE:
+        try:
+            day = datetime.datetime.strptime(found["date"], form)
+        except ValueError:
+            continue
+        return day.toordinal() * DAY_S + seconds
+    return math.nan

@@ -1,0 +1,48 @@
+"""One table as it was found in a file: names, units, cells as text, remarks above it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Part:
+    """A file has one or several. `lines` has the number of each row's line in the file; `units` is empty where there is
+    no row of units; `names` are #1, #2 ... where the file names no columns."""
+
+    path: Path
+    names: tuple[str, ...]
+    units: tuple[str, ...]
+    rows: list[list[str]]
+    lines: list[int]
+    decimal: str
+    remarks: Mapping[str, str] = field(default_factory=dict)
+    sheet: str = ""
+    how: str = ""  # read: encoding, separator, decimal sign, in words
+    skipped: int = 0  # lines below the table that are no readings
+
+    @property
+    def where(self) -> str:
+        """The file, and its sheet."""
+        return f"{self.path}[{self.sheet}]" if self.sheet else str(self.path)
+
+    @property
+    def has_names(self) -> bool:
+        return not all(name.startswith("#") for name in self.names)
+
+    def cells(self, index: int) -> list[str]:
+        """One column."""
+        return [row[index] for row in self.rows]
+
+
+@dataclass(frozen=True)
+class Table:
+    """The columns of one part in our units, NaN where nothing was read; rows that say nothing are gone."""
+
+    part: Part
+    columns: dict[str, np.ndarray]
+    texts: dict[str, list[str]]  # run, config, rep, axis as they stand there

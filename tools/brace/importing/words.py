@@ -1,0 +1,56 @@
+"""The mapping as a person confirms it: a line for each column, then what must be said."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from brace.importing.mapping import ColumnUse, MappingTable
+from brace.importing.meaning import OPEN
+from brace.importing.part import Part
+from brace.importing.units import unit_of
+
+MEANING = {
+    "loading": "a loading test: the tip is displaced, the force is read",
+    "joint_test": "a joint test: angle and torque of one joint",
+    "stiffness_table": "a table of K by posture",
+}
+
+
+def lines(parts: Sequence[Part], mapping: MappingTable) -> list[str]:
+    """How the files were read, every column, every constant, every open question."""
+    told = []
+    for path in dict.fromkeys(part.path for part in parts):
+        own = [part for part in parts if part.path == path]
+        rows = sum(len(part.rows) for part in own)
+        tables = f", {len(own)} tables" if len(own) > 1 else ""
+        sheet = f", sheet {own[0].sheet!r}" if own[0].sheet else ""
+        told.append(f"{path.name}: {own[0].how}{sheet}; {rows} rows from line {own[0].lines[0]}{tables}")
+    told += [f"taken for {MEANING[mapping.kind]} (--kind says otherwise)", ""]
+    table = [("column", "is", "unit", "entries", "because")]
+    table += [_row(use) for use in mapping.columns]
+    table += [
+        (f"(of {each.file or 'all files'})", each.target, each.unit, each.value, each.why) for each in mapping.constants
+    ]
+    widths = [min(34, max(len(row[place]) for row in table)) for place in range(4)]
+    for row in table:
+        told.append("  ".join([*(text.ljust(width) for text, width in zip(row, widths)), row[4]]).rstrip())
+    if mapping.kind == "loading":
+        told += [
+            "",
+            "x is outwards, z up; a force is the one on the limb; theta1 counts from +x, theta2 is 0 for a straight "
+            "knee",
+        ]
+    questions = mapping.questions
+    if questions:
+        told += ["", f"{len(questions)} to be said:", *(f"  {text}" for text in questions)]
+    return told
+
+
+def _row(use: ColumnUse) -> tuple[str, str, str, str, str]:
+    name = use.name + (f" ({use.file})" if use.file else "")
+    if not use.used:
+        return name, "ignore", "", use.span, use.why
+    unit = unit_of(use.unit) if use.unit not in ("", OPEN) else None
+    written = "?" if use.unit == OPEN else unit.text if unit else ""
+    written = ("-" if use.sign == "-1" else "") + written
+    return name, " ".join(use.targets), written, use.span, use.why

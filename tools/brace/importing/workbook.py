@@ -1,0 +1,107 @@
+"""Excel workbooks (.xlsx), read with openpyxl."""
+
+from __future__ import annotations
+
+import datetime
+import io
+import zipfile
+from pathlib import Path
+
+from brace.errors import BadFileError, UsageError
+from brace.files import DATA_LIMIT_BYTES, read_bytes
+from brace.importing.numerals import DAY_S
+from brace.importing.part import Part
+from brace.importing.table_in_lines import Line, parts, width_of
+
+WHAT = "workbook"
+
+
+def is_workbook(path: Path) -> bool:
+    """Whether the file is a zipped one: a workbook, or something that is not read."""
+    try:
+        with path.open("rb") as file:
+            return file.read(4) == b"PK\x03\x04"
+    except OSError:
+        return False
+
+
+def read(path: Path, *, sheet: str = "", decimal: str = "") -> list[Part]:
+    """The tables of one sheet: the one that is named, or the only one that has any."""
+    data = read_bytes(path, DATA_LIMIT_BYTES, WHAT)
+    if not _has_sheets(data):
+        raise BadFileError(
+            "a zipped file that is no Excel workbook, or a damaged one",
+            where=str(path),
+            why="brace import reads text (CSV and the like) and .xlsx",
+            next_step="save it as .xlsx or CSV, or unpack it",
+        )
+    try:
+        import openpyxl
+    except ImportError:
+        raise UsageError(
+            "this is an Excel workbook, and openpyxl is not installed",
+            where=str(path),
+            why="openpyxl reads it",
+            next_step="pip install openpyxl, or save the sheet as CSV",
+        ) from None
+    book = openpyxl.load_workbook(io.BytesIO(data), read_only=True, data_only=True)
+    names = book.sheetnames
+    if sheet and sheet not in names:
+        raise UsageError(
+            f"no sheet {sheet!r}", where=str(path), why=f"its sheets are {', '.join(names)}", next_step="--sheet NAME"
+        )
+    tables = {}
+    for name in [sheet] if sheet else names:
+        lines = _lines(book[name])
+        if width_of(lines) >= 2:
+            tables[name] = lines
+    if not tables:
+        raise BadFileError(
+            "no table of readings in this workbook",
+            where=str(path),
+            why="no sheet has rows with two or more numbers (formulas that were never computed have none)",
+            next_step="open it in a spreadsheet program, save it there, or export the sheet as CSV",
+        )
+    if len(tables) > 1:
+        raise UsageError(
+            f"{len(tables)} sheets have tables: {', '.join(tables)}",
+            where=str(path),
+            why="it is not said which is meant",
+            next_step=f"--sheet {next(iter(tables))!r}",
+        )
+    name, lines = next(iter(tables.items()))
+    return parts(path, lines, decimal=decimal or ".", how="Excel workbook", sheet=name)
+
+
+def _has_sheets(data: bytes) -> bool:
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            return any(name.startswith("xl/") for name in archive.namelist())
+    except zipfile.BadZipFile:
+        return False
+
+
+def _lines(sheet: object) -> list[Line]:
+    lines = []
+    for number, row in enumerate(sheet.iter_rows(values_only=True), start=1):  # type: ignore[attr-defined]
+        texts = [_text(cell) for cell in row]
+        lines.append(Line(number, ";".join(texts), texts))
+    widest = max((index + 1 for line in lines for index, cell in enumerate(line.cells) if cell.strip()), default=0)
+    return [Line(line.number, line.text, (line.cells + [""] * widest)[:widest]) for line in lines]
+
+
+def _text(cell: object) -> str:
+    if cell is None:
+        return ""
+    if isinstance(cell, bool):
+        return str(cell)
+    if isinstance(cell, float):
+        return repr(cell)
+    if isinstance(cell, datetime.datetime):
+        day = cell.date().toordinal() * DAY_S
+        return repr(day + (cell - datetime.datetime.combine(cell.date(), datetime.time())).total_seconds())
+    if isinstance(cell, datetime.time):
+        return cell.isoformat()
+    if isinstance(cell, datetime.timedelta):
+        return repr(cell.total_seconds())
+    return str(cell).strip()
