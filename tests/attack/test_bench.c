@@ -365,6 +365,28 @@ static void test_a_stranger_s_value_does_not_go_in_with_the_operator_s_commit(vo
     TEST_ASSERT_EQUAL_FLOAT(190.0f, brace_app_parameters(&app)->limb.femur_mm);
 }
 
+/* By register too, with nothing staged even. */
+static void test_a_commit_by_register_names_its_set(void)
+{
+    uint32_t value[] = {0xc0de0002};
+    TEST_ASSERT_EQUAL(5, write_values(COMMAND_REGISTER(set_mode), value, 1).count);
+    value[0] = 0x12345678;
+    TEST_ASSERT_EQUAL(5, write_values(COMMAND_REGISTER(commit_crc), value, 1).count);
+    ticks(400);
+    reply_t reply = read_asks(3, COMMAND_REGISTER(commit_crc), 2);
+    TEST_ASSERT_EQUAL(256 + (int)BRACE_STORE_E_REFUSED, value_at(&reply, 0));
+    value[0] = bits(190.0f);
+    TEST_ASSERT_EQUAL(5, write_values(2, value, 1).count);
+    brace_parameters_t meant = *brace_app_parameters(&app);
+    meant.limb.femur_mm = 190.0f;
+    value[0] = brace_parameters_crc(&meant);
+    TEST_ASSERT_EQUAL(5, write_values(COMMAND_REGISTER(commit_crc), value, 1).count);
+    ticks(400);
+    reply = read_asks(3, COMMAND_REGISTER(commit_crc), 2);
+    TEST_ASSERT_EQUAL(0, value_at(&reply, 0));
+    TEST_ASSERT_EQUAL_FLOAT(190.0f, brace_app_parameters(&app)->limb.femur_mm);
+}
+
 static void test_seventy_commits_erase_once(void)
 {
     uint8_t data[8];
@@ -467,6 +489,7 @@ int main(void)
     RUN_TEST(test_connections_by_hand_follow_one_another);
     RUN_TEST(test_letting_go_afterwards_is_a_parameter);
     RUN_TEST(test_a_stranger_s_value_does_not_go_in_with_the_operator_s_commit);
+    RUN_TEST(test_a_commit_by_register_names_its_set);
     RUN_TEST(test_seventy_commits_erase_once);
     RUN_TEST(test_no_parameter_passes_the_board_s_ceilings);
     RUN_TEST(test_drives_are_told_no_more_than_the_board_allows);

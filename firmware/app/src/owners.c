@@ -75,6 +75,9 @@ int32_t brace_app_may_command(brace_app_t *app, brace_command_t command, brace_w
         const brace_who_t writer = {who.port, who.port == BRACE_ASKER_MODBUS_TCP ? who.master : 0u};
         return told(controller, ownership_may_write(ownership, writer, controller_has_hung_up(controller, ownership->configurer)));
     }
+    if (command == BRACE_COMMAND_MOVES && ownership->program_moves) {
+        return told(controller, session_refuse(&ownership->session, BRACE_REFUSED_OWNED));
+    }
     return told(controller, session_command(&ownership->session, master_of(controller, who), seal, bytes, count));
 }
 

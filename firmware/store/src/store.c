@@ -440,8 +440,8 @@ static brace_store_state_t spoil(brace_store_t *store)
 
 static brace_store_state_t erase(brace_store_t *store)
 {
-    const uint32_t slot = store->target;
     store->erases += store->erases < UINT32_MAX;
+    const uint32_t slot = store->target;
     if (store->hal->nvm_erase(store->hal->context, slot) != BRACE_HAL_OK) {
         return fail(store, BRACE_STORE_E_DEVICE);
     }

@@ -11,7 +11,7 @@ static bool is_same(brace_who_t one, brace_who_t other)
     return one.port == other.port && one.master == other.master;
 }
 
-static int32_t refuse(session_t *session, int32_t status)
+int32_t session_refuse(session_t *session, int32_t status)
 {
     uint32_t *count = status == BRACE_REFUSED_REPLAY ? &session->counts.replays : &session->counts.strangers;
     *count += *count < UINT32_MAX;
@@ -84,25 +84,25 @@ static int32_t check(session_t *session, brace_who_t who, const brace_seal_t *se
 {
     uint32_t counter = 0;
     if (session->setting == BRACE_SETTING_NO_KEY) {
-        return refuse(session, BRACE_REFUSED_NO_KEY);
+        return session_refuse(session, BRACE_REFUSED_NO_KEY);
     }
     if (seal == NULL || !seal->is_there || !session->has_challenge) {
-        return refuse(session, session->is_open ? BRACE_REFUSED_OWNED : BRACE_REFUSED_STRANGER);
+        return session_refuse(session, session->is_open ? BRACE_REFUSED_OWNED : BRACE_REFUSED_STRANGER);
     }
     const bool opens = kind == SESSION_LIFE && seal->counter == 0u && !session->is_open;
     if (!opens && !session->is_open) {
-        return refuse(session, BRACE_REFUSED_STRANGER);
+        return session_refuse(session, BRACE_REFUSED_STRANGER);
     }
     if (!opens && !whole_counter(session, seal, &counter)) {
-        return refuse(session, is_same(who, session->owner) ? BRACE_REFUSED_REPLAY : BRACE_REFUSED_OWNED);
+        return session_refuse(session, is_same(who, session->owner) ? BRACE_REFUSED_REPLAY : BRACE_REFUSED_OWNED);
     }
     if (seal->mac != mac_of(session, counter, kind, bytes, count)) {
-        return refuse(session, is_same(who, session->owner) || opens ? BRACE_REFUSED_STRANGER : BRACE_REFUSED_OWNED);
+        return session_refuse(session, is_same(who, session->owner) || opens ? BRACE_REFUSED_STRANGER : BRACE_REFUSED_OWNED);
     }
     if (opens) {
         open_for(session, who);
     } else if (!is_same(who, session->owner)) {
-        return refuse(session, BRACE_REFUSED_OWNED);
+        return session_refuse(session, BRACE_REFUSED_OWNED);
     }
     session->counter = counter;
     session->silent_us = 0;
@@ -124,7 +124,7 @@ int32_t session_life(session_t *session, brace_who_t who, const brace_seal_t *se
         return BRACE_OK;
     }
     if (!session_is_free_for(session, who)) {
-        return refuse(session, BRACE_REFUSED_OWNED);
+        return session_refuse(session, BRACE_REFUSED_OWNED);
     }
     session->owner = who;
     session->has_hung_up = false;
@@ -140,7 +140,7 @@ int32_t session_command(session_t *session, brace_who_t who, const brace_seal_t 
         return check(session, who, seal, SESSION_COMMAND, bytes, count);
     }
     if (!session_is_free_for(session, who)) {
-        return refuse(session, BRACE_REFUSED_OWNED);
+        return session_refuse(session, BRACE_REFUSED_OWNED);
     }
     session->owner = who;
     session->has_hung_up = false;

@@ -68,6 +68,9 @@ int32_t session_life(session_t *session, brace_who_t who, const brace_seal_t *se
 int32_t session_command(session_t *session, brace_who_t who, const brace_seal_t *seal, const uint8_t *bytes,
                         uint32_t count);
 
+/* Counts a refusal. returns the status */
+int32_t session_refuse(session_t *session, int32_t status);
+
 /* Is this the owner, or is there none? On a bench, for what is configured. */
 bool session_is_free_for(const session_t *session, brace_who_t who);
 

@@ -1,4 +1,6 @@
 /* A parameter block word by word: uploaded, stored, downloaded. */
+#include <stddef.h>
+
 #include "brace/words.h"
 #include "wire/answers/answer.h"
 #include "wire/measured.h"
@@ -157,10 +159,10 @@ int32_t answer_commit(request_t *request, const brace_commit_request_t *asked, b
         request->detail = wait_ms;
         return early;
     }
-    const bool is_uploaded = asked->crc != 0u && request->transfer != NULL && request->transfer->upload_is_open;
-    const bool is_named = asked->crc != 0u && !is_uploaded && brace_app_has_staged(request->app);
-    return later(asked->crc == 0u || is_named ? store_staged(request, asked->crc)
-                                              : store_upload(request, asked->crc));
+    const transfer_t *transfer = request->transfer;
+    const bool is_staged = transfer == NULL || (!transfer->upload_is_open && brace_app_has_staged(request->app));
+    return later(asked->crc == 0u || is_staged ? store_staged(request, asked->crc)
+                                               : store_upload(request, asked->crc));
 }
 
 int32_t answer_rollback(request_t *request, const brace_rollback_request_t *asked, brace_rollback_answer_t *answer)
