@@ -9,10 +9,11 @@
 namespace brace::effects::contact_play {
 
 // When the socket moves to a displacement, the tip follows no further than half the clearance behind it.
-inline Eigen::Vector2d dragged_mm(const Model &model, const Eigen::Vector2d &tip_mm,
-                                  const Eigen::Vector2d &socket_mm)
+template <int N>
+Eigen::Matrix<double, N, 1> dragged_mm(const Model &model, const Eigen::Matrix<double, N, 1> &tip_mm,
+                                       const Eigen::Matrix<double, N, 1> &socket_mm)
 {
-    const Eigen::Array2d half = Eigen::Array2d::Constant(0.5 * model.contact.play_mm);
+    const double half = 0.5 * model.contact.play_mm;
     return tip_mm.array().max(socket_mm.array() - half).min(socket_mm.array() + half);
 }
 

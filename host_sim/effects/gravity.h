@@ -10,11 +10,20 @@
 
 namespace brace::effects::gravity {
 
-// Where weights pull to, in the limb's plane; shorter than 1 where the plane leans.
-inline Eigen::Vector2d down(const Model &model)
+// Where weights pull to: x outwards in the limb's plane, y to the left of it, z up.
+inline Eigen::Vector3d down_in_space(const Model &model)
 {
     const auto &weight = model.gravity;
-    return std::cos(weight.lean_rad) * Eigen::Vector2d(std::cos(weight.direction_rad), std::sin(weight.direction_rad));
+    const double in_plane = std::cos(weight.lean_rad);
+    return {in_plane * std::cos(weight.direction_rad), std::sin(weight.lean_rad),
+            in_plane * std::sin(weight.direction_rad)};
+}
+
+// The same in the limb's plane; shorter than 1 where the plane leans.
+inline Eigen::Vector2d down(const Model &model)
+{
+    const Eigen::Vector3d in_space = down_in_space(model);
+    return {in_space.x(), in_space.z()};
 }
 
 // Torques of the weights about the femur joint and the knee [N mm], counter-clockwise positive.

@@ -1,4 +1,4 @@
-// Shared by the limb's plane and the chain across it: the contact at the tip, and which flank of a gap carries.
+// The contact at the tip, and which flank of a gap carries.
 #pragma once
 
 #include <algorithm>

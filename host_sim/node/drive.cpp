@@ -87,9 +87,9 @@ void step_motors(const brace_node_drive_t *drive, double dt_s, const Vector<N> &
     }
 }
 
-template void step_motors<1>(const brace_node_drive_t *, double, const Vector<1> &, const Vector<1> &,
-                             const Matrix<1> &, Motor *);
 template void step_motors<2>(const brace_node_drive_t *, double, const Vector<2> &, const Vector<2> &,
                              const Matrix<2> &, Motor *);
+template void step_motors<3>(const brace_node_drive_t *, double, const Vector<3> &, const Vector<3> &,
+                             const Matrix<3> &, Motor *);
 
 } // namespace brace::node

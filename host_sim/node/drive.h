@@ -18,7 +18,7 @@ struct Motor {
     double limit_n_mm = 0.0; // present limit of the torque
 };
 
-// One step of the motors of N joints: 2 in the limb's plane, 1 across it. drive and motor have N entries each.
+// One step of the motors of N joints: 2 in the limb's plane, 3 in space. drive and motor have N entries each.
 //   load_n_mm: torque that each motor has to bring to its link, at the present angles
 //   stiffness_n_mm_per_rad: the largest change of that torque with the angles
 template <int N>

@@ -19,7 +19,7 @@ namespace
 {
 
 using Eigen::Vector2d;
-using Scalar = Eigen::Matrix<double, 1, 1>; // of one joint alone
+using Eigen::Vector3d;
 
 constexpr double kStep_s = 1e-3;                   // longest step of the motors
 constexpr int kSettleSteps = 1000;                 // before the controller starts
@@ -50,7 +50,7 @@ LimbNode::LimbNode(const brace_node_limb_t &limb, std::uint64_t seed)
       force_noise_n_(limb.force_noise_n), temp_start_degc_(limb.temp_start_degc),
       temp_rise_degc_(limb.temp_rise_degc), temp_time_constant_s_(limb.temp_time_constant_s),
       has_link_encoder_(limb.has_link_encoder != 0), has_coxa_joint_(node::has_coxa_joint(limb.plant)),
-      hold_n_per_mm_(limb.hold_n_per_mm), noise_(seed), limb_(plant_), chain_(plant_),
+      hold_n_per_mm_(limb.hold_n_per_mm), noise_(seed), limb_(plant_),
       app_(std::make_unique<brace_app_t>())
 {
     setpoints.start({limb.theta_rad[0], limb.theta_rad[1], limb.theta_rad[2]});
@@ -101,10 +101,7 @@ brace_node_failure_t LimbNode::open(const brace_node_limb_t &limb, brace_posix_b
         return failure;
     }
     take_hold(hold_n_per_mm_, limb.press);
-    const bool rests = limb_.settle(plane_motors_rad(), 0.0, temp_degc(0.0), pressed_)
-                       && (!has_coxa_joint_
-                           || chain_.settle(motor_[0].angle_rad, plane_posture(), 0.0, temp_degc(0.0), across_));
-    if (!rests) {
+    if (!limb_.settle(motors_rad(), 0.0, temp_degc(0.0), pressed_)) {
         return {BRACE_NODE_PART_LIMB, BRACE_HOST_E_SINGULAR, 0, 0};
     }
     for (int i = 0; i < kSettleSteps; ++i) {
@@ -201,10 +198,10 @@ void LimbNode::serve_servos(std::uint64_t from_us)
     if (!servos_.is_simulated()) {
         return;
     }
-    const std::array<double, 3> link_rad = true_angles_rad();
     for (std::size_t i = 0; i < motor_.size(); ++i) {
         if (is_by_simulated_servo(i)) {
-            servos_.shaft(i, link_rad[i], motor_[i].speed_rad_per_s, sample_[i].torque_n_mm, temp_degc(now_s()));
+            const double link_rad = pressed_.link_rad[static_cast<Eigen::Index>(i)];
+            servos_.shaft(i, link_rad, motor_[i].speed_rad_per_s, sample_[i].torque_n_mm, temp_degc(now_s()));
             servos_.move(i, setpoints.now_rad()[i]);
         }
     }
@@ -240,8 +237,8 @@ void LimbNode::hold(double hold_n_per_mm, const brace_node_press_t &press)
 
 void LimbNode::take_hold(double hold_n_per_mm, const brace_node_press_t &press)
 {
-    limb_.take_hold(plane_motors_rad(), hold_n_per_mm, {press.x_mm, press.z_mm}, now_s(), temp_degc(now_s()));
-    chain_.take_hold(motor_[0].angle_rad, hold_n_per_mm, press.y_mm, now_s());
+    const double y_mm = has_coxa_joint_ ? press.y_mm : 0.0;
+    limb_.take_hold(motors_rad(), hold_n_per_mm, {press.x_mm, y_mm, press.z_mm}, now_s(), temp_degc(now_s()));
 }
 
 bool LimbNode::is_by_simulated_servo(std::size_t joint) const
@@ -283,14 +280,15 @@ void LimbNode::move_limb(double t_s, double dt_s)
     for (std::size_t i = 0; i < motor_.size(); ++i) {
         follow_command(i, dt_s);
     }
-    step_motors<2>(&drive_[1], dt_s, {set_rad(1), set_rad(2)}, pressed_.load_n_mm, pressed_.stiffness_n_mm_per_rad,
-                   &motor_[1]);
-    (void)limb_.settle(plane_motors_rad(), t_s, temp_degc(t_s), pressed_);
+    const Vector3d &load = pressed_.load_n_mm;
+    const Eigen::Matrix3d &stiffness = pressed_.stiffness_n_mm_per_rad;
     if (has_coxa_joint_) {
-        step_motors<1>(&drive_[0], dt_s, Scalar(set_rad(0)), Scalar(across_.load_n_mm),
-                       Scalar(across_.stiffness_n_mm_per_rad), &motor_[0]);
-        (void)chain_.settle(motor_[0].angle_rad, plane_posture(), t_s, temp_degc(t_s), across_);
+        step_motors<3>(drive_.data(), dt_s, {set_rad(0), set_rad(1), set_rad(2)}, load, stiffness, motor_.data());
+    } else {
+        step_motors<2>(&drive_[1], dt_s, {set_rad(1), set_rad(2)}, load.tail<2>(),
+                       stiffness.bottomRightCorner<2, 2>(), &motor_[1]);
     }
+    (void)limb_.settle(motors_rad(), t_s, temp_degc(t_s), pressed_);
 }
 
 double LimbNode::temp_degc(double t_s) const
@@ -300,15 +298,9 @@ double LimbNode::temp_degc(double t_s) const
 
 // ------------------------------------------------------------------------------------------------- readings
 
-std::array<double, 3> LimbNode::true_angles_rad() const
-{
-    return {has_coxa_joint_ ? across_.link_rad : motor_[0].angle_rad, pressed_.link_rad[0], pressed_.link_rad[1]};
-}
-
 void LimbNode::sample()
 {
     const double t_s = now_s();
-    const std::array<double, 3> link_rad = true_angles_rad();
     for (int joint = 0; joint < 3; ++joint) { // noise is drawn for a joint that is not fitted, too: the others' stays
         const brace_node_drive_t &drive = drive_[static_cast<std::size_t>(joint)];
         const Motor &motor = motor_[static_cast<std::size_t>(joint)];
@@ -322,14 +314,14 @@ void LimbNode::sample()
             read.motor_rad = static_cast<float>(step_rad * std::round(motor.angle_rad / step_rad));
         }
         read.torque_n_mm = static_cast<float>(read_n_mm);
-        const double behind_gear_rad = link_rad[static_cast<std::size_t>(joint)];
+        const double behind_gear_rad = pressed_.link_rad[joint];
         read.link_rad = has_link_encoder_ ? static_cast<float>(step_rad * std::round(behind_gear_rad / step_rad))
                                           : std::numeric_limits<float>::quiet_NaN();
         read.temp_degc = static_cast<float>(temp_degc(t_s));
         read.taken_us = static_cast<std::uint32_t>(now_us_);
     }
     const double *offset_n = faults.value(BRACE_NODE_FAULT_FORCE_OFFSET);
-    const Vector2d force = plant::Sensor(plant_).reading_n(pressed_.force_n, t_s);
+    const Vector2d force = plant::Sensor(plant_).reading_n({pressed_.force_n.x(), pressed_.force_n.z()}, t_s);
     for (const int axis : {0, 1}) {
         const double noise_n = force_noise_n_ * noise_.normal();
         force_sample_n_[static_cast<std::size_t>(axis)] =
@@ -395,23 +387,20 @@ std::int32_t LimbNode::tip_force_read(void *context, float *force_x_n, float *fo
 brace_node_truth_t LimbNode::truth() const
 {
     brace_node_truth_t truth{};
-    const std::array<double, 3> link_rad = true_angles_rad();
-    const std::array<double, 3> load_n_mm = {across_.load_n_mm, pressed_.load_n_mm[0], pressed_.load_n_mm[1]};
-    const std::array<int, 3> flank = {across_.flank, pressed_.flank[0], pressed_.flank[1]};
     for (std::size_t i = 0; i < motor_.size(); ++i) {
         truth.set_rad[i] = set_rad(i);
         truth.motor_rad[i] = motor_[i].angle_rad;
         truth.torque_n_mm[i] = motor_[i].torque_n_mm;
-        truth.link_rad[i] = link_rad[i];
-        truth.load_n_mm[i] = load_n_mm[i];
-        truth.flank[i] = flank[i];
+        truth.link_rad[i] = pressed_.link_rad[static_cast<Eigen::Index>(i)];
+        truth.load_n_mm[i] = pressed_.load_n_mm[static_cast<Eigen::Index>(i)];
+        truth.flank[i] = pressed_.flank[i];
     }
     truth.has_coxa_joint = has_coxa_joint_ ? 1 : 0;
-    truth.force_y_n = across_.force_n;
     truth.force_x_n = pressed_.force_n.x();
-    truth.force_z_n = pressed_.force_n.y();
+    truth.force_y_n = pressed_.force_n.y();
+    truth.force_z_n = pressed_.force_n.z();
     truth.temp_degc = temp_degc(now_s());
-    truth.solved = pressed_.solved && across_.solved;
+    truth.solved = pressed_.solved;
     return truth;
 }
 

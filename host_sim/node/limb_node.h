@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <memory>
 
-#include "node/coxa_chain.h"
 #include "node/drive.h"
 #include "node/pressed_limb.h"
 #include "node/script.h"
@@ -68,10 +67,8 @@ private:
     void sample();
     void serve_servos(std::uint64_t from_us);
     void follow_command(std::size_t joint, double dt_s);
-    std::array<double, 3> true_angles_rad() const;
     bool is_fitted(std::int32_t joint_index) const;
-    Eigen::Vector2d plane_motors_rad() const { return {motor_[1].angle_rad, motor_[2].angle_rad}; }
-    PlanePosture plane_posture() const { return {pressed_.link_rad[0], pressed_.link_rad[1]}; } // at rest
+    Eigen::Vector3d motors_rad() const { return {motor_[0].angle_rad, motor_[1].angle_rad, motor_[2].angle_rad}; }
     double set_rad(std::size_t joint) const;
     bool is_by_simulated_servo(std::size_t joint) const;
     double now_s() const { return 1e-6 * static_cast<double>(now_us_); }
@@ -85,8 +82,6 @@ private:
     rig::Noise noise_;
     PressedLimb limb_;
     Pressed pressed_;
-    CoxaChain chain_; // the chain across the plane and its rest state `across_`, only where there is a coxa joint
-    Across across_;
     ServoJoints servos_;
     std::array<Motor, 3> motor_; // coxa, femur, tibia, as everything per joint here
     std::array<Command, 3> command_;

@@ -1,10 +1,10 @@
 #include "node/pressed_limb.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "effects/joint_zero_offset.h"
 #include "node/contact.h"
-#include "node/coxa_chain.h"
 #include "plant/joint_law.h"
 
 namespace brace::node
@@ -12,69 +12,128 @@ namespace brace::node
 namespace
 {
 
-using Eigen::Vector2d;
+using effects::kCoxa;
+using effects::kFemur;
+using effects::kTibia;
+using Eigen::Vector3d;
+using plant::InPlane;
+using plant::InSpace;
+using plant::LimbState;
 
-constexpr double kSense[] = {1.0, -1.0}; // of theta1 and theta2, counter-clockwise being positive
+const Vector3d kSense = {1.0, 1.0, -1.0}; // of theta0, theta1 and theta2, counter-clockwise being positive
 
-// A coxa link yields in the plane as a part of the base does, and points along x.
-plant::Model with_coxa_link_in_base(plant::Model model)
+// A limb's place on the axes of its world, and back.
+template <class World>
+plant::Vector<World::kAxes> on_axes_of(const Vector3d &place)
 {
-    if (has_coxa_joint(model)) {
-        model.base.x_mm_per_n += model.link[effects::kCoxa].axial_mm_per_n;
-        model.base.z_mm_per_n += model.link[effects::kCoxa].bending_mm_per_n;
+    if constexpr (World::kAxes == 2) {
+        return {place.x(), place.z()};
+    } else {
+        return place;
     }
-    return model;
+}
+
+Vector3d in_space(const Eigen::Vector2d &place)
+{
+    return {place.x(), 0.0, place.y()};
+}
+
+Vector3d in_space(const Vector3d &place)
+{
+    return place;
+}
+
+Eigen::Matrix3d about_yaw_axis(double angle_rad)
+{
+    return Eigen::AngleAxisd(angle_rad, Vector3d::UnitZ()).toRotationMatrix();
+}
+
+std::variant<LimbState<InPlane>, LimbState<InSpace>> state_of(const plant::Model &model)
+{
+    using State = std::variant<LimbState<InPlane>, LimbState<InSpace>>;
+    return has_coxa_joint(model) ? State(std::in_place_type<LimbState<InSpace>>, model, plant::Displacements::finite)
+                                 : State(std::in_place_type<LimbState<InPlane>>, model, plant::Displacements::finite);
 }
 
 } // namespace
 
-PressedLimb::PressedLimb(const plant::Model &model)
-    : model_(with_coxa_link_in_base(model)), state_(model_, plant::Displacements::finite)
+bool has_coxa_joint(const plant::Model &model)
 {
-}
-
-Vector2d PressedLimb::unbent_rad(const Vector2d &motor_rad) const
-{
-    return {effects::joint_zero_offset::true_angle_rad(model_, effects::kFemur, motor_rad[0]),
-            effects::joint_zero_offset::true_angle_rad(model_, effects::kTibia, motor_rad[1])};
-}
-
-Vector2d PressedLimb::tip_mm(const Vector2d &motor_rad) const
-{
-    const Vector2d theta = unbent_rad(motor_rad);
-    const double shin = theta[0] - theta[1];
-    return model_.geometry.femur_mm * Vector2d(std::cos(theta[0]), std::sin(theta[0]))
-           + model_.geometry.tibia_mm * Vector2d(std::cos(shin), std::sin(shin));
-}
-
-void PressedLimb::take_hold(const Vector2d &motor_rad, double hold_n_per_mm, const Vector2d &press_mm,
-                            double t_s, double temp_degc)
-{
-    (void)state_.move_to(motor_rad[0], motor_rad[1], t_s, temp_degc); // creep goes on until now
-    state_.start_run(false, contact_yields_mm_per_n(hold_n_per_mm));
-    anchor_mm_ = tip_mm(motor_rad) + press_mm;
-}
-
-bool PressedLimb::settle(const Vector2d &motor_rad, double t_s, double temp_degc, Pressed &pressed)
-{
-    if (!state_.move_to(motor_rad[0], motor_rad[1], t_s, temp_degc)) {
-        return false;
+    bool yields = model.joint[kCoxa].compliance_rad_per_n_mm > 0.0;
+    for (const int index : {kCoxa, kFemur, kTibia}) {
+        const auto &link = model.link[index];
+        // The tip lies on the tibia's axis, so no force there twists the tibia.
+        yields = yields || link.lateral_mm_per_n > 0.0 || (index != kTibia && link.torsion_rad_per_n_mm > 0.0);
     }
-    const plant::LimbRest rest = state_.hold_tip(anchor_mm_ - tip_mm(motor_rad));
-    const Vector2d unbent = unbent_rad(motor_rad);
-    const Vector2d sense(kSense[0], kSense[1]);
-    pressed.force_n = rest.force_n;
-    pressed.solved = rest.solved;
-    for (const int i : {0, 1}) {
-        const auto k = static_cast<std::size_t>(i);
-        const plant::JointLaw law = plant::joint_law(model_, effects::kFemur + i, temp_degc);
-        pressed.load_n_mm[i] = -kSense[i] * rest.joint_torque_n_mm[k];
-        pressed.link_rad[i] = unbent[i] + kSense[i] * rest.joint_deflection_rad[k];
-        pressed.flank[k] = flank_that_carries(law, pressed.load_n_mm[i]);
+    return yields;
+}
+
+PressedLimb::PressedLimb(const plant::Model &model) : model_(model), state_(state_of(model_))
+{
+}
+
+Vector3d PressedLimb::unbent_rad(const Vector3d &motor_rad) const
+{
+    Vector3d unbent;
+    for (const int joint : {kCoxa, kFemur, kTibia}) {
+        unbent[joint] = effects::joint_zero_offset::true_angle_rad(model_, joint, motor_rad[joint]);
     }
-    pressed.stiffness_n_mm_per_rad =
-        -(sense.asDiagonal() * state_.torque_per_motor_turn() * sense.asDiagonal());
-    return true;
+    return unbent;
+}
+
+Vector3d PressedLimb::tip_mm(const Vector3d &motor_rad) const
+{
+    const Vector3d theta = unbent_rad(motor_rad);
+    const auto &length = model_.geometry;
+    const double shin = theta[kFemur] - theta[kTibia];
+    return {length.coxa_mm + length.femur_mm * std::cos(theta[kFemur]) + length.tibia_mm * std::cos(shin), 0.0,
+            length.femur_mm * std::sin(theta[kFemur]) + length.tibia_mm * std::sin(shin)};
+}
+
+void PressedLimb::take_hold(const Vector3d &motor_rad, double hold_n_per_mm, const Vector3d &press_mm, double t_s,
+                            double temp_degc)
+{
+    std::visit(
+        [&](auto &state) {
+            // Creep goes on until now.
+            (void)state.move_to(motor_rad[kFemur], motor_rad[kTibia], t_s, temp_degc);
+            state.start_run(false, contact_yields_mm_per_n(hold_n_per_mm));
+        },
+        state_);
+    anchor_mm_ = about_yaw_axis(unbent_rad(motor_rad)[kCoxa]) * (tip_mm(motor_rad) + press_mm);
+}
+
+bool PressedLimb::settle(const Vector3d &motor_rad, double t_s, double temp_degc, Pressed &pressed)
+{
+    const Vector3d unbent = unbent_rad(motor_rad);
+    const Vector3d held_mm = about_yaw_axis(-unbent[kCoxa]) * anchor_mm_ - tip_mm(motor_rad);
+    const auto settle_in = [&](auto &state, auto world) {
+        using World = decltype(world);
+        constexpr int kJoints = World::kAxes;
+        if (!state.move_to(motor_rad[kFemur], motor_rad[kTibia], t_s, temp_degc)) {
+            return false;
+        }
+        const plant::LimbRest<kJoints> rest = state.hold_tip(on_axes_of<World>(held_mm));
+        pressed.force_n = in_space(rest.force_n);
+        pressed.solved = rest.solved;
+        pressed.link_rad = unbent;
+        for (int k = 0; k < kJoints; ++k) {
+            const int joint = World::kFirstJoint + k;
+            const auto i = static_cast<std::size_t>(k);
+            const plant::JointLaw law = plant::joint_law(model_, joint, temp_degc);
+            pressed.load_n_mm[joint] = -kSense[joint] * rest.joint_torque_n_mm[i];
+            pressed.link_rad[joint] += kSense[joint] * rest.joint_deflection_rad[i];
+            pressed.flank[static_cast<std::size_t>(joint)] = flank_that_carries(law, pressed.load_n_mm[joint]);
+        }
+        const plant::Vector<kJoints> sense = kSense.tail<kJoints>();
+        pressed.stiffness_n_mm_per_rad.bottomRightCorner<kJoints, kJoints>() =
+            -(sense.asDiagonal() * state.torque_per_motor_turn() * sense.asDiagonal());
+        return true;
+    };
+    if (auto *in_plane = std::get_if<LimbState<InPlane>>(&state_)) {
+        return settle_in(*in_plane, InPlane{});
+    }
+    return settle_in(std::get<LimbState<InSpace>>(state_), InSpace{});
 }
 
 } // namespace brace::node

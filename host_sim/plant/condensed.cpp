@@ -161,7 +161,7 @@ void Condensed::about(const Structure &structure, const std::array<JointHinge, 2
     negative_pivots_ = negative_pivots;
 }
 
-double Condensed::follow(const Change &change, Shape &shape, std::array<double, 2> &torque_n_mm) const
+double Condensed::follow(const Change<2> &change, Shape &shape, std::array<double, 2> &torque_n_mm) const
 {
     double turned_rad = 0.0; // the present body
     double most_rad = 0.0;

@@ -14,26 +14,12 @@
 #include <Eigen/Core>
 #include <array>
 
+#include "plant/shape.h"
 #include "plant/structure.h"
 
 namespace brace::plant {
 
-struct Shape {
-    std::array<double, kMostBodies> turn_rad{};        // of each hinge
-    Eigen::Vector2d force_n = Eigen::Vector2d::Zero(); // on the tip
-};
-
-// A joint's hinge in the elimination: its spring, and a further turn that is kept.
-struct JointHinge {
-    double compliance_rad_per_n_mm; // 0: only the kept turn is left
-    double unstrained_rad;          // turn of the hinge at which the spring carries nothing
-};
-
-// A change of the kept unknowns.
-struct Change {
-    Eigen::Vector2d force_n = Eigen::Vector2d::Zero();
-    std::array<double, 2> turn_rad{};
-};
+using Shape = ShapeOf<2, kMostBodies>;
 
 class Condensed {
 public:
@@ -52,7 +38,7 @@ public:
 
     // Moves the shape to rest under a change. torque_n_mm: of the loads on the joints, there. Returns by how much the
     // body turns that turns most [rad].
-    double follow(const Change &change, Shape &shape, std::array<double, 2> &torque_n_mm) const;
+    double follow(const Change<2> &change, Shape &shape, std::array<double, 2> &torque_n_mm) const;
 
 private:
     struct Hinge {

@@ -8,9 +8,9 @@
 namespace brace::plant {
 namespace {
 
-using Pair = std::array<double, 2>;
-using Eigen::Matrix2d;
-using Eigen::Vector2d;
+// A number of each joint.
+template <int N>
+using Each = std::array<double, N>;
 
 constexpr int kMaxSteps = 200;
 constexpr int kMaxSearch = 80;
@@ -22,25 +22,27 @@ constexpr double kDamping =
     1e-9; // of each spring: keeps a joint within its play, where nothing pushes back, solvable
 
 // Slope of the energy without friction, and its curvature but for M.
+template <int N>
 struct Slope {
-    Pair torque_n_mm{};
-    Matrix2d curvature = Matrix2d::Zero();
-    Vector2d force_n;
+    Each<N> torque_n_mm{};
+    Matrix<N> curvature = Matrix<N>::Zero();
+    Vector<N> force_n;
 };
 
-Slope slope_at(const RestProblem &problem, const Pair &deflection)
+template <int N>
+Slope<N> slope_at(const RestProblem<N> &problem, const Each<N> &deflection)
 {
-    Vector2d displacement = problem.displacement_mm;
+    Vector<N> displacement = problem.displacement_mm;
     for (int i = 0; i < problem.joint_count; ++i) {
         displacement -= problem.joint[i].lever_mm * deflection[i];
     }
-    Slope slope;
+    Slope<N> slope;
     slope.force_n = problem.stiffness_n_per_mm * displacement;
     for (int i = 0; i < problem.joint_count; ++i) {
-        const JointUnknown &joint = problem.joint[i];
+        const JointUnknown<N> &joint = problem.joint[i];
         slope.torque_n_mm[i] = spring_torque_n_mm(joint.law, deflection[i]) - joint.load_n_mm
                                - joint.lever_mm.dot(slope.force_n);
-        const Vector2d pushed = problem.stiffness_n_per_mm * joint.lever_mm;
+        const Vector<N> pushed = problem.stiffness_n_per_mm * joint.lever_mm;
         for (int j = 0; j < problem.joint_count; ++j) {
             slope.torque_n_mm[i] += problem.by_loads_n_mm_per_rad(i, j) * deflection[j];
             slope.curvature(i, j) = problem.joint[j].lever_mm.dot(pushed);
@@ -52,11 +54,12 @@ Slope slope_at(const RestProblem &problem, const Pair &deflection)
 }
 
 // The sign of each joint's motion, and so the sign of friction's slope; 0 where friction holds the joint.
-Pair moving_sign(const RestProblem &problem, const Pair &deflection, const Pair &torque)
+template <int N>
+Each<N> moving_sign(const RestProblem<N> &problem, const Each<N> &deflection, const Each<N> &torque)
 {
-    Pair sign{};
+    Each<N> sign{};
     for (int i = 0; i < problem.joint_count; ++i) {
-        const JointUnknown &joint = problem.joint[i];
+        const JointUnknown<N> &joint = problem.joint[i];
         const double moved = deflection[i] - joint.before_rad;
         if (moved != 0.0) {
             sign[i] = std::copysign(1.0, moved);
@@ -67,55 +70,88 @@ Pair moving_sign(const RestProblem &problem, const Pair &deflection, const Pair 
     return sign;
 }
 
-// Newton's direction among the joints that move. Two joints that move the tip almost alike leave a valley with almost
-// no curvature along it; the curvature there is raised to the least that rounding allows to divide by. Where M takes
-// all curvature away, as when a weight stands above a joint within its play, the direction is the one without M: it
-// leads down, too.
-Pair newton_direction(const Matrix2d &without_m, const Matrix2d &m, const Pair &torque, const Pair &sign)
+// Joints that move the tip almost alike leave a valley with almost no curvature along it; the curvature there is raised
+// to the least that rounding allows to divide by.
+template <int N>
+struct Pivots {
+    Matrix<N> lower; // ones on its diagonal
+    Vector<N> pivot; // of the joints that move
+    bool positive = true;
+
+    Pivots(const Matrix<N> &curvature, const Each<N> &sign) : lower(Matrix<N>::Identity()), pivot(Vector<N>::Ones())
+    {
+        for (int j = 0; j < N; ++j) {
+            if (sign[j] == 0.0) {
+                continue;
+            }
+            double left = curvature(j, j);
+            for (int k = 0; k < j; ++k) {
+                left -= sign[k] != 0.0 ? lower(j, k) * lower(j, k) * pivot[k] : 0.0;
+            }
+            positive = positive && left > 0.0;
+            pivot[j] = std::max(left, kLeastCurvature * curvature(j, j));
+            for (int i = j + 1; i < N; ++i) {
+                double product = curvature(i, j);
+                for (int k = 0; k < j; ++k) {
+                    product -= sign[k] != 0.0 ? lower(i, k) * lower(j, k) * pivot[k] : 0.0;
+                }
+                lower(i, j) = sign[i] != 0.0 ? product / pivot[j] : 0.0;
+            }
+        }
+    }
+};
+
+// Newton's direction among the joints that move. Where M takes all curvature away, as when a weight stands above a
+// joint within its play, the direction is the one without M: it leads down, too.
+template <int N>
+Each<N> newton_direction(const Matrix<N> &without_m, const Matrix<N> &m, const Each<N> &torque, const Each<N> &sign)
 {
-    const bool both = sign[0] != 0.0 && sign[1] != 0.0;
-    Matrix2d curvature = without_m + m;
-    if (!(sign[0] == 0.0 || curvature(0, 0) > 0.0) || !(sign[1] == 0.0 || curvature(1, 1) > 0.0)
-        || (both && !(curvature.determinant() > 0.0))) {
-        curvature = without_m;
+    Pivots<N> curvature(without_m + m, sign);
+    if (!curvature.positive) {
+        curvature = Pivots<N>(without_m, sign);
     }
-    if (both) {
-        const double product = curvature(0, 0) * curvature(1, 1);
-        const double determinant =
-            std::max(product - curvature(0, 1) * curvature(1, 0), kLeastCurvature * product);
-        return {(curvature(0, 1) * torque[1] - curvature(1, 1) * torque[0]) / determinant,
-                (curvature(1, 0) * torque[0] - curvature(0, 0) * torque[1]) / determinant};
+    Each<N> direction{};
+    for (int i = 0; i < N; ++i) {
+        direction[i] = sign[i] != 0.0 ? -torque[i] : 0.0;
+        for (int k = 0; k < i; ++k) {
+            direction[i] -= sign[i] != 0.0 ? curvature.lower(i, k) * direction[k] : 0.0;
+        }
     }
-    Pair direction{};
-    for (const int i : {0, 1}) {
-        direction[i] = sign[i] != 0.0 ? -torque[i] / curvature(i, i) : 0.0;
+    for (int i = N; i-- > 0;) {
+        direction[i] /= curvature.pivot[i];
+        for (int k = i + 1; k < N; ++k) {
+            direction[i] -= curvature.lower(k, i) * direction[k];
+        }
     }
     return direction;
 }
 
 // The same, where every joint that friction still holds either leaves its place in the direction of its load, or does
 // not move.
-Pair direction_of(const RestProblem &problem, const Pair &deflection, const Slope &slope, const Pair &torque,
-                  const Pair &sign)
+template <int N>
+Each<N> direction_of(const RestProblem<N> &problem, const Each<N> &deflection, const Slope<N> &slope,
+                     const Each<N> &torque, const Each<N> &sign)
 {
-    const Matrix2d &m = problem.by_loads_n_mm_per_rad;
-    const Pair direction = newton_direction(slope.curvature, m, torque, sign);
-    for (int i = 0; i < problem.joint_count; ++i) {
-        const bool held =
-            problem.joint[i].law.rubs() && deflection[i] == problem.joint[i].before_rad;
-        if (held && direction[i] * sign[i] < 0.0) {
-            Pair others = sign;
-            others[i] = 0.0;
-            return newton_direction(slope.curvature, m, torque, others);
+    Each<N> moving = sign;
+    for (;;) { // each round holds one joint more
+        const Each<N> direction = newton_direction<N>(slope.curvature, problem.by_loads_n_mm_per_rad, torque, moving);
+        int held = -1;
+        for (int i = 0; i < problem.joint_count && held < 0; ++i) {
+            const bool rests = problem.joint[i].law.rubs() && deflection[i] == problem.joint[i].before_rad;
+            held = rests && direction[i] * moving[i] < 0.0 ? i : -1;
         }
+        if (held < 0) {
+            return direction;
+        }
+        moving[held] = 0.0;
     }
-    return direction;
 }
 
 // The energy along a direction from a point, up to the first place where a joint's friction would change its sign.
+template <int N>
 class Line {
 public:
-    Line(const RestProblem &problem, const Pair &from, const Pair &direction, const Pair &sign)
+    Line(const RestProblem<N> &problem, const Each<N> &from, const Each<N> &direction, const Each<N> &sign)
         : problem_(problem), from_(from), direction_(direction), sign_(sign)
     {
         for (int i = 0; i < problem.joint_count; ++i) {
@@ -130,9 +166,9 @@ public:
 
     double end() const { return end_; }
 
-    Pair at(double length) const
+    Each<N> at(double length) const
     {
-        Pair point = from_;
+        Each<N> point = from_;
         for (int i = 0; i < problem_.joint_count; ++i) {
             point[i] += length * direction_[i];
         }
@@ -143,10 +179,10 @@ public:
     }
 
     // `here` is the slope of the energy without friction at this place.
-    double slope(double length, Slope &here) const
+    double slope(double length, Slope<N> &here) const
     {
-        const Pair point = at(length);
-        here = slope_at(problem_, point);
+        const Each<N> point = at(length);
+        here = slope_at<N>(problem_, point);
         double sum = 0.0;
         for (int i = 0; i < problem_.joint_count; ++i) {
             sum += direction_[i]
@@ -156,17 +192,18 @@ public:
     }
 
 private:
-    const RestProblem &problem_;
-    const Pair from_;
-    const Pair direction_;
-    const Pair sign_;
+    const RestProblem<N> &problem_;
+    const Each<N> from_;
+    const Each<N> direction_;
+    const Each<N> sign_;
     double end_ = std::numeric_limits<double>::infinity();
     int turning_ = 0;
 };
 
 // How far to go along the line: all of Newton's step if that is good, else to the least energy on the line. `start` is
 // the slope at its beginning; `here` is the slope at the place that is returned.
-double length_of(const Line &line, double start, Slope &here)
+template <int N>
+double length_of(const Line<N> &line, double start, Slope<N> &here)
 {
     double high = std::min(1.0, line.end());
     double high_slope = line.slope(high, here);
@@ -201,23 +238,26 @@ double length_of(const Line &line, double start, Slope &here)
 }
 
 // How far from rest a point is, and how far rounding puts a point that is at rest.
+template <int N>
 struct Balance {
-    Pair torque_n_mm{};       // unbalance, with friction
+    Each<N> torque_n_mm{};     // unbalance, with friction
     double unbalance_n = 0.0; // the largest unbalance over the longest lever
     double rounding_n = 0.0;
     double rounding_at_stops_n = 0.0; // the same if each joint were at the edge of its backlash
 };
 
-Balance balance_at(const RestProblem &problem, const Pair &deflection, const Slope &slope, const Pair &sign)
+template <int N>
+Balance<N> balance_at(const RestProblem<N> &problem, const Each<N> &deflection, const Slope<N> &slope,
+                      const Each<N> &sign)
 {
-    Balance balance;
+    Balance<N> balance;
     double longest_mm = 1.0;
     double reach_mm = problem.displacement_mm.norm();
     double worst = 0.0;
     double here = 0.0;
     double at_stops = 0.0;
     for (int i = 0; i < problem.joint_count; ++i) {
-        const JointUnknown &joint = problem.joint[i];
+        const JointUnknown<N> &joint = problem.joint[i];
         const double lever_mm = joint.lever_mm.norm();
         const double size = std::fabs(deflection[i]);
         if (sign[i] != 0.0) {
@@ -238,13 +278,14 @@ Balance balance_at(const RestProblem &problem, const Pair &deflection, const Slo
 
 } // namespace
 
-void find_rest(const RestProblem &problem, RestState &state)
+template <int N>
+void find_rest(const RestProblem<N> &problem, RestState<N> &state)
 {
-    Pair deflection = state.deflection_rad;
-    Slope slope = slope_at(problem, deflection);
+    Each<N> deflection = state.deflection_rad;
+    Slope<N> slope = slope_at<N>(problem, deflection);
     for (int step = 0;; ++step) {
-        const Pair sign = moving_sign(problem, deflection, slope.torque_n_mm);
-        const Balance balance = balance_at(problem, deflection, slope, sign);
+        const Each<N> sign = moving_sign<N>(problem, deflection, slope.torque_n_mm);
+        const Balance<N> balance = balance_at<N>(problem, deflection, slope, sign);
         if (balance.unbalance_n <= std::max(kGoodBalance_n, balance.rounding_n) || step == kMaxSteps) {
             state.deflection_rad = deflection;
             state.force_n = slope.force_n;
@@ -256,14 +297,17 @@ void find_rest(const RestProblem &problem, RestState &state)
         for (int i = 0; i < problem.joint_count; ++i) {
             slope.curvature(i, i) += sign[i] * friction_slope_n_mm_per_rad(problem.joint[i].law, deflection[i]);
         }
-        const Pair direction = direction_of(problem, deflection, slope, balance.torque_n_mm, sign);
+        const Each<N> direction = direction_of<N>(problem, deflection, slope, balance.torque_n_mm, sign);
         double falls = 0.0;
         for (int i = 0; i < problem.joint_count; ++i) {
             falls += direction[i] * balance.torque_n_mm[i];
         }
-        const Line line(problem, deflection, direction, sign);
-        deflection = line.at(length_of(line, falls, slope));
+        const Line<N> line(problem, deflection, direction, sign);
+        deflection = line.at(length_of<N>(line, falls, slope));
     }
 }
+
+template void find_rest<2>(const RestProblem<2> &, RestState<2> &);
+template void find_rest<3>(const RestProblem<3> &, RestState<3> &);
 
 } // namespace brace::plant

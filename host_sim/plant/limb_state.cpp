@@ -13,16 +13,14 @@
 namespace brace::plant {
 namespace {
 
-using Eigen::Matrix2d;
-using Eigen::Vector2d;
-
 // A rigid joint with backlash gets this share of the limb's compliance, so that its stop is a spring.
 constexpr double kStopCompliance = 1e-8;
 // When a structure is rigid in one direction while its joints stick, it gets this share of the limb's compliance.
 constexpr double kRigidCompliance = 1e-9;
 constexpr double kSmallestShare = 1e-12; // the same for a tangent that is only read
 
-constexpr int kBothFree = 3;
+template <int N>
+constexpr int kAllFree = (1 << N) - 1;
 constexpr int kMostSteps = 12;
 constexpr double kGoodMove_n = 1e-10;     // a step that moves less is the last
 constexpr double kPromisedMove_n = 1e-9;  // what a step may move where rounding keeps it from becoming less
@@ -33,53 +31,90 @@ constexpr double kMostForeseen = 1.0; // of the way since an earlier place
 constexpr double kStraight = 1e-9;
 constexpr double kShortestPart = 1.0 / 64.0; // of the way to a displacement
 
-double determinant_ratio(const Matrix2d &compliance)
+// The sum of the products of two eigenvalues each.
+double pairs(const Eigen::Matrix3d &matrix)
+{
+    return matrix.topLeftCorner<2, 2>().determinant() + matrix.bottomRightCorner<2, 2>().determinant()
+           + matrix(0, 0) * matrix(2, 2) - matrix(0, 2) * matrix(2, 0);
+}
+
+// The smallest eigenvalue of a compliance over the largest, but for a small factor.
+double least_share(const Eigen::Matrix2d &compliance)
 {
     const double trace = compliance.trace();
     return trace > 0.0 ? compliance.determinant() / (trace * trace) : 0.0;
 }
 
-// K where the tip is held along both axes, or along one with no force along the other, or is free.
-Matrix2d stiffness_held(const Matrix2d &compliance, int free_axis)
+double least_share(const Eigen::Matrix3d &compliance)
+{
+    const double scale = compliance.trace() * pairs(compliance);
+    return scale > 0.0 ? compliance.determinant() / scale : 0.0;
+}
+
+// K where the tip is held along all axes, or in the plane along one with no force along the other, or is free.
+template <int N>
+Matrix<N> stiffness_held(const Matrix<N> &compliance, int free_axis)
 {
     if (free_axis == 0) {
         return compliance.inverse();
     }
-    Matrix2d stiffness = Matrix2d::Zero();
-    if (free_axis != kBothFree) {
+    Matrix<N> stiffness = Matrix<N>::Zero();
+    if (free_axis != kAllFree<N>) {
         const int held = 2 - free_axis;
         stiffness(held, held) = 1.0 / compliance(held, held);
     }
     return stiffness;
 }
 
-// How many of a compliance's directions, among those held, push the wrong way.
-int negatives(const Matrix2d &compliance, int free_axis)
+int negative_eigenvalues(const Eigen::Matrix2d &compliance)
 {
-    if (free_axis == kBothFree) {
-        return 0;
-    }
-    if (free_axis != 0) {
-        return compliance(2 - free_axis, 2 - free_axis) < 0.0 ? 1 : 0;
-    }
     if (compliance.determinant() < 0.0) {
         return 1;
     }
     return compliance.trace() < 0.0 ? 2 : 0;
 }
 
-Structure without_loads(Structure structure)
+// All eigenvalues are real, so the signs of their characteristic polynomial tell (Descartes).
+int negative_eigenvalues(const Eigen::Matrix3d &compliance)
 {
-    structure.joint_load_n_mm.setZero();
-    for (Body &body : structure.body) {
-        body.weight_n = body.end_weight_n = 0.0;
+    int changes = 0;
+    double last = 1.0;
+    for (const double each : {compliance.trace(), pairs(compliance), compliance.determinant()}) {
+        changes += last * each < 0.0 ? 1 : 0;
+        last = each;
     }
-    return structure;
+    return changes;
+}
+
+// How many of a compliance's directions, among those held, push the wrong way.
+template <int N>
+int negatives(const Matrix<N> &compliance, int free_axis)
+{
+    if (free_axis == kAllFree<N>) {
+        return 0;
+    }
+    if (free_axis != 0) {
+        return compliance(2 - free_axis, 2 - free_axis) < 0.0 ? 1 : 0;
+    }
+    return negative_eigenvalues(compliance);
+}
+
+void find(const Model &model, Displacements displacements, double theta1_rad, double theta2_rad, double t_s,
+          Structure &structure)
+{
+    find_structure(model, displacements, theta1_rad, theta2_rad, t_s, structure);
+}
+
+void find(const Model &model, Displacements, double theta1_rad, double theta2_rad, double t_s,
+          SpaceStructure &structure)
+{
+    find_structure(model, theta1_rad, theta2_rad, t_s, structure);
 }
 
 } // namespace
 
-bool LimbState::move_to(double theta1_rad, double theta2_rad, double t_s, double temp_degc)
+template <class World>
+bool LimbState<World>::move_to(double theta1_rad, double theta2_rad, double t_s, double temp_degc)
 {
     using effects::link_change::has_come;
     const bool same_structure = placed_ && theta1_rad == theta1_rad_ && theta2_rad == theta2_rad_
@@ -95,7 +130,7 @@ bool LimbState::move_to(double theta1_rad, double theta2_rad, double t_s, double
     temp_degc_ = temp_degc;
     placed_ = true;
     if (!same_structure) {
-        find_structure(model_, displacements_, theta1_rad, theta2_rad, t_s, structure_);
+        find(model_, displacements_, theta1_rad, theta2_rad, t_s, structure_);
         has_earlier_ = false;
     }
     if (!(prepared_ && same_structure && same_joints)) {
@@ -105,26 +140,27 @@ bool LimbState::move_to(double theta1_rad, double theta2_rad, double t_s, double
 }
 
 // A joint that is more than a spring is an unknown, unless it is rigid and without backlash.
-bool LimbState::prepare()
+template <class World>
+bool LimbState<World>::prepare()
 {
     is_condensed_ = false;
     known_count_ = 0;
-    std::array<JointHinge, 2> joint{};
-    for (const std::size_t k : {0, 1}) {
-        law_[k] = joint_law(model_, effects::kFemur + static_cast<int>(k), temp_degc_);
+    std::array<JointHinge, N> joint{};
+    for (std::size_t k = 0; k < N; ++k) {
+        law_[k] = joint_law(model_, World::kFirstJoint + static_cast<int>(k), temp_degc_);
         joint[k].compliance_rad_per_n_mm = law_[k].compliance_rad_per_n_mm;
     }
-    const Structure unloaded = without_loads(structure_);
-    const Shape straight;
-    const Matrix2d contact = contact_mm_per_n_ * Matrix2d::Identity();
-    Condensed condensed;
+    const typename World::Structure unloaded = without_loads(structure_);
+    const typename World::Shape straight;
+    const Mat contact = contact_mm_per_n_ * Mat::Identity();
+    typename World::Condensed condensed;
     condensed.about(unloaded, joint, straight);
-    const Matrix2d whole = condensed.compliance_mm_per_n() + contact;
+    const Mat whole = condensed.compliance_mm_per_n() + contact;
     const double whole_mm_per_n = whole.trace();
-    if (!(determinant_ratio(whole) > 1e-15)) {
+    if (!(least_share(whole) > 1e-15)) {
         return false;
     }
-    for (const std::size_t k : {0, 1}) {
+    for (std::size_t k = 0; k < N; ++k) {
         const bool rigid = law_[k].compliance_rad_per_n_mm == 0.0;
         is_unknown_[k] = !is_linear(law_[k]) && !(rigid && law_[k].gap_rad == 0.0);
         if (is_unknown_[k]) {
@@ -139,16 +175,18 @@ bool LimbState::prepare()
     const double own_mm_per_n = condensed.compliance_mm_per_n().trace();
     softest_mm_per_n_ = own_mm_per_n > 0.0 ? own_mm_per_n : whole_mm_per_n;
     stops_mm_per_n_ = 0.0;
-    if (is_unknown_[0] || is_unknown_[1]) {
+    if (has_unknowns()) {
         condensed.about(unloaded, joint, straight);
-        if (!(determinant_ratio(condensed.compliance_mm_per_n() + contact) > 1e-12)) {
+        const Mat stuck = condensed.compliance_mm_per_n() + contact;
+        if (!(least_share(stuck) > 1e-12)) {
             stops_mm_per_n_ = kRigidCompliance * whole_mm_per_n;
         }
     }
     return true;
 }
 
-void LimbState::start_run(bool creep_gone, double contact_mm_per_n)
+template <class World>
+void LimbState<World>::start_run(bool creep_gone, double contact_mm_per_n)
 {
     prepared_ = prepared_ && contact_mm_per_n == contact_mm_per_n_;
     contact_mm_per_n_ = contact_mm_per_n;
@@ -156,13 +194,14 @@ void LimbState::start_run(bool creep_gone, double contact_mm_per_n)
     known_count_ = 0;
     has_earlier_ = false;
     before_rad_ = {};
-    origin_mm_ = reached_mm_ = tip_mm_ = Vector2d::Zero();
+    origin_mm_ = reached_mm_ = tip_mm_ = Vec::Zero();
     if (creep_gone) {
         delayed_rad_ = {};
     }
 }
 
-void LimbState::let_creep(double t_s)
+template <class World>
+void LimbState<World>::let_creep(double t_s)
 {
     if (model_.creep.ratio == 0.0) {
         return;
@@ -172,7 +211,7 @@ void LimbState::let_creep(double t_s)
         creep_dt_s_ = dt;
         creep_approach_ = effects::creep::approach(model_.creep.time_constant_s, dt);
     }
-    for (const std::size_t k : {0, 1}) {
+    for (std::size_t k = 0; k < N; ++k) {
         const double elastic = elastic_rad(law_[k], before_rad_[k]);
         delayed_rad_[k] =
             effects::creep::delayed_rad(delayed_rad_[k], model_.creep.ratio, elastic, creep_approach_);
@@ -180,12 +219,13 @@ void LimbState::let_creep(double t_s)
     is_condensed_ = false;
 }
 
-LimbState::Step LimbState::take_step(const Vector2d &target_mm, int free_axis)
+template <class World>
+auto LimbState<World>::take_step(const Vec &target_mm, int free_axis) -> Step
 {
-    Shape &shape = rest_.shape;
-    std::array<JointHinge, 2> joint;
-    std::array<double, 2> turn_rad;
-    for (const std::size_t k : {0, 1}) {
+    typename World::Shape &shape = rest_.shape;
+    std::array<JointHinge, N> joint;
+    std::array<double, N> turn_rad;
+    for (std::size_t k = 0; k < N; ++k) {
         turn_rad[k] = shape.turn_rad[static_cast<std::size_t>(structure_.joint_body[k])];
         joint[k] = is_unknown_[k] ? JointHinge{0.0, turn_rad[k]}
                                   : JointHinge{law_[k].compliance_rad_per_n_mm, delayed_rad_[k]};
@@ -195,29 +235,29 @@ LimbState::Step LimbState::take_step(const Vector2d &target_mm, int free_axis)
         is_condensed_ = displacements_ == Displacements::small;
     }
     const double series_mm_per_n = contact_mm_per_n_ + stops_mm_per_n_;
-    Matrix2d compliance = condensed_.compliance_mm_per_n();
+    Mat compliance = condensed_.compliance_mm_per_n();
     compliance.diagonal().array() += series_mm_per_n;
-    const Matrix2d stiffness = stiffness_held(compliance, free_axis);
-    const Vector2d lacks_mm = target_mm - condensed_.tip_mm() - series_mm_per_n * shape.force_n;
-    Change change;
+    const Mat stiffness = stiffness_held<N>(compliance, free_axis);
+    const Vec lacks_mm = target_mm - condensed_.tip_mm() - series_mm_per_n * shape.force_n;
+    Change<N> change;
     bool solved = true;
-    if (!is_unknown_[0] && !is_unknown_[1]) {
+    if (!has_unknowns()) {
         change.force_n = stiffness * lacks_mm;
     } else {
         // All unknowns are counted from nothing here, so that a joint that sticks keeps its bits.
-        RestProblem problem;
-        RestState state;
-        std::array<std::size_t, 2> joint_of{};
+        RestProblem<N> problem;
+        RestState<N> state;
+        std::array<std::size_t, N> joint_of{};
         problem.stiffness_n_per_mm = stiffness;
         problem.displacement_mm = lacks_mm + compliance * shape.force_n;
         problem.joint_count = 0;
-        for (const std::size_t k : {0, 1}) {
+        for (std::size_t k = 0; k < N; ++k) {
             if (!is_unknown_[k]) {
                 continue;
             }
             const auto i = static_cast<std::size_t>(problem.joint_count++);
             joint_of[i] = k;
-            JointUnknown &unknown = problem.joint[i];
+            JointUnknown<N> &unknown = problem.joint[i];
             unknown.lever_mm = condensed_.lever_mm(static_cast<int>(k));
             unknown.law = law_[k];
             unknown.before_rad = before_rad_[k];
@@ -246,15 +286,17 @@ LimbState::Step LimbState::take_step(const Vector2d &target_mm, int free_axis)
         }
     }
     const double turned_rad = condensed_.follow(change, shape, rest_.torque_n_mm);
-    for (const std::size_t k : {0, 1}) {
+    for (std::size_t k = 0; k < N; ++k) {
         if (!is_unknown_[k]) {
             rest_.instant_rad[k] =
                 shape.turn_rad[static_cast<std::size_t>(structure_.joint_body[k])] - delayed_rad_[k];
         }
     }
-    rest_.tip_mm = condensed_.tip_mm() + condensed_.compliance_mm_per_n() * change.force_n
-                   + change.turn_rad[0] * condensed_.lever_mm(0) + change.turn_rad[1] * condensed_.lever_mm(1);
-    return {solved && condensed_.negative_pivots() == negatives(compliance, free_axis),
+    rest_.tip_mm = condensed_.tip_mm() + condensed_.compliance_mm_per_n() * change.force_n;
+    for (std::size_t k = 0; k < N; ++k) {
+        rest_.tip_mm += change.turn_rad[k] * condensed_.lever_mm(static_cast<int>(k));
+    }
+    return {solved && condensed_.negative_pivots() == negatives<N>(compliance, free_axis),
             turned_rad <= kMostTurn_rad
                 ? std::max(change.force_n.norm(), turned_rad * structure_.reach_mm / softest_mm_per_n_)
                 : kLost_n,
@@ -262,7 +304,8 @@ LimbState::Step LimbState::take_step(const Vector2d &target_mm, int free_axis)
 }
 
 // Steps until the next one would move nothing.
-bool LimbState::settle(const Vector2d &target_mm, int free_axis)
+template <class World>
+bool LimbState<World>::settle(const Vec &target_mm, int free_axis)
 {
     if (displacements_ == Displacements::small) {
         rest_.shape = {};
@@ -288,13 +331,14 @@ bool LimbState::settle(const Vector2d &target_mm, int free_axis)
 
 // Goes on to where rest would be if the limb went on as it came. It saves a step of Newton's method. A joint that
 // friction holds stays where it is. false: the tip does not go on along its way, or too far.
-bool LimbState::foresee(const Vector2d &target_mm)
+template <class World>
+bool LimbState<World>::foresee(const Vec &target_mm)
 {
     if (!has_earlier_) {
         return false;
     }
-    const Vector2d way_mm = reached_mm_ - earlier_.target_mm;
-    const Vector2d ahead_mm = target_mm - reached_mm_;
+    const Vec way_mm = reached_mm_ - earlier_.target_mm;
+    const Vec ahead_mm = target_mm - reached_mm_;
     const double part = ahead_mm.dot(way_mm) / way_mm.squaredNorm();
     if (!(std::fabs(part) <= kMostForeseen) || (ahead_mm - part * way_mm).norm() > kStraight * ahead_mm.norm()) {
         return false;
@@ -304,7 +348,7 @@ bool LimbState::foresee(const Vector2d &target_mm)
         rest_.shape.turn_rad[i] += part * (rest_.shape.turn_rad[i] - earlier.shape.turn_rad[i]);
     }
     rest_.shape.force_n += part * (rest_.shape.force_n - earlier.shape.force_n);
-    for (const std::size_t k : {0, 1}) {
+    for (std::size_t k = 0; k < N; ++k) {
         rest_.instant_rad[k] += law_[k].rubs() ? 0.0 : part * (rest_.instant_rad[k] - earlier.instant_rad[k]);
     }
     return true;
@@ -312,9 +356,10 @@ bool LimbState::foresee(const Vector2d &target_mm)
 
 // Finds rest with the tip at the target; where that fails, it leads the tip there in shorter steps. false: rest_ is
 // where the way ended.
-bool LimbState::lead_to(const Vector2d &target_mm, int free_axis)
+template <class World>
+bool LimbState<World>::lead_to(const Vec &target_mm, int free_axis)
 {
-    for (const int axis : {0, 1}) {
+    for (int axis = 0; axis < N; ++axis) {
         if ((free_axis >> axis & 1) != 0) {
             rest_.shape.force_n[axis] = 0.0;
         }
@@ -327,11 +372,11 @@ bool LimbState::lead_to(const Vector2d &target_mm, int free_axis)
         }
         rest_ = last;
     }
-    const Vector2d start_mm = reached_mm_;
+    const Vec start_mm = reached_mm_;
     double reached = 0.0;
     for (double part = 1.0; part >= kShortestPart;) {
         const double to = std::min(1.0, reached + part);
-        reached_mm_ = to == 1.0 ? target_mm : Vector2d(start_mm + to * (target_mm - start_mm));
+        reached_mm_ = to == 1.0 ? target_mm : Vec(start_mm + to * (target_mm - start_mm));
         if (settle(reached_mm_, free_axis)) {
             if (to == 1.0) {
                 return true;
@@ -349,20 +394,30 @@ bool LimbState::lead_to(const Vector2d &target_mm, int free_axis)
     return false;
 }
 
-bool LimbState::hang()
+template <class World>
+bool LimbState<World>::hang()
 {
-    const bool solved = lead_to(reached_mm_, kBothFree);
+    const bool solved = lead_to(reached_mm_, kAllFree<N>);
     before_rad_ = rest_.instant_rad;
     origin_mm_ = rest_.tip_mm;
     return solved;
 }
 
-bool LimbState::forgets() const
+template <class World>
+bool LimbState<World>::has_unknowns() const
 {
-    return !law_[0].rubs() && !law_[1].rubs() && model_.creep.ratio == 0.0;
+    return std::any_of(is_unknown_.begin(), is_unknown_.end(), [](bool is_unknown) { return is_unknown; });
 }
 
-const LimbState::Known *LimbState::known_at(const Vector2d &target_mm, int free_axis) const
+template <class World>
+bool LimbState<World>::forgets() const
+{
+    const bool rubs = std::any_of(law_.begin(), law_.end(), [](const JointLaw &law) { return law.rubs(); });
+    return !rubs && model_.creep.ratio == 0.0;
+}
+
+template <class World>
+auto LimbState<World>::known_at(const Vec &target_mm, int free_axis) const -> const Known *
 {
     const auto end = known_.begin() + known_count_;
     const auto found = std::find_if(known_.begin(), end, [&](const Known &known) {
@@ -371,17 +426,18 @@ const LimbState::Known *LimbState::known_at(const Vector2d &target_mm, int free_
     return found != end ? &*found : nullptr;
 }
 
-LimbRest LimbState::hold_tip(const Vector2d &displacement_mm, int free_axis)
+template <class World>
+auto LimbState<World>::hold_tip(const Vec &displacement_mm, int free_axis) -> LimbRest<N>
 {
-    tip_mm_ = effects::contact_play::dragged_mm(model_, tip_mm_, displacement_mm);
-    const Vector2d target_mm = origin_mm_ + tip_mm_;
+    tip_mm_ = effects::contact_play::dragged_mm<N>(model_, tip_mm_, displacement_mm);
+    const Vec target_mm = origin_mm_ + tip_mm_;
     const Known *known = forgets() ? known_at(target_mm, free_axis) : nullptr;
     bool solved = true;
     if (known != nullptr) {
         rest_ = known->rest;
         reached_mm_ = target_mm;
     } else {
-        const bool searched = displacements_ == Displacements::finite || is_unknown_[0] || is_unknown_[1];
+        const bool searched = displacements_ == Displacements::finite || has_unknowns();
         const bool goes_on = searched && free_axis == 0 && target_mm != reached_mm_;
         const Known last = goes_on ? Known{reached_mm_, free_axis, rest_} : Known{};
         solved = lead_to(target_mm, free_axis);
@@ -394,32 +450,35 @@ LimbRest LimbState::hold_tip(const Vector2d &displacement_mm, int free_axis)
         }
     }
     before_rad_ = rest_.instant_rad;
-    Vector2d carried_n = rest_.shape.force_n;
-    for (int i = 0; i < structure_.body_count; ++i) {
-        const Body &body = structure_.body[static_cast<std::size_t>(i)];
-        carried_n += (body.weight_n + body.end_weight_n) * structure_.down;
+    const Vec carried_n = rest_.shape.force_n + structure_.total_weight_n() * structure_.down;
+    LimbRest<N> rest{rest_.shape.force_n, rest_.instant_rad, rest_.torque_n_mm,
+                     structure_.base_mm_per_n.cwiseProduct(carried_n), solved};
+    for (std::size_t k = 0; k < N; ++k) {
+        rest.joint_deflection_rad[k] += delayed_rad_[k];
     }
-    return {rest_.shape.force_n,
-            {rest_.instant_rad[0] + delayed_rad_[0], rest_.instant_rad[1] + delayed_rad_[1]},
-            rest_.torque_n_mm,
-            structure_.base_mm_per_n.cwiseProduct(carried_n),
-            solved};
+    return rest;
 }
 
-Matrix2d LimbState::torque_per_motor_turn() const
+template <class World>
+auto LimbState<World>::torque_per_motor_turn() const -> Mat
 {
-    std::array<JointHinge, 2> joint{};
-    for (const std::size_t k : {0, 1}) {
+    std::array<JointHinge, N> joint{};
+    for (std::size_t k = 0; k < N; ++k) {
         joint[k].compliance_rad_per_n_mm = law_[k].compliance_rad_per_n_mm;
     }
     const bool small = displacements_ == Displacements::small;
-    Condensed springs;
-    springs.about(structure_, joint, small ? Shape{} : rest_.shape);
-    Matrix2d compliance = springs.compliance_mm_per_n();
+    typename World::Condensed springs;
+    springs.about(structure_, joint, small ? typename World::Shape{} : rest_.shape);
+    Mat compliance = springs.compliance_mm_per_n();
     compliance.diagonal().array() += contact_mm_per_n_ + kSmallestShare * compliance.trace();
-    Matrix2d lever;
-    lever << springs.lever_mm(0), springs.lever_mm(1);
+    Mat lever;
+    for (int k = 0; k < N; ++k) {
+        lever.col(k) = springs.lever_mm(k);
+    }
     return springs.torque_n_mm_per_rad() - lever.transpose() * compliance.inverse() * lever;
 }
+
+template class LimbState<InPlane>;
+template class LimbState<InSpace>;
 
 } // namespace brace::plant

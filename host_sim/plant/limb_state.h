@@ -3,6 +3,8 @@
 // At finite displacements a rest state is found by steps of Newton's method: the limb is linearised about a shape
 // (condensed.h), the joints that are more than springs find their rest in it exactly (equilibrium.h), and the limb
 // moves there. Small displacements are the first of these steps, from the unloaded limb.
+//
+// In the limb's plane, and in space: a world says which axes and joints there are, and how the limb is linearised.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,19 +12,44 @@
 
 #include "plant/condensed.h"
 #include "plant/equilibrium.h"
+#include "plant/space_condensed.h"
 #include "plant/structure.h"
 
 namespace brace::plant {
 
+// Axes x and z; femur joint and knee.
+struct InPlane {
+    static constexpr int kAxes = 2;
+    static constexpr int kFirstJoint = effects::kFemur;
+    using Structure = plant::Structure;
+    using Condensed = plant::Condensed;
+    using Shape = plant::Shape;
+};
+
+// Axes x, y and z of the commanded limb's plane; coxa joint, femur joint and knee. Displacements are finite there.
+struct InSpace {
+    static constexpr int kAxes = 3;
+    static constexpr int kFirstJoint = effects::kCoxa;
+    using Structure = SpaceStructure;
+    using Condensed = SpaceCondensed;
+    using Shape = SpaceShape;
+};
+
+template <int N>
 struct LimbRest {
-    Eigen::Vector2d force_n;                    // on the limb's tip
-    std::array<double, 2> joint_deflection_rad; // elastic, play and creep
-    std::array<double, 2> joint_torque_n_mm;    // of all loads beyond a joint about it, where it is now
-    Eigen::Vector2d base_mm;                    // the base moved along x and z
+    Vector<N> force_n;                          // on the limb's tip
+    std::array<double, N> joint_deflection_rad; // elastic, play and creep
+    std::array<double, N> joint_torque_n_mm;    // of all loads beyond a joint about it, where it is now
+    Vector<N> base_mm;                          // the base moved so far
     bool solved;
 };
 
+template <class World>
 class LimbState {
+    static constexpr int N = World::kAxes;
+    using Vec = Vector<N>;
+    using Mat = Matrix<N>;
+
 public:
     LimbState(const Model &model, Displacements displacements) : model_(model), displacements_(displacements) {}
 
@@ -36,66 +63,67 @@ public:
     // The limb hangs freely under its weight, and displacements count from there. False: it finds no rest.
     bool hang();
 
-    // free_axis: 0 both axes are held, 1 x is free, 2 z is free.
-    LimbRest hold_tip(const Eigen::Vector2d &displacement_mm, int free_axis = 0);
+    // free_axis: 0 all axes are held; in the plane also 1 x is free, 2 z is free.
+    LimbRest<N> hold_tip(const Vec &displacement_mm, int free_axis = 0);
 
     // How the torques on the joints follow the angles of their motors while the contact holds the tip, gaps closed.
-    Eigen::Matrix2d torque_per_motor_turn() const;
+    Mat torque_per_motor_turn() const;
 
 private:
     void let_creep(double t_s);
     bool prepare();
-    bool foresee(const Eigen::Vector2d &target_mm);
-    bool lead_to(const Eigen::Vector2d &target_mm, int free_axis);
-    bool settle(const Eigen::Vector2d &target_mm, int free_axis);
+    bool foresee(const Vec &target_mm);
+    bool lead_to(const Vec &target_mm, int free_axis);
+    bool settle(const Vec &target_mm, int free_axis);
     // One step of Newton's method. The forces are such as would move the limb along its softest direction so far.
     struct Step {
         bool stable;       // it went to a minimum of the energy
         double moved_n;    // infinite: it lost its way
         double rounding_n; // what rounding may move
     };
-    Step take_step(const Eigen::Vector2d &target_mm, int free_axis);
+    Step take_step(const Vec &target_mm, int free_axis);
 
     const Model &model_;
     const Displacements displacements_;
     bool placed_ = false, prepared_ = false;
     double contact_mm_per_n_ = 0.0;
     double theta1_rad_ = 0.0, theta2_rad_ = 0.0, t_s_ = 0.0, temp_degc_ = 0.0;
-    Structure structure_{};
+    typename World::Structure structure_{};
     double softest_mm_per_n_ = 0.0; // trace of its compliance without load
     double stops_mm_per_n_ = 0.0;   // yields in series, where all else is rigid while joints stick
-    std::array<JointLaw, 2> law_{}; // the compliance of a rigid joint with backlash is its stop's
-    std::array<bool, 2> is_unknown_{}; // joints that are more than springs; they are the unknowns of a RestProblem
+    std::array<JointLaw, N> law_{}; // the compliance of a rigid joint with backlash is its stop's
+    std::array<bool, N> is_unknown_{}; // joints that are more than springs; they are the unknowns of a RestProblem
 
     // The present rest state, and where it was sought.
     struct Rest {
-        Shape shape;
-        std::array<double, 2> instant_rad{}; // joints' deflections without creep
-        std::array<double, 2> torque_n_mm{};
-        Eigen::Vector2d tip_mm = Eigen::Vector2d::Zero(); // from its weightless place
+        typename World::Shape shape;
+        std::array<double, N> instant_rad{}; // joints' deflections without creep
+        std::array<double, N> torque_n_mm{};
+        Vec tip_mm = Vec::Zero(); // from its weightless place
     };
     Rest rest_;
     // Without friction and creep a rest state depends on where the tip is held and on nothing before. A run leads the
     // tip to few places, and to most of them twice.
     struct Known {
-        Eigen::Vector2d target_mm;
+        Vec target_mm;
         int free_axis;
         Rest rest;
     };
+    bool has_unknowns() const;
     bool forgets() const;
-    const Known *known_at(const Eigen::Vector2d &target_mm, int free_axis) const;
+    const Known *known_at(const Vec &target_mm, int free_axis) const;
     static constexpr int kMostKnown = 20; // places of 9 steps to each side
     std::array<Known, kMostKnown> known_;
     int known_count_ = 0;
     Known earlier_;            // where the tip was held before it came to where rest_ holds it
     bool has_earlier_ = false; // at this posture, in this run
-    Condensed condensed_;
+    typename World::Condensed condensed_;
     bool is_condensed_ = false;                            // condensed_ is that of the unloaded limb
-    Eigen::Vector2d origin_mm_ = Eigen::Vector2d::Zero();  // from where displacements count
-    Eigen::Vector2d reached_mm_ = Eigen::Vector2d::Zero(); // where rest_ holds the tip
-    Eigen::Vector2d tip_mm_ = Eigen::Vector2d::Zero();     // where the contact has dragged the tip
-    std::array<double, 2> before_rad_{};                   // rest_.instant_rad at the last reading
-    std::array<double, 2> delayed_rad_{};                  // creep
+    Vec origin_mm_ = Vec::Zero();  // from where displacements count
+    Vec reached_mm_ = Vec::Zero(); // where rest_ holds the tip
+    Vec tip_mm_ = Vec::Zero();     // where the contact has dragged the tip
+    std::array<double, N> before_rad_{};                   // rest_.instant_rad at the last reading
+    std::array<double, N> delayed_rad_{};                  // creep
     double creep_dt_s_ = -1.0, creep_approach_ = 0.0;
 };
 

@@ -79,7 +79,7 @@ bool Loading::find_rests(const effects::Model &model)
     other.change.at_s = model.change.at_s;
     const bool alike = known_ && std::memcmp(&other, &model, sizeof model) == 0;
     known_ = false;
-    LimbState limb(model, rows_.small_displacements != 0 ? Displacements::small : Displacements::finite);
+    LimbState<InPlane> limb(model, rows_.small_displacements != 0 ? Displacements::small : Displacements::finite);
     for (const Run &run : runs_) {
         if (alike && rests_like_last(run, model)) {
             continue;
@@ -117,7 +117,7 @@ std::size_t Loading::read(const effects::Model &model, const brace_loading_readi
     for (const Run &run : runs_) {
         Vector2d zero_n = Vector2d::Zero();
         for (std::size_t i = run.first; i < run.end; ++i) {
-            const LimbRest &rest = rests_[i];
+            const LimbRest<2> &rest = rests_[i];
             unsolved_rows += rest.solved ? 0 : 1;
             Vector2d read_n = sensor.reading_n(rest.force_n, rows_.t_s[i]);
             if (i == run.first && rows_.zeroed_per_run != 0) {

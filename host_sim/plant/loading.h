@@ -40,7 +40,7 @@ private:
 
     const brace_loading_rows_t &rows_;
     std::vector<Run> runs_;
-    std::vector<LimbRest> rests_;
+    std::vector<LimbRest<2>> rests_;
     effects::Model last_; // whose rests they are, if known_
     bool known_ = false;
 };

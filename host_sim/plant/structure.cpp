@@ -90,6 +90,16 @@ void add_link(const Model &model, int index, const Vector2d &axis, double length
 
 } // namespace
 
+double Structure::total_weight_n() const
+{
+    double sum = 0.0;
+    for (int i = 0; i < body_count; ++i) {
+        const Body &each = body[static_cast<std::size_t>(i)];
+        sum += each.weight_n + each.end_weight_n;
+    }
+    return sum;
+}
+
 void find_structure(const Model &model, Displacements displacements, double theta1_rad, double theta2_rad, double t_s,
                     Structure &structure)
 {
@@ -116,6 +126,15 @@ void find_structure(const Model &model, Displacements displacements, double thet
     add_link(model, kFemur, femur_axis, length.femur_mm, small ? 0.0 : weight.femur_n, t_s, parts, structure);
     structure.body[static_cast<std::size_t>(structure.body_count - 1)].end_weight_n = small ? 0.0 : weight.knee_n;
     add_link(model, kTibia, tibia_axis, length.tibia_mm, small ? 0.0 : weight.tibia_n, t_s, parts, structure);
+}
+
+Structure without_loads(Structure structure)
+{
+    structure.joint_load_n_mm.setZero();
+    for (Body &body : structure.body) {
+        body.weight_n = body.end_weight_n = 0.0;
+    }
+    return structure;
 }
 
 } // namespace brace::plant

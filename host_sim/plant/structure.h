@@ -53,10 +53,13 @@ struct Structure {
     Eigen::Vector2d down;             // where weights pull to; shorter than 1 where the limb's plane leans
     Eigen::Vector2d joint_load_n_mm;  // torque on the joints besides that of the bodies' weights and the tip force
     double reach_mm;                  // of the straight limb
+    double total_weight_n() const;
 };
 
 // At commanded angles; zero offsets are added. t_s decides whether a link has changed.
 void find_structure(const Model &model, Displacements displacements, double theta1_rad, double theta2_rad, double t_s,
                     Structure &structure);
+
+Structure without_loads(Structure structure);
 
 } // namespace brace::plant

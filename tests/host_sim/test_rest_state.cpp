@@ -8,9 +8,9 @@ extern "C" {
 #include "plant/equilibrium.h"
 #include "rig/noise.h"
 
-using brace::plant::JointUnknown;
-using brace::plant::RestProblem;
-using brace::plant::RestState;
+using JointUnknown = brace::plant::JointUnknown<2>;
+using RestProblem = brace::plant::RestProblem<2>;
+using RestState = brace::plant::RestState<2>;
 
 void setUp(void) {}
 void tearDown(void) {}

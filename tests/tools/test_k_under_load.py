@@ -180,7 +180,7 @@ def test_no_force_and_no_weight_is_the_plain_k(brace: Callable[..., Outcome], pa
 @pytest.mark.parametrize(
     "options, said",
     [
-        (("--fz", 10, "--theta0", 0.1), "in the limb's plane only"),
+        (("--fy", 10), "--fy without theta0"),
         (("--fz", 10, "--arith", "fixed"), "in float only"),
         (("--fz", 2000), "no stable equilibrium is near"),
         (("--fz", 20000), "within +-10000 N"),
@@ -200,11 +200,13 @@ def test_what_is_refused(
     "table, options, said",
     [
         ("theta1_rad,theta2_rad,fx_n\n1,1,2\n", (), "column fx_n without fz_n"),
+        ("theta0_rad,theta1_rad,theta2_rad,fy_n\n0,1,1,2\n", (), "column fy_n without fx_n"),
+        ("theta1_rad,theta2_rad,fx_n,fy_n,fz_n\n1,1,2,2,2\n", (), "column fy_n without theta0"),
         ("theta1_rad,theta2_rad,fx_n,fz_n\n1,1,2,x\n", (), "(row 1), fz_n"),
         (
             "theta1_rad,theta2_rad,fx_n,fz_n\n1,1,2,3\n",
             ("--fz", 1),
-            "drop --fx and --fz",
+            "drop --fx, --fy and --fz",
         ),
     ],
 )

@@ -120,7 +120,8 @@ def test_the_model_s_k_is_that_of_the_mean_force(limb: LimbModel) -> None:
         for _ in range(12):
             for _ in range(10):
                 one.step(0.01)
-                k = one.raw_snapshot().stiffness.engaged
+                snapshot = one.raw_snapshot()  # k is a part of it, and lives as long
+                k = snapshot.stiffness.engaged
                 of_ticks.append([k.k_xx_n_per_mm, k.k_xz_n_per_mm])
             result = loading_test(one, X)
             assert result.outcome == DONE

@@ -108,7 +108,7 @@ def test_a_load_across_the_plane_comes_from_the_contact(spatial: LimbModel) -> N
     with node(spatial, press_y_mm=4.0) as one:
         one.step(1.0)
         state, truth = one.state(), one.truth()
-        theta = one.raw_truth().motor_rad
+        theta = list(one.raw_truth().motor_rad)
         alone = loaded.space_under_force(spatial, [(0.0, theta[1], theta[2])], [(0.0, 0.0, 0.0)]).k_n_per_mm[0][1, 1]
         told = state["load"]
         assert isinstance(told, dict) and told["unloaded_k_across_n_per_mm"] == pytest.approx(alone, rel=1e-4)
@@ -129,7 +129,8 @@ def test_k_in_space_is_the_one_under_the_load(spatial: LimbModel, press_mm: tupl
     x_mm, y_mm, z_mm = press_mm
     with node(model, theta_rad=theta_rad, press_mm=(x_mm, z_mm), press_y_mm=y_mm) as one:
         one.step(1.0)
-        truth, load = one.raw_truth(), one.raw_snapshot().load
+        truth, snapshot = one.raw_truth(), one.raw_snapshot()  # load is a part of it, and lives as long
+        load = snapshot.load
         assert load.is_counted
         # The sensor's noise is 0.1 N; the coxa drive's torque is known to its bias over a lever of some 400 mm.
         assert load.force_x_n == pytest.approx(truth.force_x_n, abs=0.4)
@@ -143,19 +144,103 @@ def test_k_in_space_is_the_one_under_the_load(spatial: LimbModel, press_mm: tupl
         assert load.unloaded.k_xx_n_per_mm == pytest.approx(plane_of(without, theta_rad[0])[0, 0], rel=5e-3)
 
 
+def gravity_of(model: LimbModel, theta0_rad: float) -> np.ndarray:
+    """Where the weights pull, in the robot's frame."""
+    direction_rad, lean_rad = (model.number(f"gravity.{name}") for name in ("direction_rad", "lean_rad"))
+    within = math.cos(lean_rad)
+    down = [within * math.cos(direction_rad), math.sin(lean_rad), within * math.sin(direction_rad)]
+    return np.asarray(robot_frame(theta0_rad) @ down)
+
+
+def at_rest(one: Node, model: LimbModel) -> tuple[np.ndarray, np.ndarray]:
+    """The contact's force in the limb's plane's frame, and K by the reference under it: nothing of the controller's."""
+    truth = one.raw_truth()
+    motor_rad, force_n = list(truth.motor_rad), np.array([truth.force_x_n, truth.force_y_n, truth.force_z_n])
+    found = loaded.space_under_force(
+        model, [motor_rad], [robot_frame(motor_rad[0]) @ force_n], gravity=gravity_of(model, motor_rad[0])
+    )
+    return force_n, np.asarray(found.k_n_per_mm[0])
+
+
+def press_for(model: LimbModel, theta_rad: tuple[float, float, float], force_n: np.ndarray) -> np.ndarray:
+    """Where a contact holds the tip so that it presses with about this force: the motors droop, too."""
+    droop_rad_per_n_mm = 1.0 / 6e4
+    keys = [f"joint.{joint}.compliance_rad_per_n_mm" for joint in ("coxa", "femur", "tibia")]
+    drooping = model.with_values({key: model.number(key) + droop_rad_per_n_mm for key in keys})
+    found = loaded.space_under_force(
+        drooping, [(0.0, *theta_rad[1:])], [force_n], gravity=gravity_of(model, 0.0)
+    )
+    return np.asarray(found.displacement_mm[0])
+
+
+SIDES = [
+    (1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1), (1, 1, 0), (-1, 1, 0), (0, -1, 1), (-1, -1, -1)
+]  # fmt: skip
+NO_FRICTION = {f"motor.{joint}.friction_n_mm": 0.0 for joint in ("coxa", "femur", "tibia")}
+WEIGHS = {"gravity.femur_n": 2.0, "gravity.knee_n": 1.0, "gravity.tibia_n": 3.0, "gravity.lean_rad": 0.6,
+          "gravity.direction_rad": -1.9}  # fmt: skip
+BEAMS = {f"link.{link}.moment_transfer": True for link in ("femur", "tibia")}
+
+
+# With the defaults' noise of sensor and drives, and their friction. A limb without a sensor at its tip knows the force
+# from its motors' torques, which friction of 200 N mm hides by up to 1 N: without friction there.
+@pytest.mark.parametrize("theta_rad", [(0.4, 0.8, 1.5), (-0.6, 0.4, 0.9)])
+@pytest.mark.parametrize(
+    ("more", "has_sensor"), [({}, True), ({**BEAMS, **WEIGHS}, True), ({**WEIGHS, **NO_FRICTION}, False)]
+)
+def test_k_under_a_force_from_any_side_is_the_limbs_own(
+    spatial: LimbModel, theta_rad: tuple[float, float, float], more: dict[str, float], has_sensor: bool
+) -> None:
+    """The controller knows its model, its motors' angles and torques, and the sensor's force in its plane."""
+    model = spatial.with_values(more)
+    off = []
+    for newtons in (5.0, 10.0, 20.0):
+        for side in SIDES:
+            wanted_n = newtons * np.array(side) / np.linalg.norm(side)
+            x_mm, y_mm, z_mm = press_for(model, theta_rad, wanted_n)
+            pressed = {"press_mm": (x_mm, z_mm), "press_y_mm": y_mm, "has_force_sensor": has_sensor}
+            with node(model, theta_rad=theta_rad, **pressed) as one:
+                one.step(0.4)
+                force_n, wanted = at_rest(one, model)
+                # The motors' friction leaves the force near the one that is wanted.
+                assert np.linalg.norm(force_n - wanted_n) < 0.6 * newtons and one.raw_truth().solved
+                space = space_of(one)
+                assert space["k_is_valid"] and one.raw_snapshot().load.is_counted
+                off.append(np.linalg.norm(k_of(space) - wanted) / np.linalg.norm(wanted))
+    assert max(off) < 0.01
+
+
 def test_a_plane_that_leans_to_the_left_has_weight_across_it(spatial: LimbModel) -> None:
-    """The simulated limb's weight has no part across its plane. So the controller, which counts such a part, takes the
-    coxa joint's torque of nothing for a force of the ground that holds the weight."""
+    """Nothing presses: the coxa joint carries the weight's part across the plane, and the controller tells no force."""
     lean_rad, knee_n = 0.4, 3.0
     model = spatial.with_values({"gravity.lean_rad": lean_rad, "gravity.knee_n": knee_n, "sensor.noise_n": 0.0,
-                                 "motor.coxa.torque_noise_n_mm": 0.0})
+                                 "motor.coxa.torque_noise_n_mm": 0.0, **NO_FRICTION})
     with node(model, theta_rad=(0.0, 1.0, 1.4), hold_n_per_mm=0.0) as one:
         one.step(0.5)
-        knee_mm = 57.0 + 185.0 * math.cos(1.0)
-        tip_mm = knee_mm + 313.5 * math.cos(-0.4)
-        force_y_n = -knee_n * math.sin(lean_rad) * knee_mm / tip_mm
-        # The coxa joint's torque is known to a step of the drive; the levers are those of the limb that sags.
-        assert one.raw_snapshot().load.force_y_n == pytest.approx(force_y_n, rel=0.03)
+        # The levers are those of the limb that sags by some millimetres.
+        load_n_mm = -knee_n * math.sin(lean_rad) * (57.0 + 185.0 * math.cos(1.0))
+        assert one.raw_truth().load_n_mm[0] == pytest.approx(load_n_mm, rel=0.01)
+        tip_mm = 57.0 + 185.0 * math.cos(1.0) + 313.5 * math.cos(-0.4)
+        assert one.raw_snapshot().load.force_y_n == pytest.approx(0.0, abs=0.02 * abs(load_n_mm) / tip_mm)
+
+
+def test_play_and_friction_of_the_coxa_joint_act_in_the_turned_joint(spatial: LimbModel) -> None:
+    """Pressed across the plane against a flank, the controller still tells the K of a limb whose joint stands there."""
+    theta_rad = (0.3, 0.8, 1.5)
+    model = spatial.with_values({"joint.coxa.gap_rad": 0.02, "joint.coxa.coulomb_n_mm": 100.0})
+    x_mm, y_mm, z_mm = press_for(spatial, theta_rad, np.array([3.0, 9.0, 4.0]))
+    with node(model, theta_rad=theta_rad, press_mm=(x_mm, z_mm), press_y_mm=y_mm + 4.0) as one:
+        one.step(1.0)
+        truth, snapshot = one.raw_truth(), one.raw_snapshot()
+        assert truth.flank[0] == -1 == snapshot.play[0].flank and space_of(one)["flag_names"] == []
+        turn_rad = truth.link_rad[0] - truth.motor_rad[0] - 0.01  # the spring's, less what friction holds
+        compliance = model.number("joint.coxa.compliance_rad_per_n_mm")
+        assert abs(turn_rad + compliance * truth.load_n_mm[0]) <= compliance * 100.0 * 1.001
+        motor_rad = [truth.motor_rad[0] + 0.01, truth.motor_rad[1], truth.motor_rad[2]]
+        # The sensor's frame is that of the motor's plane, which stands turned from the reference's by the play.
+        force_n = robot_frame(truth.motor_rad[0]) @ [truth.force_x_n, truth.force_y_n, truth.force_z_n]
+        wanted = loaded.space_under_force(spatial, [motor_rad], [force_n]).k_n_per_mm[0]
+        assert np.linalg.norm(k_of(space_of(one)) - wanted) < 0.01 * np.linalg.norm(wanted)
 
 
 @pytest.mark.parametrize("theta_rad", [(0.2, 0.9, 1.6), (-0.5, 0.3, 0.9)])
@@ -165,7 +250,8 @@ def test_the_buckling_factor_of_a_load_across_is_told_in_time(
     soft = spatial.with_values({"link.tibia.lateral_mm_per_n": 2.0, "link.tibia.bending_mm_per_n": 2.0})
     with node(soft, theta_rad=theta_rad, press_mm=(-6.0, 2.0), press_y_mm=4.0) as one:
         one.step(1.0)
-        load = one.raw_snapshot().load
+        snapshot = one.raw_snapshot()
+        load = snapshot.load
         unbent_rad = [one.raw_truth().motor_rad[i] for i in range(3)]
         force_n = robot_frame(unbent_rad[0]) @ [load.force_x_n, load.force_y_n, load.force_z_n]
         wanted = loaded.space_under_force(soft, [unbent_rad], [force_n])["buckling_factor"][0]

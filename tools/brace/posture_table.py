@@ -20,15 +20,16 @@ _SLACK_RAD = 1e-5
 LIMITS_RAD = {"theta1_rad": 2 * math.pi, "theta2_rad": math.pi, "theta0_rad": 2 * math.pi}
 _MEANING = {"theta1_rad": "femur angle", "theta2_rad": "knee angle", "theta0_rad": "coxa yaw"}
 _REQUIRED = ("theta1_rad", "theta2_rad")
-FORCES = ("fx_n", "fz_n")
+FORCES = ("fx_n", "fz_n")  # both or neither
+FORCE_ACROSS = "fy_n"  # beside them; 0 where it is not there
 FORCE_MOST_N = 1e4
 
 
 @dataclass(frozen=True)
 class PostureTable:
-    """`angles` maps theta1_rad, theta2_rad and, if present, theta0_rad to one entry per row; `forces` likewise fx_n and
-    fz_n, the force of the ground on the tip, and is empty where the file has neither. `rows` are the file's bytes row by
-    row without line ends; `lines` the line on which each begins."""
+    """`angles` maps theta1_rad, theta2_rad and, if present, theta0_rad to one entry per row; `forces` likewise fx_n,
+    fz_n and, if present, fy_n, the force of the ground on the tip, and is empty where the file has none. `rows` are the
+    file's bytes row by row without line ends; `lines` the line on which each begins."""
 
     path: Path
     names: Sequence[str]
@@ -169,7 +170,9 @@ def _fill(table: PostureTable, fields: list[list[str]]) -> None:
             position = table.names.index(name)
             table.angles[name] = _angles(table, [entries[position] for entries in fields], name, limit)
     present = [name for name in FORCES if name in table.names]
-    if len(present) == 1:
+    across = [FORCE_ACROSS] if FORCE_ACROSS in table.names else []
+    if len(present) == 1 or (across and not present):
+        present = present or across
         other = next(name for name in FORCES if name not in present)
         raise BadFileError(
             f"column {present[0]} without {other}",
@@ -177,7 +180,7 @@ def _fill(table: PostureTable, fields: list[list[str]]) -> None:
             why="a force on the tip has two components in the limb's plane",
             next_step=f"add {other} (0 where there is none), or rename {present[0]}",
         )
-    for name in present:
+    for name in (*present, *across):
         position = table.names.index(name)
         table.forces[name] = _forces(table, [entries[position] for entries in fields], name)
 

@@ -246,7 +246,7 @@ def spatial_stiffness(
     native = library()
     ffi, lib = native.ffi, native.lib
     limb = firmware_limb(native, model)
-    _require_yield_across(model)
+    require_yield_across(model)
     spatial = ffi.new("brace_spatial_t *")
     status = lib.brace_spatial_collapse(limb, spatial)
     if status:
@@ -260,10 +260,11 @@ def spatial_stiffness(
         if status:
             raise PostureError(index, status, status_text(native, status))
     values = _array(native, k, _SPATIAL)
-    return _joined(values, _inverse(values))
+    return joined(values, spatial_compliance(values))
 
 
-def _require_yield_across(model: LimbModel) -> None:
+def require_yield_across(model: LimbModel) -> None:
+    """Refuses a limb that is rigid across its plane."""
     if any(np.float32(model.number(key)) > 0.0 for key in ACROSS):
         return
     raise BadFileError(
@@ -275,7 +276,8 @@ def _require_yield_across(model: LimbModel) -> None:
     )
 
 
-def _inverse(k: np.ndarray) -> np.ndarray:
+def spatial_compliance(k: np.ndarray) -> np.ndarray:
+    """C, the inverse of K in space."""
     xx, xy, xz, yy, yz, zz = (k[name].astype(float) for name in SPATIAL_K)
     full = np.stack([np.stack([xx, xy, xz], -1), np.stack([xy, yy, yz], -1), np.stack([xz, yz, zz], -1)], -2)
     inverse = np.linalg.inv(full)
@@ -289,7 +291,7 @@ def _array(native: Library, structs: CData, kind: np.dtype[np.void]) -> np.ndarr
     return np.frombuffer(native.ffi.buffer(structs), dtype=kind).copy()
 
 
-def _joined(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+def joined(first: np.ndarray, second: np.ndarray) -> np.ndarray:
     """Two structured arrays side by side, flags last."""
     source = {name: array for array in (first, second) for name in array.dtype.names or () if name != "flags"}
     kinds = [(name, array.dtype[name]) for name, array in source.items()] + [("flags", np.dtype("u4"))]

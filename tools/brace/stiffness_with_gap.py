@@ -12,9 +12,10 @@ from brace.stiffness import PLANAR_K, PLANAR_REST, PostureError
 JOINTS = ("femur", "tibia")
 
 
-def gaps_rad(model: LimbModel) -> dict[str, float]:
-    """The backlash of each joint of the plane that has some."""
-    gaps = {joint: model.number(f"joint.{joint}.gap_rad") for joint in JOINTS}
+def gaps_rad(model: LimbModel, in_space: bool = False) -> dict[str, float]:
+    """The backlash of each joint that has some: of the plane's joints, in space of the coxa joint too."""
+    joints = ("coxa", *JOINTS) if in_space else JOINTS
+    gaps = {joint: model.number(f"joint.{joint}.gap_rad") for joint in joints}
     return {joint: gap for joint, gap in gaps.items() if gap > 0.0}
 
 

@@ -240,10 +240,12 @@ static void take_force(const controller_t *controller, brace_snapshot_t *snapsho
                                snapshot->play[BRACE_FEMUR].load_n_mm, snapshot->play[BRACE_TIBIA].load_n_mm,
                                &snapshot->force_x_n, &snapshot->force_z_n);
     }
-    snapshot->force_y_n = controller->joints.joint[BRACE_COXA].sound
-                              ? posture_force_across_n(&controller->posture, &controller->parameters.in_force,
-                                                       controller->gravity.down, snapshot->play[BRACE_COXA].load_n_mm)
-                              : __builtin_nanf("");
+    snapshot->force_y_n = __builtin_nanf("");
+    if (controller->joints.joint[BRACE_COXA].sound) {
+        snapshot->force_y_n = posture_force_across_n(&controller->posture, &controller->parameters.in_force,
+                                                     controller->gravity.down, snapshot->play[BRACE_COXA].load_n_mm,
+                                                     !snapshot->force_is_sensed, &snapshot->force_x_n);
+    }
 }
 
 /* K of these samples. In CONFIGURATION there is none, because the model may be in the making. */

@@ -24,9 +24,10 @@ def add(commands: Subcommands) -> None:
         help="K, C, eigenvalues and stiff axis at a posture",
         description="K [N/mm], C [mm/N], eigenvalues [N/mm], stiff axis [rad] at a posture, computed by the firmware's "
         "own C. With --theta0 (or a theta0_rad column) in space, otherwise in the limb's plane. With --fx and --fz (or "
-        "columns fx_n, fz_n) K under this load and the weights of [gravity], at the limb's equilibrium. Angles are "
-        "commanded ones: the model's zero offsets are added; theta0, theta1 and phi lie within a full turn, theta2 in "
-        "[-pi, pi]. --temp warms the joints as [thermal] says.",
+        "columns fx_n, fz_n), in space also --fy (fy_n), K under this load and the weights of [gravity], at the limb's "
+        "equilibrium. Angles are commanded ones: the model's zero offsets are added; theta0, theta1 and phi lie within "
+        "a full turn, theta2 in [-pi, pi]. Forces and the tip's displacement are in the limb's plane (x outwards, y to "
+        "the left of it, z up), K in space in the robot's frame. --temp warms the joints as [thermal] says.",
     )
     common.add_model(parser)
     parser.add_argument("--theta0", type=common.angle, metavar="RAD", help="coxa yaw: K in space (3x3)")
@@ -52,7 +53,7 @@ def add(commands: Subcommands) -> None:
         "--csv",
         type=common.path,
         metavar="IN",
-        help="many postures: columns theta1_rad,theta2_rad[,theta0_rad][,fx_n,fz_n]",
+        help="many postures: columns theta1_rad,theta2_rad[,theta0_rad][,fx_n[,fy_n],fz_n]",
     )
     parser.add_argument(
         "--out", type=common.path, metavar="OUT", help="with --csv: the same rows with K's columns added"
@@ -101,8 +102,10 @@ def _check_usage(arguments: argparse.Namespace) -> None:
     by_angles = arguments.theta1 is not None
     if by_angles and arguments.knee:
         raise UsageError("--knee with --theta2", why="the angles say it already", next_step="drop --knee")
-    if arguments.fx is not None:
-        k_load.refuse_load_with(arguments.arith, arguments.theta0 is not None)
+    if arguments.is_loaded:
+        k_load.refuse_load_with(arguments.arith)
+    if arguments.fy is not None and arguments.theta0 is None:
+        k_load.refuse_across_the_plane("--fy")
     if arguments.theta0 is not None and arguments.arith != "f32":
         raise UsageError(
             f"--arith {arguments.arith} with --theta0",
@@ -142,6 +145,7 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
     import numpy as np
 
     from brace import stiffness
+    from brace.stiffness_in_space_under_load import LoadedLimbInSpace
     from brace.stiffness_under_load import stiffness_under_load
     from brace.stiffness_with_gap import gaps_rad
 
@@ -156,13 +160,16 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
             true1, true2 = (float(a[0]) for a in limb.true_angles(np.array([theta1]), np.array([theta2])))
             true1 = stiffness.within_half_turn(true1)
         r_mm, phi_rad = limb.polar(true1, true2)
-        if arguments.theta0 is not None:
+        sigma: dict[str, float] = {}
+        if arguments.theta0 is not None and arguments.is_loaded:
+            force_n = [[arguments.fx, arguments.fy or 0.0, arguments.fz]]
+            in_space = LoadedLimbInSpace(model)
+            result = in_space.stiffness(np.array([[arguments.theta0, theta1, theta2]]), np.array(force_n))
+        elif arguments.theta0 is not None:
             result = stiffness.spatial_stiffness(model, *(np.array([a]) for a in (arguments.theta0, theta1, theta2)))
-            sigma: dict[str, float] = {}
-        elif arguments.fx is not None:
+        elif arguments.is_loaded:
             given = (true1, true2, arguments.fx, arguments.fz)
             result = stiffness_under_load(model, *(np.array([value]) for value in given))
-            sigma = {}
         else:
             result = limb.stiffness(np.array([true1]), np.array([true2]))
             sigma = limb.sigma(true1, true2)
@@ -182,10 +189,11 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
         posture["theta0_rad"] = arguments.theta0
     if arguments.temp is not None:
         posture["temp_degc"] = arguments.temp
-    if arguments.fx is not None:
-        posture |= {"fx_n": arguments.fx, "fz_n": arguments.fz}
-    path = "spatial" if arguments.theta0 is not None else "loaded" if arguments.fx is not None else limb.path
-    unloaded = arguments.theta0 is None and arguments.fx is None
+    if arguments.is_loaded:
+        across = {"fy_n": arguments.fy or 0.0} if arguments.theta0 is not None else {}
+        posture |= {"fx_n": arguments.fx, **across, "fz_n": arguments.fz}
+    path = "loaded" if arguments.is_loaded else "spatial" if arguments.theta0 is not None else limb.path
+    unloaded = arguments.theta0 is None and not arguments.is_loaded
     while_open = _while_open(model, true1, true2, values) if unloaded else {}
     if arguments.json:
         common.print_json(
@@ -201,7 +209,7 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
         )
     else:
         common.emit(_text(model.name, values, sigma, posture, path, stiffness.flag_names(values["flags"])))
-        for joint, gap_rad in gaps_rad(model).items():
+        for joint, gap_rad in gaps_rad(model, arguments.theta0 is not None).items():
             common.emit(_gap_text(joint, gap_rad, while_open.get(joint)))
     return 0
 
@@ -248,12 +256,13 @@ def _refused(error: PostureError, arguments: argparse.Namespace, model: LimbMode
     options = " ".join(
         f"--{name} {getattr(arguments, name):g}" for name in given if getattr(arguments, name) is not None
     )
-    if error.status == E_SINGULAR and arguments.fx is not None:
+    if error.status == E_SINGULAR and arguments.is_loaded:
         return UsageError(
-            f"{options}: no K under {arguments.fx:g} N along x and {arguments.fz:g} N along z",
+            f"{options}: no K under {arguments.fx:g} N along x and {arguments.fz:g} N along z"
+            + (f", {arguments.fy:g} N across" if arguments.fy else ""),
             where=model.where("link"),
             why=error.text,
-            next_step="a smaller force or another posture; leave --fx and --fz out for K without load",
+            next_step="a smaller force or another posture; leave --fx, --fy and --fz out for K without load",
         )
     if error.status == E_SINGULAR:
         return UsageError(
@@ -293,10 +302,12 @@ def _text(
     how += f"; joints at {posture['temp_degc']:g} degC" if "temp_degc" in posture else ""
     lines = [f"{name}: {angles}; tip at r = {posture['r_mm']:.5g} mm, phi = {posture['phi_rad']:.5g} rad ({how})"]
     if "buckling_factor" in values:
+        force = ", ".join(f"{posture[f'f{axis}_n']:g}" for axis in axes)
+        moved = ", ".join(f"{values[f'tip_d{axis}_mm']:.4g}" for axis in axes)
         factor = values["buckling_factor"]
         lines.append(
-            f"under the ground's force on the tip ({posture['fx_n']:g}, {posture['fz_n']:g}) N and the limb's weight: "
-            f"tip moves ({values['tip_dx_mm']:.4g}, {values['tip_dz_mm']:.4g}) mm, buckling factor "
+            f"under the ground's force on the tip ({force}) N and the limb's weight: tip moves ({moved}) mm, "
+            + "buckling factor "
             + (f"{factor:.3g}" if math.isfinite(factor) else "above 11")
             + (": the load makes the limb much softer" if factor < k_load.SOFTENED else "")
         )

@@ -12,10 +12,11 @@ SOFTENED = 3.0  # of the buckling factor: below it a limb is much softer than wi
 
 
 def add_load(parser: OptionParser) -> None:
-    """Declares --fx and --fz."""
-    meaning = "force of the ground on the tip along {}; K is then K under this load, at the equilibrium"
-    parser.add_argument("--fx", type=force, metavar="N", help=meaning.format("x"))
-    parser.add_argument("--fz", type=force, metavar="N", help=meaning.format("z (up)"))
+    """Declares --fx, --fy and --fz."""
+    meaning = "force of the ground on the tip {}; K is then K under this load, at the equilibrium"
+    parser.add_argument("--fx", type=force, metavar="N", help=meaning.format("outwards in the limb's plane"))
+    parser.add_argument("--fy", type=force, metavar="N", help="across the plane, to the left; only with --theta0")
+    parser.add_argument("--fz", type=force, metavar="N", help="upwards in the plane")
 
 
 def force(text: str) -> float:
@@ -27,22 +28,27 @@ def force(text: str) -> float:
 
 
 def fill_in(arguments: argparse.Namespace) -> None:
-    """One component alone: the other is 0."""
-    if arguments.fx is not None or arguments.fz is not None:
+    """One component alone: the others are 0."""
+    given = [value is not None for value in (arguments.fx, arguments.fy, arguments.fz)]
+    arguments.is_loaded = any(given)
+    if arguments.is_loaded:
         arguments.fx, arguments.fz = arguments.fx or 0.0, arguments.fz or 0.0
 
 
-def refuse_load_with(arithmetic: str, in_space: bool) -> None:
-    """K under a load is float and in the plane."""
-    if in_space:
-        raise UsageError(
-            "K under a load with theta0",
-            why="under a load K is computed in the limb's plane only",
-            next_step="leave theta0 out for K in the plane, or the load for K in space without load",
-        )
+def refuse_load_with(arithmetic: str) -> None:
+    """K under a load is float."""
     if arithmetic != "f32":
         raise UsageError(
             f"--arith {arithmetic} with a load",
             why="under a load K is computed in float only",
             next_step="drop --arith",
         )
+
+
+def refuse_across_the_plane(what: str) -> None:
+    """A force across the plane, and K in the plane."""
+    raise UsageError(
+        f"{what} without theta0",
+        why="a force across the limb's plane bends it out of the plane, so K is one in space",
+        next_step="add --theta0 RAD (a table: a column theta0_rad) for K in space, or leave the force across out",
+    )

@@ -8,12 +8,13 @@ import numpy as np
 
 from brace import stiffness
 from brace.cli import common
-from brace.cli.k_load import refuse_load_with
-from brace.stiffness_under_load import LOADED_REST, stiffness_under_load
+from brace.cli.k_load import refuse_across_the_plane, refuse_load_with
 from brace.errors import BadFileError, UsageError
 from brace.files import check_file, write_file
 from brace.model import LimbModel
 from brace.posture_table import PostureTable, read_postures
+from brace.stiffness_in_space_under_load import LOADED_SPACE_REST, LoadedLimbInSpace
+from brace.stiffness_under_load import LOADED_REST, stiffness_under_load
 
 
 def run_table(arguments: argparse.Namespace, model: LimbModel) -> int:
@@ -22,14 +23,16 @@ def run_table(arguments: argparse.Namespace, model: LimbModel) -> int:
     check_file(arguments.out, inputs)
     table = read_postures(arguments.csv)
     spatial = "theta0_rad" in table.angles
-    loaded = bool(table.forces) or arguments.fx is not None
+    loaded = bool(table.forces) or arguments.is_loaded
     _check_load(table, arguments)
-    rest = stiffness.SPATIAL_REST if spatial else LOADED_REST if loaded else stiffness.PLANAR_REST
+    loaded_rest = LOADED_SPACE_REST if spatial else LOADED_REST
+    rest = loaded_rest if loaded else stiffness.SPATIAL_REST if spatial else stiffness.PLANAR_REST
     k, c = (stiffness.SPATIAL_K, stiffness.SPATIAL_C) if spatial else (stiffness.PLANAR_K, stiffness.PLANAR_C)
     names = (*k, *c, *rest, "flags")
     _refuse_taken(table, names)
     try:
-        choose = _in_space if spatial else _under_load if loaded else _in_plane
+        under_load = _in_space_under_load if spatial else _under_load
+        choose = under_load if loaded else _in_space if spatial else _in_plane
         result, path = choose(table, model, arguments)
     except stiffness.PostureError as error:
         angles = ", ".join(f"{name} = {values[error.index]:g}" for name, values in table.angles.items())
@@ -63,21 +66,35 @@ def _in_plane(table: PostureTable, model: LimbModel, arguments: argparse.Namespa
 def _under_load(table: PostureTable, model: LimbModel, arguments: argparse.Namespace) -> tuple[np.ndarray, str]:
     limb = stiffness.planar_limb(model)
     true1, true2 = limb.true_angles(table.angles["theta1_rad"], table.angles["theta2_rad"])
-    given = {"fx_n": arguments.fx, "fz_n": arguments.fz}
-    force_n = [table.forces.get(name, np.full(len(table.rows), value)) for name, value in given.items()]
+    force_n = _forces(table, {"fx_n": arguments.fx, "fz_n": arguments.fz})
     return stiffness_under_load(model, stiffness.within_half_turn(true1), true2, *force_n), "loaded"
 
 
+def _in_space_under_load(
+    table: PostureTable, model: LimbModel, arguments: argparse.Namespace
+) -> tuple[np.ndarray, str]:
+    angles = [table.angles[name] for name in ("theta0_rad", "theta1_rad", "theta2_rad")]
+    force_n = _forces(table, {"fx_n": arguments.fx, "fy_n": arguments.fy or 0.0, "fz_n": arguments.fz})
+    return LoadedLimbInSpace(model).stiffness(np.column_stack(angles), np.column_stack(force_n)), "loaded"
+
+
+def _forces(table: PostureTable, given: dict[str, float]) -> list[np.ndarray]:
+    """Each component from its column, or the same in every row."""
+    return [table.forces.get(name, np.full(len(table.rows), value)) for name, value in given.items()]
+
+
 def _check_load(table: PostureTable, arguments: argparse.Namespace) -> None:
-    if table.forces and arguments.fx is not None:
+    if "theta0_rad" not in table.angles and (arguments.fy is not None or "fy_n" in table.forces):
+        refuse_across_the_plane("--fy" if arguments.fy is not None else "column fy_n")
+    if table.forces and arguments.is_loaded:
         raise UsageError(
-            "--fx and --fz with columns fx_n and fz_n",
+            "--fx, --fy or --fz with columns fx_n and fz_n",
             where=f"{table.path}:1",
             why="each row's force stands in the file",
-            next_step="drop --fx and --fz, or rename the columns",
+            next_step="drop --fx, --fy and --fz, or rename the columns",
         )
-    if table.forces or arguments.fx is not None:
-        refuse_load_with(arguments.arith, "theta0_rad" in table.angles)
+    if table.forces or arguments.is_loaded:
+        refuse_load_with(arguments.arith)
 
 
 def _in_space(table: PostureTable, model: LimbModel, arguments: argparse.Namespace) -> tuple[np.ndarray, str]:

@@ -55,12 +55,16 @@ void posture_take(posture_t *posture, const brace_parameters_t *parameters, cons
 void posture_settle(posture_t *posture, const posture_bend_t *bend)
 {
     posture->tip_moved_mm = posture->knee_moved_mm = (brace_vec_t){0.0f, 0.0f};
+    posture->tip_across_mm = posture->knee_across_mm = posture->yaw_turn_rad = 0.0f;
     if (bend != NULL) {
         const brace_pose_t *unbent = &posture->unbent;
         posture->tip_moved_mm = bend->tip_mm;
         posture->knee_moved_mm =
             (brace_vec_t){unbent->tip.x_mm + bend->tip_mm.x - bend->tibia_mm.x - unbent->knee.x_mm,
                           unbent->tip.z_mm + bend->tip_mm.z - bend->tibia_mm.z - unbent->knee.z_mm};
+        posture->tip_across_mm = bend->tip_across_mm;
+        posture->knee_across_mm = bend->tip_across_mm - bend->tibia_across_mm;
+        posture->yaw_turn_rad = bend->joint_turn_rad[BRACE_COXA];
         for (int i = 0; i < BRACE_LINK_COUNT; i++) {
             posture->theta_rad[i] = posture->unbent_rad[i] + bend->joint_turn_rad[i];
         }
@@ -104,18 +108,31 @@ void posture_force_of_loads(const posture_t *posture, const brace_parameters_t *
     }
 }
 
+/* Sum of the weights times their places along one axis, counted from the coxa joint's. root, knee, tip: places of the
+ * femur's ends and of the tip. */
+static float weigh(const brace_gravity_t *weight, float root_mm, float knee_mm, float tip_mm)
+{
+    return weight->femur_n * 0.5f * (root_mm + knee_mm) + weight->knee_n * knee_mm +
+           weight->tibia_n * 0.5f * (knee_mm + tip_mm);
+}
+
 float posture_force_across_n(const posture_t *posture, const brace_parameters_t *parameters, brace_vec3_t down,
-                             float coxa_n_mm)
+                             float coxa_n_mm, bool is_turned, float *x_n)
 {
     const brace_limb_t *limb = &parameters->limb;
-    const brace_gravity_t *weight = &parameters->gravity;
     const float knee_mm = limb->coxa_mm + posture->pose.knee.x_mm, tip_mm = limb->coxa_mm + posture->pose.tip.x_mm;
+    const float across_mm = posture->tip_across_mm;
     const float least_mm = LEAST_REACH_RATIO * (limb->coxa_mm + limb->femur_mm + limb->tibia_mm);
     if (!posture->has_levers || __builtin_fabsf(tip_mm) < least_mm) {
         return __builtin_nanf("");
     }
-    const float weighs_n_mm = weight->femur_n * 0.5f * (limb->coxa_mm + knee_mm) + weight->knee_n * knee_mm +
-                              weight->tibia_n * 0.5f * (knee_mm + tip_mm);
     /* The motor carries the opposite of what ground and weight turn. */
-    return -(coxa_n_mm + down.y * weighs_n_mm) / tip_mm;
+    const float weighs_n_mm = down.y * weigh(&parameters->gravity, limb->coxa_mm, knee_mm, tip_mm) -
+                              down.x * weigh(&parameters->gravity, 0.0f, posture->knee_across_mm, across_mm);
+    const float x_known_n = *x_n == *x_n ? *x_n : 0.0f;
+    /* The turned plane's outward force is x + turn * y: small turns. */
+    const float turn_rad = is_turned ? posture->yaw_turn_rad : 0.0f;
+    const float y_n = (across_mm * x_known_n - coxa_n_mm - weighs_n_mm) / (tip_mm + across_mm * turn_rad);
+    *x_n -= turn_rad * y_n;
+    return y_n;
 }

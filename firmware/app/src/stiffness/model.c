@@ -171,7 +171,8 @@ static int32_t without_load(model_t *model, const brace_limb_t *limb, const floa
                                .yy_n_per_mm = across_n_per_mm,
                                .zz_n_per_mm = plane->k_zz_n_per_mm};
     rest->plane.flags |= BRACE_FLAG_LOAD_UNKNOWN;
-    rest->bend = (posture_bend_t){{unknown, unknown}, {unknown, unknown}, {unknown, unknown, unknown}};
+    rest->bend = (posture_bend_t){
+        {unknown, unknown}, {unknown, unknown}, unknown, unknown, {unknown, unknown, unknown}};
     rest->moved_across_mm = rest->buckling_factor = unknown;
     return BRACE_OK;
 }
@@ -218,6 +219,8 @@ int32_t model_loaded_end(const model_t *model, const brace_limb_t *limb, model_w
     rest->space = found.k;
     rest->bend = (posture_bend_t){.tip_mm = {moved.x, moved.z},
                                   .tibia_mm = {found.tibia_mm.x, found.tibia_mm.z},
+                                  .tip_across_mm = moved.y,
+                                  .tibia_across_mm = found.tibia_mm.y,
                                   .joint_turn_rad = {found.yaw_turn_rad, found.hip_turn_rad, -found.knee_turn_rad}};
     rest->moved_across_mm = moved.y;
     rest->buckling_factor = __builtin_nanf("");

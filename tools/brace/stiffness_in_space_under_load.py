@@ -1,0 +1,101 @@
+"""K in space under a load at the limb's equilibrium, by the firmware's own C (brace/loaded_space.h)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from brace.hardening import Spring, settle
+from brace.model import LimbModel
+from brace.native import library
+from brace.native.limb import firmware_limb, status_text
+from brace.stiffness import (
+    E_SINGULAR,
+    SPATIAL_K,
+    SPATIAL_REST,
+    PostureError,
+    joined,
+    require_yield_across,
+    spatial_compliance,
+    within_half_turn,
+)
+from brace.stiffness_under_load import FOLDS
+
+DISPLACEMENT = ("tip_dx_mm", "tip_dy_mm", "tip_dz_mm")
+LOADED_SPACE_REST = (*SPATIAL_REST, *DISPLACEMENT, "buckling_factor")
+_TURNS = ("yaw_turn_rad", "hip_turn_rad", "knee_turn_rad")
+_RESULT = np.dtype(
+    [(name, "f4") for name in (*SPATIAL_K, *LOADED_SPACE_REST, *_TURNS)] + [("flags", "u4"), ("status", "i4")]
+)
+
+
+class LoadedLimbInSpace:
+    """A limb ready to give K in space under forces on its tip; the weights of [gravity] and the springs' hardening
+    count too."""
+
+    def __init__(self, model: LimbModel) -> None:
+        require_yield_across(model)
+        native = library()
+        ffi, lib = native.ffi, native.lib
+        limb, weights = firmware_limb(native, model), ffi.new("brace_gravity_t *")
+        for part in ("femur_n", "knee_n", "tibia_n"):
+            setattr(weights, part, model.number(f"gravity.{part}"))
+        self._native = native
+        self._loaded, self._load = ffi.new("brace_loaded_space_t *"), ffi.new("brace_space_load_t *")
+        self._rest, self._found = ffi.new("brace_space_rest_t *"), ffi.new("brace_space_result_t *")
+        self._turned = ffi.new("brace_stiffness_spatial_t *")
+        lib.brace_loaded_space_collapse(limb, weights, self._loaded)
+        direction_rad, lean_rad = model.number("gravity.direction_rad"), model.number("gravity.lean_rad")
+        down = self._load.down
+        down.x, down.z = np.cos(lean_rad) * np.cos(direction_rad), np.cos(lean_rad) * np.sin(direction_rad)
+        down.y = np.sin(lean_rad)
+        joints = (self._load.yaw, self._load.hip, self._load.knee)
+        self._springs = [
+            Spring(turn, joint, model, part, 0.0)
+            for turn, joint, part in zip(_TURNS, joints, ("coxa", "femur", "tibia"))
+        ]
+        self._offset_rad = [lib.brace_limb_true_angle(limb, joint, 0.0) for joint in range(3)]
+
+    def stiffness(self, theta_rad: np.ndarray, force_n: np.ndarray) -> np.ndarray:
+        """Structured array, one entry per row of theta_rad (commanded theta0, theta1, theta2; the zero offsets are
+        added) and of force_n (force of the ground on the tip in the limb's plane: outwards, to the left of it, up).
+
+        K, eigenvalues, stiff axis and C are in the robot's frame; tip_dx_mm, tip_dy_mm, tip_dz_mm, how far force and
+        weight move the tip, in the plane's. buckling_factor: infinite where it is above 16, and where it may be above
+        11. Raises PostureError for the first posture that is refused."""
+        true_rad = np.asarray(theta_rad, float) + self._offset_rad
+        true_rad[:, 1] = within_half_turn(true_rad[:, 1])
+        hardens = any(spring.hardens for spring in self._springs)
+        rows = []
+        for index, (theta, force) in enumerate(zip(true_rad.tolist(), np.asarray(force_n, float).tolist())):
+            found = settle(self._springs, lambda: self._one(theta, force)) if hardens else self._one(theta, force)
+            status = int(found["status"][0])
+            if status != 0:
+                why = FOLDS if status == E_SINGULAR else status_text(self._native, status)
+                raise PostureError(index, status, why)
+            rows.append(found)
+        result = np.concatenate([np.empty(0, _RESULT), *rows])
+        return joined(result[[*SPATIAL_K, *LOADED_SPACE_REST, "flags"]], spatial_compliance(result))
+
+    def _one(self, theta_rad: list[float], force_n: list[float]) -> np.ndarray:
+        """One posture; where it is refused, a status."""
+        lib, load, rest, found, turned = self._native.lib, self._load, self._rest, self._found, self._turned
+        load.tip_n.x, load.tip_n.y, load.tip_n.z = force_n
+        result = np.zeros(1, _RESULT)
+        status = lib.brace_loaded_space_settle(self._loaded, theta_rad[1], theta_rad[2], load, rest)
+        status = status or lib.brace_loaded_space_stiffness(self._loaded, rest, found)
+        status = status or lib.brace_loaded_space_turn(theta_rad[0], self._native.ffi.addressof(found.k), turned)
+        result["status"] = status
+        if status == 0:
+            for name in SPATIAL_K:
+                result[name] = getattr(turned, name)
+            for part, names in (("lambda_n_per_mm", SPATIAL_REST[:3]), ("stiff_axis", SPATIAL_REST[3:])):
+                for i, name in enumerate(names):
+                    result[name] = getattr(turned, part)[i]
+            moved = found.displacement_mm
+            for name, value in zip(DISPLACEMENT, (moved.x, moved.y, moved.z)):
+                result[name] = value
+            for name in _TURNS:
+                result[name] = getattr(found, name)
+            result["buckling_factor"] = lib.brace_loaded_space_buckling_factor(self._loaded, rest)
+            result["flags"] = turned.flags
+        return result
