@@ -189,6 +189,10 @@ typedef struct {
     int32_t (*key_write)(void *context, const uint8_t key[BRACE_HAL_KEY_BYTES]);
     int32_t (*random_read)(void *context, uint32_t *word);
 
+    /* How long whoever moves the limb may be silent [us]; 0: 130,000. More only where the clock of now_us runs faster
+     * than that of people: in a simulation. */
+    uint32_t silence_us;
+
     /* Optional: three ceilings, of coxa, femur and tibia; null: there are none. */
     const brace_hal_ceiling_t *ceiling;
 

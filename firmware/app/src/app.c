@@ -9,6 +9,7 @@
 #define GUARDED_WORDS_PER_MS 8u
 #define GUARDED_WORDS_MOST 24u /* of the 336 */
 #define GUARDED_WORDS_IN_A_DEAR_TICK 2u /* in which a job has worked out a K, at most two of three */
+#define LISTENED_US 20000u /* a tick that comes later has not listened meanwhile, and has not moved the limb either */
 #define LATE_PERIODS 3u /* a tick that comes more than three periods after the one before is more than two late */
 
 /* -------------------------------------------------------------------------------------------- start -- */
@@ -124,7 +125,9 @@ static void start_ownership(controller_t *controller)
     uint8_t key[SIPHASH_KEY_BYTES];
     const bool has_key =
         hal->key_read != NULL && hal->random_read != NULL && hal->key_read(hal->context, key) == 1;
-    session_start(&controller->ownership.session, hal->key_read == NULL, has_key ? key : NULL);
+    session_t *session = &controller->ownership.session;
+    session_start(session, hal->key_read == NULL, has_key ? key : NULL);
+    session->life_us = hal->silence_us != 0u ? hal->silence_us : session->life_us;
 }
 
 _Static_assert(offsetof(brace_app_t, controller) == 0, "requests find their controller there");
@@ -192,7 +195,7 @@ static void step_ownership(brace_app_t *app)
         .moves = tests || (takes_up && !takeup_holds(&controller->takeup, &controller->flank)),
         .configures = controller->mode.now == BRACE_MODE_CONFIGURATION,
         .stores = parameter_job_is_busy(&controller->parameters),
-        .since_us = controller->since_us,
+        .since_us = controller->since_us < LISTENED_US ? controller->since_us : LISTENED_US,
         .let_go_after_us = 1000u * controller->parameters.in_force.controller.let_go_after_ms};
     uint32_t low, high;
     if (ownership->session.setting == BRACE_SETTING_GUARDED && !ownership->session.has_challenge &&

@@ -8,7 +8,7 @@ static uint32_t patience_us(const ownership_t *ownership, const ownership_inputs
 {
     const bool is_bench = ownership->session.setting == BRACE_SETTING_BENCH;
     if (inputs->moves || (inputs->runs && is_bench)) {
-        return SESSION_LIFE_US;
+        return ownership->session.life_us;
     }
     if (is_bench) {
         return 0; /* what it began has ended */

@@ -21,7 +21,7 @@ int32_t session_refuse(session_t *session, int32_t status)
 void session_start(session_t *session, bool is_bench, const uint8_t *key)
 {
     const brace_setting_t guarded = key != NULL ? BRACE_SETTING_GUARDED : BRACE_SETTING_NO_KEY;
-    *session = (session_t){.setting = is_bench ? BRACE_SETTING_BENCH : guarded};
+    *session = (session_t){.setting = is_bench ? BRACE_SETTING_BENCH : guarded, .life_us = SESSION_LIFE_US};
     if (key != NULL) {
         memcpy(session->key, key, sizeof session->key);
     }
@@ -170,7 +170,7 @@ void session_hang_up(session_t *session)
 bool session_tick(session_t *session, uint32_t since_us, uint32_t limit_us)
 {
     session->heard_us += since_us;
-    session->has_heard = session->has_heard && session->heard_us <= (uint32_t)SESSION_LIFE_US;
+    session->has_heard = session->has_heard && session->heard_us <= session->life_us;
     if (!session->is_open) {
         return false;
     }
@@ -179,7 +179,7 @@ bool session_tick(session_t *session, uint32_t since_us, uint32_t limit_us)
         return false;
     }
     const uint32_t silent_us = session->silent_us;
-    const bool lives_on = session->is_alive && silent_us <= (uint32_t)SESSION_LIFE_US;
+    const bool lives_on = session->is_alive && silent_us <= session->life_us;
     session_end(session);
     session->has_heard = lives_on && session->setting == BRACE_SETTING_BENCH; /* it may begin something else */
     session->heard = session->owner;

@@ -37,6 +37,7 @@ typedef struct {
     bool has_hung_up;       /* on a bench: its connection is closed, and another one may go on */
     uint32_t counter;       /* of the last sealed command or life sign */
     uint32_t silent_us;     /* since then */
+    uint32_t life_us;       /* so long may the owner be silent while the limb moves: SESSION_LIFE_US, or the board's own */
     bool has_heard;         /* on a bench: a life sign of somebody who is not the owner */
     brace_who_t heard;
     uint32_t heard_us;      /* since then */
