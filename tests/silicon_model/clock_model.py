@@ -17,7 +17,8 @@ class Rcc:
     def __init__(self, chip: Chip, crystal_hz: int | None = 8_000_000, pll_locks: bool = True,
                  csr: int = 0x0E000000) -> None:
         self.chip, self.crystal_hz, self.pll_locks = chip, crystal_hz, pll_locks
-        self.registers = {0x00: 0x83, 0x04: 0x24003010, 0x08: 0, 0x20: 0, 0x30: 0x00100000, 0x40: 0, 0x44: 0, 0x74: csr}
+        self.registers = {0x00: 0x83, 0x04: 0x24003010, 0x08: 0, 0x0C: 0, 0x20: 0,
+                          0x30: 0x00100000, 0x40: 0, 0x44: 0, 0x74: csr}
         self.wait_states = 0
         self.on_reset: dict[tuple[int, int], Callable[[], None]] = {}  # of a peripheral: (register, bit)
         self.ready_in = {17: 0, 25: 0}  # HSERDY, PLLRDY: polls left
@@ -36,6 +37,16 @@ class Rcc:
         if offset == 0x08:
             value = value & ~0xC | (value & 3) << 2
         return value
+
+    def crystal_stops(self) -> bool:
+        """What the clock security system makes of it (7.2.7). returns whether the processor is told, by its NMI"""
+        watched = bool(self.registers[0x00] >> 19 & 1)
+        self.crystal_hz = None
+        if watched:
+            self.registers[0x00] &= ~(1 << 16 | 1 << 19 | 1 << 24)  # HSEON, CSSON, PLLON
+            self.registers[0x08] &= ~3  # HSI
+            self.registers[0x0C] |= 1 << 7  # CSSF
+        return watched
 
     def _counted(self, bit: int) -> bool:
         self.ready_in[bit] = max(self.ready_in[bit] - 1, 0)
@@ -63,6 +74,8 @@ class Rcc:
                 reset()
         if offset == 0x74 and value >> 24 & 1:
             value &= 0x00FFFFFF
+        if offset == 0x0C:
+            value = (old & ~(1 << 7) if value >> 23 & 1 else old) & 0xFF | value & 0xFF00
         self.registers[offset] = value
         if offset in (0x08, 0x04, 0x00):
             self.check()

@@ -6,6 +6,9 @@ from chip import Chip
 from clock_model import Rcc
 
 KEY1, KEY2 = 0x45670123, 0xCDEF89AB
+OPTION_KEYS = (0x08192A3B, 0x4C5D6E7F)
+OPTIONS_OF_A_NEW_CHIP = 0x0FFFAAED  # 3.9.10: no protection, no brown-out reset, options locked
+OPTION_US = 0.5e6
 ERRORS = 0xF2  # OPERR, WRPERR, PGAERR, PGPERR, PGSERR
 START = 0x08000000
 SECTORS = [16384] * 4 + [65536] + [131072] * 7
@@ -29,6 +32,9 @@ class Flash:
         self.programmed: list[tuple[int, int]] = []
         self.erased: list[int] = []
         self.fed_before_erase: list[float] = []
+        self.optcr = OPTIONS_OF_A_NEW_CHIP
+        self.option_keys: list[int] = []
+        self.options_written: list[int] = []
         self.fails_next = 0  # error bits of the next operation
         chip.models[self.BASE] = self
         chip.waiting.append(self.advance)
@@ -100,13 +106,17 @@ class Flash:
     # --- registers
 
     def read(self, offset: int) -> int:
-        return {0x00: self.acr, 0x0C: self.sr | self.busy() << 16, 0x10: self.cr}.get(offset, 0)
+        return {0x00: self.acr, 0x0C: self.sr | self.busy() << 16, 0x10: self.cr, 0x14: self.optcr}.get(offset, 0)
 
     def write(self, offset: int, value: int) -> None:
         if offset == 0x00:
             self._write_acr(value)
         elif offset == 0x04:
             self._write_key(value)
+        elif offset == 0x08:
+            self._write_option_key(value)
+        elif offset == 0x14:
+            self._write_options(value)
         elif offset == 0x0C:
             self.sr &= ~value
         elif offset == 0x10:
@@ -132,6 +142,33 @@ class Flash:
         self.keys += 1
         if self.keys == 2:
             self.cr &= ~(1 << 31)
+
+    def _write_option_key(self, value: int) -> None:
+        self.option_keys.append(value)
+        if value != OPTION_KEYS[min(len(self.option_keys), 2) - 1]:
+            self.chip.violations.append("flash: wrong option key, locked until the next reset (3.7.1)")
+        elif len(self.option_keys) == 2:
+            self.optcr &= ~1
+
+    def _write_options(self, value: int) -> None:
+        if self.optcr & 1 or self.busy():
+            self.chip.violations.append("flash: OPTCR written while locked or busy (3.7.2)")
+            return
+        if (value ^ self.optcr) & ~0xF:
+            self.chip.violations.append("flash: an option changed that is none of the brown-out level's")
+        if value & 2:
+            if (value ^ self.optcr) & 0xC:
+                self.chip.violations.append("flash: options changed in the write that starts them (3.7.2)")
+            self.options_written.append(value)
+            self.busy_us = OPTION_US
+            self.chip.pass_us(self.busy_us)
+        if value & 1:
+            self.option_keys.clear()
+        self.optcr = value & ~2
+
+    def brown_out_level(self) -> int:
+        """3: about 2.8 V; 0: off."""
+        return 3 - (self.optcr >> 2 & 3)
 
     def _write_cr(self, value: int) -> None:
         if self.cr >> 31 & 1:

@@ -8,6 +8,7 @@ from bxcan_model import Bus, Bxcan
 from chip import Chip, Image
 from clock_model import Rcc, Tim2, Tim5
 from flash_model import Flash
+from supply_model import Pwr
 from usart_model import Gpio
 from watchdog_model import Iwdg
 
@@ -20,6 +21,7 @@ class Silicon:
         self.chip = Chip(image, seed)
         self.rcc = Rcc(self.chip, crystal_hz, pll_locks, csr)
         self.flash = Flash(self.chip, self.rcc)
+        self.supply = Pwr(self.chip, self.rcc)
         self.timer = Tim2(self.chip, self.rcc)
         self.stopwatch = Tim5(self.chip, self.rcc, lsi_hz)
         self.watchdog = Iwdg(self.chip, lsi_hz)
@@ -29,6 +31,11 @@ class Silicon:
 
     def start(self, board: str = "board_8_mhz") -> None:
         self.chip.call("start", self.chip.image.symbols[board])
+
+    def lose_crystal(self) -> None:
+        """It stops; the processor takes the exception, if the chip raises it."""
+        if self.rcc.crystal_stops():
+            self.chip.call("nmi_handler")
 
     def __getattr__(self, name: str) -> Callable[..., int]:
         """Any function of the image."""

@@ -379,3 +379,29 @@ def test_loopback_hears_itself_and_the_bus_nothing(silicon: Maker) -> None:
     assert receive(chip) == Frame(0x123, b"itself")
     assert receive(chip) is None
     assert chip.bus.seen == [] and health(chip)[0] == 0
+
+
+# --- the crystal stops
+
+
+def test_without_its_crystal_the_controller_is_off_the_bus_and_says_so(silicon: Maker) -> None:
+    chip = joined(silicon)
+    assert send(chip, Frame(0x181, b"before")) == OK
+    chip.chip.wait_us(2000)
+    sent = len(chip.bus.seen)
+    chip.lose_crystal()
+    assert send(chip, Frame(0x181, b"after")) == BUS_OFF
+    assert health(chip)[3]
+    assert chip.recover() == DEVICE
+    chip.chip.wait_us(50_000)
+    assert len(chip.bus.seen) == sent
+    assert chip.setup_can(500_000, 0, 0, 0) == DEVICE  # an inexact clock disturbs the bus
+    assert chip.setup_can(500_000, 0, 1, 0) == OK  # it may listen
+
+
+def test_a_controller_that_listens_goes_on_listening_without_the_crystal(silicon: Maker) -> None:
+    chip = joined(silicon, listen_only=True)
+    chip.lose_crystal()
+    chip.can.arriving.append(Frame(0x123, b"heard"))
+    chip.chip.wait_us(2000)
+    assert receive(chip) == Frame(0x123, b"heard")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from silicon import Maker
+from test_watchdog import Register
 
 
 @pytest.mark.parametrize("board, crystal_hz", [("board_8_mhz", 8_000_000), ("board_25_mhz", 25_000_000)])
@@ -47,6 +48,38 @@ def test_clocks_a_boot_loader_left_are_taken_over(silicon: Maker) -> None:
     chip.start()
     assert chip.rcc.clocks()["core"] == 168e6
     assert chip.chip.words("clock_told", 1) == (168_000_000,)
+
+
+def test_a_crystal_that_stops_is_told_and_time_goes_on(silicon: Maker) -> None:
+    chip = silicon()
+    chip.start()
+    before = chip.now()
+    chip.lose_crystal()
+    real = chip.rcc.clocks()
+    assert (real["core"], real["apb1"], real["apb2"], real["timer"]) == (168e6, 42e6, 84e6, 84e6)  # from the HSI
+    assert chip.rcc.registers[0x0C] >> 7 & 1 == 0  # else the exception comes again at once
+    assert chip.now() >= before  # time never runs backwards
+    again = chip.now()
+    chip.chip.wait_us(1000)
+    assert abs(chip.now() - again - 1000) <= 3
+    chip.tell_clock()
+    assert chip.chip.get("clock_told", 19)[16:] == b"\x00\x01\x01"
+
+
+def test_a_crystal_that_stops_when_the_pll_will_not_start_again_restarts_the_processor(silicon: Maker) -> None:
+    chip = silicon()
+    control = Register()
+    chip.chip.models[0xE000ED00] = control
+    chip.start()
+    chip.rcc.pll_locks = False
+    chip.lose_crystal()
+    assert control.words[0x0C] == 0x05FA0004
+
+
+def test_without_a_crystal_there_is_nothing_to_watch(silicon: Maker) -> None:
+    chip = silicon(crystal_hz=None)
+    chip.start()
+    assert chip.rcc.registers[0x00] >> 19 & 1 == 0
 
 
 def test_time_counts_microseconds_and_wraps(silicon: Maker) -> None:

@@ -22,6 +22,8 @@ OWNER = {"CAN": "CAN1", "GPIO": "GPIOA", "USART": "USART1"}
 KEYS = {
     "FLASH_KEYR_KEY1": 0x45670123,
     "FLASH_KEYR_KEY2": 0xCDEF89AB,
+    "FLASH_OPTKEYR_KEY1": 0x08192A3B,
+    "FLASH_OPTKEYR_KEY2": 0x4C5D6E7F,
     "IWDG_KR_ACCESS_KEY": 0x5555,
     "IWDG_KR_RELOAD_KEY": 0xAAAA,
     "IWDG_KR_START_KEY": 0xCCCC,
@@ -50,7 +52,7 @@ def chip() -> svd.Chip:
 def header(tmp_path_factory: pytest.TempPathFactory) -> dict[str, int]:
     """Macro -> value, both by the compiler."""
     listing = subprocess.run(
-        ["gcc", "-E", "-dM", "-undef", HEADER], check=True, capture_output=True, text=True
+        ["gcc", "-E", "-dM", "-undef", "-ffreestanding", HEADER], check=True, capture_output=True, text=True
     ).stdout.splitlines()
     names = [line.split()[1] for line in listing]
     own = [name for name in names if name in HEADER.read_text() and "(" not in name and not name.endswith("_H")]

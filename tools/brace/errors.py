@@ -6,7 +6,6 @@ exit code that scripts test for.
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -100,6 +99,8 @@ def place(path: Path | str, line: int | None = None) -> str:
 
 def did_you_mean(word: str, known: Iterable[str], likeness: float = 0.65) -> str:
     """The known word nearest to a misspelt one, or an empty string when none is at least so like it."""
+    import difflib  # here, so that a command without a slip starts at once
+
     choices = list(known)
     lowered = {choice.lower(): choice for choice in choices}
     near = difflib.get_close_matches(word.lower(), list(lowered), n=1, cutoff=likeness)

@@ -13,6 +13,7 @@ import numpy as np
 
 from brace.errors import BadFileError, did_you_mean
 from brace.files import DATA_LIMIT_BYTES, read_bytes
+from brace.limits import FORCE_MOST_N
 from brace.slips import slip
 
 WHAT = "table of postures"
@@ -22,7 +23,6 @@ _MEANING = {"theta1_rad": "femur angle", "theta2_rad": "knee angle", "theta0_rad
 _REQUIRED = ("theta1_rad", "theta2_rad")
 FORCES = ("fx_n", "fz_n")  # both or neither
 FORCE_ACROSS = "fy_n"  # beside them; 0 where it is not there
-FORCE_MOST_N = 1e4
 
 
 @dataclass(frozen=True)

@@ -181,6 +181,14 @@ class PlanarLimb:
         )
         return found.T.astype(float)
 
+    def pose(self, theta1_rad: float, theta2_rad: float) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Where knee and tip are at true angles, x and z each [mm]. Raises PostureError."""
+        pose = self.native.ffi.new("brace_pose_t *")
+        status = self.native.lib.brace_kinematics_forward(self.limb, theta1_rad, theta2_rad, pose)
+        if status:
+            raise PostureError(0, status, status_text(self.native, status))
+        return (float(pose.knee.x_mm), float(pose.knee.z_mm)), (float(pose.tip.x_mm), float(pose.tip.z_mm))
+
     def polar(self, theta1_rad: float, theta2_rad: float) -> tuple[float, float]:
         """(r [mm], phi [rad]) of the tip at true angles."""
         ffi, lib = self.native.ffi, self.native.lib

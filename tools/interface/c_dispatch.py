@@ -16,6 +16,8 @@ _HEAD = """
  *                          Each part of a multiplexed message stands by itself, in order.
  * BRACE_CAN_PROCESS_FD(X)  the same of CAN FD
  * BRACE_CAN_BY_HAND(X)     X(identifier, name): classic frames that hand-written code fills and sends
+ * BRACE_CAN_FRAMES(X)      X(name, bytes): every frame there is, requests and answers too; name as in
+ *                          brace_can_pack_<name>
  */
 #include "brace/can_messages.h"
 """
@@ -30,6 +32,7 @@ def dispatch_header(wire: Wire) -> str:
         ("BRACE_CAN_PROCESS_FD", _rated(wire.fd_messages, {})),
         ("BRACE_CAN_BY_HAND",
          [f"X({_identifier(frame, {})}, {frame.name})" for frame in classic if not frame.is_measured]),
+        ("BRACE_CAN_FRAMES", [f"X({frame.name}, {frame.bytes})" for frame in wire.frames]),
     ]
     parts = [_MADE, "#ifndef BRACE_CAN_FRAMES_H\n#define BRACE_CAN_FRAMES_H\n", _HEAD]
     parts += [f"\n#define {name}(X) \\\n    " + " \\\n    ".join(items) + "\n" for name, items in lists]

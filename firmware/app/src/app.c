@@ -146,6 +146,7 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal)
     controller->has_crashed = hal->reset_cause(hal->context) == BRACE_RESET_FAULT;
     mode_start(&controller->mode);
     start_ownership(controller);
+    drives_start(&controller->drives);
     joints_start(&controller->joints, hal);
     posture_start(&controller->posture);
     softening_start(&controller->softening);
@@ -333,11 +334,42 @@ static void step_parameters(brace_app_t *app)
     }
 }
 
+/* The parts of a tick in their order. Each that is done is another digit, so that only a tick with all of them feeds
+ * the watchdog. */
+enum {
+    PART_SENSED = 1,
+    PART_STIFFNESS = 2,
+    PART_JOBS = 3,
+    PART_GUARDED = 4,
+    PART_COMMANDED = 5,
+    PART_TOLD = 6
+};
+#define ALL_PARTS 0x123456u
+
+static void part_is_done(controller_t *controller, uint32_t part)
+{
+    controller->parts_done = controller->parts_done << 4 | part;
+}
+
+/* Sensors that tell the same whatever the limb does. */
+static void watch_sensors(controller_t *controller)
+{
+    const frozen_inputs_t inputs = {.joints = &controller->joints,
+                                    .posture = &controller->posture,
+                                    .force = &controller->tip_force,
+                                    .parameters = &controller->parameters.in_force,
+                                    .down = controller->gravity.down,
+                                    .told_rad = controller->drives.told_rad,
+                                    .limit_n_mm = controller->drives.limit_n_mm};
+    frozen_watch(&controller->frozen, &inputs);
+}
+
 static void update_faults(controller_t *controller, bool late, bool bus_off)
 {
     const joint_t *joint = controller->joints.joint;
     const bool coxa_is_missing = joint[BRACE_COXA].fitted && !joint[BRACE_COXA].sound;
-    const bool stuck = joint[BRACE_COXA].stuck || joint[BRACE_FEMUR].stuck || joint[BRACE_TIBIA].stuck;
+    const bool stuck = joint[BRACE_COXA].stuck || joint[BRACE_FEMUR].stuck || joint[BRACE_TIBIA].stuck ||
+                       frozen_any(&controller->frozen);
     const bool store_failed = controller->drift.memory_failed;
     const uint32_t causes = (joint[BRACE_FEMUR].sound ? 0u : (uint32_t)BRACE_FAULT_SENSOR_FEMUR) |
                             (joint[BRACE_TIBIA].sound ? 0u : (uint32_t)BRACE_FAULT_SENSOR_TIBIA) |
@@ -404,6 +436,7 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     const brace_parameters_t *parameters = &controller->parameters.in_force;
     brace_snapshot_t *snapshot = &controller->snapshot[1u - controller->newest];
     const bool late = tick_is_late(controller, now_us);
+    controller->parts_done = 0;
 
     step_ownership(app);
 
@@ -412,6 +445,7 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     tip_force_read(&controller->tip_force, hal, parameters);
     snapshot->taken_us = joints_taken_us(&controller->joints);
     snapshot->temp_degc = joints_warmest_degc(&controller->joints);
+    part_is_done(controller, PART_SENSED);
 
     /* Which flank carries, where the limb stands, how stiff it is. */
     flank_tick(&controller->flank, &controller->joints, &controller->tip_force, &controller->posture,
@@ -420,6 +454,8 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     take_force(controller, snapshot);
     take_stiffness(controller, snapshot);
     take_place(controller, snapshot);
+    watch_sensors(controller);
+    part_is_done(controller, PART_STIFFNESS);
 
     /* One step of each job. */
     const question_inputs_t question = question_inputs(controller);
@@ -438,12 +474,15 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
         softening_step(&controller->softening, &controller->model, &parameters->limb, controller->posture.unbent_rad,
                        is_counted_in_space, !job_has_worked) ||
         job_has_worked;
+    part_is_done(controller, PART_JOBS);
     step_guard(controller);
+    part_is_done(controller, PART_GUARDED);
 
     /* Faults and mode, and what follows from them. */
     update_faults(controller, late, wires_are_bus_off(&app->wires));
     update_mode(controller);
     command_drives(controller);
+    part_is_done(controller, PART_COMMANDED);
 
     /* Tell. */
     publish(controller, snapshot);
@@ -451,5 +490,10 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     wires_tick(&app->wires, hal, app, &controller->counters, controller->has_worked,
                job_has_worked || controller->drift.has_worked, now_us);
     controller->ownership.is_by_wire = false;
-    hal->watchdog_feed(hal->context);
+    part_is_done(controller, PART_TOLD);
+
+    /* A tick that left a part out, or did one twice, feeds no watchdog. */
+    if (controller->parts_done == ALL_PARTS) {
+        hal->watchdog_feed(hal->context);
+    }
 }

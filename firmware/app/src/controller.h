@@ -25,6 +25,7 @@
 #include "session/ownership.h"
 #include "stiffness/model.h"
 #include "stiffness/softening.h"
+#include "watch/frozen.h"
 
 /* Parts of the memory that guard looks over: app.c lists them. */
 enum { GUARDED_GRAVITY = 4, GUARDED_JOINTS = 5, GUARDED_SPANS = GUARDED_JOINTS + BRACE_LINK_COUNT };
@@ -59,6 +60,8 @@ typedef struct {
     mode_state_t mode;
     drives_t drives;
     ownership_t ownership;
+    frozen_t frozen;
+    uint32_t parts_done;           /* of the tick, in their order: app.c */
 
     uint32_t sequence;             /* of the newest snapshot */
     brace_snapshot_t snapshot[2];  /* the newest, and the one that the next tick writes */

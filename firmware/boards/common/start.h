@@ -15,8 +15,9 @@ void fault_handler(void);
 #define UNEXPECTED fault_handler
 
 /* Exceptions 1-15 in the order of the table. */
-#define CORTEX_M_VECTORS                                                                                        \
-    reset_handler, fault_handler, fault_handler, fault_handler, fault_handler, fault_handler, 0, 0, 0, 0,      \
+#define CORTEX_M_VECTORS CORTEX_M_VECTORS_WITH_NMI(fault_handler)
+#define CORTEX_M_VECTORS_WITH_NMI(nmi)                                                                          \
+    reset_handler, nmi, fault_handler, fault_handler, fault_handler, fault_handler, 0, 0, 0, 0,      \
         UNEXPECTED, UNEXPECTED, 0, UNEXPECTED, UNEXPECTED
 
 #endif

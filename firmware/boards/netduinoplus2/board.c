@@ -2,6 +2,8 @@
  * controller and watchdog. The driver is that of the real chip; other parts stand in for what the emulator lacks. */
 #include "board.h"
 
+#include <stddef.h>
+
 #include "board_servos.h"
 #include "brace_hal_stm32f405.h"
 #include "fault.h"
@@ -20,7 +22,7 @@ static const bool has_servos = false;
 
 uint32_t board_now_us(void)
 {
-    return door.now_us != 0 ? door.now_us(door.context) : 0u; /* a fault may come before the clock */
+    return door.now_us != NULL ? door.now_us(door.context) : 0u; /* a fault may come before the clock */
 }
 
 uint32_t board_core_hz(void)

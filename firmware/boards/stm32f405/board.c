@@ -11,6 +11,8 @@
  * stands for other drives. */
 #include "board.h"
 
+#include <stddef.h>
+
 #include "board_servos.h"
 #include "brace_hal_stm32f405.h"
 #include "fault.h"
@@ -29,7 +31,7 @@ static const brace_servo_setup_t servos = {
 
 uint32_t board_now_us(void)
 {
-    return door.now_us != 0 ? door.now_us(door.context) : 0u; /* a fault may come before the clock */
+    return door.now_us != NULL ? door.now_us(door.context) : 0u; /* a fault may come before the clock */
 }
 
 uint32_t board_core_hz(void)
@@ -42,6 +44,9 @@ const char *board_remark(void)
     const stm32f405_clock_report_t clock = stm32f405_clock_report();
     if (!clock.pll) {
         return "PLL does not start: 16 MHz, too slow for the joints";
+    }
+    if (clock.crystal_was_lost) {
+        return "crystal lost: 168 MHz without it; CAN is off until a restart";
     }
     return clock.crystal ? "168 MHz by crystal; servos 11 12 13 on USART6"
                          : "168 MHz without its crystal: CAN listens only; servos 11 12 13 on USART6";
@@ -69,6 +74,7 @@ const brace_hal_t *board_start(void)
         .can_rx = {'B', 8u},
         .can_tx = {'B', 9u},
         .nvm_sector = {10u, 11u},
+        .guards_supply = true,
         .watchdog = true,
         .joints = &joints,
         .crash_read = kept_crash_read,
@@ -79,7 +85,7 @@ const brace_hal_t *board_start(void)
     door = *brace_hal_stm32f405(&board);
     const bool has_line = stm32f405_servo_line(&wires) == BRACE_HAL_OK; /* not at 16 MHz, when the PLL does not start */
     if (!has_line || !servo_joints_start(&servos, &line)) {
-        door.joint_command = 0;
+        door.joint_command = NULL;
     }
     return &door;
 }

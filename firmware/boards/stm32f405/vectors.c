@@ -12,7 +12,7 @@ typedef struct {
 
 __attribute__((section(".vectors"), used)) static const vectors_t vectors = {
     _stack_top,
-    {CORTEX_M_VECTORS},
+    {CORTEX_M_VECTORS_WITH_NMI(nmi_handler)},
     {
         [0 ... 19] = UNEXPECTED,
         [20] = can1_rx0_handler,

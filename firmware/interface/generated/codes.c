@@ -402,7 +402,8 @@ static const meaning_t fault_meanings[] = {
     {1, "SENSOR_TIBIA",
      "The tibia joint's drive gives no sound sample."},
     {2, "ENCODER_STUCK",
-     "A motor's torque works and its angle does not follow."},
+     "A motor's torque works and its angle does not follow, or a joint's sensor tells the same whatever the limb "
+     "does."},
     {3, "TICK_LATE",
      "A tick came more than two periods late."},
     {4, "PARAMETERS",

@@ -137,7 +137,7 @@ brace_status_t brace_store_offer(brace_store_t *store, const brace_parameters_t 
         return BRACE_E_UNSUPPORTED;
     }
     if (!store_fits(store->hal)) {
-        fail(store, BRACE_STORE_E_SHAPE);
+        (void)fail(store, BRACE_STORE_E_SHAPE);
         return BRACE_OK;
     }
     store->is_named = false;
@@ -186,7 +186,7 @@ brace_status_t brace_store_rollback(brace_store_t *store)
     if (can_roll_back(store)) {
         begin(store, other_than(store->in_force - 1u), STAGE_AFFIRM);
     } else {
-        fail(store, BRACE_STORE_E_NOTHING);
+        (void)fail(store, BRACE_STORE_E_NOTHING);
     }
     return BRACE_OK;
 }
@@ -203,7 +203,7 @@ brace_status_t brace_store_reload(brace_store_t *store)
         begin(store, store->in_force - 1u, STAGE_REREAD);
         store->reloading = true;
     } else {
-        fail(store, BRACE_STORE_E_NOTHING);
+        (void)fail(store, BRACE_STORE_E_NOTHING);
     }
     return BRACE_OK;
 }

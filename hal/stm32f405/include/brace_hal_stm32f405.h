@@ -10,6 +10,7 @@
  * as brace_hal.h says.
  *
  * The board provides start-up code and a vector table with these handlers in it (exception number = 16 + n):
+ *   exception 2 nmi_handler: the crystal has stopped
  *   n = 20 can1_rx0_handler, 37 usart1_handler, 38 usart2_handler, 39 usart3_handler, 71 usart6_handler
  * One call of a handler: at most 200 instructions with a full receive FIFO, 120 with a byte in and two out.
  * The start-up code switches the FPU on, if it is used. SysTick is free for the board.
@@ -89,6 +90,10 @@ typedef struct {
      * clear, 4-aligned; null: flash. */
     uint8_t *nvm_ram;
 
+    /* Set the brown-out reset to 2.8 V (an option of the flash, written once), and refuse to write flash below 2.9 V.
+     * For a supply of 3.0 V or more. */
+    bool guards_supply;
+
     bool watchdog; /* start the independent watchdog; once started it cannot be stopped */
 
     const stm32f405_joints_t *joints; /* null: the board has no joints */
@@ -124,8 +129,10 @@ uint32_t stm32f405_sector_bytes(uint8_t sector);
  *     three
  *                are full; E_UNSUPPORTED when listening only
  *   can_receive  ring of 64 frames; the controller's filter rejects extended and remote frames, and other identifiers
- *   can_recover  drops the frames that wait in the mailboxes, because they are stale by then
- *   nvm_write    whole words of 4 bytes: 16 us each, 100 us at most; up to 10 words in one call always end within 1 ms
+ *   can_recover  drops the frames that wait in the mailboxes, because they are stale by then; E_DEVICE: the crystal was
+ *                lost, and CAN stays off
+ *   nvm_write    E_DEVICE while the supply is below 2.9 V; whole words of 4 bytes: 16 us each, 100 us at
+ *                most; up to 10 words in one call always end within 1 ms
  *   nvm_erase    16 KiB: 0.25 s, at most 0.5 s; 128 KiB: 1 s, at most 2 s. The processor stands still; the watchdog is
  *                fed before. E_DEVICE: protected, or not finished in twice that time
  *   watchdog     3.5 s by the LSI as measured at the start, 2.8 s with the fastest LSI; where it cannot be measured, by
@@ -139,9 +146,11 @@ typedef struct {
     stm32f405_clocks_t clocks;
     bool crystal;   /* the crystal feeds them */
     bool pll;       /* the PLL runs; else 16 MHz */
+    bool crystal_was_lost; /* it stopped while it fed the clocks: CAN has stopped, and tells bus_off */
 } stm32f405_clock_report_t;
 stm32f405_clock_report_t stm32f405_clock_report(void);
 
+void nmi_handler(void);
 void can1_rx0_handler(void);
 void usart1_handler(void);
 void usart2_handler(void);

@@ -30,6 +30,7 @@ static volatile uint32_t frames_lost;
 
 static const stm32f405_board_t *wiring;
 static bool running, listening_only;
+static volatile bool stopped; /* the crystal was lost while it ran */
 static bool recovering; /* initialisation was requested, and ends as soon as it is acknowledged */
 
 void can_use(const stm32f405_board_t *board)
@@ -94,6 +95,7 @@ int32_t can_setup(void *context, const brace_can_setup_t *setup)
     }
     running = false;
     recovering = false;
+    stopped = false;
     restart_controller(); /* now it sleeps: no interrupt, empty mailboxes and FIFO */
     ring_taken = ring_written;
     frames_lost = 0u;
@@ -129,7 +131,15 @@ static void finish_recovery(void)
 
 static bool is_bus_off(void)
 {
-    return recovering || (*can(CAN_ESR) & CAN_ESR_BOFF) != 0u;
+    return stopped || recovering || (*can(CAN_ESR) & CAN_ESR_BOFF) != 0u;
+}
+
+void can_stop(void)
+{
+    if (running && !listening_only) {
+        restart_controller(); /* it sleeps, and its line is recessive */
+        stopped = true;
+    }
 }
 
 /* It has not seen 11 recessive bits since it was set up. */
@@ -143,6 +153,9 @@ int32_t can_recover(void *context)
     (void)context;
     if (!running) {
         return BRACE_HAL_E_UNSUPPORTED;
+    }
+    if (stopped) {
+        return BRACE_HAL_E_DEVICE;
     }
     if (!recovering && (*can(CAN_ESR) & CAN_ESR_BOFF) != 0u) {
         *can(CAN_TSR) = CAN_TSR_ABRQ0 | CAN_TSR_ABRQ1 | CAN_TSR_ABRQ2;

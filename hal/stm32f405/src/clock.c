@@ -115,6 +115,9 @@ void clock_start(uint32_t hse_hz, const stm32f405_clocks_t *given)
 
         report.crystal = start_crystal(hse_hz);
         report.pll = report.crystal && start_pll(hse_hz, true);
+        if (report.pll) {
+            change(RCC_CR, RCC_CR_CSSON, RCC_CR_CSSON); /* a crystal that stops calls nmi_handler */
+        }
         if (!report.pll) {
             report.crystal = false;
             report.pll = start_pll(HSI_HZ, false);
@@ -126,6 +129,15 @@ void clock_start(uint32_t hse_hz, const stm32f405_clocks_t *given)
         report.clocks.timer_hz = report.pll ? core_hz / 2u : core_hz;
     }
     start_counter(report.clocks.timer_hz);
+}
+
+bool clock_goes_on_without_crystal(void)
+{
+    report.crystal = false;
+    report.crystal_was_lost = true;
+    change(RCC_CR, RCC_CR_PLLON, 0u); /* its source is gone; its settings may change only while it is off */
+    report.pll = rcc_becomes(RCC_CR, RCC_CR_PLLRDY, 0u, SWITCH_POLLS) && start_pll(HSI_HZ, false);
+    return report.pll;
 }
 
 uint32_t clock_now_us(void)

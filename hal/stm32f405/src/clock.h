@@ -9,6 +9,11 @@ void clock_start(uint32_t hse_hz, const stm32f405_clocks_t *given);
 
 const stm32f405_clock_report_t *clock_report(void);
 
+/* The crystal has stopped while it fed the clocks: starts the PLL again from the chip's own oscillator, with the same
+ * rates. At most 11 ms; typically 0.5 ms, in which time counts slowly.
+ * returns false: the PLL does not start, and the processor runs at 16 MHz with the dividers of 168 */
+bool clock_goes_on_without_crystal(void);
+
 /* Time since clock_start [us]. */
 uint32_t clock_now_us(void);
 

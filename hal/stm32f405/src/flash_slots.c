@@ -3,6 +3,7 @@
 #include "clock.h"
 #include "processor.h"
 #include "stm32f405_registers.h"
+#include "supply.h"
 #include "watchdog.h"
 
 enum {
@@ -100,11 +101,11 @@ static void lock(void)
     *flash(FLASH_CR) = FLASH_CR_LOCK;
 }
 
-/* Unlocks the flash. false: an operation is still running, or the controller stays locked. One wrong key locks it until
- * a reset. */
+/* Unlocks the flash. false: the supply is falling, an operation is still running, or the controller stays locked. One
+ * wrong key locks it until a reset. */
 static bool unlock(void)
 {
-    if (!finishes_within(ERASE_LARGE_US)) {
+    if (supply_is_low() || !finishes_within(ERASE_LARGE_US)) {
         return false;
     }
     if ((*flash(FLASH_CR) & FLASH_CR_LOCK) != 0u) {

@@ -6,6 +6,7 @@
 #include "flash_slots.h"
 #include "pins.h"
 #include "serial.h"
+#include "supply.h"
 #include "watchdog.h"
 
 static brace_hal_t door;
@@ -95,6 +96,9 @@ const brace_hal_t *brace_hal_stm32f405(const stm32f405_board_t *board)
 {
     reset_cause_take(board->reset_by_fault);
     clock_start(board->hse_hz, board->clocks_given);
+    if (board->guards_supply) {
+        supply_start();
+    }
     if (board->watchdog) {
         watchdog_start(clock_report()->clocks.timer_hz);
     }

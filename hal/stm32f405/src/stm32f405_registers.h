@@ -20,6 +20,7 @@
 #define RCC_CR_HSIRDY (1u << 1)
 #define RCC_CR_HSEON (1u << 16)
 #define RCC_CR_HSERDY (1u << 17)
+#define RCC_CR_CSSON (1u << 19)
 #define RCC_CR_PLLON (1u << 24)
 #define RCC_CR_PLLRDY (1u << 25)
 #define RCC_PLLCFGR 0x04u
@@ -34,6 +35,8 @@
 #define RCC_CFGR_HPRE (0xfu << 4)
 #define RCC_CFGR_PPRE1 (7u << 10)
 #define RCC_CFGR_PPRE2 (7u << 13)
+#define RCC_CIR 0x0cu
+#define RCC_CIR_CSSC (1u << 23)
 #define RCC_APB1RSTR 0x20u
 #define RCC_APB1RSTR_CAN1RST (1u << 25)
 #define RCC_AHB1ENR 0x30u
@@ -45,6 +48,7 @@
 #define RCC_APB1ENR_USART2EN (1u << 17)
 #define RCC_APB1ENR_USART3EN (1u << 18)
 #define RCC_APB1ENR_CAN1EN (1u << 25)
+#define RCC_APB1ENR_PWREN (1u << 28)
 #define RCC_APB2ENR 0x44u
 #define RCC_APB2ENR_USART1EN (1u << 4)
 #define RCC_APB2ENR_USART6EN (1u << 5)
@@ -59,6 +63,14 @@
 #define RCC_CSR_WDGRSTF (1u << 29)
 #define RCC_CSR_WWDGRSTF (1u << 30)
 
+/* Power control */
+#define PWR_BASE 0x40007000u
+#define PWR_CR 0x00u
+#define PWR_CR_PVDE (1u << 4)
+#define PWR_CR_PLS (7u << 5)
+#define PWR_CSR 0x04u
+#define PWR_CSR_PVDO (1u << 2)
+
 /* Flash interface */
 #define FLASH_BASE 0x40023c00u
 #define FLASH_ACR 0x00u
@@ -71,6 +83,9 @@
 #define FLASH_KEYR 0x04u
 #define FLASH_KEYR_KEY1 0x45670123u
 #define FLASH_KEYR_KEY2 0xcdef89abu
+#define FLASH_OPTKEYR 0x08u
+#define FLASH_OPTKEYR_KEY1 0x08192a3bu
+#define FLASH_OPTKEYR_KEY2 0x4c5d6e7fu
 #define FLASH_SR 0x0cu
 #define FLASH_SR_EOP (1u << 0)
 #define FLASH_SR_OPERR (1u << 1)
@@ -86,6 +101,10 @@
 #define FLASH_CR_PSIZE (3u << 8)
 #define FLASH_CR_STRT (1u << 16)
 #define FLASH_CR_LOCK (1u << 31)
+#define FLASH_OPTCR 0x14u
+#define FLASH_OPTCR_OPTLOCK (1u << 0)
+#define FLASH_OPTCR_OPTSTRT (1u << 1)
+#define FLASH_OPTCR_BOR_LEV (3u << 2)
 
 /* Pins; ports follow each other at equal distance */
 #define GPIOA_BASE 0x40020000u

@@ -87,6 +87,7 @@ int main(void)
     brace_journal_t journal; /* of any content */
     journal.hal = &any_memory;
     ASSUME(*(const uint8_t *)&journal.clean <= 1u && *(const uint8_t *)&journal.found <= 1u);
+    memory_writes = memory_erases = 0;
     memory_from = BRACE_JOURNAL_AT;
     memory_end = BRACE_JOURNAL_AT + journal.end;
     if (any_bool()) {

@@ -360,6 +360,7 @@ static void answers_are_of(const can_answers_t *answers, const uint8_t *request,
 
 int main(void)
 {
+    done = 0;
     can_requests_t port; /* of any content, as all of these */
     brace_measured_t measured;
     uint8_t data[8], as_sent[8];

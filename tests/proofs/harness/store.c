@@ -4,6 +4,7 @@
 
 #include "memory.h"
 #include "src/store.c"
+#include "store_state.h"
 
 uint32_t brace_crc32(uint32_t crc, const uint8_t *bytes, uint32_t count)
 {
@@ -27,41 +28,6 @@ brace_status_t brace_parameters_check_piece(const brace_parameters_t *parameters
     return any_bool() ? BRACE_OK : any_bool() ? BRACE_E_PARAMETER : BRACE_E_NOT_FINITE;
 }
 
-/* How far a stage has come. */
-static bool position_is_sound(uint32_t stage, uint32_t at)
-{
-    switch (stage) {
-    case STAGE_CHECK: return at < BRACE_CHECK_PIECES;
-    case STAGE_SEAL: return at < BRACE_BLOCK_BYTES - 4;
-    case STAGE_SPOIL:
-    case STAGE_ERASE: return at == 0u;
-    case STAGE_BLANK: return at < BLANK_CHECKED + MARKS_BYTES;
-    case STAGE_WRITE:
-    case STAGE_READ_BACK:
-    case STAGE_REREAD: return at < BRACE_STORE_BLOCK_ROOM && at % 8u == 0u;
-    default: return at == 0u || at == BRACE_STORE_MARK_BYTES; /* of a mark: to be written, to be read back */
-    }
-}
-
-static bool is_bool(const bool *value)
-{
-    return *(const uint8_t *)value <= 1u;
-}
-
-/* What is under way. */
-static bool sound(const brace_store_t *s)
-{
-    const uint32_t stage = s->stage;
-    const bool only_rollback = stage == STAGE_REREAD || stage == STAGE_WITHDRAW;
-    const bool either = stage == STAGE_AFFIRM || stage == STAGE_UNDO;
-    return s->state == BRACE_STORE_BUSY && stage <= STAGE_UNDO && position_is_sound(stage, s->position) &&
-           s->target < 2u && s->in_force <= 2u && s->in_force != s->target + 1u &&
-           s->next_mark[0] <= BRACE_STORE_MARK_COUNT && s->next_mark[1] <= BRACE_STORE_MARK_COUNT &&
-           is_bool(&s->rolling_back) && is_bool(&s->clean[0]) && is_bool(&s->clean[1]) &&
-           (s->rolling_back ? (only_rollback || either) && s->in_force != 0u : !only_rollback) &&
-           (stage != STAGE_UNDO || s->failure < BRACE_STORE_FINE);
-}
-
 /* Rises with every step, and has an end: stages only go on. */
 static uint32_t progress(const brace_store_t *s)
 {
@@ -72,16 +38,19 @@ int main(void)
 {
     brace_store_t store; /* of any content */
     store.hal = &any_memory;
+    memory_from = 0;
     memory_end = 4096;
+    memory_writes = memory_erases = 0;
     ASSUME(sound(&store));
     const uint32_t before = progress(&store), stage = store.stage;
     const uint8_t in_force = store.in_force, target = store.target;
-    const bool rolls_back = store.rolling_back;
+    const bool rolls_back = store.rolling_back, reloads = store.reloading;
 
     const brace_store_state_t state = brace_store_step(&store);
 
     PROVE(state == store.state, "the state is told");
     PROVE(memory_erases + memory_writes <= 1u, "one call that changes the memory in a step");
+    PROVE(!reloads || memory_erases + memory_writes == 0u, "a reload changes nothing");
     PROVE(memory_erases == 0u || (erased_slot == target && !rolls_back && in_force != erased_slot + 1u),
           "what is erased is not in force");
     PROVE(memory_writes == 0u || written_at >= BRACE_STORE_MARKS_AT || (written_slot == target && !rolls_back),
@@ -89,8 +58,14 @@ int main(void)
     if (state == BRACE_STORE_BUSY) {
         PROVE(sound(&store), "a step from a sound state ends in one");
         PROVE(progress(&store) > before, "each step comes nearer to the end");
-        PROVE(store.in_force == in_force && store.target == target && store.rolling_back == rolls_back,
+        PROVE(store.in_force == in_force && store.target == target && store.rolling_back == rolls_back &&
+                  store.reloading == reloads,
               "nothing changes on the way");
+        return 0;
+    }
+    PROVE(at_rest(&store), "and so does the last one");
+    if (state == BRACE_STORE_DONE && reloads) {
+        PROVE(store.in_force == in_force && stage == STAGE_REREAD, "reloaded: the set in force stays in force");
     } else if (state == BRACE_STORE_DONE) {
         PROVE(store.in_force == target + 1u && (stage == STAGE_COMMIT || stage == STAGE_WITHDRAW),
               "done: the new set is in force, by its last mark");

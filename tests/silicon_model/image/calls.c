@@ -5,7 +5,7 @@
     .name = "register model", \
     .serial = {[BRACE_SERIAL_CONSOLE] = {1, {'A', 9}, {'A', 10}, {0, 0}}, \
                [BRACE_SERIAL_MODBUS] = {2, {'D', 5}, {'D', 6}, {'D', 4}}}, \
-    .can_rx = {'B', 8}, .can_tx = {'B', 9}, .nvm_sector = {10, 11}, .watchdog = true
+    .can_rx = {'B', 8}, .can_tx = {'B', 9}, .nvm_sector = {10, 11}, .watchdog = true, .guards_supply = true
 
 const stm32f405_board_t board_8_mhz = {PINS_AND_SLOTS, .hse_hz = 8000000};
 const stm32f405_board_t board_25_mhz = {PINS_AND_SLOTS, .hse_hz = 25000000};
@@ -17,6 +17,11 @@ stm32f405_clock_report_t clock_told;
 uint8_t buffer[1024];
 brace_can_frame_t frame;
 brace_can_health_t health;
+
+void tell_clock(void)
+{
+    clock_told = stm32f405_clock_report();
+}
 
 void start(const stm32f405_board_t *board)
 {

@@ -52,7 +52,8 @@ static void test_motors_that_do_not_follow_are_told(void)
 {
     fake.play = NULL;
     run(&along_x);
-    TEST_ASSERT_TRUE(result()->outcome == BRACE_LOADING_E_FLAT);
+    TEST_ASSERT_EQUAL(BRACE_LOADING_E_LOST, result()->outcome);
+    TEST_ASSERT_BITS_HIGH(BRACE_FAULT_ENCODER_STUCK, now()->faults); /* neither angle nor torque moves by a bit */
 }
 
 static void pushed(void *user, brace_fake_t *board, int32_t joint)

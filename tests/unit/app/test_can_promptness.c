@@ -205,9 +205,18 @@ static brace_parameters_t with_play(brace_parameters_t p)
     return p;
 }
 
+/* Motors go where they are told. */
+static void follow(void *user, brace_fake_t *board, int32_t joint)
+{
+    static const float stands_rad[] = {0.0f, 1.0f, 1.4f};
+    (void)user;
+    board->joint[joint].sample.motor_rad = stands_rad[joint] + board->joint[joint].command.offset_rad;
+}
+
 static void start(const brace_parameters_t *p)
 {
     bench_start(p);
+    fake.play = follow;
     ticks(50);
     drain();
 }

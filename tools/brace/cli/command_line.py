@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import os
 import re
 import sys
@@ -10,12 +11,13 @@ from importlib import import_module
 
 from brace import __version__
 from brace.cli.options import OptionParser
-from brace.cli.streams import OutputLost, finish, prepare, say
+from brace.cli.streams import OutputLost, finish, hush, prepare, say
 from brace.errors import EXIT_CHECK_FAILED, EXIT_OK, EXIT_USAGE, BraceError
 
 SUBCOMMANDS = (
     *("k", "map", "import", "simulate", "predict", "identify", "diagnose", "plan", "params", "demo"),
     *("sim", "query", "monitor", "record", "replay", "gravity", "take-up", "let-go", "clear", "dbc", "flash", "doctor"),
+    "completion",
 )
 _NEGATIVE_NUMBER = re.compile(r"^-(\d|\.\d|inf|nan)", re.IGNORECASE)
 
@@ -54,14 +56,16 @@ def run_command_line(argv: Sequence[str] | None) -> int:
 
 def _run(argv: Sequence[str] | None) -> int:
     try:
-        arguments = build_parser().parse_args(argv)
+        arguments = build_parser(sys.argv[1:] if argv is None else argv).parse_args(argv)
     except SystemExit as stop:  # --help, --version
         return int(stop.code or 0)
+    if arguments.quiet:
+        hush()
     return int(arguments.run(arguments))
 
 
-def build_parser() -> OptionParser:
-    """The parser of all subcommands."""
+def build_parser(argv: Sequence[str] = ()) -> OptionParser:
+    """The parser of all subcommands; where the command line begins with one, of that one alone."""
     parser = OptionParser(
         prog="brace",
         description="Stiffness at the tip of a climbing robot's limb: predict it, measure it, explain it. "
@@ -72,13 +76,24 @@ def build_parser() -> OptionParser:
     )
     parser.add_argument("--version", action="version", version=f"brace {__version__}")
     commands = parser.add_subparsers(metavar="COMMAND", dest="command")
-    for name in SUBCOMMANDS:
+    for name in argv[:1] if argv[:1] and argv[0] in SUBCOMMANDS else SUBCOMMANDS:
         module = import_module(f"brace.cli.{name.replace('-', '_')}_command")
         module.add(commands)
-    for command in commands.choices.values():
-        command._negative_number_matcher = _NEGATIVE_NUMBER  # -1e-3 is a value, not an option
-    parser.set_defaults(run=lambda _arguments: _help(parser))
+    _finish_parsers(parser)
+    parser.set_defaults(run=lambda _arguments: _help(parser), quiet=False)
     return parser
+
+
+def _finish_parsers(parser: OptionParser) -> None:
+    """What all commands have, at every level."""
+    parser._negative_number_matcher = _NEGATIVE_NUMBER  # -1e-3 is a value, not an option
+    parser.add_argument(
+        "--quiet", action="store_true", default=argparse.SUPPRESS, help="say on stderr only what went wrong"
+    )
+    for action in parser._actions:
+        if isinstance(action, argparse._SubParsersAction):
+            for command in action.choices.values():
+                _finish_parsers(command)
 
 
 def _help(parser: OptionParser) -> int:

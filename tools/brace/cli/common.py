@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import json
 import math
 import sys
 import time
@@ -13,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from brace.cli.options import angle, count, flexion, number, path, positive
-from brace.cli.streams import emit
+from brace.cli.streams import emit, is_quiet
 from brace.cli.streams import say as _say
 
 if TYPE_CHECKING:
@@ -36,6 +35,7 @@ __all__ = [
 ]
 
 PROGRESS_AFTER_S = 2.0
+LINE_EVERY_S = 10.0
 
 
 class Advance(Protocol):
@@ -58,6 +58,8 @@ def add_json(parser: argparse.ArgumentParser) -> None:
 
 def print_json(data: dict[str, object]) -> None:
     """One JSON object on stdout; what is not finite becomes null, since JSON has no word for it."""
+    import json  # here, so that the command line's help need not load it
+
     emit(json.dumps(json_ready(data), indent=1))
 
 
@@ -77,19 +79,27 @@ def json_ready(value: object) -> object:
 
 
 def say(text: str) -> None:
-    """A message for the person, on stderr."""
-    _say(f"brace: {text}")
+    """A message for the person, on stderr, unless --quiet."""
+    if not is_quiet():
+        _say(f"brace: {text}")
 
 
 @contextlib.contextmanager
 def progress(label: str, total: int | None = None) -> Iterator[Advance]:
     """Yields a function to call with the work done so far, and what is being done if that changes. Draws a bar on a
-    terminal once two seconds are up."""
+    terminal once two seconds are up; says a line every ten seconds where stderr is a pipe or a file."""
+    if is_quiet() or sys.stderr is None:
+        yield lambda done, doing="": None
+        return
+    if not sys.stderr.isatty():
+        with _lines(label, total) as tell:
+            yield tell
+        return
     started = time.monotonic()
     bar: list[tuple[Progress, TaskID]] = []
 
     def advance(done: int, doing: str = "") -> None:
-        if sys.stderr is None or not sys.stderr.isatty() or time.monotonic() - started < PROGRESS_AFTER_S:
+        if time.monotonic() - started < PROGRESS_AFTER_S:
             return
         if not bar:
             from rich.console import Console
@@ -106,3 +116,31 @@ def progress(label: str, total: int | None = None) -> Iterator[Advance]:
     finally:
         if bar:
             bar[0][0].stop()
+
+
+@contextlib.contextmanager
+def _lines(label: str, total: int | None) -> Iterator[Advance]:
+    """For a log: what is being done, how long it has taken, and how far it is. A thread says it, because a step may be
+    longer than the time between two lines."""
+    import threading  # here, so that the command line's help need not load it
+
+    started, ended = time.monotonic(), threading.Event()
+    doing_now, done_now = "", 0
+
+    def advance(done: int, doing: str = "") -> None:
+        nonlocal doing_now, done_now
+        doing_now, done_now = doing, done
+
+    def tell() -> None:
+        while not ended.wait(LINE_EVERY_S):
+            what = f"{label}: {doing_now}" if doing_now else label
+            share = f", {100 * done_now // total} % done" if total else ""
+            say(f"{what}: {time.monotonic() - started:.0f} s so far{share}")
+
+    teller = threading.Thread(target=tell, daemon=True)
+    teller.start()
+    try:
+        yield advance
+    finally:
+        ended.set()
+        teller.join()

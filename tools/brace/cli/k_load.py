@@ -6,7 +6,7 @@ import argparse
 
 from brace.cli.options import OptionParser, number, refused
 from brace.errors import UsageError
-from brace.posture_table import FORCE_MOST_N
+from brace.limits import FORCE_MOST_N
 
 SOFTENED = 3.0  # of the buckling factor: below it a limb is much softer than without load, and a controller flags its K
 

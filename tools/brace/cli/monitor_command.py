@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from brace.bus.frame import Bus
     from brace.bus.watch import Watch
 
+WEB_PORT = 8417
 _POLL_S = 0.1
 _SILENCE_S = 1.5  # a heartbeat comes each second
 
@@ -35,6 +36,22 @@ def add(commands: Subcommands) -> None:
     )
     add_bus(parser)
     parser.add_argument("--seconds", type=common.positive, metavar="S", help="how long; default until Ctrl-C")
+    parser.add_argument(
+        "--web",
+        nargs="?",
+        type=common.count(0, 65535),
+        const=WEB_PORT,
+        metavar="PORT",
+        help=f"a page for a browser on this computer instead, at http://127.0.0.1:{WEB_PORT}/; port 0: any free one. "
+        "It draws each limb to scale: a controller is asked once for its parameters, a log needs --model",
+    )
+    parser.add_argument(
+        "--model",
+        action="append",
+        default=[],
+        metavar="[NODE=]LIMB.toml",
+        help="with --web: lengths and trust of a limb, or of all; may be repeated",
+    )
     common.add_json(parser)
     parser.set_defaults(run=run)
 
@@ -42,6 +59,10 @@ def add(commands: Subcommands) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     url = bus_url(arguments)
+    if arguments.web is not None:
+        from brace.cli.monitor_web import monitor_web
+
+        return monitor_web(arguments, url)
     if url.is_modbus:
         from brace.cli.monitor_modbus import monitor_modbus
 

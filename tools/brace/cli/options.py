@@ -5,10 +5,12 @@ from __future__ import annotations
 import argparse
 import math
 import re
+import shutil
 import sys
 from collections.abc import Callable, Sequence
+from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
+from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias, cast
 
 from brace.cli.streams import emit, say
 from brace.errors import UsageError, did_you_mean
@@ -55,6 +57,11 @@ class OptionParser(argparse.ArgumentParser):
     def _command(self) -> str:
         """The subcommand's name, for messages that begin with the program's."""
         return self.prog.partition(" ")[2]
+
+    def _get_formatter(self) -> argparse.HelpFormatter:
+        """argparse makes one for each option that is added, and each would ask for the terminal's width anew."""
+        formatter = cast("type[argparse.HelpFormatter]", self.formatter_class)
+        return formatter(prog=self.prog, width=_help_columns())
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:  # the entry of subcommands too
         if args is not None:
@@ -140,6 +147,11 @@ class OptionParser(argparse.ArgumentParser):
             why=why or "the command line is not complete or not clear",
             next_step=way or f"{self.prog} --help",
         )
+
+
+@cache
+def _help_columns() -> int:
+    return shutil.get_terminal_size().columns - 2
 
 
 def _name_of(action: argparse.Action) -> str:

@@ -22,6 +22,8 @@ class OutputLost(BraceError):
 
 def prepare() -> None:
     """Characters that a stream cannot show are written as \\x.., so that no name stops a command."""
+    global _quiet
+    _quiet = False  # main() may be called more than once
     for stream in (sys.stdout, sys.stderr):
         reconfigure = getattr(stream, "reconfigure", None)
         if reconfigure is not None:
@@ -38,6 +40,20 @@ def emit(text: str) -> None:
         raise
     except OSError as error:
         raise OutputLost(error.strerror or str(error)) from None
+
+
+_quiet = False
+
+
+def hush() -> None:
+    """From now on only what went wrong is said: --quiet."""
+    global _quiet
+    _quiet = True
+
+
+def is_quiet() -> bool:
+    """Whether --quiet was given."""
+    return _quiet
 
 
 def say(text: str) -> None:

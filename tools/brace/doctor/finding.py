@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -57,6 +56,8 @@ def _kernel() -> str:
 
 def first_line(command: list[str], limit_s: float = 3.0) -> str:
     """The first line a program says; empty when it says nothing in time."""
+    import subprocess  # here, so that the command line's help need not load it
+
     try:
         done = subprocess.run(
             command, stdin=subprocess.DEVNULL, capture_output=True, timeout=limit_s, check=False, text=True,

@@ -133,7 +133,7 @@ CONTACT = CodeTable("contact", False, (
 FAULT = CodeTable("fault", True, (
     Code(0, "SENSOR_FEMUR", "The femur joint's drive gives no sound sample."),
     Code(1, "SENSOR_TIBIA", "The tibia joint's drive gives no sound sample."),
-    Code(2, "ENCODER_STUCK", "A motor's torque works and its angle does not follow."),
+    Code(2, "ENCODER_STUCK", "A motor's torque works and its angle does not follow, or a joint's sensor tells the same whatever the limb does."),
     Code(3, "TICK_LATE", "A tick came more than two periods late."),
     Code(4, "PARAMETERS", "Neither slot holds a valid parameter set: the controller uses safe defaults, and K is UNCALIBRATED."),
     Code(5, "STORE", "The non-volatile memory does not keep what is written to it."),

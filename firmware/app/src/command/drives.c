@@ -23,12 +23,20 @@ static void limit(const drives_t *drives, const brace_hal_ceiling_t *ceiling, ui
                   brace_hal_joint_command_t *command)
 {
     const float way_rad = ceiling[index].speed_most_rad_per_s * 1e-6f * (float)tick_us;
-    const float before_rad = drives->offset_rad[index], offset_rad = command->offset_rad;
+    const float before_rad = drives->told_rad[index], offset_rad = command->offset_rad;
     command->offset_rad = offset_rad > before_rad + way_rad   ? before_rad + way_rad
                           : offset_rad < before_rad - way_rad ? before_rad - way_rad
                                                               : offset_rad;
     if (command->torque_limit_n_mm > ceiling[index].torque_most_n_mm) {
         command->torque_limit_n_mm = ceiling[index].torque_most_n_mm;
+    }
+}
+
+void drives_start(drives_t *drives)
+{
+    *drives = (drives_t){.are_commanded = false};
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        drives->limit_n_mm[i] = __builtin_inff();
     }
 }
 
@@ -47,7 +55,8 @@ void drives_command(drives_t *drives, const brace_hal_t *hal, const joints_t *jo
             if (hal->ceiling != NULL && moves) {
                 limit(drives, hal->ceiling, tick_us, i, &command);
             }
-            drives->offset_rad[i] = command.offset_rad;
+            drives->told_rad[i] = command.offset_rad;
+            drives->limit_n_mm[i] = command.torque_limit_n_mm;
             if (hal->joint_command(hal->context, i, &command) != BRACE_HAL_OK) {
                 brace_count(commands_failed);
                 refuse = true;

@@ -11,7 +11,8 @@
 typedef struct {
     bool are_commanded;  /* the drives hold a command of ours */
     uint32_t refused_us; /* how long a drive has refused every command */
-    float offset_rad[BRACE_LINK_COUNT]; /* of the last command */
+    float told_rad[BRACE_LINK_COUNT];   /* what each drive was told to add to its set-point; 0: nothing */
+    float limit_n_mm[BRACE_LINK_COUNT]; /* within which torque; INFINITY: within its own */
 } drives_t;
 
 /* What a loading test adds to each joint's set-point, and within which torque. */
@@ -20,6 +21,9 @@ typedef struct {
     float offset_rad[BRACE_LINK_COUNT];
     float torque_limit_n_mm[BRACE_LINK_COUNT];
 } drives_test_t;
+
+/* Nothing has been told. */
+void drives_start(drives_t *drives);
 
 /* Commands the drives in every tick in which something moves the limb, and once more afterwards, to take the command
  * back.

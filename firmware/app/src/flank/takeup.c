@@ -17,7 +17,7 @@ brace_status_t takeup_request(takeup_t *takeup, flank_t *flank, int32_t joint_in
         return BRACE_E_MODE;
     }
     for (uint32_t i = 0; i < takeup->count; i++) {
-        if (takeup->order[i] == joint_index) {
+        if ((int)takeup->order[i] == joint_index) {
             return BRACE_E_RANGE;
         }
         if (joint_at(takeup, flank, i)->machine.phase != BRACE_TAKEUP_HOLD) {
@@ -34,7 +34,7 @@ brace_status_t takeup_request(takeup_t *takeup, flank_t *flank, int32_t joint_in
 
 void takeup_let_go(takeup_t *takeup)
 {
-    takeup->letting_go = takeup->count > 0;
+    takeup->letting_go = takeup->count > 0u;
 }
 
 void takeup_forget(takeup_t *takeup, flank_t *flank)
@@ -50,7 +50,7 @@ void takeup_forget(takeup_t *takeup, flank_t *flank)
 
 bool takeup_holds(const takeup_t *takeup, const flank_t *flank)
 {
-    bool holds = takeup->count > 0 && !takeup->letting_go;
+    bool holds = takeup->count > 0u && !takeup->letting_go;
     for (uint32_t i = 0; i < takeup->count; i++) {
         holds = holds && flank->joint[takeup->order[i]].machine.phase == BRACE_TAKEUP_HOLD;
     }
@@ -74,7 +74,7 @@ void takeup_step(takeup_t *takeup, flank_t *flank)
     if (last->out.phase == BRACE_TAKEUP_IDLE && !last->machine.requested) {
         takeup->count--;
         takeup->begun = true;
-        takeup->letting_go = takeup->count > 0;
+        takeup->letting_go = takeup->count > 0u;
     } else {
         (void)brace_takeup_let_go(&last->machine);
     }

@@ -32,7 +32,7 @@ void takeup_step(takeup_t *takeup, flank_t *flank);
 /* Is any joint taken up, being taken up or let go? */
 static inline bool takeup_runs(const takeup_t *takeup)
 {
-    return takeup->count > 0;
+    return takeup->count > 0u;
 }
 
 /* Has every joint that was asked taken its flank? */

@@ -99,8 +99,8 @@ void backlash_load_observe(brace_backlash_t *joint, const brace_backlash_sample_
                 sure_direction(joint));
 
     const float off_n_mm = backlash_load_off_n_mm(joint);
-    joint->positive_us = joint->fast_n_mm > off_n_mm ? added(joint->positive_us, tick_us) : 0;
-    joint->negative_us = joint->fast_n_mm < -off_n_mm ? added(joint->negative_us, tick_us) : 0;
+    joint->positive_us = joint->fast_n_mm > off_n_mm ? added(joint->positive_us, tick_us) : 0u;
+    joint->negative_us = joint->fast_n_mm < -off_n_mm ? added(joint->negative_us, tick_us) : 0u;
 
     joint->play_low_rad = clamped(joint->play_low_rad + moved_rad, -half_gap_rad, half_gap_rad);
     joint->play_high_rad = clamped(joint->play_high_rad + moved_rad, -half_gap_rad, half_gap_rad);

@@ -9,7 +9,7 @@
  * says fmaf(). */
 static inline float brace_fma(float x, float y, float z)
 {
-#ifdef __SOFTFP__
+#if defined(__SOFTFP__) || (defined(__riscv) && !defined(__riscv_flen))
     return x * y + z;
 #else
     return fmaf(x, y, z);

@@ -259,7 +259,7 @@ static bool take_into_run(brace_drift_t *drift, brace_drift_reading_t *reading)
         fabsf(reading->theta2_rad - drift->run_theta_rad[1]) > SAME_POSTURE_RAD || drift->run_count >= RUN_MOST) {
         drift->run_count = 0;
     }
-    if (drift->run_count == 0) {
+    if (drift->run_count == 0u) {
         drift->run_theta_rad[0] = reading->theta1_rad;
         drift->run_theta_rad[1] = reading->theta2_rad;
         for (int i = 0; i < 4; i++) {
@@ -272,7 +272,7 @@ static bool take_into_run(brace_drift_t *drift, brace_drift_reading_t *reading)
     reading->dz_mm = from_mean(&drift->run_mean[1], reading->dz_mm, gain);
     reading->fx_n = from_mean(&drift->run_mean[2], reading->fx_n, gain);
     reading->fz_n = from_mean(&drift->run_mean[3], reading->fz_n, gain);
-    return drift->run_count > 1;
+    return drift->run_count > 1u;
 }
 
 /* The error of the model that the check always allows for [N]. */
@@ -401,7 +401,7 @@ brace_status_t brace_drift_step(brace_drift_t *drift, const brace_limb_t *limb, 
     const drift_compliances_t c = drift_compliances(limb);
     float change[BRACE_DRIFT_CAUSE_COUNT];
     change_of(&c, change);
-    const float count = (float)(drift->run_count - 1);
+    const float count = (float)(drift->run_count - 1u);
     const float noise = square(drift->setup.noise_n) * (1.0f + 1.0f / count);
     const float bias = bias_of(drift, &expected);
     float learned[DRIFT_OFFSETS] = {0};

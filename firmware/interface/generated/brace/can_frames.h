@@ -10,6 +10,8 @@
  *                          Each part of a multiplexed message stands by itself, in order.
  * BRACE_CAN_PROCESS_FD(X)  the same of CAN FD
  * BRACE_CAN_BY_HAND(X)     X(identifier, name): classic frames that hand-written code fills and sends
+ * BRACE_CAN_FRAMES(X)      X(name, bytes): every frame there is, requests and answers too; name as in
+ *                          brace_can_pack_<name>
  */
 #include "brace/can_messages.h"
 
@@ -39,5 +41,122 @@
 #define BRACE_CAN_BY_HAND(X) \
     X(BRACE_CAN_ID_EMERGENCY, emergency) \
     X(BRACE_CAN_ID_HEARTBEAT, heartbeat)
+
+#define BRACE_CAN_FRAMES(X) \
+    X(emergency, 8) \
+    X(stiffness_a, 8) \
+    X(stiffness_b, 8) \
+    X(eigenvalues, 8) \
+    X(posture, 8) \
+    X(heartbeat, 8) \
+    X(space_0, 8) \
+    X(space_1, 8) \
+    X(space_2, 8) \
+    X(space_3, 8) \
+    X(space_4, 8) \
+    X(space_5, 8) \
+    X(space_6, 8) \
+    X(load_0, 8) \
+    X(load_1, 8) \
+    X(load_2, 8) \
+    X(load_3, 8) \
+    X(load_4, 8) \
+    X(snapshot_fd, 64) \
+    X(space_fd, 64) \
+    X(load_fd, 64) \
+    X(read_entry_request, 8) \
+    X(read_entry_answer_0, 8) \
+    X(write_entry_request, 8) \
+    X(write_entry_answer_0, 8) \
+    X(k_at_posture_request, 8) \
+    X(k_at_posture_answer_0, 8) \
+    X(k_at_posture_answer_1, 8) \
+    X(k_at_posture_answer_2, 8) \
+    X(k_at_tip_knee_up_request, 8) \
+    X(k_at_tip_knee_up_answer_0, 8) \
+    X(k_at_tip_knee_up_answer_1, 8) \
+    X(k_at_tip_knee_up_answer_2, 8) \
+    X(k_at_tip_knee_down_request, 8) \
+    X(k_at_tip_knee_down_answer_0, 8) \
+    X(k_at_tip_knee_down_answer_1, 8) \
+    X(k_at_tip_knee_down_answer_2, 8) \
+    X(contact_force_request, 8) \
+    X(contact_force_answer_0, 8) \
+    X(contact_force_answer_1, 8) \
+    X(sag_for_load_request, 8) \
+    X(sag_for_load_answer_0, 8) \
+    X(friction_margin_request, 8) \
+    X(friction_margin_answer_0, 8) \
+    X(set_mode_request, 8) \
+    X(set_mode_answer_0, 8) \
+    X(upload_begin_request, 8) \
+    X(upload_begin_answer_0, 8) \
+    X(upload_word_request, 8) \
+    X(upload_word_answer_0, 8) \
+    X(commit_request, 8) \
+    X(commit_answer_0, 8) \
+    X(commit_answer_1, 8) \
+    X(rollback_request, 8) \
+    X(rollback_answer_0, 8) \
+    X(rollback_answer_1, 8) \
+    X(download_word_request, 8) \
+    X(download_word_answer_0, 8) \
+    X(take_up_request, 8) \
+    X(take_up_answer_0, 8) \
+    X(let_go_request, 8) \
+    X(let_go_answer_0, 8) \
+    X(loading_test_start_request, 8) \
+    X(loading_test_start_answer_0, 8) \
+    X(loading_test_stop_request, 8) \
+    X(loading_test_stop_answer_0, 8) \
+    X(fetch_row_request, 8) \
+    X(fetch_row_answer_0, 8) \
+    X(identify_request, 8) \
+    X(identify_answer_0, 8) \
+    X(identify_answer_1, 8) \
+    X(identify_answer_2, 8) \
+    X(identify_answer_3, 8) \
+    X(loading_test_result_request, 8) \
+    X(loading_test_result_answer_0, 8) \
+    X(clear_request, 8) \
+    X(clear_answer_0, 8) \
+    X(k_in_space_at_posture_request, 8) \
+    X(k_in_space_at_posture_answer_0, 8) \
+    X(k_in_space_at_posture_answer_1, 8) \
+    X(k_in_space_at_posture_answer_2, 8) \
+    X(k_in_space_at_posture_answer_3, 8) \
+    X(k_in_space_at_posture_answer_4, 8) \
+    X(k_in_space_at_posture_answer_5, 8) \
+    X(drift_request, 8) \
+    X(drift_answer_0, 8) \
+    X(drift_answer_1, 8) \
+    X(drift_answer_2, 8) \
+    X(take_up_result_request, 8) \
+    X(take_up_result_answer_0, 8) \
+    X(set_gravity_request, 8) \
+    X(set_gravity_answer_0, 8) \
+    X(tip_force_request, 8) \
+    X(tip_force_answer_0, 8) \
+    X(k_under_load_at_posture_request, 8) \
+    X(k_under_load_at_posture_answer_0, 8) \
+    X(k_under_load_at_posture_answer_1, 8) \
+    X(k_under_load_at_posture_answer_2, 8) \
+    X(k_under_load_at_posture_answer_3, 8) \
+    X(k_under_load_at_posture_answer_4, 8) \
+    X(k_under_load_at_tip_knee_up_request, 8) \
+    X(k_under_load_at_tip_knee_up_answer_0, 8) \
+    X(k_under_load_at_tip_knee_up_answer_1, 8) \
+    X(k_under_load_at_tip_knee_up_answer_2, 8) \
+    X(k_under_load_at_tip_knee_up_answer_3, 8) \
+    X(k_under_load_at_tip_knee_up_answer_4, 8) \
+    X(k_under_load_at_tip_knee_down_request, 8) \
+    X(k_under_load_at_tip_knee_down_answer_0, 8) \
+    X(k_under_load_at_tip_knee_down_answer_1, 8) \
+    X(k_under_load_at_tip_knee_down_answer_2, 8) \
+    X(k_under_load_at_tip_knee_down_answer_3, 8) \
+    X(k_under_load_at_tip_knee_down_answer_4, 8) \
+    X(tip_force_in_space_request, 8) \
+    X(tip_force_in_space_answer_0, 8) \
+    X(refusal, 8)
 
 #endif

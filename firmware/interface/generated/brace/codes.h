@@ -87,7 +87,8 @@ enum {
     BRACE_FAULT_SENSOR_FEMUR = 1u << 0,
     /* The tibia joint's drive gives no sound sample. */
     BRACE_FAULT_SENSOR_TIBIA = 1u << 1,
-    /* A motor's torque works and its angle does not follow. */
+    /* A motor's torque works and its angle does not follow, or a joint's sensor tells the same whatever the limb
+     * does. */
     BRACE_FAULT_ENCODER_STUCK = 1u << 2,
     /* A tick came more than two periods late. */
     BRACE_FAULT_TICK_LATE = 1u << 3,

@@ -48,7 +48,7 @@ static bool setup_is_sound(const brace_loading_setup_t *setup)
 static void count_run(brace_loading_t *test, brace_axis_t axis, const float theta_rad[BRACE_LINK_COUNT])
 {
     const bool is_elsewhere =
-        test->run_count == 0 ||
+        test->run_count == 0u ||
         __builtin_fabsf(theta_rad[BRACE_FEMUR] - test->config_theta_rad[0]) > SAME_POSTURE_RAD ||
         __builtin_fabsf(theta_rad[BRACE_TIBIA] - test->config_theta_rad[1]) > SAME_POSTURE_RAD;
     test->run_count++;
@@ -191,7 +191,7 @@ static brace_loading_outcome_t broken_bound(const brace_loading_t *test, const l
     if (!(__builtin_fabsf(now->force_x_n) <= FORCE_ABSURD_N && __builtin_fabsf(now->force_z_n) <= FORCE_ABSURD_N)) {
         return BRACE_LOADING_E_NO_FORCE;
     }
-    if (test->result.rows > 0 && (__builtin_fabsf(now->force_x_n - test->result.preload_x_n) > most_n ||
+    if (test->result.rows > 0u && (__builtin_fabsf(now->force_x_n - test->result.preload_x_n) > most_n ||
                                   __builtin_fabsf(now->force_z_n - test->result.preload_z_n) > most_n)) {
         return BRACE_LOADING_E_FORCE;
     }

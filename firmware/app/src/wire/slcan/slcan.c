@@ -249,7 +249,8 @@ static bool take_line(slcan_t *slcan, brace_can_frame_t *frame, bool *is_frame)
         reply_yes_or_no(slcan, false);
         slcan->skips = false;
     } else {
-        const uint32_t start = end > 0u && slcan->in[0] == '\n'; /* of a host that ends its lines with CR and LF */
+        /* of a host that ends its lines with CR and LF */
+        const uint32_t start = end > 0u && slcan->in[0] == '\n' ? 1u : 0u;
         const line_t line = {&slcan->in[start], end - start};
         *is_frame = obey(slcan, &line, frame);
     }

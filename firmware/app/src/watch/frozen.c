@@ -1,0 +1,112 @@
+#include "watch/frozen.h"
+
+/* A drive answers its command, and a motor its load, within a quarter of a second; sense/joints.c waits as long. */
+#define FROZEN_US 250000u
+#define SAMPLES_SETTLED 3u /* the torque's mean begins with as many */
+#define STANDSTILL_MOST_US 0x40000000u
+
+#define TOLD_LEAST_RAD 0.005f
+#define TOLD_STEPS 10.0f
+#define TORQUE_LEFT_RATIO 0.8f /* of the limit: a drive near it may stand for lack of torque */
+
+#define FRICTION_BANDS 4.0f    /* there and back, of a friction known to a factor of two */
+#define NOISE_SIGMAS 12.0f     /* six there, six back */
+#define LOAD_OFF_RATIO 0.2f    /* weights, levers and the sensor's gain, together */
+
+static frozen_span_t just(float value)
+{
+    return (frozen_span_t){value, value};
+}
+
+/* NaN once, and the span stays NaN. */
+static frozen_span_t with(frozen_span_t span, float value)
+{
+    const bool unknown = value != value;
+    return (frozen_span_t){.low = unknown || value < span.low ? value : span.low,
+                           .high = unknown || value > span.high ? value : span.high};
+}
+
+static float width(frozen_span_t span)
+{
+    return span.high - span.low;
+}
+
+static float largest(frozen_span_t span)
+{
+    const float low = __builtin_fabsf(span.low), high = __builtin_fabsf(span.high);
+    return low > high ? low : high;
+}
+
+/* What the joint carries, by the tip's sensor and the weight; NaN: not known. The force across the plane is not
+ * sensed. */
+static float load_n_mm(const frozen_inputs_t *inputs, int index)
+{
+    if (index == BRACE_COXA || !inputs->force->known || !inputs->posture->has_levers) {
+        return __builtin_nanf("");
+    }
+    return posture_gravity_n_mm(inputs->posture, &inputs->parameters->gravity, inputs->down, index) +
+           posture_tip_load_n_mm(inputs->posture, inputs->force->x_n, inputs->force->z_n, index);
+}
+
+/* How far a torque may be from what its joint carries. The joint's own friction hides a part, and so does the
+ * motor's. */
+static float hidden_n_mm(const frozen_joint_t *joint, const frozen_inputs_t *inputs, int index)
+{
+    const brace_drive_t *drive = &inputs->parameters->drive[index];
+    const float most_n_mm = largest(joint->load_n_mm);
+    const float friction_n_mm =
+        drive->motor_friction_n_mm + drive->coulomb_n_mm + drive->coulomb_per_load_ratio * most_n_mm;
+    const brace_point_t lever =
+        index == BRACE_FEMUR ? inputs->posture->pose.lever_femur : inputs->posture->pose.lever_tibia;
+    const float sensed_n_mm =
+        inputs->parameters->sensor.noise_n * (__builtin_fabsf(lever.x_mm) + __builtin_fabsf(lever.z_mm));
+    return FRICTION_BANDS * friction_n_mm + NOISE_SIGMAS * (drive->torque_noise_n_mm + sensed_n_mm) +
+           LOAD_OFF_RATIO * most_n_mm;
+}
+
+static void watch_one(frozen_joint_t *joint, const frozen_inputs_t *inputs, int index)
+{
+    const joint_t *seen = &inputs->joints->joint[index];
+    const brace_drive_t *drive = &inputs->parameters->drive[index];
+    const uint32_t tick_us = inputs->parameters->controller.tick_us;
+    const float carries_n_mm = load_n_mm(inputs, index), told_rad = inputs->told_rad[index];
+    const bool stands = seen->sample.motor_rad == joint->motor_rad;
+    const bool same = stands && seen->sample.torque_n_mm == joint->torque_n_mm;
+    const bool has_torque = __builtin_fabsf(seen->torque_n_mm) < TORQUE_LEFT_RATIO * inputs->limit_n_mm[index];
+
+    joint->motor_rad = seen->sample.motor_rad;
+    joint->torque_n_mm = seen->sample.torque_n_mm;
+    joint->stands_us = stands && joint->stands_us < STANDSTILL_MOST_US ? joint->stands_us + tick_us : 0u;
+    joint->same_us = same && joint->same_us < STANDSTILL_MOST_US ? joint->same_us + tick_us : 0u;
+    joint->told_rad = same && has_torque ? with(joint->told_rad, told_rad) : just(told_rad);
+    joint->same_load_n_mm = same ? with(joint->same_load_n_mm, carries_n_mm) : just(carries_n_mm);
+    joint->load_n_mm = stands ? with(joint->load_n_mm, carries_n_mm) : just(carries_n_mm);
+    joint->pulls_n_mm =
+        stands && joint->is_settled ? with(joint->pulls_n_mm, seen->torque_n_mm) : just(seen->torque_n_mm);
+    joint->is_settled = seen->samples_seen >= SAMPLES_SETTLED;
+
+    const float hidden = hidden_n_mm(joint, inputs, index); /* NaN, and no more than it, where the load is not known */
+    const bool was_told = width(joint->told_rad) > TOLD_LEAST_RAD &&
+                          width(joint->told_rad) > TOLD_STEPS * drive->angle_step_rad;
+    const bool was_loaded = width(joint->same_load_n_mm) > hidden;
+    const bool is_unheld = width(joint->pulls_n_mm) > width(joint->load_n_mm) + hidden;
+    joint->is_frozen = (joint->same_us >= FROZEN_US && (was_told || was_loaded)) ||
+                       (joint->stands_us >= FROZEN_US && is_unheld);
+}
+
+void frozen_watch(frozen_t *frozen, const frozen_inputs_t *inputs)
+{
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        if (inputs->joints->joint[i].sound) {
+            watch_one(&frozen->joint[i], inputs, i);
+        } else {
+            frozen->joint[i] = (frozen_joint_t){.motor_rad = __builtin_nanf("")};
+        }
+    }
+}
+
+bool frozen_any(const frozen_t *frozen)
+{
+    return frozen->joint[BRACE_COXA].is_frozen || frozen->joint[BRACE_FEMUR].is_frozen ||
+           frozen->joint[BRACE_TIBIA].is_frozen;
+}

@@ -1,0 +1,58 @@
+/* Does a joint's sensor still measure? One that is frozen tells the same again and again, with a new time stamp. What
+ * the limb does meanwhile parts it from a joint that rests:
+ *
+ *   told    the drive is told to move and has torque left, and neither angle nor torque moves by a bit
+ *   loaded  the tip's sensor and the weight say that the joint's load has changed by more than friction can hide, and
+ *           neither angle nor torque moves by a bit
+ *   unheld  the angle stands, and the torque swings further than load and friction can hold: the motor must have turned
+ *
+ * Without a sensor at the tip only the first is seen here; sense/joints.h sees an encoder that stands while the torque
+ * swings by a quarter of its range. */
+#ifndef BRACE_WATCH_FROZEN_H
+#define BRACE_WATCH_FROZEN_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "brace/parameters.h"
+#include "brace/vec.h"
+#include "posture/posture.h"
+#include "sense/joints.h"
+#include "sense/tip_force.h"
+
+typedef struct {
+    float low, high;
+} frozen_span_t;
+
+typedef struct {
+    bool is_frozen;
+    bool is_settled;               /* the torque's mean is one of several samples */
+    float motor_rad, torque_n_mm;  /* of the sample before */
+    uint32_t stands_us, same_us;   /* how long the angle stands; how long the torque has stood too, to the bit */
+    frozen_span_t told_rad;        /* what the drive was told, since both stand and it has torque left */
+    frozen_span_t same_load_n_mm;  /* what the joint carries by sensor and weight, since both stand */
+    frozen_span_t load_n_mm;       /* the same, since the angle stands; NaN: it was not known for a while */
+    frozen_span_t pulls_n_mm;      /* the motor's torque since then, less single wild samples */
+} frozen_joint_t;
+
+typedef struct {
+    frozen_joint_t joint[BRACE_LINK_COUNT];
+} frozen_t;
+
+typedef struct {
+    const joints_t *joints;
+    const posture_t *posture;
+    const tip_force_t *force;
+    const brace_parameters_t *parameters;
+    brace_vec3_t down;
+    const float *told_rad;        /* of each joint: what is added to its set-point, */
+    const float *limit_n_mm;      /* and the torque within which it may follow */
+} frozen_inputs_t;
+
+/* Looks at the samples of this tick. At most 150 instructions a joint. */
+void frozen_watch(frozen_t *frozen, const frozen_inputs_t *inputs);
+
+/* Is any joint's sensor frozen? */
+bool frozen_any(const frozen_t *frozen);
+
+#endif

@@ -1,0 +1,219 @@
+"""How many mistakes put into the firmware do its C suites find? `./dev mutants` runs it.
+
+usage: mutants.py [--count N] [--seed S] [--only GLOB] [--afresh]
+
+A mutant is a file of the firmware with one line changed by universalmutator's rules. Only lines that some suite runs
+are mutated (./dev coverage tells of the others). A mutant that the compiler refuses, or of which it makes the same
+object as without, does not count. Every other one is given to the suites that run its line, until one fails: then it
+is killed.
+Outcomes are kept in build/mutants/outcomes.jsonl, so that a run that was stopped goes on.
+
+exit codes: 0 enough are killed and every survivor is argued for in survivors.toml, 1 not so, 4 a tool failed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import fnmatch
+import json
+import shutil
+import sys
+import tomllib
+from collections import Counter, defaultdict
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+
+import bench
+import generate
+
+HERE = Path(__file__).resolve().parent
+KEPT = bench.WORK / "outcomes.jsonl"
+COUNTS = bench.BUILD / "counts.json"
+KILLED_LEAST = 0.95
+COUNT = 500
+SEED = 1
+KILLED, SURVIVES, REFUSED, SAME = "killed", "survives", "refused by the compiler", "same object"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of a mutant. by: what the suite that killed it said."""
+
+    mutant: generate.Mutant
+    state: str
+    by: str = ""
+
+
+def suites_by_line() -> dict[tuple[str, int], list[str]]:
+    """Line of the firmware: the suites that run it, from ./dev coverage."""
+    if not COUNTS.is_file():
+        raise bench.BuildError("build/coverage/counts.json is missing; run ./dev coverage first")
+    found = defaultdict(list)
+    for suite, one in json.loads(COUNTS.read_text()).items():
+        for file, line, count in one["lines"]:
+            if count:
+                found[file, line].append(suite)
+    return found
+
+
+class Judge:
+    """Compiles mutants and gives them to suites."""
+
+    def __init__(self) -> None:
+        self.bench = bench.Bench()
+        self.suites = {suite.name: suite for suite in self.bench.build()}
+        self.by_line = suites_by_line()
+        self.kills: Counter[tuple[str, str]] = Counter()
+        self.folder = bench.WORK / "mutant"
+        for name, suite in self.suites.items():
+            ending = bench.run_suite(suite, bench.WORK, 300)
+            if not ending.passes:
+                raise bench.BuildError(f"{name} fails without a mutant: {ending.words}")
+            self.suites[name] = replace(suite, cpu_s=ending.cpu_s)
+
+    def _compile(self, mutant: generate.Mutant) -> dict[str, Path] | None:
+        """Objects that differ from those without the mutant; None: the compiler refuses it."""
+        shutil.rmtree(self.folder, ignore_errors=True)
+        tree = self.folder / "tree" / mutant.file
+        tree.parent.mkdir(parents=True)
+        lines = (bench.ROOT / mutant.file).read_text().splitlines(keepends=True)
+        lines[mutant.line - 1] = mutant.new + "\n"
+        tree.write_text("".join(lines))
+        users = [mutant.file] if mutant.file.endswith(".c") else self.bench.users_of(mutant.file)
+        objects = {}
+        for user in users:
+            output = self.folder / (user.replace("/", "+") + ".o")
+            command = self.bench.commands[user]
+            words = command.to(output)
+            if user == mutant.file:
+                words[words.index(str(bench.ROOT / user))] = str(tree)
+                words[1:1] = [
+                    "-iquote",
+                    str((bench.ROOT / user).parent),
+                    f"-ffile-prefix-map={tree}={bench.ROOT / user}",
+                ]
+            else:  # a header: the mutant's folder comes first, and quotes look there before the header's own folder
+                overlay = self._overlay(mutant, tree)
+                words = [word.replace(str(bench.ROOT / "firmware"), str(overlay)) for word in words]
+                words.append(f"-ffile-prefix-map={overlay}={bench.ROOT / 'firmware'}")
+            try:
+                bench.run(words, command.folder)
+            except bench.BuildError:
+                return None
+            if output.read_bytes() != self.bench.object_of(user).read_bytes():
+                objects[user] = output
+        return objects
+
+    def _overlay(self, mutant: generate.Mutant, tree: Path) -> Path:
+        """A copy of firmware/ with the mutant in."""
+        overlay = self.folder / "firmware"
+        if not overlay.is_dir():
+            shutil.copytree(bench.ROOT / "firmware", overlay)
+            shutil.copy(tree, self.folder / mutant.file)
+        return overlay
+
+    def judge(self, mutant: generate.Mutant) -> Outcome:
+        """One mutant."""
+        objects = self._compile(mutant)
+        if objects is None:
+            return Outcome(mutant, REFUSED)
+        if not objects:
+            return Outcome(mutant, SAME)
+        self.bench.link(self.folder, objects)
+        names = [name for name in self.by_line[mutant.file, mutant.line] if name in self.suites]
+        names.sort(key=lambda name: self.suites[name].cpu_s / (1.0 + 20.0 * self.kills[name, mutant.file]))
+        for name in names:
+            suite = self.suites[name]
+            ending = bench.run_suite(suite, self.folder, int(3.0 + 10.0 * suite.cpu_s))
+            if not ending.passes:
+                self.kills[name, mutant.file] += 1
+                return Outcome(mutant, KILLED, ending.words[:160])
+        return Outcome(mutant, SURVIVES)
+
+
+def read_kept() -> dict[generate.Mutant, Outcome]:
+    """Outcomes of earlier runs of mutants whose line is still the same."""
+    found = {}
+    for text in KEPT.read_text().splitlines() if KEPT.is_file() else []:
+        item = json.loads(text)
+        mutant = generate.Mutant(**item["mutant"])
+        found[mutant] = Outcome(mutant, item["state"], item["by"])
+    return found
+
+
+def read_argued() -> dict[tuple[str, str, str], str]:
+    """survivors.toml: file, line without and with the mutant: why no suite needs to find it."""
+    items = tomllib.loads((HERE / "survivors.toml").read_text()).get("survivor", [])
+    return {
+        (item["file"], item["old"].strip(), item["new"].strip()): " ".join(item["why"].split()) for item in items
+    }
+
+
+def argued(mutant: generate.Mutant, known: dict[tuple[str, str, str], str]) -> str:
+    return known.get((mutant.file, mutant.old.strip(), mutant.new.strip()), "")
+
+
+def report(outcomes: list[Outcome], seed: int) -> int:
+    """Prints the figures and the survivors. returns the exit code"""
+    known = read_argued()
+    counted = [outcome for outcome in outcomes if outcome.state in (KILLED, SURVIVES)]
+    alive = [outcome.mutant for outcome in counted if outcome.state == SURVIVES]
+    for mutant in alive:
+        print(f"{mutant}\n    {argued(mutant, known) or 'NOT ARGUED FOR'}")
+    states = Counter(outcome.state for outcome in outcomes)
+    share = 1.0 - len(alive) / max(1, len(counted))
+    unargued = sum(not argued(mutant, known) for mutant in alive)
+    print(
+        f"seed {seed}: {len(counted)} mutants in {len({o.mutant.file for o in counted})} files, "
+        f"{len(counted) - len(alive)} killed ({100.0 * share:.1f} %), {len(alive)} survive, "
+        f"{unargued} of them not argued for; beside them {states[REFUSED]} that the compiler refuses and "
+        f"{states[SAME]} with the same object"
+    )
+    return 1 if share < KILLED_LEAST or unargued else 0
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description="how many mistakes put into the firmware its C suites find")
+    parser.add_argument("--count", type=int, default=COUNT, help="mutants that count (default: %(default)s)")
+    parser.add_argument("--seed", type=int, default=SEED, help="of the sample (default: %(default)s)")
+    parser.add_argument("--only", default="*", help="files of this pattern")
+    parser.add_argument("--survivors", action="store_true", help="judge the survivors of earlier runs again")
+    parser.add_argument("--afresh", action="store_true", help="judge again what was judged")
+    parser.add_argument("--known", action="store_true", help="judge nothing, tell of what was judged")
+    asked = parser.parse_args()
+    bench.WORK.mkdir(parents=True, exist_ok=True)
+    kept = {} if asked.afresh else read_kept()
+    if asked.survivors:
+        kept = {mutant: outcome for mutant, outcome in kept.items() if outcome.state != SURVIVES}
+    lines = defaultdict(set)
+    for (file, line), names in suites_by_line().items():
+        if names:
+            lines[file].add(line)
+    by_file = {name: generate.mutants_of(name, lines[name]) for name in generate.files() if lines[name]}
+    by_file = {name: found for name, found in by_file.items() if found and fnmatch.fnmatch(name, asked.only)}
+    judge = None if asked.known else Judge()
+    outcomes: list[Outcome] = []
+    counted = 0
+    with KEPT.open("w" if asked.afresh else "a") as log:
+        for mutant in generate.order(by_file, asked.seed):
+            if counted >= asked.count:
+                break
+            outcome = kept.get(mutant)
+            if outcome is None and judge is not None:
+                outcome = judge.judge(mutant)
+                log.write(json.dumps(asdict(outcome)) + "\n")
+                log.flush()
+                if outcome.state == SURVIVES:
+                    print(f"survives: {mutant}", flush=True)
+            if outcome is not None:
+                outcomes.append(outcome)
+                counted += outcome.state in (KILLED, SURVIVES)
+    return report(outcomes, asked.seed)
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except bench.BuildError as error:
+        print(f"mutants: {error}", file=sys.stderr)
+        sys.exit(4)

@@ -1,0 +1,166 @@
+"""`brace monitor --web`: what the page is told, who may read it, and the page in a real browser."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from conftest import LIMB, Outcome, spawn
+from test_sim_command import FREE, running
+
+from brace.bus.snapshot import Heartbeat, Snapshot
+from brace.bus.watch import NodeState
+from brace.live.card import Card, card_from, card_of
+from brace.live.limb_view import LimbView, limb_view
+from brace.errors import NoDeviceError
+from brace.model import LimbModel, load_limb
+
+CHROMIUM = shutil.which("chromium")
+START_S = 30.0  # of a command, on a busy machine
+FREE_PORT = "0"
+
+
+@pytest.fixture
+def limb_file(tmp_path: Path) -> Path:
+    path = tmp_path / "limb.toml"
+    path.write_text(LIMB)
+    return path
+
+
+def snapshot(**changes: object) -> Snapshot:
+    told = Snapshot(
+        node=3, time_s=100.0, sequence=7, k_xx=3.9, k_xz=-0.6, k_zz=0.4, flags=("GAP_OPEN",), age_ms=1.0,
+        play=("engaged_positive", "crossing"), has_posture=True, lambda_min=0.31, lambda_max=4.0, stiff_axis=-0.17,
+        theta1=1.0, theta2=1.4, mode="monitor", faults=("encoder_stuck",),
+    )
+    return replace(told, **changes)  # type: ignore[arg-type]
+
+
+def view_of(newest: Snapshot, card: Card, now_s: float = 100.5) -> LimbView:
+    state = NodeState(snapshot=newest, posture=newest, last_s=newest.time_s)
+    return limb_view(3, state, card, now_s)
+
+
+def test_a_limb_is_told_with_its_place_and_its_trust(limb_file: Path) -> None:
+    view = view_of(snapshot(), card_of(load_limb(limb_file)))
+    assert view["is_valid"] and view["silent_s"] is None
+    assert view["lengths_mm"] is not None and view["knee_mm"] is not None and view["tip_mm"] is not None
+    femur_mm = view["lengths_mm"][1]
+    assert sum(float(part or 0.0) ** 2 for part in view["knee_mm"]) == pytest.approx(femur_mm**2, rel=1e-4)
+    assert view["relative_sigma"] is not None and all(0.01 < sigma < 0.2 for sigma in view["relative_sigma"])
+    assert [one["text"] for one in view["play"]] == ["positive side of the backlash is loaded", "backlash is open"]
+    assert view["faults"][0]["name"] == "ENCODER_STUCK" and view["faults"][0]["text"].endswith(".")
+    assert view["flags"][0]["name"] == "GAP_OPEN" and view["mode_text"]
+    assert "load_hz" in view["load_why"]
+    json.dumps(view, allow_nan=False)
+
+
+def test_what_is_not_known_is_told_as_that() -> None:
+    nothing = snapshot(k_xx=None, lambda_min=None, lambda_max=None, theta1=None, theta2=None)
+    view = view_of(nothing, Card(why_not="nobody told"), now_s=110.0)
+    assert not view["is_valid"] and view["silent_s"] == 10.0
+    assert view["lengths_mm"] is view["knee_mm"] is view["relative_sigma"] is None
+    assert view["lengths_why"] == "nobody told"
+    assert view["k_n_per_mm"][0] is None
+
+
+def test_heartbeats_alone_make_a_limb() -> None:
+    state = NodeState(heartbeat=Heartbeat(3, 100.0, "operational", "fault", ("sensor_femur",), 0), last_s=100.0)
+    view = limb_view(3, state, Card(), 100.0)
+    assert view["mode"] == "fault" and view["faults"][0]["name"] == "SENSOR_FEMUR" and not view["is_valid"]
+
+
+def test_who_cannot_be_asked_leaves_an_empty_card() -> None:
+    def ask() -> LimbModel:
+        raise NoDeviceError("no answer", where="can0")
+
+    card = card_from(ask)
+    assert card.lengths_mm is None and "no answer" in card.why_not
+
+
+@contextmanager
+def page_of(*arguments: object) -> Iterator[str]:
+    """The page's address while the command serves it."""
+    process = spawn("monitor", *arguments, "--web", FREE_PORT)
+    try:
+        assert process.stdout is not None
+        line = process.stdout.readline()
+        assert line.startswith("open http://127.0.0.1:"), line
+        yield line.split()[1]
+    finally:
+        process.terminate()
+        assert process.wait(timeout=START_S) == 0
+
+
+def refused(address: str, **headers: str) -> int:
+    try:
+        with urllib.request.urlopen(urllib.request.Request(address, headers=headers), timeout=START_S) as answer:
+            return int(answer.status)
+    except urllib.error.HTTPError as error:
+        return error.code
+
+
+def test_only_a_browser_on_this_computer_reads(tmp_path: Path) -> None:
+    log = tmp_path / "run.log"
+    log.write_text("(100.000000) can0 703#0505000000000000\n")
+    with page_of("--bus", f"log:{log}") as address:
+        assert refused(address) == 200
+        assert refused(address, Host="limb.example") == 403  # a name that was made to mean this computer
+        assert refused(address + "live", Origin="http://limb.example") == 403
+        with urllib.request.urlopen(address, timeout=START_S) as answer:
+            assert "default-src 'none'" in answer.headers["Content-Security-Policy"]
+            assert "//" not in answer.read().decode().replace("<!doctype", "")  # nothing from elsewhere
+
+
+def test_a_port_that_is_taken_is_told(brace: Callable[..., Outcome], tmp_path: Path) -> None:
+    log = tmp_path / "run.log"
+    log.write_text("(100.000000) can0 703#0505000000000000\n")
+    with page_of("--bus", f"log:{log}") as address:
+        port = address.rstrip("/").rpartition(":")[2]
+        outcome = brace("monitor", "--bus", f"log:{log}", "--web", port)
+    assert outcome.code == 2 and port in outcome.err and "--web 0" in outcome.err
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no chromium here")
+def test_the_page_in_a_browser(limb_file: Path, tmp_path: Path) -> None:
+    """Two limbs, drawn, at two widths; nothing asked for but what this computer serves."""
+    api = pytest.importorskip("playwright.sync_api")
+    with running(limb_file, "--limbs", "2", *FREE) as (_, ready), page_of("--bus", ready["limbs"][0]["can"]) as address:
+        with api.sync_playwright() as playwright:
+            browser = playwright.chromium.launch(
+                executable_path=CHROMIUM,
+                args=["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--disable-sync",
+                      "--disable-component-update", "--no-first-run"],
+            )
+            page = browser.new_page(viewport={"width": 1280, "height": 900})
+            asked, wrong, updates = list[str](), list[str](), list[float]()
+            page.on("request", lambda request: asked.append(request.url))
+            page.on("console", lambda message: wrong.append(message.text))
+            page.on("pageerror", lambda error: wrong.append(str(error)))
+            page.on("websocket", lambda one: one.on("framereceived", lambda _: updates.append(time.monotonic())))
+            page.goto(address)
+            page.wait_for_function(
+                "[...document.querySelectorAll('article .ellipse')].filter((one) => one.getAttribute('d')).length === 2",
+                timeout=1000 * START_S,
+            )
+            words = page.inner_text("main")
+            assert "Node 1" in words and "Node 2" in words and "N/mm" in words
+            assert "NaN" not in page.content() and "undefined" not in page.content()
+            picture = os.environ.get("BRACE_PICTURES", str(tmp_path))
+            page.screenshot(path=f"{picture}/page-wide.png", full_page=True)
+            page.set_viewport_size({"width": 400, "height": 900})
+            assert page.evaluate("document.documentElement.scrollWidth") <= 400
+            page.screenshot(path=f"{picture}/page-narrow.png", full_page=True)
+            assert not wrong, wrong
+            assert asked and all(url.startswith(address) for url in asked), asked
+            assert len(updates) > 2
+            browser.close()

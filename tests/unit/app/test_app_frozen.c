@@ -1,0 +1,264 @@
+/* A sensor that tells the same again and again, with a new time stamp: seen by what the limb does meanwhile. And a
+ * watchdog that only a whole tick feeds. */
+#include <math.h>
+
+#include "app_bench.h"
+
+enum { SEEN_WITHIN_TICKS = 400 };
+
+static const double femur_mm = 185.0, tibia_mm = 313.5;
+static brace_parameters_t parameters;
+static float frozen_rad, frozen_n_mm;
+static int frozen_joint;
+static bool freezes_torque;
+
+void setUp(void)
+{
+    parameters = bench_parameters();
+    parameters.sensor.noise_n = 0.05f;
+    bench_start(&parameters);
+    ticks(50);
+}
+
+void tearDown(void) {}
+
+/* Plays some ticks. returns after how many ENCODER_STUCK was set, or 0 */
+static int seen_after(int most, void (*step)(int tick))
+{
+    for (int i = 1; i <= most; i++) {
+        step(i);
+        ticks(1);
+        if ((now()->faults & (uint32_t)BRACE_FAULT_ENCODER_STUCK) != 0u) {
+            TEST_ASSERT_FALSE(now()->k_is_valid);
+            return i;
+        }
+    }
+    return 0;
+}
+
+/* What the motors would carry in this posture, by the tip's force: levers of straight links. */
+static void carry(float force_z_n)
+{
+    const double theta1_rad = 1.0, theta2_rad = 1.4, b = theta1_rad - theta2_rad;
+    const double knee_x = femur_mm * cos(theta1_rad), tip_x = knee_x + tibia_mm * cos(b);
+    fake.force_z_n = force_z_n;
+    fake.joint[BRACE_FEMUR].sample.torque_n_mm = (float)(-tip_x * (double)force_z_n);
+    fake.joint[BRACE_TIBIA].sample.torque_n_mm = (float)((tip_x - knee_x) * (double)force_z_n);
+}
+
+/* ------------------------------------------------------------------------------- angle and torque frozen -- */
+
+static float rising_n(int tick) /* to 6 N within 0.3 s: 1,600 N mm at the femur joint */
+{
+    return 0.02f * (float)(tick < 300 ? tick : 300);
+}
+
+static void press_more(int tick)
+{
+    carry(rising_n(tick));
+    fake.joint[frozen_joint].sample.torque_n_mm = frozen_n_mm;
+}
+
+static void test_a_joint_that_does_not_feel_the_tip_s_force_is_frozen(void)
+{
+    for (frozen_joint = BRACE_FEMUR; frozen_joint <= BRACE_TIBIA; frozen_joint++) {
+        setUp();
+        carry(0.0f);
+        ticks(5);
+        frozen_n_mm = fake.joint[frozen_joint].sample.torque_n_mm;
+        const int after = seen_after(SEEN_WITHIN_TICKS, press_more);
+        TEST_ASSERT_NOT_EQUAL(0, after);
+        for (int i = 0; i < 300; i++) { /* it measures again */
+            carry(rising_n(300 - i));
+            fake.joint[frozen_joint].sample.motor_rad += 1e-5f;
+            ticks(1);
+        }
+        TEST_ASSERT_EQUAL(0, now()->faults);
+        TEST_ASSERT_TRUE(now()->k_is_valid);
+    }
+}
+
+static void press_and_feel(int tick)
+{
+    carry(rising_n(tick));
+}
+
+static void test_joints_that_feel_it_are_not(void)
+{
+    carry(0.0f);
+    ticks(5);
+    TEST_ASSERT_EQUAL(0, seen_after(1000, press_and_feel));
+    TEST_ASSERT_EQUAL(0, now()->faults);
+}
+
+static void press_within_friction(int tick)
+{
+    (void)tick;
+    carry(tick % 200 < 100 ? 0.0f : 0.1f); /* 23 N mm at most; friction is 20 */
+    fake.joint[BRACE_TIBIA].sample.torque_n_mm = frozen_n_mm;
+}
+
+static void test_what_friction_hides_is_no_proof(void)
+{
+    frozen_n_mm = 0.0f;
+    TEST_ASSERT_EQUAL(0, seen_after(1500, press_within_friction));
+}
+
+static void rest(int tick)
+{
+    (void)tick;
+}
+
+static void test_a_limb_at_rest_is_not_frozen(void)
+{
+    carry(3.0f);
+    TEST_ASSERT_EQUAL(0, seen_after(5000, rest));
+}
+
+/* ---------------------------------------------------------------------------------- frozen while it moves -- */
+
+/* Motors follow their commands; one of them tells what it told when it froze. */
+static void follow(void *user, brace_fake_t *board, int32_t joint)
+{
+    static const float stands_rad[] = {0.0f, 1.0f, 1.4f};
+    (void)user;
+    brace_hal_joint_t *sample = &board->joint[joint].sample;
+    sample->motor_rad = stands_rad[joint] + board->joint[joint].command.offset_rad;
+    if (joint == frozen_joint) {
+        sample->motor_rad = frozen_rad;
+        sample->torque_n_mm = freezes_torque ? frozen_n_mm : sample->torque_n_mm;
+    }
+}
+
+/* A take-up moves the tibia. */
+static void start_take_up(bool has_sensor)
+{
+    parameters.drive[BRACE_TIBIA].takeup_torque_n_mm = 2000.0f;
+    parameters.limb.joint[BRACE_TIBIA].gap_rad = 0.05f;
+    bench_start(&parameters);
+    if (!has_sensor) {
+        brace_fake_without_force(&fake);
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    }
+    frozen_joint = -1;
+    fake.play = follow;
+    ticks(50);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_take_up(&app, BRACE_TIBIA, 1));
+    ticks(100);
+    TEST_ASSERT_EQUAL(BRACE_MODE_TAKING_UP, now()->mode);
+}
+
+static void test_a_joint_that_is_told_to_move_and_tells_the_same_is_frozen(void)
+{
+    start_take_up(true);
+    frozen_joint = BRACE_TIBIA;
+    freezes_torque = true;
+    frozen_rad = fake.joint[BRACE_TIBIA].sample.motor_rad;
+    frozen_n_mm = fake.joint[BRACE_TIBIA].sample.torque_n_mm;
+    const int after = seen_after(SEEN_WITHIN_TICKS, rest);
+    TEST_ASSERT_NOT_EQUAL(0, after);
+    TEST_ASSERT_EQUAL(BRACE_MODE_FAULT, now()->mode);
+}
+
+static void test_a_joint_that_follows_is_not(void)
+{
+    start_take_up(true);
+    TEST_ASSERT_EQUAL(0, seen_after(SEEN_WITHIN_TICKS, rest));
+}
+
+/* A motor that has no torque left stands, and that is no fault of its sensor. */
+static void test_a_joint_at_the_end_of_its_torque_is_not(void)
+{
+    start_take_up(false);
+    frozen_joint = BRACE_TIBIA;
+    freezes_torque = true;
+    frozen_rad = fake.joint[BRACE_TIBIA].sample.motor_rad;
+    frozen_n_mm = 0.95f * parameters.drive[BRACE_TIBIA].takeup_torque_n_mm;
+    for (int i = 0; i < SEEN_WITHIN_TICKS; i++) {
+        ticks(1);
+        TEST_ASSERT_BITS_LOW(BRACE_FAULT_ENCODER_STUCK, now()->faults);
+    }
+}
+
+/* -------------------------------------------------------------------------------------- the angle alone -- */
+
+/* The torque swings by 1000 N mm to either side, a fifth of the motor's range, and the tip's force does not. */
+static void swing(int tick)
+{
+    fake.joint[frozen_joint].sample.torque_n_mm = frozen_n_mm + 1000.0f * sinf(0.02f * (float)tick);
+}
+
+static void test_a_standing_angle_under_a_torque_that_nothing_holds_is_frozen(void)
+{
+    for (frozen_joint = BRACE_FEMUR; frozen_joint <= BRACE_TIBIA; frozen_joint++) {
+        setUp();
+        carry(3.0f);
+        ticks(100);
+        frozen_n_mm = fake.joint[frozen_joint].sample.torque_n_mm;
+        const int after = seen_after(SEEN_WITHIN_TICKS, swing);
+        TEST_ASSERT_NOT_EQUAL(0, after);
+    }
+}
+
+/* Without a sensor at the tip nobody on the limb knows what the joint carries. */
+static void test_without_the_tip_s_sensor_nothing_is_claimed(void)
+{
+    brace_fake_without_force(&fake);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    ticks(100);
+    frozen_joint = BRACE_TIBIA;
+    frozen_n_mm = 0.0f;
+    TEST_ASSERT_EQUAL(0, seen_after(SEEN_WITHIN_TICKS, swing));
+}
+
+/* ----------------------------------------------------------------------------------------- the watchdog -- */
+
+static uint32_t feeds;
+
+static void count_feeds(void *context)
+{
+    (void)context;
+    feeds++;
+}
+
+/* A joint's read that spoils the tick's record, as a jump past a part of the tick would. */
+static uint32_t spoils;
+
+static int32_t read_and_spoil(void *context, float *force_x_n, float *force_z_n)
+{
+    (void)context;
+    *force_x_n = *force_z_n = 0.0f;
+    app.controller.parts_done ^= spoils;
+    return BRACE_HAL_OK;
+}
+
+static void test_only_a_whole_tick_feeds_the_watchdog(void)
+{
+    fake.hal.watchdog_feed = count_feeds;
+    fake.hal.tip_force_read = read_and_spoil;
+    feeds = spoils = 0;
+    ticks(10);
+    TEST_ASSERT_EQUAL(10, feeds);
+    spoils = 1;
+    ticks(10);
+    TEST_ASSERT_EQUAL(10, feeds);
+    spoils = 0;
+    ticks(10);
+    TEST_ASSERT_EQUAL(20, feeds);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_joint_that_does_not_feel_the_tip_s_force_is_frozen);
+    RUN_TEST(test_joints_that_feel_it_are_not);
+    RUN_TEST(test_what_friction_hides_is_no_proof);
+    RUN_TEST(test_a_limb_at_rest_is_not_frozen);
+    RUN_TEST(test_a_joint_that_is_told_to_move_and_tells_the_same_is_frozen);
+    RUN_TEST(test_a_joint_that_follows_is_not);
+    RUN_TEST(test_a_joint_at_the_end_of_its_torque_is_not);
+    RUN_TEST(test_a_standing_angle_under_a_torque_that_nothing_holds_is_frozen);
+    RUN_TEST(test_without_the_tip_s_sensor_nothing_is_claimed);
+    RUN_TEST(test_only_a_whole_tick_feeds_the_watchdog);
+    return UNITY_END();
+}

@@ -1,0 +1,71 @@
+"""What a page has to know of a limb besides what its controller sends: lengths, and how far K is trusted."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from brace.errors import BraceError
+from brace.model import LimbModel
+from brace.stiffness import PlanarLimb, PostureError, planar_limb
+
+MOVED_RAD = 0.01  # K's relative uncertainty changes by less than a tenth of itself meanwhile
+LENGTHS = ("geometry.coxa_mm", "geometry.femur_mm", "geometry.tibia_mm")
+
+Sigmas = tuple[float, float]
+Place = tuple[float, float]  # x, z [mm]
+
+
+@dataclass
+class Card:
+    """Of one limb. `lengths_mm` are coxa, femur, tibia; None: nobody has told them."""
+
+    lengths_mm: tuple[float, float, float] | None = None
+    name: str = ""
+    why_not: str = ""  # why the lengths are not known
+    _limb: PlanarLimb | None = None
+    _at_rad: tuple[float, float] = (math.inf, math.inf)
+    _relative: Sigmas | None = field(default=None)
+
+    def knee_and_tip_mm(self, theta1_rad: float, theta2_rad: float) -> tuple[Place, Place] | None:
+        """Where they are at true angles. None: the lengths are not known, or the angles are none."""
+        try:
+            return None if self._limb is None else self._limb.pose(theta1_rad, theta2_rad)
+        except PostureError:
+            return None
+
+    def relative_sigmas(self, theta1_rad: float, theta2_rad: float) -> Sigmas | None:
+        """One sigma of lambda_min and of lambda_max, each as a fraction of it, from the limb's [uncertainty]. None: not
+        known. Worked out anew where the limb has moved."""
+        if self._limb is None:
+            return None
+        if math.dist(self._at_rad, (theta1_rad, theta2_rad)) > MOVED_RAD:
+            self._at_rad = (theta1_rad, theta2_rad)
+            self._relative = _relative_sigmas(self._limb, theta1_rad, theta2_rad)
+        return self._relative
+
+
+def card_of(model: LimbModel) -> Card:
+    """From a limb model, be it a file's or a controller's, which has no name."""
+    coxa_mm, femur_mm, tibia_mm = (model.number(key) for key in LENGTHS)
+    return Card((coxa_mm, femur_mm, tibia_mm), model.name if model.document else "", _limb=planar_limb(model))
+
+
+def card_from(ask: Callable[[], LimbModel]) -> Card:
+    """From whoever can be asked for the model; without an answer the card says why it is empty."""
+    try:
+        return card_of(ask())
+    except BraceError as error:
+        return Card(why_not=str(error))
+
+
+def _relative_sigmas(limb: PlanarLimb, theta1_rad: float, theta2_rad: float) -> Sigmas | None:
+    sigma = limb.sigma(theta1_rad, theta2_rad)
+    if not sigma:
+        return None
+    k = limb.stiffness(np.array([theta1_rad]), np.array([theta2_rad]))[0]
+    least, most = (sigma[f"sigma_{name}"] / float(k[name]) for name in ("lambda_min_n_per_mm", "lambda_max_n_per_mm"))
+    return least, most

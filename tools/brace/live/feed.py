@@ -1,0 +1,127 @@
+"""What comes from a bus, kept as the newest of every limb, by a thread of its own."""
+
+from __future__ import annotations
+
+import json
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from functools import partial
+
+from brace.bus.can_controller import CanController
+from brace.bus.controller import Controller
+from brace.bus.frame import Bus, EndOfLog
+from brace.bus.log import LogBus
+from brace.bus.modbus_controller import ModbusController
+from brace.bus.open import open_bus
+from brace.bus.session import Session
+from brace.bus.url import BusUrl
+from brace.bus.watch import NodeState, Watch
+from brace.errors import BraceError
+from brace.live.card import Card, card_from, card_of
+from brace.live.limb_view import limb_view
+from brace.model import LimbModel
+
+_POLL_S = 0.1
+_MODBUS_S = 0.033
+_AGAIN_S = 2.0  # after a bus that went away
+
+
+@dataclass
+class Feed:
+    """One bus, followed until `stop`. Errors are told on the page, not raised: the bus may come back."""
+
+    url: BusUrl
+    bit_rate: int
+    node: int | None = None
+    models: dict[int, LimbModel] = field(default_factory=dict)  # by node; 0: of every node without one of its own
+    trouble: str = ""
+    ended: str = ""  # why nothing comes any more: the end of a log
+
+    def __post_init__(self) -> None:
+        self.watch = Watch(self.url.text, self.node)
+        self.cards: dict[int, Card] = {}
+        self._lock = threading.Lock()
+        self._stopped = threading.Event()
+        self._thread = threading.Thread(target=self._run, name="brace bus", daemon=True)
+
+    def start(self) -> None:
+        """Begins to listen."""
+        self._thread.start()
+
+    def stop(self) -> None:
+        """Ends within a second or two."""
+        self._stopped.set()
+        self._thread.join(timeout=5.0)
+
+    def as_json(self) -> str:
+        """All limbs, for the page."""
+        now_s = time.time() if self.url.kind != "log" else self.watch.last_s
+        with self._lock:
+            limbs = [
+                limb_view(node, state, self.cards.get(node, Card()), now_s)
+                for node, state in sorted(self.watch.nodes.items())
+            ]
+        message = {"bus": self.url.text, "trouble": self.trouble, "ended": self.ended, "limbs": limbs}
+        return json.dumps(message, allow_nan=False, separators=(",", ":"))
+
+    # ---------------------------------------------------------------------------------------- in the thread
+
+    def _run(self) -> None:
+        follow: Callable[[], None] = self._follow_modbus if self.url.is_modbus else self._follow_can
+        while not self._stopped.is_set():
+            try:
+                follow()
+            except EndOfLog:
+                self.ended = "the log has ended; this is its last picture"
+                return
+            except BraceError as error:
+                self.trouble = error.render()
+                self._stopped.wait(_AGAIN_S)
+
+    def _follow_can(self) -> None:
+        bus = open_bus(self.url, self.bit_rate)
+        try:
+            self.trouble = ""
+            while not self._stopped.is_set():
+                self._take_frame(bus)
+        finally:
+            bus.close()
+
+    def _take_frame(self, bus: Bus) -> None:
+        frame = bus.receive(_POLL_S)
+        if frame is None:
+            return
+        with self._lock:
+            self.watch.add(frame)
+        for node in self.watch.nodes.keys() - self.cards.keys():
+            self._learn(node, partial(_controller_on, bus, node), isinstance(bus, LogBus))
+
+    def _follow_modbus(self) -> None:
+        device = ModbusController(self.url)
+        try:
+            self._learn(device.node, lambda: device, False)
+            state = self.watch.nodes.setdefault(device.node, NodeState())
+            self.trouble = ""
+            while not self._stopped.wait(_MODBUS_S):
+                snapshot = replace(device.live(), load=device.load())
+                with self._lock:
+                    state.last_s = self.watch.last_s = snapshot.time_s
+                    self.watch.take(state, snapshot)
+        finally:
+            device.close()
+
+    def _learn(self, node: int, controller: Callable[[], Controller], is_log: bool) -> None:
+        """The limb's card: from a file, else the controller is asked once."""
+        model = self.models.get(node, self.models.get(0))
+        if model is not None:
+            self.cards[node] = card_of(model)
+        elif is_log:
+            self.cards[node] = Card(why_not="a log answers no questions: give --model LIMB.toml")
+        else:
+            self.cards[node] = card_from(lambda: controller().download(lambda words: None).model)
+
+
+def _controller_on(bus: Bus, node: int) -> Controller:
+    return CanController(Session(bus, node))

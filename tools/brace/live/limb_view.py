@@ -1,0 +1,163 @@
+"""What the page is told of one limb: numbers with their units in the names, and sentences for what has a meaning."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import TypedDict
+
+from brace.bus.load import Load
+from brace.bus.snapshot import Snapshot
+from brace.bus.watch import NodeState
+from brace.live.card import Card
+from brace.wire.code import CodeTable
+from brace.wire.codes import FAULT, FLAG, MODE
+from brace.wire.layout import Value
+
+SILENT_S = 2.0  # a heartbeat comes each second
+LOAD_LATE_S = 2.0  # it may come more seldom than K
+_DIGITS = 6
+
+_NO_LOAD_SENT = "not sent: controller.load_hz is 0"
+_NO_LOAD_COUNTED = "no load is counted: K is the one without load"
+
+_PLAY_WORDS = {  # of one joint: which side of its backlash is loaded
+    "unknown": "not known which side of the backlash is loaded",
+    "taking_up": "backlash is being taken up",
+    "engaged_positive": "positive side of the backlash is loaded",
+    "engaged_negative": "negative side of the backlash is loaded",
+    "crossing": "backlash is open",
+    "fault": "backlash not known: bad samples",
+}
+
+
+class Said(TypedDict):
+    """A name of the dictionary, and what it means."""
+
+    name: str
+    text: str
+
+
+class Play(TypedDict):
+    """One joint's backlash."""
+
+    joint: str
+    state: str
+    text: str
+
+
+class LoadView(TypedDict):
+    """The load that K counts."""
+
+    force_n: list[Value]  # x, z: of the ground on the tip
+    moved_mm: list[Value]
+    unloaded_k_n_per_mm: list[Value]  # xx, xz, zz
+    buckling_factor: Value  # None: none, or not known
+
+
+class LimbView(TypedDict):
+    """One limb; None: not known."""
+
+    node: int
+    name: str
+    silent_s: float | None  # None: it is heard
+    rate_hz: float
+    age_ms: Value
+    is_valid: bool
+    k_n_per_mm: list[Value]  # xx, xz, zz
+    lambda_n_per_mm: list[Value]  # least, greatest
+    stiff_axis_rad: Value
+    relative_sigma: list[float] | None  # of the two eigenvalues
+    theta_rad: list[Value]  # coxa, femur, tibia
+    lengths_mm: list[float] | None  # coxa, femur, tibia
+    knee_mm: list[Value] | None  # x, z in the limb's plane, from the femur joint
+    tip_mm: list[Value] | None
+    lengths_why: str
+    k_space_n_per_mm: list[Value] | None  # xx xy xz yy yz zz, in the robot's frame
+    lambda_space_n_per_mm: list[Value] | None
+    load: LoadView | None
+    load_why: str  # why there is none
+    play: list[Play]
+    mode: str
+    mode_text: str
+    faults: list[Said]
+    flags: list[Said]
+
+
+def limb_view(node: int, state: NodeState, card: Card, now_s: float) -> LimbView:
+    """The newest of a limb. Everything of K is of one snapshot, the newest that came with its posture."""
+    k = state.posture or state.snapshot
+    told = state.heartbeat or state.posture
+    mode = told.mode if told is not None else ""
+    theta1, theta2 = (k.theta1, k.theta2) if k is not None else (None, None)
+    sigmas = places = None
+    if theta1 is not None and theta2 is not None:
+        sigmas = card.relative_sigmas(theta1, theta2)
+        places = card.knee_and_tip_mm(theta1, theta2)
+    space = state.space.space if state.space is not None else None
+    load = _recent_load(state)
+    silent_s = now_s - state.last_s
+    return {
+        "node": node,
+        "name": card.name,
+        "silent_s": round(silent_s, 1) if silent_s > SILENT_S else None,
+        "rate_hz": round(state.rate_hz, 1),
+        "age_ms": k.age_ms if k is not None else None,
+        "is_valid": k is not None and k.is_valid,
+        "k_n_per_mm": _short((k.k_xx, k.k_xz, k.k_zz) if k is not None else (None, None, None)),
+        "lambda_n_per_mm": _short((k.lambda_min, k.lambda_max) if k is not None else (None, None)),
+        "stiff_axis_rad": k.stiff_axis if k is not None else None,
+        "relative_sigma": None if sigmas is None else [round(sigma, 4) for sigma in sigmas],
+        "theta_rad": _short((space.theta0 if space is not None else None, theta1, theta2)),
+        "lengths_mm": None if card.lengths_mm is None else list(card.lengths_mm),
+        "knee_mm": None if places is None else _short(places[0]),
+        "tip_mm": None if places is None else _short(places[1]),
+        "lengths_why": card.why_not,
+        "k_space_n_per_mm": None if space is None else _short(space.k),
+        "lambda_space_n_per_mm": None if space is None else _short(space.eigenvalues),
+        "load": _load_view(load),
+        "load_why": _NO_LOAD_SENT if load is None else "" if load.is_counted else _NO_LOAD_COUNTED,
+        "play": _play(k, None if space is None else space.play_coxa),
+        "mode": mode,
+        "mode_text": _text(MODE, mode.upper()),
+        "faults": _said(FAULT, told.faults if told is not None else ()),
+        "flags": _said(FLAG, k.flags if k is not None else ()),
+    }
+
+
+def _recent_load(state: NodeState) -> Load | None:
+    told, newest = state.load, state.snapshot
+    is_recent = told is not None and newest is not None and newest.time_s - told.time_s <= LOAD_LATE_S
+    return told.load if told is not None and is_recent else None
+
+
+def _load_view(load: Load | None) -> LoadView | None:
+    if load is None or not load.is_counted:
+        return None
+    v = load.values
+    factor = v["buckling_factor"]
+    return {
+        "force_n": _short((v["counted_force_x"], v["counted_force_z"])),
+        "moved_mm": _short((v["moved_x"], v["moved_z"])),
+        "unloaded_k_n_per_mm": _short((v["unloaded_k_xx"], v["unloaded_k_xz"], v["unloaded_k_zz"])),
+        "buckling_factor": None if factor is None or math.isinf(factor) else factor,
+    }
+
+
+def _play(k: Snapshot | None, coxa: str | None) -> list[Play]:
+    states = [] if coxa is None else [("coxa", coxa)]
+    states += zip(("femur", "tibia"), k.play if k is not None else (), strict=False)
+    return [{"joint": joint, "state": state, "text": _PLAY_WORDS.get(state, state)} for joint, state in states]
+
+
+def _said(table: CodeTable, names: Iterable[str]) -> list[Said]:
+    return [{"name": name.upper(), "text": _text(table, name.upper())} for name in names]
+
+
+def _text(table: CodeTable, name: str) -> str:
+    return next((code.text for code in table.codes if code.name == name), "")
+
+
+def _short(values: Iterable[Value]) -> list[Value]:
+    """As many digits as a frame carries: a page is sent thirty times a second."""
+    return [value if value is None or not math.isfinite(value) else float(f"{value:.{_DIGITS}g}") for value in values]

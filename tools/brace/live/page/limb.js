@@ -1,0 +1,236 @@
+// One limb: drawn to scale at its posture, with its ellipse of stiffness, its numbers, and the last minute.
+const HISTORY_MS = 60_000;
+const HISTORY_STEP_MS = 100;
+const ELLIPSE_SHARE = 0.3; // of the reach: the longer half axis
+const SMALL_N = 0.05; // no arrow below
+const ROUND = [1, 2, 5];
+
+function text(element, words) {
+  if (element.textContent !== words) {
+    element.textContent = words;
+  }
+}
+
+function set(element, attributes) {
+  for (const [name, value] of Object.entries(attributes)) {
+    element.setAttribute(name, value);
+  }
+}
+
+function number(value, digits = 3) {
+  return value === null || value === undefined ? "-" : value.toPrecision(digits).replace("-", "\u2212");
+}
+
+function numbers(values, unit, digits = 3) {
+  return values.every((value) => value === null) ? "-" : `${values.map((v) => number(v, digits)).join("  ")} ${unit}`;
+}
+
+function degrees(rad) {
+  return rad === null ? "-" : `${number((rad * 180) / Math.PI, 4)}\u00b0`;
+}
+
+// A round number near a length, for a scale's bar.
+function rounded(value) {
+  const power = 10 ** Math.floor(Math.log10(value));
+  return power * ROUND.findLast((step) => step * power <= value);
+}
+
+function ellipsePath(rx, ry) {
+  return `M${-rx} 0A${rx} ${ry} 0 1 0 ${rx} 0A${rx} ${ry} 0 1 0 ${-rx} 0Z`;
+}
+
+export class Limb {
+  constructor(element) {
+    this.element = element;
+    this.history = [];
+    this.find = (selector) => element.querySelector(selector);
+    this.rows = new Map();
+  }
+
+  show(view) {
+    text(this.find("h2"), `Node ${view.node}${view.name ? ` \u00b7 ${view.name}` : ""}`);
+    const silent = view.silent_s !== null;
+    this.element.classList.toggle("silent", silent);
+    this.element.classList.toggle("invalid", !view.is_valid);
+    text(
+      this.find(".mode"),
+      silent ? `silent for ${view.silent_s.toFixed(0)} s: what follows is old` : `${view.mode}: ${view.mode_text}`,
+    );
+    this.draw(view);
+    this.tell(view);
+    this.list(".backlash", view.play.map((one) => `${one.joint}: ${one.text}`));
+    this.list(".faults", view.faults.map((one) => `${one.name}. ${one.text}`));
+    this.list(".flags", view.flags.map((one) => `${one.name}. ${one.text}`));
+    this.remember(view);
+  }
+
+  list(selector, lines) {
+    const list = this.find(selector);
+    while (list.children.length > lines.length) {
+      list.lastElementChild.remove();
+    }
+    lines.forEach((line, i) => text(list.children[i] ?? list.appendChild(document.createElement("li")), line));
+  }
+
+  row(name, words) {
+    if (!this.rows.has(name)) {
+      const term = document.createElement("dt");
+      const value = document.createElement("dd");
+      term.textContent = name;
+      this.find(".numbers").append(term, value);
+      this.rows.set(name, [term, value]);
+    }
+    const [term, value] = this.rows.get(name);
+    term.hidden = value.hidden = words === null;
+    text(value, words ?? "");
+  }
+
+  tell(view) {
+    const [least, most] = view.lambda_n_per_mm;
+    const [ofLeast, ofMost] = view.relative_sigma ?? [null, null];
+    const trust = (value, sigma) =>
+      value === null || sigma === null ? "" : ` \u00b1 ${number(2 * sigma * value, 2)}`;
+    this.row("softest", view.is_valid ? `${number(least)}${trust(least, ofLeast)} N/mm` : "K is not valid");
+    this.row("stiffest", view.is_valid ? `${number(most)}${trust(most, ofMost)} N/mm` : null);
+    this.row("K xx xz zz", view.is_valid ? numbers(view.k_n_per_mm, "N/mm") : null);
+    const space = view.lambda_space_n_per_mm;
+    this.row("in space", space === null ? null : numbers(space, "N/mm"));
+    const load = view.load;
+    this.row("force x z", load === null ? view.load_why : numbers(load.force_n, "N"));
+    this.row("moved x z", load === null ? null : numbers(load.moved_mm, "mm"));
+    this.row("without load", load === null ? null : numbers(load.unloaded_k_n_per_mm, "N/mm"));
+    const factor = load === null ? null : load.buckling_factor;
+    this.row("buckling factor", load === null ? null : factor === null ? "none" : number(factor));
+    const [coxa, femur, tibia] = view.theta_rad;
+    this.row("joints", `${coxa === null ? "" : `${degrees(coxa)}  `}${degrees(femur)}  ${degrees(tibia)}`);
+    const age = view.age_ms === null ? "over 127" : view.age_ms;
+    this.row("age, rate", `${age} ms, ${view.rate_hz.toFixed(0)} Hz`);
+  }
+
+  draw(view) {
+    const svg = this.find("svg");
+    const picture = this.find(".picture");
+    const note = this.find(".note");
+    const known = view.lengths_mm !== null && view.knee_mm !== null;
+    picture.style.display = this.find(".scale").style.display = known ? "" : "none";
+    const reach = known ? view.lengths_mm[1] + view.lengths_mm[2] : 100;
+    const box = this.frame(reach, known ? [view.knee_mm, view.tip_mm] : []);
+    set(svg, { viewBox: `${box.left} ${box.top} ${box.right - box.left} ${box.bottom - box.top}` });
+    text(note, known ? "" : view.lengths_mm === null ? view.lengths_why || "asking for lengths" : "posture not sent");
+    set(note, { x: box.left, y: 0, "font-size": 0.05 * reach });
+    if (!known) {
+      return;
+    }
+    const width = 0.012 * reach;
+    const [knee, tip] = [view.knee_mm, view.tip_mm].map(([x, z]) => [x, -z]);
+    const joints = this.element.querySelectorAll(".joint");
+    set(this.find(".horizon"), { x1: box.left, x2: box.right, y1: 0, y2: 0, "stroke-width": width / 3 });
+    set(this.find(".links"), { points: `0,0 ${knee} ${tip}`, "stroke-width": 2 * width });
+    [[0, 0], knee].forEach(([x, y], i) => set(joints[i], { cx: x, cy: y, r: 2.2 * width, "stroke-width": width }));
+    set(this.find(".tip"), { cx: tip[0], cy: tip[1], r: 1.2 * width, "stroke-width": width / 2 });
+    this.drawEllipse(view, reach, tip, width, box);
+    this.drawForce(view, reach, tip, width);
+    set(svg, { "aria-label": `limb of node ${view.node}, its posture and its stiffness ellipse` });
+  }
+
+  // What the picture shows: the joints and room for an ellipse about the tip. It grows with the places that the limb has
+  // been to, and never shrinks, so that the picture does not shake.
+  frame(reach, places) {
+    const room = (ELLIPSE_SHARE + 0.06) * reach;
+    this.box ??= { left: -0.1 * reach, top: -0.3 * reach, right: 0.8 * reach, bottom: 0.3 * reach };
+    for (const [x, z] of places) {
+      this.box.left = Math.min(this.box.left, x - room);
+      this.box.right = Math.max(this.box.right, x + room);
+      this.box.top = Math.min(this.box.top, -z - room);
+      this.box.bottom = Math.max(this.box.bottom, -z + room);
+    }
+    return this.box;
+  }
+
+  drawEllipse(view, reach, tip, width, box) {
+    const [least, most] = view.lambda_n_per_mm;
+    if (!view.is_valid || least === null || most === null || view.stiff_axis_rad === null) {
+      return;
+    }
+    const scale = (ELLIPSE_SHARE * reach) / most; // mm of the picture for 1 N/mm
+    const place = `translate(${tip}) rotate(${(-view.stiff_axis_rad * 180) / Math.PI})`;
+    set(this.find(".ellipse"), {
+      d: ellipsePath(most * scale, least * scale), transform: place, "stroke-width": width / 4,
+    });
+    const [ofLeast, ofMost] = view.relative_sigma ?? [0, 0];
+    const band = [1, -1].map((side) =>
+      ellipsePath(Math.max(0, 1 + 2 * side * ofMost) * most * scale, Math.max(0, 1 + 2 * side * ofLeast) * least * scale));
+    set(this.find(".band"), { d: band.join(""), transform: place });
+    const bar = rounded(most);
+    const [line, label] = this.find(".scale").children;
+    const [x, y] = [box.left + width, box.bottom - width];
+    set(line, { x1: x, x2: x + bar * scale, y1: y, y2: y, "stroke-width": width });
+    set(label, { x, y: y - 2 * width, "font-size": 0.05 * reach });
+    text(label, `${bar} N/mm`);
+  }
+
+  drawForce(view, reach, tip, width) {
+    const [x, z] = view.load?.force_n ?? [null, null];
+    const size = x === null || z === null ? 0 : Math.hypot(x, z);
+    const arrow = this.find(".force");
+    arrow.style.display = size > SMALL_N ? "" : "none";
+    if (size <= SMALL_N) {
+      return;
+    }
+    const length = 0.3 * reach * Math.min(1, size / 20); // 20 N and more have the longest one
+    set(arrow, {
+      x1: tip[0] - (length * x) / size, y1: tip[1] + (length * z) / size, x2: tip[0], y2: tip[1], "stroke-width": width,
+    });
+  }
+
+  remember(view) {
+    const now = performance.now();
+    const last = this.history.at(-1);
+    if (last !== undefined && now - last.at < HISTORY_STEP_MS) {
+      return;
+    }
+    const [least, most] = view.is_valid && view.silent_s === null ? view.lambda_n_per_mm : [null, null];
+    this.history.push({ at: now, least, most });
+    while (now - this.history[0].at > HISTORY_MS) {
+      this.history.shift();
+    }
+    this.drawHistory(now);
+  }
+
+  drawHistory(now) {
+    const canvas = this.find(".history");
+    const pen = canvas.getContext("2d");
+    const style = getComputedStyle(this.element);
+    const values = this.history.flatMap((one) => [one.least, one.most]).filter((value) => value !== null && value > 0);
+    pen.clearRect(0, 0, canvas.width, canvas.height);
+    if (values.length === 0) {
+      text(this.find("figcaption"), "no valid K in the last minute");
+      return;
+    }
+    const low = Math.log(Math.min(...values) / 1.2);
+    const high = Math.log(Math.max(...values) * 1.2);
+    const x = (at) => canvas.width * (1 - (now - at) / HISTORY_MS);
+    const y = (value) => canvas.height * (1 - (Math.log(value) - low) / (high - low));
+    for (const [name, colour, dash] of [["most", "--stiff", []], ["least", "--soft", [8, 4]]]) {
+      pen.strokeStyle = style.getPropertyValue(colour);
+      pen.setLineDash(dash);
+      pen.lineWidth = 3;
+      pen.beginPath();
+      let isDown = false;
+      for (const one of this.history) {
+        if (one[name] === null) {
+          isDown = false;
+          continue;
+        }
+        pen[isDown ? "lineTo" : "moveTo"](x(one.at), y(one[name]));
+        isDown = true;
+      }
+      pen.stroke();
+    }
+    text(
+      this.find("figcaption"),
+      `last minute, logarithmic, ${number(Math.min(...values))} to ${number(Math.max(...values))} N/mm: ` +
+        "stiffest (solid), softest (dashed)",
+    );
+  }
+}
