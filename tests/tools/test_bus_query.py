@@ -374,7 +374,7 @@ def test_a_terminal_gets_a_picture(limb: Path) -> None:
 
 
 def test_the_python_example_prints_k(limb: Path) -> None:
-    example = PROJECT / "tools" / "client" / "examples" / "print_k.py"
+    example = PROJECT / "examples" / "python_can" / "ask_k.py"
     assert len(example.read_text().splitlines()) <= 40
     with limb_on_tcp(limb) as url:
         channel = url.replace("tcp:", "socket:")

@@ -207,6 +207,7 @@ def test_k_under_a_force_from_any_side_is_the_limbs_own(
                 space = space_of(one)
                 assert space["k_is_valid"] and one.raw_snapshot().load.is_counted
                 off.append(np.linalg.norm(k_of(space) - wanted) / np.linalg.norm(wanted))
+    print(f"K told under 5, 10, 20 N from {len(SIDES)} sides: off by at most {max(off):.2%}")
     assert max(off) < 0.01
 
 

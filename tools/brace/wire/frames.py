@@ -5,7 +5,7 @@ from __future__ import annotations
 from brace.wire import codes
 from brace.wire.layout import Field, Layout
 
-DICTIONARY_HASH = 0x407BADD9
+DICTIONARY_HASH = 0x13040C2F
 PROTOCOL = 1
 REQUEST_ID = 0x600
 ANSWER_ID = 0x580
@@ -125,6 +125,18 @@ MULTIPLEXED: dict[str, tuple[Layout, ...]] = {
             Field("gravity_direction", 48, 16, kind="value", signed=True, step=0.0001, unit="rad"),
         ), part=4, part_at=8),
     ),
+    "load_across": (
+        Layout("load_across_0", 0x400, None, (
+            Field("sequence", 0, 8),
+            Field("counted_force_y", 16, 24, kind="value", signed=True, step=0.001, unit="N"),
+            Field("moved_y", 40, 24, kind="value", signed=True, step=0.001, unit="mm"),
+        ), part=0, part_at=8),
+        Layout("load_across_1", 0x400, None, (
+            Field("sequence", 0, 8),
+            Field("unloaded_k_across", 16, 24, kind="value", step=0.0005, unit="N/mm"),
+            Field("flags", 40, 8, codes=codes.FLAG),
+        ), part=1, part_at=8),
+    ),
 }
 
 FD_MESSAGES: dict[str, Layout] = {
@@ -186,6 +198,9 @@ FD_MESSAGES: dict[str, Layout] = {
         Field("buckling_factor", 288, 32, kind="f32"),
         Field("gravity_direction", 320, 32, kind="f32", unit="rad"),
         Field("gravity_lean", 352, 32, kind="f32", unit="rad"),
+        Field("counted_force_y", 384, 32, kind="f32", unit="N"),
+        Field("moved_y", 416, 32, kind="f32", unit="mm"),
+        Field("unloaded_k_across", 448, 32, kind="f32", unit="N/mm"),
     ), 64),
 }
 

@@ -422,7 +422,9 @@ static bool newest(brace_client_t *client, uint32_t wanted, uint64_t since_us, b
 /* What a controller may not send, and why. */
 static const char *part_in_words(uint32_t wanted)
 {
-    return (wanted & BRACE_PART_LOAD) != 0u ? "the load (it is sent where controller.load_hz is not 0)"
+    return (wanted & BRACE_PART_LOAD_ACROSS) != 0u
+               ? "the load across the plane (only a limb with a coxa joint sends it, where controller.load_hz is not 0)"
+           : (wanted & BRACE_PART_LOAD) != 0u ? "the load (it is sent where controller.load_hz is not 0)"
            : (wanted & BRACE_PART_SPACE) != 0u
                ? "K in space (only a limb with a coxa joint sends it)"
                : "the wanted part of a snapshot (controller.stiffness_hz, posture_hz)";

@@ -14,7 +14,7 @@
 #include <stdint.h>
 
 /* Of every frame, entry and parameter, with types, steps and units: what two ends must agree on. */
-#define BRACE_DICTIONARY_HASH 0x407badd9u
+#define BRACE_DICTIONARY_HASH 0x13040c2fu
 #define BRACE_PROTOCOL 1u
 
 /* Identifiers of node 0; a controller adds its node number, 1-127. */
@@ -27,6 +27,7 @@ enum {
     BRACE_CAN_ID_HEARTBEAT = 0x700,
     BRACE_CAN_ID_SPACE = 0x200,
     BRACE_CAN_ID_LOAD = 0x100,
+    BRACE_CAN_ID_LOAD_ACROSS = 0x400,
     BRACE_CAN_ID_SNAPSHOT_FD = 0x500,
     BRACE_CAN_ID_SPACE_FD = 0x300,
     BRACE_CAN_ID_LOAD_FD = 0x680,
@@ -81,6 +82,10 @@ uint32_t brace_can_space_part(const uint8_t data[8]);
 /* The frames of one load, and which of them a frame is. */
 enum { BRACE_CAN_LOAD_PARTS = 5 };
 uint32_t brace_can_load_part(const uint8_t data[8]);
+
+/* The frames of one load_across, and which of them a frame is. */
+enum { BRACE_CAN_LOAD_ACROSS_PARTS = 2 };
+uint32_t brace_can_load_across_part(const uint8_t data[8]);
 
 /* a fault has come or gone, or the likeliest cause of a drift is another one */
 typedef struct {
@@ -372,6 +377,36 @@ typedef struct {
 uint32_t brace_can_pack_load_4(const brace_can_load_4_t *message, uint8_t data[8]);
 void brace_can_unpack_load_4(const uint8_t data[8], brace_can_load_4_t *message);
 
+/* the load across the limb's plane, and K there without it, of the same snapshot as load; only a limb whose coxa
+ * joint is fitted sends it, each snapshot in all its parts: part 0 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the force of the ground on the tip that K counts across the limb's plane, to the left [N, -8388.61 to
+     * 8388.61] */
+    float counted_force_y_n;
+    /* how far force and weight have moved the tip across the limb's plane, to the left [mm, -8388.61 to 8388.61] */
+    float moved_y_mm;
+} brace_can_load_across_0_t;
+#define BRACE_CAN_LOAD_ACROSS_0_COUNTED_FORCE_Y_N_MOST 8388.607f
+#define BRACE_CAN_LOAD_ACROSS_0_MOVED_Y_MM_MOST 8388.607f
+uint32_t brace_can_pack_load_across_0(const brace_can_load_across_0_t *message, uint8_t data[8]);
+void brace_can_unpack_load_across_0(const uint8_t data[8], brace_can_load_across_0_t *message);
+
+/* the load across the limb's plane, and K there without it, of the same snapshot as load; only a limb whose coxa
+ * joint is fitted sends it, each snapshot in all its parts: part 1 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* K across the limb's plane with neither the force on the tip nor the weight counted [N/mm, 0 to 8388.61] */
+    float unloaded_k_across_n_per_mm;
+    /* the quality of K in space */
+    uint32_t flags;
+} brace_can_load_across_1_t;
+#define BRACE_CAN_LOAD_ACROSS_1_UNLOADED_K_ACROSS_N_PER_MM_MOST 8388.607f
+uint32_t brace_can_pack_load_across_1(const brace_can_load_across_1_t *message, uint8_t data[8]);
+void brace_can_unpack_load_across_1(const uint8_t data[8], brace_can_load_across_1_t *message);
+
 /* a whole snapshot, in place of stiffness_a, stiffness_b, eigenvalues and posture, where
  * controller.can_fd_bit_rate is set and the bus can do it */
 typedef struct {
@@ -500,6 +535,13 @@ typedef struct {
     float gravity_direction_rad;
     /* how far that direction leans out of the limb's plane */
     float gravity_lean_rad;
+    /* the force of the ground on the tip that K counts across the limb's plane, to the left; not known of a limb
+     * without a coxa joint, and where no load is counted */
+    float counted_force_y_n;
+    /* how far force and weight have moved the tip across the limb's plane, to the left */
+    float moved_y_mm;
+    /* K across the limb's plane with neither the force on the tip nor the weight counted, every gap closed */
+    float unloaded_k_across_n_per_mm;
 } brace_can_load_fd_t;
 #define BRACE_CAN_LOAD_FD_AGE_MS_MOST 32767.0f
 uint32_t brace_can_pack_load_fd(const brace_can_load_fd_t *message, uint8_t data[64]);
