@@ -27,7 +27,7 @@ TYPED = {  # folder: where its imports are looked for
     "tests/release": "tools:tests/release",
     "tests/servo": "tools:tests/servo:tests/emulated",
     "tests/socketcan": "tools:tests/socketcan",
-    "tests/tools": "tools:tests/tools:tests/tools/diagnose:tests/tools/importing:tests/bench",
+    "tests/tools": "tools:tests/tools:tests/tools/diagnose:tests/tools/importing:tests/tools/new:tests/bench",
 }
 
 

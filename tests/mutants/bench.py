@@ -1,4 +1,4 @@
-"""The C suites over a firmware that is one shared library: a changed file costs a compilation and a link."""
+"""The unit suites over a firmware that is one shared library: a changed file costs a compilation and a link."""
 
 from __future__ import annotations
 
@@ -18,11 +18,6 @@ WORK = ROOT / "build" / "mutants"
 FIRMWARE = ("firmware/core/", "firmware/interface/", "firmware/store/", "firmware/app/")
 HALS = ("hal/fake/", "hal/blank/", "hal/selftest/", "hal/dynamixel/")
 LIBRARY = "libunder_test.so"
-CUTS = {
-    "power_cuts": ("power_cuts", "nvm_model", "crc32_fast"),
-    "journal_cuts": ("journal_cuts", "nvm_model", "crc32_fast"),
-}
-ARGUMENTS = {"power_cuts": ("--in-turn",), "journal_cuts": ("--in-turn",)}
 LEVEL = "-O1"  # compiles quickly, and still gives the same object for many mutants that mean the same
 
 
@@ -57,10 +52,11 @@ def commands() -> dict[str, Command]:
     found = {}
     for item in json.loads((BUILD / "compile_commands.json").read_text()):
         source = Path(item["file"])
-        name = str(source.relative_to(ROOT)) if source.is_relative_to(ROOT) else source.name
+        is_ours = source.is_relative_to(ROOT) and source.name != "unity.c"
+        name = str(source.relative_to(ROOT)) if is_ours else source.name
         words = tuple(shlex.split(item["command"]))
         is_copy = name.startswith("firmware/") and "/faults/" in words[words.index("-o") + 1]
-        is_wanted = name.startswith((*FIRMWARE, *HALS, "tests/unit/", "tests/faults/")) or name == "unity.c"
+        is_wanted = name.startswith((*FIRMWARE, *HALS, "tests/unit/")) or name == "unity.c"
         if is_wanted and not is_copy:
             found[name] = Command(name, Path(item["directory"]), words)
     return found
@@ -89,7 +85,7 @@ class Bench:
         """Builds what is older than its sources. returns the suites"""
         (WORK / "objects").mkdir(parents=True, exist_ok=True)
         (WORK / "suites").mkdir(exist_ok=True)
-        folders = ("firmware", "hal", "tests/unit", "tests/faults")
+        folders = ("firmware", "hal", "tests/unit")
         newest = max(path.stat().st_mtime for part in folders for path in (ROOT / part).rglob("*.h"))
         for name, command in self.commands.items():
             output = self.object_of(name)
@@ -111,8 +107,6 @@ class Bench:
         found = {
             Path(name).stem: [self.object_of(name), unity] for name in tests if Path(name).stem.startswith("test_")
         }
-        for program, stems in CUTS.items():
-            found[program] = [self.object_of(name) for name in tests if Path(name).stem in stems]
         return found
 
     def link(self, folder: Path, instead: dict[str, Path]) -> None:
@@ -148,7 +142,7 @@ def run_suite(suite: Suite, library: Path, cpu_most_s: int) -> Ending:
 
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run(
-        [str(suite.program), *ARGUMENTS.get(suite.name, ())],
+        [str(suite.program)],
         capture_output=True,
         check=False,
         env={**os.environ, "LD_LIBRARY_PATH": str(library)},

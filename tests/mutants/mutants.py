@@ -4,8 +4,8 @@ usage: mutants.py [--count N] [--seed S] [--only GLOB] [--afresh]
 
 A mutant is a file of the firmware with one line changed by universalmutator's rules. Only lines that some suite runs
 are mutated (./dev coverage tells of the others). A mutant that the compiler refuses, or of which it makes the same
-object as without, does not count. Every other one is given to the suites that run its line, until one fails: then it
-is killed.
+object as without, does not count. Every other one is given to the suites that run its file, until one fails: then it
+is killed. The suites are the unit tests; power cuts and fuzzers take too long for each mutant.
 Outcomes are kept in build/mutants/outcomes.jsonl, so that a run that was stopped goes on.
 
 exit codes: 0 enough are killed and every survivor is argued for in survivors.toml, 1 not so, 4 a tool failed.
@@ -62,7 +62,9 @@ class Judge:
     def __init__(self) -> None:
         self.bench = bench.Bench()
         self.suites = {suite.name: suite for suite in self.bench.build()}
-        self.by_line = suites_by_line()
+        self.by_file: dict[str, set[str]] = defaultdict(set)
+        for (file, _), names in suites_by_line().items():
+            self.by_file[file].update(names)
         self.kills: Counter[tuple[str, str]] = Counter()
         self.folder = bench.WORK / "mutant"
         for name, suite in self.suites.items():
@@ -120,7 +122,7 @@ class Judge:
         if not objects:
             return Outcome(mutant, SAME)
         self.bench.link(self.folder, objects)
-        names = [name for name in self.by_line[mutant.file, mutant.line] if name in self.suites]
+        names = [name for name in self.by_file[mutant.file] if name in self.suites]
         names.sort(key=lambda name: self.suites[name].cpu_s / (1.0 + 20.0 * self.kills[name, mutant.file]))
         for name in names:
             suite = self.suites[name]

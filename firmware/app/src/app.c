@@ -7,7 +7,7 @@
 
 /* Of what must not change, so many words are looked over: all of them in less than 100 ms. */
 #define GUARDED_WORDS_PER_MS 8u
-#define GUARDED_WORDS_MOST 24u /* of the 336 */
+#define GUARDED_WORDS_MOST 24u /* of the 364 */
 #define GUARDED_WORDS_IN_A_DEAR_TICK 2u /* in which a job has worked out a K, at most two of three */
 #define LATE_PERIODS 3u /* a tick that comes more than three periods after the one before is more than two late */
 
@@ -29,10 +29,12 @@ static guard_span_t guarded(const controller_t *controller, uint32_t index)
     case 0: return SPAN(controller->parameters.in_force, controller->parameters.store);
     case 1: return SPAN(*model, model->spatial.yaw_rad_per_n_mm); /* the springs behind change in each tick */
     case 2: return SPAN(model->loaded, model->deflection_rad);
-    case 3: return WHOLE(controller->tip_force.inverse);
+    case 3: return SPAN(controller->tip_force.fitted, *(&controller->tip_force + 1));
     case GUARDED_GRAVITY: return WHOLE(controller->gravity);
-    default: return WHOLE(controller->flank.joint[index - GUARDED_JOINTS].machine.params);
+    default: break;
     }
+    const flank_joint_t *joint = &controller->flank.joint[index - GUARDED_JOINTS];
+    return SPAN(*joint, joint->machine.started); /* what the machine is set up with; its state is behind it */
 #undef SPAN
 #undef WHOLE
 }

@@ -89,10 +89,22 @@ int main(void)
     const uint32_t length = any_u32();
     ASSUME(length >= 1u && length <= MODBUS_PDU_BYTES);
     tick.counters = &counters;
+    watched_struct = &server;
+    member_from[0] = (const uint8_t *)&server.written, member_end[0] = member_from[0] + sizeof server.written;
+    member_from[1] = (const uint8_t *)&server.answered, member_end[1] = member_from[1] + sizeof server.answered;
+    const uint32_t word = any_u32(); /* any word of what was asked and answered, so all */
+    ASSUME(word < sizeof server.written / 4u);
+    const uint32_t *const written = (const uint32_t *)&server.written + word, as_written = *written;
+    const brace_asker_t asker = server.asker;
+    const uint8_t address = server.address;
     const uint8_t function = pdu[0];
     const uint16_t refused = server.refused;
 
     const uint32_t answer = modbus_pdu_answer(&server, &half, &tick, pdu, length);
+
+    /* Copies are not followed here (copies.h), and a take-up that begins is told. */
+    PROVE(*written == as_written || word == offsetof(brace_commands_t, take_up) / 4u, "nothing else is written");
+    PROVE(server.asker == asker && server.address == address, "nor who asked, nor whom");
 
     if (answer == 0u) { /* it is being worked out */
         PROVE(function == 16u && pdu[at] == as_sent, "only a question is put again, and it stays as it is");

@@ -321,6 +321,38 @@ static void a_load_that_goes_away_ends_the_takeup(void)
     TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_LET_GO, out.phase);
 }
 
+static void what_a_joint_promises_is_told(void)
+{
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, brace_takeup_preload_min_n_mm(NULL));
+    TEST_ASSERT_TRUE(brace_takeup_preload_min_n_mm(&joint) > 200.0f); /* more than friction */
+    TEST_ASSERT_TRUE(brace_takeup_preload_min_n_mm(&joint) < 4500.0f);
+    TEST_ASSERT_EQUAL(0, brace_backlash_detection_us(NULL));
+}
+
+static void an_expectation_that_is_none_is_a_bad_sample(void)
+{
+    brace_backlash_sample_t sample = {.now_us = now_us + 1000u, .load_is_expected = true, .expected_off_n_mm = -1.0f};
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_backlash_tick(&joint, &sample, &out));
+    sample.expected_off_n_mm = (float)NAN;
+    sample.now_us += 1000u;
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NOT_FINITE, brace_backlash_tick(&joint, &sample, &out));
+}
+
+static void a_takeup_that_has_not_begun_is_taken_back(void)
+{
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_takeup_request(NULL, 1));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_takeup_request(&joint, 0));
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_takeup_request(&joint, 1));
+    TEST_ASSERT_EQUAL_INT(BRACE_E_RANGE, brace_takeup_request(&joint, 1)); /* one at a time */
+    TEST_ASSERT_EQUAL_INT(BRACE_E_NULL, brace_takeup_let_go(NULL));
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_takeup_let_go(&joint));
+    stand(0.0, 0.0, 50);
+    TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_IDLE, out.phase);
+    TEST_ASSERT_EQUAL_INT(BRACE_OK, brace_takeup_request(&joint, -1));
+    stand(0.0, 0.0, 50);
+    TEST_ASSERT_EQUAL_INT(BRACE_TAKEUP_APPROACH, out.phase);
+}
+
 static void parameters_out_of_range_are_refused(void)
 {
     brace_backlash_t fresh, before;
@@ -381,6 +413,9 @@ int main(void)
     RUN_TEST(a_takeup_preloads_verifies_and_lets_go);
     RUN_TEST(every_bound_has_its_own_result);
     RUN_TEST(a_load_that_goes_away_ends_the_takeup);
+    RUN_TEST(what_a_joint_promises_is_told);
+    RUN_TEST(an_expectation_that_is_none_is_a_bad_sample);
+    RUN_TEST(a_takeup_that_has_not_begun_is_taken_back);
     RUN_TEST(parameters_out_of_range_are_refused);
     RUN_TEST(the_tip_shifts_by_gap_times_lever);
     return UNITY_END();

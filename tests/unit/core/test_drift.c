@@ -267,6 +267,10 @@ static void test_refused_calls_leave_everything_as_it_was(void)
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_report(&drift, &believed, NULL));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_outlook(&drift, &believed, &model, &sound, NULL));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_reset(NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_learn(NULL, &believed, &setup));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_learn(&drift, &believed, NULL));
+    brace_drift_outlook_t outlook;
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_outlook(&drift, NULL, &model, &sound, &outlook));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_run(NULL));
     reading.fx_n = NAN;
     TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, brace_drift_step(&drift, &believed, &model, &reading));

@@ -27,6 +27,8 @@ static void test_limbs_that_exist(void)
 static void test_null(void)
 {
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_limb_check(NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_limb_check_together(NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_limb_check_lengths(NULL));
 }
 
 static void test_every_field_must_be_finite(void)

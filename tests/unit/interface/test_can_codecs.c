@@ -96,6 +96,15 @@ static void test_every_request_is_unpacked_and_every_answer_packed(void)
     }
 }
 
+static void test_a_part_says_which_it_is(void)
+{
+    for (uint32_t part = 0; part < 256u; part++) {
+        const uint8_t data[8] = {9, (uint8_t)part, 7, 7, 7, 7, 7, 7};
+        TEST_ASSERT_EQUAL(part, brace_can_space_part(data));
+        TEST_ASSERT_EQUAL(part, brace_can_load_part(data));
+    }
+}
+
 /* A snapshot as frames: every measured message is made of the values that it is named after. */
 static void test_every_measured_frame_is_made_of_its_values(void)
 {
@@ -125,6 +134,7 @@ int main(void)
     RUN_TEST(test_what_a_frame_says_is_packed_as_it_was);
     RUN_TEST(test_a_bit_that_changes_changes_one_field_alone);
     RUN_TEST(test_every_request_is_unpacked_and_every_answer_packed);
+    RUN_TEST(test_a_part_says_which_it_is);
     RUN_TEST(test_every_measured_frame_is_made_of_its_values);
     return UNITY_END();
 }

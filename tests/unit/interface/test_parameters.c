@@ -188,6 +188,12 @@ static void test_refusals_each_have_their_status(void)
     }
     TEST_ASSERT_EQUAL(BRACE_E_LENGTH, brace_parameters_unpack(block, sizeof block + 1, &out, NULL, NULL));
 
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_parameters_check_piece(&parameters, BRACE_CHECK_PIECES, NULL));
+    put_word(12, 4 * BRACE_PARAMETER_COUNT - 4); /* shorter, and of this very dictionary */
+    put_word(BRACE_BLOCK_BYTES - 8, crc_of(block, BRACE_BLOCK_BYTES - 8));
+    TEST_ASSERT_EQUAL(BRACE_E_LENGTH, brace_parameters_unpack(block, sizeof block - 4, &out, NULL, NULL));
+    put_word(12, 4 * BRACE_PARAMETER_COUNT);
+
     put_word(8, ~BRACE_SCHEMA_HASH);
     seal();
     TEST_ASSERT_EQUAL(BRACE_E_SCHEMA, unpacked(NULL));

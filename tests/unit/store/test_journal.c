@@ -66,6 +66,8 @@ static void fill(brace_drift_t *drift, uint8_t with)
 static brace_journal_state_t keep(uint8_t with)
 {
     fill(&state, with);
+    const brace_journal_state_t rests = brace_journal_step(&journal); /* nothing is being written */
+    TEST_ASSERT_NOT_EQUAL(BRACE_JOURNAL_BUSY, rests);
     TEST_ASSERT_TRUE(brace_journal_begin(&journal, &state));
     TEST_ASSERT_FALSE(brace_journal_begin(&journal, &state)); /* one at a time */
     brace_journal_state_t now = BRACE_JOURNAL_BUSY;

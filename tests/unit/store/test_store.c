@@ -8,7 +8,7 @@ static struct {
     uint8_t bytes[2][4096];
     bool write_refused, read_refused, erase_refused, write_lost, erase_lost;
     int32_t stuck_slot;
-    uint32_t stuck_at, writes_until_refused;
+    uint32_t stuck_at, writes_until_refused, reads_until_refused;
     uint32_t calls, bytes_moved;
 } memory;
 
@@ -21,7 +21,7 @@ static int32_t memory_read(void *context, uint32_t slot, uint32_t offset, uint8_
     (void)context;
     memory.calls++;
     memory.bytes_moved += count;
-    if (memory.read_refused) {
+    if (memory.read_refused || (memory.reads_until_refused != 0 && --memory.reads_until_refused == 0)) {
         return BRACE_HAL_E_DEVICE;
     }
     memcpy(bytes, memory.bytes[slot] + offset, count);
@@ -373,6 +373,103 @@ static void test_each_write_refused_in_turn(void)
     }
 }
 
+/* Whichever read is refused, of an update, a roll-back or a reload: the set of before stays in force. */
+static void test_each_read_refused_in_turn(void)
+{
+    for (int kind = 0; kind < 3; kind++) {
+        for (uint32_t refused = 1;; refused++) {
+            setUp();
+            update(1);
+            update(2);
+            expect_after_start(BRACE_PARAMETERS_SLOT_B, 2);
+            memory.reads_until_refused = refused;
+            brace_store_state_t state;
+            if (kind == 2) {
+                TEST_ASSERT_EQUAL(BRACE_OK, brace_store_reload(&store));
+                state = finish();
+            } else {
+                state = kind == 1 ? roll_back() : update(3);
+            }
+            if (memory.reads_until_refused != 0) {
+                TEST_ASSERT_EQUAL(BRACE_STORE_DONE, state);
+                TEST_ASSERT_GREATER_THAN(kind == 1 ? 15 : 10, refused);
+                break;
+            }
+            TEST_ASSERT_EQUAL(BRACE_STORE_FAILED, state);
+            TEST_ASSERT_EQUAL(BRACE_STORE_E_DEVICE, status_now().failure);
+            TEST_ASSERT_EQUAL(BRACE_PARAMETERS_SLOT_B, status_now().in_force);
+            TEST_ASSERT_EQUAL(kind != 2, status_now().memory_fault);
+            expect_after_start(BRACE_PARAMETERS_SLOT_B, 2);
+        }
+    }
+}
+
+/* A start that may not read a slot's block, or one of its marks, goes by the other slot. */
+static void test_each_read_of_a_start_refused_in_turn(void)
+{
+    update(1);
+    update(2);
+    for (uint32_t refused = 1;; refused++) {
+        memory.reads_until_refused = refused;
+        const brace_parameter_origin_t origin = brace_store_start(&store, &hal, &parameters);
+        if (memory.reads_until_refused != 0) {
+            TEST_ASSERT_GREATER_THAN(100, refused); /* two blocks, and the marks of both */
+            break;
+        }
+        const uint32_t lost = status_now().slot[0].condition == BRACE_SLOT_UNREADABLE ? 0u : 1u;
+        TEST_ASSERT_EQUAL(BRACE_SLOT_UNREADABLE, status_now().slot[lost].condition);
+        TEST_ASSERT_EQUAL(2u - lost, (uint32_t)origin);
+        TEST_ASSERT_EQUAL(2u - lost, parameters.controller.node_id);
+        TEST_ASSERT_TRUE(status_now().memory_fault);
+    }
+    memory.reads_until_refused = 0;
+}
+
+/* A block of another firmware that cannot be read to its end is damaged, as far as this start can tell. */
+static void test_another_dictionary_s_block_that_cannot_be_read_to_its_end(void)
+{
+    put_block(0, 1, 7, true);
+    memory.bytes[0][8] ^= 1u;
+    memory.reads_until_refused = 3; /* the block, and a piece of it for its CRC */
+    TEST_ASSERT_EQUAL(BRACE_PARAMETERS_DEFAULT, brace_store_start(&store, &hal, &parameters));
+    TEST_ASSERT_EQUAL(BRACE_SLOT_DAMAGED, status_now().slot[0].condition);
+}
+
+/* Both slots hold another firmware's blocks: the older one goes. */
+static void test_of_two_other_dictionaries_the_older_block_goes(void)
+{
+    for (uint32_t older = 0; older < 2; older++) {
+        setUp();
+        for (uint32_t slot = 0; slot < 2; slot++) {
+            put_block(slot, 1, slot == older ? 7 : 8, true);
+            memory.bytes[slot][8] ^= 1u;
+            const uint32_t crc = brace_crc32(0, memory.bytes[slot], BRACE_BLOCK_BYTES - 4);
+            memcpy(memory.bytes[slot] + BRACE_BLOCK_BYTES - 4, &crc, 4);
+        }
+        expect_after_start(BRACE_PARAMETERS_DEFAULT, 0);
+        TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(3));
+        TEST_ASSERT_EQUAL(older == 0 ? BRACE_PARAMETERS_SLOT_A : BRACE_PARAMETERS_SLOT_B, status_now().in_force);
+        TEST_ASSERT_EQUAL(BRACE_SLOT_OTHER_SCHEMA, status_now().slot[1u - older].condition);
+    }
+}
+
+/* Neither block counts, and one of them is ours: it must not come back once another set is in force. */
+static void test_a_set_that_did_not_count_does_not_come_back(void)
+{
+    for (uint32_t slot = 0; slot < 2; slot++) {
+        setUp();
+        put_block(slot, 1, 7, false); /* written, not committed */
+        put_block(1u - slot, 2, 8, false);
+        expect_after_start(BRACE_PARAMETERS_DEFAULT, 0);
+        TEST_ASSERT_EQUAL(BRACE_STORE_DONE, update(3));
+        const uint32_t written = (uint32_t)status_now().in_force - 1u;
+        TEST_ASSERT_EQUAL(BRACE_SLOT_VOID, status_now().slot[1u - written].condition);
+        TEST_ASSERT_FALSE(status_now().can_roll_back);
+        expect_after_start((brace_parameter_origin_t)(written + 1u), 3);
+        TEST_ASSERT_EQUAL(BRACE_SLOT_VOID, status_now().slot[1u - written].condition);
+    }
+}
+
 static void test_a_memory_that_does_not_answer(void)
 {
     update(1);
@@ -470,6 +567,11 @@ int main(void)
     RUN_TEST(test_marks_never_run_out);
     RUN_TEST(test_a_memory_that_does_not_keep);
     RUN_TEST(test_each_write_refused_in_turn);
+    RUN_TEST(test_each_read_refused_in_turn);
+    RUN_TEST(test_each_read_of_a_start_refused_in_turn);
+    RUN_TEST(test_another_dictionary_s_block_that_cannot_be_read_to_its_end);
+    RUN_TEST(test_of_two_other_dictionaries_the_older_block_goes);
+    RUN_TEST(test_a_set_that_did_not_count_does_not_come_back);
     RUN_TEST(test_a_memory_that_does_not_answer);
     RUN_TEST(test_what_is_refused_at_once);
     RUN_TEST(test_a_set_that_is_offered_is_judged_on_the_way);

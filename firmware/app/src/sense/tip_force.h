@@ -9,10 +9,10 @@
 #include "brace_hal.h"
 
 typedef struct {
-    bool fitted;       /* there is a sensor, and its matrix has an inverse */
     bool known;        /* x_n, z_n are no older than controller.age_limit_us */
     uint32_t age_us;   /* since the sensor last gave a new reading */
     float x_n, z_n;    /* [N], in the limb's plane; valid while known */
+    bool fitted;       /* there is a sensor, and its matrix has an inverse; this and inverse stay as configured */
     float inverse[4];  /* from a reading less its bias to the force; rows x, z */
 } tip_force_t;
 

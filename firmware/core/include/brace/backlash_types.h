@@ -97,7 +97,7 @@ typedef struct {
     float fast_sigma_n_mm, slow_sigma_n_mm, least_preload_n_mm;
     uint32_t detection_us;
 
-    bool started;
+    bool started; /* what is above follows from the parameters and stays, what is below is the state */
     uint32_t last_us;
     float motor_rad, anchor_rad, speed_rad_per_s;
     int direction;

@@ -1,0 +1,188 @@
+/* CAN frames as text: every command, frames both ways, lines that are none, and a line that takes few bytes. */
+#include <string.h>
+
+#include "unity.h"
+#include "wire/slcan/slcan.h"
+
+static uint8_t to_node[512], from_node[2048];
+static uint32_t to_count, to_read, from_count;
+static uint32_t takes_most; /* bytes that the port takes in a call */
+static slcan_t slcan;
+
+static int32_t port_setup(void *context, brace_serial_port_t port, uint32_t baud, brace_parity_t parity)
+{
+    (void)context;
+    (void)parity;
+    TEST_ASSERT_EQUAL(SLCAN_BAUD, baud);
+    return port == BRACE_SERIAL_SLCAN ? BRACE_HAL_OK : BRACE_HAL_E_UNSUPPORTED;
+}
+
+static int32_t port_read(void *context, brace_serial_port_t port, uint8_t *bytes, uint32_t room)
+{
+    (void)context;
+    (void)port;
+    const uint32_t left = to_count - to_read, count = left < room ? left : room;
+    memcpy(bytes, to_node + to_read, count);
+    to_read += count;
+    return (int32_t)count;
+}
+
+static int32_t port_write(void *context, brace_serial_port_t port, const uint8_t *bytes, uint32_t count)
+{
+    (void)context;
+    (void)port;
+    const uint32_t taken = count < takes_most ? count : takes_most;
+    TEST_ASSERT_TRUE(from_count + taken <= sizeof from_node);
+    memcpy(from_node + from_count, bytes, taken);
+    from_count += taken;
+    return (int32_t)taken;
+}
+
+static const brace_hal_t hal = {.serial_setup = port_setup, .serial_read = port_read, .serial_write = port_write};
+
+void setUp(void)
+{
+    to_count = to_read = from_count = 0;
+    takes_most = sizeof from_node;
+    slcan_start(&slcan, &hal);
+    TEST_ASSERT_TRUE(slcan.is_fitted);
+}
+
+void tearDown(void) {}
+
+/* Sends text, lets the node read it, and compares what it says. returns whether a frame came, in frame */
+static bool say(const char *text, const char *answer, brace_can_frame_t *frame)
+{
+    const uint32_t count = (uint32_t)strlen(text);
+    memcpy(to_node, text, count);
+    to_count = count;
+    to_read = from_count = 0;
+    bool came = false;
+    for (int i = 0; i < 40; i++) {
+        came = slcan_receive(&slcan, &hal, frame) || came;
+        slcan_flush(&slcan, &hal);
+    }
+    TEST_ASSERT_EQUAL(strlen(answer), from_count);
+    TEST_ASSERT_EQUAL_MEMORY(answer, from_node, from_count);
+    return came;
+}
+
+static void test_commands_are_answered_as_an_adapter_answers_them(void)
+{
+    static const char *const said[][2] = {
+        {"\r", "\r"},           {"V\r", "V1013\r"}, {"v\r", "v0100\r"}, {"N\r", "NBRC1\r"}, {"F\r", "\a"},
+        {"S8\r", "\r"},         {"S9\r", "\a"},     {"S\r", "\a"},      {"S/\r", "\a"},     {"S88\r", "\a"},
+        {"s0312\r", "\r"},      {"Z0\r", "\r"},     {"Z1\r", "\a"},     {"Q\r", "\a"},      {"C\r", "\r"},
+        {"t1230\r", "\a"},      {"OO\r", "\a"},     {"O\r", "\r"},      {"O\r", "\a"},      {"L\r", "\a"},
+        {"S8\r", "\a"},         {"s0312\r", "\a"},  {"Z0\r", "\a"},     {"F\r", "F00\r"},   {"\nV\r", "V1013\r"},
+        {"CC\r", "\a"},         {"C\r", "\r"},      {"L\r", "\r"},      {"t1230\r", "\a"},  {"C\r", "\r"},
+    };
+    brace_can_frame_t frame;
+    for (size_t i = 0; i < sizeof said / sizeof *said; i++) {
+        TEST_ASSERT_FALSE_MESSAGE(say(said[i][0], said[i][1], &frame), said[i][0]);
+    }
+}
+
+static void test_a_frame_comes_as_it_was_sent(void)
+{
+    brace_can_frame_t frame;
+    (void)say("O\r", "\r", &frame);
+    TEST_ASSERT_TRUE(say("t7ff80123456789aBCdeF\r", "z\r", &frame));
+    static const uint8_t data[8] = {0x01, 0x23, 0x45, 0x67, 0x89, 0xab, 0xcd, 0xef};
+    TEST_ASSERT_EQUAL_HEX32(0x7ff, frame.id);
+    TEST_ASSERT_EQUAL(8, frame.length);
+    TEST_ASSERT_FALSE(frame.fd);
+    TEST_ASSERT_EQUAL_MEMORY(data, frame.data, 8);
+    TEST_ASSERT_TRUE(say("t0000\r", "z\r", &frame));
+    TEST_ASSERT_EQUAL(0, frame.length);
+}
+
+static void test_frames_that_are_none_are_refused(void)
+{
+    static const char *const said[][2] = {
+        {"t8000\r", "\a"},   {"t12g0\r", "\a"},       {"t1239\r", "\a"},           {"t12310\r", "\a"},
+        {"t1231012\r", "\a"}, {"t12310g\r", "\a"},    {"t123\r", "\a"},            {"t12/0\r", "\a"},
+        {"t1231 0\r", "\a"}, {"T000000000\r", "Z\r"}, {"T1fffffff10a\r", "Z\r"},   {"r1238\r", "z\r"},
+        {"R000001238\r", "Z\r"}, {"r12381\r", "\a"},  {"T00000000\r", "\a"},       {"t123:\r", "\a"},
+        {"t123@\r", "\a"},   {"t1231@0\r", "\a"},     {"t1231`0\r", "\a"},         {"t1231G0\r", "\a"},
+    };
+    brace_can_frame_t frame;
+    (void)say("O\r", "\r", &frame);
+    for (size_t i = 0; i < sizeof said / sizeof *said; i++) {
+        TEST_ASSERT_FALSE_MESSAGE(say(said[i][0], said[i][1], &frame), said[i][0]);
+    }
+}
+
+static void test_a_line_that_is_too_long_is_refused_once_and_as_a_whole(void)
+{
+    brace_can_frame_t frame;
+    (void)say("O\r", "\r", &frame);
+    TEST_ASSERT_TRUE(say("0123456789012345678901234567890123456789t1230\rt1230\r", "\az\r", &frame));
+}
+
+/* A line that takes few bytes at a time: all comes, in order, and what finds no room is refused, not garbled. */
+static void test_a_slow_line_gets_every_frame_that_found_room(void)
+{
+    brace_can_frame_t ignored;
+    (void)say("O\r", "\r", &ignored);
+    from_count = 0;
+    takes_most = 5;
+    char expected[2048];
+    uint32_t expected_count = 0, refused = 0;
+    for (uint32_t i = 0; i < 60; i++) {
+        const brace_can_frame_t frame = {.id = 0x100u + i, .length = 8, .data = {1, 2, 3, 4, 5, 6, 7, (uint8_t)i}};
+        if (slcan_send(&slcan, &frame)) {
+            static const char digits[] = "0123456789ABCDEF";
+            char *line = expected + expected_count;
+            memcpy(line, "t1008", 5);
+            line[2] = digits[i / 16u];
+            line[3] = digits[i % 16u];
+            memcpy(line + 5, "01020304050607", 14);
+            line[19] = digits[i / 16u];
+            line[20] = digits[i % 16u];
+            line[21] = '\r';
+            expected_count += 22;
+        } else {
+            refused++;
+        }
+        for (int call = 0; call < 3; call++) {
+            slcan_flush(&slcan, &hal);
+        }
+    }
+    for (int i = 0; i < 200; i++) {
+        slcan_flush(&slcan, &hal);
+    }
+    TEST_ASSERT_GREATER_THAN(0, refused);
+    TEST_ASSERT_GREATER_THAN(20 * 22, expected_count);
+    TEST_ASSERT_EQUAL(expected_count, from_count);
+    TEST_ASSERT_EQUAL_MEMORY(expected, from_node, expected_count);
+}
+
+static void test_a_frame_of_can_fd_has_no_text(void)
+{
+    brace_can_frame_t frame = {.id = 1, .length = 12, .fd = true};
+    TEST_ASSERT_FALSE(slcan_send(&slcan, &frame));
+    TEST_ASSERT_EQUAL(0, slcan.out_count);
+}
+
+static void test_without_the_port_nothing_comes(void)
+{
+    brace_can_frame_t frame;
+    const brace_hal_t none = {0};
+    slcan_start(&slcan, &none);
+    TEST_ASSERT_FALSE(slcan.is_fitted);
+    TEST_ASSERT_FALSE(slcan_receive(&slcan, &none, &frame));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_commands_are_answered_as_an_adapter_answers_them);
+    RUN_TEST(test_a_frame_comes_as_it_was_sent);
+    RUN_TEST(test_frames_that_are_none_are_refused);
+    RUN_TEST(test_a_line_that_is_too_long_is_refused_once_and_as_a_whole);
+    RUN_TEST(test_a_slow_line_gets_every_frame_that_found_room);
+    RUN_TEST(test_a_frame_of_can_fd_has_no_text);
+    RUN_TEST(test_without_the_port_nothing_comes);
+    return UNITY_END();
+}
