@@ -162,7 +162,7 @@ def _joint_test(
 ) -> Identification:
     problem = JointProblem(settled)
     chosen = problem.parameters(start)
-    best = fit(problem, chosen, problem.starts(chosen))
+    best = problem.settled(fit(problem, chosen, problem.starts(chosen)))
     return Identification(dataset, start, "free", information(best), problem, done_to_data=done)
 
 
