@@ -79,7 +79,7 @@ def package(source: Source, wheel: Path, work: Path, cache: Path, dist: Path) ->
     _control(root, source)
     set_times(root, source.epoch_s)
     out = dist / f"brace_{source.version}_{ARCHITECTURE}.deb"
-    build = ("dpkg-deb", "--root-owner-group", "-Zxz", "-z3", "--threads-max=1", "--build", root, out)
+    build = ("dpkg-deb", "--root-owner-group", "-Zzstd", "-z9", "--threads-max=1", "--build", root, out)
     run(*build, environment=source.environment)
     return out
 
