@@ -69,6 +69,37 @@ def test_k_in_space_is_read(probe: Probe, url: str, model: Path) -> None:
     assert np.hypot(np.hypot(last["axis_x"], last["axis_y"]), last["axis_z"]) == pytest.approx(1.0, abs=1e-3)
 
 
+LOAD_ACROSS = 1 + 16 + 32  # K, the load, the load across
+
+
+@pytest.fixture(scope="module")
+def pressed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Sim]:
+    """A foot that is pressed to the left, and a controller that sends its load."""
+    path = tmp_path_factory.mktemp("pressed") / "spatial.toml"
+    path.write_text(LIMB.read_text() + ACROSS + "[controller]\nload_hz = 20\n")
+    with simulated(path.parent, path, "--press=1,-4", "--press-across", 8) as running:
+        yield running
+
+
+@pytest.mark.parametrize("port", ["can", "modbus"])
+def test_the_load_across_the_plane_comes_with_its_k(probe: Probe, pressed: Sim, port: str) -> None:
+    url = str(getattr(pressed, port))
+    answer = probe(url, "read", LOAD_ACROSS, 3)
+    assert answer.code == 0, answer.err
+    asked = probe(url, "load").values
+    for told in answer.snapshots:
+        assert int(told["parts"]) & LOAD_ACROSS == LOAD_ACROSS and told["force_y"] > 1.0 and told["moved_y"] > 1.0
+        for name in ("force_x", "force_y", "moved_y", "unloaded_k_across"):
+            # the limb stands still and its sensors are free of noise
+            assert told[name] == pytest.approx(asked[name], rel=2e-2, abs=0.002), name
+
+
+@pytest.mark.parametrize("port", ["can", "modbus"])
+def test_a_limb_in_its_plane_has_no_load_across(probe: Probe, sim: Sim, port: str) -> None:
+    answer = probe(getattr(sim, port), "read", LOAD_ACROSS, 1, timeout_ms=600)
+    assert answer.code in (5, 12) and "coxa joint" in answer.err
+
+
 def test_the_load_across_the_plane_is_told(probe: Probe, url: str, sim: Sim) -> None:
     """A free foot: the coxa joint's torque says that hardly anything pulls across the plane."""
     load, k = probe(url, "load").values, probe(url, "space", 1).snapshots[-1]

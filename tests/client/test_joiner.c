@@ -397,6 +397,34 @@ static void test_a_load_is_of_its_k_s_tick(void)
     TEST_ASSERT_GREATER_THAN_UINT32(130000u, whole); /* (19/20)^7 of all */
 }
 
+/* What is across the plane comes in frames of its own with a higher identifier: before the load or behind it. */
+static void test_a_load_across_the_plane(void)
+{
+    for (uint32_t behind = 0u; behind < 2u; behind++) {
+        brace_joiner_t joiner = {0};
+        const brace_client_snapshot_t *s = NULL;
+        for (uint32_t i = 0u; i < 7u; i++) {
+            const uint32_t part = behind != 0u ? i : (i + 5u) % 7u;
+            brace_bus_frame_t frame = load_frame_of(part % 5u, 5u, 1000u + i);
+            if (part >= 5u) {
+                const brace_can_load_across_0_t force = {
+                    .sequence = 5u, .counted_force_y_n = -2.5f, .moved_y_mm = -7.0f};
+                const brace_can_load_across_1_t k = {.sequence = 5u, .unloaded_k_across_n_per_mm = 0.5f};
+                frame.id = BRACE_CAN_ID_LOAD_ACROSS + NODE;
+                (void)(part == 5u ? brace_can_pack_load_across_0(&force, frame.data)
+                                  : brace_can_pack_load_across_1(&k, frame.data));
+            }
+            s = brace_joiner_add(&joiner, NODE, &frame, 0u);
+        }
+        TEST_ASSERT_NOT_NULL(s);
+        TEST_ASSERT_EQUAL_UINT32(BRACE_PART_LOAD | BRACE_PART_LOAD_ACROSS, s->parts);
+        load_is_of_tick(&s->load, 5u);
+        TEST_ASSERT_EQUAL_FLOAT(-2.5f, s->load.force_y_n);
+        TEST_ASSERT_EQUAL_FLOAT(-7.0f, s->load.moved_y_mm);
+        TEST_ASSERT_EQUAL_FLOAT(0.5f, s->load.unloaded_k_across_n_per_mm);
+    }
+}
+
 static void test_a_load_that_is_not_counted(void)
 {
     brace_joiner_t joiner = {0};
@@ -426,17 +454,20 @@ static void test_over_can_fd_a_load_is_a_frame_of_its_own(void)
                                       .unloaded_k_xz_n_per_mm = 2.0f, .unloaded_k_zz_n_per_mm = 3.0f,
                                       .counted_force_x_n = 4.0f, .counted_force_z_n = 5.0f, .moved_x_mm = 6.0f,
                                       .moved_z_mm = 7.0f, .buckling_factor = INFINITY,
-                                      .gravity_direction_rad = -1.5f, .gravity_lean_rad = 0.5f};
+                                      .gravity_direction_rad = -1.5f, .gravity_lean_rad = 0.5f,
+                                      .counted_force_y_n = 8.0f, .moved_y_mm = 9.0f,
+                                      .unloaded_k_across_n_per_mm = 10.0f};
     (void)brace_can_pack_snapshot_fd(&plane, whole.data);
     (void)brace_can_pack_load_fd(&sent, load.data);
     (void)brace_joiner_add(&joiner, NODE, &whole, 0u);
     const brace_client_snapshot_t *s = brace_joiner_add(&joiner, NODE, &load, 0u);
     TEST_ASSERT_NOT_NULL(s);
-    TEST_ASSERT_EQUAL_UINT32(BRACE_PART_ALL | BRACE_PART_LOAD, s->parts);
+    TEST_ASSERT_EQUAL_UINT32(BRACE_PART_ALL | BRACE_PART_LOAD | BRACE_PART_LOAD_ACROSS, s->parts);
     const float found[] = {s->load.unloaded_k_xx_n_per_mm, s->load.unloaded_k_xz_n_per_mm,
                            s->load.unloaded_k_zz_n_per_mm, s->load.force_x_n, s->load.force_z_n, s->load.moved_x_mm,
-                           s->load.moved_z_mm};
-    for (int i = 0; i < 7; i++) {
+                           s->load.moved_z_mm, s->load.force_y_n, s->load.moved_y_mm,
+                           s->load.unloaded_k_across_n_per_mm};
+    for (int i = 0; i < 10; i++) {
         TEST_ASSERT_EQUAL_FLOAT((float)(i + 1), found[i]);
     }
     TEST_ASSERT_TRUE(s->load.is_counted && isinf(s->load.buckling_factor));
@@ -459,6 +490,7 @@ int main(void)
     RUN_TEST(test_an_unknown_k_in_space_is_not_valid);
     RUN_TEST(test_over_can_fd_k_in_space_is_a_second_frame);
     RUN_TEST(test_a_load_is_of_its_k_s_tick);
+    RUN_TEST(test_a_load_across_the_plane);
     RUN_TEST(test_a_load_that_is_not_counted);
     RUN_TEST(test_over_can_fd_a_load_is_a_frame_of_its_own);
     return UNITY_END();

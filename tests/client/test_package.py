@@ -36,7 +36,7 @@ def test_consumer(tmp_path: Path, sim: Sim) -> None:
     consumer.mkdir()
     (consumer / "CMakeLists.txt").write_text(CONSUMER)
     (consumer / "from_cpp.cpp").write_text(FROM_CPP)
-    example = (PROJECT / "tools" / "client" / "examples" / "print_k.c").read_text()
+    example = (PROJECT / "examples" / "c_client" / "print_k.c").read_text()
     assert len(example.splitlines()) < 40
     (consumer / "print_k.c").write_text(example)
     run("cmake", "-S", consumer, "-B", consumer / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}")

@@ -56,6 +56,12 @@ def load_frames(sequence: int = 7, node: int = 3, time_s: float = 100.0, **chang
     return [Frame(time_s, layout.identifier + node, layout.encode(values)) for layout in MULTIPLEXED["load"]]
 
 
+def across_frames(sequence: int = 7, node: int = 3, time_s: float = 100.0, **changes: float | None) -> list[Frame]:
+    values = {"sequence": sequence, "counted_force_y": -2.5, "moved_y": -7.0, "unloaded_k_across": 0.5, "flags": 0}
+    values |= changes
+    return [Frame(time_s, layout.identifier + node, layout.encode(values)) for layout in MULTIPLEXED["load_across"]]
+
+
 @pytest.mark.parametrize("kind", [LimbStiffness, LimbStiffnessInSpace, LimbLoad])
 def test_fields_are_the_messages(kind: type) -> None:
     text = (ROS / "brace_msgs" / "msg" / f"{kind.__name__}.msg").read_text()
@@ -154,6 +160,28 @@ def test_a_load_that_is_not_counted_is_nan() -> None:
     load = [m for one in frames for m in decoder.add(one)][1]
     assert isinstance(load, LimbLoad) and not load.is_counted
     assert math.isnan(load.force_x) and math.isnan(load.buckling_factor)
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2), (1, 0, 2), (2, 0, 1), (0, 2, 1)])
+def test_the_load_across_the_plane_comes_with_the_load(order: tuple[int, ...]) -> None:
+    """Whichever comes first, the load is given once and whole: one across has come before, so it is waited for. Of a
+    node that sends it no more the load comes without it, from the second one on."""
+    decoder = Decoder()
+
+    def messages_of(sequence: int, with_across: bool = True) -> list[object]:
+        k = [frame("stiffness_a", sequence=sequence, k_xx=4.0), frame("stiffness_b", sequence=sequence)]
+        parts = (load_frames(sequence), across_frames(sequence) if with_across else [], k)
+        return [m for i in order for one in parts[i] for m in decoder.add(one)]
+
+    messages_of(6)
+    messages = messages_of(7)
+    assert sorted(type(m).__name__ for m in messages) == ["LimbLoad", "LimbStiffness"]
+    load = next(m for m in messages if isinstance(m, LimbLoad))
+    assert (load.force_x, load.force_y, load.moved_y) == pytest.approx((2.0, -2.5, -0.007))
+    assert load.unloaded_k_across == pytest.approx(500.0)
+    assert LimbLoad not in [type(m) for m in messages_of(8, with_across=False)]
+    later = [m for m in messages_of(9, with_across=False) if isinstance(m, LimbLoad)]
+    assert len(later) == 1 and math.isnan(later[0].force_y) and later[0].force_x == pytest.approx(2.0)
 
 
 def test_space_and_load_of_one_snapshot() -> None:

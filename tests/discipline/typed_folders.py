@@ -17,6 +17,7 @@ TYPED = {  # folder: where its imports are looked for
     "tests/coverage": "tools:tests/coverage",
     "tests/emulated": "tools:tests/emulated",
     "tests/engine": "tools:tests/engine:tests/blind",
+    "tests/examples": "tools:tests/examples",
     "tests/foreign": "tools:tests/foreign:tests/blind:tests/engine",
     "tests/misra": "tools:tests/misra",
     "tests/modbus": "tools:tests/modbus:tests/socketcan",
@@ -26,7 +27,7 @@ TYPED = {  # folder: where its imports are looked for
     "tests/release": "tools:tests/release",
     "tests/servo": "tools:tests/servo:tests/emulated",
     "tests/socketcan": "tools:tests/socketcan",
-    "tests/tools": "tools:tests/tools:tests/tools/diagnose:tests/tools/importing:tests/bench",
+    "tests/tools": "tools:tests/tools:tests/tools/diagnose:tests/tools/importing:tests/tools/new:tests/bench",
 }
 
 

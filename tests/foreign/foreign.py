@@ -1,8 +1,10 @@
 """Runs the foreign benchmark: makes the cases, seals the answers, diagnoses every case, judges, writes the page.
 
-usage: foreign.py [--development] [--parts joint,loading,measured] [--only TEXT] [--no-baselines] [--seed S]
-       [--out FOLDER]
-An interrupted run goes on where it was; a changed tool starts anew. --only: cases whose `group/kind` holds the text."""
+usage: foreign.py [--development] [--parts joint,loading,measured] [--only TEXT] [--cases N] [--no-baselines]
+       [--seed S] [--out FOLDER]
+An interrupted run goes on where it was; a changed tool starts anew. --only: cases whose `group/kind` holds the text.
+--cases: the first N in the order of their names, which the seed draws. Each part keeps its rows in foreign.json, and
+the page is made of all that are there (kept.py): the parts may be run one after the other."""
 
 from __future__ import annotations
 
@@ -21,6 +23,7 @@ import time  # noqa: E402
 import baselines_here  # noqa: E402
 import diagnoser  # noqa: E402
 import foreign_report  # noqa: E402
+import kept  # noqa: E402
 import measured  # noqa: E402
 import plans  # noqa: E402
 import sets  # noqa: E402
@@ -54,6 +57,7 @@ def main() -> int:
     parser.add_argument("--development", action="store_true", help="the development seed; nothing is written to docs/")
     parser.add_argument("--parts", default="joint,loading,measured", help="which of them")
     parser.add_argument("--only", default="", help="cases whose group/kind holds this text")
+    parser.add_argument("--cases", type=int, help="so many of the plan, the first in the order of their names")
     parser.add_argument("--seed", type=int, help="another seed; nothing is written to docs/")
     parser.add_argument(
         "--no-baselines", action="store_true", help="not beside the tool: forward selection, five numbers"
@@ -76,6 +80,7 @@ def main() -> int:
     root = sets.BUILD / f"{label}-{seed}"
     wanted = [case for case in sets.cases(seed, plan)
               if case.part in parts and options.only in f"{case.group}/{case.kind}"]  # fmt: skip
+    planned, wanted = wanted, wanted[: options.cases]
     seal = sets.make(wanted, root)
     results = root / f"results-{diagnoser.version()}-{sets.sources_hash()[:6]}"
     begun = time.monotonic()
@@ -95,19 +100,26 @@ def main() -> int:
         public = measured.all_of(where, results / "measured", lambda name: print(f"measured: {name}", file=sys.stderr))
     if sets.seal_of(root) != seal:
         raise RuntimeError("the seal changed during the run")
-    made = {
-        "seed": seed, "set": {"dev": "development"}.get(label, label), "cases": len(names), "seal_sha256": seal,
-        "generator_sha256": sets.sources_hash(), "tool": diagnoser.version(), "parts": parts,
-    }  # fmt: skip
     command = "./dev blind --foreign" + (" --development" if options.development else "")
     command += f" --parts {options.parts}" if set(parts) != {"joint", "loading", "measured"} else ""
     command += f" --only {options.only}" if options.only else ""
-    table, page, figures = foreign_report.made(words, beside, public, made, command)
-    whole = test and not options.only and len(parts) == 3 and public and beside
-    out = options.out or (sets.PROJECT / "docs" if whole else results)
+    command += f" --cases {options.cases}" if options.cases else ""
+    how = {"command": command, "seed": seed, "tool": diagnoser.version()}
+    sealed = {"set": {"dev": "development"}.get(label, label), "seal_sha256": seal, "generator": sets.sources_hash()}
+    out = options.out or (sets.PROJECT / "docs" if test and not options.only else results)
+    done = kept.read(out / "foreign.json", seed)
+    for part in ("joint", "loading"):
+        here = [w for w in words if w.truth["part"] == part]
+        if here:
+            size = {"cases": len(here), "of_plan": sum(case.part == part for case in planned)}
+            done[part] = kept.part_of(here, [w for w in beside if w.truth["part"] == part], {**how, **sealed, **size})
+    if public:
+        done["measured"] = {"made": how, "public": public}
+    table, page, figures = foreign_report.made(done)
     out.mkdir(parents=True, exist_ok=True)
+    text = kept.text(figures)
     (out / "foreign.md").write_text(page)
-    (out / "foreign.json").write_text(json.dumps(figures, indent=1) + "\n")
+    (out / "foreign.json").write_text(text)
     (results / "judged.json").write_text(json.dumps(foreign_report.by_case(words), indent=1) + "\n")
     print(table)
     print(

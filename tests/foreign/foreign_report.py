@@ -7,6 +7,7 @@ from collections import defaultdict
 from collections.abc import Callable, Sequence
 from typing import Any
 
+import kept
 import report
 from scoring import CONFIDENT, Judged, Share, calibration
 from verdicts import COVERED, SURE, Word
@@ -214,10 +215,28 @@ def words_text() -> str:
     return "\n".join(rows)
 
 
-def made(
-    words: Sequence[Word], beside: Sequence[Word], public: dict[str, Any], how: dict[str, Any], command: str
-) -> tuple[str, str, dict[str, Any]]:
-    """Table, page and figures."""
+def _runs(parts: dict[str, Any]) -> str:
+    """Which run each part is from."""
+    lines = []
+    for name, part in sorted(parts.items()):
+        how = part["made"]
+        if "cases" not in how:
+            lines.append(f"- {name}: `{how['command']}`, tool {how['tool']}.")
+            continue
+        share = f" of the plan's {how['of_plan']}, drawn by the seed before the run"
+        share = "" if how["cases"] == how["of_plan"] else share
+        lines.append(
+            f"- {name}: `{how['command']}`, {how['cases']} cases{share}; {how['set']} set, seed {how['seed']}, answers "
+            f"sealed {how['seal_sha256'][:16]}, tool {how['tool']}."
+        )
+    lines += [f"- {name}: not run." for name in ("joint", "loading", "measured") if name not in parts]
+    return "\n".join(lines)
+
+
+def made(parts: dict[str, Any]) -> tuple[str, str, dict[str, Any]]:
+    """Table, page and figures of what all parts have left (kept.py)."""
+    words, beside = kept.words_of(parts, "cases"), kept.words_of(parts, "baselines")
+    public = parts.get("measured", {}).get("public", {})
     lines, others = figures(words, public), figures(beside, {}) if beside else []
     first = table(lines, others)
     error, count, bins = calibration_of(words)
@@ -228,19 +247,16 @@ def made(
         more.append(
             f"| {name} | {'-' if share.value is None else f'{100 * share.value:.1f} %'} | {share.hits} of {share.of} |"
         )
-    note = (
-        f"`{command}`: {how['cases']} cases of the {how['set']} set (seed {how['seed']}); answers sealed "
-        f"{how['seal_sha256'][:16]}."
-    )
     page = "\n\n".join([
-        "# Foreign worlds", HOW, note, first, READING, "## Besides", "\n".join(more), "## Kind by kind", by_kind(words),
-        "## Known failures, rebuilt", evidence_rows(words), "## Gear positions", coverage_rows(words),
+        "# Foreign worlds", HOW, _runs(parts), first, READING, "## Besides", "\n".join(more), "## Kind by kind",
+        by_kind(words), "## Known failures, rebuilt", evidence_rows(words), "## Gear positions", coverage_rows(words),
         "## Measured sets", measured_text(public), "## Confidence against share right", "\n".join(calibrated),
         "## Words that tell a trouble or an outsider", words_text(),
     ]) + "\n"  # fmt: skip
     content = {
-        "made": how, "lines": lines, "baselines": others, "calibration_error": None if math.isnan(error) else error,
-        "names": count, "besides": {n: [s.hits, s.of] for n, s in besides(words)}, "measured": public,
+        "lines": lines, "baselines": others, "calibration_error": None if math.isnan(error) else error,
+        "names": count, "besides": {n: [s.hits, s.of] for n, s in besides(words)},
+        "columns": list(kept.COLUMNS), "reading": kept.READING, "parts": parts,
     }  # fmt: skip
     return first, page, content
 

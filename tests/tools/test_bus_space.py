@@ -172,6 +172,32 @@ def test_record_keeps_k_in_space(brace: Callable[..., Outcome], spatial: Path, t
     assert sum(json.loads(line)["event"] == "space" for line in replayed) == told["snapshots_in_space"]["1"]
 
 
+def test_the_load_across_the_plane_is_sent_and_kept(
+    brace: Callable[..., Outcome], spatial: Path, tmp_path: Path
+) -> None:
+    """Process data of a limb pressed to the left: monitor, a log and its replay tell x, y and z of one tick's load."""
+    limb = tmp_path / "sends.toml"
+    limb.write_text(spatial.read_text() + "[controller]\nload_hz = 20\nbus_load_ratio = 1.0\n")
+    given = ("--press=1,-4", "--press-across", "8", "--can", "tcp://127.0.0.1:0", "--modbus", "none")
+    with running(limb, *given) as (_, ready):
+        url = ready["limbs"][0]["can"]
+        lines = brace("monitor", "--bus", url, "--seconds", 0.8, "--json").out.splitlines()
+        text = brace("monitor", "--bus", url, "--seconds", 0.8).out.splitlines()[-1]
+        log = tmp_path / "a.log"
+        assert brace("record", "--bus", url, "--out", log, "--seconds", 0.8).code == 0
+        asked = json.loads(brace("query", "--bus", url, "--json").out)["load"]
+    replayed = brace("replay", log, "--json").out.splitlines()
+    names = ("force_x_n", "force_y_n", "force_z_n", "moved_y_mm", "unloaded_k_across_n_per_mm")
+    for told in (lines, replayed):
+        loads = [entry["load"] for line in told if "load" in (entry := json.loads(line))]
+        assert len(loads) > 4 and asked["force_y_n"] > 1.0
+        for load in loads[1:]:  # the first may have come before anybody knew that one across follows
+            # the limb stands still, and nothing has noise but the tibia's and the femur's drive
+            assert [load[name] for name in names] == pytest.approx([asked[name] for name in names], rel=0.02, abs=0.01)
+    force = text.split("; load ")[1].split(" N")[0].split()
+    assert len(force) == 3 and float(force[1]) == pytest.approx(asked["force_y_n"], rel=0.02)
+
+
 @pytest.mark.parametrize("wire", WIRES)
 def test_a_planar_limb_tells_nothing_of_space(brace: Callable[..., Outcome], planar: Path, wire: str) -> None:
     with running(planar, *FREE) as (_, ready):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable
 from pathlib import Path
 
@@ -30,6 +31,43 @@ def test_an_open_gap_carries_nothing(brace: Brace, with_gap: Path, paper_limb: P
     for name in K:  # a knee of 1 rad/(N mm) leaves 1e-5 of K's size
         assert told["while_open"]["tibia"][name] == pytest.approx(soft[name], abs=1e-4)
     assert told["k_xx_n_per_mm"] == pytest.approx(3.963898, abs=1e-5)  # with the gap closed
+
+
+def test_without_a_load_the_gap_may_be_open_and_k_says_so(brace: Brace, with_gap: Path, tmp_path: Path) -> None:
+    """As a controller there tells it: GAP_OPEN, and K with every gap open as the lower bound."""
+    told = json.loads(brace("k", "--model", with_gap, *POSTURE, "--json").out)
+    assert "GAP_OPEN" in told["flag_names"] and told["open"]["k_xx_n_per_mm"] == told["while_open"]["tibia"][K[0]]
+    both = tmp_path / "both.toml"
+    both.write_text(with_gap.read_text().replace("[joint.femur]", "[joint.femur]\ngap_rad = 0.003", 1))
+    told = json.loads(brace("k", "--model", both, *POSTURE, "--json").out)
+    assert told["open"] == dict.fromkeys(K, 0.0)
+    loaded = json.loads(brace("k", "--model", both, *POSTURE, "--fz", 10, "--json").out)
+    assert "GAP_OPEN" not in loaded["flag_names"]
+    rows = tmp_path / "in.csv"
+    rows.write_text("theta1_rad,theta2_rad\n1,1.4\n")
+    brace("k", "--model", both, "--csv", rows, "--out", tmp_path / "out.csv")
+    assert (tmp_path / "out.csv").read_text().splitlines()[1].endswith(f",{told['flags']}")
+
+
+def test_a_posture_outside_the_travel_is_flagged(brace: Brace, paper_limb: Path, tmp_path: Path) -> None:
+    limb = tmp_path / "travel.toml"
+    limb.write_text(paper_limb.read_text() + "\n[motor.tibia]\nangle_min_rad = 0.2\nangle_max_rad = 1.3\n")
+    outside = brace("k", "--model", limb, *POSTURE)
+    assert "OUT_OF_RANGE" in outside.out and "theta2_rad = 1.4 is outside the travel of [motor.tibia]" in outside.err
+    assert "OUT_OF_RANGE" not in brace("k", "--model", limb, "--theta1", 1, "--theta2", 1.2).out
+    grid = json.loads(brace("map", "--model", limb, "--postures", 400, "--out", tmp_path / "m", "--json").out)
+    r = [(185**2 + 313.5**2 + 2 * 185 * 313.5 * math.cos(theta2)) ** 0.5 for theta2 in (1.3, 0.2)]
+    assert grid["r_mm"] == pytest.approx(r, rel=1e-5)
+    beyond = brace("map", "--model", limb, "--postures", 400, "--theta2", 0, 2, "--out", tmp_path / "m2")
+    assert "--theta2 goes beyond the travel" in beyond.err
+
+
+def test_map_and_plan_tell_the_play(brace: Brace, with_gap: Path, tmp_path: Path) -> None:
+    drawn = brace("map", "--model", with_gap, "--postures", 400, "--out", tmp_path / "m")
+    assert "backlash of the tibia, 0.229 deg: K of this map holds once a load has taken it up" in drawn.out
+    planned = brace("plan", "--model", with_gap, "--count", 1)
+    assert "play of the tibia: until the load takes it up the tip goes 1.3 mm" in planned.out  # 0.004 rad at 313.5 mm
+    assert "no travel of the femur" in planned.err and "no travel of the knee" in planned.err
 
 
 def test_the_text_tells_both(brace: Brace, with_gap: Path, paper_limb: Path) -> None:

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from brace.model import LimbModel
+from brace.model.travel import KNEE_MOST_RAD, has_travel, within_travel
 from brace.stiffness import PLANAR_C, PLANAR_K, PLANAR_REST, PlanarLimb, planar_limb
 from brace.stiffness_under_load import LoadedLimb
 
@@ -178,22 +179,10 @@ def _places(wish: Wish, reach_mm: float, places: int) -> np.ndarray:
     return np.stack([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")], 1)
 
 
-# Where limb.toml gives no travel, a knee that is bent further counts as folded into its femur.
-KNEE_MOST_RAD = 2.6
-
-
-def knee_has_travel(model: LimbModel) -> bool:
-    """Whether limb.toml says how far the knee may be commanded."""
-    return {"motor.tibia.angle_min_rad", "motor.tibia.angle_max_rad"} <= model.given
-
-
 def _within_travel(model: LimbModel, columns: Mapping[str, np.ndarray]) -> np.ndarray:
-    """Of which postures both joints can be commanded there."""
-    within = np.ones(len(columns["theta1_rad"]), bool)
-    for joint, name in (("femur", "theta1_rad"), ("tibia", "theta2_rad")):
-        low, high = (model.number(f"motor.{joint}.angle_{end}_rad") for end in ("min", "max"))
-        within &= (columns[name] >= low) & (columns[name] <= high)
-    if not knee_has_travel(model):
+    """Of which postures both joints can be commanded there, and the knee does not fold through itself."""
+    within = within_travel(model, {name: columns[name] for name in ("theta1_rad", "theta2_rad")})
+    if not has_travel(model, "tibia"):
         within &= np.abs(columns["theta2_rad"]) <= KNEE_MOST_RAD
     return within
 

@@ -20,7 +20,7 @@ TOOLS = Path(__file__).resolve().parents[1]
 PYTHON, PLATFORM = "3.11", "manylinux_2_28_x86_64"
 _OLDER = ("manylinux_2_27_x86_64", "manylinux_2_24_x86_64", "manylinux_2_17_x86_64", "manylinux2014_x86_64")
 WHEELS = ("--only-binary", ":all:", "--python-version", PYTHON, "--implementation", "cp",
-          *(word for name in (PLATFORM, *_OLDER) for word in ("--platform", name)))  # fmt: skip
+          *(word for name in (PLATFORM, *_OLDER, "linux_x86_64") for word in ("--platform", name)))  # fmt: skip
 _HEAD = "# Written by tools/release/requirements.py: what the Debian package has inside beside Brace itself.\n"
 
 

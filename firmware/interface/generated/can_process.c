@@ -122,7 +122,8 @@ uint32_t brace_can_pack_heartbeat(const brace_can_heartbeat_t *message, uint8_t 
     uint64_t bits = 0u;
     bits |= brace_bits_number(message->state, 0u, 8u, &limited);
     bits |= brace_bits_number(message->mode, 8u, 8u, &limited);
-    bits |= brace_bits_number(message->faults, 16u, 16u, &limited);
+    bits |= brace_bits_number(message->faults, 16u, 14u, &limited);
+    bits |= brace_bits_number(message->setting, 30u, 2u, &limited);
     bits |= brace_bits_number(message->dictionary_hash, 32u, 32u, &limited);
     brace_bits_store(bits, data);
     return limited;
@@ -133,7 +134,8 @@ void brace_can_unpack_heartbeat(const uint8_t data[8], brace_can_heartbeat_t *me
     const uint64_t bits = brace_bits_load(data);
     message->state = brace_value_number(bits, 0u, 8u);
     message->mode = brace_value_number(bits, 8u, 8u);
-    message->faults = brace_value_number(bits, 16u, 16u);
+    message->faults = brace_value_number(bits, 16u, 14u);
+    message->setting = brace_value_number(bits, 30u, 2u);
     message->dictionary_hash = brace_value_number(bits, 32u, 32u);
 }
 
@@ -383,6 +385,45 @@ void brace_can_unpack_load_4(const uint8_t data[8], brace_can_load_4_t *message)
     message->gravity_direction_rad = brace_value_signed(bits, 48u, 16u, 0.0001f);
 }
 
+uint32_t brace_can_pack_load_across_0(const brace_can_load_across_0_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_signed(message->counted_force_y_n, 1000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_signed(message->moved_y_mm, 1000.0f, 40u, 24u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_load_across_0(const uint8_t data[8], brace_can_load_across_0_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->counted_force_y_n = brace_value_signed(bits, 16u, 24u, 0.001f);
+    message->moved_y_mm = brace_value_signed(bits, 40u, 24u, 0.001f);
+}
+
+uint32_t brace_can_pack_load_across_1(const brace_can_load_across_1_t *message, uint8_t data[8])
+{
+    uint32_t limited = 0u;
+    uint64_t bits = 0u;
+    bits = 256u;
+    bits |= brace_bits_number(message->sequence, 0u, 8u, &limited);
+    bits |= brace_bits_unsigned(message->unloaded_k_across_n_per_mm, 2000.0f, 16u, 24u, &limited);
+    bits |= brace_bits_number(message->flags, 40u, 8u, &limited);
+    brace_bits_store(bits, data);
+    return limited;
+}
+
+void brace_can_unpack_load_across_1(const uint8_t data[8], brace_can_load_across_1_t *message)
+{
+    const uint64_t bits = brace_bits_load(data);
+    message->sequence = brace_value_number(bits, 0u, 8u);
+    message->unloaded_k_across_n_per_mm = brace_value_unsigned(bits, 16u, 24u, 0.0005f);
+    message->flags = brace_value_number(bits, 40u, 8u);
+}
+
 uint32_t brace_can_pack_snapshot_fd(const brace_can_snapshot_fd_t *message, uint8_t data[64])
 {
     uint32_t limited = 0u;
@@ -560,8 +601,11 @@ uint32_t brace_can_pack_load_fd(const brace_can_load_fd_t *message, uint8_t data
     bits |= brace_bits_float(message->gravity_lean_rad, 32u);
     brace_bits_store(bits, data + 40);
     bits = 0u;
+    bits |= brace_bits_float(message->counted_force_y_n, 0u);
+    bits |= brace_bits_float(message->moved_y_mm, 32u);
     brace_bits_store(bits, data + 48);
     bits = 0u;
+    bits |= brace_bits_float(message->unloaded_k_across_n_per_mm, 0u);
     brace_bits_store(bits, data + 56);
     return limited;
 }
@@ -588,7 +632,10 @@ void brace_can_unpack_load_fd(const uint8_t data[64], brace_can_load_fd_t *messa
     message->gravity_direction_rad = brace_value_float(bits, 0u);
     message->gravity_lean_rad = brace_value_float(bits, 32u);
     bits = brace_bits_load(data + 48);
+    message->counted_force_y_n = brace_value_float(bits, 0u);
+    message->moved_y_mm = brace_value_float(bits, 32u);
     bits = brace_bits_load(data + 56);
+    message->unloaded_k_across_n_per_mm = brace_value_float(bits, 0u);
 }
 
 uint32_t brace_can_space_part(const uint8_t data[8])
@@ -597,6 +644,11 @@ uint32_t brace_can_space_part(const uint8_t data[8])
 }
 
 uint32_t brace_can_load_part(const uint8_t data[8])
+{
+    return brace_value_number(brace_bits_load(data), 8u, 8u);
+}
+
+uint32_t brace_can_load_across_part(const uint8_t data[8])
 {
     return brace_value_number(brace_bits_load(data), 8u, 8u);
 }

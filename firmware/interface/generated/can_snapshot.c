@@ -236,6 +236,37 @@ void brace_can_make_load_4(const brace_measured_t *measured, float age_ms, uint8
     (void)brace_can_pack_load_4(&message, data);
 }
 
+void brace_can_make_load_across_0(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_load_across_0_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .counted_force_y_n = measured->counted_force_y_n,
+        .moved_y_mm = measured->moved_y_mm,
+    };
+    (void)brace_can_pack_load_across_0(&message, data);
+}
+
+static uint32_t load_across_1_flags(const brace_measured_t *measured)
+{
+    const bool is_limited =
+        is_beyond(measured->counted_force_y_n, BRACE_CAN_LOAD_ACROSS_0_COUNTED_FORCE_Y_N_MOST) ||
+        is_beyond(measured->moved_y_mm, BRACE_CAN_LOAD_ACROSS_0_MOVED_Y_MM_MOST) ||
+        is_beyond(measured->unloaded_k_across_n_per_mm, BRACE_CAN_LOAD_ACROSS_1_UNLOADED_K_ACROSS_N_PER_MM_MOST);
+    return measured->space_flags | (is_limited ? (uint32_t)BRACE_FLAG_SATURATED : 0u);
+}
+
+void brace_can_make_load_across_1(const brace_measured_t *measured, float age_ms, uint8_t *data)
+{
+    (void)age_ms;
+    const brace_can_load_across_1_t message = {
+        .sequence = measured->sequence & 0xffu,
+        .unloaded_k_across_n_per_mm = measured->unloaded_k_across_n_per_mm,
+        .flags = load_across_1_flags(measured),
+    };
+    (void)brace_can_pack_load_across_1(&message, data);
+}
+
 void brace_can_make_snapshot_fd(const brace_measured_t *measured, float age_ms, uint8_t *data)
 {
     const brace_can_snapshot_fd_t message = {
@@ -306,6 +337,9 @@ void brace_can_make_load_fd(const brace_measured_t *measured, float age_ms, uint
         .buckling_factor = measured->buckling_factor,
         .gravity_direction_rad = measured->gravity_direction_rad,
         .gravity_lean_rad = measured->gravity_lean_rad,
+        .counted_force_y_n = measured->counted_force_y_n,
+        .moved_y_mm = measured->moved_y_mm,
+        .unloaded_k_across_n_per_mm = measured->unloaded_k_across_n_per_mm,
     };
     (void)brace_can_pack_load_fd(&message, data);
 }

@@ -38,7 +38,7 @@ def fitted_numbers(ready: Any, sig: Signatures, said: Answer) -> Array:
     """The believed limb with the chosen effects, fitted on the record from the sizes that least squares gave them."""
     from brace.effects import Variant, all_variants
     from brace.diagnose.loading.fit import fit
-    from brace.diagnose.loading.record import setting_of
+    from brace.identify.record import setting_of
     from brace.diagnose.loading.space import compatible, space_of
 
     given, record, trust, base = ready

@@ -85,7 +85,7 @@ def prepared(case: Path) -> Any:
     from brace.diagnose.loading.fit import fit
     from brace.diagnose.loading.data_faults.gate import gate
     from brace.diagnose.loading.noise_after_base import with_known_noise
-    from brace.diagnose.loading.record import load_record
+    from brace.identify.record import load_record
     from brace.diagnose.loading.space import space_of, trust_of
     from brace.diagnose.one import load
     from brace.diagnose.options import Options
@@ -109,7 +109,7 @@ def signatures_of(case: Path) -> Signatures | None:
         return None
     given, record, trust, base = ready
     from brace.effects import all_variants
-    from brace.diagnose.loading.record import setting_of
+    from brace.identify.record import setting_of
     from brace.diagnose.loading.screen import Remover
 
     remover = Remover(base)

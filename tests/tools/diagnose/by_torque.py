@@ -22,10 +22,15 @@ def triangle(count: int = LEG) -> np.ndarray:
 
 def found_in(folder: Path, tests: list[tuple[np.ndarray, np.ndarray]]) -> Diagnosis:
     """The diagnosis of these pairs of angle [rad] and torque [N mm]."""
+    return diagnose(load_dataset(recorded(folder, tests)), None, Options())
+
+
+def recorded(folder: Path, tests: list[tuple[np.ndarray, np.ndarray]]) -> Path:
+    """These pairs as a dataset."""
     angle, torque = (np.concatenate([pair[place] for pair in tests]) for place in (0, 1))
     number = np.repeat(np.arange(len(tests)), [pair[0].size for pair in tests])
     columns = {"t_s": 0.02 * np.arange(angle.size), "angle_rad": angle, "torque_n_mm": torque, "test": number}
-    return diagnose(load_dataset(joint_cases.Case("", {}, columns).write(folder)), None, Options())
+    return joint_cases.Case("", {}, columns).write(folder)
 
 
 def under_torque(torque: np.ndarray, gap_rad: float, friction_n_mm: float, compliance: float) -> np.ndarray:

@@ -20,7 +20,7 @@ from brace.diagnose.loading.next_experiment.confusability import confusability, 
 from brace.diagnose.loading.next_experiment.experiment import next_experiment
 from brace.diagnose.loading.fit import fit
 from brace.diagnose.loading.next_experiment.menu import CHANNELS, GROUPS, as_record, conditions
-from brace.diagnose.loading.record import Record, load_record
+from brace.identify.record import Record, load_record
 from brace.diagnose.loading.search import Hypothesis
 from brace.diagnose.loading.next_experiment.separation import (
     Contender,
@@ -94,7 +94,8 @@ def searched(record: Record, believed: LimbModel, variants: Sequence[Variant]) -
         found.append((0.5 * (bare.fit.cost - best.cost), Hypothesis(best, 0.0)))
     top = max(gain for gain, _ in found)
     sets = [LabelSet(one.labels, one, float(np.exp(gain - top))) for gain, one in found]
-    return SimpleNamespace(record=record, base=bare, sets=sorted(sets, key=lambda item: -item.posterior))
+    ordered = sorted(sets, key=lambda item: -item.posterior)
+    return SimpleNamespace(record=record, base=bare, sets=ordered, troubles=(), rival=None)
 
 
 def starts(mean: np.ndarray, variant: Variant) -> list[np.ndarray]:
@@ -227,7 +228,7 @@ def test_the_same_under_two_names_is_said_to_be_inseparable(
 
 def test_no_rival_no_experiment(believed: LimbModel, soft_knee: tuple[Record, Any]) -> None:
     record, final = soft_knee
-    alone = SimpleNamespace(record=record, base=final.base, sets=final.sets[:1])
+    alone = SimpleNamespace(record=record, base=final.base, sets=final.sets[:1], troubles=(), rival=None)
     assert next_experiment(record, cast(Any, alone), believed, Options()) is None
 
 

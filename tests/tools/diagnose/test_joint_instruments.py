@@ -11,7 +11,7 @@ import pytest
 from brace.dataset import load_dataset
 from brace.dataset.grid import step_of
 from brace.diagnose.diagnosis import Diagnosis
-from brace.diagnose.joint_test.record import swing_over_both_flanks_rad
+from brace.identify.swing import swing_over_both_flanks_rad
 from brace.diagnose.options import Options
 from brace.diagnose.run import diagnose
 

@@ -10,7 +10,7 @@ from by_torque import LEG, found_in, triangle, under_torque
 
 from brace.dataset.grid import step_of
 from brace.diagnose.joint_test.fit import Fitted
-from brace.diagnose.joint_test.record import swing_over_both_flanks_rad
+from brace.identify.swing import swing_over_both_flanks_rad
 from brace.diagnose.joint_test.rivals import Rival, beside, surest
 from brace.diagnose.joint_test.terms import Term
 from brace.identify.parameters import ParameterSet

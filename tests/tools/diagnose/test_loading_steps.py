@@ -16,11 +16,11 @@ from brace.diagnose.loading.confidence import of_label
 from brace.diagnose.loading.evidence import SPREAD, score
 from brace.diagnose.loading.extensions import Outside, outside
 from brace.diagnose.loading.fit import fit
-from brace.diagnose.loading.noise import growth_of, noise_of, robust_sigma
+from brace.identify.noise import growth_of, noise_of, robust_sigma
 from brace.dataset.enough import enough_rows
 from brace.diagnose.loading.parts import locked_rows
-from brace.diagnose.loading import record as loading_record
-from brace.diagnose.loading.record import load_record, setting_of
+from brace.identify import record as loading_record
+from brace.identify.record import load_record, setting_of
 from brace.diagnose.loading.run import search_pass
 from brace.diagnose.loading.screen import Remover
 from brace.diagnose.loading.search import Search

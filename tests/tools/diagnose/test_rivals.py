@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +22,7 @@ from brace.diagnose.options import Options
 from brace.diagnose.run import diagnose
 from brace.effects import BY_NAME, all_variants
 from brace.effects.rivals import RIVAL_CAUSES
-from brace.diagnose.loading.record import load_record, setting_of
+from brace.identify.record import load_record, setting_of
 from brace.model import LimbModel, load_limb
 from brace.native.plant_batch import model_numbers
 
@@ -78,6 +79,27 @@ def test_a_gauge_on_the_base_excludes_the_rig(tmp_path: Path, limb: Path) -> Non
     assert found.verdict == "effect" and [one.label for one in found.effects] == ["base_compliance@base"]
     assert found.members == () and found.effects[0].confidence > 0.9
     assert found.model.number("base.x_mm_per_n") == pytest.approx(0.05, rel=0.1)
+
+
+def test_a_gauge_that_moves_as_believed_speaks_for_the_rig(tmp_path: Path, limb: Path) -> None:
+    """Base and rig yield one after the other, and the gauge reads the base's share of it only: a base as calibrated,
+    under the force that was read. No link is blamed."""
+    base = {"base.x_mm_per_n": 0.001, "base.z_mm_per_n": 0.003}
+    believed = tmp_path / "believed.toml"
+    believed.write_text(load_limb(limb).with_values(base).to_toml([]))
+    whole = {key: base[key] + YIELDS[key] for key in base}
+    record = load_dataset(loading_record(tmp_path / "record", believed, values=whole, sensor=GAUGE))
+    rng = np.random.default_rng(11)
+    noise_mm = 0.002 * rng.standard_normal((2, record.rows))
+    gauges = {
+        f"base_{axis}_mm": base[f"base.{axis}_mm_per_n"] * record[f"f{axis}_n"] + off
+        for axis, off in zip("xz", noise_mm)
+    }
+    found = diagnose(replace(record, columns={**record.columns, **gauges}), load_limb(believed), Options())
+    assert found.effects[0].label == "rig_compliance@rig" and found.effects[0].confidence > 0.9
+    (size,) = found.effects[0].parameters.values()
+    assert size.low < 0.05 < size.high
+    assert found.next_experiment is not None and "beside the tip's clamp" in found.next_experiment.action
 
 
 def test_a_member_is_taken_by_its_name(brace: Callable[..., Outcome], tmp_path: Path, limb: Path) -> None:

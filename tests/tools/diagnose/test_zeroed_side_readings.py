@@ -11,7 +11,7 @@ from conftest import LIMB
 from brace.dataset import load_dataset
 from brace.dataset.check_runs import run_starts
 from brace.dataset.write import write_dataset
-from brace.diagnose.loading.record import load_record
+from brace.identify.record import load_record
 from brace.model import load_limb
 from brace.native.plant_batch import model_numbers
 from brace.rig import load_rig

@@ -8,7 +8,7 @@ import pytest
 
 from brace.importing import names, numerals
 from brace.importing.meaning import target_of
-from brace.importing.units import unit_of
+from brace.units import unit_of
 
 
 @pytest.mark.parametrize(

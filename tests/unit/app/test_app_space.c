@@ -444,6 +444,54 @@ static void test_its_frames_count_in_what_the_bus_may_carry(void)
     TEST_ASSERT_EQUAL(0, in_space);
 }
 
+/* What a limb in space tells of the load across its plane: two frames with each load, of the same snapshot. */
+static void test_the_load_across_the_plane_is_sent_with_the_load(void)
+{
+    brace_parameters_t p = space_parameters();
+    p.controller.load_hz = 50;
+    start_with(&p);
+    brace_can_frame_t frame;
+    brace_can_load_across_0_t force = {0};
+    brace_can_load_across_1_t k = {0};
+    uint32_t loads = 0, across[BRACE_CAN_LOAD_ACROSS_PARTS] = {0};
+    for (int i = 0; i < 1000; i++) {
+        ticks(1);
+        while (brace_fake_frame_take(&fake, &frame)) {
+            loads += frame.id == (uint32_t)BRACE_CAN_ID_LOAD + NODE && brace_can_load_part(frame.data) == 0u;
+            if (frame.id == (uint32_t)BRACE_CAN_ID_LOAD_ACROSS + NODE) {
+                const uint32_t part = brace_can_load_across_part(frame.data);
+                TEST_ASSERT_TRUE(part < (uint32_t)BRACE_CAN_LOAD_ACROSS_PARTS);
+                across[part]++;
+                if (part == 0u) {
+                    brace_can_unpack_load_across_0(frame.data, &force);
+                } else {
+                    brace_can_unpack_load_across_1(frame.data, &k);
+                    TEST_ASSERT_EQUAL(force.sequence, k.sequence);
+                }
+            }
+        }
+    }
+    TEST_ASSERT_UINT32_WITHIN(1, 50, loads);
+    TEST_ASSERT_UINT32_WITHIN(1, loads, across[0]);
+    TEST_ASSERT_UINT32_WITHIN(1, loads, across[1]);
+    const brace_snapshot_load_t *load = &now()->load;
+    TEST_ASSERT_EQUAL(load->is_counted, isfinite(force.counted_force_y_n));
+    if (load->is_counted) {
+        TEST_ASSERT_FLOAT_WITHIN(0.002f, load->force_y_n, force.counted_force_y_n);
+        TEST_ASSERT_FLOAT_WITHIN(0.002f, load->moved_y_mm, force.moved_y_mm);
+    }
+    TEST_ASSERT_FLOAT_WITHIN(0.001f, load->unloaded_across_n_per_mm, k.unloaded_k_across_n_per_mm);
+    bench_start(&p); /* the same limb without a coxa joint */
+    ticks(50);
+    drain();
+    for (int i = 0; i < 200; i++) {
+        ticks(1);
+        while (brace_fake_frame_take(&fake, &frame)) {
+            TEST_ASSERT_NOT_EQUAL((uint32_t)BRACE_CAN_ID_LOAD_ACROSS + NODE, frame.id);
+        }
+    }
+}
+
 static float entry_float(uint32_t entry)
 {
     const uint32_t word = read_entry(entry);
@@ -613,6 +661,7 @@ static brace_can_take_up_result_answer_0_t take_up_result(uint32_t joint)
 static void test_the_coxa_joint_is_taken_up_and_carries_across(void)
 {
     start_with_play();
+    begin_to_live();
     TEST_ASSERT_EQUAL_FLOAT(0.0f, now()->space.across_n_per_mm);
     take_up(BRACE_COXA);
     for (int i = 0; i < 10000 && now()->play[BRACE_COXA].phase != BRACE_TAKEUP_HOLD; i++) {
@@ -637,6 +686,7 @@ static void test_every_wire_tells_why_a_take_up_failed(void)
 {
     for (uint32_t joint = BRACE_COXA; joint < BRACE_LINK_COUNT; joint++) {
         start_with_play();
+        begin_to_live();
         link_is_free[joint] = true; /* nothing holds it */
         take_up(joint);
         ticks(1);
@@ -667,6 +717,7 @@ int main(void)
     RUN_TEST(test_frames_of_a_snapshot_come_whole_and_are_never_mixed);
     RUN_TEST(test_over_CAN_FD_it_is_one_frame_more);
     RUN_TEST(test_its_frames_count_in_what_the_bus_may_carry);
+    RUN_TEST(test_the_load_across_the_plane_is_sent_with_the_load);
     RUN_TEST(test_registers_and_entries_tell_it);
     RUN_TEST(test_an_open_gap_of_the_coxa_joint_carries_nothing_across);
     RUN_TEST(test_without_its_sensor_K_in_space_is_not_known_and_the_planes_stays);

@@ -85,8 +85,8 @@ class Load:
         if not self.is_counted:
             return ["no load counted"]
         words = [
-            f"load {_pair(v, 'counted_force')} N",
-            f"moved {_pair(v, 'moved')} mm",
+            f"load {_all(v, 'counted_force')} N",
+            f"moved {_all(v, 'moved')} mm",
             f"buckling factor {factor_text(v['buckling_factor'])}",
         ]
         if unloaded is not None:
@@ -120,7 +120,17 @@ def factor_words(factor: Value) -> str:
 
 
 def _pair(values: Mapping[str, Value], name: str) -> str:
-    return " ".join("not known" if v is None else f"{v:.3f}" for v in (values[f"{name}_x"], values[f"{name}_z"]))
+    return _numbers(values[f"{name}_x"], values[f"{name}_z"])
+
+
+def _all(values: Mapping[str, Value], name: str) -> str:
+    """With what is across the plane, where it is known, in the middle."""
+    across = values.get(f"{name}_y")
+    return _pair(values, name) if across is None else _numbers(values[f"{name}_x"], across, values[f"{name}_z"])
+
+
+def _numbers(*values: Value) -> str:
+    return " ".join("not known" if v is None else f"{v:.3f}" for v in values)
 
 
 def _change(k: tuple[Value, Value, Value], unloaded: Matrix) -> float:

@@ -20,6 +20,7 @@ _SPACE_FD = FD_MESSAGES["space_fd"]
 _SPACE = MULTIPLEXED["space"]  # its parts
 _LOAD_FD = FD_MESSAGES["load_fd"]
 _LOAD = MULTIPLEXED["load"]
+_ACROSS = MULTIPLEXED["load_across"]
 _PARTS = ("stiffness_a", "stiffness_b", "eigenvalues", "posture")
 
 
@@ -137,6 +138,7 @@ class Joiner:
         self._newest: dict[int, Snapshot] = {}
         self._seen: set[int] = set()
         self._sends_space: set[int] = set()
+        self._sends_across: set[int] = set()  # the load across the plane, too
         self._whole_alone: dict[int, int] = {}  # of CAN FD: how many have come since K in space did
         self.unmatched = 0  # snapshots some of whose frames never came
 
@@ -158,13 +160,15 @@ class Joiner:
             return self._add_space(frame.node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values)
         if identifier == _LOAD_FD.identifier and len(frame.data) == _LOAD_FD.size:
             values = _LOAD_FD.decode(frame.data)
-            return self._add_load(frame.node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values)
+            return self._add_load(frame.node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values, "load")
         if len(frame.data) != 8:
             return None
         if identifier == _SPACE[0].identifier:
             return self._take_part(frame, "space")
         if identifier == _LOAD[0].identifier:
             return self._take_part(frame, "load")
+        if identifier == _ACROSS[0].identifier:
+            return self._take_part(frame, "load_across")
         layout = _LAYOUT_OF.get(identifier)
         if layout is None or layout.name not in _PARTS:
             return None
@@ -206,10 +210,9 @@ class Joiner:
             play=(name_of(layout, "play_femur", b), name_of(layout, "play_tibia", b)),
             parameter_tag=b["parameter_tag"],
         )
-        load, space = (self._parts.get((message, frame.node)) for message in ("load", "space"))
         # they came before: their identifiers are the lower ones
-        if load is not None and len(load.parts) == len(_LOAD):
-            self._add_load(frame.node, load.time_s, load.sequence, load.values, adds="stiffness")
+        self._join_load(frame.node, adds="stiffness")
+        space = self._parts.get(("space", frame.node))
         if space is not None and len(space.parts) == len(_SPACE):
             self._add_space(frame.node, space.time_s, space.sequence, space.values)
         return self._newest[frame.node]
@@ -234,7 +237,7 @@ class Joiner:
         return self._newest[frame.node]
 
     def _take_part(self, frame: Frame, message: str) -> Snapshot | None:
-        """One of the frames that carry K in space, or the load, together."""
+        """One of the frames that carry K in space, the load, or the load across, together."""
         layouts = MULTIPLEXED[message]
         part = frame.data[layouts[0].part_at // 8]
         if part >= len(layouts):
@@ -242,6 +245,8 @@ class Joiner:
         values = layouts[part].decode(frame.data)
         if message == "space":
             self._sends_space.add(frame.node)
+        if message == "load_across":
+            self._sends_across.add(frame.node)
         begun = self._parts.get((message, frame.node))
         fits = (
             begun is not None
@@ -251,16 +256,38 @@ class Joiner:
         if begun is None or not fits:
             if begun is not None and 0 in begun.parts and len(begun.parts) < len(layouts):
                 self.unmatched += 1
+            if message == "load" and begun is not None:
+                self._forget_across(frame.node, begun, values["sequence"])
             begun = self._parts[message, frame.node] = _Parts(frame.time_s, values["sequence"])
         begun.parts.add(part)
         begun.values |= values
         if len(begun.parts) < len(layouts):
             return None
-        add = self._add_space if message == "space" else self._add_load
-        return add(frame.node, begun.time_s, begun.sequence, begun.values)
+        if message == "space":
+            return self._add_space(frame.node, begun.time_s, begun.sequence, begun.values)
+        return self._join_load(frame.node)
+
+    def _forget_across(self, node: int, load: _Parts, next_sequence: Value) -> None:
+        """A node that has sent a load without what is across does not send that any more: its coxa joint is gone."""
+        across = self._parts.get(("load_across", node))
+        is_whole = len(load.parts) == len(_LOAD)
+        if is_whole and across is not None and across.sequence not in (load.sequence, next_sequence):
+            self._sends_across.discard(node)
+
+    def _join_load(self, node: int, adds: str = "load") -> Snapshot | None:
+        """The load, and with it what is across the plane where the node sends that."""
+        load, across = (self._parts.get((message, node)) for message in ("load", "load_across"))
+        if load is None or len(load.parts) < len(_LOAD):
+            return None
+        values = load.values
+        if across is not None and len(across.parts) == len(_ACROSS) and across.sequence == load.sequence:
+            values = across.values | load.values
+        elif node in self._sends_across:
+            return None
+        return self._add_load(node, load.time_s, load.sequence, values, adds)
 
     def _add_load(
-        self, node: int, time_s: float, sequence: Value, values: Mapping[str, Value], adds: str = "load"
+        self, node: int, time_s: float, sequence: Value, values: Mapping[str, Value], adds: str
     ) -> Snapshot | None:
         newest = self._of_newest(node, time_s, sequence)
         if newest is None or newest.load is not None:

@@ -11,11 +11,12 @@ from importlib import import_module
 
 from brace import __version__
 from brace.cli.options import OptionParser
+from brace.cli.doubts import doubts_said
 from brace.cli.streams import OutputLost, finish, hush, prepare, say
 from brace.errors import EXIT_CHECK_FAILED, EXIT_OK, EXIT_USAGE, BraceError
 
 SUBCOMMANDS = (
-    *("k", "map", "import", "simulate", "predict", "identify", "diagnose", "plan", "params", "demo"),
+    *("new", "k", "map", "import", "simulate", "predict", "identify", "diagnose", "plan", "params", "demo"),
     *("sim", "query", "monitor", "record", "replay", "gravity", "take-up", "let-go", "clear", "dbc", "flash", "doctor"),
     "completion",
 )
@@ -26,7 +27,8 @@ def run_command_line(argv: Sequence[str] | None) -> int:
     """Runs the command line; returns its exit code. Only Ctrl-C leaves as an exception."""
     prepare()
     try:
-        code = _run(argv)
+        with doubts_said():
+            code = _run(argv)
         finish()
         return code
     except BrokenPipeError:  # the reader of our stdout has gone, as `| head` does

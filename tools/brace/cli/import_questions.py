@@ -49,7 +49,7 @@ def _choice(prompt: str, allowed: list[str]) -> str:
 
 
 def _unit(prompt: str, quantity: str) -> str:
-    from brace.importing.units import UNITS, unit_of
+    from brace.units import UNITS, unit_of
 
     while True:
         text = _line(f"{prompt} ({', '.join(unit.text for unit in UNITS.values() if unit.quantity == quantity)}): ")
@@ -79,7 +79,7 @@ def _column(use: ColumnUse, kind: str) -> ColumnUse:
 
 def _constant(each: Constant) -> Constant:
     from brace.importing.mapping import WORDS, checked_constant
-    from brace.importing.units import unit_of
+    from brace.units import unit_of
 
     if not each.questions:
         return each

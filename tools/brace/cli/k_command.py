@@ -145,6 +145,7 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
     import numpy as np
 
     from brace import stiffness
+    from brace.cli.k_flags import flags_of_postures, outside
     from brace.stiffness_in_space_under_load import LoadedLimbInSpace
     from brace.stiffness_under_load import stiffness_under_load
     from brace.stiffness_with_gap import gaps_rad
@@ -195,11 +196,17 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
     path = "loaded" if arguments.is_loaded else "spatial" if arguments.theta0 is not None else limb.path
     unloaded = arguments.theta0 is None and not arguments.is_loaded
     while_open = _while_open(model, true1, true2, values) if unloaded else {}
+    names: tuple[str, ...] = ("theta0_rad", "theta1_rad", "theta2_rad")
+    commanded = {name: float(posture[name]) for name in names if name in posture}
+    at = {name: np.array([angle]) for name, angle in commanded.items()}
+    values["flags"] |= int(flags_of_postures(model, at, unloaded=unloaded)[0])
+    free = _both_open(gaps_rad(model), while_open)
     if arguments.json:
         common.print_json(
             {
                 **values,
                 "while_open": while_open,
+                "open": free,
                 "flag_names": stiffness.flag_names(values["flags"]),
                 **sigma,
                 **posture,
@@ -211,7 +218,39 @@ def _run_single(arguments: argparse.Namespace, model: LimbModel) -> int:
         common.emit(_text(model.name, values, sigma, posture, path, stiffness.flag_names(values["flags"])))
         for joint, gap_rad in gaps_rad(model, arguments.theta0 is not None).items():
             common.emit(_gap_text(joint, gap_rad, while_open.get(joint)))
+        for line in _play_text(gaps_rad(model), free, arguments):
+            common.emit(line)
+        if told := outside(model, commanded):
+            common.say(told)
     return 0
+
+
+def _both_open(gaps: dict[str, float], while_open: dict[str, dict[str, float]]) -> dict[str, float]:
+    """K with every gap open, the lower bound: what a controller tells while no load is seen. Empty without play, or
+    where it cannot be told."""
+    from brace.stiffness import PLANAR_K
+
+    if not while_open or len(while_open) < len(gaps):
+        return {}
+    if len(gaps) == 1:
+        return {name: next(iter(while_open.values()))[name] for name in PLANAR_K}
+    return dict.fromkeys(PLANAR_K, 0.0)
+
+
+def _play_text(gaps: dict[str, float], free: dict[str, float], arguments: argparse.Namespace) -> list[str]:
+    """Which of the two K holds."""
+    if not gaps or arguments.theta0 is not None:
+        return []
+    if arguments.is_loaded:
+        return ["           this load takes it up, where its torque about the joint is more than the friction"]
+    if not free:
+        return []
+    entries = ", ".join(f"{value:.6g}" for value in free.values())
+    return [
+        f"bounds     K without a load, every gap open: {entries} N/mm (a controller tells this, with GAP_OPEN); once "
+        "a load "
+        "has taken up the play: the K above"
+    ]
 
 
 def _while_open(

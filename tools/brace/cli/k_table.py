@@ -8,6 +8,7 @@ import numpy as np
 
 from brace import stiffness
 from brace.cli import common
+from brace.cli.k_flags import flags_of_postures
 from brace.cli.k_load import refuse_across_the_plane, refuse_load_with
 from brace.errors import BadFileError, UsageError
 from brace.files import check_file, write_file
@@ -42,6 +43,7 @@ def run_table(arguments: argparse.Namespace, model: LimbModel) -> int:
             why=error.text,
             next_step="angles are in rad, theta2_rad within [-pi, pi]; a singular posture needs another limb",
         ) from None
+    result["flags"] |= flags_of_postures(model, table.angles, unloaded=not (spatial or loaded))
     write_file(arguments.out, table.with_columns(names, [_texts(result[name]) for name in names]), inputs)
     summary = {
         "rows": len(table.rows),

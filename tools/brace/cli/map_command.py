@@ -43,17 +43,15 @@ def add(commands: Subcommands) -> None:
         "--theta1",
         type=common.angle,
         nargs=2,
-        default=(-math.pi / 2, math.pi / 2),
         metavar=("LOW", "HIGH"),
-        help="range of the true femur angle [rad], default -pi/2 pi/2",
+        help="range of the true femur angle [rad]; default: its travel, or -pi/2 pi/2",
     )
     parser.add_argument(
         "--theta2",
         type=common.angle,
         nargs=2,
-        default=(0.0, math.pi),
         metavar=("LOW", "HIGH"),
-        help="range of the true knee angle [rad], default 0 pi",
+        help="range of the true knee angle [rad]; default: its travel, or 0 pi",
     )
     k_load.add_load(parser)
     parser.add_argument(
@@ -68,8 +66,11 @@ def run(arguments: argparse.Namespace) -> int:
     from brace import workspace
     from brace.files import OutputSet, check_folder
     from brace.model import load_limb
+    from brace.stiffness_with_gap import gaps_rad
 
     for name in ("theta1", "theta2"):
+        if getattr(arguments, name) is None:
+            continue
         low, high = getattr(arguments, name)
         if not -math.pi - 1e-5 <= low < high <= math.pi + 1e-5:
             raise UsageError(
@@ -80,6 +81,7 @@ def run(arguments: argparse.Namespace) -> int:
     k_load.fill_in(arguments)
     force_n = None if arguments.fx is None else (arguments.fx, arguments.fz)
     model = load_limb(arguments.model)
+    _fill_in_travel(arguments, model)
     check_folder(arguments.out, ["map.png"], [arguments.model])
     with common.progress("K over the workspace", arguments.postures) as advance:
         grid = workspace.compute(
@@ -93,12 +95,32 @@ def run(arguments: argparse.Namespace) -> int:
             outputs.add(arguments.out / name, content)
         outputs.commit()
     if arguments.json:
-        common.print_json({**summary, **load, "out": arguments.out})
+        common.print_json({**summary, **load, "play_rad": gaps_rad(model), "out": arguments.out})
     else:
         common.emit(_text(summary, arguments.out))
+        for joint, gap_rad in gaps_rad(model).items():
+            common.emit(
+                f"backlash of the {joint}, {math.degrees(gap_rad):.3g} deg: K of this map holds once a load has "
+                "taken it up; "
+                "until then the limb is free in one direction (lambda_min 0): brace k tells K while it is open"
+            )
         if load:
             common.emit(_load_text(load))
     return 0
+
+
+def _fill_in_travel(arguments: argparse.Namespace, model: LimbModel) -> None:
+    """Ranges that are not asked for are the travel, where limb.toml gives one; what is asked for beyond it is said."""
+    from brace.model.travel import has_travel, travel_rad
+
+    for joint, name, default in (("femur", "theta1", (-math.pi / 2, math.pi / 2)), ("tibia", "theta2", (0.0, math.pi))):
+        offset = model.number(f"joint.{joint}.zero_offset_rad")
+        low, high = (min(max(end + offset, -math.pi), math.pi) for end in travel_rad(model, joint))
+        asked = getattr(arguments, name)
+        if asked is None:
+            setattr(arguments, name, (low, high) if has_travel(model, joint) else default)
+        elif has_travel(model, joint) and (asked[0] < low - 1e-6 or asked[1] > high + 1e-6):
+            common.say(f"--{name} goes beyond the travel of [motor.{joint}], {low:.4g} to {high:.4g} rad")
 
 
 class Summary(TypedDict):

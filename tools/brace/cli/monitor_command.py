@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from brace.bus.watch import Watch
 
 WEB_PORT = 8417
+FOXGLOVE_PORT = 8765  # the one that Foxglove and PlotJuggler propose
 _POLL_S = 0.1
 _SILENCE_S = 1.5  # a heartbeat comes each second
 
@@ -46,6 +47,15 @@ def add(commands: Subcommands) -> None:
         "It draws each limb to scale: a controller is asked once for its parameters, a log needs --model",
     )
     parser.add_argument(
+        "--foxglove",
+        nargs="?",
+        type=common.count(0, 65535),
+        const=FOXGLOVE_PORT,
+        metavar="PORT",
+        help="Foxglove's WebSocket on this computer instead, for Foxglove and PlotJuggler; default port "
+        f"{FOXGLOVE_PORT}",
+    )
+    parser.add_argument(
         "--model",
         action="append",
         default=[],
@@ -63,6 +73,10 @@ def run(arguments: argparse.Namespace) -> int:
         from brace.cli.monitor_web import monitor_web
 
         return monitor_web(arguments, url)
+    if arguments.foxglove is not None:
+        from brace.cli.monitor_foxglove import monitor_foxglove
+
+        return monitor_foxglove(arguments, url)
     if url.is_modbus:
         from brace.cli.monitor_modbus import monitor_modbus
 

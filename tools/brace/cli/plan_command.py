@@ -14,6 +14,7 @@ from brace.cli.options import Subcommands
 from brace.errors import BraceError, UsageError
 
 if TYPE_CHECKING:
+    from brace.model import LimbModel
     from brace.plan import Plan, Wish
 
 APART_RATIO = 0.05  # of the reach, between the tips of postures that are printed
@@ -79,7 +80,7 @@ def add(commands: Subcommands) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from brace.model import load_limb
-    from brace.plan import KNEE_MOST_RAD, KNEES, PREFERENCES, Wish, knee_has_travel, plan
+    from brace.plan import KNEES, PREFERENCES, Wish, plan
 
     _check(arguments)
     model = load_limb(arguments.model)
@@ -98,11 +99,8 @@ def run(arguments: argparse.Namespace) -> int:
         press_most_n=arguments.press_most,
         k_n_per_mm=tuple(arguments.k) if arguments.k else None,
     )
-    if not knee_has_travel(model):
-        common.say(
-            f"{arguments.model} gives the knee no travel ([motor.tibia] angle_min_rad, angle_max_rad): postures with "
-            f"the knee beyond {KNEE_MOST_RAD:g} rad are left out"
-        )
+    for joint in _without_travel(model):
+        common.say(joint)
     found = plan(model, wish, arguments.places)
     if not found.count:
         raise BraceError(
@@ -131,9 +129,43 @@ def run(arguments: argparse.Namespace) -> int:
         f"{PREFERENCES[prefer][0]}"
     )
     for number, posture in enumerate(postures, start=1):
-        for line in _lines(number, posture, wish):
+        for line in (*_lines(number, posture, wish), *_play_lines(model, posture)):
             common.emit(line)
     return 0
+
+
+def _without_travel(model: LimbModel) -> list[str]:
+    """A sentence for each joint whose travel limb.toml does not give."""
+    from brace.model.travel import KNEE_MOST_RAD, has_travel
+
+    told = []
+    if not has_travel(model, "femur"):
+        told.append(
+            f"{model.where('motor')}: no travel of the femur ([motor.femur] angle_min_rad, angle_max_rad): any angle "
+            "of it "
+            "is taken for one that it reaches"
+        )
+    if not has_travel(model, "tibia"):
+        told.append(
+            f"{model.where('motor')}: no travel of the knee ([motor.tibia] angle_min_rad, angle_max_rad): postures "
+            "with the "
+            f"knee beyond {KNEE_MOST_RAD:g} rad are left out"
+        )
+    return told
+
+
+def _play_lines(model: LimbModel, p: Mapping[str, float | str]) -> list[str]:
+    """What a posture's K is until the load has taken up the play."""
+    from brace.play_of_posture import plays
+
+    lines = []
+    for play in plays(model, float(p["theta1_true_rad"]), float(p["theta2_true_rad"]), p):
+        k = ", ".join(f"{value:.4g}" for value in play.open_k_n_per_mm) if play.open_k_n_per_mm else "not told there"
+        lines.append(
+            f"   play of the {play.joint}: until the load takes it up the tip goes {play.tip_mm:.2g} mm, with K "
+            f"[N/mm] {k}"
+        )
+    return lines
 
 
 def _check(arguments: argparse.Namespace) -> None:

@@ -167,7 +167,7 @@ def _check_header(header: list[str], wanted: Sequence[Column], path: Path, lines
     spare = [name for name in header if name not in {item.name for item in wanted}]
     near = did_you_mean(column.name, spare)
     stem = column.name.partition("_")[0]
-    near = near or next((name for name in spare if name.partition("_")[0] == stem), "")
+    near = near or next((name for name in spare if name.partition("_")[0] == stem or _alike(stem, name)), "")
     names = ", ".join(item.name for item in missing)
     unit = f" in {column.unit}" if column.unit else ""
     raise BadFileError(

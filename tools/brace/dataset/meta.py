@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -126,9 +126,39 @@ def read_meta(folder: Path) -> Meta:
             next_step="add one: docs/datasets.md shows what it says" if only_csv else "check the path",
         )
     document = toml.read(folder / "meta.toml", WHAT)
+    _refuse_misspelt(document)
     values = toml.check(document, _KNOWN, WHAT, content=_known_part(document.content))
     _check_zeroed_once(document)
     return Meta(values, document)
+
+
+def _refuse_misspelt(document: toml.Document) -> None:
+    """A key, in a table that has keys of ours or at the top, that is nearly one of them and is not there by its right
+    name. Others are kept."""
+    names = {key.name for key in _KNOWN}
+    given = dict(_dotted(document.content))
+    for name in given:
+        table, _, leaf = name.rpartition(".")
+        siblings = {key.rpartition(".")[2]: key for key in names if key.rpartition(".")[0] == table}
+        if name in names or not siblings:
+            continue
+        near = did_you_mean(leaf, [other for other, key in siblings.items() if key not in given], likeness=0.75)
+        beside = [other for other in siblings if other.startswith(f"{leaf}_") and siblings[other] not in given]
+        if near or len(beside) == 1:
+            raise BadFileError(
+                f"{name} is no key of ours, and nearly one",
+                where=document.where(name),
+                why="a misspelt key would silently do nothing",
+                next_step=f"did you mean {siblings[near or beside[0]]}? Any other name is kept as a remark",
+            )
+
+
+def _dotted(content: Mapping[str, object]) -> Iterator[tuple[str, object]]:
+    for name, value in content.items():
+        if isinstance(value, Mapping):
+            yield from ((f"{name}.{leaf}", item) for leaf, item in value.items())
+        else:
+            yield name, value
 
 
 def _check_zeroed_once(document: toml.Document) -> None:

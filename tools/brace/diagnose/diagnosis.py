@@ -89,6 +89,22 @@ class Gap:
 
 
 @dataclass(frozen=True)
+class HeldOut:
+    """A part of the record, predicted by the model fitted to the rest of it. `by` is amplitude, direction, time or
+    posture, `words` say which readings they are. `off` is the rms of measured less predicted there in the gap's unit,
+    `expected` what noise and the fit's uncertainty would leave of it; `p` how often a model that holds is as far off as
+    this one or further; `largest` the largest load among these readings."""
+
+    by: str
+    words: str
+    off: float
+    expected: float
+    p: float
+    holds: bool
+    largest: float
+
+
+@dataclass(frozen=True)
 class NextExperiment:
     """What to measure next: in words, which labels it separates, with which power [0, 1], how long it takes, and the
     text of a rig file that plays it ("" where it is no rig's)."""
@@ -174,6 +190,7 @@ class Diagnosis:
     details: Mapping[str, Any] = field(default_factory=dict)
     members: tuple[Alternative, ...] = ()
     joint: JointSizes | None = None
+    held_out: tuple[HeldOut, ...] = ()
 
     @property
     def exit_code(self) -> int:

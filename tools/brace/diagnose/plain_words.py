@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from brace.diagnose.diagnosis import Diagnosis, GapPair, Interval, JointSizes, NamedEffect
+from brace.diagnose.diagnosis import Diagnosis, GapPair, HeldOut, Interval, JointSizes, NamedEffect
 from brace.effects import BY_NAME
 from brace.effects.rivals import RIVAL_BY_NAME, RIVAL_UNITS
 from brace.model.keys import KEY_BY_NAME
@@ -145,6 +145,13 @@ def gap_pair(pair: GapPair, gap_unit: str) -> str:
     """`0.11 N fitted, 0.12 N held out`."""
     words = f"{number(pair.fitted)} {unit(gap_unit)} fitted"
     return words if pair.held_out is None else f"{words}, {number(pair.held_out)} {unit(gap_unit)} held out"
+
+
+def held_out(found: HeldOut, gap_unit: str) -> str:
+    """`by amplitude: displacements above 1.52 mm are predicted to 0.11 N (expected 0.1 N)`."""
+    sizes = f"{number(found.off)} {unit(gap_unit)} (expected {number(found.expected)} {unit(gap_unit)})"
+    told = "are predicted to" if found.holds else "are NOT predicted: off by"
+    return f"by {found.by}: {found.words} {told} {sizes}"
 
 
 def percent(share: float) -> str:

@@ -42,6 +42,8 @@ def lines(found: Diagnosis) -> Iterator[str]:
         yield f"  gap        before {words.gap_pair(gap.before, gap.unit)}"
         yield f"             after  {words.gap_pair(gap.after, gap.unit)}"
         yield f"             noise floor {words.number(gap.noise_floor)} {words.unit(gap.unit)}"
+    for part in found.held_out:
+        yield f"  held out   {words.held_out(part, found.gap.unit if found.gap else 'n')}"
     if found.unexplained is not None and found.unexplained.structured:
         yield f"  left       {found.unexplained.description}"
     if found.next_experiment is not None:

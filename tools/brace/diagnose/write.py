@@ -93,6 +93,18 @@ def as_json(found: Diagnosis, origin: Provenance, exported: bool) -> dict[str, A
             "after": _pair(found.gap.after),
             "steps": [{"added": step.added, **_pair(step.gap)} for step in found.gap.steps],
         },
+        "held_out": [
+            {
+                "by": part.by,
+                "which": part.words,
+                f"off_{unit}": part.off,
+                f"expected_{unit}": part.expected,
+                "p": part.p,
+                "holds": part.holds,
+                f"largest_{unit}": part.largest,
+            }
+            for part in found.held_out
+        ],
         "next_experiment": after
         and {
             "action": after.action,

@@ -15,6 +15,8 @@ LINK_INDEX = {"link.femur": 1.0, "link.tibia": 2.0}  # as change.link counts
 
 FRICTION_TURN = "friction_turn_rad"  # over which a joint's friction changes sign; a joint test's own, not of limb.toml
 
+MOST_GAP = 0.95  # of the angles that a joint test visits: a small test may hardly leave a large gap
+USUAL_LOAD_RATIO = 0.2  # friction over load: a gear with an efficiency of two thirds; more needs evidence to match
 MOST_TIMES = 40  # at which a link's change is tried
 READINGS_CLIPPED = (4, 8, 16, 32, 64, 128, 256)  # of which a saturation is tried
 
@@ -309,10 +311,10 @@ EFFECTS: tuple[Effect, ...] = (
         ways=(Way(("gap_rad",)),),
         joint_test=InJointTest(
             turns=lambda size: (
-                Turn("gap_rad", 0.1 * size.angle_rad, high=min(0.5 * size.angle_rad, size.swing_rad)),
+                Turn("gap_rad", 0.1 * size.angle_rad, high=min(MOST_GAP * size.angle_rad, size.swing_rad)),
             ),
             starts=lambda size: tuple(
-                {"gap_rad": min(share * size.angle_rad, 0.9 * size.swing_rad)} for share in (0.1, 0.3)
+                {"gap_rad": share * min(size.angle_rad, size.swing_rad)} for share in (0.1, 0.3, 0.8)
             ),
             # a gap leaves less way to the spring
             spring_factor=lambda values, size: max(1.0 - values["gap_rad"] / size.angle_rad, 0.1),
@@ -340,7 +342,7 @@ EFFECTS: tuple[Effect, ...] = (
         joint_test=InJointTest(
             turns=lambda size: (
                 Turn("coulomb_n_mm", 0.05 * size.torque_n_mm),
-                Turn("coulomb_per_load_ratio", 0.1),
+                Turn("coulomb_per_load_ratio", 0.1, prior_sigma=USUAL_LOAD_RATIO),
                 Turn(
                     FRICTION_TURN,
                     0.01 * size.angle_rad,

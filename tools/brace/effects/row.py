@@ -69,13 +69,15 @@ class Way:
 
 @dataclass(frozen=True)
 class Turn:
-    """How the fit of a joint test turns one number. `start` is given for what is no key of limb.toml."""
+    """How the fit of a joint test turns one number. `start` is given for what is no key of limb.toml. `prior_sigma`:
+    the size that joints have; the number is drawn to its start where it is larger."""
 
     leaf: str
     scale: float
     low: float = float("-inf")
     high: float = float("inf")
     start: float | None = None
+    prior_sigma: float = float("inf")
 
 
 def always(_: object) -> bool:

@@ -42,12 +42,13 @@ class Problem(Protocol):
 @dataclass(frozen=True)
 class Fit:
     """`x` in the parameters' units; `jacobian` of the data's whitened residuals by x / scale; `chi2` of the data
-    alone; `readings` and `dof` count the data."""
+    alone; `readings` and `dof` count the data. `together`: how many readings in a row say the same."""
 
     parameters: ParameterSet
     x: np.ndarray
     residual: np.ndarray
     jacobian: np.ndarray
+    together: float = 1.0
 
     @property
     def model(self) -> LimbModel:
@@ -72,8 +73,8 @@ class Fit:
 
     @property
     def inflation(self) -> float:
-        """By what the covariance must grow for the misfit to look like noise; at least 1."""
-        return max(1.0, self.chi2 / self.dof)
+        """By what the covariance must grow for the misfit to look like noise of independent readings; at least 1."""
+        return max(1.0, self.chi2 / self.dof) * self.together
 
 
 def fit(

@@ -10,8 +10,16 @@ import numpy as np
 from brace.identify.fit import Fit
 
 Z90 = 1.6448536269514722  # half-width of a 90 % interval in sigmas
+MANY = 200  # readings from which Student's t is a normal variable, to half a per cent
 NULL_TOLERANCE = 1e-6  # singular values below this share of the largest: no information
 NULL_SHARE = 1e-3  # component of a direction without information that makes a parameter unknown
+
+
+def half_width_90(freedom: float) -> float:
+    """Half-width of a 90 % interval in sigmas, where sigma itself is known from so many independent readings only."""
+    from scipy.special import stdtrit
+
+    return Z90 if freedom > MANY else float(stdtrit(max(freedom, 1.0), 0.95))
 
 
 @dataclass(frozen=True)
@@ -53,7 +61,7 @@ class Information:
                 if value - low[index] <= 1e-6 * scale[index]
                 else "high" if high[index] - value <= 1e-6 * scale[index] else ""
             )
-            lower, upper = value - Z90 * sigma, value + Z90 * sigma
+            lower, upper = value - self.half_width * sigma, value + self.half_width * sigma
             if unknown[index]:
                 down, up = self._slack(np.eye(len(fit.x))[index])
                 lower, upper, sigma = lower + down * scale[index], upper + up * scale[index], math.inf
@@ -67,6 +75,11 @@ class Information:
                 )
             )
         return result
+
+    @property
+    def half_width(self) -> float:
+        """Of a 90 % interval, in sigmas."""
+        return half_width_90(self.fit.dof)
 
     def unknown(self) -> np.ndarray:
         """For each parameter: does it take part in a direction about which nothing is known?"""
@@ -97,12 +110,12 @@ class Information:
             and np.linalg.norm(self.null_directions.T @ gradient) > 1e-2 * norm
         ):
             down, up = self._slack(gradient)
-            spread = Z90 * math.sqrt(
+            spread = self.half_width * math.sqrt(
                 max(0.0, float(gradient @ self.covariance @ gradient)) * self.fit.inflation
             )
             return Estimate(value, math.inf, value + down - spread, value + up + spread)
         sigma = math.sqrt(max(0.0, float(gradient @ self.covariance @ gradient)) * self.fit.inflation)
-        return Estimate(value, sigma, value - Z90 * sigma, value + Z90 * sigma)
+        return Estimate(value, sigma, value - self.half_width * sigma, value + self.half_width * sigma)
 
     def _slack(self, gradient: np.ndarray) -> tuple[float, float]:
         """How far down and up a linear function can go along the directions about which nothing is known, until a
@@ -131,7 +144,7 @@ class Information:
         fit = self.fit
         slope = abs(float(fit.jacobian[:, index] @ fit.residual)) / fit.inflation
         curvature = 1.0 / max(self.covariance[index, index] * fit.inflation, 1e-300)
-        return float((-slope + math.sqrt(slope**2 + curvature * Z90**2)) / curvature)
+        return float((-slope + math.sqrt(slope**2 + curvature * self.half_width**2)) / curvature)
 
 
 def information(fit: Fit) -> Information:

@@ -7,15 +7,15 @@ takes the widening loop for a softer spring and a narrower gap.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy as np
 
 from brace.dataset import Dataset
 from brace.errors import BadFileError
-from brace.identify.fit import Nuisances, columns_of, fit
-from brace.effects.catalogue import FRICTION_TURN
+from brace.identify.fit import Fit, Nuisances, columns_of, fit
+from brace.effects.catalogue import FRICTION_TURN, MOST_GAP, USUAL_LOAD_RATIO
 from brace.identify.gear_positions import POSITION, apart, count
 from brace.identify.parameters import (
     LAG,
@@ -27,14 +27,18 @@ from brace.identify.parameters import (
     angle_zero,
     spread,
 )
+from brace.identify.swing import swing_over_both_flanks_rad
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
 from brace.native.plant_batch import JointBatchPlayer, model_numbers, number_index
 
 MIN_ROWS = 20
-BLOCK_ROWS = 3000  # rows that a record is averaged down to: the angle's last digit must not look like motion
+BLOCK_ROWS = 1200  # averaged readings: enough for every ramp's shape, few enough to try some hundred models
+ASTRAY = 0.1  # of a test's largest command: a drive that is off by more does not follow it
+MOST_ASTRAY = 0.1  # of the readings: if more are off, command and torque are not measured at the same place
+MOST_TURN = 0.5  # of the range of angles: friction that a small test does not overcome bends over all of it
 MOST_SPREAD = 0.7  # log of a ratio: what is twice as soft at one gear position is another joint
-START_GAPS = (0.0, 0.25, 0.5)  # of the range of angles
+START_GAPS = (0.0, 0.25, 0.5, 0.8)  # of the largest gap that the record allows
 START_FRICTION = (0.02, 0.1)  # of the range of torques
 START_HARDENING = (0.0, 4.0)  # cubic share of the torque at half the range of angles, over the linear one
 
@@ -67,8 +71,10 @@ class JointProblem:
         self.joint = dataset.meta.joint
         self.columns, self._counts = averaged(dataset, max(1, dataset.rows // block_rows))
         self.noise_n_mm = noise(self.columns["torque_n_mm"])
-        self._used = ~saturated(self.columns)
-        angle = self.columns["angle_rad"]
+        self._used = usable(self.columns)
+        angle, used = self.columns["angle_rad"], self._used
+        torque, test = self.columns["torque_n_mm"], self.columns["test"]
+        self.swing_rad = swing_over_both_flanks_rad(angle[used], torque[used], test[used])
         self._centre_rad = float(0.5 * (angle.max() + angle.min()))
         self._start_n_mm = _start_torque(self.columns)
         self._players = self._players_from(self._start_n_mm)
@@ -162,7 +168,7 @@ class JointProblem:
             model.with_values({at + "compliance_rad_per_n_mm": compliance}),
             (
                 Parameter(lowest.key, lowest.start, lowest.scale, 1e-3 * lowest.scale, lowest.high),
-                Parameter(gap.key, gap.start, gap.scale, gap.low, min(gap.high, angle_span)),
+                Parameter(gap.key, gap.start, gap.scale, gap.low, self._largest_gap_rad()),
                 free("coulomb_n_mm", model.number(at + "coulomb_n_mm"), 0.05 * torque_span),
                 free("coulomb_per_load_ratio", model.number(at + "coulomb_per_load_ratio"), 0.1),
                 free(
@@ -188,10 +194,25 @@ class JointProblem:
                     0.02 * angle_span,
                     0.01 * angle_span,
                     1e-4 * angle_span,
-                    min(1.0, 0.25 * angle_span),
+                    min(1.0, MOST_TURN * angle_span),
                 ),
             ),
         )
+
+    def _largest_gap_rad(self) -> float:
+        return min(MOST_GAP * float(np.ptp(self.columns["angle_rad"])), self.swing_rad)
+
+    def settled(self, found: Fit) -> Fit:
+        """The fit with a load's share of friction that has the evidence for its size (row.Turn), and with intervals
+        that count readings as far as they are independent."""
+        key = f"joint.{self.joint}.coulomb_per_load_ratio"
+        count = independent(found.residual, self.columns["test"][self._used])
+        if found.x[found.parameters.keys.index(key)] > USUAL_LOAD_RATIO:
+            prior = USUAL_LOAD_RATIO * np.sqrt(count) / float(np.linalg.norm(found.residual))
+            drawn = [replace(one, start=0.0, prior_sigma=prior) if one.key == key else one
+                     for one in found.parameters.parameters]  # fmt: skip
+            found = fit(self, ParameterSet(found.parameters.base, tuple(drawn)), [found.x])
+        return replace(found, together=found.residual.size / count)
 
     def zeros(self, angle_span_rad: float) -> tuple[Parameter, ...]:
         """The encoder's zero at every gear position."""
@@ -218,11 +239,12 @@ class JointProblem:
         angle_span = float(np.ptp(self.columns["angle_rad"]))
         torque_span = float(np.ptp(self.columns["torque_n_mm"]))
         points = []
+        most = self._largest_gap_rad()
         for gap, friction, cubic in product(START_GAPS, START_FRICTION, START_HARDENING):
             point = parameters.array("start")
-            reach_rad = 0.5 * angle_span * (1 - gap)
+            reach_rad = 0.5 * (angle_span - gap * most)
             point[0] = 2 * reach_rad / torque_span * (1 + cubic)
-            point[1], point[2], point[3] = gap * angle_span, friction * torque_span, 0.02
+            point[1], point[2], point[3] = gap * most, friction * torque_span, 0.02
             point[4] = cubic / (point[0] * reach_rad**2)
             points.append(point)
         return points
@@ -297,6 +319,37 @@ def noise(torque_n_mm: np.ndarray) -> float:
     return max(
         float(1.4826 * np.median(np.abs(third)) / np.sqrt(20.0)), 1e-6 * float(np.ptp(torque_n_mm)) or 1e-9
     )
+
+
+def independent(off: np.ndarray, test: np.ndarray) -> float:
+    """How many independent readings these are worth, by the autocorrelation of what a model leaves of them."""
+    off = off - off.mean()
+    lags = min(200, off.size // 4)
+    power = float(off @ off) or 1.0
+    kept = np.zeros(lags)
+    for lag in range(1, lags):
+        together = test[lag:] == test[:-lag]
+        kept[lag] = float((off[lag:] * off[:-lag])[together].sum()) / power
+        if kept[lag] <= 0.05:
+            kept[lag] = 0.0
+            break
+    total = 1.0 + 2.0 * float(kept.sum())
+    return max(float(off.size) / total, 4.0)
+
+
+def usable(columns: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Averaged readings that tell of the joint: neither at the drive's limit nor where a drive that follows its command
+    otherwise does not. There it runs through free travel and meets the far side, and its torque moves the motor."""
+    most = saturated(columns)
+    if "command_n_mm" not in columns:
+        return np.asarray(~most)
+    off = np.abs(columns["torque_n_mm"] - columns["command_n_mm"])
+    _, number = np.unique(columns["test"], return_inverse=True)
+    reach = np.zeros(int(number.max()) + 1)
+    np.maximum.at(reach, number, np.abs(columns["command_n_mm"]))
+    astray = off > ASTRAY * reach[number]
+    follows = np.count_nonzero(astray & ~most) < MOST_ASTRAY * np.count_nonzero(~most)
+    return np.asarray(~most & ~astray if follows else ~most)
 
 
 def saturated(columns: Mapping[str, np.ndarray]) -> np.ndarray:

@@ -1,29 +1,28 @@
-"""A loading record as a fit's problem: the whole sequence, played on the plant."""
+"""A loading record as a fit's problem: the whole sequence, played on the plant.
+
+Readings, noise and plant are those of `brace diagnose`, so that the same model has the same numbers in both."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from brace.dataset import Dataset
-from brace.dataset.zeroing import zeroed
 from brace.errors import BadFileError
 from brace.identify.fit import Nuisances, residual_of
-from brace.identify.noise import NoiseFloor, along_runs, noise_floor
+from brace.identify.noise import FORCES
+from brace.identify.record import Record, load_record, rms_force_n
 from brace.model import LimbModel
-from brace.identify.playing import player_of
-from brace.native.plant_batch import number_index
+from brace.native.plant_batch import model_numbers, number_index
 
-FORCES = ("fx_n", "fz_n")
 OFFSET_KEYS = ("joint.femur.zero_offset_rad", "joint.tibia.zero_offset_rad")
-_SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
-MIN_ROWS = 12
+MIN_ROWS = 4  # fewer are a line through two points
 
 
 class LoadingProblem:
-    """Forces, and encoder and gauge readings where there are any, each over its own noise floor. Readings that were not
-    taken (NaN) weigh nothing."""
+    """Forces, and encoder and gauge readings where there are any, each over its own noise. Readings that were not
+    taken (NaN) weigh nothing. `record`: with a noise that is better known than at the first look."""
 
-    def __init__(self, dataset: Dataset) -> None:
+    def __init__(self, dataset: Dataset, record: Record | None = None) -> None:
         if dataset.rows < MIN_ROWS:
             raise BadFileError(
                 f"{dataset.rows} rows are not enough to say anything",
@@ -32,33 +31,29 @@ class LoadingProblem:
                 next_step="record more steps",
             )
         self.dataset = dataset
-        self.noise: NoiseFloor = noise_floor(dataset)
-        present = (name for name in (*FORCES, *_SIDE_READINGS) if name in dataset)
-        self._names = [name for name in present if not np.isnan(dataset[name]).all()]
-        self._player = player_of(dataset, self._names)
-        self._sigma = {
-            name: self.noise.sigma_n if name in FORCES else _side_sigma(dataset, name)
-            for name in self._names
-        }
+        self.record = load_record(dataset) if record is None else record
         _, first = np.unique(dataset["config"], return_index=True)
         self._commanded = np.column_stack([dataset["theta1_rad"][first], dataset["theta2_rad"][first]])
 
     @property
     def count(self) -> int:
         """Number of readings."""
-        return int(sum(np.count_nonzero(~np.isnan(self.dataset[name])) for name in self._names))
+        return self.record.readings
 
     @property
-    def readings(self) -> list[str]:
-        """Names of the readings that are fitted."""
-        return list(self._names)
+    def noise_n(self) -> float:
+        """rms of one sigma over the forces [N]."""
+        return self.record.force_sigma_n
+
+    @property
+    def noise_source(self) -> str:
+        """Where the forces' noise is known from."""
+        sources = [self.record.noise[name].source for name in FORCES if np.isfinite(self.record.noise[name].floor)]
+        return " and ".join(dict.fromkeys(sources))
 
     def residuals(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
         """models x (played - measured) / sigma, reading after reading."""
-        readings = self._player.play_numbers(models, settled=True)
-        played = zeroed(dict(zip(self._names, np.moveaxis(readings, 1, 0))), self.dataset)
-        off = [(played[name] - self.dataset[name]) / self._sigma[name] for name in self._names]
-        return np.asarray(np.nan_to_num(np.concatenate(off, axis=1)))
+        return -self.record.residuals(models)
 
     def angles(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
         """models x configurations x (theta1, theta2), true [rad]."""
@@ -67,23 +62,5 @@ class LoadingProblem:
 
     def force_gap_n(self, model: LimbModel) -> float:
         """rms of what the model leaves of the forces [N]."""
-        forces = [name for name in self._names if name in FORCES]
-        residual = residual_of(self, model)[: len(forces) * self.dataset.rows] * self.noise.sigma_n
-        read = ~np.isnan(np.concatenate([self.dataset[name] for name in forces]))
-        return float(np.sqrt(np.mean(residual[read] ** 2)))
-
-
-def _side_sigma(dataset: Dataset, name: str) -> float:
-    """Noise of an encoder or gauge, from repeats or, without any, from its third differences along the runs; never
-    below a thousandth of what it moves by."""
-    dataset = dataset.select(~np.isnan(dataset[name]))
-    keys = np.column_stack([dataset["config"], dataset["axis"], dataset["step"]])
-    _, group, counts = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
-    group = group.ravel()
-    means = np.bincount(group, weights=dataset[name]) / counts
-    if freedom := int(np.sum(counts - 1)):
-        spread = float(np.sqrt(np.sum((dataset[name] - means[group]) ** 2) / freedom))
-    else:
-        spread = along_runs(dataset, dataset[name])
-    moves = float(np.std(dataset[name]))
-    return max(spread, 1e-3 * moves, 1e-12)
+        residual_of(self, model)  # refuses a model that cannot be played
+        return rms_force_n(self.record, model_numbers(model))

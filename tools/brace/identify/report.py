@@ -119,8 +119,8 @@ def _residual(result: Identification) -> dict[str, Any]:
             "unit": "n",
             "rms_n": problem.force_gap_n(fit.model),
             "rms_start_n": problem.force_gap_n(result.start),
-            "noise_floor_n": problem.noise.sigma_n,
-            "noise_source": problem.noise.source,
+            "noise_floor_n": problem.noise_n,
+            "noise_source": problem.noise_source,
         }
     elif isinstance(problem, JointProblem):
         rms = math.sqrt(fit.chi2 / fit.readings) * problem.noise_n_mm

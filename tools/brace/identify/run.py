@@ -17,6 +17,7 @@ from brace.identify.fit import Fit, Problem, fit
 from brace.identify.information import Estimate, Information, information
 from brace.identify.joint_test import JointProblem
 from brace.identify.loading import LoadingProblem
+from brace.identify.noise_after_base import with_noise_after, without_repeats
 from brace.identify.slopes import slope_table
 from brace.identify.split import Split, split
 from brace.identify.table import TableProblem, Weight
@@ -89,7 +90,7 @@ def _loading(
     dataset: Dataset, settled: Dataset, start: LimbModel, done: list[str], options: Options, advance: Advance
 ) -> Identification:
     mode = options.mode or "prior"
-    problem = LoadingProblem(settled)
+    problem = _with_known_noise(LoadingProblem(settled), start)
     best = fit(problem, _chosen(start, mode, options, turns=not settled.small_displacements))
     advance(2)
     known = information(best)
@@ -108,6 +109,15 @@ def _loading(
         slope_table(settled),
         done,
     )
+
+
+def _with_known_noise(problem: LoadingProblem, start: LimbModel) -> LoadingProblem:
+    """The noise of a record without repeats is what its refitted base does not follow, as in a diagnosis."""
+    record = problem.record
+    base = choose.with_priors(start, turns=not problem.dataset.small_displacements)
+    if not without_repeats(record) or not len(base):
+        return problem
+    return LoadingProblem(problem.dataset, with_noise_after(record, record, -fit(problem, base).residual))
 
 
 def _table(
@@ -152,7 +162,7 @@ def _joint_test(
 ) -> Identification:
     problem = JointProblem(settled)
     chosen = problem.parameters(start)
-    best = fit(problem, chosen, problem.starts(chosen))
+    best = problem.settled(fit(problem, chosen, problem.starts(chosen)))
     return Identification(dataset, start, "free", information(best), problem, done_to_data=done)
 
 

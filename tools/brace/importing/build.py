@@ -17,7 +17,7 @@ from brace.importing.loading import assembled as assembled_loading
 from brace.importing.mapping import ColumnUse, MappingTable
 from brace.importing.meaning import TARGETS
 from brace.importing.part import Part, Table
-from brace.importing.units import OWN, UNITS, unit_of
+from brace.units import OWN, UNITS, unit_of
 
 MAY_BE_BLANK = {"fx_n", "fz_n", "f_n", "weight_n", "enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm", "temp_degc"}
 MUST_BE_THERE = {

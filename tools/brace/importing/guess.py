@@ -15,7 +15,7 @@ from brace.importing import names, numerals
 from brace.importing.mapping import CONSTANTS, ColumnUse, Constant, MappingTable
 from brace.importing.meaning import IGNORE, OPEN, TARGETS, quantity_of, target_of
 from brace.importing.part import Part
-from brace.importing.units import OWN, unit_of
+from brace.units import OWN, unit_of
 
 FULL_TURN = 2 * math.pi
 RAW = ("v", "mv", "volt", "volts", "mv/v", "ma", "a", "counts", "count", "ticks", "lsb", "%", "digits", "raw")

@@ -12,7 +12,7 @@ from brace.errors import BadFileError
 from brace.importing.mapping import MappingTable
 from brace.importing.part import Table
 from brace.importing.runs import ANGLE_JUMP_RAD, boundaries, driven_axis, numbers_of_poses
-from brace.importing.units import unit_of
+from brace.units import unit_of
 
 Columns: TypeAlias = dict[str, np.ndarray]
 SAME_RAD = 1e-3

@@ -9,7 +9,7 @@ from pathlib import Path
 from brace import toml
 from brace.errors import BadFileError, UsageError, did_you_mean
 from brace.importing.meaning import IGNORE, OPEN, TARGETS
-from brace.importing.units import OWN, UNITS, Unit, unit_of
+from brace.units import OWN, UNITS, Unit, unit_of
 
 WHAT = "mapping file"
 CONSTANTS = {

@@ -11,7 +11,7 @@ from pathlib import Path
 from brace.errors import BadFileError
 from brace.importing import numerals
 from brace.importing.part import Part
-from brace.importing.units import unit_of
+from brace.units import unit_of
 
 HEADER_MOST = 3  # lines of names and units
 _REMARK = re.compile(r"\s*([^:=\t;]{2,60}?)\s*(?::|=|\t|;)\s*(.{1,200})")

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from brace.importing.mapping import ColumnUse, MappingTable
 from brace.importing.meaning import OPEN
 from brace.importing.part import Part
-from brace.importing.units import unit_of
+from brace.units import unit_of
 
 MEANING = {
     "loading": "a loading test: the tip is displaced, the force is read",

@@ -13,6 +13,7 @@ from brace.model import LimbModel
 from brace.stiffness import PlanarLimb, PostureError, planar_limb
 
 MOVED_RAD = 0.01  # K's relative uncertainty changes by less than a tenth of itself meanwhile
+JOINTS = ("coxa", "femur", "tibia")
 LENGTHS = ("geometry.coxa_mm", "geometry.femur_mm", "geometry.tibia_mm")
 
 Sigmas = tuple[float, float]
@@ -26,6 +27,7 @@ class Card:
     lengths_mm: tuple[float, float, float] | None = None
     name: str = ""
     why_not: str = ""  # why the lengths are not known
+    tight_joints: frozenset[str] = frozenset()  # those without backlash
     _limb: PlanarLimb | None = None
     _at_rad: tuple[float, float] = (math.inf, math.inf)
     _relative: Sigmas | None = field(default=None)
@@ -51,7 +53,9 @@ class Card:
 def card_of(model: LimbModel) -> Card:
     """From a limb model, be it a file's or a controller's, which has no name."""
     coxa_mm, femur_mm, tibia_mm = (model.number(key) for key in LENGTHS)
-    return Card((coxa_mm, femur_mm, tibia_mm), model.name if model.document else "", _limb=planar_limb(model))
+    tight = frozenset(joint for joint in JOINTS if model.number(f"joint.{joint}.gap_rad") == 0.0)
+    name = model.name if model.document else ""
+    return Card((coxa_mm, femur_mm, tibia_mm), name, tight_joints=tight, _limb=planar_limb(model))
 
 
 def card_from(ask: Callable[[], LimbModel]) -> Card:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import threading
 import time
 from collections.abc import Callable
@@ -25,7 +26,7 @@ from brace.model import LimbModel
 
 _POLL_S = 0.1
 _MODBUS_S = 0.033
-_AGAIN_S = 2.0  # after a bus that went away
+_AGAIN_S = 2.0  # after a bus that went away, or a controller that did not answer
 
 
 @dataclass
@@ -42,6 +43,7 @@ class Feed:
     def __post_init__(self) -> None:
         self.watch = Watch(self.url.text, self.node)
         self.cards: dict[int, Card] = {}
+        self._ask_at_s: dict[int, float] = {}  # who was asked for a card and did not answer is asked again then
         self._lock = threading.Lock()
         self._stopped = threading.Event()
         self._thread = threading.Thread(target=self._run, name="brace bus", daemon=True)
@@ -95,8 +97,9 @@ class Feed:
             return
         with self._lock:
             self.watch.add(frame)
-        for node in self.watch.nodes.keys() - self.cards.keys():
-            self._learn(node, partial(_controller_on, bus, node), isinstance(bus, LogBus))
+        for node in self.watch.nodes:
+            if time.monotonic() >= self._ask_at_s.get(node, 0.0):
+                self._learn(node, partial(_controller_on, bus, node), isinstance(bus, LogBus))
 
     def _follow_modbus(self) -> None:
         device = ModbusController(self.url)
@@ -113,7 +116,7 @@ class Feed:
             device.close()
 
     def _learn(self, node: int, controller: Callable[[], Controller], is_log: bool) -> None:
-        """The limb's card: from a file, else the controller is asked once."""
+        """The limb's card: from a file, else from the controller."""
         model = self.models.get(node, self.models.get(0))
         if model is not None:
             self.cards[node] = card_of(model)
@@ -121,6 +124,8 @@ class Feed:
             self.cards[node] = Card(why_not="a log answers no questions: give --model LIMB.toml")
         else:
             self.cards[node] = card_from(lambda: controller().download(lambda words: None).model)
+        is_known = self.cards[node].lengths_mm is not None
+        self._ask_at_s[node] = math.inf if is_known or is_log else time.monotonic() + _AGAIN_S
 
 
 def _controller_on(bus: Bus, node: int) -> Controller:

@@ -117,7 +117,7 @@ def limb_view(node: int, state: NodeState, card: Card, now_s: float) -> LimbView
         "lambda_space_n_per_mm": None if space is None else _short(space.eigenvalues),
         "load": _load_view(load),
         "load_why": _NO_LOAD_SENT if load is None else "" if load.is_counted else _NO_LOAD_COUNTED,
-        "play": _play(k, None if space is None else space.play_coxa),
+        "play": _play(k, None if space is None else space.play_coxa, card),
         "mode": mode,
         "mode_text": _text(MODE, mode.upper()),
         "faults": _said(FAULT, told.faults if told is not None else ()),
@@ -144,10 +144,14 @@ def _load_view(load: Load | None) -> LoadView | None:
     }
 
 
-def _play(k: Snapshot | None, coxa: str | None) -> list[Play]:
+def _play(k: Snapshot | None, coxa: str | None, card: Card) -> list[Play]:
     states = [] if coxa is None else [("coxa", coxa)]
     states += zip(("femur", "tibia"), k.play if k is not None else (), strict=False)
-    return [{"joint": joint, "state": state, "text": _PLAY_WORDS.get(state, state)} for joint, state in states]
+    return [
+        {"joint": joint, "state": state, "text": _PLAY_WORDS.get(state, state)}
+        for joint, state in states
+        if joint not in card.tight_joints
+    ]
 
 
 def _said(table: CodeTable, names: Iterable[str]) -> list[Said]:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from brace import toml
 from brace.errors import BadFileError
+from brace.model.doubts import ModelDoubt, doubts
 from brace.model.keys import KEY_BY_NAME, LIMB_KEYS, PLANAR_COMPLIANCES
 
 WHAT = "limb model"
@@ -59,8 +61,12 @@ class LimbModel:
 
 
 def load_limb(path: Path) -> LimbModel:
-    """Reads and checks a limb.toml; refuses with file:line, field, reason and suggestion."""
-    return limb_from_document(toml.read(path, WHAT))
+    """Reads and checks a limb.toml; refuses with file:line, field, reason and suggestion. Warns (ModelDoubt) of values
+    that smell of another unit."""
+    model = limb_from_document(toml.read(path, WHAT))
+    for sentence in doubts(model.values, model.given, model.where):
+        warnings.warn(sentence, ModelDoubt, stacklevel=2)
+    return model
 
 
 def limb_from_document(document: toml.Document) -> LimbModel:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from brace.plots.figure import FAINT, INK, MODEL, STIFF, new_figure
+from brace.plots.figure import FAINT, INK, SOFT, STIFF, new_figure
 from brace.plots.limb_plot import draw_links
 
 if TYPE_CHECKING:
@@ -44,11 +44,12 @@ def contact_figure(footings: Sequence[Footing], friction_ratio: float, sag_mm: f
         _draw_footing(axes, footing, friction_ratio, sag_mm)
         axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]))
     plane = panels[-1]
-    mesh = plane.pcolormesh(r_mm, height_mm, np.minimum(needed_ratio, 2.0), shading="gouraud", cmap="RdYlGn_r",
+    mesh = plane.pcolormesh(r_mm, height_mm, np.minimum(needed_ratio, 2.0), shading="gouraud", cmap="RdYlBu_r",
                             vmin=0.0, vmax=2.0 * friction_ratio, rasterized=True)
     plane.contour(r_mm, height_mm, needed_ratio, levels=[friction_ratio], colors=[INK], linewidths=1.0)
     plane.set(xlabel="x of the foot [mm]", ylabel="z of the foot [mm]", aspect="equal")
-    plane.set_title(f"friction that any sag needs, |K_xz| / K_zz\nline: the friction there is, {friction_ratio:g}",
+    plane.set_title(f"friction that any sag needs, |K_xz| / K_zz\nblue holds, red slides; line: the friction there is, "
+                    f"{friction_ratio:g}",
                     loc="left", fontsize=9)
     figure.colorbar(mesh, ax=plane, shrink=0.8)
     return figure
@@ -65,7 +66,7 @@ def _draw_footing(axes: Axes, footing: Footing, friction_ratio: float, sag_mm: f
     axes.plot([tip[0] - 0.5 * LEDGE_MM, tip[0] + 0.5 * LEDGE_MM], [tip[1], tip[1]], color=FAINT, linewidth=8, zorder=0)
     size = float(np.linalg.norm(footing.force_n))
     arrow = footing.force_n / size * length
-    colour = MODEL if footing.holds else STIFF
+    colour = SOFT if footing.holds else STIFF
     axes.annotate("", tip + arrow, tip, arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 2.2})
     axes.annotate(f"{size:.1f} N", tip + arrow, xytext=(4, 4), textcoords="offset points", color=colour)
     axes.set(aspect="equal", xlabel="x [mm] (arrow: direction of the force only)", ylabel="z [mm]")

@@ -10,7 +10,8 @@ import matplotlib
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-INK, STIFF, SOFT, MODEL, FAINT = "#22303c", "#c8553d", "#2d6a8e", "#588b5b", "#b8c0c8"
+# Apart for every kind of colour blindness, in hue or in lightness: vermilion, blue, light purple, grey.
+INK, STIFF, SOFT, MODEL, FAINT = "#22303c", "#c8553d", "#2d6a8e", "#a98fc4", "#b8c0c8"
 
 _STYLE: dict[str, object] = {
     "font.size": 9.0,

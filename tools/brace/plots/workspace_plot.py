@@ -23,12 +23,12 @@ def workspace_figure(
 ) -> Figure:
     """lambda_min, lambda_max: rows x (low, middle, high) [N/mm] at r [mm]; ellipses: x_mm, z_mm, lambda_min_n_per_mm,
     lambda_max_n_per_mm, stiff_axis_rad, one entry each; links: postures x 3 points x (x, z) [mm] to draw."""
-    figure = new_figure(10.5, 4.4)
+    figure = new_figure(10.5, 4.8)
     curves, plane = figure.subplots(1, 2, width_ratios=(1.15, 1))
     draw_eigenvalues(curves, r_mm, lambda_min, lambda_max)
     curves.set_title(f"{name}: eigenvalues of K over the reach", loc="left", fontsize=10)
     draw_ellipses(plane, ellipses, links)
-    plane.set_title("ellipses of K (semi-axes as the root of the eigenvalues)", loc="left", fontsize=10)
+    plane.set_title("ellipses of K", loc="left", fontsize=10)
     return figure
 
 
@@ -67,9 +67,24 @@ def draw_ellipses(axes: Axes, ellipses: dict[str, np.ndarray], links: np.ndarray
             linewidths=0.9,
         )
     )
-    axes.plot([0], [0], "o", color=INK, markersize=4)
+    axes.plot([0], [0], "o", color=INK, markersize=4, label="femur joint")
     room = 0.5 * longest * np.array([-1.0, 1.0])
     x_limits, z_limits = (
         np.array([min(ellipses[name].min(), 0.0), ellipses[name].max()]) + room for name in ("x_mm", "z_mm")
     )
     axes.set(xlabel="x [mm]", ylabel="z [mm]", aspect="equal", xlim=x_limits, ylim=z_limits)
+    _draw_scale(axes, scale, float(np.median(long_axis)) ** 2)
+
+
+def _draw_scale(axes: Axes, mm_per_root: float, typical_n_per_mm: float) -> None:
+    """How long an ellipse of a round stiffness is, and what the grey lines are. Ellipses of more than twice the typical
+    length are drawn shorter."""
+    power = 10.0 ** np.floor(np.log10(typical_n_per_mm))
+    round_n_per_mm = power * max(step for step in (1.0, 2.0, 5.0) if step * power <= typical_n_per_mm)
+    axes.plot([], [], color=FAINT, linewidth=2.0, label="femur and tibia at some postures")
+    axes.plot([], [], color=STIFF, linewidth=0.9, label=f"axes as the root of eigenvalues; bar: {round_n_per_mm:g} N/mm")
+    low_x, low_z = axes.get_xlim()[0], axes.get_ylim()[0]
+    room = 0.04 * (axes.get_xlim()[1] - low_x)
+    length = mm_per_root * np.sqrt(round_n_per_mm)
+    axes.plot([low_x + room, low_x + room + length], [low_z + room, low_z + room], color=STIFF, linewidth=2.5)
+    axes.legend(loc="upper left", bbox_to_anchor=(0.0, -0.14), fontsize=8, ncols=1)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from brace.errors import BadFileError, did_you_mean
 from brace.toml.document import Document
+from brace.toml.likely_unit import likely
 
 Value = float | str | bool | int | list[str]
 
@@ -189,11 +190,13 @@ def _near_table(table: str, tables: set[str]) -> str:
 
 def _checked(document: Document, name: str, key: Key, value: object) -> Value:
     def refuse(why: str) -> BadFileError:
+        is_number = isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < 1e15
+        meant = likely(name, float(str(value)), key.low, key.high) if is_number else ""
         return BadFileError(
             f"{name} = {_shown(value)} is not allowed",
             where=document.where(name),
             why=f"{why}; {name.rpartition('.')[2]} is {key.meaning}",
-            next_step=f"write {key.range_text}",
+            next_step=f"write {key.range_text}" + (f"; {meant}" if meant else ""),
         )
 
     if key.kind == "text":

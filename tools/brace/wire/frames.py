@@ -5,7 +5,7 @@ from __future__ import annotations
 from brace.wire import codes
 from brace.wire.layout import Field, Layout
 
-DICTIONARY_HASH = 0x2165F88A
+DICTIONARY_HASH = 0x13040C2F
 PROTOCOL = 1
 REQUEST_ID = 0x600
 ANSWER_ID = 0x580
@@ -49,7 +49,8 @@ MESSAGES: dict[str, Layout] = {
     "heartbeat": Layout("heartbeat", 0x700, None, (
         Field("state", 0, 8, codes=codes.HEARTBEAT_STATE),
         Field("mode", 8, 8, codes=codes.MODE),
-        Field("faults", 16, 16, codes=codes.FAULT),
+        Field("faults", 16, 14, codes=codes.FAULT),
+        Field("setting", 30, 2, codes=codes.SETTING),
         Field("dictionary_hash", 32, 32),
     )),
 }
@@ -124,6 +125,18 @@ MULTIPLEXED: dict[str, tuple[Layout, ...]] = {
             Field("gravity_direction", 48, 16, kind="value", signed=True, step=0.0001, unit="rad"),
         ), part=4, part_at=8),
     ),
+    "load_across": (
+        Layout("load_across_0", 0x400, None, (
+            Field("sequence", 0, 8),
+            Field("counted_force_y", 16, 24, kind="value", signed=True, step=0.001, unit="N"),
+            Field("moved_y", 40, 24, kind="value", signed=True, step=0.001, unit="mm"),
+        ), part=0, part_at=8),
+        Layout("load_across_1", 0x400, None, (
+            Field("sequence", 0, 8),
+            Field("unloaded_k_across", 16, 24, kind="value", step=0.0005, unit="N/mm"),
+            Field("flags", 40, 8, codes=codes.FLAG),
+        ), part=1, part_at=8),
+    ),
 }
 
 FD_MESSAGES: dict[str, Layout] = {
@@ -185,6 +198,9 @@ FD_MESSAGES: dict[str, Layout] = {
         Field("buckling_factor", 288, 32, kind="f32"),
         Field("gravity_direction", 320, 32, kind="f32", unit="rad"),
         Field("gravity_lean", 352, 32, kind="f32", unit="rad"),
+        Field("counted_force_y", 384, 32, kind="f32", unit="N"),
+        Field("moved_y", 416, 32, kind="f32", unit="mm"),
+        Field("unloaded_k_across", 448, 32, kind="f32", unit="N/mm"),
     ), 64),
 }
 
@@ -387,11 +403,13 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
     "set_mode": (
         Layout("set_mode_answer_0", 0x580, 9, (
             Field("mode", 16, 8),
+            Field("setting", 24, 8, codes=codes.SETTING),
         )),
     ),
     "upload_begin": (
         Layout("upload_begin_answer_0", 0x580, 10, (
             Field("words", 16, 16),
+            Field("setting", 32, 8, codes=codes.SETTING),
         )),
     ),
     "upload_word": (
@@ -406,6 +424,7 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
         )),
         Layout("commit_answer_1", 0x580, 44, (
             Field("crc", 16, 32),
+            Field("setting", 48, 8, codes=codes.SETTING),
         )),
     ),
     "rollback": (
@@ -414,6 +433,7 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
         )),
         Layout("rollback_answer_1", 0x580, 45, (
             Field("crc", 16, 32),
+            Field("setting", 48, 8, codes=codes.SETTING),
         )),
     ),
     "download_word": (
@@ -425,21 +445,25 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
     "take_up": (
         Layout("take_up_answer_0", 0x580, 15, (
             Field("phase", 16, 8, codes=codes.TAKE_UP_PHASE),
+            Field("setting", 24, 8, codes=codes.SETTING),
         )),
     ),
     "let_go": (
         Layout("let_go_answer_0", 0x580, 16, (
             Field("mode", 16, 8),
+            Field("setting", 24, 8, codes=codes.SETTING),
         )),
     ),
     "loading_test_start": (
         Layout("loading_test_start_answer_0", 0x580, 17, (
             Field("rows", 16, 16),
+            Field("setting", 32, 8, codes=codes.SETTING),
         )),
     ),
     "loading_test_stop": (
         Layout("loading_test_stop_answer_0", 0x580, 18, (
             Field("rows", 16, 16),
+            Field("setting", 32, 8, codes=codes.SETTING),
         )),
     ),
     "fetch_row": (
@@ -478,6 +502,7 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
     "clear": (
         Layout("clear_answer_0", 0x580, 22, (
             Field("faults", 16, 32),
+            Field("setting", 48, 8, codes=codes.SETTING),
         )),
     ),
     "k_in_space_at_posture": (

@@ -42,7 +42,8 @@ static bool is_from_controller(uint32_t base)
     static const uint32_t bases[] = {BRACE_CAN_ID_EMERGENCY,   BRACE_CAN_ID_STIFFNESS_A, BRACE_CAN_ID_STIFFNESS_B,
                                      BRACE_CAN_ID_EIGENVALUES, BRACE_CAN_ID_POSTURE,     BRACE_CAN_ID_HEARTBEAT,
                                      BRACE_CAN_ID_ANSWER,      BRACE_CAN_ID_SNAPSHOT_FD, BRACE_CAN_ID_SPACE,
-                                     BRACE_CAN_ID_SPACE_FD,    BRACE_CAN_ID_LOAD,        BRACE_CAN_ID_LOAD_FD};
+                                     BRACE_CAN_ID_SPACE_FD,    BRACE_CAN_ID_LOAD,        BRACE_CAN_ID_LOAD_FD,
+                                     BRACE_CAN_ID_LOAD_ACROSS};
     for (size_t i = 0u; i < sizeof bases / sizeof bases[0]; i++) {
         if (base == bases[i]) {
             return true;
@@ -422,7 +423,9 @@ static bool newest(brace_client_t *client, uint32_t wanted, uint64_t since_us, b
 /* What a controller may not send, and why. */
 static const char *part_in_words(uint32_t wanted)
 {
-    return (wanted & BRACE_PART_LOAD) != 0u ? "the load (it is sent where controller.load_hz is not 0)"
+    return (wanted & BRACE_PART_LOAD_ACROSS) != 0u
+               ? "the load across the plane (only a limb with a coxa joint sends it, where controller.load_hz is not 0)"
+           : (wanted & BRACE_PART_LOAD) != 0u ? "the load (it is sent where controller.load_hz is not 0)"
            : (wanted & BRACE_PART_SPACE) != 0u
                ? "K in space (only a limb with a coxa joint sends it)"
                : "the wanted part of a snapshot (controller.stiffness_hz, posture_hz)";

@@ -6,7 +6,10 @@
 #include "bus_internal.h"
 #include "joiner.h"
 
-enum { PARTS_MOST = BRACE_PART_ALL | BRACE_PART_SPACE | BRACE_PART_LOAD, ANSWER_PARTS_MOST = 7 };
+enum {
+    PARTS_MOST = BRACE_PART_ALL | BRACE_PART_SPACE | BRACE_PART_LOAD | BRACE_PART_LOAD_ACROSS,
+    ANSWER_PARTS_MOST = 7
+};
 
 struct brace_client {
     char why[BRACE_CLIENT_WHY_ROOM];

@@ -353,19 +353,17 @@ static brace_client_status_t read_measured(brace_client_t *client, uint32_t firs
 
 #define PLACE_OF(member) ((uint32_t)(offsetof(brace_measured_t, member) / 4u))
 
+static bool has_coxa_joint(const brace_measured_t *measured)
+{
+    return measured->k_is_in_space == 1u || isfinite(measured->theta0_rad) ||
+           (measured->faults & (uint32_t)BRACE_FAULT_SENSOR_COXA) != 0u;
+}
+
 /* Reads K in space, after the rest. */
-static brace_client_status_t read_space(brace_client_t *client, const brace_measured_t *rest, uint64_t deadline_us,
-                                        brace_client_snapshot_t *snapshot)
+static brace_client_status_t read_space(brace_client_t *client, uint64_t deadline_us, brace_client_snapshot_t *snapshot)
 {
     enum { FIRST = PLACE_OF(k_is_in_space), COUNT = PLACE_OF(play_coxa) - PLACE_OF(k_is_in_space) + 1 };
     brace_measured_t measured;
-    const bool has_coxa_joint = rest->k_is_in_space == 1u || isfinite(rest->theta0_rad) ||
-                                (rest->faults & (uint32_t)BRACE_FAULT_SENSOR_COXA) != 0u;
-    if (!has_coxa_joint) {
-        return brace_client_fail(client, BRACE_CLIENT_E_UNSUPPORTED,
-                                 "%s: the limb has no coxa joint, so there is no K in space; want BRACE_PART_ALL",
-                                 client->url);
-    }
     const brace_client_status_t status = read_measured(client, FIRST, COUNT, deadline_us, &measured);
     if (status == BRACE_CLIENT_OK) {
         take_space(&measured, &snapshot->space);
@@ -422,12 +420,18 @@ brace_client_status_t brace_modbus_read(brace_client_t *client, uint32_t wanted,
     }
     memset(&unknown, 0xff, sizeof unknown);
     take(&measured, brace_bus_now_us(), &unknown, &taken);
-    if ((wanted & BRACE_PART_SPACE) != 0u) {
-        status = read_space(client, &measured, deadline_us, &taken);
+    const bool is_in_space = has_coxa_joint(&measured);
+    if (!is_in_space && (wanted & (BRACE_PART_SPACE | BRACE_PART_LOAD_ACROSS)) != 0u) {
+        return brace_client_fail(client, BRACE_CLIENT_E_UNSUPPORTED,
+                                 "%s: the limb has no coxa joint, so there is no K in space; want BRACE_PART_ALL",
+                                 client->url);
     }
-    if (status == BRACE_CLIENT_OK && (wanted & BRACE_PART_LOAD) != 0u) {
+    if ((wanted & BRACE_PART_SPACE) != 0u) {
+        status = read_space(client, deadline_us, &taken);
+    }
+    if (status == BRACE_CLIENT_OK && (wanted & (BRACE_PART_LOAD | BRACE_PART_LOAD_ACROSS)) != 0u) {
         status = brace_modbus_load(client, deadline_us, &taken.load);
-        taken.parts |= BRACE_PART_LOAD;
+        taken.parts |= BRACE_PART_LOAD | (is_in_space ? BRACE_PART_LOAD_ACROSS : 0u);
     }
     if (status == BRACE_CLIENT_OK) {
         *snapshot = taken;

@@ -5,10 +5,19 @@
 
 #include "brace/can_messages.h"
 
-enum { A = 1, B = 2, EIGENVALUES = 4, POSTURE = 8, SPACE_0 = 16, LOAD_0 = SPACE_0 << BRACE_CAN_SPACE_PARTS };
-/* further parts of space and of the load take the bits after their first ones */
+enum {
+    A = 1,
+    B = 2,
+    EIGENVALUES = 4,
+    POSTURE = 8,
+    SPACE_0 = 16,
+    LOAD_0 = SPACE_0 << BRACE_CAN_SPACE_PARTS,
+    ACROSS_0 = LOAD_0 << BRACE_CAN_LOAD_PARTS
+};
+/* further parts of these three take the bits after their first ones */
 #define SPACE (((1u << BRACE_CAN_SPACE_PARTS) - 1u) * SPACE_0)
 #define LOAD (((1u << BRACE_CAN_LOAD_PARTS) - 1u) * LOAD_0)
+#define ACROSS (((1u << BRACE_CAN_LOAD_ACROSS_PARTS) - 1u) * ACROSS_0)
 
 static void begin(brace_joiner_slot_t *slot, uint32_t sequence, uint64_t received_us)
 {
@@ -199,6 +208,24 @@ static void take_load_4(brace_client_snapshot_t *s, const uint8_t *data)
     TAKE_LOAD(buckling_factor), TAKE_LOAD(gravity_direction_rad);
 }
 
+static void take_across(brace_client_load_t *load, float force_y_n, float moved_y_mm)
+{
+    load->force_y_n = force_y_n;
+    load->moved_y_mm = moved_y_mm;
+}
+
+static void take_across_0(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(load_across_0);
+    take_across(&s->load, got.counted_force_y_n, got.moved_y_mm);
+}
+
+static void take_across_1(brace_client_snapshot_t *s, const uint8_t *data)
+{
+    UNPACKED(load_across_1);
+    TAKE_LOAD(unloaded_k_across_n_per_mm);
+}
+
 static void take_whole_load(brace_client_snapshot_t *s, const uint8_t *data)
 {
     UNPACKED(load_fd);
@@ -206,6 +233,8 @@ static void take_whole_load(brace_client_snapshot_t *s, const uint8_t *data)
     take_counted_force(&s->load, got.counted_force_x_n, got.counted_force_z_n);
     TAKE_LOAD(moved_x_mm), TAKE_LOAD(moved_z_mm), TAKE_LOAD(buckling_factor);
     TAKE_LOAD(gravity_direction_rad), TAKE_LOAD(gravity_lean_rad);
+    take_across(&s->load, got.counted_force_y_n, got.moved_y_mm);
+    TAKE_LOAD(unloaded_k_across_n_per_mm);
 }
 
 typedef struct {
@@ -231,16 +260,19 @@ static const kind_t kinds[] = {{BRACE_CAN_ID_STIFFNESS_A, 0u, A, 8u, take_a},
                                {BRACE_CAN_ID_LOAD, 2u, LOAD_0 << 2, 8u, take_load_2},
                                {BRACE_CAN_ID_LOAD, 3u, LOAD_0 << 3, 8u, take_load_3},
                                {BRACE_CAN_ID_LOAD, 4u, LOAD_0 << 4, 8u, take_load_4},
+                               {BRACE_CAN_ID_LOAD_ACROSS, 0u, ACROSS_0, 8u, take_across_0},
+                               {BRACE_CAN_ID_LOAD_ACROSS, 1u, ACROSS_0 << 1, 8u, take_across_1},
                                {BRACE_CAN_ID_SNAPSHOT_FD, 0u, A | B | EIGENVALUES | POSTURE, 64u, take_whole},
                                {BRACE_CAN_ID_SPACE_FD, 0u, SPACE, 64u, take_whole_space},
-                               {BRACE_CAN_ID_LOAD_FD, 0u, LOAD, 64u, take_whole_load}};
+                               {BRACE_CAN_ID_LOAD_FD, 0u, LOAD | ACROSS, 64u, take_whole_load}};
 
 /* Which of the frames with this identifier it is. */
 static uint32_t part_of(uint32_t id, const brace_bus_frame_t *frame)
 {
-    return id == BRACE_CAN_ID_SPACE  ? brace_can_space_part(frame->data)
-           : id == BRACE_CAN_ID_LOAD ? brace_can_load_part(frame->data)
-                                     : 0u;
+    return id == BRACE_CAN_ID_SPACE         ? brace_can_space_part(frame->data)
+           : id == BRACE_CAN_ID_LOAD        ? brace_can_load_part(frame->data)
+           : id == BRACE_CAN_ID_LOAD_ACROSS ? brace_can_load_across_part(frame->data)
+                                            : 0u;
 }
 
 static const kind_t *kind_of(const brace_bus_frame_t *frame, uint32_t node)
@@ -282,7 +314,8 @@ const brace_client_snapshot_t *brace_joiner_add(brace_joiner_t *joiner, uint32_t
                (slot->frames & EIGENVALUES ? BRACE_PART_EIGENVALUES : 0u) |
                (slot->frames & POSTURE ? BRACE_PART_POSTURE : 0u) |
                ((slot->frames & SPACE) == SPACE ? BRACE_PART_SPACE : 0u) |
-               ((slot->frames & LOAD) == LOAD ? BRACE_PART_LOAD : 0u);
+               ((slot->frames & LOAD) == LOAD ? BRACE_PART_LOAD : 0u) |
+               ((slot->frames & ACROSS) == ACROSS ? BRACE_PART_LOAD_ACROSS : 0u);
     s->k_is_valid = s->parts & BRACE_PART_K && isfinite(s->k_xx_n_per_mm) && isfinite(s->k_xz_n_per_mm) &&
                     isfinite(s->k_zz_n_per_mm);
     s->space.k_is_valid = s->parts & BRACE_PART_SPACE && is_space_k_known(&s->space.k);

@@ -31,7 +31,9 @@
     X(BRACE_CAN_ID_LOAD, load_1, load_hz) \
     X(BRACE_CAN_ID_LOAD, load_2, load_hz) \
     X(BRACE_CAN_ID_LOAD, load_3, load_hz) \
-    X(BRACE_CAN_ID_LOAD, load_4, load_hz)
+    X(BRACE_CAN_ID_LOAD, load_4, load_hz) \
+    X(BRACE_CAN_ID_LOAD_ACROSS, load_across_0, load_hz) \
+    X(BRACE_CAN_ID_LOAD_ACROSS, load_across_1, load_hz)
 
 #define BRACE_CAN_PROCESS_FD(X) \
     X(BRACE_CAN_ID_SNAPSHOT_FD, snapshot_fd, stiffness_hz) \
@@ -61,6 +63,8 @@
     X(load_2, 8) \
     X(load_3, 8) \
     X(load_4, 8) \
+    X(load_across_0, 8) \
+    X(load_across_1, 8) \
     X(snapshot_fd, 64) \
     X(space_fd, 64) \
     X(load_fd, 64) \

@@ -14,7 +14,7 @@
 #include <stdint.h>
 
 /* Of every frame, entry and parameter, with types, steps and units: what two ends must agree on. */
-#define BRACE_DICTIONARY_HASH 0x2165f88au
+#define BRACE_DICTIONARY_HASH 0x13040c2fu
 #define BRACE_PROTOCOL 1u
 
 /* Identifiers of node 0; a controller adds its node number, 1-127. */
@@ -27,6 +27,7 @@ enum {
     BRACE_CAN_ID_HEARTBEAT = 0x700,
     BRACE_CAN_ID_SPACE = 0x200,
     BRACE_CAN_ID_LOAD = 0x100,
+    BRACE_CAN_ID_LOAD_ACROSS = 0x400,
     BRACE_CAN_ID_SNAPSHOT_FD = 0x500,
     BRACE_CAN_ID_SPACE_FD = 0x300,
     BRACE_CAN_ID_LOAD_FD = 0x680,
@@ -81,6 +82,10 @@ uint32_t brace_can_space_part(const uint8_t data[8]);
 /* The frames of one load, and which of them a frame is. */
 enum { BRACE_CAN_LOAD_PARTS = 5 };
 uint32_t brace_can_load_part(const uint8_t data[8]);
+
+/* The frames of one load_across, and which of them a frame is. */
+enum { BRACE_CAN_LOAD_ACROSS_PARTS = 2 };
+uint32_t brace_can_load_across_part(const uint8_t data[8]);
 
 /* a fault has come or gone, or the likeliest cause of a drift is another one */
 typedef struct {
@@ -180,6 +185,8 @@ typedef struct {
     uint32_t mode;
     /* the faults that are there now */
     uint32_t faults;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
     /* a checksum over everything on the wire; two ends whose hashes differ cannot understand each other */
     uint32_t dictionary_hash;
 } brace_can_heartbeat_t;
@@ -370,6 +377,36 @@ typedef struct {
 uint32_t brace_can_pack_load_4(const brace_can_load_4_t *message, uint8_t data[8]);
 void brace_can_unpack_load_4(const uint8_t data[8], brace_can_load_4_t *message);
 
+/* the load across the limb's plane, and K there without it, of the same snapshot as load; only a limb whose coxa
+ * joint is fitted sends it, each snapshot in all its parts: part 0 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* the force of the ground on the tip that K counts across the limb's plane, to the left [N, -8388.61 to
+     * 8388.61] */
+    float counted_force_y_n;
+    /* how far force and weight have moved the tip across the limb's plane, to the left [mm, -8388.61 to 8388.61] */
+    float moved_y_mm;
+} brace_can_load_across_0_t;
+#define BRACE_CAN_LOAD_ACROSS_0_COUNTED_FORCE_Y_N_MOST 8388.607f
+#define BRACE_CAN_LOAD_ACROSS_0_MOVED_Y_MM_MOST 8388.607f
+uint32_t brace_can_pack_load_across_0(const brace_can_load_across_0_t *message, uint8_t data[8]);
+void brace_can_unpack_load_across_0(const uint8_t data[8], brace_can_load_across_0_t *message);
+
+/* the load across the limb's plane, and K there without it, of the same snapshot as load; only a limb whose coxa
+ * joint is fitted sends it, each snapshot in all its parts: part 1 */
+typedef struct {
+    /* the number of the snapshot; the frames of one snapshot carry the same number */
+    uint32_t sequence;
+    /* K across the limb's plane with neither the force on the tip nor the weight counted [N/mm, 0 to 8388.61] */
+    float unloaded_k_across_n_per_mm;
+    /* the quality of K in space */
+    uint32_t flags;
+} brace_can_load_across_1_t;
+#define BRACE_CAN_LOAD_ACROSS_1_UNLOADED_K_ACROSS_N_PER_MM_MOST 8388.607f
+uint32_t brace_can_pack_load_across_1(const brace_can_load_across_1_t *message, uint8_t data[8]);
+void brace_can_unpack_load_across_1(const uint8_t data[8], brace_can_load_across_1_t *message);
+
 /* a whole snapshot, in place of stiffness_a, stiffness_b, eigenvalues and posture, where
  * controller.can_fd_bit_rate is set and the bus can do it */
 typedef struct {
@@ -498,6 +535,13 @@ typedef struct {
     float gravity_direction_rad;
     /* how far that direction leans out of the limb's plane */
     float gravity_lean_rad;
+    /* the force of the ground on the tip that K counts across the limb's plane, to the left; not known of a limb
+     * without a coxa joint, and where no load is counted */
+    float counted_force_y_n;
+    /* how far force and weight have moved the tip across the limb's plane, to the left */
+    float moved_y_mm;
+    /* K across the limb's plane with neither the force on the tip nor the weight counted, every gap closed */
+    float unloaded_k_across_n_per_mm;
 } brace_can_load_fd_t;
 #define BRACE_CAN_LOAD_FD_AGE_MS_MOST 32767.0f
 uint32_t brace_can_pack_load_fd(const brace_can_load_fd_t *message, uint8_t data[64]);
@@ -764,6 +808,8 @@ typedef struct {
     uint32_t token;
     /* the controller's mode now; on the way back to MONITOR it is START until there are samples */
     uint32_t mode;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
 } brace_can_set_mode_answer_0_t;
 uint32_t brace_can_pack_set_mode_answer_0(const brace_can_set_mode_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_set_mode_answer_0(const uint8_t data[8], brace_can_set_mode_answer_0_t *message);
@@ -782,6 +828,8 @@ typedef struct {
     uint32_t token;
     /* how many words the controller expects */
     uint32_t words;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
 } brace_can_upload_begin_answer_0_t;
 uint32_t brace_can_pack_upload_begin_answer_0(const brace_can_upload_begin_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_upload_begin_answer_0(const uint8_t data[8], brace_can_upload_begin_answer_0_t *message);
@@ -826,6 +874,8 @@ typedef struct {
     uint32_t token;
     /* the CRC of the set now in force */
     uint32_t crc;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
 } brace_can_commit_answer_1_t;
 uint32_t brace_can_pack_commit_answer_1(const brace_can_commit_answer_1_t *message, uint8_t data[8]);
 void brace_can_unpack_commit_answer_1(const uint8_t data[8], brace_can_commit_answer_1_t *message);
@@ -848,6 +898,8 @@ typedef struct {
     uint32_t token;
     /* the CRC of the set now in force */
     uint32_t crc;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
 } brace_can_rollback_answer_1_t;
 uint32_t brace_can_pack_rollback_answer_1(const brace_can_rollback_answer_1_t *message, uint8_t data[8]);
 void brace_can_unpack_rollback_answer_1(const uint8_t data[8], brace_can_rollback_answer_1_t *message);
@@ -885,6 +937,8 @@ typedef struct {
     uint32_t token;
     /* where the joint's take-up stood when this was asked */
     uint32_t phase;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
 } brace_can_take_up_answer_0_t;
 uint32_t brace_can_pack_take_up_answer_0(const brace_can_take_up_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_take_up_answer_0(const uint8_t data[8], brace_can_take_up_answer_0_t *message);
@@ -899,6 +953,8 @@ typedef struct {
     uint32_t token;
     /* the controller's mode now */
     uint32_t mode;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
 } brace_can_let_go_answer_0_t;
 uint32_t brace_can_pack_let_go_answer_0(const brace_can_let_go_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_let_go_answer_0(const uint8_t data[8], brace_can_let_go_answer_0_t *message);
@@ -923,6 +979,8 @@ typedef struct {
     uint32_t token;
     /* how many rows the test will record */
     uint32_t rows;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
 } brace_can_loading_test_start_answer_0_t;
 uint32_t brace_can_pack_loading_test_start_answer_0(const brace_can_loading_test_start_answer_0_t *message,
     uint8_t data[8]);
@@ -940,6 +998,8 @@ typedef struct {
     uint32_t token;
     /* how many rows there are now */
     uint32_t rows;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
 } brace_can_loading_test_stop_answer_0_t;
 uint32_t brace_can_pack_loading_test_stop_answer_0(const brace_can_loading_test_stop_answer_0_t *message,
     uint8_t data[8]);
@@ -1055,6 +1115,8 @@ typedef struct {
     uint32_t token;
     /* the faults that are there now */
     uint32_t faults;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
 } brace_can_clear_answer_0_t;
 uint32_t brace_can_pack_clear_answer_0(const brace_can_clear_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_clear_answer_0(const uint8_t data[8], brace_can_clear_answer_0_t *message);

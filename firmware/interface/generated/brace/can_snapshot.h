@@ -27,6 +27,8 @@ void brace_can_make_load_1(const brace_measured_t *measured, float age_ms, uint8
 void brace_can_make_load_2(const brace_measured_t *measured, float age_ms, uint8_t *data);
 void brace_can_make_load_3(const brace_measured_t *measured, float age_ms, uint8_t *data);
 void brace_can_make_load_4(const brace_measured_t *measured, float age_ms, uint8_t *data);
+void brace_can_make_load_across_0(const brace_measured_t *measured, float age_ms, uint8_t *data);
+void brace_can_make_load_across_1(const brace_measured_t *measured, float age_ms, uint8_t *data);
 void brace_can_make_snapshot_fd(const brace_measured_t *measured, float age_ms, uint8_t *data);
 void brace_can_make_space_fd(const brace_measured_t *measured, float age_ms, uint8_t *data);
 void brace_can_make_load_fd(const brace_measured_t *measured, float age_ms, uint8_t *data);

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from brace.diagnose.diagnosis import Candidate
-from brace.diagnose.joint_test.evidence import agreement, feigned, gain, independent
+from brace.diagnose.joint_test.evidence import agreement, feigned, gain
 from brace.diagnose.joint_test.fit import Fitted, Fitter
 from brace.diagnose.joint_test.record import JointRecord
 from brace.diagnose.joint_test.terms import Term
@@ -32,13 +32,12 @@ Shapes = Callable[[Fitted], list[Term]]
 
 @dataclass(frozen=True)
 class Choice:
-    """`base` has no terms; `sets` are all sets of effects that were fitted, the `nearest` the best of them;
-    `shaped` are those with a shape; `best` may have shapes in it."""
+    """`base` has no terms; `sets` are all sets of effects that were fitted, `shaped` are those with a shape; `best` may
+    have shapes in it."""
 
     base: Fitted
     sets: tuple[Fitted, ...]
     shaped: tuple[Fitted, ...]
-    nearest: Fitted
     best: Fitted
     count: float  # independent readings
     candidates: tuple[Candidate, ...]
@@ -58,13 +57,12 @@ def choose(
     sets = _grown(fitter, base, (*effects, *own), len(effects), trying)
     shaped: list[Fitted] = []
     record = fitter.record
-    count = independent(record, min(sets, key=lambda one: one.rss).off_n_mm)
+    count = record.independent(min(sets, key=lambda one: one.rss).off_n_mm)
 
     def worth(one: Fitted) -> float:
         return gain(record, base, one, count) - _paid(one, count)
 
     best = max((one for one in sets if not strained(fitter, one)), key=worth)
-    nearest = best
     for _ in range(MOST_SHAPES):
         if _is_noise(record, best):
             break
@@ -89,7 +87,7 @@ def choose(
     best = _kept(fitter, best, random)
     best = _joined_by_rows(fitter, best, sets, effects, random, trying)
     listed = [one for one in sets if not strained(fitter, one)]
-    return Choice(base, tuple(sets), tuple(shaped), nearest, best, count, _candidates(listed, worth))
+    return Choice(base, tuple(sets), tuple(shaped), best, count, _candidates(listed, worth))
 
 
 def _is_noise(record: JointRecord, fitted: Fitted) -> bool:
@@ -203,7 +201,7 @@ def without(fitter: Fitter, fitted: Fitted, term: Term) -> Fitted:
 def _needed(fitter: Fitter, poorer: Fitted, richer: Fitted, random: np.random.Generator) -> bool:
     """Do all three judges ask for what the richer fit has more?"""
     record = fitter.record
-    count = independent(record, richer.off_n_mm)
+    count = record.independent(richer.off_n_mm)
     net = gain(record, poorer, richer, count) - (_paid(richer, count) - _paid(poorer, count))
     if net < LEAST_GAIN or richer.rss > (1.0 - LEAST_SHRINK) ** 2 * poorer.rss:
         return False

@@ -12,8 +12,8 @@ from brace.identify.fit import columns_of
 
 MIN_INSIDE = 6
 FLAT = 0.4  # slope inside over slope outside, at most
-FLANK = 0.1  # of the gap, that the record goes beyond each side
-LARGEST = 0.5  # of the range of angles
+FLANK = 0.02  # of the gap, that the record goes beyond each side
+RISE = 1.0  # of what the fit leaves, by which the torque rises beyond each side
 
 
 def refusal(record: JointRecord, fitted: Fitted) -> str:
@@ -22,13 +22,13 @@ def refusal(record: JointRecord, fitted: Fitted) -> str:
     gap_rad = fitted.model.number(at + "gap_rad")
     deflection = record.deflection_rad(columns_of(fitted.nuisances), 1)[0]
     used = record.fitted
-    if gap_rad > LARGEST * record.size.angle_rad * (1.0 - 1e-3):
-        return "it would take half of the angles that were visited or more"
     if gap_rad > (1.0 - 1e-3) * record.size.swing_rad:
         return f"the joint reached both of its flanks in a swing of {record.size.swing_rad:.3g} rad"
     inside = used & (np.abs(deflection) < 0.5 * gap_rad)
     above, below = deflection[used].max() - 0.5 * gap_rad, -deflection[used].min() - 0.5 * gap_rad
-    if min(above, below) < FLANK * gap_rad:
+    left_n_mm = float(np.sqrt(np.mean(fitted.off_n_mm[used] ** 2)))
+    rises_n_mm = min(above, below) / max(fitted.model.number(at + "compliance_rad_per_n_mm"), 1e-30)
+    if min(above, below) < FLANK * gap_rad or rises_n_mm < RISE * left_n_mm:
         return "the record does not reach both of its flanks"
     if np.count_nonzero(inside) < MIN_INSIDE:
         return "hardly any reading lies inside it"

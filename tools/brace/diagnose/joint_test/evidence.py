@@ -16,23 +16,6 @@ FEIGNED = 0.1  # of the misfit that stays: as much as a term of a wrong shape ta
 LOW, HIGH = 0.05, 0.95  # of a 90 % interval
 
 
-def independent(record: JointRecord, off_n_mm: np.ndarray) -> float:
-    """How many independent readings the fitted ones are worth, by their residuals' autocorrelation."""
-    test = record.columns["test"][record.fitted]
-    off = off_n_mm[record.fitted] - off_n_mm[record.fitted].mean()
-    lags = min(200, off.size // 4)
-    power = float(off @ off) or 1.0
-    kept = np.zeros(lags)
-    for lag in range(1, lags):
-        together = test[lag:] == test[:-lag]
-        kept[lag] = float((off[lag:] * off[:-lag])[together].sum()) / power
-        if kept[lag] <= 0.05:
-            kept[lag] = 0.0
-            break
-    total = 1.0 + 2.0 * float(kept.sum())
-    return max(float(off.size) / total, 4.0)
-
-
 def gain(record: JointRecord, poorer: Fitted, richer: Fitted, count: float) -> float:
     """Twice the log-likelihood that the richer fit gains over `count` independent readings."""
     floor = record.noise_n_mm**2 * np.count_nonzero(record.fitted)
@@ -54,7 +37,7 @@ def stretches(record: JointRecord, off_n_mm: np.ndarray) -> np.ndarray:
     ramp = record.ramp[record.fitted]
     _, number = np.unique(ramp, return_inverse=True)
     count = int(number.max()) + 1
-    together = int(np.ceil(ramp.size / independent(record, off_n_mm)))
+    together = int(np.ceil(ramp.size / record.independent(off_n_mm)))
     while count < MIN_STRETCHES:
         sizes = np.bincount(number)
         largest = int(np.argmax(sizes))

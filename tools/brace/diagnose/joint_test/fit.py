@@ -16,6 +16,7 @@ from brace.model import LimbModel
 STEP = 1e-4
 REFUSED = 1e6
 PLENTY = 40  # evaluations of the slope
+SEARCHING, TELLING = 1e-5, 1e-8  # relative change of misfit or parameters that ends a fit: sets to choose from, sizes
 
 
 @dataclass(frozen=True)
@@ -50,6 +51,7 @@ class Fitter:
     def __init__(self, record: JointRecord, base: LimbModel, trust: float) -> None:
         self.record, self.base, self.trust = record, base, trust
         self.root_weight = record.root_weight
+        self.tolerance = SEARCHING
         self.known: dict[frozenset[str], Fitted] = {}  # the best fit of every set of terms so far
         self.left: set[tuple[frozenset[str], frozenset[str]]] = (
             set()
@@ -58,7 +60,13 @@ class Fitter:
     def by_rows(self) -> Fitter:
         """The same fitter, in which every reading counts alike."""
         other = Fitter(self.record, self.base, self.trust)
-        other.root_weight = np.ones_like(self.root_weight)
+        other.root_weight, other.tolerance = np.ones_like(self.root_weight), 0.01 * SEARCHING
+        return other
+
+    def over_all(self) -> Fitter:
+        """The same fitter, for the readings that were held out, too."""
+        other = Fitter(self.record.whole(), self.base, self.trust)
+        other.root_weight, other.tolerance = self.root_weight, TELLING
         return other
 
     def own(self) -> tuple[Parameter, ...]:
@@ -95,6 +103,9 @@ class Fitter:
                 points += self._reshaped(chosen, values, points[-1], added)
         best = min((self._from(chosen, point) for point in points), key=lambda pair: pair[1])
         off = self._offs(chosen, best[0][np.newaxis])[0]
+        if (pull := self._pull(chosen, best[0], off)) is not None:
+            best = self._from(chosen, best[0], pull)
+            off = self._offs(chosen, best[0][np.newaxis])[0]
         record = self.record
         fitted, kept = off[record.fitted], off[record.kept]
         found = Fitted(terms, chosen, best[0], off, float(fitted @ fitted), float(kept @ kept))
@@ -121,12 +132,29 @@ class Fitter:
         off = self.record.offs(chosen.models(points), chosen.nuisance_columns(points)) * self.root_weight
         return np.where(np.isnan(off), REFUSED * self.record.size.torque_n_mm, off)
 
-    def _from(self, chosen: ParameterSet, point: np.ndarray) -> tuple[np.ndarray, float]:
+    def _pull(self, chosen: ParameterSet, x: np.ndarray, off_n_mm: np.ndarray) -> np.ndarray | None:
+        """What each parameter weighs by, times its distance from its start over its scale, where one lies further off
+        than its prior; None where none does. A prior weighs as much as one independent reading that is off by as many
+        sigmas."""
+        scale, prior, start = (chosen.array(name) for name in ("scale", "prior_sigma", "start"))
+        if np.all(np.abs(x - start) <= prior):
+            return None
+        left = off_n_mm[self.record.fitted]
+        sigma = float(np.linalg.norm(left)) / np.sqrt(self.record.independent(off_n_mm))
+        return np.asarray(np.where(np.isinf(prior), 0.0, sigma * scale / prior))
+
+    def _from(
+        self, chosen: ParameterSet, point: np.ndarray, pull: np.ndarray | None = None
+    ) -> tuple[np.ndarray, float]:
         scale, low, high = (chosen.array(name) for name in ("scale", "low", "high"))
+        start = chosen.array("start") / scale
         unit = max(self.record.noise_n_mm, 1e-3 * self.record.size.torque_n_mm)
 
         def whole(points: np.ndarray) -> np.ndarray:
-            return np.asarray(self._offs(chosen, points * scale)[:, self.record.fitted] / unit)
+            off = self._offs(chosen, points * scale)[:, self.record.fitted]
+            if pull is not None:
+                off = np.hstack([off, pull * (points - start)])
+            return np.asarray(off / unit)
 
         def at(u: np.ndarray) -> np.ndarray:
             return np.asarray(whole(u[np.newaxis])[0])
@@ -142,8 +170,8 @@ class Fitter:
             inside,
             jac=slope,
             bounds=(low / scale, high / scale),
-            ftol=1e-7,
-            xtol=1e-7,
+            ftol=self.tolerance,
+            xtol=self.tolerance,
             gtol=1e-9,
             max_nfev=PLENTY,
         )

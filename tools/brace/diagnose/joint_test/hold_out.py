@@ -4,32 +4,21 @@ from __future__ import annotations
 
 import numpy as np
 
+from brace.identify.swing import ramps
+
 MIN_RAMPS = 6
-RAMP_SHARE = 0.25  # of the range of angles that a turn must be followed by to count as one
 
 
-def ramps(angle_rad: np.ndarray, test: np.ndarray) -> np.ndarray:
-    """The number of the monotone pass that each reading belongs to; tests share none."""
-    least = RAMP_SHARE * float(np.ptp(angle_rad))
-    numbers = np.zeros(angle_rad.size, dtype=int)
-    starts = np.concatenate([[0], np.flatnonzero(np.diff(test)) + 1, [test.size]])
-    number = -1
-    for first, last in zip(starts[:-1], starts[1:]):
-        number += 1
-        turn, sense = first, 0
-        for row in range(first, last):
-            away = angle_rad[row] - angle_rad[turn]
-            if sense == 0:
-                if abs(away) > least:
-                    sense, turn = (1 if away > 0 else -1), row
-            elif sense * away > 0:
-                turn = row
-            elif -sense * away > least:
-                number += 1
-                numbers[turn:row] = number
-                sense, turn = -sense, row
-            numbers[row] = number
-    return numbers
+def alike(ranges_n_mm: list[float]) -> list[list[int]]:
+    """The tests of each amplitude by their places in the list, smallest first: those whose torque reaches about as
+    far."""
+    groups: list[list[int]] = []
+    for place in sorted(range(len(ranges_n_mm)), key=lambda one: ranges_n_mm[one]):
+        if groups and ranges_n_mm[place] <= 2.0 * max(ranges_n_mm[groups[-1][0]], 1e-9):
+            groups[-1].append(place)
+        else:
+            groups.append([place])
+    return groups
 
 
 def held_out(
@@ -42,13 +31,8 @@ def held_out(
     labels = np.unique(test)
     if labels.size >= 3:
         sizes = {label: float(np.ptp(torque_n_mm[test == label])) for label in labels}
-        chosen = []
-        left = sorted(labels, key=lambda label: sizes[label])
-        while left:
-            alike = [label for label in left if sizes[label] <= 2.0 * max(sizes[left[0]], 1e-9)]
-            left = [label for label in left if label not in alike]
-            if len(alike) >= 2:
-                chosen.append(max(alike))
+        groups = alike(list(sizes.values()))
+        chosen = [max(labels[i] for i in group) for group in groups if len(group) >= 2]
         where = np.zeros(test.size) if position is None else position
         if chosen and np.unique(where[~np.isin(test, chosen)]).size == np.unique(where).size:
             names = ", ".join(str(label) for label in sorted(chosen))

@@ -3,28 +3,27 @@ at the drive's limit are left out."""
 
 from __future__ import annotations
 
+from copy import copy
+
 import numpy as np
 from scipy.ndimage import uniform_filter1d
 
 from brace.dataset import Dataset
 from brace.dataset.grid import step_of
-from brace.diagnose.joint_test.hold_out import held_out, ramps
+from brace.diagnose.joint_test.hold_out import alike, held_out
 from brace.diagnose.joint_test.shapes import added
 from brace.effects import JointTestSize
 from brace.effects.catalogue import FRICTION_TURN
 from brace.identify.fit import Nuisances, columns_of
-from brace.identify.joint_test import JointProblem, as_read, noise, saturated
+from brace.identify.joint_test import JointProblem, as_read, independent, noise, saturated, usable
 from brace.identify.gear_positions import POSITION
+from brace.identify.swing import ramps
 from brace.identify.parameters import angle_zero
 from brace.model import LimbModel
 from brace.native.plant_batch import model_numbers, number_index
 
 STEPS_A_PERIOD = 4.0  # of the encoder: what repeats faster is its rounding
-MIN_READINGS = 20
-LAST_PART = 0.1  # of a test's range of torque, before a reversal
-STANDS = 0.75  # of what a spring alone would move there
 SPEEDS = 1.5  # by which fast motion must exceed slow motion for viscosity to be told from friction
-BLOCK_ROWS = 1200  # averaged readings: enough for every ramp's shape, few enough to try some hundred models
 
 
 # A joint that does nothing but rub: its torque is how far friction is turned.
@@ -44,16 +43,16 @@ class JointRecord(JointProblem):
     model with the shapes of terms.py added."""
 
     def __init__(self, dataset: Dataset) -> None:
-        super().__init__(dataset, BLOCK_ROWS)
+        super().__init__(dataset)
         columns = self.columns
-        usable = ~saturated(columns)
-        self.position = np.rint(columns.get(POSITION, np.zeros(usable.size))).astype(int)
+        counts = usable(columns)
+        self.position = np.rint(columns.get(POSITION, np.zeros(counts.size))).astype(int)
         kept, self.held_words = held_out(
             columns["angle_rad"], columns["torque_n_mm"], columns["test"], self.position
         )
-        if np.count_nonzero(usable & ~kept) < 12:
+        if np.count_nonzero(counts & ~kept) < 12:
             kept, self.held_words = np.zeros_like(kept), ""
-        self.fitted, self.kept, self.held_rows = usable & ~kept, usable & kept, kept
+        self.fitted, self.kept, self.held_rows = counts & ~kept, counts & kept, kept
         self.block_counts = self._counts
         self.ramp = ramps(columns["angle_rad"], columns["test"])
         test = columns["test"]
@@ -68,9 +67,10 @@ class JointRecord(JointProblem):
             float(self._since_s.max()),
             float(np.ptp(temp)) if temp is not None else 0.0,
             float(np.quantile(np.abs(self._motion.speed_rad_per_s), 0.98)),
-            swing_over_both_flanks_rad(columns["angle_rad"][usable], columns["torque_n_mm"][usable], test[usable]),
+            self.swing_rad,
         )
         labels = np.unique(test)
+        self.amplitudes = len(alike([float(np.ptp(columns["torque_n_mm"][test == label])) for label in labels]))
         self.minutes = float(sum(np.ptp(self._since_s[test == label]) for label in labels)) / 60.0
         self.raw_noise_n_mm = noise(dataset["torque_n_mm"])
         self.angle_step_rad = step_of(dataset["angle_rad"])
@@ -160,6 +160,16 @@ class JointRecord(JointProblem):
         """Played less measured [N mm], models x averaged readings."""
         return np.asarray(self.torques(models, nuisances) - self.columns["torque_n_mm"])
 
+    def whole(self) -> JointRecord:
+        """The same record with nothing held out."""
+        other = copy(self)
+        other.fitted, other.kept = self.fitted | self.kept, np.zeros_like(self.kept)
+        return other
+
+    def independent(self, off_n_mm: np.ndarray) -> float:
+        """How many independent readings the fitted ones are worth, by what a model leaves of all averaged readings."""
+        return independent(off_n_mm[self.fitted], self.columns["test"][self.fitted])
+
     def raw_off(self, model: LimbModel, nuisances: dict[str, float]) -> np.ndarray:
         """Measured less played [N mm], at every row of the record; the model alone, no shapes."""
         return np.asarray(self.dataset["torque_n_mm"] - self.torque_n_mm(model, nuisances))
@@ -184,30 +194,3 @@ class JointRecord(JointProblem):
             if power > most:
                 best, most = float(period), float(power)
         return best
-
-
-def swing_over_both_flanks_rad(angle_rad: np.ndarray, torque_n_mm: np.ndarray, test: np.ndarray) -> float:
-    """The least that the joint swings by in a test that leaves it standing on a flank at both ends: free travel is no
-    more. inf where no test shows that: a joint that friction still lets slip at the highest torque may be anywhere in
-    its gap."""
-    least = np.inf
-    for label in np.unique(test):
-        angle, torque = angle_rad[test == label], torque_n_mm[test == label]
-        if angle.size < MIN_READINGS or torque.max() <= 0.0 or torque.min() >= 0.0:
-            continue
-        swing, span = float(np.ptp(angle)), float(np.ptp(torque))
-        slipped: dict[int, float] = {}  # by the end that a pass leads to, the most of the swing in its last part
-        number = ramps(torque, np.zeros(torque.size))
-        for one in np.unique(number):
-            rows = np.flatnonzero(number == one)
-            way = torque[rows[-1]] - torque[rows[0]]
-            side = 1 if way > 0.0 else -1
-            if side * torque[rows[-1]] < (1.0 - LAST_PART) * (torque.max() if side > 0 else -torque.min()):
-                continue
-            before = rows[side * (torque[rows[-1]] - torque[rows]) > LAST_PART * span]
-            if before.size:
-                last = side * (angle[rows[-1]] - angle[before[-1]]) / max(swing, 1e-30)
-                slipped[side] = max(slipped.get(side, 0.0), last)
-        if len(slipped) == 2 and max(slipped.values()) < STANDS * LAST_PART:
-            least = min(least, swing)
-    return least

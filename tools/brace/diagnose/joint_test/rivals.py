@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from brace.diagnose.joint_test.choose import strained
-from brace.diagnose.joint_test.evidence import independent, intervals
+from brace.diagnose.joint_test.evidence import intervals
 from brace.diagnose.joint_test.fit import Fitted, Fitter
 from brace.diagnose.joint_test.shapes import SOFT
 
@@ -74,7 +74,7 @@ def _share(fitter: Fitter, chosen: Fitted, rival: Fitted) -> float:
     """The rival's part of the odds by the independent ones of the held-out readings."""
     record = fitter.record
     kept = np.count_nonzero(record.kept)
-    count = independent(record, chosen.off_n_mm) * kept / np.count_nonzero(record.fitted)
+    count = record.independent(chosen.off_n_mm) * kept / np.count_nonzero(record.fitted)
     floor = 1e-12 * kept * record.size.torque_n_mm**2
     odds = 0.5 * count * np.log((rival.held_rss + floor) / (chosen.held_rss + floor))
     if _shapes(rival) > _shapes(chosen):
@@ -87,11 +87,14 @@ def _shapes(fitted: Fitted) -> int:
 
 
 def ranges(by_rows: Fitter, found: Sequence[Rival], random: np.random.Generator) -> Ranges:
-    """low, high (90 %) over all rivals of effects alone, of every parameter that they have. A shape that is added to
-    an effect takes from it what it likes."""
+    """low, high (90 %) over all rivals without shapes, of every parameter that they have. A shape that is added to an
+    effect takes from it what it likes, and so does a second turn of friction from the first one."""
     held: Ranges = {}
-    for rival in (one for one in found if all(term.role in ("effect", "record") for term in one.fitted.terms)):
+    for rival in (one for one in found if all(term.role != "shape" for term in one.fitted.terms)):
+        law = any(term.role == "law" for term in rival.fitted.terms)
         for key, (_, low, high) in intervals(by_rows, rival.fitted, random).items():
+            if law and key.rpartition(".")[2].startswith("coulomb_"):
+                continue
             least, most = held.get(key, (low, high))
             held[key] = min(least, low), max(most, high)
     return held

@@ -68,7 +68,7 @@ def _term(effect: Effect, shows: InJointTest, model: LimbModel, joint: str, size
             return Parameter(turn.leaf, turn.start, turn.scale, turn.low, turn.high)
         entry = KEY_BY_NAME[key(turn.leaf)]
         low, high = max(entry.low, turn.low), min(entry.high, turn.high)
-        return Parameter(entry.name, model.number(entry.name), turn.scale, low, high)
+        return Parameter(entry.name, model.number(entry.name), turn.scale, low, high, turn.prior_sigma)
 
     return Term(
         effect.name,

@@ -75,6 +75,14 @@ def withheld(labels: Sequence[str], unexplained: float) -> str:
     return f"{unexplained:.0%} of the torque is left by the nearest model, which has {names}"
 
 
+def not_named(names: Sequence[str]) -> str:
+    """Why limb.toml has more than was named."""
+    return (
+        f"no model was given, so limb.toml also has {listed(names)} as the fit gives it, because a geared joint has"
+        " some; the record does not show that it is more than nothing"
+    )
+
+
 def as_well(could_be: Sequence[str]) -> str:
     """What the headline says of rivals."""
     sets = [listed([label.partition("@")[0] for label in one.split(" + ")]) for one in could_be]

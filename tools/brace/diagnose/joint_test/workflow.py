@@ -22,9 +22,9 @@ from brace.diagnose.diagnosis import (
     Verdict,
 )
 from brace.diagnose.joint_test import positions, words
-from brace.diagnose.joint_test.choose import Choice, choose, without
+from brace.diagnose.joint_test.choose import SHAPES_SHRINK, Choice, choose, strained, without
 from brace.diagnose.joint_test.dead_zone import refusal
-from brace.diagnose.joint_test.evidence import feigned, gain, independent, intervals
+from brace.diagnose.joint_test.evidence import feigned, gain, intervals
 from brace.diagnose.joint_test.fit import Fitted, Fitter
 from brace.diagnose.joint_test.intake import blocking_faults, require_enough, spring_alone
 from brace.diagnose.joint_test.localise import localise
@@ -73,6 +73,7 @@ class _Found:
     fitter: Fitter
     choice: Choice
     refused: str
+    effects: tuple[Term, ...]  # that the record can show
 
 
 def _searched(
@@ -99,9 +100,9 @@ def _searched(
     choice = choose(fitter, effects, own, competing, random, trying)
     refused = _refused_gap(record, choice.best)
     if refused:
-        effects = [term for term in effects if term.name != "backlash"]
-        choice = choose(fitter, effects, own, competing, random, trying)
-    return _Found(fitter, choice, refused)
+        others = [term for term in effects if term.name != "backlash"]
+        choice = choose(fitter, others, own, competing, random, trying)
+    return _Found(fitter, choice, refused, tuple(effects))
 
 
 def _trust(believed: LimbModel | None) -> float:
@@ -156,26 +157,26 @@ def _told(
     def is_weak(one: NamedEffect) -> bool:
         return one.confidence <= LIKELIER_THAN_NOT or one.name in small or _may_be_nothing(one)
 
+    first = others  # what explained the record without an effect goes on doing so when another is no longer named
     while weak := [one for one in effects if is_weak(one)][-1:]:
         found = [term for term in found if term.name != weak[0].name]
         tried = [one for one in tried if all(term.name != weak[0].name for term in one.terms)]
         best = fitter.fit((*found, *own, *left, *laws), best)
         exported = by_rows.fit((*found, *own), best)
-        others = rivals(fitter, by_rows, best, frozenset(term.name for term in found), tried)
+        others = [*first, *rivals(fitter, by_rows, best, frozenset(term.name for term in found), tried)]
         effects = _named(fitter, by_rows, best, exported, found, others, choice.count, random)
+    others = list({one.label: one for one in reversed(others)}.values())[::-1]
     advance(0.93, "where they disagreed")
     spots = localise(record, base.off_n_mm, random)
     predicts = exported
     if believed is None and effects:
-        # nothing was believed that could stand, so limb.toml has the set of effects that tells the record best
-        closest = by_rows.fit(choice.nearest.terms, choice.nearest)
-        predicts = closest if closest.rss < exported.rss else exported
+        predicts = _as_gears_are(by_rows, search, exported, True)
     gap, residuals, rows = _gaps(by_rows, base, effects, exported, predicts)
     after = gap.after.fitted
     remainder_noise = max(record.noise_n_mm, 1e-9)
     after_averaged = float(np.sqrt(np.mean(exported.off_n_mm[record.fitted] ** 2)))
     remains = localise(record, exported.off_n_mm, random)
-    count = independent(record, exported.off_n_mm)
+    count = record.independent(exported.off_n_mm)
     hangs = bool(count < 0.3 * np.count_nonzero(record.fitted))
     withheld: tuple[str, ...] = ()
     beyond_noise = float(np.sqrt(max(after_averaged**2 - record.noise_n_mm**2, 0.0)))
@@ -197,12 +198,18 @@ def _told(
             verdict = "data_fault"
     if not effects:
         exported = by_rows.fit(tuple(own), base)
-    if not effects:
         predicts = exported
-    more = [term.name for term in predicts.terms if term.role == "effect"]
-    if effects and set(more) != {effect.name for effect in effects}:
-        notes += (f"limb.toml has {words.listed(more)}: of all sets of effects this one is nearest to the record",)
-    model = _exportable(record, fitter.base, predicts, believed, bool(effects))
+        if believed is None and verdict == "unknown":
+            predicts = _as_gears_are(by_rows, search, exported, False)
+    named = {effect.name for effect in effects}
+    if more := [term.name for term in predicts.terms if term.role == "effect" and term.name not in named]:
+        notes += (words.not_named(more),)
+    all_rows = by_rows.over_all()
+    final = all_rows.fit(exported.terms, exported)
+    told = final if predicts is exported else all_rows.fit(predicts.terms, predicts)
+    if told is not final:
+        effects = tuple(_as_told(effect, positions.typical(record, told)) for effect in effects)
+    model = _exportable(record, fitter.base, told, believed, bool(effects))
     nearest = [one.label for one in choice.candidates if one.gain > 0.0 and " + " not in one.label]
     could_be = tuple(dict.fromkeys((*withheld, *nearest)))[:4] if verdict == "unknown" else ()
     if effects:
@@ -235,8 +242,38 @@ def _told(
         notes,
         options.seed,
         {"rows": rows, "held_out": record.held_words, "independent_readings": float(count)},
-        joint=_sizes(by_rows, exported, effects, random) if verdict in ("effect", "none") else None,
+        joint=_sizes(all_rows, told, effects, random) if verdict in ("effect", "none") else None,
     )
+
+
+def _as_gears_are(by_rows: Fitter, search: _Found, exported: Fitted, have_names: bool) -> Fitted:
+    """What was found, with play and friction as they fit best where they fit better: every gear has some of both. A
+    spring that hardens joins what was named only where several amplitudes show it: one amplitude says nothing of a
+    cube beyond it."""
+    found, record = exported, by_rows.record
+    usual = (*STOPS, "joint_hardening") if record.amplitudes > 1 and have_names else STOPS
+    have = {term.name for term in found.terms}
+    lacking = [term for term in search.effects if term.name in usual and term.name not in have]
+    # a gap is found best beside friction, a cube beside both
+    for term in sorted(lacking, key=lambda one: ("coulomb_friction", "backlash", "joint_hardening").index(one.name)):
+        afresh = by_rows.fit(())  # a fit without the gap may stand far off the middle of it
+        for other in found.terms:
+            afresh = by_rows.fit((*afresh.terms, other), afresh, other)
+        more = [by_rows.fit((*near.terms, term), near, term) for near in (found, afresh)]
+        sound = [one for one in more if not strained(by_rows, one) and not _refused_gap(record, one)]
+        better = [one for one in sound if one.rss < (1.0 - SHAPES_SHRINK) ** 2 * found.rss
+                  and one.held_rss <= found.held_rss]  # fmt: skip
+        found = min(better, key=lambda one: one.rss, default=found)
+    return found
+
+
+def _as_told(effect: NamedEffect, values: Mapping[str, float]) -> NamedEffect:
+    """The effect with the numbers that limb.toml has, which may hold more than what was named."""
+    held = {
+        key: Interval(values[key], min(one.low, values[key]), max(one.high, values[key]))
+        for key, one in effect.parameters.items()
+    }
+    return replace(effect, parameters=held)
 
 
 def _sizes(
@@ -247,9 +284,10 @@ def _sizes(
     key = f"joint.{record.joint}.compliance_rad_per_n_mm"
     told = dict(item for effect in effects for item in effect.parameters.items())
     if key in exported.values:
-        _, low, high = intervals(by_rows, exported, random)[key]
-        value = positions.typical(record, exported)[key]
-        low, high = positions.further(record, exported).get(key, (low, high))
+        known = intervals(by_rows, exported, random)[key]
+        value, (_, low, high) = positions.typical(record, exported)[key], known
+        if further := positions.further(record, exported).get(key):
+            low, high = positions.together(value, further, known)
         told = {key: Interval(value, min(value, low), max(value, high))} | told
     torque = record.columns["torque_n_mm"][record.fitted]
     reach_n_mm = float(min(torque.max(), -torque.min()) if torque.min() < 0.0 < torque.max() else np.abs(torque).max())
@@ -275,13 +313,15 @@ def _named(
     if not found:
         return ()
     record = fitter.record
-    limits, elsewhere = intervals(by_rows, exported, random), ranges(by_rows, others, random)
-    further, values = positions.further(record, exported), positions.typical(record, exported)
+    all_rows = by_rows.over_all()  # choices are judged by what was held out, sizes are told by all readings
+    final = all_rows.fit(exported.terms, exported)
+    limits, elsewhere = intervals(all_rows, final, random), ranges(by_rows, others, random)
+    further, values = positions.further(record, final), positions.typical(record, final)
     weighted = best if len(best.terms) == len(exported.terms) else fitter.fit(exported.terms, best)
     named = []
     for term in found:
         poorer = without(fitter, best, term)
-        rows_count = independent(record, exported.off_n_mm)
+        rows_count = record.independent(exported.off_n_mm)
         both = (
             gain(record, poorer, best, count),
             gain(record, without(by_rows, exported, term), exported, rows_count),
@@ -295,7 +335,7 @@ def _named(
             other = weighted.values[key]  # both ways of weighting are sound, so the interval holds what both say
             least, most = elsewhere.get(key, (value, value))
             if key in further:  # what differs from position to position is known no better
-                low, high = further[key]
+                low, high = positions.together(value, further[key], limits[key])
             parameters[key] = Interval(value, min(value, low, other, least), max(value, high, other, most))
         named.append((NamedEffect(term.name, term.where, confidence, parameters, 0.0), poorer.rss - best.rss))
     total = sum(max(rss, 0.0) for _, rss in named) or 1.0

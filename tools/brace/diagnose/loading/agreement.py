@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from brace.dataset.check_runs import run_starts
-from brace.diagnose.loading.record import Record
+from brace.identify.record import Record
 
 if TYPE_CHECKING:
     from brace.diagnose.loading.search_pass import Pass

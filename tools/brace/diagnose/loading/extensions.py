@@ -17,8 +17,8 @@ from brace.dataset.check_runs import run_starts
 from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.evidence import evidence, freedoms, score
 from brace.diagnose.loading.fit import Fit
-from brace.diagnose.loading.noise import FORCES
-from brace.diagnose.loading.record import Record, levers
+from brace.identify.noise import FORCES
+from brace.identify.record import Record, levers
 from brace.diagnose.loading.rounding import rounds_to_record
 from brace.diagnose.loading.screen import Remover
 from brace.effects import Variant

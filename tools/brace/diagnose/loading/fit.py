@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from brace.diagnose.loading.record import Record
+from brace.identify.record import Record
 from brace.diagnose.loading.space import Space
 from brace.identify.parameters import TIBIA_BEAM
 

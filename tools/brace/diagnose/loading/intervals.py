@@ -6,7 +6,8 @@ import numpy as np
 
 from brace.diagnose.diagnosis import Interval
 from brace.diagnose.loading.fit import Fit, residuals
-from brace.diagnose.loading.record import Record
+from brace.identify.information import half_width_90
+from brace.identify.record import Record
 from brace.diagnose.loading.screen import Remover
 from brace.model.keys import KEY_BY_NAME
 
@@ -14,10 +15,13 @@ Z_90 = 1.6449
 TIMES_AT_ONCE = 100
 
 
-def intervals(record: Record, fitted: Fit, keys: tuple[str, ...], inflation: float = 1.0) -> dict[str, Interval]:
-    """By the curvature at the best fit; `inflation` multiplies sigma (noise underrated). A key that the record does not
-    tell has infinite ends, cut at what the format allows."""
+def intervals(record: Record, fitted: Fit, keys: tuple[str, ...]) -> dict[str, Interval]:
+    """By the curvature at the best fit, as `brace identify` has them: sigma grows with what the fit leaves beyond the
+    noise, and of few readings it is uncertain itself. A key that the record does not tell has infinite ends, cut at
+    what the format allows."""
     space = fitted.space
+    freedom = max(record.readings - space.own, 1)
+    width = half_width_90(freedom) * float(np.sqrt(max(1.0, fitted.chi2 / freedom)))
     weight = np.where(np.isinf(space.sigma), 0.0, fitted.scale / space.sigma)
     normal = fitted.jacobian.T @ fitted.jacobian + np.diag(weight**2)
     inside = (fitted.x > space.low) & (fitted.x < space.high)
@@ -31,14 +35,24 @@ def intervals(record: Record, fitted: Fit, keys: tuple[str, ...], inflation: flo
         free = np.flatnonzero(inside | (np.arange(space.size) == place))
         part = normal[np.ix_(free, free)]
         spread = np.sqrt(np.clip(np.diag(np.linalg.pinv(part, rcond=1e-14, hermitian=True)), 0.0, None))
-        sigma = float(spread[free.tolist().index(place)] * fitted.scale[place]) * inflation
+        sigma = float(spread[free.tolist().index(place)] * fitted.scale[place])
         if fitted.jacobian[:, place] @ fitted.jacobian[:, place] < 1e-6:
             sigma = np.inf
-        low, high = value - Z_90 * sigma, value + Z_90 * sigma
+        low, high = value - width * sigma, value + width * sigma
         entry = KEY_BY_NAME.get(key)  # none for a size of the rig
         least, most = (entry.low, entry.high) if entry else (space.low[place], space.high[place])
         found[key] = Interval(value, max(low, least), min(high, most))
     return found
+
+
+def without_none(found: Interval, none: float, lost: float) -> Interval:
+    """The interval of an effect's size, where the curvature at the best fit would let it hold `none`, the size of no
+    effect, although no effect costs `lost` of chi squared: more than an interval's end may. The end on that side is
+    then where a parabola through both would put it."""
+    if not found.low <= none <= found.high or lost <= Z_90**2 or none == found.value:
+        return found
+    end = found.value + (none - found.value) * float(np.sqrt(Z_90**2 / lost))
+    return Interval(found.value, end, found.high) if none < found.value else Interval(found.value, found.low, end)
 
 
 def _time_interval(record: Record, fitted: Fit, place: int) -> Interval:

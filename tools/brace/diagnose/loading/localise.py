@@ -10,7 +10,7 @@ import numpy as np
 from brace.dataset.check_runs import run_starts
 from brace.diagnose.diagnosis import Localised
 from brace.diagnose.loading.fit import Fit
-from brace.diagnose.loading.record import Record
+from brace.identify.record import Record
 from brace.diagnose.loading.screen import Remover
 from brace.diagnose.loading.structure import slopes
 

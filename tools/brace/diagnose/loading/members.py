@@ -15,7 +15,7 @@ from brace.diagnose.diagnosis import Alternative, StiffnessAt, Verdict
 from brace.diagnose.loading import confidence
 from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.limb_of import limb_of
-from brace.diagnose.loading.record import Record
+from brace.identify.record import Record
 from brace.diagnose.loading.rivals import Contest, Member
 from brace.errors import BadFileError
 from brace.model import LimbModel

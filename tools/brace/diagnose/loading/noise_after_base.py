@@ -1,52 +1,31 @@
-"""What a fit tells of the noise: of a record without repeats its floor, once the limb's own shape is out of the way,
-and whether the noise grows with the load."""
+"""What a fit tells of the noise: of a record without repeats its floor, and whether the noise grows with the load."""
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
-from brace.diagnose.loading.fit import Fit, fit
-from brace.diagnose.loading.noise import (
-    FORCES,
-    GROWING,
-    REPEATS,
-    ROUNDING,
-    THIRD_DIFFERENCES_SHARE,
-    ChannelNoise,
-    growth_of,
-    robust_sigma,
-    rounding_of,
-)
 from brace.dataset.enough import enough_rows
-from brace.diagnose.loading.record import NOT_MEASURED, Record
+from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading.space import Trust, space_of
-
-LEAST_DIFFERENCES = 30
+from brace.identify.noise import FORCES, GROWING, ChannelNoise, growth_of
+from brace.identify.noise_after_base import (
+    LEAST_DIFFERENCES,
+    REPEATED,
+    with_noise,
+    with_noise_after,
+    without_repeats,
+)
+from brace.identify.record import NOT_MEASURED, Record
 
 
 def with_known_noise(record: Record, trust: Trust) -> Record:
-    """The record with the noise of channels that have no repeats taken from what the refitted base leaves: its third
-    differences along the runs, which any smooth disagreement hardly touches."""
-    poor = [name for name, noise in record.noise.items() if not noise.source.startswith((REPEATS, ROUNDING))]
-    if not poor:
+    """The record with the noise of channels that have no repeats taken from what the refitted base leaves."""
+    if not without_repeats(record):
         return record
     keep = enough_rows(record.dataset)
     part = record if keep.all() else record.select(keep)
     space = space_of(trust, ())
-    left = fit(part, space, space.mean).residual.reshape(part.measured.shape) * part.sigma
-    same = part.dataset["run"][:-3] == part.dataset["run"][3:]
-    noise = dict(record.noise)
-    for place, name in enumerate(record.channels):
-        taken = part.sigma[place] < NOT_MEASURED
-        whole = same & taken[:-3] & taken[1:-2] & taken[2:-1] & taken[3:]
-        off = np.diff(left[place], n=3)[whole] / np.sqrt(20.0)
-        if name in poor and off.size >= LEAST_DIFFERENCES:
-            floor = max(robust_sigma(off), rounding_of(record.dataset, name), 1e-12)
-            freedom = off.size / THIRD_DIFFERENCES_SHARE
-            noise[name] = ChannelNoise(floor, 0.0, "smoothness of what the believed limb leaves", freedom)
-    return _with_noise(record, noise)
+    return with_noise_after(record, part, fit(part, space, space.mean).residual)
 
 
 def with_growth(record: Record, fitted: Fit) -> Record | None:
@@ -55,9 +34,11 @@ def with_growth(record: Record, fitted: Fit) -> Record | None:
     left = fitted.residual.reshape(record.measured.shape) * record.sigma
     asked, given = [], []
     for place, name in enumerate(record.channels):
-        if name not in FORCES or record.noise[name].source.startswith((REPEATS, ROUNDING)):
+        if name not in FORCES or record.noise[name].source.startswith(REPEATED):
             continue  # where noise is as large as the reading, weighing by the reading would bias it
         taken = record.sigma[place] < NOT_MEASURED
+        if np.count_nonzero(taken) < LEAST_DIFFERENCES:
+            continue
         asked.append(name)
         given.append((left[place][taken], np.abs(record.measured[place][taken])))
     found = {name: growth for name, growth in zip(asked, growth_of(given)) if growth is not None}
@@ -66,10 +47,4 @@ def with_growth(record: Record, fitted: Fit) -> Record | None:
     noise = dict(record.noise)
     for name, (floor, growth) in found.items():
         noise[name] = ChannelNoise(floor, growth, noise[name].source + GROWING, noise[name].freedom)
-    return _with_noise(record, noise)
-
-
-def _with_noise(record: Record, noise: dict[str, ChannelNoise]) -> Record:
-    fresh = np.stack([noise[name].sigma(values) for name, values in zip(record.channels, record.measured)])
-    sigma = np.where(record.sigma < NOT_MEASURED, fresh, NOT_MEASURED)
-    return replace(record, noise=noise, sigma=sigma)
+    return with_noise(record, noise)

@@ -30,19 +30,21 @@ from brace.diagnose.loading.next_experiment.experiment import next_experiment
 from brace.diagnose.loading.fit import Fit
 from brace.diagnose.loading.troubles.likeliest import Trouble
 from brace.diagnose.loading.troubles.kinds import LAG
-from brace.diagnose.loading.intervals import intervals
+from brace.diagnose.loading.few_readings import slopes_in_words
+from brace.diagnose.loading.hold_out import held_out
+from brace.diagnose.loading.intervals import intervals, without_none
 from brace.diagnose.loading.limb_of import limb_of
 from brace.diagnose.loading.localise import localise
 from brace.diagnose.loading.members import Resolved, resolve
-from brace.diagnose.loading.noise import FORCES
-from brace.diagnose.loading.record import NOT_MEASURED, Record
+from brace.identify.noise import FORCES
+from brace.identify.record import NOT_MEASURED, Record, rms_force_n
 from brace.diagnose.loading.rivals import Contest, contest
 from brace.diagnose.loading.structure import STRUCTURED_P
 from brace.diagnose.loading.verdict import NOTHING_STANDS
 from brace.diagnose.options import Options
 from brace.model import LimbModel
 from brace.model.keys import KEY_BY_NAME
-from brace.native.plant_batch import model_numbers
+from brace.native.plant_batch import model_numbers, number_index
 
 if TYPE_CHECKING:
     from brace.diagnose.loading.search_pass import Pass
@@ -53,6 +55,7 @@ STAYS_AHEAD = 0.5
 TOLD_APART = 0.95  # power from which a look-alike is no member of the class
 SURE, LIKELIER_THAN_NOT = 0.8, 0.5  # confidences from which a name is told without a word before it, with "probably"
 MOST_LIKELY = 0.9  # share of the members' probability from which the first is said to be it
+SIZE_FIRST = ("creep",)  # effects whose first number is their size, and whose others mean nothing without it
 LOST_NATS = -2.0  # of the held-out configurations: more than refitting alone makes
 
 
@@ -78,6 +81,7 @@ def diagnosis_of(
     agreed = agreement(record, locked, final, twin, options.seed)
     alike = confusability(final.base.fit, final.sets)
     effects = _effects(record, final, resolved, contested) if named else ()
+    held = held_out(final.record, after, locked) if decision.verdict != "unknown" else ()
     late = tuple(_trouble(one, 1.0 / (1.0 + np.exp(-one.lead))) for one in final.troubles if one.name == LAG)
     following = next_experiment(record, final, believed, options) if named else _more_of_the_same(final)
     return Diagnosis(
@@ -90,6 +94,7 @@ def diagnosis_of(
         could_be=_could_be(final, effects),
         members=resolved.alternatives,
         localised=_localised(record, final, options),
+        held_out=held,
         unexplained=_unexplained(final, after),
         next_experiment=_told_by(following, contested),
         data_faults=(*record.dataset.faults, *(trouble.fault for trouble in final.troubles)),
@@ -102,6 +107,7 @@ def diagnosis_of(
         ),
         notes=(
             *(words for effect in effects if (words := in_words(alike, effect.label))),
+            *slopes_in_words(whole, model_numbers(believed)),
             *_notes(whole, record, final, twin, agreed, after),
             *([resolved.note] if resolved.note else []),
         ),
@@ -116,23 +122,39 @@ def _effects(
     """The most probable first; for a class, each member with the parameters of its own fit."""
     if resolved.verdict == "ambiguous":
         return tuple(
-            _trouble(member.trouble, sure) if member.trouble else _effect(record, member.fit, label, sure, 1.0)
-            for member, sure in resolved.members
-            for label in member.labels
+            _trouble(one.trouble, sure)
+            if one.trouble
+            else _effect(record, one.fit, label, sure, 1.0, _lost(final, frozenset(one.labels), label, one.fit))
+            for one, sure in resolved.members
+            for label in one.labels
         )
     sure_of = {label: confidence.of_label(final, label) for label in final.decision.labels}
     if contested is not None:
         own = next(sure for member, sure in resolved.members if set(member.labels) == contested.disputed)
         sure_of |= {label: min(own, sure_of[label]) for label in contested.disputed}
-    chosen = final.decision.chosen.best.fit
-    found = [_effect(record, chosen, label, sure_of[label], _share(final, label)) for label in final.decision.labels]
+    decision = final.decision
+    chosen = decision.chosen.best.fit
+    labels = decision.chosen.labels
+    found = [
+        _effect(record, chosen, label, sure_of[label], _share(final, label), _lost(final, labels, label, chosen))
+        for label in decision.labels
+    ]
     return tuple(sorted(found, key=lambda effect: -effect.confidence))
 
 
-def _effect(record: Record, fitted: Fit, label: str, sure: float, share: float) -> NamedEffect:
+def _lost(final: Pass, labels: frozenset[str], label: str, fitted: Fit) -> float:
+    """What chi squared rises by without this effect; 0 where the search did not try that."""
+    costs = [item.best.fit.cost for item in final.sets if item.labels == labels - {label}]
+    return max(0.0, min(costs) - fitted.cost) if costs else 0.0
+
+
+def _effect(record: Record, fitted: Fit, label: str, sure: float, share: float, lost: float) -> NamedEffect:
     variant = next(item for item in fitted.space.variants if item.label == label)
     keys = tuple(freedom.key for freedom in variant.freedoms)
     parameters: dict[str, Interval] = dict(intervals(record, fitted, keys))
+    if keys and (len(keys) == 1 or variant.effect in SIZE_FIRST):
+        none = float(fitted.space.numbers[number_index()[keys[0]]]) if keys[0] in KEY_BY_NAME else 0.0
+        parameters[keys[0]] = without_none(parameters[keys[0]], none, lost)
     for key, (other, ratio) in variant.stands_for.items():
         both = parameters[key]
         parameters[key] = Interval(both.value, KEY_BY_NAME[key].low, both.high)
@@ -194,14 +216,6 @@ def _share(final: Pass, label: str) -> float:
         lost[other] = max(0.0, (min(costs) if costs else final.base.fit.cost) - chosen.best.fit.cost)
     whole = sum(lost.values())
     return lost[label] / whole if whole > 0.0 else 1.0 / len(lost)
-
-
-def rms_force_n(record: Record, numbers: np.ndarray, rows: np.ndarray | None = None) -> float:
-    """rms of measured less model over the forces that were read [N]."""
-    played = record.player.play_numbers(numbers[None])[0, :2]
-    off = np.where(record.forces_read, record.measured[:2] - played, np.nan)
-    some = off if rows is None else off[:, rows]
-    return float(np.sqrt(np.nanmean(some**2))) if np.isfinite(some).any() else 0.0
 
 
 def _pair(record: Record, numbers: np.ndarray, locked: np.ndarray) -> GapPair:
@@ -277,7 +291,7 @@ def _told_by(following: NextExperiment | None, contested: Contest | None) -> Nex
     """The measurement that shows a rival, before the loading test that separates what is in the catalogue."""
     if following is None or contested is None:
         return following
-    return replace(following, action=f"{contested.cause.would_tell}; as for loading tests, {following.action}")
+    return replace(following, action=f"{contested.would_tell}; as for loading tests, {following.action}")
 
 
 def _contested(resolved: Resolved, contested: Contest, effects: Sequence[NamedEffect]) -> str:
@@ -308,7 +322,7 @@ def _contested(resolved: Resolved, contested: Contest, effects: Sequence[NamedEf
     )
     return (
         f"{lead} This record {'hardly tells' if likely else 'cannot tell'} them apart, because {cause.same_because}. "
-        f"To tell, {cause.would_tell}. "
+        f"To tell, {contested.would_tell}. "
         f"{exported}"
     )
 

@@ -17,7 +17,7 @@ from brace.diagnose.loading.choose import WORTH_SAYING, LabelSet
 from brace.diagnose.loading.evidence import score
 from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading.troubles.likeliest import Trouble
-from brace.diagnose.loading.record import NOT_MEASURED, Record
+from brace.identify.record import Record
 from brace.diagnose.loading.space import Space, Trust, space_of
 from brace.effects import Freedom, Variant
 from brace.effects.catalogue import NUMBER_BY_KEY
@@ -28,6 +28,10 @@ if TYPE_CHECKING:
     from brace.diagnose.loading.search_pass import Pass
 
 GAUGES = ("base_x_mm", "base_z_mm")
+GAUGE_ON_RIG = (
+    "put a dial gauge on the rig beside the tip's clamp: it moves with a rig that yields and stands still where a link "
+    "does"
+)
 RARE_SIGMAS = 3.0  # of the prior on a size: so far out lies the ratio that the catalogue calls `plausible_times`
 BOWED_ALONG = 0.6  # a bow of c yields along the link by 8/5 (c/L)^2 of its bending, its turned ellipsoid by (c/L)^2
 
@@ -59,15 +63,24 @@ class RivalSpace(Space):
         counts = not (record.dataset.small_displacements or record.dataset.meta.held_at_rest)
         return self.turn is _rig_yields and heavy and counts
 
+    def gauged(self, record: Record) -> bool:
+        """Whether the record tells a rig from a base by gauges on the base."""
+        return self.turn is _rig_yields and any(name in GAUGES for name in record.channels)
+
     def residuals(self, record: Record, points: np.ndarray) -> np.ndarray:
         """A base that yields gives way under the limb's weight as well, a rig that yields does not: what the weight
-        does to the base is added to the displacements."""
-        if not self.sinks_less_than_a_base(record):
+        does to the base is added to the displacements. A gauge on the base reads the base's share of what yields."""
+        gauged, sinks_less = self.gauged(record), self.sinks_less_than_a_base(record)
+        if not gauged and not sinks_less:
             return super().residuals(record, points)
+        models, limbs = self.models(points), self.limbs(points)
+        if not sinks_less:
+            return record.left_by(_of_base(record, models, limbs, record.player.play_numbers(models)))
         found = np.empty((len(points), record.measured.size))
-        for place, (model, limb) in enumerate(zip(self.models(points), self.limbs(points))):
-            sunk = (model[_base()] - limb[_base()]) * _down_n(limb)
-            found[place] = record.moved_by(*sunk).residuals(model[None])[0]
+        for place, (model, limb) in enumerate(zip(models, limbs)):
+            moved = record.moved_by(*((model[_base()] - limb[_base()]) * _down_n(limb)))
+            played = moved.player.play_numbers(model[None])
+            found[place] = moved.left_by(_of_base(moved, model[None], limb[None], played) if gauged else played)[0]
         return found
 
 
@@ -97,6 +110,12 @@ class Contest:
     disputed: frozenset[str]
     mass: float
     cause: RivalCause
+    gauged: bool = False
+
+    @property
+    def would_tell(self) -> str:
+        """The measurement that shows the rival, as an order."""
+        return GAUGE_ON_RIG if self.gauged else self.cause.would_tell
 
 
 def contest(final: Pass) -> Contest | None:
@@ -156,8 +175,8 @@ def _contest(
     top = max(weight for weight, _ in weights.values())
     if rival < WORTH_SAYING * top:
         return None
-    space = member.fit.space
-    told_apart = isinstance(space, RivalSpace) and space.sinks_less_than_a_base(final.record)
+    space, record = member.fit.space, final.record
+    told_apart = isinstance(space, RivalSpace) and (space.sinks_less_than_a_base(record) or space.gauged(record))
     if cause.twin in weights and not told_apart:
         weight, twin_fit = weights[cause.twin]
         weights[cause.twin] = (max(weight, rival), twin_fit)
@@ -171,7 +190,8 @@ def _contest(
     ]
     members.append(replace(member, share=rival / whole))
     members.sort(key=lambda one: (-round(one.share, 9), one.cause is not None, one.label))
-    return Contest(tuple(members), disputed, mass, cause)
+    gauged = isinstance(space, RivalSpace) and space.gauged(record)
+    return Contest(tuple(members), disputed, mass, cause, gauged)
 
 
 def _ordered(final: Pass, name: str) -> tuple[str, ...]:
@@ -219,8 +239,7 @@ def _implausible(fitted: Fit) -> float:
 def _fitted(
     record: Record, trust: Trust, chosen: Fit, cause: RivalCause, way: Sequence[Size], disputed: frozenset[str]
 ) -> Fit | None:
-    """The cause fitted in the place of the disputed effects. Where the base was gauged, a cause that shows in base
-    numbers is judged on the other readings, and the gauge by a base that stands still."""
+    """The cause fitted in the place of the disputed effects."""
     own = chosen.space.keys[chosen.space.size - chosen.space.own :]
     if cause.name == "bowed_link" and "link.tibia.tilt_rad" not in own:
         return None  # a bow shows as a tilt
@@ -245,16 +264,7 @@ def _fitted(
     known = {key: value for key, value in zip(chosen.space.keys, chosen.x) if key not in of_disputed}
     start = np.array([known.get(key, middle) for key, middle in zip(space.keys, space.mean)])
     start[plain.size :] = _start(cause, way, chosen)
-    gauged = [place for place, name in enumerate(record.channels) if name in GAUGES]
-    if not gauged or cause.in_limb or cause.name != "rig_compliance":
-        return fit(record, space, start, final=False)
-    sigma = record.sigma.copy()
-    sigma[gauged] = NOT_MEASURED
-    found = fit(replace(record, sigma=sigma), space, start, final=False)
-    still = record.residuals(space.limbs(found.x[None])).reshape(record.measured.shape)
-    residual = found.residual.reshape(record.measured.shape).copy()
-    residual[gauged] = still[gauged]
-    return replace(found, residual=residual.ravel(), cost=found.cost + float(np.sum(still[gauged] ** 2)))
+    return fit(record, space, start, final=False)
 
 
 def _start(cause: RivalCause, way: Sequence[Size], chosen: Fit) -> list[float]:
@@ -284,6 +294,18 @@ def _down_n(limb: np.ndarray) -> np.ndarray:
     """The limb's weight as a force along x and z."""
     down_rad = float(limb[number_index()["gravity.direction_rad"]])
     return float(limb[_weights()].sum()) * np.array([np.cos(down_rad), np.sin(down_rad)])
+
+
+def _of_base(record: Record, models: np.ndarray, limbs: np.ndarray, played: np.ndarray) -> np.ndarray:
+    """Played readings (models x channels x rows, changed in place) of base and rig together, with the gauges reading
+    the base's share."""
+    for place, name in enumerate(record.channels):
+        if name in GAUGES:
+            key = _base()[GAUGES.index(name)]
+            whole = models[:, key]
+            share = np.divide(limbs[:, key], whole, out=np.zeros(len(whole)), where=whole > 0.0)
+            played[:, place] *= share[:, None]
+    return played
 
 
 def _rig_yields(models: np.ndarray, sizes: np.ndarray) -> None:

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from brace.diagnose.loading.fit import Fit
-from brace.diagnose.loading.noise import FAR_SIGMAS
-from brace.diagnose.loading.record import NOT_MEASURED, Record
+from brace.identify.noise import FAR_SIGMAS
+from brace.identify.record import NOT_MEASURED, Record
 from brace.diagnose.loading.search import Hypothesis
 
 

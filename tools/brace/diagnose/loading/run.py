@@ -19,7 +19,7 @@ from brace.diagnose.loading.data_faults.gate import gate
 from brace.diagnose.loading.troubles.likeliest import likeliest
 from brace.diagnose.loading.noise_after_base import with_growth, with_known_noise
 from brace.diagnose.loading.parts import locked_rows
-from brace.diagnose.loading.record import Record, load_record, setting_of
+from brace.identify.record import Record, load_record, setting_of
 from brace.diagnose.loading.rounding import asked_for
 from brace.diagnose.loading.search_pass import Pass
 from brace.diagnose.loading.search import Hypothesis, Search

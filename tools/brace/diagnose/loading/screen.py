@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from brace.diagnose.loading.fit import PROBE, SEEN_IN_TURNING, Fit, residuals
-from brace.diagnose.loading.record import Record
+from brace.identify.record import Record
 from brace.diagnose.loading.space import Space, Trust, compatible, space_of
 from brace.effects import Variant
 

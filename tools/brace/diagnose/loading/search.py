@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 from brace.diagnose.loading.evidence import score
 from brace.diagnose.loading.fit import Fit, fit
-from brace.diagnose.loading.record import Record
+from brace.identify.record import Record
 from brace.diagnose.loading.screen import Promise, screen
 from brace.diagnose.loading.space import Trust, space_of
 from brace.diagnose.options import Advance, silent

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.troubles.likeliest import Trouble
-from brace.diagnose.loading.record import Record
+from brace.identify.record import Record
 from brace.diagnose.loading.search import Hypothesis
 from brace.diagnose.loading.space import Trust
 from brace.diagnose.loading.structure import Structure

@@ -15,7 +15,7 @@ from brace.model import LimbModel
 from brace.native.plant_batch import model_numbers, number_index
 
 if TYPE_CHECKING:
-    from brace.diagnose.loading.record import Record
+    from brace.identify.record import Record
 
 
 @dataclass(frozen=True)

@@ -10,13 +10,14 @@ import numpy as np
 
 from brace.dataset.check_runs import run_starts
 from brace.diagnose.loading.fit import Fit
-from brace.diagnose.loading.noise import robust_sigma
-from brace.diagnose.loading.record import NOT_MEASURED, Record
+from brace.identify.noise import robust_sigma
+from brace.identify.record import NOT_MEASURED, Record
 from brace.diagnose.loading.rounding import blurred, rounds_to_record
 from brace.diagnose.loading.screen import Remover
 
 STRUCTURED_P = 1e-6  # family-wise; structure that matters is far below, and noise is never quite white
 MOST_DIMENSIONS = 160  # of one family
+LEAST_BESIDE = 6.0  # readings' worth of freedom that a family must leave: noise is not told by less
 ALIKE = 60  # readings of about the same size: enough to tell their own noise within a tenth
 
 
@@ -55,8 +56,9 @@ def structure_of(record: Record, fitted: Fit) -> Structure:
     remover = Remover(fitted)
     left = remover.augmented(fitted.residual[None])[0]
     tests = []
+    taken = float(np.sum(remover.basis[: record.measured.size] ** 2))  # freedoms that the fit took from the readings
     for words, shapes in _families(record, fitted):
-        tests.append(_test(words, shapes, remover, left, record.readings - fitted.space.size))
+        tests.append(_test(words, shapes, remover, left, record.readings - taken))
     tests.append(_lack_of_fit(record, fitted))
     tests.append(_neighbours(record, fitted))
     tests.append(_outliers(record, fitted))
@@ -64,7 +66,7 @@ def structure_of(record: Record, fitted: Fit) -> Structure:
     return Structure(min(1.0, least * len(tests)), tuple(sorted(tests, key=lambda item: item.p)))
 
 
-def _test(words: str, shapes: np.ndarray, remover: Remover, left: np.ndarray, freedom: int) -> FamilyTest:
+def _test(words: str, shapes: np.ndarray, remover: Remover, left: np.ndarray, freedom: float) -> FamilyTest:
     """By F: what the shapes take off, over what is left beside them, so that the noise need not be known well."""
     from scipy.special import fdtrc
 
@@ -78,7 +80,9 @@ def _test(words: str, shapes: np.ndarray, remover: Remover, left: np.ndarray, fr
     basis = basis[:, sizes > 1e-4 * sizes[0]][:, :MOST_DIMENSIONS]
     gain = float(np.sum((basis.T @ left) ** 2))
     dimensions = basis.shape[1]
-    beside = max(freedom - dimensions, 1)
+    beside = freedom - dimensions
+    if beside < LEAST_BESIDE:
+        return FamilyTest(words, 1.0, gain, dimensions)
     ratio = (gain / dimensions) / max((float(left @ left) - gain) / beside, 1e-300)
     return FamilyTest(words, float(fdtrc(dimensions, beside, ratio)), gain, dimensions)
 

@@ -192,6 +192,10 @@ def _gap(found: Diagnosis, seen: View | None) -> str:
             )
         )
     parts.append(html.picture(pictures.steps(found.gap), "The gap after each thing that was added."))
+    if found.held_out:
+        lead = "The model fitted to the rest of the record predicts the part that was held out:"
+        items = [words.held_out(part, found.gap.unit) for part in found.held_out]
+        parts.append(html.paragraph(lead) + html.bullets(items))
     if found.gap.after.held_out is None:
         parts.append(
             html.paragraph("Nothing could be held out, so the gap after is one of fitting only.", "small")

@@ -53,7 +53,8 @@ enum {
     BRACE_PART_POSTURE = 4,     /* joint angles, mode, faults: 20 Hz */
     BRACE_PART_ALL = 7,         /* the three parts above, which every limb has */
     BRACE_PART_SPACE = 8,       /* K in space of a limb whose coxa joint is fitted: in every snapshot */
-    BRACE_PART_LOAD = 16        /* the load that K counts: at controller.load_hz, which is 0 at first */
+    BRACE_PART_LOAD = 16,       /* the load that K counts: at controller.load_hz, which is 0 at first */
+    BRACE_PART_LOAD_ACROSS = 32 /* its y and K across without load, of a limb whose coxa joint is fitted: beside it */
 };
 
 /* K in the robot's base frame. */
@@ -73,7 +74,7 @@ typedef struct {
 } brace_client_space_t;
 
 /* The load that K counts, and what it does to the limb. x and z in the limb's plane, y across it, to the left: NaN for
- * a limb in its plane, and in a snapshot over CAN, whose frames do not carry it; brace_client_load asks for it. */
+ * a limb in its plane, and over CAN in a snapshot without BRACE_PART_LOAD_ACROSS. */
 typedef struct {
     bool is_counted; /* K is the one under this load; else K is the one without load, flagged LOAD_UNKNOWN */
     float force_x_n, force_y_n, force_z_n; /* force of the ground on the tip */

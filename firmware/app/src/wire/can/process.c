@@ -38,12 +38,13 @@ static const process_frame_t frames[] = {BRACE_CAN_PROCESS(CLASSIC) BRACE_CAN_PR
 enum { FRAME_COUNT = sizeof frames / sizeof *frames };
 _Static_assert(FRAME_COUNT <= 32, "a bit for each frame");
 
-/* Does this limb send the frame on this bus? Frames of CAN FD take the place of the classic ones; K in space is told
- * of a limb whose coxa joint is fitted. */
+/* Does this limb send the frame on this bus? Frames of CAN FD take the place of the classic ones; K in space and the
+ * load across the plane are told of a limb whose coxa joint is fitted. */
 static bool is_sent(const process_frame_t *frame, const process_bus_t *bus, const wire_tick_t *tick)
 {
-    const bool is_of_space =
-        frame->id == (uint32_t)BRACE_CAN_ID_SPACE || frame->id == (uint32_t)BRACE_CAN_ID_SPACE_FD;
+    const bool is_of_space = frame->id == (uint32_t)BRACE_CAN_ID_SPACE ||
+                             frame->id == (uint32_t)BRACE_CAN_ID_SPACE_FD ||
+                             frame->id == (uint32_t)BRACE_CAN_ID_LOAD_ACROSS;
     return frame->is_fd == (bus->fd_bit_rate != 0u) &&
            (!is_of_space || brace_app_snapshot(tick->app)->space.is_fitted);
 }

@@ -1,5 +1,6 @@
-/* Process data: K, its eigenvalues, the posture and the load of one snapshot, at the parameters' rates; K in space too
- * where the limb's coxa joint is fitted; over CAN FD in one frame to three. One for each port.
+/* Process data: K, its eigenvalues, the posture and the load of one snapshot, at the parameters' rates; K in space and
+ * the load across the plane too where the limb's coxa joint is fitted; over CAN FD in one frame to three. One for each
+ * port.
  *
  * All frames of a snapshot are made from one copy of it, so nothing is ever mixed from two. The next snapshot is taken
  * when the last frame of this one has left, so a busy bus thins the data and never splits them. Rates are lowered in

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from brace.dataset import DataFault, Dataset
 from brace.diagnose.loading.data_faults import columns, readings, runs, sides
-from brace.diagnose.loading.noise import FORCES
+from brace.identify.noise import FORCES
 from brace.diagnose.loading.data_faults.judge import Judge
 from brace.model import LimbModel
 

@@ -11,7 +11,7 @@ import numpy as np
 from brace.dataset import DataFault, Dataset
 from brace.dataset.unit_slips import FORCE_SLIPS, LENGTH_SLIPS
 from brace.diagnose.loading.data_faults.judge import Judge, alike, misfit
-from brace.diagnose.loading.noise import FORCES
+from brace.identify.noise import FORCES
 
 Columns = Mapping[str, np.ndarray]
 Change = Callable[[Columns], dict[str, np.ndarray]]

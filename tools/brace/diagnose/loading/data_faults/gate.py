@@ -9,7 +9,7 @@ from scipy.special import fdtrc
 
 from brace.dataset import DataFault, Dataset
 from brace.diagnose.diagnosis import Diagnosis
-from brace.diagnose.loading.noise import FORCES
+from brace.identify.noise import FORCES
 from brace.diagnose.loading.data_faults import against_limb
 from brace.diagnose.options import Options
 from brace.errors import BadFileError
@@ -18,6 +18,7 @@ from brace.model import LimbModel
 
 MOST_LISTED = 200
 FOLLOWS_P = 1e-6  # forces that follow the displacement by chance
+FEW_FOLLOW_P, FOLLOWED = 0.01, 0.9  # of a few readings no more can be told, if so much of their square follows
 
 
 def gate(dataset: Dataset, believed: LimbModel, options: Options) -> Diagnosis | None:
@@ -97,4 +98,5 @@ def _forces_follow(dataset: Dataset) -> bool:
     free -= slopes
     if slopes == 0 or free <= 0 or left <= 0.0:
         return explained > 0.0
-    return bool(fdtrc(slopes, free, (explained / slopes) / (left / free)) < FOLLOWS_P)
+    p = float(fdtrc(slopes, free, (explained / slopes) / (left / free)))
+    return p < FOLLOWS_P or (p < FEW_FOLLOW_P and explained > FOLLOWED * (explained + left))

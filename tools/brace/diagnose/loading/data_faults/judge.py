@@ -12,9 +12,9 @@ import numpy as np
 from brace.dataset import Dataset
 from brace.dataset.check_runs import run_starts
 from brace.diagnose.loading.fit import fit
-from brace.diagnose.loading.noise import FORCES, ChannelNoise
+from brace.identify.noise import FORCES, ChannelNoise
 from brace.dataset.enough import enough_rows
-from brace.diagnose.loading.record import Record, load_record
+from brace.identify.record import Record, load_record
 from brace.diagnose.loading.space import Space, Trust, space_of, trust_of
 from brace.identify.playing import player_of
 from brace.identify.turning import settled

@@ -10,7 +10,7 @@ import numpy as np
 
 from brace.dataset import DataFault
 from brace.dataset.check_runs import MAX_LISTED
-from brace.diagnose.loading.noise import FORCES
+from brace.identify.noise import FORCES
 from brace.diagnose.loading.data_faults.judge import Judge
 
 LOUD = 12.0  # times the usual step aside between neighbours

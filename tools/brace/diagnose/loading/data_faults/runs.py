@@ -11,7 +11,7 @@ import numpy as np
 
 from brace.dataset import DataFault, Dataset
 from brace.diagnose.loading.data_faults.columns import SAME_SHAPE, UNITS
-from brace.diagnose.loading.noise import FORCES
+from brace.identify.noise import FORCES
 from brace.diagnose.loading.data_faults.judge import Judge, alike, misfit
 
 MOST_LEFT_OUT = 4  # poses that are left out on trial

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from brace.dataset import DataFault
-from brace.diagnose.loading.noise import FORCES
+from brace.identify.noise import FORCES
 from brace.diagnose.loading.data_faults.judge import Judge, misfit
 from brace.identify.playing import player_of
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from brace.diagnose.diagnosis import NextExperiment
+from brace.diagnose.loading.next_experiment.by_hand import orders
 from brace.diagnose.loading.next_experiment.menu import (
     BEFORE_S,
     CHANNELS,
@@ -23,7 +24,7 @@ from brace.diagnose.loading.next_experiment.menu import (
     conditions,
     postures,
 )
-from brace.diagnose.loading.record import Record
+from brace.identify.record import Record
 from brace.diagnose.loading.next_experiment.separation import (
     Contender,
     Played,
@@ -35,6 +36,7 @@ from brace.diagnose.loading.next_experiment.separation import (
     power,
     weights,
 )
+from brace.diagnose.loading.troubles.kinds import ZERO_STEP, ZEROS
 from brace.diagnose.options import Options
 from brace.model import LimbModel
 
@@ -45,6 +47,7 @@ POSTURES_AND_REPEATS = ((3, 1), (5, 1), (8, 1), (8, 2), (8, 4))
 GOOD_ENOUGH = 0.99  # a test that is as sure as this need not be surer
 NEAR_BEST = 0.01  # of worth that is given up for a shorter test
 NO_POWER = 0.05  # below it nothing is separated
+LIKELY = 0.8  # power below which a person is told what else to do
 
 
 @dataclass(frozen=True)
@@ -74,7 +77,7 @@ def next_experiment(
     angles = postures(record, limits)
     plans = [
         plan
-        for condition in conditions(record, [item.fit for item in hypotheses])
+        for condition in conditions(record, [item.fit for item in hypotheses], wanders=_zero_wanders(final))
         for plan in _plans(record, hypotheses, condition, angles, first)
     ]
     best = _shortest_of_the_best(plans)
@@ -86,22 +89,28 @@ def next_experiment(
     found = lambda_squared(played, hypotheses, amount)
     chance = float(power(found, hypotheses)[0])
     separates = _separated(hypotheses)
+    other = "; or ".join(orders(separates)) if chance < LIKELY else ""
     if chance < NO_POWER:
         return NextExperiment(
             f"nothing on this rig's menu separates {' and '.join(separates)}: other postures, larger, "
             "smaller, slower, preloaded or repeated runs, warmth, encoders and a dial gauge would all read "
-            "the same",
+            f"the same{f'. Instead, {other}' if other else ''}",
             separates,
             chance,
             best.minutes,
         )
     return NextExperiment(
-        _in_words(record, best, separates),
+        _in_words(record, best, separates) + (f". Surer still: {other}" if other else ""),
         separates,
         chance,
         round(best.minutes, 1),
         _rig_toml(record, best, options.seed),
     )
+
+
+def _zero_wanders(final: Pass) -> bool:
+    """Whether the sensor's zero moved in this record, or may have."""
+    return any(one is not None and one.name in (ZERO_STEP, ZEROS) for one in (*final.troubles, final.rival))
 
 
 def _plans(
@@ -179,6 +188,9 @@ def _in_words(record: Record, plan: Plan, separates: Sequence[str]) -> str:
         f"{often} each, {rig['rig.steps']} steps of {rig['rig.step_mm']:g} mm to each side, "
         f"{rig['rig.dwell_s']:g} s before each reading"
     )
+    newly_zeroed = rig["rig.zeroed"] == "per_run" and not record.dataset.meta.zeroed_per_run
+    if newly_zeroed:
+        words += ", the sensor zeroed before each run"
     if plan.condition.name != "again":
         words += f", {plan.condition.words}"
     mounted = []
@@ -188,7 +200,9 @@ def _in_words(record: Record, plan: Plan, separates: Sequence[str]) -> str:
         mounted.append("a dial gauge on the base along x and z")
     if mounted:
         words += f", with {' and '.join(mounted)} besides"
-    return f"{words}: about {plan.minutes:.0f} min; add the rows to this record and diagnose again"
+    # a record is zeroed before every run or before none
+    then = "diagnose the new runs by themselves" if newly_zeroed else "add the rows to this record and diagnose again"
+    return f"{words}: about {plan.minutes:.0f} min; {then}"
 
 
 def _rig_toml(record: Record, plan: Plan, seed: int) -> str:
@@ -205,7 +219,6 @@ def _rig_toml(record: Record, plan: Plan, seed: int) -> str:
             },
             "repeats": plan.repeats,
             "start_s": round(float(record.dataset["t_s"][-1]) + BEFORE_S, 3),
-            "zeroed": "per_run" if meta.zeroed_per_run else "never",
         },
         "sensor": {
             "noise_n": float(f"{np.hypot(noise['fx_n'].floor, noise['fz_n'].floor) / np.sqrt(2.0):.3g}"),

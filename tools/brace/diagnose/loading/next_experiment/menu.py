@@ -11,9 +11,9 @@ import numpy as np
 
 from brace.dataset.check_runs import run_starts
 from brace.diagnose.loading.fit import Fit
-from brace.diagnose.loading.noise import ChannelNoise
-from brace.diagnose.loading.noise import FORCES
-from brace.diagnose.loading.record import Record
+from brace.identify.noise import ChannelNoise
+from brace.identify.noise import FORCES
+from brace.identify.record import Record
 from brace.effects.catalogue import TIME_KEYS
 from brace.identify.playing import player_of
 from brace.native.plant import play_rig
@@ -67,8 +67,9 @@ class Condition:
         return SET_UP_MIN + self.extra_min + instruments + POSTURE_MIN * postures + runs_min
 
 
-def conditions(record: Record, fits: list[Fit]) -> Iterator[Condition]:
-    """The record's own way first."""
+def conditions(record: Record, fits: list[Fit], *, wanders: bool = False) -> Iterator[Condition]:
+    """The record's own way first. `wanders`: the sensor's zero does, so that it is zeroed before each run from now
+    on."""
     data = record.dataset
     starts = run_starts(data["run"])
     reach = float(max(np.abs(data["dx_mm"]).max(), np.abs(data["dz_mm"]).max()))
@@ -86,6 +87,7 @@ def conditions(record: Record, fits: list[Fit]) -> Iterator[Condition]:
         "rig.preload_x_mm": 0.0,
         "rig.preload_z_mm": 0.0,
         "rig.shuffled": False,
+        "rig.zeroed": "per_run" if wanders or data.meta.zeroed_per_run else "never",
         "temperature.rise_degc": 0.0,
         "temperature.time_constant_s": 600.0,
     }
@@ -105,12 +107,13 @@ def conditions(record: Record, fits: list[Fit]) -> Iterator[Condition]:
     step = _short(0.3 * reach / steps)
     yield Condition("smaller", f"smaller steps ({step:g} mm)", other(rig__step_mm=step))
     offset = _short(reach)
-    yield Condition(
-        "preload",
-        f"each run starting from a preload ({offset:g} mm along x and z)",
-        other(rig__preload_x_mm=offset, rig__preload_z_mm=offset),
-        PRELOAD_MIN,
-    )
+    for x, z in ((offset, offset), (-offset, offset)):
+        yield Condition(
+            "preload",
+            f"each run starting from a preload ({x:g} mm along x, {z:g} mm along z)",
+            other(rig__preload_x_mm=x, rig__preload_z_mm=z),
+            PRELOAD_MIN,
+        )
     if any(
         key in TIME_KEYS
         for fitted in fits
@@ -187,7 +190,7 @@ def as_record(record: Record, condition: Condition, angles: np.ndarray, readings
     )
     columns["t_s"] = columns["t_s"] + float(record.dataset["t_s"][-1]) + BEFORE_S
     noise = {name: record.noise.get(name, _stated(name)) for name in CHANNELS}
-    zeroed = record.dataset.meta.zeroed_per_run
+    zeroed = rig["rig.zeroed"] == "per_run"
     dataset = replace(record.dataset, columns=columns, faults=())
     player = player_of(dataset, CHANNELS, zeroed=zeroed)
     expected = np.nan_to_num(player.play_numbers(readings_of[None])[0])

@@ -14,7 +14,7 @@ import numpy as np
 
 from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.fit import BIG, PROBE, Fit
-from brace.diagnose.loading.record import Record
+from brace.identify.record import Record
 
 WIN_NATS = 3.0  # by which the right one must lead to count as told
 LEAST_ODDS = -8.0  # log odds below the best from which a set is no rival of its own accord

@@ -10,8 +10,8 @@ import numpy as np
 
 from brace.dataset.check_runs import run_starts
 from brace.diagnose.loading.fit import Fit
-from brace.diagnose.loading.noise import FORCES
-from brace.diagnose.loading.record import Record
+from brace.identify.noise import FORCES
+from brace.identify.record import Record
 from brace.diagnose.loading.screen import Remover
 from brace.diagnose.loading.structure import far_among_alike
 from brace.diagnose.loading.troubles.steps import best_rows

@@ -13,7 +13,7 @@ from brace.diagnose.loading.choose import LabelSet
 from brace.diagnose.loading.evidence import evidence, freedoms, score
 from brace.diagnose.loading.fit import Fit, fit
 from brace.diagnose.loading.intervals import Z_90
-from brace.diagnose.loading.record import Record
+from brace.identify.record import Record
 from brace.diagnose.loading.rounding import rounds_to_record
 from brace.diagnose.loading.screen import Remover
 from brace.diagnose.loading.troubles.kinds import GAIN_STEP, LAG, OF_POSTURES, OUTLIERS, SLIP, ZERO_STEP, kinds

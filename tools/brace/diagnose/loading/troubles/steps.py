@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from brace.diagnose.loading.record import Record
+from brace.identify.record import Record
 from brace.diagnose.loading.screen import Remover
 
 LEAST_SHARE = 1e-6  # of a step's own length, that the fitted limb must leave of it

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from brace.diagnose.loading.record import Record
+from brace.identify.record import Record
 from brace.diagnose.loading.troubles.kinds import GAIN_STEP, LAG, POSE, SLIP, ZERO_STEP, ZEROS
 
 MOST_LISTED = 8  # rows

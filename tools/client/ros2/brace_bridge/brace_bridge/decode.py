@@ -78,13 +78,16 @@ class LimbLoad:
     sequence: int
     is_counted: bool
     force_x: float
+    force_y: float
     force_z: float
     moved_x: float
+    moved_y: float
     moved_z: float
     buckling_factor: float
     unloaded_k_xx: float
     unloaded_k_xz: float
     unloaded_k_zz: float
+    unloaded_k_across: float
     gravity_direction: float
     gravity_lean: float
 
@@ -213,13 +216,16 @@ def load_message_of(snapshot: Snapshot, load: Load) -> LimbLoad:
         sequence=snapshot.sequence,
         is_counted=load.is_counted,
         force_x=_or_nan(v["counted_force_x"]),
+        force_y=_or_nan(v.get("counted_force_y")),
         force_z=_or_nan(v["counted_force_z"]),
         moved_x=_or_nan(v["moved_x"]) / MM_PER_M,
+        moved_y=_or_nan(v.get("moved_y")) / MM_PER_M,
         moved_z=_or_nan(v["moved_z"]) / MM_PER_M,
         buckling_factor=_or_nan(v["buckling_factor"]),
         unloaded_k_xx=_per_m(v["unloaded_k_xx"]),
         unloaded_k_xz=_per_m(v["unloaded_k_xz"]),
         unloaded_k_zz=_per_m(v["unloaded_k_zz"]),
+        unloaded_k_across=_per_m(v.get("unloaded_k_across")),
         gravity_direction=_or_nan(v["gravity_direction"]),
         gravity_lean=_or_nan(v["gravity_lean"]),
     )

@@ -1,6 +1,6 @@
 """K of node 1 at a posture, with python-can and the generated names alone.
 
-print_k.py socketcan can0 | print_k.py slcan socket://127.0.0.1:29536
+ask_k.py socketcan can0 | ask_k.py slcan socket://127.0.0.1:29536
 """
 
 import sys

@@ -10,14 +10,15 @@ import numpy as np
 
 from brace.dataset import Dataset
 from brace.dataset.check_runs import run_starts
-from brace.diagnose.loading.noise import FORCES, ChannelNoise, noise_of
+from brace.identify.noise import FORCES, ChannelNoise, noise_of
 from brace.effects import LoadingSize
 from brace.identify.playing import player_of
 from brace.model import LimbModel
 from brace.native.plant_batch import LoadingBatchPlayer, model_numbers, number_index
 
 NOT_MEASURED = 1e30  # sigma of a reading that was not taken
-MOST_KNOWN = 400  # limbs whose residuals are kept: some megabytes
+MOST_KNOWN = 400  # limbs whose residuals are kept
+MOST_KEPT_BYTES = 64_000_000  # of them together
 SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
 
 
@@ -25,8 +26,8 @@ SIDE_READINGS = ("enc1_rad", "enc2_rad", "base_x_mm", "base_z_mm")
 class Record:
     """`measured` and `sigma` are channels x rows, in the channels' units; forces come first. Where a channel was not
     read, `measured` is 0 and sigma is NOT_MEASURED. `zeroed` are the places of the channels of which each run's first
-    reading was taken off. `beside_model` (channels x rows x sizes, in the channels' units for one sigma of each size) is
-    what instruments may add to the readings; it is taken out of residuals as far as it may explain them."""
+    reading was taken off. `beside_model` (channels x rows x sizes, in the channels' units for one sigma of each size)
+    is what instruments may add to the readings; it is taken out of residuals as far as it may explain them."""
 
     dataset: Dataset
     channels: tuple[str, ...]
@@ -51,7 +52,7 @@ class Record:
         found = np.empty((len(models), self.measured.size))
         for place, name in enumerate(names):
             known[name] = found[place] = known.pop(name)
-        while len(known) > MOST_KNOWN:
+        while len(known) > min(MOST_KNOWN, max(1, MOST_KEPT_BYTES // self.measured.nbytes)):
             del known[next(iter(known))]
         return found
 
@@ -65,7 +66,10 @@ class Record:
         return run_starts(self.dataset["run"])
 
     def _played(self, models: np.ndarray) -> np.ndarray:
-        played = self.player.play_numbers(models)
+        return self.left_by(self.player.play_numbers(models))
+
+    def left_by(self, played: np.ndarray) -> np.ndarray:
+        """What played readings (models x channels x rows, overwritten) leave of the record, as `residuals` has it."""
         starts = self._starts
         for channel in self.zeroed[len(FORCES) :]:  # the player takes the forces' own off
             played[:, channel] -= np.repeat(played[:, channel, starts[:-1]], np.diff(starts), axis=1)
@@ -73,7 +77,7 @@ class Record:
         played /= -self.sigma
         for channel in self.zeroed:
             _whiten_zeroing(played[:, channel], starts)
-        left = played.reshape(len(models), self.measured.size)
+        left = played.reshape(len(played), self.measured.size)
         if self.beside_model is not None:
             basis, share = self._beside
             left -= ((left @ basis) * share) @ basis.T
@@ -162,6 +166,14 @@ class Record:
     def noise_freedom(self) -> float:
         """On how many independent readings the noise rests, all channels together."""
         return float(sum(noise.freedom for noise in self.noise.values()))
+
+
+def rms_force_n(record: Record, numbers: np.ndarray, rows: np.ndarray | None = None) -> float:
+    """rms of measured less model over the forces that were read [N]."""
+    played = record.player.play_numbers(numbers[None])[0, :2]
+    off = np.where(record.forces_read, record.measured[:2] - played, np.nan)
+    some = off if rows is None else off[:, rows]
+    return float(np.sqrt(np.nanmean(some**2))) if np.isfinite(some).any() else 0.0
 
 
 def load_record(dataset: Dataset) -> Record:

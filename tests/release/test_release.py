@@ -1,0 +1,88 @@
+"""Parts of ./dev release that are quick to try; the whole of it is run before a release."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import sys
+import tarfile
+import tomllib
+from pathlib import Path
+
+import pytest
+from targets import PROJECT, output_of
+
+sys.path.insert(0, str(PROJECT / "tools"))
+from release import requirements, source  # noqa: E402
+
+EPOCH_S = 1_700_000_000
+HERE = source.Source(PROJECT, "0" * 40, EPOCH_S, source.version_of(PROJECT))
+
+
+def test_an_archive_does_not_depend_on_order_time_or_rights(tmp_path: Path) -> None:
+    for name, files in (("one", ("b", "a/c")), ("two", ("a/c", "b"))):
+        for file in files:
+            path = tmp_path / name / file
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(file)
+    (tmp_path / "two" / "b").chmod(0o600)
+    for name in ("one", "two"):
+        source.archive(tmp_path / name, "brace-1", tmp_path / f"{name}.tar.gz", EPOCH_S)
+    assert (tmp_path / "one.tar.gz").read_bytes() == (tmp_path / "two.tar.gz").read_bytes()
+    with tarfile.open(tmp_path / "one.tar.gz") as tar:
+        assert tar.getnames() == ["brace-1/a", "brace-1/a/c", "brace-1/b"]
+        assert {entry.mtime for entry in tar} == {EPOCH_S}
+
+
+def test_sums_are_what_sha256sum_reads(tmp_path: Path) -> None:
+    (tmp_path / "firmware").mkdir()
+    for name in ("firmware/b.bin", "a.txt"):
+        (tmp_path / name).write_text(name)
+    (tmp_path / "SHA256SUMS").write_text(source.sums(tmp_path))
+    assert output_of("sha256sum", "--check", "SHA256SUMS", cwd=tmp_path).splitlines() == [
+        "a.txt: OK", "firmware/b.bin: OK",
+    ]  # fmt: skip
+
+
+def test_the_pinned_packages_are_those_that_the_command_needs() -> None:
+    """Otherwise: .venv/bin/python tools/release/requirements.py."""
+    wanted = tomllib.loads((PROJECT / "tools" / "pyproject.toml").read_text())["project"]["dependencies"]
+    pinned = {package.name: package.version for package in requirements.read()}
+    assert len(pinned) > len(wanted)
+    for text in wanted:
+        name, _, least = text.partition(">=")
+        assert name in pinned, f"{name} is not in tools/release/requirements.txt"
+        numbers = [tuple(map(int, re.findall(r"\d+", version)[:2])) for version in (pinned[name], least)]
+        assert numbers[0] >= numbers[1]
+
+
+def test_bill_of_materials(tmp_path: Path) -> None:
+    pytest.importorskip("cyclonedx")
+    from cyclonedx.schema import SchemaVersion
+    from cyclonedx.validation.json import JsonStrictValidator
+    from release.bill_of_materials import bill_of_materials
+
+    if shutil.which("dpkg-query") is None:
+        pytest.skip("not Debian")
+    text = bill_of_materials(HERE)
+    assert text == bill_of_materials(HERE)
+    assert JsonStrictValidator(SchemaVersion.V1_6).validate_str(text) is None
+    bill = json.loads(text)
+    assert bill["metadata"]["component"]["name"] == "brace"
+    names = {part["name"] for part in bill["components"]}
+    assert {"eigen", "newlib", "numpy", "scipy"} <= names and len(names) == len(requirements.read()) + 3
+
+
+def test_the_source_distribution_has_what_its_build_needs(tmp_path: Path) -> None:
+    """Every folder that the top CMakeLists.txt takes in for the wheel, and the licence; no board, no test."""
+    pytest.importorskip("build")
+    pytest.importorskip("scikit_build_core")
+    from release.python_packages import source_distribution
+
+    made = source_distribution(HERE, tmp_path / "work", tmp_path)
+    with tarfile.open(made) as tar:
+        names = {name.partition("/")[2] for name in tar.getnames()}
+    assert {"LICENSE", "brace/data/paper-limb.toml", "native/CMakeLists.txt", "native/firmware/core/cmake/package.cmake",
+            "native/host_sim/CMakeLists.txt", "native/hal/posix/include/brace_hal_posix.h"} <= names  # fmt: skip
+    assert not any(name.startswith(("native/tests", "native/firmware/boards")) for name in names)

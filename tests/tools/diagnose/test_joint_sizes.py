@@ -1,0 +1,115 @@
+"""What a joint test says of sizes, and what it exports where no model was given. Written from the physics."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from by_torque import found_in, recorded, triangle, under_torque
+
+import joint_cases
+from brace.dataset import load_dataset
+from brace.diagnose.diagnosis import Diagnosis
+from brace.diagnose.joint_test.fit import Fitter
+from brace.diagnose.joint_test.intake import spring_alone
+from brace.diagnose.joint_test.record import JointRecord
+from brace.diagnose.joint_test.terms import effects_of
+from brace.effects import JointTestBench
+from brace.identify.joint_test import usable
+from brace.identify.run import Options, identify
+
+COMPLIANCE, GAP, FRICTION = 2e-6, 0.04, 1200.0
+FULL_N_MM = 4000.0
+GAP_KEY, RATIO_KEY = "joint.femur.gap_rad", "joint.femur.coulomb_per_load_ratio"
+
+
+def ramps(
+    reach_rad: float, gap_rad: float, compliance: float, hardening: float = 0.0
+) -> tuple[np.ndarray, np.ndarray]:
+    """Angles that are imposed, and the torque. Friction turns over a hundredth of the swing."""
+    angle = reach_rad * np.concatenate([triangle(), triangle()])
+    rubs, friction = 0.0, []
+    for moved in np.diff(angle, prepend=0.0):
+        rubs = float(np.clip(rubs + FRICTION * moved / (0.02 * reach_rad), -FRICTION, FRICTION))
+        friction.append(rubs)
+    bent = np.sign(angle) * np.maximum(np.abs(angle) - 0.5 * gap_rad, 0.0)
+    return angle, bent / compliance + hardening * bent**3 + np.array(friction)
+
+
+def small_ramps(folder: Path, gap_rad: float = GAP) -> Diagnosis:
+    """Ramps that hardly leave the play: eight tenths of the swing are free travel."""
+    random = np.random.default_rng(3)
+    angle, torque = ramps(0.5 * gap_rad + COMPLIANCE * (FULL_N_MM - FRICTION), gap_rad, COMPLIANCE)
+    tests = [(angle, torque + 40.0 * random.standard_normal(angle.size)) for _ in range(5)]
+    return found_in(folder, tests)
+
+
+def test_play_may_take_nearly_all_of_a_small_swing(tmp_path: Path) -> None:
+    found = small_ramps(tmp_path)
+    play = [e for e in found.effects if e.name == "backlash"]
+    assert play, found.sentence
+    assert play[0].parameters[GAP_KEY].value == pytest.approx(GAP, rel=0.05)
+    assert found.model.number("joint.femur.compliance_rad_per_n_mm") == pytest.approx(COMPLIANCE, rel=0.25)
+
+
+def test_without_a_model_limb_toml_has_play_and_friction_as_gears_do(tmp_path: Path) -> None:
+    """Play was not named; limb.toml has the little that fits, and a note says why."""
+    found = small_ramps(tmp_path, gap_rad=0.0)
+    assert {e.name for e in found.effects} == {"coulomb_friction"}, found.sentence
+    assert found.model.number("joint.femur.coulomb_n_mm") == pytest.approx(FRICTION, rel=0.1)
+    assert found.model.number("joint.femur.hardening_n_mm_per_rad3") == 0.0
+    assert found.model.number(GAP_KEY) == 0.0 or any("geared joint" in note for note in found.notes), found.notes
+
+
+def test_a_friction_that_no_gear_has_needs_evidence_to_match(tmp_path: Path) -> None:
+    """Of what a record does not tell, the fit says what gears have: a turn of the friction is told by few readings of
+    a small test, and constant friction may stand in for one that grows with the load."""
+    torque = FULL_N_MM * triangle()
+    angle = under_torque(torque, 0.0, 0.5 * FULL_N_MM, COMPLIANCE)
+    times = 0.02 * np.arange(angle.size)
+    columns = {"t_s": times, "angle_rad": angle, "torque_n_mm": torque, "test": np.zeros(angle.size)}
+    folder = joint_cases.Case("", {}, columns).write(tmp_path)
+    record = JointRecord(load_dataset(folder))
+    fitter = Fitter(record, spring_alone(load_dataset(folder)), np.inf)
+    bench = JointTestBench(record.size, given=False, rests=False)
+    rubs = next(term for term in effects_of(fitter.base, "femur", bench) if term.name == "coulomb_friction")
+    chosen = fitter.parameter_set((rubs,))
+    at = chosen.keys.index(RATIO_KEY)
+    x = chosen.array("start").copy()
+    off = np.full(record.fitted.size, 10.0)
+    x[at] = 0.15
+    assert fitter._pull(chosen, x, off) is None
+    x[at] = 0.5
+    pull = fitter._pull(chosen, x, off)
+    assert pull is not None and pull[at] > 0.0 and np.count_nonzero(pull) == 1
+
+
+def test_identify_and_diagnose_give_the_same_numbers(tmp_path: Path) -> None:
+    """A joint that has all that `brace identify` fits: both fit the same model to the same readings."""
+    random = np.random.default_rng(4)
+    tests = []
+    for share in (0.5, 1.0, 0.52, 0.98):
+        angle, torque = ramps(share * 0.02, 0.008, COMPLIANCE, 3e9)
+        tests.append((angle, torque + 40.0 * random.standard_normal(angle.size)))
+    found = found_in(tmp_path / "diagnose", tests)
+    assert {e.name for e in found.effects} == {"backlash", "coulomb_friction", "joint_hardening"}, found.sentence
+    record = load_dataset(recorded(tmp_path / "identify", tests))
+    fitted = identify(record, spring_alone(record), Options())
+    assert found.joint is not None
+    told = dict(zip(fitted.fit.parameters.keys, fitted.information.estimates()))
+    for key, held in found.joint.parameters.items():
+        if not key.endswith("per_load_ratio"):
+            assert told[key].value == pytest.approx(held.value, rel=0.01), key
+            assert told[key].low <= held.high and held.low <= told[key].high, key
+
+
+def test_readings_where_the_drive_does_not_follow_tell_nothing() -> None:
+    """A drive that follows its command but for a moment, one whose torque is measured elsewhere, and none recorded."""
+    command = 1000.0 * triangle(400)
+    columns = {"torque_n_mm": command.copy(), "command_n_mm": command, "test": np.zeros(400)}
+    columns["torque_n_mm"][50:60] += 300.0
+    assert np.flatnonzero(~usable(columns)).tolist() == list(range(50, 60))
+    elsewhere = columns | {"torque_n_mm": 0.85 * command}
+    assert np.all(usable(elsewhere))
+    assert np.all(usable({name: columns[name] for name in ("torque_n_mm", "test")}))

@@ -1,0 +1,218 @@
+"""What people type: numbers with units, links, joints. Each refusal says what may stand there."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+
+from brace.errors import UsageError, did_you_mean
+from brace.newlimb.beams import ALIASES, MATERIALS, Compliances, Material, of_modulus, round_beam
+from brace.units import unit_of
+
+_NUMBER = re.compile(r"\s*([-+]?\d*\.?\d+(?:[eE][-+]?\d+)?)\s*(.*?)\s*")
+UNKNOWN = "unknown"
+LENGTH_MM = (10.0, 3000.0)  # of a link
+STIFFNESS_N_M_PER_RAD = (1.0, 1e6)  # of a joint
+PLAY_MOST_RAD = 0.1
+GUESSED_N_M_PER_RAD = 60.0  # a position-held servo of the MX-106's size: 54 to 66 measured
+GUESSED_REL, SAID_REL, MEASURED_REL = 0.5, 0.2, 0.05
+
+
+def refusal(what: str, why: str, way: str) -> UsageError:
+    """A value that a limb cannot have, or that nobody can read."""
+    return UsageError(what, why=why, next_step=way)
+
+
+def _split(text: str) -> tuple[float, str]:
+    match = _NUMBER.fullmatch(text)
+    if match and match.group(2).startswith(","):
+        raise refusal(f"{text!r} has a decimal comma", "the decimal sign is a point", text.replace(",", "."))
+    if not match:
+        raise refusal(f"{text!r} is not a number with a unit", "a number comes first", "e.g. 20arcmin")
+    return float(match.group(1)), match.group(2)
+
+
+def length_mm(text: str) -> float:
+    """A length; mm where no unit is said."""
+    value, unit_text = _split(text)
+    unit = unit_of(unit_text) if unit_text else unit_of("mm")
+    if unit is None or unit.quantity != "length":
+        raise refusal(f"{text!r}: {unit_text!r} is no unit of a length", "mm, cm, m or in", "e.g. 185 or 0.185m")
+    found = unit.factor * value
+    low, high = LENGTH_MM
+    if not low <= found <= high:
+        likely = f"{1e3 * value:g} if it was in metres" if not unit_text and low <= 1e3 * value <= high else "e.g. 185"
+        raise refusal(f"{text!r} is {found:g} mm", f"a link has {low:g} to {high:g} mm", likely)
+    return found
+
+
+def offset_mm(text: str) -> float:
+    """A distance that may be small or none."""
+    value, unit_text = _split(text)
+    unit = unit_of(unit_text) if unit_text else unit_of("mm")
+    if unit is None or unit.quantity != "length" or not 0.0 <= unit.factor * value <= LENGTH_MM[1]:
+        raise refusal(f"{text!r} is no distance of axes", f"0 to {LENGTH_MM[1]:g} mm", "e.g. 57")
+    return unit.factor * value
+
+
+def play_rad(text: str) -> float:
+    """The full play of a gear; its unit must be said."""
+    if text.strip().lower() in ("none", "0"):
+        return 0.0
+    value, unit_text = _split(text)
+    unit = unit_of(unit_text)
+    if unit is None or unit.quantity != "angle":
+        raise refusal(
+            f"{text!r}: in which unit?", "a play is told in arcmin, deg or rad", f"{value:g}deg or {value:g}arcmin"
+        )
+    found = unit.factor * value
+    if found < 0.0 or found > PLAY_MOST_RAD:
+        raise refusal(
+            f"{text!r} is {math.degrees(found):.3g} deg of play",
+            f"a gear has 0 to {math.degrees(PLAY_MOST_RAD):.2g} deg",
+            f"{value:g}deg or {value:g}arcmin, if that was meant" if found > 0 else "a play has no sign",
+        )
+    return found
+
+
+def angle_rad(text: str) -> float:
+    """A joint's angle; its unit must be said."""
+    value, unit_text = _split(text)
+    unit = unit_of(unit_text)
+    if unit is None or unit.quantity != "angle":
+        raise refusal(f"{text!r}: in which unit?", "an angle is told in deg or rad", f"{value:g}deg or {value:g}rad")
+    if abs(unit.factor * value) > 2 * math.pi:
+        raise refusal(f"{text!r} is more than a turn", "a joint of a limb turns once at most", f"{value:g}deg?")
+    return unit.factor * value
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A joint's spring; how far it may be off; whether it was guessed."""
+
+    compliance_rad_per_n_mm: float
+    sigma_rel: float
+    words: str
+    guessed: bool = False
+
+
+def joint(text: str) -> Joint:
+    """60, '60 N m/rad', '1 N m/deg', '1.6e-5 rad/(N mm)', rigid, unknown."""
+    said = text.strip().lower()
+    if said == UNKNOWN:
+        return Joint(1e-3 / GUESSED_N_M_PER_RAD, GUESSED_REL, f"a servo of {GUESSED_N_M_PER_RAD:g} N m/rad", True)
+    if said == "rigid":
+        return Joint(0.0, 0.0, "rigid")
+    value, unit = _split(text)
+    unit = re.sub(r"[\s*\u00b7()]", "", unit).lower()
+    per_rad = {"": 1.0, "nm/rad": 1.0, "nmm/rad": 1e-3, "knm/rad": 1e3, "nm/deg": 180 / math.pi,
+               "nm/\u00b0": 180 / math.pi,
+               "nm/arcmin": 10800 / math.pi, "mnm/rad": 1e-3}  # fmt: skip
+    soft = {"rad/nmm": 1.0, "rad/nm": 1e-3, "deg/nm": math.pi / 180 * 1e-3, "arcmin/nm": math.pi / 10800 * 1e-3}
+    if unit not in per_rad and unit not in soft:
+        raise refusal(
+            f"{text!r}: its unit is not known", "N m/rad, N m/deg, N m/arcmin, rad/(N mm)", "e.g. '60 N m/rad'"
+        )
+    if value <= 0.0:
+        raise refusal(f"{text!r} is no stiffness", "it is above zero; rigid is said as rigid", "e.g. '60 N m/rad'")
+    stiffness = value * per_rad[unit] if unit in per_rad else 1e-3 / (value * soft[unit])  # N m/rad
+    low, high = STIFFNESS_N_M_PER_RAD
+    if not low <= stiffness <= high:
+        raise refusal(
+            f"{text!r} is {stiffness:.3g} N m/rad",
+            f"servos and gears of limbs have {low:g} to {high:g} N m/rad",
+            "'60 N m/rad', say; is the unit right?",
+        )
+    return Joint(1e-3 / stiffness, SAID_REL, f"{stiffness:.4g} N m/rad")
+
+
+@dataclass(frozen=True)
+class Link:
+    """A link's compliances; whether it bends as a beam; how far they may be off."""
+
+    compliances: Compliances
+    is_beam: bool
+    sigma_rel: float
+    words: str
+    guessed: bool = False
+
+
+LINK_FORMS = (
+    "'tube OUTER INNER MATERIAL', 'rod DIAMETER MATERIAL', 'measured MM_PER_N', 'rigid' (mm; a material or e.g. 70GPa)"
+)
+
+
+def link(text: str, length: float) -> Link:
+    """'tube 20 16 aluminium', 'rod 12 70GPa', 'measured 0.06', 'rigid'."""
+    words = text.replace(",", " ").replace("/", " ").split()
+    kind = words[0].lower() if words else ""
+    if kind == "rigid" and len(words) == 1:
+        return Link(Compliances(0.0, 0.0, 0.0, 0.0), False, 0.0, "rigid")
+    if kind == "measured" and len(words) in (2, 3):
+        bending = _diameter(words[1], "a compliance across the link [mm/N]")
+        axial = _diameter(words[2], "a compliance along the link [mm/N]") if len(words) == 3 else 0.0
+        if bending > 5.0:
+            raise refusal(
+                f"{text!r}: {bending:g} mm/N is a millimetre under {1 / bending:.2g} N",
+                "a limb's link yields 0.0001 to 5 mm/N",
+                f"measured {bending * 1e-3:g} if it was in um/N or mm/kN",
+            )
+        return Link(Compliances(axial, bending, bending, 0.0), False, MEASURED_REL, f"measured {bending:g} mm/N")
+    if kind in ("tube", "rod") and len(words) >= (4 if kind == "tube" else 3):
+        outer = _diameter(words[1], "an outer diameter [mm]")
+        inner = _diameter(words[2], "an inner diameter [mm]") if kind == "tube" else 0.0
+        made_of = material(" ".join(words[3 if kind == "tube" else 2 :]))
+        if inner >= outer:
+            raise refusal(
+                f"{text!r}: the inner diameter is not smaller than the outer",
+                "OUTER comes first",
+                f"tube {inner:g} {outer:g}",
+            )
+        if not 1.0 <= outer <= 500.0 or outer > 2.0 * length:
+            way = f"{outer * 1e3:g} if it was in metres" if outer < 1.0 else "outer diameter in mm"
+            raise refusal(f"{text!r}: {outer:g} mm is no diameter of a link of {length:g} mm", "1 to 500 mm", way)
+        shape = f"tube {outer:g}/{inner:g} mm" if inner else f"rod {outer:g} mm"
+        return Link(
+            round_beam(length, outer, inner, made_of),
+            True,
+            math.hypot(made_of.sigma_rel, 0.05),
+            f"{shape}, {made_of.name}",
+        )
+    near = did_you_mean(kind, ("tube", "rod", "measured", "rigid"))
+    raise refusal(
+        f"{text!r} is no link",
+        LINK_FORMS,
+        f"did you mean {near}?" if near and near != kind else "'tube 20 16 aluminium'",
+    )
+
+
+def _diameter(text: str, what: str) -> float:
+    try:
+        value = float(text.lower().removesuffix("mm"))
+    except ValueError:
+        raise refusal(f"{text!r} is not a number", f"it is {what}", "'tube 20 16 aluminium', say") from None
+    if not value >= 0.0:
+        raise refusal(f"{text!r} is negative", f"it is {what}", "a number above zero")
+    return value
+
+
+def material(text: str) -> Material:
+    """By name, or by E in GPa."""
+    said = text.strip().lower().replace(" ", "")
+    name = ALIASES.get(said, said)
+    if name in MATERIALS:
+        return MATERIALS[name]
+    match = re.fullmatch(r"(\d*\.?\d+)(gpa|mpa|n/?mm2|n/?mm\^2)", said)
+    if match:
+        e_gpa = float(match.group(1)) * (1.0 if match.group(2) == "gpa" else 1e-3)
+        if not 0.1 <= e_gpa <= 1000.0:
+            likely = f"{match.group(1)}MPa" if e_gpa > 1000.0 else f"{match.group(1)}GPa"
+            raise refusal(f"{text!r} is {e_gpa:g} GPa", "materials have 0.1 to 1000 GPa", f"{likely}?")
+        return of_modulus(e_gpa)
+    near = did_you_mean(name, [*MATERIALS, *ALIASES])
+    raise refusal(
+        f"{text!r} is no material that is known here",
+        f"known: {', '.join(MATERIALS)}",
+        f"did you mean {near}?" if near else "its modulus of elasticity, e.g. 70GPa",
+    )
