@@ -121,8 +121,8 @@ def page(
         )
     lines += [
         "",
-        f"{len(order)} claims. *Run at* names the commit of the text that a claim was proven of; a claim whose text has "
-        "changed since then is to be run again. Seconds are by the clock, on a machine that had other work.",
+        f"{len(order)} claims. *Run at* names the commit of the text that a claim was proven of; a claim whose text "
+        "has changed since then is to be run again. Seconds are by the clock, on a machine that had other work.",
         "",
     ]
     lines += ["| proof | mistake put in | found as |", "|---|---|---|"]
