@@ -7,6 +7,7 @@ import re
 from dataclasses import dataclass
 
 from brace.errors import UsageError, did_you_mean
+from brace.newlimb import LINK_FORMS
 from brace.newlimb.beams import ALIASES, MATERIALS, Compliances, Material, of_modulus, round_beam
 from brace.units import unit_of
 
@@ -136,11 +137,6 @@ class Link:
     sigma_rel: float
     words: str
     guessed: bool = False
-
-
-LINK_FORMS = (
-    "'tube OUTER INNER MATERIAL', 'rod DIAMETER MATERIAL', 'measured MM_PER_N', 'rigid' (mm; a material or e.g. 70GPa)"
-)
 
 
 def link(text: str, length: float) -> Link:
