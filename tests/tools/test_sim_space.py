@@ -211,6 +211,25 @@ def test_k_under_a_force_from_any_side_is_the_limbs_own(
     assert max(off) < 0.01
 
 
+@pytest.mark.parametrize("has_sensor", [True, False])
+def test_the_force_across_counts_where_the_tip_stands(spatial: LimbModel, has_sensor: bool) -> None:
+    """Pressed outwards and to the left, the tip stands beside its plane: the force outwards turns the coxa joint, too,
+    by a tenth of the moment. Without noise and friction nothing hides it. A limb without a sensor at its tip does not
+    count that the femur, bent sideways, has turned the axis of the knee: by 0.02 rad here, 0.3 N."""
+    model = spatial.with_values({**BEAMS, **NO_FRICTION, "sensor.noise_n": 0.0,
+                                 **{f"motor.{joint}.torque_noise_n_mm": 0.0 for joint in ("coxa", "femur", "tibia")}})
+    theta_rad = (-0.6, 0.4, 0.9)
+    x_mm, y_mm, z_mm = press_for(model, theta_rad, np.array([14.0, 14.0, 0.0]))
+    pressed = {"press_mm": (x_mm, z_mm), "press_y_mm": y_mm, "has_force_sensor": has_sensor}
+    with node(model, theta_rad=theta_rad, **pressed) as one:
+        one.step(0.6)
+        truth, snapshot = one.raw_truth(), one.raw_snapshot()
+        told = np.array([snapshot.load.force_x_n, snapshot.load.force_y_n, snapshot.load.force_z_n])
+        assert truth.force_y_n > 10.0 and snapshot.load.moved_y_mm > 20.0
+        wanted = [truth.force_x_n, truth.force_y_n, truth.force_z_n]
+        assert told == pytest.approx(wanted, abs=0.05 if has_sensor else 0.5)
+
+
 def test_a_plane_that_leans_to_the_left_has_weight_across_it(spatial: LimbModel) -> None:
     """Nothing presses: the coxa joint carries the weight's part across the plane, and the controller tells no force."""
     lean_rad, knee_n = 0.4, 3.0

@@ -42,7 +42,8 @@ static bool is_from_controller(uint32_t base)
     static const uint32_t bases[] = {BRACE_CAN_ID_EMERGENCY,   BRACE_CAN_ID_STIFFNESS_A, BRACE_CAN_ID_STIFFNESS_B,
                                      BRACE_CAN_ID_EIGENVALUES, BRACE_CAN_ID_POSTURE,     BRACE_CAN_ID_HEARTBEAT,
                                      BRACE_CAN_ID_ANSWER,      BRACE_CAN_ID_SNAPSHOT_FD, BRACE_CAN_ID_SPACE,
-                                     BRACE_CAN_ID_SPACE_FD,    BRACE_CAN_ID_LOAD,        BRACE_CAN_ID_LOAD_FD};
+                                     BRACE_CAN_ID_SPACE_FD,    BRACE_CAN_ID_LOAD,        BRACE_CAN_ID_LOAD_FD,
+                                     BRACE_CAN_ID_LOAD_ACROSS};
     for (size_t i = 0u; i < sizeof bases / sizeof bases[0]; i++) {
         if (base == bases[i]) {
             return true;

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from brace.dataset import DataFault, Dataset
+from brace.dataset.faults import what_is_wrong
 from brace.diagnose.diagnosis import (
     Diagnosis,
     Gap,
@@ -110,11 +111,10 @@ def _trust(believed: LimbModel | None) -> float:
 
 
 def _faulty(dataset: Dataset, base: LimbModel, faults: Sequence[DataFault], options: Options) -> Diagnosis:
-    first = faults[0].sentence(Path(dataset.csv_path.name))
-    more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
+    wrong = what_is_wrong(faults, Path(dataset.csv_path.name))
     return Diagnosis(
         "data_fault",
-        f"The record is faulty, so nothing is said about the joint: {first}{more}.",
+        f"The record is faulty, so nothing is said about the joint: {wrong}.",
         base,
         data_faults=tuple({id(f): f for f in (*dataset.faults, *faults)}.values()),
         seed=options.seed,
