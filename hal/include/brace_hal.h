@@ -112,6 +112,17 @@ typedef struct {
     uint32_t count;                           /* crashes since power came on */
 } brace_crash_record_t;
 
+/* --------------------------------------------------------------------------------------- who may -- */
+
+enum { BRACE_HAL_KEY_BYTES = 16 };
+
+/* What a joint may be told at most, whatever its parameters say; of the board's own file. INFINITY: no bound. */
+typedef struct {
+    float torque_most_n_mm;
+    float angle_least_rad, angle_most_rad; /* true joint angle */
+    float speed_most_rad_per_s;            /* of what the firmware itself adds to the set-point */
+} brace_hal_ceiling_t;
+
 /* --------------------------------------------------------------------------------------------- door -- */
 
 typedef struct {
@@ -166,6 +177,24 @@ typedef struct {
     /* Optional: null where every port has one other end. Number of the connection that the bytes read last came from; no
      * two connections have the same number. Does not block. */
     uint32_t (*serial_peer)(void *context, brace_serial_port_t port);
+
+    /* Optional, with serial_peer: is the connection of that number still open? Does not block. */
+    bool (*serial_peer_is_open)(void *context, brace_serial_port_t port, uint32_t peer);
+
+    /* Optional: null where everybody on the board's buses may move the limb, on a bench. The key of this board, from
+     * memory of its own: 1 and its bytes, 0 (the board has none yet), E_DEVICE. key_write keeps a key, once: OK, E_RANGE
+     * (there is one already), E_DEVICE; it may block for 1 ms, and is called by the console alone. random_read gives a word
+     * that nobody can tell in advance: OK, AGAIN, E_DEVICE; without it a board with a key refuses motion. */
+    int32_t (*key_read)(void *context, uint8_t key[BRACE_HAL_KEY_BYTES]);
+    int32_t (*key_write)(void *context, const uint8_t key[BRACE_HAL_KEY_BYTES]);
+    int32_t (*random_read)(void *context, uint32_t *word);
+
+    /* How long whoever moves the limb may be silent [us]; 0: 130,000. More only where the clock of now_us runs faster
+     * than that of people: in a simulation. */
+    uint32_t silence_us;
+
+    /* Optional: three ceilings, of coxa, femur and tibia; null: there are none. */
+    const brace_hal_ceiling_t *ceiling;
 
     /* Shows the watchdog that the firmware runs. The watchdog waits 2.5 to 5 s, longer than an erase of 2 s. */
     void (*watchdog_feed)(void *context);

@@ -96,7 +96,12 @@ brace_node_failure_t LimbNode::open(const brace_node_limb_t &limb, brace_posix_b
     if (bus != nullptr) {
         (void)brace_posix_join(&posix_, bus);
     }
+    if (limb.key != nullptr) {
+        posix_.is_guarded = posix_.has_key = true;
+        std::copy_n(limb.key, BRACE_HAL_KEY_BYTES, posix_.key);
+    }
     brace_posix_hal(&posix_, &hal_);
+    hal_.silence_us = static_cast<std::uint32_t>(limb.owner_silence_s * 1e6);
     if (!store_block(limb, memory_is_new, failure)) {
         return failure;
     }

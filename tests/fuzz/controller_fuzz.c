@@ -261,6 +261,7 @@ static void step(uint32_t late_us)
 static void recover(void)
 {
     calm();
+    fake.can_received.count = 0;
     if (app.controller.loading.phase != LOADING_IDLE) {
         (void)brace_app_loading_stop(&app);
     }
@@ -269,6 +270,9 @@ static void recover(void)
         fake.joint[BRACE_FEMUR].sample.motor_rad = dice(2) == 0u ? 0.3f : 0.32f;
         fake.joint[BRACE_TIBIA].sample.motor_rad = dice(2) == 0u ? 0.3f : 0.32f;
         step(0);
+        if (app.controller.ownership.is_held) {
+            (void)brace_app_let_go(&app); /* somebody has stopped it, or has asked and gone */
+        }
         if (app.controller.mode.now == BRACE_MODE_MONITOR && us > 300000u) {
             recovered++;
             return;

@@ -154,7 +154,7 @@ static void check(const uint8_t *told, uint32_t count, bool was_configuring)
     if (count == 2u && told[0] == (pdu[0] | 0x80u)) {
         const uint32_t code = told[1];
         exceptions++;
-        if (code < 1u || code > 6u || code == 5u) {
+        if (code < 1u || code > 7u || code == 5u) {
             fail("an exception that there is not", pdu, pdu_count);
         }
         return;

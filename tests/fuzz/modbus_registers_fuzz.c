@@ -13,7 +13,7 @@
 #include "modbus_crc.h"
 
 enum { UNIT = 17, WORDS = BRACE_PARAMETER_NUMBERS, MOST_TICKS = 120, HEADER = 7,
-       ANSWERED = 42, COMMANDS = 34 /* values from 4096 and from 16384 on, by docs/modbus.md */ };
+       ANSWERED = 42, COMMANDS = 41 /* values from 4096 and from 16384 on, by docs/modbus.md */ };
 
 static const uint32_t key = 0xc0de0000u;
 
@@ -94,7 +94,7 @@ static uint32_t some_start(void)
 {
     static const uint16_t edge[] = {0,     2,     114,   116,   208,   210,   4096,  4108,  4110,  16384,
                                     16386, 16388, 16390, 16392, 16394, 16396, 16398, 16400, 16406, 16410,
-                                    16414, 16416, 16418, 16422, 16430, 16440, 16452, 4122,  4126,  4152,
+                                    16414, 16416, 16418, 16422, 16430, 16440, 16452, 16454, 16456, 16460, 4122,  4126,  4152,
                                     4180,  65535, 65534, 32768};
     return dice(4) == 0u ? dice(65536) : edge[dice(sizeof edge / sizeof *edge)];
 }
@@ -109,6 +109,7 @@ static uint32_t some_value(uint32_t start)
     case 16384: return key | (1u + dice(2));
     case 16386:
     case 16388: return dice(8) == 0u ? key | 1u : dice(4);
+    case 16454: return dice(2) == 0u ? dice(65536) : brace_parameters_crc(brace_app_parameters_staged(&app));
     case 16392: return 256u << dice(2) | (1u + dice(2));
     case 16396:
     case 16398:
@@ -155,6 +156,11 @@ static uint32_t question_of(uint32_t start)
     case 16422u: return 4;
     case 16430u: return 5;
     case 16440u: return 6;
+    case 16452u: /* stop, commit_crc, end_test: single; a sign of life and a seal: two values */
+    case 16454u:
+    case 16464u: return 1;
+    case 16456u:
+    case 16460u: return 2;
     default: return 0;
     }
 }
@@ -282,8 +288,8 @@ static void judge_write(const bytes_t *sent, const uint8_t *pdu, uint32_t length
         return;
     }
     const uint32_t value = at32(pdu + 6);
-    if (start == 16386u || start == 16388u) {
-        if (value != (key | 1u) || before->mode != BRACE_MODE_CONFIGURATION) {
+    if (start == 16386u || start == 16388u || start == 16454u) {
+        if ((value != (key | 1u) && start != 16454u) || before->mode != BRACE_MODE_CONFIGURATION) {
             wrong("a commit without its key or mode", sent, got);
         }
         commits++;
@@ -314,7 +320,7 @@ static void judge(const bytes_t *sent, const uint8_t *pdu, uint32_t length, cons
     const bool is_refusal = (answer[0] & 0x80u) != 0u;
     const bool is_read = pdu[0] == 3u || pdu[0] == 4u;
     if (is_refusal) {
-        static const uint8_t codes[] = {1, 2, 3, 4, 6};
+        static const uint8_t codes[] = {1, 2, 3, 4, 6, 7};
         if (answer_length != 2u || memchr(codes, answer[1], sizeof codes) == NULL) {
             wrong("a refusal of no kind", sent, got);
         }
@@ -405,7 +411,7 @@ static void on_the_line(const before_t *before)
         judge(&sent, sent.byte + 1, sent.count - 3u, &got, got.byte + 1, got.count - 3u, before);
     } else if (whole && sent.byte[0] == 0u) {
         const uint8_t *pdu = sent.byte + 1;
-        commits += pdu[0] == 16u && (at16(pdu + 1) == 16386u || at16(pdu + 1) == 16388u);
+        commits += pdu[0] == 16u && (at16(pdu + 1) == 16386u || at16(pdu + 1) == 16388u || at16(pdu + 1) == 16454u);
     }
 }
 
@@ -441,7 +447,8 @@ int main(int argc, char **argv)
     unsigned long commits_seen = 0;
     for (number = 1; number <= requests; number++) {
         const uint32_t sequence = app.controller.sequence;
-        const parameter_job_t *job = &app.controller.parameters;
+        parameter_job_t *job = &app.controller.parameters;
+        job->apart_us = dice(4) == 0u ? job->apart_us : 10000000u; /* commits are 10 s apart: here that passes at once */
         const before_t before = {app.controller.mode.now, job->has_staged, job->staged};
         if (dice(4) == 0u) {
             on_the_line(&before);

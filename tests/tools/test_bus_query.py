@@ -275,7 +275,7 @@ def test_another_bit_rate_and_another_node(limb: Path) -> None:
 
 def test_a_bus_that_goes_away(limb: Path) -> None:
     beat = MESSAGES["heartbeat"].encode(
-        {"state": 5, "mode": 1, "faults": 0, "dictionary_hash": DICTIONARY_HASH}
+        {"state": 5, "mode": 1, "faults": 0, "setting": 1, "dictionary_hash": DICTIONARY_HASH}
     )
     with adapter(obliging, sends=b"t7058" + beat.hex().encode() + b"\r") as url:
         said = told_in_time(4, "query", "--bus", url)  # it beats, and answers nothing
@@ -298,7 +298,7 @@ def test_another_dictionary_is_6_with_both(limb: Path) -> None:
         frames = [layout.encode(values, token) for layout, values in zip(ANSWERS["identify"], parts)]
         return b"z\r" + b"".join(b"t5858" + frame.hex().encode() + b"\r" for frame in frames)
 
-    beat = MESSAGES["heartbeat"].encode({"state": 5, "mode": 1, "faults": 0, "dictionary_hash": other})
+    beat = MESSAGES["heartbeat"].encode({"state": 5, "mode": 1, "faults": 0, "setting": 1, "dictionary_hash": other})
     with adapter(answer, sends=b"t7058" + beat.hex().encode() + b"\r") as url:
         for command in (("query",), ("monitor",), ("params", "pull"), ("params", "push", limb)):
             said = told_in_time(6, *command, "--bus", url)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -63,6 +64,12 @@ class Controller:
         return {joint: "none" for joint in ("coxa", "femur", "tibia")} | self.outcomes
 
     def let_go(self) -> None: ...
+
+    def living(self) -> contextlib.AbstractContextManager[None]:
+        return contextlib.nullcontext()
+
+    def stay(self, seconds: float) -> None:
+        assert seconds >= 0.0
 
     def read_entry(self, name: str) -> int:
         assert name == "mode"

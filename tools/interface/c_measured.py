@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from interface.c_comment import c_comment
 from interface.measured import ANSWERED_REGISTER, COMMAND_REGISTER, MEASURED_REGISTER, Measured, Values
-from interface.registers import ANSWERED_ENTRY, MEASURED_ENTRY
+from interface.registers import ANSWERED_ENTRY, COMMAND_ENTRY, MEASURED_ENTRY
 
 _MADE = "/* Written by tools/interface from dictionary.toml; do not edit. */\n"
 
@@ -18,7 +18,7 @@ def measured_header(values: Values) -> str:
         + "#ifndef BRACE_MEASURED_H\n#define BRACE_MEASURED_H\n\n#include <stdint.h>\n\n"
         + "/* Entries of the dictionary by number: parameters from 0 on, these from here on. */\n"
         + f"enum {{\n    BRACE_ENTRY_MEASURED = {MEASURED_ENTRY:#06x},\n    BRACE_ENTRY_ANSWERED = "
-          f"{ANSWERED_ENTRY:#06x}\n}};\n\n"
+          f"{ANSWERED_ENTRY:#06x},\n    BRACE_ENTRY_COMMANDS = {COMMAND_ENTRY:#06x}\n}};\n\n"
         + "/* The first Modbus register of each struct below: input registers of what is measured and answered,\n"
           " * holding registers of the commands. Every value takes two, high word first, in the struct's order. */\n"
         + f"enum {{\n    BRACE_REGISTER_MEASURED = {MEASURED_REGISTER:#06x},\n"

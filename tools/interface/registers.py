@@ -12,6 +12,7 @@ from interface.measured import Measured, Values
 
 MEASURED_ENTRY = 0x1000  # number of the first measured value in the dictionary's count
 ANSWERED_ENTRY = 0x1800
+COMMAND_ENTRY = 0x2000  # of the first command; write_entry on CAN takes those that stop or show who commands
 INPUT, HOLDING = "input", "holding"
 _COLUMNS = ("name", "table", "address", "registers", "type", "unit", "scale", "access", "description")
 

@@ -30,7 +30,7 @@ def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Fil
     known = {file.src_uri for file in files}
 
     def replaced(found: re.Match[str]) -> str:
-        words, target, anchor = found[1], found[2], found[3] or ""
+        words, target = found[1], found[2]
         if "://" in target or target in known or target == HEADERS:
             return found[0]
         name = str(PurePosixPath(target.removeprefix("../")))

@@ -9,6 +9,7 @@
 #define GUARDED_WORDS_PER_MS 8u
 #define GUARDED_WORDS_MOST 24u /* of the 364 */
 #define GUARDED_WORDS_IN_A_DEAR_TICK 2u /* in which a job has worked out a K, at most two of three */
+#define LISTENED_US 20000u /* a tick that comes later has not listened meanwhile, and has not moved the limb either */
 #define LATE_PERIODS 3u /* a tick that comes more than three periods after the one before is more than two late */
 
 /* -------------------------------------------------------------------------------------------- start -- */
@@ -119,6 +120,18 @@ static void blank_snapshot(const controller_t *controller, brace_snapshot_t *sna
     }
 }
 
+/* A board that keeps a key is guarded; all others are benches. */
+static void start_ownership(controller_t *controller)
+{
+    const brace_hal_t *hal = controller->hal;
+    uint8_t key[SIPHASH_KEY_BYTES];
+    const bool has_key =
+        hal->key_read != NULL && hal->random_read != NULL && hal->key_read(hal->context, key) == 1;
+    session_t *session = &controller->ownership.session;
+    session_start(session, hal->key_read == NULL, has_key ? key : NULL);
+    session->life_us = hal->silence_us != 0u ? hal->silence_us : session->life_us;
+}
+
 _Static_assert(offsetof(brace_app_t, controller) == 0, "requests find their controller there");
 
 brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal)
@@ -134,6 +147,7 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal)
     controller->now_us = hal->now_us(hal->context);
     controller->has_crashed = hal->reset_cause(hal->context) == BRACE_RESET_FAULT;
     mode_start(&controller->mode);
+    start_ownership(controller);
     drives_start(&controller->drives);
     joints_start(&controller->joints, hal);
     posture_start(&controller->posture);
@@ -170,6 +184,37 @@ static bool tick_is_late(controller_t *controller, uint32_t now_us)
     controller->now_us = now_us;
     controller->has_ticked = true;
     return late && controller->mode.now != BRACE_MODE_CONFIGURATION;
+}
+
+/* Is what moves the limb still somebody's? Else it stands, whatever it was about to do. */
+static void step_ownership(brace_app_t *app)
+{
+    controller_t *controller = &app->controller;
+    ownership_t *ownership = &controller->ownership;
+    const brace_hal_t *hal = controller->hal;
+    const bool tests = loading_runs(&controller->loading), takes_up = takeup_runs(&controller->takeup);
+    const ownership_inputs_t inputs = {
+        .runs = tests || takes_up,
+        .moves = tests || (takes_up && !takeup_holds(&controller->takeup, &controller->flank)),
+        .configures = controller->mode.now == BRACE_MODE_CONFIGURATION,
+        .stores = parameter_job_is_busy(&controller->parameters),
+        .since_us = controller->since_us < LISTENED_US ? controller->since_us : LISTENED_US,
+        .let_go_after_us = 1000u * controller->parameters.in_force.controller.let_go_after_ms};
+    uint32_t low, high;
+    if (ownership->session.setting == BRACE_SETTING_GUARDED && !ownership->session.has_challenge &&
+        hal->random_read(hal->context, &low) == BRACE_HAL_OK && hal->random_read(hal->context, &high) == BRACE_HAL_OK) {
+        session_challenge(&ownership->session, (uint64_t)high << 32 | low);
+    }
+    if (ownership->session.is_open && controller_has_hung_up(controller, ownership->session.owner)) {
+        session_hang_up(&ownership->session);
+    }
+    switch (ownership_step(ownership, &inputs)) {
+    case OWNERSHIP_STOPS: loading_end(&controller->loading, BRACE_LOADING_STOPPED); break;
+    case OWNERSHIP_FORGETS: controller_forget(controller); break;
+    case OWNERSHIP_LETS_GO: (void)brace_app_let_go(app); break;
+    default: break;
+    }
+    parameter_job_age(&controller->parameters, controller->since_us);
 }
 
 /* Angles as the joints tell them, and levers as far as the load is known from the tick before. */
@@ -395,6 +440,8 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     const bool late = tick_is_late(controller, now_us);
     controller->parts_done = 0;
 
+    step_ownership(app);
+
     /* Sense. */
     joints_read(&controller->joints, hal, parameters, now_us, &controller->counters.samples_bad);
     tip_force_read(&controller->tip_force, hal, parameters);
@@ -404,7 +451,7 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
 
     /* Which flank carries, where the limb stands, how stiff it is. */
     flank_tick(&controller->flank, &controller->joints, &controller->tip_force, &controller->posture,
-               controller->gravity.down, parameters, now_us);
+               controller->gravity.down, parameters, controller->ownership.is_held, now_us);
     take_posture(controller, snapshot);
     take_force(controller, snapshot);
     take_stiffness(controller, snapshot);
@@ -417,8 +464,11 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     question_job_step(&controller->question, &question);
     const drift_inputs_t drift = drift_inputs(controller);
     drift_job_step(&controller->drift, &drift); /* takes a reading in in the tick after the loading test's */
-    takeup_step(&controller->takeup, &controller->flank);
-    const bool loading_has_worked = step_loading(controller, snapshot);
+    const bool is_held = controller->ownership.is_held;
+    if (!is_held) {
+        takeup_step(&controller->takeup, &controller->flank);
+    }
+    const bool loading_has_worked = !is_held && step_loading(controller, snapshot);
     step_parameters(app);
     const bool job_has_worked = controller->question.has_worked || loading_has_worked;
     const bool is_counted_in_space = controller->model.is_spatial && snapshot->load.is_counted;
@@ -438,8 +488,10 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
 
     /* Tell. */
     publish(controller, snapshot);
+    controller->ownership.is_by_wire = true;
     wires_tick(&app->wires, hal, app, &controller->counters, controller->has_worked,
                job_has_worked || controller->drift.has_worked, now_us);
+    controller->ownership.is_by_wire = false;
     part_is_done(controller, PART_TOLD);
 
     /* A tick that left a part out, or did one twice, feeds no watchdog. */

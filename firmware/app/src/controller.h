@@ -22,6 +22,7 @@
 #include "posture/posture.h"
 #include "sense/joints.h"
 #include "sense/tip_force.h"
+#include "session/ownership.h"
 #include "stiffness/model.h"
 #include "stiffness/softening.h"
 #include "watch/frozen.h"
@@ -58,6 +59,7 @@ typedef struct {
     faults_t faults;
     mode_state_t mode;
     drives_t drives;
+    ownership_t ownership;
     frozen_t frozen;
     uint32_t parts_done;           /* of the tick, in their order: app.c */
 
@@ -76,6 +78,16 @@ static inline controller_t *controller_of(struct brace_app *app)
 static inline const controller_t *controller_in(const struct brace_app *app)
 {
     return (const controller_t *)app;
+}
+
+/* Is the connection of that master closed? */
+bool controller_has_hung_up(const controller_t *controller, brace_who_t who);
+
+/* Takes back what was asked for and has not begun to move the limb. */
+static inline void controller_forget(controller_t *controller)
+{
+    takeup_forget(&controller->takeup, &controller->flank);
+    loading_forget(&controller->loading);
 }
 
 /* What the loading test is given.

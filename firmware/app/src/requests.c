@@ -2,6 +2,7 @@
 
 #include <stddef.h>
 
+#include "brace/refusals.h"
 #include "controller.h"
 
 /* ------------------------------------------------------------------------------------ what is known -- */
@@ -59,6 +60,9 @@ brace_status_t brace_app_take_up(brace_app_t *app, int32_t joint_index, int32_t 
     }
     const brace_status_t status = takeup_request(&controller->takeup, &controller->flank, joint_index, flank);
     controller->mode.now = takeup_runs(&controller->takeup) ? BRACE_MODE_TAKING_UP : mode;
+    if (status == BRACE_OK) {
+        ownership_begin(&controller->ownership);
+    }
     return status;
 }
 
@@ -74,6 +78,7 @@ brace_status_t brace_app_let_go(brace_app_t *app)
     }
     loading_end(&controller->loading, BRACE_LOADING_STOPPED);
     takeup_let_go(&controller->takeup);
+    ownership_begin(&controller->ownership);
     return BRACE_OK;
 }
 
@@ -96,6 +101,7 @@ brace_status_t brace_app_loading_start(brace_app_t *app, const brace_loading_set
     if (status == BRACE_OK) {
         drift_job_end_run(&controller->drift);
         controller->mode.now = BRACE_MODE_LOADING_TEST;
+        ownership_begin(&controller->ownership);
     }
     return status;
 }
@@ -110,6 +116,7 @@ brace_status_t brace_app_loading_stop(brace_app_t *app)
         return BRACE_E_MODE;
     }
     loading_end(loading, BRACE_LOADING_STOPPED);
+    ownership_begin(&controller_of(app)->ownership);
     return BRACE_OK;
 }
 
@@ -207,6 +214,11 @@ const brace_parameters_t *brace_app_parameters_staged(const brace_app_t *app)
     return parameter_job_staged(&controller_in(app)->parameters);
 }
 
+bool brace_app_has_staged(const brace_app_t *app)
+{
+    return controller_in(app)->parameters.has_staged;
+}
+
 brace_status_t brace_app_parameters_stage(brace_app_t *app, uint32_t first_number, uint32_t count,
                                           const uint32_t *words)
 {
@@ -219,6 +231,50 @@ brace_status_t brace_app_parameters_commit_staged(brace_app_t *app, uint32_t *wr
 {
     const brace_status_t status = brace_app_may_write(app);
     return status == BRACE_OK ? parameter_job_commit_staged(&controller_of(app)->parameters, wrong_index) : status;
+}
+
+brace_status_t brace_app_parameters_commit_named(brace_app_t *app, uint32_t crc, uint32_t *wrong_index)
+{
+    const brace_status_t status = brace_app_parameters_commit_staged(app, wrong_index);
+    if (status == BRACE_OK) {
+        brace_store_expect(&controller_of(app)->parameters.store, crc);
+    }
+    return status;
+}
+
+int32_t brace_app_may_commit(brace_app_t *app, uint32_t *wait_ms)
+{
+    controller_t *controller = controller_of(app);
+    *wait_ms = parameter_job_wait_ms(&controller->parameters);
+    if (*wait_ms == 0u) {
+        return BRACE_OK;
+    }
+    brace_count(&controller->parameters.commits_refused);
+    controller->ownership.last_refusal = BRACE_REFUSED_EARLY;
+    return BRACE_REFUSED_EARLY;
+}
+
+uint32_t brace_app_beyond_board(const brace_app_t *app, const brace_parameters_t *parameters)
+{
+    const controller_t *controller = controller_in(app);
+    const brace_hal_ceiling_t *ceiling = controller->hal->ceiling;
+    if (parameters->controller.node_id == 0u && controller->parameters.in_force.controller.node_id != 0u) {
+        return BRACE_PARAMETER_CONTROLLER_NODE_ID;
+    }
+    for (uint32_t i = 0; i < BRACE_LINK_COUNT && ceiling != NULL; i++, ceiling++) {
+        const brace_drive_t *drive = &parameters->drive[i];
+        const uint32_t first = (uint32_t)((const uint32_t *)drive - (const uint32_t *)parameters);
+        if (drive->torque_range_n_mm > ceiling->torque_most_n_mm) {
+            return first + (uint32_t)(offsetof(brace_drive_t, torque_range_n_mm) / 4);
+        }
+        if (drive->angle_min_rad < ceiling->angle_least_rad) {
+            return first + (uint32_t)(offsetof(brace_drive_t, angle_min_rad) / 4);
+        }
+        if (drive->angle_max_rad > ceiling->angle_most_rad) {
+            return first + (uint32_t)(offsetof(brace_drive_t, angle_max_rad) / 4);
+        }
+    }
+    return BRACE_PARAMETER_COUNT;
 }
 
 brace_status_t brace_app_parameters_commit(brace_app_t *app, const brace_parameters_t *parameters)

@@ -91,6 +91,7 @@ static void pack_set_mode(const brace_set_mode_answer_t *answer, uint64_t head,
     uint64_t bits;
     bits = head | 0u;
     bits |= brace_bits_number(answer->mode, 16u, 8u, &limited);
+    bits |= brace_bits_number(answer->setting, 24u, 8u, &limited);
     brace_bits_store(bits, parts[0]);
 }
 
@@ -101,6 +102,7 @@ static void pack_upload_begin(const brace_upload_begin_answer_t *answer, uint64_
     uint64_t bits;
     bits = head | 0u;
     bits |= brace_bits_number(answer->words, 16u, 16u, &limited);
+    bits |= brace_bits_number(answer->setting, 32u, 8u, &limited);
     brace_bits_store(bits, parts[0]);
 }
 
@@ -125,6 +127,7 @@ static void pack_commit(const brace_commit_answer_t *answer, uint64_t head,
     brace_bits_store(bits, parts[0]);
     bits = head | 32u;
     bits |= brace_bits_number(answer->crc, 16u, 32u, &limited);
+    bits |= brace_bits_number(answer->setting, 48u, 8u, &limited);
     brace_bits_store(bits, parts[1]);
 }
 
@@ -146,6 +149,7 @@ static void pack_take_up(const brace_take_up_answer_t *answer, uint64_t head,
     uint64_t bits;
     bits = head | 0u;
     bits |= brace_bits_number(answer->phase, 16u, 8u, &limited);
+    bits |= brace_bits_number(answer->setting, 24u, 8u, &limited);
     brace_bits_store(bits, parts[0]);
 }
 
@@ -156,6 +160,7 @@ static void pack_let_go(const brace_let_go_answer_t *answer, uint64_t head,
     uint64_t bits;
     bits = head | 0u;
     bits |= brace_bits_number(answer->mode, 16u, 8u, &limited);
+    bits |= brace_bits_number(answer->setting, 24u, 8u, &limited);
     brace_bits_store(bits, parts[0]);
 }
 
@@ -166,6 +171,7 @@ static void pack_loading_test_start(const brace_loading_test_start_answer_t *ans
     uint64_t bits;
     bits = head | 0u;
     bits |= brace_bits_number(answer->rows, 16u, 16u, &limited);
+    bits |= brace_bits_number(answer->setting, 32u, 8u, &limited);
     brace_bits_store(bits, parts[0]);
 }
 
@@ -176,6 +182,7 @@ static void pack_loading_test_stop(const brace_loading_test_stop_answer_t *answe
     uint64_t bits;
     bits = head | 0u;
     bits |= brace_bits_number(answer->rows, 16u, 16u, &limited);
+    bits |= brace_bits_number(answer->setting, 32u, 8u, &limited);
     brace_bits_store(bits, parts[0]);
 }
 
@@ -234,6 +241,7 @@ static void pack_clear(const brace_clear_answer_t *answer, uint64_t head,
     uint64_t bits;
     bits = head | 0u;
     bits |= brace_bits_number(answer->faults, 16u, 32u, &limited);
+    bits |= brace_bits_number(answer->setting, 48u, 8u, &limited);
     brace_bits_store(bits, parts[0]);
 }
 

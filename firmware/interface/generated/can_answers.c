@@ -313,6 +313,7 @@ uint32_t brace_can_pack_set_mode_answer_0(const brace_can_set_mode_answer_0_t *m
     uint64_t bits = 0u;
     bits = 9u | (uint64_t)(message->token & 0xffu) << 8;
     bits |= brace_bits_number(message->mode, 16u, 8u, &limited);
+    bits |= brace_bits_number(message->setting, 24u, 8u, &limited);
     brace_bits_store(bits, data);
     return limited;
 }
@@ -322,6 +323,7 @@ void brace_can_unpack_set_mode_answer_0(const uint8_t data[8], brace_can_set_mod
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
     message->mode = brace_value_number(bits, 16u, 8u);
+    message->setting = brace_value_number(bits, 24u, 8u);
 }
 
 uint32_t brace_can_pack_upload_begin_answer_0(const brace_can_upload_begin_answer_0_t *message, uint8_t data[8])
@@ -330,6 +332,7 @@ uint32_t brace_can_pack_upload_begin_answer_0(const brace_can_upload_begin_answe
     uint64_t bits = 0u;
     bits = 10u | (uint64_t)(message->token & 0xffu) << 8;
     bits |= brace_bits_number(message->words, 16u, 16u, &limited);
+    bits |= brace_bits_number(message->setting, 32u, 8u, &limited);
     brace_bits_store(bits, data);
     return limited;
 }
@@ -339,6 +342,7 @@ void brace_can_unpack_upload_begin_answer_0(const uint8_t data[8], brace_can_upl
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
     message->words = brace_value_number(bits, 16u, 16u);
+    message->setting = brace_value_number(bits, 32u, 8u);
 }
 
 uint32_t brace_can_pack_upload_word_answer_0(const brace_can_upload_word_answer_0_t *message, uint8_t data[8])
@@ -383,6 +387,7 @@ uint32_t brace_can_pack_commit_answer_1(const brace_can_commit_answer_1_t *messa
     uint64_t bits = 0u;
     bits = 44u | (uint64_t)(message->token & 0xffu) << 8;
     bits |= brace_bits_number(message->crc, 16u, 32u, &limited);
+    bits |= brace_bits_number(message->setting, 48u, 8u, &limited);
     brace_bits_store(bits, data);
     return limited;
 }
@@ -392,6 +397,7 @@ void brace_can_unpack_commit_answer_1(const uint8_t data[8], brace_can_commit_an
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
     message->crc = brace_value_number(bits, 16u, 32u);
+    message->setting = brace_value_number(bits, 48u, 8u);
 }
 
 uint32_t brace_can_pack_rollback_answer_0(const brace_can_rollback_answer_0_t *message, uint8_t data[8])
@@ -417,6 +423,7 @@ uint32_t brace_can_pack_rollback_answer_1(const brace_can_rollback_answer_1_t *m
     uint64_t bits = 0u;
     bits = 45u | (uint64_t)(message->token & 0xffu) << 8;
     bits |= brace_bits_number(message->crc, 16u, 32u, &limited);
+    bits |= brace_bits_number(message->setting, 48u, 8u, &limited);
     brace_bits_store(bits, data);
     return limited;
 }
@@ -426,6 +433,7 @@ void brace_can_unpack_rollback_answer_1(const uint8_t data[8], brace_can_rollbac
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
     message->crc = brace_value_number(bits, 16u, 32u);
+    message->setting = brace_value_number(bits, 48u, 8u);
 }
 
 uint32_t brace_can_pack_download_word_answer_0(const brace_can_download_word_answer_0_t *message, uint8_t data[8])
@@ -453,6 +461,7 @@ uint32_t brace_can_pack_take_up_answer_0(const brace_can_take_up_answer_0_t *mes
     uint64_t bits = 0u;
     bits = 15u | (uint64_t)(message->token & 0xffu) << 8;
     bits |= brace_bits_number(message->phase, 16u, 8u, &limited);
+    bits |= brace_bits_number(message->setting, 24u, 8u, &limited);
     brace_bits_store(bits, data);
     return limited;
 }
@@ -462,6 +471,7 @@ void brace_can_unpack_take_up_answer_0(const uint8_t data[8], brace_can_take_up_
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
     message->phase = brace_value_number(bits, 16u, 8u);
+    message->setting = brace_value_number(bits, 24u, 8u);
 }
 
 uint32_t brace_can_pack_let_go_answer_0(const brace_can_let_go_answer_0_t *message, uint8_t data[8])
@@ -470,6 +480,7 @@ uint32_t brace_can_pack_let_go_answer_0(const brace_can_let_go_answer_0_t *messa
     uint64_t bits = 0u;
     bits = 16u | (uint64_t)(message->token & 0xffu) << 8;
     bits |= brace_bits_number(message->mode, 16u, 8u, &limited);
+    bits |= brace_bits_number(message->setting, 24u, 8u, &limited);
     brace_bits_store(bits, data);
     return limited;
 }
@@ -479,6 +490,7 @@ void brace_can_unpack_let_go_answer_0(const uint8_t data[8], brace_can_let_go_an
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
     message->mode = brace_value_number(bits, 16u, 8u);
+    message->setting = brace_value_number(bits, 24u, 8u);
 }
 
 uint32_t brace_can_pack_loading_test_start_answer_0(const brace_can_loading_test_start_answer_0_t *message,
@@ -488,6 +500,7 @@ uint32_t brace_can_pack_loading_test_start_answer_0(const brace_can_loading_test
     uint64_t bits = 0u;
     bits = 17u | (uint64_t)(message->token & 0xffu) << 8;
     bits |= brace_bits_number(message->rows, 16u, 16u, &limited);
+    bits |= brace_bits_number(message->setting, 32u, 8u, &limited);
     brace_bits_store(bits, data);
     return limited;
 }
@@ -498,6 +511,7 @@ void brace_can_unpack_loading_test_start_answer_0(const uint8_t data[8],
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
     message->rows = brace_value_number(bits, 16u, 16u);
+    message->setting = brace_value_number(bits, 32u, 8u);
 }
 
 uint32_t brace_can_pack_loading_test_stop_answer_0(const brace_can_loading_test_stop_answer_0_t *message,
@@ -507,6 +521,7 @@ uint32_t brace_can_pack_loading_test_stop_answer_0(const brace_can_loading_test_
     uint64_t bits = 0u;
     bits = 18u | (uint64_t)(message->token & 0xffu) << 8;
     bits |= brace_bits_number(message->rows, 16u, 16u, &limited);
+    bits |= brace_bits_number(message->setting, 32u, 8u, &limited);
     brace_bits_store(bits, data);
     return limited;
 }
@@ -517,6 +532,7 @@ void brace_can_unpack_loading_test_stop_answer_0(const uint8_t data[8],
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
     message->rows = brace_value_number(bits, 16u, 16u);
+    message->setting = brace_value_number(bits, 32u, 8u);
 }
 
 uint32_t brace_can_pack_fetch_row_answer_0(const brace_can_fetch_row_answer_0_t *message, uint8_t data[8])
@@ -647,6 +663,7 @@ uint32_t brace_can_pack_clear_answer_0(const brace_can_clear_answer_0_t *message
     uint64_t bits = 0u;
     bits = 22u | (uint64_t)(message->token & 0xffu) << 8;
     bits |= brace_bits_number(message->faults, 16u, 32u, &limited);
+    bits |= brace_bits_number(message->setting, 48u, 8u, &limited);
     brace_bits_store(bits, data);
     return limited;
 }
@@ -656,6 +673,7 @@ void brace_can_unpack_clear_answer_0(const uint8_t data[8], brace_can_clear_answ
     const uint64_t bits = brace_bits_load(data);
     message->token = (uint32_t)(bits >> 8) & 0xffu;
     message->faults = brace_value_number(bits, 16u, 32u);
+    message->setting = brace_value_number(bits, 48u, 8u);
 }
 
 uint32_t brace_can_pack_k_in_space_at_posture_answer_0(const brace_can_k_in_space_at_posture_answer_0_t *message,

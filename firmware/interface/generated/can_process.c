@@ -122,7 +122,8 @@ uint32_t brace_can_pack_heartbeat(const brace_can_heartbeat_t *message, uint8_t 
     uint64_t bits = 0u;
     bits |= brace_bits_number(message->state, 0u, 8u, &limited);
     bits |= brace_bits_number(message->mode, 8u, 8u, &limited);
-    bits |= brace_bits_number(message->faults, 16u, 16u, &limited);
+    bits |= brace_bits_number(message->faults, 16u, 14u, &limited);
+    bits |= brace_bits_number(message->setting, 30u, 2u, &limited);
     bits |= brace_bits_number(message->dictionary_hash, 32u, 32u, &limited);
     brace_bits_store(bits, data);
     return limited;
@@ -133,7 +134,8 @@ void brace_can_unpack_heartbeat(const uint8_t data[8], brace_can_heartbeat_t *me
     const uint64_t bits = brace_bits_load(data);
     message->state = brace_value_number(bits, 0u, 8u);
     message->mode = brace_value_number(bits, 8u, 8u);
-    message->faults = brace_value_number(bits, 16u, 16u);
+    message->faults = brace_value_number(bits, 16u, 14u);
+    message->setting = brace_value_number(bits, 30u, 2u);
     message->dictionary_hash = brace_value_number(bits, 32u, 32u);
 }
 

@@ -52,6 +52,54 @@ const char *brace_mode_text(int32_t number)
     return find(mode_meanings, COUNT, number)->text;
 }
 
+static const meaning_t setting_meanings[] = {
+    {1, "BENCH",
+     "Everybody on the buses: for simulators, emulated boards and a board on a desk."},
+    {2, "GUARDED",
+     "Whoever has the controller's key, one at a time."},
+    {3, "NO_KEY",
+     "Nobody: the board is guarded and has no key yet."},
+};
+
+const char *brace_setting_name(int32_t number)
+{
+    enum { COUNT = sizeof setting_meanings / sizeof *setting_meanings };
+    return find(setting_meanings, COUNT, number)->name;
+}
+
+const char *brace_setting_text(int32_t number)
+{
+    enum { COUNT = sizeof setting_meanings / sizeof *setting_meanings };
+    return find(setting_meanings, COUNT, number)->text;
+}
+
+static const meaning_t owner_meanings[] = {
+    {0, "NONE",
+     "No session is open."},
+    {1, "PROGRAM",
+     "The program around the controller."},
+    {2, "CAN",
+     "A master on CAN."},
+    {3, "SLCAN",
+     "The other end of the SLCAN port."},
+    {4, "MODBUS_LINE",
+     "The master of the Modbus line."},
+    {5, "MODBUS_TCP",
+     "A master over Modbus TCP."},
+};
+
+const char *brace_owner_name(int32_t number)
+{
+    enum { COUNT = sizeof owner_meanings / sizeof *owner_meanings };
+    return find(owner_meanings, COUNT, number)->name;
+}
+
+const char *brace_owner_text(int32_t number)
+{
+    enum { COUNT = sizeof owner_meanings / sizeof *owner_meanings };
+    return find(owner_meanings, COUNT, number)->text;
+}
+
 _Static_assert((uint32_t)BRACE_BACKLASH_UNKNOWN == (uint32_t)(0), "play");
 _Static_assert((uint32_t)BRACE_BACKLASH_TAKING_UP == (uint32_t)(1), "play");
 _Static_assert((uint32_t)BRACE_BACKLASH_ENGAGED_POSITIVE == (uint32_t)(2), "play");

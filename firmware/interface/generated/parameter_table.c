@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stddef.h>
 
-_Static_assert(sizeof(brace_parameters_t) == 4 * 111, "the dictionary lists every member");
+_Static_assert(sizeof(brace_parameters_t) == 4 * 112, "the dictionary lists every member");
 _Static_assert(offsetof(brace_parameters_t, limb.coxa_mm) == 0, "order");
 _Static_assert(offsetof(brace_parameters_t, limb.femur_mm) == 4, "order");
 _Static_assert(offsetof(brace_parameters_t, limb.tibia_mm) == 8, "order");
@@ -115,8 +115,9 @@ _Static_assert(offsetof(brace_parameters_t, controller.load_hz) == 420, "order")
 _Static_assert(offsetof(brace_parameters_t, controller.heartbeat_hz) == 424, "order");
 _Static_assert(offsetof(brace_parameters_t, controller.bus_load_ratio) == 428, "order");
 _Static_assert(offsetof(brace_parameters_t, controller.can_fd_bit_rate) == 432, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.modbus_address) == 436, "order");
-_Static_assert(offsetof(brace_parameters_t, controller.modbus_baud) == 440, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.let_go_after_ms) == 436, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.modbus_address) == 440, "order");
+_Static_assert(offsetof(brace_parameters_t, controller.modbus_baud) == 444, "order");
 
 const float brace_f32_range[25][2] = {
     {0.0f, 10000.0f},
@@ -146,7 +147,7 @@ const float brace_f32_range[25][2] = {
     {0x1p-149f, 1.0f},
 };
 
-const uint32_t brace_u32_range[8][2] = {
+const uint32_t brace_u32_range[9][2] = {
     {0u, 2u},
     {0u, 127u},
     {500u, 5000u},
@@ -154,6 +155,7 @@ const uint32_t brace_u32_range[8][2] = {
     {0u, 1000u},
     {1u, 10u},
     {0u, 8000000u},
+    {0u, 600000u},
     {1u, 247u},
 };
 
@@ -163,11 +165,11 @@ const uint32_t brace_u32_choices[2][9] = {
 };
 
 /* For each member: its range of floats, or of whole numbers after these, or its choices after those. */
-const uint8_t brace_parameter_rule[111] = {
+const uint8_t brace_parameter_rule[112] = {
     0, 1, 1, 2, 2, 3, 2, 4, 4, 2, 2, 3, 2, 4, 4, 2, 2, 3, 2, 4, 4, 4, 5, 6, 4, 5, 6, 4, 5, 6, 2, 2, 4, 7, 5,
     4, 4, 8, 9, 10, 11, 4, 11, 12, 11, 11, 13, 14, 14, 12, 8, 9, 10, 11, 4, 11, 12, 11, 11, 13, 14, 14, 12, 8,
     9, 10, 11, 4, 11, 12, 11, 11, 13, 14, 14, 12, 11, 11, 11, 15, 3, 16, 16, 17, 15, 18, 18, 19, 19, 20, 11,
-    2, 21, 18, 22, 2, 23, 25, 17, 26, 33, 27, 28, 29, 29, 29, 30, 24, 31, 32, 34,
+    2, 21, 18, 22, 2, 23, 25, 17, 26, 34, 27, 28, 29, 29, 29, 30, 24, 31, 32, 33, 35,
 };
 
 const brace_parameters_t brace_parameters_safe = {
@@ -340,6 +342,7 @@ static const char *const keys[] = {
     "controller.heartbeat_hz",
     "controller.bus_load_ratio",
     "controller.can_fd_bit_rate",
+    "controller.let_go_after_ms",
     "controller.modbus_address",
     "controller.modbus_baud",
 };
@@ -352,7 +355,7 @@ static const char *const units[] = {
     "N mm", "", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm", "N mm", "N mm", "rad", "rad", "rad", "N mm",
     "N mm", "", "N mm/rad^3", "N mm", "", "N mm s^2/rad", "N mm", "N mm", "N mm", "rad", "rad", "rad", "N mm",
     "N", "N", "N", "rad", "rad", "N", "N", "", "rad", "", "", "N/s", "N/s", "N", "N", "", "s", "1/degC",
-    "degC", "mm", "s", "", "", "", "bit/s", "us", "us", "Hz", "Hz", "Hz", "Hz", "", "bit/s", "", "bit/s",
+    "degC", "mm", "s", "", "", "", "bit/s", "us", "us", "Hz", "Hz", "Hz", "Hz", "", "bit/s", "", "", "bit/s",
 };
 
 const char *brace_parameter_key(uint32_t index)
@@ -370,7 +373,7 @@ const uint16_t brace_parameter_indices[BRACE_PARAMETER_NUMBERS] = {
     29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54,
     55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 67, 68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 81, 82,
     83, 84, 85, 86, 87, 88, 89, 90, 91, 92, 93, 94, 95, 96, 97, 98, 99, 100, 101, 102, 103, 104, 106, 107,
-    108, 109, 110, 79, 80, 105,
+    108, 110, 111, 79, 80, 105, 109,
 };
 
 uint32_t brace_parameter_number(uint32_t index)
@@ -380,7 +383,7 @@ uint32_t brace_parameter_number(uint32_t index)
         29, 30, 31, 32, 33, 34, 35, 36, 37, 38, 39, 40, 41, 42, 43, 44, 45, 46, 47, 48, 49, 50, 51, 52, 53, 54,
         55, 56, 57, 58, 59, 60, 61, 62, 63, 64, 65, 66, 67, 68, 69, 70, 71, 72, 73, 74, 75, 76, 77, 78, 108, 109,
         79, 80, 81, 82, 83, 84, 85, 86, 87, 88, 89, 90, 91, 92, 93, 94, 95, 96, 97, 98, 99, 100, 101, 102, 110,
-        103, 104, 105, 106, 107,
+        103, 104, 105, 111, 106, 107,
     };
     return index < BRACE_PARAMETER_COUNT ? number[index] : (uint32_t)BRACE_PARAMETER_NUMBERS;
 }

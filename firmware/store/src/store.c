@@ -140,11 +140,20 @@ brace_status_t brace_store_offer(brace_store_t *store, const brace_parameters_t 
         (void)fail(store, BRACE_STORE_E_SHAPE);
         return BRACE_OK;
     }
+    store->is_named = false;
     store->sequence = next_sequence(store);
     memset(store->block + BRACE_BLOCK_BYTES, 0xff, sizeof store->block - BRACE_BLOCK_BYTES);
     brace_block_compose(parameters, store->sequence, store->block);
     begin(store, slot_to_write(store), STAGE_CHECK);
     return BRACE_OK;
+}
+
+void brace_store_expect(brace_store_t *store, uint32_t crc)
+{
+    if (store != NULL) {
+        store->is_named = true;
+        store->named_crc = crc;
+    }
 }
 
 brace_status_t brace_store_begin(brace_store_t *store, const brace_parameters_t *parameters,
@@ -218,13 +227,35 @@ static brace_store_state_t check(brace_store_t *store)
     return BRACE_STORE_BUSY;
 }
 
+/* Carries brace_parameters_crc on over bytes [from, from + count) of a block. */
+static void identify(brace_store_t *store, uint32_t from, uint32_t count)
+{
+    const uint32_t members_end = BRACE_BLOCK_BYTES - 4;
+    if (from == 0u) {
+        store->identity = brace_crc32(0, store->block + 8, 4); /* the schema hash */
+    }
+    const uint32_t first = from < BRACE_BLOCK_HEADER_BYTES ? (uint32_t)BRACE_BLOCK_HEADER_BYTES : from;
+    const uint32_t end = from + count < members_end ? from + count : members_end;
+    if (first < end) {
+        store->identity = brace_crc32(store->identity, store->block + first, end - first);
+    }
+}
+
 static brace_store_state_t seal(brace_store_t *store)
 {
     const uint32_t covered = BRACE_BLOCK_BYTES - 4, left = covered - store->position;
     const uint32_t count = left < SEALED_BYTES ? left : (uint32_t)SEALED_BYTES;
     store->block_crc = brace_crc32(store->block_crc, store->block + store->position, count);
+    if (store->is_named) {
+        identify(store, store->position, count);
+    }
     store->position += count;
     if (store->position == covered) {
+        if (store->is_named && store->identity != store->named_crc) {
+            store->refusal = BRACE_E_CHECKSUM;
+            store->wrong_index = BRACE_PARAMETER_COUNT;
+            return fail(store, BRACE_STORE_E_REFUSED);
+        }
         for (uint32_t i = 0; i < 4u; i++) {
             store->block[covered + i] = (uint8_t)(store->block_crc >> (8u * i));
         }
@@ -409,6 +440,7 @@ static brace_store_state_t spoil(brace_store_t *store)
 
 static brace_store_state_t erase(brace_store_t *store)
 {
+    store->erases += store->erases < UINT32_MAX;
     const uint32_t slot = store->target;
     if (store->hal->nvm_erase(store->hal->context, slot) != BRACE_HAL_OK) {
         return fail(store, BRACE_STORE_E_DEVICE);
@@ -462,20 +494,6 @@ static brace_store_state_t write_block(brace_store_t *store)
         go_to(store, STAGE_READ_BACK);
     }
     return BRACE_STORE_BUSY;
-}
-
-/* Carries brace_parameters_crc on over bytes [from, from + count) of a block. */
-static void identify(brace_store_t *store, uint32_t from, uint32_t count)
-{
-    const uint32_t members_end = BRACE_BLOCK_BYTES - 4;
-    if (from == 0u) {
-        store->identity = brace_crc32(0, store->block + 8, 4); /* the schema hash */
-    }
-    const uint32_t first = from < BRACE_BLOCK_HEADER_BYTES ? (uint32_t)BRACE_BLOCK_HEADER_BYTES : from;
-    const uint32_t end = from + count < members_end ? from + count : members_end;
-    if (first < end) {
-        store->identity = brace_crc32(store->identity, store->block + first, end - first);
-    }
 }
 
 static brace_store_state_t read_back(brace_store_t *store)

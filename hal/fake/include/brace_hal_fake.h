@@ -102,6 +102,12 @@ struct brace_fake {
     brace_parity_t parity[BRACE_SERIAL_PORT_COUNT];
     brace_fake_bytes_t serial_sent[BRACE_SERIAL_PORT_COUNT], serial_received[BRACE_SERIAL_PORT_COUNT];
 
+    bool has_key;
+    uint8_t key[BRACE_HAL_KEY_BYTES];
+    uint32_t random;             /* the last word of random_read: another one each time */
+    uint32_t peer;               /* number of the connection of Modbus TCP that speaks */
+    uint32_t open_from;          /* connections with smaller numbers are closed */
+
     brace_reset_cause_t reset_cause;
     brace_crash_record_t crash;
     bool crashed;
@@ -123,6 +129,12 @@ void brace_fake_reset(brace_fake_t *fake, brace_reset_cause_t cause);
 void brace_fake_without_can(brace_fake_t *fake);
 void brace_fake_without_commands(brace_fake_t *fake);
 void brace_fake_without_force(brace_fake_t *fake);
+
+/* A guarded board. key: null: it has none yet. Before brace_app_start. */
+void brace_fake_guarded(brace_fake_t *fake, const uint8_t key[BRACE_HAL_KEY_BYTES]);
+
+/* A board whose port of Modbus TCP has several connections: members peer and open_from. */
+void brace_fake_with_peers(brace_fake_t *fake);
 
 /* Makes calls fail. Takes at most BRACE_FAKE_FAILURES rules; false when there is no room for another. */
 bool brace_fake_fail(brace_fake_t *fake, brace_fake_entry_t entry, uint32_t first, uint32_t last, int32_t answer);

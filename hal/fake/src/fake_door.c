@@ -177,6 +177,67 @@ static int32_t serial_read(void *context, brace_serial_port_t port, uint8_t *byt
                                           : BRACE_HAL_E_RANGE;
 }
 
+static uint32_t serial_peer(void *context, brace_serial_port_t port)
+{
+    const brace_fake_t *fake = context;
+    return port == BRACE_SERIAL_MODBUS_TCP ? fake->peer : 0u;
+}
+
+static bool serial_peer_is_open(void *context, brace_serial_port_t port, uint32_t peer)
+{
+    const brace_fake_t *fake = context;
+    return port != BRACE_SERIAL_MODBUS_TCP || peer >= fake->open_from;
+}
+
+void brace_fake_with_peers(brace_fake_t *fake)
+{
+    fake->hal.serial_peer = serial_peer;
+    fake->hal.serial_peer_is_open = serial_peer_is_open;
+}
+
+/* ---------------------------------------------------------------------------------------------- key -- */
+
+static int32_t key_read(void *context, uint8_t key[BRACE_HAL_KEY_BYTES])
+{
+    const brace_fake_t *fake = context;
+    for (uint32_t i = 0; i < (uint32_t)BRACE_HAL_KEY_BYTES && fake->has_key; i++) {
+        key[i] = fake->key[i];
+    }
+    return fake->has_key ? 1 : 0;
+}
+
+static int32_t key_write(void *context, const uint8_t key[BRACE_HAL_KEY_BYTES])
+{
+    brace_fake_t *fake = context;
+    if (fake->has_key) {
+        return BRACE_HAL_E_RANGE;
+    }
+    for (uint32_t i = 0; i < (uint32_t)BRACE_HAL_KEY_BYTES; i++) {
+        fake->key[i] = key[i];
+    }
+    fake->has_key = true;
+    return BRACE_HAL_OK;
+}
+
+static int32_t random_read(void *context, uint32_t *word)
+{
+    brace_fake_t *fake = context;
+    fake->random = 1664525u * fake->random + 1013904223u;
+    *word = fake->random;
+    return BRACE_HAL_OK;
+}
+
+void brace_fake_guarded(brace_fake_t *fake, const uint8_t key[BRACE_HAL_KEY_BYTES])
+{
+    fake->hal.key_read = key_read;
+    fake->hal.key_write = key_write;
+    fake->hal.random_read = random_read;
+    fake->has_key = false;
+    if (key != NULL) {
+        (void)key_write(fake, key);
+    }
+}
+
 /* ------------------------------------------------------------------------------------------- system -- */
 
 static void watchdog_feed(void *context)

@@ -207,6 +207,9 @@ typedef struct {
     uint32_t fed_us;          /* time at which the watchdog was last fed */
     bool restart_asked;
     brace_reset_cause_t cause;
+    bool is_guarded;          /* the board keeps a key: */
+    bool has_key;
+    uint8_t key[BRACE_HAL_KEY_BYTES];
 } brace_posix_t;
 
 /* Sets everything closed, the clock to zero, and the memory erased. */

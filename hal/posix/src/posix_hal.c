@@ -1,6 +1,7 @@
 #include "brace_hal_posix.h"
 
 #include <string.h>
+#include <sys/random.h>
 #include <time.h>
 
 #include "posix_door.h"
@@ -75,6 +76,32 @@ static uint32_t door_serial_peer(void *context, brace_serial_port_t port)
 {
     const brace_posix_t *posix = context;
     return port == BRACE_SERIAL_MODBUS_TCP ? posix->modbus.current_serial : 0u;
+}
+
+static bool door_serial_peer_is_open(void *context, brace_serial_port_t port, uint32_t peer)
+{
+    const brace_posix_t *posix = context;
+    bool is_open = port != BRACE_SERIAL_MODBUS_TCP;
+    for (uint32_t i = 0; i < BRACE_POSIX_CLIENTS; i++) {
+        const brace_posix_modbus_client_t *client = &posix->modbus.client[i];
+        is_open = is_open || (client->file >= 0 && client->serial == peer);
+    }
+    return is_open;
+}
+
+static int32_t door_key_read(void *context, uint8_t key[BRACE_HAL_KEY_BYTES])
+{
+    const brace_posix_t *posix = context;
+    if (posix->has_key) {
+        memcpy(key, posix->key, BRACE_HAL_KEY_BYTES);
+    }
+    return posix->has_key ? 1 : 0;
+}
+
+static int32_t door_random_read(void *context, uint32_t *word)
+{
+    (void)context;
+    return getrandom(word, sizeof *word, GRND_NONBLOCK) == (ssize_t)sizeof *word ? BRACE_HAL_OK : BRACE_HAL_AGAIN;
 }
 
 static void door_watchdog_feed(void *context)
@@ -160,6 +187,9 @@ void brace_posix_hal(brace_posix_t *posix, brace_hal_t *hal)
     hal->serial_write = door_serial_write;
     hal->serial_read = door_serial_read;
     hal->serial_peer = door_serial_peer;
+    hal->serial_peer_is_open = door_serial_peer_is_open;
+    hal->key_read = posix->is_guarded ? door_key_read : NULL;
+    hal->random_read = door_random_read;
     hal->watchdog_feed = door_watchdog_feed;
     hal->reset_cause = door_reset_cause;
     hal->crash_read = door_crash_read;

@@ -39,6 +39,26 @@ brace_status_t brace_app_store_status(const brace_app_t *app, brace_store_status
     return BRACE_OK;
 }
 
+brace_setting_t brace_app_setting(const brace_app_t *app) { (void)app; return (brace_setting_t)any_u32(); }
+
+int32_t brace_app_life(brace_app_t *app, brace_who_t who, const brace_seal_t *seal)
+{
+    (void)app;
+    (void)who;
+    PROVE(seal != NULL && seal->is_there && seal->counter_bits == 32u, "a sign of life has a check");
+    const int32_t status = any_i32();
+    ASSUME(status <= 0 && status >= BRACE_REFUSED_STORE - 7);
+    return status;
+}
+
+int32_t answer_admit(request_t *request, brace_command_t command)
+{
+    PROVE(__CPROVER_r_ok(request->bytes, request->count) && command == BRACE_COMMAND_WRITES, "the request as it came");
+    const int32_t status = any_i32();
+    ASSUME(status <= 0 && status >= BRACE_REFUSED_STORE - 7);
+    return status;
+}
+
 /* Any answer, of a request that Modbus knows. */
 int32_t answer_request(request_t *request, uint32_t code, const brace_request_t *asked, brace_answer_t *answer)
 {
@@ -47,12 +67,14 @@ int32_t answer_request(request_t *request, uint32_t code, const brace_request_t 
     ASSUME(status <= ANSWER_AGAIN && status >= BRACE_REFUSED_STORE - 7);
     PROVE((code >= BRACE_REQUEST_K_AT_POSTURE && code <= BRACE_REQUEST_SET_MODE) || code == BRACE_REQUEST_COMMIT ||
               code == BRACE_REQUEST_ROLLBACK || code == BRACE_REQUEST_TAKE_UP || code == BRACE_REQUEST_LET_GO ||
+              code == BRACE_REQUEST_LOADING_TEST_STOP || code == BRACE_REQUEST_WRITE_ENTRY ||
               code == BRACE_REQUEST_CLEAR || code == BRACE_REQUEST_K_IN_SPACE_AT_POSTURE ||
               (code >= BRACE_REQUEST_SET_GRAVITY && code <= BRACE_REQUEST_CODE_MOST),
           "a request that Modbus knows");
     PROVE(code != BRACE_REQUEST_TAKE_UP || asked->take_up.flank == 1 || asked->take_up.flank == -1,
           "a flank that there is");
-    PROVE(code != BRACE_REQUEST_COMMIT || asked->commit.crc == 0u, "no block is committed that nobody has uploaded");
+    PROVE(request->transfer == NULL, "no block is committed that nobody has uploaded");
+    PROVE(code != BRACE_REQUEST_WRITE_ENTRY || asked->write_entry.index >= BRACE_ENTRY_COMMANDS, "an entry that is a command");
     *answer = any;
     request->is_of_now = any_bool();
     return status;
@@ -114,7 +136,7 @@ int main(void)
     const uint8_t why = pdu[1];
     if ((pdu[0] & MODBUS_REFUSED) != 0u && (function & MODBUS_REFUSED) == 0u) {
         PROVE(answer == 2u && pdu[0] == (function | MODBUS_REFUSED), "an exception is two bytes and says of what");
-        PROVE((why >= 1u && why <= 4u) || why == 6u, "an exception is one that the protocol has");
+        PROVE((why >= 1u && why <= 4u) || why == 6u || why == 7u, "an exception is one that the protocol has");
         PROVE(server.refused == (uint16_t)(refused + 1u), "an exception is counted");
     }
     const bool known = function == 3u || function == 4u || function == 6u || function == 8u || function == 16u ||

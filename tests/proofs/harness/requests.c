@@ -6,9 +6,10 @@
 
 /* What was done, besides answering. */
 enum { MOVES = 1, CONFIGURES = 2, LEAVES = 4, STAGES = 8, STORES = 16, ROLLS_BACK = 32, CLEARS = 64, TESTS = 128,
-       FEEDS = 256 };
+       FEEDS = 256, STOPS = 512 };
 static uint32_t done;
 static bool open_for_writing;
+static bool is_admitted; /* whoever asks may command it */
 
 static brace_status_t any_status(void)
 {
@@ -21,6 +22,51 @@ static brace_status_t asked_for(uint32_t what)
 {
     done |= what;
     return any_status();
+}
+
+/* ------------------------------------------------------------------------------------------ who may -- */
+
+int32_t brace_app_may_command(brace_app_t *app, brace_command_t command, brace_who_t who, const brace_seal_t *seal,
+                              const uint8_t *bytes, uint32_t count)
+{
+    (void)app;
+    (void)who;
+    (void)seal;
+    PROVE(command != BRACE_COMMAND_NONE && __CPROVER_r_ok(bytes, count) && count == 8u, "a command, with its frame");
+    const int32_t status = any_i32();
+    ASSUME(status <= 0 && status >= BRACE_REFUSED_EARLY);
+    is_admitted = status == BRACE_OK;
+    return status;
+}
+
+int32_t brace_app_life(brace_app_t *app, brace_who_t who, const brace_seal_t *seal)
+{
+    (void)app;
+    (void)who;
+    PROVE(seal != NULL && seal->is_there && seal->counter_bits == 8u, "a sign of life has a check");
+    const int32_t status = any_i32();
+    ASSUME(status <= 0 && status >= BRACE_REFUSED_EARLY);
+    return status;
+}
+
+brace_setting_t brace_app_setting(const brace_app_t *app) { (void)app; return (brace_setting_t)any_u32(); }
+brace_status_t brace_app_stop(brace_app_t *app) { (void)app; return asked_for(STOPS); }
+bool brace_app_has_staged(const brace_app_t *app) { (void)app; return any_bool(); }
+
+int32_t brace_app_may_commit(brace_app_t *app, uint32_t *wait_ms)
+{
+    (void)app;
+    *wait_ms = any_u32();
+    return any_bool() ? BRACE_OK : BRACE_REFUSED_EARLY;
+}
+
+uint32_t brace_app_beyond_board(const brace_app_t *app, const brace_parameters_t *set)
+{
+    (void)app;
+    (void)set;
+    const uint32_t index = any_u32();
+    ASSUME(index <= BRACE_PARAMETER_COUNT);
+    return index;
 }
 
 /* ------------------------------------------------------------------------- what changes the controller -- */
@@ -59,6 +105,14 @@ brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults)
 brace_status_t brace_app_parameters_commit_staged(brace_app_t *app, uint32_t *wrong_index)
 {
     (void)app;
+    *wrong_index = any_u32();
+    return asked_for(STORES);
+}
+
+brace_status_t brace_app_parameters_commit_named(brace_app_t *app, uint32_t crc, uint32_t *wrong_index)
+{
+    (void)app;
+    (void)crc;
     *wrong_index = any_u32();
     return asked_for(STORES);
 }
@@ -273,7 +327,7 @@ static uint32_t allowed(const uint8_t *request)
 {
     const uint32_t key = (uint32_t)request[3] | (uint32_t)request[4] << 8, mode = request[2];
     switch (request[0]) {
-    case BRACE_REQUEST_WRITE_ENTRY: return STAGES;
+    case BRACE_REQUEST_WRITE_ENTRY: return STAGES | STOPS | TESTS;
     case BRACE_REQUEST_SET_MODE:
         return key != 0xc0deu ? 0u
                               : FEEDS | (mode == BRACE_MODE_CONFIGURATION ? CONFIGURES
@@ -285,8 +339,8 @@ static uint32_t allowed(const uint8_t *request)
     case BRACE_REQUEST_ROLLBACK: return FEEDS | (open_for_writing ? ROLLS_BACK : 0u);
     case BRACE_REQUEST_TAKE_UP:
     case BRACE_REQUEST_LET_GO: return MOVES;
-    case BRACE_REQUEST_LOADING_TEST_START:
-    case BRACE_REQUEST_LOADING_TEST_STOP: return TESTS;
+    case BRACE_REQUEST_LOADING_TEST_START: return TESTS;
+    case BRACE_REQUEST_LOADING_TEST_STOP: return STOPS;
     case BRACE_REQUEST_CLEAR: return CLEARS;
     default: return 0;
     }
@@ -338,6 +392,7 @@ int main(void)
     PROVE(same(data, as_sent, 8), "a request is not changed");
     PROVE(is_known || (done == 0u && answers->count == count + 1u), "an unknown request does nothing but be refused");
     PROVE((done & ~allowed(data)) == 0u, "nothing is done but what the request names");
+    PROVE(is_admitted || (done & ~(uint32_t)STOPS) == 0u, "and nothing but stopping by whoever may not command");
     PROVE(!stores || (port.storing == code && port.storing_token == data[1]),
           "what is stored is answered to who asked");
     PROVE(storing_before == 0u ||

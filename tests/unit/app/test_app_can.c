@@ -49,7 +49,8 @@ static void test_a_heartbeat_each_second_tells_mode_faults_and_dictionary(void)
     TEST_ASSERT_EQUAL(8, frame.length);
     TEST_ASSERT_EQUAL_HEX8(0x05, frame.data[0]);
     TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, frame.data[1]);
-    TEST_ASSERT_EQUAL(0, frame.data[2] | frame.data[3]);
+    TEST_ASSERT_EQUAL(0, frame.data[2]);
+    TEST_ASSERT_EQUAL_HEX8(BRACE_SETTING_BENCH << 6, frame.data[3]);
     TEST_ASSERT_EQUAL_HEX32(BRACE_DICTIONARY_HASH, u32(&frame.data[4]));
     TEST_ASSERT_EQUAL(10, frames(0x705, 10005));
     TEST_ASSERT_EQUAL(BRACE_OK, brace_app_configuration_enter(&app));

@@ -117,8 +117,8 @@ static void test_reads_have_their_limits(void)
     refused(read_asks(4, 4095, 2), 4, 2);
     TEST_ASSERT_EQUAL(170, read_asks(4, 4096, 84).count);
     refused(read_asks(4, 4096, 85), 4, 2);
-    TEST_ASSERT_EQUAL(138, read_asks(3, 16384, 68).count);
-    refused(read_asks(3, 16384, 69), 3, 2);
+    TEST_ASSERT_EQUAL(166, read_asks(3, 16384, 82).count);
+    refused(read_asks(3, 16384, 83), 3, 2);
     refused(read_asks(3, 16383, 2), 3, 2);
     TEST_ASSERT_EQUAL(4, read_asks(3, 2 * BRACE_PARAMETER_NUMBERS - 1, 1).count);
     refused(read_asks(3, 2 * BRACE_PARAMETER_NUMBERS - 1, 2), 3, 2);

@@ -656,6 +656,7 @@ static brace_can_take_up_result_answer_0_t take_up_result(uint32_t joint)
 static void test_the_coxa_joint_is_taken_up_and_carries_across(void)
 {
     start_with_play();
+    begin_to_live();
     TEST_ASSERT_EQUAL_FLOAT(0.0f, now()->space.across_n_per_mm);
     take_up(BRACE_COXA);
     for (int i = 0; i < 10000 && now()->play[BRACE_COXA].phase != BRACE_TAKEUP_HOLD; i++) {
@@ -680,6 +681,7 @@ static void test_every_wire_tells_why_a_take_up_failed(void)
 {
     for (uint32_t joint = BRACE_COXA; joint < BRACE_LINK_COUNT; joint++) {
         start_with_play();
+        begin_to_live();
         link_is_free[joint] = true; /* nothing holds it */
         take_up(joint);
         ticks(1);

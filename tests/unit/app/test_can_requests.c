@@ -437,6 +437,7 @@ static void test_take_up_and_loading_test_over_the_bus(void)
     answer = ask(data);
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, refusal_of(&answer, BRACE_REQUEST_TAKE_UP).status);
     brace_can_pack_loading_test_start_request(&(brace_can_loading_test_start_request_t){1, 0, 2, 0.5f, 20}, data);
+    begin_to_live();
     answer = ask(data);
     TEST_ASSERT_EQUAL(1, answer.count);
     TEST_ASSERT_EQUAL_HEX8(BRACE_REQUEST_LOADING_TEST_START, answer.part[0][0]);
@@ -444,7 +445,7 @@ static void test_take_up_and_loading_test_over_the_bus(void)
     ticks(5);
     TEST_ASSERT_EQUAL(BRACE_MODE_LOADING_TEST, now()->mode);
     drain();
-    ticks(100);
+    ticks(140);
     drain();
     const uint8_t stop[8] = {BRACE_REQUEST_LOADING_TEST_STOP, 1};
     answer = ask(stop);
@@ -470,20 +471,29 @@ static void test_take_up_and_loading_test_over_the_bus(void)
     brace_can_unpack_loading_test_result_answer_0(answer.part[0], &result);
     TEST_ASSERT_EQUAL(BRACE_LOADING_STOPPED, result.outcome);
     TEST_ASSERT_EQUAL_FLOAT((float)rows, result.value);
+    ticks(2000);
+    TEST_ASSERT_EQUAL(BRACE_MODE_LOADING_TEST, now()->mode); /* it stands where it was stopped */
+    const uint8_t let_go[8] = {BRACE_REQUEST_LET_GO, 1};
+    answer = ask(let_go);
+    TEST_ASSERT_EQUAL_HEX8(BRACE_REQUEST_LET_GO, answer.part[0][0]);
+    ticks(2000);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
 }
 
 /* The way back takes its time: who asks for the next test meanwhile is told to ask again, and then has it. */
 static void test_the_next_loading_test_waits_for_the_way_back(void)
 {
     uint8_t data[8];
-    const uint8_t stop[8] = {BRACE_REQUEST_LOADING_TEST_STOP, 1};
+    const uint8_t stop[8] = {BRACE_REQUEST_LOADING_TEST_STOP, 1}, let_go[8] = {BRACE_REQUEST_LET_GO, 1};
     brace_can_pack_loading_test_start_request(&(brace_can_loading_test_start_request_t){1, 0, 2, 0.5f, 20}, data);
+    begin_to_live();
     (void)ask(data);
     ticks(100);
     drain();
     answer_t answer = ask(data);
     TEST_ASSERT_EQUAL(BRACE_E_MODE, refusal_of(&answer, BRACE_REQUEST_LOADING_TEST_START).status);
     (void)ask(stop);
+    (void)ask(let_go);
     answer = ask(data);
     TEST_ASSERT_EQUAL(BRACE_REFUSED_BUSY, refusal_of(&answer, BRACE_REQUEST_LOADING_TEST_START).status);
     uint32_t asked = 1;
@@ -520,7 +530,8 @@ static void arrives_commit(uint32_t token)
     arrives(0x600u + NODE, data, 8);
 }
 
-/* Two push at once: whenever the second one's commit comes, each hears of its own, in two parts or a refusal. */
+/* Two push at once: whenever the second one's commit comes, the first hears of its own in two parts, and the second that
+ * it is refused. */
 static void test_two_commits_are_two_answers_whenever_the_second_comes(void)
 {
     enum { FIRST = 21, SECOND = 22, STORED_WITHIN = 150 };
@@ -553,7 +564,8 @@ static void test_two_commits_are_two_answers_whenever_the_second_comes(void)
         busy += refusals[1];
         stored += parts[1] / 2u;
     }
-    TEST_ASSERT_TRUE(busy > 10u && stored > 10u); /* both came to pass */
+    TEST_ASSERT_EQUAL(STORED_WITHIN, busy); /* while a set is stored, and within 10 s of it */
+    TEST_ASSERT_EQUAL(0, stored);
 }
 
 int main(void)

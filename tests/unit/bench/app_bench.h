@@ -54,9 +54,14 @@ static inline void bench_store(const brace_parameters_t *p)
     TEST_ASSERT_EQUAL(BRACE_STORE_DONE, state);
 }
 
+/* A master that gives its sign of life while it wants the limb to move, in as many ticks as a client does. */
+enum { LIFE_TICKS = 40 };
+static const brace_who_t *living_master;
+
 static inline void bench_board(void)
 {
     brace_fake_start(&fake);
+    living_master = NULL;
     fake.joint[BRACE_COXA].absent = true; /* a limb that moves in its plane only */
     fake.joint[BRACE_FEMUR].sample.motor_rad = 1.0f;
     fake.joint[BRACE_TIBIA].sample.motor_rad = 1.4f;
@@ -71,8 +76,13 @@ static inline void bench_start(const brace_parameters_t *p)
 
 static inline void ticks(int count)
 {
+    static uint32_t since_life;
     for (int i = 0; i < count; i++) {
         fake.now_us += TICK_US;
+        if (living_master != NULL && ++since_life >= (uint32_t)LIFE_TICKS) {
+            since_life = 0;
+            (void)brace_app_life(&app, *living_master, NULL);
+        }
         brace_app_tick(&app, fake.now_us);
     }
 }

@@ -12,6 +12,15 @@
 /* A K that is asked for: taken in one tick, worked out in the next, answered in the third. */
 enum { NODE = 5, PATIENCE_TICKS = 10, K_TICKS = 3 };
 
+/* Whoever asks here has this number: the upper bits of its tokens. */
+static const brace_who_t can_master = {BRACE_ASKER_CAN, 0};
+
+static inline void begin_to_live(void)
+{
+    living_master = &can_master;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_life(&app, can_master, NULL));
+}
+
 /* The frames of one answer. */
 typedef struct {
     int count;

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import struct
 import time
+from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING
 
 from brace.bus.controller import (
@@ -157,6 +158,14 @@ class CanController:
     def let_go(self) -> None:
         """It has begun when the answer comes."""
         self.session.ask("let_go", {})
+
+    def living(self) -> AbstractContextManager[None]:
+        """Signs of life while frames are waited for."""
+        return self.session.living()
+
+    def stay(self, seconds: float) -> None:
+        """Listens meanwhile."""
+        self.session.listen(seconds)
 
     # --------------------------------------------------------------------------------------- parameters
 

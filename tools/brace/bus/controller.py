@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
@@ -108,6 +109,12 @@ class Controller(Protocol):
 
     def let_go(self) -> None:
         """Begins to let go of every joint that was taken up."""
+
+    def living(self) -> AbstractContextManager[None]:
+        """While the limb moves: gives signs of life, also within `stay`. Without them it stands."""
+
+    def stay(self, seconds: float) -> None:
+        """Waits."""
 
     def enter_configuration(self) -> None: ...
 

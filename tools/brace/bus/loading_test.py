@@ -9,11 +9,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from brace.bus.entries import number_of
+from brace.bus.ownership import entry_of
 from brace.bus.session import Session
 from brace.dataset.columns import LOADING
 from brace.errors import DeviceFaultError, NoDeviceError
+from brace.wire.codes import MODE
 
 POLL_S = 0.2
+BACK_POLL_S = 0.05
+BACK_S = 20.0  # far more than any way back
 SERVO_S = 3.0  # what the controller grants its servos at each step
 COLUMNS = tuple(column.name for column in LOADING)[:15]
 _OUTCOMES = {
@@ -43,7 +47,19 @@ class Plan:
 
 
 def run(session: Session, plan: Plan, advance: Callable[[int], None]) -> None:
-    """Until it is done; stopped when we are. DeviceFaultError says how it failed."""
+    """Until it is done and the limb is back; ended when we are. DeviceFaultError says how it failed."""
+    with session.living():
+        outcome = _run(session, plan, advance)
+    if outcome != DONE:
+        raise DeviceFaultError(
+            f"the loading test along {plan.axis} failed: {_OUTCOMES.get(outcome, outcome)}",
+            where=session.where,
+            why=f"outcome {outcome}; nothing was written",
+            next_step="a smaller --step-mm or fewer --steps; the tip must stand on something that does not yield",
+        )
+
+
+def _run(session: Session, plan: Plan, advance: Callable[[int], None]) -> int:
     request = {
         "axis": "xz".index(plan.axis),
         "steps_per_side": plan.steps_per_side,
@@ -68,17 +84,20 @@ def run(session: Session, plan: Plan, advance: Callable[[int], None]) -> None:
                 )
     except BaseException:
         try:
-            session.ask("loading_test_stop")
+            session.ask("write_entry", {"index": entry_of("end_test"), "value": 1})
+            _go_back(session)
         except Exception:  # what went wrong first is what matters
             pass
         raise
-    if outcome != DONE:
-        raise DeviceFaultError(
-            f"the loading test along {plan.axis} failed: {_OUTCOMES.get(outcome, outcome)}",
-            where=session.where,
-            why=f"outcome {outcome}; nothing was written",
-            next_step="a smaller --step-mm or fewer --steps; the tip must stand on something that does not yield",
-        )
+    _go_back(session)
+    return outcome
+
+
+def _go_back(session: Session) -> None:
+    """Waits until the limb is where the test began."""
+    until = time.monotonic() + BACK_S
+    while MODE.name_of(_entry(session, "mode")) == "LOADING_TEST" and time.monotonic() < until:
+        session.listen(BACK_POLL_S)
 
 
 def _outcome(session: Session) -> int:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 import os
 import random
 import struct
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -23,6 +24,7 @@ from brace.bus.controller import (
 )
 from brace.bus.drift import TAKE_UPS, Drift, drift_of, take_up_of
 from brace.bus.load import Load, load_of
+from brace.bus.ownership import LIFE_S, Owner, register_of
 from brace.bus.refusal import STORE, error_of, no_coxa_joint, no_equilibrium
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceAnswer, SpaceSnapshot, space_answer, space_snapshot
@@ -76,7 +78,10 @@ _EXCEPTIONS = {
     6: "busy",
 }
 _STORING, _STORE_REFUSED = 1, 256  # what `commit` and `rollback` read: at work; this less the store's refusal
-_BUSY = 6
+_BUSY, _NOT_OURS = 6, 7
+_WRITE_BLOCK = 16
+_COMMITS = ("commit", "commit_crc")
+EARLY_S = 11.0  # the controller takes a commit each 10 s
 _NO_SUCH_UNIT = (10, 11)  # a gateway's words: no path to it, no answer from it
 
 
@@ -87,8 +92,12 @@ class _BusyError(DeviceFaultError):
 class ModbusController:
     """One unit. The dictionary is compared before anything else is asked."""
 
-    def __init__(self, url: BusUrl) -> None:
+    def __init__(self, url: BusUrl, key: bytes | None = None) -> None:
         self.url = url.text
+        self._owner = Owner(key)
+        self._is_bench = False
+        self._lives = False
+        self._next_life_s = 0.0
         self._url = url
         self._client = _connected(url)
         try:
@@ -197,6 +206,7 @@ class ModbusController:
 
     def set_gravity(self, direction_rad: float, lean_rad: float) -> tuple[Value, Value]:
         """Volatile."""
+        self._become_owner()
         v = self._ask("asked_gravity_direction", ">ff", direction_rad, lean_rad)
         return v["taken_gravity_direction"], v["taken_gravity_lean"]
 
@@ -263,6 +273,52 @@ class ModbusController:
         """It has begun when the register is written."""
         self._command("let_go", 1)
 
+    # ------------------------------------------------------------------------------------------- owning
+
+    @contextlib.contextmanager
+    def living(self) -> Iterator[None]:
+        """Signs of life before each request, and within `stay`."""
+        self._become_owner()
+        self._lives = True
+        self._give_sign_of_life()
+        try:
+            yield
+        finally:
+            self._lives = False
+
+    def stay(self, seconds: float) -> None:
+        """Waits."""
+        until = time.monotonic() + seconds
+        while (left := until - time.monotonic()) > 0:
+            time.sleep(min(left, LIFE_S / 2))
+            self._tend()
+
+    def _become_owner(self) -> None:
+        """Opens a session on a guarded board."""
+        if self._is_bench or self._owner.is_open:
+            return
+        setting, low, high = (self.read_entry(name) for name in ("setting", "challenge_low", "challenge_high"))
+        opening = self._owner.begin(setting, low, high, self.url)
+        self._is_bench = opening is None
+        if opening is not None:
+            self._show("life_counter", *opening)
+
+    def _tend(self) -> None:
+        if self._lives and time.monotonic() >= self._next_life_s:
+            self._give_sign_of_life()
+
+    def _give_sign_of_life(self) -> None:
+        self._next_life_s = time.monotonic() + LIFE_S
+        self._show("life_counter", *self._owner.life())
+
+    def _show(self, first: str, counter: int, check: int) -> None:
+        """A life sign or a seal: number and check in one request."""
+        words = struct.unpack(">4H", struct.pack(">II", counter, check))
+        address = register_of(first)
+        self._done(
+            lambda: self._client.write_registers(address, list(words), device_id=self._url.unit), f"writing {first}"
+        )
+
     # --------------------------------------------------------------------------------------- parameters
 
     def enter_configuration(self) -> None:
@@ -283,8 +339,8 @@ class ModbusController:
     def commit(self, block: Block) -> Stored:
         """Until the CRC in force is the block's."""
         before = self._input()["parameter_sequence"]
-        self._command("commit", _KEY | 1)
-        return self._stored("commit", before, block.identity)
+        self._command("commit_crc", block.identity)
+        return self._stored("commit_crc", before, block.identity)
 
     def rollback(self) -> Stored:
         """The set before."""
@@ -342,6 +398,7 @@ class ModbusController:
         return _decoded(registers, self._read("input", registers[0].address, 2 * len(registers)))
 
     def _read(self, table: str, address: int, count: int) -> tuple[int, ...]:
+        self._tend()
         function = (
             self._client.read_input_registers if table == "input" else self._client.read_holding_registers
         )
@@ -352,6 +409,12 @@ class ModbusController:
         )
 
     def _write(self, address: int, words: Sequence[int]) -> None:
+        """Sealed where a session is open: over the request from its function on."""
+        self._tend()
+        if self._owner.is_open:
+            head = struct.pack(">BHHB", _WRITE_BLOCK, address, len(words), 2 * len(words))
+            counter = self._owner.next_counter()
+            self._show("seal_counter", counter, self._owner.seal(head + struct.pack(f">{len(words)}H", *words)))
         self._done(
             lambda: self._client.write_registers(address, list(words), device_id=self._url.unit),
             f"writing holding {address}",
@@ -359,7 +422,8 @@ class ModbusController:
 
     def _command(self, name: str, value: int) -> None:
         """A controller that is still storing says busy, which is to be asked again (Modbus exception 6)."""
-        until = time.monotonic() + BUSY_S
+        self._become_owner()
+        until = time.monotonic() + (EARLY_S if name in _COMMITS else BUSY_S)
         address, words = _BY_NAME[name].address, (value >> 16, value & 0xFFFF)
         while True:
             try:
@@ -367,7 +431,7 @@ class ModbusController:
             except _BusyError:
                 if time.monotonic() > until:
                     raise
-                time.sleep(0.02)
+                self.stay(0.02)
 
     def _done(self, request: Any, what: str) -> Any:
         try:
@@ -387,6 +451,8 @@ class ModbusController:
                 why=f"the other end knows no such unit (Modbus exception {code})",
                 next_step="modbus-tcp://HOST:PORT/UNIT with the controller's controller.modbus_address, 1 unless set",
             )
+        if code == _NOT_OURS:
+            return error_of(what, self.read_entry("last_refusal") - _STORE_REFUSED, 0, self.url)
         kind = _BusyError if code == _BUSY else DeviceFaultError
         return kind(
             f"the controller refuses {what}: {_EXCEPTIONS.get(code, 'no reason given')}",

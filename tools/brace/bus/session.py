@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import random
 import secrets
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
+from brace.bus.entries import index_of
 from brace.bus.frame import NODE_MASK, Bus, EndOfLog, Frame
+from brace.bus.ownership import COMMANDS, EARLY, LIFE_S, MOVING, NOT_OPEN, Owner, entry_of
 from brace.bus.refusal import BUSY, ORDER, error_of
 from brace.bus.snapshot import Heartbeat, Joiner, Snapshot, heartbeat_of
 from brace.errors import DeviceFaultError, NoDeviceError, UsageError
@@ -29,6 +32,7 @@ TRIES = 3
 HEARTBEAT_S = 1.15  # a heartbeat comes each second
 BUSY_S = 4.0  # a set that is being stored, a limb that goes back from a loading test: waited for
 BUSY_POLL_S = 0.02
+EARLY_POLL_S = 1.0  # a commit that comes too soon after another: waited for
 CONTESTED_S = 2.5  # other clients' forces come between ours and its question for so long at most
 APART_S = 0.03  # between two questions that another client's came between
 GATHER_S = 0.25  # for the other nodes of a bus, once one is heard
@@ -59,8 +63,13 @@ class _Refused(Exception):
 class Session:
     """One node, all of whose frames are looked at while an answer is waited for."""
 
-    def __init__(self, bus: Bus, node: int | None = None) -> None:
+    def __init__(self, bus: Bus, node: int | None = None, key: bytes | None = None) -> None:
         self.bus = bus
+        self.owner = Owner(key)
+        self._is_bench = False
+        self._master = secrets.randbelow(16) << 4  # on a bench: the upper bits of tokens tell masters apart
+        self._lives = False
+        self._next_life_s = 0.0
         self.joiner = Joiner()
         self.heard: dict[int, float] = {}  # node -> when last
         self.heartbeats: dict[int, Heartbeat] = {}
@@ -77,8 +86,8 @@ class Session:
     # ---------------------------------------------------------------------------------------- listening
 
     def receive(self, timeout_s: float) -> Frame | None:
-        """The next frame, looked at; None when none came in time."""
-        frame = self.bus.receive(timeout_s)
+        """The next frame, looked at; None when none came in time. Signs of life go out meanwhile."""
+        frame = self._next_frame(timeout_s)
         if frame is None:
             return None
         if frame.node and frame.identifier & ~NODE_MASK in _SENT_BY_NODES:
@@ -92,6 +101,17 @@ class Session:
         if beat is not None:
             self.heartbeats[frame.node] = beat
         return frame
+
+    def _next_frame(self, timeout_s: float) -> Frame | None:
+        until = time.monotonic() + timeout_s
+        while self._lives:
+            now = time.monotonic()
+            if now >= self._next_life_s:
+                self._give_sign_of_life()
+            frame = self.bus.receive(max(0.0, min(until, self._next_life_s) - time.monotonic()))
+            if frame is not None or time.monotonic() >= until:
+                return frame
+        return self.bus.receive(timeout_s)
 
     def listen(self, seconds: float) -> None:
         """Takes what comes for a time."""
@@ -123,6 +143,49 @@ class Session:
                 next_step=f"--node {nodes[0]}",
             )
         return nodes[0]
+
+    # ------------------------------------------------------------------------------------------- owning
+
+    @contextlib.contextmanager
+    def living(self) -> Iterator[None]:
+        """While the limb moves: signs of life go out whenever a frame is waited for. Without them it stands."""
+        self._become_owner()
+        self._lives = True
+        self._give_sign_of_life()
+        try:
+            yield
+        finally:
+            self._lives = False
+
+    def _become_owner(self) -> None:
+        """Opens a session on a guarded board."""
+        if self._is_bench or self.owner.is_open:
+            return
+        names = ("setting", "challenge_low", "challenge_high")
+        setting, low, high = (int(self.ask("read_entry", {"index": index_of(name)})["value"] or 0) for name in names)
+        opening = self.owner.begin(setting, low, high, self.where)
+        self._is_bench = opening is None
+        if opening is not None:
+            self._send_life(*opening)
+
+    def _give_sign_of_life(self) -> None:
+        self._send_life(*self.owner.life())
+        self._next_life_s = time.monotonic() + LIFE_S
+
+    def _send_life(self, counter: int, check: int) -> None:
+        token = self._master if self._is_bench else counter & 0xFF
+        data = REQUESTS["write_entry"].encode({"index": entry_of("life_mac"), "value": check}, token)
+        self.bus.send(REQUEST_ID + self.node, data)
+
+    def _sealed(self, name: str, values: Mapping[str, Value]) -> list[bytes]:
+        """The frames of a command: its seal first, where there is one."""
+        request = REQUESTS[name]
+        if not self.owner.is_open:
+            return [request.encode(values, self._token)]
+        self._token = self.owner.next_counter() & 0xFF
+        data = request.encode(values, self._token)
+        seal = {"index": entry_of("seal_mac"), "value": self.owner.seal(data)}
+        return [REQUESTS["write_entry"].encode(seal, self._token), data]
 
     # ------------------------------------------------------------------------------------------- asking
 
@@ -162,10 +225,21 @@ class Session:
     def _ask(self, name: str, values: Mapping[str, Value] | None, timeout_s: float) -> dict[str, Value]:
         busy_until = time.monotonic() + BUSY_S
         tries = 1 if name in _NOT_REPEATED else TRIES
+        may_open = name in COMMANDS
+        if may_open:
+            self._become_owner()
         while tries > 0:
             try:
                 answer = self._ask_once(name, values or {}, timeout_s)
             except _Refused as refused:
+                if may_open and self.owner.is_open and refused.status in NOT_OPEN:
+                    may_open = False
+                    self.owner.forget()
+                    self._become_owner()
+                    continue
+                if refused.status == EARLY:
+                    self.listen(min(EARLY_POLL_S, refused.detail / 1000 + BUSY_POLL_S))
+                    continue
                 if refused.status != BUSY or time.monotonic() > busy_until:
                     raise
                 self.listen(BUSY_POLL_S)
@@ -177,9 +251,11 @@ class Session:
 
     def _ask_once(self, name: str, values: Mapping[str, Value], timeout_s: float) -> dict[str, Value] | None:
         self._token = (self._token + 1) & 0xFF
+        if name in MOVING:
+            self._token = self._master | self._token & 0xF
         request = REQUESTS[name]
         try:
-            data = request.encode(values, self._token)
+            frames = self._sealed(name, values) if name in COMMANDS else [request.encode(values, self._token)]
         except ValueError as error:
             raise UsageError(
                 f"{name}: {error}",
@@ -187,7 +263,8 @@ class Session:
                 why="the frame has no room for it",
                 next_step="a value in this range",
             ) from None
-        self.bus.send(REQUEST_ID + self.node, data)
+        for data in frames:
+            self.bus.send(REQUEST_ID + self.node, data)
         parts = ANSWERS[name]
         came: dict[int, dict[str, Value]] = {}
         until = time.monotonic() + timeout_s

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -30,13 +31,20 @@ class Flank:
 def take_up(device: Controller, flanks: Sequence[Flank], wait_s: float) -> None:
     """One joint after the other, each until its flank is verified. If one fails, the controller lets all of them go.
     Raises DeviceFaultError with the reason, NoDeviceError after `wait_s` for one joint."""
+    with device.living():
+        _take_up(device, flanks, wait_s)
+
+
+def _take_up(device: Controller, flanks: Sequence[Flank], wait_s: float) -> None:
     for flank in flanks:
         device.take_up(flank.joint, flank.side)
         until = time.monotonic() + wait_s
         while (outcome := device.take_ups()[flank.joint]) in _NOT_ENDED:
             _check(until, f"{flank.text}: the take-up has not ended within {wait_s:g} s", "brace let-go ends it")
-            time.sleep(POLL_S)
+            device.stay(POLL_S)
         if outcome != "held":
+            with contextlib.suppress(NoDeviceError):
+                _until_back(device, wait_s)
             why = next((code.text for code in TAKE_UP_OUTCOME.codes if code.name.lower() == outcome), outcome)
             raise DeviceFaultError(
                 f"{flank.text} is not taken up",
@@ -48,11 +56,16 @@ def take_up(device: Controller, flanks: Sequence[Flank], wait_s: float) -> None:
 
 def let_go(device: Controller, wait_s: float) -> None:
     """Until every joint is back where it was. Raises NoDeviceError after `wait_s`."""
-    device.let_go()
+    with device.living():
+        device.let_go()
+        _until_back(device, wait_s)
+
+
+def _until_back(device: Controller, wait_s: float) -> None:
     until = time.monotonic() + wait_s
     while MODE.name_of(device.read_entry("mode")) in ("TAKING_UP", "LOADING_TEST"):
         _check(until, f"the joints are not back within {wait_s:g} s", "brace monitor shows what moves")
-        time.sleep(POLL_S)
+        device.stay(POLL_S)
 
 
 def _check(until: float, what: str, next_step: str) -> None:

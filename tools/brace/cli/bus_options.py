@@ -7,6 +7,7 @@ import contextlib
 import signal
 import threading
 from collections.abc import Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from brace.cli import common
@@ -31,6 +32,12 @@ def add_bus(parser: argparse.ArgumentParser, required: bool = True) -> None:
         type=common.count(0, 127),
         metavar="N",
         help="CAN node; default: the only one on the bus. 0: a controller without a number, over its own SLCAN port",
+    )
+    parser.add_argument(
+        "--key",
+        type=Path,
+        metavar="FILE",
+        help="key of a guarded controller, for commands: 32 hexadecimal digits. Reading needs none",
     )
     parser.add_argument(
         "--bit-rate",
@@ -61,15 +68,23 @@ def bus_url(arguments: argparse.Namespace, frames_for: str = "", answers: bool =
     return url
 
 
+def key_of(arguments: argparse.Namespace) -> bytes | None:
+    """--key, read."""
+    from brace.bus.ownership import load_key
+
+    return None if arguments.key is None else load_key(arguments.key)
+
+
 @contextlib.contextmanager
 def session(arguments: argparse.Namespace, url: BusUrl) -> Iterator[Session]:
     """A CAN session with the node asked for, or the only one."""
     from brace.bus.open import open_bus
     from brace.bus.session import Session
 
+    key = key_of(arguments)
     bus = open_bus(url, arguments.bit_rate)
     try:
-        yield Session(bus, arguments.node)
+        yield Session(bus, arguments.node, key)
     finally:
         bus.close()
 
@@ -81,7 +96,7 @@ def controller(arguments: argparse.Namespace) -> Iterator[Controller]:
     if url.is_modbus:
         from brace.bus.modbus_controller import ModbusController
 
-        device = ModbusController(url)
+        device = ModbusController(url, key_of(arguments))
         try:
             yield device
         finally:

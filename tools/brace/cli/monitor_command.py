@@ -52,7 +52,8 @@ def add(commands: Subcommands) -> None:
         type=common.count(0, 65535),
         const=FOXGLOVE_PORT,
         metavar="PORT",
-        help=f"Foxglove's WebSocket on this computer instead, for Foxglove and PlotJuggler; port {FOXGLOVE_PORT}, or this",
+        help="Foxglove's WebSocket on this computer instead, for Foxglove and PlotJuggler; default port "
+        f"{FOXGLOVE_PORT}",
     )
     parser.add_argument(
         "--model",

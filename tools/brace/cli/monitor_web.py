@@ -59,7 +59,8 @@ def models(given: list[str]) -> dict[int, LimbModel]:
             node, path = "0", one
         if int(node) > _NODE_MOST:
             raise UsageError(
-                f"there is no node {node}", where=f"--model {one}", why="nodes are 1 to 127", next_step="--model 1=LIMB.toml"
+                f"there is no node {node}", where=f"--model {one}", why="nodes are 1 to 127",
+                next_step="--model 1=LIMB.toml",
             )
         found[int(node)] = load_limb(Path(path))
     return found

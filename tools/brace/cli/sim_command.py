@@ -7,10 +7,11 @@ import json
 import math
 import re
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from brace.cli import common, sim_values
-from brace.cli.bus_options import Ended, ended_by_signal
+from brace.cli.bus_options import Ended, ended_by_signal, key_of
 from brace.cli.options import Subcommands, refused
 from brace.errors import EXIT_INTERRUPTED, EXIT_OK, UsageError
 from brace.sim import spec
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 CAN_PORT = 29536
 MODBUS_PORT = 1502
 _POLL_S = 0.2
+OWNER_SILENCE_S = 0.5  # of the wall clock, where limbs run at a speed of their own
 _FAST_SLICE_S = 0.5
 
 
@@ -56,6 +58,12 @@ def add(commands: Subcommands) -> None:
         default=[],
         metavar="PORT=WHERE",
         help="console or slcan = stderr, file:PATH, pty, /dev/ttyX[@BAUD], tcp://HOST:PORT; may be repeated",
+    )
+    parser.add_argument(
+        "--key",
+        type=Path,
+        metavar="FILE",
+        help="the controllers are guarded by this key, 32 hexadecimal digits: commands need it (docs/security.md)",
     )
     parser.add_argument("--seed", type=common.count(0, 2**63 - 1), default=0, help="of the noise; default 0")
     parser.add_argument("--seconds", type=common.positive, metavar="S", help="how long; default until Ctrl-C")
@@ -235,6 +243,8 @@ def _setups(arguments: argparse.Namespace, model: LimbModel, plant: LimbModel, m
             servos=_with_baud(arguments.servos),
             servo_ids=arguments.servo_ids,
             servos_hold=arguments.servos_hold,
+            key=key_of(arguments),
+            owner_silence_s=0.0 if arguments.speed == 1.0 else OWNER_SILENCE_S * arguments.speed,
         )
         _give_modbus(setup, modbus, limb)
         setups.append(setup)

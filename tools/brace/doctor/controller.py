@@ -15,6 +15,12 @@ _COUNTERS = {
     "frames_unknown": ("CAN frames had no known form", "compare the dictionary of whoever sends them: brace query"),
     "frames_lost": ("requests over CAN found no room", "ask less often: a request each millisecond"),
     "commands_failed": ("commands were refused by a drive", "look at the drive's own errors"),
+    "strangers_refused": (
+        "commands came without the key, or from somebody who is not the owner", "look who else is on the bus: docs/security.md"
+    ),
+    "replays_refused": ("sealed commands came twice", "look for a repeater, or for somebody who records: docs/security.md"),
+    "silences": ("times the limb stopped because its owner fell silent", "give a sign of life each 100 ms: docs/security.md"),
+    "commits_refused": ("commits were refused as too soon or of another set", "10 s between two; brace params push waits"),
     "modbus_broken": ("Modbus frames had a wrong check", "look at wires, baud rate and parity"),
     "modbus_refused": ("Modbus requests were answered with an exception", "docs/modbus.md says what each means"),
 }

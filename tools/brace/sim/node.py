@@ -63,6 +63,8 @@ class LimbSetup:
     servos: str | None = None  # "sim", or a device: brace_node.h
     servo_ids: tuple[int, int, int] = (11, 12, 13)
     servos_hold: bool = False
+    key: bytes | None = None  # of a guarded controller
+    owner_silence_s: float = 0.0  # in the simulation's time; 0: as a board has it
     drive: dict[str, float] = field(default_factory=dict)  # members of brace_node_drive_t, of all joints
 
 
@@ -149,6 +151,10 @@ class Node:
             struct.block, struct.block_bytes = keep[-1], len(block)
         struct.servo_id = setup.servo_ids
         struct.servos_hold = setup.servos_hold
+        struct.owner_silence_s = setup.owner_silence_s
+        if setup.key is not None:
+            keep.append(ffi.from_buffer("uint8_t[]", setup.key))
+            struct.key = keep[-1]
         texts = ("console", "modbus_line", "slcan_line", "modbus_tcp", "nvm_path", "servos")
         for name in texts:
             if (text := getattr(setup, name)) is not None:

@@ -14,6 +14,23 @@ MODE = CodeTable("mode", False, (
     Code(5, "FAULT", "A fault makes every K invalid; the mode ends by itself when the fault is over."),
 ))
 
+# Who may move the limb and write to its controller: docs/security.md.
+SETTING = CodeTable("setting", False, (
+    Code(1, "BENCH", "Everybody on the buses: for simulators, emulated boards and a board on a desk."),
+    Code(2, "GUARDED", "Whoever has the controller's key, one at a time."),
+    Code(3, "NO_KEY", "Nobody: the board is guarded and has no key yet."),
+))
+
+# The port of the one whose session is open.
+OWNER = CodeTable("owner", False, (
+    Code(0, "NONE", "No session is open."),
+    Code(1, "PROGRAM", "The program around the controller."),
+    Code(2, "CAN", "A master on CAN."),
+    Code(3, "SLCAN", "The other end of the SLCAN port."),
+    Code(4, "MODBUS_LINE", "The master of the Modbus line."),
+    Code(5, "MODBUS_TCP", "A master over Modbus TCP."),
+))
+
 # Which flank of a joint's play carries.
 PLAY = CodeTable("play", False, (
     Code(0, "UNKNOWN", "No flank can be told: no load has shown one, or not for 250 ms."),
@@ -150,6 +167,8 @@ DRIFT_COULD_BE = CodeTable("drift_could_be", True, (
 
 TABLES = {table.name: table for table in (
     MODE,
+    SETTING,
+    OWNER,
     PLAY,
     TAKE_UP_PHASE,
     TAKE_UP_OUTCOME,

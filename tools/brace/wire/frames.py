@@ -5,7 +5,7 @@ from __future__ import annotations
 from brace.wire import codes
 from brace.wire.layout import Field, Layout
 
-DICTIONARY_HASH = 0xE1207171
+DICTIONARY_HASH = 0x13040C2F
 PROTOCOL = 1
 REQUEST_ID = 0x600
 ANSWER_ID = 0x580
@@ -49,7 +49,8 @@ MESSAGES: dict[str, Layout] = {
     "heartbeat": Layout("heartbeat", 0x700, None, (
         Field("state", 0, 8, codes=codes.HEARTBEAT_STATE),
         Field("mode", 8, 8, codes=codes.MODE),
-        Field("faults", 16, 16, codes=codes.FAULT),
+        Field("faults", 16, 14, codes=codes.FAULT),
+        Field("setting", 30, 2, codes=codes.SETTING),
         Field("dictionary_hash", 32, 32),
     )),
 }
@@ -402,11 +403,13 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
     "set_mode": (
         Layout("set_mode_answer_0", 0x580, 9, (
             Field("mode", 16, 8),
+            Field("setting", 24, 8, codes=codes.SETTING),
         )),
     ),
     "upload_begin": (
         Layout("upload_begin_answer_0", 0x580, 10, (
             Field("words", 16, 16),
+            Field("setting", 32, 8, codes=codes.SETTING),
         )),
     ),
     "upload_word": (
@@ -421,6 +424,7 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
         )),
         Layout("commit_answer_1", 0x580, 44, (
             Field("crc", 16, 32),
+            Field("setting", 48, 8, codes=codes.SETTING),
         )),
     ),
     "rollback": (
@@ -429,6 +433,7 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
         )),
         Layout("rollback_answer_1", 0x580, 45, (
             Field("crc", 16, 32),
+            Field("setting", 48, 8, codes=codes.SETTING),
         )),
     ),
     "download_word": (
@@ -440,21 +445,25 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
     "take_up": (
         Layout("take_up_answer_0", 0x580, 15, (
             Field("phase", 16, 8, codes=codes.TAKE_UP_PHASE),
+            Field("setting", 24, 8, codes=codes.SETTING),
         )),
     ),
     "let_go": (
         Layout("let_go_answer_0", 0x580, 16, (
             Field("mode", 16, 8),
+            Field("setting", 24, 8, codes=codes.SETTING),
         )),
     ),
     "loading_test_start": (
         Layout("loading_test_start_answer_0", 0x580, 17, (
             Field("rows", 16, 16),
+            Field("setting", 32, 8, codes=codes.SETTING),
         )),
     ),
     "loading_test_stop": (
         Layout("loading_test_stop_answer_0", 0x580, 18, (
             Field("rows", 16, 16),
+            Field("setting", 32, 8, codes=codes.SETTING),
         )),
     ),
     "fetch_row": (
@@ -493,6 +502,7 @@ ANSWERS: dict[str, tuple[Layout, ...]] = {
     "clear": (
         Layout("clear_answer_0", 0x580, 22, (
             Field("faults", 16, 32),
+            Field("setting", 48, 8, codes=codes.SETTING),
         )),
     ),
     "k_in_space_at_posture": (

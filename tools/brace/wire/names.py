@@ -6,7 +6,7 @@ from math import inf
 
 from brace.wire.parameter import Parameter
 
-SCHEMA_HASH = 0x305EA071
+SCHEMA_HASH = 0x5D93352F
 
 PARAMETERS: tuple[Parameter, ...] = (
     Parameter(
@@ -555,12 +555,17 @@ PARAMETERS: tuple[Parameter, ...] = (
         description="the bit rate of a CAN FD snapshot's data; 0 means that classic frames are sent",
     ),
     Parameter(
-        109, 106, "controller.modbus_address", "controller.modbus_address",
+        109, 111, "controller.let_go_after_ms", "controller.let_go_after_ms",
+        unit="", low=0, high=600000, default=0, safe=0, type="u32",
+        description="how many milliseconds after its owner has fallen silent the limb lets go by itself; 0 means never: it holds its set-points",
+    ),
+    Parameter(
+        110, 106, "controller.modbus_address", "controller.modbus_address",
         unit="", low=1, high=247, default=1, safe=1, type="u32",
         description="the controller's address on Modbus",
     ),
     Parameter(
-        110, 107, "controller.modbus_baud", "controller.modbus_baud",
+        111, 107, "controller.modbus_baud", "controller.modbus_baud",
         unit="bit/s", low=1200, high=230400, default=115200, safe=115200, type="u32", numbers=(1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400,),
         description="the baud rate of Modbus RTU",
     ),

@@ -10,6 +10,12 @@ enum {
     BRACE_REFUSED_ORDER = -67,   /* words in order only; detail: the one that is expected */
     BRACE_REFUSED_CHANGED = -68, /* the set in force has changed meanwhile: begin again with word 0 */
     BRACE_REFUSED_READ_ONLY = -69,
+    BRACE_REFUSED_STRANGER = -70, /* guarded: no session is open, or the check does not fit */
+    BRACE_REFUSED_REPLAY = -71,   /* guarded: the counter is not larger than the last one */
+    BRACE_REFUSED_OWNED = -72,    /* somebody else is the owner */
+    BRACE_REFUSED_NO_KEY = -73,   /* guarded, and the board has no key */
+    BRACE_REFUSED_CEILING = -74,  /* beyond what the board allows; detail: the parameter's number */
+    BRACE_REFUSED_EARLY = -75,    /* a commit less than 10 s after the one before; detail: milliseconds that are left */
     BRACE_REFUSED_STORE = -80    /* plus brace_store_failure_t (-81 to -87): the set of before stays in force */
 };
 

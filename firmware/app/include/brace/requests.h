@@ -14,6 +14,7 @@
 #include "brace/recorder.h"
 #include "brace/snapshot.h"
 #include "brace/store.h"
+#include "brace/who.h"
 
 typedef struct brace_app brace_app_t;
 
@@ -36,6 +37,53 @@ void brace_app_counters(const brace_app_t *app, brace_app_counters_t *counters);
  * person should do next. */
 const brace_drift_report_t *brace_app_drift_report(const brace_app_t *app);
 brace_drift_next_t brace_app_drift_next_step(const brace_app_t *app);
+
+/* --------------------------------------------------------------------------------------- who may --
+ * The program around the controller may do everything below. A wire asks here first, for whoever asks it: docs/security.md
+ * says what somebody on a bus can do. */
+
+/* What a request does beside answering. */
+typedef enum {
+    BRACE_COMMAND_NONE = 0, /* nothing: everybody may */
+    BRACE_COMMAND_MOVES,    /* the limb: take-ups, loading tests, letting go */
+    BRACE_COMMAND_WRITES,   /* parameters: CONFIGURATION and all in it */
+    BRACE_COMMAND_TELLS     /* the controller something that changes K: where down is, that a fault is over */
+} brace_command_t;
+
+typedef struct {
+    brace_setting_t setting;
+    brace_owner_t owner;
+    bool is_held;       /* what moves the limb stands */
+    bool has_challenge;
+    uint64_t challenge;
+    uint32_t strangers, replays, silences, commits_refused, erases;
+    int32_t last_refusal;
+} brace_session_report_t;
+
+void brace_app_session(const brace_app_t *app, brace_session_report_t *report);
+brace_setting_t brace_app_setting(const brace_app_t *app);
+
+/* A sign of life of whoever moves the limb, which it gives every 100 ms: after 130 ms of silence the limb stands.
+ *   seal: null on a bench
+ * returns BRACE_OK or why not (brace/refusals.h). At most 600 instructions. */
+int32_t brace_app_life(brace_app_t *app, brace_who_t who, const brace_seal_t *seal);
+
+/* May it command that?
+ *   seal: null: none has come; bytes: of the command, as the seal was made over them
+ * returns BRACE_OK or why not. At most 650 instructions, and 20 for each byte beyond eight. */
+int32_t brace_app_may_command(brace_app_t *app, brace_command_t command, brace_who_t who, const brace_seal_t *seal,
+                              const uint8_t *bytes, uint32_t count);
+
+/* The other end of a port has gone, or a connection of it: its session is over. */
+void brace_app_gone(brace_app_t *app, brace_asker_t port);
+
+/* Everybody on the board's buses may move the limb until the next start: for the board's own console. */
+void brace_app_become_bench(brace_app_t *app);
+
+/* Holds every set-point where it is: anybody may, always. A loading test is over; what was taken up stays so. The limb
+ * moves again when its owner asks for something, letting go for example.
+ * returns BRACE_OK, BRACE_E_NULL, BRACE_E_MODE: nothing moves the limb */
+brace_status_t brace_app_stop(brace_app_t *app);
 
 /* ------------------------------------------------------------------------------- what moves the limb --
  * All return BRACE_OK, BRACE_E_NULL, BRACE_E_MODE (not possible in this mode), and what is named. */
@@ -90,6 +138,9 @@ brace_status_t brace_app_may_write(brace_app_t *app);
 /* The set that is being written, begun as a copy of the set in force. */
 const brace_parameters_t *brace_app_parameters_staged(const brace_app_t *app);
 
+/* Has anything been staged since CONFIGURATION was entered, or since the last set was stored? */
+bool brace_app_has_staged(const brace_app_t *app);
+
 /* Stages parameters whose numbers on the wire (brace_parameter_index) follow one another: all of them, or none where
  * one is refused. words: each as its 32 bits.
  * returns also what brace_app_may_write returns, BRACE_E_RANGE (no such parameter), BRACE_E_PARAMETER and
@@ -101,6 +152,19 @@ brace_status_t brace_app_parameters_stage(brace_app_t *app, uint32_t first_numbe
  *   wrong_index (out, may be null): as brace_parameters_check
  * returns also what brace_app_may_write returns, BRACE_E_PARAMETER, BRACE_E_NOT_FINITE. At most 2,000 instructions. */
 brace_status_t brace_app_parameters_commit_staged(brace_app_t *app, uint32_t *wrong_index);
+
+/* The same, if what is staged is the set with this brace_parameters_crc; else it ends in BRACE_STORE_E_REFUSED with
+ * BRACE_E_CHECKSUM, and nothing is touched. */
+brace_status_t brace_app_parameters_commit_named(brace_app_t *app, uint32_t crc, uint32_t *wrong_index);
+
+/* May another commit come over a wire already? Each wears the memory, so they are 10 s apart. A refusal is counted.
+ *   wait_ms (out): how long not yet; 0: it may
+ * returns BRACE_OK, BRACE_REFUSED_EARLY */
+int32_t brace_app_may_commit(brace_app_t *app, uint32_t *wait_ms);
+
+/* Is a set within what the board allows? It may not exceed the board's ceilings, nor take the node's number away.
+ * returns the index of the member that is not, or BRACE_PARAMETER_COUNT. At most 100 instructions. */
+uint32_t brace_app_beyond_board(const brace_app_t *app, const brace_parameters_t *parameters);
 
 /* Begins to store a set, which is in force once it has been checked, stored and read back; brace_app_store_status tells
  * how it goes. A set that brace_parameters_check refuses fails there, and the one in force stays. What concerns buses

@@ -18,6 +18,20 @@ static brace_hal_joint_command_t command_of(const flank_joint_t *flank, const dr
     return command;
 }
 
+/* Within what the board allows, whatever the parameters say. */
+static void limit(const drives_t *drives, const brace_hal_ceiling_t *ceiling, uint32_t tick_us, int index,
+                  brace_hal_joint_command_t *command)
+{
+    const float way_rad = ceiling[index].speed_most_rad_per_s * 1e-6f * (float)tick_us;
+    const float before_rad = drives->told_rad[index], offset_rad = command->offset_rad;
+    command->offset_rad = offset_rad > before_rad + way_rad   ? before_rad + way_rad
+                          : offset_rad < before_rad - way_rad ? before_rad - way_rad
+                                                              : offset_rad;
+    if (command->torque_limit_n_mm > ceiling[index].torque_most_n_mm) {
+        command->torque_limit_n_mm = ceiling[index].torque_most_n_mm;
+    }
+}
+
 void drives_start(drives_t *drives)
 {
     *drives = (drives_t){.are_commanded = false};
@@ -37,7 +51,10 @@ void drives_command(drives_t *drives, const brace_hal_t *hal, const joints_t *jo
     }
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         if (joints->joint[i].fitted) {
-            const brace_hal_joint_command_t command = command_of(&flank->joint[i], test, i);
+            brace_hal_joint_command_t command = command_of(&flank->joint[i], test, i);
+            if (hal->ceiling != NULL && moves) {
+                limit(drives, hal->ceiling, tick_us, i, &command);
+            }
             drives->told_rad[i] = command.offset_rad;
             drives->limit_n_mm[i] = command.torque_limit_n_mm;
             if (hal->joint_command(hal->context, i, &command) != BRACE_HAL_OK) {

@@ -64,7 +64,7 @@ void flank_expect_load(brace_backlash_sample_t *sample, int index, const tip_for
 }
 
 void flank_tick(flank_t *flank, const joints_t *joints, const tip_force_t *force, const posture_t *posture,
-                brace_vec3_t down, const brace_parameters_t *parameters, uint32_t now_us)
+                brace_vec3_t down, const brace_parameters_t *parameters, bool stands, uint32_t now_us)
 {
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         const joint_t *joint = &joints->joint[i];
@@ -78,7 +78,8 @@ void flank_tick(flank_t *flank, const joints_t *joints, const tip_force_t *force
         } else {
             brace_backlash_sample_t sample = {.now_us = now_us,
                                               .motor_rad = joint->sample.motor_rad,
-                                              .torque_n_mm = joint->sample.torque_n_mm};
+                                              .torque_n_mm = joint->sample.torque_n_mm,
+                                              .stands = stands};
             if (!joint->is_new_enough_to_prove_a_flank) {
                 sample.motor_rad = __builtin_nanf(""); /* the machine goes to FAULT, and comes back by itself */
             }

@@ -37,6 +37,17 @@ void takeup_let_go(takeup_t *takeup)
     takeup->letting_go = takeup->count > 0u;
 }
 
+void takeup_forget(takeup_t *takeup, flank_t *flank)
+{
+    takeup->letting_go = false;
+    if (takeup->count > 0u) {
+        brace_backlash_t *last = &joint_at(takeup, flank, takeup->count - 1u)->machine;
+        takeup->count = (uint8_t)(takeup->count - last->requested);
+        takeup->begun = takeup->begun || last->requested;
+        last->requested = false;
+    }
+}
+
 bool takeup_holds(const takeup_t *takeup, const flank_t *flank)
 {
     bool holds = takeup->count > 0u && !takeup->letting_go;

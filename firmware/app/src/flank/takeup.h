@@ -23,6 +23,9 @@ brace_status_t takeup_request(takeup_t *takeup, flank_t *flank, int32_t joint_in
 /* Begins to let every joint go. */
 void takeup_let_go(takeup_t *takeup);
 
+/* Takes back what was asked for and has not begun: a joint that has not moved yet, or to let go. */
+void takeup_forget(takeup_t *takeup, flank_t *flank);
+
 /* One tick, after flank_tick. A joint that fails takes the others with it; one that is back makes room for the next. */
 void takeup_step(takeup_t *takeup, flank_t *flank);
 

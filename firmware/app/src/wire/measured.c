@@ -178,6 +178,23 @@ static void take_counters(const brace_app_counters_t *counters, brace_measured_t
     m->commands_failed = counters->commands_failed;
 }
 
+static void take_session(const brace_app_t *app, brace_measured_t *m)
+{
+    brace_session_report_t session;
+    brace_app_session(app, &session);
+    m->setting = session.setting;
+    m->owner = session.owner;
+    m->is_held = session.is_held;
+    m->challenge_low = session.has_challenge ? (uint32_t)session.challenge : UINT32_MAX;
+    m->challenge_high = session.has_challenge ? (uint32_t)(session.challenge >> 32) : UINT32_MAX;
+    m->strangers_refused = session.strangers;
+    m->replays_refused = session.replays;
+    m->silences = session.silences;
+    m->commits_refused = session.commits_refused;
+    m->erases = session.erases;
+    m->last_refusal = (uint32_t)session.last_refusal & 0xffu;
+}
+
 void measured_take(const brace_app_t *app, const brace_app_counters_t *counters, uint32_t now_us,
                    brace_measured_t *m)
 {
@@ -201,6 +218,7 @@ void measured_take(const brace_app_t *app, const brace_app_counters_t *counters,
     take_loading(app, m);
     take_drift(app, m);
     take_counters(counters, m);
+    take_session(app, m);
 }
 
 brace_status_t measured_entry(const brace_measured_t *measured, uint32_t entry, uint32_t *value)

@@ -71,6 +71,7 @@ typedef struct {
     bool load_is_expected; /* someone knows the load from gravity or a contact plan, and expected_n_mm holds it */
     float expected_n_mm;   /* load that the joint should transmit [+-1e7] */
     float expected_off_n_mm; /* how far expected_n_mm may be off [0, 1e7] */
+    bool stands;           /* a take-up stands where it is: its command and its phase stay, and its time */
 } brace_backlash_sample_t;
 
 typedef struct {

@@ -233,7 +233,7 @@ brace_status_t brace_backlash_tick(brace_backlash_t *joint, const brace_backlash
     const bool leans = !bad && told == 0 && !backlash_load_standing(joint);
     const int leaning = leans ? backlash_load_told(joint, sample, LEANING_SHARE) : 0;
     uint32_t facts = bad ? (uint32_t)FACT_BAD_SAMPLE : flank_facts(joint, told, leaning);
-    facts |= backlash_takeup_advance(joint, facts, proven);
+    facts |= sample->stands ? backlash_takeup_stand(joint) : backlash_takeup_advance(joint, facts, proven);
     advance_state(joint, facts);
     tell(joint, proven, out);
     return status;

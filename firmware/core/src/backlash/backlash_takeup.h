@@ -8,6 +8,9 @@
  * returns FACT_TAKING_UP while the flank is not yet verified, else FACT_NOT_TAKING_UP */
 uint32_t backlash_takeup_advance(brace_backlash_t *joint, uint32_t facts, int proven);
 
+/* The same while the take-up stands: nothing goes on. */
+uint32_t backlash_takeup_stand(const brace_backlash_t *joint);
+
 void backlash_takeup_tell(const brace_backlash_t *joint, brace_backlash_out_t *out);
 
 #endif

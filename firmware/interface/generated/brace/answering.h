@@ -130,6 +130,7 @@ typedef struct {
 } brace_set_mode_request_t;
 typedef struct {
     uint32_t mode;
+    uint32_t setting;
 } brace_set_mode_answer_t;
 
 typedef struct {
@@ -138,6 +139,7 @@ typedef struct {
 } brace_upload_begin_request_t;
 typedef struct {
     uint32_t words;
+    uint32_t setting;
 } brace_upload_begin_answer_t;
 
 typedef struct {
@@ -155,6 +157,7 @@ typedef struct {
 typedef struct {
     uint32_t sequence;
     uint32_t crc;
+    uint32_t setting;
 } brace_commit_answer_t;
 
 typedef struct {
@@ -176,6 +179,7 @@ typedef struct {
 } brace_take_up_request_t;
 typedef struct {
     uint32_t phase;
+    uint32_t setting;
 } brace_take_up_answer_t;
 
 typedef struct {
@@ -183,6 +187,7 @@ typedef struct {
 } brace_let_go_request_t;
 typedef struct {
     uint32_t mode;
+    uint32_t setting;
 } brace_let_go_answer_t;
 
 typedef struct {
@@ -193,6 +198,7 @@ typedef struct {
 } brace_loading_test_start_request_t;
 typedef struct {
     uint32_t rows;
+    uint32_t setting;
 } brace_loading_test_start_answer_t;
 
 typedef struct {
@@ -200,6 +206,7 @@ typedef struct {
 } brace_loading_test_stop_request_t;
 typedef struct {
     uint32_t rows;
+    uint32_t setting;
 } brace_loading_test_stop_answer_t;
 
 typedef struct {
@@ -241,6 +248,7 @@ typedef struct {
 } brace_clear_request_t;
 typedef struct {
     uint32_t faults;
+    uint32_t setting;
 } brace_clear_answer_t;
 
 typedef struct {

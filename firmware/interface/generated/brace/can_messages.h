@@ -14,7 +14,7 @@
 #include <stdint.h>
 
 /* Of every frame, entry and parameter, with types, steps and units: what two ends must agree on. */
-#define BRACE_DICTIONARY_HASH 0xe1207171u
+#define BRACE_DICTIONARY_HASH 0x13040c2fu
 #define BRACE_PROTOCOL 1u
 
 /* Identifiers of node 0; a controller adds its node number, 1-127. */
@@ -185,6 +185,8 @@ typedef struct {
     uint32_t mode;
     /* the faults that are there now */
     uint32_t faults;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
     /* a checksum over everything on the wire; two ends whose hashes differ cannot understand each other */
     uint32_t dictionary_hash;
 } brace_can_heartbeat_t;
@@ -806,6 +808,8 @@ typedef struct {
     uint32_t token;
     /* the controller's mode now; on the way back to MONITOR it is START until there are samples */
     uint32_t mode;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
 } brace_can_set_mode_answer_0_t;
 uint32_t brace_can_pack_set_mode_answer_0(const brace_can_set_mode_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_set_mode_answer_0(const uint8_t data[8], brace_can_set_mode_answer_0_t *message);
@@ -824,6 +828,8 @@ typedef struct {
     uint32_t token;
     /* how many words the controller expects */
     uint32_t words;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
 } brace_can_upload_begin_answer_0_t;
 uint32_t brace_can_pack_upload_begin_answer_0(const brace_can_upload_begin_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_upload_begin_answer_0(const uint8_t data[8], brace_can_upload_begin_answer_0_t *message);
@@ -868,6 +874,8 @@ typedef struct {
     uint32_t token;
     /* the CRC of the set now in force */
     uint32_t crc;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
 } brace_can_commit_answer_1_t;
 uint32_t brace_can_pack_commit_answer_1(const brace_can_commit_answer_1_t *message, uint8_t data[8]);
 void brace_can_unpack_commit_answer_1(const uint8_t data[8], brace_can_commit_answer_1_t *message);
@@ -890,6 +898,8 @@ typedef struct {
     uint32_t token;
     /* the CRC of the set now in force */
     uint32_t crc;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
 } brace_can_rollback_answer_1_t;
 uint32_t brace_can_pack_rollback_answer_1(const brace_can_rollback_answer_1_t *message, uint8_t data[8]);
 void brace_can_unpack_rollback_answer_1(const uint8_t data[8], brace_can_rollback_answer_1_t *message);
@@ -927,6 +937,8 @@ typedef struct {
     uint32_t token;
     /* where the joint's take-up stood when this was asked */
     uint32_t phase;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
 } brace_can_take_up_answer_0_t;
 uint32_t brace_can_pack_take_up_answer_0(const brace_can_take_up_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_take_up_answer_0(const uint8_t data[8], brace_can_take_up_answer_0_t *message);
@@ -941,6 +953,8 @@ typedef struct {
     uint32_t token;
     /* the controller's mode now */
     uint32_t mode;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
 } brace_can_let_go_answer_0_t;
 uint32_t brace_can_pack_let_go_answer_0(const brace_can_let_go_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_let_go_answer_0(const uint8_t data[8], brace_can_let_go_answer_0_t *message);
@@ -965,6 +979,8 @@ typedef struct {
     uint32_t token;
     /* how many rows the test will record */
     uint32_t rows;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
 } brace_can_loading_test_start_answer_0_t;
 uint32_t brace_can_pack_loading_test_start_answer_0(const brace_can_loading_test_start_answer_0_t *message,
     uint8_t data[8]);
@@ -982,6 +998,8 @@ typedef struct {
     uint32_t token;
     /* how many rows there are now */
     uint32_t rows;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
 } brace_can_loading_test_stop_answer_0_t;
 uint32_t brace_can_pack_loading_test_stop_answer_0(const brace_can_loading_test_stop_answer_0_t *message,
     uint8_t data[8]);
@@ -1097,6 +1115,8 @@ typedef struct {
     uint32_t token;
     /* the faults that are there now */
     uint32_t faults;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
 } brace_can_clear_answer_0_t;
 uint32_t brace_can_pack_clear_answer_0(const brace_can_clear_answer_0_t *message, uint8_t data[8]);
 void brace_can_unpack_clear_answer_0(const uint8_t data[8], brace_can_clear_answer_0_t *message);

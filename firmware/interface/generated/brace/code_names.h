@@ -11,6 +11,10 @@
 
 const char *brace_mode_name(int32_t number);
 const char *brace_mode_text(int32_t number);
+const char *brace_setting_name(int32_t number);
+const char *brace_setting_text(int32_t number);
+const char *brace_owner_name(int32_t number);
+const char *brace_owner_text(int32_t number);
 const char *brace_play_name(int32_t number);
 const char *brace_play_text(int32_t number);
 const char *brace_take_up_phase_name(int32_t number);

@@ -21,6 +21,32 @@ typedef enum {
     BRACE_MODE_FAULT = 5
 } brace_mode_t;
 
+/* Who may move the limb and write to its controller: docs/security.md. */
+typedef enum {
+    /* Everybody on the buses: for simulators, emulated boards and a board on a desk. */
+    BRACE_SETTING_BENCH = 1,
+    /* Whoever has the controller's key, one at a time. */
+    BRACE_SETTING_GUARDED = 2,
+    /* Nobody: the board is guarded and has no key yet. */
+    BRACE_SETTING_NO_KEY = 3
+} brace_setting_t;
+
+/* The port of the one whose session is open. */
+typedef enum {
+    /* No session is open. */
+    BRACE_OWNER_NONE = 0,
+    /* The program around the controller. */
+    BRACE_OWNER_PROGRAM = 1,
+    /* A master on CAN. */
+    BRACE_OWNER_CAN = 2,
+    /* The other end of the SLCAN port. */
+    BRACE_OWNER_SLCAN = 3,
+    /* The master of the Modbus line. */
+    BRACE_OWNER_MODBUS_LINE = 4,
+    /* A master over Modbus TCP. */
+    BRACE_OWNER_MODBUS_TCP = 5
+} brace_owner_t;
+
 /* The likeliest cause of a drift. The core's number of the same cause is one less. */
 typedef enum {
     /* No change has shown. */

@@ -7,7 +7,8 @@
 /* Entries of the dictionary by number: parameters from 0 on, these from here on. */
 enum {
     BRACE_ENTRY_MEASURED = 0x1000,
-    BRACE_ENTRY_ANSWERED = 0x1800
+    BRACE_ENTRY_ANSWERED = 0x1800,
+    BRACE_ENTRY_COMMANDS = 0x2000
 };
 
 /* The first Modbus register of each struct below: input registers of what is measured and answered,
@@ -254,9 +255,33 @@ typedef struct {
     uint32_t frames_lost;
     /* how many commands a drive refused, counted since start */
     uint32_t commands_failed;
+    /* who may move the limb and write to this controller */
+    uint32_t setting;
+    /* the port of the one whose session is open */
+    uint32_t owner;
+    /* 1 while what moves the limb stands, because its owner has fallen silent or somebody has stopped it; else 0 */
+    uint32_t is_held;
+    /* the number that a session is opened with, low half: docs/security.md; all ones where there is none */
+    uint32_t challenge_low;
+    /* the number that a session is opened with, high half */
+    uint32_t challenge_high;
+    /* how many commands and life signs came without the key or from somebody who is not the owner, counted since
+     * start */
+    uint32_t strangers_refused;
+    /* how many sealed commands and life signs came a second time, counted since start */
+    uint32_t replays_refused;
+    /* how often an owner fell silent while the limb moved, counted since start */
+    uint32_t silences;
+    /* how many commits came less than 10 s after the one before, or named another set, counted since start */
+    uint32_t commits_refused;
+    /* how often a slot of the parameters was erased, counted since start */
+    uint32_t erases;
+    /* the status of the last command that was refused over any wire (docs/protocol.md), in 8 bits; 0 while there
+     * was none */
+    uint32_t last_refusal;
 } brace_measured_t;
 
-enum { BRACE_MEASURED_COUNT = 115 };
+enum { BRACE_MEASURED_COUNT = 126 };
 #ifndef __cplusplus
 _Static_assert(sizeof(brace_measured_t) == 4 * BRACE_MEASURED_COUNT, "32 bits each");
 #endif
@@ -432,9 +457,26 @@ typedef struct {
     float asked_space_theta1_rad;
     /* the knee's angle of that posture */
     float asked_space_theta2_rad;
+    /* the order to hold every set-point where it is: write any value; anybody may */
+    uint32_t stop;
+    /* the order to store the holding registers' parameters if this is the CRC of the whole set, as parameter_crc
+     * tells it once they are in force */
+    uint32_t commit_crc;
+    /* the life sign of the owner, with life_mac in one request, at least every 100 ms while the limb moves: its
+     * number, larger than any before */
+    uint32_t life_counter;
+    /* the check of that life sign; on a bench any value. Number 0 and its check open a session */
+    uint32_t life_mac;
+    /* the seal of the next write of this master, with seal_mac in one request: its number, larger than any before */
+    uint32_t seal_counter;
+    /* the check of that next write */
+    uint32_t seal_mac;
+    /* the order to end a loading test, or one that stands because it was stopped, and to go back to where it
+     * began: write any value */
+    uint32_t end_test;
 } brace_commands_t;
 
-enum { BRACE_COMMANDS_COUNT = 34 };
+enum { BRACE_COMMANDS_COUNT = 41 };
 #ifndef __cplusplus
 _Static_assert(sizeof(brace_commands_t) == 4 * BRACE_COMMANDS_COUNT, "32 bits each");
 #endif

@@ -107,6 +107,9 @@ typedef struct {
     float bus_load_ratio;
     /* the bit rate of a CAN FD snapshot's data; 0 means that classic frames are sent [bit/s, 0 to 8e+06] */
     uint32_t can_fd_bit_rate;
+    /* how many milliseconds after its owner has fallen silent the limb lets go by itself; 0 means never: it holds
+     * its set-points [0 to 600000] */
+    uint32_t let_go_after_ms;
     /* the controller's address on Modbus [1 to 247] */
     uint32_t modbus_address;
     /* the baud rate of Modbus RTU [bit/s, 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115200, 230400] */

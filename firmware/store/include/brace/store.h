@@ -39,6 +39,10 @@ brace_parameter_origin_t brace_store_start(brace_store_t *store, const brace_hal
  * returns BRACE_OK, BRACE_E_NULL, BRACE_E_UNSUPPORTED (BUSY); cost: 700 instructions */
 brace_status_t brace_store_offer(brace_store_t *store, const brace_parameters_t *parameters);
 
+/* After an offer, before the next step: stores the set only if this is its brace_parameters_crc. Else it ends in FAILED
+ * with E_REFUSED and BRACE_E_CHECKSUM before anything is touched. Null is ignored. */
+void brace_store_expect(brace_store_t *store, uint32_t crc);
+
 /* The same off the tick, checked at once. The set is copied; the old one stays in force until DONE. A set that
  * brace_parameters_check refuses is refused with its status and the member at fault; the store stays as it is.
  *   wrong_index (out, may be null): as brace_parameters_check

@@ -71,6 +71,9 @@ typedef struct {
     uint32_t sequence;      /* of the set on its way */
     uint32_t block_crc;     /* of what is being read */
     uint32_t identity;      /* brace_parameters_crc, as far as it has been read */
+    bool is_named;          /* only a set with this brace_parameters_crc is stored */
+    uint32_t named_crc;
+    uint32_t erases;        /* of a slot, since start; saturates */
     uint32_t wrong_index;   /* with E_REFUSED */
     uint8_t block[BRACE_STORE_BLOCK_ROOM]; /* on its way */
 } brace_store_t;

@@ -4,6 +4,8 @@
 
 #include "brace/snapshot.h"
 
+#define APART_US 10000000u /* between two commits: each erases a slot, and a slot takes some 10,000 of them */
+
 /* Where the set in force comes from, and the faults that last as long as it does. */
 static void judge(parameter_job_t *job)
 {
@@ -18,6 +20,7 @@ void parameter_job_start(parameter_job_t *job, const brace_hal_t *hal)
 {
     job->storing = job->comes_in_force = job->has_staged = false;
     job->idle_us = 0;
+    job->apart_us = APART_US;
     (void)brace_store_start(&job->store, hal, &job->in_force);
     job->crc = brace_parameters_crc(&job->in_force);
     judge(job);
@@ -25,7 +28,9 @@ void parameter_job_start(parameter_job_t *job, const brace_hal_t *hal)
 
 bool parameter_job_step(parameter_job_t *job)
 {
+    const uint32_t erases = job->store.erases;
     const brace_store_state_t state = job->storing ? brace_store_step(&job->store) : BRACE_STORE_BUSY;
+    job->apart_us = erases != job->store.erases ? 0u : job->apart_us;
     if (state == BRACE_STORE_BUSY) {
         return false;
     }
@@ -34,6 +39,9 @@ bool parameter_job_step(parameter_job_t *job)
         (void)brace_store_take(&job->store, &job->in_force, &job->crc);
         job->has_staged = false;
         job->comes_in_force = true;
+    }
+    if (!is_in_force && job->store.failure == BRACE_STORE_E_REFUSED && job->store.refusal == BRACE_E_CHECKSUM) {
+        brace_count(&job->commits_refused);
     }
     job->storing = false;
     judge(job);
@@ -75,6 +83,17 @@ uint32_t parameter_job_idle_us(parameter_job_t *job, uint32_t since_us)
 {
     job->idle_us = parameter_job_is_busy(job) ? 0u : job->idle_us + since_us;
     return job->idle_us;
+}
+
+void parameter_job_age(parameter_job_t *job, uint32_t since_us)
+{
+    const uint32_t left_us = APART_US - job->apart_us;
+    job->apart_us += since_us < left_us ? since_us : left_us;
+}
+
+uint32_t parameter_job_wait_ms(const parameter_job_t *job)
+{
+    return (APART_US - job->apart_us + 999u) / 1000u;
 }
 
 const brace_parameters_t *parameter_job_staged(const parameter_job_t *job)

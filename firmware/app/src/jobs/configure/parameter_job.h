@@ -21,6 +21,8 @@ typedef struct {
     bool comes_in_force;             /* in_force is another set, and what follows from it is still being made anew */
     bool has_staged;                 /* staged is in use: a copy of the set in force, changed by writes */
     brace_parameters_t staged;
+    uint32_t apart_us;               /* since the last erase, up to 10 s */
+    uint32_t commits_refused;        /* too soon, or another set than was named */
     uint32_t idle_us;                /* since somebody last asked for anything of CONFIGURATION */
     uint32_t faults;                 /* BRACE_FAULT_PARAMETERS, BRACE_FAULT_STORE: they last until a set is stored */
 } parameter_job_t;
@@ -53,6 +55,12 @@ void parameter_job_keep_open(parameter_job_t *job);
 /* For how long nobody has asked for anything [us]. Each tick of CONFIGURATION.
  *   since_us: since the tick before, which an erase may have delayed */
 uint32_t parameter_job_idle_us(parameter_job_t *job, uint32_t since_us);
+
+/* Each tick. since_us: since the tick before */
+void parameter_job_age(parameter_job_t *job, uint32_t since_us);
+
+/* How long no commit is taken yet [ms]. */
+uint32_t parameter_job_wait_ms(const parameter_job_t *job);
 
 /* The set that is being written: what is staged, or what is in force while nothing is. */
 const brace_parameters_t *parameter_job_staged(const parameter_job_t *job);

@@ -141,6 +141,14 @@ void loading_end(brace_loading_t *test, brace_loading_outcome_t outcome)
     }
 }
 
+void loading_forget(brace_loading_t *test)
+{
+    if (test->phase == LOADING_LEVERS) {
+        test->result.outcome = BRACE_LOADING_STOPPED;
+        test->phase = LOADING_IDLE;
+    }
+}
+
 /* ----------------------------------------------------------------------------------------- movement -- */
 
 /* Where step `step` of the pass 0 -> +n -> 0 -> -n -> 0 stands, in steps from its middle. */

@@ -30,6 +30,9 @@ brace_status_t loading_start(brace_loading_t *test, const loading_inputs_t *inpu
 /* Ends a test that runs: the limb goes back to where it began. */
 void loading_end(brace_loading_t *test, brace_loading_outcome_t outcome);
 
+/* Takes back a test that has not moved anything yet. */
+void loading_forget(brace_loading_t *test);
+
 static inline bool loading_runs(const brace_loading_t *test)
 {
     return test->phase != LOADING_IDLE;

@@ -47,6 +47,11 @@ typedef struct {
     brace_app_t *app;
     const brace_measured_t *measured; /* of the newest snapshot */
     brace_asker_t asker;    /* the port that it came through */
+    brace_who_t who;        /* the master of that port */
+    brace_seal_t *seal;     /* that came before it from that master; null: none can come */
+    uint32_t token;         /* of CAN: the low bits of the counter of a seal */
+    const uint8_t *bytes;   /* of the request as it came, over which its seal was made */
+    uint32_t count;
     asked_force_t *asked_force; /* of that port */
     transfer_t *transfer;   /* of the port that it came through; null: of a wire that transfers no blocks */
     uint32_t node_id;       /* of this node on CAN */
@@ -58,6 +63,10 @@ typedef struct {
     int32_t answer_##name(request_t *request, const brace_##name##_request_t *asked, brace_##name##_answer_t *answer);
 BRACE_REQUESTS(ANSWER_FUNCTION)
 #undef ANSWER_FUNCTION
+
+/* May what a request does be done? Uses its seal up.
+ * returns BRACE_OK, or why not: brace/refusals.h */
+int32_t answer_admit(request_t *request, brace_command_t command);
 
 /* Answers the request of a code. BRACE_REFUSED_UNKNOWN: the dictionary has none; detail is the highest code there is.
  * At most 50 instructions and what brace/requests.h says of the request; 2,400 where a set is to be stored. */

@@ -27,6 +27,7 @@ int32_t answer_take_up(request_t *request, const brace_take_up_request_t *asked,
     const brace_status_t status = brace_app_take_up(app, (int32_t)asked->joint, asked->flank);
     if (status == BRACE_OK) {
         answer->phase = brace_app_snapshot(app)->play[asked->joint].phase;
+        answer->setting = brace_app_setting(app);
     }
     return status;
 }
@@ -55,6 +56,7 @@ int32_t answer_let_go(request_t *request, const brace_let_go_request_t *asked, b
     const brace_status_t status = brace_app_let_go(app);
     if (status == BRACE_OK) {
         answer->mode = brace_app_mode(app);
+        answer->setting = brace_app_setting(app);
     }
     return status;
 }
@@ -82,6 +84,7 @@ int32_t answer_loading_test_start(request_t *request, const brace_loading_test_s
     const brace_status_t status = asked->axis > 1u ? BRACE_E_RANGE : brace_app_loading_start(app, &setup);
     if (status == BRACE_OK) {
         answer->rows = 4u * asked->steps_per_side + 1u;
+        answer->setting = brace_app_setting(app);
     }
     return status;
 }
@@ -92,9 +95,10 @@ int32_t answer_loading_test_stop(request_t *request, const brace_loading_test_st
     brace_app_t *app = request->app;
     (void)asked;
     request->detail = brace_app_mode(app);
-    const brace_status_t status = brace_app_loading_stop(app);
+    const brace_status_t status = brace_app_stop(app);
     if (status == BRACE_OK) {
         answer->rows = brace_app_row_count(app);
+        answer->setting = brace_app_setting(app);
     }
     return status;
 }
@@ -181,6 +185,7 @@ int32_t answer_clear(request_t *request, const brace_clear_request_t *asked, bra
     const brace_status_t status = brace_app_clear(app, asked->faults);
     if (status == BRACE_OK) {
         answer->faults = brace_app_faults(app);
+        answer->setting = brace_app_setting(app);
     }
     return status;
 }

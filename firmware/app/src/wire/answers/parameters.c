@@ -1,4 +1,6 @@
 /* Entries of the dictionary one by one, and the mode in which parameters may be written. */
+#include <stddef.h>
+
 #include "wire/answers/answer.h"
 #include "wire/measured.h"
 
@@ -19,11 +21,42 @@ int32_t answer_read_entry(request_t *request, const brace_read_entry_request_t *
     return status;
 }
 
+#define COMMAND(member) (BRACE_ENTRY_COMMANDS + offsetof(brace_commands_t, member) / 4u)
+#define TOKEN_BITS 8u
+
+/* Commands that are written as entries: to stop, a sign of life, the seal of the request that comes next. */
+static int32_t write_command(request_t *request, const brace_write_entry_request_t *asked,
+                             brace_write_entry_answer_t *answer)
+{
+    const brace_seal_t seal = {
+        .is_there = true, .counter = request->token, .counter_bits = TOKEN_BITS, .mac = asked->value};
+    int32_t status = BRACE_OK;
+    request->detail = brace_app_mode(request->app);
+    switch (asked->index) {
+    case COMMAND(stop): status = brace_app_stop(request->app); break;
+    case COMMAND(end_test): status = brace_app_loading_stop(request->app); break;
+    case COMMAND(life_mac): status = brace_app_life(request->app, request->who, &seal); break;
+    case COMMAND(seal_mac):
+        if (request->seal != NULL) {
+            *request->seal = seal;
+        }
+        break;
+    default: return BRACE_E_RANGE;
+    }
+    if (status == BRACE_OK) {
+        *answer = (brace_write_entry_answer_t){asked->index, brace_app_setting(request->app)};
+    }
+    return status;
+}
+
 int32_t answer_write_entry(request_t *request, const brace_write_entry_request_t *asked,
                            brace_write_entry_answer_t *answer)
 {
     brace_app_t *app = request->app;
     request->detail = asked->index;
+    if (asked->index >= BRACE_ENTRY_COMMANDS) {
+        return write_command(request, asked, answer);
+    }
     if (asked->index - BRACE_ENTRY_MEASURED < BRACE_MEASURED_COUNT) {
         return BRACE_REFUSED_READ_ONLY;
     }
@@ -62,6 +95,7 @@ int32_t answer_set_mode(request_t *request, const brace_set_mode_request_t *aske
     const int32_t status = go_to(app, asked->mode);
     if (status == BRACE_OK) {
         answer->mode = brace_app_mode(app);
+        answer->setting = brace_app_setting(app);
     }
     return status;
 }

@@ -1,4 +1,6 @@
 /* A parameter block word by word: uploaded, stored, downloaded. */
+#include <stddef.h>
+
 #include "brace/words.h"
 #include "wire/answers/answer.h"
 #include "wire/measured.h"
@@ -38,6 +40,7 @@ int32_t answer_upload_begin(request_t *request, const brace_upload_begin_request
     transfer->upload_next = 0;
     transfer->upload_crc = asked->crc;
     answer->words = BLOCK_WORDS;
+    answer->setting = brace_app_setting(request->app);
     return BRACE_OK;
 }
 
@@ -70,6 +73,17 @@ int32_t answer_upload_word(request_t *request, const brace_upload_word_request_t
 
 /* ----------------------------------------------------------------------------------------- storing -- */
 
+/* Does the board allow this set? */
+static int32_t within_board(request_t *request, const brace_parameters_t *set)
+{
+    const uint32_t beyond = brace_app_beyond_board(request->app, set);
+    if (beyond == BRACE_PARAMETER_COUNT) {
+        return BRACE_OK;
+    }
+    request->detail = brace_parameter_number(beyond);
+    return BRACE_REFUSED_CEILING;
+}
+
 /* Begins to store an uploaded block that is whole, is what was announced and is of our dictionary. Its values are
  * judged by the store, on the way. */
 static int32_t store_upload(request_t *request, uint32_t crc)
@@ -101,14 +115,25 @@ static int32_t store_upload(request_t *request, uint32_t crc)
         return BRACE_E_SCHEMA;
     }
     brace_block_members(transfer->upload, &set);
-    return brace_app_parameters_commit(request->app, &set);
+    const int32_t within = within_board(request, &set);
+    return within == BRACE_OK ? (int32_t)brace_app_parameters_commit(request->app, &set) : within;
 }
 
-/* Begins to store the entries that were written one by one. A refusal tells the number of the one at fault. */
-static int32_t store_staged(request_t *request)
+/* Begins to store the entries that were written one by one. A refusal tells the number of the one at fault.
+ *   crc: brace_parameters_crc of the whole set; 0: not told */
+static int32_t store_staged(request_t *request, uint32_t crc)
 {
+    brace_app_t *app = request->app;
     uint32_t wrong_index = 0;
-    const brace_status_t status = brace_app_parameters_commit_staged(request->app, &wrong_index);
+    const int32_t within = within_board(request, brace_app_parameters_staged(app));
+    if (within != BRACE_OK) {
+        return within;
+    }
+    if (crc == 0u && brace_app_setting(app) != BRACE_SETTING_BENCH) {
+        return BRACE_E_CHECKSUM; /* only by hand, on a bench, a set need not be named */
+    }
+    const brace_status_t status = crc == 0u ? brace_app_parameters_commit_staged(app, &wrong_index)
+                                            : brace_app_parameters_commit_named(app, crc, &wrong_index);
     if (status == BRACE_E_PARAMETER || status == BRACE_E_NOT_FINITE) {
         request->detail = brace_parameter_number(wrong_index);
     }
@@ -128,7 +153,16 @@ int32_t answer_commit(request_t *request, const brace_commit_request_t *asked, b
     if (status != BRACE_OK) {
         return status;
     }
-    return later(asked->crc != 0u ? store_upload(request, asked->crc) : store_staged(request));
+    uint32_t wait_ms = 0;
+    const int32_t early = brace_app_may_commit(request->app, &wait_ms);
+    if (early != BRACE_OK) {
+        request->detail = wait_ms;
+        return early;
+    }
+    const transfer_t *transfer = request->transfer;
+    const bool is_staged = transfer == NULL || (!transfer->upload_is_open && brace_app_has_staged(request->app));
+    return later(asked->crc == 0u || is_staged ? store_staged(request, asked->crc)
+                                               : store_upload(request, asked->crc));
 }
 
 int32_t answer_rollback(request_t *request, const brace_rollback_request_t *asked, brace_rollback_answer_t *answer)
@@ -144,7 +178,8 @@ int32_t answer_of_storing(request_t *request, brace_commit_answer_t *answer)
     brace_store_status_t store;
     (void)brace_app_store_status(request->app, &store);
     if (store.state != BRACE_STORE_FAILED) {
-        *answer = (brace_commit_answer_t){store.sequence, brace_app_snapshot(request->app)->parameter_crc};
+        *answer = (brace_commit_answer_t){store.sequence, brace_app_snapshot(request->app)->parameter_crc,
+                                          brace_app_setting(request->app)};
         return BRACE_OK;
     }
     if (store.failure != BRACE_STORE_E_REFUSED) {

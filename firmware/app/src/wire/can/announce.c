@@ -72,6 +72,7 @@ bool announce_next(const announce_t *announce, const wire_tick_t *tick, brace_ca
         (void)brace_can_pack_heartbeat(&(brace_can_heartbeat_t){.state = state_of(mode),
                                                                 .mode = mode,
                                                                 .faults = faults,
+                                                                .setting = brace_app_setting(tick->app),
                                                                 .dictionary_hash = BRACE_DICTIONARY_HASH},
                                        frame->data);
         return true;

@@ -216,6 +216,7 @@ static void keep_silent(can_t *can, way_t way, const wire_tick_t *tick)
 {
     can_port_t *port = port_of(can, way);
     process_skip(&port->process);
+    brace_app_gone(tick->app, way == ON_BUS ? BRACE_ASKER_CAN : BRACE_ASKER_SLCAN);
     if (way == AS_TEXT) {
         port->requests.answers.count = 0;
         port->requests.waits = port->requests.asked_force.is_there = false;

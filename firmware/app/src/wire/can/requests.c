@@ -2,6 +2,8 @@
 
 #include <string.h>
 
+enum { CAN_REQUEST_BYTES = 8, MASTER_SHIFT = 4 };
+
 static void tell(can_answers_t *answers, uint32_t code, uint32_t token, int32_t status, const brace_answer_t *answer,
                  uint32_t detail)
 {
@@ -22,8 +24,14 @@ bool can_requests_answer(can_requests_t *requests, const wire_tick_t *tick, brac
                          .asker = asker,
                          .asked_force = &requests->asked_force,
                          .transfer = &requests->transfer,
+                         .who = {asker, data[1] >> MASTER_SHIFT},
+                         .seal = &requests->seal,
+                         .token = data[1],
+                         .bytes = data,
+                         .count = CAN_REQUEST_BYTES,
                          .node_id = node_id};
     const uint8_t code = data[0], token = data[1];
+    requests->seal.is_there = requests->seal.is_there && requests->seal.counter == token;
     brace_request_t asked;
     brace_answer_t answer;
     brace_can_unpack_request(data, &asked);

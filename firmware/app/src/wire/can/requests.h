@@ -13,6 +13,7 @@ typedef struct {
     uint8_t storing;        /* code of the commit or roll-back that is answered once the store has ended; 0: none */
     uint8_t storing_token;
     asked_force_t asked_force;
+    brace_seal_t seal;      /* of the request that comes next */
     bool waits;             /* a request is being worked out, or kept: it is asked again in each tick */
     uint8_t waiting[8];
     bool has_next;          /* one more has come meanwhile */

@@ -46,7 +46,8 @@ modbus_exception_t modbus_ask(modbus_server_t *server, const wire_tick_t *tick, 
     const brace_question_t *question = find(first, count);
     asked_force_t asked_force = {.is_there = false, .is_there_in_space = false};
     request_t request = {
-        .app = tick->app, .measured = tick->measured, .asker = server->asker, .asked_force = &asked_force};
+        .app = tick->app, .measured = tick->measured, .asker = server->asker, .asked_force = &asked_force,
+        .who = server->who, .seal = server->seal, .bytes = server->pdu, .count = server->length};
     brace_request_t asked;
     brace_answer_t answer;
     const uint32_t picks = question == NULL ? 0u : (uint32_t)question->begin_fields + question->fields;

@@ -29,14 +29,48 @@ static uint32_t request_of(uint32_t command, uint32_t value, brace_request_t *as
         asked->take_up = (brace_take_up_request_t){.joint = value & 0xffu, .flank = flank == FLANK_POSITIVE ? 1 : -1};
         return flank == FLANK_POSITIVE || flank == FLANK_NEGATIVE ? BRACE_REQUEST_TAKE_UP : 0u;
     case COMMAND(let_go): return BRACE_REQUEST_LET_GO;
+    case COMMAND(stop): return BRACE_REQUEST_LOADING_TEST_STOP;
+    case COMMAND(end_test):
+        asked->write_entry = (brace_write_entry_request_t){BRACE_ENTRY_COMMANDS + command, value};
+        return BRACE_REQUEST_WRITE_ENTRY;
+    case COMMAND(commit_crc):
+        asked->commit = (brace_commit_request_t){.crc = value};
+        return value != 0u ? BRACE_REQUEST_COMMIT : 0u;
     default: return 0; /* a value of a question */
     }
+}
+
+request_t modbus_request(const modbus_server_t *server, const wire_tick_t *tick)
+{
+    return (request_t){.app = tick->app,
+                       .measured = tick->measured,
+                       .asker = server->asker,
+                       .who = server->who,
+                       .seal = server->seal,
+                       .bytes = server->pdu,
+                       .count = server->length};
+}
+
+modbus_exception_t modbus_command_show(modbus_server_t *server, const wire_tick_t *tick, uint32_t first,
+                                       const uint32_t words[2])
+{
+    const brace_seal_t seal = {.is_there = true, .counter = words[0], .counter_bits = 32, .mac = words[1]};
+    if (first == COMMAND(life_counter)) {
+        return modbus_refusal_of(brace_app_life(tick->app, server->who, &seal));
+    }
+    *server->seal = seal;
+    return MODBUS_FINE;
+}
+
+bool modbus_command_shows(uint32_t first, uint32_t count)
+{
+    return count == 2u && (first == COMMAND(life_counter) || first == COMMAND(seal_counter));
 }
 
 modbus_exception_t modbus_command_run(modbus_server_t *server, const wire_tick_t *tick, uint32_t command,
                                       uint32_t value)
 {
-    request_t request = {.app = tick->app, .measured = tick->measured};
+    request_t request = modbus_request(server, tick);
     brace_request_t asked;
     brace_answer_t answer;
     const uint32_t code = request_of(command, value, &asked);
@@ -66,7 +100,8 @@ void modbus_command_tell(const modbus_server_t *server, const brace_app_t *app, 
 {
     *told = server->written;
     told->set_mode = brace_app_mode(app);
-    told->commit = told->rollback = storing(app);
+    told->commit = told->commit_crc = told->rollback = storing(app);
     told->clear_faults = brace_app_faults(app);
-    told->let_go = 0;
+    told->let_go = told->stop = told->end_test = 0;
+    told->life_counter = told->life_mac = told->seal_counter = told->seal_mac = 0;
 }

@@ -70,6 +70,10 @@ uint32_t modbus_pdu_answer(modbus_server_t *server, modbus_half_t *half, const w
 {
     uint32_t answer = 0;
     modbus_exception_t why = MODBUS_E_FUNCTION;
+    server->who = (brace_who_t){server->asker, half->peer};
+    server->seal = &half->seal;
+    server->pdu = pdu;
+    server->length = length;
     if (pdu[0] != MODBUS_WRITE_ONE) {
         half->is_known = false; /* the low half has to come right behind the high one */
     }

@@ -6,11 +6,18 @@ modbus_exception_t modbus_refusal_of(int32_t status)
     case BRACE_OK:
     case ANSWER_LATER: return MODBUS_FINE; /* what has begun is told by its register */
     case BRACE_E_MODE: return MODBUS_E_FUNCTION;
+    case BRACE_E_CHECKSUM:
     case BRACE_E_RANGE:
     case BRACE_E_PARAMETER:
     case BRACE_E_NOT_FINITE:
     case BRACE_E_UNREACHABLE: return MODBUS_E_VALUE;
+    case BRACE_REFUSED_CEILING: return MODBUS_E_VALUE;
+    case BRACE_REFUSED_EARLY:
     case BRACE_REFUSED_BUSY: return MODBUS_E_BUSY;
+    case BRACE_REFUSED_STRANGER:
+    case BRACE_REFUSED_REPLAY:
+    case BRACE_REFUSED_OWNED:
+    case BRACE_REFUSED_NO_KEY: return MODBUS_E_OWNER;
     default: return MODBUS_E_DEVICE;
     }
 }

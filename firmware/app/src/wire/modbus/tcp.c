@@ -65,6 +65,7 @@ static modbus_half_t *own_half(modbus_link_t *link, const brace_hal_t *hal)
         hal->serial_peer != NULL ? hal->serial_peer(hal->context, BRACE_SERIAL_MODBUS_TCP) : 0u;
     modbus_half_t *half = &link->half[peer % MODBUS_PEERS];
     half->is_known = half->is_known && half->peer == peer;
+    half->seal.is_there = half->seal.is_there && half->peer == peer;
     half->peer = peer;
     return half;
 }

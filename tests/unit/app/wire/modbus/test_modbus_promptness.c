@@ -33,6 +33,25 @@ uint32_t brace_app_faults(const brace_app_t *asked) { return (void)asked, 0; }
 const brace_parameters_t *brace_app_parameters_staged(const brace_app_t *asked) { return &asked->staged; }
 const brace_parameters_t *brace_app_parameters(const brace_app_t *asked) { return &asked->staged; }
 bool brace_app_is_storing(const brace_app_t *asked) { return (void)asked, false; }
+brace_setting_t brace_app_setting(const brace_app_t *asked) { return (void)asked, BRACE_SETTING_BENCH; }
+
+int32_t brace_app_life(brace_app_t *asked, brace_who_t who, const brace_seal_t *seal)
+{
+    (void)asked;
+    (void)who;
+    return (void)seal, BRACE_OK;
+}
+
+int32_t brace_app_may_command(brace_app_t *asked, brace_command_t command, brace_who_t who, const brace_seal_t *seal,
+                              const uint8_t *bytes, uint32_t count)
+{
+    (void)asked;
+    (void)command;
+    (void)who;
+    (void)seal;
+    (void)bytes;
+    return (void)count, BRACE_OK;
+}
 
 brace_status_t brace_app_store_status(const brace_app_t *asked, brace_store_status_t *status)
 {

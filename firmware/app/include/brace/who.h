@@ -1,0 +1,24 @@
+/* Who asks for something that moves the limb or is written, and how the wires bring the proof that it may. */
+#ifndef BRACE_WHO_H
+#define BRACE_WHO_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "brace/k_question.h"
+
+/* A master of one port. */
+typedef struct {
+    brace_asker_t port;
+    uint32_t master; /* CAN: the upper four bits of the token; Modbus TCP: the connection's number; else 0 */
+} brace_who_t;
+
+/* The check of a command or of a life sign. */
+typedef struct {
+    bool is_there;
+    uint32_t counter;      /* its number, or the low bits of it */
+    uint32_t counter_bits; /* so many of them have come [8, 32] */
+    uint32_t mac;          /* SipHash-2-4 over challenge, whole counter, kind and the command's bytes: low 32 bits */
+} brace_seal_t;
+
+#endif

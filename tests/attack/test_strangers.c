@@ -1,0 +1,555 @@
+/* Somebody without the key on the buses of a guarded limb: commands, forged and replayed seals, floods. None succeeds,
+ * each is refused, told and counted, whatever the operator is doing meanwhile. */
+#include "attack.h"
+
+typedef enum { ALONE, WITH_SESSION, MOVING, CONFIGURING, SITUATIONS } situation_t;
+
+static const char *const situation_name[SITUATIONS] = {"nobody has a session", "the operator has one",
+                                                       "the operator moves the limb", "the operator configures"};
+static uint32_t attacks;
+
+void setUp(void) {}
+
+void tearDown(void)
+{
+    operator_lives = false;
+}
+
+static void begin(situation_t situation)
+{
+    start_limb(true, the_key);
+    if (situation != ALONE) {
+        open_session();
+        operator_lives = true;
+    }
+    if (situation == MOVING) {
+        begin_to_move();
+    } else if (situation == CONFIGURING) {
+        begin_to_configure();
+    }
+    drain();
+}
+
+/* Nothing of the operator's has changed; the stranger has been refused, told and counted. */
+static void nothing_came_of_it(const state_t *before, situation_t situation, const char *attack, uint32_t told)
+{
+    char where[160];
+    const state_t after = state_now();
+    (void)snprintf(where, sizeof where, "%s, while %s", attack, situation_name[situation]);
+    const float way_rad = after.offset_rad[BRACE_FEMUR] - before->offset_rad[BRACE_FEMUR];
+    TEST_ASSERT_TRUE_MESSAGE(situation == MOVING ? way_rad >= 0.0f : way_rad == 0.0f, where);
+    TEST_ASSERT_EQUAL_FLOAT_MESSAGE(before->offset_rad[BRACE_TIBIA], after.offset_rad[BRACE_TIBIA], where);
+    TEST_ASSERT_EQUAL_HEX32_MESSAGE(before->crc, after.crc, where);
+    TEST_ASSERT_EQUAL_HEX32_MESSAGE(before->staged_crc, after.staged_crc, where);
+    TEST_ASSERT_EQUAL_MESSAGE(before->erases, after.erases, where);
+    TEST_ASSERT_EQUAL_MESSAGE(before->mode, after.mode, where);
+    TEST_ASSERT_EQUAL_FLOAT_MESSAGE(before->gravity_rad, after.gravity_rad, where);
+    TEST_ASSERT_TRUE_MESSAGE(after.refused > before->refused, where);
+    TEST_ASSERT_TRUE_MESSAGE(told > 0u, where);
+    attacks++;
+}
+
+/* ------------------------------------------------------------------------------ commands over CAN -- */
+
+enum { COMMANDS = 13 };
+static const char *const command_name[COMMANDS] = {
+    "take_up", "let_go", "loading_test_start", "set_mode CONFIGURATION", "set_mode MONITOR", "write_entry",
+    "upload_begin", "upload_word", "commit of what is staged", "commit of a block", "rollback", "clear", "set_gravity"};
+
+static void make_command(uint32_t which, uint8_t data[8])
+{
+    memset(data, 0, 8);
+    switch (which) {
+    case 0: make_take_up(BRACE_TIBIA, data); break;
+    case 1: make_let_go(data); break;
+    case 2:
+        brace_can_pack_loading_test_start_request(&(brace_can_loading_test_start_request_t){0, 0, 2, 0.5f, 20}, data);
+        break;
+    case 3: make_set_mode(BRACE_MODE_CONFIGURATION, data); break;
+    case 4: make_set_mode(BRACE_MODE_MONITOR, data); break;
+    case 5: make_write(1, bits(250.0f), 0, data); break;
+    case 6:
+        brace_can_pack_upload_begin_request(&(brace_can_upload_begin_request_t){0, BRACE_BLOCK_BYTES, 1}, data);
+        break;
+    case 7: brace_can_pack_upload_word_request(&(brace_can_upload_word_request_t){0, 0, 1}, data); break;
+    case 8: make_commit(0, data); break;
+    case 9: make_commit(0x12345678u, data); break;
+    case 10: data[0] = BRACE_REQUEST_ROLLBACK; break;
+    case 11: brace_can_pack_clear_request(&(brace_can_clear_request_t){0, BRACE_FAULT_MODEL_DRIFT}, data); break;
+    default: brace_can_pack_set_gravity_request(&(brace_can_set_gravity_request_t){0, 1.0f, 0.0f}, data); break;
+    }
+}
+
+/* How a stranger dresses its command. */
+typedef enum {
+    BARE,          /* without a seal */
+    WRONG_KEY,
+    NO_CHECK,      /* zeros for a check */
+    ALL_ONES,
+    HALF_A_CHECK,  /* the right 16 bits, and zeros */
+    ONE_BIT_OFF,
+    LIFES_CHECK,   /* the right check of a sign of life */
+    OTHERS_CHECK,  /* the right check of another command */
+    OTHER_TOKEN,   /* the right check, and the command has another token */
+    FAR_AHEAD,     /* a counter more than half its numbers ahead, with the right check */
+    USED_BEFORE,   /* a counter that has been, with the right check */
+    DRESSES
+} dress_t;
+
+static const char *const dress_name[DRESSES] = {"bare", "another key", "a check of zeros", "a check of ones",
+                                                "half a check", "one bit off", "a life sign's check",
+                                                "another command's check", "another token", "a counter far ahead",
+                                                "a counter that has been"};
+
+static void send_dressed(uint8_t data[8], dress_t dress)
+{
+    uint8_t sealing[8];
+    const uint32_t ahead = dress == FAR_AHEAD ? 200u : dress == USED_BEFORE ? 0u : 1u;
+    const uint32_t number = counter + ahead;
+    data[1] = (uint8_t)number;
+    uint32_t check = check_of(dress == WRONG_KEY ? another_key : the_key, number, dress == LIFES_CHECK ? 1 : 2, data,
+                              dress == LIFES_CHECK ? 0 : 8);
+    uint8_t other[8];
+    memcpy(other, data, 8);
+    other[2] ^= 1u;
+    switch (dress) {
+    case NO_CHECK: check = 0; break;
+    case ALL_ONES: check = UINT32_MAX; break;
+    case HALF_A_CHECK: check &= 0xffffu; break;
+    case ONE_BIT_OFF: check ^= 0x400u; break;
+    case OTHERS_CHECK: check = check_of(the_key, number, 2, other, 8); break;
+    default: break;
+    }
+    make_write(COMMAND_ENTRY(seal_mac), check, number & 0xffu, sealing);
+    if (dress == OTHER_TOKEN) {
+        data[1]++;
+    }
+    if (dress != BARE) {
+        says(sealing);
+    }
+    says(data);
+}
+
+static void test_no_command_of_a_stranger_is_taken(void)
+{
+    for (uint32_t situation = 0; situation < SITUATIONS; situation++) {
+        begin((situation_t)situation);
+        for (uint32_t which = 0; which < COMMANDS; which++) {
+            for (uint32_t dress = 0; dress < DRESSES; dress++) {
+                uint8_t data[8];
+                char attack[80];
+                (void)snprintf(attack, sizeof attack, "%s, %s", command_name[which], dress_name[dress]);
+                make_command(which, data);
+                const state_t before = state_now();
+                send_dressed(data, (dress_t)dress);
+                ticks(6);
+                nothing_came_of_it(&before, (situation_t)situation, attack, refusals_told());
+                if (situation != ALONE) { /* the operator goes on: the attack has not shut it out */
+                    sign_of_life();
+                    ticks(2);
+                    drain();
+                }
+            }
+        }
+        TEST_ASSERT_EQUAL(situation == ALONE ? BRACE_OWNER_NONE : BRACE_OWNER_CAN, read_entry(ENTRY(owner)));
+    }
+}
+
+/* ---------------------------------------------------------------------------------- over Modbus -- */
+
+static void modbus_refuses(situation_t situation, const char *attack, const uint8_t *pdu, uint32_t count, bool by_tcp)
+{
+    const state_t before = state_now();
+    const reply_t reply = by_tcp ? tcp_asks(UNIT, pdu, count) : line_asks(UNIT, pdu, count);
+    TEST_ASSERT_EQUAL_MESSAGE(2, reply.count, attack);
+    TEST_ASSERT_EQUAL_HEX8_MESSAGE(pdu[0] | 0x80u, reply.byte[0], attack);
+    nothing_came_of_it(&before, situation, attack, reply.byte[1] == 7u);
+    if (situation != ALONE) {
+        sign_of_life();
+        ticks(2);
+        drain();
+    }
+}
+
+static uint32_t make_block(uint32_t start, uint32_t first, uint32_t second, uint32_t values, uint8_t pdu[14])
+{
+    const uint8_t head[6] = {16, (uint8_t)(start >> 8), (uint8_t)start, 0, (uint8_t)(2u * values),
+                             (uint8_t)(4u * values)};
+    memcpy(pdu, head, sizeof head);
+    for (uint32_t i = 0; i < 4u; i++) {
+        pdu[6u + i] = (uint8_t)(first >> (24u - 8u * i));
+        pdu[10u + i] = (uint8_t)(second >> (24u - 8u * i));
+    }
+    return 6u + 4u * values;
+}
+
+static void test_no_register_takes_a_stranger_s_write(void)
+{
+    const struct {
+        const char *name;
+        uint32_t start, value;
+    } writes[] = {{"take_up by register", COMMAND_REGISTER(take_up), 0x101},
+                  {"let_go by register", COMMAND_REGISTER(let_go), 1},
+                  {"end_test by register", COMMAND_REGISTER(end_test), 1},
+                  {"CONFIGURATION by register", COMMAND_REGISTER(set_mode), 0xc0de0002},
+                  {"commit by register", COMMAND_REGISTER(commit), 0xc0de0001},
+                  {"commit_crc by register", COMMAND_REGISTER(commit_crc), 0x12345678},
+                  {"rollback by register", COMMAND_REGISTER(rollback), 0xc0de0001},
+                  {"clear by register", COMMAND_REGISTER(clear_faults), BRACE_FAULT_MODEL_DRIFT},
+                  {"a parameter by register", 2, 0x437a0000}};
+    uint8_t pdu[14];
+    for (uint32_t situation = 0; situation < SITUATIONS; situation++) {
+        begin((situation_t)situation);
+        for (uint32_t i = 0; i < sizeof writes / sizeof *writes; i++) {
+            for (uint32_t by_tcp = 0; by_tcp < 2u; by_tcp++) {
+                uint32_t count = make_block(writes[i].start, writes[i].value, 0, 1, pdu);
+                modbus_refuses((situation_t)situation, writes[i].name, pdu, count, by_tcp == 1u);
+                const uint8_t half[] = {6, (uint8_t)(writes[i].start >> 8), (uint8_t)writes[i].start, 0, 1};
+                modbus_refuses((situation_t)situation, "half a value by function 06", half, sizeof half, by_tcp == 1u);
+                /* with a seal that was made without the key, and one that is right for the number before */
+                uint8_t sealing[14];
+                const uint32_t number = counter + 1u;
+                (void)make_block(COMMAND_REGISTER(seal_counter), number,
+                                 check_of(another_key, number, 2, pdu, count), 2, sealing);
+                (void)(by_tcp == 1u ? tcp_asks(UNIT, sealing, 14) : line_asks(UNIT, sealing, 14));
+                modbus_refuses((situation_t)situation, "a register under another key's seal", pdu, count, by_tcp == 1u);
+            }
+        }
+        const uint32_t asked = make_block(COMMAND_REGISTER(asked_gravity_direction_rad), bits(1.0f), 0, 2, pdu);
+        modbus_refuses((situation_t)situation, "where down is, by register", pdu, asked, true);
+        const uint32_t life = make_block(COMMAND_REGISTER(life_counter), counter + 1u, 0x1234, 2, pdu);
+        modbus_refuses((situation_t)situation, "a forged life sign by register", pdu, life, true);
+    }
+}
+
+/* A request to everybody on the line is answered by nobody, but counted. */
+static void test_a_broadcast_moves_nothing(void)
+{
+    begin(WITH_SESSION);
+    uint8_t pdu[14];
+    const uint32_t count = make_block(COMMAND_REGISTER(take_up), 0x101, 0, 1, pdu);
+    const state_t before = state_now();
+    TEST_ASSERT_EQUAL(0, line_asks(0, pdu, count).count);
+    nothing_came_of_it(&before, WITH_SESSION, "take_up to everybody on the line", 1);
+}
+
+/* -------------------------------------------------------------------------------------- replays -- */
+
+static void replay_all(situation_t situation, const char *attack)
+{
+    const state_t before = state_now();
+    uint32_t told = 0;
+    for (uint32_t i = 0; i < recorded_count; i++) {
+        says(recorded[i]);
+        ticks(3);
+        told += refusals_told();
+    }
+    nothing_came_of_it(&before, situation, attack, told);
+}
+
+/* The operator uploads a whole block, commits it, and goes; somebody has recorded every frame. */
+static void test_a_recorded_block_does_not_replay(void)
+{
+    static uint8_t block[BRACE_BLOCK_BYTES];
+    uint8_t data[8];
+    begin(WITH_SESSION);
+    recorded_count = 0;
+    brace_parameters_t changed = *brace_app_parameters(&app);
+    changed.limb.femur_mm = 200.0f;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_parameters_pack(&changed, 0, block, sizeof block));
+    make_set_mode(BRACE_MODE_CONFIGURATION, data);
+    accepted_command(data);
+    for (int step = 0; step < PUSH_STEPS - 1; step++) {
+        push_request(block, step, data);
+        accepted_command(data);
+    }
+    uint8_t sealing[8];
+    push_request(block, PUSH_STEPS - 1, data);
+    seal(data, sealing);
+    operator_says(sealing);
+    operator_says(data);
+    pass(300);
+    TEST_ASSERT_EQUAL_FLOAT(200.0f, brace_app_parameters(&app)->limb.femur_mm);
+    make_set_mode(BRACE_MODE_MONITOR, data);
+    accepted_command(data);
+    pass(20);
+    drain();
+    replay_all(WITH_SESSION, "every frame again, in the same session");
+    operator_lives = false;
+    ticks(SESSION_IDLE_US / TICK_US + 20);
+    drain();
+    TEST_ASSERT_EQUAL(BRACE_OWNER_NONE, read_entry(ENTRY(owner)));
+    replay_all(ALONE, "every frame again, after the session");
+    open_session();
+    replay_all(WITH_SESSION, "every frame again, in the next session");
+}
+
+static void test_a_command_does_not_count_twice_or_under_a_stolen_seal(void)
+{
+    uint8_t data[8], sealing[8], stolen[8];
+    begin(WITH_SESSION);
+    make_take_up(BRACE_FEMUR, data);
+    accepted_command(data);
+    pass(2);
+    state_t before = state_now();
+    says(data);
+    ticks(3);
+    nothing_came_of_it(&before, MOVING, "the command alone, once more", refusals_told());
+    before = state_now();
+    says(recorded[recorded_count - 2u]);
+    says(data);
+    ticks(4);
+    nothing_came_of_it(&before, MOVING, "the command and its seal, once more", refusals_told());
+    /* The stranger's command between the operator's seal and its command: the seal is used up, and both are refused. */
+    make_let_go(data);
+    seal(data, sealing);
+    make_command(3, stolen);
+    stolen[1] = data[1];
+    before = state_now();
+    says(sealing);
+    says(stolen);
+    ticks(3);
+    nothing_came_of_it(&before, MOVING, "a stranger's command under the operator's seal", refusals_told());
+    make_let_go(data); /* the operator tries again, and is heard */
+    accepted_command(data);
+}
+
+/* --------------------------------------------------------------------------------- signs of life -- */
+
+static void test_a_dead_operator_is_not_kept_alive(void)
+{
+    enum { FORGED, REPLAYED, FLOODED, WAYS };
+    for (int way = 0; way < WAYS; way++) {
+        begin(MOVING);
+        operator_lives = false;
+        const float before_rad = fake.joint[BRACE_FEMUR].command.offset_rad;
+        uint8_t data[8];
+        const uint32_t last = counter;
+        for (uint32_t i = 0; i < 150u; i++) {
+            if (way == FLOODED || i % 20u == 0u) {
+                const uint32_t number = way == REPLAYED ? last : last + 1u + i;
+                const uint32_t check = check_of(way == REPLAYED ? the_key : another_key, number, 1, NULL, 0);
+                make_write(COMMAND_ENTRY(life_mac), check, number & 0xffu, data);
+                says(data);
+            }
+            ticks(1);
+            drain();
+        }
+        const float stood_rad = fake.joint[BRACE_FEMUR].command.offset_rad;
+        TEST_ASSERT_TRUE(stood_rad - before_rad < 0.1f * 0.15f);
+        ticks(1000);
+        TEST_ASSERT_EQUAL_FLOAT(stood_rad, fake.joint[BRACE_FEMUR].command.offset_rad); /* it stands, and is held */
+        drain();
+        TEST_ASSERT_EQUAL(BRACE_OWNER_NONE, read_entry(ENTRY(owner)));
+        TEST_ASSERT_EQUAL(1, read_entry(ENTRY(is_held)));
+        TEST_ASSERT_EQUAL(1, read_entry(ENTRY(silences)));
+        attacks++;
+    }
+}
+
+/* After a time-out the session cannot be taken over by going on with its counters, nor without the key. */
+static void test_a_session_is_not_taken_over_after_its_time(void)
+{
+    uint8_t data[8];
+    begin(MOVING);
+    operator_lives = false;
+    ticks(200);
+    drain();
+    const state_t before = state_now();
+    make_let_go(data); /* with the key even, but of the session that is over */
+    send_dressed(data, LIFES_CHECK + 1);
+    make_let_go(data);
+    uint8_t sealing[8];
+    seal(data, sealing);
+    says(sealing);
+    says(data);
+    const uint32_t number = ++counter;
+    make_write(COMMAND_ENTRY(life_mac), check_of(the_key, number, 1, NULL, 0), number & 0xffu, data);
+    says(data);
+    ticks(10);
+    nothing_came_of_it(&before, WITH_SESSION, "the session that is over goes on", refusals_told());
+    /* Who has the key opens another one, and lets go. */
+    open_session();
+    operator_lives = true;
+    make_let_go(data);
+    accepted_command(data);
+    pass(500);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+}
+
+/* Two who have the key: one at a time. */
+static void test_two_masters_with_the_key_take_turns(void)
+{
+    uint8_t data[8];
+    begin(MOVING);
+    const state_t before = state_now();
+    make_write(COMMAND_ENTRY(life_mac), check_of(the_key, 0, 1, NULL, 0), 0, data); /* opens, if there were no owner */
+    says(data);
+    ticks(3);
+    nothing_came_of_it(&before, MOVING, "a second session", refusals_told());
+    const uint32_t number = counter + 1u;
+    uint8_t pdu[14], sealing[14];
+    const uint32_t count = make_block(COMMAND_REGISTER(let_go), 1, 0, 1, pdu);
+    (void)make_block(COMMAND_REGISTER(seal_counter), number, check_of(the_key, number, 2, pdu, count), 2, sealing);
+    (void)tcp_asks(UNIT, sealing, 14); /* the operator's session, by another port, with the key */
+    sign_of_life();
+    modbus_refuses(MOVING, "the operator's session by another port", pdu, count, true);
+}
+
+/* ---------------------------------------------------------------------------------------- floods -- */
+
+static uint32_t next_random(void)
+{
+    static uint32_t state = 1;
+    state ^= state << 13;
+    state ^= state >> 17;
+    state ^= state << 5;
+    return state;
+}
+
+/* Random requests and checks, as fast as the node takes them. */
+static void test_a_flood_of_guesses_moves_nothing(void)
+{
+    begin(ALONE);
+    const state_t before = state_now();
+    uint32_t told = 0;
+    for (uint32_t i = 0; i < 30000u; i++) {
+        uint8_t data[8];
+        const uint32_t low = next_random(), high = next_random();
+        memcpy(data, &low, 4);
+        memcpy(data + 4, &high, 4);
+        data[0] &= 31u;
+        if (i % 3u == 0u) {
+            make_write(COMMAND_ENTRY(seal_mac) - (i % 2u) * 2u, high, low & 0xffu, data);
+        }
+        if (data[0] == BRACE_REQUEST_LOADING_TEST_STOP || (data[0] == BRACE_REQUEST_WRITE_ENTRY && data[3] == 0x20u &&
+                                                           data[2] == 0x22u)) {
+            continue; /* stop is anybody's */
+        }
+        says(data);
+        do {
+            ticks(1);
+            told += refusals_told();
+        } while (fake.can_received.count > 40u);
+    }
+    nothing_came_of_it(&before, ALONE, "guesses", told);
+}
+
+/* Beside the flood the operator's stop is heard, and what it holds is held. */
+static void test_stop_is_heard_in_a_flood(void)
+{
+    begin(MOVING);
+    uint8_t data[8];
+    const uint8_t stop[8] = {BRACE_REQUEST_LOADING_TEST_STOP, 0x77};
+    make_command(0, data);
+    for (uint32_t i = 0; i < 20u; i++) {
+        says(data);
+        ticks(1);
+        drain();
+    }
+    says(stop); /* a stranger's, even */
+    ticks(3);
+    const float stood_rad = fake.joint[BRACE_FEMUR].command.offset_rad;
+    pass(500);
+    TEST_ASSERT_EQUAL_FLOAT(stood_rad, fake.joint[BRACE_FEMUR].command.offset_rad);
+    TEST_ASSERT_EQUAL(BRACE_MODE_TAKING_UP, now()->mode);
+    drain();
+    make_let_go(data); /* only its owner lets go */
+    const state_t before = state_now();
+    says(data);
+    ticks(5);
+    nothing_came_of_it(&before, WITH_SESSION, "let_go of a limb that was stopped", refusals_told());
+    make_let_go(data);
+    accepted_command(data);
+    pass(500);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+}
+
+/* ------------------------------------------------------------------------------ configuration, key -- */
+
+/* A stranger neither holds CONFIGURATION nor ends it. */
+static void test_configuration_is_its_owner_s(void)
+{
+    uint8_t data[8];
+    begin(CONFIGURING);
+    operator_lives = false;
+    for (uint32_t i = 0; i < 11u; i++) {
+        make_set_mode(BRACE_MODE_CONFIGURATION, data);
+        says(data);
+        make_write(1, bits(250.0f), 0, data);
+        says(data);
+        ticks(1000);
+        drain();
+    }
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode); /* it has ended by itself, as if nobody had asked */
+    TEST_ASSERT_EQUAL_FLOAT(185.0f, brace_app_parameters(&app)->limb.femur_mm);
+    attacks++;
+}
+
+/* No request tells a byte of the key: every entry, every register. */
+static void test_the_key_is_never_told(void)
+{
+    begin(ALONE);
+    for (uint32_t index = 0; index < 0x2040u; index++) {
+        uint8_t data[8];
+        brace_can_pack_read_entry_request(&(brace_can_read_entry_request_t){9, index}, data);
+        const answer_t answer = ask(data);
+        for (uint32_t i = 0; i + 4u <= 16u && answer.count > 0; i++) {
+            TEST_ASSERT_TRUE(answer.part[0][0] >= 0xe0u || memcmp(answer.part[0] + 4, the_key + i, 4) != 0);
+        }
+        drain();
+    }
+    for (uint32_t start = 0; start + 2u < 0x4060u; start += start == 252u ? 0x1000u - 252u : 2u) {
+        for (uint32_t function = 3; function <= 4u; function++) {
+            const reply_t reply = read_asks(function, start, 2);
+            TEST_ASSERT_TRUE(reply.count != 6u || memcmp(reply.byte + 2, the_key, 4) != 0);
+        }
+        start = start >= 0x1060u && start < 0x4000u ? 0x3ffeu : start;
+    }
+    attacks++;
+}
+
+static void test_without_a_key_nobody_moves_it(void)
+{
+    uint8_t data[8];
+    start_limb(true, NULL);
+    for (uint32_t which = 0; which < COMMANDS; which++) {
+        make_command(which, data);
+        const state_t before = state_now();
+        says(data);
+        ticks(4);
+        nothing_came_of_it(&before, ALONE, command_name[which], refusals_told());
+    }
+    TEST_ASSERT_EQUAL(BRACE_SETTING_NO_KEY, read_entry(ENTRY(setting)));
+}
+
+static void test_reading_stays_open(void)
+{
+    begin(MOVING);
+    uint8_t data[8];
+    brace_can_pack_k_at_posture_request(&(brace_can_k_at_posture_request_t){9, 1.0f, 1.4f}, data);
+    const answer_t answer = ask(data);
+    TEST_ASSERT_EQUAL(3, answer.count);
+    TEST_ASSERT_EQUAL(252, read_asks(4, 0, 125).count);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_no_command_of_a_stranger_is_taken);
+    RUN_TEST(test_no_register_takes_a_stranger_s_write);
+    RUN_TEST(test_a_broadcast_moves_nothing);
+    RUN_TEST(test_a_recorded_block_does_not_replay);
+    RUN_TEST(test_a_command_does_not_count_twice_or_under_a_stolen_seal);
+    RUN_TEST(test_a_dead_operator_is_not_kept_alive);
+    RUN_TEST(test_a_session_is_not_taken_over_after_its_time);
+    RUN_TEST(test_two_masters_with_the_key_take_turns);
+    RUN_TEST(test_a_flood_of_guesses_moves_nothing);
+    RUN_TEST(test_stop_is_heard_in_a_flood);
+    RUN_TEST(test_configuration_is_its_owner_s);
+    RUN_TEST(test_the_key_is_never_told);
+    RUN_TEST(test_without_a_key_nobody_moves_it);
+    RUN_TEST(test_reading_stays_open);
+    (void)printf("%u attacks, none succeeded\n", (unsigned)attacks);
+    return UNITY_END();
+}

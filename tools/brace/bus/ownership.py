@@ -1,0 +1,110 @@
+"""What a controller asks of whoever moves its limb or writes to it: signs of life and, on a guarded board, seals
+(docs/security.md)."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+
+from brace.bus.siphash import KEY_BYTES, siphash
+from brace.errors import DeviceFaultError, UsageError
+from brace.wire.codes import SETTING
+from brace.wire.registers import REGISTERS
+
+LIFE_S = 0.04  # between two signs of life; the controller wants one each 0.1 s
+EARLY = -75  # a commit came too soon after the one before
+NOT_OPEN = (-70, -71)  # there is no session any more, or another one: it can be opened anew
+COMMANDS = frozenset((
+    "take_up", "let_go", "loading_test_start", "set_mode", "write_entry", "upload_begin", "upload_word", "commit",
+    "rollback", "clear", "set_gravity",
+))  # fmt: skip
+MOVING = frozenset(("take_up", "let_go", "loading_test_start", "write_entry"))
+_KIND_LIFE, _KIND_COMMAND = 1, 2
+_COMMAND_ENTRY, _COMMAND_REGISTER = 0x2000, 0x4000
+_ADDRESSES = {register.name: register.address for register in REGISTERS}
+
+
+def entry_of(command: str) -> int:
+    """A command's number on CAN."""
+    return _COMMAND_ENTRY + (_ADDRESSES[command] - _COMMAND_REGISTER) // 2
+
+
+def register_of(command: str) -> int:
+    """A command's first register."""
+    return _ADDRESSES[command]
+
+
+class Owner:
+    """The counter and the checks of one session. Without a key there are none."""
+
+    def __init__(self, key: bytes | None) -> None:
+        self._key = key
+        self._challenge: int | None = None
+        self._counter = 0
+
+    @property
+    def is_open(self) -> bool:
+        """A session has been begun."""
+        return self._challenge is not None
+
+    def forget(self) -> None:
+        """The controller has ended it."""
+        self._challenge = None
+
+    def begin(self, setting: int, low: int, high: int, where: str) -> tuple[int, int] | None:
+        """The life sign that opens a session: counter and check; None on a bench.
+        setting, low, high: as the controller tells them"""
+        name = SETTING.name_of(setting)
+        if name == "BENCH":
+            return None
+        if name != "GUARDED":
+            raise DeviceFaultError(
+                "the controller lets nobody command it: it is guarded, and has no key yet",
+                where=where,
+                why=f"its setting is {name}",
+                next_step="give it a key, or make it a bench, on its own console: docs/security.md",
+            )
+        if self._key is None:
+            raise UsageError(
+                "the controller is guarded: commands need its key",
+                where=where,
+                why="only whoever has the key may move the limb or write",
+                next_step="--key FILE; reading needs none",
+            )
+        self._challenge, self._counter = high << 32 | low, 0
+        return 0, self._check(_KIND_LIFE, b"")
+
+    def life(self) -> tuple[int, int]:
+        """Counter and check of the next sign of life; on a bench nobody looks at them."""
+        if self._challenge is None:
+            return 0, 0
+        self._counter += 1
+        return self._counter, self._check(_KIND_LIFE, b"")
+
+    def next_counter(self) -> int:
+        """Of the next command."""
+        self._counter += 1
+        return self._counter
+
+    def seal(self, command: bytes) -> int:
+        """The check of the command that has the counter of next_counter."""
+        return self._check(_KIND_COMMAND, command)
+
+    def _check(self, kind: int, content: bytes) -> int:
+        assert self._key is not None and self._challenge is not None
+        return siphash(self._key, struct.pack("<QII", self._challenge, self._counter, kind) + content) & 0xFFFFFFFF
+
+
+def load_key(path: Path) -> bytes:
+    """A key file: 32 hexadecimal digits."""
+    try:
+        key = bytes.fromhex(path.read_text())
+    except (OSError, ValueError) as error:
+        raise UsageError(
+            "no key can be read", where=str(path), why=str(error), next_step="a file with 32 hexadecimal digits"
+        ) from None
+    if len(key) != KEY_BYTES:
+        raise UsageError(
+            f"a key of {len(key)} bytes", where=str(path), why="keys have 16 bytes", next_step="32 hexadecimal digits"
+        )
+    return key
