@@ -65,8 +65,8 @@ static void test_a_run_that_ends_behind_a_reading_waits_for_it(void)
     TEST_ASSERT_TRUE(job.run_ends);
 }
 
-/* What a limb's journal said of another set is forgotten with it: else the first record of the new one would wait for the
- * old one's count. */
+/* What a limb's journal said of another set is forgotten with it: else the first record of the new one would wait for
+ * the old one's count. */
 static void test_learning_anew_forgets_what_was_kept(void)
 {
     const brace_parameters_t parameters = bench_parameters();
