@@ -227,7 +227,7 @@ def _runs(parts: dict[str, Any]) -> str:
         share = "" if how["cases"] == how["of_plan"] else share
         lines.append(
             f"- {name}: `{how['command']}`, {how['cases']} cases{share}; {how['set']} set, seed {how['seed']}, answers "
-            f"sealed {how['seal_sha256'][:16]}, tool {how['tool']}."
+            f"sealed {how['seal_sha256'][:16]}, tool {how['tool']}.{how.get('note', '')}"
         )
     lines += [f"- {name}: not run." for name in ("joint", "loading", "measured") if name not in parts]
     return "\n".join(lines)
