@@ -68,7 +68,7 @@ static void watch_one(frozen_joint_t *joint, const frozen_inputs_t *inputs, int 
 {
     const joint_t *seen = &inputs->joints->joint[index];
     const brace_drive_t *drive = &inputs->parameters->drive[index];
-    const uint32_t tick_us = inputs->parameters->controller.tick_us;
+    const uint32_t since_us = inputs->parameters->controller.tick_us * (uint32_t)BRACE_LINK_COUNT;
     const float carries_n_mm = load_n_mm(inputs, index), told_rad = inputs->told_rad[index];
     const bool stands = seen->sample.motor_rad == joint->motor_rad;
     const bool same = stands && seen->sample.torque_n_mm == joint->torque_n_mm;
@@ -76,8 +76,8 @@ static void watch_one(frozen_joint_t *joint, const frozen_inputs_t *inputs, int 
 
     joint->motor_rad = seen->sample.motor_rad;
     joint->torque_n_mm = seen->sample.torque_n_mm;
-    joint->stands_us = stands && joint->stands_us < STANDSTILL_MOST_US ? joint->stands_us + tick_us : 0u;
-    joint->same_us = same && joint->same_us < STANDSTILL_MOST_US ? joint->same_us + tick_us : 0u;
+    joint->stands_us = stands && joint->stands_us < STANDSTILL_MOST_US ? joint->stands_us + since_us : 0u;
+    joint->same_us = same && joint->same_us < STANDSTILL_MOST_US ? joint->same_us + since_us : 0u;
     joint->told_rad = same && has_torque ? with(joint->told_rad, told_rad) : just(told_rad);
     joint->same_load_n_mm = same ? with(joint->same_load_n_mm, carries_n_mm) : just(carries_n_mm);
     joint->load_n_mm = stands ? with(joint->load_n_mm, carries_n_mm) : just(carries_n_mm);
@@ -96,12 +96,12 @@ static void watch_one(frozen_joint_t *joint, const frozen_inputs_t *inputs, int 
 
 void frozen_watch(frozen_t *frozen, const frozen_inputs_t *inputs)
 {
-    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-        if (inputs->joints->joint[i].sound) {
-            watch_one(&frozen->joint[i], inputs, i);
-        } else {
-            frozen->joint[i] = (frozen_joint_t){.motor_rad = __builtin_nanf("")};
-        }
+    const int turn = frozen->turn;
+    frozen->turn = (uint8_t)(turn + 1 < (int)BRACE_LINK_COUNT ? turn + 1 : 0);
+    if (inputs->joints->joint[turn].sound) {
+        watch_one(&frozen->joint[turn], inputs, turn);
+    } else {
+        frozen->joint[turn] = (frozen_joint_t){.motor_rad = __builtin_nanf("")};
     }
 }
 
