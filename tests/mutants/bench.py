@@ -112,7 +112,7 @@ class Bench:
     def link(self, folder: Path, instead: dict[str, Path]) -> None:
         """The library, with some objects in place of others."""
         objects = [str(instead.get(name, self.object_of(name))) for name in self.linked]
-        run(["cc", "-shared", "-o", str(folder / LIBRARY), *objects, "-lm"])
+        run(["cc", "-shared", f"-Wl,-soname,{LIBRARY}", "-o", str(folder / LIBRARY), *objects, "-lm"])
 
     def users_of(self, header: str) -> list[str]:
         """The files of the library that include a header."""

@@ -21,6 +21,7 @@ FOLDERS = (
 )
 RULES = ["universal.rules", "c_like.rules", "c.rules"]
 LEAST_A_FILE = 3
+INSERTED = re.compile(r"\n\s*(break|continue);\n$")  # behind any line, which no compiler takes outside a loop
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ def mutants_of(file: str, run_lines: set[int]) -> list[Mutant]:
     return [
         Mutant(file, line, source[line - 1].rstrip("\n"), new.rstrip("\n"))
         for line, new, *_ in found
-        if line in wanted
+        if line in wanted and not INSERTED.search(new)
     ]
 
 

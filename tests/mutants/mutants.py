@@ -4,8 +4,9 @@ usage: mutants.py [--count N] [--seed S] [--only GLOB] [--afresh]
 
 A mutant is a file of the firmware with one line changed by universalmutator's rules. Only lines that some suite runs
 are mutated (./dev coverage tells of the others). A mutant that the compiler refuses, or of which it makes the same
-object as without, does not count. Every other one is given to the suites that run its file, until one fails: then it
-is killed. The suites are the unit tests; power cuts and fuzzers take too long for each mutant.
+object as without, does not count. Every other one is given to the suites that run its line, until one fails: then it
+is killed. The suites are the unit tests; power cuts, fuzzers and
+TOO_LONG take too long for each mutant.
 Outcomes are kept in build/mutants/outcomes.jsonl, so that a run that was stopped goes on.
 
 exit codes: 0 enough are killed and every survivor is argued for in survivors.toml, 1 not so, 4 a tool failed.
@@ -20,6 +21,7 @@ import shutil
 import sys
 import tomllib
 from collections import Counter, defaultdict
+from collections.abc import Iterable
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
@@ -28,10 +30,12 @@ import generate
 
 HERE = Path(__file__).resolve().parent
 KEPT = bench.WORK / "outcomes.jsonl"
+COSTS = bench.WORK / "costs.json"
 COUNTS = bench.BUILD / "counts.json"
 KILLED_LEAST = 0.95
 COUNT = 500
 SEED = 1
+TOO_LONG = ("test_app_wrap",)  # plays the clock once round
 KILLED, SURVIVES, REFUSED, SAME = "killed", "survives", "refused by the compiler", "same object"
 
 
@@ -56,22 +60,33 @@ def suites_by_line() -> dict[tuple[str, int], list[str]]:
     return found
 
 
+def read_costs() -> dict[str, float]:
+    """Processor time [s] of a run of each suite that passed without a mutant."""
+    costs: dict[str, float] = json.loads(COSTS.read_text()) if COSTS.is_file() else {}
+    return costs
+
+
 class Judge:
     """Compiles mutants and gives them to suites."""
 
     def __init__(self) -> None:
         self.bench = bench.Bench()
         self.suites = {suite.name: suite for suite in self.bench.build()}
+        self.by_line = suites_by_line()
         self.by_file: dict[str, set[str]] = defaultdict(set)
-        for (file, _), names in suites_by_line().items():
+        for (file, _), names in self.by_line.items():
             self.by_file[file].update(names)
         self.kills: Counter[tuple[str, str]] = Counter()
         self.folder = bench.WORK / "mutant"
+        costs = read_costs()
         for name, suite in self.suites.items():
-            ending = bench.run_suite(suite, bench.WORK, 300)
-            if not ending.passes:
-                raise bench.BuildError(f"{name} fails without a mutant: {ending.words}")
-            self.suites[name] = replace(suite, cpu_s=ending.cpu_s)
+            if name not in costs:
+                ending = bench.run_suite(suite, bench.WORK, 300)
+                if not ending.passes:
+                    raise bench.BuildError(f"{name} fails without a mutant: {ending.words}")
+                costs[name] = ending.cpu_s
+                COSTS.write_text(json.dumps(costs))
+            self.suites[name] = replace(suite, cpu_s=costs[name])
 
     def _compile(self, mutant: generate.Mutant) -> dict[str, Path] | None:
         """Objects that differ from those without the mutant; None: the compiler refuses it."""
@@ -114,6 +129,11 @@ class Judge:
             shutil.copy(tree, self.folder / mutant.file)
         return overlay
 
+    def _suites_of(self, mutant: generate.Mutant) -> Iterable[str]:
+        """Those that run its line; those that run its file, where that has changed since the lines were counted."""
+        is_counted = (bench.ROOT / mutant.file).stat().st_mtime < COUNTS.stat().st_mtime
+        return self.by_line[mutant.file, mutant.line] if is_counted else self.by_file[mutant.file]
+
     def judge(self, mutant: generate.Mutant) -> Outcome:
         """One mutant."""
         objects = self._compile(mutant)
@@ -122,7 +142,7 @@ class Judge:
         if not objects:
             return Outcome(mutant, SAME)
         self.bench.link(self.folder, objects)
-        names = [name for name in self.by_file[mutant.file] if name in self.suites]
+        names = [name for name in self._suites_of(mutant) if name in self.suites and name not in TOO_LONG]
         names.sort(key=lambda name: self.suites[name].cpu_s / (1.0 + 20.0 * self.kills[name, mutant.file]))
         for name in names:
             suite = self.suites[name]

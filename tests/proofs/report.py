@@ -91,32 +91,46 @@ def _code(text: str) -> str:
     return f"{fence}{' '.join(text.split())}{fence}".replace("|", "\\|")
 
 
-def page(outcomes: list[Outcome], version: str, absent: list[str]) -> str:
-    """docs/proofs.md. absent: proofs that have not been run on this text."""
+COLUMNS = "| claim | functions | for | stands on | properties | seconds | verdict | run at |"
+
+
+def kept_rows(earlier: str, name: str) -> list[str]:
+    """The row of a proof in an earlier page, and those of its mistakes."""
+    return [line for line in earlier.splitlines() if line.startswith((f"| **{name}**:", f"| {name} |"))]
+
+
+def page(
+    order: list[str], outcomes: dict[str, Outcome], version: str, commit: str, earlier: str, earlier_commit: str
+) -> str:
+    """docs/proofs.md. order: names of all proofs; commit: of the text that the outcomes are of; earlier: the page as it
+    was at its own commit, from which the rows of proofs come that have not been run since."""
     lines = [INTRODUCTION.format(version=version)]
-    lines += [
-        "| claim | functions | for | stands on | properties | seconds | verdict |",
-        "|---|---|---|---|---|---|---|",
-    ]
-    for outcome in outcomes:
+    lines += [COLUMNS, "|---|---|---|---|---|---|---|---|"]
+    has_commits = COLUMNS in earlier
+    for name in order:
+        outcome = outcomes.get(name)
+        if outcome is None:
+            row = next((line for line in kept_rows(earlier, name) if line.startswith("| **")), "")
+            lines += [row if has_commits or not row else f"{row} {earlier_commit} |"] if row else []
+            continue
         functions = ", ".join(_code(name) for name in outcome.functions)
         lines.append(
             f"| **{outcome.name}**: {outcome.claim} | {functions} | {outcome.bound} | "
             f"{'; '.join(outcome.stands_on) or '-'} | {outcome.verdict.properties} | "
-            f"{outcome.verdict.seconds:.0f} | {word(outcome.verdict)} |"
+            f"{outcome.verdict.seconds:.0f} | {word(outcome.verdict)} | {commit} |"
         )
-    minutes = sum(outcome.seconds for outcome in outcomes) / 60.0
-    count = sum(outcome.verdict.properties for outcome in outcomes)
     lines += [
         "",
-        f"{len(outcomes)} claims, {count} properties; with the mistakes below {minutes:.0f} minutes by the clock, "
-        + "runs added up. A busy machine takes longer.",
+        f"{len(order)} claims. *Run at* names the commit of the text that a claim was proven of; a claim whose text "
+        "has changed since then is to be run again. Seconds are by the clock, on a machine that had other work.",
         "",
     ]
-    if absent:
-        lines += [f"Not run since their text changed: {', '.join(absent)}.", ""]
     lines += ["| proof | mistake put in | found as |", "|---|---|---|"]
-    for outcome in outcomes:
+    for name in order:
+        outcome = outcomes.get(name)
+        if outcome is None:
+            lines += [line for line in kept_rows(earlier, name) if not line.startswith("| **")]
+            continue
         for change, twin in outcome.twins:
             said = twin.failures[0] if twin.failures else f"**not found** {twin.trouble}"
             lines.append(f"| {outcome.name} | {_code(change)} | {said} |")

@@ -173,6 +173,21 @@ def find_cbmc() -> tuple[str, str]:
     return tool, version
 
 
+def git(*arguments: str) -> str:
+    """What git prints, in the project's folder."""
+    done = subprocess.run(["git", *arguments], cwd=cbmc.ROOT, capture_output=True, text=True, check=False)
+    return done.stdout.strip()
+
+
+def write_page(proofs: list[Proof], outcomes: dict[str, report.Outcome], version: str) -> None:
+    """docs/proofs.md: what was proven now, and the rows of the others as they were."""
+    path = cbmc.ROOT / "docs" / "proofs.md"
+    earlier = path.read_text() if path.is_file() else ""
+    commit, earlier_commit = git("rev-parse", "--short", "HEAD"), git("log", "-1", "--format=%h", "--", str(path))
+    names = [proof.name for proof in proofs]
+    path.write_text(report.page(names, outcomes, version, commit, earlier, earlier_commit))
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(
         description="prove the claims of tests/proofs/proofs.toml; writes docs/proofs.md"
@@ -188,7 +203,7 @@ def main() -> int:
     )
     parser.add_argument("--afresh", action="store_true", help="prove again what was proven of the same text")
     parser.add_argument(
-        "--known", action="store_true", help="write docs/proofs.md from earlier runs and prove nothing"
+        "--known", action="store_true", help="write what earlier runs proved into docs/proofs.md and prove nothing"
     )
     parser.add_argument("--list", action="store_true", help="name the claims and prove nothing")
     asked = parser.parse_args()
@@ -204,14 +219,10 @@ def main() -> int:
         return 0
     tool, version = find_cbmc()
     if asked.known:
-        outcomes_known = [
-            outcome for outcome in (known(proof, version) for proof in proofs) if outcome is not None
-        ]
-        absent = [
-            proof.name for proof in proofs if proof.name not in {outcome.name for outcome in outcomes_known}
-        ]
-        (cbmc.ROOT / "docs" / "proofs.md").write_text(report.page(outcomes_known, version, absent))
-        print(f"{len(outcomes_known)} known, not known: {', '.join(absent) or 'none'}")
+        found = {proof.name: known(proof, version) for proof in proofs}
+        write_page(proofs, {name: outcome for name, outcome in found.items() if outcome is not None}, version)
+        absent = [name for name, outcome in found.items() if outcome is None]
+        print(f"rows kept as they were, of an earlier text: {', '.join(absent) or 'none'}")
         return 0
     chosen = [proof for proof in proofs if not asked.only or proof.name in asked.only]
     outcomes = {}
@@ -229,7 +240,7 @@ def main() -> int:
         print(text)
     good = sum(outcome.good for outcome in told)
     if not asked.only:
-        (cbmc.ROOT / "docs" / "proofs.md").write_text(report.page(told, version, []))
+        write_page(proofs, outcomes, version)
     print(f"{good} passed, {len(told) - good} failed")
     return 0 if good == len(told) else 1
 

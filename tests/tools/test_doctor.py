@@ -6,6 +6,7 @@ import json
 import os
 import stat
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -146,6 +147,18 @@ def test_builds_are_as_new_as_their_sources(nothing: Machine) -> None:
         told["brace-stm32f405"].state == MISSING
         and "not the file that was built" in told["brace-stm32f405"].found
     )
+
+
+def test_an_installed_command_needs_no_build(nothing: Machine, tmp_path: Path) -> None:
+    """A wheel and the Debian package have the library inside."""
+    installed = replace(nothing, native=tmp_path / "_native")
+    assert nothing.needed == ("tools", "build")
+    installed.native.mkdir()
+    (lacking,) = builds(installed)
+    assert installed.needed == ("tools",) and lacking.state == MISSING and "anew" in lacking.next_step
+    put(installed.native / "libbrace_host.so")
+    (there,) = builds(installed)
+    assert there.is_good and there.found == "installed with the command"
 
 
 def test_this_python_is_good_enough() -> None:

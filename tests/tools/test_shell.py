@@ -17,7 +17,7 @@ from brace.cli.command_line import SUBCOMMANDS
 from brace.cli.completion_command import completion
 from conftest import DATA, PROJECT
 
-HELP_S = 0.1
+HELP_S, EMPTY_S = 0.1, 0.02
 
 
 def output_of(*command: str, **environment: str) -> str:
@@ -27,15 +27,19 @@ def output_of(*command: str, **environment: str) -> str:
 
 
 def test_help_at_once(tmp_path: Path) -> None:
-    """The least processor time of some starts, because others use this machine's caches, too."""
+    """The least processor time of some starts. Where others use this machine's caches, an empty program takes longer than
+    its 20 ms, and help may take as much longer."""
     environment = {**os.environ, "PYTHONPYCACHEPREFIX": str(tmp_path)}
     environment.pop("PYTHONDONTWRITEBYTECODE", None)
-    spent = []
-    for _ in range(8):  # the first one compiles
+
+    def spent_s(*words: str) -> float:
         before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-        subprocess.run([sys.executable, "-m", "brace", "--help"], env=environment, check=True, capture_output=True)
-        spent.append(resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before)
-    assert min(spent) < HELP_S
+        subprocess.run([sys.executable, *words], env=environment, check=True, capture_output=True)
+        return resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+
+    pairs = [(spent_s("-c", "pass"), spent_s("-m", "brace", "--help")) for _ in range(8)]  # the first one compiles
+    empty, help_s = (min(column) for column in zip(*pairs))
+    assert help_s < HELP_S * max(1.0, empty / EMPTY_S)
 
 
 def test_help_loads_no_numpy() -> None:

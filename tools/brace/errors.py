@@ -92,6 +92,10 @@ class VersionMismatchError(BraceError):
     exit_code = EXIT_VERSION
 
 
+class ModelDoubt(UserWarning):
+    """A sentence about a model's value that is used all the same."""
+
+
 def place(path: Path | str, line: int | None = None) -> str:
     """`file:line`, or the file alone when the line is not known."""
     return f"{path}:{line}" if line else str(path)

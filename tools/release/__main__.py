@@ -6,6 +6,7 @@
     firmware/                           images with their sums
     brace_core.h, brace_core.c          the core as two files
     brace.dbc, brace_fd.dbc, modbus.csv what is on the wires
+    paper-limb.toml, paper-rig.toml     a limb and a rig to begin with
     brace-V-source.tar.gz               the whole repository: examples, firmware, tests
     brace-V.cdx.json                    bill of materials
     SHA256SUMS
@@ -24,6 +25,7 @@ from pathlib import Path
 from release import source as sources
 from release.source import PROJECT, ReleaseError, Source, archive, export, fresh, run, sums
 
+TO_BEGIN_WITH = ("paper-limb.toml", "paper-rig.toml")
 ON_THE_WIRES = ("brace.dbc", "brace_fd.dbc", "modbus.csv")
 
 
@@ -46,7 +48,8 @@ def main(arguments: list[str] | None = None) -> int:
         made_of = export(fresh(asked.work) / "source")
         command = [sys.executable, "-m", "release", "--work", asked.work.resolve(), "--out", asked.out.resolve()]
         command += ["--commit", made_of.commit, "--epoch", str(made_of.epoch_s)]
-        environment = {**os.environ, "PYTHONPATH": str(made_of.folder.resolve() / "tools")}
+        tools = str(made_of.folder.resolve() / "tools")
+        environment = {**os.environ, "PYTHONPATH": tools, "PYTHONDONTWRITEBYTECODE": "1"}  # nothing is added to sources
         return subprocess.run(command, env=environment, cwd=made_of.folder, check=False).returncode
     except ReleaseError as error:
         print(f"release: {error}", file=sys.stderr)
@@ -70,6 +73,8 @@ def make(source: Source, work: Path, dist: Path) -> None:
         (dist / name).write_text(text)
     for name in ON_THE_WIRES:
         shutil.copy(source.folder / "firmware" / "interface" / name, dist)
+    for name in TO_BEGIN_WITH:
+        shutil.copy(source.folder / "tools" / "brace" / "data" / name, dist)
     bill_of_materials.write(source, dist)
     step("source distribution and wheel")
     sdist = python_packages.source_distribution(source, work, dist)

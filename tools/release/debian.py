@@ -74,10 +74,12 @@ def package(source: Source, wheel: Path, work: Path, cache: Path, dist: Path) ->
     _write(documents / "copyright", COPYRIGHT)
     _compressed(_write(documents / "changelog", (source.folder / "CHANGELOG.md").read_text()))
     shutil.copytree(source.folder / "examples", documents / "examples")
+    for name in ("paper-limb.toml", "paper-rig.toml"):
+        shutil.copy(source.folder / "tools" / "brace" / "data" / name, documents)
     _control(root, source)
     set_times(root, source.epoch_s)
     out = dist / f"brace_{source.version}_{ARCHITECTURE}.deb"
-    build = ("dpkg-deb", "--root-owner-group", "-Zxz", "-z3", "--threads-max=1", "--build", root, out)
+    build = ("dpkg-deb", "--root-owner-group", "-Zzstd", "-z9", "--threads-max=1", "--build", root, out)
     run(*build, environment=source.environment)
     return out
 

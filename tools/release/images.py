@@ -15,7 +15,8 @@ def images(source: Source, work: Path, dist: Path) -> None:
     build = work / "m4f"
     toolchain = source.folder / "firmware" / "boards" / "toolchain" / "cortex-m4f.cmake"
     cache = (f"-DCMAKE_TOOLCHAIN_FILE={toolchain}", "-DCMAKE_BUILD_TYPE=Release", "-DBRACE_TESTS=OFF")
-    run("cmake", "-G", "Ninja", "-S", source.folder, "-B", build, *cache, environment=source.environment)
+    commit = f"-DBRACE_SOURCE_HASH={source.commit[:12]}"
+    run("cmake", "-G", "Ninja", "-S", source.folder, "-B", build, *cache, commit, environment=source.environment)
     run("cmake", "--build", build, "--target", "brace_images", environment=source.environment)
     out = dist / "firmware"
     out.mkdir()

@@ -52,6 +52,21 @@ def pairs(folder: Path, values: dict[str, float], axes: str) -> Diagnosis:
     return diagnose(load_dataset(folder), load_limb(LIMB), Options())
 
 
+def test_stiffnesses_alone_name_nothing_for_sure(tmp_path: Path) -> None:
+    """One pair at each of four postures, no temperature, nothing that tells the noise: a table of k_zz as a record. No
+    limb makes these; whatever is nearest is not sure."""
+    rows = [(0.6, 1.2, 0.42), (0.9, 1.6, 0.36), (0.3, 2.0, 0.26), (0.7, 0.8, 0.60)]
+    lines = ["run,config,theta1_rad,theta2_rad,axis,rep,step,t_s,dx_mm,dz_mm,fz_n"]
+    for number, (theta1, theta2, k_zz) in enumerate(rows, start=1):
+        for step in (0, 1):
+            t_s = 2 * number + step
+            lines.append(f"{number},{number},{theta1},{theta2},z,1,{step},{t_s},0,{step},{step * k_zz}")
+    (tmp_path / "meta.toml").write_text('format = 1\nkind = "loading"\ntitle = "k_zz"\n')
+    (tmp_path / "data.csv").write_text("\n".join(lines) + "\n")
+    found = diagnose(load_dataset(tmp_path), load_limb(LIMB), Options())
+    assert all(effect.confidence < 0.5 for effect in found.effects)
+
+
 @pytest.mark.parametrize("axes", ['["z"]', '["x", "z"]'])
 def test_a_sound_limb_lacks_nothing(tmp_path: Path, axes: str) -> None:
     assert pairs(tmp_path / "pairs", {}, axes).verdict == "none"

@@ -10,7 +10,7 @@ from handmade import GAP_KEY, GAP_RAD, loading_record
 from brace.dataset import load_dataset
 from brace.diagnose.diagnosis import HeldOut
 from brace.diagnose.loading.fit import Fit, fit
-from brace.diagnose.loading.hold_out import held_out
+from brace.diagnose.loading.hold_out import held_out, load_range
 from brace.diagnose.loading.intervals import intervals
 from brace.diagnose.loading.parts import locked_rows
 from brace.diagnose.loading.space import space_of, trust_of
@@ -64,7 +64,11 @@ def test_a_model_of_one_amplitude_is_told_to_be_one(tmp_path: Path) -> None:
     record = recorded(tmp_path / "record", joint__femur__hardening_n_mm_per_rad3=hardening)
     amplitude = by_part(record, fitted(record, TOO_SOFT))["amplitude"]
     assert not amplitude.holds and amplitude.off > 1.5 * amplitude.expected
-    assert by_part(record, fitted(record, HARDENS))["amplitude"].holds
+    (words,) = load_range([amplitude])
+    assert "its own amplitude only" in words
+    holding = by_part(record, fitted(record, HARDENS))["amplitude"]
+    (words,) = load_range([holding])
+    assert holding.holds and f"holds for forces up to {holding.largest:.3g} N" in words
 
 
 def test_identify_and_diagnose_have_the_same_numbers(tmp_path: Path) -> None:

@@ -74,6 +74,9 @@ def test_a_file_without_names_is_asked_for_all_of_them(brace: Brace, tmp_path: P
         (LOADING.replace("theta2 [deg]", "angle [deg]"), "which joint's angle?"),
         (LOADING.replace("theta2 [deg]", "note"), "theta2_rad: at which knee angle"),
         (LOADING.replace("t [s]", "sample"), "dwell_s: the file has no time"),
+        (LOADING.replace("theta2", "interior knee angle"), "180 deg for a straight leg"),
+        (LOADING.replace("theta1", "femur from vertical"), "an angle from the vertical"),
+        (LOADING.replace("dz [mm]", "deflection down z [mm]"), "its name says down, and z is up"),
     ],
 )
 def test_what_a_header_leaves_open_is_asked(brace: Brace, tmp_path: Path, header: str, words: str) -> None:
@@ -227,3 +230,15 @@ def test_a_measured_dataset_is_never_replaced(brace: Brace, tmp_path: Path) -> N
     (out / "meta.toml").write_text('format = 1\nkind = "loading"\n')
     refused = brace("import", path, "--out", out, "--yes")
     assert refused.code == 2 and "was not imported" in refused.err
+
+
+def test_rows_that_sum_up_are_no_readings(brace: Brace, tmp_path: Path) -> None:
+    """Whether the word stands in a column that is used or in one that is not."""
+    for name, content in (
+        ("first.csv", loading() + "Mean,40,90,0.1,0.1,1.2,3.4\n"),
+        ("own.csv", "\n".join("note," * (not n) + "," * bool(n) + line for n, line in enumerate(loading().splitlines()))
+         + "\nMax,988,63,126,2.54,2.54,16,8\n"),
+    ):  # fmt: skip
+        done = brace("import", saved(tmp_path, content, name), "--out", tmp_path / name[:3], "--yes")
+        assert done.code == 0 and "1 line below the table left out" in done.err, done.err
+        assert load_dataset(tmp_path / name[:3]).rows == 204

@@ -113,7 +113,15 @@ def test_data_in_degrees_end_with_a_data_fault(brace: Brace, tmp_path: Path) -> 
     record = write_loading(tmp_path / "record", rows)
     outcome = brace("diagnose", record, "--model", limb(tmp_path), "--out", tmp_path / "out")
     assert outcome.code == 3 and (tmp_path / "out" / "report.html").is_file()
-    assert "in degrees" in outcome.out + outcome.err
+    assert "nothing is said of the limb: theta1_rad and theta2_rad are in degrees." in outcome.out
+
+
+def test_an_entry_that_is_no_number_is_named(brace: Brace, tmp_path: Path) -> None:
+    rows = loading_rows()
+    rows[5][11] = "nan"
+    record = write_loading(tmp_path / "record", rows)
+    outcome = brace("diagnose", record, "--model", limb(tmp_path), "--out", tmp_path / "out")
+    assert outcome.code == 3 and "row 6, fx_n: 'nan' is not a number" in outcome.out
 
 
 def test_a_limb_without_uncertainty_is_one_that_is_trusted(brace: Brace, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""`brace clear`: takes back a controller's faults that wait for somebody to have seen to them."""
+"""`brace clear`: clears latched faults of a controller."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ def _staying(text: str) -> str:
     name = STAYING.get(text.lower(), text.lower())
     if name not in STAYING.values():
         raise refused(
-            f"{text!r} is no fault that is cleared",
-            f"only {' and '.join(STAYING)} stay until then, all others end with their cause",
+            f"{text!r} is not a latched fault",
+            f"the latched faults are {' and '.join(STAYING)}; every other fault ends with its cause",
             "brace query shows which faults are there, docs/errors.md what each of them wants",
         )
     return name

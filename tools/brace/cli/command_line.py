@@ -16,7 +16,7 @@ from brace.cli.streams import OutputLost, finish, hush, prepare, say
 from brace.errors import EXIT_CHECK_FAILED, EXIT_OK, EXIT_USAGE, BraceError
 
 SUBCOMMANDS = (
-    *("new", "k", "map", "import", "simulate", "predict", "identify", "diagnose", "plan", "params", "demo"),
+    *("new", "k", "map", "import", "export", "simulate", "predict", "identify", "diagnose", "plan", "params", "demo"),
     *("sim", "query", "monitor", "record", "replay", "gravity", "take-up", "let-go", "clear", "dbc", "flash", "doctor"),
     "completion",
 )

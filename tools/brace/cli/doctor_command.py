@@ -39,7 +39,7 @@ def add(commands: Subcommands) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Executes the subcommand."""
     from brace.doctor.builds import builds
-    from brace.doctor.finding import ALWAYS_NEEDED, CONTROLLER, Machine
+    from brace.doctor.finding import CONTROLLER, Machine
     from brace.doctor.hardware import hardware
     from brace.doctor.programs import programs, python_packages
 
@@ -47,7 +47,7 @@ def run(arguments: argparse.Namespace) -> int:
     findings: list[Finding] = []
     for look in (python_packages, programs, hardware, builds):
         findings += look(machine)
-    needed = {*ALWAYS_NEEDED, *arguments.needed}
+    needed = {*machine.needed, *arguments.needed}
     if arguments.bus is not None:
         findings += _of_controller(arguments)
         needed.add(CONTROLLER)

@@ -8,13 +8,12 @@ from collections.abc import Iterator
 from typing import TextIO
 
 from brace.cli.streams import say
+from brace.errors import ModelDoubt
 
 
 @contextlib.contextmanager
 def doubts_said() -> Iterator[None]:
     """Warnings of ours become messages; all others stay as they are."""
-    from brace.model.doubts import ModelDoubt
-
     said: set[str] = set()
     with warnings.catch_warnings():
         shown = warnings.showwarning

@@ -159,7 +159,7 @@ def _which(named: str, wanted: str | None) -> tuple[Path, str | None]:
             f"no image for {board.name} is built",
             where=str(path),
             why="brace flash BOARD takes the image of this checkout's build",
-            next_step="./dev setup, or name an image file",
+            next_step="./dev setup in a checkout; else name an image file, as firmware/brace-stm32f405.elf of a release",
         )
     return path, board.name
 

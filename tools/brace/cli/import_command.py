@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import tempfile
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -226,6 +225,8 @@ def _write(folder: Path, built: Built, inputs: Sequence[Path]) -> None:
 
 def _faults(built: Built) -> Sequence[DataFault]:
     """What the dataset's own gate says. A column that can be of no limb is refused: a unit or a sign is wrong."""
+    import tempfile  # here, so that the command line's help need not load it
+
     from brace.dataset import load_dataset
     from brace.dataset.write import write_dataset
 

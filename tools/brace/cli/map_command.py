@@ -25,7 +25,8 @@ def add(commands: Subcommands) -> None:
         help="the workspace: eigenvalues over r, ellipses of K, as pictures and CSV",
         description="Computes K over a grid of postures and writes into --out: map.png and map.svg (eigenvalues over "
         "r, ellipses), eigenvalues.csv (a row per theta2), ellipses.csv (the drawn ones). Says where "
-        "quasi-convexity holds. With --fx and --fz K under this load and the limb's weight at the rest; theta1 and "
+        "the eigenvalues rise and fall with reach. With --fx and --fz K under this load and the limb's weight at the "
+        "rest; theta1 and "
         "theta2 are then the commanded angles, and the tip's displacement and the buckling factor come with it.",
     )
     common.add_model(parser)
@@ -133,6 +134,7 @@ class Summary(TypedDict):
     lambda_min_n_per_mm: list[float]
     lambda_max_n_per_mm: list[float]
     turning_points_r_mm: dict[str, list[float]]
+    rises_with_reach: dict[str, bool]
     quasi_convex_lambda_max: bool
     quasi_concave_lambda_min: bool
 
@@ -155,9 +157,20 @@ def _summary(name: str, grid: Workspace) -> Summary:
         "lambda_min_n_per_mm": [np.nanmin(low[:, 0]), np.nanmax(low[:, 2])],
         "lambda_max_n_per_mm": [np.nanmin(high[:, 0]), np.nanmax(high[:, 2])],
         "turning_points_r_mm": turns,
+        "rises_with_reach": {
+            name: _rises(grid.r_mm, band) for name, band in (("lambda_max", high), ("lambda_min", low))
+        },
         "quasi_convex_lambda_max": len(turns["lambda_max"]) <= 1,
         "quasi_concave_lambda_min": len(turns["lambda_min"]) <= 1,
     }
+
+
+def _rises(r_mm: np.ndarray, band: np.ndarray) -> bool:
+    """Whether the curve is higher at the greatest reach than at the least."""
+    order = r_mm.argsort()
+    middle = band[order, 1]
+    middle = middle[middle == middle]  # where the load folds the limb there is none
+    return bool(middle.size and middle[-1] > middle[0])
 
 
 def _files(model: LimbModel, grid: Workspace, every_posture: bool, title: str) -> list[tuple[str, bytes]]:
@@ -254,7 +267,9 @@ def _npy(grid: Workspace) -> bytes:
 def _text(summary: Summary, out: Path) -> str:
     def turns(which: str) -> str:
         found = summary["turning_points_r_mm"][which]
-        return "turns at r = " + ", ".join(f"{r:.1f}" for r in found) + " mm" if found else "steadily with reach"
+        if found:
+            return "turns between rising and falling at r = " + ", ".join(f"{r:.1f}" for r in found) + " mm"
+        return f"{'rises' if summary['rises_with_reach'][which] else 'falls'} steadily with reach"
 
     where = "where the tip stands under the load" if summary["path"] == "loaded" else summary["path"]
     return (

@@ -34,7 +34,7 @@ OPTIONAL = {
 
 def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
-    from brace.newlimb.quantity import LINK_FORMS
+    from brace.newlimb import LINK_FORMS
 
     parser = commands.add_parser(
         "new",

@@ -95,4 +95,7 @@ def _fault(index: int, column: Column, text: bytes, why: str) -> DataFault:
         why = f"{shown!r} is not a number: {reason}"
         return DataFault(index + 1, column.name, why, f"{meant}; so throughout the file")
     way = "write x or z" if column.kind == "axis" else "correct the entry, or delete the row"
-    return DataFault(index + 1, column.name, f"{shown!r} cannot be: {why} ({way})")
+    if why.startswith("not a finite number"):
+        what = why.partition("; ")[2]
+        return DataFault(index + 1, column.name, f"{shown!r} is not a number; {what} ({way})")
+    return DataFault(index + 1, column.name, f"{shown!r} is not allowed: {why} ({way})")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -51,3 +53,20 @@ class DataFault:
                 else f"it should probably be {self.suggestion}; correct the file"
             ),
         )
+
+
+_UNIT = re.compile(r"(\w[\w ]*): (?:multiply|subtract|divide)")
+
+
+def what_is_wrong(faults: Sequence[DataFault], path: Path) -> str:
+    """Blocking faults in a sentence without its full stop: columns that are all in one other unit by that unit, else
+    the first fault, and how many more there are."""
+    units = [_UNIT.match(str(fault.suggestion)) if fault.row is None else None for fault in faults]
+    named = {unit.group(1) for unit in units if unit}
+    fields = list(dict.fromkeys(fault.field for fault in faults))
+    if all(units) and len(named) == 1:
+        columns = " and ".join([", ".join(fields[:-1]), fields[-1]] if fields[1:] else fields)
+        return f"{columns} {'are' if fields[1:] else 'is'} in {named.pop()}"
+    more = len(faults) - 1
+    behind = f" ({more} more fault{'s are' if more > 1 else ' is'} listed below)" if more else ""
+    return faults[0].sentence(path) + behind

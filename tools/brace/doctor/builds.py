@@ -18,11 +18,22 @@ _BUILD = "./dev setup"
 
 
 def builds(machine: Machine) -> Iterator[Finding]:
-    """Host library and images."""
+    """Host library and images; of an installed package the library alone."""
+    if machine.is_installed:
+        yield _installed(machine.native)
+        return
     yield _library(machine)
     newest = _newest(machine.project, _FIRMWARE)
     for board in BOARDS:
         yield _image(machine, board, newest)
+
+
+def _installed(native: Path) -> Finding:
+    from brace.native.loader import LIBRARY_NAME
+
+    if (native / LIBRARY_NAME).is_file():
+        return Finding("tools", LIBRARY_NAME, OK, "installed with the command")
+    return Finding("tools", LIBRARY_NAME, MISSING, f"not in {native}", "install the brace package anew")
 
 
 def _library(machine: Machine) -> Finding:

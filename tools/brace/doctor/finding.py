@@ -46,6 +46,17 @@ class Machine:
     sys: Path = Path("/sys")
     dev: Path = Path("/dev")
     modules: Path = field(default_factory=lambda: Path("/lib/modules") / _kernel())
+    native: Path = Path(__file__).resolve().parents[1] / "_native"  # the library of an installed package
+
+    @property
+    def is_installed(self) -> bool:
+        """The command was installed from a package with the library inside: nothing has to be built."""
+        return self.native.is_dir()
+
+    @property
+    def needed(self) -> tuple[str, ...]:
+        """The purposes without which nothing works here."""
+        return ALWAYS_NEEDED[:1] if self.is_installed else ALWAYS_NEEDED
 
 
 def _kernel() -> str:

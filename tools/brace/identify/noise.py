@@ -21,6 +21,9 @@ ON_GRID = 1e-3  # of a step: how near to whole steps the readings of a sensor th
 FAR_SIGMAS = 4.5  # from which a difference is no noise; of white noise it cuts 7 in a million, 0.02 % of the variance
 MEDIAN_OF_SQUARES = 0.4549  # of a normal variable with variance 1
 THIRD_DIFFERENCES_SHARE = 2.31  # how many third differences of white noise tell as much as one independent reading
+ASSUMED_SHARE = 0.02  # of the largest reading: what scales and dial gauges read to by hand, where nothing tells
+ASSUMED_FREEDOM = 2.0  # readings that this is worth
+ASSUMED = "not enough readings; 2 % of the largest is assumed"
 GROWTH_GAIN = 12.0  # twice the log-likelihood that a noise growing with load must gain to be believed
 
 
@@ -70,7 +73,8 @@ def noise_of(dataset: Dataset, channels: Sequence[str]) -> dict[str, ChannelNois
         if found.off.size >= 4 and found.spread < rounding:
             noise[name] = _rounded(dataset, found, rounding)
         elif found.off.size < 4:
-            noise[name] = ChannelNoise(found.least, 0.0, "not enough readings; the least that can be told")
+            floor = max(found.least, ASSUMED_SHARE * float(np.nanmax(np.abs(dataset[name]))))
+            noise[name] = ChannelNoise(floor, 0.0, ASSUMED, ASSUMED_FREEDOM)
         elif found.spread < found.least:
             noise[name] = ChannelNoise(found.least, 0.0, "the sensor's resolution")
         else:

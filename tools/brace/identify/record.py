@@ -153,6 +153,12 @@ class Record:
         return int(np.count_nonzero(self.sigma < NOT_MEASURED))
 
     @property
+    def moved_readings(self) -> int:
+        """How many readings were taken while the tip was displaced."""
+        moved = (self.dataset["dx_mm"] != 0.0) | (self.dataset["dz_mm"] != 0.0)
+        return int(np.count_nonzero((self.sigma < NOT_MEASURED) & moved))
+
+    @property
     def forces_read(self) -> np.ndarray:
         """Which forces were read, 2 x rows."""
         return np.asarray(self.sigma[: len(FORCES)] < NOT_MEASURED)

@@ -168,7 +168,7 @@ def _numbers(part: Part, use: ColumnUse, cells: Sequence[str], target: str) -> t
             f"column {use.name!r} has no unit",
             where=part.where,
             why=f"it is {target}",
-            next_step=f'unit = "{OWN[TARGETS["loading"].get(target, "force") or "force"]}" in its [[column]], say',
+            next_step=f'e.g. unit = "{OWN[TARGETS["loading"].get(target, "force") or "force"]}" in its [[column]]',
         )
     sign = -1.0 if use.sign == "-1" else 1.0
     return sign * (unit.factor * values + unit.offset) + use.offset, unread

@@ -84,6 +84,8 @@ def _one(index: int, header: str, part: Part, cells: list[str], kind: str, file:
     if not quantity:
         return use
     unit, why_unit = _unit(name, quantity, values[readable], label)
+    if "down" in name.words and target in ("dz_mm", "fz_n", "base_z_mm"):
+        return replace(use, unit=unit, sign=OPEN, why="its name says down, and z is up")
     return replace(use, unit=unit, why=why_unit or why)
 
 

@@ -178,7 +178,7 @@ def _axis(table: Table, mapping: MappingTable, rows: int) -> np.ndarray:
                 f"axis is {wrong!r} in a row",
                 where=table.part.where,
                 why="it is x (outwards) or z (up)",
-                next_step=f'values = {{ "{wrong}" = "x" }} in its [[column]], say',
+                next_step=f'e.g. values = {{ "{wrong}" = "x" }} in its [[column]]',
             )
         return np.array([text == "z" for text in table.texts["axis"]], np.int32)
     constant = mapping.constant(table.part.path.name, "axis")

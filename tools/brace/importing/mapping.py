@@ -186,7 +186,7 @@ def read(path: Path) -> MappingTable:
     )
     meta = content.get("meta", {})
     if not isinstance(meta, dict) or not all(isinstance(item, dict) for item in meta.values()):
-        raise _bad(document, "meta", "meta holds tables of meta.toml", "[meta.sensor] range_n = 145.0, say")
+        raise _bad(document, "meta", "meta holds tables of meta.toml", "e.g. [meta.sensor] range_n = 145.0")
     return MappingTable(str(kind), columns, constants, meta)
 
 

@@ -111,6 +111,13 @@ def _of_loading(name: Name, quantity: str) -> tuple[str, str]:
             return f"enc{joint}_rad", "name"
         if joint == "0":
             return IGNORE, "the coxa's angle: a record is of the limb's plane"
+        if "interior" in words:
+            return (
+                OPEN,
+                "an inner angle is 180 deg for a straight leg: then is = theta2_rad, sign = -1, offset = 3.14159265",
+            )
+        if "z" in words:
+            return OPEN, "an angle from the vertical: theta1 counts from +x, so sign and offset must be said"
         return (f"theta{joint}_rad", "name") if joint in ("1", "2") else (OPEN, "which joint's angle?")
     if quantity == "torque":
         return IGNORE, "a loading record has no torques"

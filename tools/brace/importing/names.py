@@ -57,6 +57,7 @@ _WORDS: dict[str, tuple[str, ...]] = {
     "x": ("x", "horizontal", "horiz", "waagrecht", "waagerecht", "fore", "hor"),
     "y": ("y",),
     "z": ("z", "vertical", "vert", "senkrecht", "vertikal", "ver"),
+    "interior": ("interior", "inner", "included", "innenwinkel", "inside"),
     "down": ("down", "downward", "downwards", "unten", "abwaerts"),
     "joint": ("joint", "gelenk", "motor", "servo", "output", "gear", "getriebe"),
     "noise": ("std", "sigma", "stdev", "error", "raw", "filtered", "setting", "voltage", "current", "spannung", "strom",

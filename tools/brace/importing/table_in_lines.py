@@ -16,6 +16,11 @@ from brace.units import unit_of
 HEADER_MOST = 3  # lines of names and units
 _REMARK = re.compile(r"\s*([^:=\t;]{2,60}?)\s*(?::|=|\t|;)\s*(.{1,200})")
 _NO_UNIT = frozenset(("", "-", "--", "[-]", "(-)", "1", "none", "[]", "n/a"))
+# A row with one of these sums up the readings above it.
+_SUMMARIES = frozenset(
+    ("mean", "average", "avg", "max", "min", "maximum", "minimum", "std", "stdev", "sum", "median", "total", "range")
+    + ("mittelwert", "mittel", "durchschnitt", "summe", "standardabweichung", "spannweite")
+)
 
 
 @dataclass(frozen=True)
@@ -49,7 +54,7 @@ def width_of(lines: Sequence[Line]) -> int:
 
 def _holds_readings(line: Line, width: int) -> bool:
     cells = _fitted(line, width)
-    if cells is None or not line.filled:
+    if cells is None or not line.filled or any(cell.strip().lower().rstrip(":") in _SUMMARIES for cell in cells):
         return False
     void = sum(1 for cell in cells if cell.strip() and numerals.is_missing(cell))
     return line.readings >= 1 and 2 * (line.readings + void) >= line.filled

@@ -6,6 +6,9 @@ import math
 from collections.abc import Callable, Container, Iterator, Mapping
 
 from brace import toml
+from brace.errors import ModelDoubt
+
+__all__ = ["ModelDoubt", "doubts"]
 
 G_M_PER_S2 = 9.80665
 PLAY_RAD = 0.05  # 170 arcmin; gears have 1 to 60
@@ -16,10 +19,6 @@ OFFSET_RAD = 0.17
 TILT_RAD = 0.35
 WEIGHT_N = 200.0
 LENGTH_MM = 3000.0
-
-
-class ModelDoubt(UserWarning):
-    """A sentence about a value that is used all the same."""
 
 
 def doubts(values: Mapping[str, toml.Value], given: Container[str], where: Callable[[str], str]) -> Iterator[str]:

@@ -7,6 +7,7 @@ import re
 from dataclasses import dataclass
 
 from brace.errors import UsageError, did_you_mean
+from brace.newlimb import LINK_FORMS
 from brace.newlimb.beams import ALIASES, MATERIALS, Compliances, Material, of_modulus, round_beam
 from brace.units import unit_of
 
@@ -122,7 +123,7 @@ def joint(text: str) -> Joint:
         raise refusal(
             f"{text!r} is {stiffness:.3g} N m/rad",
             f"servos and gears of limbs have {low:g} to {high:g} N m/rad",
-            "'60 N m/rad', say; is the unit right?",
+            "e.g. '60 N m/rad'; is the unit right?",
         )
     return Joint(1e-3 / stiffness, SAID_REL, f"{stiffness:.4g} N m/rad")
 
@@ -136,11 +137,6 @@ class Link:
     sigma_rel: float
     words: str
     guessed: bool = False
-
-
-LINK_FORMS = (
-    "'tube OUTER INNER MATERIAL', 'rod DIAMETER MATERIAL', 'measured MM_PER_N', 'rigid' (mm; a material or e.g. 70GPa)"
-)
 
 
 def link(text: str, length: float) -> Link:
@@ -191,7 +187,7 @@ def _diameter(text: str, what: str) -> float:
     try:
         value = float(text.lower().removesuffix("mm"))
     except ValueError:
-        raise refusal(f"{text!r} is not a number", f"it is {what}", "'tube 20 16 aluminium', say") from None
+        raise refusal(f"{text!r} is not a number", f"it is {what}", "e.g. 'tube 20 16 aluminium'") from None
     if not value >= 0.0:
         raise refusal(f"{text!r} is negative", f"it is {what}", "a number above zero")
     return value

@@ -49,7 +49,7 @@ typedef struct {
     const float *limit_n_mm;      /* and the torque within which it may follow */
 } frozen_inputs_t;
 
-/* Looks at the samples of this tick. At most 150 instructions a joint. */
+/* Looks at the samples of this tick. At most 250 instructions a joint. */
 void frozen_watch(frozen_t *frozen, const frozen_inputs_t *inputs);
 
 /* Is any joint's sensor frozen? */

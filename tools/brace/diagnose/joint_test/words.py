@@ -26,9 +26,19 @@ from brace.diagnose.plain_words import effect
 from brace.identify.parameters import LAG, VISCOUS
 
 
+_SHAPES = {
+    "asymmetric_spring": "a spring that is stiffer on one side",
+    "end_stop": "a stop on one side",
+    "later_friction": "friction that turns over two angles",
+    "series_slip": "free travel in series with a slider",
+    "soft_middle": "a spring that is softer in its middle or under load",
+    "torque_drift": "a torque reading whose zero drifts",
+}
+
+
 def listed(names: Sequence[str]) -> str:
     """`a, b and c`."""
-    names = [effect(name) for name in names]
+    names = [_SHAPES.get(name) or effect(name) for name in names]
     return names[0] if len(names) == 1 else ", ".join(names[:-1]) + " and " + names[-1]
 
 
@@ -75,11 +85,12 @@ def withheld(labels: Sequence[str], unexplained: float) -> str:
     return f"{unexplained:.0%} of the torque is left by the nearest model, which has {names}"
 
 
-def not_named(names: Sequence[str]) -> str:
-    """Why limb.toml has more than was named."""
+def not_named(names: Sequence[str], values: Mapping[str, float]) -> str:
+    """Why limb.toml has more than was named; `values` are its numbers by key."""
+    numbers = "; ".join(f"{key.rpartition('.')[2]} {value:.3g}" for key, value in values.items())
     return (
-        f"no model was given, so limb.toml also has {listed(names)} as the fit gives it, because a geared joint has"
-        " some; the record does not show that it is more than nothing"
+        f"no model was given, so limb.toml also has {listed(names)} ({numbers}): it brings the model nearer to the"
+        " record, but the record does not tell it from other causes, so it is not named"
     )
 
 

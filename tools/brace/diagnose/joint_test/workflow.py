@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from brace.dataset import DataFault, Dataset
+from brace.dataset.faults import what_is_wrong
 from brace.diagnose.diagnosis import (
     Diagnosis,
     Gap,
@@ -110,11 +111,10 @@ def _trust(believed: LimbModel | None) -> float:
 
 
 def _faulty(dataset: Dataset, base: LimbModel, faults: Sequence[DataFault], options: Options) -> Diagnosis:
-    first = faults[0].sentence(Path(dataset.csv_path.name))
-    more = f" (and {len(faults) - 1} more)" if len(faults) > 1 else ""
+    wrong = what_is_wrong(faults, Path(dataset.csv_path.name))
     return Diagnosis(
         "data_fault",
-        f"The record is faulty, so nothing is said about the joint: {first}{more}.",
+        f"The record is faulty, so nothing is said about the joint: {wrong}.",
         base,
         data_faults=tuple({id(f): f for f in (*dataset.faults, *faults)}.values()),
         seed=options.seed,
@@ -202,13 +202,15 @@ def _told(
         if believed is None and verdict == "unknown":
             predicts = _as_gears_are(by_rows, search, exported, False)
     named = {effect.name for effect in effects}
-    if more := [term.name for term in predicts.terms if term.role == "effect" and term.name not in named]:
-        notes += (words.not_named(more),)
     all_rows = by_rows.over_all()
     final = all_rows.fit(exported.terms, exported)
     told = final if predicts is exported else all_rows.fit(predicts.terms, predicts)
     if told is not final:
         effects = tuple(_as_told(effect, positions.typical(record, told)) for effect in effects)
+    if more := [term for term in told.terms if term.role == "effect" and term.name not in named]:
+        keys = [parameter.key for term in more for parameter in term.parameters if parameter.key in KEY_BY_NAME]
+        numbers = positions.typical(record, told)
+        notes += (words.not_named([term.name for term in more], {key: numbers[key] for key in keys}),)
     model = _exportable(record, fitter.base, told, believed, bool(effects))
     nearest = [one.label for one in choice.candidates if one.gain > 0.0 and " + " not in one.label]
     could_be = tuple(dict.fromkeys((*withheld, *nearest)))[:4] if verdict == "unknown" else ()
@@ -409,8 +411,8 @@ def _notes(
         with_limit = float(np.sqrt(np.mean(off[whole] ** 2)))
         notes.append(
             f"held out: {record.held_words}; the gap there is {gap.after.held_out / alike:.1%} of the"
-            f" torque's standard deviation ({alike:.4g} N mm) without rows at the drive's limit,"
-            f" {with_limit / all_rows:.1%} with them ({with_limit:.4g} of {all_rows:.4g} N mm)"
+            f" torque's standard deviation ({alike:.4g} N mm) without rows in which the drive is at its limit or does"
+            f" not follow its command, {with_limit / all_rows:.1%} with them ({with_limit:.4g} of {all_rows:.4g} N mm)"
         )
     else:
         notes.append("nothing could be held out: fewer than three tests and too few ramps")

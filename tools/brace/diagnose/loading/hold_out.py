@@ -7,7 +7,7 @@ from part to part shows there first."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -63,6 +63,18 @@ def held_out(record: Record, fitted: Fit, locked: np.ndarray) -> tuple[HeldOut, 
         if min(np.count_nonzero(rows), np.count_nonzero(read & ~rows)) >= LEAST_ROWS:
             found.append(_predicted(record, fitted, part, rows))
     return tuple(found)
+
+
+def load_range(found: Sequence[HeldOut]) -> Iterator[str]:
+    """Up to which load the model was seen to hold, in words."""
+    for part in found:
+        if part.by == "amplitude" and part.holds:
+            yield f"the model holds for forces up to {part.largest:.3g} N, the largest that it predicted unseen"
+        elif part.by == "amplitude":
+            yield (
+                f"the model fits its own amplitude only: fitted to smaller displacements it is off by {part.off:.3g} N "
+                f"where forces reach {part.largest:.3g} N; do not use it for larger loads"
+            )
 
 
 def _predicted(record: Record, fitted: Fit, part: Part, rows: np.ndarray) -> HeldOut:

@@ -30,8 +30,8 @@ from brace.diagnose.loading.next_experiment.experiment import next_experiment
 from brace.diagnose.loading.fit import Fit
 from brace.diagnose.loading.troubles.likeliest import Trouble
 from brace.diagnose.loading.troubles.kinds import LAG
-from brace.diagnose.loading.few_readings import slopes_in_words
-from brace.diagnose.loading.hold_out import held_out
+from brace.diagnose.loading.few_readings import FEW, slopes_in_words
+from brace.diagnose.loading.hold_out import held_out, load_range
 from brace.diagnose.loading.intervals import intervals, without_none
 from brace.diagnose.loading.limb_of import limb_of
 from brace.diagnose.loading.localise import localise
@@ -81,6 +81,9 @@ def diagnosis_of(
     agreed = agreement(record, locked, final, twin, options.seed)
     alike = confusability(final.base.fit, final.sets)
     effects = _effects(record, final, resolved, contested) if named else ()
+    if record.rows <= FEW:  # of a few runs drawn again the share of draws with the same choice says more
+        most = agreed.bootstrap_share
+        effects = tuple(replace(one, confidence=min(one.confidence, most)) for one in effects)
     held = held_out(final.record, after, locked) if decision.verdict != "unknown" else ()
     late = tuple(_trouble(one, 1.0 / (1.0 + np.exp(-one.lead))) for one in final.troubles if one.name == LAG)
     following = next_experiment(record, final, believed, options) if named else _more_of_the_same(final)
@@ -108,6 +111,7 @@ def diagnosis_of(
         notes=(
             *(words for effect in effects if (words := in_words(alike, effect.label))),
             *slopes_in_words(whole, model_numbers(believed)),
+            *load_range(held),
             *_notes(whole, record, final, twin, agreed, after),
             *([resolved.note] if resolved.note else []),
         ),
@@ -373,10 +377,14 @@ def _sentence(
     names = [f"{_surely(effect)}{effect.name.replace('_', ' ')} at {effect.where}" for effect in effects]
     closes = "they close" if len(names) > 1 else "it closes"
     if max(effect.confidence for effect in effects) < LIKELIER_THAN_NOT:
+        but = (
+            "so few readings do not show it"
+            if final.record.rows <= FEW
+            else f"a cause outside it explains the record better: it looks as if {final.decision.outside.words}"
+        )
         return (
-            f"The nearest in the catalogue is {' and '.join(one.label for one in effects)}, but a cause outside it "
-            f"explains the record better: it looks as if {final.decision.outside.words}. The model has the nearest "
-            "added; do not rely on it before another record says so."
+            f"The nearest in the catalogue is {' and '.join(one.label for one in effects)}, but {but}. The model has "
+            "the nearest added; do not rely on it before another record says so."
         )
     return f"Missing: {' and '.join(names)}. Added to the model, {closes} the gap."
 

@@ -18,6 +18,7 @@ MOST_EFFECTS = 3
 PARENTS = {1: 5, 2: 3}  # hypotheses of so many effects that the next are grown from
 CHILDREN = 5  # labels that are fitted beside each parent
 LEAST_GAIN = 1.0  # of cost: what gains less is no hypothesis of its own
+READINGS_EACH = 3  # of a tip that was moved, that every freedom of a hypothesis must have: with fewer all would fit
 GROW_GAIN = 9.0  # of promised cost: a child that promises less is not fitted
 
 
@@ -95,7 +96,7 @@ class Search:
 
     def _fit(self, promise: Promise, parent: Hypothesis) -> None:
         name = frozenset((variant.label, variant.keys) for variant in promise.space.variants)
-        if name in self.tried:
+        if name in self.tried or READINGS_EACH * promise.space.own > self.record.moved_readings:
             return
         fitted = fit(self.record, promise.space, promise.start, final=False)
         if parent.fit.cost - fitted.cost > LEAST_GAIN:

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.special import fdtrc
 
 from brace.dataset import DataFault, Dataset
+from brace.dataset.faults import what_is_wrong
 from brace.diagnose.diagnosis import Diagnosis
 from brace.identify.noise import FORCES
 from brace.diagnose.loading.data_faults import against_limb
@@ -55,11 +56,10 @@ def gate(dataset: Dataset, believed: LimbModel, options: Options) -> Diagnosis |
 
 def _faulty(dataset: Dataset, faults: Sequence[DataFault], believed: LimbModel, options: Options) -> Diagnosis:
     blocking = [fault for fault in faults if fault.blocking]
-    first = blocking[0].sentence(dataset.csv_path.relative_to(dataset.folder))
-    more = f", and {len(blocking) - 1} more" if len(blocking) > 1 else ""
+    wrong = what_is_wrong(blocking, dataset.csv_path.relative_to(dataset.folder))
     return Diagnosis(
         verdict="data_fault",
-        sentence=f"The record is faulty, so nothing is said of the limb: {first}{more}.",
+        sentence=f"The record is faulty, so nothing is said of the limb: {wrong}.",
         model=believed,
         data_faults=tuple(faults[:MOST_LISTED]),
         seed=options.seed,

@@ -35,6 +35,7 @@ FURTHER_POSTURES = 16
 SAME_POSTURES = 6
 REACH_SENSOR_SHARE = 0.7  # of the sensor's range that larger steps may come to
 WARMER_DEGC = 10.0
+UNREAD_DEGC = 22.0  # of a record that reads no temperature: the same before and after
 ENCODERS, GAUGE = ("enc1_rad", "enc2_rad"), ("base_x_mm", "base_z_mm")
 CHANNELS = (*FORCES, *ENCODERS, *GAUGE)
 GROUPS = ((0, 1), (2, 3), (4, 5))
@@ -183,7 +184,7 @@ def as_record(record: Record, condition: Condition, angles: np.ndarray, readings
             "preload_z_mm": rig["rig.preload_z_mm"],
             "dwell_s": rig["rig.dwell_s"],
             "pause_s": rig["rig.pause_s"],
-            "temp_start_degc": rig["temperature.start_degc"],
+            "temp_start_degc": rig.get("temperature.start_degc", UNREAD_DEGC),
             "temp_rise_degc": rig["temperature.rise_degc"],
             "temp_time_constant_s": rig["temperature.time_constant_s"],
         },

@@ -1,0 +1,76 @@
+/* What the drift check advises, for everything that its report may say. */
+#include <string.h>
+
+#include "jobs/drift/drift_job.h"
+#include "unity.h"
+
+static drift_job_t job;
+
+void setUp(void)
+{
+    memset(&job, 0, sizeof job);
+}
+
+void tearDown(void) {}
+
+static void test_while_it_learns_it_wants_to_learn(void)
+{
+    job.report.state = BRACE_DRIFT_LEARNING;
+    job.report.evidence = 100.0f;
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_NEXT_LEARN, drift_job_next_step(&job));
+}
+
+static void test_while_it_watches_growing_evidence_asks_for_a_test(void)
+{
+    job.report.state = BRACE_DRIFT_WATCHING;
+    job.report.cause = BRACE_DRIFT_FEMUR;
+    job.report.evidence = 9.9f;
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_NEXT_NOTHING, drift_job_next_step(&job));
+    job.report.evidence = 10.0f;
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_NEXT_TEST_ANOTHER_POSTURE, drift_job_next_step(&job));
+    job.has_outlook = true;
+    job.outlook.steps_needed[BRACE_DRIFT_FEMUR] = 1;
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_NEXT_REPEAT_TEST, drift_job_next_step(&job));
+    job.outlook.steps_needed[BRACE_DRIFT_FEMUR] = 100000;
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_NEXT_TEST_ANOTHER_POSTURE, drift_job_next_step(&job));
+    job.report.cause = BRACE_DRIFT_UNEXPLAINED; /* shows anywhere */
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_NEXT_REPEAT_TEST, drift_job_next_step(&job));
+}
+
+static void test_a_drift_names_what_to_look_at(void)
+{
+    static const struct {
+        brace_drift_cause_t cause;
+        brace_drift_next_t next;
+    } told[] = {
+        {BRACE_DRIFT_FEMUR, BRACE_DRIFT_NEXT_INSPECT_FEMUR_LINK},
+        {BRACE_DRIFT_TIBIA_OR_KNEE, BRACE_DRIFT_NEXT_INSPECT_TIBIA_LINK_AND_KNEE_JOINT},
+        {BRACE_DRIFT_FEMUR_JOINT_OR_BASE, BRACE_DRIFT_NEXT_INSPECT_FEMUR_JOINT_AND_BASE},
+        {BRACE_DRIFT_UNEXPLAINED, BRACE_DRIFT_NEXT_CHECK_SENSOR_AND_MOUNTING},
+    };
+    job.report.state = BRACE_DRIFT_DRIFTED;
+    for (int i = 0; i < 4; i++) {
+        job.report.cause = told[i].cause;
+        job.report.could_be = 1u << told[i].cause;
+        TEST_ASSERT_EQUAL(told[i].next, drift_job_next_step(&job));
+        job.report.could_be = 3; /* two causes explain it */
+        TEST_ASSERT_EQUAL(BRACE_DRIFT_NEXT_TEST_ANOTHER_POSTURE, drift_job_next_step(&job));
+    }
+}
+
+static void test_a_run_that_ends_behind_a_reading_waits_for_it(void)
+{
+    job.has_reading = true;
+    drift_job_end_run(&job);
+    TEST_ASSERT_TRUE(job.run_ends);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_while_it_learns_it_wants_to_learn);
+    RUN_TEST(test_while_it_watches_growing_evidence_asks_for_a_test);
+    RUN_TEST(test_a_drift_names_what_to_look_at);
+    RUN_TEST(test_a_run_that_ends_behind_a_reading_waits_for_it);
+    return UNITY_END();
+}

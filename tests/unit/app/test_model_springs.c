@@ -1,0 +1,105 @@
+/* Each joint's own spring: as it yields at its own load and temperature, and as K takes it. */
+#include <math.h>
+#include <string.h>
+
+#include "app_bench.h"
+#include "stiffness/model.h"
+
+static brace_parameters_t parameters;
+static model_t model;
+
+/* Three joints that have nothing in common. */
+void setUp(void)
+{
+    static const float compliance[] = {3e-6f, 1e-6f, 2e-6f}, hardening[] = {2e9f, 5e9f, 1e9f};
+    parameters = bench_parameters();
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        parameters.limb.joint[i].compliance_rad_per_n_mm = compliance[i];
+        parameters.drive[i].hardening_n_mm_per_rad3 = hardening[i];
+    }
+    memset(&model, 0, sizeof model);
+    model_configure(&model, &parameters, false);
+    TEST_ASSERT_TRUE(model.springs_change);
+}
+
+void tearDown(void) {}
+
+/* torque = d / compliance + hardening d^3, by bisection in double. */
+static double deflection(int joint, double load_n_mm)
+{
+    const double compliance = (double)parameters.limb.joint[joint].compliance_rad_per_n_mm;
+    const double hardening = (double)parameters.drive[joint].hardening_n_mm_per_rad3;
+    double low = 0.0, high = load_n_mm * compliance;
+    for (int i = 0; i < 80; i++) {
+        const double middle = 0.5 * (low + high);
+        if (middle / compliance + hardening * middle * middle * middle < load_n_mm) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+static void test_each_joint_yields_at_its_own_load(void)
+{
+    const float load_n_mm[] = {1000.0f, 4000.0f, 2500.0f}, unknown[] = {NAN, NAN, NAN};
+    brace_loaded_joint_t springs[BRACE_LINK_COUNT];
+    for (int i = 0; i < 30; i++) { /* it is followed from tick to tick */
+        model_springs(&model, &parameters, load_n_mm, unknown, springs);
+    }
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        const double d = deflection(i, (double)load_n_mm[i]);
+        const double compliance = (double)parameters.limb.joint[i].compliance_rad_per_n_mm;
+        const double per_rad = 1.0 / compliance + 3.0 * (double)parameters.drive[i].hardening_n_mm_per_rad3 * d * d;
+        ASSERT_CLOSE(d / (double)load_n_mm[i], springs[i].yields_by_rad_per_n_mm, 1e-4);
+        ASSERT_CLOSE(1.0 / per_rad, springs[i].slope_rad_per_n_mm, 1e-4);
+    }
+}
+
+static void test_without_a_load_and_beyond_any_a_spring_is_as_at_rest(void)
+{
+    const float unknown[] = {NAN, NAN, NAN}, absurd[] = {1e30f, -1e30f, INFINITY};
+    brace_loaded_joint_t springs[BRACE_LINK_COUNT], rest[BRACE_LINK_COUNT];
+    model_springs_at_rest(&parameters, unknown, rest);
+    model_springs(&model, &parameters, unknown, unknown, springs);
+    TEST_ASSERT_EQUAL_MEMORY(rest, springs, sizeof rest);
+    model_springs(&model, &parameters, absurd, unknown, springs);
+    TEST_ASSERT_EQUAL_MEMORY(rest, springs, sizeof rest);
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        TEST_ASSERT_EQUAL_FLOAT(parameters.limb.joint[i].compliance_rad_per_n_mm, rest[i].slope_rad_per_n_mm);
+        TEST_ASSERT_EQUAL_FLOAT(parameters.limb.joint[i].compliance_rad_per_n_mm, rest[i].yields_by_rad_per_n_mm);
+    }
+}
+
+/* K takes the hip's spring at the hip and the knee's at the knee: as the path for springs that never change does. */
+static void test_k_takes_each_spring_at_its_joint(void)
+{
+    const brace_loaded_joint_t springs[] = {{9e-6f, 9e-6f}, {4e-7f, 4e-7f}, {1.7e-6f, 1.7e-6f}};
+    brace_parameters_t other = parameters;
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        other.limb.joint[i].compliance_rad_per_n_mm = springs[i].slope_rad_per_n_mm;
+        other.drive[i].hardening_n_mm_per_rad3 = 0.0f;
+    }
+    static model_t linear;
+    model_configure(&linear, &other, false);
+    TEST_ASSERT_TRUE(linear.is_collapsed);
+    brace_stiffness_t changing, fixed;
+    float across_n_per_mm = 0.0f;
+    TEST_ASSERT_EQUAL(BRACE_OK, model_stiffness(&model, &parameters.limb, 1.0f, 1.4f, springs, &changing,
+                                                &across_n_per_mm));
+    TEST_ASSERT_TRUE(across_n_per_mm != across_n_per_mm); /* a limb in its plane has none */
+    TEST_ASSERT_EQUAL(BRACE_OK, model_stiffness(&linear, &other.limb, 1.0f, 1.4f, springs, &fixed, &across_n_per_mm));
+    ASSERT_CLOSE(fixed.k_xx_n_per_mm, changing.k_xx_n_per_mm, 1e-4);
+    ASSERT_CLOSE(fixed.k_xz_n_per_mm, changing.k_xz_n_per_mm, 1e-4);
+    ASSERT_CLOSE(fixed.k_zz_n_per_mm, changing.k_zz_n_per_mm, 1e-4);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_each_joint_yields_at_its_own_load);
+    RUN_TEST(test_without_a_load_and_beyond_any_a_spring_is_as_at_rest);
+    RUN_TEST(test_k_takes_each_spring_at_its_joint);
+    return UNITY_END();
+}
