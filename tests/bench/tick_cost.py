@@ -18,8 +18,8 @@ sys.path.insert(0, str(BENCH))
 from emulate import RUN_IMAGE, build_plugin  # noqa: E402
 from extra import Extra  # noqa: E402
 from limits import Check  # noqa: E402
-from toolchain import (BOARDS, BUILD, CORE, CORE_FLAGS, M4F, PREFIX, compile_source, link_image, run,  # noqa: E402
-                       symbol_address)
+from toolchain import (BOARDS, BUILD, CORE, CORE_FLAGS, M3, M4F, PREFIX, Processor, compile_source,  # noqa: E402
+                       link_image, run, symbol_address)
 
 TICK_LIMIT = 12_000  # instructions, of a limb in its plane,
 SPACE_LIMIT = 16_000  # and of one in space
@@ -70,7 +70,7 @@ def _sources() -> Iterator[tuple[Path, bool]]:
     yield BOARDS / "common" / "startup.c", False
 
 
-def build_image(ticks: int) -> Path:
+def build_image(ticks: int, processor: Processor = M4F) -> Path:
     """The image, with the firmware's own flags."""
     firmware = CORE.parent
     includes = tuple(f"-I{folder}" for folder in (
@@ -82,9 +82,10 @@ def build_image(ticks: int) -> Path:
         flags = CORE_FLAGS if is_firmware else ("-O2", f"-DTICKS={ticks}", "-fno-function-sections",
                                                 "-fno-tree-loop-distribute-patterns")
         name = "_".join(source.relative_to(BENCH.parents[1]).parts)
-        objects.append(compile_source(source, BUILD / "objects" / "tick" / f"{name}.o", M4F, (*flags, *includes)))
+        objects.append(compile_source(source, BUILD / "objects" / f"tick {processor.name}" / f"{name}.o", processor,
+                                      (*flags, *includes)))
     (BUILD / "images").mkdir(parents=True, exist_ok=True)
-    return link_image(objects, BUILD / "images" / "tick.elf", M4F)
+    return link_image(objects, BUILD / "images" / f"tick_{processor.name}.elf", processor)
 
 
 def _door(image: Path) -> tuple[int, int]:
@@ -98,13 +99,13 @@ def _door(image: Path) -> tuple[int, int]:
     return min(door)[0], sum(max(door))
 
 
-def measure_ticks(ticks: int = TICK_COUNT) -> TickCost:
+def measure_ticks(ticks: int = TICK_COUNT, processor: Processor = M4F) -> TickCost:
     """Build, run, count."""
-    image, plugin = build_image(ticks), build_plugin(BENCH / "tick" / "count_ticks.c")
+    image, plugin = build_image(ticks, processor), build_plugin(BENCH / "tick" / "count_ticks.c")
     record = image.with_suffix(".counts")
     low, high = _door(image)
     entry = symbol_address(image, FUNCTION) & ~1
-    done = subprocess.run([RUN_IMAGE, M4F.machine, image, "-plugin",
+    done = subprocess.run([RUN_IMAGE, processor.machine, image, "-plugin",
                            f"{plugin},entry={entry:#x},skip={low:#x}-{high:#x},out={record}"],
                           capture_output=True, text=True, check=False,
                           env={"PATH": "/usr/bin:/bin", "BRACE_IMAGE_TIMEOUT_S": "1500"})
@@ -168,8 +169,10 @@ def as_text(cost: TickCost) -> str:
 
 
 def main() -> int:
-    """python tests/bench/tick_cost.py [TICKS]: print; exit code 1 when a limit is passed."""
-    cost = measure_ticks(int(sys.argv[1]) if len(sys.argv) > 1 else TICK_COUNT)
+    """python tests/bench/tick_cost.py [TICKS] [m3]: print; exit code 1 when a limit is passed. m3: on the Cortex-M3,
+    whose floats are software."""
+    ticks = int(sys.argv[1]) if len(sys.argv) > 1 else TICK_COUNT
+    cost = measure_ticks(ticks, M3 if sys.argv[2:] == ["m3"] else M4F)
     print(as_text(cost))
     return int(not cost.is_within)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from cases import Case, random_cases, reference
 from engine_chain import Array
 
 LINKS = ("coxa", "femur", "tibia")
+PATHS = ("float", "fixed")
 
 
 def yaw(case: Case) -> Array:
@@ -27,14 +29,17 @@ def vector(struct: CData) -> Array:
 
 
 class CoreLimb:
-    """A limb, collapsed, and the load on it; theta0 turns the load into the limb's plane and the answers out of it."""
+    """A limb, collapsed, and the load on it; theta0 turns the load into the limb's plane and the answers out of it.
+    path: "float", or "fixed" for the integers of controllers without an FPU."""
 
-    def __init__(self, case: Case) -> None:
+    def __init__(self, case: Case, path: str = "float") -> None:
         ffi, lib = library().ffi, library().lib
-        self.case, self._yaw = case, yaw(case)
+        self.case, self._path, self._yaw = case, path, yaw(case)
         limb, weights = ffi.new("brace_limb_t *"), ffi.new("brace_gravity_t *")
         self._loaded, self._load = ffi.new("brace_loaded_space_t *"), ffi.new("brace_space_load_t *")
         self.rest, self.result = ffi.new("brace_space_rest_t *"), ffi.new("brace_space_result_t *")
+        self._turn, settle = lib.brace_loaded_space_turn, lib.brace_loaded_space_settle
+        stiffness = lib.brace_loaded_space_stiffness
         keys = case.keys
         for name in ("coxa_mm", "femur_mm", "tibia_mm"):
             setattr(limb, name, keys[f"geometry.{name}"])
@@ -52,18 +57,24 @@ class CoreLimb:
         lib.brace_loaded_space_collapse(limb, weights, self._loaded)
         for struct, given in ((self._load.tip_n, case.force_n), (self._load.down, case.gravity)):
             struct.x, struct.y, struct.z = (float(part) for part in self._yaw.T @ given)
-        status = lib.brace_loaded_space_settle(self._loaded, *case.theta_rad[1:], self._load, self.rest)
+        if path == "fixed":
+            self.rest = ffi.new("brace_space_fixed_rest_t *")
+            self._turn, settle = lib.brace_loaded_space_fixed_turn, lib.brace_loaded_space_fixed_settle
+            stiffness = lib.brace_loaded_space_fixed_stiffness
+            loaded, self._loaded = self._loaded, ffi.new("brace_loaded_space_fixed_t *")
+            lib.brace_loaded_space_fixed_collapse(loaded, self._loaded)
+        status = settle(self._loaded, *case.theta_rad[1:], self._load, self.rest)
         if status == lib.BRACE_OK:
-            status = lib.brace_loaded_space_stiffness(self._loaded, self.rest, self.result)
+            status = stiffness(self._loaded, self.rest, self.result)
         assert status in (lib.BRACE_OK, lib.BRACE_E_SINGULAR), (status, case)
         self.is_told = status == lib.BRACE_OK
 
     @property
     def k_n_per_mm(self) -> Array:
         """K in the robot's frame, as the core turns it."""
-        ffi, lib = library().ffi, library().lib
+        ffi = library().ffi
         turned = ffi.new("brace_stiffness_spatial_t *")
-        assert lib.brace_loaded_space_turn(self.case.theta_rad[0], ffi.addressof(self.result, "k"), turned) == 0
+        assert self._turn(self.case.theta_rad[0], ffi.addressof(self.result, "k"), turned) == 0
         names = ("xx", "xy", "xz", "xy", "yy", "yz", "xz", "yz", "zz")
         k = np.array([getattr(turned, f"k_{name}_n_per_mm") for name in names]).reshape(3, 3)
         told = np.array(list(turned.lambda_n_per_mm), dtype=np.float64)
@@ -77,27 +88,41 @@ class CoreLimb:
 
     @property
     def buckling_factor(self) -> float:
-        """Infinity: none."""
-        return float(library().lib.brace_loaded_space_buckling_factor(self._loaded, self.rest))
+        """Infinity: none; NaN: not told."""
+        ffi, lib = library().ffi, library().lib
+        if self._path == "float":
+            return float(lib.brace_loaded_space_buckling_factor(self._loaded, self.rest))
+        search, factor = ffi.new("brace_buckling_search_t *"), ffi.new("float *")
+        lib.brace_loaded_space_buckling_begin(search)
+        while not lib.brace_loaded_space_fixed_buckling_step(self._loaded, self.rest, search, factor):
+            pass
+        return float(factor[0])
 
 
-def errors(case: Case) -> tuple[float, float, float]:
+def errors(case: Case, path: str = "float") -> tuple[float, float, float]:
     """Of K (Frobenius norm, relative), the displacement [mm], and the buckling factor (relative; NaN where the
     reference says 10 and more). All NaN where the core refuses."""
-    core, found = CoreLimb(case), reference(case)
+    core, found = CoreLimb(case, path), reference(case)
     if not core.is_told:
         return np.nan, np.nan, np.nan
     true_k, factor = found.k_n_per_mm[0], float(found["buckling_factor"][0])
     return (
         float(np.linalg.norm(core.k_n_per_mm - true_k) / np.linalg.norm(true_k)),
         float(np.linalg.norm(core.displacement_mm - found.displacement_mm[0])),
-        abs(core.buckling_factor / factor - 1.0) if factor < 10.0 else np.nan,
+        float(np.nan_to_num(abs(core.buckling_factor / factor - 1.0), nan=1.0)) if factor < 10.0 else np.nan,
     )
 
 
-def test_k_displacement_and_buckling(limbs: int, seed: int) -> None:
-    """What brace/loaded_space.h promises."""
-    found = np.array([errors(case) for case in random_cases(seed, 10 * limbs, in_space=True)])
+@cache
+def limbs_in_space(seed: int, count: int) -> tuple[Case, ...]:
+    """The same for every test."""
+    return tuple(random_cases(seed, count, in_space=True))
+
+
+@pytest.mark.parametrize("path", PATHS)
+def test_k_displacement_and_buckling(limbs: int, seed: int, path: str) -> None:
+    """What brace/loaded_space.h and brace/loaded_space_fixed.h promise."""
+    found = np.array([errors(case, path) for case in limbs_in_space(seed, 10 * limbs)])
     told = ~np.isnan(found[:, 0])
     refused = 1.0 - np.mean(told)
     k, moved_mm, buckling = found[told].T
@@ -105,8 +130,8 @@ def test_k_displacement_and_buckling(limbs: int, seed: int) -> None:
     beyond = np.mean(k > 0.01)
     most = low[int(0.9 * len(low))]  # of nine in ten
     print(
-        f"{len(found)} limbs, {refused:.2%} refused: K median {np.median(k):.1e}, worst {k.max():.1e}, beyond 1 % "
-        f"{beyond:.2%}; displacement median {np.median(moved_mm):.3f} mm, worst {moved_mm.max():.2f} mm; "
+        f"{path}, {len(found)} limbs, {refused:.2%} refused: K median {np.median(k):.1e}, worst {k.max():.1e}, "
+        f"beyond 1 % {beyond:.2%}; displacement median {np.median(moved_mm):.3f} mm, worst {moved_mm.max():.2f} mm; "
         f"buckling factor median {np.median(low):.1e}, nine of ten {most:.1e}"
     )
     assert np.median(k) <= 1e-3
@@ -120,15 +145,16 @@ def test_k_displacement_and_buckling(limbs: int, seed: int) -> None:
     assert most <= 0.1
 
 
+@pytest.mark.parametrize("path", PATHS)
 @pytest.mark.parametrize(("part", "most"), [(0.1, 1e-3), (0.0, 1e-4)])
-def test_less_load(limbs: int, seed: int, part: float, most: float) -> None:
+def test_less_load(limbs: int, seed: int, path: str, part: float, most: float) -> None:
     """Force and weight both: K's error falls with the load. Without it there is only rounding of C's entries, 6e-8 of
     the largest, which counts in K as often as C is slender: up to a thousand times here."""
     worst = 0.0
-    for case in random_cases(seed, 10 * limbs, in_space=True):
+    for case in limbs_in_space(seed, 10 * limbs):
         lighter = {key: value * part if key.startswith("gravity.") else value for key, value in case.keys.items()}
-        error = errors(replace(case, keys=lighter, force_n=case.force_n * part))[0]
+        error = errors(replace(case, keys=lighter, force_n=case.force_n * part), path)[0]
         assert not np.isnan(error)
         worst = max(worst, error)
-    print(f"{part} of the load: K worst {worst:.1e}")
+    print(f"{path}, {part} of the load: K worst {worst:.1e}")
     assert worst <= most

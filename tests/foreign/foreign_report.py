@@ -223,11 +223,11 @@ def _runs(parts: dict[str, Any]) -> str:
         if "cases" not in how:
             lines.append(f"- {name}: `{how['command']}`, tool {how['tool']}.")
             continue
-        share = f" of the plan's {how['of_plan']}, drawn by the seed before the run"
+        share = f" of the plan's {how['of_plan']}, the first in an order that the seed draws"
         share = "" if how["cases"] == how["of_plan"] else share
         lines.append(
             f"- {name}: `{how['command']}`, {how['cases']} cases{share}; {how['set']} set, seed {how['seed']}, answers "
-            f"sealed {how['seal_sha256'][:16]}, tool {how['tool']}."
+            f"sealed {how['seal_sha256'][:16]}, tool {how['tool']}.{how.get('note', '')}"
         )
     lines += [f"- {name}: not run." for name in ("joint", "loading", "measured") if name not in parts]
     return "\n".join(lines)

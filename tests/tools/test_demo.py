@@ -11,8 +11,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from brace.demo import wire_loop
 from brace.demo.convexity import bent_rows, quasi_convex_breaks
 from brace.model import load_limb
+from conftest import PROJECT
 
 PNG = b"\x89PNG\r\n\x1a\n"
 
@@ -97,3 +99,15 @@ def test_convexity_of_sequences() -> None:
     exact = np.array([3.0, 1.0, 2.0, 1.5])
     assert quasi_convex_breaks(exact, exact, exact).tolist() == [False, False, False, True]
     assert not quasi_convex_breaks(exact, exact - 0.3, exact + 0.3).any()
+
+
+def test_its_commands_find_this_package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also where only this process knows the package's folder, as with the Debian package: a child of an interpreter
+    that has nothing else installed finds it."""
+    monkeypatch.delenv("PYTHONPATH", raising=False)
+    script = "import os, sys; print(os.environ['PYTHONPATH'], sys.argv[1:])"
+    stand_in = tmp_path / "python"
+    stand_in.write_text(f"#!/bin/sh\nexec {sys.executable} -c \"{script}\" \"$@\"\n")
+    stand_in.chmod(0o755)
+    monkeypatch.setattr(sys, "executable", str(stand_in))
+    assert wire_loop._run(tmp_path, ("--version",)).startswith(f"{PROJECT / 'tools'} ")

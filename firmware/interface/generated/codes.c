@@ -458,8 +458,7 @@ static const meaning_t flag_meanings[] = {
     {5, "OUT_OF_RANGE",
      "The posture lies outside the range in which the model was identified."},
     {6, "LOAD_UNKNOWN",
-     "The load is not counted, because it is not known, or because this controller has no FPU and the limb moves "
-     "in space: K is the one without load."},
+     "The load is not counted, because it is not known: K is the one without load."},
     {7, "SOFTENED",
      "The load has softened the limb: the buckling factor is below 3, or no stable equilibrium is near."},
 };

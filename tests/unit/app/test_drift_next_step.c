@@ -1,8 +1,8 @@
 /* What the drift check advises, for everything that its report may say. */
 #include <string.h>
 
+#include "app_bench.h"
 #include "jobs/drift/drift_job.h"
-#include "unity.h"
 
 static drift_job_t job;
 
@@ -65,12 +65,32 @@ static void test_a_run_that_ends_behind_a_reading_waits_for_it(void)
     TEST_ASSERT_TRUE(job.run_ends);
 }
 
+/* What a limb's journal said of another set is forgotten with it: else the first record of the new one would wait for
+ * the old one's count. */
+static void test_learning_anew_forgets_what_was_kept(void)
+{
+    const brace_parameters_t parameters = bench_parameters();
+    bench_board();
+    const drift_inputs_t inputs = {
+        .hal = &fake.hal, .parameters = &parameters, .origin = BRACE_PARAMETERS_DEFAULT, .may_work = true};
+    job.kept_state = BRACE_DRIFT_DRIFTED;
+    job.kept_steps = 1234;
+    job.kept_evidence[0] = job.kept_evidence[BRACE_DRIFT_CAUSE_COUNT] = 17.0f;
+    drift_job_configure(&job, true);
+    drift_job_step(&job, &inputs);
+    TEST_ASSERT_EQUAL(BRACE_DRIFT_LEARNING, job.kept_state);
+    TEST_ASSERT_EQUAL(0, job.kept_steps);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, job.kept_evidence[0]);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, job.kept_evidence[BRACE_DRIFT_CAUSE_COUNT]);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_while_it_learns_it_wants_to_learn);
     RUN_TEST(test_while_it_watches_growing_evidence_asks_for_a_test);
     RUN_TEST(test_a_drift_names_what_to_look_at);
+    RUN_TEST(test_learning_anew_forgets_what_was_kept);
     RUN_TEST(test_a_run_that_ends_behind_a_reading_waits_for_it);
     return UNITY_END();
 }

@@ -156,6 +156,8 @@ def _run(folder: Path, command: Command) -> str:
 
 def _start(folder: Path, command: Command) -> subprocess.Popen[str]:
     environment = {name: value for name, value in os.environ.items() if name != "BRACE_DEBUG"}
+    # The Debian package's brace is in a folder of its own, where only its own start looks.
+    environment["PYTHONPATH"] = os.pathsep.join(filter(None, (str(DATA.parents[1]), environment.get("PYTHONPATH"))))
     return subprocess.Popen([sys.executable, "-m", "brace", *map(str, command)], cwd=folder, env=environment,
                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)  # fmt: skip
 

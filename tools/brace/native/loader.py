@@ -29,6 +29,7 @@ FIRMWARE_HEADERS = (
     "loaded_fixed.h",
     "loaded_batch.h",
     "loaded_space.h",
+    "loaded_space_fixed.h",
     "kinematics_batch.h",
     "uncertainty.h",
     "slope.h",

@@ -153,7 +153,7 @@ FLAG = CodeTable("flag", True, (
     Code(3, "GAP_OPEN", "A joint's play may be open: that joint carries nothing until the gap has closed."),
     Code(4, "STALE", "K is older than its age limit, or the mode is one that tells no K."),
     Code(5, "OUT_OF_RANGE", "The posture lies outside the range in which the model was identified."),
-    Code(6, "LOAD_UNKNOWN", "The load is not counted, because it is not known, or because this controller has no FPU and the limb moves in space: K is the one without load."),
+    Code(6, "LOAD_UNKNOWN", "The load is not counted, because it is not known: K is the one without load."),
     Code(7, "SOFTENED", "The load has softened the limb: the buckling factor is below 3, or no stable equilibrium is near."),
 ))
 

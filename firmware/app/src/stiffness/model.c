@@ -37,7 +37,7 @@ void model_configure(model_t *model, const brace_parameters_t *parameters, bool 
     }
     if (is_spatial) {
         (void)brace_spatial_collapse(limb, &model->spatial);
-        brace_loaded_space_collapse(limb, &parameters->gravity, &model->loaded_space);
+        space_path_collapse(limb, &parameters->gravity, &model->loaded_space);
     } else {
         model->is_collapsed = !model->springs_change && brace_planar_collapse(limb, &model->planar) == BRACE_OK;
         brace_general_collapse(limb, &model->general);
@@ -155,28 +155,6 @@ static int32_t rest_in_plane(const model_t *model, const brace_limb_t *limb, con
     return BRACE_OK;
 }
 
-static int32_t without_load(model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
-                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], model_rest_t *rest)
-{
-    const float unknown = __builtin_nanf("");
-    float across_n_per_mm;
-    const brace_status_t status = model_stiffness(model, limb, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA],
-                                                  springs, &rest->plane, &across_n_per_mm);
-    if (status != BRACE_OK) {
-        return status;
-    }
-    const brace_stiffness_t *plane = &rest->plane;
-    rest->space = (brace_k3_t){.xx_n_per_mm = plane->k_xx_n_per_mm,
-                               .xz_n_per_mm = plane->k_xz_n_per_mm,
-                               .yy_n_per_mm = across_n_per_mm,
-                               .zz_n_per_mm = plane->k_zz_n_per_mm};
-    rest->plane.flags |= BRACE_FLAG_LOAD_UNKNOWN;
-    rest->bend = (posture_bend_t){
-        {unknown, unknown}, {unknown, unknown}, unknown, unknown, {unknown, unknown, unknown}};
-    rest->moved_across_mm = rest->buckling_factor = unknown;
-    return BRACE_OK;
-}
-
 int32_t model_loaded_begin(model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n, brace_vec3_t down,
                            model_work_t *work, model_rest_t *rest)
@@ -188,16 +166,16 @@ int32_t model_loaded_begin(model_t *model, const brace_limb_t *limb, const float
                                    .knee = springs[BRACE_TIBIA]};
         return rest_in_plane(model, limb, unbent_rad, &load, rest);
     }
-    if (!model_counts_loads(model)) {
-        return without_load(model, limb, unbent_rad, springs, rest);
-    }
     const brace_space_load_t load = {.tip_n = tip_n,
                                      .down = down,
                                      .yaw = springs[BRACE_COXA],
                                      .hip = springs[BRACE_FEMUR],
                                      .knee = springs[BRACE_TIBIA]};
-    const brace_status_t status = brace_loaded_space_settle(&model->loaded_space, unbent_rad[BRACE_FEMUR],
-                                                            unbent_rad[BRACE_TIBIA], &load, &work->at);
+    const brace_status_t status = space_path_settle(&model->loaded_space, unbent_rad[BRACE_FEMUR],
+                                                    unbent_rad[BRACE_TIBIA], &load, &work->at);
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        work->springs[i] = springs[i];
+    }
     work->is_half_done = status == BRACE_OK;
     return work->is_half_done ? (int32_t)MODEL_LATER : status;
 }
@@ -206,9 +184,9 @@ int32_t model_loaded_end(const model_t *model, const brace_limb_t *limb, model_w
 {
     brace_space_result_t found;
     work->is_half_done = false;
-    brace_status_t status = brace_loaded_space_stiffness(&model->loaded_space, &work->at, &found);
+    brace_status_t status = space_path_stiffness(&model->loaded_space, &work->at, &found);
     if (status == BRACE_OK) {
-        status = brace_loaded_space_in_plane(&found.k, &rest->plane);
+        status = space_path_in_plane(&found.k, &rest->plane);
     }
     if (status != BRACE_OK) {
         return status;

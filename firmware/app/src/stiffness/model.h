@@ -3,8 +3,8 @@
  * Three paths of the core lead to K without load in the limb's plane. A limb in space takes the spatial path, because
  * its coxa link yields in the plane too. A planar limb whose springs never change is collapsed into a few constants,
  * the cheapest path. Every other planar limb (hardening, temperature, a base that yields unequally) takes the general
- * path. K under a load is brace/loaded.h for a limb in its plane, on a controller without an FPU
- * brace/loaded_fixed.h, and brace/loaded_space.h for a limb in space. docs/kernel.md says more. */
+ * path. K under a load is brace/loaded.h for a limb in its plane and brace/loaded_space.h for a limb in space, on a
+ * controller without an FPU brace/loaded_fixed.h and brace/loaded_space_fixed.h. docs/kernel.md says more. */
 #ifndef BRACE_STIFFNESS_MODEL_H
 #define BRACE_STIFFNESS_MODEL_H
 
@@ -13,12 +13,12 @@
 #include "brace/general.h"
 #include "brace/loaded.h"
 #include "brace/loaded_fixed.h"
-#include "brace/loaded_space.h"
 #include "brace/parameters.h"
 #include "brace/planar.h"
 #include "brace/spatial.h"
 #include "brace/stiffness.h"
 #include "posture/posture.h"
+#include "stiffness/space_path.h"
 
 /* What K under a load takes of a limb: floats, or integers where floats are computed in software. */
 #ifdef __SOFTFP__
@@ -35,7 +35,7 @@ typedef struct {
     brace_general_t general;
     brace_spatial_t spatial;
     model_loaded_limb_t loaded; /* of a limb in its plane */
-    brace_loaded_space_t loaded_space;
+    space_path_limb_t loaded_space;
     float deflection_rad[BRACE_LINK_COUNT]; /* of hardening springs, followed from tick to tick */
 } model_t;
 
@@ -62,18 +62,6 @@ brace_status_t model_stiffness(model_t *model, const brace_limb_t *limb, float t
                                const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_stiffness_t *stiffness,
                                float *across_n_per_mm);
 
-/* Can this controller work out K under a load? In space a controller without an FPU cannot: the float estimator would
- * take more than a tick. */
-static inline bool model_counts_loads(const model_t *model)
-{
-#ifdef __SOFTFP__
-    return !model->is_spatial;
-#else
-    (void)model;
-    return true;
-#endif
-}
-
 /* Where a limb rests under a load, and K there. */
 typedef struct {
     brace_stiffness_t plane;  /* K in the limb's plane; of a limb in space the tip is held across it. Flags: the
@@ -89,14 +77,14 @@ typedef struct {
 /* What the first of two steps leaves for the second. */
 typedef struct {
     bool is_half_done;
-    brace_space_rest_t at; /* where a limb in space rests */
+    space_path_rest_t at; /* where a limb in space rests */
+    brace_loaded_joint_t springs[BRACE_LINK_COUNT]; /* there */
 } model_work_t;
 
 enum { MODEL_LATER = 1 }; /* another step finds the answer */
 
 /* K at the equilibrium under a load, every gap closed. A limb in its plane is done with one step; for one in space,
- * model_loaded_end follows. Where the model does not count loads, K without a load is found, flagged LOAD_UNKNOWN; how
- * the limb bends is NaN then.
+ * model_loaded_end follows.
  *   unbent_rad: angles without what the load turns
  *   tip_n: force of the ground; down: where the weight pulls. Frame: x outwards, y to the left, z up; a limb in its
  *     plane does not feel y

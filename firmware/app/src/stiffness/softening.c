@@ -29,12 +29,8 @@ static void grow_old(softening_t *softening, bool is_counted)
 static void find_unloaded(softening_t *softening, model_t *model, const brace_limb_t *limb,
                           const float unbent_rad[BRACE_LINK_COUNT])
 {
-    const brace_space_rest_t *now = &softening->now.at;
-    const brace_loaded_joint_t springs[BRACE_LINK_COUNT] = {{.slope_rad_per_n_mm = now->yaw_rad_per_n_mm},
-                                                            {.slope_rad_per_n_mm = now->hip_rad_per_n_mm},
-                                                            {.slope_rad_per_n_mm = now->knee_rad_per_n_mm}};
-    if (model_stiffness(model, limb, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], springs, &softening->unloaded,
-                        &softening->unloaded_across_n_per_mm) != BRACE_OK) {
+    if (model_stiffness(model, limb, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], softening->now.springs,
+                        &softening->unloaded, &softening->unloaded_across_n_per_mm) != BRACE_OK) {
         forget_unloaded(softening);
     }
 }
@@ -57,8 +53,7 @@ bool softening_step(softening_t *softening, model_t *model, const brace_limb_t *
         softening->at = softening->now.at;
         brace_loaded_space_buckling_begin(&softening->search);
     }
-    if (brace_loaded_space_buckling_step(&model->loaded_space, &softening->at, &softening->search,
-                                         &softening->factor)) {
+    if (space_path_buckling_step(&model->loaded_space, &softening->at, &softening->search, &softening->factor)) {
         softening->runs = false;
         softening->ticks_told = 0;
     }

@@ -12,7 +12,7 @@
 
 typedef struct {
     model_work_t now;        /* where the limb rests in this tick; the tick writes it */
-    brace_space_rest_t at;   /* the equilibrium whose factor is searched */
+    space_path_rest_t at;    /* the equilibrium whose factor is searched */
     brace_buckling_search_t search;
     bool runs;
     uint8_t ticks_to_step;

@@ -111,12 +111,11 @@ static int32_t take_loaded(model_t *model, const brace_limb_t *limb, const brace
     return BRACE_OK;
 }
 
-/* Can the load be counted, and is it known on every side? */
+/* Is the load known on every side? */
 static bool load_is_known(const model_t *model, const brace_snapshot_t *snapshot)
 {
     const bool is_known_across = !model->is_spatial || snapshot->force_y_n == snapshot->force_y_n;
-    return model_counts_loads(model) && snapshot->force_x_n == snapshot->force_x_n &&
-           snapshot->force_z_n == snapshot->force_z_n && is_known_across;
+    return snapshot->force_x_n == snapshot->force_x_n && snapshot->force_z_n == snapshot->force_z_n && is_known_across;
 }
 
 /* K in the limb's plane, and across it, with every gap closed, under the load where it can be counted.
@@ -151,11 +150,11 @@ static int32_t take_engaged(model_t *model, const brace_limb_t *limb, const brac
 }
 
 /* K in space of now, where a gap may be open: an open gap of the coxa joint carries nothing across the plane.
- * returns as brace_loaded_space_turn and brace_spatial_turn */
+ * returns as space_path_turn and brace_spatial_turn */
 static brace_status_t turn(float theta0_rad, const engaged_t *engaged, const brace_gap_stiffness_t *plane,
                            float across_now_n_per_mm, bool is_open, brace_space_stiffness_t *space)
 {
-    brace_status_t status = engaged->is_coupled ? brace_loaded_space_turn(theta0_rad, &engaged->space, &space->engaged)
+    brace_status_t status = engaged->is_coupled ? space_path_turn(theta0_rad, &engaged->space, &space->engaged)
                                                 : brace_spatial_turn(theta0_rad, &engaged->plane,
                                                                      engaged->across_n_per_mm, &space->engaged);
     if (status != BRACE_OK) {

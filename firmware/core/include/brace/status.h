@@ -34,7 +34,7 @@ enum {
     BRACE_FLAG_GAP_OPEN = 1u << 3,      /* a joint carries nothing: its link is between the flanks */
     BRACE_FLAG_STALE = 1u << 4,         /* older than its stated age limit, or from a mode in which K is not computed */
     BRACE_FLAG_OUT_OF_RANGE = 1u << 5,  /* outside the range in which the model was identified */
-    BRACE_FLAG_LOAD_UNKNOWN = 1u << 6,  /* the load is not counted: it is not known, or the controller cannot */
+    BRACE_FLAG_LOAD_UNKNOWN = 1u << 6,  /* the load is not counted: it is not known */
     BRACE_FLAG_SOFTENED = 1u << 7       /* the buckling factor is below 3, or no stable equilibrium is near */
 };
 

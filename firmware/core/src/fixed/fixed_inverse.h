@@ -17,25 +17,60 @@ typedef struct {
     uint32_t twice_turn;               /* twice the angle of C's frame */
 } fixed_circle_t;
 
+/* One over the root of a number from a quarter to 1, given by its 32 bits (q32). A table guesses it, and one step of
+ * Newton's method makes it exact. */
+static inline uint32_t fixed_per_root_q28(uint32_t number_q32)
+{
+    const brace_fixed_seed_t seed = brace_fixed_seed[number_q32 >> 26];
+    const uint32_t across_cell = (number_q32 >> 10) & 0xffffu;
+    const uint32_t guess_q29 = ((uint32_t)seed.at_q13 << 16) - (uint32_t)seed.slope_q13 * across_cell;
+    const uint32_t excess_q26 = high_unsigned(high_unsigned(guess_q29, guess_q29), number_q32);
+    return high_unsigned(guess_q29, (RSQRT_THREE_Q26 - excess_q26) << 4);
+}
+
+/* The length of a vector, and 2^(32 - shift) over it. */
+typedef struct {
+    uint32_t length, per_length_q28, shift;
+} fixed_length_t;
+
+/* By the leading bits of its square, shifted by an even number. */
+static inline fixed_length_t fixed_length_of(int32_t x, int32_t z)
+{
+    const uint64_t square = (uint64_t)((int64_t)x * x + (int64_t)z * z);
+    const uint32_t square_high = (uint32_t)(square >> 32), square_low = (uint32_t)square;
+    const uint32_t shift = leading_zeros(square_high | 1u) >> 1;
+    const uint32_t square_from_low = (square_low >> (16u - shift)) >> (16u - shift);
+    const uint32_t square_leading = ((square_high << shift) << shift) | square_from_low;
+    const uint32_t per_length_q28 = fixed_per_root_q28(square_leading);
+    return (fixed_length_t){(high_unsigned(square_leading, per_length_q28) << 4) >> shift, per_length_q28, shift};
+}
+
+/* Half the angle of (x, -z), of that length, and half of another angle: an axis, [-pi/2, pi/2]. The highest bits of the
+ * unit vector choose the nearest entry of the sine table, and an arcsine adds the rest. The angle of the vector is twice
+ * that of the axis, so a turn of 2^32 is read as half a turn. */
+static inline float fixed_axis_rad(int32_t x, int32_t z, const fixed_length_t *length, uint32_t twice_turn)
+{
+    const uint32_t half_shift = length->shift - 1u;
+    const int32_t cosine_q27 = high((int32_t)((uint32_t)x << half_shift), (int32_t)length->per_length_q28);
+    const int32_t sine_q27 = high((int32_t)((uint32_t)z << half_shift), (int32_t)length->per_length_q28);
+    const uint32_t entry = brace_fixed_cell[((uint32_t)sine_q27 >> 24) & 15u][((uint32_t)cosine_q27 >> 24) & 15u];
+    const brace_sincos_t opposite = brace_fixed_sincos[entry];
+    const int32_t sine_off_q26 = high_sum(sine_q27, opposite.cos_q31, cosine_q27, opposite.sin_q31);
+    const int32_t sine_off_q32 = (int32_t)((uint32_t)sine_off_q26 << 6);
+    const int32_t off_turn = high(sine_off_q32, ASIN_1 + high(high(sine_off_q32, sine_off_q32), ASIN_3));
+    const int32_t axis_twice_turn = (int32_t)(twice_turn + (entry << 26) + (uint32_t)off_turn);
+    const uint32_t axis = high_unsigned(magnitude_of(axis_twice_turn), PI_Q30) | 1u;
+    return float_of(float_bits(axis, AXIS_EXPONENT) | sign_of(axis_twice_turn));
+}
+
 /* Writes all of a stiffness except its flags. */
 static inline void stiffness_of_circle(const fixed_circle_t *c, brace_stiffness_t *stiffness)
 {
     const uint32_t trace = c->trace;
     const int32_t minus_dev_x = c->minus_dev_x, dev_z = c->dev_z;
 
-    /* The deviator's length is the leading bits of its square, shifted by an even number, times the inverse root of
-     * these bits. A table guesses the inverse root, and one step of Newton's method makes it exact. */
-    const uint64_t square = (uint64_t)((int64_t)minus_dev_x * minus_dev_x + (int64_t)dev_z * dev_z);
-    const uint32_t square_high = (uint32_t)(square >> 32), square_low = (uint32_t)square;
-    const uint32_t shift = leading_zeros(square_high | 1u) >> 1;
-    const uint32_t square_from_low = (square_low >> (16u - shift)) >> (16u - shift);
-    const uint32_t square_leading = ((square_high << shift) << shift) | square_from_low;
-    const brace_fixed_seed_t seed = brace_fixed_seed[square_leading >> 26];
-    const uint32_t across_cell = (square_leading >> 10) & 0xffffu;
-    const uint32_t guess_q29 = ((uint32_t)seed.at_q13 << 16) - (uint32_t)seed.slope_q13 * across_cell;
-    const uint32_t excess_q26 = high_unsigned(high_unsigned(guess_q29, guess_q29), square_leading);
-    const uint32_t per_radius_q28 = high_unsigned(guess_q29, (RSQRT_THREE_Q26 - excess_q26) << 4);
-    const uint32_t radius = (high_unsigned(square_leading, per_radius_q28) << 4) >> shift;
+    const fixed_length_t deviator = fixed_length_of(minus_dev_x, dev_z);
+    const uint32_t radius = deviator.length;
 
     /* One division serves both 1/det and 1/(mean + radius): it inverts their product, by sixteen bits and one step of
      * Newton's method. */
@@ -48,20 +83,7 @@ static inline void stiffness_of_circle(const fixed_circle_t *c, brace_stiffness_
     stiffness->lambda_max_n_per_mm = float_of(float_bits(high_unsigned(longest, per_det), c->exponent_k - (1u << 23)));
     stiffness->lambda_min_n_per_mm = float_of(float_bits(per_longest, c->exponent_min));
 
-    /* Half the angle of minus the deviator, in the bisector's frame. The highest bits of its unit vector choose the
-     * nearest entry of the sine table, and an arcsine adds the rest. The angle of the vector is twice that of the axis,
-     * so a turn of 2^32 is read as half a turn below. */
-    const uint32_t half_shift = shift - 1u;
-    const int32_t cosine_q27 = high((int32_t)((uint32_t)minus_dev_x << half_shift), (int32_t)per_radius_q28);
-    const int32_t sine_q27 = high((int32_t)((uint32_t)dev_z << half_shift), (int32_t)per_radius_q28);
-    const uint32_t entry = brace_fixed_cell[((uint32_t)sine_q27 >> 24) & 15u][((uint32_t)cosine_q27 >> 24) & 15u];
-    const brace_sincos_t opposite = brace_fixed_sincos[entry];
-    const int32_t sine_off_q26 = high_sum(sine_q27, opposite.cos_q31, cosine_q27, opposite.sin_q31);
-    const int32_t sine_off_q32 = (int32_t)((uint32_t)sine_off_q26 << 6);
-    const int32_t off_turn = high(sine_off_q32, ASIN_1 + high(high(sine_off_q32, sine_off_q32), ASIN_3));
-    const int32_t axis_twice_turn = (int32_t)(c->twice_turn + (entry << 26) + (uint32_t)off_turn);
-    const uint32_t axis = high_unsigned(magnitude_of(axis_twice_turn), PI_Q30) | 1u;
-    stiffness->stiff_axis_rad = float_of(float_bits(axis, AXIS_EXPONENT) | sign_of(axis_twice_turn));
+    stiffness->stiff_axis_rad = fixed_axis_rad(minus_dev_x, dev_z, &deviator, c->twice_turn);
 
     /* K = (mean I - dev)/det, the deviator turned into the world's frame. */
     const brace_sincos_t to_world = direction_of(c->twice_turn);

@@ -187,10 +187,9 @@ INLINE fixed_vec_t fixed_small_turn(int32_t angle_q29)
 /* A float below 2^31/2^format as an integer, truncated. Its magnitude has to be finite. */
 INLINE int32_t fixed_of(uint32_t bits, int32_t format)
 {
-    const int32_t right = 158 - (int32_t)((bits >> 23) & 255u) - format;
-    const uint32_t mantissa = (bits << 8) | 0x80000000u;
-    const int32_t magnitude = (int32_t)(right > 31 ? 0u : mantissa >> right);
-    return (bits >> 31) != 0u ? -magnitude : magnitude;
+    const int32_t right = 157 - (int32_t)((bits >> 23) & 255u) - format, sign = (int32_t)bits >> 31;
+    const uint32_t half_mantissa = ((bits << 7) & 0x3fffffffu) | 0x40000000u;
+    return (int32_t)(half_mantissa >> (right > 31 ? 31 : right)) * (1 | sign);
 }
 
 /* Least power of two above a magnitude that is a normal number: its exponent. */
@@ -199,13 +198,12 @@ INLINE int32_t exponent_above(uint32_t bits)
     return (int32_t)((bits >> 23) & 255u) - 126;
 }
 
-/* number 2^-format as a float. */
+/* number 2^-format as a float, without a branch. */
 INLINE float float_from(int32_t number, int32_t format)
 {
-    if (number == 0) {
-        return 0.0f;
-    }
-    return float_of(float_bits(magnitude_of(number) | 1u, (uint32_t)(157 - format) << 23) | sign_of(number));
+    const uint32_t is_none = (uint32_t)(number == 0);
+    const uint32_t bits = float_bits(magnitude_of(number) | 1u, (uint32_t)(157 - format) << 23) | sign_of(number);
+    return float_of(bits & (is_none - 1u));
 }
 
 #endif

@@ -91,7 +91,7 @@ static int32_t work_out(question_job_t *job, const brace_k_question_t *asked, co
     }
     if (status == BRACE_OK && asked->where == BRACE_K_IN_SPACE) {
         const brace_status_t turned =
-            brace_loaded_space_turn(asked->theta_rad[BRACE_COXA], &rest.space, &job->answer.in_space);
+            space_path_turn(asked->theta_rad[BRACE_COXA], &rest.space, &job->answer.in_space);
         job->answer.in_space.flags |= job->answer.k.flags;
         return turned;
     }

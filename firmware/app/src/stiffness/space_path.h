@@ -1,0 +1,95 @@
+/* K in space under a load, as this controller computes it: in floats, or in integers where floats are computed in
+ * software. brace/loaded_space.h says what each step does, brace/loaded_space_fixed.h how the integers differ. */
+#ifndef BRACE_STIFFNESS_SPACE_PATH_H
+#define BRACE_STIFFNESS_SPACE_PATH_H
+
+#include <stdbool.h>
+
+#include "brace/loaded_space.h"
+#include "brace/loaded_space_fixed.h"
+
+#ifdef __SOFTFP__
+
+typedef brace_loaded_space_fixed_t space_path_limb_t;
+typedef brace_space_fixed_rest_t space_path_rest_t;
+
+static inline void space_path_collapse(const brace_limb_t *limb, const brace_gravity_t *weights,
+                                       space_path_limb_t *collapsed)
+{
+    brace_loaded_space_t loaded;
+    brace_loaded_space_collapse(limb, weights, &loaded);
+    brace_loaded_space_fixed_collapse(&loaded, collapsed);
+}
+
+static inline brace_status_t space_path_settle(const space_path_limb_t *limb, float theta1_rad, float theta2_rad,
+                                               const brace_space_load_t *load, space_path_rest_t *rest)
+{
+    return brace_loaded_space_fixed_settle(limb, theta1_rad, theta2_rad, load, rest);
+}
+
+static inline brace_status_t space_path_stiffness(const space_path_limb_t *limb, const space_path_rest_t *rest,
+                                                  brace_space_result_t *result)
+{
+    return brace_loaded_space_fixed_stiffness(limb, rest, result);
+}
+
+static inline brace_status_t space_path_in_plane(const brace_k3_t *k, brace_stiffness_t *plane)
+{
+    return brace_loaded_space_fixed_in_plane(k, plane);
+}
+
+static inline brace_status_t space_path_turn(float theta0_rad, const brace_k3_t *k,
+                                             brace_stiffness_spatial_t *stiffness)
+{
+    return brace_loaded_space_fixed_turn(theta0_rad, k, stiffness);
+}
+
+static inline bool space_path_buckling_step(const space_path_limb_t *limb, const space_path_rest_t *rest,
+                                            brace_buckling_search_t *search, float *factor)
+{
+    return brace_loaded_space_fixed_buckling_step(limb, rest, search, factor);
+}
+
+#else
+
+typedef brace_loaded_space_t space_path_limb_t;
+typedef brace_space_rest_t space_path_rest_t;
+
+static inline void space_path_collapse(const brace_limb_t *limb, const brace_gravity_t *weights,
+                                       space_path_limb_t *collapsed)
+{
+    brace_loaded_space_collapse(limb, weights, collapsed);
+}
+
+static inline brace_status_t space_path_settle(const space_path_limb_t *limb, float theta1_rad, float theta2_rad,
+                                               const brace_space_load_t *load, space_path_rest_t *rest)
+{
+    return brace_loaded_space_settle(limb, theta1_rad, theta2_rad, load, rest);
+}
+
+static inline brace_status_t space_path_stiffness(const space_path_limb_t *limb, const space_path_rest_t *rest,
+                                                  brace_space_result_t *result)
+{
+    return brace_loaded_space_stiffness(limb, rest, result);
+}
+
+static inline brace_status_t space_path_in_plane(const brace_k3_t *k, brace_stiffness_t *plane)
+{
+    return brace_loaded_space_in_plane(k, plane);
+}
+
+static inline brace_status_t space_path_turn(float theta0_rad, const brace_k3_t *k,
+                                             brace_stiffness_spatial_t *stiffness)
+{
+    return brace_loaded_space_turn(theta0_rad, k, stiffness);
+}
+
+static inline bool space_path_buckling_step(const space_path_limb_t *limb, const space_path_rest_t *rest,
+                                            brace_buckling_search_t *search, float *factor)
+{
+    return brace_loaded_space_buckling_step(limb, rest, search, factor);
+}
+
+#endif
+
+#endif

@@ -1,0 +1,451 @@
+/* K in space under a load in fixed point: the limb at no load; closed forms of one hinge; beside the float path, whose
+ * own tests say what is right; eigenvalues; what is refused; any input. tests/engine judges random limbs. */
+#include <math.h>
+#include <string.h>
+
+#include "brace/loaded_space.h"
+#include "brace/loaded_space_fixed.h"
+#include "reference_spatial.h"
+#include "sample_limbs.h"
+#include "unity.h"
+
+static brace_limb_t limb;
+static brace_gravity_t weights;
+static brace_space_load_t load;
+static brace_loaded_space_t loaded;
+static brace_loaded_space_fixed_t fixed;
+static brace_space_fixed_rest_t rest;
+
+void setUp(void)
+{
+    limb = sample_limb[SAMPLE_BEAM];
+    memset(&weights, 0, sizeof weights);
+    load = (brace_space_load_t){.down = {0.0f, 0.0f, -1.0f}};
+}
+
+void tearDown(void) {}
+
+static void collapse(void)
+{
+    brace_loaded_joint_t *const joint[] = {&load.yaw, &load.hip, &load.knee};
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        const float yields = limb.joint[i].compliance_rad_per_n_mm;
+        *joint[i] = (brace_loaded_joint_t){yields, yields};
+    }
+    brace_loaded_space_collapse(&limb, &weights, &loaded);
+    brace_loaded_space_fixed_collapse(&loaded, &fixed);
+}
+
+static brace_status_t told_at(float theta1_rad, float theta2_rad, brace_space_result_t *result)
+{
+    const brace_status_t status = brace_loaded_space_fixed_settle(&fixed, theta1_rad, theta2_rad, &load, &rest);
+    return status == BRACE_OK ? brace_loaded_space_fixed_stiffness(&fixed, &rest, result) : status;
+}
+
+static brace_status_t status_at(float theta1_rad, float theta2_rad, brace_space_result_t *result)
+{
+    collapse();
+    return told_at(theta1_rad, theta2_rad, result);
+}
+
+static brace_space_result_t at(float theta1_rad, float theta2_rad)
+{
+    brace_space_result_t result;
+    memset(&result, 0, sizeof result);
+    TEST_ASSERT_EQUAL(BRACE_OK, status_at(theta1_rad, theta2_rad, &result));
+    return result;
+}
+
+static float buckling_factor(void)
+{
+    brace_buckling_search_t search;
+    float factor = 0.0f;
+    int steps = 1;
+    brace_loaded_space_buckling_begin(&search);
+    while (!brace_loaded_space_fixed_buckling_step(&fixed, &rest, &search, &factor)) {
+        steps++;
+    }
+    TEST_ASSERT_TRUE(steps <= 4);
+    return factor;
+}
+
+static void entries_of(const brace_k3_t *k, double entry[6])
+{
+    const float entries[6] = {k->xx_n_per_mm, k->xy_n_per_mm, k->xz_n_per_mm,
+                              k->yy_n_per_mm, k->yz_n_per_mm, k->zz_n_per_mm};
+    for (int i = 0; i < 6; i++) {
+        entry[i] = (double)entries[i];
+    }
+}
+
+/* Of the largest entry. */
+static double apart(const brace_k3_t *a, const brace_k3_t *b)
+{
+    double of_a[6], of_b[6], most = 0.0, off = 0.0;
+    entries_of(a, of_a);
+    entries_of(b, of_b);
+    for (int i = 0; i < 6; i++) {
+        most = fmax(most, fabs(of_b[i]));
+        off = fmax(off, fabs(of_a[i] - of_b[i]));
+    }
+    return off / most;
+}
+
+/* --- what it is ----------------------------------------------------------------------------------------------- */
+
+/* Rounding of levers and of C, some 1e-8 of the limb, counts in K as many times as C is slender. */
+static void test_no_load_is_the_limb_in_space(void)
+{
+    int told = 0;
+    for (int sample = 0; sample < SAMPLE_COUNT; sample++) {
+        limb = sample_limb[sample];
+        collapse();
+        for (int i = -3; i <= 3; i++) {
+            for (int j = 1; j <= 5; j++) {
+                const float theta1 = 0.9f * (float)i, theta2 = 0.5f * (float)j;
+                const reference_spatial_t r = reference_spatial(&limb, 0.0, (double)theta1, (double)theta2);
+                brace_space_result_t result;
+                const brace_status_t status = told_at(theta1, theta2, &result);
+                const double trace_k = r.k[0][0] + r.k[1][1] + r.k[2][2], trace_c = r.c[0][0] + r.c[1][1] + r.c[2][2];
+                const double slender = trace_k * trace_c;
+                if (status == BRACE_E_SINGULAR) {
+                    TEST_ASSERT_TRUE(slender > 1e5);
+                    continue;
+                }
+                told++;
+                double entry[6];
+                entries_of(&result.k, entry);
+                const double wanted[6] = {r.k[0][0], r.k[0][1], r.k[0][2], r.k[1][1], r.k[1][2], r.k[2][2]};
+                for (int e = 0; e < 6; e++) {
+                    TEST_ASSERT_DOUBLE_WITHIN(1e-6 + 2e-7 * slender, 0.0, (entry[e] - wanted[e]) / trace_k);
+                }
+                TEST_ASSERT_FLOAT_WITHIN(1e-3f, 0.0f, result.displacement_mm.x);
+                TEST_ASSERT_FLOAT_WITHIN(1e-3f, 0.0f, result.displacement_mm.y);
+                TEST_ASSERT_FLOAT_WITHIN(1e-3f, 0.0f, result.displacement_mm.z);
+                TEST_ASSERT_TRUE(isinf(buckling_factor()));
+            }
+        }
+    }
+    TEST_ASSERT_TRUE(told > 100);
+}
+
+/* A limb whose coxa joint alone yields, by c: straight out, its tip is a lever R from the yaw axis. */
+static float only_the_yaw_yields(float c)
+{
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        limb.link[i] = (brace_link_t){.axial_mm_per_n = 1e-4f, .bending_mm_per_n = 1e-4f, .lateral_mm_per_n = 1e-4f};
+        limb.joint[i].compliance_rad_per_n_mm = i == BRACE_COXA ? c : 0.0f;
+    }
+    return limb.coxa_mm + limb.femur_mm + limb.tibia_mm;
+}
+
+/* Pulled outwards by F, a hinge of compliance c at a lever R resists by 1/(c R^2) + F/R. */
+static void test_a_pull_stiffens_the_yaw(void)
+{
+    const float c = 1e-5f, lever = only_the_yaw_yields(c);
+    for (int i = -3; i <= 6; i++) {
+        load.tip_n.x = 20.0f * (float)i;
+        const float wanted = 1.0f / (c * lever * lever) + load.tip_n.x / lever;
+        TEST_ASSERT_FLOAT_WITHIN(1e-3f * wanted, wanted, at(0.0f, 0.0f).k.yy_n_per_mm);
+    }
+}
+
+/* Pushed inwards by F it buckles at F = 1/(c R). Where the search meets that load by chance, a word holds no
+ * determinant, and the chord from below ends it. */
+static void test_buckling_of_the_yaw(void)
+{
+    const float c = 1e-5f, lever = only_the_yaw_yields(c);
+    for (int i = 0; i < 6; i++) {
+        const float factor = 1.5f + 1.3f * (float)i;
+        load.tip_n.x = -1.0f / (c * lever * factor);
+        at(0.0f, 0.0f);
+        TEST_ASSERT_FLOAT_WITHIN(0.05f * factor, factor, buckling_factor());
+    }
+    load.tip_n.x = 50.0f;
+    at(0.0f, 0.0f);
+    TEST_ASSERT_TRUE(isinf(buckling_factor()));
+}
+
+/* A force F across a straight limb whose hip joint alone yields turns it by q = c R F cos q. Where there is a result,
+ * q is within the 0.025 rad that two steps may leave. */
+static void test_told_where_the_steps_do_not_settle(void)
+{
+    const float c = 1e-5f;
+    only_the_yaw_yields(0.0f);
+    limb.base.rotation_rad_per_n_mm = 0.0f;
+    limb.joint[BRACE_FEMUR].compliance_rad_per_n_mm = c;
+    const float lever = limb.femur_mm + limb.tibia_mm;
+    for (int i = 1; i <= 40; i++) {
+        const double whole = 0.05 * i;
+        load.tip_n.z = (float)whole / (c * lever);
+        brace_space_result_t result;
+        memset(&result, 0x5a, sizeof result);
+        const brace_space_result_t untouched = result;
+        const brace_status_t status = status_at(0.0f, 0.0f, &result);
+        if (i <= 12 || status == BRACE_OK) {
+            TEST_ASSERT_EQUAL(BRACE_OK, status);
+            double less = 0.0, more = 1.6; /* whole cos q - q falls */
+            for (int halving = 0; halving < 40; halving++) {
+                const double q = 0.5 * (less + more);
+                *(whole * cos(q) > q ? &less : &more) = q;
+            }
+            TEST_ASSERT_FLOAT_WITHIN(0.025f, (float)less, result.hip_turn_rad);
+        } else {
+            TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, status);
+            TEST_ASSERT_EQUAL_MEMORY(&untouched, &result, sizeof result);
+        }
+    }
+}
+
+/* Beside the float path: the rounding of the two is apart by less than a hundredth of what is promised. */
+static void test_samples_under_loads(void)
+{
+    static const int sample[] = {SAMPLE_PAPER, SAMPLE_BEAM, SAMPLE_TILTED, SAMPLE_ROUND};
+    weights = (brace_gravity_t){.femur_n = 1.0f, .knee_n = 0.5f, .tibia_n = 0.7f};
+    load.down = (brace_vec3_t){0.0f, 0.6f, -0.8f};
+    for (uint32_t s = 0; s < sizeof sample / sizeof *sample; s++) {
+        limb = sample_limb[sample[s]];
+        for (int i = -6; i <= 6; i++) {
+            const float theta1 = 0.4f * (float)i, theta2 = 0.7f + 0.3f * (float)(i % 5);
+            load.tip_n = (brace_vec3_t){2.0f * (float)(i % 3), 1.5f * (float)(i % 4), (float)i};
+            const brace_space_result_t is = at(theta1, theta2);
+            brace_space_rest_t float_rest;
+            brace_space_result_t want;
+            TEST_ASSERT_EQUAL(BRACE_OK, brace_loaded_space_settle(&loaded, theta1, theta2, &load, &float_rest));
+            TEST_ASSERT_EQUAL(BRACE_OK, brace_loaded_space_stiffness(&loaded, &float_rest, &want));
+            TEST_ASSERT_DOUBLE_WITHIN(1e-4, 0.0, apart(&is.k, &want.k));
+            TEST_ASSERT_FLOAT_WITHIN(0.01f, want.displacement_mm.x, is.displacement_mm.x);
+            TEST_ASSERT_FLOAT_WITHIN(0.01f, want.displacement_mm.y, is.displacement_mm.y);
+            TEST_ASSERT_FLOAT_WITHIN(0.01f, want.displacement_mm.z, is.displacement_mm.z);
+            TEST_ASSERT_FLOAT_WITHIN(0.01f, want.tibia_mm.x, is.tibia_mm.x);
+            TEST_ASSERT_FLOAT_WITHIN(0.01f, want.tibia_mm.y, is.tibia_mm.y);
+            TEST_ASSERT_FLOAT_WITHIN(0.01f, want.tibia_mm.z, is.tibia_mm.z);
+            TEST_ASSERT_FLOAT_WITHIN(1e-5f, want.yaw_turn_rad, is.yaw_turn_rad);
+            TEST_ASSERT_FLOAT_WITHIN(1e-5f, want.hip_turn_rad, is.hip_turn_rad);
+            TEST_ASSERT_FLOAT_WITHIN(1e-5f, want.knee_turn_rad, is.knee_turn_rad);
+            const float factor = brace_loaded_space_buckling_factor(&loaded, &float_rest);
+            if (factor < 10.0f) {
+                TEST_ASSERT_FLOAT_WITHIN(0.01f * factor, factor, buckling_factor());
+            }
+        }
+    }
+}
+
+/* --- eigenvalues ---------------------------------------------------------------------------------------------- */
+
+/* K of known eigenvalues and axes, some of them close to one another, turned by a known yaw. */
+static void test_turning_and_eigenvalues(void)
+{
+    static const double lambdas[][3] = {{0.02, 0.7, 12.0}, {0.02, 0.0201, 12.0}, {0.5, 3.0, 3.0}, {2.0, 2.0, 2.0}};
+    for (int i = 0; i < 40; i++) {
+        const double *lambda = lambdas[i % 4];
+        const double a = 0.37 * i, b = 1.1 * sin(2.3 * i), theta0 = -7.0 + 0.35 * i;
+        const double axis[3][3] = {{-sin(a), cos(a), 0.0},
+                                   {-sin(b) * cos(a), -sin(b) * sin(a), cos(b)},
+                                   {cos(b) * cos(a), cos(b) * sin(a), sin(b)}};
+        double k[3][3] = {{0.0}};
+        for (int p = 0; p < 9; p++) {
+            for (int q = 0; q < 3; q++) {
+                k[p / 3][p % 3] += lambda[q] * axis[q][p / 3] * axis[q][p % 3];
+            }
+        }
+        const brace_k3_t plane = {(float)k[0][0], (float)k[0][1], (float)k[0][2],
+                                  (float)k[1][1], (float)k[1][2], (float)k[2][2]};
+        brace_stiffness_spatial_t s, want;
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_loaded_space_fixed_turn((float)theta0, &plane, &s));
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_loaded_space_turn((float)theta0, &plane, &want));
+        for (int q = 0; q < 3; q++) {
+            TEST_ASSERT_DOUBLE_WITHIN(3e-7 * lambda[2], lambda[q], (double)s.lambda_n_per_mm[q]);
+        }
+        const double x = (double)s.stiff_axis[0], y = (double)s.stiff_axis[1], z = (double)s.stiff_axis[2];
+        const double out = cos(theta0) * x + sin(theta0) * y, left = cos(theta0) * y - sin(theta0) * x;
+        const double seen[3] = {out, left, z};
+        for (int p = 0; p < 3; p++) { /* any axis of equal eigenvalues is right */
+            const double turned = k[p][0] * out + k[p][1] * left + k[p][2] * z;
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6 * lambda[2], lambda[2] * seen[p], turned);
+        }
+        TEST_ASSERT_TRUE(out > -1e-6);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-5, k[2][2], (double)s.k_zz_n_per_mm);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-5, cos(theta0) * k[0][2] - sin(theta0) * k[1][2], (double)s.k_xz_n_per_mm);
+        TEST_ASSERT_FLOAT_WITHIN(1e-5f, want.k_xx_n_per_mm, s.k_xx_n_per_mm);
+        TEST_ASSERT_FLOAT_WITHIN(1e-5f, want.k_xy_n_per_mm, s.k_xy_n_per_mm);
+        TEST_ASSERT_FLOAT_WITHIN(1e-5f, want.k_yy_n_per_mm, s.k_yy_n_per_mm);
+        TEST_ASSERT_FLOAT_WITHIN(1e-5f, want.k_yz_n_per_mm, s.k_yz_n_per_mm);
+        TEST_ASSERT_EQUAL_UINT32(0u, s.flags);
+
+        brace_stiffness_t in_plane, float_plane;
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_loaded_space_fixed_in_plane(&plane, &in_plane));
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_loaded_space_in_plane(&plane, &float_plane));
+        TEST_ASSERT_EQUAL_FLOAT(plane.xz_n_per_mm, in_plane.k_xz_n_per_mm);
+        TEST_ASSERT_FLOAT_WITHIN(5e-6f, float_plane.lambda_min_n_per_mm, in_plane.lambda_min_n_per_mm);
+        TEST_ASSERT_FLOAT_WITHIN(5e-6f, float_plane.lambda_max_n_per_mm, in_plane.lambda_max_n_per_mm);
+        if (in_plane.lambda_min_n_per_mm < 0.9f * in_plane.lambda_max_n_per_mm) {
+            TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.0f, sinf(in_plane.stiff_axis_rad - float_plane.stiff_axis_rad));
+        }
+        TEST_ASSERT_EQUAL_UINT32(float_plane.flags, in_plane.flags);
+    }
+}
+
+/* --- what is refused ------------------------------------------------------------------------------------------ */
+
+static void test_what_is_refused(void)
+{
+    brace_space_result_t result;
+    memset(&result, 0x5a, sizeof result);
+    const brace_space_result_t untouched = result;
+    load.tip_n.y = NAN;
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, status_at(1.0f, 1.4f, &result));
+    load.tip_n.y = 2e4f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, status_at(1.0f, 1.4f, &result));
+    load.tip_n = (brace_vec3_t){9e3f, 9e3f, 9e3f};
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, status_at(1.0f, 1.4f, &result));
+    load.tip_n = (brace_vec3_t){0.0f, 0.0f, 0.0f};
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, status_at(9.0f, 0.0f, &result));
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, status_at(5.0f, 5.0f, &result));
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, status_at(NAN, 0.0f, &result));
+    load.down.y = 1.5f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, status_at(1.0f, 1.4f, &result));
+    load.down.y = NAN;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, status_at(1.0f, 1.4f, &result));
+    load.down.y = 0.0f;
+    load.tip_n.x = -2000.0f; /* far beyond what holds */
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, status_at(0.0f, 0.0f, &result));
+    load.tip_n.x = 0.0f;
+    collapse();
+    load.yaw.slope_rad_per_n_mm = NAN;
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, told_at(1.0f, 1.4f, &result));
+    load.yaw.slope_rad_per_n_mm = -1e-6f;
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, told_at(1.0f, 1.4f, &result));
+    limb.coxa_mm = 1e-6f; /* a beam far too short for the limb's unit of length */
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, status_at(1.0f, 1.4f, &result));
+    TEST_ASSERT_EQUAL_MEMORY(&untouched, &result, sizeof result);
+
+    const brace_k3_t indefinite = {1.0f, 2.0f, 0.0f, 1.0f, 0.0f, 1.0f}, one = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f};
+    const brace_k3_t flat = {1.0f, 0.0f, 1.0f, 1.0f, 0.0f, 1.0f}, none = {NAN, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f};
+    brace_stiffness_spatial_t s;
+    brace_stiffness_t plane;
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_loaded_space_fixed_turn(0.0f, &indefinite, &s));
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_loaded_space_fixed_turn(0.0f, &none, &s));
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_loaded_space_fixed_turn(8.0f, &one, &s));
+    TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, brace_loaded_space_fixed_turn(NAN, &one, &s));
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_loaded_space_fixed_in_plane(&flat, &plane));
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_loaded_space_fixed_in_plane(&none, &plane));
+}
+
+/* --- any input ------------------------------------------------------------------------------------------------ */
+
+static uint32_t state = 12345u;
+
+static float any(float least, float most)
+{
+    state = state * 1664525u + 1013904223u;
+    return least + (most - least) * ((float)(state >> 8) / 16777216.0f);
+}
+
+static float any_size(float least_log10, float most_log10)
+{
+    return powf(10.0f, any(least_log10, most_log10));
+}
+
+static void any_limb(void)
+{
+    limb.coxa_mm = any_size(-3.0f, 4.0f), limb.femur_mm = any_size(0.0f, 4.0f), limb.tibia_mm = any_size(0.0f, 4.0f);
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        limb.link[i] = (brace_link_t){.axial_mm_per_n = any_size(-6.0f, 3.0f),
+                                      .bending_mm_per_n = any_size(-6.0f, 3.0f),
+                                      .lateral_mm_per_n = any_size(-6.0f, 3.0f),
+                                      .torsion_rad_per_n_mm = any_size(-12.0f, 0.0f),
+                                      .tilt_rad = any(-1.57f, 1.57f),
+                                      .moment_transfer_ratio = any(0.0f, 1.0f)};
+        limb.joint[i].compliance_rad_per_n_mm = any_size(-12.0f, 0.0f);
+    }
+    limb.base = (brace_base_t){any_size(-6.0f, 3.0f), any_size(-6.0f, 3.0f), any_size(-12.0f, 0.0f)};
+    weights = (brace_gravity_t){
+        .femur_n = any_size(-3.0f, 6.0f), .knee_n = any_size(-3.0f, 6.0f), .tibia_n = any_size(-3.0f, 6.0f)};
+}
+
+/* A limb that a robot may have, of any softness: it settles or not, and buckles or not. */
+static void any_sound_limb(int sample)
+{
+    const float softness = any_size(-1.0f, 1.0f);
+    limb = sample_limb[sample];
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        limb.link[i].bending_mm_per_n *= softness;
+        limb.link[i].lateral_mm_per_n *= softness;
+        limb.joint[i].compliance_rad_per_n_mm *= softness;
+    }
+    weights = (brace_gravity_t){.femur_n = any(0.0f, 3.0f), .knee_n = any(0.0f, 3.0f)};
+}
+
+static brace_vec3_t any_direction(void)
+{
+    const float up = any(-1.0f, 1.0f), turn = any(-3.2f, 3.2f), out = sqrtf(1.0f - up * up);
+    return (brace_vec3_t){out * cosf(turn), out * sinf(turn), up};
+}
+
+static bool is_promised(const brace_space_rest_t *float_rest, const brace_space_result_t *r)
+{
+    const brace_vec3_t d = r->displacement_mm;
+    const float moved_mm2 = d.x * d.x + d.y * d.y + d.z * d.z;
+    const float factor = brace_loaded_space_buckling_factor(&loaded, float_rest);
+    return brace_loaded_flags(factor, moved_mm2, limb.femur_mm + limb.tibia_mm) == 0u;
+}
+
+/* The sanitized build reports every overflow. Each K that the path gives is a number. Where both paths give K and the
+ * float path promises its accuracy, the two agree; what one promises, the other tells. */
+static void test_any_input(void)
+{
+    int told = 0, compared = 0, missed = 0;
+    for (int i = 0; i < 2000; i++) {
+        if (i % 4 == 0) {
+            any_limb();
+        } else {
+            any_sound_limb(i % SAMPLE_COUNT);
+        }
+        const float size = i % 4 == 0 ? any_size(-6.0f, 4.0f) : any_size(-2.0f, 2.0f);
+        const brace_vec3_t direction = any_direction();
+        load.tip_n = (brace_vec3_t){size * direction.x, size * direction.y, size * direction.z};
+        load.down = any_direction();
+        const float theta1 = any(-3.5f, 3.5f), theta2 = any(-3.5f, 3.5f);
+        brace_space_result_t is, want;
+        brace_stiffness_spatial_t turned;
+        const bool is_told = status_at(theta1, theta2, &is) == BRACE_OK;
+        if (is_told) {
+            double entry[6];
+            told++;
+            entries_of(&is.k, entry);
+            for (int e = 0; e < 6; e++) {
+                TEST_ASSERT_TRUE(isfinite(entry[e]));
+            }
+            (void)brace_loaded_space_fixed_turn(0.0f, &is.k, &turned);
+            TEST_ASSERT_FALSE(buckling_factor() <= 0.0f);
+        }
+        brace_space_rest_t float_rest;
+        if (i % 8 != 1 || brace_loaded_space_settle(&loaded, theta1, theta2, &load, &float_rest) != BRACE_OK ||
+            brace_loaded_space_stiffness(&loaded, &float_rest, &want) != BRACE_OK || !is_promised(&float_rest, &want) ||
+            brace_loaded_space_turn(0.0f, &want.k, &turned) != BRACE_OK || turned.flags != 0u) {
+            continue;
+        }
+        compared++;
+        missed += is_told ? 0 : 1;
+        if (is_told) {
+            TEST_ASSERT_DOUBLE_WITHIN(2e-3, 0.0, apart(&is.k, &want.k));
+        }
+    }
+    TEST_ASSERT_TRUE(told > 800 && compared > 80);
+    TEST_ASSERT_TRUE(100 * missed <= compared);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_no_load_is_the_limb_in_space);
+    RUN_TEST(test_a_pull_stiffens_the_yaw);
+    RUN_TEST(test_buckling_of_the_yaw);
+    RUN_TEST(test_told_where_the_steps_do_not_settle);
+    RUN_TEST(test_samples_under_loads);
+    RUN_TEST(test_turning_and_eigenvalues);
+    RUN_TEST(test_what_is_refused);
+    RUN_TEST(test_any_input);
+    return UNITY_END();
+}
