@@ -28,7 +28,7 @@ static const uint8_t another_key[16] = {1};
 static uint64_t challenge;
 static uint32_t counter;
 static bool operator_lives;     /* the operator's signs of life go out every 40 ms */
-static uint8_t recorded[400][8]; /* every frame that the operator has sent over CAN */
+static uint8_t recorded[600][8]; /* every frame that the operator has sent over CAN */
 static uint32_t recorded_count;
 
 /* ------------------------------------------------------------------------------------------- the limb -- */
@@ -93,7 +93,7 @@ static inline void says(const uint8_t data[8])
 
 static inline void operator_says(const uint8_t data[8])
 {
-    if (recorded_count < 400u) {
+    if (recorded_count < 600u) {
         memcpy(recorded[recorded_count++], data, 8);
     }
     says(data);

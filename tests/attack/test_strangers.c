@@ -247,13 +247,12 @@ static void replay_all(situation_t situation, const char *attack)
     nothing_came_of_it(&before, situation, attack, told);
 }
 
-/* The operator uploads a whole block, commits it, and goes; somebody has recorded every frame. */
+/* The operator opens a session, uploads a whole block, commits it, and goes; somebody has recorded every frame. */
 static void test_a_recorded_block_does_not_replay(void)
 {
     static uint8_t block[BRACE_BLOCK_BYTES];
     uint8_t data[8];
     begin(WITH_SESSION);
-    recorded_count = 0;
     brace_parameters_t changed = *brace_app_parameters(&app);
     changed.limb.femur_mm = 200.0f;
     TEST_ASSERT_EQUAL(BRACE_OK, brace_parameters_pack(&changed, 0, block, sizeof block));

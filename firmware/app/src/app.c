@@ -193,6 +193,10 @@ static void step_ownership(brace_app_t *app)
     ownership_t *ownership = &controller->ownership;
     const brace_hal_t *hal = controller->hal;
     const bool tests = loading_runs(&controller->loading), takes_up = takeup_runs(&controller->takeup);
+    parameter_job_age(&controller->parameters, controller->since_us);
+    if (!tests && !takes_up && ownership_is_idle(ownership)) {
+        return;
+    }
     const ownership_inputs_t inputs = {
         .runs = tests || takes_up,
         .moves = tests || (takes_up && !takeup_holds(&controller->takeup, &controller->flank)),
@@ -214,7 +218,6 @@ static void step_ownership(brace_app_t *app)
     case OWNERSHIP_LETS_GO: (void)brace_app_let_go(app); break;
     default: break;
     }
-    parameter_job_age(&controller->parameters, controller->since_us);
 }
 
 /* Angles as the joints tell them, and levers as far as the load is known from the tick before. */

@@ -11,19 +11,17 @@ void brace_app_session(const brace_app_t *app, brace_session_report_t *report)
     const ownership_t *ownership = &controller->ownership;
     const session_t *session = &ownership->session;
     const brace_owner_t program = ownership->program_moves ? BRACE_OWNER_PROGRAM : BRACE_OWNER_NONE;
-    *report = (brace_session_report_t){
-        .setting = session->setting,
-        .owner = session->is_open ? (brace_owner_t)(session->owner.port + 1) : program,
-        .is_held = ownership->is_held,
-        .has_challenge = session->has_challenge,
-        .challenge = session->challenge,
-        .strangers = session->counts.strangers,
-        .replays = session->counts.replays,
-        .silences = session->counts.silences,
-        .commits_refused = controller->parameters.commits_refused,
-        .erases = controller->parameters.store.erases,
-        .last_refusal = ownership->last_refusal,
-    };
+    report->setting = session->setting;
+    report->owner = session->is_open ? (brace_owner_t)(session->owner.port + 1) : program;
+    report->is_held = ownership->is_held;
+    report->has_challenge = session->has_challenge;
+    report->challenge = session->challenge;
+    report->strangers = session->counts.strangers;
+    report->replays = session->counts.replays;
+    report->silences = session->counts.silences;
+    report->commits_refused = controller->parameters.commits_refused;
+    report->erases = controller->parameters.store.erases;
+    report->last_refusal = ownership->last_refusal;
 }
 
 brace_setting_t brace_app_setting(const brace_app_t *app)

@@ -62,7 +62,7 @@ class Owner:
                 "the controller lets nobody command it: it is guarded, and has no key yet",
                 where=where,
                 why=f"its setting is {name}",
-                next_step="give it a key, or make it a bench, on its own console: docs/security.md",
+                next_step="docs/security.md says how a board gets its key",
             )
         if self._key is None:
             raise UsageError(

@@ -36,6 +36,15 @@ typedef enum {
     OWNERSHIP_LETS_GO  /* the owner has been silent for let_go_after_us */
 } ownership_step_t;
 
+/* Does nobody own or want anything? Then there is nothing to step, while nothing of ours moves the limb. */
+static inline bool ownership_is_idle(const ownership_t *ownership)
+{
+    const session_t *session = &ownership->session;
+    const bool wants_challenge = session->setting == BRACE_SETTING_GUARDED && !session->has_challenge;
+    return !(session->is_open || session->has_heard || wants_challenge || ownership->is_held ||
+             ownership->program_moves || ownership->has_configurer);
+}
+
 /* One tick, before anything moves. At most 100 instructions. */
 ownership_step_t ownership_step(ownership_t *ownership, const ownership_inputs_t *inputs);
 

@@ -14,6 +14,9 @@
 void measured_take(const brace_app_t *app, const brace_app_counters_t *counters, uint32_t now_us,
                    brace_measured_t *measured);
 
+/* Who may command, and what was refused: not in a dear tick, so it may be a few ticks old. At most 100 instructions. */
+void measured_take_session(const brace_app_t *app, brace_measured_t *measured);
+
 /* The cause of a drift as `drift_cause` tells it. */
 uint32_t measured_drift_cause(const brace_drift_report_t *report);
 

@@ -22,6 +22,9 @@ void wires_tick(wires_t *wires, const brace_hal_t *hal, brace_app_t *app, brace_
     if (!requests_wait || !data_waits) { /* Else no wire tells any of it in this tick. */
         measured_take(app, counters, now_us, &wires->measured);
     }
+    if (!data_waits && !requests_wait) {
+        measured_take_session(app, &wires->measured);
+    }
     can_tick(&wires->can, &tick);
     modbus_tick(&wires->modbus, &tick);
 }
