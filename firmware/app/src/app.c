@@ -356,7 +356,7 @@ static void part_is_done(controller_t *controller, uint32_t part)
     controller->parts_done = controller->parts_done << 4 | part;
 }
 
-/* Sensors that tell the same whatever the limb does. */
+/* Sensors that tell the same whatever the limb does. joints_read has judged what a joint's own samples tell. */
 static void watch_sensors(controller_t *controller)
 {
     const frozen_inputs_t inputs = {.joints = &controller->joints,
