@@ -240,7 +240,7 @@ def test_a_message_is_one_file(copy: Copy) -> None:
     copy.append(MESSAGES, '''
 [[message]]
 name = "throw_away"
-id = 0x400
+id = 0x780
 rate = "controller.posture_hz"
 description = "the load at a joint"
 [[message.signal]]
@@ -255,7 +255,7 @@ description = "the load that the joint's gap transmits"
 ''')
     copy.generate()
     assert copy.by_hand() == {MESSAGES}
-    assert "401 fdff000000000000" in copy.run()
+    assert "781 fdff000000000000" in copy.run()
     database: Any = cantools.database.load_file(copy.project / "firmware/interface/brace.dbc", strict=True)
     assert database.decode_message("throw_away", bytes.fromhex("fdff000000000000")) == {"load": -1.5}
 

@@ -121,8 +121,8 @@ def test_a_code_that_is_not_there_is_refused(tmp_path: Path) -> None:
     [
         ('name = "part"\nbits = 8', 'name = "part"\nbits = 2', "counts its parts"),
         ('name = "part"\nbits = 8', 'name = "place"\nbits = 8', "counts its parts"),
-        ("id = 0x200", "id = 0x180", "identifiers"),
-        ("id = 0x200", "id = 0x201", "identifiers"),
+        ("id = 0x200", "id = 0x180", "that of stiffness_a; free identifiers: 0x200, 0x780"),
+        ("id = 0x200", "id = 0x201", "no multiple of 0x80"),
         ('rate = "controller.stiffness_hz"', 'rate = "motor.stiffness_hz"', "rate"),
         ('name = "drift_cause"\nbits = 4', 'name = "drift_cause"\nbits = 2', "do not hold"),
         ('answers_as = "commit"', 'answers_as = "comit"', "rollback.*answers_as"),

@@ -16,8 +16,8 @@ def main(arguments: list[str]) -> int:
     try:
         changed = drifted() if arguments else write()
     except (DictionaryError, KeyError, ValueError) as error:
-        print(f"interface: {DICTIONARY.name}: {error!r}\n  try: the comment at its head says what may stand there",
-              file=sys.stderr)
+        print(f"interface: {error!r}\n  try: the comments at the heads of {DICTIONARY.name} and messages.toml, and "
+              "docs/adding.md", file=sys.stderr)
         return 3
     for name in changed:
         print(f"{'drifted' if arguments else 'wrote'} {name}", file=sys.stderr)

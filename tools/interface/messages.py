@@ -16,6 +16,8 @@ FRAME_BITS = 64
 _PAYLOAD_START = 16  # of requests and answers: behind command and token
 _SIGNAL_KEYS = {"name", "bits", "signed", "kind", "step", "unit", "names", "bit_names", "description", "from", "wraps",
                 "saturated_by"}
+NODES = 0x80  # identifiers of one message: one for each node, and 0
+BASIC_IDS = 0x800  # of 11 bits
 _UNIT_SUFFIX = {"": "", "1": "_ratio", "N/mm": "_n_per_mm", "rad": "_rad", "ms": "_ms", "mm": "_mm", "N": "_n",
                 "N mm": "_n_mm"}
 _SATURATED = "SATURATED"  # the bit of flags: a value was limited
@@ -240,10 +242,22 @@ def load_wire(path: Path, codes: Codes) -> Wire:
     rates = [message.rate for message in wire.process if message.rate]
     if not all(rate.startswith("controller.") for rate in rates):
         raise DictionaryError("a message's rate is a key of limb.toml's table [controller]")
-    identifiers = [*(message.identifier for message in wire.process), request_id, answer_id]
-    if len(set(identifiers)) != len(identifiers) or any(identifier % 0x80 for identifier in identifiers):
-        raise DictionaryError("identifiers are different multiples of 0x80: a controller adds its node number, 1-127")
+    _refuse_identifiers(wire)
     return wire
+
+
+def _refuse_identifiers(wire: Wire) -> None:
+    """Two messages with one identifier, or one to which no node number can be added."""
+    used = {wire.request_id: "the requests", wire.answer_id: "the answers"}
+    taken = {*used, *(message.identifier for message in wire.process)}
+    free = ", ".join(f"0x{one:03x}" for one in range(NODES, BASIC_IDS, NODES) if one not in taken)
+    for message in wire.process:
+        where = f"{message.name}: its identifier 0x{message.identifier:03x}"
+        if message.identifier % NODES:
+            raise DictionaryError(f"{where} is no multiple of 0x80, to which a controller adds its node number")
+        if message.identifier in used:
+            raise DictionaryError(f"{where} is that of {used[message.identifier]}; free identifiers: {free or 'none'}")
+        used[message.identifier] = message.name
 
 
 def _multiplexed(raw: Mapping[str, Any], codes: Codes) -> Multiplexed:
@@ -309,7 +323,10 @@ def _signals(
         if kind not in ("value", "number", "f32") or (kind == "f32" and signal.bits != 32):
             raise DictionaryError(f"{at}: kind {kind} of {signal.bits} bits")
         if (kind == "value") != ("step" in raw) or signal.unit not in _UNIT_SUFFIX:
-            raise DictionaryError(f"{at}: a value has a step and a known unit, nothing else has a step")
+            raise DictionaryError(
+                f"{at}: a value has a step, nothing else has one, and its unit is one of "
+                f"{', '.join(unit or 'none' for unit in _UNIT_SUFFIX)}"
+            )
         if table is not None and max(signal.names, default=len(signal.bit_names) - 1) > (
             signal.greatest if signal.names else signal.bits - 1
         ):

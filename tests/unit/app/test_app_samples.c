@@ -227,7 +227,7 @@ static void test_an_encoder_that_stands_while_the_torque_swings_is_stuck(void)
 static void test_a_stuck_encoder_is_found_in_drives_that_are_sampled_every_other_tick(void)
 {
     for (int joint = BRACE_FEMUR; joint <= BRACE_TIBIA; joint++) {
-        for (int phase = 0; phase < 2; phase++) { /* on the ticks that look after this joint, or the other */
+        for (int phase = 0; phase < 2; phase++) { /* the samples come in the even ticks, or in the odd ones */
             setUp();
             for (int i = 0; i < 600; i++) {
                 const float torque = 3000.0f * (float)(i % 400 < 200 ? i % 200 : 200 - i % 200) / 200.0f;

@@ -5,8 +5,10 @@
 #define REACH_MARGIN_RAD 0.01f       /* of steps and jitter */
 #define TORQUE_ABSURD 2.0f /* of the motor's greatest; bias and noise never add as much again */
 
-/* An encoder is stuck when it stands while its motor's torque swings by a quarter of its range and by four times what
- * friction can hide: any position servo gives way by more than an encoder step under that torque. */
+/* A motor's encoder is stuck when it has stood for STUCK_US and meanwhile its motor's torque has swung by a quarter of its
+ * range and by four times what friction can hide: any position servo gives way by more than an encoder step under that
+ * torque. It is stuck as well when the link's encoder has moved by STUCK_LINK_RAD meanwhile. watch/frozen.c holds the
+ * other half of the fault ENCODER_STUCK. */
 #define STUCK_US 250000u
 #define STUCK_SWING_OF_RANGE 0.25f
 #define STUCK_SWING_OF_FRICTION 4.0f

@@ -1,9 +1,9 @@
 #include "watch/frozen.h"
 
-/* A drive answers its command, and a motor its load, within a quarter of a second; sense/joints.c waits as long. */
+/* So long a proof has to last: a drive answers its command, and a motor its load, well within a quarter of a second.
+ * sense/joints.c holds the other half of the fault ENCODER_STUCK, with a time of its own, STUCK_US. */
 #define FROZEN_US 250000u
 #define SAMPLES_SETTLED 3u /* the torque's mean begins with as many */
-#define STANDSTILL_MOST_US 0x40000000u
 
 #define TOLD_LEAST_RAD 0.005f
 #define TOLD_STEPS 10.0f
@@ -68,7 +68,7 @@ static void watch_one(frozen_joint_t *joint, const frozen_inputs_t *inputs, int 
 {
     const joint_t *seen = &inputs->joints->joint[index];
     const brace_drive_t *drive = &inputs->parameters->drive[index];
-    const uint32_t tick_us = inputs->parameters->controller.tick_us;
+    const uint32_t since_us = inputs->parameters->controller.tick_us * (uint32_t)BRACE_LINK_COUNT;
     const float carries_n_mm = load_n_mm(inputs, index), told_rad = inputs->told_rad[index];
     const bool stands = seen->sample.motor_rad == joint->motor_rad;
     const bool same = stands && seen->sample.torque_n_mm == joint->torque_n_mm;
@@ -76,8 +76,6 @@ static void watch_one(frozen_joint_t *joint, const frozen_inputs_t *inputs, int 
 
     joint->motor_rad = seen->sample.motor_rad;
     joint->torque_n_mm = seen->sample.torque_n_mm;
-    joint->stands_us = stands && joint->stands_us < STANDSTILL_MOST_US ? joint->stands_us + tick_us : 0u;
-    joint->same_us = same && joint->same_us < STANDSTILL_MOST_US ? joint->same_us + tick_us : 0u;
     joint->told_rad = same && has_torque ? with(joint->told_rad, told_rad) : just(told_rad);
     joint->same_load_n_mm = same ? with(joint->same_load_n_mm, carries_n_mm) : just(carries_n_mm);
     joint->load_n_mm = stands ? with(joint->load_n_mm, carries_n_mm) : just(carries_n_mm);
@@ -90,18 +88,19 @@ static void watch_one(frozen_joint_t *joint, const frozen_inputs_t *inputs, int 
                           width(joint->told_rad) > TOLD_STEPS * drive->angle_step_rad;
     const bool was_loaded = width(joint->same_load_n_mm) > hidden;
     const bool is_unheld = width(joint->pulls_n_mm) > width(joint->load_n_mm) + hidden;
-    joint->is_frozen = (joint->same_us >= FROZEN_US && (was_told || was_loaded)) ||
-                       (joint->stands_us >= FROZEN_US && is_unheld);
+    const bool is_proven = (same && (was_told || was_loaded)) || (stands && is_unheld);
+    joint->proven_us = !is_proven ? 0u : joint->proven_us < FROZEN_US ? joint->proven_us + since_us : FROZEN_US;
+    joint->is_frozen = joint->proven_us >= FROZEN_US;
 }
 
 void frozen_watch(frozen_t *frozen, const frozen_inputs_t *inputs)
 {
-    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-        if (inputs->joints->joint[i].sound) {
-            watch_one(&frozen->joint[i], inputs, i);
-        } else {
-            frozen->joint[i] = (frozen_joint_t){.motor_rad = __builtin_nanf("")};
-        }
+    const int turn = frozen->turn;
+    frozen->turn = (uint8_t)(turn + 1 < (int)BRACE_LINK_COUNT ? turn + 1 : 0);
+    if (inputs->joints->joint[turn].sound) {
+        watch_one(&frozen->joint[turn], inputs, turn);
+    } else {
+        frozen->joint[turn] = (frozen_joint_t){.motor_rad = __builtin_nanf("")};
     }
 }
 

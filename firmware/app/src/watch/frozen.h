@@ -6,6 +6,7 @@
  *           neither angle nor torque moves by a bit
  *   unheld  the angle stands, and the torque swings further than load and friction can hold: the motor must have turned
  *
+ * A joint is frozen when one of these has lasted for a quarter of a second, so a drive may take its time to answer.
  * Without a sensor at the tip only the first is seen here; sense/joints.h sees an encoder that stands while the torque
  * swings by a quarter of its range. */
 #ifndef BRACE_WATCH_FROZEN_H
@@ -27,8 +28,8 @@ typedef struct {
 typedef struct {
     bool is_frozen;
     bool is_settled;               /* the torque's mean is one of several samples */
-    float motor_rad, torque_n_mm;  /* of the sample before */
-    uint32_t stands_us, same_us;   /* how long the angle stands; how long the torque has stood too, to the bit */
+    float motor_rad, torque_n_mm;  /* of the sample three ticks before */
+    uint32_t proven_us;            /* how long one of the proofs above has lasted */
     frozen_span_t told_rad;        /* what the drive was told, since both stand and it has torque left */
     frozen_span_t same_load_n_mm;  /* what the joint carries by sensor and weight, since both stand */
     frozen_span_t load_n_mm;       /* the same, since the angle stands; NaN: it was not known for a while */
@@ -37,6 +38,7 @@ typedef struct {
 
 typedef struct {
     frozen_joint_t joint[BRACE_LINK_COUNT];
+    uint8_t turn; /* the joint that the next tick looks at */
 } frozen_t;
 
 typedef struct {
@@ -49,7 +51,8 @@ typedef struct {
     const float *limit_n_mm;      /* and the torque within which it may follow */
 } frozen_inputs_t;
 
-/* Looks at the samples of this tick. At most 250 instructions a joint. */
+/* Looks at one joint's sample of this tick, each joint in its turn: a frozen sensor is known by a quarter of a second, and
+ * a tick is spared two of three joints. At most 250 instructions. */
 void frozen_watch(frozen_t *frozen, const frozen_inputs_t *inputs);
 
 /* Is any joint's sensor frozen? */

@@ -102,7 +102,7 @@ typedef struct {
     float motor_tibia_rad;
     /* the motor torque of theta2 */
     float torque_tibia_n_mm;
-    /* the temperature of the warmer joint */
+    /* the temperature of the femur's or the tibia's joint, whichever is warmer; the coxa joint does not count */
     float temperature_degc;
     /* the CRC of the parameters in force */
     uint32_t parameter_crc;
@@ -126,7 +126,7 @@ typedef struct {
     float loading_score_x;
     /* loading_k_z less the model's, in sigmas of both together */
     float loading_score_z;
-    /* how many ticks that came more than two periods late, counted since start */
+    /* how many ticks came more than two periods late, counted since start */
     uint32_t ticks_late;
     /* how many samples that were refused, not finite or out of range, counted since start */
     uint32_t samples_bad;
