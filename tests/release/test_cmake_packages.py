@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import shutil
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
@@ -23,7 +23,7 @@ from targets import (
 
 CORE = PROJECT / "firmware" / "core"
 PROGRAM = EXAMPLES / "your_cmake"
-BUILDS_S = 120.0 / len(TARGETS)  # all five within two minutes
+BUILDS_S = 120.0  # all five machines together, from nothing, in processor time
 HOST = TARGETS[0]
 
 
@@ -41,17 +41,23 @@ def check_k(target: Target, program: Path) -> None:
     assert k_values(target.run(program)) == [pytest.approx(REFERENCE_K, abs=TOLERANCE_N_PER_MM)]
 
 
+@pytest.fixture(scope="module", autouse=True)
+def in_time() -> Iterator[None]:
+    """All builds of this file."""
+    before_s = children_cpu_s()
+    yield
+    assert children_cpu_s() - before_s < BUILDS_S
+
+
 @pytest.mark.parametrize("target", TARGETS, ids=lambda target: target.name)
 def test_find_package(target: Target, tmp_path: Path) -> None:
     target.skip_without()
-    before_s = children_cpu_s()
     core = configured(CORE, tmp_path / "core", target)
     output_of("cmake", "--install", core, "--prefix", tmp_path / "first")
     (tmp_path / "first").rename(tmp_path / "prefix")  # an installed tree may be moved
     shutil.rmtree(core)
     build = configured(PROGRAM, tmp_path / "build", target, f"-Dbrace_DIR={tmp_path / 'prefix/lib/cmake/brace'}")
     check_k(target, build / "k")
-    assert children_cpu_s() - before_s < BUILDS_S
     for text in (path.read_text() for path in (tmp_path / "prefix").rglob("*.cmake")):
         assert str(PROJECT) not in text and str(tmp_path) not in text
     if target is HOST:

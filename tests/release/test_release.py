@@ -86,3 +86,16 @@ def test_the_source_distribution_has_what_its_build_needs(tmp_path: Path) -> Non
     assert {"LICENSE", "brace/data/paper-limb.toml", "native/CMakeLists.txt", "native/firmware/core/cmake/package.cmake",
             "native/host_sim/CMakeLists.txt", "native/hal/posix/include/brace_hal_posix.h"} <= names  # fmt: skip
     assert not any(name.startswith(("native/tests", "native/firmware/boards")) for name in names)
+
+
+def test_the_debian_package_does_not_know_where_its_wheels_lay(tmp_path: Path) -> None:
+    pytest.importorskip("argparse_manpage")
+    from release.debian import _forget_where_from
+
+    about = tmp_path / "numpy-2.dist-info"
+    about.mkdir()
+    (about / "direct_url.json").write_text('{"url": "file:///somewhere"}')
+    (about / "RECORD").write_text("numpy/__init__.py,sha256=a,1\nnumpy-2.dist-info/direct_url.json,sha256=b,2\n")
+    _forget_where_from(tmp_path)
+    assert [path.name for path in about.iterdir()] == ["RECORD"]
+    assert (about / "RECORD").read_text() == "numpy/__init__.py,sha256=a,1\n"

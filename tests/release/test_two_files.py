@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -20,7 +21,7 @@ from targets import (
 )
 
 SCRIPT = PROJECT / "tools" / "release" / "two_files.py"
-BUILDS_S = 120.0 / len(TARGETS)  # all five within two minutes
+BUILDS_S = 120.0  # all five machines together, from nothing, in processor time
 
 
 @pytest.fixture(scope="module")
@@ -30,17 +31,23 @@ def core(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.fixture(scope="module", autouse=True)
+def in_time() -> Iterator[None]:
+    """All builds of this file."""
+    before_s = children_cpu_s()
+    yield
+    assert children_cpu_s() - before_s < BUILDS_S
+
+
 @pytest.mark.parametrize("target", TARGETS, ids=lambda target: target.name)
 def test_reference_k(target: Target, core: Path, tmp_path: Path) -> None:
     target.skip_without()
-    before_s = children_cpu_s()
     place = "host" if target.name.startswith("host") else target.name
     where = (f"CC={target.compiler}", f"CORE={core}", f"OUT={tmp_path}")
     text = output_of("make", "-s", *where, f"run-{place}", cwd=EXAMPLES / "bare_loop")
     told = k_values(text)
     assert len(told) == 3
     assert told[0] == pytest.approx(REFERENCE_K, abs=TOLERANCE_N_PER_MM)
-    assert children_cpu_s() - before_s < BUILDS_S
 
 
 def test_same_bytes_and_nothing_of_others(core: Path, tmp_path: Path) -> None:

@@ -91,11 +91,19 @@ def _python(wheel: Path, wheels: Path, folder: Path, source: Source) -> None:
     run(*install, *chosen, wheel, *sorted(wheels.glob("*.whl")), environment=source.environment)
     shutil.rmtree(folder / "bin", ignore_errors=True)
     shutil.rmtree(folder / "share", ignore_errors=True)
-    for record in folder.glob("*.dist-info/direct_url.json"):  # it names a folder of this machine
-        record.unlink()
+    _forget_where_from(folder)
     # No time is in a compiled file, so the same sources give the same bytes.
     compile_all = ("-m", "compileall", "-q", "--invalidation-mode", "unchecked-hash")
     run("/usr/bin/python3", *compile_all, "-s", folder, "-p", "/usr/lib/brace", folder, environment=source.environment)
+
+
+def _forget_where_from(folder: Path) -> None:
+    """pip notes the folder of this machine that a wheel came from, and that note's sum."""
+    for note in folder.glob("*.dist-info/direct_url.json"):
+        note.unlink()
+        record = note.with_name("RECORD")
+        lines = record.read_text().splitlines(keepends=True)
+        record.write_text("".join(line for line in lines if "direct_url.json" not in line))
 
 
 def _libraries(source: Source, work: Path, root: Path) -> None:
