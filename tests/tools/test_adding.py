@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import csv
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -110,6 +111,9 @@ def text_files(project: Path) -> dict[str, bytes]:
     }
 
 
+COPY_FIRST = Path(__file__).resolve().parent / "copy_first"
+
+
 class Copy:
     """A copy of the project, with a stand-in for the controller that builds and runs."""
 
@@ -174,8 +178,9 @@ class Copy:
 
     def python(self, script: str) -> object:
         """Runs a script with the copy's own tools; the JSON that it prints."""
-        done = subprocess.run([sys.executable, "-c", script], cwd=self.project / "tools", capture_output=True,
-                              text=True, check=False, timeout=60)
+        environment = os.environ | {"PYTHONPATH": f"{self.project / 'tools'}:{COPY_FIRST}"}
+        done = subprocess.run([sys.executable, "-c", script], cwd=self.project / "tools", env=environment,
+                              capture_output=True, text=True, check=False, timeout=60)
         assert done.returncode == 0, done.stderr
         return json.loads(done.stdout)
 

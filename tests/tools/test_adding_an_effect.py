@@ -24,7 +24,7 @@ TRUE_RATIO = -0.3
 
 DICTIONARY_ENTRY = """[[group.entry]]
 name = "one_sided_ratio"
-register = [222, 224, 226]
+register = [224, 226, 228]
 table = "joint.*"
 unit = ""
 range = [-0.9, 5.0]
@@ -117,6 +117,8 @@ WRITTEN: dict[str, Callable[[str], str]] = {
     "tools/brace/effects/catalogue.py": catalogue,
 }
 
+COPY_FIRST = Path(__file__).resolve().parent / "copy_first"
+
 
 def swapped(text: str, old: str, new: str) -> str:
     assert text.count(old) == 1, f"the worked example expects this once:\n{old}"
@@ -124,7 +126,7 @@ def swapped(text: str, old: str, new: str) -> str:
 
 
 def run(command: list[str], folder: Path) -> subprocess.CompletedProcess[str]:
-    environment = {**os.environ, "PYTHONPATH": str(folder / "tools")}  # of the copy, before the installed project
+    environment = {**os.environ, "PYTHONPATH": f"{folder / 'tools'}:{COPY_FIRST}"}  # the copy before the project
     environment |= {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}  # small matrices: threads only wait
     environment.pop("BRACE_LIBRARY", None)
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=300)

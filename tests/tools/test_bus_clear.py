@@ -123,6 +123,6 @@ def test_a_fault_that_is_back_at_once_is_told(
 
 def test_what_cannot_be_cleared_is_refused(brace: Callable[..., Outcome]) -> None:
     outcome = brace("clear", "encoder_stuck", "--bus", "can0")
-    assert outcome.code == 2 and "end with their cause" in outcome.err and "docs/errors.md" in outcome.err
+    assert outcome.code == 2 and "ends with its cause" in outcome.err and "docs/errors.md" in outcome.err
     assert brace("clear", "--bus", "can0").code == 2
     assert brace("clear", "drift").code == 2
