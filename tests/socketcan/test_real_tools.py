@@ -102,7 +102,7 @@ def test_python_can_and_cantools_read_the_same(seen: dict[str, Any]) -> None:
     messages.pop("emergency", None)  # candump's test says of what
     assert set(messages) == {"stiffness_a", "stiffness_b", "eigenvalues", "posture", "heartbeat"}
     messages["heartbeat"]["faults"] &= ~TICK_LATE
-    assert messages["heartbeat"] == {"state": 5, "mode": 1, "faults": 0, "dictionary_hash": DICTIONARY_HASH}
+    assert messages["heartbeat"] == {"state": 5, "mode": 1, "faults": 0, "setting": 1, "dictionary_hash": DICTIONARY_HASH}
     posture, true = messages["posture"], expected(*STANDS_RAD)
     assert posture["theta1"] == pytest.approx(STANDS_RAD[0], abs=1e-3)
     assert posture["theta2"] == pytest.approx(STANDS_RAD[1], abs=1e-3)

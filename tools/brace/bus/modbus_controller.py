@@ -81,7 +81,7 @@ _STORING, _STORE_REFUSED = 1, 256  # what `commit` and `rollback` read: at work;
 _BUSY, _NOT_OURS = 6, 7
 _WRITE_BLOCK = 16
 _COMMITS = ("commit", "commit_crc")
-EARLY_S = 11.0  # the controller takes a commit each 10 s
+EARLY_S = 30.0  # the controller takes a commit each 10 s of its time, which an emulated one may stretch
 _NO_SUCH_UNIT = (10, 11)  # a gateway's words: no path to it, no answer from it
 
 

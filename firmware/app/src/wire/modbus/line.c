@@ -82,9 +82,11 @@ static bool is_for_us(const modbus_link_t *link, modbus_server_t *server)
     return true;
 }
 
-static uint32_t last_two_bytes(const modbus_link_t *link)
+/* What tells a frame from others of its length: its check, its function and the byte behind that. The check alone is the
+ * same for one request in 65,536. */
+static uint32_t mark_of(const modbus_link_t *link)
 {
-    return get_16(link->bytes + link->count - CRC_BYTES);
+    return get_16(link->bytes + ADDRESS_BYTES) << 16 | get_16(link->bytes + link->count - CRC_BYTES);
 }
 
 /* Is a sound frame the answer that left before it, come back? */
@@ -93,7 +95,7 @@ static bool is_own_answer(modbus_line_t *line)
     const modbus_link_t *link = &line->link;
     const uint8_t function = link->bytes[ADDRESS_BYTES];
     const bool may_be_a_request = function == MODBUS_WRITE_ONE || function == MODBUS_DIAGNOSE;
-    const bool is_equal = link->count == line->answer_bytes && last_two_bytes(link) == line->answer_check;
+    const bool is_equal = link->count == line->answer_bytes && mark_of(link) == line->answer_mark;
     const bool shows_echo = line->answer_bytes != 0u && !(is_equal && may_be_a_request);
     if (shows_echo) {
         line->echo = is_equal ? MODBUS_ECHO : MODBUS_NO_ECHO;
@@ -139,7 +141,7 @@ static void seal(modbus_line_t *line, const wire_tick_t *tick)
         link->bytes[length + 1u] = (uint8_t)(line->crc >> 8);
         link->ready = link->count;
         line->answer_bytes = link->count;
-        line->answer_check = (uint16_t)last_two_bytes(link);
+        line->answer_mark = mark_of(link);
     }
 }
 

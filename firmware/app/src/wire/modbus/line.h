@@ -19,7 +19,7 @@ typedef struct {
     uint32_t bytes_per_ms; /* at most, that the line carries */
     modbus_echo_t echo;
     uint16_t answer_bytes; /* of the answer that left last; 0: another frame has come since */
-    uint16_t answer_check; /* its last two bytes */
+    uint32_t answer_mark;  /* what tells it from others of its length */
 } modbus_line_t;
 
 /* Opens the port, if the board has it. Before the first tick. */
