@@ -1,9 +1,9 @@
-"""K over Modbus with pymodbus and the register map: nothing of Brace is installed.
+"""Reads K over Modbus. It needs pymodbus and the register map, and no part of Brace.
 
 python read_k.py modbus.csv 127.0.0.1 1502
 
-One read is one tick. Floats are two registers, high word first; the probe register, 12345.5, shows that they are read
-right.
+All values of one read are of one tick. A float is two registers, high word first. The probe register holds 12345.5: who
+reads that number reads floats right.
 """
 
 import csv

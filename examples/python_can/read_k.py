@@ -1,10 +1,10 @@
-"""K of node 1 as it comes, with python-can and cantools and the DBC: nothing of Brace is installed.
+"""Prints each K that node 1 sends. It needs python-can, cantools and the DBC, and no part of Brace.
 
 python read_k.py brace.dbc socketcan can0
 python read_k.py brace.dbc slcan socket://127.0.0.1:29536
 
-`brace dbc --nodes 1 2 3` writes the DBC of several controllers. Frames of one tick carry one sequence number; K is
-whole when both of its frames have the same.
+`brace dbc --nodes 1 2 3` writes the DBC of several controllers. K comes in two frames. They belong to one
+tick when they have the same sequence number.
 """
 
 import sys

@@ -30,7 +30,7 @@ void flank_configure(flank_t *flank, int joint_index, const joints_t *joints, co
 /* One tick of each joint's state machine.
  *   posture: of the tick before; with the tip's force it tells what a joint should carry
  *   down: where the weight pulls, in the limb's plane
- *   stands: take-ups stay where they are; which flank carries is told all the same
+ *   stands: true: take-ups do not move on. The function tells in both cases which flank carries
  * At most 620 instructions for a joint that is watched. */
 void flank_tick(flank_t *flank, const joints_t *joints, const tip_force_t *force, const posture_t *posture,
                 brace_vec3_t down, const brace_parameters_t *parameters, bool stands, uint32_t now_us);

@@ -21,7 +21,7 @@ typedef struct {
 
 /* What the limb does. */
 typedef struct {
-    bool runs;       /* something of ours adds to the set-points: moving, held, or waiting to begin */
+    bool runs;       /* a take-up or a loading test adds to the set-points: it moves, is held, or waits to begin */
     bool moves;      /* set-points change, or would if they were not held */
     bool configures; /* the mode is CONFIGURATION */
     bool stores;     /* a set is being stored: the processor may have stood still for 2 s */
@@ -36,7 +36,8 @@ typedef enum {
     OWNERSHIP_LETS_GO  /* the owner has been silent for let_go_after_us */
 } ownership_step_t;
 
-/* Does nobody own or want anything? Then there is nothing to step, while nothing of ours moves the limb. */
+/* Is there no owner, nobody who asks to be one, and nothing that is held? While the controller does not move the limb
+ * either, the caller may leave ownership_step out. */
 static inline bool ownership_is_idle(const ownership_t *ownership)
 {
     const session_t *session = &ownership->session;
@@ -48,14 +49,17 @@ static inline bool ownership_is_idle(const ownership_t *ownership)
 /* One tick, before anything moves. At most 100 instructions. */
 ownership_step_t ownership_step(ownership_t *ownership, const ownership_inputs_t *inputs);
 
-/* What has been asked for is to move the limb from now on. Over a wire of a bench, with the first sign of life. */
+/* From now on, what somebody has asked for may move the limb. On a bench, what came over a wire begins with the first
+ * sign of life. */
 void ownership_begin(ownership_t *ownership);
 
-/* Everything stands from now on. returns whether something waited to begin, which is to be taken back */
+/* From now on the limb stands.
+ * returns whether something waited to begin; the caller takes it back */
 bool ownership_stop(ownership_t *ownership);
 
-/* On a bench: may this master write? The first that enters CONFIGURATION has it until it ends.
- *   has_gone: whoever has it is not there any more
+/* On a bench: may this master write? The master that enters CONFIGURATION first is the only one that may, until
+ * CONFIGURATION ends.
+ *   has_gone: the connection of that master is closed, so another one may go on
  * returns BRACE_OK, BRACE_REFUSED_OWNED */
 int32_t ownership_may_write(ownership_t *ownership, brace_who_t who, bool has_gone);
 
