@@ -1,5 +1,6 @@
-/* Whether what moves the limb may go on, and whether it stands. One owner has begun it; when the owner falls silent, or
- * somebody stops it, every set-point stays where it is until an owner asks for something else. */
+/* May a take-up or a loading test go on moving the limb, or does the limb stand? One owner has begun the motion. When the
+ * owner falls silent, or when somebody stops the motion, every set-point stays where it is until an owner asks for
+ * something else. */
 #ifndef BRACE_SESSION_OWNERSHIP_H
 #define BRACE_SESSION_OWNERSHIP_H
 
@@ -7,15 +8,15 @@
 
 typedef struct {
     session_t session;
-    bool program_moves;     /* the program around the controller has begun what moves the limb; it lives as we do */
+    bool program_moves;     /* the program around the controller has begun the motion; it needs no signs of life */
     bool is_held;           /* all set-points stand */
     bool waits_for_life;    /* on a bench: what was asked for begins with the owner's first sign of life */
-    bool was_held;          /* before it was asked for */
-    bool fell_silent;       /* it stands because its owner is gone */
-    uint32_t held_us;       /* for how long */
+    bool was_held;          /* is_held before the motion that waits was asked for */
+    bool fell_silent;       /* the limb stands because its owner is gone */
+    uint32_t held_us;       /* how long the limb has stood so */
     bool is_by_wire;        /* what is asked for now comes over a wire */
-    bool has_configurer;    /* on a bench: whose CONFIGURATION it is */
-    brace_who_t configurer;
+    bool has_configurer;    /* on a bench: a master has entered CONFIGURATION, */
+    brace_who_t configurer; /* and this is the master */
     int32_t last_refusal;
 } ownership_t;
 

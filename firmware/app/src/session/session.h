@@ -1,11 +1,11 @@
-/* Who may move the limb and write to its controller: one owner at a time, who gives signs of life.
+/* Who may move the limb and write to its controller? There is one owner at a time, and the owner gives signs of life.
  *
- * On a bench whoever comes first is the owner of what it has begun; it is told from others by its port and its number.
- * On a guarded board the owner is who has opened a session: with the check of a challenge under the key. From then on
- * every command and life sign carries a counter and a check over challenge, counter and command. The challenge is
- * another one for each session, so nothing of an earlier session has a sense in a later one.
+ * On a bench, the master that begins a motion first owns it. The session tells masters apart by their port and number.
+ * On a guarded board, a master becomes the owner when it answers the session's challenge with a check under the key.
+ * From then on every command and every sign of life carries a counter and a check over challenge, counter and command.
+ * Each session has a challenge of its own, so a frame recorded in one session is refused in every other one.
  *
- * The machine knows neither limb nor wires. One caller, the tick. Costs are instructions on a Cortex-M4F. */
+ * The session knows neither the limb nor the wires. The tick calls it. Costs are instructions on a Cortex-M4F. */
 #ifndef BRACE_SESSION_SESSION_H
 #define BRACE_SESSION_SESSION_H
 

@@ -2,36 +2,11 @@
 #include <stdbool.h>
 
 #include "brace/loaded_space_fixed.h"
-
-#define LEAST_EXPONENT (-100) /* stands for zero: no other number's exponent is as small */
-
-/* The least exponent whose power of two is above a magnitude. */
-static int32_t exponent_above(float value)
-{
-    if (!(fabsf(value) > 1e-30f)) {
-        return LEAST_EXPONENT;
-    }
-    int exponent;
-    (void)frexpf(value, &exponent);
-    return exponent;
-}
-
-static int32_t larger(int32_t a, int32_t b)
-{
-    return a > b ? a : b;
-}
-
-/* value 2^exponent as an integer, rounded. Its magnitude is below 2^31. */
-static int32_t quantised(float value, int32_t exponent)
-{
-    const double scaled = ldexp((double)value, exponent);
-    const double limited = scaled > 0x7fffffffp0 ? 0x7fffffffp0 : scaled; /* what rounds to 2^31 */
-    return (int32_t)(limited + (limited < 0.0 ? -0.5 : 0.5));
-}
+#include "loaded/fixed_quantise.h"
 
 static brace_fixed_vec_t vector_of(brace_vec_t v, int32_t exponent)
 {
-    return (brace_fixed_vec_t){quantised(v.x, exponent), quantised(v.z, exponent)};
+    return (brace_fixed_vec_t){quantised((double)v.x, exponent), quantised((double)v.z, exponent)};
 }
 
 #define ARM_SHIFT_MOST 20
@@ -75,25 +50,25 @@ static brace_space_fixed_link_t link_of(const brace_space_link_t *link, const br
     const int32_t arm_shift = arm_shift_of(link, length), per_arm = 30 + length - arm_shift;
     const int32_t arms = 31 - length - fixed->turn_exponent + 2 * arm_shift;
     return (brace_space_fixed_link_t){
-        .length_q28 = quantised(link->length_mm, 28 - length),
-        .twelfth_q28 = quantised(link->twelfth_mm, 28 - length),
-        .along_q30 = {quantised(link->across.z, 30), quantised(-link->across.x, 30)},
+        .length_q28 = quantised((double)link->length_mm, 28 - length),
+        .twelfth_q28 = quantised((double)link->twelfth_mm, 28 - length),
+        .along_q30 = {quantised((double)link->across.z, 30), quantised((double)-link->across.x, 30)},
         .tilt_q28 = vector_of(link->tilt_mm, 28 - length),
         .bow_q28 = vector_of(link->bow_mm, 28 - length),
-        .twist_q31 = quantised(link->twist_rad_per_n_mm, turns),
-        .sideways_q31 = quantised(link->sideways_rad_per_n_mm, turns),
-        .bend_q31 = quantised(link->bend_rad_per_n_mm, turns),
-        .across_arm_q31 = quantised(link->across_mm_per_n, arms),
-        .sideways_arm_q31 = quantised(link->sideways_mm_per_n, arms),
-        .across_spread_q31 = quantised(link->across_spread_per_n_mm, turns),
-        .sideways_spread_q31 = quantised(link->sideways_spread_per_n_mm, turns),
-        .stretch_q31 = quantised(stretch_of(link), 31 - length - fixed->spring_exponent),
-        .end_share_q30 = quantised(link->end_share, 30),
-        .stretch_end_share_q30 = quantised(link->stretch_end_share, 30),
-        .own_share_q30 = quantised(link->own_share, 30),
-        .curl_q30 = quantised(link->curl_per_mm, per_arm),
-        .shortens_q30 = quantised(link->shortens_per_mm, per_arm),
-        .weight_q31 = quantised(link->weight_n, 31 - fixed->weight_exponent),
+        .twist_q31 = quantised((double)link->twist_rad_per_n_mm, turns),
+        .sideways_q31 = quantised((double)link->sideways_rad_per_n_mm, turns),
+        .bend_q31 = quantised((double)link->bend_rad_per_n_mm, turns),
+        .across_arm_q31 = quantised((double)link->across_mm_per_n, arms),
+        .sideways_arm_q31 = quantised((double)link->sideways_mm_per_n, arms),
+        .across_spread_q31 = quantised((double)link->across_spread_per_n_mm, turns),
+        .sideways_spread_q31 = quantised((double)link->sideways_spread_per_n_mm, turns),
+        .stretch_q31 = quantised((double)stretch_of(link), 31 - length - fixed->spring_exponent),
+        .end_share_q30 = quantised((double)link->end_share, 30),
+        .stretch_end_share_q30 = quantised((double)link->stretch_end_share, 30),
+        .own_share_q30 = quantised((double)link->own_share, 30),
+        .curl_q30 = quantised((double)link->curl_per_mm, per_arm),
+        .shortens_q30 = quantised((double)link->shortens_per_mm, per_arm),
+        .weight_q31 = quantised((double)link->weight_n, 31 - fixed->weight_exponent),
         .arm_shift = (uint32_t)arm_shift};
 }
 
@@ -112,10 +87,11 @@ void brace_loaded_space_fixed_collapse(const brace_loaded_space_t *loaded, brace
     fixed->coxa = link_of(coxa, fixed);
     fixed->femur = link_of(femur, fixed);
     fixed->tibia = link_of(tibia, fixed);
-    fixed->beyond_coxa_q31 = quantised(loaded->beyond_coxa_n, 31 - fixed->weight_exponent);
-    fixed->beyond_femur_q31 = quantised(loaded->beyond_femur_n, 31 - fixed->weight_exponent);
-    fixed->base_x_q31 = quantised(loaded->base_x_mm_per_n, 31 - length - fixed->spring_exponent);
-    fixed->base_z_q31 = quantised(loaded->base_z_mm_per_n, 31 - length - fixed->spring_exponent);
-    fixed->base_rotation_q31 = quantised(loaded->base_rotation_rad_per_n_mm, 31 + length - fixed->turn_exponent);
+    fixed->beyond_coxa_q31 = quantised((double)loaded->beyond_coxa_n, 31 - fixed->weight_exponent);
+    fixed->beyond_femur_q31 = quantised((double)loaded->beyond_femur_n, 31 - fixed->weight_exponent);
+    fixed->base_x_q31 = quantised((double)loaded->base_x_mm_per_n, 31 - length - fixed->spring_exponent);
+    fixed->base_z_q31 = quantised((double)loaded->base_z_mm_per_n, 31 - length - fixed->spring_exponent);
+    fixed->base_rotation_q31 = quantised((double)loaded->base_rotation_rad_per_n_mm,
+                                         31 + length - fixed->turn_exponent);
     fixed->weight_q8 = (uint32_t)(384.0f * loaded->beyond_coxa_n);
 }
