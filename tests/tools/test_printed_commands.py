@@ -1,5 +1,6 @@
-"""Every `brace` command that a page prints is one that the command line takes. Those of docs/bus.md also run, in its order,
-on a simulated limb; the others run where their pages are tested (README, datasets, demo), or need files of the reader's."""
+"""Every `brace` command that a page prints is one that the command line takes. Those of docs/bus.md also run, in its
+order, on a simulated limb; the others run where their pages are tested (README, datasets, demo), or need files of the
+reader's."""
 
 from __future__ import annotations
 
