@@ -3,6 +3,7 @@
  * something went wrong, the client's line for people on stderr.
  *   take_up:JOINT:FLANK:LIMIT_MS | let_go | load:AXIS:STEPS:STEP_MM:DWELL_MS | end_test: begins it
  *   wait: until it has ended | steps:MS: a control loop for so long | silent:MS: hangs for so long
+ *   reads:MS: reads the load for so long, which over CAN does not come where controller.load_hz is 0
  *   stop | clear:FAULTS | gravity:DIRECTION:LEAN | entry:INDEX: its 32 bits in the place of the state */
 #include <stdio.h>
 #include <stdlib.h>
@@ -42,6 +43,25 @@ static brace_client_status_t step_for(brace_client_t *limb, int ms)
     return status;
 }
 
+static long now_ms(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return now.tv_sec * 1000 + now.tv_nsec / 1000000;
+}
+
+/* Without a step. */
+static brace_client_status_t read_for(brace_client_t *limb, int ms)
+{
+    const long end_ms = now_ms() + ms;
+    brace_client_status_t status = BRACE_CLIENT_OK;
+    for (long left_ms = ms; left_ms > 0; left_ms = end_ms - now_ms()) {
+        brace_client_snapshot_t now;
+        status = brace_client_read(limb, BRACE_PART_LOAD, (int)left_ms, &now);
+    }
+    return status;
+}
+
 static brace_client_status_t act(brace_client_t *limb, const char *name, const float n[NUMBERS], uint32_t *value)
 {
     if (strcmp(name, "take_up") == 0) {
@@ -62,6 +82,9 @@ static brace_client_status_t act(brace_client_t *limb, const char *name, const f
     }
     if (strcmp(name, "steps") == 0) {
         return step_for(limb, (int)n[0]);
+    }
+    if (strcmp(name, "reads") == 0) {
+        return read_for(limb, (int)n[0]);
     }
     if (strcmp(name, "silent") == 0) {
         pause_ms((long)n[0]);

@@ -121,9 +121,9 @@ def test_a_loading_test_is_done_and_another_is_stopped(bench: Sim) -> None:
     done, why = acts(bench.can, UP, "wait", "load:0:2:0.5:20", "wait", rows, "let_go", "wait")
     assert [act.state for act in done if act.name in ("load", "wait")] == [DONE, RUNNING, DONE, DONE], why
     assert done[4].state >= 9
-    stopped, why = acts(bench.can, LONG_TEST, "steps:200", "stop", "end_test", "wait", "stop")
-    assert [act.status for act in stopped] == [0] * 6, why
-    assert [act.state for act in stopped] == [RUNNING, RUNNING, STOPPED, RUNNING, DONE, DONE], why
+    stopped, why = acts(bench.can, LONG_TEST, "steps:200", UP, "stop", "end_test", "wait", "stop")
+    assert [act.status for act in stopped] == [0, 0, REFUSED, 0, 0, 0, 0], why  # the test that runs goes on
+    assert [act.state for act in stopped] == [RUNNING, RUNNING, RUNNING, STOPPED, RUNNING, DONE, DONE], why
     assert mode_of(bench.can) == "MONITOR"
 
 
@@ -148,6 +148,16 @@ def test_somebody_else_stops_it(bench: Sim) -> None:
         rest = it.stdout.read().splitlines()
         assert rest == [f"wait {REFUSED} {STOPPED} 0", f"let_go 0 {RUNNING} 0", f"wait 0 {DONE} 0"]
         assert "somebody has stopped the limb" in it.stderr.read()
+
+
+@pytest.mark.parametrize("wire", WIRES)
+def test_every_call_gives_signs_of_life(bench: Sim, wire: str) -> None:
+    """The test is begun by hand over CAN; over Modbus it is the take-up that has to last, so it begins late."""
+    begin = LONG_TEST if wire == "can" else UP
+    done, why = acts(getattr(bench, wire), begin, "reads:1000", "let_go", "wait")
+    assert done[0].state == RUNNING and done[1].status == (TIMEOUT if wire == "can" else 0), why
+    assert done[1].state == (RUNNING if wire == "can" else DONE), why
+    assert done[3].state == DONE, why
 
 
 @pytest.mark.parametrize("setting", ["bench", "guarded"])

@@ -185,11 +185,10 @@ brace_client_status_t brace_client_step(brace_client_t *client, int timeout_ms, 
     const uint64_t deadline_us = brace_client_deadline_after(timeout_ms);
     brace_client_status_t status = BRACE_CLIENT_OK;
     if (is_under_way(client)) {
-        brace_client_tend(client, deadline_us);
         if (brace_bus_left_ms(client->motion.limit_us) == 0) {
             give_up(client);
         } else if (brace_bus_left_ms(client->motion.next_poll_us) == 0) {
-            status = poll_progress(client, deadline_us);
+            status = poll_progress(client, deadline_us); /* and a sign of life, as in every call that asks */
         }
     }
     if (motion != NULL) {
