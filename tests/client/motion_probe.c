@@ -55,9 +55,9 @@ static brace_client_status_t read_for(brace_client_t *limb, int ms)
 {
     const long end_ms = now_ms() + ms;
     brace_client_status_t status = BRACE_CLIENT_OK;
-    for (long left_ms = ms; left_ms > 0; left_ms = end_ms - now_ms()) {
+    while (now_ms() < end_ms) {
         brace_client_snapshot_t now;
-        status = brace_client_read(limb, BRACE_PART_LOAD, (int)left_ms, &now);
+        status = brace_client_read(limb, BRACE_PART_LOAD, ms, &now);
     }
     return status;
 }

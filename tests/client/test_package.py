@@ -17,6 +17,7 @@ target_link_libraries(from_cpp PRIVATE brace::client)
 """
 FROM_CPP = """#include <brace/bus.h>
 #include <brace/client.h>
+#include <brace/client_motion.h>
 #include <brace/parameter_list.h>
 int main() { return brace_client_exit_code(BRACE_CLIENT_E_VERSION) - 6 + (BRACE_CLIENT_ENTRY(probe_u32) - 0x1001); }
 """
