@@ -157,15 +157,15 @@ def test_buckling_factor(limbs: int, seed: int, path: str) -> None:
             continue
         errors_of_factor.append(abs(is_told / factor - 1.0))
         wrong_flags += (is_told < SOFTENED_BELOW) != (factor < SOFTENED_BELOW)
-        is_clear = abs(factor / SOFTENED_BELOW - 1.0) > 0.05
-        assert (is_told < SOFTENED_BELOW) == (factor < SOFTENED_BELOW) or not is_clear, (is_told, factor)
     error = np.array(errors_of_factor)
     beyond = float(np.mean(error > 0.02))
     print(
-        f"{path}, {len(cases)} limbs with a buckling factor below {FACTOR_BELOW:g}, {refused} refused, {not_told} not told: median "
-        f"{np.median(error):.1e}, nine of ten {np.quantile(error, 0.9):.1e}, 99 of 100 {np.quantile(error, 0.99):.1e}, "
-        f"worst {error.max():.1e}, beyond 2 % {beyond:.1%}; SOFTENED wrong {wrong_flags}"
+        f"{path}, {len(cases)} limbs with a buckling factor below {FACTOR_BELOW:g}, {refused} refused, "
+        f"{not_told} not told: median {np.median(error):.1e}, nine of ten {np.quantile(error, 0.9):.1e}, "
+        f"99 of 100 {np.quantile(error, 0.99):.1e}, worst {error.max():.1e}, beyond 2 % {beyond:.1%}; "
+        f"SOFTENED wrong {wrong_flags}"
     )
+    assert wrong_flags <= 0.002 * len(cases)
     assert refused <= 0.05 * len(cases) and not_told <= 0.01 * len(cases)
     assert np.median(error) <= 0.002
     assert np.quantile(error, 0.9) <= 0.015

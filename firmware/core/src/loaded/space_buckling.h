@@ -1,10 +1,10 @@
 /* The buckling factor in space: the load at which the first pivot reaches zero, as a multiple of the present one.
  *
- * The search is that of loaded/buckling.h in its first two steps. Where a limb softens in the plane and across it alike,
- * two roots of the determinant lie close together: it falls to zero and rises again, and a search by its sign overlooks
- * both. So the last step looks near the first root of a parabola, and the end is such a root: the parabola through two
- * loads around the root and the nearest third. Where it has no root, its lowest point counts. Where no load is known
- * that the limb does not bear, the third is no load at all.
+ * The search is that of loaded/buckling.h in its first two steps. Where a limb softens in the plane and across it
+ * alike, two roots of the determinant lie close together: it falls to zero and rises again, and a search by its sign
+ * overlooks both. So the last step looks near the first root of a parabola, and the end is such a root: the parabola
+ * through two loads around the root and the nearest third. Where it has no root, its lowest point counts. Where no load
+ * is known that the limb does not bear, the third is no load at all.
  */
 #ifndef BRACE_CORE_SPACE_BUCKLING_H
 #define BRACE_CORE_SPACE_BUCKLING_H
