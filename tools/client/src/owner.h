@@ -11,8 +11,8 @@
 typedef struct {
     bool has_key;
     uint8_t key[SIPHASH_KEY_BYTES];
-    bool is_bench; /* the controller has said that it wants no checks */
-    bool is_open;  /* a session has been opened, as far as this side knows; */
+    bool is_bench;    /* the controller has said that it wants no checks */
+    bool is_open;     /* a session has been opened, as far as this side knows, */
     bool is_accepted; /* and the controller has taken a command in it */
     uint64_t challenge;
     uint32_t counter; /* of the last sign of life or command */
