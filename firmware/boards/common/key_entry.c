@@ -1,5 +1,7 @@
 #include "key_entry.h"
 
+#include <stddef.h>
+
 enum { DIGITS = 2 * BRACE_HAL_KEY_BYTES, NO_DIGIT = -1 };
 
 static void say(text_t *text, const char *words)
@@ -32,7 +34,7 @@ void key_entry_begin(key_entry_t *entry, text_t *text)
 {
     const brace_hal_t *const hal = text->hal;
     forget(entry);
-    if (hal->key_read == 0 || hal->key_write == 0) {
+    if (hal->key_read == NULL || hal->key_write == NULL) {
         say(text, "this board keeps none; it is a bench");
         return;
     }
