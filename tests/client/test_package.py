@@ -10,13 +10,14 @@ from conftest import PROJECT, Sim
 CONSUMER = """cmake_minimum_required(VERSION 3.24)
 project(robot LANGUAGES C CXX)
 find_package(brace 0.1 REQUIRED)
-add_executable(print_k print_k.c)
+add_executable(print_k print_k.c connect.c)
 target_link_libraries(print_k PRIVATE brace::client)
 add_executable(from_cpp from_cpp.cpp)
 target_link_libraries(from_cpp PRIVATE brace::client)
 """
 FROM_CPP = """#include <brace/bus.h>
 #include <brace/client.h>
+#include <brace/client_motion.h>
 #include <brace/parameter_list.h>
 int main() { return brace_client_exit_code(BRACE_CLIENT_E_VERSION) - 6 + (BRACE_CLIENT_ENTRY(probe_u32) - 0x1001); }
 """
@@ -36,9 +37,10 @@ def test_consumer(tmp_path: Path, sim: Sim) -> None:
     consumer.mkdir()
     (consumer / "CMakeLists.txt").write_text(CONSUMER)
     (consumer / "from_cpp.cpp").write_text(FROM_CPP)
-    example = (PROJECT / "examples" / "c_client" / "print_k.c").read_text()
-    assert len(example.splitlines()) < 40
-    (consumer / "print_k.c").write_text(example)
+    for name in ("print_k.c", "connect.c", "connect.h"):
+        example = (PROJECT / "examples" / "c_client" / name).read_text()
+        assert len(example.splitlines()) < 40
+        (consumer / name).write_text(example)
     run("cmake", "-S", consumer, "-B", consumer / "build", "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={prefix}")
     run("cmake", "--build", consumer / "build")
     run(consumer / "build" / "from_cpp")

@@ -243,6 +243,15 @@ def test_a_flood_on_the_console_does_not_stop_the_ticks() -> None:
         assert number(stiffness(board), "tick") > before
 
 
+@pytest.mark.parametrize("name", BOARDS)
+def test_an_emulated_board_is_a_bench_and_keeps_no_key(name: str) -> None:
+    with Board(name, image(f"brace-{name}")) as board:
+        board.banner()
+        assert " setting BENCH " in stiffness(board)
+        board.ask("K")
+        board.until(r"^key: this board keeps none; it is a bench$")
+
+
 def test_the_real_boards_image_names_what_the_emulated_chip_lacks() -> None:
     """The STM32F405 image as it is flashed, on a chip whose PLL, CAN, flash and joints do not answer: it starts,
     waits for nothing for ever, and says what is wrong."""
@@ -252,6 +261,12 @@ def test_the_real_boards_image_names_what_the_emulated_chip_lacks() -> None:
         assert banner["board"] == "PLL does not start: 16 MHz, too slow for the joints"
         told = stiffness(board)
         assert told.startswith("k: not valid flags") and "k_xx" not in told
+        assert " setting NO_KEY " in told  # so it refuses motion, until its console says otherwise
+        board.ask("K")
+        board.until(r"^key: its memory does not answer$")
+        board.ask("B")
+        board.until(r"^bench until the next start$")
+        assert " setting BENCH " in stiffness(board)
         board.ask("t")
         text = "\n".join(board.until(r"selftest: \d+ passed"))
         for words in ("FAIL joint_read(1): no such joint", "FAIL joint_read(2): no such joint", "FAIL can_setup: ",

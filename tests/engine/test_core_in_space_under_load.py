@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 from functools import cache
 
@@ -9,12 +10,15 @@ import numpy as np
 import pytest
 
 from brace.native.c_data import CData
+from brace.native.loaded import LoadedLimbs
 from brace.native.loader import library
 from cases import Case, random_cases, reference
 from engine_chain import Array
 
 LINKS = ("coxa", "femur", "tibia")
 PATHS = ("float", "fixed")
+FACTOR_BELOW = 10.0  # accuracy is promised
+SOFTENED_BELOW = 3.0  # the flag is set
 
 
 def yaw(case: Case) -> Array:
@@ -99,17 +103,15 @@ class CoreLimb:
         return float(factor[0])
 
 
-def errors(case: Case, path: str = "float") -> tuple[float, float, float]:
-    """Of K (Frobenius norm, relative), the displacement [mm], and the buckling factor (relative; NaN where the
-    reference says 10 and more). All NaN where the core refuses."""
+def errors(case: Case, path: str = "float") -> tuple[float, float]:
+    """Of K (Frobenius norm, relative) and the displacement [mm]. Both NaN where the core refuses."""
     core, found = CoreLimb(case, path), reference(case)
     if not core.is_told:
-        return np.nan, np.nan, np.nan
-    true_k, factor = found.k_n_per_mm[0], float(found["buckling_factor"][0])
+        return np.nan, np.nan
+    true_k = found.k_n_per_mm[0]
     return (
         float(np.linalg.norm(core.k_n_per_mm - true_k) / np.linalg.norm(true_k)),
         float(np.linalg.norm(core.displacement_mm - found.displacement_mm[0])),
-        float(np.nan_to_num(abs(core.buckling_factor / factor - 1.0), nan=1.0)) if factor < 10.0 else np.nan,
     )
 
 
@@ -119,20 +121,70 @@ def limbs_in_space(seed: int, count: int) -> tuple[Case, ...]:
     return tuple(random_cases(seed, count, in_space=True))
 
 
+@cache
+def softened_limbs(seed: int, count: int) -> tuple[tuple[Case, float], ...]:
+    """So many limbs that the load softens, and their buckling factors: below 10, at least 2, the tip moved by at most a
+    fifth of the reach."""
+    told: list[float] = []
+
+    def softens(case: Case) -> LoadedLimbs:
+        found = reference(case)
+        told.append(float(found["buckling_factor"][0]))
+        return found
+
+    limbs = []
+    for case in random_cases(seed, sys.maxsize, in_space=True, told=softens):
+        if told[-1] < FACTOR_BELOW:
+            limbs.append((case, told[-1]))
+        if len(limbs) == count:
+            break
+    return tuple(limbs)
+
+
 @pytest.mark.parametrize("path", PATHS)
-def test_k_displacement_and_buckling(limbs: int, seed: int, path: str) -> None:
+def test_buckling_factor(limbs: int, seed: int, path: str) -> None:
+    """What brace/loaded_space.h and brace/loaded_space_fixed.h promise. A limb whose K is not told has no factor."""
+    errors_of_factor, wrong_flags, refused, not_told = [], 0, 0, 0
+    cases = softened_limbs(seed, 10 * limbs)
+    for case, factor in cases:
+        core = CoreLimb(case, path)
+        if not core.is_told:
+            refused += 1
+            continue
+        is_told = core.buckling_factor
+        if np.isnan(is_told):
+            not_told += 1
+            continue
+        errors_of_factor.append(abs(is_told / factor - 1.0))
+        wrong_flags += (is_told < SOFTENED_BELOW) != (factor < SOFTENED_BELOW)
+    error = np.array(errors_of_factor)
+    beyond = float(np.mean(error > 0.02))
+    print(
+        f"{path}, {len(cases)} limbs with a buckling factor below {FACTOR_BELOW:g}, {refused} refused, "
+        f"{not_told} not told: median {np.median(error):.1e}, nine of ten {np.quantile(error, 0.9):.1e}, "
+        f"99 of 100 {np.quantile(error, 0.99):.1e}, worst {error.max():.1e}, beyond 2 % {beyond:.1%}; "
+        f"SOFTENED wrong {wrong_flags}"
+    )
+    assert wrong_flags <= 0.002 * len(cases)
+    assert refused <= 0.05 * len(cases) and not_told <= 0.01 * len(cases)
+    assert np.median(error) <= 0.002
+    assert np.quantile(error, 0.9) <= 0.015
+    assert beyond <= 0.06  # links that are bent by large angles, most of them short coxa links
+    assert np.quantile(error, 0.99) <= 0.1
+    assert error.max() <= 0.3
+
+
+@pytest.mark.parametrize("path", PATHS)
+def test_k_and_displacement(limbs: int, seed: int, path: str) -> None:
     """What brace/loaded_space.h and brace/loaded_space_fixed.h promise."""
     found = np.array([errors(case, path) for case in limbs_in_space(seed, 10 * limbs)])
     told = ~np.isnan(found[:, 0])
     refused = 1.0 - np.mean(told)
-    k, moved_mm, buckling = found[told].T
-    low = np.sort(buckling[~np.isnan(buckling)])
+    k, moved_mm = found[told].T
     beyond = np.mean(k > 0.01)
-    most = low[int(0.9 * len(low))]  # of nine in ten
     print(
         f"{path}, {len(found)} limbs, {refused:.2%} refused: K median {np.median(k):.1e}, worst {k.max():.1e}, "
-        f"beyond 1 % {beyond:.2%}; displacement median {np.median(moved_mm):.3f} mm, worst {moved_mm.max():.2f} mm; "
-        f"buckling factor median {np.median(low):.1e}, nine of ten {most:.1e}"
+        f"beyond 1 % {beyond:.2%}; displacement median {np.median(moved_mm):.3f} mm, worst {moved_mm.max():.2f} mm"
     )
     assert np.median(k) <= 1e-3
     assert refused <= 0.005
@@ -141,8 +193,6 @@ def test_k_displacement_and_buckling(limbs: int, seed: int, path: str) -> None:
     else:  # may hold extreme coxa links, and equilibria that two steps just reach: up to 5 % for each of the two
         assert beyond <= 0.01 and k.max() <= 0.1
     assert np.median(moved_mm) <= 0.05
-    assert np.median(low) <= 0.01
-    assert most <= 0.1
 
 
 @pytest.mark.parametrize("path", PATHS)

@@ -61,7 +61,10 @@ def wait_for_banner(console: str) -> None:
         os.close(descriptor)
 
 
-@pytest.fixture(scope="module", params=["sim-tcp", "sim-line", "netduinoplus2", "mps2-an386"])
+SERVERS = ("sim-tcp", "sim-line", "netduinoplus2", "mps2-an386")
+
+
+@pytest.fixture(scope="module", params=SERVERS)
 def place(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Place]:
     """Each server in turn."""
     with server(request.param, tmp_path_factory.mktemp("board")) as found:
@@ -76,3 +79,16 @@ def client(request: pytest.FixtureRequest, place: Place) -> Iterator[Client]:
         yield made
     finally:
         made.close()
+
+
+@pytest.fixture(params=[f"{server_name}-{client_name}" for server_name in SERVERS for client_name in CLIENTS])
+def client_of_fresh_server(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Client]:
+    """Each client of a server of its own, which has stored nothing yet: a controller stores once in ten seconds of its
+    own clock, and an emulated board's clock may take minutes for them."""
+    server_name, _, client_name = request.param.rpartition("-")
+    with server(server_name, tmp_path) as place:
+        made: Any = CLIENTS[client_name](place)
+        try:
+            yield made
+        finally:
+            made.close()

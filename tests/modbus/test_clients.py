@@ -129,7 +129,8 @@ def test_friction_margin_is_of_the_force_that_is_told(client: Client) -> None:
     assert answered["asked_contact"] in (0, 1, 2)
 
 
-def test_a_parameter_is_staged_committed_read_back_and_rolled_back(client: Client) -> None:
+def test_a_parameter_is_staged_committed_read_back_and_rolled_back(client_of_fresh_server: Client) -> None:
+    client = client_of_fresh_server
     name, wanted = "geometry.tibia_mm", 231.25
     enter(client, "CONFIGURATION")
     before, crc = get(client, name), get(client, "parameter_crc")

@@ -12,7 +12,7 @@ from pathlib import Path
 PROJECT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(PROJECT / "tests" / "socketcan"))
 
-from clients import Client, Refused  # noqa: E402
+from clients import Client  # noqa: E402
 
 with (PROJECT / "firmware" / "interface" / "modbus.csv").open(newline="") as _file:
     MAP = {row["name"]: row for row in csv.DictReader(_file)}
@@ -58,9 +58,6 @@ def block(client: Client, first: str, last: str) -> dict[str, float]:
     return values
 
 
-BUSY, APART_S = 6, 40.0  # ten seconds of the controller's time; an emulated one may be slower
-
-
 def enter(client: Client, mode: str) -> None:
     """Asks for a mode and waits for it."""
     put(client, "set_mode", CONFIGURE if mode == "CONFIGURATION" else MONITOR)
@@ -70,16 +67,8 @@ def enter(client: Client, mode: str) -> None:
 
 
 def store(client: Client, command: str) -> None:
-    """Commit or rollback, until it has ended. A controller stores only once in ten seconds, and says so till then."""
-    early = time.monotonic() + APART_S
-    while True:
-        try:
-            put(client, command, GO)
-            break
-        except Refused as refused:
-            if refused.code != BUSY or time.monotonic() > early:
-                raise
-        time.sleep(0.2)
+    """Commit or rollback, until it has ended."""
+    put(client, command, GO)
     end = time.monotonic() + 10.0
     while (state := get(client, command)) == 1:
         assert time.monotonic() < end, f"{command}: not done within 10 s"

@@ -95,13 +95,16 @@ def planar(limb: Limb, theta1: NDArray[np.float32], theta2: NDArray[np.float32])
         c_xz = c_xz + s * (ax * bz + az * bx) / 2
         c_zz = c_zz + s * az * bz
 
-    for link, angle in ((limb.femur, th1), (limb.tibia, th1 - th2)):
-        at = angle + _exact(link.tilt)
-        add(_exact(link.axial), np.cos(at), np.sin(at), np.cos(at), np.sin(at))
-        add(_exact(link.bending), -np.sin(at), np.cos(at), -np.sin(at), np.cos(at))
-    at = th1 + _exact(limb.femur.tilt)
+    along = {}  # of each link's stiff direction: cosine, sine
+    for link, angle in (("femur", th1), ("tibia", th1 - th2)):
+        own: Link = getattr(limb, link)
+        at = angle + _exact(own.tilt)
+        c, s = along[link] = np.cos(at), np.sin(at)
+        add(_exact(own.axial), c, s, c, s)
+        add(_exact(own.bending), -s, c, -s, c)
+    c, s = along["femur"]
     bent = _exact(limb.femur.bending) * _exact(limb.femur.moment_transfer)
-    add(3 * bent / l1, -np.sin(at), np.cos(at), p2x, p2z)
+    add(3 * bent / l1, -s, c, p2x, p2z)
     add(3 * bent / l1**2, p2x, p2z, p2x, p2z)
     add(_exact(limb.joints[1]) + _exact(limb.base_rotation), p1x, p1z, p1x, p1z)
     add(_exact(limb.joints[2]), p2x, p2z, p2x, p2z)

@@ -24,6 +24,7 @@ PROJECT = Path(__file__).resolve().parents[2]
 RAM, RAM_BYTES = 0x20000000, 0x20000
 STOP = 0x1FFF0000  # where calls return to
 PERIPHERALS, PERIPHERAL_BYTES = 0x40000000, 0x80000
+FAST_PERIPHERALS, FAST_PERIPHERAL_BYTES = 0x50000000, 0x80000
 SYSTEM, SYSTEM_BYTES = 0xE0000000, 0x100000
 CALL_LIMIT = 40_000_000  # instructions; whoever needs more waits for ever
 SLICE = (1, 60)  # instructions between looks at the interrupts
@@ -99,6 +100,8 @@ class Chip:
         self.cpu.mem_map(STOP, 0x1000)
         self.cpu.mem_write(RAM, image.bytes)
         self.cpu.mmio_map(PERIPHERALS, PERIPHERAL_BYTES, self._read, PERIPHERALS, self._write, PERIPHERALS)
+        self.cpu.mmio_map(FAST_PERIPHERALS, FAST_PERIPHERAL_BYTES, self._read, FAST_PERIPHERALS,
+                          self._write, FAST_PERIPHERALS)
         self.cpu.mmio_map(SYSTEM, SYSTEM_BYTES, self._read, SYSTEM, self._write, SYSTEM)
         self.nvic = Nvic()
         self.models[0xE000E000] = self.nvic

@@ -18,7 +18,7 @@ class Rcc:
                  csr: int = 0x0E000000) -> None:
         self.chip, self.crystal_hz, self.pll_locks = chip, crystal_hz, pll_locks
         self.registers = {0x00: 0x83, 0x04: 0x24003010, 0x08: 0, 0x0C: 0, 0x20: 0,
-                          0x30: 0x00100000, 0x40: 0, 0x44: 0, 0x74: csr}
+                          0x30: 0x00100000, 0x34: 0, 0x40: 0, 0x44: 0, 0x74: csr}
         self.wait_states = 0
         self.on_reset: dict[tuple[int, int], Callable[[], None]] = {}  # of a peripheral: (register, bit)
         self.ready_in = {17: 0, 25: 0}  # HSERDY, PLLRDY: polls left

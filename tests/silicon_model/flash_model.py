@@ -11,6 +11,7 @@ OPTIONS_OF_A_NEW_CHIP = 0x0FFFAAED  # 3.9.10: no protection, no brown-out reset,
 OPTION_US = 0.5e6
 ERRORS = 0xF2  # OPERR, WRPERR, PGAERR, PGPERR, PGSERR
 START = 0x08000000
+OTP_PAGE, OTP_OFFSET, OTP_BYTES = 0x1FFF7000, 0x800, 528  # 3.8: 16 blocks of 32 bytes, and their locks
 SECTORS = [16384] * 4 + [65536] + [131072] * 7
 PROGRAM_US = 16.0
 
@@ -39,6 +40,8 @@ class Flash:
         chip.models[self.BASE] = self
         chip.waiting.append(self.advance)
         chip.cpu.mmio_map(START, len(self.memory), self._load, None, self._store, None)
+        self.otp = bytearray(b"\xff" * OTP_BYTES)
+        chip.cpu.mmio_map(OTP_PAGE, 0x1000, self._load_otp, None, self._store_otp, None)
 
     @staticmethod
     def sector(number: int) -> tuple[int, int]:
@@ -57,6 +60,17 @@ class Flash:
     def _load(self, cpu: object, offset: int, size: int, data: object) -> int:
         return self.chip._guarded(lambda: self._read_memory(offset, size))
 
+    def _load_otp(self, cpu: object, offset: int, size: int, data: object) -> int:
+        place = offset - OTP_OFFSET
+        return int.from_bytes(self.otp[place : place + size], "little")
+
+    def _store_otp(self, cpu: object, offset: int, size: int, value: int, data: object) -> None:
+        place = offset - OTP_OFFSET
+        if not 0 <= place <= OTP_BYTES - size:
+            self.chip.violations.append(f"flash: write to 0x{OTP_PAGE + offset:x}")
+            return
+        self.chip._guarded(lambda: self._program(self.otp, place, size, value, is_protected=False))
+
     def _read_memory(self, offset: int, size: int) -> int:
         if self.busy():
             self.chip.pass_us(self.busy_us)  # the bus waits
@@ -71,9 +85,10 @@ class Flash:
         return value
 
     def _store(self, cpu: object, offset: int, size: int, value: int, data: object) -> None:
-        self.chip._guarded(lambda: self._program(offset, size, value))
+        is_protected = self._sector_of(offset) in self.protected
+        self.chip._guarded(lambda: self._program(self.memory, offset, size, value, is_protected))
 
-    def _program(self, offset: int, size: int, value: int) -> int:
+    def _program(self, memory: bytearray, offset: int, size: int, value: int, is_protected: bool) -> int:
         if self.keys != 2 or not self.cr & 1 or self.cr & 2:
             self.sr |= 1 << 7  # PGSERR
             self.chip.violations.append("flash: written without PG")
@@ -83,7 +98,7 @@ class Flash:
             self.sr |= 1 << 6  # PGPERR
         elif offset % size:
             self.sr |= 1 << 5  # PGAERR
-        elif self._sector_of(offset) in self.protected:
+        elif is_protected:
             self.sr |= 1 << 4  # WRPERR
         elif self.fails_next:
             self.sr |= self.fails_next
@@ -91,11 +106,12 @@ class Flash:
         else:
             if self.busy():
                 self.chip.violations.append("flash: programmed while busy")
-            old = int.from_bytes(self.memory[offset : offset + size], "little")
+            old = int.from_bytes(memory[offset : offset + size], "little")
             if old & value != value:
                 self.chip.violations.append(f"flash: bits at 0x{offset:x} set by programming (3.6.4: only cleared)")
-            self.memory[offset : offset + size] = (old & value).to_bytes(size, "little")
-            self.programmed.append((offset, value))
+            memory[offset : offset + size] = (old & value).to_bytes(size, "little")
+            if memory is self.memory:
+                self.programmed.append((offset, value))
             self.busy_us = PROGRAM_US
         return 0
 

@@ -8,6 +8,7 @@ from bxcan_model import Bus, Bxcan
 from chip import Chip, Image
 from clock_model import Rcc, Tim2, Tim5
 from flash_model import Flash
+from random_model import Rng
 from supply_model import Pwr
 from usart_model import Gpio
 from watchdog_model import Iwdg
@@ -22,6 +23,7 @@ class Silicon:
         self.rcc = Rcc(self.chip, crystal_hz, pll_locks, csr)
         self.flash = Flash(self.chip, self.rcc)
         self.supply = Pwr(self.chip, self.rcc)
+        self.random = Rng(self.chip, self.rcc, seed)
         self.timer = Tim2(self.chip, self.rcc)
         self.stopwatch = Tim5(self.chip, self.rcc, lsi_hz)
         self.watchdog = Iwdg(self.chip, lsi_hz)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
+import os
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -16,10 +18,30 @@ STANDS_RAD, ASKED_RAD = (1.0, 1.4), (0.5, 1.2)
 MATRIX = ("k_xx_n_per_mm", "k_xz_n_per_mm", "k_zz_n_per_mm")
 
 
+@contextlib.contextmanager
+def board(folder: Path) -> Iterator[dict[str, str]]:
+    """An emulated board; the URL of each of its ports. The emulator looks for a new client once a second, and a request
+    of that second is lost: the Modbus port, which says nothing unasked, is held open between the commands."""
+    with emulated(folder, clock=SLOWER) as places:
+        held = os.open(places["modbus"], os.O_RDWR | os.O_NOCTTY)
+        try:
+            yield {"slcan": f"slcan:{places['slcan']}", "modbus": f"modbus:{places['modbus']}@115200/1"}
+        finally:
+            os.close(held)
+
+
 @pytest.fixture(scope="module")
 def urls(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:
-    with emulated(tmp_path_factory.mktemp("board"), clock=SLOWER) as places:
-        yield {"slcan": f"slcan:{places['slcan']}", "modbus": f"modbus:{places['modbus']}@115200/1"}
+    """One board for the tests that store nothing."""
+    with board(tmp_path_factory.mktemp("board")) as found:
+        yield found
+
+
+@pytest.fixture()
+def urls_of_fresh_board(tmp_path: Path) -> Iterator[dict[str, str]]:
+    """A board that has stored nothing yet: it stores once in ten seconds of its own clock, which runs slowly here."""
+    with board(tmp_path) as found:
+        yield found
 
 
 def brace(*arguments: object) -> subprocess.CompletedProcess[str]:
@@ -45,14 +67,15 @@ def test_the_board_is_queried(urls: dict[str, str], wire: str) -> None:
 
 @pytest.mark.parametrize("wire", ["slcan", "modbus"])
 def test_the_board_takes_parameters_and_gives_them_back(
-    urls: dict[str, str], wire: str, tmp_path: Path
+    urls_of_fresh_board: dict[str, str], wire: str, tmp_path: Path
 ) -> None:
+    url = urls_of_fresh_board[wire]
     other = tmp_path / "other.toml"
     other.write_text(LIMB.read_text().replace("tibia_mm = 313.5", f"tibia_mm = {310 + len(wire)}.5"))
-    pushed = brace("params", "push", other, "--bus", urls[wire], "--json")
+    pushed = brace("params", "push", other, "--bus", url, "--json")
     assert pushed.returncode == 0, pushed.stderr
-    assert brace("params", "diff", other, "--bus", urls[wire], "--check").returncode == 0
-    back = brace("params", "rollback", "--bus", urls[wire], "--json")
+    assert brace("params", "diff", other, "--bus", url, "--check").returncode == 0
+    back = brace("params", "rollback", "--bus", url, "--json")
     assert back.returncode == 0, back.stderr
     assert json.loads(back.stdout)["parameter_crc_before"] == json.loads(pushed.stdout)["parameter_crc"]
-    assert brace("params", "diff", LIMB, "--bus", urls[wire], "--check").returncode == 0
+    assert brace("params", "diff", LIMB, "--bus", url, "--check").returncode == 0

@@ -5,15 +5,20 @@
 #include "brace/code_names.h"
 #include "brace_hal_selftest.h"
 #include "cortex_m.h"
+#include "key_entry.h"
 #if defined(BRACE_PROVOKE_FAULTS)
 #include "provoke.h"
 #endif
 
 enum { SYSTICK_BITS = 24, DECIMALS = 10000 };
 
+static key_entry_t key_entry;
+
 static void help(text_t *text)
 {
     text_string(text, "b banner  k stiffness  c forget the crash  r restart");
+    text_line(text);
+    text_string(text, "K keep this board's key  B bench until the next start: everybody on its buses may move the limb");
     text_line(text);
     text_string(text, "t self-test, memory kept; T self-test, the parameter slot not in force is erased; then restart");
     text_line(text);
@@ -103,6 +108,8 @@ static void stiffness(text_t *text, const brace_app_t *app)
     text_bits(text, " faults", now->faults, FAULTS);
     text_string(text, " mode ");
     text_string(text, brace_mode_name((int32_t)now->mode));
+    text_string(text, " setting ");
+    text_string(text, brace_setting_name((int32_t)brace_app_setting(app)));
     text_string(text, " tick ");
     text_unsigned(text, now->sequence);
     text_line(text);
@@ -166,7 +173,14 @@ static void selftest(text_t *text, const brace_app_t *app, bool may_erase)
     text->hal->restart(text->hal->context); /* so that the application finds its buses as at power-on */
 }
 
-void console_serve(text_t *text, const brace_app_t *app)
+static void become_bench(text_t *text, brace_app_t *app)
+{
+    brace_app_become_bench(app);
+    text_string(text, "bench until the next start");
+    text_line(text);
+}
+
+void console_serve(text_t *text, brace_app_t *app)
 {
     const brace_hal_t *const hal = text->hal;
     uint8_t request = 0u;
@@ -174,6 +188,10 @@ void console_serve(text_t *text, const brace_app_t *app)
         return;
     }
     text->gone = false; /* a person who has just typed listens */
+    if (key_entry.is_open) {
+        key_entry_take(&key_entry, text, request);
+        return;
+    }
     switch (request) {
     case '?': help(text); break;
     case 'b':
@@ -182,6 +200,8 @@ void console_serve(text_t *text, const brace_app_t *app)
         break;
     case 'k': stiffness(text, app); break;
     case 'c': hal->crash_clear(hal->context); break;
+    case 'K': key_entry_begin(&key_entry, text); break;
+    case 'B': become_bench(text, app); break;
     case 'r': hal->restart(hal->context); break;
     case 't': selftest(text, app, false); break;
     case 'T': selftest(text, app, true); break;

@@ -7,6 +7,6 @@
 
 /* Reads at most one character and does what it asks for. Most answers take a few ms, and the next tick is late by as
  * much. The self-test ends in a restart. */
-void console_serve(text_t *text, const brace_app_t *app);
+void console_serve(text_t *text, brace_app_t *app);
 
 #endif

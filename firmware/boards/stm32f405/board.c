@@ -75,6 +75,7 @@ const brace_hal_t *board_start(void)
         .can_tx = {'B', 9u},
         .nvm_sector = {10u, 11u},
         .guards_supply = true,
+        .keeps_key = true,
         .watchdog = true,
         .joints = &joints,
         .crash_read = kept_crash_read,

@@ -94,6 +94,10 @@ typedef struct {
      * For a supply of 3.0 V or more. */
     bool guards_supply;
 
+    /* The board is guarded: it keeps a key in the chip's one-time programmable memory, and refuses motion until it has
+     * one. false: whoever is on its buses may move the limb. */
+    bool keeps_key;
+
     bool watchdog; /* start the independent watchdog; once started it cannot be stopped */
 
     const stm32f405_joints_t *joints; /* null: the board has no joints */
@@ -135,6 +139,10 @@ uint32_t stm32f405_sector_bytes(uint8_t sector);
  *                most; up to 10 words in one call always end within 1 ms
  *   nvm_erase    16 KiB: 0.25 s, at most 0.5 s; 128 KiB: 1 s, at most 2 s. The processor stands still; the watchdog is
  *                fed before. E_DEVICE: protected, or not finished in twice that time
+ *   key_read     from the first block of one-time programmable memory (0x1fff7800) that holds a key; not the image, not a
+ *                set, nothing erases it
+ *   key_write    once; 0.2 ms. A write that the power cut costs one of 16 blocks
+ *   random_read  2 us, at most 20; E_DEVICE: without the PLL, whose clock the generator needs
  *   watchdog     3.5 s by the LSI as measured at the start, 2.8 s with the fastest LSI; where it cannot be measured, by
  *                its nominal 32 kHz
  *   restart      SYSRESETREQ

@@ -1,10 +1,12 @@
 /* The door: puts the parts of this layer together. */
 #include "brace_hal_stm32f405.h"
 
+#include "board_key.h"
 #include "can.h"
 #include "clock.h"
 #include "flash_slots.h"
 #include "pins.h"
+#include "random.h"
 #include "serial.h"
 #include "supply.h"
 #include "watchdog.h"
@@ -84,6 +86,10 @@ static void fill_door(const stm32f405_board_t *board)
     door.serial_write = serial_write;
     door.serial_read = serial_read;
 
+    door.key_read = board->keeps_key ? board_key_read : 0;
+    door.key_write = board->keeps_key ? board_key_write : 0;
+    door.random_read = board->keeps_key ? random_read : 0;
+
     door.watchdog_feed = watchdog_feed;
     door.reset_cause = reset_cause_read;
     door.crash_read = board->crash_read != 0 ? board->crash_read : no_crash;
@@ -98,6 +104,9 @@ const brace_hal_t *brace_hal_stm32f405(const stm32f405_board_t *board)
     clock_start(board->hse_hz, board->clocks_given);
     if (board->guards_supply) {
         supply_start();
+    }
+    if (board->keeps_key) {
+        random_start();
     }
     if (board->watchdog) {
         watchdog_start(clock_report()->clocks.timer_hz);

@@ -42,6 +42,8 @@
 #define RCC_AHB1ENR 0x30u
 #define RCC_AHB1ENR_GPIOAEN (1u << 0)
 #define RCC_AHB1ENR_DMA2EN (1u << 22)
+#define RCC_AHB2ENR 0x34u
+#define RCC_AHB2ENR_RNGEN (1u << 6)
 #define RCC_APB1ENR 0x40u
 #define RCC_APB1ENR_TIM2EN (1u << 0)
 #define RCC_APB1ENR_TIM5EN (1u << 3)
@@ -105,6 +107,18 @@
 #define FLASH_OPTCR_OPTLOCK (1u << 0)
 #define FLASH_OPTCR_OPTSTRT (1u << 1)
 #define FLASH_OPTCR_BOR_LEV (3u << 2)
+
+/* Random numbers */
+#define RNG_BASE 0x50060800u
+#define RNG_CR 0x00u
+#define RNG_CR_RNGEN (1u << 2)
+#define RNG_SR 0x04u
+#define RNG_SR_DRDY (1u << 0)
+#define RNG_SR_CECS (1u << 1)
+#define RNG_SR_SECS (1u << 2)
+#define RNG_SR_CEIS (1u << 5)
+#define RNG_SR_SEIS (1u << 6)
+#define RNG_DR 0x08u
 
 /* Pins; ports follow each other at equal distance */
 #define GPIOA_BASE 0x40020000u

@@ -12,7 +12,10 @@ const stm32f405_board_t board_25_mhz = {PINS_AND_SLOTS, .hse_hz = 25000000};
 const stm32f405_board_t board_without_crystal = {PINS_AND_SLOTS};
 const stm32f405_board_t board_without_can = {.name = "no CAN", .hse_hz = 8000000, .nvm_sector = {1, 2}};
 
+const stm32f405_board_t board_with_key = {PINS_AND_SLOTS, .hse_hz = 8000000, .keeps_key = true};
+
 static const brace_hal_t *door;
+uint32_t random_word;
 stm32f405_clock_report_t clock_told;
 uint8_t buffer[1024];
 brace_can_frame_t frame;
@@ -90,6 +93,26 @@ int32_t nvm_write(uint32_t slot, uint32_t offset, uint32_t count)
 int32_t nvm_erase(uint32_t slot)
 {
     return door->nvm_erase(door->context, slot);
+}
+
+int32_t is_guarded(void)
+{
+    return door->key_read != 0 && door->key_write != 0 && door->random_read != 0;
+}
+
+int32_t key_read(void)
+{
+    return door->key_read(door->context, buffer);
+}
+
+int32_t key_write(void)
+{
+    return door->key_write(door->context, buffer);
+}
+
+int32_t random_word_read(void)
+{
+    return door->random_read(door->context, &random_word);
 }
 
 void feed(void)

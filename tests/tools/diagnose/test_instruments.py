@@ -132,16 +132,22 @@ def test_a_zero_may_step_twice(tmp_path: Path, limb: Path) -> None:
     assert f"from row {STEP_ROW + 1} on" in fault.why and f"from row {2 * STEP_ROW + 1} on" in fault.why
 
 
+def displace(columns: Columns, limb: Path, x_mm: np.ndarray, z_mm: np.ndarray) -> None:
+    """The forces of a tip that stands elsewhere than the record says, row by row."""
+    real = {name: values.copy() for name, values in columns.items()}
+    real["dx_mm"] += x_mm
+    real["dz_mm"] += z_mm
+    believed, there = (LoadingPlayer(one).play(load_limb(limb)) for one in (columns, real))
+    for name in FORCES:
+        columns[name] += there[name] - believed[name]
+
+
 def test_a_clamp_that_slips_is_told_with_its_way(tmp_path: Path, limb: Path) -> None:
     """The plant plays the tip where it stands; the record says where the rig believes it to be."""
 
     def clamp_slips(columns: Columns) -> None:
-        real = {name: values.copy() for name, values in columns.items()}
-        real["dx_mm"][STEP_ROW:] += SLIP_MM[0]
-        real["dz_mm"][STEP_ROW:] += SLIP_MM[1]
-        believed, there = (LoadingPlayer(one).play(load_limb(limb)) for one in (columns, real))
-        for name in FORCES:
-            columns[name] += there[name] - believed[name]
+        slipped = np.arange(len(columns["t_s"])) >= STEP_ROW
+        displace(columns, limb, slipped * SLIP_MM[0], slipped * SLIP_MM[1])
 
     found = spoiled(tmp_path / "record", limb, clamp_slips, values={})
     assert found.verdict == "data_fault", found.sentence
@@ -150,6 +156,19 @@ def test_a_clamp_that_slips_is_told_with_its_way(tmp_path: Path, limb: Path) -> 
     assert told is not None, fault.why
     assert [float(told[1]), float(told[2])] == pytest.approx(SLIP_MM, rel=0.15)
     assert abs(int(told[3]) - (STEP_ROW + 1)) <= 2
+
+
+def test_a_frame_that_grows_is_no_clamp_that_slips(tmp_path: Path, limb: Path) -> None:
+    """Some slips come near a slow way. It has no name, and is told as what it is: unknown."""
+
+    def frame_grows(columns: Columns) -> None:
+        since = columns["t_s"] - columns["t_s"][0]
+        grown_mm = 0.05 * since / since[-1]
+        displace(columns, limb, grown_mm, -grown_mm)
+
+    found = spoiled(tmp_path / "record", limb, frame_grows, values={})
+    assert found.verdict == "unknown", found.sentence
+    assert not found.data_faults
 
 
 def noise_grows_with_the_load(columns: Columns) -> None:

@@ -488,7 +488,7 @@ static void test_the_next_loading_test_waits_for_the_way_back(void)
     brace_can_pack_loading_test_start_request(&(brace_can_loading_test_start_request_t){1, 0, 2, 0.5f, 20}, data);
     begin_to_live();
     (void)ask(data);
-    ticks(100);
+    ticks(200);
     drain();
     answer_t answer = ask(data);
     TEST_ASSERT_EQUAL(BRACE_E_MODE, refusal_of(&answer, BRACE_REQUEST_LOADING_TEST_START).status);

@@ -7,6 +7,8 @@
 #ifndef LOADING_BENCH_H
 #define LOADING_BENCH_H
 
+#include <string.h>
+
 #include "app_bench.h"
 
 typedef struct {
@@ -42,23 +44,50 @@ typedef struct {
     float motor_rad[2], torque_n_mm[2], link_rad[2], force_x_n, force_z_n;
 } response_t;
 
-/* How the tip moves with theta1 and theta2, which is flexion, while its load stays: straight links' levers, and how
- * what the load moves changes with the posture. The step is not the firmware's. */
+/* Where a limb stands, and which limb it is: what the levers follow from. */
+typedef struct {
+    double theta1, theta2, preload_x_n, preload_z_n;
+    brace_limb_t limb;
+    brace_gravity_t gravity;
+} stance_t;
+
+static inline bool same_stance(const stance_t *a, const stance_t *b)
+{
+    return a->theta1 == b->theta1 && a->theta2 == b->theta2 && a->preload_x_n == b->preload_x_n &&
+           a->preload_z_n == b->preload_z_n && memcmp(&a->limb, &b->limb, sizeof a->limb) == 0 &&
+           memcmp(&a->gravity, &b->gravity, sizeof a->gravity) == 0;
+}
+
+/* How what the load moves changes with theta1 and theta2, while the load stays. The step is not the firmware's. Four
+ * equilibria are the dearest part of this world, so they are worked out only when the limb stands otherwise, not for
+ * each command that its drives follow. */
 static inline void levers_under_preload(const world_t *w, double l[2][2])
 {
+    static stance_t last; /* zero: no limb stands so */
+    static double more[2][2];
     const double step_rad = 0.02;
-    const brace_force_t tip = {(float)w->preload_x_n, (float)w->preload_z_n};
-    const brace_vec_t down = {0.0f, -1.0f};
-    for (int j = 0; j < 2 && !w->tip_is_free; j++) {
-        brace_displacement_t moved[2];
-        for (int side = 0; side < 2; side++) {
-            const double step = side == 0 ? step_rad : -step_rad;
-            moved[side] = equilibrium(&app.controller.parameters.in_force, (float)(w->theta1 + (j == 0 ? step : 0.0)),
-                                      (float)(w->theta2 + (j == 1 ? step : 0.0)), tip, down)
-                              .displacement;
+    const brace_parameters_t *p = &app.controller.parameters.in_force;
+    const stance_t stance = {w->theta1, w->theta2, w->preload_x_n, w->preload_z_n, p->limb, p->gravity};
+    if (!same_stance(&stance, &last)) {
+        last = stance;
+        const brace_force_t tip = {(float)w->preload_x_n, (float)w->preload_z_n};
+        const brace_vec_t down = {0.0f, -1.0f};
+        for (int j = 0; j < 2; j++) {
+            brace_displacement_t moved[2];
+            for (int side = 0; side < 2; side++) {
+                const double step = side == 0 ? step_rad : -step_rad;
+                moved[side] = equilibrium(p, (float)(w->theta1 + (j == 0 ? step : 0.0)),
+                                          (float)(w->theta2 + (j == 1 ? step : 0.0)), tip, down)
+                                  .displacement;
+            }
+            more[0][j] = (double)(moved[0].x_mm - moved[1].x_mm) / (2.0 * step_rad);
+            more[1][j] = (double)(moved[0].z_mm - moved[1].z_mm) / (2.0 * step_rad);
         }
-        l[0][j] += (double)(moved[0].x_mm - moved[1].x_mm) / (2.0 * step_rad);
-        l[1][j] += (double)(moved[0].z_mm - moved[1].z_mm) / (2.0 * step_rad);
+    }
+    for (int i = 0; i < 2; i++) {
+        for (int j = 0; j < 2; j++) {
+            l[i][j] += more[i][j];
+        }
     }
 }
 
@@ -69,7 +98,9 @@ static inline response_t response_of(const world_t *w)
     const double tip_z = knee_z + tibia_mm * sin(w->theta1 - w->theta2);
     const double arm[2][2] = {{-tip_z, tip_z - knee_z}, {tip_x, -(tip_x - knee_x)}}; /* of the motors' torques */
     double l[2][2] = {{arm[0][0], arm[0][1]}, {arm[1][0], arm[1][1]}};
-    levers_under_preload(w, l);
+    if (!w->tip_is_free) {
+        levers_under_preload(w, l);
+    }
     const double k[2][2] = {{w->truth.xx, w->truth.xz}, {w->truth.xz, w->truth.zz}};
     double a[2][2] = {{1.0, 0.0}, {0.0, 1.0}};
     for (int i = 0; i < 2; i++) {

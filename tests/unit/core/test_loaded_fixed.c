@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "brace/loaded_fixed.h"
+#include "loaded/fixed_vec.h"
 #include "reference_planar.h"
 #include "sample_limbs.h"
 #include "unity.h"
@@ -221,9 +222,32 @@ static void test_any_input(void)
     TEST_ASSERT_TRUE(told > 3000 && compared > 2000);
 }
 
+/* Within a part in 8 million, one over every pivot that the solver lets through: powers of two, their neighbours, and what
+ * lies between. */
+static void assert_inverse(int64_t pivot_q27)
+{
+    if (pivot_q27 >= LEAST_PIVOT_Q27 && pivot_q27 <= INT32_MAX) {
+        const double right = 18014398509481984.0 / (double)pivot_q27; /* 2^54 */
+        TEST_ASSERT_DOUBLE_WITHIN(1.25e-7 * right + 1.0, right, (double)inverse_q27((int32_t)pivot_q27));
+    }
+}
+
+static void test_one_over_a_pivot(void)
+{
+    for (int64_t power = ONE_Q27 / 16; power <= INT32_MAX; power *= 2) {
+        for (int64_t near = -300; near <= 300; near++) {
+            assert_inverse(power + near);
+        }
+    }
+    for (int64_t pivot = LEAST_PIVOT_Q27; pivot <= INT32_MAX; pivot += 104729) {
+        assert_inverse(pivot);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_one_over_a_pivot);
     RUN_TEST(test_samples_under_loads);
     RUN_TEST(test_no_load_is_the_linear_limb);
     RUN_TEST(test_buckling_factor_of_one_hinge);

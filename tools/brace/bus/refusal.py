@@ -86,7 +86,7 @@ def error_of(what: str, status: int, detail: int, where: str) -> BraceError:
             f"the controller refuses {what}: a joint's play is open, so nothing carries the tip in some direction",
             where=where,
             why=f"status {status}, detail {detail}: K of now is flagged GAP_OPEN",
-            next_step="take up the backlash first (command take_up of docs/protocol.md), or ask for K with the play "
+            next_step="take up the backlash first (brace take-up), or ask for K with the play "
             "closed: --theta1 --theta2",
         )
     if what == _IN_SPACE and status == _UNSUPPORTED:

@@ -26,7 +26,7 @@ brace_client_status_t brace_client_fail_version(brace_client_t *client, uint32_t
         client->url, (unsigned)node, (unsigned)hash, (unsigned)BRACE_DICTIONARY_HASH);
 }
 
-static uint64_t deadline_after(int timeout_ms)
+uint64_t brace_client_deadline_after(int timeout_ms)
 {
     return brace_bus_now_us() + (uint64_t)(timeout_ms < 1 ? 1 : timeout_ms) * 1000u;
 }
@@ -50,7 +50,7 @@ brace_client_status_t brace_client_open(const char *url, uint32_t node, uint32_t
         return BRACE_CLIENT_E_NO_DEVICE;
     }
     strcpy(opened->url, url);
-    const uint64_t deadline_us = deadline_after(timeout_ms);
+    const uint64_t deadline_us = brace_client_deadline_after(timeout_ms);
     const brace_client_status_t status = brace_modbus_is_url(url)
                                              ? brace_modbus_open(opened, deadline_us)
                                              : brace_can_open(opened, node, bit_rate, deadline_us);
@@ -107,8 +107,8 @@ brace_client_status_t brace_client_read(brace_client_t *client, uint32_t wanted,
                                  "parts 0x%x: want BRACE_PART_K or more of BRACE_PART_ALL, _SPACE, _LOAD, _LOAD_ACROSS",
                                  (unsigned)wanted);
     }
-    return client->bus != NULL ? brace_can_read(client, wanted, deadline_after(timeout_ms), snapshot)
-                               : brace_modbus_read(client, wanted, deadline_after(timeout_ms), snapshot);
+    return client->bus != NULL ? brace_can_read(client, wanted, brace_client_deadline_after(timeout_ms), snapshot)
+                               : brace_modbus_read(client, wanted, brace_client_deadline_after(timeout_ms), snapshot);
 }
 
 static brace_client_status_t out_of_range(brace_client_t *client)
@@ -129,7 +129,7 @@ static brace_client_status_t ask(brace_client_t *client, brace_question_t *quest
                                  client->url);
     }
     question->code = code;
-    return brace_can_ask(client, question, deadline_after(timeout_ms));
+    return brace_can_ask(client, question, brace_client_deadline_after(timeout_ms));
 }
 
 static bool is_number(float value)
@@ -168,15 +168,12 @@ static uint32_t bits_of(float value)
     return bits;
 }
 
-/* Place of a command, from its member. */
-#define PLACE_OF(member) ((uint32_t)(offsetof(brace_commands_t, member) / 4u))
-
 static brace_client_status_t ask_modbus_for_k(brace_client_t *client, uint32_t first, const uint32_t *values,
                                               uint32_t count, int timeout_ms, brace_client_k_t *k)
 {
     brace_answered_t a;
     const brace_client_status_t status =
-        brace_modbus_ask(client, first, values, count, deadline_after(timeout_ms), &a);
+        brace_modbus_ask(client, first, values, count, brace_client_deadline_after(timeout_ms), &a);
     if (status == BRACE_CLIENT_OK) {
         *k = (brace_client_k_t){.k_xx_n_per_mm = a.asked_k_xx_n_per_mm,
                                 .k_xz_n_per_mm = a.asked_k_xz_n_per_mm,
@@ -198,7 +195,7 @@ brace_client_status_t brace_client_k_at_posture(brace_client_t *client, float th
                              !is_number(theta2_rad);
     if (client->bus == NULL && limited == 0u) {
         const uint32_t values[] = {bits_of(theta1_rad), bits_of(theta2_rad)};
-        return ask_modbus_for_k(client, PLACE_OF(asked_theta1_rad), values, 2u, timeout_ms, k);
+        return ask_modbus_for_k(client, BRACE_CLIENT_COMMAND_PLACE(asked_theta1_rad), values, 2u, timeout_ms, k);
     }
     const brace_client_status_t status = ask(client, &question, BRACE_REQUEST_K_AT_POSTURE, limited, timeout_ms);
     if (status == BRACE_CLIENT_OK) {
@@ -212,7 +209,7 @@ brace_client_status_t brace_client_drift(brace_client_t *client, int timeout_ms,
     const brace_can_drift_request_t request = {0};
     brace_question_t question;
     if (client->bus == NULL) {
-        return brace_modbus_drift(client, deadline_after(timeout_ms), drift);
+        return brace_modbus_drift(client, brace_client_deadline_after(timeout_ms), drift);
     }
     const uint32_t limited = brace_can_pack_drift_request(&request, question.data);
     const brace_client_status_t status = ask(client, &question, BRACE_REQUEST_DRIFT, limited, timeout_ms);
@@ -262,7 +259,7 @@ brace_client_status_t brace_client_k_at_tip(brace_client_t *client, float x_mm, 
     const uint32_t code = knee_up ? BRACE_REQUEST_K_AT_TIP_KNEE_UP : BRACE_REQUEST_K_AT_TIP_KNEE_DOWN;
     if (client->bus == NULL && limited == 0u) {
         const uint32_t values[] = {bits_of(x_mm), bits_of(z_mm), knee_up ? 0u : 1u};
-        return ask_modbus_for_k(client, PLACE_OF(asked_tip_x_mm), values, 3u, timeout_ms, k);
+        return ask_modbus_for_k(client, BRACE_CLIENT_COMMAND_PLACE(asked_tip_x_mm), values, 3u, timeout_ms, k);
     }
     const brace_client_status_t status = ask(client, &question, code, limited, timeout_ms);
     if (status == BRACE_CLIENT_OK) {
@@ -299,7 +296,7 @@ static brace_client_status_t ask_under_force(brace_client_t *client, brace_quest
     }
     if (client->bus != NULL) {
         const brace_client_status_t status =
-            brace_can_ask_under_force(client, &told, question, deadline_after(timeout_ms));
+            brace_can_ask_under_force(client, &told, question, brace_client_deadline_after(timeout_ms));
         if (status == BRACE_CLIENT_OK) {
             take_loaded_k(question, k);
         }
@@ -309,7 +306,7 @@ static brace_client_status_t ask_under_force(brace_client_t *client, brace_quest
     values[0] = bits_of(fx_n);
     values[1] = bits_of(fz_n);
     const brace_client_status_t status =
-        brace_modbus_ask(client, first, values, count, deadline_after(timeout_ms), &a);
+        brace_modbus_ask(client, first, values, count, brace_client_deadline_after(timeout_ms), &a);
     if (status == BRACE_CLIENT_OK && !is_number(a.asked_loaded_k_xx_n_per_mm)) { /* over CAN this is a refusal */
         client->refusal = BRACE_E_SINGULAR;
         return brace_client_fail(client, BRACE_CLIENT_E_REFUSED, "%s: unit %u has no K there: " BRACE_CLIENT_FOLDS,
@@ -339,8 +336,8 @@ brace_client_status_t brace_client_k_under_load_at_posture(brace_client_t *clien
     brace_question_t question = {.code = BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE};
     const uint32_t limited = brace_can_pack_k_under_load_at_posture_request(&request, question.data) +
                              !is_number(theta1_rad) + !is_number(theta2_rad);
-    return ask_under_force(client, &question, limited, PLACE_OF(asked_posture_force_x_n), values, 4u, fx_n, fz_n,
-                           timeout_ms, k);
+    return ask_under_force(client, &question, limited, BRACE_CLIENT_COMMAND_PLACE(asked_posture_force_x_n), values,
+                           4u, fx_n, fz_n, timeout_ms, k);
 }
 
 brace_client_status_t brace_client_k_under_load_at_tip(brace_client_t *client, float x_mm, float z_mm, bool knee_up,
@@ -355,8 +352,8 @@ brace_client_status_t brace_client_k_under_load_at_tip(brace_client_t *client, f
     const uint32_t limited = (knee_up ? brace_can_pack_k_under_load_at_tip_knee_up_request(&up, question.data)
                                       : brace_can_pack_k_under_load_at_tip_knee_down_request(&down, question.data)) +
                              !is_number(x_mm) + !is_number(z_mm);
-    return ask_under_force(client, &question, limited, PLACE_OF(asked_tip_force_x_n), values, 5u, fx_n, fz_n,
-                           timeout_ms, k);
+    return ask_under_force(client, &question, limited, BRACE_CLIENT_COMMAND_PLACE(asked_tip_force_x_n), values,
+                           5u, fx_n, fz_n, timeout_ms, k);
 }
 
 static void take_space_k(const brace_question_t *question, brace_client_loaded_space_k_t *k)
@@ -410,7 +407,7 @@ static brace_client_status_t ask_modbus_for_space_k(brace_client_t *client, cons
                                bits_of(theta_rad[0]), bits_of(theta_rad[1]), bits_of(theta_rad[2])};
     brace_answered_t a;
     const brace_client_status_t status =
-        brace_modbus_ask(client, PLACE_OF(asked_space_force_x_n), values, 6u, deadline_us, &a);
+        brace_modbus_ask(client, BRACE_CLIENT_COMMAND_PLACE(asked_space_force_x_n), values, 6u, deadline_us, &a);
     if (status != BRACE_CLIENT_OK) {
         return status;
     }
@@ -437,7 +434,7 @@ brace_client_status_t brace_client_k_in_space_under_load(brace_client_t *client,
                                                          const float force_n[3], int timeout_ms,
                                                          brace_client_loaded_space_k_t *k)
 {
-    const uint64_t deadline_us = deadline_after(timeout_ms);
+    const uint64_t deadline_us = brace_client_deadline_after(timeout_ms);
     const brace_can_k_in_space_at_posture_request_t request = {
         .theta0_rad = theta_rad[0], .theta1_rad = theta_rad[1], .theta2_rad = theta_rad[2]};
     const brace_can_tip_force_in_space_request_t force = {
@@ -477,7 +474,7 @@ brace_client_status_t brace_client_k_in_space(brace_client_t *client, float thet
 
 brace_client_status_t brace_client_load(brace_client_t *client, int timeout_ms, brace_client_load_t *load)
 {
-    const uint64_t deadline_us = deadline_after(timeout_ms);
+    const uint64_t deadline_us = brace_client_deadline_after(timeout_ms);
     if (client->bus == NULL) {
         return brace_modbus_load(client, deadline_us, load);
     }
@@ -515,18 +512,15 @@ brace_client_status_t brace_client_set_gravity(brace_client_t *client, float dir
 {
     const brace_can_set_gravity_request_t request = {.direction_rad = direction_rad, .lean_rad = lean_rad};
     const bool as_parameters_say = direction_rad != direction_rad && lean_rad != lean_rad;
-    brace_question_t question = {.code = BRACE_REQUEST_SET_GRAVITY};
-    const uint32_t limited = brace_can_pack_set_gravity_request(&request, question.data);
+    brace_command_t command = {.question = {.code = BRACE_REQUEST_SET_GRAVITY},
+                               .place = BRACE_CLIENT_COMMAND_PLACE(asked_gravity_direction_rad),
+                               .values = {bits_of(direction_rad), bits_of(lean_rad)},
+                               .count = 2u};
+    const uint32_t limited = brace_can_pack_set_gravity_request(&request, command.question.data);
     if (!as_parameters_say && (limited != 0u || !is_number(direction_rad) || !is_number(lean_rad))) {
         return out_of_range(client);
     }
-    if (client->bus == NULL) {
-        const uint32_t values[] = {bits_of(direction_rad), bits_of(lean_rad)};
-        brace_answered_t answered;
-        return brace_modbus_ask(client, PLACE_OF(asked_gravity_direction_rad), values, 2u, deadline_after(timeout_ms),
-                                &answered);
-    }
-    return brace_can_ask(client, &question, deadline_after(timeout_ms));
+    return brace_client_command(client, &command, brace_client_deadline_after(timeout_ms));
 }
 
 /* --------------------------------------------------------------------------------- at the contact, as of now -- */
@@ -590,7 +584,7 @@ brace_client_status_t brace_client_entry_u32(brace_client_t *client, uint32_t in
     brace_question_t question;
     const uint32_t limited = brace_can_pack_read_entry_request(&request, question.data);
     if (client->bus == NULL && limited == 0u) {
-        return brace_modbus_entry(client, index, deadline_after(timeout_ms), value);
+        return brace_modbus_entry(client, index, brace_client_deadline_after(timeout_ms), value);
     }
     const brace_client_status_t status = ask(client, &question, BRACE_REQUEST_READ_ENTRY, limited, timeout_ms);
     if (status == BRACE_CLIENT_OK) {

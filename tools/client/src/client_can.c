@@ -7,20 +7,31 @@
 
 #include "brace/can_messages.h"
 #include "brace/refusals.h"
-#include "brace/status_text.h"
 
-enum { STATUS_MS = 250, FIRST_TRY_MS = 250, AGAIN_MS = 1000, OLD_US = 100000, APART_US = 32000 };
+enum { STATUS_MS = 250, FIRST_TRY_MS = 250, AGAIN_MS = 1000, OLD_US = 100000, APART_US = 32000, LIFE_MS = 5 };
 
-/* Handles one frame. A client does not receive its own requests, so a request like ours is another client's. */
+/* What a call waits for. */
 typedef struct {
     uint32_t code;
     uint8_t token;
     uint32_t parts_seen;
+    bool is_command;
     bool is_taken; /* another client has used our token: an answer may be for either of us */
     bool is_refused;
     brace_can_refusal_t refusal;
     brace_question_t *question;
 } waiting_t;
+
+/* A seal is a write_entry with the token of its command. If that is a write_entry too, the number of the entry tells
+ * whose answer has come. */
+static bool is_of_seal(const brace_bus_frame_t *frame, const waiting_t *waiting)
+{
+    brace_can_write_entry_request_t asked;
+    brace_can_write_entry_answer_0_t answer;
+    brace_can_unpack_write_entry_request(waiting->question->data, &asked);
+    brace_can_unpack_write_entry_answer_0(frame->data, &answer);
+    return waiting->code == BRACE_REQUEST_WRITE_ENTRY && answer.index != asked.index;
+}
 
 static void take_answer(const brace_bus_frame_t *frame, waiting_t *waiting)
 {
@@ -31,7 +42,7 @@ static void take_answer(const brace_bus_frame_t *frame, waiting_t *waiting)
     if (part == 7u) {
         brace_can_unpack_refusal(frame->data, &waiting->refusal);
         waiting->is_refused = true;
-    } else if (part < brace_can_answer_parts[waiting->code]) {
+    } else if (part < brace_can_answer_parts[waiting->code] && !is_of_seal(frame, waiting)) {
         memcpy(waiting->question->answers[part], frame->data, 8u);
         waiting->parts_seen |= 1u << part;
     }
@@ -52,14 +63,7 @@ static bool is_from_controller(uint32_t base)
     return false;
 }
 
-/* A controller counts the force that was told last, whoever told it, and once. */
-static bool is_about_force(uint32_t code)
-{
-    return code == BRACE_REQUEST_TIP_FORCE || code == BRACE_REQUEST_TIP_FORCE_IN_SPACE ||
-           code == BRACE_REQUEST_K_IN_SPACE_AT_POSTURE || code == BRACE_REQUEST_K_UNDER_LOAD_AT_POSTURE ||
-           code == BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_UP || code == BRACE_REQUEST_K_UNDER_LOAD_AT_TIP_KNEE_DOWN;
-}
-
+/* Handles one frame. A client does not receive its own requests, so a request like ours is another client's. */
 static void hear(brace_client_t *client, const brace_bus_frame_t *frame, waiting_t *waiting)
 {
     const uint32_t node = frame->id & 0x7fu, base = frame->id & ~0x7fu;
@@ -81,9 +85,10 @@ static void hear(brace_client_t *client, const brace_bus_frame_t *frame, waiting
     } else if (base == BRACE_CAN_ID_ANSWER && waiting != NULL) {
         take_answer(frame, waiting);
     } else if (base == BRACE_CAN_ID_REQUEST) {
-        client->force_is_taken |= is_about_force(frame->data[0] & 31u);
+        client->force_is_taken |= brace_client_is_about_force(frame->data[0] & 31u);
         if (waiting != NULL) {
-            waiting->is_taken |= (frame->data[0] & 31u) == waiting->code && frame->data[1] == waiting->token;
+            waiting->is_taken |= !waiting->is_command && (frame->data[0] & 31u) == waiting->code &&
+                                 frame->data[1] == waiting->token;
         }
     } else {
         const brace_client_snapshot_t *s = brace_joiner_add(&client->joiner, node, frame, brace_bus_lost(client->bus));
@@ -123,11 +128,26 @@ static brace_bus_status_t receive(brace_client_t *client, brace_bus_frame_t *fra
     return brace_bus_receive(client->bus, frame, timeout_ms - ask_ms);
 }
 
+/* Gives signs of life meanwhile, while the limb moves. */
+static brace_bus_status_t receive_alive(brace_client_t *client, brace_bus_frame_t *frame, int timeout_ms)
+{
+    const uint64_t until_us = brace_bus_now_us() + (uint64_t)timeout_ms * 1000u;
+    brace_bus_status_t status;
+    int left_ms = timeout_ms;
+    do {
+        brace_client_tend(client, until_us);
+        const int life_ms = brace_bus_left_ms(client->next_life_us);
+        status = receive(client, frame, client->lives && life_ms < left_ms ? life_ms : left_ms);
+        left_ms = brace_bus_left_ms(until_us);
+    } while (status == BRACE_BUS_E_TIMEOUT && left_ms > 0);
+    return status;
+}
+
 /* Receives one frame, or none within timeout_ms. */
 static brace_client_status_t listen(brace_client_t *client, int timeout_ms, waiting_t *waiting)
 {
     brace_bus_frame_t frame;
-    const brace_bus_status_t status = receive(client, &frame, timeout_ms);
+    const brace_bus_status_t status = receive_alive(client, &frame, timeout_ms);
     if (status == BRACE_BUS_OK) {
         hear(client, &frame, waiting);
     } else if (status != BRACE_BUS_E_TIMEOUT) {
@@ -200,46 +220,75 @@ static brace_client_status_t explain_silence(brace_client_t *client, const char 
         client->url);
 }
 
-/* A refusal in words. The meaning of a status depends on the question. */
-static const char *reason(uint32_t code, const brace_can_refusal_t *refusal)
+/* ------------------------------------------------------------------------------------------- asking -- */
+
+/* How a request is sent. Commands are sealed on a guarded board, and on a bench their tokens tell masters apart. */
+typedef enum { ASKS, COMMANDS, COMMANDS_ONCE } manner_t;
+
+/* Each try gets a new token, because parts of two answers may be of two ticks and must not be mixed. */
+static uint8_t next_token(brace_client_t *client, manner_t manner)
 {
-    const bool is_of_now = code == BRACE_REQUEST_CONTACT_FORCE || code == BRACE_REQUEST_SAG_FOR_LOAD;
-    const bool is_open = (refusal->detail & BRACE_CLIENT_FLAG_GAP_OPEN) != 0u; /* detail: K's flags */
-    if (is_of_now && is_open && refusal->status == BRACE_E_RANGE) {
-        return "a joint's play is open, so nothing carries the tip in some direction; take it up first";
+    if (manner != ASKS && client->owner.is_open) {
+        return (uint8_t)brace_owner_next_counter(&client->owner);
     }
-    if (is_of_now && refusal->status == BRACE_E_MODE) {
-        return "K of now is not valid; its mode and faults tell why";
+    client->token++;
+    if (manner != ASKS) { /* signs of life have 0 in the lower four bits */
+        client->token = (uint8_t)(client->master << 4 | (1u + client->token % 15u));
     }
-    if (code == BRACE_REQUEST_K_IN_SPACE_AT_POSTURE && refusal->status == BRACE_E_UNSUPPORTED) {
-        return BRACE_CLIENT_NO_COXA;
-    }
-    if (code == BRACE_REQUEST_FRICTION_MARGIN && refusal->status == BRACE_E_NOT_FINITE) {
-        return "the force on the tip is not known now";
-    }
-    if (is_about_force(code) && refusal->status == BRACE_E_SINGULAR) {
-        return BRACE_CLIENT_FOLDS;
-    }
-    switch (refusal->status) {
-    case BRACE_REFUSED_UNKNOWN: return "it knows no such question; flash the firmware of this library's version";
-    case BRACE_REFUSED_BUSY: return "it is storing a set or judging a loading test; ask again";
-    default: return brace_status_text((brace_status_t)refusal->status);
-    }
+    return client->token;
 }
 
-static brace_client_status_t ask(brace_client_t *client, brace_question_t *question, uint64_t deadline_us)
+static brace_bus_frame_t request_frame(const brace_client_t *client, const uint8_t data[8], uint8_t token)
+{
+    brace_bus_frame_t frame = {.id = BRACE_CAN_ID_REQUEST + client->node, .length = 8u};
+    memcpy(frame.data, data, 8u);
+    frame.data[1] = token;
+    return frame;
+}
+
+/* Writes the check of a sign of life or of a seal to its entry. */
+static brace_bus_status_t show(brace_client_t *client, uint32_t entry, brace_sign_t sign, uint8_t token, int timeout_ms)
+{
+    const brace_can_write_entry_request_t request = {.index = entry, .value = sign.check};
+    uint8_t data[8];
+    (void)brace_can_pack_write_entry_request(&request, data);
+    const brace_bus_frame_t frame = request_frame(client, data, token);
+    return brace_bus_send(client->bus, &frame, timeout_ms);
+}
+
+void brace_can_show_life(brace_client_t *client, brace_sign_t sign)
+{
+    const uint8_t token = client->owner.is_open ? (uint8_t)sign.counter : (uint8_t)(client->master << 4);
+    /* Whoever listens is told of a bus that is down. */
+    (void)show(client, BRACE_CLIENT_COMMAND(life_mac), sign, token, LIFE_MS);
+}
+
+/* One try; a command's seal goes before it. */
+static brace_bus_status_t send_request(brace_client_t *client, const brace_question_t *question, manner_t manner,
+                                       uint64_t deadline_us, uint8_t *token)
+{
+    *token = next_token(client, manner);
+    const brace_bus_frame_t request = request_frame(client, question->data, *token);
+    if (manner != ASKS && client->owner.is_open) {
+        const brace_sign_t seal = brace_owner_seal(&client->owner, request.data, 8u);
+        const brace_bus_status_t shown =
+            show(client, BRACE_CLIENT_COMMAND(seal_mac), seal, *token, brace_bus_left_ms(deadline_us));
+        if (shown != BRACE_BUS_OK) {
+            return shown;
+        }
+    }
+    return brace_bus_send(client->bus, &request, brace_bus_left_ms(deadline_us));
+}
+
+static brace_client_status_t ask(brace_client_t *client, brace_question_t *question, manner_t manner,
+                                 uint64_t deadline_us)
 {
     static const char what[] = "its answer";
     const uint32_t parts = (1u << brace_can_answer_parts[question->code]) - 1u;
     uint64_t try_us = FIRST_TRY_MS * 1000u;
     while (brace_bus_left_ms(deadline_us) > 0) {
-        /* Each try gets a new token, because parts of two answers may be of two ticks and must not be mixed. */
-        client->token++;
-        waiting_t waiting = {.code = question->code, .token = client->token, .question = question};
-        brace_bus_frame_t request = {.id = BRACE_CAN_ID_REQUEST + client->node, .length = 8u};
-        memcpy(request.data, question->data, 8u);
-        request.data[1] = waiting.token;
-        const brace_bus_status_t sent = brace_bus_send(client->bus, &request, brace_bus_left_ms(deadline_us));
+        waiting_t waiting = {.code = question->code, .is_command = manner != ASKS, .question = question};
+        const brace_bus_status_t sent = send_request(client, question, manner, deadline_us, &waiting.token);
         if (sent == BRACE_BUS_E_FULL) {
             return brace_client_fail(
                 client, BRACE_CLIENT_E_FULL,
@@ -252,26 +301,30 @@ static brace_client_status_t ask(brace_client_t *client, brace_question_t *quest
                                      "%s: the connection has gone; is the interface still up, the other end running?",
                                      client->url);
         }
-        const uint64_t now_us = brace_bus_now_us();
-        const uint64_t until_us = now_us + try_us < deadline_us ? now_us + try_us : deadline_us;
+        const uint64_t try_until_us = brace_bus_now_us() + try_us;
+        const uint64_t until_us =
+            try_until_us < deadline_us && manner != COMMANDS_ONCE ? try_until_us : deadline_us;
         while (!waiting.is_taken && brace_bus_left_ms(until_us) > 0) {
             const brace_client_status_t status = listen(client, brace_bus_left_ms(until_us), &waiting);
             if (status != BRACE_CLIENT_OK && status != BRACE_CLIENT_E_TIMEOUT) {
                 return status;
             }
             if (waiting.is_refused) {
-                client->refusal = waiting.refusal.status;
+                const brace_can_refusal_t *refusal = &waiting.refusal;
+                client->refusal = refusal->status;
                 return brace_client_fail(client, BRACE_CLIENT_E_REFUSED,
                                          "%s: controller %u refuses: %s (status %d, detail %u)", client->url,
-                                         (unsigned)client->node, reason(waiting.code, &waiting.refusal),
-                                         (int)waiting.refusal.status, (unsigned)waiting.refusal.detail);
+                                         (unsigned)client->node,
+                                         brace_client_reason(waiting.code, refusal->status, refusal->detail),
+                                         (int)refusal->status, (unsigned)refusal->detail);
             }
             if (waiting.parts_seen == parts && !waiting.is_taken) {
                 return BRACE_CLIENT_OK;
             }
         }
         try_us *= 2u;
-        if (client->bus->is_slcan && !is_heard(client, client->node)) {
+        /* That closes the channel first, and with it the session of whoever moves the limb. */
+        if (client->bus->is_slcan && !client->lives && !is_heard(client, client->node)) {
             brace_slcan_enter_again(client->bus);
         }
         if (waiting.is_taken) { /* the other client looks for a new token too, but for another one */
@@ -284,7 +337,14 @@ static brace_client_status_t ask(brace_client_t *client, brace_question_t *quest
 brace_client_status_t brace_can_ask(brace_client_t *client, brace_question_t *question, uint64_t deadline_us)
 {
     begin(client, deadline_us);
-    return ask(client, question, deadline_us);
+    return ask(client, question, ASKS, deadline_us);
+}
+
+brace_client_status_t brace_can_command(brace_client_t *client, brace_question_t *question, bool is_once,
+                                        uint64_t deadline_us)
+{
+    begin(client, deadline_us);
+    return ask(client, question, is_once ? COMMANDS_ONCE : COMMANDS, deadline_us);
 }
 
 /* Listens for some time, which is another one in each client: two that disturb each other must not do so in step. */
@@ -315,9 +375,9 @@ brace_client_status_t brace_can_ask_under_force(brace_client_t *client, brace_qu
     begin(client, deadline_us);
     for (;;) {
         client->force_is_taken = false;
-        brace_client_status_t status = ask(client, force, deadline_us);
+        brace_client_status_t status = ask(client, force, ASKS, deadline_us);
         if (status == BRACE_CLIENT_OK) {
-            status = ask(client, question, deadline_us);
+            status = ask(client, question, ASKS, deadline_us);
         }
         /* The force is used up when an answer was lost, too, and the question repeated. */
         const bool is_told = status == BRACE_CLIENT_OK || status == BRACE_CLIENT_E_REFUSED;
@@ -363,7 +423,7 @@ static brace_client_status_t identify(brace_client_t *client, uint64_t deadline_
     const brace_can_identify_request_t request = {0};
     brace_question_t question = {.code = BRACE_REQUEST_IDENTIFY};
     (void)brace_can_pack_identify_request(&request, question.data);
-    const brace_client_status_t status = ask(client, &question, deadline_us);
+    const brace_client_status_t status = ask(client, &question, ASKS, deadline_us);
     if (status != BRACE_CLIENT_OK) {
         return status;
     }
@@ -396,6 +456,7 @@ brace_client_status_t brace_can_open(brace_client_t *client, uint32_t node, uint
     begin(client, deadline_us);
     client->node = node;
     client->token = (uint8_t)(brace_bus_now_us() ^ (uint64_t)getpid());
+    client->master = client->token >> 4;
     const brace_client_status_t status = node == 0u ? find_first(client, deadline_us) : BRACE_CLIENT_OK;
     return status == BRACE_CLIENT_OK ? identify(client, deadline_us) : status;
 }

@@ -3,19 +3,43 @@
 #ifndef BRACE_CLIENT_INTERNAL_H
 #define BRACE_CLIENT_INTERNAL_H
 
+#include "brace/client_motion.h"
 #include "bus_internal.h"
 #include "joiner.h"
+#include "owner.h"
 
 enum {
     PARTS_MOST = BRACE_PART_ALL | BRACE_PART_SPACE | BRACE_PART_LOAD | BRACE_PART_LOAD_ACROSS,
     ANSWER_PARTS_MOST = 7
 };
 
+/* Number of a command on CAN, and its place among the commands, from its member. */
+#define BRACE_CLIENT_COMMAND(member) (BRACE_ENTRY_COMMANDS + BRACE_CLIENT_COMMAND_PLACE(member))
+#define BRACE_CLIENT_COMMAND_PLACE(member) ((uint32_t)(offsetof(brace_commands_t, member) / 4u))
+
+typedef enum { BRACE_TAKES_UP, BRACE_LETS_GO, BRACE_LOADS, BRACE_ENDS_TEST } brace_motion_kind_t;
+
+/* The motion that was begun last. */
+typedef struct {
+    brace_motion_t now;
+    brace_motion_kind_t kind;
+    uint32_t joint;
+    uint32_t silences;                     /* that the controller had counted before */
+    uint64_t asked_us, limit_us, news_us;  /* when it was asked for, has to have ended, and was last told of */
+    uint64_t next_poll_us;
+} brace_client_motion_t;
+
 struct brace_client {
     char why[BRACE_CLIENT_WHY_ROOM];
     char url[128];
     brace_client_identity_t identity;
     int32_t refusal;
+
+    brace_client_owner_t owner;
+    uint8_t master; /* upper four bits of the tokens of commands: they tell masters on one CAN bus apart */
+    bool lives;     /* signs of life are given */
+    uint64_t next_life_us;
+    brace_client_motion_t motion;
 
     brace_bus_t *bus; /* CAN; null over Modbus */
     uint32_t node;
@@ -47,6 +71,33 @@ typedef struct {
 #define BRACE_CLIENT_FOLDS \
     "no stable equilibrium is near: the force folds the limb there; ask for a smaller force or another place"
 
+/* What a client tells a controller to do, for both wires. */
+typedef struct {
+    brace_question_t question; /* over CAN */
+    bool is_once;              /* when no answer comes it is not sent again */
+    uint32_t place, values[2], count; /* over Modbus */
+} brace_command_t;
+
+/* Sends a command. On a guarded board opens a session before, and again when the controller has ended it. */
+brace_client_status_t brace_client_command(brace_client_t *client, brace_command_t *command, uint64_t deadline_us);
+
+/* Opens a session on a guarded board, if none is open. */
+brace_client_status_t brace_client_become_owner(brace_client_t *client, uint64_t deadline_us);
+
+/* The limb was told to stop. */
+void brace_client_end_motion(brace_client_t *client);
+
+/* Gives a sign of life if one is due. */
+void brace_client_tend(brace_client_t *client, uint64_t deadline_us);
+
+/* A refusal in words. The meaning of a status depends on the request. */
+const char *brace_client_reason(uint32_t code, int32_t status, uint32_t detail);
+
+/* A controller counts the force that was told last, whoever told it, and once. */
+bool brace_client_is_about_force(uint32_t code);
+
+uint64_t brace_client_deadline_after(int timeout_ms);
+
 /* Writes why and returns status, to end a function with. */
 brace_client_status_t brace_client_fail(brace_client_t *client, brace_client_status_t status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
@@ -62,6 +113,11 @@ brace_client_status_t brace_can_ask(brace_client_t *client, brace_question_t *qu
 brace_client_status_t brace_can_ask_under_force(brace_client_t *client, brace_question_t *force,
                                                 brace_question_t *question, uint64_t deadline_us);
 
+/* Sends question->data, sealed where a session is open. */
+brace_client_status_t brace_can_command(brace_client_t *client, brace_question_t *question, bool is_once,
+                                        uint64_t deadline_us);
+void brace_can_show_life(brace_client_t *client, brace_sign_t sign);
+
 bool brace_modbus_is_url(const char *url);
 brace_client_status_t brace_modbus_open(brace_client_t *client, uint64_t deadline_us);
 void brace_modbus_close(brace_client_t *client);
@@ -71,6 +127,12 @@ brace_client_status_t brace_modbus_drift(brace_client_t *client, uint64_t deadli
 /* A question of some commands that follow one another, each a float's or a whole number's bits, and all answers. */
 brace_client_status_t brace_modbus_ask(brace_client_t *client, uint32_t first, const uint32_t *values, uint32_t count,
                                        uint64_t deadline_us, brace_answered_t *answered);
+/* Writes a command, sealed where a session is open; code: its request on CAN, for words. Waits while the unit is busy,
+ * and does not write again when no answer comes. */
+brace_client_status_t brace_modbus_command(brace_client_t *client, uint32_t code, uint32_t place,
+                                           const uint32_t *values, uint32_t count, bool is_sealed,
+                                           uint64_t deadline_us);
+void brace_modbus_show_life(brace_client_t *client, brace_sign_t sign, uint64_t deadline_us);
 brace_client_status_t brace_modbus_load(brace_client_t *client, uint64_t deadline_us, brace_client_load_t *load);
 brace_client_status_t brace_modbus_entry(brace_client_t *client, uint32_t index, uint64_t deadline_us, uint32_t *value);
 

@@ -21,9 +21,12 @@ bool brace_modbus_is_url(const char *url)
 
 #include "brace/can_messages.h"
 #include "brace/codes.h"
+#include "brace/refusals.h"
+#include "brace/status.h"
 
 enum { TRY_MS = 800, LATE_US = 250000, REST_US = 10000, BETWEEN_BYTES_US = 200000 };
-enum { REGISTERS_AT_ONCE = 125, APART_MS = 32, ASKED_MOST = 6 };
+enum { REGISTERS_AT_ONCE = 125, APART_MS = 32, ASKED_MOST = 6, BUSY_MS = 20 };
+enum { WRITE_BLOCK = 16, REQUEST_HEAD = 6, NOT_OURS = 7 /* exceptions: docs/modbus.md */ };
 
 /* High word first. libmodbus 3.1.6 swaps bytes in its own float setters on this kind of host. */
 static uint32_t join(const uint16_t words[2])
@@ -189,25 +192,37 @@ static bool settle(brace_client_t *client, uint64_t deadline_us)
     return true;
 }
 
+/* One request. returns 0, or libmodbus' error */
+static int transfer_once(brace_client_t *client, transfer_t how, uint32_t address, uint32_t count, uint16_t *words,
+                         uint64_t deadline_us)
+{
+    const uint64_t sent_us = brace_bus_now_us();
+    limit_wait(client->modbus, deadline_us);
+    if (how(client->modbus, (int)address, (int)count, words) == (int)count) {
+        return 0;
+    }
+    const int error = errno;
+    (void)modbus_flush(client->modbus); /* a late answer must not be taken for the next one */
+    client->late_until_us = error == ETIMEDOUT || error == EAGAIN ? sent_us + LATE_US
+                            : error == EMBBADDATA                 ? brace_bus_now_us() + REST_US
+                                                                  : 0u;
+    return error;
+}
+
 static brace_client_status_t transfer(brace_client_t *client, transfer_t how, uint32_t address, uint32_t count,
                                       uint16_t *words, uint64_t deadline_us)
 {
     int error = ETIMEDOUT, broken = 0; /* broken: how an answer was that came so */
     do {
+        brace_client_tend(client, deadline_us);
         if (!settle(client, deadline_us)) {
             break;
         }
-        const uint64_t sent_us = brace_bus_now_us();
-        limit_wait(client->modbus, deadline_us);
-        if (how(client->modbus, (int)address, (int)count, words) == (int)count) {
+        error = transfer_once(client, how, address, count, words, deadline_us);
+        if (error == 0) {
             return BRACE_CLIENT_OK;
         }
-        error = errno;
         broken = error == EMBBADCRC || error == EMBBADDATA ? error : broken;
-        (void)modbus_flush(client->modbus); /* a late answer must not be taken for the next one */
-        client->late_until_us = error == ETIMEDOUT || error == EAGAIN ? sent_us + LATE_US
-                                : error == EMBBADDATA                 ? brace_bus_now_us() + REST_US
-                                                                      : 0u;
     } while (may_pass(error) && brace_bus_left_ms(deadline_us) > 0);
     /* The last try may be too short for an answer. What came before tells more than that nothing came then. */
     return fail(client, broken != 0 && (error == ETIMEDOUT || error == EAGAIN) ? broken : error);
@@ -454,6 +469,96 @@ brace_client_status_t brace_modbus_entry(brace_client_t *client, uint32_t index,
     return status;
 }
 
+/* -------------------------------------------------------------------------------------------- commands -- */
+
+/* Counter and check in one request. */
+static int show(brace_client_t *client, uint32_t place, brace_sign_t sign, uint64_t deadline_us)
+{
+    uint16_t words[4];
+    split(sign.counter, words);
+    split(sign.check, words + 2);
+    return transfer_once(client, write_words, BRACE_REGISTER_COMMANDS + 2u * place, 4u, words, deadline_us);
+}
+
+/* A refused sign of life shows in the controller's is_held and silences, a lost connection in the next request. */
+void brace_modbus_show_life(brace_client_t *client, brace_sign_t sign, uint64_t deadline_us)
+{
+    if (settle(client, deadline_us)) {
+        (void)show(client, BRACE_CLIENT_COMMAND_PLACE(life_counter), sign, deadline_us);
+    }
+}
+
+/* The check is over the request from its function on. */
+static brace_sign_t seal_of(brace_client_t *client, uint32_t address, const uint16_t *words, uint32_t words_count)
+{
+    uint8_t request[REQUEST_HEAD + 4 * ASKED_MOST] = {
+        WRITE_BLOCK, (uint8_t)(address >> 8), (uint8_t)address, 0u, (uint8_t)words_count, (uint8_t)(2u * words_count)};
+    for (uint32_t i = 0u; i < words_count; i++) {
+        request[REQUEST_HEAD + 2u * i] = (uint8_t)(words[i] >> 8);
+        request[REQUEST_HEAD + 2u * i + 1u] = (uint8_t)words[i];
+    }
+    (void)brace_owner_next_counter(&client->owner);
+    return brace_owner_seal(&client->owner, request, REQUEST_HEAD + 2u * words_count);
+}
+
+/* An exception has less to say than a refusal over CAN; of who may command the controller tells the status. */
+static brace_client_status_t fail_command(brace_client_t *client, uint32_t code, int error, uint64_t deadline_us)
+{
+    const int exception = error - MODBUS_ENOBASE;
+    uint32_t told;
+    int32_t status = exception == 1   ? BRACE_E_MODE
+                     : exception == 3 ? BRACE_E_RANGE
+                     : exception == 6 ? BRACE_REFUSED_BUSY
+                                      : BRACE_E_UNSUPPORTED;
+    if (exception < 1 || exception > NOT_OURS) {
+        return fail(client, error);
+    }
+    client->refusal = exception;
+    if (exception == NOT_OURS) {
+        const brace_client_status_t asked =
+            brace_modbus_entry(client, BRACE_CLIENT_ENTRY(last_refusal), deadline_us, &told);
+        if (asked != BRACE_CLIENT_OK) {
+            return asked;
+        }
+        client->refusal = status = (int32_t)told - 256;
+    }
+    return brace_client_fail(client, BRACE_CLIENT_E_REFUSED, "%s: unit %u refuses: %s (exception %d)", client->url,
+                             (unsigned)client->unit, brace_client_reason(code, status, 0u), exception);
+}
+
+brace_client_status_t brace_modbus_command(brace_client_t *client, uint32_t code, uint32_t place,
+                                           const uint32_t *values, uint32_t count, bool is_sealed,
+                                           uint64_t deadline_us)
+{
+    const uint32_t address = BRACE_REGISTER_COMMANDS + 2u * place;
+    uint16_t words[2 * ASKED_MOST];
+    int error;
+    for (uint32_t i = 0u; i < count; i++) {
+        split(values[i], words + 2u * i);
+    }
+    for (;;) {
+        brace_client_tend(client, deadline_us);
+        if (!settle(client, deadline_us)) {
+            return fail(client, ETIMEDOUT);
+        }
+        error = is_sealed && client->owner.is_open ? show(client, BRACE_CLIENT_COMMAND_PLACE(seal_counter),
+                                                          seal_of(client, address, words, 2u * count), deadline_us)
+                                                   : 0;
+        if (error == 0) {
+            error = transfer_once(client, write_words, address, 2u * count, words, deadline_us);
+        }
+        if (error == 0) {
+            return BRACE_CLIENT_OK;
+        }
+        if (error != EMBXSBUSY || brace_bus_left_ms(deadline_us) <= BUSY_MS) {
+            return fail_command(client, code, error, deadline_us);
+        }
+        poll(NULL, 0, BUSY_MS);
+    }
+}
+
+/* ------------------------------------------------------------------------------------------- questions -- */
+
 /* One try. *is_mine: no other client has asked another question in between. */
 static brace_client_status_t try_question(brace_client_t *client, uint32_t address, uint32_t count,
                                           uint16_t words[2 * ASKED_MOST], uint64_t deadline_us,
@@ -568,6 +673,26 @@ brace_client_status_t brace_modbus_ask(brace_client_t *client, uint32_t first, c
     (void)deadline_us;
     (void)answered;
     return absent(client);
+}
+
+brace_client_status_t brace_modbus_command(brace_client_t *client, uint32_t code, uint32_t place,
+                                           const uint32_t *values, uint32_t count, bool is_sealed,
+                                           uint64_t deadline_us)
+{
+    (void)code;
+    (void)place;
+    (void)values;
+    (void)count;
+    (void)is_sealed;
+    (void)deadline_us;
+    return absent(client);
+}
+
+void brace_modbus_show_life(brace_client_t *client, brace_sign_t sign, uint64_t deadline_us)
+{
+    (void)client;
+    (void)sign;
+    (void)deadline_us;
 }
 
 #endif

@@ -97,7 +97,7 @@ typedef struct {
     bool rests[2];                 /* the motor has come there at this step, and is left alone while it stays near */
     float torque_max_n_mm[2];
     brace_point_t lever_femur, lever_knee; /* shift of the tip's free shape for a unit of theta1, and of theta2 */
-    brace_vec3_t lever_force_n;    /* that the tip bears while they are worked out */
+    brace_vec3_t lever_force_n;    /* that the tip bears before they are worked out, the mean */
     float lever_rad[BRACE_LINK_COUNT];      /* the posture then, by the motors */
     brace_displacement_t lever_moved_mm[4]; /* what the load moves the tip by, to both sides of it */
     uint8_t lever_step;

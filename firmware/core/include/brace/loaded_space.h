@@ -66,9 +66,12 @@ brace_status_t brace_loaded_space_turn(float theta0_rad, const brace_k3_t *k, br
 /* The smallest positive s for which diag(k) - s G is singular at this equilibrium with the posture held, as
  * brace/loaded.h says; infinity where it is above 16, and where it may be above 11.
  * loaded, rest: what brace_loaded_space_settle was given and left; neither may be null.
- * Accuracy: where it is below 10, median 0.3 %, nine of ten within 4 %. It overlooks a beam that buckles within
- *         itself, between its ends: where a short, soft coxa link does, it may tell a multiple of the true factor.
- * Cost on a Cortex-M4F: at most 7,200 instructions; stack at most 700 bytes. */
+ * Accuracy: of 600 random limbs with a factor from 2 to 10, median 0.1 %, nine of ten within 0.9 %, 96 of 100 within
+ *         2 %, the worst 25 %. Beyond 2 % are limbs whose links bend by large angles within themselves: where no link
+ *         turns by more than 0.05 rad, 99 of 100 are within 2 %. A beam that buckles between its ends, as a short, soft
+ *         coxa link can, is overlooked: then the true factor is lower. tests/engine/test_core_in_space_under_load.py
+ *         judges.
+ * Cost on a Cortex-M4F: at most 7,300 instructions; stack at most 700 bytes. */
 float brace_loaded_space_buckling_factor(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest);
 
 /* The same in four steps, for a controller that cannot spend so much at once. Begin, then step with the same loaded and

@@ -194,6 +194,10 @@ INLINE void fixed_eliminate_link(const fixed_link3_t *link, const fixed_rest3_t 
     const int32_t across_spread = overloaded(link->across_spread_q31 >> turn_shift, overload, noted);
     const int32_t sideways_spread = overloaded(link->sideways_spread_q31 >> turn_shift, overload, noted);
     if (overload != NULL) {
+        const int32_t third_y = turn.y / 3, third_z = turn.z / 3; /* of half the moment: a sixth */
+        own.yy = less(own.yy, by_q29(half_m.z, third_z));
+        own.yz = plus(own.yz, coarse(sum2(half_m.z, third_y, half_m.y, third_z), 30));
+        own.zz = less(own.zz, by_q29(half_m.y, third_y));
         fixed3_t own_across = fixed3_scaled_q30(across, share), own_sideways = fixed3_scaled_q30(sideways, share);
         own_across.y = plus(own_across.y, curled_q24);
         own_sideways.z = plus(own_sideways.z, curled_q24);

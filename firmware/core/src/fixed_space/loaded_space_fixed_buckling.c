@@ -2,9 +2,9 @@
 
 #include "brace/loaded_space_fixed.h"
 #include "fixed_space/eliminate.h"
-#include "loaded/buckling.h"
+#include "loaded/space_buckling.h"
 
-/* The search of loaded/buckling.h, its determinants by integers. */
+/* The search of loaded/space_buckling.h, its determinants by integers. */
 
 #define TIMES_MOST 15.99f /* what a word holds of 16 */
 
@@ -31,36 +31,25 @@ static found_t soften(const brace_loaded_space_fixed_t *fixed, const brace_space
     return overload.has_buckled || determinant < CLOSE ? BUCKLED : UNKNOWN;
 }
 
-/* The chord through the last two loads that the limb bears, where the determinant beyond them is not known. */
-static float end_of(const brace_buckling_search_t *search)
-{
-    const float low = search->low, high = search->high, at_low = search->at_low;
-    if (search->at_high < 0.0f || !(high < HIGHEST_FACTOR)) {
-        return buckling_search_end(search);
-    }
-    const float root = low + at_low * (low - search->before) / (search->at_before - at_low);
-    return root >= low && root < high ? root : high;
-}
-
 bool brace_loaded_space_fixed_buckling_step(const brace_loaded_space_fixed_t *fixed,
                                             const brace_space_fixed_rest_t *rest, brace_buckling_search_t *search,
                                             float *factor)
 {
     const bool is_first = search->step == 0;
     const int step = is_first ? 1 : search->step + 1;
-    const float at = is_first ? 1.0f : buckling_search_at(search, search->step - 1);
+    const float at = is_first ? 1.0f : space_search_at(search, search->step - 1);
     softened_t at_load;
     const found_t found = soften(fixed, rest, at, &at_load);
     if (is_first) {
         *search = buckling_search_from(at_load.determinant);
     } else if (found != UNKNOWN) {
-        buckling_search_narrow(search, at, at_load);
+        space_search_narrow(search, at, at_load);
     }
     const bool goes_on = found != UNKNOWN && !(is_first && found == BUCKLED) && step <= SEARCH_STEPS;
     search->step = goes_on ? step : 0;
     if (goes_on) {
         return false;
     }
-    *factor = found == UNKNOWN ? NAN : is_first && found == BUCKLED ? 1.0f : end_of(search);
+    *factor = found == UNKNOWN ? NAN : is_first && found == BUCKLED ? 1.0f : space_search_end(search);
     return true;
 }

@@ -87,7 +87,7 @@ INLINE int32_t kept(int64_t sum, int bits, int room, lost_t *lost)
  * (q29) times an entry; 2 in the angle that a compliance and a moment make. */
 enum { ROOM_RATIO = 0, ROOM_LEVER = 1, ROOM_ANGLE = 1, ROOM_COMPLIANCE = 2 };
 
-#define LEAST_PIVOT_Q27 (ONE_Q27 / 16)
+#define LEAST_PIVOT_Q27 (ONE_Q27 / 16 + 1) /* one over a sixteenth would be 16, which q27 does not hold */
 
 /* One over a pivot that is at least LEAST_PIVOT_Q27: 16 bits by division, the rest by a step of Newton's method. */
 INLINE int32_t inverse_q27(int32_t pivot_q27)

@@ -6,7 +6,7 @@
 #include "base/check.h"
 #include "base/eigen.h"
 #include "chain/tensor.h"
-#include "loaded/buckling.h"
+#include "loaded/space_buckling.h"
 #include "loaded/space_sum.h"
 
 #define SINGULAR 1e-3f
@@ -269,12 +269,12 @@ bool brace_loaded_space_buckling_step(const brace_loaded_space_t *loaded, const 
                                       brace_buckling_search_t *search, float *factor)
 {
     const bool is_first = search->step == 0;
-    const float at = is_first ? 1.0f : buckling_search_at(search, search->step - 1);
+    const float at = is_first ? 1.0f : space_search_at(search, search->step - 1);
     const pivots_t p = pivots_at(loaded, rest, at);
     if (is_first) {
         *search = buckling_search_from(p.product);
     } else {
-        buckling_search_narrow(search, at, (softened_t){p.product, is_stable(&p)});
+        space_search_narrow(search, at, (softened_t){p.product, is_stable(&p)});
     }
     const int step = is_first ? 1 : search->step + 1;
     search->step = step;
@@ -282,7 +282,7 @@ bool brace_loaded_space_buckling_step(const brace_loaded_space_t *loaded, const 
         return false;
     }
     search->step = 0;
-    *factor = buckling_search_end(search);
+    *factor = space_search_end(search);
     return true;
 }
 

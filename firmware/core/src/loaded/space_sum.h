@@ -123,6 +123,10 @@ INLINE void eliminate_link(const brace_space_link_t *link, vec3_t turn, const br
     free->by_sideways = vec3_scaled(free->sideways.follows, share);
     free->by_sideways.z = brace_fma(-link->sideways_mm_per_n, curled_n, free->by_sideways.z);
     if (springs_soften) {
+        const float sixth_y = turn.y * (1.0f / 3.0f), sixth_z = turn.z * (1.0f / 3.0f); /* of half the moment */
+        own.yy = brace_fma(-sixth_z, half_m.z, own.yy);
+        own.yz = brace_fma(0.5f, brace_fma(sixth_y, half_m.z, sixth_z * half_m.y), own.yz);
+        own.zz = brace_fma(-sixth_y, half_m.y, own.zz);
         const vec3_t own_across = vec3(share * across.x, brace_fma(share, across.y, curled_n), share * across.z);
         const vec3_t own_sideways = vec3(share * sideways.x, share * sideways.y,
                                          brace_fma(share, sideways.z, curled_n));

@@ -149,9 +149,10 @@ class Fitter:
         scale, low, high = (chosen.array(name) for name in ("scale", "low", "high"))
         start = chosen.array("start") / scale
         unit = max(self.record.noise_n_mm, 1e-3 * self.record.size.torque_n_mm)
+        fitted = np.flatnonzero(self.record.fitted)
 
         def whole(points: np.ndarray) -> np.ndarray:
-            off = self._offs(chosen, points * scale)[:, self.record.fitted]
+            off = self._offs(chosen, points * scale).take(fitted, axis=1)
             if pull is not None:
                 off = np.hstack([off, pull * (points - start)])
             return np.asarray(off / unit)

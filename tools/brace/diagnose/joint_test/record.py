@@ -11,7 +11,7 @@ from scipy.ndimage import uniform_filter1d
 from brace.dataset import Dataset
 from brace.dataset.grid import step_of
 from brace.diagnose.joint_test.hold_out import alike, held_out
-from brace.diagnose.joint_test.shapes import added
+from brace.diagnose.joint_test.shapes import SHAPES, added
 from brace.effects import JointTestSize
 from brace.effects.catalogue import FRICTION_TURN
 from brace.identify.fit import Nuisances, columns_of
@@ -130,6 +130,8 @@ class JointRecord(JointProblem):
     def torques(self, models: np.ndarray, nuisances: Nuisances) -> np.ndarray:
         """The same for many models (brace.native.plant_batch): models x readings; NaN for a joint that cannot be."""
         played = self._played(self._players, models, nuisances)
+        if SHAPES.isdisjoint(nuisances):
+            return as_read(played, nuisances, self._motion)
         index = number_index()
         at = f"joint.{self.joint}."
         angle = self.columns["angle_rad"]
@@ -149,6 +151,9 @@ class JointRecord(JointProblem):
 
     def deflection_rad(self, nuisances: Nuisances, count: int) -> np.ndarray:
         """`count` models x averaged readings: the angle from the zero of its gear position."""
+        if self.position_count == 1:
+            zero = nuisances.get(angle_zero(0), np.full(count, -self._centre_rad))
+            return np.asarray(self.columns["angle_rad"] + zero[:, np.newaxis])
         bent = np.empty((count, self.fitted.size))
         for one in range(self.position_count):
             rows = self.position == one

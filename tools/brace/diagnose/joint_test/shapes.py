@@ -21,6 +21,8 @@ STOP, STOP_AT = "stop_n_mm_per_rad", "stop_at_rad"  # beyond the angle, on the s
 SOFT, SOFT_OVER = "soft_middle_n_mm", "soft_over_rad"  # what the spring lacks beyond its middle; negative: has there
 SLIP, SLIP_TURN, SLIP_FREE = "slip_n_mm", "slip_turn_rad", "slip_free_share"
 LATER, LATER_TURN = "later_friction_n_mm", "later_turn_rad"  # friction that turns over another angle besides
+# Without one of them a torque stays as it is played.
+SHAPES = frozenset({ASYMMETRY, COG_PERIOD, TORQUE_DRIFT, STOP, SOFT, SLIP, LATER})
 
 MOST_LAG_S = 0.3
 MOST_SLIP = 0.25  # of the range of angles, to either side: a slider that hardly ever slips is a gap

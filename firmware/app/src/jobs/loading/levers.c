@@ -5,7 +5,8 @@
 #define LEAST_KNEE_SINE 0.05f
 #define ASIDE_RAD 0.01f /* the error of a central difference, a sixth of the square, is below 2e-5 of it */
 
-enum { AT_POSTURE = 0, PLACES = 5, EVERY = 10 }; /* the test begins 50 ticks later, and leaves others theirs */
+enum { LISTENED = 50 };                          /* ticks whose mean is the load */
+enum { AT_POSTURE = 0, PLACES = 5, EVERY = 10 }; /* the test begins 100 ticks later, and leaves others theirs */
 
 void levers_begin(brace_loading_t *test, const loading_inputs_t *inputs)
 {
@@ -17,10 +18,17 @@ void levers_begin(brace_loading_t *test, const loading_inputs_t *inputs)
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         test->lever_rad[i] = posture->unbent_rad[i];
     }
-    const brace_snapshot_load_t *load = &inputs->now->load;
-    test->lever_force_n = (brace_vec3_t){load->force_x_n, load->force_y_n, load->force_z_n};
+    test->lever_force_n = (brace_vec3_t){0};
     test->lever_step = 0;
     inputs->work->is_half_done = false;
+}
+
+static void listen(brace_loading_t *test, const brace_snapshot_load_t *load)
+{
+    const float share = 1.0f / (float)LISTENED;
+    test->lever_force_n.x += share * load->force_x_n;
+    test->lever_force_n.y += share * load->force_y_n;
+    test->lever_force_n.z += share * load->force_z_n;
 }
 
 static int32_t rest_at(const brace_loading_t *test, const loading_inputs_t *inputs, uint32_t place, model_rest_t *rest)
@@ -53,7 +61,8 @@ static void add_difference(brace_point_t *lever, brace_displacement_t ahead, bra
 
 static bool has_work(const brace_loading_t *test, const loading_inputs_t *inputs)
 {
-    return test->lever_step % EVERY == 0u || inputs->work->is_half_done;
+    const uint32_t step = test->lever_step;
+    return inputs->work->is_half_done || (step >= LISTENED && (step - LISTENED) % EVERY == 0u);
 }
 
 bool levers_are_due(const brace_loading_t *test, const loading_inputs_t *inputs)
@@ -64,12 +73,16 @@ bool levers_are_due(const brace_loading_t *test, const loading_inputs_t *inputs)
 bool levers_step(brace_loading_t *test, const loading_inputs_t *inputs, bool *has_worked)
 {
     model_rest_t rest;
-    const uint32_t step = test->lever_step;
-    if (!inputs->now->load.is_counted || step >= PLACES * EVERY) {
+    if (!inputs->now->load.is_counted || test->lever_step >= LISTENED + PLACES * EVERY) {
         return true;
     }
     const bool is_due = has_work(test, inputs);
     test->lever_step++;
+    if (test->lever_step <= LISTENED) {
+        listen(test, &inputs->now->load);
+        return false;
+    }
+    const uint32_t step = test->lever_step - 1u - LISTENED;
     if (!is_due) {
         return false;
     }
@@ -80,7 +93,7 @@ bool levers_step(brace_loading_t *test, const loading_inputs_t *inputs, bool *ha
         return false;
     }
     if (status != BRACE_OK) {
-        test->lever_step = PLACES * EVERY;
+        test->lever_step = LISTENED + PLACES * EVERY;
         return true;
     }
     if (place == AT_POSTURE) {

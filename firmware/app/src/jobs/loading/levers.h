@@ -17,9 +17,10 @@ void levers_begin(brace_loading_t *test, const loading_inputs_t *inputs);
  * it, also those between, so that they stay apart. */
 bool levers_are_due(const brace_loading_t *test, const loading_inputs_t *inputs);
 
-/* Works out one displacement under the load, in every tenth step: five of them, at the posture and a little to each side
- * of it by either joint. Their central differences are added to the straight links' levers; where a displacement cannot
- * be told, the straight links' levers stay.
+/* Takes the load's mean over fifty steps; one noisy sample would turn the levers. Then works out one displacement under
+ * it in every tenth step: five of them, at the posture and a little to each side of it by either joint. Their central
+ * differences are added to the straight links' levers; where a displacement cannot be told, the straight links' levers
+ * stay.
  *   has_worked (out): true when a displacement has been worked out; else untouched
  * returns whether the levers are there. At most 2,900 instructions. */
 bool levers_step(brace_loading_t *test, const loading_inputs_t *inputs, bool *has_worked);

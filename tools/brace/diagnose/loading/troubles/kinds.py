@@ -9,6 +9,7 @@ from math import comb, log
 import numpy as np
 
 from brace.dataset.check_runs import run_starts
+from brace.diagnose.loading.extensions import LEAST_RANGE_DEGC
 from brace.diagnose.loading.fit import Fit
 from brace.identify.noise import FORCES
 from brace.identify.record import Record
@@ -19,9 +20,11 @@ from brace.effects.rivals import INSTRUMENT_TROUBLES
 from brace.native.plant_batch import number_index, reference_planar_many
 
 LAG, GAIN_STEP, ZERO_STEP, ZEROS, POSE, SLIP, OUTLIERS = (cause.name for cause in INSTRUMENT_TROUBLES)
-# What follows the posture may be of the limb or of an encoder. It is no trouble of the instruments here, and stands
-# only against those that would otherwise make up for it.
-OF_POSTURES = ("zero_per_posture", "pose_error_per_posture", "gain_per_posture")
+# What follows the posture may be of the limb or of an encoder. A tip that is displaced in proportion to time or to the
+# temperature tells of a rig, a limb or a ground that grows. These are no troubles of the instruments here, and stand
+# only against those that would otherwise make up for them: some slips come near a way that grows.
+GROWTH = "tip_moves_slowly"
+NOT_TOLD = ("zero_per_posture", "pose_error_per_posture", "gain_per_posture", GROWTH)
 POSE_SIGMAS_RAD = (7e-4, 1.5e-3, 3e-3, 6e-3)  # what a drive repeats its posture by
 ZERO_SIGMAS_N = (0.03, 0.1, 0.3, 1.0)  # what a force sensor's zero wanders by
 GAIN_SIGMAS = (0.03, 0.1)  # what a reading's gain may differ by from posture to posture
@@ -58,7 +61,10 @@ def kinds(record: Record, fitted: Fit, remover: Remover, left: np.ndarray) -> It
     forces = played[: len(FORCES), :, None] * _X_Z
     both = forces.sum(axis=2, keepdims=True)  # one size: the columns of both forces are apart
     yield Kind(GAIN_STEP, list(_steps(record, remover, left, [both, *_alone(forces)], most=1)))
-    yield Kind(SLIP, list(_steps(record, remover, left, [_displaced(record, fitted)], MOST_SLIPS)))
+    displaced = _displaced(record, fitted)
+    yield Kind(SLIP, list(_steps(record, remover, left, [displaced], MOST_SLIPS)))
+    ramps = list(_ramps(record))
+    yield Kind(GROWTH, [Way(_of_forces(record, displaced * ramp[:, None]), log(len(ramps))) for ramp in ramps])
     if not record.zeroed:
         unit = np.broadcast_to(_X_Z, (len(FORCES), record.rows, len(FORCES)))
         yield Kind(ZERO_STEP, list(_steps(record, remover, left, [unit, *_alone(unit)], MOST_STEPS)))
@@ -67,16 +73,16 @@ def kinds(record: Record, fitted: Fit, remover: Remover, left: np.ndarray) -> It
             both = np.concatenate([runs * _X[:, :, None], runs * _Z[:, :, None]], axis=2)
             yield Kind(ZEROS, [Way(_of_forces(record, both), 0.0)], ZERO_SIGMAS_N)
             yield Kind(
-                OF_POSTURES[0], [Way(_of_forces(record, _by_posture(record, both, starts)), 0.0)], ZERO_SIGMAS_N
+                NOT_TOLD[0], [Way(_of_forces(record, _by_posture(record, both, starts)), 0.0)], ZERO_SIGMAS_N
             )
     if starts.size > 3:
         turned = np.concatenate(
             [_by_run(record, _turned(record, fitted, joint), starts) for joint in ("femur", "tibia")], axis=2
         )
         yield Kind(POSE, [Way(turned, 0.0)], POSE_SIGMAS_RAD)
-        yield Kind(OF_POSTURES[1], [Way(_by_posture(record, turned, starts), 0.0)], POSE_SIGMAS_RAD)
+        yield Kind(NOT_TOLD[1], [Way(_by_posture(record, turned, starts), 0.0)], POSE_SIGMAS_RAD)
         gains = _by_posture(record, _by_run(record, played[: len(FORCES)], starts), starts)
-        yield Kind(OF_POSTURES[2], [Way(_of_forces(record, gains), 0.0)], GAIN_SIGMAS)
+        yield Kind(NOT_TOLD[2], [Way(_of_forces(record, gains), 0.0)], GAIN_SIGMAS)
     far = np.flatnonzero(far_among_alike(record, fitted) > FAR_OUT)
     if 0 < far.size <= max(1.0, MOST_OUT * record.readings):
         columns = np.zeros((record.measured.size, far.size))
@@ -110,6 +116,15 @@ def _displaced(record: Record, fitted: Fit) -> np.ndarray:
     postures, of_row = np.unique(angles, axis=0, return_inverse=True)
     xx, xz, zz = reference_planar_many(fitted.model[None], postures[None])[0, of_row.ravel(), :3].T
     return np.stack([np.stack([xx, xz]), np.stack([xz, zz])], axis=2)
+
+
+def _ramps(record: Record) -> Iterator[np.ndarray]:
+    """What grows slowly, each from 0 at the first row by 1 at most: time, and the temperature where it changes."""
+    for name, least in (("t_s", 0.0), ("temp_degc", LEAST_RANGE_DEGC)):
+        if name in record.dataset:
+            since_first = record.dataset[name] - record.dataset[name][0]
+            if np.ptp(since_first) > least:
+                yield since_first / np.abs(since_first).max()
 
 
 _X, _Z = np.array([[1.0], [0.0]]), np.array([[0.0], [1.0]])

@@ -16,7 +16,7 @@ from brace.diagnose.loading.intervals import Z_90
 from brace.identify.record import Record
 from brace.diagnose.loading.rounding import rounds_to_record
 from brace.diagnose.loading.screen import Remover
-from brace.diagnose.loading.troubles.kinds import GAIN_STEP, LAG, OF_POSTURES, OUTLIERS, SLIP, ZERO_STEP, kinds
+from brace.diagnose.loading.troubles.kinds import GAIN_STEP, LAG, NOT_TOLD, OUTLIERS, SLIP, ZERO_STEP, kinds
 from brace.diagnose.loading.troubles.words import first_row, shown
 from brace.effects.rivals import RIVAL_BY_NAME, RivalCause
 
@@ -82,7 +82,7 @@ def likeliest(record: Record, sets: Sequence[LabelSet]) -> Trouble | None:
         first.setdefault((option.kind, option.rest.labels), option)
     troubles = [_fitted(record, base, option, against) for option in list(first.values())[:REFITTED]]
     likely = max(troubles, key=lambda one: one.lead, default=None)
-    return likely if likely is not None and likely.lead > MAY_BE and likely.name not in OF_POSTURES else None
+    return likely if likely is not None and likely.lead > MAY_BE and likely.name not in NOT_TOLD else None
 
 
 @dataclass(frozen=True)

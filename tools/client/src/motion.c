@@ -1,0 +1,319 @@
+/* Motions: asked for, kept going by signs of life, and followed to their end. */
+#include "client_internal.h"
+
+#include <poll.h>
+
+#include "brace/backlash_types.h"
+#include "brace/can_messages.h"
+#include "brace/codes.h"
+#include "brace/loading.h"
+
+enum { LIFE_US = 40000, POLL_US = 20000, PAUSE_MS = 10, STEP_MS = 100, STOP_MS = 100 };
+enum { NEWS_US = 1000000, LIMIT_MOST_MS = 3600000,
+       BEGIN_US = 300000 /* by then what has been asked for runs, or will not */ };
+enum { FLANK_POSITIVE = 256, FLANK_NEGATIVE = 512, ANY_VALUE = 1, JOINTS = 3 };
+enum { OUTCOME_RUNNING = BRACE_TAKEUP_RUNNING }; /* of a loading test, too */
+_Static_assert((int)BRACE_TAKEUP_RUNNING == (int)BRACE_LOADING_RUNNING, "one number for both");
+
+/* ---------------------------------------------------------------------------------------- signs of life -- */
+
+void brace_client_tend(brace_client_t *client, uint64_t deadline_us)
+{
+    if (!client->lives || brace_bus_left_ms(client->next_life_us) > 0) {
+        return;
+    }
+    client->next_life_us = brace_bus_now_us() + LIFE_US;
+    const brace_sign_t sign = brace_owner_life(&client->owner);
+    if (client->bus != NULL) {
+        brace_can_show_life(client, sign);
+    } else {
+        brace_modbus_show_life(client, sign, deadline_us);
+    }
+}
+
+static void live(brace_client_t *client, uint64_t deadline_us)
+{
+    client->next_life_us = client->lives ? client->next_life_us : 0u;
+    client->lives = true;
+    brace_client_tend(client, deadline_us);
+}
+
+/* ---------------------------------------------------------------------------------------- how it goes -- */
+
+static bool is_under_way(const brace_client_t *client)
+{
+    return client->motion.now.state == BRACE_MOTION_ASKED || client->motion.now.state == BRACE_MOTION_RUNNING;
+}
+
+static void end(brace_client_t *client, brace_motion_state_t state, int32_t reason, const char *why)
+{
+    client->lives = false;
+    client->motion.now = (brace_motion_t){.state = state, .reason = reason};
+    (void)brace_client_fail(client, BRACE_CLIENT_OK, "%s: %s", client->url, why);
+}
+
+/* What the controller tells of a motion. */
+typedef struct {
+    uint32_t outcome, mode, is_held, silences;
+} progress_t;
+
+static brace_client_status_t ask_progress(brace_client_t *client, uint64_t deadline_us, progress_t *progress)
+{
+    const bool takes_up = client->motion.kind == BRACE_TAKES_UP;
+    const struct {
+        uint32_t index;
+        uint32_t *value;
+    } entries[] = {{takes_up ? BRACE_CLIENT_ENTRY(take_up_coxa) + client->motion.joint
+                             : BRACE_CLIENT_ENTRY(loading_outcome), &progress->outcome},
+                   {BRACE_CLIENT_ENTRY(mode), &progress->mode},
+                   {BRACE_CLIENT_ENTRY(is_held), &progress->is_held},
+                   {BRACE_CLIENT_ENTRY(silences), &progress->silences}};
+    for (size_t i = 0u; i < sizeof entries / sizeof entries[0]; i++) {
+        const brace_client_status_t status =
+            brace_client_entry_u32(client, entries[i].index, brace_bus_left_ms(deadline_us), entries[i].value);
+        if (status != BRACE_CLIENT_OK) {
+            return status;
+        }
+    }
+    return BRACE_CLIENT_OK;
+}
+
+static int32_t signed_outcome(uint32_t told)
+{
+    return told < 128u ? (int32_t)told : (int32_t)told - 256;
+}
+
+/* A take-up that runs or has ended. A failed one has ended when the limb is back. */
+static void judge_take_up(brace_client_t *client, const progress_t *progress)
+{
+    const int32_t outcome = signed_outcome(progress->outcome);
+    if (outcome == (int32_t)BRACE_TAKEUP_DONE) {
+        end(client, BRACE_MOTION_DONE, 0, brace_take_up_outcome_text(outcome));
+    } else if (outcome < 0 && progress->mode != BRACE_MODE_TAKING_UP) {
+        end(client, BRACE_MOTION_FAILED, outcome, brace_take_up_outcome_text(outcome));
+    }
+}
+
+static void judge_loading_test(brace_client_t *client, const progress_t *progress)
+{
+    const int32_t outcome = signed_outcome(progress->outcome);
+    if (progress->mode == BRACE_MODE_LOADING_TEST) {
+        return; /* on its way, or on its way back */
+    }
+    const brace_motion_state_t state = outcome == (int32_t)BRACE_LOADING_DONE      ? BRACE_MOTION_DONE
+                                       : outcome == (int32_t)BRACE_LOADING_STOPPED ? BRACE_MOTION_STOPPED
+                                                                                   : BRACE_MOTION_FAILED;
+    end(client, state, state == BRACE_MOTION_FAILED ? outcome : 0, brace_loading_outcome_text(outcome));
+}
+
+static void judge_way_back(brace_client_t *client, const progress_t *progress)
+{
+    const bool still_takes_up = client->motion.kind == BRACE_LETS_GO && progress->mode == BRACE_MODE_TAKING_UP;
+    if (!still_takes_up && progress->mode != BRACE_MODE_LOADING_TEST) {
+        end(client, BRACE_MOTION_DONE, 0, "the limb is back where it began");
+    }
+}
+
+/* The answer to what was asked for was lost: does it run? returns whether that is known */
+static bool has_begun(brace_client_t *client, const progress_t *progress, bool is_new)
+{
+    brace_client_motion_t *motion = &client->motion;
+    const bool has_outcome = motion->kind == BRACE_TAKES_UP || motion->kind == BRACE_LOADS;
+    if (motion->now.state == BRACE_MOTION_RUNNING || !has_outcome) {
+        return true;
+    }
+    if (signed_outcome(progress->outcome) == OUTCOME_RUNNING) {
+        motion->now.state = BRACE_MOTION_RUNNING;
+    } else if (!is_new) {
+        end(client, BRACE_MOTION_TIMED_OUT, 0, "no answer came, and the motion has not begun; ask again");
+    }
+    return motion->now.state == BRACE_MOTION_RUNNING;
+}
+
+static void judge(brace_client_t *client, const progress_t *progress)
+{
+    brace_client_motion_t *motion = &client->motion;
+    const bool is_new = brace_bus_now_us() - motion->asked_us < BEGIN_US;
+    if (progress->silences != motion->silences) {
+        end(client, BRACE_MOTION_OWNER_LOST, 0,
+            "the controller heard no sign of life for 130 ms, so the limb stands and is held; call brace_client_step "
+            "at least every 50 ms, and let go or ask again");
+        return;
+    }
+    if (!has_begun(client, progress, is_new)) {
+        return;
+    }
+    switch (motion->kind) {
+    case BRACE_TAKES_UP: judge_take_up(client, progress); break;
+    case BRACE_LOADS: judge_loading_test(client, progress); break;
+    default: judge_way_back(client, progress); break;
+    }
+    /* A new motion may only wait for its first sign of life. */
+    if (is_under_way(client) && progress->is_held == 1u && !is_new) {
+        end(client, BRACE_MOTION_STOPPED, 0, "somebody has stopped the limb, and it is held; let go or ask again");
+    }
+}
+
+/* ------------------------------------------------------------------------------------------- stepping -- */
+
+static void give_up(brace_client_t *client)
+{
+    (void)brace_client_stop(client, STOP_MS); /* without signs of life the limb stands all the same */
+    end(client, BRACE_MOTION_TIMED_OUT, 0, "the motion was not done within its limit, and the limb was told to stop");
+}
+
+/* An answer that does not come once is no news; the limit of the motion goes on. */
+static brace_client_status_t poll_progress(brace_client_t *client, uint64_t deadline_us)
+{
+    brace_client_motion_t *motion = &client->motion;
+    progress_t progress;
+    const brace_client_status_t status = ask_progress(client, deadline_us, &progress);
+    const uint64_t now_us = brace_bus_now_us();
+    motion->next_poll_us = now_us + POLL_US;
+    if (status == BRACE_CLIENT_OK) {
+        motion->news_us = now_us;
+        judge(client, &progress);
+        return BRACE_CLIENT_OK;
+    }
+    const bool may_come = status == BRACE_CLIENT_E_TIMEOUT || status == BRACE_CLIENT_E_SILENT ||
+                          status == BRACE_CLIENT_E_NODE || status == BRACE_CLIENT_E_BIT_RATE;
+    return may_come && now_us - motion->news_us < NEWS_US ? BRACE_CLIENT_OK : status;
+}
+
+brace_client_status_t brace_client_step(brace_client_t *client, int timeout_ms, brace_motion_t *motion)
+{
+    const uint64_t deadline_us = brace_client_deadline_after(timeout_ms);
+    brace_client_status_t status = BRACE_CLIENT_OK;
+    if (is_under_way(client)) {
+        if (brace_bus_left_ms(client->motion.limit_us) == 0) {
+            give_up(client);
+        } else if (brace_bus_left_ms(client->motion.next_poll_us) == 0) {
+            status = poll_progress(client, deadline_us); /* and a sign of life, as in every call that asks */
+        }
+    }
+    if (motion != NULL) {
+        *motion = client->motion.now;
+    }
+    return status;
+}
+
+brace_client_status_t brace_client_wait(brace_client_t *client, brace_motion_t *motion)
+{
+    brace_client_status_t status = brace_client_step(client, STEP_MS, motion);
+    while (status == BRACE_CLIENT_OK && is_under_way(client)) {
+        poll(NULL, 0, PAUSE_MS);
+        status = brace_client_step(client, STEP_MS, motion);
+    }
+    if (status != BRACE_CLIENT_OK || client->motion.now.state == BRACE_MOTION_DONE ||
+        client->motion.now.state == BRACE_MOTION_NONE) {
+        return status;
+    }
+    return client->motion.now.state == BRACE_MOTION_TIMED_OUT ? BRACE_CLIENT_E_TIMEOUT : BRACE_CLIENT_E_REFUSED;
+}
+
+/* ------------------------------------------------------------------------------------------ beginning -- */
+
+/* A sign of life goes before the command, so that the motion begins at once. A motion that runs already goes on when
+ * this one is refused. */
+static brace_client_status_t begin(brace_client_t *client, brace_command_t *command, brace_motion_kind_t kind,
+                                   uint32_t joint, int timeout_ms, int limit_ms)
+{
+    const uint64_t deadline_us = brace_client_deadline_after(timeout_ms), now_us = brace_bus_now_us();
+    const brace_client_motion_t before = client->motion;
+    const bool ran = is_under_way(client);
+    uint32_t silences;
+    if (limit_ms < 1 || limit_ms > LIMIT_MOST_MS) {
+        return brace_client_fail(client, BRACE_CLIENT_E_USAGE, "limit of a motion %d ms: 1 to %d", limit_ms,
+                                 LIMIT_MOST_MS);
+    }
+    brace_client_status_t status = brace_client_become_owner(client, deadline_us);
+    if (status == BRACE_CLIENT_OK) {
+        status = brace_client_entry_u32(client, BRACE_CLIENT_ENTRY(silences), brace_bus_left_ms(deadline_us),
+                                        &silences);
+    }
+    if (status == BRACE_CLIENT_OK) {
+        client->motion = (brace_client_motion_t){.now = {.state = BRACE_MOTION_ASKED},
+                                                 .kind = kind,
+                                                 .joint = joint,
+                                                 .silences = silences,
+                                                 .asked_us = now_us,
+                                                 .news_us = now_us,
+                                                 .limit_us = now_us + (uint64_t)limit_ms * 1000u};
+        live(client, deadline_us);
+        status = brace_client_command(client, command, deadline_us);
+        client->motion.now.state = status == BRACE_CLIENT_OK ? BRACE_MOTION_RUNNING : BRACE_MOTION_ASKED;
+    }
+    if (status == BRACE_CLIENT_E_REFUSED && ran) {
+        client->motion = before;
+    } else if (status == BRACE_CLIENT_E_REFUSED) {
+        client->motion.now = (brace_motion_t){.state = BRACE_MOTION_REFUSED, .reason = client->refusal};
+        client->lives = false;
+    }
+    return status;
+}
+
+brace_client_status_t brace_client_begin_take_up(brace_client_t *client, uint32_t joint, int flank, int timeout_ms,
+                                                 int limit_ms)
+{
+    const brace_can_take_up_request_t request = {.joint = joint, .flank = flank};
+    brace_command_t command = {.question = {.code = BRACE_REQUEST_TAKE_UP},
+                               .is_once = true,
+                               .place = BRACE_CLIENT_COMMAND_PLACE(take_up),
+                               .values = {joint | (flank > 0 ? (uint32_t)FLANK_POSITIVE : (uint32_t)FLANK_NEGATIVE)},
+                               .count = 1u};
+    if (joint >= (uint32_t)JOINTS || (flank != 1 && flank != -1)) {
+        return brace_client_fail(client, BRACE_CLIENT_E_USAGE,
+                                 "joint %u, flank %d: 0 coxa, 1 femur, 2 tibia; flank 1 or -1", (unsigned)joint, flank);
+    }
+    (void)brace_can_pack_take_up_request(&request, command.question.data);
+    return begin(client, &command, BRACE_TAKES_UP, joint, timeout_ms, limit_ms);
+}
+
+brace_client_status_t brace_client_begin_let_go(brace_client_t *client, int timeout_ms, int limit_ms)
+{
+    const brace_can_let_go_request_t request = {0};
+    brace_command_t command = {.question = {.code = BRACE_REQUEST_LET_GO},
+                               .place = BRACE_CLIENT_COMMAND_PLACE(let_go),
+                               .values = {ANY_VALUE},
+                               .count = 1u};
+    (void)brace_can_pack_let_go_request(&request, command.question.data);
+    return begin(client, &command, BRACE_LETS_GO, 0u, timeout_ms, limit_ms);
+}
+
+brace_client_status_t brace_client_begin_loading_test(brace_client_t *client, const brace_loading_plan_t *plan,
+                                                      int timeout_ms, int limit_ms)
+{
+    const brace_can_loading_test_start_request_t request = {.axis = plan->axis,
+                                                            .steps_per_side = plan->steps_per_side,
+                                                            .step_mm = plan->step_mm,
+                                                            .dwell_ms = plan->dwell_ms};
+    brace_command_t command = {.question = {.code = BRACE_REQUEST_LOADING_TEST_START}, .is_once = true};
+    const bool is_number = plan->step_mm >= 0.0f; /* NaN would be sent as 'not known' */
+    if (brace_can_pack_loading_test_start_request(&request, command.question.data) != 0u || !is_number) {
+        return brace_client_fail(client, BRACE_CLIENT_E_USAGE,
+                                 "a value of the loading test lies outside its range; client_motion.h states them");
+    }
+    if (client->bus == NULL) {
+        return brace_client_fail(client, BRACE_CLIENT_E_UNSUPPORTED,
+                                 "%s: no loading test over Modbus; connect over CAN", client->url);
+    }
+    return begin(client, &command, BRACE_LOADS, 0u, timeout_ms, limit_ms);
+}
+
+brace_client_status_t brace_client_begin_end_test(brace_client_t *client, int timeout_ms, int limit_ms)
+{
+    const brace_can_write_entry_request_t request = {.index = BRACE_CLIENT_COMMAND(end_test), .value = ANY_VALUE};
+    brace_command_t command = {.question = {.code = BRACE_REQUEST_WRITE_ENTRY},
+                               .place = BRACE_CLIENT_COMMAND_PLACE(end_test),
+                               .values = {ANY_VALUE},
+                               .count = 1u};
+    (void)brace_can_pack_write_entry_request(&request, command.question.data);
+    return begin(client, &command, BRACE_ENDS_TEST, 0u, timeout_ms, limit_ms);
+}
+
+void brace_client_end_motion(brace_client_t *client)
+{
+    if (is_under_way(client)) {
+        end(client, BRACE_MOTION_STOPPED, 0, "the limb stands and is held; let go or ask again");
+    }
+}
