@@ -107,7 +107,8 @@ typedef struct {
     } rest;
 } model_work_t;
 
-/* returns MODEL_LATER, or why there is no K, as model_loaded. At most 1,200 instructions in the plane, 3,200 in space. */
+/* returns MODEL_LATER, or why there is no K, as model_loaded. At most 1,200 instructions in the plane, 3,200 in
+ * space. */
 int32_t model_loaded_begin(const model_t *model, const float unbent_rad[BRACE_LINK_COUNT],
                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n,
                            brace_vec3_t down, model_work_t *work);

@@ -12,7 +12,7 @@
 #include "base/inline.h"
 #include "base/trig.h"
 #include "base/vec.h"
-#include "brace/loaded.h"
+#include "brace/loaded_types.h"
 
 typedef brace_loaded_shape_t shape_t;
 typedef brace_loaded_seen_t link_t;

@@ -380,7 +380,8 @@ static void compare(brace_loading_t *test, const brace_limb_t *limb)
 /* Is the next step one of the dear ones? */
 static bool is_dear(const brace_loading_t *test, const loading_inputs_t *inputs)
 {
-    return (test->phase == LOADING_LEVERS && levers_are_due(test, inputs)) || test->phase == LOADING_READ || test->phase == LOADING_MODEL ||
+    return (test->phase == LOADING_LEVERS && levers_are_due(test, inputs)) || test->phase == LOADING_READ ||
+           test->phase == LOADING_MODEL ||
            test->phase == LOADING_REFERENCE || test->phase == LOADING_JUDGE || test->phase == LOADING_COMPARE;
 }
 

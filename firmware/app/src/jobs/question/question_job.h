@@ -2,14 +2,14 @@
  *
  * K under a load costs a fifth of the instructions that a tick may take, and more in space. So the tick that takes a
  * question does not compute K; the job computes it in two steps, in the next two ticks. The port that asks repeats its
- * question in every tick until it gets the answer. A port that stops asking loses its place. Other jobs' dear steps give
- * way, and have a tick for themselves now and then. So four ports that ask at once all have their answers within eight
- * ticks, and a tick that works on a K answers requests beside it (wire/wires.h).
+ * question in every tick until it gets the answer. A port that stops asking loses its place. Other jobs' dear steps
+ * give way, and have a tick for themselves now and then. So four ports that ask at once all have their answers within
+ * eight ticks, and a tick that works on a K answers requests beside it (wire/wires.h).
  *
- * In space a tick that works out half of a K has no room for requests: they wait for the next tick (wire/wire.h), and
- * between two K the job leaves a tick to them. So four ports have their answers within twelve ticks, and two more
- * while the buckling factor is searched: a question takes 7,000 instructions and its answer 1,000 to 1,500, and a tick of
- * 16,000 leaves 3,700 of them where all else costs most. */
+ * In space a tick that works out half of a K has no room for requests: they wait for the next tick, and between two K
+ * the job leaves a tick to them. So four ports have their answers within twelve ticks, and two more while the buckling
+ * factor is searched: a question takes 7,000 instructions and its answer 1,000 to 1,500, and a tick of 16,000 leaves
+ * 3,700 of them where all else costs most. */
 #ifndef BRACE_JOBS_QUESTION_QUESTION_JOB_H
 #define BRACE_JOBS_QUESTION_QUESTION_JOB_H
 
