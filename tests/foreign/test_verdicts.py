@@ -47,6 +47,16 @@ def test_names() -> None:
     assert alone.told is False
 
 
+def test_a_member_of_two_names() -> None:
+    """A class is named by either of two names that stand in it together; a name outside it is still wrong."""
+    pair = ["rig_rotation@rig", f"sensor_rotation@sensor + joint_zero_offset@{WHERE}"]
+    about = truth(part="loading", effects=[], trouble="rig_rotation", trouble_s=30.0)
+    by_class = said("rig_rotation@rig", "sensor_rotation@sensor", indistinguishable=[pair])
+    assert not judged(about, by_class).wrongly_named
+    besides = said("rig_rotation@rig", "sensor_gain@sensor", indistinguishable=[pair])
+    assert judged(about, besides).wrong(0.9) == ["sensor_gain@sensor 0.95"]
+
+
 def test_a_gap_larger_than_the_swing() -> None:
     """Is wrong, though play is there."""
     found = said(f"backlash@{WHERE}")

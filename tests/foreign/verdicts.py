@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -62,6 +62,11 @@ def _bare(one: str) -> str:
     return one.split("@")[0]
 
 
+def _parts(members: Iterable[str]) -> Iterator[str]:
+    """The names of a class, those that stand together apart."""
+    return (part for member in members for part in re.split(r"\s*\+\s*", str(member)))
+
+
 def texts(found: dict[str, Any]) -> Iterator[str]:
     """What a diagnosis says beside names."""
     for fault in found.get("data_faults", []):
@@ -93,14 +98,13 @@ def judge(truth: dict[str, Any], found: dict[str, Any], run: dict[str, Any]) -> 
     real, may = {label(e) for e in truth["effects"]}, _may(truth)
     kin = real | set(truth["cls"])  # cls: labels that leave the same trace in this design
     accepted = {name for one in may for name in (*one.names, *one.also)}
-    classes = [set(members) for members in found.get("indistinguishable", [])]
+    classes = [set(_parts(members)) for members in found.get("indistinguishable", [])]
     nothing_can_be = truth["trouble"] == "other_units"
     for effect in found.get("effects", []):
         said = label(effect)
         right = (said in real or effect["name"] in accepted) and not nothing_can_be
-        group = set().union(*(c for c in classes if said in c)) | {said}
-        # A member of the rig may stand for itself and another name together; what is listed is written with " + ".
-        listed = {part for member in group for part in re.split(r"\s*\+\s*", member)}
+        # A member may be two names together, written with " + ": naming either of them names the class.
+        listed = set().union(*(c for c in classes if said in c)) | {said}
         near = bool(listed & real) or said in kin or any(_bare(one) in accepted for one in listed)
         word.claims.append(Claim(said, float(effect["confidence"]), right, (right or near) and not nothing_can_be))
         if said in real and not nothing_can_be:
@@ -130,7 +134,7 @@ def judge(truth: dict[str, Any], found: dict[str, Any], run: dict[str, Any]) -> 
 def _tells(may: May, word: Word, found: dict[str, Any], refused: bool) -> bool:
     named = {_bare(claim.label) for claim in word.claims}
     for members in [*found.get("indistinguishable", []), found.get("could_be", [])]:
-        named |= {_bare(part) for member in members for part in re.split(r"\s*\+\s*", str(member))}
+        named |= {_bare(part) for part in _parts(members)}
     if named & set(may.names) or word.verdict in may.verdicts or (refused and "data_fault" in may.verdicts):
         return True
     if may.silence and not word.wrongly_named and word.verdict in ("none", "effect", "ambiguous"):

@@ -158,6 +158,19 @@ def test_a_clamp_that_slips_is_told_with_its_way(tmp_path: Path, limb: Path) -> 
     assert abs(int(told[3]) - (STEP_ROW + 1)) <= 2
 
 
+def test_a_clamp_that_goes_back_is_a_burst_of_interference(tmp_path: Path, limb: Path) -> None:
+    """Within one run both read alike; no clamp slips, and slips back to where it was."""
+
+    def back_again(columns: Columns) -> None:
+        there = np.zeros(len(columns["t_s"]))
+        there[STEP_ROW + 1 : STEP_ROW + 9] = 0.3
+        displace(columns, limb, there, there)
+
+    found = spoiled(tmp_path / "record", limb, back_again, values={})
+    assert found.verdict == "data_fault", found.sentence
+    assert "slipped by" not in found.sentence and "the sensor's zero moved" in found.sentence
+
+
 def test_a_frame_that_grows_is_no_clamp_that_slips(tmp_path: Path, limb: Path) -> None:
     """Some slips come near a slow way. It has no name, and is told as what it is: unknown."""
 

@@ -23,6 +23,7 @@ from brace.effects.rivals import RIVAL_BY_NAME, RivalCause
 MUST_LEAD = 4.6  # nats: 100 to 1 against the best of the catalogue, as every name must be ahead of nothing missing
 REFITTED = 4  # kinds of trouble beside sets of effects, the most likely ones
 BY_SLOPES = 0.01  # nats for each sigma squared that a trouble explains by slopes: what a fit may explain beside
+BACK = 0.2  # of the largest slip: what slips that go back may leave
 MAY_BE = -3.0  # nats: 1 to 20, from which a trouble is a rival of what was named
 FLAT = 1e3  # whitened: a size of which nothing is known before
 
@@ -142,7 +143,17 @@ def _fitted(record: Record, base: Fit, option: _Option, against: float) -> Troub
     inner = whitened.T @ whitened + (np.eye(whitened.shape[1]) / option.spread**2 if option.spread else 0.0)
     left = record.residuals(fitted.space.models(fitted.x[None]))[0]
     sizes = np.linalg.pinv(inner, hermitian=True) @ (whitened.T @ left)
+    if option.kind == SLIP and _goes_back(sizes):
+        lead = -np.inf
     return _told(record, option, fitted, wide, sizes, lead)
+
+
+def _goes_back(sizes: np.ndarray) -> bool:
+    """Whether slips, each along x and z, end where they began. No clamp does that; within one run a burst of
+    interference, which is up and down again, reads like it."""
+    slips = sizes.reshape(-1, 2)
+    net_mm, largest_mm = np.linalg.norm(slips.sum(axis=0)), np.linalg.norm(slips, axis=1).max()
+    return len(slips) > 1 and bool(net_mm < BACK * largest_mm)
 
 
 def _told(
