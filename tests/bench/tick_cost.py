@@ -61,26 +61,26 @@ class TickCost:
         return self.maximum <= TICK_LIMIT and self.space_maximum <= SPACE_LIMIT
 
 
-def _sources() -> Iterator[tuple[Path, bool]]:
-    """Sources of the image, and whether they are firmware."""
+def _sources(ticks: int) -> Iterator[tuple[Path, tuple[str, ...]]]:
+    """Sources of the image, and their flags: those of the firmware's own build."""
     firmware = CORE.parent
     for folder in ("core/src", "interface/src", "interface/generated", "store/src", "app/src"):
-        yield from ((path, True) for path in sorted((firmware / folder).rglob("*.c")) if "batch" not in path.parts)
-    yield from ((path, False) for path in sorted((BENCH / "tick").glob("*.c")) if path.name != "count_ticks.c")
-    yield BOARDS / "common" / "startup.c", False
+        flags = (*CORE_FLAGS, "-O3") if folder == "app/src" else CORE_FLAGS
+        yield from ((path, flags) for path in sorted((firmware / folder).rglob("*.c")) if "batch" not in path.parts)
+    harness = ("-O2", f"-DTICKS={ticks}", "-fno-function-sections", "-fno-tree-loop-distribute-patterns")
+    yield from ((path, harness) for path in sorted((BENCH / "tick").glob("*.c")) if path.name != "count_ticks.c")
+    yield BOARDS / "common" / "startup.c", harness
 
 
 def build_image(ticks: int, processor: Processor = M4F) -> Path:
-    """The image, with the firmware's own flags."""
+    """The image."""
     firmware = CORE.parent
     includes = tuple(f"-I{folder}" for folder in (
         firmware / "app" / "include", firmware / "app" / "src", firmware / "store" / "include",
         firmware / "interface" / "include",
         firmware / "interface" / "generated", firmware / "interface" / "src", BENCH.parents[1] / "hal" / "include"))
     objects = []
-    for source, is_firmware in _sources():
-        flags = CORE_FLAGS if is_firmware else ("-O2", f"-DTICKS={ticks}", "-fno-function-sections",
-                                                "-fno-tree-loop-distribute-patterns")
+    for source, flags in _sources(ticks):
         name = "_".join(source.relative_to(BENCH.parents[1]).parts)
         objects.append(compile_source(source, BUILD / "objects" / f"tick {processor.name}" / f"{name}.o", processor,
                                       (*flags, *includes)))

@@ -32,7 +32,8 @@ M4F = Processor("Cortex-M4F", ("-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=hard",
 M3 = Processor("Cortex-M3", ("-mcpu=cortex-m3", "-mthumb"), "mps2-an385", "thumbv7m-none-eabi", "cortex-m3")
 
 SECTIONS = ("-ffunction-sections", "-fdata-sections")
-CORE_FLAGS = ("-std=c11", "-O2", "-ffp-contract=off", "-fno-math-errno", *SECTIONS, "-Wall", "-Wextra")
+REGISTERS = ("-fno-schedule-insns", "-flive-range-shrinkage", "-frename-registers")  # firmware/core/CMakeLists.txt
+CORE_FLAGS = ("-std=c11", "-O2", *REGISTERS, "-ffp-contract=off", "-fno-math-errno", *SECTIONS, "-Wall", "-Wextra")
 C_FLAGS = ("-std=gnu11", *SECTIONS, "-Wall")
 CXX_FLAGS = ("-std=c++17", "-fno-exceptions", "-fno-rtti", *SECTIONS, "-Wall")
 HARNESS_FLAGS = ("-O2", "-fno-optimize-sibling-calls")  # a call that is counted must be a call

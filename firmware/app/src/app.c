@@ -77,26 +77,27 @@ static bool configure_step(controller_t *controller)
     }
 }
 
-static drift_inputs_t drift_inputs(const controller_t *controller)
+static drift_inputs_t drift_inputs(const controller_t *controller, bool may_work)
 {
     const brace_mode_t mode = controller->mode.now;
     return (drift_inputs_t){.hal = controller->hal,
                             .parameters = &controller->parameters.in_force,
                             .parameter_crc = controller->parameters.crc,
                             .origin = controller->parameters.origin,
-                            .may_work = !controller->question.has_worked,
+                            .may_work = may_work && !controller->question.has_worked,
                             .may_write = (mode == BRACE_MODE_MONITOR || mode == BRACE_MODE_FAULT) &&
                                          !parameter_job_is_busy(&controller->parameters)};
 }
 
-static question_inputs_t question_inputs(controller_t *controller)
+static question_inputs_t question_inputs(controller_t *controller, bool may_work)
 {
     return (question_inputs_t){.model = &controller->model,
                                .parameters = &controller->parameters.in_force,
                                .origin = controller->parameters.origin,
                                .joints = &controller->joints,
                                .down = controller->gravity.down,
-                               .may_work = !controller->has_worked};
+                               .may_work = may_work,
+                               .may_begin = !(controller->has_worked && controller->model.is_spatial)};
 }
 
 static void blank_snapshot(const controller_t *controller, brace_snapshot_t *snapshot)
@@ -157,7 +158,7 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal)
         done = configure_step(controller);
     }
     controller->drift.is_erased = false; /* what the journal knows of this set counts */
-    const drift_inputs_t inputs = drift_inputs(controller);
+    const drift_inputs_t inputs = drift_inputs(controller, true);
     const uint32_t steps_most = 2u + (uint32_t)BRACE_JOURNAL_SCANS; /* learn the limb, open the journal, search it */
     for (uint32_t i = 0; i < steps_most && drift_job_is_starting(&controller->drift); i++) {
         drift_job_step(&controller->drift, &inputs);
@@ -289,9 +290,9 @@ static void take_place(const controller_t *controller, brace_snapshot_t *snapsho
 }
 
 /* One step of the loading test; its reading goes to the drift check. returns whether it has worked out a K */
-static bool step_loading(controller_t *controller, const brace_snapshot_t *now)
+static bool step_loading(controller_t *controller, const brace_snapshot_t *now, bool may_work)
 {
-    const loading_inputs_t inputs = controller_loading_inputs(controller, now);
+    const loading_inputs_t inputs = controller_loading_inputs(controller, now, may_work);
     loading_reading_t reading;
     loading_step(&controller->loading, &inputs, &controller->recorder, &reading);
     if (reading.is_there && reading.is_fit) {
@@ -461,23 +462,24 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     take_place(controller, snapshot);
     part_is_done(controller, PART_STIFFNESS);
 
-    /* One step of each job. */
-    const question_inputs_t question = question_inputs(controller);
+    /* One step of each job. Those that need a K of their own take turns: one of them works on it in a tick, and none
+     * in a tick that has to tell process data beside answers. In space no request is answered beside a job's K. */
+    const bool may_work = controller->model.is_spatial || !wires_data_are_overdue(&app->wires);
+    const question_inputs_t question = question_inputs(controller, may_work);
     question_job_step(&controller->question, &question);
-    const drift_inputs_t drift = drift_inputs(controller);
+    const drift_inputs_t drift = drift_inputs(controller, may_work);
     drift_job_step(&controller->drift, &drift); /* takes a reading in in the tick after the loading test's */
     const bool is_held = controller->ownership.is_held;
     if (!is_held) {
         takeup_step(&controller->takeup, &controller->flank);
     }
-    const bool loading_has_worked = !is_held && step_loading(controller, snapshot);
+    const bool loading_has_worked =
+        !is_held && step_loading(controller, snapshot, may_work && !controller->question.has_worked);
     step_parameters(app);
     const bool job_has_worked = controller->question.has_worked || loading_has_worked;
     const bool is_counted_in_space = controller->model.is_spatial && snapshot->load.is_counted;
-    controller->has_worked =
-        softening_step(&controller->softening, &controller->model, &parameters->limb, controller->posture.unbent_rad,
-                       is_counted_in_space, !job_has_worked) ||
-        job_has_worked;
+    const bool softening_works = softening_is_overdue(&controller->softening) && may_work && !job_has_worked;
+    controller->has_worked = job_has_worked || softening_works;
     if (!controller->has_worked) {
         watch_sensors(controller); /* proofs take a quarter of a second: a tick that is dear already may be left out */
     }
@@ -494,9 +496,14 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     /* Tell. */
     publish(controller, snapshot);
     controller->ownership.is_by_wire = true;
-    wires_tick(&app->wires, hal, app, &controller->counters, controller->has_worked,
-               job_has_worked || controller->drift.has_worked, now_us);
+    const bool is_spatial = controller->model.is_spatial;
+    const wires_room_t room = controller->has_worked                     ? (is_spatial ? WIRES_NONE : WIRES_ONE)
+                              : is_spatial && controller->drift.has_worked ? WIRES_ONE
+                                                                           : WIRES_ALL;
+    const bool wires_have_worked = wires_tick(&app->wires, hal, app, &controller->counters, room, now_us);
     controller->ownership.is_by_wire = false;
+    softening_step(&controller->softening, &controller->model, &parameters->limb, controller->posture.unbent_rad,
+                   is_counted_in_space, may_work && !job_has_worked && (softening_works || !wires_have_worked));
     part_is_done(controller, PART_TOLD);
 
     /* A tick that left a part out, or did one twice, feeds no watchdog. */

@@ -224,7 +224,25 @@ static void test_four_ports_that_ask_at_once_are_answered_within_eight_ticks(voi
     }
 }
 
-/* A tick that works a K out leaves requests to the next one, and no two such ticks follow one another. */
+/* A tick that works on a K answers another port's request all the same. */
+static void test_other_requests_are_answered_in_the_tick_that_finds_them(void)
+{
+    TEST_ASSERT_EQUAL(2, brace_fake_bytes_arrive(&fake, BRACE_SERIAL_SLCAN, (const uint8_t *)"O\r", 2));
+    ticks(3);
+    for (int turn = 0; turn < 20; turn++) {
+        uint8_t k[8], entry[8];
+        brace_can_pack_k_at_posture_request(&(brace_can_k_at_posture_request_t){1, 0.8f, 1.2f}, k);
+        brace_can_pack_read_entry_request(&(brace_can_read_entry_request_t){9, BRACE_ENTRY_MEASURED}, entry);
+        as_text(k);
+        for (int i = 0; i < 4; i++) { /* taken, worked on in two ticks, answered in the second of them */
+            drain();
+            TEST_ASSERT_EQUAL(1, ask_within(entry, 1).count);
+        }
+        TEST_ASSERT_TRUE(heard_on(BRACE_SERIAL_SLCAN) > 3u * 20u);
+    }
+}
+
+/* When many ask at once beside it, none waits longer than for the next tick. */
 static void test_other_requests_wait_for_one_tick_at_most(void)
 {
     TEST_ASSERT_EQUAL(2, brace_fake_bytes_arrive(&fake, BRACE_SERIAL_SLCAN, (const uint8_t *)"O\r", 2));
@@ -332,6 +350,7 @@ int main(void)
     RUN_TEST(test_a_force_that_folds_the_limb_or_is_none_is_refused);
     RUN_TEST(test_K_under_a_force_over_the_line_and_over_TCP);
     RUN_TEST(test_four_ports_that_ask_at_once_are_answered_within_eight_ticks);
+    RUN_TEST(test_other_requests_are_answered_in_the_tick_that_finds_them);
     RUN_TEST(test_other_requests_wait_for_one_tick_at_most);
     RUN_TEST(test_a_port_that_is_closed_loses_its_question);
     RUN_TEST(test_the_main_computer_sets_where_down_is_until_the_next_start);

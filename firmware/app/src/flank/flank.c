@@ -42,6 +42,7 @@ void flank_configure(flank_t *flank, int joint_index, const joints_t *joints, co
                                             .angle_step_rad = drive->angle_step_rad,
                                             .takeup = takeup_bounds(drive, joint)};
     ours->has_play = joints->joint[joint_index].fitted && joint->gap_rad >= LEAST_GAP_RAD;
+    ours->out = (brace_backlash_out_t){.valid = false}; /* what a joint that is not watched leaves as it is */
     ours->watched = ours->has_play && brace_backlash_init(&ours->machine, &params) == BRACE_OK;
 }
 
@@ -70,15 +71,18 @@ void flank_tick(flank_t *flank, const joints_t *joints, const tip_force_t *force
         const joint_t *joint = &joints->joint[i];
         flank_joint_t *ours = &flank->joint[i];
         if (!joint->fitted) {
-            ours->out = (brace_backlash_out_t){.valid = false};
+            ours->out.valid = false;
         } else if (!ours->watched) {
-            ours->out = (brace_backlash_out_t){.valid = !ours->has_play && joint->sound,
-                                               .offset_off_rad = 0.5f * parameters->limb.joint[i].gap_rad,
-                                               .load_n_mm = joint->torque_n_mm};
+            ours->out.valid = !ours->has_play && joint->sound;
+            ours->out.offset_off_rad = 0.5f * parameters->limb.joint[i].gap_rad;
+            ours->out.load_n_mm = joint->torque_n_mm;
         } else {
             brace_backlash_sample_t sample = {.now_us = now_us,
                                               .motor_rad = joint->sample.motor_rad,
                                               .torque_n_mm = joint->sample.torque_n_mm,
+                                              .load_is_expected = false,
+                                              .expected_n_mm = 0.0f,
+                                              .expected_off_n_mm = 0.0f,
                                               .stands = stands};
             if (!joint->is_new_enough_to_prove_a_flank) {
                 sample.motor_rad = __builtin_nanf(""); /* the machine goes to FAULT, and comes back by itself */

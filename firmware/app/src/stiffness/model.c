@@ -27,6 +27,28 @@ static brace_status_t loaded_stiffness(const model_loaded_limb_t *limb, const fl
 #endif
 }
 
+static brace_status_t plane_settle(const model_loaded_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
+                                   const brace_load_t *load, model_plane_rest_t *rest)
+{
+#ifdef __SOFTFP__
+    return brace_loaded_fixed_stiffness(limb, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], load, rest);
+#else
+    return brace_loaded_settle(limb, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], load, rest);
+#endif
+}
+
+static brace_status_t plane_stiffness(const model_loaded_limb_t *limb, const model_plane_rest_t *rest,
+                                      brace_loaded_stiffness_t *result)
+{
+#ifdef __SOFTFP__
+    (void)limb;
+    *result = *rest;
+    return BRACE_OK;
+#else
+    return brace_loaded_stiffness_at(limb, rest, result);
+#endif
+}
+
 void model_configure(model_t *model, const brace_parameters_t *parameters, bool is_spatial)
 {
     const brace_limb_t *limb = &parameters->limb;
@@ -132,75 +154,121 @@ static float square(float a)
     return a * a;
 }
 
-/* Joint and base's rotation turn together, each by its share of what yields. theta2 is flexion: it turns clockwise. */
-static int32_t rest_in_plane(const model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
-                             const brace_load_t *load, model_rest_t *rest)
+static brace_load_t plane_load(const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n,
+                               brace_vec3_t down)
 {
-    brace_loaded_stiffness_t found;
-    const brace_status_t status = loaded_stiffness(&model->loaded, unbent_rad, load, &found);
+    return (brace_load_t){.tip = {tip_n.x, tip_n.z},
+                          .down = {down.x, down.z},
+                          .hip = springs[BRACE_FEMUR],
+                          .knee = springs[BRACE_TIBIA]};
+}
+
+static brace_space_load_t space_load(const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n,
+                                     brace_vec3_t down)
+{
+    return (brace_space_load_t){.tip_n = tip_n,
+                                .down = down,
+                                .yaw = springs[BRACE_COXA],
+                                .hip = springs[BRACE_FEMUR],
+                                .knee = springs[BRACE_TIBIA]};
+}
+
+/* Joint and base's rotation turn together, each by its share of what yields. theta2 is flexion: it turns clockwise. */
+static void tell_plane(const brace_limb_t *limb, float hip_yields_rad_per_n_mm, const brace_loaded_stiffness_t *found,
+                       model_rest_t *rest)
+{
+    const float joint = hip_yields_rad_per_n_mm, both = joint + limb->base.rotation_rad_per_n_mm;
+    const brace_vec_t moved = {found->displacement.x_mm, found->displacement.z_mm};
+    rest->plane = found->stiffness;
+    rest->plane.flags |= brace_loaded_flags(found->buckling_factor, square(moved.x) + square(moved.z),
+                                            limb->femur_mm + limb->tibia_mm);
+    rest->bend = (posture_bend_t){.tip_mm = moved,
+                                  .tibia_mm = found->tibia_mm,
+                                  .joint_turn_rad = {0.0f, both > 0.0f ? joint / both * found->hip_turn_rad : 0.0f,
+                                                     -found->knee_turn_rad}};
+    rest->moved_across_mm = __builtin_nanf("");
+    rest->buckling_factor = found->buckling_factor;
+}
+
+static brace_status_t tell_space(const brace_limb_t *limb, const brace_space_result_t *found, model_rest_t *rest)
+{
+    const brace_status_t status = space_path_in_plane(&found->k, &rest->plane);
     if (status != BRACE_OK) {
         return status;
     }
-    const float joint = load->hip.yields_by_rad_per_n_mm, both = joint + limb->base.rotation_rad_per_n_mm;
-    const brace_vec_t moved = {found.displacement.x_mm, found.displacement.z_mm};
-    rest->plane = found.stiffness;
-    rest->plane.flags |= brace_loaded_flags(found.buckling_factor, square(moved.x) + square(moved.z),
+    const brace_vec3_t moved = found->displacement_mm;
+    rest->plane.flags |= brace_loaded_flags(__builtin_inff(), square(moved.x) + square(moved.y) + square(moved.z),
                                             limb->femur_mm + limb->tibia_mm);
-    rest->bend = (posture_bend_t){.tip_mm = moved,
-                                  .tibia_mm = found.tibia_mm,
-                                  .joint_turn_rad = {0.0f, both > 0.0f ? joint / both * found.hip_turn_rad : 0.0f,
-                                                     -found.knee_turn_rad}};
-    rest->moved_across_mm = __builtin_nanf("");
-    rest->buckling_factor = found.buckling_factor;
+    rest->space = found->k;
+    rest->bend = (posture_bend_t){.tip_mm = {moved.x, moved.z},
+                                  .tibia_mm = {found->tibia_mm.x, found->tibia_mm.z},
+                                  .tip_across_mm = moved.y,
+                                  .tibia_across_mm = found->tibia_mm.y,
+                                  .joint_turn_rad = {found->yaw_turn_rad, found->hip_turn_rad,
+                                                     -found->knee_turn_rad}};
+    rest->moved_across_mm = moved.y;
+    rest->buckling_factor = __builtin_nanf("");
     return BRACE_OK;
 }
 
-int32_t model_loaded_begin(model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
-                           const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n, brace_vec3_t down,
-                           model_work_t *work, model_rest_t *rest)
+brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
+                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n,
+                            brace_vec3_t down, model_place_t *place, model_rest_t *rest)
 {
     if (!model->is_spatial) {
-        const brace_load_t load = {.tip = {tip_n.x, tip_n.z},
-                                   .down = {down.x, down.z},
-                                   .hip = springs[BRACE_FEMUR],
-                                   .knee = springs[BRACE_TIBIA]};
-        return rest_in_plane(model, limb, unbent_rad, &load, rest);
+        const brace_load_t load = plane_load(springs, tip_n, down);
+        brace_loaded_stiffness_t found;
+        const brace_status_t status = loaded_stiffness(&model->loaded, unbent_rad, &load, &found);
+        if (status == BRACE_OK) {
+            tell_plane(limb, load.hip.yields_by_rad_per_n_mm, &found, rest);
+        }
+        return status;
     }
-    const brace_space_load_t load = {.tip_n = tip_n,
-                                     .down = down,
-                                     .yaw = springs[BRACE_COXA],
-                                     .hip = springs[BRACE_FEMUR],
-                                     .knee = springs[BRACE_TIBIA]};
-    const brace_status_t status = space_path_settle(&model->loaded_space, unbent_rad[BRACE_FEMUR],
-                                                    unbent_rad[BRACE_TIBIA], &load, &work->at);
+    const brace_space_load_t load = space_load(springs, tip_n, down);
+    brace_space_result_t found;
+    brace_status_t status = space_path_settle(&model->loaded_space, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA],
+                                              &load, &place->at);
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
-        work->springs[i] = springs[i];
+        place->springs[i] = springs[i];
+    }
+    if (status == BRACE_OK) {
+        status = space_path_stiffness(&model->loaded_space, &place->at, &found);
+    }
+    return status == BRACE_OK ? tell_space(limb, &found, rest) : status;
+}
+
+/* --- in two steps ------------------------------------------------------------------------------------------------ */
+
+int32_t model_loaded_begin(const model_t *model, const float unbent_rad[BRACE_LINK_COUNT],
+                           const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n,
+                           brace_vec3_t down, model_work_t *work)
+{
+    brace_status_t status;
+    work->hip_yields_rad_per_n_mm = springs[BRACE_FEMUR].yields_by_rad_per_n_mm;
+    if (model->is_spatial) {
+        const brace_space_load_t load = space_load(springs, tip_n, down);
+        status = space_path_settle(&model->loaded_space, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], &load,
+                                   &work->rest.space);
+    } else {
+        const brace_load_t load = plane_load(springs, tip_n, down);
+        status = plane_settle(&model->loaded, unbent_rad, &load, &work->rest.plane);
     }
     work->is_half_done = status == BRACE_OK;
     return work->is_half_done ? (int32_t)MODEL_LATER : status;
 }
 
-int32_t model_loaded_end(const model_t *model, const brace_limb_t *limb, model_work_t *work, model_rest_t *rest)
+brace_status_t model_loaded_end(const model_t *model, const brace_limb_t *limb, model_work_t *work, model_rest_t *rest)
 {
-    brace_space_result_t found;
     work->is_half_done = false;
-    brace_status_t status = space_path_stiffness(&model->loaded_space, &work->at, &found);
+    if (model->is_spatial) {
+        brace_space_result_t found;
+        const brace_status_t status = space_path_stiffness(&model->loaded_space, &work->rest.space, &found);
+        return status == BRACE_OK ? tell_space(limb, &found, rest) : status;
+    }
+    brace_loaded_stiffness_t found;
+    const brace_status_t status = plane_stiffness(&model->loaded, &work->rest.plane, &found);
     if (status == BRACE_OK) {
-        status = space_path_in_plane(&found.k, &rest->plane);
+        tell_plane(limb, work->hip_yields_rad_per_n_mm, &found, rest);
     }
-    if (status != BRACE_OK) {
-        return status;
-    }
-    const brace_vec3_t moved = found.displacement_mm;
-    rest->plane.flags |= brace_loaded_flags(__builtin_inff(), square(moved.x) + square(moved.y) + square(moved.z),
-                                            limb->femur_mm + limb->tibia_mm);
-    rest->space = found.k;
-    rest->bend = (posture_bend_t){.tip_mm = {moved.x, moved.z},
-                                  .tibia_mm = {found.tibia_mm.x, found.tibia_mm.z},
-                                  .tip_across_mm = moved.y,
-                                  .tibia_across_mm = found.tibia_mm.y,
-                                  .joint_turn_rad = {found.yaw_turn_rad, found.hip_turn_rad, -found.knee_turn_rad}};
-    rest->moved_across_mm = moved.y;
-    rest->buckling_factor = __builtin_nanf("");
-    return BRACE_OK;
+    return status;
 }

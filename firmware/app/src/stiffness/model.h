@@ -23,8 +23,10 @@
 /* What K under a load takes of a limb: floats, or integers where floats are computed in software. */
 #ifdef __SOFTFP__
 typedef brace_loaded_fixed_t model_loaded_limb_t;
+typedef brace_loaded_stiffness_t model_plane_rest_t; /* the first of two steps does it all */
 #else
 typedef brace_loaded_t model_loaded_limb_t;
+typedef brace_loaded_rest_t model_plane_rest_t;
 #endif
 
 typedef struct {
@@ -74,29 +76,47 @@ typedef struct {
     float buckling_factor;    /* NaN: of a limb in space (stiffness/softening.h) */
 } model_rest_t;
 
-/* What the first of two steps leaves for the second. */
+/* Where a limb in space rests. */
 typedef struct {
-    bool is_half_done;
-    space_path_rest_t at; /* where a limb in space rests */
+    space_path_rest_t at;
     brace_loaded_joint_t springs[BRACE_LINK_COUNT]; /* there */
-} model_work_t;
+} model_place_t;
 
-enum { MODEL_LATER = 1 }; /* another step finds the answer */
-
-/* K at the equilibrium under a load, every gap closed. A limb in its plane is done with one step; for one in space,
- * model_loaded_end follows.
+/* K at the equilibrium under a load, every gap closed.
  *   unbent_rad: angles without what the load turns
  *   tip_n: force of the ground; down: where the weight pulls. Frame: x outwards, y to the left, z up; a limb in its
  *     plane does not feel y
- *   work: of a limb in space, for model_loaded_end; rest (out): after BRACE_OK
- * returns BRACE_OK, MODEL_LATER, or as brace_loaded_stiffness and brace_loaded_space_settle. At most 2,600 instructions
- *   in the plane, 3,200 in space. */
-int32_t model_loaded_begin(model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
-                           const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n, brace_vec3_t down,
-                           model_work_t *work, model_rest_t *rest);
+ *   place (out): of a limb in space; rest (out): after BRACE_OK
+ * returns BRACE_OK, or as brace_loaded_stiffness, brace_loaded_space_settle and brace_loaded_space_stiffness. At most
+ *   2,600 instructions in the plane, 6,200 in space. */
+brace_status_t model_loaded(const model_t *model, const brace_limb_t *limb, const float unbent_rad[BRACE_LINK_COUNT],
+                            const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n,
+                            brace_vec3_t down, model_place_t *place, model_rest_t *rest);
 
-/* The second step, after MODEL_LATER.
- * returns BRACE_OK, or as brace_loaded_space_stiffness. At most 3,300 instructions. */
-int32_t model_loaded_end(const model_t *model, const brace_limb_t *limb, model_work_t *work, model_rest_t *rest);
+/* The same in two steps, for a job that cannot spend so much in a tick: the equilibrium, and K there. */
+
+enum { MODEL_LATER = 1 }; /* the second step finds the answer */
+
+/* What the first step leaves for the second. */
+typedef struct {
+    bool is_half_done;
+    float hip_yields_rad_per_n_mm; /* the joint alone */
+    union {
+        model_plane_rest_t plane;
+        space_path_rest_t space;
+    } rest;
+} model_work_t;
+
+/* returns MODEL_LATER, or why there is no K, as model_loaded. At most 1,200 instructions in the plane, 3,200 in
+ * space. */
+int32_t model_loaded_begin(const model_t *model, const float unbent_rad[BRACE_LINK_COUNT],
+                           const brace_loaded_joint_t springs[BRACE_LINK_COUNT], brace_vec3_t tip_n,
+                           brace_vec3_t down, model_work_t *work);
+
+/* After MODEL_LATER.
+ *   rest (out): after BRACE_OK
+ * returns as model_loaded. At most 1,500 instructions in the plane, 3,300 in space. */
+brace_status_t model_loaded_end(const model_t *model, const brace_limb_t *limb, model_work_t *work,
+                                model_rest_t *rest);
 
 #endif

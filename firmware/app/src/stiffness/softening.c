@@ -1,7 +1,8 @@
 #include "stiffness/softening.h"
 
-#define EVERY_TICKS 8u
-#define TOLD_TICKS_MOST 80u /* two searches, and ticks in which other jobs worked */
+#define EVERY_TICKS 4u
+#define PATIENCE_TICKS 8u /* in which requests go first */
+#define TOLD_TICKS_MOST 200u /* two searches, and ticks in which requests or other jobs went first */
 
 static void forget_unloaded(softening_t *softening)
 {
@@ -12,7 +13,7 @@ static void forget_unloaded(softening_t *softening)
 
 void softening_start(softening_t *softening)
 {
-    *softening = (softening_t){.factor = __builtin_nanf("")};
+    *softening = (softening_t){.is_searchs_turn = true, .ticks_since_step = EVERY_TICKS, .factor = __builtin_nanf("")};
     forget_unloaded(softening);
 }
 
@@ -35,19 +36,24 @@ static void find_unloaded(softening_t *softening, model_t *model, const brace_li
     }
 }
 
-bool softening_step(softening_t *softening, model_t *model, const brace_limb_t *limb,
+void softening_step(softening_t *softening, model_t *model, const brace_limb_t *limb,
                     const float unbent_rad[BRACE_LINK_COUNT], bool is_counted, bool may_work)
 {
     grow_old(softening, is_counted);
     softening->runs = softening->runs && is_counted;
-    if (softening->ticks_to_step > 0u) {
-        softening->ticks_to_step--;
+    if (softening->ticks_since_step < UINT8_MAX) {
+        softening->ticks_since_step++;
     }
-    if (!is_counted || !may_work || softening->ticks_to_step > 0u) {
-        return false;
+    if (!is_counted || !may_work || softening->ticks_since_step < EVERY_TICKS) {
+        softening->is_needed = is_counted;
+        return;
     }
-    softening->ticks_to_step = EVERY_TICKS;
-    find_unloaded(softening, model, limb, unbent_rad);
+    softening->ticks_since_step = 0;
+    softening->is_searchs_turn = !softening->is_searchs_turn;
+    if (!softening->is_searchs_turn) {
+        find_unloaded(softening, model, limb, unbent_rad);
+        return;
+    }
     if (!softening->runs) {
         softening->runs = true;
         softening->at = softening->now.at;
@@ -57,7 +63,11 @@ bool softening_step(softening_t *softening, model_t *model, const brace_limb_t *
         softening->runs = false;
         softening->ticks_told = 0;
     }
-    return true;
+}
+
+bool softening_is_overdue(const softening_t *softening)
+{
+    return softening->is_needed && softening->ticks_since_step + 1u >= EVERY_TICKS + PATIENCE_TICKS;
 }
 
 uint32_t softening_flags(const softening_t *softening)

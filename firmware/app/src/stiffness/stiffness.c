@@ -74,19 +74,16 @@ typedef struct {
 
 /* K at the equilibrium under the tip's force and the weight; the posture goes there.
  * flags: SOFTENED where there is no such equilibrium
- * returns as model_loaded_begin and model_loaded_end */
-static int32_t take_loaded(model_t *model, const brace_limb_t *limb, const brace_loaded_joint_t *springs,
+ * returns as model_loaded */
+static brace_status_t take_loaded(model_t *model, const brace_limb_t *limb, const brace_loaded_joint_t *springs,
                            brace_vec3_t down, softening_t *softening, posture_t *posture, brace_snapshot_t *snapshot,
                            engaged_t *engaged, uint32_t *flags)
 {
     brace_snapshot_load_t *load = &snapshot->load;
-    model_work_t *work = &softening->now;
     model_rest_t rest;
     const brace_vec3_t tip_n = {snapshot->force_x_n, snapshot->force_y_n, snapshot->force_z_n};
-    int32_t status = model_loaded_begin(model, limb, posture->unbent_rad, springs, tip_n, down, work, &rest);
-    if (status == MODEL_LATER) {
-        status = model_loaded_end(model, limb, work, &rest);
-    }
+    const brace_status_t status =
+        model_loaded(model, limb, posture->unbent_rad, springs, tip_n, down, &softening->now, &rest);
     if (status != BRACE_OK) {
         *flags |= status == BRACE_E_SINGULAR ? (uint32_t)BRACE_FLAG_SOFTENED : 0u;
         return status;
@@ -120,7 +117,7 @@ static bool load_is_known(const model_t *model, const brace_snapshot_t *snapshot
 
 /* K in the limb's plane, and across it, with every gap closed, under the load where it can be counted.
  * flags: why not, or as take_loaded */
-static int32_t take_engaged(model_t *model, const brace_limb_t *limb, const brace_loaded_joint_t *springs,
+static brace_status_t take_engaged(model_t *model, const brace_limb_t *limb, const brace_loaded_joint_t *springs,
                             const gravity_t *gravity, softening_t *softening, posture_t *posture,
                             brace_snapshot_t *snapshot, engaged_t *engaged, uint32_t *flags)
 {

@@ -178,7 +178,7 @@ static void take_counters(const brace_app_counters_t *counters, brace_measured_t
     m->commands_failed = counters->commands_failed;
 }
 
-void measured_take_session(const brace_app_t *app, brace_measured_t *m)
+static void take_session(const brace_app_t *app, brace_measured_t *m)
 {
     brace_session_report_t session;
     brace_app_session(app, &session);
@@ -218,6 +218,7 @@ void measured_take(const brace_app_t *app, const brace_app_counters_t *counters,
     take_loading(app, m);
     take_drift(app, m);
     take_counters(counters, m);
+    take_session(app, m);
 }
 
 brace_status_t measured_entry(const brace_measured_t *measured, uint32_t entry, uint32_t *value)

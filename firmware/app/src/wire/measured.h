@@ -10,12 +10,9 @@
  * valid, as in the snapshot. What the drift check says of a cause is NaN or all ones while there is no cause.
  *   counters: of the controller and of its wires
  *   now_us: the HAL's clock, for the age
- * At most 300 instructions, once in a tick that tells something. */
+ * At most 330 instructions. */
 void measured_take(const brace_app_t *app, const brace_app_counters_t *counters, uint32_t now_us,
                    brace_measured_t *measured);
-
-/* Who may command, and what was refused: not in a dear tick, so it may be a few ticks old. At most 100 instructions. */
-void measured_take_session(const brace_app_t *app, brace_measured_t *measured);
 
 /* The cause of a drift as `drift_cause` tells it. */
 uint32_t measured_drift_cause(const brace_drift_report_t *report);

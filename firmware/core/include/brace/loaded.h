@@ -22,6 +22,7 @@
 
 #include "brace/contact.h"
 #include "brace/limb.h"
+#include "brace/loaded_types.h"
 #include "brace/status.h"
 #include "brace/stiffness.h"
 #include "brace/vec.h"
@@ -68,6 +69,16 @@ typedef struct {
     float buckling_factor;              /* see below; infinity where it is above 16, and where it may be above 11 */
 } brace_loaded_stiffness_t;
 
+/* An equilibrium. brace_loaded_settle writes it; other code must not read its members. */
+typedef struct {
+    brace_vec_t femur_commanded, tibia_commanded; /* directions; the tibia's seen from the femur */
+    brace_loaded_seen_t femur, tibia;
+    brace_loaded_shape_t femur_shape, tibia_shape;
+    float hip_rad_per_n_mm, knee_rad_per_n_mm; /* slopes, base included */
+    float unsettled_rad;                       /* how far the tip has turned in the last step */
+    brace_vec_t on_base_n;
+} brace_loaded_rest_t;
+
 /* Collapses a limb. Call it when parameters change.
  * limb: one that brace_limb_check accepts. weights: each 0 to 1e6 N, not checked; the direction in which they pull is
  * the load's. No pointer may be null.
@@ -90,6 +101,15 @@ void brace_loaded_collapse(const brace_limb_t *limb, const brace_gravity_t *weig
  * Cost on a Cortex-M4F: at most 2,500 instructions (2,417 measured) for every posture; stack at most 800 bytes. */
 brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
                                       const brace_load_t *load, brace_loaded_stiffness_t *result);
+
+/* The same in two steps, for a controller that cannot spend so much at once: the equilibrium, and K there.
+ * No pointer may be null. rest: room to work in, and the equilibrium after BRACE_OK.
+ * Both return what brace_loaded_stiffness returns.
+ * Cost on a Cortex-M4F: at most 1,200 and 1,500 instructions. */
+brace_status_t brace_loaded_settle(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
+                                   const brace_load_t *load, brace_loaded_rest_t *rest);
+brace_status_t brace_loaded_stiffness_at(const brace_loaded_t *loaded, const brace_loaded_rest_t *rest,
+                                         brace_loaded_stiffness_t *result);
 
 #define BRACE_SOFTENED_FACTOR 3.0f /* of buckling: below it a limb is much softer than without load */
 #define BRACE_PROMISED_FACTOR 2.0f /* of buckling: below it no accuracy is promised */

@@ -12,13 +12,10 @@
 #include "base/inline.h"
 #include "base/trig.h"
 #include "base/vec.h"
-#include "brace/vec.h"
+#include "brace/loaded_types.h"
 
-/* The coordinates of a link: how far its root has turned from the commanded direction, and its two curvatures, each as
- * the turn at one of the Gauss points 1/2 -+ 1/(2 sqrt 3). The curvature is linear between and beyond them. */
-typedef struct {
-    float root, a, b;
-} shape_t;
+typedef brace_loaded_shape_t shape_t;
+typedef brace_loaded_seen_t link_t;
 
 /* A symmetric matrix of a link's coordinates. */
 typedef struct {
@@ -30,17 +27,6 @@ typedef struct {
 typedef struct {
     float share, beyond, a, b;
 } point_t;
-
-/* A link in the femur's frame, as it is loaded in this tick. */
-typedef struct {
-    brace_vec_t to_beam_mm, beam_mm, root_root, end_root;
-    brace_vec_t rigid_mm; /* to_beam_mm, and as far as the root's spring moves the beam before anything turns */
-    float end_mm_per_n, bend_rad_per_n_mm;
-    brace_vec_t beyond_n;       /* the force that the link's end carries: the ground's and the weights beyond */
-    brace_vec_t own_n;          /* the link's own weight */
-    brace_vec_t on_rigid_n;     /* the force at the root of the beam. The weight lies along the straight link, so that
-                                   of a tilted link acts half along its rigid part. */
-} link_t;
 
 INLINE float end_turn(const shape_t *shape)
 {

@@ -57,14 +57,13 @@ INLINE link_t link_seen(const brace_loaded_link_t *link, brace_vec_t direction, 
 }
 
 /* Where the tip is at an equilibrium, less where it is without load. bent_mm: seen from the femur. */
-static brace_displacement_t displacement_of(const brace_loaded_t *loaded, const brace_load_t *load, brace_vec_t bent_mm,
-                                            brace_vec_t femur, brace_vec_t tibia)
+INLINE brace_displacement_t displacement_of(const brace_loaded_t *loaded, const brace_loaded_rest_t *at,
+                                            brace_vec_t bent_mm)
 {
+    const brace_vec_t tibia = at->tibia_commanded, on_base = at->on_base_n;
     const brace_vec_t straight = {brace_fma(loaded->tibia.length_mm, tibia.x, loaded->femur.length_mm),
                                   loaded->tibia.length_mm * tibia.z};
-    const brace_vec_t moved = vec_turned(vec_minus(bent_mm, straight), femur);
-    const brace_vec_t tip_n = {load->tip.x_n, load->tip.z_n};
-    const brace_vec_t on_base = vec_plus_scaled(tip_n, load->down, loaded->weight_n);
+    const brace_vec_t moved = vec_turned(vec_minus(bent_mm, straight), at->femur_commanded);
     const float along_root = vec_dot(loaded->base_root, on_base);
     return (brace_displacement_t){
         moved.x + brace_fma(loaded->base_mm_per_n, on_base.x, along_root * loaded->base_root.x),
@@ -83,43 +82,52 @@ INLINE bool is_settled(float unsettled_rad, float det)
     return unsettled_rad * unsettled_rad <= SETTLED_RAD * SETTLED_RAD * det;
 }
 
-brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
-                                      const brace_load_t *load, brace_loaded_stiffness_t *result)
+/* The equilibrium, by two steps of Newton's method from the straight limb. */
+INLINE brace_status_t settle(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
+                             const brace_load_t *load, brace_loaded_rest_t *at)
 {
     const float reach = brace_fma(theta1_rad, theta1_rad, theta2_rad * theta2_rad);
     const float force = fabsf(load->tip.x_n) + fabsf(load->tip.z_n);
     if (!(reach <= BRACE_REACH_RAD2 && force <= FORCE_MOST_N)) {
         return reach - reach == 0.0f && force - force == 0.0f ? BRACE_E_RANGE : BRACE_E_NOT_FINITE;
     }
-    const brace_vec_t forwards = {1.0f, 0.0f}, none = {0.0f, 0.0f}, femur = brace_direction(theta1_rad);
+    const brace_vec_t forwards = {1.0f, 0.0f}, femur = brace_direction(theta1_rad);
     const brace_vec_t tibia = brace_direction(-theta2_rad); /* seen from the femur */
-    const brace_vec_t tip_n = vec_turned_back((brace_vec_t){load->tip.x_n, load->tip.z_n}, femur);
+    const brace_vec_t tip_n = {load->tip.x_n, load->tip.z_n}, seen_n = vec_turned_back(tip_n, femur);
     const brace_vec_t down = vec_turned_back(load->down, femur);
-    const brace_vec_t knee_n = vec_plus_scaled(tip_n, down, loaded->knee_n);
-    limb_t limb = {.femur = link_seen(&loaded->femur, forwards, knee_n, down),
-                   .tibia = link_seen(&loaded->tibia, tibia, tip_n, down),
-                   .femur_shape = {0.0f, 0.0f, 0.0f},
-                   .tibia_shape = {0.0f, 0.0f, 0.0f}};
     const float base = loaded->base_rotation_rad_per_n_mm;
+    *at = (brace_loaded_rest_t){.femur_commanded = femur,
+                                .tibia_commanded = tibia,
+                                .femur = link_seen(&loaded->femur, forwards,
+                                                   vec_plus_scaled(seen_n, down, loaded->knee_n), down),
+                                .tibia = link_seen(&loaded->tibia, tibia, seen_n, down),
+                                .femur_shape = {0.0f, 0.0f, 0.0f},
+                                .tibia_shape = {0.0f, 0.0f, 0.0f},
+                                .hip_rad_per_n_mm = load->hip.slope_rad_per_n_mm + base,
+                                .knee_rad_per_n_mm = load->knee.slope_rad_per_n_mm,
+                                .on_base_n = vec_plus_scaled(tip_n, load->down, loaded->weight_n)};
     const float hip_yields = load->hip.yields_by_rad_per_n_mm + base, knee_yields = load->knee.yields_by_rad_per_n_mm;
-    step(&limb, true, hip_yields, knee_yields);
-    const float turned_rad = end_turn(&limb.tibia_shape);
-    step(&limb, false, hip_yields, knee_yields);
-    const float unsettled_rad = end_turn(&limb.tibia_shape) - turned_rad;
-    if (!(fabsf(unsettled_rad) <= SETTLED_RAD)) {
-        return BRACE_E_SINGULAR;
-    }
-    rest_t femur_rest, tibia_rest;
-    rest_of(&limb.femur, &limb.femur_shape, &femur_rest);
-    rest_of(&limb.tibia, &limb.tibia_shape, &tibia_rest);
+    step(at, true, hip_yields, knee_yields);
+    const float turned_rad = end_turn(&at->tibia_shape);
+    step(at, false, hip_yields, knee_yields);
+    at->unsettled_rad = end_turn(&at->tibia_shape) - turned_rad;
+    return fabsf(at->unsettled_rad) <= SETTLED_RAD ? BRACE_OK : BRACE_E_SINGULAR;
+}
 
-    const float hip = load->hip.slope_rad_per_n_mm + base, knee = load->knee.slope_rad_per_n_mm;
-    const stance_t stance = {&femur_rest, &tibia_rest, limb.femur.bend_rad_per_n_mm, limb.tibia.bend_rad_per_n_mm, hip,
+INLINE brace_status_t stiffness_at(const brace_loaded_t *loaded, const brace_loaded_rest_t *at,
+                                   brace_loaded_stiffness_t *result)
+{
+    const brace_vec_t femur = at->femur_commanded, none = {0.0f, 0.0f};
+    const float hip = at->hip_rad_per_n_mm, knee = at->knee_rad_per_n_mm;
+    rest_t femur_rest, tibia_rest;
+    rest_of(&at->femur, &at->femur_shape, &femur_rest);
+    rest_of(&at->tibia, &at->tibia_shape, &tibia_rest);
+    const stance_t stance = {&femur_rest, &tibia_rest, at->femur.bend_rad_per_n_mm, at->tibia.bend_rad_per_n_mm, hip,
                              knee};
     const pivots_t p = pivots_at(&stance, 1.0f);
     const float det = product(&p);
-    if (!is_stable(&p, SINGULAR_PIVOT) || !is_bent_within(&limb.femur_shape) || !is_bent_within(&limb.tibia_shape) ||
-        !is_settled(unsettled_rad, det)) {
+    if (!is_stable(&p, SINGULAR_PIVOT) || !is_bent_within(&at->femur_shape) || !is_bent_within(&at->tibia_shape) ||
+        !is_settled(at->unsettled_rad, det)) {
         return BRACE_E_SINGULAR;
     }
     brace_tensor_t c = brace_tensor_of(loaded->base_mm_per_n + loaded->femur.end_mm_per_n + loaded->tibia.end_mm_per_n,
@@ -132,11 +140,30 @@ brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1
     if (status != BRACE_OK) {
         return status;
     }
-    const brace_vec_t bent = vec_plus(femur_rest.tip_mm, tibia_rest.tip_mm);
-    result->displacement = displacement_of(loaded, load, bent, femur, tibia);
+    result->displacement = displacement_of(loaded, at, vec_plus(femur_rest.tip_mm, tibia_rest.tip_mm));
     result->tibia_mm = vec_turned(tibia_rest.tip_mm, femur);
-    result->hip_turn_rad = limb.femur_shape.root;
-    result->knee_turn_rad = limb.tibia_shape.root - end_turn(&limb.femur_shape);
+    result->hip_turn_rad = at->femur_shape.root;
+    result->knee_turn_rad = at->tibia_shape.root - end_turn(&at->femur_shape);
     result->buckling_factor = buckling_factor(&stance, det);
     return BRACE_OK;
+}
+
+brace_status_t brace_loaded_settle(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
+                                   const brace_load_t *load, brace_loaded_rest_t *rest)
+{
+    return settle(loaded, theta1_rad, theta2_rad, load, rest);
+}
+
+brace_status_t brace_loaded_stiffness_at(const brace_loaded_t *loaded, const brace_loaded_rest_t *rest,
+                                         brace_loaded_stiffness_t *result)
+{
+    return stiffness_at(loaded, rest, result);
+}
+
+brace_status_t brace_loaded_stiffness(const brace_loaded_t *loaded, float theta1_rad, float theta2_rad,
+                                      const brace_load_t *load, brace_loaded_stiffness_t *result)
+{
+    brace_loaded_rest_t at;
+    const brace_status_t status = settle(loaded, theta1_rad, theta2_rad, load, &at);
+    return status == BRACE_OK ? stiffness_at(loaded, &at, result) : status;
 }

@@ -64,13 +64,8 @@ INLINE shape_t solve_out(const solved_t *s, float root)
     return shape;
 }
 
-typedef struct {
-    link_t femur, tibia;
-    shape_t femur_shape, tibia_shape;
-} limb_t;
-
 /* A step of Newton's method. is_first: nothing is bent yet. */
-INLINE void step(limb_t *limb, bool is_first, float hip_rad_per_n_mm, float knee_rad_per_n_mm)
+INLINE void step(brace_loaded_rest_t *limb, bool is_first, float hip_rad_per_n_mm, float knee_rad_per_n_mm)
 {
     pull_t pull;
     if (is_first) {

@@ -6,7 +6,7 @@
 #define ASIDE_RAD 0.01f /* the error of a central difference, a sixth of the square, is below 2e-5 of it */
 
 enum { LISTENED = 50 };                          /* ticks whose mean is the load */
-enum { AT_POSTURE = 0, PLACES = 5, EVERY = 10 }; /* the test begins 100 ticks later, and delays a question by one */
+enum { AT_POSTURE = 0, PLACES = 5, EVERY = 10 }; /* the test begins 100 ticks later, and leaves others theirs */
 
 void levers_begin(brace_loading_t *test, const loading_inputs_t *inputs)
 {
@@ -42,8 +42,7 @@ static int32_t rest_at(const brace_loading_t *test, const loading_inputs_t *inpu
         theta_rad[place <= 2u ? BRACE_FEMUR : BRACE_TIBIA] += place % 2u == 1u ? ASIDE_RAD : -ASIDE_RAD;
     }
     stiffness_springs_of_now(inputs->model, inputs->parameters, inputs->joints, inputs->flank, springs);
-    return model_loaded_begin(inputs->model, &inputs->parameters->limb, theta_rad, springs, test->lever_force_n,
-                              inputs->down, inputs->work, rest);
+    return model_loaded_begin(inputs->model, theta_rad, springs, test->lever_force_n, inputs->down, inputs->work);
 }
 
 /* Where an encoder behind the gear measures the angle, the motor stands where the load has not turned the joint. */
@@ -60,19 +59,31 @@ static void add_difference(brace_point_t *lever, brace_displacement_t ahead, bra
     lever->z_mm += (ahead.z_mm - behind.z_mm) / (2.0f * ASIDE_RAD);
 }
 
+static bool has_work(const brace_loading_t *test, const loading_inputs_t *inputs)
+{
+    const uint32_t step = test->lever_step;
+    return inputs->work->is_half_done || (step >= LISTENED && (step - LISTENED) % EVERY == 0u);
+}
+
+bool levers_are_due(const brace_loading_t *test, const loading_inputs_t *inputs)
+{
+    return inputs->model->is_spatial || has_work(test, inputs);
+}
+
 bool levers_step(brace_loading_t *test, const loading_inputs_t *inputs, bool *has_worked)
 {
     model_rest_t rest;
     if (!inputs->now->load.is_counted || test->lever_step >= LISTENED + PLACES * EVERY) {
         return true;
     }
+    const bool is_due = has_work(test, inputs);
     test->lever_step++;
     if (test->lever_step <= LISTENED) {
         listen(test, &inputs->now->load);
         return false;
     }
     const uint32_t step = test->lever_step - 1u - LISTENED;
-    if (step % EVERY != 0u && !inputs->work->is_half_done) {
+    if (!is_due) {
         return false;
     }
     const uint32_t place = step / EVERY;

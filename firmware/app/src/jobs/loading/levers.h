@@ -13,6 +13,10 @@
 /* The straight links' levers, from where a test begins. Where a load is counted, steps are due. */
 void levers_begin(brace_loading_t *test, const loading_inputs_t *inputs);
 
+/* Does the next step need a tick of its own? One that works out a displacement does; in space, where requests wait for
+ * it, also those between, so that they stay apart. */
+bool levers_are_due(const brace_loading_t *test, const loading_inputs_t *inputs);
+
 /* Takes the load's mean over fifty steps; one noisy sample would turn the levers. Then works out one displacement under
  * it in every tenth step: five of them, at the posture and a little to each side of it by either joint. Their central
  * differences are added to the straight links' levers; where a displacement cannot be told, the straight links' levers

@@ -15,7 +15,7 @@
 #define RESTING_US 20000u        /* a motor on its way through the target does not rest this long */
 #define TRIM_RATE_RAD_PER_S 0.1f
 #define SAME_POSTURE_RAD 0.01f
-#define APART_TICKS 10u          /* between two steps that work out a K: each delays a question by one */
+#define APART_TICKS 10u          /* between two K that it works out, for questions */
 #define TIME_SPARE_US 2000000u
 #define TIME_MOST_US 3.0e9f
 
@@ -378,9 +378,10 @@ static void compare(brace_loading_t *test, const brace_limb_t *limb)
 }
 
 /* Is the next step one of the dear ones? */
-static bool is_dear(const brace_loading_t *test)
+static bool is_dear(const brace_loading_t *test, const loading_inputs_t *inputs)
 {
-    return test->phase == LOADING_LEVERS || test->phase == LOADING_READ || test->phase == LOADING_MODEL ||
+    return (test->phase == LOADING_LEVERS && levers_are_due(test, inputs)) || test->phase == LOADING_READ ||
+           test->phase == LOADING_MODEL ||
            test->phase == LOADING_REFERENCE || test->phase == LOADING_JUDGE || test->phase == LOADING_COMPARE;
 }
 
@@ -401,7 +402,7 @@ void loading_step(brace_loading_t *test, const loading_inputs_t *inputs, brace_r
             return;
         }
     }
-    if (is_dear(test) && !inputs->may_work) {
+    if (is_dear(test, inputs) && !inputs->may_work) {
         return;
     }
     switch (test->phase) {

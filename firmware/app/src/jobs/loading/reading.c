@@ -134,9 +134,9 @@ static bool k_under_preload(const brace_loading_t *test, const loading_inputs_t 
     model_rest_t rest;
     const int32_t status =
         inputs->work->is_half_done
-            ? model_loaded_end(inputs->model, limb, inputs->work, &rest)
-            : model_loaded_begin(inputs->model, limb, inputs->posture->unbent_rad, springs, preload_n, inputs->down,
-                                 inputs->work, &rest);
+            ? (int32_t)model_loaded_end(inputs->model, limb, inputs->work, &rest)
+            : model_loaded_begin(inputs->model, inputs->posture->unbent_rad, springs, preload_n, inputs->down,
+                                 inputs->work);
     if (status == BRACE_OK) {
         *k = rest.plane;
     }

@@ -3,16 +3,28 @@
 #include <stddef.h>
 #include <string.h>
 
-#define PATIENCE_TICKS 6u /* nobody asks in a tick of a dear step, and two of them may follow one another */
+#include "brace/words.h"
+
+#define PATIENCE_TICKS 6u /* whoever waits asks again in each tick */
+#define STEPS_IN_A_ROW 8u /* as four questions take; then other jobs have a tick */
 
 enum { NONE = 0, TAKEN, DONE };
+
+static bool is_same(const brace_k_question_t *a, const brace_k_question_t *b)
+{
+    bool same = true;
+    for (uint32_t i = 0; i < sizeof *a / 4u; i++) {
+        same = same && brace_word_at(a, i) == brace_word_at(b, i);
+    }
+    return same;
+}
 
 int32_t question_job_ask(question_job_t *job, brace_asker_t asker, const brace_k_question_t *question,
                          brace_k_answer_t *answer)
 {
     question_slot_t *slot = &job->slot[asker];
     slot->ticks_unasked = 0;
-    if (slot->phase == NONE || memcmp(&slot->question, question, sizeof *question) != 0) {
+    if (slot->phase == NONE || !is_same(&slot->question, question)) {
         job->work.is_half_done = job->work.is_half_done && asker != (brace_asker_t)job->answered;
         slot->phase = TAKEN;
         slot->question = *question;
@@ -55,9 +67,8 @@ static uint32_t flags_there(const question_inputs_t *inputs, const float unbent_
            (inputs->origin == BRACE_PARAMETERS_DEFAULT ? (uint32_t)BRACE_FLAG_UNCALIBRATED : 0u);
 }
 
-/* First step, and for a limb in its plane the only one. What the posture says goes into the answer's flags. */
-static int32_t begin(question_job_t *job, const brace_k_question_t *asked, const question_inputs_t *inputs,
-                     model_rest_t *rest)
+/* The first step. What the posture says goes into the answer's flags. */
+static int32_t begin(question_job_t *job, const brace_k_question_t *asked, const question_inputs_t *inputs)
 {
     brace_loaded_joint_t springs[BRACE_LINK_COUNT];
     float temp_degc[BRACE_LINK_COUNT], unbent_rad[BRACE_LINK_COUNT];
@@ -72,16 +83,15 @@ static int32_t begin(question_job_t *job, const brace_k_question_t *asked, const
     model_springs_at_rest(inputs->parameters, temp_degc, springs);
     job->flags = flags_there(inputs, unbent_rad);
     const brace_vec3_t tip_n = {asked->tip_force.x_n, asked->force_across_n, asked->tip_force.z_n};
-    return model_loaded_begin(inputs->model, &inputs->parameters->limb, unbent_rad, springs, tip_n, inputs->down,
-                              &job->work, rest);
+    return model_loaded_begin(inputs->model, unbent_rad, springs, tip_n, inputs->down, &job->work);
 }
 
 static int32_t work_out(question_job_t *job, const brace_k_question_t *asked, const question_inputs_t *inputs)
 {
     model_rest_t rest;
     const int32_t status = job->work.is_half_done
-                               ? model_loaded_end(inputs->model, &inputs->parameters->limb, &job->work, &rest)
-                               : begin(job, asked, inputs, &rest);
+                               ? (int32_t)model_loaded_end(inputs->model, &inputs->parameters->limb, &job->work, &rest)
+                               : begin(job, asked, inputs);
     if (status == BRACE_OK) {
         job->answer.k = rest.plane;
         job->answer.k.flags |= job->flags;
@@ -116,22 +126,31 @@ static question_slot_t *next_slot(question_job_t *job)
     return NULL;
 }
 
+/* The answer before goes, if nobody has taken it. */
+static void forget_answer(question_job_t *job)
+{
+    for (uint32_t i = 0; i < (uint32_t)BRACE_ASKER_COUNT; i++) {
+        job->slot[i].phase = job->slot[i].phase == DONE ? (uint8_t)NONE : job->slot[i].phase;
+    }
+}
+
 void question_job_step(question_job_t *job, const question_inputs_t *inputs)
 {
-    question_slot_t *before = &job->slot[job->answered];
     for (uint32_t i = 0; i < (uint32_t)BRACE_ASKER_COUNT; i++) {
         question_slot_t *slot = &job->slot[i];
         slot->ticks_unasked++;
         slot->phase = slot->ticks_unasked > PATIENCE_TICKS ? (uint8_t)NONE : slot->phase;
     }
-    question_slot_t *slot = inputs->may_work || job->work.is_half_done ? next_slot(job) : NULL;
+    const bool may_begin = inputs->may_begin && job->ticks_in_a_row < STEPS_IN_A_ROW;
+    question_slot_t *slot = inputs->may_work && (may_begin || job->work.is_half_done) ? next_slot(job) : NULL;
     job->has_worked = slot != NULL;
+    job->ticks_in_a_row = slot != NULL ? (uint8_t)(job->ticks_in_a_row + 1u) : 0u;
     if (slot == NULL) {
         return;
     }
-    before->phase = before->phase == DONE ? (uint8_t)NONE : before->phase; /* its answer goes */
     const int32_t status = work_out(job, &slot->question, inputs);
     if (status != MODEL_LATER) {
+        forget_answer(job);
         job->status = status;
         slot->phase = DONE;
     }

@@ -7,7 +7,7 @@
 #define FRAMES_PER_TICK 4u /* looked at; the hardware layer's filter lets in requests to this node only */
 #define NODE_MOST 127u
 #define STORING_PARTS 2u /* of the answer to a commit, which comes by itself */
-#define LONG_ANSWER_PARTS 5u /* of an answer beside which no process data leaves */
+#define DATA_WAIT_MOST 16u /* ticks with answers in a row, in which no process data leave */
 #define ANSWERS_PER_TICK ((uint32_t)BRACE_CAN_ANSWER_PARTS_MOST + STORING_PARTS) /* frames that a tick can add */
 
 typedef enum { ON_BUS, AS_TEXT } way_t;
@@ -65,34 +65,15 @@ static can_port_t *port_of(can_t *can, way_t way)
     return way == ON_BUS ? &can->bus_port : &can->text_port;
 }
 
-static void answer(can_t *can, way_t way, const wire_tick_t *tick, const uint8_t *data)
+/* returns whether the request is done with: else it is put again in the next tick */
+static bool answer(can_t *can, way_t way, const wire_tick_t *tick, const uint8_t *data)
 {
     const brace_asker_t asker = way == ON_BUS ? BRACE_ASKER_CAN : BRACE_ASKER_SLCAN;
-    if (!can_requests_answer(&port_of(can, way)->requests, tick, asker, can->node_id, data)) {
+    can_requests_t *requests = &port_of(can, way)->requests;
+    if (!can_requests_answer(requests, tick, asker, can->node_id, data)) {
         brace_count(&tick->counters->frames_unknown);
     }
-}
-
-/* A request that has come. */
-static void take(can_t *can, way_t way, const wire_tick_t *tick, const uint8_t *data)
-{
-    if (tick->requests_wait) {
-        can_requests_keep(&port_of(can, way)->requests, data);
-    } else {
-        answer(can, way, tick, data);
-    }
-}
-
-/* A request that is being worked out is put again, and is this tick's: the next one waits in the hardware layer.
- * returns whether there was one */
-static bool ask_again(can_t *can, way_t way, const wire_tick_t *tick)
-{
-    const can_requests_t *requests = &port_of(can, way)->requests;
-    const bool waited = requests->waits;
-    if (waited && !tick->requests_wait) {
-        answer(can, way, tick, requests->waiting);
-    }
-    return waited;
+    return !requests->waits;
 }
 
 static bool has_number(const can_t *can)
@@ -100,16 +81,21 @@ static bool has_number(const can_t *can)
     return can->node_id >= 1u && can->node_id <= NODE_MOST;
 }
 
-/* Looks through what has come over CAN. One request is answered in a tick; one more waits here, and those behind it in
- * the hardware layer. Frames of other nodes are taken in every tick, so that none of them stands before a request. */
-static void listen_to_bus(can_t *can, const wire_tick_t *tick)
+/* Looks through what has come over CAN. One request is answered in a tick: one that waits for its answer, or else the
+ * first one that has come. One more waits here, and those behind it in the hardware layer. Frames of other nodes are
+ * taken in every tick, so that none of them stands before a request.
+ * returns whether a request has been answered */
+static bool listen_to_bus(can_t *can, const wire_tick_t *tick)
 {
     can_requests_t *requests = &can->bus_port.requests;
     brace_can_frame_t frame;
-    bool is_busy = !has_room_for_an_answer(&can->bus_port) || ask_again(can, ON_BUS, tick);
+    const bool has_room = has_room_for_an_answer(&can->bus_port);
+    bool is_busy = requests->waits || tick->requests_wait || !has_room;
+    bool has_answered =
+        requests->waits && !tick->answers_wait && has_room && answer(can, ON_BUS, tick, requests->waiting);
     if (!is_busy && requests->has_next) {
         requests->has_next = false;
-        take(can, ON_BUS, tick, requests->next);
+        has_answered = answer(can, ON_BUS, tick, requests->next);
         is_busy = true;
     }
     for (uint32_t i = 0; i < FRAMES_PER_TICK && !requests->has_next; i++) {
@@ -123,20 +109,26 @@ static void listen_to_bus(can_t *can, const wire_tick_t *tick)
             memcpy(requests->next, frame.data, sizeof requests->next);
             requests->has_next = true;
         } else {
-            take(can, ON_BUS, tick, frame.data);
+            has_answered = answer(can, ON_BUS, tick, frame.data);
             is_busy = true;
         }
     }
+    return has_answered;
 }
 
-/* Text waits on its line while requests wait: reading a frame from it costs as much as a short answer. */
-static void listen_to_text(can_t *can, const wire_tick_t *tick)
+/* The same as text. What comes meanwhile waits on its line: to read a frame from it costs as much as a short answer. */
+static bool listen_to_text(can_t *can, const wire_tick_t *tick)
 {
+    const can_requests_t *requests = &can->text_port.requests;
     brace_can_frame_t frame;
-    if (!tick->requests_wait && has_room_for_an_answer(&can->text_port) && !ask_again(can, AS_TEXT, tick) &&
-        slcan_receive(&can->text, tick->hal, &frame) && is_request(can, tick, &frame)) {
-        take(can, AS_TEXT, tick, frame.data);
+    if (!has_room_for_an_answer(&can->text_port)) {
+        return false;
     }
+    if (requests->waits) {
+        return !tick->answers_wait && answer(can, AS_TEXT, tick, requests->waiting);
+    }
+    return !tick->requests_wait && slcan_receive(&can->text, tick->hal, &frame) && is_request(can, tick, &frame) &&
+           answer(can, AS_TEXT, tick, frame.data);
 }
 
 /* ----------------------------------------------------------------------------------------------- out -- */
@@ -154,26 +146,24 @@ static bool send(can_t *can, way_t way, const wire_tick_t *tick, brace_can_frame
     return way == ON_BUS ? can_bus_send(&can->bus, tick, frame) : slcan_send(&can->text, frame);
 }
 
-/* returns how many frames have left */
-static uint32_t send_answers(can_t *can, way_t way, const wire_tick_t *tick)
+static void send_answers(can_t *can, way_t way, const wire_tick_t *tick)
 {
     can_answers_t *answers = &port_of(can, way)->requests.answers;
     brace_can_frame_t frame;
     for (uint32_t i = 0; i < ANSWERS_PER_TICK; i++) {
         const uint8_t *data = can_answers_next(answers);
         if (data == NULL) {
-            return i;
+            break;
         }
         frame.id = BRACE_CAN_ID_ANSWER;
         frame.length = 8;
         frame.fd = false;
         memcpy(frame.data, data, 8);
         if (!send(can, way, tick, &frame)) {
-            return i;
+            break;
         }
         can_answers_sent(answers);
     }
-    return ANSWERS_PER_TICK;
 }
 
 static void send_announcement(can_t *can, way_t way, const wire_tick_t *tick)
@@ -232,26 +222,38 @@ static uint32_t speak(can_t *can, way_t way, const wire_tick_t *tick, uint32_t m
         keep_silent(can, way, tick);
         return 0;
     }
-    const uint32_t answers = send_answers(can, way, tick);
+    send_answers(can, way, tick);
     if (!has_number(can)) {
         return 0;
     }
     send_announcement(can, way, tick);
-    /* The longest answers, of a K elsewhere, come in one tick of two at most; process data waits for the next. */
-    const bool waits = tick->data_waits || answers >= LONG_ANSWER_PARTS;
-    return waits ? 0u : send_process_data(can, way, tick, most);
+    const bool data_wait = can->data_waited > 0u;
+    return data_wait ? 0u : send_process_data(can, way, tick, most);
 }
 
-void can_tick(can_t *can, const wire_tick_t *tick)
+bool can_data_are_overdue(const can_t *can)
+{
+    return can->data_waited >= DATA_WAIT_MOST;
+}
+
+bool can_listen(can_t *can, const wire_tick_t *tick)
 {
     can_bus_watch(&can->bus, tick->hal, brace_app_parameters(tick->app)->controller.tick_us);
     tick->counters->frames_lost = can->bus.frames_lost;
     can_requests_tick(&can->bus_port.requests, tick);
     can_requests_tick(&can->text_port.requests, tick);
-    listen_to_bus(can, tick);
-    listen_to_text(can, tick);
+    const bool on_bus = listen_to_bus(can, tick), as_text = listen_to_text(can, tick);
+    return on_bus || as_text;
+}
+
+bool can_speak(can_t *can, const wire_tick_t *tick, uint32_t most)
+{
+    const bool data_wait = most == 0u && !can_data_are_overdue(can);
+    can->data_waited = data_wait ? (uint8_t)(can->data_waited + 1u) : 0u;
+    most = most > 0u ? most : 1u;
     can->text_first = !can->text_first; /* The ports share the tick's frames of process data. */
-    const uint32_t told = speak(can, can->text_first ? AS_TEXT : ON_BUS, tick, PROCESS_FRAMES_PER_TICK);
-    (void)speak(can, can->text_first ? ON_BUS : AS_TEXT, tick, PROCESS_FRAMES_PER_TICK - told);
+    const uint32_t told = speak(can, can->text_first ? AS_TEXT : ON_BUS, tick, most);
+    const uint32_t more = speak(can, can->text_first ? ON_BUS : AS_TEXT, tick, most - told);
     slcan_flush(&can->text, tick->hal);
+    return told + more > 0u;
 }

@@ -38,7 +38,8 @@ bool can_requests_answer(can_requests_t *requests, const wire_tick_t *tick, brac
     const int32_t status = answer_request(&request, code, &asked, &answer);
     requests->waits = false;
     if (status == ANSWER_AGAIN) {
-        can_requests_keep(requests, data);
+        memmove(requests->waiting, data, sizeof requests->waiting);
+        requests->waits = true;
     } else if (status == ANSWER_LATER) {
         requests->storing = code;
         requests->storing_token = token;
@@ -46,12 +47,6 @@ bool can_requests_answer(can_requests_t *requests, const wire_tick_t *tick, brac
         tell(&requests->answers, code, token, status, &answer, request.detail);
     }
     return status != BRACE_REFUSED_UNKNOWN;
-}
-
-void can_requests_keep(can_requests_t *requests, const uint8_t *data)
-{
-    memmove(requests->waiting, data, sizeof requests->waiting);
-    requests->waits = true;
 }
 
 void can_requests_tick(can_requests_t *requests, const wire_tick_t *tick)

@@ -14,7 +14,7 @@ typedef struct {
     uint8_t storing_token;
     asked_force_t asked_force;
     brace_seal_t seal;      /* of the request that comes next */
-    bool waits;             /* a request is being worked out, or kept: it is asked again in each tick */
+    bool waits;             /* a request is being worked out: it is asked again in each tick */
     uint8_t waiting[8];
     bool has_next;          /* one more has come meanwhile */
     uint8_t next[8];
@@ -28,9 +28,6 @@ typedef struct {
  * At most 150 instructions beside answer_request, and 120 for each frame of the answer. */
 bool can_requests_answer(can_requests_t *requests, const wire_tick_t *tick, brace_asker_t asker, uint32_t node_id,
                          const uint8_t *data);
-
-/* Keeps a request for the next tick: this one has no time for it. */
-void can_requests_keep(can_requests_t *requests, const uint8_t *data);
 
 /* Each tick, before requests are answered: answers the commit or roll-back that this port has asked for, once the store
  * has ended. Takes two frames of room. At most 250 instructions. */

@@ -11,7 +11,7 @@ enum { ADDRESS_BYTES = 1, CRC_BYTES = 2, FRAME_LEAST = ADDRESS_BYTES + 1 + CRC_B
 #define CHECKED_PER_TICK 96u
 
 /* The check of an answer is worked out so many bytes ahead of what the line carries in a tick: no gap tears it, also
- * where two ticks go by without it. */
+ * where a tick comes late. */
 #define BYTES_AHEAD 48u
 
 #define CHARACTER_BITS 11u
@@ -104,7 +104,8 @@ static bool is_own_answer(modbus_line_t *line)
     return is_equal && line->echo != MODBUS_NO_ECHO;
 }
 
-static void answer(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
+/* returns whether the request is done with: else it is put again in the next tick */
+static bool answer(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
 {
     modbus_link_t *link = &line->link;
     const uint32_t request = (uint32_t)link->count - ADDRESS_BYTES - CRC_BYTES;
@@ -113,16 +114,17 @@ static void answer(modbus_line_t *line, modbus_server_t *server, const wire_tick
     const uint32_t length = ADDRESS_BYTES + answered;
     link->is_waiting = answered == 0u;
     if (link->is_waiting) {
-        return;
+        return false;
     }
     if (link->bytes[0] == EVERYBODY) {
         modbus_link_rest(link);
-        return;
+        return true;
     }
     line->crc = MODBUS_CRC_START;
     line->checked = 0;
     modbus_link_answer(link, tick, length + CRC_BYTES);
     link->ready = 0;
+    return true;
 }
 
 /* Makes the next part of an answer ready, and its check at the end. */
@@ -145,8 +147,9 @@ static void seal(modbus_line_t *line, const wire_tick_t *tick)
     }
 }
 
-/* The line is silent: what has come is a frame, or broken, or a part whose rest is held back. */
-static void end_frame(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick, uint32_t silent_us)
+/* The line is silent: what has come is a frame, or broken, or a part whose rest is held back.
+ * returns whether a request has been answered */
+static bool end_frame(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick, uint32_t silent_us)
 {
     modbus_link_t *link = &line->link;
     check_on(line, link->count, MODBUS_LINK_BYTES);
@@ -155,34 +158,32 @@ static void end_frame(modbus_line_t *line, modbus_server_t *server, const wire_t
             modbus_link_break(link, server, tick);
         }
     } else if (!is_own_answer(line) && is_for_us(link, server)) {
-        answer(line, server, tick);
+        return answer(line, server, tick);
     } else {
         modbus_link_rest(link);
     }
+    return false;
 }
 
-void modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
+bool modbus_line_tick(modbus_line_t *line, modbus_server_t *server, const wire_tick_t *tick)
 {
     modbus_link_t *link = &line->link;
-    if (tick->requests_wait) {
-        /* What comes waits in the port. */
-    } else if (link->is_waiting) {
-        answer(line, server, tick);
-    } else if (!link->is_sending) {
+    bool has_answered = false;
+    if (link->is_waiting) {
+        has_answered = !tick->answers_wait && answer(line, server, tick);
+    } else if (!link->is_sending && !tick->requests_wait) { /* else what comes waits in the port */
         const bool bytes_came = gather(line, tick);
         const uint32_t silent_us = tick->now_us - link->active_us;
         const bool is_behind = link->count > line->checked + CHECKED_PER_TICK; /* with the check */
         if (bytes_came || silent_us < line->silence_us || is_behind) {
             check_on(line, link->count, CHECKED_PER_TICK);
         } else if (link->count > 0u || link->is_skipping) {
-            end_frame(line, server, tick, silent_us);
+            has_answered = end_frame(line, server, tick, silent_us);
         }
     }
     if (link->is_sending) {
-        /* In a dear tick the bytes ahead are enough: two such ticks follow one another at most. */
-        if (!tick->data_waits || !tick->requests_wait) {
-            seal(line, tick);
-        }
+        seal(line, tick);
         modbus_link_send(link, tick, BRACE_SERIAL_MODBUS);
     }
+    return has_answered;
 }

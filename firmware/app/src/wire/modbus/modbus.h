@@ -23,7 +23,8 @@ typedef struct {
 void modbus_start(modbus_t *modbus, const brace_hal_t *hal, const brace_parameters_t *parameters);
 
 /* One tick. At most 5,600 instructions, HAL excluded: 61 parameters by each port, of which one finds some staged
- * already. A question about K may cost more on a limb in space: brace_app_k_at_tip. */
-void modbus_tick(modbus_t *modbus, const wire_tick_t *tick);
+ * already.
+ * returns whether it has answered a request */
+bool modbus_tick(modbus_t *modbus, const wire_tick_t *tick);
 
 #endif

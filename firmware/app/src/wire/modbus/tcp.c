@@ -71,7 +71,8 @@ static modbus_half_t *own_half(modbus_link_t *link, const brace_hal_t *hal)
 }
 
 /* The unit is the controller's address; 0 and 255 mean the device behind the connection. There are no others. */
-static void answer(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
+/* returns whether the request is done with: else it is put again in the next tick */
+static bool answer(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
 {
     const uint8_t unit = link->bytes[UNIT_AT];
     uint8_t *pdu = link->bytes + PDU_AT;
@@ -86,31 +87,37 @@ static void answer(modbus_link_t *link, modbus_server_t *server, const wire_tick
     }
     link->is_waiting = length == 0u;
     if (link->is_waiting) {
-        return;
+        return false;
     }
     put_16(link->bytes + LENGTH_AT, length + 1u);
     modbus_link_answer(link, tick, PDU_AT + length);
+    return true;
 }
 
-static void take_request(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
+/* returns whether a request has been answered */
+static bool take_request(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
 {
     if (link->is_waiting) {
-        answer(link, server, tick);
-    } else if (link->is_skipping) {
+        return !tick->answers_wait && answer(link, server, tick);
+    }
+    if (tick->requests_wait) {
+        return false;
+    }
+    if (link->is_skipping) {
         skip(link, server, tick);
     } else if (gather(link, tick)) {
-        answer(link, server, tick);
+        return answer(link, server, tick);
     } else if (link->count > 0u && tick->now_us - link->active_us > PATIENCE_US) {
         modbus_link_break(link, server, tick);
     }
+    return false;
 }
 
-void modbus_tcp_tick(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
+bool modbus_tcp_tick(modbus_link_t *link, modbus_server_t *server, const wire_tick_t *tick)
 {
-    if (!link->is_sending && !tick->requests_wait) {
-        take_request(link, server, tick);
-    }
+    const bool has_answered = !link->is_sending && take_request(link, server, tick);
     if (link->is_sending) {
         modbus_link_send(link, tick, BRACE_SERIAL_MODBUS_TCP);
     }
+    return has_answered;
 }
