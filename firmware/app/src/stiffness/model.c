@@ -184,6 +184,8 @@ static void tell_plane(const brace_limb_t *limb, float hip_yields_rad_per_n_mm, 
                                             limb->femur_mm + limb->tibia_mm);
     rest->bend = (posture_bend_t){.tip_mm = moved,
                                   .tibia_mm = found->tibia_mm,
+                                  .tip_across_mm = 0.0f,
+                                  .tibia_across_mm = 0.0f,
                                   .joint_turn_rad = {0.0f, both > 0.0f ? joint / both * found->hip_turn_rad : 0.0f,
                                                      -found->knee_turn_rad}};
     rest->moved_across_mm = __builtin_nanf("");

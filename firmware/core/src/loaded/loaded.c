@@ -105,7 +105,8 @@ INLINE brace_status_t settle(const brace_loaded_t *loaded, float theta1_rad, flo
                                 .tibia_shape = {0.0f, 0.0f, 0.0f},
                                 .hip_rad_per_n_mm = load->hip.slope_rad_per_n_mm + base,
                                 .knee_rad_per_n_mm = load->knee.slope_rad_per_n_mm,
-                                .on_base_n = vec_plus_scaled(tip_n, load->down, loaded->weight_n)};
+                                .on_base_n = vec_plus_scaled(tip_n, load->down, loaded->weight_n),
+                                .unsettled_rad = 0.0f};
     const float hip_yields = load->hip.yields_by_rad_per_n_mm + base, knee_yields = load->knee.yields_by_rad_per_n_mm;
     step(at, true, hip_yields, knee_yields);
     const float turned_rad = end_turn(&at->tibia_shape);

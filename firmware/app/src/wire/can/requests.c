@@ -29,7 +29,9 @@ bool can_requests_answer(can_requests_t *requests, const wire_tick_t *tick, brac
                          .token = data[1],
                          .bytes = data,
                          .count = CAN_REQUEST_BYTES,
-                         .node_id = node_id};
+                         .node_id = node_id,
+                         .detail = 0,
+                         .is_of_now = false};
     const uint8_t code = data[0], token = data[1];
     requests->seal.is_there = requests->seal.is_there && requests->seal.counter == token;
     brace_request_t asked;
