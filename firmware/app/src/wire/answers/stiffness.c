@@ -1,12 +1,35 @@
 /* Questions about K: where the limb is not, and what K and force of now mean at the contact. */
 #include "wire/answers/answer.h"
 
+static brace_k_question_t at_posture(brace_k_where_t where, float theta0_rad, float theta1_rad, float theta2_rad,
+                                     brace_force_t tip_force, float force_across_n)
+{
+    return (brace_k_question_t){.where = where,
+                                .theta_rad = {theta0_rad, theta1_rad, theta2_rad},
+                                .tip = {0.0f, 0.0f},
+                                .knee = BRACE_KNEE_UP,
+                                .tip_force = tip_force,
+                                .force_across_n = force_across_n};
+}
+
+static brace_k_question_t at_tip(float x_mm, float z_mm, brace_knee_t knee, brace_force_t tip_force)
+{
+    return (brace_k_question_t){.where = BRACE_K_AT_TIP,
+                                .theta_rad = {0.0f, 0.0f, 0.0f},
+                                .tip = {x_mm, z_mm},
+                                .knee = knee,
+                                .tip_force = tip_force,
+                                .force_across_n = 0.0f};
+}
+
 /* Asks for K; what is asked again later says so. */
 static int32_t ask(const request_t *request, const brace_k_question_t *question, brace_k_answer_t *found)
 {
     const int32_t status = brace_app_ask_k(request->app, request->asker, question, found);
     return status == BRACE_APP_LATER ? (int32_t)ANSWER_AGAIN : status;
 }
+
+static const brace_force_t no_force = {0.0f, 0.0f};
 
 /* Questions for K at a posture and at a tip have answers of one shape. */
 static int32_t tell_k(const request_t *request, const brace_k_question_t *question, brace_k_at_posture_answer_t *answer)
@@ -29,24 +52,22 @@ static int32_t tell_k(const request_t *request, const brace_k_question_t *questi
 int32_t answer_k_at_posture(request_t *request, const brace_k_at_posture_request_t *asked,
                             brace_k_at_posture_answer_t *answer)
 {
-    const brace_k_question_t question = {.where = BRACE_K_AT_POSTURE,
-                                         .theta_rad = {0.0f, asked->theta1_rad, asked->theta2_rad}};
+    const brace_k_question_t question =
+        at_posture(BRACE_K_AT_POSTURE, 0.0f, asked->theta1_rad, asked->theta2_rad, no_force, 0.0f);
     return tell_k(request, &question, answer);
 }
 
 int32_t answer_k_at_tip_knee_up(request_t *request, const brace_k_at_tip_knee_up_request_t *asked,
                                 brace_k_at_tip_knee_up_answer_t *answer)
 {
-    const brace_k_question_t question = {
-        .where = BRACE_K_AT_TIP, .tip = {asked->x_mm, asked->z_mm}, .knee = BRACE_KNEE_UP};
+    const brace_k_question_t question = at_tip(asked->x_mm, asked->z_mm, BRACE_KNEE_UP, no_force);
     return tell_k(request, &question, answer);
 }
 
 int32_t answer_k_at_tip_knee_down(request_t *request, const brace_k_at_tip_knee_down_request_t *asked,
                                   brace_k_at_tip_knee_down_answer_t *answer)
 {
-    const brace_k_question_t question = {
-        .where = BRACE_K_AT_TIP, .tip = {asked->x_mm, asked->z_mm}, .knee = BRACE_KNEE_DOWN};
+    const brace_k_question_t question = at_tip(asked->x_mm, asked->z_mm, BRACE_KNEE_DOWN, no_force);
     return tell_k(request, &question, answer);
 }
 
@@ -59,14 +80,13 @@ int32_t answer_tip_force(request_t *request, const brace_tip_force_request_t *as
 }
 
 /* Under the force that was asked before; the answer uses it up. */
-static int32_t tell_k_under_load(request_t *request, brace_k_question_t *question,
+static int32_t tell_k_under_load(request_t *request, const brace_k_question_t *question,
                                  brace_k_under_load_at_posture_answer_t *answer)
 {
     brace_k_answer_t found;
     if (!request->asked_force->is_there) {
         return BRACE_REFUSED_ORDER;
     }
-    question->tip_force = request->asked_force->force;
     const int32_t status = ask(request, question, &found);
     const brace_stiffness_t *k = &found.k;
     request->asked_force->is_there = status == ANSWER_AGAIN;
@@ -88,8 +108,8 @@ static int32_t tell_k_under_load(request_t *request, brace_k_question_t *questio
 int32_t answer_k_under_load_at_posture(request_t *request, const brace_k_under_load_at_posture_request_t *asked,
                                        brace_k_under_load_at_posture_answer_t *answer)
 {
-    brace_k_question_t question = {.where = BRACE_K_AT_POSTURE,
-                                   .theta_rad = {0.0f, asked->theta1_rad, asked->theta2_rad}};
+    const brace_k_question_t question = at_posture(BRACE_K_AT_POSTURE, 0.0f, asked->theta1_rad, asked->theta2_rad,
+                                                   request->asked_force->force, 0.0f);
     return tell_k_under_load(request, &question, answer);
 }
 
@@ -97,8 +117,8 @@ int32_t answer_k_under_load_at_tip_knee_up(request_t *request,
                                            const brace_k_under_load_at_tip_knee_up_request_t *asked,
                                            brace_k_under_load_at_tip_knee_up_answer_t *answer)
 {
-    brace_k_question_t question = {
-        .where = BRACE_K_AT_TIP, .tip = {asked->x_mm, asked->z_mm}, .knee = BRACE_KNEE_UP};
+    const brace_k_question_t question =
+        at_tip(asked->x_mm, asked->z_mm, BRACE_KNEE_UP, request->asked_force->force);
     return tell_k_under_load(request, &question, answer);
 }
 
@@ -106,8 +126,8 @@ int32_t answer_k_under_load_at_tip_knee_down(request_t *request,
                                              const brace_k_under_load_at_tip_knee_down_request_t *asked,
                                              brace_k_under_load_at_tip_knee_down_answer_t *answer)
 {
-    brace_k_question_t question = {
-        .where = BRACE_K_AT_TIP, .tip = {asked->x_mm, asked->z_mm}, .knee = BRACE_KNEE_DOWN};
+    const brace_k_question_t question =
+        at_tip(asked->x_mm, asked->z_mm, BRACE_KNEE_DOWN, request->asked_force->force);
     return tell_k_under_load(request, &question, answer);
 }
 
@@ -127,12 +147,9 @@ int32_t answer_k_in_space_at_posture(request_t *request, const brace_k_in_space_
 {
     asked_force_t *force = request->asked_force;
     const bool force_is_told = force->is_there_in_space;
-    brace_k_question_t question = {.where = BRACE_K_IN_SPACE,
-                                   .theta_rad = {asked->theta0_rad, asked->theta1_rad, asked->theta2_rad}};
-    if (force_is_told) {
-        question.tip_force = force->force_in_space;
-        question.force_across_n = force->across_n;
-    }
+    const brace_k_question_t question =
+        at_posture(BRACE_K_IN_SPACE, asked->theta0_rad, asked->theta1_rad, asked->theta2_rad,
+                   force_is_told ? force->force_in_space : no_force, force_is_told ? force->across_n : 0.0f);
     brace_k_answer_t found;
     const int32_t status = ask(request, &question, &found);
     force->is_there_in_space = force_is_told && status == ANSWER_AGAIN;

@@ -44,8 +44,11 @@ modbus_exception_t modbus_ask(modbus_server_t *server, const wire_tick_t *tick, 
                               const uint32_t *words)
 {
     const brace_question_t *question = find(first, count);
-    asked_force_t asked_force;
-    asked_force.is_there = asked_force.is_there_in_space = false;
+    asked_force_t asked_force = {.is_there = false,
+                                 .force = {0.0f, 0.0f},
+                                 .is_there_in_space = false,
+                                 .force_in_space = {0.0f, 0.0f},
+                                 .across_n = 0.0f};
     request_t request = {
         .app = tick->app, .measured = tick->measured, .asker = server->asker, .asked_force = &asked_force,
         .who = server->who, .seal = server->seal, .token = 0, .bytes = server->pdu, .count = server->length,

@@ -47,8 +47,14 @@ request_t modbus_request(const modbus_server_t *server, const wire_tick_t *tick)
                        .asker = server->asker,
                        .who = server->who,
                        .seal = server->seal,
+                       .token = 0,
                        .bytes = server->pdu,
-                       .count = server->length};
+                       .count = server->length,
+                       .asked_force = NULL,
+                       .transfer = NULL,
+                       .node_id = 0,
+                       .detail = 0,
+                       .is_of_now = false};
 }
 
 modbus_exception_t modbus_command_show(modbus_server_t *server, const wire_tick_t *tick, uint32_t first,
