@@ -10,6 +10,8 @@
 
 enum { NONE = 0, TAKEN, DONE };
 
+_Static_assert(sizeof(brace_k_question_t) == 10u * 4u, "no bytes between the members: they are compared as words");
+
 static bool is_same(const brace_k_question_t *a, const brace_k_question_t *b)
 {
     bool same = true;
@@ -50,7 +52,7 @@ static brace_status_t find_posture(const brace_k_question_t *asked, const brace_
 {
     if (asked->where == BRACE_K_AT_TIP) {
         unbent_rad[BRACE_COXA] = 0.0f;
-        return brace_kinematics_inverse(limb, asked->tip, asked->knee, &unbent_rad[BRACE_FEMUR],
+        return brace_kinematics_inverse(limb, asked->tip, (brace_knee_t)asked->knee, &unbent_rad[BRACE_FEMUR],
                                         &unbent_rad[BRACE_TIBIA]);
     }
     memcpy(unbent_rad, asked->theta_rad, sizeof asked->theta_rad);

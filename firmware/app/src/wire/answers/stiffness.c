@@ -4,7 +4,7 @@
 static brace_k_question_t at_posture(brace_k_where_t where, float theta0_rad, float theta1_rad, float theta2_rad,
                                      brace_force_t tip_force, float force_across_n)
 {
-    return (brace_k_question_t){.where = where,
+    return (brace_k_question_t){.where = (uint32_t)where,
                                 .theta_rad = {theta0_rad, theta1_rad, theta2_rad},
                                 .tip = {0.0f, 0.0f},
                                 .knee = BRACE_KNEE_UP,
@@ -17,7 +17,7 @@ static brace_k_question_t at_tip(float x_mm, float z_mm, brace_knee_t knee, brac
     return (brace_k_question_t){.where = BRACE_K_AT_TIP,
                                 .theta_rad = {0.0f, 0.0f, 0.0f},
                                 .tip = {x_mm, z_mm},
-                                .knee = knee,
+                                .knee = (uint32_t)knee,
                                 .tip_force = tip_force,
                                 .force_across_n = 0.0f};
 }
