@@ -502,8 +502,9 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
                                                                            : WIRES_ALL;
     const bool wires_have_worked = wires_tick(&app->wires, hal, app, &controller->counters, room, now_us);
     controller->ownership.is_by_wire = false;
+    const bool is_quiet = !wires_have_worked && !question_job_is_asked(&controller->question);
     softening_step(&controller->softening, &controller->model, &parameters->limb, controller->posture.unbent_rad,
-                   is_counted_in_space, may_work && !job_has_worked && (softening_works || !wires_have_worked));
+                   is_counted_in_space, may_work && !job_has_worked && (softening_works || is_quiet));
     part_is_done(controller, PART_TOLD);
 
     /* A tick that left a part out, or did one twice, feeds no watchdog. */

@@ -110,6 +110,15 @@ static int32_t work_out(question_job_t *job, const brace_k_question_t *asked, co
     return status;
 }
 
+bool question_job_is_asked(const question_job_t *job)
+{
+    bool is_asked = false;
+    for (uint32_t i = 0; i < (uint32_t)BRACE_ASKER_COUNT; i++) {
+        is_asked = is_asked || job->slot[i].phase == TAKEN;
+    }
+    return is_asked;
+}
+
 /* The slot that is worked out next: the one that is half done, else the first one behind the last that is taken.
  * returns null: none */
 static question_slot_t *next_slot(question_job_t *job)

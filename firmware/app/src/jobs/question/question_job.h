@@ -56,6 +56,9 @@ typedef struct {
 int32_t question_job_ask(question_job_t *job, brace_asker_t asker, const brace_k_question_t *question,
                          brace_k_answer_t *answer);
 
+/* Does somebody wait for a K? */
+bool question_job_is_asked(const question_job_t *job);
+
 /* One step of what has been asked, if it may. At most 1,900 instructions; of a limb in space 4,000. */
 void question_job_step(question_job_t *job, const question_inputs_t *inputs);
 
