@@ -4,8 +4,8 @@
 
 #include <brace/client.h>
 
-/* The controller at BUS; NODE is 0 unless given: the first that is heard. Ends the program with the exit code of the
- * brace command when it is not there. */
+/* The controller at BUS; NODE is 0 unless given: the first that is heard. When no controller
+ * answers, the program ends with the exit code that the brace command has for that. */
 brace_client_t *connect_limb(int argc, char **argv);
 
 /* Prints why, if a call has failed, and closes the client.

@@ -172,7 +172,7 @@ def test_a_clamp_that_goes_back_is_a_burst_of_interference(tmp_path: Path, limb:
 
 
 def test_a_frame_that_grows_is_no_clamp_that_slips(tmp_path: Path, limb: Path) -> None:
-    """Some slips come near a slow way. It has no name, and is told as what it is: unknown."""
+    """Several slips fit a slow growth nearly as well. The catalogue has no name for it, so the verdict is unknown."""
 
     def frame_grows(columns: Columns) -> None:
         since = columns["t_s"] - columns["t_s"][0]

@@ -259,7 +259,7 @@ static brace_bus_status_t show(brace_client_t *client, uint32_t entry, brace_sig
 void brace_can_show_life(brace_client_t *client, brace_sign_t sign)
 {
     const uint8_t token = client->owner.is_open ? (uint8_t)sign.counter : (uint8_t)(client->master << 4);
-    /* Whoever listens is told of a bus that is down. */
+    /* The status is left: the next call that reads the bus reports a bus that is down. */
     (void)show(client, BRACE_CLIENT_COMMAND(life_mac), sign, token, LIFE_MS);
 }
 

@@ -31,7 +31,7 @@ static brace_status_t plane_settle(const model_loaded_limb_t *limb, const float 
                                    const brace_load_t *load, model_plane_rest_t *rest)
 {
 #ifdef __SOFTFP__
-    return brace_loaded_fixed_stiffness(limb, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], load, rest);
+    return loaded_stiffness(limb, unbent_rad, load, rest); /* without an FPU the first step does all of it */
 #else
     return brace_loaded_settle(limb, unbent_rad[BRACE_FEMUR], unbent_rad[BRACE_TIBIA], load, rest);
 #endif

@@ -1,7 +1,8 @@
 /* How far the load softens a limb in space: its buckling factor, and K without the load. Both together cost more
  * instructions than K under the load itself, and no other part of the tick needs them. So every fourth tick does
- * one step, in turn: K without the load, and a quarter of the search for the buckling factor. Where neither requests
- * come nor another job works, what is told of K is at most 8 ticks old, the factor at most 64. */
+ * one step, in turn: K without the load, and a quarter of the search for the buckling factor. The steps
+ * wait while requests come, while somebody waits for a K, or while another job works; a step that has waited too long
+ * goes first. Without such waiting, K without load is at most 8 ticks old, the factor at most 64. */
 #ifndef BRACE_STIFFNESS_SOFTENING_H
 #define BRACE_STIFFNESS_SOFTENING_H
 
