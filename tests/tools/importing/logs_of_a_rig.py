@@ -64,6 +64,7 @@ def candump(
 ) -> Path:
     """A log of candump -L, by python-can's writer."""
     known = cantools.database.load_string(database, database_format="dbc")
+    assert isinstance(known, cantools.database.can.Database)
     text = io.StringIO()
     writer = CanutilsLogWriter(text)
     for entry in filter(keep, entries(record)):
@@ -100,7 +101,7 @@ def json_mcap(folder: Path, record: Record, *, finish: bool = True) -> Path:
             writer.add_message(channels[name], stamp, json.dumps(message).encode(), stamp)
         writer.add_message(other, stamp, b'{"text": "end"}', stamp)
         if finish:
-            writer.finish()
+            writer.finish()  # type: ignore[no-untyped-call]
     return path
 
 
@@ -149,8 +150,9 @@ def ros2_mcap(folder: Path, record: Record) -> Path:
                 topic, kind = "/tracker/tip", "geometry_msgs/msg/PointStamped"
             else:
                 angles = [math.radians(values[key]) for key in ("KneeAngle", "FemurAngle")]
-                message = {"header": header, "name": ["knee", "femur"], "position": angles, "velocity": [], "effort": []}
+                message = {"header": header, "name": ["knee", "femur"], "position": angles}
+                message |= {"velocity": [], "effort": []}
                 topic, kind = "/joint_states", "sensor_msgs/msg/JointState"
             writer.write_message(topic, schemas[kind], message, stamp, stamp)
-        writer.finish()
+        writer.finish()  # type: ignore[no-untyped-call]
     return path

@@ -17,7 +17,7 @@ from test_foreign_files import matches
 from brace.dataset import load_dataset
 
 Brace = Callable[..., Outcome]
-NEAR = {"t_s": 0.21}  # the log begins with the load cell
+LATE_S = 0.21  # the log begins with the load cell
 
 
 def answered(mapping: Path, answers: dict[str, dict[str, str]]) -> None:
@@ -43,7 +43,7 @@ def test_a_log_of_candump(brace: Brace, tmp_path: Path) -> None:
     assert "STAGE: 204 readings, 4 s apart" in asked.err and "COMMAND: 3 readings" in asked.err
     done = brace("import", log, "--dbc", dbc, "--out", tmp_path / "out", "--yes")
     assert done.code == 0, done.err
-    matches(tmp_path / "out", Record(), **NEAR)
+    matches(tmp_path / "out", Record(), t_s=LATE_S)
     meta = tomllib.loads((tmp_path / "out" / "meta.toml").read_text())
     assert meta["conversion"]["dx_mm"] == "column 'STAGE.PosX' in mm, as it is"
     notes = " ".join(meta["source"]["notes"])
@@ -63,7 +63,7 @@ def test_a_log_of_json_topics(brace: Brace, tmp_path: Path) -> None:
     answered(mapping, {"/ft300.force.x": {"unit": '"N"'}, "/ft300.force.z": {"unit": '"N"'}})
     done = brace("import", log, "--mapping", mapping, "--out", tmp_path / "out")
     assert done.code == 0, done.err
-    matches(tmp_path / "out", Record(), **NEAR)
+    matches(tmp_path / "out", Record(), t_s=LATE_S)
     answered(mapping, {"/ft300.force.x": {"unit": '"kN"'}, "/ft300.force.z": {"unit": '"kN"'}})
     wrong = brace("import", log, "--mapping", mapping, "--out", tmp_path / "other")
     assert wrong.code == 3 and "cannot be right" in wrong.err
@@ -78,10 +78,11 @@ def test_a_log_of_ros_2(brace: Brace, tmp_path: Path) -> None:
     assert re.search(r"/tracker/tip.point.x +dx_mm +m ", drafted.err), drafted.err
     assert re.search(r"/joint_states.position.knee +theta2_rad +rad ", drafted.err), drafted.err
     assert "'/tracker/tip.point.y': what is it?" in drafted.err
-    answered(mapping, {"/tracker/tip.point.y": {"is": '"ignore"'}, "/ft_sensor/wrench.wrench.force.y": {"is": '"ignore"'}})
+    across = ("/tracker/tip.point.y", "/ft_sensor/wrench.wrench.force.y")
+    answered(mapping, {name: {"is": '"ignore"'} for name in across})
     done = brace("import", log, "--mapping", mapping, "--out", tmp_path / "out")
     assert done.code == 0, done.err
-    matches(tmp_path / "out", Record(), **NEAR)
+    matches(tmp_path / "out", Record(), t_s=LATE_S)
 
 
 @pytest.fixture(scope="module")
@@ -101,7 +102,7 @@ def test_gaps_are_not_bridged(brace: Brace, tmp_path: Path, one_pose: Record) ->
     assert "LOADCELL: 64 readings, 400 ms apart" in done.err
     kept = np.ones(one_pose.rows, bool)
     kept[[5, 6]] = False
-    matches(tmp_path / "out", one_pose, kept, **NEAR)
+    matches(tmp_path / "out", one_pose, kept, t_s=LATE_S)
 
 
 def test_a_signal_that_ends_early_is_told(brace: Brace, tmp_path: Path, one_pose: Record) -> None:
@@ -193,7 +194,7 @@ def test_mcap_logs_that_cannot_be_read(brace: Brace, tmp_path: Path, one_pose: R
         writer.start()
         schema = writer.register_schema("foxglove.Log", "protobuf", b"\x01")
         writer.add_message(writer.register_channel("/p", "protobuf", schema), 0, b"\x01", 0)
-        writer.finish()
+        writer.finish()  # type: ignore[no-untyped-call]
     refused = brace("import", foreign, "--out", tmp_path / "out", "--yes")
     assert refused.code == 3 and "/p: its encoding is protobuf; JSON and ROS 2 (cdr) are read" in refused.err
 
@@ -226,5 +227,5 @@ def test_our_own_recordings(brace: Brace, tmp_path: Path, one_pose: Record, endi
     dbc = rig.database(tmp_path, rig.ELEVEN_BITS)
     done = brace("import", recording.path, "--dbc", dbc, "--out", tmp_path / "out", "--yes")
     assert done.code == 0, done.err
-    matches(tmp_path / "out", one_pose, **NEAR)
+    matches(tmp_path / "out", one_pose, t_s=LATE_S)
     assert "are computed with its model and are no measurement" in done.err

@@ -36,7 +36,9 @@ def add(commands: Subcommands) -> None:
         "read, or "
         "what it says cannot be of a limb.",
     )
-    parser.add_argument("files", type=common.path, nargs="+", metavar="FILE", help="text with columns, .xlsx, a log (candump -l, MCAP)")
+    parser.add_argument(
+        "files", type=common.path, nargs="+", metavar="FILE", help="text with columns, .xlsx, a log (candump -l, MCAP)"
+    )
     parser.add_argument("--out", type=common.path, metavar="DIR", help="folder of the dataset")
     parser.add_argument("--mapping", type=common.path, metavar="FILE.toml", help="what each column is; made by --draft")
     parser.add_argument("--draft", type=common.path, metavar="FILE.toml", help="write the mapping as guessed, and end")

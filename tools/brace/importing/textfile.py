@@ -73,7 +73,10 @@ def _decoded(data: bytes, path: Path) -> tuple[str, str]:
     for magic, what, way in _MAGIC:
         if data.startswith(magic):
             raise BadFileError(
-                f"this is {what}", where=str(path), why="brace import reads text, .xlsx, MCAP and candump's logs", next_step=way
+                f"this is {what}",
+                where=str(path),
+                why="brace import reads text, .xlsx, MCAP and candump's logs",
+                next_step=way,
             )
     for mark, encoding in ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16")):
         if data.startswith(mark):

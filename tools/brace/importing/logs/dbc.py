@@ -148,19 +148,22 @@ class _Reader:
             value = math.nan
         self._collector.add(entry.name, full, signal.unit or "", time_s, value)
 
+    def _listed_unknown(self) -> str:
+        return _listed([f"{name} ({count})" for name, count in self._unknown.most_common()])
+
     def notes(self) -> list[str]:
         if not self._seen:
             raise BadFileError(
                 f"no frame of this log is in {self._databases.how or 'any database'}",
                 where=str(self._path),
-                why=f"the log has {_listed([f'{name} ({n})' for name, n in self._unknown.most_common()]) or 'no frames'}"
-                "; another node's, or another bus",
+                why=f"the log has {self._listed_unknown() or 'no frames'}; another node's, or another bus",
                 next_step="give the database of these frames: --dbc FILE.dbc",
             )
         told = []
         if self._unknown:
-            frames = _listed([f"{name} ({count})" for name, count in self._unknown.most_common()])
-            told.append(f"frames that no database has, another node's or another device's, left out: {frames}")
+            told.append(
+                f"frames that no database has, another node's or another device's, left out: {self._listed_unknown()}"
+            )
         if missing := self._databases.missing(self._seen):
             told.append(f"messages of the database that never came: {_listed(missing)}")
         for text, count in self._broken.items():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Iterator, Mapping, Sequence
 
 LIST_MOST = 32  # a longer list is a picture, a scan, a map
@@ -16,8 +17,8 @@ def numbers(value: object, path: str = "", depth: int = 0) -> Iterator[tuple[str
     if isinstance(value, (int, float)):
         yield path, float(value)
         return
-    if isinstance(value, Sequence) or hasattr(value, "tolist"):
-        yield from _of_list(list(value), [str(n) for n in range(len(value))], path, depth)  # type: ignore[call-overload, arg-type]
+    if (items := _items(value)) is not None:
+        yield from _of_list(items, [str(n) for n in range(len(items))], path, depth)
         return
     members = _members(value)
     names = members.get("name")
@@ -26,11 +27,18 @@ def numbers(value: object, path: str = "", depth: int = 0) -> Iterator[tuple[str
         if key in _NOT_READ or (labels and key == "name"):
             continue
         below = f"{path}.{key}" if path else key
-        is_list = isinstance(member, (list, tuple)) or hasattr(member, "tolist")
-        if labels and is_list and len(member) == len(labels):  # type: ignore[arg-type]
-            yield from _of_list(list(member), labels, below, depth)  # type: ignore[call-overload]
+        items = _items(member)
+        if labels and items is not None and len(items) == len(labels):
+            yield from _of_list(items, labels, below, depth)
         else:
             yield from numbers(member, below, depth + 1)
+
+
+def _items(value: object) -> list[object] | None:
+    """Of a list, a tuple or an array."""
+    if isinstance(value, (str, bytes)):
+        return None
+    return list(value) if isinstance(value, (Sequence, array)) else None
 
 
 def _of_list(items: list[object], labels: list[str], path: str, depth: int) -> Iterator[tuple[str, float]]:

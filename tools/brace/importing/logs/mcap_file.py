@@ -108,7 +108,7 @@ class _Reading:
                         count += 1
                 except (EndOfFile, McapError, struct.error, ValueError, KeyError, TypeError, AttributeError) as error:
                     if count and not file.read(1):
-                        return [f"the log ends in the middle of an entry (it was not closed): {count} messages were read"]
+                        return [f"the log ends in the middle of an entry (it was not closed) after {count} messages"]
                     raise BadFileError(
                         f"a broken MCAP log: {count} messages, then nothing that can be read",
                         where=str(self._path),

@@ -150,7 +150,8 @@ def _said(signal: Signal, clock: Signal, joined: _Joined, role: str) -> list[str
         return []
     told = []
     if role == HELD:
-        told.append(f"{signal.name} ({_rate(signal)}): each reading stands until the next, {joined.oldest_s:.3g} s at most")
+        longest = f"{joined.oldest_s:.3g} s at most"
+        told.append(f"{signal.name} ({_rate(signal)}): each reading stands until the next, {longest}")
     else:
         told.append(f"{signal.name} ({_rate(signal)}) is interpolated between its neighbours in time")
     lost = {
