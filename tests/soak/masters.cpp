@@ -18,10 +18,10 @@ namespace
 {
 
 constexpr int kHeader = 7, kRegisters = 62, kAnswer = kHeader + 2 + 2 * kRegisters;
-constexpr std::size_t kMostWaiting = 1u << 16; // bytes that a master keeps of what has come
 
 constexpr int kOncePerTicks = 20;     // an idle master asks so seldom
-constexpr int kDropsOnceIn = 300;     // and drops its connection after so many questions
+constexpr int kDropsOnceIn = 50;      // and drops its connection after so many questions
+constexpr int kLongestRest_ticks = 6000; // and is away for so long at most
 constexpr int kNonsenseOnceIn = 20;
 
 std::uint32_t value_at(const std::vector<std::uint8_t> &answer, int register_)
@@ -151,11 +151,17 @@ bool ModbusMaster::step(brace_node_t *node, int limb, Chance &chance, bool is_ca
         }
         return is_right;
     }
+    if (rests_ticks_ > 0) {
+        --rests_ticks_;
+        return true;
+    }
     if (whole(chance, kOncePerTicks) != 0) {
         return true;
     }
     if (socket_.is_open() && whole(chance, kDropsOnceIn) == 0) {
         socket_.drop();
+        rests_ticks_ = whole(chance, kLongestRest_ticks);
+        return true;
     }
     if (!socket_.is_open()) {
         connections += socket_.connect_to(brace_node_serial_place(node, limb, BRACE_SERIAL_MODBUS_TCP)) ? 1u : 0u;
@@ -180,8 +186,12 @@ bool ModbusMaster::step(brace_node_t *node, int limb, Chance &chance, bool is_ca
 
 void CanMaster::step(const std::string &place, Chance &chance, bool is_calm, Answered &answered)
 {
-    socket_.take(come_);
+    if (rests_ticks_ > 0) {
+        --rests_ticks_;
+        return;
+    }
     if (!awaited_.empty()) {
+        socket_.take(come_);
         ++waits_ticks_;
         const auto found = std::search(come_.begin(), come_.end(), awaited_.begin(), awaited_.end());
         if (found != come_.end()) {
@@ -192,15 +202,15 @@ void CanMaster::step(const std::string &place, Chance &chance, bool is_calm, Ans
             awaited_.clear();
         }
     }
-    if (come_.size() > kMostWaiting / 2u || awaited_.empty()) {
-        come_.clear();
-    }
     if (!awaited_.empty() || whole(chance, kOncePerTicks) != 0) {
         return;
     }
     if (socket_.is_open() && whole(chance, kDropsOnceIn) == 0) {
         socket_.drop();
+        rests_ticks_ = whole(chance, kLongestRest_ticks);
+        return;
     }
+    socket_.take(come_); // what was sent to everybody meanwhile
     if (!socket_.is_open()) {
         connections += socket_.connect_to(place) ? 1u : 0u;
         socket_.send("O\r", 2);

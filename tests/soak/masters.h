@@ -54,6 +54,7 @@ private:
     std::vector<std::uint8_t> come_;
     std::uint16_t transaction_ = 0;
     std::uint32_t waits_ticks_ = 0;
+    int rests_ticks_ = 0; // until it connects again
     bool waits_ = false;
 };
 
@@ -70,6 +71,7 @@ private:
     std::string awaited_;
     std::uint8_t token_ = 0;
     std::uint32_t waits_ticks_ = 0;
+    int rests_ticks_ = 0; // until it connects again
 };
 
 } // namespace soak

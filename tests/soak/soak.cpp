@@ -6,10 +6,11 @@
 //   a controller is not back in MONITOR with a valid K and no fault 10 s after the trouble, or counts trouble then
 //   the process keeps more memory or files in the last tenth than in the third
 // A sensor that lies (stuck, or off by a constant) is told apart: until it is seen, nobody can know.
-// Exit code 0 when all is well.
+// Stopped by SIGINT or SIGTERM, it tells of what it has run. Exit code 0 when all is well.
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -37,6 +38,8 @@ constexpr std::uint64_t kTick_us = 1000;
 constexpr int kJudgedOnceIn = 149;  // ticks of a limb whose K is judged
 constexpr int kNearOnceIn = 5;      // of those just after something has happened
 constexpr double kMemoryGrows_kb = 1024.0;
+constexpr int kFilesOfMasters = 2 * (kLimbs * kModbusMastersOfALimb + kCanMasters); // both ends of every connection
+constexpr std::uint32_t kGapSpare_ticks = 4; // brace/app.h: how long after its gap has opened a flank may be told
 
 struct Tenth {
     double memory_kb = 0.0, cpu_us = 0.0; // cpu_us: for one tick of four limbs, what judges and masters take included
@@ -84,6 +87,18 @@ struct Closed {
     void operator()(brace_node_t *node) const { brace_node_destroy(node); }
 };
 
+volatile std::sig_atomic_t is_stopped = 0;
+
+void stop(int)
+{
+    is_stopped = 1;
+}
+
+double mean_ticks(const Answered &answered)
+{
+    return static_cast<double>(answered.ticks_sum) / static_cast<double>(std::max<std::uint64_t>(1, answered.count));
+}
+
 class Soak
 {
 public:
@@ -108,15 +123,22 @@ public:
         }
     }
 
-    void run(std::uint64_t ticks)
+    // returns how many of the ticks it has run
+    std::uint64_t run(std::uint64_t ticks)
     {
+        std::puts("| tenth | memory kB | files | processor us a tick of four | Modbus answers in the calm: number, mean, most "
+                  "ticks | CAN answers | K judged | worst, of allowed |\n|---|---|---|---|---|---|---|---|");
         for (std::uint64_t tick = 0; tick < ticks; ++tick) {
+            if (is_stopped != 0) {
+                return tick;
+            }
             Tenth &tenth = tenths_[static_cast<std::size_t>(tick * kTenths / ticks)];
             step(tenth, 1e-6 * static_cast<double>((tick + 1u) * kTick_us));
             if ((tick + 1u) * kTenths / ticks != tick * kTenths / ticks) {
                 finish(tenth, ticks / kTenths);
             }
         }
+        return ticks;
     }
 
     int report(std::uint64_t ticks, std::uint64_t seed) const;
@@ -124,6 +146,7 @@ public:
 private:
     void step(Tenth &tenth, double t_s);
     void judge(Tenth &tenth, std::size_t limb, double t_s);
+    void judge_gaps(std::size_t limb, const brace_node_truth_t &truth, const brace_snapshot_t &told, double t_s);
     void judge_calm(std::size_t limb, const brace_snapshot_t &told, double t_s);
     void say(const char *what, std::size_t limb, double t_s, double share, const brace_snapshot_t &told) const;
     void finish(Tenth &tenth, std::uint64_t ticks);
@@ -137,11 +160,13 @@ private:
     std::array<Tenth, kTenths> tenths_;
     std::array<brace_app_counters_t, kLimbs> counters_{};
     std::array<bool, kLimbs> has_counters_{};
-    std::array<std::uint32_t, kLimbs> denied_ticks_{};
+    std::array<std::uint32_t, kLimbs> denied_ticks_{}; // an open gap is not told for so long
+    std::uint32_t gap_told_ticks_ = 0;                  // the longest
     std::clock_t since_ = std::clock();
     Found found_;
     Lies lies_;
     std::uint64_t valid_ = 0, ticks_seen_ = 0;
+    int finished_ = 0; // tenths
     mutable int said_ = 0;
 };
 
@@ -191,6 +216,7 @@ void Soak::judge(Tenth &tenth, std::size_t limb, double t_s)
     ++ticks_seen_;
     valid_ += told.k_is_valid ? 1u : 0u;
     judge_calm(limb, told, t_s);
+    judge_gaps(limb, truth, told, t_s);
     const bool is_near = trouble_[limb].is_near(t_s);
     if (whole(chance_, is_near ? kNearOnceIn : kJudgedOnceIn) != 0) {
         return;
@@ -210,6 +236,26 @@ void Soak::judge(Tenth &tenth, std::size_t limb, double t_s)
     if (agreed.share > 1.0) {
         ++found_.wrong;
         say("a valid K is wrong", limb, t_s, agreed.share, told);
+    }
+}
+
+// A gap that is open, and a valid K that does not say so, for longer than the controller promises.
+void Soak::judge_gaps(std::size_t limb, const brace_node_truth_t &truth, const brace_snapshot_t &told, double t_s)
+{
+    const bool denies = told.k_is_valid && !trouble_[limb].lies(t_s) && denies_gap(limbs_[limb], truth, told);
+    denied_ticks_[limb] = denies ? denied_ticks_[limb] + 1u : 0u;
+    if (!denies) {
+        return;
+    }
+    std::uint32_t most_us = 0;
+    for (const int joint : {kFemur, kTibia}) {
+        const brace_app_t *app = brace_node_app(node_.get(), static_cast<int>(limb));
+        most_us = std::max(most_us, brace_backlash_detection_us(&app->controller.flank.joint[joint].machine));
+    }
+    gap_told_ticks_ = std::max(gap_told_ticks_, denied_ticks_[limb]);
+    if (denied_ticks_[limb] > most_us / kTick_us + kGapSpare_ticks) {
+        ++found_.gaps_denied;
+        say("an open gap is not told", limb, t_s, 1e3 * denied_ticks_[limb] / most_us, told);
     }
 }
 
@@ -242,22 +288,15 @@ void Soak::finish(Tenth &tenth, std::uint64_t ticks)
     since_ = now;
     tenth.memory_kb = memory_kb();
     tenth.files = open_files();
+    std::printf("| %d | %.0f | %d | %.1f | %llu, %.2f, %u | %llu, %.2f, %u | %llu | %.2f |\n", ++finished_, tenth.memory_kb,
+                tenth.files, tenth.cpu_us, static_cast<unsigned long long>(tenth.modbus.count), mean_ticks(tenth.modbus),
+                tenth.modbus.ticks_most, static_cast<unsigned long long>(tenth.can.count), mean_ticks(tenth.can),
+                tenth.can.ticks_most, static_cast<unsigned long long>(tenth.judged), tenth.worst);
+    (void)std::fflush(stdout);
 }
 
 int Soak::report(std::uint64_t ticks, std::uint64_t seed) const
 {
-    std::printf("\n| tenth | memory kB | files | processor us a tick of four | Modbus answers: number, mean, most ticks | "
-                "CAN answers | K judged | worst, of allowed |\n|---|---|---|---|---|---|---|---|\n");
-    const auto mean = [](const Answered &a) {
-        return static_cast<double>(a.ticks_sum) / static_cast<double>(std::max<std::uint64_t>(1, a.count));
-    };
-    for (int i = 0; i < kTenths; ++i) {
-        const Tenth &t = tenths_[static_cast<std::size_t>(i)];
-        std::printf("| %d | %.0f | %d | %.1f | %llu, %.2f, %u | %llu, %.2f, %u | %llu | %.2f |\n", i + 1, t.memory_kb, t.files,
-                    t.cpu_us, static_cast<unsigned long long>(t.modbus.count), mean(t.modbus), t.modbus.ticks_most,
-                    static_cast<unsigned long long>(t.can.count), mean(t.can), t.can.ticks_most,
-                    static_cast<unsigned long long>(t.judged), t.worst);
-    }
     std::uint64_t events = 0, connections = 0, faults[BRACE_NODE_FAULT_COUNT] = {};
     for (std::size_t limb = 0; limb < kLimbs; ++limb) {
         events += trouble_[limb].events;
@@ -283,14 +322,16 @@ int Soak::report(std::uint64_t ticks, std::uint64_t seed) const
     brace_node_stats(node_.get(), &stats);
     std::printf("\nwhile a sensor lies: %llu valid K judged, %llu beyond their uncertainty, the worst %.2f of what is allowed\n",
                 static_cast<unsigned long long>(lies_.judged), static_cast<unsigned long long>(lies_.wrong), lies_.worst);
+    std::printf("an open gap was told after %u ticks at most\n", gap_told_ticks_);
     std::printf("wrong K %llu, gaps denied %llu, wrong answers %llu, late in the calm %llu, not back %llu, counted in the calm "
                 "%llu, watchdog resets %u\n",
                 static_cast<unsigned long long>(found_.wrong), static_cast<unsigned long long>(found_.gaps_denied),
                 static_cast<unsigned long long>(found_.answers_wrong), static_cast<unsigned long long>(found_.late_in_calm),
                 static_cast<unsigned long long>(found_.not_back), static_cast<unsigned long long>(found_.counted_in_calm),
                 stats.watchdog_resets);
-    const double grows_kb = tenths_.back().memory_kb - tenths_[2].memory_kb;
-    const bool is_flat = grows_kb <= kMemoryGrows_kb && tenths_.back().files <= tenths_[2].files + 2 * (kLimbs * kModbusMastersOfALimb + kCanMasters);
+    const Tenth &first = tenths_[2], &last = tenths_[static_cast<std::size_t>(std::max(finished_, 3) - 1)];
+    const double grows_kb = last.memory_kb - first.memory_kb;
+    const bool is_flat = grows_kb <= kMemoryGrows_kb && last.files <= first.files + kFilesOfMasters;
     std::printf("memory from the third tenth to the last: %+.0f kB\n", grows_kb);
     return found_.sum() == 0u && stats.watchdog_resets == 0u && is_flat ? 0 : 1;
 }
@@ -305,7 +346,9 @@ int main(int count, char **arguments)
         std::printf("soak: %s ticks: at least 10\n", arguments[1]);
         return 2;
     }
+    (void)std::signal(SIGINT, stop);
+    (void)std::signal(SIGTERM, stop);
     Soak soak(seed);
-    soak.run(ticks);
-    return soak.report(ticks, seed);
+    const std::uint64_t run = soak.run(ticks);
+    return soak.report(run, seed);
 }

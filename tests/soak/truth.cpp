@@ -47,6 +47,15 @@ bool true_k(const Limb &limb, const brace_node_truth_t &truth, bool is_loaded, E
 
 } // namespace
 
+bool denies_gap(const Limb &limb, const brace_node_truth_t &truth, const brace_snapshot_t &told)
+{
+    bool is_open = false;
+    for (const int joint : {kFemur, kTibia}) {
+        is_open = is_open || (limb.there.plant.joint[joint].gap_rad > 0.0 && truth.flank[joint] == 0);
+    }
+    return is_open && (told.stiffness.now.flags & BRACE_FLAG_GAP_OPEN) == 0u;
+}
+
 Agreement agreement(const Limb &limb, const brace_node_truth_t &truth, const brace_snapshot_t &told)
 {
     Agreement found;
@@ -58,10 +67,9 @@ Agreement agreement(const Limb &limb, const brace_node_truth_t &truth, const bra
     const bool doubts_flank = (told.stiffness.now.flags & BRACE_FLAG_GAP_OPEN) != 0u;
     brace_limb_t believed = limb.believed.limb;
     for (const int joint : {kFemur, kTibia}) {
-        const float gap_rad = believed.joint[joint].gap_rad;
-        found.denies_gap = found.denies_gap || (gap_rad > 0.0f && truth.flank[joint] == 0 && !doubts_flank);
         if (doubts_flank) {
-            believed.uncertainty.angle_rad = std::hypot(believed.uncertainty.angle_rad, 0.5f * gap_rad);
+            believed.uncertainty.angle_rad =
+                std::hypot(believed.uncertainty.angle_rad, 0.5f * believed.joint[joint].gap_rad);
         }
     }
     Entries true_n_per_mm;

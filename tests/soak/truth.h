@@ -18,12 +18,14 @@ struct Agreement {
     bool is_told = false;         // there was a valid K to judge
     bool is_judged = false;       // and the reference has an answer
     double share = 0.0;           // worst entry's error, of what is allowed; above 1: wrong
-    bool denies_gap = false;      // a gap is open, and no flag says so
 };
 
 // Allowed for an entry of K: three of the sigmas that brace_uncertainty_stiffness tells of it, and 0.6 % of K's norm,
 // which brace/loaded.h promises for a load. Where a flank is not known, the joint may stand anywhere in its gap: half of
 // it is added to the angles' sigma.
 Agreement agreement(const Limb &limb, const brace_node_truth_t &truth, const brace_snapshot_t &told);
+
+// Is a gap open, and no flag says so?
+bool denies_gap(const Limb &limb, const brace_node_truth_t &truth, const brace_snapshot_t &told);
 
 } // namespace soak
