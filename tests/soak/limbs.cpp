@@ -15,7 +15,10 @@ struct Setting {
     bool has_play, is_heavy, is_in_space;
 };
 constexpr Setting kSettings[kLimbs] = {
-    {"plain", false, false, false}, {"play", true, false, false}, {"heavy", false, true, false}, {"in space", false, false, true}};
+    {"plain", false, false, false},
+    {"play", true, false, false},
+    {"heavy", false, true, false},
+    {"in space", false, false, true}};
 
 brace_node_limb_t nominal(const Setting &setting)
 {
@@ -51,8 +54,11 @@ brace_parameters_t parameters_of(const brace_node_limb_t &limb, std::uint32_t no
     for (int i = 0; i < BRACE_LINK_COUNT; ++i) {
         const brace_plant_link_t &link = plant.link[i];
         const brace_node_drive_t &drive = limb.drive[i];
-        p.limb.link[i] = {number(link.axial_mm_per_n), number(link.bending_mm_per_n), 0.0f, number(link.lateral_mm_per_n),
-                          0.0f, number(link.moment_transfer_ratio)};
+        p.limb.link[i] = {};
+        p.limb.link[i].axial_mm_per_n = number(link.axial_mm_per_n);
+        p.limb.link[i].bending_mm_per_n = number(link.bending_mm_per_n);
+        p.limb.link[i].lateral_mm_per_n = number(link.lateral_mm_per_n);
+        p.limb.link[i].moment_transfer_ratio = number(link.moment_transfer_ratio);
         p.limb.joint[i] = {number(plant.joint[i].compliance_rad_per_n_mm), number(plant.joint[i].gap_rad), 0.0f};
         brace_drive_t &told = p.drive[i];
         told.motor_friction_n_mm = number(drive.friction_n_mm);

@@ -35,9 +35,9 @@ struct Limb {
     brace_node_limb_t there;
 };
 
-// [0] the paper's limb; [1] play in both joints; [2] beams for links, and weights; [3] in space. Each limb that is there
-// differs from the believed one by as much as its controller's parameters say that they may be off: every length, zero
-// and compliance by up to the square root of three of its sigma either way, so that its variance is that sigma's.
+// [0] the paper's limb; [1] play in both joints; [2] beams for links, and weights; [3] in space. Each limb that is
+// there differs from the believed one by as much as its controller's parameters say that they may be off: every length,
+// zero and compliance by up to the square root of three of its sigma either way, so that its variance is that sigma's.
 std::array<Limb, kLimbs> four_limbs(Chance &chance);
 
 } // namespace soak

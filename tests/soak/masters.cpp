@@ -173,8 +173,8 @@ bool ModbusMaster::step(brace_node_t *node, int limb, Chance &chance, bool is_ca
         return true;
     }
     ++transaction_;
-    const std::uint8_t request[] = {static_cast<std::uint8_t>(transaction_ >> 8), static_cast<std::uint8_t>(transaction_),
-                                    0, 0, 0, 6, 1, 4, 0, 0, 0, kRegisters};
+    const auto high = static_cast<std::uint8_t>(transaction_ >> 8), low = static_cast<std::uint8_t>(transaction_);
+    const std::uint8_t request[] = {high, low, 0, 0, 0, 6, 1, 4, 0, 0, 0, kRegisters};
     socket_.send(request, sizeof request);
     come_.clear();
     waits_ = socket_.is_open();

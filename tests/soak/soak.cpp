@@ -1,7 +1,7 @@
 // soak [TICKS [SEED]]: four limbs and their controllers on one CAN bus, for TICKS of a millisecond of simulated time;
 // 10,000,000 is ./dev soak's. Masters ask, send nonsense, hang up and come back; faults, postures, contacts, power cuts
 // come at random. Each minute has 40 s of that and 20 s of calm. It fails when
-//   a valid K is wrong by more than its uncertainty, or an open gap is not told in the time that the controller promises
+//   a valid K is wrong by more than its uncertainty, or an open gap is not told in the time that brace/app.h promises
 //   a request is not answered within 100 ticks in the calm, an answer is none, or its K is not the snapshot's
 //   a controller is not back in MONITOR with a valid K and no fault 10 s after the trouble, or counts trouble then
 //   the process keeps more memory or files in the last tenth than in the third
@@ -51,7 +51,10 @@ struct Tenth {
 
 struct Found { // what must not be
     std::uint64_t wrong = 0, gaps_denied = 0, answers_wrong = 0, late_in_calm = 0, not_back = 0, counted_in_calm = 0;
-    std::uint64_t sum() const { return wrong + gaps_denied + answers_wrong + late_in_calm + not_back + counted_in_calm; }
+    std::uint64_t sum() const
+    {
+        return wrong + gaps_denied + answers_wrong + late_in_calm + not_back + counted_in_calm;
+    }
 };
 
 struct Lies { // valid while a sensor lies, or did half a second ago
@@ -94,6 +97,11 @@ void stop(int)
     is_stopped = 1;
 }
 
+unsigned long long number(std::uint64_t value) // for printf
+{
+    return value;
+}
+
 double mean_ticks(const Answered &answered)
 {
     return static_cast<double>(answered.ticks_sum) / static_cast<double>(std::max<std::uint64_t>(1, answered.count));
@@ -126,8 +134,8 @@ public:
     // returns how many of the ticks it has run
     std::uint64_t run(std::uint64_t ticks)
     {
-        std::puts("| tenth | memory kB | files | processor us a tick of four | Modbus answers in the calm: number, mean, most "
-                  "ticks | CAN answers | K judged | worst, of allowed |\n|---|---|---|---|---|---|---|---|");
+        std::puts("| tenth | memory kB | files | processor us a tick of four | Modbus answers in the calm: number, "
+                  "mean, most ticks | CAN answers | K judged | worst, of allowed |\n|---|---|---|---|---|---|---|---|");
         for (std::uint64_t tick = 0; tick < ticks; ++tick) {
             if (is_stopped != 0) {
                 return tick;
@@ -180,7 +188,8 @@ void Soak::step(Tenth &tenth, double t_s)
     Answered can, modbus;
     for (std::size_t limb = 0; limb < kLimbs; ++limb) {
         for (ModbusMaster &master : modbus_[limb]) {
-            const bool is_right = master.step(node_.get(), static_cast<int>(limb), chance_, trouble_[limb].is_calm(t_s), modbus);
+            const bool is_calm = trouble_[limb].is_calm(t_s);
+            const bool is_right = master.step(node_.get(), static_cast<int>(limb), chance_, is_calm, modbus);
             found_.answers_wrong += is_right ? 0u : 1u;
         }
         judge(tenth, limb, t_s);
@@ -202,8 +211,8 @@ void Soak::say(const char *what, std::size_t limb, double t_s, double share, con
 {
     constexpr int kMostSaid = 40;
     if (said_++ < kMostSaid) {
-        std::printf("%9.3f s, limb %s: %s; %.2f of what is allowed; mode %d, faults %x, flags %x\n", t_s, limbs_[limb].name,
-                    what, share, static_cast<int>(told.mode), told.faults, told.stiffness.now.flags);
+        std::printf("%9.3f s, limb %s: %s; %.2f of what is allowed; mode %d, faults %x, flags %x\n", t_s,
+                    limbs_[limb].name, what, share, static_cast<int>(told.mode), told.faults, told.stiffness.now.flags);
     }
 }
 
@@ -288,10 +297,10 @@ void Soak::finish(Tenth &tenth, std::uint64_t ticks)
     since_ = now;
     tenth.memory_kb = memory_kb();
     tenth.files = open_files();
-    std::printf("| %d | %.0f | %d | %.1f | %llu, %.2f, %u | %llu, %.2f, %u | %llu | %.2f |\n", ++finished_, tenth.memory_kb,
-                tenth.files, tenth.cpu_us, static_cast<unsigned long long>(tenth.modbus.count), mean_ticks(tenth.modbus),
-                tenth.modbus.ticks_most, static_cast<unsigned long long>(tenth.can.count), mean_ticks(tenth.can),
-                tenth.can.ticks_most, static_cast<unsigned long long>(tenth.judged), tenth.worst);
+    std::printf("| %d | %.0f | %d | %.1f | %llu, %.2f, %u | %llu, %.2f, %u | %llu | %.2f |\n", ++finished_,
+                tenth.memory_kb, tenth.files, tenth.cpu_us, number(tenth.modbus.count), mean_ticks(tenth.modbus),
+                tenth.modbus.ticks_most, number(tenth.can.count), mean_ticks(tenth.can),
+                tenth.can.ticks_most, number(tenth.judged), tenth.worst);
     (void)std::fflush(stdout);
 }
 
@@ -311,23 +320,24 @@ int Soak::report(std::uint64_t ticks, std::uint64_t seed) const
         connections += master.connections;
     }
     std::printf("\nseed %llu, %llu ticks of four limbs, %.0f s of simulated time; %.1f %% of ticks with a valid K\n",
-                static_cast<unsigned long long>(seed), static_cast<unsigned long long>(ticks), 1e-3 * static_cast<double>(ticks),
+                number(seed), number(ticks), 1e-3 * static_cast<double>(ticks),
                 100.0 * static_cast<double>(valid_) / static_cast<double>(std::max<std::uint64_t>(1, ticks_seen_)));
-    std::printf("%llu events, %llu connections; faults:", static_cast<unsigned long long>(events),
-                static_cast<unsigned long long>(connections));
+    std::printf("%llu events, %llu connections; faults:", number(events),
+                number(connections));
     for (int fault = 0; fault < BRACE_NODE_FAULT_COUNT; ++fault) {
-        std::printf(" %s %llu", brace_node_fault_name(fault), static_cast<unsigned long long>(faults[fault]));
+        std::printf(" %s %llu", brace_node_fault_name(fault), number(faults[fault]));
     }
     brace_node_stats_t stats;
     brace_node_stats(node_.get(), &stats);
-    std::printf("\nwhile a sensor lies: %llu valid K judged, %llu beyond their uncertainty, the worst %.2f of what is allowed\n",
-                static_cast<unsigned long long>(lies_.judged), static_cast<unsigned long long>(lies_.wrong), lies_.worst);
+    std::printf("\nwhile a sensor lies: %llu valid K judged, %llu beyond their uncertainty, the worst %.2f of what is "
+                "allowed\n",
+                number(lies_.judged), number(lies_.wrong), lies_.worst);
     std::printf("an open gap was told after %u ticks at most\n", gap_told_ticks_);
-    std::printf("wrong K %llu, gaps denied %llu, wrong answers %llu, late in the calm %llu, not back %llu, counted in the calm "
-                "%llu, watchdog resets %u\n",
-                static_cast<unsigned long long>(found_.wrong), static_cast<unsigned long long>(found_.gaps_denied),
-                static_cast<unsigned long long>(found_.answers_wrong), static_cast<unsigned long long>(found_.late_in_calm),
-                static_cast<unsigned long long>(found_.not_back), static_cast<unsigned long long>(found_.counted_in_calm),
+    std::printf("wrong K %llu, gaps denied %llu, wrong answers %llu, late in the calm %llu, not back %llu, "
+                "counted in the calm %llu, watchdog resets %u\n",
+                number(found_.wrong), number(found_.gaps_denied),
+                number(found_.answers_wrong), number(found_.late_in_calm),
+                number(found_.not_back), number(found_.counted_in_calm),
                 stats.watchdog_resets);
     const Tenth &first = tenths_[2], &last = tenths_[static_cast<std::size_t>(std::max(finished_, 3) - 1)];
     const double grows_kb = last.memory_kb - first.memory_kb;

@@ -31,8 +31,9 @@ bool true_k(const Limb &limb, const brace_node_truth_t &truth, bool is_loaded, E
     const double fx_n = share * truth.force_x_n, fz_n = share * truth.force_z_n;
     const double theta1_rad = unbent_rad(limb, truth, kFemur), theta2_rad = unbent_rad(limb, truth, kTibia);
     if (truth.has_coxa_joint != 0) {
-        const brace_loaded_space_case_t at = {0.0,  theta1_rad, theta2_rad, fx_n, share * truth.force_y_n, fz_n, 0.0, 0.0,
-                                              0.0,  0.0,        0.0,        -1.0};
+        const double fy_n = share * truth.force_y_n;
+        brace_loaded_space_case_t at{0.0, theta1_rad, theta2_rad, fx_n, fy_n, fz_n, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+        at.gravity_z = -1.0;
         brace_loaded_space_result_t result;
         const bool is_there = brace_reference_space_under_force(&plant, 1, &at, 0, &result, nullptr) == BRACE_HOST_OK;
         k = {result.k_xx, result.k_xz, result.k_zz};
@@ -74,8 +75,9 @@ Agreement agreement(const Limb &limb, const brace_node_truth_t &truth, const bra
     }
     Entries true_n_per_mm;
     brace_stiffness_sigma_t sigma;
+    const float theta1_rad = told.theta_rad[kFemur], theta2_rad = told.theta_rad[kTibia];
     if (!true_k(limb, truth, told.load.is_counted, true_n_per_mm) ||
-        brace_uncertainty_stiffness(&believed, told.theta_rad[kFemur], told.theta_rad[kTibia], &k, &sigma) != BRACE_OK) {
+        brace_uncertainty_stiffness(&believed, theta1_rad, theta2_rad, &k, &sigma) != BRACE_OK) {
         return found;
     }
     found.is_judged = true;

@@ -21,8 +21,8 @@ struct Agreement {
 };
 
 // Allowed for an entry of K: three of the sigmas that brace_uncertainty_stiffness tells of it, and 0.6 % of K's norm,
-// which brace/loaded.h promises for a load. Where a flank is not known, the joint may stand anywhere in its gap: half of
-// it is added to the angles' sigma.
+// which brace/loaded.h promises for a load. Where a flank is not known, the joint may stand anywhere in its gap: half
+// of it is added to the angles' sigma.
 Agreement agreement(const Limb &limb, const brace_node_truth_t &truth, const brace_snapshot_t &told);
 
 // Is a gap open, and no flag says so?
