@@ -1,4 +1,4 @@
-/* What is measured is told under its own name: every number of a snapshot, each unlike all others, and every counter. */
+/* What is measured is told under its own name: every number of a snapshot, each unlike all others, and each counter. */
 #include "wire/measured.h"
 
 #include <string.h>
