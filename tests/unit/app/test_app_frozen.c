@@ -224,6 +224,96 @@ static void test_without_the_tip_s_sensor_nothing_is_claimed(void)
     TEST_ASSERT_EQUAL(0, seen_after(SEEN_WITHIN_TICKS, swing));
 }
 
+/* ------------------------------------------------------------------ an angle that stands, by its own joint alone -- */
+
+static float range_n_mm, swing_ratio, dither_rad;
+
+/* A limb without a sensor at its tip, whose tibia encoder stands. */
+static void start_alone(float motor_friction_n_mm)
+{
+    parameters = bench_parameters();
+    parameters.drive[BRACE_TIBIA].angle_step_rad = 0.001f;
+    parameters.drive[BRACE_TIBIA].motor_friction_n_mm = motor_friction_n_mm;
+    range_n_mm = parameters.drive[BRACE_TIBIA].torque_range_n_mm;
+    bench_start(&parameters);
+    brace_fake_without_force(&fake);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    ticks(600);
+    TEST_ASSERT_EQUAL(0, now()->faults);
+}
+
+/* From none to a share of the torque's range and back, in 0.4 s, which the torque's mean over 20 ms follows. */
+static void swing_alone(int tick)
+{
+    const float from_none = (float)(tick % 400 < 200 ? tick % 200 : 200 - tick % 200) / 200.0f;
+    fake.joint[BRACE_TIBIA].sample.torque_n_mm = swing_ratio * range_n_mm * from_none;
+    fake.joint[BRACE_TIBIA].sample.motor_rad = 1.4f + (tick % 2 == 0 ? dither_rad : 0.0f);
+}
+
+static void test_a_quarter_of_the_torque_s_range_moves_any_encoder(void)
+{
+    dither_rad = 0.0f;
+    swing_ratio = 0.22f;
+    start_alone(0.0f);
+    TEST_ASSERT_EQUAL(0, seen_after(1000, swing_alone));
+    swing_ratio = 0.32f;
+    start_alone(0.0f);
+    TEST_ASSERT_NOT_EQUAL(0, seen_after(SEEN_WITHIN_TICKS, swing_alone));
+}
+
+static void test_a_swing_that_friction_hides_moves_none(void)
+{
+    dither_rad = 0.0f;
+    swing_ratio = 0.32f;
+    start_alone(0.1f * range_n_mm);
+    TEST_ASSERT_EQUAL(0, seen_after(1000, swing_alone));
+    start_alone(0.05f * range_n_mm);
+    TEST_ASSERT_NOT_EQUAL(0, seen_after(SEEN_WITHIN_TICKS, swing_alone));
+}
+
+/* An encoder between two of its steps tells both in turns, and stands all the same. */
+static void test_an_angle_stands_within_half_a_step(void)
+{
+    swing_ratio = 0.32f;
+    dither_rad = 0.0004f;
+    start_alone(0.0f);
+    TEST_ASSERT_NOT_EQUAL(0, seen_after(SEEN_WITHIN_TICKS, swing_alone));
+    dither_rad = 0.0011f;
+    start_alone(0.0f);
+    TEST_ASSERT_EQUAL(0, seen_after(1000, swing_alone));
+}
+
+/* A drive takes its time to give way: the torque jumps, and the angle has a quarter of a second to follow. */
+static void jump_alone(int tick)
+{
+    fake.joint[BRACE_TIBIA].sample.torque_n_mm = tick < 10 ? 0.0f : 0.4f * range_n_mm;
+    fake.joint[BRACE_TIBIA].sample.motor_rad = tick < 10 ? 1.4f + 0.002f * (float)tick : 1.42f;
+}
+
+static void test_an_angle_may_stand_for_a_quarter_of_a_second(void)
+{
+    start_alone(0.0f);
+    const int after = seen_after(SEEN_WITHIN_TICKS, jump_alone);
+    TEST_ASSERT_GREATER_THAN(240, after);
+    TEST_ASSERT_LESS_THAN(400, after);
+}
+
+/* The link's encoder leaves the motor's behind; three of its samples are absurd, which says nothing. */
+static void leave_alone(int tick)
+{
+    const float moved_rad = tick < 300 ? 0.0f : 0.0002f * (float)(tick - 300);
+    fake.joint[BRACE_TIBIA].sample.link_rad = tick == 318 || tick == 319 || tick == 320 ? 1e6f : 1.4f + moved_rad;
+}
+
+static void test_absurd_samples_of_the_link_hide_no_frozen_motor(void)
+{
+    start_alone(0.0f);
+    leave_alone(0);
+    fake.joint[BRACE_TIBIA].sample.motor_rad += 0.01f; /* stands anew from here, with a link's encoder */
+    const int after = seen_after(SEEN_WITHIN_TICKS, leave_alone);
+    TEST_ASSERT_GREATER_THAN(320, after);
+}
+
 /* ----------------------------------------------------------------------------------------- the watchdog -- */
 
 static uint32_t feeds;
@@ -273,6 +363,11 @@ int main(void)
     RUN_TEST(test_a_joint_at_the_end_of_its_torque_is_not);
     RUN_TEST(test_a_standing_angle_under_a_torque_that_nothing_holds_is_frozen);
     RUN_TEST(test_without_the_tip_s_sensor_nothing_is_claimed);
+    RUN_TEST(test_a_quarter_of_the_torque_s_range_moves_any_encoder);
+    RUN_TEST(test_a_swing_that_friction_hides_moves_none);
+    RUN_TEST(test_an_angle_stands_within_half_a_step);
+    RUN_TEST(test_an_angle_may_stand_for_a_quarter_of_a_second);
+    RUN_TEST(test_absurd_samples_of_the_link_hide_no_frozen_motor);
     RUN_TEST(test_only_a_whole_tick_feeds_the_watchdog);
     return UNITY_END();
 }

@@ -7,9 +7,9 @@
  * eight ticks, and a tick that works on a K answers requests beside it (wire/wires.h).
  *
  * In space a tick that works out half of a K has no room for requests: they wait for the next tick, and between two K
- * the job leaves a tick to them. So four ports have their answers within twelve ticks, and two more while the buckling
- * factor is searched: a question takes 7,000 instructions and its answer 1,000 to 1,500, and a tick of 16,000 leaves
- * 3,700 of them where all else costs most. */
+ * the job leaves a tick to them. So four ports have their answers within twelve ticks, two more while the buckling
+ * factor is searched, and one more where process data have waited for long: a question takes 7,000 instructions and its
+ * answer 1,000 to 1,500, and a tick of 16,000 leaves 3,700 of them where all else costs most. */
 #ifndef BRACE_JOBS_QUESTION_QUESTION_JOB_H
 #define BRACE_JOBS_QUESTION_QUESTION_JOB_H
 
