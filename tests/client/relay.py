@@ -1,4 +1,4 @@
-"""A way to a controller that writes down what a client sends, and may send it twice."""
+"""A way to a controller that writes down what a client sends, and may send it twice or lose some of it."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import contextlib
 import socket
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 
@@ -48,8 +48,16 @@ def _doubled(part: bytes) -> bytes:
     return b"\r".join(line + b"\r" + line if line.startswith(b"t") else line for line in lines)
 
 
+def kept(part: bytes, loses: Callable[[bytes], bool]) -> bytes:
+    """Without the SLCAN frames whose data is to be lost."""
+    lines = part.split(b"\r")
+    return b"\r".join(
+        line for line in lines if not (line[:1] == b"t" and loses(bytes.fromhex(line[5:21].decode())))
+    )
+
+
 @contextlib.contextmanager
-def relayed(url: str, doubles: bool = False) -> Iterator[Relay]:
+def relayed(url: str, doubles: bool = False, loses: Callable[[bytes], bool] | None = None) -> Iterator[Relay]:
     """To the controller at this URL, for one client at a time."""
     scheme, _, place = url.partition("://")
     host, _, port = place.rpartition(":")
@@ -65,6 +73,9 @@ def relayed(url: str, doubles: bool = False) -> Iterator[Relay]:
                     if is_client and doubles:  # whole lines
                         lines, mark, rest = (rest + part).rpartition(b"\r")
                         part = _doubled(lines) + mark
+                    if is_client and loses:
+                        lines, mark, rest = (rest + part).rpartition(b"\r")
+                        part = kept(lines, loses) + mark
                     sink.sendall(part)
             with contextlib.suppress(OSError):
                 sink.shutdown(socket.SHUT_WR)

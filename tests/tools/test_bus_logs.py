@@ -17,7 +17,9 @@ from bus_bench import limb_on_tcp, told_in_time
 from conftest import LIMB, PROJECT, Outcome, spawn
 from test_bus_params import wait_for_mode
 
+from brace.bus.frame import Frame
 from brace.bus.log import read
+from brace.bus.recording import Recording
 from brace.bus.session import Session
 from brace.bus.slcan import SlcanBus
 from brace.bus.lines import TcpLine
@@ -144,6 +146,18 @@ def test_sigterm_ends_a_recording_well_and_ctrl_c_with_130(limb: Path, tmp_path:
             assert process.returncode == code, said
             assert len(list(read(path))) > 50
             assert os.listdir(tmp_path).count(path.name + ".part") == 0
+
+
+@pytest.mark.parametrize("lost", [1, 10, 40, 80, 90, 100])
+def test_an_mcap_that_was_cut_off_anywhere_ends_there(tmp_path: Path, lost: int) -> None:
+    recording = Recording(tmp_path / "a.mcap", "can0")
+    for number in range(20):
+        recording.add(Frame(1.7e9 + number, 0x181, bytes(8)))
+    recording.leave()
+    whole = recording.part.read_bytes()
+    end = whole.index(b"}", whole.rindex(b'{"bus": "can0"')) + 1
+    recording.part.write_bytes(whole[: end - lost])
+    assert len(list(read(recording.part))) == 19
 
 
 @pytest.mark.parametrize("moment", ["in a frame", "at the end"])

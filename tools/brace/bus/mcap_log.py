@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import struct
 from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
@@ -108,7 +109,9 @@ def read(path: Path) -> Iterator[Frame]:
                     count += 1
         except EndOfFile:
             return
-        except (McapError, ValueError, KeyError, TypeError) as error:
+        except (McapError, struct.error, ValueError, KeyError, TypeError) as error:
+            if count and not file.read(1):
+                return  # cut off within an entry
             if count == 0:
                 raise BadFileError(
                     "not a log of brace",

@@ -24,7 +24,7 @@ from brace.bus.controller import (
 )
 from brace.bus.drift import TAKE_UPS, Drift, drift_of, take_up_of
 from brace.bus.load import Load, load_of
-from brace.bus.ownership import LIFE_S, Owner, register_of
+from brace.bus.ownership import LIFE_S, NOT_OPEN, Owner, register_of
 from brace.bus.refusal import STORE, error_of, no_coxa_joint, no_equilibrium
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceAnswer, SpaceSnapshot, space_answer, space_snapshot
@@ -87,6 +87,14 @@ _NO_SUCH_UNIT = (10, 11)  # a gateway's words: no path to it, no answer from it
 
 class _BusyError(DeviceFaultError):
     """Exception 6: the same request may be asked again."""
+
+
+class _NotTakenError(DeviceFaultError):
+    """Exception 7 for want of a session or of a seal: the session may have ended."""
+
+    @classmethod
+    def of(cls, told: BraceError) -> _NotTakenError:
+        return cls(told.what, where=told.where, why=told.why, next_step=told.next_step)
 
 
 class ModbusController:
@@ -299,7 +307,7 @@ class ModbusController:
             return
         setting, low, high = (self.read_entry(name) for name in ("setting", "challenge_low", "challenge_high"))
         opening = self._owner.begin(setting, low, high, self.url)
-        self._is_bench = opening is None
+        self._is_bench = not self._owner.is_open
         if opening is not None:
             self._show("life_counter", *opening)
 
@@ -425,13 +433,21 @@ class ModbusController:
         self._become_owner()
         until = time.monotonic() + (EARLY_S if name in _COMMITS else BUSY_S)
         address, words = _BY_NAME[name].address, (value >> 16, value & 0xFFFF)
+        may_open = self._owner.is_open
         while True:
             try:
-                return self._write(address, words)
+                self._write(address, words)
+                return self._owner.accepted()
             except _BusyError:
                 if time.monotonic() > until:
                     raise
                 self.stay(0.02)
+            except _NotTakenError:
+                if not may_open:
+                    raise
+                may_open = False
+                self._owner.forget()
+                self._become_owner()
 
     def _done(self, request: Any, what: str) -> Any:
         try:
@@ -452,7 +468,9 @@ class ModbusController:
                 next_step="modbus-tcp://HOST:PORT/UNIT with the controller's controller.modbus_address, 1 unless set",
             )
         if code == _NOT_OURS:
-            return error_of(what, self.read_entry("last_refusal") - _STORE_REFUSED, 0, self.url)
+            status = self.read_entry("last_refusal") - _STORE_REFUSED
+            told = error_of(what, status, 0, self.url)
+            return _NotTakenError.of(told) if status in NOT_OPEN else told
         kind = _BusyError if code == _BUSY else DeviceFaultError
         return kind(
             f"the controller refuses {what}: {_EXCEPTIONS.get(code, 'no reason given')}",

@@ -13,7 +13,10 @@ from brace.wire.registers import REGISTERS
 
 LIFE_S = 0.04  # between two signs of life; the controller wants one each 0.1 s
 EARLY = -75  # a commit came too soon after the one before
-NOT_OPEN = (-70, -71)  # there is no session any more, or another one: it can be opened anew
+# There is no session any more, or another one, or a command came without its seal: the session can be opened anew, or
+# goes on. Where a session is open, a command without a seal is refused as somebody else's (-72).
+NOT_OPEN = (-70, -71, -72)
+UNKNOWN = 0xFFFFFFFF  # of a half of the challenge: the next one is being made
 COMMANDS = frozenset((
     "take_up", "let_go", "loading_test_start", "set_mode", "write_entry", "upload_begin", "upload_word", "commit",
     "rollback", "clear", "set_gravity",
@@ -39,20 +42,23 @@ class Owner:
 
     def __init__(self, key: bytes | None) -> None:
         self._key = key
-        self._challenge: int | None = None
+        self._challenge = 0
         self._counter = 0
-
-    @property
-    def is_open(self) -> bool:
-        """A session has been begun."""
-        return self._challenge is not None
+        self._is_accepted = False  # a command has been taken in the session of this challenge
+        self.is_open = False  # a session has been begun
 
     def forget(self) -> None:
-        """The controller has ended it."""
-        self._challenge = None
+        """The controller may have ended it; `begin` finds out."""
+        self.is_open = False
+
+    def accepted(self) -> None:
+        """The controller has taken a command."""
+        self._is_accepted = self.is_open
 
     def begin(self, setting: int, low: int, high: int, where: str) -> tuple[int, int] | None:
-        """The life sign that opens a session: counter and check; None on a bench.
+        """The life sign to send, counter and check, which opens a session; None where none is needed: on a bench, and
+        where our session goes on. With the challenge of before the counter goes on, too: the controller takes none
+        twice.
         setting, low, high: as the controller tells them"""
         name = SETTING.name_of(setting)
         if name == "BENCH":
@@ -71,15 +77,17 @@ class Owner:
                 why="only whoever has the key may move the limb or write",
                 next_step="--key FILE; reading needs none",
             )
-        self._challenge, self._counter = high << 32 | low, 0
-        return 0, self._check(_KIND_LIFE, b"")
+        self.is_open = True
+        if high << 32 | low != self._challenge:
+            self._challenge, self._counter, self._is_accepted = high << 32 | low, 0, False
+        return None if self._is_accepted else (0, self._check(_KIND_LIFE, b"", 0))
 
     def life(self) -> tuple[int, int]:
         """Counter and check of the next sign of life; on a bench nobody looks at them."""
-        if self._challenge is None:
+        if not self.is_open:
             return 0, 0
         self._counter += 1
-        return self._counter, self._check(_KIND_LIFE, b"")
+        return self._counter, self._check(_KIND_LIFE, b"", self._counter)
 
     def next_counter(self) -> int:
         """Of the next command."""
@@ -88,11 +96,11 @@ class Owner:
 
     def seal(self, command: bytes) -> int:
         """The check of the command that has the counter of next_counter."""
-        return self._check(_KIND_COMMAND, command)
+        return self._check(_KIND_COMMAND, command, self._counter)
 
-    def _check(self, kind: int, content: bytes) -> int:
-        assert self._key is not None and self._challenge is not None
-        return siphash(self._key, struct.pack("<QII", self._challenge, self._counter, kind) + content) & 0xFFFFFFFF
+    def _check(self, kind: int, content: bytes, counter: int) -> int:
+        assert self._key is not None
+        return siphash(self._key, struct.pack("<QII", self._challenge, counter, kind) + content) & 0xFFFFFFFF
 
 
 def load_key(path: Path) -> bytes:

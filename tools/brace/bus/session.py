@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 
 from brace.bus.entries import index_of
 from brace.bus.frame import NODE_MASK, Bus, EndOfLog, Frame
-from brace.bus.ownership import COMMANDS, EARLY, LIFE_S, MOVING, NOT_OPEN, Owner, entry_of
+from brace.bus.ownership import COMMANDS, EARLY, LIFE_S, MOVING, NOT_OPEN, UNKNOWN, Owner, entry_of
 from brace.bus.refusal import BUSY, ORDER, error_of
 from brace.bus.snapshot import Heartbeat, Joiner, Snapshot, heartbeat_of
 from brace.errors import DeviceFaultError, NoDeviceError, UsageError
@@ -32,6 +32,7 @@ TRIES = 3
 HEARTBEAT_S = 1.15  # a heartbeat comes each second
 BUSY_S = 4.0  # a set that is being stored, a limb that goes back from a loading test: waited for
 BUSY_POLL_S = 0.02
+CHALLENGES, CHALLENGE_S = 5, 0.002  # a session that has ended gets its next challenge in a tick of the controller
 EARLY_POLL_S = 1.0  # a commit that comes too soon after another: waited for
 CONTESTED_S = 2.5  # other clients' forces come between ours and its question for so long at most
 APART_S = 0.03  # between two questions that another client's came between
@@ -161,12 +162,19 @@ class Session:
         """Opens a session on a guarded board."""
         if self._is_bench or self.owner.is_open:
             return
-        names = ("setting", "challenge_low", "challenge_high")
-        setting, low, high = (int(self.ask("read_entry", {"index": index_of(name)})["value"] or 0) for name in names)
+        setting, low, high = (self._entry(name) for name in ("setting", "challenge_low", "challenge_high"))
+        for _ in range(CHALLENGES):
+            if low != UNKNOWN or high != UNKNOWN:
+                break
+            self.listen(CHALLENGE_S)
+            low, high = self._entry("challenge_low"), self._entry("challenge_high")
         opening = self.owner.begin(setting, low, high, self.where)
-        self._is_bench = opening is None
+        self._is_bench = not self.owner.is_open
         if opening is not None:
             self._send_life(*opening)
+
+    def _entry(self, name: str) -> int:
+        return int(self.ask("read_entry", {"index": index_of(name)})["value"] or 0)
 
     def _give_sign_of_life(self) -> None:
         self._send_life(*self.owner.life())
@@ -245,6 +253,8 @@ class Session:
                 self.listen(BUSY_POLL_S)
                 continue
             if answer is not None:
+                if name in COMMANDS:
+                    self.owner.accepted()
                 return answer
             tries -= 1
         raise self._no_answer(name)
@@ -281,7 +291,10 @@ class Session:
                 refused = REFUSAL.decode(frame.data)
                 raise _Refused(int(refused["status"] or 0), int(refused["detail"] or 0))
             if part < len(parts):
-                came[part] = parts[part].decode(frame.data)
+                fields = parts[part].decode(frame.data)
+                if fields.get("index", values.get("index")) != values.get("index"):
+                    continue  # the answer to the seal, a write_entry too: it has the command's token
+                came[part] = fields
             if len(came) == len(parts):
                 return {key: value for index in sorted(came) for key, value in came[index].items()}
         return None

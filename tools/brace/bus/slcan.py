@@ -7,6 +7,7 @@ tIIILDD...CR. python-can's own sleeps two seconds at each opening; this one does
 from __future__ import annotations
 
 import contextlib
+import re
 import time
 from collections import deque
 from typing import Protocol
@@ -23,6 +24,7 @@ SEND_S = 1.0
 _LONGEST_LINE = 160
 _BYTES = (*range(9), 12, 16, 20, 24, 32, 48, 64)  # by a line's length code
 _HEX = frozenset(b"0123456789abcdefABCDEF")
+_END = re.compile(rb"([\r\a])")
 _ERROR_BITS = (
     "receive queue full",
     "send queue full",
@@ -88,6 +90,8 @@ class SlcanBus:
 
     def receive(self, timeout_s: float) -> Frame | None:
         """The next frame."""
+        if self._frames:
+            return self._frames.popleft()
         until = time.monotonic() + timeout_s
         while not self._frames:
             left = until - time.monotonic()
@@ -157,13 +161,10 @@ class SlcanBus:
         if not part:
             return
         now = time.time()
-        self._rest += part
-        start = 0
-        for index, byte in enumerate(self._rest):
-            if byte in (0x0D, 0x07):
-                self._sort(self._rest[start : index + 1], now)
-                start = index + 1
-        self._rest = self._rest[start:][-_LONGEST_LINE:]
+        *texts, rest = _END.split(self._rest + part)  # each text, then what ended it
+        for text, end in zip(texts[::2], texts[1::2]):
+            self._sort(text + end, now)
+        self._rest = rest[-_LONGEST_LINE:]
 
     def _sort(self, text: bytes, now: float) -> None:
         frame = frame_of(text[:-1], now) if text.endswith(b"\r") else None

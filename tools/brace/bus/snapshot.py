@@ -147,20 +147,21 @@ class Joiner:
         space, with its load, and with eigenvalues and posture. Over CAN FD one frame has all of it but K in space and
         the load."""
         identifier = frame.identifier & ~NODE_MASK
-        if frame.node == 0:
+        node = frame.identifier & NODE_MASK
+        if node == 0:
             return None
         if identifier == _WHOLE.identifier and len(frame.data) == _WHOLE.size:
-            self._whole_alone[frame.node] = self._whole_alone.get(frame.node, 0) + 1
-            self._newest[frame.node] = _whole(frame)
-            return self._newest[frame.node]
+            self._whole_alone[node] = self._whole_alone.get(node, 0) + 1
+            self._newest[node] = _whole(frame)
+            return self._newest[node]
         if identifier == _SPACE_FD.identifier and len(frame.data) == _SPACE_FD.size:
             values = _SPACE_FD.decode(frame.data)
-            self._sends_space.add(frame.node)
-            self._whole_alone[frame.node] = 0
-            return self._add_space(frame.node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values)
+            self._sends_space.add(node)
+            self._whole_alone[node] = 0
+            return self._add_space(node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values)
         if identifier == _LOAD_FD.identifier and len(frame.data) == _LOAD_FD.size:
             values = _LOAD_FD.decode(frame.data)
-            return self._add_load(frame.node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values, "load")
+            return self._add_load(node, frame.time_s, int(values["sequence"] or 0) & 0xFF, values, "load")
         if len(frame.data) != 8:
             return None
         if identifier == _SPACE[0].identifier:
@@ -174,12 +175,12 @@ class Joiner:
             return None
         values = layout.decode(frame.data)
         if layout.name == "stiffness_a":
-            self._seen.add(frame.node)
-            if frame.node in self._stiffness_a:
+            self._seen.add(node)
+            if node in self._stiffness_a:
                 self.unmatched += 1
-            self._stiffness_a[frame.node] = _Half(frame.time_s, values)
+            self._stiffness_a[node] = _Half(frame.time_s, values)
         elif layout.name == "eigenvalues":
-            self._eigenvalues[frame.node] = _Half(frame.time_s, values)
+            self._eigenvalues[node] = _Half(frame.time_s, values)
         elif layout.name == "stiffness_b":
             return self._join_stiffness(frame, layout, values)
         else:

@@ -6,10 +6,12 @@ from collections import deque
 from dataclasses import dataclass, field
 
 from brace.bus.controller import check_dictionary
-from brace.bus.frame import Frame
+from brace.bus.frame import NODE_MASK, Frame
 from brace.bus.snapshot import Emergency, Heartbeat, Joiner, Snapshot, emergency_of, heartbeat_of
+from brace.wire.frames import FD_MESSAGES, MESSAGES
 
 RATE_S = 2.0
+_ENDS_K = (MESSAGES["stiffness_b"].identifier, FD_MESSAGES["snapshot_fd"].identifier)
 
 Event = Snapshot | Heartbeat | Emergency
 
@@ -71,6 +73,17 @@ class Watch:
             state.drift_cause = event.drift_cause
         return event
 
+    def count(self, frame: Frame) -> None:
+        """A frame whose content nobody needs: it counts for how often K comes."""
+        state = self.nodes.get(frame.node)
+        if state is None or (self._only is not None and frame.node != self._only):
+            return
+        state.last_s = self.last_s = frame.time_s
+        state.frames += 1
+        if frame.identifier & ~NODE_MASK in _ENDS_K:
+            state.snapshots += 1
+            _at(state.times_s, frame.time_s)
+
     def take(self, state: NodeState, snapshot: Snapshot) -> None:
         """A snapshot, or more of the newest one; each counts once."""
         newest = state.snapshot
@@ -87,9 +100,13 @@ class Watch:
             return
         state.snapshots += 1
         state.valid += snapshot.is_valid
-        state.times_s.append(snapshot.time_s)
-        while state.times_s[-1] - state.times_s[0] > RATE_S:
-            state.times_s.popleft()
+        _at(state.times_s, snapshot.time_s)
+
+
+def _at(times_s: deque[float], time_s: float) -> None:
+    times_s.append(time_s)
+    while times_s[-1] - times_s[0] > RATE_S:
+        times_s.popleft()
 
 
 def as_json(event: Event) -> dict[str, object]:

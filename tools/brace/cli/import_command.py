@@ -26,7 +26,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "import",
-        help="a dataset from your own files: CSV of any kind, .xlsx",
+        help="a dataset from your own files: CSV of any kind, .xlsx, candump and MCAP logs",
         description="Finds the tables in the files, says what each column seems to be, asks for what it cannot know, "
         "and "
         "writes a dataset in our units. Without a terminal nothing is asked: --draft writes the mapping with a ? for "
@@ -36,7 +36,9 @@ def add(commands: Subcommands) -> None:
         "read, or "
         "what it says cannot be of a limb.",
     )
-    parser.add_argument("files", type=common.path, nargs="+", metavar="FILE", help="text with columns, or .xlsx")
+    parser.add_argument(
+        "files", type=common.path, nargs="+", metavar="FILE", help="text with columns, .xlsx, a log (candump -l, MCAP)"
+    )
     parser.add_argument("--out", type=common.path, metavar="DIR", help="folder of the dataset")
     parser.add_argument("--mapping", type=common.path, metavar="FILE.toml", help="what each column is; made by --draft")
     parser.add_argument("--draft", type=common.path, metavar="FILE.toml", help="write the mapping as guessed, and end")
@@ -45,6 +47,10 @@ def add(commands: Subcommands) -> None:
     parser.add_argument(
         "--set", type=_constant, action="append", default=[], metavar="[FILE:]NAME=VALUE",
         help="what stands in no column: theta1=42deg, theta2=1.4rad, axis=z, dwell=4s (between readings), temp=21degC",
+    )  # fmt: skip
+    parser.add_argument(
+        "--dbc", type=common.path, action="append", default=[], metavar="FILE.dbc",
+        help="decodes the CAN frames of a log; once for each database",
     )  # fmt: skip
     parser.add_argument("--sheet", default="", metavar="NAME", help="of a workbook")
     parser.add_argument("--decimal", choices=(".", ","), default="", help="the decimal sign; default: by the numbers")
@@ -99,9 +105,10 @@ def run(arguments: argparse.Namespace) -> int:
 
     _check_usage(arguments)
     parts = read_all(
-        arguments.files, sheet=arguments.sheet, decimal=arguments.decimal, separator=arguments.separator or ""
+        arguments.files, sheet=arguments.sheet, decimal=arguments.decimal, separator=arguments.separator or "",
+        databases=arguments.dbc,
     )
-    inputs = [*sources(parts), *([arguments.mapping] if arguments.mapping else [])]
+    inputs = [*sources(parts), *arguments.dbc, *([arguments.mapping] if arguments.mapping else [])]
     if arguments.mapping:
         table = mapping.read(arguments.mapping)
         _refuse_strange_names(parts, table, arguments.mapping)
@@ -158,7 +165,7 @@ def _confirmed(table: MappingTable, arguments: argparse.Namespace) -> MappingTab
 def _open(table: MappingTable, arguments: argparse.Namespace) -> UsageError:
     questions = table.questions
     name = arguments.mapping or "mapping.toml"
-    files = " ".join(str(path) for path in arguments.files)
+    files = " ".join([*map(str, arguments.files), *(f"--dbc {path}" for path in arguments.dbc)])
     if not questions:
         return UsageError(
             "the table above is a guess that nobody has confirmed",

@@ -14,6 +14,7 @@ import numpy as np
 from brace.errors import BadFileError
 from brace.importing import numerals
 from brace.importing.loading import assembled as assembled_loading
+from brace.importing.logs.one_clock import settled
 from brace.importing.mapping import ColumnUse, MappingTable
 from brace.importing.meaning import TARGETS
 from brace.importing.part import Part, Table
@@ -37,7 +38,8 @@ class Built:
 
 def build(parts: Sequence[Part], mapping: MappingTable) -> Built:
     """Converts and joins the parts. Refuses where something that must be said has not been."""
-    notes: list[str] = []
+    parts = [settled(part, mapping) for part in parts]
+    notes = [f"{part.path.name}: {note}" for part in parts for note in part.notes]
     tables = [_converted(part, mapping, notes) for part in parts]
     conversions = _conversions(mapping)
     if mapping.kind == "loading":

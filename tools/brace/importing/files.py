@@ -7,11 +7,20 @@ from pathlib import Path
 
 from brace.errors import UsageError
 from brace.importing import textfile, workbook
+from brace.importing.logs import candump, mcap_file, one_clock
 from brace.importing.part import Part
 
 
-def read_all(paths: Sequence[Path], *, sheet: str = "", decimal: str = "", separator: str = "") -> list[Part]:
-    """The tables of all files, in order."""
+def read_all(
+    paths: Sequence[Path],
+    *,
+    sheet: str = "",
+    decimal: str = "",
+    separator: str = "",
+    databases: Sequence[Path] = (),
+) -> list[Part]:
+    """The tables of all files, in order.
+    databases: DBC files for the CAN frames of logs."""
     names = [path.name for path in paths]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
@@ -22,8 +31,19 @@ def read_all(paths: Sequence[Path], *, sheet: str = "", decimal: str = "", separ
         )
     parts: list[Part] = []
     for path in paths:
-        if path.is_file() and workbook.is_workbook(path):
+        if mcap_file.is_mcap(path):
+            parts.append(one_clock.drafted(path, mcap_file.read(path, databases)))
+        elif candump.is_candump(path):
+            parts.append(one_clock.drafted(path, candump.read(path, databases)))
+        elif path.is_file() and workbook.is_workbook(path):
             parts += workbook.read(path, sheet=sheet, decimal=decimal)
         else:
             parts += textfile.read(path, decimal=decimal, separator=separator)
+    if databases and all(part.log is None for part in parts):
+        raise UsageError(
+            "--dbc, and no file is a log of CAN frames",
+            where=", ".join(names),
+            why="a database decodes frames of candump's logs and of brace record's MCAP",
+            next_step="leave --dbc out, or give the log",
+        )
     return parts

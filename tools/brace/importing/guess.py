@@ -44,7 +44,8 @@ def _kind(parts: Sequence[Part]) -> str:
         names.read(name, unit) for part in parts for name, unit in zip(part.names, part.units or [""] * len(part.names))
     ]
     quantities = Counter(quantity_of(name) for name in read)
-    if sum(1 for name in read if name.entry) >= 2 or quantities["stiffness"] >= 3:
+    of_table = sum(1 for name in read if name.entry) >= 2 or quantities["stiffness"] >= 3
+    if of_table and all(part.log is None for part in parts):  # a log has readings by time
         return "stiffness_table"
     moves, pushes = quantities["length"], quantities["force"] + quantities["mass"]
     if quantities["torque"] and not (moves and pushes):

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
+from brace.importing.signal import Log
+
 
 @dataclass(frozen=True)
 class Part:
@@ -24,6 +26,8 @@ class Part:
     sheet: str = ""
     how: str = ""  # read: encoding, separator, decimal sign, in words
     skipped: int = 0  # lines below the table that are no readings
+    log: Log | None = None  # what the rows were made from, where sources have clocks of their own
+    notes: tuple[str, ...] = ()  # what of the file is not in the rows, and how they were made
 
     @property
     def where(self) -> str:

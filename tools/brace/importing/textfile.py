@@ -25,7 +25,6 @@ _MAGIC = (
     (b"TDSm", "a LabVIEW .tdms file", "export it as CSV from LabVIEW or Excel's TDM add-in"),
     (b"SQLite", "a database", "export the table of readings as CSV"),
     (b"\x1f\x8b", "a compressed file", "unpack it first"),
-    (b"\x89MCAP0", "an MCAP log", "brace record --loading writes a dataset from a log of one of our controllers"),
 )
 
 
@@ -74,7 +73,10 @@ def _decoded(data: bytes, path: Path) -> tuple[str, str]:
     for magic, what, way in _MAGIC:
         if data.startswith(magic):
             raise BadFileError(
-                f"this is {what}", where=str(path), why="brace import reads text and .xlsx", next_step=way
+                f"this is {what}",
+                where=str(path),
+                why="brace import reads text, .xlsx, MCAP and candump's logs",
+                next_step=way,
             )
     for mark, encoding in ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16")):
         if data.startswith(mark):

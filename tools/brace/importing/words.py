@@ -23,8 +23,10 @@ def lines(parts: Sequence[Part], mapping: MappingTable) -> list[str]:
         own = [part for part in parts if part.path == path]
         rows = sum(len(part.rows) for part in own)
         tables = f", {len(own)} tables" if len(own) > 1 else ""
+        from_line = "" if own[0].log else f" from line {own[0].lines[0]}"
         sheet = f", sheet {own[0].sheet!r}" if own[0].sheet else ""
-        told.append(f"{path.name}: {own[0].how}{sheet}; {rows} rows from line {own[0].lines[0]}{tables}")
+        told.append(f"{path.name}: {own[0].how}{sheet}; {rows} rows{from_line}{tables}")
+        told += [f"  {note}" for part in own for note in part.notes]
     told += [f"taken for {MEANING[mapping.kind]} (--kind says otherwise)", ""]
     table = [("column", "is", "unit", "entries", "because")]
     table += [_row(use) for use in mapping.columns]

@@ -12,7 +12,7 @@ from functools import partial
 
 from brace.bus.can_controller import CanController
 from brace.bus.controller import Controller
-from brace.bus.frame import Bus, EndOfLog
+from brace.bus.frame import Bus, EndOfLog, Frame
 from brace.bus.log import LogBus
 from brace.bus.modbus_controller import ModbusController
 from brace.bus.open import open_bus
@@ -22,9 +22,12 @@ from brace.bus.watch import NodeState, Watch
 from brace.errors import BraceError
 from brace.live.card import Card, card_from, card_of
 from brace.live.limb_view import limb_view
+from brace.live.thinning import thinned
 from brace.model import LimbModel
 
 _POLL_S = 0.1
+_PERIOD_S = 0.025  # shorter than a page's own, and than the time within which a snapshot's frames are put together
+_AT_ONCE_MOST = 500
 _MODBUS_S = 0.033
 _AGAIN_S = 2.0  # after a bus that went away, or a controller that did not answer
 
@@ -86,18 +89,22 @@ class Feed:
         bus = open_bus(self.url, self.bit_rate)
         try:
             self.trouble = ""
-            while not self._stopped.is_set():
-                self._take_frame(bus)
+            is_log = isinstance(bus, LogBus)
+            while not self._stopped.wait(0.0 if is_log else _PERIOD_S):
+                self._take_frames(bus)
         finally:
             bus.close()
 
-    def _take_frame(self, bus: Bus) -> None:
-        frame = bus.receive(_POLL_S)
-        if frame is None:
-            return
+    def _take_frames(self, bus: Bus) -> None:
+        """Those of one period together: the fewer wakeups, the less a page costs."""
+        frames = _waiting(bus)
         with self._lock:
-            self.watch.add(frame)
-        for node in self.watch.nodes:
+            for frame, is_needed in thinned(frames):
+                if is_needed:
+                    self.watch.add(frame)
+                else:
+                    self.watch.count(frame)
+        for node in list(self.watch.nodes):
             if time.monotonic() >= self._ask_at_s.get(node, 0.0):
                 self._learn(node, partial(_controller_on, bus, node), isinstance(bus, LogBus))
 
@@ -126,6 +133,16 @@ class Feed:
             self.cards[node] = card_from(lambda: controller().download(lambda words: None).model)
         is_known = self.cards[node].lengths_mm is not None
         self._ask_at_s[node] = math.inf if is_known or is_log else time.monotonic() + _AGAIN_S
+
+
+def _waiting(bus: Bus) -> list[Frame]:
+    """All frames that are there; where none is, the next one within a while."""
+    frames: list[Frame] = []
+    frame = bus.receive(_POLL_S)
+    while frame is not None and len(frames) < _AT_ONCE_MOST:
+        frames.append(frame)
+        frame = bus.receive(0.0)
+    return frames if frame is None else [*frames, frame]
 
 
 def _controller_on(bus: Bus, node: int) -> Controller:

@@ -146,10 +146,11 @@ static brace_client_status_t send_command(brace_client_t *client, brace_command_
     }
 }
 
-/* The controller may have ended the session, or may have started anew as another kind of board. */
+/* The controller may have ended the session, or may have started anew as another kind of board. A command whose seal was
+ * lost is refused as somebody else's. */
 static bool is_not_known(int32_t refusal)
 {
-    return refusal == BRACE_REFUSED_STRANGER || refusal == BRACE_REFUSED_REPLAY || refusal == BRACE_REFUSED_NO_KEY;
+    return refusal == BRACE_REFUSED_OWNED || refusal == BRACE_REFUSED_STRANGER || refusal == BRACE_REFUSED_REPLAY || refusal == BRACE_REFUSED_NO_KEY;
 }
 
 /* A session that another program with the key has left on this bus ends after a second; until then all counts as a

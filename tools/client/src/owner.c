@@ -15,11 +15,16 @@ static brace_sign_t sign(const brace_client_owner_t *owner, uint32_t kind, const
 
 brace_sign_t brace_owner_open(brace_client_owner_t *owner, uint64_t challenge)
 {
+    brace_client_owner_t first;
+    if (challenge != owner->challenge) {
+        owner->is_accepted = false;
+        owner->challenge = challenge;
+        owner->counter = 0u;
+    }
     owner->is_open = true;
-    owner->is_accepted = false;
-    owner->challenge = challenge;
-    owner->counter = 0u;
-    return sign(owner, LIFE, NULL, 0u);
+    first = *owner;
+    first.counter = 0u;
+    return sign(&first, LIFE, NULL, 0u);
 }
 
 brace_sign_t brace_owner_life(brace_client_owner_t *owner)

@@ -23,7 +23,8 @@ typedef struct {
     uint32_t counter, check;
 } brace_sign_t;
 
-/* The sign of life that opens a session. */
+/* The sign of life that opens a session. With the challenge of before the counter goes on: the controller takes none
+ * twice. */
 brace_sign_t brace_owner_open(brace_client_owner_t *owner, uint64_t challenge);
 
 /* The next sign of life; zeros where no session is open: nobody looks at them on a bench. */

@@ -130,9 +130,9 @@ typedef struct {
     float k_zz_n_per_mm;
     /* the age of the joints' samples when the frame was made; 127 stands for 127 ms and more [ms, 0 to 127] */
     float age_ms;
-    /* which flank of the femur joint's play carries */
+    /* which side of the femur joint's backlash is loaded */
     uint32_t play_femur;
-    /* which flank of the tibia joint's play carries */
+    /* which side of the tibia joint's backlash is loaded */
     uint32_t play_tibia;
     /* the low half of the CRC of the parameters in force */
     uint32_t parameter_tag;
@@ -264,7 +264,7 @@ typedef struct {
     uint32_t flags;
     /* the age of the joints' samples when the frame was made; 127 stands for 127 ms and more [ms, 0 to 127] */
     float age_ms;
-    /* which flank of the coxa joint's play carries */
+    /* which side of the coxa joint's backlash is loaded */
     uint32_t play_coxa;
 } brace_can_space_4_t;
 #define BRACE_CAN_SPACE_4_LAMBDA_3_N_PER_MM_MOST 8388.607f
@@ -420,9 +420,9 @@ typedef struct {
     uint32_t flags;
     /* what the controller is doing */
     uint32_t mode;
-    /* which flank of the femur joint's play carries */
+    /* which side of the femur joint's backlash is loaded */
     uint32_t play_femur;
-    /* which flank of the tibia joint's play carries */
+    /* which side of the tibia joint's backlash is loaded */
     uint32_t play_tibia;
     /* the faults that are there now */
     uint32_t faults;
@@ -468,7 +468,7 @@ typedef struct {
     uint32_t flags;
     /* what the controller is doing */
     uint32_t mode;
-    /* which flank of the coxa joint's play carries */
+    /* which side of the coxa joint's backlash is loaded */
     uint32_t play_coxa;
     /* the force across the limb's plane per displacement across it */
     float k_across_n_per_mm;

@@ -82,7 +82,7 @@ typedef struct {
     float play_shift_x_mm;
     /* how far the joints' play shifts the tip along z */
     float play_shift_z_mm;
-    /* which flank of the femur joint's play carries */
+    /* which side of the femur joint's backlash is loaded */
     uint32_t play_femur;
     /* the true angle less the motor angle at the femur joint, as far as its play makes it */
     float play_femur_offset_rad;
@@ -92,7 +92,7 @@ typedef struct {
     float motor_femur_rad;
     /* the motor torque of theta1 */
     float torque_femur_n_mm;
-    /* which flank of the tibia joint's play carries */
+    /* which side of the tibia joint's backlash is loaded */
     uint32_t play_tibia;
     /* the true angle less the motor angle at the tibia joint, as far as its play makes it */
     float play_tibia_offset_rad;
@@ -170,7 +170,7 @@ typedef struct {
     uint32_t space_flags;
     /* the force across the limb's plane per displacement across it */
     float k_across_n_per_mm;
-    /* which flank of the coxa joint's play carries */
+    /* which side of the coxa joint's backlash is loaded */
     uint32_t play_coxa;
     /* the true angle less the motor angle at the coxa joint, as far as its play makes it */
     float play_coxa_offset_rad;

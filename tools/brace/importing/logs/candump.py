@@ -1,0 +1,96 @@
+"""Logs of candump -l and -L, read by python-can."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+from brace.errors import BadFileError
+from brace.files import DATA_LIMIT_BYTES, read_bytes
+from brace.importing.logs import our_frames
+from brace.importing.logs.collect import Collector
+from brace.importing.logs.dbc import Databases, Frame, decode
+from brace.importing.signal import Log
+
+_LINE = re.compile(rb"\(\d+\.\d+\)\s+\S+\s+[0-9A-Fa-f]{3,8}#")
+_SCREEN = re.compile(rb"\s*(?:\([^)]*\)\s+)?\w+\s+(?:(?:RX|TX)\s+\S+\s+\S+\s+)?[0-9A-Fa-f]{3,8}\s+\[ *\d+\]")
+_HEAD_BYTES = 4096
+
+
+def is_candump(path: Path) -> bool:
+    """By the file's first lines: -l, -L, or what candump shows on a screen."""
+    try:
+        with path.open("rb") as file:
+            lines = file.read(_HEAD_BYTES).splitlines()
+    except OSError:
+        return False
+    first = next((line for line in lines if line.strip()), b"")
+    return bool(_LINE.match(first) or _SCREEN.match(first))
+
+
+def read(path: Path, databases: Sequence[Path]) -> Log:
+    """The signals of a log. Our own controllers' frames need no database."""
+    data = read_bytes(path, DATA_LIMIT_BYTES, "log")
+    first = next((line for line in data.splitlines()[:20] if line.strip()), b"")
+    if _SCREEN.match(first) and not _LINE.match(first):
+        raise BadFileError(
+            "this is what candump shows on a screen",
+            where=str(path),
+            why="its times are missing or relative, and it has no form that programs agree on",
+            next_step="record anew with candump -l can0 (or -L), and give the .log file",
+        )
+    known, notes = Databases(databases), []
+    frames, cut_off = _frames(path, data)
+    nodes = sorted({n for f in frames if (n := our_frames.node_of(f.arbitration_id, bytes(f.data))) is not None})
+    if nodes:
+        known.with_ours(nodes)
+    if not known:
+        raise BadFileError(
+            "a log of CAN frames, and no database that decodes them",
+            where=str(path),
+            why="what the bytes of a frame mean stands in the bus' DBC file",
+            next_step="--dbc FILE.dbc (once for each database)",
+        )
+    collector = Collector(path)
+    notes = decode(path, frames, known, collector) + collector.notes() + [
+        f"decoded by {name}, sha256 {digest}" for name, digest in known.sums.items()
+    ]
+    if cut_off:
+        notes.append("the log's last line is cut off: left out")
+    ours = f"our controllers {', '.join(map(str, nodes))}" if nodes else ""
+    by = " and ".join(text for text in (known.how, ours) if text)
+    return Log(collector.signals(), f"candump log, decoded by {by}", tuple(notes))
+
+
+class _Counted(io.StringIO):
+    """Lines, and how many have been read."""
+
+    number = 0
+
+    def __next__(self) -> str:  # type: ignore[override]  # typeshed says bytes of every file
+        self.number += 1
+        return super().__next__()
+
+
+def _frames(path: Path, data: bytes) -> tuple[list[Frame], bool]:
+    """All frames, and whether the last line was cut off."""
+    from can.io.canutils import CanutilsLogReader
+
+    lines = _Counted(data.decode("latin-1"))
+    found: list[Frame] = []
+    last = data.count(b"\n") + 1
+    try:
+        for frame in CanutilsLogReader(lines):
+            found.append(frame)
+    except (ValueError, IndexError) as error:
+        if found and lines.number == last and not data.endswith(b"\n"):
+            return found, True
+        raise BadFileError(
+            "not a line of a candump log",
+            where=f"{path}:{lines.number}",
+            why=f"the form is (SECONDS) can0 181#0102030405060708 ({error})",
+            next_step="delete the line, or record anew with candump -l",
+        ) from None
+    return found, False

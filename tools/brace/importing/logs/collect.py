@@ -1,0 +1,55 @@
+"""Readings as they come, gathered signal by signal."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from brace.errors import BadFileError
+from brace.importing.signal import Signal
+
+JUMP_BACK_S = 1.0  # within it, entries of several senders may be written out of order
+
+
+class Collector:
+    """Adds readings, gives signals."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._readings: dict[str, tuple[str, str, list[float], list[float]]] = {}
+        self._latest_s = -float("inf")
+        self._late = 0
+
+    def clock(self, time_s: float) -> None:
+        """The time of the next entry of the log. Refuses a clock that was set back: rows would be mixed up."""
+        if time_s < self._latest_s - JUMP_BACK_S:
+            raise BadFileError(
+                f"the log's clock goes back by {self._latest_s - time_s:.1f} s",
+                where=str(self._path),
+                why="the clock was set while it was written, or two logs stand in one file",
+                next_step="cut the file there, and import the two parts one by one",
+            )
+        self._late += time_s < self._latest_s
+        self._latest_s = max(self._latest_s, time_s)
+
+    def add(self, source: str, name: str, unit: str, time_s: float, value: float) -> None:
+        """One reading of a signal."""
+        entry = self._readings.get(name)
+        if entry is None:
+            entry = self._readings[name] = (source, unit, [], [])
+        entry[2].append(time_s)
+        entry[3].append(value)
+
+    def signals(self) -> tuple[Signal, ...]:
+        """All, in the order in which they first came, each by rising time."""
+        found = []
+        for name, (source, unit, times, values) in self._readings.items():
+            t, v = np.array(times), np.array(values)
+            order = np.argsort(t, kind="stable")
+            found.append(Signal(source, name, unit, t[order], v[order]))
+        return tuple(found)
+
+    def notes(self) -> list[str]:
+        """What was mended."""
+        return [f"{self._late} entries stand out of order in the log: sorted by time"] if self._late else []
