@@ -16,6 +16,10 @@ void Setpoints::add(double at_s, double theta1_rad, double theta2_rad)
     if (!script_.empty()) {
         at_s = std::max(at_s, script_.back().at_s);
     }
+    if (next_ == script_.size()) { // all of it is past: a limb that is told for days keeps nothing
+        script_.clear();
+        next_ = 0;
+    }
     script_.push_back({at_s, {theta1_rad, theta2_rad}});
 }
 
@@ -37,13 +41,16 @@ bool is_of_a_joint(int fault)
 
 void Faults::add(int fault, int joint, double value, double at_s, double for_s)
 {
-    entries_.push_back({fault, is_of_a_joint(fault) ? joint : 0, value, at_s, at_s + for_s, false});
+    entries_.erase(std::remove_if(entries_.begin(), entries_.end(), [](const Entry &past) { return past.is_past; }),
+                   entries_.end());
+    entries_.push_back({fault, is_of_a_joint(fault) ? joint : 0, value, at_s, at_s + for_s, false, false});
 }
 
 void Faults::step(double t_s)
 {
     for (Entry &entry : entries_) {
         entry.on = t_s >= entry.at_s && t_s < entry.end_s;
+        entry.is_past = t_s >= entry.end_s;
     }
 }
 

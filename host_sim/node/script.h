@@ -45,7 +45,7 @@ private:
     struct Entry {
         int fault, joint;
         double value, at_s, end_s;
-        bool on;
+        bool on, is_past;
     };
     std::vector<Entry> entries_;
 };

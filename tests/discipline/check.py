@@ -8,6 +8,7 @@ names file, line and rule. Exit codes: 0 none, 1 some, 4 no build.
 """
 from __future__ import annotations
 
+import gc
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -73,6 +74,14 @@ def _key(graph: calls.Graph, name: str, image: objects.Image) -> str:
 
 def run(build: Path) -> Report:
     """All rules over all sources, objects and images. Raises Unreadable."""
+    gc.disable()  # the trees of all sources are kept: going through them for what is not needed finds nothing
+    try:
+        return _run(build)
+    finally:
+        gc.enable()
+
+
+def _run(build: Path) -> Report:
     sources = list(firmware_sources(build))
     findings = [finding for source in sources for finding in loops.check(source)]
     graph = calls.graph_of(sources)

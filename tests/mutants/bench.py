@@ -17,6 +17,8 @@ BUILD = ROOT / "build" / "coverage"  # its compile commands, without the countin
 WORK = ROOT / "build" / "mutants"
 FIRMWARE = ("firmware/core/", "firmware/interface/", "firmware/store/", "firmware/app/")
 HALS = ("hal/fake/", "hal/blank/", "hal/selftest/", "hal/dynamixel/")
+SUITES = ("tests/unit/", "tests/attack/")
+NOT_OURS = "tests/unit/boards/"  # judges a board's files, which are not in the library
 LIBRARY = "libunder_test.so"
 LEVEL = "-O1"  # compiles quickly, and still gives the same object for many mutants that mean the same
 
@@ -56,8 +58,8 @@ def commands() -> dict[str, Command]:
         name = str(source.relative_to(ROOT)) if is_ours else source.name
         words = tuple(shlex.split(item["command"]))
         is_copy = name.startswith("firmware/") and "/faults/" in words[words.index("-o") + 1]
-        is_wanted = name.startswith((*FIRMWARE, *HALS, "tests/unit/")) or name == "unity.c"
-        if is_wanted and not is_copy:
+        is_wanted = name.startswith((*FIRMWARE, *HALS, *SUITES)) or name == "unity.c"
+        if is_wanted and not is_copy and not name.startswith(NOT_OURS):
             found[name] = Command(name, Path(item["directory"]), words)
     return found
 
@@ -85,7 +87,7 @@ class Bench:
         """Builds what is older than its sources. returns the suites"""
         (WORK / "objects").mkdir(parents=True, exist_ok=True)
         (WORK / "suites").mkdir(exist_ok=True)
-        folders = ("firmware", "hal", "tests/unit")
+        folders = ("firmware", "hal", "tests/unit", "tests/attack")
         newest = max(path.stat().st_mtime for part in folders for path in (ROOT / part).rglob("*.h"))
         for name, command in self.commands.items():
             output = self.object_of(name)

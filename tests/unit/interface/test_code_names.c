@@ -24,6 +24,8 @@ static const struct {
     {brace_fault_name, brace_fault_text, "SENSOR_FEMUR"},
     {brace_flag_name, brace_flag_text, NULL},
     {brace_drift_could_be_name, brace_drift_could_be_text, NULL},
+    {brace_setting_name, brace_setting_text, NULL},
+    {brace_owner_name, brace_owner_text, NULL},
 };
 
 enum { TABLES = sizeof tables / sizeof *tables, FROM = -40, TO = 140 };

@@ -205,6 +205,45 @@ static void test_on_a_bench_who_lives_already_may_move_at_once(void)
     TEST_ASSERT_FALSE(session_may_move(&session));
 }
 
+static void test_who_hangs_up_is_the_owner_no_longer(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_OK, life(we, 0));
+    TEST_ASSERT_EQUAL(BRACE_OK, command(we, 7));
+    session_hang_up(&session);
+    TEST_ASSERT_FALSE(session.is_open);
+    session_challenge(&session, 99);
+    TEST_ASSERT_EQUAL(BRACE_OK, life(elsewhere, 0));
+    TEST_ASSERT_EQUAL(BRACE_OK, command(elsewhere, 1)); /* numbers begin anew */
+}
+
+/* By hand, each thing that is written has a connection of its own. */
+static void test_on_a_bench_another_connection_of_the_port_goes_on(void)
+{
+    const brace_who_t next = {BRACE_ASKER_CAN, 4};
+    session_start(&session, true, NULL);
+    TEST_ASSERT_EQUAL(BRACE_OK, session_command(&session, we, NULL, order, 8));
+    session_hang_up(&session);
+    TEST_ASSERT_TRUE(session.is_open);
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, session_life(&session, elsewhere, NULL)); /* not of another port */
+    TEST_ASSERT_EQUAL(BRACE_OK, session_life(&session, they, NULL));
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, session_life(&session, next, NULL)); /* they have not hung up */
+    session_end(&session);
+    session_hang_up(&session); /* of a session that is over: the next owner has hung up nothing */
+    TEST_ASSERT_EQUAL(BRACE_OK, session_command(&session, we, NULL, order, 8));
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, session_command(&session, they, NULL, order, 8));
+}
+
+static void test_a_board_that_becomes_a_bench_is_open_to_all(void)
+{
+    TEST_ASSERT_EQUAL(BRACE_OK, life(we, 0));
+    session_become_bench(&session);
+    TEST_ASSERT_FALSE(session.is_open);
+    TEST_ASSERT_FALSE(session.has_challenge);
+    TEST_ASSERT_EQUAL(BRACE_OK, session_command(&session, they, NULL, order, 8));
+    TEST_ASSERT_EQUAL(BRACE_OK, session_life(&session, they, NULL));
+    TEST_ASSERT_TRUE(session_may_move(&session));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -219,5 +258,8 @@ int main(void)
     RUN_TEST(test_a_guarded_board_without_a_key_refuses_everybody);
     RUN_TEST(test_on_a_bench_a_command_waits_for_a_sign_of_life);
     RUN_TEST(test_on_a_bench_who_lives_already_may_move_at_once);
+    RUN_TEST(test_who_hangs_up_is_the_owner_no_longer);
+    RUN_TEST(test_on_a_bench_another_connection_of_the_port_goes_on);
+    RUN_TEST(test_a_board_that_becomes_a_bench_is_open_to_all);
     return UNITY_END();
 }

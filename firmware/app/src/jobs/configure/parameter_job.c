@@ -115,7 +115,10 @@ brace_status_t parameter_job_write(parameter_job_t *job, uint32_t first_number, 
     }
     /* A set is a run of 32-bit members: brace/parameters.h. */
     for (uint32_t i = 0; i < count; i++) { /* at most BRACE_PARAMETER_COUNT */
-        memcpy((uint8_t *)&job->staged + 4u * brace_parameter_index(first_number + i), &words[i], sizeof words[i]);
+        const uint32_t index = brace_parameter_index(first_number + i);
+        if (index < (uint32_t)BRACE_PARAMETER_COUNT) { /* the loop above refuses others: for the compiler */
+            memcpy((uint8_t *)&job->staged + 4u * index, &words[i], sizeof words[i]);
+        }
     }
     return BRACE_OK;
 }

@@ -1,0 +1,173 @@
+/* Who may move the limb and write: one event, or one tick, from any sound state to one again. The check under the key
+ * is replaced by one number that nobody can foresee; what it is made over is watched. */
+#include "brace/refusals.h"
+#include "brace/status.h"
+#include "proof.h"
+#include "session/ownership.h"
+#include "session/siphash.h"
+
+/* ------------------------------------------------------------------------------ the check, by stand-ins -- */
+
+static uint64_t mac, hashed[2];
+static uint32_t hashed_count;
+
+void siphash_start(siphash_t *hash, const uint8_t key[SIPHASH_KEY_BYTES])
+{
+    (void)hash, (void)key;
+    hashed_count = 0;
+}
+
+void siphash_word(siphash_t *hash, uint64_t word)
+{
+    (void)hash;
+    if (hashed_count < 2u) {
+        hashed[hashed_count] = word;
+    }
+    hashed_count++;
+}
+
+uint64_t siphash_end(siphash_t *hash, const uint8_t *bytes, uint32_t count)
+{
+    (void)hash, (void)bytes, (void)count;
+    return mac;
+}
+
+/* ---------------------------------------------------------------------------------------- sound states -- */
+
+static bool is_same_master(brace_who_t one, brace_who_t other)
+{
+    return one.port == other.port && one.master == other.master;
+}
+
+static bool is_guarded(const session_t *s)
+{
+    return s->setting == BRACE_SETTING_GUARDED;
+}
+
+static bool is_sound(const ownership_t *o)
+{
+    const session_t *s = &o->session;
+    const bool is_bench = s->setting == BRACE_SETTING_BENCH;
+    return (is_bench || is_guarded(s) || s->setting == BRACE_SETTING_NO_KEY) &&
+           (s->setting != BRACE_SETTING_NO_KEY || (!s->is_open && !s->has_challenge)) &&
+           (!is_guarded(s) || !s->is_open || (s->is_alive && s->has_challenge)) &&
+           (is_bench || (!s->has_heard && !o->waits_for_life)) && (s->is_open || !s->is_alive) &&
+           (!o->waits_for_life || o->is_held) && s->silent_us <= SESSION_CLOSED_US &&
+           (!s->has_heard || s->heard_us <= s->life_us) && s->life_us <= SESSION_IDLE_US;
+}
+
+/* C lets a bool's byte hold 0 and 1 only. */
+static void any_state(ownership_t *o)
+{
+    bool *const flags[] = {&o->session.has_challenge, &o->session.is_open,     &o->session.is_alive,
+                           &o->session.has_hung_up,   &o->session.has_heard,   &o->program_moves,
+                           &o->is_held,               &o->waits_for_life,      &o->was_held,
+                           &o->fell_silent,           &o->is_by_wire,          &o->has_configurer};
+    ANY(*o);
+    for (uint32_t i = 0; i < sizeof flags / sizeof *flags; i++) {
+        *flags[i] = any_bool();
+    }
+    ASSUME(is_sound(o));
+}
+
+/* Nothing that an owner has not asked for moves the limb. */
+static bool may_move(const ownership_t *o)
+{
+    return o->program_moves || session_may_move(&o->session);
+}
+
+/* -------------------------------------------------------------------------------------------- events -- */
+
+static void ask(ownership_t *o, const ownership_t *before, bool is_life)
+{
+    const brace_who_t who = {(brace_asker_t)any_u8(), any_u32()};
+    const brace_seal_t seal = {any_bool(), any_u32(), any_u32(), any_u32()};
+    const brace_seal_t *const given = any_bool() ? &seal : NULL;
+    const uint8_t bytes[8] = {0};
+    ASSUME(seal.counter_bits >= 8u && seal.counter_bits <= 32u);
+    ASSUME(seal.counter_bits == 32u || seal.counter >> seal.counter_bits == 0u);
+    const int32_t status =
+        is_life ? session_life(&o->session, who, given) : session_command(&o->session, who, given, bytes, sizeof bytes);
+    const session_t *s = &o->session, *was = &before->session;
+    if (s->setting == BRACE_SETTING_NO_KEY) {
+        PROVE(status == BRACE_REFUSED_NO_KEY, "without a key nobody is let in");
+    }
+    if (status != BRACE_OK) {
+        PROVE(s->is_open == was->is_open && s->counter == was->counter && s->silent_us == was->silent_us,
+              "what is refused neither opens a session nor prolongs one");
+        PROVE(s->counts.strangers != was->counts.strangers || s->counts.replays != was->counts.replays ||
+                  was->counts.strangers == UINT32_MAX || was->counts.replays == UINT32_MAX,
+              "a refusal is counted");
+        return;
+    }
+    if (is_guarded(s)) {
+        PROVE(given != NULL && seal.is_there && seal.mac == (uint32_t)mac, "only with the right check");
+        PROVE(hashed_count == 2u && hashed[0] == was->challenge, "made over this session's challenge");
+        PROVE(hashed[1] == ((uint64_t)(is_life ? SESSION_LIFE : SESSION_COMMAND) << 32 | s->counter),
+              "over the kind and the whole counter");
+        PROVE(was->is_open ? s->counter > was->counter : is_life && s->counter == 0u,
+              "a counter comes once; a session is opened by number 0");
+        PROVE(s->is_open && is_same_master(s->owner, who), "and by the owner alone");
+    }
+    if (!is_life && s->setting != BRACE_SETTING_NO_KEY) { /* a command that is let in may begin a motion */
+        o->is_by_wire = true;
+        ownership_begin(o);
+        PROVE(o->is_held || may_move(o), "a motion begins with its owner, or waits for its first sign of life");
+    }
+}
+
+static void tick(ownership_t *o, const ownership_t *before)
+{
+    const ownership_inputs_t inputs = {any_bool(), any_bool(), any_bool(), any_bool(), any_u32(), any_u32()};
+    ASSUME(inputs.since_us <= UINT32_MAX / 2u);
+    ASSUME(!inputs.moves || inputs.runs);
+    const ownership_step_t step = ownership_step(o, &inputs);
+    const session_t *s = &o->session, *was = &before->session;
+    PROVE(!inputs.runs || o->is_held || may_move(o) || step == OWNERSHIP_FORGETS, "no motion without an owner");
+    PROVE(step != OWNERSHIP_FORGETS || before->waits_for_life, "what has begun to move is not forgotten");
+    PROVE(step != OWNERSHIP_STOPS || o->is_held, "what is stopped stands");
+    PROVE(step != OWNERSHIP_LETS_GO || (inputs.let_go_after_us != 0u && o->is_held && o->fell_silent),
+          "it lets go only where it was told to, after its owner has fallen silent");
+    PROVE(was->is_open || !s->is_open, "no session begins by itself");
+    if (s->is_open) {
+        const uint32_t most_us = inputs.moves ? s->life_us : (uint32_t)SESSION_CLOSED_US;
+        PROVE(s->silent_us == was->silent_us + (inputs.stores ? 0u : inputs.since_us), "silence adds up");
+        PROVE(s->silent_us <= most_us, "and ends the session: it always ends");
+    }
+}
+
+int main(void)
+{
+    ownership_t o;
+    any_state(&o);
+    mac = any_u64();
+    const ownership_t before = o;
+    switch (any_u8() % 7u) {
+    case 0: ask(&o, &before, true); break;
+    case 1: ask(&o, &before, false); break;
+    case 2: tick(&o, &before); break;
+    case 3:
+        ASSUME(is_guarded(&o.session) && !o.session.is_open); /* app.c asks for a challenge only then */
+        session_challenge(&o.session, any_u64());
+        break;
+    case 4:
+        session_hang_up(&o.session);
+        PROVE(!is_guarded(&o.session) || !o.session.is_open, "who hangs up is the owner no longer");
+        break;
+    case 5:
+        (void)ownership_stop(&o);
+        PROVE(o.is_held, "stop is anybody's, and the limb stands");
+        break;
+    default:
+        o.is_by_wire = false;
+        ownership_begin(&o);
+        PROVE(!o.session.is_open, "what the program around the controller begins has no other owner");
+        break;
+    }
+    PROVE(is_sound(&o), "a sound state again");
+    PROVE(o.session.setting == before.session.setting, "the setting stays");
+    if (is_guarded(&o.session) && before.session.is_open && o.session.is_open) {
+        PROVE(is_same_master(o.session.owner, before.session.owner), "never a second owner");
+    }
+    return 0;
+}

@@ -1,0 +1,364 @@
+// soak [TICKS [SEED]]: four limbs and their controllers on one CAN bus, for TICKS of a millisecond of simulated time;
+// 10,000,000 is ./dev soak's. Masters ask, send nonsense, hang up and come back; faults, postures, contacts, power cuts
+// come at random. Each minute has 40 s of that and 20 s of calm. It fails when
+//   a valid K is wrong by more than its uncertainty, or an open gap is not told in the time that brace/app.h promises
+//   a request is not answered within 100 ticks in the calm, an answer is none, or its K is not the snapshot's
+//   a controller is not back in MONITOR with a valid K and no fault 10 s after the trouble, or counts trouble then
+//   the process keeps more memory or files in the last tenth than in the third
+// A sensor that lies (stuck, or off by a constant) is told apart: until it is seen, nobody can know.
+// Stopped by SIGINT or SIGTERM, it tells of what it has run. Exit code 0 when all is well.
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <ctime>
+#include <dirent.h>
+#include <memory>
+#include <vector>
+
+#include "limbs.h"
+#include "masters.h"
+#include "trouble.h"
+#include "truth.h"
+
+extern "C" {
+#include "brace/app_memory.h"
+}
+
+namespace
+{
+
+using namespace soak;
+
+constexpr int kTenths = 10, kModbusMastersOfALimb = 3, kCanMasters = 3;
+constexpr std::uint64_t kTick_us = 1000;
+constexpr int kJudgedOnceIn = 149;  // ticks of a limb whose K is judged
+constexpr int kNearOnceIn = 5;      // of those just after something has happened
+constexpr double kMemoryGrows_kb = 1024.0;
+constexpr int kFilesOfMasters = 2 * (kLimbs * kModbusMastersOfALimb + kCanMasters); // both ends of every connection
+constexpr std::uint32_t kGapSpare_ticks = 4; // brace/app.h: how long after its gap has opened a flank may be told
+
+struct Tenth {
+    double memory_kb = 0.0, cpu_us = 0.0; // cpu_us: for one tick of four limbs, what judges and masters take included
+    int files = 0;
+    Answered modbus, can;
+    std::uint64_t judged = 0;
+    double worst = 0.0;
+};
+
+struct Found { // what must not be
+    std::uint64_t wrong = 0, gaps_denied = 0, answers_wrong = 0, late_in_calm = 0, not_back = 0, counted_in_calm = 0;
+    std::uint64_t sum() const
+    {
+        return wrong + gaps_denied + answers_wrong + late_in_calm + not_back + counted_in_calm;
+    }
+};
+
+struct Lies { // valid while a sensor lies, or did half a second ago
+    std::uint64_t judged = 0, wrong = 0;
+    double worst = 0.0;
+};
+
+double memory_kb()
+{
+    long pages = 0, resident = 0;
+    if (FILE *file = std::fopen("/proc/self/statm", "r")) {
+        if (std::fscanf(file, "%ld %ld", &pages, &resident) != 2) {
+            resident = 0;
+        }
+        (void)std::fclose(file);
+    }
+    return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1024.0;
+}
+
+int open_files()
+{
+    int count = 0;
+    if (DIR *folder = opendir("/proc/self/fd")) {
+        while (readdir(folder) != nullptr) {
+            ++count;
+        }
+        (void)closedir(folder);
+    }
+    return count;
+}
+
+struct Closed {
+    void operator()(brace_node_t *node) const { brace_node_destroy(node); }
+};
+
+volatile std::sig_atomic_t is_stopped = 0;
+
+void stop(int)
+{
+    is_stopped = 1;
+}
+
+unsigned long long number(std::uint64_t value) // for printf
+{
+    return value;
+}
+
+double mean_ticks(const Answered &answered)
+{
+    return static_cast<double>(answered.ticks_sum) / static_cast<double>(std::max<std::uint64_t>(1, answered.count));
+}
+
+class Soak
+{
+public:
+    explicit Soak(std::uint64_t seed) : chance_(seed), limbs_(four_limbs(chance_))
+    {
+        std::array<brace_node_limb_t, kLimbs> there;
+        std::array<std::array<std::uint8_t, BRACE_BLOCK_BYTES>, kLimbs> blocks;
+        for (std::size_t i = 0; i < kLimbs; ++i) {
+            if (brace_parameters_pack(&limbs_[i].believed, 1, blocks[i].data(), BRACE_BLOCK_BYTES) != BRACE_OK) {
+                std::printf("soak: limb %zu has no parameters\n", i);
+                std::exit(4);
+            }
+            there[i] = limbs_[i].there;
+            there[i].block = blocks[i].data();
+            there[i].block_bytes = BRACE_BLOCK_BYTES;
+        }
+        brace_node_failure_t failure{};
+        node_.reset(brace_node_create(there.data(), kLimbs, "tcp://127.0.0.1:0", seed, &failure));
+        if (node_ == nullptr) {
+            std::printf("soak: no node: part %d, detail %d\n", static_cast<int>(failure.part), failure.detail);
+            std::exit(4);
+        }
+    }
+
+    // returns how many of the ticks it has run
+    std::uint64_t run(std::uint64_t ticks)
+    {
+        std::puts("| tenth | memory kB | files | processor us a tick of four | Modbus answers in the calm: number, "
+                  "mean, most ticks | CAN answers | K judged | worst, of allowed |\n|---|---|---|---|---|---|---|---|");
+        for (std::uint64_t tick = 0; tick < ticks; ++tick) {
+            if (is_stopped != 0) {
+                return tick;
+            }
+            Tenth &tenth = tenths_[static_cast<std::size_t>(tick * kTenths / ticks)];
+            step(tenth, 1e-6 * static_cast<double>((tick + 1u) * kTick_us));
+            if ((tick + 1u) * kTenths / ticks != tick * kTenths / ticks) {
+                finish(tenth, ticks / kTenths);
+            }
+        }
+        return ticks;
+    }
+
+    int report(std::uint64_t ticks, std::uint64_t seed) const;
+
+private:
+    void step(Tenth &tenth, double t_s);
+    void judge(Tenth &tenth, std::size_t limb, double t_s);
+    void judge_gaps(std::size_t limb, const brace_node_truth_t &truth, const brace_snapshot_t &told, double t_s);
+    void judge_calm(std::size_t limb, const brace_snapshot_t &told, double t_s);
+    void say(const char *what, std::size_t limb, double t_s, double share, const brace_snapshot_t &told) const;
+    void finish(Tenth &tenth, std::uint64_t ticks);
+
+    Chance chance_;
+    std::array<Limb, kLimbs> limbs_;
+    std::unique_ptr<brace_node_t, Closed> node_;
+    std::array<Trouble, kLimbs> trouble_;
+    std::array<std::array<ModbusMaster, kModbusMastersOfALimb>, kLimbs> modbus_;
+    std::array<CanMaster, kCanMasters> can_;
+    std::array<Tenth, kTenths> tenths_;
+    std::array<brace_app_counters_t, kLimbs> counters_{};
+    std::array<bool, kLimbs> has_counters_{};
+    std::array<std::uint32_t, kLimbs> denied_ticks_{}; // an open gap is not told for so long
+    std::uint32_t gap_told_ticks_ = 0;                  // the longest
+    std::clock_t since_ = std::clock();
+    Found found_;
+    Lies lies_;
+    std::uint64_t valid_ = 0, ticks_seen_ = 0;
+    int finished_ = 0; // tenths
+    mutable int said_ = 0;
+};
+
+void Soak::step(Tenth &tenth, double t_s)
+{
+    for (int limb = 0; limb < kLimbs; ++limb) {
+        trouble_[static_cast<std::size_t>(limb)].step(node_.get(), limb, t_s, chance_);
+    }
+    (void)brace_node_step(node_.get(), kTick_us);
+    const bool is_settled = trouble_[0].is_settled(t_s);
+    Answered can, modbus;
+    for (std::size_t limb = 0; limb < kLimbs; ++limb) {
+        for (ModbusMaster &master : modbus_[limb]) {
+            const bool is_calm = trouble_[limb].is_calm(t_s);
+            const bool is_right = master.step(node_.get(), static_cast<int>(limb), chance_, is_calm, modbus);
+            found_.answers_wrong += is_right ? 0u : 1u;
+        }
+        judge(tenth, limb, t_s);
+    }
+    for (CanMaster &master : can_) {
+        master.step(brace_node_can_place(node_.get()), chance_, trouble_[0].is_calm(t_s), can);
+    }
+    if (is_settled) { // in the calm: what is asked amid faults waits as long as they last
+        found_.late_in_calm += modbus.late + can.late;
+        for (auto [all, one] : {std::pair{&tenth.modbus, &modbus}, std::pair{&tenth.can, &can}}) {
+            all->count += one->count;
+            all->ticks_sum += one->ticks_sum;
+            all->ticks_most = std::max(all->ticks_most, one->ticks_most);
+        }
+    }
+}
+
+void Soak::say(const char *what, std::size_t limb, double t_s, double share, const brace_snapshot_t &told) const
+{
+    constexpr int kMostSaid = 40;
+    if (said_++ < kMostSaid) {
+        std::printf("%9.3f s, limb %s: %s; %.2f of what is allowed; mode %d, faults %x, flags %x\n", t_s,
+                    limbs_[limb].name, what, share, static_cast<int>(told.mode), told.faults, told.stiffness.now.flags);
+    }
+}
+
+void Soak::judge(Tenth &tenth, std::size_t limb, double t_s)
+{
+    brace_snapshot_t told;
+    brace_node_truth_t truth;
+    (void)brace_node_snapshot(node_.get(), static_cast<int>(limb), &told);
+    (void)brace_node_truth(node_.get(), static_cast<int>(limb), &truth);
+    ++ticks_seen_;
+    valid_ += told.k_is_valid ? 1u : 0u;
+    judge_calm(limb, told, t_s);
+    judge_gaps(limb, truth, told, t_s);
+    const bool is_near = trouble_[limb].is_near(t_s);
+    if (whole(chance_, is_near ? kNearOnceIn : kJudgedOnceIn) != 0) {
+        return;
+    }
+    const Agreement agreed = agreement(limbs_[limb], truth, told);
+    if (!agreed.is_judged) {
+        return;
+    }
+    if (trouble_[limb].lies(t_s)) {
+        ++lies_.judged;
+        lies_.wrong += agreed.share > 1.0 ? 1u : 0u;
+        lies_.worst = std::max(lies_.worst, agreed.share);
+        return;
+    }
+    ++tenth.judged;
+    tenth.worst = std::max(tenth.worst, agreed.share);
+    if (agreed.share > 1.0) {
+        ++found_.wrong;
+        say("a valid K is wrong", limb, t_s, agreed.share, told);
+    }
+}
+
+// A gap that is open, and a valid K that does not say so, for longer than the controller promises.
+void Soak::judge_gaps(std::size_t limb, const brace_node_truth_t &truth, const brace_snapshot_t &told, double t_s)
+{
+    const bool denies = told.k_is_valid && !trouble_[limb].lies(t_s) && denies_gap(limbs_[limb], truth, told);
+    denied_ticks_[limb] = denies ? denied_ticks_[limb] + 1u : 0u;
+    if (!denies) {
+        return;
+    }
+    std::uint32_t most_us = 0;
+    for (const int joint : {kFemur, kTibia}) {
+        const brace_app_t *app = brace_node_app(node_.get(), static_cast<int>(limb));
+        most_us = std::max(most_us, brace_backlash_detection_us(&app->controller.flank.joint[joint].machine));
+    }
+    gap_told_ticks_ = std::max(gap_told_ticks_, denied_ticks_[limb]);
+    if (denied_ticks_[limb] > most_us / kTick_us + kGapSpare_ticks) {
+        ++found_.gaps_denied;
+        say("an open gap is not told", limb, t_s, 1e3 * denied_ticks_[limb] / most_us, told);
+    }
+}
+
+// 10 s after the last trouble everything is as it was, and nothing more is counted.
+void Soak::judge_calm(std::size_t limb, const brace_snapshot_t &told, double t_s)
+{
+    if (!trouble_[limb].is_settled(t_s)) {
+        has_counters_[limb] = false;
+        return;
+    }
+    const bool is_back = told.mode == BRACE_MODE_MONITOR && told.k_is_valid && told.faults == 0u;
+    brace_app_counters_t now;
+    brace_app_counters(brace_node_app(node_.get(), static_cast<int>(limb)), &now);
+    if (!is_back) {
+        ++found_.not_back;
+        say("it is not back", limb, t_s, 0.0, told);
+    }
+    if (has_counters_[limb] && std::memcmp(&now, &counters_[limb], sizeof now) != 0) {
+        ++found_.counted_in_calm;
+        say("it counts trouble in the calm", limb, t_s, 0.0, told);
+    }
+    counters_[limb] = now;
+    has_counters_[limb] = true;
+}
+
+void Soak::finish(Tenth &tenth, std::uint64_t ticks)
+{
+    const std::clock_t now = std::clock();
+    tenth.cpu_us = 1e6 * static_cast<double>(now - since_) / CLOCKS_PER_SEC / static_cast<double>(ticks);
+    since_ = now;
+    tenth.memory_kb = memory_kb();
+    tenth.files = open_files();
+    std::printf("| %d | %.0f | %d | %.1f | %llu, %.2f, %u | %llu, %.2f, %u | %llu | %.2f |\n", ++finished_,
+                tenth.memory_kb, tenth.files, tenth.cpu_us, number(tenth.modbus.count), mean_ticks(tenth.modbus),
+                tenth.modbus.ticks_most, number(tenth.can.count), mean_ticks(tenth.can),
+                tenth.can.ticks_most, number(tenth.judged), tenth.worst);
+    (void)std::fflush(stdout);
+}
+
+int Soak::report(std::uint64_t ticks, std::uint64_t seed) const
+{
+    std::uint64_t events = 0, connections = 0, faults[BRACE_NODE_FAULT_COUNT] = {};
+    for (std::size_t limb = 0; limb < kLimbs; ++limb) {
+        events += trouble_[limb].events;
+        for (int fault = 0; fault < BRACE_NODE_FAULT_COUNT; ++fault) {
+            faults[fault] += trouble_[limb].faults[fault];
+        }
+        for (const ModbusMaster &master : modbus_[limb]) {
+            connections += master.connections;
+        }
+    }
+    for (const CanMaster &master : can_) {
+        connections += master.connections;
+    }
+    std::printf("\nseed %llu, %llu ticks of four limbs, %.0f s of simulated time; %.1f %% of ticks with a valid K\n",
+                number(seed), number(ticks), 1e-3 * static_cast<double>(ticks),
+                100.0 * static_cast<double>(valid_) / static_cast<double>(std::max<std::uint64_t>(1, ticks_seen_)));
+    std::printf("%llu events, %llu connections; faults:", number(events),
+                number(connections));
+    for (int fault = 0; fault < BRACE_NODE_FAULT_COUNT; ++fault) {
+        std::printf(" %s %llu", brace_node_fault_name(fault), number(faults[fault]));
+    }
+    brace_node_stats_t stats;
+    brace_node_stats(node_.get(), &stats);
+    std::printf("\nwhile a sensor lies: %llu valid K judged, %llu beyond their uncertainty, the worst %.2f of what is "
+                "allowed\n",
+                number(lies_.judged), number(lies_.wrong), lies_.worst);
+    std::printf("an open gap was told after %u ticks at most\n", gap_told_ticks_);
+    std::printf("wrong K %llu, gaps denied %llu, wrong answers %llu, late in the calm %llu, not back %llu, "
+                "counted in the calm %llu, watchdog resets %u\n",
+                number(found_.wrong), number(found_.gaps_denied),
+                number(found_.answers_wrong), number(found_.late_in_calm),
+                number(found_.not_back), number(found_.counted_in_calm),
+                stats.watchdog_resets);
+    const Tenth &first = tenths_[2], &last = tenths_[static_cast<std::size_t>(std::max(finished_, 3) - 1)];
+    const double grows_kb = last.memory_kb - first.memory_kb;
+    const bool is_flat = grows_kb <= kMemoryGrows_kb && last.files <= first.files + kFilesOfMasters;
+    std::printf("memory from the third tenth to the last: %+.0f kB\n", grows_kb);
+    return found_.sum() == 0u && stats.watchdog_resets == 0u && is_flat ? 0 : 1;
+}
+
+} // namespace
+
+int main(int count, char **arguments)
+{
+    const std::uint64_t ticks = count > 1 ? std::strtoull(arguments[1], nullptr, 10) : 120000u;
+    const std::uint64_t seed = count > 2 ? std::strtoull(arguments[2], nullptr, 10) : 1u;
+    if (ticks < 10u) {
+        std::printf("soak: %s ticks: at least 10\n", arguments[1]);
+        return 2;
+    }
+    (void)std::signal(SIGINT, stop);
+    (void)std::signal(SIGTERM, stop);
+    Soak soak(seed);
+    const std::uint64_t run = soak.run(ticks);
+    return soak.report(run, seed);
+}

@@ -1,0 +1,94 @@
+#include "truth.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+extern "C" {
+#include "api/brace_host.h"
+#include "brace/uncertainty.h"
+}
+
+namespace soak
+{
+namespace
+{
+
+constexpr double kSigmas = 3.0, kLoadedShare = 6e-3;
+
+using Entries = std::array<double, 3>; // k_xx, k_xz, k_zz [N/mm]
+
+// The angle of a joint with its spring unloaded: what turns the link beside play is the spring under the joint's load.
+double unbent_rad(const Limb &limb, const brace_node_truth_t &truth, int joint)
+{
+    return truth.link_rad[joint] + limb.there.plant.joint[joint].compliance_rad_per_n_mm * truth.load_n_mm[joint];
+}
+
+bool true_k(const Limb &limb, const brace_node_truth_t &truth, bool is_loaded, Entries &k)
+{
+    const brace_plant_model_t &plant = limb.there.plant;
+    const double share = is_loaded ? 1.0 : 0.0;
+    const double fx_n = share * truth.force_x_n, fz_n = share * truth.force_z_n;
+    const double theta1_rad = unbent_rad(limb, truth, kFemur), theta2_rad = unbent_rad(limb, truth, kTibia);
+    if (truth.has_coxa_joint != 0) {
+        const double fy_n = share * truth.force_y_n;
+        brace_loaded_space_case_t at{0.0, theta1_rad, theta2_rad, fx_n, fy_n, fz_n, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+        at.gravity_z = -1.0;
+        brace_loaded_space_result_t result;
+        const bool is_there = brace_reference_space_under_force(&plant, 1, &at, 0, &result, nullptr) == BRACE_HOST_OK;
+        k = {result.k_xx, result.k_xz, result.k_zz};
+        return is_there;
+    }
+    const brace_loaded_case_t at = {theta1_rad, theta2_rad, fx_n, fz_n, 0.0, 0.0, plant.gravity.direction_rad};
+    brace_loaded_result_t result;
+    const bool is_there = brace_reference_under_force(&plant, 1, &at, 0, &result, nullptr) == BRACE_HOST_OK;
+    k = {result.k_xx, result.k_xz, result.k_zz};
+    return is_there;
+}
+
+} // namespace
+
+bool denies_gap(const Limb &limb, const brace_node_truth_t &truth, const brace_snapshot_t &told)
+{
+    bool is_open = false;
+    for (const int joint : {kFemur, kTibia}) {
+        is_open = is_open || (limb.there.plant.joint[joint].gap_rad > 0.0 && truth.flank[joint] == 0);
+    }
+    return is_open && (told.stiffness.now.flags & BRACE_FLAG_GAP_OPEN) == 0u;
+}
+
+Agreement agreement(const Limb &limb, const brace_node_truth_t &truth, const brace_snapshot_t &told)
+{
+    Agreement found;
+    found.is_told = told.k_is_valid;
+    if (!told.k_is_valid) {
+        return found;
+    }
+    const brace_stiffness_t &k = told.stiffness.engaged;
+    const bool doubts_flank = (told.stiffness.now.flags & BRACE_FLAG_GAP_OPEN) != 0u;
+    brace_limb_t believed = limb.believed.limb;
+    for (const int joint : {kFemur, kTibia}) {
+        if (doubts_flank) {
+            believed.uncertainty.angle_rad =
+                std::hypot(believed.uncertainty.angle_rad, 0.5f * believed.joint[joint].gap_rad);
+        }
+    }
+    Entries true_n_per_mm;
+    brace_stiffness_sigma_t sigma;
+    const float theta1_rad = told.theta_rad[kFemur], theta2_rad = told.theta_rad[kTibia];
+    if (!true_k(limb, truth, told.load.is_counted, true_n_per_mm) ||
+        brace_uncertainty_stiffness(&believed, theta1_rad, theta2_rad, &k, &sigma) != BRACE_OK) {
+        return found;
+    }
+    found.is_judged = true;
+    const Entries entries = {k.k_xx_n_per_mm, k.k_xz_n_per_mm, k.k_zz_n_per_mm};
+    const Entries sigmas = {sigma.k_xx_n_per_mm, sigma.k_xz_n_per_mm, sigma.k_zz_n_per_mm};
+    const double norm = std::sqrt(entries[0] * entries[0] + 2.0 * entries[1] * entries[1] + entries[2] * entries[2]);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const double allowed = kSigmas * sigmas[i] + kLoadedShare * norm;
+        found.share = std::max(found.share, std::fabs(entries[i] - true_n_per_mm[i]) / allowed);
+    }
+    return found;
+}
+
+} // namespace soak

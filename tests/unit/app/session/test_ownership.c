@@ -1,0 +1,159 @@
+/* May what somebody has begun go on moving the limb? Who has begun it, who stopped it, and for how long it is held. */
+#include "session/ownership.h"
+
+#include <string.h>
+
+#include "brace/refusals.h"
+#include "brace/status.h"
+#include "unity.h"
+
+enum { TICK_US = 1000 };
+
+static const brace_who_t we = {BRACE_ASKER_CAN, 0};
+static const brace_who_t they = {BRACE_ASKER_MODBUS_TCP, 7}, others = {BRACE_ASKER_MODBUS_TCP, 8};
+
+static ownership_t ownership;
+
+void setUp(void)
+{
+    memset(&ownership, 0, sizeof ownership);
+    session_start(&ownership.session, true, NULL);
+}
+
+void tearDown(void) {}
+
+static ownership_step_t moves(uint32_t let_go_after_us)
+{
+    const ownership_inputs_t inputs = {
+        .runs = true, .moves = true, .since_us = TICK_US, .let_go_after_us = let_go_after_us};
+    return ownership_step(&ownership, &inputs);
+}
+
+static void asks(brace_who_t who)
+{
+    TEST_ASSERT_EQUAL(BRACE_OK, session_command(&ownership.session, who, NULL, NULL, 0));
+    ownership.is_by_wire = true;
+    ownership_begin(&ownership);
+}
+
+static void lives(brace_who_t who)
+{
+    TEST_ASSERT_EQUAL(BRACE_OK, session_life(&ownership.session, who, NULL));
+}
+
+static void test_on_a_bench_it_waits_for_life_and_is_forgotten_without(void)
+{
+    asks(we);
+    TEST_ASSERT_TRUE(ownership.is_held);
+    for (uint32_t us = 0; us < SESSION_LIFE_US; us += TICK_US) {
+        TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, moves(0));
+        TEST_ASSERT_TRUE(ownership.is_held);
+    }
+    TEST_ASSERT_EQUAL(OWNERSHIP_FORGETS, moves(0));
+    TEST_ASSERT_FALSE(ownership.is_held);
+    TEST_ASSERT_EQUAL(1, ownership.session.counts.silences);
+}
+
+static void test_the_first_sign_of_life_sets_it_going(void)
+{
+    asks(we);
+    lives(we);
+    TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, moves(0));
+    TEST_ASSERT_FALSE(ownership.is_held);
+    asks(we); /* something else, while it lives */
+    TEST_ASSERT_FALSE(ownership.is_held);
+}
+
+static void test_a_silent_owner_is_held_counted_and_let_go_as_told(void)
+{
+    const uint32_t let_go_after_us = 20u * TICK_US;
+    asks(we);
+    lives(we);
+    for (uint32_t us = 0; us < SESSION_LIFE_US; us += TICK_US) {
+        TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, moves(let_go_after_us));
+    }
+    TEST_ASSERT_EQUAL(OWNERSHIP_STOPS, moves(let_go_after_us));
+    TEST_ASSERT_TRUE(ownership.is_held);
+    TEST_ASSERT_EQUAL(1, ownership.session.counts.silences);
+    for (uint32_t us = TICK_US; us < let_go_after_us; us += TICK_US) {
+        TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, moves(let_go_after_us));
+    }
+    TEST_ASSERT_EQUAL(OWNERSHIP_LETS_GO, moves(let_go_after_us));
+}
+
+static void test_what_somebody_has_stopped_is_not_let_go(void)
+{
+    asks(we);
+    lives(we);
+    (void)moves(TICK_US);
+    TEST_ASSERT_FALSE(ownership_stop(&ownership)); /* nothing waited */
+    for (int i = 0; i < 10; i++) {
+        TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, moves(TICK_US));
+        TEST_ASSERT_TRUE(ownership.is_held);
+    }
+    asks(we);
+    TEST_ASSERT_FALSE(ownership.is_held);
+}
+
+static void test_stop_takes_back_what_waits(void)
+{
+    asks(we);
+    TEST_ASSERT_TRUE(ownership_stop(&ownership));
+    TEST_ASSERT_FALSE(ownership.waits_for_life);
+    TEST_ASSERT_TRUE(ownership.is_held);
+}
+
+static void test_the_program_needs_no_signs_of_life(void)
+{
+    asks(we);
+    lives(we);
+    ownership.is_by_wire = false;
+    ownership_begin(&ownership);
+    TEST_ASSERT_FALSE(ownership.session.is_open); /* nobody else owns it then */
+    TEST_ASSERT_FALSE(ownership_is_idle(&ownership));
+    for (uint32_t us = 0; us < 3u * SESSION_LIFE_US; us += TICK_US) {
+        TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, moves(0));
+        TEST_ASSERT_FALSE(ownership.is_held);
+    }
+    const ownership_inputs_t rests = {.since_us = TICK_US};
+    TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, ownership_step(&ownership, &rests));
+    TEST_ASSERT_TRUE(ownership_is_idle(&ownership));
+}
+
+static void test_one_master_writes_until_it_has_gone(void)
+{
+    const ownership_inputs_t configures = {.configures = true, .since_us = TICK_US}, rests = {.since_us = TICK_US};
+    TEST_ASSERT_EQUAL(BRACE_OK, ownership_may_write(&ownership, they, false));
+    TEST_ASSERT_FALSE(ownership_is_idle(&ownership));
+    (void)ownership_step(&ownership, &configures);
+    TEST_ASSERT_EQUAL(BRACE_OK, ownership_may_write(&ownership, they, false));
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, ownership_may_write(&ownership, others, false));
+    TEST_ASSERT_EQUAL(BRACE_REFUSED_OWNED, ownership_may_write(&ownership, we, true)); /* of another port */
+    TEST_ASSERT_EQUAL(2, ownership.session.counts.strangers);
+    TEST_ASSERT_EQUAL(BRACE_OK, ownership_may_write(&ownership, others, true));
+    (void)ownership_step(&ownership, &rests); /* CONFIGURATION has ended */
+    TEST_ASSERT_EQUAL(BRACE_OK, ownership_may_write(&ownership, we, false));
+}
+
+static void test_storing_is_no_silence(void)
+{
+    const ownership_inputs_t stores = {.runs = true, .moves = true, .stores = true, .since_us = 10u * SESSION_LIFE_US};
+    asks(we);
+    lives(we);
+    TEST_ASSERT_EQUAL(OWNERSHIP_GOES_ON, ownership_step(&ownership, &stores));
+    TEST_ASSERT_TRUE(ownership.session.is_open);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_on_a_bench_it_waits_for_life_and_is_forgotten_without);
+    RUN_TEST(test_the_first_sign_of_life_sets_it_going);
+    RUN_TEST(test_a_silent_owner_is_held_counted_and_let_go_as_told);
+    RUN_TEST(test_what_somebody_has_stopped_is_not_let_go);
+    RUN_TEST(test_stop_takes_back_what_waits);
+    RUN_TEST(test_the_program_needs_no_signs_of_life);
+    RUN_TEST(test_one_master_writes_until_it_has_gone);
+    RUN_TEST(test_storing_is_no_silence);
+    return UNITY_END();
+}
