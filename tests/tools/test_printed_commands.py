@@ -96,7 +96,7 @@ def test_the_page_of_the_bus_runs(
     with limb_on_tcp(Path("limb.toml")) as url:
         for words in printed:
             outcome = brace(*on_this_bus(words, url))
-            assert outcome.code == 0, f"brace {' '.join(words)}: {outcome.err}"
+            assert outcome.code == 0, f"brace {' '.join(words)}: {outcome.out[-1500:]}{outcome.err}"
 
 
 RUN = {  # page: how the commands begin that run here, in the page's order
@@ -153,6 +153,6 @@ def test_a_page_runs_in_its_order(
         words = shlex.split(line[match.end() :], comments=True)
         if _runs_here(page, words):
             outcome = brace(*words)
-            assert outcome.code == 0, f"brace {' '.join(words)}: {outcome.err}"
+            assert outcome.code == 0, f"brace {' '.join(words)}: {outcome.out[-1500:]}{outcome.err}"
             ran |= {begin for begin in RUN[name] if tuple(words[: len(begin)]) == begin}
     assert ran == set(RUN[name])
