@@ -23,8 +23,13 @@ brace_host_status_t check_loading_rows(const brace_loading_rows_t &rows)
     if (rows.run == nullptr) {
         return BRACE_HOST_E_NULL;
     }
-    if (!all_finite_if_given(rows.temp_degc, rows.count)) {
-        return BRACE_HOST_E_NOT_FINITE;
+    if ((rows.preload_x_n == nullptr) != (rows.preload_z_n == nullptr)) {
+        return BRACE_HOST_E_NULL;
+    }
+    for (const double *column : {rows.temp_degc, rows.preload_x_n, rows.preload_z_n}) {
+        if (!all_finite_if_given(column, rows.count)) {
+            return BRACE_HOST_E_NOT_FINITE;
+        }
     }
     for (size_t i = 0; rows.free_axis != nullptr && i < rows.count; ++i) {
         if (rows.free_axis[i] < 0 || rows.free_axis[i] > 2) {

@@ -1,5 +1,6 @@
 #include "plant/loading.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cstring>
 
@@ -12,6 +13,57 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr std::size_t kMostLookedBack = 100; // runs: more than a record of ten postures has
+
+constexpr int kMostPresses = 60;
+constexpr double kPressed_n = 1e-7; // what may be left of the preload
+constexpr double kAside_mm = 1e-3;  // of the differences that tell how the force grows
+
+struct Pressed {
+    Vector2d displacement_mm;
+    bool solved;
+};
+
+// Where the tip rests under a force. A limb that has just begun its run goes there in one move, so that friction and
+// play are as that move leaves them; each try is made on a copy. Newton's method, with steps that halve where they lead
+// away.
+Pressed pressed(const LimbState<InPlane> &limb, const Vector2d &force_n)
+{
+    const auto lacks_at = [&](const Vector2d &displacement_mm, bool &solved) -> Vector2d {
+        LimbState<InPlane> trial = limb;
+        const LimbRest<2> rest = trial.hold_tip(displacement_mm);
+        solved = rest.solved;
+        return force_n - rest.force_n;
+    };
+    bool solved = false;
+    Vector2d at_mm = Vector2d::Zero();
+    Vector2d lacks_n = lacks_at(at_mm, solved);
+    for (int i = 0; i < kMostPresses && solved && lacks_n.norm() > kPressed_n; ++i) {
+        Eigen::Matrix2d slope_n_per_mm;
+        for (int axis = 0; axis < 2; ++axis) {
+            bool there = false;
+            const Vector2d aside_mm = at_mm + kAside_mm * Vector2d::Unit(axis);
+            slope_n_per_mm.col(axis) = (lacks_n - lacks_at(aside_mm, there)) / kAside_mm;
+            solved = solved && there;
+        }
+        const Vector2d step_mm = slope_n_per_mm.inverse() * lacks_n;
+        if (!solved || !step_mm.allFinite()) {
+            return {at_mm, false};
+        }
+        bool closer = false;
+        for (double share = 1.0; !closer && share > 1e-3; share *= 0.5) {
+            const Vector2d next_mm = at_mm + share * step_mm;
+            bool there = false;
+            const Vector2d next_n = lacks_at(next_mm, there);
+            closer = there && next_n.norm() < lacks_n.norm();
+            if (closer) {
+                at_mm = next_mm;
+                lacks_n = next_n;
+            }
+        }
+        solved = closer;
+    }
+    return {at_mm, solved && lacks_n.norm() <= kPressed_n};
+}
 
 } // namespace
 
@@ -48,7 +100,7 @@ bool Loading::goes_like(const Run &run, std::size_t earlier) const
         return column == nullptr || std::equal(column + run.first, column + run.end, column + earlier);
     };
     return same(rows_.theta1_rad) && same(rows_.theta2_rad) && same(rows_.dx_mm) && same(rows_.dz_mm)
-           && same(rows_.free_axis);
+           && same(rows_.free_axis) && same(rows_.preload_x_n) && same(rows_.preload_z_n);
 }
 
 bool Loading::rests_like_earlier(const Run &run, const effects::Model &model) const
@@ -90,6 +142,7 @@ bool Loading::find_rests(const effects::Model &model)
             }
             continue;
         }
+        Vector2d aside_mm = Vector2d::Zero();
         for (std::size_t i = run.first; i < run.end; ++i) {
             const double temp = rows_.temp_degc != nullptr ? rows_.temp_degc[i] : model.thermal.reference_degc;
             if (!limb.move_to(rows_.theta1_rad[i], rows_.theta2_rad[i], rows_.t_s[i], temp)) {
@@ -99,8 +152,13 @@ bool Loading::find_rests(const effects::Model &model)
             if (i == run.first) {
                 limb.start_run(rows_.creep_runs_on == 0);
                 hangs = rows_.held_at_rest == 0 || limb.hang();
+                if (rows_.preload_x_n != nullptr) {
+                    const Pressed rest = pressed(limb, {rows_.preload_x_n[i], rows_.preload_z_n[i]});
+                    aside_mm = rest.displacement_mm - Vector2d(rows_.dx_mm[i], rows_.dz_mm[i]);
+                    hangs = hangs && rest.solved;
+                }
             }
-            rests_[i] = limb.hold_tip({rows_.dx_mm[i], rows_.dz_mm[i]},
+            rests_[i] = limb.hold_tip(Vector2d(rows_.dx_mm[i], rows_.dz_mm[i]) + aside_mm,
                                       rows_.free_axis != nullptr ? rows_.free_axis[i] : 0);
             rests_[i].solved = rests_[i].solved && hangs;
         }

@@ -1,11 +1,12 @@
 """Every `brace` command that a page prints is one that the command line takes. Those of docs/bus.md also run, in its
-order, on a simulated limb; the others run where their pages are tested (README, datasets, demo), or need files of the
-reader's."""
+order, on a simulated limb; of README.md and docs/your-limb.md those that take seconds run, in a folder of their own.
+ONLY_PARSED says of all others where they run, or why they do not."""
 
 from __future__ import annotations
 
 import re
 import shlex
+import subprocess
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -17,7 +18,7 @@ from test_bus_space import ACROSS
 from brace.cli.command_line import build_parser
 
 PAGES = sorted([PROJECT / "README.md", *(PROJECT / "docs").glob("*.md"), *(PROJECT / "examples").glob("**/*.md")])
-CODE = re.compile(r"^ {4}(?=\S)")
+CODE = re.compile(r"^(?: {4}| {7})(?=\S)")  # seven: below a numbered step
 START = re.compile(r"(?:^|(?<=; )|(?<=\$\()|(?<=\| )|(?<=do )|(?<=&& ))(?:\.venv/bin/|\S+/)?brace (?=[a-z])")
 
 
@@ -25,10 +26,10 @@ def lines_of_code(page: Path) -> Iterator[str]:
     """Indented lines, a line that ends with a backslash with the next."""
     whole = ""
     for line in page.read_text().splitlines():
-        if not CODE.match(line):
+        if not (CODE.match(line) or whole and line.startswith("    ")):  # what goes on may stand further in
             whole = ""
             continue
-        whole += line.strip().removesuffix("\\")
+        whole = f"{whole} {line.strip().removesuffix(chr(92))}".strip()
         if not line.endswith("\\"):
             yield whole
             whole = ""
@@ -95,4 +96,63 @@ def test_the_page_of_the_bus_runs(
     with limb_on_tcp(Path("limb.toml")) as url:
         for words in printed:
             outcome = brace(*on_this_bus(words, url))
-            assert outcome.code == 0, f"brace {' '.join(words)}: {outcome.err}"
+            assert outcome.code == 0, f"brace {' '.join(words)}: {outcome.out[-1500:]}{outcome.err}"
+
+
+RUN = {  # page: how the commands begin that run here, in the page's order
+    "README.md": (("k",), ("simulate",)),
+    "your-limb.md": (("new", "--out", "limb.toml", "--femur"), ("export",)),
+}
+ONLY_PARSED = {  # page, and how the commands begin: why
+    ("README.md", "sim"): "runs until it is ended; tests/socketcan/test_readme_lines.py",
+    ("README.md", "query"): "tests/socketcan/test_readme_lines.py",
+    ("README.md", "monitor"): "tests/socketcan/test_readme_lines.py",
+    ("README.md", "map"): "half a minute on a busy machine; test_map_and_process.py maps less",
+    ("README.md", "plan"): "seconds of search; test_plan.py",
+    ("README.md", "diagnose"): "a minute on a busy machine; tests/tools/diagnose",
+    ("README.md", "flash"): "needs the firmware's images; test_flash.py",
+    ("calibrate.md", ""): "minutes of fits; test_identify.py and test_plays.py run such commands on small records",
+    ("datasets.md", "import"): "files of the reader's; tests/tools/importing",
+    ("diagnose.md", ""): "the first two are the README's; a controller's record and fleets: tests/tools/diagnose",
+    ("joint-tests.md", "diagnose"): "a record of the reader's; tests/tools/diagnose",
+    ("joints.md", "sim"): "needs servos; tests/servo",
+    ("plan.md", "plan"): "as the README's; test_plan.py",
+    ("porting.md", ""): "needs a board; test_doctor.py and test_flash.py",
+    ("your-limb.md", "new --out limb.toml --urdf"): "a URDF of the reader's; tests/tools/new",
+    ("bus.md", ""): "below",
+}
+
+
+def _runs_here(page: Path, words: list[str]) -> bool:
+    return any(tuple(words[: len(begin)]) == begin for begin in RUN.get(page.name, ()))
+
+
+def test_each_printed_command_runs_or_has_its_reason() -> None:
+    used = set()
+    for page, words in PRINTED:
+        reasons = [key for key in ONLY_PARSED if key[0] == page.name and " ".join(words).startswith(key[1])]
+        assert _runs_here(page, words) or reasons, f"{page.name}: brace {' '.join(words)}: run it, or say why not"
+        used |= set(reasons)
+    assert used == set(ONLY_PARSED), "a reason for what no page prints"
+
+
+@pytest.mark.parametrize("name", RUN)
+def test_a_page_runs_in_its_order(
+    brace: Callable[..., Outcome], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    """With the lines of sed between them, in a folder that has the project's limb where the page says."""
+    monkeypatch.chdir(tmp_path)
+    Path("tools").symlink_to(PROJECT / "tools")
+    page = next(page for page in PAGES if page.name == name)
+    ran = set()
+    for line in lines_of_code(page):
+        if line.startswith("sed "):
+            subprocess.run(line, shell=True, check=True)
+        if (match := START.search(line)) is None:
+            continue
+        words = shlex.split(line[match.end() :], comments=True)
+        if _runs_here(page, words):
+            outcome = brace(*words)
+            assert outcome.code == 0, f"brace {' '.join(words)}: {outcome.out[-1500:]}{outcome.err}"
+            ran |= {begin for begin in RUN[name] if tuple(words[: len(begin)]) == begin}
+    assert ran == set(RUN[name])

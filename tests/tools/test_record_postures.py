@@ -12,10 +12,11 @@ import pytest
 from bus_bench import limb_on_tcp
 from conftest import LIMB, Outcome, physics_k
 
-from brace.bus.loading_rows import added, on_one_clock, with_motor_angles
+from brace.bus.loading_rows import added, counted_from_first, on_one_clock, with_motor_angles
 from brace.dataset import load_dataset
-from brace.model import load_limb
+from brace.model import LimbModel, load_limb
 from brace.native import loaded
+from brace.native.plant_batch import LoadingBatchPlayer, model_numbers
 
 FEMUR_MM, TIBIA_MM = 185.0, 313.5
 ENCODER_STEP_RAD = 2e-5  # the dictionary's default
@@ -44,7 +45,16 @@ def _columns(run: int, theta: tuple[float, float], d_mm: np.ndarray) -> dict[str
         "t_s": 0.5 * np.arange(count) + 0.1,
         "dx_mm": d_mm[0],
         "dz_mm": d_mm[1],
+        "fx_n": np.zeros(count),
+        "fz_n": np.zeros(count),
     }
+
+
+@pytest.fixture(scope="module")
+def model(tmp_path_factory: pytest.TempPathFactory) -> LimbModel:
+    path = tmp_path_factory.mktemp("limb") / "limb.toml"
+    path.write_text(LIMB)
+    return load_limb(path)
 
 
 def _by_levers(theta: tuple[float, float], moved: np.ndarray) -> np.ndarray:
@@ -56,19 +66,46 @@ def _by_levers(theta: tuple[float, float], moved: np.ndarray) -> np.ndarray:
     return shift
 
 
-def test_motors_angles_and_the_tips_arc_from_what_levers_tell() -> None:
+def test_motors_angles_and_the_tips_arc_from_what_levers_tell(model: LimbModel) -> None:
     moved = np.array([[0.0, 0.011, -0.02, 0.004], [0.0, -0.013, 0.0, 0.021]])
-    columns = with_motor_angles(_columns(1, (0.7, 1.3), _by_levers((0.7, 1.3), moved)), FEMUR_MM, TIBIA_MM)
-    assert np.abs(columns["theta1_rad"] - 0.7 - moved[0]).max() < 1e-9
-    assert np.abs(columns["theta2_rad"] - 1.3 - moved[1]).max() < 1e-9
+    columns = with_motor_angles(_columns(1, (0.7, 1.3), _by_levers((0.7, 1.3), moved)), model)
+    rounding_rad = 1e-6  # levers under a load, here none, are the firmware's, in single precision
+    assert np.abs(columns["theta1_rad"] - 0.7 - moved[0]).max() < rounding_rad
+    assert np.abs(columns["theta2_rad"] - 1.3 - moved[1]).max() < rounding_rad
     planted = _tip(np.full(4, 0.7), np.full(4, 1.3))
     told = np.stack([columns["dx_mm"], columns["dz_mm"]])
-    assert np.abs(planted - _tip(0.7 + moved[0], 1.3 + moved[1]) - told).max() < 1e-6
+    assert np.abs(planted - _tip(0.7 + moved[0], 1.3 + moved[1]) - told).max() < rounding_rad * (FEMUR_MM + TIBIA_MM)
 
 
-def test_a_straight_knee_keeps_the_angles_told() -> None:
+@pytest.mark.parametrize("press_n", [(0.0, 10.0), (0.0, -20.0), (-20.0, 0.0)])
+def test_of_a_pressed_foot_each_row_is_where_its_force_is(press_n: tuple[float, float], model: LimbModel) -> None:
+    """The reference presses the limb and tells the levers under the load. Angles and displacements come back, and the
+    plant, given what the limb was pressed with, has the forces that the rows were made with."""
+    theta, weighty = np.array([1.0, 1.4]), model.with_values({"gravity.femur_n": 3.0, "gravity.tibia_n": 2.0})
+    limb = weighty.with_values({"joint.femur.zero_offset_rad": 0.02, "joint.tibia.zero_offset_rad": -0.03})
+
+    def rest(at: np.ndarray) -> np.ndarray:
+        bent = loaded.under_force(weighty, at[0], at[1], np.array([press_n])).displacement_mm[0]
+        return np.asarray(_tip(at[:1], at[1:])[:, 0] + bent)
+
+    levers = np.column_stack([(rest(theta + 0.01 * one) - rest(theta - 0.01 * one)) / 0.02 for one in np.eye(2)])
+    moved = np.array([[0.0, 0.008, -0.01, 0.004], [0.0, -0.006, 0.0, 0.012]])
+    at = theta[:, None] + moved
+    held = rest(theta)[:, None] - _tip(at[0], at[1])
+    force = loaded.under_displacement(weighty, at[0], at[1], held.T).force_n
+    columns = _columns(1, (theta[0], theta[1]), -levers @ moved) | {"fx_n": force[:, 0], "fz_n": force[:, 1]}
+    rows = counted_from_first(with_motor_angles(columns, limb))
+    true = np.stack([rows["theta1_rad"] + 0.02, rows["theta2_rad"] - 0.03])
+    assert np.abs(true - at).max() < 2e-6
+    assert np.abs(np.stack([rows["dx_mm"], rows["dz_mm"]]) - (held - held[:, :1])).max() < 2e-3
+    played = LoadingBatchPlayer(rows, ("fx_n", "fz_n"), zeroed=True).play_numbers(model_numbers(limb)[None])[0]
+    assert np.abs(force[:, 0] - force[0, 0]).max() > 1.0
+    assert np.abs(np.stack([rows["fx_n"], rows["fz_n"]]) - played).max() < 2e-3
+
+
+def test_a_straight_knee_keeps_the_angles_told(model: LimbModel) -> None:
     columns = _columns(1, (0.7, 0.0), np.array([[0.0, 1.0], [0.0, 0.0]]))
-    assert with_motor_angles(columns, FEMUR_MM, TIBIA_MM) is columns
+    assert with_motor_angles(columns, model)["theta1_rad"].tolist() == [0.7, 0.7]
 
 
 def test_one_clock_and_counted_on() -> None:
@@ -123,20 +160,26 @@ def test_postures_over_a_bus_become_one_record(brace: Callable[..., Outcome], tm
     assert (out / "data.csv").read_bytes() == before
 
 
+@pytest.mark.parametrize("press_mm", [(0.0, 0.0), (5.0, 38.0)])
 def test_a_long_stroke_over_a_bus_is_the_limbs_to_the_encoders_step(
-    brace: Callable[..., Outcome], tmp_path: Path
+    press_mm: tuple[float, float], brace: Callable[..., Outcome], tmp_path: Path
 ) -> None:
-    """Every row's force is the one that the reference has for its own angles and displacement: nothing is left."""
+    """Every row's force is the one that the reference has for its own angles and displacement, counted from the first:
+    nothing is left."""
     limb, out = tmp_path / "limb.toml", tmp_path / "long"
     limb.write_text(LIMB + "[sensor]\nnoise_n = 0.0\n")
     long = ("--loading-test", "--axis", "x", "--steps", 3, "--step-mm", 2.5)
-    with limb_on_tcp(limb, "--posture=1.0,1.4", "--speed", 5) as url:
+    with limb_on_tcp(limb, "--posture=1.0,1.4", f"--press={press_mm[0]},{press_mm[1]}", "--speed", 5) as url:
         outcome = brace("record", "--bus", url, *long, "--out", out)
     assert outcome.code == 0, outcome.err
     dataset = load_dataset(out)
-    d = np.column_stack([dataset["dx_mm"], dataset["dz_mm"]])
-    force = loaded.under_displacement(load_limb(limb), dataset["theta1_rad"], dataset["theta2_rad"], d).force_n
-    left = np.column_stack([dataset["fx_n"], dataset["fz_n"]]) - force
+    preload_n = np.array([[dataset["preload_x_n"][0], dataset["preload_z_n"][0]]])
+    assert np.linalg.norm(preload_n) < 0.01 if press_mm == (0.0, 0.0) else np.linalg.norm(preload_n) > 5.0
+    theta = dataset["theta1_rad"], dataset["theta2_rad"]
+    aside = loaded.under_force(load_limb(limb), theta[0][0], theta[1][0], preload_n).displacement_mm[0]
+    d = np.column_stack([dataset["dx_mm"], dataset["dz_mm"]]) + aside
+    force = loaded.under_displacement(load_limb(limb), *theta, d).force_n
+    left = np.column_stack([dataset["fx_n"], dataset["fz_n"]]) - (force - force[0])
     # half an encoder's step of the first row and half of this one, of either joint, by what its turn presses
     per_rad = np.abs(physics_k(1.0, 1.4) @ _by_levers((1.0, 1.4), np.eye(2))).sum(axis=1)
     assert np.all(np.abs(left).max(axis=0) < ENCODER_STEP_RAD * per_rad + FORCE_STEP_N)

@@ -271,9 +271,14 @@ def spatial_stiffness(
     return joined(values, spatial_compliance(values))
 
 
+def yields_across(model: LimbModel) -> bool:
+    """Whether something yields out of the limb's plane: such a limb has K in space."""
+    return any(np.float32(model.number(key)) > 0.0 for key in ACROSS)
+
+
 def require_yield_across(model: LimbModel) -> None:
     """Refuses a limb that is rigid across its plane."""
-    if any(np.float32(model.number(key)) > 0.0 for key in ACROSS):
+    if yields_across(model):
         return
     raise BadFileError(
         "this limb has no K in space: nothing yields out of its plane",

@@ -105,7 +105,8 @@ def _outcome(session: Session) -> int:
 
 
 def fetch(session: Session, runs: int, advance: Callable[[int], None]) -> dict[str, np.ndarray]:
-    """The rows of the newest `runs` tests, as columns of data.csv; a column that is nowhere known is left out."""
+    """The rows of the newest `runs` tests, as columns of data.csv, with the forces on the tip as they were; a column that
+    is nowhere known is left out."""
     count = int(number_of("loading_rows", _entry(session, "loading_rows")))
     if count == 0:
         raise DeviceFaultError(
@@ -123,8 +124,6 @@ def fetch(session: Session, runs: int, advance: Callable[[int], None]) -> dict[s
         for column in range(len(COLUMNS)):
             table[row - first, column] = _cell(session, row, column)
         advance(row - first + 1)
-    for column in (COLUMNS.index("fx_n"), COLUMNS.index("fz_n")):
-        _count_from_first(table, column)
     columns: dict[str, np.ndarray] = {}
     for index, known in enumerate(LOADING[: len(COLUMNS)]):
         values = table[:, index]
@@ -132,13 +131,6 @@ def fetch(session: Session, runs: int, advance: Callable[[int], None]) -> dict[s
             continue
         columns[known.name] = values.astype(int) if known.kind in ("int", "axis") else values
     return columns
-
-
-def _count_from_first(table: np.ndarray, column: int) -> None:
-    """Each run's first reading is its preload point, where displacement is zero too."""
-    for run in np.unique(table[:, 0]):
-        rows = table[:, 0] == run
-        table[rows, column] -= table[rows, column][0]
 
 
 def _entry(session: Session, name: str) -> int:

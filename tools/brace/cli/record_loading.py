@@ -22,7 +22,7 @@ _FILES = ("meta.toml", "data.csv")
 def record_loading(arguments: argparse.Namespace) -> int:
     """Runs, fetches, writes."""
     from brace.bus.can_controller import CanController
-    from brace.bus.loading_rows import added, on_one_clock, with_motor_angles
+    from brace.bus.loading_rows import added, counted_from_first, on_one_clock, with_motor_angles
     from brace.bus.loading_test import Plan, fetch, run
     from brace.dataset.write import write_dataset
     from brace.errors import UsageError
@@ -52,8 +52,9 @@ def record_loading(arguments: argparse.Namespace) -> int:
                 run(opened, Plan(axis, arguments.steps, arguments.step_mm, arguments.dwell_s), advance)
         with common.progress("fetching its rows") as advance:
             columns = fetch(opened, len(axes), advance)
-        lengths = [_length_mm(device, link) for link in ("femur", "tibia")]
-    columns = with_motor_angles(on_one_clock(columns, started), *lengths)
+        with common.progress("reading its parameters") as advance:
+            model = device.download(advance).model  # it computed the displacements with them
+    columns = counted_from_first(with_motor_angles(on_one_clock(columns, started), model))
     rows = len(columns["run"])
     if before is not None:
         ended_s = before.meta.document.content.get("ended_unix_s")
@@ -83,14 +84,6 @@ def record_loading(arguments: argparse.Namespace) -> int:
             f"diagnose {arguments.out} --model LIMB.toml --out DIR"
         )
     return 0
-
-
-def _length_mm(device: Controller, link: str) -> float:
-    """As the controller has it, which computed the displacements with it."""
-    from brace.bus.entries import number_of
-
-    key = f"geometry.{link}_mm"
-    return number_of(key, device.read_entry(key))
 
 
 def _refuse_record(folder: Path) -> None:

@@ -48,6 +48,8 @@ LOADING = (
     _optional("enc2_rad", "rad", "output-side deflection of joint 2"),
     _optional("base_x_mm", "mm", "dial gauge on the base"),
     _optional("base_z_mm", "mm", "dial gauge on the base"),
+    _optional("preload_x_n", "N", "force on the limb at the run's first reading, from which displacements count"),
+    _optional("preload_z_n", "N", "force on the limb at the run's first reading, from which displacements count"),
 )
 
 STIFFNESS_TABLE = (

@@ -108,7 +108,7 @@ class ParameterSet:
     def models(self, points: np.ndarray) -> np.ndarray:
         """The limbs that many x (points x parameters) describe, as brace.native.plant_batch has them."""
         numbers, columns, places = self._layout
-        models = np.tile(numbers, (len(points), 1))
+        models = numbers[np.newaxis].repeat(len(points), axis=0)
         models[:, places] = points[:, columns]
         return models
 

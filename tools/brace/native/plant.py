@@ -41,7 +41,7 @@ class LoadingPlayer:
         self._rows.count = self.count
         self._rows.small_displacements = int(small_displacements)
         self._rows.held_at_rest = int(held_at_rest)
-        inputs = ("theta1_rad", "theta2_rad", "t_s", "temp_degc", "dx_mm", "dz_mm")
+        inputs = ("theta1_rad", "theta2_rad", "t_s", "temp_degc", "dx_mm", "dz_mm", "preload_x_n", "preload_z_n")
         self._keep = [_point_at(self._native, self._rows, "run", columns["run"], np.int32)]
         self._keep += [
             _point_at(self._native, self._rows, name, columns[name]) for name in inputs if name in columns

@@ -63,7 +63,7 @@ class LoadingBatchPlayer(LoadingPlayer):
         )
         if settled:
             out[:, status != 0] = np.nan
-        return np.moveaxis(out, 0, 1)
+        return out.transpose(1, 0, 2)
 
 
 class JointBatchPlayer(JointPlayer):

@@ -123,7 +123,7 @@ def _other_beam(record: Record, space: Space, found: Fit, scale: np.ndarray, fin
     does better with all else held."""
     if TIBIA_BEAM not in space.keys:
         return found
-    points = np.tile(found.x, (BEAM_SHARES.size, 1))
+    points = found.x[np.newaxis].repeat(BEAM_SHARES.size, axis=0)
     points[:, space.keys.index(TIBIA_BEAM)] = BEAM_SHARES
     tried = residuals(record, space, points)
     costs = np.array([cost_of(space, point, left) for point, left in zip(points, tried)])
@@ -183,7 +183,7 @@ def _step_times(
         times = times[(times >= space.low[place]) & (times <= space.high[place])]
         if not times.size:
             continue
-        points = np.tile(x, (times.size, 1))
+        points = x[np.newaxis].repeat(times.size, axis=0)
         points[:, place] = times
         tried = residuals(record, space, points)
         costs = np.array([cost_of(space, point, left) for point, left in zip(points, tried)])

@@ -47,7 +47,7 @@ class RivalSpace(Space):
 
     def limbs(self, points: np.ndarray) -> np.ndarray:
         """The limbs without the rival."""
-        models = np.tile(self.numbers, (len(points), 1))
+        models = self.numbers[np.newaxis].repeat(len(points), axis=0)
         models[:, self.places] = points[:, : self.places.size]
         return models
 

@@ -65,7 +65,7 @@ class Remover:
 
     def augmented(self, residual: np.ndarray) -> np.ndarray:
         """Residuals with the priors' pulls behind them, the removable part removed; points x (readings + pulls)."""
-        whole = np.hstack([residual, np.tile(-self._pull, (len(residual), 1))])
+        whole = np.hstack([residual, np.broadcast_to(-self._pull, (len(residual), self._pull.size))])
         return np.asarray(whole - (whole @ self.basis) @ self.basis.T)
 
     def columns(self, columns: np.ndarray) -> np.ndarray:
@@ -161,7 +161,7 @@ def _signatures(nearby: Nearby | Played, space: Space, point: np.ndarray, freed:
     """Change of the whitened model readings along each freed key, scaled to about one sigma; readings x keys."""
     which = np.array([space.keys.index(key) for key in freed])
     step = np.maximum(np.abs(point[which]) * 1e-3, _small_steps(freed))
-    points = np.tile(point, (which.size, 1))
+    points = point[np.newaxis].repeat(which.size, axis=0)
     for row, (place, size) in enumerate(zip(which, step)):
         size = -size if points[row, place] + size > space.high[place] else size
         points[row, place] += size

@@ -72,7 +72,7 @@ class Space:
 
     def models(self, points: np.ndarray) -> np.ndarray:
         """Points (points x size) to plant models (points x numbers)."""
-        models = np.tile(self.numbers, (len(points), 1))
+        models = self.numbers[np.newaxis].repeat(len(points), axis=0)
         models[:, self.places] = points
         return models
 
