@@ -7,6 +7,7 @@ import re
 import shutil
 import sys
 import tarfile
+import time
 import tomllib
 from pathlib import Path
 
@@ -72,6 +73,21 @@ def test_bill_of_materials(tmp_path: Path) -> None:
     assert bill["metadata"]["component"]["name"] == "brace"
     names = {part["name"] for part in bill["components"]}
     assert {"eigen", "newlib", "numpy", "scipy"} <= names and len(names) == len(requirements.read()) + 3
+
+
+@pytest.mark.parametrize("zone", ["America/Los_Angeles", "Asia/Tokyo"])
+def test_man_pages_have_one_date_in_every_time_zone(monkeypatch: pytest.MonkeyPatch, zone: str) -> None:
+    pytest.importorskip("argparse_manpage")
+    from release.man_pages import man_pages
+
+    monkeypatch.setenv("SOURCE_DATE_EPOCH", str(EPOCH_S))  # 2023-11-14 22:13 UTC
+    monkeypatch.setenv("TZ", zone)
+    time.tzset()
+    try:
+        assert "2023\\-11\\-14" in man_pages("0.1.0")["brace-k.1"].splitlines()[0]
+    finally:
+        monkeypatch.undo()
+        time.tzset()
 
 
 def test_the_source_distribution_has_what_its_build_needs(tmp_path: Path) -> None:

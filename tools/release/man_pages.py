@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import os
+import time
 from pathlib import Path
 
 from argparse_manpage.manpage import Manpage
@@ -13,7 +15,9 @@ ABOUT = {"project_name": "Brace", "manual_title": "Brace", "manual_section": "1"
 
 
 def man_pages(version: str) -> dict[str, str]:
-    """Names and texts. The date in them is SOURCE_DATE_EPOCH's."""
+    """Names and texts. The date in them is SOURCE_DATE_EPOCH's, the day in UTC wherever they are made."""
+    os.environ["TZ"] = "UTC"
+    time.tzset()
     parser = build_parser()
     commands = next(action for action in parser._actions if isinstance(action, argparse._SubParsersAction))
     about = {choice.dest: choice.help or "" for choice in commands._choices_actions}
