@@ -6,7 +6,6 @@ import contextlib
 import math
 import os
 import socket
-import statistics
 import subprocess
 import threading
 import time
@@ -125,9 +124,9 @@ def test_k_comes_at_its_rate(probe: Probe, sim: Sim) -> None:
     numbers = [snapshot["snapshot"] for snapshot in answer.snapshots]
     steps = [(other - one) % 256 for one, other in zip(numbers, numbers[1:], strict=False)]
     assert min(steps) > 0  # none twice
-    # 200 Hz, counted on the controller's own clock of 1 kHz: the machine may be slow,
-    # and a limb that is late leaves out ticks
-    assert 3 <= statistics.median(steps) <= 6, steps
+    # 200 Hz, counted on the controller's own clock of 1 kHz: a limb that is late leaves out ticks. Where the machine is
+    # slow, a snapshot is left out while the bus is still taking the one before, so the shorter steps tell the rate.
+    assert 3 <= sorted(steps)[len(steps) // 10] <= 6, steps
 
 
 @pytest.mark.parametrize("posture", [(1.0, 1.4), (0.2, 2.2), (-0.5, 0.6)])
