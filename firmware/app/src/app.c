@@ -357,7 +357,7 @@ static void part_is_done(controller_t *controller, uint32_t part)
     controller->parts_done = controller->parts_done << 4 | part;
 }
 
-/* Sensors that tell the same whatever the limb does. joints_read has judged what a joint's own samples tell. */
+/* Sensors that tell the same whatever the limb does. */
 static void watch_sensors(controller_t *controller)
 {
     const frozen_inputs_t inputs = {.joints = &controller->joints,
@@ -374,13 +374,11 @@ static void update_faults(controller_t *controller, bool late, bool bus_off)
 {
     const joint_t *joint = controller->joints.joint;
     const bool coxa_is_missing = joint[BRACE_COXA].fitted && !joint[BRACE_COXA].sound;
-    const bool stuck = joint[BRACE_COXA].stuck || joint[BRACE_FEMUR].stuck || joint[BRACE_TIBIA].stuck ||
-                       frozen_any(&controller->frozen);
     const bool store_failed = controller->drift.memory_failed;
     const uint32_t causes = (joint[BRACE_FEMUR].sound ? 0u : (uint32_t)BRACE_FAULT_SENSOR_FEMUR) |
                             (joint[BRACE_TIBIA].sound ? 0u : (uint32_t)BRACE_FAULT_SENSOR_TIBIA) |
                             (coxa_is_missing ? (uint32_t)BRACE_FAULT_SENSOR_COXA : 0u) |
-                            (stuck ? (uint32_t)BRACE_FAULT_ENCODER_STUCK : 0u) |
+                            (frozen_any(&controller->frozen) ? (uint32_t)BRACE_FAULT_ENCODER_STUCK : 0u) |
                             (late ? (uint32_t)BRACE_FAULT_TICK_LATE : 0u) |
                             (bus_off ? (uint32_t)BRACE_FAULT_CAN_BUS_OFF : 0u) |
                             (drives_refuse(&controller->drives) ? (uint32_t)BRACE_FAULT_DRIVE_REFUSES : 0u) |

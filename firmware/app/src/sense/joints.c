@@ -5,15 +5,6 @@
 #define REACH_MARGIN_RAD 0.01f       /* of steps and jitter */
 #define TORQUE_ABSURD 2.0f /* of the motor's greatest; bias and noise never add as much again */
 
-/* A motor's encoder is stuck when it has stood for STUCK_US and meanwhile its motor's torque has swung by a quarter of its
- * range and by four times what friction can hide: any position servo gives way by more than an encoder step under that
- * torque. It is stuck as well when the link's encoder has moved by STUCK_LINK_RAD meanwhile. watch/frozen.c holds the
- * other half of the fault ENCODER_STUCK. */
-#define STUCK_US 250000u
-#define STUCK_SWING_OF_RANGE 0.25f
-#define STUCK_SWING_OF_FRICTION 4.0f
-#define STUCK_LINK_RAD 0.005f
-
 /* The torque's mean begins as the median of the first three samples. Afterwards it follows only what two samples in a
  * row agree on, so that a single wild sample does not move it. */
 #define TORQUE_MEAN_US 20000.0f
@@ -21,8 +12,6 @@
 
 /* The backlash machine's filters bear a stretch of four ticks without a sample. */
 #define PROVING_TICKS 4u
-
-#define STANDSTILL_MOST_US 0x40000000u
 
 static bool is_sound(const brace_hal_joint_t *sample, const brace_drive_t *drive)
 {
@@ -63,55 +52,6 @@ static bool is_within_reach(joint_t *joint, const brace_hal_joint_t *fresh)
     return is_there;
 }
 
-static float lower(float a, float b)
-{
-    return b < a ? b : a;
-}
-
-static float higher(float a, float b)
-{
-    return b > a ? b : a;
-}
-
-/* The angle has moved: a new standstill begins here. */
-static void begin_standstill(joint_t *joint)
-{
-    joint->standstill = (joint_standstill_t){.motor_rad = joint->sample.motor_rad,
-                                             .torque_low_n_mm = joint->torque_n_mm,
-                                             .torque_high_n_mm = joint->torque_n_mm,
-                                             .link_low_rad = joint->sample.link_rad,
-                                             .link_high_rad = joint->sample.link_rad};
-    joint->stuck = false;
-}
-
-static void watch_encoder(joint_t *joint, const brace_drive_t *drive, const brace_joint_t *spring, uint32_t tick_us)
-{
-    joint_standstill_t *stands = &joint->standstill;
-    if (__builtin_fabsf(joint->sample.motor_rad - stands->motor_rad) > 0.5f * drive->angle_step_rad) {
-        begin_standstill(joint);
-        return;
-    }
-    stands->since_us += stands->since_us < STANDSTILL_MOST_US ? tick_us : 0u;
-    stands->torque_low_n_mm = lower(stands->torque_low_n_mm, joint->torque_n_mm);
-    stands->torque_high_n_mm = higher(stands->torque_high_n_mm, joint->torque_n_mm);
-    const float link_rad = joint->sample.link_rad;
-    if (__builtin_fabsf(link_rad) <= ANGLE_ABSURD_RAD) { /* NaN: there is no encoder behind the gearbox */
-        stands->link_low_rad = lower(stands->link_low_rad, link_rad);
-        stands->link_high_rad = higher(stands->link_high_rad, link_rad);
-    }
-    if (stands->since_us < STUCK_US || joint->stuck) {
-        return;
-    }
-    const float torque_swing_n_mm = stands->torque_high_n_mm - stands->torque_low_n_mm;
-    /* NaN, and so never moving, unless the link's encoder answered from the standstill's beginning. */
-    const float link_swing_rad = stands->link_high_rad - stands->link_low_rad;
-    const bool torque_works = torque_swing_n_mm > STUCK_SWING_OF_RANGE * drive->torque_range_n_mm &&
-                              torque_swing_n_mm > STUCK_SWING_OF_FRICTION * drive->motor_friction_n_mm;
-    const bool link_moves = link_swing_rad > STUCK_LINK_RAD + spring->gap_rad +
-                                                 torque_swing_n_mm * spring->compliance_rad_per_n_mm;
-    joint->stuck = torque_works || link_moves;
-}
-
 /* What two changes agree on: nothing when their signs differ, else the smaller. */
 static float agreed(float a, float b)
 {
@@ -127,7 +67,6 @@ static void take_sample(joint_t *joint, const brace_hal_joint_t *fresh, uint32_t
     if (joint->samples_seen < SAMPLES_FIRST) {
         joint->torque_n_mm = joint->samples_seen == 0u ? fresh->torque_n_mm : mean_n_mm + moves_n_mm;
         joint->samples_seen++;
-        begin_standstill(joint);
     } else {
         const float share = (float)tick_us / (TORQUE_MEAN_US + (float)tick_us);
         joint->torque_n_mm = mean_n_mm + share * moves_n_mm;
@@ -153,9 +92,6 @@ static void read_one(joints_t *joints, int index, const brace_hal_t *hal, const 
         take_sample(joint, &fresh, tick_us);
     } else if (newer || (answer != BRACE_HAL_OK && answer != BRACE_HAL_AGAIN)) {
         brace_count(samples_bad);
-    }
-    if (joint->samples_seen != 0u) {
-        watch_encoder(joint, drive, &parameters->limb.joint[index], tick_us);
     }
     /* A sample that was once too old stays unseen, or the clock's wrap would make it young again. A sample from the
      * future is not young either. */

@@ -1,4 +1,4 @@
-/* Samples of the joints: which are sound, how old they are, whether the encoder moves. */
+/* Samples of the joints: which are sound, and how old they are. */
 #ifndef BRACE_SENSE_JOINTS_H
 #define BRACE_SENSE_JOINTS_H
 
@@ -9,14 +9,6 @@
 #include "brace/snapshot.h"
 #include "brace_hal.h"
 
-/* How long an angle has stood still, and what torque and link did meanwhile. */
-typedef struct {
-    float motor_rad;
-    uint32_t since_us;
-    float torque_low_n_mm, torque_high_n_mm;
-    float link_low_rad, link_high_rad;
-} joint_standstill_t;
-
 typedef struct {
     bool fitted;              /* the limb has this joint */
     bool is_link_only;        /* its one encoder is behind the gear: sample.motor_rad is the link's angle */
@@ -24,11 +16,9 @@ typedef struct {
     float torque_n_mm;        /* mean over 20 ms; a single wild sample does not move it */
     bool sound;               /* the sample is no older than controller.age_limit_us */
     bool is_new_enough_to_prove_a_flank; /* no older than four ticks, which the backlash machine's filters bear */
-    bool stuck;               /* the torque changes and the angle does not follow */
     uint8_t samples_seen;     /* in a row; counts to 3 */
     bool has_wild;            /* no joint could have moved to where the sample before told, */
     brace_hal_joint_t wild;   /* which is this one */
-    joint_standstill_t standstill;
 } joint_t;
 
 typedef struct {

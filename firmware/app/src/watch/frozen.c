@@ -1,13 +1,16 @@
 #include "watch/frozen.h"
 
-/* So long a proof has to last: a drive answers its command, and a motor its load, well within a quarter of a second.
- * sense/joints.c holds the other half of the fault ENCODER_STUCK, with a time of its own, STUCK_US. */
+/* So long a proof has to last: a drive answers its command, and a motor its load, well within a quarter of a second. */
 #define FROZEN_US 250000u
 #define SAMPLES_SETTLED 3u /* the torque's mean begins with as many */
 
 #define TOLD_LEAST_RAD 0.005f
 #define TOLD_STEPS 10.0f
 #define TORQUE_LEFT_RATIO 0.8f /* of the limit: a drive near it may stand for lack of torque */
+
+#define SWINGS_OF_RANGE 0.25f
+#define SWINGS_OF_FRICTION 4.0f
+#define LINK_LEAST_RAD 0.005f
 
 #define FRICTION_BANDS 4.0f    /* there and back, of a friction known to a factor of two */
 #define NOISE_SIGMAS 12.0f     /* six there, six back */
@@ -24,6 +27,12 @@ static frozen_span_t with(frozen_span_t span, float value)
     const bool unknown = value != value;
     return (frozen_span_t){.low = unknown || value < span.low ? value : span.low,
                            .high = unknown || value > span.high ? value : span.high};
+}
+
+/* What an encoder behind the gearbox has told; one sample that is absurd says nothing. */
+static frozen_span_t with_link(frozen_span_t span, float link_rad)
+{
+    return link_rad != link_rad ? span : with(span, link_rad);
 }
 
 static float width(frozen_span_t span)
@@ -64,14 +73,29 @@ static float hidden_n_mm(const frozen_joint_t *joint, const frozen_inputs_t *inp
            LOAD_OFF_RATIO * most_n_mm;
 }
 
+static bool swings(const frozen_joint_t *joint, const brace_drive_t *drive)
+{
+    return width(joint->pulls_n_mm) > SWINGS_OF_RANGE * drive->torque_range_n_mm &&
+           width(joint->pulls_n_mm) > SWINGS_OF_FRICTION * drive->motor_friction_n_mm;
+}
+
+static bool link_has_left(const frozen_joint_t *joint, const brace_joint_t *spring)
+{
+    const float follows_rad = spring->gap_rad + width(joint->pulls_n_mm) * spring->compliance_rad_per_n_mm;
+    return width(joint->link_rad) > LINK_LEAST_RAD + follows_rad;
+}
+
 static void watch_one(frozen_joint_t *joint, const frozen_inputs_t *inputs, int index)
 {
     const joint_t *seen = &inputs->joints->joint[index];
     const brace_drive_t *drive = &inputs->parameters->drive[index];
     const uint32_t since_us = inputs->parameters->controller.tick_us * (uint32_t)BRACE_LINK_COUNT;
     const float carries_n_mm = load_n_mm(inputs, index), told_rad = inputs->told_rad[index];
-    const bool stands = seen->sample.motor_rad == joint->motor_rad;
-    const bool same = stands && seen->sample.torque_n_mm == joint->torque_n_mm;
+    float link_rad[BRACE_LINK_COUNT];
+    joints_link_angles(inputs->joints, link_rad);
+    const float moved_rad = __builtin_fabsf(seen->sample.motor_rad - joint->stood_at_rad);
+    const bool stands = joint->is_settled && moved_rad <= 0.5f * drive->angle_step_rad;
+    const bool same = seen->sample.motor_rad == joint->motor_rad && seen->sample.torque_n_mm == joint->torque_n_mm;
     const bool has_torque = __builtin_fabsf(seen->torque_n_mm) < TORQUE_LEFT_RATIO * inputs->limit_n_mm[index];
 
     joint->motor_rad = seen->sample.motor_rad;
@@ -79,8 +103,10 @@ static void watch_one(frozen_joint_t *joint, const frozen_inputs_t *inputs, int 
     joint->told_rad = same && has_torque ? with(joint->told_rad, told_rad) : just(told_rad);
     joint->same_load_n_mm = same ? with(joint->same_load_n_mm, carries_n_mm) : just(carries_n_mm);
     joint->load_n_mm = stands ? with(joint->load_n_mm, carries_n_mm) : just(carries_n_mm);
-    joint->pulls_n_mm =
-        stands && joint->is_settled ? with(joint->pulls_n_mm, seen->torque_n_mm) : just(seen->torque_n_mm);
+    joint->pulls_n_mm = stands ? with(joint->pulls_n_mm, seen->torque_n_mm) : just(seen->torque_n_mm);
+    joint->link_rad = stands ? with_link(joint->link_rad, link_rad[index]) : just(link_rad[index]);
+    joint->stood_at_rad = stands ? joint->stood_at_rad : seen->sample.motor_rad;
+    joint->stood_us = !stands ? 0u : joint->stood_us < FROZEN_US ? joint->stood_us + since_us : FROZEN_US;
     joint->is_settled = seen->samples_seen >= SAMPLES_SETTLED;
 
     const float hidden = hidden_n_mm(joint, inputs, index); /* NaN, and no more than it, where the load is not known */
@@ -90,7 +116,9 @@ static void watch_one(frozen_joint_t *joint, const frozen_inputs_t *inputs, int 
     const bool is_unheld = width(joint->pulls_n_mm) > width(joint->load_n_mm) + hidden;
     const bool is_proven = (same && (was_told || was_loaded)) || (stands && is_unheld);
     joint->proven_us = !is_proven ? 0u : joint->proven_us < FROZEN_US ? joint->proven_us + since_us : FROZEN_US;
-    joint->is_frozen = joint->proven_us >= FROZEN_US;
+    joint->is_frozen = joint->proven_us >= FROZEN_US ||
+                       (joint->stood_us >= FROZEN_US && (swings(joint, drive) ||
+                                                         link_has_left(joint, &inputs->parameters->limb.joint[index])));
 }
 
 void frozen_watch(frozen_t *frozen, const frozen_inputs_t *inputs)

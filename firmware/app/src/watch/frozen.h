@@ -5,10 +5,13 @@
  *   loaded  the tip's sensor and the weight say that the joint's load has changed by more than friction can hide, and
  *           neither angle nor torque moves by a bit
  *   unheld  the angle stands, and the torque swings further than load and friction can hold: the motor must have turned
+ *   swings  the angle stands, and the torque swings by a quarter of its range and by more than friction can hide: any
+ *           position servo gives way by more than an encoder's step then
+ *   left    the angle stands, and the link's own encoder moves further than backlash and spring let it
  *
- * A joint is frozen when one of these has lasted for a quarter of a second, so a drive may take its time to answer.
- * Without a sensor at the tip only the first is seen here; sense/joints.h sees an encoder that stands while the torque
- * swings by a quarter of its range. */
+ * A joint is frozen when one of the first three has lasted for a quarter of a second, so a drive may take its time to
+ * answer, or one of the last two is seen of an angle that has stood for so long. "loaded" and "unheld" need a sensor at
+ * the tip. An angle stands while it stays within half an encoder's step. Fault: ENCODER_STUCK. */
 #ifndef BRACE_WATCH_FROZEN_H
 #define BRACE_WATCH_FROZEN_H
 
@@ -29,11 +32,14 @@ typedef struct {
     bool is_frozen;
     bool is_settled;               /* the torque's mean is one of several samples */
     float motor_rad, torque_n_mm;  /* of the sample three ticks before */
-    uint32_t proven_us;            /* how long one of the proofs above has lasted */
+    float stood_at_rad;            /* where the angle began to stand */
+    uint32_t stood_us;             /* how long; counts to a quarter of a second */
+    uint32_t proven_us;            /* how long one of the first three proofs has lasted */
     frozen_span_t told_rad;        /* what the drive was told, since both stand and it has torque left */
     frozen_span_t same_load_n_mm;  /* what the joint carries by sensor and weight, since both stand */
     frozen_span_t load_n_mm;       /* the same, since the angle stands; NaN: it was not known for a while */
     frozen_span_t pulls_n_mm;      /* the motor's torque since then, less single wild samples */
+    frozen_span_t link_rad;        /* the link's own encoder since then; NaN: there is none */
 } frozen_joint_t;
 
 typedef struct {
@@ -52,7 +58,7 @@ typedef struct {
 } frozen_inputs_t;
 
 /* Looks at one joint's sample of this tick, each joint in its turn: a frozen sensor is known by a quarter of a second, and
- * a tick is spared two of three joints. At most 250 instructions. */
+ * a tick is spared two of three joints. At most 300 instructions. */
 void frozen_watch(frozen_t *frozen, const frozen_inputs_t *inputs);
 
 /* Is any joint's sensor frozen? */
