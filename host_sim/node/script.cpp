@@ -16,7 +16,7 @@ void Setpoints::add(double at_s, double theta1_rad, double theta2_rad)
     if (!script_.empty()) {
         at_s = std::max(at_s, script_.back().at_s);
     }
-    if (next_ == script_.size()) { // all of it is past: a limb that is told for days keeps nothing
+    if (next_ == script_.size()) { // every entry is in the past: else the list grows for ever
         script_.clear();
         next_ = 0;
     }

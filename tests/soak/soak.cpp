@@ -5,7 +5,8 @@
 //   a request is not answered within 100 ticks in the calm, an answer is none, or its K is not the snapshot's
 //   a controller is not back in MONITOR with a valid K and no fault 10 s after the trouble, or counts trouble then
 //   the process keeps more memory or files in the last tenth than in the third
-// A sensor that lies (stuck, or off by a constant) is told apart: until it is seen, nobody can know.
+// While a sensor is stuck or off by a constant, wrong K are counted apart and do not fail the run: before the
+// controller has detected the fault, it cannot know that the sensor is wrong.
 // Stopped by SIGINT or SIGTERM, it tells of what it has run. Exit code 0 when all is well.
 #include <unistd.h>
 

@@ -17,7 +17,7 @@ namespace soak
 struct Agreement {
     bool is_told = false;         // there was a valid K to judge
     bool is_judged = false;       // and the reference has an answer
-    double share = 0.0;           // worst entry's error, of what is allowed; above 1: wrong
+    double share = 0.0;           // error of the worst entry / allowed error; K is wrong above 1
 };
 
 // Allowed for an entry of K: three of the sigmas that brace_uncertainty_stiffness tells of it, and 0.6 % of K's norm,

@@ -142,7 +142,7 @@ static void take_state(brace_servo_t *servo, bool holds, const uint8_t *data)
     servo->state_is_due = false;
     if (servo->report.hardware_error != 0u && !servo->report.has_torque) {
         servo->report.state = BRACE_SERVO_FAILED;
-        servo->has_goal = false; /* it is told anew where to stand when it has started again */
+        servo->has_goal = false; /* after a restart the servo gets a new goal */
         return;
     }
     if (had_torque && !servo->report.has_torque) {

@@ -46,7 +46,7 @@ void dxl_servo_sample(brace_servo_t *servo, const uint8_t *data, uint32_t taken_
 bool dxl_servo_note(brace_servo_t *servo, uint8_t error);
 
 /* Takes the answer to the servo's present step, and goes on to the next one.
- *   holds: a servo without torque is told to stand where it is
+ *   holds: the driver gives a servo without torque its present position as goal, then switches its torque on
  *   data: as many bytes as the step's answer has */
 void dxl_servo_take(brace_servo_t *servo, const brace_servo_joint_t *joint, bool holds, const uint8_t *data);
 

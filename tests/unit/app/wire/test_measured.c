@@ -1,4 +1,5 @@
-/* What is measured is told under its own name: every number of a snapshot, each unlike all others, and each counter. */
+/* Each measured value reaches the wires under its own name. Every number of the snapshot and every counter gets a
+ * value of its own here, so that two exchanged names are noticed. */
 #include "wire/measured.h"
 
 #include <string.h>
