@@ -35,7 +35,7 @@ def oracle(lib: ctypes.CDLL, first: int, count: int, particles: int, exact: bool
     exact: the current has no noise. told: it knows what the world does, save the torques' size. joint_exact: the joint's
     parameters and the motor's motion are known exactly; else what a controller may know: gap, friction and inertia as the
     machine believes them, the link's to 20 %, and of the motor what encoder and current read. reach_gaps: how far the
-    motor may leave its setpoint to feel for a side of the gap. shares (out): of each history's ticks those beyond a tenth of the gap.
+    motor may leave its setpoint to feel for a side. shares (out): of each history's ticks those beyond a tenth of the gap.
     """
     counts = OracleCounts()
     for seed in range(first, first + count):
@@ -89,7 +89,7 @@ def main() -> int:
     parser.add_argument("--count", type=int, default=40)
     parser.add_argument("--seed", type=int, default=bench.REPORTED_SEED)
     parser.add_argument("--particles", type=int, default=2000)
-    parser.add_argument("--feel", action="store_true", help="the motor may leave its setpoint to feel for a side of the gap")
+    parser.add_argument("--feel", action="store_true", help="the motor may leave its setpoint to feel for a side")
     options = parser.parse_args()
     (feeling if options.feel else seeing)(bench.library(), options.seed, options.count, options.particles)
     return 0

@@ -1,8 +1,8 @@
 /* The limb controller: samples in, K out, once a tick. This header is its manual.
  *
  * src/app.c holds the tick as one straight list of calls: sense the joints and the force; which side of each
- * backlash is loaded; posture; K; one step of each job that runs; faults and mode; command the drives; publish the snapshot;
- * answer the wires; feed the watchdog.
+ * backlash is loaded; posture; K; one step of each job that runs; faults and mode; command the drives; publish the
+ * snapshot; answer the wires; feed the watchdog.
  *
  * One brace_app_t per limb and no global state: many limbs run in one process. The controller knows the world through
  * brace_hal_t only. No heap, no recursion, no stdio, no clock of its own. One caller, never from an interrupt.

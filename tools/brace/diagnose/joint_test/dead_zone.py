@@ -1,4 +1,5 @@
-"""Is a fitted gap a gap? It is one only where the record reaches both of its sides and shows hardly any rise of torque between them.
+"""Is a fitted gap a gap? It is one only where the record reaches both of its sides, with hardly any rise of torque
+between them.
 
 A soft spring with a large gap and hardening fits many loops well. Such a gap is a shape, not a play."""
 
