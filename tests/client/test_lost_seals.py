@@ -137,6 +137,22 @@ def test_python_moves_on_over_modbus_with_the_session_it_has(
         device.close()
 
 
+def test_a_program_that_follows_another_waits_until_its_session_has_ended(limb: str) -> None:
+    """The first one has left its session open, and the second one has the same key. The first one's connection stays, as an
+    interface of SocketCAN does: a closed one ends the session at once."""
+    from brace.bus.open import open_bus
+
+    first, second = open_bus(parse(limb)), open_bus(parse(limb))
+    try:
+        for bus, commands in ((first, 3), (second, 1)):
+            session = Session(bus, 1, KEY)
+            for _ in range(commands):
+                session.ask("clear", {"faults": 0})
+    finally:
+        first.close()
+        second.close()
+
+
 def test_the_session_is_opened_anew_only_once(
     guarded: Sim, limb: str, monkeypatch: pytest.MonkeyPatch  # noqa: F811
 ) -> None:

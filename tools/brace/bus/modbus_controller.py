@@ -25,7 +25,7 @@ from brace.bus.controller import (
 )
 from brace.bus.drift import TAKE_UPS, Drift, drift_of, take_up_of
 from brace.bus.load import Load, load_of
-from brace.bus.ownership import LIFE_S, NOT_OPEN, Owner, register_of
+from brace.bus.ownership import LIFE_S, NOT_OPEN, Owner, Reopening, register_of
 from brace.bus.refusal import STORE, error_of, no_coxa_joint, no_equilibrium
 from brace.bus.snapshot import Snapshot
 from brace.bus.space import SpaceAnswer, SpaceSnapshot, space_answer, space_snapshot
@@ -95,9 +95,13 @@ class _BusyError(DeviceFaultError):
 class _NotTakenError(DeviceFaultError):
     """Exception 7 for want of a session or of a seal: the session may have ended."""
 
+    status = 0
+
     @classmethod
-    def of(cls, told: BraceError) -> _NotTakenError:
-        return cls(told.what, where=told.where, why=told.why, next_step=told.next_step)
+    def of(cls, told: BraceError, status: int) -> _NotTakenError:
+        error = cls(told.what, where=told.where, why=told.why, next_step=told.next_step)
+        error.status = status
+        return error
 
 
 class ModbusController:
@@ -448,17 +452,17 @@ class ModbusController:
                 self.stay(0.02)
 
     def _owning(self, command: Callable[[], _Answer]) -> _Answer:
-        """A command of an owner. Where it is not taken, because the session has ended or a seal was lost, the session is
-        opened anew, once."""
+        """A command of an owner. Where it is not taken, its session may have to be opened anew."""
         self._become_owner()
-        may_open = self._owner.is_open
+        reopening = Reopening()
         while True:
             try:
                 answer = command()
-            except _NotTakenError:
-                if not may_open:
+            except _NotTakenError as error:
+                wait_s = reopening.wait_s(error.status) if self._owner.is_open else None
+                if wait_s is None:
                     raise
-                may_open = False
+                self.stay(wait_s)
                 self._owner.forget()
                 self._become_owner()
                 continue
@@ -486,7 +490,7 @@ class ModbusController:
         if code == _NOT_OURS:
             status = self.read_entry("last_refusal") - _STORE_REFUSED
             told = error_of(what, status, 0, self.url)
-            return _NotTakenError.of(told) if status in NOT_OPEN else told
+            return _NotTakenError.of(told, status) if status in NOT_OPEN else told
         kind = _BusyError if code == _BUSY else DeviceFaultError
         return kind(
             f"the controller refuses {what}: {_EXCEPTIONS.get(code, 'no reason given')}",
