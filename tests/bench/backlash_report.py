@@ -89,14 +89,15 @@ def _checks(c: Comparison) -> list[Check]:
     done, count = c.held.really_done, float(HISTORIES)
     over = sum(getattr(t, name) for t in (c.held, c.free) for name in ("torque_over", "travel_over", "time_over", "not_idle"))
     return [
-        Check("backlash: side wrong, of the ticks outside the crossing", f"{wrong:.3f} %", "at most 0.2 %", wrong <= 0.2),
+        Check("backlash: side wrong, of the ticks outside the crossing", f"{wrong:.3f} %", "at most 0.2 %",
+              wrong <= 0.2),
         Check("backlash: times fewer wrong ticks than by direction of motion", f"{cnc / wrong:,.0f}", "at least 10",
               cnc >= 10.0 * wrong),
         Check(f"backlash: ticks valid with the gap open beyond {n.detection_us_max / 1000.0:.0f} ms", f"{late:.0f}", "none",
               late == 0.0),
         Check("backlash: angle error told valid, 95th percentile", f"{valid:.3f} gaps", "at most 0.1 gaps", valid <= 0.1),
-        Check("backlash: angle error at every tick with a side told, 95th percentile", f"{told:.3f} gaps", "at most 0.1 gaps",
-              told <= 0.1),
+        Check("backlash: angle error at every tick with a side told, 95th percentile", f"{told:.3f} gaps",
+              "at most 0.1 gaps", told <= 0.1),
         Check("backlash: angle error at every tick with a side touching, 95th percentile", f"{touching:.3f} gaps",
               "at most 0.1 gaps", touching <= 0.1),
         Check("backlash: angle error outside the crossing, 95th percentile", f"{outside:.3f} gaps", "at most 0.1 gaps",

@@ -1,7 +1,7 @@
-"""What `brace monitor --web` costs: processor time of its server, of the system too, over the wall clock. A bus with four
-moving limbs at the default rates, told in real time over TCP; browsers that read all that is sent.
+"""What `brace monitor --web` costs: processor time of its server, of the system too, over the wall clock. A bus with
+four moving limbs at the default rates, told in real time over TCP; browsers that read all that is sent.
 
-    nice -n 0 .venv/bin/python tests/bench/page_cost.py [--readers 1] [--seconds 20]
+    .venv/bin/python tests/bench/page_cost.py [--readers 1] [--seconds 20]
 
 Other work on the machine makes the figure larger: the load beside it is printed, too."""
 
@@ -21,11 +21,9 @@ from pathlib import Path
 
 import aiohttp
 
+import four_limbs
+
 PROJECT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(PROJECT / "tests" / "tools"))
-
-import four_limbs  # noqa: E402
-
 LIMB = PROJECT / "tools" / "brace" / "data" / "paper-limb.toml"
 SETTLE_S = 3.0  # modules are loaded, cards are made
 
@@ -106,8 +104,8 @@ def main() -> int:
     finally:
         process.terminate()
         process.wait()
-    print(f"{asked.readers} readers, {four_limbs.NODES} limbs: {100.0 * share:.2f} % of one core, {rate:.1f} updates a second; "
-          f"load of the machine {os.getloadavg()[0]:.1f}, frames at most {1e3 * adapter.late_s:.0f} ms late")
+    print(f"{asked.readers} readers, {four_limbs.NODES} limbs: {100.0 * share:.2f} % of one core, {rate:.1f} updates a "
+          f"second; load of the machine {os.getloadavg()[0]:.1f}, frames at most {1e3 * adapter.late_s:.0f} ms late")
     return 0
 
 

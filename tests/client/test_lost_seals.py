@@ -138,8 +138,8 @@ def test_python_moves_on_over_modbus_with_the_session_it_has(
 
 
 def test_a_program_that_follows_another_waits_until_its_session_has_ended(limb: str) -> None:
-    """The first one has left its session open, and the second one has the same key. The first one's connection stays, as an
-    interface of SocketCAN does: a closed one ends the session at once."""
+    """The first one has left its session open, and the second one has the same key. The first connection stays, as
+    an interface of SocketCAN does: a closed one ends the session at once."""
     from brace.bus.open import open_bus
 
     first, second = open_bus(parse(limb)), open_bus(parse(limb))

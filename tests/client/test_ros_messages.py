@@ -1,5 +1,5 @@
-"""brace_msgs, built by ROS 2's own generators (Debian's rosidl and ament), read by a C++ program; and the bridge as a Python
-package. Debian has neither std_msgs nor rclpy of ROS 2: std_msgs/Header is a stand-in, and nothing is sent."""
+"""brace_msgs, built by ROS 2's own generators (Debian's rosidl and ament), read by a C++ program; and the bridge as a
+Python package. Debian has neither std_msgs nor rclpy of ROS 2: std_msgs/Header is a stand-in, and nothing is sent."""
 
 from __future__ import annotations
 

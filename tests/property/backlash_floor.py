@@ -6,8 +6,8 @@ or told (save the torques' size). The machine, which knows the gap to 20 % and n
 What comes out of it: with the gap open and the motor at rest within its friction nothing reaches the motor's side.
 
 With --feel the motor may leave its setpoint, to touch what it cannot tell from where it stands: by half a gap, which is
-what a side shifts the link by, by one gap, by more. Once with an oracle that knows the joint exactly, once with one that
-knows no more than a controller may: gap, friction and inertia as the machine, the link's to 20 %, encoder and current
+what a side shifts the link by, by one gap, by more. Once with an oracle that knows the joint exactly, once with one
+that knows no more than a controller may: gap, friction and inertia as the machine, the link's to 20 %, encoder and current
 as read.
 """
 from __future__ import annotations
@@ -35,7 +35,8 @@ def oracle(lib: ctypes.CDLL, first: int, count: int, particles: int, exact: bool
     exact: the current has no noise. told: it knows what the world does, save the torques' size. joint_exact: the joint's
     parameters and the motor's motion are known exactly; else what a controller may know: gap, friction and inertia as the
     machine believes them, the link's to 20 %, and of the motor what encoder and current read. reach_gaps: how far the
-    motor may leave its setpoint to feel for a side. shares (out): of each history's ticks those beyond a tenth of the gap.
+    motor may leave its setpoint to feel for a side. shares (out): of each history's ticks those beyond a
+    tenth of the gap.
     """
     counts = OracleCounts()
     for seed in range(first, first + count):

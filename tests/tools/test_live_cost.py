@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
-from four_limbs import SECONDS, frames, lines_by_tick
 
 from brace.bus.frame import NODE_MASK, EndOfLog, Frame
 from brace.bus.open import open_bus
@@ -21,6 +20,10 @@ from brace.live.server import UPDATES_PER_S
 from brace.live.thinning import thinned
 from brace.model import load_limb
 from brace.wire.frames import MESSAGES
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "bench"))
+
+from four_limbs import SECONDS, frames, lines_by_tick  # noqa: E402
 
 PERIOD_S = 1.0 / UPDATES_PER_S
 
@@ -76,8 +79,8 @@ def test_four_limbs_cost_less_than_a_twentieth_of_a_core(paper_limb: Path) -> No
 
 
 def played(taken: Sequence[Frame], split: int) -> tuple[Watch, Watch, int]:
-    """Taken in two periods, split behind so many frames: a watch of what is thinned, one of all frames, and how many are
-    decoded."""
+    """Taken in two periods, split behind so many frames: a watch of what is thinned, one of all frames, and how many
+    are decoded."""
     watch, every = Watch("here"), Watch("here")
     decoded, held = 0, list[Frame]()
     for part in (taken[:split], taken[split:], []):
@@ -94,7 +97,7 @@ def played(taken: Sequence[Frame], split: int) -> tuple[Watch, Watch, int]:
 
 
 def test_what_is_not_decoded_is_older_and_counts() -> None:
-    """Of a period the newest snapshot with a posture is whole, and so is the newest with the load, wherever a period ends."""
+    """Of a period the newest snapshot with a posture is whole, and so is the newest with the load, wherever it ends."""
     taken = [frame for frame in frames() if 0.095 < frame.time_s < 0.125]
     for split in range(len(taken)):
         watch, every, decoded = played(taken, split)

@@ -108,8 +108,8 @@ class Owner:
 
 
 class Reopening:
-    """Of one command that is not taken: whether its session is to be opened anew. Once, because a seal may have been lost;
-    and until the session has ended that another program with the key has left, whose counter is larger than ours."""
+    """Of one command that is not taken: whether its session is to be opened anew. Once, because a seal may have been
+    lost; and until the session has ended that another program with the key has left: its counter is beyond ours."""
 
     def __init__(self) -> None:
         self._tries = 0

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 
 from brace.bus.entries import index_of
 from brace.bus.frame import NODE_MASK, Bus, EndOfLog, Frame
-from brace.bus.ownership import COMMANDS, EARLY, LIFE_S, MOVING, NOT_OPEN, UNKNOWN, Owner, Reopening, entry_of
+from brace.bus.ownership import COMMANDS, EARLY, LIFE_S, MOVING, UNKNOWN, Owner, Reopening, entry_of
 from brace.bus.refusal import BUSY, ORDER, error_of
 from brace.bus.snapshot import Heartbeat, Joiner, Snapshot, heartbeat_of
 from brace.errors import DeviceFaultError, NoDeviceError, UsageError

@@ -62,7 +62,8 @@ def next_steps(out: Path) -> list[list[str]]:
 
     called = sys.argv[0]
     brace = called if Path(called).name == "brace" and shutil.which("brace") != called else "brace"
-    model, limb, rig = (_from_here(path) for path in (out / "limb.toml", DATA / "paper-limb.toml", DATA / "paper-rig.toml"))
+    files = (out / "limb.toml", DATA / "paper-limb.toml", DATA / "paper-rig.toml")
+    model, limb, rig = (_from_here(path) for path in files)
     return [
         [brace, "k", "--model", model, "--r", "300", "--phi", "-0.4"],
         [brace, "map", "--model", model, "--out", str(out / "map")],

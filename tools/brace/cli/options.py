@@ -182,7 +182,7 @@ def angle(text: str) -> float:
     if abs(value) > _FULL_TURN_RAD + 1e-5:
         raise refused(
             f"{value:.6g} rad is more than a full turn",
-            "angles lie within a full turn" if said else "an angle is in rad, not in degrees, where its unit is not said",
+            "it may turn once" if said else "an angle is in rad, not in degrees, where its unit is not said",
             "e.g. OPTION 57deg" if said else f"OPTION {math.radians(value):.6g} if {text} are degrees",
         )
     return value

@@ -1,5 +1,5 @@
-"""What a page needs of the frames of one period: the newest snapshot with its posture, and the newest of each further part.
-Decoding all frames would be most of a page's cost."""
+"""What a page needs of the frames of one period: the newest snapshot with its posture, and the newest of each further
+part. Decoding all frames would be most of a page's cost."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ class Thinned:
 
 
 def thinned(frames: Sequence[Frame], may_hold: bool) -> Thinned:
-    """A page shows K with its posture; K alone only of a limb that sends no posture. A snapshot that has begun, and may get
-    its posture in the next period, is held until then."""
+    """A page shows K with its posture; K alone only of a limb that sends no posture. A snapshot that has begun, and may
+    get its posture in the next period, is held until then."""
     last = {frame.identifier: frame.data[:1] for frame in frames}
     with_posture = {identifier & NODE_MASK for identifier in last if identifier & ~NODE_MASK in _WITH_POSTURE}
     wanted: dict[int, set[bytes]] = {}  # by node
