@@ -7,6 +7,7 @@ import argparse
 from brace.cli import common
 from brace.cli.bus_options import add_bus, controller
 from brace.cli.options import Subcommands, refused
+from brace.cli.subcommands import SUBCOMMANDS
 
 STAYING = {"drift": "model_drift", "crash": "crashed"}  # said on the command line: the fault's name in the dictionary
 
@@ -15,7 +16,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "clear",
-        help="clears a latched fault of a controller",
+        help=SUBCOMMANDS["clear"],
         description="drift (model_drift): the limb is again what it was commissioned as; the check watches on from the "
         "baseline it holds. A limb that is another one now wants its parameters instead: brace identify, brace params "
         "push. crash (crashed): the crash has been looked into; its record is gone afterwards, so read the console's "
