@@ -64,8 +64,8 @@ void Trouble::calm_down(brace_node_t *node, int limb, double t_s)
     if (std::fmod(t_s, kRound_s) < kRound_s - kCalm_s + kSettle_s - 3.0) {
         (void)brace_app_let_go(app);
         (void)brace_app_configuration_leave(app);
-        (void)brace_app_clear(app, BRACE_FAULT_CRASHED);
-        (void)brace_app_clear(app, BRACE_FAULT_MODEL_DRIFT);
+        const std::uint32_t by_hand = BRACE_FAULT_CRASHED | BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_ENCODER_STUCK;
+        (void)brace_app_clear(app, brace_app_faults(app) & by_hand);
     }
 }
 
