@@ -21,8 +21,8 @@ def add(commands: Subcommands) -> None:
         description="drift (model_drift): the limb is again what it was commissioned as; the check watches on from the "
         "baseline it holds. A limb that is another one now wants its parameters instead: brace identify, brace params "
         "push. crash (crashed): the crash has been looked into; its record is gone afterwards, so read the console's "
-        "banner first. encoder (encoder_stuck): the joint stands and its encoder works; one that does not is seen again. "
-        "All other faults end with their cause.",
+        "banner first. encoder (encoder_stuck): the joint stands and its encoder works; one that does not is "
+        "seen again. All other faults end with their cause.",
         epilog="Exit codes: 0 it is not there (any more), 2 a fault that cannot be cleared, 4 no answer, 5 the device "
         "refuses or the fault is back at once, 6 another dictionary.",
     )

@@ -13,8 +13,8 @@
  * answer, or one of the last two is seen of an angle that has stood for so long. "loaded" and "unheld" need a sensor at
  * the tip. An angle stands while it stays within half an encoder's step. Fault: ENCODER_STUCK.
  *
- * The torque alone cannot say whether it lied or the encoder stood. So the claim stays as long as the angle stands, also
- * when the torque is as it was; it ends when the joint moves, or when somebody who has looked at it clears it. */
+ * The torque alone cannot say whether it lied or the encoder stood. So the claim stays as long as the angle stands,
+ * even when the torque is as it was. It ends when the joint moves, or when somebody who has looked at it clears it. */
 #ifndef BRACE_WATCH_FROZEN_H
 #define BRACE_WATCH_FROZEN_H
 
