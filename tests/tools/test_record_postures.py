@@ -126,6 +126,15 @@ def test_one_clock_and_counted_on() -> None:
     assert np.all(np.diff(other["t_s"]) > 0)
 
 
+def test_a_pressed_run_behind_runs_that_began_at_rest() -> None:
+    """A record from before preloads were told keeps the preload of what is added."""
+    rested, pressed = (_columns(1, (0.7, 1.3), np.zeros((2, 3))) for _ in range(2))
+    both = added(rested, counted_from_first(pressed | {"fz_n": np.array([7.0, 8.0, 9.0])}), 1.0)
+    assert both["preload_z_n"].tolist() == [0.0] * 3 + [7.0] * 3
+    assert both["preload_x_n"].tolist() == [0.0] * 6
+    assert both["fz_n"].tolist()[3:] == [0.0, 1.0, 2.0]
+
+
 def test_postures_over_a_bus_become_one_record(brace: Callable[..., Outcome], tmp_path: Path) -> None:
     """Each configuration's slope is K there; another set of parameters is refused before the limb moves."""
     limb, other = tmp_path / "limb.toml", tmp_path / "other.toml"
