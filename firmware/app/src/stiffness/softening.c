@@ -1,8 +1,8 @@
 #include "stiffness/softening.h"
 
-#define EVERY_TICKS 4u
-#define PATIENCE_TICKS 8u /* in which requests go first */
-#define TOLD_TICKS_MOST 200u /* two searches, and ticks in which requests or other jobs went first */
+#define EVERY_TICKS 3u
+#define PATIENCE_TICKS 9u /* in which requests go first */
+#define TOLD_TICKS_MOST 240u /* two searches, and ticks in which requests or other jobs went first */
 
 static void forget_unloaded(softening_t *softening)
 {
@@ -52,14 +52,14 @@ void softening_step(softening_t *softening, model_t *model, const brace_limb_t *
     softening->is_searchs_turn = !softening->is_searchs_turn;
     if (!softening->is_searchs_turn) {
         find_unloaded(softening, model, limb, unbent_rad);
+        if (!softening->runs) {
+            softening->runs = true;
+            space_path_buckling_begin(&model->loaded_space, &softening->now.at, &softening->shape, &softening->search);
+        }
         return;
     }
-    if (!softening->runs) {
-        softening->runs = true;
-        softening->at = softening->now.at;
-        brace_loaded_space_buckling_begin(&softening->search);
-    }
-    if (space_path_buckling_step(&model->loaded_space, &softening->at, &softening->search, &softening->factor)) {
+    if (softening->runs &&
+        space_path_buckling_step(&model->loaded_space, &softening->shape, &softening->search, &softening->factor)) {
         softening->runs = false;
         softening->ticks_told = 0;
     }
