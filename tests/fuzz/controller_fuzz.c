@@ -162,7 +162,9 @@ static void request(void)
         (void)brace_app_parameters_commit(&app, &p);
         break;
     case 10: (void)brace_app_parameters_rollback(&app); break;
-    default: (void)brace_app_clear(&app, BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_CRASHED); break;
+    default:
+        (void)brace_app_clear(&app, BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_CRASHED | BRACE_FAULT_ENCODER_STUCK);
+        break;
     }
 }
 

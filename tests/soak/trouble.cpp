@@ -24,6 +24,15 @@ bool is_of_a_joint(int fault)
     return fault <= BRACE_NODE_FAULT_CURRENT_OFFSET;
 }
 
+// A set is stored again: as docs/errors.md says, only that ends a fault STORE.
+void store_again(brace_app_t *app)
+{
+    if (brace_app_configuration_enter(app) == BRACE_OK) {
+        const brace_parameters_t same = *brace_app_parameters(app);
+        (void)brace_app_parameters_commit(app, &same);
+    }
+}
+
 } // namespace
 
 bool Trouble::is_calm(double t_s) const
@@ -52,7 +61,7 @@ void Trouble::step(brace_node_t *node, int limb, double t_s, Chance &chance)
     was_calm_ = is_calm_now;
 }
 
-// All is taken back that somebody has asked for; what clears by hand is cleared.
+// All is taken back that somebody has asked for; what ends by hand is ended.
 void Trouble::calm_down(brace_node_t *node, int limb, double t_s)
 {
     brace_app_t *app = brace_node_app(node, limb);
@@ -63,9 +72,14 @@ void Trouble::calm_down(brace_node_t *node, int limb, double t_s)
     }
     if (std::fmod(t_s, kRound_s) < kRound_s - kCalm_s + kSettle_s - 3.0) {
         (void)brace_app_let_go(app);
-        (void)brace_app_configuration_leave(app);
-        (void)brace_app_clear(app, BRACE_FAULT_CRASHED);
-        (void)brace_app_clear(app, BRACE_FAULT_MODEL_DRIFT);
+        const std::uint32_t there = brace_app_faults(app);
+        if ((there & BRACE_FAULT_STORE) != 0u) {
+            store_again(app);
+        } else {
+            (void)brace_app_configuration_leave(app);
+        }
+        const std::uint32_t by_hand = BRACE_FAULT_CRASHED | BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_ENCODER_STUCK;
+        (void)brace_app_clear(app, there & by_hand);
     }
 }
 
@@ -141,8 +155,7 @@ void Trouble::ask(brace_app_t *app, Chance &chance)
     case 6: (void)brace_app_stop(app); break;
     case 7:
         if (brace_app_configuration_enter(app) == BRACE_OK && whole(chance, 2) == 0) {
-            const brace_parameters_t same = *brace_app_parameters(app);
-            (void)brace_app_parameters_commit(app, &same);
+            store_again(app);
         }
         break;
     default: (void)brace_app_configuration_leave(app); break;

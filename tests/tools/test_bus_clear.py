@@ -17,7 +17,7 @@ from brace.cli import clear_command
 from brace.wire.codes import FAULT
 
 FAULTS = FAULT.names
-MODEL_DRIFT, CRASHED = 1 << FAULTS.index("MODEL_DRIFT"), 1 << FAULTS.index("CRASHED")
+MODEL_DRIFT, CRASHED, ENCODER_STUCK = (1 << FAULTS.index(name) for name in ("MODEL_DRIFT", "CRASHED", "ENCODER_STUCK"))
 
 
 @pytest.fixture
@@ -109,6 +109,8 @@ def test_what_is_asked_for_is_cleared_and_nothing_that_is_not_there(
     given(Controller(MODEL_DRIFT))
     outcome = brace("clear", "drift", "--bus", "can0")
     assert "likeliest cause was femur_link: The femur's bending has changed." in outcome.err
+    device = given(Controller(ENCODER_STUCK))
+    assert brace("clear", "encoder", "--bus", "can0").code == 0 and device.asked == ENCODER_STUCK == 1 << 2
     device = given(Controller(CRASHED))  # the drift check's evidence is not thrown away for nothing
     assert brace("clear", "drift", "--bus", "can0").code == 0 and device.asked == 0
 
@@ -122,7 +124,7 @@ def test_a_fault_that_is_back_at_once_is_told(
 
 
 def test_what_cannot_be_cleared_is_refused(brace: Callable[..., Outcome]) -> None:
-    outcome = brace("clear", "encoder_stuck", "--bus", "can0")
+    outcome = brace("clear", "sensor_femur", "--bus", "can0")
     assert outcome.code == 2 and "ends with its cause" in outcome.err and "docs/errors.md" in outcome.err
     assert brace("clear", "--bus", "can0").code == 2
     assert brace("clear", "drift").code == 2

@@ -126,6 +126,15 @@ def test_one_clock_and_counted_on() -> None:
     assert np.all(np.diff(other["t_s"]) > 0)
 
 
+def test_a_pressed_run_behind_runs_that_began_at_rest() -> None:
+    """A record from before preloads were told keeps the preload of what is added."""
+    rested, pressed = (_columns(1, (0.7, 1.3), np.zeros((2, 3))) for _ in range(2))
+    both = added(rested, counted_from_first(pressed | {"fz_n": np.array([7.0, 8.0, 9.0])}), 1.0)
+    assert both["preload_z_n"].tolist() == [0.0] * 3 + [7.0] * 3
+    assert both["preload_x_n"].tolist() == [0.0] * 6
+    assert both["fz_n"].tolist()[3:] == [0.0, 1.0, 2.0]
+
+
 def test_postures_over_a_bus_become_one_record(brace: Callable[..., Outcome], tmp_path: Path) -> None:
     """Each configuration's slope is K there; another set of parameters is refused before the limb moves."""
     limb, other = tmp_path / "limb.toml", tmp_path / "other.toml"
@@ -160,16 +169,18 @@ def test_postures_over_a_bus_become_one_record(brace: Callable[..., Outcome], tm
     assert (out / "data.csv").read_bytes() == before
 
 
+@pytest.mark.parametrize("encoders", [(), ("--link-encoders",)], ids=["motors alone", "links too"])
 @pytest.mark.parametrize("press_mm", [(0.0, 0.0), (5.0, 38.0)])
 def test_a_long_stroke_over_a_bus_is_the_limbs_to_the_encoders_step(
-    press_mm: tuple[float, float], brace: Callable[..., Outcome], tmp_path: Path
+    press_mm: tuple[float, float], encoders: tuple[str, ...], brace: Callable[..., Outcome], tmp_path: Path
 ) -> None:
     """Every row's force is the one that the reference has for its own angles and displacement, counted from the first:
     nothing is left."""
     limb, out = tmp_path / "limb.toml", tmp_path / "long"
     limb.write_text(LIMB + "[sensor]\nnoise_n = 0.0\n")
     long = ("--loading-test", "--axis", "x", "--steps", 3, "--step-mm", 2.5)
-    with limb_on_tcp(limb, "--posture=1.0,1.4", f"--press={press_mm[0]},{press_mm[1]}", "--speed", 5) as url:
+    pressed = ("--posture=1.0,1.4", f"--press={press_mm[0]},{press_mm[1]}", *encoders)
+    with limb_on_tcp(limb, *pressed, "--speed", 5) as url:
         outcome = brace("record", "--bus", url, *long, "--out", out)
     assert outcome.code == 0, outcome.err
     dataset = load_dataset(out)

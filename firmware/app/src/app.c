@@ -150,6 +150,7 @@ brace_status_t brace_app_start(brace_app_t *app, const brace_hal_t *hal)
     mode_start(&controller->mode);
     start_ownership(controller);
     drives_start(&controller->drives);
+    frozen_start(&controller->frozen);
     joints_start(&controller->joints, hal);
     posture_start(&controller->posture);
     softening_start(&controller->softening);

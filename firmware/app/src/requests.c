@@ -146,11 +146,15 @@ brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults)
         return BRACE_E_NULL;
     }
     controller_t *controller = controller_of(app);
-    if ((faults & ~(uint32_t)(BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_CRASHED)) != 0u) {
+    const uint32_t cleared_by_hand = BRACE_FAULT_MODEL_DRIFT | BRACE_FAULT_CRASHED | BRACE_FAULT_ENCODER_STUCK;
+    if ((faults & ~cleared_by_hand) != 0u) {
         return BRACE_E_RANGE;
     }
     if ((faults & BRACE_FAULT_MODEL_DRIFT) != 0u) {
         drift_job_clear(&controller->drift);
+    }
+    if ((faults & BRACE_FAULT_ENCODER_STUCK) != 0u) {
+        frozen_start(&controller->frozen);
     }
     if ((faults & BRACE_FAULT_CRASHED) != 0u) {
         const brace_hal_t *hal = controller->hal;

@@ -314,6 +314,55 @@ static void test_absurd_samples_of_the_link_hide_no_frozen_motor(void)
     TEST_ASSERT_GREATER_THAN(320, after);
 }
 
+/* ------------------------------------------------------------------------------------------ how it ends -- */
+
+/* The torque alone cannot say whether it lied or the encoder stood: the claim stays as long as the joint does. */
+static void test_a_standing_joint_stays_frozen_until_somebody_has_looked_at_it(void)
+{
+    dither_rad = 0.0f;
+    swing_ratio = 0.32f;
+    start_alone(0.0f);
+    TEST_ASSERT_NOT_EQUAL(0, seen_after(SEEN_WITHIN_TICKS, swing_alone));
+    ticks(5000);
+    TEST_ASSERT_EQUAL(BRACE_FAULT_ENCODER_STUCK, now()->faults);
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_clear(&app, BRACE_FAULT_ENCODER_STUCK));
+    TEST_ASSERT_EQUAL(0, seen_after(5000, rest));
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+    TEST_ASSERT_TRUE(now()->k_is_valid);
+}
+
+static void test_a_frozen_joint_that_was_cleared_is_seen_again(void)
+{
+    dither_rad = 0.0f;
+    swing_ratio = 0.32f;
+    start_alone(0.0f);
+    for (int times = 0; times < 3; times++) {
+        TEST_ASSERT_NOT_EQUAL(0, seen_after(SEEN_WITHIN_TICKS, swing_alone));
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_clear(&app, BRACE_FAULT_ENCODER_STUCK));
+    }
+}
+
+static void test_a_joint_that_moves_is_not_frozen_any_more(void)
+{
+    dither_rad = 0.0f;
+    swing_ratio = 0.32f;
+    start_alone(0.0f);
+    TEST_ASSERT_NOT_EQUAL(0, seen_after(SEEN_WITHIN_TICKS, swing_alone));
+    fake.joint[BRACE_TIBIA].sample.motor_rad += 0.0011f;
+    ticks(150);
+    TEST_ASSERT_EQUAL(0, now()->faults);
+    TEST_ASSERT_EQUAL(BRACE_MODE_MONITOR, now()->mode);
+}
+
+/* Nothing is known of a joint before its first sample, and zero is an angle like others. */
+static void test_a_joint_that_stands_at_zero_without_torque_is_not_frozen(void)
+{
+    carry(3.0f);
+    fake.joint[BRACE_FEMUR].sample.motor_rad = fake.joint[BRACE_FEMUR].sample.torque_n_mm = 0.0f;
+    TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+    TEST_ASSERT_EQUAL(0, seen_after(1000, rest));
+}
+
 /* ----------------------------------------------------------------------------------------- the watchdog -- */
 
 static uint32_t feeds;
@@ -368,6 +417,10 @@ int main(void)
     RUN_TEST(test_an_angle_stands_within_half_a_step);
     RUN_TEST(test_an_angle_may_stand_for_a_quarter_of_a_second);
     RUN_TEST(test_absurd_samples_of_the_link_hide_no_frozen_motor);
+    RUN_TEST(test_a_standing_joint_stays_frozen_until_somebody_has_looked_at_it);
+    RUN_TEST(test_a_frozen_joint_that_was_cleared_is_seen_again);
+    RUN_TEST(test_a_joint_that_moves_is_not_frozen_any_more);
+    RUN_TEST(test_a_joint_that_stands_at_zero_without_torque_is_not_frozen);
     RUN_TEST(test_only_a_whole_tick_feeds_the_watchdog);
     return UNITY_END();
 }

@@ -17,6 +17,7 @@ Columns = dict[str, np.ndarray]
 SAME_POSTURE_RAD = 0.01
 ASIDE_RAD = 0.01  # of the controller's central differences (firmware/app/src/jobs/loading/levers.c)
 LEAST_KNEE_SINE = 1e-3
+PRELOADS = ("preload_x_n", "preload_z_n")
 _PAUSE_S = 1.0  # between two tests of which nobody knows how far they were apart
 _ANGLES = ("theta1_rad", "theta2_rad")
 _MOVED = ("dx_mm", "dz_mm")
@@ -52,7 +53,7 @@ def counted_from_first(columns: Columns) -> Columns:
     """Forces as what each run's first reading, its preload point, is taken off; and that reading beside them."""
     starts = run_starts(columns["run"])
     first = {name: np.repeat(columns[name][starts[:-1]], np.diff(starts)).astype(float) for name in _FORCES}
-    preload = {"preload_x_n": first["fx_n"], "preload_z_n": first["fz_n"]}
+    preload = dict(zip(PRELOADS, first.values(), strict=True))
     return {**columns, **preload, **{name: columns[name] - first[name] for name in _FORCES}}
 
 
@@ -112,7 +113,7 @@ def on_one_clock(columns: Columns, started_s: Sequence[float]) -> Columns:
 def added(before: Columns, new: Columns, pause_s: float | None) -> Columns:
     """`new` behind `before`: runs counted on, a posture that is there already as a repeat of its
     configuration, any other as the next. `pause_s` lies between the last reading and the new test's start;
-    None: unknown."""
+    None: unknown. A record begun before preloads were told is one of limbs that began at rest."""
     config, rep = _place(before, new)
     moved: Mapping[str, np.ndarray] = {
         **new,
@@ -121,7 +122,8 @@ def added(before: Columns, new: Columns, pause_s: float | None) -> Columns:
         "rep": np.full_like(new["rep"], rep),
         "t_s": new["t_s"] + before["t_s"].max() + (_PAUSE_S if pause_s is None else max(pause_s, 0.0)),
     }
-    return {name: np.concatenate([before[name], moved[name]]) for name in before if name in moved}
+    at_rest = {name: np.zeros(len(before["run"])) for name in PRELOADS}
+    return {name: np.concatenate([rows, moved[name]]) for name, rows in {**at_rest, **before}.items() if name in moved}
 
 
 def _place(before: Columns, new: Columns) -> tuple[int, int]:

@@ -7,19 +7,22 @@ import argparse
 from brace.cli import common
 from brace.cli.bus_options import add_bus, controller
 from brace.cli.options import Subcommands, refused
+from brace.cli.subcommands import SUBCOMMANDS
 
-STAYING = {"drift": "model_drift", "crash": "crashed"}  # said on the command line: the fault's name in the dictionary
+# said on the command line: the fault's name in the dictionary
+STAYING = {"drift": "model_drift", "crash": "crashed", "encoder": "encoder_stuck"}
 
 
 def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "clear",
-        help="clears a latched fault of a controller",
+        help=SUBCOMMANDS["clear"],
         description="drift (model_drift): the limb is again what it was commissioned as; the check watches on from the "
         "baseline it holds. A limb that is another one now wants its parameters instead: brace identify, brace params "
         "push. crash (crashed): the crash has been looked into; its record is gone afterwards, so read the console's "
-        "banner first. All other faults end with their cause.",
+        "banner first. encoder (encoder_stuck): the joint stands and its encoder works; one that does not is "
+        "seen again. All other faults end with their cause.",
         epilog="Exit codes: 0 it is not there (any more), 2 a fault that cannot be cleared, 4 no answer, 5 the device "
         "refuses or the fault is back at once, 6 another dictionary.",
     )
@@ -35,7 +38,7 @@ def _staying(text: str) -> str:
     if name not in STAYING.values():
         raise refused(
             f"{text!r} is not a latched fault",
-            f"the latched faults are {' and '.join(STAYING)}; every other fault ends with its cause",
+            f"the latched faults are {', '.join(STAYING)}; every other fault ends with its cause",
             "brace query shows which faults are there, docs/errors.md what each of them wants",
         )
     return name

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from brace.cli import common
 from brace.cli.options import OptionParser, Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
 
 SHELLS = ("bash", "zsh", "fish")
 
@@ -15,7 +16,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "completion",
-        help="completion of commands, options and file names for bash, zsh or fish",
+        help=SUBCOMMANDS["completion"],
         description="Prints a completion script for a shell. bash: brace completion bash > "
         "~/.local/share/bash-completion/completions/brace. zsh: brace completion zsh > _brace, in a folder of $fpath. "
         "fish: brace completion fish > ~/.config/fish/completions/brace.fish.",

@@ -6,6 +6,7 @@ import argparse
 
 from brace.cli import common
 from brace.cli.options import Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
 
 
 def add(commands: Subcommands) -> None:
@@ -14,7 +15,7 @@ def add(commands: Subcommands) -> None:
 
     parser = commands.add_parser(
         "dbc",
-        help="the frames of all nodes of a bus as a CAN database (DBC), for candump's, cantools' and other programs",
+        help=SUBCOMMANDS["dbc"],
         description="Writes a DBC that decodes the frames of these controllers. With several nodes, the names of "
         "messages and senders end in the node's number: stiffness_a_3.",
     )

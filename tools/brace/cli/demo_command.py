@@ -8,6 +8,7 @@ from pathlib import Path
 
 from brace.cli import common
 from brace.cli.options import Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
 
 STEPS = 20
 
@@ -15,7 +16,7 @@ STEPS = 20
 def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
-        "demo", help="the paper's table and a simulated limb, end to end",
+        "demo", help=SUBCOMMANDS["demo"],
         description="Takes the paper's table as printed, finds its faults, identifies the limb, and draws the paper's "
                     "figures: eigenvalues over r, ellipses, the cyclic test with its zero-force shift, the choice of "
                     "stiffness; then has a simulated controller's own loading tests tell what its model lacks, and "

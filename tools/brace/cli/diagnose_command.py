@@ -7,6 +7,7 @@ import argparse
 
 from brace.cli import common
 from brace.cli.options import Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
 
 _PERCENT = 100
 
@@ -15,7 +16,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "diagnose",
-        help="where model and data disagree, what is missing, the model with it added",
+        help=SUBCOMMANDS["diagnose"],
         description="Finds where a limb's model and a record disagree, names the effect that is missing or "
         "says which "
         "ones it cannot tell apart, adds it to the model, and shows the gap on data that took no part. "

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from brace.cli import common
 from brace.cli.bus_options import add_bus
 from brace.cli.options import Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
 from brace.errors import EXIT_CHECK_FAILED, EXIT_OK
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ def add(commands: Subcommands) -> None:
 
     parser = commands.add_parser(
         "doctor",
-        help="what is there for working with Brace, and what is missing",
+        help=SUBCOMMANDS["doctor"],
         description="Looks at compilers, emulator, programmers, probes, serial ports, CAN, Python packages, and "
         "whether library and images are built and fresh; with --bus also at a controller's faults and counters. Exit "
         "code 1 when something needed is missing or old, or the controller has a fault: of "

@@ -6,13 +6,14 @@ import argparse
 
 from brace.cli import common
 from brace.cli.options import Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
 
 
 def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "export",
-        help="a limb as a MuJoCo model with its compliances, or as a URDF",
+        help=SUBCOMMANDS["export"],
         description="Writes the limb in its plane as a MuJoCo model whose servos and springs give its K, or its "
         "lengths, "
         "travel, weights and friction as a URDF. What the format has no words for is said.",

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from brace.cli import common
 from brace.cli.options import Subcommands, refused
+from brace.cli.subcommands import SUBCOMMANDS
 from brace.errors import UsageError
 from brace.flash.usb import DFU
 
@@ -22,7 +23,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "flash",
-        help="put an image on a board",
+        help=SUBCOMMANDS["flash"],
         description="Writes a firmware image with OpenOCD, st-flash or dfu-util. Before that: the image is whole, "
         "is the one that SHA256SUMS beside it lists, and is for that board; something answers. Parameters on the "
         "board stay.",

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from brace.cli import common
 from brace.cli.bus_options import add_bus, controller
 from brace.cli.options import Subcommands, refused
+from brace.cli.subcommands import SUBCOMMANDS
 
 if TYPE_CHECKING:
     from brace.bus.controller import Controller
@@ -20,7 +21,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "gravity",
-        help="tells a controller where down is, or asks it",
+        help=SUBCOMMANDS["gravity"],
         description="The limb's weight pulls down, and K counts it. A robot that climbs turns: --direction says where "
         "down is now, in the limb's plane, from +x (-1.5708 where the plane stands upright), and --lean how far it "
         "leans out of it. This holds until the controller's next start; the parameters [gravity] direction_rad and "

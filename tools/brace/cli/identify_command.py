@@ -6,6 +6,7 @@ import argparse
 
 from brace.cli import common
 from brace.cli.options import Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
 from brace.errors import UsageError
 
 STEPS = 20
@@ -15,7 +16,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "identify",
-        help="a limb's parameters from measurements, with intervals",
+        help=SUBCOMMANDS["identify"],
         description="Fits the model to a loading record, a stiffness table or a joint test; prints each parameter with "
         "its 90 % interval (not identifiable: infinite), correlations, the classes that the record "
         "cannot tell apart, and the share of joints and structure. Writes the fitted model.",

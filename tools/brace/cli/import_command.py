@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from brace.cli import common
 from brace.cli.options import Subcommands, refused
+from brace.cli.subcommands import SUBCOMMANDS
 from brace.errors import BadFileError, BraceError, UsageError
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "import",
-        help="a dataset from your own files: CSV of any kind, .xlsx, candump and MCAP logs",
+        help=SUBCOMMANDS["import"],
         description="Finds the tables in the files, says what each column seems to be, asks for what it cannot know, "
         "and "
         "writes a dataset in our units. Without a terminal nothing is asked: --draft writes the mapping with a ? for "

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from brace.cli import common, k_load
 from brace.cli.options import Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
 from brace.errors import UsageError
 
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "k",
-        help="K, C, eigenvalues and stiff axis at a posture",
+        help=SUBCOMMANDS["k"],
         description="K [N/mm], C [mm/N], eigenvalues [N/mm], stiff axis [rad] at a posture, computed by the firmware's "
         "own C. With --theta0 (or a theta0_rad column) in space, otherwise in the limb's plane. With --fx and --fz (or "
         "columns fx_n, fz_n), in space also --fy (fy_n), K under this load and the weights of [gravity], at the limb's "

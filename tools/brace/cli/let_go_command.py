@@ -7,6 +7,7 @@ import argparse
 from brace.cli import common
 from brace.cli.bus_options import add_bus, controller
 from brace.cli.options import Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
 
 WAIT_S = 30.0
 
@@ -15,7 +16,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "let-go",
-        help="lets go of the joints whose backlash a controller has taken up: the limb moves",
+        help=SUBCOMMANDS["let-go"],
         description="The joints go back to where their set-points are, the last taken up first. A loading test that "
         "runs ends too.",
         epilog="Exit codes: 0 every joint is back, 4 no answer or not in time, 5 the device refuses, 6 another "

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypedDict
 
 from brace.cli import common, k_load
 from brace.cli.options import Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
 from brace.errors import UsageError
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "map",
-        help="the workspace: eigenvalues over r, ellipses of K, as pictures and CSV",
+        help=SUBCOMMANDS["map"],
         description="Computes K over a grid of postures and writes into --out: map.png and map.svg (eigenvalues over "
         "r, ellipses), eigenvalues.csv (a row per theta2), ellipses.csv (the drawn ones). Says where "
         "the eigenvalues rise and fall with reach. With --fx and --fz K under this load and the limb's weight at the "

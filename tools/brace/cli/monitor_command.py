@@ -12,6 +12,7 @@ from brace.cli import common
 from brace.cli.bus_options import Ended, add_bus, bus_url, ended_by_signal
 from brace.cli.monitor_display import Display, emergency_line, end
 from brace.cli.options import Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
 
 if TYPE_CHECKING:
     from brace.bus.frame import Bus
@@ -27,7 +28,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "monitor",
-        help="live K, ellipse, states, rates, age",
+        help=SUBCOMMANDS["monitor"],
         description="Shows what the controllers of a bus send by themselves, until --seconds, Ctrl-C or "
         "the end of a log; "
         "listens only (over Modbus it asks). A terminal gets a picture, a pipe a line a second, --json a line for "

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, cast
 
 from brace.cli import common
 from brace.cli.options import Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
 from brace.errors import UsageError
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ def add(commands: Subcommands) -> None:
 
     parser = commands.add_parser(
         "new",
-        help="a limb.toml from what you know: lengths, tubes, gears, servos",
+        help=SUBCOMMANDS["new"],
         description="Asks for what is known of a limb, or takes it as options, and writes a commented limb.toml; "
         "says which "
         "K to expect, how far it may be off, and what is only a guess. Without a terminal nothing is asked. "

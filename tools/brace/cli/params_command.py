@@ -8,6 +8,7 @@ import math
 from brace.cli import common, params_bus
 from brace.cli.bus_options import add_bus
 from brace.cli.options import Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
 
 _SEQUENCE_MAX = (1 << 32) - 1
 
@@ -16,7 +17,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand and its actions."""
     parser = commands.add_parser(
         "params",
-        help="a limb model as the controller's parameter block, and back",
+        help=SUBCOMMANDS["params"],
         description="The parameter block is what a controller keeps: every number of limb.toml (docs/limb-keys.md) in "
         "32 bits, with a schema hash, a sequence number and a CRC. Packed and unpacked by the firmware's own C.",
     )

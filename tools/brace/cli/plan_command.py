@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from brace.cli import common
 from brace.cli.k_load import SOFTENED
 from brace.cli.options import Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
 from brace.errors import BraceError, UsageError
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "plan",
-        help="a posture and a pressing force for a wanted stiffness, contact and payload",
+        help=SUBCOMMANDS["plan"],
         description="Looks over the places that the tip can reach within the joints' travel, keeps the postures that "
         "satisfy every demand, and prints the best: angles to command, K, the sag under the payload, the force with "
         "which to press against the surface, where to set the tip for it. K is the firmware's own under that force and "

@@ -6,13 +6,14 @@ import argparse
 
 from brace.cli import common
 from brace.cli.options import Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
 
 
 def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "predict",
-        help="a dataset's own load sequence played on a model",
+        help=SUBCOMMANDS["predict"],
         description="Writes one row per row of the dataset, in order, predicted columns only: fx_n,fz_n for loading "
         "sets (and encoder and gauge columns where the dataset has them), torque_n_mm for joint tests, K's "
         "columns in N/mm for stiffness tables.",

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from brace.cli import common
 from brace.cli.bus_options import add_bus, controller
 from brace.cli.options import Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
 
 if TYPE_CHECKING:
     from brace.bus.controller import Controller
@@ -19,7 +20,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "query",
-        help="K and state of a controller, once",
+        help=SUBCOMMANDS["query"],
         description="Asks a controller: the K of now with the load that it counts, what its drift check knows and how "
         "take-ups went; K at a posture or tip position that the limb need not be in, under its weight and, with --fx "
         "--fz, a force; or any entry of the dictionary. A limb whose coxa joint "

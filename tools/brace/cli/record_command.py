@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from brace.cli import common
 from brace.cli.bus_options import add_bus, bus_url, ended_by_signal
 from brace.cli.options import Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
 
 if TYPE_CHECKING:
     from brace.bus.recording import Recording
@@ -24,7 +25,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "record",
-        help="a bus to a log (candump, MCAP); or a loading test to a dataset",
+        help=SUBCOMMANDS["record"],
         description="Writes every frame of a CAN bus to --out FILE.log (as candump -L) or FILE.mcap, "
         "until --seconds, Ctrl-C "
         "or SIGTERM. While it is written it is called FILE.part, and what has come is in it after any end. "

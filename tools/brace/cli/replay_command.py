@@ -8,6 +8,7 @@ import time
 from brace.cli import common
 from brace.cli.bus_options import ended_by_signal
 from brace.cli.options import Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
 
 _SLICE_S = 0.1
 
@@ -16,7 +17,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "replay",
-        help="a recorded log once more: the same K, bit for bit",
+        help=SUBCOMMANDS["replay"],
         description="Decodes a candump or MCAP log as brace monitor does a live bus: --json gives the same lines. With "
         "--bus its frames are sent again, in their own time.",
     )

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from brace.cli import common, sim_values
 from brace.cli.bus_options import Ended, ended_by_signal, key_of
 from brace.cli.options import Subcommands, refused
+from brace.cli.subcommands import SUBCOMMANDS
 from brace.errors import EXIT_INTERRUPTED, EXIT_OK, UsageError
 from brace.sim import spec
 
@@ -31,7 +32,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "sim",
-        help="the controller's own code over simulated limbs, on loopback ports",
+        help=SUBCOMMANDS["sim"],
         description="Starts controllers over simulated limbs and says where to connect, one line a limb; with --json "
         "one JSON object a line: 'ready' with the places, 'end' with the last tick. Ctrl-C or --seconds ends it. The "
         "controller believes --model, its parameter block; what is true is --plant. A limb in which something yields "

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from brace.cli import common
 from brace.cli.options import Subcommands
+from brace.cli.subcommands import SUBCOMMANDS
 from brace.errors import BraceError, UsageError
 
 
@@ -14,7 +15,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "simulate",
-        help="a loading test on the simulated limb, written as a dataset",
+        help=SUBCOMMANDS["simulate"],
         description="Plays the loading test of rig.toml on the limb of limb.toml (gaps, friction, creep, gravity, "
         "sensor and all) and writes meta.toml and data.csv. The same files and seed give the same bytes.",
     )

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from brace.cli import common
 from brace.cli.bus_options import add_bus, controller
 from brace.cli.options import Subcommands, refused
+from brace.cli.subcommands import SUBCOMMANDS
 
 if TYPE_CHECKING:
     from brace.bus.taking_up import Flank
@@ -19,7 +20,7 @@ def add(commands: Subcommands) -> None:
     """Declares the subcommand."""
     parser = commands.add_parser(
         "take-up",
-        help="takes up the backlash of joints on a controller: the limb moves",
+        help=SUBCOMMANDS["take-up"],
         description="The motors move through the backlash until the chosen flank of each joint carries, one joint "
         "after the other, and hold it there. The limb moves by its backlash. brace let-go takes it back.",
         epilog="Exit codes: 0 every flank is held, 2 no such joint, 4 no answer or not in time, 5 the device refuses "

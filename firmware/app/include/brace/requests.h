@@ -116,7 +116,8 @@ const brace_loading_result_t *brace_app_loading_result(const brace_app_t *app);
 uint32_t brace_app_row_count(const brace_app_t *app);
 brace_status_t brace_app_row(const brace_app_t *app, uint32_t index, brace_row_t *row);
 
-/* Clears MODEL_DRIFT (the drift check watches on from the baseline it holds) and CRASHED. faults: BRACE_FAULT_... bits
+/* Clears MODEL_DRIFT (the drift check watches on from the baseline it holds), CRASHED, and ENCODER_STUCK (a joint that
+ * is frozen is proven so anew by what the limb does next). faults: BRACE_FAULT_... bits
  * returns also BRACE_E_RANGE: a fault that no request clears */
 brace_status_t brace_app_clear(brace_app_t *app, uint32_t faults);
 

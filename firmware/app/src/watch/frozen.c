@@ -121,6 +121,18 @@ static void watch_one(frozen_joint_t *joint, const frozen_inputs_t *inputs, int 
                                                          link_has_left(joint, &inputs->parameters->limb.joint[index])));
 }
 
+static void forget(frozen_joint_t *joint)
+{
+    *joint = (frozen_joint_t){.motor_rad = __builtin_nanf("")};
+}
+
+void frozen_start(frozen_t *frozen)
+{
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
+        forget(&frozen->joint[i]);
+    }
+}
+
 void frozen_watch(frozen_t *frozen, const frozen_inputs_t *inputs)
 {
     const int turn = frozen->turn;
@@ -128,7 +140,7 @@ void frozen_watch(frozen_t *frozen, const frozen_inputs_t *inputs)
     if (inputs->joints->joint[turn].sound) {
         watch_one(&frozen->joint[turn], inputs, turn);
     } else {
-        frozen->joint[turn] = (frozen_joint_t){.motor_rad = __builtin_nanf("")};
+        forget(&frozen->joint[turn]);
     }
 }
 

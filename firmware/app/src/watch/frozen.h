@@ -11,7 +11,10 @@
  *
  * A joint is frozen when one of the first three has lasted for a quarter of a second, so a drive may take its time to
  * answer, or one of the last two is seen of an angle that has stood for so long. "loaded" and "unheld" need a sensor at
- * the tip. An angle stands while it stays within half an encoder's step. Fault: ENCODER_STUCK. */
+ * the tip. An angle stands while it stays within half an encoder's step. Fault: ENCODER_STUCK.
+ *
+ * The torque alone cannot say whether it lied or the encoder stood. So the claim stays as long as the angle stands,
+ * even when the torque is as it was. It ends when the joint moves, or when somebody who has looked at it clears it. */
 #ifndef BRACE_WATCH_FROZEN_H
 #define BRACE_WATCH_FROZEN_H
 
@@ -60,6 +63,9 @@ typedef struct {
 /* Looks at one joint's sample of this tick, each joint in its turn: a frozen sensor is known by a quarter of a second, and
  * a tick is spared two of three joints. At most 300 instructions. */
 void frozen_watch(frozen_t *frozen, const frozen_inputs_t *inputs);
+
+/* No evidence yet; what there was is forgotten. Only what the joints do from now on counts. */
+void frozen_start(frozen_t *frozen);
 
 /* Is any joint's sensor frozen? */
 bool frozen_any(const frozen_t *frozen);
