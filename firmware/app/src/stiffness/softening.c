@@ -13,7 +13,7 @@ static void forget_unloaded(softening_t *softening)
 
 void softening_start(softening_t *softening)
 {
-    *softening = (softening_t){.is_searchs_turn = true, .ticks_since_step = EVERY_TICKS, .factor = __builtin_nanf("")};
+    *softening = (softening_t){.is_searchs_turn = true, .ticks_since_step = EVERY_TICKS - 1u, .factor = __builtin_nanf("")};
     forget_unloaded(softening);
 }
 
@@ -44,7 +44,9 @@ void softening_step(softening_t *softening, model_t *model, const brace_limb_t *
     if (softening->ticks_since_step < UINT8_MAX) {
         softening->ticks_since_step++;
     }
-    if (!is_counted || !may_work || softening->ticks_since_step < EVERY_TICKS) {
+    const bool is_due = softening->ticks_since_step % EVERY_TICKS == 0u ||
+                        softening->ticks_since_step >= EVERY_TICKS + PATIENCE_TICKS;
+    if (!is_counted || !may_work || !is_due) {
         softening->is_needed = is_counted;
         return;
     }
@@ -63,6 +65,11 @@ void softening_step(softening_t *softening, model_t *model, const brace_limb_t *
         softening->runs = false;
         softening->ticks_told = 0;
     }
+}
+
+bool softening_is_due(const softening_t *softening)
+{
+    return softening->is_needed && (softening->ticks_since_step + 1u) % EVERY_TICKS == 0u;
 }
 
 bool softening_is_overdue(const softening_t *softening)

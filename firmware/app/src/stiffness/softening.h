@@ -28,12 +28,15 @@ typedef struct {
 /* Nothing is known. */
 void softening_start(softening_t *softening);
 
-/* One step, if one is due and may be done now. At most 4,200 instructions.
+/* One step, if one is due and may be done now. At most 2,500 instructions.
  *   unbent_rad: the posture of this tick
  *   is_counted: the limb is one in space, and rests at `now`
  *   may_work: no other job has worked on a K in this tick, and the wires have had nothing to tell */
 void softening_step(softening_t *softening, model_t *model, const brace_limb_t *limb,
                     const float unbent_rad[BRACE_LINK_COUNT], bool is_counted, bool may_work);
+
+/* May a step be done in the coming tick? Every third tick is one of those. */
+bool softening_is_due(const softening_t *softening);
 
 /* Has a step waited so long for a tick with quiet wires that the coming one is to keep them waiting? */
 bool softening_is_overdue(const softening_t *softening);

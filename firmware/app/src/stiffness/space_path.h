@@ -45,7 +45,7 @@ static inline brace_status_t space_path_turn(float theta0_rad, const brace_k3_t 
     return brace_loaded_space_fixed_turn(theta0_rad, k, stiffness);
 }
 
-static inline void space_path_buckling_begin(const space_path_limb_t *limb, space_path_rest_t *rest,
+static inline void space_path_buckling_begin(const space_path_limb_t *limb, const space_path_rest_t *rest,
                                              space_path_shape_t *shape, brace_buckling_search_t *search)
 {
     (void)limb;
@@ -94,7 +94,7 @@ static inline brace_status_t space_path_turn(float theta0_rad, const brace_k3_t 
     return brace_loaded_space_turn(theta0_rad, k, stiffness);
 }
 
-static inline void space_path_buckling_begin(const space_path_limb_t *limb, space_path_rest_t *rest,
+static inline void space_path_buckling_begin(const space_path_limb_t *limb, const space_path_rest_t *rest,
                                              space_path_shape_t *shape, brace_buckling_search_t *search)
 {
     brace_loaded_space_buckling_begin(limb, rest, shape, search);

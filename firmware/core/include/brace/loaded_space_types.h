@@ -75,8 +75,8 @@ typedef struct {
     brace_loaded_joint_t yaw, hip, knee;  /* as in the load */
 } brace_space_rest_t;
 
-#define BRACE_SPACE_COXA_PARTS 3 /* of which the coxa link is made where its parts matter (loaded/space_parts.h), */
-#define BRACE_SPACE_PARTS 5      /* and the limb */
+#define BRACE_SPACE_COXA_PARTS 2 /* of which the coxa link is made where its parts matter (loaded/space_parts.h), */
+#define BRACE_SPACE_PARTS 4      /* and the limb */
 
 /* A part of a link in its frame. Other code must not read its members. */
 typedef struct {

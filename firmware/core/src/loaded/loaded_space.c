@@ -244,26 +244,9 @@ brace_status_t brace_loaded_space_turn(float theta0_rad, const brace_k3_t *k, br
 
 /* --- buckling ------------------------------------------------------------------------------------------------- */
 
-/* One step more towards the equilibrium: what is left turns the links' ends, and the factor feels that most. */
-static void come_nearer(const brace_loaded_space_t *loaded, brace_space_rest_t *rest)
-{
-    const commanded_t commanded = {rest->hip_commanded, rest->knee_commanded};
-    forces_t at[3];
-    factors_t factors;
-    brace_space_pose_t drives, step;
-    curls_t curls = {curl_of(&rest->coxa, rest->pose.coxa), curl_of(&rest->femur, rest->pose.femur)};
-    see_straight(loaded, rest, &commanded, at);
-    straight_limb(loaded, at, &commanded, rest, &factors, &drives);
-    bend_to(loaded, &commanded, rest, &curls, true, &drives);
-    solve_straight(&factors, &drives, &rest->pose, &commanded, &step);
-    add_to_pose(&rest->pose, &step, 1.0f);
-    bend_to(loaded, &commanded, rest, &curls, false, &drives);
-}
-
-void brace_loaded_space_buckling_begin(const brace_loaded_space_t *loaded, brace_space_rest_t *rest,
+void brace_loaded_space_buckling_begin(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest,
                                        brace_space_shape_t *shape, brace_buckling_search_t *search)
 {
-    come_nearer(loaded, rest);
     shape_limb(loaded, rest, shape);
     search->step = 0;
 }
@@ -291,11 +274,10 @@ bool brace_loaded_space_buckling_step(const brace_loaded_space_t *loaded, const 
 
 float brace_loaded_space_buckling_factor(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest)
 {
-    brace_space_rest_t nearer = *rest;
     brace_space_shape_t shape;
     brace_buckling_search_t search;
     float factor = INFINITY;
-    brace_loaded_space_buckling_begin(loaded, &nearer, &shape, &search);
+    brace_loaded_space_buckling_begin(loaded, rest, &shape, &search);
     for (int step = 0; step <= SPACE_SEARCH_STEPS; step++) {
         (void)brace_loaded_space_buckling_step(loaded, &shape, &search, &factor);
     }

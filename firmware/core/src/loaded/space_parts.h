@@ -2,7 +2,7 @@
  * the shape that it has now.
  *
  * The load bends and twists a link's parts against one another long before it folds the limb, first of all those of a
- * coxa link, which is short and bears the moments of a long limb. So the coxa link counts as three parts. A part is a
+ * coxa link, which is short and bears the moments of a long limb. So the coxa link counts as two parts. A part is a
  * uniform beam: it turns about x, y and z of its own frame, half of it on either side of its chord, and its curvature
  * changes along it, which moves its end across. Behind the last part are the springs at the link's end.
  */
@@ -12,7 +12,8 @@
 #include "loaded/space_sum.h"
 
 /* Where a link's parts begin in brace_space_shape_t. */
-static const uint8_t first_part[] = {0u, BRACE_SPACE_COXA_PARTS, BRACE_SPACE_COXA_PARTS + 1u, BRACE_SPACE_PARTS};
+static const int first_part[BRACE_LINK_COUNT + 1] = {0, BRACE_SPACE_COXA_PARTS, BRACE_SPACE_COXA_PARTS + 1,
+                                                     BRACE_SPACE_PARTS};
 
 /* --- the shape ------------------------------------------------------------------------------------------------ */
 
@@ -125,17 +126,17 @@ INLINE void shape_link(const brace_space_link_t *link, const bend_t *bend, int p
 
 static void shape_limb(const brace_loaded_space_t *loaded, const brace_space_rest_t *rest, brace_space_shape_t *shape)
 {
-    const brace_space_link_t *const links[] = {&loaded->coxa, &loaded->femur, &loaded->tibia};
-    const brace_space_bent_t *const bent[] = {&rest->coxa, &rest->femur, &rest->tibia};
+    const brace_space_link_t *const links[BRACE_LINK_COUNT] = {&loaded->coxa, &loaded->femur, &loaded->tibia};
+    const brace_space_bent_t *const bent[BRACE_LINK_COUNT] = {&rest->coxa, &rest->femur, &rest->tibia};
     const brace_space_pose_t *pose = &rest->pose;
-    const vec3_t turn[] = {pose->coxa, pose->femur, pose->tibia};
-    const float joint_rad[] = {0.0f, pose->hip, pose->knee};
-    const brace_vec_t commanded[] = {{1.0f, 0.0f}, rest->hip_commanded, rest->knee_commanded};
-    const float beyond_n[] = {loaded->beyond_coxa_n, loaded->beyond_femur_n, 0.0f};
+    const vec3_t turn[BRACE_LINK_COUNT] = {pose->coxa, pose->femur, pose->tibia};
+    const float joint_rad[BRACE_LINK_COUNT] = {0.0f, pose->hip, pose->knee};
+    const brace_vec_t commanded[BRACE_LINK_COUNT] = {{1.0f, 0.0f}, rest->hip_commanded, rest->knee_commanded};
+    const float beyond_n[BRACE_LINK_COUNT] = {loaded->beyond_coxa_n, loaded->beyond_femur_n, 0.0f};
     loads_t loads = {rest->tip_n, rest->down};
     loads_about_z(&loads, back(rest->turns.base));
     loads_about_y(&loads, back(rest->turns.yaw));
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         const int from = first_part[i], parts = first_part[i + 1] - from;
         const bend_t bend = bend_of(turn[i], bent[i]);
         shape->about_joint[i] = joint_turn(commanded[i], joint_rad[i] + root_turn(turn[i], bent[i], parts));
@@ -250,10 +251,10 @@ INLINE void hold_part(const brace_space_link_t *link, const brace_space_part_t *
 /* With the load taken so many times. */
 static pivots_t pivots_at(const brace_loaded_space_t *loaded, const brace_space_shape_t *shape, float times)
 {
-    const brace_space_link_t *const links[] = {&loaded->coxa, &loaded->femur, &loaded->tibia};
+    const brace_space_link_t *const links[BRACE_LINK_COUNT] = {&loaded->coxa, &loaded->femur, &loaded->tibia};
     held_t held = {{0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
     pivots_t pivots = {0u, 1.0f};
-    for (int i = 2; i >= 0; i--) {
+    for (int i = BRACE_TIBIA; i >= 0; i--) {
         const int from = first_part[i], parts = first_part[i + 1] - from;
         const float share = 1.0f / (float)parts;
         hold_end(links[i], vec3_scaled(shape->end_n[i], times), shape->end_mm[i], &held, &pivots);
