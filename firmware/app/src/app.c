@@ -479,9 +479,10 @@ void brace_app_tick(brace_app_t *app, uint32_t now_us)
     const bool is_counted_in_space = controller->model.is_spatial && snapshot->load.is_counted;
     const bool softening_works = softening_is_overdue(&controller->softening) && may_work && !job_has_worked;
     controller->has_worked = job_has_worked || softening_works;
-    const bool is_dear = controller->has_worked || softening_is_due(&controller->softening);
+    const bool is_dear = controller->has_worked || softening_may_search(&controller->softening);
     if (!is_dear) {
-        watch_sensors(controller); /* proofs take a quarter of a second: a tick that is dear already may be left out */
+        watch_sensors(controller); /* proofs take a quarter of a second: a tick that is dear already may be left out, of
+                                      a limb in space every sixth at least */
     }
     part_is_done(controller, PART_JOBS);
     step_guard(controller, is_dear);

@@ -67,9 +67,9 @@ void softening_step(softening_t *softening, model_t *model, const brace_limb_t *
     }
 }
 
-bool softening_is_due(const softening_t *softening)
+bool softening_may_search(const softening_t *softening)
 {
-    return softening->is_needed && (softening->ticks_since_step + 1u) % EVERY_TICKS == 0u;
+    return softening->is_needed && !softening->is_searchs_turn && (softening->ticks_since_step + 1u) % EVERY_TICKS == 0u;
 }
 
 bool softening_is_overdue(const softening_t *softening)

@@ -35,8 +35,8 @@ void softening_start(softening_t *softening);
 void softening_step(softening_t *softening, model_t *model, const brace_limb_t *limb,
                     const float unbent_rad[BRACE_LINK_COUNT], bool is_counted, bool may_work);
 
-/* May a step be done in the coming tick? Every third tick is one of those. */
-bool softening_is_due(const softening_t *softening);
+/* May a step of the search be done in the coming tick? While steps do not wait, every sixth tick is one of those. */
+bool softening_may_search(const softening_t *softening);
 
 /* Has a step waited so long for a tick with quiet wires that the coming one is to keep them waiting? */
 bool softening_is_overdue(const softening_t *softening);
