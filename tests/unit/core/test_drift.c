@@ -282,11 +282,32 @@ static void test_refused_calls_leave_everything_as_it_was(void)
     reading = sound;
     reading.theta2_rad = 8.0f;
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_step(&drift, &believed, &model, &reading));
+    float *const value[] = {&reading.theta1_rad, &reading.theta2_rad, &reading.dx_mm, &reading.dz_mm,
+                            &reading.fx_n,       &reading.fz_n,       &reading.warmer_degc};
+    static const float beyond[] = {8.0f, 8.0f, 1.1e4f, 1.1e4f, 1.1e6f, 1.1e6f, 201.0f};
+    for (size_t i = 0; i < sizeof beyond / sizeof *beyond; i++) {
+        reading = sound;
+        *value[i] = -beyond[i];
+        TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_step(&drift, &believed, &model, &reading));
+    }
+    brace_drift_report_t report;
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_report(NULL, &believed, &report));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_report(&drift, NULL, &report));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_drift_outlook(NULL, &believed, &model, &sound, &outlook));
     brace_stiffness_t broken = model;
+    broken.lambda_max_n_per_mm = 2e12f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_step(&drift, &believed, &broken, &sound));
+    broken = model;
     broken.lambda_min_n_per_mm = -1.0f;
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_step(&drift, &believed, &broken, &sound));
     brace_drift_setup_t wrong = setup;
     wrong.noise_n = 0.0f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_learn(&drift, &believed, &wrong));
+    wrong = setup;
+    wrong.model_error_ratio = -0.001f;
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_learn(&drift, &believed, &wrong));
+    wrong = setup;
+    wrong.joint_compliance_trust_ratio = -0.001f;
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_drift_learn(&drift, &believed, &wrong));
     wrong = setup;
     wrong.joint_compliance_trust_ratio = NAN;

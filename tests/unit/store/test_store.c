@@ -502,8 +502,10 @@ static void test_what_is_refused_at_once(void)
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_store_begin(&store, NULL, NULL));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_store_rollback(NULL));
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_store_take(&store, NULL, NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_store_take(NULL, &wrong, NULL));
     TEST_ASSERT_EQUAL(BRACE_STORE_IDLE, brace_store_step(NULL));
     brace_store_status(NULL, NULL);
+    brace_store_status(&store, NULL);
     TEST_ASSERT_EQUAL(BRACE_OK, brace_store_begin(&store, &wrong, NULL));
     TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_store_begin(&store, &wrong, NULL));
     TEST_ASSERT_EQUAL(BRACE_E_UNSUPPORTED, brace_store_rollback(&store));
