@@ -227,6 +227,11 @@ static void test_null_is_refused_everywhere(void)
     TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_row(NULL, 0, &row));
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_app_row(&app, 0, &row));
     TEST_ASSERT_EQUAL(0, brace_app_row_count(NULL));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_app_row(&app, 0, NULL));
+    float value;
+    row = (brace_row_t){0};
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_row_value(NULL, 0, &value));
+    TEST_ASSERT_EQUAL(BRACE_E_NULL, brace_row_value(&row, 0, NULL));
 }
 
 int main(void)
