@@ -64,19 +64,18 @@ static void test_a_wire_of_which_an_entry_is_absent_is_none(void)
     }
 }
 
-/* A board that keeps a key but has no source of random numbers, or whose key does not answer, lets nobody move it. */
+/* A board that keeps a key but has no source of random numbers, or has no key yet, lets nobody move it. */
 static void test_a_board_without_all_that_a_key_needs_refuses_motion(void)
 {
+    static const uint8_t key[BRACE_HAL_KEY_BYTES] = {1, 2, 3};
+    static const brace_setting_t wanted[] = {BRACE_SETTING_NO_KEY, BRACE_SETTING_NO_KEY, BRACE_SETTING_GUARDED};
     for (int i = 0; i < 3; i++) {
         setUp();
-        brace_hal_t hal = fake.hal;
-        fake.has_key = i == 2;
-        hal.random_read = i == 0 ? NULL : hal.random_read;
-        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &hal));
-        TEST_ASSERT_EQUAL(hal.key_read == NULL ? BRACE_SETTING_BENCH
-                          : i == 2             ? BRACE_SETTING_GUARDED
-                                               : BRACE_SETTING_NO_KEY,
-                          brace_app_setting(&app));
+        brace_fake_guarded(&fake, i == 1 ? NULL : key);
+        fake.hal.random_read = i == 0 ? NULL : fake.hal.random_read;
+        fake.hal.silence_us = 130000u;
+        TEST_ASSERT_EQUAL(BRACE_OK, brace_app_start(&app, &fake.hal));
+        TEST_ASSERT_EQUAL(wanted[i], brace_app_setting(&app));
         brace_app_become_bench(&app);
         TEST_ASSERT_EQUAL(BRACE_SETTING_BENCH, brace_app_setting(&app));
     }

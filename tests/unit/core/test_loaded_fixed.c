@@ -218,6 +218,10 @@ static void test_limbs_that_do_not_yield_are_refused(void)
     load.tip.x_n = 1e4f;
     TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, status_at(1.0f, 1.4f, &result));
     load.tip.x_n = 0.0f;
+    limb.femur_mm = 1e4f, limb.tibia_mm = 0.01f; /* what yields moves the tip by next to nothing */
+    be_rigid(0.0f, 1e-5f);
+    TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, status_at(1.0f, 1.4f, &result));
+    limb = sample_limb[SAMPLE_PAPER];
     be_rigid(1e-5f, 0.0f); /* one way only */
     TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, status_at(1.0f, 1.4f, &result));
     be_rigid(1e-5f, 1e-5f);

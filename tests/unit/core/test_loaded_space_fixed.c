@@ -327,6 +327,7 @@ static void test_what_is_refused(void)
     TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_loaded_space_fixed_turn(0.0f, &indefinite, &s));
     TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_loaded_space_fixed_turn(0.0f, &none, &s));
     TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_loaded_space_fixed_turn(8.0f, &one, &s));
+    TEST_ASSERT_EQUAL(BRACE_E_RANGE, brace_loaded_space_fixed_turn(7.95f, &one, &s));
     TEST_ASSERT_EQUAL(BRACE_E_NOT_FINITE, brace_loaded_space_fixed_turn(NAN, &one, &s));
     TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_loaded_space_fixed_in_plane(&flat, &plane));
     TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, brace_loaded_space_fixed_in_plane(&none, &plane));
@@ -393,6 +394,8 @@ static void test_limbs_that_do_not_yield_are_refused(void)
     TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, rigid_limb(0.0f, 1e-5f, 1e-5f)); /* not across its plane */
     TEST_ASSERT_EQUAL(BRACE_E_SINGULAR, rigid_limb(1e-5f, 0.0f, 1e-5f)); /* in its plane one way only */
     TEST_ASSERT_EQUAL(BRACE_OK, rigid_limb(1e-5f, 1e-5f, 1e-5f));
+    limb.coxa_mm = 0.0f;
+    TEST_ASSERT_EQUAL(BRACE_OK, rigid_limb(1e-5f, 1e-5f, 1e-5f)); /* both joints of its hip at one place */
 }
 
 static void test_K_that_no_limb_has_is_refused(void)

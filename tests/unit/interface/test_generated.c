@@ -106,6 +106,7 @@ static void test_a_value_that_any_frame_of_the_snapshot_limits_is_flagged(void)
         {&measured.k_zz_n_per_mm, BRACE_CAN_STIFFNESS_B_K_ZZ_N_PER_MM_MOST, false},
         {&measured.lambda_min_n_per_mm, BRACE_CAN_EIGENVALUES_LAMBDA_MIN_N_PER_MM_MOST, false},
         {&measured.lambda_max_n_per_mm, BRACE_CAN_EIGENVALUES_LAMBDA_MAX_N_PER_MM_MOST, false},
+        {&measured.stiff_axis_rad, BRACE_CAN_EIGENVALUES_STIFF_AXIS_RAD_MOST, false},
         {&measured.space_k_xx_n_per_mm, BRACE_CAN_SPACE_0_K_XX_N_PER_MM_MOST, true},
         {&measured.space_k_xy_n_per_mm, BRACE_CAN_SPACE_0_K_XY_N_PER_MM_MOST, true},
         {&measured.space_k_xz_n_per_mm, BRACE_CAN_SPACE_1_K_XZ_N_PER_MM_MOST, true},
