@@ -143,6 +143,7 @@ def figures(
         "calibration": bins,
         "coverage_by_key": {key: (sum(v), len(v)) for key, v in sorted(by_key.items())},
         "after_next": rows,
+        "promises": promises(rows),
         "strong": len(strict),
         "kinds": dict(Counter(j.kind for j in judged)),
     }  # fmt: skip
@@ -214,6 +215,15 @@ def by_effect(judged: Sequence[Judged]) -> str:
     return "\n".join(rows)
 
 
+def promises(rows: Sequence[dict[str, Any]]) -> list[tuple[float, float, int]]:
+    """What the next experiments promised and what came of them, once played: (mean probability that the hidden effect
+    is told from its rivals, share in which it was named alone and right, cases), for promises below 0.8, below 0.95
+    and above."""
+    kept = [(r["promised"], r["right_after"]) for r in rows if r["played"] and r["promised"] is not None]
+    bins = [[pair for pair in kept if low <= pair[0] < high] for low, high in ((0.0, 0.8), (0.8, 0.95), (0.95, 1.1))]
+    return [(*(sum(column) / len(pairs) for column in zip(*pairs)), len(pairs)) for pairs in bins if pairs]
+
+
 def said_by_truth(judged: Sequence[Judged]) -> str:
     """For outsiders and faults: how often what was said."""
     counts: dict[str, Counter[str]] = defaultdict(Counter)
@@ -278,6 +288,8 @@ def page(found: dict[str, Any], judged: Sequence[Judged], command: str) -> str:
     strong12 = found["closed_s12"]
     bins = ["| mean confidence | share right | claims |", "|---|---|---|"]
     bins += [f"| {c:.2f} | {r:.2f} | {n} |" for c, r, n in found["calibration"]]
+    kept = ["| mean probability promised | share named alone and right | cases |", "|---|---|---|"]
+    kept += [f"| {promised:.2f} | {right:.2f} | {n} |" for promised, right, n in found["promises"]]
     keys = ["| parameter | in its interval | of |", "|---|---|---|"]
     keys += [f"| {key} | {ok} | {n} |" for key, (ok, n) in found["coverage_by_key"].items()]
     troubles = [f"- {j.id} ({j.kind}, {j.truth[0]}): {j.note.strip().splitlines()[-1][:200]}" for j in judged if j.note]
@@ -318,6 +330,7 @@ def page(found: dict[str, Any], judged: Sequence[Judged], command: str) -> str:
             said_by_truth(of_kind(judged, "data_fault")),
             "## Confidence against share right",
             "\n".join(bins),
+            *(["## What next experiments promised and brought", "\n".join(kept)] if found["promises"] else []),
             "## Intervals",
             "\n".join(keys),
             *(["## Refused or crashed", "\n".join(troubles)] if troubles else []),

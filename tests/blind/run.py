@@ -163,6 +163,7 @@ def after_next(root: Path, results: Path, judged: list[Judged]) -> dict[str, Any
             continue
         folder, before = results / "next" / j.id, j.flags["exact"] and j.flags["where"] and j.verdict == "effect"
         run, found = read(folder / "run.json"), read(folder / "diagnosis.json")
+        proposed = read(results / "main" / j.id / "diagnosis.json").get("next_experiment") or {}
         played = bool(found)
         right = before
         exact = j.flags["exact"]
@@ -178,6 +179,7 @@ def after_next(root: Path, results: Path, judged: list[Judged]) -> dict[str, Any
                 "exact_after": exact,
                 "right_before": before,
                 "right_after": right,
+                "promised": proposed.get("power") if j.truth[0] in proposed.get("separates", ()) else None,
                 "why_not": run.get("unplayed", run.get("crashed", "")),
             }
         )

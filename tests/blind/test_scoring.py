@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from report import promises
 from scoring import Share, calibration, judge
 
 
@@ -99,3 +100,17 @@ def test_disguised() -> None:
     assert judge(real, said("effect", *reversed(alike))).flags["seen_through"]
     assert not judge(real, said("effect", alike[0])).flags["seen_through"]
     assert not judge(real, said("none")).flags["seen_through"]
+
+
+def test_promises_beside_what_they_brought() -> None:
+    """In bins of the promise. Experiments that nobody played, or without a promise for what is hidden, are left out."""
+    rows = [
+        {"played": played, "promised": promised, "right_after": right}
+        for played, promised, right in (
+            *((True, 0.5, False), (True, 0.7, True), (True, 0.99, True), (True, 0.97, True), (True, 1.0, False)),
+            *((False, 0.99, False), (True, None, False)),
+        )
+    ]
+    low, high = promises(rows)
+    assert low == (pytest.approx(0.6), 0.5, 2)
+    assert high == (pytest.approx(2.96 / 3), pytest.approx(2 / 3), 3)

@@ -169,16 +169,18 @@ def test_postures_over_a_bus_become_one_record(brace: Callable[..., Outcome], tm
     assert (out / "data.csv").read_bytes() == before
 
 
+@pytest.mark.parametrize("encoders", [(), ("--link-encoders",)], ids=["motors alone", "links too"])
 @pytest.mark.parametrize("press_mm", [(0.0, 0.0), (5.0, 38.0)])
 def test_a_long_stroke_over_a_bus_is_the_limbs_to_the_encoders_step(
-    press_mm: tuple[float, float], brace: Callable[..., Outcome], tmp_path: Path
+    press_mm: tuple[float, float], encoders: tuple[str, ...], brace: Callable[..., Outcome], tmp_path: Path
 ) -> None:
     """Every row's force is the one that the reference has for its own angles and displacement, counted from the first:
     nothing is left."""
     limb, out = tmp_path / "limb.toml", tmp_path / "long"
     limb.write_text(LIMB + "[sensor]\nnoise_n = 0.0\n")
     long = ("--loading-test", "--axis", "x", "--steps", 3, "--step-mm", 2.5)
-    with limb_on_tcp(limb, "--posture=1.0,1.4", f"--press={press_mm[0]},{press_mm[1]}", "--speed", 5) as url:
+    pressed = ("--posture=1.0,1.4", f"--press={press_mm[0]},{press_mm[1]}", *encoders)
+    with limb_on_tcp(limb, *pressed, "--speed", 5) as url:
         outcome = brace("record", "--bus", url, *long, "--out", out)
     assert outcome.code == 0, outcome.err
     dataset = load_dataset(out)

@@ -5,18 +5,26 @@
 #define LEAST_KNEE_SINE 0.05f
 #define ASIDE_RAD 0.01f /* the error of a central difference, a sixth of the square, is below 2e-5 of it */
 
-enum { LISTENED = 50 };                          /* ticks whose mean is the load */
-enum { AT_POSTURE = 0, PLACES = 5, EVERY = 10 }; /* the test begins 100 ticks later, and leaves others theirs */
+enum { LISTENED = 50 }; /* ticks whose mean is the load */
+/* First at the posture: twice where a link's angle is measured, because the turn that is found first is that of a motor
+ * at the link's angle. Then to both sides of it. */
+enum { AT_POSTURE = 2, PLACES = 6, EVERY = 10 }; /* the test begins 100 or 110 ticks later, and leaves others theirs */
+enum { STRAIGHT = AT_POSTURE * EVERY - 1 };      /* the motors' angles are there, and nothing dear is done */
+
+static void take_straight_levers(brace_loading_t *test, const brace_pose_t *pose)
+{
+    test->lever_femur = pose->lever_femur;
+    /* theta2 is flexion: a positive turn of the knee turns the tibia clockwise. */
+    test->lever_knee = (brace_point_t){-pose->lever_tibia.x_mm, -pose->lever_tibia.z_mm};
+}
 
 void levers_begin(brace_loading_t *test, const loading_inputs_t *inputs)
 {
     const posture_t *posture = inputs->posture;
-    const brace_point_t tibia = posture->unbent.lever_tibia;
-    test->lever_femur = posture->unbent.lever_femur;
-    /* theta2 is flexion: a positive turn of the knee turns the tibia clockwise. */
-    test->lever_knee = (brace_point_t){-tibia.x_mm, -tibia.z_mm};
+    take_straight_levers(test, &posture->unbent);
     for (int i = 0; i < BRACE_LINK_COUNT; i++) {
         test->lever_rad[i] = posture->unbent_rad[i];
+        test->behind_rad[i] = 0.0f;
     }
     test->lever_force_n = (brace_vec3_t){0};
     test->lever_step = 0;
@@ -38,19 +46,23 @@ static int32_t rest_at(const brace_loading_t *test, const loading_inputs_t *inpu
     }
     brace_loaded_joint_t springs[BRACE_LINK_COUNT];
     float theta_rad[BRACE_LINK_COUNT] = {test->lever_rad[0], test->lever_rad[1], test->lever_rad[2]};
-    if (place != AT_POSTURE) {
-        theta_rad[place <= 2u ? BRACE_FEMUR : BRACE_TIBIA] += place % 2u == 1u ? ASIDE_RAD : -ASIDE_RAD;
+    if (place >= AT_POSTURE) {
+        const uint32_t side = place - AT_POSTURE;
+        theta_rad[side < 2u ? BRACE_FEMUR : BRACE_TIBIA] += side % 2u == 0u ? ASIDE_RAD : -ASIDE_RAD;
     }
     stiffness_springs_of_now(inputs->model, inputs->parameters, inputs->joints, inputs->flank, springs);
     return model_loaded_begin(inputs->model, theta_rad, springs, test->lever_force_n, inputs->down, inputs->work);
 }
 
-/* Where an encoder behind the gear measures the angle, the motor stands where the load has not turned the joint. */
-static void go_to_motors(brace_loading_t *test, const posture_t *posture, const float joint_turn_rad[BRACE_LINK_COUNT])
+/* Where an encoder behind the gear measures the angle, the motor stands where the load has not turned the joint.
+ * returns whether there is such an encoder */
+static bool go_to_motors(brace_loading_t *test, const posture_t *posture, const float joint_turn_rad[BRACE_LINK_COUNT])
 {
     for (int i = BRACE_FEMUR; i <= BRACE_TIBIA; i++) {
-        test->lever_rad[i] -= posture->is_measured[i] ? joint_turn_rad[i] : 0.0f;
+        test->behind_rad[i] = posture->is_measured[i] ? joint_turn_rad[i] : 0.0f;
+        test->lever_rad[i] = posture->unbent_rad[i] - test->behind_rad[i];
     }
+    return posture->is_measured[BRACE_FEMUR] || posture->is_measured[BRACE_TIBIA];
 }
 
 static void add_difference(brace_point_t *lever, brace_displacement_t ahead, brace_displacement_t behind)
@@ -83,6 +95,12 @@ bool levers_step(brace_loading_t *test, const loading_inputs_t *inputs, bool *ha
         return false;
     }
     const uint32_t step = test->lever_step - 1u - LISTENED;
+    if (step == STRAIGHT) {
+        brace_pose_t pose;
+        brace_kinematics_pose(&inputs->parameters->limb, test->lever_rad[BRACE_FEMUR], test->lever_rad[BRACE_TIBIA],
+                              &pose);
+        take_straight_levers(test, &pose);
+    }
     if (!is_due) {
         return false;
     }
@@ -96,11 +114,13 @@ bool levers_step(brace_loading_t *test, const loading_inputs_t *inputs, bool *ha
         test->lever_step = LISTENED + PLACES * EVERY;
         return true;
     }
-    if (place == AT_POSTURE) {
-        go_to_motors(test, inputs->posture, rest.bend.joint_turn_rad);
+    if (place < AT_POSTURE) {
+        if (!go_to_motors(test, inputs->posture, rest.bend.joint_turn_rad)) {
+            test->lever_step += (AT_POSTURE - 1) * EVERY;
+        }
         return false;
     }
-    test->lever_moved_mm[place - 1u] = (brace_displacement_t){rest.bend.tip_mm.x, rest.bend.tip_mm.z};
+    test->lever_moved_mm[place - AT_POSTURE] = (brace_displacement_t){rest.bend.tip_mm.x, rest.bend.tip_mm.z};
     if (place + 1u < PLACES) {
         return false;
     }

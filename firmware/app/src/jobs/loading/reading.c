@@ -55,8 +55,8 @@ static bool begin_at_preload(brace_loading_t *test, const loading_inputs_t *inpu
         test->start_link_rad[i] = mean->link_rad[i];
         test->standing_rad[i] = now->theta_rad[BRACE_FEMUR + i];
     }
-    test->result.theta1_rad = inputs->posture->unbent_rad[BRACE_FEMUR];
-    test->result.theta2_rad = inputs->posture->unbent_rad[BRACE_TIBIA];
+    test->result.theta1_rad = inputs->posture->unbent_rad[BRACE_FEMUR] - test->behind_rad[BRACE_FEMUR];
+    test->result.theta2_rad = inputs->posture->unbent_rad[BRACE_TIBIA] - test->behind_rad[BRACE_TIBIA];
     test->result.temp_degc = mean->temp_degc;
     test->result.preload_x_n = mean->force_x_n;
     test->result.preload_z_n = mean->force_z_n;
