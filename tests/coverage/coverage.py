@@ -41,7 +41,8 @@ def read_exceptions(path: Path = EXCEPTIONS) -> list[Exception_]:
     """The list; an entry says why."""
     items = tomllib.loads(path.read_text()).get("exception", [])
     found = [
-        Exception_(item["files"], item["line"], " ".join(item["why"].split()), item.get("branches", 0)) for item in items
+        Exception_(item["files"], item["line"], " ".join(item["why"].split()), item.get("branches", 0))
+        for item in items
     ]
     for entry in found:
         if len(entry.why) < 20 or not entry.line:
